@@ -1,0 +1,63 @@
+//! Colours of a light.
+
+/// A colour as a light shows it: 8 bits a channel, not premultiplied, sRGB as screens use it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Rgb {
+    /// Red, 0 to 255.
+    pub r: u8,
+    /// Green, 0 to 255.
+    pub g: u8,
+    /// Blue, 0 to 255.
+    pub b: u8,
+}
+
+impl Rgb {
+    /// A light that is off.
+    pub const BLACK: Self = Self::new(0, 0, 0);
+
+    /// A colour of three channels.
+    pub const fn new(r: u8, g: u8, b: u8) -> Self {
+        Self { r, g, b }
+    }
+
+    /// From R·65536 + G·256 + B; `None` above 16777215.
+    pub const fn from_number(n: u32) -> Option<Self> {
+        if n > 0xff_ffff {
+            return None;
+        }
+        Some(Self::new((n >> 16) as u8, (n >> 8) as u8, n as u8))
+    }
+
+    /// R·65536 + G·256 + B.
+    pub const fn number(self) -> u32 {
+        (self.r as u32) << 16 | (self.g as u32) << 8 | self.b as u32
+    }
+
+    /// The colour `share` of the way to `other`; `share` is clamped to 0..=1.
+    pub fn mixed(self, other: Self, share: f64) -> Self {
+        let share = if share > 0.0 { share.min(1.0) } else { 0.0 };
+        let mix = |from: u8, to: u8| (from as f64 + (to as f64 - from as f64) * share + 0.5) as u8;
+        Self::new(mix(self.r, other.r), mix(self.g, other.g), mix(self.b, other.b))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_and_channels_agree() {
+        assert_eq!(Rgb::from_number(16_753_920), Some(Rgb::new(255, 165, 0)));
+        assert_eq!(Rgb::new(255, 165, 0).number(), 16_753_920);
+        assert_eq!(Rgb::from_number(16_777_216), None);
+    }
+
+    #[test]
+    fn mixing_meets_both_ends() {
+        let (black, white) = (Rgb::BLACK, Rgb::new(255, 255, 255));
+        assert_eq!(black.mixed(white, 0.0), black);
+        assert_eq!(black.mixed(white, 7.0), white);
+        assert_eq!(black.mixed(white, 0.5), Rgb::new(128, 128, 128));
+        assert_eq!(black.mixed(white, f64::NAN), black);
+    }
+}

@@ -1,0 +1,28 @@
+//! The words every other crate shares: vectors, poses, angles, instants, ids, colours, limits and timed paths.
+//!
+//! It knows nothing of shows, messages or wheels, allocates nothing and reads no clock. All lengths are metres, all
+//! angles radians counter-clockwise, all times microseconds.
+//!
+//! ```
+//! use lightbots_base::{PathRef, Piece, Span, Vec2};
+//! let metre = [Piece::straight(Vec2::ZERO, Vec2::new(1.0, 0.0), Span::from_secs(4.0))];
+//! let path = PathRef::new(Vec2::ZERO, &metre);
+//! assert_eq!(path.at(Span::from_secs(2.0)).position, Vec2::new(0.5, 0.0));
+//! ```
+#![no_std]
+
+mod angle;
+mod colour;
+mod id;
+mod limits;
+mod path;
+mod time;
+mod vec2;
+
+pub use angle::{difference, wrap};
+pub use colour::Rgb;
+pub use id::RobotId;
+pub use limits::Limits;
+pub use path::{Motion, PathRef, Piece};
+pub use time::{Instant, Span};
+pub use vec2::{Pose, Vec2};

@@ -1,0 +1,45 @@
+//! What a robot's body can do.
+
+/// Measures and limits of one kind of robot. The default is the GCtronic Elisa-3 as measured in Webots R2023b
+/// on 2026-11-21: it follows ramps of 1 m/s² within 5 mm/s and stops from 4.5 rad/s within 1°.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Limits {
+    /// Radius of the disc that must not be touched, metres.
+    pub radius_m: f64,
+    /// Highest planned speed, m/s.
+    pub speed_mps: f64,
+    /// Highest planned acceleration along and across the path, m/s².
+    pub accel_mps2: f64,
+    /// Highest planned turning rate, rad/s.
+    pub turn_radps: f64,
+    /// Highest rate of a wheel motor, rad/s.
+    pub wheel_radps: f64,
+    /// Radius of a wheel, metres.
+    pub wheel_radius_m: f64,
+    /// Effective distance between the wheels, metres.
+    pub track_m: f64,
+}
+
+impl Limits {
+    /// The Elisa-3.
+    pub const ELISA_3: Self = Self {
+        radius_m: 0.027,
+        speed_mps: 0.27,
+        accel_mps2: 1.0,
+        turn_radps: 4.5,
+        wheel_radps: 133.0,
+        wheel_radius_m: 0.0045,
+        track_m: 0.0402,
+    };
+
+    /// Two centres closer than this touch, metres.
+    pub const fn contact_m(&self) -> f64 {
+        2.0 * self.radius_m
+    }
+}
+
+impl Default for Limits {
+    fn default() -> Self {
+        Self::ELISA_3
+    }
+}
