@@ -1,1 +1,48 @@
-fn main() {}
+//! Build, try, test and measure LightBots: `cargo xtask <demo|test|bench|tidy>`.
+
+mod bench;
+mod demo;
+mod shell;
+mod test;
+mod tidy;
+mod tools;
+
+use std::process::ExitCode;
+
+const HELP: &str = "\
+cargo xtask <command>
+
+  demo [ARGS]      build everything and start `lightbots run` on an example show; ARGS are passed on
+  test [PART…]     run the tests, all of them or some: tidy ui lint rust firmware e2e licences
+  bench [PART…]    measure and write docs/benchmarks.md: plan rehearsal round
+  tidy             only the checks of the source tree itself
+";
+
+fn main() -> ExitCode {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let rest = arguments.get(1..).unwrap_or_default();
+    let outcome = match arguments.first().map(String::as_str) {
+        Some("demo") => demo::run(rest),
+        Some("test") => test::run(rest),
+        Some("bench") => bench::run(rest),
+        Some("tidy") => tidy::run(),
+        Some("help" | "--help" | "-h") => {
+            println!("{HELP}");
+            return ExitCode::SUCCESS;
+        }
+        other => {
+            eprint!(
+                "{}{HELP}",
+                other.map(|name| format!("xtask has no command '{name}'\n\n")).unwrap_or_default()
+            );
+            return ExitCode::from(2);
+        }
+    };
+    match outcome {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(message) => {
+            eprintln!("xtask: {message}");
+            ExitCode::FAILURE
+        }
+    }
+}

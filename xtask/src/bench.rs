@@ -1,0 +1,193 @@
+//! `cargo xtask bench`: measures, prints tables and keeps them in docs/benchmarks.md with machine and date.
+//!
+//! A part is an example program that prints one JSON object a row; its keys, in order, are the columns.
+
+use crate::shell::{self, Outcome};
+use crate::tools;
+use serde_json::{Map, Value};
+use std::fmt::Write as _;
+
+const FILE: &str = "docs/benchmarks.md";
+
+struct Part {
+    name: &'static str,
+    title: &'static str,
+    package: &'static str,
+    example: &'static str,
+    about: &'static str,
+}
+
+const PARTS: [Part; 3] = [
+    Part {
+        name: "plan",
+        title: "Planning",
+        package: "lightbots-plan",
+        example: "bench",
+        about: "One transition, assignment and proof included, one thread. `ratio` is its duration over T_min = \
+                bottleneck / 0.27 m/s + 0.62 s. Beside it in the same run: CAPT (least squared distances, straight \
+                synchronised lines) with the pairs that come too close, and the dense solver of the crate `lsap` for \
+                the assignment alone.",
+    },
+    Part {
+        name: "rehearsal",
+        title: "Rehearsal",
+        package: "lightbots-sim",
+        example: "speed",
+        about: "A whole show in virtual time with the real controller and robot cores under standard conditions, one \
+                thread: seconds of the show per second of the clock.",
+    },
+    Part {
+        name: "round",
+        title: "A frame's round",
+        package: "lightbots-server",
+        example: "round",
+        about: "From the first command of a frame leaving to the last robot's answer arriving, over loopback TCP: the \
+                embedded broker, and Mosquitto in the same run.",
+    },
+];
+
+/// Runs the named parts, or all.
+pub fn run(names: &[String]) -> Outcome {
+    if let Some(unknown) = names.iter().find(|name| PARTS.iter().all(|part| part.name != *name)) {
+        let known: Vec<_> = PARTS.iter().map(|part| part.name).collect();
+        return Err(format!("there is no bench part '{unknown}'; there are {}", known.join(", ")));
+    }
+    for part in PARTS.iter().filter(|part| names.is_empty() || names.iter().any(|name| name == part.name)) {
+        let section = measure(part)?;
+        println!("{section}");
+        keep(part, &section)?;
+    }
+    Ok(())
+}
+
+fn measure(part: &Part) -> Outcome<String> {
+    let arguments =
+        ["run", "--quiet", "--release", "--package", part.package, "--example", part.example, "--", "--json"];
+    let mut command = shell::command(".", &shell::cargo_program(), &arguments);
+    if part.name == "round" {
+        command.env("LIGHTBOTS_MOSQUITTO", tools::MOSQUITTO.provide()?);
+    }
+    eprintln!("measuring {}", part.name);
+    let printed = shell::output(&mut command)?;
+    let rows: Vec<Map<String, Value>> =
+        printed.lines().filter_map(|line| serde_json::from_str(line).ok()).collect();
+    if rows.is_empty() {
+        return Err(format!("the bench of {} printed no rows", part.name));
+    }
+    Ok(format!("## {}\n\n{}\n\n{}\n\n{}", part.title, part.about, machine()?, table(&rows)))
+}
+
+/// A Markdown table with a column for every key of the first row.
+fn table(rows: &[Map<String, Value>]) -> String {
+    let columns: Vec<&String> = rows.first().into_iter().flat_map(Map::keys).collect();
+    let line = |cells: Vec<String>| format!("| {} |\n", cells.join(" | "));
+    let mut text = line(columns.iter().map(|name| name.replace('_', " ")).collect());
+    text += &line(columns.iter().map(|_| "---".into()).collect());
+    for row in rows {
+        text += &line(columns.iter().map(|name| cell(row.get(*name))).collect());
+    }
+    text
+}
+
+fn cell(value: Option<&Value>) -> String {
+    match value {
+        None | Some(Value::Null) => "–".into(),
+        Some(Value::String(text)) => text.clone(),
+        Some(Value::Number(number)) => match number.as_f64() {
+            Some(value) if number.is_f64() => three_digits(value),
+            _ => number.to_string(),
+        },
+        Some(other) => other.to_string(),
+    }
+}
+
+fn three_digits(value: f64) -> String {
+    let decimals = match value.abs() {
+        large if large >= 100.0 => 0,
+        medium if medium >= 10.0 => 1,
+        small if small >= 1.0 => 2,
+        _ => 3,
+    };
+    format!("{value:.decimals$}")
+}
+
+fn machine() -> Outcome<String> {
+    let about = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
+    let model = about.lines().find_map(|line| line.strip_prefix("model name")?.split(": ").nth(1));
+    let cores = std::thread::available_parallelism().map_or(1, usize::from);
+    let now =
+        std::time::SystemTime::now().duration_since(std::time::UNIX_EPOCH).map_or(0, |since| since.as_secs());
+    let commit =
+        shell::output(&mut shell::command(".", "git", &["rev-parse", "--short", "HEAD"])).unwrap_or_default();
+    let mut text = String::new();
+    let _ = write!(
+        text,
+        "{} of commit {}: {cores} cores of {}",
+        date(now),
+        commit.trim(),
+        model.unwrap_or("unknown make")
+    );
+    Ok(text)
+}
+
+/// The civil date of a Unix time, by Howard Hinnant's algorithm `civil_from_days`.
+fn date(unix_seconds: u64) -> String {
+    let days = unix_seconds / 86_400 + 719_468;
+    let (era, day_of_era) = (days / 146_097, days % 146_097);
+    let year_of_era = (day_of_era - day_of_era / 1460 + day_of_era / 36_524 - day_of_era / 146_096) / 365;
+    let day_of_year = day_of_era - (365 * year_of_era + year_of_era / 4 - year_of_era / 100);
+    let shifted = (5 * day_of_year + 2) / 153;
+    let (day, month) =
+        (day_of_year - (153 * shifted + 2) / 5 + 1, if shifted < 10 { shifted + 3 } else { shifted - 9 });
+    let year = year_of_era + era * 400 + u64::from(month <= 2);
+    format!("{year}-{month:02}-{day:02}")
+}
+
+/// Puts the section in its place in the file and leaves the others.
+fn keep(part: &Part, section: &str) -> Outcome {
+    let path = shell::root().join(FILE);
+    let old = std::fs::read_to_string(&path).unwrap_or_default();
+    std::fs::write(&path, replaced(&old, &format!("## {}", part.title), section))
+        .map_err(|error| format!("cannot write {FILE}: {error}"))
+}
+
+fn replaced(old: &str, heading: &str, section: &str) -> String {
+    let mut sections: Vec<String> = Vec::new();
+    for line in old.lines() {
+        if line.starts_with("## ") || sections.is_empty() {
+            sections.push(String::new());
+        }
+        if let Some(last) = sections.last_mut() {
+            last.push_str(line);
+            last.push('\n');
+        }
+    }
+    if sections.is_empty() {
+        sections
+            .push("# Benchmarks\n\nMeasured by `cargo xtask bench` in a release build; medians.\n".into());
+    }
+    match sections.iter_mut().find(|found| found.lines().next() == Some(heading)) {
+        Some(found) => *found = section.to_owned(),
+        None => sections.push(section.to_owned()),
+    }
+    sections.iter().map(|section| section.trim_end()).collect::<Vec<_>>().join("\n\n") + "\n"
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn dates_are_civil() {
+        assert_eq!(date(0), "1970-01-01");
+        assert_eq!(date(1_795_305_600), "2026-11-22");
+        assert_eq!(date(951_782_400), "2000-02-29");
+    }
+
+    #[test]
+    fn a_section_is_replaced_and_others_stay() {
+        let old = "# T\n\n## A\n\nold\n\n## B\n\nstays\n";
+        assert_eq!(replaced(old, "## A", "## A\n\nnew\n"), "# T\n\n## A\n\nnew\n\n## B\n\nstays\n");
+        assert!(replaced(old, "## C", "## C\n\nmore").ends_with("stays\n\n## C\n\nmore\n"));
+    }
+}

@@ -1,0 +1,41 @@
+//! `cargo xtask demo`: from a fresh clone to a show in the browser.
+
+use crate::shell::{self, Outcome};
+
+const SHOW: &str = "shows/countdown.json";
+
+/// Builds the screen and the program, then runs it. `arguments` go to `lightbots run`.
+pub fn run(arguments: &[String]) -> Outcome {
+    build_screen()?;
+    shell::cargo(&["build", "--release", "--package", "lightbots-server"])?;
+    let program = shell::target().join("release").join(format!("lightbots{}", std::env::consts::EXE_SUFFIX));
+    let mut command = shell::command(".", &program.to_string_lossy(), &["run"]);
+    if !arguments.iter().any(|argument| !argument.starts_with('-')) {
+        command.arg(SHOW);
+    }
+    command.args(arguments);
+    shell::run(&mut command)
+}
+
+/// Installs what the screen is built from and builds it.
+pub fn build_screen() -> Outcome {
+    install_packages()?;
+    npm(&["run", "--silent", "build"])
+}
+
+/// Installs the screen's packages, if they are not there yet.
+pub fn install_packages() -> Outcome {
+    let ui = shell::root().join("ui");
+    let modified = |file: &str| std::fs::metadata(ui.join(file)).and_then(|data| data.modified()).ok();
+    if modified("node_modules/.package-lock.json") >= modified("package-lock.json") {
+        return Ok(());
+    }
+    npm(&["ci", "--no-audit", "--no-fund"])
+}
+
+/// Runs npm in `ui/`.
+pub fn npm(arguments: &[&str]) -> Outcome {
+    let program = if cfg!(windows) { "npm.cmd" } else { "npm" };
+    shell::run(&mut shell::command("ui", program, arguments))
+        .map_err(|message| format!("{message} (Node.js 20 or newer with npm is needed)"))
+}

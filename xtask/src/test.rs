@@ -1,0 +1,99 @@
+//! `cargo xtask test`: every test there is, part by part. A part that fails does not hide the next.
+
+use crate::shell::{self, Outcome};
+use crate::{demo, tidy, tools};
+use std::time::Instant;
+
+const FIRMWARE_TARGET: &str = "thumbv7em-none-eabihf";
+
+type Part = (&'static str, fn() -> Outcome);
+
+const PARTS: [Part; 7] = [
+    ("tidy", tidy::run),
+    ("ui", ui),
+    ("lint", lint),
+    ("rust", rust),
+    ("firmware", firmware),
+    ("e2e", e2e),
+    ("licences", licences),
+];
+
+/// Runs the named parts, or all.
+pub fn run(names: &[String]) -> Outcome {
+    if let Some(unknown) = names.iter().find(|name| PARTS.iter().all(|part| part.0 != *name)) {
+        let known: Vec<_> = PARTS.iter().map(|part| part.0).collect();
+        return Err(format!("there is no test part '{unknown}'; there are {}", known.join(", ")));
+    }
+    let chosen = PARTS.iter().filter(|part| names.is_empty() || names.iter().any(|name| name == part.0));
+    let mut failed = Vec::new();
+    let mut lines = Vec::new();
+    for (name, part) in chosen {
+        let began = Instant::now();
+        eprintln!("\n=== {name} ===");
+        let outcome = part();
+        let seconds = began.elapsed().as_secs();
+        match outcome {
+            Ok(()) => lines.push(format!("{name}: ok ({seconds} s)")),
+            Err(message) => {
+                eprintln!("xtask: {message}");
+                lines.push(format!("{name}: FAILED ({seconds} s): {message}"));
+                failed.push(*name);
+            }
+        }
+    }
+    println!("\n{}", lines.join("\n"));
+    if failed.is_empty() { Ok(()) } else { Err(format!("failed: {}", failed.join(", "))) }
+}
+
+fn ui() -> Outcome {
+    demo::install_packages()?;
+    demo::npm(&["run", "--silent", "lint"])?;
+    demo::npm(&["run", "--silent", "test"])?;
+    demo::npm(&["run", "--silent", "build"])
+}
+
+fn lint() -> Outcome {
+    shell::cargo(&["fmt", "--all", "--check"])?;
+    shell::cargo(&["clippy", "--quiet", "--workspace", "--all-targets", "--", "-D", "warnings"])
+}
+
+/// One build of the whole workspace: the program the end-to-end tests start comes out of it too.
+fn rust() -> Outcome {
+    let mosquitto = tools::MOSQUITTO.provide()?;
+    let arguments = ["test", "--workspace", "--no-fail-fast"];
+    let mut command = shell::command(".", &shell::cargo_program(), &arguments);
+    shell::run(command.env("LIGHTBOTS_MOSQUITTO", mosquitto))
+}
+
+fn firmware() -> Outcome {
+    let installed = shell::run(&mut shell::command(".", "rustup", &["target", "add", FIRMWARE_TARGET]));
+    if let Err(message) = installed {
+        println!("NOT TESTED: the robot core for {FIRMWARE_TARGET}: {message}");
+        return Ok(());
+    }
+    shell::cargo(&["build", "--package", "lightbots-robot", "--target", FIRMWARE_TARGET])
+}
+
+fn e2e() -> Outcome {
+    let chromium = tools::CHROMIUM.provide()?;
+    demo::install_packages()?;
+    if !shell::root().join("ui/dist/index.html").is_file() {
+        demo::build_screen()?;
+    }
+    shell::cargo(&["build", "--package", "lightbots-server"])?;
+    let program = shell::target().join("debug").join(format!("lightbots{}", std::env::consts::EXE_SUFFIX));
+    let npm = if cfg!(windows) { "npm.cmd" } else { "npm" };
+    let mut command = shell::command("ui", npm, &["run", "--silent", "e2e"]);
+    shell::run(command.env("LIGHTBOTS_BIN", program).env("CHROMIUM", chromium))
+}
+
+fn licences() -> Outcome {
+    let there = shell::output(&mut shell::command(".", &shell::cargo_program(), &["deny", "--version"]));
+    if there.is_err() {
+        println!(
+            "NOT TESTED: licences and bans of dependencies: `cargo install cargo-deny --locked` brings the tool"
+        );
+        return Ok(());
+    }
+    shell::cargo(&["deny", "--offline", "check", "bans", "licenses", "sources"])
+}

@@ -1,0 +1,75 @@
+//! Dependencies point one way.
+
+use super::{files, shown};
+use std::path::Path;
+
+/// What each crate may use of ours. Tests may use more.
+const EDGES: [(&str, &[&str]); 11] = [
+    ("base", &[]),
+    ("wire", &["base"]),
+    ("show", &["base"]),
+    ("plan", &["base", "show"]),
+    ("robot", &["base", "wire"]),
+    ("control", &["base", "wire", "show", "plan"]),
+    ("sim", &["base", "wire", "show", "plan", "robot", "control"]),
+    ("api", &[]),
+    ("link", &["base", "wire"]),
+    ("webots", &["base", "wire", "robot", "link"]),
+    ("server", &["base", "wire", "show", "plan", "robot", "control", "sim", "api", "link"]),
+];
+
+/// Every edge that is not allowed.
+pub fn findings(root: &Path) -> Vec<String> {
+    let manifests = files(&root.join("crates"), &["toml"]);
+    manifests
+        .iter()
+        .filter_map(|path| Some((path, std::fs::read_to_string(path).ok()?)))
+        .flat_map(|(path, text)| {
+            let place = shown(root, path).to_string();
+            wrong_edges(&text).into_iter().map(move |wrong| format!("{place}: {wrong}"))
+        })
+        .collect()
+}
+
+fn wrong_edges(manifest: &str) -> Vec<String> {
+    let mut section = "";
+    let mut name = "";
+    let mut wrong = Vec::new();
+    for line in manifest.lines().map(str::trim) {
+        if line.starts_with('[') {
+            section = line;
+        } else if section == "[package]" && line.starts_with("name") {
+            name = line.split('"').nth(1).unwrap_or_default();
+        } else if section == "[dependencies]" && line.starts_with("lightbots-") {
+            let used = line.split(['.', ' ', '=']).next().unwrap_or_default();
+            if !may_use(name, used) {
+                wrong.push(format!("{name} must not depend on {used}"));
+            }
+        }
+    }
+    wrong
+}
+
+fn may_use(user: &str, used: &str) -> bool {
+    let short = |name: &str| name.trim_start_matches("lightbots-").to_owned();
+    EDGES.iter().any(|(name, allowed)| *name == short(user) && allowed.contains(&short(used).as_str()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_edge_that_points_back_is_found() {
+        let manifest =
+            "[package]\nname = \"lightbots-wire\"\n[dependencies]\nlightbots-show.workspace = true\n";
+        assert_eq!(wrong_edges(manifest), ["lightbots-wire must not depend on lightbots-show"]);
+    }
+
+    #[test]
+    fn tests_may_use_more() {
+        let manifest =
+            "[package]\nname = \"lightbots-base\"\n[dev-dependencies]\nlightbots-wire.workspace = true\n";
+        assert!(wrong_edges(manifest).is_empty());
+    }
+}
