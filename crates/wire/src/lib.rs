@@ -3,12 +3,30 @@
 //! Decoding never panics, never allocates, and takes time linear in the bytes. It knows nothing of brokers, shows or
 //! wheels. The original protocol is kept byte for byte; what is ours is added beside it, so that an original robot and
 //! an original controller still work.
+//!
+//! ```
+//! use lightbots_base::Vec2;
+//! use lightbots_wire::{Command, commands, encode};
+//! let mut payload = String::new();
+//! encode(&Command::Target(Vec2::new(0.5, -1.25)), &mut payload).unwrap();
+//! assert_eq!(payload, "|TARGET 0.500000 -1.250000|");
+//! let german = commands(b"|TARGET 0,500000 -1,250000|").next();
+//! assert_eq!(german, Some(Ok(Command::Target(Vec2::new(0.5, -1.25)))));
+//! ```
 #![no_std]
 
 mod command;
+mod decode;
+mod encode;
+mod number;
+mod path;
 mod report;
+mod say;
 mod topic;
 
 pub use command::{Blink, Command, Fade, MAX_PIECES, Pieces, Route, TimeAnswer};
+pub use decode::{Commands, MAX_PAYLOAD, Unknown, commands};
+pub use encode::encode;
+pub use number::number;
 pub use report::{Abilities, Details, Firmware, Report, RobotState, TimeQuestion};
-pub use topic::Topic;
+pub use topic::{Topic, TopicText};

@@ -2,6 +2,11 @@
 
 use lightbots_base::RobotId;
 
+const ROOT: &str = "T/LightBot/";
+
+/// A topic as text; the longest has 47 bytes.
+pub type TopicText = heapless::String<56>;
+
 /// Where a message is published, under `T/LightBot/`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Topic {
@@ -17,4 +22,59 @@ pub enum Topic {
     Broadcast,
     /// `<uuid>`: the controller speaks to one robot. Original.
     Robot(RobotId),
+}
+
+impl Topic {
+    /// The topic a text names; `None` where it is none of ours.
+    pub fn parse(text: &str) -> Option<Self> {
+        Some(match text.strip_prefix(ROOT)? {
+            "UUID" => Self::Uuid,
+            "Arrival" => Self::Arrival,
+            "Status" => Self::Status,
+            "Time" => Self::Time,
+            "Broadcast" => Self::Broadcast,
+            name => Self::Robot(RobotId::new(name)?),
+        })
+    }
+
+    /// The topic as text.
+    pub fn write(self) -> TopicText {
+        let mut text = TopicText::new();
+        let name = match &self {
+            Self::Uuid => "UUID",
+            Self::Arrival => "Arrival",
+            Self::Status => "Status",
+            Self::Time => "Time",
+            Self::Broadcast => "Broadcast",
+            Self::Robot(id) => id.as_str(),
+        };
+        // Cannot fail: 11 bytes of root and at most 36 of name.
+        let _ = text.push_str(ROOT).and_then(|()| text.push_str(name));
+        text
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn topics_go_there_and_back() {
+        for text in
+            ["UUID", "Arrival", "Status", "Time", "Broadcast", "abfe6805-3c60-4e5a-ba40-2dcf7cb5d8e8", "r7"]
+        {
+            let mut full = TopicText::new();
+            full.push_str(ROOT).unwrap();
+            full.push_str(text).unwrap();
+            assert_eq!(Topic::parse(&full).unwrap().write(), full);
+        }
+        assert_eq!(Topic::parse("T/LightBot/r7"), Some(Topic::Robot(RobotId::new("r7").unwrap())));
+    }
+
+    #[test]
+    fn other_topics_are_none() {
+        for text in ["", "T/LightBot", "T/LightBot/", "T/LightBot/a/b", "t/LightBot/UUID", "T/LightBot/#"] {
+            assert_eq!(Topic::parse(text), None, "{text:?}");
+        }
+    }
 }

@@ -1,0 +1,269 @@
+//! Numbers as text, both ways, without the general float machinery where a message is hot.
+
+use core::fmt::{self, Write};
+
+use lightbots_base::{Instant, Span};
+
+/// The longest text read as a number, bytes. `Double.toString` needs at most 24.
+const MAX_NUMBER: usize = 32;
+/// Mantissas up to here are exact in an `f64`, so that one division by a power of ten rounds correctly.
+const EXACT: u64 = 1 << 53;
+const POWERS_OF_TEN: [f64; 16] =
+    [1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15];
+/// The latest instant on the wire, so that differences of instants never wrap.
+const LATEST: u64 = i64::MAX as u64;
+/// The longest duration on the wire: one hour.
+const LONGEST: Span = Span(3_600_000_000);
+/// Places on the wire lie within this many metres of the origin in each coordinate.
+const FAR_M: f64 = 1000.0;
+
+/// The number a text states: decimal point or comma, exponent, `NaN`, `Infinity`. `None` for anything else and for
+/// texts of more than 32 bytes.
+pub fn number(text: &str) -> Option<f64> {
+    let bytes = text.as_bytes();
+    if bytes.len() > MAX_NUMBER {
+        return None;
+    }
+    plain_decimal(bytes).or_else(|| any_number(bytes))
+}
+
+/// `[-]digits[.,]digits` with so few digits that the result is exact to the last bit.
+fn plain_decimal(bytes: &[u8]) -> Option<f64> {
+    let (negative, digits) = match bytes {
+        [b'-', rest @ ..] => (true, rest),
+        _ => (false, bytes),
+    };
+    let mut mantissa = 0u64;
+    let mut point = None;
+    let mut count = 0usize;
+    for &byte in digits {
+        match byte {
+            b'0'..=b'9' if mantissa < EXACT / 10 => {
+                mantissa = mantissa * 10 + u64::from(byte - b'0');
+                count += 1;
+            }
+            b'.' | b',' if point.is_none() => point = Some(count),
+            _ => return None,
+        }
+    }
+    let decimals = count - point.unwrap_or(count);
+    let scale = POWERS_OF_TEN.get(decimals).filter(|_| count > 0)?;
+    let value = mantissa as f64 / scale;
+    Some(if negative { -value } else { value })
+}
+
+/// Whatever else is a number, by the standard library's parser after the comma has become a point.
+fn any_number(bytes: &[u8]) -> Option<f64> {
+    let mut buffer = [0; MAX_NUMBER];
+    let copy = &mut buffer[..bytes.len()];
+    copy.copy_from_slice(bytes);
+    for byte in copy.iter_mut().filter(|byte| **byte == b',') {
+        *byte = b'.';
+    }
+    core::str::from_utf8(copy).ok()?.parse().ok()
+}
+
+/// An instant in microseconds.
+pub(crate) fn instant(text: &str) -> Option<Instant> {
+    text.parse().ok().filter(|&us| us <= LATEST).map(Instant)
+}
+
+/// A duration in microseconds, 0 to one hour.
+pub(crate) fn span(text: &str) -> Option<Span> {
+    text.parse().ok().map(Span).filter(|span| (Span::ZERO..=LONGEST).contains(span))
+}
+
+/// A coordinate in whole tenths of a millimetre, to metres.
+pub(crate) fn metres(text: &str) -> Option<f64> {
+    let tenths: i32 = text.parse().ok()?;
+    let metres = f64::from(tenths) / 1e4;
+    (metres.abs() <= FAR_M).then_some(metres)
+}
+
+/// Metres in whole tenths of a millimetre, clamped to what [`metres`] reads; NaN is 0.
+pub(crate) fn tenths(metres: f64) -> i32 {
+    round(metres.clamp(-FAR_M, FAR_M) * 1e4) as i32
+}
+
+/// To the nearest whole number, halves away from zero. `core` has no `f64::round` before 1.90 on bare metal.
+fn round(value: f64) -> i64 {
+    (value + if value < 0.0 { -0.5 } else { 0.5 }) as i64
+}
+
+/// Writes a whole number.
+pub(crate) fn write_int(out: &mut dyn Write, value: i64) -> fmt::Result {
+    if value < 0 {
+        out.write_str("-")?;
+    }
+    write_digits(out, value.unsigned_abs(), 1)
+}
+
+/// Writes digits, with zeros in front up to `width` (at most 20).
+pub(crate) fn write_digits(out: &mut dyn Write, mut value: u64, width: usize) -> fmt::Result {
+    let mut digits = [b'0'; 20];
+    let mut first = digits.len();
+    while value > 0 {
+        first -= 1;
+        digits[first] = b'0' + (value % 10) as u8;
+        value /= 10;
+    }
+    first = first.min(digits.len() - width.clamp(1, 20));
+    out.write_str(core::str::from_utf8(&digits[first..]).unwrap_or("0"))
+}
+
+/// Writes a number as C and Java print it with `%f` in an English locale: six decimals. Beyond 10¹² it is clamped.
+pub(crate) fn write_six_decimals(out: &mut dyn Write, value: f64) -> fmt::Result {
+    if !value.is_finite() {
+        return write_not_finite(out, value);
+    }
+    let millionths = round(value.clamp(-1e12, 1e12) * 1e6);
+    if value.is_sign_negative() {
+        out.write_str("-")?;
+    }
+    write_digits(out, millionths.unsigned_abs() / 1_000_000, 1)?;
+    out.write_str(".")?;
+    write_digits(out, millionths.unsigned_abs() % 1_000_000, 6)
+}
+
+/// Writes a number as Java's `Double.toString` prints it, after rounding it to four decimals: `1.3`, `-0.73`,
+/// `1.0E-4`, `NaN`. Places in metres thus come to the tenth of a millimetre.
+pub(crate) fn write_double(out: &mut dyn Write, value: f64) -> fmt::Result {
+    if !value.is_finite() || value.abs() > 1e6 {
+        return write_not_finite(out, if value.is_finite() { f64::NAN } else { value });
+    }
+    let scaled = round(value * 1e4);
+    if scaled < 0 {
+        out.write_str("-")?;
+    }
+    let scaled = scaled.unsigned_abs();
+    if (1..10).contains(&scaled) {
+        write_digits(out, scaled, 1)?;
+        return out.write_str(".0E-4");
+    }
+    write_digits(out, scaled / 10_000, 1)?;
+    out.write_str(".")?;
+    let (mut decimals, mut width) = (scaled % 10_000, 4);
+    while width > 1 && decimals % 10 == 0 {
+        decimals /= 10;
+        width -= 1;
+    }
+    write_digits(out, decimals, width)
+}
+
+fn write_not_finite(out: &mut dyn Write, value: f64) -> fmt::Result {
+    out.write_str(match value {
+        f64::INFINITY => "Infinity",
+        f64::NEG_INFINITY => "-Infinity",
+        _ => "NaN",
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    type Text = heapless::String<64>;
+
+    #[test]
+    fn numbers_are_read_for_what_they_are() {
+        let cases = [
+            ("0,500000", 0.5),
+            ("-1.250000", -1.25),
+            ("1.0E-4", 1e-4),
+            ("-2,5e3", -2500.0),
+            ("+3", 3.0),
+            (".5", 0.5),
+            ("Infinity", f64::INFINITY),
+            ("-Infinity", f64::NEG_INFINITY),
+            ("0.30000000000000004", 0.1 + 0.2),
+            ("123456789012345678", 123_456_789_012_345_678.0),
+        ];
+        for (text, value) in cases {
+            assert_eq!(number(text), Some(value), "{text}");
+        }
+        assert!(number("NaN").unwrap().is_nan());
+        assert!(number("-0.0").unwrap().is_sign_negative());
+    }
+
+    #[test]
+    fn what_is_no_number_is_none() {
+        for text in [
+            "",
+            "-",
+            ".",
+            ",",
+            "1.2,3",
+            "1,2,3",
+            "0x10",
+            "1_000",
+            "1 ",
+            "ü",
+            "--1",
+            "000000000000000000000000000000001",
+        ] {
+            assert_eq!(number(text), None, "{text:?}");
+        }
+    }
+
+    #[test]
+    fn the_fast_way_agrees_with_the_standard_library() {
+        let mut seed = 1u64;
+        for _ in 0..5000 {
+            seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            let value = f64::from((seed >> 33) as u32) / [1.0, 7.0, 1e4, 1e9][(seed >> 13) as usize % 4];
+            let mut text = Text::new();
+            write!(text, "{value}").unwrap();
+            assert_eq!(number(&text), Some(value), "{text}");
+        }
+    }
+
+    #[test]
+    fn doubles_look_like_javas() {
+        let cases = [
+            (1.3, "1.3"),
+            (-0.73, "-0.73"),
+            (1e-4, "1.0E-4"),
+            (-0.000_51, "-5.0E-4"),
+            (0.001, "0.001"),
+            (-0.000_04, "0.0"),
+            (0.0, "0.0"),
+            (12.0, "12.0"),
+            (0.999_96, "1.0"),
+            (1.02, "1.02"),
+            (f64::NAN, "NaN"),
+            (f64::NEG_INFINITY, "-Infinity"),
+            (1e9, "NaN"),
+        ];
+        for (value, expected) in cases {
+            let mut text = Text::new();
+            write_double(&mut text, value).unwrap();
+            assert_eq!(text.as_str(), expected);
+        }
+    }
+
+    #[test]
+    fn six_decimals_look_like_printf() {
+        let cases = [
+            (0.5, "0.500000"),
+            (-1.25, "-1.250000"),
+            (-0.000_001_4, "-0.000001"),
+            (0.999_999_6, "1.000000"),
+            (f64::NAN, "NaN"),
+        ];
+        for (value, expected) in cases {
+            let mut text = Text::new();
+            write_six_decimals(&mut text, value).unwrap();
+            assert_eq!(text.as_str(), expected);
+        }
+    }
+
+    #[test]
+    fn instants_and_spans_outside_their_range_are_refused() {
+        assert_eq!(instant("9223372036854775807"), Some(Instant(i64::MAX as u64)));
+        assert_eq!(instant("9223372036854775808"), None);
+        assert_eq!(instant("-1"), None);
+        assert_eq!(span("3600000001"), None);
+        assert_eq!(metres("10000001"), None);
+        assert_eq!(tenths(f64::NAN), 0);
+    }
+}

@@ -1,0 +1,92 @@
+//! `PATH seq x y piece…`: a route as text, in tenths of a millimetre and microseconds.
+//!
+//! A piece is `R us` (rest), `L us x y` (straight at constant speed) or `C us x1 y1 x2 y2 x y` (cubic Bézier).
+
+use core::fmt::{self, Write};
+use core::str::SplitAsciiWhitespace;
+
+use lightbots_base::{Piece, Span, Vec2};
+
+use crate::number::{metres, span, tenths, write_digits, write_int};
+use crate::{Pieces, Route};
+
+/// A place in tenths of a millimetre: what the wire carries, so what both ends agree on.
+type Tenths = [i32; 2];
+
+/// The route after the word `PATH`; `None` unless every field is right and there are at most `MAX_PIECES` pieces.
+pub(crate) fn decode_route(fields: &mut SplitAsciiWhitespace<'_>) -> Option<Route> {
+    let seq = fields.next()?.parse().ok().filter(|&seq| seq != 0)?;
+    let start = place(fields)?;
+    let mut route = Route { seq, start, pieces: Pieces::new() };
+    let mut from = start;
+    while let Some(kind) = fields.next() {
+        let piece = decode_piece(kind, from, fields)?;
+        from = piece.end;
+        route.pieces.push(piece).ok()?;
+    }
+    Some(route)
+}
+
+fn decode_piece(kind: &str, from: Vec2, fields: &mut SplitAsciiWhitespace<'_>) -> Option<Piece> {
+    let duration = fields.next().and_then(span).filter(|&duration| duration > Span::ZERO)?;
+    Some(match kind {
+        "R" => Piece::rest(from, duration),
+        "L" => Piece::straight(from, place(fields)?, duration),
+        "C" => Piece { duration, c1: place(fields)?, c2: place(fields)?, end: place(fields)? },
+        _ => return None,
+    })
+}
+
+fn place(fields: &mut SplitAsciiWhitespace<'_>) -> Option<Vec2> {
+    let (x, y) = (metres(fields.next()?)?, metres(fields.next()?)?);
+    Some(Vec2::new(x, y))
+}
+
+/// Writes `PATH …` without the bars. Places are rounded to the tenth of a millimetre; a duration below one
+/// microsecond becomes one.
+pub(crate) fn encode_route(route: &Route, out: &mut dyn Write) -> fmt::Result {
+    out.write_str("PATH ")?;
+    write_int(out, i64::from(route.seq))?;
+    let mut from = rounded(route.start);
+    write_place(out, from)?;
+    for piece in &route.pieces {
+        encode_piece(piece, from, out)?;
+        from = rounded(piece.end);
+    }
+    Ok(())
+}
+
+fn encode_piece(piece: &Piece, from: Tenths, out: &mut dyn Write) -> fmt::Result {
+    let (c1, c2, end) = (rounded(piece.c1), rounded(piece.c2), rounded(piece.end));
+    let even = Piece::straight(metres_of(from), metres_of(end), piece.duration);
+    let kind = if c1 == from && c2 == from && end == from {
+        " R "
+    } else if c1 == rounded(even.c1) && c2 == rounded(even.c2) {
+        " L "
+    } else {
+        " C "
+    };
+    out.write_str(kind)?;
+    write_digits(out, piece.duration.0.max(1).unsigned_abs(), 1)?;
+    if kind == " C " {
+        write_place(out, c1)?;
+        write_place(out, c2)?;
+    }
+    if kind != " R " { write_place(out, end) } else { Ok(()) }
+}
+
+fn rounded(at: Vec2) -> Tenths {
+    [tenths(at.x), tenths(at.y)]
+}
+
+fn metres_of(at: Tenths) -> Vec2 {
+    Vec2::new(f64::from(at[0]) / 1e4, f64::from(at[1]) / 1e4)
+}
+
+fn write_place(out: &mut dyn Write, at: Tenths) -> fmt::Result {
+    for coordinate in at {
+        out.write_str(" ")?;
+        write_int(out, i64::from(coordinate))?;
+    }
+    Ok(())
+}

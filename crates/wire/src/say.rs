@@ -1,0 +1,169 @@
+//! Reports and questions ↔ bytes.
+
+use core::fmt::{self, Write};
+
+use lightbots_base::{RobotId, Vec2};
+
+use crate::number::{instant, number, write_digits, write_double, write_int};
+use crate::{Abilities, Details, Firmware, Report, RobotState, TimeQuestion};
+
+/// The most bytes of a report that are read; longer ones are refused.
+const MAX_REPORT: usize = 1024;
+
+impl Report {
+    /// The report a payload holds: three fields at least, of which the first can be a name and the others are numbers.
+    /// `None` for anything else. Fields after them that make no sense are skipped.
+    pub fn decode(payload: &[u8]) -> Option<Self> {
+        let mut fields = text(payload)?.split_ascii_whitespace();
+        let id = RobotId::new(fields.next()?)?;
+        let at = Vec2::new(number(fields.next()?)?, number(fields.next()?)?);
+        let mut details = None;
+        for field in fields {
+            if let Some((key, value)) = field.split_once('=') {
+                read_detail(&mut details, key, value);
+            }
+        }
+        Some(Self { id, at: at.is_finite().then_some(at), details })
+    }
+
+    /// Appends the report: `<uuid> <x> <y>` and our fields, where it has them.
+    pub fn encode(&self, out: &mut dyn Write) -> fmt::Result {
+        let at = self.at.unwrap_or(Vec2::new(f64::NAN, f64::NAN));
+        out.write_str(self.id.as_str())?;
+        out.write_str(" ")?;
+        write_double(out, at.x)?;
+        out.write_str(" ")?;
+        write_double(out, at.y)?;
+        self.details.as_ref().map_or(Ok(()), |details| write_details(details, out))
+    }
+}
+
+impl TimeQuestion {
+    /// The question a payload holds.
+    pub fn decode(payload: &[u8]) -> Option<Self> {
+        let mut fields = text(payload)?.split_ascii_whitespace();
+        Some(Self { id: RobotId::new(fields.next()?)?, asked: instant(fields.next()?)? })
+    }
+
+    /// Appends `<uuid> <now>`.
+    pub fn encode(&self, out: &mut dyn Write) -> fmt::Result {
+        out.write_str(self.id.as_str())?;
+        out.write_str(" ")?;
+        write_digits(out, self.asked.0.min(i64::MAX.unsigned_abs()), 1)
+    }
+}
+
+impl RobotState {
+    const WORDS: [(Self, &'static str); 7] = [
+        (Self::Idle, "idle"),
+        (Self::Ready, "ready"),
+        (Self::Driving, "driving"),
+        (Self::Held, "held"),
+        (Self::Lost, "lost"),
+        (Self::Cut, "cut"),
+        (Self::Faulty, "faulty"),
+    ];
+
+    /// The word for it on the wire and on screen.
+    pub fn word(self) -> &'static str {
+        Self::WORDS.iter().find(|(state, _)| *state == self).map_or("idle", |(_, word)| word)
+    }
+
+    /// The state a word names.
+    pub fn from_word(word: &str) -> Option<Self> {
+        Self::WORDS.iter().find(|(_, known)| *known == word).map(|(state, _)| *state)
+    }
+}
+
+fn text(payload: &[u8]) -> Option<&str> {
+    core::str::from_utf8(payload.get(..payload.len().min(MAX_REPORT + 1))?)
+        .ok()
+        .filter(|text| text.len() <= MAX_REPORT)
+}
+
+/// Notes one `key=value` field; details come to be with the first key we know, whatever its value.
+fn read_detail(details: &mut Option<Details>, key: &str, value: &str) {
+    if !matches!(key, "h" | "bat" | "state" | "route" | "starts" | "off" | "clock" | "fw" | "can" | "unknown")
+    {
+        return;
+    }
+    let known = details.get_or_insert_default();
+    match key {
+        "h" => known.heading = finite(value),
+        "bat" => known.battery = value.parse().ok().filter(|&percent| percent <= 100),
+        "state" => known.state = RobotState::from_word(value).unwrap_or_default(),
+        "route" => known.route = value.parse().unwrap_or(0),
+        "starts" => known.starts = instant(value),
+        "off" => known.off_m = finite(value).filter(|&off| off >= 0.0),
+        "clock" => known.clock_us = value.parse().ok(),
+        "fw" => known.firmware = firmware(value),
+        "can" => known.abilities = Abilities::from_words(value),
+        _ => known.unknown = value.parse().unwrap_or(0),
+    }
+}
+
+fn finite(value: &str) -> Option<f64> {
+    number(value).filter(|value| value.is_finite())
+}
+
+fn firmware(value: &str) -> Firmware {
+    let mut name = Firmware::new();
+    if value.bytes().all(|byte| byte.is_ascii_graphic()) {
+        // A name too long for us is no name: the push leaves it empty.
+        let _ = name.push_str(value);
+    }
+    name
+}
+
+fn write_details(details: &Details, out: &mut dyn Write) -> fmt::Result {
+    out.write_str(" state=")?;
+    out.write_str(details.state.word())?;
+    if let Some(heading) = details.heading {
+        out.write_str(" h=")?;
+        write_double(out, heading)?;
+    }
+    if let Some(off_m) = details.off_m {
+        out.write_str(" off=")?;
+        write_double(out, off_m)?;
+    }
+    let whole = [
+        (" route=", Some(u64::from(details.route)).filter(|&seq| seq != 0)),
+        (" starts=", details.starts.map(|at| at.0)),
+        (" clock=", details.clock_us.map(u64::from)),
+        (" bat=", details.battery.map(u64::from)),
+        (" unknown=", Some(u64::from(details.unknown)).filter(|&count| count != 0)),
+    ];
+    for (key, value) in whole.into_iter().filter_map(|(key, value)| Some((key, value?))) {
+        out.write_str(key)?;
+        write_int(out, i64::try_from(value).unwrap_or(i64::MAX))?;
+    }
+    if details.abilities != Abilities::default() {
+        out.write_str(" can=")?;
+        details.abilities.write(out)?;
+    }
+    if !details.firmware.is_empty() && details.firmware.bytes().all(|byte| byte.is_ascii_graphic()) {
+        out.write_str(" fw=")?;
+        out.write_str(&details.firmware)?;
+    }
+    Ok(())
+}
+
+impl Abilities {
+    /// Words joined by `+`; those we do not know are skipped.
+    fn from_words(words: &str) -> Self {
+        let has = |word| words.split('+').any(|one| one == word);
+        Self { route: has("route"), fade: has("fade"), blink: has("blink") }
+    }
+
+    fn write(self, out: &mut dyn Write) -> fmt::Result {
+        let mut joint = "";
+        for (has, word) in [(self.route, "route"), (self.fade, "fade"), (self.blink, "blink")] {
+            if has {
+                out.write_str(joint)?;
+                out.write_str(word)?;
+                joint = "+";
+            }
+        }
+        Ok(())
+    }
+}
