@@ -1,0 +1,88 @@
+//! Where everything is, twenty times a second.
+
+use serde::{Deserialize, Serialize};
+use ts_rs::TS;
+
+/// A snapshot of the run.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS)]
+pub struct State {
+    /// The show clock, milliseconds.
+    pub at_ms: f64,
+    /// Which `Fleet` names the robots below.
+    pub fleet: u32,
+    /// The broker.
+    pub broker: Broker,
+    /// The show.
+    pub playback: Playback,
+    /// The robots.
+    pub robots: Robots,
+}
+
+/// The connection to the broker.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize, TS)]
+pub struct Broker {
+    /// Its address without user and password; empty: none is wanted.
+    pub address: String,
+    /// Whether it answers.
+    pub connected: bool,
+    /// Why not, one line for people.
+    pub reason: Option<String>,
+}
+
+/// What is being played.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS)]
+pub struct Playback {
+    /// What is going on.
+    pub phase: Phase,
+    /// The frame that is shown or driven to, counted from 0; null: none.
+    pub frame: Option<usize>,
+    /// How many frames the open show has.
+    pub frames: usize,
+    /// How much of the drive to `frame` is done, 0 to 1; 1 during its air time.
+    pub progress: f64,
+    /// Time left to the end of the show, seconds, as far as it is known.
+    pub left_s: Option<f64>,
+    /// Whether it begins again after the last frame.
+    pub looping: bool,
+    /// Names of the robots everybody is waiting for; at most twenty.
+    pub late: Vec<String>,
+}
+
+/// What is going on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, TS)]
+#[serde(rename_all = "snake_case")]
+pub enum Phase {
+    /// No broker.
+    Idle,
+    /// Nothing is played.
+    Ready,
+    /// Robots are being sent their paths.
+    Preparing,
+    /// The show is on.
+    Playing,
+    /// It is held.
+    Paused,
+    /// One frame is driven to.
+    Preview,
+    /// Robots are coming to rest after an abort.
+    Aborting,
+}
+
+/// The robots, one entry each in every list, in the order of the fleet table.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, TS)]
+pub struct Robots {
+    /// Measured place along x, stage metres, to 0.1 mm; null: unknown.
+    pub x: Vec<Option<f64>>,
+    /// Measured place along y, stage metres, to 0.1 mm; null: unknown.
+    pub y: Vec<Option<f64>>,
+    /// Heading, radians counter-clockwise from +x; null: unknown.
+    pub heading: Vec<Option<f64>>,
+    /// Colour of the light: R·65536 + G·256 + B.
+    pub colour: Vec<u32>,
+    /// What it is doing: index into `RobotStatus` in its order, from 0.
+    pub status: Vec<u8>,
+    /// Where its pixel is along x, stage metres; null: it stands by.
+    pub goal_x: Vec<Option<f64>>,
+    /// Where its pixel is along y, stage metres; null: it stands by.
+    pub goal_y: Vec<Option<f64>>,
+}

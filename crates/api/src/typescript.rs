@@ -1,0 +1,69 @@
+//! The same types in TypeScript.
+
+use ts_rs::{Config, TS};
+
+use crate::{
+    Abilities, Answer, Broker, Choice, Fleet, FleetRow, FromScreen, Hello, Issue, Level, LogLine, Missing,
+    OpenShow, Operation, Path, Phase, Plan, Playback, Presence, Problem, Request, RobotStatus, Robots,
+    Severity, ShowEntry, State, ToScreen, Transition,
+};
+
+/// The text of `ui/src/api/types.gen.ts`: every type of this crate, with its documentation.
+pub fn typescript() -> String {
+    let config = Config::new().with_large_int("number");
+    let mut text = String::from(
+        "// Made from crates/api by `cargo run -p lightbots-api --example types`. Change it there.\n",
+    );
+    let mut add = |docs: Option<String>, declaration: String| {
+        text.push('\n');
+        text.push_str(&docs.unwrap_or_default());
+        text.push_str("export ");
+        text.push_str(&declaration);
+        text.push('\n');
+    };
+    macro_rules! declare {
+        ($($name:ty),* $(,)?) => { $(add(<$name as TS>::docs(), <$name as TS>::decl(&config));)* };
+    }
+    declare!(
+        ToScreen,
+        FromScreen,
+        Hello,
+        OpenShow,
+        Plan,
+        Transition,
+        Path,
+        Issue,
+        Severity,
+        Fleet,
+        FleetRow,
+        RobotStatus,
+        Presence,
+        Abilities,
+        State,
+        Broker,
+        Playback,
+        Phase,
+        Robots,
+        LogLine,
+        Level,
+        Request,
+        Operation,
+        Missing,
+        Answer,
+        Choice,
+        ShowEntry,
+        Problem,
+    );
+    text.push_str("\n/** Every status, in the order `Robots.status` counts them. */\n");
+    let names: Vec<String> =
+        RobotStatus::ALL.iter().map(|status| snake_case(&format!("{status:?}"))).collect();
+    text.push_str(&format!(
+        "export const ROBOT_STATUSES: readonly RobotStatus[] = [{}];\n",
+        names.join(", ")
+    ));
+    text
+}
+
+fn snake_case(variant: &str) -> String {
+    format!("\"{}\"", variant.to_lowercase())
+}
