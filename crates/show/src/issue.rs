@@ -35,7 +35,13 @@ pub enum Severity {
 impl Issue {
     /// An error that concerns the whole show.
     pub fn error(code: &str, message: impl Into<String>) -> Self {
-        Self { code: code.into(), severity: Severity::Error, frame: None, pixels: Vec::new(), message: message.into() }
+        Self {
+            code: code.into(),
+            severity: Severity::Error,
+            frame: None,
+            pixels: Vec::new(),
+            message: message.into(),
+        }
     }
 
     /// A warning that concerns the whole show.

@@ -106,3 +106,23 @@ impl Default for Stage {
         Self { width_m: 3.0, depth_m: 3.0, obstacles: Vec::new(), limits: Limits::default() }
     }
 }
+
+impl Default for Show {
+    fn default() -> Self {
+        Self {
+            name: String::new(),
+            stage: Stage::default(),
+            identity: Identity::Any,
+            starts: None,
+            music: None,
+            frames: Vec::new(),
+        }
+    }
+}
+
+/// The show on a floor of `width_m` by `depth_m` metres; obstacles and robots stay. For shows that carry no stage.
+pub fn with_floor(mut show: Show, width_m: f64, depth_m: f64) -> Show {
+    show.stage.width_m = width_m;
+    show.stage.depth_m = depth_m;
+    show
+}

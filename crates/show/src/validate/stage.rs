@@ -1,0 +1,82 @@
+//! The floor, its obstacles and the robots' limits.
+
+use lightbots_base::Limits;
+
+use super::{Findings, MAX_OBSTACLES};
+use crate::{Obstacle, Stage};
+
+/// Shortest side of a floor, metres.
+const LEAST_SIDE_M: f64 = 0.2;
+/// Longest side of a floor, metres.
+const MOST_SIDE_M: f64 = 200.0;
+
+/// Says what is wrong; `true` where the floor is one that pixels can be on or off.
+pub(super) fn check(stage: &Stage, findings: &mut Findings) -> bool {
+    let before = findings.issues.len();
+    for (name, side_m) in [("width", stage.width_m), ("depth", stage.depth_m)] {
+        if !(LEAST_SIDE_M..=MOST_SIDE_M).contains(&side_m) {
+            let what =
+                format!("the stage's {name} is {side_m} m; it must be {LEAST_SIDE_M} to {MOST_SIDE_M} m");
+            findings.show("bad-stage", what);
+        }
+    }
+    limits(&stage.limits, findings);
+    if stage.obstacles.len() > MAX_OBSTACLES {
+        let count = stage.obstacles.len();
+        findings.show(
+            "too-many-obstacles",
+            format!("{count} obstacles; a stage has at most {MAX_OBSTACLES}: join some"),
+        );
+    }
+    for (nth, obstacle) in stage.obstacles.iter().take(MAX_OBSTACLES).enumerate() {
+        if let Some(problem) = problem_of(obstacle) {
+            findings.show("bad-obstacle", format!("obstacle {}: {problem}", nth + 1));
+        }
+    }
+    findings.issues.len() == before
+}
+
+fn limits(limits: &Limits, findings: &mut Findings) {
+    let ranges = [
+        ("radius_m", limits.radius_m, 0.005, 1.0),
+        ("speed_mps", limits.speed_mps, 0.01, 10.0),
+        ("accel_mps2", limits.accel_mps2, 0.01, 100.0),
+        ("turn_radps", limits.turn_radps, 0.1, 100.0),
+        ("wheel_radps", limits.wheel_radps, 0.1, 10_000.0),
+        ("wheel_radius_m", limits.wheel_radius_m, 0.0005, 1.0),
+        ("track_m", limits.track_m, 0.002, 2.0),
+    ];
+    let mut is_sound = true;
+    for (name, value, least, most) in ranges {
+        if !(least..=most).contains(&value) {
+            let what = format!("the robot's {name} is {value}; it must be {least} to {most}");
+            findings.show("bad-limits", what);
+            is_sound = false;
+        }
+    }
+    let wheel_mps = limits.wheel_radps * limits.wheel_radius_m;
+    if is_sound && limits.speed_mps > wheel_mps {
+        let what = format!(
+            "the robot's speed_mps is {}, but its wheels make at most {wheel_mps:.3} m/s; lower it",
+            limits.speed_mps
+        );
+        findings.show("bad-limits", what);
+    }
+}
+
+fn problem_of(obstacle: &Obstacle) -> Option<&'static str> {
+    const MOST_M: f64 = 1e3;
+    match *obstacle {
+        Obstacle::Disc { at, radius_m } => {
+            let is_sound =
+                at.x.abs() <= MOST_M && at.y.abs() <= MOST_M && radius_m > 0.0 && radius_m <= MOST_M;
+            (!is_sound).then_some("its place and radius make no disc; the radius must be more than 0 m")
+        }
+        Obstacle::Rect { min, max } => {
+            let is_sound = min.x < max.x
+                && min.y < max.y
+                && [min.x, min.y, max.x, max.y].iter().all(|m| m.abs() <= MOST_M);
+            (!is_sound).then_some("its corners make no rectangle; min must be less than max in x and in y")
+        }
+    }
+}

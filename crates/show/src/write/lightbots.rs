@@ -1,0 +1,111 @@
+//! Our own format: a field a line, a pixel a line; fields that are what they are by default are left out, except the
+//! stage, because a show is drawn for a floor.
+
+use std::fmt::Write;
+
+use lightbots_base::{Limits, Vec2};
+
+use super::{lines, number, quoted};
+use crate::{Easing, Frame, Identity, Obstacle, Pixel, Show, Stage};
+
+pub(super) fn text(show: &Show) -> String {
+    let mut fields = vec!["\"lightbots\": 1".to_owned()];
+    if !show.name.is_empty() {
+        fields.push(format!("\"name\": {}", quoted(&show.name)));
+    }
+    fields.push(format!("\"stage\": {}", stage(&show.stage)));
+    if show.identity != Identity::default() {
+        fields.push(format!("\"identity\": {}", identity(show.identity)));
+    }
+    if let Some(starts) = &show.starts {
+        fields.push(format!("\"starts\": {}", lines(starts.iter().map(place), "  ")));
+    }
+    if let Some(music) = &show.music {
+        fields.push(format!("\"music\": {}", quoted(music)));
+    }
+    fields.push(format!("\"frames\": {}", lines(show.frames.iter().map(frame), "  ")));
+    format!("{{\n  {}\n}}\n", fields.join(",\n  "))
+}
+
+fn stage(stage: &Stage) -> String {
+    let mut fields = vec![
+        format!("\"width_m\": {}", number(stage.width_m)),
+        format!("\"depth_m\": {}", number(stage.depth_m)),
+    ];
+    if !stage.obstacles.is_empty() {
+        fields.push(format!("\"obstacles\": {}", lines(stage.obstacles.iter().map(obstacle), "    ")));
+    }
+    if stage.limits != Limits::default() {
+        fields.push(format!("\"robot\": {{ {} }}", limits(&stage.limits)));
+    }
+    format!("{{\n    {}\n  }}", fields.join(",\n    "))
+}
+
+fn obstacle(obstacle: &Obstacle) -> String {
+    match obstacle {
+        Obstacle::Disc { at, radius_m } => {
+            format!("{{ \"at\": {}, \"radius_m\": {} }}", place(at), number(*radius_m))
+        }
+        Obstacle::Rect { min, max } => format!("{{ \"min\": {}, \"max\": {} }}", place(min), place(max)),
+    }
+}
+
+/// The limits that differ from the default; at full precision, for they may be small.
+fn limits(limits: &Limits) -> String {
+    let usual = Limits::default();
+    let all = [
+        ("radius_m", limits.radius_m, usual.radius_m),
+        ("speed_mps", limits.speed_mps, usual.speed_mps),
+        ("accel_mps2", limits.accel_mps2, usual.accel_mps2),
+        ("turn_radps", limits.turn_radps, usual.turn_radps),
+        ("wheel_radps", limits.wheel_radps, usual.wheel_radps),
+        ("wheel_radius_m", limits.wheel_radius_m, usual.wheel_radius_m),
+        ("track_m", limits.track_m, usual.track_m),
+    ];
+    let changed = all.into_iter().filter(|(_, value, usual)| value != usual && value.is_finite());
+    changed.map(|(name, value, _)| format!("\"{name}\": {value}")).collect::<Vec<_>>().join(", ")
+}
+
+fn frame(frame: &Frame) -> String {
+    let mut fields = Vec::new();
+    if !frame.name.is_empty() {
+        fields.push(format!("\"name\": {}", quoted(&frame.name)));
+    }
+    fields.push(format!("\"air_time_s\": {}", number(frame.air_time_s)));
+    if let Some(seconds) = frame.transition_s {
+        fields.push(format!("\"transition_s\": {}", number(seconds)));
+    }
+    if frame.easing == Easing::Gentle {
+        fields.push("\"easing\": \"gentle\"".into());
+    }
+    if let Some(bound) = frame.identity {
+        fields.push(format!("\"identity\": {}", identity(bound)));
+    }
+    fields.push(format!("\"pixels\": {}", lines(frame.pixels.iter().map(pixel), "      ")));
+    format!("{{\n      {}\n    }}", fields.join(",\n      "))
+}
+
+fn pixel(pixel: &Pixel) -> String {
+    let mut line = format!(
+        "{{ \"id\": {}, \"place\": {}, \"color\": \"#{:06x}\"",
+        pixel.id,
+        place(&pixel.at),
+        pixel.color.number()
+    );
+    if let Some(robot) = &pixel.robot {
+        // Writing to a text cannot fail.
+        let _ = write!(line, ", \"robot\": {}", quoted(robot));
+    }
+    line + " }"
+}
+
+fn place(at: &Vec2) -> String {
+    format!("[{}, {}]", number(at.x), number(at.y))
+}
+
+fn identity(identity: Identity) -> &'static str {
+    match identity {
+        Identity::Any => "\"any\"",
+        Identity::Fixed => "\"fixed\"",
+    }
+}
