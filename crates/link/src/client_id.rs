@@ -1,0 +1,33 @@
+//! Client ids as the original's programs choose them, and the randomness behind them.
+
+use lightbots_base::RobotId;
+
+/// A fresh random UUID.
+pub fn random_id() -> RobotId {
+    let mut bytes = [0; 16];
+    // Without randomness of the system ids would collide on the broker: better to stop here.
+    getrandom::fill(&mut bytes).expect("the system gives no random numbers");
+    RobotId::from_random(u128::from_le_bytes(bytes))
+}
+
+/// The client id of a robot: `LightBot/<id>`.
+pub fn robot_client_id(id: &RobotId) -> String {
+    format!("LightBot/{id}")
+}
+
+/// A client id for a controller: `BotControl/<uuid>`, a new one each time.
+pub fn controller_client_id() -> String {
+    format!("BotControl/{}", random_id())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn client_ids_are_those_of_the_original() {
+        let id = RobotId::from_random(1);
+        assert_eq!(robot_client_id(&id), "LightBot/00000000-0000-4000-8000-000000000001");
+        assert_ne!(controller_client_id(), controller_client_id());
+    }
+}

@@ -1,0 +1,23 @@
+//! A connection to an MQTT broker that mends itself.
+//!
+//! It carries topics and payloads and knows nothing of what they mean. [`BrokerUrl`] says where the broker is,
+//! [`Link`] stays connected to it: it reconnects with back-off and jitter, subscribes again on every fresh session,
+//! never blocks its user, and drops rather than queues what cannot be sent now: a command that is late is worse than
+//! one that is lost, because the protocol repeats what matters.
+//!
+//! ```
+//! use lightbots_link::BrokerUrl;
+//! let broker = BrokerUrl::parse("mqtt://default:default@floor.local").unwrap();
+//! assert_eq!(broker.to_string(), "mqtt://floor.local:1883");
+//! ```
+
+mod backoff;
+mod client_id;
+mod link;
+mod pump;
+mod reason;
+mod url;
+
+pub use client_id::{controller_client_id, random_id, robot_client_id};
+pub use link::{Link, LinkConfig, LinkEvent, Sender};
+pub use url::{BrokerUrl, UrlError};
