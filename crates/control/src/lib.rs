@@ -1,1 +1,34 @@
-//! (being written)
+//! The controller core: fleet, show clock, mapping of pixels to robots, playback, recovery.
+//!
+//! Sans-IO and deterministic: messages, wishes and time come in as values, messages, events and planning jobs go out.
+//! It knows nothing of sockets, brokers, files or screens.
+//!
+//! Read [`Controller`] first, then [`Operation`], [`Snapshot`] and [`Event`].
+//!
+//! ```
+//! use lightbots_base::Instant;
+//! use lightbots_control::{Config, Controller};
+//! let mut controller = Controller::new(Config::default());
+//! controller.connected(Instant::ZERO);
+//! controller.message(Instant(5), "T/LightBot/UUID", b"robot-1 0.5 1.3");
+//! assert!(controller.snapshot(Instant(5)).robots.len() <= 1);
+//! ```
+
+mod clock;
+mod config;
+mod controller;
+mod drafting;
+mod event;
+mod fleet;
+mod log;
+mod operation;
+mod outbox;
+mod snapshot;
+
+pub use config::Config;
+pub use controller::Controller;
+pub use drafting::{Done, Job};
+pub use event::{Event, EventKind, Outcome, Trouble};
+pub use operation::{MissingPolicy, Operation, Refusal, State};
+pub use outbox::Send;
+pub use snapshot::{Age, Counters, RobotView, RunView, Snapshot};

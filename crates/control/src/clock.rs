@@ -1,0 +1,11 @@
+//! The show clock is the controller's `now`; robots ask for it and are answered at once.
+
+use crate::outbox::Outbox;
+use lightbots_base::Instant;
+use lightbots_wire::{Command, TimeAnswer, TimeQuestion, Topic};
+
+/// Answers a robot's question. Anyone may ask: an answer harms nobody and costs one message.
+pub(crate) fn answer(now: Instant, question: TimeQuestion, outbox: &mut Outbox) {
+    let answer = TimeAnswer { asked: question.asked, received: now, sent: now };
+    outbox.say(Topic::Robot(question.id), &[Command::Time(answer)]);
+}

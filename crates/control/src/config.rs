@@ -1,0 +1,58 @@
+//! What a controller is told once, at its start.
+
+use lightbots_base::Span;
+
+/// Bounds and tolerances of a controller. The default is what the shell uses, except for `seq_base`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Config {
+    /// Routes are numbered from here on. A restarted controller must not reuse numbers: derive it from the time of
+    /// day at the start (seconds since 1970 times 8 will do).
+    pub seq_base: u32,
+    /// How far from its goal, along x and along y, a robot may be that says it has arrived, metres.
+    pub arrival_tolerance_m: f64,
+    /// The most robots that are remembered; further names are counted and dropped.
+    pub robots_max: usize,
+    /// A robot not heard for longer is stale: it takes no part in a new run, but is driven around.
+    pub stale_after: Span,
+    /// A robot not heard for longer is gone: it is not driven around any more.
+    pub gone_after: Span,
+    /// How long before its moment a START is stated; grows by 20 µs a robot.
+    pub start_lead: Span,
+    /// A route not acknowledged for this long is sent again.
+    pub resend_after: Span,
+    /// How often a route is sent before its robot is given up.
+    pub tries: u32,
+    /// The most routes under way without an acknowledgement.
+    pub window: usize,
+    /// A robot that should report and did not for this long is given up.
+    pub silence: Span,
+    /// A robot this far off its path makes everybody wait, metres; more where the plan leaves more room.
+    pub late_m: f64,
+    /// How long everybody waits for a late robot before the rest is replanned around it.
+    pub late_bound: Span,
+    /// How long a plan may take before the run is given up.
+    pub plan_bound: Span,
+    /// How long a run outlives the broker.
+    pub offline_bound: Span,
+}
+
+impl Default for Config {
+    fn default() -> Self {
+        Self {
+            seq_base: 1,
+            arrival_tolerance_m: 0.02,
+            robots_max: 20_000,
+            stale_after: Span::from_millis(6_000),
+            gone_after: Span::from_millis(30_000),
+            start_lead: Span::from_millis(200),
+            resend_after: Span::from_millis(250),
+            tries: 12,
+            window: 1_024,
+            silence: Span::from_millis(1_500),
+            late_m: 0.012,
+            late_bound: Span::from_millis(4_000),
+            plan_bound: Span::from_millis(120_000),
+            offline_bound: Span::from_millis(300_000),
+        }
+    }
+}

@@ -1,0 +1,260 @@
+//! What the controller tells people and programs: one value a fact, with a line of text.
+
+use crate::operation::State;
+use core::fmt;
+use lightbots_base::{Instant, RobotId, Span};
+use lightbots_show::Severity;
+
+/// Something that happened.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Event {
+    /// When, show clock.
+    pub at: Instant,
+    /// What.
+    pub kind: EventKind,
+}
+
+/// What happened. `Display` is a line for people.
+#[derive(Clone, Debug, PartialEq)]
+pub enum EventKind {
+    /// The broker is there.
+    Connected,
+    /// The broker is lost.
+    Disconnected,
+    /// The controller does something else now.
+    StateChanged(State),
+    /// A robot was heard of for the first time.
+    RobotFound(RobotId),
+    /// A robot introduced itself again after a restart.
+    RobotRestarted(RobotId),
+    /// A robot was not heard for a while.
+    RobotStale(RobotId),
+    /// A robot was not heard for long.
+    RobotGone(RobotId),
+    /// A stale or gone robot is heard again.
+    RobotBack(RobotId),
+    /// There are more robots than can be remembered; said once.
+    FleetFull,
+    /// A show is on the desk.
+    ShowOpened {
+        /// Its name.
+        name: String,
+        /// How many frames it has.
+        frames: usize,
+    },
+    /// A run begins to be prepared.
+    RunBegun {
+        /// First frame, counted from 0.
+        from: usize,
+        /// Robots that take part, spares included.
+        robots: usize,
+    },
+    /// A plan is there.
+    Planned {
+        /// Frames it leads to.
+        frames: usize,
+    },
+    /// There is no plan to a frame.
+    PlanFailed {
+        /// Counted from 0.
+        frame: usize,
+        /// What stands in the way.
+        message: String,
+    },
+    /// Pixels of a frame stay dark.
+    LeftOut {
+        /// Counted from 0.
+        frame: usize,
+        /// Ids of the pixels, at most 16.
+        pixels: Vec<u32>,
+        /// How many there are.
+        count: usize,
+    },
+    /// Robots leave for a frame.
+    TransitionStarted {
+        /// Counted from 0.
+        frame: usize,
+        /// When they leave, show clock.
+        starts: Instant,
+        /// How long the drive is planned to take.
+        duration: Span,
+    },
+    /// A picture stands.
+    FrameReached {
+        /// Counted from 0.
+        frame: usize,
+        /// Between the first and the last arrival.
+        spread: Span,
+        /// From the planned end to the last arrival.
+        wait: Span,
+    },
+    /// Everybody waits for a robot.
+    Waiting {
+        /// For whom.
+        robot: RobotId,
+        /// Why.
+        why: Trouble,
+    },
+    /// On again.
+    Resumed,
+    /// A robot takes no part any more; the rest goes on without it.
+    Dropout {
+        /// Which.
+        robot: RobotId,
+        /// Why.
+        why: Trouble,
+    },
+    /// A robot takes part again, or a new one takes a dark pixel.
+    Rejoined(RobotId),
+    /// The rest of the run is planned again from where robots are.
+    Replanning {
+        /// The frame they were heading for, counted from 0.
+        frame: usize,
+    },
+    /// A robot says it arrived, but not where it should be.
+    Misaligned {
+        /// Which.
+        robot: RobotId,
+        /// How far off, metres.
+        off_m: f64,
+    },
+    /// A robot says it arrived and nobody sent it anywhere, or nobody knows it.
+    UnexpectedArrival(RobotId),
+    /// So many events of one kind were not said, because there were too many.
+    Suppressed(u64),
+    /// Every robot was told to stop.
+    StoppedAll,
+    /// A run is over.
+    RunEnded {
+        /// How.
+        outcome: Outcome,
+        /// Frames reached.
+        frames_played: usize,
+        /// Robots lost on the way.
+        dropouts: usize,
+    },
+}
+
+/// What is wrong with a robot in a run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Trouble {
+    /// It is behind its path, or blocked.
+    Late,
+    /// It does not report.
+    Silent,
+    /// It did not acknowledge its route or the start.
+    Deaf,
+    /// It does not know where it is.
+    Lost,
+    /// It reports a fault.
+    Faulty,
+    /// It was cut off or restarted and stands.
+    Cut,
+    /// It did not reach its goal in time.
+    Missed,
+}
+
+/// How a run ended.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Outcome {
+    /// All frames were played.
+    Finished,
+    /// The operator ended it.
+    Aborted,
+    /// It could not go on.
+    Failed(String),
+}
+
+impl EventKind {
+    /// How much it matters.
+    pub fn severity(&self) -> Severity {
+        use EventKind::*;
+        match self {
+            PlanFailed { .. } | Dropout { .. } | RunEnded { outcome: Outcome::Failed(_), .. } => {
+                Severity::Error
+            }
+            Disconnected
+            | RobotStale(_)
+            | RobotGone(_)
+            | FleetFull
+            | LeftOut { .. }
+            | Waiting { .. }
+            | Replanning { .. }
+            | Misaligned { .. }
+            | UnexpectedArrival(_)
+            | RobotRestarted(_)
+            | Suppressed(_)
+            | StoppedAll => Severity::Warning,
+            _ => Severity::Note,
+        }
+    }
+}
+
+impl fmt::Display for Trouble {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Late => "is behind its path",
+            Self::Silent => "does not report",
+            Self::Deaf => "does not acknowledge",
+            Self::Lost => "does not know where it is",
+            Self::Faulty => "reports a fault",
+            Self::Cut => "was cut off or restarted",
+            Self::Missed => "did not reach its goal",
+        })
+    }
+}
+
+impl fmt::Display for Outcome {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Finished => f.write_str("finished"),
+            Self::Aborted => f.write_str("aborted"),
+            Self::Failed(why) => write!(f, "failed: {why}"),
+        }
+    }
+}
+
+impl fmt::Display for EventKind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        use EventKind::*;
+        match self {
+            Connected => write!(f, "Connected to the broker."),
+            Disconnected => write!(f, "The broker is lost."),
+            StateChanged(state) => write!(f, "Now {state}."),
+            RobotFound(id) => write!(f, "Robot {id} is here."),
+            RobotRestarted(id) => write!(f, "Robot {id} has restarted."),
+            RobotStale(id) => write!(f, "Robot {id} has not been heard lately."),
+            RobotGone(id) => write!(f, "Robot {id} is gone."),
+            RobotBack(id) => write!(f, "Robot {id} is back."),
+            FleetFull => write!(f, "Too many robots: further names are not remembered."),
+            ShowOpened { name, frames } => write!(f, "Show \"{name}\" with {frames} frames is open."),
+            RunBegun { from, robots } => write!(f, "Run with {robots} robots from frame {}.", from + 1),
+            Planned { frames } => write!(f, "Planned the way to {frames} frames."),
+            PlanFailed { frame, message } => write!(f, "No way to frame {}: {message}", frame + 1),
+            LeftOut { frame, pixels, count } => {
+                let more = if *count > pixels.len() { " and more" } else { "" };
+                write!(f, "Frame {}: {count} pixels stay dark: {pixels:?}{more}.", frame + 1)
+            }
+            TransitionStarted { frame, duration, .. } => {
+                write!(f, "To frame {} in {:.2} s.", frame + 1, duration.as_secs())
+            }
+            FrameReached { frame, spread, .. } => {
+                write!(f, "Frame {} stands; arrivals within {:.2} s.", frame + 1, spread.as_secs())
+            }
+            Waiting { robot, why } => write!(f, "Everybody waits for robot {robot}: it {why}."),
+            Resumed => write!(f, "On again."),
+            Dropout { robot, why } => write!(f, "Robot {robot} drops out: it {why}."),
+            Rejoined(id) => write!(f, "Robot {id} takes part from the next frame on."),
+            Replanning { frame } => write!(f, "Planning the way to frame {} again.", frame + 1),
+            Misaligned { robot, off_m } => {
+                write!(f, "Robot {robot} stands {:.0} mm off its goal.", off_m * 1000.0)
+            }
+            UnexpectedArrival(id) => write!(f, "Robot {id} arrived unexpectedly."),
+            Suppressed(count) => write!(f, "{count} more events were not listed."),
+            StoppedAll => write!(f, "All robots were told to stop."),
+            RunEnded { outcome, frames_played, dropouts } => {
+                write!(f, "Run {outcome}; {frames_played} frames, {dropouts} dropouts.")
+            }
+        }
+    }
+}

@@ -1,0 +1,223 @@
+//! Who is here, where, since when. Robots age from active to stale to gone; they are found by any report.
+
+use crate::config::Config;
+use crate::event::EventKind;
+use crate::log::Log;
+use crate::snapshot::Age;
+use lightbots_base::{Instant, Rgb, RobotId, Span, Vec2};
+use lightbots_wire::{Abilities, Details, Firmware, Report, RobotState};
+use std::collections::HashMap;
+use std::hash::{BuildHasherDefault, DefaultHasher};
+
+/// Places farther from the stage's centre than this are no places, metres.
+const PLACE_MAX_M: f64 = 1_000.0;
+
+/// What is known of a robot.
+#[derive(Clone, Debug)]
+pub(crate) struct Robot {
+    pub id: RobotId,
+    /// Where it said it is, stage metres.
+    pub at: Option<Vec2>,
+    pub heading: Option<f64>,
+    pub battery: Option<u8>,
+    /// `None`: an original robot.
+    pub state: Option<RobotState>,
+    pub off_m: Option<f64>,
+    pub clock_us: Option<u32>,
+    pub route: u32,
+    pub firmware: Firmware,
+    pub abilities: Abilities,
+    pub found: Instant,
+    pub heard: Instant,
+    pub age: Age,
+    /// The light it was told to show.
+    pub light: Rgb,
+    /// Its seat in the run.
+    pub seat: Option<u32>,
+}
+
+/// What a report changed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Heard {
+    /// Whose report: index into [`Fleet::robots`].
+    pub index: usize,
+    /// It was not known before.
+    pub found: bool,
+    /// It lost what it knew: it has been switched off and on.
+    pub restarted: bool,
+}
+
+/// All known robots. Indices are stable until a robot is forgotten, which nobody may do during a run.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Fleet {
+    robots: Vec<Robot>,
+    /// Never iterated; the hasher has fixed keys, so that it is the same everywhere.
+    index_of: HashMap<RobotId, u32, BuildHasherDefault<DefaultHasher>>,
+    /// Where the patrol goes on.
+    patrolled: usize,
+    /// Reports of robots that were too many.
+    pub overflow: u64,
+}
+
+impl Robot {
+    fn new(id: RobotId, now: Instant) -> Self {
+        Self {
+            id,
+            at: None,
+            heading: None,
+            battery: None,
+            state: None,
+            off_m: None,
+            clock_us: None,
+            route: 0,
+            firmware: Firmware::new(),
+            abilities: Abilities::default(),
+            found: now,
+            heard: now,
+            age: Age::Active,
+            light: Rgb::BLACK,
+            seat: None,
+        }
+    }
+
+    /// Whether it speaks only TARGET and COLOR.
+    pub fn is_original(&self) -> bool {
+        !self.abilities.route
+    }
+
+    /// Whether it is here, well and stands or drives as told.
+    pub fn is_fit(&self) -> bool {
+        self.age == Age::Active && !matches!(self.state, Some(RobotState::Faulty | RobotState::Lost))
+    }
+
+    /// Whether it could take part in a run now.
+    pub fn can_take_part(&self) -> bool {
+        self.is_fit() && self.at.is_some()
+    }
+
+    /// Whether its last report says that its wheels may turn.
+    pub fn may_move(&self) -> bool {
+        matches!(self.state, Some(RobotState::Driving))
+    }
+
+    /// Takes over details; whether they say that it was restarted.
+    fn learn(&mut self, details: &Details) -> bool {
+        let restarted = self.clock_us.is_some() && details.clock_us.is_none() && details.route == 0;
+        self.heading = details.heading;
+        self.battery = details.battery;
+        self.state = Some(details.state);
+        self.off_m = details.off_m;
+        self.clock_us = details.clock_us;
+        self.route = details.route;
+        self.abilities = details.abilities;
+        if self.firmware != details.firmware {
+            self.firmware = details.firmware.clone();
+        }
+        restarted
+    }
+}
+
+impl Fleet {
+    /// Every known robot, in the order they were found.
+    pub fn robots(&self) -> &[Robot] {
+        &self.robots
+    }
+
+    /// One robot.
+    pub fn robot(&self, index: usize) -> &Robot {
+        &self.robots[index]
+    }
+
+    /// One robot, to be changed.
+    pub fn robot_mut(&mut self, index: usize) -> &mut Robot {
+        &mut self.robots[index]
+    }
+
+    /// Where in the list a robot is.
+    pub fn find(&self, id: RobotId) -> Option<usize> {
+        self.index_of.get(&id).map(|&index| index as usize)
+    }
+
+    /// Takes over a report. `None` where there is no room for another robot.
+    pub fn hear(&mut self, now: Instant, report: &Report, config: &Config, log: &mut Log) -> Option<Heard> {
+        let (index, found) = match self.find(report.id) {
+            Some(index) => (index, false),
+            None => (self.add(report.id, now, config, log)?, true),
+        };
+        let robot = &mut self.robots[index];
+        robot.heard = now;
+        let place = report.at.filter(|at| at.x.abs() < PLACE_MAX_M && at.y.abs() < PLACE_MAX_M);
+        if place.is_some() || report.details.is_some() {
+            robot.at = place;
+        }
+        let restarted = report.details.as_ref().is_some_and(|details| robot.learn(details));
+        if robot.age != Age::Active {
+            robot.age = Age::Active;
+            log.tell_limited(now, EventKind::RobotBack(report.id));
+        }
+        if restarted {
+            robot.light = Rgb::BLACK;
+            log.tell_limited(now, EventKind::RobotRestarted(report.id));
+        }
+        Some(Heard { index, found, restarted })
+    }
+
+    fn add(&mut self, id: RobotId, now: Instant, config: &Config, log: &mut Log) -> Option<usize> {
+        let index = self.robots.len();
+        if index >= config.robots_max {
+            if self.overflow == 0 {
+                log.tell(now, EventKind::FleetFull);
+            }
+            self.overflow += 1;
+            return None;
+        }
+        self.robots.push(Robot::new(id, now));
+        self.index_of.insert(id, index as u32);
+        log.tell(now, EventKind::RobotFound(id));
+        Some(index)
+    }
+
+    /// Forgets a robot.
+    pub fn forget(&mut self, index: usize) {
+        let robot = self.robots.remove(index);
+        self.index_of.remove(&robot.id);
+        for (later, robot) in self.robots.iter().enumerate().skip(index) {
+            self.index_of.insert(robot.id, later as u32);
+        }
+    }
+
+    /// Looks at the next slice of robots: who has become stale or gone. All are looked at within `rounds` calls.
+    /// Gives the looked at.
+    pub fn patrol(
+        &mut self,
+        now: Instant,
+        rounds: usize,
+        config: &Config,
+        log: &mut Log,
+    ) -> std::ops::Range<usize> {
+        let count = self.robots.len();
+        if self.patrolled >= count {
+            self.patrolled = 0;
+        }
+        let slice = self.patrolled..(self.patrolled + 256.max(count / rounds.max(1) + 1)).min(count);
+        self.patrolled = slice.end;
+        for robot in &mut self.robots[slice.clone()] {
+            let silent = now - robot.heard;
+            let age = age_after(silent, config);
+            if age > robot.age {
+                robot.age = age;
+                let told = if age == Age::Gone { EventKind::RobotGone } else { EventKind::RobotStale };
+                log.tell_limited(now, told(robot.id));
+            }
+        }
+        slice
+    }
+}
+
+fn age_after(silent: Span, config: &Config) -> Age {
+    match silent {
+        _ if silent >= config.gone_after => Age::Gone,
+        _ if silent >= config.stale_after => Age::Stale,
+        _ => Age::Active,
+    }
+}

@@ -1,0 +1,80 @@
+//! Events waiting to be read; the frequent kinds are limited so that no robot can flood the screen.
+
+use crate::event::{Event, EventKind};
+use lightbots_base::{Instant, Span};
+use std::collections::VecDeque;
+
+/// The most events that wait.
+const WAITING_MAX: usize = 50_000;
+/// The most events of the frequent kinds in one [`PERIOD`].
+const FREQUENT_MAX: u32 = 10;
+/// Over which the frequent kinds are counted.
+const PERIOD: Span = Span::from_millis(1_000);
+
+/// The queue of what the controller tells.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Log {
+    waiting: VecDeque<Event>,
+    period_began: Instant,
+    said: u32,
+    suppressed: u64,
+}
+
+impl Log {
+    /// An event that is always told, unless nobody reads.
+    pub fn tell(&mut self, at: Instant, kind: EventKind) {
+        if self.waiting.len() < WAITING_MAX {
+            self.waiting.push_back(Event { at, kind });
+        } else {
+            self.suppressed += 1;
+        }
+    }
+
+    /// An event any robot can cause at any rate.
+    pub fn tell_limited(&mut self, at: Instant, kind: EventKind) {
+        self.tick(at);
+        if self.said < FREQUENT_MAX {
+            self.said += 1;
+            self.tell(at, kind);
+        } else {
+            self.suppressed += 1;
+        }
+    }
+
+    /// Says how many events were suppressed, once their period is over.
+    pub fn tick(&mut self, now: Instant) {
+        if now - self.period_began < PERIOD {
+            return;
+        }
+        self.period_began = now;
+        self.said = 0;
+        if self.suppressed > 0 && self.waiting.len() < WAITING_MAX {
+            let count = std::mem::take(&mut self.suppressed);
+            self.tell(now, EventKind::Suppressed(count));
+        }
+    }
+
+    /// The next event.
+    pub fn next(&mut self) -> Option<Event> {
+        self.waiting.pop_front()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use lightbots_base::RobotId;
+
+    #[test]
+    fn frequent_events_are_limited_and_counted() {
+        let mut log = Log::default();
+        let id = RobotId::new("a").unwrap();
+        for _ in 0..1_000 {
+            log.tell_limited(Instant(2_000_000), EventKind::UnexpectedArrival(id));
+        }
+        log.tick(Instant(3_000_000));
+        let told: Vec<_> = std::iter::from_fn(|| log.next()).collect();
+        assert_eq!(told.len(), 11);
+        assert_eq!(told[10].kind, EventKind::Suppressed(990));
+    }
+}

@@ -1,0 +1,171 @@
+//! What the operator can ask for, and why it may be refused.
+
+use core::fmt;
+use lightbots_base::RobotId;
+use lightbots_show::Show;
+use std::sync::Arc;
+
+/// One wish of the operator.
+#[derive(Clone, Debug)]
+pub enum Operation {
+    /// This show is on the desk now. Refused during a run.
+    Open(Arc<Show>),
+    /// Play from a frame (counted from 0) to the end, starting with the drive there from wherever robots are.
+    Play {
+        /// The first frame played.
+        from: usize,
+        /// What happens to pixels no robot can show.
+        missing: MissingPolicy,
+    },
+    /// Drive to one frame (counted from 0) and stay.
+    Preview {
+        /// Which frame.
+        frame: usize,
+        /// What happens to pixels no robot can show.
+        missing: MissingPolicy,
+    },
+    /// Everybody slows down together and stands; in a picture: its air time stops.
+    Pause,
+    /// On from where Pause left off.
+    Resume,
+    /// From a pause to the next picture, and pause there.
+    Step,
+    /// The run ends and all wheels stop at once.
+    Abort,
+    /// Every robot stops at once, whoever set it going. Always possible while there is a broker.
+    StopAll,
+    /// Ask who is out there.
+    Refresh,
+    /// This robot flashes for five seconds.
+    Identify(RobotId),
+    /// Forget a robot that is not there any more. Refused while it takes part in a run.
+    Forget(RobotId),
+    /// Whether a played show starts again after its last frame.
+    Loop(bool),
+    /// Bind a pixel id to a robot in all frames, or free it.
+    Pin {
+        /// The pixel's id.
+        pixel: u32,
+        /// The only robot that may show it; `None`: any.
+        robot: Option<RobotId>,
+    },
+}
+
+/// What happens to pixels no robot can show.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum MissingPolicy {
+    /// The run does not begin.
+    #[default]
+    Refuse,
+    /// They stay dark.
+    LeaveOut,
+}
+
+/// What the controller is doing.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum State {
+    /// There is no broker.
+    #[default]
+    Idle,
+    /// There is a broker and no run.
+    Ready,
+    /// A run is being planned and handed to the robots.
+    Preparing,
+    /// A show plays.
+    Playing,
+    /// A run waits for the operator.
+    Paused,
+    /// Robots drive to one frame.
+    Preview,
+    /// Robots are being stopped.
+    Aborting,
+}
+
+/// Why an operation was not done. Its text says so to people, with what they can do.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Refusal {
+    /// There is no broker.
+    NotConnected,
+    /// No show is open.
+    NoShow,
+    /// The show has no such frame.
+    NoSuchFrame {
+        /// Asked for, counted from 0.
+        frame: usize,
+        /// How many there are.
+        frames: usize,
+    },
+    /// Not while the controller is in this state.
+    Busy(State),
+    /// There is no run to pause, resume or abort.
+    NoRun,
+    /// The run is not paused.
+    NotPaused,
+    /// There are not enough robots; [`MissingPolicy::LeaveOut`] plays without the missing ones.
+    TooFewRobots {
+        /// Most pixels in a frame.
+        pixels: usize,
+        /// Robots that can take part.
+        robots: usize,
+        /// Robots that are here but do not know where they are.
+        without_place: usize,
+        /// Robots that have not been heard of lately or report a fault.
+        unfit: usize,
+    },
+    /// Pixels are bound to robots that are not here.
+    PinnedMissing {
+        /// The pixels' ids, at most 16.
+        pixels: Vec<u32>,
+    },
+    /// No robot of that name is known.
+    UnknownRobot(RobotId),
+    /// That robot takes part in the run.
+    TakesPart(RobotId),
+}
+
+impl fmt::Display for State {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Idle => "not connected",
+            Self::Ready => "ready",
+            Self::Preparing => "preparing a run",
+            Self::Playing => "playing",
+            Self::Paused => "paused",
+            Self::Preview => "driving to a preview",
+            Self::Aborting => "stopping the robots",
+        })
+    }
+}
+
+impl fmt::Display for Refusal {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NotConnected => write!(f, "There is no broker: connect first."),
+            Self::NoShow => write!(f, "No show is open: open one first."),
+            Self::NoSuchFrame { frame, frames } => {
+                write!(f, "There is no frame {}: the show has {frames}.", frame + 1)
+            }
+            Self::Busy(state) => write!(f, "Not while the controller is {state}: abort first."),
+            Self::NoRun => write!(f, "Nothing is being played."),
+            Self::NotPaused => write!(f, "The run is not paused: pause it first."),
+            Self::TooFewRobots { pixels, robots, without_place, unfit } => {
+                write!(f, "The show needs {pixels} robots, {robots} can take part")?;
+                if *without_place > 0 {
+                    write!(f, ", {without_place} do not know where they are")?;
+                }
+                if *unfit > 0 {
+                    write!(f, ", {unfit} are silent or report a fault")?;
+                }
+                write!(f, ": add robots, or play and leave the missing pixels out.")
+            }
+            Self::PinnedMissing { pixels } => write!(
+                f,
+                "Pixels {pixels:?} are bound to robots that are not here: free them, or leave them out."
+            ),
+            Self::UnknownRobot(id) => write!(f, "No robot {id} is known: refresh the fleet."),
+            Self::TakesPart(id) => write!(f, "Robot {id} takes part in the run: abort first."),
+        }
+    }
+}
+
+impl std::error::Error for Refusal {}

@@ -1,0 +1,149 @@
+//! Messages waiting to be sent, and broadcasts said several times because links lose some.
+
+use lightbots_base::{Instant, Span};
+use lightbots_wire::{Command, Topic, encode};
+use std::collections::VecDeque;
+
+/// The most messages that wait; what comes on top is counted and dropped.
+const WAITING_MAX: usize = 200_000;
+/// The most broadcasts that are being repeated.
+const REPEATS_MAX: usize = 8;
+
+/// One message to publish.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Send {
+    /// Where.
+    pub topic: Topic,
+    /// What; UTF-8 text.
+    pub payload: Vec<u8>,
+}
+
+/// A broadcast said again and again.
+#[derive(Clone, Debug)]
+struct Repeat {
+    command: Command,
+    next: Instant,
+    every: Span,
+    left: u32,
+}
+
+/// The queue of what the controller says.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Outbox {
+    waiting: VecDeque<Send>,
+    repeats: Vec<Repeat>,
+    text: String,
+    linked: bool,
+    /// Messages handed out.
+    pub sent: u64,
+    /// Messages dropped.
+    pub unsent: u64,
+}
+
+impl Outbox {
+    /// The broker is there or lost. What waits for a lost one is dropped: it would come too late.
+    pub fn link(&mut self, up: bool) {
+        self.linked = up;
+        if !up {
+            self.unsent += self.waiting.len() as u64;
+            self.waiting.clear();
+            self.repeats.clear();
+        }
+    }
+
+    /// Whether there is a broker.
+    pub fn linked(&self) -> bool {
+        self.linked
+    }
+
+    /// Commands in one payload to one topic.
+    pub fn say(&mut self, topic: Topic, commands: &[Command]) {
+        if !self.linked || self.waiting.len() >= WAITING_MAX {
+            self.unsent += 1;
+            return;
+        }
+        self.text.clear();
+        for command in commands {
+            if encode(command, &mut self.text).is_err() {
+                self.unsent += 1;
+                return;
+            }
+        }
+        self.waiting.push_back(Send { topic, payload: self.text.as_bytes().to_vec() });
+    }
+
+    /// A broadcast now, and again `times − 1` times.
+    pub fn broadcast(&mut self, now: Instant, command: Command, times: u32, every: Span) {
+        self.say(Topic::Broadcast, std::slice::from_ref(&command));
+        if times > 1 && self.linked && self.repeats.len() < REPEATS_MAX {
+            self.repeats.push(Repeat { command, next: now + every, every, left: times - 1 });
+        }
+    }
+
+    /// Nothing is repeated any more.
+    pub fn cease(&mut self) {
+        self.repeats.clear();
+    }
+
+    /// Says what is due again.
+    pub fn tick(&mut self, now: Instant) {
+        if self.repeats.is_empty() {
+            return;
+        }
+        let mut repeats = std::mem::take(&mut self.repeats);
+        for repeat in &mut repeats {
+            if now >= repeat.next {
+                self.say(Topic::Broadcast, std::slice::from_ref(&repeat.command));
+                repeat.next = now + repeat.every;
+                repeat.left -= 1;
+            }
+        }
+        repeats.retain(|repeat| repeat.left > 0);
+        self.repeats = repeats;
+    }
+
+    /// When something is due again.
+    pub fn due(&self) -> Option<Instant> {
+        self.repeats.iter().map(|repeat| repeat.next).min()
+    }
+
+    /// The next message to publish.
+    pub fn next(&mut self) -> Option<Send> {
+        let send = self.waiting.pop_front()?;
+        self.sent += 1;
+        Some(send)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn payloads(outbox: &mut Outbox) -> Vec<String> {
+        std::iter::from_fn(|| outbox.next()).map(|send| String::from_utf8(send.payload).unwrap()).collect()
+    }
+
+    #[test]
+    fn a_broadcast_is_repeated_as_often_as_asked() {
+        let mut outbox = Outbox::default();
+        outbox.link(true);
+        outbox.broadcast(Instant::ZERO, Command::Stop, 3, Span(10));
+        for us in [5, 10, 15, 20, 30] {
+            outbox.tick(Instant(us));
+        }
+        assert_eq!(payloads(&mut outbox), ["|STOP|", "|STOP|", "|STOP|"]);
+        assert_eq!(outbox.due(), None);
+    }
+
+    #[test]
+    fn without_a_broker_nothing_waits() {
+        let mut outbox = Outbox::default();
+        outbox.say(Topic::Broadcast, &[Command::Uuid]);
+        outbox.link(true);
+        outbox.broadcast(Instant::ZERO, Command::Stop, 3, Span(10));
+        outbox.link(false);
+        outbox.tick(Instant(50));
+        assert!(payloads(&mut outbox).is_empty());
+        assert_eq!(outbox.unsent, 2);
+    }
+}
