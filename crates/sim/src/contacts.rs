@@ -1,0 +1,159 @@
+//! What happens when discs touch: they are moved apart, each as far as its wheels let it.
+
+use lightbots_base::Vec2;
+
+/// How far a standing robot can be pushed along its wheels' direction before it stands like a wall, metres. Measured
+/// in Webots: 1 cm.
+const SLACK_M: f64 = 0.01;
+/// How far a standing robot moves sideways in a step when pushed, metres. Measured in Webots: 0.06 m/s.
+const SIDEWAYS_M: f64 = 0.06 * 0.016;
+/// Two that touched have parted when their rims are this far apart, metres.
+const PARTED_M: f64 = 0.0005;
+/// How often a step goes over the list to pull chains of robots apart.
+const ROUNDS: usize = 4;
+
+/// What a robot sets against being pushed.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Stance {
+    /// Unit vector of its front.
+    pub forward: Vec2,
+    /// Whether its wheels stand.
+    pub stands: bool,
+    /// How far it can still be pushed along its wheels' direction, metres.
+    pub slack_m: f64,
+}
+
+impl Stance {
+    /// A robot nobody pushes.
+    pub fn new(forward: Vec2) -> Self {
+        Self { forward, stands: true, slack_m: SLACK_M }
+    }
+
+    /// How far it gives way in direction `push` (a unit vector) in one step, at most `wanted_m`; takes it from its slack.
+    fn give_way(&mut self, push: Vec2, wanted_m: f64) -> f64 {
+        let along = self.forward.dot(push);
+        let along_share = along * along;
+        let most_m = along_share * self.slack_m + (1.0 - along_share) * SIDEWAYS_M;
+        let moved_m = wanted_m.min(most_m);
+        self.slack_m = (self.slack_m - along_share * moved_m).max(0.0);
+        moved_m
+    }
+}
+
+/// Who touches whom, how often it happened, and how near centres came.
+#[derive(Clone, Debug)]
+pub struct Contacts {
+    contact_m: f64,
+    /// Pairs that touch, sorted.
+    touching: Vec<(u32, u32)>,
+    /// Squared distances of the near pairs that were closer than contact in this step.
+    now: Vec<(u32, u32)>,
+    count: u64,
+    closest_squared: f64,
+}
+
+impl Contacts {
+    /// Discs that touch where their centres are closer than `contact_m`.
+    pub(crate) fn new(contact_m: f64) -> Self {
+        Self { contact_m, touching: Vec::new(), now: Vec::new(), count: 0, closest_squared: f64::MAX }
+    }
+
+    /// How many pairs came to touch so far; a pair that parted and touches again counts again.
+    pub fn count(&self) -> u64 {
+        self.count
+    }
+
+    /// The least distance of two centres so far, metres; `None` where nobody came near anybody.
+    pub fn closest_m(&self) -> Option<f64> {
+        (self.closest_squared < f64::MAX).then(|| libm::sqrt(self.closest_squared))
+    }
+
+    /// Whether nobody touches anybody.
+    pub fn none_touching(&self) -> bool {
+        self.touching.is_empty()
+    }
+
+    /// Looks at the near pairs after a step, counts new contacts and moves those that touch apart.
+    pub(crate) fn resolve(&mut self, pairs: &[(u32, u32)], places: &mut [Vec2], stances: &mut [Stance]) {
+        let contact_squared = self.contact_m * self.contact_m - 1e-12;
+        self.now.clear();
+        let mut closest = self.closest_squared;
+        for &(a, b) in pairs {
+            let distance = (places[b as usize] - places[a as usize]).length_squared();
+            closest = closest.min(distance);
+            if distance < contact_squared {
+                self.now.push((a, b));
+            }
+        }
+        self.closest_squared = closest;
+        if self.now.is_empty() && self.touching.is_empty() {
+            return;
+        }
+        self.count_new(places, stances);
+        for _ in 0..ROUNDS {
+            if !self.part(pairs, places, stances, contact_squared) {
+                break;
+            }
+        }
+    }
+
+    fn count_new(&mut self, places: &[Vec2], stances: &mut [Stance]) {
+        let parted = (self.contact_m + PARTED_M) * (self.contact_m + PARTED_M);
+        self.touching.retain(|&(a, b)| {
+            let touches = (places[b as usize] - places[a as usize]).length_squared() < parted;
+            if !touches {
+                stances[a as usize].slack_m = SLACK_M;
+                stances[b as usize].slack_m = SLACK_M;
+            }
+            touches
+        });
+        for &pair in &self.now {
+            if let Err(place) = self.touching.binary_search(&pair) {
+                self.touching.insert(place, pair);
+                self.count += 1;
+            }
+        }
+    }
+
+    /// One round over the list; whether anybody still overlapped.
+    fn part(
+        &self,
+        pairs: &[(u32, u32)],
+        places: &mut [Vec2],
+        stances: &mut [Stance],
+        contact_squared: f64,
+    ) -> bool {
+        let mut overlapped = false;
+        for &(a, b) in pairs {
+            let (a, b) = (a as usize, b as usize);
+            let gap = places[b] - places[a];
+            if gap.length_squared() < contact_squared {
+                overlapped = true;
+                self.push_apart(a, b, gap, places, stances);
+            }
+        }
+        overlapped
+    }
+
+    fn push_apart(&self, a: usize, b: usize, gap: Vec2, places: &mut [Vec2], stances: &mut [Stance]) {
+        // Two on one spot part along x: any direction will do, as long as it is always the same.
+        let (distance, normal) = match gap.normalized() {
+            Some(normal) => (gap.length(), normal),
+            None => (0.0, Vec2::new(1.0, 0.0)),
+        };
+        let overlap = self.contact_m - distance;
+        let (move_a, move_b) = match (stances[a].stands, stances[b].stands) {
+            (false, true) => {
+                let given = stances[b].give_way(normal, overlap);
+                (overlap - given, given)
+            }
+            (true, false) => {
+                let given = stances[a].give_way(-normal, overlap);
+                (given, overlap - given)
+            }
+            _ => (0.5 * overlap, 0.5 * overlap),
+        };
+        places[a] = places[a] - normal * move_a;
+        places[b] = places[b] + normal * move_b;
+    }
+}

@@ -1,0 +1,161 @@
+//! Seeded chance: the same seed gives the same throws on every machine.
+
+use std::sync::LazyLock;
+
+/// What chance is needed for. Every purpose has its own stream, so that more throws for one thing (a noisier sensor)
+/// do not change another (which message is lost).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Purpose {
+    /// Names, clocks and batteries of robots.
+    Robots = 1,
+    /// Slip of wheels.
+    Slip = 2,
+    /// Noise of position fixes.
+    Sensors = 3,
+    /// What networks do to messages.
+    Links = 4,
+    /// Who breaks down, and when.
+    Breakdowns = 5,
+}
+
+/// A stream of random numbers (xoshiro256++ by Blackman and Vigna, seeded through SplitMix64).
+#[derive(Clone, Debug)]
+pub struct Dice {
+    state: [u64; 4],
+}
+
+/// Quantiles of the normal distribution at (i + ½) / 4096, scaled to a standard deviation of exactly 1.
+static NORMAL: LazyLock<Box<[f32; NORMAL_LEN]>> = LazyLock::new(normal_table);
+const NORMAL_LEN: usize = 4096;
+
+impl Dice {
+    /// The stream of a seed for a purpose.
+    pub fn new(seed: u64, purpose: Purpose) -> Self {
+        let mut mix = seed ^ (purpose as u64).wrapping_mul(0xd1b5_4a32_d192_ed03);
+        Self { state: std::array::from_fn(|_| split_mix(&mut mix)) }
+    }
+
+    /// 64 random bits.
+    #[inline]
+    pub fn bits(&mut self) -> u64 {
+        let s = &mut self.state;
+        let result = s[0].wrapping_add(s[3]).rotate_left(23).wrapping_add(s[0]);
+        let t = s[1] << 17;
+        s[2] ^= s[0];
+        s[3] ^= s[1];
+        s[1] ^= s[2];
+        s[0] ^= s[3];
+        s[2] ^= t;
+        s[3] = s[3].rotate_left(45);
+        result
+    }
+
+    /// Evenly in 0..1.
+    #[inline]
+    pub fn unit(&mut self) -> f64 {
+        (self.bits() >> 11) as f64 * (1.0 / (1u64 << 53) as f64)
+    }
+
+    /// Evenly in `low..high`.
+    pub fn between(&mut self, low: f64, high: f64) -> f64 {
+        low + (high - low) * self.unit()
+    }
+
+    /// A whole number below `end`; 0 where `end` is 0.
+    pub fn below(&mut self, end: u64) -> u64 {
+        ((u128::from(self.bits()) * u128::from(end)) >> 64) as u64
+    }
+
+    /// True with this probability. Throws nothing where it is 0.
+    #[inline]
+    pub fn chance(&mut self, probability: f64) -> bool {
+        probability > 0.0 && self.unit() < probability
+    }
+
+    /// Three independent normal numbers of deviation 1, cut off at 3.7: one throw and three look-ups in a table, as
+    /// they are needed for every robot at every step.
+    #[inline]
+    pub fn normal3(&mut self) -> [f64; 3] {
+        let bits = self.bits();
+        let table: &[f32; NORMAL_LEN] = &NORMAL;
+        let pick = |shift: u32| f64::from(table[(bits >> shift) as usize % NORMAL_LEN]);
+        [pick(52), pick(40), pick(28)]
+    }
+}
+
+fn split_mix(state: &mut u64) -> u64 {
+    *state = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
+    let mut z = *state;
+    z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    z ^ (z >> 31)
+}
+
+fn normal_table() -> Box<[f32; NORMAL_LEN]> {
+    let raw: Vec<f64> = (0..NORMAL_LEN).map(|i| quantile((i as f64 + 0.5) / NORMAL_LEN as f64)).collect();
+    let deviation = libm::sqrt(raw.iter().map(|z| z * z).sum::<f64>() / NORMAL_LEN as f64);
+    let mut table = Box::new([0.0; NORMAL_LEN]);
+    for (entry, z) in table.iter_mut().zip(raw) {
+        *entry = (z / deviation) as f32;
+    }
+    table
+}
+
+/// The value below which a normal number falls with probability `p`: bisection of the distribution function, which
+/// needs no remembered coefficients and is only done for the table.
+fn quantile(p: f64) -> f64 {
+    let (mut low, mut high) = (-6.0, 6.0);
+    for _ in 0..50 {
+        let middle = 0.5 * (low + high);
+        if 0.5 * libm::erfc(-middle / core::f64::consts::SQRT_2) < p {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    0.5 * (low + high)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_seed_repeats_and_purposes_differ() {
+        let throws = |seed, purpose| Dice::new(seed, purpose).bits();
+        assert_eq!(throws(7, Purpose::Slip), throws(7, Purpose::Slip));
+        assert_ne!(throws(7, Purpose::Slip), throws(7, Purpose::Links));
+        assert_ne!(throws(7, Purpose::Slip), throws(8, Purpose::Slip));
+    }
+
+    #[test]
+    fn normal_numbers_are_normal() {
+        let mut dice = Dice::new(1, Purpose::Sensors);
+        let (mut sum, mut squares, mut outside, mut product) = (0.0, 0.0, 0, 0.0);
+        let rounds = 100_000;
+        for _ in 0..rounds {
+            let [a, b, c] = dice.normal3();
+            sum += a + b + c;
+            squares += a * a + b * b + c * c;
+            outside += [a, b, c].iter().filter(|z| z.abs() > 1.96).count();
+            product += a * b + b * c;
+        }
+        let n = 3.0 * f64::from(rounds);
+        assert!((sum / n).abs() < 0.01);
+        assert!((squares / n - 1.0).abs() < 0.01);
+        assert!((outside as f64 / n - 0.05).abs() < 0.003);
+        assert!((product / n).abs() < 0.01);
+    }
+
+    #[test]
+    fn even_numbers_fill_their_range() {
+        let mut dice = Dice::new(3, Purpose::Links);
+        let mut seen = [0; 10];
+        for _ in 0..10_000 {
+            seen[dice.below(10) as usize] += 1;
+        }
+        assert!(seen.iter().all(|count| (900..1100).contains(count)), "{seen:?}");
+        assert_eq!(dice.below(0), 0);
+        assert!(!dice.chance(0.0) && dice.chance(1.0));
+    }
+}

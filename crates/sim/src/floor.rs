@@ -1,0 +1,119 @@
+//! What stands around the robots: walls and obstacles.
+
+use lightbots_base::Vec2;
+use lightbots_show::{Obstacle, Stage};
+
+/// The floor's edge and the things on it, for discs of one radius.
+#[derive(Clone, Debug)]
+pub(crate) struct Floor {
+    /// Where a centre can be: half the floor less the radius, metres.
+    half: Vec2,
+    radius_m: f64,
+    obstacles: Vec<Obstacle>,
+}
+
+/// What a disc ran into.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Bump {
+    /// The wall around the floor.
+    Wall,
+    /// Something on the floor.
+    Obstacle,
+}
+
+impl Floor {
+    /// The floor of a stage. A robot that starts outside of it widens it, so that it is not thrown inside.
+    pub fn new(stage: &Stage, starts: &[Vec2]) -> Self {
+        let radius_m = stage.limits.radius_m;
+        let half = Vec2::new(0.5 * stage.width_m - radius_m, 0.5 * stage.depth_m - radius_m);
+        let half = starts
+            .iter()
+            .filter(|start| start.is_finite())
+            .fold(half, |half, start| Vec2::new(half.x.max(start.x.abs()), half.y.max(start.y.abs())));
+        Self { half, radius_m, obstacles: stage.obstacles.clone() }
+    }
+
+    /// Moves a disc out of walls and obstacles; what it ran into, the obstacle where both.
+    #[inline]
+    pub fn keep_out(&self, place: &mut Vec2) -> Option<Bump> {
+        let inside =
+            Vec2::new(place.x.clamp(-self.half.x, self.half.x), place.y.clamp(-self.half.y, self.half.y));
+        let mut bump = (inside != *place).then_some(Bump::Wall);
+        *place = inside;
+        for obstacle in &self.obstacles {
+            if let Some(out) = self.out_of(obstacle, *place) {
+                *place = out;
+                bump = Some(Bump::Obstacle);
+            }
+        }
+        bump
+    }
+
+    /// The nearest place outside of an obstacle; `None` for a disc that does not touch it.
+    fn out_of(&self, obstacle: &Obstacle, place: Vec2) -> Option<Vec2> {
+        let (nearest, reach) = match *obstacle {
+            Obstacle::Disc { at, radius_m } => (at, radius_m + self.radius_m),
+            Obstacle::Rect { min, max } => {
+                let nearest = Vec2::new(place.x.max(min.x).min(max.x), place.y.max(min.y).min(max.y));
+                (nearest, self.radius_m)
+            }
+        };
+        let gap = place - nearest;
+        if gap.length_squared() >= reach * reach {
+            return None;
+        }
+        match (gap.normalized(), *obstacle) {
+            (Some(normal), _) => Some(nearest + normal * reach),
+            (None, Obstacle::Disc { .. }) => Some(nearest + Vec2::new(reach, 0.0)),
+            (None, Obstacle::Rect { min, max }) => Some(self.out_of_rect(place, min, max)),
+        }
+    }
+
+    /// The way out of a rectangle for a centre inside of it: through the nearest side.
+    fn out_of_rect(&self, place: Vec2, min: Vec2, max: Vec2) -> Vec2 {
+        let ways = [
+            (place.x - min.x, Vec2::new(min.x - self.radius_m, place.y)),
+            (max.x - place.x, Vec2::new(max.x + self.radius_m, place.y)),
+            (place.y - min.y, Vec2::new(place.x, min.y - self.radius_m)),
+            (max.y - place.y, Vec2::new(place.x, max.y + self.radius_m)),
+        ];
+        ways.iter().fold(ways[0], |best, &way| if way.0 < best.0 { way } else { best }).1
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn floor(obstacles: Vec<Obstacle>) -> Floor {
+        Floor::new(&Stage { obstacles, ..Stage::default() }, &[])
+    }
+
+    fn kept_out(floor: &Floor, x: f64, y: f64) -> (Vec2, Option<Bump>) {
+        let mut place = Vec2::new(x, y);
+        let bump = floor.keep_out(&mut place);
+        (place, bump)
+    }
+
+    #[test]
+    fn a_robot_stands_a_radius_from_the_wall() {
+        assert_eq!(kept_out(&floor(vec![]), 1.6, 0.0), (Vec2::new(1.473, 0.0), Some(Bump::Wall)));
+        assert_eq!(kept_out(&floor(vec![]), 1.4, -0.3), (Vec2::new(1.4, -0.3), None));
+    }
+
+    #[test]
+    fn obstacles_push_out_by_the_shortest_way() {
+        let disc = floor(vec![Obstacle::Disc { at: Vec2::ZERO, radius_m: 0.1 }]);
+        let (place, bump) = kept_out(&disc, 0.0, 0.12);
+        assert!((place - Vec2::new(0.0, 0.127)).length() < 1e-12 && bump == Some(Bump::Obstacle));
+        let rect = floor(vec![Obstacle::Rect { min: Vec2::ZERO, max: Vec2::new(1.0, 0.5) }]);
+        assert_eq!(kept_out(&rect, 0.5, 0.45).0, Vec2::new(0.5, 0.527));
+        assert_eq!(kept_out(&rect, 0.5, 0.6), (Vec2::new(0.5, 0.6), None));
+    }
+
+    #[test]
+    fn who_starts_outside_may_stay_there() {
+        let floor = Floor::new(&Stage::default(), &[Vec2::new(1.49, 0.0)]);
+        assert_eq!(kept_out(&floor, 1.49, 0.0).1, None);
+    }
+}

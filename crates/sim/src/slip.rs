@@ -1,0 +1,74 @@
+//! Wheels that slip: each moves the body a little less than it turns, by a share that wanders slowly.
+
+use crate::dice::Dice;
+
+/// Steps between the points at which a wheel's slip finds a new goal: about half a second.
+const STRIDE: u32 = 32;
+
+/// The slip of one robot's two wheels, left and right.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Slip {
+    /// Each wheel's own mean, share of its turning.
+    mean: [f64; 2],
+    now: [f64; 2],
+    /// Change per step until the next goal.
+    slope: [f64; 2],
+    steps_left: u32,
+}
+
+impl Slip {
+    /// Wheels that slip by `level` (a share, 0.03 is 3 %) in the mean of all robots: a wheel's own mean lies evenly
+    /// between half of that and one and a half, and it wanders by up to half of `level` about it.
+    pub fn new(level: f64, dice: &mut Dice) -> Self {
+        let mean = std::array::from_fn(|_| if level > 0.0 { level * dice.between(0.5, 1.5) } else { 0.0 });
+        Self { mean, now: mean, slope: [0.0; 2], steps_left: dice.below(u64::from(STRIDE)) as u32 }
+    }
+
+    /// The share of each wheel's turning that moves the body in the next step.
+    #[inline]
+    pub fn grip(&mut self, level: f64, dice: &mut Dice) -> [f64; 2] {
+        if level > 0.0 {
+            if self.steps_left == 0 {
+                self.steps_left = STRIDE;
+                for wheel in 0..2 {
+                    let goal = self.mean[wheel] + level * dice.between(-0.5, 0.5);
+                    self.slope[wheel] = (goal - self.now[wheel]) * (1.0 / f64::from(STRIDE));
+                }
+            }
+            self.steps_left -= 1;
+            self.now[0] += self.slope[0];
+            self.now[1] += self.slope[1];
+        }
+        [1.0 - self.now[0], 1.0 - self.now[1]]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::dice::Purpose;
+
+    #[test]
+    fn slip_stays_about_its_level_and_wanders() {
+        let mut dice = Dice::new(5, Purpose::Slip);
+        let (mut sum, mut low, mut high) = (0.0, 1f64, 0f64);
+        for _ in 0..200 {
+            let mut slip = Slip::new(0.03, &mut dice);
+            for _ in 0..500 {
+                for grip in slip.grip(0.03, &mut dice) {
+                    sum += 1.0 - grip;
+                    low = low.min(1.0 - grip);
+                    high = high.max(1.0 - grip);
+                }
+            }
+        }
+        assert!((sum / 200_000.0 - 0.03).abs() < 0.003);
+        assert!((-1e-9..0.01).contains(&low) && high > 0.05 && high < 0.06 + 1e-9);
+    }
+
+    #[test]
+    fn without_slip_every_turn_counts() {
+        let mut dice = Dice::new(5, Purpose::Slip);
+        assert_eq!(Slip::new(0.0, &mut dice).grip(0.0, &mut dice), [1.0, 1.0]);
+    }
+}

@@ -1,0 +1,93 @@
+//! How quickly a turning Elisa-3 turns: its effective track, as measured.
+
+use std::sync::LazyLock;
+
+/// Metres of rim a wheel lays down per radian: its radius.
+pub(crate) const WHEEL_RADIUS_M: f64 = 0.0045;
+
+/// Half the difference of the wheels' rates (rad/s), effective track when turning on the spot (m), and what driving at
+/// 50 rad/s and more adds to it (m). Derived from the turning rates measured in Webots R2023b: see docs/simulator.md.
+/// Between the rows it is linear; outside, as at the ends.
+const MEASURED: [(f64, f64, f64); 6] = [
+    (1.0, 0.0400, 0.0),
+    (5.0, 0.040_036, 0.000_54),
+    (10.0, 0.039_25, 0.001_474),
+    (20.0, 0.040_178, 0.000_61),
+    (40.0, 0.040_77, 0.0006),
+    (60.0, 0.041_38, 0.0006),
+];
+
+/// Mean rate of the wheels at which driving has its whole effect on the track, rad/s.
+const DRIVING_RADPS: f64 = 50.0;
+
+/// Rows of the look-up table, one for each rad/s of half the difference; wheels cannot differ by more.
+const ROWS: usize = 142;
+
+static ROWS_BY_RATE: LazyLock<Box<[(f64, f64); ROWS]>> =
+    LazyLock::new(|| Box::new(std::array::from_fn(|rate| interpolate(rate as f64))));
+
+/// The turning rate (rad/s, counter-clockwise) that wheels turning at these rates (rad/s) settle at.
+#[inline]
+pub(crate) fn turn_radps(left: f64, right: f64) -> f64 {
+    let half = 0.5 * (right - left);
+    if half == 0.0 {
+        return 0.0;
+    }
+    let rate = half.abs().min((ROWS - 2) as f64);
+    let row = rate as usize;
+    let share = rate - row as f64;
+    let rows: &[(f64, f64); ROWS] = &ROWS_BY_RATE;
+    let (low, high) = (rows[row], rows[row + 1]);
+    let driving = (0.5 * (left + right).abs() * (1.0 / DRIVING_RADPS)).min(1.0);
+    let track = low.0 + (high.0 - low.0) * share + (low.1 + (high.1 - low.1) * share) * driving;
+    2.0 * WHEEL_RADIUS_M * half / track
+}
+
+fn interpolate(rate: f64) -> (f64, f64) {
+    let first = MEASURED[0];
+    let mut before = first;
+    for row in MEASURED {
+        if rate <= row.0 {
+            let span = row.0 - before.0;
+            let share = if span > 0.0 { (rate - before.0) / span } else { 0.0 };
+            return (before.1 + (row.1 - before.1) * share, before.2 + (row.2 - before.2) * share);
+        }
+        before = row;
+    }
+    (before.1, before.2)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Wheels (rad/s) and turning rate (rad/s) as measured in Webots.
+    const TABLE: [(f64, f64, f64); 9] = [
+        (-5.0, 5.0, 1.124),
+        (-10.0, 10.0, 2.293),
+        (-20.0, 20.0, 4.48),
+        (-40.0, 40.0, 8.83),
+        (-60.0, 60.0, 13.05),
+        (0.0, 40.0, 4.453),
+        (40.0, 60.0, 2.210),
+        (50.0, 60.0, 1.109),
+        (58.0, 60.0, 0.225),
+    ];
+
+    #[test]
+    fn every_measured_rate_is_met_and_mirrored() {
+        for (left, right, turn) in TABLE {
+            let ours = turn_radps(left, right);
+            assert!((ours / turn - 1.0).abs() < 0.003, "{left}/{right}: {ours} for {turn}");
+            assert_eq!(turn_radps(right, left), -ours);
+            assert_eq!(turn_radps(-left, -right), -ours);
+        }
+    }
+
+    #[test]
+    fn equal_wheels_do_not_turn_and_wild_ones_stay_finite() {
+        assert_eq!(turn_radps(60.0, 60.0), 0.0);
+        assert!(turn_radps(-140.0, 140.0).is_finite());
+        assert!(turn_radps(-1e9, 1e9).is_finite());
+    }
+}

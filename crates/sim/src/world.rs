@@ -1,0 +1,187 @@
+//! The world: bodies that drive, slip and push each other on a floor.
+
+use lightbots_base::{Pose, Span, Vec2, wrap};
+use lightbots_show::Stage;
+
+use crate::contacts::{Contacts, Stance};
+use crate::dice::{Dice, Purpose};
+use crate::drive::Drive;
+use crate::floor::{Bump, Floor};
+use crate::hash::StateHash;
+use crate::near::Near;
+use crate::slip::Slip;
+
+/// The length of a step of the world: that of the Webots world and of a robot's control loop.
+pub const STEP: Span = Span::from_millis(16);
+
+pub(crate) const STEP_S: f64 = 0.016;
+
+/// N robots' bodies on a floor. Places are kept apart from the rest, as contacts look at nothing else.
+#[derive(Clone, Debug)]
+pub struct World {
+    places: Vec<Vec2>,
+    stances: Vec<Stance>,
+    bodies: Vec<Body>,
+    floor: Floor,
+    near: Near,
+    contacts: Contacts,
+    slip: f64,
+    dice: Dice,
+    bumps: Bumps,
+}
+
+/// How often robots ran into things that do not move.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Bumps {
+    /// Into the wall around the floor.
+    pub walls: u64,
+    /// Into obstacles.
+    pub obstacles: u64,
+}
+
+#[derive(Clone, Debug)]
+struct Body {
+    drive: Drive,
+    told: [f64; 2],
+    slip: Slip,
+    heading: f64,
+    /// What it stood against at the last step.
+    bump: Option<Bump>,
+}
+
+impl World {
+    /// Robots at rest at these poses; wheels slip by this share in the mean.
+    pub fn new(stage: &Stage, starts: &[Pose], slip: f64, seed: u64) -> Self {
+        let mut dice = Dice::new(seed, Purpose::Slip);
+        let places: Vec<Vec2> = starts.iter().map(|start| start.at).collect();
+        let body = |start: &Pose| Body {
+            drive: Drive::default(),
+            told: [0.0; 2],
+            slip: Slip::new(slip, &mut dice),
+            heading: wrap(start.heading),
+            bump: None,
+        };
+        let contact_m = stage.limits.contact_m();
+        let bodies = starts.iter().map(body).collect();
+        Self {
+            stances: starts.iter().map(|start| Stance::new(Vec2::unit(start.heading))).collect(),
+            floor: Floor::new(stage, &places),
+            near: Near::new(contact_m),
+            contacts: Contacts::new(contact_m),
+            bumps: Bumps::default(),
+            places,
+            bodies,
+            slip,
+            dice,
+        }
+    }
+
+    /// Tells a robot's wheels their rates, left and right, rad/s. They act from the step after the next on.
+    #[inline]
+    pub fn tell(&mut self, robot: usize, wheels_radps: [f64; 2]) {
+        self.bodies[robot].told = wheels_radps;
+    }
+
+    /// How far a robot's wheels turned in the last step, left and right, radians.
+    #[inline]
+    pub fn wheel_turns(&self, robot: usize) -> [f64; 2] {
+        let [left, right] = self.bodies[robot].drive.wheels();
+        [left * STEP_S, right * STEP_S]
+    }
+
+    /// Where a robot really is.
+    #[inline]
+    pub fn pose(&self, robot: usize) -> Pose {
+        Pose { at: self.places[robot], heading: self.bodies[robot].heading }
+    }
+
+    /// Where everybody's centre really is, stage metres.
+    pub fn places(&self) -> &[Vec2] {
+        &self.places
+    }
+
+    /// Contacts between robots.
+    pub fn contacts(&self) -> &Contacts {
+        &self.contacts
+    }
+
+    /// Contacts with what does not move.
+    pub fn bumps(&self) -> Bumps {
+        self.bumps
+    }
+
+    /// Moves everybody by one step of 16 ms.
+    pub fn step(&mut self) {
+        let (mut moved, mut outdated) = (false, false);
+        for robot in 0..self.bodies.len() {
+            if self.move_body(robot) {
+                moved = true;
+                outdated |= self.near.outdated_by(robot, self.places[robot]);
+            }
+        }
+        if !moved && self.contacts.none_touching() {
+            return;
+        }
+        if outdated {
+            self.near.rebuild(&self.places);
+        }
+        self.contacts.resolve(self.near.pairs(), &mut self.places, &mut self.stances);
+    }
+
+    /// Takes all that will decide how things go on into a fingerprint.
+    pub fn hash(&self, hash: &mut StateHash) {
+        for (place, body) in self.places.iter().zip(&self.bodies) {
+            hash.number(place.x);
+            hash.number(place.y);
+            hash.number(body.heading);
+        }
+    }
+
+    /// Whether it moved.
+    #[inline]
+    fn move_body(&mut self, robot: usize) -> bool {
+        let body = &mut self.bodies[robot];
+        let stance = &mut self.stances[robot];
+        if body.told == [0.0; 2] && body.drive.rests() {
+            stance.stands = true;
+            return false;
+        }
+        let grip = body.slip.grip(self.slip, &mut self.dice);
+        let twist = body.drive.step(body.told, grip);
+        stance.stands = twist.speed_mps == 0.0 && twist.turn_radps == 0.0;
+        let half_turn = 0.5 * STEP_S * twist.turn_radps;
+        let middle = turned(stance.forward, half_turn);
+        stance.forward = turned(middle, half_turn);
+        body.heading = wrap(body.heading + 2.0 * half_turn);
+        let place = &mut self.places[robot];
+        *place = *place + middle * (STEP_S * twist.speed_mps);
+        let bump = self.floor.keep_out(place);
+        if bump != body.bump {
+            match bump {
+                Some(Bump::Wall) => self.bumps.walls += 1,
+                Some(Bump::Obstacle) => self.bumps.obstacles += 1,
+                None => {}
+            }
+            body.bump = bump;
+        }
+        true
+    }
+}
+
+/// A unit vector turned by a small angle (below 0.3): series instead of sine and cosine, and its length mended, so that
+/// the hot loop needs neither and errors do not add up.
+#[inline]
+fn turned(unit: Vec2, angle: f64) -> Vec2 {
+    if angle == 0.0 {
+        return unit;
+    }
+    let square = angle * angle;
+    let sine = angle * (1.0 - square * (1.0 / 6.0) * (1.0 - square * (1.0 / 20.0)));
+    let cosine = 1.0 - 0.5 * square * (1.0 - square * (1.0 / 12.0) * (1.0 - square * (1.0 / 30.0)));
+    let turned = Vec2::new(unit.x * cosine - unit.y * sine, unit.x * sine + unit.y * cosine);
+    turned * (1.5 - 0.5 * turned.length_squared())
+}
+
+#[cfg(test)]
+#[path = "world_tests.rs"]
+mod tests;
