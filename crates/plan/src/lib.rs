@@ -1,7 +1,34 @@
 //! Who goes where, and how: a show becomes an assignment and timed paths, with a proof that nobody touches.
 //!
 //! Pure: same input, same bits out. It knows nothing of messages, clocks or files.
+//!
+//! In reading order: [`TransitionProblem`] is what is asked, [`assignment`] decides who goes where, `motion` makes
+//! timed paths of it, [`proof`] judges them without trusting either, [`transition()`] puts the three together and
+//! relaxes or repairs until the proof holds, and [`show()`] chains transitions through all frames.
+//!
+//! ```
+//! use lightbots_base::{Limits, Vec2};
+//! use lightbots_plan::{TransitionProblem, transition};
+//! let problem = TransitionProblem {
+//!     starts: vec![Vec2::new(-0.5, 0.0), Vec2::new(0.5, 0.0)],
+//!     goals: vec![Vec2::new(0.5, 0.5), Vec2::new(-0.5, 0.5)],
+//!     ..TransitionProblem::on_floor(Vec2::new(1.5, 1.5), Limits::default())
+//! };
+//! let plan = transition(&problem).unwrap();
+//! assert_eq!(plan.goal_of, [Some(1), Some(0)]);
+//! assert!(plan.closest.unwrap().distance_m > 0.9);
+//! ```
 
+pub mod assignment;
+mod motion;
 mod problem;
+pub mod proof;
+mod repair;
+mod show;
+mod transition;
 
+pub use motion::turn_time;
 pub use problem::{Closest, Path, Stuck, Transition, TransitionProblem};
+pub use repair::repair;
+pub use show::{ShowClosest, ShowOptions, ShowPlan, show};
+pub use transition::transition;

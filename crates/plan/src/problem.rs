@@ -27,6 +27,23 @@ pub struct TransitionProblem {
     pub easing: Easing,
 }
 
+impl TransitionProblem {
+    /// A problem without robots on an empty floor: what most problems begin with.
+    pub fn on_floor(half_floor: Vec2, limits: Limits) -> Self {
+        Self {
+            starts: Vec::new(),
+            goals: Vec::new(),
+            pinned: Vec::new(),
+            standing: Vec::new(),
+            obstacles: Vec::new(),
+            half_floor,
+            limits,
+            duration: None,
+            easing: Easing::Swift,
+        }
+    }
+}
+
 /// A solved and proven transition.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Transition {

@@ -1,0 +1,20 @@
+//! Timed paths along straight lines: everybody shares one progress over time, so all leave and arrive together.
+
+mod profile;
+
+pub(crate) use profile::Profile;
+
+use lightbots_base::{Limits, Span};
+
+/// How long a robot needs to turn by `angle` radians on the spot, in whole milliseconds rounded up. A quarter turn
+/// is the most anybody needs, because driving backwards is as good as driving forwards.
+pub fn turn_time(angle: f64, limits: &Limits) -> Span {
+    whole_millis(angle.abs() / limits.turn_radps.max(0.01))
+}
+
+/// `seconds` rounded up to whole milliseconds, at least zero: what the wire carries without loss.
+pub(crate) fn whole_millis(seconds: f64) -> Span {
+    // A hair less, so that what is whole already stays so.
+    let millis = (seconds * 1e3 - 1e-6).max(0.0).min(1e12);
+    Span::from_millis(millis.ceil() as i64)
+}

@@ -1,0 +1,80 @@
+//! What is wrong with frames, seen from the floor.
+
+use crate::Stuck;
+use crate::transition::{MARGIN_M, distance_to, touching};
+use lightbots_base::Vec2;
+use lightbots_show::{Issue, Issues, Pixel, Show};
+
+/// What no plan can mend in a frame: too few robots, pixels that touch, lie outside the floor or in obstacles.
+pub(super) fn of_frame(show: &Show, index: usize, robots: usize, issues: &mut Issues) {
+    let frame = &show.frames[index];
+    let name = name_of(show, index);
+    let limits = &show.stage.limits;
+    if frame.pixels.len() > robots {
+        let dark = frame.pixels[robots..].iter().map(|pixel| pixel.id);
+        let message = format!("{name} has {} pixels, but there are {robots} robots", frame.pixels.len());
+        issues.push(Issue::error("too-few-robots", message).in_frame(index).with_pixels(dark));
+    }
+    let places: Vec<Vec2> = frame.pixels.iter().map(|pixel| pixel.at).collect();
+    if let Some((a, b, distance)) = touching(&places, limits.contact_m()) {
+        let (a, b) = (frame.pixels[a].id, frame.pixels[b].id);
+        let message = format!(
+            "{name}: pixels {a} and {b} are {:.0} mm apart and would touch; {:.0} mm do",
+            distance * 1e3,
+            (limits.contact_m() + MARGIN_M) * 1e3
+        );
+        issues.push(Issue::error("too-close", message).in_frame(index).with_pixels([a, b]));
+    }
+    let half = Vec2::new(show.stage.width_m, show.stage.depth_m) / 2.0;
+    let radius = limits.radius_m;
+    let list = |code: &str, what: &str, wrong: Vec<u32>, issues: &mut Issues| {
+        if !wrong.is_empty() {
+            let message = format!("{name}: {what} (pixels {})", few(&wrong));
+            issues.push(Issue::error(code, message).in_frame(index).with_pixels(wrong));
+        }
+    };
+    let off = |at: Vec2| !(at.x.abs() <= half.x - radius + 1e-6 && at.y.abs() <= half.y - radius + 1e-6);
+    let ids = |wrong: &dyn Fn(Vec2) -> bool| -> Vec<u32> {
+        frame.pixels.iter().filter(|pixel| wrong(pixel.at)).map(|pixel| pixel.id).collect()
+    };
+    let what = format!("robots need {:.0} mm to the floor's edge", radius * 1e3);
+    list("off-floor", &what, ids(&off), issues);
+    let blocked = |at: Vec2| show.stage.obstacles.iter().any(|thing| distance_to(thing, at) < radius);
+    list("in-obstacle", &format!("robots need {:.0} mm to obstacles", radius * 1e3), ids(&blocked), issues);
+}
+
+/// A frame nobody can get to.
+pub(super) fn no_plan(show: &Show, index: usize, pixels: &[Pixel], stuck: &Stuck) -> Issue {
+    let ids = stuck.goals.iter().filter_map(|&goal| pixels.get(goal)).map(|pixel| pixel.id);
+    let message = format!("no plan to {}: {}", name_of(show, index), stuck.message);
+    Issue::error("no-plan", message).in_frame(index).with_pixels(ids)
+}
+
+/// Two pixels of a frame ask for the same robot.
+pub(super) fn bound_twice(frame: usize, pixel: u32, name: &str) -> Issue {
+    let message = format!("frame {}: robot {name} is asked for twice, pixel {pixel} gets another", frame + 1);
+    Issue::error("robot-bound-twice", message).in_frame(frame).with_pixels([pixel])
+}
+
+/// A pixel asks for a robot that is not there.
+pub(super) fn unknown_robot(frame: usize, pixel: u32, name: &str) -> Issue {
+    let message = format!(
+        "frame {}: pixel {pixel} asks for robot {name}, which is not here; any robot shows it",
+        frame + 1
+    );
+    Issue::warning("unknown-robot", message).in_frame(frame).with_pixels([pixel])
+}
+
+fn name_of(show: &Show, index: usize) -> String {
+    let name = &show.frames[index].name;
+    if name.is_empty() { format!("frame {}", index + 1) } else { format!("frame {} “{name}”", index + 1) }
+}
+
+/// The first few ids as text.
+fn few(ids: &[u32]) -> String {
+    let mut text: Vec<String> = ids.iter().take(8).map(u32::to_string).collect();
+    if ids.len() > 8 {
+        text.push(format!("and {} more", ids.len() - 8));
+    }
+    text.join(", ")
+}

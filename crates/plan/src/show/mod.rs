@@ -1,0 +1,119 @@
+//! A whole show: transition 0 from where the robots stand, then frame after frame.
+
+mod binding;
+mod issues;
+
+use crate::transition::attempt;
+use crate::{Closest, Transition, TransitionProblem};
+use binding::Binding;
+use lightbots_base::{Span, Vec2};
+use lightbots_show::{Frame, Identity, Issues, Show};
+
+/// What the planner is told besides the show.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct ShowOptions {
+    /// Overrides what show and frames say about identity.
+    pub identity: Option<Identity>,
+    /// `robots[start]`: the name of the robot that stands there, for pixels that ask for one by name. Empty where
+    /// names are not known yet: then each name means some robot, the same one in every frame.
+    pub robots: Vec<String>,
+}
+
+/// The plan of a show.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct ShowPlan {
+    /// `transitions[k]` leads to frame k: as many as frames. Where `issues` has an error it is the best that could be
+    /// drawn, not proven.
+    pub transitions: Vec<Transition>,
+    /// `mapping[k][robot]`: id of the pixel that robot shows in frame k; `None`: it is spare.
+    pub mapping: Vec<Vec<Option<u32>>>,
+    /// What is wrong. With an error among them the plan must not be played.
+    pub issues: Issues,
+    /// Transitions and air times, seconds.
+    pub duration_s: f64,
+    /// The lower bounds of the transitions, and the air times, seconds.
+    pub lower_bound_s: f64,
+    /// The closest two centres of the whole show.
+    pub closest: Option<ShowClosest>,
+}
+
+/// The closest two centres of a show.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ShowClosest {
+    /// In which transition.
+    pub transition: usize,
+    /// Which two, where and when.
+    pub closest: Closest,
+}
+
+impl ShowPlan {
+    /// Whether it may be played.
+    pub fn ok(&self) -> bool {
+        !self.issues.iter().any(lightbots_show::Issue::is_error)
+    }
+}
+
+/// Plans a show for robots that stand at `starts` (stage metres). Never fails: what cannot be planned is an issue.
+pub fn show(show: &Show, starts: &[Vec2], options: &ShowOptions) -> ShowPlan {
+    let mut plan = ShowPlan::default();
+    let mut places = starts.to_vec();
+    let mut binding = Binding::new(show, starts.len(), options);
+    for (index, frame) in show.frames.iter().enumerate() {
+        let found_before = plan.issues.len();
+        issues::of_frame(show, index, starts.len(), &mut plan.issues);
+        // Fewer robots than pixels: the pixels with the highest ids stay dark.
+        let pixels = &frame.pixels[..frame.pixels.len().min(starts.len())];
+        let goals: Vec<Vec2> = pixels.iter().map(|pixel| pixel.at).collect();
+        let identity = options.identity.or(frame.identity).unwrap_or(show.identity);
+        let pinned = binding.pins(&places, pixels, identity, index, &mut plan.issues);
+        let attempt = attempt(&problem(show, frame, places, goals, pinned));
+        if let Some(stuck) = attempt.stuck
+            && plan.issues.len() == found_before
+        {
+            plan.issues.push(issues::no_plan(show, index, pixels, &stuck));
+        }
+        let transition = attempt.transition;
+        let shown: Vec<Option<u32>> =
+            transition.goal_of.iter().map(|goal| goal.map(|goal| pixels[goal].id)).collect();
+        binding.remember(pixels, &transition.goal_of);
+        places = transition.paths.iter().map(|path| path.as_ref().end()).collect();
+        plan.take(transition, shown, frame);
+    }
+    plan
+}
+
+impl ShowPlan {
+    fn take(&mut self, transition: Transition, shown: Vec<Option<u32>>, frame: &Frame) {
+        let air_s = if frame.air_time_s.is_finite() { frame.air_time_s.max(0.0) } else { 0.0 };
+        self.duration_s += transition.duration.as_secs() + air_s;
+        self.lower_bound_s += transition.lower_bound_s + air_s;
+        if let Some(closest) = transition.closest
+            && self.closest.is_none_or(|known| closest.distance_m < known.closest.distance_m)
+        {
+            self.closest = Some(ShowClosest { transition: self.transitions.len(), closest });
+        }
+        self.transitions.push(transition);
+        self.mapping.push(shown);
+    }
+}
+
+fn problem(
+    show: &Show,
+    frame: &Frame,
+    starts: Vec<Vec2>,
+    goals: Vec<Vec2>,
+    pinned: Vec<Option<usize>>,
+) -> TransitionProblem {
+    TransitionProblem {
+        starts,
+        goals,
+        pinned,
+        obstacles: show.stage.obstacles.clone(),
+        duration: frame.transition_s.filter(|seconds| seconds.is_finite()).map(Span::from_secs),
+        easing: frame.easing,
+        ..TransitionProblem::on_floor(
+            Vec2::new(show.stage.width_m, show.stage.depth_m) / 2.0,
+            show.stage.limits,
+        )
+    }
+}

@@ -1,0 +1,114 @@
+//! What cannot be solved by anybody, said in words.
+
+use super::parking::distance_to;
+use crate::proof::Proof;
+use crate::{Stuck, Transition, TransitionProblem};
+use lightbots_base::Vec2;
+
+/// Whether the goals can be shown at all.
+pub(super) fn possible(problem: &TransitionProblem) -> Result<(), Stuck> {
+    let (starts, goals) = (&problem.starts, &problem.goals);
+    if goals.len() > starts.len() {
+        let message = format!("{} pixels need as many robots, but there are {}", goals.len(), starts.len());
+        return Err(stuck(Vec::new(), message));
+    }
+    if let Some(goal) = goals.iter().chain(starts).position(|place| !place.is_finite()) {
+        return Err(stuck(
+            vec![goal].into_iter().filter(|&goal| goal < goals.len()).collect(),
+            "a place is not a number".into(),
+        ));
+    }
+    let contact = problem.limits.contact_m();
+    if let Some((a, b, distance)) = touching(goals, contact) {
+        let message = format!(
+            "two pixels are {:.0} mm apart and would touch; {:.0} mm do",
+            distance * 1e3,
+            (contact + super::MARGIN_M) * 1e3
+        );
+        return Err(stuck(vec![a, b], message));
+    }
+    for (goal, &place) in goals.iter().enumerate() {
+        off_floor(problem, goal, place)?;
+        blocked(problem, goal, place)?;
+    }
+    Ok(())
+}
+
+fn stuck(goals: Vec<usize>, message: String) -> Stuck {
+    Stuck { goals, starts: Vec::new(), message }
+}
+
+fn off_floor(problem: &TransitionProblem, goal: usize, place: Vec2) -> Result<(), Stuck> {
+    let (half, radius) = (problem.half_floor, problem.limits.radius_m);
+    if place.x.abs() <= half.x - radius + 1e-6 && place.y.abs() <= half.y - radius + 1e-6 {
+        return Ok(());
+    }
+    let message = format!(
+        "a pixel at ({:.3}, {:.3}) m lies outside the floor: robots need {:.0} mm to its edge",
+        place.x,
+        place.y,
+        radius * 1e3
+    );
+    Err(stuck(vec![goal], message))
+}
+
+fn blocked(problem: &TransitionProblem, goal: usize, place: Vec2) -> Result<(), Stuck> {
+    let radius = problem.limits.radius_m;
+    if problem.obstacles.iter().any(|thing| distance_to(thing, place) < radius) {
+        let message = format!("a pixel is nearer than {:.0} mm to an obstacle", radius * 1e3);
+        return Err(stuck(vec![goal], message));
+    }
+    if problem.standing.iter().any(|disc| disc.distance(place) < 2.0 * radius) {
+        let message =
+            format!("a robot that does not move stands at a pixel; {:.0} mm between them do", 2e3 * radius);
+        return Err(stuck(vec![goal], message));
+    }
+    Ok(())
+}
+
+/// Two places nearer to each other than `reach_m`, the first by index, and how near.
+pub(crate) fn touching(places: &[Vec2], reach_m: f64) -> Option<(usize, usize, f64)> {
+    let mut order: Vec<usize> = (0..places.len()).collect();
+    order.sort_by(|&a, &b| places[a].x.total_cmp(&places[b].x).then(a.cmp(&b)));
+    for (rank, &a) in order.iter().enumerate() {
+        for &b in &order[rank + 1..] {
+            if places[b].x - places[a].x >= reach_m {
+                break;
+            }
+            let distance = places[a].distance(places[b]);
+            if distance < reach_m - 1e-6 {
+                return Some((a.min(b), a.max(b), distance));
+            }
+        }
+    }
+    None
+}
+
+/// Pins that contradict each other.
+pub(super) fn pins(problem: &TransitionProblem) -> Stuck {
+    let goals =
+        (0..problem.goals.len().min(problem.pinned.len())).filter(|&goal| problem.pinned[goal].is_some());
+    stuck(goals.collect(), "pixels are bound to robots that are not there or are bound twice".into())
+}
+
+/// Nobody found a way around the conflicts that are left.
+pub(super) fn conflict(problem: &TransitionProblem, transition: &Transition, proof: &Proof) -> Stuck {
+    let mut starts: Vec<usize> = Vec::new();
+    for found in &proof.conflicts {
+        starts.extend([found.pair.0, found.pair.1].into_iter().filter(|&robot| robot < problem.starts.len()));
+    }
+    starts.sort_unstable();
+    starts.dedup();
+    let goals = starts.iter().filter_map(|&start| transition.goal_of[start]).collect();
+    let message = match proof.conflicts.first() {
+        Some(worst) => format!(
+            "no way found that keeps robots apart: two would come within {:.0} mm near ({:.2}, {:.2}) m; pixels {:.0} mm apart leave room",
+            worst.distance_m * 1e3,
+            worst.place.x,
+            worst.place.y,
+            problem.limits.radius_m * 2e3 * core::f64::consts::SQRT_2
+        ),
+        None => "no legal way found".into(),
+    };
+    Stuck { goals, starts, message }
+}
