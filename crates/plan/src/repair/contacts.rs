@@ -1,0 +1,166 @@
+//! Which spans come too close to what, and how deep.
+
+use lightbots_base::Vec2;
+
+use super::scene::Scene;
+use super::weave::{Weave, basis, blend};
+
+/// Straight stretches a span is looked at in.
+const STRETCHES: usize = 4;
+/// Pairs farther apart than their wish by this much are not watched until the next look-out, metres.
+const SKIN_M: f64 = 0.012;
+
+/// Two robots, or a robot and a wall, that are or may come too close within a span.
+#[derive(Clone, Copy)]
+pub(super) struct Contact {
+    /// Which span of the weave.
+    pub span: usize,
+    /// The robot.
+    pub a: usize,
+    /// The other robot, or the wall.
+    pub b: Other,
+    /// How far they shall stay apart: centres of robots, or rim and wall; metres.
+    pub wish: f64,
+}
+
+/// What a robot may touch.
+#[derive(Clone, Copy)]
+pub(super) enum Other {
+    /// Another robot.
+    Robot(usize),
+    /// A wall of the scene.
+    Wall(usize),
+}
+
+/// The closest moment of a contact.
+pub(super) struct Closest {
+    /// How far apart, as in [`Contact::wish`].
+    pub apart: f64,
+    /// Unit vector from the other to `a`.
+    pub away: Vec2,
+    /// Weights of the span's control points at that moment.
+    pub weights: [f64; 4],
+}
+
+/// How far all shall stay apart.
+#[derive(Clone, Copy)]
+pub(super) struct Wish {
+    /// Centres of robots, metres.
+    pub robots_m: f64,
+    /// A robot's rim off walls, metres.
+    pub walls_m: f64,
+}
+
+/// Looks at spans in straight stretches.
+pub(super) struct Watch {
+    bases: [[f64; 4]; STRETCHES + 1],
+    middle: [f64; 4],
+}
+
+impl Watch {
+    /// One that is ready.
+    pub fn new() -> Self {
+        Self { bases: std::array::from_fn(|i| basis(i as f64 / STRETCHES as f64)), middle: basis(0.5) }
+    }
+
+    /// All that is closer than wished or soon may be, in order of span and robot.
+    pub fn look_out(&self, scene: &Scene, weave: &Weave, wish: Wish) -> Vec<Contact> {
+        let mut found = Vec::new();
+        let mut order: Vec<usize> = (0..weave.robots()).collect();
+        for span in 0..weave.spans {
+            self.pairs(scene, weave, wish, span, &mut order, &mut found);
+            if !scene.walls.is_empty() {
+                self.walls(scene, weave, wish, span, &mut found);
+            }
+        }
+        found
+    }
+
+    fn pairs(
+        &self,
+        scene: &Scene,
+        weave: &Weave,
+        wish: Wish,
+        span: usize,
+        order: &mut [usize],
+        found: &mut Vec<Contact>,
+    ) {
+        let at: Vec<Vec2> =
+            (0..weave.robots()).map(|robot| blend(weave.span(robot, span), &self.middle)).collect();
+        let mut reach = 0.0_f64;
+        for (robot, middle) in at.iter().enumerate() {
+            let four = weave.span(robot, span);
+            for end in [&self.bases[0], &self.bases[STRETCHES]] {
+                reach = reach.max((blend(four, end) - *middle).length_squared());
+            }
+        }
+        let near = wish.robots_m + SKIN_M + 2.0 * reach.sqrt();
+        order.sort_by(|&a, &b| at[a].x.total_cmp(&at[b].x));
+        for (i, &a) in order.iter().enumerate() {
+            for &b in order[i + 1..].iter().take_while(|&&b| at[b].x - at[a].x < near) {
+                if (at[a].y - at[b].y).abs() >= near || (at[a] - at[b]).length_squared() >= near * near {
+                    continue;
+                }
+                let wish = wish.robots_m.min(scene.ends_apart(a, b) - 0.0005);
+                let contact = Contact { span, a: a.min(b), b: Other::Robot(a.max(b)), wish };
+                if self.closest(scene, weave, &contact).apart < wish + SKIN_M {
+                    found.push(contact);
+                }
+            }
+        }
+    }
+
+    fn walls(&self, scene: &Scene, weave: &Weave, wish: Wish, span: usize, found: &mut Vec<Contact>) {
+        for robot in 0..weave.robots() {
+            for wall in 0..scene.walls.len() {
+                let mut contact = Contact { span, a: robot, b: Other::Wall(wall), wish: wish.walls_m };
+                if self.closest(scene, weave, &contact).apart < wish.walls_m + SKIN_M {
+                    contact.wish = scene.wall_gap(robot, wall, wish.walls_m);
+                    found.push(contact);
+                }
+            }
+        }
+    }
+
+    /// The closest moment of a contact within its span.
+    pub fn closest(&self, scene: &Scene, weave: &Weave, contact: &Contact) -> Closest {
+        let four = weave.span(contact.a, contact.span);
+        match contact.b {
+            Other::Robot(b) => {
+                let other = weave.span(b, contact.span);
+                self.closest_to_origin(&std::array::from_fn(|i| four[i] - other[i]))
+            }
+            Other::Wall(wall) => {
+                let nearest = self.bases.iter().map(|weights| {
+                    let (apart, away) = scene.off_wall(wall, blend(four, weights));
+                    Closest { apart, away, weights: *weights }
+                });
+                let none = Closest { apart: f64::MAX, away: Vec2::ZERO, weights: self.middle };
+                nearest.fold(none, |best, next| if next.apart < best.apart { next } else { best })
+            }
+        }
+    }
+
+    fn closest_to_origin(&self, apart: &[Vec2; 4]) -> Closest {
+        let mut before = blend(apart, &self.bases[0]);
+        let mut best = (before.length_squared(), 0, 0.0, before);
+        for stretch in 0..STRETCHES {
+            let after = blend(apart, &self.bases[stretch + 1]);
+            let way = after - before;
+            let share = (-before.dot(way) / way.length_squared().max(1e-18)).clamp(0.0, 1.0);
+            let nearest = before + way * share;
+            if nearest.length_squared() < best.0 {
+                best = (nearest.length_squared(), stretch, share, nearest);
+            }
+            before = after;
+        }
+        let (squared, stretch, share, nearest) = best;
+        let (from, to) = (&self.bases[stretch], &self.bases[stretch + 1]);
+        let weights = std::array::from_fn(|i| from[i] + (to[i] - from[i]) * share);
+        // Those who meet head-on pass each other on the right.
+        let aside = || (apart[0] - apart[3]).left().normalized().unwrap_or(Vec2::new(1.0, 0.0));
+        let length = squared.sqrt();
+        let away = if length > 1e-6 { nearest / length } else { aside() };
+        Closest { apart: length, away, weights }
+    }
+}

@@ -1,0 +1,56 @@
+//! Timed paths where straight lines conflict: close pixels, fixed identity in a crowd, obstacles, standing robots and
+//! spare ones in the way.
+//!
+//! Everybody's way is a smooth spline in time ([`weave`]). First all take their shortest way ([`guess`], [`around`])
+//! and whoever comes too close is bent aside ([`relax`]), with a little more time at each try. Crowds too thick for
+//! that first learn their order on a hexagonal lattice ([`lattice`], [`dock`], [`search`], [`steps`]), and the same
+//! relaxation makes that smooth and swift. Every loop is bounded, nothing is random, and the proof has the last word.
+
+mod contacts;
+mod guess;
+mod relax;
+mod scene;
+mod weave;
+
+use lightbots_base::{Span, Vec2};
+
+use crate::{Path, TransitionProblem};
+use contacts::Wish;
+use guess::Pace;
+use relax::{Effort, relax};
+use scene::Scene;
+use weave::Weave;
+
+/// The rest at the beginning of every path, in which robots turn towards their way.
+const TURN: Span = Span(350_000);
+
+/// Collision-free timed paths for a settled assignment: `goal_of[start]` is the goal that robot drives to, `None` a
+/// spare robot that may step aside. `paths[start]` all last equally long, at least the problem's duration, and begin
+/// with the rest in which robots turn. `None` where nothing was found within the bounded work.
+pub fn repair(problem: &TransitionProblem, goal_of: &[Option<usize>]) -> Option<Vec<Path>> {
+    let scene = Scene::new(problem, goal_of)?;
+    let weave = straightened(problem, &scene)?;
+    Some(timed(problem, &scene, &weave))
+}
+
+fn straightened(problem: &TransitionProblem, scene: &Scene) -> Option<Weave> {
+    let courses: Vec<Vec<Vec2>> = (0..scene.robots())
+        .map(|robot| vec![scene.starts[robot], scene.ends[robot].unwrap_or(scene.starts[robot])])
+        .collect();
+    let longest = courses.iter().map(|course| guess::length(course)).fold(0.0, f64::max);
+    for stretch in [1.0, 1.06, 1.15, 1.3, 1.6, 2.0] {
+        let pace = Pace::new(longest, &scene.limits, problem.easing, stretch);
+        let effort = Effort { sweeps: 150, polish: 30, wish: Wish { robots_m: 0.062, walls_m: 0.004 } };
+        if let Some(weave) = relax(scene, guess::along(scene, &courses, &pace), effort) {
+            return Some(weave);
+        }
+    }
+    None
+}
+
+/// The weave at the least legal, or the wished for, duration.
+fn timed(problem: &TransitionProblem, scene: &Scene, weave: &Weave) -> Vec<Path> {
+    let least = weave.span_s * weave.greatest_haste(&scene.limits) * 1.002;
+    let wished = problem.duration.map_or(0.0, |whole| (whole - TURN).as_secs() / weave.spans as f64);
+    weave.paths(TURN, Span((least.max(wished) * 1e6).ceil() as i64))
+}

@@ -1,0 +1,186 @@
+//! All robots' ways as uniform cubic B-splines in time: smooth without stops, and easy to bend.
+//!
+//! A way of `spans` spans has `spans + 3` control points; span `i` is ruled by points `i..i + 4`. Points 2 to `spans`
+//! are free. The two at either end follow from them so that the way starts and ends at rest exactly at its ends; a
+//! spare robot comes to rest at its last free point.
+
+use lightbots_base::{Limits, Piece, Span, Vec2};
+
+use super::scene::Scene;
+use crate::Path;
+
+/// What the splines of all robots are, sharing one clock.
+#[derive(Clone)]
+pub(super) struct Weave {
+    /// How many spans each way has; at least 4.
+    pub spans: usize,
+    /// How long a span takes, seconds.
+    pub span_s: f64,
+    ends: Vec<(Vec2, Option<Vec2>)>,
+    /// `[robot][spans + 3]`.
+    points: Vec<Vec2>,
+}
+
+/// The weights of a span's four control points at share `u` of it.
+pub(super) fn basis(u: f64) -> [f64; 4] {
+    let w = 1.0 - u;
+    let (u2, u3) = (u * u, u * u * u);
+    [
+        w * w * w / 6.0,
+        (3.0 * u3 - 6.0 * u2 + 4.0) / 6.0,
+        (-3.0 * u3 + 3.0 * u2 + 3.0 * u + 1.0) / 6.0,
+        u3 / 6.0,
+    ]
+}
+
+/// The weighted sum of a span's control points.
+pub(super) fn blend(points: &[Vec2], weights: &[f64; 4]) -> Vec2 {
+    points[0] * weights[0] + points[1] * weights[1] + points[2] * weights[2] + points[3] * weights[3]
+}
+
+impl Weave {
+    /// Ways through `place(robot, step)` for steps 0..=spans, which serve as control points: corners are rounded.
+    pub fn new(scene: &Scene, spans: usize, span_s: f64, place: impl Fn(usize, usize) -> Vec2) -> Self {
+        let spans = spans.max(4);
+        let ends = scene.starts.iter().copied().zip(scene.ends.iter().copied()).collect::<Vec<_>>();
+        let mut points = Vec::with_capacity(ends.len() * (spans + 3));
+        for robot in 0..ends.len() {
+            points.extend((0..spans + 3).map(|j| place(robot, j.saturating_sub(1).min(spans))));
+        }
+        let mut weave = Self { spans, span_s, ends, points };
+        (0..weave.robots()).for_each(|robot| weave.tie_ends(robot));
+        weave
+    }
+
+    /// How many robots.
+    pub fn robots(&self) -> usize {
+        self.ends.len()
+    }
+
+    /// A robot's control points.
+    pub fn way(&self, robot: usize) -> &[Vec2] {
+        let width = self.spans + 3;
+        &self.points[robot * width..(robot + 1) * width]
+    }
+
+    /// The same, to change; call [`Self::tie_ends`] after.
+    pub fn way_mut(&mut self, robot: usize) -> &mut [Vec2] {
+        let width = self.spans + 3;
+        &mut self.points[robot * width..(robot + 1) * width]
+    }
+
+    /// The four control points of a robot's span.
+    pub fn span(&self, robot: usize, span: usize) -> &[Vec2] {
+        &self.way(robot)[span..span + 4]
+    }
+
+    /// Where a robot is at share `u` of a span.
+    pub fn at(&self, robot: usize, span: usize, u: f64) -> Vec2 {
+        blend(self.span(robot, span), &basis(u))
+    }
+
+    /// The fixed ends of a robot's way.
+    pub fn ends(&self, robot: usize) -> (Vec2, Option<Vec2>) {
+        self.ends[robot]
+    }
+
+    /// Makes the outer control points follow the free ones, so that the way is at rest at its ends.
+    pub fn tie_ends(&mut self, robot: usize) {
+        let (start, end) = self.ends[robot];
+        let last = self.spans;
+        let way = self.way_mut(robot);
+        way[0] = way[2];
+        way[1] = start * 1.5 - way[2] * 0.5;
+        way[last + 2] = way[last];
+        way[last + 1] = end.map_or(way[last], |end| end * 1.5 - way[last] * 0.5);
+    }
+
+    /// How a place on a span follows its four control points, where only free ones move.
+    pub fn pull(&self, robot: usize, span: usize, weights: &[f64; 4]) -> [f64; 4] {
+        let last = self.spans;
+        if span >= 2 && span + 3 <= last {
+            return *weights;
+        }
+        let spare = self.ends[robot].1.is_none();
+        let mut pull = [0.0; 4];
+        for (i, &weight) in weights.iter().enumerate() {
+            let point = span + i;
+            let (to, share) = match point {
+                0 => (2, 1.0),
+                1 => (2, -0.5),
+                _ if point == last + 1 => (last, if spare { 1.0 } else { -0.5 }),
+                _ if point == last + 2 => (last, 1.0),
+                _ => (point, 1.0),
+            };
+            pull[to - span] += weight * share;
+        }
+        pull
+    }
+
+    /// Moves a span's control points by `shift` times their pull.
+    pub fn bend(&mut self, robot: usize, span: usize, pull: &[f64; 4], shift: Vec2) {
+        let outer = span < 2 || span + 3 > self.spans;
+        let way = &mut self.way_mut(robot)[span..span + 4];
+        for (point, &share) in way.iter_mut().zip(pull) {
+            *point += shift * share;
+        }
+        if outer {
+            self.tie_ends(robot);
+        }
+    }
+
+    /// By how much a robot's way, driven in this time, is too fast: 1 is just legal.
+    pub fn haste(&self, robot: usize, limits: &Limits) -> f64 {
+        let way = self.way(robot);
+        let (mut speed, mut accel) = (0.0_f64, 0.0_f64);
+        for four in way.windows(4) {
+            let (a, b, c) = (four[1] - four[0], four[2] - four[1], four[3] - four[2]);
+            speed = speed.max((a + b).length_squared() / 4.0).max((a + b * 6.0 + c).length_squared() / 64.0);
+            speed = speed.max((a * 9.0 + b * 22.0 + c).length_squared() / 1024.0);
+            speed = speed.max((a + b * 22.0 + c * 9.0).length_squared() / 1024.0);
+            accel = accel.max((b - a).length_squared()).max((c - b).length_squared());
+        }
+        let speed = speed.sqrt() / self.span_s / limits.speed_mps;
+        let accel = accel.sqrt() / (self.span_s * self.span_s) / limits.accel_mps2;
+        speed.max(accel.sqrt())
+    }
+
+    /// The greatest haste of all.
+    pub fn greatest_haste(&self, limits: &Limits) -> f64 {
+        (0..self.robots()).map(|robot| self.haste(robot, limits)).fold(0.0, f64::max)
+    }
+
+    /// The ways as timed paths: a rest of `turn`, then the spans, each taking `span` exactly.
+    pub fn paths(&self, turn: Span, span: Span) -> Vec<Path> {
+        (0..self.robots()).map(|robot| self.path(robot, turn, span)).collect()
+    }
+
+    fn path(&self, robot: usize, turn: Span, span: Span) -> Path {
+        let (start, end) = self.ends[robot];
+        let mut pieces = vec![Piece::rest(start, turn)];
+        let mut at = start;
+        for (i, four) in self.way(robot).windows(4).enumerate() {
+            let mut piece = Piece {
+                duration: span,
+                c1: (four[1] * 2.0 + four[2]) / 3.0,
+                c2: (four[1] + four[2] * 2.0) / 3.0,
+                end: blend(four, &basis(1.0)),
+            };
+            if i + 1 == self.spans {
+                piece.end = end.unwrap_or(piece.end);
+                piece.c2 = piece.end;
+            }
+            if i == 0 {
+                piece.c1 = start;
+            }
+            let still = [piece.c1, piece.c2, piece.end].iter().all(|place| place.distance(at) < 1e-9);
+            match pieces.last_mut() {
+                Some(before) if still && before.is_rest(at) => before.duration += span,
+                _ if still => pieces.push(Piece::rest(at, span)),
+                _ => pieces.push(piece),
+            }
+            at = pieces.last().map_or(at, |piece| piece.end);
+        }
+        Path { start, pieces }
+    }
+}
