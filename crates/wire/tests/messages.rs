@@ -1,0 +1,284 @@
+//! Golden bytes, round trips, truncation at every byte, and noise.
+
+use lightbots_base::{Instant, Piece, Rgb, RobotId, Span, Vec2};
+use lightbots_wire::{
+    Abilities, Blink, Command, Details, Fade, Firmware, MAX_PAYLOAD, MAX_PIECES, Pieces, Report, RobotState,
+    Route, TimeAnswer, TimeQuestion, Unknown, commands, encode,
+};
+
+fn text(command: &Command) -> String {
+    let mut out = String::new();
+    encode(command, &mut out).unwrap();
+    out
+}
+
+fn said(report: &Report) -> String {
+    let mut out = String::new();
+    report.encode(&mut out).unwrap();
+    out
+}
+
+fn id(name: &str) -> RobotId {
+    RobotId::new(name).unwrap()
+}
+
+fn route(pieces: &[Piece]) -> Route {
+    Route { seq: 4_000_000_007, start: Vec2::new(-1.25, 1.3), pieces: Pieces::from_slice(pieces).unwrap() }
+}
+
+/// Turn, speed up, cruise, slow down: what most transitions are.
+fn usual_route() -> Route {
+    let at = |y| Vec2::new(-1.25, y);
+    route(&[
+        Piece::rest(at(1.3), Span(350_000)),
+        Piece { duration: Span(270_000), c1: at(1.3), c2: at(1.2879), end: at(1.2636) },
+        Piece::straight(at(1.2636), at(-0.1), Span(5_050_370)),
+        Piece { duration: Span(270_000), c1: at(-0.1243), c2: at(-0.1364), end: at(-0.1364) },
+    ])
+}
+
+fn every_command() -> Vec<Command> {
+    vec![
+        Command::Target(Vec2::new(0.5, -1.25)),
+        Command::Color(Rgb::new(255, 165, 0)),
+        Command::Uuid,
+        Command::Route(usual_route()),
+        Command::Start { seq: 7, at: Instant(12_345_678) },
+        Command::Hold { at: Instant(1) },
+        Command::Resume { at: Instant(i64::MAX as u64) },
+        Command::Stop,
+        Command::Time(TimeAnswer { asked: Instant(5), received: Instant(900), sent: Instant(950) }),
+        Command::Fade(Fade { to: Rgb::new(0, 0, 255), at: Instant(77), over: Span(500_000) }),
+        Command::Blink(Blink { over: Span(2_000_000) }),
+        Command::Status,
+    ]
+}
+
+fn full_report() -> Report {
+    let details = Details {
+        heading: Some(1.25),
+        battery: Some(87),
+        state: RobotState::Driving,
+        route: 12,
+        starts: Some(Instant(8_000_000)),
+        off_m: Some(0.0034),
+        clock_us: Some(450),
+        firmware: Firmware::try_from("lightbots-0.1.0").unwrap(),
+        abilities: Abilities { route: true, fade: true, blink: true },
+        unknown: 3,
+    };
+    Report {
+        id: id("abfe6805-3c60-4e5a-ba40-2dcf7cb5d8e8"),
+        at: Some(Vec2::new(-0.73, 1e-4)),
+        details: Some(details),
+    }
+}
+
+#[test]
+fn the_originals_messages_byte_for_byte() {
+    let payload =
+        text(&Command::Target(Vec2::new(0.5, -1.25))) + &text(&Command::Color(Rgb::new(255, 165, 0)));
+    assert_eq!(payload, "|TARGET 0.500000 -1.250000||COLOR 16753920|");
+    assert_eq!(text(&Command::Uuid), "|UUID|");
+    let bare = Report { at: Some(Vec2::new(1.3, -0.73)), details: None, ..full_report() };
+    assert_eq!(said(&bare), "abfe6805-3c60-4e5a-ba40-2dcf7cb5d8e8 1.3 -0.73");
+    assert_eq!(said(&Report { at: None, ..bare }), "abfe6805-3c60-4e5a-ba40-2dcf7cb5d8e8 NaN NaN");
+}
+
+#[test]
+fn our_messages_byte_for_byte() {
+    let route = text(&Command::Route(usual_route()));
+    assert_eq!(
+        route,
+        "|PATH 4000000007 -12500 13000 R 350000 C 270000 -12500 13000 -12500 12879 -12500 12636 \
+         L 5050370 -12500 -1000 C 270000 -12500 -1243 -12500 -1364 -12500 -1364|"
+    );
+    assert!(route.len() < 200);
+    assert_eq!(
+        said(&full_report()),
+        "abfe6805-3c60-4e5a-ba40-2dcf7cb5d8e8 -0.73 1.0E-4 state=driving h=1.25 off=0.0034 route=12 \
+         starts=8000000 clock=450 bat=87 unknown=3 can=route+fade+blink fw=lightbots-0.1.0"
+    );
+}
+
+#[test]
+fn every_command_comes_back() {
+    let all = every_command();
+    let payload: String = all.iter().map(text).collect();
+    let back: Vec<_> = commands(payload.as_bytes()).map(Result::unwrap).collect();
+    assert_eq!(back, all);
+}
+
+#[test]
+fn every_report_comes_back() {
+    let states = [
+        RobotState::Idle,
+        RobotState::Ready,
+        RobotState::Held,
+        RobotState::Lost,
+        RobotState::Cut,
+        RobotState::Faulty,
+    ];
+    let mut all = vec![full_report(), Report { details: None, ..full_report() }];
+    all.extend(states.map(|state| Report {
+        at: None,
+        details: Some(Details { state, ..Details::default() }),
+        ..full_report()
+    }));
+    for report in all {
+        assert_eq!(Report::decode(said(&report).as_bytes()), Some(report));
+    }
+    let question = TimeQuestion { id: id("r7"), asked: Instant(42) };
+    let mut asked = String::new();
+    question.encode(&mut asked).unwrap();
+    assert_eq!(asked, "r7 42");
+    assert_eq!(TimeQuestion::decode(asked.as_bytes()), Some(question));
+}
+
+#[test]
+fn a_cut_off_payload_never_panics_and_never_invents_a_command() {
+    let payload: String = every_command().iter().map(text).collect();
+    let whole: Vec<_> = commands(payload.as_bytes()).collect();
+    for cut in 0..payload.len() {
+        let part: Vec<_> = commands(&payload.as_bytes()[..cut]).collect();
+        let sure = part.len().saturating_sub(1);
+        assert_eq!(part[..sure], whole[..sure], "cut at {cut}");
+    }
+    let report = said(&full_report());
+    for cut in 0..report.len() {
+        if let Some(read) = Report::decode(&report.as_bytes()[..cut]) {
+            assert_eq!(read.id, full_report().id, "cut at {cut}");
+        }
+    }
+}
+
+#[test]
+fn noise_never_panics() {
+    let words: Vec<String> = every_command().iter().map(text).chain([said(&full_report())]).collect();
+    let mut seed = 0x5eed_u64;
+    let mut random = move || {
+        seed ^= seed << 13;
+        seed ^= seed >> 7;
+        seed ^= seed << 17;
+        seed
+    };
+    for _ in 0..4000 {
+        let mut bytes = words[random() as usize % words.len()].clone().into_bytes();
+        for _ in 0..random() % 6 {
+            let place = random() as usize % bytes.len();
+            match random() % 3 {
+                0 => bytes[place] = random() as u8,
+                1 => bytes.insert(place, b"0123456789.,-eE| +CLR="[random() as usize % 22]),
+                _ => bytes.truncate(place.max(1)),
+            }
+        }
+        let count = commands(&bytes).count();
+        assert!(count <= bytes.len());
+        let _ = (Report::decode(&bytes), TimeQuestion::decode(&bytes));
+    }
+}
+
+#[test]
+fn hostile_payloads_are_refused_whole() {
+    assert_eq!(commands(b"").next(), None);
+    assert_eq!(commands(b"||||  ||").next(), None);
+    let megabyte = vec![b'|'; 1 << 20];
+    assert_eq!(commands(&megabyte).collect::<Vec<_>>(), [Err(Unknown::TooLong)]);
+    assert_eq!(commands(b"|STOP|\xff").collect::<Vec<_>>(), [Err(Unknown::NotText)]);
+    assert_eq!(commands("x".repeat(MAX_PAYLOAD).as_bytes()).collect::<Vec<_>>(), [Err(Unknown::Word)]);
+    assert_eq!(Report::decode(&megabyte), None);
+    assert_eq!(Report::decode(b"\xff 1 2"), None);
+    assert_eq!(Report::decode(b""), None);
+}
+
+#[test]
+fn what_we_do_not_know_is_told_apart_and_the_rest_is_read() {
+    let read: Vec<_> =
+        commands(b"|JUMP 3||TARGET 1||UUID|COLOR 16777216|color 1|COLOR 3 later fields|").collect();
+    assert_eq!(
+        read,
+        [
+            Err(Unknown::Word),
+            Err(Unknown::Fields),
+            Ok(Command::Uuid),
+            Err(Unknown::Fields),
+            Err(Unknown::Word),
+            Ok(Command::Color(Rgb::new(0, 0, 3))),
+        ]
+    );
+}
+
+#[test]
+fn fields_out_of_range_are_refused() {
+    let bad = [
+        "PATH 0 0 0",
+        "PATH 1 0",
+        "PATH 1 0 0 L 100 5",
+        "PATH 1 0 0 R 0",
+        "PATH 1 0 0 R -5",
+        "PATH 1 0 0 R 3600000001",
+        "PATH 1 0 0 X 5",
+        "PATH 1 10000001 0",
+        "PATH 1 0.5 0",
+        "START 0 5",
+        "START 1",
+        "START 1 -5",
+        "HOLD",
+        "RESUME x",
+        "TIME 1 5 4",
+        "FADE 1 2",
+        "BLINK -1",
+        "TARGET x 1",
+        "COLOR -1",
+    ];
+    for part in bad {
+        assert_eq!(commands(part.as_bytes()).collect::<Vec<_>>(), [Err(Unknown::Fields)], "{part}");
+    }
+}
+
+#[test]
+fn a_target_is_read_for_what_it_is() {
+    let target = |text: &str| match commands(text.as_bytes()).next() {
+        Some(Ok(Command::Target(at))) => at,
+        other => panic!("{other:?}"),
+    };
+    assert_eq!(target("TARGET 0,500000 -1,250000"), Vec2::new(0.5, -1.25));
+    assert_eq!(target("TARGET  1.0E-4 1e0"), Vec2::new(1e-4, 1.0));
+    assert_eq!(target("TARGET Infinity 0").x, f64::INFINITY);
+    assert!(target("TARGET NaN 0").x.is_nan());
+}
+
+#[test]
+fn a_route_of_the_most_pieces_fits_and_one_more_does_not() {
+    let far = Vec2::new(-1000.0, -1000.0);
+    let curve = Piece { duration: Span(3_600_000_000), c1: far, c2: Vec2::ZERO, end: far };
+    let full = text(&Command::Route(route(&[curve; MAX_PIECES])));
+    assert!(full.len() <= MAX_PAYLOAD, "{}", full.len());
+    assert!(commands(full.as_bytes()).next().unwrap().is_ok());
+    let over = full.trim_end_matches('|').to_string() + " R 1|";
+    assert_eq!(commands(over.as_bytes()).next(), Some(Err(Unknown::Fields)));
+}
+
+#[test]
+fn a_blink_lasts_a_minute_at_most() {
+    assert_eq!(
+        commands(b"BLINK 3000000000").next(),
+        Some(Ok(Command::Blink(Blink { over: Span(60_000_000) })))
+    );
+}
+
+#[test]
+fn reports_of_others_are_read() {
+    let original = Report::decode(b"r1 -0.29999999999999993 1.3000000000000003").unwrap();
+    assert_eq!(original.at, Some(Vec2::new(-0.299_999_999_999_999_93, 1.300_000_000_000_000_3)));
+    assert_eq!(original.details, None);
+    let odd =
+        Report::decode(b"r1 0,5 1.0E-4 later mood=fine state=sleepy bat=250 off=-1 route=x can=fly+route")
+            .unwrap();
+    let details =
+        Details { abilities: Abilities { route: true, ..Abilities::default() }, ..Details::default() };
+    assert_eq!(odd, Report { id: id("r1"), at: Some(Vec2::new(0.5, 1e-4)), details: Some(details) });
+    for bad in ["r1", "r1 1", "r1 a b", "r/1 1 2", "|UUID|"] {
+        assert_eq!(Report::decode(bad.as_bytes()), None, "{bad}");
+    }
+}
