@@ -8,7 +8,7 @@
 //! use lightbots_api::{FromScreen, Operation};
 //! let FromScreen::Operate(request) =
 //!     serde_json::from_str(r#"{"type":"operate","id":7,"operation":{"do":"preview","frame":2}}"#).unwrap();
-//! assert_eq!(request.operation, Operation::Preview { frame: 2 });
+//! assert!(matches!(request.operation, Operation::Preview { frame: 2, .. }));
 //! ```
 
 mod fleet;

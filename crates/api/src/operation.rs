@@ -35,6 +35,9 @@ pub enum Operation {
     Preview {
         /// Which.
         frame: usize,
+        /// What to do where robots are missing.
+        #[serde(default)]
+        missing: Missing,
     },
     /// Hold everything where it is on its way.
     Pause,
@@ -62,6 +65,13 @@ pub enum Operation {
     Forget {
         /// Its name.
         robot: String,
+    },
+    /// Bind a pixel to a robot in all frames for as long as this show is open, or free it.
+    Pin {
+        /// The pixel's id.
+        pixel: u32,
+        /// The only robot that may show it; null: any.
+        robot: Option<String>,
     },
     /// Open a show of the library on every screen.
     Open {

@@ -34,6 +34,8 @@ pub struct Broker {
 pub struct Playback {
     /// What is going on.
     pub phase: Phase,
+    /// What the run is doing, for people, such as `driving`; null: there is no run.
+    pub doing: Option<String>,
     /// The frame that is shown or driven to, counted from 0; null: none.
     pub frame: Option<usize>,
     /// How many frames the open show has.
@@ -81,6 +83,10 @@ pub struct Robots {
     pub colour: Vec<u32>,
     /// What it is doing: index into `RobotStatus` in its order, from 0.
     pub status: Vec<u8>,
+    /// Where its path says it is now along x, stage metres; null: it drives no path. Never draw it as if measured.
+    pub planned_x: Vec<Option<f64>>,
+    /// Where its path says it is now along y, stage metres.
+    pub planned_y: Vec<Option<f64>>,
     /// Where its pixel is along x, stage metres; null: it stands by.
     pub goal_x: Vec<Option<f64>>,
     /// Where its pixel is along y, stage metres; null: it stands by.

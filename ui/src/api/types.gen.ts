@@ -304,6 +304,10 @@ export type Playback = {
  */
 phase: Phase, 
 /**
+ * What the run is doing, for people, such as `driving`; null: there is no run.
+ */
+doing: string | null, 
+/**
  * The frame that is shown or driven to, counted from 0; null: none.
  */
 frame: number | null, 
@@ -357,6 +361,14 @@ colour: Array<number>,
  * What it is doing: index into `RobotStatus` in its order, from 0.
  */
 status: Array<number>, 
+/**
+ * Where its path says it is now along x, stage metres; null: it drives no path. Never draw it as if measured.
+ */
+planned_x: Array<number | null>, 
+/**
+ * Where its path says it is now along y, stage metres.
+ */
+planned_y: Array<number | null>, 
 /**
  * Where its pixel is along x, stage metres; null: it stands by.
  */
@@ -416,7 +428,11 @@ missing: Missing, } | { "do": "preview",
 /**
  * Which.
  */
-frame: number, } | { "do": "pause" } | { "do": "resume" } | { "do": "step" } | { "do": "loop", 
+frame: number, 
+/**
+ * What to do where robots are missing.
+ */
+missing: Missing, } | { "do": "pause" } | { "do": "resume" } | { "do": "step" } | { "do": "loop", 
 /**
  * Whether to.
  */
@@ -428,7 +444,15 @@ robot: string, } | { "do": "forget",
 /**
  * Its name.
  */
-robot: string, } | { "do": "open", 
+robot: string, } | { "do": "pin", 
+/**
+ * The pixel's id.
+ */
+pixel: number, 
+/**
+ * The only robot that may show it; null: any.
+ */
+robot: string | null, } | { "do": "open", 
 /**
  * Its name there.
  */
