@@ -37,6 +37,7 @@ pub enum Operation {
         frame: usize,
         /// What to do where robots are missing.
         #[serde(default)]
+        #[ts(as = "Option<Missing>", optional)]
         missing: Missing,
     },
     /// Hold everything where it is on its way.
@@ -83,8 +84,10 @@ pub enum Operation {
         /// `mqtt://host:1883`, `mqtts://…`, or `embedded`.
         address: String,
         /// User name; null: that of the address, or none.
+        #[ts(optional = nullable)]
         user: Option<String>,
         /// Password; null: that of the address, or none.
+        #[ts(optional = nullable)]
         password: Option<String>,
     },
     /// Leave the broker.

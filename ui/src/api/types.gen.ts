@@ -432,7 +432,7 @@ frame: number,
 /**
  * What to do where robots are missing.
  */
-missing: Missing, } | { "do": "pause" } | { "do": "resume" } | { "do": "step" } | { "do": "loop", 
+missing?: Missing, } | { "do": "pause" } | { "do": "resume" } | { "do": "step" } | { "do": "loop", 
 /**
  * Whether to.
  */
@@ -464,11 +464,11 @@ address: string,
 /**
  * User name; null: that of the address, or none.
  */
-user: string | null, 
+user?: string | null, 
 /**
  * Password; null: that of the address, or none.
  */
-password: string | null, } | { "do": "disconnect" };
+password?: string | null, } | { "do": "disconnect" };
 
 /**
  * What to do where there are fewer ready robots than pixels.
