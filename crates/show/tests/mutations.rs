@@ -1,0 +1,116 @@
+//! Seeded mutations of good files: whatever comes of them is read or refused in one line, never a panic.
+
+use lightbots_base::{Rgb, Vec2};
+use lightbots_show::{
+    Easing, Format, Frame, Identity, Obstacle, Pixel, Show, Stage, front_rows, read, validate, write,
+};
+
+/// Numbers that look random, the same at every run (SplitMix64).
+struct Dice(u64);
+
+impl Dice {
+    fn roll(&mut self, sides: usize) -> usize {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut mixed = self.0;
+        mixed = (mixed ^ mixed >> 30).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        mixed = (mixed ^ mixed >> 27).wrapping_mul(0x94d0_49bb_1331_11eb);
+        ((mixed ^ mixed >> 31) % sides.max(1) as u64) as usize
+    }
+}
+
+fn seed_show() -> Show {
+    let pixel = |id: u32| Pixel {
+        id,
+        at: Vec2::new(f64::from(id) * 0.1, 0.5),
+        color: Rgb::new(255, 165, 0),
+        robot: (id == 1).then(|| "r\u{e4}1".to_owned()),
+    };
+    let frame = Frame {
+        name: "First \"ä\"\n".into(),
+        air_time_s: 1.5,
+        transition_s: Some(4.0),
+        easing: Easing::Gentle,
+        identity: Some(Identity::Fixed),
+        pixels: (0..3).map(pixel).collect(),
+    };
+    Show {
+        stage: Stage {
+            obstacles: vec![Obstacle::Disc { at: Vec2::new(-1.0, 0.0), radius_m: 0.2 }],
+            ..Stage::default()
+        },
+        starts: Some(vec![Vec2::new(0.1, 0.2); 2]),
+        frames: vec![frame; 2],
+        ..Show::default()
+    }
+}
+
+fn mutate(bytes: &mut Vec<u8>, dice: &mut Dice) {
+    const WORDS: [&[u8]; 14] = [
+        b"NaN",
+        b"-Infinity",
+        b"1e999",
+        b"-1",
+        b"4294967296",
+        b"null",
+        b"[[[[",
+        b"{",
+        b"\"",
+        b"\\u",
+        b"\xff",
+        b"99999999",
+        b",",
+        b"1e-320",
+    ];
+    let at = dice.roll(bytes.len());
+    match dice.roll(6) {
+        0 => bytes[at] = dice.roll(256) as u8,
+        1 => drop(bytes.remove(at)),
+        2 => bytes.truncate(at.max(1)),
+        3 => drop(bytes.splice(at..at, WORDS[dice.roll(WORDS.len())].iter().copied())),
+        4 => {
+            let end = (at + dice.roll(40)).min(bytes.len());
+            let copy = bytes[at..end].to_vec();
+            bytes.splice(at..at, copy);
+        }
+        _ => {
+            // The likeliest to survive reading: another number in the place of one.
+            let Some(number) = bytes[at..].iter().position(u8::is_ascii_digit) else { return };
+            let word = WORDS[dice.roll(5)];
+            bytes.splice(at + number..=at + number, word.iter().copied());
+        }
+    }
+    if bytes.is_empty() {
+        bytes.push(b' ');
+    }
+}
+
+#[test]
+fn no_mutation_breaks_reading_or_validating() {
+    let mut dice = Dice(2);
+    let (mut were_read, mut refused) = (0, 0);
+    for format in [Format::LightBots, Format::Original] {
+        let good = write(&seed_show(), format);
+        for _ in 0..4_000 {
+            let mut bytes = good.clone();
+            for _ in 0..=dice.roll(3) {
+                mutate(&mut bytes, &mut dice);
+            }
+            match read(&bytes, Some("json")) {
+                Ok(loaded) => {
+                    were_read += 1;
+                    let lines = validate(&loaded.show);
+                    assert!(lines.iter().chain(&loaded.issues).all(|issue| !issue.message.contains('\n')));
+                    front_rows(&loaded.show.stage, 5);
+                    let again = read(&write(&loaded.show, format), None).expect("what we write we read");
+                    assert_eq!(again.show.frames.len(), loaded.show.frames.len());
+                }
+                Err(error) => {
+                    refused += 1;
+                    let line = error.to_string();
+                    assert!(!line.contains('\n') && line.len() < 400, "{line}");
+                }
+            }
+        }
+    }
+    assert!(were_read > 500 && refused > 500, "{were_read} read, {refused} refused");
+}

@@ -1,0 +1,151 @@
+//! What is written is read again as it was, in both formats.
+
+use lightbots_base::{Limits, Rgb, Vec2};
+use lightbots_show::{
+    Easing, Format, Frame, Identity, Obstacle, Pixel, Show, Stage, losses, read, validate, with_floor, write,
+};
+
+/// A show that uses every field.
+fn rich() -> Show {
+    let pixel = |id: u32, x: f64| Pixel {
+        id,
+        at: Vec2::new(x, -0.1234),
+        color: Rgb::new(id as u8, 165, 0),
+        robot: (id == 2).then(|| "abfe6805".to_owned()),
+    };
+    let frame = |name: &str, easing, identity: Option<Identity>| Frame {
+        name: name.into(),
+        air_time_s: 0.25,
+        transition_s: identity.map(|_| 12.5),
+        easing,
+        identity,
+        pixels: vec![pixel(0, -0.5), pixel(2, 0.0), pixel(9, 0.75)],
+    };
+    Show {
+        name: "All \"fields\"\\\n\u{7f}ä😀".into(),
+        stage: Stage {
+            width_m: 4.5,
+            depth_m: 2.0,
+            obstacles: vec![
+                Obstacle::Disc { at: Vec2::new(1.0, 0.5), radius_m: 0.2 },
+                Obstacle::Rect { min: Vec2::new(-1.0, 0.25), max: Vec2::new(-0.5, 0.5) },
+            ],
+            limits: Limits { accel_mps2: 0.5, ..Limits::default() },
+        },
+        identity: Identity::Fixed,
+        starts: Some(vec![Vec2::new(-0.1, 0.8), Vec2::new(0.0, 0.8), Vec2::new(0.1, 0.8)]),
+        music: Some("march.ogg".into()),
+        frames: vec![frame("one", Easing::Swift, None), frame("", Easing::Gentle, Some(Identity::Any))],
+    }
+}
+
+#[test]
+fn ours_keeps_everything() {
+    let show = rich();
+    assert_eq!(validate(&show), []);
+    let loaded = read(&write(&show, Format::LightBots), None).unwrap();
+    assert_eq!((loaded.format, loaded.has_stage, loaded.issues.len()), (Format::LightBots, true, 0));
+    assert_eq!(loaded.show, show);
+}
+
+#[test]
+fn our_layout_is_a_pixel_a_line() {
+    let mut show = rich();
+    show = Show { stage: Stage::default(), starts: None, music: None, identity: Identity::Any, ..show };
+    show.name = "Two".into();
+    show.frames.truncate(1);
+    show.frames[0].pixels.truncate(2);
+    let expected = r##"{
+  "lightbots": 1,
+  "name": "Two",
+  "stage": {
+    "width_m": 3,
+    "depth_m": 3
+  },
+  "frames": [
+    {
+      "name": "one",
+      "air_time_s": 0.25,
+      "pixels": [
+        { "id": 0, "place": [-0.5, -0.1234], "color": "#00a500" },
+        { "id": 2, "place": [0, -0.1234], "color": "#02a500", "robot": "abfe6805" }
+      ]
+    }
+  ]
+}
+"##;
+    assert_eq!(String::from_utf8(write(&show, Format::LightBots)).unwrap(), expected);
+}
+
+#[test]
+fn the_originals_format_has_every_field_its_editor_needs() {
+    let json: serde_json::Value = serde_json::from_slice(&write(&rich(), Format::Original)).unwrap();
+    let frame = &json[0];
+    assert_eq!((&frame["selected"], &json[1]["selected"]), (&true.into(), &false.into()));
+    assert_eq!((&frame["airTime"], &frame["selectedPixels"]), (&0.25.into(), &serde_json::json!([])));
+    let pixel = &frame["pixels"][2];
+    let canvas = serde_json::json!({"X": 540.0, "Y": 389.616});
+    assert_eq!(pixel["pixelId"], 2, "numbered without gaps");
+    assert_eq!(pixel["physicalLocation"], serde_json::json!({"X": 0.75, "Y": -0.1234}));
+    assert_eq!((&pixel["pixelLocation"], &pixel["pixelPreviewLocation"]), (&canvas, &canvas));
+    assert_eq!(pixel["pixelTimelineLocation"], serde_json::json!({"X": 75.0, "Y": 54.1133}));
+    assert_eq!(pixel["color"], pixel["previewColor"]);
+    assert_eq!(pixel["color"]["G"], 0.6470588445663452);
+}
+
+#[test]
+fn every_colour_survives_the_originals_format() {
+    let mut show = rich();
+    show.frames.truncate(1);
+    for byte in 0..=255 {
+        show.frames[0].pixels.truncate(1);
+        show.frames[0].pixels[0].color = Rgb::new(byte, 0, 255 - byte);
+        let back = read(&write(&show, Format::Original), None).unwrap().show;
+        assert_eq!(back.frames, show.frames);
+        let rounded = format!(
+            "[{{\"name\":\"\",\"airTime\":0,\"pixels\":[{{\"pixelId\":0,\"physicalLocation\":{{\"X\":0,\"Y\":0}},\
+             \"color\":{{\"R\":{:.3},\"G\":0,\"B\":1}}}}]}}]",
+            f64::from(byte) / 255.0
+        );
+        assert_eq!(read(rounded.as_bytes(), None).unwrap().show.frames[0].pixels[0].color.r, byte);
+    }
+}
+
+#[test]
+fn what_the_original_cannot_hold_is_said() {
+    let lost = losses(&rich(), Format::Original);
+    assert!(lost.iter().any(|issue| issue.message.contains("obstacles")));
+    assert!(lost.iter().any(|issue| issue.code == "not-30-pixels"));
+    assert_eq!(losses(&rich(), Format::LightBots), []);
+}
+
+#[test]
+fn an_original_carries_no_stage_and_may_lack_what_can_be_derived() {
+    let text = r#"[{"pixels": [{"pixelLocation": {"X": 720, "Y": 0}, "pixelId": 1.0,
+        "previewColor": {"R": 0, "G": 1, "B": 0.5019608}}], "selected": true}]"#;
+    let loaded = read(text.as_bytes(), None).unwrap();
+    assert!(!loaded.has_stage);
+    assert_eq!(loaded.issues.len(), 1, "no air time");
+    let show = with_floor(loaded.show, 4.0, 5.0);
+    assert_eq!((show.stage.width_m, show.stage.depth_m), (4.0, 5.0));
+    let pixel = &show.frames[0].pixels[0];
+    assert_eq!((pixel.at, pixel.color), (Vec2::new(1.5, 1.5), Rgb::new(0, 255, 128)));
+}
+
+#[test]
+fn a_byte_order_mark_is_no_fault() {
+    let bytes = [b"\xef\xbb\xbf".as_slice(), &write(&rich(), Format::LightBots)].concat();
+    assert_eq!(read(&bytes, None).unwrap().show, rich());
+}
+
+#[test]
+fn ten_thousand_robots_are_read_and_found_sound() {
+    let place = |id: u32| Vec2::new(f64::from(id % 100) * 0.2 - 9.9, f64::from(id / 100) * 0.2 - 9.9);
+    let pixels = (0..10_000).map(|id| Pixel { id, at: place(id), color: Rgb::new(9, 9, 9), robot: None });
+    let frame = Frame { pixels: pixels.collect(), ..rich().frames.remove(0) };
+    let show = with_floor(Show { frames: vec![frame; 10], ..Show::default() }, 24.0, 24.0);
+    let loaded = read(&write(&show, Format::LightBots), None).unwrap();
+    assert_eq!(validate(&loaded.show), []);
+    assert_eq!(loaded.show.frames[9].pixels[9_999].id, 9_999);
+    assert!((loaded.show.frames[9].pixels[9_999].at - Vec2::new(9.9, 9.9)).length() < 1e-9);
+}
