@@ -1,0 +1,34 @@
+import { MantineProvider } from '@mantine/core';
+import { Notifications } from '@mantine/notifications';
+import '@mantine/notifications/styles.css';
+import { useState } from 'react';
+import { EditPage } from './edit/EditPage';
+import { LivePage } from './live/LivePage';
+import { DropFile } from './shell/DropFile';
+import { Header } from './shell/Header';
+import { LinkBanner } from './shell/LinkBanner';
+import { OfferDialog } from './shell/OfferDialog';
+import { createSession, SessionContext } from './shell/session';
+import { useView } from './shell/useHash';
+import { theme } from './theme';
+
+export function App() {
+  const [session] = useState(createSession);
+  const view = useView();
+  return (
+    <MantineProvider theme={theme} defaultColorScheme="dark">
+      <SessionContext value={session}>
+        <Notifications position="bottom-right" limit={4} />
+        <div className="app">
+          <div>
+            <Header view={view} />
+            <LinkBanner />
+          </div>
+          {view === 'edit' ? <EditPage /> : <LivePage />}
+        </div>
+        <OfferDialog />
+        <DropFile />
+      </SessionContext>
+    </MantineProvider>
+  );
+}

@@ -1,0 +1,64 @@
+import type { Plan, ShowEntry } from './types.gen';
+
+/** Something the server refused, in its words. */
+export class Refused extends Error {
+  constructor(
+    readonly status: number,
+    message: string,
+  ) {
+    super(message);
+  }
+}
+
+async function request(path: string, init?: RequestInit): Promise<Response> {
+  let response: Response;
+  try {
+    response = await fetch(path, init);
+  } catch {
+    throw new Refused(0, 'The server cannot be reached. Is lightbots still running?');
+  }
+  if (response.ok) return response;
+  const text = await response.text();
+  let error = text.slice(0, 300) || `The server answered ${response.status}.`;
+  try {
+    error = (JSON.parse(text) as { error?: string }).error ?? error;
+  } catch {
+    // Not a problem in JSON: the text itself is the message.
+  }
+  throw new Refused(response.status, error);
+}
+
+const showPath = (name: string) => `/api/shows/${encodeURIComponent(name)}`;
+
+export const listShows = async () => (await (await request('/api/shows')).json()) as ShowEntry[];
+
+/** The document of a show in the library, and its version. */
+export async function getShow(name: string): Promise<{ document: unknown; etag: string | null }> {
+  const response = await request(showPath(name));
+  return { document: await response.json(), etag: response.headers.get('etag') };
+}
+
+/** Saves text in either format. `etag`: the version it replaces; `'new'`: only if there is none of that name. */
+export async function putShow(
+  name: string,
+  body: BodyInit,
+  etag: string | 'new' | null,
+): Promise<ShowEntry> {
+  const headers: Record<string, string> = { 'Content-Type': 'application/json' };
+  if (etag === 'new') headers['If-None-Match'] = '*';
+  else if (etag !== null) headers['If-Match'] = etag;
+  const response = await request(showPath(name), { method: 'PUT', headers, body });
+  return (await response.json()) as ShowEntry;
+}
+
+export const deleteShow = (name: string) => request(showPath(name), { method: 'DELETE' });
+
+/** The plan of the open show, with paths. */
+export const getPlan = async () => (await (await request('/api/plan')).json()) as Plan;
+
+/** Checks a document that need not be open. */
+export const checkShow = async (body: BodyInit) =>
+  (await (await request('/api/check', { method: 'POST', body })).json()) as Plan;
+
+export const convertShow = async (body: BodyInit, to: 'lightbots' | 'original') =>
+  (await request(`/api/convert?to=${to}`, { method: 'POST', body })).text();

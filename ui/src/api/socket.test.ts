@@ -1,0 +1,82 @@
+import { afterEach, beforeEach, expect, test, vi } from 'vitest';
+import { backoff_ms } from './backoff';
+import { createLink, type LinkState, type SocketLike } from './socket';
+
+class FakeSocket implements SocketLike {
+  sent: string[] = [];
+  onopen: (() => void) | null = null;
+  onclose: (() => void) | null = null;
+  onmessage: ((event: { data: unknown }) => void) | null = null;
+  send(text: string) {
+    this.sent.push(text);
+  }
+  close() {
+    this.onclose?.();
+  }
+}
+
+function setup() {
+  const sockets: FakeSocket[] = [];
+  const states: LinkState[] = [];
+  const messages: string[] = [];
+  const link = createLink({
+    open: () => {
+      const socket = new FakeSocket();
+      sockets.push(socket);
+      return socket;
+    },
+    onMessage: (m) => messages.push(m.type),
+    onLink: (s) => states.push(s),
+    random: () => 0.5,
+  });
+  const socket = (n: number) => sockets[n] as FakeSocket;
+  return { sockets, socket, states, messages, link };
+}
+
+beforeEach(() => void vi.useFakeTimers());
+afterEach(() => void vi.useRealTimers());
+
+test('waits longer each time, and never for ever', () => {
+  expect([0, 1, 2, 9, 1000].map((n) => backoff_ms(n, 0.5))).toEqual([250, 500, 1000, 5000, 5000]);
+});
+
+test('comes back by itself, and starts afresh once it was back', () => {
+  const { sockets, socket, states } = setup();
+  socket(0).onopen?.();
+  socket(0).onclose?.();
+  vi.advanceTimersByTime(250);
+  socket(1).onclose?.();
+  vi.advanceTimersByTime(499);
+  expect(sockets).toHaveLength(2);
+  vi.advanceTimersByTime(1);
+  socket(2).onopen?.();
+  expect(states).toEqual(['connecting', 'open', 'lost', 'lost', 'open']);
+});
+
+test('an answer finds its question', async () => {
+  const { socket, link, messages } = setup();
+  socket(0).onopen?.();
+  const first = link.operate({ do: 'pause' });
+  const second = link.operate({ do: 'refresh' });
+  socket(0).onmessage?.({ data: '{"type":"answer","id":2,"ok":true,"error":null,"choice":null}' });
+  socket(0).onmessage?.({ data: '{"type":"answer","id":1,"ok":false,"error":"no","choice":null}' });
+  expect((await first).error).toBe('no');
+  expect((await second).ok).toBe(true);
+  expect(messages).toEqual([]);
+});
+
+test('junk is dropped, and questions do not wait for ever', async () => {
+  const { socket, link, messages } = setup();
+  expect((await link.operate({ do: 'pause' })).ok).toBe(false);
+  socket(0).onopen?.();
+  for (const data of ['', '{', 'null', '7', '{"type":5}', new ArrayBuffer(3)])
+    socket(0).onmessage?.({ data });
+  socket(0).onmessage?.({ data: '{"type":"log","time_ms":0,"level":"info","text":"x"}' });
+  expect(messages).toEqual(['log']);
+  const silent = link.operate({ do: 'pause' });
+  vi.advanceTimersByTime(10_000);
+  expect((await silent).ok).toBe(false);
+  const cut = link.operate({ do: 'pause' });
+  socket(0).onclose?.();
+  expect((await cut).error).toContain('broke');
+});

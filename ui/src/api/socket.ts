@@ -1,0 +1,111 @@
+import { backoff_ms } from './backoff';
+import type { Answer, FromScreen, Operation, ToScreen } from './types.gen';
+
+/** What of a WebSocket is used, so that tests can stand in for it. */
+export interface SocketLike {
+  send(text: string): void;
+  close(): void;
+  onopen: (() => void) | null;
+  onclose: (() => void) | null;
+  onmessage: ((event: { data: unknown }) => void) | null;
+}
+
+export type LinkState = 'connecting' | 'open' | 'lost';
+
+export interface Link {
+  /** Asks the server; resolves with its answer, or with a refusal in words when there is no link. Never rejects. */
+  operate(operation: Operation): Promise<Answer>;
+  /** Tries again at once instead of waiting. */
+  retry(): void;
+  close(): void;
+}
+
+export interface LinkOptions {
+  open(): SocketLike;
+  onMessage(message: ToScreen): void;
+  onLink(state: LinkState): void;
+  random?(): number;
+}
+
+/** No answer after this long counts as refused, milliseconds. */
+const ANSWER_MAX_MS = 10_000;
+
+/** A WebSocket that comes back by itself. */
+export function createLink(options: LinkOptions): Link {
+  const random = options.random ?? Math.random;
+  const waiting = new Map<number, (answer: Answer) => void>();
+  let socket: SocketLike | null = null;
+  let [up, closed, tries, lastId] = [false, false, 0, 0];
+  let timer: ReturnType<typeof setTimeout> | undefined;
+
+  const refuse = (id: number, error: string) => {
+    waiting.get(id)?.({ id, ok: false, error, choice: null });
+    waiting.delete(id);
+  };
+
+  const lost = () => {
+    up = false;
+    socket = null;
+    for (const id of [...waiting.keys()])
+      refuse(id, 'The connection to the server broke. Try again.');
+    if (closed) return;
+    options.onLink('lost');
+    timer = setTimeout(connect, backoff_ms(tries++, random()));
+  };
+
+  function connect() {
+    clearTimeout(timer);
+    const mine = options.open();
+    socket = mine;
+    mine.onopen = () => {
+      if (socket !== mine) return;
+      up = true;
+      tries = 0;
+      options.onLink('open');
+    };
+    mine.onclose = () => {
+      if (socket === mine) lost();
+    };
+    mine.onmessage = (event) => {
+      if (socket !== mine) return;
+      const message = decode(event.data);
+      if (message?.type === 'answer') {
+        waiting.get(message.id)?.(message);
+        waiting.delete(message.id);
+      } else if (message) options.onMessage(message);
+    };
+  }
+
+  options.onLink('connecting');
+  connect();
+  return {
+    operate(operation) {
+      const id = ++lastId;
+      return new Promise((resolve) => {
+        waiting.set(id, resolve);
+        if (!up || !socket) return refuse(id, 'There is no connection to the server right now.');
+        const message: FromScreen = { type: 'operate', id, operation };
+        socket.send(JSON.stringify(message));
+        setTimeout(() => refuse(id, 'The server did not answer.'), ANSWER_MAX_MS);
+      });
+    },
+    retry() {
+      if (!up && !closed && socket === null) connect();
+    },
+    close() {
+      closed = true;
+      clearTimeout(timer);
+      socket?.close();
+    },
+  };
+}
+
+function decode(data: unknown): ToScreen | null {
+  if (typeof data !== 'string') return null;
+  try {
+    const value = JSON.parse(data) as ToScreen;
+    return typeof value === 'object' && typeof value.type === 'string' ? value : null;
+  } catch {
+    return null;
+  }
+}

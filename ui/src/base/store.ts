@@ -1,0 +1,37 @@
+import { useSyncExternalStore } from 'react';
+
+/** A value that tells its listeners when it changes. Knows nothing of React; `useStore` is the bridge. */
+export interface Store<T> {
+  get(): T;
+  /** Replaces the value; listeners run only when it is another one (`Object.is`). */
+  set(next: T): void;
+  update(change: (now: T) => T): void;
+  subscribe(listener: () => void): () => void;
+}
+
+export function createStore<T>(initial: T): Store<T> {
+  let value = initial;
+  const listeners = new Set<() => void>();
+  const set = (next: T) => {
+    if (Object.is(next, value)) return;
+    value = next;
+    for (const listener of [...listeners]) listener();
+  };
+  return {
+    get: () => value,
+    set,
+    update: (change) => set(change(value)),
+    subscribe(listener) {
+      listeners.add(listener);
+      return () => listeners.delete(listener);
+    },
+  };
+}
+
+/** Renders again when `select` gives another value. `select` must return the same object for the same state. */
+export function useStore<T, S = T>(
+  store: Store<T>,
+  select: (value: T) => S = (v) => v as never,
+): S {
+  return useSyncExternalStore(store.subscribe, () => select(store.get()));
+}

@@ -1,0 +1,16 @@
+/** `0:07`, `12:34` from seconds; what is no number is shown as a dash. */
+export function clockText(seconds: number | null | undefined): string {
+  if (seconds === null || seconds === undefined || !Number.isFinite(seconds)) return '–:––';
+  const whole = Math.max(0, Math.round(seconds));
+  return `${Math.floor(whole / 60)}:${String(whole % 60).padStart(2, '0')}`;
+}
+
+/** `3.4 s`. */
+export const secondsText = (seconds: number) => `${seconds.toFixed(1)} s`;
+
+/** Age for people: `now`, `4 s`, `3 min`. */
+export function ageText(seconds: number): string {
+  if (seconds < 1.5) return 'now';
+  if (seconds < 100) return `${Math.round(seconds)} s`;
+  return `${Math.round(seconds / 60)} min`;
+}

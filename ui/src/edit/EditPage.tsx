@@ -1,0 +1,4 @@
+/** Drawing. */
+export function EditPage() {
+  return <main className="page" />;
+}

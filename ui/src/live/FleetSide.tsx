@@ -1,0 +1,49 @@
+import { Badge, Tabs } from '@mantine/core';
+import { useStore } from '../base/store';
+import { useSession } from '../shell/session';
+import { FleetTable } from './FleetTable';
+import { LogList } from './LogList';
+import { ShowFacts } from './ShowFacts';
+
+/** Robots, show and log beside the floor. */
+export function FleetSide() {
+  const { live } = useSession();
+  const robots = useStore(live.fleet, (fleet) => fleet.rows.length);
+  const issues = useStore(
+    live.plan,
+    (plan) => plan?.issues.filter((i) => i.severity !== 'note').length ?? 0,
+  );
+  return (
+    <aside className="side" aria-label="Fleet, show and log">
+      <Tabs defaultValue="robots">
+        <Tabs.List grow>
+          <Tabs.Tab value="robots">
+            Robots {robots > 0 ? <span className="quiet">{robots}</span> : null}
+          </Tabs.Tab>
+          <Tabs.Tab
+            value="show"
+            rightSection={
+              issues > 0 ? (
+                <Badge size="xs" circle aria-label={`${issues} problems`}>
+                  {issues}
+                </Badge>
+              ) : null
+            }
+          >
+            Show
+          </Tabs.Tab>
+          <Tabs.Tab value="log">Log</Tabs.Tab>
+        </Tabs.List>
+        <Tabs.Panel value="robots">
+          <FleetTable />
+        </Tabs.Panel>
+        <Tabs.Panel value="show" p="md">
+          <ShowFacts />
+        </Tabs.Panel>
+        <Tabs.Panel value="log">
+          <LogList />
+        </Tabs.Panel>
+      </Tabs>
+    </aside>
+  );
+}

@@ -1,0 +1,75 @@
+import { IconRoute, IconTarget } from '@tabler/icons-react';
+import { useKeys } from '../shell/useKeys';
+import { useCallback, useEffect, useMemo, useState } from 'react';
+import { useStore } from '../base/store';
+import { useSession } from '../shell/session';
+import { createView, StageCanvas } from '../stage/StageCanvas';
+import { fitView, StageTool, zoomView, ZoomTools } from '../stage/ViewTools';
+import { createFullPlan, pathsTo } from './paths';
+import { RobotTwin } from './RobotTwin';
+import { liveScene } from './scene';
+
+/** The floor as it is now. */
+export function LiveStage() {
+  const { live, frame } = useSession();
+  const [view] = useState(createView);
+  const [full] = useState(() => createFullPlan(live));
+  const [targets, setTargets] = useState(true);
+  const [ways, setWays] = useState(false);
+  const show = useStore(live.opened, (o) => o.show);
+  const chosen = useStore(frame);
+  const playing = useStore(live.playback, (p) => p.frame);
+  const plan = useStore(full.plan);
+  const empty = useStore(live.fleet, (fleet) => fleet.rows.length === 0);
+  const linked = useStore(live.link) === 'open';
+  useEffect(() => (ways ? void full.follow() : undefined), [ways, full]);
+  useKeys([
+    ['0', () => fitView(view)],
+    ['+', () => zoomView(view, 1.4)],
+    ['-', () => zoomView(view, 1 / 1.4)],
+    ['t', () => setTargets((on) => !on)],
+    ['w', () => setWays((on) => !on)],
+  ]);
+  const paths = useMemo(
+    () => (ways ? pathsTo(plan, show, playing ?? chosen) : []),
+    [ways, plan, show, playing, chosen],
+  );
+  const sceneAt = useCallback(
+    (now_ms: number) => liveScene(live, { show, chosen, targets, paths }, now_ms),
+    [live, show, chosen, targets, paths],
+  );
+  return (
+    <section className="stage" aria-label="The floor">
+      <StageCanvas view={view} sceneAt={sceneAt} dragPans />
+      <div className="stage-legend" aria-hidden>
+        <span>
+          <i /> measured
+        </span>
+        <span>
+          <i className="hollow" /> planned
+        </span>
+        <span>
+          <i className="faded" /> silent
+        </span>
+      </div>
+      <div className="stage-tools" role="toolbar" aria-label="What the floor shows">
+        <StageTool label="Planned places (T)" active={targets} onClick={() => setTargets(!targets)}>
+          <IconTarget size={17} />
+        </StageTool>
+        <StageTool label="Planned ways (W)" active={ways} onClick={() => setWays(!ways)}>
+          <IconRoute size={17} />
+        </StageTool>
+        <ZoomTools view={view} />
+      </div>
+      {linked && empty ? (
+        <div className="stage-hint" role="status">
+          <strong>No robots yet</strong>
+          <br />
+          Switch them on, or start <span className="mono">lightbots robots --count 30</span>. They
+          appear here by themselves.
+        </div>
+      ) : null}
+      <RobotTwin />
+    </section>
+  );
+}

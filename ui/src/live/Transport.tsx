@@ -1,0 +1,88 @@
+import { ActionIcon, Button, Group, Progress, Tooltip } from '@mantine/core';
+import {
+  IconEye,
+  IconPlayerPauseFilled,
+  IconPlayerPlayFilled,
+  IconPlayerStopFilled,
+  IconPlayerTrackNextFilled,
+  IconRefresh,
+  IconRepeat,
+} from '@tabler/icons-react';
+import type { ReactNode } from 'react';
+import { useStore } from '../base/store';
+import { useSession } from '../shell/session';
+import { actionsOf, type Action } from './actions';
+import { PlayState } from './PlayState';
+import { useTransportKeys } from './useTransportKeys';
+
+const ICONS = {
+  play: <IconPlayerPlayFilled size={16} />,
+  pause: <IconPlayerPauseFilled size={16} />,
+  resume: <IconPlayerPlayFilled size={16} />,
+};
+
+/** The buttons that make robots move and stop. What is offered follows the server's state. */
+export function Transport() {
+  const { live, ask, frame } = useSession();
+  const playback = useStore(live.playback);
+  const chosen = useStore(frame);
+  const linked = useStore(live.link) === 'open';
+  const hasShow = useStore(live.opened, (o) => o.show !== null);
+  const actions = actionsOf(playback, linked, hasShow);
+  const perform = (action: Action) => {
+    if (!actions.enabled.has(action)) return;
+    void ask(
+      action === 'play'
+        ? { do: 'play', from: chosen, missing: 'refuse' }
+        : action === 'preview'
+          ? { do: 'preview', frame: chosen }
+          : action === 'loop'
+            ? { do: 'loop', on: !playback.looping }
+            : { do: action },
+    );
+  };
+  useTransportKeys(perform, actions.main);
+  const icon = (action: Action, label: string, child: ReactNode, on?: boolean) => (
+    <Tooltip label={label}>
+      <ActionIcon
+        variant={on ? 'light' : 'subtle'}
+        color={on ? undefined : 'gray'}
+        size="lg"
+        aria-label={label}
+        aria-pressed={on}
+        disabled={!actions.enabled.has(action)}
+        onClick={() => perform(action)}
+      >
+        {child}
+      </ActionIcon>
+    </Tooltip>
+  );
+  return (
+    <div className="transport" role="toolbar" aria-label="Playing">
+      <Button
+        w={116}
+        leftSection={ICONS[actions.main]}
+        disabled={!actions.enabled.has(actions.main)}
+        onClick={() => perform(actions.main)}
+      >
+        {{ play: 'Play', pause: 'Pause', resume: 'Resume' }[actions.main]}
+      </Button>
+      <Group gap={2} wrap="nowrap">
+        {icon('abort', 'Abort (Esc)', <IconPlayerStopFilled size={18} />)}
+        {icon('step', 'Step to the next frame (S)', <IconPlayerTrackNextFilled size={18} />)}
+        {icon('preview', 'Preview the chosen frame (P)', <IconEye size={19} />)}
+        {icon('loop', 'Loop (L)', <IconRepeat size={18} />, playback.looping)}
+        {icon('refresh', 'Refresh: who is there? (R)', <IconRefresh size={18} />)}
+      </Group>
+      <div className="progress">
+        <Progress
+          value={playback.progress * 100}
+          size={5}
+          aria-label="Drive to the frame"
+          transitionDuration={60}
+        />
+      </div>
+      <PlayState />
+    </div>
+  );
+}

@@ -1,0 +1,38 @@
+import { expect, test } from 'vitest';
+import type { Phase, Playback } from '../api/types.gen';
+import { actionsOf, phaseText } from './actions';
+
+const playback = (phase: Phase): Playback => ({
+  phase,
+  doing: null,
+  frame: 1,
+  frames: 12,
+  progress: 0,
+  left_s: null,
+  looping: false,
+  late: [],
+});
+
+test.each<[Phase, string, string]>([
+  ['idle', 'play', 'loop'],
+  ['ready', 'play', 'loop refresh play preview step'],
+  ['preparing', 'play', 'loop refresh abort'],
+  ['playing', 'pause', 'loop refresh pause abort'],
+  ['paused', 'resume', 'loop refresh resume step abort'],
+  ['preview', 'play', 'loop refresh abort'],
+  ['aborting', 'play', 'loop refresh'],
+])('%s offers %s, and %s work', (phase, main, enabled) => {
+  const actions = actionsOf(playback(phase), true, true);
+  expect(actions.main).toBe(main);
+  expect([...actions.enabled].join(' ')).toBe(enabled);
+});
+
+test('without a server nothing works, without a show nothing plays', () => {
+  expect(actionsOf(playback('ready'), false, true).enabled.size).toBe(0);
+  expect(actionsOf(playback('ready'), true, false).enabled.has('play')).toBe(false);
+});
+
+test('words', () => {
+  expect(phaseText(playback('playing'))).toBe('Playing frame 2 of 12');
+  expect(phaseText({ ...playback('paused'), frame: null })).toBe('Paused');
+});

@@ -1,0 +1,48 @@
+import type { Playback } from '../api/types.gen';
+
+export type Action =
+  'play' | 'pause' | 'resume' | 'abort' | 'step' | 'preview' | 'loop' | 'refresh';
+
+/** What can be done now, and what the large button does. */
+export interface Actions {
+  main: 'play' | 'pause' | 'resume';
+  enabled: ReadonlySet<Action>;
+}
+
+export function actionsOf(playback: Playback, linked: boolean, hasShow: boolean): Actions {
+  const { phase } = playback;
+  const main = phase === 'paused' ? 'resume' : phase === 'playing' ? 'pause' : 'play';
+  const enabled = new Set<Action>();
+  if (!linked) return { main, enabled };
+  enabled.add('loop');
+  if (phase !== 'idle') enabled.add('refresh');
+  if (phase === 'ready' && hasShow)
+    for (const a of ['play', 'preview', 'step'] as const) enabled.add(a);
+  if (phase === 'playing') enabled.add('pause');
+  if (phase === 'paused') for (const a of ['resume', 'step'] as const) enabled.add(a);
+  if (phase === 'preparing' || phase === 'playing' || phase === 'paused' || phase === 'preview')
+    enabled.add('abort');
+  return { main, enabled };
+}
+
+/** What is going on, in a few words. */
+export function phaseText(playback: Playback): string {
+  const { phase, frame, frames } = playback;
+  const where = frame === null ? '' : `frame ${frame + 1} of ${frames}`;
+  switch (phase) {
+    case 'idle':
+      return 'No broker';
+    case 'ready':
+      return 'Ready';
+    case 'preparing':
+      return 'Getting ready';
+    case 'playing':
+      return `Playing ${where}`.trim();
+    case 'paused':
+      return `Paused, ${where}`.replace(/, $/, '');
+    case 'preview':
+      return `Preview ${where}`.trim();
+    case 'aborting':
+      return 'Stopping';
+  }
+}

@@ -1,0 +1,48 @@
+import { expect, test } from 'vitest';
+import type { FleetRow, Presence } from '../api/types.gen';
+import { newShow } from '../model/show';
+import { fade, liveScene } from './scene';
+import { createLive, hear } from './store';
+
+const row = (presence: Presence): FleetRow => ({
+  id: presence,
+  status: 'idle',
+  presence,
+  age_s: 0,
+  battery: null,
+  pixel: null,
+  firmware: null,
+  abilities: { route: true, fade: true, blink: true },
+  clock_us: null,
+});
+
+test('silent robots fade', () => {
+  const alpha = fade({ revision: 1, rows: [row('active'), row('stale'), row('gone')] });
+  expect(alpha(0)).toBe(1);
+  expect(alpha(1)).toBeLessThan(0.5);
+  expect(alpha(2)).toBeLessThan(alpha(1));
+});
+
+test('planned is hollow, measured is filled, and neither becomes the other', () => {
+  const live = createLive();
+  const wish = { show: newShow('x', 2), chosen: 0, targets: true, paths: [] };
+  expect(liveScene(live, wish, 0)).toMatchObject({ filled: [], hollow: [{}, {}] });
+  const playback = { ...live.playback.get(), phase: 'playing' as const };
+  const robots = {
+    x: [0.1],
+    y: [0.2],
+    heading: [null],
+    colour: [255],
+    status: [2],
+    planned_x: [0.2],
+    planned_y: [0.2],
+    goal_x: [0.5],
+    goal_y: [0.2],
+  };
+  const broker = { address: '', connected: true, reason: null };
+  hear(live, { type: 'state', at_ms: 0, fleet: 1, broker, playback, robots }, 0);
+  const scene = liveScene(live, wish, 1000);
+  expect(scene.filled).toMatchObject([{ x: 0.1, y: 0.2, color: 255 }]);
+  expect(scene.hollow).toMatchObject([{ x: 0.5, y: 0.2 }]);
+  expect(scene.errors).toHaveLength(1);
+});

@@ -1,0 +1,44 @@
+import type { Fleet, Phase } from '../api/types.gen';
+import { EMPTY_STAGE, type Frame, type Show } from '../model/show';
+import type { Dot, Scene } from '../stage/scene';
+import type { Live } from './store';
+
+/** How strongly a robot is drawn: silent ones faded. */
+export function fade(fleet: Fleet): (robot: number) => number {
+  const alphas = fleet.rows.map((row) => ({ active: 1, stale: 0.4, gone: 0.15 })[row.presence]);
+  return (robot) => alphas[robot] ?? 1;
+}
+
+/** Whether robots are on their way, so that their goals are what is planned. */
+export const isRunning = (phase: Phase) => phase !== 'idle' && phase !== 'ready';
+
+/** A frame's pixels as planned places. */
+export const hollowOf = (frame: Frame | undefined): Dot[] =>
+  frame?.pixels.map((p) => ({ x: p.x, y: p.y, color: p.color, alpha: 0.75 })) ?? [];
+
+export interface SceneWish {
+  show: Show | null;
+  /** The frame chosen in the strip. */
+  chosen: number;
+  targets: boolean;
+  paths: Scene['paths'];
+}
+
+/** What the live stage shows now. */
+export function liveScene(live: Live, wish: SceneWish, now_ms: number): Scene {
+  const sample = live.track.sample(now_ms, fade(live.fleet.get()));
+  const running = isRunning(live.playback.get().phase);
+  const stage = wish.show?.stage ?? EMPTY_STAGE;
+  const hollow = running ? sample.hollow : hollowOf(wish.show?.frames[wish.chosen]);
+  return {
+    width_m: stage.width_m,
+    depth_m: stage.depth_m,
+    radius_m: stage.radius_m,
+    obstacles: stage.obstacles,
+    grid: true,
+    filled: sample.filled,
+    hollow: wish.targets ? hollow : [],
+    errors: wish.targets && running ? sample.errors : [],
+    paths: wish.paths,
+  };
+}

@@ -1,0 +1,111 @@
+import { createLink, type Link, type LinkState } from '../api/socket';
+import type { Broker, Fleet, Hello, LogLine, Plan, Playback, ToScreen } from '../api/types.gen';
+import { createStore, type Store } from '../base/store';
+import { readShow } from '../model/json';
+import type { Show } from '../model/show';
+import { createTrack, type Track } from './track';
+
+/** The show that is open on the server. */
+export interface Opened {
+  revision: number;
+  name: string | null;
+  etag: string | null;
+  show: Show | null;
+}
+
+/** Everything the server said, as it said it: this screen adds nothing of its own. */
+export interface Live {
+  link: Store<LinkState>;
+  hello: Store<Hello | null>;
+  opened: Store<Opened>;
+  plan: Store<Plan | null>;
+  fleet: Store<Fleet>;
+  broker: Store<Broker>;
+  playback: Store<Playback>;
+  log: Store<readonly LogLine[]>;
+  track: Track;
+  /** Counts snapshots, for those who list what robots do now. */
+  beats: Store<number>;
+}
+
+/** Lines of the log kept on screen. */
+const LOG_MAX = 500;
+
+const NO_PLAYBACK: Playback = {
+  phase: 'idle',
+  doing: null,
+  frame: null,
+  frames: 0,
+  progress: 0,
+  left_s: null,
+  looping: false,
+  late: [],
+};
+
+export function createLive(): Live {
+  return {
+    link: createStore<LinkState>('connecting'),
+    hello: createStore<Hello | null>(null),
+    opened: createStore<Opened>({ revision: -1, name: null, etag: null, show: null }),
+    plan: createStore<Plan | null>(null),
+    fleet: createStore<Fleet>({ revision: 0, rows: [] }),
+    broker: createStore<Broker>({ address: '', connected: false, reason: null }),
+    playback: createStore<Playback>(NO_PLAYBACK),
+    log: createStore<readonly LogLine[]>([]),
+    track: createTrack(),
+    beats: createStore(0),
+  };
+}
+
+/** Takes in one message of the server. */
+export function hear(live: Live, message: ToScreen, now_ms: number) {
+  switch (message.type) {
+    case 'hello':
+      live.hello.set(message);
+      live.log.set([]);
+      break;
+    case 'show':
+      live.opened.set({
+        revision: message.revision,
+        name: message.name,
+        etag: message.etag,
+        show: message.document === null ? null : readShow(message.document),
+      });
+      break;
+    case 'plan':
+      live.plan.set(message);
+      break;
+    case 'fleet':
+      live.fleet.set(message);
+      break;
+    case 'log':
+      live.log.update((lines) => [...lines.slice(-LOG_MAX + 1), message]);
+      break;
+    case 'state':
+      keep(live.broker, message.broker);
+      keep(live.playback, message.playback);
+      live.track.push(message.robots, now_ms);
+      live.beats.update((n) => n + 1);
+      break;
+    case 'answer':
+      break;
+  }
+}
+
+/** Sets a value unless it says the same as the one before. */
+function keep<T>(store: Store<T>, next: T) {
+  if (JSON.stringify(store.get()) !== JSON.stringify(next)) store.set(next);
+}
+
+/** The one connection of this page to its server. */
+export function connect(live: Live): Link {
+  const address = `${location.protocol === 'https:' ? 'wss' : 'ws'}://${location.host}/ws`;
+  return createLink({
+    open: () => new WebSocket(address) as never,
+    onMessage: (message) => hear(live, message, performance.now()),
+    onLink: (state) => {
+      live.link.set(state);
+      if (state !== 'open') live.playback.update((p) => ({ ...p, phase: 'idle' }));
+    },
+  });
+}

@@ -1,0 +1,23 @@
+import { useKeys } from '../shell/useKeys';
+import { useStore } from '../base/store';
+import { useSession } from '../shell/session';
+import type { Action } from './actions';
+
+/** The keys of the live view. */
+export function useTransportKeys(perform: (action: Action) => void, main: Action) {
+  const { live, frame } = useSession();
+  const last = useStore(live.opened, (o) => (o.show?.frames.length ?? 1) - 1);
+  const step = (by: number) => frame.update((now) => Math.max(0, Math.min(last, now + by)));
+  useKeys([
+    ['space', () => perform(main)],
+    ['s', () => perform('step')],
+    ['p', () => perform('preview')],
+    ['l', () => perform('loop')],
+    ['r', () => perform('refresh')],
+    ['Escape', () => perform('abort')],
+    ['ArrowLeft', () => step(-1)],
+    ['ArrowRight', () => step(1)],
+    ['Home', () => frame.set(0)],
+    ['End', () => frame.set(Math.max(0, last))],
+  ]);
+}

@@ -1,0 +1,102 @@
+import type { Rgb } from '../base/colour';
+import type { Obstacle } from '../stage/scene';
+
+/** A show: frames in playing order, and the stage they play on. Values are never changed in place. */
+export interface Show {
+  name: string;
+  stage: Stage;
+  identity: Identity;
+  music: string | null;
+  frames: readonly Frame[];
+  /** Everything of the document the screen does not know, kept as it was. */
+  rest: Readonly<Record<string, unknown>>;
+}
+
+export interface Stage {
+  /** Extent along x, metres. */
+  width_m: number;
+  /** Extent along y, metres. */
+  depth_m: number;
+  obstacles: readonly Obstacle[];
+  /** Radius of a robot, metres. */
+  radius_m: number;
+  rest: Readonly<Record<string, unknown>>;
+}
+
+/** Whether any robot may show any pixel, or pixel n is the same robot in every frame. */
+export type Identity = 'any' | 'fixed';
+export type Easing = 'swift' | 'gentle';
+
+/** A picture: one pixel per robot, how long it stays and how the drive to it goes. */
+export interface Frame {
+  /** Tells frames apart on screen; not saved. */
+  key: number;
+  name: string;
+  /** How long it stays, seconds. */
+  airTime_s: number;
+  /** How long the drive to it takes, seconds; null: as fast as legal. */
+  transition_s: number | null;
+  easing: Easing;
+  /** Sorted by id, ids unique. */
+  pixels: readonly Pixel[];
+  rest: Readonly<Record<string, unknown>>;
+}
+
+export interface Pixel {
+  id: number;
+  /** Stage metres. */
+  x: number;
+  y: number;
+  color: Rgb;
+  /** The only robot that may show it. */
+  robot: string | null;
+}
+
+let lastKey = 0;
+/** A key no frame has had. */
+export const newKey = () => ++lastKey;
+
+/** Two centres closer than this touch, metres. */
+export const contact_m = (stage: Stage) => 2 * stage.radius_m;
+
+/** Two pixels closer than this cannot be planned well, metres. */
+export const tooClose_m = (stage: Stage) => 2 * stage.radius_m + 0.006;
+
+export const EMPTY_STAGE: Stage = {
+  width_m: 3,
+  depth_m: 3,
+  obstacles: [],
+  radius_m: 0.027,
+  rest: {},
+};
+
+/** `count` pixels in rows along the front edge, 0.1 m apart, as a rehearsal's robots stand. */
+export function frontRows(stage: Stage, count: number, color: Rgb): Pixel[] {
+  const [step, margin] = [0.1, 0.05];
+  const perRow = Math.max(1, Math.floor((stage.width_m - 2 * margin) / step + 1e-9) + 1);
+  return Array.from({ length: count }, (_, id) => ({
+    id,
+    x: -stage.width_m / 2 + margin + (id % perRow) * step,
+    y: stage.depth_m / 2 - 0.2 - Math.floor(id / perRow) * step,
+    color,
+    robot: null,
+  }));
+}
+
+export function newFrame(name: string, pixels: readonly Pixel[]): Frame {
+  return {
+    key: newKey(),
+    name,
+    airTime_s: 1,
+    transition_s: null,
+    easing: 'swift',
+    pixels,
+    rest: {},
+  };
+}
+
+/** A show to begin with: one frame, all robots where they stand at the start, warm white. */
+export function newShow(name: string, count: number, stage: Stage = EMPTY_STAGE): Show {
+  const frames = [newFrame('Start', frontRows(stage, count, 0xffc878))];
+  return { name, stage, identity: 'any', music: null, frames, rest: {} };
+}

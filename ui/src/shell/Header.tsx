@@ -1,0 +1,95 @@
+import { ActionIcon, Button, SegmentedControl, Tooltip } from '@mantine/core';
+import { useHotkeys } from '@mantine/hooks';
+import { useKeys } from './useKeys';
+import { IconFolderOpen, IconHandStop, IconKeyboard, IconSettings } from '@tabler/icons-react';
+import { useState } from 'react';
+import { useStore } from '../base/store';
+import { KeyboardMap } from './KeyboardMap';
+import { LibraryDialog } from './LibraryDialog';
+import { FleetPill, LinkPill } from './Pills';
+import { useSession } from './session';
+import { SettingsDialog } from './SettingsDialog';
+import { goTo, type View } from './useHash';
+
+type Dialog = 'library' | 'keys' | 'settings' | null;
+
+/** What every view has at its top; Stop all is never out of reach. */
+export function Header({ view }: { view: View }) {
+  const { live, ask } = useSession();
+  const [dialog, setDialog] = useState<Dialog>(null);
+  const title = useStore(live.opened, (o) => o.name);
+  const close = () => setDialog(null);
+  useHotkeys([['shift+Escape', () => void ask({ do: 'stop_all' })]], []);
+  useKeys([
+    ['shift+?', () => setDialog('keys')],
+    ['mod+o', () => setDialog('library')],
+    ['g', () => goTo(view === 'live' ? 'edit' : 'live')],
+  ]);
+  return (
+    <header className="header">
+      <span className="wordmark">
+        <i aria-hidden />
+        LightBots
+      </span>
+      <SegmentedControl
+        size="xs"
+        aria-label="View"
+        value={view}
+        onChange={(value) => goTo(value as View)}
+        data={[
+          { value: 'live', label: 'Live' },
+          { value: 'edit', label: 'Edit' },
+        ]}
+      />
+      <Tooltip label="Open a show (Ctrl O)">
+        <Button
+          variant="subtle"
+          color="gray"
+          size="compact-sm"
+          leftSection={<IconFolderOpen size={16} />}
+          onClick={() => setDialog('library')}
+          data-testid="open-library"
+        >
+          <span className="show-name">{title ?? 'Open a show'}</span>
+        </Button>
+      </Tooltip>
+      <span className="push" />
+      <LinkPill />
+      <FleetPill />
+      <Tooltip label="Settings">
+        <ActionIcon
+          variant="subtle"
+          color="gray"
+          aria-label="Settings"
+          onClick={() => setDialog('settings')}
+        >
+          <IconSettings size={18} />
+        </ActionIcon>
+      </Tooltip>
+      <Tooltip label="Keyboard (?)">
+        <ActionIcon
+          className="wide-only"
+          variant="subtle"
+          color="gray"
+          aria-label="Keyboard map"
+          onClick={() => setDialog('keys')}
+        >
+          <IconKeyboard size={18} />
+        </ActionIcon>
+      </Tooltip>
+      <Tooltip label="Every robot stops at once (Shift Esc)">
+        <Button
+          color="red"
+          size="sm"
+          leftSection={<IconHandStop size={18} />}
+          onClick={() => void ask({ do: 'stop_all' })}
+        >
+          Stop all
+        </Button>
+      </Tooltip>
+      <LibraryDialog opened={dialog === 'library'} onClose={close} />
+      <KeyboardMap opened={dialog === 'keys'} onClose={close} />
+      <SettingsDialog opened={dialog === 'settings'} onClose={close} />
+    </header>
+  );
+}

@@ -1,0 +1,51 @@
+/** The keyboard map as it is shown; the bindings are where the commands are. */
+export const KEYS: { title: string; keys: [string[], string][] }[] = [
+  {
+    title: 'Everywhere',
+    keys: [
+      [['Shift', 'Esc'], 'Stop all robots'],
+      [['G'], 'Live view or editor'],
+      [['Ctrl', 'O'], 'Open a show'],
+      [['?'], 'This map'],
+    ],
+  },
+  {
+    title: 'Live',
+    keys: [
+      [['Space'], 'Play, pause, resume'],
+      [['S'], 'Step to the next frame'],
+      [['P'], 'Preview the chosen frame'],
+      [['Esc'], 'Abort'],
+      [['L'], 'Loop'],
+      [['R'], 'Refresh: who is there?'],
+      [['←', '→'], 'Choose a frame'],
+    ],
+  },
+  {
+    title: 'Editor: pixels',
+    keys: [
+      [['Click', 'Shift'], 'Choose; add or take away'],
+      [['Ctrl', 'A'], 'Choose all'],
+      [['Tab'], 'Next pixel'],
+      [['Arrows'], 'Move 1 cm (Shift 10 cm, Alt 1 mm)'],
+      [['Ctrl', 'C / X / V'], 'Copy, cut, paste'],
+      [['V', 'Q', 'I'], 'Arrow, lasso, eyedropper'],
+      [['Esc'], 'Choose none; give up a drag'],
+    ],
+  },
+  {
+    title: 'Editor: frames and history',
+    keys: [
+      [['Page ↑', 'Page ↓'], 'Frame before, frame after'],
+      [['Ctrl', 'Enter'], 'New frame'],
+      [['Ctrl', 'D'], 'Duplicate frame'],
+      [['Ctrl', 'Delete'], 'Delete frame'],
+      [['Alt', 'Page ↑ / ↓'], 'Move frame'],
+      [['F2'], 'Rename frame'],
+      [['Ctrl', 'Z'], 'Undo'],
+      [['Ctrl', 'Shift', 'Z'], 'Redo'],
+      [['Space'], 'Watch the show without robots'],
+      [['0', '+', '−'], 'Fit, zoom'],
+    ],
+  },
+];

@@ -1,0 +1,46 @@
+import { createContext, useContext } from 'react';
+import type { Link } from '../api/socket';
+import type { Answer, Choice, Operation } from '../api/types.gen';
+import { createStore, type Store } from '../base/store';
+import { connect, createLive, type Live } from '../live/store';
+import { tell } from './notices';
+
+/** What every part of the page shares. */
+export interface Session {
+  live: Live;
+  link: Link;
+  /** Asks the server; what it refuses is told to the user, with its way to go on if there is one. */
+  ask(operation: Operation): Promise<Answer>;
+  /** A refusal that offers a way to go on. */
+  offer: Store<{ reason: string; choice: Choice } | null>;
+  /** The frame chosen in the strip: where Play starts, what Preview shows. */
+  frame: Store<number>;
+}
+
+export function createSession(): Session {
+  const live = createLive();
+  const link = connect(live);
+  const offer = createStore<{ reason: string; choice: Choice } | null>(null);
+  return {
+    live,
+    link,
+    offer,
+    frame: createStore(0),
+    async ask(operation) {
+      const answer = await link.operate(operation);
+      if (answer.ok) return answer;
+      const reason = answer.error ?? 'The server refused without saying why.';
+      if (answer.choice) offer.set({ reason, choice: answer.choice });
+      else tell('error', reason);
+      return answer;
+    },
+  };
+}
+
+export const SessionContext = createContext<Session | null>(null);
+
+export function useSession(): Session {
+  const session = useContext(SessionContext);
+  if (!session) throw new Error('There is no session around this component.');
+  return session;
+}

@@ -1,0 +1,39 @@
+import { listShows, putShow, Refused } from '../api/http';
+import { tell } from './notices';
+import type { Session } from './session';
+
+/** A show larger than this is none, bytes. */
+const UPLOAD_MAX = 64 * 1024 * 1024;
+
+/** A name for the library from a file's name. */
+export const nameFromFile = (file: string) =>
+  file
+    .replace(/(\.lightbots)?\.json$/i, '')
+    .replace(/[^\p{L}\p{N} _.-]+/gu, ' ')
+    .trim()
+    .slice(0, 60) || 'Show';
+
+/** `base`, or `base 2`, `base 3`… whichever is not taken. */
+export function freeName(base: string, taken: readonly string[]): string {
+  const all = new Set(taken.map((name) => name.toLowerCase()));
+  if (!all.has(base.toLowerCase())) return base;
+  for (let n = 2; ; n++) if (!all.has(`${base} ${n}`.toLowerCase())) return `${base} ${n}`;
+}
+
+/** Puts a file into the library under a free name and opens it on every screen. */
+export async function uploadShow(session: Session, file: File) {
+  if (file.size > UPLOAD_MAX) {
+    tell('error', `${file.name} is too large to be a show.`);
+    return;
+  }
+  try {
+    const taken = (await listShows()).map((entry) => entry.name);
+    const name = freeName(nameFromFile(file.name), taken);
+    const entry = await putShow(name, await file.arrayBuffer(), 'new');
+    const answer = await session.ask({ do: 'open', name: entry.name });
+    if (answer.ok) tell('good', `${entry.name} is in the library and open.`);
+  } catch (error) {
+    const reason = error instanceof Refused ? error.message : String(error);
+    tell('error', `${file.name} was not taken: ${reason}`);
+  }
+}

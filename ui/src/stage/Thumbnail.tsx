@@ -1,0 +1,36 @@
+import { memo, useEffect, useRef } from 'react';
+import type { Frame, Stage } from '../model/show';
+import { fit } from './camera';
+import { createSprites } from './sprites';
+
+const sprites = createSprites();
+/** Side of a thumbnail, device pixels: twice what it is shown at. */
+const SIDE = 176;
+
+/** A frame in small, as it will look. */
+export const Thumbnail = memo(function Thumbnail({ frame, stage }: { frame: Frame; stage: Stage }) {
+  const element = useRef<HTMLCanvasElement>(null);
+  useEffect(() => {
+    const canvas = element.current;
+    const context = canvas?.getContext('2d');
+    if (canvas && context) paint(context, frame, stage);
+  }, [frame.pixels, stage, frame]);
+  return <canvas ref={element} width={SIDE} height={SIDE} aria-hidden />;
+});
+
+function paint(context: CanvasRenderingContext2D, frame: Frame, stage: Stage) {
+  const camera = fit(stage.width_m, stage.depth_m, { width_px: SIDE, height_px: SIDE }, 5);
+  context.globalCompositeOperation = 'source-over';
+  context.globalAlpha = 1;
+  context.fillStyle = '#0a0c11';
+  context.fillRect(0, 0, SIDE, SIDE);
+  const radius = Math.max(1.5, stage.radius_m * 1.25 * camera.scale);
+  context.fillStyle = '#2d3543';
+  for (const pixel of frame.pixels) {
+    const [x, y] = [SIDE / 2 + pixel.x * camera.scale, SIDE / 2 - pixel.y * camera.scale];
+    const glow = sprites.glow(pixel.color, radius);
+    context.globalCompositeOperation = glow ? 'lighter' : 'source-over';
+    if (glow) context.drawImage(glow, x - glow.width / 2, y - glow.height / 2);
+    else context.fillRect(x - radius / 2, y - radius / 2, radius, radius);
+  }
+}

@@ -1,0 +1,55 @@
+import { ActionIcon, Tooltip } from '@mantine/core';
+import { IconMaximize, IconMinus, IconPlus } from '@tabler/icons-react';
+import type { ReactNode } from 'react';
+import type { Store } from '../base/store';
+import { zoomAt } from './camera';
+import type { View } from './StageCanvas';
+
+export const fitView = (view: Store<View>) => view.update((now) => ({ ...now, fitted: true }));
+
+/** Zooms about the middle. */
+export const zoomView = (view: Store<View>, factor: number) =>
+  view.update((now) => ({
+    ...now,
+    fitted: false,
+    camera: zoomAt(now.camera, { x: now.width_px / 2, y: now.height_px / 2 }, factor),
+  }));
+
+/** Tools that lie on the dark floor in either scheme. */
+export function StageTool(props: {
+  label: string;
+  active?: boolean;
+  onClick: () => void;
+  children: ReactNode;
+}) {
+  return (
+    <Tooltip label={props.label} position="bottom">
+      <ActionIcon
+        className="stage-tool"
+        variant="transparent"
+        aria-label={props.label}
+        aria-pressed={props.active}
+        data-active={props.active || undefined}
+        onClick={props.onClick}
+      >
+        {props.children}
+      </ActionIcon>
+    </Tooltip>
+  );
+}
+
+export function ZoomTools({ view }: { view: Store<View> }) {
+  return (
+    <>
+      <StageTool label="Zoom out (−)" onClick={() => zoomView(view, 1 / 1.4)}>
+        <IconMinus size={17} />
+      </StageTool>
+      <StageTool label="Zoom in (+)" onClick={() => zoomView(view, 1.4)}>
+        <IconPlus size={17} />
+      </StageTool>
+      <StageTool label="Whole floor (0)" onClick={() => fitView(view)}>
+        <IconMaximize size={17} />
+      </StageTool>
+    </>
+  );
+}

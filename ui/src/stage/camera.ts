@@ -1,0 +1,69 @@
+/** Where on the canvas a place of the stage is. The only conversion between metres and CSS pixels. */
+export interface Camera {
+  /** CSS pixels a metre. */
+  scale: number;
+  /** CSS pixel of the stage's origin. */
+  originX_px: number;
+  originY_px: number;
+}
+
+export interface Point {
+  x: number;
+  y: number;
+}
+
+export interface Size {
+  width_px: number;
+  height_px: number;
+}
+
+export const SCALE_MIN = 10;
+export const SCALE_MAX = 6000;
+
+/** The camera that shows the whole floor with a margin around it, CSS pixels. */
+export function fit(width_m: number, depth_m: number, size: Size, margin_px = 34): Camera {
+  const scale = Math.min(
+    (size.width_px - 2 * margin_px) / Math.max(width_m, 0.1),
+    (size.height_px - 2 * margin_px) / Math.max(depth_m, 0.1),
+  );
+  return {
+    scale: Math.max(SCALE_MIN, Math.min(SCALE_MAX, scale)),
+    originX_px: size.width_px / 2,
+    originY_px: size.height_px / 2,
+  };
+}
+
+export const canvasFromStage = (c: Camera, p: Point): Point => ({
+  x: c.originX_px + p.x * c.scale,
+  y: c.originY_px - p.y * c.scale,
+});
+
+export const stageFromCanvas = (c: Camera, p: Point): Point => ({
+  x: (p.x - c.originX_px) / c.scale,
+  y: (c.originY_px - p.y) / c.scale,
+});
+
+/** Zooms by `factor` and keeps what is under `at` (canvas) where it is. */
+export function zoomAt(c: Camera, at: Point, factor: number): Camera {
+  const scale = Math.max(SCALE_MIN, Math.min(SCALE_MAX, c.scale * factor));
+  const k = scale / c.scale;
+  return {
+    scale,
+    originX_px: at.x - (at.x - c.originX_px) * k,
+    originY_px: at.y - (at.y - c.originY_px) * k,
+  };
+}
+
+export const panBy = (c: Camera, dx_px: number, dy_px: number): Camera => ({
+  ...c,
+  originX_px: c.originX_px + dx_px,
+  originY_px: c.originY_px + dy_px,
+});
+
+/** A step of 1, 2 or 5 times a power of ten metres that is at least `least_px` wide. */
+export function gridStep(scale: number, least_px = 60): number {
+  const least_m = least_px / scale;
+  const power = 10 ** Math.floor(Math.log10(least_m));
+  for (const k of [1, 2, 5, 10]) if (k * power >= least_m * 0.999) return k * power;
+  return 10 * power;
+}

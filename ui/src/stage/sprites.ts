@@ -1,0 +1,98 @@
+import { blue, green, luma, red, type Rgb } from '../base/colour';
+
+/** How far a light's glow reaches, in radii of its robot. */
+export const GLOW_RADII = 3.4;
+
+/** Colours are rounded to this many steps a component, so that fades do not fill the cache. */
+const STEP = 8;
+/** Sprites kept; all are thrown away beyond it, which takes one frame to mend. */
+const KEPT_MAX = 1500;
+
+/** Lights drawn once for each colour and size, then copied. */
+export interface Sprites {
+  /** The glowing light, to be drawn with `lighter`; `null` for one that is off. */
+  glow(color: Rgb, radius_px: number): HTMLCanvasElement | null;
+  /** The body of a robot under its light. */
+  body(radius_px: number): HTMLCanvasElement;
+}
+
+export function createSprites(): Sprites {
+  const glows = new Map<number, HTMLCanvasElement | null>();
+  const bodies = new Map<number, HTMLCanvasElement>();
+  return {
+    glow(color, radius_px) {
+      const size = Math.round(radius_px * 2);
+      const rounded = roundColour(color);
+      const key = rounded * 4096 + size;
+      let sprite = glows.get(key);
+      if (sprite === undefined) {
+        if (glows.size >= KEPT_MAX) glows.clear();
+        sprite = luma(rounded) < 0.004 ? null : paintGlow(rounded, radius_px);
+        glows.set(key, sprite);
+      }
+      return sprite;
+    },
+    body(radius_px) {
+      const key = Math.round(radius_px * 8);
+      let sprite = bodies.get(key);
+      if (!sprite) {
+        if (bodies.size > 32) bodies.clear();
+        sprite = paintBody(radius_px);
+        bodies.set(key, sprite);
+      }
+      return sprite;
+    },
+  };
+}
+
+function roundColour(c: Rgb): Rgb {
+  const round = (n: number) => Math.min(255, Math.round(n / STEP) * STEP);
+  return (round(red(c)) << 16) | (round(green(c)) << 8) | round(blue(c));
+}
+
+function canvas(size: number): [HTMLCanvasElement, CanvasRenderingContext2D] {
+  const element = document.createElement('canvas');
+  element.width = element.height = size;
+  const context = element.getContext('2d');
+  if (!context) throw new Error('This browser cannot draw: it gives no 2D canvas.');
+  return [element, context];
+}
+
+function paintGlow(color: Rgb, radius_px: number): HTMLCanvasElement {
+  const reach = radius_px * GLOW_RADII;
+  const [element, context] = canvas(Math.max(4, Math.ceil(reach * 2)));
+  const half = element.width / 2;
+  const [r, g, b] = [red(color), green(color), blue(color)];
+  const tint = (alpha: number) => `rgba(${r},${g},${b},${alpha})`;
+  const glow = context.createRadialGradient(half, half, 0, half, half, reach);
+  const rim = 1 / GLOW_RADII;
+  glow.addColorStop(0, tint(1));
+  glow.addColorStop(rim * 0.78, tint(0.92));
+  glow.addColorStop(rim, tint(0.42));
+  glow.addColorStop(rim * 1.5, tint(0.2));
+  glow.addColorStop(rim * 2.3, tint(0.06));
+  glow.addColorStop(1, tint(0));
+  context.fillStyle = glow;
+  context.fillRect(0, 0, element.width, element.height);
+  const core = context.createRadialGradient(half, half, 0, half, half, radius_px * 0.7);
+  core.addColorStop(0, 'rgba(255,255,255,0.55)');
+  core.addColorStop(1, 'rgba(255,255,255,0)');
+  context.globalCompositeOperation = 'lighter';
+  context.globalAlpha = Math.min(1, 0.25 + luma(color));
+  context.fillStyle = core;
+  context.fillRect(0, 0, element.width, element.height);
+  return element;
+}
+
+function paintBody(radius_px: number): HTMLCanvasElement {
+  const [element, context] = canvas(Math.max(4, Math.ceil(radius_px * 2 + 4)));
+  const half = element.width / 2;
+  context.beginPath();
+  context.arc(half, half, Math.max(1, radius_px - 0.5), 0, 2 * Math.PI);
+  context.fillStyle = '#1b2029';
+  context.fill();
+  context.lineWidth = Math.max(1, radius_px * 0.12);
+  context.strokeStyle = '#59637a';
+  context.stroke();
+  return element;
+}
