@@ -9,6 +9,10 @@ use super::weave::{Weave, basis, blend};
 const STRETCHES: usize = 4;
 /// Pairs farther apart than their wish by this much are not watched until the next look-out, metres.
 const SKIN_M: f64 = 0.012;
+/// Less than this under the wish counts as kept, where ends leave so much, metres.
+const TOLERANCE_M: f64 = 0.0004;
+/// Straight stretches cut corners by less than this, metres.
+const CUT_M: f64 = 0.003;
 
 /// Two robots, or a robot and a wall, that are or may come too close within a span.
 #[derive(Clone, Copy)]
@@ -21,6 +25,8 @@ pub(super) struct Contact {
     pub b: Other,
     /// How far they shall stay apart: centres of robots, or rim and wall; metres.
     pub wish: f64,
+    /// How far will do, metres.
+    pub least: f64,
 }
 
 /// What a robot may touch.
@@ -101,8 +107,9 @@ impl Watch {
                 if (at[a].y - at[b].y).abs() >= near || (at[a] - at[b]).length_squared() >= near * near {
                     continue;
                 }
-                let wish = wish.robots_m.min(scene.ends_apart(a, b) - 0.0005);
-                let contact = Contact { span, a: a.min(b), b: Other::Robot(a.max(b)), wish };
+                let wish = wish.robots_m.min(scene.ends_apart(a, b));
+                let least = scene.least_gap(a, b).max(wish - TOLERANCE_M);
+                let contact = Contact { span, a: a.min(b), b: Other::Robot(a.max(b)), wish, least };
                 if self.closest(scene, weave, &contact).apart < wish + SKIN_M {
                     found.push(contact);
                 }
@@ -113,9 +120,12 @@ impl Watch {
     fn walls(&self, scene: &Scene, weave: &Weave, wish: Wish, span: usize, found: &mut Vec<Contact>) {
         for robot in 0..weave.robots() {
             for wall in 0..scene.walls.len() {
-                let mut contact = Contact { span, a: robot, b: Other::Wall(wall), wish: wish.walls_m };
+                let wish_m = wish.walls_m;
+                let mut contact =
+                    Contact { span, a: robot, b: Other::Wall(wall), wish: wish_m, least: wish_m };
                 if self.closest(scene, weave, &contact).apart < wish.walls_m + SKIN_M {
                     contact.wish = scene.wall_gap(robot, wall, wish.walls_m);
+                    contact.least = contact.wish - TOLERANCE_M.min(contact.wish.max(0.0) / 2.0);
                     found.push(contact);
                 }
             }
@@ -128,7 +138,10 @@ impl Watch {
         match contact.b {
             Other::Robot(b) => {
                 let other = weave.span(b, contact.span);
-                self.closest_to_origin(&std::array::from_fn(|i| four[i] - other[i]))
+                self.closest_to_origin(
+                    &std::array::from_fn(|i| four[i] - other[i]),
+                    contact.wish + SKIN_M + CUT_M,
+                )
             }
             Other::Wall(wall) => {
                 let nearest = self.bases.iter().map(|weights| {
@@ -141,25 +154,28 @@ impl Watch {
         }
     }
 
-    fn closest_to_origin(&self, apart: &[Vec2; 4]) -> Closest {
+    fn closest_to_origin(&self, apart: &[Vec2; 4], near: f64) -> Closest {
         let mut before = blend(apart, &self.bases[0]);
-        let mut best = (before.length_squared(), 0, 0.0, before);
+        let mut best = (before.length_squared(), 0.0, before);
         for stretch in 0..STRETCHES {
             let after = blend(apart, &self.bases[stretch + 1]);
             let way = after - before;
             let share = (-before.dot(way) / way.length_squared().max(1e-18)).clamp(0.0, 1.0);
             let nearest = before + way * share;
             if nearest.length_squared() < best.0 {
-                best = (nearest.length_squared(), stretch, share, nearest);
+                best = (nearest.length_squared(), (stretch as f64 + share) / STRETCHES as f64, nearest);
             }
             before = after;
         }
-        let (squared, stretch, share, nearest) = best;
-        let (from, to) = (&self.bases[stretch], &self.bases[stretch + 1]);
-        let weights = std::array::from_fn(|i| from[i] + (to[i] - from[i]) * share);
+        let (squared, u, nearest) = best;
+        if squared > near * near {
+            return Closest { apart: squared.sqrt(), away: nearest, weights: self.middle };
+        }
+        let weights = basis(u);
+        let nearest = blend(apart, &weights);
+        let length = nearest.length();
         // Those who meet head-on pass each other on the right.
         let aside = || (apart[0] - apart[3]).left().normalized().unwrap_or(Vec2::new(1.0, 0.0));
-        let length = squared.sqrt();
         let away = if length > 1e-6 { nearest / length } else { aside() };
         Closest { apart: length, away, weights }
     }

@@ -9,8 +9,8 @@ use super::weave::Weave;
 
 /// Sweeps between two look-outs.
 const LOOK_OUT_EVERY: usize = 6;
-/// Less than this under the wish counts as kept, metres.
-const TOLERANCE_M: f64 = 0.0004;
+/// Bending aims beyond the wish by this, metres: otherwise it would only be neared for ever.
+const BEYOND_M: f64 = 0.0002;
 /// Control points that hardly move a place must not be moved far for it.
 const LEAST_PULL: f64 = 0.35;
 /// Bending goes this much farther than needed at once.
@@ -73,10 +73,10 @@ fn bend_all(
     let mut bent = 0;
     for contact in contacts {
         let closest = watch.closest(scene, weave, contact);
-        let lack = contact.wish - closest.apart;
-        if lack <= TOLERANCE_M {
+        if closest.apart >= contact.least {
             continue;
         }
+        let lack = contact.wish + BEYOND_M - closest.apart;
         bent += 1;
         let mine = weave.pull(contact.a, contact.span, &closest.weights);
         let square = |pull: &[f64; 4]| pull.iter().map(|share| share * share).sum::<f64>();

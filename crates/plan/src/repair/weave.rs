@@ -74,11 +74,6 @@ impl Weave {
         &self.way(robot)[span..span + 4]
     }
 
-    /// Where a robot is at share `u` of a span.
-    pub fn at(&self, robot: usize, span: usize, u: f64) -> Vec2 {
-        blend(self.span(robot, span), &basis(u))
-    }
-
     /// The fixed ends of a robot's way.
     pub fn ends(&self, robot: usize) -> (Vec2, Option<Vec2>) {
         self.ends[robot]
