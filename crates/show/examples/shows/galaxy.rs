@@ -1,0 +1,53 @@
+//! Scattered stars gather into a galaxy that turns.
+
+use lightbots_base::Vec2;
+use lightbots_show::{Frame, Show};
+
+use super::color::{BLUE, CYAN, GOLD, ROSE, VIOLET, WHITE, gradient};
+use super::draw::{frame, shaded, show as on_floor};
+use super::stroke::along;
+
+const ROBOTS: usize = 60;
+const RADIUS_M: f64 = 1.4;
+
+pub fn show() -> Show {
+    let mut frames = vec![frame("Stars", 1.0, shaded(sunflower(ROBOTS, RADIUS_M), |_| WHITE))];
+    for (nth, name) in ["Galaxy", "Turning", "Turning", "Turning"].into_iter().enumerate() {
+        frames.push(spiral(name, 2, nth as f64 / 12.0));
+    }
+    frames.push(spiral("Three arms", 3, 0.35));
+    frames.push(frame("Nebula", 2.0, shaded(sunflower(ROBOTS, RADIUS_M), glow)));
+    on_floor("Galaxy", 3.0, frames)
+}
+
+fn spiral(name: &str, arms: usize, turned: f64) -> Frame {
+    let places = (0..arms).flat_map(|arm| {
+        let from = turned + arm as f64 / arms as f64;
+        along(&self::arm(from, RADIUS_M, 0.8), ROBOTS / arms)
+    });
+    frame(name, 0.3, shaded(places, glow))
+}
+
+/// A bow from near the centre outwards, through `turns` of a turn.
+pub fn arm(from_turns: f64, radius_m: f64, turns: f64) -> Vec<Vec2> {
+    let at = |part: i32| {
+        let share = f64::from(part) / 200.0;
+        let angle = std::f64::consts::TAU * (from_turns + turns * share);
+        Vec2::unit(angle) * (radius_m * (0.12 + 0.88 * share))
+    };
+    (0..=200).map(at).collect()
+}
+
+/// Places as seeds lie in a sunflower: even everywhere, and no two in a line.
+pub fn sunflower(count: usize, radius_m: f64) -> Vec<Vec2> {
+    const GOLDEN_ANGLE: f64 = 2.399_963_229_728_653;
+    let at = |nth: usize| {
+        let radius = radius_m * ((nth as f64 + 0.5) / count as f64).sqrt();
+        Vec2::unit(nth as f64 * GOLDEN_ANGLE) * radius
+    };
+    (0..count).map(at).collect()
+}
+
+fn glow(at: Vec2) -> lightbots_base::Rgb {
+    gradient(&[WHITE, GOLD, ROSE, VIOLET, BLUE, CYAN], at.length() / RADIUS_M)
+}

@@ -1,0 +1,51 @@
+//! All example shows with the files they are kept in.
+
+mod color;
+mod countdown;
+mod dancers;
+mod draw;
+mod fireworks;
+mod galaxy;
+mod glyph;
+mod heart;
+mod hello;
+mod rings;
+mod stroke;
+mod thousand;
+mod words;
+
+use lightbots_show::{Format, Show};
+
+/// One example.
+pub struct Entry {
+    /// Its file in the folder of shows.
+    pub file: &'static str,
+    /// What format the file is in.
+    pub format: Format,
+    /// The show.
+    pub show: Show,
+}
+
+impl Entry {
+    /// The bytes of its file.
+    pub fn bytes(&self) -> Vec<u8> {
+        lightbots_show::write(&self.show, self.format)
+    }
+}
+
+/// Every example show.
+pub fn all() -> Vec<Entry> {
+    let original = |file, show| Entry { file, format: Format::Original, show };
+    let ours = |file, show| Entry { file, format: Format::LightBots, show };
+    vec![
+        original("hello.json", hello::show()),
+        original("countdown.json", countdown::show()),
+        ours("heart.lightbots.json", heart::show()),
+        ours("rings.lightbots.json", rings::show()),
+        ours("galaxy.lightbots.json", galaxy::show()),
+        ours("fireworks.lightbots.json", fireworks::show()),
+        ours("dancers.lightbots.json", dancers::show()),
+        ours("words.lightbots.json", words::show()),
+        ours("thousand.lightbots.json", thousand::show()),
+    ]
+}

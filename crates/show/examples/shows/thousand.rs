@@ -1,0 +1,86 @@
+//! A thousand robots on a floor of twelve metres.
+
+use lightbots_base::{Rgb, Vec2};
+use lightbots_show::{Frame, Show};
+
+use super::color::{BLUE, CYAN, GOLD, GREEN, ORANGE, RED, ROSE, VIOLET, WHITE, gradient, rainbow};
+use super::draw::{frame, shaded, show as on_floor};
+use super::galaxy::{arm, sunflower};
+use super::heart::outline;
+use super::stroke::{along, ring};
+
+const ROBOTS: usize = 1_000;
+const RADIUS_M: f64 = 5.6;
+
+pub fn show() -> Show {
+    on_floor("A thousand", 12.0, vec![field(), flower(), spiral(), filled_heart(), ripples()])
+}
+
+fn field() -> Frame {
+    let places = (0..ROBOTS).map(|nth| {
+        let (column, row) = (nth % 40, nth / 40);
+        Vec2::new(column as f64 * 0.28 - 5.46, 5.4 - row as f64 * 0.28)
+    });
+    frame("Field", 1.0, shaded(places, |at| gradient(&[BLUE, CYAN, GREEN, GOLD], (at.x + at.y + 6.0) / 16.0)))
+}
+
+fn flower() -> Frame {
+    let petal = |at: Vec2| gradient(&[ORANGE, GOLD, WHITE, ROSE, VIOLET], at.length() / RADIUS_M);
+    frame("Sunflower", 1.0, shaded(sunflower(ROBOTS, RADIUS_M), petal))
+}
+
+fn spiral() -> Frame {
+    let places = (0..5).flat_map(|nth| along(&arm(f64::from(nth) / 5.0, RADIUS_M, 1.4), ROBOTS / 5));
+    frame(
+        "Galaxy",
+        1.0,
+        shaded(places, |at| gradient(&[WHITE, GOLD, ROSE, VIOLET, BLUE, CYAN], at.length() / RADIUS_M)),
+    )
+}
+
+/// Places of a triangular lattice inside the curve; the lattice is made finer until there are enough.
+fn filled_heart() -> Frame {
+    let line: Vec<Vec2> = outline(Vec2::ZERO, RADIUS_M).into_iter().step_by(6).collect();
+    let inside = (0..60).map(|finer| lattice(0.29 - 0.0005 * f64::from(finer), &line));
+    let mut places = inside.into_iter().find(|places| places.len() >= ROBOTS).unwrap_or_default();
+    // The few too many are the lowest: the tip gets a little blunter.
+    places.truncate(ROBOTS);
+    let blood =
+        |at: Vec2| -> Rgb { gradient(&[RED, ROSE, ORANGE, GOLD], at.distance(Vec2::new(-1.5, 2.0)) / 8.0) };
+    frame("Heart", 1.5, shaded(places, blood))
+}
+
+/// From the top row to the bottom row.
+fn lattice(step_m: f64, line: &[Vec2]) -> Vec<Vec2> {
+    let (row_m, rows) = (step_m * 0.866, (2.0 * RADIUS_M / (step_m * 0.866)) as i32);
+    let columns = (2.0 * RADIUS_M / step_m) as i32 / 2;
+    let all = (0..=rows).flat_map(|row| {
+        let shift = if row % 2 == 0 { 0.0 } else { 0.5 };
+        (-columns..=columns).map(move |column| {
+            Vec2::new((f64::from(column) + shift) * step_m, RADIUS_M - f64::from(row) * row_m)
+        })
+    });
+    all.filter(|at| is_inside(*at, line)).collect()
+}
+
+/// Counts how often a ray to the right crosses the line.
+fn is_inside(at: Vec2, line: &[Vec2]) -> bool {
+    let crosses = |pair: &&[Vec2]| {
+        let (a, b) = (pair[0], pair[1]);
+        (a.y > at.y) != (b.y > at.y) && at.x < a.x + (b.x - a.x) * (at.y - a.y) / (b.y - a.y)
+    };
+    line.windows(2).filter(crosses).count() % 2 == 1
+}
+
+fn ripples() -> Frame {
+    // Ring n has a share of the robots that goes with its length: 1 + 2 + … + 16 = 136 shares.
+    let mut left = ROBOTS;
+    let mut dots = Vec::new();
+    for nth in (1..=16).rev() {
+        let count = if nth == 1 { left } else { (ROBOTS * nth + 68) / 136 };
+        left -= count;
+        let places = ring(Vec2::ZERO, 0.35 * nth as f64, count, 0.25);
+        dots.extend(shaded(places, |at| rainbow(nth as f64 / 16.0 + at.angle() / std::f64::consts::TAU)));
+    }
+    frame("Ripples", 3.0, dots)
+}
