@@ -6,6 +6,7 @@ mod shell;
 mod test;
 mod tidy;
 mod tools;
+mod webots;
 
 use std::process::ExitCode;
 
@@ -15,6 +16,7 @@ cargo xtask <command>
   demo [ARGS]      build everything and start `lightbots run` on an example show; ARGS are passed on
   test [PART…]     run the tests, all of them or some: tidy ui lint rust firmware e2e licences
   bench [PART…]    measure and write docs/benchmarks.md: plan rehearsal round
+  webots [--robots N [--floor METRES]]   write the Webots worlds and put the driver in place
   tidy             only the checks of the source tree itself
 ";
 
@@ -26,6 +28,7 @@ fn main() -> ExitCode {
         Some("test") => test::run(rest),
         Some("bench") => bench::run(rest),
         Some("tidy") => tidy::run(),
+        Some("webots") => webots::run(rest),
         Some("help" | "--help" | "-h") => {
             println!("{HELP}");
             return ExitCode::SUCCESS;

@@ -4,7 +4,7 @@ use super::{files, shown};
 use std::path::Path;
 
 /// What each crate may use of ours. Tests may use more.
-const EDGES: [(&str, &[&str]); 11] = [
+const EDGES: [(&str, &[&str]); 12] = [
     ("base", &[]),
     ("wire", &["base"]),
     ("show", &["base"]),
@@ -15,6 +15,7 @@ const EDGES: [(&str, &[&str]); 11] = [
     ("api", &[]),
     ("link", &["base", "wire"]),
     ("webots", &["base", "wire", "robot", "link"]),
+    ("standin", &[]),
     ("server", &["base", "wire", "show", "plan", "robot", "control", "sim", "api", "link"]),
 ];
 

@@ -1,0 +1,30 @@
+//! The devices of the one robot that a process is.
+
+/// A device's tag as Webots has it: small numbers from 1.
+pub type Tag = u16;
+
+/// Names by tag, from 1.
+const NAMES: [&[u8]; 7] = [
+    b"gps",
+    b"compass",
+    b"ledrgb",
+    b"left wheel motor",
+    b"right wheel motor",
+    b"left wheel sensor",
+    b"right wheel sensor",
+];
+
+pub(crate) const GPS: Tag = 1;
+pub(crate) const COMPASS: Tag = 2;
+pub(crate) const MOTORS: [Tag; 2] = [4, 5];
+pub(crate) const SENSORS: [Tag; 2] = [6, 7];
+
+/// The tag of a name; 0: there is none.
+pub(crate) fn tag(name: &[u8]) -> Tag {
+    NAMES.iter().position(|known| *known == name).map_or(0, |index| index as Tag + 1)
+}
+
+/// Which wheel a tag of `tags` belongs to: 0 left, 1 right.
+pub(crate) fn side(tags: [Tag; 2], tag: Tag) -> Option<usize> {
+    tags.iter().position(|known| *known == tag)
+}

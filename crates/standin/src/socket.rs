@@ -1,0 +1,123 @@
+//! What goes over the socket between a process and the floor it stands on, little-endian.
+//!
+//! A process sends its name (one length byte, then that many bytes), then a [`Told`] for every step; the floor answers
+//! each with a [`Seen`] once every process has spoken. The address of the Unix socket is in [`ADDRESS`].
+
+use std::io::{self, Read, Write};
+
+/// The environment variable with the socket's path.
+pub const ADDRESS: &str = "LIGHTBOTS_STANDIN";
+
+/// What a robot's process says at the end of a step.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Told {
+    /// Wheel rates, left and right, rad/s.
+    pub wheels_radps: [f64; 2],
+    /// Its light, R·65536 + G·256 + B.
+    pub colour: u32,
+}
+
+/// What the floor answers.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Seen {
+    /// The simulation ends.
+    pub ends: bool,
+    /// Simulated seconds.
+    pub time_s: f64,
+    /// How far the wheels have turned since the start, left and right, radians.
+    pub wheels_rad: [f64; 2],
+    /// Place, metres.
+    pub at: [f64; 2],
+    /// Heading, radians.
+    pub heading: f64,
+}
+
+const TOLD_BYTES: usize = 20;
+const SEEN_BYTES: usize = 49;
+
+impl Told {
+    /// Writes it.
+    pub fn write(&self, out: &mut impl Write) -> io::Result<()> {
+        let mut bytes = [0; TOLD_BYTES];
+        bytes[..8].copy_from_slice(&self.wheels_radps[0].to_le_bytes());
+        bytes[8..16].copy_from_slice(&self.wheels_radps[1].to_le_bytes());
+        bytes[16..].copy_from_slice(&self.colour.to_le_bytes());
+        out.write_all(&bytes)
+    }
+
+    /// Reads one.
+    pub fn read(from: &mut impl Read) -> io::Result<Self> {
+        let mut bytes = [0; TOLD_BYTES];
+        from.read_exact(&mut bytes)?;
+        let colour = u32::from_le_bytes([bytes[16], bytes[17], bytes[18], bytes[19]]);
+        Ok(Self { wheels_radps: [number(&bytes, 0), number(&bytes, 8)], colour })
+    }
+}
+
+impl Seen {
+    /// Writes it.
+    pub fn write(&self, out: &mut impl Write) -> io::Result<()> {
+        let mut bytes = [0; SEEN_BYTES];
+        bytes[0] = u8::from(self.ends);
+        let numbers =
+            [self.time_s, self.wheels_rad[0], self.wheels_rad[1], self.at[0], self.at[1], self.heading];
+        for (place, value) in bytes[1..].chunks_exact_mut(8).zip(numbers) {
+            place.copy_from_slice(&value.to_le_bytes());
+        }
+        out.write_all(&bytes)
+    }
+
+    /// Reads one.
+    pub fn read(from: &mut impl Read) -> io::Result<Self> {
+        let mut bytes = [0; SEEN_BYTES];
+        from.read_exact(&mut bytes)?;
+        Ok(Self {
+            ends: bytes[0] != 0,
+            time_s: number(&bytes, 1),
+            wheels_rad: [number(&bytes, 9), number(&bytes, 17)],
+            at: [number(&bytes, 25), number(&bytes, 33)],
+            heading: number(&bytes, 41),
+        })
+    }
+}
+
+/// Writes the name that opens a conversation; names above 255 bytes are cut.
+pub fn write_name(name: &str, out: &mut impl Write) -> io::Result<()> {
+    let bytes = &name.as_bytes()[..name.len().min(255)];
+    out.write_all(&[bytes.len() as u8])?;
+    out.write_all(bytes)
+}
+
+/// Reads the name that opens a conversation.
+pub fn read_name(from: &mut impl Read) -> io::Result<String> {
+    let mut length = [0];
+    from.read_exact(&mut length)?;
+    let mut bytes = vec![0; usize::from(length[0])];
+    from.read_exact(&mut bytes)?;
+    Ok(String::from_utf8_lossy(&bytes).into_owned())
+}
+
+fn number(bytes: &[u8], at: usize) -> f64 {
+    let mut eight = [0; 8];
+    eight.copy_from_slice(&bytes[at..at + 8]);
+    f64::from_le_bytes(eight)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn both_ways_survive_the_socket() {
+        let told = Told { wheels_radps: [1.5, -2.5], colour: 0xff_a500 };
+        let seen = Seen { ends: true, time_s: 0.016, wheels_rad: [1.0, 2.0], at: [-0.5, 1.3], heading: 1.57 };
+        let mut bytes = Vec::new();
+        told.write(&mut bytes).unwrap();
+        seen.write(&mut bytes).unwrap();
+        write_name("LightBot 7", &mut bytes).unwrap();
+        let mut from = bytes.as_slice();
+        assert_eq!(Told::read(&mut from).unwrap(), told);
+        assert_eq!(Seen::read(&mut from).unwrap(), seen);
+        assert_eq!(read_name(&mut from).unwrap(), "LightBot 7");
+    }
+}

@@ -1,0 +1,149 @@
+//! The one robot that a process is.
+#![allow(clippy::print_stderr)]
+
+use std::ffi::CString;
+use std::os::unix::net::UnixStream;
+use std::sync::{Mutex, PoisonError};
+
+use crate::devices::{COMPASS, GPS, MOTORS, SENSORS, Tag, side};
+use crate::socket::{self, Seen, Told};
+
+const STEP_MS: i32 = 16;
+
+pub(crate) struct Robot {
+    pub(crate) name: CString,
+    pub(crate) told: Told,
+    pub(crate) seen: Seen,
+    socket: Option<UnixStream>,
+    enabled: [bool; 8],
+    free: [bool; 2],
+    /// What the wheels' sensors say: less than how far the wheels turned.
+    read_rad: [f64; 2],
+    steps: u64,
+    gps: [f64; 3],
+    compass: [f64; 3],
+}
+
+static ROBOT: Mutex<Option<Box<Robot>>> = Mutex::new(None);
+
+/// Runs `action` on the robot, which must be connected.
+pub(crate) fn with<T>(action: impl FnOnce(&mut Robot) -> T) -> T {
+    let mut guard = ROBOT.lock().unwrap_or_else(PoisonError::into_inner);
+    match guard.as_mut() {
+        Some(robot) => action(robot),
+        None => fail("a function was called before wb_robot_init"),
+    }
+}
+
+/// Connects to the floor named in the environment.
+pub(crate) fn connect() {
+    let name = std::env::var("WEBOTS_ROBOT_NAME").unwrap_or_default();
+    let Some(address) = std::env::var_os(socket::ADDRESS) else { fail("LIGHTBOTS_STANDIN is not set") };
+    let mut stream = UnixStream::connect(address).unwrap_or_else(|error| fail(&format!("no floor: {error}")));
+    if let Err(error) = socket::write_name(&name, &mut stream) {
+        fail(&format!("the floor is gone: {error}"));
+    }
+    let robot = Robot {
+        name: CString::new(name).unwrap_or_default(),
+        told: Told::default(),
+        seen: Seen::default(),
+        socket: Some(stream),
+        enabled: [false; 8],
+        free: [false; 2],
+        read_rad: [0.0; 2],
+        steps: 0,
+        gps: [f64::NAN; 3],
+        compass: [f64::NAN; 3],
+    };
+    *ROBOT.lock().unwrap_or_else(PoisonError::into_inner) = Some(Box::new(robot));
+}
+
+impl Robot {
+    pub(crate) fn step(&mut self, millis: i32) -> i32 {
+        if self.seen.ends {
+            // After the end was said, Webots' library ends the process in whatever is called next.
+            std::process::exit(0);
+        }
+        if millis <= 0 || millis % STEP_MS != 0 {
+            fail(&format!("wb_robot_step({millis}) is no multiple of {STEP_MS}"));
+        }
+        for _ in 0..millis / STEP_MS {
+            self.step_once();
+            if self.seen.ends {
+                return -1;
+            }
+        }
+        0
+    }
+
+    fn step_once(&mut self) {
+        let Some(socket) = &mut self.socket else { fail("the floor is gone") };
+        let answer = self.told.write(socket).and_then(|()| Seen::read(socket));
+        let seen = answer.unwrap_or_else(|error| fail(&format!("the floor is gone: {error}")));
+        for wheel in [0, 1] {
+            let turned = seen.wheels_rad[wheel] - self.seen.wheels_rad[wheel];
+            self.read_rad[wheel] += 2.0 * (turned / 2.0).atan();
+        }
+        self.seen = seen;
+        self.steps += 1;
+    }
+
+    pub(crate) fn cleanup(&mut self) {
+        self.socket = None;
+        if self.seen.ends {
+            std::process::exit(0);
+        }
+    }
+
+    pub(crate) fn free_motor(&mut self, tag: Tag, position: f64) {
+        if let Some(wheel) = side(MOTORS, tag) {
+            self.free[wheel] = position == f64::INFINITY;
+        }
+    }
+
+    pub(crate) fn turn_motor(&mut self, tag: Tag, radps: f64) {
+        let Some(wheel) = side(MOTORS, tag) else { return };
+        if !self.free[wheel] && radps < 0.0 {
+            eprintln!("Error: negative velocity before wb_motor_set_position(INFINITY)");
+            return;
+        }
+        self.told.wheels_radps[wheel] = radps.clamp(-133.33, 133.33);
+    }
+
+    pub(crate) fn enable(&mut self, tag: Tag) {
+        if let Some(enabled) = self.enabled.get_mut(usize::from(tag)) {
+            *enabled = true;
+        }
+    }
+
+    pub(crate) fn wheel_sensor(&self, tag: Tag) -> f64 {
+        match side(SENSORS, tag) {
+            Some(wheel) if self.samples(tag) => self.read_rad[wheel],
+            _ => f64::NAN,
+        }
+    }
+
+    pub(crate) fn gps(&mut self) -> &[f64; 3] {
+        if self.samples(GPS) {
+            self.gps = [self.seen.at[0], self.seen.at[1], 0.0];
+        }
+        &self.gps
+    }
+
+    pub(crate) fn compass(&mut self) -> &[f64; 3] {
+        if self.samples(COMPASS) {
+            self.compass = [self.seen.heading.sin(), self.seen.heading.cos(), 0.0];
+        }
+        &self.compass
+    }
+
+    fn samples(&self, tag: Tag) -> bool {
+        self.steps > 0 && self.enabled[usize::from(tag)]
+    }
+}
+
+/// Says why and ends the process, as Webots' library does.
+fn fail(why: &str) -> ! {
+    eprintln!("Error: {why}");
+    std::process::exit(1)
+}

@@ -1,0 +1,102 @@
+//! The robot's body in Webots: two wheels, GPS, compass and a light.
+
+use std::fmt;
+
+use lightbots_base::Rgb;
+
+use crate::library::{Library, Tag};
+use crate::odometry::wheel_turn_rad;
+
+/// A device that the robot must have and has not.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct MissingDevice(&'static str);
+
+impl fmt::Display for MissingDevice {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "the robot has no device \"{}\": use the PROTO LightBot or LightBotElisa3", self.0)
+    }
+}
+
+/// Motors, sensors and light of this process's robot, with the sensors switched on.
+pub struct Body<'a> {
+    library: &'a Library,
+    motors: [Tag; 2],
+    sensors: [Tag; 2],
+    gps: Tag,
+    compass: Tag,
+    light: Tag,
+    last_read_rad: [f64; 2],
+    last_rates: [f64; 2],
+    last_light: Option<Rgb>,
+    steps_since_light: u32,
+}
+
+/// Webots takes a moment for every change of a light; a fade at this pace still looks even.
+const STEPS_BETWEEN_LIGHTS: u32 = 6;
+
+impl<'a> Body<'a> {
+    /// Finds the devices and switches the sensors on, to be sampled every `step_ms`. The wheels stand.
+    pub fn new(library: &'a Library, step_ms: i32) -> Result<Self, MissingDevice> {
+        let find = |name: &'static str| library.device(name).ok_or(MissingDevice(name));
+        let motors = [find("left wheel motor")?, find("right wheel motor")?];
+        let sensors = [find("left wheel sensor")?, find("right wheel sensor")?];
+        let (gps, compass, light) = (find("gps")?, find("compass")?, find("ledrgb")?);
+        for motor in motors {
+            library.motor_free(motor);
+            library.motor_velocity(motor, 0.0);
+        }
+        for sensor in sensors {
+            library.sensor_enable(sensor, step_ms);
+        }
+        library.gps_enable(gps, step_ms);
+        library.compass_enable(compass, step_ms);
+        Ok(Self {
+            library,
+            motors,
+            sensors,
+            gps,
+            compass,
+            light,
+            last_read_rad: [f64::NAN; 2],
+            last_rates: [0.0; 2],
+            last_light: None,
+            steps_since_light: STEPS_BETWEEN_LIGHTS,
+        })
+    }
+
+    /// How far the wheels turned since the last call, left and right, radians; zero before two samples are there.
+    pub fn wheel_turns_rad(&mut self) -> [f64; 2] {
+        let read = self.sensors.map(|sensor| self.library.sensor_value(sensor));
+        let turned = [0, 1].map(|side| wheel_turn_rad(read[side] - self.last_read_rad[side]));
+        self.last_read_rad = read;
+        turned.map(|turn| if turn.is_finite() { turn } else { 0.0 })
+    }
+
+    /// Place (x, y) in stage metres and heading in radians; NaN before the first sample. The world's axes are the
+    /// stage's (ENU, origin in the middle of the floor).
+    pub fn fix(&self) -> ([f64; 2], f64) {
+        let [x, y, _] = self.library.gps_values(self.gps);
+        let north = self.library.compass_values(self.compass);
+        ([x, y], north[0].atan2(north[1]))
+    }
+
+    /// Sets both wheels, rad/s; the core has already clamped them to what the motors can do.
+    pub fn set_wheels(&mut self, radps: [f64; 2]) {
+        for side in [0, 1] {
+            if radps[side] != self.last_rates[side] {
+                self.library.motor_velocity(self.motors[side], radps[side]);
+            }
+        }
+        self.last_rates = radps;
+    }
+
+    /// Shows a colour, at most ten times a second.
+    pub fn set_light(&mut self, colour: Rgb) {
+        self.steps_since_light = self.steps_since_light.saturating_add(1);
+        if self.last_light != Some(colour) && self.steps_since_light >= STEPS_BETWEEN_LIGHTS {
+            self.library.led_set(self.light, colour.number());
+            self.last_light = Some(colour);
+            self.steps_since_light = 0;
+        }
+    }
+}

@@ -1,0 +1,190 @@
+//! The functions of libController that a robot needs, bound when the program starts.
+//!
+//! Source: Webots R2025a, `include/controller/c/webots/*.h`; the same symbols stand in R2023b.
+#![allow(unsafe_code)]
+
+use std::ffi::{CString, c_char, c_double, c_int};
+use std::fmt;
+use std::path::Path;
+
+use crate::places;
+
+/// A device of the robot; 0 is none.
+pub type Tag = u16;
+
+/// libController, loaded and bound. All calls come from one thread: the library holds one lock during a step.
+pub struct Library {
+    init: extern "C" fn() -> c_int,
+    step: extern "C" fn(c_int) -> c_int,
+    cleanup: extern "C" fn(),
+    name: extern "C" fn() -> *const c_char,
+    time: extern "C" fn() -> c_double,
+    basic_time_step: extern "C" fn() -> c_double,
+    device: extern "C" fn(*const c_char) -> Tag,
+    motor_position: extern "C" fn(Tag, c_double),
+    motor_velocity: extern "C" fn(Tag, c_double),
+    sensor_enable: extern "C" fn(Tag, c_int),
+    sensor_value: extern "C" fn(Tag) -> c_double,
+    gps_enable: extern "C" fn(Tag, c_int),
+    gps_values: extern "C" fn(Tag) -> *const c_double,
+    compass_enable: extern "C" fn(Tag, c_int),
+    compass_values: extern "C" fn(Tag) -> *const c_double,
+    led_set: extern "C" fn(Tag, c_int),
+    // The functions above live as long as the library is loaded.
+    _library: libloading::Library,
+}
+
+/// Why libController could not be used.
+#[derive(Debug)]
+pub struct LoadError(String);
+
+impl fmt::Display for LoadError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.0)
+    }
+}
+
+impl std::error::Error for LoadError {}
+
+/// Binds one function by its C name.
+macro_rules! bind {
+    ($library:expr, $name:literal) => {{
+        // SAFETY: the signature is that of the header named above.
+        let symbol = unsafe { $library.get(concat!($name, "\0").as_bytes()) };
+        *symbol.map_err(|error| LoadError(format!("libController lacks {}: {error}", $name)))?
+    }};
+}
+
+impl Library {
+    /// Finds libController as Webots' own controllers do and binds it. `home` is the value of `WEBOTS_HOME`.
+    pub fn load(home: Option<&Path>) -> Result<Self, LoadError> {
+        let mut tried = Vec::new();
+        for place in places::candidates(home) {
+            // SAFETY: loading Webots' own library runs its initialisers, which only set up its globals.
+            match unsafe { libloading::Library::new(&place) } {
+                Ok(library) => return Self::bind(library),
+                Err(_) => tried.push(place.display().to_string()),
+            }
+        }
+        Err(LoadError(format!(
+            "Webots' libController was not found; set WEBOTS_HOME to where Webots is installed (tried {})",
+            tried.join(", ")
+        )))
+    }
+
+    fn bind(library: libloading::Library) -> Result<Self, LoadError> {
+        Ok(Self {
+            init: bind!(library, "wb_robot_init"),
+            step: bind!(library, "wb_robot_step"),
+            cleanup: bind!(library, "wb_robot_cleanup"),
+            name: bind!(library, "wb_robot_get_name"),
+            time: bind!(library, "wb_robot_get_time"),
+            basic_time_step: bind!(library, "wb_robot_get_basic_time_step"),
+            device: bind!(library, "wb_robot_get_device"),
+            motor_position: bind!(library, "wb_motor_set_position"),
+            motor_velocity: bind!(library, "wb_motor_set_velocity"),
+            sensor_enable: bind!(library, "wb_position_sensor_enable"),
+            sensor_value: bind!(library, "wb_position_sensor_get_value"),
+            gps_enable: bind!(library, "wb_gps_enable"),
+            gps_values: bind!(library, "wb_gps_get_values"),
+            compass_enable: bind!(library, "wb_compass_enable"),
+            compass_values: bind!(library, "wb_compass_get_values"),
+            led_set: bind!(library, "wb_led_set"),
+            _library: library,
+        })
+    }
+
+    /// Connects to the simulation; waits for it, up to about 50 s, and ends the process where there is none.
+    pub fn init(&self) {
+        (self.init)();
+    }
+
+    /// Lets the simulation go on by `millis`, a multiple of the basic step; `false`: it is ending.
+    pub fn step(&self, millis: i32) -> bool {
+        (self.step)(millis) != -1
+    }
+
+    /// Says goodbye. Where the simulation is ending this ends the process: do everything else before.
+    pub fn cleanup(&self) {
+        (self.cleanup)();
+    }
+
+    /// The robot's name in the world.
+    pub fn name(&self) -> String {
+        let text = (self.name)();
+        if text.is_null() {
+            return String::new();
+        }
+        // SAFETY: the library returns a zero-terminated string that lives until the process ends.
+        unsafe { std::ffi::CStr::from_ptr(text) }.to_string_lossy().into_owned()
+    }
+
+    /// Simulated seconds since the start.
+    pub fn time_s(&self) -> f64 {
+        (self.time)()
+    }
+
+    /// The world's step, milliseconds.
+    pub fn basic_time_step_ms(&self) -> f64 {
+        (self.basic_time_step)()
+    }
+
+    /// A device by its name; `None` where the robot has none of that name.
+    pub fn device(&self, name: &str) -> Option<Tag> {
+        let name = CString::new(name).ok()?;
+        Some((self.device)(name.as_ptr())).filter(|tag| *tag != 0)
+    }
+
+    /// Lets a motor turn without end. Must come before any velocity.
+    pub fn motor_free(&self, motor: Tag) {
+        (self.motor_position)(motor, f64::INFINITY);
+    }
+
+    /// Sets a motor's rate, rad/s.
+    pub fn motor_velocity(&self, motor: Tag, radps: f64) {
+        (self.motor_velocity)(motor, radps);
+    }
+
+    /// Samples a position sensor every `millis`.
+    pub fn sensor_enable(&self, sensor: Tag, millis: i32) {
+        (self.sensor_enable)(sensor, millis);
+    }
+
+    /// What a position sensor reads, radians; NaN before its first sample.
+    pub fn sensor_value(&self, sensor: Tag) -> f64 {
+        (self.sensor_value)(sensor)
+    }
+
+    /// Samples a GPS every `millis`.
+    pub fn gps_enable(&self, gps: Tag, millis: i32) {
+        (self.gps_enable)(gps, millis);
+    }
+
+    /// World x, y, z of a GPS, metres; NaN before its first sample.
+    pub fn gps_values(&self, gps: Tag) -> [f64; 3] {
+        three((self.gps_values)(gps))
+    }
+
+    /// Samples a compass every `millis`.
+    pub fn compass_enable(&self, compass: Tag, millis: i32) {
+        (self.compass_enable)(compass, millis);
+    }
+
+    /// The direction of north in the body of the robot; NaN before the first sample.
+    pub fn compass_values(&self, compass: Tag) -> [f64; 3] {
+        three((self.compass_values)(compass))
+    }
+
+    /// Sets a light, R·65536 + G·256 + B.
+    pub fn led_set(&self, led: Tag, colour: u32) {
+        (self.led_set)(led, colour as c_int);
+    }
+}
+
+fn three(values: *const c_double) -> [f64; 3] {
+    if values.is_null() {
+        return [f64::NAN; 3];
+    }
+    // SAFETY: GPS and compass return three doubles that stay until the next step.
+    unsafe { [*values, *values.add(1), *values.add(2)] }
+}
