@@ -1,1 +1,44 @@
-//! (being written)
+//! The firmware core of a LightBot: the same code on a board, in Webots and in the simulator.
+//!
+//! One [`Robot`] is one robot. Each 16 ms the shell gives it what the sensors say and gets what the motors and the light
+//! are to do; messages go in as they come, and are drained after every step. It allocates nothing, reads no clock, and
+//! the same inputs give the same outputs to the last bit. It knows nothing of shows, brokers or other robots.
+//!
+//! Inside: [`Inputs`] → `estimate` (where am I) → `routes` + `follow` or `seek` (where to) → `supervise` may override →
+//! `drive` (wheels) → [`Outputs`]. A `PATH` is decoded on the stack: give the thread that calls [`Robot::receive`] 32 KB.
+//!
+//! ```
+//! use lightbots_base::{Instant, RobotId, Vec2};
+//! use lightbots_robot::{Config, Fix, Inputs, Message, Robot};
+//! use lightbots_wire::Topic;
+//! let id = RobotId::new("r1").unwrap();
+//! let mut robot = Robot::new(Config::new(id));
+//! robot.link(Instant(0), true);
+//! robot.receive(Instant(0), Topic::Robot(id), b"|TARGET 1.0 0.0||COLOR 255|");
+//! let fix = Fix { at: Vec2::ZERO, heading: Some(0.0) };
+//! let outputs = robot.step(Instant(16_000), &Inputs { fix: Some(fix), ..Inputs::default() });
+//! assert!(outputs.wheels_radps[0] > 0.0 && outputs.light.b == 255);
+//! let mut message = Message::new();
+//! assert_eq!(robot.outgoing(&mut message), Some(Topic::Uuid));
+//! assert!(message.starts_with("r1 0.0 0.0 "));
+//! ```
+#![no_std]
+
+mod bearing;
+mod clock;
+mod config;
+mod cursor;
+mod drive;
+mod estimate;
+mod follow;
+mod light;
+mod outbox;
+mod robot;
+mod routes;
+mod seek;
+mod supervise;
+mod timeline;
+mod trail;
+
+pub use config::{Config, Fix, Inputs, Outputs};
+pub use robot::{Message, Robot};

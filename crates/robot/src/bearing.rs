@@ -1,0 +1,73 @@
+//! Heading from motion, for robots without a compass: the track the wheels say, turned onto the track the fixes say.
+
+use lightbots_base::{Vec2, wrap};
+
+/// How far the fixes must spread along the way before a turn is read from them, metres.
+const SPREAD_M: f64 = 0.06;
+/// At most so many fixes go into one reading; a robot that stands has no more to say.
+const MOST: u32 = 1000;
+
+/// Sums over pairs of (place by wheels, place by fix), for the rotation of least squares between them.
+#[derive(Debug, Default)]
+pub(crate) struct Bearing {
+    count: u32,
+    first: Option<(Vec2, Vec2)>,
+    wheels: Vec2,
+    fixes: Vec2,
+    dots: f64,
+    crosses: f64,
+}
+
+impl Bearing {
+    /// Adds one pair. Where the way is long enough, tells by how much the wheels' track must be turned to lie on the
+    /// fixes', radians, and starts anew.
+    pub(crate) fn add(&mut self, by_wheels: Vec2, by_fix: Vec2) -> Option<f64> {
+        let (wheels0, fix0) = *self.first.get_or_insert((by_wheels, by_fix));
+        let (wheels, fix) = (by_wheels - wheels0, by_fix - fix0);
+        self.count += 1;
+        self.wheels += wheels;
+        self.fixes += fix;
+        self.dots += wheels.dot(fix);
+        self.crosses += wheels.cross(fix);
+        if wheels.length_squared() < SPREAD_M * SPREAD_M {
+            if self.count >= MOST {
+                *self = Self::default();
+            }
+            return None;
+        }
+        let share = 1.0 / f64::from(self.count);
+        let dots = self.dots - self.wheels.dot(self.fixes) * share;
+        let crosses = self.crosses - self.wheels.cross(self.fixes) * share;
+        *self = Self::default();
+        Some(wrap(Vec2::new(dots, crosses).angle()))
+    }
+
+    /// Forgets what it has, because the wheels' track was bent or the fixes jumped.
+    pub(crate) fn clear(&mut self) {
+        *self = Self::default();
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_turn_between_two_tracks_is_found() {
+        let mut bearing = Bearing::default();
+        let mut found = None;
+        for step in 0..40 {
+            let noise = if step % 2 == 0 { 0.002 } else { -0.002 };
+            let way = f64::from(step) * 0.004;
+            let fix = Vec2::new(0.5, -0.5) + Vec2::unit(2.0) * way + Vec2::new(noise, -noise);
+            found = found.or(bearing.add(Vec2::new(way, 0.0), fix));
+        }
+        assert!((found.unwrap() - 2.0).abs() < 0.05);
+    }
+
+    #[test]
+    fn standing_tells_nothing() {
+        let mut bearing = Bearing::default();
+        assert!((0..5000).all(|_| bearing.add(Vec2::ZERO, Vec2::new(0.3, 0.3)).is_none()));
+    }
+}

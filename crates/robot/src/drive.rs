@@ -1,0 +1,125 @@
+//! From speed and turning rate to wheels: ramps, limits, and what to do when a wheel cannot.
+
+use lightbots_base::{Limits, Vec2};
+
+use crate::estimate::turned;
+
+/// Feedback may ask for a little more than plans do.
+const ACCEL_RESERVE: f64 = 1.25;
+const SPEED_RESERVE: f64 = 1.25;
+/// Turning rate changes by at most this, rad/s²: 2 m/s² at the wheels.
+const TURN_ACCEL: f64 = 100.0;
+/// Slower than this counts as standing.
+const STANDING_MPS: f64 = 0.01;
+const STANDING_RADPS: f64 = 0.2;
+
+/// What the body is to do.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct Setpoint {
+    /// Along the body's front, m/s; negative is backwards.
+    pub speed_mps: f64,
+    /// Counter-clockwise, rad/s.
+    pub turn_radps: f64,
+}
+
+/// Where the body is and which way it faces: a unit vector.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Body {
+    pub at: Vec2,
+    pub facing: Vec2,
+}
+
+/// The drive base: what it was told last, and its limits.
+#[derive(Debug)]
+pub(crate) struct Drive {
+    told: Setpoint,
+    limits: Limits,
+}
+
+impl Drive {
+    pub(crate) fn new(limits: Limits) -> Self {
+        Self { told: Setpoint::default(), limits }
+    }
+
+    /// Where the body will be in `dt` seconds, when what is said now takes effect: motors answer one step late.
+    pub(crate) fn foresee(&self, body: Body, dt: f64) -> Body {
+        let facing = turned(body.facing, (self.told.turn_radps * dt).clamp(-0.1, 0.1));
+        let way = self.told.speed_mps * dt;
+        Body { at: body.at + (body.facing + facing) * (0.5 * way), facing }
+    }
+
+    /// Goes towards a setpoint within the ramps; wheel rates left and right, rad/s.
+    pub(crate) fn step(&mut self, want: Setpoint, dt: f64) -> [f64; 2] {
+        let limits = &self.limits;
+        let speed_max = limits.speed_mps * SPEED_RESERVE;
+        let speed = want.speed_mps.clamp(-speed_max, speed_max);
+        let turn = want.turn_radps.clamp(-limits.turn_radps, limits.turn_radps);
+        let (speed_step, turn_step) = (limits.accel_mps2 * ACCEL_RESERVE * dt, TURN_ACCEL * dt);
+        self.told = Setpoint {
+            speed_mps: self.told.speed_mps + (speed - self.told.speed_mps).clamp(-speed_step, speed_step),
+            turn_radps: self.told.turn_radps + (turn - self.told.turn_radps).clamp(-turn_step, turn_step),
+        };
+        self.wheels()
+    }
+
+    /// Stops at once, without a ramp: an Elisa-3 stands after 32 ms and 1.3 mm.
+    pub(crate) fn halt(&mut self) -> [f64; 2] {
+        self.told = Setpoint::default();
+        [0.0; 2]
+    }
+
+    /// Whether it was told to stand, or as good as.
+    pub(crate) fn stands(&self) -> bool {
+        self.told.speed_mps.abs() < STANDING_MPS && self.told.turn_radps.abs() < STANDING_RADPS
+    }
+
+    /// Where a wheel would have to turn too fast, both turn slower in proportion: the curve stays, the speed gives.
+    fn wheels(&self) -> [f64; 2] {
+        let Setpoint { speed_mps, turn_radps } = self.told;
+        let half = turn_radps * self.limits.track_m * 0.5;
+        let rates = [
+            (speed_mps - half) / self.limits.wheel_radius_m,
+            (speed_mps + half) / self.limits.wheel_radius_m,
+        ];
+        let fastest = rates[0].abs().max(rates[1].abs());
+        let scale = if fastest > self.limits.wheel_radps { self.limits.wheel_radps / fastest } else { 1.0 };
+        rates.map(|rate| rate * scale)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn wheels_follow_the_ramp_and_the_measured_numbers() {
+        let mut drive = Drive::new(Limits::ELISA_3);
+        let want = Setpoint { speed_mps: 0.27, turn_radps: 0.0 };
+        let first = drive.step(want, 0.016);
+        assert!((first[0] - 0.02 / 0.0045).abs() < 1e-9);
+        for _ in 0..20 {
+            drive.step(want, 0.016);
+        }
+        assert!((drive.step(want, 0.016)[1] - 60.0).abs() < 1e-9);
+        assert_eq!(drive.halt(), [0.0; 2]);
+        assert!(drive.stands());
+    }
+
+    #[test]
+    fn turning_on_the_spot_stays_below_twenty_at_the_wheels() {
+        let mut drive = Drive::new(Limits::ELISA_3);
+        let spin = Setpoint { speed_mps: 0.0, turn_radps: 99.0 };
+        let wheels = (0..20).map(|_| drive.step(spin, 0.016)).last().unwrap();
+        assert!(wheels[1] > 20.0 && wheels[1] < 20.2 && wheels[0] == -wheels[1]);
+    }
+
+    #[test]
+    fn a_wheel_at_its_limit_keeps_the_curve() {
+        let limits = Limits { wheel_radps: 30.0, ..Limits::ELISA_3 };
+        let mut drive = Drive::new(limits);
+        let want = Setpoint { speed_mps: 0.27, turn_radps: 2.0 };
+        let wheels = (0..40).map(|_| drive.step(want, 0.016)).last().unwrap();
+        assert!((wheels[1] - 30.0).abs() < 1e-9);
+        assert!((wheels[0] / wheels[1] - (0.27 - 0.0402) / (0.27 + 0.0402)).abs() < 1e-9);
+    }
+}

@@ -1,0 +1,149 @@
+//! Being where the route says when it says: its motion as feed-forward, errors along, across and in heading as feedback
+//! (Kanayama et al., "A stable tracking control method for an autonomous mobile robot", 1990).
+
+use lightbots_base::{Motion, Vec2};
+
+use crate::drive::{Body, Setpoint};
+
+/// Speed per error along, 1/s.
+const ALONG: f64 = 6.0;
+/// Turning rate per error across and speed, rad/m²: together with the next, nearly critically damped in 6 cm.
+const ACROSS: f64 = 400.0;
+/// Turning rate per sine of the heading error, rad/s.
+const TURN: f64 = 9.0;
+/// On the spot, rad/s per radian.
+const SPOT: f64 = 12.0;
+/// The same errors across steer as at this speed where it drives slower, m/s.
+const SLOW_MPS: f64 = 0.05;
+/// Slower than this the route says no direction, m/s.
+const RESTING_MPS: f64 = 0.02;
+/// While it rests, errors below these are noise: metres along, and sine of the heading error.
+const CALM_M: f64 = 0.0015;
+const CALM_SIN: f64 = 0.012;
+/// Fastest correction while the route rests, m/s.
+const CORRECTION_MPS: f64 = 0.1;
+/// The direction must lie this far behind (cosine) before front and back change places.
+const BEHIND_COS: f64 = -0.1;
+
+/// How a robot follows its route.
+#[derive(Debug)]
+pub(crate) struct Follow {
+    /// Unit vector of travel.
+    travel: Vec2,
+    /// 1 forwards, −1 backwards, 0 not chosen yet.
+    sense: f64,
+}
+
+impl Follow {
+    pub(crate) fn new() -> Self {
+        Self { travel: Vec2::ZERO, sense: 0.0 }
+    }
+
+    /// What to do next: `motion` is where the route is and how it moves when this takes effect, by show time; `ahead`
+    /// is which way it goes on.
+    pub(crate) fn step(&mut self, motion: &Motion, ahead: Option<Vec2>, body: Body) -> Setpoint {
+        let speed = motion.velocity.length();
+        if speed > RESTING_MPS {
+            self.travel = motion.velocity / speed;
+            if self.sense == 0.0 {
+                self.choose_sense(body.facing);
+            }
+            return self.drive(motion, speed, body);
+        }
+        if let Some(ahead) = ahead {
+            self.travel = ahead;
+            self.choose_sense(body.facing);
+        }
+        self.rest(motion, ahead.is_some(), body)
+    }
+
+    /// Turns towards the way ahead without a route under way.
+    pub(crate) fn prepare(&mut self, ahead: Vec2, body: Body) -> Setpoint {
+        self.travel = ahead;
+        self.choose_sense(body.facing);
+        Setpoint { speed_mps: 0.0, turn_radps: self.turn_on_the_spot(body.facing) }
+    }
+
+    /// Front or back first, whichever is the shorter turn; not changed for small differences.
+    fn choose_sense(&mut self, facing: Vec2) {
+        let cos = facing.dot(self.travel);
+        if self.sense == 0.0 || cos * self.sense < BEHIND_COS {
+            self.sense = if cos < 0.0 { -1.0 } else { 1.0 };
+        }
+    }
+
+    fn drive(&self, motion: &Motion, speed: f64, body: Body) -> Setpoint {
+        let error = motion.position - body.at;
+        let (along, across) = (body.facing.dot(error), body.facing.cross(error));
+        let cos = body.facing.dot(self.travel) * self.sense;
+        let sin = body.facing.cross(self.travel) * self.sense;
+        let curve = motion.velocity.cross(motion.acceleration) / (speed * speed);
+        let steered = self.sense * speed.max(SLOW_MPS);
+        Setpoint {
+            speed_mps: self.sense * speed * cos.max(0.0) + ALONG * along,
+            turn_radps: curve + ACROSS * steered * across + TURN * sin,
+        }
+    }
+
+    fn rest(&self, motion: &Motion, goes_on: bool, body: Body) -> Setpoint {
+        let turn_radps = if goes_on { self.turn_on_the_spot(body.facing) } else { 0.0 };
+        let along = body.facing.dot(motion.position - body.at);
+        let calm = along.abs() < CALM_M || turn_radps.abs() > 1.0;
+        let speed_mps = if calm { 0.0 } else { (ALONG * along).clamp(-CORRECTION_MPS, CORRECTION_MPS) };
+        Setpoint { speed_mps, turn_radps }
+    }
+
+    fn turn_on_the_spot(&self, facing: Vec2) -> f64 {
+        let cos = facing.dot(self.travel) * self.sense;
+        let sin = facing.cross(self.travel) * self.sense;
+        if cos > 0.0 && sin.abs() < CALM_SIN {
+            0.0
+        } else if cos > 0.5 {
+            SPOT * sin
+        } else {
+            SPOT.copysign(sin)
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn moving(x: f64, y: f64) -> Motion {
+        Motion { position: Vec2::new(x, y), velocity: Vec2::new(0.2, 0.0), acceleration: Vec2::ZERO }
+    }
+
+    fn body(heading: f64) -> Body {
+        Body { at: Vec2::ZERO, facing: Vec2::unit(heading) }
+    }
+
+    #[test]
+    fn on_the_route_it_does_what_the_route_does() {
+        let setpoint = Follow::new().step(&moving(0.0, 0.0), None, body(0.0));
+        assert_eq!(setpoint, Setpoint { speed_mps: 0.2, turn_radps: 0.0 });
+        let curve = Motion { acceleration: Vec2::new(0.0, 0.1), ..moving(0.0, 0.0) };
+        assert!((Follow::new().step(&curve, None, body(0.0)).turn_radps - 0.5).abs() < 1e-12);
+    }
+
+    #[test]
+    fn forwards_and_backwards_it_steers_to_the_same_side() {
+        let behind = moving(-0.002, 0.003);
+        let forwards = Follow::new().step(&behind, None, body(0.0));
+        let backwards = Follow::new().step(&behind, None, body(core::f64::consts::PI));
+        assert!(forwards.speed_mps < 0.2 && forwards.turn_radps > 0.0);
+        assert!((forwards.speed_mps + backwards.speed_mps).abs() < 1e-9);
+        assert!((forwards.turn_radps - backwards.turn_radps).abs() < 1e-9);
+    }
+
+    #[test]
+    fn while_the_route_rests_it_turns_the_shorter_way_to_what_comes() {
+        let resting = Motion::default();
+        let mut follow = Follow::new();
+        let left = follow.step(&resting, Some(Vec2::new(0.0, 1.0)), body(0.3));
+        assert!(left.turn_radps > 4.5 && left.speed_mps == 0.0);
+        let back = Follow::new().step(&resting, Some(Vec2::new(-1.0, 0.1)), body(0.0));
+        assert!(back.turn_radps < 0.0 && back.turn_radps > -2.0);
+        assert_eq!(Follow::new().step(&resting, None, body(0.3)), Setpoint::default());
+    }
+}

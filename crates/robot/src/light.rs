@@ -1,0 +1,151 @@
+//! The light: a colour, fades by the show clock, and blinking to be found.
+
+use lightbots_base::{Instant, Rgb, Span};
+use lightbots_wire::Fade;
+
+/// Fades that wait for their moment; one more replaces the latest.
+const WAITING: usize = 4;
+/// Half a period of blinking.
+const FLASH: Span = Span::from_millis(125);
+
+/// What the light shows and will show.
+#[derive(Debug, Default)]
+pub(crate) struct Light {
+    shown: Rgb,
+    /// The colour a running fade came from, and the fade.
+    running: Option<(Rgb, Fade)>,
+    /// In order of time.
+    waiting: heapless::Vec<Fade, WAITING>,
+    /// From when until when it blinks, own clock.
+    blink: Option<(Instant, Instant)>,
+}
+
+impl Light {
+    /// Shows a colour at once and for good: what was under way is forgotten.
+    pub(crate) fn set(&mut self, colour: Rgb) {
+        self.shown = colour;
+        self.running = None;
+        self.waiting.clear();
+    }
+
+    /// Takes a fade; it begins at its moment, or at once where that is past or the show time is not known.
+    pub(crate) fn fade(&mut self, show: Option<Instant>, fade: Fade) {
+        let Some(show) = show else {
+            return self.set(fade.to);
+        };
+        let place = self.waiting.iter().position(|other| other.at > fade.at).unwrap_or(self.waiting.len());
+        if self.waiting.is_full() {
+            self.waiting.pop();
+        }
+        // Fits: there is room, and `place` lies within what is left.
+        let _ = self.waiting.insert(place.min(self.waiting.len()), fade);
+        self.advance(show);
+    }
+
+    /// Blinks from `now` on, own clock.
+    pub(crate) fn blink(&mut self, now: Instant, over: Span) {
+        self.blink = Some((now, now + over));
+    }
+
+    /// Forgets the fades that have not begun.
+    pub(crate) fn forget_waiting(&mut self) {
+        self.waiting.clear();
+    }
+
+    /// The colour now, by the own clock and the show clock.
+    pub(crate) fn step(&mut self, now: Instant, show: Option<Instant>) -> Rgb {
+        if let Some(show) = show.filter(|_| self.running.is_some() || !self.waiting.is_empty()) {
+            self.advance(show);
+        }
+        let Some((from, until)) = self.blink else {
+            return self.shown;
+        };
+        if now >= until {
+            self.blink = None;
+            return self.shown;
+        }
+        if (now - from).0 / FLASH.0 % 2 == 0 { Rgb::new(255, 255, 255) } else { Rgb::BLACK }
+    }
+
+    fn advance(&mut self, show: Instant) {
+        while self.waiting.first().is_some_and(|fade| fade.at <= show) {
+            let fade = self.waiting.remove(0);
+            self.run_until(fade.at);
+            self.running = Some((self.shown, fade));
+        }
+        self.run_until(show);
+    }
+
+    fn run_until(&mut self, show: Instant) {
+        let Some((from, fade)) = self.running else {
+            return;
+        };
+        let share = (show - fade.at).as_secs() / fade.over.as_secs().max(1e-9);
+        self.shown = from.mixed(fade.to, share);
+        if share >= 1.0 || fade.over <= Span::ZERO {
+            self.shown = fade.to;
+            self.running = None;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const WHITE: Rgb = Rgb::new(255, 255, 255);
+
+    fn fade(to: Rgb, at: u64, over: i64) -> Fade {
+        Fade { to, at: Instant(at), over: Span(over) }
+    }
+
+    #[test]
+    fn a_fade_begins_and_ends_by_the_show_clock() {
+        let mut light = Light::default();
+        light.fade(Some(Instant(0)), fade(WHITE, 1000, 1000));
+        let mut at = |show| light.step(Instant(9), Some(Instant(show)));
+        assert_eq!(at(999), Rgb::BLACK);
+        assert_eq!(at(1500), Rgb::new(128, 128, 128));
+        assert_eq!(at(2000), WHITE);
+        assert_eq!(at(5000), WHITE);
+    }
+
+    #[test]
+    fn a_later_fade_takes_over_where_the_light_is_and_a_colour_ends_all() {
+        let mut light = Light::default();
+        light.fade(Some(Instant(0)), fade(Rgb::BLACK, 1500, 1000));
+        light.fade(Some(Instant(0)), fade(WHITE, 1000, 1000));
+        assert_eq!(light.step(Instant(0), Some(Instant(1500))), Rgb::new(128, 128, 128));
+        assert_eq!(light.step(Instant(0), Some(Instant(2000))), Rgb::new(64, 64, 64));
+        light.set(Rgb::new(1, 2, 3));
+        assert_eq!(light.step(Instant(0), Some(Instant(9000))), Rgb::new(1, 2, 3));
+    }
+
+    #[test]
+    fn the_latest_of_too_many_fades_gives_way() {
+        let mut light = Light::default();
+        for n in 1..=6u8 {
+            light.fade(Some(Instant(0)), fade(Rgb::new(n, 0, 0), u64::from(n) * 100, 0));
+        }
+        assert_eq!(light.waiting.len(), WAITING);
+        assert_eq!(light.step(Instant(0), Some(Instant(350))), Rgb::new(3, 0, 0));
+        assert_eq!(light.step(Instant(0), Some(Instant(5000))), Rgb::new(6, 0, 0));
+    }
+
+    #[test]
+    fn without_a_clock_a_fade_is_a_switch() {
+        let mut light = Light::default();
+        light.fade(None, fade(WHITE, 1000, 1000));
+        assert_eq!(light.step(Instant(0), None), WHITE);
+    }
+
+    #[test]
+    fn blinking_ends_and_leaves_the_colour() {
+        let mut light = Light::default();
+        light.set(Rgb::new(9, 9, 9));
+        light.blink(Instant(0), Span(250_000));
+        assert_eq!(light.step(Instant(0), None), WHITE);
+        assert_eq!(light.step(Instant(130_000), None), Rgb::BLACK);
+        assert_eq!(light.step(Instant(250_000), None), Rgb::new(9, 9, 9));
+    }
+}

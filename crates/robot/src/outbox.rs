@@ -1,0 +1,162 @@
+//! What the robot has to say, and when it says it unasked. Facts, not texts: a report is written when it is sent.
+
+use lightbots_base::{Instant, Span};
+use lightbots_wire::RobotState;
+
+/// Pace of status reports while something goes on, and while nothing does.
+const BUSY: Span = Span::from_millis(500);
+const CALM: Span = Span::from_millis(2000);
+/// Further off its route than this is news; nearer than that, it is over.
+const OFF_M: f64 = 0.008;
+const BACK_M: f64 = 0.006;
+/// A robot that has just been switched on waits so long for its first fix before it introduces itself without.
+const POWER_ON: Span = Span::from_millis(500);
+
+/// One thing to say.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Fact {
+    /// On `UUID`.
+    Introduction,
+    /// On `Arrival`: the number of the route that ended, 0 for a target.
+    Arrival(u32),
+    /// On `Status`.
+    Status,
+    /// On `Time`.
+    Question,
+}
+
+/// Bounded by its shape: at most one of each fact waits, the latest.
+#[derive(Debug)]
+pub(crate) struct Outbox {
+    introduction: bool,
+    /// Since when it waits to introduce itself of its own accord.
+    newcomer: Option<Instant>,
+    /// It said that it did not know where it was.
+    said_nowhere: bool,
+    arrival: Option<u32>,
+    status: bool,
+    question: bool,
+    next_status: Instant,
+    state: RobotState,
+    is_off: bool,
+}
+
+impl Outbox {
+    /// An outbox whose periodic messages are `phase` later than those of others.
+    pub(crate) fn new(phase: Span) -> Self {
+        Self {
+            introduction: false,
+            newcomer: None,
+            said_nowhere: false,
+            arrival: None,
+            status: false,
+            question: false,
+            next_status: Instant::ZERO + CALM + phase,
+            state: RobotState::Lost,
+            is_off: false,
+        }
+    }
+
+    pub(crate) fn introduce(&mut self) {
+        self.introduction = true;
+    }
+
+    /// It was switched on, or the link is new: it introduces itself as soon as it knows where it is.
+    pub(crate) fn arrive_new(&mut self, now: Instant) {
+        self.newcomer = Some(now);
+    }
+
+    pub(crate) fn arrived(&mut self, route: u32) {
+        self.arrival = Some(route);
+    }
+
+    pub(crate) fn report_status(&mut self) {
+        self.status = true;
+    }
+
+    pub(crate) fn ask_time(&mut self) {
+        self.question = true;
+    }
+
+    /// Notes what is news of itself.
+    pub(crate) fn notice(&mut self, now: Instant, state: RobotState, off_m: Option<f64>, knows_place: bool) {
+        if self.newcomer.is_some_and(|since| knows_place || now - since > POWER_ON) {
+            self.newcomer = None;
+            self.introduction = true;
+        }
+        if self.said_nowhere && knows_place {
+            self.introduction = true;
+        }
+        let off_m = off_m.unwrap_or(0.0);
+        let is_off = off_m > if self.is_off { BACK_M } else { OFF_M };
+        if state != self.state || is_off != self.is_off || now >= self.next_status {
+            self.status = true;
+            self.state = state;
+            self.is_off = is_off;
+        }
+        if self.status {
+            let busy = matches!(state, RobotState::Driving | RobotState::Held);
+            self.next_status = now + if busy { BUSY } else { CALM };
+        }
+    }
+
+    /// The next thing to say. `speaks_ours` is false for a robot that only knows the original protocol.
+    pub(crate) fn take(&mut self, knows_place: bool, speaks_ours: bool) -> Option<Fact> {
+        if core::mem::take(&mut self.introduction) {
+            self.said_nowhere = !knows_place;
+            return Some(Fact::Introduction);
+        }
+        if let Some(route) = self.arrival.take() {
+            return Some(Fact::Arrival(route));
+        }
+        if core::mem::take(&mut self.question) && speaks_ours {
+            return Some(Fact::Question);
+        }
+        (core::mem::take(&mut self.status) && speaks_ours).then_some(Fact::Status)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn statuses(outbox: &mut Outbox, seconds: u64, state: RobotState) -> usize {
+        let mut count = 0;
+        for step in 0..seconds * 1000 / 16 {
+            outbox.notice(Instant(step * 16_000), state, None, true);
+            count += usize::from(outbox.take(true, true) == Some(Fact::Status));
+        }
+        count
+    }
+
+    #[test]
+    fn two_a_second_while_driving_and_one_in_two_when_idle() {
+        assert!((19..=21).contains(&statuses(&mut Outbox::new(Span::ZERO), 10, RobotState::Driving)));
+        assert!((5..=6).contains(&statuses(&mut Outbox::new(Span::ZERO), 10, RobotState::Idle)));
+    }
+
+    #[test]
+    fn leaving_the_route_is_said_once_and_coming_back_too() {
+        let mut outbox = Outbox::new(Span::ZERO);
+        let mut said = |off| {
+            outbox.notice(Instant(1), RobotState::Lost, Some(off), true);
+            outbox.take(true, true).is_some()
+        };
+        assert!(!said(0.007) && said(0.009) && !said(0.007) && said(0.005) && !said(0.007));
+    }
+
+    #[test]
+    fn a_robot_that_said_nowhere_says_where_as_soon_as_it_knows() {
+        let mut outbox = Outbox::new(Span::ZERO);
+        outbox.arrive_new(Instant(0));
+        let mut introduced = |at, knows| {
+            outbox.notice(Instant(at), RobotState::Lost, None, knows);
+            core::iter::from_fn(|| outbox.take(knows, false)).any(|fact| fact == Fact::Introduction)
+        };
+        assert!(!introduced(100_000, false));
+        assert!(introduced(600_000, false));
+        assert!(!introduced(700_000, false));
+        assert!(introduced(800_000, true));
+        assert!(!introduced(900_000, true));
+    }
+}

@@ -1,0 +1,376 @@
+//! The robot: messages in, steps in, wheels, light and reports out.
+
+use lightbots_base::{Instant, Pose, Rgb, Span, Vec2};
+use lightbots_wire::{Command, Details, Report, RobotState, TimeQuestion, Topic, commands};
+
+use crate::clock::Clock;
+use crate::config::{Config, Inputs, Outputs};
+use crate::drive::{Body, Drive, Setpoint};
+use crate::estimate::Estimate;
+use crate::light::Light;
+use crate::outbox::{Fact, Outbox};
+use crate::routes::Routes;
+use crate::seek::Seek;
+use crate::supervise::{Drives, Supervisor};
+
+/// A message to send. The longest report has 233 bytes.
+pub type Message = heapless::String<256>;
+
+/// A step is taken for no longer than this, seconds; longer pauses are gaps.
+const LONGEST_STEP_S: f64 = 0.1;
+/// Places further out than this in a coordinate make no sense, metres.
+const FAR_M: f64 = 1000.0;
+/// This far off its route, metres, the robot gives the route up: it is stuck, or was never where the route starts.
+const GIVE_UP_M: f64 = 0.3;
+/// Without a compass it learns its heading by creeping straight on, m/s.
+const CREEP_MPS: f64 = 0.08;
+
+/// The whole of a robot's mind: no allocation, no clock, no IO. Feed it messages and steps, drain what it says.
+#[derive(Debug)]
+pub struct Robot {
+    config: Config,
+    now: Instant,
+    estimate: Estimate,
+    clock: Clock,
+    drive: Drive,
+    light: Light,
+    shown: Rgb,
+    seek: Option<Seek>,
+    supervisor: Supervisor,
+    outbox: Outbox,
+    state: RobotState,
+    battery: Option<u8>,
+    unknown: u32,
+    stepped: bool,
+    routes: Routes,
+}
+
+impl Robot {
+    /// A robot that has just been switched on: it stands, shows nothing and knows nothing.
+    pub fn new(config: Config) -> Self {
+        let phase = Span::from_millis(i64::from(config.seed % 1999));
+        Self {
+            now: Instant::ZERO,
+            estimate: Estimate::new(&config),
+            clock: Clock::new(Instant::ZERO + phase / 10),
+            drive: Drive::new(config.limits),
+            light: Light::default(),
+            shown: Rgb::BLACK,
+            seek: None,
+            supervisor: Supervisor::new(config.silence),
+            outbox: Outbox::new(phase),
+            state: RobotState::Lost,
+            battery: None,
+            unknown: 0,
+            stepped: false,
+            routes: Routes::new(),
+            config,
+        }
+    }
+
+    /// Takes a message that came in at `now` of its own clock, on `Broadcast` or its own topic; others are not for it.
+    pub fn receive(&mut self, now: Instant, topic: Topic, payload: &[u8]) {
+        let personal = topic == Topic::Robot(self.config.id);
+        if !personal && topic != Topic::Broadcast {
+            return;
+        }
+        self.now = self.now.max(now);
+        self.supervisor.hear(now);
+        for command in commands(payload) {
+            match command {
+                Ok(command) if self.can(&command) => self.obey(now, personal, command),
+                _ => self.unknown = self.unknown.saturating_add(1),
+            }
+        }
+    }
+
+    /// The link to the broker went up or down at `now`. Up: it introduces itself as soon as it knows where it is.
+    pub fn link(&mut self, now: Instant, up: bool) {
+        self.now = self.now.max(now);
+        self.supervisor.link(now, up);
+        if up {
+            self.clock.hurry(now);
+            self.outbox.arrive_new(now);
+        }
+    }
+
+    /// One step, each 16 ms, at `now` of its own clock. Steps further apart than 0.1 s are gaps: the wheels may have
+    /// turned meanwhile, but nothing is planned over them.
+    pub fn step(&mut self, now: Instant, inputs: &Inputs) -> Outputs {
+        let dt = self.take_time(now);
+        self.sense(now, inputs);
+        let show = self.clock.show_time(now);
+        if show.is_some_and(|show| self.routes.begin_due(show)) {
+            self.seek = None;
+        }
+        self.supervise(now);
+        let wheels_radps = self.act(now, show, dt);
+        self.state = self.what_it_does(now, show);
+        self.shown = self.light.step(now, show);
+        self.speak(now);
+        Outputs { wheels_radps, light: self.shown }
+    }
+
+    /// Writes the next message it has to send; `None`, and an empty message, when there is none.
+    pub fn outgoing(&mut self, out: &mut Message) -> Option<Topic> {
+        out.clear();
+        let at = self.estimate.place(self.now);
+        let fact = self.outbox.take(at.is_some(), self.config.abilities.route)?;
+        let (topic, route) = match fact {
+            Fact::Introduction => (Topic::Uuid, self.routes.named()),
+            Fact::Arrival(route) => (Topic::Arrival, route),
+            Fact::Status => (Topic::Status, self.routes.named()),
+            Fact::Question => {
+                let question = TimeQuestion { id: self.config.id, asked: self.now };
+                return question.encode(out).ok().map(|()| Topic::Time);
+            }
+        };
+        let speaks_ours = self.config.abilities != Default::default();
+        let details = speaks_ours.then(|| Details { route, ..self.details() });
+        Report { id: self.config.id, at, details }.encode(out).ok()?;
+        Some(topic)
+    }
+
+    /// Where it believes to be; `None` where it does not know, or does not know its heading.
+    pub fn pose(&self) -> Option<Pose> {
+        self.estimate.pose(self.now)
+    }
+
+    /// What it is doing.
+    pub fn state(&self) -> RobotState {
+        self.state
+    }
+
+    /// The show clock at `now` of its own clock; `None` until it is synchronised.
+    pub fn show_time(&self, now: Instant) -> Option<Instant> {
+        self.clock.show_time(now)
+    }
+
+    /// How far it is from where its route says, metres; `None` without a route under way.
+    pub fn off_m(&self) -> Option<f64> {
+        self.routes.off_m()
+    }
+
+    /// Expected error of its place, 1 sigma in each coordinate, metres.
+    pub fn place_error_m(&self) -> f64 {
+        self.estimate.error_m()
+    }
+
+    /// Its name.
+    pub fn id(&self) -> lightbots_base::RobotId {
+        self.config.id
+    }
+
+    /// Commands it did not know or could make no sense of, since power-on.
+    pub fn unknown(&self) -> u32 {
+        self.unknown
+    }
+
+    fn details(&self) -> Details {
+        Details {
+            heading: self.pose().map(|pose| pose.heading),
+            battery: self.battery,
+            state: self.state,
+            route: self.routes.named(),
+            starts: self.routes.starts().filter(|_| self.clock.show_time(self.now).is_some()),
+            off_m: self.routes.off_m(),
+            clock_us: self.clock.error_us(self.now),
+            firmware: self.config.firmware.clone(),
+            abilities: self.config.abilities,
+            unknown: self.unknown,
+        }
+    }
+
+    fn can(&self, command: &Command) -> bool {
+        let abilities = self.config.abilities;
+        match command {
+            Command::Target(_) | Command::Color(_) | Command::Uuid => true,
+            Command::Fade(_) => abilities.fade,
+            Command::Blink(_) => abilities.blink,
+            _ => abilities.route,
+        }
+    }
+
+    fn obey(&mut self, now: Instant, personal: bool, command: Command) {
+        match command {
+            Command::Target(goal) => self.take_target(goal),
+            Command::Color(colour) => self.light.set(colour),
+            Command::Uuid => self.outbox.introduce(),
+            Command::Route(route) => {
+                self.routes.keep(route);
+                self.outbox.report_status();
+            }
+            Command::Start { seq, at } => {
+                if self.routes.start(seq, at, self.clock.show_time(now)) || personal {
+                    self.outbox.report_status();
+                }
+            }
+            Command::Hold { at } => self.routes.note(at, true),
+            Command::Resume { at } => self.routes.note(at, false),
+            Command::Stop => {
+                self.stop();
+                self.light.forget_waiting();
+            }
+            Command::Time(answer) => {
+                self.clock.answer(now, &answer);
+                if self.clock.take_reset() {
+                    self.routes.forget_moments();
+                }
+            }
+            Command::Fade(fade) => self.light.fade(self.clock.show_time(now), fade),
+            Command::Blink(blink) => self.light.blink(now, blink.over),
+            Command::Status => self.outbox.report_status(),
+        }
+    }
+
+    /// A target replaces whatever it does. One that is nowhere makes no sense: it stands.
+    fn take_target(&mut self, goal: Vec2) {
+        self.routes.clear();
+        let makes_sense = goal.x.abs() <= FAR_M && goal.y.abs() <= FAR_M;
+        self.seek = makes_sense.then(|| Seek::new(goal));
+        if !makes_sense {
+            self.unknown = self.unknown.saturating_add(1);
+            self.drive.halt();
+        }
+    }
+
+    fn stop(&mut self) {
+        self.routes.clear();
+        self.seek = None;
+        self.drive.halt();
+        self.outbox.report_status();
+    }
+
+    /// Seconds since the step before.
+    fn take_time(&mut self, now: Instant) -> f64 {
+        let dt = (now - self.now).as_secs();
+        if !self.stepped {
+            self.stepped = true;
+            self.outbox.arrive_new(now);
+        }
+        self.now = now;
+        dt.clamp(0.0, LONGEST_STEP_S)
+    }
+
+    fn sense(&mut self, now: Instant, inputs: &Inputs) {
+        let most = self.config.limits.wheel_radps * LONGEST_STEP_S * 2.0;
+        if inputs.wheel_turns_rad.iter().all(|turn| turn.abs() <= most) {
+            self.estimate.advance(now, inputs.wheel_turns_rad);
+        } else {
+            self.supervisor.fault(now);
+        }
+        if let Some(fix) = &inputs.fix {
+            self.estimate.correct(now, fix);
+            if self.estimate.take_senseless() {
+                self.supervisor.fault(now);
+            }
+        }
+        if let Some(percent) = inputs.battery {
+            self.battery = Some(percent.min(100));
+        }
+    }
+
+    /// Gives up what must not go on. A target survives being lost or blocked, as with an original robot; a route does
+    /// not, because the others have driven on.
+    fn supervise(&mut self, now: Instant) {
+        let drives = self.drives();
+        if self.supervisor.check_link(now, drives) {
+            self.seek = None;
+            self.routes.abandon();
+        }
+        if drives == Drives::Route {
+            if self.routes.off_m().is_some_and(|off| off > GIVE_UP_M) {
+                self.supervisor.fault(now);
+            }
+            if self.supervisor.faulty(now) || self.estimate.lost(now) {
+                self.routes.abandon();
+            }
+        }
+        if self.supervisor.take_question(now, drives) {
+            self.outbox.ask_time();
+        }
+    }
+
+    fn drives(&self) -> Drives {
+        if self.routes.under_way() {
+            Drives::Route
+        } else if self.routes.in_a_run() {
+            Drives::Soon
+        } else if self.seek.is_some() {
+            Drives::Target
+        } else {
+            Drives::Not
+        }
+    }
+
+    fn act(&mut self, now: Instant, show: Option<Instant>, dt: f64) -> [f64; 2] {
+        if self.supervisor.faulty(now) || self.supervisor.is_cut() {
+            return self.drive.halt();
+        }
+        let wants = if self.estimate.lost(now) { None } else { self.want(show, dt) };
+        let wheels = self.drive.step(wants.unwrap_or_default(), dt);
+        self.arrive(show);
+        wheels
+    }
+
+    /// What it wants to do: the route under way, else the target, else turn towards what comes.
+    fn want(&mut self, show: Option<Instant>, dt: f64) -> Option<Setpoint> {
+        if !self.routes.under_way() && self.seek.is_none() && !self.routes.keeps_one() {
+            return None;
+        }
+        if !self.estimate.aligned() {
+            let drives = self.routes.under_way() || self.seek.is_some();
+            return drives.then_some(Setpoint { speed_mps: CREEP_MPS, turn_radps: 0.0 });
+        }
+        let limits = &self.config.limits;
+        let body = Body { at: self.estimate.at(), facing: self.estimate.facing() };
+        let soon = self.drive.foresee(body, dt);
+        if let Some(show) = show.filter(|_| self.routes.under_way()) {
+            return self.routes.step(show + Span::from_secs(dt), soon, limits);
+        }
+        match self.seek.as_mut() {
+            Some(seek) => Some(seek.step(soon, limits)),
+            None => self.routes.prepare(soon),
+        }
+    }
+
+    /// Says once that it is there, when it stands there.
+    fn arrive(&mut self, show: Option<Instant>) {
+        if !self.drive.stands() || self.estimate.lost(self.now) {
+            return;
+        }
+        let at = self.estimate.at();
+        if let Some(route) = show.and_then(|show| self.routes.finish(show, at)) {
+            self.outbox.arrived(route);
+        }
+        if self.seek.take_if(|seek| seek.reached(at)).is_some() {
+            self.outbox.arrived(0);
+        }
+    }
+
+    fn what_it_does(&self, now: Instant, show: Option<Instant>) -> RobotState {
+        if self.supervisor.is_faulty() {
+            RobotState::Faulty
+        } else if self.supervisor.is_cut() {
+            RobotState::Cut
+        } else if self.estimate.lost(now) {
+            RobotState::Lost
+        } else if self.routes.held(show) {
+            RobotState::Held
+        } else if self.routes.under_way() || self.seek.is_some() {
+            RobotState::Driving
+        } else if self.routes.keeps_one() {
+            RobotState::Ready
+        } else {
+            RobotState::Idle
+        }
+    }
+
+    fn speak(&mut self, now: Instant) {
+        if self.config.abilities.route && self.supervisor.is_up() && self.clock.take_question(now) {
+            self.outbox.ask_time();
+        }
+        let knows_place = self.state != RobotState::Lost && !self.estimate.lost(now);
+        self.outbox.notice(now, self.state, self.routes.off_m(), knows_place);
+    }
+}

@@ -1,0 +1,259 @@
+//! The route under way, the one kept for later, and when they begin.
+
+use lightbots_base::{Instant, Limits, Motion, PathRef, Span, Vec2};
+use lightbots_wire::Route;
+
+use crate::cursor::Cursor;
+use crate::drive::{Body, Setpoint};
+use crate::follow::Follow;
+use crate::seek::{Seek, within_arrival};
+use crate::timeline::Timeline;
+
+/// A START that comes later than this after its moment is too late.
+const TOO_LATE: Span = Span::from_millis(500);
+/// A route whose number lies so little below the one kept is an old message that came late.
+const OLD_NUMBERS: u32 = 64;
+
+/// A route that waits for its START.
+#[derive(Debug)]
+struct Kept {
+    route: Route,
+    starts: Option<Instant>,
+    follow: Follow,
+    ahead: Option<Vec2>,
+}
+
+/// A route that has begun.
+#[derive(Debug)]
+struct Running {
+    route: Route,
+    starts: Instant,
+    duration: Span,
+    cursor: Cursor,
+    follow: Follow,
+    /// Once the route is over and the robot is not there yet.
+    seek: Option<Seek>,
+    off_m: f64,
+}
+
+/// The routes of a robot.
+#[derive(Debug)]
+pub(crate) struct Routes {
+    running: Option<Running>,
+    kept: Option<Kept>,
+    timeline: Timeline,
+    /// Number of the route that ended last.
+    finished: u32,
+}
+
+impl Routes {
+    pub(crate) fn new() -> Self {
+        Self { running: None, kept: None, timeline: Timeline::new(), finished: 0 }
+    }
+
+    /// Keeps a route for its START. The one under way, the one just finished and late old messages change nothing.
+    pub(crate) fn keep(&mut self, route: Route) {
+        let newest = self.named();
+        let age = newest.wrapping_sub(route.seq);
+        if newest != 0 && age < OLD_NUMBERS {
+            return;
+        }
+        let ahead = Cursor::new(&route).ahead();
+        self.kept = Some(Kept { route, starts: None, follow: Follow::new(), ahead });
+    }
+
+    /// States when the kept route begins; anew, as long as it has not begun. Tells whether that changed anything.
+    pub(crate) fn start(&mut self, seq: u32, at: Instant, show: Option<Instant>) -> bool {
+        let Some(kept) = self.kept.as_mut().filter(|kept| kept.route.seq == seq) else {
+            return false;
+        };
+        if kept.starts == Some(at) || show.is_some_and(|show| show - at > TOO_LATE) {
+            return false;
+        }
+        kept.starts = Some(at);
+        true
+    }
+
+    /// Takes a hold or a resume.
+    pub(crate) fn note(&mut self, at: Instant, hold: bool) {
+        self.timeline.note(at, hold);
+    }
+
+    /// Lets the kept route take over when its moment has come. Tells whether it did.
+    pub(crate) fn begin_due(&mut self, show: Instant) -> bool {
+        let due = |kept: &mut Kept| kept.starts.is_some_and(|at| at <= show);
+        let Some(Kept { route, starts: Some(starts), follow, .. }) = self.kept.take_if(due) else {
+            return false;
+        };
+        self.timeline.begin(starts);
+        let duration = PathRef::new(route.start, &route.pieces).duration();
+        let cursor = Cursor::new(&route);
+        self.running = Some(Running { route, starts, duration, cursor, follow, seek: None, off_m: 0.0 });
+        true
+    }
+
+    /// What to do next along the route under way; `takes_effect` is the show time when the wheels will answer.
+    pub(crate) fn step(&mut self, takes_effect: Instant, body: Body, limits: &Limits) -> Option<Setpoint> {
+        let running = self.running.as_mut()?;
+        let progress = self.timeline.at(takes_effect);
+        running.cursor.seek(&running.route, progress.time);
+        let motion = by_show_time(running.cursor.motion(progress.time), progress.rate);
+        running.off_m = motion.position.distance(body.at);
+        if progress.time >= running.duration
+            && (running.seek.is_some() || !within_arrival(body.at, motion.position))
+        {
+            return Some(running.seek.get_or_insert_with(|| Seek::new(motion.position)).step(body, limits));
+        }
+        Some(running.follow.step(&motion, running.cursor.ahead(), body))
+    }
+
+    /// Turns towards the beginning of the kept route while nothing else is to do.
+    pub(crate) fn prepare(&mut self, body: Body) -> Option<Setpoint> {
+        let kept = self.kept.as_mut()?;
+        Some(kept.follow.prepare(kept.ahead?, body))
+    }
+
+    /// Ends the route under way where it is over and the robot stands at its end; gives its number.
+    pub(crate) fn finish(&mut self, show: Instant, at: Vec2) -> Option<u32> {
+        let over = |running: &mut Running| {
+            let end = PathRef::new(running.route.start, &running.route.pieces).end();
+            self.timeline.at(show).time >= running.duration && within_arrival(at, end)
+        };
+        let done = self.running.take_if(over)?;
+        self.finished = done.route.seq;
+        Some(self.finished)
+    }
+
+    /// Forgets the route under way.
+    pub(crate) fn abandon(&mut self) {
+        self.running = None;
+    }
+
+    /// Forgets everything.
+    pub(crate) fn clear(&mut self) {
+        self.running = None;
+        self.kept = None;
+        self.finished = 0;
+    }
+
+    /// The show clock was set anew: moments stated before mean nothing.
+    pub(crate) fn forget_moments(&mut self) {
+        self.running = None;
+        self.timeline = Timeline::new();
+        if let Some(kept) = self.kept.as_mut() {
+            kept.starts = None;
+        }
+    }
+
+    /// Whether a route is under way.
+    pub(crate) fn under_way(&self) -> bool {
+        self.running.is_some()
+    }
+
+    /// Whether a route is kept for later.
+    pub(crate) fn keeps_one(&self) -> bool {
+        self.kept.is_some()
+    }
+
+    /// Whether a route is under way or will begin at a moment it knows.
+    pub(crate) fn in_a_run(&self) -> bool {
+        self.running.is_some() || self.kept.as_ref().is_some_and(|kept| kept.starts.is_some())
+    }
+
+    /// Whether the route under way is held.
+    pub(crate) fn held(&self, show: Option<Instant>) -> bool {
+        self.running.is_some() && show.is_some_and(|show| self.timeline.at(show).held)
+    }
+
+    /// The route it speaks of: the one kept, else the one under way, else the one finished last; 0: none.
+    pub(crate) fn named(&self) -> u32 {
+        let running = self.running.as_ref().map(|running| running.route.seq);
+        self.kept.as_ref().map(|kept| kept.route.seq).or(running).unwrap_or(self.finished)
+    }
+
+    /// When the route it speaks of begins or began.
+    pub(crate) fn starts(&self) -> Option<Instant> {
+        match &self.kept {
+            Some(kept) => kept.starts,
+            None => self.running.as_ref().map(|running| running.starts),
+        }
+    }
+
+    /// How far the robot is from where the route under way says, metres.
+    pub(crate) fn off_m(&self) -> Option<f64> {
+        self.running.as_ref().map(|running| running.off_m)
+    }
+}
+
+/// Motion per path time → motion per show time; the ease of holds itself is too gentle to matter as acceleration.
+fn by_show_time(motion: Motion, rate: f64) -> Motion {
+    if rate == 1.0 {
+        return motion;
+    }
+    Motion { velocity: motion.velocity * rate, acceleration: motion.acceleration * (rate * rate), ..motion }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use lightbots_base::Piece;
+    use lightbots_wire::Pieces;
+
+    fn route(seq: u32) -> Route {
+        let piece = Piece::straight(Vec2::ZERO, Vec2::new(0.1, 0.0), Span(1_000_000));
+        Route { seq, start: Vec2::ZERO, pieces: Pieces::from_slice(&[piece]).unwrap() }
+    }
+
+    const BODY: Body = Body { at: Vec2::ZERO, facing: Vec2::new(1.0, 0.0) };
+
+    #[test]
+    fn a_start_may_be_moved_until_the_route_has_begun() {
+        let mut routes = Routes::new();
+        routes.keep(route(7));
+        assert!(!routes.start(8, Instant(5), None));
+        assert!(routes.start(7, Instant(1_000_000), Some(Instant(0))));
+        assert!(!routes.start(7, Instant(1_000_000), Some(Instant(0))));
+        assert!(routes.start(7, Instant(2_000_000), Some(Instant(0))));
+        assert!(!routes.begin_due(Instant(1_999_999)));
+        assert!(routes.begin_due(Instant(2_000_000)));
+        assert!(!routes.start(7, Instant(3_000_000), Some(Instant(2_000_000))));
+        assert_eq!(routes.starts(), Some(Instant(2_000_000)));
+    }
+
+    #[test]
+    fn a_start_long_past_is_refused() {
+        let mut routes = Routes::new();
+        routes.keep(route(7));
+        assert!(!routes.start(7, Instant(0), Some(Instant(600_000))));
+        assert_eq!(routes.starts(), None);
+    }
+
+    #[test]
+    fn old_and_doubled_paths_change_nothing() {
+        let mut routes = Routes::new();
+        routes.keep(route(100));
+        routes.start(100, Instant(5), Some(Instant(0)));
+        routes.keep(route(100));
+        routes.keep(route(99));
+        assert_eq!((routes.named(), routes.starts()), (100, Some(Instant(5))));
+        routes.keep(route(3));
+        assert_eq!((routes.named(), routes.starts()), (3, None));
+        routes.keep(route(4_000_000_000));
+        assert_eq!(routes.named(), 4_000_000_000);
+    }
+
+    #[test]
+    fn the_next_route_is_kept_while_one_is_under_way_and_takes_over() {
+        let mut routes = Routes::new();
+        routes.keep(route(1));
+        routes.start(1, Instant(0), Some(Instant(0)));
+        routes.begin_due(Instant(0));
+        routes.keep(route(2));
+        assert_eq!(routes.named(), 2);
+        assert!(routes.step(Instant(500_000), BODY, &Limits::ELISA_3).is_some());
+        assert!((routes.off_m().unwrap() - 0.05).abs() < 1e-9);
+        assert_eq!(routes.finish(Instant(1_000_000), Vec2::new(0.05, 0.0)), None);
+        assert_eq!(routes.finish(Instant(1_000_000), Vec2::new(0.09, 0.01)), Some(1));
+        assert!(!routes.under_way() && routes.keeps_one());
+    }
+}

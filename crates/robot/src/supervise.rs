@@ -1,0 +1,156 @@
+//! Reasons to stand still that override every wish to drive: a silent link, and sensors or motors without sense.
+
+use lightbots_base::{Instant, Span};
+
+/// How long it stands after something made no sense.
+const FAULT: Span = Span::from_millis(1000);
+/// During a run, silence of this length is broken by a question, again and again.
+const QUIET: Span = Span::from_millis(1000);
+const ASK_AGAIN: Span = Span::from_millis(150);
+
+/// What the robot is doing, as far as the link matters.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Drives {
+    /// It stands and will not drive by itself.
+    Not,
+    /// To a target: its controller may be an original one, which says nothing on the way.
+    Target,
+    /// A route that will begin by itself.
+    Soon,
+    /// A route under way.
+    Route,
+}
+
+/// Watches over link and sensors.
+#[derive(Debug)]
+pub(crate) struct Supervisor {
+    silence: Span,
+    heard: Instant,
+    down_since: Option<Instant>,
+    cut: bool,
+    faulty_until: Option<Instant>,
+    asked: Instant,
+}
+
+impl Supervisor {
+    pub(crate) fn new(silence: Span) -> Self {
+        let start = Instant::ZERO;
+        Self { silence, heard: start, down_since: None, cut: false, faulty_until: None, asked: start }
+    }
+
+    /// A message came in.
+    pub(crate) fn hear(&mut self, now: Instant) {
+        self.heard = now;
+        self.down_since = None;
+        self.cut = false;
+    }
+
+    /// The link went up or down.
+    pub(crate) fn link(&mut self, now: Instant, up: bool) {
+        if up {
+            self.hear(now);
+        } else if self.down_since.is_none() {
+            self.down_since = Some(now);
+        }
+    }
+
+    /// Whether the link is up as far as it knows.
+    pub(crate) fn is_up(&self) -> bool {
+        self.down_since.is_none()
+    }
+
+    /// Cuts the robot off where the link has been silent too long for what it does. Tells whether it did just now.
+    pub(crate) fn check_link(&mut self, now: Instant, drives: Drives) -> bool {
+        let down = self.down_since.is_some_and(|since| now - since > self.silence);
+        let silent = now - self.heard > self.silence;
+        let cuts = match drives {
+            Drives::Not | Drives::Soon => false,
+            Drives::Target => down,
+            Drives::Route => down || silent,
+        };
+        let news = cuts && !self.cut;
+        self.cut |= cuts;
+        news
+    }
+
+    /// Whether to break the silence with a question.
+    pub(crate) fn take_question(&mut self, now: Instant, drives: Drives) -> bool {
+        let asks = matches!(drives, Drives::Soon | Drives::Route)
+            && now - self.heard > QUIET
+            && now - self.asked >= ASK_AGAIN;
+        if asks {
+            self.asked = now;
+        }
+        asks
+    }
+
+    /// Something made no sense.
+    pub(crate) fn fault(&mut self, now: Instant) {
+        self.faulty_until = Some(now + FAULT);
+    }
+
+    /// Whether it stands because something made no sense.
+    pub(crate) fn faulty(&mut self, now: Instant) -> bool {
+        self.faulty_until.take_if(|until| now >= *until);
+        self.faulty_until.is_some()
+    }
+
+    /// Whether a fault is in force, as of the step before.
+    pub(crate) fn is_faulty(&self) -> bool {
+        self.faulty_until.is_some()
+    }
+
+    /// Whether it stands because the link was lost during a run.
+    pub(crate) fn is_cut(&self) -> bool {
+        self.cut
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SECOND: u64 = 1_000_000;
+
+    #[test]
+    fn silence_cuts_off_a_route_and_a_message_ends_it() {
+        let mut supervisor = Supervisor::new(Span(2_000_000));
+        supervisor.hear(Instant(SECOND));
+        assert!(!supervisor.check_link(Instant(3 * SECOND), Drives::Route));
+        assert!(!supervisor.check_link(Instant(9 * SECOND), Drives::Target));
+        assert!(supervisor.check_link(Instant(3 * SECOND + 1), Drives::Route));
+        assert!(!supervisor.check_link(Instant(3 * SECOND + 2), Drives::Route));
+        assert!(supervisor.is_cut());
+        supervisor.hear(Instant(4 * SECOND));
+        assert!(!supervisor.is_cut());
+    }
+
+    #[test]
+    fn a_link_that_is_down_cuts_off_a_target_too() {
+        let mut supervisor = Supervisor::new(Span(2_000_000));
+        supervisor.link(Instant(SECOND), false);
+        supervisor.link(Instant(2 * SECOND), false);
+        assert!(!supervisor.check_link(Instant(3 * SECOND), Drives::Target));
+        assert!(supervisor.check_link(Instant(3 * SECOND + 1), Drives::Target));
+        supervisor.link(Instant(4 * SECOND), true);
+        assert!(!supervisor.is_cut() && supervisor.is_up());
+    }
+
+    #[test]
+    fn silence_is_broken_before_it_cuts() {
+        let mut supervisor = Supervisor::new(Span(2_000_000));
+        supervisor.hear(Instant(SECOND));
+        let asked = (0..125u64)
+            .filter(|n| supervisor.take_question(Instant(SECOND + n * 16_000), Drives::Soon))
+            .count();
+        assert!((6..=7).contains(&asked), "{asked}");
+    }
+
+    #[test]
+    fn a_fault_passes() {
+        let mut supervisor = Supervisor::new(Span(2_000_000));
+        supervisor.fault(Instant(SECOND));
+        assert!(supervisor.faulty(Instant(2 * SECOND - 1)));
+        assert!(!supervisor.faulty(Instant(2 * SECOND)));
+    }
+}

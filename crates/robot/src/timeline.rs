@@ -1,0 +1,180 @@
+//! Path time: show time since the route's start, less what holds have eaten.
+
+use lightbots_base::{Instant, Span};
+use lightbots_wire::Route;
+
+/// Holds and resumes remembered; older ones are folded into where the route had got to.
+const EVENTS: usize = 8;
+
+/// How far along its time a route is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Progress {
+    /// Path time.
+    pub time: Span,
+    /// Path time per show time, 0 to 1.
+    pub rate: f64,
+    /// Whether a hold is in force.
+    pub held: bool,
+}
+
+#[derive(Clone, Copy, Debug)]
+struct Event {
+    at: Instant,
+    hold: bool,
+}
+
+/// Where progress was at a moment.
+#[derive(Clone, Copy, Debug)]
+struct Point {
+    at: Instant,
+    progress: Progress,
+}
+
+/// The path time of the running route, as a function of show time alone: whoever has the same holds is at the same
+/// path time, however late the messages came.
+#[derive(Debug)]
+pub(crate) struct Timeline {
+    base: Point,
+    /// In order of time, not before `base`.
+    events: heapless::Vec<Event, EVENTS>,
+}
+
+impl Timeline {
+    pub(crate) fn new() -> Self {
+        Self { base: Point { at: Instant::ZERO, progress: Progress::START }, events: heapless::Vec::new() }
+    }
+
+    /// A route begins at `at`. Holds and resumes of before are not for it.
+    pub(crate) fn begin(&mut self, at: Instant) {
+        self.base = Point { at, progress: Progress::START };
+        self.events.retain(|event| event.at >= at);
+    }
+
+    /// Takes a hold or resume, in whatever order they come. Doubles, and those from before the route, are dropped.
+    pub(crate) fn note(&mut self, at: Instant, hold: bool) {
+        if at < self.base.at || self.events.iter().any(|event| event.at == at && event.hold == hold) {
+            return;
+        }
+        if self.events.is_full() {
+            let oldest = self.events.remove(0);
+            if at < oldest.at {
+                return;
+            }
+            self.base = self.base.until(oldest.at).switched(oldest.hold);
+        }
+        let place = self.events.iter().position(|event| event.at > at).unwrap_or(self.events.len());
+        // Fits: room was made above.
+        let _ = self.events.insert(place, Event { at, hold });
+    }
+
+    /// Progress at a moment of the show clock; before the route's start, its path time is negative.
+    pub(crate) fn at(&self, show: Instant) -> Progress {
+        let mut point = self.base;
+        for event in self.events.iter().take_while(|event| event.at <= show) {
+            point = point.until(event.at).switched(event.hold);
+        }
+        point.until(show).progress
+    }
+}
+
+impl Progress {
+    const START: Self = Self { time: Span::ZERO, rate: 1.0, held: false };
+}
+
+impl Point {
+    /// Progress goes on to `at`: first the rate changes evenly to 0 or 1, then it stays.
+    fn until(self, at: Instant) -> Self {
+        let Progress { time, rate, held } = self.progress;
+        let elapsed = at - self.at;
+        let end_rate = if held { 0.0 } else { 1.0 };
+        if rate == end_rate {
+            let time = if held { time } else { time + elapsed };
+            return Self { at, progress: Progress { time, ..self.progress } };
+        }
+        let ease = Route::EASE.as_secs();
+        let slope = (end_rate - rate).signum() / ease;
+        let changing = (end_rate - rate).abs() * ease;
+        let seconds = elapsed.as_secs();
+        let (within, after) =
+            if seconds < changing { (seconds, 0.0) } else { (changing, seconds - changing) };
+        let gained = within * (rate + 0.5 * slope * within) + end_rate * after;
+        let rate = if after > 0.0 { end_rate } else { rate + slope * within };
+        Self { at, progress: Progress { time: time + Span::from_secs(gained), rate, held } }
+    }
+
+    fn switched(mut self, held: bool) -> Self {
+        self.progress.held = held;
+        self
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn ms(ms: u64) -> Instant {
+        Instant(ms * 1000)
+    }
+
+    fn running() -> Timeline {
+        let mut timeline = Timeline::new();
+        timeline.begin(ms(1000));
+        timeline
+    }
+
+    #[test]
+    fn without_holds_path_time_is_show_time() {
+        assert_eq!(running().at(ms(900)).time, Span::from_millis(-100));
+        assert_eq!(
+            running().at(ms(3500)),
+            Progress { time: Span::from_millis(2500), rate: 1.0, held: false }
+        );
+    }
+
+    #[test]
+    fn a_hold_eases_out_and_a_resume_eases_in() {
+        let mut timeline = running();
+        timeline.note(ms(2000), true);
+        timeline.note(ms(4000), false);
+        // Easing from 1 to 0 within 300 ms goes on for 150 ms of path time, and back as well.
+        assert!((timeline.at(ms(2150)).rate - 0.5).abs() < 1e-9);
+        assert_eq!(timeline.at(ms(2150)).time, Span(1_000_000 + 112_500));
+        assert_eq!(timeline.at(ms(3000)), Progress { time: Span(1_150_000), rate: 0.0, held: true });
+        assert_eq!(timeline.at(ms(5000)), Progress { time: Span(2_000_000), rate: 1.0, held: false });
+    }
+
+    #[test]
+    fn the_order_and_number_of_messages_do_not_matter() {
+        let mut one = running();
+        let mut other = running();
+        for (at, hold) in [(2000, true), (2100, false), (6000, true)] {
+            one.note(ms(at), hold);
+        }
+        for (at, hold) in
+            [(6000, true), (2100, false), (500, true), (2000, true), (2100, false), (6000, true)]
+        {
+            other.note(ms(at), hold);
+        }
+        for at in [1500, 2050, 2200, 5000, 6100, 9000] {
+            assert_eq!(one.at(ms(at)), other.at(ms(at)), "{at}");
+        }
+    }
+
+    #[test]
+    fn more_holds_than_are_remembered_still_count() {
+        let mut timeline = running();
+        for n in 1..=20 {
+            timeline.note(ms(n * 2000), true);
+            timeline.note(ms(n * 2000 + 1000), false);
+        }
+        assert_eq!(timeline.at(ms(42_000)).time, Span::from_millis(41_000 - 20 * 1000));
+    }
+
+    #[test]
+    fn a_new_route_begins_free() {
+        let mut timeline = running();
+        timeline.note(ms(2000), true);
+        timeline.begin(ms(3000));
+        assert_eq!(timeline.at(ms(4000)).time, Span::from_millis(1000));
+    }
+}
