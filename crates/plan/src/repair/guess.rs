@@ -52,13 +52,21 @@ impl Pace {
     }
 }
 
-/// Everybody along their course at a pace.
-pub(super) fn along(scene: &Scene, courses: &[Vec<Vec2>], pace: &Pace) -> Weave {
+/// Everybody along their course at a pace. Straight courses bow to the right by `bow` of their length, so that crowds
+/// that meet head-on pass each other.
+pub(super) fn along(scene: &Scene, courses: &[Vec<Vec2>], pace: &Pace, bow: f64) -> Weave {
     let spans = ((pace.drive_s / SPAN_S).ceil() as usize).clamp(6, MOST_SPANS);
     let span_s = pace.drive_s / spans as f64;
     let lengths: Vec<f64> = courses.iter().map(|course| length(course)).collect();
     Weave::new(scene, spans, span_s, |robot, step| {
-        point_along(&courses[robot], lengths[robot] * pace.share(step as f64 * span_s))
+        let (course, share) = (&courses[robot], pace.share(step as f64 * span_s));
+        let place = point_along(course, lengths[robot] * share);
+        // A bow that begins and ends straight ahead: 16 s²(1 − s)² is 1 half way.
+        let aside = 16.0 * (share * (1.0 - share)) * (share * (1.0 - share)) * bow;
+        match course[..] {
+            [from, to] if bow > 0.0 => scene.on_floor(robot, place - (to - from).left() * aside),
+            _ => place,
+        }
     })
 }
 

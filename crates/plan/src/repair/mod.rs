@@ -49,20 +49,19 @@ pub fn repair(problem: &TransitionProblem, goal_of: &[Option<usize>]) -> Option<
 fn straightened(problem: &TransitionProblem, scene: &Scene) -> Option<Weave> {
     let courses = courses(scene, &Lattice::new(scene, PITCH_M)?)?;
     let longest = courses.iter().map(|course| guess::length(course)).fold(0.0, f64::max);
-    for stretch in [1.0, 1.06, 1.15, 1.3] {
-        let pace = Pace::new(longest, &scene.limits, problem.easing, stretch);
-        let effort = Effort { sweeps: 150, polish: 30, wish: Wish { robots_m: 0.062, walls_m: 0.004 } };
-        if let Some(weave) = relax(scene, guess::along(scene, &courses, &pace), effort) {
-            return Some(weave);
-        }
-    }
-    None
+    [0.0, 0.12, 0.25].into_iter().find_map(|bow| {
+        let pace = Pace::new(longest, &scene.limits, problem.easing, 1.0 + 2.0 * bow * bow);
+        let effort =
+            Effort { sweeps: 300, polish: 30, stretch: 1.35, wish: Wish { robots_m: 0.062, walls_m: 0.004 } };
+        relax(scene, guess::along(scene, &courses, &pace, bow), effort)
+    })
 }
 
 /// Everybody in an order found on the lattice.
 fn crowd(scene: &Scene) -> Option<Weave> {
     let lattice = Lattice::new(scene, PITCH_M)?;
-    let effort = Effort { sweeps: 150, polish: 30, wish: Wish { robots_m: 0.062, walls_m: 0.004 } };
+    let effort =
+        Effort { sweeps: 300, polish: 30, stretch: 1.6, wish: Wish { robots_m: 0.0585, walls_m: 0.004 } };
     relax(scene, ordered(scene, &lattice)?, effort)
 }
 

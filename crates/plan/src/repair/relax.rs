@@ -9,6 +9,10 @@ use super::weave::Weave;
 
 /// Sweeps between two look-outs.
 const LOOK_OUT_EVERY: usize = 6;
+/// Sweeps after which there must be half as many contacts, or there is more time.
+const STAGE: usize = 12;
+/// How much more time.
+const GROWTH: f64 = 1.04;
 /// Bending aims beyond the wish by this, metres: otherwise it would only be neared for ever.
 const BEYOND_M: f64 = 0.0002;
 /// Control points that hardly move a place must not be moved far for it.
@@ -25,37 +29,56 @@ pub(super) struct Effort {
     pub sweeps: usize,
     /// Sweeps after the first free of contacts, to become faster.
     pub polish: usize,
+    /// How much longer than at first it may take.
+    pub stretch: f64,
     /// How far all shall stay apart.
     pub wish: Wish,
 }
 
-/// A weave free of contacts, or `None` where the sweeps did not do. Its haste says how much slower it must be driven.
+/// A weave free of contacts, or `None` where the effort did not do. Where a stage does not bring much there is a little
+/// more time for the next. The weave's haste says how much slower still it must be driven.
 pub(super) fn relax(scene: &Scene, mut weave: Weave, effort: Effort) -> Option<Weave> {
     let watch = Watch::new();
+    let longest_s = weave.span_s * effort.stretch;
     let mut dirty = vec![true; weave.robots()];
     let mut contacts = Vec::new();
     let mut best: Option<(f64, Weave)> = None;
-    let mut since_best = 0;
+    let (mut since_best, mut hoped, mut last) = (0, usize::MAX, usize::MAX);
     for sweep in 0..effort.sweeps {
         if sweep % LOOK_OUT_EVERY == 0 {
             contacts = watch.look_out(scene, &weave, effort.wish);
         }
-        if bend_all(scene, &mut weave, &watch, &contacts, &mut dirty) == 0 {
+        let mut bent = bend_all(scene, &mut weave, &watch, &contacts, &mut dirty);
+        if bent == 0 {
             contacts = watch.look_out(scene, &weave, effort.wish);
-            if bend_all(scene, &mut weave, &watch, &contacts, &mut dirty) == 0 {
-                let haste = weave.greatest_haste(&scene.limits);
-                if best.as_ref().is_none_or(|(least, _)| haste < *least) {
-                    since_best = if best.is_none() { 0 } else { since_best };
-                    best = Some((haste, weave.clone()));
-                }
-                if haste < GOOD_HASTE {
-                    break;
-                }
+            bent = bend_all(scene, &mut weave, &watch, &contacts, &mut dirty);
+        }
+        if bent == 0 {
+            let span_s = weave.span_s * weave.greatest_haste(&scene.limits);
+            if best.as_ref().is_none_or(|(least_s, _)| span_s < *least_s) {
+                best = Some((span_s, weave.clone()));
+            }
+            if span_s < weave.span_s * GOOD_HASTE {
+                break;
             }
         }
         since_best += usize::from(best.is_some());
         if since_best > effort.polish {
             break;
+        }
+        if sweep % STAGE == STAGE - 1 {
+            if best.is_none() && bent > last {
+                return None;
+            }
+            last = if sweep < 2 * STAGE { usize::MAX } else { bent };
+            if best.is_none() && bent > hoped {
+                weave.span_s *= GROWTH;
+                dirty.fill(true);
+                if weave.span_s > longest_s {
+                    return None;
+                }
+            }
+            hoped = bent / 2;
         }
         slow_all(scene, &mut weave, &mut dirty);
     }

@@ -153,7 +153,7 @@ impl Weave {
     fn path(&self, robot: usize, turn: Span, span: Span) -> Path {
         let (start, end) = self.ends[robot];
         let mut pieces = vec![Piece::rest(start, turn)];
-        let mut at = start;
+        let (mut at, mut resting) = (start, true);
         for (i, four) in self.way(robot).windows(4).enumerate() {
             let mut piece = Piece {
                 duration: span,
@@ -170,10 +170,11 @@ impl Weave {
             }
             let still = [piece.c1, piece.c2, piece.end].iter().all(|place| place.distance(at) < 1e-9);
             match pieces.last_mut() {
-                Some(before) if still && before.is_rest(at) => before.duration += span,
+                Some(before) if still && resting => before.duration += span,
                 _ if still => pieces.push(Piece::rest(at, span)),
                 _ => pieces.push(piece),
             }
+            resting = still;
             at = pieces.last().map_or(at, |piece| piece.end);
         }
         Path { start, pieces }
