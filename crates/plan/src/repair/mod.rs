@@ -7,6 +7,7 @@
 //! relaxation makes that smooth and swift. Every loop is bounded, nothing is random, and the proof has the last word.
 
 mod around;
+mod attempts;
 mod contacts;
 mod dock;
 mod guess;
@@ -21,48 +22,19 @@ mod weave;
 use lightbots_base::Span;
 
 use crate::{Path, TransitionProblem};
-use around::courses;
-use contacts::Wish;
-use guess::Pace;
-use lattice::Lattice;
-use ordered::ordered;
-use relax::{Effort, relax};
 use scene::Scene;
 use weave::Weave;
 
 /// The rest at the beginning of every path, in which robots turn towards their way.
 const TURN: Span = Span(350_000);
 
-/// Distance of lattice nodes, metres: robots that follow each other around corners stay 0.83 of it apart.
-const PITCH_M: f64 = 0.072;
-
 /// Collision-free timed paths for a settled assignment: `goal_of[start]` is the goal that robot drives to, `None` a
 /// spare robot that may step aside. `paths[start]` all last equally long, at least the problem's duration, and begin
 /// with the rest in which robots turn. `None` where nothing was found within the bounded work.
 pub fn repair(problem: &TransitionProblem, goal_of: &[Option<usize>]) -> Option<Vec<Path>> {
     let scene = Scene::new(problem, goal_of)?;
-    let weave = straightened(problem, &scene).or_else(|| crowd(&scene))?;
+    let weave = attempts::best(&scene, problem.easing)?;
     Some(timed(problem, &scene, &weave))
-}
-
-/// Everybody on their shortest way, bent apart.
-fn straightened(problem: &TransitionProblem, scene: &Scene) -> Option<Weave> {
-    let courses = courses(scene, &Lattice::new(scene, PITCH_M)?)?;
-    let longest = courses.iter().map(|course| guess::length(course)).fold(0.0, f64::max);
-    [0.0, 0.12, 0.25].into_iter().find_map(|bow| {
-        let pace = Pace::new(longest, &scene.limits, problem.easing, 1.0 + 2.0 * bow * bow);
-        let effort =
-            Effort { sweeps: 300, polish: 30, stretch: 1.35, wish: Wish { robots_m: 0.062, walls_m: 0.004 } };
-        relax(scene, guess::along(scene, &courses, &pace, bow), effort)
-    })
-}
-
-/// Everybody in an order found on the lattice.
-fn crowd(scene: &Scene) -> Option<Weave> {
-    let lattice = Lattice::new(scene, PITCH_M)?;
-    let effort =
-        Effort { sweeps: 300, polish: 30, stretch: 1.6, wish: Wish { robots_m: 0.0585, walls_m: 0.004 } };
-    relax(scene, ordered(scene, &lattice)?, effort)
 }
 
 /// The weave at the least legal, or the wished for, duration.

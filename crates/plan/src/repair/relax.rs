@@ -11,6 +11,8 @@ use super::weave::Weave;
 const LOOK_OUT_EVERY: usize = 6;
 /// Sweeps after which there must be half as many contacts, or there is more time.
 const STAGE: usize = 12;
+/// So many contacts for each robot are not resolved any more once they become more.
+const HOPELESS: usize = 14;
 /// How much more time.
 const GROWTH: f64 = 1.04;
 /// Bending aims beyond the wish by this, metres: otherwise it would only be neared for ever.
@@ -31,13 +33,15 @@ pub(super) struct Effort {
     pub polish: usize,
     /// How much longer than at first it may take.
     pub stretch: f64,
+    /// Whether to stop early where contacts become more.
+    pub wary: bool,
     /// How far all shall stay apart.
     pub wish: Wish,
 }
 
 /// A weave free of contacts, or `None` where the effort did not do. Where a stage does not bring much there is a little
 /// more time for the next. The weave's haste says how much slower still it must be driven.
-pub(super) fn relax(scene: &Scene, mut weave: Weave, effort: Effort) -> Option<Weave> {
+pub(super) fn relax(scene: &Scene, mut weave: Weave, effort: Effort, work: &mut usize) -> Option<Weave> {
     let watch = Watch::new();
     let longest_s = weave.span_s * effort.stretch;
     let mut dirty = vec![true; weave.robots()];
@@ -45,6 +49,8 @@ pub(super) fn relax(scene: &Scene, mut weave: Weave, effort: Effort) -> Option<W
     let mut best: Option<(f64, Weave)> = None;
     let (mut since_best, mut hoped, mut last) = (0, usize::MAX, usize::MAX);
     for sweep in 0..effort.sweeps {
+        let Some(left) = work.checked_sub(weave.robots() * weave.spans) else { break };
+        *work = left;
         if sweep % LOOK_OUT_EVERY == 0 {
             contacts = watch.look_out(scene, &weave, effort.wish);
         }
@@ -67,10 +73,11 @@ pub(super) fn relax(scene: &Scene, mut weave: Weave, effort: Effort) -> Option<W
             break;
         }
         if sweep % STAGE == STAGE - 1 {
-            if best.is_none() && bent > last {
+            let bearable = if sweep > 2 * STAGE { 2 } else { HOPELESS };
+            if best.is_none() && effort.wary && bent > last.max(bearable * weave.robots()) {
                 return None;
             }
-            last = if sweep < 2 * STAGE { usize::MAX } else { bent };
+            last = bent;
             if best.is_none() && bent > hoped {
                 weave.span_s *= GROWTH;
                 dirty.fill(true);

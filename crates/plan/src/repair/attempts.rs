@@ -1,0 +1,61 @@
+//! What is tried in which order, until one way is good enough or the work is used up.
+
+use lightbots_show::Easing;
+
+use super::around::courses;
+use super::contacts::Wish;
+use super::guess::{Pace, along, length};
+use super::lattice::Lattice;
+use super::ordered::ordered;
+use super::relax::{Effort, relax};
+use super::scene::Scene;
+use super::weave::Weave;
+
+/// Distance of lattice nodes, metres: robots that follow each other around corners stay 0.83 of it apart.
+const PITCH_M: f64 = 0.072;
+/// Robots times spans times sweeps, for all attempts: some seconds.
+const MOST_WORK: usize = 30_000_000;
+/// Where this much work is left, a better way is still looked for.
+const WORK_TO_SPARE: usize = 24_000_000;
+/// So much longer than the least is good enough.
+const GOOD: f64 = 1.15;
+/// Larger crowds do not bow: the lattice is quicker.
+const MOST_TO_BOW: usize = 600;
+/// What the first guesses aim at, and the lattice, which is not as wide.
+const WIDE: Wish = Wish { robots_m: 0.062, walls_m: 0.004 };
+const NARROW: Wish = Wish { robots_m: 0.0585, walls_m: 0.003 };
+
+/// The swiftest of what was found; `None` where nothing was.
+pub(super) fn best(scene: &Scene, easing: Easing) -> Option<Weave> {
+    let lattice = Lattice::new(scene, PITCH_M)?;
+    let courses = courses(scene, &lattice)?;
+    let longest = courses.iter().map(|course| length(course)).fold(0.0, f64::max);
+    let least_s = Pace::new(longest, &scene.limits, easing, 1.0).drive_s;
+    let mut work = MOST_WORK;
+    let mut best: Option<Weave> = None;
+    let bows: &[f64] = if scene.robots() > MOST_TO_BOW { &[0.0] } else { &[0.0, 0.12, 0.25] };
+    for &bow in bows {
+        let pace = Pace::new(longest, &scene.limits, easing, 1.0 + 2.0 * bow * bow);
+        let effort = Effort { sweeps: 300, polish: 30, stretch: 2.0, wary: true, wish: WIDE };
+        let found = relax(scene, along(scene, &courses, &pace, bow), effort, &mut work);
+        best = swifter(scene, best, found);
+        if best.as_ref().is_some_and(|weave| lasts(scene, weave) < least_s * GOOD || work < WORK_TO_SPARE) {
+            return best;
+        }
+    }
+    let effort = Effort { sweeps: 300, polish: 30, stretch: 2.5, wary: false, wish: NARROW };
+    let found = ordered(scene, &lattice).and_then(|weave| relax(scene, weave, effort, &mut work));
+    swifter(scene, best, found)
+}
+
+/// How long a weave must take, seconds.
+fn lasts(scene: &Scene, weave: &Weave) -> f64 {
+    weave.span_s * weave.spans as f64 * weave.greatest_haste(&scene.limits)
+}
+
+fn swifter(scene: &Scene, one: Option<Weave>, other: Option<Weave>) -> Option<Weave> {
+    match (one, other) {
+        (Some(one), Some(other)) if lasts(scene, &other) < lasts(scene, &one) => Some(other),
+        (one, other) => one.or(other),
+    }
+}
