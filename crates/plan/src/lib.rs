@@ -24,6 +24,8 @@ mod motion;
 mod problem;
 pub mod proof;
 mod repair;
+#[cfg(test)]
+mod seeded;
 mod show;
 mod transition;
 

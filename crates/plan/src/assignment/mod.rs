@@ -1,21 +1,148 @@
 //! Who goes where: the least possible longest way first, then the least sum of squared ways among those no longer.
+//!
+//! Both are exact and sparse: ten thousand robots have a hundred million edges, of which a few per robot are looked
+//! at. The same places give the same assignment, bit for bit; ties go to whoever comes first in the k-d tree.
 
-mod dense;
+mod bottleneck;
+mod kdtree;
+mod least_squares;
+mod search;
+mod space;
+#[cfg(test)]
+mod tests;
 
+use bottleneck::bottleneck;
+use least_squares::LeastSquares;
 use lightbots_base::Vec2;
 
-/// Who shows which goal.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Assignment {
-    /// `start_of[goal]`: the start that goes there; each start at most once.
-    pub start_of: Vec<usize>,
-    /// The longest way of the assignment with the least longest way, metres.
-    pub bottleneck_m: f64,
+/// Squared ways this much longer than the reach are as long: places on a grid differ by rounding only.
+const ROUNDING: f64 = 1.0 + 1e-11;
+
+/// Goals, and who may go there.
+#[derive(Clone, Debug)]
+pub struct Choice {
+    starts: usize,
+    goals: usize,
+    /// Pairs of goal and start that are settled.
+    pinned: Vec<(usize, usize)>,
+    /// The goals and starts that are not pinned, and where they are.
+    open_goals: Vec<usize>,
+    open_starts: Vec<usize>,
+    goal_places: Vec<Vec2>,
+    start_places: Vec<Vec2>,
+    /// A matching of the open ones with no way longer than the reach.
+    feasible: Vec<u32>,
+    /// Square of the longest way anybody needs, square metres.
+    reach_squared: f64,
 }
 
-/// Assigns a start to every goal: `pinned[goal]` where it says so (shorter than `goals`: no pins for the rest), and
-/// no way longer than `(1 + slack)` times the bottleneck. `None` where there are fewer starts than goals, or a pin
-/// names a start that does not exist or is taken.
-pub fn assign(starts: &[Vec2], goals: &[Vec2], pinned: &[Option<usize>], slack: f64) -> Option<Assignment> {
-    dense::assign(starts, goals, pinned, slack)
+impl Choice {
+    /// Finds the least longest way. `pinned[goal]` names the start that must go there; shorter than `goals`: no pins
+    /// for the rest. `None` where there are fewer starts than goals, a place is not finite, or a pin names a start
+    /// that does not exist or is taken.
+    pub fn new(starts: &[Vec2], goals: &[Vec2], pinned: &[Option<usize>]) -> Option<Self> {
+        let mut choice = Self::open(starts, goals, pinned)?;
+        let found = bottleneck(&choice.goal_places, &choice.start_places);
+        choice.reach_squared = choice.reach_squared.max(found.reach_squared);
+        choice.feasible = found.column_of;
+        Some(choice)
+    }
+
+    /// The choice that contains a known assignment, `start_of[goal]`: no way needs to be longer than its longest.
+    pub fn containing(
+        starts: &[Vec2],
+        goals: &[Vec2],
+        pinned: &[Option<usize>],
+        start_of: &[usize],
+    ) -> Option<Self> {
+        let mut choice = Self::open(starts, goals, pinned)?;
+        let mut column_of_start = vec![u32::MAX; starts.len()];
+        for (column, &start) in choice.open_starts.iter().enumerate() {
+            column_of_start[start] = column as u32;
+        }
+        choice.feasible = choice.open_goals.iter().map(|&goal| column_of_start[start_of[goal]]).collect();
+        for (goal, &start) in start_of.iter().enumerate() {
+            choice.reach_squared = choice.reach_squared.max((starts[start] - goals[goal]).length_squared());
+        }
+        Some(choice)
+    }
+
+    fn open(starts: &[Vec2], goals: &[Vec2], pinned: &[Option<usize>]) -> Option<Self> {
+        if goals.len() > starts.len() || !starts.iter().chain(goals).all(|place| place.is_finite()) {
+            return None;
+        }
+        let mut taken = vec![false; starts.len()];
+        let (mut pairs, mut reach_squared) = (Vec::new(), 0.0f64);
+        for (goal, start) in pinned.iter().take(goals.len()).enumerate() {
+            let Some(start) = *start else { continue };
+            if core::mem::replace(taken.get_mut(start)?, true) {
+                return None;
+            }
+            pairs.push((goal, start));
+            reach_squared = reach_squared.max((starts[start] - goals[goal]).length_squared());
+        }
+        let is_open = |&goal: &usize| pinned.get(goal).copied().flatten().is_none();
+        let open_goals: Vec<usize> = (0..goals.len()).filter(is_open).collect();
+        let open_starts: Vec<usize> = (0..starts.len()).filter(|&start| !taken[start]).collect();
+        Some(Self {
+            starts: starts.len(),
+            goals: goals.len(),
+            goal_places: open_goals.iter().map(|&goal| goals[goal]).collect(),
+            start_places: open_starts.iter().map(|&start| starts[start]).collect(),
+            pinned: pairs,
+            open_goals,
+            open_starts,
+            feasible: Vec::new(),
+            reach_squared,
+        })
+    }
+
+    /// The least longest way, metres: no assignment that keeps the pins does with less.
+    pub fn bottleneck_m(&self) -> f64 {
+        self.reach_squared.sqrt()
+    }
+
+    /// Whether there is nothing to choose, because every goal is pinned.
+    pub fn is_settled(&self) -> bool {
+        self.open_goals.is_empty()
+    }
+
+    /// How many starts are left over.
+    pub fn spares(&self) -> usize {
+        self.starts - self.goals
+    }
+
+    /// Ready to minimise.
+    pub fn least_squares(&self) -> Minimiser<'_> {
+        let solver = LeastSquares::new(
+            &self.goal_places,
+            &self.start_places,
+            &self.feasible,
+            self.reach_squared * ROUNDING,
+        );
+        Minimiser { choice: self, solver }
+    }
+}
+
+/// Finds assignments with the least sum of squared ways, for greater and greater reach.
+pub struct Minimiser<'a> {
+    choice: &'a Choice,
+    solver: LeastSquares<'a>,
+}
+
+impl Minimiser<'_> {
+    /// `start_of[goal]` with the least sum of squared ways among assignments without a way longer than
+    /// `(1 + slack)` times the bottleneck. `slack` must not shrink from call to call.
+    pub fn solve(&mut self, slack: f64) -> Vec<usize> {
+        let choice = self.choice;
+        let column_of = self.solver.solve(choice.reach_squared * (1.0 + slack) * (1.0 + slack) * ROUNDING);
+        let mut start_of = vec![0; choice.goals];
+        for (&goal, &column) in choice.open_goals.iter().zip(column_of) {
+            start_of[goal] = choice.open_starts[column as usize];
+        }
+        for &(goal, start) in &choice.pinned {
+            start_of[goal] = start;
+        }
+        start_of
+    }
 }

@@ -1,15 +1,21 @@
 //! The proof: whether timed paths keep everybody apart and legal, at every moment of continuous time.
 //!
 //! **Invariant:** it shares nothing with the planner but the type of a path. It trusts no assignment, no profile and
-//! no repair: only the pieces count.
+//! no repair: only the pieces count. Distances and speeds are bounded by convex hulls of Bézier control points and
+//! divided until the bound decides; nothing is sampled.
 
 mod curve;
+mod drive;
+mod grid;
+mod pairs;
+mod surroundings;
+#[cfg(test)]
+mod tests;
 mod timeline;
 
 use crate::{Closest, Path};
 use lightbots_base::{Limits, Span, Vec2};
 use lightbots_show::Obstacle;
-use timeline::Stretch;
 
 /// What is to be judged.
 #[derive(Clone, Copy, Debug)]
@@ -24,25 +30,59 @@ pub struct ProofInput<'a> {
     pub half_floor: Vec2,
     /// What the robots can do.
     pub limits: &'a Limits,
-    /// The least distance wanted between two centres, metres. A pair that begins or ends closer than that must only
-    /// keep the smaller of those two distances.
+    /// The least distance wanted between two centres, metres; obstacles must be kept clear of by as much rim to rim.
+    /// A pair that begins or ends closer than that must only keep the smaller of those two distances.
     pub gap_m: f64,
 }
 
 /// The verdict.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Proof {
-    /// Pairs that come closer than wanted, by their indices (robots, then standing discs counted on), each at its
-    /// closest.
+    /// Pairs that come closer than wanted, sorted by their indices (robots, then standing discs counted on), each at
+    /// its closest.
     pub conflicts: Vec<Closest>,
+    /// What single robots do that they must not, sorted by robot.
+    pub faults: Vec<Fault>,
     /// The closest pair of all; `None` with fewer than two discs.
     pub closest: Option<Closest>,
+}
+
+/// Something a robot must not do.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Fault {
+    /// Which robot.
+    pub robot: usize,
+    /// What it does.
+    pub kind: FaultKind,
+    /// When the piece in question begins, after the transition's start.
+    pub at: Span,
+}
+
+/// Kinds of things robots must not do.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum FaultKind {
+    /// Its path is not made of numbers and positive durations, or ends at another time than the others'.
+    Malformed,
+    /// Drives too fast.
+    Speed,
+    /// Speeds up, slows down or swings around too hard.
+    Acceleration,
+    /// Jumps to another speed, or does not begin and end at rest.
+    Jump,
+    /// Turns faster than it can, while driving or between two drives.
+    Turn,
+    /// Needs a wheel to turn faster than it can.
+    Wheel,
+    /// Leaves the floor.
+    Floor,
+    /// Comes too near to an obstacle.
+    Obstacle,
 }
 
 impl Proof {
     /// Whether the paths may be driven.
     pub fn holds(&self) -> bool {
-        self.conflicts.is_empty()
+        self.conflicts.is_empty() && self.faults.is_empty()
     }
 }
 
@@ -51,37 +91,18 @@ const SLACK_M: f64 = 1e-6;
 
 /// Judges paths.
 pub fn prove(input: &ProofInput<'_>) -> Proof {
-    let horizon_us = input.paths.iter().map(|path| path.as_ref().duration().0).max().unwrap_or(0);
-    let mut lists: Vec<Vec<Stretch>> = Vec::new();
-    for path in input.paths {
-        let mut list = Vec::new();
-        timeline::stretches(path, horizon_us, &mut list);
-        lists.push(list);
-    }
-    for &at in input.standing {
-        lists.push(vec![Stretch { begin_us: 0, end_us: horizon_us.max(1), curve: [at; 4] }]);
-    }
+    let horizon = input.paths.iter().map(|path| path.as_ref().duration()).max().unwrap_or(Span::ZERO);
     let mut proof = Proof::default();
-    for i in 0..input.paths.len() {
-        for j in i + 1..lists.len() {
-            let best = proof.closest.map_or(f64::INFINITY, |closest| closest.distance_m);
-            let enough = best.max(input.gap_m);
-            let Some((distance_m, at_us, place)) =
-                timeline::closest(&lists[i], &lists[j], 0, horizon_us.max(1), enough)
-            else {
-                continue;
-            };
-            let found = Closest { distance_m, at: Span(at_us), pair: (i, j), place };
-            let ends = |list: &[Stretch]| (list[0].curve[0], list[list.len() - 1].curve[3]);
-            let ((a0, a1), (b0, b1)) = (ends(&lists[i]), ends(&lists[j]));
-            let need = input.gap_m.min(a0.distance(b0)).min(a1.distance(b1)) - SLACK_M;
-            if distance_m < need {
-                proof.conflicts.push(found);
-            }
-            if distance_m < best {
-                proof.closest = Some(found);
-            }
+    for (robot, path) in input.paths.iter().enumerate() {
+        let before = proof.faults.len();
+        drive::judge(path, horizon, input.limits, |kind, at| proof.faults.push(Fault { robot, kind, at }));
+        if proof.faults[before..].iter().any(|fault| fault.kind == FaultKind::Malformed) {
+            continue;
         }
+        surroundings::judge(path, input, |kind, at| proof.faults.push(Fault { robot, kind, at }));
+    }
+    if !proof.faults.iter().any(|fault| fault.kind == FaultKind::Malformed) {
+        (proof.conflicts, proof.closest) = pairs::judge(input, horizon);
     }
     proof
 }

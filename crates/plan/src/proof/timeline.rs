@@ -26,9 +26,9 @@ impl Stretch {
         part(&self.curve, share(from_us), share(to_us))
     }
 
-    /// Where the robot is at a moment within the stretch.
-    pub fn at(&self, at_us: i64) -> Vec2 {
-        point(&self.curve, (at_us - self.begin_us) as f64 / (self.end_us - self.begin_us) as f64)
+    /// Length of the control polygon, metres: the curve is no longer.
+    pub fn polygon_m(&self) -> f64 {
+        self.curve.windows(2).map(|pair| pair[0].distance(pair[1])).sum()
     }
 }
 

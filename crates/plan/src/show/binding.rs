@@ -1,7 +1,7 @@
 //! Which pixels are bound to which robots, from frame to frame.
 
 use super::{ShowOptions, issues};
-use crate::assignment::assign;
+use crate::assignment::Choice;
 use lightbots_base::Vec2;
 use lightbots_show::{Identity, Issues, Pixel, Show};
 use std::collections::BTreeMap;
@@ -86,8 +86,8 @@ impl Binding {
         }
         let from: Vec<Vec2> = robots.iter().map(|&robot| places[robot]).collect();
         let to: Vec<Vec2> = new.iter().map(|&index| pixels[index].at).collect();
-        if let Some(assignment) = assign(&from, &to, &[], 0.0) {
-            for (&index, &start) in new.iter().zip(&assignment.start_of) {
+        if let Some(choice) = Choice::new(&from, &to, &[]) {
+            for (&index, &start) in new.iter().zip(&choice.least_squares().solve(0.0)) {
                 pins[index] = Some(robots[start]);
                 taken[robots[start]] = true;
             }

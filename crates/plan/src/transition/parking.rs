@@ -1,19 +1,22 @@
 //! Where robots wait that have nothing to show.
 
 use crate::TransitionProblem;
-use crate::assignment::Assignment;
 use lightbots_base::Vec2;
 use lightbots_show::Obstacle;
 
 /// Rings of places tried around a spare robot that stands in the way.
 const RINGS: i32 = 400;
 
-/// The problem with a goal for everybody: after the real goals follow the places where spare robots wait. They wait
-/// where they stand if nobody's goal is too near, else at the nearest free place.
-pub(super) fn with_spares(problem: &TransitionProblem, chosen: &Assignment) -> TransitionProblem {
+/// The problem with a goal for everybody, and an assignment for it: after the real goals follow the places where spare
+/// robots wait. They wait where they stand if nobody's goal is too near, else at the nearest free place.
+/// `start_of[goal]` is an assignment of the real goals.
+pub(super) fn with_spares(
+    problem: &TransitionProblem,
+    mut start_of: Vec<usize>,
+) -> (TransitionProblem, Vec<usize>) {
     let mut whole = problem.clone();
     let mut shows = vec![false; problem.starts.len()];
-    for &start in &chosen.start_of {
+    for &start in &start_of {
         shows[start] = true;
     }
     let spares: Vec<usize> = (0..problem.starts.len()).filter(|&start| !shows[start]).collect();
@@ -21,11 +24,12 @@ pub(super) fn with_spares(problem: &TransitionProblem, chosen: &Assignment) -> T
     let (stay, go): (Vec<usize>, Vec<usize>) =
         spares.into_iter().partition(|&spare| is_clear(problem, &problem.goals, problem.starts[spare]));
     whole.goals.extend(stay.iter().map(|&spare| problem.starts[spare]));
-    for spare in go {
+    for &spare in &go {
         let place = free_place(problem, &whole.goals, problem.starts[spare]);
         whole.goals.push(place.unwrap_or(problem.starts[spare]));
     }
-    whole
+    start_of.extend(stay.into_iter().chain(go));
+    (whole, start_of)
 }
 
 /// How far a waiting robot keeps from goals, metres: enough for others to pass between (Turpin et al. 2014).

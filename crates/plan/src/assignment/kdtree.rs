@@ -1,0 +1,283 @@
+//! A static k-d tree over places: near ones, cheap ones, and ones that have not been taken yet.
+
+use lightbots_base::Vec2;
+
+/// Leaves hold up to twice this many places.
+const LEAF: usize = 6;
+
+/// Places in a balanced tree. Nodes are numbered as in a binary heap: node k has children 2k and 2k + 1, the root is 1.
+pub(super) struct KdTree {
+    /// In tree order.
+    places: Vec<Vec2>,
+    /// `ids[position]`: the place's index as it was given.
+    ids: Vec<u32>,
+    /// `leaf_of[id]` and `position_of[id]`.
+    leaf_of: Vec<u32>,
+    position_of: Vec<u32>,
+    nodes: Vec<Node>,
+    first_leaf: usize,
+}
+
+#[derive(Clone, Copy)]
+struct Node {
+    min: Vec2,
+    max: Vec2,
+    first: u32,
+    last: u32,
+}
+
+impl Node {
+    /// Least squared distance from `from` to the node's box.
+    fn distance_squared(&self, from: Vec2) -> f64 {
+        let x = (self.min.x - from.x).max(from.x - self.max.x).max(0.0);
+        let y = (self.min.y - from.y).max(from.y - self.max.y).max(0.0);
+        x * x + y * y
+    }
+}
+
+impl KdTree {
+    pub fn new(points: &[Vec2]) -> Self {
+        let mut levels = 0;
+        while points.len() >> levels > LEAF {
+            levels += 1;
+        }
+        let first_leaf = 1usize << levels;
+        let empty = Node { min: Vec2::ZERO, max: Vec2::ZERO, first: 0, last: 0 };
+        let mut tree = Self {
+            places: points.to_vec(),
+            ids: (0..points.len() as u32).collect(),
+            leaf_of: vec![0; points.len()],
+            position_of: vec![0; points.len()],
+            nodes: vec![empty; 2 * first_leaf],
+            first_leaf,
+        };
+        tree.divide(points, 1, 0, points.len());
+        for position in 0..points.len() {
+            let id = tree.ids[position] as usize;
+            tree.places[position] = points[id];
+            tree.position_of[id] = position as u32;
+        }
+        tree
+    }
+
+    fn divide(&mut self, points: &[Vec2], node: usize, first: usize, last: usize) {
+        let (mut min, mut max) =
+            (Vec2::new(f64::INFINITY, f64::INFINITY), Vec2::new(f64::NEG_INFINITY, f64::NEG_INFINITY));
+        for &id in &self.ids[first..last] {
+            let at = points[id as usize];
+            min = Vec2::new(min.x.min(at.x), min.y.min(at.y));
+            max = Vec2::new(max.x.max(at.x), max.y.max(at.y));
+        }
+        self.nodes[node] = Node { min, max, first: first as u32, last: last as u32 };
+        if node >= self.first_leaf {
+            for &id in &self.ids[first..last] {
+                self.leaf_of[id as usize] = node as u32;
+            }
+            return;
+        }
+        let middle = first.midpoint(last);
+        let wide = max.x - min.x >= max.y - min.y;
+        let key = |id: u32| if wide { points[id as usize].x } else { points[id as usize].y };
+        if last > first {
+            // Ties by index: the same tree from the same places.
+            self.ids[first..last]
+                .select_nth_unstable_by(middle - first, |&a, &b| key(a).total_cmp(&key(b)).then(a.cmp(&b)));
+        }
+        self.divide(points, 2 * node, first, middle);
+        self.divide(points, 2 * node + 1, middle, last);
+    }
+
+    pub fn len(&self) -> usize {
+        self.places.len()
+    }
+
+    /// The indices of the `count` places nearest to `from` among those `allowed`, nearest first, with their squared
+    /// distances.
+    pub fn nearest(&self, from: Vec2, count: usize, allowed: impl Fn(u32) -> bool) -> Vec<(f64, u32)> {
+        let mut found: Vec<(f64, u32)> = Vec::with_capacity(count + 1);
+        let mut stack = Stack::new(1);
+        while let Some(node) = stack.pop() {
+            let worst = if found.len() < count { f64::INFINITY } else { found[count - 1].0 };
+            let here = &self.nodes[node];
+            if here.first == here.last || here.distance_squared(from) >= worst {
+                continue;
+            }
+            if node < self.first_leaf {
+                stack.push_both(self, node, from);
+                continue;
+            }
+            for position in here.first as usize..here.last as usize {
+                let squared = (self.places[position] - from).length_squared();
+                let worst = if found.len() < count { f64::INFINITY } else { found[count - 1].0 };
+                if squared < worst && allowed(self.ids[position]) {
+                    let rank = found.partition_point(|entry| entry.0 <= squared);
+                    found.insert(rank, (squared, self.ids[position]));
+                    found.truncate(count);
+                }
+            }
+        }
+        found
+    }
+
+    /// The greatest weight in every node, for [`Self::cheaper`]; `weights[id]`.
+    pub fn greatest(&self, weights: &[f64]) -> Vec<f64> {
+        let mut greatest = vec![f64::NEG_INFINITY; self.nodes.len()];
+        for (id, &weight) in weights.iter().enumerate() {
+            let leaf = &mut greatest[self.leaf_of[id] as usize];
+            *leaf = leaf.max(weight);
+        }
+        for node in (1..self.first_leaf).rev() {
+            greatest[node] = greatest[2 * node].max(greatest[2 * node + 1]);
+        }
+        greatest
+    }
+
+    /// Calls `found(id, squared distance)` for all places whose squared distance less their weight is below `limit`.
+    pub fn cheaper(
+        &self,
+        from: Vec2,
+        limit: f64,
+        weights: &[f64],
+        greatest: &[f64],
+        mut found: impl FnMut(u32, f64),
+    ) {
+        let mut stack = Stack::new(1);
+        while let Some(node) = stack.pop() {
+            let here = &self.nodes[node];
+            if here.first == here.last || here.distance_squared(from) - greatest[node] >= limit {
+                continue;
+            }
+            if node < self.first_leaf {
+                stack.push(2 * node);
+                stack.push(2 * node + 1);
+                continue;
+            }
+            for position in here.first as usize..here.last as usize {
+                let squared = (self.places[position] - from).length_squared();
+                let id = self.ids[position];
+                if squared - weights[id as usize] < limit {
+                    found(id, squared);
+                }
+            }
+        }
+    }
+}
+
+/// Nodes still to be looked at: one per level and its sibling.
+struct Stack {
+    nodes: [u32; 72],
+    count: usize,
+}
+
+impl Stack {
+    fn new(root: u32) -> Self {
+        let mut nodes = [0; 72];
+        nodes[0] = root;
+        Self { nodes, count: 1 }
+    }
+
+    fn push(&mut self, node: usize) {
+        self.nodes[self.count] = node as u32;
+        self.count += 1;
+    }
+
+    fn pop(&mut self) -> Option<usize> {
+        self.count = self.count.checked_sub(1)?;
+        Some(self.nodes[self.count] as usize)
+    }
+
+    /// Both children, so that the one nearer to `from` comes first.
+    fn push_both(&mut self, tree: &KdTree, node: usize, from: Vec2) {
+        let (left, right) = (2 * node, 2 * node + 1);
+        let left_first = tree.nodes[left].distance_squared(from) <= tree.nodes[right].distance_squared(from);
+        self.push(if left_first { right } else { left });
+        self.push(if left_first { left } else { right });
+    }
+}
+
+/// Which places of a tree are still there.
+pub(super) struct Remaining {
+    here: Vec<bool>,
+    counts: Vec<u32>,
+}
+
+impl Remaining {
+    /// The places for which `here(id)` holds.
+    pub fn new(tree: &KdTree, here: impl Fn(usize) -> bool) -> Self {
+        let mut remaining = Self { here: Vec::new(), counts: Vec::new() };
+        remaining.reset(tree, here);
+        remaining
+    }
+
+    /// Starts again with the places for which `here(id)` holds.
+    pub fn reset(&mut self, tree: &KdTree, here: impl Fn(usize) -> bool) {
+        self.here.clear();
+        self.here.resize(tree.len(), false);
+        self.counts.clear();
+        self.counts.resize(tree.nodes.len(), 0);
+        for id in (0..tree.len()).filter(|&id| here(id)) {
+            self.here[tree.position_of[id] as usize] = true;
+            self.counts[tree.leaf_of[id] as usize] += 1;
+        }
+        for node in (1..tree.first_leaf).rev() {
+            self.counts[node] = self.counts[2 * node] + self.counts[2 * node + 1];
+        }
+    }
+
+    pub fn contains(&self, tree: &KdTree, id: usize) -> bool {
+        self.here[tree.position_of[id] as usize]
+    }
+
+    fn remove(&mut self, tree: &KdTree, position: usize) {
+        self.here[position] = false;
+        let mut node = tree.leaf_of[tree.ids[position] as usize] as usize;
+        while node > 0 {
+            self.counts[node] -= 1;
+            node /= 2;
+        }
+    }
+
+    /// Takes some place no farther than the root of `reach_squared` away.
+    pub fn take(&mut self, tree: &KdTree, from: Vec2, reach_squared: f64) -> Option<u32> {
+        let mut stack = Stack::new(1);
+        while let Some(node) = stack.pop() {
+            let here = &tree.nodes[node];
+            if self.counts[node] == 0 || here.distance_squared(from) > reach_squared {
+                continue;
+            }
+            if node < tree.first_leaf {
+                stack.push_both(tree, node, from);
+                continue;
+            }
+            for position in here.first as usize..here.last as usize {
+                if self.here[position] && (tree.places[position] - from).length_squared() <= reach_squared {
+                    self.remove(tree, position);
+                    return Some(tree.ids[position]);
+                }
+            }
+        }
+        None
+    }
+
+    /// The squared distance of the nearest place, or `bound` where none is nearer.
+    pub fn nearest_squared(&self, tree: &KdTree, from: Vec2, bound: f64) -> f64 {
+        let mut least = bound;
+        let mut stack = Stack::new(1);
+        while let Some(node) = stack.pop() {
+            let here = &tree.nodes[node];
+            if self.counts[node] == 0 || here.distance_squared(from) >= least {
+                continue;
+            }
+            if node < tree.first_leaf {
+                stack.push_both(tree, node, from);
+                continue;
+            }
+            for position in here.first as usize..here.last as usize {
+                if self.here[position] {
+                    least = least.min((tree.places[position] - from).length_squared());
+                }
+            }
+        }
+        least
+    }
+}

@@ -1,0 +1,246 @@
+//! Shortest augmenting paths over listed edges, with duals (Jonker & Volgenant 1987, sparse).
+
+use super::bottleneck::NONE;
+use std::cmp::Reverse;
+use std::collections::BinaryHeap;
+
+/// A partial assignment that is optimal for the rows it holds: no edge has a reduced cost (cost − row dual − column
+/// dual) below zero, matched edges have zero, columns never used have a dual of zero.
+pub(super) struct Search {
+    /// `edges[row]`: columns and costs, in no order.
+    edges: Vec<Vec<(u32, f64)>>,
+    row_duals: Vec<f64>,
+    column_duals: Vec<f64>,
+    column_of: Vec<u32>,
+    row_of: Vec<u32>,
+    scratch: Scratch,
+}
+
+/// The state of one search for a path, cleared by `touched`.
+struct Scratch {
+    /// `distance[column]`: length of the shortest path known; infinite where none is.
+    distance: Vec<f64>,
+    /// `from[column]`: the row that path comes from.
+    from: Vec<u32>,
+    done: Vec<bool>,
+    touched: Vec<u32>,
+    /// Columns whose shortest path is settled, in order.
+    settled: Vec<u32>,
+    /// Paths to be settled, by length (bits of a float that is not negative order as it does), then column.
+    heap: BinaryHeap<Reverse<(u64, u32)>>,
+}
+
+impl Search {
+    pub fn new(edges: Vec<Vec<(u32, f64)>>, columns: usize) -> Self {
+        let rows = edges.len();
+        let scratch = Scratch {
+            distance: vec![f64::INFINITY; columns],
+            from: vec![NONE; columns],
+            done: vec![false; columns],
+            touched: Vec::new(),
+            settled: Vec::new(),
+            heap: BinaryHeap::new(),
+        };
+        let mut search = Self {
+            edges,
+            row_duals: vec![0.0; rows],
+            column_duals: vec![0.0; columns],
+            column_of: vec![NONE; rows],
+            row_of: vec![NONE; columns],
+            scratch,
+        };
+        search.restart();
+        search
+    }
+
+    pub fn column_of(&self) -> &[u32] {
+        &self.column_of
+    }
+
+    pub fn row_dual(&self, row: usize) -> f64 {
+        self.row_duals[row]
+    }
+
+    pub fn column_duals(&self) -> &[f64] {
+        &self.column_duals
+    }
+
+    /// Forgets everything but the edges.
+    pub fn restart(&mut self) {
+        self.column_duals.fill(0.0);
+        self.row_of.fill(NONE);
+        self.column_of.fill(NONE);
+        for row in 0..self.edges.len() {
+            self.lift(row);
+        }
+    }
+
+    /// Adds edges a row does not have yet; whether there were any.
+    pub fn add(&mut self, row: usize, edges: impl Iterator<Item = (u32, f64)>) -> bool {
+        let list = &mut self.edges[row];
+        let before = list.len();
+        for edge in edges {
+            if !list[..before].iter().any(|known| known.0 == edge.0) {
+                list.push(edge);
+            }
+        }
+        list.len() > before
+    }
+
+    /// Takes a row out of the assignment, after it got edges. The column it had keeps its dual: only for as many
+    /// columns as rows, where every column is used in the end.
+    pub fn release(&mut self, row: u32) {
+        let column = core::mem::replace(&mut self.column_of[row as usize], NONE);
+        if column != NONE {
+            self.row_of[column as usize] = NONE;
+        }
+        self.lift(row as usize);
+    }
+
+    /// Sets a row's dual to the greatest legal one.
+    fn lift(&mut self, row: usize) {
+        let duals = &self.column_duals;
+        let least = self.edges[row].iter().map(|&(column, cost)| cost - duals[column as usize]);
+        self.row_duals[row] = least.fold(f64::INFINITY, f64::min);
+    }
+
+    /// Gives every row a column.
+    pub fn complete(&mut self) {
+        let mut open: Vec<u32> =
+            (0..self.edges.len() as u32).filter(|&row| self.column_of[row as usize] == NONE).collect();
+        for _ in 0..2 {
+            open = self.bid(&open);
+        }
+        for row in open {
+            self.augment(row);
+        }
+    }
+
+    /// Every open row takes its cheapest column and lowers that column's dual until its second cheapest is as good;
+    /// who loses a column goes on in its place (augmenting row reduction). The rows left open.
+    fn bid(&mut self, open: &[u32]) -> Vec<u32> {
+        let mut left = Vec::new();
+        let mut bids_left = open.len() * 8;
+        for &first in open {
+            let mut row = first;
+            loop {
+                let Some(loser) = self.take_cheapest(row) else {
+                    if self.column_of[row as usize] == NONE {
+                        left.push(row);
+                    }
+                    break;
+                };
+                bids_left = bids_left.saturating_sub(1);
+                if bids_left == 0 {
+                    left.push(loser);
+                    break;
+                }
+                row = loser;
+            }
+        }
+        left
+    }
+
+    /// One bid of an open row; the row it took the column from. Nothing is taken where two columns are equally cheap
+    /// and the first is not free.
+    fn take_cheapest(&mut self, row: u32) -> Option<u32> {
+        let (mut first, mut second, mut column) = (f64::INFINITY, f64::INFINITY, NONE);
+        for &(candidate, cost) in &self.edges[row as usize] {
+            let reduced = cost - self.column_duals[candidate as usize];
+            if reduced < first {
+                (second, first, column) = (first, reduced, candidate);
+            } else if reduced < second {
+                second = reduced;
+            }
+        }
+        let owner = self.row_of[column as usize];
+        let gain = second - first;
+        if owner != NONE && !(gain > 0.0 && gain.is_finite()) {
+            self.row_duals[row as usize] = first;
+            return None;
+        }
+        // A free column keeps its dual unless it is used from now on, which it is.
+        let gain = if gain.is_finite() { gain } else { 0.0 };
+        self.row_duals[row as usize] = first + gain;
+        self.column_duals[column as usize] -= gain;
+        self.column_of[row as usize] = column;
+        self.row_of[column as usize] = row;
+        if owner == NONE {
+            return None;
+        }
+        self.column_of[owner as usize] = NONE;
+        Some(owner)
+    }
+
+    /// Finds the shortest augmenting path from an open row and flips it.
+    fn augment(&mut self, root: u32) {
+        let Some((last, length)) = self.shortest(root) else {
+            // Unreachable: the edges hold a perfect matching.
+            self.clear();
+            return;
+        };
+        self.row_duals[root as usize] += length;
+        for &column in &self.scratch.settled {
+            let change = length - self.scratch.distance[column as usize];
+            self.column_duals[column as usize] -= change;
+            self.row_duals[self.row_of[column as usize] as usize] += change;
+        }
+        let mut column = last;
+        loop {
+            let row = self.scratch.from[column as usize];
+            let before = core::mem::replace(&mut self.column_of[row as usize], column);
+            self.row_of[column as usize] = row;
+            if row == root {
+                break;
+            }
+            column = before;
+        }
+        self.clear();
+    }
+
+    /// The nearest free column and its distance in reduced costs; fills the scratch.
+    fn shortest(&mut self, root: u32) -> Option<(u32, f64)> {
+        let scratch = &mut self.scratch;
+        let (mut row, mut length) = (root, 0.0);
+        loop {
+            let base = length - self.row_duals[row as usize];
+            for &(column, cost) in &self.edges[row as usize] {
+                let place = column as usize;
+                // Rounding may leave a reduced cost a hair below zero.
+                let distance = (base + cost - self.column_duals[place]).max(length);
+                if distance < scratch.distance[place] && !scratch.done[place] {
+                    if scratch.distance[place] == f64::INFINITY {
+                        scratch.touched.push(column);
+                    }
+                    scratch.distance[place] = distance;
+                    scratch.from[place] = row;
+                    scratch.heap.push(Reverse((distance.to_bits(), column)));
+                }
+            }
+            let column = loop {
+                let Reverse((bits, column)) = scratch.heap.pop()?;
+                if !scratch.done[column as usize] && bits == scratch.distance[column as usize].to_bits() {
+                    break column;
+                }
+            };
+            length = scratch.distance[column as usize];
+            let owner = self.row_of[column as usize];
+            if owner == NONE {
+                return Some((column, length));
+            }
+            scratch.done[column as usize] = true;
+            scratch.settled.push(column);
+            row = owner;
+        }
+    }
+
+    fn clear(&mut self) {
+        let scratch = &mut self.scratch;
+        for column in scratch.touched.drain(..) {
+            scratch.distance[column as usize] = f64::INFINITY;
+            scratch.done[column as usize] = false;
+        }
+        scratch.settled.clear();
+        scratch.heap.clear();
+    }
+}

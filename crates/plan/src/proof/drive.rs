@@ -1,0 +1,184 @@
+//! Whether one robot can drive its path: speed, acceleration, wheels, turning, and no jumps.
+
+use super::FaultKind;
+use crate::Path;
+use lightbots_base::{Limits, Span, Vec2};
+
+/// Limits may be exceeded by this share: what whole microseconds cost.
+const SHARE: f64 = 1e-3;
+/// A step in speed this small is none, m/s.
+const STEP_MPS: f64 = 1e-3;
+/// Slower than this a robot hardly moves, and which way does not matter, m/s.
+const CREEP_MPS: f64 = 5e-3;
+/// Halvings before a stretch that is still undecided is judged by its middle.
+const HALVINGS: u32 = 8;
+
+/// Reports what the robot cannot do; the first of each kind.
+pub(super) fn judge(path: &Path, horizon: Span, limits: &Limits, mut fault: impl FnMut(FaultKind, Span)) {
+    if !is_well_formed(path, horizon) {
+        return fault(FaultKind::Malformed, Span::ZERO);
+    }
+    let mut known = [false; 8];
+    let mut report = |kind: FaultKind, at: Span| {
+        if !core::mem::replace(&mut known[kind as usize], true) {
+            fault(kind, at);
+        }
+    };
+    let mut joint = Joint::new(limits);
+    for (from, at, piece) in path.as_ref().timed() {
+        let course = Course::new([from, piece.c1, piece.c2, piece.end], piece.duration.as_secs());
+        if course.exceeds_speed(limits.speed_mps * (1.0 + SHARE)) {
+            report(FaultKind::Speed, at);
+        }
+        let hardest = course.acceleration[0].length().max(course.acceleration[1].length());
+        if hardest > limits.accel_mps2 * (1.0 + SHARE) {
+            report(FaultKind::Acceleration, at);
+        }
+        course.judge_turning(limits, HALVINGS, &mut |kind| report(kind, at));
+        joint.pass(&course, piece.duration, &mut |kind| report(kind, at));
+    }
+    if joint.velocity.length() > STEP_MPS {
+        report(FaultKind::Jump, horizon);
+    }
+}
+
+fn is_well_formed(path: &Path, horizon: Span) -> bool {
+    let finite = path.pieces.iter().all(|piece| {
+        piece.duration > Span::ZERO && [piece.c1, piece.c2, piece.end].iter().all(|at| at.is_finite())
+    });
+    finite && path.start.is_finite() && path.as_ref().duration() == horizon
+}
+
+/// A piece's velocity and acceleration as Bézier control values.
+struct Course {
+    velocity: [Vec2; 3],
+    acceleration: [Vec2; 2],
+}
+
+impl Course {
+    fn new(curve: [Vec2; 4], seconds: f64) -> Self {
+        let step = |from: usize| (curve[from + 1] - curve[from]) * (3.0 / seconds);
+        let velocity = [step(0), step(1), step(2)];
+        let acceleration =
+            [(velocity[1] - velocity[0]) * (2.0 / seconds), (velocity[2] - velocity[1]) * (2.0 / seconds)];
+        Self { velocity, acceleration }
+    }
+
+    /// Both halves.
+    fn halves(&self) -> (Self, Self) {
+        let [a, b, c] = self.velocity;
+        let (ab, bc) = (a.lerp(b, 0.5), b.lerp(c, 0.5));
+        let middle = ab.lerp(bc, 0.5);
+        let [p, q] = self.acceleration;
+        let pq = p.lerp(q, 0.5);
+        (
+            Self { velocity: [a, ab, middle], acceleration: [p, pq] },
+            Self { velocity: [middle, bc, c], acceleration: [pq, q] },
+        )
+    }
+
+    /// No speed in it is greater.
+    fn speed_bound(&self) -> f64 {
+        self.velocity.iter().map(|velocity| velocity.length()).fold(0.0, f64::max)
+    }
+
+    fn exceeds_speed(&self, limit: f64) -> bool {
+        fn exceeds(course: &Course, limit: f64, halvings: u32) -> bool {
+            if course.speed_bound() <= limit {
+                return false;
+            }
+            if halvings == 0 || course.velocity[0].length().max(course.velocity[2].length()) > limit {
+                return true;
+            }
+            let (left, right) = course.halves();
+            exceeds(&left, limit, halvings - 1) || exceeds(&right, limit, halvings - 1)
+        }
+        exceeds(self, limit, 2 * HALVINGS)
+    }
+
+    /// No turning rate times squared speed in it is greater: velocity × acceleration by its own control values.
+    fn swing_bound(&self) -> f64 {
+        let cross = |v: usize, a: usize| self.velocity[v].cross(self.acceleration[a]);
+        let middle = [(cross(0, 1) + 2.0 * cross(1, 0)) / 3.0, (cross(2, 0) + 2.0 * cross(1, 1)) / 3.0];
+        [cross(0, 0), middle[0], middle[1], cross(2, 1)].iter().fold(0.0, |most, value| value.abs().max(most))
+    }
+
+    /// No speed in it is less.
+    fn speed_floor(&self) -> f64 {
+        let Some(direction) = (self.velocity[0] + self.velocity[2]).normalized() else { return 0.0 };
+        self.velocity.iter().map(|velocity| velocity.dot(direction)).fold(f64::INFINITY, f64::min).max(0.0)
+    }
+
+    fn judge_turning(&self, limits: &Limits, halvings: u32, report: &mut dyn FnMut(FaultKind)) {
+        let (swing, top) = (self.swing_bound(), self.speed_bound());
+        if swing <= 1e-12 && halvings < HALVINGS || top < CREEP_MPS {
+            return;
+        }
+        let wheel_mps = limits.wheel_radps * limits.wheel_radius_m * (1.0 + SHARE);
+        let most = limits.turn_radps * (1.0 + SHARE);
+        let floor = self.speed_floor().max(if halvings == 0 { CREEP_MPS } else { 0.0 });
+        let turn = if swing <= 1e-12 { 0.0 } else { swing / (floor * floor) };
+        if turn <= most && top + turn * limits.track_m / 2.0 <= wheel_mps {
+            return;
+        }
+        if halvings > 0 {
+            let (left, right) = self.halves();
+            left.judge_turning(limits, halvings - 1, report);
+            right.judge_turning(limits, halvings - 1, report);
+        } else {
+            report(if turn > most { FaultKind::Turn } else { FaultKind::Wheel });
+        }
+    }
+}
+
+/// What one piece hands to the next: velocity, and how a stopped robot stands.
+struct Joint<'a> {
+    limits: &'a Limits,
+    velocity: Vec2,
+    /// The line it stands along; `None` before the first drive.
+    heading: Option<Vec2>,
+    /// How long it has stood.
+    stood: Span,
+}
+
+impl<'a> Joint<'a> {
+    fn new(limits: &'a Limits) -> Self {
+        Self { limits, velocity: Vec2::ZERO, heading: None, stood: Span::ZERO }
+    }
+
+    fn pass(&mut self, course: &Course, duration: Span, report: &mut dyn FnMut(FaultKind)) {
+        let [first, _, last] = course.velocity;
+        if (first - self.velocity).length() > STEP_MPS {
+            report(FaultKind::Jump);
+        }
+        self.velocity = last;
+        if course.speed_bound() < CREEP_MPS {
+            self.stood += duration;
+            return;
+        }
+        let direction = |from: [Vec2; 3]| {
+            from.into_iter().find_map(|v| (v.length() > CREEP_MPS).then(|| v.normalized())?)
+        };
+        let begin = direction(course.velocity);
+        if let Some(begin) = begin
+            && first.length() <= CREEP_MPS
+            && self.stood.as_secs() < self.needed(begin) * (1.0 - SHARE) - 1e-3
+        {
+            report(FaultKind::Turn);
+        }
+        let [a, b, c] = course.velocity;
+        self.heading = direction([c, b, a]);
+        self.stood = Span::ZERO;
+    }
+
+    /// Seconds a stopped robot needs to turn towards a direction, forwards or backwards, whichever is nearer.
+    fn needed(&self, towards: Vec2) -> f64 {
+        let angle = match self.heading {
+            // A line's angle to a line, at most a quarter turn.
+            Some(heading) => Vec2::new(heading.dot(towards).abs(), heading.cross(towards).abs()).angle(),
+            None => core::f64::consts::FRAC_PI_2,
+        };
+        // A small angle is corrected while it begins to drive.
+        if angle < 0.05 { 0.0 } else { angle / self.limits.turn_radps.max(1e-3) }
+    }
+}

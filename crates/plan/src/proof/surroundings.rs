@@ -1,0 +1,86 @@
+//! Whether a path keeps to the floor and clear of obstacles.
+
+use super::curve::{Cubic, nearest, split};
+use super::grid::Bounds;
+use super::{FaultKind, ProofInput, SLACK_M};
+use crate::Path;
+use lightbots_base::{Span, Vec2};
+use lightbots_show::Obstacle;
+
+/// Halvings before a curve that is still undecided is called a fault: by then it is a hair from one.
+const HALVINGS: u32 = 24;
+
+/// Reports where a path leaves the floor or touches things; each kind once.
+pub(super) fn judge(path: &Path, input: &ProofInput<'_>, mut fault: impl FnMut(FaultKind, Span)) {
+    let (start, end) = (path.start, path.as_ref().end());
+    // Who stands outside already must only come in.
+    let radius = input.limits.radius_m;
+    let room = |half: f64, a: f64, b: f64| (half - radius).max(a.abs()).max(b.abs()) + SLACK_M;
+    let limit = Vec2::new(room(input.half_floor.x, start.x, end.x), room(input.half_floor.y, start.y, end.y));
+    let inside = |place: Vec2| place.x.abs() <= limit.x && place.y.abs() <= limit.y;
+    let leaves =
+        |curve: &Cubic| !keeps(curve, HALVINGS, &|part| part.iter().all(|&place| inside(place)), &inside);
+    let first = |wrong: &dyn Fn(&Cubic) -> bool| {
+        path.as_ref()
+            .timed()
+            .find(|(from, _, piece)| wrong(&[*from, piece.c1, piece.c2, piece.end]))
+            .map(|found| found.1)
+    };
+    if let Some(at) = first(&leaves) {
+        fault(FaultKind::Floor, at);
+    }
+    let wanted = radius + (input.gap_m - input.limits.contact_m()).max(0.0);
+    for thing in input.obstacles {
+        let need = wanted.min(distance(thing, start)).min(distance(thing, end)) - SLACK_M;
+        if let Some(at) = first(&|curve| touches(thing, curve, need)) {
+            fault(FaultKind::Obstacle, at);
+            break;
+        }
+    }
+}
+
+/// From a place to a thing's rim, metres; 0 within it.
+fn distance(thing: &Obstacle, place: Vec2) -> f64 {
+    match *thing {
+        Obstacle::Disc { at, radius_m } => (at.distance(place) - radius_m).max(0.0),
+        Obstacle::Rect { min, max } => {
+            Bounds { min, max }.distance_squared(&Bounds { min: place, max: place }).sqrt()
+        }
+    }
+}
+
+/// Whether a curve comes nearer to a thing than `need`.
+fn touches(thing: &Obstacle, curve: &Cubic, need: f64) -> bool {
+    match *thing {
+        Obstacle::Disc { at, radius_m } => {
+            let relative = [curve[0] - at, curve[1] - at, curve[2] - at, curve[3] - at];
+            need > 0.0 && nearest(&relative, radius_m + need).is_some()
+        }
+        Obstacle::Rect { min, max } => {
+            let rect = Bounds { min, max };
+            let clear = |part: &Cubic| {
+                let mut bounds = Bounds::EMPTY;
+                part.iter().for_each(|&place| bounds.include(place));
+                bounds.distance_squared(&rect) >= need * need
+            };
+            need > 0.0 && !keeps(curve, HALVINGS, &clear, &|place| distance(thing, place) >= need)
+        }
+    }
+}
+
+/// Whether a condition on places holds along a curve: `surely(part)` may only say yes when it does.
+fn keeps(
+    curve: &Cubic,
+    halvings: u32,
+    surely: &dyn Fn(&Cubic) -> bool,
+    holds: &dyn Fn(Vec2) -> bool,
+) -> bool {
+    if surely(curve) {
+        return true;
+    }
+    if halvings == 0 || !holds(curve[0]) || !holds(curve[3]) {
+        return false;
+    }
+    let (left, right) = split(curve, 0.5);
+    keeps(&left, halvings - 1, surely, holds) && keeps(&right, halvings - 1, surely, holds)
+}

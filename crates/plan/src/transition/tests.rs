@@ -1,0 +1,117 @@
+use super::*;
+use crate::seeded::Seeded;
+use lightbots_base::{Limits, Vec2};
+use lightbots_show::Easing;
+
+fn problem(starts: Vec<Vec2>, goals: Vec<Vec2>, half: f64) -> TransitionProblem {
+    TransitionProblem { starts, goals, ..TransitionProblem::on_floor(Vec2::new(half, half), Limits::ELISA_3) }
+}
+
+/// Places at least `apart` from each other, drawn until there are enough; `None` where the floor is too full.
+fn scatter(seeded: &mut Seeded, count: usize, apart: f64, half: f64) -> Option<Vec<Vec2>> {
+    let mut places: Vec<Vec2> = Vec::new();
+    for _ in 0..count * 200 {
+        let room = half - 0.03;
+        let place = Vec2::new(seeded.between(-room, room), seeded.between(-room, room));
+        if places.iter().all(|other| other.distance(place) >= apart) {
+            places.push(place);
+        }
+        if places.len() == count {
+            return Some(places);
+        }
+    }
+    None
+}
+
+#[test]
+fn random_pairs_of_frames_are_solved_and_proven() {
+    let mut seeded = Seeded::new(5);
+    for _ in 0..120 {
+        let count = 2 + seeded.below(59);
+        let apart = seeded.between(0.06, 0.2);
+        let (Some(starts), Some(goals)) =
+            (scatter(&mut seeded, count, apart, 1.5), scatter(&mut seeded, count, apart, 1.5))
+        else {
+            continue;
+        };
+        let problem = problem(starts, goals, 1.5);
+        let plan = transition(&problem).unwrap_or_else(|stuck| panic!("{count} at {apart}: {stuck:?}"));
+        let least = plan.lower_bound_s + 0.62;
+        assert!(plan.duration.as_secs() <= least * 1.2, "{count} at {apart}: {:?} {least}", plan.duration);
+        assert!(plan.closest.unwrap().distance_m >= 0.057 - 1e-6);
+        for (path, goal) in plan.paths.iter().zip(&plan.goal_of) {
+            assert_eq!(path.as_ref().end(), problem.goals[goal.unwrap()]);
+            assert_eq!(path.as_ref().duration(), plan.duration);
+        }
+    }
+}
+
+#[test]
+fn a_roomy_floor_is_crossed_at_its_lower_bound() {
+    let mut seeded = Seeded::new(9);
+    for _ in 0..20 {
+        let starts = scatter(&mut seeded, 30, 0.15, 1.5).unwrap();
+        let goals = scatter(&mut seeded, 30, 0.15, 1.5).unwrap();
+        let plan = transition(&problem(starts, goals, 1.5)).unwrap();
+        assert!(plan.duration.as_secs() <= (plan.lower_bound_s + 0.62) * 1.031);
+    }
+}
+
+#[test]
+fn pins_are_kept_and_counted_in_the_lower_bound() {
+    let starts = vec![Vec2::new(-1.0, 0.0), Vec2::new(0.0, 0.3), Vec2::new(1.0, 0.0)];
+    let goals = vec![Vec2::new(0.9, 0.0), Vec2::new(-0.9, 0.2), Vec2::new(0.1, 0.6)];
+    let mut problem = problem(starts, goals, 1.5);
+    problem.pinned = vec![Some(0)];
+    let plan = transition(&problem).unwrap();
+    assert_eq!(plan.goal_of[0], Some(0));
+    assert!((plan.lower_bound_s - 1.9 / 0.27).abs() < 1e-9);
+    problem.pinned = vec![Some(0), Some(0)];
+    assert!(transition(&problem).unwrap_err().message.contains("bound"));
+}
+
+#[test]
+fn a_spare_robot_stays_or_steps_aside() {
+    let starts = vec![Vec2::new(-1.0, 0.0), Vec2::new(0.0, 0.0), Vec2::new(1.0, 0.0)];
+    let stays = transition(&problem(starts.clone(), vec![Vec2::new(-0.8, 0.5)], 1.5)).unwrap();
+    assert_eq!(stays.goal_of, [Some(0), None, None]);
+    assert_eq!(stays.paths[2].as_ref().end(), starts[2]);
+    // The pixel lies on the spare robot and is pinned to another.
+    let mut aside = problem(starts, vec![Vec2::new(0.01, 0.0)], 1.5);
+    aside.pinned = vec![Some(0)];
+    let plan = transition(&aside).unwrap();
+    assert_eq!(plan.goal_of, [Some(0), None, None]);
+    assert!(plan.paths[1].as_ref().end().distance(Vec2::new(0.01, 0.0)) >= 0.057);
+}
+
+#[test]
+fn a_set_duration_is_met_and_the_least_is_known() {
+    let mut slow = problem(vec![Vec2::ZERO], vec![Vec2::new(0.54, 0.0)], 1.5);
+    slow.duration = Some(lightbots_base::Span::from_millis(7_500));
+    slow.easing = Easing::Gentle;
+    let plan = transition(&slow).unwrap();
+    assert_eq!(plan.duration.0, 7_500_000);
+    assert_eq!(plan.least.0, 3_350_000);
+}
+
+#[test]
+fn what_cannot_be_shown_is_said() {
+    let starts = vec![Vec2::ZERO, Vec2::new(0.5, 0.0)];
+    let close =
+        transition(&problem(starts.clone(), vec![Vec2::ZERO, Vec2::new(0.05, 0.0)], 1.5)).unwrap_err();
+    assert_eq!(close.goals, [0, 1]);
+    assert!(close.message.contains("50 mm") && close.message.contains("57 mm"), "{}", close.message);
+    let off = transition(&problem(starts.clone(), vec![Vec2::new(1.49, 0.0)], 1.5)).unwrap_err();
+    assert_eq!(off.goals, [0]);
+    let many = transition(&problem(starts, vec![Vec2::ZERO; 3], 1.5)).unwrap_err();
+    assert!(many.message.contains("3 pixels"));
+}
+
+#[test]
+fn nobody_and_nowhere_are_fine() {
+    let plan = transition(&problem(Vec::new(), Vec::new(), 1.5)).unwrap();
+    assert!(plan.paths.is_empty() && plan.closest.is_none());
+    let starts = vec![Vec2::ZERO, Vec2::new(0.5, 0.0)];
+    let plan = transition(&problem(starts.clone(), starts, 1.5)).unwrap();
+    assert_eq!(plan.duration.0, 0);
+}
