@@ -46,8 +46,10 @@ pub struct Contacts {
     contact_m: f64,
     /// Pairs that touch, sorted.
     touching: Vec<(u32, u32)>,
-    /// Squared distances of the near pairs that were closer than contact in this step.
+    /// Pairs that were closer than contact at the end of this step.
     now: Vec<(u32, u32)>,
+    /// Pairs that came to touch in this step.
+    fresh: Vec<(u32, u32)>,
     count: u64,
     closest_squared: f64,
 }
@@ -55,12 +57,18 @@ pub struct Contacts {
 impl Contacts {
     /// Discs that touch where their centres are closer than `contact_m`.
     pub(crate) fn new(contact_m: f64) -> Self {
-        Self { contact_m, touching: Vec::new(), now: Vec::new(), count: 0, closest_squared: f64::MAX }
+        let (touching, now, fresh) = (Vec::new(), Vec::new(), Vec::new());
+        Self { contact_m, touching, now, fresh, count: 0, closest_squared: f64::MAX }
     }
 
     /// How many pairs came to touch so far; a pair that parted and touches again counts again.
     pub fn count(&self) -> u64 {
         self.count
+    }
+
+    /// Pairs that came to touch in the last step.
+    pub fn fresh(&self) -> &[(u32, u32)] {
+        &self.fresh
     }
 
     /// The least distance of two centres so far, metres; `None` where nobody came near anybody.
@@ -70,13 +78,14 @@ impl Contacts {
 
     /// Whether nobody touches anybody.
     pub fn none_touching(&self) -> bool {
-        self.touching.is_empty()
+        self.touching.is_empty() && self.fresh.is_empty()
     }
 
     /// Looks at the near pairs after a step, counts new contacts and moves those that touch apart.
     pub(crate) fn resolve(&mut self, pairs: &[(u32, u32)], places: &mut [Vec2], stances: &mut [Stance]) {
         let contact_squared = self.contact_m * self.contact_m - 1e-12;
         self.now.clear();
+        self.fresh.clear();
         let mut closest = self.closest_squared;
         for &(a, b) in pairs {
             let distance = (places[b as usize] - places[a as usize]).length_squared();
@@ -110,6 +119,7 @@ impl Contacts {
         for &pair in &self.now {
             if let Err(place) = self.touching.binary_search(&pair) {
                 self.touching.insert(place, pair);
+                self.fresh.push(pair);
                 self.count += 1;
             }
         }

@@ -1,0 +1,87 @@
+//! Who breaks down, and when.
+
+use lightbots_base::Span;
+
+use crate::conditions::{Breakdown, Conditions};
+use crate::dice::{Dice, Purpose};
+
+/// How a robot breaks down.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Fate {
+    /// Its power fails.
+    Killed,
+    /// Nothing is heard of it any more.
+    Muted,
+}
+
+/// All breakdowns of a rehearsal.
+#[derive(Clone, Debug)]
+pub(crate) struct Breakdowns {
+    /// After the show began, sorted, latest first.
+    coming: Vec<(Span, usize, Fate)>,
+    struck: Vec<usize>,
+    mute: Vec<bool>,
+}
+
+impl Breakdowns {
+    /// What conditions ask for; what they leave to chance happens between a tenth and eight tenths of the planned
+    /// duration. Robots that do not exist do not break down.
+    pub fn new(conditions: &Conditions, robots: usize, planned_s: f64, seed: u64) -> Self {
+        let mut dice = Dice::new(seed, Purpose::Breakdowns);
+        let mut fate_of = |breakdown: &Breakdown, fate| {
+            let (chance_robot, chance_at) = (dice.below(robots as u64) as usize, dice.between(0.1, 0.8));
+            let at = breakdown.at.unwrap_or_else(|| Span::from_secs(chance_at * planned_s));
+            (at, breakdown.robot.unwrap_or(chance_robot), fate)
+        };
+        let mut coming: Vec<_> = conditions.killed.iter().map(|b| fate_of(b, Fate::Killed)).collect();
+        coming.extend(conditions.muted.iter().map(|b| fate_of(b, Fate::Muted)));
+        coming.retain(|&(_, robot, _)| robot < robots);
+        coming.sort_by_key(|&(at, robot, _)| core::cmp::Reverse((at, robot)));
+        Self { coming, struck: Vec::new(), mute: vec![false; robots] }
+    }
+
+    /// The next robot that breaks down until then, counted from the show's beginning.
+    pub fn next_until(&mut self, since_begin: Span) -> Option<(usize, Fate)> {
+        if self.coming.last()?.0 > since_begin {
+            return None;
+        }
+        let (_, robot, fate) = self.coming.pop()?;
+        self.mute[robot] |= fate == Fate::Muted;
+        if !self.struck.contains(&robot) {
+            self.struck.push(robot);
+        }
+        Some((robot, fate))
+    }
+
+    /// Whether nothing is heard of a robot any more.
+    #[inline]
+    pub fn is_mute(&self, robot: usize) -> bool {
+        self.mute[robot]
+    }
+
+    /// How many robots broke down so far.
+    pub fn count(&self) -> usize {
+        self.struck.len()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::faults::Faults;
+
+    #[test]
+    fn breakdowns_come_in_order_and_once() {
+        let conditions =
+            Faults::parse("kill=2@3s,mute=1@1s,kill=random,kill=99@0").unwrap().added_to(Conditions::ideal());
+        let mut breakdowns = Breakdowns::new(&conditions, 5, 100.0, 1);
+        assert_eq!(breakdowns.next_until(Span::from_millis(900)), None);
+        assert_eq!(breakdowns.next_until(Span::from_millis(5_000)), Some((1, Fate::Muted)));
+        assert_eq!(breakdowns.next_until(Span::from_millis(5_000)), Some((2, Fate::Killed)));
+        assert_eq!(breakdowns.next_until(Span::from_millis(5_000)), None);
+        let (robot, fate) = breakdowns.next_until(Span::from_millis(80_000)).unwrap();
+        assert!(robot < 5 && fate == Fate::Killed);
+        assert!(breakdowns.is_mute(1) && !breakdowns.is_mute(2));
+        assert_eq!(breakdowns.next_until(Span(i64::MAX)), None);
+    }
+}

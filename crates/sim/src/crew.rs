@@ -1,0 +1,156 @@
+//! Robots: the real firmware core in simulated bodies, each with its own clock.
+
+use lightbots_base::{Instant, Pose, Rgb, RobotId, Vec2};
+use lightbots_robot::{Config, Fix, Inputs, Robot};
+use lightbots_show::Stage;
+use lightbots_wire::Topic;
+
+use crate::conditions::Conditions;
+use crate::dice::{Dice, Purpose};
+use crate::sensors::Sensors;
+use crate::world::{STEP, World};
+
+/// Robots' own clocks begin anywhere within this, microseconds.
+const CLOCK_BEGIN_US: u64 = 3_600_000_000;
+/// Steps in which a battery loses one percent: three minutes.
+const STEPS_PER_PERCENT: u64 = 11_250;
+
+/// The bytes of one message of a robot.
+pub(crate) type Payload = lightbots_robot::Message;
+
+/// N robots on a floor.
+pub(crate) struct Crew {
+    pub world: World,
+    sensors: Sensors,
+    members: Vec<Member>,
+    steps: u64,
+}
+
+struct Member {
+    robot: Robot,
+    id: RobotId,
+    clock: Clock,
+    battery: u8,
+    light: Rgb,
+    alive: bool,
+}
+
+/// A robot's own clock.
+#[derive(Clone, Copy, Debug)]
+struct Clock {
+    begin_us: u64,
+    /// Parts per thousand million.
+    drift_ppb: i64,
+}
+
+impl Clock {
+    #[inline]
+    fn own(self, now: Instant) -> Instant {
+        let drift = (now.0 as i64).wrapping_mul(self.drift_ppb) / 1_000_000_000;
+        Instant((now.0 + self.begin_us).wrapping_add_signed(drift))
+    }
+}
+
+impl Crew {
+    /// Robots at rest on a stage, that were just switched on and have no link.
+    pub fn new(stage: &Stage, starts: &[Vec2], conditions: &Conditions, seed: u64) -> Self {
+        // Facing away from the viewer, as the original's robots do.
+        let poses: Vec<Pose> =
+            starts.iter().map(|&start| Pose::new(start, core::f64::consts::FRAC_PI_2)).collect();
+        let mut dice = Dice::new(seed, Purpose::Robots);
+        let members = starts.iter().map(|_| Member::new(stage, conditions, &mut dice)).collect();
+        Self {
+            world: World::new(stage, &poses, conditions.slip, seed),
+            sensors: Sensors::new(&conditions.fixes, &poses, seed),
+            members,
+            steps: 0,
+        }
+    }
+
+    /// How many there are.
+    pub fn len(&self) -> usize {
+        self.members.len()
+    }
+
+    /// A robot's name.
+    pub fn id(&self, robot: usize) -> RobotId {
+        self.members[robot].id
+    }
+
+    /// The light a robot shows.
+    pub fn light(&self, robot: usize) -> Rgb {
+        self.members[robot].light
+    }
+
+    /// A robot's link comes up or breaks.
+    pub fn link(&mut self, now: Instant, robot: usize, up: bool) {
+        let member = &mut self.members[robot];
+        if member.alive {
+            member.robot.link(member.clock.own(now), up);
+        }
+    }
+
+    /// A message reaches a robot.
+    pub fn receive(&mut self, now: Instant, robot: usize, topic: Topic, payload: &[u8]) {
+        let member = &mut self.members[robot];
+        if member.alive {
+            member.robot.receive(member.clock.own(now), topic, payload);
+        }
+    }
+
+    /// The next thing a robot says.
+    #[inline]
+    pub fn outgoing(&mut self, robot: usize, payload: &mut Payload) -> Option<Topic> {
+        let member = &mut self.members[robot];
+        if member.alive { member.robot.outgoing(payload) } else { None }
+    }
+
+    /// A robot's power fails.
+    pub fn kill(&mut self, robot: usize) {
+        self.members[robot].alive = false;
+        self.members[robot].light = Rgb::BLACK;
+        self.world.tell(robot, [0.0; 2]);
+    }
+
+    /// One step of 16 ms that ends at `now`: bodies move, then robots sense and think.
+    pub fn step(&mut self, now: Instant) {
+        self.world.step();
+        self.sensors.next_step();
+        self.steps += 1;
+        let drained = (self.steps / STEPS_PER_PERCENT).min(100) as u8;
+        for (index, member) in self.members.iter_mut().enumerate() {
+            if !member.alive {
+                continue;
+            }
+            let fix = self.sensors.fix(index, self.world.pose(index));
+            let inputs = Inputs {
+                wheel_turns_rad: self.world.wheel_turns(index),
+                fix: fix.map(|fix| Fix { at: fix.at, heading: Some(fix.heading) }),
+                battery: Some(member.battery.saturating_sub(drained)),
+            };
+            let outputs = member.robot.step(member.clock.own(now), &inputs);
+            member.light = outputs.light;
+            self.world.tell(index, outputs.wheels_radps);
+        }
+    }
+}
+
+impl Member {
+    fn new(stage: &Stage, conditions: &Conditions, dice: &mut Dice) -> Self {
+        let id = RobotId::from_random(u128::from(dice.bits()) << 64 | u128::from(dice.bits()));
+        let ppm = dice.between(-conditions.clock_ppm, conditions.clock_ppm);
+        let clock = Clock { begin_us: dice.below(CLOCK_BEGIN_US), drift_ppb: (ppm * 1000.0) as i64 };
+        let delay_steps = (conditions.fixes.delay.0.max(0) + STEP.0 / 2) / STEP.0;
+        let config = Config {
+            limits: stage.limits,
+            fix_delay: STEP * delay_steps,
+            seed: dice.bits() as u32,
+            // What a builder states for a robot's sensors: as they are, but never nothing.
+            fix_sigma_m: conditions.fixes.place_sigma_m.max(0.0005),
+            heading_sigma_rad: conditions.fixes.heading_sigma_rad.max(0.002),
+            ..Config::new(id)
+        };
+        let battery = 80 + dice.below(21) as u8;
+        Self { robot: Robot::new(config), id, clock, battery, light: Rgb::BLACK, alive: true }
+    }
+}

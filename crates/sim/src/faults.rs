@@ -1,0 +1,261 @@
+//! Faults as people write them: `loss=5%,delay=100..300ms,kill=random`.
+
+use core::fmt;
+
+use lightbots_base::Span;
+
+use crate::conditions::{Breakdown, Conditions};
+
+/// What is added to the conditions of a rehearsal.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Faults {
+    changes: Vec<Change>,
+}
+
+/// Why a text states no faults: one line for people.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct FaultsError(String);
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Change {
+    Loss(f64),
+    Delay(Span, Span),
+    Jitter(Span),
+    Double(f64),
+    Reorder(f64),
+    Slip(f64),
+    Gps(f64),
+    Heading(f64),
+    Bias(f64),
+    Clock(f64),
+    FixDelay(Span),
+    FixEvery(u32),
+    FixDropout(Span),
+    FixOutlier(f64),
+    Kill(Breakdown),
+    Mute(Breakdown),
+}
+
+/// Every fault, with an example of its value.
+const KNOWN: &str = "loss=5%, delay=100..300ms, jitter or jitter=50ms, double=1%, reorder=1%, slip=10%, gps=5mm, \
+                     heading=2deg, bias=5mm, clock=100ppm, fix-delay=100ms, fix-every=5, fix-dropout=1s, \
+                     fix-outlier=1%, kill=random or kill=3@12s, mute=random or mute=3@12s";
+
+/// The most faults a text may state.
+const MOST: usize = 64;
+
+impl Faults {
+    /// Reads `name=value` separated by commas; an empty text states none. Values carry their unit: `%`, `ms` or `s`,
+    /// `mm`, `cm` or `m`, `deg`, `ppm`. Robots are counted from 0, `@` is the time after the show began.
+    pub fn parse(text: &str) -> Result<Self, FaultsError> {
+        let parts: Vec<&str> = text.split(',').map(str::trim).filter(|part| !part.is_empty()).collect();
+        if parts.len() > MOST {
+            return Err(FaultsError(format!(
+                "{} faults are more than the {MOST} that can be stated",
+                parts.len()
+            )));
+        }
+        let changes = parts.into_iter().map(change).collect::<Result<_, _>>()?;
+        Ok(Self { changes })
+    }
+
+    /// The conditions with these faults added.
+    pub fn added_to(&self, mut conditions: Conditions) -> Conditions {
+        for &change in &self.changes {
+            apply(change, &mut conditions);
+        }
+        conditions
+    }
+}
+
+impl fmt::Display for FaultsError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.0)
+    }
+}
+
+impl std::error::Error for FaultsError {}
+
+fn apply(change: Change, conditions: &mut Conditions) {
+    let (fixes, link) = (&mut conditions.fixes, &mut conditions.link);
+    match change {
+        Change::Loss(share) => link.loss = share,
+        Change::Delay(min, max) => (link.delay_min, link.delay_max) = (min, max),
+        Change::Jitter(most) => link.jitter = most,
+        Change::Double(share) => link.double = share,
+        Change::Reorder(share) => link.reorder = share,
+        Change::Slip(share) => conditions.slip = share,
+        Change::Gps(sigma) => fixes.place_sigma_m = sigma,
+        Change::Heading(sigma) => fixes.heading_sigma_rad = sigma,
+        Change::Bias(most) => fixes.bias_m = most,
+        Change::Clock(ppm) => conditions.clock_ppm = ppm,
+        Change::FixDelay(delay) => fixes.delay = delay,
+        Change::FixEvery(steps) => fixes.every = steps,
+        Change::FixDropout(span) => fixes.dropout = span,
+        Change::FixOutlier(share) => fixes.outliers = share,
+        Change::Kill(breakdown) => conditions.killed.push(breakdown),
+        Change::Mute(breakdown) => conditions.muted.push(breakdown),
+    }
+}
+
+fn change(part: &str) -> Result<Change, FaultsError> {
+    let (name, value) = part.split_once('=').map_or((part, ""), |(name, value)| (name.trim(), value.trim()));
+    let read = match name {
+        "loss" => share(value, 1.0).map(Change::Loss),
+        "delay" => span_range(value).map(|(min, max)| Change::Delay(min, max)),
+        "jitter" if value.is_empty() => Some(Change::Jitter(Span::from_millis(50))),
+        "jitter" => span(value, Conditions::DELAY_MAX).map(Change::Jitter),
+        "double" => share(value, 1.0).map(Change::Double),
+        "reorder" => share(value, 1.0).map(Change::Reorder),
+        "slip" => share(value, Conditions::SLIP_MAX).map(Change::Slip),
+        "gps" => metres(value).map(Change::Gps),
+        "heading" => number(value, "deg", 90.0).map(|degrees| Change::Heading(degrees.to_radians())),
+        "bias" => metres(value).map(Change::Bias),
+        "clock" => number(value, "ppm", 1000.0).map(Change::Clock),
+        "fix-delay" => span(value, Conditions::FIX_DELAY_MAX).map(Change::FixDelay),
+        "fix-every" => {
+            number(value, "", 1000.0).filter(|&n| n >= 1.0).map(|steps| Change::FixEvery(steps as u32))
+        }
+        "fix-dropout" => span(value, Span::from_millis(60_000)).map(Change::FixDropout),
+        "fix-outlier" => share(value, 1.0).map(Change::FixOutlier),
+        "kill" => breakdown(value).map(Change::Kill),
+        "mute" => breakdown(value).map(Change::Mute),
+        _ => return Err(FaultsError(format!("there is no fault '{}'; there are {KNOWN}", shown(name)))),
+    };
+    read.ok_or_else(|| {
+        FaultsError(format!("'{}' is no value for the fault '{name}'; examples: {KNOWN}", shown(value)))
+    })
+}
+
+/// At most 40 characters of a text, without control characters.
+fn shown(text: &str) -> String {
+    text.chars().take(40).map(|c| if c.is_control() { '?' } else { c }).collect()
+}
+
+/// A number with its unit, 0 to `most`.
+fn number(text: &str, unit: &str, most: f64) -> Option<f64> {
+    let value: f64 = text.strip_suffix(unit)?.trim().parse().ok()?;
+    (0.0..=most).contains(&value).then_some(value)
+}
+
+fn share(text: &str, most: f64) -> Option<f64> {
+    number(text, "%", 100.0 * most).map(|percent| percent / 100.0)
+}
+
+fn metres(text: &str) -> Option<f64> {
+    let scaled = |unit, scale: f64| number(text, unit, 10.0 / scale).map(|value| value * scale);
+    scaled("mm", 0.001).or_else(|| scaled("cm", 0.01)).or_else(|| scaled("m", 1.0))
+}
+
+fn span(text: &str, most: Span) -> Option<Span> {
+    let millis = number(text, "ms", 1e9).or_else(|| number(text, "s", 1e6).map(|seconds| seconds * 1e3))?;
+    Some(Span::from_secs(millis * 1e-3)).filter(|&span| span <= most)
+}
+
+/// `100..300ms`, `100ms..0.3s` or one span.
+fn span_range(text: &str) -> Option<(Span, Span)> {
+    let Some((low, high)) = text.split_once("..") else {
+        return span(text, Conditions::DELAY_MAX).map(|both| (both, both));
+    };
+    let unit = if high.ends_with("ms") { "ms" } else { "s" };
+    let max = span(high.trim(), Conditions::DELAY_MAX)?;
+    let min = span(low.trim(), Conditions::DELAY_MAX)
+        .or_else(|| span(&format!("{}{unit}", low.trim()), Conditions::DELAY_MAX))?;
+    (min <= max).then_some((min, max))
+}
+
+/// `random`, `3`, `random@12s` or `3@12s`; a time without unit is in seconds.
+fn breakdown(text: &str) -> Option<Breakdown> {
+    let (who, when) = text.split_once('@').map_or((text, None), |(who, when)| (who, Some(when)));
+    let robot = match who.trim() {
+        "random" => None,
+        number => Some(number.parse().ok()?),
+    };
+    let most = Span::from_millis(86_400_000);
+    let at = match when.map(str::trim) {
+        None => None,
+        Some(when) => Some(span(when, most).or_else(|| span(&format!("{when}s"), most))?),
+    };
+    Some(Breakdown { robot, at })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn added(text: &str) -> Conditions {
+        Faults::parse(text).unwrap().added_to(Conditions::default())
+    }
+
+    #[test]
+    fn every_fault_reaches_its_condition() {
+        let all = added(
+            "loss=5%,delay=100..300ms,jitter,double=1%,reorder=2%,slip=10%,gps=5mm,heading=2deg,bias=1cm,clock=100ppm,\
+             fix-delay=100ms,fix-every=5,fix-dropout=1s,fix-outlier=3%,kill=random,mute=3@12s",
+        );
+        let mut expected = Conditions::default();
+        (expected.slip, expected.clock_ppm) = (0.1, 100.0);
+        expected.link = crate::LinkConditions {
+            delay_min: Span::from_millis(100),
+            delay_max: Span::from_millis(300),
+            jitter: Span::from_millis(50),
+            loss: 0.05,
+            double: 0.01,
+            reorder: 0.02,
+        };
+        expected.fixes = crate::FixConditions {
+            place_sigma_m: 0.005,
+            heading_sigma_rad: 2f64.to_radians(),
+            bias_m: 0.01,
+            every: 5,
+            delay: Span::from_millis(100),
+            dropout: Span::from_millis(1000),
+            outliers: 0.03,
+        };
+        expected.killed = vec![Breakdown { robot: None, at: None }];
+        expected.muted = vec![Breakdown { robot: Some(3), at: Some(Span::from_millis(12_000)) }];
+        assert_eq!(all, expected);
+    }
+
+    #[test]
+    fn spaces_units_and_nothing_are_understood() {
+        assert_eq!(added(" loss = 5 % , "), added("loss=5%"));
+        assert_eq!(added("delay=0.1s..300ms"), added("delay=100..300ms"));
+        assert_eq!(added("delay=100ms").link.delay_max, Span::from_millis(100));
+        assert_eq!(added("kill=2@1.5"), added("kill=2@1500ms"));
+        assert_eq!(added(""), Conditions::default());
+    }
+
+    #[test]
+    fn what_makes_no_sense_is_said_in_one_line() {
+        let long = "x".repeat(5000);
+        let many = "loss=1%,".repeat(65);
+        for text in [
+            "los=5%",
+            "loss",
+            "loss=5",
+            "loss=-1%",
+            "loss=101%",
+            "loss=NaN%",
+            "slip=60%",
+            "delay=300..100ms",
+            "delay=1h",
+            "delay=9s",
+            "gps=5",
+            "gps=20m",
+            "kill=",
+            "kill=x@1",
+            "mute=1@-1",
+            "fix-every=0",
+            "heading=2",
+            "jitter=inf ms",
+            "=",
+            "a\nb",
+            &long,
+            &many,
+        ] {
+            let message = Faults::parse(text).expect_err(text).to_string();
+            assert!(!message.contains('\n') && message.len() < 600, "{message}");
+        }
+    }
+}

@@ -1,0 +1,161 @@
+//! Simulated robots in real time: whoever has a clock and a network drives them.
+
+use std::collections::BTreeMap;
+
+use lightbots_base::{Instant, Pose, Rgb, RobotId, Vec2};
+use lightbots_show::Stage;
+use lightbots_wire::Topic;
+
+use crate::conditions::Conditions;
+use crate::crew::{Crew, Payload};
+use crate::world::STEP;
+
+/// The most steps that are caught up on at once: half a second. What a machine too slow falls behind further is left
+/// out: bodies stand for that time while all clocks go on, so that robots are late together and do not disagree.
+const CATCH_UP_STEPS: i64 = 32;
+
+/// What a fleet is made of.
+#[derive(Clone, Debug)]
+pub struct FleetConfig {
+    /// The floor, and what a robot is.
+    pub stage: Stage,
+    /// Where robots stand at power-on, stage metres; one each.
+    pub starts: Vec<Vec2>,
+    /// Names, clocks, slip and noise follow from it.
+    pub seed: u64,
+    /// Slip, sensors and clocks. Links and breakdowns are left to the real network.
+    pub conditions: Conditions,
+}
+
+/// Something a robot says.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct FleetMessage {
+    /// Which robot, counted from 0 in starting order.
+    pub robot: usize,
+    /// What to publish it on.
+    pub topic: Topic,
+    /// UTF-8 text.
+    pub payload: Vec<u8>,
+}
+
+/// Simulated robots. Ways in, each with `now`, the microseconds since the fleet was made: [`link`](Self::link),
+/// [`receive`](Self::receive), [`advance`](Self::advance). After each of them drain
+/// [`next_message`](Self::next_message).
+pub struct Fleet {
+    crew: Crew,
+    by_id: BTreeMap<RobotId, usize>,
+    /// Until when the world has run.
+    world_at: Instant,
+    left_out: u64,
+    /// Robots that may have something to say are looked at from here on.
+    next_to_drain: usize,
+    payload: Payload,
+}
+
+impl Fleet {
+    /// Robots that were just switched on and have no link yet.
+    pub fn new(config: &FleetConfig) -> Self {
+        let crew = Crew::new(&config.stage, &config.starts, &config.conditions, config.seed);
+        let by_id = (0..crew.len()).map(|robot| (crew.id(robot), robot)).collect();
+        Self {
+            next_to_drain: crew.len(),
+            crew,
+            by_id,
+            world_at: Instant::ZERO,
+            left_out: 0,
+            payload: Payload::new(),
+        }
+    }
+
+    /// The robots' names, in starting order.
+    pub fn ids(&self) -> Vec<RobotId> {
+        (0..self.crew.len()).map(|robot| self.crew.id(robot)).collect()
+    }
+
+    /// Where robots really are, in starting order.
+    pub fn poses(&self) -> Vec<Pose> {
+        (0..self.crew.len()).map(|robot| self.crew.world.pose(robot)).collect()
+    }
+
+    /// What lights show, in starting order.
+    pub fn lights(&self) -> Vec<Rgb> {
+        (0..self.crew.len()).map(|robot| self.crew.light(robot)).collect()
+    }
+
+    /// How often two robots came to touch so far.
+    pub fn contacts(&self) -> u64 {
+        self.crew.world.contacts().count()
+    }
+
+    /// How many steps were left out because `advance` came too late.
+    pub fn steps_left_out(&self) -> u64 {
+        self.left_out
+    }
+
+    /// Everybody's link comes up or breaks.
+    pub fn link(&mut self, now: Instant, up: bool) {
+        for robot in 0..self.crew.len() {
+            self.crew.link(now, robot, up);
+        }
+        self.next_to_drain = 0;
+    }
+
+    /// One robot's link comes up or breaks, where each has a connection of its own.
+    pub fn link_of(&mut self, now: Instant, robot: usize, up: bool) {
+        if robot < self.crew.len() {
+            self.crew.link(now, robot, up);
+            self.next_to_drain = 0;
+        }
+    }
+
+    /// A message was published: whom its topic names hears it, and everybody a broadcast. Whether it was for anybody.
+    pub fn receive(&mut self, now: Instant, topic: &str, payload: &[u8]) -> bool {
+        let Some(topic) = Topic::parse(topic) else { return false };
+        let robots = match topic {
+            Topic::Broadcast => 0..self.crew.len(),
+            Topic::Robot(id) => self.by_id.get(&id).map_or(0..0, |&robot| robot..robot + 1),
+            _ => 0..0,
+        };
+        let heard = !robots.is_empty();
+        for robot in robots {
+            self.crew.receive(now, robot, topic, payload);
+            self.next_to_drain = self.next_to_drain.min(robot);
+        }
+        heard
+    }
+
+    /// Runs the world up to `to` in whole steps of 16 ms. How many steps it ran.
+    pub fn advance(&mut self, to: Instant) -> u64 {
+        let due = ((to - self.world_at).0 / STEP.0).max(0);
+        let run = due.min(CATCH_UP_STEPS);
+        self.world_at += STEP * (due - run);
+        self.left_out += (due - run) as u64;
+        for _ in 0..run {
+            self.world_at += STEP;
+            self.crew.step(self.world_at);
+        }
+        if run > 0 {
+            self.next_to_drain = 0;
+        }
+        run as u64
+    }
+
+    /// When to call [`advance`](Self::advance) next.
+    pub fn advance_at(&self) -> Instant {
+        self.world_at + STEP
+    }
+
+    /// The next thing a robot says.
+    pub fn next_message(&mut self) -> Option<FleetMessage> {
+        while self.next_to_drain < self.crew.len() {
+            let robot = self.next_to_drain;
+            self.payload.clear();
+            if let Some(topic) = self.crew.outgoing(robot, &mut self.payload) {
+                let payload = self.payload.as_bytes().to_vec();
+                return Some(FleetMessage { robot, topic, payload });
+            }
+            self.next_to_drain += 1;
+        }
+        None
+    }
+}

@@ -1,0 +1,212 @@
+//! The network between the controller and the robots: late, lost, doubled and overtaken messages.
+
+use std::cmp::Reverse;
+use std::collections::BinaryHeap;
+use std::rc::Rc;
+
+use lightbots_base::{Instant, Span};
+use lightbots_wire::Topic;
+
+use crate::conditions::LinkConditions;
+use crate::dice::{Dice, Purpose};
+
+/// The most messages that are under way, for each robot and for all together on top; more are lost.
+const UNDER_WAY_PER_ROBOT: usize = 64;
+const UNDER_WAY: usize = 1024;
+/// Share of messages that jitter makes late.
+const JITTERED: f64 = 0.1;
+
+/// Which way a message goes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Way {
+    /// To a robot, by its index.
+    ToRobot(usize),
+    /// From a robot, by its index, to the controller.
+    ToController(usize),
+}
+
+/// A message that arrives.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct Message {
+    /// Which way it went.
+    pub way: Way,
+    /// What it was published on.
+    pub topic: Topic,
+    /// Its bytes, shared by all copies of a broadcast.
+    pub payload: Rc<[u8]>,
+}
+
+/// How many messages were said, for each receiver, and how many of them never arrived.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize)]
+pub struct MessageCounts {
+    /// Said.
+    pub sent: u64,
+    /// Lost on the way.
+    pub lost: u64,
+}
+
+/// All links, each with its own order.
+#[derive(Debug)]
+pub(crate) struct Network {
+    conditions: LinkConditions,
+    dice: Dice,
+    /// When, in which order, and where in `slots`.
+    queue: BinaryHeap<Reverse<(Instant, u64, u32)>>,
+    slots: Vec<Option<Message>>,
+    free: Vec<u32>,
+    /// When the last message of each link arrives: `[robot]`, to it and from it.
+    last: Vec<[Instant; 2]>,
+    said: u64,
+    counts: MessageCounts,
+}
+
+impl Network {
+    /// Links to so many robots.
+    pub fn new(conditions: &LinkConditions, robots: usize, seed: u64) -> Self {
+        Self {
+            conditions: conditions.clone(),
+            dice: Dice::new(seed, Purpose::Links),
+            queue: BinaryHeap::new(),
+            slots: Vec::new(),
+            free: Vec::new(),
+            last: vec![[Instant::ZERO; 2]; robots],
+            said: 0,
+            counts: MessageCounts::default(),
+        }
+    }
+
+    /// Somebody says something.
+    pub fn send(&mut self, now: Instant, way: Way, topic: Topic, payload: Rc<[u8]>) {
+        self.counts.sent += 1;
+        let full = self.queue.len() >= UNDER_WAY + UNDER_WAY_PER_ROBOT * self.last.len();
+        if full || self.dice.chance(self.conditions.loss) {
+            self.counts.lost += 1;
+            return;
+        }
+        let message = Message { way, topic, payload };
+        if self.dice.chance(self.conditions.double) {
+            self.post(now, message.clone());
+        }
+        self.post(now, message);
+    }
+
+    /// When the next message arrives.
+    pub fn next_at(&self) -> Option<Instant> {
+        self.queue.peek().map(|&Reverse((at, ..))| at)
+    }
+
+    /// The next message that arrives at `until` or before, and when it does.
+    pub fn next_until(&mut self, until: Instant) -> Option<(Instant, Message)> {
+        if self.next_at()? > until {
+            return None;
+        }
+        let Reverse((at, _, slot)) = self.queue.pop()?;
+        self.free.push(slot);
+        Some((at, self.slots[slot as usize].take()?))
+    }
+
+    /// How many messages were said and lost.
+    pub fn counts(&self) -> MessageCounts {
+        self.counts
+    }
+
+    fn post(&mut self, now: Instant, message: Message) {
+        let mut at = now + self.delay();
+        let (robot, direction) = match message.way {
+            Way::ToRobot(robot) => (robot, 0),
+            Way::ToController(robot) => (robot, 1),
+        };
+        if self.dice.chance(self.conditions.reorder) {
+            at += self.conditions.delay_max + Span::from_millis(self.dice.below(50) as i64);
+        } else {
+            let last = &mut self.last[robot][direction];
+            at = at.max(*last);
+            *last = at;
+        }
+        let slot = self.free.pop().unwrap_or_else(|| {
+            self.slots.push(None);
+            self.slots.len() as u32 - 1
+        });
+        self.slots[slot as usize] = Some(message);
+        self.said += 1;
+        self.queue.push(Reverse((at, self.said, slot)));
+    }
+
+    fn delay(&mut self) -> Span {
+        let LinkConditions { delay_min, delay_max, jitter, .. } = self.conditions;
+        let mut delay = delay_min + Span(self.dice.below((delay_max - delay_min).0.max(0) as u64 + 1) as i64);
+        if jitter > Span::ZERO && self.dice.chance(JITTERED) {
+            delay += Span(self.dice.below(jitter.0 as u64) as i64);
+        }
+        delay
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::conditions::Conditions;
+    use crate::faults::Faults;
+
+    /// Says `count` messages a millisecond apart over one link; numbers and delays (ms) in order of arrival.
+    fn arrivals(faults: &str, count: u32) -> (Vec<(u32, f64)>, MessageCounts) {
+        let link = Faults::parse(faults).unwrap().added_to(Conditions::default()).link;
+        let mut network = Network::new(&link, 1, 9);
+        let mut got = Vec::new();
+        for number in 0..count {
+            let now = Instant(u64::from(number) * 1000);
+            network.send(now, Way::ToRobot(0), Topic::Broadcast, Rc::new(number.to_le_bytes()));
+            got.extend(drained(&mut network, now));
+        }
+        got.extend(drained(&mut network, Instant::FAR));
+        (got, network.counts())
+    }
+
+    fn drained(network: &mut Network, until: Instant) -> Vec<(u32, f64)> {
+        std::iter::from_fn(|| network.next_until(until))
+            .map(|(at, message)| {
+                let number = u32::from_le_bytes((*message.payload).try_into().unwrap());
+                (number, at.as_secs() * 1e3 - f64::from(number))
+            })
+            .collect()
+    }
+
+    fn in_order(got: &[(u32, f64)]) -> bool {
+        got.windows(2).all(|pair| pair[0].0 <= pair[1].0)
+    }
+
+    #[test]
+    fn the_standard_link_is_late_in_order_and_loses_none() {
+        let (got, counts) = arrivals("", 1000);
+        assert!(in_order(&got) && got.len() == 1000);
+        assert!(got.iter().all(|&(_, late)| (5.0..=20.001).contains(&late)));
+        assert_eq!(counts, MessageCounts { sent: 1000, lost: 0 });
+    }
+
+    #[test]
+    fn loss_doubling_and_reordering_happen_as_often_as_told() {
+        let (got, counts) = arrivals("loss=5%", 10_000);
+        assert!((400..600).contains(&counts.lost) && got.len() as u64 == 10_000 - counts.lost);
+        let (got, _) = arrivals("double=10%", 10_000);
+        assert!((10_900..11_100).contains(&got.len()) && in_order(&got));
+        let (got, _) = arrivals("reorder=1%", 1000);
+        assert!(!in_order(&got) && got.len() == 1000);
+    }
+
+    #[test]
+    fn jitter_and_delay_add_up() {
+        let (got, _) = arrivals("delay=100..300ms,jitter=50ms", 1000);
+        let latest = got.iter().fold(0.0, |latest: f64, got| latest.max(got.1));
+        assert!(got.iter().all(|got| got.1 >= 100.0) && (300.0..=350.0).contains(&latest));
+    }
+
+    #[test]
+    fn a_flood_is_bounded() {
+        let mut network = Network::new(&LinkConditions::default(), 1, 9);
+        for _ in 0..3000 {
+            network.send(Instant::ZERO, Way::ToController(0), Topic::Status, Rc::new([0; 4]));
+        }
+        assert_eq!(drained(&mut network, Instant::FAR).len(), UNDER_WAY + UNDER_WAY_PER_ROBOT);
+        assert_eq!(network.counts().lost, 3000 - (UNDER_WAY + UNDER_WAY_PER_ROBOT) as u64);
+    }
+}

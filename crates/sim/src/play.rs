@@ -1,0 +1,232 @@
+//! The loop of a rehearsal: one queue of messages, one clock, one step after the other.
+
+use std::rc::Rc;
+use std::sync::Arc;
+
+use lightbots_base::{Instant, RobotId, Span, Vec2};
+use lightbots_control::{Config, Controller, MissingPolicy, Operation};
+use lightbots_show::{Issue, Show};
+use lightbots_wire::Topic;
+
+use crate::breakdowns::{Breakdowns, Fate};
+use crate::crew::{Crew, Payload};
+use crate::hash::StateHash;
+use crate::network::{Network, Way};
+use crate::rehearsal::{Progress, RehearsalOptions, time_limit};
+use crate::report::RehearsalReport;
+use crate::watch::Watch;
+use crate::world::STEP;
+
+/// How long robots have to find the controller and its clock before the show begins without those that did not.
+const GATHERING: Span = Span::from_millis(8_000);
+/// How often the world's state is taken into the fingerprint, steps: about once a second.
+const HASH_EVERY: u64 = 64;
+/// How often one instant is looked at again because something at it led to something else at it.
+const ROUNDS_PER_STEP: usize = 1_000_000;
+
+/// A show being rehearsed.
+pub(crate) struct Play {
+    show: Arc<Show>,
+    seed: u64,
+    planned_s: f64,
+    controller: Controller,
+    crew: Crew,
+    network: Network,
+    breakdowns: Breakdowns,
+    watch: Watch,
+    hash: StateHash,
+    /// `(name, robot)`, sorted by name.
+    by_id: Vec<(RobotId, usize)>,
+    now: Instant,
+    began: bool,
+    payload: Payload,
+}
+
+impl Play {
+    /// Robots at `starts`, switched on; a controller that has just found its broker.
+    pub fn new(show: Arc<Show>, starts: &[Vec2], options: &RehearsalOptions, planned_s: f64) -> Self {
+        let RehearsalOptions { seed, conditions, .. } = options;
+        let crew = Crew::new(&show.stage, starts, conditions, *seed);
+        let mut by_id: Vec<_> = (0..crew.len()).map(|robot| (crew.id(robot), robot)).collect();
+        by_id.sort_unstable();
+        Self {
+            seed: *seed,
+            planned_s,
+            controller: Controller::new(Config::default()),
+            network: Network::new(&conditions.link, starts.len(), *seed),
+            breakdowns: Breakdowns::new(conditions, starts.len(), planned_s, *seed),
+            watch: Watch::new(starts.len()),
+            hash: StateHash::new(),
+            crew,
+            by_id,
+            show,
+            now: Instant::ZERO,
+            began: false,
+            payload: Payload::new(),
+        }
+    }
+
+    /// Plays to the end, or until it is clear that there is none.
+    pub fn run(mut self, progress: &mut dyn FnMut(Progress)) -> RehearsalReport {
+        self.controller.connected(self.now);
+        // Opening is refused only during a run.
+        let _ = self.controller.operate(self.now, Operation::Open(self.show.clone()));
+        for robot in 0..self.crew.len() {
+            self.crew.link(self.now, robot, true);
+        }
+        self.drain_controller();
+        let limit = time_limit(self.planned_s);
+        let mut step = 0u64;
+        while !self.watch.is_over() && self.now < limit {
+            self.step();
+            step += 1;
+            if step.is_multiple_of(HASH_EVERY) {
+                self.crew.world.hash(&mut self.hash);
+                let (at_s, frames) = (self.now.as_secs(), self.watch.frames_played());
+                progress(Progress::Playing { at_s, planned_s: self.planned_s, frames });
+            }
+        }
+        self.report()
+    }
+
+    /// Everything up to the next step of the world, and that step.
+    fn step(&mut self) {
+        let next = self.now + STEP;
+        self.pass_time(next);
+        self.now = next;
+        self.strike();
+        self.crew.step(next);
+        self.watch.contacts(next, &self.crew.world);
+        for robot in 0..self.crew.len() {
+            self.drain_robot(robot);
+        }
+        if !self.began {
+            self.begin();
+        }
+    }
+
+    /// Messages and waking times up to `until`, in order.
+    fn pass_time(&mut self, until: Instant) {
+        for _ in 0..ROUNDS_PER_STEP {
+            let wake = self.controller.wake_at().map(|at| at.max(self.now));
+            let message = self.network.next_at();
+            let wakes_first = wake.is_some_and(|wake| message.is_none_or(|message| wake < message));
+            if wakes_first {
+                let at = wake.unwrap_or(until);
+                if at > until {
+                    return;
+                }
+                self.now = at;
+                self.controller.wake(at);
+                self.drain_controller();
+            } else {
+                let Some((at, message)) = self.network.next_until(until) else { return };
+                self.now = at.max(self.now);
+                match message.way {
+                    Way::ToRobot(robot) => {
+                        self.crew.receive(self.now, robot, message.topic, &message.payload);
+                        self.drain_robot(robot);
+                    }
+                    Way::ToController(robot) => {
+                        self.hash.word(at.0 ^ (robot as u64) << 48);
+                        self.hash.bytes(&message.payload);
+                        self.controller.message(self.now, &message.topic.write(), &message.payload);
+                        self.drain_controller();
+                    }
+                }
+            }
+        }
+    }
+
+    /// Plays as soon as everybody is there and knows the show clock, or when that takes too long.
+    fn begin(&mut self) {
+        if self.now.0 / STEP.0 as u64 % 8 != 0 {
+            return;
+        }
+        let robots = self.controller.snapshot(self.now).robots;
+        let ready = robots.iter().filter(|robot| robot.at.is_some() && robot.clock_us.is_some()).count();
+        let late = self.now > Instant::ZERO + GATHERING;
+        if ready < self.crew.len() && !late {
+            return;
+        }
+        self.began = true;
+        let missing = if late { MissingPolicy::LeaveOut } else { MissingPolicy::Refuse };
+        if let Err(refusal) = self.controller.operate(self.now, Operation::Play { from: 0, missing }) {
+            self.watch.refused(&refusal.to_string());
+        }
+        self.drain_controller();
+    }
+
+    /// Lets robots break down whose time has come.
+    fn strike(&mut self) {
+        let Some(first_departure) = self.watch.began_at() else { return };
+        while let Some((robot, fate)) = self.breakdowns.next_until(self.now - first_departure) {
+            if fate == Fate::Killed {
+                self.crew.kill(robot);
+            }
+            self.watch.struck(robot, fate, self.now);
+        }
+    }
+
+    fn drain_robot(&mut self, robot: usize) {
+        loop {
+            self.payload.clear();
+            let Some(topic) = self.crew.outgoing(robot, &mut self.payload) else { return };
+            if topic == Topic::Arrival {
+                self.watch.arrived(robot, self.now);
+            }
+            if !self.breakdowns.is_mute(robot) {
+                let payload: Rc<[u8]> = self.payload.as_bytes().into();
+                self.network.send(self.now, Way::ToController(robot), topic, payload);
+            }
+        }
+    }
+
+    fn drain_controller(&mut self) {
+        while let Some(job) = self.controller.next_job() {
+            // Planning takes no virtual time: how long it takes depends on the machine.
+            self.controller.planned(self.now, job.run());
+        }
+        while let Some(send) = self.controller.next_send() {
+            let payload: Rc<[u8]> = send.payload.into();
+            match send.topic {
+                Topic::Robot(id) => {
+                    if let Ok(place) = self.by_id.binary_search_by_key(&id, |entry| entry.0) {
+                        let way = Way::ToRobot(self.by_id[place].1);
+                        self.network.send(self.now, way, send.topic, payload);
+                    }
+                }
+                topic => {
+                    for robot in 0..self.crew.len() {
+                        self.network.send(self.now, Way::ToRobot(robot), topic, payload.clone());
+                    }
+                }
+            }
+        }
+        while let Some(event) = self.controller.next_event() {
+            self.watch.event(&event, &self.controller, &self.crew, &self.by_id, &self.show);
+        }
+    }
+
+    fn report(mut self) -> RehearsalReport {
+        self.crew.world.hash(&mut self.hash);
+        self.hash.word(self.now.0);
+        let world = &self.crew.world;
+        let bumps = world.bumps();
+        let mut report = self.watch.report(self.now, &self.breakdowns);
+        report.contacts = world.contacts().count() + bumps.obstacles;
+        report.wall_contacts = bumps.walls;
+        report.closest_m = world.contacts().closest_m();
+        report.robots = self.crew.len();
+        report.frames = self.show.frames.len();
+        report.messages = self.network.counts();
+        report.seed = self.seed;
+        report.state_hash = format!("{:016x}", self.hash.finish());
+        report.ok &= report.contacts == 0 && report.frames_played == report.frames;
+        if !report.ok {
+            let message = format!("Rehearse with seed {} to see the same run again.", self.seed);
+            report.issues.push(Issue::warning("seed", message));
+        }
+        report
+    }
+}

@@ -1,0 +1,133 @@
+//! A whole show in virtual time: the real controller core, the real robot cores, simulated bodies and networks.
+
+use std::sync::Arc;
+
+use lightbots_base::{Instant, Span, Vec2};
+use lightbots_plan::{ShowOptions, ShowPlan};
+use lightbots_show::{Issue, Show, front_rows};
+
+use crate::conditions::Conditions;
+use crate::play::Play;
+use crate::report::RehearsalReport;
+use crate::statistics::Spread;
+
+/// How a show is rehearsed.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RehearsalOptions {
+    /// The seed of everything that chance decides.
+    pub seed: u64,
+    /// What robots and networks suffer.
+    pub conditions: Conditions,
+    /// How many robots there are; `None`: as many as the largest frame has pixels.
+    pub robots: Option<usize>,
+}
+
+/// How far a rehearsal is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Progress {
+    /// The show is being planned.
+    Planning,
+    /// It plays.
+    Playing {
+        /// Virtual time since robots were switched on, seconds.
+        at_s: f64,
+        /// How long the show is planned to take, seconds.
+        planned_s: f64,
+        /// Frames that stood so far.
+        frames: usize,
+    },
+}
+
+/// The most robots a rehearsal has.
+pub const ROBOTS_MAX: usize = 20_000;
+
+impl Default for RehearsalOptions {
+    /// Seed 1, standard conditions, as many robots as pixels.
+    fn default() -> Self {
+        Self { seed: 1, conditions: Conditions::default(), robots: None }
+    }
+}
+
+/// Plays a whole show in virtual time and says how it went. The same show, options and version give the same report to
+/// the bit. `progress` is told about every second of virtual time; it must not change anything.
+pub fn rehearse(
+    show: &Show,
+    options: &RehearsalOptions,
+    progress: &mut dyn FnMut(Progress),
+) -> RehearsalReport {
+    progress(Progress::Planning);
+    let robots = options.robots.unwrap_or_else(|| most_pixels(show));
+    if robots == 0 || robots > ROBOTS_MAX || show.frames.is_empty() {
+        let message = match (show.frames.is_empty(), robots) {
+            (true, _) => "The show has no frames: add one.".into(),
+            (_, 0) => "There are no robots to rehearse with: the show has no pixels.".into(),
+            _ => format!("{robots} robots are more than the {ROBOTS_MAX} a rehearsal can have."),
+        };
+        return unplayed(show, options, robots, vec![Issue::error("nothing-to-rehearse", message)]);
+    }
+    let starts = starts(show, robots);
+    let mut issues = lightbots_show::validate(show);
+    let plan = lightbots_plan::show(show, &starts, &ShowOptions::default());
+    add_new(&mut issues, &plan);
+    if issues.iter().any(Issue::is_error) {
+        let lower_bound_s = plan.lower_bound_s;
+        return RehearsalReport { lower_bound_s, ..unplayed(show, options, robots, issues) };
+    }
+    let play = Play::new(Arc::new(show.clone()), &starts, options, plan.duration_s);
+    let mut report = play.run(progress);
+    report.lower_bound_s = plan.lower_bound_s;
+    issues.append(&mut report.issues);
+    report.issues = issues;
+    report
+}
+
+/// Pixels of the largest frame.
+fn most_pixels(show: &Show) -> usize {
+    show.frames.iter().map(|frame| frame.pixels.len()).max().unwrap_or(0)
+}
+
+/// Where the show says robots start, in rows along the front edge where it does not or says too few.
+fn starts(show: &Show, robots: usize) -> Vec<Vec2> {
+    match &show.starts {
+        Some(starts) if starts.len() >= robots => starts[..robots].to_vec(),
+        _ => front_rows(&show.stage, robots),
+    }
+}
+
+/// Adds what the plan found and the show's own check did not.
+fn add_new(issues: &mut Vec<Issue>, plan: &ShowPlan) {
+    for issue in &plan.issues {
+        if !issues.contains(issue) {
+            issues.push(issue.clone());
+        }
+    }
+}
+
+/// The report of a show that was not played.
+fn unplayed(show: &Show, options: &RehearsalOptions, robots: usize, issues: Vec<Issue>) -> RehearsalReport {
+    RehearsalReport {
+        ok: false,
+        robots,
+        frames_played: 0,
+        frames: show.frames.len(),
+        duration_s: 0.0,
+        lower_bound_s: 0.0,
+        contacts: 0,
+        wall_contacts: 0,
+        closest_m: None,
+        arrival_spread_s: Spread::default(),
+        position_error_m: Spread::default(),
+        messages: Default::default(),
+        dropouts: 0,
+        seed: options.seed,
+        state_hash: format!("{:016x}", crate::StateHash::new().finish()),
+        real_time_factor: None,
+        issues,
+        per_frame: Vec::new(),
+    }
+}
+
+/// How long a rehearsal may take at most, of virtual time: many times the plan, as recovery takes time.
+pub(crate) fn time_limit(planned_s: f64) -> Instant {
+    Instant::ZERO + Span::from_secs(60.0 + 5.0 * planned_s.clamp(0.0, 1e6))
+}

@@ -1,0 +1,65 @@
+//! What a rehearsal found out.
+
+use lightbots_show::Issues;
+use serde::Serialize;
+
+use crate::network::MessageCounts;
+use crate::statistics::Spread;
+
+/// The report of a rehearsal. Its JSON has these keys.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct RehearsalReport {
+    /// Every frame was played, nobody touched anybody, and nobody dropped out but those who were made to.
+    pub ok: bool,
+    /// How many robots took part.
+    pub robots: usize,
+    /// How many frames stood.
+    pub frames_played: usize,
+    /// How many frames the show has.
+    pub frames: usize,
+    /// From the first departure to the end of the last air time, seconds.
+    pub duration_s: f64,
+    /// What no plan can be shorter than, seconds; see the plan.
+    pub lower_bound_s: f64,
+    /// How often two robots came to touch, or one an obstacle.
+    pub contacts: u64,
+    /// How often a robot touched the edge of the floor.
+    pub wall_contacts: u64,
+    /// The least distance of two centres, metres; `None` where nobody came near anybody.
+    pub closest_m: Option<f64>,
+    /// Between the first and the last arrival at a frame, one value a frame, seconds.
+    pub arrival_spread_s: Spread,
+    /// How far robots really were from their pixels when their frame stood, one value a robot and frame, metres.
+    pub position_error_m: Spread,
+    /// What was said, each receiver counted, and what was lost on the way.
+    pub messages: MessageCounts,
+    /// Robots that were lost.
+    pub dropouts: usize,
+    /// The seed: the same show, conditions and seed give the same run.
+    pub seed: u64,
+    /// Fingerprint of the whole run, 16 hexadecimal digits.
+    pub state_hash: String,
+    /// How many times faster than real time it went. Filled in by the caller, as there is no clock in here.
+    pub real_time_factor: Option<f64>,
+    /// What is wrong or worth knowing.
+    pub issues: Issues,
+    /// The frames that stood, in the order played.
+    pub per_frame: Vec<FrameRecord>,
+}
+
+/// One frame that stood.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct FrameRecord {
+    /// Which, counted from 0.
+    pub frame: usize,
+    /// Its name.
+    pub name: String,
+    /// When it stood, seconds after the first departure.
+    pub at_s: f64,
+    /// How long the drive to it took, seconds.
+    pub drive_s: f64,
+    /// Between the first and the last arrival, seconds.
+    pub arrival_spread_s: f64,
+    /// How far robots were from their pixels, metres.
+    pub position_error_m: Spread,
+}

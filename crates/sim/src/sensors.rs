@@ -1,0 +1,153 @@
+//! What robots see of where they are: fixes with noise, bias, delay, drop-outs and outliers.
+
+use lightbots_base::{Pose, Span, Vec2, wrap};
+
+use crate::conditions::FixConditions;
+use crate::dice::{Dice, Purpose};
+use crate::world::{STEP, STEP_S};
+
+/// How often a robot's fixes drop out, where they do: once in this time in the mean, seconds.
+const DROPOUT_EVERY_S: f64 = 20.0;
+/// How far off an outlier is at most, metres along each axis.
+const OUTLIER_M: f64 = 1.0;
+
+/// The position sensors of all robots.
+#[derive(Clone, Debug)]
+pub(crate) struct Sensors {
+    conditions: FixConditions,
+    dice: Dice,
+    bias: Vec<Vec2>,
+    /// `past[step % steps][robot]`: true poses of the last steps; empty without delay.
+    past: Vec<Vec<Pose>>,
+    /// The step until which a robot gets no fix; empty without drop-outs.
+    dark_until: Vec<u64>,
+    step: u64,
+    /// Whether anything but noise was asked for.
+    plain: bool,
+}
+
+impl Sensors {
+    /// Sensors of robots that stand at these poses.
+    pub fn new(conditions: &FixConditions, starts: &[Pose], seed: u64) -> Self {
+        let mut dice = Dice::new(seed, Purpose::Sensors);
+        let delay_steps = (conditions.delay.0.max(0) + STEP.0 / 2) / STEP.0;
+        let past = if delay_steps > 0 { vec![starts.to_vec(); delay_steps as usize + 1] } else { Vec::new() };
+        let plain = past.is_empty()
+            && conditions.every <= 1
+            && conditions.dropout == Span::ZERO
+            && conditions.outliers == 0.0
+            && conditions.bias_m == 0.0;
+        let dark = if conditions.dropout > Span::ZERO { starts.len() } else { 0 };
+        let mut offset = || dice.between(-conditions.bias_m, conditions.bias_m);
+        let bias = starts.iter().map(|_| Vec2::new(offset(), offset())).collect();
+        Self { conditions: conditions.clone(), bias, past, dark_until: vec![0; dark], step: 0, plain, dice }
+    }
+
+    /// Begins the next step: call once before the robots' senses are asked for.
+    pub fn next_step(&mut self) {
+        self.step += 1;
+    }
+
+    /// What a robot that really is at `pose` is told about it in this step; call once a step for each robot, in order.
+    #[inline]
+    pub fn fix(&mut self, robot: usize, pose: Pose) -> Option<Pose> {
+        if self.plain {
+            return Some(self.noisy(pose));
+        }
+        let pose = self.delayed(robot, pose);
+        let staggered = self.step + robot as u64;
+        if !staggered.is_multiple_of(u64::from(self.conditions.every.max(1))) || self.is_dark(robot) {
+            return None;
+        }
+        let mut fix = self.noisy(Pose { at: pose.at + self.bias[robot], ..pose });
+        if self.dice.chance(self.conditions.outliers) {
+            let mut off = || self.dice.between(-OUTLIER_M, OUTLIER_M);
+            fix.at += Vec2::new(off(), off());
+        }
+        Some(fix)
+    }
+
+    #[inline]
+    fn noisy(&mut self, pose: Pose) -> Pose {
+        let [x, y, turn] = self.dice.normal3();
+        let sigma = self.conditions.place_sigma_m;
+        Pose {
+            at: pose.at + Vec2::new(x * sigma, y * sigma),
+            heading: wrap(pose.heading + turn * self.conditions.heading_sigma_rad),
+        }
+    }
+
+    fn delayed(&mut self, robot: usize, pose: Pose) -> Pose {
+        let steps = self.past.len() as u64;
+        if steps == 0 {
+            return pose;
+        }
+        self.past[(self.step % steps) as usize][robot] = pose;
+        self.past[((self.step + 1) % steps) as usize][robot]
+    }
+
+    fn is_dark(&mut self, robot: usize) -> bool {
+        let Some(until) = self.dark_until.get_mut(robot) else { return false };
+        if self.step >= *until && self.dice.chance(STEP_S / DROPOUT_EVERY_S) {
+            *until = self.step + (self.conditions.dropout.0 / STEP.0) as u64;
+        }
+        self.step < *until
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::conditions::Conditions;
+    use crate::faults::Faults;
+
+    /// Fixes of a robot that moves 1 mm a step along x from 0, for 5000 steps: error of the place along x and of the
+    /// heading, or nothing.
+    fn errors(faults: &str) -> Vec<Option<(f64, f64)>> {
+        let conditions = Faults::parse(faults).unwrap().added_to(Conditions::ideal()).fixes;
+        let mut sensors = Sensors::new(&conditions, &[Pose::default()], 4);
+        (1..=5000)
+            .map(|step| {
+                let truth = Pose::new(Vec2::new(f64::from(step) * 0.001, 0.0), 0.5);
+                sensors.next_step();
+                sensors.fix(0, truth).map(|fix| (fix.at.x - truth.at.x, fix.heading - truth.heading))
+            })
+            .collect()
+    }
+
+    fn deviation(values: impl Iterator<Item = f64> + Clone) -> f64 {
+        let count = values.clone().count() as f64;
+        (values.map(|value| value * value).sum::<f64>() / count).sqrt()
+    }
+
+    #[test]
+    fn ideal_fixes_are_true() {
+        assert!(errors("").iter().all(|&error| error == Some((0.0, 0.0))));
+    }
+
+    #[test]
+    fn noise_has_the_stated_deviation() {
+        let errors = errors("gps=2mm,heading=1deg");
+        let place = deviation(errors.iter().map(|error| error.unwrap().0));
+        let heading = deviation(errors.iter().map(|error| error.unwrap().1)).to_degrees();
+        assert!((place - 0.002).abs() < 1e-4 && (heading - 1.0).abs() < 0.05, "{place} {heading}");
+    }
+
+    #[test]
+    fn delayed_fixes_are_old() {
+        let errors = errors("fix-delay=96ms");
+        assert!(errors[10..].iter().all(|error| (error.unwrap().0 + 0.006).abs() < 1e-9));
+    }
+
+    #[test]
+    fn fixes_come_seldom_drop_out_and_lie_as_told() {
+        assert_eq!(errors("fix-every=5").iter().flatten().count(), 1000);
+        let dark = errors("fix-dropout=1s").iter().filter(|error| error.is_none()).count();
+        assert!((62..1000).contains(&dark), "{dark}");
+        let wild = errors("fix-outlier=10%").iter().filter(|error| error.unwrap().0.abs() > 0.01).count();
+        assert!((400..600).contains(&wild), "{wild}");
+        let bias = errors("bias=1cm")[0].unwrap().0;
+        assert!(bias != 0.0 && bias.abs() < 0.01);
+        assert!(errors("bias=1cm").iter().all(|error| (error.unwrap().0 - bias).abs() < 1e-9));
+    }
+}

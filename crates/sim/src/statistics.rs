@@ -1,0 +1,40 @@
+//! Many numbers in three.
+
+use serde::Serialize;
+
+/// Median, 99th percentile (nearest rank) and greatest of some numbers; all 0 where there are none.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct Spread {
+    /// Half of the numbers are at most this.
+    pub median: f64,
+    /// 99 of 100 numbers are at most this.
+    pub p99: f64,
+    /// The greatest.
+    pub max: f64,
+}
+
+impl Spread {
+    /// Of these numbers, in any order.
+    pub fn of(numbers: &[f64]) -> Self {
+        let mut sorted = numbers.to_vec();
+        sorted.sort_unstable_by(f64::total_cmp);
+        let rank = |percent: usize| {
+            let rank = (sorted.len() * percent).div_ceil(100);
+            sorted.get(rank.saturating_sub(1)).copied().unwrap_or(0.0)
+        };
+        Self { median: rank(50), p99: rank(99), max: rank(100) }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ranks_are_counted_from_the_least() {
+        let numbers: Vec<f64> = (1..=200).rev().map(f64::from).collect();
+        assert_eq!(Spread::of(&numbers), Spread { median: 100.0, p99: 198.0, max: 200.0 });
+        assert_eq!(Spread::of(&[7.0]), Spread { median: 7.0, p99: 7.0, max: 7.0 });
+        assert_eq!(Spread::of(&[]), Spread::default());
+    }
+}

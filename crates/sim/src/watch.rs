@@ -1,0 +1,238 @@
+//! Watching a rehearsal: what happened, when, and how well.
+
+use lightbots_base::{Instant, RobotId, Span};
+use lightbots_control::{Controller, Event, EventKind, Outcome};
+use lightbots_show::{Issue, Issues, Show};
+
+use crate::breakdowns::{Breakdowns, Fate};
+use crate::crew::Crew;
+use crate::report::{FrameRecord, RehearsalReport};
+use crate::statistics::Spread;
+use crate::world::World;
+
+/// The most issues of one rehearsal; what comes on top is counted.
+const ISSUES_MAX: usize = 100;
+
+/// What is known of a rehearsal so far.
+pub(crate) struct Watch {
+    began: Option<Instant>,
+    /// When the current transition started.
+    started: Instant,
+    /// First and last arrival of the current transition.
+    arrivals: Option<(Instant, Instant)>,
+    heading_for: usize,
+    errors_m: Vec<f64>,
+    frames: Vec<FrameRecord>,
+    bumps: u64,
+    dropouts: usize,
+    outcome: Option<Outcome>,
+    ended: Instant,
+    issues: Issues,
+    unlisted: usize,
+}
+
+impl Watch {
+    /// Nothing happened yet.
+    pub fn new(robots: usize) -> Self {
+        Self {
+            began: None,
+            started: Instant::ZERO,
+            arrivals: None,
+            heading_for: 0,
+            errors_m: Vec::with_capacity(robots),
+            frames: Vec::new(),
+            bumps: 0,
+            dropouts: 0,
+            outcome: None,
+            ended: Instant::ZERO,
+            issues: Vec::new(),
+            unlisted: 0,
+        }
+    }
+
+    /// Whether the show has ended, well or not.
+    pub fn is_over(&self) -> bool {
+        self.outcome.is_some()
+    }
+
+    /// When robots first left.
+    pub fn began_at(&self) -> Option<Instant> {
+        self.began
+    }
+
+    /// How many frames stood.
+    pub fn frames_played(&self) -> usize {
+        self.frames.len()
+    }
+
+    /// The controller would not play.
+    pub fn refused(&mut self, why: &str) {
+        self.outcome = Some(Outcome::Failed(why.into()));
+        self.add(Issue::error("play-refused", why));
+    }
+
+    /// A robot says that it has arrived.
+    pub fn arrived(&mut self, _robot: usize, now: Instant) {
+        let (first, last) = self.arrivals.unwrap_or((now, now));
+        self.arrivals = Some((first.min(now), last.max(now)));
+    }
+
+    /// A robot was made to break down.
+    pub fn struck(&mut self, robot: usize, fate: Fate, now: Instant) {
+        let (code, what) = match fate {
+            Fate::Killed => ("robot-killed", "lost its power, as asked for"),
+            Fate::Muted => ("robot-muted", "fell silent, as asked for"),
+        };
+        let issue =
+            Issue::warning(code, format!("Robot {robot} {what}, {:.2} s into the show.", self.since(now)));
+        self.add(issue.in_frame(self.heading_for));
+    }
+
+    /// Looks for new contacts after a step.
+    pub fn contacts(&mut self, now: Instant, world: &World) {
+        let fresh = world.contacts().fresh();
+        if fresh.is_empty() && world.bumps().obstacles == self.bumps {
+            return;
+        }
+        let (at_s, frame) = (self.since(now), self.heading_for);
+        for &(a, b) in fresh {
+            let place = (world.places()[a as usize] + world.places()[b as usize]) / 2.0;
+            let message = format!(
+                "Robots {a} and {b} touched at ({:.3}, {:.3}) m, {at_s:.2} s into the show, about frame {}.",
+                place.x,
+                place.y,
+                frame + 1
+            );
+            self.add(Issue::error("contact", message).in_frame(frame));
+        }
+        if world.bumps().obstacles > self.bumps {
+            self.bumps = world.bumps().obstacles;
+            let message =
+                format!("A robot touched an obstacle {at_s:.2} s into the show, about frame {}.", frame + 1);
+            self.add(Issue::error("contact-obstacle", message).in_frame(frame));
+        }
+    }
+
+    /// Something happened in the controller.
+    pub fn event(
+        &mut self,
+        event: &Event,
+        controller: &Controller,
+        crew: &Crew,
+        by_id: &[(RobotId, usize)],
+        show: &Show,
+    ) {
+        match &event.kind {
+            EventKind::TransitionStarted { frame, starts, .. } => {
+                self.heading_for = *frame;
+                self.began.get_or_insert(*starts);
+                self.started = *starts;
+                self.arrivals = None;
+            }
+            EventKind::FrameReached { frame, .. } => {
+                let name = show.frames.get(*frame).map_or("", |frame| &frame.name);
+                self.frame_stands(*frame, name, event.at, controller, crew, by_id);
+            }
+            EventKind::Dropout { .. } => {
+                self.dropouts += 1;
+                self.note("dropout", event);
+            }
+            EventKind::Waiting { .. } => self.note("waiting", event),
+            EventKind::Misaligned { .. } => self.note("misaligned", event),
+            EventKind::PlanFailed { .. } => self.note("plan-failed", event),
+            EventKind::RunEnded { outcome, .. } => {
+                self.ended = event.at;
+                if let Outcome::Failed(_) = outcome {
+                    self.note("run-failed", event);
+                }
+                self.outcome = Some(outcome.clone());
+            }
+            _ => {}
+        }
+    }
+
+    /// The report, without what only the world and the network know.
+    pub fn report(mut self, now: Instant, breakdowns: &Breakdowns) -> RehearsalReport {
+        let finished = self.outcome == Some(Outcome::Finished);
+        if self.outcome.is_none() {
+            let message = format!("The show did not end within {:.0} s: given up.", now.as_secs());
+            self.issues.push(Issue::error("no-end", message));
+        }
+        if self.unlisted > 0 {
+            let message = format!("{} more things happened that are not listed.", self.unlisted);
+            self.issues.push(Issue::warning("more", message));
+        }
+        let ended = if self.outcome.is_some() { self.ended } else { now };
+        let spreads: Vec<f64> = self.frames.iter().map(|frame| frame.arrival_spread_s).collect();
+        RehearsalReport {
+            ok: finished && self.dropouts <= breakdowns.count(),
+            robots: 0,
+            frames_played: self.frames.len(),
+            frames: 0,
+            duration_s: self.began.map_or(0.0, |began| (ended - began).max(Span::ZERO).as_secs()),
+            lower_bound_s: 0.0,
+            contacts: 0,
+            wall_contacts: 0,
+            closest_m: None,
+            arrival_spread_s: Spread::of(&spreads),
+            position_error_m: Spread::of(&self.errors_m),
+            messages: Default::default(),
+            dropouts: self.dropouts,
+            seed: 0,
+            state_hash: String::new(),
+            real_time_factor: None,
+            issues: self.issues,
+            per_frame: self.frames,
+        }
+    }
+
+    /// Measures the picture that stands now.
+    fn frame_stands(
+        &mut self,
+        frame: usize,
+        name: &str,
+        at: Instant,
+        controller: &Controller,
+        crew: &Crew,
+        by_id: &[(RobotId, usize)],
+    ) {
+        let mut errors_m = Vec::with_capacity(crew.len());
+        for view in
+            controller.snapshot(at).robots.iter().filter(|view| view.takes_part && view.pixel.is_some())
+        {
+            let place = by_id.binary_search_by_key(&view.id, |entry| entry.0);
+            if let (Ok(place), Some(goal)) = (place, view.goal) {
+                errors_m.push(crew.world.places()[by_id[place].1].distance(goal));
+            }
+        }
+        let (first, last) = self.arrivals.unwrap_or((at, at));
+        self.frames.push(FrameRecord {
+            frame,
+            name: name.into(),
+            at_s: self.since(at),
+            drive_s: (at - self.started).as_secs(),
+            arrival_spread_s: (last - first).as_secs(),
+            position_error_m: Spread::of(&errors_m),
+        });
+        self.errors_m.append(&mut errors_m);
+    }
+
+    /// Keeps an event of the controller as an issue.
+    fn note(&mut self, code: &str, event: &Event) {
+        let message = format!("{} ({:.2} s into the show)", event.kind, self.since(event.at));
+        let issue = Issue { severity: event.kind.severity(), ..Issue::warning(code, message) };
+        self.add(issue.in_frame(self.heading_for));
+    }
+
+    fn add(&mut self, issue: Issue) {
+        if self.issues.len() < ISSUES_MAX {
+            self.issues.push(issue);
+        } else {
+            self.unlisted += 1;
+        }
+    }
+
+    fn since(&self, now: Instant) -> f64 {
+        self.began.map_or(0.0, |began| (now - began).as_secs())
+    }
+}
