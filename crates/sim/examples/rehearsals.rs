@@ -1,0 +1,79 @@
+//! Many rehearsals of one show: `cargo run --release -p lightbots-sim --example rehearsals SHOW [FAULTS [SEED [SEEDS]]]`.
+//!
+//! One line for each seed, with what went wrong; FAULTS may be `ideal`, or empty for standard conditions.
+#![allow(clippy::print_stdout, clippy::print_stderr)]
+
+use std::process::ExitCode;
+use std::time::Instant;
+
+use lightbots_show::Show;
+use lightbots_sim::{Conditions, Faults, RehearsalOptions, rehearse};
+
+fn main() -> ExitCode {
+    let args: Vec<String> = std::env::args().skip(1).collect();
+    match run(&args) {
+        Ok(true) => ExitCode::SUCCESS,
+        Ok(false) => ExitCode::from(1),
+        Err(message) => {
+            eprintln!("{message}");
+            ExitCode::from(2)
+        }
+    }
+}
+
+/// Whether every rehearsal was fine.
+fn run(args: &[String]) -> Result<bool, String> {
+    let usage = "usage: rehearsals SHOW [FAULTS [SEED [SEEDS]]]";
+    let path = args.first().ok_or(usage)?;
+    let bytes = std::fs::read(path).map_err(|error| format!("{path}: {error}"))?;
+    let ending = std::path::Path::new(path).extension().and_then(|ending| ending.to_str());
+    let show = lightbots_show::read(&bytes, ending).map_err(|error| format!("{path}: {error}"))?.show;
+    let conditions = match args.get(1).map_or("", String::as_str) {
+        "ideal" => Conditions::ideal(),
+        faults => Faults::parse(faults).map_err(|error| error.to_string())?.added_to(Conditions::default()),
+    };
+    let number = |index: usize, default: u64| match args.get(index) {
+        Some(text) => text.parse().map_err(|_| format!("'{text}' is no number; {usage}")),
+        None => Ok(default),
+    };
+    let (first, count) = (number(2, 1)?, number(3, 1)?);
+    let mut failed = 0;
+    for seed in first..first.saturating_add(count) {
+        let options = RehearsalOptions { seed, conditions: conditions.clone(), robots: None };
+        failed += u64::from(!line(&show, &options));
+    }
+    println!("{} of {count} fine", count - failed);
+    Ok(failed == 0)
+}
+
+/// Rehearses once and says how it went, in one line and one for each issue.
+fn line(show: &Show, options: &RehearsalOptions) -> bool {
+    let begin = Instant::now();
+    let report = rehearse(show, options, &mut |_| {});
+    println!(
+        "seed {:>4} {} {}/{} frames {:.2} s (bound {:.2}) contacts {} closest {:.1} mm spread {:.0}/{:.0} ms \
+         error {:.1}/{:.1}/{:.1} mm lost {}/{} dropouts {} hash {} {:.0}x",
+        options.seed,
+        if report.ok { "fine" } else { "BAD " },
+        report.frames_played,
+        report.frames,
+        report.duration_s,
+        report.lower_bound_s,
+        report.contacts,
+        report.closest_m.unwrap_or(f64::NAN) * 1e3,
+        report.arrival_spread_s.median * 1e3,
+        report.arrival_spread_s.max * 1e3,
+        report.position_error_m.median * 1e3,
+        report.position_error_m.p99 * 1e3,
+        report.position_error_m.max * 1e3,
+        report.messages.lost,
+        report.messages.sent,
+        report.dropouts,
+        report.state_hash,
+        report.duration_s / begin.elapsed().as_secs_f64(),
+    );
+    for issue in report.issues.iter().take(8) {
+        println!("          {:?}: {}", issue.severity, issue.message);
+    }
+    report.ok
+}
