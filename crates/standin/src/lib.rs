@@ -4,6 +4,8 @@
 //! sample, a rate that is refused before the motor was freed, position sensors that under-read, a step that returns −1
 //! once, after which the process ends in the next call. [`socket`] says what goes over the socket.
 #![allow(unsafe_code)]
+// Named after the file that Webots has.
+#![allow(non_snake_case)]
 
 mod devices;
 pub mod socket;
