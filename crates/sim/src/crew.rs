@@ -1,7 +1,7 @@
 //! Robots: the real firmware core in simulated bodies, each with its own clock.
 
 use lightbots_base::{Instant, Pose, Rgb, RobotId, Vec2};
-use lightbots_robot::{Config, Fix, Inputs, Robot};
+use lightbots_robot::{Config, Fix, Inputs, Message, Robot};
 use lightbots_show::Stage;
 use lightbots_wire::Topic;
 
@@ -15,15 +15,13 @@ const CLOCK_BEGIN_US: u64 = 3_600_000_000;
 /// Steps in which a battery loses one percent: three minutes.
 const STEPS_PER_PERCENT: u64 = 11_250;
 
-/// The bytes of one message of a robot.
-pub(crate) type Payload = lightbots_robot::Message;
-
 /// N robots on a floor.
 pub(crate) struct Crew {
     pub world: World,
     sensors: Sensors,
     members: Vec<Member>,
     steps: u64,
+    payload: Message,
 }
 
 struct Member {
@@ -64,6 +62,7 @@ impl Crew {
             sensors: Sensors::new(&conditions.fixes, &poses, seed),
             members,
             steps: 0,
+            payload: Message::new(),
         }
     }
 
@@ -98,11 +97,12 @@ impl Crew {
         }
     }
 
-    /// The next thing a robot says.
-    #[inline]
-    pub fn outgoing(&mut self, robot: usize, payload: &mut Payload) -> Option<Topic> {
+    /// Says what a robot has to say now.
+    pub fn listen(&mut self, robot: usize, hear: &mut impl FnMut(usize, Topic, &[u8])) {
         let member = &mut self.members[robot];
-        if member.alive { member.robot.outgoing(payload) } else { None }
+        if member.alive {
+            member.speak(robot, &mut self.payload, hear);
+        }
     }
 
     /// A robot's power fails.
@@ -112,8 +112,8 @@ impl Crew {
         self.world.tell(robot, [0.0; 2]);
     }
 
-    /// One step of 16 ms that ends at `now`: bodies move, then robots sense and think.
-    pub fn step(&mut self, now: Instant) {
+    /// One step of 16 ms that ends at `now`: bodies move, then robots sense, think and speak, one after the other.
+    pub fn step(&mut self, now: Instant, hear: &mut impl FnMut(usize, Topic, &[u8])) {
         self.world.step();
         self.sensors.next_step();
         self.steps += 1;
@@ -131,6 +131,7 @@ impl Crew {
             let outputs = member.robot.step(member.clock.own(now), &inputs);
             member.light = outputs.light;
             self.world.tell(index, outputs.wheels_radps);
+            member.speak(index, &mut self.payload, hear);
         }
     }
 }
@@ -152,5 +153,12 @@ impl Member {
         };
         let battery = 80 + dice.below(21) as u8;
         Self { robot: Robot::new(config), id, clock, battery, light: Rgb::BLACK, alive: true }
+    }
+
+    #[inline]
+    fn speak(&mut self, index: usize, payload: &mut Message, hear: &mut impl FnMut(usize, Topic, &[u8])) {
+        while let Some(topic) = self.robot.outgoing(payload) {
+            hear(index, topic, payload.as_bytes());
+        }
     }
 }

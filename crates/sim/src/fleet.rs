@@ -1,18 +1,21 @@
 //! Simulated robots in real time: whoever has a clock and a network drives them.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, VecDeque};
 
 use lightbots_base::{Instant, Pose, Rgb, RobotId, Vec2};
 use lightbots_show::Stage;
 use lightbots_wire::Topic;
 
 use crate::conditions::Conditions;
-use crate::crew::{Crew, Payload};
+use crate::crew::Crew;
 use crate::world::STEP;
 
 /// The most steps that are caught up on at once: half a second. What a machine too slow falls behind further is left
 /// out: bodies stand for that time while all clocks go on, so that robots are late together and do not disagree.
 const CATCH_UP_STEPS: i64 = 32;
+/// The most messages that wait to be taken, for each robot and for all together on top; more are dropped.
+const WAITING_PER_ROBOT: usize = 64;
+const WAITING: usize = 1024;
 
 /// What a fleet is made of.
 #[derive(Clone, Debug)]
@@ -47,9 +50,14 @@ pub struct Fleet {
     /// Until when the world has run.
     world_at: Instant,
     left_out: u64,
-    /// Robots that may have something to say are looked at from here on.
-    next_to_drain: usize,
-    payload: Payload,
+    waiting: Waiting,
+}
+
+/// Messages that wait to be taken.
+struct Waiting {
+    messages: VecDeque<FleetMessage>,
+    most: usize,
+    dropped: u64,
 }
 
 impl Fleet {
@@ -58,12 +66,15 @@ impl Fleet {
         let crew = Crew::new(&config.stage, &config.starts, &config.conditions, config.seed);
         let by_id = (0..crew.len()).map(|robot| (crew.id(robot), robot)).collect();
         Self {
-            next_to_drain: crew.len(),
+            waiting: Waiting {
+                messages: VecDeque::new(),
+                most: WAITING + WAITING_PER_ROBOT * crew.len(),
+                dropped: 0,
+            },
             crew,
             by_id,
             world_at: Instant::ZERO,
             left_out: 0,
-            payload: Payload::new(),
         }
     }
 
@@ -95,16 +106,15 @@ impl Fleet {
     /// Everybody's link comes up or breaks.
     pub fn link(&mut self, now: Instant, up: bool) {
         for robot in 0..self.crew.len() {
-            self.crew.link(now, robot, up);
+            self.link_of(now, robot, up);
         }
-        self.next_to_drain = 0;
     }
 
     /// One robot's link comes up or breaks, where each has a connection of its own.
     pub fn link_of(&mut self, now: Instant, robot: usize, up: bool) {
         if robot < self.crew.len() {
             self.crew.link(now, robot, up);
-            self.next_to_drain = 0;
+            self.crew.listen(robot, &mut |robot, topic, text| self.waiting.push(robot, topic, text));
         }
     }
 
@@ -119,7 +129,7 @@ impl Fleet {
         let heard = !robots.is_empty();
         for robot in robots {
             self.crew.receive(now, robot, topic, payload);
-            self.next_to_drain = self.next_to_drain.min(robot);
+            self.crew.listen(robot, &mut |robot, topic, text| self.waiting.push(robot, topic, text));
         }
         heard
     }
@@ -132,10 +142,7 @@ impl Fleet {
         self.left_out += (due - run) as u64;
         for _ in 0..run {
             self.world_at += STEP;
-            self.crew.step(self.world_at);
-        }
-        if run > 0 {
-            self.next_to_drain = 0;
+            self.crew.step(self.world_at, &mut |robot, topic, text| self.waiting.push(robot, topic, text));
         }
         run as u64
     }
@@ -147,15 +154,21 @@ impl Fleet {
 
     /// The next thing a robot says.
     pub fn next_message(&mut self) -> Option<FleetMessage> {
-        while self.next_to_drain < self.crew.len() {
-            let robot = self.next_to_drain;
-            self.payload.clear();
-            if let Some(topic) = self.crew.outgoing(robot, &mut self.payload) {
-                let payload = self.payload.as_bytes().to_vec();
-                return Some(FleetMessage { robot, topic, payload });
-            }
-            self.next_to_drain += 1;
+        self.waiting.messages.pop_front()
+    }
+
+    /// How many messages were dropped because nobody took them.
+    pub fn messages_dropped(&self) -> u64 {
+        self.waiting.dropped
+    }
+}
+
+impl Waiting {
+    fn push(&mut self, robot: usize, topic: Topic, text: &[u8]) {
+        if self.messages.len() < self.most {
+            self.messages.push_back(FleetMessage { robot, topic, payload: text.to_vec() });
+        } else {
+            self.dropped += 1;
         }
-        None
     }
 }

@@ -9,7 +9,7 @@ use lightbots_show::{Issue, Show};
 use lightbots_wire::Topic;
 
 use crate::breakdowns::{Breakdowns, Fate};
-use crate::crew::{Crew, Payload};
+use crate::crew::Crew;
 use crate::hash::StateHash;
 use crate::network::{Network, Way};
 use crate::rehearsal::{Progress, RehearsalOptions, time_limit};
@@ -39,7 +39,6 @@ pub(crate) struct Play {
     by_id: Vec<(RobotId, usize)>,
     now: Instant,
     began: bool,
-    payload: Payload,
 }
 
 impl Play {
@@ -62,7 +61,6 @@ impl Play {
             show,
             now: Instant::ZERO,
             began: false,
-            payload: Payload::new(),
         }
     }
 
@@ -95,11 +93,11 @@ impl Play {
         self.pass_time(next);
         self.now = next;
         self.strike();
-        self.crew.step(next);
+        let Self { crew, network, watch, breakdowns, .. } = self;
+        crew.step(next, &mut |robot, topic, text| {
+            heard(network, watch, breakdowns, next, (robot, topic, text))
+        });
         self.watch.contacts(next, &self.crew.world);
-        for robot in 0..self.crew.len() {
-            self.drain_robot(robot);
-        }
         if !self.began {
             self.begin();
         }
@@ -125,7 +123,10 @@ impl Play {
                 match message.way {
                     Way::ToRobot(robot) => {
                         self.crew.receive(self.now, robot, message.topic, &message.payload);
-                        self.drain_robot(robot);
+                        let Self { crew, network, watch, breakdowns, now, .. } = self;
+                        crew.listen(robot, &mut |robot, topic, text| {
+                            heard(network, watch, breakdowns, *now, (robot, topic, text));
+                        });
                     }
                     Way::ToController(robot) => {
                         self.hash.word(at.0 ^ (robot as u64) << 48);
@@ -165,20 +166,6 @@ impl Play {
                 self.crew.kill(robot);
             }
             self.watch.struck(robot, fate, self.now);
-        }
-    }
-
-    fn drain_robot(&mut self, robot: usize) {
-        loop {
-            self.payload.clear();
-            let Some(topic) = self.crew.outgoing(robot, &mut self.payload) else { return };
-            if topic == Topic::Arrival {
-                self.watch.arrived(robot, self.now);
-            }
-            if !self.breakdowns.is_mute(robot) {
-                let payload: Rc<[u8]> = self.payload.as_bytes().into();
-                self.network.send(self.now, Way::ToController(robot), topic, payload);
-            }
         }
     }
 
@@ -228,5 +215,21 @@ impl Play {
             report.issues.push(Issue::warning("seed", message));
         }
         report
+    }
+}
+
+/// A robot says something: it goes on its way to the controller, unless the robot is mute.
+fn heard(
+    network: &mut Network,
+    watch: &mut Watch,
+    breakdowns: &Breakdowns,
+    now: Instant,
+    (robot, topic, text): (usize, Topic, &[u8]),
+) {
+    if topic == Topic::Arrival {
+        watch.arrived(robot, now);
+    }
+    if !breakdowns.is_mute(robot) {
+        network.send(now, Way::ToController(robot), topic, text.into());
     }
 }
