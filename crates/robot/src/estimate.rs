@@ -10,11 +10,13 @@ use crate::bearing::Bearing;
 use crate::config::{Config, Fix};
 use crate::trail::Trail;
 
-/// Growth of the error with the way: share of it that wheels slip.
-const SLIP: f64 = 0.03;
+/// Growth of the error with the way. Wheels may slip by 3 %, but seldom both the same way.
+const SLIP: f64 = 0.02;
 /// Growth of the error of a robot that stands, for who is pushed, metres and radians a step.
 const STANDING_M: f64 = 4e-6;
 const STANDING_RAD: f64 = 2e-5;
+/// A heading known no better than this bends the reckoned way more than slip does.
+const CALM_RAD: f64 = 0.015;
 /// A fix further off than so many standard deviations, and than these floors, is an outlier.
 const GATE: f64 = 5.0;
 const GATE_FLOOR_M: f64 = 0.006;
@@ -95,7 +97,7 @@ impl Estimate {
         let moved = (before + self.facing) * (0.5 * way);
         self.at += moved;
         let (way, turned) = (way.abs(), turn.abs());
-        self.sigma_m += way * (SLIP + self.sigma_rad) + STANDING_M;
+        self.sigma_m += way * (SLIP + (self.sigma_rad - CALM_RAD).max(0.0)) + STANDING_M;
         self.sigma_rad +=
             SLIP * (turned + way * core::f64::consts::FRAC_1_SQRT_2 / self.track_m) + STANDING_RAD;
         self.trail.add(now, moved, turn);

@@ -79,7 +79,7 @@ fn a_new_target_replaces_the_old_at_once_and_a_senseless_one_stops() {
 
 #[test]
 fn on_a_route_it_is_where_the_path_says_when_it_says() {
-    for seed in 0..6 {
+    for seed in 0..8 {
         let heading = seed as f64 - 3.0;
         let mut plant = Plant::ready(START, heading, Flaws::STANDARD, seed);
         let (off, error) = worst_off(&mut plant, &straight(7, START, END), Span::ZERO);
