@@ -79,7 +79,7 @@ export function Header({ view }: { view: View }) {
       </Tooltip>
       <Tooltip label="Every robot stops at once (Shift Esc)">
         <Button
-          color="red"
+          color="red.7"
           size="sm"
           leftSection={<IconHandStop size={18} />}
           onClick={() => void ask({ do: 'stop_all' })}
