@@ -1,2 +1,67 @@
-//! (being written)
-fn main() {}
+//! The program `lightbots`: sockets, embedded broker, files and clocks around the cores. The only crate with IO.
+//!
+//! `main` reads the command line and hands over to one file a command in `commands`. `live` holds what a running
+//! fleet needs: the broker, the task that owns the controller core, the simulated robots. `web` is the screen's
+//! server. It decides nothing about shows or robots: the cores do.
+
+mod cli;
+mod commands;
+mod examples;
+mod failure;
+mod library;
+mod live;
+mod logging;
+mod numbers;
+mod open_files;
+mod plan_document;
+mod progress;
+mod run_report;
+mod say;
+mod show_file;
+mod stop;
+mod web;
+
+use clap::Parser;
+
+use crate::cli::{Cli, Command};
+use crate::failure::Failure;
+use crate::stop::Stop;
+
+fn main() {
+    let runtime = match tokio::runtime::Builder::new_multi_thread().enable_all().build() {
+        Ok(runtime) => runtime,
+        Err(error) => {
+            say::error(&format!("the system gives no threads: {error}"));
+            std::process::exit(1);
+        }
+    };
+    let code = runtime.block_on(async {
+        // First of all, so that an early Ctrl-C or TERM is never missed.
+        let stop = Stop::install();
+        run(Cli::parse(), stop).await
+    });
+    // Not by returning: that would wait for a plan still being made on another thread.
+    std::process::exit(code);
+}
+
+/// Runs one command; its exit code: 0 fine, 1 problems that were printed, 2 wrong use or unreadable input.
+async fn run(cli: Cli, stop: Stop) -> i32 {
+    logging::start(cli.log);
+    let outcome = match cli.command {
+        Command::Run(arguments) => commands::run::run(arguments, stop).await,
+        Command::Check(arguments) => stop.at_once(|| commands::check::run(&arguments)),
+        Command::Plan(arguments) => stop.at_once(|| commands::plan::run(&arguments)),
+        Command::Rehearse(arguments) => stop.at_once(|| commands::rehearse::run(&arguments)),
+        Command::Play(arguments) => commands::play::run(arguments, stop).await,
+        Command::Robots(arguments) => commands::robots::run(arguments, stop).await,
+        Command::Convert(arguments) => stop.at_once(|| commands::convert::run(&arguments)),
+    };
+    match outcome {
+        Ok(true) => 0,
+        Ok(false) => 1,
+        Err(Failure { line, code }) => {
+            say::error(&line);
+            code
+        }
+    }
+}

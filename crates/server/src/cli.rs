@@ -1,0 +1,211 @@
+//! The command line. design: scripts and CI rely on it.
+
+use std::net::SocketAddr;
+use std::path::PathBuf;
+
+use clap::{Args, Parser, Subcommand, ValueEnum};
+use lightbots_link::BrokerUrl;
+use lightbots_show::Identity;
+
+use crate::logging::Log;
+use crate::numbers::floor;
+
+/// Light shows on a floor: every robot is a pixel that drives.
+#[derive(Debug, Parser)]
+#[command(name = "lightbots", version, about, max_term_width = 100)]
+pub struct Cli {
+    /// What to do.
+    #[command(subcommand)]
+    pub command: Command,
+    /// How much is logged to stderr.
+    #[arg(long, global = true, value_enum, default_value_t = Log::Warn)]
+    pub log: Log,
+}
+
+/// The commands.
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// Start the controller, its browser app, an embedded broker and simulated robots; prints the address
+    Run(RunArguments),
+    /// Validate, plan and prove a show; nothing is simulated
+    Check(CheckArguments),
+    /// Write the timed paths of a show
+    Plan(PlanArguments),
+    /// Play a whole show in virtual time, with simulated robots, sensors and network
+    Rehearse(RehearseArguments),
+    /// Play a show once on a live fleet, without a screen; a report at the end
+    Play(PlayArguments),
+    /// Start simulated robots only, for another machine or another controller
+    Robots(RobotsArguments),
+    /// Convert between show formats, by the files' endings
+    Convert(ConvertArguments),
+}
+
+/// How a show is read.
+#[derive(Clone, Copy, Debug, Args)]
+pub struct ShowArguments {
+    /// Floor in metres for shows that do not carry a stage [default: 3x3]
+    #[arg(long, value_name = "WxH", value_parser = floor)]
+    pub floor: Option<(f64, f64)>,
+    /// Whether pixel id n is the same robot in every frame [default: as the show says, else any]
+    #[arg(long, value_enum)]
+    pub identity: Option<IdentityArgument>,
+}
+
+/// Whether robots are interchangeable.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum IdentityArgument {
+    /// Any robot may show any pixel.
+    Any,
+    /// Pixel id n is the same robot in every frame.
+    Fixed,
+}
+
+impl From<IdentityArgument> for Identity {
+    fn from(argument: IdentityArgument) -> Self {
+        match argument {
+            IdentityArgument::Any => Self::Any,
+            IdentityArgument::Fixed => Self::Fixed,
+        }
+    }
+}
+
+/// `run`
+#[derive(Debug, Args)]
+pub struct RunArguments {
+    /// The show to open; an example where none is given
+    pub show: Option<PathBuf>,
+    #[command(flatten)]
+    pub reading: ShowArguments,
+    /// How many simulated robots to start; 0: none [default: 30, or more where SHOW needs more]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(0..=20_000))]
+    pub robots: Option<u32>,
+    /// Use this broker instead of the embedded one
+    #[arg(long, value_name = "URL", value_parser = BrokerUrl::parse)]
+    pub broker: Option<BrokerUrl>,
+    /// Where the browser app is served
+    #[arg(long, value_name = "ADDR", default_value = "127.0.0.1:8420")]
+    pub listen: SocketAddr,
+    /// Where the embedded broker listens
+    #[arg(long, value_name = "ADDR", default_value = "127.0.0.1:1883")]
+    pub mqtt_listen: SocketAddr,
+    /// A user the embedded broker lets in when it listens beyond this machine; may be repeated
+    #[arg(long, value_name = "USER:PASSWORD")]
+    pub mqtt_user: Vec<String>,
+    /// Folder of the library of shows [default: lightbots in the user's data folder]
+    #[arg(long, value_name = "DIR")]
+    pub data: Option<PathBuf>,
+    /// Seed of the simulated robots, their names included [default: another one each time]
+    #[arg(long, value_name = "S")]
+    pub seed: Option<u64>,
+    /// Simulated robots without sensor noise and wheel slip
+    #[arg(long)]
+    pub ideal: bool,
+}
+
+/// `check`
+#[derive(Debug, Args)]
+pub struct CheckArguments {
+    /// The show: ours or the original's JSON
+    pub show: PathBuf,
+    #[command(flatten)]
+    pub reading: ShowArguments,
+    /// One JSON object on stdout
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// `plan`
+#[derive(Debug, Args)]
+pub struct PlanArguments {
+    /// The show: ours or the original's JSON
+    pub show: PathBuf,
+    /// Where the timed paths are written, as JSON
+    #[arg(long, value_name = "FILE")]
+    pub out: PathBuf,
+    #[command(flatten)]
+    pub reading: ShowArguments,
+    /// One JSON object on stdout
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// `rehearse`
+#[derive(Debug, Args)]
+pub struct RehearseArguments {
+    /// The show: ours or the original's JSON
+    pub show: PathBuf,
+    #[command(flatten)]
+    pub reading: ShowArguments,
+    /// Seed of all chance: the same seed gives the same run
+    #[arg(long, value_name = "S", default_value_t = 1)]
+    pub seed: u64,
+    /// Without sensor noise, wheel slip and delays
+    #[arg(long)]
+    pub ideal: bool,
+    /// Faults to add, such as loss=5%,delay=100..300ms,slip=10%
+    #[arg(long, value_name = "SPEC")]
+    pub faults: Option<String>,
+    /// Write a report for people
+    #[arg(long, value_name = "FILE.html")]
+    pub report: Option<PathBuf>,
+    /// One JSON object on stdout
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// `play`
+#[derive(Debug, Args)]
+pub struct PlayArguments {
+    /// The show: ours or the original's JSON
+    pub show: PathBuf,
+    /// The broker of the fleet: mqtt://[user:password@]host:1883
+    #[arg(long, value_name = "URL", value_parser = BrokerUrl::parse)]
+    pub broker: BrokerUrl,
+    /// Robots that must be there before it starts; with fewer than pixels, some pixels stay dark [default: as many as
+    /// pixels, or whoever is there once no more have come for ten seconds]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    pub wait: Option<u32>,
+    /// How long to wait for broker and robots at most, seconds
+    #[arg(long, value_name = "S", default_value_t = 60, value_parser = clap::value_parser!(u32).range(1..=86_400))]
+    pub patience: u32,
+    #[command(flatten)]
+    pub reading: ShowArguments,
+    /// One JSON object on stdout
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// `robots`
+#[derive(Debug, Args)]
+pub struct RobotsArguments {
+    /// How many
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=20_000))]
+    pub count: u32,
+    /// Their broker: mqtt://[user:password@]host:1883
+    #[arg(long, value_name = "URL", value_parser = BrokerUrl::parse)]
+    pub broker: BrokerUrl,
+    /// Seed of their noise and their names [default: another one each time]
+    #[arg(long, value_name = "S")]
+    pub seed: Option<u64>,
+    /// Floor in metres, whose front rows they stand in
+    #[arg(long, value_name = "WxH", value_parser = floor, default_value = "3x3")]
+    pub floor: (f64, f64),
+    /// Without sensor noise and wheel slip
+    #[arg(long)]
+    pub ideal: bool,
+    /// Faults to add, such as slip=10%,gps=5mm
+    #[arg(long, value_name = "SPEC")]
+    pub faults: Option<String>,
+}
+
+/// `convert`
+#[derive(Debug, Args)]
+pub struct ConvertArguments {
+    /// The show to read, in either format
+    #[arg(value_name = "IN")]
+    pub input: PathBuf,
+    /// The file to write: .lightbots.json is our format, any other .json the original's
+    #[arg(value_name = "OUT")]
+    pub output: PathBuf,
+}

@@ -1,0 +1,40 @@
+//! One file a command.
+
+pub mod check;
+pub mod convert;
+pub mod plan;
+pub mod play;
+pub mod rehearse;
+pub mod robots;
+pub mod run;
+
+use lightbots_api as api;
+use serde::Serialize;
+
+use crate::failure::Failure;
+use crate::say;
+
+/// One JSON object on stdout.
+pub(crate) fn print_json(value: &impl Serialize) -> Result<(), Failure> {
+    let text = serde_json::to_string(value)
+        .map_err(|error| Failure::problem(format!("the answer cannot be written as JSON: {error}")))?;
+    say::line(&text);
+    Ok(())
+}
+
+/// The issues for people, one line each.
+pub(crate) fn print_issues(issues: &[api::Issue]) {
+    for issue in issues {
+        let level = match issue.severity {
+            api::Severity::Error => "error",
+            api::Severity::Warning => "warning",
+            api::Severity::Note => "note",
+        };
+        say::line(&format!("{level}: {} [{}]", issue.message, issue.code));
+    }
+}
+
+/// `1 robot`, `2 robots`.
+fn count(number: usize, one: &str) -> String {
+    if number == 1 { format!("1 {one}") } else { format!("{number} {one}s") }
+}

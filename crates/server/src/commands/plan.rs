@@ -1,0 +1,26 @@
+//! `plan`: the timed paths, in a file.
+
+use super::check::Summary;
+use super::print_json;
+use crate::cli::PlanArguments;
+use crate::failure::{Failure, Outcome};
+use crate::{plan_document, say, show_file};
+
+pub fn run(arguments: &PlanArguments) -> Outcome {
+    let opened = show_file::open(&arguments.show, &arguments.reading)?;
+    let (_, plan) = plan_document::plan(&opened.show, &opened.issues);
+    let out = &arguments.out;
+    let cannot = |error: &dyn std::fmt::Display| {
+        Failure::input(format!("{}: cannot be written: {error}", out.display()))
+    };
+    let text = serde_json::to_string(&plan).map_err(|error| cannot(&error))?;
+    std::fs::write(out, text + "\n").map_err(|error| cannot(&error))?;
+    let summary = Summary::new(&opened.show, &plan);
+    if arguments.json {
+        print_json(&summary)?;
+    } else {
+        summary.print();
+        say::line(&format!("paths written to {}", out.display()));
+    }
+    Ok(plan.ok)
+}

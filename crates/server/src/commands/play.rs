@@ -1,0 +1,167 @@
+//! `play`: once, on a live fleet, without a screen.
+
+use std::time::{Duration, Instant};
+
+use lightbots_control::{Age, MissingPolicy, Operation, Refusal, RobotView, Snapshot};
+use lightbots_show::Show;
+use lightbots_wire::RobotState;
+use tokio::sync::broadcast;
+
+use crate::cli::PlayArguments;
+use crate::failure::{Failure, Outcome};
+use crate::live::conductor::{self, Handle, LOOK, News};
+use crate::progress::Bar;
+use crate::run_report::{RunReport, print};
+use crate::stop::Stop;
+use crate::{open_files, say, show_file};
+
+/// Without `--wait` it starts with fewer robots than pixels once no more have come for so long.
+const SETTLED: Duration = Duration::from_secs(10);
+/// Nothing at all happens for so long: something is broken that nobody noticed.
+const NOTHING: Duration = Duration::from_secs(900);
+
+pub async fn run(arguments: PlayArguments, stop: Stop) -> Outcome {
+    stop.take_over();
+    let opened = show_file::open(&arguments.show, &arguments.reading)?;
+    if opened.issues.iter().any(lightbots_show::Issue::is_error) {
+        let mut report = RunReport::new(&opened.show);
+        report.add_issues(&opened.issues);
+        print(report, arguments.json)?;
+        return Ok(false);
+    }
+    open_files::raise_limit();
+    let (handle, task) = Handle::start(stop.clone());
+    let news = handle.news();
+    handle.connect(arguments.broker.clone()).await;
+    let played = tokio::select! {
+        played = play(&arguments, &opened.show, &handle, news) => played,
+        () = stop.wait() => Err(Failure::problem("stopped before the end of the show")),
+    };
+    let mut report = match played {
+        Ok(report) => report,
+        Err(failure) => {
+            finish(&handle, &stop, task).await;
+            return Err(failure);
+        }
+    };
+    report.add_issues(&opened.issues);
+    finish(&handle, &stop, task).await;
+    let ok = report.ok();
+    print(report, arguments.json)?;
+    Ok(ok)
+}
+
+/// Leaves the broker, or waits until the conductor has.
+async fn finish(handle: &Handle, stop: &Stop, task: tokio::task::JoinHandle<()>) {
+    if stop.is_wanted() {
+        // It stops the robots and says goodbye; a broker that hangs is not waited for.
+        let _ = tokio::time::timeout(Duration::from_secs(2), task).await;
+        return;
+    }
+    handle.disconnect().await;
+    // Answered only after the connection was closed.
+    let _ = handle.look().await;
+}
+
+async fn play(
+    arguments: &PlayArguments,
+    show: &Show,
+    handle: &Handle,
+    news: broadcast::Receiver<News>,
+) -> Result<RunReport, Failure> {
+    let pixels = show_file::pixels(show);
+    let refused = |refusal: Refusal| Failure::problem(refusal.to_string());
+    let missing = gather(arguments, pixels, handle).await?;
+    let mut report = RunReport::new(show);
+    handle.operate(conductor::open(show.clone())).await.map_err(refused)?;
+    let until = Instant::now() + Duration::from_secs(arguments.patience.into());
+    loop {
+        match handle.operate(Operation::Play { from: 0, missing }).await {
+            Ok(()) => break,
+            // One that was there a moment ago may be heard again at once.
+            Err(Refusal::TooFewRobots { .. } | Refusal::NotConnected) if Instant::now() < until => {
+                tokio::time::sleep(LOOK).await;
+            }
+            Err(refusal) => return Err(refused(refusal)),
+        }
+    }
+    follow(&mut report, handle, news).await?;
+    Ok(report)
+}
+
+/// Waits until there are enough robots.
+async fn gather(arguments: &PlayArguments, pixels: usize, handle: &Handle) -> Result<MissingPolicy, Failure> {
+    let wanted = arguments.wait.map_or(pixels, |wait| wait as usize);
+    let until = Instant::now() + Duration::from_secs(arguments.patience.into());
+    let (mut most, mut changed) = (0, Instant::now());
+    let bar = Bar::new();
+    loop {
+        let snapshot = handle.look().await.ok_or_else(|| Failure::problem("stopped"))?;
+        let ready = snapshot.robots.iter().filter(|robot| is_ready(robot)).count();
+        bar.set(ready as f64 / wanted.max(1) as f64, format!("{ready} of {wanted} robots are ready"));
+        if snapshot.connected && ready >= wanted {
+            return Ok(if ready < pixels { MissingPolicy::LeaveOut } else { MissingPolicy::Refuse });
+        }
+        if ready != most {
+            (most, changed) = (ready, Instant::now());
+        }
+        let settled = arguments.wait.is_none() && ready > 0 && changed.elapsed() >= SETTLED;
+        if settled && snapshot.connected {
+            say::note(&format!("only {ready} of {pixels} robots are here: the other pixels stay dark"));
+            return Ok(MissingPolicy::LeaveOut);
+        }
+        if Instant::now() >= until {
+            return Err(nobody(arguments, &snapshot, ready, wanted));
+        }
+        tokio::time::sleep(LOOK).await;
+    }
+}
+
+/// Whether a robot can take part.
+fn is_ready(robot: &RobotView) -> bool {
+    let fit = !matches!(robot.state, Some(RobotState::Lost | RobotState::Faulty));
+    robot.age == Age::Active && robot.at.is_some() && fit
+}
+
+/// One line for a wait that ended with too few.
+fn nobody(arguments: &PlayArguments, snapshot: &Snapshot, ready: usize, wanted: usize) -> Failure {
+    let (broker, patience) = (&arguments.broker, arguments.patience);
+    if !snapshot.connected {
+        return Failure::problem(format!(
+            "no broker answers at {broker} within {patience} s: is the address right?"
+        ));
+    }
+    let lost = snapshot.robots.iter().filter(|robot| robot.at.is_none()).count();
+    let unknown = if lost > 0 { format!("; {lost} more do not know where they are") } else { String::new() };
+    if ready == 0 {
+        return Failure::problem(format!(
+            "no robot is ready on {broker} after {patience} s{unknown}: switch some on"
+        ));
+    }
+    Failure::problem(format!(
+        "{ready} of {wanted} robots are ready on {broker} after {patience} s{unknown}: --wait {ready} plays with them"
+    ))
+}
+
+/// Follows the run to its end.
+async fn follow(
+    report: &mut RunReport,
+    handle: &Handle,
+    mut news: broadcast::Receiver<News>,
+) -> Result<(), Failure> {
+    let bar = Bar::new();
+    loop {
+        let event = match tokio::time::timeout(NOTHING, news.recv()).await {
+            Ok(Ok(News::Event(event))) => event,
+            Ok(Ok(News::Link(_)) | Err(broadcast::error::RecvError::Lagged(_))) => continue,
+            Ok(Err(broadcast::error::RecvError::Closed)) => return Err(Failure::problem("stopped")),
+            Err(_) => return Err(Failure::problem("nothing has happened for 15 minutes: given up")),
+        };
+        let places = if RunReport::wants_places(&event) { handle.look().await } else { None };
+        report.add(&event, places.as_ref());
+        bar.set(report.share(), event.kind.to_string());
+        if report.is_over() {
+            return Ok(());
+        }
+    }
+}

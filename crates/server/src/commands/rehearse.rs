@@ -1,0 +1,81 @@
+//! `rehearse`: the whole show in virtual time.
+
+use std::time::Instant;
+
+use lightbots_sim::{Conditions, Faults, Progress, RehearsalOptions, RehearsalReport, rehearse};
+
+use super::{count, print_issues, print_json};
+use crate::cli::RehearseArguments;
+use crate::failure::{Failure, Outcome};
+use crate::numbers::rounded;
+use crate::progress::Bar;
+use crate::{plan_document, say, show_file};
+
+pub fn run(arguments: &RehearseArguments) -> Outcome {
+    let faults = Faults::parse(arguments.faults.as_deref().unwrap_or(""))
+        .map_err(|error| Failure::input(format!("--faults: {error}")))?;
+    let opened = show_file::open(&arguments.show, &arguments.reading)?;
+    let usual = if arguments.ideal { Conditions::ideal() } else { Conditions::default() };
+    let options = RehearsalOptions {
+        seed: arguments.seed,
+        conditions: faults.added_to(usual),
+        ..RehearsalOptions::default()
+    };
+    let began = Instant::now();
+    let mut virtual_s = 0.0_f64;
+    let mut report = {
+        let bar = Bar::new();
+        rehearse(&opened.show, &options, &mut |progress| match progress {
+            Progress::Planning => bar.set(0.0, "planning"),
+            Progress::Playing { at_s, planned_s, frames } => {
+                virtual_s = at_s;
+                bar.set(at_s / planned_s.max(1.0), format!("{} played", count(frames, "frame")));
+            }
+        })
+    };
+    let factor = virtual_s.max(report.duration_s) / began.elapsed().as_secs_f64().max(1e-9);
+    report.real_time_factor = Some(rounded(factor, 1));
+    let news = opened.issues.iter().filter(|issue| !report.issues.contains(issue));
+    report.issues = news.chain(&report.issues).cloned().collect();
+    if let Some(file) = &arguments.report {
+        let title = if opened.show.name.is_empty() { "Rehearsal" } else { &opened.show.name };
+        std::fs::write(file, report.html(title))
+            .map_err(|error| Failure::input(format!("{}: cannot be written: {error}", file.display())))?;
+    }
+    if arguments.json {
+        print_json(&report)?;
+    } else {
+        print(&report);
+    }
+    Ok(report.ok)
+}
+
+fn print(report: &RehearsalReport) {
+    print_issues(&report.issues.iter().map(plan_document::issue).collect::<Vec<_>>());
+    let closest =
+        report.closest_m.map_or(String::new(), |metres| format!(", closest {:.1} mm", metres * 1e3));
+    let contacts = report.contacts + report.wall_contacts;
+    say::line(&format!(
+        "{}: {} of {} by {} in {:.2} s (at least {:.2} s)",
+        if report.ok { "fine" } else { "this show has problems" },
+        report.frames_played,
+        count(report.frames, "frame"),
+        count(report.robots, "robot"),
+        report.duration_s,
+        report.lower_bound_s,
+    ));
+    say::line(&format!(
+        "{}{closest}; arrivals within {:.2} s, places within {:.1} mm (99 %)",
+        count(contacts as usize, "contact"),
+        report.arrival_spread_s.p99,
+        report.position_error_m.p99 * 1e3,
+    ));
+    say::line(&format!(
+        "{} messages, {} lost; seed {}, state {}, {:.0} times real time",
+        report.messages.sent,
+        report.messages.lost,
+        report.seed,
+        report.state_hash,
+        report.real_time_factor.unwrap_or_default(),
+    ));
+}

@@ -1,0 +1,128 @@
+//! `run`: controller, browser app, broker and simulated robots in one process.
+
+use std::net::SocketAddr;
+use std::sync::Arc;
+use std::time::Duration;
+
+use lightbots_link::BrokerUrl;
+use lightbots_show::Show;
+use lightbots_sim::FleetConfig;
+use tokio::task::JoinHandle;
+
+use super::{count, robots};
+use crate::cli::RunArguments;
+use crate::failure::{Failure, Outcome};
+use crate::library::{Library, name_of_file};
+use crate::live::broker::{Broker, User};
+use crate::live::conductor::Handle;
+use crate::live::crowd::Crowd;
+use crate::stop::Stop;
+use crate::web::{self, Shared};
+use crate::{open_files, say, show_file};
+
+/// The example that is opened when no show is named.
+const FIRST: &str = "countdown";
+/// Robots where the show needs no more.
+const ROBOTS: usize = 30;
+/// Robots and broker get so long to say goodbye.
+const GOODBYE: Duration = Duration::from_secs(2);
+
+/// What was started, in the order it is to be stopped.
+#[derive(Default)]
+struct Started {
+    tasks: Vec<JoinHandle<()>>,
+    broker: Option<Broker>,
+}
+
+pub async fn run(arguments: RunArguments, stop: Stop) -> Outcome {
+    stop.take_over();
+    let mut started = Started::default();
+    let outcome = tokio::select! {
+        biased;
+        () = stop.wait() => Ok(true),
+        outcome = serve(&arguments, &stop, &mut started) => outcome,
+    };
+    // Conductor and robots end by themselves once stop is wanted; after a failure there is nothing worth waiting for.
+    if stop.is_wanted() {
+        let ends = async {
+            for task in started.tasks {
+                let _ = task.await;
+            }
+        };
+        let _ = tokio::time::timeout(GOODBYE, ends).await;
+    }
+    drop(started.broker);
+    outcome
+}
+
+async fn serve(arguments: &RunArguments, stop: &Stop, started: &mut Started) -> Outcome {
+    let users = arguments.mqtt_user.iter().map(|text| User::parse(text)).collect::<Result<Vec<_>, _>>()?;
+    let library = Library::new(arguments.data.clone().unwrap_or_else(Library::default_folder));
+    let (name, show) = first_show(arguments, &library)?;
+    open_files::raise_limit();
+    let listener = web::listen(arguments.listen).await?;
+    let address = listener.local_addr().unwrap_or(arguments.listen);
+    let robots = arguments.robots.map_or(show_file::pixels(&show).max(ROBOTS), |robots| robots as usize);
+    let embedded = if arguments.broker.is_none() {
+        let broker = Broker::start(arguments.mqtt_listen, users.clone(), robots)?;
+        Some(started.broker.insert(broker).url(&users))
+    } else {
+        None
+    };
+    let Some(broker) = arguments.broker.clone().or_else(|| embedded.clone()) else { return Ok(false) };
+    let (handle, conductor) = Handle::start(stop.clone());
+    started.tasks.push(conductor);
+    let shared = Shared::new(handle.clone(), library.clone(), embedded, robots);
+    handle.connect(broker.clone()).await;
+    if robots > 0 {
+        let crowd = Crowd::start(&fleet(arguments, &show, robots), &broker, stop);
+        started.tasks.push(tokio::spawn(crowd.run(stop.clone())));
+    }
+    open(&shared, name).await;
+    greet(address, &broker, robots);
+    web::serve(listener, shared).await;
+    Ok(false)
+}
+
+/// The show to begin with, and its name in the library.
+fn first_show(arguments: &RunArguments, library: &Library) -> Result<(Option<String>, Show), Failure> {
+    if let Some(file) = &arguments.show {
+        let opened = show_file::open(file, &arguments.reading)?;
+        let name = name_of_file(file);
+        library.give(&name, &opened.show);
+        return Ok((Some(name), opened.show));
+    }
+    let example = library.get(FIRST).ok().map(|kept| (FIRST.to_owned(), kept));
+    let other = || {
+        library
+            .list()
+            .into_iter()
+            .find_map(|entry| Some((entry.name.clone(), library.get(&entry.name).ok()?)))
+    };
+    Ok(example.or_else(other).map_or((None, Show::default()), |(name, kept)| (Some(name), kept.show)))
+}
+
+fn fleet(arguments: &RunArguments, show: &Show, robots: usize) -> FleetConfig {
+    FleetConfig {
+        stage: show.stage.clone(),
+        starts: robots::starts(show, robots),
+        seed: robots::seed(arguments.seed),
+        conditions: robots::conditions(arguments.ideal),
+    }
+}
+
+async fn open(shared: &Arc<Shared>, name: Option<String>) {
+    let Some(name) = name else { return };
+    match shared.library.get(&name) {
+        Ok(kept) => shared.desk.open(name, kept).await,
+        Err(error) => tracing::error!("{}", error.line()),
+    }
+}
+
+fn greet(address: SocketAddr, broker: &BrokerUrl, robots: usize) {
+    let host = if address.ip().is_unspecified() { "127.0.0.1".into() } else { address.ip().to_string() };
+    let host = if host.contains(':') { format!("[{host}]") } else { host };
+    let fleet = if robots == 0 { "no simulated robots".into() } else { count(robots, "simulated robot") };
+    say::line(&format!("LightBots is at http://{host}:{} (Ctrl-C stops it)", address.port()));
+    say::line(&format!("Broker {broker}, {fleet}"));
+}

@@ -1,0 +1,274 @@
+//! The library: a folder of shows, and the examples that come with the program.
+
+use std::collections::BTreeMap;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex, MutexGuard};
+use std::time::UNIX_EPOCH;
+
+use lightbots_api::ShowEntry;
+use lightbots_show::{Format, Show, read, write};
+
+use crate::examples;
+use crate::show_file::pixels;
+
+const ENDING: &str = ".lightbots.json";
+/// The longest name, in characters.
+const NAME_MAX: usize = 80;
+/// The most shows that are listed and kept.
+const SHOWS_MAX: usize = 10_000;
+
+/// Shows by name. Clones share it.
+#[derive(Clone, Debug)]
+pub struct Library {
+    folder: PathBuf,
+    /// Shows that are in no folder: the examples, and the file the program was started with. Our format.
+    given: Arc<Mutex<BTreeMap<String, Vec<u8>>>>,
+    /// Held while a file is compared and replaced.
+    writing: Arc<Mutex<()>>,
+}
+
+/// A show as the library keeps it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Kept {
+    /// Its document in our format.
+    pub bytes: Vec<u8>,
+    /// The same in memory.
+    pub show: Show,
+    /// Its version, in quotes.
+    pub etag: String,
+}
+
+/// Why the library does not do as it is told.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum LibraryError {
+    /// The name cannot be one.
+    BadName(String),
+    /// There is no such show.
+    Missing(String),
+    /// Somebody else saved it first.
+    Conflict(String),
+    /// It is no show.
+    NoShow(String),
+    /// The disk does not want to.
+    Disk(String),
+}
+
+/// What must be so for a show to be replaced or deleted.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub enum Condition {
+    /// Nothing.
+    #[default]
+    Any,
+    /// It has this version.
+    Is(String),
+    /// There is none yet.
+    IsNew,
+}
+
+impl LibraryError {
+    /// One line for people.
+    pub fn line(&self) -> &str {
+        match self {
+            Self::BadName(line)
+            | Self::Missing(line)
+            | Self::Conflict(line)
+            | Self::NoShow(line)
+            | Self::Disk(line) => line,
+        }
+    }
+}
+
+impl Library {
+    /// The library in a folder; the folder is made when the first show is saved.
+    pub fn new(folder: PathBuf) -> Self {
+        let library = Self { folder, given: Arc::default(), writing: Arc::default() };
+        for (name, bytes) in examples::all() {
+            match read(bytes, Some("json")) {
+                Ok(loaded) => library.give(name, &loaded.show),
+                Err(error) => tracing::error!("the example {name} is no show: {error}"),
+            }
+        }
+        library
+    }
+
+    /// The folder the user's data belongs in on this system.
+    pub fn default_folder() -> PathBuf {
+        let set = |name: &str| std::env::var_os(name).filter(|value| !value.is_empty()).map(PathBuf::from);
+        let data = set("XDG_DATA_HOME")
+            .or_else(|| set("APPDATA"))
+            .or_else(|| set("HOME").map(|home| home.join(".local/share")));
+        data.map_or_else(|| PathBuf::from("lightbots-data"), |data| data.join("lightbots"))
+    }
+
+    /// Adds a show that is in no folder, under a name as close to `name` as it may be. It hides one of the same name.
+    pub fn give(&self, name: &str, show: &Show) {
+        lock(&self.given).insert(tidy_name(name), write(show, Format::LightBots));
+    }
+
+    /// Every show, by name.
+    pub fn list(&self) -> Vec<ShowEntry> {
+        let mut entries = BTreeMap::new();
+        for name in self.saved().into_iter().take(SHOWS_MAX) {
+            if let Ok(entry) = self.entry(&name) {
+                entries.insert(name, entry);
+            }
+        }
+        let given: Vec<String> = lock(&self.given).keys().cloned().collect();
+        for name in given {
+            if let Ok(entry) = self.entry(&name) {
+                entries.insert(name, entry);
+            }
+        }
+        entries.into_values().collect()
+    }
+
+    /// A show by its name.
+    pub fn get(&self, name: &str) -> Result<Kept, LibraryError> {
+        let name = checked(name)?;
+        let given = lock(&self.given).get(name).cloned();
+        let bytes = match given {
+            Some(bytes) => bytes,
+            None => std::fs::read(self.path(name)).map_err(|error| match error.kind() {
+                std::io::ErrorKind::NotFound => {
+                    LibraryError::Missing(format!("there is no show \"{name}\" in the library"))
+                }
+                _ => LibraryError::Disk(format!("the show \"{name}\" cannot be read: {error}")),
+            })?,
+        };
+        let show = read(&bytes, Some("json"))
+            .map_err(|error| LibraryError::NoShow(format!("\"{name}\" cannot be read: {error}")))?
+            .show;
+        Ok(Kept { etag: etag(&bytes), bytes, show })
+    }
+
+    /// Saves a show in either format; what is kept is ours.
+    pub fn put(&self, name: &str, bytes: &[u8], condition: &Condition) -> Result<ShowEntry, LibraryError> {
+        let name = checked(name)?;
+        let loaded = read(bytes, Some("json")).map_err(|error| LibraryError::NoShow(error.to_string()))?;
+        let document = write(&loaded.show, Format::LightBots);
+        let _guard = lock(&self.writing);
+        self.check(name, condition)?;
+        self.replace(name, &document).map_err(|error| {
+            LibraryError::Disk(format!("\"{name}\" cannot be saved in {}: {error}", self.folder.display()))
+        })?;
+        lock(&self.given).remove(name);
+        self.entry(name)
+    }
+
+    /// Deletes a show. Examples come back at the next start.
+    pub fn delete(&self, name: &str, condition: &Condition) -> Result<(), LibraryError> {
+        let name = checked(name)?;
+        let _guard = lock(&self.writing);
+        self.get(name)?;
+        self.check(name, condition)?;
+        let was_given = lock(&self.given).remove(name).is_some();
+        match std::fs::remove_file(self.path(name)) {
+            Err(error) if !was_given => {
+                Err(LibraryError::Disk(format!("\"{name}\" cannot be deleted: {error}")))
+            }
+            _ => Ok(()),
+        }
+    }
+
+    fn check(&self, name: &str, condition: &Condition) -> Result<(), LibraryError> {
+        let now = self.get(name).map(|kept| kept.etag);
+        let conflict = |why: &str| Err(LibraryError::Conflict(format!("\"{name}\" {why}")));
+        match (condition, now) {
+            (Condition::Any, _) | (Condition::IsNew, Err(LibraryError::Missing(_))) => Ok(()),
+            (Condition::IsNew, _) => conflict("is there already: choose another name"),
+            (Condition::Is(wanted), Ok(now)) if *wanted == now => Ok(()),
+            (Condition::Is(_), _) => {
+                conflict("was changed by somebody else: look at their version, or save under another name")
+            }
+        }
+    }
+
+    /// All or nothing: a crash leaves the old file or the new one.
+    fn replace(&self, name: &str, bytes: &[u8]) -> std::io::Result<()> {
+        std::fs::create_dir_all(&self.folder)?;
+        let draft = self.folder.join(format!(".{name}.saving"));
+        let mut file = std::fs::File::create(&draft)?;
+        file.write_all(bytes)?;
+        file.sync_all()?;
+        std::fs::rename(&draft, self.path(name))
+    }
+
+    fn entry(&self, name: &str) -> Result<ShowEntry, LibraryError> {
+        let kept = self.get(name)?;
+        let example = lock(&self.given).contains_key(name);
+        Ok(ShowEntry {
+            name: name.to_owned(),
+            title: kept.show.name.clone(),
+            frames: kept.show.frames.len(),
+            pixels: pixels(&kept.show),
+            modified_ms: if example { 0 } else { modified_ms(&self.path(name)) },
+            etag: kept.etag,
+            example,
+        })
+    }
+
+    fn saved(&self) -> Vec<String> {
+        let Ok(files) = std::fs::read_dir(&self.folder) else { return Vec::new() };
+        let name =
+            |file: std::fs::DirEntry| file.file_name().to_str()?.strip_suffix(ENDING).map(str::to_owned);
+        files.flatten().filter_map(name).filter(|name| checked(name).is_ok()).collect()
+    }
+
+    fn path(&self, name: &str) -> PathBuf {
+        self.folder.join(format!("{name}{ENDING}"))
+    }
+}
+
+/// The version of a document.
+fn etag(bytes: &[u8]) -> String {
+    let step = |hash: u64, byte: &u8| (hash ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3);
+    format!("\"{:016x}-{:x}\"", bytes.iter().fold(0xcbf2_9ce4_8422_2325, step), bytes.len())
+}
+
+fn modified_ms(path: &Path) -> u64 {
+    let modified = std::fs::metadata(path).and_then(|about| about.modified()).ok();
+    modified.and_then(|time| time.duration_since(UNIX_EPOCH).ok()).map_or(0, |since| since.as_millis() as u64)
+}
+
+fn may_hold(letter: char) -> bool {
+    letter.is_alphanumeric() || matches!(letter, ' ' | '-' | '_' | '.' | ',' | '(' | ')' | '!' | '\'' | '+')
+}
+
+/// The name, if it is one on every system.
+fn checked(name: &str) -> Result<&str, LibraryError> {
+    let fits = (1..=NAME_MAX).contains(&name.chars().count())
+        && name.len() <= 200
+        && name.chars().all(may_hold)
+        && !name.starts_with(['.', ' '])
+        && !name.ends_with(['.', ' ']);
+    if fits {
+        return Ok(name);
+    }
+    let line = format!("a show's name has 1 to {NAME_MAX} letters, digits, spaces and . , - _ ( ) ! ' +");
+    Err(LibraryError::BadName(line))
+}
+
+/// The closest name to a text that is one.
+fn tidy_name(text: &str) -> String {
+    let letters: String = text.chars().map(|letter| if may_hold(letter) { letter } else { '-' }).collect();
+    let short: String = letters.trim_matches(['.', ' ']).chars().take(40).collect();
+    let short = short.trim_end_matches(['.', ' ']);
+    if short.is_empty() { "show".into() } else { short.to_owned() }
+}
+
+/// The name a file's show gets in the library.
+pub fn name_of_file(path: &Path) -> String {
+    let name = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+    let stem = name.strip_suffix(".json").unwrap_or(&name);
+    tidy_name(stem.strip_suffix(".lightbots").unwrap_or(stem))
+}
+
+/// A panic elsewhere leaves whole values behind: each is replaced in one step.
+fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(std::sync::PoisonError::into_inner)
+}
+
+#[cfg(test)]
+#[path = "library_tests.rs"]
+mod tests;

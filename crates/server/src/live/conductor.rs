@@ -1,0 +1,257 @@
+//! The task that owns the controller core: the only place where its ways in and out meet clock and broker.
+
+use std::sync::Arc;
+use std::time::Duration;
+
+use lightbots_control::{Config, Controller, Done, Event, Operation, Refusal, Snapshot, State};
+use lightbots_link::{BrokerUrl, Link, LinkEvent};
+use tokio::sync::{broadcast, mpsc, oneshot};
+
+use super::clock::Clock;
+use super::controller_link;
+use crate::stop::Stop;
+
+/// Orders that wait at most; more make the one who gives them wait.
+const ORDERS: usize = 256;
+/// Events a slow listener may be behind before it misses some.
+const EVENTS: usize = 4096;
+/// Messages taken in before the controller's answers are sent and others get a turn.
+const BATCH: usize = 512;
+
+/// What the conductor can be told.
+enum Order {
+    Operate(Operation, oneshot::Sender<Result<(), Refusal>>),
+    Look(oneshot::Sender<Snapshot>),
+    Connect(BrokerUrl),
+    Disconnect,
+}
+
+/// What happens, for screens and reports.
+#[derive(Clone, Debug)]
+pub enum News {
+    /// The controller says so.
+    Event(Event),
+    /// The link says why it is not connected.
+    Link(LinkState),
+}
+
+/// How the link to the broker is.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct LinkState {
+    /// The broker's address without login; empty: none is wanted.
+    pub address: String,
+    /// Whether it is connected.
+    pub connected: bool,
+    /// Why not.
+    pub reason: Option<String>,
+}
+
+/// A handle to the conductor; clones share it.
+#[derive(Clone, Debug)]
+pub struct Handle {
+    orders: mpsc::Sender<Order>,
+    news: broadcast::Sender<News>,
+}
+
+impl Handle {
+    /// Starts a conductor. It ends, with its robots at rest if a run was on, once `stop` is wanted; wait for the task.
+    pub fn start(stop: Stop) -> (Self, tokio::task::JoinHandle<()>) {
+        let clock = Clock::start();
+        let (orders, inbox) = mpsc::channel(ORDERS);
+        let (news, _) = broadcast::channel(EVENTS);
+        let config = Config { seq_base: clock.seq_base(), ..Config::default() };
+        let (done_sender, done) = mpsc::channel(4);
+        let conductor = Conductor {
+            controller: Controller::new(config),
+            clock,
+            link: None,
+            state: LinkState::default(),
+            inbox,
+            news: news.clone(),
+            done,
+            done_sender,
+        };
+        let task = tokio::spawn(conductor.run(stop));
+        (Self { orders, news }, task)
+    }
+
+    /// Does something with show and fleet.
+    pub async fn operate(&self, operation: Operation) -> Result<(), Refusal> {
+        let (answer, answered) = oneshot::channel();
+        // A conductor that has ended has no broker any more.
+        let _ = self.orders.send(Order::Operate(operation, answer)).await;
+        answered.await.unwrap_or(Err(Refusal::NotConnected))
+    }
+
+    /// How everything is; `None` once the conductor has ended.
+    pub async fn look(&self) -> Option<Snapshot> {
+        let (answer, answered) = oneshot::channel();
+        self.orders.send(Order::Look(answer)).await.ok()?;
+        answered.await.ok()
+    }
+
+    /// Uses this broker from now on.
+    pub async fn connect(&self, broker: BrokerUrl) {
+        let _ = self.orders.send(Order::Connect(broker)).await;
+    }
+
+    /// Uses no broker any more.
+    pub async fn disconnect(&self) {
+        let _ = self.orders.send(Order::Disconnect).await;
+    }
+
+    /// What happens from now on.
+    pub fn news(&self) -> broadcast::Receiver<News> {
+        self.news.subscribe()
+    }
+}
+
+struct Conductor {
+    controller: Controller,
+    clock: Clock,
+    link: Option<Link>,
+    state: LinkState,
+    inbox: mpsc::Receiver<Order>,
+    news: broadcast::Sender<News>,
+    done: mpsc::Receiver<Done>,
+    done_sender: mpsc::Sender<Done>,
+}
+
+impl Conductor {
+    async fn run(mut self, stop: Stop) {
+        loop {
+            let alarm = self.controller.wake_at().map(|at| self.clock.deadline(at));
+            tokio::select! {
+                () = stop.wait() => break,
+                Some(event) = next_of(&mut self.link) => self.take(event),
+                Some(order) = self.inbox.recv() => self.obey(order).await,
+                Some(done) = self.done.recv() => self.controller.planned(self.clock.now(), done),
+                () = sleep_until(alarm) => self.controller.wake(self.clock.now()),
+            }
+            self.drain();
+        }
+        self.end().await;
+    }
+
+    /// Takes in one event and those right behind it.
+    fn take(&mut self, first: LinkEvent) {
+        self.hear(first);
+        for _ in 1..BATCH {
+            let Some(event) = self.link.as_mut().and_then(Link::try_next) else { break };
+            self.hear(event);
+        }
+    }
+
+    fn hear(&mut self, event: LinkEvent) {
+        let now = self.clock.now();
+        match event {
+            LinkEvent::Connected => {
+                self.controller.connected(now);
+                self.tell_link(true, None);
+            }
+            LinkEvent::Disconnected { reason } => {
+                if self.state.connected {
+                    self.controller.disconnected(now);
+                }
+                self.tell_link(false, Some(reason));
+            }
+            LinkEvent::Message { topic, payload } => self.controller.message(now, &topic, &payload),
+        }
+    }
+
+    async fn obey(&mut self, order: Order) {
+        match order {
+            Order::Operate(operation, answer) => {
+                let outcome = self.controller.operate(self.clock.now(), operation);
+                // Whoever asked may have gone.
+                let _ = answer.send(outcome);
+            }
+            Order::Look(answer) => {
+                let _ = answer.send(self.controller.snapshot(self.clock.now()));
+            }
+            Order::Connect(broker) => {
+                self.leave().await;
+                self.state.address = broker.to_string();
+                self.link = Some(Link::open(controller_link(broker)));
+                self.tell_link(false, Some("connecting".into()));
+            }
+            Order::Disconnect => {
+                self.leave().await;
+                self.state.address.clear();
+                self.tell_link(false, None);
+            }
+        }
+    }
+
+    /// Hands on what the controller has to say.
+    fn drain(&mut self) {
+        if let Some(sender) = self.link.as_ref().map(Link::sender) {
+            while let Some(send) = self.controller.next_send() {
+                sender.send(&send.topic.write(), send.payload);
+            }
+        } else {
+            while self.controller.next_send().is_some() {}
+        }
+        while let Some(event) = self.controller.next_event() {
+            tracing::info!("{}", event.kind);
+            // Nobody listening is no error.
+            let _ = self.news.send(News::Event(event));
+        }
+        while let Some(job) = self.controller.next_job() {
+            let answer = self.done_sender.clone();
+            tokio::task::spawn_blocking(move || {
+                // A conductor that has ended needs no plan.
+                let _ = answer.blocking_send(job.run());
+            });
+        }
+    }
+
+    fn tell_link(&mut self, connected: bool, reason: Option<String>) {
+        self.state = LinkState { address: std::mem::take(&mut self.state.address), connected, reason };
+        let _ = self.news.send(News::Link(self.state.clone()));
+    }
+
+    async fn leave(&mut self) {
+        let Some(link) = self.link.take() else { return };
+        if self.state.connected {
+            self.controller.disconnected(self.clock.now());
+            self.state.connected = false;
+        }
+        link.close().await;
+    }
+
+    /// No robot is left driving by a controller that goes.
+    async fn end(&mut self) {
+        let state = self.controller.snapshot(self.clock.now()).state;
+        if !matches!(state, State::Idle | State::Ready) {
+            let stopped = self.controller.operate(self.clock.now(), Operation::StopAll);
+            if let Err(refusal) = stopped {
+                tracing::warn!("the robots could not be stopped: {refusal}");
+            }
+            self.drain();
+        }
+        self.leave().await;
+    }
+}
+
+async fn next_of(link: &mut Option<Link>) -> Option<LinkEvent> {
+    match link {
+        Some(link) => link.next().await,
+        None => std::future::pending().await,
+    }
+}
+
+async fn sleep_until(alarm: Option<tokio::time::Instant>) {
+    match alarm {
+        Some(alarm) => tokio::time::sleep_until(alarm).await,
+        None => std::future::pending().await,
+    }
+}
+
+/// A show as the controller takes it.
+pub fn open(show: lightbots_show::Show) -> Operation {
+    Operation::Open(Arc::new(show))
+}
+
+/// How often somebody who waits looks again.
+pub const LOOK: Duration = Duration::from_millis(50);

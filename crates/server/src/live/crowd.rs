@@ -1,0 +1,132 @@
+//! Simulated robots on a real broker, in real time.
+
+use lightbots_base::{Instant, RobotId};
+use lightbots_link::{BrokerUrl, Link, LinkConfig, LinkEvent, Sender, robot_client_id};
+use lightbots_sim::{Fleet, FleetConfig};
+use tokio::sync::mpsc;
+
+use crate::stop::Stop;
+
+/// Robots that share a connection.
+const ROBOTS_A_LINK: usize = 50;
+/// Messages taken in before the robots get their next step.
+const BATCH: usize = 4096;
+
+/// Something on one of the connections.
+type Heard = (usize, LinkEvent);
+
+/// A fleet with its connections.
+pub struct Crowd {
+    fleet: Fleet,
+    began: std::time::Instant,
+    robots: usize,
+    senders: Vec<Sender>,
+    heard: mpsc::Receiver<Heard>,
+    tasks: Vec<tokio::task::JoinHandle<()>>,
+}
+
+impl Crowd {
+    /// Robots that begin to connect to `broker`, and go on until `stop` is wanted.
+    pub fn start(config: &FleetConfig, broker: &BrokerUrl, stop: &Stop) -> Self {
+        let fleet = Fleet::new(config);
+        let ids = fleet.ids();
+        let (news, heard) = mpsc::channel(65_536);
+        let (mut senders, mut tasks) = (Vec::new(), Vec::new());
+        for (index, group) in ids.chunks(ROBOTS_A_LINK).enumerate() {
+            let link = Link::open(link_config(index, group, broker));
+            senders.push(link.sender());
+            tasks.push(tokio::spawn(forward(link, index, news.clone(), stop.clone())));
+        }
+        Self { robots: ids.len(), fleet, began: std::time::Instant::now(), senders, heard, tasks }
+    }
+
+    /// Its connections.
+    pub fn connections(&self) -> Connections {
+        Connections(self.senders.clone())
+    }
+
+    /// Drives the robots until `stop` is wanted; then they leave the broker.
+    pub async fn run(mut self, stop: Stop) {
+        let mut heard = Vec::new();
+        loop {
+            let alarm = self.began + std::time::Duration::from_micros(self.fleet.advance_at().0);
+            tokio::select! {
+                () = stop.wait() => break,
+                _ = self.heard.recv_many(&mut heard, BATCH) => {
+                    for (group, event) in heard.drain(..) {
+                        self.hear(group, event);
+                    }
+                }
+                () = tokio::time::sleep_until(alarm.into()) => {}
+            }
+            let now = self.now();
+            self.fleet.advance(now);
+            self.speak();
+        }
+        for task in self.tasks {
+            // A connection that failed has ended as well.
+            let _ = task.await;
+        }
+    }
+
+    fn now(&self) -> Instant {
+        Instant(self.began.elapsed().as_micros() as u64)
+    }
+
+    fn hear(&mut self, group: usize, event: LinkEvent) {
+        let now = self.now();
+        let up = match event {
+            LinkEvent::Message { topic, payload } => {
+                self.fleet.receive(now, &topic, &payload);
+                return;
+            }
+            LinkEvent::Connected => true,
+            LinkEvent::Disconnected { .. } => false,
+        };
+        let first = group * ROBOTS_A_LINK;
+        for robot in first..(first + ROBOTS_A_LINK).min(self.robots) {
+            self.fleet.link_of(now, robot, up);
+        }
+    }
+
+    fn speak(&mut self) {
+        while let Some(message) = self.fleet.next_message() {
+            self.senders[message.robot / ROBOTS_A_LINK].send(&message.topic.write(), message.payload);
+        }
+    }
+}
+
+/// The connections of a crowd.
+pub struct Connections(Vec<Sender>);
+
+impl Connections {
+    /// Whether all of them stand.
+    pub fn all(&self) -> bool {
+        self.0.iter().all(Sender::is_connected)
+    }
+}
+
+/// One connection for a group of robots. The first one hears broadcasts for everybody.
+fn link_config(index: usize, group: &[RobotId], broker: &BrokerUrl) -> LinkConfig {
+    let mut filters: Vec<String> = group.iter().map(|id| format!("T/LightBot/{id}")).collect();
+    if index == 0 {
+        filters.push("T/LightBot/Broadcast".into());
+    }
+    let client_id = group.first().map(robot_client_id).unwrap_or_default();
+    LinkConfig { broker: broker.clone(), client_id, filters, queue: 65_536 }
+}
+
+/// Hands on what happens on a link, and closes it in the end.
+async fn forward(mut link: Link, index: usize, news: mpsc::Sender<Heard>, stop: Stop) {
+    loop {
+        let event = tokio::select! {
+            () = stop.wait() => break,
+            event = link.next() => event,
+        };
+        let Some(event) = event else { break };
+        if news.send((index, event)).await.is_err() {
+            break;
+        }
+    }
+    link.close().await;
+}

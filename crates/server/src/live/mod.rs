@@ -1,0 +1,14 @@
+//! What a running fleet needs: a broker, the task that owns the controller core, simulated robots.
+
+pub mod broker;
+pub mod clock;
+pub mod conductor;
+pub mod crowd;
+
+use lightbots_link::{BrokerUrl, LinkConfig, controller_client_id};
+
+/// The link of a controller: everything robots say.
+pub fn controller_link(broker: BrokerUrl) -> LinkConfig {
+    let filters = ["UUID", "Arrival", "Status", "Time"].map(|name| format!("T/LightBot/{name}"));
+    LinkConfig { broker, client_id: controller_client_id(), filters: filters.into(), queue: 65_536 }
+}

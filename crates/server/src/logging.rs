@@ -1,0 +1,36 @@
+//! Log lines on stderr.
+
+use clap::ValueEnum;
+use tracing_subscriber::filter::{LevelFilter, Targets};
+use tracing_subscriber::layer::SubscriberExt;
+use tracing_subscriber::util::SubscriberInitExt;
+
+/// How much is logged.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Log {
+    /// Nothing.
+    Off,
+    /// What failed.
+    Error,
+    /// What is not as it should be.
+    Warn,
+    /// What happens.
+    Info,
+    /// Everything, for those who look for a mistake.
+    Debug,
+}
+
+/// Starts logging to stderr. The broker's own lines count one level less: it calls ordinary departures news.
+pub fn start(log: Log) {
+    let (ours, broker) = match log {
+        Log::Off => (LevelFilter::OFF, LevelFilter::OFF),
+        Log::Error => (LevelFilter::ERROR, LevelFilter::OFF),
+        Log::Warn => (LevelFilter::WARN, LevelFilter::OFF),
+        Log::Info => (LevelFilter::INFO, LevelFilter::WARN),
+        Log::Debug => (LevelFilter::DEBUG, LevelFilter::INFO),
+    };
+    let targets = Targets::new().with_default(broker).with_target("lightbots", ours);
+    let lines = tracing_subscriber::fmt::layer().with_writer(std::io::stderr).with_target(false);
+    // A second start in one process keeps the first, which is as good.
+    let _ = tracing_subscriber::registry().with(targets).with(lines).try_init();
+}

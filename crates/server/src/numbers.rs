@@ -1,0 +1,67 @@
+//! Numbers of people and for people.
+
+/// Reads `WxH` in metres, such as `3x3` or `4.5x2`.
+pub fn floor(text: &str) -> Result<(f64, f64), String> {
+    let wrong = || "a floor is WIDTHxDEPTH in metres, each from 0.1 to 1000, such as 3x3".to_owned();
+    let (width, depth) = text.split_once(['x', 'X', '×']).ok_or_else(wrong)?;
+    let read = |text: &str| text.trim().parse::<f64>().ok().filter(|metres| (0.1..=1000.0).contains(metres));
+    read(width).zip(read(depth)).ok_or_else(wrong)
+}
+
+/// Median, 99th percentile and maximum of a set of values; zeros where it is empty.
+#[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize)]
+pub struct Spread {
+    /// Half are at most this.
+    pub median: f64,
+    /// 99 in 100 are at most this.
+    pub p99: f64,
+    /// None is more.
+    pub max: f64,
+}
+
+impl Spread {
+    /// Of these values.
+    pub fn of(mut values: Vec<f64>) -> Self {
+        values.sort_by(f64::total_cmp);
+        let at = |share: f64| {
+            let index = (values.len() as f64 * share).ceil() as usize;
+            values.get(index.saturating_sub(1)).copied().unwrap_or(0.0)
+        };
+        Self { median: at(0.5), p99: at(0.99), max: at(1.0) }
+    }
+}
+
+/// A number rounded to `decimals`, so that JSON stays readable.
+pub fn rounded(value: f64, decimals: i32) -> f64 {
+    let factor = 10_f64.powi(decimals);
+    let rounded = (value * factor).round() / factor + 0.0;
+    if rounded.is_finite() { rounded } else { value }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn floors_are_read_and_nonsense_is_not() {
+        assert_eq!(floor("3x3"), Ok((3.0, 3.0)));
+        assert_eq!(floor("4.5X2"), Ok((4.5, 2.0)));
+        for text in ["", "3", "3x", "x3", "0x1", "-1x3", "NaNx3", "infx2", "3x3x3", "1e9x3"] {
+            assert!(floor(text).is_err(), "{text}");
+        }
+    }
+
+    #[test]
+    fn percentiles_are_values_of_the_set() {
+        let spread = Spread::of((1..=200).map(f64::from).collect());
+        assert_eq!(spread, Spread { median: 100.0, p99: 198.0, max: 200.0 });
+        assert_eq!(Spread::of(vec![]), Spread::default());
+        assert_eq!(Spread::of(vec![7.0]), Spread { median: 7.0, p99: 7.0, max: 7.0 });
+    }
+
+    #[test]
+    fn rounding_keeps_what_is_no_number() {
+        assert_eq!(rounded(1.23456, 3), 1.235);
+        assert!(rounded(f64::NAN, 3).is_nan());
+    }
+}

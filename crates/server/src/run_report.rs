@@ -1,0 +1,193 @@
+//! What a run on live robots was like.
+
+use lightbots_base::Instant;
+use lightbots_control::{Event, EventKind, Outcome, Snapshot};
+use lightbots_show::{Issue, Issues, Show};
+use serde::Serialize;
+
+use crate::failure::Failure;
+use crate::numbers::{Spread, rounded};
+use crate::{commands, plan_document, say};
+
+/// The most issues of a run that are kept.
+const ISSUES_MAX: usize = 500;
+
+/// A run, from its events.
+#[derive(Clone, Debug, Default)]
+pub struct RunReport {
+    frames: usize,
+    robots: usize,
+    began: Option<Instant>,
+    duration_s: f64,
+    frames_played: usize,
+    spreads_s: Vec<f64>,
+    errors_m: Vec<f64>,
+    dropouts: usize,
+    rejoined: usize,
+    outcome: Option<Outcome>,
+    issues: Issues,
+}
+
+/// The JSON of `play`.
+#[derive(Debug, Serialize)]
+struct Summary<'a> {
+    ok: bool,
+    robots: usize,
+    frames: usize,
+    frames_played: usize,
+    duration_s: f64,
+    arrival_spread_s: Spread,
+    position_error_m: Spread,
+    dropouts: usize,
+    issues: &'a Issues,
+}
+
+impl RunReport {
+    /// Of a run of this show that has not begun.
+    pub fn new(show: &Show) -> Self {
+        Self { frames: show.frames.len(), ..Self::default() }
+    }
+
+    /// Whether the places of robots belong to what happened.
+    pub fn wants_places(event: &Event) -> bool {
+        matches!(event.kind, EventKind::FrameReached { .. })
+    }
+
+    /// Takes in what happened; `places` where [`Self::wants_places`].
+    pub fn add(&mut self, event: &Event, places: Option<&Snapshot>) {
+        match &event.kind {
+            EventKind::RunBegun { robots, .. } => self.robots = *robots,
+            EventKind::TransitionStarted { starts, .. } => {
+                self.began.get_or_insert(*starts);
+            }
+            EventKind::FrameReached { spread, .. } => {
+                self.spreads_s.push(spread.as_secs());
+                self.frames_played += 1;
+                let robots = places.iter().flat_map(|snapshot| &snapshot.robots);
+                let taking_part = robots.filter(|robot| robot.takes_part && robot.pixel.is_some());
+                let error = |(at, goal): (lightbots_base::Vec2, _)| at.distance(goal);
+                self.errors_m.extend(taking_part.filter_map(|robot| robot.at.zip(robot.goal)).map(error));
+            }
+            EventKind::Dropout { .. } => self.dropouts += 1,
+            EventKind::Rejoined(_) => self.rejoined += 1,
+            EventKind::RunEnded { outcome, frames_played, dropouts } => {
+                self.outcome = Some(outcome.clone());
+                self.frames_played = *frames_played;
+                self.dropouts = *dropouts;
+                self.duration_s = self.began.map_or(0.0, |began| (event.at - began).as_secs());
+            }
+            _ => {}
+        }
+        if let (Some(issue), true) = (issue(&event.kind), self.issues.len() < ISSUES_MAX) {
+            self.issues.push(issue);
+        }
+    }
+
+    /// Puts what was known before the run in front.
+    pub fn add_issues(&mut self, issues: &Issues) {
+        self.issues.splice(0..0, issues.iter().cloned());
+    }
+
+    /// Whether the run is over.
+    pub fn is_over(&self) -> bool {
+        self.outcome.is_some()
+    }
+
+    /// Whether the whole show was played, and nobody was lost for good.
+    pub fn ok(&self) -> bool {
+        self.outcome == Some(Outcome::Finished)
+            && self.frames_played >= self.frames
+            && self.dropouts <= self.rejoined
+    }
+
+    /// How much was played, 0 to 1.
+    pub fn share(&self) -> f64 {
+        self.frames_played as f64 / self.frames.max(1) as f64
+    }
+}
+
+/// What of a run belongs in its report, as an issue.
+fn issue(kind: &EventKind) -> Option<Issue> {
+    let (code, frame) = match kind {
+        EventKind::Disconnected => ("broker-lost", None),
+        EventKind::PlanFailed { frame, .. } => ("no-plan", Some(*frame)),
+        EventKind::LeftOut { frame, .. } => ("left-out", Some(*frame)),
+        EventKind::Dropout { .. } => ("dropout", None),
+        EventKind::Misaligned { .. } => ("misaligned", None),
+        EventKind::RunEnded { outcome: Outcome::Failed(_), .. } => ("run-failed", None),
+        EventKind::RunEnded { outcome: Outcome::Aborted, .. } => ("aborted", None),
+        _ => return None,
+    };
+    let issue = Issue { severity: kind.severity(), ..Issue::error(code, kind.to_string()) };
+    Some(frame.map_or(issue.clone(), |frame| issue.in_frame(frame)))
+}
+
+/// The report on stdout.
+pub fn print(report: RunReport, json: bool) -> Result<(), Failure> {
+    let spread = |values: Vec<f64>| {
+        let Spread { median, p99, max } = Spread::of(values);
+        Spread { median: rounded(median, 4), p99: rounded(p99, 4), max: rounded(max, 4) }
+    };
+    let summary = Summary {
+        ok: report.ok(),
+        robots: report.robots,
+        frames: report.frames,
+        frames_played: report.frames_played,
+        duration_s: rounded(report.duration_s, 3),
+        arrival_spread_s: spread(report.spreads_s),
+        position_error_m: spread(report.errors_m),
+        dropouts: report.dropouts,
+        issues: &report.issues,
+    };
+    if json {
+        return commands::print_json(&summary);
+    }
+    commands::print_issues(&summary.issues.iter().map(plan_document::issue).collect::<Vec<_>>());
+    say::line(&format!(
+        "{}: {} of {} frames by {} robots in {:.2} s; arrivals within {:.2} s, places within {:.1} mm (99 %); {} lost",
+        if summary.ok { "fine" } else { "not played as it should be" },
+        summary.frames_played,
+        summary.frames,
+        summary.robots,
+        summary.duration_s,
+        summary.arrival_spread_s.p99,
+        summary.position_error_m.p99 * 1e3,
+        summary.dropouts
+    ));
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use lightbots_base::Span;
+
+    fn event(at_ms: u64, kind: EventKind) -> Event {
+        Event { at: Instant(at_ms * 1000), kind }
+    }
+
+    #[test]
+    fn a_whole_run_is_fine() {
+        let mut report = RunReport { frames: 1, ..RunReport::default() };
+        let starts = Instant(1_000_000);
+        report.add(&event(900, EventKind::RunBegun { from: 0, robots: 3 }), None);
+        let duration = Span::from_millis(2000);
+        report.add(&event(950, EventKind::TransitionStarted { frame: 0, starts, duration }), None);
+        let reached = EventKind::FrameReached { frame: 0, spread: Span::from_millis(80), wait: Span::ZERO };
+        report.add(&event(3000, reached), None);
+        assert!(!report.is_over() && !report.ok());
+        let ended = EventKind::RunEnded { outcome: Outcome::Finished, frames_played: 1, dropouts: 0 };
+        report.add(&event(4000, ended), None);
+        assert!(report.is_over() && report.ok());
+        assert_eq!((report.robots, report.duration_s, report.spreads_s.as_slice()), (3, 3.0, &[0.08][..]));
+    }
+
+    #[test]
+    fn an_aborted_run_is_not_fine() {
+        let mut report = RunReport { frames: 2, ..RunReport::default() };
+        let ended = EventKind::RunEnded { outcome: Outcome::Aborted, frames_played: 1, dropouts: 0 };
+        report.add(&event(1, ended), None);
+        assert!(report.is_over() && !report.ok());
+        assert_eq!(report.issues[0].code, "aborted");
+    }
+}

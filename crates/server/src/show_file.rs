@@ -1,0 +1,69 @@
+//! Shows from files.
+
+use std::path::Path;
+
+use lightbots_show::{Identity, Issues, Loaded, MAX_BYTES, Show, read, validate, with_floor};
+
+use crate::cli::ShowArguments;
+use crate::failure::Failure;
+
+/// A show as a command uses it.
+#[derive(Clone, Debug)]
+pub struct Opened {
+    /// The show, with the floor and the identity the user asked for.
+    pub show: Show,
+    /// What reading and validating it found.
+    pub issues: Issues,
+}
+
+/// Reads a show file. The failure is one line with the file's name, exit code 2.
+pub fn open(path: &Path, arguments: &ShowArguments) -> Result<Opened, Failure> {
+    let bytes = bytes(path)?;
+    interpret(&bytes, path, arguments)
+}
+
+/// The bytes of a file that is not too long to be a show.
+pub fn bytes(path: &Path) -> Result<Vec<u8>, Failure> {
+    let unreadable = |what: String| Failure::input(format!("{}: {what}", path.display()));
+    let about = std::fs::metadata(path).map_err(|error| unreadable(format!("cannot be read: {error}")))?;
+    if about.is_dir() {
+        return Err(unreadable("this is a folder; name a show file in it".into()));
+    }
+    if about.len() > MAX_BYTES as u64 {
+        let size = about.len() as f64 / 1e6;
+        let limit = MAX_BYTES as f64 / 1e6;
+        return Err(unreadable(format!(
+            "the file has {size:.0} MB, a show at most {limit:.0} MB: is it a show?"
+        )));
+    }
+    std::fs::read(path).map_err(|error| unreadable(format!("cannot be read: {error}")))
+}
+
+/// The show in a file's bytes.
+pub fn interpret(bytes: &[u8], path: &Path, arguments: &ShowArguments) -> Result<Opened, Failure> {
+    let ending = path.extension().and_then(|ending| ending.to_str());
+    let loaded =
+        read(bytes, ending).map_err(|error| Failure::input(format!("{}: {error}", path.display())))?;
+    Ok(prepare(loaded, arguments))
+}
+
+fn prepare(loaded: Loaded, arguments: &ShowArguments) -> Opened {
+    let Loaded { mut show, has_stage, mut issues, .. } = loaded;
+    if let (Some((width_m, depth_m)), false) = (arguments.floor, has_stage) {
+        show = with_floor(show, width_m, depth_m);
+    }
+    if let Some(identity) = arguments.identity {
+        let identity = Identity::from(identity);
+        show.identity = identity;
+        for frame in &mut show.frames {
+            frame.identity = None;
+        }
+    }
+    issues.extend(validate(&show));
+    Opened { show, issues }
+}
+
+/// How many robots a show needs.
+pub fn pixels(show: &Show) -> usize {
+    show.frames.iter().map(|frame| frame.pixels.len()).max().unwrap_or(0)
+}

@@ -1,0 +1,115 @@
+//! Ctrl-C and TERM: installed before anything else, so that there is no moment in which they kill.
+
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU8, Ordering};
+
+use tokio::sync::watch;
+
+/// Nothing runs that would have to be stopped.
+const STARTING: u8 = 0;
+/// A command without robots computes.
+const COMPUTING: u8 = 1;
+/// A command listens to [`Stop::wait`].
+const RUNNING: u8 = 2;
+
+/// Whether the user wants the program to stop. A second signal ends it at once.
+#[derive(Clone, Debug)]
+pub struct Stop {
+    wanted: watch::Receiver<bool>,
+    phase: Arc<AtomicU8>,
+}
+
+impl Stop {
+    /// Installs the handlers. Must be called in the runtime.
+    pub fn install() -> Self {
+        let (sender, wanted) = watch::channel(false);
+        let phase = Arc::new(AtomicU8::new(STARTING));
+        let signals = Signals::install();
+        tokio::spawn(listen(signals, sender, phase.clone()));
+        Self { wanted, phase }
+    }
+
+    /// Runs what only computes; a signal ends the program at once.
+    pub fn at_once<T>(&self, compute: impl FnOnce() -> T) -> T {
+        self.phase.store(COMPUTING, Ordering::Release);
+        tokio::task::block_in_place(compute)
+    }
+
+    /// From now on a signal does not end the program, but [`Stop::wait`].
+    pub fn take_over(&self) {
+        self.phase.store(RUNNING, Ordering::Release);
+    }
+
+    /// Returns once the user wants to stop.
+    pub async fn wait(&self) {
+        let mut wanted = self.wanted.clone();
+        // The sender lives as long as the program.
+        let _ = wanted.wait_for(|wanted| *wanted).await;
+    }
+
+    /// Whether the user wants to stop.
+    pub fn is_wanted(&self) -> bool {
+        *self.wanted.borrow()
+    }
+}
+
+async fn listen(mut signals: Signals, sender: watch::Sender<bool>, phase: Arc<AtomicU8>) {
+    loop {
+        signals.next().await;
+        match phase.load(Ordering::Acquire) {
+            STARTING => std::process::exit(0),
+            COMPUTING => std::process::exit(130),
+            _ if *sender.borrow() => std::process::exit(130),
+            _ => sender.send_replace(true),
+        };
+    }
+}
+
+#[cfg(unix)]
+struct Signals {
+    interrupt: Option<tokio::signal::unix::Signal>,
+    terminate: Option<tokio::signal::unix::Signal>,
+}
+
+#[cfg(unix)]
+impl Signals {
+    fn install() -> Self {
+        use tokio::signal::unix::{SignalKind, signal};
+        Self {
+            interrupt: signal(SignalKind::interrupt()).ok(),
+            terminate: signal(SignalKind::terminate()).ok(),
+        }
+    }
+
+    async fn next(&mut self) {
+        async fn of(signal: &mut Option<tokio::signal::unix::Signal>) {
+            let came = match signal {
+                Some(signal) => signal.recv().await.is_some(),
+                None => false,
+            };
+            if !came {
+                std::future::pending().await
+            }
+        }
+        tokio::select! {
+            () = of(&mut self.interrupt) => {}
+            () = of(&mut self.terminate) => {}
+        }
+    }
+}
+
+#[cfg(not(unix))]
+struct Signals;
+
+#[cfg(not(unix))]
+impl Signals {
+    fn install() -> Self {
+        Self
+    }
+
+    async fn next(&mut self) {
+        if tokio::signal::ctrl_c().await.is_err() {
+            std::future::pending::<()>().await;
+        }
+    }
+}

@@ -1,0 +1,177 @@
+//! The library and the planner over HTTP.
+
+use std::sync::Arc;
+
+use axum::Json;
+use axum::body::Bytes;
+use axum::extract::rejection::BytesRejection;
+use axum::extract::{Path, Query, State};
+use axum::http::{HeaderMap, StatusCode, header};
+use axum::response::{IntoResponse, Response};
+use lightbots_api::{Plan, Problem, ShowEntry};
+use lightbots_show::{Format, read, validate, write};
+
+use super::Shared;
+use crate::library::{Condition, LibraryError};
+use crate::plan_document;
+
+/// An answer, or why there is none.
+type Answer<T> = Result<T, Refused>;
+
+/// The largest body that is read, bytes: ten thousand pixels in a hundred frames.
+pub const BODY_MAX: usize = 64 << 20;
+
+/// A problem, with one line for people.
+#[derive(Debug)]
+pub struct Refused(StatusCode, String);
+
+impl IntoResponse for Refused {
+    fn into_response(self) -> Response {
+        (self.0, Json(Problem { error: self.1 })).into_response()
+    }
+}
+
+/// A problem as every answer states it.
+pub fn refuse(status: StatusCode, line: &str) -> Refused {
+    Refused(status, line.to_owned())
+}
+
+/// Runs what takes the disk or the processor for a while beside the connections.
+async fn beside<T: Send + 'static>(work: impl FnOnce() -> T + Send + 'static) -> Answer<T> {
+    let done = tokio::task::spawn_blocking(work).await;
+    done.map_err(|error| {
+        refuse(StatusCode::INTERNAL_SERVER_ERROR, &format!("the server failed at this: {error}"))
+    })
+}
+
+fn library_problem(error: LibraryError) -> Refused {
+    let status = match error {
+        LibraryError::BadName(_) => StatusCode::BAD_REQUEST,
+        LibraryError::Missing(_) => StatusCode::NOT_FOUND,
+        LibraryError::Conflict(_) => StatusCode::PRECONDITION_FAILED,
+        LibraryError::NoShow(_) => StatusCode::UNPROCESSABLE_ENTITY,
+        LibraryError::Disk(_) => StatusCode::INTERNAL_SERVER_ERROR,
+    };
+    refuse(status, error.line())
+}
+
+fn body(body: Result<Bytes, BytesRejection>) -> Answer<Bytes> {
+    body.map_err(|rejection| match rejection.status() {
+        StatusCode::PAYLOAD_TOO_LARGE => {
+            let line = format!("this is too long for a show: it may have {} MB", BODY_MAX / 1_000_000);
+            refuse(StatusCode::PAYLOAD_TOO_LARGE, &line)
+        }
+        status => refuse(status, &rejection.body_text()),
+    })
+}
+
+fn condition(headers: &HeaderMap) -> Answer<Condition> {
+    let text = |name| headers.get(name).map(|value| value.to_str().unwrap_or("").trim().to_owned());
+    match (text(header::IF_MATCH), text(header::IF_NONE_MATCH)) {
+        (Some(tag), _) if tag != "*" => Ok(Condition::Is(tag.trim_start_matches("W/").to_owned())),
+        (_, Some(star)) if star == "*" => Ok(Condition::IsNew),
+        (_, Some(_)) => Err(refuse(StatusCode::BAD_REQUEST, "If-None-Match is only understood with *")),
+        _ => Ok(Condition::Any),
+    }
+}
+
+/// `GET /api/shows`
+pub async fn list(State(shared): State<Arc<Shared>>) -> Answer<Json<Vec<ShowEntry>>> {
+    let library = shared.library.clone();
+    beside(move || library.list()).await.map(Json)
+}
+
+/// `GET /api/shows/{name}`
+pub async fn get(State(shared): State<Arc<Shared>>, Path(name): Path<String>) -> Answer<Response> {
+    let library = shared.library.clone();
+    let kept = beside(move || library.get(&name)).await?.map_err(library_problem)?;
+    let about = [
+        (header::CONTENT_TYPE, "application/json"),
+        (header::ETAG, &kept.etag),
+        (header::CACHE_CONTROL, "no-cache"),
+    ];
+    Ok((about, kept.bytes).into_response())
+}
+
+/// `PUT /api/shows/{name}`
+pub async fn put(
+    State(shared): State<Arc<Shared>>,
+    Path(name): Path<String>,
+    headers: HeaderMap,
+    bytes: Result<Bytes, BytesRejection>,
+) -> Answer<Response> {
+    let (bytes, condition) = (body(bytes)?, condition(&headers)?);
+    let (library, saved) = (shared.library.clone(), name.clone());
+    let put = beside(move || {
+        let entry = library.put(&saved, &bytes, &condition)?;
+        library.get(&saved).map(|kept| (entry, kept))
+    });
+    let (entry, kept) = put.await?.map_err(library_problem)?;
+    let etag = entry.etag.clone();
+    if shared.desk.shown().name.as_ref() == Some(&name) {
+        shared.desk.open(name, kept).await;
+    }
+    Ok(([(header::ETAG, etag)], Json(entry)).into_response())
+}
+
+/// `DELETE /api/shows/{name}`
+pub async fn delete(
+    State(shared): State<Arc<Shared>>,
+    Path(name): Path<String>,
+    headers: HeaderMap,
+) -> Answer<StatusCode> {
+    let (library, condition) = (shared.library.clone(), condition(&headers)?);
+    beside(move || library.delete(&name, &condition)).await?.map_err(library_problem)?;
+    Ok(StatusCode::NO_CONTENT)
+}
+
+/// `POST /api/check`
+pub async fn check(bytes: Result<Bytes, BytesRejection>) -> Answer<Json<Plan>> {
+    let bytes = body(bytes)?;
+    let plan = beside(move || {
+        let loaded = match read(&bytes, Some("json")) {
+            Ok(loaded) => loaded,
+            Err(error) => {
+                return Plan { issues: vec![plan_document::issue(&error.issue())], ..Plan::default() };
+            }
+        };
+        let mut found = loaded.issues;
+        found.extend(validate(&loaded.show));
+        plan_document::plan(&loaded.show, &found).1
+    });
+    plan.await.map(Json)
+}
+
+/// Which format to convert to.
+#[derive(Debug, serde::Deserialize)]
+pub struct To {
+    to: String,
+}
+
+/// `POST /api/convert?to=lightbots|original`
+pub async fn convert(Query(To { to }): Query<To>, bytes: Result<Bytes, BytesRejection>) -> Answer<Response> {
+    let format = match to.as_str() {
+        "lightbots" => Format::LightBots,
+        "original" => Format::Original,
+        _ => return Err(refuse(StatusCode::BAD_REQUEST, "say ?to=lightbots or ?to=original")),
+    };
+    let bytes = body(bytes)?;
+    let converted = beside(move || read(&bytes, Some("json")).map(|loaded| write(&loaded.show, format)));
+    let document =
+        converted.await?.map_err(|error| refuse(StatusCode::UNPROCESSABLE_ENTITY, &error.to_string()))?;
+    Ok(([(header::CONTENT_TYPE, "application/json")], document).into_response())
+}
+
+/// `GET /api/plan`
+pub async fn plan(State(shared): State<Arc<Shared>>) -> Answer<Response> {
+    let plan = shared.desk.plan();
+    let text = beside(move || serde_json::to_string(&*plan)).await?;
+    let text = text.map_err(|error| refuse(StatusCode::INTERNAL_SERVER_ERROR, &error.to_string()))?;
+    Ok(([(header::CONTENT_TYPE, "application/json"), (header::CACHE_CONTROL, "no-store")], text)
+        .into_response())
+}
+
+/// Any other address below `/api`.
+pub async fn unknown() -> Refused {
+    refuse(StatusCode::NOT_FOUND, "there is no such address in the API")
+}

@@ -1,0 +1,134 @@
+//! The show that is open on every screen, and its plan.
+
+use std::sync::Arc;
+
+use axum::extract::ws::Utf8Bytes;
+use lightbots_api as api;
+use lightbots_control::{EventKind, Operation, Refusal, State};
+use lightbots_show::{Show, validate};
+use tokio::sync::{Mutex, broadcast, watch};
+
+use crate::library::Kept;
+use crate::live::conductor::{Handle, News};
+use crate::plan_document;
+
+/// The open show. Clones share it.
+#[derive(Clone, Debug)]
+pub struct Desk {
+    handle: Handle,
+    shown: watch::Sender<Arc<Shown>>,
+    plan: watch::Sender<Arc<api::Plan>>,
+    /// Revision the controller has; held while it is changed.
+    given: Arc<Mutex<u32>>,
+}
+
+/// What lies on the desk.
+#[derive(Debug)]
+pub struct Shown {
+    /// Counts up with every change; 0: nothing was ever opened.
+    pub revision: u32,
+    /// Its name in the library.
+    pub name: Option<String>,
+    /// The show.
+    pub show: Arc<Show>,
+    /// The message that tells screens, ready to send.
+    pub message: Utf8Bytes,
+}
+
+impl Desk {
+    /// An empty desk.
+    pub fn new(handle: Handle) -> Self {
+        let nothing = Shown::new(0, None, None, Arc::default(), serde_json::Value::Null);
+        let (shown, _) = watch::channel(Arc::new(nothing));
+        let (plan, _) = watch::channel(Arc::default());
+        Self { handle, shown, plan, given: Arc::default() }
+    }
+
+    /// Puts a show on the desk, for the controller and for every screen, and begins to plan it.
+    pub async fn open(&self, name: String, kept: Kept) {
+        let document = serde_json::from_slice(&kept.bytes).unwrap_or_default();
+        let show = Arc::new(kept.show);
+        let mut revision = 0;
+        self.shown.send_modify(|shown| {
+            revision = shown.revision + 1;
+            *shown = Arc::new(Shown::new(revision, Some(name), Some(kept.etag), show.clone(), document));
+        });
+        self.plan.send_replace(Arc::new(api::Plan { revision, planning: true, ..api::Plan::default() }));
+        self.begin_plan(revision, show);
+        // In the middle of a run it stays where it is: the controller gets it when the run is over.
+        let _ = self.hand_over().await;
+    }
+
+    /// Gives the controller what is on the desk, if it has something else.
+    pub async fn hand_over(&self) -> Result<(), Refusal> {
+        let mut given = self.given.lock().await;
+        let shown = self.shown();
+        if shown.revision != *given {
+            self.handle.operate(Operation::Open(shown.show.clone())).await?;
+            *given = shown.revision;
+        }
+        Ok(())
+    }
+
+    /// What lies on it.
+    pub fn shown(&self) -> Arc<Shown> {
+        self.shown.borrow().clone()
+    }
+
+    /// What lies on it, and changes of that.
+    pub fn watch(&self) -> watch::Receiver<Arc<Shown>> {
+        self.shown.subscribe()
+    }
+
+    /// The plan with paths.
+    pub fn plan(&self) -> Arc<api::Plan> {
+        self.plan.borrow().clone()
+    }
+
+    /// The plan and its changes.
+    pub fn watch_plan(&self) -> watch::Receiver<Arc<api::Plan>> {
+        self.plan.subscribe()
+    }
+
+    /// Hands over what was opened during a run, once it is over.
+    pub async fn follow(self, mut news: broadcast::Receiver<News>) {
+        loop {
+            match news.recv().await {
+                Ok(News::Event(event)) if event.kind == EventKind::StateChanged(State::Ready) => {
+                    // Another run may have begun already; then this comes again.
+                    let _ = self.hand_over().await;
+                }
+                Err(broadcast::error::RecvError::Closed) => return,
+                _ => {}
+            }
+        }
+    }
+
+    fn begin_plan(&self, revision: u32, show: Arc<Show>) {
+        let sender = self.plan.clone();
+        tokio::task::spawn_blocking(move || {
+            let (_, mut plan) = plan_document::plan(&show, &validate(&show));
+            plan.revision = revision;
+            sender.send_if_modified(|current| {
+                let wanted = current.revision == revision;
+                if wanted {
+                    *current = Arc::new(plan);
+                }
+                wanted
+            });
+        });
+    }
+}
+
+impl Shown {
+    fn new(
+        revision: u32,
+        name: Option<String>,
+        etag: Option<String>,
+        show: Arc<Show>,
+        document: serde_json::Value,
+    ) -> Self {
+        let message = api::ToScreen::Show(api::OpenShow { revision, name: name.clone(), etag, document });
+        Self { revision, name, show, message: super::socket::text(&message) }
+    }
+}

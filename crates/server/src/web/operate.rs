@@ -1,0 +1,125 @@
+//! What a screen asks for, done.
+
+use lightbots_api as api;
+use lightbots_base::RobotId;
+use lightbots_control::{MissingPolicy, Operation, Refusal};
+use lightbots_link::BrokerUrl;
+
+use super::Shared;
+
+/// Why something was not done, and a way to go on.
+type Refused = (String, Option<api::Choice>);
+
+/// Does it; the answer for the screen.
+pub async fn operate(shared: &Shared, request: api::Request) -> api::Answer {
+    let api::Request { id, operation } = request;
+    match act(shared, operation).await {
+        Ok(()) => api::Answer { id, ok: true, error: None, choice: None },
+        Err((error, choice)) => api::Answer { id, ok: false, error: Some(error), choice },
+    }
+}
+
+async fn act(shared: &Shared, operation: api::Operation) -> Result<(), Refused> {
+    use api::Operation as Wish;
+    let plain = |line: String| (line, None);
+    let wish = match operation {
+        Wish::Play { .. } | Wish::Preview { .. } => return play(shared, operation).await,
+        Wish::Open { name } => return open(shared, name).await.map_err(plain),
+        Wish::Connect { address, user, password } => {
+            return connect(shared, &address, user, password).await.map_err(plain);
+        }
+        Wish::Disconnect => {
+            shared.handle.disconnect().await;
+            return Ok(());
+        }
+        Wish::Pause => Operation::Pause,
+        Wish::Resume => Operation::Resume,
+        Wish::Step => Operation::Step,
+        Wish::Loop { on } => Operation::Loop(on),
+        Wish::Abort => Operation::Abort,
+        Wish::StopAll => Operation::StopAll,
+        Wish::Refresh => Operation::Refresh,
+        Wish::Identify { robot } => Operation::Identify(robot_id(&robot).map_err(plain)?),
+        Wish::Forget { robot } => Operation::Forget(robot_id(&robot).map_err(plain)?),
+        Wish::Pin { pixel, robot } => {
+            let robot = robot.map(|robot| robot_id(&robot)).transpose().map_err(plain)?;
+            Operation::Pin { pixel, robot }
+        }
+    };
+    shared.handle.operate(wish).await.map_err(|refusal| (refusal.to_string(), None))
+}
+
+/// Plays or previews, unless the plan is red.
+async fn play(shared: &Shared, operation: api::Operation) -> Result<(), Refused> {
+    let plan = shared.desk.plan();
+    let red = plan.issues.iter().find(|issue| issue.severity == api::Severity::Error);
+    if let (false, Some(issue)) = (plan.planning, red) {
+        return Err((format!("This show cannot be played: {}", issue.message), None));
+    }
+    shared.desk.hand_over().await.map_err(|refusal| (refusal.to_string(), None))?;
+    let policy = |missing: &api::Missing| match missing {
+        api::Missing::Refuse => MissingPolicy::Refuse,
+        api::Missing::LeaveOut => MissingPolicy::LeaveOut,
+    };
+    let wish = match &operation {
+        api::Operation::Preview { frame, missing } => {
+            Operation::Preview { frame: *frame, missing: policy(missing) }
+        }
+        api::Operation::Play { from, missing } => Operation::Play { from: *from, missing: policy(missing) },
+        _ => return Ok(()),
+    };
+    shared.handle.operate(wish).await.map_err(|refusal| (refusal.to_string(), choice(&refusal, operation)))
+}
+
+/// What can be asked for instead after a refusal.
+fn choice(refusal: &Refusal, operation: api::Operation) -> Option<api::Choice> {
+    let missing = api::Missing::LeaveOut;
+    let operation = match operation {
+        api::Operation::Play { from, .. } => api::Operation::Play { from, missing },
+        api::Operation::Preview { frame, .. } => api::Operation::Preview { frame, missing },
+        other => other,
+    };
+    match refusal {
+        Refusal::TooFewRobots { robots, .. } if *robots > 0 => {
+            Some(api::Choice { label: format!("Play with {robots} robots"), operation })
+        }
+        Refusal::PinnedMissing { .. } => {
+            Some(api::Choice { label: "Play without these pixels".into(), operation })
+        }
+        _ => None,
+    }
+}
+
+async fn open(shared: &Shared, name: String) -> Result<(), String> {
+    let library = shared.library.clone();
+    let wanted = name.clone();
+    let kept = tokio::task::spawn_blocking(move || library.get(&wanted)).await;
+    let kept = kept.map_err(|error| error.to_string())?.map_err(|error| capitalised(error.line()))?;
+    shared.desk.open(name, kept).await;
+    Ok(())
+}
+
+async fn connect(
+    shared: &Shared,
+    address: &str,
+    user: Option<String>,
+    password: Option<String>,
+) -> Result<(), String> {
+    let broker = if address.trim() == "embedded" {
+        shared.embedded.clone().ok_or("This server runs no broker of its own: name another one.")?
+    } else {
+        BrokerUrl::parse(address).map_err(|error| error.to_string())?.with_login(user, password)
+    };
+    shared.handle.connect(broker).await;
+    Ok(())
+}
+
+fn robot_id(text: &str) -> Result<RobotId, String> {
+    RobotId::new(text).ok_or_else(|| "That is no robot's name.".into())
+}
+
+fn capitalised(text: &str) -> String {
+    let mut letters = text.chars();
+    let first = letters.next().map(|first| first.to_uppercase().to_string()).unwrap_or_default();
+    first + letters.as_str()
+}

@@ -1,0 +1,220 @@
+//! What screens see: made once for all of them, and only while somebody looks.
+
+use std::time::Duration;
+
+use axum::extract::ws::Utf8Bytes;
+use lightbots_api as api;
+use lightbots_base::{RobotId, Vec2};
+use lightbots_control::{Age, RobotView, Snapshot, State};
+use lightbots_wire::RobotState;
+use tokio::sync::{broadcast, watch};
+use tokio::time::MissedTickBehavior;
+
+use super::Desk;
+use super::socket::text;
+use crate::live::conductor::{Handle, LinkState, News};
+use crate::numbers::rounded;
+
+/// Twenty pictures a second.
+const EVERY: Duration = Duration::from_millis(50);
+
+/// The newest state and fleet table, ready to send. A screen that is slow skips some. Clones share it.
+#[derive(Clone, Debug)]
+pub struct Pictures {
+    states: watch::Sender<Utf8Bytes>,
+    fleets: watch::Sender<Utf8Bytes>,
+}
+
+/// What the next picture is made from besides the snapshot.
+struct Painter {
+    desk: Desk,
+    link: LinkState,
+    /// The robots of the last fleet table, in order.
+    names: Vec<RobotId>,
+    revision: u32,
+    /// Pictures since the last fleet table.
+    since_fleet: usize,
+    looked: bool,
+}
+
+impl Pictures {
+    /// No picture yet.
+    pub fn new() -> Self {
+        Self {
+            states: watch::channel(Utf8Bytes::default()).0,
+            fleets: watch::channel(Utf8Bytes::default()).0,
+        }
+    }
+
+    /// States from now on.
+    pub fn states(&self) -> watch::Receiver<Utf8Bytes> {
+        self.states.subscribe()
+    }
+
+    /// Fleet tables from now on.
+    pub fn fleets(&self) -> watch::Receiver<Utf8Bytes> {
+        self.fleets.subscribe()
+    }
+
+    /// Makes pictures until the conductor ends.
+    pub async fn follow(self, handle: Handle, desk: Desk) {
+        let mut news = handle.news();
+        let mut ticks = tokio::time::interval(EVERY);
+        ticks.set_missed_tick_behavior(MissedTickBehavior::Delay);
+        let link = LinkState::default();
+        let mut painter =
+            Painter { desk, link, names: Vec::new(), revision: 0, since_fleet: 0, looked: false };
+        loop {
+            ticks.tick().await;
+            loop {
+                match news.try_recv() {
+                    Ok(News::Link(link)) => painter.link = link,
+                    Ok(News::Event(_)) | Err(broadcast::error::TryRecvError::Lagged(_)) => {}
+                    Err(broadcast::error::TryRecvError::Empty) => break,
+                    Err(broadcast::error::TryRecvError::Closed) => return,
+                }
+            }
+            if self.states.receiver_count() == 0 {
+                painter.looked = false;
+                continue;
+            }
+            let Some(snapshot) = handle.look().await else { return };
+            self.paint(&mut painter, &snapshot);
+        }
+    }
+
+    fn paint(&self, painter: &mut Painter, snapshot: &Snapshot) {
+        let same = painter.names.len() == snapshot.robots.len()
+            && painter.names.iter().zip(&snapshot.robots).all(|(name, robot)| *name == robot.id);
+        if !same {
+            painter.names = snapshot.robots.iter().map(|robot| robot.id).collect();
+            painter.revision += 1;
+        }
+        painter.since_fleet += 1;
+        // Twice a second for a few hundred robots, and less often for thousands.
+        let due = painter.since_fleet >= 10 + snapshot.robots.len() / 100;
+        if !same || due || !painter.looked {
+            painter.since_fleet = 0;
+            painter.looked = true;
+            let rows = snapshot.robots.iter().map(|robot| row(robot, snapshot)).collect();
+            let fleet = api::Fleet { revision: painter.revision, rows };
+            self.fleets.send_replace(text(&api::ToScreen::Fleet(fleet)));
+        }
+        self.states.send_replace(text(&api::ToScreen::State(painter.state(snapshot))));
+    }
+}
+
+impl Painter {
+    fn state(&self, snapshot: &Snapshot) -> api::State {
+        api::State {
+            at_ms: snapshot.at.0 as f64 / 1e3,
+            fleet: self.revision,
+            broker: api::Broker {
+                address: self.link.address.clone(),
+                connected: self.link.connected,
+                reason: self.link.reason.clone(),
+            },
+            playback: self.playback(snapshot),
+            robots: robots(snapshot),
+        }
+    }
+
+    fn playback(&self, snapshot: &Snapshot) -> api::Playback {
+        let run = snapshot.run.as_ref();
+        let is_showing = run.is_some_and(|run| run.doing == "showing");
+        let progress = run.map_or(0.0, |run| if is_showing { 1.0 } else { run.progress });
+        api::Playback {
+            phase: phase(snapshot.state),
+            doing: run.map(|run| run.doing.to_owned()),
+            frame: run.map(|run| run.frame),
+            frames: self.desk.shown().show.frames.len(),
+            progress: rounded(progress, 3),
+            left_s: self.left_s(snapshot, is_showing),
+            looping: snapshot.looping,
+            late: run.map_or(Vec::new(), |run| run.waiting_for.iter().map(ToString::to_string).collect()),
+        }
+    }
+
+    /// The rest of the drive or air time, and everything after it, as planned; none for a preview.
+    fn left_s(&self, snapshot: &Snapshot, is_showing: bool) -> Option<f64> {
+        let run = snapshot.run.as_ref().filter(|_| snapshot.state != State::Preview)?;
+        let (shown, plan) = (self.desk.shown(), self.desk.plan());
+        let frames = &shown.show.frames;
+        let air_s = frames.get(run.frame)?.air_time_s;
+        let now_s = if is_showing { air_s } else { run.drive_s };
+        let then_s = if is_showing { 0.0 } else { air_s };
+        let rest = frames.iter().zip(&plan.transitions).skip(run.frame + 1);
+        let rest_s: f64 = rest.map(|(frame, way)| frame.air_time_s + way.duration_s).sum();
+        Some(rounded(now_s * (1.0 - run.progress.clamp(0.0, 1.0)) + then_s + rest_s, 2))
+    }
+}
+
+fn phase(state: State) -> api::Phase {
+    match state {
+        State::Idle => api::Phase::Idle,
+        State::Ready => api::Phase::Ready,
+        State::Preparing => api::Phase::Preparing,
+        State::Playing => api::Phase::Playing,
+        State::Paused => api::Phase::Paused,
+        State::Preview => api::Phase::Preview,
+        State::Aborting => api::Phase::Aborting,
+    }
+}
+
+fn robots(snapshot: &Snapshot) -> api::Robots {
+    let robots = &snapshot.robots;
+    let x = |place: Option<Vec2>| place.map(|at| rounded(at.x, 4));
+    let y = |place: Option<Vec2>| place.map(|at| rounded(at.y, 4));
+    api::Robots {
+        x: robots.iter().map(|robot| x(robot.at)).collect(),
+        y: robots.iter().map(|robot| y(robot.at)).collect(),
+        heading: robots.iter().map(|robot| robot.heading.map(|angle| rounded(angle, 3))).collect(),
+        colour: robots.iter().map(colour).collect(),
+        status: robots.iter().map(|robot| status(robot) as u8).collect(),
+        planned_x: robots.iter().map(|robot| x(robot.planned)).collect(),
+        planned_y: robots.iter().map(|robot| y(robot.planned)).collect(),
+        goal_x: robots.iter().map(|robot| x(robot.goal)).collect(),
+        goal_y: robots.iter().map(|robot| y(robot.goal)).collect(),
+    }
+}
+
+fn colour(robot: &RobotView) -> u32 {
+    let light = robot.light;
+    u32::from(light.r) << 16 | u32::from(light.g) << 8 | u32::from(light.b)
+}
+
+fn row(robot: &RobotView, snapshot: &Snapshot) -> api::FleetRow {
+    let firmware = robot.firmware.as_str();
+    api::FleetRow {
+        id: robot.id.to_string(),
+        status: status(robot),
+        presence: match robot.age {
+            Age::Active => api::Presence::Active,
+            Age::Stale => api::Presence::Stale,
+            Age::Gone => api::Presence::Gone,
+        },
+        age_s: rounded((snapshot.at - robot.heard).as_secs(), 1),
+        battery: robot.battery,
+        pixel: robot.pixel,
+        firmware: (!firmware.is_empty()).then(|| firmware.to_owned()),
+        abilities: api::Abilities {
+            route: robot.abilities.route,
+            fade: robot.abilities.fade,
+            blink: robot.abilities.blink,
+        },
+        clock_us: robot.clock_us,
+    }
+}
+
+fn status(robot: &RobotView) -> api::RobotStatus {
+    match robot.state {
+        // An original robot does not say what it does.
+        None | Some(RobotState::Idle) => api::RobotStatus::Idle,
+        Some(RobotState::Ready) => api::RobotStatus::Ready,
+        Some(RobotState::Driving) => api::RobotStatus::Driving,
+        Some(RobotState::Held) => api::RobotStatus::Held,
+        Some(RobotState::Lost) => api::RobotStatus::Lost,
+        Some(RobotState::Cut) => api::RobotStatus::Cut,
+        Some(RobotState::Faulty) => api::RobotStatus::Faulty,
+    }
+}

@@ -1,0 +1,114 @@
+//! One screen's WebSocket.
+
+use std::sync::Arc;
+use std::sync::atomic::Ordering;
+use std::time::Duration;
+
+use axum::extract::State;
+use axum::extract::ws::{Message, Utf8Bytes, WebSocket, WebSocketUpgrade};
+use axum::response::Response;
+use lightbots_api::{FromScreen, Hello, ToScreen};
+use tokio::sync::broadcast::error::RecvError;
+
+use super::{Shared, operate};
+use crate::plan_document;
+
+/// A screen that does not take a message for so long is dropped: it will come back.
+const PATIENCE: Duration = Duration::from_secs(5);
+/// The longest message of a screen.
+const LONGEST: usize = 64 << 10;
+
+/// `/ws`
+pub async fn open(State(shared): State<Arc<Shared>>, upgrade: WebSocketUpgrade) -> Response {
+    upgrade.max_message_size(LONGEST).max_frame_size(LONGEST).on_upgrade(move |socket| async move {
+        let mut screen = Screen { socket, shared };
+        // A screen that left is nothing to report.
+        let _ = screen.serve().await;
+    })
+}
+
+/// A message as JSON.
+pub fn text(message: &ToScreen) -> Utf8Bytes {
+    // These types hold nothing that JSON cannot.
+    serde_json::to_string(message).unwrap_or_default().into()
+}
+
+/// The screen has gone, or is too slow.
+struct Gone;
+
+struct Screen {
+    socket: WebSocket,
+    shared: Arc<Shared>,
+}
+
+impl Screen {
+    async fn serve(&mut self) -> Result<(), Gone> {
+        let shared = self.shared.clone();
+        let (mut shown, mut plan) = (shared.desk.watch(), shared.desk.watch_plan());
+        let (mut states, mut fleets) = (shared.pictures.states(), shared.pictures.fleets());
+        let (lines, mut log) = shared.log.read();
+        self.greet().await?;
+        let message = shown.borrow_and_update().message.clone();
+        self.send(message).await?;
+        let summary = plan_document::summary(&plan.borrow_and_update());
+        self.send(text(&ToScreen::Plan(summary))).await?;
+        for line in lines {
+            self.send(text(&ToScreen::Log(line))).await?;
+        }
+        loop {
+            tokio::select! {
+                biased;
+                received = self.socket.recv() => self.obey(received).await?,
+                Ok(()) = shown.changed() => {
+                    let message = shown.borrow_and_update().message.clone();
+                    self.send(message).await?;
+                }
+                Ok(()) = plan.changed() => {
+                    let summary = plan_document::summary(&plan.borrow_and_update());
+                    self.send(text(&ToScreen::Plan(summary))).await?;
+                }
+                Ok(()) = fleets.changed() => {
+                    let message = fleets.borrow_and_update().clone();
+                    self.send(message).await?;
+                }
+                line = log.recv() => match line {
+                    Ok(line) => self.send(text(&ToScreen::Log(line))).await?,
+                    Err(RecvError::Lagged(_)) => {}
+                    Err(RecvError::Closed) => return Err(Gone),
+                },
+                Ok(()) = states.changed() => {
+                    let message = states.borrow_and_update().clone();
+                    self.send(message).await?;
+                }
+            }
+        }
+    }
+
+    async fn greet(&mut self) -> Result<(), Gone> {
+        let screen = self.shared.screens.fetch_add(1, Ordering::Relaxed);
+        let version = env!("CARGO_PKG_VERSION").to_owned();
+        self.send(text(&ToScreen::Hello(Hello { version, screen, simulated: self.shared.simulated }))).await
+    }
+
+    /// Does what a message asks for. What is no message of ours is answered by hanging up.
+    async fn obey(&mut self, received: Option<Result<Message, axum::Error>>) -> Result<(), Gone> {
+        let message = match received {
+            Some(Ok(Message::Text(text))) => text,
+            Some(Ok(Message::Ping(_) | Message::Pong(_))) => return Ok(()),
+            _ => return Err(Gone),
+        };
+        let FromScreen::Operate(request) = serde_json::from_str(&message).map_err(|error| {
+            tracing::debug!("a screen sent what is no message: {error}");
+            Gone
+        })?;
+        let answer = operate::operate(&self.shared, request).await;
+        self.send(text(&ToScreen::Answer(answer))).await
+    }
+
+    async fn send(&mut self, message: Utf8Bytes) -> Result<(), Gone> {
+        match tokio::time::timeout(PATIENCE, self.socket.send(Message::Text(message))).await {
+            Ok(Ok(())) => Ok(()),
+            _ => Err(Gone),
+        }
+    }
+}
