@@ -1,8 +1,8 @@
 //! The least longest way: an exact bottleneck matching of places in the plane.
 //!
-//! Whether a perfect matching exists within a reach is decided by augmenting paths (phases of depth-first searches
-//! with lookahead, Pothen & Fan 1990) over edges that are never listed: a k-d tree hands out places within reach that
-//! the phase has not seen yet (Efrat, Itai & Katz 2001). The reach is bisected between bounds that a failed search
+//! Whether a perfect matching exists within a reach is decided by augmenting paths (breadth-first searches from all
+//! open rows at once, Azad, Buluç & Pothen 2017) over edges that are never listed: a k-d tree hands out places within
+//! reach that the search has not seen yet (Efrat, Itai & Katz 2001). The reach is bisected between bounds that a failed search
 //! and a found matching sharpen to distances that really occur.
 
 use super::kdtree::{KdTree, Remaining};
@@ -19,10 +19,12 @@ pub(super) struct Bottleneck {
     pub column_of: Vec<u32>,
 }
 
-/// Matches every row to its own column; there must be at least as many columns.
-pub(super) fn bottleneck(rows: &[Vec2], columns: &[Vec2]) -> Bottleneck {
+/// Matches every row to its own column; there must be at least as many columns. `guess[row]` is some matching, the
+/// better the faster; `NONE` for rows it leaves out.
+pub(super) fn bottleneck(rows: &[Vec2], columns: &[Vec2], guess: &[u32]) -> Bottleneck {
     let mut matcher = Matcher::new(rows, columns);
     let mut low = matcher.least_thinkable();
+    matcher.keep_within(guess, low);
     let mut best: Option<Bottleneck> = None;
     loop {
         let high = best.as_ref().map(|best| best.reach_squared);
@@ -65,8 +67,23 @@ struct Matcher<'a> {
     unseen: Remaining,
     column_of: Vec<u32>,
     row_of: Vec<u32>,
+    /// How the phase got to each row.
+    reached: Vec<Reached>,
+    /// Rows seen in this phase, in order.
+    queue: Vec<u32>,
+    /// Columns taken out of `unseen`, or out of `free` by a row, in this phase.
+    seen: Vec<u32>,
     /// A reach below which there is no perfect matching.
     failed: f64,
+}
+
+/// A row's place in a search.
+#[derive(Clone, Copy)]
+struct Reached {
+    /// The open row the path begins at.
+    root: u32,
+    /// The row before it on the path.
+    from: u32,
 }
 
 impl<'a> Matcher<'a> {
@@ -75,7 +92,9 @@ impl<'a> Matcher<'a> {
         let free = Remaining::new(&tree, |_| true);
         let unseen = Remaining::new(&tree, |_| false);
         let (column_of, row_of) = (vec![NONE; rows.len()], vec![NONE; columns.len()]);
-        Self { rows, columns, tree, free, unseen, column_of, row_of, failed: 0.0 }
+        let reached = vec![Reached { root: NONE, from: NONE }; rows.len()];
+        let (queue, seen, failed) = (Vec::new(), Vec::new(), 0.0);
+        Self { rows, columns, tree, free, unseen, column_of, row_of, reached, queue, seen, failed }
     }
 
     /// Nobody's longest way can be shorter: every row needs some column, and each column a row if there are no more
@@ -105,7 +124,7 @@ impl<'a> Matcher<'a> {
     fn keep_within(&mut self, column_of: &[u32], reach_squared: f64) {
         self.row_of.fill(NONE);
         for (row, &column) in column_of.iter().enumerate() {
-            let keep = self.squared(row, column) <= reach_squared;
+            let keep = column != NONE && self.squared(row, column) <= reach_squared;
             self.column_of[row] = if keep { column } else { NONE };
             if keep {
                 self.row_of[column as usize] = row as u32;
@@ -118,63 +137,87 @@ impl<'a> Matcher<'a> {
     /// Extends the matching to all rows with edges within reach. Where that cannot be: a greater reach (squared) that
     /// any perfect matching needs.
     fn complete(&mut self, reach_squared: f64) -> Result<(), f64> {
+        let row_of = &self.row_of;
+        self.unseen.reset(&self.tree, |column| row_of[column] != NONE);
+        let mut open: Vec<u32> = (0..self.rows.len() as u32).collect();
         loop {
-            let open: Vec<u32> =
-                (0..self.rows.len() as u32).filter(|&row| self.column_of[row as usize] == NONE).collect();
-            if open.is_empty() {
-                return Ok(());
-            }
-            let row_of = &self.row_of;
-            self.unseen.reset(&self.tree, |column| row_of[column] != NONE);
-            let mut stack = Vec::new();
-            let found = open.iter().filter(|&&row| self.augment(row, reach_squared, &mut stack)).count();
-            if found == 0 {
-                self.failed = self.needed(&open);
+            open.retain(|&row| self.column_of[row as usize] == NONE);
+            let Some(&first) = open.first() else { return Ok(()) };
+            let found = self.phase(&open, reach_squared);
+            // Few paths may mean there are none for somebody: a search of its own for one row settles that early.
+            let fails = found == 0
+                || found * 8 < open.len() && {
+                    self.forget_seen();
+                    let alone = open.iter().copied().find(|&row| self.column_of[row as usize] == NONE);
+                    self.phase(&[alone.unwrap_or(first)], reach_squared) == 0
+                };
+            if fails {
+                self.failed = self.needed();
                 return Err(self.failed);
             }
+            self.forget_seen();
         }
     }
 
-    /// Looks for an augmenting path from a free row and flips it. `stack` is scratch: rows on the path, each with the
-    /// column it is matched to.
-    fn augment(&mut self, root: u32, reach_squared: f64, stack: &mut Vec<u32>) -> bool {
-        stack.clear();
-        stack.push(root);
-        while let Some(&row) = stack.last() {
+    /// Searches from all open rows at once, breadth first, and flips one augmenting path for every row that has one
+    /// left; how many. What was seen stays in `queue` and out of `unseen` until [`Self::forget_seen`].
+    fn phase(&mut self, open: &[u32], reach_squared: f64) -> usize {
+        let mut found = 0;
+        for &row in open {
+            self.reached[row as usize] = Reached { root: row, from: NONE };
+            self.queue.push(row);
+        }
+        let mut next = 0;
+        while let Some(&row) = self.queue.get(next) {
+            next += 1;
+            let root = self.reached[row as usize].root;
+            if self.column_of[root as usize] != NONE {
+                continue;
+            }
             let at = self.rows[row as usize];
             if let Some(column) = self.free.take(&self.tree, at, reach_squared) {
-                self.flip(stack, column);
-                return true;
+                self.flip(row, column);
+                found += 1;
+                continue;
             }
-            match self.unseen.take(&self.tree, at, reach_squared) {
-                Some(column) => stack.push(self.row_of[column as usize]),
-                None => {
-                    stack.pop();
-                }
+            while let Some(column) = self.unseen.take(&self.tree, at, reach_squared) {
+                self.seen.push(column);
+                let owner = self.row_of[column as usize];
+                self.reached[owner as usize] = Reached { root, from: row };
+                self.queue.push(owner);
             }
         }
-        false
+        found
     }
 
-    /// Gives the last row of the path a free column, and every other row the column of the row after it.
-    fn flip(&mut self, path: &[u32], mut column: u32) {
-        for &row in path.iter().rev() {
+    /// Gives a row a free column, and each row before it on its path the column of the row after it.
+    fn flip(&mut self, mut row: u32, mut column: u32) {
+        self.seen.push(column);
+        while row != NONE {
             let before = core::mem::replace(&mut self.column_of[row as usize], column);
             self.row_of[column as usize] = row;
-            column = before;
+            (row, column) = (self.reached[row as usize].from, before);
         }
     }
 
-    /// After a phase that found nothing: rows seen have more rows than columns within reach (Hall), so one of them
-    /// needs a column outside. The nearest such distance, squared.
-    fn needed(&self, open: &[u32]) -> f64 {
-        let seen = (0..self.columns.len())
-            .filter(|&column| self.row_of[column] != NONE && !self.unseen.contains(&self.tree, column))
-            .map(|column| self.row_of[column]);
-        open.iter().copied().chain(seen).fold(f64::INFINITY, |least, row| {
+    /// Makes a new phase possible: every column that has a row is unseen again.
+    fn forget_seen(&mut self) {
+        for column in self.seen.drain(..) {
+            self.unseen.put(&self.tree, column as usize);
+        }
+        self.queue.clear();
+    }
+
+    /// After a phase that found nothing: the rows seen are more than the columns they reach (Hall), so one of them
+    /// needs a column not seen. The nearest such distance, squared.
+    fn needed(&mut self) -> f64 {
+        let least = self.queue.iter().fold(f64::INFINITY, |least, &row| {
             let at = self.rows[row as usize];
             let least = self.unseen.nearest_squared(&self.tree, at, least);
             self.free.nearest_squared(&self.tree, at, least)
-        })
+        });
+        self.seen.clear();
+        self.queue.clear();
+        least
     }
 }

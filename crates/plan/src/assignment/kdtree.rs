@@ -224,15 +224,21 @@ impl Remaining {
         }
     }
 
-    pub fn contains(&self, tree: &KdTree, id: usize) -> bool {
-        self.here[tree.position_of[id] as usize]
-    }
-
     fn remove(&mut self, tree: &KdTree, position: usize) {
         self.here[position] = false;
         let mut node = tree.leaf_of[tree.ids[position] as usize] as usize;
         while node > 0 {
             self.counts[node] -= 1;
+            node /= 2;
+        }
+    }
+
+    /// Puts a place back; it must not be there.
+    pub fn put(&mut self, tree: &KdTree, id: usize) {
+        self.here[tree.position_of[id] as usize] = true;
+        let mut node = tree.leaf_of[id] as usize;
+        while node > 0 {
+            self.counts[node] += 1;
             node /= 2;
         }
     }

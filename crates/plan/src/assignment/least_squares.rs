@@ -18,6 +18,19 @@ const ROUNDS: usize = 200;
 /// Reduced costs above minus this are not improvements, square metres.
 const EPSILON: f64 = 1e-11;
 
+/// A matching that leaves some rows out (`NONE`) but is close to the least sum of squares, quickly.
+pub(super) fn guess(rows: &[Vec2], columns: &[Vec2]) -> Vec<u32> {
+    let (rows_in_space, columns_in_space) = space::common(rows, columns);
+    let tree = KdTree::new(&columns_in_space);
+    let nearest = |&row: &Vec2| {
+        tree.nearest(row, NEIGHBOURS, |_| true).into_iter().map(|(cost, column)| (column, cost))
+    };
+    let edges = rows_in_space.iter().map(|row| nearest(row).collect()).collect();
+    let mut search = Search::new(edges, columns.len());
+    search.bid_for_all();
+    search.column_of().to_vec()
+}
+
 /// An assignment being improved.
 pub(super) struct LeastSquares<'a> {
     /// True places, metres: they decide what is within reach.

@@ -42,7 +42,8 @@ impl Choice {
     /// that does not exist or is taken.
     pub fn new(starts: &[Vec2], goals: &[Vec2], pinned: &[Option<usize>]) -> Option<Self> {
         let mut choice = Self::open(starts, goals, pinned)?;
-        let found = bottleneck(&choice.goal_places, &choice.start_places);
+        let guess = least_squares::guess(&choice.goal_places, &choice.start_places);
+        let found = bottleneck(&choice.goal_places, &choice.start_places, &guess);
         choice.reach_squared = choice.reach_squared.max(found.reach_squared);
         choice.feasible = found.column_of;
         Some(choice)

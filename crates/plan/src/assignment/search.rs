@@ -106,14 +106,17 @@ impl Search {
 
     /// Gives every row a column.
     pub fn complete(&mut self) {
-        let mut open: Vec<u32> =
-            (0..self.edges.len() as u32).filter(|&row| self.column_of[row as usize] == NONE).collect();
-        for _ in 0..2 {
-            open = self.bid(&open);
-        }
-        for row in open {
+        for row in self.bid_for_all() {
             self.augment(row);
         }
+    }
+
+    /// Gives most rows a column, quickly; the rows left open.
+    pub fn bid_for_all(&mut self) -> Vec<u32> {
+        let is_open = |&row: &u32| self.column_of[row as usize] == NONE;
+        let open: Vec<u32> = (0..self.edges.len() as u32).filter(is_open).collect();
+        let open = self.bid(&open);
+        self.bid(&open)
     }
 
     /// Every open row takes its cheapest column and lowers that column's dual until its second cheapest is as good;

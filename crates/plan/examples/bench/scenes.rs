@@ -1,0 +1,165 @@
+//! Legal scenes: pixels at least 76.4 mm apart, all on the floor.
+
+use lightbots_base::{Limits, Vec2};
+use lightbots_plan::TransitionProblem;
+
+/// A kind of transition.
+pub struct Scene {
+    pub name: &'static str,
+    pub build: fn(usize) -> TransitionProblem,
+}
+
+/// All kinds.
+pub const ALL: [Scene; 8] = [
+    Scene { name: "random S", build: |robots| random(robots, 30.0 / 9.0) },
+    Scene { name: "random D", build: |robots| random(robots, 500.0 / 9.0) },
+    Scene { name: "disc slides", build: disc_slides },
+    Scene { name: "grid turns 45°", build: grid_turns },
+    Scene { name: "halves change", build: halves_change },
+    Scene { name: "rings inside out", build: rings_inside_out },
+    Scene { name: "mirrored", build: mirrored },
+    Scene { name: "rows to random", build: rows_to_random },
+];
+
+/// Least distance between pixels, metres: a little over the 76.4 mm of Turpin et al.
+const APART_M: f64 = 0.0774;
+
+/// A small repeatable generator (SplitMix64).
+struct Random(u64);
+
+impl Random {
+    fn unit(&mut self) -> f64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
+    }
+}
+
+fn problem(starts: Vec<Vec2>, goals: Vec<Vec2>) -> TransitionProblem {
+    let reach = starts.iter().chain(&goals).map(|at| at.x.abs().max(at.y.abs())).fold(0.0, f64::max);
+    let half = Vec2::new(reach + 0.03, reach + 0.03);
+    TransitionProblem { starts, goals, ..TransitionProblem::on_floor(half, Limits::ELISA_3) }
+}
+
+/// Random places on a square floor of a density (robots per m²), drawn again where too near to another.
+fn scatter(random: &mut Random, robots: usize, density: f64) -> Vec<Vec2> {
+    let half = (robots as f64 / density).sqrt() / 2.0 - 0.03;
+    let cells = (2.0 * half / APART_M) as usize + 2;
+    let cell_of = |at: Vec2| (((at.x + half) / APART_M) as usize, ((at.y + half) / APART_M) as usize);
+    let mut grid: Vec<Option<Vec2>> = vec![None; cells * cells];
+    let mut places = Vec::new();
+    while places.len() < robots {
+        let at = Vec2::new((random.unit() * 2.0 - 1.0) * half, (random.unit() * 2.0 - 1.0) * half);
+        let (x, y) = cell_of(at);
+        let mut around = (y.saturating_sub(1)..(y + 2).min(cells))
+            .flat_map(|y| (x.saturating_sub(1)..(x + 2).min(cells)).map(move |x| y * cells + x));
+        if grid[y * cells + x].is_none()
+            && around.all(|cell| grid[cell].is_none_or(|other| other.distance(at) >= APART_M))
+        {
+            grid[y * cells + x] = Some(at);
+            places.push(at);
+        }
+    }
+    places
+}
+
+fn random(robots: usize, density: f64) -> TransitionProblem {
+    let mut random = Random(1);
+    problem(scatter(&mut random, robots, density), scatter(&mut random, robots, density))
+}
+
+/// A square grid around the origin, `step` apart.
+fn grid(robots: usize, step: f64) -> Vec<Vec2> {
+    let side = (robots as f64).sqrt().ceil() as usize;
+    let middle = (side as f64 - 1.0) / 2.0;
+    (0..robots).map(|i| Vec2::new((i % side) as f64 - middle, (i / side) as f64 - middle) * step).collect()
+}
+
+/// The places of a hexagonal grid nearest to the origin.
+fn disc(robots: usize) -> Vec<Vec2> {
+    let reach = (robots as f64).sqrt() as i32 + 2;
+    let mut places: Vec<Vec2> = (-reach..=reach)
+        .flat_map(|row| (-reach..=reach).map(move |column| (column, row)))
+        .map(|(column, row)| {
+            let shift = 0.5 * f64::from(row.rem_euclid(2));
+            Vec2::new(f64::from(column) + shift, f64::from(row) * 3f64.sqrt() / 2.0) * 0.08
+        })
+        .collect();
+    places.sort_by(|a, b| a.length_squared().total_cmp(&b.length_squared()));
+    places.truncate(robots);
+    places
+}
+
+fn disc_slides(robots: usize) -> TransitionProblem {
+    let places = disc(robots);
+    let by = Vec2::new(places[robots - 1].length() * 1.5, 0.013);
+    problem(
+        places.iter().map(|&at| at - by / 2.0).collect(),
+        places.iter().map(|&at| at + by / 2.0).collect(),
+    )
+}
+
+fn grid_turns(robots: usize) -> TransitionProblem {
+    let places = grid(robots, 0.1);
+    let unit = Vec2::unit(std::f64::consts::FRAC_PI_4);
+    let turned =
+        places.iter().map(|at| Vec2::new(unit.x * at.x - unit.y * at.y, unit.y * at.x + unit.x * at.y));
+    problem(places.clone(), turned.collect())
+}
+
+/// The left half goes where the right half is, and back, half a step off.
+fn halves_change(robots: usize) -> TransitionProblem {
+    let places = grid(robots, 0.12);
+    let across = places.iter().map(|at| at.x.abs()).fold(0.0, f64::max) + 0.2;
+    let apart =
+        |at: &Vec2| if at.x < 0.0 { Vec2::new(at.x - 0.3, at.y) } else { Vec2::new(at.x + 0.3, at.y) };
+    let starts: Vec<Vec2> = places.iter().map(apart).collect();
+    let swapped = starts.iter().map(|at| {
+        let x = if at.x < 0.0 { at.x + across + 0.3 } else { at.x - across - 0.3 };
+        Vec2::new(x, at.y + 0.06)
+    });
+    problem(starts.clone(), swapped.collect())
+}
+
+/// Rings around the origin, 0.1 m from ring to ring; the innermost becomes the outermost.
+fn rings_inside_out(robots: usize) -> TransitionProblem {
+    let rings = ((robots as f64 / std::f64::consts::PI).sqrt().ceil() as usize).max(2);
+    let ring_of = |at: &Vec2| (at.length() / 0.1).round() as usize;
+    let mut starts = Vec::new();
+    let mut ring = 1;
+    while starts.len() < robots {
+        let count = ring * 6;
+        for part in 0..count.min(robots - starts.len()) {
+            let angle = part as f64 / count as f64 * std::f64::consts::TAU;
+            starts.push(Vec2::unit(angle) * (0.1 * ring as f64));
+        }
+        ring += 1;
+    }
+    let outer = ring.max(rings);
+    let goals = starts.iter().map(|at| {
+        let radius = (outer + (outer - ring_of(at))) as f64 * 0.1;
+        at.normalized().unwrap_or(Vec2::new(1.0, 0.0)) * radius
+    });
+    problem(starts.clone(), goals.collect())
+}
+
+fn mirrored(robots: usize) -> TransitionProblem {
+    let starts = scatter(&mut Random(2), robots, 100.0 / 9.0);
+    problem(starts.clone(), starts.iter().map(|at| Vec2::new(-at.x, at.y)).collect())
+}
+
+/// From rows along the front edge, as every show begins.
+fn rows_to_random(robots: usize) -> TransitionProblem {
+    let goals = scatter(&mut Random(3), robots, 100.0 / 9.0);
+    let half = (robots as f64 * 0.09).sqrt() / 2.0;
+    let a_row = ((2.0 * half - 0.06) / 0.1) as usize + 1;
+    let starts = (0..robots).map(|i| {
+        Vec2::new(
+            (i % a_row) as f64 * 0.1 - (a_row - 1) as f64 * 0.05,
+            half - 0.05 - (i / a_row) as f64 * 0.1,
+        )
+    });
+    problem(starts.collect(), goals)
+}
