@@ -56,7 +56,6 @@ pub(crate) struct Estimate {
     track_m: f64,
     fix_variance: f64,
     heading_variance: f64,
-    fix_delay: Span,
 }
 
 impl Estimate {
@@ -76,13 +75,12 @@ impl Estimate {
             odd_headings: 0,
             last_jump: None,
             senseless: false,
-            trail: Trail::new(),
+            trail: Trail::new(config.fix_delay),
             bearing: Bearing::default(),
             wheel_radius_m,
             track_m,
             fix_variance: square(config.fix_sigma_m, BEST_FIX_M),
             heading_variance: square(config.heading_sigma_rad, BEST_HEADING_RAD),
-            fix_delay: config.fix_delay,
         }
     }
 
@@ -105,7 +103,7 @@ impl Estimate {
 
     /// Pulls the pose towards a fix. What is not a number is no fix.
     pub(crate) fn correct(&mut self, now: Instant, fix: &Fix) {
-        let then = self.trail.before(self.fix_delay);
+        let then = self.trail.before();
         let travelled = self.trail.now();
         if fix.at.is_finite() && fix.at.x.abs() < 1e3 && fix.at.y.abs() < 1e3 {
             self.correct_place(now, fix.at + (travelled.way - then.way));

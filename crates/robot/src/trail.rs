@@ -17,20 +17,25 @@ pub(crate) struct Travel {
 /// The travel of the last steps.
 #[derive(Debug)]
 pub(crate) struct Trail {
+    /// How far back it is asked, always the same; nothing is remembered for zero.
+    delay: Span,
     now: Travel,
     past: [(Instant, Travel); STEPS],
     newest: usize,
 }
 
 impl Trail {
-    pub(crate) fn new() -> Self {
-        Self { now: Travel::default(), past: [(Instant::ZERO, Travel::default()); STEPS], newest: 0 }
+    pub(crate) fn new(delay: Span) -> Self {
+        Self { delay, now: Travel::default(), past: [(Instant::ZERO, Travel::default()); STEPS], newest: 0 }
     }
 
     /// Adds one step that ended at `now`.
     pub(crate) fn add(&mut self, now: Instant, way: Vec2, turn: f64) {
         self.now.way += way;
         self.now.turn += turn;
+        if self.delay <= Span::ZERO {
+            return;
+        }
         self.newest = (self.newest + 1) % STEPS;
         self.past[self.newest] = (now, self.now);
     }
@@ -40,13 +45,13 @@ impl Trail {
         self.now
     }
 
-    /// The travel up to `delay` before the newest step, between steps in proportion; the oldest known where that is
+    /// The travel up to the delay before the newest step, between steps in proportion; the oldest known where that is
     /// not long enough ago.
-    pub(crate) fn before(&self, delay: Span) -> Travel {
-        if delay <= Span::ZERO {
+    pub(crate) fn before(&self) -> Travel {
+        if self.delay <= Span::ZERO {
             return self.now;
         }
-        let then = self.past[self.newest].0 - delay;
+        let then = self.past[self.newest].0 - self.delay;
         let mut later = self.past[self.newest];
         for back in 1..STEPS {
             let earlier = self.past[(self.newest + STEPS - back) % STEPS];
@@ -67,15 +72,25 @@ impl Trail {
 mod tests {
     use super::*;
 
-    #[test]
-    fn the_past_is_found_between_two_steps() {
-        let mut trail = Trail::new();
+    fn after_100_steps(delay: i64) -> Trail {
+        let mut trail = Trail::new(Span(delay));
         for step in 1..=100u64 {
             trail.add(Instant(step * 16_000), Vec2::new(0.004, 0.0), 0.01);
         }
-        let then = trail.before(Span(40_000));
-        assert!((trail.now().way.x - then.way.x - 0.010).abs() < 1e-12);
-        assert!((trail.now().turn - then.turn - 0.025).abs() < 1e-12);
-        assert!((trail.before(Span(9_000_000)).way.x - 69.0 * 0.004).abs() < 1e-12);
+        trail
+    }
+
+    #[test]
+    fn the_past_is_found_between_two_steps() {
+        let trail = after_100_steps(40_000);
+        assert!((trail.now().way.x - trail.before().way.x - 0.010).abs() < 1e-12);
+        assert!((trail.now().turn - trail.before().turn - 0.025).abs() < 1e-12);
+    }
+
+    #[test]
+    fn what_is_longer_ago_than_remembered_is_the_oldest_known() {
+        assert!((after_100_steps(9_000_000).before().way.x - 69.0 * 0.004).abs() < 1e-12);
+        let trail = after_100_steps(0);
+        assert_eq!(trail.before().way, trail.now().way);
     }
 }
