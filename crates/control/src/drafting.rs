@@ -1,25 +1,296 @@
 //! Planning, as a job that any thread may run.
 
-use lightbots_show::Show;
+use crate::clear::Floor;
+use crate::leg::{Errand, Kind, Leg, Move};
+use crate::mapping::{Bindings, Cast, Mapping};
+use crate::originals::{self, Journey, Stage};
+use lightbots_base::{RobotId, Span, Vec2};
+use lightbots_plan::{Path, Transition, TransitionProblem, transition};
+use lightbots_show::{Frame, Pixel, Show};
+use lightbots_wire::MAX_PIECES;
 use std::sync::Arc;
+
+/// A goal closer than this to a disc that does not move cannot be reached, metres more than contact.
+const BLOCKED_MARGIN_M: f64 = 0.001;
+/// How often conflicting pixels are left out before a frame is given up.
+const LENIENT_TRIES: usize = 8;
+/// Speed original robots are expected to keep at least, m/s.
+pub(crate) const ORIGINAL_MPS: f64 = 0.15;
 
 /// A plan to be made. Pure: the same job gives the same answer, wherever it runs.
 #[derive(Clone, Debug)]
 pub struct Job {
     pub(crate) number: u64,
-    pub(crate) show: Arc<Show>,
+    pub(crate) request: Request,
+}
+
+/// What is to be planned.
+#[derive(Clone, Debug)]
+pub(crate) struct Request {
+    pub show: Arc<Show>,
+    /// Frames in the order they are played, each with the round it belongs to.
+    pub frames: Vec<(usize, u32)>,
+    pub riders: Vec<Rider>,
+    /// How many seats there are, taken or not.
+    pub seats: usize,
+    /// Discs that do not move, stage metres.
+    pub standing: Vec<Vec2>,
+    pub mapping: Mapping,
+    /// Pixels in each other's way are left out rather than the frame given up.
+    pub lenient: bool,
+}
+
+/// A robot that takes part.
+#[derive(Clone, Debug)]
+pub(crate) struct Rider {
+    pub seat: usize,
+    pub id: RobotId,
+    /// Where it starts, stage metres.
+    pub at: Vec2,
+    pub original: bool,
 }
 
 /// A plan that was made; give it to [`crate::Controller::planned`].
 #[derive(Clone, Debug)]
 pub struct Done {
     pub(crate) number: u64,
+    pub(crate) legs: Vec<Leg>,
+    /// Frames planned.
+    pub(crate) frames: usize,
+    /// Pixels that stay dark, by frame.
+    pub(crate) dark: Vec<(usize, Vec<u32>)>,
+    /// The first frame without a plan, and why.
+    pub(crate) failed: Option<(usize, String)>,
+    pub(crate) mapping: Mapping,
 }
 
 impl Job {
     /// Makes the plan. Takes milliseconds for small fleets, seconds for the largest; never panics.
     pub fn run(self) -> Done {
-        let _ = &self.show;
-        Done { number: self.number }
+        let mut draft = Draft::new(&self.request);
+        let mut failed = None;
+        for &(frame, round) in &self.request.frames {
+            if let Err(why) = draft.frame(frame, round) {
+                failed = Some((frame, why));
+                break;
+            }
+        }
+        Done {
+            number: self.number,
+            legs: draft.legs,
+            frames: draft.frames,
+            dark: draft.dark,
+            failed,
+            mapping: draft.bindings.mapping,
+        }
     }
+}
+
+/// A plan being made.
+struct Draft<'a> {
+    request: &'a Request,
+    places: Vec<Vec2>,
+    bindings: Bindings,
+    legs: Vec<Leg>,
+    frames: usize,
+    dark: Vec<(usize, Vec<u32>)>,
+}
+
+impl<'a> Draft<'a> {
+    fn new(request: &'a Request) -> Self {
+        let names = request.riders.iter().map(|rider| rider.id).collect();
+        Self {
+            request,
+            places: request.riders.iter().map(|rider| rider.at).collect(),
+            bindings: Bindings::new(names, request.mapping.clone()),
+            legs: Vec::new(),
+            frames: 0,
+            dark: Vec::new(),
+        }
+    }
+
+    /// Adds the legs to one frame.
+    fn frame(&mut self, index: usize, round: u32) -> Result<(), String> {
+        let show = &self.request.show;
+        let frame = show.frames.get(index).ok_or_else(|| "there is no such frame".to_string())?;
+        let identity = frame.identity.unwrap_or(show.identity);
+        let contact = show.stage.limits.contact_m() + BLOCKED_MARGIN_M;
+        let blocked = |pixel: &Pixel| self.request.standing.iter().any(|at| at.distance(pixel.at) < contact);
+        let mut cast = self.bindings.cast(frame, identity, &self.places, blocked);
+        let plan = self.solve(frame, &mut cast)?;
+        let rests = self.rests(&cast, &plan);
+        let legs = if self.request.riders.iter().any(|rider| rider.original) {
+            self.staged(frame, &rests)?
+        } else {
+            let room_m = room(&plan, show.stage.limits.contact_m());
+            let paths: Vec<(usize, Path)> = plan.paths.into_iter().enumerate().collect();
+            vec![self.routes(paths, &rests, plan.duration, room_m)?]
+        };
+        if !cast.dark.is_empty() {
+            self.dark.push((index, cast.dark));
+        }
+        let last = legs.len() - 1;
+        for (number, leg) in legs.into_iter().enumerate() {
+            self.legs.push(Leg { frame: index, round, airs: number == last, ..leg });
+        }
+        self.places = rests.iter().map(|rest| rest.goal).collect();
+        self.frames += 1;
+        Ok(())
+    }
+
+    /// The transition, without the pixels that make it impossible where that is allowed.
+    fn solve(&self, frame: &Frame, cast: &mut Cast<'_>) -> Result<Transition, String> {
+        let mut tries = LENIENT_TRIES;
+        loop {
+            let problem = TransitionProblem {
+                starts: self.places.clone(),
+                goals: cast.pixels.iter().map(|pixel| pixel.at).collect(),
+                pinned: cast.pinned.clone(),
+                standing: self.request.standing.clone(),
+                duration: frame.transition_s.map(Span::from_secs),
+                easing: frame.easing,
+                ..self.empty_problem()
+            };
+            let stuck = match transition(&problem) {
+                Ok(plan) => return Ok(plan),
+                Err(stuck) => stuck,
+            };
+            tries -= 1;
+            if !self.request.lenient || tries == 0 || stuck.goals.is_empty() {
+                return Err(stuck.message);
+            }
+            // Every second one of those in each other's way: the others may then do.
+            let mut out: Vec<usize> = stuck.goals.iter().copied().skip(1).step_by(2).collect();
+            if out.is_empty() {
+                out = stuck.goals;
+            }
+            out.sort_unstable();
+            out.dedup();
+            for goal in out.into_iter().rev().filter(|&goal| goal < problem.goals.len()) {
+                cast.dark.push(cast.pixels.remove(goal).id);
+                cast.pinned.remove(goal);
+            }
+        }
+    }
+
+    fn empty_problem(&self) -> TransitionProblem {
+        let stage = &self.request.show.stage;
+        let half_floor = Vec2::new(stage.width_m / 2.0, stage.depth_m / 2.0);
+        TransitionProblem {
+            obstacles: stage.obstacles.clone(),
+            ..TransitionProblem::on_floor(half_floor, stage.limits)
+        }
+    }
+
+    /// `[rider]`: where each stands when the frame is reached, and its light.
+    fn rests(&self, cast: &Cast<'_>, plan: &Transition) -> Vec<Move> {
+        let rest = |rider: usize| match plan.goal_of.get(rider).copied().flatten() {
+            Some(goal) => {
+                let pixel = cast.pixels[goal];
+                Move { errand: Errand::Stay, goal: pixel.at, pixel: Some(pixel.id), color: pixel.color }
+            }
+            None => Move::stay(plan.paths.get(rider).map_or(self.places[rider], |path| path.as_ref().end())),
+        };
+        (0..self.places.len()).map(rest).collect()
+    }
+
+    /// The legs of a frame in which original robots take part.
+    fn staged(&self, frame: &Frame, rests: &[Move]) -> Result<Vec<Leg>, String> {
+        let stage = &self.request.show.stage;
+        let goals: Vec<Vec2> = rests.iter().map(|rest| rest.goal).collect();
+        let original: Vec<bool> = self.request.riders.iter().map(|rider| rider.original).collect();
+        let floor = Floor {
+            half: Vec2::new(stage.width_m / 2.0, stage.depth_m / 2.0),
+            obstacles: &stage.obstacles,
+            radius_m: stage.limits.radius_m,
+            gap_m: stage.limits.contact_m() + originals::MARGIN_M,
+        };
+        let starts = &self.places;
+        let journey =
+            Journey { floor, starts, goals: &goals, original: &original, standing: &self.request.standing };
+        let drivers: Vec<usize> = (0..starts.len()).filter(|&rider| !original[rider]).collect();
+        let drive = |standing: &[Vec2]| self.drive(frame, &drivers, &goals, standing);
+        let stages = originals::stages(&journey, drive)
+            .ok_or("robots that only know TARGET cannot be brought there one after the other")?;
+        let mut legs = Vec::new();
+        let mut places = starts.clone();
+        for stage in stages {
+            legs.push(match stage {
+                Stage::Targets(batch) => self.targets(&batch, rests, &mut places),
+                Stage::Routes(paths) => {
+                    let duration = paths.first().map_or(Span::ZERO, |(_, path)| path.as_ref().duration());
+                    self.routes(paths, rests, duration, 0.0)?
+                }
+            });
+        }
+        if legs.is_empty() {
+            legs.push(self.targets(&[], rests, &mut places));
+        }
+        Ok(legs)
+    }
+
+    /// Paths of the robots that follow paths, while the originals stand.
+    fn drive(
+        &self,
+        frame: &Frame,
+        drivers: &[usize],
+        goals: &[Vec2],
+        standing: &[Vec2],
+    ) -> Option<Vec<(usize, Path)>> {
+        let problem = TransitionProblem {
+            starts: drivers.iter().map(|&rider| self.places[rider]).collect(),
+            goals: drivers.iter().map(|&rider| goals[rider]).collect(),
+            pinned: (0..drivers.len()).map(Some).collect(),
+            standing: standing.to_vec(),
+            duration: frame.transition_s.map(Span::from_secs),
+            easing: frame.easing,
+            ..self.empty_problem()
+        };
+        let plan = transition(&problem).ok()?;
+        Some(drivers.iter().copied().zip(plan.paths).collect())
+    }
+
+    fn routes(
+        &self,
+        paths: Vec<(usize, Path)>,
+        rests: &[Move],
+        duration: Span,
+        room_m: f64,
+    ) -> Result<Leg, String> {
+        if paths.iter().any(|(_, path)| path.pieces.len() > MAX_PIECES) {
+            return Err(format!("a path has more than the {MAX_PIECES} pieces a robot can keep"));
+        }
+        let mut leg = self.leg(Kind::Routes, rests, paths.len(), duration, room_m);
+        for (rider, path) in paths {
+            let goal = path.as_ref().end();
+            let step = &mut leg.moves[self.request.riders[rider].seat];
+            *step = Move { errand: Errand::Path(path), goal, ..step.clone() };
+        }
+        Ok(leg)
+    }
+
+    fn targets(&self, batch: &[(usize, Vec2)], rests: &[Move], places: &mut [Vec2]) -> Leg {
+        let longest = batch.iter().map(|&(rider, to)| places[rider].distance(to)).fold(0.0, f64::max);
+        let duration = Span::from_secs(longest / ORIGINAL_MPS);
+        let mut leg = self.leg(Kind::Targets, rests, batch.len(), duration, 0.0);
+        for &(rider, to) in batch {
+            places[rider] = to;
+            let step = &mut leg.moves[self.request.riders[rider].seat];
+            *step = Move { errand: Errand::Target(to), goal: to, ..step.clone() };
+        }
+        leg
+    }
+
+    /// A leg in which nobody moves yet.
+    fn leg(&self, kind: Kind, rests: &[Move], movers: usize, duration: Span, room_m: f64) -> Leg {
+        let mut moves = vec![Move::stay(Vec2::ZERO); self.request.seats];
+        for (rider, rest) in self.request.riders.iter().zip(rests) {
+            moves[rider.seat] = rest.clone();
+        }
+        Leg { frame: 0, round: 0, seq: 0, kind, moves, movers, duration, airs: false, room_m }
+    }
+}
+
+fn room(plan: &Transition, contact_m: f64) -> f64 {
+    plan.closest.map_or(f64::INFINITY, |closest| closest.distance_m) - contact_m
 }

@@ -3,7 +3,7 @@
 use crate::config::Config;
 use crate::event::EventKind;
 use crate::log::Log;
-use crate::snapshot::Age;
+use crate::snapshot::{Age, RobotView};
 use lightbots_base::{Instant, Rgb, RobotId, Span, Vec2};
 use lightbots_wire::{Abilities, Details, Firmware, Report, RobotState};
 use std::collections::HashMap;
@@ -29,11 +29,17 @@ pub(crate) struct Robot {
     pub abilities: Abilities,
     pub found: Instant,
     pub heard: Instant,
+    /// When an original was asked for a sign of life.
+    pub asked: Instant,
     pub age: Age,
     /// The light it was told to show.
     pub light: Rgb,
     /// Its seat in the run.
     pub seat: Option<u32>,
+    /// The pixel it showed when the last run ended.
+    pub pixel: Option<u32>,
+    /// Where it stood then, stage metres.
+    pub goal: Option<Vec2>,
 }
 
 /// What a report changed.
@@ -74,9 +80,12 @@ impl Robot {
             abilities: Abilities::default(),
             found: now,
             heard: now,
+            asked: now,
             age: Age::Active,
             light: Rgb::BLACK,
             seat: None,
+            pixel: None,
+            goal: None,
         }
     }
 
@@ -88,6 +97,34 @@ impl Robot {
     /// Whether it is here, well and stands or drives as told.
     pub fn is_fit(&self) -> bool {
         self.age == Age::Active && !matches!(self.state, Some(RobotState::Faulty | RobotState::Lost))
+    }
+
+    /// Whether it was heard lately.
+    pub fn is_heard(&self) -> bool {
+        self.age == Age::Active
+    }
+
+    /// What a screen shows of it outside a run.
+    pub fn view(&self) -> RobotView {
+        RobotView {
+            id: self.id,
+            at: self.at,
+            heading: self.heading,
+            planned: None,
+            goal: self.goal,
+            pixel: self.pixel,
+            light: self.light,
+            age: self.age,
+            heard: self.heard,
+            found: self.found,
+            battery: self.battery,
+            state: self.state,
+            off_m: self.off_m,
+            clock_us: self.clock_us,
+            firmware: self.firmware.clone(),
+            abilities: self.abilities,
+            takes_part: false,
+        }
     }
 
     /// Whether it could take part in a run now.

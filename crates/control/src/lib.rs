@@ -14,19 +14,35 @@
 //! assert!(controller.snapshot(Instant(5)).robots.len() <= 1);
 //! ```
 
+mod clear;
 mod clock;
 mod config;
 mod controller;
 mod drafting;
+mod driving;
 mod event;
 mod fleet;
+mod hearing;
+mod leg;
+mod lights;
 mod log;
+mod mapping;
+mod operating;
 mod operation;
+mod originals;
 mod outbox;
+mod recovery;
+mod run;
 mod snapshot;
+mod standing;
+mod starting;
+mod stopping;
+mod upload;
+mod view;
+mod watch;
 
 pub use config::Config;
-pub use controller::Controller;
+pub use controller::{Controller, PathsView};
 pub use drafting::{Done, Job};
 pub use event::{Event, EventKind, Outcome, Trouble};
 pub use operation::{MissingPolicy, Operation, Refusal, State};

@@ -1,0 +1,325 @@
+//! Robots drive: departure, arrivals, hold and resume, the end of a leg.
+
+use crate::event::{EventKind, Trouble};
+use crate::leg::Kind;
+use crate::run::{Desk, Phase, Purpose, Run, Standing};
+use lightbots_base::{Instant, Span, Vec2};
+use lightbots_wire::{Command, Route, Topic};
+
+/// HOLD and RESUME are stated this long ahead at least.
+const HOLD_LEAD: Span = Span::from_millis(150);
+/// They are said this often, …
+const SAY: u32 = 5;
+/// … this far apart.
+const SAY_EVERY: Span = Span::from_millis(30);
+/// The START that is under way is repeated, so that robots know the link is alive.
+const HEARTBEAT: Span = Span::from_millis(500);
+/// Robots are looked at this often.
+pub(crate) const CHECK: Span = Span::from_millis(100);
+/// An arrival reported within this of the planned end counts as in time: the picture stands since the planned end.
+const IN_TIME: Span = Span::from_millis(250);
+/// Later than this before the end, holding gains nothing.
+const HOLD_WORTH: Span = Span::from_millis(700);
+
+/// A drive under way.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Drive {
+    /// When it began, show clock.
+    pub began: Instant,
+    /// When it ends by plan, holds included.
+    pub ends: Instant,
+    /// Progress is held from this moment.
+    pub hold: Option<Hold>,
+    /// Time lost by holds that are over.
+    pub lost: Span,
+    pub arrived: usize,
+    first_arrival: Instant,
+    last_arrival: Instant,
+    heartbeat_at: Instant,
+    pub check_at: Instant,
+    /// When those who have not arrived are asked, once they are overdue.
+    pub ask_at: Instant,
+    /// Seats that are late.
+    pub late: usize,
+    /// When lights that change at a moment do so, for robots that cannot fade.
+    pub colors_at: Instant,
+    /// When changes of light are said again.
+    pub fades_at: Instant,
+}
+
+/// Progress is held.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Hold {
+    pub at: Instant,
+    /// The operator wants it.
+    pub by_operator: bool,
+    /// When progress picks up again, once that is said.
+    pub until: Option<Instant>,
+    /// When it is looked at whether all stand.
+    pub check_at: Instant,
+}
+
+impl Drive {
+    /// When something is due.
+    pub fn due(&self) -> Instant {
+        self.check_at.min(self.heartbeat_at).min(self.colors_at).min(self.fades_at)
+    }
+
+    /// How far along their paths robots are by plan.
+    pub fn path_time(&self, now: Instant) -> Span {
+        let free = now - self.began - self.lost;
+        let Some(hold) = self.hold.filter(|hold| now > hold.at) else { return free };
+        let held = (now - hold.at).0 as f64;
+        let ease = Route::EASE.0 as f64;
+        let slowing = held.min(ease);
+        let rolled = slowing - slowing * slowing / (2.0 * ease);
+        let picked = hold.until.filter(|until| now > *until).map_or(0.0, |until| {
+            let since = (now - until).0 as f64;
+            if since < ease { since * since / (2.0 * ease) } else { since - ease / 2.0 }
+        });
+        hold.at - self.began - self.lost + Span((rolled + picked) as i64)
+    }
+}
+
+impl Run {
+    /// The first leg of the queue is under way since `began`.
+    pub fn depart(&mut self, desk: &mut Desk, now: Instant, began: Instant) {
+        let Some(leg) = self.queue.pop_front() else { return };
+        let ends = began + leg.duration;
+        let drive = Drive {
+            began,
+            ends,
+            hold: None,
+            lost: Span::ZERO,
+            arrived: 0,
+            first_arrival: Instant::FAR,
+            last_arrival: Instant::ZERO,
+            heartbeat_at: if leg.kind == Kind::Routes { now + HEARTBEAT } else { Instant::FAR },
+            check_at: now + CHECK,
+            ask_at: ends + Span::from_millis(300),
+            late: 0,
+            colors_at: Instant::FAR,
+            fades_at: Instant::FAR,
+        };
+        for seat in &mut self.seats {
+            seat.arrived = false;
+            seat.late = None;
+            seat.asked = began;
+        }
+        let told = EventKind::TransitionStarted { frame: leg.frame, starts: began, duration: leg.duration };
+        desk.log.tell(now, told);
+        let kind = leg.kind;
+        self.current = Some(leg);
+        self.upload = None;
+        self.phase = Phase::Driving(drive);
+        match kind {
+            Kind::Routes => self.plan_lights(desk, now),
+            Kind::Targets => self.send_targets(desk),
+        }
+        self.pump_upload(desk, now);
+        self.end_leg_if_all_arrived(desk, now);
+    }
+
+    /// Way-points and lights of those who only know these.
+    pub fn send_targets(&mut self, desk: &mut Desk) {
+        let Some(leg) = &self.current else { return };
+        for (seat, step) in leg.moves.iter().enumerate() {
+            let known = &self.seats[seat];
+            if known.out || known.arrived {
+                continue;
+            }
+            let target = leg.target(seat).map(Command::Target);
+            let recolor = (target.is_some() || leg.airs && step.pixel.is_some())
+                && desk.relight(known.robot, step.color);
+            let color = recolor.then_some(Command::Color(step.color));
+            let commands: Vec<Command> = target.into_iter().chain(color).collect();
+            if !commands.is_empty() {
+                desk.outbox.say(Topic::Robot(desk.fleet.robot(known.robot).id), &commands);
+            }
+        }
+    }
+
+    /// A robot says it has arrived.
+    pub fn hear_arrival(&mut self, desk: &mut Desk, now: Instant, seat: usize, at: Option<Vec2>) {
+        let id = desk.fleet.robot(self.seats[seat].robot).id;
+        let Phase::Driving(drive) = &self.phase else {
+            self.judge_place(desk, now, seat, at);
+            return;
+        };
+        let (ends, begun) = (drive.ends, now >= drive.began);
+        let goal = self.current.as_ref().and_then(|leg| leg.moves.get(seat)).map(|step| step.goal);
+        let (Some(at), Some(goal)) = (at, goal) else { return };
+        if !self.is_awaited(seat) || self.seats[seat].arrived {
+            return;
+        }
+        if begun && is_there(at, goal, desk.config.arrival_tolerance_m) {
+            self.arrive(desk, now, seat);
+        } else if now + IN_TIME >= ends {
+            let off_m = at.distance(goal);
+            desk.log.tell_limited(now, EventKind::Misaligned { robot: id, off_m });
+        }
+    }
+
+    /// An arrival while nobody drives: late news, or a robot that went somewhere on its own.
+    fn judge_place(&mut self, desk: &mut Desk, now: Instant, seat: usize, at: Option<Vec2>) {
+        let Phase::Standing(_) = self.phase else { return };
+        let goal = self.current.as_ref().and_then(|leg| leg.moves.get(seat)).map(|step| step.goal);
+        let (Some(at), Some(goal)) = (at, goal) else { return };
+        let id = desk.fleet.robot(self.seats[seat].robot).id;
+        if !is_there(at, goal, desk.config.arrival_tolerance_m) {
+            desk.unexpected += 1;
+            desk.log.tell_limited(now, EventKind::Misaligned { robot: id, off_m: at.distance(goal) });
+            self.stray = true;
+        }
+    }
+
+    /// Counts an arrival; the last one ends the leg.
+    pub fn arrive(&mut self, desk: &mut Desk, now: Instant, seat: usize) {
+        let Phase::Driving(drive) = &mut self.phase else { return };
+        if std::mem::replace(&mut self.seats[seat].arrived, true) {
+            return;
+        }
+        drive.arrived += 1;
+        drive.first_arrival = drive.first_arrival.min(now);
+        drive.last_arrival = drive.last_arrival.max(now);
+        if self.seats[seat].late.take().is_some() {
+            drive.late = drive.late.saturating_sub(1);
+        }
+        self.end_leg_if_all_arrived(desk, now);
+    }
+
+    fn end_leg_if_all_arrived(&mut self, desk: &mut Desk, now: Instant) {
+        let (Phase::Driving(drive), Some(leg)) = (&self.phase, &self.current) else { return };
+        let held = drive.hold.is_some_and(|hold| hold.by_operator && hold.until.is_none());
+        if drive.arrived < leg.movers || now < drive.began {
+            return;
+        }
+        let (drive, airs, frame) = (*drive, leg.airs, leg.frame);
+        let in_time = leg.kind == Kind::Routes && drive.last_arrival - drive.ends <= IN_TIME;
+        let stands_since = if in_time { drive.ends.min(now) } else { now };
+        let air = if airs { Span::from_secs(self.air_time_s(frame)) } else { Span::ZERO };
+        self.pause |= held;
+        if airs {
+            let spread = (drive.last_arrival - drive.first_arrival).max(Span::ZERO);
+            let spread = if drive.arrived == 0 { Span::ZERO } else { spread };
+            let wait = (now - drive.ends).max(Span::ZERO);
+            desk.log.tell(now, EventKind::FrameReached { frame, spread, wait });
+            self.frames_played += 1;
+            self.lead = desk.config.start_lead.max(self.lead * 9 / 10);
+            self.pause |= std::mem::take(&mut self.step);
+            self.advance();
+        }
+        let paused = self.pause.then_some(air);
+        self.phase = Phase::Standing(Standing { since: now, until: stands_since + air, paused });
+        self.tick_standing(desk, now);
+    }
+
+    /// The picture stands: the next frame is the next to be reached.
+    fn advance(&mut self) {
+        let done = self.next;
+        if let Some(next) = self.after(done) {
+            self.next = next;
+        } else {
+            self.next.frame = usize::MAX;
+        }
+    }
+
+    fn air_time_s(&self, frame: usize) -> f64 {
+        let air = self.show.frames.get(frame).map_or(0.0, |frame| frame.air_time_s);
+        if self.purpose == Purpose::Play && air.is_finite() { air.clamp(0.0, 86_400.0) } else { 0.0 }
+    }
+
+    /// Everybody slows down together.
+    pub fn hold(&mut self, desk: &mut Desk, now: Instant, by_operator: bool) {
+        let lead = self.lead.max(HOLD_LEAD);
+        let Phase::Driving(drive) = &mut self.phase else { return };
+        if let Some(hold) = &mut drive.hold
+            && hold.until.is_none()
+        {
+            hold.by_operator |= by_operator;
+            return;
+        }
+        if drive.hold.is_some() || !by_operator && now + HOLD_WORTH > drive.ends {
+            return;
+        }
+        let at = now + lead;
+        let check_at = at + Route::EASE + Span::from_millis(400);
+        drive.hold = Some(Hold { at, by_operator, until: None, check_at });
+        if self.current.as_ref().is_some_and(|leg| leg.kind == Kind::Targets) {
+            self.halt_originals(desk);
+        } else {
+            desk.outbox.broadcast(now, Command::Hold { at }, SAY, SAY_EVERY);
+        }
+    }
+
+    /// Everybody picks up again together.
+    pub fn release(&mut self, desk: &mut Desk, now: Instant) {
+        let lead = self.lead.max(HOLD_LEAD);
+        let Phase::Driving(drive) = &mut self.phase else { return };
+        let Some(hold) = drive.hold.as_mut().filter(|hold| hold.until.is_none()) else { return };
+        let until = (now + lead).max(hold.at + Route::EASE);
+        hold.until = Some(until);
+        drive.ends += until - hold.at;
+        drive.ask_at = drive.ends + Span::from_millis(300);
+        desk.log.tell(now, EventKind::Resumed);
+        if self.current.as_ref().is_some_and(|leg| leg.kind == Kind::Targets) {
+            self.send_targets(desk);
+        } else {
+            desk.outbox.broadcast(now, Command::Resume { at: until }, SAY, SAY_EVERY);
+        }
+    }
+
+    /// Originals on their way stop where they last said they are, and say where that is.
+    pub fn halt_originals(&self, desk: &mut Desk) {
+        for known in self.seats.iter().filter(|known| !known.arrived && !known.out) {
+            let robot = desk.fleet.robot(known.robot);
+            if let (true, Some(at)) = (robot.is_original(), robot.at) {
+                desk.outbox.say(Topic::Robot(robot.id), &[Command::Target(at), Command::Uuid]);
+            }
+        }
+    }
+
+    /// Time passes while robots drive.
+    pub fn tick_drive(&mut self, desk: &mut Desk, now: Instant) {
+        let Phase::Driving(drive) = &mut self.phase else { return };
+        if self.pause && drive.hold.is_none() {
+            self.hold(desk, now, true);
+        }
+        let Phase::Driving(drive) = &mut self.phase else { return };
+        if let Some(hold) = drive.hold
+            && hold.until.is_some_and(|until| now >= until + Route::EASE)
+        {
+            drive.lost += hold.until.map_or(Span::ZERO, |until| until - hold.at);
+            drive.hold = None;
+        }
+        if now >= drive.heartbeat_at {
+            drive.heartbeat_at = now + HEARTBEAT;
+            let (seq, at) = (self.current.as_ref().map_or(0, |leg| leg.seq), drive.began);
+            desk.outbox.say(Topic::Broadcast, &[Command::Start { seq, at }]);
+        }
+        self.tick_lights(desk, now);
+        self.pump_upload(desk, now);
+        self.watch(desk, now);
+        self.end_leg_if_all_arrived(desk, now);
+    }
+
+    /// A robot that stands off its goal for good counts as arrived, and the rest is planned from where it is.
+    pub fn accept_misaligned(&mut self, desk: &mut Desk, now: Instant, seat: usize, off_m: f64) {
+        let robot = desk.fleet.robot(self.seats[seat].robot).id;
+        desk.log.tell_limited(now, EventKind::Misaligned { robot, off_m });
+        self.stray = true;
+        self.arrive(desk, now, seat);
+    }
+
+    /// Everybody waits for a robot.
+    pub fn wait_for(&mut self, desk: &mut Desk, now: Instant, seat: usize, why: Trouble) {
+        let robot = desk.fleet.robot(self.seats[seat].robot).id;
+        desk.log.tell_limited(now, EventKind::Waiting { robot, why });
+        self.hold(desk, now, false);
+    }
+}
+
+/// Whether a place is the goal, as the original tests it.
+pub(crate) fn is_there(at: Vec2, goal: Vec2, tolerance_m: f64) -> bool {
+    (at.x - goal.x).abs() <= tolerance_m + 1e-9 && (at.y - goal.y).abs() <= tolerance_m + 1e-9
+}

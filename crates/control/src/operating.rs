@@ -1,0 +1,211 @@
+//! What the operator's wishes do.
+
+use crate::controller::Controller;
+use crate::event::{EventKind, Outcome};
+use crate::operation::{MissingPolicy, Operation, Refusal, State};
+use crate::run::{Phase, Purpose, Run};
+use crate::stopping::Stopping;
+use lightbots_base::{Instant, RobotId, Span};
+use lightbots_show::Show;
+use lightbots_wire::{Blink, Command, Topic};
+use std::sync::Arc;
+
+/// How long a robot flashes to be found.
+const BLINK: Span = Span::from_millis(5_000);
+/// The most pixels a refusal lists.
+const LISTED: usize = 16;
+
+impl Controller {
+    /// The operator wants something.
+    pub fn operate(&mut self, now: Instant, operation: Operation) -> Result<(), Refusal> {
+        let done = match operation {
+            Operation::Open(show) => self.open(now, show),
+            Operation::Play { from, missing } => self.begin(now, Purpose::Play, from, missing),
+            Operation::Preview { frame, missing } => self.begin(now, Purpose::Preview, frame, missing),
+            Operation::Pause => self.with_run(|run| run.pause = true),
+            Operation::Resume => self.resume(now, false),
+            Operation::Step => self.resume(now, true),
+            Operation::Abort => self.abort(now),
+            Operation::StopAll => self.stop_all(now),
+            Operation::Refresh => self.linked().map(|()| self.refresh(now)),
+            Operation::Identify(id) => self.identify(id),
+            Operation::Forget(id) => self.forget(id),
+            Operation::Loop(looping) => {
+                self.looping = looping;
+                if let Some(run) = &mut self.run {
+                    run.set_looping(looping);
+                }
+                Ok(())
+            }
+            Operation::Pin { pixel, robot } => {
+                match robot {
+                    Some(robot) => self.desk.mapping.pins.insert(pixel, robot),
+                    None => self.desk.mapping.pins.remove(&pixel),
+                };
+                Ok(())
+            }
+        };
+        if done.is_ok()
+            && let Some(run) = &mut self.run
+        {
+            run.tick(&mut self.desk, now);
+        }
+        self.conclude(now);
+        done
+    }
+
+    fn linked(&self) -> Result<(), Refusal> {
+        if self.desk.outbox.linked() { Ok(()) } else { Err(Refusal::NotConnected) }
+    }
+
+    fn idle(&self) -> Result<(), Refusal> {
+        match self.state() {
+            state if self.run.is_some() || self.stopping.is_some() => Err(Refusal::Busy(state)),
+            _ => Ok(()),
+        }
+    }
+
+    fn open(&mut self, now: Instant, show: Arc<Show>) -> Result<(), Refusal> {
+        if self.run.is_some() {
+            return Err(Refusal::Busy(self.state()));
+        }
+        self.desk.log.tell(now, EventKind::ShowOpened { name: show.name.clone(), frames: show.frames.len() });
+        self.show = Some(show);
+        Ok(())
+    }
+
+    fn begin(
+        &mut self,
+        now: Instant,
+        purpose: Purpose,
+        frame: usize,
+        missing: MissingPolicy,
+    ) -> Result<(), Refusal> {
+        self.linked()?;
+        self.idle()?;
+        let show = self.show.clone().ok_or(Refusal::NoShow)?;
+        let frames = show.frames.len();
+        if frame >= frames {
+            return Err(Refusal::NoSuchFrame { frame, frames });
+        }
+        let last = if purpose == Purpose::Preview { frame } else { frames - 1 };
+        self.enough(&show, frame..=last, missing)?;
+        self.run = Some(Run::begin(&mut self.desk, now, show, purpose, frame, missing, self.looping));
+        Ok(())
+    }
+
+    /// Whether there are robots for all pixels of these frames.
+    fn enough(
+        &self,
+        show: &Show,
+        frames: std::ops::RangeInclusive<usize>,
+        missing: MissingPolicy,
+    ) -> Result<(), Refusal> {
+        let fleet = self.desk.fleet.robots();
+        let pixels = show.frames[frames.clone()].iter().map(|frame| frame.pixels.len()).max().unwrap_or(0);
+        let robots = fleet.iter().filter(|robot| robot.can_take_part()).count();
+        if robots == 0 || robots < pixels && missing == MissingPolicy::Refuse {
+            let without_place = fleet.iter().filter(|r| r.is_heard() && r.at.is_none()).count();
+            let unfit = fleet.len() - robots - without_place;
+            return Err(Refusal::TooFewRobots { pixels, robots, without_place, unfit });
+        }
+        if missing == MissingPolicy::LeaveOut {
+            return Ok(());
+        }
+        let present =
+            |id: RobotId| self.desk.fleet.find(id).is_some_and(|index| fleet[index].can_take_part());
+        let bound = show.frames[frames].iter().flat_map(|frame| &frame.pixels);
+        let mut away: Vec<u32> = bound
+            .filter(|pixel| match &pixel.robot {
+                Some(name) => !RobotId::new(name).is_some_and(present),
+                None => self.desk.mapping.pins.get(&pixel.id).is_some_and(|&id| !present(id)),
+            })
+            .map(|pixel| pixel.id)
+            .collect();
+        away.sort_unstable();
+        away.dedup();
+        away.truncate(LISTED);
+        if away.is_empty() { Ok(()) } else { Err(Refusal::PinnedMissing { pixels: away }) }
+    }
+
+    fn with_run(&mut self, act: impl FnOnce(&mut Run)) -> Result<(), Refusal> {
+        self.linked()?;
+        self.run.as_mut().map(act).ok_or(Refusal::NoRun)
+    }
+
+    fn resume(&mut self, now: Instant, step: bool) -> Result<(), Refusal> {
+        self.linked()?;
+        let run = self.run.as_mut().ok_or(Refusal::NoRun)?;
+        if !run.pause {
+            return Err(Refusal::NotPaused);
+        }
+        run.pause = false;
+        run.step = step;
+        match &mut run.phase {
+            Phase::Standing(standing) if step => {
+                standing.paused = None;
+                standing.until = now;
+            }
+            Phase::Driving(drive) => {
+                let late = drive.late > 0;
+                if let Some(hold) = &mut drive.hold {
+                    hold.by_operator = false;
+                }
+                if !late {
+                    run.release(&mut self.desk, now);
+                }
+            }
+            _ => {}
+        }
+        Ok(())
+    }
+
+    fn abort(&mut self, now: Instant) -> Result<(), Refusal> {
+        if self.state() == State::Aborting {
+            return Ok(());
+        }
+        self.run.as_mut().ok_or(Refusal::NoRun)?.over = Some(Outcome::Aborted);
+        self.halt(now);
+        Ok(())
+    }
+
+    fn stop_all(&mut self, now: Instant) -> Result<(), Refusal> {
+        self.linked()?;
+        if let Some(run) = &mut self.run {
+            run.over = Some(Outcome::Aborted);
+        }
+        self.halt(now);
+        self.desk.log.tell(now, EventKind::StoppedAll);
+        Ok(())
+    }
+
+    fn halt(&mut self, now: Instant) {
+        if self.desk.outbox.linked() {
+            self.stopping = Some(Stopping::begin(&mut self.desk, now));
+        }
+    }
+
+    fn identify(&mut self, id: RobotId) -> Result<(), Refusal> {
+        self.linked()?;
+        let index = self.desk.fleet.find(id).ok_or(Refusal::UnknownRobot(id))?;
+        let robot = self.desk.fleet.robot(index);
+        let commands = if robot.abilities.blink {
+            vec![Command::Blink(Blink { over: BLINK })]
+        } else {
+            vec![Command::Uuid]
+        };
+        self.desk.outbox.say(Topic::Robot(id), &commands);
+        Ok(())
+    }
+
+    fn forget(&mut self, id: RobotId) -> Result<(), Refusal> {
+        let index = self.desk.fleet.find(id).ok_or(Refusal::UnknownRobot(id))?;
+        if self.run.is_some() {
+            return Err(Refusal::TakesPart(id));
+        }
+        self.stopping = None;
+        self.desk.fleet.forget(index);
+        self.desk.mapping.forget(id);
+        Ok(())
+    }
+}

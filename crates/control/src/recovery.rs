@@ -1,0 +1,200 @@
+//! When something goes wrong: all stop, say where they stand, and are planned anew without those who are lost.
+
+use crate::event::{EventKind, Outcome, Trouble};
+use crate::operation::MissingPolicy;
+use crate::run::{Desk, Gathering, Phase, Run, Seat, Standing};
+use crate::snapshot::Age;
+use lightbots_base::{Instant, Span};
+use lightbots_wire::{Command, RobotState, Topic};
+
+/// STOP is said this often, …
+const SAY: u32 = 4;
+/// … this far apart.
+const SAY_EVERY: Span = Span::from_millis(40);
+/// Reports count so long after STOP was said.
+const SETTLE: Span = Span::from_millis(200);
+/// Those who have not answered are asked again this often.
+const ASK: Span = Span::from_millis(300);
+/// How long answers are waited for, beyond the silence that drops a robot out.
+const ANSWERS: Span = Span::from_millis(1_500);
+/// How long a robot may take to set its clock.
+const CLOCK: Span = Span::from_millis(8_000);
+/// A robot that dropped out more often than this in a run stays out.
+const DROPOUTS_MAX: u8 = 3;
+
+impl Run {
+    /// A robot takes no part any more; the rest goes on.
+    pub fn drop_out(&mut self, desk: &mut Desk, now: Instant, seat: usize, why: Trouble) {
+        let known = &mut self.seats[seat];
+        if std::mem::replace(&mut known.out, true) {
+            return;
+        }
+        known.dropouts = known.dropouts.saturating_add(1);
+        known.late = None;
+        known.fade = None;
+        self.dropouts += 1;
+        let robot = desk.fleet.robot(known.robot).id;
+        desk.log.tell(now, EventKind::Dropout { robot, why });
+        self.recover(desk, now);
+    }
+
+    /// Plans again from where robots are; who drives is stopped first.
+    pub fn recover(&mut self, desk: &mut Desk, now: Instant) {
+        self.upload = None;
+        self.queue.clear();
+        self.drafting = None;
+        desk.job = None;
+        self.stray = false;
+        self.hurry = true;
+        self.plan_next = (self.next.frame < self.show.frames.len()).then_some(self.next);
+        self.plan_from.clear();
+        match self.phase {
+            Phase::Offline(_) | Phase::Gathering(_) => {}
+            Phase::Standing(_) => self.say_replanning(desk, now),
+            Phase::Starting(_) | Phase::Driving(_) => {
+                self.say_replanning(desk, now);
+                self.gather(desk, now);
+            }
+        }
+    }
+
+    fn say_replanning(&self, desk: &mut Desk, now: Instant) {
+        if let Some(next) = self.plan_next {
+            desk.log.tell_limited(now, EventKind::Replanning { frame: next.frame });
+        }
+    }
+
+    /// Everybody stops and says where they stand.
+    pub fn gather(&mut self, desk: &mut Desk, now: Instant) {
+        desk.outbox.cease();
+        desk.outbox.broadcast(now, Command::Stop, SAY, SAY_EVERY);
+        self.halt_originals(desk);
+        let fresh_from = now + SETTLE;
+        let first = self.current.is_none() && self.frames_played == 0;
+        self.phase = Phase::Gathering(Gathering { since: now, fresh_from, ask_at: fresh_from, first });
+    }
+
+    /// Time passes while all are asked where they stand.
+    pub fn tick_gathering(&mut self, desk: &mut Desk, now: Instant) {
+        let Phase::Gathering(gathering) = self.phase else { return };
+        let waited = now - gathering.since;
+        let mut all_ready = true;
+        for seat in 0..self.seats.len() {
+            if self.seats[seat].out {
+                continue;
+            }
+            let trouble = missing(desk, &self.seats[seat], gathering.fresh_from);
+            let bound = if trouble == Some(Trouble::Cut) { CLOCK } else { desk.config.silence + ANSWERS };
+            match trouble {
+                Some(why) if waited > bound => self.drop_out(desk, now, seat, why),
+                Some(_) => all_ready = false,
+                None => {}
+            }
+        }
+        if all_ready {
+            self.gathered(desk, now, gathering.first);
+        } else if now >= gathering.ask_at {
+            self.ask_again(desk, gathering.fresh_from);
+            self.phase = Phase::Gathering(Gathering { ask_at: now + ASK, ..gathering });
+        }
+    }
+
+    fn ask_again(&self, desk: &mut Desk, fresh_from: Instant) {
+        for known in self.seats.iter().filter(|known| !known.out) {
+            let Some(trouble) = missing(desk, known, fresh_from) else { continue };
+            let robot = desk.fleet.robot(known.robot);
+            let command = match trouble {
+                _ if robot.is_original() => Command::Uuid,
+                Trouble::Deaf => Command::Stop,
+                _ => Command::Status,
+            };
+            desk.outbox.say(Topic::Robot(robot.id), &[command]);
+        }
+    }
+
+    /// All stand and their places are known.
+    fn gathered(&mut self, desk: &mut Desk, now: Instant, first: bool) {
+        let riders = self.seats.iter().filter(|known| !known.out).count();
+        let pixels = self.show.frames.get(self.next.frame).map_or(0, |frame| frame.pixels.len());
+        if riders == 0 || first && self.missing == MissingPolicy::Refuse && riders < pixels {
+            let why = format!("{riders} robots are left for {pixels} pixels");
+            self.over = Some(Outcome::Failed(why));
+            return;
+        }
+        self.phase = Phase::Standing(Standing { since: now, until: now, paused: None });
+        self.tick_standing(desk, now);
+    }
+
+    /// A robot without a part, or out, is heard: it may take part from the next frame on.
+    pub fn consider_joiner(&mut self, desk: &Desk, robot: usize) {
+        let known = desk.fleet.robot(robot);
+        let welcome = match known.seat {
+            Some(seat) => self.seats[seat as usize].dropouts <= DROPOUTS_MAX,
+            None => self.dark,
+        };
+        let plays = self.purpose == crate::run::Purpose::Play;
+        if welcome && plays && is_ready(desk, robot) && !self.joiners.contains(&robot) {
+            self.joiners.push(robot);
+        }
+    }
+
+    /// Those who want to take part do, while all stand.
+    pub fn seat_joiners(&mut self, desk: &mut Desk, now: Instant) {
+        if self.joiners.is_empty() || self.next.frame >= self.show.frames.len() {
+            return;
+        }
+        let mut joined = false;
+        for robot in std::mem::take(&mut self.joiners) {
+            if !is_ready(desk, robot) {
+                continue;
+            }
+            match desk.fleet.robot(robot).seat {
+                Some(seat) => self.seats[seat as usize].out = false,
+                None => {
+                    desk.fleet.robot_mut(robot).seat = Some(self.seats.len() as u32);
+                    self.seats.push(Seat::new(robot));
+                }
+            }
+            joined = true;
+            desk.log.tell(now, EventKind::Rejoined(desk.fleet.robot(robot).id));
+        }
+        if joined {
+            self.recover(desk, now);
+        }
+    }
+
+    /// The broker is lost: robots stop by themselves.
+    pub fn go_offline(&mut self, desk: &mut Desk, now: Instant) {
+        self.recover(desk, now);
+        self.phase = Phase::Offline(now);
+    }
+
+    /// The broker is back: who stands where?
+    pub fn come_online(&mut self, desk: &mut Desk, now: Instant) {
+        if matches!(self.phase, Phase::Offline(_)) {
+            self.say_replanning(desk, now);
+            self.gather(desk, now);
+        }
+    }
+}
+
+/// What a seat's robot lacks to be planned for; `None`: nothing.
+fn missing(desk: &Desk, known: &Seat, fresh_from: Instant) -> Option<Trouble> {
+    let robot = desk.fleet.robot(known.robot);
+    if robot.heard < fresh_from {
+        return Some(Trouble::Silent);
+    }
+    match robot.state {
+        Some(RobotState::Faulty) => Some(Trouble::Faulty),
+        Some(RobotState::Lost) => Some(Trouble::Lost),
+        Some(RobotState::Driving | RobotState::Held) => Some(Trouble::Deaf),
+        _ if robot.at.is_none() => Some(Trouble::Lost),
+        _ if !robot.is_original() && robot.clock_us.is_none() => Some(Trouble::Cut),
+        _ => None,
+    }
+}
+
+/// Whether a robot could be planned for now.
+fn is_ready(desk: &Desk, robot: usize) -> bool {
+    desk.fleet.robot(robot).age == Age::Active && missing(desk, &Seat::new(robot), Instant::ZERO).is_none()
+}

@@ -1,0 +1,349 @@
+//! A run: robots in their seats, the leg they drive, the legs that follow, and what everybody waits for.
+
+use crate::config::Config;
+use crate::drafting::Job;
+use crate::driving::Drive;
+use crate::event::{EventKind, Outcome};
+use crate::fleet::Fleet;
+use crate::fleet::Robot;
+use crate::leg::Kind;
+use crate::leg::Leg;
+use crate::log::Log;
+use crate::mapping::Mapping;
+use crate::operation::MissingPolicy;
+use crate::outbox::Outbox;
+use crate::starting::Start;
+use crate::upload::Upload;
+use lightbots_base::{Instant, Rgb, Span, Vec2};
+use lightbots_show::Show;
+use lightbots_wire::{Fade, RobotState};
+use std::collections::VecDeque;
+use std::sync::Arc;
+
+/// What a run works with, and what outlives it.
+#[derive(Clone, Debug)]
+pub(crate) struct Desk {
+    pub config: Config,
+    pub fleet: Fleet,
+    pub outbox: Outbox,
+    pub log: Log,
+    pub mapping: Mapping,
+    /// A plan to be made; a newer one replaces an older one.
+    pub job: Option<Job>,
+    pub job_number: u64,
+    next_seq: u32,
+    /// Arrivals nobody expected.
+    pub unexpected: u64,
+    /// Routes sent more than once.
+    pub resent: u64,
+}
+
+/// A robot's part in the run.
+#[derive(Clone, Debug)]
+pub(crate) struct Seat {
+    /// Index into the fleet.
+    pub robot: usize,
+    /// It dropped out and stands somewhere.
+    pub out: bool,
+    /// How often it dropped out.
+    pub dropouts: u8,
+    /// The route it acknowledged last.
+    pub acked: u32,
+    /// How often the present route was sent.
+    pub tries: u32,
+    /// The start it confirmed last.
+    pub starts: Option<Instant>,
+    /// It reached the goal of the present leg.
+    pub arrived: bool,
+    /// It is too far off its path, since when.
+    pub late: Option<Instant>,
+    /// It has been asked for a sign of life, last when.
+    pub asked: Instant,
+    /// A change of its light that it may not know yet.
+    pub fade: Option<Fade>,
+}
+
+/// What kind of run it is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Purpose {
+    Play,
+    Preview,
+}
+
+/// Where a run is.
+#[derive(Clone, Debug)]
+pub(crate) enum Phase {
+    /// All are asked where they stand.
+    Gathering(Gathering),
+    /// All stand, in a picture or before the first; the next leg is planned and handed out meanwhile.
+    Standing(Standing),
+    /// The START of the next leg is stated.
+    Starting(Start),
+    /// Robots drive.
+    Driving(Drive),
+    /// The broker is lost since then.
+    Offline(Instant),
+}
+
+/// All are asked where they stand.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Gathering {
+    pub since: Instant,
+    /// Reports count from then on.
+    pub fresh_from: Instant,
+    pub ask_at: Instant,
+    /// Nothing was driven yet: too few robots are a reason not to begin.
+    pub first: bool,
+}
+
+/// All stand.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Standing {
+    pub since: Instant,
+    /// The picture stays at least until then.
+    pub until: Instant,
+    /// Air time that is left while paused.
+    pub paused: Option<Span>,
+}
+
+/// Where the run goes next.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Cursor {
+    pub frame: usize,
+    pub round: u32,
+}
+
+/// Everything about one run.
+#[derive(Clone, Debug)]
+pub(crate) struct Run {
+    pub show: Arc<Show>,
+    pub purpose: Purpose,
+    pub missing: MissingPolicy,
+    pub looping: bool,
+    pub seats: Vec<Seat>,
+    pub phase: Phase,
+    /// The leg that is driven or has brought everybody where they stand.
+    pub current: Option<Leg>,
+    /// The legs that follow; the first is handed out.
+    pub queue: VecDeque<Leg>,
+    pub upload: Option<Upload>,
+    /// The frame that is reached next.
+    pub next: Cursor,
+    /// The frame that is planned next.
+    pub plan_next: Option<Cursor>,
+    /// `[seat]`: where everybody stands when it is driven to.
+    pub plan_from: Vec<Vec2>,
+    /// The job that is out, and since when.
+    pub drafting: Option<(u64, Instant)>,
+    /// The last frame that is planned or being planned.
+    pub plan_tail: Cursor,
+    /// Plan only one frame for now: robots wait.
+    pub hurry: bool,
+    /// Why there is no plan beyond the queue.
+    pub failed: Option<String>,
+    pub pause: bool,
+    /// Pause again at the next picture.
+    pub step: bool,
+    /// Robots stand too far from where the next leg begins.
+    pub stray: bool,
+    /// Pixels of the last plan stayed dark.
+    pub dark: bool,
+    /// Robots (indices into the fleet) that want to take part from the next frame on.
+    pub joiners: Vec<usize>,
+    /// Where the watch over the seats goes on.
+    pub watched: usize,
+    /// START is stated this long ahead; grows with slow links.
+    pub lead: Span,
+    pub frames_played: usize,
+    pub dropouts: usize,
+    /// How it ended, once it has.
+    pub over: Option<Outcome>,
+}
+
+impl Desk {
+    pub fn new(config: Config) -> Self {
+        Self {
+            next_seq: config.seq_base.max(1),
+            config,
+            fleet: Fleet::default(),
+            outbox: Outbox::default(),
+            log: Log::default(),
+            mapping: Mapping::default(),
+            job: None,
+            job_number: 0,
+            unexpected: 0,
+            resent: 0,
+        }
+    }
+
+    /// A route number that was not used before; never 0.
+    pub fn take_seq(&mut self) -> u32 {
+        let seq = self.next_seq;
+        self.next_seq = seq.checked_add(1).unwrap_or(1);
+        seq
+    }
+
+    /// The light a robot is told to show from now on, if it is another one.
+    pub fn relight(&mut self, robot: usize, color: Rgb) -> bool {
+        let robot = self.fleet.robot_mut(robot);
+        std::mem::replace(&mut robot.light, color) != color
+    }
+}
+
+impl Seat {
+    pub fn new(robot: usize) -> Self {
+        Self {
+            robot,
+            out: false,
+            dropouts: 0,
+            acked: 0,
+            tries: 0,
+            starts: None,
+            arrived: false,
+            late: None,
+            asked: Instant::ZERO,
+            fade: None,
+        }
+    }
+}
+
+impl Run {
+    /// Everybody who can takes a seat; then it is asked where they stand, unless that is known.
+    pub fn begin(
+        desk: &mut Desk,
+        now: Instant,
+        show: Arc<Show>,
+        purpose: Purpose,
+        frame: usize,
+        missing: MissingPolicy,
+        looping: bool,
+    ) -> Self {
+        let next = Cursor { frame, round: 0 };
+        let seats = take_seats(desk);
+        desk.log.tell(now, EventKind::RunBegun { from: frame, robots: seats.len() });
+        let mut run = Self {
+            show,
+            purpose,
+            missing,
+            looping,
+            seats,
+            phase: Phase::Gathering(Gathering {
+                since: now,
+                fresh_from: Instant::ZERO,
+                ask_at: now,
+                first: true,
+            }),
+            current: None,
+            queue: VecDeque::new(),
+            upload: None,
+            next,
+            plan_next: Some(next),
+            plan_from: Vec::new(),
+            drafting: None,
+            plan_tail: next,
+            hurry: false,
+            failed: None,
+            pause: false,
+            step: false,
+            stray: false,
+            dark: false,
+            joiners: Vec::new(),
+            watched: 0,
+            lead: desk.config.start_lead,
+            frames_played: 0,
+            dropouts: 0,
+            over: None,
+        };
+        let busy = |robot: &Robot| !matches!(robot.state, None | Some(RobotState::Idle));
+        if run.seats.iter().any(|seat| busy(desk.fleet.robot(seat.robot))) {
+            run.gather(desk, now);
+        }
+        run
+    }
+
+    /// The run is over: robots keep what they show.
+    pub fn leave(&mut self, desk: &mut Desk) {
+        for (seat, known) in self.seats.iter().enumerate() {
+            let robot = desk.fleet.robot_mut(known.robot);
+            robot.seat = None;
+            let step = self.current.as_ref().and_then(|leg| leg.moves.get(seat)).filter(|_| !known.out);
+            robot.pixel = step.and_then(|step| step.pixel);
+            robot.goal = step.map(|step| step.goal);
+        }
+    }
+
+    /// Time passes.
+    pub fn tick(&mut self, desk: &mut Desk, now: Instant) {
+        match self.phase {
+            Phase::Gathering(_) => self.tick_gathering(desk, now),
+            Phase::Standing(_) => self.tick_standing(desk, now),
+            Phase::Starting(_) => {
+                self.pump_upload(desk, now);
+                self.tick_start(desk, now);
+            }
+            Phase::Driving(_) => self.tick_drive(desk, now),
+            Phase::Offline(since) if now - since > desk.config.offline_bound => {
+                self.over = Some(Outcome::Failed("the broker did not come back".into()));
+            }
+            Phase::Offline(_) => {}
+        }
+    }
+
+    /// When time has to pass next.
+    pub fn due(&self, now: Instant) -> Instant {
+        let upload = self.upload.as_ref().and_then(Upload::due).unwrap_or(Instant::FAR);
+        match &self.phase {
+            Phase::Gathering(_) => now + Span::from_millis(50),
+            Phase::Standing(standing) => self.standing_due(now, standing.until),
+            Phase::Starting(start) => start.due().min(upload),
+            Phase::Driving(drive) => drive.due().min(upload),
+            Phase::Offline(_) => now + Span::from_millis(1_000),
+        }
+    }
+
+    /// The leg whose paths are driven or about to be, and when they begin.
+    pub fn driven_paths(&self) -> Option<(&Leg, Instant)> {
+        let (leg, began) = match &self.phase {
+            Phase::Starting(start) => (self.queue.front(), start.at),
+            Phase::Driving(drive) => (self.current.as_ref(), drive.began),
+            _ => return None,
+        };
+        leg.filter(|leg| leg.kind == Kind::Routes).map(|leg| (leg, began))
+    }
+
+    /// Where a seat's robot said it is; its goal where it never said.
+    pub fn place(&self, desk: &Desk, seat: usize) -> Vec2 {
+        let goal =
+            || self.current.as_ref().and_then(|leg| leg.moves.get(seat)).map_or(Vec2::ZERO, |m| m.goal);
+        desk.fleet.robot(self.seats[seat].robot).at.unwrap_or_else(goal)
+    }
+
+    /// Whether a seat has to arrive for the present leg to end.
+    pub fn is_awaited(&self, seat: usize) -> bool {
+        !self.seats[seat].out && self.current.as_ref().is_some_and(|leg| leg.moves(seat))
+    }
+
+    /// The frame after one, if there is any.
+    pub fn after(&self, cursor: Cursor) -> Option<Cursor> {
+        match self.purpose {
+            Purpose::Preview => None,
+            Purpose::Play if cursor.frame + 1 < self.show.frames.len() => {
+                Some(Cursor { frame: cursor.frame + 1, ..cursor })
+            }
+            Purpose::Play => self.looping.then(|| Cursor { frame: 0, round: cursor.round + 1 }),
+        }
+    }
+}
+
+/// Seats for all who can take part.
+fn take_seats(desk: &mut Desk) -> Vec<Seat> {
+    let mut seats = Vec::new();
+    for index in 0..desk.fleet.robots().len() {
+        let robot = desk.fleet.robot_mut(index);
+        robot.seat = robot.can_take_part().then_some(seats.len() as u32);
+        if robot.seat.is_some() {
+            seats.push(Seat::new(index));
+        }
+    }
+    seats
+}

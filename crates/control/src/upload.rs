@@ -1,0 +1,127 @@
+//! Routes on their way to the robots: sent within a window, acknowledged by reports, sent again until they are.
+
+use crate::event::Trouble;
+use crate::run::{Desk, Run};
+use lightbots_base::Instant;
+use lightbots_wire::{Command, Pieces, Route, Topic};
+use std::collections::VecDeque;
+
+/// The upload of one leg.
+#[derive(Clone, Debug)]
+pub(crate) struct Upload {
+    pub seq: u32,
+    /// The next seat to be served for the first time.
+    cursor: usize,
+    /// Sent and not known to be acknowledged: when to look again, and the seat. In order of time.
+    sent: VecDeque<(Instant, usize)>,
+    /// Seats sent to and not yet acknowledged.
+    open: usize,
+}
+
+impl Upload {
+    /// When something is due.
+    pub fn due(&self) -> Option<Instant> {
+        self.sent.front().map(|(due, _)| *due)
+    }
+}
+
+impl Run {
+    /// Whether all who take part in the next leg have its route.
+    pub fn is_uploaded(&self) -> bool {
+        match (&self.upload, self.queue.front()) {
+            (Some(upload), Some(leg)) => {
+                upload.seq == leg.seq && upload.open == 0 && upload.cursor >= leg.moves.len()
+            }
+            _ => false,
+        }
+    }
+
+    /// Begins handing out the first leg of the queue, unless that has begun.
+    pub fn begin_upload(&mut self) {
+        let Some(leg) = self.queue.front() else { return };
+        if self.upload.as_ref().is_some_and(|upload| upload.seq == leg.seq) {
+            return;
+        }
+        self.upload = Some(Upload { seq: leg.seq, cursor: 0, sent: VecDeque::new(), open: 0 });
+    }
+
+    /// Sends what may be sent now: first those not served yet, then those who did not acknowledge.
+    pub fn pump_upload(&mut self, desk: &mut Desk, now: Instant) {
+        self.begin_upload();
+        let Some(mut upload) = self.upload.take() else { return };
+        if self.queue.front().is_none_or(|leg| leg.seq != upload.seq) {
+            return;
+        }
+        while let Some(&(due, seat)) = upload.sent.front() {
+            let settled = self.seats[seat].out || self.seats[seat].acked == upload.seq;
+            if !settled && due > now {
+                break;
+            }
+            upload.sent.pop_front();
+            if settled {
+                continue;
+            }
+            if self.seats[seat].tries >= desk.config.tries {
+                self.upload = Some(upload);
+                self.drop_out(desk, now, seat, Trouble::Deaf);
+                return;
+            }
+            desk.resent += 1;
+            self.send_route(desk, seat);
+            upload.sent.push_back((now + desk.config.resend_after, seat));
+        }
+        let count = self.queue.front().map_or(0, |leg| leg.moves.len());
+        while upload.cursor < count && upload.open < desk.config.window {
+            let seat = upload.cursor;
+            upload.cursor += 1;
+            if self.seats[seat].out || !self.queue.front().is_some_and(|leg| leg.path(seat).is_some()) {
+                continue;
+            }
+            self.seats[seat].tries = 0;
+            self.send_route(desk, seat);
+            upload.open += 1;
+            upload.sent.push_back((now + desk.config.resend_after, seat));
+        }
+        self.upload = Some(upload);
+    }
+
+    /// A report names the route its robot keeps.
+    pub fn hear_ack(&mut self, desk: &mut Desk, now: Instant, seat: usize, route: u32) {
+        let Some(upload) = &mut self.upload else { return };
+        let known = &mut self.seats[seat];
+        if route != upload.seq || known.acked == route || known.tries == 0 {
+            return;
+        }
+        known.acked = route;
+        known.fade = None;
+        upload.open = upload.open.saturating_sub(1);
+        if upload.cursor < self.queue.front().map_or(0, |leg| leg.moves.len()) {
+            self.pump_upload(desk, now);
+        }
+    }
+
+    /// A robot has lost the route it acknowledged, or never had it: it gets it again.
+    pub fn upload_again(&mut self, now: Instant, seat: usize) {
+        let Some(upload) = &mut self.upload else { return };
+        if self.seats[seat].acked == upload.seq {
+            self.seats[seat].acked = 0;
+            upload.open += 1;
+            upload.sent.push_front((now, seat));
+        }
+    }
+
+    /// The next leg's route of a seat, with the change of light it may not know yet.
+    fn send_route(&mut self, desk: &mut Desk, seat: usize) {
+        let Some(leg) = self.queue.front() else { return };
+        let Some(path) = leg.path(seat) else { return };
+        let Ok(pieces) = Pieces::from_slice(&path.pieces) else { return };
+        let known = &mut self.seats[seat];
+        known.tries += 1;
+        let topic = Topic::Robot(desk.fleet.robot(known.robot).id);
+        let route = Command::Route(Route { seq: leg.seq, start: path.start, pieces });
+        match known.fade {
+            Some(fade) => desk.outbox.say(topic, &[route, Command::Fade(fade)]),
+            None => desk.outbox.say(topic, &[route]),
+        }
+    }
+}

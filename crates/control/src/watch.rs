@@ -1,0 +1,193 @@
+//! The watch over a drive: who is silent, late or overdue, and whether a hold holds.
+
+use crate::driving::{CHECK, Drive, is_there};
+use crate::event::Trouble;
+use crate::leg::Kind;
+use crate::run::{Desk, Phase, Run};
+use lightbots_base::{Instant, Span};
+use lightbots_wire::{Command, Details, RobotState, Topic};
+
+/// At most this far off its path a robot may be without anybody waiting for it, metres.
+const LATE_MAX_M: f64 = 0.03;
+/// A robot is asked for a sign of life this often at most.
+const ASK: Span = Span::from_millis(150);
+/// Originals are asked where they are this often.
+const ASK_ORIGINAL: Span = Span::from_millis(500);
+/// Robots that have not arrived so long after the planned end are judged by where they stand.
+const OVERDUE: Span = Span::from_millis(3_000);
+/// A robot standing farther from its goal than this has missed it, metres.
+const MISSED_M: f64 = 0.06;
+/// News older than this at the begin of a drive may be from before it.
+const OLD_NEWS: Span = Span::from_millis(800);
+/// A hold that not all keep after this is given up, and all are stopped.
+const HOLD_BOUND: Span = Span::from_millis(1_200);
+
+impl Run {
+    /// A driving robot says how it is.
+    pub fn judge(&mut self, desk: &mut Desk, now: Instant, seat: usize, details: &Details) {
+        let Phase::Driving(drive) = &self.phase else { return };
+        let Some(leg) = &self.current else { return };
+        if !self.is_awaited(seat) || self.seats[seat].arrived || leg.kind != Kind::Routes {
+            return;
+        }
+        let (began, ends, seq) = (drive.began, drive.ends, leg.seq);
+        let goal = leg.moves[seat].goal;
+        match details.state {
+            RobotState::Lost => self.drop_out(desk, now, seat, Trouble::Lost),
+            RobotState::Faulty => self.drop_out(desk, now, seat, Trouble::Faulty),
+            RobotState::Cut => self.replan_with(desk, now, seat),
+            RobotState::Driving | RobotState::Held => self.judge_progress(desk, now, seat, details.off_m),
+            RobotState::Idle | RobotState::Ready => {
+                let at = desk.fleet.robot(self.seats[seat].robot).at;
+                let there = at.is_some_and(|at| is_there(at, goal, desk.config.arrival_tolerance_m));
+                let waits = details.state == RobotState::Ready && details.route == seq;
+                if there && now >= ends && !waits {
+                    self.arrive(desk, now, seat);
+                } else if now < ends && now > began + OLD_NEWS {
+                    self.replan_with(desk, now, seat);
+                }
+            }
+        }
+    }
+
+    /// A robot lost its route but can go on: all stop and are planned anew, with it.
+    pub fn replan_with(&mut self, desk: &mut Desk, now: Instant, seat: usize) {
+        let robot = desk.fleet.robot(self.seats[seat].robot).id;
+        let told = crate::event::EventKind::Waiting { robot, why: Trouble::Cut };
+        desk.log.tell_limited(now, told);
+        self.recover(desk, now);
+    }
+
+    /// Everybody waits for who is too far off its path, until it is back.
+    fn judge_progress(&mut self, desk: &mut Desk, now: Instant, seat: usize, off_m: Option<f64>) {
+        let room_m = self.current.as_ref().map_or(0.0, |leg| leg.room_m);
+        let late_m = desk.config.late_m.max((room_m / 2.0).min(LATE_MAX_M));
+        let Phase::Driving(drive) = &mut self.phase else { return };
+        let off_m = off_m.unwrap_or(0.0);
+        let late = &mut self.seats[seat].late;
+        if off_m > late_m && late.is_none() {
+            *late = Some(now);
+            drive.late += 1;
+            self.wait_for(desk, now, seat, Trouble::Late);
+        } else if off_m < late_m / 2.0 && late.take().is_some() {
+            drive.late = drive.late.saturating_sub(1);
+            let over = drive.late == 0 && drive.hold.is_some_and(|hold| !hold.by_operator);
+            if over {
+                self.release(desk, now);
+            }
+        }
+    }
+
+    /// Looks at the next slice of seats, and at the hold.
+    pub fn watch(&mut self, desk: &mut Desk, now: Instant) {
+        let Phase::Driving(drive) = &mut self.phase else { return };
+        if now < drive.check_at {
+            return;
+        }
+        drive.check_at = now + CHECK;
+        let drive = *drive;
+        self.check_hold(desk, now, &drive);
+        if self.watched >= self.seats.len() {
+            self.watched = 0;
+        }
+        let slice = self.watched..(self.watched + 256 + self.seats.len() / 4).min(self.seats.len());
+        self.watched = slice.end;
+        for seat in slice {
+            if !matches!(self.phase, Phase::Driving(_)) {
+                return;
+            }
+            if !self.seats[seat].out && !self.seats[seat].arrived && self.is_awaited(seat) {
+                match self.current.as_ref().map(|leg| leg.kind) {
+                    Some(Kind::Routes) => self.watch_driver(desk, now, seat, &drive),
+                    _ => self.watch_original(desk, now, seat, &drive),
+                }
+            }
+        }
+    }
+
+    fn watch_driver(&mut self, desk: &mut Desk, now: Instant, seat: usize, drive: &Drive) {
+        let robot = desk.fleet.robot(self.seats[seat].robot);
+        let silent = now - robot.heard.max(drive.began);
+        let silence = desk.config.silence;
+        if silent > silence {
+            self.drop_out(desk, now, seat, Trouble::Silent);
+            return;
+        }
+        let held = drive.hold.is_some_and(|hold| hold.until.is_none());
+        if self.seats[seat].late.is_some_and(|since| now - since > desk.config.late_bound) && held {
+            self.drop_out(desk, now, seat, Trouble::Late);
+            return;
+        }
+        if !held && now > drive.ends + OVERDUE {
+            self.settle_overdue(desk, now, seat);
+            return;
+        }
+        let overdue = !held && now >= drive.ask_at;
+        if (overdue || silent > silence * 2 / 5) && now - self.seats[seat].asked >= ASK {
+            self.seats[seat].asked = now;
+            desk.outbox.say(Topic::Robot(robot.id), &[Command::Status]);
+        }
+    }
+
+    /// A robot that should have arrived long ago.
+    fn settle_overdue(&mut self, desk: &mut Desk, now: Instant, seat: usize) {
+        let robot = desk.fleet.robot(self.seats[seat].robot);
+        let goal = self.current.as_ref().map_or(Default::default(), |leg| leg.moves[seat].goal);
+        let off_m = robot.at.map_or(f64::INFINITY, |at| at.distance(goal));
+        if robot.may_move() || off_m > MISSED_M {
+            self.drop_out(desk, now, seat, Trouble::Missed);
+        } else {
+            self.accept_misaligned(desk, now, seat, off_m);
+        }
+    }
+
+    fn watch_original(&mut self, desk: &mut Desk, now: Instant, seat: usize, drive: &Drive) {
+        let robot = desk.fleet.robot(self.seats[seat].robot);
+        let topic = Topic::Robot(robot.id);
+        let taken = now - drive.began;
+        let planned = drive.ends - drive.began;
+        let held = drive.hold.is_some_and(|hold| hold.until.is_none());
+        if now - robot.heard.max(drive.began) > desk.config.silence * 4 {
+            self.drop_out(desk, now, seat, Trouble::Silent);
+        } else if !held && taken > planned * 3 + Span::from_millis(10_000) {
+            self.drop_out(desk, now, seat, Trouble::Missed);
+        } else if now - self.seats[seat].asked >= ASK_ORIGINAL {
+            self.seats[seat].asked = now;
+            let target = self.current.as_ref().and_then(|leg| leg.target(seat));
+            // The way-point itself may have been lost: saying it again changes nothing else.
+            let again = target.filter(|_| !held && taken > planned + ASK_ORIGINAL).map(Command::Target);
+            let commands: Vec<Command> = again.into_iter().chain([Command::Uuid]).collect();
+            desk.outbox.say(topic, &commands);
+        }
+    }
+
+    /// Whether all stand who were told to hold; who does not is told by name, then all are stopped.
+    fn check_hold(&mut self, desk: &mut Desk, now: Instant, drive: &Drive) {
+        let Some(hold) = drive.hold.filter(|hold| hold.until.is_none() && now >= hold.check_at) else {
+            return;
+        };
+        if self.current.as_ref().is_none_or(|leg| leg.kind == Kind::Targets) {
+            return;
+        }
+        let moving: Vec<usize> = (0..self.seats.len())
+            .filter(|&seat| self.is_awaited(seat) && !self.seats[seat].arrived)
+            .filter(|&seat| desk.fleet.robot(self.seats[seat].robot).state == Some(RobotState::Driving))
+            .collect();
+        if moving.is_empty() {
+            if let Phase::Driving(drive) = &mut self.phase
+                && let Some(hold) = &mut drive.hold
+            {
+                hold.check_at = now + Span::from_millis(1_000);
+            }
+            return;
+        }
+        if now - hold.at > HOLD_BOUND + lightbots_wire::Route::EASE {
+            self.recover(desk, now);
+            return;
+        }
+        for seat in moving {
+            let topic = Topic::Robot(desk.fleet.robot(self.seats[seat].robot).id);
+            desk.outbox.say(topic, &[Command::Hold { at: hold.at }, Command::Status]);
+        }
+    }
+}
