@@ -1,0 +1,66 @@
+import { expect, test } from 'vitest';
+import * as c from './commands';
+import { marksOf } from './marks';
+import { newShow, type Show } from './show';
+import { snap } from './snap';
+
+const names = (show: Show) => show.frames.map((f) => f.name).join(' ');
+function three(): Show {
+  let show = c.addFrame(c.addFrame(newShow('x', 3), 0), 1);
+  ['A', 'B', 'C'].forEach((name, i) => (show = c.setFrames(show, [i], { name })));
+  return show;
+}
+
+test('frames are added, copied, moved and deleted; the last one stays', () => {
+  expect(names(c.moveFrame(three(), 0, 2))).toBe('B C A');
+  expect(names(c.moveFrame(three(), 2, -5))).toBe('C A B');
+  expect(names(c.duplicateFrames(three(), [2, 0]))).toBe('A B C A copy C copy');
+  expect(names(c.deleteFrames(three(), [0, 2]))).toBe('B');
+  const show = three();
+  expect(c.deleteFrames(show, [0, 1, 2])).toBe(show);
+});
+
+test('a change that changes nothing is the same show', () => {
+  const show = three();
+  expect(c.setFrames(show, [0], { name: 'A' })).toBe(show);
+  expect(c.recolour(show, 0, new Map([[0, 0xffc878]]))).toBe(show);
+  expect(c.placePixels(show, 9, new Map())).toBe(show);
+});
+
+test('keys tell frames apart', () => {
+  const show = c.duplicateFrames(three(), [0, 1, 2]);
+  expect(new Set(show.frames.map((f) => f.key)).size).toBe(6);
+});
+
+test('gradient runs along the longer side', () => {
+  const pixels = newShow('x', 3).frames[0]?.pixels ?? [];
+  expect([...c.gradient(pixels, 0x000000, 0xff0000).values()]).toEqual([0, 0x800000, 0xff0000]);
+});
+
+test('the fleet grows onto free places and shrinks from the highest ids', () => {
+  const more = c.setFleetSize(three(), 60, 0xffffff);
+  expect(more.frames.map((f) => f.pixels.length)).toEqual([60, 60, 60]);
+  const frame = more.frames[0];
+  if (!frame) throw new Error('no frame');
+  expect(marksOf(frame.pixels, more.stage).tooClose.size).toBe(0);
+  expect(c.setFleetSize(more, 2, 0).frames[0]?.pixels.map((p) => p.id)).toEqual([0, 1]);
+});
+
+test('marks: too close, off the floor, on an obstacle', () => {
+  const { stage } = newShow('x', 1);
+  const pixel = (id: number, x: number, y: number) => ({ id, x, y, color: 0, robot: null });
+  const pixels = [pixel(0, 0, 0), pixel(1, 0.05, 0), pixel(2, 1.49, 0), pixel(3, 0.5, 0.5)];
+  const obstacles = [{ kind: 'rect' as const, minX: 0.4, minY: 0.4, maxX: 0.6, maxY: 0.6 }];
+  const marks = marksOf(pixels, { ...stage, obstacles });
+  expect([...marks.tooClose]).toEqual([0, 1]);
+  expect([...marks.offFloor]).toEqual([2, 3]);
+});
+
+test('snapping: neighbours before the grid, each axis on its own', () => {
+  const options = { grid_m: 0.05, reach_m: 0.012, neighbours: [{ x: 0.51, y: 3 }] };
+  const snapped = snap({ x: 0, y: 0 }, 0.505, 0.208, options);
+  expect(snapped.dx).toBeCloseTo(0.51, 9);
+  expect(snapped.dy).toBeCloseTo(0.2, 9);
+  expect(snapped.guides).toEqual([{ axis: 'x', at: 0.51 }]);
+  expect(snap({ x: 0, y: 0 }, 0.275, 0, { ...options, neighbours: [] }).dx).toBe(0.275);
+});

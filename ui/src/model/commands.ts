@@ -1,0 +1,129 @@
+import { mix, type Rgb } from '../base/colour';
+import type { Point } from '../stage/camera';
+import { frontRows, newFrame, newKey, type Frame, type Pixel, type Show, type Stage } from './show';
+
+/** Every change of a show: pure, and the same show when there is nothing to do. */
+
+const withFrame = (show: Show, index: number, change: (frame: Frame) => Frame): Show => {
+  const frame = show.frames[index];
+  if (!frame) return show;
+  const next = change(frame);
+  return next === frame ? show : { ...show, frames: show.frames.map((f, i) => (i === index ? next : f)) };
+};
+
+const mapPixels = (show: Show, index: number, change: (pixel: Pixel) => Pixel): Show =>
+  withFrame(show, index, (frame) => {
+    const pixels = frame.pixels.map(change);
+    return pixels.every((p, i) => p === frame.pixels[i]) ? frame : { ...frame, pixels };
+  });
+
+export const placePixels = (show: Show, index: number, places: ReadonlyMap<number, Point>): Show =>
+  mapPixels(show, index, (p) => {
+    const place = places.get(p.id);
+    return place && (place.x !== p.x || place.y !== p.y) ? { ...p, x: place.x, y: place.y } : p;
+  });
+
+export const recolour = (show: Show, index: number, colors: ReadonlyMap<number, Rgb>): Show =>
+  mapPixels(show, index, (p) => {
+    const color = colors.get(p.id);
+    return color === undefined || color === p.color ? p : { ...p, color };
+  });
+
+/** Colours from `from` to `to` across the chosen pixels, left to right or bottom to top, whichever is longer. */
+export function gradient(pixels: readonly Pixel[], from: Rgb, to: Rgb): Map<number, Rgb> {
+  const [xs, ys] = [pixels.map((p) => p.x), pixels.map((p) => p.y)];
+  const [minX, minY] = [Math.min(...xs), Math.min(...ys)];
+  const [w, h] = [Math.max(...xs) - minX, Math.max(...ys) - minY];
+  const share = (p: Pixel) => (w >= h ? (w > 0 ? (p.x - minX) / w : 0) : (p.y - minY) / h);
+  return new Map(pixels.map((p) => [p.id, mix(from, to, share(p))]));
+}
+
+export const pinPixel = (show: Show, id: number, robot: string | null): Show => ({
+  ...show,
+  frames: show.frames.map((f) => ({
+    ...f,
+    pixels: f.pixels.map((p) => (p.id === id ? { ...p, robot } : p)),
+  })),
+});
+
+/** Puts frames in after `index`. */
+export const insertFrames = (show: Show, index: number, frames: readonly Frame[]): Show => ({
+  ...show,
+  frames: [...show.frames.slice(0, index + 1), ...frames, ...show.frames.slice(index + 1)],
+});
+
+export const copyFrame = (frame: Frame, name: string): Frame => ({ ...frame, key: newKey(), name });
+
+/** A new frame begins as the one before it, because robots are there. */
+export function addFrame(show: Show, after: number): Show {
+  const before = show.frames[after];
+  const frame = newFrame(`Frame ${show.frames.length + 1}`, before?.pixels ?? []);
+  return insertFrames(show, after, [{ ...frame, airTime_s: before?.airTime_s ?? 1 }]);
+}
+
+export function duplicateFrames(show: Show, indices: readonly number[]): Show {
+  const sorted = [...indices].sort((a, b) => a - b);
+  const copies = sorted.flatMap((i) => {
+    const frame = show.frames[i];
+    return frame ? [copyFrame(frame, `${frame.name} copy`.trim())] : [];
+  });
+  return insertFrames(show, sorted[sorted.length - 1] ?? -1, copies);
+}
+
+/** Takes frames out; the last one stays. */
+export function deleteFrames(show: Show, indices: readonly number[]): Show {
+  const gone = new Set(indices);
+  const frames = show.frames.filter((_, i) => !gone.has(i));
+  return frames.length === 0 || frames.length === show.frames.length ? show : { ...show, frames };
+}
+
+/** Moves a frame so that it is at `to` afterwards. */
+export function moveFrame(show: Show, from: number, to: number): Show {
+  const frame = show.frames[from];
+  const target = Math.max(0, Math.min(show.frames.length - 1, to));
+  if (!frame || target === from) return show;
+  const frames = show.frames.filter((_, i) => i !== from);
+  frames.splice(target, 0, frame);
+  return { ...show, frames };
+}
+
+export type FrameFields = Partial<Pick<Frame, 'name' | 'airTime_s' | 'transition_s' | 'easing'>>;
+
+export function setFrames(show: Show, indices: readonly number[], fields: FrameFields): Show {
+  const wanted = new Set(indices);
+  const same = (f: Frame) => Object.entries(fields).every(([k, v]) => f[k as keyof Frame] === v);
+  const frames = show.frames.map((f, i) => (wanted.has(i) && !same(f) ? { ...f, ...fields } : f));
+  return frames.every((f, i) => f === show.frames[i]) ? show : { ...show, frames };
+}
+
+export const setStage = (show: Show, stage: Partial<Stage>): Show => ({
+  ...show,
+  stage: { ...show.stage, ...stage },
+});
+
+export const setShow = (show: Show, fields: Partial<Pick<Show, 'name' | 'identity'>>): Show => ({
+  ...show,
+  ...fields,
+});
+
+/** How many pixels the fullest frame has. */
+export const fleetSize = (show: Show) => Math.max(0, ...show.frames.map((f) => f.pixels.length));
+
+/** Gives every frame `count` pixels: the highest ids go, new ones stand in rows at the front. */
+export function setFleetSize(show: Show, count: number, color: Rgb): Show {
+  const rows = frontRows(show.stage, count, color);
+  const frames = show.frames.map((frame) => {
+    if (frame.pixels.length >= count) return { ...frame, pixels: frame.pixels.slice(0, count) };
+    const taken = new Set(frame.pixels.map((p) => p.id));
+    const free = (p: Point) => frame.pixels.every((q) => Math.hypot(p.x - q.x, p.y - q.y) >= 0.08);
+    const places = [...rows.filter(free), ...rows.filter((p) => !free(p))];
+    const pixels = [...frame.pixels];
+    for (let id = 0; pixels.length < count; id++) {
+      if (taken.has(id)) continue;
+      const place = places[pixels.length - frame.pixels.length] ?? { x: 0, y: 0 };
+      pixels.push({ id, x: place.x, y: place.y, color, robot: null });
+    }
+    return { ...frame, pixels: pixels.sort((a, b) => a.id - b.id) };
+  });
+  return { ...show, frames };
+}

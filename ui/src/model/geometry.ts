@@ -1,0 +1,75 @@
+import type { Point } from '../stage/camera';
+
+export interface Box {
+  minX: number;
+  minY: number;
+  maxX: number;
+  maxY: number;
+}
+
+/** The least box around points; of none: nothing at the origin. */
+export function boxOf(points: readonly Point[]): Box {
+  if (points.length === 0) return { minX: 0, minY: 0, maxX: 0, maxY: 0 };
+  const box = { minX: Infinity, minY: Infinity, maxX: -Infinity, maxY: -Infinity };
+  for (const p of points) {
+    box.minX = Math.min(box.minX, p.x);
+    box.minY = Math.min(box.minY, p.y);
+    box.maxX = Math.max(box.maxX, p.x);
+    box.maxY = Math.max(box.maxY, p.y);
+  }
+  return box;
+}
+
+export const centreOf = (box: Box): Point => ({
+  x: (box.minX + box.maxX) / 2,
+  y: (box.minY + box.maxY) / 2,
+});
+
+export const boxBetween = (a: Point, b: Point): Box => boxOf([a, b]);
+
+export const inBox = (p: Point, box: Box) =>
+  p.x >= box.minX && p.x <= box.maxX && p.y >= box.minY && p.y <= box.maxY;
+
+/** Whether a point lies in a polygon, by counting crossings. */
+export function inPolygon(p: Point, polygon: readonly Point[]): boolean {
+  let inside = false;
+  for (let i = 0, j = polygon.length - 1; i < polygon.length; j = i++) {
+    const [a, b] = [polygon[i] as Point, polygon[j] as Point];
+    if (a.y > p.y !== b.y > p.y && p.x < ((b.x - a.x) * (p.y - a.y)) / (b.y - a.y) + a.x)
+      inside = !inside;
+  }
+  return inside;
+}
+
+export const rotate = (p: Point, about: Point, angle: number): Point => {
+  const [dx, dy, c, s] = [p.x - about.x, p.y - about.y, Math.cos(angle), Math.sin(angle)];
+  return { x: about.x + dx * c - dy * s, y: about.y + dx * s + dy * c };
+};
+
+export const scaleAbout = (p: Point, about: Point, kx: number, ky: number): Point => ({
+  x: about.x + (p.x - about.x) * kx,
+  y: about.y + (p.y - about.y) * ky,
+});
+
+/** `count` points at equal distances along a line of points; closed ones do not repeat their start. */
+export function along(line: readonly Point[], count: number, closed: boolean): Point[] {
+  const first = line[0];
+  if (!first || count <= 0) return [];
+  const corners = closed ? [...line, first] : [...line];
+  const sums = [0];
+  for (let i = 1; i < corners.length; i++) {
+    const [a, b] = [corners[i - 1] as Point, corners[i] as Point];
+    sums.push((sums[i - 1] as number) + Math.hypot(b.x - a.x, b.y - a.y));
+  }
+  const total = sums[sums.length - 1] as number;
+  const gap = total / (closed ? count : Math.max(1, count - 1));
+  let i = 1;
+  return Array.from({ length: count }, (_, k) => {
+    const want = Math.min(total, k * gap);
+    while (i < sums.length - 1 && (sums[i] as number) < want) i++;
+    const [a, b] = [corners[i - 1] ?? first, corners[i] ?? first];
+    const span = (sums[i] ?? 0) - (sums[i - 1] ?? 0);
+    const u = span > 0 ? (want - (sums[i - 1] ?? 0)) / span : 0;
+    return { x: a.x + (b.x - a.x) * u, y: a.y + (b.y - a.y) * u };
+  });
+}

@@ -1,0 +1,36 @@
+/** Marks that can be undone; the oldest fall off. */
+const MARKS_MAX = 500;
+
+/** A state worth coming back to, and where its change happened. */
+export interface Mark<T> {
+  before: T;
+  after: T;
+  /** What was done, for people. */
+  label: string;
+  /** Index of the frame that changed. */
+  frame: number;
+}
+
+export interface History<T> {
+  past: readonly Mark<T>[];
+  future: readonly Mark<T>[];
+}
+
+export const noHistory = <T>(): History<T> => ({ past: [], future: [] });
+
+export const remember = <T>(history: History<T>, mark: Mark<T>): History<T> => ({
+  past: [...history.past.slice(-MARKS_MAX + 1), mark],
+  future: [],
+});
+
+export function stepBack<T>(history: History<T>): [History<T>, Mark<T>] | null {
+  const mark = history.past[history.past.length - 1];
+  if (!mark) return null;
+  return [{ past: history.past.slice(0, -1), future: [...history.future, mark] }, mark];
+}
+
+export function stepForth<T>(history: History<T>): [History<T>, Mark<T>] | null {
+  const mark = history.future[history.future.length - 1];
+  if (!mark) return null;
+  return [{ past: [...history.past, mark], future: history.future.slice(0, -1) }, mark];
+}

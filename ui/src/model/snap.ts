@@ -1,0 +1,45 @@
+import type { Point } from '../stage/camera';
+
+/** A line that shows what something snapped to, stage metres. */
+export interface Guide {
+  axis: 'x' | 'y';
+  at: number;
+}
+
+export interface Snapped {
+  dx: number;
+  dy: number;
+  guides: Guide[];
+}
+
+export interface SnapOptions {
+  /** Grid step, metres; 0: none. */
+  grid_m: number;
+  /** Closer than this snaps, metres. */
+  reach_m: number;
+  /** What the dragged are lined up with. */
+  neighbours: readonly Point[];
+}
+
+/** Snaps a drag of `lead` by (dx, dy): to neighbours' lines first, then to the grid; each axis on its own. */
+export function snap(lead: Point, dx: number, dy: number, options: SnapOptions): Snapped {
+  const x = snapAxis(lead.x + dx, 'x', options);
+  const y = snapAxis(lead.y + dy, 'y', options);
+  const guides: Guide[] = [];
+  if (x.guide !== null) guides.push({ axis: 'x', at: x.guide });
+  if (y.guide !== null) guides.push({ axis: 'y', at: y.guide });
+  return { dx: x.value - lead.x, dy: y.value - lead.y, guides };
+}
+
+function snapAxis(value: number, axis: 'x' | 'y', options: SnapOptions) {
+  let [best, distance] = [null as number | null, options.reach_m];
+  for (const neighbour of options.neighbours) {
+    const d = Math.abs(neighbour[axis] - value);
+    if (d < distance) [best, distance] = [neighbour[axis], d];
+  }
+  if (best !== null) return { value: best, guide: best };
+  const { grid_m } = options;
+  if (grid_m <= 0) return { value, guide: null };
+  const onGrid = Math.round(value / grid_m) * grid_m;
+  return { value: Math.abs(onGrid - value) <= options.reach_m ? onGrid : value, guide: null };
+}
