@@ -16,6 +16,7 @@
 //! robot.link(Instant(0), true);
 //! robot.receive(Instant(0), Topic::Robot(id), b"|TARGET 1.0 0.0||COLOR 255|");
 //! let fix = Fix { at: Vec2::ZERO, heading: Some(0.0) };
+//! robot.step(Instant(0), &Inputs { fix: Some(fix), ..Inputs::default() });
 //! let outputs = robot.step(Instant(16_000), &Inputs { fix: Some(fix), ..Inputs::default() });
 //! assert!(outputs.wheels_radps[0] > 0.0 && outputs.light.b == 255);
 //! let mut message = Message::new();

@@ -41,7 +41,7 @@ pub struct Robot {
     state: RobotState,
     battery: Option<u8>,
     unknown: u32,
-    stepped: bool,
+    last_step: Option<Instant>,
     routes: Routes,
 }
 
@@ -62,7 +62,7 @@ impl Robot {
             state: RobotState::Lost,
             battery: None,
             unknown: 0,
-            stepped: false,
+            last_step: None,
             routes: Routes::new(),
             config,
         }
@@ -241,13 +241,13 @@ impl Robot {
         self.outbox.report_status();
     }
 
-    /// Seconds since the step before.
+    /// Seconds since the step before; messages may have come in between.
     fn take_time(&mut self, now: Instant) -> f64 {
-        let dt = (now - self.now).as_secs();
-        if !self.stepped {
-            self.stepped = true;
+        if self.last_step.is_none() {
             self.outbox.arrive_new(now);
         }
+        let dt = self.last_step.map_or(0.0, |last| (now - last).as_secs());
+        self.last_step = Some(now);
         self.now = now;
         dt.clamp(0.0, LONGEST_STEP_S)
     }

@@ -324,3 +324,14 @@ fn with_no_abilities_it_speaks_and_understands_the_original_protocol_alone() {
     assert!(said.iter().all(|one| *one == (Topic::Uuid, "old NaN NaN".to_string())), "{said:?}");
     assert_eq!(robot.unknown(), 2);
 }
+
+#[test]
+fn messages_between_steps_do_not_shorten_them() {
+    let mut plant = Plant::ready(Vec2::ZERO, 0.0, Flaws::NONE, 2);
+    plant.tell(&Command::Target(Vec2::new(1.0, 0.0)));
+    plant.step();
+    let before = plant.last.wheels_radps[0];
+    plant.robot.receive(plant.now + Span(15_900), Topic::Broadcast, b"|COLOR 1|");
+    plant.step();
+    assert!((plant.last.wheels_radps[0] / before - 2.0).abs() < 1e-6);
+}
