@@ -68,7 +68,7 @@ fn squares_alone(problem: &TransitionProblem) -> (f64, usize) {
     let Some(choice) = Choice::containing(&problem.starts, &problem.goals, &[], &identity) else {
         return (0.0, 0);
     };
-    let start_of = choice.least_squares().solve(1e6);
+    let start_of = choice.least_squares().solve(1e6).unwrap_or_default();
     let mut longest = 0.0f64;
     let mut paths = vec![Path::default(); problem.starts.len()];
     for (goal, &start) in start_of.iter().enumerate() {
@@ -87,6 +87,7 @@ fn squares_alone(problem: &TransitionProblem) -> (f64, usize) {
         half_floor: problem.half_floor + Vec2::new(1.0, 1.0),
         limits: &problem.limits,
         gap_m: problem.limits.contact_m() + 0.003,
+        obstacle_gap_m: 0.003,
     });
     (longest, proof.conflicts.len())
 }

@@ -11,7 +11,7 @@ mod space;
 #[cfg(test)]
 mod tests;
 
-use bottleneck::bottleneck;
+use bottleneck::{NONE, bottleneck};
 use least_squares::LeastSquares;
 use lightbots_base::Vec2;
 
@@ -57,7 +57,7 @@ impl Choice {
         start_of: &[usize],
     ) -> Option<Self> {
         let mut choice = Self::open(starts, goals, pinned)?;
-        let mut column_of_start = vec![u32::MAX; starts.len()];
+        let mut column_of_start = vec![NONE; starts.len()];
         for (column, &start) in choice.open_starts.iter().enumerate() {
             column_of_start[start] = column as u32;
         }
@@ -115,13 +115,7 @@ impl Choice {
 
     /// Ready to minimise.
     pub fn least_squares(&self) -> Minimiser<'_> {
-        let solver = LeastSquares::new(
-            &self.goal_places,
-            &self.start_places,
-            &self.feasible,
-            self.reach_squared * ROUNDING,
-        );
-        Minimiser { choice: self, solver }
+        Minimiser::new(self)
     }
 }
 
@@ -129,14 +123,31 @@ impl Choice {
 pub struct Minimiser<'a> {
     choice: &'a Choice,
     solver: LeastSquares<'a>,
+    /// `row_of[goal]` and `column_of[start]` in the solver, `NONE` where pinned.
+    row_of: Vec<u32>,
+    column_of: Vec<u32>,
 }
 
-impl Minimiser<'_> {
+impl<'a> Minimiser<'a> {
+    fn new(choice: &'a Choice) -> Self {
+        let reach_squared = choice.reach_squared * ROUNDING;
+        let solver =
+            LeastSquares::new(&choice.goal_places, &choice.start_places, &choice.feasible, reach_squared);
+        let ranks = |open: &[usize], count: usize| {
+            let mut rank_of = vec![NONE; count];
+            open.iter().enumerate().for_each(|(rank, &index)| rank_of[index] = rank as u32);
+            rank_of
+        };
+        let row_of = ranks(&choice.open_goals, choice.goals);
+        let column_of = ranks(&choice.open_starts, choice.starts);
+        Self { choice, solver, row_of, column_of }
+    }
+
     /// `start_of[goal]` with the least sum of squared ways among assignments without a way longer than
-    /// `(1 + slack)` times the bottleneck. `slack` must not shrink from call to call.
-    pub fn solve(&mut self, slack: f64) -> Vec<usize> {
+    /// `(1 + slack)` times the bottleneck. `slack` must not shrink from call to call. `None` where bans leave none.
+    pub fn solve(&mut self, slack: f64) -> Option<Vec<usize>> {
         let choice = self.choice;
-        let column_of = self.solver.solve(choice.reach_squared * (1.0 + slack) * (1.0 + slack) * ROUNDING);
+        let column_of = self.solver.solve(choice.reach_squared * (1.0 + slack) * (1.0 + slack) * ROUNDING)?;
         let mut start_of = vec![0; choice.goals];
         for (&goal, &column) in choice.open_goals.iter().zip(column_of) {
             start_of[goal] = choice.open_starts[column as usize];
@@ -144,6 +155,21 @@ impl Minimiser<'_> {
         for &(goal, start) in &choice.pinned {
             start_of[goal] = start;
         }
-        start_of
+        Some(start_of)
+    }
+
+    /// From now on that start must not go to that goal; whether there was a choice. Only without spare starts.
+    pub fn ban(&mut self, goal: usize, start: usize) -> bool {
+        let (row, column) = (self.row_of[goal], self.column_of[start]);
+        let may = row != NONE && column != NONE && self.choice.spares() == 0;
+        if may {
+            self.solver.ban(row, column);
+        }
+        may
+    }
+
+    /// Forgets all bans.
+    pub fn lift_bans(&mut self) {
+        self.solver.lift_bans();
     }
 }

@@ -97,6 +97,14 @@ impl Search {
         self.lift(row as usize);
     }
 
+    /// Takes an edge out, and its row out of the assignment if that used it.
+    pub fn remove(&mut self, row: u32, column: u32) {
+        self.edges[row as usize].retain(|edge| edge.0 != column);
+        if self.column_of[row as usize] == column {
+            self.release(row);
+        }
+    }
+
     /// Sets a row's dual to the greatest legal one.
     fn lift(&mut self, row: usize) {
         let duals = &self.column_duals;
@@ -104,7 +112,7 @@ impl Search {
         self.row_duals[row] = least.fold(f64::INFINITY, f64::min);
     }
 
-    /// Gives every row a column.
+    /// Gives every row a column, as far as the edges allow.
     pub fn complete(&mut self) {
         for row in self.bid_for_all() {
             self.augment(row);
@@ -156,6 +164,9 @@ impl Search {
                 second = reduced;
             }
         }
+        if column == NONE {
+            return None;
+        }
         let owner = self.row_of[column as usize];
         let gain = second - first;
         if owner != NONE && !(gain > 0.0 && gain.is_finite()) {
@@ -178,7 +189,6 @@ impl Search {
     /// Finds the shortest augmenting path from an open row and flips it.
     fn augment(&mut self, root: u32) {
         let Some((last, length)) = self.shortest(root) else {
-            // Unreachable: the edges hold a perfect matching.
             self.clear();
             return;
         };

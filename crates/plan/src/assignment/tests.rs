@@ -51,7 +51,7 @@ fn compare(starts: &[Vec2], goals: &[Vec2], pinned: &[Option<usize>]) {
     );
     let mut minimiser = choice.least_squares();
     for slack in [0.0, 0.07, 5.0] {
-        let start_of = minimiser.solve(slack);
+        let start_of = minimiser.solve(slack).unwrap();
         let limit = reach * (1.0 + slack) * (1.0 + slack) * ROUNDING;
         let cost = |goal: usize, start: usize| {
             let way = squared(starts, goals, goal, start);
@@ -105,7 +105,7 @@ fn a_row_at_the_edge_spreads_over_the_floor() {
 fn ties_are_broken_the_same_way_every_time() {
     let grid: Vec<Vec2> = (0..64).map(|i| Vec2::new(f64::from(i % 8), f64::from(i / 8)) * 0.1).collect();
     let moved: Vec<Vec2> = grid.iter().map(|&at| at + Vec2::new(0.05, 0.05)).collect();
-    let solve = || Choice::new(&grid, &moved, &[]).unwrap().least_squares().solve(0.0);
+    let solve = || Choice::new(&grid, &moved, &[]).unwrap().least_squares().solve(0.0).unwrap();
     assert_eq!(solve(), solve());
 }
 
@@ -116,5 +116,36 @@ fn what_cannot_be_is_refused() {
     assert!(Choice::new(&[a, b], &[a, b], &[Some(0), Some(0)]).is_none());
     assert!(Choice::new(&[a, b], &[a, b], &[Some(2)]).is_none());
     assert!(Choice::new(&[Vec2::new(f64::NAN, 0.0)], &[a], &[]).is_none());
-    assert!(Choice::new(&[], &[], &[]).unwrap().least_squares().solve(0.0).is_empty());
+    assert!(Choice::new(&[], &[], &[]).unwrap().least_squares().solve(0.0).unwrap().is_empty());
+}
+
+#[test]
+fn banned_ways_are_not_gone_and_the_rest_stays_optimal() {
+    let mut seeded = Seeded::new(21);
+    for _ in 0..200 {
+        let count = 2 + seeded.below(10);
+        let mut place = || Vec2::new(seeded.between(-1.5, 1.5), seeded.between(-1.5, 1.5));
+        let starts: Vec<Vec2> = (0..count).map(|_| place()).collect();
+        let goals: Vec<Vec2> = (0..count).map(|_| place()).collect();
+        let choice = Choice::new(&starts, &goals, &[]).unwrap();
+        let mut minimiser = choice.least_squares();
+        let free = minimiser.solve(4.0).unwrap();
+        let banned: Vec<(usize, usize)> = (0..2).map(|goal| (goal, free[goal])).collect();
+        banned.iter().for_each(|&(goal, start)| assert!(minimiser.ban(goal, start)));
+        let reach = (choice.bottleneck_m() * 5.0).powi(2) * ROUNDING;
+        let cost = |goal: usize, start: usize| {
+            let way = squared(&starts, &goals, goal, start);
+            if way <= reach && !banned.contains(&(goal, start)) { way } else { f64::INFINITY }
+        };
+        let least = oracle(count, count, cost);
+        match minimiser.solve(4.0) {
+            Some(start_of) => {
+                let sum: f64 = start_of.iter().enumerate().map(|(goal, &start)| cost(goal, start)).sum();
+                assert!((sum - least).abs() < 1e-8, "{sum} {least}");
+            }
+            None => assert_eq!(least, f64::INFINITY),
+        }
+        minimiser.lift_bans();
+        assert_eq!(minimiser.solve(4.0).unwrap(), free);
+    }
 }

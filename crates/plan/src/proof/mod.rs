@@ -30,9 +30,11 @@ pub struct ProofInput<'a> {
     pub half_floor: Vec2,
     /// What the robots can do.
     pub limits: &'a Limits,
-    /// The least distance wanted between two centres, metres; obstacles must be kept clear of by as much rim to rim.
-    /// A pair that begins or ends closer than that must only keep the smaller of those two distances.
+    /// The least distance wanted between two centres, metres. A pair that begins or ends closer than that must only
+    /// keep the smaller of those two distances.
     pub gap_m: f64,
+    /// The least distance wanted between a robot's rim and an obstacle, metres; less for who begins or ends closer.
+    pub obstacle_gap_m: f64,
 }
 
 /// The verdict.

@@ -29,7 +29,7 @@ pub(super) fn judge(path: &Path, input: &ProofInput<'_>, mut fault: impl FnMut(F
     if let Some(at) = first(&leaves) {
         fault(FaultKind::Floor, at);
     }
-    let wanted = radius + (input.gap_m - input.limits.contact_m()).max(0.0);
+    let wanted = radius + input.obstacle_gap_m;
     for thing in input.obstacles {
         let need = wanted.min(distance(thing, start)).min(distance(thing, end)) - SLACK_M;
         if let Some(at) = first(&|curve| touches(thing, curve, need)) {

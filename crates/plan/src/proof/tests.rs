@@ -6,7 +6,15 @@ const LIMITS: Limits = Limits::ELISA_3;
 const REST: Span = Span(350_000);
 
 fn input<'a>(paths: &'a [Path], standing: &'a [Vec2], obstacles: &'a [Obstacle]) -> ProofInput<'a> {
-    ProofInput { paths, standing, obstacles, half_floor: Vec2::new(1.5, 1.5), limits: &LIMITS, gap_m: 0.057 }
+    ProofInput {
+        paths,
+        standing,
+        obstacles,
+        half_floor: Vec2::new(1.5, 1.5),
+        limits: &LIMITS,
+        gap_m: 0.057,
+        obstacle_gap_m: 0.003,
+    }
 }
 
 /// A rest, then one smooth cubic from rest to rest.

@@ -86,8 +86,9 @@ impl Binding {
         }
         let from: Vec<Vec2> = robots.iter().map(|&robot| places[robot]).collect();
         let to: Vec<Vec2> = new.iter().map(|&index| pixels[index].at).collect();
-        if let Some(choice) = Choice::new(&from, &to, &[]) {
-            for (&index, &start) in new.iter().zip(&choice.least_squares().solve(0.0)) {
+        let choice = Choice::new(&from, &to, &[]);
+        if let Some(start_of) = choice.and_then(|choice| choice.least_squares().solve(0.0)) {
+            for (&index, &start) in new.iter().zip(&start_of) {
                 pins[index] = Some(robots[start]);
                 taken[robots[start]] = true;
             }

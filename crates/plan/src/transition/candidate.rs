@@ -1,15 +1,18 @@
 //! Paths for a settled assignment, with what the proof says of them.
 
-use super::MARGIN_M;
+use super::{COMFORT_M, MARGIN_M};
 use crate::motion::Profile;
 use crate::proof::{Proof, ProofInput, prove};
-use crate::{Path, Transition, TransitionProblem};
+use crate::{Closest, Path, Transition, TransitionProblem};
 use lightbots_base::Span;
 
 /// A transition that may turn out not to hold.
 pub(super) struct Candidate {
     pub transition: Transition,
+    /// What the proof says when asked for comfortable distances.
     pub proof: Proof,
+    /// How much of that must not be: single robots' faults, and pairs closer than the least margin.
+    pub wrong: usize,
 }
 
 impl Candidate {
@@ -39,23 +42,41 @@ impl Candidate {
             obstacles: &problem.obstacles,
             half_floor: problem.half_floor,
             limits: &problem.limits,
-            gap_m: problem.limits.contact_m() + MARGIN_M,
+            gap_m: problem.limits.contact_m() + COMFORT_M,
+            obstacle_gap_m: MARGIN_M,
         });
         let duration = paths.iter().map(|path| path.as_ref().duration()).max().unwrap_or(Span::ZERO);
         let closest = proof.closest;
         let transition =
             Transition { goal_of, paths, duration, least: duration, lower_bound_s: 0.0, closest };
-        Self { transition, proof }
+        let least = problem.limits.contact_m() + MARGIN_M;
+        let place = |disc: usize, at_end: bool| match transition.paths.get(disc) {
+            Some(path) if at_end => path.as_ref().end(),
+            Some(path) => path.start,
+            None => problem.standing[disc - transition.paths.len()],
+        };
+        let is_wrong = |found: &&Closest| {
+            let (i, j) = found.pair;
+            let ends = place(i, false).distance(place(j, false)).min(place(i, true).distance(place(j, true)));
+            found.distance_m < least.min(ends) - 1e-6
+        };
+        let wrong = proof.conflicts.iter().filter(is_wrong).count() + proof.faults.len();
+        Self { transition, proof, wrong }
     }
 
-    /// The least distance between two rims, metres.
-    pub fn rims_m(&self, problem: &TransitionProblem) -> f64 {
-        self.proof.closest.map_or(f64::INFINITY, |closest| closest.distance_m - problem.limits.contact_m())
+    /// Whether it may be driven.
+    pub fn holds(&self) -> bool {
+        self.wrong == 0
     }
 
-    /// How much is wrong.
-    pub fn conflicts(&self) -> usize {
-        self.proof.conflicts.len() + self.proof.faults.len()
+    /// Whether it leaves room for robots that do not follow exactly.
+    pub fn is_comfortable(&self) -> bool {
+        self.proof.holds()
+    }
+
+    /// Fewer things wrong, then fewer pairs that are close.
+    pub fn is_better_than(&self, other: &Self) -> bool {
+        (self.wrong, self.proof.conflicts.len()) < (other.wrong, other.proof.conflicts.len())
     }
 }
 

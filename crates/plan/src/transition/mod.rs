@@ -3,6 +3,7 @@
 mod candidate;
 mod check;
 mod parking;
+mod relax;
 #[cfg(test)]
 mod tests;
 
@@ -13,15 +14,12 @@ use crate::assignment::Choice;
 use crate::repair::repair;
 use crate::{Stuck, Transition, TransitionProblem};
 use candidate::Candidate;
+use relax::relax;
 
 /// Least distance between rims that is planned for, metres, where starts and goals leave that much.
 pub(crate) const MARGIN_M: f64 = 0.003;
-/// Distance between rims that is worth a little time, metres: robots follow their paths within 5 mm.
+/// Distance between rims that is worth some search, metres: robots follow their paths within 5 mm, most within 2.
 const COMFORT_M: f64 = 0.008;
-/// What that much is worth: the longest way may grow by this share.
-const COMFORT_SLACK: f64 = 0.03;
-/// Shares by which the longest way may exceed the bottleneck, tried in turn until the proof holds.
-const SLACKS: [f64; 6] = [0.0, 0.01, 0.03, 0.06, 0.1, 0.15];
 
 /// The quickest proven transition that can be found, or why there is none.
 pub fn transition(problem: &TransitionProblem) -> Result<Transition, Stuck> {
@@ -49,16 +47,12 @@ pub(crate) fn attempt(problem: &TransitionProblem) -> Attempt {
     };
     let lower_bound_s = choice.bottleneck_m() / problem.limits.speed_mps.max(1e-3);
     let mut attempt = if choice.spares() == 0 {
-        relax(problem, &choice)
+        settle(problem, &choice)
     } else {
-        let start_of = choice.least_squares().solve(0.0);
-        let (whole, start_of) = parking::with_spares(problem, start_of);
-        match Choice::containing(&whole.starts, &whole.goals, &whole.pinned, &start_of) {
-            Some(choice) => relax(&whole, &choice),
-            None => {
-                Attempt { transition: candidate::standing_still(problem), stuck: Some(check::pins(problem)) }
-            }
-        }
+        with_spares(problem, &choice).unwrap_or_else(|| Attempt {
+            transition: candidate::standing_still(problem),
+            stuck: Some(check::pins(problem)),
+        })
     };
     // Where spare robots wait is nobody's goal.
     for goal in &mut attempt.transition.goal_of {
@@ -69,41 +63,20 @@ pub(crate) fn attempt(problem: &TransitionProblem) -> Attempt {
     attempt
 }
 
-/// Straight lines for greater and greater reach until the proof holds; then what repair makes of the rest. Of all
-/// that hold the quickest wins. Every robot has a goal here.
-fn relax(problem: &TransitionProblem, choice: &Choice) -> Attempt {
-    let mut minimiser = choice.least_squares();
-    let mut best: Option<Candidate> = None;
-    let mut fewest: Option<Candidate> = None;
-    let mut before = Vec::new();
-    for slack in SLACKS {
-        let start_of = minimiser.solve(slack);
-        if start_of == before {
-            continue;
-        }
-        let candidate = Candidate::straight(problem, &start_of);
-        before = start_of;
-        if candidate.proof.holds() {
-            let comfortable = candidate.rims_m(problem) >= COMFORT_M;
-            if best.as_ref().is_none_or(|best| candidate.rims_m(problem) > best.rims_m(problem)) {
-                best = Some(candidate);
-            }
-            if comfortable || slack >= COMFORT_SLACK {
-                break;
-            }
-        } else if best.is_some() && slack >= COMFORT_SLACK {
-            break;
-        } else if fewest.as_ref().is_none_or(|known| candidate.conflicts() < known.conflicts()) {
-            fewest = Some(candidate);
-        }
-        if choice.is_settled() {
-            break;
-        }
-    }
-    match (best, fewest) {
-        (Some(best), _) => Attempt { transition: best.transition, stuck: None },
-        (None, Some(conflicting)) => mend(problem, conflicting),
-        (None, None) => Attempt { transition: candidate::standing_still(problem), stuck: None },
+/// With more robots than goals: gives the spare ones places to wait first.
+fn with_spares(problem: &TransitionProblem, choice: &Choice) -> Option<Attempt> {
+    let start_of = choice.least_squares().solve(0.0)?;
+    let (whole, start_of) = parking::with_spares(problem, start_of);
+    let choice = Choice::containing(&whole.starts, &whole.goals, &whole.pinned, &start_of)?;
+    Some(settle(&whole, &choice))
+}
+
+/// Straight lines if the proof can be made to hold, else what repair makes of them. Every robot has a goal here.
+fn settle(problem: &TransitionProblem, choice: &Choice) -> Attempt {
+    match relax(problem, choice) {
+        Some(candidate) if candidate.holds() => Attempt { transition: candidate.transition, stuck: None },
+        Some(candidate) => mend(problem, candidate),
+        None => Attempt { transition: candidate::standing_still(problem), stuck: Some(check::pins(problem)) },
     }
 }
 
@@ -111,7 +84,7 @@ fn relax(problem: &TransitionProblem, choice: &Choice) -> Attempt {
 fn mend(problem: &TransitionProblem, conflicting: Candidate) -> Attempt {
     let repaired = repair(problem, &conflicting.transition.goal_of)
         .map(|paths| Candidate::of_paths(problem, paths, conflicting.transition.goal_of.clone()))
-        .filter(|candidate| candidate.proof.holds());
+        .filter(Candidate::holds);
     match repaired {
         Some(candidate) => Attempt { transition: candidate.transition, stuck: None },
         None => {
