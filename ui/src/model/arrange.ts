@@ -9,7 +9,14 @@ export type Edge = 'left' | 'centre' | 'right' | 'top' | 'middle' | 'bottom';
 export function align(places: Places, edge: Edge): Point[] {
   const box = boxOf(places);
   const { x, y } = centreOf(box);
-  const to = { left: box.minX, centre: x, right: box.maxX, top: box.maxY, middle: y, bottom: box.minY }[edge];
+  const to = {
+    left: box.minX,
+    centre: x,
+    right: box.maxX,
+    top: box.maxY,
+    middle: y,
+    bottom: box.minY,
+  }[edge];
   const horizontal = edge === 'left' || edge === 'centre' || edge === 'right';
   return places.map((p) => (horizontal ? { x: to, y: p.y } : { x: p.x, y: to }));
 }
@@ -67,7 +74,9 @@ function outline(shape: Shape): Point[] {
     case 'heart':
       return turns(360, (a) => ({
         x: Math.sin(a) ** 3,
-        y: (13 * Math.cos(a) - 5 * Math.cos(2 * a) - 2 * Math.cos(3 * a) - Math.cos(4 * a) + 2.5) / 14.5,
+        y:
+          (13 * Math.cos(a) - 5 * Math.cos(2 * a) - 2 * Math.cos(3 * a) - Math.cos(4 * a) + 2.5) /
+          14.5,
       }));
     case 'star':
       return turns(10, (a, i) => {
@@ -111,7 +120,10 @@ function leastGap(points: readonly Point[]): number {
 export function grid(places: Places, gap_m: number): Point[] {
   const box = boxOf(places);
   const [w, h] = [Math.max(box.maxX - box.minX, gap_m), Math.max(box.maxY - box.minY, gap_m)];
-  const columns = Math.max(1, Math.min(places.length, Math.round(Math.sqrt((places.length * w) / h))));
+  const columns = Math.max(
+    1,
+    Math.min(places.length, Math.round(Math.sqrt((places.length * w) / h))),
+  );
   const rows = Math.ceil(places.length / columns);
   const stepX = Math.max(gap_m, columns > 1 ? w / (columns - 1) : 0);
   const stepY = Math.max(gap_m, rows > 1 ? h / (rows - 1) : 0);
@@ -120,7 +132,9 @@ export function grid(places: Places, gap_m: number): Point[] {
   const order: number[] = [];
   for (let r = 0; r < rows; r++)
     order.push(
-      ...byRow.slice(r * columns, (r + 1) * columns).sort((a, b) => at(places, a).x - at(places, b).x),
+      ...byRow
+        .slice(r * columns, (r + 1) * columns)
+        .sort((a, b) => at(places, a).x - at(places, b).x),
     );
   const targets = order.map((_, k) => ({
     x: c.x + ((k % columns) - (columns - 1) / 2) * stepX,
@@ -131,7 +145,9 @@ export function grid(places: Places, gap_m: number): Point[] {
 
 export function mirror(places: Places, axis: 'x' | 'y'): Point[] {
   const c = centreOf(boxOf(places));
-  return places.map((p) => (axis === 'x' ? { x: 2 * c.x - p.x, y: p.y } : { x: p.x, y: 2 * c.y - p.y }));
+  return places.map((p) =>
+    axis === 'x' ? { x: 2 * c.x - p.x, y: p.y } : { x: p.x, y: 2 * c.y - p.y },
+  );
 }
 
 /** Rounds of pushing; a crowd that is not apart by then has no room. */

@@ -8,7 +8,9 @@ const withFrame = (show: Show, index: number, change: (frame: Frame) => Frame): 
   const frame = show.frames[index];
   if (!frame) return show;
   const next = change(frame);
-  return next === frame ? show : { ...show, frames: show.frames.map((f, i) => (i === index ? next : f)) };
+  return next === frame
+    ? show
+    : { ...show, frames: show.frames.map((f, i) => (i === index ? next : f)) };
 };
 
 const mapPixels = (show: Show, index: number, change: (pixel: Pixel) => Pixel): Show =>

@@ -17,7 +17,10 @@ export function onFloor(p: { x: number; y: number }, stage: Stage): boolean {
   const r = stage.radius_m;
   // A robot may be put exactly at the edge by a grid of tenths of a millimetre.
   const slack = 1e-6;
-  if (Math.abs(p.x) > stage.width_m / 2 - r + slack || Math.abs(p.y) > stage.depth_m / 2 - r + slack)
+  if (
+    Math.abs(p.x) > stage.width_m / 2 - r + slack ||
+    Math.abs(p.y) > stage.depth_m / 2 - r + slack
+  )
     return false;
   return stage.obstacles.every((o) => {
     if (o.kind === 'disc') return Math.hypot(p.x - o.x, p.y - o.y) >= o.radius_m + r;

@@ -1,0 +1,41 @@
+import type { Point } from '../stage/camera';
+import { NO_OVERLAY } from './editor';
+import { inPolygon } from './geometry';
+import { pixelAt, type Tool } from './tool';
+
+/** Corners of a lasso; beyond it the last one moves. */
+const CORNERS_MAX = 2000;
+
+/** Chooses what is inside a line drawn by hand. Shift adds. */
+export function createLassoTool(): Tool {
+  let line: Point[] | null = null;
+  let before: ReadonlySet<number> = new Set();
+  return {
+    down(editor, touch) {
+      before = touch.shift ? editor.state.get().selection : new Set();
+      line = [touch.at];
+    },
+    move(editor, touch) {
+      if (!line) return;
+      if (line.length < CORNERS_MAX) line.push(touch.at);
+      else line[CORNERS_MAX - 1] = touch.at;
+      const corners = line;
+      const inside = editor.current()?.pixels.filter((p) => inPolygon(p, corners)) ?? [];
+      editor.select([...before, ...inside.map((p) => p.id)]);
+      editor.overlay({ ...NO_OVERLAY, marquee: [...corners] });
+    },
+    up(editor, touch) {
+      const hit = line && line.length < 3 ? pixelAt(editor, touch) : null;
+      if (line && line.length < 3) editor.select(hit === null ? before : [...before, hit]);
+      line = null;
+      editor.overlay(NO_OVERLAY);
+    },
+    cancel(editor) {
+      const busy = line !== null;
+      if (busy) editor.select(before);
+      line = null;
+      editor.overlay(NO_OVERLAY);
+      return busy;
+    },
+  };
+}

@@ -1,0 +1,32 @@
+import type { Point } from '../stage/camera';
+import type { Editor } from './editor';
+
+/** A pointer on the stage, stage metres. */
+export interface Touch {
+  at: Point;
+  /** How far a hand may miss, metres: depends on zoom. */
+  reach_m: number;
+  shift: boolean;
+  alt: boolean;
+  ctrl: boolean;
+}
+
+/** A tool is a small state machine: it snapshots when it is entered and recomputes from the snapshot. */
+export interface Tool {
+  down(editor: Editor, touch: Touch): void;
+  move(editor: Editor, touch: Touch): void;
+  up(editor: Editor, touch: Touch): void;
+  /** Gives up and restores what was; whether there was anything to give up. */
+  cancel(editor: Editor): boolean;
+}
+
+/** The pixel under a pointer: the nearest within its own radius and the reach. */
+export function pixelAt(editor: Editor, touch: Touch): number | null {
+  const radius = editor.state.get().show.stage.radius_m;
+  let [best, distance] = [null as number | null, Math.max(radius, touch.reach_m)];
+  for (const p of editor.current()?.pixels ?? []) {
+    const d = Math.hypot(p.x - touch.at.x, p.y - touch.at.y);
+    if (d <= distance) [best, distance] = [p.id, d];
+  }
+  return best;
+}
