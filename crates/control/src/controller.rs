@@ -18,7 +18,7 @@ use std::sync::Arc;
 
 /// The fleet is looked at this often; all of it within [`ROUNDS`] looks.
 const PATROL: Span = Span::from_millis(250);
-const ROUNDS: usize = 4;
+const ROUNDS: usize = 8;
 /// Originals that have not been heard for this share of staleness are asked for a sign of life.
 const ASK_AFTER: i64 = 2;
 

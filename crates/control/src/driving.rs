@@ -45,6 +45,8 @@ pub(crate) struct Drive {
     pub colors_at: Instant,
     /// When changes of light are said again.
     pub fades_at: Instant,
+    /// How often that is still done.
+    pub fades_left: u32,
 }
 
 /// Progress is held.
@@ -100,9 +102,11 @@ impl Run {
             late: 0,
             colors_at: Instant::FAR,
             fades_at: Instant::FAR,
+            fades_left: 0,
         };
         for seat in &mut self.seats {
             seat.arrived = false;
+            seat.fade = None;
             seat.late = None;
             seat.asked = began;
         }

@@ -236,7 +236,7 @@ impl Fleet {
         if self.patrolled >= count {
             self.patrolled = 0;
         }
-        let slice = self.patrolled..(self.patrolled + 256.max(count / rounds.max(1) + 1)).min(count);
+        let slice = self.patrolled..(self.patrolled + 64.max(count / rounds.max(1) + 1)).min(count);
         self.patrolled = slice.end;
         for robot in &mut self.robots[slice.clone()] {
             let silent = now - robot.heard;

@@ -7,8 +7,12 @@ use lightbots_wire::{Command, Fade, Topic};
 
 /// The longest a colour takes to change.
 const FADE_MAX: Span = Span::from_millis(1_000);
-/// A change of light nobody acknowledged is said again after this long.
-const AGAIN: Span = Span::from_millis(400);
+/// A change of light nobody acknowledges is said again after this long, …
+const AGAIN: Span = Span::from_millis(300);
+/// … so often in fleets of up to …
+const TIMES: u32 = 4;
+/// … so many robots; once in larger ones.
+const FEW: usize = 200;
 
 /// When colours begin to change and how long that takes.
 fn change(drive: &Drive) -> (Instant, Span) {
@@ -43,6 +47,7 @@ impl Run {
                 if !follows(seat) {
                     desk.outbox.say(Topic::Robot(id), &[Command::Fade(fade)]);
                     drive.fades_at = now + AGAIN;
+                    drive.fades_left = if leg.moves.len() <= FEW { TIMES } else { 1 };
                 }
             } else {
                 drive.colors_at = at + over / 2;
@@ -54,9 +59,10 @@ impl Run {
     pub fn tick_lights(&mut self, desk: &mut Desk, now: Instant) {
         let Phase::Driving(drive) = &mut self.phase else { return };
         if now >= drive.fades_at {
-            drive.fades_at = Instant::FAR;
+            drive.fades_left = drive.fades_left.saturating_sub(1);
+            drive.fades_at = if drive.fades_left > 0 { now + AGAIN } else { Instant::FAR };
             for seat in &mut self.seats {
-                if let (Some(fade), false) = (seat.fade.take(), seat.out) {
+                if let (Some(fade), false) = (seat.fade, seat.out) {
                     let topic = Topic::Robot(desk.fleet.robot(seat.robot).id);
                     desk.outbox.say(topic, &[Command::Fade(fade)]);
                 }

@@ -90,7 +90,7 @@ impl Run {
         if self.watched >= self.seats.len() {
             self.watched = 0;
         }
-        let slice = self.watched..(self.watched + 256 + self.seats.len() / 4).min(self.seats.len());
+        let slice = self.watched..(self.watched + 64 + self.seats.len() / 8).min(self.seats.len());
         self.watched = slice.end;
         for seat in slice {
             if !matches!(self.phase, Phase::Driving(_)) {

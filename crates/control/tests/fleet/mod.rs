@@ -1,0 +1,255 @@
+//! A fleet of perfect robots, links that lose and delay, and a controller, in virtual time.
+#![allow(dead_code)] // Each test file uses a part of it.
+
+pub mod robot;
+
+use lightbots_base::{Instant, Rgb, Span, Vec2};
+use lightbots_control::{Config, Controller, Event, EventKind, MissingPolicy, Operation, Outcome, Refusal};
+use lightbots_show::{Frame, Identity, Pixel, Show, Stage};
+use lightbots_wire::Topic;
+use robot::Robot;
+use std::sync::Arc;
+
+/// Virtual time between two steps of the robots.
+const STEP: Span = Span::from_millis(10);
+
+/// A seeded source of numbers.
+pub struct Dice(pub u64);
+
+impl Dice {
+    pub fn next(&mut self) -> u64 {
+        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        self.0 >> 33
+    }
+
+    pub fn below(&mut self, bound: u64) -> u64 {
+        self.next() % bound
+    }
+}
+
+struct Letter {
+    due: Instant,
+    topic: Topic,
+    payload: Vec<u8>,
+    to_controller: bool,
+}
+
+pub struct World {
+    pub now: Instant,
+    pub controller: Controller,
+    pub robots: Vec<Robot>,
+    pub events: Vec<Event>,
+    pub linked: bool,
+    /// Share of messages lost, percent.
+    pub loss: u64,
+    /// Delay of messages, milliseconds: least, and how much more at most.
+    pub delay_ms: (u64, u64),
+    pub closest_m: f64,
+    dice: Dice,
+    letters: Vec<Letter>,
+}
+
+impl World {
+    /// Robots in a row along the front edge; the last `originals` of them know only TARGET and COLOR.
+    pub fn new(count: usize, originals: usize) -> Self {
+        let place = |i: usize| Vec2::new((i % 29) as f64 * 0.1 - 1.4, 1.3 - (i / 29) as f64 * 0.1);
+        let robots = (0..count).map(|i| Robot::new(i, place(i), i + originals >= count)).collect();
+        let mut world = Self {
+            now: Instant(1_000_000),
+            controller: Controller::new(Config::default()),
+            robots,
+            events: Vec::new(),
+            linked: false,
+            loss: 0,
+            delay_ms: (5, 15),
+            closest_m: f64::INFINITY,
+            dice: Dice(7),
+            letters: Vec::new(),
+        };
+        world.robots.iter_mut().for_each(Robot::introduce);
+        world.link(true);
+        world
+    }
+
+    /// The same with a show open and all robots known.
+    pub fn ready(count: usize, originals: usize, show: Show) -> Self {
+        let mut world = Self::new(count, originals);
+        world.operate(Operation::Open(Arc::new(show))).unwrap();
+        world.run_for(1.0);
+        world
+    }
+
+    pub fn link(&mut self, up: bool) {
+        self.linked = up;
+        self.letters.clear();
+        if up {
+            self.controller.connected(self.now);
+        } else {
+            self.controller.disconnected(self.now);
+        }
+        self.drain();
+    }
+
+    /// Another controller takes the place of this one.
+    pub fn replace_controller(&mut self) {
+        let config = Config { seq_base: 100_000, ..Config::default() };
+        self.controller = Controller::new(config);
+        self.controller.connected(self.now);
+        self.drain();
+    }
+
+    pub fn operate(&mut self, operation: Operation) -> Result<(), Refusal> {
+        let done = self.controller.operate(self.now, operation);
+        self.drain();
+        done
+    }
+
+    pub fn play(&mut self) {
+        self.operate(Operation::Play { from: 0, missing: MissingPolicy::Refuse }).unwrap();
+    }
+
+    /// A message as if it came from the broker.
+    pub fn inject(&mut self, topic: &str, payload: &[u8]) {
+        self.controller.message(self.now, topic, payload);
+        self.drain();
+    }
+
+    fn drain(&mut self) {
+        while let Some(job) = self.controller.next_job() {
+            self.controller.planned(self.now, job.run());
+        }
+        while let Some(send) = self.controller.next_send() {
+            self.post(send.topic, send.payload, false);
+        }
+        while let Some(event) = self.controller.next_event() {
+            self.events.push(event);
+        }
+    }
+
+    fn post(&mut self, topic: Topic, payload: Vec<u8>, to_controller: bool) {
+        if !self.linked || self.dice.below(100) < self.loss {
+            return;
+        }
+        let delay_ms = self.delay_ms.0 + self.dice.below(self.delay_ms.1 + 1);
+        let due = self.now + Span::from_millis(delay_ms as i64);
+        self.letters.push(Letter { due, topic, payload, to_controller });
+    }
+
+    pub fn step(&mut self) {
+        self.now += STEP;
+        let (due, later) = std::mem::take(&mut self.letters).into_iter().partition(|l| l.due <= self.now);
+        self.letters = later;
+        for letter in Vec::from_iter::<Vec<Letter>>(due) {
+            self.deliver(letter);
+        }
+        for index in 0..self.robots.len() {
+            self.robots[index].step(self.now, STEP);
+            for (topic, payload) in self.robots[index].take_said() {
+                self.post(topic, payload, true);
+            }
+        }
+        if self.controller.wake_at().is_some_and(|at| at <= self.now) {
+            self.controller.wake(self.now);
+            self.drain();
+        }
+        self.measure();
+    }
+
+    fn deliver(&mut self, letter: Letter) {
+        if letter.to_controller {
+            self.controller.message(self.now, &letter.topic.write(), &letter.payload);
+            self.drain();
+            return;
+        }
+        for robot in &mut self.robots {
+            let personal = letter.topic == Topic::Robot(robot.id);
+            if personal || letter.topic == Topic::Broadcast {
+                robot.receive(self.now, &letter.payload, personal);
+            }
+        }
+    }
+
+    fn measure(&mut self) {
+        for (index, a) in self.robots.iter().enumerate() {
+            for b in &self.robots[index + 1..] {
+                self.closest_m = self.closest_m.min(a.at.distance(b.at));
+            }
+        }
+    }
+
+    pub fn run_for(&mut self, seconds: f64) {
+        let until = self.now + Span::from_secs(seconds);
+        while self.now < until {
+            self.step();
+        }
+    }
+
+    /// Steps until an event is said; fails after `seconds`.
+    pub fn run_until(&mut self, seconds: f64, what: impl Fn(&EventKind) -> bool) -> Event {
+        let seen = self.events.len();
+        let until = self.now + Span::from_secs(seconds);
+        while self.now < until {
+            self.step();
+            if let Some(event) = self.events[seen..].iter().find(|event| what(&event.kind)) {
+                return event.clone();
+            }
+        }
+        panic!("nothing like that within {seconds} s:\n{}", self.story());
+    }
+
+    /// Steps until the run is over, and says how it ended.
+    pub fn run_to_end(&mut self, seconds: f64) -> (Outcome, usize, usize) {
+        match self.run_until(seconds, |kind| matches!(kind, EventKind::RunEnded { .. })).kind {
+            EventKind::RunEnded { outcome, frames_played, dropouts } => (outcome, frames_played, dropouts),
+            _ => unreachable!(),
+        }
+    }
+
+    pub fn story(&self) -> String {
+        let line = |event: &Event| format!("{:8.3} {}\n", event.at.as_secs(), event.kind);
+        self.events.iter().map(line).collect()
+    }
+
+    pub fn count(&self, what: impl Fn(&EventKind) -> bool) -> usize {
+        self.events.iter().filter(|event| what(&event.kind)).count()
+    }
+
+    /// How many pixels of a frame have a robot of their colour on them.
+    pub fn lit(&self, frame: &Frame) -> usize {
+        let shown = |pixel: &&Pixel| {
+            self.robots.iter().any(|robot| robot.at.distance(pixel.at) < 0.021 && robot.light == pixel.color)
+        };
+        frame.pixels.iter().filter(shown).count()
+    }
+}
+
+/// A picture of robots in rows, turned and shifted by its number, each with a colour of its own.
+pub fn frame(number: usize, count: usize, air_time_s: f64) -> Frame {
+    let columns = (count as f64).sqrt().ceil() as usize;
+    let turn = Vec2::unit(number as f64 * 0.7);
+    let pixel = |i: usize| {
+        let x = (i % columns) as f64 - (columns - 1) as f64 / 2.0;
+        let y = (i / columns) as f64 - (columns - 1) as f64 / 2.0;
+        let at = (turn * x + turn.left() * y) * (0.16 + 0.02 * (number % 3) as f64);
+        Pixel { id: i as u32, at, color: Rgb::new(10 + i as u8, 100, (number * 20) as u8), robot: None }
+    };
+    Frame {
+        name: format!("frame {number}"),
+        air_time_s,
+        transition_s: None,
+        easing: Default::default(),
+        identity: None,
+        pixels: (0..count).map(pixel).collect(),
+    }
+}
+
+pub fn show(frames: usize, count: usize, air_time_s: f64) -> Show {
+    Show {
+        name: "test".into(),
+        stage: Stage::default(),
+        identity: Identity::Any,
+        starts: None,
+        music: None,
+        frames: (0..frames).map(|number| frame(number, count, air_time_s)).collect(),
+    }
+}

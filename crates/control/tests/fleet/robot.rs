@@ -1,0 +1,229 @@
+//! A tiny perfect robot: where it should be is where it is.
+
+use lightbots_base::{Instant, PathRef, Rgb, RobotId, Span, Vec2};
+use lightbots_wire::{Abilities, Command, Details, Report, RobotState, Route, TimeQuestion, Topic, commands};
+
+/// What a robot says.
+pub type Said = (Topic, Vec<u8>);
+
+/// Speed towards a TARGET, m/s.
+const SPEED_MPS: f64 = 0.25;
+
+pub struct Robot {
+    pub id: RobotId,
+    pub at: Vec2,
+    pub light: Rgb,
+    pub original: bool,
+    /// Says nothing and does nothing.
+    pub dead: bool,
+    /// Stands still whatever it is told, and says so.
+    pub stuck: bool,
+    pub target: Option<Vec2>,
+    pub kept: Option<(Route, Option<Instant>)>,
+    pub running: Option<(Route, Instant)>,
+    pub held: Span,
+    pub hold_since: Option<Instant>,
+    finished: u32,
+    synchronised: bool,
+    pub fade: Option<(Instant, Rgb)>,
+    state: RobotState,
+    status_at: Instant,
+    heard: Instant,
+    said: Vec<Said>,
+    pub stops: u32,
+    pub starts_heard: u32,
+}
+
+impl Robot {
+    pub fn new(number: usize, at: Vec2, original: bool) -> Self {
+        Self {
+            id: RobotId::new(&format!("robot-{number}")).unwrap(),
+            at,
+            light: Rgb::BLACK,
+            original,
+            dead: false,
+            stuck: false,
+            target: None,
+            kept: None,
+            running: None,
+            held: Span::ZERO,
+            hold_since: None,
+            finished: 0,
+            synchronised: false,
+            fade: None,
+            state: RobotState::Idle,
+            status_at: Instant::ZERO,
+            heard: Instant::ZERO,
+            said: Vec::new(),
+            stops: 0,
+            starts_heard: 0,
+        }
+    }
+
+    /// As after switching it off and on where it stands.
+    pub fn restart(&mut self) {
+        let number: usize = self.id.as_str()[6..].parse().unwrap();
+        *self = Self::new(number, self.at, self.original);
+        self.say_report(Topic::Uuid, 0);
+    }
+
+    pub fn introduce(&mut self) {
+        self.say_report(Topic::Uuid, self.named());
+    }
+
+    pub fn take_said(&mut self) -> Vec<Said> {
+        let said = std::mem::take(&mut self.said);
+        if self.dead { Vec::new() } else { said }
+    }
+
+    fn named(&self) -> u32 {
+        let running = self.running.as_ref().map(|(route, _)| route.seq);
+        self.kept.as_ref().map(|(route, _)| route.seq).or(running).unwrap_or(self.finished)
+    }
+
+    fn state(&self) -> RobotState {
+        match () {
+            _ if self.running.is_some() && self.hold_since.is_some() => RobotState::Held,
+            _ if self.running.is_some() || self.target.is_some() => RobotState::Driving,
+            _ if self.kept.is_some() => RobotState::Ready,
+            _ => RobotState::Idle,
+        }
+    }
+
+    fn say_report(&mut self, topic: Topic, route: u32) {
+        let starts = match &self.kept {
+            Some((_, starts)) => *starts,
+            None => self.running.as_ref().map(|(_, began)| *began),
+        };
+        let details = Details {
+            heading: Some(0.0),
+            battery: Some(90),
+            state: self.state(),
+            route,
+            starts,
+            off_m: self.running.as_ref().map(|_| if self.stuck { 0.2 } else { 0.001 }),
+            clock_us: self.synchronised.then_some(500),
+            abilities: Abilities { route: true, fade: true, blink: true },
+            ..Details::default()
+        };
+        let report = Report { id: self.id, at: Some(self.at), details: (!self.original).then_some(details) };
+        let mut text = String::new();
+        report.encode(&mut text).unwrap();
+        self.said.push((topic, text.into_bytes()));
+    }
+
+    pub fn receive(&mut self, now: Instant, payload: &[u8], personal: bool) {
+        if self.dead {
+            return;
+        }
+        self.heard = now;
+        for command in commands(payload).flatten() {
+            let known = matches!(command, Command::Target(_) | Command::Color(_) | Command::Uuid);
+            if known || !self.original {
+                self.obey(command, personal);
+            }
+        }
+    }
+
+    fn obey(&mut self, command: Command, personal: bool) {
+        match command {
+            Command::Target(at) => {
+                self.stop();
+                self.target = Some(at);
+            }
+            Command::Color(color) => self.light = color,
+            Command::Uuid => self.introduce(),
+            Command::Route(route) => {
+                if self.named().wrapping_sub(route.seq) >= 64 || self.named() == 0 {
+                    self.kept = Some((route, None));
+                }
+                self.say_report(Topic::Status, self.named());
+            }
+            Command::Start { seq, at } => {
+                self.starts_heard += 1;
+                let mine =
+                    self.kept.as_mut().filter(|(route, starts)| route.seq == seq && *starts != Some(at));
+                let news = mine.is_some();
+                if let Some((_, starts)) = mine {
+                    *starts = Some(at);
+                }
+                if news || personal {
+                    self.say_report(Topic::Status, self.named());
+                }
+            }
+            Command::Hold { at } => self.hold_since = self.hold_since.or(Some(at)),
+            Command::Resume { at } => {
+                if let Some(since) = self.hold_since.take() {
+                    self.held += at - since;
+                }
+            }
+            Command::Stop => {
+                self.stops += 1;
+                self.stop();
+                self.say_report(Topic::Status, 0);
+            }
+            Command::Time(_) => self.synchronised = true,
+            Command::Fade(fade) => self.fade = Some((fade.at + fade.over, fade.to)),
+            Command::Status => self.say_report(Topic::Status, self.named()),
+            Command::Blink(_) => {}
+        }
+    }
+
+    fn stop(&mut self) {
+        (self.kept, self.running, self.target, self.finished) = (None, None, None, 0);
+    }
+
+    pub fn step(&mut self, now: Instant, dt: Span) {
+        if self.dead {
+            return;
+        }
+        if !self.original && !self.synchronised && now.0 % 250_000 < 10_000 {
+            let mut text = String::new();
+            TimeQuestion { id: self.id, asked: now }.encode(&mut text).unwrap();
+            self.said.push((Topic::Time, text.into_bytes()));
+        }
+        if let Some((route, Some(at))) = self.kept.take_if(|(_, starts)| starts.is_some_and(|at| at <= now)) {
+            self.running = Some((route, at));
+            (self.held, self.hold_since) = (Span::ZERO, None);
+        }
+        self.drive(now, dt);
+        if let Some((_, color)) = self.fade.take_if(|(at, _)| *at <= now) {
+            self.light = color;
+        }
+        let state = self.state();
+        let pace = Span::from_millis(if self.running.is_some() { 500 } else { 2_000 });
+        if !self.original && (state != self.state || now >= self.status_at) {
+            self.status_at = now + pace;
+            self.state = state;
+            self.say_report(Topic::Status, self.named());
+        }
+    }
+
+    fn drive(&mut self, now: Instant, dt: Span) {
+        if let Some((route, began)) = self.running.clone() {
+            if now - self.heard > Span::from_millis(2_000) {
+                self.stop();
+                return;
+            }
+            let until = self.hold_since.map_or(now, |since| since.min(now));
+            let path = PathRef::new(route.start, &route.pieces);
+            let time = until - began - self.held;
+            if !self.stuck {
+                self.at = path.at(time).position;
+            }
+            if time >= path.duration() && !self.stuck {
+                self.running = None;
+                self.finished = route.seq;
+                self.say_report(Topic::Arrival, route.seq);
+            }
+        } else if let Some(target) = self.target.filter(|_| !self.stuck) {
+            let way = target - self.at;
+            let step = SPEED_MPS * dt.as_secs();
+            self.at = if way.length() <= step { target } else { self.at + way * (step / way.length()) };
+            if self.at == target {
+                self.target = None;
+                self.say_report(Topic::Arrival, 0);
+            }
+        }
+    }
+}

@@ -1,0 +1,188 @@
+//! Whole runs of a perfect fleet.
+
+mod fleet;
+
+use fleet::{World, show};
+use lightbots_base::{Instant, RobotId, Span, Vec2};
+use lightbots_control::{EventKind, MissingPolicy, Operation, Outcome, Refusal, State};
+use lightbots_show::Identity;
+
+const CONTACT_M: f64 = 0.054;
+
+#[test]
+fn a_show_plays_to_its_end() {
+    let show = show(5, 12, 0.5);
+    let mut world = World::ready(12, 0, show.clone());
+    world.play();
+    assert_eq!(world.run_to_end(60.0), (Outcome::Finished, 5, 0), "{}", world.story());
+    assert_eq!(world.lit(&show.frames[4]), 12);
+    assert!(world.closest_m >= CONTACT_M, "{}", world.closest_m);
+    assert_eq!(world.controller.state(), State::Ready);
+    let snapshot = world.controller.snapshot(world.now);
+    assert!(snapshot.robots.iter().all(|robot| robot.pixel.is_some()));
+}
+
+#[test]
+fn between_frames_little_time_is_lost() {
+    for air_time_s in [0.0, 1.0] {
+        let mut world = World::ready(20, 0, show(6, 20, air_time_s));
+        world.play();
+        world.run_to_end(90.0);
+        let mut lost: Vec<f64> = Vec::new();
+        let mut ends: Option<Instant> = None;
+        for event in &world.events {
+            if let EventKind::TransitionStarted { starts, duration, .. } = event.kind {
+                if let Some(end) = ends {
+                    lost.push(Span::as_secs(starts - end) - air_time_s);
+                }
+                ends = Some(starts + duration);
+            }
+        }
+        assert_eq!(lost.len(), 5);
+        let most = if air_time_s == 0.0 { 0.35 } else { 0.001 };
+        assert!(lost.iter().all(|&lost| (-0.001..=most).contains(&lost)), "{lost:?}");
+    }
+}
+
+#[test]
+fn it_plays_from_a_frame_and_previews_one() {
+    let show = show(4, 9, 0.2);
+    let mut world = World::ready(9, 0, show.clone());
+    world.operate(Operation::Preview { frame: 1, missing: MissingPolicy::Refuse }).unwrap();
+    world.run_for(2.0);
+    assert_eq!(world.controller.state(), State::Preview);
+    assert_eq!(world.run_to_end(30.0), (Outcome::Finished, 1, 0));
+    assert_eq!(world.lit(&show.frames[1]), 9);
+    world.operate(Operation::Play { from: 2, missing: MissingPolicy::Refuse }).unwrap();
+    assert_eq!(world.run_to_end(30.0), (Outcome::Finished, 2, 0));
+    assert_eq!(world.lit(&show.frames[3]), 9);
+}
+
+#[test]
+fn a_loop_goes_round_until_it_is_told_not_to() {
+    let mut world = World::ready(6, 0, show(2, 6, 0.1));
+    world.operate(Operation::Loop(true)).unwrap();
+    world.play();
+    for _ in 0..7 {
+        world.run_until(20.0, |kind| matches!(kind, EventKind::FrameReached { .. }));
+    }
+    world.operate(Operation::Loop(false)).unwrap();
+    let (outcome, frames, _) = world.run_to_end(30.0);
+    assert_eq!(outcome, Outcome::Finished);
+    assert_eq!(frames % 2, 0, "it ends with the last frame");
+}
+
+#[test]
+fn pause_holds_a_drive_and_resume_finishes_it() {
+    let mut world = World::ready(9, 0, show(2, 9, 0.2));
+    world.play();
+    world.run_until(10.0, |kind| matches!(kind, EventKind::TransitionStarted { .. }));
+    world.run_for(1.5);
+    world.operate(Operation::Pause).unwrap();
+    assert_eq!(world.controller.state(), State::Paused);
+    world.run_for(1.0);
+    let stood: Vec<Vec2> = world.robots.iter().map(|robot| robot.at).collect();
+    world.run_for(20.0);
+    assert!(world.robots.iter().zip(&stood).all(|(robot, at)| robot.at == *at));
+    assert_eq!(
+        world.controller.operate(world.now, Operation::Play { from: 0, missing: MissingPolicy::Refuse }),
+        Err(Refusal::Busy(State::Paused))
+    );
+    world.operate(Operation::Resume).unwrap();
+    assert_eq!(world.run_to_end(30.0), (Outcome::Finished, 2, 0), "{}", world.story());
+}
+
+#[test]
+fn pause_stops_the_air_time_and_step_goes_one_picture_on() {
+    let mut world = World::ready(4, 0, show(4, 4, 1.0));
+    world.play();
+    let reached = |frame| move |kind: &EventKind| matches!(kind, EventKind::FrameReached { frame: f, .. } if *f == frame);
+    world.run_until(20.0, reached(0));
+    world.operate(Operation::Pause).unwrap();
+    let starts = |world: &World| world.count(|kind| matches!(kind, EventKind::TransitionStarted { .. }));
+    world.run_for(10.0);
+    assert_eq!(starts(&world), 1);
+    world.operate(Operation::Step).unwrap();
+    world.run_until(20.0, reached(1));
+    world.run_for(5.0);
+    assert_eq!((starts(&world), world.controller.state()), (2, State::Paused));
+    world.operate(Operation::Resume).unwrap();
+    assert_eq!(world.run_to_end(30.0), (Outcome::Finished, 4, 0));
+}
+
+#[test]
+fn abort_stops_everybody_at_once() {
+    let mut world = World::ready(9, 2, show(2, 9, 0.2));
+    world.play();
+    world.run_until(10.0, |kind| matches!(kind, EventKind::TransitionStarted { .. }));
+    world.run_for(1.0);
+    world.operate(Operation::Abort).unwrap();
+    assert_eq!(world.controller.state(), State::Aborting);
+    world.run_for(0.3);
+    let stood: Vec<Vec2> = world.robots.iter().map(|robot| robot.at).collect();
+    world.run_for(4.0);
+    let most = world.robots.iter().zip(&stood).map(|(robot, at)| robot.at.distance(*at)).fold(0.0, f64::max);
+    assert!(most < 0.2, "an original may return to where it said it was: {most}");
+    assert_eq!(world.controller.state(), State::Ready);
+    world.play();
+    assert_eq!(world.run_to_end(90.0).0, Outcome::Finished, "{}", world.story());
+}
+
+#[test]
+fn too_few_robots_is_a_choice() {
+    let show = show(2, 9, 0.1);
+    let mut world = World::ready(7, 0, show.clone());
+    let refusal = world.operate(Operation::Play { from: 0, missing: MissingPolicy::Refuse }).unwrap_err();
+    assert_eq!(refusal, Refusal::TooFewRobots { pixels: 9, robots: 7, without_place: 0, unfit: 0 });
+    world.operate(Operation::Play { from: 0, missing: MissingPolicy::LeaveOut }).unwrap();
+    assert_eq!(world.run_to_end(30.0), (Outcome::Finished, 2, 0));
+    assert_eq!(world.lit(&show.frames[1]), 7);
+    assert_eq!(world.count(|kind| matches!(kind, EventKind::LeftOut { count: 2, .. })), 2);
+}
+
+#[test]
+fn a_robot_that_does_not_know_where_it_is_is_told_apart() {
+    let mut world = World::ready(3, 0, show(1, 4, 0.0));
+    world.inject("T/LightBot/UUID", b"new-one NaN NaN");
+    let refusal = world.operate(Operation::Play { from: 0, missing: MissingPolicy::Refuse }).unwrap_err();
+    assert_eq!(refusal, Refusal::TooFewRobots { pixels: 4, robots: 3, without_place: 1, unfit: 0 });
+    assert!(refusal.to_string().contains("do not know where they are"));
+}
+
+#[test]
+fn spare_robots_stand_by_dark() {
+    let show = show(3, 6, 0.1);
+    let mut world = World::ready(10, 0, show.clone());
+    world.play();
+    assert_eq!(world.run_to_end(40.0), (Outcome::Finished, 3, 0));
+    assert_eq!(world.lit(&show.frames[2]), 6);
+    assert!(world.closest_m >= CONTACT_M);
+}
+
+#[test]
+fn with_fixed_identity_a_pixel_is_always_the_same_robot() {
+    let mut show = show(3, 6, 0.1);
+    show.identity = Identity::Fixed;
+    let mut world = World::ready(6, 0, show.clone());
+    world.play();
+    assert_eq!(world.run_to_end(60.0), (Outcome::Finished, 3, 0), "{}", world.story());
+    // Ids go by x at the start, and robot n starts as the nth from the left.
+    for (number, robot) in world.robots.iter().enumerate() {
+        assert!(robot.at.distance(show.frames[2].pixels[number].at) < 0.001);
+    }
+}
+
+#[test]
+fn a_pin_binds_a_pixel_to_a_robot() {
+    let show = show(2, 5, 0.1);
+    let mut world = World::ready(5, 0, show.clone());
+    let robot = Some(world.robots[4].id);
+    world.operate(Operation::Pin { pixel: 0, robot }).unwrap();
+    world.play();
+    assert_eq!(world.run_to_end(40.0).0, Outcome::Finished);
+    assert!(world.robots[4].at.distance(show.frames[1].pixels[0].at) < 0.001);
+    let away = RobotId::new("away");
+    world.operate(Operation::Pin { pixel: 1, robot: away }).unwrap();
+    let refused = world.operate(Operation::Play { from: 0, missing: MissingPolicy::Refuse });
+    assert_eq!(refused, Err(Refusal::PinnedMissing { pixels: vec![1] }));
+}

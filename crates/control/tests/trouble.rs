@@ -1,0 +1,239 @@
+//! Lossy links, robots and controllers that go and come, and junk.
+
+mod fleet;
+
+use fleet::{Dice, World, show};
+use lightbots_control::{EventKind, MissingPolicy, Operation, Outcome, Refusal, State};
+use std::sync::Arc;
+
+const CONTACT_M: f64 = 0.054;
+
+fn started(kind: &EventKind) -> bool {
+    matches!(kind, EventKind::TransitionStarted { .. })
+}
+
+#[test]
+fn lossy_and_slow_links_lose_no_robot() {
+    for (loss, delay_ms) in [(5, (5, 15)), (20, (5, 50)), (5, (100, 200))] {
+        let show = show(4, 12, 0.3);
+        let mut world = World::ready(12, 0, show.clone());
+        (world.loss, world.delay_ms) = (loss, delay_ms);
+        world.play();
+        let ended = world.run_to_end(120.0);
+        assert_eq!(ended, (Outcome::Finished, 4, 0), "loss {loss} %:\n{}", world.story());
+        assert_eq!(world.lit(&show.frames[3]), 12, "loss {loss} %");
+    }
+}
+
+#[test]
+fn a_robot_that_dies_while_driving_is_planned_around() {
+    let mut world = World::ready(12, 0, show(3, 12, 0.3));
+    world.play();
+    world.run_until(10.0, started);
+    world.run_for(1.5);
+    world.robots[5].dead = true;
+    let (outcome, frames, dropouts) = world.run_to_end(90.0);
+    assert_eq!((outcome, frames, dropouts), (Outcome::Finished, 3, 1), "{}", world.story());
+}
+
+#[test]
+fn everybody_waits_for_a_blocked_robot_then_goes_on_without_it() {
+    let mut world = World::ready(8, 0, show(2, 8, 0.3));
+    world.play();
+    world.run_until(10.0, started);
+    world.run_for(1.0);
+    world.robots[3].stuck = true;
+    world.run_until(3.0, |kind| matches!(kind, EventKind::Waiting { .. }));
+    world.run_for(1.0);
+    assert_eq!(world.controller.snapshot(world.now).run.unwrap().waiting_for, [world.robots[3].id]);
+    world.run_until(10.0, |kind| matches!(kind, EventKind::Dropout { .. }));
+    world.robots[3].stuck = false;
+    let (outcome, frames, _) = world.run_to_end(90.0);
+    assert_eq!((outcome, frames), (Outcome::Finished, 2), "{}", world.story());
+    assert_eq!(world.count(|kind| matches!(kind, EventKind::Rejoined(_))), 1, "{}", world.story());
+}
+
+#[test]
+fn a_robot_that_was_late_is_waited_for() {
+    let mut world = World::ready(8, 0, show(2, 8, 0.3));
+    world.play();
+    world.run_until(10.0, started);
+    world.run_for(1.0);
+    world.robots[3].stuck = true;
+    world.run_until(3.0, |kind| matches!(kind, EventKind::Waiting { .. }));
+    world.run_for(1.0);
+    world.robots[3].stuck = false;
+    assert_eq!(world.run_to_end(60.0), (Outcome::Finished, 2, 0), "{}", world.story());
+}
+
+#[test]
+fn a_robot_restarted_in_the_middle_is_taken_back() {
+    let show = show(3, 8, 0.3);
+    let mut world = World::ready(8, 0, show.clone());
+    world.play();
+    world.run_until(10.0, started);
+    world.run_for(1.5);
+    world.robots[2].restart();
+    let (outcome, frames, _) = world.run_to_end(90.0);
+    assert_eq!((outcome, frames), (Outcome::Finished, 3), "{}", world.story());
+    assert_eq!(world.lit(&show.frames[2]), 8);
+    assert!(world.closest_m >= CONTACT_M, "{}", world.closest_m);
+}
+
+#[test]
+fn a_robot_restarted_in_a_picture_shows_it_again() {
+    let show = show(3, 8, 3.0);
+    let mut world = World::ready(8, 0, show.clone());
+    world.play();
+    world.run_until(20.0, |kind| matches!(kind, EventKind::FrameReached { .. }));
+    world.run_for(0.3);
+    world.robots[2].restart();
+    world.run_for(0.5);
+    assert_eq!(world.lit(&show.frames[0]), 8);
+    assert_eq!(world.run_to_end(90.0), (Outcome::Finished, 3, 0), "{}", world.story());
+}
+
+#[test]
+fn a_broker_lost_in_the_middle_of_a_run_only_costs_time() {
+    for gap_s in [0.5, 6.0] {
+        let mut world = World::ready(8, 0, show(3, 8, 0.3));
+        world.play();
+        world.run_until(10.0, started);
+        world.run_for(1.0);
+        world.link(false);
+        world.run_for(gap_s);
+        assert_eq!(world.controller.state(), State::Idle);
+        world.link(true);
+        assert_eq!(world.run_to_end(90.0), (Outcome::Finished, 3, 0), "{}", world.story());
+    }
+}
+
+#[test]
+fn a_controller_restarted_in_the_middle_of_a_run_can_play_again() {
+    let mut world = World::ready(8, 0, show(3, 8, 0.3));
+    world.play();
+    world.run_until(10.0, started);
+    world.run_for(1.0);
+    world.replace_controller();
+    world.run_for(0.5);
+    world.operate(Operation::Open(Arc::new(show(2, 8, 0.1)))).unwrap();
+    world.play();
+    assert_eq!(world.run_to_end(60.0), (Outcome::Finished, 2, 0), "{}", world.story());
+}
+
+#[test]
+fn everybody_can_be_stopped_even_when_another_set_them_going() {
+    let mut world = World::ready(8, 0, show(3, 8, 0.3));
+    world.play();
+    world.run_until(10.0, started);
+    world.run_for(1.0);
+    world.replace_controller();
+    world.run_for(0.3);
+    world.operate(Operation::StopAll).unwrap();
+    world.run_for(0.5);
+    assert!(world.robots.iter().all(|robot| robot.running.is_none()));
+}
+
+#[test]
+fn a_new_robot_takes_the_place_of_a_dead_one() {
+    let show = show(4, 8, 0.3);
+    let mut world = World::ready(8, 0, show.clone());
+    world.play();
+    world.run_until(10.0, started);
+    world.run_for(1.0);
+    world.robots[1].dead = true;
+    world.run_until(10.0, |kind| matches!(kind, EventKind::Dropout { .. }));
+    let mut fresh = fleet::robot::Robot::new(77, lightbots_base::Vec2::new(1.3, -1.3), false);
+    fresh.introduce();
+    world.robots.push(fresh);
+    let (outcome, frames, dropouts) = world.run_to_end(90.0);
+    assert_eq!((outcome, frames, dropouts), (Outcome::Finished, 4, 1), "{}", world.story());
+    assert!(world.lit(&show.frames[3]) >= 7, "{}", world.story());
+    assert_eq!(world.count(|kind| matches!(kind, EventKind::Rejoined(_))), 1, "{}", world.story());
+}
+
+#[test]
+fn when_all_robots_die_the_run_ends() {
+    let mut world = World::ready(4, 0, show(2, 4, 0.3));
+    world.play();
+    world.run_until(10.0, started);
+    world.robots.iter_mut().for_each(|robot| robot.dead = true);
+    let (outcome, _, dropouts) = world.run_to_end(30.0);
+    assert!(matches!(outcome, Outcome::Failed(_)) && dropouts == 4, "{}", world.story());
+}
+
+#[test]
+fn without_a_broker_or_show_nothing_is_begun() {
+    let mut world = World::new(2, 0);
+    let play = Operation::Play { from: 0, missing: MissingPolicy::Refuse };
+    assert_eq!(world.operate(play.clone()), Err(Refusal::NoShow));
+    assert_eq!(world.operate(Operation::Abort), Err(Refusal::NoRun));
+    world.operate(Operation::Open(Arc::new(show(2, 2, 0.0)))).unwrap();
+    assert_eq!(
+        world.operate(Operation::Play { from: 9, missing: MissingPolicy::Refuse }),
+        Err(Refusal::NoSuchFrame { frame: 9, frames: 2 })
+    );
+    world.link(false);
+    assert_eq!(world.operate(play), Err(Refusal::NotConnected));
+    assert_eq!(world.operate(Operation::StopAll), Err(Refusal::NotConnected));
+}
+
+#[test]
+fn robots_age_and_come_back() {
+    let mut world = World::ready(3, 0, show(1, 3, 0.0));
+    world.robots[0].dead = true;
+    world.run_until(10.0, |kind| matches!(kind, EventKind::RobotStale(_)));
+    world.run_until(40.0, |kind| matches!(kind, EventKind::RobotGone(_)));
+    world.robots[0].dead = false;
+    world.run_until(10.0, |kind| matches!(kind, EventKind::RobotBack(_)));
+    assert_eq!(world.count(|kind| matches!(kind, EventKind::RobotStale(_))), 1);
+}
+
+#[test]
+fn unexpected_arrivals_are_told_at_a_bounded_rate() {
+    let mut world = World::ready(2, 0, show(1, 2, 0.0));
+    for _ in 0..500 {
+        world.inject("T/LightBot/Arrival", b"nobody 0.1 0.1");
+    }
+    let told = world.count(|kind| matches!(kind, EventKind::UnexpectedArrival(_)));
+    assert!((1..=10).contains(&told), "{told}");
+    assert_eq!(world.controller.counters().unexpected, 500);
+}
+
+#[test]
+fn junk_changes_nothing() {
+    let mut world = World::ready(8, 0, show(3, 8, 0.2));
+    world.play();
+    let mut dice = Dice(3);
+    let topics = ["UUID", "Arrival", "Status", "Time", "Broadcast", "robot-1", "", "a/b"];
+    for _ in 0..3_000 {
+        let topic = format!("T/LightBot/{}", topics[dice.below(8) as usize]);
+        let mut payload = match dice.below(4) {
+            0 => Vec::new(),
+            1 => format!("robot-{} {} NaN state=driving", dice.below(9) + 100, dice.next()).into_bytes(),
+            2 => vec![0xff; dice.below(5_000) as usize],
+            _ => (0..dice.below(60)).map(|_| dice.next() as u8).collect(),
+        };
+        if dice.below(4) == 0 {
+            payload.extend_from_slice(b" 1e999 -inf route=99999999999999999999 off=NaN");
+        }
+        world.inject(&topic, &payload);
+        if dice.below(3) == 0 {
+            world.step();
+        }
+    }
+    assert_eq!(world.run_to_end(60.0), (Outcome::Finished, 3, 0), "{}", world.story());
+    assert!(world.controller.counters().junk > 500);
+}
+
+#[test]
+fn the_same_inputs_make_the_same_run() {
+    let story = || {
+        let mut world = World::ready(10, 2, show(3, 10, 0.2));
+        world.loss = 10;
+        world.play();
+        world.run_to_end(200.0);
+        world.story()
+    };
+    assert_eq!(story(), story());
+}
