@@ -59,9 +59,10 @@ impl Cursor {
         }
     }
 
-    /// Which way the route goes on from here, where it does.
-    pub(crate) fn ahead(&self) -> Option<Vec2> {
-        self.ahead
+    /// Which way the route goes on from where it stands still: at the beginning of a piece, or while it rests. `None`
+    /// where it comes to its end.
+    pub(crate) fn ahead(&self, time: Span) -> Option<Vec2> {
+        self.ahead.filter(|_| self.rests || (time - self.begin) < (self.end - self.begin) / 2)
     }
 
     fn enter(&mut self, route: &Route, index: usize, begin: Span) {
@@ -137,11 +138,14 @@ mod tests {
     fn it_looks_ahead_past_rests_and_stops_at_the_end() {
         let route = route();
         let mut cursor = Cursor::new(&route);
-        assert_eq!(cursor.ahead(), Some(Vec2::new(0.0, 1.0)));
-        cursor.seek(&route, Span(1_300_000));
-        assert_eq!(cursor.ahead(), Some(Vec2::new(1.0, 0.0)));
-        cursor.seek(&route, Span(9_000_000));
-        assert_eq!(cursor.ahead(), None);
+        let mut ahead = |time| {
+            cursor.seek(&route, Span(time));
+            cursor.ahead(Span(time))
+        };
+        assert_eq!(ahead(0), Some(Vec2::new(0.0, 1.0)));
+        assert_eq!(ahead(1_200_000), None);
+        assert_eq!(ahead(1_300_000), Some(Vec2::new(1.0, 0.0)));
+        assert_eq!(ahead(9_000_000), None);
     }
 
     #[test]

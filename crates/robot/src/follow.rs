@@ -6,11 +6,11 @@ use lightbots_base::{Motion, Vec2};
 use crate::drive::{Body, Setpoint};
 
 /// Speed per error along, 1/s.
-const ALONG: f64 = 6.0;
+const ALONG: f64 = 9.0;
 /// Turning rate per error across and speed, rad/m²: together with the next, nearly critically damped in 6 cm.
-const ACROSS: f64 = 400.0;
+const ACROSS: f64 = 600.0;
 /// Turning rate per sine of the heading error, rad/s.
-const TURN: f64 = 9.0;
+const TURN: f64 = 11.0;
 /// On the spot, rad/s per radian.
 const SPOT: f64 = 12.0;
 /// The same errors across steer as at this speed where it drives slower, m/s.

@@ -58,7 +58,7 @@ impl Routes {
         if newest != 0 && age < OLD_NUMBERS {
             return;
         }
-        let ahead = Cursor::new(&route).ahead();
+        let ahead = Cursor::new(&route).ahead(Span::ZERO);
         self.kept = Some(Kept { route, starts: None, follow: Follow::new(), ahead });
     }
 
@@ -79,8 +79,12 @@ impl Routes {
         self.timeline.note(at, hold);
     }
 
-    /// Lets the kept route take over when its moment has come. Tells whether it did.
+    /// Lets the kept route take over when its moment has come, or forgets a moment that was missed because the clock
+    /// was not known. Tells whether it took over.
     pub(crate) fn begin_due(&mut self, show: Instant) -> bool {
+        if let Some(kept) = self.kept.as_mut() {
+            kept.starts = kept.starts.filter(|&at| show - at <= TOO_LATE);
+        }
         let due = |kept: &mut Kept| kept.starts.is_some_and(|at| at <= show);
         let Some(Kept { route, starts: Some(starts), follow, .. }) = self.kept.take_if(due) else {
             return false;
@@ -97,14 +101,18 @@ impl Routes {
         let running = self.running.as_mut()?;
         let progress = self.timeline.at(takes_effect);
         running.cursor.seek(&running.route, progress.time);
-        let motion = by_show_time(running.cursor.motion(progress.time), progress.rate);
+        let by_path_time = running.cursor.motion(progress.time);
+        let motion = by_show_time(by_path_time, progress.rate);
         running.off_m = motion.position.distance(body.at);
         if progress.time >= running.duration
             && (running.seek.is_some() || !within_arrival(body.at, motion.position))
         {
             return Some(running.seek.get_or_insert_with(|| Seek::new(motion.position)).step(body, limits));
         }
-        Some(running.follow.step(&motion, running.cursor.ahead(), body))
+        // Held on its way, it keeps to the tangent there.
+        let held_towards = if progress.rate < 1.0 { by_path_time.velocity.normalized() } else { None };
+        let ahead = held_towards.or_else(|| running.cursor.ahead(progress.time));
+        Some(running.follow.step(&motion, ahead, body))
     }
 
     /// Turns towards the beginning of the kept route while nothing else is to do.
@@ -226,6 +234,15 @@ mod tests {
         routes.keep(route(7));
         assert!(!routes.start(7, Instant(0), Some(Instant(600_000))));
         assert_eq!(routes.starts(), None);
+    }
+
+    #[test]
+    fn a_moment_missed_without_a_clock_is_forgotten() {
+        let mut routes = Routes::new();
+        routes.keep(route(7));
+        assert!(routes.start(7, Instant(0), None));
+        assert!(!routes.begin_due(Instant(600_000)));
+        assert!(routes.keeps_one() && !routes.in_a_run());
     }
 
     #[test]

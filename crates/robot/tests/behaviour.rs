@@ -2,9 +2,9 @@
 
 mod plant;
 
-use lightbots_base::{Instant, PathRef, Rgb, RobotId, Span, Vec2};
+use lightbots_base::{Instant, PathRef, Piece, Rgb, RobotId, Span, Vec2};
 use lightbots_robot::{Config, Inputs, Message, Robot};
-use lightbots_wire::{Abilities, Blink, Command, Fade, RobotState, Route, Topic};
+use lightbots_wire::{Abilities, Blink, Command, Fade, Pieces, RobotState, Route, Topic};
 use plant::{Flaws, Plant, straight};
 
 const START: Vec2 = Vec2::new(-0.5, 0.2);
@@ -133,6 +133,25 @@ fn hold_brings_it_to_rest_on_its_path_and_resume_goes_on() {
     }
     assert!(plant.at.distance(END) < 0.005);
     assert_eq!(plant.heard(Topic::Arrival).len(), 1);
+}
+
+#[test]
+fn held_in_a_curve_it_keeps_its_heading() {
+    let mut plant = Plant::ready(Vec2::ZERO, 0.0, Flaws::STANDARD, 2);
+    let quarter = Piece {
+        duration: Span(4_000_000),
+        c1: Vec2::new(0.22, 0.0),
+        c2: Vec2::new(0.4, 0.18),
+        end: Vec2::new(0.4, 0.4),
+    };
+    let pieces = Pieces::from_slice(&[quarter]).unwrap();
+    let at = send(&mut plant, &Route { seq: 1, start: Vec2::ZERO, pieces });
+    plant.tell(&Command::Hold { at: at + Span(1_850_000) });
+    plant.run(4.0);
+    let tangent = quarter.at(Vec2::ZERO, Span(2_000_000));
+    assert_eq!(plant.robot.state(), RobotState::Held);
+    assert!((plant.heading - tangent.velocity.angle()).abs() < 0.1, "{}", plant.heading);
+    assert!(plant.at.distance(tangent.position) < 0.004);
 }
 
 #[test]
