@@ -228,7 +228,7 @@ impl Controller {
 
     /// When to call [`wake`](Self::wake) next; always after the last time it was called.
     pub fn wake_at(&self) -> Option<Instant> {
-        let run = self.run.as_ref().map(|run| run.due(self.woken));
+        let run = self.run.as_ref().map(|run| run.due(&self.desk, self.woken));
         let stopping = self.stopping.as_ref().map(Stopping::due);
         let due = [self.desk.outbox.due(), run, stopping].into_iter().flatten().min();
         Some(due.unwrap_or(Instant::FAR).min(self.patrol_at).max(self.woken + Span::from_millis(1)))

@@ -6,9 +6,7 @@ use crate::run::{Desk, Phase, Purpose, Run, Standing};
 use lightbots_base::{Instant, Span, Vec2};
 use lightbots_wire::{Command, Route, Topic};
 
-/// HOLD and RESUME are stated this long ahead at least.
-const HOLD_LEAD: Span = Span::from_millis(150);
-/// They are said this often, …
+/// HOLD and RESUME are said this often, …
 const SAY: u32 = 5;
 /// … this far apart.
 const SAY_EVERY: Span = Span::from_millis(30);
@@ -209,7 +207,7 @@ impl Run {
             let wait = (now - drive.ends).max(Span::ZERO);
             desk.log.tell(now, EventKind::FrameReached { frame, spread, wait });
             self.frames_played += 1;
-            self.lead = desk.config.start_lead.max(self.lead * 9 / 10);
+            self.round_trip = self.round_trip * 9 / 10;
             self.pause |= std::mem::take(&mut self.step);
             self.advance();
         }
@@ -235,7 +233,7 @@ impl Run {
 
     /// Everybody slows down together.
     pub fn hold(&mut self, desk: &mut Desk, now: Instant, by_operator: bool) {
-        let lead = self.lead.max(HOLD_LEAD);
+        let lead = self.hold_lead();
         let Phase::Driving(drive) = &mut self.phase else { return };
         if let Some(hold) = &mut drive.hold
             && hold.until.is_none()
@@ -258,7 +256,7 @@ impl Run {
 
     /// Everybody picks up again together.
     pub fn release(&mut self, desk: &mut Desk, now: Instant) {
-        let lead = self.lead.max(HOLD_LEAD);
+        let lead = self.hold_lead();
         let Phase::Driving(drive) = &mut self.phase else { return };
         let Some(hold) = drive.hold.as_mut().filter(|hold| hold.until.is_none()) else { return };
         let until = (now + lead).max(hold.at + Route::EASE);

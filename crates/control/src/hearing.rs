@@ -31,7 +31,7 @@ impl Run {
             return;
         }
         self.hear_ack(desk, now, seat, details.route);
-        self.hear_start(now, seat, details.route, details.starts);
+        self.hear_start(seat, details.route, details.starts);
         match self.phase {
             Phase::Driving(_) => self.judge(desk, now, seat, details),
             Phase::Standing(_) | Phase::Starting(_) => self.hear_standing(desk, now, seat, heard, details),
@@ -50,6 +50,7 @@ impl Run {
         match details.state {
             RobotState::Faulty => self.drop_out(desk, now, seat, Trouble::Faulty),
             RobotState::Lost => self.drop_out(desk, now, seat, Trouble::Lost),
+            _ if self.began_alone(details) => self.replan_with(desk, now, seat),
             _ if heard.restarted => {
                 self.upload_again(now, seat);
                 self.pump_upload(desk, now);

@@ -51,6 +51,8 @@ pub(crate) struct Seat {
     pub acked: u32,
     /// How often the present route was sent.
     pub tries: u32,
+    /// When it was sent last.
+    pub sent: Instant,
     /// The start it confirmed last.
     pub starts: Option<Instant>,
     /// It reached the goal of the present leg.
@@ -152,8 +154,8 @@ pub(crate) struct Run {
     pub joiners: Vec<usize>,
     /// Where the watch over the seats goes on.
     pub watched: usize,
-    /// START is stated this long ahead; grows with slow links.
-    pub lead: Span,
+    /// The longest a robot took to acknowledge lately, links both ways included.
+    pub round_trip: Span,
     pub frames_played: usize,
     pub dropouts: usize,
     /// How it ended, once it has.
@@ -198,6 +200,7 @@ impl Seat {
             dropouts: 0,
             acked: 0,
             tries: 0,
+            sent: Instant::ZERO,
             starts: None,
             arrived: false,
             late: None,
@@ -249,7 +252,7 @@ impl Run {
             dark: false,
             joiners: Vec::new(),
             watched: 0,
-            lead: desk.config.start_lead,
+            round_trip: Span::ZERO,
             frames_played: 0,
             dropouts: 0,
             over: None,
@@ -290,11 +293,11 @@ impl Run {
     }
 
     /// When time has to pass next.
-    pub fn due(&self, now: Instant) -> Instant {
+    pub fn due(&self, desk: &Desk, now: Instant) -> Instant {
         let upload = self.upload.as_ref().and_then(Upload::due).unwrap_or(Instant::FAR);
         match &self.phase {
             Phase::Gathering(_) => now + Span::from_millis(50),
-            Phase::Standing(standing) => self.standing_due(now, standing.until),
+            Phase::Standing(standing) => self.standing_due(desk, now, standing.until),
             Phase::Starting(start) => start.due().min(upload),
             Phase::Driving(drive) => drive.due().min(upload),
             Phase::Offline(_) => now + Span::from_millis(1_000),

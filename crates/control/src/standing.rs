@@ -45,7 +45,7 @@ impl Run {
         }
         match self.queue.front().map(|leg| leg.kind) {
             Some(Kind::Targets) if now >= until => self.start(desk, now, until),
-            Some(Kind::Routes) if self.is_uploaded() && now + self.start_lead() + EARLY >= until => {
+            Some(Kind::Routes) if self.is_uploaded() && now + self.start_lead(desk) + EARLY >= until => {
                 self.start(desk, now, until)
             }
             None if self.drafting.is_none() && self.plan_next.is_none() && now >= until => {
@@ -56,12 +56,12 @@ impl Run {
     }
 
     /// When something is due while all stand.
-    pub fn standing_due(&self, now: Instant, until: Instant) -> Instant {
+    pub fn standing_due(&self, desk: &Desk, now: Instant, until: Instant) -> Instant {
         let drafted = self.drafting.map_or(Instant::FAR, |_| now + Span::from_millis(1_000));
         let upload = self.upload.as_ref().and_then(|upload| upload.due()).unwrap_or(Instant::FAR);
         let start = match self.queue.front().map(|leg| leg.kind) {
             _ if self.pause => Instant::FAR,
-            Some(Kind::Routes) if self.is_uploaded() => until - self.start_lead() - EARLY,
+            Some(Kind::Routes) if self.is_uploaded() => until - self.start_lead(desk) - EARLY,
             Some(Kind::Routes) => Instant::FAR,
             _ => until,
         };

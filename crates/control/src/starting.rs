@@ -4,18 +4,20 @@ use crate::event::Trouble;
 use crate::leg::Kind;
 use crate::run::{Desk, Phase, Run};
 use lightbots_base::{Instant, Span};
-use lightbots_wire::{Command, Topic};
+use lightbots_wire::{Command, Details, RobotState, Topic};
 
 /// So many who did not confirm are asked by name.
 const FEW: usize = 64;
 /// START is said again this often until its moment.
 const REPEAT: Span = Span::from_millis(40);
-/// Whether all have confirmed is looked at this long before the moment.
+/// Whether all have confirmed is looked at this long before the moment at least.
 const CHECK_AHEAD: Span = Span::from_millis(60);
 /// How often the moment is put off before the deaf ones are given up.
 const PUT_OFF_MAX: u32 = 12;
-/// The longest START is stated ahead.
-const LEAD_MAX: Span = Span::from_millis(3_000);
+/// Links slower than this are not waited for.
+const ROUND_TRIP_MAX: Span = Span::from_millis(1_500);
+/// HOLD and RESUME are stated this long ahead at least.
+const HOLD_LEAD: Span = Span::from_millis(150);
 /// Added to the lead for every robot, so that all can confirm.
 const LEAD_PER_ROBOT: Span = Span(20);
 
@@ -24,7 +26,8 @@ const LEAD_PER_ROBOT: Span = Span(20);
 pub(crate) struct Start {
     pub at: Instant,
     pub seq: u32,
-    stated: Instant,
+    /// When it is looked at whether all have confirmed: early enough to put it off for all.
+    check_at: Instant,
     repeat_at: Instant,
     /// When those who did not confirm are asked by name.
     ask_at: Instant,
@@ -38,15 +41,25 @@ pub(crate) struct Start {
 impl Start {
     /// When something is due.
     pub fn due(&self) -> Instant {
-        let moment = if self.checked { self.at } else { self.at - CHECK_AHEAD };
+        let moment = if self.checked { self.at } else { self.check_at };
         moment.min(self.repeat_at).min(self.ask_at)
     }
 }
 
 impl Run {
-    /// How long ahead START is stated now.
-    pub fn start_lead(&self) -> Span {
-        self.lead + LEAD_PER_ROBOT * self.seats.len() as i64
+    /// How long ahead START is stated now: time for all to hear and confirm it, and to be put off.
+    pub fn start_lead(&self, desk: &Desk) -> Span {
+        let slow = self.round_trip * 2 + REPEAT;
+        desk.config.start_lead.max(slow) + LEAD_PER_ROBOT * self.seats.len() as i64
+    }
+
+    /// How long ahead HOLD and RESUME are stated.
+    pub fn hold_lead(&self) -> Span {
+        self.round_trip.max(HOLD_LEAD)
+    }
+
+    fn check_ahead(&self) -> Span {
+        CHECK_AHEAD.max(self.round_trip * 3 / 4)
     }
 
     /// Starts the first leg of the queue as soon as may be, but not before `earliest`.
@@ -56,16 +69,24 @@ impl Run {
             self.depart(desk, now, now);
             return;
         }
-        let (at, seq) = (earliest.max(now + self.start_lead()), leg.seq);
-        let (repeat_at, ask_at) = (now + REPEAT, now + self.start_lead() * 2 / 5);
-        let start =
-            Start { at, seq, stated: now, repeat_at, ask_at, confirmed: 0, put_off: 0, checked: false };
+        let lead = self.start_lead(desk);
+        let (at, seq) = (earliest.max(now + lead), leg.seq);
+        let start = Start {
+            at,
+            seq,
+            check_at: at - self.check_ahead(),
+            repeat_at: now + REPEAT,
+            ask_at: now + lead * 2 / 5,
+            confirmed: 0,
+            put_off: 0,
+            checked: false,
+        };
         desk.outbox.say(Topic::Broadcast, &[Command::Start { seq, at }]);
         self.phase = Phase::Starting(start);
     }
 
     /// A report says when the robot's route starts.
-    pub fn hear_start(&mut self, now: Instant, seat: usize, route: u32, starts: Option<Instant>) {
+    pub fn hear_start(&mut self, seat: usize, route: u32, starts: Option<Instant>) {
         let Phase::Starting(start) = &mut self.phase else { return };
         let known = &mut self.seats[seat];
         if route != start.seq || starts != Some(start.at) || known.starts == starts {
@@ -73,21 +94,23 @@ impl Run {
         }
         known.starts = starts;
         start.confirmed += 1;
-        // What the slowest needed is stated ahead the next time, with some to spare.
-        let took = now - start.stated + CHECK_AHEAD;
-        self.lead = self.lead.max(Span(took.0 + took.0 / 4)).min(LEAD_MAX);
+    }
+
+    /// Whether a robot has begun at a moment that was put off: it did not hear so in time.
+    pub fn began_alone(&self, details: &Details) -> bool {
+        let Phase::Starting(start) = &self.phase else { return false };
+        details.state == RobotState::Driving && details.route == start.seq && details.starts != Some(start.at)
     }
 
     /// Time passes while START is stated.
     pub fn tick_start(&mut self, desk: &mut Desk, now: Instant) {
         let Phase::Starting(mut start) = self.phase.clone() else { return };
         let needed = self.queue.front().map_or(0, |leg| leg.movers);
-        let check = start.at - CHECK_AHEAD;
         if now >= start.ask_at {
             start.ask_at = Instant::FAR;
             self.ask_unconfirmed(desk, &start, needed);
         }
-        if now >= check && !start.checked {
+        if now >= start.check_at && !start.checked {
             start.checked = start.confirmed >= needed;
             if !start.checked {
                 self.put_off(desk, now, &mut start);
@@ -135,12 +158,13 @@ impl Run {
             }
             return;
         }
-        self.lead = (self.lead * 3 / 2).min(LEAD_MAX);
-        start.at = now + self.start_lead();
-        start.stated = now;
+        self.round_trip = (self.round_trip * 3 / 2).min(ROUND_TRIP_MAX);
+        let lead = self.start_lead(desk);
+        start.at = now + lead;
+        start.check_at = start.at - self.check_ahead();
         start.confirmed = 0;
         start.repeat_at = now + REPEAT;
-        start.ask_at = now + self.start_lead() * 2 / 5;
+        start.ask_at = now + lead * 2 / 5;
         let command = Command::Start { seq: start.seq, at: start.at };
         desk.outbox.say(Topic::Broadcast, std::slice::from_ref(&command));
         for seat in deaf {

@@ -67,7 +67,7 @@ impl Run {
                 return;
             }
             desk.resent += 1;
-            self.send_route(desk, seat);
+            self.send_route(desk, now, seat);
             upload.sent.push_back((now + desk.config.resend_after, seat));
         }
         let count = self.queue.front().map_or(0, |leg| leg.moves.len());
@@ -78,7 +78,7 @@ impl Run {
                 continue;
             }
             self.seats[seat].tries = 0;
-            self.send_route(desk, seat);
+            self.send_route(desk, now, seat);
             upload.open += 1;
             upload.sent.push_back((now + desk.config.resend_after, seat));
         }
@@ -94,6 +94,9 @@ impl Run {
         }
         known.acked = route;
         known.fade = None;
+        if known.tries == 1 {
+            self.round_trip = self.round_trip.max(now - known.sent);
+        }
         upload.open = upload.open.saturating_sub(1);
         if upload.cursor < self.queue.front().map_or(0, |leg| leg.moves.len()) {
             self.pump_upload(desk, now);
@@ -111,12 +114,13 @@ impl Run {
     }
 
     /// The next leg's route of a seat, with the change of light it may not know yet.
-    fn send_route(&mut self, desk: &mut Desk, seat: usize) {
+    fn send_route(&mut self, desk: &mut Desk, now: Instant, seat: usize) {
         let Some(leg) = self.queue.front() else { return };
         let Some(path) = leg.path(seat) else { return };
         let Ok(pieces) = Pieces::from_slice(&path.pieces) else { return };
         let known = &mut self.seats[seat];
         known.tries += 1;
+        known.sent = now;
         let topic = Topic::Robot(desk.fleet.robot(known.robot).id);
         let route = Command::Route(Route { seq: leg.seq, start: path.start, pieces });
         match known.fade {
