@@ -1,7 +1,9 @@
 //! The robot: messages in, steps in, wheels, light and reports out.
 
-use lightbots_base::{Instant, Pose, Rgb, Span, Vec2};
-use lightbots_wire::{Command, Details, Report, RobotState, TimeQuestion, Topic, commands};
+mod obey;
+
+use lightbots_base::{Instant, Pose, Rgb, RobotId, Span};
+use lightbots_wire::{Details, Report, RobotState, TimeQuestion, Topic, commands};
 
 use crate::clock::Clock;
 use crate::config::{Config, Inputs, Outputs};
@@ -18,8 +20,6 @@ pub type Message = heapless::String<256>;
 
 /// A step is taken for no longer than this, seconds; longer pauses are gaps.
 const LONGEST_STEP_S: f64 = 0.1;
-/// Places further out than this in a coordinate make no sense, metres.
-const FAR_M: f64 = 1000.0;
 /// This far off its route, metres, the robot gives the route up: it is stuck, or was never where the route starts.
 const GIVE_UP_M: f64 = 0.3;
 /// Without a compass it learns its heading by creeping straight on, m/s.
@@ -157,7 +157,7 @@ impl Robot {
     }
 
     /// Its name.
-    pub fn id(&self) -> lightbots_base::RobotId {
+    pub fn id(&self) -> RobotId {
         self.config.id
     }
 
@@ -179,66 +179,6 @@ impl Robot {
             abilities: self.config.abilities,
             unknown: self.unknown,
         }
-    }
-
-    fn can(&self, command: &Command) -> bool {
-        let abilities = self.config.abilities;
-        match command {
-            Command::Target(_) | Command::Color(_) | Command::Uuid => true,
-            Command::Fade(_) => abilities.fade,
-            Command::Blink(_) => abilities.blink,
-            _ => abilities.route,
-        }
-    }
-
-    fn obey(&mut self, now: Instant, personal: bool, command: Command) {
-        match command {
-            Command::Target(goal) => self.take_target(goal),
-            Command::Color(colour) => self.light.set(colour),
-            Command::Uuid => self.outbox.introduce(),
-            Command::Route(route) => {
-                self.routes.keep(route);
-                self.outbox.report_status();
-            }
-            Command::Start { seq, at } => {
-                if self.routes.start(seq, at, self.clock.show_time(now)) || personal {
-                    self.outbox.report_status();
-                }
-            }
-            Command::Hold { at } => self.routes.note(at, true),
-            Command::Resume { at } => self.routes.note(at, false),
-            Command::Stop => {
-                self.stop();
-                self.light.forget_waiting();
-            }
-            Command::Time(answer) => {
-                self.clock.answer(now, &answer);
-                if self.clock.take_reset() {
-                    self.routes.forget_moments();
-                }
-            }
-            Command::Fade(fade) => self.light.fade(self.clock.show_time(now), fade),
-            Command::Blink(blink) => self.light.blink(now, blink.over),
-            Command::Status => self.outbox.report_status(),
-        }
-    }
-
-    /// A target replaces whatever it does. One that is nowhere makes no sense: it stands.
-    fn take_target(&mut self, goal: Vec2) {
-        self.routes.clear();
-        let makes_sense = goal.x.abs() <= FAR_M && goal.y.abs() <= FAR_M;
-        self.seek = makes_sense.then(|| Seek::new(goal));
-        if !makes_sense {
-            self.unknown = self.unknown.saturating_add(1);
-            self.drive.halt();
-        }
-    }
-
-    fn stop(&mut self) {
-        self.routes.clear();
-        self.seek = None;
-        self.drive.halt();
-        self.outbox.report_status();
     }
 
     /// Seconds since the step before; messages may have come in between.
