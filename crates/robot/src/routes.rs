@@ -62,12 +62,13 @@ impl Routes {
         self.kept = Some(Kept { route, starts: None, follow: Follow::new(), ahead });
     }
 
-    /// States when the kept route begins; anew, as long as it has not begun. Tells whether that changed anything.
+    /// States when the kept route begins; anew, as long as it has not begun, but only to a later moment: an earlier
+    /// one is an old message that was overtaken. Tells whether that changed anything.
     pub(crate) fn start(&mut self, seq: u32, at: Instant, show: Option<Instant>) -> bool {
         let Some(kept) = self.kept.as_mut().filter(|kept| kept.route.seq == seq) else {
             return false;
         };
-        if kept.starts == Some(at) || show.is_some_and(|show| show - at > TOO_LATE) {
+        if kept.starts.is_some_and(|known| known >= at) || show.is_some_and(|show| show - at > TOO_LATE) {
             return false;
         }
         kept.starts = Some(at);
@@ -222,6 +223,7 @@ mod tests {
         assert!(routes.start(7, Instant(1_000_000), Some(Instant(0))));
         assert!(!routes.start(7, Instant(1_000_000), Some(Instant(0))));
         assert!(routes.start(7, Instant(2_000_000), Some(Instant(0))));
+        assert!(!routes.start(7, Instant(1_500_000), Some(Instant(0))), "overtaken by the one before");
         assert!(!routes.begin_due(Instant(1_999_999)));
         assert!(routes.begin_due(Instant(2_000_000)));
         assert!(!routes.start(7, Instant(3_000_000), Some(Instant(2_000_000))));
