@@ -30,7 +30,9 @@ pub fn start(log: Log) {
         Log::Debug => (LevelFilter::DEBUG, LevelFilter::INFO),
     };
     let targets = Targets::new().with_default(broker).with_target("lightbots", ours);
-    let lines = tracing_subscriber::fmt::layer().with_writer(std::io::stderr).with_target(false);
+    let colours = std::io::IsTerminal::is_terminal(&std::io::stderr());
+    let lines =
+        tracing_subscriber::fmt::layer().with_writer(std::io::stderr).with_target(false).with_ansi(colours);
     // A second start in one process keeps the first, which is as good.
     let _ = tracing_subscriber::registry().with(targets).with(lines).try_init();
 }

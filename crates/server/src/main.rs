@@ -38,10 +38,27 @@ fn main() {
     let code = runtime.block_on(async {
         // First of all, so that an early Ctrl-C or TERM is never missed.
         let stop = Stop::install();
-        run(Cli::parse(), stop).await
+        match Cli::try_parse() {
+            Ok(cli) => run(cli, stop).await,
+            Err(error) => misuse(&error),
+        }
     });
     // Not by returning: that would wait for a plan still being made on another thread.
     std::process::exit(code);
+}
+
+/// Help and version as asked for; wrong use in one line.
+fn misuse(error: &clap::Error) -> i32 {
+    let lists_commands = error.kind() == clap::error::ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand;
+    if !error.use_stderr() || lists_commands {
+        // A reader that has gone away is no error.
+        let _ = error.print();
+        return if lists_commands { 2 } else { 0 };
+    }
+    let text = error.to_string();
+    let lines: Vec<&str> = text.lines().take_while(|line| !line.trim().is_empty()).map(str::trim).collect();
+    say::error(&format!("{} (--help explains)", lines.join(" ").trim_start_matches("error: ")));
+    2
 }
 
 /// Runs one command; its exit code: 0 fine, 1 problems that were printed, 2 wrong use or unreadable input.

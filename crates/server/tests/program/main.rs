@@ -1,1 +1,43 @@
-//! (being written)
+//! The program as people run it: real processes, real brokers, real sockets.
+//!
+//! Everything waits for conditions, never for a time; deadlines are long because they only matter when something is
+//! broken. Tests with robots run one at a time, so that a small machine keeps up.
+
+// What children said is shown when a test fails.
+#![allow(clippy::print_stderr)]
+
+mod child;
+mod commands;
+mod fleet;
+mod http;
+mod mosquitto;
+mod original_controller;
+mod original_robot;
+mod plain_mqtt;
+mod run;
+mod screen;
+mod shows;
+
+use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::time::{Duration, Instant};
+
+/// How long anything may take before it is broken.
+const DEADLINE: Duration = Duration::from_secs(120);
+
+/// Holds back other tests with robots.
+fn alone() -> MutexGuard<'static, ()> {
+    static TURN: Mutex<()> = Mutex::new(());
+    TURN.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// Looks again and again until there is something; fails after [`DEADLINE`].
+fn wait_for<T>(what: &str, mut look: impl FnMut() -> Option<T>) -> T {
+    let until = Instant::now() + DEADLINE;
+    loop {
+        if let Some(found) = look() {
+            return found;
+        }
+        assert!(Instant::now() < until, "waited {} s in vain for {what}", DEADLINE.as_secs());
+        std::thread::sleep(Duration::from_millis(20));
+    }
+}

@@ -1,0 +1,115 @@
+//! A child process: its output is kept, it is killed with the value.
+
+use std::io::{BufRead, BufReader, Read};
+use std::process::{Child as Process, Command, Stdio};
+use std::sync::{Arc, Mutex};
+
+use crate::wait_for;
+
+/// Lines that came so far.
+type Lines = Arc<Mutex<Vec<String>>>;
+
+pub struct Child {
+    name: String,
+    process: Process,
+    out: Lines,
+    err: Lines,
+}
+
+impl Child {
+    /// `lightbots` with these arguments.
+    pub fn lightbots(arguments: &[&str]) -> Self {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_lightbots"));
+        // Nobody's library but the test's own.
+        command.args(arguments).env("XDG_DATA_HOME", crate::shows::folder().join("data"));
+        Self::start(command, &arguments.join(" "))
+    }
+
+    pub fn start(mut command: Command, name: &str) -> Self {
+        command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped());
+        let mut process = command.spawn().unwrap_or_else(|error| panic!("{name} does not start: {error}"));
+        let out = keep(process.stdout.take().unwrap());
+        let err = keep(process.stderr.take().unwrap());
+        Self { name: name.to_owned(), process, out, err }
+    }
+
+    /// Everything it said on stdout.
+    pub fn out(&self) -> String {
+        self.out.lock().unwrap().join("\n")
+    }
+
+    /// Everything it said on stderr.
+    pub fn err(&self) -> String {
+        self.err.lock().unwrap().join("\n")
+    }
+
+    /// The text right after `before` on stdout, up to the next blank; waits for it.
+    pub fn said(&mut self, before: &str) -> String {
+        let name = self.name.clone();
+        wait_for(&format!("'{before}' from {name}"), || {
+            let out = self.out();
+            if let Some((_, after)) = out.split_once(before) {
+                return Some(after.split([' ', '\n', ',']).next().unwrap_or("").to_owned());
+            }
+            assert!(self.exit_code().is_none(), "{name} ended early");
+            None
+        })
+    }
+
+    /// How it ended, if it has.
+    pub fn exit_code(&mut self) -> Option<i32> {
+        self.process.try_wait().unwrap().map(|status| status.code().unwrap_or(-1))
+    }
+
+    /// Waits for its end; its exit code.
+    pub fn end(&mut self) -> i32 {
+        let name = self.name.clone();
+        let code = wait_for(&format!("the end of {name}"), || self.exit_code());
+        // Its last lines come through a thread of ours.
+        wait_for("its last lines", || {
+            (Arc::strong_count(&self.out) + Arc::strong_count(&self.err) == 2).then_some(())
+        });
+        code
+    }
+
+    /// Sends TERM, as a service manager does.
+    #[cfg(unix)]
+    pub fn terminate(&self) {
+        let sent = Command::new("kill").args(["-TERM", &self.process.id().to_string()]).status().unwrap();
+        assert!(sent.success());
+    }
+
+    pub fn kill(&mut self) {
+        // It may have ended.
+        let _ = self.process.kill();
+        let _ = self.process.wait();
+    }
+}
+
+impl Drop for Child {
+    fn drop(&mut self) {
+        self.kill();
+        if std::thread::panicking() {
+            eprintln!("--- {}: stdout\n{}\n--- stderr\n{}", self.name, self.out(), self.err());
+        }
+    }
+}
+
+/// Keeps the lines of a pipe, from a thread.
+fn keep(pipe: impl Read + Send + 'static) -> Lines {
+    let lines = Lines::default();
+    let kept = lines.clone();
+    std::thread::spawn(move || {
+        for line in BufReader::new(pipe).split(b'\n').map_while(Result::ok) {
+            kept.lock().unwrap().push(String::from_utf8_lossy(&line).into_owned());
+        }
+    });
+    lines
+}
+
+/// Runs `lightbots` to its end: exit code, stdout, stderr.
+pub fn run(arguments: &[&str]) -> (i32, String, String) {
+    let mut child = Child::lightbots(arguments);
+    let code = child.end();
+    (code, child.out(), child.err())
+}

@@ -1,0 +1,182 @@
+//! The contract of the commands that only compute.
+
+use serde_json::Value;
+
+use crate::child::run;
+use crate::shows;
+
+fn json(text: &str) -> Value {
+    serde_json::from_str(text).unwrap_or_else(|error| panic!("{error} in {text}"))
+}
+
+fn has(value: &Value, keys: &[&str]) {
+    for key in keys {
+        assert!(value.get(key).is_some(), "{key} is missing in {value}");
+    }
+}
+
+#[test]
+fn check_says_what_it_promises() {
+    let (code, out, err) = run(&["check", &shows::example("countdown.json"), "--json"]);
+    assert_eq!((code, err.as_str()), (0, ""));
+    let report = json(&out);
+    has(
+        &report,
+        &[
+            "ok",
+            "frames",
+            "pixels",
+            "duration_s",
+            "lower_bound_s",
+            "closest_m",
+            "plan_ms",
+            "issues",
+            "transitions",
+        ],
+    );
+    has(&report["transitions"][0], &["from", "to", "duration_s", "lower_bound_s", "closest_m"]);
+    assert_eq!((report["ok"].as_bool(), report["pixels"].as_u64()), (Some(true), Some(30)));
+    assert!(report["closest_m"].as_f64().unwrap() > 0.054);
+    assert!(report["duration_s"].as_f64() > report["lower_bound_s"].as_f64());
+    assert_eq!(report["transitions"].as_array().unwrap().len() as u64, report["frames"].as_u64().unwrap());
+}
+
+#[test]
+fn a_rehearsal_is_its_seed() {
+    let show = shows::row_file(6, &[0.3, 0.2]);
+    let rehearse = |more: &[&str]| {
+        let mut all = vec!["rehearse", &show, "--json"];
+        all.extend(more);
+        let (code, out, err) = run(&all);
+        assert_eq!((code, err.as_str()), (0, ""), "{out}");
+        json(&out)
+    };
+    let (first, again) = (rehearse(&["--seed", "7"]), rehearse(&["--seed", "7"]));
+    has(&first, &["ok", "robots", "frames_played", "duration_s", "lower_bound_s", "contacts", "closest_m"]);
+    has(
+        &first,
+        &[
+            "arrival_spread_s",
+            "position_error_m",
+            "messages",
+            "seed",
+            "state_hash",
+            "real_time_factor",
+            "issues",
+        ],
+    );
+    has(&first["arrival_spread_s"], &["median", "p99", "max"]);
+    has(&first["messages"], &["sent", "lost"]);
+    assert_eq!((first["contacts"].as_u64(), first["frames_played"].as_u64()), (Some(0), Some(2)));
+    assert_eq!(first["state_hash"], again["state_hash"]);
+    assert_ne!(first["state_hash"], rehearse(&["--seed", "8"])["state_hash"]);
+    let hard = rehearse(&["--faults", "loss=5%"]);
+    assert!(hard["messages"]["lost"].as_u64().unwrap() > 0, "{hard}");
+    assert_eq!(rehearse(&["--ideal"])["ok"], true);
+}
+
+#[test]
+fn a_rehearsal_can_be_read_by_people() {
+    let page = shows::file("report.html", "");
+    let (code, out, _) = run(&["rehearse", &shows::row_file(3, &[0.1]), "--report", &page]);
+    assert_eq!(code, 0, "{out}");
+    assert!(std::fs::read_to_string(page).unwrap().contains("<html"));
+}
+
+#[test]
+fn shows_survive_the_way_through_the_original_format_and_back() {
+    let (ours, theirs, back) =
+        (shows::row_file(3, &[0.5, 1.0]), shows::file("a.json", ""), shows::file("b.lightbots.json", ""));
+    assert_eq!(run(&["convert", &ours, &theirs]).0, 0);
+    assert!(std::fs::read_to_string(&theirs).unwrap().trim_start().starts_with('['));
+    assert_eq!(run(&["convert", &theirs, &back]).0, 0);
+    let check = |file: &str| {
+        let mut report = json(&run(&["check", file, "--json"]).1);
+        report["plan_ms"] = Value::Null;
+        report
+    };
+    assert_eq!(check(&ours), check(&back));
+    assert_eq!(run(&["convert", &ours, &shows::file("a.txt", "")]).0, 2);
+}
+
+#[test]
+fn a_plan_is_written_with_its_paths() {
+    let out = shows::file("plan.json", "");
+    assert_eq!(run(&["plan", &shows::row_file(3, &[0.5]), "--out", &out]).0, 0);
+    let plan = json(&std::fs::read_to_string(out).unwrap());
+    assert_eq!(plan["transitions"][0]["paths"].as_array().unwrap().len(), 3);
+}
+
+#[test]
+fn identity_and_floor_can_be_stated() {
+    let row = shows::row_file(3, &[0.5]);
+    assert_eq!(run(&["check", &row, "--identity", "fixed"]).0, 0);
+    // The pixels at y = 1.2 are off a floor that ends at 0.5.
+    let (code, out, _) = run(&["check", &row, "--floor", "1x1", "--json"]);
+    assert_eq!((code, json(&out)["ok"].as_bool()), (1, Some(false)));
+}
+
+#[test]
+fn unreadable_input_is_one_line_and_exit_code_2() {
+    let good = shows::row(2, &[1.0]);
+    let cases = [
+        ("text.json", "hello".to_owned()),
+        ("cut.json", good[..good.len() / 2].to_owned()),
+        ("nan.json", good.replacen("-0.050", "NaN", 1)),
+        ("colour.json", r#"[{"name":"A","airTime":0.0,"pixels":[{"pixelId":0,"color":{"R":"red","G":0,"B":0},"physicalLocation":{"X":0,"Y":0}}]}]"#.into()),
+        ("spaces.json", " ".repeat(100_000_000)),
+        ("empty.json", String::new()),
+    ];
+    for (name, bytes) in cases {
+        let file = shows::file(name, bytes);
+        for command in ["check", "rehearse"] {
+            let (code, out, err) = run(&[command, &file, "--json"]);
+            assert_eq!((code, out.as_str()), (2, ""), "{command} {name}: {err}");
+            assert!(
+                err.contains(name) && err.lines().count() == 1 && err.len() < 600,
+                "{command} {name}: {err}"
+            );
+        }
+    }
+    for missing in ["nothing.json", "."] {
+        let (code, _, err) = run(&["check", missing]);
+        assert_eq!((code, err.lines().count()), (2, 1), "{err}");
+    }
+}
+
+#[test]
+fn shows_that_must_not_be_played_are_issues_and_exit_code_1_or_2() {
+    let good = shows::row(2, &[1.0]);
+    for (what, show) in [
+        ("two pixels on one place", good.replace("-0.050", "0.050")),
+        ("a pixel off the floor", good.replace("-0.050", "-7.0")),
+        ("an air time of -1", good.replace("\"air_time_s\":1", "\"air_time_s\":-1")),
+    ] {
+        let (code, out, err) = run(&["check", &shows::file("bad.lightbots.json", show), "--json"]);
+        assert_eq!(code, 1, "{what}: {out} {err}");
+        let report = json(&out);
+        let error =
+            report["issues"].as_array().unwrap().iter().find(|issue| issue["severity"] == "error").unwrap();
+        assert_eq!(error["frame"], 0, "{what}: {error}");
+    }
+}
+
+#[test]
+fn wrong_use_is_one_line_and_exit_code_2() {
+    for arguments in [
+        &["check"][..],
+        &["check", "a", "b"],
+        &["fly"],
+        &["check", "a.json", "--floor", "3"],
+        &["play", "a.json", "--broker", "http://x"],
+        &["robots", "--count", "0", "--broker", "x"],
+        &["robots", "--count", "1", "--broker", "x", "--faults", "gremlins"],
+        &["rehearse", "a.json", "--faults", "loss=lots"],
+        &["run", "--mqtt-listen", "0.0.0.0:0", "--listen", "127.0.0.1:0"],
+    ] {
+        let (code, out, err) = run(arguments);
+        assert_eq!((code, out.as_str(), err.lines().count()), (2, "", 1), "{arguments:?}: {err}");
+    }
+    assert_eq!(run(&["--help"]).0, 0);
+    assert_eq!(run(&["--version"]).0, 0);
+}

@@ -1,0 +1,89 @@
+//! Our robots under a controller that speaks nothing but the original's protocol.
+
+use std::collections::BTreeMap;
+
+use crate::child::Child;
+use crate::plain_mqtt::Mqtt;
+use crate::{alone, wait_for};
+
+/// Where robots say they are, from reports `<uuid> <x> <y>` on a topic; later fields are not looked at.
+fn read(mqtt: &mut Mqtt, topic: &str, places: &mut BTreeMap<String, (f64, f64)>) {
+    while let Some((on, payload)) = mqtt.next() {
+        if on != topic {
+            continue;
+        }
+        let fields: Vec<&str> = payload.split(' ').collect();
+        let place = (fields[1].parse::<f64>().unwrap(), fields[2].parse::<f64>().unwrap());
+        if place.0.is_finite() && place.1.is_finite() {
+            places.insert(fields[0].to_owned(), place);
+        }
+    }
+}
+
+#[test]
+fn an_original_controller_drives_our_robots() {
+    let _turn = alone();
+    let mut server = Child::lightbots(&[
+        "run",
+        "--robots",
+        "0",
+        "--listen",
+        "127.0.0.1:0",
+        "--mqtt-listen",
+        "127.0.0.1:0",
+    ]);
+    let broker = server.said("Broker mqtt://");
+    let mut robots = Child::lightbots(&["robots", "--count", "3", "--broker", &broker]);
+    let topics = ["T/LightBot/UUID", "T/LightBot/Arrival"];
+    let mut mqtt = Mqtt::open(&broker, "BotControl/0d8f3c1e-5a86-4d0e-9a39-d39c6c1a7c11", &topics);
+
+    let mut found = BTreeMap::new();
+    wait_for("three robots that know where they are", || {
+        // People press Refresh until all are there.
+        mqtt.publish("T/LightBot/Broadcast", "|UUID|");
+        std::thread::sleep(std::time::Duration::from_millis(200));
+        read(&mut mqtt, "T/LightBot/UUID", &mut found);
+        (found.len() == 3).then_some(())
+    });
+    junk(&mqtt, found.keys().next().unwrap());
+
+    // On a machine with a decimal comma, and each straight ahead of where it stands.
+    let targets: BTreeMap<String, (f64, f64)> =
+        found.iter().map(|(id, (x, y))| (id.clone(), (*x, y - 0.3))).collect();
+    for (id, (x, y)) in &targets {
+        let payload = format!("|TARGET {x:.6} {y:.6}||COLOR 16753920|").replace('.', ",");
+        mqtt.publish(&format!("T/LightBot/{id}"), payload);
+    }
+    let mut arrived = BTreeMap::new();
+    wait_for("three arrivals", || {
+        read(&mut mqtt, "T/LightBot/Arrival", &mut arrived);
+        (arrived.len() == 3).then_some(())
+    });
+    for (id, (x, y)) in &targets {
+        let at = arrived[id];
+        assert!((at.0 - x).abs() <= 0.021 && (at.1 - y).abs() <= 0.021, "{id} is at {at:?}, not at {x} {y}");
+    }
+    robots.terminate();
+    assert_eq!(robots.end(), 0);
+}
+
+/// What nobody should send.
+fn junk(mqtt: &Mqtt, robot: &str) {
+    let own = format!("T/LightBot/{robot}");
+    for topic in [
+        "T/LightBot/UUID",
+        "T/LightBot/Arrival",
+        "T/LightBot/Status",
+        "T/LightBot/Time",
+        "T/LightBot/Broadcast",
+        &own,
+    ] {
+        mqtt.publish(topic, "");
+        mqtt.publish(topic, vec![0xff, 0xfe, 0x00, b'|', 0xc3]);
+        mqtt.publish(topic, vec![b'A'; 1_000_000]);
+        mqtt.publish(
+            topic,
+            "|TARGET||COLOR -1||PATH||START x y||TARGET NaN inf||COLOR 99999999999999999999|",
+        );
+    }
+}

@@ -1,0 +1,200 @@
+//! `run`, as its screens see it.
+
+use serde_json::json;
+
+use crate::child::{self, Child};
+use crate::original_robot::OriginalRobot;
+use crate::screen::Screen;
+use crate::{alone, http, shows};
+
+/// `run` on free ports: the process, the screen's address, the broker's.
+fn start(arguments: &[&str]) -> (Child, String, String) {
+    let data = shows::folder().join("library");
+    let data = data.to_str().unwrap();
+    let mut all = vec!["run", "--listen", "127.0.0.1:0", "--mqtt-listen", "127.0.0.1:0", "--data", data];
+    all.extend(arguments);
+    let mut child = Child::lightbots(&all);
+    let (screen, broker) = (child.said("http://"), child.said("Broker mqtt://"));
+    (child, screen, broker)
+}
+
+#[test]
+fn a_show_plays_to_its_end_on_two_screens() {
+    let _turn = alone();
+    let (mut server, address, _) = start(&["--robots", "4", &shows::row_file(4, &[0.2, 0.1])]);
+    let (mut one, mut two) = (Screen::open(&address), Screen::open(&address));
+    one.wait_for_robots(4);
+    assert_eq!(one.get("hello")["simulated"], 4);
+    assert_eq!(one.get("show")["document"]["name"], "Rows");
+    one.must(json!({"do": "play", "from": 0, "missing": "refuse"}));
+    two.until("playing on the other screen", |screen| (screen.phase() == "playing").then_some(()));
+    let last = one.wait_for_log("Run finished");
+    assert!(last.contains("2 frames") && last.contains("0 dropouts"), "{last}");
+    two.wait_for_log("Run finished");
+    two.wait_for_robots(4);
+    one.wait_for_robots(4);
+    assert_eq!(one.get("fleet")["rows"].as_array().unwrap().len(), 4);
+    let names = |screen: &Screen| {
+        screen.get("fleet")["rows"]
+            .as_array()
+            .unwrap()
+            .iter()
+            .map(|row| row["id"].to_string())
+            .collect::<Vec<_>>()
+    };
+    assert_eq!(names(&one), names(&two));
+    for (index, (x, y)) in sorted(one.places()).into_iter().enumerate() {
+        let goal = 0.1 * (index as f64 - 1.5);
+        assert!((x - goal).abs() < 0.025 && (y - 1.1).abs() < 0.025, "robot {index} is at {x} {y}");
+    }
+    server.terminate();
+    assert_eq!(server.end(), 0);
+}
+
+fn sorted(mut places: Vec<(f64, f64)>) -> Vec<(f64, f64)> {
+    places.sort_by(|a, b| a.0.total_cmp(&b.0));
+    places
+}
+
+#[test]
+fn abort_stops_everybody_and_the_next_run_begins_from_there() {
+    let _turn = alone();
+    // From the front row to the far end: nobody is there before the abort.
+    let far = shows::row(4, &[0.1]).replace("1.200", "-1.300");
+    let (_server, address, _) = start(&["--robots", "4", &shows::file("far.lightbots.json", far)]);
+    let mut screen = Screen::open(&address);
+    screen.wait_for_robots(4);
+    screen.must(json!({"do": "play", "from": 0, "missing": "refuse"}));
+    screen.until("robots on their way", |screen| {
+        let places = screen.places();
+        (screen.phase() == "playing" && places.iter().any(|(_, y)| *y < 1.2)).then_some(())
+    });
+    screen.must(json!({"do": "abort"}));
+    screen.wait_for_robots(4);
+    screen.until("robots that stand", |screen| {
+        let states = screen.get("state")["robots"]["status"].as_array().cloned().unwrap_or_default();
+        (states.len() == 4 && states.iter().all(|state| *state == 0)).then_some(())
+    });
+    assert!(screen.places().iter().all(|(_, y)| *y > -1.2), "{:?}", screen.places());
+    screen.must(json!({"do": "preview", "frame": 0}));
+    screen.until("the preview's end", |screen| screen.places().iter().all(|(_, y)| *y < -1.27).then_some(()));
+}
+
+#[test]
+fn an_original_robot_takes_part() {
+    let _turn = alone();
+    let (_server, address, broker) = start(&["--robots", "3", &shows::row_file(4, &[0.1, 0.1])]);
+    let robot = OriginalRobot::start(&broker, "abfe6805-3c60-4e5a-ba40-2dcf7cb5d8e8", (0.35, 1.3));
+    let mut screen = Screen::open(&address);
+    screen.wait_for_robots(4);
+    screen.must(json!({"do": "play", "from": 0, "missing": "refuse"}));
+    let last = screen.wait_for_log("Run finished");
+    assert!(last.contains("2 frames") && last.contains("0 dropouts"), "{last}");
+    let diary = robot.end();
+    assert!(diary.targets >= 2 && diary.arrivals >= 2, "{diary:?}");
+    assert_eq!(diary.colours.last(), Some(&0xff8000), "{diary:?}");
+}
+
+#[test]
+fn too_few_robots_are_a_message_and_a_choice() {
+    let _turn = alone();
+    let (_server, address, _) = start(&["--robots", "2", &shows::row_file(3, &[0.1])]);
+    let mut screen = Screen::open(&address);
+    screen.wait_for_robots(2);
+    let answer = screen.operate(json!({"do": "play", "from": 0, "missing": "refuse"}));
+    assert_eq!(answer["ok"], false);
+    assert!(answer["error"].as_str().unwrap().contains('3'), "{answer}");
+    screen.must(answer["choice"]["operation"].clone());
+    screen.wait_for_log("Run finished");
+}
+
+#[test]
+fn the_library_keeps_shows_and_nobody_overwrites_anybody() {
+    let _turn = alone();
+    let (_server, address, _) = start(&["--robots", "0"]);
+    let mut screen = Screen::open(&address);
+    let show = shows::row(2, &[1.0]);
+    let put = |headers: &[(&str, &str)], body: &str| {
+        http::request(&address, "PUT", "/api/shows/My%20rows", headers, body)
+    };
+    let first = put(&[("If-None-Match", "*")], &show);
+    assert_eq!(first.status, 200, "{}", first.body);
+    assert_eq!(put(&[("If-None-Match", "*")], &show).status, 412);
+    screen.must(json!({"do": "open", "name": "My rows"}));
+    screen.until("the show", |screen| (screen.get("show")["name"] == "My rows").then_some(()));
+    let etag = first.header("ETag");
+    let second = put(&[("If-Match", &etag)], &show.replace("Rows", "Columns"));
+    assert_eq!(second.status, 200, "{}", second.body);
+    screen.until("the change", |screen| (screen.get("show")["document"]["name"] == "Columns").then_some(()));
+    screen.until("its plan", |screen| (screen.get("plan")["ok"] == true).then_some(()));
+    let late = put(&[("If-Match", &etag)], &show);
+    assert_eq!(late.status, 412);
+    assert!(late.json()["error"].as_str().unwrap().contains("somebody else"));
+    let got = http::request(&address, "GET", "/api/shows/My%20rows", &[], "");
+    assert_eq!((got.header("ETag"), got.json()["name"].as_str()), (second.header("ETag"), Some("Columns")));
+    let plan = http::request(&address, "GET", "/api/plan", &[], "").json();
+    assert_eq!(plan["transitions"][0]["paths"].as_array().unwrap().len(), 2);
+    assert_eq!(http::request(&address, "DELETE", "/api/shows/My%20rows", &[], "").status, 204);
+    assert_eq!(http::request(&address, "GET", "/api/shows/My%20rows", &[], "").status, 404);
+}
+
+#[test]
+fn junk_from_the_web_is_turned_away() {
+    let _turn = alone();
+    let (_server, address, _) = start(&["--robots", "0"]);
+    for (method, path, body, status) in [
+        ("PUT", "/api/shows/a", "{", 422),
+        ("PUT", "/api/shows/..%2Fa", "[]", 400),
+        ("GET", "/api/shows/..%2f..%2fetc%2fpasswd", "", 400),
+        ("GET", "/api/nothing", "", 404),
+        ("POST", "/api/convert?to=pdf", "[]", 400),
+        ("POST", "/api/convert?to=original", "x", 422),
+    ] {
+        let answer = http::request(&address, method, path, &[], body);
+        assert_eq!(answer.status, status, "{method} {path}: {}", answer.body);
+        assert!(!answer.json()["error"].as_str().unwrap().contains('\n'));
+    }
+    let long = http::request(&address, "POST", "/api/check", &[("Content-Length", "100000000")], "");
+    assert_eq!(long.status, 413);
+    let checked = http::request(&address, "POST", "/api/check", &[], "not a show").json();
+    assert_eq!(
+        (checked["ok"].as_bool(), checked["issues"][0]["severity"].as_str()),
+        (Some(false), Some("error"))
+    );
+    let stranger = http::request(&address, "PUT", "/api/shows/a", &[("Origin", "http://evil.example")], "[]");
+    assert_eq!(stranger.status, 403);
+    assert!(Screen::try_open(&address, "evil.example").is_err());
+    let mut screen = Screen::open(&address);
+    screen.send_text("{\"type\":\"operate\"}");
+    assert!(screen.is_hung_up());
+    assert_eq!(http::request(&address, "GET", "/", &[], "").status, 200);
+}
+
+#[test]
+fn a_taken_port_is_one_line_with_what_to_do() {
+    let taken = std::net::TcpListener::bind("127.0.0.1:0").unwrap();
+    let taken = taken.local_addr().unwrap().to_string();
+    for (arguments, remedy) in [
+        (["--listen", taken.as_str(), "--mqtt-listen", "127.0.0.1:0"], "--listen"),
+        (["--listen", "127.0.0.1:0", "--mqtt-listen", taken.as_str()], "--mqtt-listen"),
+    ] {
+        let mut all = vec!["run", "--robots", "0"];
+        all.extend(arguments);
+        let (code, out, err) = child::run(&all);
+        assert_eq!((code, out.as_str()), (1, ""));
+        assert!(err.contains("is taken") && err.contains(remedy) && err.lines().count() == 1, "{err}");
+    }
+}
+
+#[test]
+fn everything_stops_cleanly_when_told_to() {
+    let _turn = alone();
+    let (mut server, _, broker) = start(&["--robots", "2"]);
+    server.terminate();
+    assert_eq!(server.end(), 0);
+    // Nobody is there any more: robots go on trying, and stop all the same.
+    let mut robots = Child::lightbots(&["robots", "--count", "2", "--broker", &broker]);
+    crate::wait_for("a first attempt", || robots.err().contains("connecting").then_some(()));
+    robots.terminate();
+    assert_eq!(robots.end(), 0);
+}

@@ -1,0 +1,153 @@
+//! A browser's side of the WebSocket.
+
+use std::net::TcpStream;
+use std::time::{Duration, Instant};
+
+use serde_json::{Value, json};
+use tungstenite::client::IntoClientRequest;
+use tungstenite::{Message, WebSocket};
+
+use crate::DEADLINE;
+
+pub struct Screen {
+    socket: WebSocket<TcpStream>,
+    requests: u32,
+    /// The last message of each type.
+    pub last: std::collections::BTreeMap<String, Value>,
+    /// The log, line by line.
+    pub log: Vec<String>,
+}
+
+impl Screen {
+    /// Connects as a page of `origin` (`host:port`) would.
+    pub fn try_open(address: &str, origin: &str) -> Result<Self, String> {
+        let stream = TcpStream::connect(address).map_err(|error| error.to_string())?;
+        stream.set_read_timeout(Some(Duration::from_millis(100))).unwrap();
+        let mut request = format!("ws://{address}/ws").into_client_request().unwrap();
+        request.headers_mut().insert("Origin", format!("http://{origin}").parse().unwrap());
+        let until = Instant::now() + DEADLINE;
+        let mut attempt = tungstenite::client(request, stream);
+        let (socket, _) = loop {
+            match attempt {
+                Ok(done) => break done,
+                Err(tungstenite::HandshakeError::Interrupted(middle)) if Instant::now() < until => {
+                    attempt = middle.handshake();
+                }
+                Err(error) => return Err(error.to_string()),
+            }
+        };
+        Ok(Self { socket, requests: 0, last: Default::default(), log: Vec::new() })
+    }
+
+    pub fn open(address: &str) -> Self {
+        Self::try_open(address, address).unwrap()
+    }
+
+    /// Reads messages until `look` finds something in what is known.
+    pub fn until<T>(&mut self, what: &str, mut look: impl FnMut(&Self) -> Option<T>) -> T {
+        let until = Instant::now() + DEADLINE;
+        loop {
+            if let Some(found) = look(self) {
+                return found;
+            }
+            assert!(
+                Instant::now() < until,
+                "waited in vain for {what}; state {}\nlog {:#?}",
+                self.get("state"),
+                self.log
+            );
+            self.read();
+        }
+    }
+
+    fn read(&mut self) {
+        let message = match self.socket.read() {
+            Ok(Message::Text(text)) => serde_json::from_str::<Value>(&text).unwrap(),
+            Ok(_) => return,
+            Err(tungstenite::Error::Io(error))
+                if matches!(error.kind(), std::io::ErrorKind::WouldBlock | std::io::ErrorKind::TimedOut) =>
+            {
+                return;
+            }
+            Err(error) => panic!("the server hung up: {error}"),
+        };
+        let kind = message["type"].as_str().unwrap().to_owned();
+        if kind == "log" {
+            self.log.push(message["text"].as_str().unwrap().to_owned());
+        }
+        self.last.insert(kind, message);
+    }
+
+    /// The last message of a type; null before the first.
+    pub fn get(&self, kind: &str) -> Value {
+        self.last.get(kind).cloned().unwrap_or_default()
+    }
+
+    /// Asks for something; the answer.
+    pub fn operate(&mut self, operation: Value) -> Value {
+        self.requests += 1;
+        let id = self.requests;
+        let request = json!({"type": "operate", "id": id, "operation": operation});
+        self.socket.send(Message::text(request.to_string())).unwrap();
+        self.until("an answer", |screen| Some(screen.get("answer")).filter(|answer| answer["id"] == id))
+    }
+
+    /// Asks for something that must be done.
+    pub fn must(&mut self, operation: Value) {
+        let answer = self.operate(operation.clone());
+        assert_eq!(answer["ok"], true, "{operation}: {answer}");
+    }
+
+    pub fn send_text(&mut self, text: &str) {
+        self.socket.send(Message::text(text)).unwrap();
+    }
+
+    /// Whether the server hangs up.
+    pub fn is_hung_up(&mut self) -> bool {
+        let until = Instant::now() + DEADLINE;
+        while Instant::now() < until {
+            match self.socket.read() {
+                Ok(Message::Close(_)) => return true,
+                Err(tungstenite::Error::Io(error))
+                    if matches!(
+                        error.kind(),
+                        std::io::ErrorKind::WouldBlock | std::io::ErrorKind::TimedOut
+                    ) => {}
+                Err(_) => return true,
+                Ok(_) => {}
+            }
+        }
+        false
+    }
+
+    /// What is being played, such as `playing`.
+    pub fn phase(&self) -> String {
+        self.get("state")["playback"]["phase"].as_str().unwrap_or("").to_owned()
+    }
+
+    /// Where robots are; empty until all of them are known.
+    pub fn places(&self) -> Vec<(f64, f64)> {
+        let robots = &self.get("state")["robots"];
+        let list = |key: &str| {
+            robots[key].as_array().map(|list| list.iter().map(Value::as_f64).collect::<Option<Vec<_>>>())
+        };
+        match (list("x").flatten(), list("y").flatten()) {
+            (Some(x), Some(y)) => x.into_iter().zip(y).collect(),
+            _ => Vec::new(),
+        }
+    }
+
+    /// Waits until so many robots are ready.
+    pub fn wait_for_robots(&mut self, count: usize) {
+        self.until(&format!("{count} robots"), |screen| {
+            (screen.places().len() == count && screen.phase() == "ready").then_some(())
+        });
+    }
+
+    /// Waits for a line of the log.
+    pub fn wait_for_log(&mut self, part: &str) -> String {
+        self.until(&format!("the line '{part}'"), |screen| {
+            screen.log.iter().find(|line| line.contains(part)).cloned()
+        })
+    }
+}
