@@ -1,4 +1,59 @@
+import { Button, Group, Text, Title } from '@mantine/core';
+import { useEffect, useRef, useState } from 'react';
+import { useStore } from '../base/store';
+import { createShowInLibrary } from '../shell/createShow';
+import { useSession } from '../shell/session';
+import { ConflictDialog } from './ConflictDialog';
+import { EditingContext } from './context';
+import { EditBar } from './EditBar';
+import { createEditing, type Editing } from './editing';
+import { EditKeys } from './EditKeys';
+import { EditStage } from './EditStage';
+import { EditStrip } from './EditStrip';
+import { Inspector } from './Inspector';
+import { Tour } from './Tour';
+
+/** What this page edits; kept while the page lives, so that undo survives a look at the live view. */
+let kept: Editing | null = null;
+
 /** Drawing. */
 export function EditPage() {
-  return <main className="page" />;
+  const session = useSession();
+  const opened = useStore(session.live.opened);
+  const [editing, setEditing] = useState(kept);
+  const last = useRef(kept);
+  useEffect(() => {
+    if (!opened.show || opened.name === null || last.current?.name === opened.name) return;
+    last.current?.saver.flush();
+    kept = last.current = createEditing(session, opened.name, opened.show, opened.etag);
+    setEditing(kept);
+  }, [session, opened]);
+  useEffect(() => () => kept?.saver.flush(), []);
+  if (!editing)
+    return (
+      <main className="empty">
+        <Title order={1} size="lg">
+          Nothing to draw on yet
+        </Title>
+        <Text c="dimmed">Begin a show of your own, open one above, or drop a file anywhere.</Text>
+        <Group>
+          <Button onClick={() => void createShowInLibrary(session)}>New show</Button>
+        </Group>
+      </main>
+    );
+  return (
+    <EditingContext value={editing}>
+      <main className="page" key={editing.name}>
+        <EditStage />
+        <section className="bottom" aria-label="Frames and time">
+          <EditBar />
+          <EditStrip />
+        </section>
+        <Inspector />
+        <EditKeys />
+        <ConflictDialog />
+        <Tour />
+      </main>
+    </EditingContext>
+  );
 }

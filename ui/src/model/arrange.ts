@@ -180,3 +180,9 @@ function push(points: Point[], gap_m: number, round: number): boolean {
     }
   return moved;
 }
+
+/** Gives every pixel one of the targets, left to right, so that neither jumps far without need. */
+export function nearest(places: Places, targets: readonly Point[]): Point[] {
+  const byX = [...targets].sort((a, b) => a.x - b.x || a.y - b.y);
+  return give(places, sorted(places, 'x'), byX);
+}

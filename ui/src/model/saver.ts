@@ -20,8 +20,10 @@ export interface Saver {
   touch(): void;
   /** Saves now what is waiting. */
   flush(): void;
-  /** Continues from another version. */
+  /** Continues from another version; what is unsaved replaces it. */
   rebase(etag: string | null): void;
+  /** Continues from another version that is on screen now: nothing is unsaved any more. */
+  settle(etag: string | null): void;
   stop(): void;
 }
 
@@ -85,6 +87,11 @@ export function createSaver(
       etag = next;
       if (dirty && !busy) later(0);
       else if (!busy) state.set({ name: 'saved' });
+    },
+    settle(next) {
+      clear();
+      [etag, dirty] = [next, false];
+      state.set({ name: 'saved' });
     },
     stop() {
       stopped = true;

@@ -1,24 +1,10 @@
 import { useEffect, useRef } from 'react';
-import { createStore, type Store } from '../base/store';
-import { fit, panBy, zoomAt, type Camera } from './camera';
+import type { Store } from '../base/store';
+import { fit, type Camera } from './camera';
 import { createCanvas2d } from './canvas2d';
+import { listenToHand, listenToView, type Hand } from './pointer';
 import type { Scene } from './scene';
-
-/** Camera of a stage and whether it follows the size of its place on screen. */
-export interface View {
-  camera: Camera;
-  fitted: boolean;
-  width_px: number;
-  height_px: number;
-}
-
-export const createView = (): Store<View> =>
-  createStore<View>({
-    camera: { scale: 200, originX_px: 0, originY_px: 0 },
-    fitted: true,
-    width_px: 1,
-    height_px: 1,
-  });
+import type { View } from './view';
 
 interface Props {
   view: Store<View>;
@@ -26,10 +12,12 @@ interface Props {
   sceneAt: (now_ms: number) => Scene;
   /** Whether dragging with the first button pans, as where nothing can be chosen. */
   dragPans: boolean;
+  /** What a pointer does that does not pan. */
+  hand?: Hand;
 }
 
 /** A canvas that draws a scene at the pace of the screen, zooms with the wheel and pans. */
-export function StageCanvas({ view, sceneAt, dragPans }: Props) {
+export function StageCanvas({ view, sceneAt, dragPans, hand }: Props) {
   const element = useRef<HTMLCanvasElement>(null);
   useEffect(() => {
     const canvas = element.current;
@@ -54,13 +42,15 @@ export function StageCanvas({ view, sceneAt, dragPans }: Props) {
       renderer.draw(next, wanted);
     };
     request = requestAnimationFrame(loop);
-    const undo = listen(canvas, view, dragPans);
+    const undo = listenToView(canvas, view, dragPans);
+    const undoHand = hand ? listenToHand(canvas, hand) : undefined;
     return () => {
       cancelAnimationFrame(request);
       observer.disconnect();
       undo();
+      undoHand?.();
     };
-  }, [view, sceneAt, dragPans]);
+  }, [view, sceneAt, dragPans, hand]);
   return <canvas ref={element} aria-hidden />;
 }
 
@@ -72,46 +62,4 @@ function refit(view: Store<View>, scene: Scene) {
     (key) => camera[key] === now.camera[key],
   );
   if (!same) view.set({ ...now, camera });
-}
-
-/** Wheel and pinch zoom, middle button (or, if so wanted, the first) pans. */
-function listen(canvas: HTMLCanvasElement, view: Store<View>, dragPans: boolean): () => void {
-  const stop = new AbortController();
-  const options = { signal: stop.signal };
-  let last: { x: number; y: number } | null = null;
-  const move = (change: (camera: Camera) => Camera) =>
-    view.update((now) => ({ ...now, fitted: false, camera: change(now.camera) }));
-  canvas.addEventListener(
-    'wheel',
-    (event) => {
-      event.preventDefault();
-      const at = { x: event.offsetX, y: event.offsetY };
-      move((camera) => zoomAt(camera, at, Math.exp(-event.deltaY * 0.0015)));
-    },
-    { ...options, passive: false },
-  );
-  canvas.addEventListener(
-    'pointerdown',
-    (event) => {
-      if (event.button !== 1 && !(dragPans && event.button === 0)) return;
-      event.preventDefault();
-      canvas.setPointerCapture(event.pointerId);
-      last = { x: event.clientX, y: event.clientY };
-    },
-    options,
-  );
-  canvas.addEventListener(
-    'pointermove',
-    (event) => {
-      if (!last) return;
-      const [dx, dy] = [event.clientX - last.x, event.clientY - last.y];
-      last = { x: event.clientX, y: event.clientY };
-      if (dx !== 0 || dy !== 0) move((camera) => panBy(camera, dx, dy));
-    },
-    options,
-  );
-  const end = () => (last = null);
-  canvas.addEventListener('pointerup', end, options);
-  canvas.addEventListener('pointercancel', end, options);
-  return () => stop.abort();
 }

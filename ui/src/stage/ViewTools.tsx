@@ -3,7 +3,7 @@ import { IconMaximize, IconMinus, IconPlus } from '@tabler/icons-react';
 import type { ReactNode } from 'react';
 import type { Store } from '../base/store';
 import { zoomAt } from './camera';
-import type { View } from './StageCanvas';
+import type { View } from './view';
 
 export const fitView = (view: Store<View>) => view.update((now) => ({ ...now, fitted: true }));
 

@@ -58,6 +58,7 @@ export function createCanvas2d(element: HTMLCanvasElement): StageRenderer {
       drawFilled(scene.filled, scene, camera);
       context.setTransform(density, 0, 0, density, 0, 0);
       drawErrors(context, scene, camera);
+      scene.overlay?.(context, camera);
     },
   };
 }

@@ -1,5 +1,5 @@
 import type { Rgb } from '../base/colour';
-import type { Point } from './camera';
+import type { Camera, Point } from './camera';
 
 /** A disc on the floor, stage metres. */
 export interface Dot {
@@ -30,6 +30,8 @@ export interface Scene {
   errors: readonly [Point, Point][];
   /** Planned ways, each a line of points. */
   paths: readonly { points: readonly Point[]; color: Rgb }[];
+  /** Drawn last, in CSS pixels. */
+  overlay?: (context: CanvasRenderingContext2D, camera: Camera) => void;
 }
 
 export const EMPTY_SCENE: Scene = {

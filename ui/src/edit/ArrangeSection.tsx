@@ -1,0 +1,81 @@
+import { ActionIcon, SimpleGrid, Stack, Text, Tooltip } from '@mantine/core';
+import {
+  IconArrowsSplit,
+  IconCircleDotted,
+  IconFlipHorizontal,
+  IconFlipVertical,
+  IconGridDots,
+  IconHeart,
+  IconLayoutAlignBottom,
+  IconLayoutAlignCenter,
+  IconLayoutAlignLeft,
+  IconLayoutAlignMiddle,
+  IconLayoutAlignRight,
+  IconLayoutAlignTop,
+  IconLayoutDistributeHorizontal,
+  IconLayoutDistributeVertical,
+  IconLineDashed,
+  IconSquare,
+  IconStar,
+  type Icon,
+} from '@tabler/icons-react';
+import * as acts from './acts';
+import { useEditing } from './context';
+import type { Editing } from './editing';
+import { TextShape } from './TextShape';
+
+type Act = [string, Icon, (e: Editing) => void];
+
+const SHAPES: Act[] = [
+  ['Line', IconLineDashed, acts.line],
+  ['Circle', IconCircleDotted, (e) => acts.shape(e, 'circle')],
+  ['Heart', IconHeart, (e) => acts.shape(e, 'heart')],
+  ['Star', IconStar, (e) => acts.shape(e, 'star')],
+  ['Square', IconSquare, (e) => acts.shape(e, 'square')],
+  ['Grid', IconGridDots, acts.grid],
+  ['Spread apart', IconArrowsSplit, acts.spread],
+  ['Mirror left and right', IconFlipVertical, (e) => acts.mirror(e, 'x')],
+  ['Mirror top and bottom', IconFlipHorizontal, (e) => acts.mirror(e, 'y')],
+];
+const ALIGN: Act[] = [
+  ['Align left', IconLayoutAlignLeft, (e) => acts.align(e, 'left')],
+  ['Align centres', IconLayoutAlignCenter, (e) => acts.align(e, 'centre')],
+  ['Align right', IconLayoutAlignRight, (e) => acts.align(e, 'right')],
+  ['Distribute across', IconLayoutDistributeVertical, (e) => acts.distribute(e, 'x')],
+  ['Align top', IconLayoutAlignTop, (e) => acts.align(e, 'top')],
+  ['Align middles', IconLayoutAlignMiddle, (e) => acts.align(e, 'middle')],
+  ['Align bottom', IconLayoutAlignBottom, (e) => acts.align(e, 'bottom')],
+  ['Distribute upwards', IconLayoutDistributeHorizontal, (e) => acts.distribute(e, 'y')],
+];
+
+/** Puts the chosen pixels, or all if none is chosen, in order. */
+export function ArrangeSection() {
+  const editing = useEditing();
+  const buttons = (list: Act[], cols: number) => (
+    <SimpleGrid cols={cols} spacing={6} verticalSpacing={6}>
+      {list.map(([label, Glyph, act]) => (
+        <Tooltip key={label} label={label}>
+          <ActionIcon
+            variant="default"
+            size="lg"
+            w="100%"
+            aria-label={label}
+            onClick={() => act(editing)}
+          >
+            <Glyph size={18} />
+          </ActionIcon>
+        </Tooltip>
+      ))}
+    </SimpleGrid>
+  );
+  return (
+    <Stack gap="xs" component="section" aria-label="Arrange">
+      <Text size="sm" fw={600}>
+        Arrange
+      </Text>
+      <TextShape />
+      {buttons(SHAPES, 5)}
+      {buttons(ALIGN, 4)}
+    </Stack>
+  );
+}

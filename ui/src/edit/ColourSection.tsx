@@ -1,0 +1,89 @@
+import { Button, ColorInput, ColorPicker, ColorSwatch, Group, Stack, Text } from '@mantine/core';
+import { useState } from 'react';
+import { colourName, fromHex, toHex, type Rgb } from '../base/colour';
+import { useStore } from '../base/store';
+import * as acts from './acts';
+import { useEditing, useEditor } from './context';
+
+/** Colours that look good as light, off among them. */
+const PALETTE: Rgb[] = [
+  0xffffff, 0xffc878, 0xff8c00, 0xff3b1f, 0xff2f92, 0xb14cff, 0x4060ff, 0x18a0ff, 0x00e0c8,
+  0x2ee55c, 0xd8f000, 0xffe000, 0x804000, 0x303030, 0x000000,
+];
+
+/** Gives the chosen pixels their light. */
+export function ColourSection() {
+  const editing = useEditing();
+  const color = useStore(editing.color);
+  const recent = useStore(editing.recent);
+  const none = useEditor((s) => s.selection.size === 0);
+  const [to, setTo] = useState<Rgb>(0x18a0ff);
+  const swatches = (colors: readonly Rgb[]) => (
+    <Group gap={5}>
+      {colors.map((c) => (
+        <ColorSwatch
+          key={c}
+          component="button"
+          type="button"
+          size={22}
+          color={toHex(c)}
+          aria-label={`Colour ${colourName(c)} ${toHex(c)}`}
+          onClick={() => acts.paint(editing, c)}
+          style={{ cursor: 'pointer' }}
+        />
+      ))}
+    </Group>
+  );
+  return (
+    <Stack gap="xs" component="section" aria-label="Colour">
+      <Text size="sm" fw={600}>
+        Colour
+      </Text>
+      <ColorPicker
+        fullWidth
+        size="sm"
+        value={toHex(color)}
+        saturationLabel="Saturation and brightness"
+        hueLabel="Hue"
+        onChange={(value) => editing.color.set(fromHex(value) ?? color)}
+        onChangeEnd={(value) => acts.paint(editing, fromHex(value) ?? color)}
+      />
+      <ColorInput
+        size="xs"
+        aria-label="Colour as hex or RGB"
+        value={toHex(color)}
+        withPicker={false}
+        onChange={(value) => {
+          const typed = fromHex(value);
+          if (typed !== undefined && typed !== color) acts.paint(editing, typed);
+        }}
+      />
+      {swatches(PALETTE)}
+      {recent.length > 0 ? (
+        <Group gap="xs">
+          <Text size="xs" c="dimmed">
+            Recent
+          </Text>
+          {swatches(recent)}
+        </Group>
+      ) : null}
+      <Group gap="xs" align="end" wrap="nowrap">
+        <ColorInput
+          size="xs"
+          label="Gradient from the colour above to"
+          style={{ flex: 1 }}
+          value={toHex(to)}
+          onChange={(value) => setTo(fromHex(value) ?? to)}
+        />
+        <Button size="xs" variant="default" onClick={() => acts.paintGradient(editing, color, to)}>
+          Apply
+        </Button>
+      </Group>
+      {none ? (
+        <Text size="xs" c="dimmed">
+          Choose pixels first: click one, or drag a frame around some.
+        </Text>
+      ) : null}
+    </Stack>
+  );
+}

@@ -1,0 +1,55 @@
+import { Button, Modal, Stack, Text } from '@mantine/core';
+import { getShow, listShows, putShow } from '../api/http';
+import { useStore } from '../base/store';
+import { readShow, writeShow } from '../model/json';
+import { tell } from '../shell/notices';
+import { useSession } from '../shell/session';
+import { freeName } from '../shell/upload';
+import { useEditing } from './context';
+
+/** Somebody else saved this show meanwhile: people choose, nothing is overwritten silently. */
+export function ConflictDialog() {
+  const session = useSession();
+  const { name, editor, saver } = useEditing();
+  const conflict = useStore(saver.state, (s) => s.name === 'conflict');
+  const run = (act: () => Promise<void>) =>
+    void act().catch((e: unknown) => tell('error', e instanceof Error ? e.message : String(e)));
+  const takeTheirs = async () => {
+    const { document, etag } = await getShow(name);
+    editor.adopt(readShow(document));
+    saver.settle(etag);
+  };
+  const keepMine = async () => saver.rebase((await getShow(name)).etag);
+  const keepBoth = async () => {
+    const copy = freeName(
+      `${name} mine`,
+      (await listShows()).map((entry) => entry.name),
+    );
+    await putShow(copy, JSON.stringify(writeShow(editor.state.get().show)), 'new');
+    await takeTheirs();
+    await session.ask({ do: 'open', name: copy });
+  };
+  return (
+    <Modal
+      opened={conflict}
+      onClose={() => undefined}
+      withCloseButton={false}
+      closeOnEscape={false}
+      title="Somebody else saved this show meanwhile"
+    >
+      <Text mb="md">
+        Your last changes are only on this screen. Nothing has been overwritten: choose what to
+        keep.
+      </Text>
+      <Stack gap="xs">
+        <Button onClick={() => run(keepBoth)}>Keep both: save mine as a copy</Button>
+        <Button variant="default" onClick={() => run(takeTheirs)}>
+          Take theirs, drop mine
+        </Button>
+        <Button variant="default" onClick={() => run(keepMine)}>
+          Keep mine, replace theirs
+        </Button>
+      </Stack>
+    </Modal>
+  );
+}

@@ -1,0 +1,94 @@
+import { ActionIcon, Button, Slider, Tooltip } from '@mantine/core';
+import {
+  IconArrowBackUp,
+  IconArrowForwardUp,
+  IconPlayerPauseFilled,
+  IconPlayerPlayFilled,
+} from '@tabler/icons-react';
+import { useMemo, type ReactNode } from 'react';
+import { useStore } from '../base/store';
+import { clockText } from '../base/time';
+import { segmentAt, timelineOf, totalOf } from '../model/timeline';
+import { useSession } from '../shell/session';
+import { goTo } from '../shell/useHash';
+import { useEditing, useEditor } from './context';
+import { ExportMenu } from './ExportMenu';
+import { SaveMark } from './SaveMark';
+
+/** Undo, watching without robots, scrubbing, and whether all is safe. */
+export function EditBar() {
+  const session = useSession();
+  const editing = useEditing();
+  const { editor } = editing;
+  const show = useEditor((s) => s.show);
+  const canUndo = useEditor((s) => s.history.past.length > 0);
+  const canRedo = useEditor((s) => s.history.future.length > 0);
+  const running = useStore(editing.running);
+  const moment = useStore(editing.moment);
+  const plan = useStore(session.live.plan);
+  const frame = useEditor((s) => s.frame);
+  const timeline = useMemo(() => timelineOf(show, plan), [show, plan]);
+  const total = totalOf(timeline);
+  const at = moment ?? timeline[frame]?.shownFrom_s ?? 0;
+  const scrub = (time_s: number) => {
+    editing.running.set(false);
+    editing.moment.set(time_s);
+    const segment = segmentAt(timeline, time_s);
+    if (segment && segment.frame !== frame) editor.goToFrame(segment.frame);
+  };
+  const step = (label: string, enabled: boolean, act: () => void, icon: ReactNode) => (
+    <Tooltip label={label}>
+      <ActionIcon
+        variant="subtle"
+        color="gray"
+        size="lg"
+        aria-label={label}
+        disabled={!enabled}
+        onClick={act}
+      >
+        {icon}
+      </ActionIcon>
+    </Tooltip>
+  );
+  return (
+    <div className="transport" role="toolbar" aria-label="Editing">
+      {step('Undo (Ctrl Z)', canUndo, () => void editor.undo(), <IconArrowBackUp size={19} />)}
+      {step(
+        'Redo (Ctrl Shift Z)',
+        canRedo,
+        () => void editor.redo(),
+        <IconArrowForwardUp size={19} />,
+      )}
+      {step(
+        running ? 'Pause (Space)' : 'Watch without robots (Space)',
+        true,
+        () => editing.running.set(!running),
+        running ? <IconPlayerPauseFilled size={18} /> : <IconPlayerPlayFilled size={18} />,
+      )}
+      <Slider
+        className="progress"
+        size="sm"
+        label={(value) => clockText(value)}
+        thumbProps={{ 'aria-label': 'Moment of the show' }}
+        min={0}
+        max={Math.max(total, 0.1)}
+        step={0.05}
+        value={at}
+        onChange={scrub}
+      />
+      <span className="quiet time" aria-label="Moment and running time">
+        {clockText(at)} / {clockText(total)}
+      </span>
+      <SaveMark />
+      <ExportMenu />
+      <Button
+        size="xs"
+        variant="light"
+        onClick={() => goTo('live')}
+        leftSection={<IconPlayerPlayFilled size={14} />}
+      >
+        With robots
+      </Button>
+    </div>
+  );
+}

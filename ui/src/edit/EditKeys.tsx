@@ -1,0 +1,68 @@
+import { useKeys } from '../shell/useKeys';
+import { fitView, zoomView } from '../stage/ViewTools';
+import * as acts from './acts';
+import { useEditing } from './context';
+import type { Looks } from './editing';
+import { tell } from '../shell/notices';
+
+/** Metres an arrow key moves: alone, with Shift, with Alt. */
+const STEPS = [
+  ['', 0.01],
+  ['shift+', 0.1],
+  ['alt+', 0.001],
+] as const;
+const ARROWS = [
+  ['ArrowLeft', -1, 0],
+  ['ArrowRight', 1, 0],
+  ['ArrowUp', 0, 1],
+  ['ArrowDown', 0, -1],
+] as const;
+
+/** The editor's keys. */
+export function EditKeys() {
+  const editing = useEditing();
+  const { editor } = editing;
+  const frame = () => editor.state.get().frame;
+  const toggle = (name: keyof Looks) => editing.looks.update((l) => ({ ...l, [name]: !l[name] }));
+  const said = (what: string | null, label: string) => {
+    if (what) tell('info', `${label}: ${what}`);
+  };
+  const moves = STEPS.flatMap(([prefix, step]) =>
+    ARROWS.map(
+      ([key, x, y]) => [`${prefix}${key}`, () => acts.nudge(editing, x * step, y * step)] as const,
+    ),
+  );
+  useKeys([
+    ...moves,
+    ['mod+z', () => said(editor.undo(), 'Undone')],
+    ['mod+shift+z', () => said(editor.redo(), 'Redone')],
+    ['mod+y', () => said(editor.redo(), 'Redone')],
+    ['mod+a', () => acts.selectAll(editing)],
+    ['mod+i', () => acts.invertSelection(editing)],
+    ['mod+c', () => void editor.copy()],
+    ['mod+v', () => void editor.paste()],
+    ['mod+d', () => acts.duplicateFrames(editing)],
+    ['mod+Enter', () => acts.addFrame(editing)],
+    ['mod+Delete', () => acts.deleteFrames(editing)],
+    ['mod+Backspace', () => acts.deleteFrames(editing)],
+    ['PageUp', () => editor.goToFrame(frame() - 1)],
+    ['PageDown', () => editor.goToFrame(frame() + 1)],
+    ['alt+PageUp', () => acts.moveFrame(editing, frame(), frame() - 1)],
+    ['alt+PageDown', () => acts.moveFrame(editing, frame(), frame() + 1)],
+    [']', () => acts.selectNext(editing, 1)],
+    ['[', () => acts.selectNext(editing, -1)],
+    ['v', () => editing.tool.set('arrow')],
+    ['q', () => editing.tool.set('lasso')],
+    ['i', () => editing.tool.set('eyedropper')],
+    ['m', () => toggle('snap')],
+    ['n', () => toggle('ids')],
+    ['h', () => toggle('ghosts')],
+    ['w', () => toggle('ways')],
+    ['space', () => editing.running.update((on) => !on)],
+    ['0', () => fitView(editing.view)],
+    ['+', () => zoomView(editing.view, 1.4)],
+    ['-', () => zoomView(editing.view, 1 / 1.4)],
+    ['F2', () => document.getElementById('frame-name')?.focus()],
+  ]);
+  return null;
+}

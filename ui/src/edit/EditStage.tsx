@@ -1,0 +1,65 @@
+import { useEffect, useMemo } from 'react';
+import { useStore } from '../base/store';
+import type { Scene } from '../stage/scene';
+import { StageCanvas } from '../stage/StageCanvas';
+import { useEditing } from './context';
+import type { Editing } from './editing';
+import { PixelTwin } from './PixelTwin';
+import { editScene } from './scene';
+import { StageHint } from './StageHint';
+import { StageTools } from './StageTools';
+import { usePlayback } from './usePlayback';
+import { useHand } from './useHand';
+import { useKeys } from '../shell/useKeys';
+
+/** The same scene as long as nothing it is made of changed. */
+function rememberScene(editing: Editing): () => Scene {
+  let inputs: unknown[] = [];
+  let scene: Scene | null = null;
+  return () => {
+    const state = editing.editor.state.get();
+    const [looks, plan, moment] = [
+      editing.looks.get(),
+      editing.full.plan.get(),
+      editing.moment.get(),
+    ];
+    const now = [state, looks, plan, moment];
+    if (!scene || now.some((input, i) => input !== inputs[i])) {
+      inputs = now;
+      scene = editScene(state, looks, plan, moment);
+    }
+    return scene;
+  };
+}
+
+/** The floor one draws on. */
+export function EditStage() {
+  const editing = useEditing();
+  const { hand, giveUp } = useHand(editing);
+  const sceneAt = useMemo(() => rememberScene(editing), [editing]);
+  const tool = useStore(editing.tool);
+  const ways = useStore(editing.looks, (looks) => looks.ways);
+  const { full } = editing;
+  useEffect(() => (ways ? void full.follow() : undefined), [ways, full]);
+  usePlayback(editing);
+  useKeys([
+    [
+      'Escape',
+      () => {
+        if (giveUp()) return;
+        if (editing.tool.get() !== 'arrow') editing.tool.set('arrow');
+        else editing.editor.select([]);
+        editing.running.set(false);
+        editing.moment.set(null);
+      },
+    ],
+  ]);
+  return (
+    <section className="stage" aria-label="The floor" data-tool={tool} data-testid="stage">
+      <StageCanvas view={editing.view} sceneAt={sceneAt} dragPans={false} hand={hand} />
+      <StageTools />
+      <StageHint />
+      <PixelTwin />
+    </section>
+  );
+}

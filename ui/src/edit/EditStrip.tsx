@@ -1,0 +1,94 @@
+import { ActionIcon, Tooltip } from '@mantine/core';
+import { IconCopy, IconPlus, IconTrash } from '@tabler/icons-react';
+import { useEffect, useRef, useState, type ReactNode } from 'react';
+import type { Plan } from '../api/types.gen';
+import { useStore } from '../base/store';
+import { useSession } from '../shell/session';
+import * as acts from './acts';
+import { useEditing, useEditor } from './context';
+import { FrameCard } from './FrameCard';
+
+/** Seconds of drive and air time under a frame. */
+function timesOf(plan: Plan | null, index: number, airTime_s: number): string {
+  const drive = plan?.transitions[index]?.duration_s;
+  return drive === undefined ? `${airTime_s} s` : `${drive.toFixed(1)} + ${airTime_s} s`;
+}
+
+/** The frames: choose, add, copy, delete, drag to another place. */
+export function EditStrip() {
+  const editing = useEditing();
+  const { live } = useSession();
+  const show = useEditor((s) => s.show);
+  const at = useEditor((s) => s.frame);
+  const chosen = useEditor((s) => s.frames);
+  const plan = useStore(live.plan);
+  const [over, setOver] = useState<number | null>(null);
+  const dragged = useRef<number | null>(null);
+  const list = useRef<HTMLUListElement>(null);
+  useEffect(() => {
+    list.current?.children[at]?.scrollIntoView({ block: 'nearest', inline: 'nearest' });
+  }, [at]);
+  const choose = (
+    index: number,
+    event: { shiftKey: boolean; ctrlKey: boolean; metaKey: boolean },
+  ) => {
+    editing.running.set(false);
+    editing.moment.set(null);
+    const add = event.ctrlKey || event.metaKey;
+    editing.editor.goToFrame(index, event.shiftKey ? 'range' : add ? 'add' : 'only');
+  };
+  const drop = (to: number) => {
+    const from = dragged.current;
+    dragged.current = null;
+    setOver(null);
+    if (from !== null) acts.moveFrame(editing, from, to);
+  };
+  const button = (label: string, act: () => void, icon: ReactNode, off = false) => (
+    <Tooltip label={label} position="right">
+      <ActionIcon variant="default" size="lg" aria-label={label} disabled={off} onClick={act}>
+        {icon}
+      </ActionIcon>
+    </Tooltip>
+  );
+  return (
+    <div className="strip-row">
+      <div className="strip-buttons">
+        {button('Add a frame (Ctrl Enter)', () => acts.addFrame(editing), <IconPlus size={18} />)}
+        {button('Duplicate (Ctrl D)', () => acts.duplicateFrames(editing), <IconCopy size={17} />)}
+        {button(
+          'Delete (Ctrl Delete)',
+          () => acts.deleteFrames(editing),
+          <IconTrash size={17} />,
+          show.frames.length <= chosen.size,
+        )}
+      </div>
+      <ul className="strip" ref={list} aria-label="Frames">
+        {show.frames.map((frame, i) => (
+          <li
+            key={frame.key}
+            data-over={over === i || undefined}
+            onDragOver={(event) => {
+              if (dragged.current === null) return;
+              event.preventDefault();
+              setOver(i);
+            }}
+            onDrop={() => drop(i)}
+          >
+            <FrameCard
+              frame={frame}
+              index={i}
+              stage={show.stage}
+              current={i === at}
+              chosen={chosen.has(i)}
+              times={timesOf(plan, i, frame.airTime_s)}
+              wrong={plan?.issues.some((x) => x.frame === i && x.severity === 'error') ?? false}
+              onChoose={(event) => choose(i, event)}
+              onDragStart={() => (dragged.current = i)}
+              onDragEnd={() => setOver((dragged.current = null))}
+            />
+          </li>
+        ))}
+      </ul>
+    </div>
+  );
+}

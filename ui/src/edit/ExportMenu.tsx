@@ -1,0 +1,50 @@
+import { ActionIcon, Menu } from '@mantine/core';
+import { IconDownload } from '@tabler/icons-react';
+import { convertShow, listShows, putShow } from '../api/http';
+import { writeShow } from '../model/json';
+import { tell } from '../shell/notices';
+import { useSession } from '../shell/session';
+import { freeName } from '../shell/upload';
+import { useEditing } from './context';
+
+function download(text: string, file: string) {
+  const address = URL.createObjectURL(new Blob([text], { type: 'application/json' }));
+  const link = document.createElement('a');
+  link.href = address;
+  link.download = file;
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(address), 10_000);
+}
+
+/** The show as a file: ours, or the original's. */
+export function ExportMenu() {
+  const session = useSession();
+  const { editor, name } = useEditing();
+  const text = () => JSON.stringify(writeShow(editor.state.get().show), null, 1);
+  const run = (act: () => Promise<void>) =>
+    void act().catch((e: unknown) => tell('error', e instanceof Error ? e.message : String(e)));
+  const original = async () => download(await convertShow(text(), 'original'), `${name}.json`);
+  const saveAs = async () => {
+    const copy = freeName(
+      `${name} copy`,
+      (await listShows()).map((entry) => entry.name),
+    );
+    await putShow(copy, text(), 'new');
+    if ((await session.ask({ do: 'open', name: copy })).ok) tell('good', `This is now ${copy}.`);
+  };
+  return (
+    <Menu position="top-end">
+      <Menu.Target>
+        <ActionIcon variant="subtle" color="gray" size="lg" aria-label="Download or copy the show">
+          <IconDownload size={18} />
+        </ActionIcon>
+      </Menu.Target>
+      <Menu.Dropdown>
+        <Menu.Item onClick={() => download(text(), `${name}.lightbots.json`)}>Download</Menu.Item>
+        <Menu.Item onClick={() => run(original)}>Download in the original’s format</Menu.Item>
+        <Menu.Divider />
+        <Menu.Item onClick={() => run(saveAs)}>Save as a copy</Menu.Item>
+      </Menu.Dropdown>
+    </Menu>
+  );
+}

@@ -1,0 +1,84 @@
+import { Checkbox, NumberInput, SegmentedControl, Stack, Text, TextInput } from '@mantine/core';
+import { useStore } from '../base/store';
+import { secondsText } from '../base/time';
+import { useSession } from '../shell/session';
+import * as acts from './acts';
+import { useEditing, useEditor } from './context';
+
+/** Name, air time and drive of the chosen frames. */
+export function FrameSection() {
+  const editing = useEditing();
+  const { live } = useSession();
+  const index = useEditor((s) => s.frame);
+  const frame = useEditor((s) => s.show.frames[s.frame]);
+  const count = useEditor((s) => s.frames.size);
+  const plan = useStore(live.plan, (p) => p?.transitions[index]);
+  if (!frame) return null;
+  const least = plan?.least_s;
+  const fast = frame.transition_s === null;
+  return (
+    <Stack gap="sm" component="section" aria-label="Frame">
+      <Text size="sm" fw={600}>
+        {count > 1 ? `${count} frames` : `Frame ${index + 1}`}
+      </Text>
+      <TextInput
+        id="frame-name"
+        key={`${frame.key} ${frame.name}`}
+        label="Name"
+        size="xs"
+        defaultValue={frame.name}
+        maxLength={80}
+        onBlur={(event) => acts.setFrames(editing, { name: event.currentTarget.value.trim() })}
+        onKeyDown={(event) => {
+          if (event.key === 'Enter') event.currentTarget.blur();
+        }}
+      />
+      <NumberInput
+        label="Air time: how long the picture stays, seconds"
+        size="xs"
+        min={0}
+        max={3600}
+        step={0.5}
+        decimalScale={2}
+        value={frame.airTime_s}
+        onChange={(value) => {
+          if (typeof value === 'number') acts.setFrames(editing, { airTime_s: value });
+        }}
+      />
+      <Checkbox
+        label="Drive as fast as legal"
+        size="sm"
+        checked={fast}
+        onChange={(event) =>
+          acts.setFrames(editing, {
+            transition_s: event.currentTarget.checked ? null : Math.ceil((least ?? 4) * 2) / 2,
+          })
+        }
+      />
+      <NumberInput
+        label="Time of the drive to this frame, seconds"
+        description={least === undefined ? undefined : `at least ${secondsText(least)}`}
+        size="xs"
+        min={0.1}
+        max={3600}
+        step={0.5}
+        decimalScale={2}
+        disabled={fast}
+        value={frame.transition_s ?? (plan ? Number(plan.duration_s.toFixed(2)) : '')}
+        onChange={(value) => {
+          if (!fast && typeof value === 'number') acts.setFrames(editing, { transition_s: value });
+        }}
+      />
+      <SegmentedControl
+        aria-label="How the drive speeds up"
+        size="xs"
+        value={frame.easing}
+        onChange={(value) => acts.setFrames(editing, { easing: value as 'swift' | 'gentle' })}
+        data={[
+          { value: 'swift', label: 'Swift' },
+          { value: 'gentle', label: 'Gentle' },
+        ]}
+      />
+    </Stack>
+  );
+}

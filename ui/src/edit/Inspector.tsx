@@ -1,0 +1,42 @@
+import { Tabs } from '@mantine/core';
+import { useStore } from '../base/store';
+import { useSession } from '../shell/session';
+import { IssueList } from '../live/IssueList';
+import { ArrangeSection } from './ArrangeSection';
+import { ColourSection } from './ColourSection';
+import { useEditing } from './context';
+import { FrameSection } from './FrameSection';
+import { PlaceSection } from './PlaceSection';
+import { ShowSection } from './ShowSection';
+
+/** What can be said about the chosen pixels, the frame and the show. */
+export function Inspector() {
+  const { editor } = useEditing();
+  const { live } = useSession();
+  const issues = useStore(live.plan, (plan) => plan?.issues) ?? [];
+  return (
+    <aside className="side" aria-label="Properties">
+      <Tabs defaultValue="pixels">
+        <Tabs.List grow>
+          <Tabs.Tab value="pixels">Pixels</Tabs.Tab>
+          <Tabs.Tab value="frame">Frame</Tabs.Tab>
+          <Tabs.Tab value="show">
+            Show{issues.some((i) => i.severity !== 'note') ? ' •' : ''}
+          </Tabs.Tab>
+        </Tabs.List>
+        <Tabs.Panel value="pixels" className="sections">
+          <PlaceSection />
+          <ColourSection />
+          <ArrangeSection />
+        </Tabs.Panel>
+        <Tabs.Panel value="frame" className="sections">
+          <FrameSection />
+        </Tabs.Panel>
+        <Tabs.Panel value="show" className="sections">
+          <ShowSection />
+          <IssueList issues={issues} onFrame={(index) => editor.goToFrame(index)} />
+        </Tabs.Panel>
+      </Tabs>
+    </aside>
+  );
+}

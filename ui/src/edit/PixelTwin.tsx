@@ -1,0 +1,37 @@
+import { colourName } from '../base/colour';
+import { useEditing, useEditor } from './context';
+
+/** Pixels that are listed; a screen reader is not helped by ten thousand. */
+const LISTED_MAX = 200;
+
+/** The pixels of the frame as a list, for those who cannot see the canvas; clicking chooses. */
+export function PixelTwin() {
+  const { editor } = useEditing();
+  const pixels = useEditor((s) => s.show.frames[s.frame]?.pixels);
+  const selection = useEditor((s) => s.selection);
+  const gesturing = useEditor((s) => s.overlay.hint !== '');
+  if (gesturing || !pixels) return null;
+  return (
+    <ul
+      className="hidden-text"
+      role="listbox"
+      aria-multiselectable
+      aria-label="Pixels of the frame"
+      data-testid="pixels"
+    >
+      {pixels.slice(0, LISTED_MAX).map((p) => (
+        <li
+          key={p.id}
+          role="option"
+          aria-selected={selection.has(p.id)}
+          data-x={p.x.toFixed(4)}
+          data-y={p.y.toFixed(4)}
+          data-color={p.color.toString(16).padStart(6, '0')}
+          onClick={() => editor.select([p.id])}
+        >
+          Pixel {p.id}, {colourName(p.color)}, at {p.x.toFixed(2)}, {p.y.toFixed(2)} metres
+        </li>
+      ))}
+    </ul>
+  );
+}

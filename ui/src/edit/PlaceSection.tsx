@@ -1,0 +1,57 @@
+import { Button, Group, NumberInput, Stack, Text } from '@mantine/core';
+import { useMemo } from 'react';
+import { boxOf, centreOf } from '../model/geometry';
+import * as acts from './acts';
+import { useEditing, useEditor } from './context';
+
+/** How many are chosen, and exactly where they are. */
+export function PlaceSection() {
+  const editing = useEditing();
+  const state = useEditor((s) => s);
+  const chosen = useMemo(
+    () => state.show.frames[state.frame]?.pixels.filter((p) => state.selection.has(p.id)) ?? [],
+    [state.show, state.frame, state.selection],
+  );
+  const centre = centreOf(boxOf(chosen));
+  const only = chosen.length === 1 ? chosen[0] : undefined;
+  const field = (axis: 'x' | 'y') => (
+    <NumberInput
+      label={`${axis}, metres`}
+      size="xs"
+      step={0.01}
+      decimalScale={4}
+      disabled={chosen.length === 0}
+      value={chosen.length === 0 ? '' : Number(centre[axis].toFixed(4))}
+      onChange={(value) => {
+        if (typeof value === 'number' && Math.abs(value - centre[axis]) > 5e-5)
+          acts.moveTo(editing, axis, value);
+      }}
+    />
+  );
+  const link = (label: string, act: () => void) => (
+    <Button size="compact-xs" variant="subtle" color="gray" onClick={act}>
+      {label}
+    </Button>
+  );
+  return (
+    <Stack gap="xs" component="section" aria-label="Choice and place">
+      <Text size="sm" fw={600} role="status" data-testid="chosen">
+        {only
+          ? `Pixel ${only.id}`
+          : chosen.length === 0
+            ? 'No pixel chosen'
+            : `${chosen.length} pixels`}
+      </Text>
+      <Group gap={2}>
+        {link('All', () => acts.selectAll(editing))}
+        {link('None', () => editing.editor.select([]))}
+        {link('Invert', () => acts.invertSelection(editing))}
+        {link('Same colour', () => acts.selectSameColour(editing))}
+      </Group>
+      <Group grow gap="xs">
+        {field('x')}
+        {field('y')}
+      </Group>
+    </Stack>
+  );
+}

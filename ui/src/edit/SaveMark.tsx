@@ -1,0 +1,40 @@
+import { Tooltip } from '@mantine/core';
+import { useStore } from '../base/store';
+import { useEditing } from './context';
+
+const WORDS = {
+  saved: 'Saved',
+  waiting: 'Saving…',
+  saving: 'Saving…',
+  conflict: 'Not saved: conflict',
+  failed: 'Not saved yet',
+} as const;
+
+/** Whether what is on screen is safe in the library. */
+export function SaveMark() {
+  const state = useStore(useEditing().saver.state);
+  const tone =
+    state.name === 'saved'
+      ? 'good'
+      : state.name === 'failed' || state.name === 'conflict'
+        ? 'bad'
+        : 'quiet';
+  const hint =
+    state.name === 'failed'
+      ? `${state.reason} Trying again by itself.`
+      : 'Every change is saved by itself.';
+  return (
+    <Tooltip label={hint} multiline maw={300}>
+      <span
+        className="pill"
+        role="status"
+        data-tone={tone}
+        data-testid="save"
+        data-save={state.name}
+      >
+        <i aria-hidden />
+        {WORDS[state.name]}
+      </span>
+    </Tooltip>
+  );
+}

@@ -1,0 +1,71 @@
+import { Button, Group, Text } from '@mantine/core';
+import { useState } from 'react';
+
+const KEY = 'lightbots-tour';
+const STEPS = [
+  [
+    'Every dot is a robot',
+    'Click one or drag a frame around some, then drag them where they shall be. Or let Arrange make a heart, a circle or a word of them.',
+  ],
+  [
+    'Give them light',
+    'Choose pixels and pick a colour on the right. Everything can be undone with Ctrl Z.',
+  ],
+  [
+    'Add the next picture',
+    'The + beside the strip adds a frame. How the robots get there is planned for you, so that nobody touches.',
+  ],
+  [
+    'Watch it, then play it',
+    'The arrow under the floor plays without robots. Live plays with them.',
+  ],
+] as const;
+
+const seen = () => {
+  try {
+    return localStorage.getItem(KEY) !== null;
+  } catch {
+    return true;
+  }
+};
+
+/** What a newcomer should know, once. */
+export function Tour() {
+  const [step, setStep] = useState(() => (seen() ? STEPS.length : 0));
+  const now = STEPS[step];
+  if (!now) return null;
+  const end = () => {
+    try {
+      localStorage.setItem(KEY, 'done');
+    } catch {
+      // Without storage the tour is shown again; that is all.
+    }
+    setStep(STEPS.length);
+  };
+  const last = step === STEPS.length - 1;
+  return (
+    <div className="tour" role="region" aria-label="First steps">
+      <Text fw={600} mb={4}>
+        {now[0]}
+      </Text>
+      <Text size="sm" mb="md">
+        {now[1]}
+      </Text>
+      <Group justify="space-between">
+        <Text size="xs" c="dimmed">
+          {step + 1} of {STEPS.length}
+        </Text>
+        <Group gap="xs">
+          {last ? null : (
+            <Button size="compact-sm" variant="subtle" color="gray" onClick={end}>
+              Skip
+            </Button>
+          )}
+          <Button size="compact-sm" onClick={() => (last ? end() : setStep(step + 1))}>
+            {last ? 'Begin' : 'Next'}
+          </Button>
+        </Group>
+      </Group>
+    </div>
+  );
+}

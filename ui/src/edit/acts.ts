@@ -1,0 +1,185 @@
+import type { Rgb } from '../base/colour';
+import * as arrange from '../model/arrange';
+import * as commands from '../model/commands';
+import { boxOf, centreOf, inBox, type Box } from '../model/geometry';
+import { letterPoints } from '../model/letters';
+import { tooClose_m, type Pixel, type Show, type Stage } from '../model/show';
+import type { Point } from '../stage/camera';
+import { keepColour, type Editing } from './editing';
+
+/** Robots this far apart are easy to plan: arrangements keep it where they can, metres. */
+const easyGap_m = (stage: Stage) => Math.max(0.08, tooClose_m(stage) + 0.016);
+
+/** Pixels an act is about: the chosen ones, or all when none is chosen. */
+function subject(editing: Editing): readonly Pixel[] {
+  const chosen = editing.editor.chosenPixels();
+  return chosen.length > 0 ? chosen : (editing.editor.current()?.pixels ?? []);
+}
+
+function place(editing: Editing, label: string, change: (places: Point[], show: Show) => Point[]) {
+  const pixels = subject(editing);
+  editing.editor.change(label, (show, s) => {
+    const places = change(
+      pixels.map(({ x, y }) => ({ x, y })),
+      show,
+    );
+    return commands.placePixels(
+      show,
+      s.frame,
+      new Map(pixels.map((p, i) => [p.id, places[i] ?? p])),
+    );
+  });
+}
+
+export const align = (e: Editing, edge: arrange.Edge) =>
+  place(e, 'Align', (p) => arrange.align(p, edge));
+export const distribute = (e: Editing, axis: 'x' | 'y') =>
+  place(e, 'Distribute', (p) => arrange.distribute(p, axis));
+export const mirror = (e: Editing, axis: 'x' | 'y') =>
+  place(e, 'Mirror', (p) => arrange.mirror(p, axis));
+export const line = (e: Editing) => place(e, 'Line', arrange.line);
+export const grid = (e: Editing) =>
+  place(e, 'Grid', (p, show) => keepOnFloor(arrange.grid(p, easyGap_m(show.stage)), show.stage));
+export const spread = (e: Editing) =>
+  place(e, 'Spread apart', (p, show) =>
+    keepOnFloor(arrange.spread(p, easyGap_m(show.stage)), show.stage),
+  );
+
+/** A shape in the middle of the chosen pixels; where those are in a heap or a row, in the middle of the floor. */
+export const shape = (e: Editing, kind: arrange.Shape) =>
+  place(e, 'Shape', (places, show) => {
+    const { stage } = show;
+    const box = boxOf(places);
+    const least = Math.min(stage.width_m, stage.depth_m) * 0.25;
+    const flat = Math.min(box.maxX - box.minX, box.maxY - box.minY) < least;
+    const into = flat ? middleOf(stage) : box;
+    return keepOnFloor(arrange.shape(places, kind, into, easyGap_m(stage)), stage);
+  });
+
+function middleOf(stage: Stage): Box {
+  const half = Math.min(stage.width_m, stage.depth_m) * 0.3;
+  return { minX: -half, minY: -half, maxX: half, maxY: half };
+}
+
+/** Shifts places back onto the floor as a whole, and shrinks nothing. */
+function keepOnFloor(places: Point[], stage: Stage): Point[] {
+  const margin = stage.radius_m + 0.01;
+  const floor = {
+    minX: -stage.width_m / 2 + margin,
+    minY: -stage.depth_m / 2 + margin,
+    maxX: stage.width_m / 2 - margin,
+    maxY: stage.depth_m / 2 - margin,
+  };
+  if (places.every((p) => inBox(p, floor))) return places;
+  const box = boxOf(places);
+  const shift = (low: number, high: number, from: number, to: number) =>
+    high - low > to - from
+      ? (from + to) / 2 - (low + high) / 2
+      : Math.max(0, from - low) + Math.min(0, to - high);
+  const dx = shift(box.minX, box.maxX, floor.minX, floor.maxX);
+  const dy = shift(box.minY, box.maxY, floor.minY, floor.maxY);
+  return places.map((p) => ({ x: p.x + dx, y: p.y + dy }));
+}
+
+export const nudge = (e: Editing, dx: number, dy: number) => {
+  if (e.editor.chosenPixels().length === 0) return;
+  place(e, 'Nudge', (places) => places.map((p) => ({ x: p.x + dx, y: p.y + dy })));
+};
+
+/** Moves the middle of what is chosen to an exact place along one axis, metres. */
+export const moveTo = (e: Editing, axis: 'x' | 'y', value: number) =>
+  place(e, 'Place', (places) => {
+    const by = value - centreOf(boxOf(places))[axis];
+    return places.map((p) => ({ ...p, [axis]: p[axis] + by }));
+  });
+
+/** Colours what is chosen; keeps the colour at hand. */
+export function paint(e: Editing, color: Rgb) {
+  keepColour(e, color);
+  const colors = new Map(e.editor.chosenPixels().map((p) => [p.id, color]));
+  e.editor.change('Colour', (show, s) => commands.recolour(show, s.frame, colors));
+}
+
+export function paintGradient(e: Editing, from: Rgb, to: Rgb) {
+  const colors = commands.gradient(subject(e), from, to);
+  e.editor.change('Gradient', (show, s) => commands.recolour(show, s.frame, colors));
+}
+
+const chosenFrames = (e: Editing) => [...e.editor.state.get().frames].sort((a, b) => a - b);
+
+export function addFrame(e: Editing) {
+  e.editor.change('Add frame', (show, s) => commands.addFrame(show, s.frame));
+  e.editor.goToFrame(e.editor.state.get().frame + 1);
+}
+
+export function duplicateFrames(e: Editing) {
+  const frames = chosenFrames(e);
+  e.editor.change('Duplicate frame', (show) => commands.duplicateFrames(show, frames));
+  e.editor.goToFrame((frames[frames.length - 1] ?? 0) + 1);
+}
+
+export function deleteFrames(e: Editing) {
+  const frames = chosenFrames(e);
+  e.editor.change('Delete frame', (show) => commands.deleteFrames(show, frames));
+  e.editor.goToFrame(Math.min(frames[0] ?? 0, e.editor.state.get().show.frames.length - 1));
+}
+
+export function moveFrame(e: Editing, from: number, to: number) {
+  e.editor.change('Move frame', (show) => commands.moveFrame(show, from, to));
+  e.editor.goToFrame(to);
+}
+
+export const setFrames = (e: Editing, fields: commands.FrameFields) =>
+  e.editor.change('Frame', (show) => commands.setFrames(show, chosenFrames(e), fields));
+
+/** Chooses the pixels whose colour is that of one of the chosen. */
+export function selectSameColour(e: Editing) {
+  const colors = new Set(e.editor.chosenPixels().map((p) => p.color));
+  const pixels = e.editor.current()?.pixels ?? [];
+  e.editor.select(pixels.filter((p) => colors.has(p.color)).map((p) => p.id));
+}
+
+export function selectAll(e: Editing) {
+  e.editor.select(e.editor.current()?.pixels.map((p) => p.id) ?? []);
+}
+
+export function invertSelection(e: Editing) {
+  const { selection } = e.editor.state.get();
+  const pixels = e.editor.current()?.pixels ?? [];
+  e.editor.select(pixels.filter((p) => !selection.has(p.id)).map((p) => p.id));
+}
+
+/** Chooses the next pixel by id, or the one before. */
+export function selectNext(e: Editing, by: 1 | -1) {
+  const ids = e.editor.current()?.pixels.map((p) => p.id) ?? [];
+  const chosen = [...e.editor.state.get().selection];
+  const at = chosen.length === 0 ? (by > 0 ? -1 : 0) : ids.indexOf(chosen[chosen.length - 1] ?? -1);
+  const next = ids[(at + by + ids.length) % Math.max(1, ids.length)];
+  if (next !== undefined) e.editor.select([next]);
+}
+
+/** Writes a word over the middle of the floor, as large as it takes for robots to have room. */
+export const write = (e: Editing, word: string) =>
+  place(e, 'Write', (places, { stage }) => {
+    const points = letterPoints(word.trim(), places.length);
+    if (points.length === 0) return places;
+    const box = boxOf(points);
+    const [w, h] = [Math.max(box.maxX - box.minX, 0.5), Math.max(box.maxY - box.minY, 0.5)];
+    const room = Math.min((stage.width_m * 0.86) / w, (stage.depth_m * 0.86) / h);
+    const k = Math.min(
+      room,
+      Math.max(leastScale(points, easyGap_m(stage)), (stage.depth_m * 0.4) / h),
+    );
+    const c = centreOf(box);
+    const targets = points.map((p) => ({ x: (p.x - c.x) * k, y: (p.y - c.y) * k }));
+    return arrange.nearest(places, targets);
+  });
+
+/** Metres a grid unit so that no two are closer than `gap_m`. */
+function leastScale(points: readonly Point[], gap_m: number): number {
+  let least = Infinity;
+  points.forEach((a, i) => {
+    for (const b of points.slice(i + 1)) least = Math.min(least, Math.hypot(a.x - b.x, a.y - b.y));
+  });
+  return Number.isFinite(least) ? gap_m / Math.max(least, 1e-3) : 0;
+}

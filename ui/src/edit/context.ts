@@ -1,0 +1,16 @@
+import { createContext, useContext } from 'react';
+import { useStore } from '../base/store';
+import type { EditorState } from '../model/editor';
+import type { Editing } from './editing';
+
+export const EditingContext = createContext<Editing | null>(null);
+
+export function useEditing(): Editing {
+  const editing = useContext(EditingContext);
+  if (!editing) throw new Error('Nothing is being edited around this component.');
+  return editing;
+}
+
+/** Part of the editor's state; `select` must give the same object for the same state. */
+export const useEditor = <S>(select: (state: EditorState) => S): S =>
+  useStore(useEditing().editor.state, select);

@@ -1,0 +1,182 @@
+import { canvasFromStage, type Camera, type Point } from '../stage/camera';
+import { boxOf } from '../model/geometry';
+import type { EditorState } from '../model/editor';
+import { marksOf, type Marks } from '../model/marks';
+import type { Frame } from '../model/show';
+import type { Handle } from '../model/transformTool';
+import type { Looks } from './editing';
+
+const CHOSEN = '#ffffff';
+const WRONG = '#ff8d86';
+const GUIDE = '#7fd3ff';
+/** Distance of the handles from the pixels they hold, CSS pixels. */
+const HANDLE_GAP_PX = 16;
+const HANDLE_REACH_PX = 11;
+
+/** Handles of the box around the selection, CSS pixels; none for fewer than two pixels. */
+export function handlesOf(state: EditorState, camera: Camera): { handle: Handle; at: Point }[] {
+  const pixels =
+    state.show.frames[state.frame]?.pixels.filter((p) => state.selection.has(p.id)) ?? [];
+  if (pixels.length < 2) return [];
+  const box = boxOf(pixels);
+  const a = canvasFromStage(camera, { x: box.minX, y: box.maxY });
+  const b = canvasFromStage(camera, { x: box.maxX, y: box.minY });
+  const gap = HANDLE_GAP_PX;
+  const [left, top, right, bottom] = [a.x - gap, a.y - gap, b.x + gap, b.y + gap];
+  const [midX, midY] = [(left + right) / 2, (top + bottom) / 2];
+  const scale = (sx: -1 | 0 | 1, sy: -1 | 0 | 1) => ({
+    handle: { kind: 'scale', sx, sy } as const,
+    at: { x: sx < 0 ? left : sx > 0 ? right : midX, y: sy > 0 ? top : sy < 0 ? bottom : midY },
+  });
+  return [
+    { handle: { kind: 'turn' }, at: { x: midX, y: top - 26 } },
+    ...(
+      [
+        [-1, 1],
+        [1, 1],
+        [1, -1],
+        [-1, -1],
+        [0, 1],
+        [1, 0],
+        [0, -1],
+        [-1, 0],
+      ] as const
+    ).map(([sx, sy]) => scale(sx, sy)),
+  ];
+}
+
+export const handleAt = (state: EditorState, camera: Camera, at: Point) =>
+  handlesOf(state, camera).find((h) => Math.hypot(h.at.x - at.x, h.at.y - at.y) < HANDLE_REACH_PX)
+    ?.handle ?? null;
+
+let markedFor: Frame | null = null;
+let marks: Marks = { tooClose: new Set(), offFloor: new Set() };
+
+/** Marks of the frame on the stage, worked out once for each state of it. */
+export function marksNow(state: EditorState): Marks {
+  const frame = state.show.frames[state.frame];
+  if (frame && frame !== markedFor) {
+    markedFor = frame;
+    marks = marksOf(frame.pixels, state.show.stage);
+  }
+  return marks;
+}
+
+/** Draws what is chosen, wrong or in hand on top of the lights. */
+export function paintOverlay(
+  context: CanvasRenderingContext2D,
+  camera: Camera,
+  state: EditorState,
+  looks: Looks,
+) {
+  const radius = Math.max(3, state.show.stage.radius_m * camera.scale);
+  const { tooClose, offFloor } = marksNow(state);
+  for (const p of state.show.frames[state.frame]?.pixels ?? []) {
+    const at = canvasFromStage(camera, p);
+    if (state.selection.has(p.id)) ring(context, at, radius + 3, CHOSEN, 1.75);
+    if (tooClose.has(p.id)) ring(context, at, radius + 6.5, WRONG, 1.75, [3, 2.5]);
+    if (offFloor.has(p.id)) cross(context, at, radius + 5);
+    if (looks.ids) label(context, String(p.id), { x: at.x, y: at.y - radius - 9 });
+  }
+  paintHandles(context, camera, state);
+  paintGesture(context, camera, state);
+}
+
+function ring(
+  c: CanvasRenderingContext2D,
+  at: Point,
+  r: number,
+  color: string,
+  w: number,
+  dash: number[] = [],
+) {
+  c.setLineDash(dash);
+  c.strokeStyle = color;
+  c.lineWidth = w;
+  c.beginPath();
+  c.arc(at.x, at.y, r, 0, 2 * Math.PI);
+  c.stroke();
+  c.setLineDash([]);
+}
+
+function cross(c: CanvasRenderingContext2D, at: Point, r: number) {
+  c.strokeStyle = WRONG;
+  c.lineWidth = 2;
+  c.beginPath();
+  for (const s of [-1, 1]) {
+    c.moveTo(at.x - r, at.y - s * r);
+    c.lineTo(at.x + r, at.y + s * r);
+  }
+  c.stroke();
+}
+
+function label(c: CanvasRenderingContext2D, text: string, at: Point) {
+  c.font = '11px system-ui, sans-serif';
+  c.textAlign = 'center';
+  c.textBaseline = 'middle';
+  c.strokeStyle = '#0a0c11';
+  c.lineWidth = 3;
+  c.strokeText(text, at.x, at.y);
+  c.fillStyle = '#e6ebf3';
+  c.fillText(text, at.x, at.y);
+}
+
+function paintHandles(c: CanvasRenderingContext2D, camera: Camera, state: EditorState) {
+  const handles = handlesOf(state, camera);
+  const [turn, topLeft, , bottomRight] = handles;
+  if (!turn || !topLeft || !bottomRight) return;
+  c.strokeStyle = 'rgba(255,255,255,0.35)';
+  c.lineWidth = 1;
+  const { x, y } = topLeft.at;
+  c.strokeRect(x, y, bottomRight.at.x - x, bottomRight.at.y - y);
+  c.beginPath();
+  c.moveTo(turn.at.x, turn.at.y + 5);
+  c.lineTo(turn.at.x, y);
+  c.stroke();
+  for (const { handle, at } of handles) {
+    c.beginPath();
+    if (handle.kind === 'turn') c.arc(at.x, at.y, 5.5, 0, 2 * Math.PI);
+    else c.rect(at.x - 4, at.y - 4, 8, 8);
+    c.fillStyle = '#0a0c11';
+    c.fill();
+    c.strokeStyle = CHOSEN;
+    c.lineWidth = 1.5;
+    c.stroke();
+  }
+}
+
+function paintGesture(c: CanvasRenderingContext2D, camera: Camera, { overlay, show }: EditorState) {
+  c.strokeStyle = GUIDE;
+  c.lineWidth = 1;
+  const [w, d] = [show.stage.width_m / 2, show.stage.depth_m / 2];
+  for (const guide of overlay.guides) {
+    const ends =
+      guide.axis === 'x'
+        ? [
+            { x: guide.at, y: -d },
+            { x: guide.at, y: d },
+          ]
+        : [
+            { x: -w, y: guide.at },
+            { x: w, y: guide.at },
+          ];
+    c.beginPath();
+    ends.forEach((end, i) => {
+      const at = canvasFromStage(camera, end);
+      if (i === 0) c.moveTo(at.x, at.y);
+      else c.lineTo(at.x, at.y);
+    });
+    c.stroke();
+  }
+  if (overlay.marquee.length > 2) {
+    c.beginPath();
+    for (const corner of overlay.marquee) {
+      const at = canvasFromStage(camera, corner);
+      c.lineTo(at.x, at.y);
+    }
+    c.closePath();
+    c.fillStyle = 'rgba(127,211,255,0.1)';
+    c.fill();
+    c.stroke();
+  }
+}

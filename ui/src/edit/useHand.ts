@@ -1,0 +1,87 @@
+import { useEffect, useMemo } from 'react';
+import { useStore } from '../base/store';
+import { createArrowTool } from '../model/arrowTool';
+import { createEyedropper } from '../model/eyedropper';
+import { createLassoTool } from '../model/lassoTool';
+import type { Tool, Touch } from '../model/tool';
+import { createTransformTool } from '../model/transformTool';
+import { gridStep, stageFromCanvas, type Point } from '../stage/camera';
+import type { Hand } from '../stage/pointer';
+import * as acts from './acts';
+import { keepColour, type Editing } from './editing';
+import { handleAt } from './overlay';
+
+/** How far a mouse and a finger may miss, CSS pixels. */
+const REACH_PX = { mouse: 9, pen: 12, touch: 20 } as const;
+
+/** The grid that is snapped to: a fifth of what is drawn, but no finer than a centimetre. */
+const snapStep = (scale: number) => Math.max(0.01, gridStep(scale) / 10);
+
+function createTool(editing: Editing): Tool {
+  switch (editing.tool.get()) {
+    case 'lasso':
+      return createLassoTool();
+    case 'eyedropper':
+      return createEyedropper((color) => {
+        if (editing.editor.state.get().selection.size > 0) acts.paint(editing, color);
+        else keepColour(editing, color);
+        editing.tool.set('arrow');
+      });
+    case 'arrow':
+      return createArrowTool({
+        grid_m: () => (editing.looks.get().snap ? snapStep(editing.view.get().camera.scale) : 0),
+        neighbours: () => editing.looks.get().snap,
+      });
+  }
+}
+
+/** Leads pointers to the chosen tool, or to the handle under them; Escape gives up what is under way. */
+export function useHand(editing: Editing): { hand: Hand; giveUp: () => boolean } {
+  const name = useStore(editing.tool);
+  const led = useMemo(() => {
+    void name;
+    return lead(editing);
+  }, [editing, name]);
+  useEffect(() => () => void led.giveUp(), [led]);
+  return led;
+}
+
+function lead(editing: Editing): { hand: Hand; giveUp: () => boolean } {
+  const { editor, view } = editing;
+  const chosen = createTool(editing);
+  let active: Tool | null = null;
+  const touch = (at: Point, event: PointerEvent): Touch => {
+    const { camera } = view.get();
+    const reach = REACH_PX[event.pointerType as keyof typeof REACH_PX] ?? REACH_PX.mouse;
+    return {
+      at: stageFromCanvas(camera, at),
+      reach_m: reach / camera.scale,
+      shift: event.shiftKey,
+      alt: event.altKey,
+      ctrl: event.ctrlKey || event.metaKey,
+    };
+  };
+  const giveUp = () => {
+    const busy = active?.cancel(editor) ?? false;
+    active = null;
+    return busy;
+  };
+  return {
+    giveUp,
+    hand: {
+      down(at, event) {
+        editing.running.set(false);
+        editing.moment.set(null);
+        const handle = handleAt(editor.state.get(), view.get().camera, at);
+        active = handle ? createTransformTool(handle) : chosen;
+        active.down(editor, touch(at, event));
+      },
+      move: (at, event) => active?.move(editor, touch(at, event)),
+      up(at, event) {
+        active?.up(editor, touch(at, event));
+        active = null;
+      },
+      lost: () => void giveUp(),
+    },
+  };
+}

@@ -1,0 +1,59 @@
+import type { Plan } from '../api/types.gen';
+import { mix } from '../base/colour';
+import type { Dot } from '../stage/scene';
+import { pathAt } from './path';
+import type { Show } from './show';
+
+/** When a frame is driven to and shown, seconds from the start of the show. */
+export interface Segment {
+  frame: number;
+  driveFrom_s: number;
+  shownFrom_s: number;
+  until_s: number;
+}
+
+/** The show in time, as planned; drives without a plan take no time. */
+export function timelineOf(show: Show, plan: Plan | null): Segment[] {
+  let clock = 0;
+  return show.frames.map((frame, index) => {
+    const driveFrom_s = clock;
+    const shownFrom_s = driveFrom_s + (plan?.transitions[index]?.duration_s ?? 0);
+    clock = shownFrom_s + Math.max(0, frame.airTime_s);
+    return { frame: index, driveFrom_s, shownFrom_s, until_s: clock };
+  });
+}
+
+export const totalOf = (timeline: readonly Segment[]) =>
+  timeline[timeline.length - 1]?.until_s ?? 0;
+
+/** The segment at a moment; the last one at and after the end. */
+export function segmentAt(timeline: readonly Segment[], time_s: number): Segment | null {
+  return timeline.find((s) => time_s < s.until_s) ?? timeline[timeline.length - 1] ?? null;
+}
+
+/** Where the lights are planned to be at a moment. */
+export function dotsAt(
+  show: Show,
+  plan: Plan,
+  timeline: readonly Segment[],
+  time_s: number,
+): Dot[] {
+  const segment = segmentAt(timeline, time_s);
+  const to = segment && show.frames[segment.frame];
+  if (!segment || !to) return [];
+  const transition = plan.transitions[segment.frame];
+  if (!transition || transition.paths.length === 0)
+    return to.pixels.map((p) => ({ x: p.x, y: p.y, color: p.color, alpha: 1 }));
+  const before = plan.transitions[segment.frame - 1]?.pixels ?? [];
+  const [was, is] = [colours(show, segment.frame - 1), colours(show, segment.frame)];
+  const span = Math.max(1e-6, segment.shownFrom_s - segment.driveFrom_s);
+  const t = Math.max(0, time_s - segment.driveFrom_s);
+  return transition.paths.map((path, robot) => {
+    const end = is.get(transition.pixels[robot] ?? -1) ?? 0;
+    const start = was.get(before[robot] ?? -1) ?? end;
+    return { ...pathAt(path, t), color: mix(start, end, Math.min(1, t / span)), alpha: 1 };
+  });
+}
+
+const colours = (show: Show, frame: number) =>
+  new Map(show.frames[frame]?.pixels.map((p) => [p.id, p.color]));

@@ -1,0 +1,18 @@
+import { createStore, type Store } from '../base/store';
+import type { Camera } from './camera';
+
+/** Camera of a stage and whether it follows the size of its place on screen. */
+export interface View {
+  camera: Camera;
+  fitted: boolean;
+  width_px: number;
+  height_px: number;
+}
+
+export const createView = (): Store<View> =>
+  createStore<View>({
+    camera: { scale: 200, originX_px: 0, originY_px: 0 },
+    fitted: true,
+    width_px: 1,
+    height_px: 1,
+  });
