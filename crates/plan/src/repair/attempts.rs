@@ -22,8 +22,8 @@ const GOOD: f64 = 1.15;
 /// Larger crowds do not bow: the lattice is quicker.
 const MOST_TO_BOW: usize = 600;
 /// What the first guesses aim at, and the lattice, which is not as wide.
-const WIDE: Wish = Wish { robots_m: 0.062, walls_m: 0.004 };
-const NARROW: Wish = Wish { robots_m: 0.0585, walls_m: 0.003 };
+const WIDE: Wish = Wish { robots_m: 0.0625, walls_m: 0.0045, slack_m: 0.002 };
+const NARROW: Wish = Wish { robots_m: 0.0595, walls_m: 0.0045, slack_m: 0.0015 };
 
 /// The swiftest of what was found; `None` where nothing was.
 pub(super) fn best(scene: &Scene, easing: Easing) -> Option<Weave> {
@@ -36,14 +36,14 @@ pub(super) fn best(scene: &Scene, easing: Easing) -> Option<Weave> {
     let bows: &[f64] = if scene.robots() > MOST_TO_BOW { &[0.0] } else { &[0.0, 0.12, 0.25] };
     for &bow in bows {
         let pace = Pace::new(longest, &scene.limits, easing, 1.0 + 2.0 * bow * bow);
-        let effort = Effort { sweeps: 300, polish: 30, stretch: 2.0, wary: true, wish: WIDE };
+        let effort = Effort { sweeps: 300, stretch: 2.0, wary: true, wish: WIDE };
         let found = relax(scene, along(scene, &courses, &pace, bow), effort, &mut work);
         best = swifter(scene, best, found);
         if best.as_ref().is_some_and(|weave| lasts(scene, weave) < least_s * GOOD || work < WORK_TO_SPARE) {
             return best;
         }
     }
-    let effort = Effort { sweeps: 300, polish: 30, stretch: 2.5, wary: false, wish: NARROW };
+    let effort = Effort { sweeps: 300, stretch: 2.5, wary: false, wish: NARROW };
     let found = ordered(scene, &lattice).and_then(|weave| relax(scene, weave, effort, &mut work));
     swifter(scene, best, found)
 }

@@ -9,8 +9,6 @@ use super::weave::{Weave, basis, blend};
 const STRETCHES: usize = 4;
 /// Pairs farther apart than their wish by this much are not watched until the next look-out, metres.
 const SKIN_M: f64 = 0.012;
-/// Less than this under the wish counts as kept, where ends leave so much, metres.
-const TOLERANCE_M: f64 = 0.0004;
 /// Straight stretches cut corners by less than this, metres.
 const CUT_M: f64 = 0.003;
 
@@ -55,6 +53,8 @@ pub(super) struct Wish {
     pub robots_m: f64,
     /// A robot's rim off walls, metres.
     pub walls_m: f64,
+    /// How much less will do, metres: who is left alone within it settles sooner.
+    pub slack_m: f64,
 }
 
 /// Looks at spans in straight stretches.
@@ -107,8 +107,9 @@ impl Watch {
                 if (at[a].y - at[b].y).abs() >= near || (at[a] - at[b]).length_squared() >= near * near {
                     continue;
                 }
+                let slack_m = wish.slack_m;
                 let wish = wish.robots_m.min(scene.ends_apart(a, b));
-                let least = scene.least_gap(a, b).max(wish - TOLERANCE_M);
+                let least = scene.least_gap(a, b).max(wish - slack_m);
                 let contact = Contact { span, a: a.min(b), b: Other::Robot(a.max(b)), wish, least };
                 if self.closest(scene, weave, &contact).apart < wish + SKIN_M {
                     found.push(contact);
@@ -125,7 +126,7 @@ impl Watch {
                     Contact { span, a: robot, b: Other::Wall(wall), wish: wish_m, least: wish_m };
                 if self.closest(scene, weave, &contact).apart < wish.walls_m + SKIN_M {
                     contact.wish = scene.wall_gap(robot, wall, wish.walls_m);
-                    contact.least = contact.wish - TOLERANCE_M.min(contact.wish.max(0.0) / 2.0);
+                    contact.least = contact.wish - wish.slack_m.min(contact.wish.max(0.0) / 2.0);
                     found.push(contact);
                 }
             }

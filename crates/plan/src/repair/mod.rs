@@ -16,7 +16,9 @@ mod ordered;
 mod relax;
 mod scene;
 mod search;
+mod slow;
 mod steps;
+mod turning;
 mod weave;
 
 use lightbots_base::Span;

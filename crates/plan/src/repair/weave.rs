@@ -7,7 +7,11 @@
 use lightbots_base::{Limits, Piece, Span, Vec2};
 
 use super::scene::Scene;
+use super::turning::Turning;
 use crate::Path;
+
+/// Passes over a way at once against fast turns.
+const EASINGS: usize = 8;
 
 /// What the splines of all robots are, sharing one clock.
 #[derive(Clone)]
@@ -36,6 +40,27 @@ pub(super) fn basis(u: f64) -> [f64; 4] {
 /// The weighted sum of a span's control points.
 pub(super) fn blend(points: &[Vec2], weights: &[f64; 4]) -> Vec2 {
     points[0] * weights[0] + points[1] * weights[1] + points[2] * weights[2] + points[3] * weights[3]
+}
+
+/// Weights of a span's control points, with those of points that follow others added to these: only points 2 to
+/// `last` of a way are free.
+pub(super) fn fold(weights: &[f64; 4], span: usize, last: usize, spare: bool) -> [f64; 4] {
+    if span >= 2 && span + 3 <= last {
+        return *weights;
+    }
+    let mut folded = [0.0; 4];
+    for (i, &weight) in weights.iter().enumerate() {
+        let point = span + i;
+        let (to, share) = match point {
+            0 => (2, 1.0),
+            1 => (2, -0.5),
+            _ if point == last + 1 => (last, if spare { 1.0 } else { -0.5 }),
+            _ if point == last + 2 => (last, 1.0),
+            _ => (point, 1.0),
+        };
+        folded[to - span] += weight * share;
+    }
+    folded
 }
 
 impl Weave {
@@ -69,6 +94,21 @@ impl Weave {
         &mut self.points[robot * width..(robot + 1) * width]
     }
 
+    /// Bends a robot's way until it turns no faster than it may; whether anything changed.
+    pub fn ease(&mut self, robot: usize, turning: &Turning) -> bool {
+        let spare = self.ends[robot].1.is_none();
+        let mut changed = false;
+        for _ in 0..EASINGS {
+            let once = turning.ease(self.way_mut(robot), spare);
+            self.tie_ends(robot);
+            changed |= once;
+            if !once {
+                break;
+            }
+        }
+        changed
+    }
+
     /// The four control points of a robot's span.
     pub fn span(&self, robot: usize, span: usize) -> &[Vec2] {
         &self.way(robot)[span..span + 4]
@@ -92,24 +132,7 @@ impl Weave {
 
     /// How a place on a span follows its four control points, where only free ones move.
     pub fn pull(&self, robot: usize, span: usize, weights: &[f64; 4]) -> [f64; 4] {
-        let last = self.spans;
-        if span >= 2 && span + 3 <= last {
-            return *weights;
-        }
-        let spare = self.ends[robot].1.is_none();
-        let mut pull = [0.0; 4];
-        for (i, &weight) in weights.iter().enumerate() {
-            let point = span + i;
-            let (to, share) = match point {
-                0 => (2, 1.0),
-                1 => (2, -0.5),
-                _ if point == last + 1 => (last, if spare { 1.0 } else { -0.5 }),
-                _ if point == last + 2 => (last, 1.0),
-                _ => (point, 1.0),
-            };
-            pull[to - span] += weight * share;
-        }
-        pull
+        fold(weights, span, self.spans, self.ends[robot].1.is_none())
     }
 
     /// Moves a span's control points by `shift` times their pull.
@@ -137,7 +160,7 @@ impl Weave {
         }
         let speed = speed.sqrt() / self.span_s / limits.speed_mps;
         let accel = accel.sqrt() / (self.span_s * self.span_s) / limits.accel_mps2;
-        speed.max(accel.sqrt())
+        speed.max(accel.sqrt()).max(Turning::new(self.span_s, limits).haste(way))
     }
 
     /// The greatest haste of all.

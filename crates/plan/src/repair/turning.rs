@@ -1,0 +1,210 @@
+//! Ways that a differential drive can follow: it turns only so fast, so the direction must not swing where a robot is
+//! slow. Driving back the way it came is no turn, so what nearly is a reversal becomes one.
+
+use lightbots_base::{Limits, Vec2};
+
+use super::weave::{blend, fold};
+
+/// Slower than this the direction does not matter, m/s.
+const CREEP_MPS: f64 = 0.004;
+/// Moments of a span that are looked at.
+const MOMENTS: usize = 16;
+/// Below this share of the speed that a turn needs, a reversal is nearer than a bend.
+const REVERSAL: f64 = 0.5;
+/// Share of the limit that a reversal may turn beside its stop.
+const REVERSAL_UNDERCUT: f64 = 0.6;
+/// Weights of a span's control points for its third derivative.
+const JERK: [f64; 4] = [-1.0, 3.0, -3.0, 1.0];
+/// What the limit is undercut by, so that corrections end.
+const UNDERCUT: f64 = 0.97;
+
+/// Weights of a span's control points for its motion at a moment: slopes of the uniform cubic B-spline, for span
+/// length 1.
+struct Moment {
+    velocity: [f64; 4],
+    acceleration: [f64; 4],
+}
+
+impl Moment {
+    fn new(u: f64) -> Self {
+        let w = 1.0 - u;
+        let inner = [(3.0 * u * u - 4.0 * u) / 2.0, (-3.0 * u * u + 2.0 * u + 1.0) / 2.0];
+        Self {
+            velocity: [-w * w / 2.0, inner[0], inner[1], u * u / 2.0],
+            acceleration: [w, 3.0 * u - 2.0, 1.0 - 3.0 * u, u],
+        }
+    }
+
+    fn motion(&self, four: &[Vec2]) -> (Vec2, Vec2) {
+        (blend(four, &self.velocity), blend(four, &self.acceleration))
+    }
+}
+
+/// Turning limits of one weave, for span length 1.
+pub(super) struct Turning {
+    moments: [Moment; MOMENTS],
+    /// Most turn within a span, radians.
+    turn: f64,
+    /// Shortest step within a span whose direction matters, metres.
+    creep_m: f64,
+}
+
+impl Turning {
+    /// For spans of `span_s` seconds.
+    pub fn new(span_s: f64, limits: &Limits) -> Self {
+        Self {
+            moments: std::array::from_fn(|i| Moment::new((i as f64 + 0.5) / MOMENTS as f64)),
+            turn: limits.turn_radps * span_s,
+            creep_m: CREEP_MPS * span_s,
+        }
+    }
+
+    /// Bends a way once where it turns too fast; whether anything changed. `spare` as in [`fold`].
+    pub fn ease(&self, way: &mut [Vec2], spare: bool) -> bool {
+        let mut changed = false;
+        let spans = way.len() - 3;
+        for span in 0..spans {
+            let four = &way[span..span + 4];
+            let Some((turn, index)) = self.fastest(four) else { continue };
+            if turn <= self.turn {
+                continue;
+            }
+            let slowest = slowest_near(four, (index as f64 + 0.5) / MOMENTS as f64);
+            let (v, a) = slowest.motion(four);
+            let folded = |weights: &[f64; 4]| fold(weights, span, spans, spare);
+            let nearly_stops = v.length() * self.turn < a.length() * REVERSAL;
+            let reversed = || self.reversed(four, (folded(&slowest.velocity), v), (folded(&JERK), a));
+            let shifts = nearly_stops.then(reversed).flatten().or_else(|| {
+                let moment = &self.moments[index];
+                let (v, a) = moment.motion(four);
+                self.widened((folded(&moment.velocity), v), (folded(&moment.acceleration), a))
+            });
+            for (point, shift) in way[span..span + 4].iter_mut().zip(shifts.into_iter().flatten()) {
+                *point += shift;
+            }
+            changed = true;
+        }
+        changed
+    }
+
+    /// The fastest turn of a way over the limit.
+    pub fn haste(&self, way: &[Vec2]) -> f64 {
+        let turns = way.windows(4).filter_map(|four| self.fastest(four));
+        turns.fold(0.0, |most: f64, (turn, _)| most.max(turn)) / self.turn
+    }
+
+    /// The fastest turn of a span and the moment it is at; `None` where none can be too fast.
+    fn fastest(&self, four: &[Vec2]) -> Option<(f64, usize)> {
+        if self.is_easy(four) {
+            return None;
+        }
+        let turns = self.moments.iter().enumerate().map(|(index, moment)| {
+            let (v, a) = moment.motion(four);
+            let squared = v.length_squared();
+            let matters = squared > self.creep_m * self.creep_m;
+            (if matters { v.cross(a).abs() / squared } else { 0.0 }, index)
+        });
+        turns.max_by(|a, b| a.0.total_cmp(&b.0))
+    }
+
+    /// Whether a span cannot turn too fast, by the hull of its velocity.
+    fn is_easy(&self, four: &[Vec2]) -> bool {
+        let steps = [four[1] - four[0], four[2] - four[1], four[3] - four[2]];
+        let along = steps[1];
+        let length = along.length();
+        let slowest = along.dot(steps[0]).min(along.dot(steps[2])).min(length * length);
+        let swing = (steps[1] - steps[0]).length_squared().max((steps[2] - steps[1]).length_squared());
+        let may = slowest * self.turn / length.max(1e-12);
+        let creeps = steps.iter().all(|step| step.length_squared() < self.creep_m * self.creep_m);
+        creeps || (slowest > 0.0 && swing <= may * may)
+    }
+
+    /// How control points move so that |v × a| ≤ turn · v², to first order; each of `v` and `a` with its weights.
+    fn widened(&self, v: ([f64; 4], Vec2), a: ([f64; 4], Vec2)) -> Option<[Vec2; 4]> {
+        let ((v_weights, v), (a_weights, a)) = (v, a);
+        let cross = v.cross(a);
+        let excess = cross.abs() - self.turn * UNDERCUT * v.length_squared();
+        let slope: [Vec2; 4] = std::array::from_fn(|i| {
+            let (vw, aw) = (v_weights[i], a_weights[i]);
+            let of_cross = Vec2::new(vw * a.y - aw * v.y, aw * v.x - vw * a.x);
+            of_cross * cross.signum() - v * (2.0 * self.turn * vw)
+        });
+        let steep = slope.iter().map(|s| s.length_squared()).sum::<f64>().sqrt();
+        if excess <= 0.0 || steep < 1e-12 {
+            return None;
+        }
+        // First order does not reach beyond about the speed itself.
+        let far = (excess / steep).min(v.length() * 0.5 + self.creep_m);
+        Some(slope.map(|s| s * (-far / steep)))
+    }
+
+    /// How control points move so that nothing is left of `v` across `a`, and so little of the jerk that the way back
+    /// leaves along the way there: near a stop the turn is half of jerk across `a` over `a`. Of all such moves the
+    /// least, by the normal equations of the two. `None`: it is a reversal already.
+    fn reversed(&self, four: &[Vec2], v: ([f64; 4], Vec2), jerk: ([f64; 4], Vec2)) -> Option<[Vec2; 4]> {
+        let ((v_weights, v), (j_weights, a)) = (v, jerk);
+        let across = a.normalized()?.left();
+        let swerve = blend(four, &JERK).dot(across);
+        let may = 2.0 * self.turn * a.length() * REVERSAL_UNDERCUT;
+        let (v_lack, j_lack) = (-v.dot(across), swerve.clamp(-may, may) - swerve);
+        if v_lack.abs() < self.creep_m * 0.01 && j_lack == 0.0 {
+            return None;
+        }
+        let dot = |one: &[f64; 4], other: &[f64; 4]| one.iter().zip(other).map(|(a, b)| a * b).sum::<f64>();
+        let (vv, vj) = (dot(&v_weights, &v_weights) + 1e-6, dot(&v_weights, &j_weights));
+        let jj = dot(&j_weights, &j_weights) + 1e-6;
+        let whole = vv * jj - vj * vj;
+        let (v_force, j_force) = ((v_lack * jj - j_lack * vj) / whole, (j_lack * vv - v_lack * vj) / whole);
+        Some(std::array::from_fn(|i| across * (v_weights[i] * v_force + j_weights[i] * j_force)))
+    }
+}
+
+/// The slowest moment of a span near `u`: Newton's steps on v².
+fn slowest_near(four: &[Vec2], mut u: f64) -> Moment {
+    let jerk = four[3] - four[0] + (four[1] - four[2]) * 3.0;
+    for _ in 0..4 {
+        let (v, a) = Moment::new(u).motion(four);
+        let bend = a.length_squared() + v.dot(jerk);
+        if bend <= 0.0 {
+            break;
+        }
+        u = (u - v.dot(a) / bend).clamp(0.0, 1.0);
+    }
+    Moment::new(u)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn eased(mut way: Vec<Vec2>) -> (f64, f64) {
+        let turning = Turning::new(0.25, &Limits::ELISA_3);
+        let before = turning.haste(&way);
+        (0..300).any(|_| !turning.ease(&mut way, false));
+        (before, turning.haste(&way))
+    }
+
+    #[test]
+    fn a_sharp_corner_becomes_one_that_can_be_driven() {
+        let corner = [0.0, 0.02, 0.04, 0.06, 0.075, 0.08];
+        let mut way: Vec<Vec2> = corner.iter().map(|&x| Vec2::new(x, 0.0)).collect();
+        way.extend(corner.iter().rev().map(|&x| Vec2::new(0.08, 0.081 - x)));
+        let (before, after) = eased(way);
+        assert!(before > 2.0 && after <= 1.0, "{before} {after}");
+    }
+
+    #[test]
+    fn what_nearly_is_a_reversal_becomes_one() {
+        let there = [0.0, 0.03, 0.06, 0.08].map(|x| Vec2::new(x, 0.0));
+        let back = [0.081, 0.06, 0.03, 0.0].map(|x| Vec2::new(x, 0.002));
+        let (before, after) = eased([there, back].concat());
+        assert!(before > 5.0 && after <= 1.0, "{before} {after}");
+    }
+
+    #[test]
+    fn there_and_back_on_a_line_is_no_turn() {
+        let turning = Turning::new(0.25, &Limits::ELISA_3);
+        let way: Vec<Vec2> = [0.0, 0.02, 0.05, 0.05, 0.02, 0.0].iter().map(|&x| Vec2::new(x, x)).collect();
+        assert!(turning.haste(&way) < 1e-9);
+    }
+}
