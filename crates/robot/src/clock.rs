@@ -32,7 +32,7 @@ const BEST_US: f64 = 100.0;
 /// The shortest round trip known is forgotten at this rate, because routes through a network change.
 const LEAK: f64 = 1e-5;
 /// The show clock has been set anew if an answer is further from belief than its own round trip allows, and this.
-const PATIENCE_US: f64 = 2000.0;
+const SET_ANEW_US: f64 = 500_000.0;
 
 /// What a robot knows of the show clock.
 #[derive(Debug)]
@@ -98,16 +98,15 @@ impl Clock {
         self.unanswered = 0;
         let there = (answer.received - answer.asked).0;
         let back = (now - answer.sent).0;
-        if self.contradicts(now, there, back) {
-            *self = Self { was_reset: true, drift: self.drift, ..Self::new(self.next_question) };
-        }
-        self.answered[self.answers as usize % ANSWERED] = answer.asked;
         let round_us = there.saturating_add(back).max(0) as f64;
+        if self.answers > 0 {
+            self.predict(now);
+            self.keep_possible(there, back, round_us);
+        }
         if self.answers == 0 {
             self.begin(now, there, round_us);
-        } else {
-            self.predict(now);
         }
+        self.answered[self.answers as usize % ANSWERED] = answer.asked;
         let half_us = ((there - self.base_us) as f64 - back.saturating_add(self.base_us) as f64) * 0.5;
         self.answers = self.answers.saturating_add(1);
         self.learn(half_us, round_us);
@@ -152,16 +151,18 @@ impl Clock {
         self.variance = [offset * (1.0 - gain), both * (1.0 - gain), drift - drift_gain * both];
     }
 
-    /// Whether the believed offset lies outside what this answer leaves possible: at most `there`, at least `-back`.
-    fn contradicts(&self, now: Instant, there: i64, back: i64) -> bool {
-        if self.answers == 0 {
-            return false;
-        }
-        let believed = self.offset_at(now);
-        let slack = PATIENCE_US + 2.0 * libm::sqrt(self.variance[0]) + WORST_DRIFT * (now - self.at).0 as f64;
+    /// An answer proves that the offset is at most `there` and at least `-back`. A belief outside was too sure of
+    /// itself and is pulled in; one far outside is about another clock: the controller began anew.
+    fn keep_possible(&mut self, there: i64, back: i64, round_us: f64) {
         let most = there.saturating_sub(self.base_us) as f64;
-        let least = back.saturating_add(self.base_us) as f64;
-        believed > most + slack || -believed > least + slack
+        let least = -(back.saturating_add(self.base_us) as f64);
+        let outside = (self.offset_us - most).max(least - self.offset_us);
+        if outside > SET_ANEW_US {
+            *self = Self { was_reset: true, drift: self.drift, ..Self::new(self.next_question) };
+        } else if outside > 0.0 {
+            self.offset_us = self.offset_us.clamp(least.min(most), most);
+            self.variance[0] = self.variance[0].max(round_us * round_us / 12.0);
+        }
     }
 
     /// Whether it is time to ask; then the next question is due later.

@@ -76,6 +76,10 @@ impl Robot {
         }
         self.now = self.now.max(now);
         self.supervisor.hear(now);
+        // A route whose moment has come is under way, even if no step saw it yet: the next one must not replace it.
+        if self.clock.show_time(now).is_some_and(|show| self.routes.begin_due(show)) {
+            self.seek = None;
+        }
         for command in commands(payload) {
             match command {
                 Ok(command) if self.can(&command) => self.obey(now, personal, command),
