@@ -52,13 +52,22 @@ fn median_ms(robots: usize, mut work: impl FnMut()) -> f64 {
     let times = if robots > 2_000 { 1 } else { 7 };
     let mut taken: Vec<f64> = (0..times)
         .map(|_| {
-            let began = Instant::now();
+            let (began, began_cpu) = (Instant::now(), cpu_ms());
             work();
-            began.elapsed().as_secs_f64() * 1e3
+            let wall_ms = began.elapsed().as_secs_f64() * 1e3;
+            // Short work is rarely interrupted, and the processor's own account is coarse.
+            let cpu = cpu_ms().zip(began_cpu).filter(|_| wall_ms > 8.0);
+            cpu.map_or(wall_ms, |(after, before)| after - before)
         })
         .collect();
     taken.sort_by(f64::total_cmp);
     taken[times / 2]
+}
+
+/// What this thread has computed so far, milliseconds, so that a busy machine does not falsify times. Linux only.
+fn cpu_ms() -> Option<f64> {
+    let text = std::fs::read_to_string("/proc/thread-self/schedstat").ok()?;
+    Some(text.split_whitespace().next()?.parse::<f64>().ok()? / 1e6)
 }
 
 /// Least squares without a bottleneck, straight synchronised lines, judged: its longest way and its conflicts.

@@ -1,7 +1,9 @@
 //! Timed paths along straight lines: everybody shares one progress over time, so all leave and arrive together.
 
+mod bend;
 mod profile;
 
+pub(crate) use bend::Bend;
 pub(crate) use profile::Profile;
 
 use lightbots_base::{Limits, Span};

@@ -2,6 +2,7 @@
 
 mod candidate;
 mod check;
+mod nudge;
 mod parking;
 mod relax;
 #[cfg(test)]

@@ -1,0 +1,119 @@
+//! Bends a path aside for a while without changing when it is where along its way.
+
+use crate::Path;
+use lightbots_base::{Piece, Span, Vec2};
+
+/// Least time between two knots, and between a knot and the drive's ends, microseconds.
+const APART_US: i64 = 200_000;
+
+/// Where a path is pushed to the side: offsets at moments, swelling and ebbing smoothly between them.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Bend {
+    /// Moment after the path's start in microseconds and offset in stage metres, sorted by time.
+    knots: Vec<(i64, Vec2)>,
+}
+
+impl Bend {
+    /// Pushes by `offset` more at a moment; moments close to each other are one.
+    pub(crate) fn push(&mut self, at: Span, offset: Vec2) {
+        // Whole milliseconds travel on the wire without loss.
+        let at_us = at.0 / 1000 * 1000;
+        let rank = self.knots.partition_point(|knot| knot.0 < at_us);
+        let near = |rank: usize| self.knots.get(rank).is_some_and(|knot| (knot.0 - at_us).abs() < APART_US);
+        if near(rank) {
+            self.knots[rank].1 += offset;
+        } else if rank > 0 && near(rank - 1) {
+            self.knots[rank - 1].1 += offset;
+        } else {
+            self.knots.insert(rank, (at_us, offset));
+        }
+    }
+
+    /// `path`, pushed aside. It rests at its beginning and ends where it did.
+    pub(crate) fn applied_to(&self, path: &Path) -> Path {
+        let rest = path
+            .pieces
+            .first()
+            .filter(|piece| piece.is_rest(path.start))
+            .map_or(Span::ZERO, |piece| piece.duration);
+        let total = path.as_ref().duration();
+        let mut knots = vec![(rest.0, Vec2::ZERO)];
+        let within = |knot: &&(i64, Vec2)| knot.0 >= rest.0 + APART_US && knot.0 <= total.0 - APART_US;
+        knots.extend(self.knots.iter().filter(within));
+        knots.push((total.0, Vec2::ZERO));
+        let mut pieces = Vec::new();
+        for (start, begin, piece) in path.as_ref().timed() {
+            let (begin_us, end_us) = (begin.0, begin.0 + piece.duration.0);
+            if end_us <= rest.0 {
+                pieces.push(*piece);
+                continue;
+            }
+            let mut from_us = begin_us;
+            for pair in knots.windows(2).filter(|pair| pair[1].0 > begin_us && pair[0].0 < end_us) {
+                let to_us = pair[1].0.min(end_us);
+                let way = part([start, piece.c1, piece.c2, piece.end], begin_us, end_us, from_us, to_us);
+                let [(t0, w0), (t1, w1)] = [pair[0], pair[1]];
+                let aside = part([w0, w0, w1, w1], t0, t1, from_us, to_us);
+                pieces.push(Piece {
+                    duration: Span(to_us - from_us),
+                    c1: way[1] + aside[1],
+                    c2: way[2] + aside[2],
+                    end: way[3] + aside[3],
+                });
+                from_us = to_us;
+            }
+        }
+        Path { start: path.start, pieces }
+    }
+}
+
+/// The stretch `from_us..to_us` of a cubic that lasts `begin_us..end_us`.
+fn part(curve: [Vec2; 4], begin_us: i64, end_us: i64, from_us: i64, to_us: i64) -> [Vec2; 4] {
+    let (mut curve, length) = (curve, (end_us - begin_us) as f64);
+    if to_us < end_us {
+        curve = halves(curve, (to_us - begin_us) as f64 / length).0;
+    }
+    if from_us > begin_us {
+        curve = halves(curve, (from_us - begin_us) as f64 / (to_us - begin_us) as f64).1;
+    }
+    curve
+}
+
+/// A cubic before and after the parameter `u`.
+fn halves([a, b, c, d]: [Vec2; 4], u: f64) -> ([Vec2; 4], [Vec2; 4]) {
+    let (ab, bc, cd) = (a.lerp(b, u), b.lerp(c, u), c.lerp(d, u));
+    let (abc, bcd) = (ab.lerp(bc, u), bc.lerp(cd, u));
+    let middle = abc.lerp(bcd, u);
+    ([a, ab, abc, middle], [middle, bcd, cd, d])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::motion::Profile;
+    use lightbots_base::Limits;
+    use lightbots_show::Easing;
+
+    #[test]
+    fn a_bent_path_passes_aside_and_arrives_where_and_when_it_did() {
+        let to = Vec2::new(1.0, 0.0);
+        let straight = Profile::quickest(1.0, Easing::Swift, &Limits::ELISA_3).path(Vec2::ZERO, to);
+        let mut bend = Bend::default();
+        let (early, late) = (Span::from_millis(1_500), Span::from_millis(3_000));
+        bend.push(early, Vec2::new(0.0, 0.004));
+        bend.push(early + Span::from_millis(50), Vec2::new(0.0, 0.002));
+        bend.push(late, Vec2::new(0.0, -0.005));
+        let bent = bend.applied_to(&straight);
+        assert_eq!(bent.as_ref().duration(), straight.as_ref().duration());
+        assert_eq!(bent.as_ref().end(), to);
+        assert!((bent.as_ref().at(early).position.y - 0.006).abs() < 1e-9);
+        assert!((bent.as_ref().at(late).position.y + 0.005).abs() < 1e-9);
+        for millis in 0..4_000 {
+            let at = Span::from_millis(millis);
+            let (was, is) = (straight.as_ref().at(at), bent.as_ref().at(at));
+            assert!((was.position.x - is.position.x).abs() < 1e-9);
+            assert!((was.velocity.x - is.velocity.x).abs() < 1e-9);
+            assert!(is.velocity.y.abs() < 0.02);
+        }
+    }
+}

@@ -1,0 +1,114 @@
+//! Bends the paths of those who pass too close a few millimetres aside, without any time lost.
+
+use super::candidate::Candidate;
+use super::{COMFORT_M, MARGIN_M};
+use crate::motion::{Bend, whole_millis};
+use crate::{Closest, Path, TransitionProblem};
+use lightbots_base::{Piece, Span, Vec2};
+use std::collections::BTreeMap;
+
+/// Rounds of bending and proving.
+const ROUNDS: usize = 6;
+/// Bends that need everybody to be slower than this many times are not worth it.
+const SLOWEST: f64 = 1.06;
+/// Pushed a little farther than asked for, because a bend has ebbed a little where the pair is closest then.
+const EXTRA: f64 = 1.15;
+
+/// The best of the candidate and what bending makes of it. Only where few are in conflict.
+pub(super) fn nudge(problem: &TransitionProblem, straight: Candidate, rounds: usize) -> Candidate {
+    let lines = straight.transition.paths.clone();
+    let mut bends: BTreeMap<usize, Bend> = BTreeMap::new();
+    let least = straight.transition.least;
+    let mut best = straight;
+    let mut conflicts = best.proof.conflicts.clone();
+    for _ in 0..rounds.min(ROUNDS) {
+        if conflicts.is_empty() || conflicts.len() > lines.len() / 8 + 4 {
+            break;
+        }
+        let mut paths = lines.clone();
+        for found in &conflicts {
+            part(problem, &lines, found, &mut bends);
+        }
+        for (&robot, bend) in &bends {
+            paths[robot] = bend.applied_to(&lines[robot]);
+        }
+        let mut bent = Candidate::of_paths(problem, paths, best.transition.goal_of.clone());
+        bent.transition.least = least;
+        conflicts.clone_from(&bent.proof.conflicts);
+        if !bent.proof.faults.is_empty() && bent.proof.conflicts.len() < best.proof.conflicts.len() {
+            bent = slowed(problem, bent);
+        }
+        if bent.is_better_than(&best) {
+            best = bent;
+        }
+    }
+    best
+}
+
+/// The same ways as much slower as limits ask for: who drives at the limit already has nothing left for a bend.
+fn slowed(problem: &TransitionProblem, bent: Candidate) -> Candidate {
+    let hasty = bent.proof.faults.iter().map(|fault| haste(&bent.transition.paths[fault.robot], problem));
+    let factor = hasty.fold(1.0, f64::max) * 1.000_5;
+    if factor > SLOWEST {
+        return bent;
+    }
+    let paths = bent.transition.paths.iter().map(|path| slower(path, factor)).collect();
+    Candidate::of_paths(problem, paths, bent.transition.goal_of)
+}
+
+/// How many times as slow a path must be to keep speed and acceleration, by its control points.
+fn haste(path: &Path, problem: &TransitionProblem) -> f64 {
+    let (speed, accel) = (problem.limits.speed_mps.max(1e-3), problem.limits.accel_mps2.max(1e-3));
+    path.as_ref().timed().fold(1.0, |most, (from, _, piece)| {
+        let seconds = piece.duration.as_secs().max(1e-6);
+        let steps =
+            [piece.c1 - from, piece.c2 - piece.c1, piece.end - piece.c2].map(|step| step * (3.0 / seconds));
+        let fastest = steps.iter().map(|step| step.length()).fold(0.0, f64::max);
+        let hardest = (steps[1] - steps[0]).length().max((steps[2] - steps[1]).length()) * (2.0 / seconds);
+        most.max(fastest / speed).max((hardest / accel).sqrt())
+    })
+}
+
+/// Every moment of the path comes `factor` times as late, to the millisecond, for all paths alike.
+fn slower(path: &Path, factor: f64) -> Path {
+    let late = |at: Span| whole_millis(at.as_secs() * factor);
+    let pieces = path.as_ref().timed().map(|(_, begin, piece)| {
+        let duration = late(begin + piece.duration) - late(begin);
+        Piece { duration, ..*piece }
+    });
+    Path { start: path.start, pieces: pieces.collect() }
+}
+
+/// Pushes a pair apart where it is closest; who has the longer way gives way more.
+fn part(problem: &TransitionProblem, lines: &[Path], found: &Closest, bends: &mut BTreeMap<usize, Bend>) {
+    let (i, j) = found.pair;
+    let way_m = |disc: usize| lines.get(disc).map_or(0.0, |line| line.start.distance(line.as_ref().end()));
+    let place = |disc: usize| match lines.get(disc) {
+        Some(line) => line.as_ref().at(found.at).position,
+        None => problem.standing[disc - lines.len()],
+    };
+    let both_m = way_m(i) + way_m(j);
+    let Some(apart) = (place(i) - place(j)).normalized() else { return };
+    let comfort_m = problem.limits.contact_m() + COMFORT_M;
+    // What ends closer than comfortable need not be pushed farther than that.
+    let ends_m = |at_end: bool| {
+        let end = |disc: usize| match lines.get(disc) {
+            Some(line) if at_end => line.as_ref().end(),
+            Some(line) => line.start,
+            None => place(disc),
+        };
+        end(i).distance(end(j))
+    };
+    let wanted_m = comfort_m.min(ends_m(false)).min(ends_m(true)) - found.distance_m + MARGIN_M / 10.0;
+    if both_m <= 0.0 || wanted_m <= 0.0 {
+        return;
+    }
+    let mut push = |disc: usize, direction: Vec2| {
+        let share = way_m(disc) / both_m;
+        if share > 0.0 {
+            bends.entry(disc).or_default().push(found.at, direction * (wanted_m * share * EXTRA));
+        }
+    };
+    push(i, apart);
+    push(j, -apart);
+}
