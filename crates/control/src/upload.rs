@@ -1,10 +1,15 @@
 //! Routes on their way to the robots: sent within a window, acknowledged by reports, sent again until they are.
 
+use crate::driving::CHECK;
 use crate::event::Trouble;
-use crate::run::{Desk, Run};
-use lightbots_base::Instant;
+use crate::run::{Desk, Phase, Run};
+use lightbots_base::{Instant, Span};
 use lightbots_wire::{Command, Pieces, Route, Topic};
 use std::collections::VecDeque;
+
+/// Routes of the next leg wait this long after the current one began: a robot whose clock or step is a little behind has
+/// not begun it yet, and would take the next one in its place.
+const BEGUN: Span = CHECK;
 
 /// The upload of one leg.
 #[derive(Clone, Debug)]
@@ -47,6 +52,9 @@ impl Run {
 
     /// Sends what may be sent now: first those not served yet, then those who did not acknowledge.
     pub fn pump_upload(&mut self, desk: &mut Desk, now: Instant) {
+        if matches!(&self.phase, Phase::Driving(drive) if now < drive.began + BEGUN) {
+            return;
+        }
         self.begin_upload();
         let Some(mut upload) = self.upload.take() else { return };
         if self.queue.front().is_none_or(|leg| leg.seq != upload.seq) {
