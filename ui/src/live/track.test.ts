@@ -1,6 +1,6 @@
 import { expect, test } from 'vitest';
 import type { Robots } from '../api/types.gen';
-import { createTrack, sampleBetween } from './track';
+import { createTrack } from './track';
 
 const robots = (over: Partial<Robots>): Robots => ({
   x: [0],
@@ -16,29 +16,41 @@ const robots = (over: Partial<Robots>): Robots => ({
 });
 const solid = () => 1;
 
-test('robots are drawn between the last two snapshots', () => {
+test('a robot is drawn on its way between its last two reports', () => {
   const track = createTrack();
-  track.push(robots({ x: [0] }), 1000);
-  track.push(robots({ x: [0.01] }), 1050);
-  expect(track.sample(1025, solid).filled[0]?.x).toBe(0);
-  expect(track.sample(1075, solid).filled[0]?.x).toBeCloseTo(0.005, 9);
-  expect(track.sample(9999, solid).filled[0]?.x).toBe(0.01);
+  track.push(robots({ x: [0] }), 0);
+  for (let t = 50; t < 500; t += 50) track.push(robots({ x: [0] }), t);
+  track.push(robots({ x: [0.1] }), 500);
+  expect(track.sample(500, solid).filled[0]?.x).toBe(0);
+  expect(track.sample(750, solid).filled[0]?.x).toBeCloseTo(0.05, 9);
+  track.push(robots({ x: [0.2] }), 1000);
+  expect(track.sample(1000, solid).filled[0]?.x).toBeCloseTo(0.1, 9);
+  expect(track.sample(9999, solid).filled[0]?.x).toBe(0.2);
 });
 
-test('a jump is not a drive', () => {
-  const sample = sampleBetween(robots({ x: [-1] }), robots({ x: [1] }), 0.5, solid);
-  expect(sample.filled[0]?.x).toBe(1);
+test('who was carried is not drawn driving', () => {
+  const track = createTrack();
+  track.push(robots({ x: [-1] }), 0);
+  track.push(robots({ x: [1] }), 500);
+  expect(track.sample(500, solid).filled[0]?.x).toBe(1);
 });
 
-test('unknown places are not drawn, and the line leads to where the path says, or else to the goal', () => {
-  const unknown = robots({ x: [null], goal_x: [0.5], goal_y: [0] });
-  expect(sampleBetween(unknown, unknown, 1, solid)).toMatchObject({ filled: [], errors: [] });
-  const known = robots({ goal_x: [0.5], goal_y: [0] });
-  expect(sampleBetween(known, known, 1, solid).errors).toHaveLength(1);
-  const late = robots({ planned_x: [0.1], planned_y: [0], goal_x: [0.5], goal_y: [0] });
-  expect(sampleBetween(late, late, 1, solid).errors[0]?.[1]).toEqual({ x: 0.1, y: 0 });
-  const near = robots({ goal_x: [0.01], goal_y: [0] });
-  expect(sampleBetween(near, near, 1, solid)).toMatchObject({ errors: [] });
+test('the error is that of the moment of the report', () => {
+  const track = createTrack();
+  const meant = { planned_x: [0.1], planned_y: [0], goal_x: [0.5], goal_y: [0] };
+  track.push(robots({ ...meant }), 0);
+  track.push(robots({ ...meant, planned_x: [0.2] }), 50);
+  expect(track.sample(50, solid).errors[0]?.[1]).toEqual({ x: 0.1, y: 0 });
+  track.push(robots({ ...meant, planned_x: [0.3] }), 2000);
+  expect(track.sample(2000, solid).errors[0]?.[1]).toEqual({ x: 0.3, y: 0 });
+});
+
+test('unknown places are not drawn; small errors are not worth a line', () => {
+  const track = createTrack();
+  track.push(robots({ x: [null], goal_x: [0.5], goal_y: [0] }), 0);
+  expect(track.sample(0, solid)).toMatchObject({ filled: [], errors: [], hollow: [{ x: 0.5 }] });
+  track.push(robots({ goal_x: [0.01], goal_y: [0] }), 50);
+  expect(track.sample(50, solid)).toMatchObject({ errors: [], filled: [{ x: 0 }] });
 });
 
 test('another number of robots starts afresh', () => {

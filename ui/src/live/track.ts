@@ -1,17 +1,14 @@
 import type { Robots } from '../api/types.gen';
-import type { Dot } from '../stage/scene';
 import type { Point } from '../stage/camera';
+import type { Dot } from '../stage/scene';
 
-/** Robots as they were said to be at a moment, and when the screen heard it. */
-interface Heard {
-  robots: Robots;
-  heard_ms: number;
-}
-
-/** The last two snapshots: what is drawn lies between them, one interval late, so that motion is smooth. */
+/**
+ * Where robots were measured, drawn smoothly. Robots report about twice a second: each is drawn on its way between its
+ * last two reports, one report late. Only measured places are drawn so; nothing is guessed ahead.
+ */
 export interface Track {
   push(robots: Robots, now_ms: number): void;
-  /** `stale[robot]`: 1 for robots to be drawn faded. */
+  /** `faded(robot)`: how strongly it is drawn, 0 to 1. */
   sample(now_ms: number, faded: (robot: number) => number): Sample;
   latest(): Robots | null;
 }
@@ -22,58 +19,75 @@ export interface Sample {
   errors: [Point, Point][];
 }
 
-/** A robot that jumps farther than this between snapshots is not drawn in between, metres. */
-const JUMP_M = 0.25;
-/** Errors below this are not worth a line, metres. */
-const ERROR_MIN_M = 0.015;
-
-export function createTrack(): Track {
-  let before: Heard | null = null;
-  let now: Heard | null = null;
-  return {
-    push(robots, now_ms) {
-      const same = now !== null && now.robots.x.length === robots.x.length;
-      before = same ? now : null;
-      now = { robots, heard_ms: now_ms };
-    },
-    latest: () => now?.robots ?? null,
-    sample(now_ms, faded) {
-      if (!now) return { filled: [], hollow: [], errors: [] };
-      const interval = before ? Math.min(250, Math.max(20, now.heard_ms - before.heard_ms)) : 50;
-      const t = before ? Math.max(0, Math.min(1, (now_ms - now.heard_ms) / interval)) : 1;
-      return sampleBetween(before?.robots ?? now.robots, now.robots, t, faded);
-    },
-  };
+/** One robot between its last two reports, stage metres. */
+interface Leg {
+  from: Point;
+  to: Point;
+  changed_ms: number;
+  /** How long the way between the two is drawn. */
+  lasts_ms: number;
+  /** From where it was measured to where it was meant to be at that moment. */
+  off: Point;
 }
 
-/** Places between two snapshots of the same robots; `t` in 0..1. */
-export function sampleBetween(
-  a: Robots,
-  b: Robots,
-  t: number,
-  faded: (robot: number) => number,
-): Sample {
-  const sample: Sample = { filled: [], hollow: [], errors: [] };
-  for (let i = 0; i < b.x.length; i++) {
-    const color = b.colour[i] ?? 0;
-    const at = between(a, b, i, t);
-    const alpha = faded(i);
-    if (at) sample.filled.push({ ...at, color, alpha });
-    const goal = placeOf(b.goal_x[i], b.goal_y[i]);
-    if (goal) sample.hollow.push({ ...goal, color, alpha: 1 });
-    const meant = placeOf(b.planned_x[i], b.planned_y[i]) ?? goal;
-    if (at && meant && Math.hypot(meant.x - at.x, meant.y - at.y) > ERROR_MIN_M)
-      sample.errors.push([at, meant]);
-  }
-  return sample;
+/** A robot that jumps farther than this was carried, not driven, metres. */
+const JUMP_M = 0.6;
+/** Errors below this are not worth a line, metres: a snapshot's worth of driving and half as much again. */
+const ERROR_MIN_M = 0.02;
+/** Reports come at least this often from a robot that drives, milliseconds. */
+const REPORT_MS = 700;
+
+export function createTrack(): Track {
+  let legs: (Leg | null)[] = [];
+  let now: Robots | null = null;
+  return {
+    push(robots, now_ms) {
+      if (legs.length !== robots.x.length) legs = robots.x.map(() => null);
+      legs = legs.map((leg, i) => advance(leg, robots, i, now_ms));
+      now = robots;
+    },
+    latest: () => now,
+    sample(now_ms, faded) {
+      const sample: Sample = { filled: [], hollow: [], errors: [] };
+      legs.forEach((leg, i) => {
+        const color = now?.colour[i] ?? 0;
+        const goal = placeOf(now?.goal_x[i], now?.goal_y[i]);
+        if (goal) sample.hollow.push({ ...goal, color, alpha: 1 });
+        if (!leg) return;
+        const at = placeOn(leg, now_ms);
+        sample.filled.push({ ...at, color, alpha: faded(i) });
+        if (Math.hypot(leg.off.x, leg.off.y) > ERROR_MIN_M)
+          sample.errors.push([at, { x: at.x + leg.off.x, y: at.y + leg.off.y }]);
+      });
+      return sample;
+    },
+  };
 }
 
 const placeOf = (x: number | null | undefined, y: number | null | undefined): Point | null =>
   typeof x === 'number' && typeof y === 'number' ? { x, y } : null;
 
-function between(a: Robots, b: Robots, i: number, t: number): Point | null {
-  const to = placeOf(b.x[i], b.y[i]);
-  const from = placeOf(a.x[i], a.y[i]);
-  if (!to || !from || Math.hypot(to.x - from.x, to.y - from.y) > JUMP_M) return to;
-  return { x: from.x + (to.x - from.x) * t, y: from.y + (to.y - from.y) * t };
+function placeOn(leg: Leg, now_ms: number): Point {
+  const t = Math.max(0, Math.min(1, (now_ms - leg.changed_ms) / leg.lasts_ms));
+  return {
+    x: leg.from.x + (leg.to.x - leg.from.x) * t,
+    y: leg.from.y + (leg.to.y - leg.from.y) * t,
+  };
+}
+
+function advance(leg: Leg | null, robots: Robots, i: number, now_ms: number): Leg | null {
+  const to = placeOf(robots.x[i], robots.y[i]);
+  if (!to) return null;
+  const meant =
+    placeOf(robots.planned_x[i], robots.planned_y[i]) ??
+    placeOf(robots.goal_x[i], robots.goal_y[i]) ??
+    to;
+  const off = { x: meant.x - to.x, y: meant.y - to.y };
+  if (!leg || Math.hypot(to.x - leg.to.x, to.y - leg.to.y) > JUMP_M)
+    return { from: to, to, changed_ms: now_ms, lasts_ms: 50, off };
+  const silent_ms = now_ms - leg.changed_ms;
+  if (to.x === leg.to.x && to.y === leg.to.y)
+    return silent_ms > REPORT_MS ? { ...leg, off } : leg;
+  const lasts_ms = Math.max(50, Math.min(REPORT_MS, silent_ms));
+  return { from: placeOn(leg, now_ms), to, changed_ms: now_ms, lasts_ms, off };
 }

@@ -1,0 +1,121 @@
+import { spawn, type ChildProcess } from 'node:child_process';
+import { existsSync, mkdtempSync, rmSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { chromium, type Browser, type BrowserContextOptions, type Page } from 'playwright-core';
+
+/** As long as anything may take on a slow, busy machine, milliseconds. */
+export const PATIENCE_MS = 90_000;
+
+const CHROMIUM_ARGS = [
+  '--no-sandbox',
+  '--disable-gpu',
+  '--disable-dev-shm-usage',
+  '--disable-quic',
+  '--no-first-run',
+  '--disable-background-networking',
+  '--disable-component-update',
+  '--disable-sync',
+];
+
+/** The program under test, by `LIGHTBOTS_BIN`. */
+function program(): string {
+  const path = process.env.LIGHTBOTS_BIN;
+  if (!path) throw new Error('Set LIGHTBOTS_BIN to a built lightbots program.');
+  return path;
+}
+
+/** Chromium, by `CHROMIUM` or where Linux systems keep it. */
+function browserPath(): string {
+  const places = [process.env.CHROMIUM, '/usr/bin/chromium', '/usr/bin/chromium-browser', '/usr/bin/google-chrome'];
+  const found = places.find((place) => place && existsSync(place));
+  if (!found) throw new Error('No Chromium found; set CHROMIUM to its program.');
+  return found;
+}
+
+export interface Server {
+  url: string;
+  /** Its library, gone after `remove`. */
+  data: string;
+  /** Ends it, as a crash does. */
+  kill(): Promise<void>;
+  /** Starts it again on the same address and library. */
+  restart(): Promise<void>;
+  remove(): Promise<void>;
+}
+
+/** Starts `lightbots run` with an embedded broker and simulated robots on free ports. */
+export async function startServer(...more: string[]): Promise<Server> {
+  const data = mkdtempSync(join(tmpdir(), 'lightbots-'));
+  const base = ['run', '--data', data, '--mqtt-listen', '127.0.0.1:0', '--seed', '7', ...more];
+  let [child, url] = await launch([...base, '--listen', '127.0.0.1:0']);
+  const server: Server = {
+    url,
+    data,
+    kill: () => end(child),
+    async restart() {
+      [child] = await launch([...base, '--listen', new URL(url).host]);
+    },
+    async remove() {
+      await end(child);
+      rmSync(data, { recursive: true, force: true });
+    },
+  };
+  return server;
+}
+
+function launch(args: string[]): Promise<[ChildProcess, string]> {
+  const child = spawn(program(), args, { stdio: ['ignore', 'pipe', 'pipe'] });
+  return new Promise((resolve, reject) => {
+    let said = '';
+    const timer = setTimeout(() => reject(new Error(`No address after ${PATIENCE_MS} ms: ${said}`)), PATIENCE_MS);
+    const read = (bytes: Buffer) => {
+      if (said.length < 20_000) said += bytes.toString();
+      const url = /http:\/\/[\d.]+:\d+/.exec(said)?.[0];
+      if (!url) return;
+      clearTimeout(timer);
+      resolve([child, url]);
+    };
+    child.stdout.on('data', read);
+    child.stderr.on('data', read);
+    child.on('exit', (code) => reject(new Error(`The server ended with ${code}: ${said}`)));
+  });
+}
+
+function end(child: ChildProcess): Promise<void> {
+  if (child.exitCode !== null || child.signalCode !== null) return Promise.resolve();
+  return new Promise((resolve) => {
+    child.on('exit', () => resolve());
+    child.kill('SIGKILL');
+  });
+}
+
+export const launchBrowser = (): Promise<Browser> =>
+  chromium.launch({ executablePath: browserPath(), args: CHROMIUM_ARGS, timeout: PATIENCE_MS });
+
+/** A page that has seen the tour, of a size a laptop has. */
+export async function openPage(
+  browser: Browser,
+  server: Server,
+  view: 'live' | 'edit' = 'live',
+  options: BrowserContextOptions & { tour?: boolean } = {},
+): Promise<Page> {
+  const { tour, ...context } = options;
+  const page = await browser.newPage({ viewport: { width: 1440, height: 900 }, ...context });
+  page.setDefaultTimeout(PATIENCE_MS);
+  if (!tour) await page.addInitScript(() => localStorage.setItem('lightbots-tour', 'done'));
+  await page.goto(`${server.url}/#/${view}`);
+  await page.getByText('Connected', { exact: true }).waitFor();
+  return page;
+}
+
+/** Waits until what `read` gives passes. */
+export async function eventually<T>(read: () => Promise<T>, passes: (value: T) => boolean, what: string): Promise<T> {
+  const until = Date.now() + PATIENCE_MS;
+  for (;;) {
+    const value = await read();
+    if (passes(value)) return value;
+    if (Date.now() > until) throw new Error(`Never came true: ${what}; last ${JSON.stringify(value)}`);
+    await new Promise((resolve) => setTimeout(resolve, 100));
+  }
+}
