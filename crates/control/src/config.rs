@@ -44,7 +44,7 @@ impl Default for Config {
             robots_max: 20_000,
             stale_after: Span::from_millis(6_000),
             gone_after: Span::from_millis(30_000),
-            start_lead: Span::from_millis(200),
+            start_lead: Span::from_millis(240),
             resend_after: Span::from_millis(250),
             tries: 12,
             window: 1_024,

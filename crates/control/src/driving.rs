@@ -3,6 +3,7 @@
 use crate::event::{EventKind, Trouble};
 use crate::leg::Kind;
 use crate::run::{Desk, Phase, Purpose, Run, Standing};
+use crate::watch::MISSED_M;
 use lightbots_base::{Instant, Span, Vec2};
 use lightbots_wire::{Command, Route, Topic};
 
@@ -143,22 +144,22 @@ impl Run {
 
     /// A robot says it has arrived.
     pub fn hear_arrival(&mut self, desk: &mut Desk, now: Instant, seat: usize, at: Option<Vec2>) {
-        let id = desk.fleet.robot(self.seats[seat].robot).id;
         let Phase::Driving(drive) = &self.phase else {
             self.judge_place(desk, now, seat, at);
             return;
         };
-        let (ends, begun) = (drive.ends, now >= drive.began);
-        let goal = self.current.as_ref().and_then(|leg| leg.moves.get(seat)).map(|step| step.goal);
-        let (Some(at), Some(goal)) = (at, goal) else { return };
+        let (ends, begun, held) = (drive.ends, now >= drive.began, drive.hold.is_some());
+        let step = self.current.as_ref().and_then(|leg| leg.moves.get(seat));
+        let (Some(at), Some(goal)) = (at, step.map(|step| step.goal)) else { return };
         if !self.is_awaited(seat) || self.seats[seat].arrived {
             return;
         }
+        let off_m = at.distance(goal);
         if begun && is_there(at, goal, desk.config.arrival_tolerance_m) {
             self.arrive(desk, now, seat);
-        } else if now + IN_TIME >= ends {
-            let off_m = at.distance(goal);
-            desk.log.tell_limited(now, EventKind::Misaligned { robot: id, off_m });
+        } else if now + IN_TIME >= ends && !held && off_m <= MISSED_M {
+            // It believes to be there and will not say so again.
+            self.accept_misaligned(desk, now, seat, off_m);
         }
     }
 

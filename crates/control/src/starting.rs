@@ -6,12 +6,16 @@ use crate::run::{Desk, Phase, Run};
 use lightbots_base::{Instant, Span};
 use lightbots_wire::{Command, Details, RobotState, Topic};
 
+/// When those who did not confirm are asked by name, in percent of the lead.
+const ASKS: [i64; 2] = [27, 44];
 /// So many who did not confirm are asked by name.
 const FEW: usize = 64;
 /// START is said again this often until its moment.
 const REPEAT: Span = Span::from_millis(40);
+/// A START that was put off is said again this often: whoever misses it leaves alone.
+const REPEAT_PUT_OFF: Span = Span::from_millis(15);
 /// Whether all have confirmed is looked at this long before the moment at least.
-const CHECK_AHEAD: Span = Span::from_millis(60);
+const CHECK_AHEAD: Span = Span::from_millis(80);
 /// How often the moment is put off before the deaf ones are given up.
 const PUT_OFF_MAX: u32 = 12;
 /// Links slower than this are not waited for.
@@ -29,8 +33,11 @@ pub(crate) struct Start {
     /// When it is looked at whether all have confirmed: early enough to put it off for all.
     check_at: Instant,
     repeat_at: Instant,
-    /// When those who did not confirm are asked by name.
+    /// When it was stated first.
+    stated: Instant,
+    /// When those who did not confirm are asked by name, and how often that was done.
     ask_at: Instant,
+    asked: usize,
     /// Seats that confirmed this moment.
     confirmed: usize,
     put_off: u32,
@@ -74,9 +81,11 @@ impl Run {
         let start = Start {
             at,
             seq,
+            stated: now,
             check_at: at - self.check_ahead(),
             repeat_at: now + REPEAT,
-            ask_at: now + lead * 2 / 5,
+            ask_at: now + lead * ASKS[0] / 100,
+            asked: 0,
             confirmed: 0,
             put_off: 0,
             checked: false,
@@ -107,7 +116,10 @@ impl Run {
         let Phase::Starting(mut start) = self.phase.clone() else { return };
         let needed = self.queue.front().map_or(0, |leg| leg.movers);
         if now >= start.ask_at {
-            start.ask_at = Instant::FAR;
+            start.asked += 1;
+            let lead = self.start_lead(desk);
+            start.ask_at =
+                ASKS.get(start.asked).map_or(Instant::FAR, |share| start.stated + lead * *share / 100);
             self.ask_unconfirmed(desk, &start, needed);
         }
         if now >= start.check_at && !start.checked {
@@ -125,7 +137,7 @@ impl Run {
         }
         if now >= start.repeat_at {
             desk.outbox.say(Topic::Broadcast, &[Command::Start { seq: start.seq, at: start.at }]);
-            start.repeat_at = now + REPEAT;
+            start.repeat_at = now + if start.put_off > 0 { REPEAT_PUT_OFF } else { REPEAT };
         }
         self.phase = Phase::Starting(start);
     }
@@ -163,8 +175,10 @@ impl Run {
         start.at = now + lead;
         start.check_at = start.at - self.check_ahead();
         start.confirmed = 0;
-        start.repeat_at = now + REPEAT;
-        start.ask_at = now + lead * 2 / 5;
+        start.repeat_at = now + REPEAT_PUT_OFF;
+        start.ask_at = now + lead * ASKS[0] / 100;
+        start.asked = 0;
+        start.stated = now;
         let command = Command::Start { seq: start.seq, at: start.at };
         desk.outbox.say(Topic::Broadcast, std::slice::from_ref(&command));
         for seat in deaf {

@@ -16,9 +16,11 @@ const ASK_ORIGINAL: Span = Span::from_millis(500);
 /// Robots that have not arrived so long after the planned end are judged by where they stand.
 const OVERDUE: Span = Span::from_millis(3_000);
 /// A robot standing farther from its goal than this has missed it, metres.
-const MISSED_M: f64 = 0.06;
+pub(crate) const MISSED_M: f64 = 0.06;
 /// News older than this at the begin of a drive may be from before it.
 const OLD_NEWS: Span = Span::from_millis(800);
+/// A robot whose clock is ahead may end its route this much before the planned end.
+const EARLY: Span = Span::from_millis(100);
 /// A hold that not all keep after this is given up, and all are stopped.
 const HOLD_BOUND: Span = Span::from_millis(1_200);
 
@@ -41,9 +43,9 @@ impl Run {
                 let at = desk.fleet.robot(self.seats[seat].robot).at;
                 let there = at.is_some_and(|at| is_there(at, goal, desk.config.arrival_tolerance_m));
                 let waits = details.state == RobotState::Ready && details.route == seq;
-                if there && now >= ends && !waits {
+                if there && now + EARLY >= ends && !waits {
                     self.arrive(desk, now, seat);
-                } else if now < ends && now > began + OLD_NEWS {
+                } else if now + EARLY < ends && now > began + OLD_NEWS {
                     self.replan_with(desk, now, seat);
                 }
             }
