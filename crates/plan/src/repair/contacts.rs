@@ -93,18 +93,22 @@ impl Watch {
     ) {
         let at: Vec<Vec2> =
             (0..weave.robots()).map(|robot| blend(weave.span(robot, span), &self.middle)).collect();
-        let mut reach = 0.0_f64;
-        for (robot, middle) in at.iter().enumerate() {
-            let four = weave.span(robot, span);
-            for end in [&self.bases[0], &self.bases[STRETCHES]] {
-                reach = reach.max((blend(four, end) - *middle).length_squared());
-            }
-        }
-        let near = wish.robots_m + SKIN_M + 2.0 * reach.sqrt();
+        let reach: Vec<f64> = at
+            .iter()
+            .enumerate()
+            .map(|(robot, &middle)| {
+                let four = weave.span(robot, span);
+                let ends = [&self.bases[0], &self.bases[STRETCHES]].map(|end| blend(four, end) - middle);
+                ends[0].length_squared().max(ends[1].length_squared()).sqrt()
+            })
+            .collect();
+        let apart = wish.robots_m + SKIN_M;
+        let near = apart + 2.0 * reach.iter().copied().fold(0.0, f64::max);
         order.sort_by(|&a, &b| at[a].x.total_cmp(&at[b].x));
         for (i, &a) in order.iter().enumerate() {
             for &b in order[i + 1..].iter().take_while(|&&b| at[b].x - at[a].x < near) {
-                if (at[a].y - at[b].y).abs() >= near || (at[a] - at[b]).length_squared() >= near * near {
+                let touch = apart + reach[a] + reach[b];
+                if (at[a] - at[b]).length_squared() >= touch * touch {
                     continue;
                 }
                 let slack_m = wish.slack_m;

@@ -3,7 +3,7 @@
 
 use super::contacts::{Contact, Other, Watch, Wish};
 use super::scene::Scene;
-use super::slow::slow_all;
+use super::slow::Slow;
 use super::weave::Weave;
 
 /// Sweeps between two look-outs.
@@ -22,8 +22,10 @@ const LEAST_PULL: f64 = 0.18;
 const OVERSHOOT: f64 = 1.15;
 /// Robots slower than this all count as equally agile, m/s.
 const CLUMSY_MPS: f64 = 0.1;
+/// Passes over a way against fast turns, once most contacts are resolved.
+const EASINGS: usize = 8;
 /// Haste that is worth no further sweeps.
-const GOOD_HASTE: f64 = 1.015;
+const GOOD_HASTE: f64 = 1.03;
 
 /// How hard to try.
 #[derive(Clone, Copy)]
@@ -44,7 +46,7 @@ pub(super) fn relax(scene: &Scene, weave: Weave, effort: Effort, work: &mut usiz
     let longest_s = weave.span_s * effort.stretch;
     let mut state = State::new(scene, weave, effort.wish);
     let mut best: Option<(f64, Weave)> = None;
-    let (mut hoped, mut last) = (usize::MAX, usize::MAX);
+    let (mut hoped, mut last) = (usize::MAX, usize::MAX / 2);
     for sweep in 0..effort.sweeps {
         let Some(left) = work.checked_sub(state.weave.robots() * state.weave.spans) else { break };
         *work = left;
@@ -60,7 +62,8 @@ pub(super) fn relax(scene: &Scene, weave: Weave, effort: Effort, work: &mut usiz
         }
         if sweep % STAGE == STAGE - 1 {
             let bearable = if sweep > 2 * STAGE { 2 } else { HOPELESS };
-            if best.is_none() && effort.wary && bent > last.max(bearable * state.weave.robots()) {
+            let worse = bent > last + last / 10 && bent > bearable * state.weave.robots();
+            if best.is_none() && effort.wary && worse {
                 return None;
             }
             if bent + hasty > hoped {
@@ -71,7 +74,7 @@ pub(super) fn relax(scene: &Scene, weave: Weave, effort: Effort, work: &mut usiz
             }
             (last, hoped) = (bent, (bent + hasty) / 2);
         }
-        slow_all(scene, &mut state.weave, &mut state.dirty, &mut state.stale);
+        state.slow(if bent > state.weave.robots() { 1 } else { EASINGS });
     }
     best.map(|(_, weave)| weave)
 }
@@ -87,6 +90,8 @@ struct State<'a> {
     /// `[robot]`: whether `haste` is out of date.
     stale: Vec<bool>,
     haste: Vec<f64>,
+    /// `[robot]`: whether it has moved since contacts were last looked at.
+    moved: Vec<bool>,
 }
 
 impl<'a> State<'a> {
@@ -101,6 +106,7 @@ impl<'a> State<'a> {
             dirty: vec![true; robots],
             stale: vec![true; robots],
             haste: vec![0.0; robots],
+            moved: vec![true; robots],
         }
     }
 
@@ -108,6 +114,17 @@ impl<'a> State<'a> {
         self.weave.span_s *= GROWTH;
         self.dirty.fill(true);
         self.stale.fill(true);
+    }
+
+    /// Pulls every robot that changed towards its limits.
+    fn slow(&mut self, easings: usize) {
+        let limits = Slow::new(self.scene, &self.weave, easings);
+        for robot in 0..self.dirty.len() {
+            if self.dirty[robot] {
+                (self.stale[robot], self.moved[robot]) = (true, true);
+                self.dirty[robot] = limits.pull(&mut self.weave, robot);
+            }
+        }
     }
 
     /// The greatest haste, and how many have too much.
@@ -127,7 +144,16 @@ impl<'a> State<'a> {
             self.contacts = self.watch.look_out(self.scene, &self.weave, self.wish);
         }
         let contacts = std::mem::take(&mut self.contacts);
-        let bent = contacts.iter().filter(|contact| self.bend(contact)).count();
+        let moved = std::mem::replace(&mut self.moved, vec![false; self.haste.len()]);
+        let bent = contacts.iter().filter(|contact| {
+            // Who kept clear and has not moved keeps clear.
+            let other = match contact.b {
+                Other::Robot(b) => moved[b] || self.moved[b],
+                Other::Wall(_) => false,
+            };
+            (anew || other || moved[contact.a] || self.moved[contact.a]) && self.bend(contact)
+        });
+        let bent = bent.count();
         self.contacts = contacts;
         bent
     }
@@ -150,12 +176,16 @@ impl<'a> State<'a> {
             whole = whole * share + square(&theirs) * (1.0 - share);
             let force = closest.away * (-lack * (1.0 - share) / whole.max(LEAST_PULL));
             self.weave.bend(b, contact.span, &theirs, force);
-            (self.dirty[b], self.stale[b]) = (true, true);
+            self.touch(b);
         }
         let force = closest.away * (lack * share / whole.max(LEAST_PULL));
         self.weave.bend(contact.a, contact.span, &mine, force);
-        (self.dirty[contact.a], self.stale[contact.a]) = (true, true);
+        self.touch(contact.a);
         true
+    }
+
+    fn touch(&mut self, robot: usize) {
+        (self.dirty[robot], self.stale[robot], self.moved[robot]) = (true, true, true);
     }
 
     /// How easily a robot bends aside: the quicker it is, the less it must turn for that.

@@ -9,30 +9,45 @@ use super::weave::Weave;
 /// Passes over a way in one sweep.
 const PASSES: usize = 2;
 
-/// Pulls every robot that changed towards its limits; who is within them is not dirty any more.
-pub(super) fn slow_all(scene: &Scene, weave: &mut Weave, dirty: &mut [bool], stale: &mut [bool]) {
-    let step = scene.limits.speed_mps * weave.span_s;
-    let bow = scene.limits.accel_mps2 * weave.span_s * weave.span_s;
-    let turning = Turning::new(weave.span_s, &scene.limits);
-    for (robot, (dirty, stale)) in dirty.iter_mut().zip(stale).enumerate() {
-        if !*dirty {
-            continue;
+/// The limits of a scene, in lengths of a span.
+pub(super) struct Slow<'a> {
+    scene: &'a Scene,
+    turning: Turning,
+    easings: usize,
+    /// The longest step between control points, metres.
+    step_m: f64,
+    /// The longest second difference of control points, metres.
+    bow_m: f64,
+}
+
+impl<'a> Slow<'a> {
+    /// For a weave of this span; against fast turns there are `easings` passes.
+    pub fn new(scene: &'a Scene, weave: &Weave, easings: usize) -> Self {
+        Self {
+            scene,
+            turning: Turning::new(weave.span_s, &scene.limits),
+            easings,
+            step_m: scene.limits.speed_mps * weave.span_s,
+            bow_m: scene.limits.accel_mps2 * weave.span_s * weave.span_s,
         }
-        *stale = true;
-        let mut changed = false;
+    }
+
+    /// Pulls a robot's way towards its limits; whether it was beyond them.
+    pub fn pull(&self, weave: &mut Weave, robot: usize) -> bool {
+        let mut beyond = false;
         for _ in 0..PASSES {
-            let once = slow(weave, robot, step, bow) | weave.ease(robot, &turning);
-            changed |= once;
-            if !once {
+            beyond = slow(weave, robot, self.step_m, self.bow_m);
+            beyond |= weave.ease(robot, &self.turning, self.easings);
+            if !beyond {
                 break;
             }
         }
-        *dirty = changed;
         let last = weave.spans;
         for point in &mut weave.way_mut(robot)[2..=last] {
-            *point = scene.on_floor(robot, *point);
+            *point = self.scene.on_floor(robot, *point);
         }
         weave.tie_ends(robot);
+        beyond
     }
 }
 

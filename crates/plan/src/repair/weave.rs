@@ -10,9 +10,6 @@ use super::scene::Scene;
 use super::turning::Turning;
 use crate::Path;
 
-/// Passes over a way at once against fast turns.
-const EASINGS: usize = 8;
-
 /// What the splines of all robots are, sharing one clock.
 #[derive(Clone)]
 pub(super) struct Weave {
@@ -38,6 +35,7 @@ pub(super) fn basis(u: f64) -> [f64; 4] {
 }
 
 /// The weighted sum of a span's control points.
+#[inline]
 pub(super) fn blend(points: &[Vec2], weights: &[f64; 4]) -> Vec2 {
     points[0] * weights[0] + points[1] * weights[1] + points[2] * weights[2] + points[3] * weights[3]
 }
@@ -94,11 +92,11 @@ impl Weave {
         &mut self.points[robot * width..(robot + 1) * width]
     }
 
-    /// Bends a robot's way until it turns no faster than it may; whether anything changed.
-    pub fn ease(&mut self, robot: usize, turning: &Turning) -> bool {
+    /// Bends a robot's way until it turns no faster than it may, in at most `passes`; whether anything changed.
+    pub fn ease(&mut self, robot: usize, turning: &Turning, passes: usize) -> bool {
         let spare = self.ends[robot].1.is_none();
         let mut changed = false;
-        for _ in 0..EASINGS {
+        for _ in 0..passes {
             let once = turning.ease(self.way_mut(robot), spare);
             self.tie_ends(robot);
             changed |= once;
