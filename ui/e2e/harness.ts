@@ -27,7 +27,12 @@ function program(): string {
 
 /** Chromium, by `CHROMIUM` or where Linux systems keep it. */
 function browserPath(): string {
-  const places = [process.env.CHROMIUM, '/usr/bin/chromium', '/usr/bin/chromium-browser', '/usr/bin/google-chrome'];
+  const places = [
+    process.env.CHROMIUM,
+    '/usr/bin/chromium',
+    '/usr/bin/chromium-browser',
+    '/usr/bin/google-chrome',
+  ];
   const found = places.find((place) => place && existsSync(place));
   if (!found) throw new Error('No Chromium found; set CHROMIUM to its program.');
   return found;
@@ -48,7 +53,9 @@ export interface Server {
 export async function startServer(...more: string[]): Promise<Server> {
   const data = mkdtempSync(join(tmpdir(), 'lightbots-'));
   const base = ['run', '--data', data, '--mqtt-listen', '127.0.0.1:0', '--seed', '7', ...more];
-  let [child, url] = await launch([...base, '--listen', '127.0.0.1:0']);
+  const first = await launch([...base, '--listen', '127.0.0.1:0']);
+  const url = first[1];
+  let child = first[0];
   const server: Server = {
     url,
     data,
@@ -68,7 +75,10 @@ function launch(args: string[]): Promise<[ChildProcess, string]> {
   const child = spawn(program(), args, { stdio: ['ignore', 'pipe', 'pipe'] });
   return new Promise((resolve, reject) => {
     let said = '';
-    const timer = setTimeout(() => reject(new Error(`No address after ${PATIENCE_MS} ms: ${said}`)), PATIENCE_MS);
+    const timer = setTimeout(
+      () => reject(new Error(`No address after ${PATIENCE_MS} ms: ${said}`)),
+      PATIENCE_MS,
+    );
     const read = (bytes: Buffer) => {
       if (said.length < 20_000) said += bytes.toString();
       const url = /http:\/\/[\d.]+:\d+/.exec(said)?.[0];
@@ -110,12 +120,17 @@ export async function openPage(
 }
 
 /** Waits until what `read` gives passes. */
-export async function eventually<T>(read: () => Promise<T>, passes: (value: T) => boolean, what: string): Promise<T> {
+export async function eventually<T>(
+  read: () => Promise<T>,
+  passes: (value: T) => boolean,
+  what: string,
+): Promise<T> {
   const until = Date.now() + PATIENCE_MS;
   for (;;) {
     const value = await read();
     if (passes(value)) return value;
-    if (Date.now() > until) throw new Error(`Never came true: ${what}; last ${JSON.stringify(value)}`);
+    if (Date.now() > until)
+      throw new Error(`Never came true: ${what}; last ${JSON.stringify(value)}`);
     await new Promise((resolve) => setTimeout(resolve, 100));
   }
 }

@@ -86,8 +86,7 @@ function advance(leg: Leg | null, robots: Robots, i: number, now_ms: number): Le
   if (!leg || Math.hypot(to.x - leg.to.x, to.y - leg.to.y) > JUMP_M)
     return { from: to, to, changed_ms: now_ms, lasts_ms: 50, off };
   const silent_ms = now_ms - leg.changed_ms;
-  if (to.x === leg.to.x && to.y === leg.to.y)
-    return silent_ms > REPORT_MS ? { ...leg, off } : leg;
+  if (to.x === leg.to.x && to.y === leg.to.y) return silent_ms > REPORT_MS ? { ...leg, off } : leg;
   const lasts_ms = Math.max(50, Math.min(REPORT_MS, silent_ms));
   return { from: placeOn(leg, now_ms), to, changed_ms: now_ms, lasts_ms, off };
 }

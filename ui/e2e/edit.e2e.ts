@@ -1,0 +1,156 @@
+import type { Browser, Page } from 'playwright-core';
+import { afterAll, beforeAll, describe, expect, test } from 'vitest';
+import { eventually, launchBrowser, openPage, startServer, type Server } from './harness';
+import { drag, onScreen, openShow, phase, pixels, saved, stored } from './journeys';
+
+let browser: Browser;
+let server: Server;
+beforeAll(async () => {
+  [server, browser] = await Promise.all([startServer('--robots', '12'), launchBrowser()]);
+});
+afterAll(async () => {
+  await browser?.close();
+  await server?.remove();
+});
+
+const button = (page: Page, name: string | RegExp) => page.getByRole('button', { name });
+const frames = (page: Page) => page.getByRole('list', { name: 'Frames' }).locator('li');
+
+/** Begins a show; answers its name in the library. */
+async function begin(page: Page): Promise<string> {
+  await page.getByTestId('open-library').click();
+  await button(page, 'New show').click();
+  await page.getByTestId('stage').waitFor();
+  const title = page.getByTestId('open-library').getByText(/^Untitled/);
+  await title.waitFor();
+  await eventually(
+    () => frames(page).count(),
+    (n) => n === 1,
+    'one frame',
+  );
+  return (await title.textContent()) ?? '';
+}
+
+describe('the editor', () => {
+  test('three frames from nothing, saved, and played', async () => {
+    const page = await openPage(browser, server, 'edit');
+    const name = await begin(page);
+    await button(page, 'Heart').click();
+    await button(page, /^Add a frame/).click();
+    await button(page, 'Circle').click();
+    await button(page, /^Add a frame/).click();
+    await page.getByLabel('Word to write with pixels').fill('HI');
+    await button(page, 'Write').click();
+    await page.keyboard.press('Escape');
+    await button(page, 'All').click();
+    await button(page, 'Colour pink #ff2f92').click();
+    await saved(page);
+    const document = await stored(page, name);
+    expect(document.frames).toHaveLength(3);
+    expect(document.frames[2]?.pixels.every((p) => p.color === '#ff2f92')).toBe(true);
+    await button(page, 'With robots').click();
+    await eventually(
+      () => button(page, 'Play').first().isEnabled(),
+      (on) => on,
+      'Play can be pressed',
+    );
+    await page.getByRole('button', { name: /^1/ }).first().click();
+    await button(page, 'Play').first().click();
+    await page.getByText(/frame 2 of 3/).waitFor();
+    await page.keyboard.press('Escape');
+    await eventually(
+      () => phase(page),
+      (p) => p === 'ready',
+      'ready',
+    );
+    await page.close();
+  });
+
+  test('choosing, dragging, undoing and redoing by hand', async () => {
+    const page = await openPage(browser, server, 'edit');
+    await begin(page);
+    const start = await pixels(page);
+    const first = start[0];
+    if (!first) throw new Error('There are no pixels.');
+    await drag(page, [first.x, first.y], [0.2, 0.1]);
+    const moved = await pixels(page);
+    expect(Math.hypot((moved[0]?.x ?? 9) - 0.2, (moved[0]?.y ?? 9) - 0.1)).toBeLessThan(0.06);
+    await drag(page, [0.05, -0.1], [0.4, 0.4]);
+    expect((await pixels(page)).filter((p) => p.chosen)).toHaveLength(1);
+    for (let i = 0; i < 40; i++) await page.keyboard.press('ArrowRight');
+    const end = await pixels(page);
+    expect((end[0]?.x ?? 0) - (moved[0]?.x ?? 0)).toBeCloseTo(0.4, 3);
+    for (let i = 0; i < 41; i++) await page.keyboard.press('Control+z');
+    expect((await pixels(page)).map((p) => [p.x, p.y])).toEqual(start.map((p) => [p.x, p.y]));
+    for (let i = 0; i < 41; i++) await page.keyboard.press('Control+Shift+z');
+    expect((await pixels(page)).map((p) => [p.x, p.y])).toEqual(end.map((p) => [p.x, p.y]));
+    const at = await onScreen(page, -1, -1);
+    await page.mouse.click(at.x, at.y);
+    expect((await pixels(page)).some((p) => p.chosen)).toBe(false);
+    await saved(page);
+    await page.close();
+  });
+
+  test('by keyboard only', async () => {
+    const page = await openPage(browser, server, 'edit');
+    const name = await begin(page);
+    await page.keyboard.press(']');
+    await page.keyboard.press(']');
+    expect((await pixels(page)).findIndex((p) => p.chosen)).toBe(1);
+    const before = (await pixels(page))[1]?.y ?? 0;
+    await page.keyboard.press('Shift+ArrowDown');
+    await page.keyboard.press('Alt+ArrowDown');
+    expect(before - ((await pixels(page))[1]?.y ?? 0)).toBeCloseTo(0.101, 3);
+    await page.keyboard.press('Control+Enter');
+    await page.keyboard.press('Control+d');
+    await eventually(
+      () => frames(page).count(),
+      (n) => n === 3,
+      'three frames',
+    );
+    await page.keyboard.press('Control+Delete');
+    await page.keyboard.press('Alt+PageUp');
+    await eventually(
+      () => frames(page).count(),
+      (n) => n === 2,
+      'two frames',
+    );
+    await saved(page);
+    expect((await stored(page, name)).frames.map((f) => f.name)).toEqual(['Frame 2', 'Start']);
+    await page.close();
+  });
+
+  test('a change of an example survives reloading, and a second browser sees it', async () => {
+    const page = await openPage(browser, server, 'edit');
+    await openShow(page, 'hello');
+    const second = await openPage(browser, server, 'edit');
+    await eventually(
+      () => pixels(page),
+      (p) => p.length > 0,
+      'pixels',
+    );
+    await button(page, 'All').click();
+    await button(page, 'Colour cyan #00e0c8').click();
+    await saved(page);
+    const all = (p: { color: string }[]) => p.length > 0 && p.every((x) => x.color === '00e0c8');
+    await eventually(() => pixels(second), all, 'the second browser sees it');
+    await page.reload();
+    await eventually(() => pixels(page), all, 'it is there after reloading');
+    await page.close();
+    await second.close();
+  });
+
+  test('the server dies in the middle of an edit, and nothing is lost', async () => {
+    const page = await openPage(browser, server, 'edit');
+    const name = await begin(page);
+    await server.kill();
+    await button(page, 'All').click();
+    await button(page, 'Colour violet #b14cff').click();
+    await page.getByText('Not saved yet').waitFor();
+    await server.restart();
+    await saved(page);
+    const document = await stored(page, name);
+    expect(document.frames[0]?.pixels.every((p) => p.color === '#b14cff')).toBe(true);
+    await page.close();
+  });
+});

@@ -1,0 +1,123 @@
+import type { Page } from 'playwright-core';
+
+/** Two frames of `count` pixels in rows; the second 0.4 m behind the first, shown for `air_s`. */
+export function smallShow(count: number, air_s = 0.3): string {
+  const frame = (name: string, y: number) => ({
+    name,
+    air_time_s: air_s,
+    pixels: Array.from({ length: count }, (_, id) => ({
+      id,
+      place: [Math.round((-0.55 + (id % 12) * 0.1) * 1e4) / 1e4, y + Math.floor(id / 12) * 0.12],
+      color: '#ff8c00',
+    })),
+  });
+  const frames = [frame('One', 1.1), frame('Two', 0.9)];
+  return JSON.stringify({ lightbots: 1, name: '', stage: { width_m: 3, depth_m: 3 }, frames });
+}
+
+/** Drops a file on the page; if it is good, waits until it is open. */
+export async function uploadText(
+  page: Page,
+  name: string,
+  text: string,
+  good = true,
+): Promise<void> {
+  const data = await page.evaluateHandle(
+    ([file, content]) => {
+      const transfer = new DataTransfer();
+      transfer.items.add(new File([content], file, { type: 'application/json' }));
+      return transfer;
+    },
+    [name, text] as const,
+  );
+  await page.dispatchEvent('body', 'drop', { dataTransfer: data });
+  if (good)
+    await page
+      .getByText(/is in the library and open/)
+      .first()
+      .waitFor();
+}
+
+/** Opens a show of the library by the dialog. */
+export async function openShow(page: Page, name: string): Promise<void> {
+  await page.getByTestId('open-library').click();
+  await page
+    .getByRole('list', { name: 'Shows in the library' })
+    .getByText(name, { exact: true })
+    .click();
+  await page.getByTestId('open-library').getByText(name, { exact: true }).waitFor();
+}
+
+export const phase = async (page: Page) => page.getByTestId('phase').getAttribute('data-phase');
+
+/** Measured places of the robots by their list in the page, metres. */
+export async function robotPlaces(page: Page): Promise<[number, number][]> {
+  const lines = await page.getByTestId('robots').locator('li').allTextContents();
+  return lines.flatMap((line) => {
+    const found = /at (-?[\d.]+), (-?[\d.]+) metres/.exec(line);
+    return found ? [[Number(found[1]), Number(found[2])] as [number, number]] : [];
+  });
+}
+
+export interface Pixel {
+  text: string;
+  x: number;
+  y: number;
+  color: string;
+  chosen: boolean;
+}
+
+/** The pixels of the frame by their list in the page. */
+export const pixels = (page: Page): Promise<Pixel[]> =>
+  page
+    .getByTestId('pixels')
+    .locator('[role=option]')
+    .evaluateAll((options) =>
+      options.map((o) => ({
+        text: o.textContent ?? '',
+        x: Number(o.getAttribute('data-x')),
+        y: Number(o.getAttribute('data-y')),
+        color: o.getAttribute('data-color') ?? '',
+        chosen: o.getAttribute('aria-selected') === 'true',
+      })),
+    );
+
+/** Where a place of a 3 × 3 m stage is on screen while the whole floor is shown, CSS pixels. */
+export async function onScreen(
+  page: Page,
+  x: number,
+  y: number,
+): Promise<{ x: number; y: number }> {
+  const box = await page.getByTestId('stage').boundingBox();
+  if (!box) throw new Error('There is no stage.');
+  const scale = Math.min(box.width - 68, box.height - 68) / 3;
+  return { x: box.x + box.width / 2 + x * scale, y: box.y + box.height / 2 - y * scale };
+}
+
+export async function drag(
+  page: Page,
+  from: [number, number],
+  to: [number, number],
+): Promise<void> {
+  const [a, b] = [await onScreen(page, ...from), await onScreen(page, ...to)];
+  await page.mouse.move(a.x, a.y);
+  await page.mouse.down();
+  await page.mouse.move((a.x + b.x) / 2, (a.y + b.y) / 2, { steps: 4 });
+  await page.mouse.move(b.x, b.y, { steps: 4 });
+  await page.mouse.up();
+}
+
+/** Waits until the library has everything. */
+export const saved = (page: Page) => page.locator('[data-testid=save][data-save=saved]').waitFor();
+
+/** A library document as it is on the server. */
+export const stored = (
+  page: Page,
+  name: string,
+): Promise<{ frames: StoredFrame[]; name: string }> =>
+  page.evaluate(async (n) => (await fetch(`/api/shows/${encodeURIComponent(n)}`)).json(), name);
+
+export interface StoredFrame {
+  name: string;
+  pixels: { id: number; place: [number, number]; color: string }[];
+}
