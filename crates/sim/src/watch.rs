@@ -219,7 +219,11 @@ impl Watch {
 
     /// Keeps an event of the controller as an issue.
     fn note(&mut self, code: &str, event: &Event) {
-        let message = format!("{} ({:.2} s into the show)", event.kind, self.since(event.at));
+        let when = match self.began {
+            Some(_) => format!("{:.2} s into the show", self.since(event.at)),
+            None => "before the show".into(),
+        };
+        let message = format!("{} ({when})", event.kind);
         let issue = Issue { severity: event.kind.severity(), ..Issue::warning(code, message) };
         self.add(issue.in_frame(self.heading_for));
     }
