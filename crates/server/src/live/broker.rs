@@ -57,13 +57,15 @@ impl Broker {
             .enable_all()
             .build()
             .map_err(|error| Failure::problem(format!("the system gives the broker no threads: {error}")))?;
-        let listener = {
+        // From here on it is stopped as a broker is: a runtime must not be dropped where others run.
+        let mut broker = Self { runtime: Some(runtime), address: listen };
+        if let Some(runtime) = &broker.runtime {
             let _inside = runtime.enter();
-            bind(listen, robots)?
-        };
-        let address = listener.local_addr().unwrap_or(listen);
-        runtime.spawn(serve(listener, users));
-        Ok(Self { runtime: Some(runtime), address })
+            let listener = bind(listen, robots)?;
+            broker.address = listener.local_addr().unwrap_or(listen);
+            runtime.spawn(serve(listener, users));
+        }
+        Ok(broker)
     }
 
     /// How this machine's own programs reach it.

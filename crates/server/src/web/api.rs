@@ -57,12 +57,15 @@ fn library_problem(error: LibraryError) -> Refused {
 
 fn body(body: Result<Bytes, BytesRejection>) -> Answer<Bytes> {
     body.map_err(|rejection| match rejection.status() {
-        StatusCode::PAYLOAD_TOO_LARGE => {
-            let line = format!("this is too long for a show: it may have {} MB", BODY_MAX / 1_000_000);
-            refuse(StatusCode::PAYLOAD_TOO_LARGE, &line)
-        }
+        StatusCode::PAYLOAD_TOO_LARGE => too_long(),
         status => refuse(status, &rejection.body_text()),
     })
+}
+
+/// The refusal of a body over [`BODY_MAX`].
+pub fn too_long() -> Refused {
+    let line = format!("this is too long for a show: it may have {} MB", BODY_MAX / 1_000_000);
+    refuse(StatusCode::PAYLOAD_TOO_LARGE, &line)
 }
 
 fn condition(headers: &HeaderMap) -> Answer<Condition> {

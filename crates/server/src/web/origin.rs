@@ -1,11 +1,16 @@
-//! Who may ask: pages of this server only.
+//! Who may ask, and how much: pages of this server only, and nothing without end.
+
+use std::time::Duration;
 
 use axum::extract::{Request, State};
 use axum::http::{HeaderMap, Method, StatusCode, header};
 use axum::middleware::Next;
 use axum::response::{IntoResponse, Response};
 
-use super::api::refuse;
+use super::api::{BODY_MAX, refuse, too_long};
+
+/// A request that takes longer to come in and be answered is given up.
+const PATIENCE: Duration = Duration::from_secs(300);
 
 /// Turns away what a page of another site sends through a visitor's browser. `local`: the server can only be reached
 /// from this machine, so that any other name for it is one a stranger made.
@@ -15,7 +20,14 @@ pub async fn guard(State(local): State<bool>, request: Request, next: Next) -> R
         let line = "this page belongs to another site: open the address that lightbots printed";
         return refuse(StatusCode::FORBIDDEN, line).into_response();
     }
-    next.run(request).await
+    let length = request.headers().get(header::CONTENT_LENGTH).and_then(|length| length.to_str().ok());
+    if length.and_then(|length| length.parse::<usize>().ok()).is_some_and(|length| length > BODY_MAX) {
+        return too_long().into_response();
+    }
+    match tokio::time::timeout(PATIENCE, next.run(request)).await {
+        Ok(response) => response,
+        Err(_) => refuse(StatusCode::REQUEST_TIMEOUT, "this took too long: try again").into_response(),
+    }
 }
 
 /// Whether the page that asks came from this server or, such as a development server's, from this machine. Programs

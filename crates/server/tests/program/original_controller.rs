@@ -13,9 +13,12 @@ fn read(mqtt: &mut Mqtt, topic: &str, places: &mut BTreeMap<String, (f64, f64)>)
             continue;
         }
         let fields: Vec<&str> = payload.split(' ').collect();
-        let place = (fields[1].parse::<f64>().unwrap(), fields[2].parse::<f64>().unwrap());
-        if place.0.is_finite() && place.1.is_finite() {
-            places.insert(fields[0].to_owned(), place);
+        let number = |index: usize| fields.get(index).and_then(|field| field.parse::<f64>().ok());
+        if let (Some(x), Some(y)) = (number(1), number(2))
+            && x.is_finite()
+            && y.is_finite()
+        {
+            places.insert(fields[0].to_owned(), (x, y));
         }
     }
 }
