@@ -4,7 +4,7 @@ use crate::event::{EventKind, Outcome, Trouble};
 use crate::operation::MissingPolicy;
 use crate::run::{Desk, Gathering, Phase, Run, Seat, Standing};
 use crate::snapshot::Age;
-use lightbots_base::{Instant, Span};
+use lightbots_base::{Instant, Span, Vec2};
 use lightbots_wire::{Command, RobotState, Topic};
 
 /// STOP is said this often, …
@@ -19,6 +19,12 @@ const ASK: Span = Span::from_millis(300);
 const ANSWERS: Span = Span::from_millis(1_500);
 /// How long a robot may take to set its clock.
 const CLOCK: Span = Span::from_millis(8_000);
+/// A robot that fell silent died at most this long after its last report.
+const UNHEARD: Span = Span::from_millis(600);
+/// Steps in which its path is followed from there.
+const GHOST_STEP: Span = Span::from_millis(50);
+/// Places nearer than this to each other are one, metres.
+const GHOST_M: f64 = 0.01;
 /// A robot that dropped out more often than this in a run stays out.
 const DROPOUTS_MAX: u8 = 3;
 
@@ -33,9 +39,24 @@ impl Run {
         known.late = None;
         known.fade = None;
         self.dropouts += 1;
-        let robot = desk.fleet.robot(known.robot).id;
+        let (robot, heard) = (desk.fleet.robot(known.robot).id, desk.fleet.robot(known.robot).heard);
+        if why == Trouble::Silent {
+            self.seats[seat].ghost = self.whereabouts(seat, heard);
+        }
         desk.log.tell(now, EventKind::Dropout { robot, why });
         self.recover(desk, now);
+    }
+
+    /// Where a robot that was heard last at `heard` and died on its way may stand: along its path from there.
+    fn whereabouts(&self, seat: usize, heard: Instant) -> Vec<Vec2> {
+        let Phase::Driving(drive) = &self.phase else { return Vec::new() };
+        let Some(path) = self.current.as_ref().and_then(|leg| leg.path(seat)) else { return Vec::new() };
+        let since = drive.path_time(heard);
+        let steps = 0..=UNHEARD.0 / GHOST_STEP.0;
+        let mut places: Vec<Vec2> =
+            steps.map(|step| path.as_ref().at(since + GHOST_STEP * step).position).collect();
+        places.dedup_by(|a, b| a.distance(*b) < GHOST_M);
+        places
     }
 
     /// Plans again from where robots are; who drives is stopped first.
@@ -149,7 +170,10 @@ impl Run {
                 continue;
             }
             match desk.fleet.robot(robot).seat {
-                Some(seat) => self.seats[seat as usize].out = false,
+                Some(seat) => {
+                    self.seats[seat as usize].out = false;
+                    self.seats[seat as usize].ghost.clear();
+                }
                 None => {
                     desk.fleet.robot_mut(robot).seat = Some(self.seats.len() as u32);
                     self.seats.push(Seat::new(robot));

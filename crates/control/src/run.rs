@@ -51,7 +51,7 @@ pub(crate) struct Seat {
     pub acked: u32,
     /// How often the present route was sent.
     pub tries: u32,
-    /// When it was sent last.
+    /// When it was sent first.
     pub sent: Instant,
     /// The start it confirmed last.
     pub starts: Option<Instant>,
@@ -61,6 +61,8 @@ pub(crate) struct Seat {
     pub late: Option<Instant>,
     /// It has been asked for a sign of life, last when.
     pub asked: Instant,
+    /// Where it may stand, if it fell silent on its way; stage metres.
+    pub ghost: Vec<Vec2>,
     /// A change of its light that it may not know yet.
     pub fade: Option<Fade>,
 }
@@ -205,6 +207,7 @@ impl Seat {
             arrived: false,
             late: None,
             asked: Instant::ZERO,
+            ghost: Vec::new(),
             fade: None,
         }
     }

@@ -121,7 +121,10 @@ impl Run {
         let robots = desk.fleet.robots().iter();
         let idle = robots
             .filter(|robot| !takes_part(robot.seat) && (robot.seat.is_some() || robot.age != Age::Gone));
+        let ghosts =
+            self.seats.iter().filter(|known| known.out).flat_map(|known| known.ghost.iter().copied());
         idle.filter_map(|robot| robot.at)
+            .chain(ghosts)
             .filter(|at| riders.iter().all(|rider| rider.distance(*at) >= near_m))
             .collect()
     }

@@ -21,6 +21,10 @@ pub(crate) struct Upload {
     sent: VecDeque<(Instant, usize)>,
     /// Seats sent to and not yet acknowledged.
     open: usize,
+    /// Acknowledgements of routes sent once, and the slowest of them.
+    once: (usize, Span),
+    /// Acknowledgements of routes sent more often, and the slowest since the first sending.
+    again: (usize, Span),
 }
 
 impl Upload {
@@ -47,7 +51,14 @@ impl Run {
         if self.upload.as_ref().is_some_and(|upload| upload.seq == leg.seq) {
             return;
         }
-        self.upload = Some(Upload { seq: leg.seq, cursor: 0, sent: VecDeque::new(), open: 0 });
+        self.upload = Some(Upload {
+            seq: leg.seq,
+            cursor: 0,
+            sent: VecDeque::new(),
+            open: 0,
+            once: (0, Span::ZERO),
+            again: (0, Span::ZERO),
+        });
     }
 
     /// Sends what may be sent now: first those not served yet, then those who did not acknowledge.
@@ -60,6 +71,7 @@ impl Run {
         if self.queue.front().is_none_or(|leg| leg.seq != upload.seq) {
             return;
         }
+        let resend_after = desk.config.resend_after.max(self.round_trip * 5 / 4);
         while let Some(&(due, seat)) = upload.sent.front() {
             let settled = self.seats[seat].out || self.seats[seat].acked == upload.seq;
             if !settled && due > now {
@@ -76,7 +88,7 @@ impl Run {
             }
             desk.resent += 1;
             self.send_route(desk, now, seat);
-            upload.sent.push_back((now + desk.config.resend_after, seat));
+            upload.sent.push_back((now + resend_after, seat));
         }
         let count = self.queue.front().map_or(0, |leg| leg.moves.len());
         while upload.cursor < count && upload.open < desk.config.window {
@@ -88,7 +100,7 @@ impl Run {
             self.seats[seat].tries = 0;
             self.send_route(desk, now, seat);
             upload.open += 1;
-            upload.sent.push_back((now + desk.config.resend_after, seat));
+            upload.sent.push_back((now + resend_after, seat));
         }
         self.upload = Some(upload);
     }
@@ -102,12 +114,17 @@ impl Run {
         }
         known.acked = route;
         known.fade = None;
-        if known.tries == 1 {
-            self.round_trip = self.round_trip.max(now - known.sent);
-        }
+        let (count, slowest) = if known.tries == 1 { &mut upload.once } else { &mut upload.again };
+        *count += 1;
+        *slowest = (*slowest).max(now - known.sent);
         upload.open = upload.open.saturating_sub(1);
-        if upload.cursor < self.queue.front().map_or(0, |leg| leg.moves.len()) {
+        let more = upload.cursor < self.queue.front().map_or(0, |leg| leg.moves.len());
+        if more {
             self.pump_upload(desk, now);
+        } else if upload.open == 0 {
+            // Where most were sent again the link is slow rather than lossy.
+            let slow = upload.again.0 > upload.once.0;
+            self.round_trip = self.round_trip.max(if slow { upload.again.1 } else { upload.once.1 });
         }
     }
 
@@ -127,8 +144,10 @@ impl Run {
         let Some(path) = leg.path(seat) else { return };
         let Ok(pieces) = Pieces::from_slice(&path.pieces) else { return };
         let known = &mut self.seats[seat];
+        if known.tries == 0 {
+            known.sent = now;
+        }
         known.tries += 1;
-        known.sent = now;
         let topic = Topic::Robot(desk.fleet.robot(known.robot).id);
         let route = Command::Route(Route { seq: leg.seq, start: path.start, pieces });
         match known.fade {

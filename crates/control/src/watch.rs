@@ -9,8 +9,12 @@ use lightbots_wire::{Command, Details, RobotState, Topic};
 
 /// At most this far off its path a robot may be without anybody waiting for it, metres.
 const LATE_MAX_M: f64 = 0.03;
-/// A robot is asked for a sign of life this often at most.
-const ASK: Span = Span::from_millis(150);
+/// A driving robot that was not heard for so long, link times on top, is asked for a sign of life, …
+const QUIET: Span = Span::from_millis(560);
+/// … this often at most.
+const ASK: Span = Span::from_millis(90);
+/// Everybody waits for a driving robot that was not heard for so long, link times on top.
+const HUSH: Span = Span::from_millis(900);
 /// Originals are asked where they are this often.
 const ASK_ORIGINAL: Span = Span::from_millis(500);
 /// Robots that have not arrived so long after the planned end are judged by where they stand.
@@ -64,20 +68,27 @@ impl Run {
     fn judge_progress(&mut self, desk: &mut Desk, now: Instant, seat: usize, off_m: Option<f64>) {
         let room_m = self.current.as_ref().map_or(0.0, |leg| leg.room_m);
         let late_m = desk.config.late_m.max((room_m / 2.0).min(LATE_MAX_M));
-        let Phase::Driving(drive) = &mut self.phase else { return };
         let off_m = off_m.unwrap_or(0.0);
+        if off_m > late_m && self.seats[seat].late.is_none() {
+            self.mark_late(desk, now, seat, Trouble::Late);
+            return;
+        }
+        let Phase::Driving(drive) = &mut self.phase else { return };
         let late = &mut self.seats[seat].late;
-        if off_m > late_m && late.is_none() {
-            *late = Some(now);
-            drive.late += 1;
-            self.wait_for(desk, now, seat, Trouble::Late);
-        } else if off_m < late_m / 2.0 && late.take().is_some() {
+        if off_m < late_m / 2.0 && late.take().is_some() {
             drive.late = drive.late.saturating_sub(1);
             let over = drive.late == 0 && drive.hold.is_some_and(|hold| !hold.by_operator);
             if over {
                 self.release(desk, now);
             }
         }
+    }
+
+    fn mark_late(&mut self, desk: &mut Desk, now: Instant, seat: usize, why: Trouble) {
+        let Phase::Driving(drive) = &mut self.phase else { return };
+        drive.late += 1;
+        self.seats[seat].late = Some(now);
+        self.wait_for(desk, now, seat, why);
     }
 
     /// Looks at the next slice of seats, and at the hold.
@@ -124,8 +135,12 @@ impl Run {
             self.settle_overdue(desk, now, seat);
             return;
         }
+        if !held && silent > HUSH + self.round_trip && self.seats[seat].late.is_none() {
+            self.mark_late(desk, now, seat, Trouble::Silent);
+            return;
+        }
         let overdue = !held && now >= drive.ask_at;
-        if (overdue || silent > silence * 2 / 5) && now - self.seats[seat].asked >= ASK {
+        if (overdue || silent > QUIET + self.round_trip) && now - self.seats[seat].asked >= ASK {
             self.seats[seat].asked = now;
             desk.outbox.say(Topic::Robot(robot.id), &[Command::Status]);
         }
