@@ -2,6 +2,8 @@
 
 mod binding;
 mod issues;
+#[cfg(test)]
+mod tests;
 
 use crate::transition::attempt;
 use crate::{Closest, Transition, TransitionProblem};

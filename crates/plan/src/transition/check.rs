@@ -18,6 +18,12 @@ pub(super) fn possible(problem: &TransitionProblem) -> Result<(), Stuck> {
             "a place is not a number".into(),
         ));
     }
+    if !is_sane(problem) {
+        return Err(stuck(
+            Vec::new(),
+            "the floor is too small, or a limit of the robots is not a positive number".into(),
+        ));
+    }
     let contact = problem.limits.contact_m();
     if let Some((a, b, distance)) = touching(goals, contact) {
         let message = format!(
@@ -32,6 +38,14 @@ pub(super) fn possible(problem: &TransitionProblem) -> Result<(), Stuck> {
         blocked(problem, goal, place)?;
     }
     Ok(())
+}
+
+/// Whether floor and robots are such that somebody could drive.
+fn is_sane(problem: &TransitionProblem) -> bool {
+    let (limits, half) = (&problem.limits, problem.half_floor);
+    let of_robots = [limits.radius_m, limits.speed_mps, limits.accel_mps2, limits.turn_radps];
+    let room = [half.x - limits.radius_m, half.y - limits.radius_m];
+    of_robots.iter().chain(&room).all(|&value| value > 0.0 && value.is_finite())
 }
 
 fn stuck(goals: Vec<usize>, message: String) -> Stuck {

@@ -76,7 +76,11 @@ fn with_spares(problem: &TransitionProblem, choice: &Choice) -> Option<Attempt> 
 fn settle(problem: &TransitionProblem, choice: &Choice) -> Attempt {
     match relax(problem, choice) {
         Some(candidate) if candidate.holds() => Attempt { transition: candidate.transition, stuck: None },
-        Some(candidate) => mend(problem, candidate),
+        Some(candidate) if check::possible(problem).is_ok() => mend(problem, candidate),
+        Some(Candidate { transition, proof, .. }) => {
+            let stuck = Some(check::conflict(problem, &transition, &proof));
+            Attempt { transition, stuck }
+        }
         None => Attempt { transition: candidate::standing_still(problem), stuck: Some(check::pins(problem)) },
     }
 }

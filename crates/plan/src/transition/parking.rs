@@ -3,6 +3,7 @@
 use crate::TransitionProblem;
 use lightbots_base::Vec2;
 use lightbots_show::Obstacle;
+use std::collections::BTreeMap;
 
 /// Rings of places tried around a spare robot that stands in the way.
 const RINGS: i32 = 400;
@@ -20,46 +21,73 @@ pub(super) fn with_spares(
         shows[start] = true;
     }
     let spares: Vec<usize> = (0..problem.starts.len()).filter(|&start| !shows[start]).collect();
+    let mut taken = Taken::new(problem);
     // Who may stay does so first; who must go looks for a place among all of those.
     let (stay, go): (Vec<usize>, Vec<usize>) =
-        spares.into_iter().partition(|&spare| is_clear(problem, &problem.goals, problem.starts[spare]));
-    whole.goals.extend(stay.iter().map(|&spare| problem.starts[spare]));
+        spares.into_iter().partition(|&spare| taken.is_clear(problem.starts[spare]));
+    for &spare in &stay {
+        taken.add(problem.starts[spare]);
+        whole.goals.push(problem.starts[spare]);
+    }
     for &spare in &go {
-        let place = free_place(problem, &whole.goals, problem.starts[spare]);
-        whole.goals.push(place.unwrap_or(problem.starts[spare]));
+        let place = free_place(problem, &taken, problem.starts[spare]).unwrap_or(problem.starts[spare]);
+        taken.add(place);
+        whole.goals.push(place);
     }
     start_of.extend(stay.into_iter().chain(go));
     (whole, start_of)
 }
 
-/// How far a waiting robot keeps from goals, metres: enough for others to pass between (Turpin et al. 2014).
-fn spacing_m(problem: &TransitionProblem) -> f64 {
-    problem.limits.radius_m * 2.0 * core::f64::consts::SQRT_2
+/// Places that others keep clear of, in square cells as wide as the distance to keep.
+struct Taken {
+    /// Enough for others to pass between (Turpin et al. 2014), metres.
+    spacing_m: f64,
+    cells: BTreeMap<(i64, i64), Vec<Vec2>>,
 }
 
-fn is_clear(problem: &TransitionProblem, goals: &[Vec2], place: Vec2) -> bool {
-    let spacing = spacing_m(problem);
-    goals.iter().chain(&problem.standing).all(|goal| goal.distance(place) >= spacing)
+impl Taken {
+    fn new(problem: &TransitionProblem) -> Self {
+        let spacing_m = (problem.limits.contact_m() * core::f64::consts::SQRT_2).max(1e-3);
+        let mut taken = Self { spacing_m, cells: BTreeMap::new() };
+        problem.goals.iter().chain(&problem.standing).for_each(|&place| taken.add(place));
+        taken
+    }
+
+    fn cell(&self, place: Vec2) -> (i64, i64) {
+        ((place.x / self.spacing_m).floor() as i64, (place.y / self.spacing_m).floor() as i64)
+    }
+
+    fn add(&mut self, place: Vec2) {
+        self.cells.entry(self.cell(place)).or_default().push(place);
+    }
+
+    fn is_clear(&self, place: Vec2) -> bool {
+        let (column, row) = self.cell(place);
+        let mut around = (-1..=1).flat_map(|dx| (-1..=1).map(move |dy| (dx, dy)));
+        around.all(|(dx, dy)| {
+            let cell = self.cells.get(&(column.saturating_add(dx), row.saturating_add(dy)));
+            cell.is_none_or(|cell| cell.iter().all(|other| other.distance(place) >= self.spacing_m))
+        })
+    }
 }
 
 /// The nearest place on rings around `from` that is on the floor and clear of everything.
-fn free_place(problem: &TransitionProblem, goals: &[Vec2], from: Vec2) -> Option<Vec2> {
-    let step = problem.limits.radius_m.max(1e-3);
-    let half = problem.half_floor;
-    let radius = problem.limits.radius_m;
+fn free_place(problem: &TransitionProblem, taken: &Taken, from: Vec2) -> Option<Vec2> {
+    let (half, radius) = (problem.half_floor, problem.limits.radius_m);
+    let step = radius.max(1e-3);
+    let is_free = |place: Vec2| {
+        place.x.abs() <= half.x - radius
+            && place.y.abs() <= half.y - radius
+            && problem.obstacles.iter().all(|thing| distance_to(thing, place) >= 2.0 * radius)
+            && taken.is_clear(place)
+    };
     (1..RINGS).find_map(|ring| {
         let count = ring * 6;
-        (0..count)
-            .map(|part| {
-                let angle = f64::from(part) / f64::from(count) * core::f64::consts::TAU;
-                from + Vec2::unit(angle) * (step * f64::from(ring))
-            })
-            .find(|&place| {
-                place.x.abs() <= half.x - radius
-                    && place.y.abs() <= half.y - radius
-                    && problem.obstacles.iter().all(|thing| distance_to(thing, place) >= 2.0 * radius)
-                    && is_clear(problem, goals, place)
-            })
+        let place = |part: i32| {
+            let angle = f64::from(part) / f64::from(count) * core::f64::consts::TAU;
+            from + Vec2::unit(angle) * (step * f64::from(ring))
+        };
+        (0..count).map(place).find(|&place| is_free(place))
     })
 }
 
