@@ -2,12 +2,13 @@
 
 use crate::clock;
 use crate::config::Config;
+use crate::desk::Desk;
 use crate::drafting::{Done, Job};
 use crate::event::{Event, EventKind};
 use crate::hearing::unexpected;
 use crate::operation::State;
 use crate::outbox::Send;
-use crate::run::{Desk, Run};
+use crate::run::Run;
 use crate::snapshot::{Counters, RobotView, Snapshot};
 use crate::stopping::Stopping;
 use lightbots_base::{Instant, RobotId, Span};

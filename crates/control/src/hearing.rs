@@ -1,10 +1,11 @@
 //! What a run makes of a robot's report.
 
+use crate::desk::Desk;
 use crate::driving::is_there;
 use crate::event::{EventKind, Trouble};
 use crate::fleet::Heard;
 use crate::leg::Kind;
-use crate::run::{Desk, Phase, Run};
+use crate::run::{Phase, Run};
 use lightbots_base::Instant;
 use lightbots_wire::{Details, Report, RobotState, Topic};
 

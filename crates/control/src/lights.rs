@@ -1,7 +1,8 @@
 //! Lights of a drive: colours change over its last part, by the show clock.
 
+use crate::desk::Desk;
 use crate::driving::Drive;
-use crate::run::{Desk, Phase, Run};
+use crate::run::{Phase, Run};
 use lightbots_base::{Instant, Span};
 use lightbots_wire::{Command, Fade, Topic};
 

@@ -180,7 +180,8 @@ mod tests {
 
     #[test]
     fn a_ring_turns_by_one_place() {
-        let starts: Vec<Vec2> = (0..12).map(|i| Vec2::unit(f64::from(i) * 0.5236) * 0.2).collect();
+        let starts: Vec<Vec2> =
+            (0..12).map(|i| Vec2::unit(f64::from(i) * std::f64::consts::FRAC_PI_6) * 0.2).collect();
         let goals: Vec<Vec2> = (0..12).map(|i| starts[(i + 1) % 12]).collect();
         let original = [true; 12];
         let journey = journey(&starts, &goals, &original);

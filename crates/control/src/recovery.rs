@@ -1,16 +1,19 @@
 //! When something goes wrong: all stop, say where they stand, and are planned anew without those who are lost.
 
+use crate::desk::Desk;
 use crate::event::{EventKind, Outcome, Trouble};
 use crate::operation::MissingPolicy;
-use crate::run::{Desk, Gathering, Phase, Run, Seat, Standing};
+use crate::run::{Gathering, Phase, Run, Seat, Standing};
 use crate::snapshot::Age;
 use lightbots_base::{Instant, Span, Vec2};
-use lightbots_wire::{Command, RobotState, Topic};
+use lightbots_wire::{Command, RobotState, Route, Topic};
 
 /// STOP is said this often, …
 const SAY: u32 = 4;
 /// … this far apart.
 const SAY_EVERY: Span = Span::from_millis(40);
+/// With slower links than this, both ways, STOP alone would not stop all together.
+const SLOW: Span = Span::from_millis(120);
 /// Reports count so long after STOP was said.
 const SETTLE: Span = Span::from_millis(200);
 /// Those who have not answered are asked again this often.
@@ -79,6 +82,22 @@ impl Run {
         }
     }
 
+    /// There is no plan to the next frame from where robots stand: without the guesses where silent ones may be, or
+    /// else to the frame after it. Whether there is anything left to try.
+    pub fn plan_something_else(&mut self, desk: &mut Desk, now: Instant) -> bool {
+        let guessed = self.seats.iter().any(|known| !known.ghost.is_empty());
+        if guessed {
+            self.seats.iter_mut().for_each(|known| known.ghost.clear());
+        } else {
+            match self.after(self.next).filter(|next| next.round == self.next.round) {
+                Some(next) => self.next = next,
+                None => return false,
+            }
+        }
+        self.recover(desk, now);
+        true
+    }
+
     fn say_replanning(&self, desk: &mut Desk, now: Instant) {
         if let Some(next) = self.plan_next {
             desk.log.tell_limited(now, EventKind::Replanning { frame: next.frame });
@@ -88,16 +107,32 @@ impl Run {
     /// Everybody stops and says where they stand.
     pub fn gather(&mut self, desk: &mut Desk, now: Instant) {
         desk.outbox.cease();
-        desk.outbox.broadcast(now, Command::Stop, SAY, SAY_EVERY);
-        self.halt_originals(desk);
-        let fresh_from = now + SETTLE;
         let first = self.current.is_none() && self.frames_played == 0;
-        self.phase = Phase::Gathering(Gathering { since: now, fresh_from, ask_at: fresh_from, first });
+        let mut stop_at = None;
+        if matches!(self.phase, Phase::Driving(_)) && self.round_trip > SLOW {
+            // STOP would reach some much later than others: first all come to rest together.
+            let at = now + self.hold_lead();
+            desk.outbox.broadcast(now, Command::Hold { at }, SAY, SAY_EVERY);
+            stop_at = Some(at + Route::EASE);
+        } else {
+            desk.outbox.broadcast(now, Command::Stop, SAY, SAY_EVERY);
+        }
+        self.halt_originals(desk);
+        let since = stop_at.unwrap_or(now);
+        let fresh_from = since + SETTLE + self.round_trip;
+        self.phase = Phase::Gathering(Gathering { since, fresh_from, ask_at: fresh_from, stop_at, first });
     }
 
     /// Time passes while all are asked where they stand.
     pub fn tick_gathering(&mut self, desk: &mut Desk, now: Instant) {
         let Phase::Gathering(gathering) = self.phase else { return };
+        if let Some(stop_at) = gathering.stop_at {
+            if now >= stop_at {
+                desk.outbox.broadcast(now, Command::Stop, SAY, SAY_EVERY);
+                self.phase = Phase::Gathering(Gathering { stop_at: None, ..gathering });
+            }
+            return;
+        }
         let waited = now - gathering.since;
         let mut all_ready = true;
         for seat in 0..self.seats.len() {
@@ -105,7 +140,11 @@ impl Run {
                 continue;
             }
             let trouble = missing(desk, &self.seats[seat], gathering.fresh_from);
-            let bound = if trouble == Some(Trouble::Cut) { CLOCK } else { desk.config.silence + ANSWERS };
+            let bound = if trouble == Some(Trouble::Cut) {
+                CLOCK
+            } else {
+                desk.config.silence + ANSWERS + self.round_trip * 2
+            };
             match trouble {
                 Some(why) if waited > bound => self.drop_out(desk, now, seat, why),
                 Some(_) => all_ready = false,

@@ -1,42 +1,19 @@
 //! A run: robots in their seats, the leg they drive, the legs that follow, and what everybody waits for.
 
-use crate::config::Config;
-use crate::drafting::Job;
+use crate::desk::Desk;
 use crate::driving::Drive;
 use crate::event::{EventKind, Outcome};
-use crate::fleet::Fleet;
 use crate::fleet::Robot;
 use crate::leg::Kind;
 use crate::leg::Leg;
-use crate::log::Log;
-use crate::mapping::Mapping;
 use crate::operation::MissingPolicy;
-use crate::outbox::Outbox;
 use crate::starting::Start;
 use crate::upload::Upload;
-use lightbots_base::{Instant, Rgb, Span, Vec2};
+use lightbots_base::{Instant, Span, Vec2};
 use lightbots_show::Show;
 use lightbots_wire::{Fade, RobotState};
 use std::collections::VecDeque;
 use std::sync::Arc;
-
-/// What a run works with, and what outlives it.
-#[derive(Clone, Debug)]
-pub(crate) struct Desk {
-    pub config: Config,
-    pub fleet: Fleet,
-    pub outbox: Outbox,
-    pub log: Log,
-    pub mapping: Mapping,
-    /// A plan to be made; a newer one replaces an older one.
-    pub job: Option<Job>,
-    pub job_number: u64,
-    next_seq: u32,
-    /// Arrivals nobody expected.
-    pub unexpected: u64,
-    /// Routes sent more than once.
-    pub resent: u64,
-}
 
 /// A robot's part in the run.
 #[derive(Clone, Debug)]
@@ -96,6 +73,8 @@ pub(crate) struct Gathering {
     /// Reports count from then on.
     pub fresh_from: Instant,
     pub ask_at: Instant,
+    /// When STOP is said, if progress is held first.
+    pub stop_at: Option<Instant>,
     /// Nothing was driven yet: too few robots are a reason not to begin.
     pub first: bool,
 }
@@ -164,36 +143,6 @@ pub(crate) struct Run {
     pub over: Option<Outcome>,
 }
 
-impl Desk {
-    pub fn new(config: Config) -> Self {
-        Self {
-            next_seq: config.seq_base.max(1),
-            config,
-            fleet: Fleet::default(),
-            outbox: Outbox::default(),
-            log: Log::default(),
-            mapping: Mapping::default(),
-            job: None,
-            job_number: 0,
-            unexpected: 0,
-            resent: 0,
-        }
-    }
-
-    /// A route number that was not used before; never 0.
-    pub fn take_seq(&mut self) -> u32 {
-        let seq = self.next_seq;
-        self.next_seq = seq.checked_add(1).unwrap_or(1);
-        seq
-    }
-
-    /// The light a robot is told to show from now on, if it is another one.
-    pub fn relight(&mut self, robot: usize, color: Rgb) -> bool {
-        let robot = self.fleet.robot_mut(robot);
-        std::mem::replace(&mut robot.light, color) != color
-    }
-}
-
 impl Seat {
     pub fn new(robot: usize) -> Self {
         Self {
@@ -237,6 +186,7 @@ impl Run {
                 since: now,
                 fresh_from: Instant::ZERO,
                 ask_at: now,
+                stop_at: None,
                 first: true,
             }),
             current: None,

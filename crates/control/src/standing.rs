@@ -1,10 +1,11 @@
 //! All stand: the air time runs, what comes is planned and handed out, and the next drive starts in time.
 
+use crate::desk::Desk;
 use crate::drafting::{Done, Job, Request, Rider};
 use crate::event::{EventKind, Outcome};
 use crate::leg::Kind;
 use crate::operation::MissingPolicy;
-use crate::run::{Cursor, Desk, Phase, Run};
+use crate::run::{Cursor, Phase, Run};
 use crate::snapshot::Age;
 use lightbots_base::{Instant, Span, Vec2};
 
@@ -162,7 +163,10 @@ impl Run {
                 self.over = Some(Outcome::Failed(why));
                 return;
             }
-            self.failed = Some(why);
+            let stranded = self.queue.is_empty() && matches!(self.phase, Phase::Standing(_));
+            if !(stranded && self.plan_something_else(desk, now)) {
+                self.failed = Some(why);
+            }
         } else if unbegun && self.dark && self.missing == MissingPolicy::Refuse {
             let why = "some pixels have no robot, or one that takes no part stands on them".to_string();
             self.over = Some(Outcome::Failed(why));

@@ -1,8 +1,9 @@
 //! START: stated ahead for everybody at once, repeated, confirmed by reports, put off for those who did not hear it.
 
+use crate::desk::Desk;
 use crate::event::Trouble;
 use crate::leg::Kind;
-use crate::run::{Desk, Phase, Run};
+use crate::run::{Phase, Run};
 use lightbots_base::{Instant, Span};
 use lightbots_wire::{Command, Details, RobotState, Topic};
 

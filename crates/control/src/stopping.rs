@@ -1,6 +1,6 @@
 //! All stop at once: robots that know STOP by STOP, originals by a target where they are.
 
-use crate::run::Desk;
+use crate::desk::Desk;
 use lightbots_base::{Instant, Span, Vec2};
 use lightbots_wire::{Command, Topic};
 use std::collections::BTreeMap;

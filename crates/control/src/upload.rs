@@ -1,8 +1,9 @@
 //! Routes on their way to the robots: sent within a window, acknowledged by reports, sent again until they are.
 
+use crate::desk::Desk;
 use crate::driving::CHECK;
 use crate::event::Trouble;
-use crate::run::{Desk, Phase, Run};
+use crate::run::{Phase, Run};
 use lightbots_base::{Instant, Span};
 use lightbots_wire::{Command, Pieces, Route, Topic};
 use std::collections::VecDeque;
@@ -94,7 +95,7 @@ impl Run {
         while upload.cursor < count && upload.open < desk.config.window {
             let seat = upload.cursor;
             upload.cursor += 1;
-            if self.seats[seat].out || !self.queue.front().is_some_and(|leg| leg.path(seat).is_some()) {
+            if self.seats[seat].out || self.queue.front().is_none_or(|leg| leg.path(seat).is_none()) {
                 continue;
             }
             self.seats[seat].tries = 0;

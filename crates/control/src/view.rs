@@ -1,9 +1,10 @@
 //! The snapshot's making.
 
+use crate::desk::Desk;
 use crate::driving::Drive;
 use crate::leg::Kind;
 use crate::operation::State;
-use crate::run::{Desk, Phase, Purpose, Run};
+use crate::run::{Phase, Purpose, Run};
 use crate::snapshot::{RobotView, RunView};
 use lightbots_base::{Instant, RobotId, Span};
 

@@ -1,9 +1,10 @@
 //! The watch over a drive: who is silent, late or overdue, and whether a hold holds.
 
+use crate::desk::Desk;
 use crate::driving::{CHECK, Drive, is_there};
 use crate::event::Trouble;
 use crate::leg::Kind;
-use crate::run::{Desk, Phase, Run};
+use crate::run::{Phase, Run};
 use lightbots_base::{Instant, Span};
 use lightbots_wire::{Command, Details, RobotState, Topic};
 
@@ -121,7 +122,7 @@ impl Run {
     fn watch_driver(&mut self, desk: &mut Desk, now: Instant, seat: usize, drive: &Drive) {
         let robot = desk.fleet.robot(self.seats[seat].robot);
         let silent = now - robot.heard.max(drive.began);
-        let silence = desk.config.silence;
+        let silence = desk.config.silence + self.round_trip * 2;
         if silent > silence {
             self.drop_out(desk, now, seat, Trouble::Silent);
             return;
