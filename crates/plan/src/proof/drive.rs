@@ -11,6 +11,12 @@ const STEP_MPS: f64 = 1e-3;
 /// Slower than this which way a robot faces hardly matters, m/s: in the third of a second that a quarter turn takes it
 /// gets 3 mm off its path at most.
 const CREEP_MPS: f64 = 20e-3;
+/// What a robot may lack when it has to turn while it is slow, seconds: it makes up for that while it drives off.
+const GRACE_S: f64 = 0.05;
+/// Moments of a curved piece at which it is asked whether the robot is slow.
+const MOMENTS: u32 = 32;
+/// Velocity times turning rate below which a piece is straight, m/s · rad/s · m/s.
+const STRAIGHT: f64 = 1e-12;
 /// Halvings before a stretch that is still undecided is judged by its middle.
 const HALVINGS: u32 = 8;
 
@@ -112,13 +118,13 @@ impl Course {
 
     fn judge_turning(&self, limits: &Limits, halvings: u32, report: &mut dyn FnMut(FaultKind)) {
         let (swing, top) = (self.swing_bound(), self.speed_bound());
-        if swing <= 1e-12 && halvings < HALVINGS || top < CREEP_MPS {
+        if swing <= STRAIGHT || top < CREEP_MPS {
             return;
         }
         let wheel_mps = limits.wheel_radps * limits.wheel_radius_m * (1.0 + SHARE);
         let most = limits.turn_radps * (1.0 + SHARE);
         let floor = self.speed_floor().max(if halvings == 0 { CREEP_MPS } else { 0.0 });
-        let turn = if swing <= 1e-12 { 0.0 } else { swing / (floor * floor) };
+        let turn = swing / (floor * floor);
         if turn <= most && top + turn * limits.track_m / 2.0 <= wheel_mps {
             return;
         }
@@ -132,54 +138,64 @@ impl Course {
     }
 }
 
-/// What one piece hands to the next: velocity, and how a stopped robot stands.
+/// What one piece hands to the next: velocity, and how a slow robot stands.
 struct Joint<'a> {
     limits: &'a Limits,
     velocity: Vec2,
-    /// The line it stands along; `None` before the first drive.
+    /// The line it drove along when it last was fast; `None` before the first drive.
     heading: Option<Vec2>,
-    /// How long it has stood.
-    stood: Span,
+    /// For how long it has been slow since then, seconds.
+    slow_s: f64,
 }
 
 impl<'a> Joint<'a> {
     fn new(limits: &'a Limits) -> Self {
-        Self { limits, velocity: Vec2::ZERO, heading: None, stood: Span::ZERO }
+        Self { limits, velocity: Vec2::ZERO, heading: None, slow_s: 0.0 }
     }
 
     fn pass(&mut self, course: &Course, duration: Span, report: &mut dyn FnMut(FaultKind)) {
-        let [first, _, last] = course.velocity;
+        let [first, middle, last] = course.velocity;
         if (first - self.velocity).length() > STEP_MPS {
             report(FaultKind::Jump);
         }
         self.velocity = last;
         if course.speed_bound() < CREEP_MPS {
-            self.stood += duration;
-            return;
+            self.slow_s += duration.as_secs();
+        } else if course.swing_bound() <= STRAIGHT {
+            let fast = [first, middle, last].into_iter().find(|velocity| velocity.length() >= CREEP_MPS);
+            self.meet(fast.unwrap_or(middle), 0.0, report);
+        } else {
+            let step_s = duration.as_secs() / f64::from(MOMENTS);
+            for moment in 0..=MOMENTS {
+                let u = f64::from(moment) / f64::from(MOMENTS);
+                let velocity = first.lerp(middle, u).lerp(middle.lerp(last, u), u);
+                self.meet(velocity, if moment == 0 { 0.0 } else { step_s }, report);
+            }
         }
-        let direction = |from: [Vec2; 3]| {
-            from.into_iter().find_map(|v| (v.length() > CREEP_MPS).then(|| v.normalized())?)
-        };
-        let begin = direction(course.velocity);
-        if let Some(begin) = begin
-            && first.length() <= CREEP_MPS
-            && self.stood.as_secs() < self.needed(begin) * (1.0 - SHARE) - 1e-3
-        {
-            report(FaultKind::Turn);
-        }
-        let [a, b, c] = course.velocity;
-        self.heading = direction([c, b, a]);
-        self.stood = Span::ZERO;
     }
 
-    /// Seconds a stopped robot needs to turn towards a direction, forwards or backwards, whichever is nearer.
-    fn needed(&self, towards: Vec2) -> f64 {
+    /// A velocity `step_s` after the last one.
+    fn meet(&mut self, velocity: Vec2, step_s: f64, report: &mut dyn FnMut(FaultKind)) {
+        let line = velocity.normalized().filter(|_| velocity.length() >= CREEP_MPS);
+        let Some(line) = line else {
+            self.slow_s += step_s;
+            return;
+        };
+        // While it is fast its turning rate is judged directly; between pieces, and after it was slow, its turn is.
+        let is_turn = step_s <= 0.0 || self.slow_s > 0.0 || self.heading.is_none();
+        if is_turn && self.needed_s(line) > self.slow_s + step_s + GRACE_S {
+            report(FaultKind::Turn);
+        }
+        self.heading = Some(line);
+        self.slow_s = 0.0;
+    }
+
+    /// How long turning towards a line takes, forwards or backwards, whichever is nearer.
+    fn needed_s(&self, towards: Vec2) -> f64 {
         let angle = match self.heading {
-            // A line's angle to a line, at most a quarter turn.
             Some(heading) => Vec2::new(heading.dot(towards).abs(), heading.cross(towards).abs()).angle(),
             None => core::f64::consts::FRAC_PI_2,
         };
-        // A small angle is corrected while it begins to drive.
-        if angle < 0.05 { 0.0 } else { angle / self.limits.turn_radps.max(1e-3) }
+        angle / self.limits.turn_radps.max(1e-3)
     }
 }

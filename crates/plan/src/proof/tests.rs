@@ -115,6 +115,26 @@ fn what_a_robot_cannot_do_is_named() {
 }
 
 #[test]
+fn a_corner_takes_the_time_to_turn() {
+    let (a, b, c) = (Vec2::ZERO, Vec2::new(0.3, 0.0), Vec2::new(0.3, 0.3));
+    let corner = |rest_ms: i64| {
+        let drive = |from: Vec2, to: Vec2| Piece { duration: Span(2_000_000), c1: from, c2: to, end: to };
+        let mut pieces = vec![Piece::rest(a, REST), drive(a, b), drive(b, c)];
+        if rest_ms > 0 {
+            pieces.insert(2, Piece::rest(b, Span::from_millis(rest_ms)));
+        }
+        kinds(Path { start: a, pieces })
+    };
+    assert_eq!(corner(350), []);
+    assert_eq!(corner(100), [FaultKind::Turn]);
+    assert_eq!(corner(0), [FaultKind::Turn]);
+    // Straight back needs no turn at all.
+    let back = Piece { duration: Span(2_000_000), c1: b, c2: a, end: a };
+    let forth = Piece { duration: Span(2_000_000), c1: a, c2: b, end: b };
+    assert_eq!(kinds(Path { start: a, pieces: vec![Piece::rest(a, REST), forth, back] }), []);
+}
+
+#[test]
 fn obstacles_are_kept_clear_of() {
     let path = [smooth(Vec2::new(-1.0, 0.0), Vec2::new(1.0, 0.0), 12.0)];
     let judged = |thing: Obstacle| prove(&input(&path, &[], &[thing])).holds();
