@@ -9,7 +9,6 @@ use super::kdtree::KdTree;
 use super::search::Search;
 use super::space;
 use lightbots_base::Vec2;
-use std::collections::BTreeSet;
 
 /// Nearest neighbours each row begins with.
 const NEIGHBOURS: usize = 6;
@@ -43,8 +42,6 @@ pub(super) struct LeastSquares<'a> {
     tree: KdTree,
     reach_squared: f64,
     search: Search,
-    /// Edges (row, column) that must not be used, though within reach.
-    banned: BTreeSet<(u32, u32)>,
 }
 
 impl<'a> LeastSquares<'a> {
@@ -70,37 +67,11 @@ impl<'a> LeastSquares<'a> {
             edges.push(list);
         }
         let search = Search::new(edges, columns.len());
-        Self { rows, columns, rows_in_space, tree, reach_squared, search, banned: BTreeSet::new() }
-    }
-
-    /// Forbids an edge. Only for as many columns as rows.
-    pub fn ban(&mut self, row: u32, column: u32) {
-        self.banned.insert((row, column));
-        self.search.remove(row, column);
-        self.widen(row);
-    }
-
-    /// Allows all edges again.
-    pub fn lift_bans(&mut self) {
-        for (row, _) in core::mem::take(&mut self.banned) {
-            self.widen(row);
-        }
-    }
-
-    /// Gives a row more neighbours to choose from, and lets it choose anew.
-    fn widen(&mut self, row: u32) {
-        let (at, true_at) = (self.rows_in_space[row as usize], self.rows[row as usize]);
-        let allowed = |column: u32| {
-            let way = self.columns[column as usize] - true_at;
-            way.length_squared() <= self.reach_squared && !self.banned.contains(&(row, column))
-        };
-        let wider = self.tree.nearest(at, 3 * NEIGHBOURS, allowed);
-        self.search.add(row as usize, wider.into_iter().map(|(cost, column)| (column, cost)));
-        self.search.release(row);
+        Self { rows, columns, rows_in_space, tree, reach_squared, search }
     }
 
     /// The best assignment within `reach_squared`, which must not be less than before: `column_of[row]`. `None` where
-    /// bans leave none.
+    /// there is none, which a feasible matching rules out.
     pub fn solve(&mut self, reach_squared: f64) -> Option<&[u32]> {
         self.reach_squared = reach_squared;
         self.search.complete();
@@ -134,8 +105,7 @@ impl<'a> LeastSquares<'a> {
             let duals = self.search.column_duals();
             self.tree.cheaper(at, limit, duals, &greatest, |column, cost| {
                 let way = self.columns[column as usize] - true_at;
-                if way.length_squared() <= self.reach_squared && !self.banned.contains(&(row as u32, column))
-                {
+                if way.length_squared() <= self.reach_squared {
                     found.push((cost - duals[column as usize], column, cost));
                 }
             });

@@ -123,9 +123,6 @@ impl Choice {
 pub struct Minimiser<'a> {
     choice: &'a Choice,
     solver: LeastSquares<'a>,
-    /// `row_of[goal]` and `column_of[start]` in the solver, `NONE` where pinned.
-    row_of: Vec<u32>,
-    column_of: Vec<u32>,
 }
 
 impl<'a> Minimiser<'a> {
@@ -133,18 +130,12 @@ impl<'a> Minimiser<'a> {
         let reach_squared = choice.reach_squared * ROUNDING;
         let solver =
             LeastSquares::new(&choice.goal_places, &choice.start_places, &choice.feasible, reach_squared);
-        let ranks = |open: &[usize], count: usize| {
-            let mut rank_of = vec![NONE; count];
-            open.iter().enumerate().for_each(|(rank, &index)| rank_of[index] = rank as u32);
-            rank_of
-        };
-        let row_of = ranks(&choice.open_goals, choice.goals);
-        let column_of = ranks(&choice.open_starts, choice.starts);
-        Self { choice, solver, row_of, column_of }
+        Self { choice, solver }
     }
 
     /// `start_of[goal]` with the least sum of squared ways among assignments without a way longer than
-    /// `(1 + slack)` times the bottleneck. `slack` must not shrink from call to call. `None` where bans leave none.
+    /// `(1 + slack)` times the bottleneck. `slack` must not shrink from call to call. `None` where no
+    /// assignment was found, which `Choice::new` rules out.
     pub fn solve(&mut self, slack: f64) -> Option<Vec<usize>> {
         let choice = self.choice;
         let column_of = self.solver.solve(choice.reach_squared * (1.0 + slack) * (1.0 + slack) * ROUNDING)?;
@@ -156,20 +147,5 @@ impl<'a> Minimiser<'a> {
             start_of[goal] = start;
         }
         Some(start_of)
-    }
-
-    /// From now on that start must not go to that goal; whether there was a choice. Only without spare starts.
-    pub fn ban(&mut self, goal: usize, start: usize) -> bool {
-        let (row, column) = (self.row_of[goal], self.column_of[start]);
-        let may = row != NONE && column != NONE && self.choice.spares() == 0;
-        if may {
-            self.solver.ban(row, column);
-        }
-        may
-    }
-
-    /// Forgets all bans.
-    pub fn lift_bans(&mut self) {
-        self.solver.lift_bans();
     }
 }

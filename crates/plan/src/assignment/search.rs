@@ -97,14 +97,6 @@ impl Search {
         self.lift(row as usize);
     }
 
-    /// Takes an edge out, and its row out of the assignment if that used it.
-    pub fn remove(&mut self, row: u32, column: u32) {
-        self.edges[row as usize].retain(|edge| edge.0 != column);
-        if self.column_of[row as usize] == column {
-            self.release(row);
-        }
-    }
-
     /// Sets a row's dual to the greatest legal one.
     fn lift(&mut self, row: usize) {
         let duals = &self.column_duals;

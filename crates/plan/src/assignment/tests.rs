@@ -118,34 +118,3 @@ fn what_cannot_be_is_refused() {
     assert!(Choice::new(&[Vec2::new(f64::NAN, 0.0)], &[a], &[]).is_none());
     assert!(Choice::new(&[], &[], &[]).unwrap().least_squares().solve(0.0).unwrap().is_empty());
 }
-
-#[test]
-fn banned_ways_are_not_gone_and_the_rest_stays_optimal() {
-    let mut seeded = Seeded::new(21);
-    for _ in 0..200 {
-        let count = 2 + seeded.below(10);
-        let mut place = || Vec2::new(seeded.between(-1.5, 1.5), seeded.between(-1.5, 1.5));
-        let starts: Vec<Vec2> = (0..count).map(|_| place()).collect();
-        let goals: Vec<Vec2> = (0..count).map(|_| place()).collect();
-        let choice = Choice::new(&starts, &goals, &[]).unwrap();
-        let mut minimiser = choice.least_squares();
-        let free = minimiser.solve(4.0).unwrap();
-        let banned: Vec<(usize, usize)> = (0..2).map(|goal| (goal, free[goal])).collect();
-        banned.iter().for_each(|&(goal, start)| assert!(minimiser.ban(goal, start)));
-        let reach = (choice.bottleneck_m() * 5.0).powi(2) * ROUNDING;
-        let cost = |goal: usize, start: usize| {
-            let way = squared(&starts, &goals, goal, start);
-            if way <= reach && !banned.contains(&(goal, start)) { way } else { f64::INFINITY }
-        };
-        let least = oracle(count, count, cost);
-        match minimiser.solve(4.0) {
-            Some(start_of) => {
-                let sum: f64 = start_of.iter().enumerate().map(|(goal, &start)| cost(goal, start)).sum();
-                assert!((sum - least).abs() < 1e-8, "{sum} {least}");
-            }
-            None => assert_eq!(least, f64::INFINITY),
-        }
-        minimiser.lift_bans();
-        assert_eq!(minimiser.solve(4.0).unwrap(), free);
-    }
-}

@@ -17,6 +17,6 @@ pub fn turn_time(angle: f64, limits: &Limits) -> Span {
 /// `seconds` rounded up to whole milliseconds, at least zero: what the wire carries without loss.
 pub(crate) fn whole_millis(seconds: f64) -> Span {
     // A hair less, so that what is whole already stays so.
-    let millis = (seconds * 1e3 - 1e-6).max(0.0).min(1e12);
+    let millis = (seconds * 1e3 - 1e-6).clamp(0.0, 1e12);
     Span::from_millis(millis.ceil() as i64)
 }
