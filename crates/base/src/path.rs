@@ -159,7 +159,12 @@ mod tests {
 
     #[test]
     fn acceleration_is_the_slope_of_velocity() {
-        let piece = Piece { duration: SECOND, c1: Vec2::new(0.2, 0.5), c2: Vec2::new(0.9, -0.4), end: Vec2::new(1.0, 1.0) };
+        let piece = Piece {
+            duration: SECOND,
+            c1: Vec2::new(0.2, 0.5),
+            c2: Vec2::new(0.9, -0.4),
+            end: Vec2::new(1.0, 1.0),
+        };
         let (a, b) = (piece.at(Vec2::ZERO, Span(400_000)), piece.at(Vec2::ZERO, Span(400_010)));
         let slope = (b.velocity - a.velocity) / 1e-5;
         assert!((slope - a.acceleration).length() < 1e-3);
