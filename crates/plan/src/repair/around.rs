@@ -6,7 +6,7 @@ use super::lattice::{Lattice, NONE};
 use super::scene::Scene;
 
 /// Ways keep this off walls, metres.
-const MARGIN_M: f64 = 0.006;
+const MARGIN_M: f64 = 0.008;
 /// How far from its ends a way may reach the lattice, in pitches.
 const REACH: f64 = 3.0;
 

@@ -22,8 +22,8 @@ const GOOD: f64 = 1.15;
 /// Larger crowds do not bow: the lattice is quicker.
 const MOST_TO_BOW: usize = 600;
 /// What the first guesses aim at, and the lattice, which is not as wide.
-const WIDE: Wish = Wish { robots_m: 0.0625, walls_m: 0.0045, slack_m: 0.002 };
-const NARROW: Wish = Wish { robots_m: 0.0595, walls_m: 0.0045, slack_m: 0.0015 };
+const WIDE: Wish = Wish { robots_m: 0.0625, walls_m: 0.0075, slack_m: 0.002 };
+const NARROW: Wish = Wish { robots_m: 0.0595, walls_m: 0.0065, slack_m: 0.0015 };
 
 /// The swiftest of what was found; `None` where nothing was.
 pub(super) fn best(scene: &Scene, easing: Easing) -> Option<Weave> {

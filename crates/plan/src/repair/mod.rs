@@ -18,6 +18,8 @@ mod scene;
 mod search;
 mod slow;
 mod steps;
+#[cfg(test)]
+mod tests;
 mod turning;
 mod weave;
 

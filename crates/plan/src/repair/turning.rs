@@ -6,11 +6,13 @@ use lightbots_base::{Limits, Vec2};
 use super::weave::{blend, fold};
 
 /// Slower than this the direction does not matter, m/s.
-const CREEP_MPS: f64 = 0.004;
+const CREEP_MPS: f64 = 0.016;
 /// Moments of a span that are looked at.
 const MOMENTS: usize = 16;
 /// Below this share of the speed that a turn needs, a reversal is nearer than a bend.
 const REVERSAL: f64 = 0.5;
+/// Steps shorter than this many creeping ones are wiggles.
+const WIGGLE: f64 = 3.0;
 /// Share of the limit that a reversal may turn beside its stop.
 const REVERSAL_UNDERCUT: f64 = 0.6;
 /// Weights of a span's control points for its third derivative.
@@ -20,7 +22,9 @@ const UNDERCUT: f64 = 0.97;
 
 /// Weights of a span's control points for its motion at a moment: slopes of the uniform cubic B-spline, for span
 /// length 1.
+#[derive(Clone, Copy)]
 struct Moment {
+    u: f64,
     velocity: [f64; 4],
     acceleration: [f64; 4],
 }
@@ -30,6 +34,7 @@ impl Moment {
         let w = 1.0 - u;
         let inner = [(3.0 * u * u - 4.0 * u) / 2.0, (-3.0 * u * u + 2.0 * u + 1.0) / 2.0];
         Self {
+            u,
             velocity: [-w * w / 2.0, inner[0], inner[1], u * u / 2.0],
             acceleration: [w, 3.0 * u - 2.0, 1.0 - 3.0 * u, u],
         }
@@ -65,20 +70,24 @@ impl Turning {
         let spans = way.len() - 3;
         for span in 0..spans {
             let four = &way[span..span + 4];
-            let Some((turn, index)) = self.fastest(four) else { continue };
+            let Some((turn, fastest)) = self.fastest(four) else { continue };
             if turn <= self.turn {
                 continue;
             }
-            let slowest = slowest_near(four, (index as f64 + 0.5) / MOMENTS as f64);
-            let (v, a) = slowest.motion(four);
             let folded = |weights: &[f64; 4]| fold(weights, span, spans, spare);
+            let slowest = refined(four, fastest.u);
+            let (v, a) = slowest.motion(four);
             let nearly_stops = v.length() * self.turn < a.length() * REVERSAL;
             let reversed = || self.reversed(four, (folded(&slowest.velocity), v), (folded(&JERK), a));
-            let shifts = nearly_stops.then(reversed).flatten().or_else(|| {
-                let moment = &self.moments[index];
-                let (v, a) = moment.motion(four);
-                self.widened((folded(&moment.velocity), v), (folded(&moment.acceleration), a))
-            });
+            let widened = || {
+                let (v, a) = fastest.motion(four);
+                self.widened((folded(&fastest.velocity), v), (folded(&fastest.acceleration), a))
+            };
+            let shifts = if self.only_wiggles(four) {
+                Some(smoothed(four, span, spans))
+            } else {
+                nearly_stops.then(reversed).flatten().or_else(widened)
+            };
             for (point, shift) in way[span..span + 4].iter_mut().zip(shifts.into_iter().flatten()) {
                 *point += shift;
             }
@@ -94,17 +103,39 @@ impl Turning {
     }
 
     /// The fastest turn of a span and the moment it is at; `None` where none can be too fast.
-    fn fastest(&self, four: &[Vec2]) -> Option<(f64, usize)> {
+    fn fastest(&self, four: &[Vec2]) -> Option<(f64, Moment)> {
         if self.is_easy(four) {
             return None;
         }
-        let turns = self.moments.iter().enumerate().map(|(index, moment)| {
+        let creep = self.creep_m * self.creep_m;
+        let turn = |moment: &Moment| {
             let (v, a) = moment.motion(four);
-            let squared = v.length_squared();
-            let matters = squared > self.creep_m * self.creep_m;
-            (if matters { v.cross(a).abs() / squared } else { 0.0 }, index)
-        });
-        turns.max_by(|a, b| a.0.total_cmp(&b.0))
+            if v.length_squared() > creep { v.cross(a).abs() / v.length_squared() } else { 0.0 }
+        };
+        let mut worst = (0.0, self.moments[0]);
+        let mut offer = |turn: f64, moment: Moment| {
+            if turn > worst.0 {
+                worst = (turn, moment);
+            }
+        };
+        let speed = |index: usize| self.moments[index].motion(four).0.length_squared();
+        let mut speeds = [f64::MAX; MOMENTS + 2];
+        (0..MOMENTS).for_each(|index| speeds[index + 1] = speed(index));
+        for (index, moment) in self.moments.iter().enumerate() {
+            offer(turn(moment), *moment);
+            if speeds[index + 1] <= speeds[index] && speeds[index + 1] <= speeds[index + 2] {
+                // The narrowest swings fall between two moments.
+                let slowest = refined(four, moment.u);
+                let (v, a) = slowest.motion(four);
+                offer(v.cross(a).abs() / v.length_squared().max(creep), slowest);
+            }
+        }
+        Some(worst)
+    }
+
+    /// Whether nothing in a span is worth a reversal.
+    fn only_wiggles(&self, four: &[Vec2]) -> bool {
+        four.windows(2).all(|step| step[0].distance(step[1]) < WIGGLE * self.creep_m)
     }
 
     /// Whether a span cannot turn too fast, by the hull of its velocity.
@@ -147,7 +178,7 @@ impl Turning {
         let swerve = blend(four, &JERK).dot(across);
         let may = 2.0 * self.turn * a.length() * REVERSAL_UNDERCUT;
         let (v_lack, j_lack) = (-v.dot(across), swerve.clamp(-may, may) - swerve);
-        if v_lack.abs() < self.creep_m * 0.01 && j_lack == 0.0 {
+        if v_lack.abs() < self.creep_m * 0.0025 && j_lack == 0.0 {
             return None;
         }
         let dot = |one: &[f64; 4], other: &[f64; 4]| one.iter().zip(other).map(|(a, b)| a * b).sum::<f64>();
@@ -159,9 +190,9 @@ impl Turning {
     }
 }
 
-/// The slowest moment of a span near `u`: Newton's steps on v².
-fn slowest_near(four: &[Vec2], mut u: f64) -> Moment {
-    let jerk = four[3] - four[0] + (four[1] - four[2]) * 3.0;
+/// The slowest moment near `u`: Newton's steps on v².
+fn refined(four: &[Vec2], mut u: f64) -> Moment {
+    let jerk = blend(four, &JERK);
     for _ in 0..4 {
         let (v, a) = Moment::new(u).motion(four);
         let bend = a.length_squared() + v.dot(jerk);
@@ -171,6 +202,14 @@ fn slowest_near(four: &[Vec2], mut u: f64) -> Moment {
         u = (u - v.dot(a) / bend).clamp(0.0, 1.0);
     }
     Moment::new(u)
+}
+
+/// How a span's free control points move towards the middle of their neighbours.
+fn smoothed(four: &[Vec2], span: usize, last: usize) -> [Vec2; 4] {
+    std::array::from_fn(|i| {
+        let inner = (1..3).contains(&i) && (2..=last).contains(&(span + i));
+        if inner { (four[i - 1] + four[i + 1] - four[i] * 2.0) * 0.25 } else { Vec2::ZERO }
+    })
 }
 
 #[cfg(test)]
@@ -186,19 +225,19 @@ mod tests {
 
     #[test]
     fn a_sharp_corner_becomes_one_that_can_be_driven() {
-        let corner = [0.0, 0.02, 0.04, 0.06, 0.075, 0.08];
+        let corner = [0.0, 0.04, 0.08, 0.11, 0.125, 0.135];
         let mut way: Vec<Vec2> = corner.iter().map(|&x| Vec2::new(x, 0.0)).collect();
-        way.extend(corner.iter().rev().map(|&x| Vec2::new(0.08, 0.081 - x)));
+        way.extend(corner.iter().rev().map(|&x| Vec2::new(0.135, 0.145 - x)));
         let (before, after) = eased(way);
-        assert!(before > 2.0 && after <= 1.0, "{before} {after}");
+        assert!(before > 1.2 && after <= 1.0, "{before} {after}");
     }
 
     #[test]
     fn what_nearly_is_a_reversal_becomes_one() {
         let there = [0.0, 0.03, 0.06, 0.08].map(|x| Vec2::new(x, 0.0));
-        let back = [0.081, 0.06, 0.03, 0.0].map(|x| Vec2::new(x, 0.002));
+        let back = [0.081, 0.06, 0.03, 0.0].map(|x| Vec2::new(x, 0.006));
         let (before, after) = eased([there, back].concat());
-        assert!(before > 5.0 && after <= 1.0, "{before} {after}");
+        assert!(before > 1.2 && after <= 1.0, "{before} {after}");
     }
 
     #[test]

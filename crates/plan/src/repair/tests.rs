@@ -1,0 +1,144 @@
+//! Whole repairs, judged by the proof.
+
+use super::*;
+use crate::proof::{Proof, ProofInput, prove};
+use crate::seeded::Seeded;
+use lightbots_base::{Limits, Vec2};
+use lightbots_show::Obstacle;
+
+/// `count` places at least `apart` metres from each other on a floor of 2 · `half` a side.
+fn places(seeded: &mut Seeded, count: usize, half: f64, apart: f64) -> Vec<Vec2> {
+    let mut places: Vec<Vec2> = Vec::new();
+    let reach = half - 0.027;
+    for _ in 0..100_000 {
+        let place = Vec2::new(seeded.between(-reach, reach), seeded.between(-reach, reach));
+        if places.len() < count && places.iter().all(|other| other.distance(place) >= apart) {
+            places.push(place);
+        }
+    }
+    places
+}
+
+fn problem(starts: Vec<Vec2>, goals: Vec<Vec2>, half: f64) -> TransitionProblem {
+    TransitionProblem { starts, goals, ..TransitionProblem::on_floor(Vec2::new(half, half), Limits::ELISA_3) }
+}
+
+fn random(count: usize, half: f64, apart: f64, seed: u64) -> TransitionProblem {
+    let mut seeded = Seeded::new(seed);
+    let starts = places(&mut seeded, count, half, apart);
+    let goals = places(&mut seeded, count, half, apart);
+    problem(starts, goals, half)
+}
+
+fn judge(problem: &TransitionProblem, paths: &[Path]) -> Proof {
+    prove(&ProofInput {
+        paths,
+        standing: &problem.standing,
+        obstacles: &problem.obstacles,
+        half_floor: problem.half_floor,
+        limits: &problem.limits,
+        gap_m: problem.limits.contact_m() + 0.003,
+        obstacle_gap_m: 0.003,
+    })
+}
+
+/// Repairs with goal i for start i, asserts that the proof holds and paths are whole, and returns the duration over
+/// that of the longest straight line.
+fn ratio(problem: &TransitionProblem) -> f64 {
+    let goal_of: Vec<Option<usize>> =
+        (0..problem.starts.len()).map(|i| (i < problem.goals.len()).then_some(i)).collect();
+    let paths = repair(problem, &goal_of).expect("a way");
+    let proof = judge(problem, &paths);
+    assert!(proof.holds(), "{} conflicts, faults {:?}", proof.conflicts.len(), proof.faults);
+    for (i, path) in paths.iter().enumerate() {
+        assert_eq!(path.start, problem.starts[i]);
+        assert!(problem.goals.get(i).is_none_or(|&goal| path.as_ref().end() == goal));
+        assert_eq!(path.as_ref().duration(), paths[0].as_ref().duration());
+        assert!(path.pieces.len() <= 128 && path.pieces[0].duration >= TURN);
+    }
+    let longest = problem.starts.iter().zip(&problem.goals).map(|(a, b)| a.distance(*b)).fold(0.0, f64::max);
+    paths[0].as_ref().duration().as_secs() / (longest / 0.27 + 0.62)
+}
+
+#[test]
+fn two_who_change_places_pass_each_other() {
+    let (a, b) = (Vec2::new(-0.5, 0.0), Vec2::new(0.5, 0.0));
+    assert!(ratio(&problem(vec![a, b], vec![b, a], 1.5)) < 1.1);
+}
+
+#[test]
+fn thirty_with_fixed_identity_cross_a_floor() {
+    for seed in 0..6 {
+        let ratio = ratio(&random(30, 1.5, 0.0774, seed));
+        assert!(ratio < 1.1, "{seed}: {ratio}");
+    }
+}
+
+#[test]
+fn a_dense_crowd_with_fixed_identity_gets_through() {
+    for seed in 0..4 {
+        let ratio = ratio(&random(40, 0.42, 0.0774, seed));
+        assert!(ratio < 1.5, "{seed}: {ratio}");
+    }
+}
+
+#[test]
+fn close_pixels_are_no_obstacle() {
+    for seed in 0..4 {
+        let ratio = ratio(&random(24, 0.35, 0.06, seed));
+        assert!(ratio < 1.6, "{seed}: {ratio}");
+    }
+}
+
+#[test]
+fn ways_lead_around_walls_and_robots_that_stand() {
+    let column = |x: f64| (0..6).map(|i| Vec2::new(x, f64::from(i) * 0.1 - 0.25)).collect::<Vec<_>>();
+    let mut problem = problem(column(-0.8), column(0.8), 1.2);
+    problem.obstacles = vec![
+        Obstacle::Rect { min: Vec2::new(-0.1, -0.6), max: Vec2::new(0.1, 0.5) },
+        Obstacle::Disc { at: Vec2::new(0.5, 0.1), radius_m: 0.1 },
+    ];
+    problem.standing = vec![Vec2::new(-0.5, 0.0), Vec2::new(-0.4, 0.7)];
+    assert!(ratio(&problem) < 1.6);
+}
+
+#[test]
+fn who_is_spare_steps_aside() {
+    let mut starts = vec![Vec2::new(-0.4, 0.0)];
+    starts.extend((-4..=4).map(|i| Vec2::new(0.0, f64::from(i) * 0.06)));
+    assert!(ratio(&problem(starts, vec![Vec2::new(0.4, 0.0)], 0.5)) < 1.8);
+}
+
+#[test]
+fn who_is_walled_in_gets_no_way() {
+    let mut problem = problem(vec![Vec2::ZERO], vec![Vec2::new(1.0, 0.0)], 1.5);
+    let side = |min: (f64, f64), max: (f64, f64)| Obstacle::Rect {
+        min: Vec2::new(min.0, min.1),
+        max: Vec2::new(max.0, max.1),
+    };
+    problem.obstacles = vec![
+        side((-0.3, 0.2), (0.3, 0.3)),
+        side((-0.3, -0.3), (0.3, -0.2)),
+        side((-0.3, -0.3), (-0.2, 0.3)),
+        side((0.2, -0.3), (0.3, 0.3)),
+    ];
+    assert_eq!(repair(&problem, &[Some(0)]), None);
+}
+
+#[test]
+fn a_wished_for_duration_is_kept() {
+    let mut problem = random(10, 0.4, 0.0774, 3);
+    problem.duration = Some(Span::from_secs(20.0));
+    let goal_of: Vec<Option<usize>> = (0..10).map(Some).collect();
+    let paths = repair(&problem, &goal_of).unwrap();
+    assert!((paths[0].as_ref().duration().as_secs() - 20.0).abs() < 1e-3);
+    assert!(judge(&problem, &paths).holds());
+}
+
+#[test]
+fn nonsense_is_refused() {
+    let problem = problem(vec![Vec2::new(f64::NAN, 0.0)], vec![Vec2::ZERO], 1.5);
+    assert_eq!(repair(&problem, &[Some(0)]), None);
+    assert_eq!(repair(&problem, &[Some(7)]), None);
+    assert_eq!(repair(&problem, &[]), None);
+}
