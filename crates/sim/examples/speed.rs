@@ -27,27 +27,28 @@ fn main() {
 
 fn measure(robots: usize) {
     let show = random_show(robots);
-    let begin = Instant::now();
-    let mut playing = begin;
-    let report = rehearse(&show, &RehearsalOptions::default(), &mut |progress| {
-        if let Progress::Playing { .. } = progress
-            && playing == begin
-        {
-            playing = Instant::now();
-        }
-    });
-    let (plan_s, play_s) = ((playing - begin).as_secs_f64(), playing.elapsed().as_secs_f64());
+    let (mut since, mut planning) = (Instant::now(), true);
+    let (mut plan_s, mut play_s) = (0.0, 0.0);
+    let mut book = |plans: bool| {
+        *if planning { &mut plan_s } else { &mut play_s } += since.elapsed().as_secs_f64();
+        (since, planning) = (Instant::now(), plans);
+    };
+    let options = RehearsalOptions::default();
+    let report = rehearse(&show, &options, &mut |progress| book(progress == Progress::Planning));
+    book(false);
     let robot_steps = report.duration_s / 0.016 * robots as f64;
     println!(
-        "{robots:>7} {:>9.1} {plan_s:>9.2} {play_s:>9.2} {:>12.0} {:>9.0}  ok {} frames {} contacts {} {}",
+        "{robots:>7} {:>9.1} {plan_s:>9.2} {play_s:>9.2} {:>12.0} {:>9.0}  ok {} frames {} contacts {}",
         report.duration_s,
         report.duration_s / play_s,
         play_s / robot_steps * 1e9,
         report.ok,
         report.frames_played,
         report.contacts,
-        report.issues.first().map_or("", |issue| issue.message.as_str()),
     );
+    for issue in report.issues.iter().take(5) {
+        println!("        {:?}: {}", issue.severity, issue.message);
+    }
 }
 
 /// Frames of random places, far enough apart.

@@ -77,11 +77,11 @@ impl Play {
         let mut step = 0u64;
         while !self.watch.is_over() && self.now < limit {
             self.step();
+            self.plan(progress);
             step += 1;
             if step.is_multiple_of(HASH_EVERY) {
                 self.crew.world.hash(&mut self.hash);
-                let (at_s, frames) = (self.now.as_secs(), self.watch.frames_played());
-                progress(Progress::Playing { at_s, planned_s: self.planned_s, frames });
+                progress(self.progress());
             }
         }
         self.report()
@@ -169,11 +169,22 @@ impl Play {
         }
     }
 
-    fn drain_controller(&mut self) {
+    /// Makes the plans the controller asks for. That takes no virtual time: how long it takes depends on the machine.
+    fn plan(&mut self, progress: &mut dyn FnMut(Progress)) {
         while let Some(job) = self.controller.next_job() {
-            // Planning takes no virtual time: how long it takes depends on the machine.
+            progress(Progress::Planning);
             self.controller.planned(self.now, job.run());
+            self.drain_controller();
+            progress(self.progress());
         }
+    }
+
+    fn progress(&self) -> Progress {
+        let frames = self.watch.frames_played();
+        Progress::Playing { at_s: self.now.as_secs(), planned_s: self.planned_s, frames }
+    }
+
+    fn drain_controller(&mut self) {
         while let Some(send) = self.controller.next_send() {
             let payload: Rc<[u8]> = send.payload.into();
             match send.topic {

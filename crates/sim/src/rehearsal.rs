@@ -25,9 +25,9 @@ pub struct RehearsalOptions {
 /// How far a rehearsal is.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Progress {
-    /// The show is being planned.
+    /// The show is being planned, or planned again after something went wrong.
     Planning,
-    /// It plays.
+    /// It plays, again after planning too: so that callers can time the two apart.
     Playing {
         /// Virtual time since robots were switched on, seconds.
         at_s: f64,
