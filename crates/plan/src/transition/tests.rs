@@ -115,3 +115,18 @@ fn nobody_and_nowhere_are_fine() {
     let plan = transition(&problem(starts.clone(), starts, 1.5)).unwrap();
     assert_eq!(plan.duration.0, 0);
 }
+
+#[test]
+fn robots_that_must_cross_are_led_around_each_other() {
+    let mut seeded = Seeded::new(31);
+    for _ in 0..6 {
+        let count = 4 + seeded.below(20);
+        let starts = scatter(&mut seeded, count, 0.12, 1.5).unwrap();
+        let goals = scatter(&mut seeded, count, 0.12, 1.5).unwrap();
+        let mut fixed = problem(starts, goals, 1.5);
+        fixed.pinned = (0..count).map(Some).collect();
+        let plan = transition(&fixed).unwrap_or_else(|stuck| panic!("{count}: {stuck:?}"));
+        assert!(plan.closest.unwrap().distance_m >= 0.057 - 1e-6);
+        assert!(plan.duration.as_secs() <= (plan.lower_bound_s + 0.62) * 1.2);
+    }
+}
