@@ -16,7 +16,7 @@ const SPOT: f64 = 12.0;
 /// The same errors across steer as at this speed where it drives slower, m/s.
 const SLOW_MPS: f64 = 0.05;
 /// Slower than this the route says no direction, m/s.
-const RESTING_MPS: f64 = 0.02;
+const RESTING_MPS: f64 = 0.002;
 /// While it rests, errors below these are noise: metres along, and sine of the heading error.
 const CALM_M: f64 = 0.0015;
 const CALM_SIN: f64 = 0.012;
