@@ -13,6 +13,8 @@ use super::weave::Weave;
 
 /// Distance of lattice nodes, metres: robots that follow each other around corners stay 0.83 of it apart.
 const PITCH_M: f64 = 0.072;
+/// The same, where the first did not do.
+const LOOSE_PITCH_M: f64 = 0.078;
 /// Robots times spans times sweeps, for all attempts: some seconds.
 const MOST_WORK: usize = 30_000_000;
 /// Where this much work is left, a better way is still looked for.
@@ -25,27 +27,34 @@ const MOST_TO_BOW: usize = 600;
 const WIDE: Wish = Wish { robots_m: 0.0625, walls_m: 0.0075, slack_m: 0.002 };
 const NARROW: Wish = Wish { robots_m: 0.0595, walls_m: 0.0065, slack_m: 0.0015 };
 
-/// The swiftest of what was found; `None` where nothing was.
-pub(super) fn best(scene: &Scene, easing: Easing) -> Option<Weave> {
+/// The swiftest of what was found and `holds`; `None` where nothing was.
+pub(super) fn best(scene: &Scene, easing: Easing, holds: &dyn Fn(&Weave) -> bool) -> Option<Weave> {
     let lattice = Lattice::new(scene, PITCH_M)?;
     let courses = courses(scene, &lattice)?;
     let longest = courses.iter().map(|course| length(course)).fold(0.0, f64::max);
     let least_s = Pace::new(longest, &scene.limits, easing, 1.0).drive_s;
     let mut work = MOST_WORK;
     let mut best: Option<Weave> = None;
-    let bows: &[f64] = if scene.robots() > MOST_TO_BOW { &[0.0] } else { &[0.0, 0.12, 0.25] };
+    let bows: &[f64] = if scene.robots() > MOST_TO_BOW { &[0.0] } else { &[0.0, 0.12, 0.25, 0.05] };
     for &bow in bows {
         let pace = Pace::new(longest, &scene.limits, easing, 1.0 + 2.0 * bow * bow);
         let effort = Effort { sweeps: 300, stretch: 2.0, wary: true, wish: WIDE };
         let found = relax(scene, along(scene, &courses, &pace, bow), effort, &mut work);
-        best = swifter(scene, best, found);
+        best = swifter(scene, best, found.filter(|weave| holds(weave)));
         if best.as_ref().is_some_and(|weave| lasts(scene, weave) < least_s * GOOD || work < WORK_TO_SPARE) {
             return best;
         }
     }
-    let effort = Effort { sweeps: 300, stretch: 2.5, wary: false, wish: NARROW };
-    let found = ordered(scene, &lattice).and_then(|weave| relax(scene, weave, effort, &mut work));
-    swifter(scene, best, found)
+    for pitch_m in [PITCH_M, LOOSE_PITCH_M] {
+        if best.is_some() && pitch_m > PITCH_M {
+            break;
+        }
+        let effort = Effort { sweeps: 300, stretch: 2.5, wary: false, wish: NARROW };
+        let lattice = Lattice::new(scene, pitch_m)?;
+        let found = ordered(scene, &lattice).and_then(|weave| relax(scene, weave, effort, &mut work));
+        best = swifter(scene, best, found.filter(|weave| holds(weave)));
+    }
+    best
 }
 
 /// How long a weave must take, seconds.

@@ -25,6 +25,7 @@ mod weave;
 
 use lightbots_base::Span;
 
+use crate::proof::{ProofInput, prove};
 use crate::{Path, TransitionProblem};
 use scene::Scene;
 use weave::Weave;
@@ -32,12 +33,27 @@ use weave::Weave;
 /// The rest at the beginning of every path, in which robots turn towards their way.
 const TURN: Span = Span(350_000);
 
+/// Least gap between rims, and off obstacles, that a way must prove to keep where its ends leave it, metres.
+const GAP_M: f64 = 0.003;
+
 /// Collision-free timed paths for a settled assignment: `goal_of[start]` is the goal that robot drives to, `None` a
 /// spare robot that may step aside. `paths[start]` all last equally long, at least the problem's duration, and begin
 /// with the rest in which robots turn. `None` where nothing was found within the bounded work.
 pub fn repair(problem: &TransitionProblem, goal_of: &[Option<usize>]) -> Option<Vec<Path>> {
     let scene = Scene::new(problem, goal_of)?;
-    let weave = attempts::best(&scene, problem.easing)?;
+    let weave = attempts::best(&scene, problem.easing, &|weave| {
+        let paths = timed(problem, &scene, weave);
+        let input = ProofInput {
+            paths: &paths,
+            standing: &problem.standing,
+            obstacles: &problem.obstacles,
+            half_floor: problem.half_floor,
+            limits: &problem.limits,
+            gap_m: problem.limits.contact_m() + GAP_M,
+            obstacle_gap_m: GAP_M,
+        };
+        prove(&input).holds()
+    })?;
     Some(timed(problem, &scene, &weave))
 }
 

@@ -67,7 +67,7 @@ fn slow(weave: &mut Weave, robot: usize, step: f64, bow: f64) -> bool {
         if length > step {
             let half = gap * (0.5 * (1.0 - step / length));
             way[j] += half;
-            way[j + 1] = way[j + 1] - half;
+            way[j + 1] -= half;
             changed |= length > step * 1.003;
         }
     }
@@ -79,9 +79,9 @@ fn slow(weave: &mut Weave, robot: usize, step: f64, bow: f64) -> bool {
         if length > bow {
             let (before, after) = (f64::from(j > 2), f64::from(j < last));
             let force = curl * ((1.0 - bow / length) / (4.0 + before + after));
-            way[j - 1] = way[j - 1] - force * before;
+            way[j - 1] -= force * before;
             way[j] += force * 2.0;
-            way[j + 1] = way[j + 1] - force * after;
+            way[j + 1] -= force * after;
             changed |= length > bow * 1.006;
         }
     }

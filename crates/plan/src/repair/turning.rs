@@ -6,7 +6,7 @@ use lightbots_base::{Limits, Vec2};
 use super::weave::{blend, fold};
 
 /// Slower than this the direction does not matter, m/s.
-const CREEP_MPS: f64 = 0.016;
+const CREEP_MPS: f64 = 0.008;
 /// Moments of a span that are looked at.
 const MOMENTS: usize = 16;
 /// Below this share of the speed that a turn needs, a reversal is nearer than a bend.
