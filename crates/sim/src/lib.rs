@@ -1,5 +1,21 @@
 //! The simulated world: seeded wheels, sensors, contacts and networks, with the real robot core and the real controller
-//! core in it.
+//! core in it. `docs/simulator.md` has it in words, beside what was measured in Webots.
+//!
+//! Deterministic: no clock, IO or thread; the same seed gives the same bits. It knows nothing of brokers, files or
+//! screens.
+//!
+//! In reading order: [`rehearse`] plays a whole show in virtual time under [`Conditions`] (with [`Faults`] as people
+//! write them) and gives a [`RehearsalReport`]; [`Fleet`] runs simulated robots in real time for whoever has a clock
+//! and a network; [`World`] is the bodies on the floor.
+//!
+//! ```
+//! use lightbots_sim::{Conditions, Faults, RehearsalOptions, rehearse};
+//! let show = lightbots_show::read(br#"[{"name": "one", "airTime": 0.1, "pixels": [{"pixelId": 0,
+//!     "color": {"R": 1, "G": 0, "B": 0}, "physicalLocation": {"X": 0, "Y": 1}}]}]"#, None).unwrap().show;
+//! let conditions = Faults::parse("loss=5%").unwrap().added_to(Conditions::default());
+//! let report = rehearse(&show, &RehearsalOptions { conditions, ..Default::default() }, &mut |_| {});
+//! assert!(report.ok && report.contacts == 0 && report.frames_played == 1);
+//! ```
 
 mod breakdowns;
 mod conditions;
