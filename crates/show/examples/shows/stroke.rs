@@ -39,10 +39,12 @@ pub fn trace(strokes: &[Stroke], count: usize) -> Vec<Vec2> {
     for finer in 0..1_000 {
         let step_m = 2.0 * total / count as f64 * (1.0 - finer as f64 / 1_000.0);
         let places = spaced(&parts, step_m);
-        if places.len() <= count && places.len() > best.len() {
+        let places_count = places.len();
+        if places_count <= count && places_count > best.len() {
             best = places;
         }
-        if best.len() == count {
+        // Finer steps give more places, though not one by one: beyond this there is nothing to find.
+        if best.len() == count || places_count > count * 3 / 2 {
             break;
         }
     }
