@@ -13,7 +13,8 @@ afterAll(async () => {
   await server?.remove();
 });
 
-const button = (page: Page, name: string | RegExp) => page.getByRole('button', { name });
+const button = (page: Page, name: string | RegExp) =>
+  page.getByRole('button', { name, exact: true });
 const frames = (page: Page) => page.getByRole('list', { name: 'Frames' }).locator('li');
 
 /** Begins a show; answers its name in the library. */

@@ -42,6 +42,11 @@ const stop: MantineColorsTuple = [
   '#6c1a1e',
 ];
 
+const onLamp = (name: string, props: { variant?: string; color?: string }) =>
+  (props.variant ?? 'filled') === 'filled' && props.color === undefined
+    ? { [name]: 'var(--on-lamp)' }
+    : {};
+
 export const theme = createTheme({
   colors: { dark: night, lamp, red: stop },
   primaryColor: 'lamp',
@@ -56,6 +61,17 @@ export const theme = createTheme({
   headings: { fontWeight: '600' },
   respectReducedMotion: true,
   components: {
+    // What is written on the lamp's amber: dark on bright amber at night, white on deep amber by day.
+    Button: {
+      vars: (_: unknown, props: { variant?: string; color?: string }) => ({
+        root: onLamp('--button-color', props),
+      }),
+    },
+    Badge: {
+      vars: (_: unknown, props: { variant?: string; color?: string }) => ({
+        root: onLamp('--badge-color', props),
+      }),
+    },
     Tooltip: { defaultProps: { openDelay: 450, withArrow: false, fz: 'xs' } },
     Modal: { defaultProps: { centered: true, overlayProps: { backgroundOpacity: 0.6, blur: 2 } } },
   },

@@ -76,7 +76,7 @@ export function EditBar() {
         value={at}
         onChange={scrub}
       />
-      <span className="quiet time" aria-label="Moment and running time">
+      <span className="quiet time">
         {clockText(at)} / {clockText(total)}
       </span>
       <SaveMark />

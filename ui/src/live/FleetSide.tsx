@@ -24,8 +24,9 @@ export function FleetSide() {
             value="show"
             rightSection={
               issues > 0 ? (
-                <Badge size="xs" circle aria-label={`${issues} problems`}>
+                <Badge size="xs" circle>
                   {issues}
+                  <span className="hidden-text"> problems</span>
                 </Badge>
               ) : null
             }

@@ -23,9 +23,12 @@ export function PlayState() {
           <span className="quiet">{names.length === 20 ? '20+' : names.length} on the way</span>
         </Tooltip>
       ) : null}
-      <span className="quiet" aria-label="Time left">
-        {playback.left_s === null ? '' : `−${clockText(playback.left_s)}`}
-      </span>
+      {playback.left_s === null ? null : (
+        <span className="quiet">
+          −{clockText(playback.left_s)}
+          <span className="hidden-text"> left</span>
+        </span>
+      )}
     </div>
   );
 }
