@@ -163,7 +163,7 @@ impl Contacts {
             }
             _ => (0.5 * overlap, 0.5 * overlap),
         };
-        places[a] = places[a] - normal * move_a;
-        places[b] = places[b] + normal * move_b;
+        places[a] -= normal * move_a;
+        places[b] += normal * move_b;
     }
 }

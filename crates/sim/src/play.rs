@@ -80,7 +80,7 @@ impl Play {
             self.plan(progress);
             step += 1;
             if step.is_multiple_of(HASH_EVERY) {
-                self.crew.world.hash(&mut self.hash);
+                self.crew.world.imprint(&mut self.hash);
                 progress(self.progress());
             }
         }
@@ -141,7 +141,7 @@ impl Play {
 
     /// Plays as soon as everybody is there and knows the show clock, or when that takes too long.
     fn begin(&mut self) {
-        if self.now.0 / STEP.0 as u64 % 8 != 0 {
+        if !(self.now.0 / STEP.0 as u64).is_multiple_of(8) {
             return;
         }
         let robots = self.controller.snapshot(self.now).robots;
@@ -207,7 +207,7 @@ impl Play {
     }
 
     fn report(mut self) -> RehearsalReport {
-        self.crew.world.hash(&mut self.hash);
+        self.crew.world.imprint(&mut self.hash);
         self.hash.word(self.now.0);
         let world = &self.crew.world;
         let bumps = world.bumps();

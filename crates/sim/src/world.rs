@@ -129,7 +129,7 @@ impl World {
     }
 
     /// Takes all that will decide how things go on into a fingerprint.
-    pub fn hash(&self, hash: &mut StateHash) {
+    pub fn imprint(&self, hash: &mut StateHash) {
         for (place, body) in self.places.iter().zip(&self.bodies) {
             hash.number(place.x);
             hash.number(place.y);
@@ -154,7 +154,7 @@ impl World {
         stance.forward = turned(middle, half_turn);
         body.heading = wrap(body.heading + 2.0 * half_turn);
         let place = &mut self.places[robot];
-        *place = *place + middle * (STEP_S * twist.speed_mps);
+        *place += middle * (STEP_S * twist.speed_mps);
         let bump = self.floor.keep_out(place);
         if bump != body.bump {
             match bump {
