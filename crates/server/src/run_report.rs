@@ -2,7 +2,7 @@
 
 use lightbots_base::Instant;
 use lightbots_control::{Event, EventKind, Outcome, Snapshot};
-use lightbots_show::{Issue, Issues, Show};
+use lightbots_show::{Issue, Issues, Severity, Show};
 use serde::Serialize;
 
 use crate::failure::Failure;
@@ -118,7 +118,9 @@ fn issue(kind: &EventKind) -> Option<Issue> {
         EventKind::RunEnded { outcome: Outcome::Aborted, .. } => ("aborted", None),
         _ => return None,
     };
-    let issue = Issue { severity: kind.severity(), ..Issue::error(code, kind.to_string()) };
+    // One that drops out may come back: whether it did is told by `ok`.
+    let severity = if code == "dropout" { Severity::Warning } else { kind.severity() };
+    let issue = Issue { severity, ..Issue::error(code, kind.to_string()) };
     Some(frame.map_or(issue.clone(), |frame| issue.in_frame(frame)))
 }
 

@@ -47,9 +47,35 @@ impl Stop {
         let _ = wanted.wait_for(|wanted| *wanted).await;
     }
 
+    /// A wish to stop that comes true with this one, or earlier.
+    pub fn child(&self) -> (Self, End) {
+        let (sender, wanted) = watch::channel(false);
+        let (end, parent) = (End(sender.clone()), self.clone());
+        tokio::spawn(async move {
+            tokio::select! {
+                () = parent.wait() => {
+                    sender.send_replace(true);
+                }
+                () = sender.closed() => {}
+            }
+        });
+        (Self { wanted, phase: self.phase.clone() }, end)
+    }
+
     /// Whether the user wants to stop.
     pub fn is_wanted(&self) -> bool {
         *self.wanted.borrow()
+    }
+}
+
+/// Ends what a child of a [`Stop`] runs.
+#[derive(Debug)]
+pub struct End(watch::Sender<bool>);
+
+impl End {
+    /// Ends it now.
+    pub fn now(self) {
+        self.0.send_replace(true);
     }
 }
 

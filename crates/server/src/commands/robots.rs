@@ -1,7 +1,6 @@
 //! `robots`: simulated robots only.
 
-use lightbots_base::Vec2;
-use lightbots_show::{Show, Stage, front_rows};
+use lightbots_show::{Stage, front_rows};
 use lightbots_sim::{Conditions, Faults, FleetConfig};
 
 use super::count;
@@ -52,12 +51,4 @@ pub(super) fn seed(asked: Option<u64>) -> u64 {
         }
         u64::from_le_bytes(bytes)
     })
-}
-
-/// Where simulated robots wait for a show.
-pub(super) fn starts(show: &Show, robots: usize) -> Vec<Vec2> {
-    match &show.starts {
-        Some(starts) if starts.len() >= robots => starts[..robots].to_vec(),
-        _ => front_rows(&show.stage, robots),
-    }
 }

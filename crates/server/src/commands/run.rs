@@ -6,7 +6,6 @@ use std::time::Duration;
 
 use lightbots_link::BrokerUrl;
 use lightbots_show::Show;
-use lightbots_sim::FleetConfig;
 use tokio::task::JoinHandle;
 
 use super::{count, robots};
@@ -14,16 +13,14 @@ use crate::cli::RunArguments;
 use crate::failure::{Failure, Outcome};
 use crate::library::{Library, name_of_file};
 use crate::live::broker::{Broker, User};
+use crate::live::cast::Cast;
 use crate::live::conductor::Handle;
-use crate::live::crowd::Crowd;
 use crate::stop::Stop;
 use crate::web::{self, Shared};
 use crate::{open_files, say, show_file};
 
 /// The example that is opened when no show is named.
 const FIRST: &str = "countdown";
-/// Robots where the show needs no more.
-const ROBOTS: usize = 30;
 /// Robots and broker get so long to say goodbye.
 const GOODBYE: Duration = Duration::from_secs(2);
 
@@ -62,7 +59,8 @@ async fn serve(arguments: &RunArguments, stop: &Stop, started: &mut Started) -> 
     open_files::raise_limit();
     let listener = web::listen(arguments.listen).await?;
     let address = listener.local_addr().unwrap_or(arguments.listen);
-    let robots = arguments.robots.map_or(show_file::pixels(&show).max(ROBOTS), |robots| robots as usize);
+    let count = arguments.robots.map(|robots| robots as usize);
+    let robots = Cast::robots(count, &show);
     let embedded = if arguments.broker.is_none() {
         let broker = Broker::start(arguments.mqtt_listen, users.clone(), robots)?;
         Some(started.broker.insert(broker).url(&users))
@@ -72,13 +70,17 @@ async fn serve(arguments: &RunArguments, stop: &Stop, started: &mut Started) -> 
     let Some(broker) = arguments.broker.clone().or_else(|| embedded.clone()) else { return Ok(false) };
     let (handle, conductor) = Handle::start(stop.clone());
     started.tasks.push(conductor);
-    let shared = Shared::new(handle.clone(), library.clone(), embedded, robots);
+    let shared = Shared::new(handle.clone(), library, embedded);
     handle.connect(broker.clone()).await;
-    if robots > 0 {
-        let crowd = Crowd::start(&fleet(arguments, &show, robots), &broker, stop);
-        started.tasks.push(tokio::spawn(crowd.run(stop.clone())));
-    }
     open(&shared, name).await;
+    let cast = Cast {
+        broker: broker.clone(),
+        count,
+        seed: robots::seed(arguments.seed),
+        conditions: robots::conditions(arguments.ideal),
+        simulated: shared.simulated.clone(),
+    };
+    started.tasks.push(tokio::spawn(cast.run(handle, shared.desk.watch(), stop.clone())));
     greet(address, &broker, robots);
     web::serve(listener, shared).await;
     Ok(false)
@@ -100,15 +102,6 @@ fn first_show(arguments: &RunArguments, library: &Library) -> Result<(Option<Str
             .find_map(|entry| Some((entry.name.clone(), library.get(&entry.name).ok()?)))
     };
     Ok(example.or_else(other).map_or((None, Show::default()), |(name, kept)| (Some(name), kept.show)))
-}
-
-fn fleet(arguments: &RunArguments, show: &Show, robots: usize) -> FleetConfig {
-    FleetConfig {
-        stage: show.stage.clone(),
-        starts: robots::starts(show, robots),
-        seed: robots::seed(arguments.seed),
-        conditions: robots::conditions(arguments.ideal),
-    }
 }
 
 async fn open(shared: &Arc<Shared>, name: Option<String>) {

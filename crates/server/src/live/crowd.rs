@@ -40,6 +40,11 @@ impl Crowd {
         Self { robots: ids.len(), fleet, began: std::time::Instant::now(), senders, heard, tasks }
     }
 
+    /// The robots' names.
+    pub fn ids(&self) -> Vec<RobotId> {
+        self.fleet.ids()
+    }
+
     /// Its connections.
     pub fn connections(&self) -> Connections {
         Connections(self.senders.clone())
@@ -48,6 +53,7 @@ impl Crowd {
     /// Drives the robots until `stop` is wanted; then they leave the broker.
     pub async fn run(mut self, stop: Stop) {
         let mut heard = Vec::new();
+        let mut left_out = LeftOut::default();
         loop {
             let alarm = self.began + std::time::Duration::from_micros(self.fleet.advance_at().0);
             tokio::select! {
@@ -62,6 +68,7 @@ impl Crowd {
             let now = self.now();
             self.fleet.advance(now);
             self.speak();
+            left_out.notice(self.fleet.steps_left_out());
         }
         for task in self.tasks {
             // A connection that failed has ended as well.
@@ -92,6 +99,29 @@ impl Crowd {
     fn speak(&mut self) {
         while let Some(message) = self.fleet.next_message() {
             self.senders[message.robot / ROBOTS_A_LINK].send(&message.topic.write(), message.payload);
+        }
+    }
+}
+
+/// Says, but not all the time, that the machine is too slow.
+#[derive(Default)]
+struct LeftOut {
+    steps: u64,
+    said: Option<std::time::Instant>,
+}
+
+impl LeftOut {
+    const EVERY: std::time::Duration = std::time::Duration::from_secs(5);
+
+    /// `steps`: how many were left out since the start.
+    fn notice(&mut self, steps: u64) {
+        if steps > self.steps && self.said.is_none_or(|said| said.elapsed() >= Self::EVERY) {
+            let more = steps - self.steps;
+            tracing::warn!(
+                "this machine is too slow for the simulated robots: they stood for {more} steps of 16 ms"
+            );
+            self.steps = steps;
+            self.said = Some(std::time::Instant::now());
         }
     }
 }

@@ -1,6 +1,7 @@
 //! What a running fleet needs: a broker, the task that owns the controller core, simulated robots.
 
 pub mod broker;
+pub mod cast;
 pub mod clock;
 pub mod conductor;
 pub mod crowd;

@@ -11,7 +11,7 @@ mod socket;
 
 use std::net::SocketAddr;
 use std::sync::Arc;
-use std::sync::atomic::AtomicU32;
+use std::sync::atomic::{AtomicU32, AtomicUsize};
 
 use axum::Router;
 use axum::routing::{any, get, post};
@@ -19,7 +19,7 @@ use axum::serve::ListenerExt;
 use lightbots_link::BrokerUrl;
 use tokio::net::TcpListener;
 
-pub use desk::Desk;
+pub use desk::{Desk, Shown};
 pub use log::Log;
 
 use crate::failure::Failure;
@@ -38,20 +38,20 @@ pub struct Shared {
     /// The embedded broker, if there is one.
     pub embedded: Option<BrokerUrl>,
     /// How many simulated robots there are.
-    pub simulated: usize,
+    pub simulated: Arc<AtomicUsize>,
     pub screens: AtomicU32,
 }
 
 impl Shared {
     /// Everything a screen's server needs; starts the tasks that watch the conductor.
-    pub fn new(handle: Handle, library: Library, embedded: Option<BrokerUrl>, simulated: usize) -> Arc<Self> {
+    pub fn new(handle: Handle, library: Library, embedded: Option<BrokerUrl>) -> Arc<Self> {
         let log = Log::new();
         tokio::spawn(log.clone().follow(handle.news()));
         let desk = Desk::new(handle.clone());
         tokio::spawn(desk.clone().follow(handle.news()));
         let pictures = Pictures::new();
         tokio::spawn(pictures.clone().follow(handle.clone(), desk.clone()));
-        let screens = AtomicU32::new(0);
+        let (screens, simulated) = (AtomicU32::new(0), Arc::default());
         Arc::new(Self { handle, library, desk, log, pictures, embedded, simulated, screens })
     }
 }

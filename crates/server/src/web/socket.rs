@@ -87,7 +87,8 @@ impl Screen {
     async fn greet(&mut self) -> Result<(), Gone> {
         let screen = self.shared.screens.fetch_add(1, Ordering::Relaxed);
         let version = env!("CARGO_PKG_VERSION").to_owned();
-        self.send(text(&ToScreen::Hello(Hello { version, screen, simulated: self.shared.simulated }))).await
+        let simulated = self.shared.simulated.load(Ordering::Relaxed);
+        self.send(text(&ToScreen::Hello(Hello { version, screen, simulated }))).await
     }
 
     /// Does what a message asks for. What is no message of ours is answered by hanging up.

@@ -96,6 +96,23 @@ fn an_original_robot_takes_part() {
 }
 
 #[test]
+fn a_larger_show_gets_a_larger_cast_on_its_own_floor() {
+    let _turn = alone();
+    let (_server, address, _) = start(&[&shows::row_file(2, &[0.1])]);
+    let mut screen = Screen::open(&address);
+    screen.wait_for_robots(30);
+    let wide = shows::row(32, &[0.1]).replacen("\"name\"", r#""stage":{"width_m":4,"depth_m":4},"name""#, 1);
+    assert_eq!(http::request(&address, "PUT", "/api/shows/Wide", &[], &wide).status, 200);
+    screen.must(json!({"do": "open", "name": "Wide"}));
+    screen.until("the front row of the larger floor", |screen| {
+        let places = screen.places();
+        (places.len() == 32 && places.iter().all(|(_, y)| *y > 1.6)).then_some(())
+    });
+    screen.must(json!({"do": "play", "from": 0, "missing": "refuse"}));
+    screen.wait_for_log("Run finished");
+}
+
+#[test]
 fn too_few_robots_are_a_message_and_a_choice() {
     let _turn = alone();
     let (_server, address, _) = start(&["--robots", "2", &shows::row_file(3, &[0.1])]);

@@ -1,0 +1,113 @@
+//! The simulated robots of `run`: recast when a show is opened that they do not fit.
+
+use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::time::Duration;
+
+use lightbots_control::{Operation, State};
+use lightbots_link::BrokerUrl;
+use lightbots_show::{Show, Stage, front_rows};
+use lightbots_sim::{Conditions, FleetConfig};
+use tokio::sync::watch;
+
+use super::conductor::Handle;
+use super::crowd::Crowd;
+use crate::show_file::pixels;
+use crate::stop::Stop;
+use crate::web::Shown;
+
+/// Robots where the show needs no more.
+const USUAL: usize = 30;
+/// The most that are simulated because a show asks for them.
+const MOST: usize = 5_000;
+/// A show that is being edited is left alone for so long before the robots are changed.
+const SETTLED: Duration = Duration::from_millis(500);
+
+/// What robots to simulate.
+#[derive(Clone, Debug)]
+pub struct Cast {
+    /// Their broker.
+    pub broker: BrokerUrl,
+    /// How many; `None`: as many as the open show needs.
+    pub count: Option<usize>,
+    /// Seed of the first ones.
+    pub seed: u64,
+    /// What they suffer.
+    pub conditions: Conditions,
+    /// How many there are now.
+    pub simulated: Arc<AtomicUsize>,
+}
+
+impl Cast {
+    /// How many robots a show is given.
+    pub fn robots(count: Option<usize>, show: &Show) -> usize {
+        count.unwrap_or_else(|| pixels(show).clamp(USUAL, MOST))
+    }
+
+    /// Keeps robots on the broker until `stop` is wanted.
+    pub async fn run(mut self, handle: Handle, mut shown: watch::Receiver<Arc<Shown>>, stop: Stop) {
+        while !stop.is_wanted() {
+            let show = shown.borrow_and_update().show.clone();
+            let robots = Self::robots(self.count, &show);
+            self.simulated.store(robots, Ordering::Relaxed);
+            if robots == 0 {
+                return;
+            }
+            let (until, end) = stop.child();
+            let crowd = Crowd::start(&self.fleet(&show, robots), &self.broker, &until);
+            let names = crowd.ids();
+            let going = tokio::spawn(crowd.run(until));
+            tokio::select! {
+                () = stop.wait() => {}
+                () = self.wait_for_misfit(&handle, &mut shown, &show.stage, robots) => {}
+            }
+            end.now();
+            // A simulation that failed has ended as well.
+            let _ = going.await;
+            for name in names {
+                if stop.is_wanted() {
+                    return;
+                }
+                // One that nobody knew needs not be forgotten.
+                let _ = handle.operate(Operation::Forget(name)).await;
+            }
+            self.seed = self.seed.wrapping_add(1);
+        }
+    }
+
+    fn fleet(&self, show: &Show, robots: usize) -> FleetConfig {
+        let starts = match &show.starts {
+            Some(starts) if starts.len() >= robots => starts[..robots].to_vec(),
+            _ => front_rows(&show.stage, robots),
+        };
+        let conditions = self.conditions.clone();
+        FleetConfig { stage: show.stage.clone(), starts, seed: self.seed, conditions }
+    }
+
+    /// Returns once the open show needs another stage or more robots, and nothing is being played.
+    async fn wait_for_misfit(
+        &self,
+        handle: &Handle,
+        shown: &mut watch::Receiver<Arc<Shown>>,
+        stage: &Stage,
+        robots: usize,
+    ) {
+        loop {
+            if shown.changed().await.is_err() {
+                return std::future::pending().await;
+            }
+            while self.is_misfit(&shown.borrow_and_update().show, stage, robots) {
+                tokio::time::sleep(SETTLED).await;
+                let settled = !shown.has_changed().unwrap_or(false);
+                let state = handle.look().await.map(|snapshot| snapshot.state);
+                if settled && matches!(state, Some(State::Ready | State::Idle)) {
+                    return;
+                }
+            }
+        }
+    }
+
+    fn is_misfit(&self, show: &Show, stage: &Stage, robots: usize) -> bool {
+        show.stage != *stage || Self::robots(self.count, show) > robots
+    }
+}
