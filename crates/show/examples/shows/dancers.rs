@@ -43,11 +43,15 @@ fn rows(name: &str, y: f64) -> Frame {
 fn circle(name: &str, first_m: f64, second_m: f64, turned: f64) -> Frame {
     let (outer, inner) =
         (ring(Vec2::ZERO, first_m, 2 * GROUP, turned), ring(Vec2::ZERO, second_m, 2 * GROUP, turned));
-    let place = |dancer: usize| if dancer % 2 == 0 { outer[dancer] } else { inner[dancer] };
+    let place = |dancer: usize| if dancer.is_multiple_of(2) { outer[dancer] } else { inner[dancer] };
     frame(name, 0.5, (0..2 * GROUP).map(|dancer| (place(dancer), costume(dancer))))
 }
 
 fn costume(dancer: usize) -> lightbots_base::Rgb {
     let share = (dancer / 2) as f64 / (GROUP as f64 - 1.0);
-    if dancer % 2 == 0 { gradient(&[GOLD, ORANGE, ROSE], share) } else { gradient(&[CYAN, VIOLET], share) }
+    if dancer.is_multiple_of(2) {
+        gradient(&[GOLD, ORANGE, ROSE], share)
+    } else {
+        gradient(&[CYAN, VIOLET], share)
+    }
 }
