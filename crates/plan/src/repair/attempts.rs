@@ -23,6 +23,8 @@ const WORK_TO_SPARE: usize = 24_000_000;
 const GOOD: f64 = 1.15;
 /// Larger crowds do not bow: the lattice is quicker.
 const MOST_TO_BOW: usize = 600;
+/// Bows tried although a way is known; more are only for those who have none.
+const ENOUGH_BOWS: usize = 3;
 /// What the first guesses aim at, and the lattice, which is not as wide.
 const WIDE: Wish = Wish { robots_m: 0.0625, walls_m: 0.0075, slack_m: 0.002 };
 const NARROW: Wish = Wish { robots_m: 0.0595, walls_m: 0.0065, slack_m: 0.0015 };
@@ -35,13 +37,19 @@ pub(super) fn best(scene: &Scene, easing: Easing, holds: &dyn Fn(&Weave) -> bool
     let least_s = Pace::new(longest, &scene.limits, easing, 1.0).drive_s;
     let mut work = MOST_WORK;
     let mut best: Option<Weave> = None;
-    let bows: &[f64] = if scene.robots() > MOST_TO_BOW { &[0.0] } else { &[0.0, 0.12, 0.25, 0.05] };
-    for &bow in bows {
+    let bows: &[f64] = if scene.robots() > MOST_TO_BOW {
+        &[0.0]
+    } else {
+        &[0.0, 0.12, 0.25, 0.05, -0.05, 0.18, -0.12, 0.08, -0.2]
+    };
+    for (tries, &bow) in bows.iter().enumerate() {
         let pace = Pace::new(longest, &scene.limits, easing, 1.0 + 2.0 * bow * bow);
         let effort = Effort { sweeps: 300, stretch: 2.0, wary: true, wish: WIDE };
         let found = relax(scene, along(scene, &courses, &pace, bow), effort, &mut work);
         best = swifter(scene, best, found.filter(|weave| holds(weave)));
-        if best.as_ref().is_some_and(|weave| lasts(scene, weave) < least_s * GOOD || work < WORK_TO_SPARE) {
+        if best.as_ref().is_some_and(|weave| {
+            tries >= ENOUGH_BOWS || lasts(scene, weave) < least_s * GOOD || work < WORK_TO_SPARE
+        }) {
             return best;
         }
     }

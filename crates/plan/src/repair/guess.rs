@@ -52,7 +52,7 @@ impl Pace {
     }
 }
 
-/// Everybody along their course at a pace. Straight courses bow to the right by `bow` of their length, so that crowds
+/// Everybody along their course at a pace. Straight courses bow to the right by `bow` of their length, to the left where that is negative, so that crowds
 /// that meet head-on pass each other.
 pub(super) fn along(scene: &Scene, courses: &[Vec<Vec2>], pace: &Pace, bow: f64) -> Weave {
     let spans = ((pace.drive_s / SPAN_S).ceil() as usize).clamp(6, MOST_SPANS);
@@ -64,7 +64,7 @@ pub(super) fn along(scene: &Scene, courses: &[Vec<Vec2>], pace: &Pace, bow: f64)
         // A bow that begins and ends straight ahead: 16 s²(1 − s)² is 1 half way.
         let aside = 16.0 * (share * (1.0 - share)) * (share * (1.0 - share)) * bow;
         match course[..] {
-            [from, to] if bow > 0.0 => scene.on_floor(robot, place - (to - from).left() * aside),
+            [from, to] if bow != 0.0 => scene.on_floor(robot, place - (to - from).left() * aside),
             _ => place,
         }
     })

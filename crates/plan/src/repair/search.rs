@@ -121,8 +121,7 @@ mod tests {
         for pair in steps.windows(2) {
             for (a, (&a0, &a1)) in pair[0].iter().zip(&pair[1]).enumerate() {
                 assert!(a0 == a1 || lattice.neighbours[a0 as usize].contains(&a1));
-                for b in 0..a {
-                    let (b0, b1) = (pair[0][b], pair[1][b]);
+                for (&b0, &b1) in pair[0].iter().zip(&pair[1]).take(a) {
                     assert_ne!(a1, b1);
                     let place = |node: u32| lattice.places[node as usize];
                     let (before, after) = (place(a0) - place(b0), place(a1) - place(b1));
