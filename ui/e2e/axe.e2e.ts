@@ -2,7 +2,7 @@ import { readFileSync } from 'node:fs';
 import { createRequire } from 'node:module';
 import type { Browser, Page } from 'playwright-core';
 import { afterAll, beforeAll, expect, test } from 'vitest';
-import { launchBrowser, openPage, startServer, type Server } from './harness';
+import { launchBrowser, mistakes, openPage, startServer, type Server } from './harness';
 import { openShow } from './journeys';
 
 const axe = readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
@@ -15,6 +15,7 @@ beforeAll(async () => {
 afterAll(async () => {
   await browser?.close();
   await server?.remove();
+  expect(mistakes).toEqual([]);
 });
 
 /** What axe finds that is serious, one line each. */

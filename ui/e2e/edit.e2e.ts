@@ -1,6 +1,6 @@
 import type { Browser, Page } from 'playwright-core';
 import { afterAll, beforeAll, describe, expect, test } from 'vitest';
-import { eventually, launchBrowser, openPage, startServer, type Server } from './harness';
+import { eventually, launchBrowser, mistakes, openPage, startServer, type Server } from './harness';
 import { drag, onScreen, openShow, phase, pixels, saved, stored } from './journeys';
 
 let browser: Browser;
@@ -11,6 +11,7 @@ beforeAll(async () => {
 afterAll(async () => {
   await browser?.close();
   await server?.remove();
+  expect(mistakes).toEqual([]);
 });
 
 const button = (page: Page, name: string | RegExp) =>

@@ -103,6 +103,9 @@ function end(child: ChildProcess): Promise<void> {
 export const launchBrowser = (): Promise<Browser> =>
   chromium.launch({ executablePath: browserPath(), args: CHROMIUM_ARGS, timeout: PATIENCE_MS });
 
+/** What went wrong inside pages; every suite ends by finding it empty. */
+export const mistakes: string[] = [];
+
 /** A page that has seen the tour, of a size a laptop has. */
 export async function openPage(
   browser: Browser,
@@ -113,6 +116,7 @@ export async function openPage(
   const { tour, ...context } = options;
   const page = await browser.newPage({ viewport: { width: 1440, height: 900 }, ...context });
   page.setDefaultTimeout(PATIENCE_MS);
+  page.on('pageerror', (error) => mistakes.push(String(error)));
   if (!tour) await page.addInitScript(() => localStorage.setItem('lightbots-tour', 'done'));
   await page.goto(`${server.url}/#/${view}`);
   await page.getByText('Connected', { exact: true }).waitFor();

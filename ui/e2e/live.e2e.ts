@@ -1,6 +1,6 @@
 import type { Browser } from 'playwright-core';
 import { afterAll, beforeAll, describe, expect, test } from 'vitest';
-import { eventually, launchBrowser, openPage, startServer, type Server } from './harness';
+import { eventually, launchBrowser, mistakes, openPage, startServer, type Server } from './harness';
 import { openShow, phase, robotPlaces, smallShow, uploadText } from './journeys';
 
 let browser: Browser;
@@ -11,6 +11,7 @@ beforeAll(async () => {
 afterAll(async () => {
   await browser?.close();
   await server?.remove();
+  expect(mistakes).toEqual([]);
 });
 
 describe('the live view', () => {

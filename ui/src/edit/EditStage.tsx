@@ -40,7 +40,7 @@ export function EditStage() {
   const tool = useStore(editing.tool);
   const ways = useStore(editing.looks, (looks) => looks.ways);
   const { full } = editing;
-  useEffect(() => (ways ? void full.follow() : undefined), [ways, full]);
+  useEffect(() => (ways ? full.follow() : undefined), [ways, full]);
   usePlayback(editing);
   useKeys([
     [

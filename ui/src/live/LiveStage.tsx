@@ -23,7 +23,7 @@ export function LiveStage() {
   const plan = useStore(full.plan);
   const empty = useStore(live.fleet, (fleet) => fleet.rows.length === 0);
   const linked = useStore(live.link) === 'open';
-  useEffect(() => (ways ? void full.follow() : undefined), [ways, full]);
+  useEffect(() => (ways ? full.follow() : undefined), [ways, full]);
   useKeys([
     ['0', () => fitView(view)],
     ['+', () => zoomView(view, 1.4)],

@@ -11,7 +11,9 @@ export function LogList() {
   const lines = useStore(live.log);
   const [only, setOnly] = useState('all');
   const end = useRef<HTMLLIElement>(null);
-  useEffect(() => end.current?.scrollIntoView({ block: 'nearest' }), [lines, only]);
+  useEffect(() => {
+    end.current?.scrollIntoView({ block: 'nearest' });
+  }, [lines, only]);
   const shown = lines.filter((line) =>
     only === 'all'
       ? line.level !== 'debug'

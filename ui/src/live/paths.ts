@@ -31,7 +31,9 @@ export function createFullPlan(live: Live): FullPlan {
     follow() {
       followers++;
       load();
-      return () => followers--;
+      return () => {
+        followers--;
+      };
     },
   };
 }
