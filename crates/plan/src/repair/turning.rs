@@ -13,6 +13,8 @@ const MOMENTS: usize = 16;
 const REVERSAL: f64 = 0.5;
 /// Steps shorter than this many creeping ones are wiggles.
 const WIGGLE: f64 = 3.0;
+/// Slower than this many creeping speeds a robot may turn for as long as it is slow.
+const SLOW: f64 = 2.6;
 /// Share of the limit that a reversal may turn beside its stop.
 const REVERSAL_UNDERCUT: f64 = 0.6;
 /// Weights of a span's control points for its third derivative.
@@ -68,6 +70,13 @@ impl Turning {
     pub fn ease(&self, way: &mut [Vec2], spare: bool) -> bool {
         let mut changed = false;
         let spans = way.len() - 3;
+        if let Some((span, _)) = self.swerve(way) {
+            for span in span.saturating_sub(1)..(span + 2).min(spans) {
+                let shifts = smoothed(&way[span..span + 4], span, spans);
+                way[span..span + 4].iter_mut().zip(shifts).for_each(|(point, shift)| *point += shift);
+            }
+            changed = true;
+        }
         for span in 0..spans {
             let four = &way[span..span + 4];
             let Some((turn, fastest)) = self.fastest(four) else { continue };
@@ -99,7 +108,39 @@ impl Turning {
     /// The fastest turn of a way over the limit.
     pub fn haste(&self, way: &[Vec2]) -> f64 {
         let turns = way.windows(4).filter_map(|four| self.fastest(four));
-        turns.fold(0.0, |most: f64, (turn, _)| most.max(turn)) / self.turn
+        let fastest = turns.fold(0.0, |most: f64, (turn, _)| most.max(turn)) / self.turn;
+        fastest.max(self.swerve(way).map_or(0.0, |(_, haste)| haste))
+    }
+
+    /// The worst turn of a robot while it is slow, over what the time it is slow for allows, and the span in which it
+    /// is fast again; `None` where all are legal.
+    fn swerve(&self, way: &[Vec2]) -> Option<(usize, f64)> {
+        let slow_m = SLOW * self.creep_m;
+        let (mut heading, mut slow, mut worst) = (None::<Vec2>, 0.0, None::<(usize, f64)>);
+        for (span, four) in way.windows(4).enumerate() {
+            let steps = [four[1] - four[0], four[2] - four[1], four[3] - four[2]];
+            let ahead = steps[0].dot(steps[1]).min(steps[1].dot(steps[2])).min(steps[0].dot(steps[2]));
+            if slow == 0.0 && heading.is_some() && ahead > 2.0 * slow_m * slow_m && self.is_easy(four) {
+                heading = Some(steps[2] + steps[1]);
+                continue;
+            }
+            for moment in &self.moments {
+                let velocity = moment.motion(four).0;
+                slow += 1.0 / MOMENTS as f64;
+                if velocity.length_squared() < slow_m * slow_m {
+                    continue;
+                }
+                if let Some(before) = heading.filter(|_| slow > 1.5 / MOMENTS as f64) {
+                    let angle = Vec2::new(before.dot(velocity).abs(), before.cross(velocity).abs()).angle();
+                    let haste = angle / (self.turn * slow);
+                    if haste > 1.0 && worst.is_none_or(|(_, most)| haste > most) {
+                        worst = Some((span, haste));
+                    }
+                }
+                (heading, slow) = (Some(velocity), 0.0);
+            }
+        }
+        worst
     }
 
     /// The fastest turn of a span and the moment it is at; `None` where none can be too fast.
