@@ -31,10 +31,10 @@ pub async fn run(arguments: PlayArguments, stop: Stop) -> Outcome {
     }
     open_files::raise_limit();
     let (handle, task) = Handle::start(stop.clone());
-    let news = handle.news();
+    let (news, links) = (handle.news(), handle.news());
     handle.connect(arguments.broker.clone()).await;
     let played = tokio::select! {
-        played = play(&arguments, &opened.show, &handle, news) => played,
+        played = play(&arguments, &opened.show, &handle, news, links) => played,
         () = stop.wait() => Err(Failure::problem("stopped before the end of the show")),
     };
     let mut report = match played {
@@ -68,10 +68,11 @@ async fn play(
     show: &Show,
     handle: &Handle,
     news: broadcast::Receiver<News>,
+    links: broadcast::Receiver<News>,
 ) -> Result<RunReport, Failure> {
     let pixels = show_file::pixels(show);
     let refused = |refusal: Refusal| Failure::problem(refusal.to_string());
-    let missing = gather(arguments, pixels, handle).await?;
+    let missing = gather(arguments, pixels, handle, links).await?;
     let mut report = RunReport::new(show);
     handle.operate(conductor::open(show.clone())).await.map_err(refused)?;
     let until = Instant::now() + Duration::from_secs(arguments.patience.into());
@@ -90,12 +91,22 @@ async fn play(
 }
 
 /// Waits until there are enough robots.
-async fn gather(arguments: &PlayArguments, pixels: usize, handle: &Handle) -> Result<MissingPolicy, Failure> {
+async fn gather(
+    arguments: &PlayArguments,
+    pixels: usize,
+    handle: &Handle,
+    mut news: broadcast::Receiver<News>,
+) -> Result<MissingPolicy, Failure> {
     let wanted = arguments.wait.map_or(pixels, |wait| wait as usize);
     let until = Instant::now() + Duration::from_secs(arguments.patience.into());
-    let (mut most, mut changed) = (0, Instant::now());
+    let (mut most, mut changed, mut reason) = (0, Instant::now(), None);
     let bar = Bar::new();
     loop {
+        while let Ok(happened) = news.try_recv() {
+            if let News::Link(link) = happened {
+                reason = link.reason;
+            }
+        }
         let snapshot = handle.look().await.ok_or_else(|| Failure::problem("stopped"))?;
         let ready = snapshot.robots.iter().filter(|robot| is_ready(robot)).count();
         bar.set(ready as f64 / wanted.max(1) as f64, format!("{ready} of {wanted} robots are ready"));
@@ -111,7 +122,7 @@ async fn gather(arguments: &PlayArguments, pixels: usize, handle: &Handle) -> Re
             return Ok(MissingPolicy::LeaveOut);
         }
         if Instant::now() >= until {
-            return Err(nobody(arguments, &snapshot, ready, wanted));
+            return Err(reason.map_or_else(|| nobody(arguments, &snapshot, ready, wanted), Failure::problem));
         }
         tokio::time::sleep(LOOK).await;
     }

@@ -42,7 +42,7 @@ pub struct LinkState {
     pub address: String,
     /// Whether it is connected.
     pub connected: bool,
-    /// Why not.
+    /// Why not, once that is known.
     pub reason: Option<String>,
 }
 
@@ -173,7 +173,7 @@ impl Conductor {
                 self.leave().await;
                 self.state.address = broker.to_string();
                 self.link = Some(Link::open(controller_link(broker)));
-                self.tell_link(false, Some("connecting".into()));
+                self.tell_link(false, None);
             }
             Order::Disconnect => {
                 self.leave().await;
