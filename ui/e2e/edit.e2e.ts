@@ -30,6 +30,7 @@ async function begin(page: Page): Promise<string> {
     (n) => n === 1,
     'one frame',
   );
+  await page.getByRole('dialog').waitFor({ state: 'hidden' });
   return (await title.textContent()) ?? '';
 }
 

@@ -46,6 +46,7 @@ export async function openShow(page: Page, name: string): Promise<void> {
     .getByText(name, { exact: true })
     .click();
   await page.getByTestId('open-library').getByText(name, { exact: true }).waitFor();
+  await page.getByRole('dialog').waitFor({ state: 'hidden' });
 }
 
 export const phase = async (page: Page) => page.getByTestId('phase').getAttribute('data-phase');

@@ -53,6 +53,7 @@ export function ColourSection() {
         aria-label="Colour as hex or RGB"
         value={toHex(color)}
         withPicker={false}
+        withEyeDropper={false}
         onChange={(value) => {
           const typed = fromHex(value);
           if (typed !== undefined && typed !== color) acts.paint(editing, typed);
@@ -72,6 +73,7 @@ export function ColourSection() {
           size="xs"
           label="Gradient from the colour above to"
           style={{ flex: 1 }}
+          withEyeDropper={false}
           value={toHex(to)}
           onChange={(value) => setTo(fromHex(value) ?? to)}
         />

@@ -69,7 +69,7 @@ export function EditBar() {
         className="progress"
         size="sm"
         label={(value) => clockText(value)}
-        thumbProps={{ 'aria-label': 'Moment of the show' }}
+        thumbLabel="Moment of the show"
         min={0}
         max={Math.max(total, 0.1)}
         step={0.05}
