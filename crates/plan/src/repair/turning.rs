@@ -9,6 +9,8 @@ use super::weave::{blend, fold};
 const CREEP_MPS: f64 = 0.008;
 /// Moments of a span that are looked at.
 const MOMENTS: usize = 16;
+/// Share of the limit that is used: between two moments a robot may turn a little faster than at them.
+const BETWEEN_MOMENTS: f64 = 0.96;
 /// Below this share of the speed that a turn needs, a reversal is nearer than a bend.
 const REVERSAL: f64 = 0.5;
 /// Steps shorter than this many creeping ones are wiggles.
@@ -61,7 +63,7 @@ impl Turning {
     pub fn new(span_s: f64, limits: &Limits) -> Self {
         Self {
             moments: std::array::from_fn(|i| Moment::new((i as f64 + 0.5) / MOMENTS as f64)),
-            turn: limits.turn_radps * span_s,
+            turn: limits.turn_radps * span_s * BETWEEN_MOMENTS,
             creep_m: CREEP_MPS * span_s,
         }
     }
