@@ -9,6 +9,8 @@ use crate::{Answer, Fleet, Plan, State};
 /// again when it changes, and `state` twenty times a second.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS)]
 #[serde(tag = "type", rename_all = "snake_case")]
+// They are made, written and dropped, one at a time.
+#[allow(clippy::large_enum_variant)]
 pub enum ToScreen {
     /// The first message.
     Hello(Hello),
