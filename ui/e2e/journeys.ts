@@ -41,9 +41,10 @@ export async function uploadText(
 /** Opens a show of the library by the dialog. */
 export async function openShow(page: Page, name: string): Promise<void> {
   await page.getByTestId('open-library').click();
-  await page
-    .getByRole('list', { name: 'Shows in the library' })
-    .getByText(name, { exact: true })
+  const list = page.getByRole('list', { name: 'Shows in the library' });
+  await list
+    .getByRole('button', { name: new RegExp(`^${name}\\b`) })
+    .first()
     .click();
   await page.getByTestId('open-library').getByText(name, { exact: true }).waitFor();
   await page.getByRole('dialog').waitFor({ state: 'hidden' });

@@ -87,7 +87,7 @@ export function LibraryDialog({ opened, onClose }: { opened: boolean; onClose: (
             >
               <span>
                 {entry.name}
-                {entry.title && entry.title !== entry.name ? (
+                {entry.title && entry.title.toLowerCase() !== entry.name.toLowerCase() ? (
                   <span className="quiet"> – {entry.title}</span>
                 ) : null}
               </span>
