@@ -73,6 +73,12 @@ export const theme = createTheme({
       }),
     },
     Tooltip: { defaultProps: { openDelay: 450, withArrow: false, fz: 'xs' } },
-    Modal: { defaultProps: { centered: true, overlayProps: { backgroundOpacity: 0.6, blur: 2 } } },
+    Modal: {
+      defaultProps: {
+        closeButtonProps: { 'aria-label': 'Close' },
+        centered: true,
+        overlayProps: { backgroundOpacity: 0.6, blur: 2 },
+      },
+    },
   },
 });

@@ -7,6 +7,7 @@ export function tell(tone: 'good' | 'info' | 'error', message: string) {
     color: { good: 'teal', info: 'gray', error: 'red' }[tone],
     autoClose: tone === 'error' ? 12_000 : 4000,
     withBorder: true,
+    closeButtonProps: { 'aria-label': 'Close' },
     role: tone === 'error' ? 'alert' : 'status',
   });
 }
