@@ -65,6 +65,7 @@ fn measure(part: &Part) -> Outcome<String> {
         ["run", "--quiet", "--release", "--package", part.package, "--example", part.example, "--", "--json"];
     let mut command = shell::command(".", &shell::cargo_program(), &arguments);
     if part.name == "round" {
+        shell::cargo(&["build", "--quiet", "--release", "--package", "lightbots-server"])?;
         command.env("LIGHTBOTS_MOSQUITTO", tools::MOSQUITTO.provide()?);
     }
     eprintln!("measuring {}", part.name);

@@ -1,0 +1,227 @@
+//! Measures a frame's round: a route to every robot through a broker, and every robot's answer back, on loopback TCP.
+//!
+//! `cargo xtask bench round` runs it with `--json`. The embedded broker is that of `lightbots run --robots 0`; Mosquitto
+//! (the program named in `LIGHTBOTS_MOSQUITTO`, or the one on the path) is measured in the same run.
+#![allow(clippy::print_stdout, clippy::print_stderr)]
+
+use std::collections::BTreeSet;
+use std::error::Error;
+use std::net::{TcpListener, TcpStream};
+use std::path::{Path, PathBuf};
+use std::process::{Child, Command, Stdio};
+use std::time::{Duration, Instant};
+
+use lightbots_base::{Piece, RobotId, Span, Vec2};
+use lightbots_link::{BrokerUrl, Link, LinkConfig, LinkEvent, controller_client_id, robot_client_id};
+use lightbots_wire::{Details, Report, RobotState, Route, Topic, encode};
+
+/// Robots, and how many of them share a connection: one each, and at the largest as the program does it.
+const SIZES: [(usize, usize); 4] = [(30, 1), (100, 1), (1_000, 1), (10_000, 50)];
+const ROUNDS: usize = 7;
+/// After so long, whoever has not answered counts as lost.
+const PATIENCE: Duration = Duration::from_secs(30);
+
+type Outcome<T = ()> = Result<T, Box<dyn Error>>;
+
+struct Broker {
+    child: Child,
+    url: BrokerUrl,
+    folder: PathBuf,
+}
+
+impl Drop for Broker {
+    fn drop(&mut self) {
+        let _ = self.child.kill();
+        let _ = self.child.wait();
+        let _ = std::fs::remove_dir_all(&self.folder);
+    }
+}
+
+/// What one broker made of one size.
+struct Measured {
+    median_ms: f64,
+    lost: usize,
+}
+
+#[tokio::main]
+async fn main() -> Outcome {
+    // Every connection is a file.
+    let _ = rlimit::increase_nofile_limit(65_536);
+    for (robots, together) in SIZES {
+        let embedded = measure(embedded()?, robots, together).await?;
+        let mosquitto = measure(mosquitto()?, robots, together).await?;
+        println!(
+            "{{\"robots\":{robots},\"connections\":{},\"embedded_ms\":{:.2},\"embedded_lost\":{},\"mosquitto_ms\":{:.2},\
+             \"mosquitto_lost\":{}}}",
+            robots.div_ceil(together),
+            embedded.median_ms,
+            embedded.lost,
+            mosquitto.median_ms,
+            mosquitto.lost
+        );
+    }
+    Ok(())
+}
+
+async fn measure(broker: Broker, robots: usize, together: usize) -> Outcome<Measured> {
+    let ids: Vec<RobotId> = (0..robots).map(|number| RobotId::from_random(number as u128)).collect();
+    let fleet: Vec<_> = ids.chunks(together).map(|group| robots_on(&broker.url, group)).collect();
+    let mut controller = Link::open(LinkConfig {
+        broker: broker.url.clone(),
+        client_id: controller_client_id(),
+        filters: vec![Topic::Status.write().to_string()],
+        queue: 4 * robots + 64,
+    });
+    while !matches!(controller.next().await, Some(LinkEvent::Connected)) {}
+    let payloads: Vec<(String, Vec<u8>)> =
+        ids.iter().enumerate().map(|(number, id)| command(number, id)).collect();
+    gather(&mut controller, &payloads).await?;
+    let mut times_ms = Vec::new();
+    let mut lost = 0;
+    for _ in 0..ROUNDS {
+        let began = Instant::now();
+        lost += robots - round(&mut controller, &payloads).await;
+        times_ms.push(began.elapsed().as_secs_f64() * 1e3);
+    }
+    for task in fleet {
+        task.abort();
+    }
+    times_ms.sort_by(f64::total_cmp);
+    Ok(Measured { median_ms: times_ms[ROUNDS / 2], lost })
+}
+
+/// Asks until every robot has answered once: from then on all are subscribed.
+async fn gather(controller: &mut Link, payloads: &[(String, Vec<u8>)]) -> Outcome {
+    for _ in 0..120 {
+        for (topic, payload) in payloads {
+            controller.sender().send(topic, payload.clone());
+        }
+        if answers(controller, payloads.len(), Duration::from_secs(2)).await == payloads.len() {
+            return Ok(());
+        }
+    }
+    Err("the robots did not all come to the broker".into())
+}
+
+async fn round(controller: &mut Link, payloads: &[(String, Vec<u8>)]) -> usize {
+    let sender = controller.sender();
+    for (topic, payload) in payloads {
+        sender.send(topic, payload.clone());
+    }
+    answers(controller, payloads.len(), PATIENCE).await
+}
+
+/// How many different robots answered within `patience`; returns as soon as `wanted` have.
+async fn answers(controller: &mut Link, wanted: usize, patience: Duration) -> usize {
+    let mut heard = BTreeSet::new();
+    let end = tokio::time::Instant::now() + patience;
+    while heard.len() < wanted {
+        match tokio::time::timeout_at(end, controller.next()).await {
+            Ok(Some(LinkEvent::Message { payload, .. })) => {
+                heard.extend(Report::decode(&payload).map(|report| report.id));
+            }
+            Ok(Some(_)) => {}
+            Ok(None) | Err(_) => break,
+        }
+    }
+    heard.len()
+}
+
+/// Robots that answer every command with a full report, on one connection.
+fn robots_on(broker: &BrokerUrl, group: &[RobotId]) -> tokio::task::JoinHandle<()> {
+    let mut link = Link::open(LinkConfig {
+        broker: broker.clone(),
+        client_id: group.first().map(robot_client_id).unwrap_or_default(),
+        filters: group.iter().map(|id| Topic::Robot(*id).write().to_string()).collect(),
+        queue: 4 * group.len() + 64,
+    });
+    tokio::spawn(async move {
+        let sender = link.sender();
+        while let Some(event) = link.next().await {
+            let LinkEvent::Message { topic, .. } = event else { continue };
+            let Some(Topic::Robot(id)) = Topic::parse(&topic) else { continue };
+            sender.send(&Topic::Status.write(), answer(id));
+        }
+    })
+}
+
+fn answer(id: RobotId) -> Vec<u8> {
+    let details = Details {
+        heading: Some(1.5708),
+        battery: Some(80),
+        state: RobotState::Ready,
+        route: 17,
+        off_m: Some(0.001),
+        clock_us: Some(400),
+        ..Details::default()
+    };
+    let mut text = String::new();
+    let report = Report { id, at: Some(Vec2::new(0.1234, -1.2345)), details: Some(details) };
+    let _ = report.encode(&mut text);
+    text.into_bytes()
+}
+
+/// A route as a transition has it: rest, speed up, cruise, slow down.
+fn command(number: usize, id: &RobotId) -> (String, Vec<u8>) {
+    let place = |share: f64| Vec2::new(number as f64 * 0.001 - 1.4, -1.0 + share);
+    let mut route = Route { seq: 17, start: place(0.0), pieces: Default::default() };
+    let _ = route.pieces.push(Piece::rest(place(0.0), Span::from_millis(350)));
+    for share in [0.1, 0.9, 1.0] {
+        let _ = route.pieces.push(Piece::hermite(
+            place(share - 0.1),
+            Vec2::ZERO,
+            place(share),
+            Vec2::ZERO,
+            Span::from_millis(800),
+        ));
+    }
+    let mut text = String::new();
+    let _ = encode(&lightbots_wire::Command::Route(route), &mut text);
+    (Topic::Robot(*id).write().to_string(), text.into_bytes())
+}
+
+fn embedded() -> Outcome<Broker> {
+    let here = std::env::current_exe()?;
+    let program = here.parent().and_then(Path::parent).ok_or("no folder")?.join("lightbots");
+    if !program.is_file() {
+        return Err(format!("{} is missing: build lightbots-server first", program.display()).into());
+    }
+    start("embedded", |port, folder| {
+        let mut command = Command::new(&program);
+        let address = format!("127.0.0.1:{port}");
+        command.args(["run", "--robots", "0", "--listen", "127.0.0.1:0", "--mqtt-listen", &address]);
+        command.arg("--data").arg(folder);
+        Ok(command)
+    })
+}
+
+fn mosquitto() -> Outcome<Broker> {
+    let program = std::env::var("LIGHTBOTS_MOSQUITTO").unwrap_or_else(|_| "mosquitto".into());
+    start("mosquitto", |port, folder| {
+        let settings = folder.join("mosquitto.conf");
+        let text = format!(
+            "listener {port} 127.0.0.1\nallow_anonymous true\nset_tcp_nodelay true\nmax_queued_messages 0\n\
+             max_inflight_messages 0\n"
+        );
+        std::fs::write(&settings, text)?;
+        let mut command = Command::new(&program);
+        command.arg("-c").arg(settings);
+        Ok(command)
+    })
+}
+
+/// Starts a broker on a free port and waits until it listens.
+fn start(name: &str, command: impl Fn(u16, &Path) -> Outcome<Command>) -> Outcome<Broker> {
+    let port = TcpListener::bind("127.0.0.1:0")?.local_addr()?.port();
+    let folder = std::env::temp_dir().join(format!("lightbots-round-{}-{name}", std::process::id()));
+    std::fs::create_dir_all(&folder)?;
+    let child = command(port, &folder)?.stdout(Stdio::null()).stderr(Stdio::null()).spawn()?;
+    let broker = Broker { child, url: BrokerUrl::new("127.0.0.1", port), folder: folder };
+    for _ in 0..500 {
+        if TcpStream::connect(("127.0.0.1", port)).is_ok() {
+            return Ok(broker);
+        }
+        std::thread::sleep(Duration::from_millis(20));
+    }
+    Err(format!("{name} did not open its port").into())
+}
