@@ -11,9 +11,10 @@ export function useKeys(keys: readonly (readonly [string, (event: KeyboardEvent)
       (event: KeyboardEvent) => {
         if (document.querySelector('[role="dialog"]')) return;
         const target = event.target as HTMLElement | null;
-        const button = target?.closest?.('button, [role="tab"], [role="option"], summary');
-        if (button && (event.key === ' ' || event.key === 'Enter') && !event.ctrlKey) {
-          if (event.key === ' ' || event.key === 'Enter') (target as HTMLButtonElement).click();
+        const button = target?.closest<HTMLElement>('button, [role="tab"], [role="option"]');
+        if (button && event.key === ' ') {
+          // The key is taken from the button here, so it is given back.
+          button.click();
           return;
         }
         act(event);
