@@ -1,6 +1,6 @@
 //! A place on a route that moves with path time and only looks at the piece it is on.
 
-use lightbots_base::{Motion, Piece, Span, Vec2};
+use lightbots_base::{Motion, Span, Vec2};
 use lightbots_wire::Route;
 
 /// The piece under way, as a cubic in its share of time.
@@ -13,8 +13,6 @@ pub(crate) struct Cursor {
     per_second: f64,
     /// Coefficients of share⁰ to share³, metres.
     cubic: [Vec2; 4],
-    /// Direction of this piece's beginning or, where it rests, of the next piece that moves.
-    ahead: Option<Vec2>,
     rests: bool,
 }
 
@@ -27,7 +25,6 @@ impl Cursor {
             end: Span::ZERO,
             per_second: 0.0,
             cubic: [route.start, Vec2::ZERO, Vec2::ZERO, Vec2::ZERO],
-            ahead: None,
             rests: true,
         };
         cursor.enter(route, 0, Span::ZERO);
@@ -59,17 +56,15 @@ impl Cursor {
         }
     }
 
-    /// Which way the route goes on from where it stands still: at the beginning of a piece, or while it rests. `None`
-    /// where it comes to its end.
-    pub(crate) fn ahead(&self, time: Span) -> Option<Vec2> {
-        self.ahead.filter(|_| self.rests || (time - self.begin) < (self.end - self.begin) / 2)
+    /// The piece at the path time sought: its index, and when it begins.
+    pub(crate) fn piece(&self) -> (usize, Span) {
+        (self.index, self.begin)
     }
 
     fn enter(&mut self, route: &Route, index: usize, begin: Span) {
         let from = from(route, index);
         self.index = index;
         self.begin = begin;
-        self.ahead = direction_from(route, index);
         let Some(piece) = route.pieces.get(index) else {
             self.end = begin;
             self.cubic = [from, Vec2::ZERO, Vec2::ZERO, Vec2::ZERO];
@@ -85,28 +80,14 @@ impl Cursor {
 }
 
 /// Where piece `index` starts.
-fn from(route: &Route, index: usize) -> Vec2 {
+pub(crate) fn from(route: &Route, index: usize) -> Vec2 {
     index.checked_sub(1).and_then(|before| route.pieces.get(before)).map_or(route.start, |piece| piece.end)
-}
-
-/// The direction in which the route first moves at or after piece `index`.
-fn direction_from(route: &Route, index: usize) -> Option<Vec2> {
-    let mut start = from(route, index);
-    route.pieces.get(index..)?.iter().find_map(|piece| {
-        let found = initial_direction(piece, start);
-        start = piece.end;
-        found
-    })
-}
-
-fn initial_direction(piece: &Piece, start: Vec2) -> Option<Vec2> {
-    [piece.c1, piece.c2, piece.end].into_iter().find_map(|point| (point - start).normalized())
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use lightbots_base::PathRef;
+    use lightbots_base::{PathRef, Piece};
     use lightbots_wire::Pieces;
 
     fn route() -> Route {
@@ -132,20 +113,6 @@ mod tests {
             assert!(mine.velocity.distance(theirs.velocity) < 1e-9);
             assert!(mine.acceleration.distance(theirs.acceleration) < 1e-9);
         }
-    }
-
-    #[test]
-    fn it_looks_ahead_past_rests_and_stops_at_the_end() {
-        let route = route();
-        let mut cursor = Cursor::new(&route);
-        let mut ahead = |time| {
-            cursor.seek(&route, Span(time));
-            cursor.ahead(Span(time))
-        };
-        assert_eq!(ahead(0), Some(Vec2::new(0.0, 1.0)));
-        assert_eq!(ahead(1_200_000), None);
-        assert_eq!(ahead(1_300_000), Some(Vec2::new(1.0, 0.0)));
-        assert_eq!(ahead(9_000_000), None);
     }
 
     #[test]

@@ -4,6 +4,7 @@
 use lightbots_base::{Motion, Vec2};
 
 use crate::drive::{Body, Setpoint};
+use crate::outlook::Ahead;
 
 /// Speed per error along, 1/s.
 const ALONG: f64 = 9.0;
@@ -13,10 +14,12 @@ const ACROSS: f64 = 600.0;
 const TURN: f64 = 11.0;
 /// On the spot, rad/s per radian.
 const SPOT: f64 = 12.0;
+/// Turning rate per angle left and time left for it: it starts faster than evenly, to be there in time.
+const SWING: f64 = 1.8;
 /// The same errors across steer as at this speed where it drives slower, m/s.
 const SLOW_MPS: f64 = 0.05;
 /// Slower than this the route says no direction, m/s.
-const RESTING_MPS: f64 = 0.002;
+pub(crate) const RESTING_MPS: f64 = 0.002;
 /// While it rests, errors below these are noise: metres along, and sine of the heading error.
 const CALM_M: f64 = 0.0015;
 const CALM_SIN: f64 = 0.012;
@@ -40,19 +43,19 @@ impl Follow {
     }
 
     /// What to do next: `motion` is where the route is and how it moves when this takes effect, by show time; `ahead`
-    /// is which way it goes on.
-    pub(crate) fn step(&mut self, motion: &Motion, ahead: Option<Vec2>, body: Body) -> Setpoint {
+    /// is which way it goes on where it rests or is slow.
+    pub(crate) fn step(&mut self, motion: &Motion, ahead: Option<Ahead>, body: Body) -> Setpoint {
         let speed = motion.velocity.length();
-        if speed > RESTING_MPS {
-            self.travel = motion.velocity / speed;
-            if self.sense == 0.0 {
-                self.choose_sense(body.facing);
-            }
-            return self.drive(motion, speed, body);
-        }
         if let Some(ahead) = ahead {
-            self.travel = ahead;
+            self.travel = ahead.towards;
             self.choose_sense(body.facing);
+            if speed > RESTING_MPS {
+                return self.swing(motion, ahead.within_s, body);
+            }
+        } else if speed > RESTING_MPS {
+            self.travel = motion.velocity / speed;
+            self.choose_sense(body.facing);
+            return self.drive(motion, speed, body);
         }
         self.rest(motion, ahead.is_some(), body)
     }
@@ -82,6 +85,16 @@ impl Follow {
         Setpoint {
             speed_mps: self.sense * speed * cos.max(0.0) + ALONG * along,
             turn_radps: curve + ACROSS * steered * across + TURN * sin,
+        }
+    }
+
+    /// On the slow part of a route it turns to the way ahead in time, and keeps up with the route as far as it can.
+    fn swing(&self, motion: &Motion, within_s: f64, body: Body) -> Setpoint {
+        let along = body.facing.dot(motion.position - body.at);
+        let hurry = (SWING / within_s.max(1e-3)).min(SPOT);
+        Setpoint {
+            speed_mps: body.facing.dot(motion.velocity) + ALONG * along,
+            turn_radps: self.turn_on_the_spot(body.facing) * (hurry / SPOT),
         }
     }
 
@@ -118,6 +131,10 @@ mod tests {
         Body { at: Vec2::ZERO, facing: Vec2::unit(heading) }
     }
 
+    fn ahead(x: f64, y: f64) -> Option<Ahead> {
+        Some(Ahead { towards: Vec2::new(x, y), within_s: 0.2 })
+    }
+
     #[test]
     fn on_the_route_it_does_what_the_route_does() {
         let setpoint = Follow::new().step(&moving(0.0, 0.0), None, body(0.0));
@@ -140,10 +157,35 @@ mod tests {
     fn while_the_route_rests_it_turns_the_shorter_way_to_what_comes() {
         let resting = Motion::default();
         let mut follow = Follow::new();
-        let left = follow.step(&resting, Some(Vec2::new(0.0, 1.0)), body(0.3));
+        let left = follow.step(&resting, ahead(0.0, 1.0), body(0.3));
         assert!(left.turn_radps > 4.5 && left.speed_mps == 0.0);
-        let back = Follow::new().step(&resting, Some(Vec2::new(-1.0, 0.1)), body(0.0));
+        let back = Follow::new().step(&resting, ahead(-1.0, 0.1), body(0.0));
         assert!(back.turn_radps < 0.0 && back.turn_radps > -2.0);
         assert_eq!(Follow::new().step(&resting, None, body(0.3)), Setpoint::default());
+    }
+
+    #[test]
+    fn where_the_route_reverses_it_drives_back_without_turning() {
+        let slow = |speed: f64| Motion { velocity: Vec2::new(speed, 0.0), ..Motion::default() };
+        let mut follow = Follow::new();
+        assert_eq!(follow.step(&moving(0.0, 0.0), None, body(0.0)).speed_mps, 0.2);
+        for speed in [0.01, 0.005, -0.005, -0.01] {
+            let setpoint = follow.step(&slow(speed), ahead(-1.0, 0.0), body(0.0));
+            assert_eq!((setpoint.speed_mps, setpoint.turn_radps.abs()), (speed, 0.0));
+        }
+        let back = Motion { velocity: Vec2::new(-0.2, 0.0), ..Motion::default() };
+        assert_eq!(follow.step(&back, None, body(0.0)), Setpoint { speed_mps: -0.2, turn_radps: 0.0 });
+    }
+
+    #[test]
+    fn on_a_slow_stretch_it_turns_to_what_comes_in_time() {
+        let slow = Motion { velocity: Vec2::new(0.01, 0.0), ..Motion::default() };
+        let soon = Some(Ahead { towards: Vec2::unit(1.0), within_s: 0.2 });
+        let later = Some(Ahead { towards: Vec2::unit(1.0), within_s: 0.8 });
+        let (soon, later) = (
+            Follow::new().step(&slow, soon, body(0.0)).turn_radps,
+            Follow::new().step(&slow, later, body(0.0)).turn_radps,
+        );
+        assert!(soon > 1.0 / 0.2 && later > 1.0 / 0.8 && later < soon / 2.0);
     }
 }

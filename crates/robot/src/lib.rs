@@ -34,6 +34,7 @@ mod estimate;
 mod follow;
 mod light;
 mod outbox;
+mod outlook;
 mod robot;
 mod routes;
 mod seek;

@@ -5,7 +5,8 @@ use lightbots_wire::Route;
 
 use crate::cursor::Cursor;
 use crate::drive::{Body, Setpoint};
-use crate::follow::Follow;
+use crate::follow::{Follow, RESTING_MPS};
+use crate::outlook::{Ahead, Outlook, SLOW_MPS};
 use crate::seek::{Seek, within_arrival};
 use crate::timeline::Timeline;
 
@@ -31,6 +32,7 @@ struct Running {
     duration: Span,
     cursor: Cursor,
     follow: Follow,
+    outlook: Outlook,
     /// Once the route is over and the robot is not there yet.
     seek: Option<Seek>,
     off_m: f64,
@@ -58,7 +60,7 @@ impl Routes {
         if newest != 0 && age < OLD_NUMBERS {
             return;
         }
-        let ahead = Cursor::new(&route).ahead(Span::ZERO);
+        let ahead = Outlook::default().look(&route, (0, Span::ZERO), Span::ZERO).map(|ahead| ahead.towards);
         self.kept = Some(Kept { route, starts: None, follow: Follow::new(), ahead });
     }
 
@@ -93,7 +95,9 @@ impl Routes {
         self.timeline.begin(starts);
         let duration = PathRef::new(route.start, &route.pieces).duration();
         let cursor = Cursor::new(&route);
-        self.running = Some(Running { route, starts, duration, cursor, follow, seek: None, off_m: 0.0 });
+        let outlook = Outlook::default();
+        self.running =
+            Some(Running { route, starts, duration, cursor, follow, outlook, seek: None, off_m: 0.0 });
         true
     }
 
@@ -110,9 +114,15 @@ impl Routes {
         {
             return Some(running.seek.get_or_insert_with(|| Seek::new(motion.position)).step(body, limits));
         }
-        // Held on its way, it keeps to the tangent there.
-        let held_towards = if progress.rate < 1.0 { by_path_time.velocity.normalized() } else { None };
-        let ahead = held_towards.or_else(|| running.cursor.ahead(progress.time));
+        let speed = by_path_time.velocity.length();
+        let ahead = if speed < SLOW_MPS {
+            running.outlook.look(&running.route, running.cursor.piece(), progress.time)
+        } else if motion.velocity.length() < RESTING_MPS {
+            // Held on its way, it keeps to the tangent there.
+            Some(Ahead { towards: by_path_time.velocity / speed, within_s: 0.0 })
+        } else {
+            None
+        };
         Some(running.follow.step(&motion, ahead, body))
     }
 

@@ -1,0 +1,145 @@
+//! Where a slow route goes on. Near a stop its tangent swings faster than a robot turns, or back the way it came; what
+//! counts is the direction in which it drives off.
+
+use lightbots_base::{Span, Vec2};
+use lightbots_wire::Route;
+
+use crate::cursor::from;
+
+/// Slower than this a route is slow, m/s: what the proof of a plan takes for slow too.
+pub(crate) const SLOW_MPS: f64 = 0.02;
+/// How far it looks ahead of where the route moves, and in what steps.
+const HORIZON: Span = Span::from_millis(480);
+const STEP: Span = Span::from_millis(16);
+/// Where nothing within the horizon is fast, the fastest counts if it is so many times as fast as now.
+const MUCH_FASTER: f64 = 2.0;
+
+/// Where a route goes on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Ahead {
+    /// Unit vector of travel.
+    pub towards: Vec2,
+    /// How long until the route travels so, seconds.
+    pub within_s: f64,
+}
+
+/// What was last seen ahead.
+#[derive(Debug, Default)]
+pub(crate) struct Outlook {
+    /// From which path time it was seen, and until which it need not be looked for anew.
+    from: Span,
+    until: Span,
+    towards: Option<Vec2>,
+}
+
+impl Outlook {
+    /// Where the route goes on from a path time within piece `index`, which begins at `begin`. `None` where it comes to
+    /// its end, or goes on as it goes now.
+    pub(crate) fn look(&mut self, route: &Route, (index, begin): (usize, Span), time: Span) -> Option<Ahead> {
+        if time < self.from || time >= self.until {
+            (self.from, self.until, self.towards) = (time, time + HORIZON / 2, None);
+            if let Some((at, towards)) = drives_off(route, (index, begin), time) {
+                (self.until, self.towards) = (at, Some(towards));
+            }
+        }
+        let within_s = (self.until - time).as_secs();
+        self.towards.map(|towards| Ahead { towards, within_s })
+    }
+}
+
+/// When and in which direction a route drives off.
+fn drives_off(route: &Route, (index, begin): (usize, Span), time: Span) -> Option<(Span, Vec2)> {
+    let mut start = from(route, index);
+    let (mut begin, mut now, mut horizon) = (begin, time.max(begin), time + HORIZON);
+    let (mut first, mut fastest) = (None, (now, Vec2::ZERO));
+    for piece in route.pieces.get(index..)? {
+        let end = begin + piece.duration;
+        if piece.is_rest(start) {
+            // Before a rest the way there counts, and only from the rest on the way from there.
+            if first.is_some() {
+                break;
+            }
+            (now, horizon) = (end, end + HORIZON);
+        }
+        while now < end && now < horizon {
+            let velocity = piece.at(start, now - begin).velocity;
+            let speed = velocity.length();
+            let first = *first.get_or_insert(speed);
+            if speed >= SLOW_MPS {
+                return Some((now, velocity / speed));
+            }
+            if speed > fastest.1.length() && speed > MUCH_FASTER * first {
+                fastest = (now, velocity);
+            }
+            now += STEP;
+        }
+        if now >= horizon {
+            break;
+        }
+        (start, begin) = (piece.end, end);
+    }
+    fastest.1.normalized().map(|towards| (fastest.0, towards))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use lightbots_base::Piece;
+    use lightbots_wire::Pieces;
+
+    const SECOND: Span = Span(1_000_000);
+
+    fn route(pieces: &[Piece]) -> Route {
+        Route { seq: 1, start: Vec2::ZERO, pieces: Pieces::from_slice(pieces).unwrap() }
+    }
+
+    fn look(route: &Route, index: usize, begin: i64, time: i64) -> Option<(Vec2, f64)> {
+        let ahead = Outlook::default().look(route, (index, Span(begin)), Span(time))?;
+        Some((ahead.towards, ahead.within_s))
+    }
+
+    #[test]
+    fn it_looks_past_rests_but_not_before_it_rests() {
+        let (a, b) = (Vec2::new(0.0, 0.2), Vec2::new(0.2, 0.2));
+        let gentle = |from: Vec2, to: Vec2| Piece { duration: SECOND, c1: from, c2: to, end: to };
+        let rest = |at| Piece::rest(at, SECOND);
+        let route =
+            route(&[rest(Vec2::ZERO), rest(Vec2::ZERO), gentle(Vec2::ZERO, a), rest(a), gentle(a, b)]);
+        let (towards, within_s) = look(&route, 0, 0, 0).unwrap();
+        assert!(towards.distance(Vec2::new(0.0, 1.0)) < 1e-9 && (2.0..2.1).contains(&within_s));
+        assert_eq!(look(&route, 2, 2_000_000, 2_990_000), None);
+        assert!(look(&route, 3, 3_000_000, 3_000_000).unwrap().0.distance(Vec2::new(1.0, 0.0)) < 1e-9);
+        assert_eq!(look(&route, 4, 4_000_000, 4_990_000), None);
+        assert_eq!(look(&route, 5, 5_000_000, 5_000_000), None);
+    }
+
+    #[test]
+    fn at_a_reversal_it_sees_the_way_back() {
+        let there =
+            Piece { duration: SECOND, c1: Vec2::new(0.1, 0.0), c2: Vec2::new(0.1, 0.0), end: Vec2::ZERO };
+        let (towards, within_s) = look(&route(&[there]), 0, 0, 495_000).unwrap();
+        assert!(towards.distance(Vec2::new(-1.0, 0.0)) < 1e-9 && within_s < 0.1);
+    }
+
+    #[test]
+    fn a_route_that_only_crawls_says_where_it_crawls_faster() {
+        let back = Vec2::new(0.0, 0.002);
+        let slow = Piece { duration: SECOND, c1: back, c2: back, end: Vec2::ZERO };
+        assert!(look(&route(&[slow]), 0, 0, 490_000).unwrap().0.distance(Vec2::new(0.0, -1.0)) < 1e-9);
+        let even = Piece::straight(Vec2::ZERO, Vec2::new(0.01, 0.0), SECOND);
+        assert_eq!(look(&route(&[even]), 0, 0, 100_000), None);
+        let faster = Piece::straight(Vec2::ZERO, Vec2::new(0.1, 0.0), SECOND);
+        assert_eq!(look(&route(&[faster]), 0, 0, 100_000), Some((Vec2::new(1.0, 0.0), 0.0)));
+    }
+
+    #[test]
+    fn what_was_seen_is_kept_until_it_comes() {
+        let piece =
+            Piece { duration: SECOND, c1: Vec2::ZERO, c2: Vec2::new(0.0, 0.2), end: Vec2::new(0.2, 0.2) };
+        let (route, mut outlook) = (route(&[piece]), Outlook::default());
+        let first = outlook.look(&route, (0, Span::ZERO), Span::ZERO).unwrap();
+        let then = outlook.look(&route, (0, Span::ZERO), Span(10_000)).unwrap();
+        assert_eq!(first.towards, then.towards);
+        assert!((first.within_s - then.within_s - 0.01).abs() < 1e-9);
+    }
+}
