@@ -16,6 +16,8 @@ pub enum Purpose {
     Links = 4,
     /// Who breaks down, and when.
     Breakdowns = 5,
+    /// Made-up shows to rehearse.
+    Scene = 6,
 }
 
 /// A stream of random numbers (xoshiro256++ by Blackman and Vigna, seeded through SplitMix64).
