@@ -147,7 +147,7 @@ fn robots_on(broker: &BrokerUrl, group: &[RobotId]) -> tokio::task::JoinHandle<(
 
 fn answer(id: RobotId) -> Vec<u8> {
     let details = Details {
-        heading: Some(1.5708),
+        heading: Some(std::f64::consts::FRAC_PI_2),
         battery: Some(80),
         state: RobotState::Ready,
         route: 17,
@@ -216,7 +216,7 @@ fn start(name: &str, command: impl Fn(u16, &Path) -> Outcome<Command>) -> Outcom
     let folder = std::env::temp_dir().join(format!("lightbots-round-{}-{name}", std::process::id()));
     std::fs::create_dir_all(&folder)?;
     let child = command(port, &folder)?.stdout(Stdio::null()).stderr(Stdio::null()).spawn()?;
-    let broker = Broker { child, url: BrokerUrl::new("127.0.0.1", port), folder: folder };
+    let broker = Broker { child, url: BrokerUrl::new("127.0.0.1", port), folder };
     for _ in 0..500 {
         if TcpStream::connect(("127.0.0.1", port)).is_ok() {
             return Ok(broker);
