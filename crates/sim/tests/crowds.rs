@@ -2,7 +2,7 @@
 
 use lightbots_base::{Rgb, Vec2};
 use lightbots_show::{Easing, Frame, Identity, Pixel, Show, Stage};
-use lightbots_sim::{RehearsalOptions, RehearsalReport, rehearse};
+use lightbots_sim::{Conditions, Faults, RehearsalOptions, RehearsalReport, rehearse};
 
 /// Robots of a random crowd, and how close their pixels may be.
 const ROBOTS: u32 = 30;
@@ -11,12 +11,13 @@ const APART_M: f64 = 0.08;
 /// The example show that mixes rows, rings and grids with fixed identity.
 const DANCERS: &[u8] = include_bytes!("../../../shows/dancers.lightbots.json");
 
-fn assert_fine(show: &Show, seed: u64) -> RehearsalReport {
-    let report = rehearse(show, &RehearsalOptions { seed, ..RehearsalOptions::default() }, &mut |_| {});
+fn assert_fine(show: &Show, faults: &str, seed: u64) -> RehearsalReport {
+    let conditions = Faults::parse(faults).unwrap().added_to(Conditions::default());
+    let report = rehearse(show, &RehearsalOptions { seed, conditions, robots: None }, &mut |_| {});
     let name = &show.name;
     assert!(report.ok, "{name}, seed {seed}: {:?}", report.issues);
     assert_eq!((report.contacts, report.dropouts), (0, 0), "{name}, seed {seed}: {:?}", report.issues);
-    assert!(report.position_error_m.max < 0.008, "{name}, seed {seed}: {:?}", report.position_error_m);
+    assert!(report.position_error_m.max < 0.012, "{name}, seed {seed}: {:?}", report.position_error_m);
     report
 }
 
@@ -62,8 +63,16 @@ fn crowd(number: u64) -> Show {
 fn random_crowds_change_places_without_touching() {
     // One in three failed: where a path stopped to turn back, robots turned around instead of reversing.
     for number in 1..=12 {
-        let report = assert_fine(&crowd(number), number);
+        let report = assert_fine(&crowd(number), "", number);
         assert_eq!((report.robots, report.frames_played), (30, 2));
+    }
+}
+
+#[test]
+fn crowds_have_room_for_poor_sensors_and_slippery_floors() {
+    // Two in five touched while ways only left 60 mm between centres.
+    for number in 1..=6 {
+        assert_fine(&crowd(number), "slip=6%,gps=4mm,loss=5%", number);
     }
 }
 
@@ -71,6 +80,6 @@ fn random_crowds_change_places_without_touching() {
 fn the_dancers_dance() {
     let show = lightbots_show::read(DANCERS, None).unwrap().show;
     for seed in 1..=3 {
-        assert_eq!(assert_fine(&show, seed).frames_played, 10);
+        assert_eq!(assert_fine(&show, "", seed).frames_played, 10);
     }
 }
