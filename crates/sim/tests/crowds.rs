@@ -70,8 +70,8 @@ fn random_crowds_change_places_without_touching() {
 
 #[test]
 fn crowds_have_room_for_poor_sensors_and_slippery_floors() {
-    // Two in five touched while ways only left 60 mm between centres.
-    for number in 1..=6 {
+    // These touched, of forty, while ways only left 60 mm between centres.
+    for number in [26, 31, 32] {
         assert_fine(&crowd(number), "slip=6%,gps=4mm,loss=5%", number);
     }
 }
