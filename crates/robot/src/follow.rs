@@ -23,6 +23,8 @@ pub(crate) const RESTING_MPS: f64 = 0.002;
 /// While it rests, errors below these are noise: metres along, and sine of the heading error.
 const CALM_M: f64 = 0.0015;
 const CALM_SIN: f64 = 0.012;
+/// A robot so far from where a resting or creeping route is turns towards it, metres.
+const STRAY_M: f64 = 0.004;
 /// Fastest correction while the route rests, m/s.
 const CORRECTION_MPS: f64 = 0.1;
 /// The direction must lie this far behind (cosine) before front and back change places.
@@ -57,7 +59,14 @@ impl Follow {
             self.choose_sense(body.facing);
             return self.drive(motion, speed, body);
         }
-        self.rest(motion, ahead.is_some(), body)
+        let error = motion.position - body.at;
+        let stray = ahead.is_none() && error.length() > STRAY_M;
+        if let Some(towards) = error.normalized().filter(|_| stray) {
+            // A route that creeps says no direction, and yet leads away to the side in time.
+            self.travel = towards;
+            self.choose_sense(body.facing);
+        }
+        self.rest(motion, stray || ahead.is_some(), body)
     }
 
     /// Turns towards the way ahead without a route under way.
@@ -98,8 +107,8 @@ impl Follow {
         }
     }
 
-    fn rest(&self, motion: &Motion, goes_on: bool, body: Body) -> Setpoint {
-        let turn_radps = if goes_on { self.turn_on_the_spot(body.facing) } else { 0.0 };
+    fn rest(&self, motion: &Motion, turns: bool, body: Body) -> Setpoint {
+        let turn_radps = if turns { self.turn_on_the_spot(body.facing) } else { 0.0 };
         let along = body.facing.dot(motion.position - body.at);
         let calm = along.abs() < CALM_M || turn_radps.abs() > 1.0;
         let speed_mps = if calm { 0.0 } else { (ALONG * along).clamp(-CORRECTION_MPS, CORRECTION_MPS) };
@@ -175,6 +184,20 @@ mod tests {
         }
         let back = Motion { velocity: Vec2::new(-0.2, 0.0), ..Motion::default() };
         assert_eq!(follow.step(&back, None, body(0.0)), Setpoint { speed_mps: -0.2, turn_radps: 0.0 });
+    }
+
+    #[test]
+    fn a_creeping_route_is_followed_to_the_side() {
+        let creeping = Motion {
+            position: Vec2::new(0.0, 0.006),
+            velocity: Vec2::new(0.0, 0.001),
+            acceleration: Vec2::ZERO,
+        };
+        assert!(Follow::new().step(&creeping, None, body(0.0)).turn_radps.abs() > 1.0);
+        let facing_it = Follow::new().step(&creeping, None, body(core::f64::consts::FRAC_PI_2));
+        assert!(facing_it.speed_mps > 0.02 && facing_it.turn_radps.abs() < 0.1);
+        let near = Motion { position: Vec2::new(0.0, 0.003), ..creeping };
+        assert_eq!(Follow::new().step(&near, None, body(0.0)).turn_radps, 0.0);
     }
 
     #[test]
