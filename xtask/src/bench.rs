@@ -34,7 +34,7 @@ const PARTS: [Part; 3] = [
         package: "lightbots-sim",
         example: "speed",
         about: "A whole show in virtual time with the real controller and robot cores under standard conditions, one \
-                thread: seconds of the show per second of the clock.",
+                thread: seconds of the show per second of the clock, without planning and with it.",
     },
     Part {
         name: "round",
