@@ -23,8 +23,11 @@ pub(crate) const RESTING_MPS: f64 = 0.002;
 /// While it rests, errors below these are noise: metres along, and sine of the heading error.
 const CALM_M: f64 = 0.0015;
 const CALM_SIN: f64 = 0.012;
-/// A robot so far from where a resting or creeping route is turns towards it, metres.
+/// A robot so far from where a creeping route is turns towards it, metres. Where the route rests, turning would not
+/// pay: its sensors may be as wrong, and it would arrive later.
 const STRAY_M: f64 = 0.004;
+/// Slower than this a route rests, m/s.
+const CREEPING_MPS: f64 = 1e-5;
 /// Fastest correction while the route rests, m/s.
 const CORRECTION_MPS: f64 = 0.1;
 /// The direction must lie this far behind (cosine) before front and back change places.
@@ -60,7 +63,7 @@ impl Follow {
             return self.drive(motion, speed, body);
         }
         let error = motion.position - body.at;
-        let stray = ahead.is_none() && error.length() > STRAY_M;
+        let stray = ahead.is_none() && speed > CREEPING_MPS && error.length() > STRAY_M;
         if let Some(towards) = error.normalized().filter(|_| stray) {
             // A route that creeps says no direction, and yet leads away to the side in time.
             self.travel = towards;
@@ -198,6 +201,8 @@ mod tests {
         assert!(facing_it.speed_mps > 0.02 && facing_it.turn_radps.abs() < 0.1);
         let near = Motion { position: Vec2::new(0.0, 0.003), ..creeping };
         assert_eq!(Follow::new().step(&near, None, body(0.0)).turn_radps, 0.0);
+        let over = Motion { velocity: Vec2::ZERO, ..creeping };
+        assert_eq!(Follow::new().step(&over, None, body(0.0)).turn_radps, 0.0);
     }
 
     #[test]
