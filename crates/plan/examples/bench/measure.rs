@@ -32,8 +32,8 @@ pub fn measure(scene: &'static str, problem: &TransitionProblem) -> Row {
     let mut capt = None;
     let capt_ms = median_ms(robots, || capt = Some(squares_alone(problem)));
     let (longest_m, capt_conflicts) = capt.unwrap_or_default();
-    let bottleneck_m =
-        Choice::new(&problem.starts, &problem.goals, &[]).map_or(0.0, |choice| choice.bottleneck_m());
+    let bottleneck_m = Choice::new(&problem.starts, &problem.goals, &problem.pinned)
+        .map_or(0.0, |choice| choice.bottleneck_m());
     let least_s = bottleneck_m / problem.limits.speed_mps + 0.62;
     Row {
         scene,

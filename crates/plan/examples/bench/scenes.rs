@@ -1,4 +1,4 @@
-//! Legal scenes: pixels at least 76.4 mm apart, all on the floor.
+//! Legal scenes, all on the floor: pixels at least 76.4 mm apart, but for those that are called close.
 
 use lightbots_base::{Limits, Vec2};
 use lightbots_plan::TransitionProblem;
@@ -7,22 +7,40 @@ use lightbots_plan::TransitionProblem;
 pub struct Scene {
     pub name: &'static str,
     pub build: fn(usize) -> TransitionProblem,
+    /// The most robots it is measured with.
+    pub most: usize,
+}
+
+impl Scene {
+    const fn new(name: &'static str, build: fn(usize) -> TransitionProblem) -> Self {
+        Self { name, build, most: 10_000 }
+    }
+
+    const fn up_to(name: &'static str, most: usize, build: fn(usize) -> TransitionProblem) -> Self {
+        Self { name, build, most }
+    }
 }
 
 /// All kinds.
-pub const ALL: [Scene; 8] = [
-    Scene { name: "random S", build: |robots| random(robots, 30.0 / 9.0) },
-    Scene { name: "random D", build: |robots| random(robots, 500.0 / 9.0) },
-    Scene { name: "disc slides", build: disc_slides },
-    Scene { name: "grid turns 45°", build: grid_turns },
-    Scene { name: "halves change", build: halves_change },
-    Scene { name: "rings inside out", build: rings_inside_out },
-    Scene { name: "mirrored", build: mirrored },
-    Scene { name: "rows to random", build: rows_to_random },
+pub const ALL: [Scene; 12] = [
+    Scene::new("random S", |robots| random(robots, 30.0 / 9.0)),
+    Scene::new("random D", |robots| random(robots, 500.0 / 9.0)),
+    Scene::new("disc slides", disc_slides),
+    Scene::new("grid turns 45°", grid_turns),
+    Scene::new("halves change", halves_change),
+    Scene::new("rings inside out", rings_inside_out),
+    Scene::new("mirrored", mirrored),
+    Scene::new("rows to random", rows_to_random),
+    Scene::up_to("close pairs S", 1_000, |robots| pairs(robots, 30.0 / 9.0)),
+    Scene::up_to("close D", 1_000, |robots| random_apart(robots, 500.0 / 9.0, CLOSE_M)),
+    Scene::up_to("fixed S", 1_000, |robots| fixed(random(robots, 30.0 / 9.0))),
+    Scene::up_to("fixed D", 1_000, |robots| fixed(random(robots, 500.0 / 9.0))),
 ];
 
 /// Least distance between pixels, metres: a little over the 76.4 mm of Turpin et al.
 const APART_M: f64 = 0.0774;
+/// The least that is always to be solved, metres.
+const CLOSE_M: f64 = 0.06;
 
 /// A small repeatable generator (SplitMix64).
 struct Random(u64);
@@ -44,10 +62,10 @@ fn problem(starts: Vec<Vec2>, goals: Vec<Vec2>) -> TransitionProblem {
 }
 
 /// Random places on a square floor of a density (robots per m²), drawn again where too near to another.
-fn scatter(random: &mut Random, robots: usize, density: f64) -> Vec<Vec2> {
+fn scatter(random: &mut Random, robots: usize, density: f64, apart_m: f64) -> Vec<Vec2> {
     let half = (robots as f64 / density).sqrt() / 2.0 - 0.03;
-    let cells = (2.0 * half / APART_M) as usize + 2;
-    let cell_of = |at: Vec2| (((at.x + half) / APART_M) as usize, ((at.y + half) / APART_M) as usize);
+    let cells = (2.0 * half / apart_m) as usize + 2;
+    let cell_of = |at: Vec2| (((at.x + half) / apart_m) as usize, ((at.y + half) / apart_m) as usize);
     let mut grid: Vec<Option<Vec2>> = vec![None; cells * cells];
     let mut places = Vec::new();
     while places.len() < robots {
@@ -56,7 +74,7 @@ fn scatter(random: &mut Random, robots: usize, density: f64) -> Vec<Vec2> {
         let mut around = (y.saturating_sub(1)..(y + 2).min(cells))
             .flat_map(|y| (x.saturating_sub(1)..(x + 2).min(cells)).map(move |x| y * cells + x));
         if grid[y * cells + x].is_none()
-            && around.all(|cell| grid[cell].is_none_or(|other| other.distance(at) >= APART_M))
+            && around.all(|cell| grid[cell].is_none_or(|other| other.distance(at) >= apart_m))
         {
             grid[y * cells + x] = Some(at);
             places.push(at);
@@ -66,8 +84,35 @@ fn scatter(random: &mut Random, robots: usize, density: f64) -> Vec<Vec2> {
 }
 
 fn random(robots: usize, density: f64) -> TransitionProblem {
+    random_apart(robots, density, APART_M)
+}
+
+fn random_apart(robots: usize, density: f64, apart_m: f64) -> TransitionProblem {
     let mut random = Random(1);
-    problem(scatter(&mut random, robots, density), scatter(&mut random, robots, density))
+    let mut places = || scatter(&mut random, robots, density, apart_m);
+    problem(places(), places())
+}
+
+/// Random places, every one with a neighbour at the least distance.
+fn pairs(robots: usize, density: f64) -> TransitionProblem {
+    let mut random = Random(4);
+    let mut places = || {
+        let mut firsts = scatter(&mut random, robots.div_ceil(2), density / 2.0, APART_M + 2.0 * CLOSE_M);
+        let beside: Vec<Vec2> = firsts
+            .iter()
+            .map(|&at| at + Vec2::unit(random.unit() * std::f64::consts::TAU) * CLOSE_M)
+            .collect();
+        firsts.extend(beside);
+        firsts.truncate(robots);
+        firsts
+    };
+    problem(places(), places())
+}
+
+/// The same with everybody bound to the pixel of the same number.
+fn fixed(problem: TransitionProblem) -> TransitionProblem {
+    let pinned = (0..problem.goals.len()).map(Some).collect();
+    TransitionProblem { pinned, ..problem }
 }
 
 /// A square grid around the origin, `step` apart.
@@ -146,13 +191,13 @@ fn rings_inside_out(robots: usize) -> TransitionProblem {
 }
 
 fn mirrored(robots: usize) -> TransitionProblem {
-    let starts = scatter(&mut Random(2), robots, 100.0 / 9.0);
+    let starts = scatter(&mut Random(2), robots, 100.0 / 9.0, APART_M);
     problem(starts.clone(), starts.iter().map(|at| Vec2::new(-at.x, at.y)).collect())
 }
 
 /// From rows along the front edge, as every show begins.
 fn rows_to_random(robots: usize) -> TransitionProblem {
-    let goals = scatter(&mut Random(3), robots, 100.0 / 9.0);
+    let goals = scatter(&mut Random(3), robots, 100.0 / 9.0, APART_M);
     let half = (robots as f64 * 0.09).sqrt() / 2.0;
     let a_row = ((2.0 * half - 0.06) / 0.1) as usize + 1;
     let starts = (0..robots).map(|i| {
