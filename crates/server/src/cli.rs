@@ -8,7 +8,7 @@ use lightbots_link::BrokerUrl;
 use lightbots_show::Identity;
 
 use crate::logging::Log;
-use crate::numbers::floor;
+use crate::numbers::{floor, seed};
 
 /// Light shows on a floor: every robot is a pixel that drives.
 #[derive(Debug, Parser)]
@@ -45,7 +45,7 @@ pub enum Command {
 #[derive(Clone, Copy, Debug, Args)]
 pub struct ShowArguments {
     /// Floor in metres for shows that do not carry a stage [default: 3x3]
-    #[arg(long, value_name = "WxH", value_parser = floor)]
+    #[arg(long, value_name = "WxH", allow_hyphen_values = true, value_parser = floor)]
     pub floor: Option<(f64, f64)>,
     /// Whether pixel id n is the same robot in every frame [default: as the show says, else any]
     #[arg(long, value_enum)]
@@ -96,7 +96,7 @@ pub struct RunArguments {
     #[arg(long, value_name = "DIR")]
     pub data: Option<PathBuf>,
     /// Seed of the simulated robots, their names included [default: another one each time]
-    #[arg(long, value_name = "S")]
+    #[arg(long, value_name = "S", allow_hyphen_values = true, value_parser = seed)]
     pub seed: Option<u64>,
     /// Simulated robots without sensor noise and wheel slip
     #[arg(long)]
@@ -138,7 +138,7 @@ pub struct RehearseArguments {
     #[command(flatten)]
     pub reading: ShowArguments,
     /// Seed of all chance: the same seed gives the same run
-    #[arg(long, value_name = "S", default_value_t = 1)]
+    #[arg(long, value_name = "S", allow_hyphen_values = true, default_value_t = 1, value_parser = seed)]
     pub seed: u64,
     /// Without sensor noise, wheel slip and delays
     #[arg(long)]
@@ -186,10 +186,10 @@ pub struct RobotsArguments {
     #[arg(long, value_name = "URL", value_parser = BrokerUrl::parse)]
     pub broker: BrokerUrl,
     /// Seed of their noise and their names [default: another one each time]
-    #[arg(long, value_name = "S")]
+    #[arg(long, value_name = "S", allow_hyphen_values = true, value_parser = seed)]
     pub seed: Option<u64>,
     /// Floor in metres, whose front rows they stand in
-    #[arg(long, value_name = "WxH", value_parser = floor, default_value = "3x3")]
+    #[arg(long, value_name = "WxH", allow_hyphen_values = true, value_parser = floor, default_value = "3x3")]
     pub floor: (f64, f64),
     /// Without sensor noise and wheel slip
     #[arg(long)]

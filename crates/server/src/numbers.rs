@@ -8,6 +8,11 @@ pub fn floor(text: &str) -> Result<(f64, f64), String> {
     read(width).zip(read(depth)).ok_or_else(wrong)
 }
 
+/// Reads a seed.
+pub fn seed(text: &str) -> Result<u64, String> {
+    text.trim().parse().map_err(|_| format!("a seed is a whole number from 0 to {}", u64::MAX))
+}
+
 /// Median, 99th percentile and maximum of a set of values; zeros where it is empty.
 #[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize)]
 pub struct Spread {
@@ -48,6 +53,14 @@ mod tests {
         assert_eq!(floor("4.5X2"), Ok((4.5, 2.0)));
         for text in ["", "3", "3x", "x3", "0x1", "-1x3", "NaNx3", "infx2", "3x3x3", "1e9x3"] {
             assert!(floor(text).is_err(), "{text}");
+        }
+    }
+
+    #[test]
+    fn seeds_are_whole_numbers() {
+        assert_eq!(seed("18446744073709551615"), Ok(u64::MAX));
+        for text in ["", "x", "-1", "1.5", "18446744073709551616"] {
+            assert!(seed(text).is_err(), "{text}");
         }
     }
 

@@ -88,6 +88,11 @@ impl RunReport {
         self.issues.splice(0..0, issues.iter().cloned());
     }
 
+    /// Whether robots were sent anywhere.
+    pub fn has_begun(&self) -> bool {
+        self.robots > 0
+    }
+
     /// Whether the run is over.
     pub fn is_over(&self) -> bool {
         self.outcome.is_some()
@@ -121,6 +126,10 @@ fn issue(kind: &EventKind) -> Option<Issue> {
     // One that drops out may come back: whether it did is told by `ok`.
     let severity = if code == "dropout" { Severity::Warning } else { kind.severity() };
     let issue = Issue { severity, ..Issue::error(code, kind.to_string()) };
+    let issue = match kind {
+        EventKind::LeftOut { pixels, .. } => issue.with_pixels(pixels.iter().copied()),
+        _ => issue,
+    };
     Some(frame.map_or(issue.clone(), |frame| issue.in_frame(frame)))
 }
 
@@ -182,6 +191,14 @@ mod tests {
         report.add(&event(4000, ended), None);
         assert!(report.is_over() && report.ok());
         assert_eq!((report.robots, report.duration_s, report.spreads_s.as_slice()), (3, 3.0, &[0.08][..]));
+    }
+
+    #[test]
+    fn pixels_that_stay_dark_are_named_to_programs_too() {
+        let mut report = RunReport { frames: 1, ..RunReport::default() };
+        report.add(&event(1, EventKind::LeftOut { frame: 2, pixels: vec![4, 7], count: 2 }), None);
+        let issue = &report.issues[0];
+        assert_eq!((issue.frame, issue.pixels.as_slice()), (Some(2), &[4, 7][..]));
     }
 
     #[test]

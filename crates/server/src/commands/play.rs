@@ -3,7 +3,7 @@
 use std::time::{Duration, Instant};
 
 use lightbots_control::{Age, MissingPolicy, Operation, Refusal, RobotView, Snapshot};
-use lightbots_show::Show;
+use lightbots_show::{Issue, Show};
 use lightbots_wire::RobotState;
 use tokio::sync::broadcast;
 
@@ -23,7 +23,7 @@ const NOTHING: Duration = Duration::from_secs(900);
 pub async fn run(arguments: PlayArguments, stop: Stop) -> Outcome {
     stop.take_over();
     let opened = show_file::open(&arguments.show, &arguments.reading)?;
-    if opened.issues.iter().any(lightbots_show::Issue::is_error) {
+    if opened.issues.iter().any(Issue::is_error) {
         let mut report = RunReport::new(&opened.show);
         report.add_issues(&opened.issues);
         print(report, arguments.json)?;
@@ -33,22 +33,29 @@ pub async fn run(arguments: PlayArguments, stop: Stop) -> Outcome {
     let (handle, task) = Handle::start(stop.clone());
     let (news, links) = (handle.news(), handle.news());
     handle.connect(arguments.broker.clone()).await;
+    let mut report = RunReport::new(&opened.show);
     let played = tokio::select! {
-        played = play(&arguments, &opened.show, &handle, news, links) => played,
+        played = play(&arguments, &opened.show, &handle, &mut report, (news, links)) => played,
         () = stop.wait() => Err(Failure::problem("stopped before the end of the show")),
-    };
-    let mut report = match played {
-        Ok(report) => report,
-        Err(failure) => {
-            finish(&handle, &stop, task).await;
-            return Err(failure);
-        }
     };
     report.add_issues(&opened.issues);
     finish(&handle, &stop, task).await;
+    tell(report, arguments.json, played)
+}
+
+/// The report, also of a run that ended early: programs read one object whatever happened, people one line where
+/// nothing was played.
+fn tell(mut report: RunReport, json: bool, played: Result<(), Failure>) -> Outcome {
+    if let Err(failure) = &played {
+        if json {
+            report.add_issues(&vec![Issue::error("not-played", failure.line.clone())]);
+        } else if !report.has_begun() {
+            return played.map(|()| false);
+        }
+    }
     let ok = report.ok();
-    print(report, arguments.json)?;
-    Ok(ok)
+    print(report, json)?;
+    played.map(|()| ok)
 }
 
 /// Leaves the broker, or waits until the conductor has.
@@ -67,13 +74,12 @@ async fn play(
     arguments: &PlayArguments,
     show: &Show,
     handle: &Handle,
-    news: broadcast::Receiver<News>,
-    links: broadcast::Receiver<News>,
-) -> Result<RunReport, Failure> {
+    report: &mut RunReport,
+    (news, links): (broadcast::Receiver<News>, broadcast::Receiver<News>),
+) -> Result<(), Failure> {
     let pixels = show_file::pixels(show);
     let refused = |refusal: Refusal| Failure::problem(refusal.to_string());
     let missing = gather(arguments, pixels, handle, links).await?;
-    let mut report = RunReport::new(show);
     handle.operate(conductor::open(show.clone())).await.map_err(refused)?;
     let until = Instant::now() + Duration::from_secs(arguments.patience.into());
     loop {
@@ -86,8 +92,7 @@ async fn play(
             Err(refusal) => return Err(refused(refusal)),
         }
     }
-    follow(&mut report, handle, news).await?;
-    Ok(report)
+    follow(report, handle, news).await
 }
 
 /// Waits until there are enough robots.

@@ -1,5 +1,6 @@
 //! `rehearse`: the whole show in virtual time.
 
+use std::path::Path;
 use std::time::Instant;
 
 use lightbots_sim::{Conditions, Faults, Progress, RehearsalOptions, RehearsalReport, rehearse};
@@ -38,8 +39,7 @@ pub fn run(arguments: &RehearseArguments) -> Outcome {
     let news = opened.issues.iter().filter(|issue| !report.issues.contains(issue));
     report.issues = news.chain(&report.issues).cloned().collect();
     if let Some(file) = &arguments.report {
-        let title = if opened.show.name.is_empty() { "Rehearsal" } else { &opened.show.name };
-        std::fs::write(file, report.html(title))
+        std::fs::write(file, report.html(&title(&opened.show.name, &arguments.show)))
             .map_err(|error| Failure::input(format!("{}: cannot be written: {error}", file.display())))?;
     }
     if arguments.json {
@@ -48,6 +48,12 @@ pub fn run(arguments: &RehearseArguments) -> Outcome {
         print(&report);
     }
     Ok(report.ok)
+}
+
+/// The show's name; the original's shows have none but their file's.
+fn title(name: &str, file: &Path) -> String {
+    let stem = file.file_stem().map(|stem| stem.to_string_lossy().into_owned());
+    if name.is_empty() { stem.unwrap_or_default() } else { name.to_owned() }
 }
 
 fn print(report: &RehearsalReport) {

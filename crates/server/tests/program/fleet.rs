@@ -71,6 +71,20 @@ fn fewer_robots_than_pixels_play_what_they_can() {
 }
 
 #[test]
+fn programs_get_one_object_of_a_run_that_never_began() {
+    let show = shows::row_file(2, &[0.1]);
+    // Nothing listens on port 1.
+    let (broker, patience) = (["--broker", "mqtt://127.0.0.1:1"], ["--patience", "1"]);
+    let mut child =
+        Child::lightbots(&[&["play", &show, "--json", "--log", "off"], &broker[..], &patience[..]].concat());
+    assert_eq!(child.end(), 1);
+    let report: Value = serde_json::from_str(&child.out()).unwrap();
+    assert_eq!((report["ok"].as_bool(), report["frames_played"].as_u64()), (Some(false), Some(0)));
+    assert!(report["issues"][0]["message"].to_string().contains("no broker answers"), "{report}");
+    assert_eq!(child.err().lines().count(), 1, "{}", child.err());
+}
+
+#[test]
 fn waiting_ends_with_a_clear_line() {
     let show = shows::row_file(2, &[0.1]);
     // Nothing listens on port 1.
