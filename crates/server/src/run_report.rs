@@ -60,10 +60,13 @@ impl RunReport {
             EventKind::TransitionStarted { starts, .. } => {
                 self.began.get_or_insert(*starts);
             }
-            EventKind::FrameReached { spread, .. } => {
+            EventKind::FrameReached { frame, spread, .. } => {
                 self.spreads_s.push(spread.as_secs());
                 self.frames_played += 1;
-                let robots = places.iter().flat_map(|snapshot| &snapshot.robots);
+                // Without air time the next drive may have begun: its goals are not this frame's.
+                let stands =
+                    |snapshot: &&Snapshot| snapshot.run.as_ref().is_none_or(|run| run.frame == *frame);
+                let robots = places.filter(stands).into_iter().flat_map(|snapshot| &snapshot.robots);
                 let taking_part = robots.filter(|robot| robot.takes_part && robot.pixel.is_some());
                 let error = |(at, goal): (lightbots_base::Vec2, _)| at.distance(goal);
                 self.errors_m.extend(taking_part.filter_map(|robot| robot.at.zip(robot.goal)).map(error));
