@@ -8,7 +8,7 @@ use lightbots_link::BrokerUrl;
 use lightbots_show::Identity;
 
 use crate::logging::Log;
-use crate::numbers::{floor, seed};
+use crate::numbers::{address, floor, seed};
 
 /// Light shows on a floor: every robot is a pixel that drives.
 #[derive(Debug, Parser)]
@@ -84,10 +84,10 @@ pub struct RunArguments {
     #[arg(long, value_name = "URL", value_parser = BrokerUrl::parse)]
     pub broker: Option<BrokerUrl>,
     /// Where the browser app is served
-    #[arg(long, value_name = "ADDR", default_value = "127.0.0.1:8420")]
+    #[arg(long, value_name = "HOST:PORT", default_value = "127.0.0.1:8420", value_parser = address)]
     pub listen: SocketAddr,
     /// Where the embedded broker listens
-    #[arg(long, value_name = "ADDR", default_value = "127.0.0.1:1883")]
+    #[arg(long, value_name = "HOST:PORT", default_value = "127.0.0.1:1883", value_parser = address)]
     pub mqtt_listen: SocketAddr,
     /// A user the embedded broker lets in when it listens beyond this machine; may be repeated
     #[arg(long, value_name = "USER:PASSWORD")]

@@ -101,6 +101,20 @@ impl Library {
         data.map_or_else(|| PathBuf::from("lightbots-data"), |data| data.join("lightbots"))
     }
 
+    /// Makes the folder, so that a disk that does not want to says so before anybody draws. The line says what to do.
+    pub fn prepare(&self) -> Result<(), String> {
+        let probe = self.folder.join(format!(".probe-{}", std::process::id()));
+        std::fs::create_dir_all(&self.folder)
+            .and_then(|()| std::fs::write(&probe, b""))
+            .and_then(|()| std::fs::remove_file(&probe))
+            .map_err(|error| {
+                format!(
+                    "shows cannot be kept in {}: {error}; name another folder with --data DIR",
+                    self.folder.display()
+                )
+            })
+    }
+
     /// Adds a show that is in no folder, under a name as close to `name` as it may be. It hides one of the same name.
     pub fn give(&self, name: &str, show: &Show) {
         lock(&self.given).insert(tidy_name(name), write(show, Format::LightBots));

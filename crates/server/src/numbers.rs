@@ -1,5 +1,7 @@
 //! Numbers of people and for people.
 
+use std::net::{SocketAddr, ToSocketAddrs};
+
 /// Reads `WxH` in metres, such as `3x3` or `4.5x2`.
 pub fn floor(text: &str) -> Result<(f64, f64), String> {
     let wrong = || "a floor is WIDTHxDEPTH in metres, each from 0.1 to 1000, such as 3x3".to_owned();
@@ -11,6 +13,13 @@ pub fn floor(text: &str) -> Result<(f64, f64), String> {
 /// Reads a seed.
 pub fn seed(text: &str) -> Result<u64, String> {
     text.trim().parse().map_err(|_| format!("a seed is a whole number from 0 to {}", u64::MAX))
+}
+
+/// Reads where to listen: an IP address or a name of this machine, and a port, such as `127.0.0.1:8420`.
+pub fn address(text: &str) -> Result<SocketAddr, String> {
+    let wrong =
+        || "an address is HOST:PORT, such as 127.0.0.1:8420, or 0.0.0.0:8420 for every network".to_owned();
+    text.trim().to_socket_addrs().ok().and_then(|mut found| found.next()).ok_or_else(wrong)
 }
 
 /// Median, 99th percentile and maximum of a set of values; zeros where it is empty.
@@ -61,6 +70,16 @@ mod tests {
         assert_eq!(seed("18446744073709551615"), Ok(u64::MAX));
         for text in ["", "x", "-1", "1.5", "18446744073709551616"] {
             assert!(seed(text).is_err(), "{text}");
+        }
+    }
+
+    #[test]
+    fn addresses_need_a_port() {
+        assert_eq!(address("127.0.0.1:8420"), Ok(SocketAddr::from(([127, 0, 0, 1], 8420))));
+        assert_eq!(address("[::1]:0").map(|address| address.port()), Ok(0));
+        assert_eq!(address("localhost:80").map(|address| address.ip().is_loopback()), Ok(true));
+        for text in ["", "foo", "127.0.0.1", ":8420", "127.0.0.1:99999", "8420"] {
+            assert!(address(text).is_err(), "{text}");
         }
     }
 

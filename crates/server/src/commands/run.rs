@@ -5,7 +5,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use lightbots_link::BrokerUrl;
-use lightbots_show::Show;
+use lightbots_show::{Show, validate};
 use tokio::task::JoinHandle;
 
 use super::{count, robots};
@@ -21,6 +21,8 @@ use crate::{open_files, say, show_file};
 
 /// The example that is opened when no show is named.
 const FIRST: &str = "countdown";
+/// So many faults of the show are said at the start; the screen lists them all.
+const ISSUES_SHOWN: usize = 5;
 /// Robots and broker get so long to say goodbye.
 const GOODBYE: Duration = Duration::from_secs(2);
 
@@ -55,7 +57,11 @@ pub async fn run(arguments: RunArguments, stop: Stop) -> Outcome {
 async fn serve(arguments: &RunArguments, stop: &Stop, started: &mut Started) -> Outcome {
     let users = arguments.mqtt_user.iter().map(|text| User::parse(text)).collect::<Result<Vec<_>, _>>()?;
     let library = Library::new(arguments.data.clone().unwrap_or_else(Library::default_folder));
+    library.prepare().map_err(Failure::problem)?;
     let (name, show) = first_show(arguments, &library)?;
+    for issue in validate(&show).iter().filter(|issue| issue.is_error()).take(ISSUES_SHOWN) {
+        say::error(&issue.message);
+    }
     open_files::raise_limit();
     let listener = web::listen(arguments.listen).await?;
     let address = listener.local_addr().unwrap_or(arguments.listen);

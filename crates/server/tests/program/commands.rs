@@ -177,6 +177,7 @@ fn wrong_use_is_one_line_and_exit_code_2() {
         &["rehearse", "a.json", "--seed", "-1"],
         &["check", "a.json", "--floor", "-1x3"],
         &["run", "--mqtt-listen", "0.0.0.0:0", "--listen", "127.0.0.1:0"],
+        &["run", "--listen", "foo"],
     ] {
         let (code, out, err) = run(arguments);
         assert_eq!((code, out.as_str(), err.lines().count()), (2, "", 1), "{arguments:?}: {err}");

@@ -191,16 +191,27 @@ fn junk_from_the_web_is_turned_away() {
 fn a_taken_port_is_one_line_with_what_to_do() {
     let taken = std::net::TcpListener::bind("127.0.0.1:0").unwrap();
     let taken = taken.local_addr().unwrap().to_string();
+    let data = shows::folder().join("nothing");
     for (arguments, remedy) in [
         (["--listen", taken.as_str(), "--mqtt-listen", "127.0.0.1:0"], "--listen"),
         (["--listen", "127.0.0.1:0", "--mqtt-listen", taken.as_str()], "--mqtt-listen"),
     ] {
-        let mut all = vec!["run", "--robots", "0"];
+        let mut all = vec!["run", "--robots", "0", "--data", data.to_str().unwrap()];
         all.extend(arguments);
         let (code, out, err) = child::run(&all);
         assert_eq!((code, out.as_str()), (1, ""));
         assert!(err.contains("is taken") && err.contains(remedy) && err.lines().count() == 1, "{err}");
     }
+}
+
+#[test]
+fn a_library_that_cannot_be_kept_is_said_before_anybody_draws() {
+    let file = shows::row_file(2, &[0.1]);
+    let below = format!("{file}/library");
+    let (code, out, err) =
+        child::run(&["run", "--listen", "127.0.0.1:0", "--mqtt-listen", "127.0.0.1:0", "--data", &below]);
+    assert_eq!((code, out.as_str(), err.lines().count()), (1, "", 1), "{err}");
+    assert!(err.contains(&below) && err.contains("--data"), "{err}");
 }
 
 #[test]
