@@ -12,6 +12,15 @@ fn started(kind: &EventKind) -> bool {
     matches!(kind, EventKind::TransitionStarted { .. })
 }
 
+/// Eight robots a second after they left for the first of three frames.
+fn a_second_under_way() -> World {
+    let mut world = World::ready(8, 0, show(3, 8, 0.3));
+    world.play();
+    world.run_until(10.0, started);
+    world.run_for(1.0);
+    world
+}
+
 #[test]
 fn lossy_and_slow_links_lose_no_robot() {
     for (loss, delay_ms) in [(5, (5, 15)), (20, (5, 50)), (5, (100, 200))] {
@@ -96,10 +105,7 @@ fn a_robot_restarted_in_a_picture_shows_it_again() {
 #[test]
 fn a_broker_lost_in_the_middle_of_a_run_only_costs_time() {
     for gap_s in [0.5, 6.0] {
-        let mut world = World::ready(8, 0, show(3, 8, 0.3));
-        world.play();
-        world.run_until(10.0, started);
-        world.run_for(1.0);
+        let mut world = a_second_under_way();
         world.link(false);
         world.run_for(gap_s);
         assert_eq!(world.controller.state(), State::Idle);
@@ -110,10 +116,7 @@ fn a_broker_lost_in_the_middle_of_a_run_only_costs_time() {
 
 #[test]
 fn a_controller_restarted_in_the_middle_of_a_run_can_play_again() {
-    let mut world = World::ready(8, 0, show(3, 8, 0.3));
-    world.play();
-    world.run_until(10.0, started);
-    world.run_for(1.0);
+    let mut world = a_second_under_way();
     world.replace_controller();
     world.run_for(0.5);
     world.operate(Operation::Open(Arc::new(show(2, 8, 0.1)))).unwrap();
@@ -123,10 +126,7 @@ fn a_controller_restarted_in_the_middle_of_a_run_can_play_again() {
 
 #[test]
 fn everybody_can_be_stopped_even_when_another_set_them_going() {
-    let mut world = World::ready(8, 0, show(3, 8, 0.3));
-    world.play();
-    world.run_until(10.0, started);
-    world.run_for(1.0);
+    let mut world = a_second_under_way();
     world.replace_controller();
     world.run_for(0.3);
     world.operate(Operation::StopAll).unwrap();
