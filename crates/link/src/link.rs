@@ -1,7 +1,7 @@
 //! The user's side of a connection.
 
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
 
 use rumqttc::{AsyncClient, PublishOptions};
 use tokio::sync::{mpsc, oneshot};
@@ -11,7 +11,7 @@ use crate::{BrokerUrl, pump::Pump};
 /// What a link needs to know.
 #[derive(Clone, Debug)]
 pub struct LinkConfig {
-    /// Where the broker is.
+    /// Where the broker is. Its addresses are tried in turn, and the next one where one dies.
     pub broker: BrokerUrl,
     /// How this program calls itself there.
     pub client_id: String,
@@ -60,6 +60,8 @@ pub struct Sender {
 #[derive(Debug, Default)]
 pub(crate) struct Shared {
     pub(crate) connected: AtomicBool,
+    /// Index of the address in use, or used last.
+    pub(crate) at: AtomicUsize,
     /// Messages dropped in either direction because a queue was full.
     pub(crate) dropped: AtomicU64,
 }
@@ -115,6 +117,11 @@ impl Sender {
     /// Whether messages can go out now.
     pub fn is_connected(&self) -> bool {
         self.shared.connected.load(Ordering::Acquire)
+    }
+
+    /// Which of the broker's addresses is in use, or was last, counted from 0.
+    pub fn place(&self) -> usize {
+        self.shared.at.load(Ordering::Acquire)
     }
 
     /// How many messages were dropped in either direction because a queue was full.

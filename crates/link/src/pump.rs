@@ -5,34 +5,42 @@ use std::sync::atomic::Ordering;
 use std::time::Duration;
 
 use rumqttc::{
-    AsyncClient, Event, EventLoop, MqttOptions, Packet, QoS, SubscribeFilter, TlsConfiguration, Transport,
+    AsyncClient, Event, EventLoop, MqttOptions, Packet, QoS, SubAck, SubscribeFilter, SubscribeReasonCode,
+    TlsConfiguration, Transport,
 };
 use tokio::sync::{mpsc, oneshot};
 
-use crate::BrokerUrl;
 use crate::backoff::Backoff;
 use crate::link::{LinkConfig, LinkEvent, Shared};
-use crate::reason::reason;
+use crate::reason::{not_granted, reason};
+use crate::{Place, Trust};
 
 /// No message of the protocol is nearly as long; one that is longer costs the connection.
 const LONGEST_PACKET: usize = 16 << 20;
 /// A packet of subscriptions stays far below every broker's limit.
 const FILTERS_A_PACKET: usize = 100;
 const GOODBYE: Duration = Duration::from_millis(500);
+/// The next address is tried within this time, at random, so that a fleet does not knock there at once.
+const NEXT_PLACE: Duration = Duration::from_millis(100);
 
 pub(crate) struct Pump {
-    broker: BrokerUrl,
-    filters: Vec<String>,
+    config: LinkConfig,
     client: AsyncClient,
     connection: EventLoop,
     events: mpsc::Sender<LinkEvent>,
     stop: oneshot::Receiver<()>,
     shared: Arc<Shared>,
     backoff: Backoff,
+    /// Which address is used or tried.
+    at: usize,
+    /// Addresses that failed one after the other.
+    failures: usize,
+    /// Whether the broker has let us in on this connection.
+    greeted: bool,
     /// Subscription packets not yet acknowledged since the last connect.
     unconfirmed: usize,
-    /// What was said last about a missing connection.
-    last_reason: Option<String>,
+    /// What was said last about each address.
+    said: Vec<Option<String>>,
 }
 
 type Parts = (AsyncClient, Pump, mpsc::Receiver<LinkEvent>, oneshot::Sender<()>);
@@ -40,7 +48,7 @@ type Parts = (AsyncClient, Pump, mpsc::Receiver<LinkEvent>, oneshot::Sender<()>)
 impl Pump {
     pub(crate) fn new(config: LinkConfig, shared: Arc<Shared>) -> Parts {
         let queue = config.queue.max(16);
-        let (client, mut connection) = AsyncClient::builder(options(&config)).capacity(queue).build();
+        let (client, mut connection) = AsyncClient::builder(options(&config, 0)).capacity(queue).build();
         let mut network = connection.network_options();
         network.set_tcp_nodelay(true);
         network.set_connection_timeout(5);
@@ -48,16 +56,18 @@ impl Pump {
         let (events, receiver) = mpsc::channel(queue);
         let (stopper, stop) = oneshot::channel();
         let pump = Self {
-            broker: config.broker,
-            filters: config.filters,
+            said: vec![None; config.broker.places.len()],
+            config,
             client: client.clone(),
             connection,
             events,
             stop,
             shared,
             backoff: Backoff::new(),
+            at: 0,
+            failures: 0,
+            greeted: false,
             unconfirmed: 0,
-            last_reason: None,
         };
         (client, pump, receiver, stopper)
     }
@@ -73,7 +83,10 @@ impl Pump {
             let going_on = match polled {
                 Ok(Event::Incoming(packet)) => self.incoming(packet).await,
                 Ok(Event::Outgoing(_)) => true,
-                Err(error) => self.failed(&reason(&error, &self.broker)).await,
+                Err(error) => {
+                    let line = reason(&error, self.place(), self.greeted);
+                    self.failed(line).await
+                }
             };
             if !going_on {
                 break;
@@ -82,23 +95,21 @@ impl Pump {
         self.goodbye().await;
     }
 
+    fn place(&self) -> &Place {
+        &self.config.broker.places[self.at]
+    }
+
     async fn incoming(&mut self, packet: Packet) -> bool {
         match packet {
             Packet::ConnAck(answer) => {
-                self.backoff.reset();
-                if !answer.session_present && !self.filters.is_empty() {
+                self.greeted = true;
+                if !answer.session_present && !self.config.filters.is_empty() {
                     self.subscribe();
                     return true;
                 }
                 self.connected().await
             }
-            Packet::SubAck(_) if self.unconfirmed > 0 => {
-                self.unconfirmed -= 1;
-                if self.unconfirmed > 0 {
-                    return true;
-                }
-                self.connected().await
-            }
+            Packet::SubAck(answer) if self.unconfirmed > 0 => self.confirmed(answer).await,
             Packet::Publish(message) => {
                 let Ok(topic) = String::from_utf8(message.topic.to_vec()) else { return true };
                 let payload = message.payload.to_vec();
@@ -113,39 +124,63 @@ impl Pump {
 
     fn subscribe(&mut self) {
         self.unconfirmed = 0;
-        for filters in self.filters.chunks(FILTERS_A_PACKET) {
+        for filters in self.config.filters.chunks(FILTERS_A_PACKET) {
             let filters = filters.iter().map(|filter| SubscribeFilter::new(filter.clone(), QoS::AtMostOnce));
             match self.client.try_subscribe_many(filters) {
                 Ok(()) => self.unconfirmed += 1,
-                Err(error) => tracing::error!("cannot subscribe on {}: {error}", self.broker),
+                Err(error) => tracing::error!("cannot subscribe on {}: {error}", self.place()),
             }
         }
     }
 
+    /// Answers come in the order of the questions.
+    async fn confirmed(&mut self, answer: SubAck) -> bool {
+        let packets = self.config.filters.len().div_ceil(FILTERS_A_PACKET);
+        let first = (packets - self.unconfirmed.min(packets)) * FILTERS_A_PACKET;
+        let refused = answer.return_codes.iter().position(|code| *code == SubscribeReasonCode::Failure);
+        if let Some(index) = refused {
+            let filter = self.config.filters.get(first + index).map_or("a topic", String::as_str);
+            let line = not_granted(filter, self.place());
+            // Half a fleet's ears are none: better to say so, and to try again once the rights are mended.
+            self.connection.clean();
+            return self.failed(line).await;
+        }
+        self.unconfirmed -= 1;
+        self.unconfirmed > 0 || self.connected().await
+    }
+
     async fn connected(&mut self) -> bool {
-        tracing::info!("connected to {}", self.broker);
-        self.last_reason = None;
+        tracing::info!("connected to {}", self.place());
+        self.backoff.reset();
+        self.failures = 0;
+        self.said.fill(None);
+        self.shared.at.store(self.at, Ordering::Release);
         self.shared.connected.store(true, Ordering::Release);
         self.events.send(LinkEvent::Connected).await.is_ok()
     }
 
-    /// The connection failed: says so where that is news, then waits for the next attempt.
-    async fn failed(&mut self, reason: &str) -> bool {
-        self.shared.connected.store(false, Ordering::Release);
+    /// The connection failed: says so where that is news, then waits for the next attempt, at the next address.
+    async fn failed(&mut self, reason: String) -> bool {
+        let was_connected = self.shared.connected.swap(false, Ordering::AcqRel);
+        self.greeted = false;
+        self.failures += 1;
         // What was to be sent on the old connection is stale on the next.
         self.connection.reset_session_state();
-        if self.last_reason.as_deref() != Some(reason) {
+        if was_connected || self.said[self.at].as_deref() != Some(&reason) {
             tracing::warn!("{reason}");
-            self.last_reason = Some(reason.to_owned());
-            let event = LinkEvent::Disconnected { reason: reason.to_owned() };
-            if self.events.send(event).await.is_err() {
+            self.said[self.at] = Some(reason.clone());
+            if self.events.send(LinkEvent::Disconnected { reason }).await.is_err() {
                 return false;
             }
         }
-        let mut random = [0; 4];
-        // Without randomness the wait is merely not spread.
-        let _ = getrandom::fill(&mut random);
-        let wait = self.backoff.wait(u32::from_le_bytes(random));
+        let places = self.config.broker.places.len();
+        let wait = if self.failures.is_multiple_of(places) {
+            self.backoff.wait(random())
+        } else {
+            NEXT_PLACE.mul_f64(f64::from(random()) / f64::from(u32::MAX))
+        };
+        self.at = (self.at + 1) % places;
+        self.connection.mqtt_options = options(&self.config, self.at);
         tokio::select! {
             _ = &mut self.stop => false,
             () = self.events.closed() => false,
@@ -164,19 +199,35 @@ impl Pump {
     }
 }
 
-fn options(config: &LinkConfig) -> MqttOptions {
+fn random() -> u32 {
+    let mut bytes = [0; 4];
+    // Without randomness the wait is merely not spread.
+    let _ = getrandom::fill(&mut bytes);
+    u32::from_le_bytes(bytes)
+}
+
+fn options(config: &LinkConfig, at: usize) -> MqttOptions {
     let broker = &config.broker;
-    let mut options = MqttOptions::new(config.client_id.clone(), (broker.host.clone(), broker.port));
+    let place = &broker.places[at];
+    let mut options = MqttOptions::new(config.client_id.clone(), (place.host.clone(), place.port));
     options.set_keep_alive(15).set_max_packet_size(LONGEST_PACKET, LONGEST_PACKET).set_inflight(1000);
     if let Some(user) = &broker.user {
         options.set_credentials(user.clone(), broker.password.clone().unwrap_or_default());
     }
-    if broker.tls {
-        match TlsConfiguration::try_default_rustls() {
-            Ok(tls) => {
-                options.set_transport(Transport::tls_with_config(tls));
+    if place.tls {
+        match broker.trust.clone().map_or_else(Trust::of_system, Ok) {
+            Ok(trust) => {
+                options.set_transport(Transport::tls_with_config(TlsConfiguration::Rustls(trust.config())));
             }
-            Err(error) => tracing::error!("the system's certificates cannot be read: {error}"),
+            // Nobody is believed then, and every attempt says so.
+            Err(error) => {
+                tracing::error!("{error}");
+                options.set_transport(Transport::tls_with_config(TlsConfiguration::Simple {
+                    ca: Vec::new(),
+                    alpn: None,
+                    client_auth: None,
+                }));
+            }
         }
     }
     options

@@ -1,58 +1,88 @@
-//! Where a broker is.
+//! Where a broker is, and how to get in.
 
 use std::fmt;
 
-/// The address of a broker and how to log in: `[mqtt[s]://][user[:password]@]host[:port]`.
+use crate::{Place, Trust};
+
+/// The addresses of a broker, tried in turn, and how to log in:
+/// `[mqtt[s]://][user[:password]@]host[:port]`, more of them after commas.
 #[derive(Clone, PartialEq, Eq)]
 pub struct BrokerUrl {
-    /// Name or address of its machine; IPv6 without brackets.
-    pub host: String,
-    /// Its TCP port.
-    pub port: u16,
-    /// Whether to speak TLS.
-    pub tls: bool,
+    /// Where it answers, in the order of trying; never empty.
+    pub places: Vec<Place>,
     /// User name; `None`: log in without.
     pub user: Option<String>,
     /// Password; only with a user.
     pub password: Option<String>,
+    /// Whom to believe over TLS; `None`: the authorities of the system.
+    pub trust: Option<Trust>,
 }
 
 /// Why a text is no broker's address: one line for people.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct UrlError(String);
 
+/// A login as it stands in an address.
+type Login = (Option<String>, Option<String>);
+
 impl BrokerUrl {
     /// A plain broker without login.
     pub fn new(host: impl Into<String>, port: u16) -> Self {
-        Self { host: host.into(), port, tls: false, user: None, password: None }
+        let places = vec![Place { host: host.into(), port, tls: false }];
+        Self { places, user: None, password: None, trust: None }
     }
 
-    /// Reads an address. The port is 1883, with TLS 8883, unless stated. `tcp://` and `ssl://` are understood too.
+    /// Reads addresses. The port is 1883, with TLS 8883, unless stated. An address after a comma may leave out what it
+    /// has in common with the first. `tcp://` and `ssl://` are understood too.
     pub fn parse(text: &str) -> Result<Self, UrlError> {
+        let mut parts = text.split(',').map(str::trim);
+        let mut broker = Self::parse_one(parts.next().unwrap_or_default(), None)?;
+        let tls = broker.has_tls();
+        for part in parts {
+            broker = broker.and(Self::parse_one(part, Some(tls))?)?;
+        }
+        Ok(broker)
+    }
+
+    fn parse_one(text: &str, tls_by_default: Option<bool>) -> Result<Self, UrlError> {
+        // The text may hold a password.
+        let shown = text.rsplit_once('@').map_or(text, |(_, place)| place);
         let fail =
-            |why: &str| UrlError(format!("'{text}' is no broker address: {why}; say mqtt://HOST:1883"));
-        let text = text.trim();
-        let (scheme, rest) = text.split_once("://").unwrap_or(("mqtt", text));
-        let tls = match scheme.to_ascii_lowercase().as_str() {
-            "mqtt" | "tcp" => false,
-            "mqtts" | "ssl" => true,
-            _ => return Err(fail("it starts with neither mqtt:// nor mqtts://")),
+            |why: &str| UrlError(format!("'{shown}' is no broker address: {why}; say mqtt://HOST:1883"));
+        let (scheme, rest) = match text.split_once("://") {
+            Some((scheme, rest)) => (Some(scheme), rest),
+            None => (None, text),
+        };
+        let tls = match scheme.map(str::to_ascii_lowercase).as_deref() {
+            None => tls_by_default.unwrap_or(false),
+            Some("mqtt" | "tcp") => false,
+            Some("mqtts" | "ssl") => true,
+            Some(_) => return Err(fail("it starts with neither mqtt:// nor mqtts://")),
         };
         let rest = rest.strip_suffix('/').unwrap_or(rest);
         let (login, place) =
             rest.rsplit_once('@').map_or((None, rest), |(login, place)| (Some(login), place));
-        let (host, port) = split_port(place).ok_or_else(|| fail("its port is no number from 1 to 65535"))?;
-        if host.is_empty() || host.contains(['/', ' ', '?', '#']) {
-            return Err(fail("it names no host"));
-        }
+        let place = Place::parse(place, tls).map_err(fail)?;
         let (user, password) = match login {
             None => (None, None),
             Some(login) => {
                 read_login(login).ok_or_else(|| fail("its user or password is not percent-encoded text"))?
             }
         };
-        let port = port.unwrap_or(if tls { 8883 } else { 1883 });
-        Ok(Self { host: host.to_owned(), port, tls, user, password })
+        Ok(Self { places: vec![place], user, password, trust: None })
+    }
+
+    /// The same broker with more addresses. There is one login: that of the first that states one.
+    pub fn and(mut self, more: Self) -> Result<Self, UrlError> {
+        if self.user.is_none() {
+            (self.user, self.password) = (more.user, more.password);
+        } else if more.user.is_some() && (&self.user, &self.password) != (&more.user, &more.password) {
+            let why = "state user and password once, they go to every address";
+            return Err(UrlError(format!("'{self}' has several logins: {why}")));
+        }
+        self.places.extend(more.places);
+        self.trust = self.trust.or(more.trust);
+        Ok(self)
     }
 
     /// The same broker with this login, where one is given.
@@ -62,28 +92,26 @@ impl BrokerUrl {
         }
         Self { user, password, ..self }
     }
-}
 
-/// `host`, `host:port`, `[v6]`, `[v6]:port` or a bare IPv6 address; `None` where the port is no port.
-fn split_port(place: &str) -> Option<(&str, Option<u16>)> {
-    if let Some(rest) = place.strip_prefix('[') {
-        let (host, after) = rest.split_once(']')?;
-        return match after.strip_prefix(':') {
-            Some(port) => Some((host, Some(read_port(port)?))),
-            None => after.is_empty().then_some((host, None)),
-        };
+    /// The same broker, believed for these reasons.
+    pub fn with_trust(self, trust: Option<Trust>) -> Self {
+        Self { trust, ..self }
     }
-    match place.split_once(':') {
-        Some((host, port)) if !port.contains(':') => Some((host, Some(read_port(port)?))),
-        _ => Some((place, None)),
+
+    /// The same broker, first tried at its address number `first`, counted around.
+    pub fn starting_at(mut self, first: usize) -> Self {
+        let places = self.places.len().max(1);
+        self.places.rotate_left(first % places);
+        self
+    }
+
+    /// Whether any of its addresses speaks TLS.
+    pub fn has_tls(&self) -> bool {
+        self.places.iter().any(|place| place.tls)
     }
 }
 
-fn read_port(text: &str) -> Option<u16> {
-    text.parse().ok().filter(|port| *port != 0)
-}
-
-fn read_login(login: &str) -> Option<(Option<String>, Option<String>)> {
+fn read_login(login: &str) -> Option<Login> {
     let (user, password) = match login.split_once(':') {
         Some((user, password)) => (user, Some(decode(password)?)),
         None => (login, None),
@@ -109,15 +137,13 @@ fn decode(text: &str) -> Option<String> {
 }
 
 impl fmt::Display for BrokerUrl {
-    /// The address without its login, fit for logs and screens.
+    /// The addresses without login, fit for logs and screens.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let scheme = if self.tls { "mqtts" } else { "mqtt" };
-        let host = &self.host;
-        if host.contains(':') {
-            write!(f, "{scheme}://[{host}]:{}", self.port)
-        } else {
-            write!(f, "{scheme}://{host}:{}", self.port)
+        for (index, place) in self.places.iter().enumerate() {
+            let comma = if index == 0 { "" } else { "," };
+            write!(f, "{comma}{place}")?;
         }
+        Ok(())
     }
 }
 
@@ -150,6 +176,7 @@ mod tests {
             ("mqtt://[::1]:2000", "mqtt://[::1]:2000"),
             ("::1", "mqtt://[::1]:1883"),
             ("mqtt://u:p@a:7", "mqtt://a:7"),
+            ("mqtts://u:p@a, b:7,mqtt://c", "mqtts://a:8883,mqtts://b:7,mqtt://c:1883"),
         ] {
             assert_eq!(BrokerUrl::parse(text).unwrap().to_string(), shown, "{text}");
         }
@@ -162,13 +189,42 @@ mod tests {
         assert_eq!(broker.password.as_deref(), Some("p:w%"));
         assert!(!format!("{broker:?} {broker}").contains("me"));
         assert_eq!(BrokerUrl::parse("mqtt://me@host").unwrap().password, None);
+        let wrong = BrokerUrl::parse("mqtt://me:secret@host:x").unwrap_err().to_string();
+        assert!(!wrong.contains("secret"), "{wrong}");
+    }
+
+    #[test]
+    fn one_login_goes_to_every_address() {
+        for text in ["a,mqtt://u:p@b", "mqtt://u:p@a,b", "mqtt://u:p@a,mqtt://u:p@b"] {
+            assert_eq!(BrokerUrl::parse(text).unwrap().user.as_deref(), Some("u"), "{text}");
+        }
+        let error = BrokerUrl::parse("mqtt://u:p@a,mqtt://v:q@b").unwrap_err().to_string();
+        assert!(error.contains("once") && !error.contains("u:p"), "{error}");
+    }
+
+    #[test]
+    fn the_first_address_can_be_chosen() {
+        let broker = BrokerUrl::parse("a,b,c").unwrap().starting_at(4);
+        assert_eq!(broker.to_string(), "mqtt://b:1883,mqtt://c:1883,mqtt://a:1883");
     }
 
     #[test]
     fn what_is_no_address_is_said_in_one_line() {
-        for text in
-            ["", "http://a", "mqtt://", "a:0", "a:99999", "a:x", "mqtt://%zz@a", "[::1", "[::1]x", "a b"]
-        {
+        for text in [
+            "",
+            "http://a",
+            "mqtt://",
+            "a:0",
+            "a:99999",
+            "a:x",
+            "mqtt://%zz@a",
+            "[::1",
+            "[::1]x",
+            "a b",
+            "a,",
+            "a,,b",
+            "a,http://b",
+        ] {
             let error = BrokerUrl::parse(text).unwrap_err().to_string();
             assert!(error.contains("no broker address") && !error.contains('\n'), "{text}: {error}");
         }

@@ -1,0 +1,56 @@
+//! One address of a broker.
+
+use std::fmt;
+
+/// Where a broker answers: `[mqtt[s]://]host[:port]`.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Place {
+    /// Name or address of the machine; IPv6 without brackets.
+    pub host: String,
+    /// Its TCP port.
+    pub port: u16,
+    /// Whether to speak TLS.
+    pub tls: bool,
+}
+
+impl Place {
+    /// Reads `host`, `host:port`, `[v6]`, `[v6]:port` or a bare IPv6 address; the error says why it is none.
+    pub(crate) fn parse(text: &str, tls: bool) -> Result<Self, &'static str> {
+        let (host, port) = split_port(text).ok_or("its port is no number from 1 to 65535")?;
+        if host.is_empty() || host.contains(['/', ' ', '?', '#', '@']) {
+            return Err("it names no host");
+        }
+        Ok(Self { host: host.to_owned(), port: port.unwrap_or(if tls { 8883 } else { 1883 }), tls })
+    }
+}
+
+/// Host and port; `None` where the port is no port.
+fn split_port(place: &str) -> Option<(&str, Option<u16>)> {
+    if let Some(rest) = place.strip_prefix('[') {
+        let (host, after) = rest.split_once(']')?;
+        return match after.strip_prefix(':') {
+            Some(port) => Some((host, Some(read_port(port)?))),
+            None => after.is_empty().then_some((host, None)),
+        };
+    }
+    match place.split_once(':') {
+        Some((host, port)) if !port.contains(':') => Some((host, Some(read_port(port)?))),
+        _ => Some((place, None)),
+    }
+}
+
+fn read_port(text: &str) -> Option<u16> {
+    text.parse().ok().filter(|port| *port != 0)
+}
+
+impl fmt::Display for Place {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let scheme = if self.tls { "mqtts" } else { "mqtt" };
+        let (host, port) = (&self.host, self.port);
+        if host.contains(':') {
+            write!(f, "{scheme}://[{host}]:{port}")
+        } else {
+            write!(f, "{scheme}://{host}:{port}")
+        }
+    }
+}

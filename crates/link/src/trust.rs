@@ -1,0 +1,173 @@
+//! Whom to believe over TLS, and how to show who we are.
+
+use std::fmt;
+use std::path::Path;
+use std::sync::{Arc, OnceLock};
+
+use tokio_rustls::rustls::crypto::ring;
+use tokio_rustls::rustls::pki_types::pem::{Error as PemError, PemObject};
+use tokio_rustls::rustls::pki_types::{CertificateDer, PrivateKeyDer};
+use tokio_rustls::rustls::{ClientConfig, RootCertStore};
+
+/// Authorities that may vouch for a broker, and a certificate of our own for brokers that ask for one. Clones share
+/// it; two are equal where they are the same.
+#[derive(Clone)]
+pub struct Trust(Arc<ClientConfig>);
+
+/// Why certificates cannot be used: one line for people.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct TrustError(String);
+
+/// A PEM text and what to call it, such as its file.
+#[derive(Clone, Copy, Debug)]
+pub struct Pem<'a> {
+    /// For error lines.
+    pub name: &'a str,
+    /// The text.
+    pub bytes: &'a [u8],
+}
+
+impl Trust {
+    /// `ca`: the authorities to believe instead of the system's. `client`: our certificate with its chain, and its key.
+    pub fn new(ca: Option<Pem<'_>>, client: Option<(Pem<'_>, Pem<'_>)>) -> Result<Self, TrustError> {
+        let roots = match ca {
+            Some(pem) => roots_from(pem)?,
+            None => system_roots()?,
+        };
+        let builder = ClientConfig::builder_with_provider(Arc::new(ring::default_provider()))
+            .with_safe_default_protocol_versions()
+            .map_err(|error| TrustError(format!("TLS cannot be set up: {error}")))?
+            .with_root_certificates(roots);
+        let config = match client {
+            None => builder.with_no_client_auth(),
+            Some((certificate, key)) => builder
+                .with_client_auth_cert(certificates(certificate)?, private_key(key)?)
+                .map_err(|error| {
+                    let names =
+                        format!("the client certificate {} and the key {}", certificate.name, key.name);
+                    TrustError(format!("{names} do not fit together: {error}"))
+                })?,
+        };
+        Ok(Self(Arc::new(config)))
+    }
+
+    /// The same from files; certificate and key come together.
+    pub fn read(ca: Option<&Path>, client: Option<(&Path, &Path)>) -> Result<Self, TrustError> {
+        let ca = ca.map(PemFile::read).transpose()?;
+        let client = match client {
+            Some((certificate, key)) => Some((PemFile::read(certificate)?, PemFile::read(key)?)),
+            None => None,
+        };
+        let client = client.as_ref().map(|(certificate, key)| (certificate.pem(), key.pem()));
+        Self::new(ca.as_ref().map(PemFile::pem), client)
+    }
+
+    /// The authorities of the system, read once.
+    pub(crate) fn of_system() -> Result<Self, TrustError> {
+        static SYSTEM: OnceLock<Result<Trust, TrustError>> = OnceLock::new();
+        SYSTEM.get_or_init(|| Self::new(None, None)).clone()
+    }
+
+    pub(crate) fn config(&self) -> Arc<ClientConfig> {
+        self.0.clone()
+    }
+}
+
+struct PemFile {
+    name: String,
+    bytes: Vec<u8>,
+}
+
+impl PemFile {
+    fn read(path: &Path) -> Result<Self, TrustError> {
+        let name = path.display().to_string();
+        match std::fs::read(path) {
+            Ok(bytes) => Ok(Self { name, bytes }),
+            Err(error) => Err(TrustError(format!("{name} cannot be read: {error}"))),
+        }
+    }
+
+    fn pem(&self) -> Pem<'_> {
+        Pem { name: &self.name, bytes: &self.bytes }
+    }
+}
+
+fn roots_from(pem: Pem<'_>) -> Result<RootCertStore, TrustError> {
+    let mut roots = RootCertStore::empty();
+    for certificate in certificates(pem)? {
+        roots.add(certificate).map_err(|error| {
+            TrustError(format!("{} holds a certificate nobody can read: {error}", pem.name))
+        })?;
+    }
+    Ok(roots)
+}
+
+fn system_roots() -> Result<RootCertStore, TrustError> {
+    let found = rustls_native_certs::load_native_certs();
+    let mut roots = RootCertStore::empty();
+    roots.add_parsable_certificates(found.certs);
+    if roots.is_empty() {
+        let line = "this system has no certificate authorities: name the broker's own";
+        return Err(TrustError(line.into()));
+    }
+    Ok(roots)
+}
+
+fn certificates(pem: Pem<'_>) -> Result<Vec<CertificateDer<'static>>, TrustError> {
+    let found = CertificateDer::pem_slice_iter(pem.bytes).collect::<Result<Vec<_>, _>>();
+    match found {
+        Ok(found) if !found.is_empty() => Ok(found),
+        Ok(_) => Err(TrustError(format!("{} holds no certificate (BEGIN CERTIFICATE)", pem.name))),
+        Err(error) => Err(TrustError(format!("{} is no PEM text: {error}", pem.name))),
+    }
+}
+
+fn private_key(pem: Pem<'_>) -> Result<PrivateKeyDer<'static>, TrustError> {
+    PrivateKeyDer::from_pem_slice(pem.bytes).map_err(|error| match error {
+        PemError::NoItemsFound => {
+            TrustError(format!("{} holds no private key (BEGIN PRIVATE KEY)", pem.name))
+        }
+        error => TrustError(format!("{} is no PEM text: {error}", pem.name)),
+    })
+}
+
+impl PartialEq for Trust {
+    fn eq(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.0, &other.0)
+    }
+}
+
+impl Eq for Trust {}
+
+impl fmt::Debug for Trust {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("Trust")
+    }
+}
+
+impl fmt::Display for TrustError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.0)
+    }
+}
+
+impl std::error::Error for TrustError {}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_no_certificate_is_said_with_its_name() {
+        for (bytes, why) in [
+            (&b"hello"[..], "holds no certificate"),
+            (b"-----BEGIN CERTIFICATE-----\n!!\n-----END CERTIFICATE-----\n", "no PEM text"),
+            (b"-----BEGIN CERTIFICATE-----\nAAAA\n-----END CERTIFICATE-----\n", "nobody can read"),
+        ] {
+            let error = Trust::new(Some(Pem { name: "ca.pem", bytes }), None).unwrap_err().to_string();
+            assert!(error.contains("ca.pem") && error.contains(why) && !error.contains('\n'), "{error}");
+        }
+        let missing = Trust::read(Some(Path::new("no-such-file.pem")), None).unwrap_err().to_string();
+        assert!(missing.contains("no-such-file.pem cannot be read"), "{missing}");
+    }
+}
