@@ -1,8 +1,9 @@
 //! What the screen and the server say to each other, over `/ws` and `/api`; the TypeScript types are made from it.
 //!
 //! It knows nothing of sockets, controllers or plans: only the shape of the JSON. [`ToScreen`] is everything a server
-//! says on the WebSocket, [`FromScreen`] everything a screen says there; [`ShowEntry`], [`Problem`] and [`Plan`] are
-//! the bodies of HTTP answers. After a change run `cargo run -p lightbots-api --example types`.
+//! says on the WebSocket, [`FromScreen`] everything a screen says there; [`ShowEntry`],
+//! [`BrokerSettings`], [`Problem`] and [`Plan`] are the bodies of HTTP answers. After a change run
+//! `cargo run -p lightbots-api --example types`.
 //!
 //! ```
 //! use lightbots_api::{FromScreen, Operation};
@@ -11,6 +12,7 @@
 //! assert!(matches!(request.operation, Operation::Preview { frame: 2, .. }));
 //! ```
 
+mod broker;
 mod fleet;
 mod library;
 mod operation;
@@ -19,10 +21,11 @@ mod screen;
 mod state;
 mod typescript;
 
+pub use broker::BrokerSettings;
 pub use fleet::{Abilities, Fleet, FleetRow, Presence, RobotStatus};
 pub use library::{Problem, ShowEntry};
 pub use operation::{Answer, Choice, FromScreen, Missing, Operation, Request};
 pub use plan::{Issue, Path, Plan, Severity, Transition};
 pub use screen::{Hello, Level, LogLine, OpenShow, ToScreen};
-pub use state::{Broker, Phase, Playback, Robots, State};
+pub use state::{Broker, BrokerPhase, Phase, Playback, Robots, State};
 pub use typescript::typescript;

@@ -79,18 +79,31 @@ pub enum Operation {
         /// Its name there.
         name: String,
     },
-    /// Use this broker.
+    /// Use this broker from now on, and after a restart of the server: the settings are kept. Refused, with what is
+    /// wrong, where they cannot be right; whether the broker then answers is said by `State.broker`.
     Connect {
-        /// `mqtt://host:1883`, `mqtts://…`, or `embedded`.
+        /// `mqtt://host:1883` or `mqtts://…`, several with commas between them; or `embedded`.
         address: String,
         /// User name; null: that of the address, or none.
         #[ts(optional = nullable)]
         user: Option<String>,
-        /// Password; null: that of the address, or none.
+        /// Password; null: that of the address, else the kept one where address and user are the kept ones.
         #[ts(optional = nullable)]
         password: Option<String>,
+        /// The authority to trust for `mqtts://`: PEM text, or a file on the server's machine; null: the system's.
+        #[serde(default)]
+        #[ts(optional = nullable)]
+        ca: Option<String>,
+        /// A certificate of our own for a broker that asks for one: PEM text, or a file on the server's machine.
+        #[serde(default)]
+        #[ts(optional = nullable)]
+        client_cert: Option<String>,
+        /// Its key: PEM text, or a file on the server's machine; null: the kept one where the certificate is.
+        #[serde(default)]
+        #[ts(optional = nullable)]
+        client_key: Option<String>,
     },
-    /// Leave the broker.
+    /// Leave the broker; the settings are kept for the next `Connect`.
     Disconnect,
 }
 

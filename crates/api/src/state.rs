@@ -21,12 +21,31 @@ pub struct State {
 /// The connection to the broker.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize, TS)]
 pub struct Broker {
-    /// Its address without user and password; empty: none is wanted.
+    /// Its addresses, with commas between them, without user and password; empty: none is wanted.
     pub address: String,
-    /// Whether it answers.
+    /// How far it is.
+    pub phase: BrokerPhase,
+    /// Whether it answers: `phase` is `connected`.
     pub connected: bool,
-    /// Why not, one line for people.
+    /// Which of its addresses is in use; null: none.
+    pub node: Option<String>,
+    /// Why not, one line for people: what, where, and what to do.
     pub reason: Option<String>,
+}
+
+/// How far the connection to the broker is.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, TS)]
+#[serde(rename_all = "snake_case")]
+pub enum BrokerPhase {
+    /// None is wanted: Connect brings it.
+    #[default]
+    Off,
+    /// The first attempt is under way.
+    Connecting,
+    /// It answers.
+    Connected,
+    /// It does not answer, or does not any more: `reason` says why. It is tried again all the time.
+    Retrying,
 }
 
 /// What is being played.

@@ -3,9 +3,9 @@
 use ts_rs::{Config, TS};
 
 use crate::{
-    Abilities, Answer, Broker, Choice, Fleet, FleetRow, FromScreen, Hello, Issue, Level, LogLine, Missing,
-    OpenShow, Operation, Path, Phase, Plan, Playback, Presence, Problem, Request, RobotStatus, Robots,
-    Severity, ShowEntry, State, ToScreen, Transition,
+    Abilities, Answer, Broker, BrokerPhase, BrokerSettings, Choice, Fleet, FleetRow, FromScreen, Hello,
+    Issue, Level, LogLine, Missing, OpenShow, Operation, Path, Phase, Plan, Playback, Presence, Problem,
+    Request, RobotStatus, Robots, Severity, ShowEntry, State, ToScreen, Transition,
 };
 
 /// The text of `ui/src/api/types.gen.ts`: every type of this crate, with its documentation.
@@ -41,6 +41,8 @@ pub fn typescript() -> String {
         Abilities,
         State,
         Broker,
+        BrokerPhase,
+        BrokerSettings,
         Playback,
         Phase,
         Robots,

@@ -15,6 +15,11 @@ pub fn robot_client_id(id: &RobotId) -> String {
     format!("LightBot/{id}")
 }
 
+/// A client id for a connection that several robots share: `LightBots/<uuid>`, a new one each time.
+pub fn crowd_client_id() -> String {
+    format!("LightBots/{}", random_id())
+}
+
 /// A client id for a controller: `BotControl/<uuid>`, a new one each time.
 pub fn controller_client_id() -> String {
     format!("BotControl/{}", random_id())

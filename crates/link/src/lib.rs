@@ -21,7 +21,7 @@ mod reason;
 mod trust;
 mod url;
 
-pub use client_id::{controller_client_id, random_id, robot_client_id};
+pub use client_id::{controller_client_id, crowd_client_id, random_id, robot_client_id};
 pub use link::{Link, LinkConfig, LinkEvent, Sender};
 pub use place::Place;
 pub use trust::{Pem, Trust, TrustError};

@@ -7,6 +7,7 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 use lightbots_link::BrokerUrl;
 use lightbots_show::Identity;
 
+use crate::broker_arguments::{BrokerArguments, BrokerChoice};
 use crate::logging::Log;
 use crate::numbers::{address, floor, seed};
 
@@ -80,9 +81,12 @@ pub struct RunArguments {
     /// How many simulated robots to start; 0: none [default: 30, or more where SHOW needs more]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(0..=20_000))]
     pub robots: Option<u32>,
-    /// Use this broker instead of the embedded one
-    #[arg(long, value_name = "URL", value_parser = BrokerUrl::parse)]
-    pub broker: Option<BrokerUrl>,
+    /// Use this broker instead of the embedded one: mqtt[s]://[user[:password]@]host[:port], more addresses of it after
+    /// commas; `embedded` overrules a broker that was chosen on the screen before
+    #[arg(long, value_name = "URL", value_parser = BrokerChoice::parse)]
+    pub broker: Vec<BrokerChoice>,
+    #[command(flatten)]
+    pub login: BrokerArguments,
     /// Where the browser app is served
     #[arg(long, value_name = "HOST:PORT", default_value = "127.0.0.1:8420", value_parser = address)]
     pub listen: SocketAddr,
@@ -159,9 +163,11 @@ pub struct RehearseArguments {
 pub struct PlayArguments {
     /// The show: ours or the original's JSON
     pub show: PathBuf,
-    /// The broker of the fleet: mqtt://[user:password@]host:1883
-    #[arg(long, value_name = "URL", value_parser = BrokerUrl::parse)]
-    pub broker: BrokerUrl,
+    /// The broker of the fleet: mqtt[s]://[user[:password]@]host[:port], more addresses of it after commas
+    #[arg(long, value_name = "URL", required = true, value_parser = BrokerUrl::parse)]
+    pub broker: Vec<BrokerUrl>,
+    #[command(flatten)]
+    pub login: BrokerArguments,
     /// Robots that must be there before it starts; with fewer than pixels, some pixels stay dark [default: as many as
     /// pixels, or whoever is there once no more have come for ten seconds]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
@@ -182,9 +188,14 @@ pub struct RobotsArguments {
     /// How many
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=20_000))]
     pub count: u32,
-    /// Their broker: mqtt://[user:password@]host:1883
-    #[arg(long, value_name = "URL", value_parser = BrokerUrl::parse)]
-    pub broker: BrokerUrl,
+    /// Their broker: mqtt[s]://[user[:password]@]host[:port], more addresses of it after commas
+    #[arg(long, value_name = "URL", required = true, value_parser = BrokerUrl::parse)]
+    pub broker: Vec<BrokerUrl>,
+    #[command(flatten)]
+    pub login: BrokerArguments,
+    /// How many robots share a connection; 1 where the broker gives each robot rights of its own
+    #[arg(long, value_name = "N", default_value_t = 50, value_parser = clap::value_parser!(u32).range(1..=1000))]
+    pub together: u32,
     /// Seed of their noise and their names [default: another one each time]
     #[arg(long, value_name = "S", allow_hyphen_values = true, value_parser = seed)]
     pub seed: Option<u64>,

@@ -4,6 +4,8 @@
 //! fleet needs: the broker, the task that owns the controller core, the simulated robots. `web` is the screen's
 //! server. It decides nothing about shows or robots: the cores do.
 
+mod broker_arguments;
+mod broker_settings;
 mod cli;
 mod commands;
 mod examples;

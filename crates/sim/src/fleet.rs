@@ -1,6 +1,7 @@
 //! Simulated robots in real time: whoever has a clock and a network drives them.
 
 use std::collections::{BTreeMap, VecDeque};
+use std::ops::Range;
 
 use lightbots_base::{Instant, Pose, Rgb, RobotId, Vec2};
 use lightbots_show::Stage;
@@ -120,9 +121,14 @@ impl Fleet {
 
     /// A message was published: whom its topic names hears it, and everybody a broadcast. Whether it was for anybody.
     pub fn receive(&mut self, now: Instant, topic: &str, payload: &[u8]) -> bool {
+        self.receive_on(now, 0..self.crew.len(), topic, payload)
+    }
+
+    /// A message came on the connection that `sharing` have in common: a broadcast is heard by these robots.
+    pub fn receive_on(&mut self, now: Instant, sharing: Range<usize>, topic: &str, payload: &[u8]) -> bool {
         let Some(topic) = Topic::parse(topic) else { return false };
         let robots = match topic {
-            Topic::Broadcast => 0..self.crew.len(),
+            Topic::Broadcast => sharing.start.min(self.crew.len())..sharing.end.min(self.crew.len()),
             Topic::Robot(id) => self.by_id.get(&id).map_or(0..0, |&robot| robot..robot + 1),
             _ => 0..0,
         };

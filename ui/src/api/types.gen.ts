@@ -283,17 +283,63 @@ robots: Robots, };
  */
 export type Broker = { 
 /**
- * Its address without user and password; empty: none is wanted.
+ * Its addresses, with commas between them, without user and password; empty: none is wanted.
  */
 address: string, 
 /**
- * Whether it answers.
+ * How far it is.
+ */
+phase: BrokerPhase, 
+/**
+ * Whether it answers: `phase` is `connected`.
  */
 connected: boolean, 
 /**
- * Why not, one line for people.
+ * Which of its addresses is in use; null: none.
+ */
+node: string | null, 
+/**
+ * Why not, one line for people: what, where, and what to do.
  */
 reason: string | null, };
+
+/**
+ * How far the connection to the broker is.
+ */
+export type BrokerPhase = "off" | "connecting" | "connected" | "retrying";
+
+/**
+ * What a form for the broker begins with. Passwords and keys never leave the server.
+ */
+export type BrokerSettings = { 
+/**
+ * The broker that is used, or was last: addresses without login, with commas between them, or `embedded`.
+ */
+address: string, 
+/**
+ * User name; null: none.
+ */
+user: string | null, 
+/**
+ * Whether a password is kept for it.
+ */
+has_password: boolean, 
+/**
+ * The authority to trust, as it was stated: PEM text, or a file on the server's machine; null: the system's.
+ */
+ca: string | null, 
+/**
+ * Our own certificate, as it was stated; null: none.
+ */
+client_cert: string | null, 
+/**
+ * Whether its key is kept.
+ */
+has_client_key: boolean, 
+/**
+ * Address of the server's own broker; null: it runs none, and `embedded` is refused.
+ */
+embedded: string | null, };
 
 /**
  * What is being played.
@@ -458,7 +504,7 @@ robot: string | null, } | { "do": "open",
  */
 name: string, } | { "do": "connect", 
 /**
- * `mqtt://host:1883`, `mqtts://…`, or `embedded`.
+ * `mqtt://host:1883` or `mqtts://…`, several with commas between them; or `embedded`.
  */
 address: string, 
 /**
@@ -466,9 +512,21 @@ address: string,
  */
 user?: string | null, 
 /**
- * Password; null: that of the address, or none.
+ * Password; null: that of the address, else the kept one where address and user are the kept ones.
  */
-password?: string | null, } | { "do": "disconnect" };
+password?: string | null, 
+/**
+ * The authority to trust for `mqtts://`: PEM text, or a file on the server's machine; null: the system's.
+ */
+ca?: string | null, 
+/**
+ * A certificate of our own for a broker that asks for one: PEM text, or a file on the server's machine.
+ */
+client_cert?: string | null, 
+/**
+ * Its key: PEM text, or a file on the server's machine; null: the kept one where the certificate is.
+ */
+client_key?: string | null, } | { "do": "disconnect" };
 
 /**
  * What to do where there are fewer ready robots than pixels.

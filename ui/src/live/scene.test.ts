@@ -39,7 +39,13 @@ test('planned is hollow, measured is filled, and neither becomes the other', () 
     goal_x: [0.5],
     goal_y: [0.2],
   };
-  const broker = { address: '', connected: true, reason: null };
+  const broker = {
+    address: '',
+    phase: 'connected' as const,
+    connected: true,
+    node: null,
+    reason: null,
+  };
   hear(live, { type: 'state', at_ms: 0, fleet: 1, broker, playback, robots }, 0);
   const scene = liveScene(live, wish, 1000);
   expect(scene.filled).toMatchObject([{ x: 0.1, y: 0.2, color: 255 }]);

@@ -29,10 +29,11 @@ pub async fn run(arguments: PlayArguments, stop: Stop) -> Outcome {
         print(report, arguments.json)?;
         return Ok(false);
     }
+    let broker = arguments.login.broker(&arguments.broker)?;
     open_files::raise_limit();
     let (handle, task) = Handle::start(stop.clone());
     let (news, links) = (handle.news(), handle.news());
-    handle.connect(arguments.broker.clone()).await;
+    handle.connect(broker).await;
     let mut report = RunReport::new(&opened.show);
     let played = tokio::select! {
         played = play(&arguments, &opened.show, &handle, &mut report, (news, links)) => played,
@@ -141,7 +142,8 @@ fn is_ready(robot: &RobotView) -> bool {
 
 /// One line for a wait that ended with too few.
 fn nobody(arguments: &PlayArguments, snapshot: &Snapshot, ready: usize, wanted: usize) -> Failure {
-    let (broker, patience) = (&arguments.broker, arguments.patience);
+    let addresses: Vec<String> = arguments.broker.iter().map(ToString::to_string).collect();
+    let (broker, patience) = (addresses.join(","), arguments.patience);
     if !snapshot.connected {
         return Failure::problem(format!(
             "no broker answers at {broker} within {patience} s: is the address right?"

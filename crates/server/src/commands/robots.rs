@@ -15,6 +15,7 @@ pub async fn run(arguments: RobotsArguments, stop: Stop) -> Outcome {
     stop.take_over();
     let faults = Faults::parse(arguments.faults.as_deref().unwrap_or(""))
         .map_err(|error| Failure::input(format!("--faults: {error}")))?;
+    let broker = arguments.login.broker(&arguments.broker)?;
     open_files::raise_limit();
     let robots = arguments.count as usize;
     let (width_m, depth_m) = arguments.floor;
@@ -22,15 +23,15 @@ pub async fn run(arguments: RobotsArguments, stop: Stop) -> Outcome {
     let starts = front_rows(&stage, robots);
     let conditions = faults.added_to(conditions(arguments.ideal));
     let config = FleetConfig { stage, starts, seed: seed(arguments.seed), conditions };
-    let crowd = Crowd::start(&config, &arguments.broker, &stop);
+    let crowd = Crowd::start(&config, &broker, arguments.together as usize, &stop);
     let connected = crowd.connections();
     let going = tokio::spawn(crowd.run(stop.clone()));
-    say::note(&format!("{} connecting to {}; Ctrl-C stops them", count(robots, "robot"), arguments.broker));
+    say::note(&format!("{} connecting to {}; Ctrl-C stops them", count(robots, "robot"), broker));
     while !stop.is_wanted() && !connected.all() {
         tokio::time::sleep(LOOK).await;
     }
     if connected.all() {
-        say::line(&format!("{} connected to {}", count(robots, "robot"), arguments.broker));
+        say::line(&format!("{} connected to {}", count(robots, "robot"), broker));
     }
     going.await.map_err(|error| Failure::problem(format!("the simulation failed: {error}")))?;
     Ok(true)

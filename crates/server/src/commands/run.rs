@@ -1,6 +1,7 @@
 //! `run`: controller, browser app, broker and simulated robots in one process.
 
 use std::net::SocketAddr;
+use std::path::Path;
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -9,6 +10,8 @@ use lightbots_show::{Show, validate};
 use tokio::task::JoinHandle;
 
 use super::{count, robots};
+use crate::broker_arguments::BrokerChoice;
+use crate::broker_settings::Settings;
 use crate::cli::RunArguments;
 use crate::failure::{Failure, Outcome};
 use crate::library::{Library, name_of_file};
@@ -16,7 +19,7 @@ use crate::live::broker::{Broker, User};
 use crate::live::cast::Cast;
 use crate::live::conductor::Handle;
 use crate::stop::Stop;
-use crate::web::{self, Shared};
+use crate::web::{self, BrokerDesk, Shared};
 use crate::{open_files, say, show_file};
 
 /// The example that is opened when no show is named.
@@ -56,7 +59,9 @@ pub async fn run(arguments: RunArguments, stop: Stop) -> Outcome {
 
 async fn serve(arguments: &RunArguments, stop: &Stop, started: &mut Started) -> Outcome {
     let users = arguments.mqtt_user.iter().map(|text| User::parse(text)).collect::<Result<Vec<_>, _>>()?;
-    let library = Library::new(arguments.data.clone().unwrap_or_else(Library::default_folder));
+    let other = BrokerChoice::other(&arguments.broker, &arguments.login)?;
+    let data = arguments.data.clone().unwrap_or_else(Library::default_folder);
+    let library = Library::new(data.clone());
     library.prepare().map_err(Failure::problem)?;
     let (name, show) = first_show(arguments, &library)?;
     for issue in validate(&show).iter().filter(|issue| issue.is_error()).take(ISSUES_SHOWN) {
@@ -67,20 +72,21 @@ async fn serve(arguments: &RunArguments, stop: &Stop, started: &mut Started) -> 
     let address = listener.local_addr().unwrap_or(arguments.listen);
     let count = arguments.robots.map(|robots| robots as usize);
     let robots = Cast::robots(count, &show);
-    let embedded = if arguments.broker.is_none() {
+    let embedded = if other.is_none() {
         let broker = Broker::start(arguments.mqtt_listen, users.clone(), robots)?;
         Some(started.broker.insert(broker).url(&users))
     } else {
         None
     };
-    let Some(broker) = arguments.broker.clone().or_else(|| embedded.clone()) else { return Ok(false) };
+    let Some(own) = other.clone().or_else(|| embedded.clone()) else { return Ok(false) };
+    let (settings, broker) = chosen(arguments, other, &own, &data);
     let (handle, conductor) = Handle::start(stop.clone());
     started.tasks.push(conductor);
-    let shared = Shared::new(handle.clone(), library, embedded);
+    let shared = Shared::new(handle.clone(), library, BrokerDesk::new(data, settings, embedded));
     handle.connect(broker.clone()).await;
     open(&shared, name).await;
     let cast = Cast {
-        broker: broker.clone(),
+        broker: own,
         count,
         seed: robots::seed(arguments.seed),
         conditions: robots::conditions(arguments.ideal),
@@ -90,6 +96,33 @@ async fn serve(arguments: &RunArguments, stop: &Stop, started: &mut Started) -> 
     greet(address, &broker, robots);
     web::serve(listener, shared).await;
     Ok(false)
+}
+
+/// What the screen's form begins with, and the broker the controller uses: the one on the command line, the one that was
+/// chosen on the screen before, or our own.
+fn chosen(
+    arguments: &RunArguments,
+    other: Option<BrokerUrl>,
+    own: &BrokerUrl,
+    data: &Path,
+) -> (Settings, BrokerUrl) {
+    if let Some(broker) = other {
+        return (Settings::of(&broker, &arguments.login), broker);
+    }
+    let kept = Settings::load(data).filter(|_| arguments.broker.is_empty());
+    let Some(mut settings) = kept.filter(|settings| !settings.is_embedded()) else {
+        return (Settings::embedded(), own.clone());
+    };
+    if !settings.connect {
+        return (settings, own.clone());
+    }
+    match settings.broker() {
+        Ok(broker) => (settings, broker),
+        Err(line) => {
+            tracing::warn!("the broker that was chosen on the screen cannot be used: {line}");
+            (settings, own.clone())
+        }
+    }
 }
 
 /// The show to begin with, and its name in the library.

@@ -11,7 +11,7 @@ use lightbots_sim::{Conditions, FleetConfig};
 use tokio::sync::watch;
 
 use super::conductor::Handle;
-use super::crowd::Crowd;
+use super::crowd::{Crowd, TOGETHER};
 use crate::show_file::pixels;
 use crate::stop::Stop;
 use crate::web::Shown;
@@ -54,7 +54,7 @@ impl Cast {
                 return;
             }
             let (until, end) = stop.child();
-            let crowd = Crowd::start(&self.fleet(&show, robots), &self.broker, &until);
+            let crowd = Crowd::start(&self.fleet(&show, robots), &self.broker, TOGETHER, &until);
             let names = crowd.ids();
             let going = tokio::spawn(crowd.run(until));
             tokio::select! {

@@ -38,12 +38,35 @@ pub enum News {
 /// How the link to the broker is.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct LinkState {
-    /// The broker's address without login; empty: none is wanted.
+    /// The broker's addresses without login; empty: none is wanted.
     pub address: String,
-    /// Whether it is connected.
-    pub connected: bool,
-    /// Why not, once that is known.
+    /// How far it is.
+    pub phase: LinkPhase,
+    /// Which of the addresses is in use.
+    pub node: Option<String>,
+    /// Why there is no connection, once that is known.
     pub reason: Option<String>,
+}
+
+/// How far a link is.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum LinkPhase {
+    /// None is wanted.
+    #[default]
+    Off,
+    /// The first attempt.
+    Connecting,
+    /// It stands.
+    Connected,
+    /// It failed, and is tried again and again.
+    Retrying,
+}
+
+impl LinkState {
+    /// Whether messages go to and fro.
+    pub fn is_connected(&self) -> bool {
+        self.phase == LinkPhase::Connected
+    }
 }
 
 /// A handle to the conductor; clones share it.
@@ -65,6 +88,7 @@ impl Handle {
             controller: Controller::new(config),
             clock,
             link: None,
+            nodes: Vec::new(),
             state: LinkState::default(),
             inbox,
             news: news.clone(),
@@ -110,6 +134,8 @@ struct Conductor {
     controller: Controller,
     clock: Clock,
     link: Option<Link>,
+    /// The broker's addresses, one by one.
+    nodes: Vec<String>,
     state: LinkState,
     inbox: mpsc::Receiver<Order>,
     news: broadcast::Sender<News>,
@@ -147,13 +173,13 @@ impl Conductor {
         match event {
             LinkEvent::Connected => {
                 self.controller.connected(now);
-                self.tell_link(true, None);
+                self.tell_link(LinkPhase::Connected, None);
             }
             LinkEvent::Disconnected { reason } => {
-                if self.state.connected {
+                if self.state.is_connected() {
                     self.controller.disconnected(now);
                 }
-                self.tell_link(false, Some(reason));
+                self.tell_link(LinkPhase::Retrying, Some(reason));
             }
             LinkEvent::Message { topic, payload } => self.controller.message(now, &topic, &payload),
         }
@@ -172,13 +198,14 @@ impl Conductor {
             Order::Connect(broker) => {
                 self.leave().await;
                 self.state.address = broker.to_string();
+                self.nodes = broker.places.iter().map(ToString::to_string).collect();
                 self.link = Some(Link::open(controller_link(broker)));
-                self.tell_link(false, None);
+                self.tell_link(LinkPhase::Connecting, None);
             }
             Order::Disconnect => {
                 self.leave().await;
                 self.state.address.clear();
-                self.tell_link(false, None);
+                self.tell_link(LinkPhase::Off, None);
             }
         }
     }
@@ -206,16 +233,19 @@ impl Conductor {
         }
     }
 
-    fn tell_link(&mut self, connected: bool, reason: Option<String>) {
-        self.state = LinkState { address: std::mem::take(&mut self.state.address), connected, reason };
+    fn tell_link(&mut self, phase: LinkPhase, reason: Option<String>) {
+        let place =
+            self.link.as_ref().filter(|_| phase == LinkPhase::Connected).map(|link| link.sender().place());
+        let node = place.and_then(|place| self.nodes.get(place).cloned());
+        self.state = LinkState { address: std::mem::take(&mut self.state.address), phase, node, reason };
         let _ = self.news.send(News::Link(self.state.clone()));
     }
 
     async fn leave(&mut self) {
         let Some(link) = self.link.take() else { return };
-        if self.state.connected {
+        if self.state.is_connected() {
             self.controller.disconnected(self.clock.now());
-            self.state.connected = false;
+            self.state.phase = LinkPhase::Off;
         }
         link.close().await;
     }

@@ -1,14 +1,14 @@
 //! Simulated robots on a real broker, in real time.
 
 use lightbots_base::{Instant, RobotId};
-use lightbots_link::{BrokerUrl, Link, LinkConfig, LinkEvent, Sender, robot_client_id};
+use lightbots_link::{BrokerUrl, Link, LinkConfig, LinkEvent, Sender, crowd_client_id, robot_client_id};
 use lightbots_sim::{Fleet, FleetConfig};
 use tokio::sync::mpsc;
 
 use crate::stop::Stop;
 
-/// Robots that share a connection.
-const ROBOTS_A_LINK: usize = 50;
+/// Robots that share a connection, unless it is stated otherwise.
+pub const TOGETHER: usize = 50;
 /// Messages taken in before the robots get their next step.
 const BATCH: usize = 4096;
 
@@ -20,24 +20,28 @@ pub struct Crowd {
     fleet: Fleet,
     began: std::time::Instant,
     robots: usize,
+    /// Robots that share a connection.
+    together: usize,
     senders: Vec<Sender>,
     heard: mpsc::Receiver<Heard>,
     tasks: Vec<tokio::task::JoinHandle<()>>,
 }
 
 impl Crowd {
-    /// Robots that begin to connect to `broker`, and go on until `stop` is wanted.
-    pub fn start(config: &FleetConfig, broker: &BrokerUrl, stop: &Stop) -> Self {
+    /// Robots that begin to connect to `broker`, `together` of them on a connection, and go on until `stop` is wanted.
+    /// Their connections begin at its addresses in turn.
+    pub fn start(config: &FleetConfig, broker: &BrokerUrl, together: usize, stop: &Stop) -> Self {
+        let together = together.max(1);
         let fleet = Fleet::new(config);
         let ids = fleet.ids();
         let (news, heard) = mpsc::channel(65_536);
         let (mut senders, mut tasks) = (Vec::new(), Vec::new());
-        for (index, group) in ids.chunks(ROBOTS_A_LINK).enumerate() {
+        for (index, group) in ids.chunks(together).enumerate() {
             let link = Link::open(link_config(index, group, broker));
             senders.push(link.sender());
             tasks.push(tokio::spawn(forward(link, index, news.clone(), stop.clone())));
         }
-        Self { robots: ids.len(), fleet, began: std::time::Instant::now(), senders, heard, tasks }
+        Self { robots: ids.len(), together, fleet, began: std::time::Instant::now(), senders, heard, tasks }
     }
 
     /// The robots' names.
@@ -82,23 +86,24 @@ impl Crowd {
 
     fn hear(&mut self, group: usize, event: LinkEvent) {
         let now = self.now();
+        let first = group * self.together;
+        let sharing = first..(first + self.together).min(self.robots);
         let up = match event {
             LinkEvent::Message { topic, payload } => {
-                self.fleet.receive(now, &topic, &payload);
+                self.fleet.receive_on(now, sharing, &topic, &payload);
                 return;
             }
             LinkEvent::Connected => true,
             LinkEvent::Disconnected { .. } => false,
         };
-        let first = group * ROBOTS_A_LINK;
-        for robot in first..(first + ROBOTS_A_LINK).min(self.robots) {
+        for robot in sharing {
             self.fleet.link_of(now, robot, up);
         }
     }
 
     fn speak(&mut self) {
         while let Some(message) = self.fleet.next_message() {
-            self.senders[message.robot / ROBOTS_A_LINK].send(&message.topic.write(), message.payload);
+            self.senders[message.robot / self.together].send(&message.topic.write(), message.payload);
         }
     }
 }
@@ -136,14 +141,16 @@ impl Connections {
     }
 }
 
-/// One connection for a group of robots. The first one hears broadcasts for everybody.
+/// One connection for a group of robots.
 fn link_config(index: usize, group: &[RobotId], broker: &BrokerUrl) -> LinkConfig {
     let mut filters: Vec<String> = group.iter().map(|id| format!("T/LightBot/{id}")).collect();
-    if index == 0 {
-        filters.push("T/LightBot/Broadcast".into());
-    }
-    let client_id = group.first().map(robot_client_id).unwrap_or_default();
-    LinkConfig { broker: broker.clone(), client_id, filters, queue: 65_536 }
+    filters.push("T/LightBot/Broadcast".into());
+    // A broker that knows robots by their client ids must not take a crowd for one of them.
+    let client_id = match group {
+        [id] => robot_client_id(id),
+        _ => crowd_client_id(),
+    };
+    LinkConfig { broker: broker.clone().starting_at(index), client_id, filters, queue: 65_536 }
 }
 
 /// Hands on what happens on a link, and closes it in the end.

@@ -50,7 +50,7 @@ impl Log {
             match news.recv().await {
                 Ok(News::Event(event)) => self.say(level(event.kind.severity()), event.kind.to_string()),
                 Ok(News::Link(link)) => {
-                    if let Some(reason) = link.reason.filter(|_| !link.connected) {
+                    if let Some(reason) = link.reason.clone().filter(|_| !link.is_connected()) {
                         self.say(Level::Warn, capitalised(&reason));
                     }
                 }

@@ -1,6 +1,7 @@
 //! The screen's server: pages, library and WebSocket. A slow or hostile screen never holds up the show.
 
 mod api;
+mod broker;
 mod desk;
 mod log;
 mod operate;
@@ -16,9 +17,9 @@ use std::sync::atomic::{AtomicU32, AtomicUsize};
 use axum::Router;
 use axum::routing::{any, get, post};
 use axum::serve::ListenerExt;
-use lightbots_link::BrokerUrl;
 use tokio::net::TcpListener;
 
+pub use broker::BrokerDesk;
 pub use desk::{Desk, Shown};
 pub use log::Log;
 
@@ -35,8 +36,7 @@ pub struct Shared {
     pub desk: Desk,
     pub log: Log,
     pub pictures: Pictures,
-    /// The embedded broker, if there is one.
-    pub embedded: Option<BrokerUrl>,
+    pub broker: BrokerDesk,
     /// How many simulated robots there are.
     pub simulated: Arc<AtomicUsize>,
     pub screens: AtomicU32,
@@ -44,7 +44,7 @@ pub struct Shared {
 
 impl Shared {
     /// Everything a screen's server needs; starts the tasks that watch the conductor.
-    pub fn new(handle: Handle, library: Library, embedded: Option<BrokerUrl>) -> Arc<Self> {
+    pub fn new(handle: Handle, library: Library, broker: BrokerDesk) -> Arc<Self> {
         let log = Log::new();
         tokio::spawn(log.clone().follow(handle.news()));
         let desk = Desk::new(handle.clone());
@@ -52,7 +52,7 @@ impl Shared {
         let pictures = Pictures::new();
         tokio::spawn(pictures.clone().follow(handle.clone(), desk.clone()));
         let (screens, simulated) = (AtomicU32::new(0), Arc::default());
-        Arc::new(Self { handle, library, desk, log, pictures, embedded, simulated, screens })
+        Arc::new(Self { handle, library, desk, log, pictures, broker, simulated, screens })
     }
 }
 
@@ -77,6 +77,7 @@ pub async fn serve(listener: TcpListener, shared: Arc<Shared>) {
         .route("/api/check", post(api::check))
         .route("/api/convert", post(api::convert))
         .route("/api/plan", get(api::plan))
+        .route("/api/broker", get(broker::settings))
         .route("/api/{*rest}", any(api::unknown))
         .fallback(pages::page)
         .layer(axum::extract::DefaultBodyLimit::max(api::BODY_MAX))

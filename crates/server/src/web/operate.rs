@@ -3,9 +3,9 @@
 use lightbots_api as api;
 use lightbots_base::RobotId;
 use lightbots_control::{MissingPolicy, Operation, Refusal};
-use lightbots_link::BrokerUrl;
 
 use super::Shared;
+use crate::broker_settings::Settings;
 
 /// Why something was not done, and a way to go on.
 type Refused = (String, Option<api::Choice>);
@@ -25,11 +25,20 @@ async fn act(shared: &Shared, operation: api::Operation) -> Result<(), Refused> 
     let wish = match operation {
         Wish::Play { .. } | Wish::Preview { .. } => return play(shared, operation).await,
         Wish::Open { name } => return open(shared, name).await.map_err(plain),
-        Wish::Connect { address, user, password } => {
-            return connect(shared, &address, user, password).await.map_err(plain);
+        Wish::Connect { address, user, password, ca, client_cert, client_key } => {
+            let stated = |text: Option<String>| text.filter(|text| !text.trim().is_empty());
+            let (user, ca) = (stated(user), stated(ca));
+            let (client_cert, client_key) = (stated(client_cert), stated(client_key));
+            let address = address.trim().to_owned();
+            let wanted = Settings { address, user, password, ca, client_cert, client_key, connect: true };
+            return shared
+                .broker
+                .connect(wanted, &shared.handle)
+                .await
+                .map_err(|line| plain(capitalised(&line)));
         }
         Wish::Disconnect => {
-            shared.handle.disconnect().await;
+            shared.broker.disconnect(&shared.handle).await;
             return Ok(());
         }
         Wish::Pause => Operation::Pause,
@@ -96,21 +105,6 @@ async fn open(shared: &Shared, name: String) -> Result<(), String> {
     let kept = tokio::task::spawn_blocking(move || library.get(&wanted)).await;
     let kept = kept.map_err(|error| error.to_string())?.map_err(|error| capitalised(error.line()))?;
     shared.desk.open(name, kept).await;
-    Ok(())
-}
-
-async fn connect(
-    shared: &Shared,
-    address: &str,
-    user: Option<String>,
-    password: Option<String>,
-) -> Result<(), String> {
-    let broker = if address.trim() == "embedded" {
-        shared.embedded.clone().ok_or("This server runs no broker of its own: name another one.")?
-    } else {
-        BrokerUrl::parse(address).map_err(|error| error.to_string())?.with_login(user, password)
-    };
-    shared.handle.connect(broker).await;
     Ok(())
 }
 

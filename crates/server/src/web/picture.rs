@@ -12,7 +12,7 @@ use tokio::time::MissedTickBehavior;
 
 use super::Desk;
 use super::socket::text;
-use crate::live::conductor::{Handle, LinkState, News};
+use crate::live::conductor::{Handle, LinkPhase, LinkState, News};
 use crate::numbers::rounded;
 
 /// Twenty pictures a second.
@@ -111,7 +111,9 @@ impl Painter {
             fleet: self.revision,
             broker: api::Broker {
                 address: self.link.address.clone(),
-                connected: self.link.connected,
+                phase: broker_phase(self.link.phase),
+                connected: self.link.is_connected(),
+                node: self.link.node.clone(),
                 reason: self.link.reason.clone(),
             },
             playback: self.playback(snapshot),
@@ -146,6 +148,15 @@ impl Painter {
         let rest = frames.iter().zip(&plan.transitions).skip(run.frame + 1);
         let rest_s: f64 = rest.map(|(frame, way)| frame.air_time_s + way.duration_s).sum();
         Some(rounded(now_s * (1.0 - run.progress.clamp(0.0, 1.0)) + then_s + rest_s, 2))
+    }
+}
+
+fn broker_phase(phase: LinkPhase) -> api::BrokerPhase {
+    match phase {
+        LinkPhase::Off => api::BrokerPhase::Off,
+        LinkPhase::Connecting => api::BrokerPhase::Connecting,
+        LinkPhase::Connected => api::BrokerPhase::Connected,
+        LinkPhase::Retrying => api::BrokerPhase::Retrying,
     }
 }
 

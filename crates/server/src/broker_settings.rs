@@ -1,0 +1,210 @@
+//! The broker that was chosen on the screen, kept in a file that only its owner reads.
+
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+use lightbots_api::BrokerSettings;
+use lightbots_link::{BrokerUrl, Pem, Trust};
+use serde::{Deserialize, Serialize};
+
+use crate::broker_arguments::BrokerArguments;
+
+/// What stands for the server's own broker.
+pub const EMBEDDED: &str = "embedded";
+const FILE: &str = "broker.json";
+/// The longest text of a setting, bytes: a chain of certificates.
+const LONGEST: usize = 32 << 10;
+
+/// Address, login and certificates as they were stated.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Settings {
+    /// Addresses without login, or [`EMBEDDED`].
+    pub address: String,
+    /// User name.
+    pub user: Option<String>,
+    /// Password.
+    pub password: Option<String>,
+    /// Authority: PEM or a file.
+    pub ca: Option<String>,
+    /// Our certificate: PEM or a file.
+    pub client_cert: Option<String>,
+    /// Its key: PEM or a file.
+    pub client_key: Option<String>,
+    /// Whether it is wanted at the next start.
+    #[serde(default)]
+    pub connect: bool,
+}
+
+impl Settings {
+    /// The server's own broker.
+    pub fn embedded() -> Self {
+        Self { address: EMBEDDED.into(), connect: true, ..Self::default() }
+    }
+
+    /// A broker that the command line names.
+    pub fn of(broker: &BrokerUrl, login: &BrokerArguments) -> Self {
+        let file = |path: &Option<PathBuf>| path.as_ref().map(|path| path.display().to_string());
+        Self {
+            address: broker.to_string(),
+            user: broker.user.clone(),
+            password: broker.password.clone(),
+            ca: file(&login.ca),
+            client_cert: file(&login.client_cert),
+            client_key: file(&login.client_key),
+            connect: true,
+        }
+    }
+
+    /// Whether they name the server's own broker.
+    pub fn is_embedded(&self) -> bool {
+        self.address == EMBEDDED
+    }
+
+    /// The broker they name; one line where they cannot be right. A login in the address is moved to its own fields.
+    pub fn broker(&mut self) -> Result<BrokerUrl, String> {
+        for text in [&self.ca, &self.client_cert, &self.client_key].into_iter().flatten() {
+            if text.len() > LONGEST {
+                return Err(format!("a certificate here may have {} kB", LONGEST >> 10));
+            }
+        }
+        let broker = BrokerUrl::parse(&self.address).map_err(|error| error.to_string())?;
+        if broker.user.is_some() {
+            (self.user, self.password) = (broker.user.clone(), broker.password.clone());
+        }
+        self.address = broker.to_string();
+        let trust = self.trust()?;
+        Ok(broker.with_login(self.user.clone(), self.password.clone()).with_trust(trust))
+    }
+
+    fn trust(&self) -> Result<Option<Trust>, String> {
+        let client = match (&self.client_cert, &self.client_key) {
+            (None, None) => None,
+            (Some(certificate), Some(key)) => {
+                Some((Text::read("the client certificate", certificate)?, Text::read("its key", key)?))
+            }
+            _ => return Err("a client certificate and its key come together: state both, or neither".into()),
+        };
+        let ca = self.ca.as_ref().map(|ca| Text::read("the authority", ca)).transpose()?;
+        if ca.is_none() && client.is_none() {
+            return Ok(None);
+        }
+        let client = client.as_ref().map(|(certificate, key)| (certificate.pem(), key.pem()));
+        Trust::new(ca.as_ref().map(Text::pem), client).map(Some).map_err(|error| error.to_string())
+    }
+
+    /// What a screen may know of them.
+    pub fn shown(&self, embedded: Option<&BrokerUrl>) -> BrokerSettings {
+        BrokerSettings {
+            address: self.address.clone(),
+            user: self.user.clone(),
+            has_password: self.password.is_some(),
+            ca: self.ca.clone(),
+            client_cert: self.client_cert.clone(),
+            has_client_key: self.client_key.is_some(),
+            embedded: embedded.map(ToString::to_string),
+        }
+    }
+
+    /// The settings kept in a folder of data; `None` where there are none, or none that can be read.
+    pub fn load(folder: &Path) -> Option<Self> {
+        let path = folder.join(FILE);
+        let bytes = std::fs::read(&path).ok()?;
+        serde_json::from_slice(&bytes)
+            .inspect_err(|error| tracing::warn!("{} is left aside: {error}", path.display()))
+            .ok()
+    }
+
+    /// Keeps them there, readable for the owner only. All or nothing.
+    pub fn save(&self, folder: &Path) -> Result<(), String> {
+        let path = folder.join(FILE);
+        let text = serde_json::to_vec_pretty(self).map_err(|error| error.to_string())?;
+        write_private(&path, &text)
+            .map_err(|error| format!("the broker's settings cannot be kept in {}: {error}", path.display()))
+    }
+}
+
+/// A PEM text, or what a file holds.
+struct Text {
+    name: String,
+    bytes: Vec<u8>,
+}
+
+impl Text {
+    fn read(what: &str, stated: &str) -> Result<Self, String> {
+        if stated.contains("-----BEGIN") {
+            return Ok(Self { name: what.to_owned(), bytes: stated.as_bytes().to_vec() });
+        }
+        let name = stated.trim().to_owned();
+        let bytes = std::fs::read(&name)
+            .map_err(|error| format!("{what}: {name} cannot be read on the server's machine: {error}"))?;
+        Ok(Self { name, bytes })
+    }
+
+    fn pem(&self) -> Pem<'_> {
+        Pem { name: &self.name, bytes: &self.bytes }
+    }
+}
+
+/// Writes a file that only its owner may read; it is there whole, or as it was before.
+pub fn write_private(path: &Path, bytes: &[u8]) -> std::io::Result<()> {
+    let mut draft = PathBuf::from(path);
+    draft.as_mut_os_string().push(".saving");
+    // An older draft may have other rights.
+    let _ = std::fs::remove_file(&draft);
+    let mut options = std::fs::OpenOptions::new();
+    options.write(true).create_new(true);
+    #[cfg(unix)]
+    std::os::unix::fs::OpenOptionsExt::mode(&mut options, 0o600);
+    let mut file = options.open(&draft)?;
+    file.write_all(bytes)?;
+    file.sync_all()?;
+    std::fs::rename(&draft, path)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn folder(name: &str) -> PathBuf {
+        let folder = std::env::temp_dir().join(format!("lightbots-{name}-{}", std::process::id()));
+        std::fs::create_dir_all(&folder).unwrap();
+        folder
+    }
+
+    #[test]
+    fn settings_come_back_and_only_the_owner_reads_them() {
+        let folder = folder("settings");
+        let mut settings = Settings { address: "mqtts://me:secret@a,b".into(), ..Settings::default() };
+        let broker = settings.broker().unwrap();
+        assert_eq!((broker.user.as_deref(), broker.password.as_deref()), (Some("me"), Some("secret")));
+        assert_eq!(settings.address, "mqtts://a:8883,mqtts://b:8883");
+        settings.save(&folder).unwrap();
+        settings.save(&folder).unwrap();
+        assert_eq!(Settings::load(&folder), Some(settings.clone()));
+        #[cfg(unix)]
+        {
+            use std::os::unix::fs::PermissionsExt;
+            let mode = std::fs::metadata(folder.join(FILE)).unwrap().permissions().mode();
+            assert_eq!(mode & 0o777, 0o600);
+        }
+        let shown = serde_json::to_string(&settings.shown(None)).unwrap();
+        assert!(shown.contains("\"has_password\":true") && !shown.contains("secret"), "{shown}");
+        std::fs::write(folder.join(FILE), "{").unwrap();
+        assert_eq!(Settings::load(&folder), None);
+        std::fs::remove_dir_all(folder).unwrap();
+    }
+
+    #[test]
+    fn what_cannot_be_right_is_said_before_anybody_connects() {
+        let with = |ca: Option<&str>, cert: Option<&str>| {
+            let (ca, client_cert) = (ca.map(str::to_owned), cert.map(str::to_owned));
+            Settings { address: "mqtts://a".into(), ca, client_cert, ..Settings::default() }
+                .broker()
+                .unwrap_err()
+        };
+        assert!(with(Some("no-such-file.pem"), None).contains("no-such-file.pem"));
+        assert!(with(Some("-----BEGIN NOTHING-----"), None).contains("authority"));
+        assert!(with(None, Some("x.pem")).contains("come together"));
+        assert!(with(Some(&"x".repeat(LONGEST + 1)), None).contains("kB"));
+    }
+}
