@@ -106,18 +106,20 @@ export const launchBrowser = (): Promise<Browser> =>
 /** What went wrong inside pages; every suite ends by finding it empty. */
 export const mistakes: string[] = [];
 
-/** A page that has seen the tour, of a size a laptop has. */
+/** A page that has seen the tour, of a size a laptop has; `before` runs in it first. */
 export async function openPage(
   browser: Browser,
   server: Server,
   view: 'live' | 'edit' = 'live',
   options: BrowserContextOptions & { tour?: boolean } = {},
+  before?: () => void,
 ): Promise<Page> {
   const { tour, ...context } = options;
   const page = await browser.newPage({ viewport: { width: 1440, height: 900 }, ...context });
   page.setDefaultTimeout(PATIENCE_MS);
   page.on('pageerror', (error) => mistakes.push(String(error)));
   if (!tour) await page.addInitScript(() => localStorage.setItem('lightbots-tour', 'done'));
+  if (before) await page.addInitScript(before);
   await page.goto(`${server.url}/#/${view}`);
   await page.getByText('Connected', { exact: true }).waitFor();
   return page;

@@ -1,9 +1,9 @@
 //! `cargo xtask bench`: measures, prints tables and keeps them in docs/benchmarks.md with machine and date.
 //!
-//! A part is an example program that prints one JSON object a row; its keys, in order, are the columns.
+//! A part is a program that prints one JSON object a row; its keys, in order, are the columns.
 
 use crate::shell::{self, Outcome};
-use crate::tools;
+use crate::{demo, tools};
 use serde_json::{Map, Value};
 use std::fmt::Write as _;
 
@@ -12,17 +12,23 @@ const FILE: &str = "docs/benchmarks.md";
 struct Part {
     name: &'static str,
     title: &'static str,
-    package: &'static str,
-    example: &'static str,
+    source: Source,
     about: &'static str,
 }
 
-const PARTS: [Part; 3] = [
+/// What prints the rows.
+enum Source {
+    /// An example of a package.
+    Example(&'static str, &'static str),
+    /// A browser on the built program.
+    Browser,
+}
+
+const PARTS: [Part; 4] = [
     Part {
         name: "plan",
         title: "Planning",
-        package: "lightbots-plan",
-        example: "bench",
+        source: Source::Example("lightbots-plan", "bench"),
         about: "One transition, assignment and proof included, one thread. `ratio` is its duration over T_min = \
                 bottleneck / 0.27 m/s + 0.62 s. Beside it in the same run: CAPT (least squared distances, straight \
                 synchronised lines) with the pairs that come too close, and the dense solver of the crate `lsap` for \
@@ -31,18 +37,24 @@ const PARTS: [Part; 3] = [
     Part {
         name: "rehearsal",
         title: "Rehearsal",
-        package: "lightbots-sim",
-        example: "speed",
+        source: Source::Example("lightbots-sim", "speed"),
         about: "A whole show in virtual time with the real controller and robot cores under standard conditions, one \
                 thread: seconds of the show per second of the clock, without planning and with it.",
     },
     Part {
         name: "round",
         title: "A frame's round",
-        package: "lightbots-server",
-        example: "round",
+        source: Source::Example("lightbots-server", "round"),
         about: "From the first command of a frame leaving to the last robot's answer arriving, over loopback TCP: the \
                 embedded broker, and Mosquitto in the same run.",
+    },
+    Part {
+        name: "fps",
+        title: "Frames a second",
+        source: Source::Browser,
+        about: "The built screen in headless Chromium, 1440 × 900, drawn in software, with server, broker and \
+                simulated robots on the same cores. Counted are frames in which the stage was drawn: while all \
+                pixels are dragged in the editor, and while a show is watched that keeps everybody driving.",
     },
 ];
 
@@ -61,21 +73,41 @@ pub fn run(names: &[String]) -> Outcome {
 }
 
 fn measure(part: &Part) -> Outcome<String> {
-    let arguments =
-        ["run", "--quiet", "--release", "--package", part.package, "--example", part.example, "--", "--json"];
-    let mut command = shell::command(".", &shell::cargo_program(), &arguments);
-    if part.name == "round" {
-        shell::cargo(&["build", "--quiet", "--release", "--package", "lightbots-server"])?;
-        command.env("LIGHTBOTS_MOSQUITTO", tools::MOSQUITTO.provide()?);
-    }
     eprintln!("measuring {}", part.name);
-    let printed = shell::output(&mut command)?;
+    let printed = match part.source {
+        Source::Example(package, example) => example_rows(part.name, package, example)?,
+        Source::Browser => browser_rows()?,
+    };
     let rows: Vec<Map<String, Value>> =
         printed.lines().filter_map(|line| serde_json::from_str(line).ok()).collect();
     if rows.is_empty() {
         return Err(format!("the bench of {} printed no rows", part.name));
     }
     Ok(format!("## {}\n\n{}\n\n{}\n\n{}", part.title, part.about, machine()?, table(&rows)))
+}
+
+fn example_rows(part: &str, package: &str, example: &str) -> Outcome<String> {
+    let arguments = ["run", "--quiet", "--release", "--package", package, "--example", example, "--", "--json"];
+    let mut command = shell::command(".", &shell::cargo_program(), &arguments);
+    if part == "round" {
+        build_server()?;
+        command.env("LIGHTBOTS_MOSQUITTO", tools::MOSQUITTO.provide()?);
+    }
+    shell::output(&mut command)
+}
+
+fn browser_rows() -> Outcome<String> {
+    let chromium = tools::CHROMIUM.provide()?;
+    demo::install_packages()?;
+    demo::build_screen()?;
+    build_server()?;
+    let program = shell::program("release");
+    let mut command = shell::command("ui", demo::NPM, &["run", "--silent", "fps"]);
+    shell::output(command.env("LIGHTBOTS_BIN", program).env("CHROMIUM", chromium))
+}
+
+fn build_server() -> Outcome {
+    shell::cargo(&["build", "--quiet", "--release", "--package", "lightbots-server"])
 }
 
 /// A Markdown table with a column for every key of the first row.

@@ -4,11 +4,14 @@ use crate::shell::{self, Outcome};
 
 const SHOW: &str = "shows/countdown.json";
 
+/// What npm is called.
+pub const NPM: &str = if cfg!(windows) { "npm.cmd" } else { "npm" };
+
 /// Builds the screen and the program, then runs it. `arguments` go to `lightbots run`.
 pub fn run(arguments: &[String]) -> Outcome {
     build_screen()?;
     shell::cargo(&["build", "--release", "--package", "lightbots-server"])?;
-    let program = shell::target().join("release").join(format!("lightbots{}", std::env::consts::EXE_SUFFIX));
+    let program = shell::program("release");
     let mut command = shell::command(".", &program.to_string_lossy(), &["run"]);
     if !arguments.iter().any(|argument| !argument.starts_with('-')) {
         command.arg(SHOW);
@@ -35,7 +38,6 @@ pub fn install_packages() -> Outcome {
 
 /// Runs npm in `ui/`.
 pub fn npm(arguments: &[&str]) -> Outcome {
-    let program = if cfg!(windows) { "npm.cmd" } else { "npm" };
-    shell::run(&mut shell::command("ui", program, arguments))
+    shell::run(&mut shell::command("ui", NPM, arguments))
         .map_err(|message| format!("{message} (Node.js 20 or newer with npm is needed)"))
 }

@@ -55,6 +55,11 @@ pub fn target() -> PathBuf {
     std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| root().join("target"), |dir| root().join(dir))
 }
 
+/// The built program `lightbots` of a profile.
+pub fn program(profile: &str) -> PathBuf {
+    target().join(profile).join(format!("lightbots{}", std::env::consts::EXE_SUFFIX))
+}
+
 fn shown(command: &Command) -> String {
     let words = std::iter::once(command.get_program()).chain(command.get_args());
     words.map(|word| word.to_string_lossy()).collect::<Vec<_>>().join(" ")

@@ -81,9 +81,8 @@ fn e2e() -> Outcome {
         demo::build_screen()?;
     }
     shell::cargo(&["build", "--package", "lightbots-server"])?;
-    let program = shell::target().join("debug").join(format!("lightbots{}", std::env::consts::EXE_SUFFIX));
-    let npm = if cfg!(windows) { "npm.cmd" } else { "npm" };
-    let mut command = shell::command("ui", npm, &["run", "--silent", "e2e"]);
+    let program = shell::program("debug");
+    let mut command = shell::command("ui", demo::NPM, &["run", "--silent", "e2e"]);
     shell::run(command.env("LIGHTBOTS_BIN", program).env("CHROMIUM", chromium))
 }
 

@@ -9,8 +9,7 @@ export function PixelTwin() {
   const { editor } = useEditing();
   const pixels = useEditor((s) => s.show.frames[s.frame]?.pixels);
   const selection = useEditor((s) => s.selection);
-  const gesturing = useEditor((s) => s.overlay.hint !== '');
-  if (gesturing || !pixels) return null;
+  if (!pixels) return null;
   return (
     <ul
       className="hidden-text"

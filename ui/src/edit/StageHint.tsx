@@ -1,9 +1,9 @@
-import { useEditor } from './context';
+import { useEditorNow } from './context';
 import { marksNow } from './overlay';
 
 /** One line under the floor: what a drag measures, or what is wrong and how to mend it. */
 export function StageHint() {
-  const state = useEditor((s) => s);
+  const state = useEditorNow((s) => s);
   const { tooClose, offFloor } = marksNow(state);
   const wrong = [
     tooClose.size > 0 ? `${tooClose.size} pixels are too close to each other (dashed rings)` : '',

@@ -2,6 +2,7 @@ import { createContext, useContext } from 'react';
 import { useStore } from '../base/store';
 import type { EditorState } from '../model/editor';
 import type { Editing } from './editing';
+import { settledOf } from './settled';
 
 export const EditingContext = createContext<Editing | null>(null);
 
@@ -11,6 +12,10 @@ export function useEditing(): Editing {
   return editing;
 }
 
-/** Part of the editor's state; `select` must give the same object for the same state. */
+/** Part of the editor's state between gestures; `select` must give the same object for the same state. */
 export const useEditor = <S>(select: (state: EditorState) => S): S =>
+  useStore(settledOf(useEditing().editor), select);
+
+/** The same in the middle of gestures too: for the little that follows a drag. */
+export const useEditorNow = <S>(select: (state: EditorState) => S): S =>
   useStore(useEditing().editor.state, select);

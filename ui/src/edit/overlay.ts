@@ -3,6 +3,7 @@ import { boxOf } from '../model/geometry';
 import type { EditorState } from '../model/editor';
 import { marksOf, type Marks } from '../model/marks';
 import type { Frame } from '../model/show';
+import { createSprites } from '../stage/sprites';
 import type { Handle } from '../model/transformTool';
 import type { Looks } from './editing';
 
@@ -62,6 +63,8 @@ export function marksNow(state: EditorState): Marks {
   return marks;
 }
 
+const sprites = createSprites();
+
 /** Draws what is chosen, wrong or in hand on top of the lights. */
 export function paintOverlay(
   context: CanvasRenderingContext2D,
@@ -71,10 +74,14 @@ export function paintOverlay(
 ) {
   const radius = Math.max(3, state.show.stage.radius_m * camera.scale);
   const { tooClose, offFloor } = marksNow(state);
+  const density = context.getTransform().a;
+  const [line_px, chosen_px, close_px] = [1.75, radius + 3, radius + 6.5].map((px) => px * density);
+  const chosen = sprites.ring(CHOSEN, chosen_px ?? 0, line_px ?? 0);
+  const close = sprites.ring(WRONG, close_px ?? 0, line_px ?? 0, true);
   for (const p of state.show.frames[state.frame]?.pixels ?? []) {
     const at = canvasFromStage(camera, p);
-    if (state.selection.has(p.id)) ring(context, at, radius + 3, CHOSEN, 1.75);
-    if (tooClose.has(p.id)) ring(context, at, radius + 6.5, WRONG, 1.75, [3, 2.5]);
+    if (state.selection.has(p.id)) stamp(context, chosen, at, density);
+    if (tooClose.has(p.id)) stamp(context, close, at, density);
     if (offFloor.has(p.id)) cross(context, at, radius + 5);
     if (looks.ids) label(context, String(p.id), { x: at.x, y: at.y - radius - 9 });
   }
@@ -82,21 +89,9 @@ export function paintOverlay(
   paintGesture(context, camera, state);
 }
 
-function ring(
-  c: CanvasRenderingContext2D,
-  at: Point,
-  r: number,
-  color: string,
-  w: number,
-  dash: number[] = [],
-) {
-  c.setLineDash(dash);
-  c.strokeStyle = color;
-  c.lineWidth = w;
-  c.beginPath();
-  c.arc(at.x, at.y, r, 0, 2 * Math.PI);
-  c.stroke();
-  c.setLineDash([]);
+function stamp(c: CanvasRenderingContext2D, sprite: HTMLCanvasElement, at: Point, density: number) {
+  const side = sprite.width / density;
+  c.drawImage(sprite, at.x - side / 2, at.y - side / 2, side, side);
 }
 
 function cross(c: CanvasRenderingContext2D, at: Point, r: number) {

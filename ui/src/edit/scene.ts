@@ -1,13 +1,26 @@
 import type { Plan } from '../api/types.gen';
 import { pathsTo } from '../live/paths';
 import type { EditorState } from '../model/editor';
+import type { Frame } from '../model/show';
 import { dotsAt, timelineOf } from '../model/timeline';
 import type { Dot, Scene } from '../stage/scene';
 import type { Looks } from './editing';
 import { paintOverlay } from './overlay';
 
-const ghost = (state: EditorState, index: number, alpha: number): Dot[] =>
-  state.show.frames[index]?.pixels.map((p) => ({ x: p.x, y: p.y, color: p.color, alpha })) ?? [];
+const NOTHING: readonly never[] = [];
+
+const ghost = (frame: Frame | undefined, alpha: number): Dot[] =>
+  frame?.pixels.map((p) => ({ x: p.x, y: p.y, color: p.color, alpha })) ?? [];
+
+let ghosts: { before?: Frame; after?: Frame; dots: readonly Dot[] } = { dots: NOTHING };
+
+/** The frame before and after, hollow; the same list while they stay, so that a drag does not paint them anew. */
+function ghostsOf({ show, frame }: EditorState): readonly Dot[] {
+  const [before, after] = [show.frames[frame - 1], show.frames[frame + 1]];
+  if (ghosts.before !== before || ghosts.after !== after)
+    ghosts = { before, after, dots: [...ghost(before, 0.55), ...ghost(after, 0.28)] };
+  return ghosts.dots;
+}
 
 /** What the editor's stage shows: the frame on it, or the plan at a moment. */
 export function editScene(
@@ -24,20 +37,18 @@ export function editScene(
     radius_m: stage.radius_m,
     obstacles: stage.obstacles,
     grid: true,
-    errors: [],
+    errors: NOTHING,
   };
   if (moment !== null && plan) {
     const filled = dotsAt(show, plan, timelineOf(show, plan), moment);
-    return { ...base, filled, hollow: [], paths: [] };
+    return { ...base, filled, hollow: NOTHING, paths: NOTHING };
   }
   const pixels = show.frames[frame]?.pixels ?? [];
   return {
     ...base,
     filled: pixels.map((p) => ({ x: p.x, y: p.y, color: p.color, alpha: 1 })),
-    hollow: looks.ghosts
-      ? [...ghost(state, frame - 1, 0.55), ...ghost(state, frame + 1, 0.28)]
-      : [],
-    paths: looks.ways ? pathsTo(plan, show, frame) : [],
+    hollow: looks.ghosts ? ghostsOf(state) : NOTHING,
+    paths: looks.ways ? pathsTo(plan, show, frame) : NOTHING,
     overlay: (context, camera) => paintOverlay(context, camera, state, looks),
   };
 }

@@ -7,25 +7,29 @@ import { phaseText } from './actions';
 /** Frame x of y, who is still on the way, time left. */
 export function PlayState() {
   const { live } = useSession();
-  const playback = useStore(live.playback);
-  const rows = useStore(live.fleet, (fleet) => fleet.rows);
-  const names = playback.late.map((id) => {
+  // Texts, not the snapshot: what says the same is not rendered again twenty times a second.
+  const phase = useStore(live.playback, (p) => p.phase);
+  const text = useStore(live.playback, phaseText);
+  const left = useStore(live.playback, (p) => (p.left_s === null ? null : clockText(p.left_s)));
+  const late = useStore(live.playback, (p) => p.late.join(' '));
+  const rows = live.fleet.get().rows;
+  const names = (late ? late.split(' ') : []).map((id) => {
     const pixel = rows.find((row) => row.id === id)?.pixel;
     return pixel === null || pixel === undefined ? id.slice(0, 8) : `pixel ${pixel}`;
   });
   return (
     <div className="play-state">
-      <span role="status" data-testid="phase" data-phase={playback.phase}>
-        {phaseText(playback)}
+      <span role="status" data-testid="phase" data-phase={phase}>
+        {text}
       </span>
       {names.length > 0 ? (
         <Tooltip label={`On the way: ${names.join(', ')}`}>
           <span className="quiet">{names.length === 20 ? '20+' : names.length} on the way</span>
         </Tooltip>
       ) : null}
-      {playback.left_s === null ? null : (
+      {left === null ? null : (
         <span className="quiet">
-          −{clockText(playback.left_s)}
+          −{left}
           <span className="hidden-text"> left</span>
         </span>
       )}

@@ -1,4 +1,4 @@
-import { ActionIcon, Button, Group, Progress, Tooltip } from '@mantine/core';
+import { ActionIcon, Button, Group, Tooltip } from '@mantine/core';
 import {
   IconEye,
   IconPlayerPauseFilled,
@@ -12,6 +12,7 @@ import type { ReactNode } from 'react';
 import { useStore } from '../base/store';
 import { useSession } from '../shell/session';
 import { actionsOf, type Action } from './actions';
+import { DriveProgress } from './DriveProgress';
 import { PlayState } from './PlayState';
 import { useTransportKeys } from './useTransportKeys';
 
@@ -24,11 +25,12 @@ const ICONS = {
 /** The buttons that make robots move and stop. What is offered follows the server's state. */
 export function Transport() {
   const { live, ask, frame } = useSession();
-  const playback = useStore(live.playback);
+  const phase = useStore(live.playback, (p) => p.phase);
+  const looping = useStore(live.playback, (p) => p.looping);
   const chosen = useStore(frame);
   const linked = useStore(live.link) === 'open';
   const hasShow = useStore(live.opened, (o) => o.show !== null);
-  const actions = actionsOf(playback, linked, hasShow);
+  const actions = actionsOf(phase, linked, hasShow);
   const perform = (action: Action) => {
     if (!actions.enabled.has(action)) return;
     void ask(
@@ -37,7 +39,7 @@ export function Transport() {
         : action === 'preview'
           ? { do: 'preview', frame: chosen }
           : action === 'loop'
-            ? { do: 'loop', on: !playback.looping }
+            ? { do: 'loop', on: !looping }
             : { do: action },
     );
   };
@@ -71,17 +73,10 @@ export function Transport() {
         {icon('abort', 'Abort (Esc)', <IconPlayerStopFilled size={18} />)}
         {icon('step', 'Step to the next frame (S)', <IconPlayerTrackNextFilled size={18} />)}
         {icon('preview', 'Preview the chosen frame (P)', <IconEye size={19} />)}
-        {icon('loop', 'Loop (L)', <IconRepeat size={18} />, playback.looping)}
+        {icon('loop', 'Loop (L)', <IconRepeat size={18} />, looping)}
         {icon('refresh', 'Refresh: who is there? (R)', <IconRefresh size={18} />)}
       </Group>
-      <div className="progress">
-        <Progress
-          value={playback.progress * 100}
-          size={5}
-          aria-label="Drive to the frame"
-          transitionDuration={60}
-        />
-      </div>
+      <DriveProgress />
       <PlayState />
     </div>
   );

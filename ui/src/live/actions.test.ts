@@ -22,14 +22,14 @@ test.each<[Phase, string, string]>([
   ['preview', 'play', 'loop refresh abort'],
   ['aborting', 'play', 'loop refresh'],
 ])('%s offers %s, and %s work', (phase, main, enabled) => {
-  const actions = actionsOf(playback(phase), true, true);
+  const actions = actionsOf(phase, true, true);
   expect(actions.main).toBe(main);
   expect([...actions.enabled].join(' ')).toBe(enabled);
 });
 
 test('without a server nothing works, without a show nothing plays', () => {
-  expect(actionsOf(playback('ready'), false, true).enabled.size).toBe(0);
-  expect(actionsOf(playback('ready'), true, false).enabled.has('play')).toBe(false);
+  expect(actionsOf('ready', false, true).enabled.size).toBe(0);
+  expect(actionsOf('ready', true, false).enabled.has('play')).toBe(false);
 });
 
 test('words', () => {

@@ -1,4 +1,4 @@
-import type { Playback } from '../api/types.gen';
+import type { Phase, Playback } from '../api/types.gen';
 
 export type Action =
   'play' | 'pause' | 'resume' | 'abort' | 'step' | 'preview' | 'loop' | 'refresh';
@@ -9,8 +9,7 @@ export interface Actions {
   enabled: ReadonlySet<Action>;
 }
 
-export function actionsOf(playback: Playback, linked: boolean, hasShow: boolean): Actions {
-  const { phase } = playback;
+export function actionsOf(phase: Phase, linked: boolean, hasShow: boolean): Actions {
   const main = phase === 'paused' ? 'resume' : phase === 'playing' ? 'pause' : 'play';
   const enabled = new Set<Action>();
   if (!linked) return { main, enabled };
@@ -26,7 +25,7 @@ export function actionsOf(playback: Playback, linked: boolean, hasShow: boolean)
 }
 
 /** What is going on, in a few words. */
-export function phaseText(playback: Playback): string {
+export function phaseText(playback: Pick<Playback, 'phase' | 'frame' | 'frames'>): string {
   const { phase, frame, frames } = playback;
   const where = frame === null ? '' : `frame ${frame + 1} of ${frames}`;
   switch (phase) {

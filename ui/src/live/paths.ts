@@ -1,8 +1,9 @@
 import { getPlan } from '../api/http';
-import type { Plan } from '../api/types.gen';
+import type { Plan, Transition } from '../api/types.gen';
 import { createStore, type Store } from '../base/store';
 import { polyline } from '../model/path';
-import type { Show } from '../model/show';
+import type { Pixel, Show } from '../model/show';
+import type { Point } from '../stage/camera';
 import type { Scene } from '../stage/scene';
 import type { Live } from './store';
 
@@ -38,13 +39,31 @@ export function createFullPlan(live: Live): FullPlan {
   };
 }
 
-/** The ways to frame `to`, in the colours they end in. */
+let drawn: { transition?: Transition; pixels?: readonly Pixel[]; paths: Scene['paths'] } = {
+  paths: [],
+};
+
+/** The ways to frame `to`, in the colours they end in; the same list as long as they stay. */
 export function pathsTo(plan: Plan | null, show: Show | null, to: number): Scene['paths'] {
   const transition = plan?.transitions.find((t) => t.to === to);
-  if (!transition) return [];
-  const colors = new Map(show?.frames[to]?.pixels.map((p) => [p.id, p.color]));
-  return transition.paths.map((path, robot) => ({
-    points: polyline(path),
+  const pixels = show?.frames[to]?.pixels;
+  if (drawn.transition !== transition || drawn.pixels !== pixels)
+    drawn = { transition, pixels, paths: transition ? waysOf(transition, pixels ?? []) : [] };
+  return drawn.paths;
+}
+
+const lines = new WeakMap<Transition, readonly (readonly Point[])[]>();
+
+function linesOf(transition: Transition) {
+  const known = lines.get(transition) ?? transition.paths.map(polyline);
+  lines.set(transition, known);
+  return known;
+}
+
+function waysOf(transition: Transition, pixels: readonly Pixel[]): Scene['paths'] {
+  const colors = new Map(pixels.map((p) => [p.id, p.color]));
+  return linesOf(transition).map((points, robot) => ({
+    points,
     color: colors.get(transition.pixels[robot] ?? -1) ?? 0,
   }));
 }

@@ -3,18 +3,36 @@ import { EMPTY_STAGE, type Frame, type Show } from '../model/show';
 import type { Dot, Scene } from '../stage/scene';
 import type { Live } from './store';
 
+const ALPHAS = { active: 1, stale: 0.4, gone: 0.15 } as const;
+const fades = new WeakMap<Fleet, (robot: number) => number>();
+
 /** How strongly a robot is drawn: silent ones faded. */
 export function fade(fleet: Fleet): (robot: number) => number {
-  const alphas = fleet.rows.map((row) => ({ active: 1, stale: 0.4, gone: 0.15 })[row.presence]);
-  return (robot) => alphas[robot] ?? 1;
+  let faded = fades.get(fleet);
+  if (!faded) {
+    const alphas = fleet.rows.map((row) => ALPHAS[row.presence]);
+    faded = (robot) => alphas[robot] ?? 1;
+    fades.set(fleet, faded);
+  }
+  return faded;
 }
 
 /** Whether robots are on their way, so that their goals are what is planned. */
 export const isRunning = (phase: Phase) => phase !== 'idle' && phase !== 'ready';
 
-/** A frame's pixels as planned places. */
-export const hollowOf = (frame: Frame | undefined): Dot[] =>
-  frame?.pixels.map((p) => ({ x: p.x, y: p.y, color: p.color, alpha: 0.75 })) ?? [];
+const NOTHING: readonly never[] = [];
+const hollows = new WeakMap<Frame, readonly Dot[]>();
+
+/** A frame's pixels as planned places; the same list for the same frame. */
+export function hollowOf(frame: Frame | undefined): readonly Dot[] {
+  if (!frame) return NOTHING;
+  let dots = hollows.get(frame);
+  if (!dots) {
+    dots = frame.pixels.map((p) => ({ x: p.x, y: p.y, color: p.color, alpha: 0.75 }));
+    hollows.set(frame, dots);
+  }
+  return dots;
+}
 
 export interface SceneWish {
   show: Show | null;
@@ -37,8 +55,8 @@ export function liveScene(live: Live, wish: SceneWish, now_ms: number): Scene {
     obstacles: stage.obstacles,
     grid: true,
     filled: sample.filled,
-    hollow: wish.targets ? hollow : [],
-    errors: wish.targets && running ? sample.errors : [],
+    hollow: wish.targets ? hollow : NOTHING,
+    errors: wish.targets && running ? sample.errors : NOTHING,
     paths: wish.paths,
   };
 }

@@ -30,15 +30,25 @@ export function onFloor(p: { x: number; y: number }, stage: Stage): boolean {
   });
 }
 
-/** Sorted along x, so that only neighbours are compared. */
+/** Whoever has a neighbour closer than `gap_m`: looked for in squares of that size, so that thousands are quick. */
 function crowded(pixels: readonly Pixel[], gap_m: number): Set<number> {
   const close = new Set<number>();
-  const order = [...pixels].sort((a, b) => a.x - b.x);
-  for (let i = 0; i < order.length; i++)
-    for (let j = i + 1; j < order.length; j++) {
-      const [a, b] = [order[i] as Pixel, order[j] as Pixel];
-      if (b.x - a.x >= gap_m) break;
-      if (Math.hypot(b.x - a.x, b.y - a.y) < gap_m - 1e-9) close.add(a.id).add(b.id);
-    }
+  const first = new Map<number, number>();
+  const next = new Int32Array(pixels.length);
+  pixels.forEach((p, i) => {
+    const [cx, cy] = [Math.floor(p.x / gap_m), Math.floor(p.y / gap_m)];
+    for (let x = cx - 1; x <= cx + 1; x++)
+      for (let y = cy - 1; y <= cy + 1; y++)
+        for (let j = first.get(cellKey(x, y)) ?? -1; j >= 0; j = next[j] ?? -1) {
+          const q = pixels[j];
+          if (q && Math.hypot(q.x - p.x, q.y - p.y) < gap_m - 1e-9) close.add(q.id).add(p.id);
+        }
+    const here = cellKey(cx, cy);
+    next[i] = first.get(here) ?? -1;
+    first.set(here, i);
+  });
   return close;
 }
+
+/** One number for a square; floors are at most thousands of squares wide. */
+const cellKey = (x: number, y: number) => (x + 0x8000) * 0x10000 + (y + 0x8000);

@@ -14,11 +14,14 @@ export interface Sprites {
   glow(color: Rgb, radius_px: number): HTMLCanvasElement | null;
   /** The body of a robot under its light. */
   body(radius_px: number): HTMLCanvasElement;
+  /** A circle in a CSS colour, `line_px` thick, dashed or not. */
+  ring(color: string, radius_px: number, line_px: number, dashed?: boolean): HTMLCanvasElement;
 }
 
 export function createSprites(): Sprites {
   const glows = new Map<number, HTMLCanvasElement | null>();
   const bodies = new Map<number, HTMLCanvasElement>();
+  const rings = new Map<string, HTMLCanvasElement>();
   return {
     glow(color, radius_px) {
       const size = Math.round(radius_px * 2);
@@ -39,6 +42,16 @@ export function createSprites(): Sprites {
         if (bodies.size > 32) bodies.clear();
         sprite = paintBody(radius_px);
         bodies.set(key, sprite);
+      }
+      return sprite;
+    },
+    ring(color, radius_px, line_px, dashed = false) {
+      const key = `${color} ${Math.round(radius_px * 8)} ${Math.round(line_px * 8)} ${dashed}`;
+      let sprite = rings.get(key);
+      if (!sprite) {
+        if (rings.size >= KEPT_MAX) rings.clear();
+        sprite = paintRing(color, radius_px, line_px, dashed);
+        rings.set(key, sprite);
       }
       return sprite;
     },
@@ -93,6 +106,18 @@ function paintBody(radius_px: number): HTMLCanvasElement {
   context.fill();
   context.lineWidth = Math.max(1, radius_px * 0.12);
   context.strokeStyle = '#59637a';
+  context.stroke();
+  return element;
+}
+
+function paintRing(color: string, radius_px: number, line_px: number, dashed: boolean) {
+  const [element, context] = canvas(Math.ceil(radius_px * 2 + line_px + 3));
+  const half = element.width / 2;
+  if (dashed) context.setLineDash([line_px * 1.7, line_px * 1.4]);
+  context.lineWidth = line_px;
+  context.strokeStyle = color;
+  context.beginPath();
+  context.arc(half, half, radius_px, 0, 2 * Math.PI);
   context.stroke();
   return element;
 }

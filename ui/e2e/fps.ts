@@ -1,0 +1,184 @@
+import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import type { Browser, Page } from 'playwright-core';
+import { afterAll, beforeAll, test } from 'vitest';
+import { launchBrowser, openPage, startServer } from './harness';
+
+/** How long a scene is measured, milliseconds. */
+const MEASURED_MS = 6000;
+/** Frames a second that are promised, by number of robots; none for those that are only stated. */
+const GOALS: Record<number, number> = { 30: 60, 100: 60, 1000: 30 };
+
+let browser: Browser;
+const folder = mkdtempSync(join(tmpdir(), 'lightbots-fps-'));
+beforeAll(async () => {
+  browser = await launchBrowser();
+});
+afterAll(async () => {
+  await browser?.close();
+  rmSync(folder, { recursive: true, force: true });
+});
+
+/** Side of the square floor for so many robots, metres. */
+const sideOf = (count: number) => Math.ceil(Math.sqrt(count)) * 0.12 + 1;
+
+/** Two crowds of `count` coloured pixels, each a turned copy of the other: everybody drives nearly all the time. */
+function crowdShow(count: number): string {
+  const across = Math.ceil(Math.sqrt(count));
+  const side_m = sideOf(count);
+  const round = (n: number) => Math.round(n * 1e4) / 1e4;
+  const frame = (name: string, angle: number) => ({
+    name,
+    air_time_s: 0.2,
+    pixels: Array.from({ length: count }, (_, id) => {
+      const [u, v] = [(id % across) - (across - 1) / 2, Math.floor(id / across) - (across - 1) / 2];
+      const [x, y] = [u * 0.085, v * 0.085];
+      const [c, s] = [Math.cos(angle), Math.sin(angle)];
+      const hue = Math.floor((id * 0x9e3779) % 0xffffff) | 0x404040;
+      return {
+        id,
+        place: [round(c * x - s * y), round(s * x + c * y)],
+        color: `#${hue.toString(16).padStart(6, '0')}`,
+      };
+    }),
+  });
+  const stage = { width_m: side_m, depth_m: side_m };
+  const frames = [frame('One', 0), frame('Two', 0.7)];
+  return JSON.stringify({ lightbots: 1, name: `Crowd of ${count}`, stage, frames });
+}
+
+/** Notes the moment of every frame in which the stage was drawn. */
+function noteDraws() {
+  const drawn: number[] = [];
+  Object.assign(globalThis, { drawn });
+  const prototype = CanvasRenderingContext2D.prototype;
+  const setTransform = prototype.setTransform as (...a: unknown[]) => void;
+  prototype.setTransform = function (this: CanvasRenderingContext2D, ...more: unknown[]) {
+    const now = Number(document.timeline.currentTime);
+    if (now !== drawn[drawn.length - 1] && this.canvas.closest('.stage')) drawn.push(now);
+    setTransform.apply(this, more);
+  } as never;
+}
+
+/** Frames a second with the stage drawn, the gap that one frame in twenty exceeds, and main-thread work a frame. */
+async function measure(page: Page) {
+  const client = await page.context().newCDPSession(page);
+  await client.send('Performance.enable');
+  const busy_s = async () =>
+    (await client.send('Performance.getMetrics')).metrics.find((m) => m.name === 'TaskDuration')
+      ?.value ?? 0;
+  const before_s = await busy_s();
+  const gaps = await page.evaluate(async (lasts_ms) => {
+    const { drawn } = globalThis as unknown as { drawn: number[] };
+    drawn.length = 0;
+    const began = performance.now();
+    await new Promise((resolve) => setTimeout(resolve, lasts_ms));
+    const span_ms = performance.now() - began;
+    return {
+      count: drawn.length,
+      span_ms,
+      all: drawn.slice(1).map((at, i) => at - (drawn[i] ?? at)),
+    };
+  }, MEASURED_MS);
+  const busy_ms = ((await busy_s()) - before_s) * 1000;
+  await client.detach();
+  const sorted = gaps.all.sort((a, b) => a - b);
+  return {
+    fps: (gaps.count / gaps.span_ms) * 1000,
+    late_ms: sorted[Math.floor(sorted.length * 0.95)] ?? null,
+    busy_ms: busy_ms / Math.max(1, gaps.count),
+  };
+}
+
+/** Size and number of the snapshots that a screen gets. */
+const snapshots = (page: Page) =>
+  page.evaluate(async () => {
+    const socket = new WebSocket(`ws://${location.host}/ws`);
+    socket.binaryType = 'arraybuffer';
+    let [bytes, count] = [0, 0];
+    socket.onmessage = ({ data }: MessageEvent<string | ArrayBuffer>) => {
+      if (typeof data === 'string' && !data.startsWith('{"type":"state"')) return;
+      bytes += typeof data === 'string' ? data.length : data.byteLength;
+      if (typeof data === 'string') count++;
+    };
+    await new Promise((resolve) => (socket.onopen = resolve));
+    await new Promise((resolve) => setTimeout(resolve, 2000));
+    socket.close();
+    return { snapshot_kB: bytes / Math.max(1, count) / 1000, snapshots_a_second: count / 2 };
+  });
+
+const row = (
+  scene: string,
+  robots: number,
+  measured: Awaited<ReturnType<typeof measure>>,
+  more = {},
+) =>
+  process.stdout.write(
+    `${JSON.stringify({
+      scene,
+      robots,
+      frames_a_second: measured.fps,
+      goal: GOALS[robots] ?? null,
+      '95_%_of_gaps_below_ms': measured.late_ms,
+      main_thread_ms_a_frame: measured.busy_ms,
+      snapshot_kB: null,
+      snapshots_a_second: null,
+      ...more,
+    })}\n`,
+  );
+
+async function dragAll(page: Page, robots: number) {
+  await page.keyboard.press('Control+a');
+  const box = await page.getByTestId('stage').boundingBox();
+  const place = await page.evaluate(() => ({
+    ...document.querySelector<HTMLElement>('[data-testid=pixels] [role=option]')?.dataset,
+  }));
+  if (!box || !place.x || !place.y) throw new Error('There is nothing to drag.');
+  const scale = Math.min(box.width - 68, box.height - 68) / sideOf(robots);
+  const from = {
+    x: box.x + box.width / 2 + Number(place.x) * scale,
+    y: box.y + box.height / 2 - Number(place.y) * scale,
+  };
+  await page.mouse.move(from.x, from.y);
+  await page.mouse.down();
+  let [turn, moving] = [0, true];
+  const hand = (async () => {
+    while (moving) {
+      turn += 0.05;
+      void page.mouse.move(from.x + 60 * Math.sin(turn), from.y + 40 * (1 - Math.cos(turn)));
+      await new Promise((resolve) => setTimeout(resolve, 8));
+    }
+  })();
+  const measured = await measure(page);
+  moving = false;
+  await hand;
+  await page.mouse.up();
+  row('drag all', robots, measured);
+}
+
+async function watch(page: Page, robots: number) {
+  await page.getByRole('button', { name: 'Loop (L)' }).click();
+  await page.getByRole('button', { name: 'Play', exact: true }).click();
+  await page.getByText(/Playing frame 2 of/).waitFor();
+  const measured = await measure(page);
+  row('watch live', robots, measured, await snapshots(page));
+}
+
+for (const robots of [30, 100, 1000, 10_000])
+  test(`frames a second with ${robots} robots`, async () => {
+    const file = join(folder, `crowd ${robots}.lightbots.json`);
+    writeFileSync(file, crowdShow(robots));
+    const server = await startServer(file, '--robots', String(robots));
+    try {
+      const page = await openPage(browser, server, 'edit', {}, noteDraws);
+      await page.getByTestId('stage').waitFor();
+      await page.getByText(`${robots} robots`, { exact: true }).waitFor();
+      if (robots <= 1000) await dragAll(page, robots);
+      await page.goto(`${server.url}/#/live`);
+      await watch(page, robots);
+      await page.close();
+    } finally {
+      await server.remove();
+    }
+  });

@@ -1,0 +1,20 @@
+import { useStore } from '../base/store';
+import { useSession } from '../shell/session';
+
+/** How much of the drive to the frame is done: the one thing here that changes with every snapshot. */
+export function DriveProgress() {
+  const { live } = useSession();
+  const done = useStore(live.playback, (p) => p.progress);
+  return (
+    <div
+      className="progress drive"
+      role="progressbar"
+      aria-label="Drive to the frame"
+      aria-valuemin={0}
+      aria-valuemax={100}
+      aria-valuenow={Math.round(done * 100)}
+    >
+      <i style={{ transform: `scaleX(${done})` }} />
+    </div>
+  );
+}

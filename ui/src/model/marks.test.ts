@@ -1,0 +1,21 @@
+import { expect, test } from 'vitest';
+import { marksOf } from './marks';
+import { EMPTY_STAGE, tooClose_m, type Pixel } from './show';
+
+test('whoever is too close is found, wherever the squares of the search lie', () => {
+  const pixels: Pixel[] = Array.from({ length: 300 }, (_, id) => ({
+    id,
+    x: ((id * 0.7548776662) % 1) * 2.8 - 1.4,
+    y: ((id * 0.5698402909) % 1) * 2.8 - 1.4 + (id % 3) * 0.02,
+    color: 0,
+    robot: null,
+  }));
+  const gap_m = tooClose_m(EMPTY_STAGE);
+  const wanted = pixels.filter((p) =>
+    pixels.some((q) => q !== p && Math.hypot(q.x - p.x, q.y - p.y) < gap_m),
+  );
+  const found = marksOf(pixels, EMPTY_STAGE).tooClose;
+  expect(wanted.length).toBeGreaterThan(20);
+  expect(wanted.length).toBeLessThan(300);
+  expect([...found].sort((a, b) => a - b)).toEqual(wanted.map((p) => p.id));
+});
