@@ -7,6 +7,9 @@ import { chromium, type Browser, type BrowserContextOptions, type Page } from 'p
 /** As long as anything may take on a slow, busy machine, milliseconds. */
 export const PATIENCE_MS = 90_000;
 
+/** The folder of a built screen to try in place of the one in the program, which need not be built anew then. */
+const screen = process.env.LIGHTBOTS_SCREEN;
+
 const CHROMIUM_ARGS = [
   '--no-sandbox',
   '--disable-gpu',
@@ -16,6 +19,8 @@ const CHROMIUM_ARGS = [
   '--disable-background-networking',
   '--disable-component-update',
   '--disable-sync',
+  // What a test serves by itself counts as foreign, and would not be let at the server's socket.
+  ...(screen ? ['--disable-features=LocalNetworkAccessChecks'] : []),
 ];
 
 /** The program under test, by `LIGHTBOTS_BIN`. */
@@ -120,9 +125,21 @@ export async function openPage(
   page.on('pageerror', (error) => mistakes.push(String(error)));
   if (!tour) await page.addInitScript(() => localStorage.setItem('lightbots-tour', 'done'));
   if (before) await page.addInitScript(before);
+  await serveScreen(page, server);
   await page.goto(`${server.url}/#/${view}`);
   await page.getByText('Connected', { exact: true }).waitFor();
   return page;
+}
+
+async function serveScreen(page: Page, server: Server): Promise<void> {
+  if (!screen) return;
+  await page.route(
+    (url) => url.origin === server.url && !/^\/(api|ws)\b/.test(url.pathname),
+    (route) => {
+      const { pathname } = new URL(route.request().url());
+      return route.fulfill({ path: join(screen, pathname === '/' ? 'index.html' : pathname) });
+    },
+  );
 }
 
 /** Waits until what `read` gives passes. */

@@ -1,9 +1,10 @@
 import { ActionIcon, Text, Tooltip } from '@mantine/core';
 import { IconBulb, IconX } from '@tabler/icons-react';
+import { memo } from 'react';
 import type { FleetRow } from '../api/types.gen';
 import { useStore } from '../base/store';
 import { ageText } from '../base/time';
-import { useSession } from '../shell/session';
+import { useSession, type Session } from '../shell/session';
 
 /** Rows shown; beyond it nobody reads a table. */
 const ROWS_MAX = 300;
@@ -39,12 +40,7 @@ export function FleetTable() {
         </thead>
         <tbody>
           {shown.map((row) => (
-            <Row
-              key={row.id}
-              row={row}
-              identify={() => void ask({ do: 'identify', robot: row.id })}
-              forget={() => void ask({ do: 'forget', robot: row.id })}
-            />
+            <Row key={row.id} row={row} ask={ask} />
           ))}
         </tbody>
       </table>
@@ -57,9 +53,13 @@ export function FleetTable() {
   );
 }
 
-function Row(props: { row: FleetRow; identify: () => void; forget: () => void }) {
-  const { row } = props;
-  const details = [
+interface RowProps {
+  row: FleetRow;
+  ask: Session['ask'];
+}
+
+const detailsOf = (row: FleetRow) =>
+  [
     row.id,
     row.firmware ?? 'original protocol',
     `heard ${ageText(row.age_s)}${row.age_s < 1.5 ? '' : ' ago'}`,
@@ -67,6 +67,26 @@ function Row(props: { row: FleetRow; identify: () => void; forget: () => void })
       ? 'clock not synchronised'
       : `clock ± ${(row.clock_us / 1000).toFixed(1)} ms`,
   ].join(' · ');
+
+/** Everything of a row that is shown. The table comes twice a second, and hardly a row of it says anything new. */
+const shownOf = (row: FleetRow) =>
+  [
+    detailsOf(row),
+    row.pixel,
+    row.status,
+    row.presence,
+    ageText(row.age_s),
+    row.battery,
+    row.abilities.blink,
+  ].join('|');
+
+const Row = memo(
+  RobotRow,
+  (before, after) => before.ask === after.ask && shownOf(before.row) === shownOf(after.row),
+);
+
+function RobotRow({ row, ask }: RowProps) {
+  const details = detailsOf(row);
   return (
     <tr data-presence={row.presence}>
       <td>{row.pixel ?? <span className="quiet">–</span>}</td>
@@ -86,7 +106,7 @@ function Row(props: { row: FleetRow; identify: () => void; forget: () => void })
               size="sm"
               disabled={!row.abilities.blink}
               aria-label={`Let robot ${row.id.slice(0, 8)} blink`}
-              onClick={props.identify}
+              onClick={() => void ask({ do: 'identify', robot: row.id })}
             >
               <IconBulb size={15} />
             </ActionIcon>
@@ -98,7 +118,7 @@ function Row(props: { row: FleetRow; identify: () => void; forget: () => void })
               color="gray"
               size="sm"
               aria-label={`Forget robot ${row.id.slice(0, 8)}`}
-              onClick={props.forget}
+              onClick={() => void ask({ do: 'forget', robot: row.id })}
             >
               <IconX size={15} />
             </ActionIcon>

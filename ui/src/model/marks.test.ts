@@ -3,10 +3,11 @@ import { marksOf } from './marks';
 import { EMPTY_STAGE, tooClose_m, type Pixel } from './show';
 
 test('whoever is too close is found, wherever the squares of the search lie', () => {
+  const chance = (n: number) => (Math.abs(Math.sin(n * 12.9898)) * 43758.5453) % 1;
   const pixels: Pixel[] = Array.from({ length: 300 }, (_, id) => ({
     id,
-    x: ((id * 0.7548776662) % 1) * 2.8 - 1.4,
-    y: ((id * 0.5698402909) % 1) * 2.8 - 1.4 + (id % 3) * 0.02,
+    x: chance(2 * id + 1) * 2.8 - 1.4,
+    y: chance(2 * id + 2) * 2.8 - 1.4,
     color: 0,
     robot: null,
   }));

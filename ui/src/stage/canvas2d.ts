@@ -1,7 +1,8 @@
 import { canvasFromStage, type Camera } from './camera';
-import { createFloorLayer } from './floorLayer';
+import { createFloorLayer, type FloorPicture } from './floorLayer';
 import type { Dot, Scene } from './scene';
-import { createSprites } from './sprites';
+import { createCrowd } from './crowd';
+import { createSprites, isOff } from './sprites';
 
 /** Draws scenes. Canvas2D is the only one there is; another (WebGL) would stand behind the same two calls. */
 export interface StageRenderer {
@@ -9,42 +10,74 @@ export interface StageRenderer {
   draw(scene: Scene, camera: Camera): void;
 }
 
-/** Below this radius, device pixels, the body under a light cannot be seen. */
-const BODY_MIN_PX = 2.2;
+/** From so many lights on they are added up in numbers: sprites of many colours cost more. */
+const CROWD = 400;
 
 export function createCanvas2d(element: HTMLCanvasElement): StageRenderer {
   const context = element.getContext('2d', { alpha: false });
   if (!context) throw new Error('This browser cannot draw: it gives no 2D canvas.');
   const sprites = createSprites();
   const floor = createFloorLayer(sprites);
+  const crowd = createCrowd();
+  let frame: ImageData | null = null;
   let density = 1;
 
-  const drawFilled = (dots: readonly Dot[], scene: Scene, camera: Camera) => {
-    const radius_px = Math.max(1.2, scene.radius_m * camera.scale) * density;
-    const body = sprites.body(radius_px);
-    const bodyHalf = body.width / 2;
+  /** Copies one sprite a dot; those that have none are left out. */
+  const copy = (
+    dots: readonly Dot[],
+    camera: Camera,
+    sprite: (dot: Dot) => HTMLCanvasElement | null,
+    alpha: (dot: Dot) => number,
+  ) => {
     for (const dot of dots) {
-      if (radius_px < BODY_MIN_PX && sprites.glow(dot.color, radius_px)) continue;
-      context.globalAlpha = 0.35 + 0.65 * dot.alpha;
+      const picture = sprite(dot);
+      if (!picture) continue;
+      context.globalAlpha = alpha(dot);
       context.drawImage(
-        body,
-        (camera.originX_px + dot.x * camera.scale) * density - bodyHalf,
-        (camera.originY_px - dot.y * camera.scale) * density - bodyHalf,
+        picture,
+        (camera.originX_px + dot.x * camera.scale) * density - picture.width / 2,
+        (camera.originY_px - dot.y * camera.scale) * density - picture.height / 2,
       );
     }
-    context.globalCompositeOperation = 'lighter';
-    for (const dot of dots) {
-      const glow = sprites.glow(dot.color, radius_px);
-      if (!glow) continue;
-      context.globalAlpha = dot.alpha;
-      context.drawImage(
-        glow,
-        (camera.originX_px + dot.x * camera.scale) * density - glow.width / 2,
-        (camera.originY_px - dot.y * camera.scale) * density - glow.height / 2,
-      );
-    }
-    context.globalCompositeOperation = 'source-over';
     context.globalAlpha = 1;
+  };
+
+  const drawFew = (dots: readonly Dot[], radius_px: number, camera: Camera) => {
+    const body = sprites.body(radius_px);
+    copy(
+      dots,
+      camera,
+      () => body,
+      (dot) => 0.35 + 0.65 * dot.alpha,
+    );
+    context.globalCompositeOperation = 'lighter';
+    copy(
+      dots,
+      camera,
+      (dot) => sprites.glow(dot.color, radius_px),
+      (dot) => dot.alpha,
+    );
+    context.globalCompositeOperation = 'source-over';
+  };
+
+  const drawMany = (
+    dots: readonly Dot[],
+    radius_px: number,
+    camera: Camera,
+    picture: FloorPicture,
+  ) => {
+    const { width, height } = element;
+    if (frame?.width !== width || frame.height !== height) frame = new ImageData(width, height);
+    frame.data.set(picture.pixels());
+    crowd.add(frame, dots, radius_px, camera, density);
+    context.putImageData(frame, 0, 0);
+    const body = sprites.body(radius_px);
+    copy(
+      dots,
+      camera,
+      (dot) => (isOff(dot.color) ? body : null),
+      (dot) => 0.35 + 0.65 * dot.alpha,
+    );
   };
 
   return {
@@ -55,8 +88,13 @@ export function createCanvas2d(element: HTMLCanvasElement): StageRenderer {
     },
     draw(scene, camera) {
       context.setTransform(1, 0, 0, 1, 0, 0);
-      context.drawImage(floor.of(scene, camera, element, density), 0, 0);
-      drawFilled(scene.filled, scene, camera);
+      const picture = floor.of(scene, camera, element, density);
+      const radius_px = Math.max(1.2, scene.radius_m * camera.scale) * density;
+      if (scene.filled.length >= CROWD) drawMany(scene.filled, radius_px, camera, picture);
+      else {
+        context.drawImage(picture.canvas, 0, 0);
+        drawFew(scene.filled, radius_px, camera);
+      }
       context.setTransform(density, 0, 0, density, 0, 0);
       drawErrors(context, scene, camera);
       scene.overlay?.(context, camera);

@@ -12,7 +12,13 @@ export interface FloorLayer {
     camera: Camera,
     size: { width: number; height: number },
     density: number,
-  ): HTMLCanvasElement;
+  ): FloorPicture;
+}
+
+export interface FloorPicture {
+  canvas: HTMLCanvasElement;
+  /** Its pixels, read once for each picture. */
+  pixels(): Uint8ClampedArray;
 }
 
 /** Colour of a planned place whose light is off. */
@@ -20,9 +26,14 @@ const OFF = '#7d889c';
 
 export function createFloorLayer(sprites: Sprites): FloorLayer {
   const layer = document.createElement('canvas');
-  const context = layer.getContext('2d', { alpha: false });
+  const context = layer.getContext('2d', { alpha: false, willReadFrequently: true });
   if (!context) throw new Error('This browser cannot draw: it gives no 2D canvas.');
   let painted: unknown[] = [];
+  let read: Uint8ClampedArray | null = null;
+  const picture: FloorPicture = {
+    canvas: layer,
+    pixels: () => (read ??= context.getImageData(0, 0, layer.width, layer.height).data),
+  };
 
   const drawHollow = (scene: Scene, camera: Camera, density: number) => {
     const radius_px = Math.max(2, scene.radius_m * camera.scale) * density;
@@ -46,8 +57,8 @@ export function createFloorLayer(sprites: Sprites): FloorLayer {
         ...[camera, width, height, density, width_m, depth_m, radius_m, grid, obstacles],
         ...[hollow, paths],
       ];
-      if (wanted.every((input, i) => input === painted[i])) return layer;
-      painted = wanted;
+      if (wanted.every((input, i) => input === painted[i])) return picture;
+      [painted, read] = [wanted, null];
       if (layer.width !== width) layer.width = width;
       if (layer.height !== height) layer.height = height;
       const size: Size = { width_px: width / density, height_px: height / density };
@@ -56,7 +67,7 @@ export function createFloorLayer(sprites: Sprites): FloorLayer {
       drawPaths(context, scene, camera);
       context.setTransform(1, 0, 0, 1, 0, 0);
       drawHollow(scene, camera, density);
-      return layer;
+      return picture;
     },
   };
 }

@@ -1,7 +1,5 @@
 import { blue, green, luma, red, type Rgb } from '../base/colour';
-
-/** How far a light's glow reaches, in radii of its robot. */
-export const GLOW_RADII = 3.4;
+import { CORE_ALPHA, CORE_RADII, GLOW_RADII, GLOW_STOPS } from './glow';
 
 /** Colours are rounded to this many steps a component, so that fades do not fill the cache. */
 const STEP = 8;
@@ -18,6 +16,9 @@ export interface Sprites {
   ring(color: string, radius_px: number, line_px: number, dashed?: boolean): HTMLCanvasElement;
 }
 
+/** Whether a light cannot be seen. */
+export const isOff = (color: Rgb) => luma(color) < 0.004;
+
 export function createSprites(): Sprites {
   const glows = new Map<number, HTMLCanvasElement | null>();
   const bodies = new Map<number, HTMLCanvasElement>();
@@ -30,7 +31,7 @@ export function createSprites(): Sprites {
       let sprite = glows.get(key);
       if (sprite === undefined) {
         if (glows.size >= KEPT_MAX) glows.clear();
-        sprite = luma(rounded) < 0.004 ? null : paintGlow(rounded, radius_px);
+        sprite = isOff(rounded) ? null : paintGlow(rounded, radius_px);
         glows.set(key, sprite);
       }
       return sprite;
@@ -78,17 +79,11 @@ function paintGlow(color: Rgb, radius_px: number): HTMLCanvasElement {
   const [r, g, b] = [red(color), green(color), blue(color)];
   const tint = (alpha: number) => `rgba(${r},${g},${b},${alpha})`;
   const glow = context.createRadialGradient(half, half, 0, half, half, reach);
-  const rim = 1 / GLOW_RADII;
-  glow.addColorStop(0, tint(1));
-  glow.addColorStop(rim * 0.78, tint(0.92));
-  glow.addColorStop(rim, tint(0.42));
-  glow.addColorStop(rim * 1.5, tint(0.2));
-  glow.addColorStop(rim * 2.3, tint(0.06));
-  glow.addColorStop(1, tint(0));
+  for (const [radii, alpha] of GLOW_STOPS) glow.addColorStop(radii / GLOW_RADII, tint(alpha));
   context.fillStyle = glow;
   context.fillRect(0, 0, element.width, element.height);
-  const core = context.createRadialGradient(half, half, 0, half, half, radius_px * 0.7);
-  core.addColorStop(0, 'rgba(255,255,255,0.55)');
+  const core = context.createRadialGradient(half, half, 0, half, half, radius_px * CORE_RADII);
+  core.addColorStop(0, `rgba(255,255,255,${CORE_ALPHA})`);
   core.addColorStop(1, 'rgba(255,255,255,0)');
   context.globalCompositeOperation = 'lighter';
   context.globalAlpha = Math.min(1, 0.25 + luma(color));

@@ -1,0 +1,27 @@
+/** How far a light's glow reaches, in radii of its robot. */
+export const GLOW_RADII = 3.4;
+
+/** How much of the colour there is so many radii from the middle: bright to the rim, then a soft fall. */
+export const GLOW_STOPS: readonly (readonly [radii: number, alpha: number])[] = [
+  [0, 1],
+  [0.78, 0.92],
+  [1, 0.42],
+  [1.5, 0.2],
+  [2.3, 0.06],
+  [GLOW_RADII, 0],
+];
+
+/** The white in the middle of a light: how far it reaches, in radii, and how strong it is. */
+export const CORE_RADII = 0.7;
+export const CORE_ALPHA = 0.55;
+
+/** Share of the colour so many radii away, 0 to 1. */
+export function glowAlpha(radii: number): number {
+  let [fromRadii, from] = [0, 1];
+  for (const [toRadii, to] of GLOW_STOPS) {
+    if (radii <= toRadii && toRadii > fromRadii)
+      return from + ((to - from) * (radii - fromRadii)) / (toRadii - fromRadii);
+    [fromRadii, from] = [toRadii, to];
+  }
+  return 0;
+}
