@@ -87,7 +87,8 @@ fn measure(part: &Part) -> Outcome<String> {
 }
 
 fn example_rows(part: &str, package: &str, example: &str) -> Outcome<String> {
-    let arguments = ["run", "--quiet", "--release", "--package", package, "--example", example, "--", "--json"];
+    let arguments =
+        ["run", "--quiet", "--release", "--package", package, "--example", example, "--", "--json"];
     let mut command = shell::command(".", &shell::cargo_program(), &arguments);
     if part == "round" {
         build_server()?;
