@@ -5,11 +5,9 @@
 //! reach that the search has not seen yet (Efrat, Itai & Katz 2001). The reach is bisected between bounds that a failed search
 //! and a found matching sharpen to distances that really occur.
 
+use super::NONE;
 use super::kdtree::{KdTree, Remaining};
 use lightbots_base::Vec2;
-
-/// No partner yet.
-pub(super) const NONE: u32 = u32::MAX;
 
 /// A matching of all rows with the least longest edge.
 pub(super) struct Bottleneck {
@@ -19,42 +17,26 @@ pub(super) struct Bottleneck {
     pub column_of: Vec<u32>,
 }
 
-/// Matches every row to its own column; there must be at least as many columns. `guess[row]` is some matching, the
-/// better the faster; `NONE` for rows it leaves out.
-pub(super) fn bottleneck(rows: &[Vec2], columns: &[Vec2], guess: &[u32]) -> Bottleneck {
+/// Matches every row to its own column. `known[row]` is some matching of all rows, the better the faster.
+pub(super) fn bottleneck(rows: &[Vec2], columns: &[Vec2], known: &[u32]) -> Bottleneck {
     let mut matcher = Matcher::new(rows, columns);
     let mut low = matcher.least_thinkable();
-    matcher.keep_within(guess, low);
-    let mut best: Option<Bottleneck> = None;
-    loop {
-        let high = best.as_ref().map(|best| best.reach_squared);
-        // Distances this close are one: they differ by rounding only.
-        if let Some(best) = best.take_if(|best| low >= best.reach_squared * (1.0 - 1e-12)) {
-            return best;
-        }
-        let trial = match high {
-            None => low,
-            Some(high) => {
-                let middle = (low.sqrt() + high.sqrt()) / 2.0;
-                (middle * middle).clamp(low, high)
-            }
-        };
-        if let Some(best) = &best {
-            matcher.keep_within(&best.column_of, trial);
-        }
-        match matcher.complete(trial) {
+    matcher.column_of.copy_from_slice(known);
+    let mut best = Bottleneck { reach_squared: matcher.longest_squared(), column_of: known.to_vec() };
+    // Distances this close are one: they differ by rounding only.
+    while low < best.reach_squared * (1.0 - 1e-12) {
+        let middle = (low.sqrt() + best.reach_squared.sqrt()) / 2.0;
+        let trial = (middle * middle).clamp(low, best.reach_squared);
+        matcher.keep_within(&best.column_of, trial);
+        match matcher.complete(&best.column_of, trial) {
             Ok(()) => {
-                let found = matcher.longest_squared();
-                best = Some(Bottleneck { reach_squared: found, column_of: matcher.column_of.clone() });
+                best.reach_squared = matcher.longest_squared();
+                best.column_of.copy_from_slice(&matcher.column_of);
             }
-            Err(needed) if best.is_none() => low = needed.max(trial * 1.44),
             Err(needed) => low = needed,
         }
-        // The growth above may have jumped over the least reach: what lies below is bisected from the last failure.
-        if let (Some(_), None) = (&best, high) {
-            low = matcher.failed;
-        }
     }
+    best
 }
 
 struct Matcher<'a> {
@@ -73,8 +55,6 @@ struct Matcher<'a> {
     queue: Vec<u32>,
     /// Columns taken out of `unseen`, or out of `free` by a row, in this phase.
     seen: Vec<u32>,
-    /// A reach below which there is no perfect matching.
-    failed: f64,
 }
 
 /// A row's place in a search.
@@ -93,13 +73,13 @@ impl<'a> Matcher<'a> {
         let unseen = Remaining::new(&tree, |_| false);
         let (column_of, row_of) = (vec![NONE; rows.len()], vec![NONE; columns.len()]);
         let reached = vec![Reached { root: NONE, from: NONE }; rows.len()];
-        let (queue, seen, failed) = (Vec::new(), Vec::new(), 0.0);
-        Self { rows, columns, tree, free, unseen, column_of, row_of, reached, queue, seen, failed }
+        let (queue, seen) = (Vec::new(), Vec::new());
+        Self { rows, columns, tree, free, unseen, column_of, row_of, reached, queue, seen }
     }
 
     /// Nobody's longest way can be shorter: every row needs some column, and each column a row if there are no more
     /// columns than rows.
-    fn least_thinkable(&mut self) -> f64 {
+    fn least_thinkable(&self) -> f64 {
         let farthest = |remaining: &Remaining, tree: &KdTree, from: &[Vec2]| {
             from.iter().map(|&at| remaining.nearest_squared(tree, at, f64::INFINITY)).fold(0.0, f64::max)
         };
@@ -108,7 +88,6 @@ impl<'a> Matcher<'a> {
             let tree = KdTree::new(self.rows);
             least = farthest(&Remaining::new(&tree, |_| true), &tree, self.columns).max(least);
         }
-        self.failed = least;
         least
     }
 
@@ -135,28 +114,28 @@ impl<'a> Matcher<'a> {
     }
 
     /// Extends the matching to all rows with edges within reach. Where that cannot be: a greater reach (squared) that
-    /// any perfect matching needs.
-    fn complete(&mut self, reach_squared: f64) -> Result<(), f64> {
+    /// any perfect matching needs. `before[row]` is a matching with longer edges.
+    fn complete(&mut self, before: &[u32], reach_squared: f64) -> Result<(), f64> {
         let row_of = &self.row_of;
         self.unseen.reset(&self.tree, |column| row_of[column] != NONE);
         let mut open: Vec<u32> = (0..self.rows.len() as u32).collect();
-        loop {
-            open.retain(|&row| self.column_of[row as usize] == NONE);
-            let Some(&first) = open.first() else { return Ok(()) };
-            let found = self.phase(&open, reach_squared);
-            // Few paths may mean there are none for somebody: a search of its own for one row settles that early.
-            let fails = found == 0
-                || found * 8 < open.len() && {
-                    self.forget_seen();
-                    let alone = open.iter().copied().find(|&row| self.column_of[row as usize] == NONE);
-                    self.phase(&[alone.unwrap_or(first)], reach_squared) == 0
-                };
-            if fails {
-                self.failed = self.needed();
-                return Err(self.failed);
+        open.retain(|&row| self.column_of[row as usize] == NONE);
+        let length = |row: u32| self.squared(row as usize, before[row as usize]);
+        open.sort_by(|&a, &b| length(b).total_cmp(&length(a)));
+        while let Some(&hardest) = open.first() {
+            // Where there is no matching, who had the longest way most likely has no path: that settles it.
+            if self.phase(&[hardest], reach_squared) == 0 {
+                return Err(self.needed());
             }
             self.forget_seen();
+            open.retain(|&row| self.column_of[row as usize] == NONE);
+            if !open.is_empty() && self.phase(&open, reach_squared) == 0 {
+                return Err(self.needed());
+            }
+            self.forget_seen();
+            open.retain(|&row| self.column_of[row as usize] == NONE);
         }
+        Ok(())
     }
 
     /// Searches from all open rows at once, breadth first, and flips one augmenting path for every row that has one

@@ -5,7 +5,24 @@ use lightbots_base::Vec2;
 /// Leaves hold up to twice this many places.
 const LEAF: usize = 6;
 
+/// How many places are asked for, and how cheap they must be.
+#[derive(Clone, Copy)]
+pub(super) struct Most {
+    pub count: usize,
+    pub below: f64,
+}
+
+/// What is taken off squared distances.
+#[derive(Clone, Copy)]
+pub(super) struct Weights<'a> {
+    /// `of[id]`.
+    pub of: &'a [f64],
+    /// The greatest in every node.
+    pub greatest: &'a [f64],
+}
+
 /// Places in a balanced tree. Nodes are numbered as in a binary heap: node k has children 2k and 2k + 1, the root is 1.
+#[derive(Clone, Debug)]
 pub(super) struct KdTree {
     /// In tree order.
     places: Vec<Vec2>,
@@ -18,7 +35,7 @@ pub(super) struct KdTree {
     first_leaf: usize,
 }
 
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 struct Node {
     min: Vec2,
     max: Vec2,
@@ -87,36 +104,20 @@ impl KdTree {
         self.divide(points, 2 * node + 1, middle, last);
     }
 
-    pub fn len(&self) -> usize {
-        self.places.len()
+    /// Where the place of an index is.
+    pub fn place(&self, id: u32) -> Vec2 {
+        self.places[self.position_of[id as usize] as usize]
     }
 
-    /// The indices of the `count` places nearest to `from` among those `allowed`, nearest first, with their squared
-    /// distances.
-    pub fn nearest(&self, from: Vec2, count: usize, allowed: impl Fn(u32) -> bool) -> Vec<(f64, u32)> {
-        let mut found: Vec<(f64, u32)> = Vec::with_capacity(count + 1);
-        let mut stack = Stack::new(1);
-        while let Some(node) = stack.pop() {
-            let worst = if found.len() < count { f64::INFINITY } else { found[count - 1].0 };
-            let here = &self.nodes[node];
-            if here.first == here.last || here.distance_squared(from) >= worst {
-                continue;
-            }
-            if node < self.first_leaf {
-                stack.push_both(self, node, from);
-                continue;
-            }
-            for position in here.first as usize..here.last as usize {
-                let squared = (self.places[position] - from).length_squared();
-                let worst = if found.len() < count { f64::INFINITY } else { found[count - 1].0 };
-                if squared < worst && allowed(self.ids[position]) {
-                    let rank = found.partition_point(|entry| entry.0 <= squared);
-                    found.insert(rank, (squared, self.ids[position]));
-                    found.truncate(count);
-                }
-            }
-        }
-        found
+    /// Pairs of an index in this tree and one in the other, which holds at least as many places: all of this tree's,
+    /// each with one of its own that is about as far along in tree order.
+    pub fn in_step_with(&self, other: &Self) -> impl Iterator<Item = (u32, u32)> {
+        let (own, others) = (self.len(), other.len());
+        self.ids.iter().enumerate().map(move |(rank, &id)| (id, other.ids[rank * others / own]))
+    }
+
+    pub fn len(&self) -> usize {
+        self.places.len()
     }
 
     /// The greatest weight in every node, for [`Self::cheaper`]; `weights[id]`.
@@ -132,34 +133,56 @@ impl KdTree {
         greatest
     }
 
-    /// Calls `found(id, squared distance)` for all places whose squared distance less their weight is below `limit`.
-    pub fn cheaper(
+    /// Adds to `found` the places with the least squared distance less weight, if that is below `below` and
+    /// `allowed(id)`: at most `count`, cheapest first, as (squared distance less weight, squared distance, id).
+    /// `greatest` comes from [`Self::greatest`].
+    pub fn cheapest(
         &self,
         from: Vec2,
-        limit: f64,
-        weights: &[f64],
-        greatest: &[f64],
-        mut found: impl FnMut(u32, f64),
+        most: Most,
+        weights: Weights<'_>,
+        allowed: impl Fn(u32) -> bool,
+        found: &mut Vec<(f64, f64, u32)>,
     ) {
+        found.clear();
+        let mut limit = most.below;
         let mut stack = Stack::new(1);
+        let bound = |node: usize| self.nodes[node].distance_squared(from) - weights.greatest[node];
         while let Some(node) = stack.pop() {
             let here = &self.nodes[node];
-            if here.first == here.last || here.distance_squared(from) - greatest[node] >= limit {
+            if here.first == here.last || bound(node) >= limit {
                 continue;
             }
             if node < self.first_leaf {
-                stack.push(2 * node);
-                stack.push(2 * node + 1);
+                let left_first = bound(2 * node) <= bound(2 * node + 1);
+                stack.push(2 * node + usize::from(left_first));
+                stack.push(2 * node + usize::from(!left_first));
                 continue;
             }
             for position in here.first as usize..here.last as usize {
                 let squared = (self.places[position] - from).length_squared();
                 let id = self.ids[position];
-                if squared - weights[id as usize] < limit {
-                    found(id, squared);
+                let cost = squared - weights.of[id as usize];
+                if cost < limit && allowed(id) {
+                    let rank = found.partition_point(|entry| entry.0 <= cost);
+                    found.insert(rank, (cost, squared, id));
+                    found.truncate(most.count);
+                    if found.len() == most.count {
+                        limit = found[most.count - 1].0;
+                    }
                 }
             }
         }
+    }
+
+    /// The mean place of every leaf, in tree order; leaves of trees with equally many places hold equally many.
+    pub fn leaf_centres(&self) -> Vec<Vec2> {
+        let leaves = self.nodes[self.first_leaf..].iter();
+        let centre = |leaf: &Node| {
+            let own = &self.places[leaf.first as usize..leaf.last as usize];
+            own.iter().fold(Vec2::ZERO, |sum, &at| sum + at) / own.len().max(1) as f64
+        };
+        leaves.map(centre).collect()
     }
 }
 

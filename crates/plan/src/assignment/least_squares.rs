@@ -1,123 +1,173 @@
 //! The least sum of squared ways among edges within reach: an exact sparse assignment.
 //!
-//! Shortest augmenting paths with duals (Jonker & Volgenant 1987) over a few nearest-neighbour edges; the duals then
-//! price all edges that were left out, through a k-d tree that prunes whole regions, and those that would improve the
-//! sum are added until there are none.
+//! Shortest augmenting paths with duals (Jonker & Volgenant 1987) over a few edges of each row, those that good duals
+//! call cheapest; the duals then price all edges that were left out, through a k-d tree that prunes whole regions, and
+//! those that would improve the sum are added until there are none.
 
-use super::bottleneck::NONE;
-use super::kdtree::KdTree;
+use super::NONE;
+use super::kdtree::{KdTree, Most, Weights};
+use super::scales;
 use super::search::Search;
 use super::space;
 use lightbots_base::Vec2;
 
-/// Nearest neighbours each row begins with.
-const NEIGHBOURS: usize = 6;
+/// Edges each row begins with.
+const FIRST: usize = 12;
 /// At most this many edges are added to a row in one round of pricing.
 const ADDED: usize = 6;
-/// Rounds of pricing; random floors need 3 to 8, the worst seen 40. What is left after this many is not quite exact.
+/// Rounds of pricing; at ten thousand robots a dozen is the most seen. What is left after this many is not quite exact.
 const ROUNDS: usize = 200;
 /// Reduced costs above minus this are not improvements, square metres.
 const EPSILON: f64 = 1e-11;
 
-/// A matching that leaves some rows out (`NONE`) but is close to the least sum of squares, quickly.
-pub(super) fn guess(rows: &[Vec2], columns: &[Vec2]) -> Vec<u32> {
-    let (rows_in_space, columns_in_space) = space::common(rows, columns);
-    let tree = KdTree::new(&columns_in_space);
-    let nearest = |&row: &Vec2| {
-        tree.nearest(row, NEIGHBOURS, |_| true).into_iter().map(|(cost, column)| (column, cost))
-    };
-    let edges = rows_in_space.iter().map(|row| nearest(row).collect()).collect();
-    let mut search = Search::new(edges, columns.len());
-    search.bid_for_all();
-    search.column_of().to_vec()
+/// Rows and columns in the space where edges have their costs, and column duals to begin with.
+#[derive(Clone, Debug)]
+pub(super) struct Costs {
+    rows: Vec<Vec2>,
+    tree: KdTree,
+    duals: Vec<f64>,
 }
 
-/// An assignment being improved.
+impl Costs {
+    /// Squared ways between places on the floor, or costs for which the same assignments are best.
+    pub fn new(rows: &[Vec2], columns: &[Vec2]) -> Self {
+        let (rows, columns) = space::common(rows, columns);
+        let none = vec![0.0; columns.len()];
+        // A column left free must cost nothing: only where all are used may there be better duals than none.
+        let is_square = rows.len() == columns.len();
+        let from_afar = is_square.then(|| scales::duals(&rows, &columns));
+        let mut costs = Self { tree: KdTree::new(&columns), rows, duals: none };
+        if let Some(duals) = from_afar
+            && costs.dual_sum(&duals) > costs.dual_sum(&costs.duals)
+        {
+            costs.duals = duals;
+        }
+        costs
+    }
+
+    /// The sum of all duals when column duals are these: no assignment costs less.
+    fn dual_sum(&self, duals: &[f64]) -> f64 {
+        let mut sum = duals.iter().sum();
+        let most = Most { count: 1, below: f64::INFINITY };
+        self.cheapest(duals, most, |found| sum += found.first().map_or(0.0, |cheapest| cheapest.0));
+        sum
+    }
+
+    /// Calls `each` with every row's cheapest edges less column duals, as [`KdTree::cheapest`] finds them.
+    fn cheapest(&self, duals: &[f64], most: Most, mut each: impl FnMut(&[(f64, f64, u32)])) {
+        let greatest = self.tree.greatest(duals);
+        let weights = Weights { of: duals, greatest: &greatest };
+        let mut found = Vec::new();
+        for &at in &self.rows {
+            self.tree.cheapest(at, most, weights, |_| true, &mut found);
+            each(&found);
+        }
+    }
+
+    /// The squared ways themselves, with known duals; as many rows as columns.
+    pub fn plain(rows: &[Vec2], columns: &[Vec2], duals: Vec<f64>) -> Self {
+        Self { rows: rows.to_vec(), tree: KdTree::new(columns), duals }
+    }
+
+    /// The cheapest edges of every row, and one that all can have together.
+    fn first_edges(&self) -> Vec<Vec<(u32, f64)>> {
+        let mut edges: Vec<Vec<(u32, f64)>> = Vec::with_capacity(self.rows.len());
+        let most = Most { count: FIRST, below: f64::INFINITY };
+        self.cheapest(&self.duals, most, |found| {
+            edges.push(found.iter().map(|&(_, cost, column)| (column, cost)).collect());
+        });
+        let row_tree = KdTree::new(&self.rows);
+        for (row, column) in row_tree.in_step_with(&self.tree) {
+            if edges[row as usize].iter().all(|edge| edge.0 != column) {
+                edges[row as usize].push((column, self.cost(row as usize, column)));
+            }
+        }
+        edges
+    }
+
+    fn cost(&self, row: usize, column: u32) -> f64 {
+        (self.tree.place(column) - self.rows[row]).length_squared()
+    }
+
+    /// The best assignment without any limit to ways.
+    pub fn solve(&self) -> Search {
+        let mut search = Search::new(self.first_edges(), self.duals.clone());
+        self.improve(&mut search, |_, _| true);
+        search
+    }
+
+    /// Completes an assignment, and prices edges among those `allowed(row, column)` until it is the best.
+    fn improve(&self, search: &mut Search, allowed: impl Fn(usize, u32) -> bool) {
+        search.complete();
+        for _ in 0..ROUNDS {
+            let improved = self.price(search, &allowed);
+            if improved.is_empty() {
+                break;
+            }
+            search.reopen(&improved);
+            search.complete();
+        }
+    }
+
+    /// Adds edges that would improve the sum; the rows that got some.
+    fn price(&self, search: &mut Search, allowed: &impl Fn(usize, u32) -> bool) -> Vec<u32> {
+        let mut improved = Vec::new();
+        let mut found = Vec::new();
+        let greatest = self.tree.greatest(search.column_duals());
+        for (row, &at) in self.rows.iter().enumerate() {
+            let most = Most { count: ADDED, below: search.row_duals()[row] - EPSILON };
+            let weights = Weights { of: search.column_duals(), greatest: &greatest };
+            self.tree.cheapest(at, most, weights, |column| allowed(row, column), &mut found);
+            let added = found.iter().map(|&(_, cost, column)| (column, cost));
+            if !found.is_empty() && search.add(row, added) {
+                improved.push(row as u32);
+            }
+        }
+        improved
+    }
+}
+
+/// An assignment with limited ways.
 pub(super) struct LeastSquares<'a> {
     /// True places, metres: they decide what is within reach.
     rows: &'a [Vec2],
     columns: &'a [Vec2],
-    /// Places in the space of [`space::common`], where edges have their costs; the tree holds the columns.
-    rows_in_space: Vec<Vec2>,
-    tree: KdTree,
-    reach_squared: f64,
+    costs: &'a Costs,
     search: Search,
 }
 
 impl<'a> LeastSquares<'a> {
-    /// Prepares the problem; `feasible[row]` is a matching within reach.
-    pub fn new(rows: &'a [Vec2], columns: &'a [Vec2], feasible: &[u32], reach_squared: f64) -> Self {
-        let (rows_in_space, columns_in_space) = space::common(rows, columns);
-        let tree = KdTree::new(&columns_in_space);
-        let mut edges = Vec::with_capacity(rows.len());
-        for (row, &partner) in feasible.iter().enumerate() {
-            let within =
-                |column: u32| (columns[column as usize] - rows[row]).length_squared() <= reach_squared;
-            let mut list: Vec<(u32, f64)> = tree
-                .nearest(rows_in_space[row], NEIGHBOURS, within)
-                .into_iter()
-                .map(|(cost, column)| (column, cost))
-                .collect();
-            if !list.iter().any(|edge| edge.0 == partner) {
-                list.push((
-                    partner,
-                    (columns_in_space[partner as usize] - rows_in_space[row]).length_squared(),
-                ));
+    /// Limits `unlimited`, the best assignment, to ways within reach; `feasible[row]` is a matching of such ways.
+    pub fn new(
+        (rows, columns): (&'a [Vec2], &'a [Vec2]),
+        (costs, unlimited): (&'a Costs, &Search),
+        feasible: &[u32],
+        reach_squared: f64,
+    ) -> Self {
+        let mut search = unlimited.clone();
+        let within = |row: usize, column: u32| {
+            (columns[column as usize] - rows[row]).length_squared() <= reach_squared
+        };
+        let mut changed = search.retain(within);
+        if !changed.is_empty() {
+            for (row, &partner) in feasible.iter().enumerate() {
+                if search.add(row, core::iter::once((partner, costs.cost(row, partner)))) {
+                    changed.push(row as u32);
+                }
             }
-            edges.push(list);
+            search.reopen(&changed);
         }
-        let search = Search::new(edges, columns.len());
-        Self { rows, columns, rows_in_space, tree, reach_squared, search }
+        Self { rows, columns, costs, search }
     }
 
     /// The best assignment within `reach_squared`, which must not be less than before: `column_of[row]`. `None` where
     /// there is none, which a feasible matching rules out.
     pub fn solve(&mut self, reach_squared: f64) -> Option<&[u32]> {
-        self.reach_squared = reach_squared;
-        self.search.complete();
-        let square = self.rows.len() == self.columns.len();
-        for _ in 0..ROUNDS {
-            let improved = self.price();
-            if improved.is_empty() {
-                break;
-            }
-            if square {
-                improved.iter().for_each(|&row| self.search.release(row));
-            } else {
-                // A column left free must cost nothing, which holds only for those never used: start again.
-                self.search.restart();
-            }
-            self.search.complete();
-        }
+        let within = |row: usize, column: u32| {
+            (self.columns[column as usize] - self.rows[row]).length_squared() <= reach_squared
+        };
+        self.costs.improve(&mut self.search, within);
         let column_of = self.search.column_of();
         (!column_of.contains(&NONE)).then_some(column_of)
-    }
-
-    /// Adds edges that would improve the sum; the rows that got some.
-    fn price(&mut self) -> Vec<u32> {
-        let mut improved = Vec::new();
-        let mut found: Vec<(f64, u32, f64)> = Vec::new();
-        let greatest = self.tree.greatest(self.search.column_duals());
-        for row in 0..self.rows.len() {
-            found.clear();
-            let (at, true_at) = (self.rows_in_space[row], self.rows[row]);
-            let limit = self.search.row_dual(row) - EPSILON;
-            let duals = self.search.column_duals();
-            self.tree.cheaper(at, limit, duals, &greatest, |column, cost| {
-                let way = self.columns[column as usize] - true_at;
-                if way.length_squared() <= self.reach_squared {
-                    found.push((cost - duals[column as usize], column, cost));
-                }
-            });
-            if found.is_empty() {
-                continue;
-            }
-            found.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-            let added = found.iter().take(ADDED).map(|&(_, column, cost)| (column, cost));
-            if self.search.add(row, added) {
-                improved.push(row as u32);
-            }
-        }
-        improved
     }
 }

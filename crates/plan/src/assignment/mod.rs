@@ -6,15 +6,19 @@
 mod bottleneck;
 mod kdtree;
 mod least_squares;
+mod scales;
 mod search;
 mod space;
 #[cfg(test)]
 mod tests;
 
-use bottleneck::{NONE, bottleneck};
-use least_squares::LeastSquares;
+use bottleneck::bottleneck;
+use least_squares::{Costs, LeastSquares};
 use lightbots_base::Vec2;
+use search::Search;
 
+/// No partner yet.
+const NONE: u32 = u32::MAX;
 /// Squared ways this much longer than the reach are as long: places on a grid differ by rounding only.
 const ROUNDING: f64 = 1.0 + 1e-11;
 
@@ -30,6 +34,10 @@ pub struct Choice {
     open_starts: Vec<usize>,
     goal_places: Vec<Vec2>,
     start_places: Vec<Vec2>,
+    /// What ways between the open ones cost.
+    costs: Costs,
+    /// The assignment of the open ones with the least sum, however long its longest way.
+    shortest: Search,
     /// A matching of the open ones with no way longer than the reach.
     feasible: Vec<u32>,
     /// Square of the longest way anybody needs, square metres.
@@ -42,8 +50,7 @@ impl Choice {
     /// that does not exist or is taken.
     pub fn new(starts: &[Vec2], goals: &[Vec2], pinned: &[Option<usize>]) -> Option<Self> {
         let mut choice = Self::open(starts, goals, pinned)?;
-        let guess = least_squares::guess(&choice.goal_places, &choice.start_places);
-        let found = bottleneck(&choice.goal_places, &choice.start_places, &guess);
+        let found = bottleneck(&choice.goal_places, &choice.start_places, choice.shortest.column_of());
         choice.reach_squared = choice.reach_squared.max(found.reach_squared);
         choice.feasible = found.column_of;
         Some(choice)
@@ -85,11 +92,16 @@ impl Choice {
         let is_open = |&goal: &usize| pinned.get(goal).copied().flatten().is_none();
         let open_goals: Vec<usize> = (0..goals.len()).filter(is_open).collect();
         let open_starts: Vec<usize> = (0..starts.len()).filter(|&start| !taken[start]).collect();
+        let goal_places: Vec<Vec2> = open_goals.iter().map(|&goal| goals[goal]).collect();
+        let start_places: Vec<Vec2> = open_starts.iter().map(|&start| starts[start]).collect();
+        let costs = Costs::new(&goal_places, &start_places);
         Some(Self {
             starts: starts.len(),
             goals: goals.len(),
-            goal_places: open_goals.iter().map(|&goal| goals[goal]).collect(),
-            start_places: open_starts.iter().map(|&start| starts[start]).collect(),
+            shortest: costs.solve(),
+            costs,
+            goal_places,
+            start_places,
             pinned: pairs,
             open_goals,
             open_starts,
@@ -128,8 +140,9 @@ pub struct Minimiser<'a> {
 impl<'a> Minimiser<'a> {
     fn new(choice: &'a Choice) -> Self {
         let reach_squared = choice.reach_squared * ROUNDING;
-        let solver =
-            LeastSquares::new(&choice.goal_places, &choice.start_places, &choice.feasible, reach_squared);
+        let places = (&choice.goal_places[..], &choice.start_places[..]);
+        let costs = (&choice.costs, &choice.shortest);
+        let solver = LeastSquares::new(places, costs, &choice.feasible, reach_squared);
         Self { choice, solver }
     }
 

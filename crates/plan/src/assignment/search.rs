@@ -1,11 +1,12 @@
 //! Shortest augmenting paths over listed edges, with duals (Jonker & Volgenant 1987, sparse).
 
-use super::bottleneck::NONE;
+use super::NONE;
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
 /// A partial assignment that is optimal for the rows it holds: no edge has a reduced cost (cost − row dual − column
 /// dual) below zero, matched edges have zero, columns never used have a dual of zero.
+#[derive(Clone, Debug)]
 pub(super) struct Search {
     /// `edges[row]`: columns and costs, in no order.
     edges: Vec<Vec<(u32, f64)>>,
@@ -17,6 +18,7 @@ pub(super) struct Search {
 }
 
 /// The state of one search for a path, cleared by `touched`.
+#[derive(Clone, Debug)]
 struct Scratch {
     /// `distance[column]`: length of the shortest path known; infinite where none is.
     distance: Vec<f64>,
@@ -31,8 +33,8 @@ struct Scratch {
 }
 
 impl Search {
-    pub fn new(edges: Vec<Vec<(u32, f64)>>, columns: usize) -> Self {
-        let rows = edges.len();
+    pub fn new(edges: Vec<Vec<(u32, f64)>>, column_duals: Vec<f64>) -> Self {
+        let (rows, columns) = (edges.len(), column_duals.len());
         let scratch = Scratch {
             distance: vec![f64::INFINITY; columns],
             from: vec![NONE; columns],
@@ -44,12 +46,12 @@ impl Search {
         let mut search = Self {
             edges,
             row_duals: vec![0.0; rows],
-            column_duals: vec![0.0; columns],
+            column_duals,
             column_of: vec![NONE; rows],
             row_of: vec![NONE; columns],
             scratch,
         };
-        search.restart();
+        (0..rows).for_each(|row| search.lift(row));
         search
     }
 
@@ -57,44 +59,58 @@ impl Search {
         &self.column_of
     }
 
-    pub fn row_dual(&self, row: usize) -> f64 {
-        self.row_duals[row]
+    pub fn row_duals(&self) -> &[f64] {
+        &self.row_duals
     }
 
     pub fn column_duals(&self) -> &[f64] {
         &self.column_duals
     }
 
-    /// Forgets everything but the edges.
-    pub fn restart(&mut self) {
-        self.column_duals.fill(0.0);
-        self.row_of.fill(NONE);
-        self.column_of.fill(NONE);
-        for row in 0..self.edges.len() {
-            self.lift(row);
-        }
-    }
-
-    /// Adds edges a row does not have yet; whether there were any.
+    /// Adds edges a row does not have yet; whether one of them is so cheap that the row must be reopened.
     pub fn add(&mut self, row: usize, edges: impl Iterator<Item = (u32, f64)>) -> bool {
-        let list = &mut self.edges[row];
+        let (list, dual) = (&mut self.edges[row], self.row_duals[row]);
         let before = list.len();
-        for edge in edges {
-            if !list[..before].iter().any(|known| known.0 == edge.0) {
-                list.push(edge);
+        let mut undercuts = false;
+        for (column, cost) in edges {
+            if !list[..before].iter().any(|known| known.0 == column) {
+                list.push((column, cost));
+                undercuts |= cost - self.column_duals[column as usize] < dual;
             }
         }
-        list.len() > before
+        undercuts
     }
 
-    /// Takes a row out of the assignment, after it got edges. The column it had keeps its dual: only for as many
-    /// columns as rows, where every column is used in the end.
-    pub fn release(&mut self, row: u32) {
-        let column = core::mem::replace(&mut self.column_of[row as usize], NONE);
-        if column != NONE {
-            self.row_of[column as usize] = NONE;
+    /// Keeps only edges for which `keep(row, column)` holds; the rows that lose the one they have and must be
+    /// reopened.
+    pub fn retain(&mut self, keep: impl Fn(usize, u32) -> bool) -> Vec<u32> {
+        let mut losers = Vec::new();
+        for (row, list) in self.edges.iter_mut().enumerate() {
+            list.retain(|edge| keep(row, edge.0));
+            let column = self.column_of[row];
+            if column != NONE && !keep(row, column) {
+                losers.push(row as u32);
+            }
         }
-        self.lift(row as usize);
+        losers
+    }
+
+    /// Takes rows out of the assignment, after their edges changed.
+    pub fn reopen(&mut self, rows: &[u32]) {
+        if self.edges.len() < self.column_duals.len() {
+            // A column left free must cost nothing, which holds only for those never used: start again.
+            self.column_duals.fill(0.0);
+            self.row_of.fill(NONE);
+            self.column_of.fill(NONE);
+            return (0..self.edges.len()).for_each(|row| self.lift(row));
+        }
+        for &row in rows {
+            let column = core::mem::replace(&mut self.column_of[row as usize], NONE);
+            if column != NONE {
+                self.row_of[column as usize] = NONE;
+            }
+            self.lift(row as usize);
+        }
     }
 
     /// Sets a row's dual to the greatest legal one.
@@ -112,7 +128,7 @@ impl Search {
     }
 
     /// Gives most rows a column, quickly; the rows left open.
-    pub fn bid_for_all(&mut self) -> Vec<u32> {
+    fn bid_for_all(&mut self) -> Vec<u32> {
         let is_open = |&row: &u32| self.column_of[row as usize] == NONE;
         let open: Vec<u32> = (0..self.edges.len() as u32).filter(is_open).collect();
         let open = self.bid(&open);

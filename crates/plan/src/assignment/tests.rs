@@ -102,6 +102,32 @@ fn a_row_at_the_edge_spreads_over_the_floor() {
 }
 
 #[test]
+fn crowds_that_move_far_agree_with_a_dense_solver() {
+    let mut seeded = Seeded::new(21);
+    for case in 0..10 {
+        let count = 70 + seeded.below(60);
+        let half_turn = Vec2::unit(seeded.between(0.2, 1.5));
+        let starts: Vec<Vec2> = (0..count)
+            .map(|i| match case % 2 {
+                0 => Vec2::new((i % 12) as f64, (i / 12) as f64) * 0.1,
+                _ => Vec2::unit((i % 24) as f64 * 0.2618) * (0.1 + 0.1 * (i / 24) as f64),
+            })
+            .collect();
+        let goals: Vec<Vec2> = starts
+            .iter()
+            .map(|&at| match case {
+                0..4 => Vec2::new(half_turn.dot(at), half_turn.cross(at)),
+                4..7 => at.normalized().unwrap_or(half_turn) * (1.5 - at.length()),
+                7 => at * 2.5 + half_turn,
+                _ => Vec2::new(seeded.between(-1.5, 1.5), seeded.between(1.2, 1.4)),
+            })
+            .collect();
+        compare(&starts, &goals, &[]);
+        compare(&starts, &goals[..count - 9], &[]);
+    }
+}
+
+#[test]
 fn ties_are_broken_the_same_way_every_time() {
     let grid: Vec<Vec2> = (0..64).map(|i| Vec2::new(f64::from(i % 8), f64::from(i / 8)) * 0.1).collect();
     let moved: Vec<Vec2> = grid.iter().map(|&at| at + Vec2::new(0.05, 0.05)).collect();

@@ -1,0 +1,35 @@
+//! Column duals to begin with, from coarser and coarser pictures of the same places.
+//!
+//! Near the best, duals change smoothly over the floor: where a whole crowd has to move, they rise and fall by far more
+//! than a neighbour's distance, and shortest augmenting paths would have to find that one path at a time. So places
+//! are drawn together into the leaves of their k-d trees, which hold equally many on both sides; the duals of that
+//! smaller problem, solved in the same way, tell how dear every place is but for what its neighbours make of it
+//! (multiscale transport: Mérigot 2011; the duals spread to single places by the c-transform).
+
+use super::kdtree::{KdTree, Most, Weights};
+use super::least_squares::Costs;
+use lightbots_base::Vec2;
+
+/// Problems this small need no help.
+const SMALL: usize = 60;
+
+/// Duals for the columns of a problem with as many rows as columns.
+pub(super) fn duals(rows: &[Vec2], columns: &[Vec2]) -> Vec<f64> {
+    if rows.len() <= SMALL {
+        return vec![0.0; columns.len()];
+    }
+    let (coarse_rows, coarse_columns) =
+        (KdTree::new(rows).leaf_centres(), KdTree::new(columns).leaf_centres());
+    let costs = Costs::plain(&coarse_rows, &coarse_columns, duals(&coarse_rows, &coarse_columns));
+    let solved = costs.solve();
+    let tree = KdTree::new(&coarse_rows);
+    let greatest = tree.greatest(solved.row_duals());
+    let weights = Weights { of: solved.row_duals(), greatest: &greatest };
+    let most = Most { count: 1, below: f64::INFINITY };
+    let mut found = Vec::new();
+    let mut dual = |&column: &Vec2| {
+        tree.cheapest(column, most, weights, |_| true, &mut found);
+        found.first().map_or(0.0, |cheapest| cheapest.0)
+    };
+    columns.iter().map(&mut dual).collect()
+}
