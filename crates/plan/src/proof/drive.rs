@@ -1,20 +1,17 @@
 //! Whether one robot can drive its path: speed, acceleration, wheels, turning, and no jumps.
 
 use super::FaultKind;
+use super::facing::Facing;
 use crate::Path;
 use lightbots_base::{Limits, Span, Vec2};
 
 /// Limits may be exceeded by this share: what whole microseconds cost.
 const SHARE: f64 = 1e-3;
-/// A step in speed this small is none, m/s.
+/// A step in velocity this small is none, m/s.
 const STEP_MPS: f64 = 1e-3;
 /// Slower than this which way a robot faces hardly matters, m/s: in the third of a second that a quarter turn takes it
 /// gets 3 mm off its path at most.
-const CREEP_MPS: f64 = 20e-3;
-/// What a robot may lack when it has to turn while it is slow, seconds: it makes up for that while it drives off.
-const GRACE_S: f64 = 0.05;
-/// Moments of a curved piece at which it is asked whether the robot is slow.
-const MOMENTS: u32 = 32;
+pub(super) const CREEP_MPS: f64 = 20e-3;
 /// Velocity times turning rate below which a piece is straight, m/s · rad/s · m/s.
 const STRAIGHT: f64 = 1e-12;
 /// Halvings before a stretch that is still undecided is judged by its middle.
@@ -31,7 +28,7 @@ pub(super) fn judge(path: &Path, horizon: Span, limits: &Limits, mut fault: impl
             fault(kind, at);
         }
     };
-    let mut joint = Joint::new(limits);
+    let (mut velocity, mut facing) = (Vec2::ZERO, Facing::new(limits));
     for (from, at, piece) in path.as_ref().timed() {
         let course = Course::new([from, piece.c1, piece.c2, piece.end], piece.duration.as_secs());
         if course.exceeds_speed(limits.speed_mps * (1.0 + SHARE)) {
@@ -42,9 +39,15 @@ pub(super) fn judge(path: &Path, horizon: Span, limits: &Limits, mut fault: impl
             report(FaultKind::Acceleration, at);
         }
         course.judge_turning(limits, HALVINGS, &mut |kind| report(kind, at));
-        joint.pass(&course, piece.duration, &mut |kind| report(kind, at));
+        if (course.velocity[0] - velocity).length() > STEP_MPS {
+            report(FaultKind::Jump, at);
+        }
+        velocity = course.velocity[2];
+        if !facing.follow(&course, piece.duration.as_secs()) {
+            report(FaultKind::Turn, at);
+        }
     }
-    if joint.velocity.length() > STEP_MPS {
+    if velocity.length() > STEP_MPS {
         report(FaultKind::Jump, horizon);
     }
 }
@@ -57,8 +60,8 @@ fn is_well_formed(path: &Path, horizon: Span) -> bool {
 }
 
 /// A piece's velocity and acceleration as Bézier control values.
-struct Course {
-    velocity: [Vec2; 3],
+pub(super) struct Course {
+    pub velocity: [Vec2; 3],
     acceleration: [Vec2; 2],
 }
 
@@ -72,7 +75,7 @@ impl Course {
     }
 
     /// Both halves.
-    fn halves(&self) -> (Self, Self) {
+    pub fn halves(&self) -> (Self, Self) {
         let [a, b, c] = self.velocity;
         let (ab, bc) = (a.lerp(b, 0.5), b.lerp(c, 0.5));
         let middle = ab.lerp(bc, 0.5);
@@ -85,7 +88,7 @@ impl Course {
     }
 
     /// No speed in it is greater.
-    fn speed_bound(&self) -> f64 {
+    pub fn speed_bound(&self) -> f64 {
         self.velocity.iter().map(|velocity| velocity.length()).fold(0.0, f64::max)
     }
 
@@ -111,7 +114,7 @@ impl Course {
     }
 
     /// No speed in it is less.
-    fn speed_floor(&self) -> f64 {
+    pub fn speed_floor(&self) -> f64 {
         let Some(direction) = (self.velocity[0] + self.velocity[2]).normalized() else { return 0.0 };
         self.velocity.iter().map(|velocity| velocity.dot(direction)).fold(f64::INFINITY, f64::min).max(0.0)
     }
@@ -135,67 +138,5 @@ impl Course {
         } else {
             report(if turn > most { FaultKind::Turn } else { FaultKind::Wheel });
         }
-    }
-}
-
-/// What one piece hands to the next: velocity, and how a slow robot stands.
-struct Joint<'a> {
-    limits: &'a Limits,
-    velocity: Vec2,
-    /// The line it drove along when it last was fast; `None` before the first drive.
-    heading: Option<Vec2>,
-    /// For how long it has been slow since then, seconds.
-    slow_s: f64,
-}
-
-impl<'a> Joint<'a> {
-    fn new(limits: &'a Limits) -> Self {
-        Self { limits, velocity: Vec2::ZERO, heading: None, slow_s: 0.0 }
-    }
-
-    fn pass(&mut self, course: &Course, duration: Span, report: &mut dyn FnMut(FaultKind)) {
-        let [first, middle, last] = course.velocity;
-        if (first - self.velocity).length() > STEP_MPS {
-            report(FaultKind::Jump);
-        }
-        self.velocity = last;
-        if course.speed_bound() < CREEP_MPS {
-            self.slow_s += duration.as_secs();
-        } else if course.swing_bound() <= STRAIGHT {
-            let fast = [first, middle, last].into_iter().find(|velocity| velocity.length() >= CREEP_MPS);
-            self.meet(fast.unwrap_or(middle), 0.0, report);
-        } else {
-            let step_s = duration.as_secs() / f64::from(MOMENTS);
-            for moment in 0..=MOMENTS {
-                let u = f64::from(moment) / f64::from(MOMENTS);
-                let velocity = first.lerp(middle, u).lerp(middle.lerp(last, u), u);
-                self.meet(velocity, if moment == 0 { 0.0 } else { step_s }, report);
-            }
-        }
-    }
-
-    /// A velocity `step_s` after the last one.
-    fn meet(&mut self, velocity: Vec2, step_s: f64, report: &mut dyn FnMut(FaultKind)) {
-        let line = velocity.normalized().filter(|_| velocity.length() >= CREEP_MPS);
-        let Some(line) = line else {
-            self.slow_s += step_s;
-            return;
-        };
-        // While it is fast its turning rate is judged directly; between pieces, and after it was slow, its turn is.
-        let is_turn = step_s <= 0.0 || self.slow_s > 0.0 || self.heading.is_none();
-        if is_turn && self.needed_s(line) > self.slow_s + step_s + GRACE_S {
-            report(FaultKind::Turn);
-        }
-        self.heading = Some(line);
-        self.slow_s = 0.0;
-    }
-
-    /// How long turning towards a line takes, forwards or backwards, whichever is nearer.
-    fn needed_s(&self, towards: Vec2) -> f64 {
-        let angle = match self.heading {
-            Some(heading) => Vec2::new(heading.dot(towards).abs(), heading.cross(towards).abs()).angle(),
-            None => core::f64::consts::FRAC_PI_2,
-        };
-        angle / self.limits.turn_radps.max(1e-3)
     }
 }

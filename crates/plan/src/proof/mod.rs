@@ -2,11 +2,16 @@
 //!
 //! **Invariant:** it shares nothing with the planner but the type of a path. It trusts no assignment, no profile and
 //! no repair: only the pieces count. Distances and speeds are bounded by convex hulls of Bézier control points and
-//! divided until the bound decides; nothing is sampled, except when a curve is too slow for its direction to matter.
+//! divided until the bound decides; nothing is sampled.
 
 mod curve;
 mod drive;
+mod facing;
+#[cfg(test)]
+mod facing_tests;
 mod grid;
+#[cfg(test)]
+mod mutants;
 mod pairs;
 mod surroundings;
 #[cfg(test)]

@@ -2,10 +2,14 @@ use super::*;
 use crate::seeded::Seeded;
 use lightbots_base::Piece;
 
-const LIMITS: Limits = Limits::ELISA_3;
-const REST: Span = Span(350_000);
+pub(super) const LIMITS: Limits = Limits::ELISA_3;
+pub(super) const REST: Span = Span(350_000);
 
-fn input<'a>(paths: &'a [Path], standing: &'a [Vec2], obstacles: &'a [Obstacle]) -> ProofInput<'a> {
+pub(super) fn input<'a>(
+    paths: &'a [Path],
+    standing: &'a [Vec2],
+    obstacles: &'a [Obstacle],
+) -> ProofInput<'a> {
     ProofInput {
         paths,
         standing,
@@ -18,12 +22,12 @@ fn input<'a>(paths: &'a [Path], standing: &'a [Vec2], obstacles: &'a [Obstacle])
 }
 
 /// A rest, then one smooth cubic from rest to rest.
-fn smooth(from: Vec2, to: Vec2, seconds: f64) -> Path {
+pub(super) fn smooth(from: Vec2, to: Vec2, seconds: f64) -> Path {
     let drive = Piece { duration: Span::from_secs(seconds), c1: from, c2: to, end: to };
     Path { start: from, pieces: vec![Piece::rest(from, REST), drive] }
 }
 
-fn kinds(path: Path) -> Vec<FaultKind> {
+pub(super) fn kinds(path: Path) -> Vec<FaultKind> {
     prove(&input(&[path], &[], &[])).faults.iter().map(|fault| fault.kind).collect()
 }
 
