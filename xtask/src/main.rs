@@ -1,4 +1,4 @@
-//! Build, try, test and measure LightBots: `cargo xtask <demo|test|bench|tidy>`.
+//! Build, try, test and measure LightBots: `cargo xtask <demo|test|bench|pairs|tidy>`.
 
 mod bench;
 mod demo;
@@ -16,6 +16,7 @@ cargo xtask <command>
   demo [ARGS]      build everything and start `lightbots run` on an example show; ARGS are passed on
   test [PART…]     run the tests, all of them or some: tidy ui lint rust firmware e2e licences
   bench [PART…]    measure and write docs/benchmarks.md: plan rehearsal round fps
+  pairs [COUNT [FIRST]]   rehearse random pairs of frames, ten thousand unless told otherwise: for the night
   webots [--robots N [--floor METRES]]   write the Webots worlds and put the driver in place
   tidy             only the checks of the source tree itself
 ";
@@ -27,6 +28,7 @@ fn main() -> ExitCode {
         Some("demo") => demo::run(rest),
         Some("test") => test::run(rest),
         Some("bench") => bench::run(rest),
+        Some("pairs") => shell::cargo(&pairs(rest)),
         Some("tidy") => tidy::run(),
         Some("webots") => webots::run(rest),
         Some("help" | "--help" | "-h") => {
@@ -48,4 +50,9 @@ fn main() -> ExitCode {
             ExitCode::FAILURE
         }
     }
+}
+
+fn pairs(rest: &[String]) -> Vec<&str> {
+    let program = ["run", "--quiet", "--release", "--package", "lightbots-sim", "--example", "pairs", "--"];
+    program.into_iter().chain(rest.iter().map(String::as_str)).collect()
 }

@@ -1,6 +1,6 @@
 //! Watching a rehearsal: what happened, when, and how well.
 
-use lightbots_base::{Instant, RobotId, Span};
+use lightbots_base::{Instant, RobotId, Span, Vec2};
 use lightbots_control::{Controller, Event, EventKind, Outcome};
 use lightbots_show::{Issue, Issues, Show};
 
@@ -130,8 +130,7 @@ impl Watch {
                 self.arrivals = None;
             }
             EventKind::FrameReached { frame, .. } => {
-                let name = show.frames.get(*frame).map_or("", |frame| &frame.name);
-                self.frame_stands(*frame, name, event.at, controller, crew, by_id);
+                self.frame_stands(*frame, show, event.at, controller, crew, by_id);
             }
             EventKind::Dropout { .. } => {
                 self.dropouts += 1;
@@ -190,25 +189,33 @@ impl Watch {
     fn frame_stands(
         &mut self,
         frame: usize,
-        name: &str,
+        show: &Show,
         at: Instant,
         controller: &Controller,
         crew: &Crew,
         by_id: &[(RobotId, usize)],
     ) {
+        let places = crew.world.places();
         let mut errors_m = Vec::with_capacity(crew.len());
         for view in
             controller.snapshot(at).robots.iter().filter(|view| view.takes_part && view.pixel.is_some())
         {
             let place = by_id.binary_search_by_key(&view.id, |entry| entry.0);
             if let (Ok(place), Some(goal)) = (place, view.goal) {
-                errors_m.push(crew.world.places()[by_id[place].1].distance(goal));
+                errors_m.push(places[by_id[place].1].distance(goal));
             }
+        }
+        let picture = show.frames.get(frame);
+        // After a last frame without air time nobody takes part any more: lights are looked for at their pixels.
+        if errors_m.is_empty() {
+            let nearest_m = |goal: Vec2| places.iter().map(|at| at.distance(goal)).reduce(f64::min);
+            let pixels = picture.map_or(&[][..], |frame| &frame.pixels);
+            errors_m.extend(pixels.iter().filter_map(|pixel| nearest_m(pixel.at)));
         }
         let (first, last) = self.arrivals.unwrap_or((at, at));
         self.frames.push(FrameRecord {
             frame,
-            name: name.into(),
+            name: picture.map_or(String::new(), |frame| frame.name.clone()),
             at_s: self.since(at),
             drive_s: (at - self.started).as_secs(),
             arrival_spread_s: (last - first).as_secs(),

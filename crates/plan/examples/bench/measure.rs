@@ -13,39 +13,62 @@ const DENSE_MOST: usize = 1_000;
 pub struct Row {
     scene: &'static str,
     robots: usize,
-    /// Median of the whole plan with its proof, milliseconds.
+    /// The whole plan with its proof.
+    ours: Option<Way>,
+    /// What ours took where no plan was found, milliseconds.
     plan_ms: f64,
-    /// `None`: no plan was found.
-    ratio: Option<f64>,
     closest_mm: f64,
-    capt_ms: f64,
-    capt_ratio: f64,
-    capt_conflicts: usize,
-    dense_ms: Option<f64>,
+    /// `None` where everybody is bound to a pixel: there is nothing to assign.
+    capt: Option<Way>,
+    /// `None` also where there are too many robots.
+    dense: Option<Way>,
+}
+
+/// One way of planning.
+#[derive(Clone, Copy)]
+struct Way {
+    /// Median, milliseconds.
+    ms: f64,
+    /// Its duration over T_min.
+    ratio: f64,
+    /// Pairs that come too close.
+    conflicts: usize,
 }
 
 /// Plans a scene several times.
 pub fn measure(scene: &'static str, problem: &TransitionProblem) -> Row {
     let robots = problem.starts.len();
-    let mut plan = None;
-    let plan_ms = median_ms(robots, || plan = transition(problem).ok());
-    let mut capt = None;
-    let capt_ms = median_ms(robots, || capt = Some(squares_alone(problem)));
-    let (longest_m, capt_conflicts) = capt.unwrap_or_default();
     let bottleneck_m = Choice::new(&problem.starts, &problem.goals, &problem.pinned)
         .map_or(0.0, |choice| choice.bottleneck_m());
     let least_s = bottleneck_m / problem.limits.speed_mps + 0.62;
-    Row {
-        scene,
-        robots,
-        plan_ms,
-        ratio: plan.as_ref().map(|plan| plan.duration.as_secs() / least_s),
-        closest_mm: plan.and_then(|plan| plan.closest).map_or(0.0, |closest| closest.distance_m * 1e3),
-        capt_ms,
-        capt_ratio: (longest_m / problem.limits.speed_mps + 0.62) / least_s,
-        capt_conflicts,
-        dense_ms: (robots <= DENSE_MOST).then(|| median_ms(robots, || dense(problem))),
-    }
+    let mut plan = None;
+    let plan_ms = median_ms(robots, || plan = transition(problem).ok());
+    let ours = plan.as_ref().map(|plan| Way {
+        ms: plan_ms,
+        ratio: plan.duration.as_secs() / least_s,
+        conflicts: judged(problem, &plan.paths),
+    });
+    let straight = |ms: f64, start_of: &[usize]| {
+        let (longest_m, paths) = lines(problem, start_of);
+        let ratio = (longest_m / problem.limits.speed_mps + 0.62) / least_s;
+        Way { ms, ratio, conflicts: judged(problem, &paths) }
+    };
+    let is_bound = problem.pinned.iter().any(Option::is_some);
+    let capt = (!is_bound).then(|| {
+        let mut start_of = Vec::new();
+        let ms = median_ms(robots, || {
+            start_of = squares_alone(problem);
+            judged(problem, &lines(problem, &start_of).1);
+        });
+        straight(ms, &start_of)
+    });
+    let dense = (!is_bound && robots <= DENSE_MOST).then(|| {
+        let mut start_of = Vec::new();
+        let ms = median_ms(robots, || start_of = dense(problem));
+        straight(ms, &start_of)
+    });
+    let closest_mm = plan.and_then(|plan| plan.closest).map_or(0.0, |closest| closest.distance_m * 1e3);
+    Row { scene, robots, ours, plan_ms, closest_mm, capt, dense }
 }
 
 fn median_ms(robots: usize, mut work: impl FnMut()) -> f64 {
@@ -70,24 +93,31 @@ fn cpu_ms() -> Option<f64> {
     Some(text.split_whitespace().next()?.parse::<f64>().ok()? / 1e6)
 }
 
-/// Least squares without a bottleneck, straight synchronised lines, judged: its longest way and its conflicts.
-fn squares_alone(problem: &TransitionProblem) -> (f64, usize) {
+/// Least squares without a bottleneck: `start_of[goal]`.
+fn squares_alone(problem: &TransitionProblem) -> Vec<usize> {
     // Far more slack than the floor has room for: any way is within reach.
     let choice = Choice::new(&problem.starts, &problem.goals, &[]);
-    let Some(start_of) = choice.and_then(|choice| choice.least_squares().solve(1e6)) else { return (0.0, 0) };
-    let mut longest = 0.0f64;
+    choice.and_then(|choice| choice.least_squares().solve(1e6)).unwrap_or_default()
+}
+
+/// Straight synchronised lines, and the longest one's length.
+fn lines(problem: &TransitionProblem, start_of: &[usize]) -> (f64, Vec<Path>) {
+    let way = |(goal, &start): (usize, &usize)| problem.starts[start].distance(problem.goals[goal]);
+    let longest_m = start_of.iter().enumerate().map(way).fold(0.0, f64::max);
+    let time = Span::from_secs(longest_m / problem.limits.speed_mps * 2.0 + 2.0);
     let mut paths = vec![Path::default(); problem.starts.len()];
-    for (goal, &start) in start_of.iter().enumerate() {
-        longest = longest.max(problem.starts[start].distance(problem.goals[goal]));
-    }
-    let time = Span::from_secs(longest / problem.limits.speed_mps * 2.0 + 2.0);
     for (goal, &start) in start_of.iter().enumerate() {
         let (from, to) = (problem.starts[start], problem.goals[goal]);
         let drive = Piece { duration: time, c1: from, c2: to, end: to };
         paths[start] = Path { start: from, pieces: vec![Piece::rest(from, Span::from_millis(350)), drive] };
     }
+    (longest_m, paths)
+}
+
+/// How many pairs come too close.
+fn judged(problem: &TransitionProblem, paths: &[Path]) -> usize {
     let proof = prove(&ProofInput {
-        paths: &paths,
+        paths,
         standing: &[],
         obstacles: &[],
         half_floor: problem.half_floor + Vec2::new(1.0, 1.0),
@@ -95,51 +125,58 @@ fn squares_alone(problem: &TransitionProblem) -> (f64, usize) {
         gap_m: problem.limits.contact_m() + 0.003,
         obstacle_gap_m: 0.003,
     });
-    (longest, proof.conflicts.len())
+    proof.conflicts.len()
 }
 
-fn dense(problem: &TransitionProblem) {
+/// Least squares by a dense solver: `start_of[goal]`.
+fn dense(problem: &TransitionProblem) -> Vec<usize> {
     let costs: Vec<f64> = problem
         .goals
         .iter()
         .flat_map(|goal| problem.starts.iter().map(|start| (*goal - *start).length_squared()))
         .collect();
-    let _ = lsap::solve(problem.goals.len(), problem.starts.len(), &costs, false);
+    lsap::solve(problem.goals.len(), problem.starts.len(), &costs, false)
+        .map_or(Vec::new(), |(_, start_of)| start_of)
 }
 
 impl Row {
-    pub const HEADINGS: &'static str =
-        "scene              robots   plan ms  /T_min  closest mm |  CAPT ms  /T_min  conflicts | dense ms";
+    pub const HEADINGS: &'static str = "scene              robots |   plan ms  /T_min  conflicts  closest mm |  CAPT ms  /T_min  conflicts | dense ms  /T_min  conflicts";
 
     pub fn text(&self) -> String {
-        let optional = |value: Option<f64>| value.map_or("-".into(), |value| format!("{value:.2}"));
+        let way = |way: Option<Way>| match way {
+            Some(Way { ms, ratio, conflicts }) => format!("{ms:>9.2} {ratio:>7.3} {conflicts:>10}"),
+            None => format!("{:>9} {:>7} {:>10}", "-", "-", "-"),
+        };
+        let ours =
+            self.ours.map_or(format!("{:>9.2}    none          -", self.plan_ms), |ours| way(Some(ours)));
         format!(
-            "{:<18} {:>6} {:>9.2} {:>7} {:>11.1} | {:>8.2} {:>7.2} {:>10} | {:>8}",
+            "{:<18} {:>6} | {ours} {:>11.1} | {} | {}",
             self.scene,
             self.robots,
-            self.plan_ms,
-            self.ratio.map_or("none".into(), |ratio| format!("{ratio:.3}")),
             self.closest_mm,
-            self.capt_ms,
-            self.capt_ratio,
-            self.capt_conflicts,
-            optional(self.dense_ms)
+            way(self.capt),
+            way(self.dense)
         )
     }
 
     pub fn json(&self) -> String {
-        let optional = |value: Option<f64>| value.map_or("null".into(), |value| format!("{value:.4}"));
+        let way = |name: &str, way: Option<Way>| match way {
+            Some(Way { ms, ratio, conflicts }) => {
+                format!("\"{name}_ms\":{ms:.3},\"{name}_ratio\":{ratio:.4},\"{name}_conflicts\":{conflicts}")
+            }
+            None => format!("\"{name}_ms\":null,\"{name}_ratio\":null,\"{name}_conflicts\":null"),
+        };
+        let ours = match self.ours {
+            None => format!("\"plan_ms\":{:.3},\"plan_ratio\":null,\"plan_conflicts\":null", self.plan_ms),
+            found => way("plan", found),
+        };
         format!(
-            "{{\"scene\":\"{}\",\"robots\":{},\"plan_ms\":{:.3},\"ratio\":{},\"closest_m\":{:.5},\"capt_ms\":{:.3},\"capt_ratio\":{:.4},\"capt_conflicts\":{},\"dense_ms\":{}}}",
+            "{{\"scene\":\"{}\",\"robots\":{},{ours},\"closest_m\":{:.5},{},{}}}",
             self.scene,
             self.robots,
-            self.plan_ms,
-            optional(self.ratio),
             self.closest_mm / 1e3,
-            self.capt_ms,
-            self.capt_ratio,
-            self.capt_conflicts,
-            optional(self.dense_ms)
+            way("capt", self.capt),
+            way("dense", self.dense)
         )
     }
 }

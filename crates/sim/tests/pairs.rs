@@ -1,0 +1,23 @@
+//! A few of the random pairs of frames that `cargo xtask pairs` rehearses by the thousand.
+
+#[path = "../examples/pairs/scene.rs"]
+mod scene;
+
+use lightbots_show::Identity;
+use lightbots_sim::{Conditions, RehearsalOptions, rehearse};
+
+#[test]
+fn random_pairs_of_frames_are_solved_proven_and_driven_without_contact() {
+    let mut fixed = 0;
+    for number in 0..60 {
+        let show = scene::pair(number, 40);
+        fixed += usize::from(show.identity == Identity::Fixed);
+        let options = RehearsalOptions { seed: number, conditions: Conditions::default(), robots: None };
+        let report = rehearse(&show, &options, &mut |_| {});
+        assert!(report.ok, "pair {number}: {:?}", report.issues);
+        assert_eq!((report.contacts, report.frames_played), (0, report.frames), "pair {number}");
+        // Noise and slip are on: nobody is exactly where it should be.
+        assert!(report.position_error_m.max > 1e-4, "pair {number}: {report:?}");
+    }
+    assert_eq!(fixed, 30);
+}
