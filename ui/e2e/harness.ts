@@ -123,7 +123,11 @@ export async function openPage(
   const page = await browser.newPage({ viewport: { width: 1440, height: 900 }, ...context });
   page.setDefaultTimeout(PATIENCE_MS);
   page.on('pageerror', (error) => mistakes.push(String(error)));
-  if (!tour) await page.addInitScript(() => localStorage.setItem('lightbots-tour', 'done'));
+  if (!tour)
+    await page.addInitScript(() => {
+      // A page that could not be loaded has no storage.
+      if (location.protocol === 'http:') localStorage.setItem('lightbots-tour', 'done');
+    });
   if (before) await page.addInitScript(before);
   await serveScreen(page, server);
   await page.goto(`${server.url}/#/${view}`);

@@ -4,6 +4,7 @@ import '@mantine/notifications/styles.css';
 import { useState } from 'react';
 import { EditPage } from './edit/EditPage';
 import { LivePage } from './live/LivePage';
+import { DraftBanner } from './shell/DraftBanner';
 import { DropFile } from './shell/DropFile';
 import { Header } from './shell/Header';
 import { LinkBanner } from './shell/LinkBanner';
@@ -23,6 +24,7 @@ export function App() {
           <div>
             <Header view={view} />
             <LinkBanner />
+            <DraftBanner />
           </div>
           {view === 'edit' ? <EditPage /> : <LivePage />}
         </div>

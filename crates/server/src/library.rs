@@ -12,6 +12,8 @@ use lightbots_show::{Format, Show, read, write};
 use crate::examples;
 use crate::show_file::pixels;
 
+/// The file that names the show that was open last.
+const OPEN: &str = ".open";
 const ENDING: &str = ".lightbots.json";
 /// The longest name, in characters.
 const NAME_MAX: usize = 80;
@@ -118,6 +120,21 @@ impl Library {
     /// Adds a show that is in no folder, under a name as close to `name` as it may be. It hides one of the same name.
     pub fn give(&self, name: &str, show: &Show) {
         lock(&self.given).insert(tidy_name(name), write(show, Format::LightBots));
+    }
+
+    /// Remembers which show is open, for the next start. A disk that does not want to is no reason to fail.
+    pub fn remember(&self, name: &str) {
+        let kept = std::fs::create_dir_all(&self.folder)
+            .and_then(|()| std::fs::write(self.folder.join(OPEN), name.as_bytes()));
+        if let Err(error) = kept {
+            tracing::debug!("the open show is not remembered: {error}");
+        }
+    }
+
+    /// The show that was open last, if it is still there.
+    pub fn remembered(&self) -> Option<String> {
+        let name = std::fs::read_to_string(self.folder.join(OPEN)).ok()?;
+        self.get(&name).is_ok().then_some(name)
     }
 
     /// Every show, by name.

@@ -96,3 +96,18 @@ fn every_example_is_a_show() {
     let library = Library::new(PathBuf::from("nowhere"));
     assert_eq!(library.list().len(), examples::all().len());
 }
+
+#[test]
+fn the_show_that_was_open_is_remembered_while_it_is_there() {
+    let temporary = Temporary::new("remembered");
+    let library = &temporary.library;
+    assert_eq!(library.remembered(), None);
+    library.put("Mine", DOT, &Condition::Any).unwrap();
+    library.remember("Mine");
+    assert_eq!(library.remembered().as_deref(), Some("Mine"));
+    assert_eq!(library.list().len(), 1);
+    library.delete("Mine", &Condition::Any).unwrap();
+    assert_eq!(library.remembered(), None);
+    library.remember("../../etc/passwd");
+    assert_eq!(library.remembered(), None);
+}

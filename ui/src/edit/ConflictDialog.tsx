@@ -1,5 +1,5 @@
 import { Button, Modal, Stack, Text } from '@mantine/core';
-import { getShow, listShows, putShow } from '../api/http';
+import { getShow, listShows, putShow, Refused } from '../api/http';
 import { useStore } from '../base/store';
 import { readShow, writeShow } from '../model/json';
 import { tell } from '../shell/notices';
@@ -19,14 +19,22 @@ export function ConflictDialog() {
     editor.adopt(readShow(document));
     saver.settle(etag);
   };
-  const keepMine = async () => saver.rebase((await getShow(name)).etag);
+  const keepMine = async () => {
+    try {
+      saver.rebase((await getShow(name)).etag);
+    } catch (error) {
+      if (!(error instanceof Refused) || error.status !== 404) throw error;
+      // They deleted it: mine is a new one of that name.
+      saver.rebase(null);
+    }
+  };
   const keepBoth = async () => {
     const copy = freeName(
       `${name} mine`,
       (await listShows()).map((entry) => entry.name),
     );
     await putShow(copy, JSON.stringify(writeShow(editor.state.get().show)), 'new');
-    await takeTheirs();
+    saver.settle(saver.etag());
     await session.ask({ do: 'open', name: copy });
   };
   return (

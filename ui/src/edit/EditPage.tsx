@@ -12,6 +12,7 @@ import { EditStage } from './EditStage';
 import { EditStrip } from './EditStrip';
 import { Inspector } from './Inspector';
 import { Tour } from './Tour';
+import { useSafeLeaving } from './useSafeLeaving';
 
 /** What this page edits; kept while the page lives, so that undo survives a look at the live view. */
 let kept: Editing | null = null;
@@ -24,11 +25,11 @@ export function EditPage() {
   const last = useRef(kept);
   useEffect(() => {
     if (!opened.show || opened.name === null || last.current?.name === opened.name) return;
-    last.current?.saver.flush();
+    last.current?.retire();
     kept = last.current = createEditing(session, opened.name, opened.show, opened.etag);
     setEditing(kept);
   }, [session, opened]);
-  useEffect(() => () => kept?.saver.flush(), []);
+  useSafeLeaving(editing);
   if (!editing)
     return (
       <main className="empty">

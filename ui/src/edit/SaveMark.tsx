@@ -12,7 +12,8 @@ const WORDS = {
 
 /** Whether what is on screen is safe in the library. */
 export function SaveMark() {
-  const state = useStore(useEditing().saver.state);
+  const { saver, keeper } = useEditing();
+  const state = useStore(saver.state);
   const tone =
     state.name === 'saved'
       ? 'good'
@@ -21,7 +22,11 @@ export function SaveMark() {
         : 'quiet';
   const hint =
     state.name === 'failed'
-      ? `${state.reason} Trying again by itself.`
+      ? `${state.reason} Trying again by itself; ${
+          keeper.isEndangered()
+            ? 'leave this page open, the show is too large to be kept in the browser.'
+            : 'until then this browser keeps it.'
+        }`
       : 'Every change is saved by itself.';
   return (
     <Tooltip label={hint} multiline maw={300}>

@@ -1,13 +1,13 @@
-import { putShow, Refused } from '../api/http';
 import type { Rgb } from '../base/colour';
 import { createStore, type Store } from '../base/store';
 import { createFullPlan, type FullPlan } from '../live/paths';
 import { createEditor, type Editor } from '../model/editor';
-import { writeShow } from '../model/json';
-import { createSaver, type Saved, type Saver } from '../model/saver';
+import type { Keeper } from '../model/drafts';
+import type { Saver } from '../model/saver';
 import type { Show } from '../model/show';
 import type { Session } from '../shell/session';
 import { createView, type View } from '../stage/view';
+import { createSaving, draftOf, restoreDraft } from './saving';
 
 export type ToolName = 'arrow' | 'lasso' | 'eyedropper';
 
@@ -24,6 +24,7 @@ export interface Editing {
   name: string;
   editor: Editor;
   saver: Saver;
+  keeper: Keeper;
   full: FullPlan;
   view: Store<View>;
   tool: Store<ToolName>;
@@ -35,6 +36,8 @@ export interface Editing {
   /** The moment that is looked at, seconds from the start; null: the frame itself. */
   moment: Store<number | null>;
   running: Store<boolean>;
+  /** Another show takes its place: it still saves what is unsaved, and follows nobody. */
+  retire(): void;
 }
 
 const RECENT_MAX = 10;
@@ -46,28 +49,15 @@ export function createEditing(
   etag: string | null,
 ): Editing {
   const editor = createEditor(show, session.frame.get());
-  const put = async (base: string | null): Promise<Saved> => {
-    try {
-      const body = JSON.stringify(writeShow(editor.state.get().show));
-      return { ok: true, etag: (await putShow(name, body, base)).etag };
-    } catch (error) {
-      const reason = error instanceof Error ? error.message : String(error);
-      return { ok: false, conflict: error instanceof Refused && error.status === 412, reason };
-    }
-  };
-  const saver = createSaver(etag, put);
-  let changes = 0;
-  editor.state.subscribe(() => {
-    const now = editor.state.get();
-    session.frame.set(now.frame);
-    if (now.changes === changes) return;
-    changes = now.changes;
-    saver.touch();
-  });
+  const draft = draftOf(session, name, show);
+  const { saver, keeper } = createSaving(session.drafts, name, draft ? draft.etag : etag, editor);
+  const unfollow = editor.state.subscribe(() => session.frame.set(editor.state.get().frame));
+  let stop = () => {};
   const editing: Editing = {
     name,
     editor,
     saver,
+    keeper,
     full: createFullPlan(session.live),
     view: createView(),
     tool: createStore<ToolName>('arrow'),
@@ -76,14 +66,20 @@ export function createEditing(
     color: createStore<Rgb>(0xffc878),
     moment: createStore<number | null>(null),
     running: createStore(false),
+    retire() {
+      saver.flush();
+      unfollow();
+      stop();
+    },
   };
-  followServer(session, editing);
+  if (draft) restoreDraft(name, editor, draft);
+  stop = followServer(session, editing);
   return editing;
 }
 
 /** Takes in what other screens save, unless this one has something unsaved: then saving finds the conflict. */
-function followServer(session: Session, { name, editor, saver }: Editing) {
-  const known = new Set([saver.etag()]);
+function followServer(session: Session, { name, editor, saver }: Editing): () => void {
+  const known = new Set([saver.etag(), session.live.opened.get().etag]);
   const look = () => {
     const opened = session.live.opened.get();
     if (opened.name !== name || !opened.show || known.has(opened.etag)) return;
@@ -92,11 +88,14 @@ function followServer(session: Session, { name, editor, saver }: Editing) {
     editor.adopt(opened.show);
     saver.settle(opened.etag);
   };
-  saver.state.subscribe(() => {
-    known.add(saver.etag());
-    look();
-  });
-  session.live.opened.subscribe(look);
+  const stops = [
+    saver.state.subscribe(() => {
+      known.add(saver.etag());
+      look();
+    }),
+    session.live.opened.subscribe(look),
+  ];
+  return () => stops.forEach((stop) => stop());
 }
 
 /** Remembers a colour that was given. */

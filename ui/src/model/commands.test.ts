@@ -64,3 +64,12 @@ test('snapping: neighbours before the grid, each axis on its own', () => {
   expect(snapped.guides).toEqual([{ axis: 'x', at: 0.51 }]);
   expect(snap({ x: 0, y: 0 }, 0.275, 0, { ...options, neighbours: [] }).dx).toBe(0.275);
 });
+
+test('a pin holds in every frame, a robot has one pixel, and freeing undoes it', () => {
+  const show = three();
+  const pinned = c.pinPixel(show, 1, 'r');
+  expect(pinned.frames.map((f) => f.pixels[1]?.robot)).toEqual(['r', 'r', 'r']);
+  expect([...c.pinsOf(c.pinPixel(pinned, 2, 'r'))]).toEqual([[2, 'r']]);
+  expect(c.pinsOf(c.pinPixel(pinned, 1, null)).size).toBe(0);
+  expect(c.pinPixel(pinned, 1, 'r')).toBe(pinned);
+});

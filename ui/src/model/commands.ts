@@ -40,13 +40,22 @@ export function gradient(pixels: readonly Pixel[], from: Rgb, to: Rgb): Map<numb
   return new Map(pixels.map((p) => [p.id, mix(from, to, share(p))]));
 }
 
-export const pinPixel = (show: Show, id: number, robot: string | null): Show => ({
-  ...show,
-  frames: show.frames.map((f) => ({
-    ...f,
-    pixels: f.pixels.map((p) => (p.id === id ? { ...p, robot } : p)),
-  })),
-});
+/** Binds a pixel to a robot in every frame, or frees it (`null`). A robot shows one pixel: its other ones are freed. */
+export function pinPixel(show: Show, id: number, robot: string | null): Show {
+  const pinned = (p: Pixel): Pixel => {
+    const wanted = p.id === id ? robot : p.robot === robot ? null : p.robot;
+    return wanted === p.robot ? p : { ...p, robot: wanted };
+  };
+  return show.frames.reduce((now, _, i) => mapPixels(now, i, pinned), show);
+}
+
+/** Which robot each pinned pixel is bound to: of several that frames name, the first. */
+export function pinsOf(show: Show): Map<number, string> {
+  const pins = new Map<number, string>();
+  for (const frame of show.frames)
+    for (const p of frame.pixels) if (p.robot !== null && !pins.has(p.id)) pins.set(p.id, p.robot);
+  return pins;
+}
 
 /** Puts frames in after `index`. */
 export const insertFrames = (show: Show, index: number, frames: readonly Frame[]): Show => ({

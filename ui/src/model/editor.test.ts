@@ -164,3 +164,14 @@ test('several frames are chosen at once', () => {
   editor.goToFrame(0, 'add');
   expect(editor.state.get().frames.size).toBe(4);
 });
+
+test('what another screen saved is one mark that can be undone, and is not saved again', () => {
+  const { editor } = hand();
+  editor.change('Colour', (show) => recolour(show, 0, new Map([[1, 0x0000ff]])));
+  const { changes, show: mine } = editor.state.get();
+  editor.adopt(recolour(mine, 0, new Map([[2, 0xff0000]])));
+  expect(editor.state.get().changes).toBe(changes);
+  expect(editor.undo()).toBe('Changes of another screen');
+  expect(editor.state.get().show).toBe(mine);
+  expect(editor.undo()).toBe('Colour');
+});

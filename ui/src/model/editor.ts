@@ -50,7 +50,7 @@ export interface Editor {
   /** Copies chosen pixels; answers how many. */
   copy(): number;
   paste(): number;
-  /** Takes in another state of the same show, as another screen saved it. History goes. */
+  /** Takes in another state of the same show, as another screen saved it: one mark, and nothing to save. */
   adopt(show: Show): void;
 }
 
@@ -73,13 +73,13 @@ export function createEditor(show: Show, frame = 0): Editor {
     const frames = new Set([...next.frames].filter((i) => i <= last).concat(at));
     return { ...next, frame: at, frames };
   };
-  const mark = (before: Show, after: Show, label: string, at: number) =>
+  const mark = (before: Show, after: Show, label: string, at: number, toSave = 1) =>
     state.update((s) =>
       settle({
         ...s,
         show: after,
         history: remember(s.history, { before, after, label, frame: at }),
-        changes: s.changes + 1,
+        changes: s.changes + toSave,
       }),
     );
   const travel = (
@@ -156,8 +156,9 @@ export function createEditor(show: Show, frame = 0): Editor {
     },
     adopt(next) {
       gesture = null;
-      const keyed = keepKeys(state.get().show, next);
-      state.update((s) => settle({ ...s, show: keyed, history: noHistory(), overlay: NO_OVERLAY }));
+      const { show: before, frame: at } = state.get();
+      editor.overlay(NO_OVERLAY);
+      mark(before, keepKeys(before, next), 'Changes of another screen', at, 0);
     },
   };
   return editor;

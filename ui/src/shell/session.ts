@@ -2,6 +2,7 @@ import { createContext, useContext } from 'react';
 import type { Link } from '../api/socket';
 import type { Answer, Choice, Operation } from '../api/types.gen';
 import { createStore, type Store } from '../base/store';
+import { createDrafts, type Drafts } from '../model/drafts';
 import { connect, createLive, type Live } from '../live/store';
 import { tell } from './notices';
 
@@ -15,13 +16,28 @@ export interface Session {
   offer: Store<{ reason: string; choice: Choice } | null>;
   /** The frame chosen in the strip: where Play starts, what Preview shows. */
   frame: Store<number>;
+  /** What is not on the server yet. */
+  drafts: Drafts;
+  /** Shows of which an earlier page left a draft that has not been put back. */
+  orphans: Store<readonly string[]>;
+}
+
+function shelf(): Storage | null {
+  try {
+    return window.localStorage;
+  } catch {
+    return null;
+  }
 }
 
 export function createSession(): Session {
   const live = createLive();
   const link = connect(live);
   const offer = createStore<{ reason: string; choice: Choice } | null>(null);
+  const drafts = createDrafts(shelf());
   return {
+    drafts,
+    orphans: createStore<readonly string[]>(drafts.names()),
     live,
     link,
     offer,

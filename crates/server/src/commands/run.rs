@@ -133,14 +133,18 @@ fn first_show(arguments: &RunArguments, library: &Library) -> Result<(Option<Str
         library.give(&name, &opened.show);
         return Ok((Some(name), opened.show));
     }
-    let example = library.get(FIRST).ok().map(|kept| (FIRST.to_owned(), kept));
+    let named = |name: String| library.get(&name).ok().map(|kept| (name, kept));
+    let before = library.remembered().and_then(named);
     let other = || {
         library
             .list()
             .into_iter()
             .find_map(|entry| Some((entry.name.clone(), library.get(&entry.name).ok()?)))
     };
-    Ok(example.or_else(other).map_or((None, Show::default()), |(name, kept)| (Some(name), kept.show)))
+    Ok(before
+        .or_else(|| named(FIRST.to_owned()))
+        .or_else(other)
+        .map_or((None, Show::default()), |(name, kept)| (Some(name), kept.show)))
 }
 
 async fn open(shared: &Arc<Shared>, name: Option<String>) {

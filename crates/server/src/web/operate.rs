@@ -102,7 +102,14 @@ fn choice(refusal: &Refusal, operation: api::Operation) -> Option<api::Choice> {
 async fn open(shared: &Shared, name: String) -> Result<(), String> {
     let library = shared.library.clone();
     let wanted = name.clone();
-    let kept = tokio::task::spawn_blocking(move || library.get(&wanted)).await;
+    let kept = tokio::task::spawn_blocking(move || {
+        let kept = library.get(&wanted);
+        if kept.is_ok() {
+            library.remember(&wanted);
+        }
+        kept
+    })
+    .await;
     let kept = kept.map_err(|error| error.to_string())?.map_err(|error| capitalised(error.line()))?;
     shared.desk.open(name, kept).await;
     Ok(())

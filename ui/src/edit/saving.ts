@@ -1,0 +1,91 @@
+import { getShow, putShow, Refused } from '../api/http';
+import { createKeeper, type Draft, type Drafts, type Keeper } from '../model/drafts';
+import type { Editor } from '../model/editor';
+import { readShow, writeShow } from '../model/json';
+import { createSaver, type Saved, type Saver } from '../model/saver';
+import type { Show } from '../model/show';
+import { tell } from '../shell/notices';
+import type { Session } from '../shell/session';
+
+/** Where the changes of a show go: soon to this browser's storage, and to the server. */
+export interface Saving {
+  saver: Saver;
+  keeper: Keeper;
+}
+
+const textOf = (show: Show) => JSON.stringify(writeShow(show));
+/** The same text for the same show, whoever wrote the document. */
+const normal = (document: unknown) => textOf(readShow(document));
+
+export function createSaving(
+  drafts: Drafts,
+  name: string,
+  etag: string | null,
+  editor: Editor,
+): Saving {
+  const saver = createSaver(etag, createPut(name, editor));
+  const draft = (): Draft => ({
+    etag: saver.etag(),
+    document: writeShow(editor.state.get().show),
+  });
+  const keeper = createKeeper(drafts, name, draft);
+  let { changes } = editor.state.get();
+  editor.state.subscribe(() => {
+    const now = editor.state.get().changes;
+    if (now === changes) return;
+    changes = now;
+    saver.touch();
+    keeper.touch();
+  });
+  saver.state.subscribe(() => {
+    if (saver.state.get().name === 'saved') keeper.saved();
+  });
+  return { saver, keeper };
+}
+
+function createPut(name: string, editor: Editor) {
+  /** What was sent and not answered: the server may have it all the same. */
+  let sent: string | null = null;
+  const mine = async () => {
+    const theirs = await getShow(name);
+    return sent !== null && normal(theirs.document) === sent ? theirs.etag : null;
+  };
+  return async (base: string | null): Promise<Saved> => {
+    const body = textOf(editor.state.get().show);
+    try {
+      const { etag } = await putShow(name, body, base);
+      sent = null;
+      return { ok: true, etag };
+    } catch (error) {
+      const reason = error instanceof Error ? error.message : String(error);
+      const conflict = error instanceof Refused && error.status === 412;
+      if (!conflict) sent = normal(writeShow(editor.state.get().show));
+      const etag = conflict ? await mine().catch(() => null) : null;
+      if (etag === null) return { ok: false, conflict, reason };
+      // The lost answer was a yes: what came since then follows.
+      return putShow(name, body, etag).then(
+        (entry) => ({ ok: true, etag: entry.etag }),
+        (again: unknown) => ({
+          ok: false,
+          conflict: again instanceof Refused && again.status === 412,
+          reason,
+        }),
+      );
+    }
+  };
+}
+
+/** What an earlier page could not save; `null` if the server has it after all. */
+export function draftOf(session: Session, name: string, show: Show): Draft | null {
+  session.orphans.update((names) => names.filter((n) => n !== name));
+  const draft = session.drafts.read(name);
+  if (!draft || normal(draft.document) !== textOf(show)) return draft;
+  session.drafts.drop(name);
+  return null;
+}
+
+/** Puts a draft back as a change. If somebody saved since it was made, saving finds the conflict. */
+export function restoreDraft(name: string, editor: Editor, draft: Draft) {
+  editor.change('Restored changes', () => readShow(draft.document));
+  tell('good', `Your last changes of ${name} were kept in this browser and are back.`);
+}

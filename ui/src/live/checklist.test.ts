@@ -1,0 +1,68 @@
+import { expect, test } from 'vitest';
+import type { FleetRow, Plan } from '../api/types.gen';
+import { pinPixel } from '../model/commands';
+import { newShow } from '../model/show';
+import { canGoOn, checklistOf, isReady, type Check, type Situation } from './checklist';
+
+const row = (id: string, over: Partial<FleetRow> = {}): FleetRow => ({
+  id,
+  status: 'idle',
+  presence: 'active',
+  age_s: 0,
+  battery: 80,
+  pixel: null,
+  firmware: null,
+  abilities: { route: true, fade: true, blink: true },
+  clock_us: 5,
+  ...over,
+});
+const plan: Plan = {
+  revision: 1,
+  planning: false,
+  ok: true,
+  duration_s: 9,
+  lower_bound_s: 8,
+  closest_m: 0.08,
+  plan_ms: 1,
+  issues: [],
+  transitions: [],
+};
+const all = (over: Partial<Situation> = {}): Situation => ({
+  broker: { address: 'mqtt://here', connected: true, reason: null },
+  show: newShow('x', 2),
+  plan,
+  rows: [row('a'), row('b')],
+  robots: { x: [0, 1] },
+  ...over,
+});
+const of = (checks: Check[], name: Check['name']) => checks.find((c) => c.name === name);
+
+test('all is well', () => {
+  const checks = checklistOf(all());
+  expect(isReady(checks)).toBe(true);
+  expect(checks.map((c) => c.name)).toEqual(['broker', 'plan', 'robots', 'places', 'batteries']);
+});
+
+test('what is missing is said, and whether one can go on without', () => {
+  const silent = checklistOf(all({ rows: [row('a'), row('b', { presence: 'gone' })] }));
+  expect(of(silent, 'robots')?.detail).toMatch(/1 of 2 ready; 1 silent/);
+  expect([isReady(silent), canGoOn(silent)]).toEqual([false, true]);
+  const lost = checklistOf(all({ robots: { x: [0, null] } }));
+  expect(of(lost, 'places')?.detail).toMatch(/Unknown for b/);
+  const low = checklistOf(all({ rows: [row('a'), row('b', { battery: 7 })] }));
+  expect(of(low, 'batteries')).toMatchObject({ verdict: 'warn' });
+  const red = checklistOf(all({ plan: { ...plan, ok: false } }));
+  expect([of(red, 'plan')?.verdict, canGoOn(red)]).toEqual(['bad', false]);
+  expect(of(checklistOf(all({ plan: { ...plan, planning: true } })), 'plan')?.verdict).toBe('wait');
+  const away = { address: '', connected: false, reason: 'no route' };
+  expect(canGoOn(checklistOf(all({ broker: away })))).toBe(false);
+  expect(canGoOn(checklistOf(all({ show: null })))).toBe(false);
+});
+
+test('a pinned robot that is away is named', () => {
+  const show = pinPixel(newShow('x', 2), 1, 'robot-that-left');
+  const pins = of(checklistOf(all({ show })), 'pins');
+  expect(pins?.detail).toMatch(/Pixel 1 is pinned to robot-th/);
+  const here = pinPixel(newShow('x', 2), 1, 'b');
+  expect(of(checklistOf(all({ show: here })), 'pins')?.verdict).toBe('good');
+});

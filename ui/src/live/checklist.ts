@@ -1,0 +1,141 @@
+import type { Broker, FleetRow, Plan, Robots } from '../api/types.gen';
+import { fleetSize, pinsOf } from '../model/commands';
+import type { Show } from '../model/show';
+
+/** `good`: fine; `wait`: not known yet; `warn`: it plays, but look; `bad`: the show or part of it cannot be played. */
+export type Verdict = 'good' | 'wait' | 'warn' | 'bad';
+
+/** One thing to be sure of before robots move. */
+export interface Check {
+  name: 'broker' | 'plan' | 'robots' | 'places' | 'pins' | 'batteries';
+  title: string;
+  verdict: Verdict;
+  /** How it is, and where it is not good, what to do. */
+  detail: string;
+}
+
+export interface Situation {
+  broker: Broker;
+  show: Show | null;
+  plan: Plan | null;
+  rows: readonly FleetRow[];
+  /** Places in the order of `rows`. */
+  robots: Pick<Robots, 'x'> | null;
+}
+
+/** Less charge than this may not last for a show, percent. */
+export const CHARGE_LOW = 20;
+
+/** Robots in these states do not drive. */
+const UNFIT = ['cut', 'faulty'];
+
+export const canDrive = (row: FleetRow) => row.presence === 'active' && !UNFIT.includes(row.status);
+
+/** Everything to be sure of before a start, in the order in which it is mended. */
+export function checklistOf(s: Situation): Check[] {
+  if (!s.show) return [check('plan', 'Show', 'bad', 'No show is open: open one first.')];
+  return [
+    brokerCheck(s.broker),
+    planCheck(s.plan),
+    robotsCheck(s.show, s.rows),
+    placesCheck(s),
+    ...pinsCheck(s.show, s.rows),
+    batteryCheck(s.rows),
+  ];
+}
+
+/** Whether nobody need be asked. */
+export const isReady = (checks: readonly Check[]) =>
+  checks.every(({ verdict }) => verdict === 'good');
+
+/** Whether the show can be played as far as it goes: only its plan and the broker can forbid that. */
+export const canGoOn = (checks: readonly Check[]) =>
+  checks.every(
+    (c) => c.verdict !== 'bad' || c.name === 'robots' || c.name === 'places' || c.name === 'pins',
+  );
+
+const check = (name: Check['name'], title: string, verdict: Verdict, detail: string): Check => ({
+  name,
+  title,
+  verdict,
+  detail,
+});
+
+function brokerCheck(broker: Broker): Check {
+  const lost = broker.reason ?? 'It is not connected: see Settings.';
+  return broker.connected
+    ? check('broker', 'Broker connected', 'good', broker.address)
+    : check('broker', 'Broker', 'bad', lost);
+}
+
+function planCheck(plan: Plan | null): Check {
+  if (!plan || plan.planning) return check('plan', 'Plan', 'wait', 'It is being made and proven…');
+  const wrong = plan.issues.filter((i) => i.severity === 'error');
+  const first = wrong[0]?.message ?? 'See the issues in the tab Show.';
+  const more = wrong.length > 1 ? ` And ${wrong.length - 1} more, in the tab Show.` : '';
+  if (!plan.ok || wrong.length > 0)
+    return check('plan', 'Plan', 'bad', `It cannot be played as it is: ${first}${more}`);
+  const closest =
+    plan.closest_m === null ? '' : `, closest ${(plan.closest_m * 1000).toFixed(0)} mm`;
+  return check('plan', 'Plan proven', 'good', `Nobody touches${closest}.`);
+}
+
+function robotsCheck(show: Show, rows: readonly FleetRow[]): Check {
+  const needed = fleetSize(show);
+  const ready = rows.filter(canDrive).length;
+  const count = `${ready} of ${needed}`;
+  if (ready >= needed) return check('robots', 'Robots ready', 'good', count);
+  const silent = rows.filter((row) => row.presence !== 'active').length;
+  const unfit = rows.length - ready - silent;
+  const why = [
+    silent > 0 ? `${silent} silent` : '',
+    unfit > 0 ? `${unfit} in trouble` : '',
+    needed > rows.length ? `${needed - rows.length} never seen` : '',
+  ].filter(Boolean);
+  const advice = 'Switch more on and press Refresh, or play without their pixels.';
+  return check('robots', 'Robots', 'bad', `${count} ready; ${why.join(', ')}. ${advice}`);
+}
+
+function placesCheck({ rows, robots }: Situation): Check {
+  const lost = rows.filter(
+    (row, i) =>
+      canDrive(row) && (row.status === 'lost' || typeof (robots?.x[i] ?? null) !== 'number'),
+  );
+  if (lost.length === 0)
+    return check('places', 'Positions known', 'good', 'Everyone knows its place.');
+  const names = lost.slice(0, 3).map((row) => row.id.slice(0, 8));
+  const more = lost.length > 3 ? ` and ${lost.length - 3} more` : '';
+  const advice = 'Put it where it is seen, or play without it.';
+  return check('places', 'Positions', 'bad', `Unknown for ${names.join(', ')}${more}. ${advice}`);
+}
+
+/** Only where the show pins pixels. */
+function pinsCheck(show: Show, rows: readonly FleetRow[]): Check[] {
+  const pins = [...pinsOf(show)];
+  if (pins.length === 0) return [];
+  const here = new Set(rows.filter(canDrive).map((row) => row.id));
+  const missing = pins.filter(([, robot]) => !here.has(robot));
+  if (missing.length === 0)
+    return [check('pins', 'Pinned robots here', 'good', `All ${pins.length}.`)];
+  const [pixel, robot] = missing[0] ?? [0, ''];
+  const more = missing.length > 1 ? ` and ${missing.length - 1} more` : '';
+  const detail = `Pixel ${pixel} is pinned to ${robot.slice(0, 8)}${more}, which is not here. Free it, or play without it.`;
+  return [check('pins', 'Pinned robots', 'bad', detail)];
+}
+
+function batteryCheck(rows: readonly FleetRow[]): Check {
+  const known = rows.filter((row) => canDrive(row) && row.battery !== null);
+  const low = known.filter((row) => (row.battery ?? 100) < CHARGE_LOW);
+  if (known.length === 0)
+    return check('batteries', 'Batteries', 'good', 'These robots do not say; look at them.');
+  const least = Math.min(...known.map((row) => row.battery ?? 100));
+  if (low.length === 0) return check('batteries', 'Batteries', 'good', `At least ${least} %.`);
+  const names = low.slice(0, 3).map((row) => `${row.id.slice(0, 8)} has ${row.battery} %`);
+  const more = low.length > 3 ? ` and ${low.length - 3} more are low` : '';
+  return check(
+    'batteries',
+    'Batteries',
+    'warn',
+    `${names.join(', ')}${more}. Charge or swap them.`,
+  );
+}
