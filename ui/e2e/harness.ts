@@ -5,7 +5,7 @@ import { join } from 'node:path';
 import { chromium, type Browser, type BrowserContextOptions, type Page } from 'playwright-core';
 
 /** As long as anything may take on a slow, busy machine, milliseconds. */
-export const PATIENCE_MS = 90_000;
+export const PATIENCE_MS = Number(process.env.PATIENCE_MS ?? 90_000);
 
 /** The folder of a built screen to try in place of the one in the program, which need not be built anew then. */
 const screen = process.env.LIGHTBOTS_SCREEN;

@@ -121,5 +121,5 @@ export const stored = (
 
 export interface StoredFrame {
   name: string;
-  pixels: { id: number; place: [number, number]; color: string }[];
+  pixels: { id: number; place: [number, number]; color: string; robot?: string }[];
 }

@@ -27,6 +27,7 @@ export function EditPage() {
     if (!opened.show || opened.name === null || last.current?.name === opened.name) return;
     last.current?.retire();
     kept = last.current = createEditing(session, opened.name, opened.show, opened.etag);
+    session.editing.set(kept);
     setEditing(kept);
   }, [session, opened]);
   useSafeLeaving(editing);

@@ -29,6 +29,7 @@ export function PixelTwin() {
           onClick={() => editor.select([p.id])}
         >
           Pixel {p.id}, {colourName(p.color)}, at {p.x.toFixed(2)}, {p.y.toFixed(2)} metres
+          {p.robot === null ? '' : ', pinned'}
         </li>
       ))}
     </ul>

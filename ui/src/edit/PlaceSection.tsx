@@ -3,6 +3,7 @@ import { useMemo } from 'react';
 import { boxOf, centreOf } from '../model/geometry';
 import * as acts from './acts';
 import { useEditing, useEditor } from './context';
+import { PinField } from './PinField';
 
 /** How many are chosen, and exactly where they are. */
 export function PlaceSection() {
@@ -52,6 +53,7 @@ export function PlaceSection() {
         {field('x')}
         {field('y')}
       </Group>
+      {only ? <PinField pixel={only} /> : null}
     </Stack>
   );
 }

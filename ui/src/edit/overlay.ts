@@ -5,6 +5,7 @@ import { marksOf, type Marks } from '../model/marks';
 import type { Frame } from '../model/show';
 import { createSprites } from '../stage/sprites';
 import type { Handle } from '../model/transformTool';
+import { paintPins } from '../stage/pinMark';
 import type { Looks } from './editing';
 
 const CHOSEN = '#ffffff';
@@ -85,6 +86,8 @@ export function paintOverlay(
     if (offFloor.has(p.id)) cross(context, at, radius + 5);
     if (looks.ids) label(context, String(p.id), { x: at.x, y: at.y - radius - 9 });
   }
+  const pinned = state.show.frames[state.frame]?.pixels.filter((p) => p.robot !== null) ?? [];
+  paintPins(context, camera, state.show.stage.radius_m, pinned);
   paintHandles(context, camera, state);
   paintGesture(context, camera, state);
 }

@@ -1,4 +1,5 @@
 import { Badge, Tabs } from '@mantine/core';
+import { useState } from 'react';
 import { useStore } from '../base/store';
 import { useSession } from '../shell/session';
 import { FleetTable } from './FleetTable';
@@ -8,14 +9,20 @@ import { ShowFacts } from './ShowFacts';
 /** Robots, show and log beside the floor. */
 export function FleetSide() {
   const { live } = useSession();
+  const [wide, setWide] = useState(false);
+  const [tab, setTab] = useState<string | null>('robots');
   const robots = useStore(live.fleet, (fleet) => fleet.rows.length);
   const issues = useStore(
     live.plan,
     (plan) => plan?.issues.filter((i) => i.severity !== 'note').length ?? 0,
   );
   return (
-    <aside className="side" aria-label="Fleet, show and log">
-      <Tabs defaultValue="robots">
+    <aside
+      className="side"
+      aria-label="Fleet, show and log"
+      data-wide={(wide && tab === 'robots') || undefined}
+    >
+      <Tabs value={tab} onChange={setTab}>
         <Tabs.List grow>
           <Tabs.Tab value="robots">
             Robots {robots > 0 ? <span className="quiet">{robots}</span> : null}
@@ -36,7 +43,7 @@ export function FleetSide() {
           <Tabs.Tab value="log">Log</Tabs.Tab>
         </Tabs.List>
         <Tabs.Panel value="robots">
-          <FleetTable />
+          <FleetTable wide={wide} onWide={setWide} />
         </Tabs.Panel>
         <Tabs.Panel value="show" p="md">
           <ShowFacts />

@@ -1,6 +1,7 @@
 import { FleetSide } from './FleetSide';
 import { FrameStrip } from './FrameStrip';
 import { LiveStage } from './LiveStage';
+import { StartDialog } from './StartDialog';
 import { Transport } from './Transport';
 
 /** Watching and playing. */
@@ -13,6 +14,7 @@ export function LivePage() {
         <FrameStrip />
       </section>
       <FleetSide />
+      <StartDialog />
     </main>
   );
 }

@@ -6,6 +6,7 @@ import { useSession } from '../shell/session';
 import { StageCanvas } from '../stage/StageCanvas';
 import { createView } from '../stage/view';
 import { fitView, StageTool, zoomView, ZoomTools } from '../stage/ViewTools';
+import { createCloseWatch } from './closeWatch';
 import { createFullPlan, pathsTo } from './paths';
 import { RobotTwin } from './RobotTwin';
 import { liveScene } from './scene';
@@ -15,6 +16,7 @@ export function LiveStage() {
   const { live, frame } = useSession();
   const [view] = useState(createView);
   const [full] = useState(() => createFullPlan(live));
+  const [close] = useState(createCloseWatch);
   const [targets, setTargets] = useState(true);
   const [ways, setWays] = useState(false);
   const show = useStore(live.opened, (o) => o.show);
@@ -36,8 +38,8 @@ export function LiveStage() {
     [ways, plan, show, playing, chosen],
   );
   const sceneAt = useCallback(
-    (now_ms: number) => liveScene(live, { show, chosen, targets, paths }, now_ms),
-    [live, show, chosen, targets, paths],
+    (now_ms: number) => liveScene(live, { show, chosen, targets, paths, close }, now_ms),
+    [live, show, chosen, targets, paths, close],
   );
   return (
     <section className="stage" aria-label="The floor">

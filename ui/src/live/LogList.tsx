@@ -2,6 +2,7 @@ import { SegmentedControl } from '@mantine/core';
 import { useEffect, useRef, useState } from 'react';
 import { useStore } from '../base/store';
 import { useSession } from '../shell/session';
+import { shortNames } from './robotWords';
 
 const WORDS = { debug: '', info: '', warn: 'Warning: ', error: 'Error: ' } as const;
 
@@ -41,7 +42,7 @@ export function LogList() {
             </time>
             <span>
               <b>{WORDS[line.level]}</b>
-              {line.text}
+              {shortNames(line.text)}
             </span>
           </li>
         ))}

@@ -1,4 +1,4 @@
-import { Tooltip } from '@mantine/core';
+import { Button, Tooltip } from '@mantine/core';
 import { useStore } from '../base/store';
 import { clockText } from '../base/time';
 import { useSession } from '../shell/session';
@@ -6,7 +6,8 @@ import { phaseText } from './actions';
 
 /** Frame x of y, who is still on the way, time left. */
 export function PlayState() {
-  const { live } = useSession();
+  const { live, frame } = useSession();
+  const from = useStore(frame);
   // Texts, not the snapshot: what says the same is not rendered again twenty times a second.
   const phase = useStore(live.playback, (p) => p.phase);
   const text = useStore(live.playback, phaseText);
@@ -22,6 +23,20 @@ export function PlayState() {
       <span role="status" data-testid="phase" data-phase={phase}>
         {text}
       </span>
+      {phase === 'ready' && from > 0 ? (
+        <span className="quiet">
+          from frame {from + 1}{' '}
+          <Button
+            size="compact-xs"
+            variant="subtle"
+            color="gray"
+            onClick={() => frame.set(0)}
+            aria-label="Play from the first frame instead"
+          >
+            from 1
+          </Button>
+        </span>
+      ) : null}
       {names.length > 0 ? (
         <Tooltip label={`On the way: ${names.join(', ')}`}>
           <span className="quiet">{names.length === 20 ? '20+' : names.length} on the way</span>

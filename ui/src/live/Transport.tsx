@@ -12,8 +12,10 @@ import type { ReactNode } from 'react';
 import { useStore } from '../base/store';
 import { useSession } from '../shell/session';
 import { actionsOf, type Action } from './actions';
+import { ChecklistButton } from './ChecklistButton';
 import { DriveProgress } from './DriveProgress';
 import { PlayState } from './PlayState';
+import { startPlay } from './start';
 import { useTransportKeys } from './useTransportKeys';
 
 const ICONS = {
@@ -24,7 +26,8 @@ const ICONS = {
 
 /** The buttons that make robots move and stop. What is offered follows the server's state. */
 export function Transport() {
-  const { live, ask, frame } = useSession();
+  const session = useSession();
+  const { live, ask, frame } = session;
   const phase = useStore(live.playback, (p) => p.phase);
   const looping = useStore(live.playback, (p) => p.looping);
   const chosen = useStore(frame);
@@ -33,14 +36,13 @@ export function Transport() {
   const actions = actionsOf(phase, linked, hasShow);
   const perform = (action: Action) => {
     if (!actions.enabled.has(action)) return;
+    if (action === 'play') return startPlay(session);
     void ask(
-      action === 'play'
-        ? { do: 'play', from: chosen, missing: 'refuse' }
-        : action === 'preview'
-          ? { do: 'preview', frame: chosen }
-          : action === 'loop'
-            ? { do: 'loop', on: !looping }
-            : { do: action },
+      action === 'preview'
+        ? { do: 'preview', frame: chosen }
+        : action === 'loop'
+          ? { do: 'loop', on: !looping }
+          : { do: action },
     );
   };
   useTransportKeys(perform, actions.main);
@@ -73,7 +75,8 @@ export function Transport() {
         {icon('abort', 'Abort (Esc)', <IconPlayerStopFilled size={18} />)}
         {icon('step', 'Step to the next frame (S)', <IconPlayerTrackNextFilled size={18} />)}
         {icon('preview', 'Preview the chosen frame (P)', <IconEye size={19} />)}
-        {icon('loop', 'Loop (L)', <IconRepeat size={18} />, looping)}
+        {icon('loop', 'Loop (L)', <IconRepeat size={18} />, playback.looping)}
+        <ChecklistButton />
         {icon('refresh', 'Refresh: who is there? (R)', <IconRefresh size={18} />)}
       </Group>
       <DriveProgress />

@@ -38,15 +38,15 @@ export function checklistOf(s: Situation): Check[] {
     brokerCheck(s.broker),
     planCheck(s.plan),
     robotsCheck(s.show, s.rows),
-    placesCheck(s),
+    placesCheck(s.show, s),
     ...pinsCheck(s.show, s.rows),
     batteryCheck(s.rows),
   ];
 }
 
-/** Whether nobody need be asked. */
+/** Whether nobody need be asked; a plan that is still being made is waited for by the server. */
 export const isReady = (checks: readonly Check[]) =>
-  checks.every(({ verdict }) => verdict === 'good');
+  checks.every(({ verdict }) => verdict === 'good' || verdict === 'wait');
 
 /** Whether the show can be played as far as it goes: only its plan and the broker can forbid that. */
 export const canGoOn = (checks: readonly Check[]) =>
@@ -96,17 +96,23 @@ function robotsCheck(show: Show, rows: readonly FleetRow[]): Check {
   return check('robots', 'Robots', 'bad', `${count} ready; ${why.join(', ')}. ${advice}`);
 }
 
-function placesCheck({ rows, robots }: Situation): Check {
+function placesCheck(show: Show, { rows, robots }: Situation): Check {
   const lost = rows.filter(
     (row, i) =>
       canDrive(row) && (row.status === 'lost' || typeof (robots?.x[i] ?? null) !== 'number'),
   );
   if (lost.length === 0)
     return check('places', 'Positions known', 'good', 'Everyone knows its place.');
+  const spare = rows.filter(canDrive).length - lost.length >= fleetSize(show);
   const names = lost.slice(0, 3).map((row) => row.id.slice(0, 8));
   const more = lost.length > 3 ? ` and ${lost.length - 3} more` : '';
   const advice = 'Put it where it is seen, or play without it.';
-  return check('places', 'Positions', 'bad', `Unknown for ${names.join(', ')}${more}. ${advice}`);
+  return check(
+    'places',
+    'Positions',
+    spare ? 'warn' : 'bad',
+    `Unknown for ${names.join(', ')}${more}. ${advice}`,
+  );
 }
 
 /** Only where the show pins pixels. */

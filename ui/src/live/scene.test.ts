@@ -1,6 +1,7 @@
 import { expect, test } from 'vitest';
 import type { FleetRow, Presence } from '../api/types.gen';
 import { newShow } from '../model/show';
+import { createCloseWatch } from './closeWatch';
 import { fade, liveScene } from './scene';
 import { createLive, hear } from './store';
 
@@ -25,7 +26,13 @@ test('silent robots fade', () => {
 
 test('planned is hollow, measured is filled, and neither becomes the other', () => {
   const live = createLive();
-  const wish = { show: newShow('x', 2), chosen: 0, targets: true, paths: [] };
+  const wish = {
+    show: newShow('x', 2),
+    chosen: 0,
+    targets: true,
+    paths: [],
+    close: createCloseWatch(),
+  };
   expect(liveScene(live, wish, 0)).toMatchObject({ filled: [], hollow: [{}, {}] });
   const playback = { ...live.playback.get(), phase: 'playing' as const };
   const robots = {

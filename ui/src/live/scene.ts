@@ -1,6 +1,8 @@
 import type { Fleet, Phase } from '../api/types.gen';
-import { EMPTY_STAGE, type Frame, type Show } from '../model/show';
+import { paintPins } from '../stage/pinMark';
+import { contact_m, EMPTY_STAGE, type Frame, type Show } from '../model/show';
 import type { Dot, Scene } from '../stage/scene';
+import { paintClose, type CloseWatch } from './closeWatch';
 import type { Live } from './store';
 
 const ALPHAS = { active: 1, stale: 0.4, gone: 0.15 } as const;
@@ -40,6 +42,7 @@ export interface SceneWish {
   chosen: number;
   targets: boolean;
   paths: Scene['paths'];
+  close: CloseWatch;
 }
 
 /** What the live stage shows now. */
@@ -48,6 +51,8 @@ export function liveScene(live: Live, wish: SceneWish, now_ms: number): Scene {
   const running = isRunning(live.playback.get().phase);
   const stage = wish.show?.stage ?? EMPTY_STAGE;
   const hollow = running ? sample.hollow : hollowOf(wish.show?.frames[wish.chosen]);
+  const pinned = wish.show?.frames[wish.chosen]?.pixels.filter((p) => p.robot !== null) ?? [];
+  const close = wish.close.find(sample.filled, contact_m(stage), now_ms);
   return {
     width_m: stage.width_m,
     depth_m: stage.depth_m,
@@ -58,5 +63,14 @@ export function liveScene(live: Live, wish: SceneWish, now_ms: number): Scene {
     hollow: wish.targets ? hollow : NOTHING,
     errors: wish.targets && running ? sample.errors : NOTHING,
     paths: wish.paths,
+    overlay: (context, camera) => {
+      if (wish.targets && !running) paintPins(context, camera, stage.radius_m, pinned);
+      paintClose(
+        context,
+        camera,
+        stage.radius_m,
+        close.flatMap((i) => sample.filled[i] ?? []),
+      );
+    },
   };
 }

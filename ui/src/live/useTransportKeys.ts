@@ -5,7 +5,7 @@ import type { Action } from './actions';
 
 /** The keys of the live view. */
 export function useTransportKeys(perform: (action: Action) => void, main: Action) {
-  const { live, frame } = useSession();
+  const { live, frame, checking } = useSession();
   const last = useStore(live.opened, (o) => (o.show?.frames.length ?? 1) - 1);
   const step = (by: number) => frame.update((now) => Math.max(0, Math.min(last, now + by)));
   useKeys([
@@ -13,6 +13,7 @@ export function useTransportKeys(perform: (action: Action) => void, main: Action
     ['s', () => perform('step')],
     ['p', () => perform('preview')],
     ['l', () => perform('loop')],
+    ['c', () => checking.set(true)],
     ['r', () => perform('refresh')],
     ['Escape', () => perform('abort')],
     ['ArrowLeft', () => step(-1)],

@@ -31,7 +31,10 @@ export function onFloor(p: { x: number; y: number }, stage: Stage): boolean {
 }
 
 /** Whoever has a neighbour closer than `gap_m`: looked for in squares of that size, so that thousands are quick. */
-function crowded(pixels: readonly Pixel[], gap_m: number): Set<number> {
+export function crowded(
+  pixels: readonly Pick<Pixel, 'id' | 'x' | 'y'>[],
+  gap_m: number,
+): Set<number> {
   const close = new Set<number>();
   const first = new Map<number, number>();
   const next = new Int32Array(pixels.length);

@@ -19,6 +19,7 @@ export const KEYS: { title: string; keys: [string[], string][] }[] = [
       [['L'], 'Loop'],
       [['T', 'W'], 'Planned places, planned ways'],
       [['R'], 'Refresh: who is there?'],
+      [['C'], 'Checklist before the start'],
       [['←', '→'], 'Choose a frame'],
     ],
   },

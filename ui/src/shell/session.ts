@@ -4,6 +4,7 @@ import type { Answer, Choice, Operation } from '../api/types.gen';
 import { createStore, type Store } from '../base/store';
 import { createDrafts, type Drafts } from '../model/drafts';
 import { connect, createLive, type Live } from '../live/store';
+import type { Editor } from '../model/editor';
 import { tell } from './notices';
 
 /** What every part of the page shares. */
@@ -16,6 +17,10 @@ export interface Session {
   offer: Store<{ reason: string; choice: Choice } | null>;
   /** The frame chosen in the strip: where Play starts, what Preview shows. */
   frame: Store<number>;
+  /** The editor of this screen; null: it has edited nothing. */
+  editing: Store<{ name: string; editor: Editor } | null>;
+  /** Whether the checklist is shown. */
+  checking: Store<boolean>;
   /** What is not on the server yet. */
   drafts: Drafts;
   /** Shows of which an earlier page left a draft that has not been put back. */
@@ -37,6 +42,8 @@ export function createSession(): Session {
   const drafts = createDrafts(shelf());
   return {
     drafts,
+    editing: createStore<{ name: string; editor: Editor } | null>(null),
+    checking: createStore(false),
     orphans: createStore<readonly string[]>(drafts.names()),
     live,
     link,

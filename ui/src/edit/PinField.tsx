@@ -1,0 +1,55 @@
+import { ActionIcon, Group, Select, Tooltip } from '@mantine/core';
+import { IconBulb } from '@tabler/icons-react';
+import { useStore } from '../base/store';
+import { shortId } from '../live/robotWords';
+import { pinPixel } from '../model/commands';
+import type { Pixel } from '../model/show';
+import { useSession } from '../shell/session';
+import { useEditing } from './context';
+
+/** Which robot must show a pixel, in every frame. */
+export function PinField({ pixel }: { pixel: Pixel }) {
+  const { editor } = useEditing();
+  const { live, ask } = useSession();
+  const rows = useStore(live.fleet, (fleet) => fleet.rows);
+  const here = rows.map((row) => {
+    const shows = row.pixel === null ? '' : ` (shows ${row.pixel})`;
+    const silent = row.presence === 'active' ? '' : ', silent';
+    return { value: row.id, label: `${shortId(row.id)}${shows}${silent}` };
+  });
+  const away =
+    pixel.robot !== null && rows.every((row) => row.id !== pixel.robot)
+      ? [{ value: pixel.robot, label: `${shortId(pixel.robot)}, not here` }]
+      : [];
+  const pinned = rows.find((row) => row.id === pixel.robot);
+  const blinks = pinned?.presence === 'active' && pinned.abilities.blink;
+  return (
+    <Group gap="xs" align="end" wrap="nowrap">
+      <Select
+        size="xs"
+        style={{ flex: 1 }}
+        label="Robot that always shows it"
+        placeholder="Any robot"
+        nothingFoundMessage="No robot is here"
+        searchable
+        clearable
+        clearButtonProps={{ 'aria-label': 'Free the pixel' }}
+        limit={200}
+        data={[...away, ...here]}
+        value={pixel.robot}
+        onChange={(robot) => editor.change('Pin', (show) => pinPixel(show, pixel.id, robot))}
+      />
+      <Tooltip label="Let that robot blink">
+        <ActionIcon
+          variant="default"
+          size={30}
+          disabled={!blinks}
+          aria-label="Let that robot blink"
+          onClick={() => pinned && void ask({ do: 'identify', robot: pinned.id })}
+        >
+          <IconBulb size={16} />
+        </ActionIcon>
+      </Tooltip>
+    </Group>
+  );
+}

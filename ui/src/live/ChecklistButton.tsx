@@ -1,0 +1,32 @@
+import { ActionIcon, Indicator, Tooltip } from '@mantine/core';
+import { IconChecklist } from '@tabler/icons-react';
+import { useStore } from '../base/store';
+import { useSession } from '../shell/session';
+import { isReady } from './checklist';
+import { checkNow } from './start';
+
+/** Opens the checklist; says before Play is pressed whether something is missing. */
+export function ChecklistButton() {
+  const session = useSession();
+  const { live } = session;
+  useStore(live.fleet);
+  useStore(live.plan);
+  useStore(live.opened);
+  const missing = !isReady(checkNow(session));
+  const label = missing ? 'Checklist: something is missing (C)' : 'Checklist: all is ready (C)';
+  return (
+    <Tooltip label={label}>
+      <Indicator disabled={!missing} size={9} offset={5} color="orange">
+        <ActionIcon
+          variant="subtle"
+          color="gray"
+          size="lg"
+          aria-label={label}
+          onClick={() => session.checking.set(true)}
+        >
+          <IconChecklist size={19} />
+        </ActionIcon>
+      </Indicator>
+    </Tooltip>
+  );
+}

@@ -1,0 +1,101 @@
+import { Button, Group, Modal, Select, Stack } from '@mantine/core';
+import { useMemo } from 'react';
+import type { FleetRow } from '../api/types.gen';
+import { useStore } from '../base/store';
+import { fleetSize, pinPixel, pinsOf } from '../model/commands';
+import { changeShow } from '../shell/changeShow';
+import { useSession } from '../shell/session';
+import * as words from './robotWords';
+
+/** Everything about one robot, and what can be done with it. */
+export function RobotDialog({ row, onClose }: { row: FleetRow | null; onClose: () => void }) {
+  return (
+    <Modal
+      opened={row !== null}
+      onClose={onClose}
+      title={row ? `Robot ${words.shortId(row.id)}` : ''}
+    >
+      {row ? <Details row={row} onClose={onClose} /> : null}
+    </Modal>
+  );
+}
+
+function Details({ row, onClose }: { row: FleetRow; onClose: () => void }) {
+  const { ask } = useSession();
+  const facts: [string, string][] = [
+    ['Name', row.id],
+    ['State', words.stateText(row)],
+    ['Heard', words.heardText(row)],
+    ['Charge', words.chargeText(row)],
+    ['Shows', row.pixel === null ? 'nothing, it stands by' : `pixel ${row.pixel}`],
+    ['Firmware', words.firmwareText(row)],
+    ['Can', words.abilitiesText(row)],
+    ['Clock', words.clockText(row)],
+  ];
+  return (
+    <Stack>
+      <dl className="facts">
+        {facts.map(([name, value]) => [
+          <dt key={name}>{name}</dt>,
+          <dd key={`${name} value`}>{value}</dd>,
+        ])}
+      </dl>
+      <PinChoice row={row} />
+      <Group justify="flex-end">
+        <Button
+          variant="default"
+          onClick={() =>
+            void ask({ do: 'forget', robot: row.id }).then((answer) => {
+              if (answer.ok) onClose();
+            })
+          }
+        >
+          Forget
+        </Button>
+        <Button
+          disabled={!row.abilities.blink || row.presence !== 'active'}
+          onClick={() => void ask({ do: 'identify', robot: row.id })}
+        >
+          Let it blink
+        </Button>
+      </Group>
+    </Stack>
+  );
+}
+
+/** Which pixel this robot must show; kept in the show. */
+function PinChoice({ row }: { row: FleetRow }) {
+  const session = useSession();
+  const show = useStore(session.live.opened, (o) => o.show);
+  const pins = useMemo(() => (show ? pinsOf(show) : new Map<number, string>()), [show]);
+  if (!show || fleetSize(show) === 0) return null;
+  const mine = [...pins].find(([, robot]) => robot === row.id)?.[0];
+  const ids = [...new Set(show.frames.flatMap((f) => f.pixels.map((p) => p.id)))];
+  const options = ids
+    .sort((a, b) => a - b)
+    .map((id) => {
+      const other = pins.get(id);
+      const taken = other && other !== row.id ? `, pinned to ${words.shortId(other)}` : '';
+      return { value: String(id), label: `Pixel ${id}${taken}` };
+    });
+  const pin = (value: string | null) => {
+    const pixel = value === null ? mine : Number(value);
+    if (pixel === undefined) return;
+    const robot = value === null ? null : row.id;
+    void changeShow(session, 'Pin', (now) => pinPixel(now, pixel, robot));
+  };
+  return (
+    <Select
+      label="Always shows"
+      description="In this show, in every frame. Empty: whichever pixel suits best."
+      placeholder="Any pixel"
+      searchable
+      clearable
+      clearButtonProps={{ 'aria-label': 'Free it' }}
+      limit={200}
+      data={options}
+      value={mine === undefined ? null : String(mine)}
+      onChange={pin}
+    />
+  );
+}

@@ -1,0 +1,93 @@
+import { Button, Group, Modal, Text } from '@mantine/core';
+import {
+  IconAlertTriangle,
+  IconCircleCheck,
+  IconCircleX,
+  IconHourglass,
+} from '@tabler/icons-react';
+import { useStore } from '../base/store';
+import { useSession } from '../shell/session';
+import { canDrive, canGoOn, isReady, type Check } from './checklist';
+import { checkNow } from './start';
+
+const MARKS = {
+  good: [IconCircleCheck, 'Fine'],
+  wait: [IconHourglass, 'Not known yet'],
+  warn: [IconAlertTriangle, 'Look at it'],
+  bad: [IconCircleX, 'Missing'],
+} as const;
+
+/** What to be sure of before robots move, as it is now; and a way to go on without what is missing. */
+export function StartDialog() {
+  const session = useSession();
+  const opened = useStore(session.checking);
+  const close = () => session.checking.set(false);
+  return (
+    <Modal.Root opened={opened} onClose={close} centered size="lg">
+      <Modal.Overlay backgroundOpacity={0.6} blur={2} />
+      <Modal.Content>{opened ? <Checklist close={close} /> : null}</Modal.Content>
+    </Modal.Root>
+  );
+}
+
+function Checklist({ close }: { close: () => void }) {
+  const session = useSession();
+  const { live } = session;
+  // The fleet table comes at least twice a second, so that the list is never old.
+  const rows = useStore(live.fleet, (fleet) => fleet.rows);
+  useStore(live.plan);
+  useStore(live.opened);
+  const idle = useStore(live.playback, (p) => p.phase === 'ready');
+  const checks = checkNow(session);
+  const ready = isReady(checks);
+  const drivers = rows.filter(canDrive).length;
+  const play = (missing: 'refuse' | 'leave_out') => {
+    close();
+    void session.ask({ do: 'play', from: session.frame.get(), missing });
+  };
+  return (
+    <>
+      <Modal.Header>
+        <Modal.Title>{ready ? 'Ready to play' : 'Not quite ready'}</Modal.Title>
+        <Modal.CloseButton aria-label="Close" />
+      </Modal.Header>
+      <Modal.Body>
+        <ul className="checklist" aria-label="Checklist">
+          {checks.map((check) => (
+            <Line key={check.name} check={check} />
+          ))}
+        </ul>
+        <Group justify="flex-end" mt="lg">
+          <Button variant="default" onClick={() => void session.ask({ do: 'refresh' })}>
+            Refresh
+          </Button>
+          <Button variant="default" onClick={close}>
+            Not now
+          </Button>
+          <Button
+            data-autofocus
+            disabled={!idle || !canGoOn(checks) || drivers === 0}
+            onClick={() => play(ready ? 'refuse' : 'leave_out')}
+          >
+            {ready ? 'Play' : `Play with ${drivers} robots`}
+          </Button>
+        </Group>
+      </Modal.Body>
+    </>
+  );
+}
+
+function Line({ check }: { check: Check }) {
+  const [Icon, word] = MARKS[check.verdict];
+  return (
+    <li data-verdict={check.verdict} data-check={check.name}>
+      <Icon size={20} aria-label={word} role="img" />
+      <div>
+        <b>{check.title}</b>
+        <Text size="sm" c="dimmed">
+          {check.detail}
+        </Text>
+      </div>
+    </li>
+  );
+}

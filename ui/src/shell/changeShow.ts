@@ -1,0 +1,24 @@
+import { getShow, putShow } from '../api/http';
+import { readShow, writeShow } from '../model/json';
+import type { Show } from '../model/show';
+import { tell } from './notices';
+import type { Session } from './session';
+
+/** Changes the open show from anywhere: through this screen's editor if it has it, else in the library. */
+export async function changeShow(session: Session, label: string, change: (show: Show) => Show) {
+  const { name } = session.live.opened.get();
+  const editing = session.editing.get();
+  if (name === null) return;
+  if (editing?.name === name) {
+    editing.editor.change(label, change);
+    return;
+  }
+  try {
+    const { document, etag } = await getShow(name);
+    const show = readShow(document);
+    const next = change(show);
+    if (next !== show) await putShow(name, JSON.stringify(writeShow(next)), etag);
+  } catch (error) {
+    tell('error', error instanceof Error ? error.message : String(error));
+  }
+}

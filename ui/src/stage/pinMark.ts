@@ -1,0 +1,22 @@
+import { canvasFromStage, type Camera, type Point } from './camera';
+
+const PIN = '#edb256';
+
+/** Marks pixels that one robot must show: a pin stuck into each from the upper right. */
+export function paintPins(c: CanvasRenderingContext2D, camera: Camera, r_m: number, at: Point[]) {
+  const radius = Math.max(3, r_m * camera.scale) * 0.75;
+  c.strokeStyle = '#e6ebf3';
+  c.fillStyle = PIN;
+  c.lineWidth = 1.5;
+  for (const place of at) {
+    const { x, y } = canvasFromStage(camera, place);
+    const [fromX, fromY] = [x + radius, y - radius];
+    c.beginPath();
+    c.moveTo(fromX, fromY);
+    c.lineTo(fromX + 6, fromY - 6);
+    c.stroke();
+    c.beginPath();
+    c.arc(fromX + 7.5, fromY - 7.5, 3.5, 0, 2 * Math.PI);
+    c.fill();
+  }
+}
