@@ -49,8 +49,60 @@ test('a robot is pinned to a pixel from both views, shows it, and is freed again
   );
   await page.keyboard.press(']');
   expect((await pixels(page))[0]?.text).toContain('pinned');
-  await page.getByRole('button', { name: 'Free the pixel' }).click();
+  await page.getByLabel('Robot that always shows it').first().click();
+  await page.getByRole('option', { name: 'Any robot' }).click();
   await saved(page);
   expect((await robots()).flat().every((robot) => robot === null)).toBe(true);
+  await page.close();
+});
+
+test('the checklist says what is missing, Stop all is above it, and one can go on without', async () => {
+  const page = await openPage(browser, server);
+  await uploadText(page, 'eight.json', smallShow(8));
+  await page.getByRole('button', { name: 'Play', exact: true }).click();
+  const dialog = page.getByRole('dialog', { name: 'Not quite ready' });
+  await dialog.getByText(/6 of 8 ready; 2 never seen/).waitFor();
+  expect(await dialog.locator('[data-verdict=good]').count()).toBeGreaterThanOrEqual(3);
+  await page.locator('.stop-all').click();
+  await dialog.getByRole('button', { name: 'Play with 6 robots' }).click();
+  await page.getByText(/Playing frame 2 of 2/).waitFor();
+  await page.keyboard.press('Escape');
+  await eventually(
+    () => phase(page),
+    (p) => p === 'ready',
+    'ready',
+  );
+  await page.close();
+});
+
+test('the library: pictures, save as, rename, download, delete and undo', async () => {
+  const page = await openPage(browser, server, 'edit');
+  await uploadText(page, 'kept.json', smallShow(6));
+  const menu = async (name: string, item: string) => {
+    await page.getByRole('button', { name: `What to do with ${name}`, exact: true }).click();
+    await page.getByRole('menuitem', { name: item, exact: true }).click();
+  };
+  const names = () =>
+    page.evaluate(async () =>
+      ((await (await fetch('/api/shows')).json()) as { name: string }[]).map((e) => e.name),
+    );
+  await page.getByTestId('open-library').click();
+  await page.locator('.entry-picture canvas').first().waitFor();
+  await menu('kept', 'Save as…');
+  await page.getByLabel('Name', { exact: true }).fill('second');
+  await page.getByRole('button', { name: 'Save', exact: true }).click();
+  await page.getByTestId('open-library').getByText('second').waitFor();
+  await page.getByTestId('open-library').click();
+  await menu('second', 'Rename…');
+  await page.getByLabel('Name', { exact: true }).fill('third');
+  await page.getByRole('button', { name: 'Save', exact: true }).click();
+  await page.getByTestId('open-library').getByText('third').waitFor();
+  const file = page.waitForEvent('download');
+  await menu('third', 'Download');
+  expect((await file).suggestedFilename()).toBe('third.lightbots.json');
+  await menu('kept', 'Delete');
+  await eventually(names, (all) => !all.includes('kept') && all.includes('third'), 'deleted');
+  await page.getByRole('button', { name: 'Undo', exact: true }).last().click();
+  await eventually(names, (all) => all.includes('kept') && !all.includes('second'), 'back');
   await page.close();
 });

@@ -51,7 +51,12 @@ export async function putShow(
   return (await response.json()) as ShowEntry;
 }
 
-export const deleteShow = (name: string) => request(showPath(name), { method: 'DELETE' });
+/** Deletes a show of the library, if it still has the version `etag`. */
+export const deleteShow = (name: string, etag: string | null) =>
+  request(showPath(name), {
+    method: 'DELETE',
+    headers: etag === null ? {} : { 'If-Match': etag },
+  });
 
 /** The plan of the open show, with paths. */
 export const getPlan = async () => (await (await request('/api/plan')).json()) as Plan;

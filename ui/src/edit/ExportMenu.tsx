@@ -2,19 +2,11 @@ import { ActionIcon, Menu } from '@mantine/core';
 import { IconDownload } from '@tabler/icons-react';
 import { convertShow, listShows, putShow } from '../api/http';
 import { writeShow } from '../model/json';
+import { download } from '../shell/download';
 import { tell } from '../shell/notices';
 import { useSession } from '../shell/session';
 import { freeName } from '../shell/upload';
 import { useEditing } from './context';
-
-function download(text: string, file: string) {
-  const address = URL.createObjectURL(new Blob([text], { type: 'application/json' }));
-  const link = document.createElement('a');
-  link.href = address;
-  link.download = file;
-  link.click();
-  setTimeout(() => URL.revokeObjectURL(address), 10_000);
-}
 
 /** The show as a file: ours, or the original's. */
 export function ExportMenu() {

@@ -29,15 +29,15 @@ export function PinField({ pixel }: { pixel: Pixel }) {
         size="xs"
         style={{ flex: 1 }}
         label="Robot that always shows it"
-        placeholder="Any robot"
         nothingFoundMessage="No robot is here"
         searchable
-        clearable
-        clearButtonProps={{ 'aria-label': 'Free the pixel' }}
+        allowDeselect={false}
         limit={200}
-        data={[...away, ...here]}
-        value={pixel.robot}
-        onChange={(robot) => editor.change('Pin', (show) => pinPixel(show, pixel.id, robot))}
+        data={[{ value: '', label: 'Any robot' }, ...away, ...here]}
+        value={pixel.robot ?? ''}
+        onChange={(robot) =>
+          editor.change('Pin', (show) => pinPixel(show, pixel.id, robot || null))
+        }
       />
       <Tooltip label="Let that robot blink">
         <ActionIcon

@@ -79,22 +79,20 @@ function PinChoice({ row }: { row: FleetRow }) {
       return { value: String(id), label: `Pixel ${id}${taken}` };
     });
   const pin = (value: string | null) => {
-    const pixel = value === null ? mine : Number(value);
+    const pixel = value ? Number(value) : mine;
     if (pixel === undefined) return;
-    const robot = value === null ? null : row.id;
+    const robot = value ? row.id : null;
     void changeShow(session, 'Pin', (now) => pinPixel(now, pixel, robot));
   };
   return (
     <Select
       label="Always shows"
-      description="In this show, in every frame. Empty: whichever pixel suits best."
-      placeholder="Any pixel"
+      description="In this show, in every frame."
       searchable
-      clearable
-      clearButtonProps={{ 'aria-label': 'Free it' }}
+      allowDeselect={false}
       limit={200}
-      data={options}
-      value={mine === undefined ? null : String(mine)}
+      data={[{ value: '', label: 'Any pixel' }, ...options]}
+      value={mine === undefined ? '' : String(mine)}
       onChange={pin}
     />
   );

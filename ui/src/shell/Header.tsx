@@ -79,6 +79,7 @@ export function Header({ view }: { view: View }) {
       </Tooltip>
       <Tooltip label="Every robot stops at once (Shift Esc)">
         <Button
+          className="stop-all"
           color="red.7"
           size="sm"
           leftSection={<IconHandStop size={18} />}

@@ -1,26 +1,16 @@
-import {
-  ActionIcon,
-  Button,
-  FileButton,
-  Group,
-  Modal,
-  Text,
-  TextInput,
-  Tooltip,
-} from '@mantine/core';
-import { IconPlus, IconTrash, IconUpload } from '@tabler/icons-react';
+import { Button, FileButton, Group, Modal, Text, TextInput } from '@mantine/core';
+import { IconPlus, IconUpload } from '@tabler/icons-react';
 import { useCallback, useEffect, useState } from 'react';
-import { deleteShow, listShows } from '../api/http';
+import { listShows } from '../api/http';
 import type { ShowEntry } from '../api/types.gen';
 import { useStore } from '../base/store';
 import { createShowInLibrary } from './createShow';
-import { tell } from './notices';
+import { attempt, copyShow, renameShow } from './libraryActs';
+import { LibraryEntry } from './LibraryEntry';
+import { NameDialog } from './NameDialog';
 import { useSession } from './session';
 import { uploadShow } from './upload';
 import { goTo } from './useHash';
-
-const explain = (error: unknown) =>
-  tell('error', error instanceof Error ? error.message : String(error));
 
 /** Every show on the server: open one, add one, begin one. */
 export function LibraryDialog({ opened, onClose }: { opened: boolean; onClose: () => void }) {
@@ -28,15 +18,29 @@ export function LibraryDialog({ opened, onClose }: { opened: boolean; onClose: (
   const open = useStore(session.live.opened, (o) => o.name);
   const [entries, setEntries] = useState<ShowEntry[]>([]);
   const [wanted, setWanted] = useState('');
-  const load = useCallback(() => void listShows().then(setEntries).catch(explain), []);
+  const [naming, setNaming] = useState<{ entry: ShowEntry; purpose: 'copy' | 'rename' }>();
+  const load = useCallback(
+    () => void attempt(() => listShows().then((found) => setEntries(found))),
+    [],
+  );
   useEffect(() => {
     if (opened) load();
   }, [opened, load]);
 
   const choose = async (name: string) => {
-    const answer = await session.ask({ do: 'open', name });
-    if (answer.ok) onClose();
+    if ((await session.ask({ do: 'open', name })).ok) onClose();
   };
+  const begin = async () => {
+    if (!(await createShowInLibrary(session))) return;
+    onClose();
+    goTo('edit');
+  };
+  const name = ({ entry, purpose }: NonNullable<typeof naming>, to: string) =>
+    attempt(async () => {
+      if (purpose === 'rename') await renameShow(session, entry.name, to);
+      else await choose(await copyShow(entry.name, to));
+      load();
+    });
   const shown = entries.filter((entry) =>
     `${entry.name} ${entry.title}`.toLowerCase().includes(wanted.trim().toLowerCase()),
   );
@@ -63,64 +67,35 @@ export function LibraryDialog({ opened, onClose }: { opened: boolean; onClose: (
             </Button>
           )}
         </FileButton>
-        <Button
-          leftSection={<IconPlus size={16} />}
-          onClick={() =>
-            void createShowInLibrary(session).then((done) => {
-              if (!done) return;
-              onClose();
-              goTo('edit');
-            })
-          }
-        >
+        <Button leftSection={<IconPlus size={16} />} onClick={() => void begin()}>
           New show
         </Button>
       </Group>
       <ul className="library-list" aria-label="Shows in the library">
         {shown.map((entry) => (
-          <li key={entry.name}>
-            <button
-              type="button"
-              className="entry"
-              aria-current={entry.name === open}
-              onClick={() => void choose(entry.name)}
-            >
-              <span>
-                {entry.name}
-                {entry.title && entry.title.toLowerCase() !== entry.name.toLowerCase() ? (
-                  <span className="quiet"> – {entry.title}</span>
-                ) : null}
-              </span>
-              <span className="quiet">
-                {entry.frames} frames · {entry.pixels} robots{entry.example ? ' · example' : ''}
-              </span>
-            </button>
-            {entry.example ? null : (
-              <Tooltip label="Delete from the library">
-                <ActionIcon
-                  variant="subtle"
-                  color="gray"
-                  aria-label={`Delete ${entry.name}`}
-                  onClick={() => void deleteShow(entry.name).then(load).catch(explain)}
-                >
-                  <IconTrash size={16} />
-                </ActionIcon>
-              </Tooltip>
-            )}
-          </li>
+          <LibraryEntry
+            key={entry.name}
+            entry={entry}
+            open={entry.name === open}
+            onOpen={() => void choose(entry.name)}
+            onName={(purpose) => setNaming({ entry, purpose })}
+            onChanged={load}
+          />
         ))}
       </ul>
-      {shown.length === 0 ? (
-        <Text c="dimmed" ta="center" py="lg">
-          {entries.length === 0
-            ? 'No shows yet. Begin a new one, or drop a file anywhere on the page.'
-            : 'No show has that in its name.'}
-        </Text>
-      ) : (
-        <Text c="dimmed" size="xs" mt="md">
-          A file can also be dropped anywhere on the page: ours, or the original’s JSON.
-        </Text>
-      )}
+      <Text c="dimmed" size="xs" mt="md">
+        {entries.length > 0 && shown.length === 0
+          ? 'No show has that in its name.'
+          : 'A file can also be dropped anywhere on the page: ours, or the original’s JSON.'}
+      </Text>
+      {naming ? (
+        <NameDialog
+          title={naming.purpose === 'copy' ? `Save ${naming.entry.name} as` : 'Rename the show'}
+          name={naming.purpose === 'copy' ? `${naming.entry.name} copy` : naming.entry.name}
+          onName={(to) => name(naming, to)}
+          onClose={() => setNaming(undefined)}
+        />
+      ) : null}
     </Modal>
   );
 }

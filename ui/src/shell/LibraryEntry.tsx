@@ -1,0 +1,68 @@
+import { ActionIcon, Menu } from '@mantine/core';
+import { IconDots } from '@tabler/icons-react';
+import type { ShowEntry } from '../api/types.gen';
+import { downloadShow } from './download';
+import { attempt, deleteWithUndo } from './libraryActs';
+import { ShowThumbnail } from './ShowThumbnail';
+
+interface Props {
+  entry: ShowEntry;
+  /** Whether it is the one on every screen. */
+  open: boolean;
+  onOpen: () => void;
+  /** Asks for a new name, for a copy or for the show itself. */
+  onName: (purpose: 'copy' | 'rename') => void;
+  onChanged: () => void;
+}
+
+/** A show of the library, and what can be done with it. */
+export function LibraryEntry({ entry, open, onOpen, onName, onChanged }: Props) {
+  const { name } = entry;
+  const subtitle =
+    entry.title && entry.title.toLowerCase() !== name.toLowerCase() ? ` – ${entry.title}` : '';
+  const saved = entry.example ? 'example' : new Date(entry.modified_ms).toLocaleDateString();
+  return (
+    <li>
+      <button type="button" className="entry" aria-current={open} onClick={onOpen}>
+        <ShowThumbnail entry={entry} />
+        <span className="entry-name">
+          {name}
+          <span className="quiet">{subtitle}</span>
+        </span>
+        <span className="quiet">
+          {entry.frames} frames · {entry.pixels} robots · {saved}
+        </span>
+      </button>
+      <Menu position="bottom-end" withinPortal>
+        <Menu.Target>
+          <ActionIcon variant="subtle" color="gray" aria-label={`What to do with ${name}`}>
+            <IconDots size={18} />
+          </ActionIcon>
+        </Menu.Target>
+        <Menu.Dropdown>
+          <Menu.Item onClick={() => onName('copy')}>Save as…</Menu.Item>
+          {entry.example ? null : <Menu.Item onClick={() => onName('rename')}>Rename…</Menu.Item>}
+          <Menu.Divider />
+          <Menu.Item onClick={() => void attempt(() => downloadShow(name, 'lightbots'))}>
+            Download
+          </Menu.Item>
+          <Menu.Item onClick={() => void attempt(() => downloadShow(name, 'original'))}>
+            Download in the original’s format
+          </Menu.Item>
+          {entry.example ? null : (
+            <>
+              <Menu.Divider />
+              <Menu.Item
+                color="red"
+                disabled={open}
+                onClick={() => void attempt(() => deleteWithUndo(name, onChanged))}
+              >
+                {open ? 'Delete (open another show first)' : 'Delete'}
+              </Menu.Item>
+            </>
+          )}
+        </Menu.Dropdown>
+      </Menu>
+    </li>
+  );
+}

@@ -1,0 +1,48 @@
+import { Button, Group, Modal, TextInput } from '@mantine/core';
+import { useState } from 'react';
+
+interface Props {
+  title: string;
+  /** What stands there to begin with. */
+  name: string;
+  /** Whether it worked: then the dialog has done its part. */
+  onName: (name: string) => Promise<boolean>;
+  onClose: () => void;
+}
+
+/** Asks for the name of a show. */
+export function NameDialog({ title, name, onName, onClose }: Props) {
+  const [text, setText] = useState(name);
+  const wanted = text.trim();
+  return (
+    <Modal opened onClose={onClose} title={title}>
+      <form
+        onSubmit={(event) => {
+          event.preventDefault();
+          if (wanted !== '')
+            void onName(wanted).then((done) => {
+              if (done) onClose();
+            });
+        }}
+      >
+        <TextInput
+          label="Name"
+          description="Letters, digits, spaces and . , - _ ( ) ! ' +"
+          value={text}
+          maxLength={80}
+          onChange={(event) => setText(event.currentTarget.value)}
+          onFocus={(event) => event.currentTarget.select()}
+          data-autofocus
+        />
+        <Group justify="flex-end" mt="md">
+          <Button variant="default" onClick={onClose}>
+            Cancel
+          </Button>
+          <Button type="submit" disabled={wanted === ''}>
+            Save
+          </Button>
+        </Group>
+      </form>
+    </Modal>
+  );
+}
