@@ -89,12 +89,12 @@ test('the library: pictures, save as, rename, download, delete and undo', async 
   await page.getByTestId('open-library').click();
   await page.locator('.entry-picture canvas').first().waitFor();
   await menu('kept', 'Save as…');
-  await page.getByLabel('Name', { exact: true }).fill('second');
+  await page.getByRole('dialog').last().getByLabel('Name', { exact: true }).fill('second');
   await page.getByRole('button', { name: 'Save', exact: true }).click();
   await page.getByTestId('open-library').getByText('second').waitFor();
   await page.getByTestId('open-library').click();
   await menu('second', 'Rename…');
-  await page.getByLabel('Name', { exact: true }).fill('third');
+  await page.getByRole('dialog').last().getByLabel('Name', { exact: true }).fill('third');
   await page.getByRole('button', { name: 'Save', exact: true }).click();
   await page.getByTestId('open-library').getByText('third').waitFor();
   const file = page.waitForEvent('download');

@@ -54,6 +54,7 @@ export function EditKeys() {
     ['v', () => editing.tool.set('arrow')],
     ['q', () => editing.tool.set('lasso')],
     ['i', () => editing.tool.set('eyedropper')],
+    ['o', () => editing.tool.set('area')],
     ['m', () => toggle('snap')],
     ['n', () => toggle('ids')],
     ['h', () => toggle('ghosts')],

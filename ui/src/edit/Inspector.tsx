@@ -5,8 +5,10 @@ import { IssueList } from '../live/IssueList';
 import { ArrangeSection } from './ArrangeSection';
 import { ColourSection } from './ColourSection';
 import { useEditing } from './context';
+import { FloorSection } from './FloorSection';
 import { FrameSection } from './FrameSection';
 import { PlaceSection } from './PlaceSection';
+import { RobotsSection } from './RobotsSection';
 import { ShowSection } from './ShowSection';
 
 /** What can be said about the chosen pixels, the frame and the show. */
@@ -35,6 +37,8 @@ export function Inspector() {
         <Tabs.Panel value="show" className="sections">
           <ShowSection />
           <IssueList issues={issues} onFrame={(index) => editor.goToFrame(index)} />
+          <RobotsSection />
+          <FloorSection />
         </Tabs.Panel>
       </Tabs>
     </aside>

@@ -1,6 +1,7 @@
-import { Button, Group, NumberInput, Stack, Text } from '@mantine/core';
+import { Button, Group, Stack, Text } from '@mantine/core';
 import { useMemo } from 'react';
 import { boxOf, centreOf } from '../model/geometry';
+import { LengthInput } from '../shell/LengthInput';
 import * as acts from './acts';
 import { useEditing, useEditor } from './context';
 import { PinField } from './PinField';
@@ -16,17 +17,11 @@ export function PlaceSection() {
   const centre = centreOf(boxOf(chosen));
   const only = chosen.length === 1 ? chosen[0] : undefined;
   const field = (axis: 'x' | 'y') => (
-    <NumberInput
-      label={`${axis}, metres`}
-      size="xs"
-      step={0.01}
-      decimalScale={4}
+    <LengthInput
+      label={axis}
       disabled={chosen.length === 0}
-      value={chosen.length === 0 ? '' : Number(centre[axis].toFixed(4))}
-      onChange={(value) => {
-        if (typeof value === 'number' && Math.abs(value - centre[axis]) > 5e-5)
-          acts.moveTo(editing, axis, value);
-      }}
+      value={chosen.length === 0 ? null : centre[axis]}
+      onChange={(metres) => acts.moveTo(editing, axis, metres)}
     />
   );
   const link = (label: string, act: () => void) => (

@@ -1,4 +1,5 @@
 import {
+  IconBarrierBlock,
   IconColorPicker,
   IconGhost2,
   IconLasso,
@@ -16,6 +17,7 @@ const TOOLS = [
   ['arrow', 'Choose and move (V)', IconPointer],
   ['lasso', 'Lasso (Q)', IconLasso],
   ['eyedropper', 'Eyedropper (I)', IconColorPicker],
+  ['area', 'No-go areas: drag to draw or move one, Alt for a round one (O)', IconBarrierBlock],
 ] as const;
 
 const LOOKS: [keyof Looks, string, typeof IconMagnet][] = [

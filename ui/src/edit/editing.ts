@@ -9,7 +9,7 @@ import type { Session } from '../shell/session';
 import { createView, type View } from '../stage/view';
 import { createSaving, draftOf, restoreDraft } from './saving';
 
-export type ToolName = 'arrow' | 'lasso' | 'eyedropper';
+export type ToolName = 'arrow' | 'lasso' | 'eyedropper' | 'area';
 
 /** What the stage shows and snaps to; this screen's own. */
 export interface Looks {

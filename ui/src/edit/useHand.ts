@@ -1,7 +1,10 @@
 import { useEffect, useMemo } from 'react';
 import { useStore } from '../base/store';
+import { lengthText } from '../base/units';
+import { unitStore } from '../shell/preferences';
 import { createArrowTool } from '../model/arrowTool';
 import { createEyedropper } from '../model/eyedropper';
+import { createObstacleTool } from '../model/obstacleTool';
 import { createLassoTool } from '../model/lassoTool';
 import type { Tool, Touch } from '../model/tool';
 import { createTransformTool } from '../model/transformTool';
@@ -27,10 +30,13 @@ function createTool(editing: Editing): Tool {
         else keepColour(editing, color);
         editing.tool.set('arrow');
       });
+    case 'area':
+      return createObstacleTool((m) => lengthText(m, unitStore.get()));
     case 'arrow':
       return createArrowTool({
         grid_m: () => (editing.looks.get().snap ? snapStep(editing.view.get().camera.scale) : 0),
         neighbours: () => editing.looks.get().snap,
+        lengthText: (m) => lengthText(m, unitStore.get()),
       });
   }
 }
@@ -72,7 +78,8 @@ function lead(editing: Editing): { hand: Hand; giveUp: () => boolean } {
       down(at, event) {
         editing.running.set(false);
         editing.moment.set(null);
-        const handle = handleAt(editor.state.get(), view.get().camera, at);
+        const handle =
+          editing.tool.get() !== 'area' && handleAt(editor.state.get(), view.get().camera, at);
         active = handle ? createTransformTool(handle) : chosen;
         active.down(editor, touch(at, event));
       },

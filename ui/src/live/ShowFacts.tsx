@@ -2,6 +2,8 @@ import { Stack, Text, Title } from '@mantine/core';
 import type { Plan } from '../api/types.gen';
 import { useStore } from '../base/store';
 import { clockText } from '../base/time';
+import { sizeText } from '../base/units';
+import { useUnit } from '../shell/preferences';
 import { useSession } from '../shell/session';
 import { IssueList } from './IssueList';
 
@@ -10,6 +12,7 @@ export function ShowFacts() {
   const { live, frame } = useSession();
   const opened = useStore(live.opened);
   const plan = useStore(live.plan);
+  const unit = useUnit();
   if (!opened.show)
     return (
       <Text c="dimmed" size="sm">
@@ -30,7 +33,7 @@ export function ShowFacts() {
         <dd>{pixels}</dd>
         <dt>Floor</dt>
         <dd>
-          {width_m} × {depth_m} m
+          {sizeText(width_m, unit)} × {sizeText(depth_m, unit)}
         </dd>
         {plan ? <PlanFacts plan={plan} /> : null}
       </dl>

@@ -9,6 +9,8 @@ export interface ArrowOptions {
   /** Grid step to snap to, metres; 0: none. */
   grid_m(): number;
   neighbours(): boolean;
+  /** A length for people. */
+  lengthText(metres: number): string;
 }
 
 type Phase =
@@ -75,7 +77,7 @@ export function createArrowTool(options: ArrowOptions): Tool {
     editor.overlay({
       ...NO_OVERLAY,
       guides: snapped.guides,
-      hint: dragHint(now, snapped, now.others),
+      hint: dragHint(now, snapped, now.others, options.lengthText),
     });
   };
 
@@ -127,9 +129,11 @@ function dragHint(
   now: { lead: Point; places: ReadonlyMap<number, Point> },
   by: { dx: number; dy: number },
   others: readonly Point[],
+  text: (metres: number) => string,
 ): string {
   const at = { x: now.lead.x + by.dx, y: now.lead.y + by.dy };
   const nearest = Math.min(...others.map((p) => Math.hypot(p.x - at.x, p.y - at.y)));
-  const place = `${at.x.toFixed(3)}, ${at.y.toFixed(3)} m`;
-  return nearest < 1 ? `${place} · nearest ${(nearest * 1000).toFixed(0)} mm` : place;
+  const went = Math.hypot(by.dx, by.dy);
+  const place = `${text(at.x)}, ${text(at.y)} · moved ${text(went)}`;
+  return nearest < 1 ? `${place} · nearest ${text(nearest)}` : place;
 }

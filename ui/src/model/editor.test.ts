@@ -9,7 +9,9 @@ import type { Tool, Touch } from './tool';
 import { createTransformTool } from './transformTool';
 
 /** A hand that draws with a tool on an editor: pixels 0, 1, 2 stand at y = 0 and x = 0, 0.5, 1. */
-function hand(tool: Tool = createArrowTool({ grid_m: () => 0, neighbours: () => false })) {
+function hand(
+  tool: Tool = createArrowTool({ grid_m: () => 0, neighbours: () => false, lengthText }),
+) {
   const start = newShow('x', 3);
   const frames = start.frames.map((f) => ({
     ...f,
@@ -41,6 +43,7 @@ function hand(tool: Tool = createArrowTool({ grid_m: () => 0, neighbours: () => 
     marks: () => editor.state.get().history.past.map((m) => m.label),
   };
 }
+const lengthText = (m: number) => `${Math.round(m * 1000)} mm`;
 const round = (n: number) => Math.round(n * 1e6) / 1e6 + 0;
 
 test('click chooses, Shift adds and takes away, the floor chooses none', () => {
@@ -75,7 +78,7 @@ test('Shift keeps a drag on one axis', () => {
 });
 
 test('a drag snaps to grid and neighbours and says how far it is', () => {
-  const tool = createArrowTool({ grid_m: () => 0.1, neighbours: () => true });
+  const tool = createArrowTool({ grid_m: () => 0.1, neighbours: () => true, lengthText });
   const h = hand(tool);
   h.drag([[0, 0], [0.49, 0.29]], {}, false); // prettier-ignore
   expect(h.places()?.[0]).toEqual([0.5, 0.3]);

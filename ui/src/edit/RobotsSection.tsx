@@ -1,0 +1,97 @@
+import { Button, Group, NumberInput, SegmentedControl, Stack, Text } from '@mantine/core';
+import { useStore } from '../base/store';
+import { fleetSize, setFleetSize, setShow } from '../model/commands';
+import { limitOf, LIMITS_USUAL, setLimit, type LimitName } from '../model/limits';
+import { LengthInput } from '../shell/LengthInput';
+import { useSession } from '../shell/session';
+import { useEditing, useEditor } from './context';
+
+/** The most pixels a frame is given here; larger shows come from files. */
+const FLEET_MAX = 2000;
+
+const NUMBERS: [LimitName, string, number, number, number][] = [
+  ['speed_mps', 'Speed, metres a second', 0.01, 10, 0.01],
+  ['accel_mps2', 'Acceleration, m/s²', 0.01, 100, 0.1],
+  ['turn_radps', 'Turning, radians a second', 0.1, 100, 0.1],
+];
+
+/** How many robots the show has, and what they can do. */
+export function RobotsSection() {
+  const { editor, color } = useEditing();
+  const { live } = useSession();
+  const show = useEditor((s) => s.show);
+  const size = fleetSize(show);
+  const here = useStore(live.fleet, (fleet) => fleet.rows.length);
+  const resize = (count: number) =>
+    editor.change('Robots', (now) => setFleetSize(now, count, color.get()));
+  const limit = (name: LimitName, value: number) =>
+    editor.change('Robot limits', (now) => setLimit(now, name, value));
+  return (
+    <Stack gap="xs" component="section" aria-label="Robots">
+      <Text size="sm" fw={600}>
+        Robots
+      </Text>
+      <Group align="end" gap="xs" wrap="nowrap">
+        <NumberInput
+          style={{ flex: 1 }}
+          label="How many"
+          size="xs"
+          min={1}
+          max={FLEET_MAX}
+          value={size}
+          onChange={(value) => {
+            if (typeof value === 'number' && value >= 1 && value !== size) resize(value);
+          }}
+        />
+        {here > 0 && here !== size && here <= FLEET_MAX ? (
+          <Button size="xs" variant="default" onClick={() => resize(here)}>
+            As many as are here: {here}
+          </Button>
+        ) : null}
+      </Group>
+      <Stack gap={4}>
+        <Text size="xs">Which robot shows which pixel</Text>
+        <SegmentedControl
+          aria-label="Which robot shows which pixel"
+          size="xs"
+          value={show.identity}
+          onChange={(value) =>
+            editor.change('Identity', (now) => setShow(now, { identity: value as 'any' | 'fixed' }))
+          }
+          data={[
+            { value: 'any', label: 'Whoever is nearest' },
+            { value: 'fixed', label: 'Always the same' },
+          ]}
+        />
+      </Stack>
+      <details>
+        <summary>What they can do</summary>
+        <Stack gap="xs" pt="xs">
+          <LengthInput
+            label="Radius"
+            min={0.005}
+            max={1}
+            value={limitOf(show.stage, 'radius_m')}
+            onChange={(m) => limit('radius_m', m)}
+          />
+          {NUMBERS.map(([name, label, min, max, step]) => (
+            <NumberInput
+              key={name}
+              label={label}
+              description={`an Elisa-3: ${LIMITS_USUAL[name]}`}
+              size="xs"
+              min={min}
+              max={max}
+              step={step}
+              decimalScale={3}
+              value={limitOf(show.stage, name)}
+              onChange={(value) => {
+                if (typeof value === 'number' && value >= min && value <= max) limit(name, value);
+              }}
+            />
+          ))}
+        </Stack>
+      </details>
+    </Stack>
+  );
+}
