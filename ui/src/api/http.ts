@@ -1,4 +1,4 @@
-import type { Plan, ShowEntry } from './types.gen';
+import type { BrokerSettings, Plan, ShowEntry } from './types.gen';
 
 /** Something the server refused, in its words. */
 export class Refused extends Error {
@@ -57,6 +57,10 @@ export const deleteShow = (name: string, etag: string | null) =>
     method: 'DELETE',
     headers: etag === null ? {} : { 'If-Match': etag },
   });
+
+/** What the form for the broker begins with. */
+export const getBroker = async () =>
+  (await (await request('/api/broker')).json()) as BrokerSettings;
 
 /** The plan of the open show, with paths. */
 export const getPlan = async () => (await (await request('/api/plan')).json()) as Plan;

@@ -25,7 +25,7 @@ export function EditBar() {
   const canRedo = useEditor((s) => s.history.future.length > 0);
   const running = useStore(editing.running);
   const moment = useStore(editing.moment);
-  const plan = useStore(session.live.plan);
+  const plan = useStore(session.live.settled);
   const frame = useEditor((s) => s.frame);
   const timeline = useMemo(() => timelineOf(show, plan), [show, plan]);
   const total = totalOf(timeline);

@@ -47,8 +47,8 @@ export function EditKeys() {
     ['mod+Backspace', () => acts.deleteFrames(editing)],
     ['PageUp', () => editor.goToFrame(frame() - 1)],
     ['PageDown', () => editor.goToFrame(frame() + 1)],
-    ['alt+PageUp', () => acts.moveFrame(editing, frame(), frame() - 1)],
-    ['alt+PageDown', () => acts.moveFrame(editing, frame(), frame() + 1)],
+    ['alt+PageUp', () => acts.shiftFrames(editing, -1)],
+    ['alt+PageDown', () => acts.shiftFrames(editing, 1)],
     [']', () => acts.selectNext(editing, 1)],
     ['[', () => acts.selectNext(editing, -1)],
     ['v', () => editing.tool.set('arrow')],
@@ -63,7 +63,7 @@ export function EditKeys() {
     ['0', () => fitView(editing.view)],
     ['+', () => zoomView(editing.view, 1.4)],
     ['-', () => zoomView(editing.view, 1 / 1.4)],
-    ['F2', () => document.getElementById('frame-name')?.focus()],
+    ['F2', () => editing.renaming.set(frame())],
   ]);
   return null;
 }

@@ -21,8 +21,9 @@ export function EditStrip() {
   const show = useEditor((s) => s.show);
   const at = useEditor((s) => s.frame);
   const chosen = useEditor((s) => s.frames);
-  const plan = useStore(live.plan);
+  const plan = useStore(live.settled);
   const [over, setOver] = useState<number | null>(null);
+  const renaming = useStore(editing.renaming);
   const dragged = useRef<number | null>(null);
   const list = useRef<HTMLUListElement>(null);
   useEffect(() => {
@@ -41,7 +42,7 @@ export function EditStrip() {
     const from = dragged.current;
     dragged.current = null;
     setOver(null);
-    if (from !== null) acts.moveFrame(editing, from, to);
+    if (from !== null) acts.dropFrames(editing, from, to);
   };
   const button = (label: string, act: () => void, icon: ReactNode, off = false) => (
     <Tooltip label={label} position="right">
@@ -83,6 +84,12 @@ export function EditStrip() {
               times={timesOf(plan, i, frame.airTime_s)}
               wrong={plan?.issues.some((x) => x.frame === i && x.severity === 'error') ?? false}
               onChoose={(event) => choose(i, event)}
+              naming={renaming === i}
+              onName={(name) => {
+                editing.renaming.set(null);
+                if (name) acts.renameFrame(editing, i, name);
+              }}
+              onRename={() => editing.renaming.set(i)}
               onDragStart={() => (dragged.current = i)}
               onDragEnd={() => setOver((dragged.current = null))}
             />

@@ -1,4 +1,4 @@
-import { memo, type MouseEvent } from 'react';
+import { memo, useRef, type MouseEvent } from 'react';
 import type { Frame, Stage } from '../model/show';
 import { Thumbnail } from '../stage/Thumbnail';
 
@@ -13,6 +13,11 @@ interface Props {
   /** Whether it cannot be played as it is. */
   wrong: boolean;
   onChoose: (event: MouseEvent) => void;
+  /** Whether its name is being typed. */
+  naming: boolean;
+  /** The name that was typed; `null`: given up. */
+  onName: (name: string | null) => void;
+  onRename: () => void;
   onDragStart: () => void;
   onDragEnd: () => void;
 }
@@ -20,6 +25,13 @@ interface Props {
 /** One frame of the strip. */
 export const FrameCard = memo(function FrameCard(props: Props) {
   const { frame, index } = props;
+  if (props.naming)
+    return (
+      <div className="card" data-chosen>
+        <Thumbnail frame={frame} stage={props.stage} />
+        <NameField name={frame.name} onName={props.onName} />
+      </div>
+    );
   return (
     <button
       type="button"
@@ -29,13 +41,14 @@ export const FrameCard = memo(function FrameCard(props: Props) {
       data-chosen={props.chosen || undefined}
       data-wrong={props.wrong || undefined}
       onClick={props.onChoose}
+      onDoubleClick={props.onRename}
       onDragStart={(event) => {
         event.dataTransfer.effectAllowed = 'move';
         event.dataTransfer.setData('text/plain', frame.name);
         props.onDragStart();
       }}
       onDragEnd={props.onDragEnd}
-      title={`${frame.name}: drive + air time ${props.times}`}
+      title={`${frame.name}: drive + air time ${props.times}. Double click: rename`}
     >
       <Thumbnail frame={frame} stage={props.stage} />
       <span className="label">
@@ -49,3 +62,28 @@ export const FrameCard = memo(function FrameCard(props: Props) {
     </button>
   );
 });
+
+function NameField({ name, onName }: { name: string; onName: (name: string | null) => void }) {
+  // Escape takes the focus away too, and must not save what it gave up.
+  const left = useRef(false);
+  const leave = (typed: string | null) => {
+    if (left.current) return;
+    left.current = true;
+    onName(typed?.trim() ?? null);
+  };
+  return (
+    <input
+      className="card-name"
+      aria-label="Name of the frame"
+      autoFocus
+      maxLength={80}
+      defaultValue={name}
+      onFocus={(event) => event.currentTarget.select()}
+      onBlur={(event) => leave(event.currentTarget.value)}
+      onKeyDown={(event) => {
+        if (event.key === 'Enter') leave(event.currentTarget.value);
+        if (event.key === 'Escape') leave(null);
+      }}
+    />
+  );
+}

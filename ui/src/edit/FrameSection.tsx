@@ -1,4 +1,13 @@
-import { Checkbox, NumberInput, SegmentedControl, Stack, Text, TextInput } from '@mantine/core';
+import {
+  Button,
+  Checkbox,
+  Group,
+  NumberInput,
+  SegmentedControl,
+  Stack,
+  Text,
+  TextInput,
+} from '@mantine/core';
 import { useStore } from '../base/store';
 import { secondsText } from '../base/time';
 import { useSession } from '../shell/session';
@@ -12,7 +21,7 @@ export function FrameSection() {
   const index = useEditor((s) => s.frame);
   const frame = useEditor((s) => s.show.frames[s.frame]);
   const count = useEditor((s) => s.frames.size);
-  const plan = useStore(live.plan, (p) => p?.transitions[index]);
+  const plan = useStore(live.settled, (p) => p?.transitions[index]);
   if (!frame) return null;
   const least = plan?.least_s;
   const fast = frame.transition_s === null;
@@ -21,8 +30,15 @@ export function FrameSection() {
       <Text size="sm" fw={600}>
         {count > 1 ? `${count} frames` : `Frame ${index + 1}`}
       </Text>
+      <Group grow gap="xs">
+        <Button size="compact-xs" variant="default" onClick={() => acts.shiftFrames(editing, -1)}>
+          Move earlier
+        </Button>
+        <Button size="compact-xs" variant="default" onClick={() => acts.shiftFrames(editing, 1)}>
+          Move later
+        </Button>
+      </Group>
       <TextInput
-        id="frame-name"
         key={`${frame.key} ${frame.name}`}
         label="Name"
         size="xs"

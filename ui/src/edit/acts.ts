@@ -115,7 +115,8 @@ export function addFrame(e: Editing) {
 export function duplicateFrames(e: Editing) {
   const frames = chosenFrames(e);
   e.editor.change('Duplicate frame', (show) => commands.duplicateFrames(show, frames));
-  e.editor.goToFrame((frames[frames.length - 1] ?? 0) + 1);
+  const first = (frames[frames.length - 1] ?? 0) + 1;
+  e.editor.chooseFrames(frames.map((_, i) => first + i));
 }
 
 export function deleteFrames(e: Editing) {
@@ -124,10 +125,30 @@ export function deleteFrames(e: Editing) {
   e.editor.goToFrame(Math.min(frames[0] ?? 0, e.editor.state.get().show.frames.length - 1));
 }
 
-export function moveFrame(e: Editing, from: number, to: number) {
-  e.editor.change('Move frame', (show) => commands.moveFrame(show, from, to));
-  e.editor.goToFrame(to);
+/** Moves frames together before the one at `before`; they stay chosen. */
+export function moveFrames(e: Editing, indices: readonly number[], before: number) {
+  const keys = indices.map((i) => e.editor.state.get().show.frames[i]?.key);
+  e.editor.change('Move frame', (show) => commands.moveFrames(show, indices, before));
+  const { frames } = e.editor.state.get().show;
+  e.editor.chooseFrames(frames.flatMap((frame, i) => (keys.includes(frame.key) ? [i] : [])));
 }
+
+/** Moves the chosen frames one place, towards the beginning or the end. */
+export function shiftFrames(e: Editing, by: -1 | 1) {
+  const frames = chosenFrames(e);
+  const [first, last] = [frames[0] ?? 0, frames[frames.length - 1] ?? 0];
+  moveFrames(e, frames, by < 0 ? first - 1 : last + 2);
+}
+
+/** Drops the dragged frame, or all chosen ones if it is one of them, where the one at `to` is. */
+export function dropFrames(e: Editing, dragged: number, to: number) {
+  const { frames } = e.editor.state.get();
+  const moved = frames.has(dragged) ? chosenFrames(e) : [dragged];
+  if (!moved.includes(to)) moveFrames(e, moved, dragged < to ? to + 1 : to);
+}
+
+export const renameFrame = (e: Editing, index: number, name: string) =>
+  e.editor.change('Rename frame', (show) => commands.setFrames(show, [index], { name }));
 
 export const setFrames = (e: Editing, fields: commands.FrameFields) =>
   e.editor.change('Frame', (show) => commands.setFrames(show, chosenFrames(e), fields));

@@ -36,6 +36,8 @@ export interface Editing {
   /** The moment that is looked at, seconds from the start; null: the frame itself. */
   moment: Store<number | null>;
   running: Store<boolean>;
+  /** The frame whose name is being typed in the strip; null: none. */
+  renaming: Store<number | null>;
   /** Another show takes its place: it still saves what is unsaved, and follows nobody. */
   retire(): void;
 }
@@ -66,6 +68,7 @@ export function createEditing(
     color: createStore<Rgb>(0xffc878),
     moment: createStore<number | null>(null),
     running: createStore(false),
+    renaming: createStore<number | null>(null),
     retire() {
       saver.flush();
       unfollow();

@@ -1,5 +1,5 @@
 import { expect, test } from 'vitest';
-import type { FleetRow, Plan } from '../api/types.gen';
+import type { Broker, FleetRow, Plan } from '../api/types.gen';
 import { pinPixel } from '../model/commands';
 import { newShow } from '../model/show';
 import { canGoOn, checklistOf, isReady, type Check, type Situation } from './checklist';
@@ -27,8 +27,15 @@ const plan: Plan = {
   issues: [],
   transitions: [],
 };
+const HERE: Broker = {
+  address: 'mqtt://here',
+  phase: 'connected',
+  connected: true,
+  node: 'mqtt://here',
+  reason: null,
+};
 const all = (over: Partial<Situation> = {}): Situation => ({
-  broker: { address: 'mqtt://here', connected: true, reason: null },
+  broker: HERE,
   show: newShow('x', 2),
   plan,
   rows: [row('a'), row('b')],
@@ -54,7 +61,7 @@ test('what is missing is said, and whether one can go on without', () => {
   const red = checklistOf(all({ plan: { ...plan, ok: false } }));
   expect([of(red, 'plan')?.verdict, canGoOn(red)]).toEqual(['bad', false]);
   expect(of(checklistOf(all({ plan: { ...plan, planning: true } })), 'plan')?.verdict).toBe('wait');
-  const away = { address: '', connected: false, reason: 'no route' };
+  const away: Broker = { ...HERE, phase: 'retrying', connected: false, reason: 'no route' };
   expect(canGoOn(checklistOf(all({ broker: away })))).toBe(false);
   expect(canGoOn(checklistOf(all({ show: null })))).toBe(false);
 });

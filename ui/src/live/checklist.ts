@@ -62,9 +62,12 @@ const check = (name: Check['name'], title: string, verdict: Verdict, detail: str
 });
 
 function brokerCheck(broker: Broker): Check {
-  const lost = broker.reason ?? 'It is not connected: see Settings.';
+  const off = broker.phase === 'off';
+  const lost = off
+    ? 'It is switched off: press Connect in Settings.'
+    : (broker.reason ?? 'It is being connected…');
   return broker.connected
-    ? check('broker', 'Broker connected', 'good', broker.address)
+    ? check('broker', 'Broker connected', 'good', broker.node ?? broker.address)
     : check('broker', 'Broker', 'bad', lost);
 }
 

@@ -19,6 +19,8 @@ export interface Live {
   hello: Store<Hello | null>;
   opened: Store<Opened>;
   plan: Store<Plan | null>;
+  /** The last plan that was finished for this show: what to show while the next one is being made. */
+  settled: Store<Plan | null>;
   fleet: Store<Fleet>;
   broker: Store<Broker>;
   playback: Store<Playback>;
@@ -48,6 +50,7 @@ export function createLive(): Live {
     hello: createStore<Hello | null>(null),
     opened: createStore<Opened>({ revision: -1, name: null, etag: null, show: null }),
     plan: createStore<Plan | null>(null),
+    settled: createStore<Plan | null>(null),
     fleet: createStore<Fleet>({ revision: 0, rows: [] }),
     broker: createStore<Broker>({
       address: '',
@@ -71,6 +74,7 @@ export function hear(live: Live, message: ToScreen, now_ms: number) {
       live.log.set([]);
       break;
     case 'show':
+      if (message.name !== live.opened.get().name) live.settled.set(null);
       live.opened.set({
         revision: message.revision,
         name: message.name,
@@ -80,6 +84,7 @@ export function hear(live: Live, message: ToScreen, now_ms: number) {
       break;
     case 'plan':
       live.plan.set(message);
+      if (!message.planning) live.settled.set(message);
       break;
     case 'fleet':
       live.fleet.set(message);

@@ -12,8 +12,11 @@ function three(): Show {
 }
 
 test('frames are added, copied, moved and deleted; the last one stays', () => {
-  expect(names(c.moveFrame(three(), 0, 2))).toBe('B C A');
-  expect(names(c.moveFrame(three(), 2, -5))).toBe('C A B');
+  expect(names(c.moveFrames(three(), [0], 3))).toBe('B C A');
+  expect(names(c.moveFrames(three(), [2], -5))).toBe('C A B');
+  expect(names(c.moveFrames(three(), [0], 2))).toBe('B A C');
+  expect(names(c.moveFrames(three(), [2, 0], 2))).toBe('B A C');
+  expect(names(c.moveFrames(three(), [1, 2], 0))).toBe('B C A');
   expect(names(c.duplicateFrames(three(), [2, 0]))).toBe('A B C A copy C copy');
   expect(names(c.deleteFrames(three(), [0, 2]))).toBe('B');
   const show = three();
@@ -25,6 +28,7 @@ test('a change that changes nothing is the same show', () => {
   expect(c.setFrames(show, [0], { name: 'A' })).toBe(show);
   expect(c.recolour(show, 0, new Map([[0, 0xffc878]]))).toBe(show);
   expect(c.placePixels(show, 9, new Map())).toBe(show);
+  expect(c.moveFrames(show, [0, 1], 2)).toBe(show);
 });
 
 test('keys tell frames apart', () => {

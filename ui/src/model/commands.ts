@@ -88,14 +88,18 @@ export function deleteFrames(show: Show, indices: readonly number[]): Show {
   return frames.length === 0 || frames.length === show.frames.length ? show : { ...show, frames };
 }
 
-/** Moves a frame so that it is at `to` afterwards. */
-export function moveFrame(show: Show, from: number, to: number): Show {
-  const frame = show.frames[from];
-  const target = Math.max(0, Math.min(show.frames.length - 1, to));
-  if (!frame || target === from) return show;
-  const frames = show.frames.filter((_, i) => i !== from);
-  frames.splice(target, 0, frame);
-  return { ...show, frames };
+/** Moves frames, in their order, to stand together before the one that is at `before` now (or at the end). */
+export function moveFrames(show: Show, indices: readonly number[], before: number): Show {
+  const chosen = new Set(indices);
+  const at = Math.max(0, Math.min(show.frames.length, before));
+  const part = (want: boolean, from: number, to: number) =>
+    show.frames.slice(from, to).filter((_, i) => chosen.has(from + i) === want);
+  const all = [
+    ...part(false, 0, at),
+    ...part(true, 0, show.frames.length),
+    ...part(false, at, show.frames.length),
+  ];
+  return all.every((frame, i) => frame === show.frames[i]) ? show : { ...show, frames: all };
 }
 
 export type FrameFields = Partial<Pick<Frame, 'name' | 'airTime_s' | 'transition_s' | 'easing'>>;

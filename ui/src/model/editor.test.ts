@@ -166,6 +166,11 @@ test('several frames are chosen at once', () => {
   expect([...editor.state.get().frames]).toEqual([1, 2, 3]);
   editor.goToFrame(0, 'add');
   expect(editor.state.get().frames.size).toBe(4);
+  editor.chooseFrames([2, 3, 99]);
+  expect([...editor.state.get().frames]).toEqual([2, 3]);
+  expect(editor.state.get().frame).toBe(2);
+  editor.goToFrame(2, 'add');
+  expect(editor.state.get().frame).toBe(2);
 });
 
 test('what another screen saved is one mark that can be undone, and is not saved again', () => {

@@ -46,6 +46,8 @@ export interface Editor {
   redo(): string | null;
   select(ids: Iterable<number>): void;
   goToFrame(index: number, how?: 'only' | 'add' | 'range'): void;
+  /** Chooses frames; the first of them is on the stage. */
+  chooseFrames(indices: readonly number[]): void;
   overlay(overlay: Overlay): void;
   /** Copies chosen pixels; answers how many. */
   copy(): number;
@@ -137,6 +139,11 @@ export function createEditor(show: Show, frame = 0): Editor {
         const at = Math.max(0, Math.min(s.show.frames.length - 1, index));
         return { ...s, frame: at, frames: chosenFrames(s, at, how) };
       });
+    },
+    chooseFrames(indices) {
+      const [at] = indices;
+      if (at !== undefined)
+        state.update((s) => settle({ ...s, frame: at, frames: new Set(indices) }));
     },
     overlay: (overlay) => state.update((s) => ({ ...s, overlay })),
     copy() {

@@ -90,7 +90,11 @@ export function Header({ view }: { view: View }) {
       </Tooltip>
       <LibraryDialog opened={dialog === 'library'} onClose={close} />
       <KeyboardMap opened={dialog === 'keys'} onClose={close} />
-      <SettingsDialog opened={dialog === 'settings'} onClose={close} />
+      <SettingsDialog
+        opened={dialog === 'settings'}
+        onClose={close}
+        onKeys={() => setDialog('keys')}
+      />
     </header>
   );
 }
