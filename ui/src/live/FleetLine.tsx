@@ -1,6 +1,8 @@
 import { ActionIcon, Tooltip } from '@mantine/core';
 import { IconBulb, IconDots, IconPinFilled } from '@tabler/icons-react';
+import { memo } from 'react';
 import type { FleetRow } from '../api/types.gen';
+import type { Session } from '../shell/session';
 import { CHARGE_LOW } from './checklist';
 import * as words from './robotWords';
 
@@ -8,13 +10,35 @@ interface Props {
   row: FleetRow;
   wide: boolean;
   pinned: boolean;
-  identify: () => void;
+  ask: Session['ask'];
   /** Shows everything about it. */
-  choose: () => void;
+  choose: (id: string) => void;
 }
 
+/** Everything of a row that is shown. The table comes twice a second, and hardly a row of it says anything new. */
+const shownOf = ({ row, wide, pinned }: Props) =>
+  [
+    row.pixel,
+    words.stateText(row),
+    row.battery,
+    wide && [words.heardText(row), words.clockText(row)],
+    wide && [words.firmwareText(row), words.abilitiesText(row)],
+    row.abilities.blink,
+    row.presence,
+    wide,
+    pinned,
+  ].join('|');
+
 /** One robot of the fleet table. */
-export function FleetLine({ row, wide, pinned, identify, choose }: Props) {
+export const FleetLine = memo(
+  Line,
+  (before, after) =>
+    before.ask === after.ask &&
+    before.choose === after.choose &&
+    shownOf(before) === shownOf(after),
+);
+
+function Line({ row, wide, pinned, ask, choose }: Props) {
   const name = words.shortId(row.id);
   const low = row.battery !== null && row.battery < CHARGE_LOW;
   return (
@@ -45,7 +69,7 @@ export function FleetLine({ row, wide, pinned, identify, choose }: Props) {
             size="sm"
             disabled={!row.abilities.blink || row.presence !== 'active'}
             aria-label={`Let robot ${name} blink`}
-            onClick={identify}
+            onClick={() => void ask({ do: 'identify', robot: row.id })}
           >
             <IconBulb size={15} />
           </ActionIcon>
@@ -56,7 +80,7 @@ export function FleetLine({ row, wide, pinned, identify, choose }: Props) {
             color="gray"
             size="sm"
             aria-label={`More about robot ${name}`}
-            onClick={choose}
+            onClick={() => choose(row.id)}
           >
             <IconDots size={15} />
           </ActionIcon>

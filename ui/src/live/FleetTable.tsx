@@ -66,8 +66,8 @@ export function FleetTable(props: { wide: boolean; onWide: (wide: boolean) => vo
               row={row}
               wide={wide}
               pinned={pinned.has(row.id)}
-              identify={() => void ask({ do: 'identify', robot: row.id })}
-              choose={() => setChosen(row.id)}
+              ask={ask}
+              choose={setChosen}
             />
           ))}
         </tbody>

@@ -75,7 +75,7 @@ export function Transport() {
         {icon('abort', 'Abort (Esc)', <IconPlayerStopFilled size={18} />)}
         {icon('step', 'Step to the next frame (S)', <IconPlayerTrackNextFilled size={18} />)}
         {icon('preview', 'Preview the chosen frame (P)', <IconEye size={19} />)}
-        {icon('loop', 'Loop (L)', <IconRepeat size={18} />, playback.looping)}
+        {icon('loop', 'Loop (L)', <IconRepeat size={18} />, looping)}
         <ChecklistButton />
         {icon('refresh', 'Refresh: who is there? (R)', <IconRefresh size={18} />)}
       </Group>
