@@ -116,10 +116,17 @@ export const saved = (page: Page) => page.locator('[data-testid=save][data-save=
 export const stored = (
   page: Page,
   name: string,
-): Promise<{ frames: StoredFrame[]; name: string }> =>
+): Promise<{ frames: StoredFrame[]; name: string; stage: StoredStage }> =>
   page.evaluate(async (n) => (await fetch(`/api/shows/${encodeURIComponent(n)}`)).json(), name);
+
+export interface StoredStage {
+  width_m: number;
+  obstacles?: unknown[];
+  robot?: Record<string, number>;
+}
 
 export interface StoredFrame {
   name: string;
+  air_time_s: number;
   pixels: { id: number; place: [number, number]; color: string; robot?: string }[];
 }

@@ -1,5 +1,5 @@
 import { expect, test } from 'vitest';
-import { colourName, fromHex, mix, rgb, toHex } from './colour';
+import { colourName, fromHex, fromText, mix, rgb, toHex } from './colour';
 
 test('hex in its usual spellings', () => {
   expect(fromHex('#ffa500')).toBe(0xffa500);
@@ -16,4 +16,12 @@ test('components are rounded and kept in range', () => {
 test('names', () => {
   expect(colourName(0xffa500)).toBe('orange');
   expect(colourName(0)).toBe('off');
+});
+
+test('colours can be typed as hex or RGB', () => {
+  expect(fromText('#ff8000')).toBe(0xff8000);
+  expect(fromText(' 255, 128, 0 ')).toBe(0xff8000);
+  expect(fromText('rgb(255 128 0)')).toBe(0xff8000);
+  expect(fromText('256, 0, 0')).toBeUndefined();
+  expect(fromText('rgb(1,2)')).toBeUndefined();
 });

@@ -20,6 +20,14 @@ export function fromHex(text: string): Rgb | undefined {
   return /^[0-9a-f]{6}$/i.test(digits) ? parseInt(digits, 16) : undefined;
 }
 
+/** Reads hex as `fromHex` does, or red, green and blue as `255, 128, 0` or `rgb(255 128 0)`. */
+export function fromText(text: string): Rgb | undefined {
+  const parts = /^(?:rgb)?\(?\s*(\d{1,3})[\s,]+(\d{1,3})[\s,]+(\d{1,3})\s*\)?$/i.exec(text.trim());
+  if (!parts) return fromHex(text);
+  const [r, g, b] = parts.slice(1).map(Number) as [number, number, number];
+  return Math.max(r, g, b) > 255 ? undefined : rgb(r, g, b);
+}
+
 /** Straight mixture of two colours; `t` in 0..1. */
 export const mix = (a: Rgb, b: Rgb, t: number): Rgb =>
   rgb(

@@ -1,6 +1,6 @@
 import { Button, ColorInput, ColorPicker, ColorSwatch, Group, Stack, Text } from '@mantine/core';
 import { useState } from 'react';
-import { colourName, fromHex, toHex, type Rgb } from '../base/colour';
+import { colourName, fromHex, fromText, toHex, type Rgb } from '../base/colour';
 import { useStore } from '../base/store';
 import * as acts from './acts';
 import { useEditing, useEditor } from './context';
@@ -50,12 +50,12 @@ export function ColourSection() {
       />
       <ColorInput
         size="xs"
-        aria-label="Colour as hex or RGB"
+        label="Hex, or red, green, blue"
         value={toHex(color)}
         withPicker={false}
         withEyeDropper={false}
         onChange={(value) => {
-          const typed = fromHex(value);
+          const typed = fromText(value);
           if (typed !== undefined && typed !== color) acts.paint(editing, typed);
         }}
       />
@@ -75,7 +75,7 @@ export function ColourSection() {
           style={{ flex: 1 }}
           withEyeDropper={false}
           value={toHex(to)}
-          onChange={(value) => setTo(fromHex(value) ?? to)}
+          onChange={(value) => setTo(fromText(value) ?? to)}
         />
         <Button size="xs" variant="default" onClick={() => acts.paintGradient(editing, color, to)}>
           Apply

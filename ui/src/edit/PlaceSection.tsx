@@ -43,6 +43,8 @@ export function PlaceSection() {
         {link('None', () => editing.editor.select([]))}
         {link('Invert', () => acts.invertSelection(editing))}
         {link('Same colour', () => acts.selectSameColour(editing))}
+        {link('Copy', () => void editing.editor.copy())}
+        {link('Paste', () => void editing.editor.paste())}
       </Group>
       <Group grow gap="xs">
         {field('x')}

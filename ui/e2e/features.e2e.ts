@@ -106,3 +106,91 @@ test('the library: pictures, save as, rename, download, delete and undo', async 
   await eventually(names, (all) => all.includes('kept') && !all.includes('second'), 'back');
   await page.close();
 });
+
+test('several frames are chosen, moved, timed, copied and deleted together, and renamed in place', async () => {
+  const page = await openPage(browser, server, 'edit');
+  await uploadText(page, 'strip.json', smallShow(6));
+  const cards = page.getByRole('list', { name: 'Frames' }).locator('.card');
+  const names = async () => {
+    await saved(page);
+    return (await stored(page, 'strip')).frames.map((f) => f.name);
+  };
+  await cards.nth(1).click();
+  await page.keyboard.press('Control+Enter');
+  await eventually(
+    () => cards.count(),
+    (n) => n === 3,
+    'three frames',
+  );
+  await page.keyboard.press('F2');
+  await page.getByLabel('Name of the frame').fill('Last');
+  await page.keyboard.press('Enter');
+  expect(await names()).toEqual(['One', 'Two', 'Last']);
+  await cards.nth(1).click({ modifiers: ['Shift'] });
+  await page.keyboard.press('Alt+PageUp');
+  expect(await names()).toEqual(['Two', 'Last', 'One']);
+  await page.getByRole('tab', { name: 'Frame' }).click();
+  await page.getByLabel(/^Air time/).fill('7');
+  await page.keyboard.press('Escape');
+  await saved(page);
+  const { frames } = await stored(page, 'strip');
+  expect(frames.map((f) => f.air_time_s)).toEqual([7, 7, 0.3]);
+  await page.getByRole('button', { name: /^Duplicate/ }).click();
+  await eventually(
+    () => cards.count(),
+    (n) => n === 5,
+    'two copies',
+  );
+  await page.getByRole('button', { name: /^Delete/ }).click();
+  await eventually(
+    () => cards.count(),
+    (n) => n === 3,
+    'both copies are gone again',
+  );
+  await page.close();
+});
+
+test('settings: unit of lengths, floor, no-go area, robot limits, and the broker', async () => {
+  const page = await openPage(browser, server, 'edit');
+  await uploadText(page, 'floor.json', smallShow(6));
+  const settings = async () => {
+    await page.getByRole('button', { name: 'Settings' }).click();
+    await page.getByRole('dialog').getByTestId('broker').waitFor();
+  };
+  await settings();
+  await page.getByLabel('Lengths on this screen').first().click();
+  await page.getByRole('option', { name: 'centimetres' }).click();
+  await page
+    .getByTestId('broker')
+    .getByText(/^Connected to/)
+    .waitFor();
+  await page.getByText('Another one', { exact: true }).click();
+  await page.getByLabel('Address').fill('mqtt://127.0.0.1:1');
+  await page.getByRole('button', { name: 'Connect', exact: true }).click();
+  await page.locator('[data-testid=broker][data-phase=retrying]').waitFor();
+  expect(await page.getByTestId('broker').textContent()).toMatch(/trying again\. \S+/);
+  await page.getByRole('button', { name: 'Disconnect' }).click();
+  await page.locator('[data-testid=broker][data-phase=off]').waitFor();
+  await page.getByText('The server’s own').click();
+  await page.getByRole('button', { name: 'Connect', exact: true }).click();
+  await page.locator('[data-testid=broker][data-phase=connected]').waitFor();
+  await page.keyboard.press('Escape');
+  await page.getByRole('tab', { name: /^Show/ }).click();
+  await page.getByLabel('Width, centimetres').fill('400');
+  await page.getByRole('button', { name: /^Draw one/ }).click();
+  const stage = await page.getByTestId('stage').boundingBox();
+  if (!stage) throw new Error('There is no stage.');
+  await page.mouse.move(stage.x + stage.width / 2, stage.y + stage.height * 0.7);
+  await page.mouse.down();
+  await page.mouse.move(stage.x + stage.width / 2 + 40, stage.y + stage.height * 0.8, { steps: 4 });
+  await page.mouse.up();
+  await page.getByText('Area 1', { exact: true }).waitFor();
+  await page.getByText('What they can do').click();
+  await page.getByLabel(/^Speed/).fill('0.2');
+  await saved(page);
+  const document = await stored(page, 'floor');
+  expect(document.stage.width_m).toBe(4);
+  expect(document.stage.obstacles).toHaveLength(1);
+  expect(document.stage.robot).toEqual({ speed_mps: 0.2 });
+  await page.close();
+});
