@@ -10,6 +10,7 @@ import { StageHint } from './StageHint';
 import { StageTools } from './StageTools';
 import { usePlayback } from './usePlayback';
 import { useHand } from './useHand';
+import { unitStore } from '../shell/preferences';
 import { useKeys } from '../shell/useKeys';
 
 /** The same scene as long as nothing it is made of changed. */
@@ -23,7 +24,7 @@ function rememberScene(editing: Editing): () => Scene {
       editing.full.plan.get(),
       editing.moment.get(),
     ];
-    const now = [state, looks, plan, moment];
+    const now = [state, looks, plan, moment, unitStore.get()];
     if (!scene || now.some((input, i) => input !== inputs[i])) {
       inputs = now;
       scene = editScene(state, looks, plan, moment);

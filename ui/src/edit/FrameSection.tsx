@@ -85,6 +85,9 @@ export function FrameSection() {
           if (!fast && typeof value === 'number') acts.setFrames(editing, { transition_s: value });
         }}
       />
+      <Text size="xs">
+        Speeding up and slowing down: swift is as quick as it may be, gentle all along the way
+      </Text>
       <SegmentedControl
         aria-label="How the drive speeds up"
         size="xs"

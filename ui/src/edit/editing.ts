@@ -53,7 +53,17 @@ export function createEditing(
   const editor = createEditor(show, session.frame.get());
   const draft = draftOf(session, name, show);
   const { saver, keeper } = createSaving(session.drafts, name, draft ? draft.etag : etag, editor);
-  const unfollow = editor.state.subscribe(() => session.frame.set(editor.state.get().frame));
+  const color = createStore<Rgb>(0xffc878);
+  let { selection } = editor.state.get();
+  const unfollow = editor.state.subscribe(() => {
+    const now = editor.state.get();
+    session.frame.set(now.frame);
+    if (now.selection === selection) return;
+    selection = now.selection;
+    // The picker shows the colour of what is chosen.
+    const [first] = editor.chosenPixels();
+    if (first) color.set(first.color);
+  });
   let stop = () => {};
   const editing: Editing = {
     name,
@@ -65,7 +75,7 @@ export function createEditing(
     tool: createStore<ToolName>('arrow'),
     looks: createStore<Looks>({ snap: true, ids: false, ghosts: true, ways: false }),
     recent: createStore<readonly Rgb[]>([]),
-    color: createStore<Rgb>(0xffc878),
+    color,
     moment: createStore<number | null>(null),
     running: createStore(false),
     renaming: createStore<number | null>(null),

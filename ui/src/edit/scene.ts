@@ -3,6 +3,7 @@ import { pathsTo } from '../live/paths';
 import type { EditorState } from '../model/editor';
 import type { Frame } from '../model/show';
 import { dotsAt, timelineOf } from '../model/timeline';
+import { unitStore } from '../shell/preferences';
 import type { Dot, Scene } from '../stage/scene';
 import type { Looks } from './editing';
 import { paintOverlay } from './overlay';
@@ -37,6 +38,7 @@ export function editScene(
     radius_m: stage.radius_m,
     obstacles: stage.obstacles,
     grid: true,
+    unit: unitStore.get(),
     errors: NOTHING,
   };
   if (moment !== null && plan) {

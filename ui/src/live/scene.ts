@@ -1,4 +1,5 @@
 import type { Fleet, Phase } from '../api/types.gen';
+import { unitStore } from '../shell/preferences';
 import { paintPins } from '../stage/pinMark';
 import { contact_m, EMPTY_STAGE, type Frame, type Show } from '../model/show';
 import type { Dot, Scene } from '../stage/scene';
@@ -59,6 +60,7 @@ export function liveScene(live: Live, wish: SceneWish, now_ms: number): Scene {
     radius_m: stage.radius_m,
     obstacles: stage.obstacles,
     grid: true,
+    unit: unitStore.get(),
     filled: sample.filled,
     hollow: wish.targets ? hollow : NOTHING,
     errors: wish.targets && running ? sample.errors : NOTHING,

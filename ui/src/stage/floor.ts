@@ -1,4 +1,5 @@
 import { toHex } from '../base/colour';
+import { UNITS } from '../base/units';
 import { canvasFromStage, gridStep, type Camera, type Size } from './camera';
 import type { Scene } from './scene';
 
@@ -43,8 +44,11 @@ export function drawFloor(
 }
 
 function drawGrid(context: CanvasRenderingContext2D, scene: Scene, camera: Camera) {
-  const step = gridStep(camera.scale);
-  const digits = Math.max(0, Math.ceil(-Math.log10(step) - 1e-9));
+  const unit = scene.unit ?? 'm';
+  const { metres } = UNITS[unit];
+  const step_units = gridStep(camera.scale * metres);
+  const step = step_units * metres;
+  const digits = Math.max(0, Math.ceil(-Math.log10(step_units) - 1e-9));
   const [halfW, halfD] = [scene.width_m / 2, scene.depth_m / 2];
   const line = (ax: number, ay: number, bx: number, by: number, strong: boolean) => {
     const a = canvasFromStage(camera, { x: ax, y: ay });
@@ -63,15 +67,18 @@ function drawGrid(context: CanvasRenderingContext2D, scene: Scene, camera: Camer
   for (let k = Math.ceil(-halfW / step); k * step <= halfW + 1e-9; k++) {
     line(k * step, -halfD, k * step, halfD, k === 0);
     const at = canvasFromStage(camera, { x: k * step, y: -halfD });
-    context.fillText((k * step).toFixed(digits), at.x, at.y + 7);
+    context.fillText((k * step_units).toFixed(digits), at.x, at.y + 7);
   }
   context.textBaseline = 'middle';
   context.textAlign = 'right';
   for (let k = Math.ceil(-halfD / step); k * step <= halfD + 1e-9; k++) {
     line(-halfW, k * step, halfW, k * step, k === 0);
     const at = canvasFromStage(camera, { x: -halfW, y: k * step });
-    context.fillText((k * step).toFixed(digits), at.x - 8, at.y);
+    context.fillText((k * step_units).toFixed(digits), at.x - 8, at.y);
   }
+  const corner = canvasFromStage(camera, { x: halfW, y: -halfD });
+  context.textAlign = 'left';
+  context.fillText(unit, corner.x + 6, corner.y);
 }
 
 /** Planned ways, CSS pixels. */

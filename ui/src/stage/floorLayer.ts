@@ -52,10 +52,10 @@ export function createFloorLayer(sprites: Sprites): FloorLayer {
 
   return {
     of(scene, camera, { width, height }, density) {
-      const { width_m, depth_m, radius_m, grid, obstacles, hollow, paths } = scene;
+      const { width_m, depth_m, radius_m, grid, unit, obstacles, hollow, paths } = scene;
       const wanted = [
         ...[camera, width, height, density, width_m, depth_m, radius_m, grid, obstacles],
-        ...[hollow, paths],
+        ...[hollow, paths, unit],
       ];
       if (wanted.every((input, i) => input === painted[i])) return picture;
       [painted, read] = [wanted, null];

@@ -1,4 +1,5 @@
 import type { Rgb } from '../base/colour';
+import type { Unit } from '../base/units';
 import type { Camera, Point } from './camera';
 
 /** A disc on the floor, stage metres. */
@@ -22,6 +23,8 @@ export interface Scene {
   radius_m: number;
   obstacles: readonly Obstacle[];
   grid: boolean;
+  /** Unit of the rulers; metres if nothing is said. */
+  unit?: Unit;
   /** Filled: where lights are. */
   filled: readonly Dot[];
   /** Hollow: where they are meant to be. */
