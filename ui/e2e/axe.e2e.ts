@@ -47,6 +47,20 @@ for (const scheme of ['dark', 'light'] as const) {
       await page.getByRole('tab', { name: tab }).click();
       expect(await findings(page)).toEqual([]);
     }
+    await page.keyboard.press('c');
+    await page.getByRole('list', { name: 'Checklist' }).waitFor();
+    expect(await findings(page)).toEqual([]);
+    await page.keyboard.press('Escape');
+    await page.getByRole('dialog').waitFor({ state: 'hidden' });
+    await page.getByRole('tab', { name: 'Robots' }).click();
+    await page
+      .getByRole('button', { name: /^More about robot/ })
+      .first()
+      .click();
+    await page.getByRole('dialog').waitFor();
+    expect(await findings(page)).toEqual([]);
+    await page.keyboard.press('Escape');
+    await page.getByRole('dialog').waitFor({ state: 'hidden' });
     await page.goto(`${server.url}/#/edit`);
     await page.getByTestId('pixels').waitFor({ state: 'attached' });
     for (const tab of ['Pixels', 'Frame', 'Show']) {

@@ -141,6 +141,14 @@ test('several frames are chosen, moved, timed, copied and deleted together, and 
     (n) => n === 5,
     'two copies',
   );
+  const moment = page.getByRole('slider', { name: 'Moment of the show' });
+  await page.getByRole('button', { name: /^Watch without robots/ }).click();
+  await eventually(
+    async () => Number(await moment.getAttribute('aria-valuenow')),
+    (t) => t > 0.4,
+    'it is watched without robots',
+  );
+  await page.keyboard.press('Escape');
   await page.getByRole('button', { name: /^Delete/ }).click();
   await eventually(
     () => cards.count(),

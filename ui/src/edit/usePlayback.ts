@@ -1,7 +1,10 @@
 import { useEffect } from 'react';
 import { useStore } from '../base/store';
-import { segmentAt, timelineOf, totalOf } from '../model/timeline';
+import { segmentAt, timelineOf, totalOf, watchFrom } from '../model/timeline';
 import type { Editing } from './editing';
+
+/** Without a plan after so long the frames are shown without the drives between them, milliseconds. */
+const PATIENCE_MS = 3000;
 
 /** Runs the moment forward while the show is watched without robots. */
 export function usePlayback(editing: Editing) {
@@ -11,11 +14,23 @@ export function usePlayback(editing: Editing) {
   useEffect(() => (running || looked ? full.follow() : undefined), [running, looked, full]);
   useEffect(() => {
     if (!running) return;
-    let [request, before] = [0, performance.now()];
+    const began = performance.now();
+    let [request, before] = [0, began];
+    let begun = false;
     const step = (now: number) => {
-      const { show } = editing.editor.state.get();
-      const timeline = timelineOf(show, editing.full.plan.get());
-      const next = (editing.moment.get() ?? 0) + (now - before) / 1000;
+      const plan = editing.full.plan.get();
+      if (!plan && now - began < PATIENCE_MS) {
+        before = now;
+        request = requestAnimationFrame(step);
+        return;
+      }
+      const { show, frame } = editing.editor.state.get();
+      const timeline = timelineOf(show, plan);
+      const from = begun
+        ? (editing.moment.get() ?? 0)
+        : watchFrom(timeline, frame, editing.moment.get());
+      begun = true;
+      const next = from + (now - before) / 1000;
       before = now;
       editing.moment.set(Math.min(next, totalOf(timeline)));
       const at = segmentAt(timeline, next)?.frame;

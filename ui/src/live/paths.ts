@@ -22,7 +22,10 @@ export function createFullPlan(live: Live): FullPlan {
     if (followers === 0 || !brief || brief.planning) return;
     if (plan.get()?.revision === brief.revision) return;
     getPlan().then(
-      (full) => plan.set(full),
+      (full) => {
+        // One that is still being made is announced again when it is there.
+        if (!full.planning) plan.set(full);
+      },
       () => plan.set(null),
     );
   };

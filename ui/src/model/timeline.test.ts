@@ -2,7 +2,7 @@ import { expect, test } from 'vitest';
 import type { Plan, Transition } from '../api/types.gen';
 import { addFrame, recolour, setFrames } from './commands';
 import { newShow } from './show';
-import { dotsAt, segmentAt, timelineOf, totalOf } from './timeline';
+import { dotsAt, segmentAt, timelineOf, totalOf, watchFrom } from './timeline';
 
 const transition = (to: number, x: number): Transition => ({
   from: to === 0 ? null : to - 1,
@@ -45,4 +45,20 @@ test('in the middle of a drive, place and colour are in the middle', () => {
   expect(dot?.x).toBeCloseTo(0.5, 9);
   expect(dot?.color).toBe(0x80c878);
   expect(dotsAt(show, plan, timeline, 6.9)[0]?.x).toBe(1);
+});
+
+test('watching begins where one looks, or with the frame on the stage', () => {
+  const segment = (frame: number) => ({
+    frame,
+    driveFrom_s: frame * 3,
+    shownFrom_s: frame * 3 + 2,
+    until_s: frame * 3 + 3,
+  });
+  const timeline = [0, 1, 2].map(segment);
+  expect(watchFrom(timeline, 1, 4.5)).toBe(4.5);
+  expect(watchFrom(timeline, 1, null)).toBe(5);
+  expect(watchFrom(timeline, 0, null)).toBe(0);
+  expect(watchFrom(timeline, 2, null)).toBe(0);
+  expect(watchFrom(timeline, 1, 9)).toBe(5);
+  expect(watchFrom([], 0, null)).toBe(0);
 });

@@ -31,6 +31,18 @@ export function segmentAt(timeline: readonly Segment[], time_s: number): Segment
   return timeline.find((s) => time_s < s.until_s) ?? timeline[timeline.length - 1] ?? null;
 }
 
+/** Where watching begins: at the moment that is looked at, else where the frame on the stage is reached. */
+export function watchFrom(
+  timeline: readonly Segment[],
+  frame: number,
+  moment: number | null,
+): number {
+  if (moment !== null && moment < totalOf(timeline)) return moment;
+  // The first frame is watched with the drive that leads to it, and after the last there is nothing to watch.
+  const isEdge = frame === 0 || frame === timeline.length - 1;
+  return isEdge ? 0 : (timeline[frame]?.shownFrom_s ?? 0);
+}
+
 /** Where the lights are planned to be at a moment. */
 export function dotsAt(
   show: Show,
