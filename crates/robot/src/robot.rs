@@ -2,7 +2,7 @@
 
 mod obey;
 
-use lightbots_base::{Instant, Pose, Rgb, RobotId, Span};
+use lightbots_base::{Instant, Pose, Rgb, RobotId, Span, Vec2};
 use lightbots_wire::{Details, Report, RobotState, TimeQuestion, Topic, commands};
 
 use crate::clock::Clock;
@@ -153,6 +153,11 @@ impl Robot {
     /// How far it is from where its route says, metres; `None` without a route under way.
     pub fn off_m(&self) -> Option<f64> {
         self.routes.off_m()
+    }
+
+    /// Where its route wants it to be one step after the latest, stage metres; `None` without a route under way.
+    pub fn route_place(&self) -> Option<Vec2> {
+        self.routes.due()
     }
 
     /// Expected error of its place, 1 sigma in each coordinate, metres.

@@ -36,6 +36,8 @@ struct Running {
     /// Once the route is over and the robot is not there yet.
     seek: Option<Seek>,
     off_m: f64,
+    /// Where it should be once the wheels have answered.
+    due: Vec2,
 }
 
 /// The routes of a robot.
@@ -95,9 +97,9 @@ impl Routes {
         self.timeline.begin(starts);
         let duration = PathRef::new(route.start, &route.pieces).duration();
         let cursor = Cursor::new(&route);
-        let outlook = Outlook::default();
+        let (outlook, due) = (Outlook::default(), route.start);
         self.running =
-            Some(Running { route, starts, duration, cursor, follow, outlook, seek: None, off_m: 0.0 });
+            Some(Running { route, starts, duration, cursor, follow, outlook, seek: None, off_m: 0.0, due });
         true
     }
 
@@ -108,6 +110,7 @@ impl Routes {
         running.cursor.seek(&running.route, progress.time);
         let by_path_time = running.cursor.motion(progress.time);
         let motion = by_show_time(by_path_time, progress.rate);
+        running.due = motion.position;
         running.off_m = motion.position.distance(body.at);
         if progress.time >= running.duration
             && (running.seek.is_some() || !within_arrival(body.at, motion.position))
@@ -196,6 +199,11 @@ impl Routes {
             Some(kept) => kept.starts,
             None => self.running.as_ref().map(|running| running.starts),
         }
+    }
+
+    /// Where the route under way wants the robot to be once the wheels have answered, stage metres.
+    pub(crate) fn due(&self) -> Option<Vec2> {
+        self.running.as_ref().map(|running| running.due)
     }
 
     /// How far the robot is from where the route under way says, metres.

@@ -52,7 +52,7 @@ fn line(show: &Show, options: &RehearsalOptions) -> bool {
     let report = rehearse(show, options, &mut |_| {});
     println!(
         "seed {:>4} {} {}/{} frames {:.2} s (bound {:.2}) contacts {} closest {:.1} mm spread {:.0}/{:.0} ms \
-         error {:.1}/{:.1}/{:.1} mm lost {}/{} dropouts {} hash {} {:.0}x",
+         error {:.1}/{:.1}/{:.1} mm estimate {:.1}/{:.1} tracking {:.1}/{:.1} mm clocks {:.1} ms lost {}/{} dropouts {} hash {} {:.0}x",
         options.seed,
         if report.ok { "fine" } else { "BAD " },
         report.frames_played,
@@ -66,6 +66,11 @@ fn line(show: &Show, options: &RehearsalOptions) -> bool {
         report.position_error_m.median * 1e3,
         report.position_error_m.p99 * 1e3,
         report.position_error_m.max * 1e3,
+        report.estimate_error_m.p99 * 1e3,
+        report.estimate_error_m.max * 1e3,
+        report.tracking_error_m.p99 * 1e3,
+        report.tracking_error_m.max * 1e3,
+        report.clock_spread_s.max * 1e3,
         report.messages.lost,
         report.messages.sent,
         report.dropouts,

@@ -7,6 +7,7 @@ use lightbots_wire::Topic;
 
 use crate::conditions::Conditions;
 use crate::dice::{Dice, Purpose};
+use crate::errors::Errors;
 use crate::sensors::Sensors;
 use crate::world::{STEP, World};
 
@@ -21,6 +22,7 @@ pub(crate) struct Crew {
     sensors: Sensors,
     members: Vec<Member>,
     steps: u64,
+    errors: Errors,
     payload: Message,
 }
 
@@ -62,6 +64,7 @@ impl Crew {
             sensors: Sensors::new(&conditions.fixes, &poses, seed),
             members,
             steps: 0,
+            errors: Errors::default(),
             payload: Message::new(),
         }
     }
@@ -105,6 +108,17 @@ impl Crew {
         }
     }
 
+    /// How far off robots and their clocks were so far.
+    pub fn errors(&self) -> &Errors {
+        &self.errors
+    }
+
+    /// Compares the clocks of all robots that have one.
+    pub fn compare_clocks(&mut self, now: Instant) {
+        let shown = self.members.iter().filter(|member| member.alive);
+        self.errors.clocks(shown.filter_map(|member| member.robot.show_time(member.clock.own(now))));
+    }
+
     /// A robot's power fails.
     pub fn kill(&mut self, robot: usize) {
         self.members[robot].alive = false;
@@ -122,6 +136,7 @@ impl Crew {
             if !member.alive {
                 continue;
             }
+            self.errors.look(self.steps, index, &member.robot, &self.world);
             let fix = self.sensors.fix(index, self.world.pose(index));
             let inputs = Inputs {
                 wheel_turns_rad: self.world.wheel_turns(index),
@@ -129,6 +144,7 @@ impl Crew {
                 battery: Some(member.battery.saturating_sub(drained)),
             };
             let outputs = member.robot.step(member.clock.own(now), &inputs);
+            self.errors.look_again(self.steps, index, &member.robot, &self.world);
             member.light = outputs.light;
             self.world.tell(index, outputs.wheels_radps);
             member.speak(index, &mut self.payload, hear);

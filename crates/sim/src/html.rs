@@ -3,6 +3,7 @@
 use std::fmt::Write as _;
 
 use crate::report::{FrameRecord, RehearsalReport};
+use crate::statistics::Spread;
 
 /// Width of a chart, CSS pixels.
 const WIDTH: f64 = 720.0;
@@ -50,24 +51,11 @@ impl RehearsalReport {
             ("Duration", format!("{:.2} s (at least {:.2} s)", self.duration_s, self.lower_bound_s)),
             ("Contacts", self.contacts.to_string()),
             ("Closest centres", closest),
-            (
-                "Arrivals within",
-                three(
-                    self.arrival_spread_s.median,
-                    self.arrival_spread_s.p99,
-                    self.arrival_spread_s.max,
-                    "ms",
-                ),
-            ),
-            (
-                "Position error",
-                three(
-                    self.position_error_m.median,
-                    self.position_error_m.p99,
-                    self.position_error_m.max,
-                    "mm",
-                ),
-            ),
+            ("Arrivals within", three(&self.arrival_spread_s, "ms")),
+            ("Position error", three(&self.position_error_m, "mm")),
+            ("Estimate error on the way", three(&self.estimate_error_m, "mm")),
+            ("Tracking error on the way", three(&self.tracking_error_m, "mm")),
+            ("Clocks within", three(&self.clock_spread_s, "ms")),
             ("Messages", format!("{} sent, {} lost", self.messages.sent, self.messages.lost)),
             ("Robots lost", self.dropouts.to_string()),
             ("Seed", self.seed.to_string()),
@@ -98,7 +86,8 @@ impl RehearsalReport {
 }
 
 /// Median, 99th percentile and greatest of seconds or metres, in thousandths.
-fn three(median: f64, p99: f64, max: f64, unit: &str) -> String {
+fn three(of: &Spread, unit: &str) -> String {
+    let Spread { median, p99, max } = of;
     format!("{:.1} / {:.1} / {:.1} {unit} (median / p99 / max)", median * 1e3, p99 * 1e3, max * 1e3)
 }
 
@@ -174,7 +163,6 @@ fn escaped(text: &str) -> String {
 mod tests {
     use super::*;
     use crate::network::MessageCounts;
-    use crate::statistics::Spread;
     use lightbots_show::Issue;
 
     fn report() -> RehearsalReport {
@@ -200,6 +188,9 @@ mod tests {
             closest_m: Some(0.0612),
             arrival_spread_s: Spread { median: 0.12, p99: 0.12, max: 0.12 },
             position_error_m,
+            estimate_error_m: Spread { median: 0.0008, p99: 0.002, max: 0.003 },
+            tracking_error_m: Spread { median: 0.0011, p99: 0.003, max: 0.004 },
+            clock_spread_s: Spread { median: 0.0015, p99: 0.002, max: 0.002 },
             messages: MessageCounts { sent: 100, lost: 3 },
             dropouts: 0,
             seed: 7,
@@ -226,6 +217,9 @@ mod tests {
             "61.2 mm",
             "100 sent, 3 lost",
             "120.0 / 120.0 / 120.0 ms",
+            "0.8 / 2.0 / 3.0 mm",
+            "1.1 / 3.0 / 4.0 mm",
+            "1.5 / 2.0 / 2.0 ms",
             "<svg",
             "3.25 s",
         ] {

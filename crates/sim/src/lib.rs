@@ -23,6 +23,7 @@ mod contacts;
 mod crew;
 mod dice;
 mod drive;
+mod errors;
 mod faults;
 mod fleet;
 mod floor;

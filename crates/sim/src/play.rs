@@ -81,6 +81,9 @@ impl Play {
             step += 1;
             if step.is_multiple_of(HASH_EVERY) {
                 self.crew.world.imprint(&mut self.hash);
+                if self.watch.began_at().is_some() {
+                    self.crew.compare_clocks(self.now);
+                }
                 progress(self.progress());
             }
         }
@@ -215,6 +218,9 @@ impl Play {
         report.contacts = world.contacts().count() + bumps.obstacles;
         report.wall_contacts = bumps.walls;
         report.closest_m = world.contacts().closest_m();
+        report.estimate_error_m = self.crew.errors().estimate_m();
+        report.tracking_error_m = self.crew.errors().tracking_m();
+        report.clock_spread_s = self.crew.errors().clocks_s();
         report.robots = self.crew.len();
         report.frames = self.show.frames.len();
         report.messages = self.network.counts();

@@ -31,6 +31,13 @@ pub struct RehearsalReport {
     pub arrival_spread_s: Spread,
     /// How far robots really were from their pixels when their frame stood, one value a robot and frame, metres.
     pub position_error_m: Spread,
+    /// How far robots on their way were from where they believed to be, metres.
+    pub estimate_error_m: Spread,
+    /// How far robots on their way were from where their routes were, metres.
+    pub tracking_error_m: Spread,
+    /// Between the robots' clocks that are furthest apart, one value a second, seconds: so much apart are departures
+    /// and changes of light that are meant for one moment.
+    pub clock_spread_s: Spread,
     /// What was said, each receiver counted, and what was lost on the way.
     pub messages: MessageCounts,
     /// Robots that were lost.

@@ -176,7 +176,9 @@ fn the_report_has_the_keys_scripts_rely_on() {
     ] {
         assert!(report.get(key).is_some(), "{key}");
     }
-    for key in ["arrival_spread_s", "position_error_m"] {
+    let spreads =
+        ["arrival_spread_s", "position_error_m", "estimate_error_m", "tracking_error_m", "clock_spread_s"];
+    for key in spreads {
         assert!(["median", "p99", "max"].iter().all(|rank| report[key][rank].is_number()));
     }
     assert!(["sent", "lost"].iter().all(|count| report["messages"][count].is_u64()));
