@@ -23,6 +23,8 @@ pub struct Config {
     pub fix_sigma_m: f64,
     /// Noise of a heading fix, 1 sigma, radians.
     pub heading_sigma_rad: f64,
+    /// What share of their turning its wheels lose at most, usually: it learns the rest.
+    pub slip: f64,
     /// What it can do beyond the original protocol. With none of it, it behaves and reports like an original robot.
     pub abilities: Abilities,
 }
@@ -40,6 +42,7 @@ impl Config {
             seed: 0,
             fix_sigma_m: 0.002,
             heading_sigma_rad: 0.0175,
+            slip: 0.08,
             abilities: Abilities { route: true, fade: true, blink: true },
         }
     }

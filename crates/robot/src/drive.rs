@@ -48,8 +48,9 @@ impl Drive {
         Body { at: body.at + (body.facing + facing) * (0.5 * way), facing }
     }
 
-    /// Goes towards a setpoint within the ramps; wheel rates left and right, rad/s.
-    pub(crate) fn step(&mut self, want: Setpoint, dt: f64) -> [f64; 2] {
+    /// Goes towards a setpoint within the ramps; wheel rates left and right, rad/s, of wheels that lose these shares of
+    /// their turning.
+    pub(crate) fn step(&mut self, want: Setpoint, slip: [f64; 2], dt: f64) -> [f64; 2] {
         let limits = &self.limits;
         let speed_max = limits.speed_mps * SPEED_RESERVE;
         let speed = want.speed_mps.clamp(-speed_max, speed_max);
@@ -59,7 +60,7 @@ impl Drive {
             speed_mps: self.told.speed_mps + (speed - self.told.speed_mps).clamp(-speed_step, speed_step),
             turn_radps: self.told.turn_radps + (turn - self.told.turn_radps).clamp(-turn_step, turn_step),
         };
-        self.wheels()
+        self.wheels(slip)
     }
 
     /// Stops at once, without a ramp: an Elisa-3 stands after 32 ms and 1.3 mm.
@@ -74,12 +75,12 @@ impl Drive {
     }
 
     /// Where a wheel would have to turn too fast, both turn slower in proportion: the curve stays, the speed gives.
-    fn wheels(&self) -> [f64; 2] {
+    fn wheels(&self, slip: [f64; 2]) -> [f64; 2] {
         let Setpoint { speed_mps, turn_radps } = self.told;
         let half = turn_radps * self.limits.track_m * 0.5;
         let rates = [
-            (speed_mps - half) / self.limits.wheel_radius_m,
-            (speed_mps + half) / self.limits.wheel_radius_m,
+            (speed_mps - half) / (self.limits.wheel_radius_m * (1.0 - slip[0])),
+            (speed_mps + half) / (self.limits.wheel_radius_m * (1.0 - slip[1])),
         ];
         let fastest = rates[0].abs().max(rates[1].abs());
         let scale = if fastest > self.limits.wheel_radps { self.limits.wheel_radps / fastest } else { 1.0 };
@@ -95,12 +96,12 @@ mod tests {
     fn wheels_follow_the_ramp_and_the_measured_numbers() {
         let mut drive = Drive::new(Limits::ELISA_3);
         let want = Setpoint { speed_mps: 0.27, turn_radps: 0.0 };
-        let first = drive.step(want, 0.016);
+        let first = drive.step(want, [0.0; 2], 0.016);
         assert!((first[0] - 0.02 / 0.0045).abs() < 1e-9);
         for _ in 0..20 {
-            drive.step(want, 0.016);
+            drive.step(want, [0.0; 2], 0.016);
         }
-        assert!((drive.step(want, 0.016)[1] - 60.0).abs() < 1e-9);
+        assert!((drive.step(want, [0.0; 2], 0.016)[1] - 60.0).abs() < 1e-9);
         assert_eq!(drive.halt(), [0.0; 2]);
         assert!(drive.stands());
     }
@@ -109,7 +110,7 @@ mod tests {
     fn turning_on_the_spot_stays_below_twenty_at_the_wheels() {
         let mut drive = Drive::new(Limits::ELISA_3);
         let spin = Setpoint { speed_mps: 0.0, turn_radps: 99.0 };
-        let wheels = (0..20).map(|_| drive.step(spin, 0.016)).last().unwrap();
+        let wheels = (0..20).map(|_| drive.step(spin, [0.0; 2], 0.016)).last().unwrap();
         assert!(wheels[1] > 20.0 && wheels[1] < 20.2 && wheels[0] == -wheels[1]);
     }
 
@@ -118,7 +119,7 @@ mod tests {
         let limits = Limits { wheel_radps: 30.0, ..Limits::ELISA_3 };
         let mut drive = Drive::new(limits);
         let want = Setpoint { speed_mps: 0.27, turn_radps: 2.0 };
-        let wheels = (0..40).map(|_| drive.step(want, 0.016)).last().unwrap();
+        let wheels = (0..40).map(|_| drive.step(want, [0.0; 2], 0.016)).last().unwrap();
         assert!((wheels[1] - 30.0).abs() < 1e-9);
         assert!((wheels[0] / wheels[1] - (0.27 - 0.0402) / (0.27 + 0.0402)).abs() < 1e-9);
     }

@@ -1,27 +1,27 @@
-//! Where the robot is: wheel turns carry the pose from step to step, fixes pull it back.
+//! Where the robot is: wheel turns carry the pose from step to step, fixes pull it back, and both teach it how much its
+//! wheels slip, so that it finds its way while fixes stay away.
 //!
-//! Place and heading are two scalar Kalman filters. Wheel slip is not white noise: it leans the same way for a while, so
-//! it makes the standard deviation (not the variance) grow with the way, which keeps the error estimate honest when
-//! fixes drop out.
+//! An extended Kalman filter over place, heading and the slip of both wheels. A fix that comes late is laid beside the
+//! past it belongs to; wild ones are left alone.
 
 use lightbots_base::{Instant, Limits, Pose, Span, Vec2, difference, wrap};
 
 use crate::bearing::Bearing;
 use crate::config::{Config, Fix};
+use crate::doubt::{Doubt, Gain, Noise, Stretch};
+use crate::slip::Slip;
 use crate::trail::Trail;
+use crate::trust::Trust;
 
-/// Growth of the error with the way. Wheels may slip by 3 %, but seldom both the same way.
-const SLIP: f64 = 0.02;
-/// Growth of the error of a robot that stands, for who is pushed, metres and radians a step.
-const STANDING_M: f64 = 4e-6;
-const STANDING_RAD: f64 = 2e-5;
-/// A heading known no better than this bends the reckoned way more than slip does.
-const CALM_RAD: f64 = 0.015;
+/// Steps after which the covariance is carried on, …
+const STRETCH: u32 = 4;
+/// … but at once for so many fixes after a gap, as each of them teaches much.
+const TEACHING: u8 = 8;
 /// A fix further off than so many standard deviations, and than these floors, is an outlier.
 const GATE: f64 = 5.0;
 const GATE_FLOOR_M: f64 = 0.006;
 const GATE_FLOOR_RAD: f64 = 0.1;
-/// So many outliers in a row are the truth: the pose jumps to it.
+/// So many outliers in a row that agree are the truth: the pose jumps to it.
 const OUTLIERS: u8 = 10;
 /// Two jumps within this time make no sense.
 const JUMPS_APART: Span = Span::from_millis(1000);
@@ -33,6 +33,9 @@ const BEST_FIX_M: f64 = 0.000_3;
 const BEST_HEADING_RAD: f64 = 0.002;
 /// Without a heading fix for so long, heading comes from motion.
 const NO_COMPASS: Span = Span::from_millis(500);
+/// A heading read from the way is as good as this, and only one further off than that is news to the filter, radians.
+const BEARING_RAD: f64 = 0.03;
+const BEARING_OFF_RAD: f64 = 0.2;
 
 /// The estimated pose and how sure it is.
 #[derive(Debug)]
@@ -41,12 +44,22 @@ pub(crate) struct Estimate {
     heading: f64,
     /// Unit vector of `heading`, turned along step by step: far cheaper than a sine and a cosine each time.
     facing: Vec2,
-    sigma_m: f64,
-    sigma_rad: f64,
+    slip: Slip,
+    doubt: Doubt,
+    gains: [Gain; 3],
+    /// Since the covariance was carried on, and the fixes within: of places and of headings.
+    stretch: Stretch,
+    fixes: [u32; 2],
+    teaching: u8,
+    place_trust: Trust,
+    heading_trust: Trust,
+    /// What the fix before was off by, where it was no outlier.
+    off: Option<(Vec2, f64)>,
     last_fix: Option<Instant>,
     last_heading: Option<Instant>,
     aligned: bool,
     odd_places: u8,
+    odd_off: Vec2,
     odd_headings: u8,
     last_jump: Option<Instant>,
     senseless: bool,
@@ -54,24 +67,31 @@ pub(crate) struct Estimate {
     bearing: Bearing,
     wheel_radius_m: f64,
     track_m: f64,
-    fix_variance: f64,
-    heading_variance: f64,
 }
 
 impl Estimate {
     pub(crate) fn new(config: &Config) -> Self {
         let Limits { wheel_radius_m, track_m, .. } = config.limits;
-        let square = |sigma: f64, best: f64| if sigma > best { sigma * sigma } else { best * best };
+        let trust =
+            |sigma: f64, best: f64| Trust::new(if sigma > best { sigma * sigma } else { best * best });
         Self {
             at: Vec2::ZERO,
             heading: 0.0,
             facing: Vec2::new(1.0, 0.0),
-            sigma_m: 1.0,
-            sigma_rad: core::f64::consts::PI,
+            slip: Slip::new(config.slip),
+            doubt: Doubt::new(config.slip),
+            gains: [Gain::default(); 3],
+            stretch: Stretch::default(),
+            fixes: [0; 2],
+            teaching: TEACHING,
+            place_trust: trust(config.fix_sigma_m, BEST_FIX_M),
+            heading_trust: trust(config.heading_sigma_rad, BEST_HEADING_RAD),
+            off: None,
             last_fix: None,
             last_heading: None,
             aligned: false,
             odd_places: 0,
+            odd_off: Vec2::ZERO,
             odd_headings: 0,
             last_jump: None,
             senseless: false,
@@ -79,14 +99,21 @@ impl Estimate {
             bearing: Bearing::default(),
             wheel_radius_m,
             track_m,
-            fix_variance: square(config.fix_sigma_m, BEST_FIX_M),
-            heading_variance: square(config.heading_sigma_rad, BEST_HEADING_RAD),
         }
     }
 
     /// Carries the pose over one step by wheel turns, radians.
     pub(crate) fn advance(&mut self, now: Instant, turns_rad: [f64; 2]) {
-        let [left, right] = turns_rad.map(|turn| turn * self.wheel_radius_m);
+        if self.stretch.steps >= STRETCH {
+            self.carry();
+        }
+        self.stretch.steps += 1;
+        if turns_rad == [0.0; 2] {
+            self.trail.add(now, Vec2::ZERO, 0.0);
+            return;
+        }
+        let ways_m = turns_rad.map(|turn| turn * self.wheel_radius_m);
+        let [left, right] = self.slip.ground(ways_m);
         let (way, turn) = ((left + right) * 0.5, (right - left) / self.track_m);
         let before = self.facing;
         if turn != 0.0 {
@@ -94,10 +121,12 @@ impl Estimate {
         }
         let moved = (before + self.facing) * (0.5 * way);
         self.at += moved;
-        let (way, turned) = (way.abs(), turn.abs());
-        self.sigma_m += way * (SLIP + (self.sigma_rad - CALM_RAD).max(0.0)) + STANDING_M;
-        self.sigma_rad +=
-            SLIP * (turned + way * core::f64::consts::FRAC_1_SQRT_2 / self.track_m) + STANDING_RAD;
+        self.stretch.moved += moved;
+        self.stretch.ways_m[0] += ways_m[0];
+        self.stretch.ways_m[1] += ways_m[1];
+        self.stretch.turn += turn;
+        self.stretch.driven += 1;
+        self.slip.pass();
         self.trail.add(now, moved, turn);
     }
 
@@ -105,66 +134,123 @@ impl Estimate {
     pub(crate) fn correct(&mut self, now: Instant, fix: &Fix) {
         let then = self.trail.before();
         let travelled = self.trail.now();
+        let mut off = (Vec2::ZERO, 0.0);
         if fix.at.is_finite() && fix.at.x.abs() < 1e3 && fix.at.y.abs() < 1e3 {
-            self.correct_place(now, fix.at + (travelled.way - then.way));
+            off.0 = self.judge_place(now, fix.at + (travelled.way - then.way) - self.at);
             self.learn_heading(now, then.way, fix.at);
         }
         if let Some(heading) = fix.heading.filter(|heading| heading.is_finite()) {
-            self.correct_heading(now, heading + (travelled.turn - then.turn));
+            off.1 = self.judge_heading(now, difference(heading + (travelled.turn - then.turn), self.heading));
+        }
+        self.pull(off);
+    }
+
+    /// Corrects all that a fix says something about by how far it is off.
+    fn pull(&mut self, off: (Vec2, f64)) {
+        let [places, headings] = self.fixes;
+        if places + headings == 0 {
+            return;
+        }
+        if let Some(before) = self.off.replace(off) {
+            self.place_trust.learn(0.5 * (off.0 - before.0).length_squared());
+            self.heading_trust.learn((off.1 - before.1) * (off.1 - before.1));
+        }
+        if self.teaching > 0 || self.stretch.steps >= STRETCH {
+            self.teaching = self.teaching.saturating_sub(1);
+            self.carry();
+        }
+        let [x, y, turn] = &self.gains;
+        let (place, angle) = off;
+        self.at += x.at * place.x + y.at * place.y + turn.at * angle;
+        let slip =
+            |wheel: usize| x.slip[wheel] * place.x + y.slip[wheel] * place.y + turn.slip[wheel] * angle;
+        self.slip.correct([slip(0), slip(1)]);
+        let turned = x.turn * place.x + y.turn * place.y + turn.turn * angle;
+        self.turn_by(turned);
+    }
+
+    /// Carries the covariance over the stretch behind and takes in what was measured on it.
+    fn carry(&mut self) {
+        let stretch = core::mem::take(&mut self.stretch);
+        let [places, headings] = core::mem::take(&mut self.fixes);
+        if places + headings == 0 {
+            self.teaching = TEACHING;
+            self.off = None;
+        }
+        self.doubt.carry(&stretch, self.facing, self.track_m, self.slip.drift(stretch.driven));
+        let (place, heading) = (self.place_trust.variance(), self.heading_trust.variance());
+        let share =
+            |variance: f64, count: u32| if count > 0 { variance / f64::from(count) } else { f64::INFINITY };
+        self.doubt.learn(Noise { place: share(place, places), heading: share(heading, headings) });
+        self.gains = self.doubt.gains(place, heading);
+        if stretch.driven > 0 {
+            self.slip.learn(stretch.moved.length(), self.doubt.slip());
         }
     }
 
-    fn correct_place(&mut self, now: Instant, seen: Vec2) {
-        let off = seen - self.at;
-        let variance = self.sigma_m * self.sigma_m;
-        let sum = variance + self.fix_variance;
-        let odd = off.length_squared() > (GATE * GATE * sum).max(GATE_FLOOR_M * GATE_FLOOR_M);
-        if odd && self.last_fix.is_some() {
-            self.odd_places += 1;
+    /// How far the place is off by a fix that counts; nothing by one that does not.
+    fn judge_place(&mut self, now: Instant, off: Vec2) -> Vec2 {
+        let noise = self.place_trust.variance();
+        let gate = GATE * GATE * (self.doubt.place() + noise);
+        let odd = off.length_squared() > gate.max(GATE_FLOOR_M * GATE_FLOOR_M);
+        let first = self.last_fix.is_none();
+        if odd && !first {
+            let agrees = (off - self.odd_off).length_squared() < GATE * GATE * 2.0 * noise;
+            self.odd_places = if agrees { self.odd_places + 1 } else { 1 };
+            self.odd_off = off;
             if self.odd_places < OUTLIERS {
-                return;
+                return Vec2::ZERO;
             }
             self.senseless = self.last_jump.is_some_and(|jump| now - jump < JUMPS_APART);
             self.last_jump = Some(now);
             self.bearing.clear();
         }
         self.odd_places = 0;
-        let gain = if odd || self.last_fix.is_none() { 1.0 } else { variance / sum };
-        self.at += off * gain;
-        self.sigma_m =
-            if gain < 1.0 { self.sigma_m * libm::sqrt(1.0 - gain) } else { libm::sqrt(self.fix_variance) };
         self.last_fix = Some(now);
+        if odd || first {
+            self.at += off;
+            self.doubt.set_place(noise);
+            self.teaching = TEACHING;
+            return Vec2::ZERO;
+        }
+        self.fixes[0] += 1;
+        off
     }
 
-    fn correct_heading(&mut self, now: Instant, seen: f64) {
-        let off = difference(seen, self.heading);
-        let variance = self.sigma_rad * self.sigma_rad;
-        let sum = variance + self.heading_variance;
-        let odd = off * off > (GATE * GATE * sum).max(GATE_FLOOR_RAD * GATE_FLOOR_RAD);
+    /// How far the heading is off by a fix that counts; nothing by one that does not.
+    fn judge_heading(&mut self, now: Instant, off: f64) -> f64 {
+        let noise = self.heading_trust.variance();
+        let gate = GATE * GATE * (self.doubt.heading() + noise);
+        let odd = off * off > gate.max(GATE_FLOOR_RAD * GATE_FLOOR_RAD);
         if odd && self.aligned {
             self.odd_headings += 1;
             if self.odd_headings < OUTLIERS {
-                return;
+                return 0.0;
             }
         }
         self.odd_headings = 0;
-        let fresh = odd || !self.aligned;
-        let gain = if fresh { 1.0 } else { variance / sum };
-        self.turn_by(off * gain);
-        self.sigma_rad =
-            if fresh { libm::sqrt(self.heading_variance) } else { self.sigma_rad * libm::sqrt(1.0 - gain) };
-        self.aligned = true;
         self.last_heading = Some(now);
+        if odd || !self.aligned {
+            self.aligned = true;
+            self.turn_by(off);
+            self.doubt.set_heading(noise);
+            self.teaching = TEACHING;
+            return 0.0;
+        }
+        self.fixes[1] += 1;
+        off
     }
 
-    /// Without a compass: reads the heading from the way.
+    /// Without a compass: reads the heading from the way until the filter can follow it.
     fn learn_heading(&mut self, now: Instant, by_wheels: Vec2, by_fix: Vec2) {
         if self.last_heading.is_some_and(|seen| now - seen < NO_COMPASS) {
             return;
         }
-        if let Some(turn) = self.bearing.add(by_wheels, by_fix) {
-            self.turn_by(if self.aligned { turn * 0.5 } else { turn });
-            self.sigma_rad = 0.03;
+        if let Some(turn) = self.bearing.add(by_wheels, by_fix)
+            && (!self.aligned || turn.abs() > BEARING_OFF_RAD)
+        {
+            self.turn_by(turn);
+            self.doubt.set_heading(BEARING_RAD * BEARING_RAD);
             self.aligned = true;
         }
     }
@@ -172,6 +258,11 @@ impl Estimate {
     fn turn_by(&mut self, turn: f64) {
         self.heading = wrap(self.heading + turn);
         self.facing = if turn.abs() < 0.1 { turned(self.facing, turn) } else { Vec2::unit(self.heading) };
+    }
+
+    /// What of their turning the wheels lose, left and right.
+    pub(crate) fn slip(&self) -> [f64; 2] {
+        self.slip.now()
     }
 
     /// The place, unless the robot is lost.
@@ -201,12 +292,12 @@ impl Estimate {
 
     /// Expected error of the place, 1 sigma in each coordinate, metres.
     pub(crate) fn error_m(&self) -> f64 {
-        self.sigma_m
+        libm::sqrt(self.doubt.place())
     }
 
     /// Whether it knows too little to drive.
     pub(crate) fn lost(&self, now: Instant) -> bool {
-        self.sigma_m > LOST_M || self.last_fix.is_none_or(|fix| now - fix > LOST_AFTER)
+        self.doubt.place() > LOST_M * LOST_M || self.last_fix.is_none_or(|fix| now - fix > LOST_AFTER)
     }
 
     /// Whether fixes and wheels have contradicted each other for longer than a shove explains. Asking clears it.

@@ -257,7 +257,7 @@ impl Robot {
             return self.drive.halt();
         }
         let wants = if self.estimate.lost(now) { None } else { self.want(show, dt) };
-        let wheels = self.drive.step(wants.unwrap_or_default(), dt);
+        let wheels = self.drive.step(wants.unwrap_or_default(), self.estimate.slip(), dt);
         self.arrive(show);
         wheels
     }

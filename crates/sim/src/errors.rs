@@ -55,9 +55,10 @@ impl Errors {
 
     /// Takes what robots believe the show clock says at one moment.
     pub fn clocks(&mut self, shown: impl Iterator<Item = Instant>) {
-        let (first, last, count) = shown.fold((Instant::FAR, Instant::ZERO, 0), |(first, last, count), at| {
-            (at.min(first), at.max(last), count + 1)
-        });
+        let (first, last, count) = shown
+            .fold((Instant::FAR, Instant::ZERO, 0), |(first, last, count), at| {
+                (at.min(first), at.max(last), count + 1)
+            });
         if count > 0 {
             self.clocks_s.push((last - first).as_secs());
         }
@@ -121,7 +122,10 @@ mod tests {
             tally.add(f64::from(number) * 0.00101);
         }
         let Spread { median, p99, max } = tally.spread();
-        assert!((median - 0.101).abs() <= BIN_M && (p99 - 0.1).abs() <= BIN_M && max == 0.202, "{median} {p99}");
+        assert!(
+            (median - 0.101).abs() <= BIN_M && (p99 - 0.1).abs() <= BIN_M && max == 0.202,
+            "{median} {p99}"
+        );
         tally.add(f64::INFINITY);
         assert_eq!(tally.spread().max, f64::INFINITY);
     }
