@@ -146,6 +146,8 @@ pub enum Trouble {
     Deaf,
     /// It does not know where it is.
     Lost,
+    /// It knows where it is too little to pass others.
+    Unsure,
     /// It reports a fault.
     Faulty,
     /// It was cut off or restarted and stands.
@@ -197,6 +199,7 @@ impl fmt::Display for Trouble {
             Self::Silent => "does not report",
             Self::Deaf => "does not acknowledge",
             Self::Lost => "does not know where it is",
+            Self::Unsure => "is not sure enough where it is",
             Self::Faulty => "reports a fault",
             Self::Cut => "was cut off or restarted",
             Self::Missed => "did not reach its goal",

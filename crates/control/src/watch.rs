@@ -5,11 +5,20 @@ use crate::driving::{CHECK, Drive, is_there};
 use crate::event::Trouble;
 use crate::leg::Kind;
 use crate::run::{Phase, Run};
-use lightbots_base::{Instant, Span};
+use lightbots_base::{Instant, Span, Vec2};
 use lightbots_wire::{Command, Details, RobotState, Topic};
 
 /// At most this far off its path a robot may be without anybody waiting for it, metres.
 const LATE_MAX_M: f64 = 0.03;
+/// A robot no less sure of its place than this (1 sigma, metres) makes nobody wait, …
+const SURE_M: f64 = 0.004;
+/// … and one that is, if anybody comes closer than so many sigmas, …
+const UNSURE: f64 = 2.5;
+/// … and this for the others' own errors, metres, …
+const OTHERS_M: f64 = 0.003;
+/// … within this time, in steps of that.
+const AHEAD: Span = Span::from_millis(1_000);
+const AHEAD_STEP: Span = Span::from_millis(50);
 /// A driving robot that was not heard for so long, link times on top, is asked for a sign of life, …
 const QUIET: Span = Span::from_millis(560);
 /// … this often at most.
@@ -43,7 +52,7 @@ impl Run {
             RobotState::Lost => self.drop_out(desk, now, seat, Trouble::Lost),
             RobotState::Faulty => self.drop_out(desk, now, seat, Trouble::Faulty),
             RobotState::Cut => self.replan_with(desk, now, seat),
-            RobotState::Driving | RobotState::Held => self.judge_progress(desk, now, seat, details.off_m),
+            RobotState::Driving | RobotState::Held => self.judge_progress(desk, now, seat, details),
             RobotState::Idle | RobotState::Ready => {
                 let at = desk.fleet.robot(self.seats[seat].robot).at;
                 let there = at.is_some_and(|at| is_there(at, goal, desk.config.arrival_tolerance_m));
@@ -65,24 +74,50 @@ impl Run {
         self.recover(desk, now);
     }
 
-    /// Everybody waits for who is too far off its path, until it is back.
-    fn judge_progress(&mut self, desk: &mut Desk, now: Instant, seat: usize, off_m: Option<f64>) {
+    /// Everybody waits for who is too far off its path, or so unsure of its place that others may be in its way, until
+    /// that is over.
+    fn judge_progress(&mut self, desk: &mut Desk, now: Instant, seat: usize, details: &Details) {
         let room_m = self.current.as_ref().map_or(0.0, |leg| leg.room_m);
         let late_m = desk.config.late_m.max((room_m / 2.0).min(LATE_MAX_M));
-        let off_m = off_m.unwrap_or(0.0);
-        if off_m > late_m && self.seats[seat].late.is_none() {
-            self.mark_late(desk, now, seat, Trouble::Late);
+        let off_m = details.off_m.unwrap_or(0.0);
+        let unsure = details.err_m.is_some_and(|err_m| self.is_too_unsure(now, seat, err_m));
+        if (off_m > late_m || unsure) && self.seats[seat].late.is_none() {
+            let why = if unsure { Trouble::Unsure } else { Trouble::Late };
+            self.mark_late(desk, now, seat, why);
             return;
         }
         let Phase::Driving(drive) = &mut self.phase else { return };
         let late = &mut self.seats[seat].late;
-        if off_m < late_m / 2.0 && late.take().is_some() {
+        if off_m < late_m / 2.0 && !unsure && late.take().is_some() {
             drive.late = drive.late.saturating_sub(1);
             let over = drive.late == 0 && drive.hold.is_some_and(|hold| !hold.by_operator);
             if over {
                 self.release(desk, now);
             }
         }
+    }
+
+    /// Whether a robot may touch another before all could stand, if its place is off by as much as it may be.
+    fn is_too_unsure(&self, now: Instant, seat: usize, err_m: f64) -> bool {
+        let (Phase::Driving(drive), Some(leg)) = (&self.phase, &self.current) else { return false };
+        if err_m < SURE_M {
+            return false;
+        }
+        let needed_m = self.show.stage.limits.contact_m() + UNSURE * err_m + OTHERS_M;
+        let from = drive.path_time(now).max(Span::ZERO);
+        let place = |seat: usize, time: Span| match leg.path(seat) {
+            Some(path) => path.as_ref().at(time).position,
+            None => leg.moves.get(seat).map_or(Vec2::ZERO, |step| step.goal),
+        };
+        let far_m = needed_m + 2.0 * self.show.stage.limits.speed_mps * AHEAD.as_secs();
+        let here = place(seat, from);
+        let near = |other: &usize| *other != seat && place(*other, from).distance(here) < far_m;
+        let near: Vec<usize> = (0..leg.moves.len()).filter(near).collect();
+        (0..=AHEAD.0 / AHEAD_STEP.0).any(|step| {
+            let time = from + AHEAD_STEP * step;
+            let at = place(seat, time);
+            near.iter().any(|&other| place(other, time).distance(at) < needed_m)
+        })
     }
 
     fn mark_late(&mut self, desk: &mut Desk, now: Instant, seat: usize, why: Trouble) {

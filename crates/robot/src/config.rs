@@ -14,6 +14,8 @@ pub struct Config {
     pub firmware: Firmware,
     /// How old a position fix is when it comes in; 0 to 0.45 s.
     pub fix_delay: Span,
+    /// How often position fixes come.
+    pub fix_pace: Span,
     /// With nothing heard for so long while it drives a route, or with the link down for so long while it drives at
     /// all, it stops and is cut off.
     pub silence: Span,
@@ -30,7 +32,8 @@ pub struct Config {
 }
 
 impl Config {
-    /// An Elisa-3 with all abilities, fixes without delay, 2 mm and 1° of noise, and 2 s of patience with the link.
+    /// An Elisa-3 with all abilities, fixes at every step, without delay and with 2 mm and 1° of noise, and 2 s of
+    /// patience with the link.
     pub fn new(id: RobotId) -> Self {
         Self {
             id,
@@ -38,6 +41,7 @@ impl Config {
             firmware: Firmware::try_from(concat!("lightbots-", env!("CARGO_PKG_VERSION")))
                 .unwrap_or_default(),
             fix_delay: Span::ZERO,
+            fix_pace: Span::from_millis(16),
             silence: Span::from_millis(2000),
             seed: 0,
             fix_sigma_m: 0.002,

@@ -2,7 +2,7 @@
 
 use lightbots_base::{Limits, Vec2};
 
-use crate::estimate::turned;
+use crate::filter::turned;
 
 /// Feedback may ask for a little more than plans do.
 const ACCEL_RESERVE: f64 = 1.25;

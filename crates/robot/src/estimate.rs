@@ -1,268 +1,84 @@
-//! Where the robot is: wheel turns carry the pose from step to step, fixes pull it back, and both teach it how much its
-//! wheels slip, so that it finds its way while fixes stay away.
-//!
-//! An extended Kalman filter over place, heading and the slip of both wheels. A fix that comes late is laid beside the
-//! past it belongs to; wild ones are left alone.
+//! Where the robot is now. The filter lives in the past that fixes speak of, which is now where they come at once; from
+//! there wheel turns lead to the present.
 
-use lightbots_base::{Instant, Limits, Pose, Span, Vec2, difference, wrap};
+use lightbots_base::{Instant, Pose, Span, Vec2, wrap};
 
-use crate::bearing::Bearing;
 use crate::config::{Config, Fix};
-use crate::doubt::{Doubt, Gain, Noise, Stretch};
-use crate::slip::Slip;
+use crate::filter::{Filter, turned};
 use crate::trail::Trail;
-use crate::trust::Trust;
 
-/// Steps after which the covariance is carried on, …
-const STRETCH: u32 = 4;
-/// … but at once for so many fixes after a gap, as each of them teaches much.
-const TEACHING: u8 = 8;
-/// A fix further off than so many standard deviations, and than these floors, is an outlier.
-const GATE: f64 = 5.0;
-const GATE_FLOOR_M: f64 = 0.006;
-const GATE_FLOOR_RAD: f64 = 0.1;
-/// So many outliers in a row that agree are the truth: the pose jumps to it.
-const OUTLIERS: u8 = 10;
-/// Two jumps within this time make no sense.
-const JUMPS_APART: Span = Span::from_millis(1000);
 /// Lost with an error estimate above this, metres, or without a fix for so long.
 const LOST_M: f64 = 0.015;
 const LOST_AFTER: Span = Span::from_millis(3000);
-/// Fixes count as no better than this, because no positioning system is.
-const BEST_FIX_M: f64 = 0.000_3;
-const BEST_HEADING_RAD: f64 = 0.002;
-/// Without a heading fix for so long, heading comes from motion.
-const NO_COMPASS: Span = Span::from_millis(500);
-/// A heading read from the way is as good as this, and only one further off than that is news to the filter, radians.
-const BEARING_RAD: f64 = 0.03;
-const BEARING_OFF_RAD: f64 = 0.2;
 
 /// The estimated pose and how sure it is.
 #[derive(Debug)]
 pub(crate) struct Estimate {
+    filter: Filter,
+    delay: Span,
+    trail: Trail,
     at: Vec2,
     heading: f64,
-    /// Unit vector of `heading`, turned along step by step: far cheaper than a sine and a cosine each time.
+    /// Unit vector of `heading`.
     facing: Vec2,
-    slip: Slip,
-    doubt: Doubt,
-    gains: [Gain; 3],
-    /// Since the covariance was carried on, and the fixes within: of places and of headings.
-    stretch: Stretch,
-    fixes: [u32; 2],
-    teaching: u8,
-    place_trust: Trust,
-    heading_trust: Trust,
-    /// What the fix before was off by, where it was no outlier.
-    off: Option<(Vec2, f64)>,
-    last_fix: Option<Instant>,
-    last_heading: Option<Instant>,
-    aligned: bool,
-    odd_places: u8,
-    odd_off: Vec2,
-    odd_headings: u8,
-    last_jump: Option<Instant>,
-    senseless: bool,
-    trail: Trail,
-    bearing: Bearing,
-    wheel_radius_m: f64,
-    track_m: f64,
 }
 
 impl Estimate {
     pub(crate) fn new(config: &Config) -> Self {
-        let Limits { wheel_radius_m, track_m, .. } = config.limits;
-        let trust =
-            |sigma: f64, best: f64| Trust::new(if sigma > best { sigma * sigma } else { best * best });
         Self {
+            filter: Filter::new(config),
+            delay: config.fix_delay,
+            trail: Trail::new(),
             at: Vec2::ZERO,
             heading: 0.0,
             facing: Vec2::new(1.0, 0.0),
-            slip: Slip::new(config.slip),
-            doubt: Doubt::new(config.slip),
-            gains: [Gain::default(); 3],
-            stretch: Stretch::default(),
-            fixes: [0; 2],
-            teaching: TEACHING,
-            place_trust: trust(config.fix_sigma_m, BEST_FIX_M),
-            heading_trust: trust(config.heading_sigma_rad, BEST_HEADING_RAD),
-            off: None,
-            last_fix: None,
-            last_heading: None,
-            aligned: false,
-            odd_places: 0,
-            odd_off: Vec2::ZERO,
-            odd_headings: 0,
-            last_jump: None,
-            senseless: false,
-            trail: Trail::new(config.fix_delay),
-            bearing: Bearing::default(),
-            wheel_radius_m,
-            track_m,
         }
     }
 
     /// Carries the pose over one step by wheel turns, radians.
     pub(crate) fn advance(&mut self, now: Instant, turns_rad: [f64; 2]) {
-        if self.stretch.steps >= STRETCH {
-            self.carry();
+        if self.delay <= Span::ZERO {
+            self.filter.advance(turns_rad);
+        } else {
+            if let Some(turns) = self.trail.add(now, turns_rad) {
+                self.filter.advance(turns);
+            }
+            while let Some(turns) = self.trail.take_until(now - self.delay) {
+                self.filter.advance(turns);
+            }
         }
-        self.stretch.steps += 1;
-        if turns_rad == [0.0; 2] {
-            self.trail.add(now, Vec2::ZERO, 0.0);
-            return;
-        }
-        let ways_m = turns_rad.map(|turn| turn * self.wheel_radius_m);
-        let [left, right] = self.slip.ground(ways_m);
-        let (way, turn) = ((left + right) * 0.5, (right - left) / self.track_m);
-        let before = self.facing;
-        if turn != 0.0 {
-            self.turn_by(turn);
-        }
-        let moved = (before + self.facing) * (0.5 * way);
-        self.at += moved;
-        self.stretch.moved += moved;
-        self.stretch.ways_m[0] += ways_m[0];
-        self.stretch.ways_m[1] += ways_m[1];
-        self.stretch.turn += turn;
-        self.stretch.driven += 1;
-        self.slip.pass();
-        self.trail.add(now, moved, turn);
+        self.come_to_now();
     }
 
     /// Pulls the pose towards a fix. What is not a number is no fix.
     pub(crate) fn correct(&mut self, now: Instant, fix: &Fix) {
-        let then = self.trail.before();
-        let travelled = self.trail.now();
-        let mut off = (Vec2::ZERO, 0.0);
-        if fix.at.is_finite() && fix.at.x.abs() < 1e3 && fix.at.y.abs() < 1e3 {
-            off.0 = self.judge_place(now, fix.at + (travelled.way - then.way) - self.at);
-            self.learn_heading(now, then.way, fix.at);
+        if self.delay <= Span::ZERO {
+            self.filter.correct(now, fix);
+        } else {
+            // The fix speaks of a moment within the step that follows on the filter's.
+            let (way, turn) = self.filter.motion(self.trail.begun_by(now - self.delay));
+            let moved = self.filter.facing() * way;
+            let fix = Fix { at: fix.at - moved, heading: fix.heading.map(|heading| heading - turn) };
+            self.filter.correct(now, &fix);
         }
-        if let Some(heading) = fix.heading.filter(|heading| heading.is_finite()) {
-            off.1 = self.judge_heading(now, difference(heading + (travelled.turn - then.turn), self.heading));
-        }
-        self.pull(off);
+        self.come_to_now();
     }
 
-    /// Corrects all that a fix says something about by how far it is off.
-    fn pull(&mut self, off: (Vec2, f64)) {
-        let [places, headings] = self.fixes;
-        if places + headings == 0 {
+    fn come_to_now(&mut self) {
+        (self.at, self.heading, self.facing) =
+            (self.filter.at(), self.filter.heading(), self.filter.facing());
+        if self.delay <= Span::ZERO {
             return;
         }
-        if let Some(before) = self.off.replace(off) {
-            self.place_trust.learn(0.5 * (off.0 - before.0).length_squared());
-            self.heading_trust.learn((off.1 - before.1) * (off.1 - before.1));
+        let mut turned_by = 0.0;
+        for turns in self.trail.turns() {
+            let (way, turn) = self.filter.motion(turns);
+            let before = self.facing;
+            self.facing = turned(before, turn.clamp(-0.3, 0.3));
+            self.at += (before + self.facing) * (0.5 * way);
+            turned_by += turn;
         }
-        if self.teaching > 0 || self.stretch.steps >= STRETCH {
-            self.teaching = self.teaching.saturating_sub(1);
-            self.carry();
-        }
-        let [x, y, turn] = &self.gains;
-        let (place, angle) = off;
-        self.at += x.at * place.x + y.at * place.y + turn.at * angle;
-        let slip =
-            |wheel: usize| x.slip[wheel] * place.x + y.slip[wheel] * place.y + turn.slip[wheel] * angle;
-        self.slip.correct([slip(0), slip(1)]);
-        let turned = x.turn * place.x + y.turn * place.y + turn.turn * angle;
-        self.turn_by(turned);
-    }
-
-    /// Carries the covariance over the stretch behind and takes in what was measured on it.
-    fn carry(&mut self) {
-        let stretch = core::mem::take(&mut self.stretch);
-        let [places, headings] = core::mem::take(&mut self.fixes);
-        if places + headings == 0 {
-            self.teaching = TEACHING;
-            self.off = None;
-        }
-        self.doubt.carry(&stretch, self.facing, self.track_m, self.slip.drift(stretch.driven));
-        let (place, heading) = (self.place_trust.variance(), self.heading_trust.variance());
-        let share =
-            |variance: f64, count: u32| if count > 0 { variance / f64::from(count) } else { f64::INFINITY };
-        self.doubt.learn(Noise { place: share(place, places), heading: share(heading, headings) });
-        self.gains = self.doubt.gains(place, heading);
-        if stretch.driven > 0 {
-            self.slip.learn(stretch.moved.length(), self.doubt.slip());
-        }
-    }
-
-    /// How far the place is off by a fix that counts; nothing by one that does not.
-    fn judge_place(&mut self, now: Instant, off: Vec2) -> Vec2 {
-        let noise = self.place_trust.variance();
-        let gate = GATE * GATE * (self.doubt.place() + noise);
-        let odd = off.length_squared() > gate.max(GATE_FLOOR_M * GATE_FLOOR_M);
-        let first = self.last_fix.is_none();
-        if odd && !first {
-            let agrees = (off - self.odd_off).length_squared() < GATE * GATE * 2.0 * noise;
-            self.odd_places = if agrees { self.odd_places + 1 } else { 1 };
-            self.odd_off = off;
-            if self.odd_places < OUTLIERS {
-                return Vec2::ZERO;
-            }
-            self.senseless = self.last_jump.is_some_and(|jump| now - jump < JUMPS_APART);
-            self.last_jump = Some(now);
-            self.bearing.clear();
-        }
-        self.odd_places = 0;
-        self.last_fix = Some(now);
-        if odd || first {
-            self.at += off;
-            self.doubt.set_place(noise);
-            self.teaching = TEACHING;
-            return Vec2::ZERO;
-        }
-        self.fixes[0] += 1;
-        off
-    }
-
-    /// How far the heading is off by a fix that counts; nothing by one that does not.
-    fn judge_heading(&mut self, now: Instant, off: f64) -> f64 {
-        let noise = self.heading_trust.variance();
-        let gate = GATE * GATE * (self.doubt.heading() + noise);
-        let odd = off * off > gate.max(GATE_FLOOR_RAD * GATE_FLOOR_RAD);
-        if odd && self.aligned {
-            self.odd_headings += 1;
-            if self.odd_headings < OUTLIERS {
-                return 0.0;
-            }
-        }
-        self.odd_headings = 0;
-        self.last_heading = Some(now);
-        if odd || !self.aligned {
-            self.aligned = true;
-            self.turn_by(off);
-            self.doubt.set_heading(noise);
-            self.teaching = TEACHING;
-            return 0.0;
-        }
-        self.fixes[1] += 1;
-        off
-    }
-
-    /// Without a compass: reads the heading from the way until the filter can follow it.
-    fn learn_heading(&mut self, now: Instant, by_wheels: Vec2, by_fix: Vec2) {
-        if self.last_heading.is_some_and(|seen| now - seen < NO_COMPASS) {
-            return;
-        }
-        if let Some(turn) = self.bearing.add(by_wheels, by_fix)
-            && (!self.aligned || turn.abs() > BEARING_OFF_RAD)
-        {
-            self.turn_by(turn);
-            self.doubt.set_heading(BEARING_RAD * BEARING_RAD);
-            self.aligned = true;
-        }
-    }
-
-    fn turn_by(&mut self, turn: f64) {
-        self.heading = wrap(self.heading + turn);
-        self.facing = if turn.abs() < 0.1 { turned(self.facing, turn) } else { Vec2::unit(self.heading) };
-    }
-
-    /// What of their turning the wheels lose, left and right.
-    pub(crate) fn slip(&self) -> [f64; 2] {
-        self.slip.now()
+        self.heading = wrap(self.heading + turned_by);
     }
 
     /// The place, unless the robot is lost.
@@ -282,37 +98,43 @@ impl Estimate {
 
     /// Whether the heading is known.
     pub(crate) fn aligned(&self) -> bool {
-        self.aligned
+        self.filter.aligned()
+    }
+
+    /// What of their turning the wheels lose, left and right.
+    pub(crate) fn slip(&self) -> [f64; 2] {
+        self.filter.slip()
     }
 
     /// The pose, unless the robot is lost or does not know its heading yet.
     pub(crate) fn pose(&self, now: Instant) -> Option<Pose> {
-        (self.aligned && !self.lost(now)).then_some(Pose::new(self.at, self.heading))
+        (self.aligned() && !self.lost(now)).then_some(Pose::new(self.at, self.heading))
     }
 
     /// Expected error of the place, 1 sigma in each coordinate, metres.
     pub(crate) fn error_m(&self) -> f64 {
-        libm::sqrt(self.doubt.place())
+        libm::sqrt(self.filter.variance())
+    }
+
+    /// The same after so much more way without a fix.
+    pub(crate) fn error_after_m(&self, way_m: f64) -> f64 {
+        self.error_m() + self.filter.drift_m(way_m)
+    }
+
+    /// Whether no fix came for so long.
+    pub(crate) fn blind(&self, now: Instant, span: Span) -> bool {
+        self.filter.last_fix().is_none_or(|fix| now - fix > span)
     }
 
     /// Whether it knows too little to drive.
     pub(crate) fn lost(&self, now: Instant) -> bool {
-        self.doubt.place() > LOST_M * LOST_M || self.last_fix.is_none_or(|fix| now - fix > LOST_AFTER)
+        self.filter.variance() > LOST_M * LOST_M || self.blind(now, LOST_AFTER)
     }
 
     /// Whether fixes and wheels have contradicted each other for longer than a shove explains. Asking clears it.
     pub(crate) fn take_senseless(&mut self) -> bool {
-        core::mem::take(&mut self.senseless)
+        self.filter.take_senseless()
     }
-}
-
-/// `facing` turned by a small angle: series to the fifth order, right to 1e-9 below 0.1 rad, brought back to length 1.
-pub(crate) fn turned(facing: Vec2, turn: f64) -> Vec2 {
-    let square = turn * turn;
-    let sin = turn * (1.0 - square * (1.0 / 6.0 - square * (1.0 / 120.0)));
-    let cos = 1.0 - square * (0.5 - square * (1.0 / 24.0));
-    let new = Vec2::new(facing.x * cos - facing.y * sin, facing.x * sin + facing.y * cos);
-    new * (1.5 - 0.5 * new.length_squared())
 }
 
 #[cfg(test)]
@@ -320,8 +142,8 @@ mod tests {
     use super::*;
     use lightbots_base::RobotId;
 
-    fn estimate() -> Estimate {
-        Estimate::new(&Config::new(RobotId::new("r").unwrap()))
+    fn config() -> Config {
+        Config::new(RobotId::new("r").unwrap())
     }
 
     fn fix(x: f64, heading: f64) -> Fix {
@@ -329,33 +151,8 @@ mod tests {
     }
 
     #[test]
-    fn turning_in_small_steps_keeps_facing_and_heading_together() {
-        let mut one = estimate();
-        for step in 0..100_000u64 {
-            one.advance(Instant(step * 16_000), [-0.3, 0.31]);
-        }
-        assert!((one.facing - Vec2::unit(one.heading)).length() < 1e-6);
-    }
-
-    #[test]
-    fn one_wild_fix_is_left_alone_and_ten_are_believed() {
-        let mut one = estimate();
-        for step in 0..50 {
-            one.correct(Instant(step), &fix(0.1, 0.0));
-        }
-        one.correct(Instant(60), &fix(0.9, 0.0));
-        assert!((one.at.x - 0.1).abs() < 1e-9);
-        for step in 0..10 {
-            one.correct(Instant(61 + step), &fix(0.9, 2.0));
-        }
-        assert!((one.at.x - 0.9).abs() < 1e-9);
-        assert!((one.heading - 2.0).abs() < 1e-9);
-        assert!(!one.take_senseless());
-    }
-
-    #[test]
     fn dead_reckoning_ends_in_being_lost() {
-        let mut one = estimate();
+        let mut one = Estimate::new(&config());
         assert!(one.lost(Instant(0)));
         one.correct(Instant(0), &fix(0.0, 0.0));
         assert!(!one.lost(Instant(2_900_000)));
@@ -371,8 +168,29 @@ mod tests {
 
     #[test]
     fn what_is_not_a_number_is_no_fix() {
-        let mut one = estimate();
+        let mut one = Estimate::new(&config());
         one.correct(Instant(0), &Fix { at: Vec2::new(f64::NAN, 0.0), heading: Some(f64::INFINITY) });
         assert!(one.lost(Instant(0)) && !one.aligned());
+    }
+
+    #[test]
+    fn late_fixes_between_two_steps_leave_no_lag() {
+        let mut one = Estimate::new(&Config { fix_delay: Span::from_millis(40), ..config() });
+        let (speed, turn) = (0.2, 0.5);
+        let truth = |at_s: f64| {
+            let angle = turn * at_s;
+            (Vec2::new(angle.sin(), 1.0 - angle.cos()) * (speed / turn), angle)
+        };
+        let wheel = |side: f64| (speed + side * turn * 0.0402 / 2.0) * 0.016 / 0.0045;
+        for step in 1..200u64 {
+            let now = Instant(step * 16_000);
+            let turns = if step > 50 { [wheel(-1.0), wheel(1.0)] } else { [0.0; 2] };
+            one.advance(now, turns);
+            let (at, heading) = truth((step as f64 * 0.016 - 0.8 - 0.04).max(0.0));
+            one.correct(now, &Fix { at, heading: Some(heading) });
+            let (at, heading) = truth((step as f64 * 0.016 - 0.8).max(0.0));
+            assert!(one.at().distance(at) < 1e-4, "step {step}: {:?} {at:?}", one.at());
+            assert!((one.facing() - Vec2::unit(heading)).length() < 1e-3, "step {step}");
+        }
     }
 }

@@ -32,6 +32,7 @@ mod cursor;
 mod doubt;
 mod drive;
 mod estimate;
+mod filter;
 mod follow;
 mod light;
 mod outbox;

@@ -9,6 +9,9 @@ const CALM: Span = Span::from_millis(2000);
 /// Further off its route than this is news; nearer than that, it is over.
 const OFF_M: f64 = 0.008;
 const BACK_M: f64 = 0.006;
+/// Without fixes, being so many times as unsure as it last said, and this many metres more, is news.
+const MORE: f64 = 1.25;
+const MORE_M: f64 = 0.0005;
 /// A robot that has just been switched on waits so long for its first fix before it introduces itself without.
 const POWER_ON: Span = Span::from_millis(500);
 
@@ -39,6 +42,8 @@ pub(crate) struct Outbox {
     next_status: Instant,
     state: RobotState,
     is_off: bool,
+    /// How unsure of its place it last said to be for want of fixes, metres.
+    said_err_m: Option<f64>,
 }
 
 impl Outbox {
@@ -54,6 +59,7 @@ impl Outbox {
             next_status: Instant::ZERO + CALM + phase,
             state: RobotState::Lost,
             is_off: false,
+            said_err_m: None,
         }
     }
 
@@ -78,8 +84,15 @@ impl Outbox {
         self.question = true;
     }
 
-    /// Notes what is news of itself.
-    pub(crate) fn notice(&mut self, now: Instant, state: RobotState, off_m: Option<f64>, knows_place: bool) {
+    /// Notes what is news of itself; `err_m`: how unsure it is of its place, where fixes stay away.
+    pub(crate) fn notice(
+        &mut self,
+        now: Instant,
+        state: RobotState,
+        off_m: Option<f64>,
+        err_m: Option<f64>,
+        knows_place: bool,
+    ) {
         if self.newcomer.is_some_and(|since| knows_place || now - since > POWER_ON) {
             self.newcomer = None;
             self.introduction = true;
@@ -89,7 +102,14 @@ impl Outbox {
         }
         let off_m = off_m.unwrap_or(0.0);
         let is_off = off_m > if self.is_off { BACK_M } else { OFF_M };
-        if state != self.state || is_off != self.is_off || now >= self.next_status {
+        let unsure = match (err_m, self.said_err_m) {
+            (Some(err_m), Some(said_m)) => err_m > said_m * MORE + MORE_M,
+            (err_m, said_m) => err_m.is_some() || said_m.is_some(),
+        };
+        if unsure {
+            self.said_err_m = err_m;
+        }
+        if unsure || state != self.state || is_off != self.is_off || now >= self.next_status {
             self.status = true;
             self.state = state;
             self.is_off = is_off;
@@ -123,7 +143,7 @@ mod tests {
     fn statuses(outbox: &mut Outbox, seconds: u64, state: RobotState) -> usize {
         let mut count = 0;
         for step in 0..seconds * 1000 / 16 {
-            outbox.notice(Instant(step * 16_000), state, None, true);
+            outbox.notice(Instant(step * 16_000), state, None, None, true);
             count += usize::from(outbox.take(true, true) == Some(Fact::Status));
         }
         count
@@ -139,10 +159,21 @@ mod tests {
     fn leaving_the_route_is_said_once_and_coming_back_too() {
         let mut outbox = Outbox::new(Span::ZERO);
         let mut said = |off| {
-            outbox.notice(Instant(1), RobotState::Lost, Some(off), true);
+            outbox.notice(Instant(1), RobotState::Lost, Some(off), None, true);
             outbox.take(true, true).is_some()
         };
         assert!(!said(0.007) && said(0.009) && !said(0.007) && said(0.005) && !said(0.007));
+    }
+
+    #[test]
+    fn want_of_fixes_is_said_at_once_again_when_it_gets_worse_and_when_it_is_over() {
+        let mut outbox = Outbox::new(Span::ZERO);
+        let mut said = |err| {
+            outbox.notice(Instant(1), RobotState::Lost, None, err, true);
+            outbox.take(true, true).is_some()
+        };
+        assert!(!said(None) && said(Some(0.004)) && !said(Some(0.005)) && said(Some(0.006)));
+        assert!(!said(Some(0.004)) && said(None) && !said(None));
     }
 
     #[test]
@@ -150,7 +181,7 @@ mod tests {
         let mut outbox = Outbox::new(Span::ZERO);
         outbox.arrive_new(Instant(0));
         let mut introduced = |at, knows| {
-            outbox.notice(Instant(at), RobotState::Lost, None, knows);
+            outbox.notice(Instant(at), RobotState::Lost, None, None, knows);
             core::iter::from_fn(|| outbox.take(knows, false)).any(|fact| fact == Fact::Introduction)
         };
         assert!(!introduced(100_000, false));

@@ -22,6 +22,12 @@ pub type Message = heapless::String<256>;
 const LONGEST_STEP_S: f64 = 0.1;
 /// This far off its route, metres, the robot gives the route up: it is stuck, or was never where the route starts.
 const GIVE_UP_M: f64 = 0.3;
+/// A robot whose fixes stay away says how sure it will be so much later: until then nobody could stop.
+const FORESIGHT: Span = Span::from_millis(500);
+/// Fixes stay away when three have not come and this long has passed on top.
+const OVERDUE: Span = Span::from_millis(16);
+/// A robot without fixes does not say that it is there if its place is less sure than this, metres.
+const SURE_M: f64 = 0.003;
 /// Without a compass it learns its heading by creeping straight on, m/s.
 const CREEP_MPS: f64 = 0.08;
 
@@ -165,6 +171,18 @@ impl Robot {
         self.estimate.error_m()
     }
 
+    /// The same half a second of its route from now, where fixes stay away; else now, metres.
+    fn err_m(&self) -> f64 {
+        let way_m = if self.is_blind() { self.routes.way_ahead_m(FORESIGHT) } else { 0.0 };
+        let err_m = self.estimate.error_after_m(way_m);
+        libm::round(err_m * 1e4) / 1e4
+    }
+
+    /// Whether fixes that should have come stay away.
+    fn is_blind(&self) -> bool {
+        self.estimate.blind(self.now, self.config.fix_pace * 3 + OVERDUE)
+    }
+
     /// Its name.
     pub fn id(&self) -> RobotId {
         self.config.id
@@ -183,6 +201,7 @@ impl Robot {
             route: self.routes.named(),
             starts: self.routes.starts().filter(|_| self.clock.show_time(self.now).is_some()),
             off_m: self.routes.off_m(),
+            err_m: self.estimate.place(self.now).map(|_| self.err_m()),
             clock_us: self.clock.error_us(self.now),
             firmware: self.config.firmware.clone(),
             abilities: self.config.abilities,
@@ -285,7 +304,8 @@ impl Robot {
 
     /// Says once that it is there, when it stands there.
     fn arrive(&mut self, show: Option<Instant>) {
-        if !self.drive.stands() || self.estimate.lost(self.now) {
+        let unsure = self.is_blind() && self.estimate.error_m() > SURE_M;
+        if !self.drive.stands() || unsure || self.estimate.lost(self.now) {
             return;
         }
         let at = self.estimate.at();
@@ -320,6 +340,7 @@ impl Robot {
             self.outbox.ask_time();
         }
         let knows_place = self.state != RobotState::Lost && !self.estimate.lost(now);
-        self.outbox.notice(now, self.state, self.routes.off_m(), knows_place);
+        let err_m = (self.routes.under_way() && self.is_blind()).then(|| self.err_m());
+        self.outbox.notice(now, self.state, self.routes.off_m(), err_m, knows_place);
     }
 }

@@ -12,6 +12,10 @@ use crate::timeline::Timeline;
 
 /// A START that comes later than this after its moment is too late.
 const TOO_LATE: Span = Span::from_millis(500);
+/// At the end of a route a robot comes as near as this, metres, …
+const NEAR_M: f64 = 0.0125;
+/// … or after so long as near as it must.
+const TRYING: Span = Span::from_millis(1500);
 /// A route whose number lies so little below the one kept is an old message that came late.
 const OLD_NUMBERS: u32 = 64;
 
@@ -38,6 +42,8 @@ struct Running {
     off_m: f64,
     /// Where it should be once the wheels have answered.
     due: Vec2,
+    /// Path time then.
+    time: Span,
 }
 
 /// The routes of a robot.
@@ -97,9 +103,19 @@ impl Routes {
         self.timeline.begin(starts);
         let duration = PathRef::new(route.start, &route.pieces).duration();
         let cursor = Cursor::new(&route);
-        let (outlook, due) = (Outlook::default(), route.start);
-        self.running =
-            Some(Running { route, starts, duration, cursor, follow, outlook, seek: None, off_m: 0.0, due });
+        let (outlook, due, time) = (Outlook::default(), route.start, Span::ZERO);
+        self.running = Some(Running {
+            route,
+            starts,
+            duration,
+            cursor,
+            follow,
+            outlook,
+            seek: None,
+            off_m: 0.0,
+            due,
+            time,
+        });
         true
     }
 
@@ -110,10 +126,10 @@ impl Routes {
         running.cursor.seek(&running.route, progress.time);
         let by_path_time = running.cursor.motion(progress.time);
         let motion = by_show_time(by_path_time, progress.rate);
-        running.due = motion.position;
+        (running.due, running.time) = (motion.position, progress.time);
         running.off_m = motion.position.distance(body.at);
         if progress.time >= running.duration
-            && (running.seek.is_some() || !within_arrival(body.at, motion.position))
+            && (running.seek.is_some() || !running.is_there(progress.time, body.at, motion.position))
         {
             return Some(running.seek.get_or_insert_with(|| Seek::new(motion.position)).step(body, limits));
         }
@@ -139,7 +155,8 @@ impl Routes {
     pub(crate) fn finish(&mut self, show: Instant, at: Vec2) -> Option<u32> {
         let over = |running: &mut Running| {
             let end = PathRef::new(running.route.start, &running.route.pieces).end();
-            self.timeline.at(show).time >= running.duration && within_arrival(at, end)
+            let time = self.timeline.at(show).time;
+            time >= running.duration && running.is_there(time, at, end)
         };
         let done = self.running.take_if(over)?;
         self.finished = done.route.seq;
@@ -206,9 +223,23 @@ impl Routes {
         self.running.as_ref().map(|running| running.due)
     }
 
+    /// How far the route under way leads from where it is within so much path time, metres.
+    pub(crate) fn way_ahead_m(&self, within: Span) -> f64 {
+        let Some(running) = &self.running else { return 0.0 };
+        let path = PathRef::new(running.route.start, &running.route.pieces);
+        path.at(running.time + within).position.distance(running.due)
+    }
+
     /// How far the robot is from where the route under way says, metres.
     pub(crate) fn off_m(&self) -> Option<f64> {
         self.running.as_ref().map(|running| running.off_m)
+    }
+}
+
+impl Running {
+    /// Whether it is near enough to the end; for a while it tries to come nearer than it must.
+    fn is_there(&self, time: Span, at: Vec2, end: Vec2) -> bool {
+        at.distance(end) <= NEAR_M || time >= self.duration + TRYING && within_arrival(at, end)
     }
 }
 
@@ -290,7 +321,8 @@ mod tests {
         assert!(routes.step(Instant(500_000), BODY, &Limits::ELISA_3).is_some());
         assert!((routes.off_m().unwrap() - 0.05).abs() < 1e-9);
         assert_eq!(routes.finish(Instant(1_000_000), Vec2::new(0.05, 0.0)), None);
-        assert_eq!(routes.finish(Instant(1_000_000), Vec2::new(0.09, 0.01)), Some(1));
+        assert_eq!(routes.finish(Instant(1_000_000), Vec2::new(0.09, 0.01)), None);
+        assert_eq!(routes.finish(Instant(1_000_000), Vec2::new(0.09, 0.005)), Some(1));
         assert!(!routes.under_way() && routes.keeps_one());
     }
 }

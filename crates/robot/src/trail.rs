@@ -1,70 +1,64 @@
-//! What the wheels said over the last half second, so that a late fix can be laid beside the past it belongs to.
+//! What the wheels turned since the moment fixes speak of, so that a late fix is laid beside the past it belongs to.
 
-use lightbots_base::{Instant, Span, Vec2};
+use lightbots_base::{Instant, Span};
 
 /// Steps remembered: 0.5 s of 16 ms.
 const STEPS: usize = 32;
 
-/// Travel by wheel turns alone, summed up since power-on.
-#[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Travel {
-    /// Stage metres.
-    pub way: Vec2,
-    /// Radians.
-    pub turn: f64,
-}
+/// Turns of the left and the right wheel in a step, radians.
+type Turns = [f64; 2];
 
-/// The travel of the last steps.
+/// The wheel turns of the last steps, oldest first.
 #[derive(Debug)]
 pub(crate) struct Trail {
-    /// How far back it is asked, always the same; nothing is remembered for zero.
-    delay: Span,
-    now: Travel,
-    past: [(Instant, Travel); STEPS],
-    newest: usize,
+    /// `(end of the step, turns)`, a ring.
+    steps: [(Instant, Turns); STEPS],
+    oldest: usize,
+    count: usize,
+    /// End of the last step that was taken out.
+    taken: Instant,
 }
 
 impl Trail {
-    pub(crate) fn new(delay: Span) -> Self {
-        Self { delay, now: Travel::default(), past: [(Instant::ZERO, Travel::default()); STEPS], newest: 0 }
+    pub(crate) fn new() -> Self {
+        Self { steps: [(Instant::ZERO, [0.0; 2]); STEPS], oldest: 0, count: 0, taken: Instant::ZERO }
     }
 
-    /// Adds one step that ended at `now`.
-    pub(crate) fn add(&mut self, now: Instant, way: Vec2, turn: f64) {
-        self.now.way += way;
-        self.now.turn += turn;
-        if self.delay <= Span::ZERO {
-            return;
-        }
-        self.newest = (self.newest + 1) % STEPS;
-        self.past[self.newest] = (now, self.now);
+    /// Adds one step that ended at `now`; gives back the oldest where there is no room.
+    pub(crate) fn add(&mut self, now: Instant, turns: Turns) -> Option<Turns> {
+        let pushed_out = if self.count == STEPS { self.take_until(Instant::FAR) } else { None };
+        self.steps[(self.oldest + self.count) % STEPS] = (now, turns);
+        self.count += 1;
+        pushed_out
     }
 
-    /// The travel up to now.
-    pub(crate) fn now(&self) -> Travel {
-        self.now
+    /// Takes out the oldest step, if it had ended by then.
+    pub(crate) fn take_until(&mut self, then: Instant) -> Option<Turns> {
+        let (ended, turns) = *self.all().next()?;
+        if ended > then {
+            return None;
+        }
+        self.taken = ended;
+        self.oldest = (self.oldest + 1) % STEPS;
+        self.count -= 1;
+        Some(turns)
     }
 
-    /// The travel up to the delay before the newest step, between steps in proportion; the oldest known where that is
-    /// not long enough ago.
-    pub(crate) fn before(&self) -> Travel {
-        if self.delay <= Span::ZERO {
-            return self.now;
-        }
-        let then = self.past[self.newest].0 - self.delay;
-        let mut later = self.past[self.newest];
-        for back in 1..STEPS {
-            let earlier = self.past[(self.newest + STEPS - back) % STEPS];
-            if earlier.0 <= then {
-                let share = (then - earlier.0).as_secs() / (later.0 - earlier.0).as_secs().max(1e-6);
-                return Travel {
-                    way: earlier.1.way.lerp(later.1.way, share),
-                    turn: earlier.1.turn + (later.1.turn - earlier.1.turn) * share,
-                };
-            }
-            later = earlier;
-        }
-        later.1
+    /// What the wheels had turned by then of the step that is the oldest now, evenly.
+    pub(crate) fn begun_by(&self, then: Instant) -> Turns {
+        let Some((ended, turns)) = self.all().next() else { return [0.0; 2] };
+        let (whole, past) = (*ended - self.taken, then - self.taken);
+        let share = if whole > Span::ZERO { (past.as_secs() / whole.as_secs()).clamp(0.0, 1.0) } else { 0.0 };
+        turns.map(|turn| turn * share)
+    }
+
+    /// The turns of all steps, oldest first.
+    pub(crate) fn turns(&self) -> impl Iterator<Item = Turns> {
+        self.all().map(|(_, turns)| *turns)
+    }
+
+    fn all(&self) -> impl Iterator<Item = &(Instant, Turns)> {
+        (0..self.count).map(|step| &self.steps[(self.oldest + step) % STEPS])
     }
 }
 
@@ -72,25 +66,25 @@ impl Trail {
 mod tests {
     use super::*;
 
-    fn after_100_steps(delay: i64) -> Trail {
-        let mut trail = Trail::new(Span(delay));
-        for step in 1..=100u64 {
-            trail.add(Instant(step * 16_000), Vec2::new(0.004, 0.0), 0.01);
+    #[test]
+    fn steps_come_out_in_order_when_they_are_old_enough() {
+        let mut trail = Trail::new();
+        for step in 1..=5u32 {
+            assert_eq!(trail.add(Instant(u64::from(step) * 16_000), [f64::from(step); 2]), None);
         }
-        trail
+        assert_eq!(trail.take_until(Instant(15_999)), None);
+        assert_eq!(trail.take_until(Instant(40_000)), Some([1.0; 2]));
+        assert_eq!(trail.take_until(Instant(40_000)), Some([2.0; 2]));
+        assert_eq!(trail.take_until(Instant(40_000)), None);
+        assert_eq!(trail.begun_by(Instant(40_000)), [1.5; 2]);
+        assert_eq!(trail.turns().map(|turns| turns[0]).sum::<f64>(), 12.0);
     }
 
     #[test]
-    fn the_past_is_found_between_two_steps() {
-        let trail = after_100_steps(40_000);
-        assert!((trail.now().way.x - trail.before().way.x - 0.010).abs() < 1e-12);
-        assert!((trail.now().turn - trail.before().turn - 0.025).abs() < 1e-12);
-    }
-
-    #[test]
-    fn what_is_longer_ago_than_remembered_is_the_oldest_known() {
-        assert!((after_100_steps(9_000_000).before().way.x - 69.0 * 0.004).abs() < 1e-12);
-        let trail = after_100_steps(0);
-        assert_eq!(trail.before().way, trail.now().way);
+    fn what_is_longer_ago_than_remembered_is_pushed_out() {
+        let mut trail = Trail::new();
+        let out = (0..100u32).filter_map(|step| trail.add(Instant(u64::from(step)), [f64::from(step); 2]));
+        assert_eq!(out.count(), 68);
+        assert_eq!(trail.turns().next(), Some([68.0; 2]));
     }
 }

@@ -152,6 +152,7 @@ fn answer(id: RobotId) -> Vec<u8> {
         state: RobotState::Ready,
         route: 17,
         off_m: Some(0.001),
+        err_m: Some(0.001),
         clock_us: Some(400),
         ..Details::default()
     };

@@ -161,6 +161,7 @@ impl Member {
         let config = Config {
             limits: stage.limits,
             fix_delay: STEP * delay_steps,
+            fix_pace: STEP * i64::from(conditions.fixes.every.max(1)),
             seed: dice.bits() as u32,
             // What a builder states for a robot's sensors: as they are, but never nothing.
             fix_sigma_m: conditions.fixes.place_sigma_m.max(0.0005),

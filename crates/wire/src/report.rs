@@ -28,6 +28,8 @@ pub struct Details {
     pub starts: Option<Instant>,
     /// How far it is from where its route says, metres.
     pub off_m: Option<f64>,
+    /// How far off its place may be (1 sigma), metres; where fixes stay away, half a second of its route from now.
+    pub err_m: Option<f64>,
     /// How far it believes its clock may be off, microseconds; `None`: not synchronised.
     pub clock_us: Option<u32>,
     /// Name and version of its firmware.

@@ -83,8 +83,10 @@ fn text(payload: &[u8]) -> Option<&str> {
 
 /// Notes one `key=value` field; details come to be with the first key we know, whatever its value.
 fn read_detail(details: &mut Option<Details>, key: &str, value: &str) {
-    if !matches!(key, "h" | "bat" | "state" | "route" | "starts" | "off" | "clock" | "fw" | "can" | "unknown")
-    {
+    if !matches!(
+        key,
+        "h" | "bat" | "state" | "route" | "starts" | "off" | "err" | "clock" | "fw" | "can" | "unknown"
+    ) {
         return;
     }
     let known = details.get_or_insert_default();
@@ -95,6 +97,7 @@ fn read_detail(details: &mut Option<Details>, key: &str, value: &str) {
         "route" => known.route = value.parse().unwrap_or(0),
         "starts" => known.starts = instant(value),
         "off" => known.off_m = finite(value).filter(|&off| off >= 0.0),
+        "err" => known.err_m = finite(value).filter(|&err| err >= 0.0),
         "clock" => known.clock_us = value.parse().ok(),
         "fw" => known.firmware = firmware(value),
         "can" => known.abilities = Abilities::from_words(value),
@@ -144,6 +147,10 @@ fn write_details(details: &Details, out: &mut dyn Write) -> fmt::Result {
     if !details.firmware.is_empty() && details.firmware.bytes().all(|byte| byte.is_ascii_graphic()) {
         out.write_str(" fw=")?;
         out.write_str(&details.firmware)?;
+    }
+    if let Some(err_m) = details.err_m {
+        out.write_str(" err=")?;
+        write_double(out, err_m)?;
     }
     Ok(())
 }

@@ -62,6 +62,7 @@ fn full_report() -> Report {
         route: 12,
         starts: Some(Instant(8_000_000)),
         off_m: Some(0.0034),
+        err_m: Some(0.0012),
         clock_us: Some(450),
         firmware: Firmware::try_from("lightbots-0.1.0").unwrap(),
         abilities: Abilities { route: true, fade: true, blink: true },

@@ -101,6 +101,7 @@ impl Robot {
             state: self.state(),
             route,
             starts,
+            err_m: None,
             off_m: self.running.as_ref().map(|_| if self.stuck { 0.2 } else { 0.001 }),
             clock_us: self.synchronised.then_some(500),
             abilities: Abilities { route: true, fade: true, blink: true },

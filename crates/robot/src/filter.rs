@@ -1,0 +1,355 @@
+//! The pose that wheel turns carry from step to step and fixes pull back, and how much the wheels slip, which both teach:
+//! so it finds its way while fixes stay away.
+//!
+//! An extended Kalman filter over place, heading and the slip of both wheels; wild fixes are left alone.
+
+use lightbots_base::{Instant, Limits, Span, Vec2, difference, wrap};
+
+use crate::bearing::Bearing;
+use crate::config::{Config, Fix};
+use crate::doubt::{Doubt, Gain, Noise, Stretch};
+use crate::slip::Slip;
+use crate::trust::Trust;
+
+/// Steps after which the covariance is carried on, …
+const STRETCH: u32 = 4;
+/// … but at once for so many fixes after a gap, as each of them teaches much.
+const TEACHING: u8 = 8;
+/// A fix further off than so many standard deviations, and than these floors, is an outlier.
+const GATE: f64 = 5.0;
+const GATE_FLOOR_M: f64 = 0.006;
+const GATE_FLOOR_RAD: f64 = 0.1;
+/// So many outliers in a row that agree are the truth: the pose jumps to it.
+const OUTLIERS: u8 = 10;
+/// Two jumps within this time make no sense.
+const JUMPS_APART: Span = Span::from_millis(1000);
+/// Fixes count as no better than this, because no positioning system is.
+const BEST_FIX_M: f64 = 0.000_3;
+const BEST_HEADING_RAD: f64 = 0.002;
+/// Without a heading fix for so long, heading comes from motion.
+const NO_COMPASS: Span = Span::from_millis(500);
+/// A heading read from the way is as good as this, and only one further off than that is news to the filter, radians.
+const BEARING_RAD: f64 = 0.03;
+const BEARING_OFF_RAD: f64 = 0.2;
+
+/// The pose, the slip, and how sure both are.
+#[derive(Debug)]
+pub(crate) struct Filter {
+    at: Vec2,
+    heading: f64,
+    /// Unit vector of `heading`, turned along step by step: far cheaper than a sine and a cosine each time.
+    facing: Vec2,
+    slip: Slip,
+    doubt: Doubt,
+    gains: [Gain; 3],
+    /// Since the covariance was carried on, and the fixes within: of places and of headings.
+    stretch: Stretch,
+    fixes: [u32; 2],
+    teaching: u8,
+    place_trust: Trust,
+    heading_trust: Trust,
+    /// What the fix before was off by, where it was no outlier.
+    off: Option<(Vec2, f64)>,
+    last_fix: Option<Instant>,
+    last_heading: Option<Instant>,
+    aligned: bool,
+    odd_places: u8,
+    odd_off: Vec2,
+    odd_headings: u8,
+    last_jump: Option<Instant>,
+    senseless: bool,
+    /// All the way by wheels, stage metres.
+    way: Vec2,
+    bearing: Bearing,
+    wheel_radius_m: f64,
+    track_m: f64,
+}
+
+impl Filter {
+    pub(crate) fn new(config: &Config) -> Self {
+        let Limits { wheel_radius_m, track_m, .. } = config.limits;
+        let trust =
+            |sigma: f64, best: f64| Trust::new(if sigma > best { sigma * sigma } else { best * best });
+        Self {
+            at: Vec2::ZERO,
+            heading: 0.0,
+            facing: Vec2::new(1.0, 0.0),
+            slip: Slip::new(config.slip),
+            doubt: Doubt::new(config.slip),
+            gains: [Gain::default(); 3],
+            stretch: Stretch::default(),
+            fixes: [0; 2],
+            teaching: TEACHING,
+            place_trust: trust(config.fix_sigma_m, BEST_FIX_M),
+            heading_trust: trust(config.heading_sigma_rad, BEST_HEADING_RAD),
+            off: None,
+            last_fix: None,
+            last_heading: None,
+            aligned: false,
+            odd_places: 0,
+            odd_off: Vec2::ZERO,
+            odd_headings: 0,
+            last_jump: None,
+            senseless: false,
+            way: Vec2::ZERO,
+            bearing: Bearing::default(),
+            wheel_radius_m,
+            track_m,
+        }
+    }
+
+    /// Carries the pose over one step by wheel turns, radians.
+    pub(crate) fn advance(&mut self, turns_rad: [f64; 2]) {
+        if self.stretch.steps >= STRETCH {
+            self.carry();
+        }
+        self.stretch.steps += 1;
+        if turns_rad == [0.0; 2] {
+            return;
+        }
+        let (way, turn) = self.motion(turns_rad);
+        let before = self.facing;
+        if turn != 0.0 {
+            self.turn_by(turn);
+        }
+        let moved = (before + self.facing) * (0.5 * way);
+        self.at += moved;
+        self.way += moved;
+        self.stretch.moved += moved;
+        self.stretch.ways_m[0] += turns_rad[0] * self.wheel_radius_m;
+        self.stretch.ways_m[1] += turns_rad[1] * self.wheel_radius_m;
+        self.stretch.turn += turn;
+        self.stretch.driven += 1;
+        self.slip.pass();
+    }
+
+    /// Way (metres) and turn (radians) by wheel turns, with what is known of slip.
+    pub(crate) fn motion(&self, turns_rad: [f64; 2]) -> (f64, f64) {
+        let [left, right] = self.slip.ground(turns_rad.map(|turn| turn * self.wheel_radius_m));
+        ((left + right) * 0.5, (right - left) / self.track_m)
+    }
+
+    /// Pulls the pose towards a fix. What is not a number is no fix.
+    pub(crate) fn correct(&mut self, now: Instant, fix: &Fix) {
+        let mut off = (Vec2::ZERO, 0.0);
+        if fix.at.is_finite() && fix.at.x.abs() < 1e3 && fix.at.y.abs() < 1e3 {
+            off.0 = self.judge_place(now, fix.at - self.at);
+            self.learn_heading(now, fix.at);
+        }
+        if let Some(heading) = fix.heading.filter(|heading| heading.is_finite()) {
+            off.1 = self.judge_heading(now, difference(heading, self.heading));
+        }
+        self.pull(off);
+    }
+
+    /// Corrects all that a fix says something about by how far it is off.
+    fn pull(&mut self, off: (Vec2, f64)) {
+        let [places, headings] = self.fixes;
+        if places + headings == 0 {
+            return;
+        }
+        if let Some(before) = self.off.replace(off) {
+            self.place_trust.learn(0.5 * (off.0 - before.0).length_squared());
+            self.heading_trust.learn((off.1 - before.1) * (off.1 - before.1));
+        }
+        if self.teaching > 0 || self.stretch.steps >= STRETCH {
+            self.teaching = self.teaching.saturating_sub(1);
+            self.carry();
+        }
+        let [x, y, turn] = &self.gains;
+        let (place, angle) = off;
+        self.at += x.at * place.x + y.at * place.y + turn.at * angle;
+        let slip =
+            |wheel: usize| x.slip[wheel] * place.x + y.slip[wheel] * place.y + turn.slip[wheel] * angle;
+        self.slip.correct([slip(0), slip(1)]);
+        let turned = x.turn * place.x + y.turn * place.y + turn.turn * angle;
+        self.turn_by(turned);
+    }
+
+    /// Carries the covariance over the stretch behind and takes in what was measured on it.
+    fn carry(&mut self) {
+        let stretch = core::mem::take(&mut self.stretch);
+        let [places, headings] = core::mem::take(&mut self.fixes);
+        if places + headings == 0 {
+            self.teaching = TEACHING;
+            self.off = None;
+        }
+        self.doubt.carry(&stretch, self.facing, self.track_m, self.slip.drift(stretch.driven));
+        let (place, heading) = (self.place_trust.variance(), self.heading_trust.variance());
+        let share =
+            |variance: f64, count: u32| if count > 0 { variance / f64::from(count) } else { f64::INFINITY };
+        self.doubt.learn(Noise { place: share(place, places), heading: share(heading, headings) });
+        self.gains = self.doubt.gains(place, heading);
+        if stretch.driven > 0 {
+            self.slip.learn(stretch.moved.length(), self.doubt.slip());
+        }
+    }
+
+    /// How far the place is off by a fix that counts; nothing by one that does not.
+    fn judge_place(&mut self, now: Instant, off: Vec2) -> Vec2 {
+        let noise = self.place_trust.variance();
+        let gate = GATE * GATE * (self.doubt.place() + noise);
+        let odd = off.length_squared() > gate.max(GATE_FLOOR_M * GATE_FLOOR_M);
+        let first = self.last_fix.is_none();
+        if odd && !first {
+            let agrees = (off - self.odd_off).length_squared() < GATE * GATE * 2.0 * noise;
+            self.odd_places = if agrees { self.odd_places + 1 } else { 1 };
+            self.odd_off = off;
+            if self.odd_places < OUTLIERS {
+                return Vec2::ZERO;
+            }
+            self.senseless = self.last_jump.is_some_and(|jump| now - jump < JUMPS_APART);
+            self.last_jump = Some(now);
+            self.bearing.clear();
+        }
+        self.odd_places = 0;
+        self.last_fix = Some(now);
+        if odd || first {
+            self.at += off;
+            self.doubt.set_place(noise);
+            self.teaching = TEACHING;
+            return Vec2::ZERO;
+        }
+        self.fixes[0] += 1;
+        off
+    }
+
+    /// How far the heading is off by a fix that counts; nothing by one that does not.
+    fn judge_heading(&mut self, now: Instant, off: f64) -> f64 {
+        let noise = self.heading_trust.variance();
+        let gate = GATE * GATE * (self.doubt.heading() + noise);
+        let odd = off * off > gate.max(GATE_FLOOR_RAD * GATE_FLOOR_RAD);
+        if odd && self.aligned {
+            self.odd_headings += 1;
+            if self.odd_headings < OUTLIERS {
+                return 0.0;
+            }
+        }
+        self.odd_headings = 0;
+        self.last_heading = Some(now);
+        if odd || !self.aligned {
+            self.aligned = true;
+            self.turn_by(off);
+            self.doubt.set_heading(noise);
+            self.teaching = TEACHING;
+            return 0.0;
+        }
+        self.fixes[1] += 1;
+        off
+    }
+
+    /// Without a compass: reads the heading from the way until the filter can follow it.
+    fn learn_heading(&mut self, now: Instant, by_fix: Vec2) {
+        if self.last_heading.is_some_and(|seen| now - seen < NO_COMPASS) {
+            return;
+        }
+        if let Some(turn) = self.bearing.add(self.way, by_fix)
+            && (!self.aligned || turn.abs() > BEARING_OFF_RAD)
+        {
+            self.turn_by(turn);
+            self.doubt.set_heading(BEARING_RAD * BEARING_RAD);
+            self.aligned = true;
+        }
+    }
+
+    fn turn_by(&mut self, turn: f64) {
+        self.heading = wrap(self.heading + turn);
+        self.facing = if turn.abs() < 0.1 { turned(self.facing, turn) } else { Vec2::unit(self.heading) };
+    }
+
+    /// What of their turning the wheels lose, left and right.
+    pub(crate) fn slip(&self) -> [f64; 2] {
+        self.slip.now()
+    }
+
+    /// The place, stage metres.
+    pub(crate) fn at(&self) -> Vec2 {
+        self.at
+    }
+
+    /// The heading, radians in the stage.
+    pub(crate) fn heading(&self) -> f64 {
+        self.heading
+    }
+
+    /// Unit vector of the heading.
+    pub(crate) fn facing(&self) -> Vec2 {
+        self.facing
+    }
+
+    /// Whether the heading is known.
+    pub(crate) fn aligned(&self) -> bool {
+        self.aligned
+    }
+
+    /// When the last fix came that counted.
+    pub(crate) fn last_fix(&self) -> Option<Instant> {
+        self.last_fix
+    }
+
+    /// Variance of the place in each coordinate.
+    pub(crate) fn variance(&self) -> f64 {
+        self.doubt.place()
+    }
+
+    /// What so much way without a fix adds to the expected error of the place, 1 sigma, metres: the heading leads it
+    /// astray, and slip that nobody sees bends the way further.
+    pub(crate) fn drift_m(&self, way_m: f64) -> f64 {
+        let slip = libm::sqrt(self.doubt.slip());
+        let bend = way_m / self.track_m * slip * core::f64::consts::FRAC_1_SQRT_2;
+        way_m * (libm::sqrt(self.doubt.heading()) + bend)
+    }
+
+    /// Whether fixes and wheels have contradicted each other for longer than a shove explains. Asking clears it.
+    pub(crate) fn take_senseless(&mut self) -> bool {
+        core::mem::take(&mut self.senseless)
+    }
+}
+
+/// `facing` turned by a small angle: series to the fifth order, right to 1e-9 below 0.1 rad, brought back to length 1.
+pub(crate) fn turned(facing: Vec2, turn: f64) -> Vec2 {
+    let square = turn * turn;
+    let sin = turn * (1.0 - square * (1.0 / 6.0 - square * (1.0 / 120.0)));
+    let cos = 1.0 - square * (0.5 - square * (1.0 / 24.0));
+    let new = Vec2::new(facing.x * cos - facing.y * sin, facing.x * sin + facing.y * cos);
+    new * (1.5 - 0.5 * new.length_squared())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use lightbots_base::RobotId;
+
+    fn filter() -> Filter {
+        Filter::new(&Config::new(RobotId::new("r").unwrap()))
+    }
+
+    fn fix(x: f64, heading: f64) -> Fix {
+        Fix { at: Vec2::new(x, 0.0), heading: Some(heading) }
+    }
+
+    #[test]
+    fn turning_in_small_steps_keeps_facing_and_heading_together() {
+        let mut one = filter();
+        for _ in 0..100_000 {
+            one.advance([-0.3, 0.31]);
+        }
+        assert!((one.facing - Vec2::unit(one.heading)).length() < 1e-6);
+    }
+
+    #[test]
+    fn one_wild_fix_is_left_alone_and_ten_are_believed() {
+        let mut one = filter();
+        for step in 0..50 {
+            one.correct(Instant(step), &fix(0.1, 0.0));
+        }
+        one.correct(Instant(60), &fix(0.9, 0.0));
+        assert!((one.at.x - 0.1).abs() < 1e-9);
+        for step in 0..10 {
+            one.correct(Instant(61 + step), &fix(0.9, 2.0));
+        }
+        assert!((one.at.x - 0.9).abs() < 1e-9);
+        assert!((one.heading - 2.0).abs() < 1e-9);
+        assert!(!one.take_senseless());
+    }
+}
