@@ -227,12 +227,7 @@ impl Run {
         {
             drive.lost += hold.until.map_or(Span::ZERO, |until| until - hold.at);
             drive.hold = None;
-            if drive.late > 0 {
-                // Somebody got into trouble while all picked up again.
-                self.hold(desk, now, false);
-            }
         }
-        let Phase::Driving(drive) = &mut self.phase else { return };
         if now >= drive.heartbeat_at {
             drive.heartbeat_at = now + HEARTBEAT;
             let (seq, at) = (self.current.as_ref().map_or(0, |leg| leg.seq), drive.began);

@@ -37,10 +37,15 @@ impl Run {
             hold.by_operator |= by_operator;
             return;
         }
-        if drive.hold.is_some() || !by_operator && now + HOLD_WORTH > drive.ends {
+        if !by_operator && now + HOLD_WORTH > drive.ends {
             return;
         }
-        let at = now + lead;
+        let mut at = now + lead;
+        if let Some(Hold { at: before, until: Some(until), .. }) = drive.hold {
+            // All are still picking up again: they stop once they have.
+            at = at.max(until + Route::EASE);
+            drive.lost += until - before;
+        }
         let check_at = at + Route::EASE + Span::from_millis(400);
         drive.hold = Some(Hold { at, by_operator, until: None, check_at });
         if self.current.as_ref().is_some_and(|leg| leg.kind == Kind::Targets) {

@@ -10,6 +10,8 @@ use lightbots_wire::{Command, Details, RobotState, Topic};
 
 /// At most this far off its path a robot may be without anybody waiting for it, metres.
 const LATE_MAX_M: f64 = 0.03;
+/// A robot is back on its path when it is off it by less than this share of what makes it late.
+const BACK: f64 = 0.6;
 /// A robot no less sure of its place than this (1 sigma, metres) makes nobody wait, …
 const SURE_M: f64 = 0.004;
 /// … and one that is, if anybody comes closer than so many sigmas, …
@@ -88,7 +90,7 @@ impl Run {
         }
         let Phase::Driving(drive) = &mut self.phase else { return };
         let late = &mut self.seats[seat].late;
-        if off_m < late_m / 2.0 && !unsure && late.take().is_some() {
+        if off_m < late_m * BACK && !unsure && late.take().is_some() {
             drive.late = drive.late.saturating_sub(1);
             let over = drive.late == 0 && drive.hold.is_some_and(|hold| !hold.by_operator);
             if over {

@@ -8,7 +8,7 @@ use crate::filter::{Filter, turned};
 use crate::trail::Trail;
 
 /// Lost with an error estimate above this, metres, or without a fix for so long.
-const LOST_M: f64 = 0.015;
+const LOST_M: f64 = 0.02;
 const LOST_AFTER: Span = Span::from_millis(3000);
 
 /// The estimated pose and how sure it is.
@@ -81,11 +81,6 @@ impl Estimate {
         self.heading = wrap(self.heading + turned_by);
     }
 
-    /// The place, unless the robot is lost.
-    pub(crate) fn place(&self, now: Instant) -> Option<Vec2> {
-        (!self.lost(now)).then_some(self.at)
-    }
-
     /// The place as far as it is known.
     pub(crate) fn at(&self) -> Vec2 {
         self.at
@@ -106,9 +101,9 @@ impl Estimate {
         self.filter.slip()
     }
 
-    /// The pose, unless the robot is lost or does not know its heading yet.
-    pub(crate) fn pose(&self, now: Instant) -> Option<Pose> {
-        (self.aligned() && !self.lost(now)).then_some(Pose::new(self.at, self.heading))
+    /// The pose, as far as it is known; nothing where the heading is not known yet.
+    pub(crate) fn pose(&self) -> Option<Pose> {
+        self.aligned().then_some(Pose::new(self.at, self.heading))
     }
 
     /// Expected error of the place, 1 sigma in each coordinate, metres.
@@ -118,7 +113,7 @@ impl Estimate {
 
     /// The same after so much more way without a fix.
     pub(crate) fn error_after_m(&self, way_m: f64) -> f64 {
-        self.error_m() + self.filter.drift_m(way_m)
+        libm::sqrt(self.filter.variance() + self.filter.drift(way_m))
     }
 
     /// Whether no fix came for so long.
@@ -128,7 +123,12 @@ impl Estimate {
 
     /// Whether it knows too little to drive.
     pub(crate) fn lost(&self, now: Instant) -> bool {
-        self.filter.variance() > LOST_M * LOST_M || self.blind(now, LOST_AFTER)
+        self.filter.variance() > LOST_M * LOST_M || self.lost_for_good(now)
+    }
+
+    /// Whether it had no fix for so long that none is to be expected, or never had one.
+    pub(crate) fn lost_for_good(&self, now: Instant) -> bool {
+        self.blind(now, LOST_AFTER)
     }
 
     /// Whether fixes and wheels have contradicted each other for longer than a shove explains. Asking clears it.

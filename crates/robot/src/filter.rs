@@ -292,12 +292,11 @@ impl Filter {
         self.doubt.place()
     }
 
-    /// What so much way without a fix adds to the expected error of the place, 1 sigma, metres: the heading leads it
-    /// astray, and slip that nobody sees bends the way further.
-    pub(crate) fn drift_m(&self, way_m: f64) -> f64 {
-        let slip = libm::sqrt(self.doubt.slip());
-        let bend = way_m / self.track_m * slip * core::f64::consts::FRAC_1_SQRT_2;
-        way_m * (libm::sqrt(self.doubt.heading()) + bend)
+    /// What so much way without a fix adds to the variance of the place: the heading leads it astray, and slip that
+    /// nobody sees bends the way further.
+    pub(crate) fn drift(&self, way_m: f64) -> f64 {
+        let bend_m = way_m / self.track_m * way_m;
+        way_m * way_m * self.doubt.heading() + 0.5 * bend_m * bend_m * self.doubt.slip()
     }
 
     /// Whether fixes and wheels have contradicted each other for longer than a shove explains. Asking clears it.

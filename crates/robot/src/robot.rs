@@ -124,7 +124,7 @@ impl Robot {
     /// Writes the next message it has to send; `None`, and an empty message, when there is none.
     pub fn outgoing(&mut self, out: &mut Message) -> Option<Topic> {
         out.clear();
-        let at = self.estimate.place(self.now);
+        let at = self.place();
         let fact = self.outbox.take(at.is_some(), self.config.abilities.route)?;
         let (topic, route) = match fact {
             Fact::Introduction => (Topic::Uuid, self.routes.named()),
@@ -143,7 +143,11 @@ impl Robot {
 
     /// Where it believes to be; `None` where it does not know, or does not know its heading.
     pub fn pose(&self) -> Option<Pose> {
-        self.estimate.pose(self.now)
+        self.place().and_then(|_| self.estimate.pose())
+    }
+
+    fn place(&self) -> Option<Vec2> {
+        (!self.is_lost(self.now)).then(|| self.estimate.at())
     }
 
     /// What it is doing.
@@ -178,6 +182,11 @@ impl Robot {
         libm::round(err_m * 1e4) / 1e4
     }
 
+    /// Whether it knows too little to drive. Held, it need not know that well.
+    fn is_lost(&self, now: Instant) -> bool {
+        if self.routes.rests_held() { self.estimate.lost_for_good(now) } else { self.estimate.lost(now) }
+    }
+
     /// Whether fixes that should have come stay away.
     fn is_blind(&self) -> bool {
         self.estimate.blind(self.now, self.config.fix_pace * 3 + OVERDUE)
@@ -201,7 +210,7 @@ impl Robot {
             route: self.routes.named(),
             starts: self.routes.starts().filter(|_| self.clock.show_time(self.now).is_some()),
             off_m: self.routes.off_m(),
-            err_m: self.estimate.place(self.now).map(|_| self.err_m()),
+            err_m: self.place().map(|_| self.err_m()),
             clock_us: self.clock.error_us(self.now),
             firmware: self.config.firmware.clone(),
             abilities: self.config.abilities,
@@ -250,7 +259,7 @@ impl Robot {
             if self.routes.off_m().is_some_and(|off| off > GIVE_UP_M) {
                 self.supervisor.fault(now);
             }
-            if self.supervisor.faulty(now) || self.estimate.lost(now) {
+            if self.supervisor.faulty(now) || self.is_lost(now) {
                 self.routes.abandon();
             }
         }
@@ -275,7 +284,7 @@ impl Robot {
         if self.supervisor.faulty(now) || self.supervisor.is_cut() {
             return self.drive.halt();
         }
-        let wants = if self.estimate.lost(now) { None } else { self.want(show, dt) };
+        let wants = if self.is_lost(now) { None } else { self.want(show, dt) };
         let wheels = self.drive.step(wants.unwrap_or_default(), self.estimate.slip(), dt);
         self.arrive(show);
         wheels
@@ -305,7 +314,7 @@ impl Robot {
     /// Says once that it is there, when it stands there.
     fn arrive(&mut self, show: Option<Instant>) {
         let unsure = self.is_blind() && self.estimate.error_m() > SURE_M;
-        if !self.drive.stands() || unsure || self.estimate.lost(self.now) {
+        if !self.drive.stands() || unsure || self.is_lost(self.now) {
             return;
         }
         let at = self.estimate.at();
@@ -322,7 +331,7 @@ impl Robot {
             RobotState::Faulty
         } else if self.supervisor.is_cut() {
             RobotState::Cut
-        } else if self.estimate.lost(now) {
+        } else if self.is_lost(now) {
             RobotState::Lost
         } else if self.routes.held(show) {
             RobotState::Held
@@ -339,7 +348,7 @@ impl Robot {
         if self.config.abilities.route && self.supervisor.is_up() && self.clock.take_question(now) {
             self.outbox.ask_time();
         }
-        let knows_place = self.state != RobotState::Lost && !self.estimate.lost(now);
+        let knows_place = self.state != RobotState::Lost && !self.is_lost(now);
         let err_m = (self.routes.under_way() && self.is_blind()).then(|| self.err_m());
         self.outbox.notice(now, self.state, self.routes.off_m(), err_m, knows_place);
     }

@@ -16,6 +16,9 @@ const TOO_LATE: Span = Span::from_millis(500);
 const NEAR_M: f64 = 0.0125;
 /// … or after so long as near as it must.
 const TRYING: Span = Span::from_millis(1500);
+/// Held further off than this it goes back, until it is as near as that or cannot come nearer, metres.
+const STRAYED_M: f64 = 0.0055;
+const BACK_M: f64 = 0.004;
 /// A route whose number lies so little below the one kept is an old message that came late.
 const OLD_NUMBERS: u32 = 64;
 
@@ -37,6 +40,8 @@ struct Running {
     cursor: Cursor,
     follow: Follow,
     outlook: Outlook,
+    /// While the route is held and the robot goes back to where it should be.
+    back: Option<Seek>,
     /// Once the route is over and the robot is not there yet.
     seek: Option<Seek>,
     off_m: f64,
@@ -44,6 +49,8 @@ struct Running {
     due: Vec2,
     /// Path time then.
     time: Span,
+    /// Held by then.
+    rests: bool,
 }
 
 /// The routes of a robot.
@@ -112,9 +119,11 @@ impl Routes {
             follow,
             outlook,
             seek: None,
+            back: None,
             off_m: 0.0,
             due,
             time,
+            rests: false,
         });
         true
     }
@@ -126,13 +135,21 @@ impl Routes {
         running.cursor.seek(&running.route, progress.time);
         let by_path_time = running.cursor.motion(progress.time);
         let motion = by_show_time(by_path_time, progress.rate);
-        (running.due, running.time) = (motion.position, progress.time);
+        (running.due, running.time, running.rests) = (motion.position, progress.time, progress.rate == 0.0);
         running.off_m = motion.position.distance(body.at);
         if progress.time >= running.duration
             && (running.seek.is_some() || !running.is_there(progress.time, body.at, motion.position))
         {
             return Some(running.seek.get_or_insert_with(|| Seek::new(motion.position)).step(body, limits));
         }
+        if progress.rate == 0.0 && (running.back.is_some() || running.off_m > STRAYED_M) {
+            // All wait: a robot that was led astray goes back to where it should be.
+            let back = running.back.get_or_insert_with(|| Seek::new(motion.position));
+            if running.off_m > BACK_M {
+                return Some(back.step(body, limits));
+            }
+        }
+        running.back = None;
         let speed = by_path_time.velocity.length();
         let ahead = if speed < SLOW_MPS {
             running.outlook.look(&running.route, running.cursor.piece(), progress.time)
@@ -202,6 +219,11 @@ impl Routes {
     /// Whether the route under way is held.
     pub(crate) fn held(&self, show: Option<Instant>) -> bool {
         self.running.is_some() && show.is_some_and(|show| self.timeline.at(show).held)
+    }
+
+    /// Whether the route under way is held and the robot was to stand by its latest step.
+    pub(crate) fn rests_held(&self) -> bool {
+        self.running.as_ref().is_some_and(|running| running.rests)
     }
 
     /// The route it speaks of: the one kept, else the one under way, else the one finished last; 0: none.

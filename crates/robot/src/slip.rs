@@ -10,7 +10,7 @@ const LAST_M: f64 = 2.0;
 /// The wander is taken for this share of the slip expected, until more is known; …
 const WANDER: f64 = 0.3;
 /// … never for less than this share of that, nor for more than this.
-const LEAST: f64 = 0.5;
+const LEAST: f64 = 0.25;
 const MOST: f64 = 0.1;
 /// Slip beyond this is no slip.
 const BOUND: f64 = 0.4;
