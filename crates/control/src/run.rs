@@ -36,6 +36,8 @@ pub(crate) struct Seat {
     pub arrived: bool,
     /// It is too far off its path, since when.
     pub late: Option<Instant>,
+    /// It is late because it is not sure of its place.
+    pub unsure: bool,
     /// It has been asked for a sign of life, last when.
     pub asked: Instant,
     /// Where it may stand, if it fell silent on its way; stage metres.
@@ -155,6 +157,7 @@ impl Seat {
             starts: None,
             arrived: false,
             late: None,
+            unsure: false,
             asked: Instant::ZERO,
             ghost: Vec::new(),
             fade: None,

@@ -3,6 +3,7 @@
 use crate::desk::Desk;
 use crate::driving::{CHECK, Drive, is_there};
 use crate::event::Trouble;
+use crate::holding::Hold;
 use crate::leg::Kind;
 use crate::run::{Phase, Run};
 use lightbots_base::{Instant, Span, Vec2};
@@ -14,13 +15,21 @@ const LATE_MAX_M: f64 = 0.03;
 const BACK: f64 = 0.6;
 /// A robot no less sure of its place than this (1 sigma, metres) makes nobody wait, …
 const SURE_M: f64 = 0.004;
-/// … and one that is, if anybody comes closer than so many sigmas, …
+/// … one less sure than this does in any case, before it is lost, …
+const UNSURE_M: f64 = 0.010;
+/// … and one between, if anybody comes closer than so many sigmas, …
 const UNSURE: f64 = 2.5;
 /// … and this for the others' own errors, metres, …
 const OTHERS_M: f64 = 0.003;
 /// … within this time, in steps of that.
 const AHEAD: Span = Span::from_millis(1_000);
 const AHEAD_STEP: Span = Span::from_millis(50);
+/// Everybody waits for robots that are unsure for so long in fleets of up to …
+const PATIENCE: Span = Span::from_millis(3_500);
+/// … so many robots, less in larger ones, but at least …
+const PATIENCE_ROBOTS: f64 = 40.0;
+/// … this.
+const IMPATIENCE: Span = Span::from_millis(700);
 /// A driving robot that was not heard for so long, link times on top, is asked for a sign of life, …
 const QUIET: Span = Span::from_millis(560);
 /// … this often at most.
@@ -102,8 +111,8 @@ impl Run {
     /// Whether a robot may touch another before all could stand, if its place is off by as much as it may be.
     fn is_too_unsure(&self, now: Instant, seat: usize, err_m: f64) -> bool {
         let (Phase::Driving(drive), Some(leg)) = (&self.phase, &self.current) else { return false };
-        if err_m < SURE_M {
-            return false;
+        if !(SURE_M..UNSURE_M).contains(&err_m) {
+            return err_m >= UNSURE_M;
         }
         let needed_m = self.show.stage.limits.contact_m() + UNSURE * err_m + OTHERS_M;
         let from = drive.path_time(now).max(Span::ZERO);
@@ -126,6 +135,7 @@ impl Run {
         let Phase::Driving(drive) = &mut self.phase else { return };
         drive.late += 1;
         self.seats[seat].late = Some(now);
+        self.seats[seat].unsure = why == Trouble::Unsure;
         self.wait_for(desk, now, seat, why);
     }
 
@@ -138,6 +148,7 @@ impl Run {
         drive.check_at = now + CHECK;
         let drive = *drive;
         self.check_hold(desk, now, &drive);
+        self.lose_patience(desk, now, &drive);
         if self.watched >= self.seats.len() {
             self.watched = 0;
         }
@@ -214,6 +225,23 @@ impl Run {
             let commands: Vec<Command> = again.into_iter().chain([Command::Uuid]).collect();
             desk.outbox.say(topic, &commands);
         }
+    }
+
+    /// Where somebody is unsure all the time, waiting until all are sure would never end: after a while it goes on, and
+    /// holds again for those who still are. The more robots, the sooner.
+    fn lose_patience(&mut self, desk: &mut Desk, now: Instant, drive: &Drive) {
+        let share = PATIENCE_ROBOTS / (self.seats.len().max(1) as f64);
+        let patience = Span::from_secs((PATIENCE.as_secs() * share).min(PATIENCE.as_secs())).max(IMPATIENCE);
+        let waits_long = |hold: &Hold| !hold.by_operator && hold.until.is_none() && now - hold.at > patience;
+        let only_unsure = self.seats.iter().all(|known| known.late.is_none() || known.unsure);
+        if !drive.hold.as_ref().is_some_and(waits_long) || !only_unsure {
+            return;
+        }
+        self.seats.iter_mut().for_each(|known| known.late = None);
+        if let Phase::Driving(drive) = &mut self.phase {
+            drive.late = 0;
+        }
+        self.release(desk, now);
     }
 
     /// Whether all stand who were told to hold; who does not is told by name, then all are stopped.

@@ -193,8 +193,12 @@ impl Filter {
         let first = self.last_fix.is_none();
         if odd && !first {
             let agrees = (off - self.odd_off).length_squared() < GATE * GATE * 2.0 * noise;
-            self.odd_places = if agrees { self.odd_places + 1 } else { 1 };
-            self.odd_off = off;
+            // Those that agree with none count against those that agree with each other.
+            self.odd_places = if agrees { self.odd_places + 1 } else { self.odd_places.saturating_sub(1) };
+            if agrees || self.odd_places == 0 {
+                self.odd_off = off;
+                self.odd_places = self.odd_places.max(1);
+            }
             if self.odd_places < OUTLIERS {
                 return Vec2::ZERO;
             }

@@ -144,7 +144,7 @@ impl Routes {
         }
         if progress.rate == 0.0 && (running.back.is_some() || running.off_m > STRAYED_M) {
             // All wait: a robot that was led astray goes back to where it should be.
-            let back = running.back.get_or_insert_with(|| Seek::new(motion.position));
+            let back = running.back.get_or_insert_with(|| Seek::closely(motion.position));
             if running.off_m > BACK_M {
                 return Some(back.step(body, limits));
             }

@@ -24,11 +24,18 @@ pub(crate) struct Seek {
     goal: Vec2,
     /// 1 forwards, −1 backwards.
     sense: f64,
+    /// Nearer than this it stands where the target lies abeam, metres.
+    abeam_m: f64,
 }
 
 impl Seek {
     pub(crate) fn new(goal: Vec2) -> Self {
-        Self { goal, sense: 0.0 }
+        Self { goal, sense: 0.0, abeam_m: ABEAM_M }
+    }
+
+    /// A drive to a place as near as it can be reached, whatever turns that takes.
+    pub(crate) fn closely(goal: Vec2) -> Self {
+        Self { abeam_m: STOP_M, ..Self::new(goal) }
     }
 
     /// Whether a place counts as reached.
@@ -50,7 +57,7 @@ impl Seek {
             self.sense = -self.sense;
         }
         let (cos, sin) = (ahead * self.sense, aside * self.sense);
-        if distance < ABEAM_M && cos < CURVE_COS {
+        if distance < self.abeam_m && cos < CURVE_COS {
             return Setpoint::default();
         }
         let fastest = limits.speed_mps.min(libm::sqrt(2.0 * BRAKING_MPS2 * distance));

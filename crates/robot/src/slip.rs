@@ -2,8 +2,8 @@
 
 use crate::doubt::Drift;
 
-/// What a deviation from the mean loses in a step of driving: it is forgotten in about half a second.
-const FORGETTING: f64 = 0.04;
+/// What a deviation from the mean loses in a step of driving: it is forgotten in about a second.
+const FORGETTING: f64 = 0.015;
 /// After so much way the mean is learned as fast as it is first believed, and never slower than after so much more.
 const FIRST_M: f64 = 0.1;
 const LAST_M: f64 = 2.0;
