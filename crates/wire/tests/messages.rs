@@ -98,7 +98,7 @@ fn our_messages_byte_for_byte() {
     assert_eq!(
         said(&full_report()),
         "abfe6805-3c60-4e5a-ba40-2dcf7cb5d8e8 -0.73 1.0E-4 state=driving h=1.25 off=0.0034 route=12 \
-         starts=8000000 clock=450 bat=87 unknown=3 can=route+fade+blink fw=lightbots-0.1.0"
+         starts=8000000 clock=450 bat=87 unknown=3 can=route+fade+blink fw=lightbots-0.1.0 err=0.0012"
     );
 }
 
