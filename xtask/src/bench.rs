@@ -24,7 +24,7 @@ enum Source {
     Browser,
 }
 
-const PARTS: [Part; 4] = [
+const PARTS: [Part; 5] = [
     Part {
         name: "plan",
         title: "Planning",
@@ -42,6 +42,15 @@ const PARTS: [Part; 4] = [
         source: Source::Example("lightbots-sim", "speed"),
         about: "A whole show in virtual time with the real controller and robot cores under standard conditions, one \
                 thread: seconds of the show per second of the clock, without planning and with it.",
+    },
+    Part {
+        name: "noise",
+        title: "Noise",
+        package: "lightbots-sim",
+        example: "noise",
+        about: "How far robots on their way were from where they believed to be (estimate) and from where their routes \
+                were (tracking), and at their pixels, in millimetres: the worst of three seeds of shows/hello.json. \
+                Each trouble is added to the standard conditions or replaces one of them.",
     },
     Part {
         name: "round",

@@ -76,6 +76,28 @@ fn a_robot_that_was_late_is_waited_for() {
 }
 
 #[test]
+fn an_unsure_robot_is_waited_for_until_it_is_sure() {
+    let mut world = a_second_under_way();
+    world.robots[3].unsure = true;
+    world.robots[3].introduce();
+    world.run_until(3.0, |kind| matches!(kind, EventKind::Waiting { .. }));
+    world.run_for(1.0);
+    assert_eq!(world.controller.snapshot(world.now).run.unwrap().waiting_for, [world.robots[3].id]);
+    world.robots[3].unsure = false;
+    world.robots[3].introduce();
+    assert_eq!(world.run_to_end(60.0), (Outcome::Finished, 3, 0), "{}", world.story());
+    assert_eq!(world.count(|kind| matches!(kind, EventKind::Resumed)), 1, "{}", world.story());
+}
+
+#[test]
+fn who_is_never_sure_does_not_stop_the_show() {
+    let mut world = a_second_under_way();
+    world.robots[3].unsure = true;
+    assert_eq!(world.run_to_end(240.0), (Outcome::Finished, 3, 0), "{}", world.story());
+    assert!(world.count(|kind| matches!(kind, EventKind::Resumed)) > 1, "{}", world.story());
+}
+
+#[test]
 fn a_robot_restarted_in_the_middle_is_taken_back() {
     let show = show(3, 8, 0.3);
     let mut world = World::ready(8, 0, show.clone());

@@ -7,8 +7,10 @@
 use lightbots_base::{Instant, Span};
 use lightbots_wire::TimeAnswer;
 
-/// Answers before the clock counts as synchronised.
+/// Answers before the clock counts as synchronised, …
 const ENOUGH: u32 = 4;
+/// … once it is off by no more than this (1 sigma, microseconds), or as good as many answers make it.
+const GOOD_US: f64 = 3_000.0;
 /// Answers it asks for quickly at first.
 const QUICK: u32 = 16;
 /// Answers after which it asks seldom.
@@ -51,6 +53,7 @@ pub(crate) struct Clock {
     next_question: Instant,
     unanswered: u8,
     was_reset: bool,
+    synchronised: bool,
 }
 
 impl Clock {
@@ -69,12 +72,13 @@ impl Clock {
             next_question: first,
             unanswered: 0,
             was_reset: false,
+            synchronised: false,
         }
     }
 
     /// The show time at `now` of the own clock; `None` until synchronised.
     pub(crate) fn show_time(&self, now: Instant) -> Option<Instant> {
-        (self.answers >= ENOUGH).then(|| now + Span(self.base_us.saturating_add(self.offset_at(now) as i64)))
+        self.synchronised.then(|| now + Span(self.base_us.saturating_add(self.offset_at(now) as i64)))
     }
 
     /// How far the clock may be off (2 sigma), microseconds; `None` until synchronised.
@@ -82,7 +86,7 @@ impl Clock {
         let age = (now - self.at).0 as f64;
         let [offset, both, drift] = self.variance;
         let variance = offset + age * (2.0 * both + age * drift);
-        (self.answers >= ENOUGH).then(|| (2.0 * libm::sqrt(variance.max(0.0))) as u32)
+        self.synchronised.then(|| (2.0 * libm::sqrt(variance.max(0.0))) as u32)
     }
 
     fn offset_at(&self, now: Instant) -> f64 {
@@ -149,6 +153,8 @@ impl Clock {
         self.offset_us += gain * off;
         self.drift = (self.drift + drift_gain * off).clamp(-WORST_DRIFT, WORST_DRIFT);
         self.variance = [offset * (1.0 - gain), both * (1.0 - gain), drift - drift_gain * both];
+        let good = self.answers >= QUICK || self.variance[0] <= GOOD_US * GOOD_US;
+        self.synchronised |= self.answers >= ENOUGH && good;
     }
 
     /// An answer proves that the offset is at most `there` and at least `-back`. A belief outside was too sure of

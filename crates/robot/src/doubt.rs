@@ -86,11 +86,10 @@ impl Doubt {
             [0.0, left * by, -right * by],
         ];
         let p = &mut self.p;
-        for (row, factors) in rows.iter().enumerate() {
-            for column in 0..STATES {
-                p[row][column] += factors[0] * p[HEADING][column]
-                    + factors[1] * p[LEFT][column]
-                    + factors[2] * p[RIGHT][column];
+        let sources = [p[HEADING], p[LEFT], p[RIGHT]];
+        for (row, factors) in p.iter_mut().zip(&rows) {
+            for (source, factor) in sources.iter().zip(factors) {
+                row.iter_mut().zip(source).for_each(|(value, with)| *value += factor * with);
             }
         }
         for row in p.iter_mut() {

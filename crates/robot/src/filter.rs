@@ -355,4 +355,58 @@ mod tests {
         assert!((one.heading - 2.0).abs() < 1e-9);
         assert!(!one.take_senseless());
     }
+
+    /// Wheels that turn by this in a step, radians, and slip by these shares: the truth, kept beside the filter.
+    struct Drive {
+        at: Vec2,
+        heading: f64,
+        slip: [f64; 2],
+    }
+
+    impl Drive {
+        fn step(&mut self, turns: [f64; 2]) {
+            let way = |side: usize| turns[side] * 0.0045 * (1.0 - self.slip[side]);
+            let turn = (way(1) - way(0)) / 0.0402;
+            self.at += Vec2::unit(self.heading + turn / 2.0) * ((way(0) + way(1)) / 2.0);
+            self.heading = wrap(self.heading + turn);
+        }
+    }
+
+    #[test]
+    fn slip_is_learned_and_leads_through_a_second_without_fixes() {
+        let mut one = filter();
+        let mut drive = Drive { at: Vec2::ZERO, heading: 0.0, slip: [0.12, 0.06] };
+        for step in 0..700u32 {
+            let bend = if step / 100 % 2 == 0 { 1.05 } else { 0.95 };
+            let turns = [0.96, 0.96 * bend];
+            drive.step(turns);
+            one.advance(turns);
+            if step < 640 {
+                let noise = if step % 2 == 0 { 0.002 } else { -0.002 };
+                let seen = Fix {
+                    at: drive.at + Vec2::new(noise, noise),
+                    heading: Some(drive.heading + 5.0 * noise),
+                };
+                one.correct(Instant(u64::from(step) * 16_000), &seen);
+            }
+        }
+        let [left, right] = one.slip();
+        assert!((left - 0.12).abs() < 0.02 && (right - 0.06).abs() < 0.02, "{left} {right}");
+        assert!(one.at.distance(drive.at) < 0.006, "{:?} {:?}", one.at, drive.at);
+        assert!(libm::sqrt(one.variance()) < 0.02);
+    }
+
+    #[test]
+    fn wild_fixes_win_neither_alone_nor_by_a_fifth_of_all() {
+        let mut one = filter();
+        let mut wild = 0.3;
+        for step in 0..2000u64 {
+            let here = if step < 1000 { 0.1 } else { 0.7 };
+            wild = wrap(wild * 7.0 + 1.0);
+            let at = if step % 5 == 0 { wild } else { here };
+            one.correct(Instant(step * 16_000), &fix(at, 0.0));
+            let settles = (1000..1020).contains(&step);
+            assert!(step < 20 || settles || (one.at.x - here).abs() < 0.01, "{step}: {}", one.at.x);
+        }
+    }
 }

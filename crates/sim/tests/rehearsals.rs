@@ -126,6 +126,31 @@ fn noisy_old_and_rare_fixes_are_coped_with() {
 }
 
 #[test]
+fn all_that_troubles_fixes_and_wheels_at_once_costs_time_and_nothing_else() {
+    for (faults, seed) in [
+        ("slip=10%,gps=5mm,heading=2deg,fix-delay=100ms", 1),
+        ("fix-dropout=1s", 1),
+        ("fix-dropout=1s", 2),
+        ("slip=10%,gps=5mm,heading=2deg,fix-delay=100ms,fix-dropout=1s", 2),
+        ("fix-outlier=20%,gps=5mm", 1),
+    ] {
+        assert_fine(&play(&show(12), faults, seed));
+    }
+}
+
+#[test]
+fn clocks_stay_together_over_a_long_show_with_drift_and_jitter() {
+    let mut long = show(6);
+    long.frames.iter_mut().for_each(|frame| frame.air_time_s = 200.0);
+    for faults in ["clock=100ppm,jitter=50ms", "clock=100ppm,delay=5..55ms"] {
+        let report = play(&long, faults, 1);
+        assert_fine(&report);
+        assert!(report.duration_s > 600.0, "{}", report.duration_s);
+        assert!(report.clock_spread_s.max <= 0.02, "{faults}: {:?}", report.clock_spread_s);
+    }
+}
+
+#[test]
 fn a_robot_that_dies_between_frames_is_left_out_and_the_show_goes_on() {
     for faults in ["kill=3@0", "mute=3@0"] {
         let report = play(&show(6), faults, 2);

@@ -18,6 +18,8 @@ pub struct Robot {
     pub dead: bool,
     /// Stands still whatever it is told, and says so.
     pub stuck: bool,
+    /// It is not sure where it is.
+    pub unsure: bool,
     pub target: Option<Vec2>,
     pub kept: Option<(Route, Option<Instant>)>,
     pub running: Option<(Route, Instant)>,
@@ -43,6 +45,7 @@ impl Robot {
             original,
             dead: false,
             stuck: false,
+            unsure: false,
             target: None,
             kept: None,
             running: None,
@@ -101,7 +104,7 @@ impl Robot {
             state: self.state(),
             route,
             starts,
-            err_m: None,
+            err_m: self.unsure.then_some(0.02),
             off_m: self.running.as_ref().map(|_| if self.stuck { 0.2 } else { 0.001 }),
             clock_us: self.synchronised.then_some(500),
             abilities: Abilities { route: true, fade: true, blink: true },

@@ -1,0 +1,72 @@
+//! How far robots are from where they believe to be and from where they should be, by what their sensors and wheels
+//! suffer: `cargo run --release -p lightbots-sim --example noise [--json]`.
+//!
+//! A row for each kind of trouble, over three seeds of a show of the repository; distances in millimetres.
+#![allow(clippy::print_stdout)]
+
+use lightbots_sim::{Conditions, Faults, RehearsalOptions, RehearsalReport, Spread, rehearse};
+
+/// Thirty robots, pictures of words: close side by side, and long ways between.
+const SHOW: &[u8] = include_bytes!("../../../shows/hello.json");
+const SEEDS: u64 = 3;
+/// What robots suffer on top of, or instead of, the standard conditions.
+const TROUBLES: [&str; 20] = [
+    "",
+    "gps=0mm",
+    "gps=1mm",
+    "gps=5mm",
+    "gps=10mm",
+    "heading=0deg",
+    "heading=2deg",
+    "heading=5deg",
+    "slip=0%",
+    "slip=10%",
+    "fix-delay=50ms",
+    "fix-delay=100ms",
+    "fix-every=5",
+    "fix-dropout=0.5s",
+    "fix-dropout=1s",
+    "fix-outlier=1%",
+    "fix-outlier=20%",
+    "slip=10%,gps=5mm,heading=2deg",
+    "slip=10%,gps=5mm,heading=2deg,fix-delay=100ms",
+    "slip=10%,gps=5mm,heading=2deg,fix-delay=100ms,fix-dropout=1s",
+];
+
+fn main() {
+    let show = lightbots_show::read(SHOW, Some("json")).expect("the show is part of the repository").show;
+    for trouble in TROUBLES {
+        let faults = Faults::parse(trouble).expect("all troubles are faults");
+        let conditions = faults.added_to(Conditions::default());
+        let reports: Vec<RehearsalReport> = (1..=SEEDS)
+            .map(|seed| {
+                let options = RehearsalOptions { seed, conditions: conditions.clone(), robots: None };
+                rehearse(&show, &options, &mut |_| {})
+            })
+            .collect();
+        println!("{}", row(if trouble.is_empty() { "none: standard conditions" } else { trouble }, &reports));
+    }
+}
+
+/// The worst of all seeds in each column; the columns' names are the keys.
+fn row(trouble: &str, reports: &[RehearsalReport]) -> String {
+    let worst = |value: &dyn Fn(&RehearsalReport) -> f64| reports.iter().map(value).fold(0.0, f64::max);
+    let three = |name: &str, of: &dyn Fn(&RehearsalReport) -> Spread| {
+        let [median, p99, max] = [
+            worst(&|report| of(report).median * 1e3),
+            worst(&|report| of(report).p99 * 1e3),
+            worst(&|report| of(report).max * 1e3),
+        ];
+        format!("\"{name}_median\":{median:.2},\"{name}_p99\":{p99:.2},\"{name}_max\":{max:.2}")
+    };
+    let fine = reports.iter().filter(|report| report.ok).count();
+    let contacts: u64 = reports.iter().map(|report| report.contacts).sum();
+    format!(
+        "{{\"trouble\":\"{trouble}\",{},{},\"at_pixel_max\":{:.2},\"show_s\":{:.1},\"contacts\":{contacts},\"fine\":\"{fine} of {}\"}}",
+        three("estimate", &|report| report.estimate_error_m),
+        three("tracking", &|report| report.tracking_error_m),
+        worst(&|report| report.position_error_m.max * 1e3),
+        worst(&|report| report.duration_s),
+        reports.len()
+    )
+}
