@@ -46,8 +46,7 @@ const PARTS: [Part; 5] = [
     Part {
         name: "noise",
         title: "Noise",
-        package: "lightbots-sim",
-        example: "noise",
+        source: Source::Example("lightbots-sim", "noise"),
         about: "How far robots on their way were from where they believed to be (estimate) and from where their routes \
                 were (tracking), and at their pixels, in millimetres: the worst of three seeds of shows/hello.json. \
                 Each trouble is added to the standard conditions or replaces one of them.",

@@ -75,13 +75,14 @@ impl Slip {
             *mean += share * off;
             square += 0.5 * off * off;
         }
-        self.wander += 0.5 * share * (square + uncertain - self.wander);
+        self.wander += share * (square + uncertain - self.wander);
         self.wander = self.wander.clamp(self.bounds[0], self.bounds[1]);
     }
 
     /// How it is expected to change in so many steps of driving.
     pub(crate) fn drift(&self, steps: u32) -> Drift {
-        let mean = self.unknown * FIRST_M / (FIRST_M + self.learned_m);
+        let share = FIRST_M / (FIRST_M + self.learned_m);
+        let mean = self.unknown * share * share;
         Drift { left: 1.0 - FORGETTING * f64::from(steps), variance: self.wander + mean }
     }
 }

@@ -122,7 +122,7 @@ mod tests {
             tally.add(f64::from(number) * 0.000301);
         }
         let Spread { median, p99, max } = tally.spread();
-        let near = |value: f64, wanted: f64| (value - wanted).abs() <= BIN_M;
+        let near = |value: f64, wanted: f64| (value - wanted).abs() < 1.5 * BIN_M;
         assert!(near(median, 0.0301) && near(p99, 0.0596) && near(max, 0.0602), "{median} {p99} {max}");
         tally.add(f64::INFINITY);
         assert_eq!(tally.spread().max, f64::INFINITY);
