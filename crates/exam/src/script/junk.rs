@@ -1,0 +1,52 @@
+//! What nobody should send: R4, R15, R48.
+
+use lightbots_base::Span;
+use lightbots_wire::Topic;
+
+use super::Step;
+use super::pilot::{ONCE, Pilot};
+use crate::desk::To;
+
+/// One byte more than a robot reads.
+const TOO_LONG: usize = 16 * 1024 + 1;
+
+pub(super) async fn run(pilot: &Pilot) -> Step {
+    pilot.blame.set(48);
+    let alive = "a report when asked for one afterwards";
+    for (what, payload) in payloads() {
+        pilot.desk.say_bytes(To::Robot, payload);
+        pilot.desk.pause(Span::from_millis(200)).await;
+        pilot.ask().await?;
+        pilot.desk.judge(48, true, what, alive, "a report");
+    }
+    if pilot.can.route {
+        dropped(pilot, "|UUID| and bytes that are no UTF-8", b"|UUID|\xff\xfe|".to_vec()).await;
+        let mut long = b"|UUID|".to_vec();
+        long.resize(TOO_LONG, b' ');
+        dropped(pilot, "|UUID| in 16,385 bytes", long).await;
+    }
+    let heard = pilot.ask().await?;
+    pilot.desk.judge(15, true, "|UUID| in the end", "the name it had at first", heard.name());
+    Ok(())
+}
+
+fn payloads() -> Vec<(&'static str, Vec<u8>)> {
+    vec![
+        ("an empty payload", Vec::new()),
+        ("bars only", b"||||||||".to_vec()),
+        ("bytes that are no UTF-8", vec![0xff, 0xfe, 0x00, b'|', 0xc3]),
+        ("numbers out of all range", b"|TARGET||COLOR -1||COLOR 99999999999999999999||TARGET 1e999 x|".to_vec()),
+        ("commands cut short", b"|TARG|COL|FADE|PATH 1|START|TIME 1|HOLD".to_vec()),
+        ("a thousand unknown commands", b"|JUNK 1 2 3|".repeat(1000)),
+        ("20,000 letters", vec![b'A'; 20_000]),
+    ]
+}
+
+/// A payload that is to be dropped whole, although it holds a good command.
+async fn dropped(pilot: &Pilot, what: &str, payload: Vec<u8>) {
+    let mark = pilot.desk.mark();
+    pilot.desk.say_bytes(To::Robot, payload);
+    let answer = pilot.desk.wait_for(mark, ONCE, |heard| (heard.topic == Topic::Uuid).then_some(())).await;
+    let came = if answer.is_some() { "it obeyed UUID" } else { "nothing" };
+    pilot.desk.judge(4, answer.is_none(), what, "nothing: it is dropped whole", came);
+}

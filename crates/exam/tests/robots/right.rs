@@ -1,0 +1,44 @@
+//! Robots that keep the protocol, or what they know of it.
+
+use lightbots_exam::{Ending, Options, Verdict};
+
+use crate::bench::Bench;
+use crate::flaws::{Original, Right};
+
+#[test]
+fn our_robot_keeps_every_rule_that_shows() {
+    let outcome = Bench::new(1, Right, Options::default()).run();
+    outcome.assert_broken(&[]);
+    assert_eq!(outcome.ending, Some(Ending::Done));
+    assert_eq!(outcome.with(Verdict::NotTried), []);
+    assert_eq!(outcome.with(Verdict::DoesNotKnow), []);
+    assert_eq!(outcome.with(Verdict::NotFromOutside), [1, 2, 11, 14, 26, 44, 46, 47]);
+    assert!(outcome.took.as_secs() < 240.0, "{} s", outcome.took.as_secs());
+}
+
+#[test]
+fn an_original_robot_is_told_what_it_misses() {
+    let outcome = Bench::new(1, Original, Options::default()).run();
+    outcome.assert_broken(&[]);
+    assert_eq!(outcome.with(Verdict::Keeps), [3, 4, 5, 6, 7, 8, 9, 13, 15, 16, 17, 18, 20, 21, 48]);
+    assert_eq!(outcome.with(Verdict::NotTried), []);
+    assert!(outcome.with(Verdict::DoesNotKnow).starts_with(&[10, 12, 19, 22, 23, 24, 25]));
+}
+
+#[test]
+fn one_of_several_is_examined_by_its_name() {
+    let several = Bench::new(3, Right, Options::default());
+    let ids = several.ids();
+    assert!(matches!(several.run().ending, Some(Ending::Several(names)) if names.len() == 3));
+    let named = Bench::new(3, Right, Options { robot: Some(ids[0]), ..Options::default() }).run();
+    named.assert_broken(&[]);
+    assert_eq!(named.robot, Some(ids[0]));
+}
+
+#[test]
+fn nobody_and_an_unknown_name_are_said() {
+    assert_eq!(Bench::new(0, Right, Options::default()).run().ending, Some(Ending::Nobody));
+    let robot = lightbots_base::RobotId::new("somebody-else");
+    let outcome = Bench::new(1, Right, Options { robot, ..Options::default() }).run();
+    assert_eq!(outcome.ending, Some(Ending::Nobody));
+}
