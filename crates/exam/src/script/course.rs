@@ -49,14 +49,15 @@ pub(super) fn straight(seq: u32, start: Vec2, end: Vec2, speed_mps: f64) -> Rout
 /// A bow to the left of the straight way, slow at both ends.
 pub(super) fn bow(seq: u32, start: Vec2, end: Vec2, over: Span) -> Route {
     let way = end - start;
-    let aside = way.left() * 0.25;
+    let aside = way.left() * 0.33;
     let top = start.lerp(end, 0.5) + aside;
     let half = Span(over.0 / 2);
-    let speed = way * (1.0 / half.as_secs());
+    // Faster than the mean, so that the bow bulges and no straight line is near to it.
+    let top_velocity = way * (1.2 / half.as_secs());
     let pieces = [
         Piece::rest(start, REST),
-        Piece::hermite(start, Vec2::ZERO, top, speed * 0.75, half),
-        Piece::hermite(top, speed * 0.75, end, Vec2::ZERO, half),
+        Piece::hermite(start, Vec2::ZERO, top, top_velocity, half),
+        Piece::hermite(top, top_velocity, end, Vec2::ZERO, half),
     ];
     route(seq, start, &pieces)
 }
@@ -100,8 +101,10 @@ impl Course {
         let Some((hold, resume)) = self.hold else { return free };
         let ease = Route::EASE.as_secs();
         // Way of a rate that falls from 1 to 0 within the ease, and of one that rises.
-        let falling = |since: f64| if since < ease { since - since * since / (2.0 * ease) } else { ease / 2.0 };
-        let rising = |since: f64| if since < ease { since * since / (2.0 * ease) } else { since - ease / 2.0 };
+        let falling =
+            |since: f64| if since < ease { since - since * since / (2.0 * ease) } else { ease / 2.0 };
+        let rising =
+            |since: f64| if since < ease { since * since / (2.0 * ease) } else { since - ease / 2.0 };
         let until = (hold - self.starts).as_secs();
         let held = (show - hold).as_secs().max(0.0);
         let resumed = (show - resume).as_secs().max(0.0);
@@ -115,8 +118,11 @@ impl Course {
         let samples = self.samples();
         for heard in heard {
             let show = heard.at + shift + Span(-delay.0);
-            let (Some(at), true) = (heard.place(), (self.starts..=self.over()).contains(&show)) else { continue };
-            let Some(nearest) = samples.iter().min_by(|a, b| a.1.distance(at).total_cmp(&b.1.distance(at))) else {
+            let (Some(at), true) = (heard.place(), (self.starts..=self.over()).contains(&show)) else {
+                continue;
+            };
+            let Some(nearest) = samples.iter().min_by(|a, b| a.1.distance(at).total_cmp(&b.1.distance(at)))
+            else {
                 continue;
             };
             fit.reports += 1;

@@ -84,7 +84,8 @@ async fn not_for_it(pilot: &Pilot) {
     let mark = pilot.desk.mark();
     pilot.desk.say(To::Neighbour, "|UUID|");
     pilot.desk.pause(ONCE).await;
-    let count = pilot.desk.since(mark, |heard| heard.iter().filter(|heard| heard.topic == Topic::Uuid).count());
+    let count =
+        pilot.desk.since(mark, |heard| heard.iter().filter(|heard| heard.topic == Topic::Uuid).count());
     let came = if count == 0 { "nothing".into() } else { format!("{count} reports of this robot") };
     pilot.desk.judge(5, count == 0, "|UUID| on another robot's topic", "nothing", came);
 }
@@ -94,7 +95,13 @@ fn read_report(pilot: &mut Pilot, heard: &Heard) {
     let fields: Vec<&str> = heard.text.split_ascii_whitespace().collect();
     let is_java = |text: &str| text == "NaN" || (text.parse::<f64>().is_ok() && text.contains('.'));
     let fits = fields.len() >= 3 && fields[1..3].iter().all(|field| is_java(field));
-    pilot.desk.judge(9, fits, "|UUID|", "<name> <x> <y>, numbers like 1.3, 1.0E-4 or NaN", heard.text.clone());
+    pilot.desk.judge(
+        9,
+        fits,
+        "|UUID|",
+        "<name> <x> <y>, numbers like 1.3, 1.0E-4 or NaN",
+        heard.text.clone(),
+    );
     let details = heard.report.as_ref().and_then(|report| report.details.as_ref());
     pilot.has_details = details.is_some() || fields.len() > 3;
     pilot.can = details.map(|details| details.abilities).unwrap_or_default();

@@ -35,7 +35,10 @@ fn payloads() -> Vec<(&'static str, Vec<u8>)> {
         ("an empty payload", Vec::new()),
         ("bars only", b"||||||||".to_vec()),
         ("bytes that are no UTF-8", vec![0xff, 0xfe, 0x00, b'|', 0xc3]),
-        ("numbers out of all range", b"|TARGET||COLOR -1||COLOR 99999999999999999999||TARGET 1e999 x|".to_vec()),
+        (
+            "numbers out of all range",
+            b"|TARGET||COLOR -1||COLOR 99999999999999999999||TARGET 1e999 x|".to_vec(),
+        ),
         ("commands cut short", b"|TARG|COL|FADE|PATH 1|START|TIME 1|HOLD".to_vec()),
         ("a thousand unknown commands", b"|JUNK 1 2 3|".repeat(1000)),
         ("20,000 letters", vec![b'A'; 20_000]),

@@ -24,11 +24,14 @@ pub(super) async fn colours(pilot: &Pilot) {
         let sights = vec![Sight::Colour { at: pilot.desk.now(), colour }];
         ask(pilot, 21, &sent, &format!("Is the light {name}?"), name, sights).await;
     }
+    if pilot.desk.is_broken(21) {
+        pilot.desk.excuse(&[22, 23, 24], "its colours are wrong");
+    }
 }
 
 /// Fades, once the clock is known.
 pub(super) async fn fades(pilot: &Pilot) {
-    if !pilot.desk.options.looks || !pilot.can.fade {
+    if !can_be_seen(pilot) || !pilot.can.fade {
         return;
     }
     let begin = pilot.desk.now() + LOOK_UP;
@@ -58,7 +61,7 @@ async fn forgotten(pilot: &Pilot) {
 
 /// Flashing to be found.
 pub(super) async fn blink(pilot: &Pilot) {
-    if !pilot.desk.options.looks || !pilot.can.blink {
+    if !can_be_seen(pilot) || !pilot.can.blink {
         return;
     }
     let sent = format!("|COLOR {}||BLINK 4000000|", BLUE.number());
@@ -69,6 +72,11 @@ pub(super) async fn blink(pilot: &Pilot) {
     let sights = vec![Sight::Flashing { from, to }, Sight::Colour { at: pilot.desk.now(), colour: BLUE }];
     let text = "Did the light flash white for four seconds, and is it blue now?";
     ask(pilot, 24, &sent, text, "white flashes, then blue", sights).await;
+}
+
+/// Whether somebody looks, and colours are what they should be.
+fn can_be_seen(pilot: &Pilot) -> bool {
+    pilot.desk.options.looks && !pilot.desk.is_broken(21)
 }
 
 async fn ask(pilot: &Pilot, rule: u8, sent: &str, text: &str, expected: &str, sights: Vec<Sight>) {

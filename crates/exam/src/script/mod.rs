@@ -53,9 +53,11 @@ async fn examine(pilot: &mut Pilot) -> Step {
     light::colours(pilot).await;
     if pilot.can.route {
         doing(pilot, "its clock");
-        time::run(pilot).await?;
-        light::fades(pilot).await;
-        if pilot.is_placed() && !pilot.desk.is_broken(25) {
+        let has_time = time::run(pilot).await?;
+        if has_time {
+            light::fades(pilot).await;
+        }
+        if has_time && pilot.is_placed() {
             drive_routes(pilot).await?;
         }
     }
@@ -67,6 +69,10 @@ async fn examine(pilot: &mut Pilot) -> Step {
 async fn drive_routes(pilot: &mut Pilot) -> Step {
     doing(pilot, "routes");
     routes::run(pilot).await?;
+    if pilot.desk.is_broken(32) {
+        pilot.desk.excuse(&[27, 31, 33, 34, 35, 36, 37, 38, 39, 40, 41, 42, 43, 45], "it keeps no routes");
+        return Ok(());
+    }
     doing(pilot, "holding, stopping and giving up");
     stopping::run(pilot).await?;
     doing(pilot, "silence");

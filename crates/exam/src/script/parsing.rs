@@ -53,7 +53,9 @@ async fn counts_unknown(pilot: &Pilot) -> Step {
 
 /// Everything it has said so far.
 fn reports_are_text(pilot: &Pilot) {
-    let wrong = pilot.desk.since(0, |heard| heard.iter().find(|heard| !heard.is_proper).map(|heard| heard.text.clone()));
+    let wrong = pilot
+        .desk
+        .since(0, |heard| heard.iter().find(|heard| !heard.is_proper).map(|heard| heard.text.clone()));
     let came = wrong.clone().unwrap_or_else(|| "nothing else".into());
     pilot.desk.judge(4, wrong.is_none(), "all of the above", "UTF-8 of at most 1,024 bytes", came);
 }

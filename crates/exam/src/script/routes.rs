@@ -24,6 +24,11 @@ pub(super) async fn run(pilot: &Pilot) -> Step {
     pilot.bring(pilot.home).await?;
     number_them(pilot).await?;
     forth(pilot).await?;
+    if pilot.desk.is_broken(32) {
+        pilot.say("|STOP|");
+        pilot.bring(pilot.home).await?;
+        return Ok(());
+    }
     back_in_a_bow(pilot).await?;
     chained(pilot).await?;
     one_report(pilot).await
@@ -54,12 +59,17 @@ pub(super) async fn keep(pilot: &Pilot, route: &Route) -> bool {
     // Once more, in case it was lost.
     for _ in 0..2 {
         let mark = pilot.say(&sent);
-        let kept = |heard: &Heard| (heard.topic == Topic::Status && heard.whole("route") == Some(wanted)).then_some(());
+        let kept = |heard: &Heard| {
+            (heard.topic == Topic::Status && heard.whole("route") == Some(wanted)).then_some(())
+        };
         if pilot.desk.wait_for(mark, ANSWER, kept).await.is_some() {
             pilot.desk.judge(32, true, &sent, &format!("route={wanted} on T/LightBot/Status"), "it");
             return true;
         }
-        last = pilot.desk.since(mark, |heard| heard.iter().rev().find_map(status)).map_or(last, |heard| heard.text);
+        last = pilot
+            .desk
+            .since(mark, |heard| heard.iter().rev().find_map(status))
+            .map_or(last, |heard| heard.text);
     }
     let kinds = ["R ", "L ", "C "].iter().filter(|kind| sent.contains(*kind)).count();
     // A rest alone is kept by whoever keeps anything.
@@ -84,6 +94,9 @@ async fn forth(pilot: &Pilot) -> Step {
         return Ok(());
     }
     waits(pilot, &route).await?;
+    if pilot.desk.is_broken(32) {
+        return Ok(());
+    }
     refuses(pilot, &route).await;
     let course = Course::new(route, moved_start(pilot).await);
     towards_the_way(pilot, course.route.start, pilot.away).await?;
@@ -91,7 +104,8 @@ async fn forth(pilot: &Pilot) -> Step {
     let mark = follow(pilot, &course).await?;
     judge_fit(pilot, &course, mark, true);
     arrives(pilot, &course, mark).await;
-    let driving = pilot.desk.since(mark, |heard| heard.iter().any(|heard| heard.field("state") == Some("driving")));
+    let driving =
+        pilot.desk.since(mark, |heard| heard.iter().any(|heard| heard.field("state") == Some("driving")));
     let came = if driving { "state=driving" } else { "other states only" };
     pilot.desk.judge(12, driving, "STATUS on its route", "state=driving", came);
     Ok(())
@@ -104,7 +118,13 @@ async fn waits(pilot: &Pilot, route: &Route) -> Step {
     pilot.desk.pause(Span::from_millis(1_500)).await;
     let at = pilot.place().await?;
     let came = format!("it is {:.3} m from there", at.distance(route.start));
-    pilot.desk.judge(32, at.distance(route.start) <= STILL_M, "a PATH without START", "it stays where the route starts", came);
+    pilot.desk.judge(
+        32,
+        at.distance(route.start) <= STILL_M,
+        "a PATH without START",
+        "it stays where the route starts",
+        came,
+    );
     Ok(())
 }
 
@@ -119,8 +139,15 @@ async fn refuses(pilot: &Pilot, route: &Route) {
         let mark = pilot.say(&sent);
         let got = pilot.desk.wait_for(mark, ANSWER, status).await;
         let named = got.as_ref().and_then(|heard| heard.whole("route"));
-        let came = got.as_ref().map_or_else(|| "no report on T/LightBot/Status".into(), |heard| heard.text.clone());
-        pilot.desk.judge(rule, named == Some(u64::from(seq)), &sent, &format!("route={seq} on T/LightBot/Status"), came);
+        let came =
+            got.as_ref().map_or_else(|| "no report on T/LightBot/Status".into(), |heard| heard.text.clone());
+        pilot.desk.judge(
+            rule,
+            named == Some(u64::from(seq)),
+            &sent,
+            &format!("route={seq} on T/LightBot/Status"),
+            came,
+        );
     }
 }
 
@@ -186,7 +213,13 @@ pub(super) fn judge_fit(pilot: &Pilot, course: &Course, mark: usize, judges_time
     let fit = pilot.desk.since(mark, |heard| course.fit(heard, pilot.desk.shift(), pilot.delay()));
     let sent = format!("route {} with STATUS each 0.1 s", course.route.seq);
     if fit.reports == 0 {
-        return pilot.desk.judge(41, false, &sent, "a report on T/LightBot/Status for each", "none with a place");
+        return pilot.desk.judge(
+            41,
+            false,
+            &sent,
+            "a report on T/LightBot/Status for each",
+            "none with a place",
+        );
     }
     let came = format!("up to {:.0} mm beside it in {} reports", fit.beside_m * 1e3, fit.reports);
     pilot.desk.judge(35, fit.beside_m <= BESIDE_M, &sent, "within 20 mm of the path (5 are typical)", came);
@@ -225,9 +258,11 @@ pub(super) async fn arrives(pilot: &Pilot, course: &Course, mark: usize) {
     let [arrival] = came.as_slice() else {
         return pilot.desk.judge(36, false, &sent, &expected, words);
     };
-    let there = arrival.place().is_some_and(|at| within(at, end, THERE_M)) && arrival.whole("route") == Some(seq);
+    let there =
+        arrival.place().is_some_and(|at| within(at, end, THERE_M)) && arrival.whole("route") == Some(seq);
     let early_s = (course.over() - (arrival.at + pilot.desk.shift())).as_secs();
-    let in_time = early_s < (LATE + pilot.delay()).as_secs() || pilot.desk.is_broken(27) || course.hold.is_some();
+    let in_time =
+        early_s < (LATE + pilot.delay()).as_secs() || pilot.desk.is_broken(27) || course.hold.is_some();
     let words = if in_time { words } else { format!("{words}, {early_s:.2} s before the route was over") };
     pilot.desk.judge(36, there && in_time, &sent, &expected, words);
 }
@@ -235,7 +270,7 @@ pub(super) async fn arrives(pilot: &Pilot, course: &Course, mark: usize) {
 /// A curve back.
 async fn back_in_a_bow(pilot: &Pilot) -> Step {
     pilot.bring(pilot.away).await?;
-    let route = bow(next_seq(pilot), pilot.away, pilot.home, Span::from_millis(3_000));
+    let route = bow(next_seq(pilot), pilot.away, pilot.home, Span::from_millis(5_000));
     if !keep(pilot, &route).await {
         return Ok(());
     }
@@ -246,7 +281,13 @@ async fn back_in_a_bow(pilot: &Pilot) -> Step {
     let fit = pilot.desk.since(mark, |heard| course.fit(heard, pilot.desk.shift(), pilot.delay()));
     let sent = format!("route {} with two C pieces", course.route.seq);
     let came = format!("up to {:.0} mm beside it in {} reports", fit.beside_m * 1e3, fit.reports);
-    pilot.desk.judge(31, fit.reports > 0 && fit.beside_m <= BESIDE_M, &sent, "within 20 mm of the curve", came);
+    pilot.desk.judge(
+        31,
+        fit.reports > 0 && fit.beside_m <= BESIDE_M,
+        &sent,
+        "within 20 mm of the curve",
+        came,
+    );
     pilot.desk.pause(ONCE).await;
     Ok(())
 }
@@ -274,7 +315,13 @@ async fn chained(pilot: &Pilot) -> Step {
     let at = pilot.place().await?;
     let taken = within(at, pilot.away, 2.0 * THERE_M);
     let came = format!("it is at {}", shown(at));
-    pilot.desk.judge(34, taken, "START of a route while another is under way", &format!("it drives to {}", shown(pilot.away)), came);
+    pilot.desk.judge(
+        34,
+        taken,
+        "START of a route while another is under way",
+        &format!("it drives to {}", shown(pilot.away)),
+        came,
+    );
     if !taken {
         pilot.say("|STOP|");
     }
@@ -292,14 +339,21 @@ fn statuses(pilot: &Pilot, mark: usize, course: &Course) {
     let all: Vec<Instant> = ends[..1].iter().chain(&moments).chain(&ends[1..]).copied().collect();
     let longest = all.windows(2).map(|pair| (pair[1] - pair[0]).as_secs()).fold(0.0, f64::max);
     let came = format!("{} reports, {longest:.2} s between two at most", moments.len());
-    pilot.desk.judge(41, longest <= 1.0, "a route, and no commands on the way", "a report on Status each 0.5 s", came);
+    pilot.desk.judge(
+        41,
+        longest <= 1.0,
+        "a route, and no commands on the way",
+        "a report on Status each 0.5 s",
+        came,
+    );
 }
 
 /// Many questions at once have one answer.
 async fn one_report(pilot: &Pilot) -> Step {
     let mark = pilot.say("|STATUS||STATUS||STATUS||STATUS||STATUS||STATUS|");
     pilot.desk.pause(ONCE).await;
-    let count = pilot.desk.since(mark, |heard| heard.iter().filter(|heard| heard.topic == Topic::Status).count());
+    let count =
+        pilot.desk.since(mark, |heard| heard.iter().filter(|heard| heard.topic == Topic::Status).count());
     pilot.desk.judge(41, count > 0, "|STATUS|", "a report on T/LightBot/Status at once", format!("{count}"));
     // One of its own accord may come in between.
     pilot.desk.judge(42, count <= 3, "|STATUS| six times in one payload", "one report", format!("{count}"));

@@ -40,14 +40,23 @@ pub(super) async fn run(pilot: &Pilot) -> Step {
     };
     let in_time = cut.is_some_and(|at| (1.0..=3.2).contains(&(at - began).as_secs()));
     let came = format!("{came}; {}", if stands { "it stands" } else { "it drives on" });
-    pilot.desk.judge(43, in_time && stands, "a route, then nothing for 3.5 s", "state=cut after 2 s, and it stands", came);
+    pilot.desk.judge(
+        43,
+        in_time && stands,
+        "a route, then nothing for 3.5 s",
+        "state=cut after 2 s, and it stands",
+        came,
+    );
     let state = second.field("state").unwrap_or("").to_owned();
     pilot.say("|STOP|");
     pilot.blame.set(45);
     let trip = pilot.bring(pilot.home).await?;
     if cut.is_some() {
         let free = state != "cut" && trip.reached;
-        let came = format!("state={state}, {}", if trip.reached { "and it drives" } else { "and it does not drive" });
+        let came = format!(
+            "state={state}, {}",
+            if trip.reached { "and it drives" } else { "and it does not drive" }
+        );
         pilot.desk.judge(45, free, "a message after the silence, then TARGET", "it is free and drives", came);
     }
     Ok(())
@@ -60,7 +69,8 @@ fn is_cut(heard: &Heard) -> bool {
 /// It breaks the silence with time questions.
 fn asks_in_silence(pilot: &Pilot, mark: usize, began: Instant) {
     let count = pilot.desk.since(mark, |heard| {
-        let asked = heard.iter().filter(|heard| heard.question.is_some()).map(|heard| (heard.at - began).as_secs());
+        let asked =
+            heard.iter().filter(|heard| heard.question.is_some()).map(|heard| (heard.at - began).as_secs());
         asked.filter(|after| (0.9..=2.2).contains(after)).count()
     });
     let came = format!("{count} questions in the second second");

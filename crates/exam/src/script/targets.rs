@@ -26,7 +26,9 @@ pub(super) async fn run(pilot: &Pilot) -> Step {
 
 /// Arrivals since a mark: when and where.
 pub(super) fn arrivals(pilot: &Pilot, mark: usize) -> Vec<Heard> {
-    pilot.desk.since(mark, |heard| heard.iter().filter(|heard| heard.topic == Topic::Arrival).cloned().collect())
+    pilot
+        .desk
+        .since(mark, |heard| heard.iter().filter(|heard| heard.topic == Topic::Arrival).cloned().collect())
 }
 
 async fn await_arrival(pilot: &Pilot, mark: usize) -> Option<Heard> {
@@ -59,7 +61,8 @@ async fn reach(pilot: &Pilot) -> Step {
 
 fn stands_there(pilot: &Pilot, trip: &Trip, goal: Vec2, sent: &str) {
     let last = trip.places.last().map_or_else(|| "nowhere".into(), |(_, at)| shown(*at));
-    let came = if trip.reached { format!("it stands at {last}") } else { format!("after 15 s it is at {last}") };
+    let came =
+        if trip.reached { format!("it stands at {last}") } else { format!("after 15 s it is at {last}") };
     pilot.desk.judge(17, trip.reached, sent, &format!("it stands within 0.02 m of {}", shown(goal)), came);
 }
 
@@ -107,7 +110,9 @@ async fn replaced(pilot: &Pilot) -> Step {
     pilot.say(target(pilot.home));
     let trip = pilot.watch(pilot.home, DRIVE).await?;
     pilot.desk.pause(ONCE).await;
-    let first = arrivals(pilot, mark).iter().any(|heard| heard.place().is_some_and(|at| within(at, pilot.away, 0.05)));
+    let first = arrivals(pilot, mark)
+        .iter()
+        .any(|heard| heard.place().is_some_and(|at| within(at, pilot.away, 0.05)));
     let came = match (trip.reached, first) {
         (true, false) => "it turned back",
         (_, true) => "it drove to the first target to the end",

@@ -10,17 +10,28 @@ use crate::heard::Heard;
 
 /// Robots ask each three seconds, and each five where nobody answers; with room for lost messages.
 const PATIENCE: Span = Span::from_millis(12_000);
+/// Questions that are compared came at least so far apart.
+const APART: Span = Span::from_millis(3_000);
 /// The show clock is set this much forward: no clock is off by so much.
 const JUMP: Span = Span::from_millis(1_000_000);
 
-pub(super) async fn run(pilot: &Pilot) -> Step {
+/// Rules that take a robot that knows the time.
+const TIMED: [u8; 20] = [12, 22, 23, 27, 28, 29, 30, 31, 32, 33, 34, 35, 36, 37, 38, 39, 40, 41, 43, 45];
+
+/// Whether it can be told moments after this.
+pub(super) async fn run(pilot: &Pilot) -> Step<bool> {
     pilot.blame.set(25);
     if !asks(pilot).await {
-        return Ok(());
+        return Ok(false);
     }
     synchronises(pilot).await?;
+    if pilot.desk.is_broken(29) {
+        pilot.desk.excuse(&TIMED, "it did not come to know the time");
+        return Ok(false);
+    }
     begins_afresh(pilot).await?;
-    pace(pilot).await
+    pace(pilot).await?;
+    has_clock(pilot).await
 }
 
 /// Whether it asks at all, and in microseconds.
@@ -28,16 +39,20 @@ async fn asks(pilot: &Pilot) -> bool {
     let mark = pilot.desk.mark();
     let asked = |heard: &Heard| heard.question.map(|question| (heard.at, question.asked));
     let first = pilot.desk.wait_for(mark, PATIENCE, asked).await;
-    let (first, second) = match first {
-        Some(first) => {
-            let later = pilot.desk.mark();
-            (Some(first), pilot.desk.wait_for(later, PATIENCE, asked).await)
-        }
-        None => (None, None),
+    let enough_later = |heard: &Heard| {
+        let (from, (at, own)) = (first?.0, asked(heard)?);
+        (at - from >= APART).then_some((at, own))
     };
+    let second = pilot.desk.wait_for(mark, APART + PATIENCE, enough_later).await;
     let (Some((at, own)), Some((later_at, later_own))) = (first, second) else {
-        pilot.desk.judge(25, false, "nothing", "<name> <now> on T/LightBot/Time", "no questions that make sense");
-        pilot.desk.excuse(&[27, 28, 29, 30, 31, 32, 33, 34, 35, 36, 37, 38, 39, 40, 41, 42, 43, 45], "it never asked for the time");
+        pilot.desk.judge(
+            25,
+            false,
+            "nothing",
+            "<name> <now> on T/LightBot/Time",
+            "no questions that make sense",
+        );
+        pilot.desk.excuse(&TIMED, "it never asked for the time");
         return false;
     };
     let (ours, its) = ((later_at - at).0 as f64, (later_own - own).0 as f64);
@@ -45,7 +60,10 @@ async fn asks(pilot: &Pilot) -> bool {
     let fits = (its - ours).abs() <= 0.02 * ours + 500_000.0;
     let came = format!("{its:.0} µs between two questions that came {ours:.0} µs apart");
     pilot.desk.judge(25, fits, "nothing", "microseconds of its own clock", came);
-    true
+    if !fits {
+        pilot.desk.excuse(&TIMED, "its questions make no sense, so it cannot know the time");
+    }
+    fits
 }
 
 /// Whether it reports a clock, asked now.
@@ -99,7 +117,13 @@ async fn begins_afresh(pilot: &Pilot) -> Step {
             // The first answer after the jump counts too.
             let answers = before.max(pilot.desk.answered()) + 1;
             let came = format!("clock= after {answers} answers");
-            pilot.desk.judge(29, answers >= 4 || has_by_copies, "answers to all questions", "clock= after four of them", came);
+            pilot.desk.judge(
+                29,
+                answers >= 4 || has_by_copies,
+                "answers to all questions",
+                "clock= after four of them",
+                came,
+            );
             return Ok(());
         }
         pilot.desk.pause(Span::from_millis(20)).await;
@@ -118,7 +142,14 @@ async fn pace(pilot: &Pilot) -> Step {
     let came = format!("{} within 10 s", moments.len());
     let fits = (2..=60).contains(&moments.len());
     pilot.desk.judge(28, fits, "answers to all questions", "2 to 60 questions within 10 s", came);
-    let idle = pilot.desk.since(mark, |heard| heard.iter().filter(|heard| heard.topic == Topic::Status).count());
-    pilot.desk.judge(41, (3..=8).contains(&idle), "nothing for 10 s", "a report on Status each 2 s", format!("{idle}"));
+    let idle =
+        pilot.desk.since(mark, |heard| heard.iter().filter(|heard| heard.topic == Topic::Status).count());
+    pilot.desk.judge(
+        41,
+        (3..=8).contains(&idle),
+        "nothing for 10 s",
+        "a report on Status each 2 s",
+        format!("{idle}"),
+    );
     Ok(())
 }

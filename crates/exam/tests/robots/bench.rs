@@ -67,8 +67,7 @@ impl Bench {
         let mut stage = Stage::default();
         stage.limits.speed_mps = speed_mps;
         let starts = vec![Vec2::new(0.0, 1.3)];
-        self.fleet =
-            Fleet::new(&FleetConfig { stage, starts, seed: 4, conditions: Conditions::default() });
+        self.fleet = Fleet::new(&FleetConfig { stage, starts, seed: 4, conditions: Conditions::default() });
         self
     }
 
@@ -94,7 +93,8 @@ impl Bench {
 
     fn next_moment(&self) -> Instant {
         let arrives = self.wires.keys().next().map_or(Instant::FAR, |key| key.0);
-        let wakes = self.exam.wake_at().map_or(Instant::FAR, |at| Instant(at.0.saturating_sub(EXAM_AHEAD.0 as u64)));
+        let wakes =
+            self.exam.wake_at().map_or(Instant::FAR, |at| Instant(at.0.saturating_sub(EXAM_AHEAD.0 as u64)));
         self.fleet.advance_at().min(arrives).min(wakes).max(self.now)
     }
 
@@ -165,9 +165,10 @@ impl Bench {
                 shown.is_some_and(|shown| near(shown, colour))
             }
             Sight::Flashing { from, to } => {
-                let flashes = self.shown.iter().filter(|(at, light)| {
-                    (from..=to).contains(at) && near(*light, Rgb::new(255, 255, 255))
-                });
+                let flashes = self
+                    .shown
+                    .iter()
+                    .filter(|(at, light)| (from..=to).contains(at) && near(*light, Rgb::new(255, 255, 255)));
                 flashes.count() >= 8
             }
         })
@@ -181,13 +182,21 @@ fn near(a: Rgb, b: Rgb) -> bool {
 impl Outcome {
     /// Rules with this verdict.
     pub fn with(&self, verdict: Verdict) -> Vec<u8> {
-        self.findings.iter().filter(|finding| finding.verdict == verdict).map(|finding| finding.rule).collect()
+        self.findings
+            .iter()
+            .filter(|finding| finding.verdict == verdict)
+            .map(|finding| finding.rule)
+            .collect()
     }
 
     /// Fails with everything that was found unless exactly these rules are broken.
     pub fn assert_broken(&self, rules: &[u8]) {
         if self.with(Verdict::Breaks) != rules {
-            self.findings.iter().for_each(|finding| eprintln!("{finding:?}"));
+            let wrong = self
+                .findings
+                .iter()
+                .filter(|finding| finding.verdict == Verdict::Breaks || rules.contains(&finding.rule));
+            wrong.for_each(|finding| eprintln!("{finding:?}"));
             panic!("broken are R{:?}, not R{rules:?}", self.with(Verdict::Breaks));
         }
     }

@@ -87,6 +87,9 @@ pub fn on(message: &Message, name: &str) -> bool {
 /// Rewrites each command of a payload, given its word and its text; nothing: it is left out.
 pub fn edit(message: Message, mut change: impl FnMut(&str, &str) -> String) -> Message {
     let Ok(text) = String::from_utf8(message.1.clone()) else { return message };
+    if text.len() > 16 * 1024 {
+        return message;
+    }
     let edited: String = text
         .split('|')
         .map(|command| match command.split_ascii_whitespace().next() {
