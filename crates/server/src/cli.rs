@@ -4,12 +4,13 @@ use std::net::SocketAddr;
 use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
+use lightbots_base::RobotId;
 use lightbots_link::BrokerUrl;
 use lightbots_show::Identity;
 
 use crate::broker_arguments::{BrokerArguments, BrokerChoice};
 use crate::logging::Log;
-use crate::numbers::{address, floor, seed};
+use crate::numbers::{address, floor, robot, seed};
 
 /// Light shows on a floor: every robot is a pixel that drives.
 #[derive(Debug, Parser)]
@@ -40,6 +41,8 @@ pub enum Command {
     Robots(RobotsArguments),
     /// Convert between show formats, by the files' endings
     Convert(ConvertArguments),
+    /// Take a robot on a broker through the protocol, rule by rule; it drives, within half a metre of where it stands
+    RobotCheck(RobotCheckArguments),
 }
 
 /// How a show is read.
@@ -202,6 +205,9 @@ pub struct RobotsArguments {
     /// Floor in metres, whose front rows they stand in
     #[arg(long, value_name = "WxH", allow_hyphen_values = true, value_parser = floor, default_value = "3x3")]
     pub floor: (f64, f64),
+    /// Where they stand at first: `rows` along the front edge, a SHOW's first frame, or places X,Y in metres, one each
+    #[arg(long, value_name = "WHERE", num_args = 1.., allow_hyphen_values = true, default_value = "rows")]
+    pub start: Vec<String>,
     /// Without sensor noise and wheel slip
     #[arg(long)]
     pub ideal: bool,
@@ -219,4 +225,32 @@ pub struct ConvertArguments {
     /// The file to write: .lightbots.json is our format, any other .json the original's
     #[arg(value_name = "OUT")]
     pub output: PathBuf,
+}
+
+/// `robot-check`
+#[derive(Debug, Args)]
+pub struct RobotCheckArguments {
+    /// The robot's broker: mqtt[s]://[user[:password]@]host[:port], more addresses of it after commas
+    #[arg(long, value_name = "URL", required = true, value_parser = BrokerUrl::parse)]
+    pub broker: Vec<BrokerUrl>,
+    #[command(flatten)]
+    pub login: BrokerArguments,
+    /// Which robot, by its name; needed where several are on the broker
+    #[arg(long, value_name = "ID", value_parser = robot)]
+    pub robot: Option<RobotId>,
+    /// Floor in metres: the robot is not sent off it, and places off it are wrong
+    #[arg(long, value_name = "WxH", allow_hyphen_values = true, value_parser = floor, default_value = "3x3")]
+    pub floor: (f64, f64),
+    /// Drive without asking first
+    #[arg(long)]
+    pub yes: bool,
+    /// Ask what its light shows, to be answered with y or n
+    #[arg(long)]
+    pub look: bool,
+    /// How long to wait for the broker at most, seconds
+    #[arg(long, value_name = "S", default_value_t = 30, value_parser = clap::value_parser!(u32).range(1..=86_400))]
+    pub patience: u32,
+    /// One JSON object on stdout
+    #[arg(long)]
+    pub json: bool,
 }

@@ -73,6 +73,7 @@ async fn run(cli: Cli, stop: Stop) -> i32 {
         Command::Rehearse(arguments) => stop.at_once(|| commands::rehearse::run(&arguments)),
         Command::Play(arguments) => commands::play::run(arguments, stop).await,
         Command::Robots(arguments) => commands::robots::run(arguments, stop).await,
+        Command::RobotCheck(arguments) => commands::robot_check::run(arguments, stop).await,
         Command::Convert(arguments) => stop.at_once(|| commands::convert::run(&arguments)),
     };
     match outcome {

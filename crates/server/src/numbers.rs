@@ -2,6 +2,8 @@
 
 use std::net::{SocketAddr, ToSocketAddrs};
 
+use lightbots_base::{RobotId, Vec2};
+
 /// Reads `WxH` in metres, such as `3x3` or `4.5x2`.
 pub fn floor(text: &str) -> Result<(f64, f64), String> {
     let wrong = || "a floor is WIDTHxDEPTH in metres, each from 0.1 to 1000, such as 3x3".to_owned();
@@ -13,6 +15,19 @@ pub fn floor(text: &str) -> Result<(f64, f64), String> {
 /// Reads a seed.
 pub fn seed(text: &str) -> Result<u64, String> {
     text.trim().parse().map_err(|_| format!("a seed is a whole number from 0 to {}", u64::MAX))
+}
+
+/// Reads a robot's name.
+pub fn robot(text: &str) -> Result<RobotId, String> {
+    RobotId::new(text)
+        .ok_or_else(|| "a robot's name has 1 to 36 letters, digits and signs, none of / + # |".into())
+}
+
+/// Reads a place `X,Y` in metres, such as `0.5,-1.3`.
+pub fn place(text: &str) -> Option<Vec2> {
+    let (x, y) = text.split_once(',')?;
+    let read = |text: &str| text.trim().parse::<f64>().ok().filter(|metres| metres.abs() <= 1000.0);
+    Some(Vec2::new(read(x)?, read(y)?))
 }
 
 /// Reads where to listen: an IP address or a name of this machine, and a port, such as `127.0.0.1:8420`.

@@ -4,7 +4,7 @@ use super::{files, shown};
 use std::path::Path;
 
 /// What each crate may use of ours. Tests may use more.
-const EDGES: [(&str, &[&str]); 12] = [
+const EDGES: [(&str, &[&str]); 13] = [
     ("base", &[]),
     ("wire", &["base"]),
     ("show", &["base"]),
@@ -12,11 +12,12 @@ const EDGES: [(&str, &[&str]); 12] = [
     ("robot", &["base", "wire"]),
     ("control", &["base", "wire", "show", "plan"]),
     ("sim", &["base", "wire", "show", "plan", "robot", "control"]),
+    ("exam", &["base", "wire"]),
     ("api", &[]),
     ("link", &["base", "wire"]),
     ("webots", &["base", "wire", "robot", "link"]),
     ("standin", &[]),
-    ("server", &["base", "wire", "show", "plan", "robot", "control", "sim", "api", "link"]),
+    ("server", &["base", "wire", "show", "plan", "robot", "control", "sim", "exam", "api", "link"]),
 ];
 
 /// Every edge that is not allowed.

@@ -5,6 +5,7 @@ pub mod convert;
 pub mod plan;
 pub mod play;
 pub mod rehearse;
+pub mod robot_check;
 pub mod robots;
 pub mod run;
 

@@ -1,15 +1,19 @@
 //! `robots`: simulated robots only.
 
+use std::path::Path;
+
+use lightbots_base::Vec2;
 use lightbots_show::{Stage, front_rows};
 use lightbots_sim::{Conditions, Faults, FleetConfig};
 
 use super::count;
-use crate::cli::RobotsArguments;
+use crate::cli::{RobotsArguments, ShowArguments};
 use crate::failure::{Failure, Outcome};
 use crate::live::conductor::LOOK;
-use crate::live::crowd::Crowd;
+use crate::live::crowd::{Crowd, Losses};
+use crate::numbers::place;
 use crate::stop::Stop;
-use crate::{open_files, say};
+use crate::{open_files, say, show_file};
 
 pub async fn run(arguments: RobotsArguments, stop: Stop) -> Outcome {
     stop.take_over();
@@ -20,7 +24,7 @@ pub async fn run(arguments: RobotsArguments, stop: Stop) -> Outcome {
     let robots = arguments.count as usize;
     let (width_m, depth_m) = arguments.floor;
     let stage = Stage { width_m, depth_m, ..Stage::default() };
-    let starts = front_rows(&stage, robots);
+    let starts = starts(&arguments.start, &stage, robots)?;
     let conditions = faults.added_to(conditions(arguments.ideal));
     let config = FleetConfig { stage, starts, seed: seed(arguments.seed), conditions };
     let crowd = Crowd::start(&config, &broker, arguments.together as usize, &stop);
@@ -33,8 +37,46 @@ pub async fn run(arguments: RobotsArguments, stop: Stop) -> Outcome {
     if connected.all() {
         say::line(&format!("{} connected to {}", count(robots, "robot"), broker));
     }
-    going.await.map_err(|error| Failure::problem(format!("the simulation failed: {error}")))?;
+    let losses = going.await.map_err(|error| Failure::problem(format!("the simulation failed: {error}")))?;
+    if losses != Losses::default() {
+        say::note(&losses.to_string());
+    }
     Ok(true)
+}
+
+/// Where robots stand at first, one place each.
+fn starts(said: &[String], stage: &Stage, robots: usize) -> Result<Vec<Vec2>, Failure> {
+    let [only] = said else { return places(said, robots) };
+    if only == "rows" {
+        return Ok(front_rows(stage, robots));
+    }
+    if place(only).is_some() {
+        return places(said, robots);
+    }
+    let reading = ShowArguments { floor: Some((stage.width_m, stage.depth_m)), identity: None };
+    let show = show_file::open(Path::new(only), &reading)?.show;
+    let first = show.frames.first().map(|frame| frame.pixels.iter().map(|pixel| pixel.at).collect());
+    enough(first.unwrap_or_default(), robots, &format!("the first frame of {only}"))
+}
+
+fn places(said: &[String], robots: usize) -> Result<Vec<Vec2>, Failure> {
+    let read = |text: &String| {
+        place(text).ok_or_else(|| {
+            Failure::input(format!(
+                "--start: '{text}' is neither 'rows', a show nor a place such as 0.5,-1.3"
+            ))
+        })
+    };
+    enough(said.iter().map(read).collect::<Result<_, _>>()?, robots, "--start")
+}
+
+fn enough(mut places: Vec<Vec2>, robots: usize, whence: &str) -> Result<Vec<Vec2>, Failure> {
+    if places.len() < robots {
+        let (have, want) = (count(places.len(), "place"), count(robots, "robot"));
+        return Err(Failure::input(format!("{whence} has {have} for {want}: each robot needs one")));
+    }
+    places.truncate(robots);
+    Ok(places)
 }
 
 /// What simulated robots suffer.

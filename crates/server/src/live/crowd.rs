@@ -1,5 +1,7 @@
 //! Simulated robots on a real broker, in real time.
 
+use std::fmt;
+
 use lightbots_base::{Instant, RobotId};
 use lightbots_link::{BrokerUrl, Link, LinkConfig, LinkEvent, Sender, crowd_client_id, robot_client_id};
 use lightbots_sim::{Fleet, FleetConfig};
@@ -54,8 +56,8 @@ impl Crowd {
         Connections(self.senders.clone())
     }
 
-    /// Drives the robots until `stop` is wanted; then they leave the broker.
-    pub async fn run(mut self, stop: Stop) {
+    /// Drives the robots until `stop` is wanted; then they leave the broker. What went missing meanwhile.
+    pub async fn run(mut self, stop: Stop) -> Losses {
         let mut heard = Vec::new();
         let mut left_out = LeftOut::default();
         loop {
@@ -74,10 +76,16 @@ impl Crowd {
             self.speak();
             left_out.notice(self.fleet.steps_left_out());
         }
+        let losses = Losses {
+            steps: self.fleet.steps_left_out(),
+            unsaid: self.fleet.messages_dropped(),
+            dropped: self.senders.iter().map(Sender::dropped).sum(),
+        };
         for task in self.tasks {
             // A connection that failed has ended as well.
             let _ = task.await;
         }
+        losses
     }
 
     fn now(&self) -> Instant {
@@ -105,6 +113,29 @@ impl Crowd {
         while let Some(message) = self.fleet.next_message() {
             self.senders[message.robot / self.together].send(&message.topic.write(), message.payload);
         }
+    }
+}
+
+/// What a crowd lost in all because machine or network was too slow for it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Losses {
+    /// Steps of 16 ms for which all robots stood.
+    pub steps: u64,
+    /// Messages of robots that were dropped before they reached a connection.
+    pub unsaid: u64,
+    /// Messages that connections dropped because a queue was full, either way.
+    pub dropped: u64,
+}
+
+impl fmt::Display for Losses {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(
+            f,
+            "this machine was too slow for the simulated robots: they stood for {} steps of 16 ms, and {} messages were \
+             dropped",
+            self.steps,
+            self.unsaid + self.dropped
+        )
     }
 }
 
