@@ -14,6 +14,7 @@ mod mosquitto;
 mod original_controller;
 mod original_robot;
 mod plain_mqtt;
+mod robot_check;
 mod run;
 mod screen;
 mod shows;

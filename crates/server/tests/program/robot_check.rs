@@ -1,0 +1,117 @@
+//! `robot-check` on real brokers: our robot on the embedded one, the robot of docs/build-a-robot.md on Mosquitto.
+
+use std::collections::BTreeMap;
+use std::process::Command;
+
+use serde_json::Value;
+
+use crate::child::Child;
+use crate::mosquitto::Mosquitto;
+use crate::shows;
+
+/// Starts an examination; its robot may drive at once.
+fn check(broker: &str, more: &[&str]) -> Child {
+    Child::lightbots(&[&["robot-check", "--broker", broker, "--json", "--yes"], more].concat())
+}
+
+/// Rules by verdict, once an examination has ended.
+fn verdicts(examination: &mut Child) -> (i32, BTreeMap<String, Vec<String>>) {
+    let code = examination.end();
+    let answer: Value = serde_json::from_str(&examination.out()).expect("one JSON object");
+    let mut rules = BTreeMap::<String, Vec<String>>::new();
+    for rule in answer["rules"].as_array().expect("a list") {
+        let verdict = rule["verdict"].as_str().expect("a word").to_owned();
+        if verdict == "breaks" {
+            eprintln!("{rule:#}");
+        }
+        rules.entry(verdict).or_default().push(rule["rule"].as_str().expect("a word").to_owned());
+    }
+    (code, rules)
+}
+
+/// The Python robot as the document has it; `None` where Python or paho is missing.
+fn python_robot(port: &str) -> Option<Child> {
+    let page = include_str!("../../../../docs/build-a-robot.md");
+    let (_, after) = page.split_once("```python\n").expect("the page has a robot");
+    let (code, _) = after.split_once("```").expect("it ends");
+    let file = shows::folder().join("robot.py");
+    std::fs::write(&file, code).expect("the folder of the tests can be written");
+    let has_paho = Command::new("python3")
+        .args(["-c", "import paho.mqtt.client as m; m.CallbackAPIVersion.VERSION2"])
+        .output();
+    if !has_paho.is_ok_and(|output| output.status.success()) {
+        eprintln!("NOT TESTED: the robot of docs/build-a-robot.md: python3 with paho-mqtt 2 is missing");
+        return None;
+    }
+    let mut command = Command::new("python3");
+    command.arg(file).args(["127.0.0.1", port]);
+    Some(Child::start(command, "the robot of docs/build-a-robot.md"))
+}
+
+#[test]
+fn our_robot_and_the_documents_robot_keep_the_protocol() {
+    let mut server = Child::lightbots(&[
+        "run",
+        "--robots",
+        "0",
+        "--listen",
+        "127.0.0.1:0",
+        "--mqtt-listen",
+        "127.0.0.1:0",
+    ]);
+    let embedded = server.said("Broker mqtt://");
+    // `run` is a controller too, and answers time questions; this one is examined on a broker of its own.
+    let Some(mosquitto) = Mosquitto::start() else { return };
+    let other = Mosquitto::start().expect("there is one");
+    let url = mosquitto.url();
+    let port = url.rsplit(':').next().expect("a port");
+    let python = python_robot(port);
+    let mut ours =
+        Child::lightbots(&["robots", "--count", "1", "--start", "0.2,-0.5", "--broker", &other.url()]);
+    ours.said("connected to ");
+    let mut examined = check(&other.url(), &[]);
+    let mut python_examined = python.as_ref().map(|_| check(&url, &[]));
+
+    nobody_and_several(&embedded);
+    let (code, rules) = verdicts(&mut examined);
+    assert_eq!((code, rules.get("breaks")), (0, None), "{rules:?}");
+    assert_eq!(rules["keeps"].len(), 36, "{rules:?}");
+    assert_eq!(rules["not-tried"], ["R21", "R22", "R23", "R24"]);
+    if let Some(examined) = python_examined.as_mut() {
+        let (code, rules) = verdicts(examined);
+        assert_eq!((code, rules.get("breaks")), (0, None), "{rules:?}");
+        let keeps = [
+            "R3", "R4", "R5", "R6", "R7", "R8", "R9", "R13", "R15", "R16", "R17", "R18", "R19", "R20", "R48",
+        ];
+        assert_eq!(rules["keeps"], keeps);
+        assert!(rules["does-not-know"].contains(&"R31".to_owned()), "{rules:?}");
+    }
+}
+
+/// No robot is a problem, too many without a name are wrong use.
+fn nobody_and_several(broker: &str) {
+    let mut nobody = check(broker, &["--robot", "nobody-of-this-name"]);
+    assert_eq!(nobody.end(), 1);
+    let answer: Value = serde_json::from_str(&nobody.out()).expect("one JSON object");
+    assert_eq!(answer["ok"], false);
+    let mut robots = Child::lightbots(&["robots", "--count", "2", "--broker", broker]);
+    robots.said("connected to ");
+    let mut several = check(broker, &[]);
+    assert_eq!(several.end(), 2);
+    assert!(several.err().contains("--robot ID"), "{}", several.err());
+}
+
+#[test]
+fn places_of_simulated_robots_are_understood_or_refused() {
+    for (start, why) in [
+        (vec!["0,0", "0.1,nowhere"], "neither 'rows', a show nor a place"),
+        (vec!["0,0"], "--start has 1 place for 2 robots"),
+        (vec!["no-such-show.json"], "no-such-show.json"),
+    ] {
+        let arguments =
+            [vec!["robots", "--count", "2", "--broker", "mqtt://127.0.0.1:1", "--start"], start].concat();
+        let mut child = Child::lightbots(&arguments);
+        assert_eq!(child.end(), 2);
+        assert!(child.err().contains(why), "{}", child.err());
+    }
+}
