@@ -205,8 +205,9 @@ pub struct RobotsArguments {
     /// Floor in metres, whose front rows they stand in
     #[arg(long, value_name = "WxH", allow_hyphen_values = true, value_parser = floor, default_value = "3x3")]
     pub floor: (f64, f64),
-    /// Where they stand at first: `rows` along the front edge, a SHOW's first frame, or places X,Y in metres, one each
-    #[arg(long, value_name = "WHERE", num_args = 1.., allow_hyphen_values = true, default_value = "rows")]
+    /// Where they stand at first: `rows` along the front edge, a SHOW's first frame, or places X,Y in metres with blanks
+    /// between them, one for each robot; may be repeated
+    #[arg(long, value_name = "WHERE", allow_hyphen_values = true, default_value = "rows")]
     pub start: Vec<String>,
     /// Without sensor noise and wheel slip
     #[arg(long)]

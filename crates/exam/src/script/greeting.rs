@@ -13,24 +13,38 @@ use crate::heard::Heard;
 
 /// Long enough for the status reports that come every two seconds.
 const LISTEN: Span = Span::from_millis(2_500);
+/// How often it is asked who is there: somebody may be connecting just now.
+const CALLS: u32 = 4;
 /// A robot that was just switched on gets so long to find its place.
 const FIRST_FIX: Span = Span::from_millis(5_000);
 
 /// Chooses the robot; everybody else's names.
 pub(super) async fn choose(desk: &Desk) -> Result<BTreeSet<String>, Ending> {
-    desk.say(To::All, "|UUID|");
-    desk.pause(LISTEN).await;
-    let names: BTreeSet<String> = desk.others().into_keys().collect();
-    let ids: Vec<RobotId> = names.iter().filter_map(|name| RobotId::new(name)).collect();
-    let subject = match (desk.options.robot, ids.as_slice()) {
-        (Some(named), _) if ids.contains(&named) => named,
-        (Some(_), _) | (None, []) => return Err(Ending::Nobody),
-        (None, [only]) => *only,
-        (None, _) => return Err(Ending::Several(ids)),
-    };
+    let mut found = Err(Ending::Nobody);
+    for _ in 0..CALLS {
+        desk.say(To::All, "|UUID|");
+        desk.pause(LISTEN).await;
+        found = only_one(desk);
+        if !matches!(found, Err(Ending::Nobody)) {
+            break;
+        }
+    }
+    let subject = found?;
+    let names = desk.others().into_keys().collect();
     desk.set_subject(subject);
     desk.judge(3, true, "|UUID|", "a name of 1 to 36 bytes of printable ASCII", subject.as_str());
     Ok(names)
+}
+
+/// The robot that was named, or the only one there is.
+fn only_one(desk: &Desk) -> Result<RobotId, Ending> {
+    let ids: Vec<RobotId> = desk.others().keys().filter_map(|name| RobotId::new(name)).collect();
+    match (desk.options.robot, ids.as_slice()) {
+        (Some(named), _) if ids.contains(&named) => Ok(named),
+        (Some(_), _) | (None, []) => Err(Ending::Nobody),
+        (None, [only]) => Ok(*only),
+        (None, _) => Err(Ending::Several(ids)),
+    }
 }
 
 /// How it answers `UUID`, on both topics and on no other.

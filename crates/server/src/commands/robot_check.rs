@@ -125,7 +125,7 @@ impl Examination {
                 News::Doing(what) => say::note(&format!("... {what}")),
                 News::Ready { robot, at: Some(at), towards: Some(towards) } => {
                     say::note(&format!(
-                        "{robot} stands at ({:.2}, {:.2}) and will drive towards ({:.2}, {:.2}) and back, for about two \
+                        "{robot} stands at ({:.2}, {:.2}) and will drive towards ({:.2}, {:.2}) and back, for up to two \
                          minutes. Leave 0.5 m around it free; no other controller may speak meanwhile.",
                         at.x, at.y, towards.x, towards.y
                     ));

@@ -46,28 +46,29 @@ pub async fn run(arguments: RobotsArguments, stop: Stop) -> Outcome {
 
 /// Where robots stand at first, one place each.
 fn starts(said: &[String], stage: &Stage, robots: usize) -> Result<Vec<Vec2>, Failure> {
-    let [only] = said else { return places(said, robots) };
-    if only == "rows" {
-        return Ok(front_rows(stage, robots));
+    let words: Vec<&str> = said.iter().flat_map(|text| text.split_whitespace()).collect();
+    match (said, words.as_slice()) {
+        (_, ["rows"]) => Ok(front_rows(stage, robots)),
+        ([only], [first, ..]) if place(first).is_none() => first_frame(only, stage, robots),
+        _ => {
+            let read = |text: &&str| {
+                place(text).ok_or_else(|| {
+                    Failure::input(format!(
+                        "--start: '{text}' is neither 'rows', a show nor a place such as 0.5,-1.3"
+                    ))
+                })
+            };
+            enough(words.iter().map(read).collect::<Result<_, _>>()?, robots, "--start")
+        }
     }
-    if place(only).is_some() {
-        return places(said, robots);
-    }
-    let reading = ShowArguments { floor: Some((stage.width_m, stage.depth_m)), identity: None };
-    let show = show_file::open(Path::new(only), &reading)?.show;
-    let first = show.frames.first().map(|frame| frame.pixels.iter().map(|pixel| pixel.at).collect());
-    enough(first.unwrap_or_default(), robots, &format!("the first frame of {only}"))
 }
 
-fn places(said: &[String], robots: usize) -> Result<Vec<Vec2>, Failure> {
-    let read = |text: &String| {
-        place(text).ok_or_else(|| {
-            Failure::input(format!(
-                "--start: '{text}' is neither 'rows', a show nor a place such as 0.5,-1.3"
-            ))
-        })
-    };
-    enough(said.iter().map(read).collect::<Result<_, _>>()?, robots, "--start")
+/// The places of a show's first frame.
+fn first_frame(path: &str, stage: &Stage, robots: usize) -> Result<Vec<Vec2>, Failure> {
+    let reading = ShowArguments { floor: Some((stage.width_m, stage.depth_m)), identity: None };
+    let show = show_file::open(Path::new(path), &reading)?.show;
+    let first = show.frames.first().map(|frame| frame.pixels.iter().map(|pixel| pixel.at).collect());
+    enough(first.unwrap_or_default(), robots, &format!("the first frame of {path}"))
 }
 
 fn enough(mut places: Vec<Vec2>, robots: usize, whence: &str) -> Result<Vec<Vec2>, Failure> {

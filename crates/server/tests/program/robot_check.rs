@@ -104,7 +104,7 @@ fn nobody_and_several(broker: &str) {
 #[test]
 fn places_of_simulated_robots_are_understood_or_refused() {
     for (start, why) in [
-        (vec!["0,0", "0.1,nowhere"], "neither 'rows', a show nor a place"),
+        (vec!["0,0 0.1,nowhere"], "neither 'rows', a show nor a place"),
         (vec!["0,0"], "--start has 1 place for 2 robots"),
         (vec!["no-such-show.json"], "no-such-show.json"),
     ] {
