@@ -23,7 +23,12 @@ pub struct Account {
     pub colours: Vec<u32>,
     /// Where they stood at the end.
     pub places: Vec<Vec2>,
+    /// Where they were, each a track: `[robot][tenth of a second]`.
+    pub tracks: Vec<Vec<Vec2>>,
 }
+
+/// Steps between two places of a track.
+const STEPS_A_PLACE: u32 = 6;
 
 /// A floor with a thread that steps it.
 pub struct Floor {
@@ -55,6 +60,7 @@ fn run(listener: &UnixListener, mut world: World, count: usize, stop: &AtomicBoo
     let mut sockets = gather(listener, count);
     let mut turned = vec![[0.0; 2]; count];
     let mut colours = vec![0; count];
+    let mut tracks: Vec<Vec<Vec2>> = vec![Vec::new(); count];
     let began = Instant::now();
     for step in 1_u32.. {
         let ends = stop.load(Ordering::Acquire);
@@ -69,6 +75,9 @@ fn run(listener: &UnixListener, mut world: World, count: usize, stop: &AtomicBoo
             let turns = world.wheel_turns(robot);
             turned[robot] = [turned[robot][0] + turns[0], turned[robot][1] + turns[1]];
             let pose = world.pose(robot);
+            if step.is_multiple_of(STEPS_A_PLACE) {
+                tracks[robot].push(pose.at);
+            }
             let seen = Seen {
                 ends,
                 time_s,
@@ -90,6 +99,7 @@ fn run(listener: &UnixListener, mut world: World, count: usize, stop: &AtomicBoo
         closest_m: contacts.closest_m(),
         colours,
         places: world.places().to_vec(),
+        tracks,
     }
 }
 

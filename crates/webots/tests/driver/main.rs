@@ -6,18 +6,35 @@ mod processes;
 
 use std::process::{Command, Stdio};
 
+use std::sync::{Mutex, PoisonError};
+
 use floor::{Account, Floor};
-use lightbots_show::Show;
+use lightbots_base::{Span, Vec2};
+use lightbots_show::{Format, Show};
 use processes::{Running, built, mosquitto, stand_in};
 
-/// Plays a show of `shows/` with as many drivers as it has pixels; what the controller reported and the floor saw.
-fn play(file: &str) -> (Show, serde_json::Value, Account) {
+/// Shows are played one after the other: each keeps a machine busy.
+static TURN: Mutex<()> = Mutex::new(());
+
+/// A show of `shows/`, or its first `frames` only.
+fn show(file: &str, frames: usize) -> Show {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../shows/").to_owned() + file;
-    let bytes = std::fs::read(&path).expect("the show is there");
-    let show = lightbots_show::read(&bytes, Some("json")).expect("the show can be read").show;
+    let bytes = std::fs::read(path).expect("the show is there");
+    let mut show = lightbots_show::read(&bytes, Some("json")).expect("the show can be read").show;
+    show.frames.truncate(frames);
+    show
+}
+
+/// Plays a show with as many drivers as it has pixels; what the controller reported and the floor saw.
+fn play(show: &Show, format: Format) -> (serde_json::Value, Account) {
     let count = show.frames[0].pixels.len();
     let starts = lightbots_show::front_rows(&show.stage, count);
-    let folder = tempfile(file);
+    let folder = tempfile(&show.name);
+    let path = folder.join(match format {
+        Format::LightBots => "show.lightbots.json",
+        Format::Original => "show.json",
+    });
+    std::fs::write(&path, lightbots_show::write(show, format)).expect("the temporary folder can be written");
     let socket = folder.join("floor");
     let floor = Floor::open(&socket, &show.stage, &starts, 1);
     let (_broker, port) = mosquitto();
@@ -36,7 +53,9 @@ fn play(file: &str) -> (Show, serde_json::Value, Account) {
         })
         .collect();
     let output = Command::new(built("lightbots"))
-        .args(["play", &path, "--broker", &broker, "--wait", &count.to_string(), "--json"])
+        .arg("play")
+        .arg(&path)
+        .args(["--broker", &broker, "--wait", &count.to_string(), "--json"])
         .stderr(Stdio::inherit())
         .output()
         .expect("the controller starts");
@@ -48,7 +67,7 @@ fn play(file: &str) -> (Show, serde_json::Value, Account) {
     let _ = std::fs::remove_dir_all(&folder);
     let text = String::from_utf8_lossy(&output.stdout).into_owned();
     let report = serde_json::from_str(&text).unwrap_or_else(|error| panic!("no report ({error}): {text}"));
-    (show, report, account)
+    (report, account)
 }
 
 fn tempfile(name: &str) -> std::path::PathBuf {
@@ -57,21 +76,58 @@ fn tempfile(name: &str) -> std::path::PathBuf {
     folder
 }
 
-fn plays_without_contact(file: &str) {
-    let (show, report, account) = play(file);
-    assert_eq!(report["ok"], true, "{report:#}\n{account:?}");
+fn plays_without_contact(show: &Show, format: Format) {
+    let _turn = TURN.lock().unwrap_or_else(PoisonError::into_inner);
+    let (report, account) = play(show, format);
+    let Account { contacts, closest_m, places, colours, tracks } = account;
+    assert_eq!(report["ok"], true, "{report:#}");
     assert_eq!(report["frames_played"], show.frames.len(), "{report:#}");
-    assert_eq!(account.contacts, 0, "{account:?}");
-    assert!(account.closest_m.is_some_and(|closest_m| closest_m > 0.054), "{account:?}");
+    assert_eq!(contacts, 0, "the closest were {closest_m:?} m apart");
+    assert!(closest_m.is_some_and(|closest_m| closest_m > 0.054), "{closest_m:?}");
     let last = show.frames.last().expect("a show has frames");
     for pixel in &last.pixels {
-        let nearest = account.places.iter().map(|at| at.distance(pixel.at)).fold(f64::INFINITY, f64::min);
+        let nearest = places.iter().map(|at| at.distance(pixel.at)).fold(f64::INFINITY, f64::min);
         assert!(nearest <= 0.02, "nobody stands on pixel {}: {nearest} m", pixel.id);
     }
-    assert!(account.colours.iter().any(|colour| *colour != 0), "no light is on");
+    assert!(colours.iter().any(|colour| *colour != 0), "no light is on");
+    let off_m = furthest_off(show, &tracks);
+    assert!(off_m <= 0.005, "a robot was {:.1} mm beside its way in the rehearsal", off_m * 1e3);
+}
+
+/// How far a robot was at most from the way that the rehearsal gives it, metres: the same planner plans both, and the
+/// robots begin at the same places.
+fn furthest_off(show: &Show, tracks: &[Vec<Vec2>]) -> f64 {
+    let starts = lightbots_show::front_rows(&show.stage, tracks.len());
+    let plan = lightbots_plan::show(show, &starts, &lightbots_plan::ShowOptions::default());
+    let mut furthest = 0.0_f64;
+    for (robot, track) in tracks.iter().enumerate() {
+        let way: Vec<Vec2> = plan
+            .transitions
+            .iter()
+            .flat_map(|transition| {
+                let path = transition.paths[robot].as_ref();
+                (0..=transition.duration.0 / 5_000).map(move |step| path.at(Span(step * 5_000)).position)
+            })
+            .collect();
+        for at in track {
+            let off_m = way.iter().map(|there| there.distance(*at)).fold(f64::INFINITY, f64::min);
+            furthest = furthest.max(off_m);
+        }
+    }
+    furthest
 }
 
 #[test]
 fn thirty_processes_play_a_show() {
-    plays_without_contact("heart.lightbots.json");
+    plays_without_contact(&show("heart.lightbots.json", usize::MAX), Format::LightBots);
+}
+
+#[test]
+fn thirty_processes_begin_another_show() {
+    plays_without_contact(&show("rings.lightbots.json", 2), Format::LightBots);
+}
+
+#[test]
+fn thirty_processes_begin_a_show_in_the_originals_format() {
+    plays_without_contact(&show("hello.json", 2), Format::Original);
 }
