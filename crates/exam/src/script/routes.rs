@@ -113,6 +113,8 @@ async fn forth(pilot: &Pilot) -> Step {
 
 /// It keeps the route and stays.
 async fn waits(pilot: &Pilot, route: &Route) -> Step {
+    // A robot looks at itself once a step.
+    pilot.desk.pause(Span::from_millis(200)).await;
     let state = pilot.ask().await?.field("state").map(str::to_owned).unwrap_or_default();
     pilot.desk.judge(12, state == "ready", "a PATH without START", "state=ready", format!("state={state}"));
     pilot.desk.pause(Span::from_millis(1_500)).await;

@@ -27,14 +27,17 @@ pub enum Value {
     Is(String),
 }
 
+/// The fields of a PROTO by their names: type and default.
+pub type Interface = BTreeMap<String, (String, Value)>;
+
 /// A file.
 #[derive(Debug, Default)]
 pub struct File {
     pub header: String,
     /// Addresses after `EXTERNPROTO`.
     pub externs: Vec<String>,
-    /// A PROTO's name and the fields of its interface: type and default.
-    pub proto: Option<(String, BTreeMap<String, (String, Value)>)>,
+    /// A PROTO's name and its fields.
+    pub proto: Option<(String, Interface)>,
     pub nodes: Vec<Node>,
 }
 
@@ -116,7 +119,7 @@ impl Reader {
         assert_eq!(found, wanted, "at token {} of the file", self.at);
     }
 
-    fn interface(&mut self) -> BTreeMap<String, (String, Value)> {
+    fn interface(&mut self) -> Interface {
         let mut fields = BTreeMap::new();
         self.expect("[");
         while self.peek() != Some("]") {
