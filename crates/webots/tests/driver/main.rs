@@ -76,7 +76,8 @@ fn tempfile(name: &str) -> std::path::PathBuf {
     folder
 }
 
-fn plays_without_contact(show: &Show, format: Format) {
+/// Plays a show, and tells where the robots were: `[robot][place]`.
+fn plays_without_contact(show: &Show, format: Format) -> Vec<Vec<Vec2>> {
     let _turn = TURN.lock().unwrap_or_else(PoisonError::into_inner);
     let (report, account) = play(show, format);
     let Account { contacts, closest_m, places, colours, tracks } = account;
@@ -90,6 +91,13 @@ fn plays_without_contact(show: &Show, format: Format) {
         assert!(nearest <= 0.02, "nobody stands on pixel {}: {nearest} m", pixel.id);
     }
     assert!(colours.iter().any(|colour| *colour != 0), "no light is on");
+    tracks
+}
+
+/// The same, and along the ways of the rehearsal. For pictures that have one best plan only: on its way through a
+/// symmetric one a controller that starts from what robots report may choose another, equally good.
+fn plays_as_rehearsed(show: &Show, format: Format) {
+    let tracks = plays_without_contact(show, format);
     let off_m = furthest_off(show, &tracks);
     assert!(off_m <= 0.005, "a robot was {:.1} mm beside its way in the rehearsal", off_m * 1e3);
 }
@@ -124,10 +132,10 @@ fn thirty_processes_play_a_show() {
 
 #[test]
 fn thirty_processes_begin_another_show() {
-    plays_without_contact(&show("rings.lightbots.json", 2), Format::LightBots);
+    plays_as_rehearsed(&show("rings.lightbots.json", 2), Format::LightBots);
 }
 
 #[test]
 fn thirty_processes_begin_a_show_in_the_originals_format() {
-    plays_without_contact(&show("hello.json", 2), Format::Original);
+    plays_as_rehearsed(&show("hello.json", 2), Format::Original);
 }
