@@ -22,8 +22,10 @@ function shelf(room = Infinity): Shelf & { things: Map<string, string> } {
   };
 }
 
+const ME = { tab: 'me', now_ms: () => 1000 };
+
 test('a draft is there until the server has it', async () => {
-  const drafts = createDrafts(shelf());
+  const drafts = createDrafts(shelf(), ME);
   let n = 0;
   const keeper = createKeeper(drafts, 'A', () => ({ etag: '"1"', document: { n } }));
   for (n = 1; n <= 9; n++) {
@@ -42,16 +44,28 @@ test('a draft is there until the server has it', async () => {
 });
 
 test('what has no room is said, and no shelf or junk on it is no error', () => {
-  const keeper = createKeeper(createDrafts(shelf(5)), 'A', () => ({ etag: null, document: {} }));
+  const keeper = createKeeper(createDrafts(shelf(5), ME), 'A', () => ({
+    etag: null,
+    document: {},
+  }));
   keeper.touch();
   keeper.flush();
   expect(keeper.isEndangered()).toBe(true);
   keeper.saved();
   expect(keeper.isEndangered()).toBe(false);
-  expect(createDrafts(null).names()).toEqual([]);
+  expect(createDrafts(null, ME).names()).toEqual([]);
   const junk = shelf();
   junk.things.set('lightbots-draft:x', '{"docu');
   junk.things.set('other', '1');
-  expect(createDrafts(junk).names()).toEqual(['x']);
-  expect(createDrafts(junk).read('x')).toBeNull();
+  expect(createDrafts(junk, ME).names()).toEqual([]);
+  expect(createDrafts(junk, ME).read('x')).toBeNull();
+});
+
+test('a draft of another tab is its own until it has been left behind', () => {
+  const common = shelf();
+  const at = (tab: string, now_ms: number) => createDrafts(common, { tab, now_ms: () => now_ms });
+  at('a', 1000).keep('A', { etag: null, document: {} });
+  expect([at('a', 1001).names(), at('b', 3000).names()]).toEqual([['A'], []]);
+  expect(at('b', 3000).read('A')).toBeNull();
+  expect(at('b', 9000).read('A')).toEqual({ etag: null, document: {} });
 });

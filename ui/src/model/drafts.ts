@@ -18,9 +18,21 @@ export interface Drafts {
 }
 
 const PREFIX = 'lightbots-draft:';
+/** A draft of another tab that is younger is still that tab's own: it saves it itself, milliseconds. */
+const ALIVE_MS = 5000;
+
+/** Who writes drafts, and when. */
+export interface Writer {
+  /** Tells the tabs of a browser apart, and stays the same when one is loaded again. */
+  tab: string;
+  /** Milliseconds since 1970. */
+  now_ms(): number;
+}
+
+type Written = Draft & { tab: string; at_ms: number };
 
 /** Drafts on a shelf; without one nothing is kept. A full or forbidden shelf is no error. */
-export function createDrafts(shelf: Shelf | null): Drafts {
+export function createDrafts(shelf: Shelf | null, { tab, now_ms }: Writer): Drafts {
   const attempt = <T>(act: (shelf: Shelf) => T, otherwise: T): T => {
     try {
       return shelf ? act(shelf) : otherwise;
@@ -28,22 +40,31 @@ export function createDrafts(shelf: Shelf | null): Drafts {
       return otherwise;
     }
   };
+  /** What is kept and has been left behind. */
+  const left = (s: Shelf, key: string): Written | null => {
+    const draft = JSON.parse(s.getItem(key) ?? 'null') as Written | null;
+    if (typeof draft?.document !== 'object') return null;
+    return draft.tab === tab || now_ms() - draft.at_ms > ALIVE_MS ? draft : null;
+  };
   return {
     keep: (name, draft) =>
       attempt((s) => {
-        s.setItem(PREFIX + name, JSON.stringify(draft));
+        s.setItem(PREFIX + name, JSON.stringify({ ...draft, tab, at_ms: now_ms() }));
         return true;
       }, false),
     read: (name) =>
       attempt((s) => {
-        const draft = JSON.parse(s.getItem(PREFIX + name) ?? 'null') as Draft | null;
-        return typeof draft?.document === 'object' ? draft : null;
+        const draft = left(s, PREFIX + name);
+        return draft && { etag: draft.etag, document: draft.document };
       }, null),
     drop: (name) => attempt((s) => s.removeItem(PREFIX + name), undefined),
     names: () =>
       attempt((s) => {
         const keys = Array.from({ length: s.length }, (_, i) => s.key(i) ?? '');
-        return keys.filter((k) => k.startsWith(PREFIX)).map((k) => k.slice(PREFIX.length));
+        const mine = keys.filter((k) => k.startsWith(PREFIX));
+        return mine
+          .filter((key) => attempt((shelf) => left(shelf, key), null))
+          .map((key) => key.slice(PREFIX.length));
       }, []),
   };
 }

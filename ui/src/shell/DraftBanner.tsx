@@ -1,6 +1,8 @@
 import { Button } from '@mantine/core';
 import { useStore } from '../base/store';
-import { useSession } from './session';
+import { getShow, putShow, Refused } from '../api/http';
+import { attempt } from './libraryActs';
+import { useSession, type Session } from './session';
 import { goTo } from './useHash';
 
 /** Says that an earlier page left changes the server never got, and where they are. */
@@ -9,11 +11,12 @@ export function DraftBanner() {
   const name = useStore(session.orphans)[0];
   const linked = useStore(session.live.link) === 'open';
   if (name === undefined || !linked) return null;
-  const putBack = async () => {
-    if (session.live.opened.get().name !== name && !(await session.ask({ do: 'open', name })).ok)
-      return;
-    goTo('edit');
-  };
+  const putBack = () =>
+    attempt(async () => {
+      await bringBack(session, name);
+      if (session.live.opened.get().name === name || (await session.ask({ do: 'open', name })).ok)
+        goTo('edit');
+    });
   const drop = () => {
     session.drafts.drop(name);
     session.orphans.update((names) => names.filter((n) => n !== name));
@@ -29,4 +32,15 @@ export function DraftBanner() {
       </Button>
     </div>
   );
+}
+
+/** Makes sure the library has a show of that name; one that is gone begins again as its draft. */
+async function bringBack({ drafts }: Session, name: string) {
+  try {
+    await getShow(name);
+  } catch (error) {
+    const draft = drafts.read(name);
+    if (!(error instanceof Refused) || error.status !== 404 || !draft) throw error;
+    await putShow(name, JSON.stringify(draft.document), 'new');
+  }
 }

@@ -35,11 +35,23 @@ function shelf(): Storage | null {
   }
 }
 
+/** A name of this tab, the same when the page is loaded again. */
+function tabName(): string {
+  const fresh = Math.random().toString(36).slice(2);
+  try {
+    const name = sessionStorage.getItem('lightbots-tab') ?? fresh;
+    sessionStorage.setItem('lightbots-tab', name);
+    return name;
+  } catch {
+    return fresh;
+  }
+}
+
 export function createSession(): Session {
   const live = createLive();
   const link = connect(live);
   const offer = createStore<{ reason: string; choice: Choice } | null>(null);
-  const drafts = createDrafts(shelf());
+  const drafts = createDrafts(shelf(), { tab: tabName(), now_ms: Date.now });
   return {
     drafts,
     editing: createStore<{ name: string; editor: Editor } | null>(null),
