@@ -50,6 +50,15 @@ pub(super) fn no_plan(show: &Show, index: usize, pixels: &[Pixel], stuck: &Stuck
     Issue::error("no-plan", message).in_frame(index).with_pixels(ids)
 }
 
+/// A drive that cannot be as quick as the frame asks for.
+pub(super) fn takes_longer(show: &Show, index: usize, asked_s: f64, takes_s: f64) -> Issue {
+    let name = name_of(show, index);
+    let message = format!(
+        "the drive to {name} takes {takes_s:.2} s instead of the {asked_s:.2} s asked for: robots cannot be quicker; set at least {takes_s:.2} s"
+    );
+    Issue::warning("takes-longer", message).in_frame(index)
+}
+
 /// Two pixels of a frame ask for the same robot.
 pub(super) fn bound_twice(frame: usize, pixel: u32, name: &str) -> Issue {
     let message = format!("frame {}: robot {name} is asked for twice, pixel {pixel} gets another", frame + 1);

@@ -75,6 +75,12 @@ pub fn show(show: &Show, starts: &[Vec2], options: &ShowOptions) -> ShowPlan {
             plan.issues.push(issues::no_plan(show, index, pixels, &stuck));
         }
         let transition = attempt.transition;
+        let takes_s = transition.duration.as_secs();
+        if let Some(asked_s) =
+            frame.transition_s.filter(|&asked_s| asked_s >= 0.0 && takes_s > asked_s + 5e-3)
+        {
+            plan.issues.push(issues::takes_longer(show, index, asked_s, takes_s));
+        }
         let shown: Vec<Option<u32>> =
             transition.goal_of.iter().map(|goal| goal.map(|goal| pixels[goal].id)).collect();
         binding.remember(pixels, &transition.goal_of);

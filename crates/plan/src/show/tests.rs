@@ -105,6 +105,21 @@ fn what_is_wrong_is_said_with_its_pixels() {
 }
 
 #[test]
+fn a_time_too_short_is_a_warning_that_names_the_least() {
+    let mut far = frame(&[(0, -0.5, 0.22), (1, 0.0, 0.22), (2, 0.5, 0.22)]);
+    far.transition_s = Some(2.0);
+    let mut back = frame(&[(0, -0.5, 1.3), (1, 0.0, 1.3), (2, 0.5, 1.3)]);
+    back.transition_s = Some(9.5);
+    let plan = show(&of(vec![far, back]), &STARTS, &ShowOptions::default());
+    // 1.08 m at 0.27 m/s, a quarter turn and a ramp: 4.62 s.
+    assert!(plan.ok() && codes(&plan) == ["takes-longer"], "{:?}", plan.issues);
+    assert!(plan.issues[0].message.contains("4.62 s") && plan.issues[0].message.contains("2.00 s"));
+    let [first, second] = &plan.transitions[..] else { panic!() };
+    assert_eq!((first.duration, first.least), (Span::from_millis(4_620), Span::from_millis(4_620)));
+    assert_eq!((second.duration, second.least), (Span::from_millis(9_500), Span::from_millis(4_620)));
+}
+
+#[test]
 fn no_show_panics() {
     let mut seeded = Seeded::new(17);
     let lengths = [0.0, -1.0, 1e-9, 0.05, 3.0, 1e6, f64::NAN, f64::INFINITY];
