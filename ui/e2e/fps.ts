@@ -4,6 +4,7 @@ import { join } from 'node:path';
 import type { Browser, Page } from 'playwright-core';
 import { afterAll, beforeAll, test } from 'vitest';
 import { launchBrowser, openPage, startServer } from './harness';
+import { scaleOf } from './journeys';
 
 /** How long a scene is measured, milliseconds. */
 const MEASURED_MS = 6000;
@@ -136,10 +137,10 @@ async function dragAll(page: Page, robots: number) {
     ...document.querySelector<HTMLElement>('[data-testid=pixels] [role=option]')?.dataset,
   }));
   if (!box || !place.x || !place.y) throw new Error('There is nothing to drag.');
-  const scale = Math.min(box.width - 68, box.height - 68) / sideOf(robots);
+  const scale = scaleOf(box, sideOf(robots));
   const from = {
     x: box.x + box.width / 2 + Number(place.x) * scale,
-    y: box.y + box.height / 2 - Number(place.y) * scale,
+    y: box.y + (box.height + 20) / 2 - Number(place.y) * scale,
   };
   await page.mouse.move(from.x, from.y);
   await page.mouse.down();

@@ -116,10 +116,10 @@ export async function openPage(
   browser: Browser,
   server: Server,
   view: 'live' | 'edit' = 'live',
-  options: BrowserContextOptions & { tour?: boolean } = {},
+  options: BrowserContextOptions & { tour?: boolean; scheme?: string } = {},
   before?: () => void,
 ): Promise<Page> {
-  const { tour, ...context } = options;
+  const { tour, scheme, ...context } = options;
   const page = await browser.newPage({ viewport: { width: 1440, height: 900 }, ...context });
   page.setDefaultTimeout(PATIENCE_MS);
   page.on('pageerror', (error) => mistakes.push(String(error)));
@@ -128,6 +128,10 @@ export async function openPage(
       // A page that could not be loaded has no storage.
       if (location.protocol === 'http:') localStorage.setItem('lightbots-tour', 'done');
     });
+  if (scheme)
+    await page.addInitScript((value) => {
+      if (location.protocol === 'http:') localStorage.setItem('mantine-color-scheme-value', value);
+    }, scheme);
   if (before) await page.addInitScript(before);
   await serveScreen(page, server);
   await page.goto(`${server.url}/#/${view}`);

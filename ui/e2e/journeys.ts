@@ -84,6 +84,10 @@ export const pixels = (page: Page): Promise<Pixel[]> =>
       })),
     );
 
+/** CSS pixels a metre while the whole of a square floor is shown. */
+export const scaleOf = (box: { width: number; height: number }, side_m: number) =>
+  Math.min(box.width - 68, box.height - 88) / side_m;
+
 /** Where a place of a 3 × 3 m stage is on screen while the whole floor is shown, CSS pixels. */
 export async function onScreen(
   page: Page,
@@ -92,8 +96,8 @@ export async function onScreen(
 ): Promise<{ x: number; y: number }> {
   const box = await page.getByTestId('stage').boundingBox();
   if (!box) throw new Error('There is no stage.');
-  const scale = Math.min(box.width - 68, box.height - 68) / 3;
-  return { x: box.x + box.width / 2 + x * scale, y: box.y + box.height / 2 - y * scale };
+  const scale = scaleOf(box, 3);
+  return { x: box.x + box.width / 2 + x * scale, y: box.y + (box.height + 20) / 2 - y * scale };
 }
 
 export async function drag(

@@ -47,9 +47,11 @@ export function handlesOf(state: EditorState, camera: Camera): { handle: Handle;
   ];
 }
 
-export const handleAt = (state: EditorState, camera: Camera, at: Point) =>
-  handlesOf(state, camera).find((h) => Math.hypot(h.at.x - at.x, h.at.y - at.y) < HANDLE_REACH_PX)
-    ?.handle ?? null;
+/** The handle under a pointer that may miss by `reach_px`. */
+export const handleAt = (state: EditorState, camera: Camera, at: Point, reach_px: number) =>
+  handlesOf(state, camera).find(
+    (h) => Math.hypot(h.at.x - at.x, h.at.y - at.y) < Math.max(HANDLE_REACH_PX, reach_px),
+  )?.handle ?? null;
 
 let markedFor: Frame | null = null;
 let marks: Marks = { tooClose: new Set(), offFloor: new Set() };

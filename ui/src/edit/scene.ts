@@ -19,7 +19,7 @@ let ghosts: { before?: Frame; after?: Frame; dots: readonly Dot[] } = { dots: NO
 function ghostsOf({ show, frame }: EditorState): readonly Dot[] {
   const [before, after] = [show.frames[frame - 1], show.frames[frame + 1]];
   if (ghosts.before !== before || ghosts.after !== after)
-    ghosts = { before, after, dots: [...ghost(before, 0.55), ...ghost(after, 0.28)] };
+    ghosts = { before, after, dots: [...ghost(before, 0.8), ...ghost(after, 0.45)] };
   return ghosts.dots;
 }
 

@@ -17,6 +17,9 @@ import { handleAt } from './overlay';
 /** How far a mouse and a finger may miss, CSS pixels. */
 const REACH_PX = { mouse: 9, pen: 12, touch: 20 } as const;
 
+const reachOf = (event: PointerEvent) =>
+  REACH_PX[event.pointerType as keyof typeof REACH_PX] ?? REACH_PX.mouse;
+
 /** The grid that is snapped to: a fifth of what is drawn, but no finer than a centimetre. */
 const snapStep = (scale: number) => Math.max(0.01, gridStep(scale) / 10);
 
@@ -56,13 +59,12 @@ function lead(editing: Editing): { hand: Hand; giveUp: () => boolean } {
   const { editor, view } = editing;
   const chosen = createTool(editing);
   let active: Tool | null = null;
-  const touch = (at: Point, event: PointerEvent): Touch => {
+  const touch = (at: Point, event: PointerEvent, adds = false): Touch => {
     const { camera } = view.get();
-    const reach = REACH_PX[event.pointerType as keyof typeof REACH_PX] ?? REACH_PX.mouse;
     return {
       at: stageFromCanvas(camera, at),
-      reach_m: reach / camera.scale,
-      shift: event.shiftKey,
+      reach_m: reachOf(event) / camera.scale,
+      shift: event.shiftKey || adds,
       alt: event.altKey,
       ctrl: event.ctrlKey || event.metaKey,
     };
@@ -75,17 +77,18 @@ function lead(editing: Editing): { hand: Hand; giveUp: () => boolean } {
   return {
     giveUp,
     hand: {
-      down(at, event) {
+      down(at, event, adds) {
         editing.running.set(false);
         editing.moment.set(null);
         const handle =
-          editing.tool.get() !== 'area' && handleAt(editor.state.get(), view.get().camera, at);
+          editing.tool.get() !== 'area' &&
+          handleAt(editor.state.get(), view.get().camera, at, reachOf(event));
         active = handle ? createTransformTool(handle) : chosen;
-        active.down(editor, touch(at, event));
+        active.down(editor, touch(at, event, adds));
       },
       move: (at, event) => active?.move(editor, touch(at, event)),
-      up(at, event) {
-        active?.up(editor, touch(at, event));
+      up(at, event, adds) {
+        active?.up(editor, touch(at, event, adds));
         active = null;
       },
       lost: () => void giveUp(),

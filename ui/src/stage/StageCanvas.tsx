@@ -6,6 +6,10 @@ import { listenToHand, listenToView, type Hand } from './pointer';
 import type { Scene } from './scene';
 import type { View } from './view';
 
+/** Room around the floor for rulers, and above it for the tools, CSS pixels. */
+const MARGIN_PX = 34;
+const TOOLS_PX = 20;
+
 interface Props {
   view: Store<View>;
   /** The scene at a moment; the same object when nothing changed, so that nothing is drawn. */
@@ -57,7 +61,7 @@ export function StageCanvas({ view, sceneAt, dragPans, hand }: Props) {
 function refit(view: Store<View>, scene: Scene) {
   const now = view.get();
   if (!now.fitted) return;
-  const camera = fit(scene.width_m, scene.depth_m, now);
+  const camera = fit(scene.width_m, scene.depth_m, now, MARGIN_PX, TOOLS_PX);
   const same = (['scale', 'originX_px', 'originY_px'] as const).every(
     (key) => camera[key] === now.camera[key],
   );

@@ -20,16 +20,22 @@ export interface Size {
 export const SCALE_MIN = 10;
 export const SCALE_MAX = 6000;
 
-/** The camera that shows the whole floor with a margin around it, CSS pixels. */
-export function fit(width_m: number, depth_m: number, size: Size, margin_px = 34): Camera {
+/** The camera that shows the whole floor with a margin around it, and with `top_px` more above it, CSS pixels. */
+export function fit(
+  width_m: number,
+  depth_m: number,
+  size: Size,
+  margin_px: number,
+  top_px = 0,
+): Camera {
   const scale = Math.min(
     (size.width_px - 2 * margin_px) / Math.max(width_m, 0.1),
-    (size.height_px - 2 * margin_px) / Math.max(depth_m, 0.1),
+    (size.height_px - 2 * margin_px - top_px) / Math.max(depth_m, 0.1),
   );
   return {
     scale: Math.max(SCALE_MIN, Math.min(SCALE_MAX, scale)),
     originX_px: size.width_px / 2,
-    originY_px: size.height_px / 2,
+    originY_px: (size.height_px + top_px) / 2,
   };
 }
 

@@ -1,0 +1,76 @@
+import { readFile } from 'node:fs/promises';
+import type { Browser, Page } from 'playwright-core';
+import { afterAll, beforeAll, expect, test } from 'vitest';
+import { eventually, launchBrowser, mistakes, openPage, startServer, type Server } from './harness';
+import { pixels, saved, uploadText } from './journeys';
+import { originalShow, type OriginalFrame } from './originalShow';
+
+let browser: Browser;
+let server: Server;
+beforeAll(async () => {
+  [server, browser] = await Promise.all([startServer('--robots', '0'), launchBrowser()]);
+});
+afterAll(async () => {
+  await browser?.close();
+  await server?.remove();
+  expect(mistakes).toEqual([]);
+});
+
+/** The show as the original's editor would load it, from the download menu. */
+async function exported(page: Page): Promise<OriginalFrame[]> {
+  await page.getByRole('button', { name: 'Download or copy the show' }).click();
+  const [download] = await Promise.all([
+    page.waitForEvent('download'),
+    page.getByRole('menuitem', { name: /original’s format/ }).click(),
+  ]);
+  return JSON.parse(await readFile(await download.path(), 'utf8')) as OriginalFrame[];
+}
+
+/** Everything of a show that has a meaning, whatever order its pixels come in. */
+const meaning = (frames: OriginalFrame[]) =>
+  frames.map(({ name, airTime, pixels }) => ({
+    name,
+    airTime,
+    pixels: [...pixels]
+      .sort((a, b) => a.pixelId - b.pixelId)
+      .map(({ pixelId, physicalLocation, color }) => ({ pixelId, physicalLocation, color })),
+  }));
+
+test('a show of the original: one colour changed, saved, reloaded, exported; all else is as it was', async () => {
+  const original = originalShow();
+  const page = await openPage(browser, server, 'edit');
+  await uploadText(page, 'rings.json', JSON.stringify(original));
+  await eventually(
+    () => pixels(page),
+    (all) => all.length === 30,
+    'the first frame',
+  );
+  expect(meaning(await exported(page))).toEqual(meaning(original));
+
+  await page.getByRole('list', { name: 'Frames' }).getByRole('button').nth(4).click();
+  await page.keyboard.press(']');
+  await eventually(
+    () => pixels(page),
+    (all) => all[0]?.chosen === true,
+    'pixel 0 is chosen',
+  );
+  await page.getByRole('button', { name: 'Colour pink #ff2f92', exact: true }).click();
+  await saved(page);
+  await page.reload();
+  await eventually(
+    () => pixels(page),
+    (all) => all.length === 30,
+    'it is there after reloading',
+  );
+
+  const wanted = meaning(original);
+  const changed = wanted[4]?.pixels[0];
+  if (!changed) throw new Error('There is no such pixel.');
+  changed.color = { R: 1, G: Math.fround(0x2f / 255), B: Math.fround(0x92 / 255) };
+  const found = await exported(page);
+  expect(meaning(found)).toEqual(wanted);
+  // The original loads a file only if its own state is there too.
+  const keys = (frames: OriginalFrame[]) => Object.keys(frames[4]?.pixels[0] ?? {}).sort();
+  expect(keys(found)).toEqual(keys(original));
+  await page.close();
+});

@@ -1,0 +1,156 @@
+import type { Page } from 'playwright-core';
+import { eventually, type Server } from './harness';
+import { openShow, phase, pixels, smallShow, uploadText } from './journeys';
+
+/** A state of the screen that is looked at: by people in pictures, by axe in tests. */
+export interface View {
+  name: string;
+  /** Leads there from wherever the page is. */
+  show(page: Page, server: Server): Promise<void>;
+  /** Leads away, so that the next view can be shown. */
+  leave?(page: Page): Promise<void>;
+}
+
+const goLive = (page: Page, server: Server) => page.goto(`${server.url}/#/live`);
+const escape = (page: Page) => page.keyboard.press('Escape');
+const button = (page: Page, name: string | RegExp) =>
+  page.getByRole('button', { name, exact: true });
+
+const reach = (page: Page, wanted: string) =>
+  eventually(
+    () => phase(page),
+    (now) => now === wanted,
+    wanted,
+  );
+
+async function edit(page: Page, server: Server) {
+  await page.goto(`${server.url}/#/edit`);
+  await eventually(
+    () => pixels(page),
+    (all) => all.length > 0,
+    'pixels',
+  );
+}
+
+async function halfway(page: Page) {
+  await button(page, 'Play').first().click();
+  await page.getByText(/Playing frame [23] of/).waitFor();
+  await eventually(
+    () => page.getByRole('progressbar').first().getAttribute('aria-valuenow'),
+    (done) => Number(done) > 30 && Number(done) < 90,
+    'the middle of a drive',
+  );
+}
+
+async function abort(page: Page) {
+  await escape(page);
+  await reach(page, 'ready');
+}
+
+const dialog = (name: string, open: (page: Page) => Promise<void>): View => ({
+  name,
+  async show(page) {
+    await open(page);
+    await page.getByRole('dialog').waitFor();
+  },
+  async leave(page) {
+    await escape(page);
+    await page.getByRole('dialog').waitFor({ state: 'hidden' });
+  },
+});
+
+const liveViews: View[] = [
+  {
+    name: 'live-ready',
+    async show(page, server) {
+      await goLive(page, server);
+      await openShow(page, 'heart');
+      await reach(page, 'ready');
+    },
+  },
+  {
+    name: 'live-playing',
+    async show(page) {
+      await halfway(page);
+    },
+  },
+  {
+    name: 'live-paused',
+    async show(page) {
+      await button(page, 'Pause').click();
+      await reach(page, 'paused');
+    },
+    leave: abort,
+  },
+  { name: 'live-show', show: (page) => page.getByRole('tab', { name: 'Show' }).click() },
+  {
+    name: 'live-log',
+    show: (page) => page.getByRole('tab', { name: 'Log' }).click(),
+    leave: (page) => page.getByRole('tab', { name: /^Robots/ }).click(),
+  },
+  dialog('library', (page) => page.getByTestId('open-library').click()),
+  dialog('settings', (page) => button(page, 'Settings').click()),
+  dialog('keyboard', (page) => page.keyboard.press('Shift+?')),
+  {
+    name: 'error',
+    async show(page) {
+      await uploadText(page, 'broken.json', '{"lightbots": 1, "frames": [', false);
+      await page
+        .getByRole('alert')
+        .getByText(/broken\.json/)
+        .waitFor();
+    },
+  },
+];
+
+const editViews: View[] = [
+  {
+    name: 'edit-nothing-chosen',
+    show: edit,
+  },
+  {
+    name: 'edit-chosen',
+    async show(page) {
+      await button(page, /^2/).first().click();
+      await button(page, 'All').click();
+    },
+  },
+  { name: 'edit-frame', show: (page) => page.getByRole('tab', { name: 'Frame' }).click() },
+  {
+    name: 'edit-show',
+    show: (page) => page.getByRole('tab', { name: /^Show/ }).click(),
+    leave: (page) => page.getByRole('tab', { name: 'Pixels' }).click(),
+  },
+  {
+    name: 'edit-ways',
+    async show(page) {
+      await page.keyboard.press('w');
+      await page.keyboard.press('n');
+    },
+    leave: (page) => page.keyboard.press('n'),
+  },
+  {
+    name: 'edit-scrubbing',
+    async show(page) {
+      await page.getByRole('slider', { name: 'Moment of the show' }).focus();
+      for (let i = 0; i < 12; i++) await page.keyboard.press('PageUp');
+    },
+    async leave(page) {
+      await page.getByTestId('stage').focus();
+      await escape(page);
+    },
+  },
+  {
+    name: 'edit-too-close',
+    async show(page, server) {
+      await uploadText(page, 'crowded.json', smallShow(24).replaceAll('0.12', '0.05'));
+      await edit(page, server);
+      await button(page, 'All').click();
+      await button(page, 'Align middles').click();
+      await page.getByText(/too close to each other/).waitFor();
+    },
+  },
+];
+
+/** Every view of a server with robots, in an order in which each follows from the one before. */
+export const VIEWS: readonly View[] = [...liveViews, ...editViews];
