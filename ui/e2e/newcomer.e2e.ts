@@ -1,0 +1,125 @@
+import type { Browser, Locator, Page } from 'playwright-core';
+import { afterAll, beforeAll, expect, test } from 'vitest';
+import { eventually, launchBrowser, mistakes, openPage, startServer, type Server } from './harness';
+import { phase, pixels, saved, stored } from './journeys';
+
+/** Clicks from the first sight of the page to a heart and a word that play. */
+const CLICKS_MAX = 8;
+
+let browser: Browser;
+let server: Server;
+beforeAll(async () => {
+  [server, browser] = await Promise.all([startServer('--robots', '30'), launchBrowser()]);
+});
+afterAll(async () => {
+  await browser?.close();
+  await server?.remove();
+  expect(mistakes).toEqual([]);
+});
+
+const isPhase = (page: Page, wanted: string) =>
+  eventually(
+    () => phase(page),
+    (now) => now === wanted,
+    wanted,
+  );
+
+test('somebody who never saw it makes a heart and a word with thirty robots, and plays them', async () => {
+  const page = await openPage(browser, server, 'live', { tour: true });
+  let clicks = 0;
+  const click = async (target: Locator) => {
+    clicks++;
+    await target.click();
+  };
+  const button = (name: string | RegExp) => page.getByRole('button', { name, exact: true });
+  await page.getByText('30 robots', { exact: true }).waitFor();
+  await click(button('New show').first());
+  await eventually(
+    () => pixels(page),
+    (all) => all.length === 30,
+    'a pixel for every robot',
+  );
+  await click(button('Heart'));
+  await click(button(/^Add a frame/));
+  await click(page.getByLabel('Word to write with pixels'));
+  await page.keyboard.type('HI');
+  await page.keyboard.press('Enter');
+  await saved(page);
+  await click(button('Play with robots'));
+  await page.getByTestId('phase').waitFor();
+  await isPhase(page, 'ready');
+  await click(button('Play'));
+  await isPhase(page, 'playing');
+  expect(clicks).toBeLessThanOrEqual(CLICKS_MAX);
+  // From the beginning, though the last frame was the one being drawn.
+  await page.getByText('Playing frame 1 of 2').waitFor();
+  await page.getByRole('button', { name: /^Abort/ }).click();
+  await isPhase(page, 'ready');
+  await page.close();
+});
+
+/** Presses Tab until the control of that name has the focus. */
+async function tabTo(page: Page, role: string, name: string) {
+  const wanted = page.getByRole(role as 'button', { name, exact: true }).first();
+  for (let i = 0; i < 90; i++) {
+    if (await wanted.evaluate((element) => element === document.activeElement)) return;
+    await page.keyboard.press('Tab');
+  }
+  throw new Error(`Tab never came to ${role} ${name}.`);
+}
+
+test('by keyboard only: a new show, its pixels and colours, a second frame, and play', async () => {
+  const page = await openPage(browser, server, 'live');
+  const press = (key: string) => page.keyboard.press(key);
+  await press('Control+o');
+  await page.getByRole('dialog').waitFor();
+  await tabTo(page, 'button', 'New show');
+  await press('Enter');
+  await page.getByRole('dialog').waitFor({ state: 'hidden' });
+  await eventually(
+    () => pixels(page),
+    (all) => all.length > 0,
+    'the new show',
+  );
+  const name = (await page.getByTestId('open-library').textContent()) ?? '';
+  await tabTo(page, 'tab', 'Pixels');
+  await press('ArrowRight');
+  await press('ArrowRight');
+  await tabTo(page, 'textbox', 'Robots');
+  await press('Control+a');
+  await page.keyboard.type('9');
+  await press('Enter');
+  await eventually(
+    () => pixels(page),
+    (all) => all.length === 9,
+    'nine pixels',
+  );
+  await tabTo(page, 'tab', 'Show');
+  await press('ArrowLeft');
+  await press('ArrowLeft');
+  await tabTo(page, 'button', 'All');
+  await press('Enter');
+  await tabTo(page, 'button', 'Colour pink #ff2f92');
+  await press('Enter');
+  await tabTo(page, 'button', 'Heart');
+  await press('Enter');
+  await press('Control+Enter');
+  await press('Shift+ArrowUp');
+  await saved(page);
+  const { frames } = await stored(page, name);
+  expect(frames.map((f) => f.pixels.length)).toEqual([9, 9]);
+  expect(frames.every((f) => f.pixels.every((p) => p.color === '#ff2f92'))).toBe(true);
+  expect((frames[1]?.pixels[0]?.place[1] ?? 0) - (frames[0]?.pixels[0]?.place[1] ?? 0)).toBeCloseTo(
+    0.1,
+    3,
+  );
+  await press('g');
+  await page.getByTestId('phase').waitFor();
+  await isPhase(page, 'ready');
+  await press('Home');
+  await press('Space');
+  await isPhase(page, 'playing');
+  await press('Escape');
+  await isPhase(page, 'ready');
+  await page.close();
+});

@@ -1,0 +1,136 @@
+import type { Browser, CDPSession, Page } from 'playwright-core';
+import { afterAll, beforeAll, expect, test } from 'vitest';
+import { eventually, launchBrowser, mistakes, openPage, startServer, type Server } from './harness';
+import { onScreen, pixels, smallShow, uploadText } from './journeys';
+
+type At = { x: number; y: number };
+
+let browser: Browser;
+let server: Server;
+beforeAll(async () => {
+  [server, browser] = await Promise.all([startServer('--robots', '12'), launchBrowser()]);
+});
+afterAll(async () => {
+  await browser?.close();
+  await server?.remove();
+  expect(mistakes).toEqual([]);
+});
+
+const TABLET = { viewport: { width: 1024, height: 768 }, hasTouch: true };
+
+/** Fingers of one hand on the glass. */
+function fingers(client: CDPSession) {
+  const send = (type: 'touchStart' | 'touchMove' | 'touchEnd', places: At[]) =>
+    client.send('Input.dispatchTouchEvent', {
+      type,
+      touchPoints: places.map((at, id) => ({ ...at, id })),
+    });
+  return {
+    down: (...places: At[]) => send('touchStart', places),
+    up: () => send('touchEnd', []),
+    /** Straight from one set of places to another. */
+    async move(from: At[], to: At[]) {
+      for (let k = 1; k <= 5; k++)
+        await send(
+          'touchMove',
+          from.map((a, i) => ({
+            x: a.x + (((to[i] ?? a).x - a.x) * k) / 5,
+            y: a.y + (((to[i] ?? a).y - a.y) * k) / 5,
+          })),
+        );
+    },
+  };
+}
+
+const chosen = async (page: Page) =>
+  (await pixels(page)).flatMap((p, id) => (p.chosen ? [id] : []));
+const chosenAre = (page: Page, wanted: number[]) =>
+  eventually(
+    () => chosen(page),
+    (ids) => ids.join() === wanted.join(),
+    `pixels ${wanted.join()} are chosen`,
+  );
+
+test('a finger chooses and drags, held still it adds, two zoom and pan', async () => {
+  const page = await openPage(browser, server, 'edit', TABLET);
+  await uploadText(page, 'tablet.json', smallShow(12));
+  await eventually(
+    () => pixels(page),
+    (all) => all.length === 12,
+    'pixels',
+  );
+  const hand = fingers(await page.context().newCDPSession(page));
+  const places = await pixels(page);
+  const at = async (id: number) => onScreen(page, places[id]?.x ?? 0, places[id]?.y ?? 0);
+  const [first, sixth] = [await at(0), await at(6)];
+  await page.keyboard.press('m');
+
+  await page.touchscreen.tap(first.x, first.y);
+  await chosenAre(page, [0]);
+  await hand.down(sixth);
+  await chosenAre(page, [0, 6]);
+  await hand.up();
+  await page.touchscreen.tap(sixth.x, sixth.y);
+  await chosenAre(page, [6]);
+
+  const step = { x: sixth.x, y: sixth.y + 60 };
+  await hand.down(sixth);
+  await hand.move([sixth], [step]);
+  await hand.up();
+  const once = await eventually(
+    async () => (places[6]?.y ?? 0) - ((await pixels(page))[6]?.y ?? 0),
+    (moved) => moved > 0.1,
+    'it was dragged',
+  );
+
+  const pair = (away: number, dx = 0) => [
+    { x: step.x - away + dx, y: step.y },
+    { x: step.x + away + dx, y: step.y },
+  ];
+  await hand.down(...pair(50));
+  await hand.move(pair(50), pair(100));
+  await hand.move(pair(100), pair(100, 70));
+  await hand.up();
+  expect(await chosen(page)).toEqual([6]);
+  const before = (await pixels(page))[6]?.y ?? 0;
+  const from = { x: step.x + 70, y: step.y };
+  await hand.down(from);
+  await hand.move([from], [{ x: from.x, y: from.y + 60 }]);
+  await hand.up();
+  const twice = await eventually(
+    async () => before - ((await pixels(page))[6]?.y ?? 0),
+    (moved) => moved > 0.01,
+    'it was dragged on the larger floor',
+  );
+  expect(once / twice).toBeGreaterThan(1.7);
+  expect(once / twice).toBeLessThan(2.3);
+  await page.close();
+});
+
+test('whatever is pressed on a tablet is large enough for a finger', async () => {
+  const page = await openPage(browser, server, 'live', TABLET);
+  await uploadText(page, 'fingers.json', smallShow(12));
+  const small = () =>
+    page.evaluate(() =>
+      [...document.querySelectorAll<HTMLElement>('button, [role=tab], input')].flatMap((e) => {
+        const { width, height } = e.getBoundingClientRect();
+        const counts = e.checkVisibility() && !/radio|checkbox/.test(e.getAttribute('type') ?? '');
+        const label = e.getAttribute('aria-label') ?? e.textContent ?? e.outerHTML;
+        return counts && height > 1 && (width < 39.5 || height < 39.5)
+          ? [`${label}: ${Math.round(width)} × ${Math.round(height)}`]
+          : [];
+      }),
+    );
+  await eventually(small, (list) => list.length === 0, 'the live view has room for fingers');
+  await page.goto(`${server.url}/#/edit`);
+  await eventually(
+    () => pixels(page),
+    (all) => all.length === 12,
+    'pixels',
+  );
+  for (const tab of ['Pixels', 'Frame', 'Show']) {
+    await page.getByRole('tab', { name: tab }).click();
+    expect(await small()).toEqual([]);
+  }
+  await page.close();
+});
