@@ -3,14 +3,14 @@ import { createRequire } from 'node:module';
 import type { Browser, Page } from 'playwright-core';
 import { afterAll, beforeAll, expect, test } from 'vitest';
 import { launchBrowser, mistakes, openPage, startServer, type Server } from './harness';
-import { openShow } from './journeys';
+import { FIRST_VIEWS, VIEWS, type View } from './views';
 
 const axe = readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
 
 let browser: Browser;
 let server: Server;
 beforeAll(async () => {
-  [server, browser] = await Promise.all([startServer('--robots', '6'), launchBrowser()]);
+  [server, browser] = await Promise.all([startServer('--robots', '30'), launchBrowser()]);
 });
 afterAll(async () => {
   await browser?.close();
@@ -34,49 +34,29 @@ interface AxeResult {
   violations: { id: string; impact: string; nodes: { html: string }[] }[];
 }
 
-for (const scheme of ['dark', 'light'] as const) {
+async function look(page: Page, on: Server, views: readonly View[]) {
+  const found: string[] = [];
+  for (const view of views) {
+    await view.show(page, on);
+    found.push(...(await findings(page)).map((finding) => `${view.name}: ${finding}`));
+    await view.leave?.(page);
+  }
+  await page.close();
+  expect(found).toEqual([]);
+}
+
+for (const scheme of ['dark', 'light']) {
+  const options = { reducedMotion: 'reduce', scheme } as const;
   test(`nothing serious on any view, ${scheme}`, async () => {
-    const page = await openPage(browser, server, 'live', { reducedMotion: 'reduce' });
-    await page.evaluate((s) => localStorage.setItem('mantine-color-scheme-value', s), scheme);
-    await page.reload();
-    await openShow(page, 'hello');
-    await page.getByRole('list', { name: 'Frames' }).waitFor();
-    await page.getByRole('dialog').waitFor({ state: 'hidden' });
-    expect(await findings(page)).toEqual([]);
-    for (const tab of ['Show', 'Log']) {
-      await page.getByRole('tab', { name: tab }).click();
-      expect(await findings(page)).toEqual([]);
+    await look(await openPage(browser, server, 'live', options), server, VIEWS);
+  });
+  test(`nothing serious at the first sight, ${scheme}`, async () => {
+    const empty = await startServer('--robots', '0');
+    try {
+      const page = await openPage(browser, empty, 'live', { ...options, tour: true });
+      await look(page, empty, FIRST_VIEWS);
+    } finally {
+      await empty.remove();
     }
-    await page.keyboard.press('c');
-    await page.getByRole('list', { name: 'Checklist' }).waitFor();
-    expect(await findings(page)).toEqual([]);
-    await page.keyboard.press('Escape');
-    await page.getByRole('dialog').waitFor({ state: 'hidden' });
-    await page.getByRole('tab', { name: 'Robots' }).click();
-    await page
-      .getByRole('button', { name: /^More about robot/ })
-      .first()
-      .click();
-    await page.getByRole('dialog').waitFor();
-    expect(await findings(page)).toEqual([]);
-    await page.keyboard.press('Escape');
-    await page.getByRole('dialog').waitFor({ state: 'hidden' });
-    await page.goto(`${server.url}/#/edit`);
-    await page.getByTestId('pixels').waitFor({ state: 'attached' });
-    for (const tab of ['Pixels', 'Frame', 'Show']) {
-      await page.getByRole('tab', { name: tab }).click();
-      expect(await findings(page)).toEqual([]);
-    }
-    for (const opener of ['Settings', 'Keyboard map']) {
-      await page.getByRole('button', { name: opener }).click();
-      await page.getByRole('dialog').waitFor();
-      expect(await findings(page)).toEqual([]);
-      await page.keyboard.press('Escape');
-      await page.getByRole('dialog').waitFor({ state: 'hidden' });
-    }
-    await page.getByTestId('open-library').click();
-    await page.getByRole('list', { name: 'Shows in the library' }).waitFor();
-    expect(await findings(page)).toEqual([]);
-    await page.close();
   });
 }

@@ -51,7 +51,7 @@ describe('the editor', () => {
     const document = await stored(page, name);
     expect(document.frames).toHaveLength(3);
     expect(document.frames[2]?.pixels.every((p) => p.color === '#ff2f92')).toBe(true);
-    await button(page, 'With robots').click();
+    await button(page, 'Play with robots').click();
     await eventually(
       () => button(page, 'Play').first().isEnabled(),
       (on) => on,

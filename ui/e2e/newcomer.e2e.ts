@@ -33,7 +33,7 @@ test('somebody who never saw it makes a heart and a word with thirty robots, and
   };
   const button = (name: string | RegExp) => page.getByRole('button', { name, exact: true });
   await page.getByText('30 robots', { exact: true }).waitFor();
-  await click(button('New show').first());
+  await click(button('Begin a new show'));
   await eventually(
     () => pixels(page),
     (all) => all.length === 30,
@@ -47,7 +47,7 @@ test('somebody who never saw it makes a heart and a word with thirty robots, and
   await saved(page);
   await click(button('Play with robots'));
   await page.getByTestId('phase').waitFor();
-  await isPhase(page, 'ready');
+  await button(/^Checklist: all is ready/).waitFor();
   await click(button('Play'));
   await isPhase(page, 'playing');
   expect(clicks).toBeLessThanOrEqual(CLICKS_MAX);

@@ -3,7 +3,7 @@ import { fileURLToPath } from 'node:url';
 import type { Browser, Page } from 'playwright-core';
 import { afterAll, beforeAll, test } from 'vitest';
 import { launchBrowser, openPage, startServer, type Server } from './harness';
-import { VIEWS } from './views';
+import { FIRST_VIEWS, VIEWS, type View } from './views';
 
 const docs = fileURLToPath(new URL('../../docs/', import.meta.url));
 /** Where pictures of every view go, for those who look over the whole screen; none are taken without it. */
@@ -22,17 +22,27 @@ const SIZES = [
 
 let browser: Browser;
 let server: Server;
+let empty: Server;
 beforeAll(async () => {
-  [server, browser] = await Promise.all([startServer('--robots', '30'), launchBrowser()]);
+  [server, empty, browser] = await Promise.all([
+    startServer('--robots', '30'),
+    startServer('--robots', '0'),
+    launchBrowser(),
+  ]);
 });
 afterAll(async () => {
   await browser?.close();
-  await server?.remove();
+  await Promise.all([server?.remove(), empty?.remove()]);
 });
 
-async function walk(page: Page, fileOf: (view: string) => string | undefined) {
-  for (const view of VIEWS) {
-    await view.show(page, server);
+async function walk(
+  page: Page,
+  on: Server,
+  views: readonly View[],
+  fileOf: (view: string) => string | undefined,
+) {
+  for (const view of views) {
+    await view.show(page, on);
     const path = fileOf(view.name);
     if (path) await page.screenshot({ path });
     await view.leave?.(page);
@@ -42,7 +52,9 @@ async function walk(page: Page, fileOf: (view: string) => string | undefined) {
 
 test('the pictures of the README', async () => {
   const page = await openPage(browser, server, 'live');
-  await walk(page, (view) => (README[view] ? `${docs}${README[view]}.png` : undefined));
+  await walk(page, server, VIEWS, (view) =>
+    README[view] ? `${docs}${README[view]}.png` : undefined,
+  );
 });
 
 for (const { name, ...options } of everything ? SIZES : [])
@@ -50,6 +62,9 @@ for (const { name, ...options } of everything ? SIZES : [])
     test(`every view, ${name}, ${scheme}`, async () => {
       const folder = `${everything}/${name}-${scheme}`;
       mkdirSync(folder, { recursive: true });
+      const fileOf = (view: string) => `${folder}/${view}.png`;
+      const fresh = await openPage(browser, empty, 'live', { ...options, scheme, tour: true });
+      await walk(fresh, empty, FIRST_VIEWS, fileOf);
       const page = await openPage(browser, server, 'live', { ...options, scheme });
-      await walk(page, (view) => `${folder}/${view}.png`);
+      await walk(page, server, VIEWS, fileOf);
     });

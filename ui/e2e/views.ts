@@ -88,8 +88,24 @@ const liveViews: View[] = [
     show: (page) => page.getByRole('tab', { name: 'Log' }).click(),
     leave: (page) => page.getByRole('tab', { name: /^Robots/ }).click(),
   },
+  dialog('checklist', (page) => page.keyboard.press('c')),
+  dialog('robot', (page) =>
+    page
+      .getByRole('button', { name: /^More about robot/ })
+      .first()
+      .click(),
+  ),
+  {
+    name: 'live-all-columns',
+    show: (page) => button(page, 'All columns').click(),
+    leave: (page) => button(page, 'Fewer columns').click(),
+  },
   dialog('library', (page) => page.getByTestId('open-library').click()),
   dialog('settings', (page) => button(page, 'Settings').click()),
+  dialog('settings-broker', async (page) => {
+    await button(page, 'Settings').click();
+    await page.getByText('Another one', { exact: true }).click();
+  }),
   dialog('keyboard', (page) => page.keyboard.press('Shift+?')),
   {
     name: 'error',
@@ -132,13 +148,11 @@ const editViews: View[] = [
   {
     name: 'edit-scrubbing',
     async show(page) {
+      await button(page, /^3/).first().click();
       await page.getByRole('slider', { name: 'Moment of the show' }).focus();
-      for (let i = 0; i < 12; i++) await page.keyboard.press('PageUp');
+      for (let i = 0; i < 24; i++) await page.keyboard.press('ArrowLeft');
     },
-    async leave(page) {
-      await page.getByTestId('stage').focus();
-      await escape(page);
-    },
+    leave: (page) => page.keyboard.press('w'),
   },
   {
     name: 'edit-too-close',
@@ -148,6 +162,30 @@ const editViews: View[] = [
       await button(page, 'All').click();
       await button(page, 'Align middles').click();
       await page.getByText(/too close to each other/).waitFor();
+    },
+  },
+];
+
+/** Views of a server that has no robots and no open show, to a page that has not seen the tour. */
+export const FIRST_VIEWS: readonly View[] = [
+  {
+    name: 'live-empty',
+    async show(page) {
+      await page.getByText('No robots yet').waitFor();
+    },
+  },
+  {
+    name: 'edit-empty',
+    async show(page, server) {
+      await page.goto(`${server.url}/#/edit`);
+      await page.getByText('Nothing to draw on yet').waitFor();
+    },
+  },
+  {
+    name: 'edit-tour',
+    async show(page) {
+      await button(page, 'Begin a new show').click();
+      await page.getByRole('region', { name: 'First steps' }).waitFor();
     },
   },
 ];

@@ -36,6 +36,11 @@ export function EditBar() {
     const segment = segmentAt(timeline, time_s);
     if (segment && segment.frame !== frame) editor.goToFrame(segment.frame);
   };
+  /** The whole show, whichever frame was drawn last. */
+  const playWithRobots = () => {
+    session.frame.set(0);
+    goTo('live');
+  };
   const step = (label: string, enabled: boolean, act: () => void, icon: ReactNode) => (
     <Tooltip label={label}>
       <ActionIcon
@@ -81,13 +86,8 @@ export function EditBar() {
       </span>
       <SaveMark />
       <ExportMenu />
-      <Button
-        size="xs"
-        variant="light"
-        onClick={() => goTo('live')}
-        leftSection={<IconPlayerPlayFilled size={14} />}
-      >
-        With robots
+      <Button size="xs" onClick={playWithRobots} leftSection={<IconPlayerPlayFilled size={14} />}>
+        Play with robots
       </Button>
     </div>
   );

@@ -1,11 +1,18 @@
 import { ActionIcon, Button, SegmentedControl, Tooltip } from '@mantine/core';
 import { useHotkeys } from '@mantine/hooks';
 import { useKeys } from './useKeys';
-import { IconFolderOpen, IconHandStop, IconKeyboard, IconSettings } from '@tabler/icons-react';
+import {
+  IconFolderOpen,
+  IconHandStop,
+  IconKeyboard,
+  IconPlus,
+  IconSettings,
+} from '@tabler/icons-react';
 import { useState } from 'react';
 import { useStore } from '../base/store';
 import { KeyboardMap } from './KeyboardMap';
 import { LibraryDialog } from './LibraryDialog';
+import { createShowInLibrary } from './createShow';
 import { FleetPill, LinkPill } from './Pills';
 import { useSession } from './session';
 import { SettingsDialog } from './SettingsDialog';
@@ -15,7 +22,8 @@ type Dialog = 'library' | 'keys' | 'settings' | null;
 
 /** What every view has at its top; Stop all is never out of reach. */
 export function Header({ view }: { view: View }) {
-  const { live, ask } = useSession();
+  const session = useSession();
+  const { live, ask } = session;
   const [dialog, setDialog] = useState<Dialog>(null);
   const title = useStore(live.opened, (o) => o.name);
   const close = () => setDialog(null);
@@ -51,6 +59,18 @@ export function Header({ view }: { view: View }) {
           data-testid="open-library"
         >
           <span className="show-name">{title ?? 'Open a show'}</span>
+        </Button>
+      </Tooltip>
+      <Tooltip label="Begin a new show">
+        <Button
+          variant="subtle"
+          color="gray"
+          size="compact-sm"
+          aria-label="Begin a new show"
+          leftSection={<IconPlus size={16} />}
+          onClick={() => void createShowInLibrary(session).then((done) => done && goTo('edit'))}
+        >
+          New
         </Button>
       </Tooltip>
       <span className="push" />
