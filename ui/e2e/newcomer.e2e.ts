@@ -85,7 +85,7 @@ test('by keyboard only: a new show, its pixels and colours, a second frame, and 
   await tabTo(page, 'tab', 'Pixels');
   await press('ArrowRight');
   await press('ArrowRight');
-  await tabTo(page, 'textbox', 'Robots');
+  await tabTo(page, 'textbox', 'How many');
   await press('Control+a');
   await page.keyboard.type('9');
   await press('Enter');

@@ -39,7 +39,8 @@ export function originalShow(): OriginalFrame[] {
 function pixel(pixelId: number, frame: number): OriginalPixel {
   const angle = (2 * Math.PI * (pixelId + frame * 1.3)) / ROBOTS;
   const radius_m = 0.75 + 0.03 * frame;
-  const round = (n: number, k: number) => Math.round(n * k) / k;
+  // No minus before zero: there is none in a file.
+  const round = (n: number, k: number) => Math.round(n * k) / k + 0;
   const at = {
     X: round(radius_m * Math.cos(angle), 1e4),
     Y: round(radius_m * Math.sin(angle), 1e4),

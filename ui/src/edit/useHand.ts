@@ -6,7 +6,7 @@ import { createArrowTool } from '../model/arrowTool';
 import { createEyedropper } from '../model/eyedropper';
 import { createObstacleTool } from '../model/obstacleTool';
 import { createLassoTool } from '../model/lassoTool';
-import type { Tool, Touch } from '../model/tool';
+import { pixelAt, type Tool, type Touch } from '../model/tool';
 import { createTransformTool } from '../model/transformTool';
 import { gridStep, stageFromCanvas, type Point } from '../stage/camera';
 import type { Hand } from '../stage/pointer';
@@ -69,6 +69,17 @@ function lead(editing: Editing): { hand: Hand; giveUp: () => boolean } {
       ctrl: event.ctrlKey || event.metaKey,
     };
   };
+  /** A finger that means a pixel is not given the handle beside it. */
+  const handleUnder = (at: Point, event: PointerEvent) => {
+    const [state, { camera }] = [editor.state.get(), view.get()];
+    const near = handleAt(state, camera, at, 0);
+    return (
+      near ??
+      (pixelAt(editor, touch(at, event)) === null
+        ? handleAt(state, camera, at, reachOf(event))
+        : null)
+    );
+  };
   const giveUp = () => {
     const busy = active?.cancel(editor) ?? false;
     active = null;
@@ -80,9 +91,7 @@ function lead(editing: Editing): { hand: Hand; giveUp: () => boolean } {
       down(at, event, adds) {
         editing.running.set(false);
         editing.moment.set(null);
-        const handle =
-          editing.tool.get() !== 'area' &&
-          handleAt(editor.state.get(), view.get().camera, at, reachOf(event));
+        const handle = editing.tool.get() === 'area' ? null : handleUnder(at, event);
         active = handle ? createTransformTool(handle) : chosen;
         active.down(editor, touch(at, event, adds));
       },
