@@ -166,19 +166,12 @@ const editViews: View[] = [
   },
 ];
 
-/** Views of a server that has no robots and no open show, to a page that has not seen the tour. */
+/** Views of a server that has no robots, to a page that has not seen the tour. */
 export const FIRST_VIEWS: readonly View[] = [
   {
     name: 'live-empty',
     async show(page) {
       await page.getByText('No robots yet').waitFor();
-    },
-  },
-  {
-    name: 'edit-empty',
-    async show(page, server) {
-      await page.goto(`${server.url}/#/edit`);
-      await page.getByText('Nothing to draw on yet').waitFor();
     },
   },
   {
