@@ -1,0 +1,171 @@
+//! Crowds in which everybody has a place of their own to go to.
+
+use lightbots_base::{Limits, Vec2};
+use lightbots_plan::TransitionProblem;
+use lightbots_show::Obstacle;
+
+/// What makes a scene of a number of robots and a seed.
+type Build = fn(usize, u64) -> TransitionProblem;
+
+/// All kinds of scenes.
+pub const ALL: [(&str, Build); 12] = [
+    ("sparse", |robots, seed| random(robots, 30.0, seed)),
+    ("dense", |robots, seed| random(robots, 500.0, seed)),
+    ("mirrored", |robots, seed| mirrored(robots, 100.0, seed)),
+    ("mirrored dense", |robots, seed| mirrored(robots, 500.0, seed)),
+    ("halves", |robots, seed| halves(robots, 0.12, seed)),
+    ("halves close", |robots, seed| halves(robots, 0.08, seed)),
+    ("rings", rings),
+    ("turned", turned),
+    ("turned half", turned_half),
+    ("shuffled", shuffled),
+    ("rows", rows),
+    ("dead", dead),
+];
+
+/// Least distance between pixels, metres.
+const APART_M: f64 = 0.0774;
+
+/// A small repeatable generator (SplitMix64).
+struct Dice(u64);
+
+impl Dice {
+    fn share(&mut self) -> f64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
+    }
+
+    fn place(&mut self, half: f64) -> Vec2 {
+        Vec2::new((self.share() * 2.0 - 1.0) * half, (self.share() * 2.0 - 1.0) * half)
+    }
+
+    fn places(&mut self, count: usize, half: f64, clear: &dyn Fn(Vec2) -> bool) -> Vec<Vec2> {
+        let mut places: Vec<Vec2> = Vec::new();
+        while places.len() < count {
+            let place = self.place(half - 0.027);
+            if clear(place) && places.iter().all(|other| other.distance(place) >= APART_M) {
+                places.push(place);
+            }
+        }
+        places
+    }
+
+    fn shuffle(&mut self, places: &mut [Vec2]) {
+        for last in (1..places.len()).rev() {
+            places.swap(last, (self.share() * (last + 1) as f64) as usize);
+        }
+    }
+}
+
+fn problem(starts: Vec<Vec2>, goals: Vec<Vec2>, half: f64) -> TransitionProblem {
+    let pinned = (0..goals.len()).map(Some).collect();
+    let floor = TransitionProblem::on_floor(Vec2::new(half, half), Limits::ELISA_3);
+    TransitionProblem { starts, goals, pinned, ..floor }
+}
+
+fn half_floor(robots: usize, per_9_m2: f64) -> f64 {
+    (robots as f64 * 9.0 / per_9_m2).sqrt() / 2.0
+}
+
+fn random(robots: usize, per_9_m2: f64, seed: u64) -> TransitionProblem {
+    let (half, mut dice) = (half_floor(robots, per_9_m2), Dice(seed));
+    let mut places = || dice.places(robots, half, &|_| true);
+    problem(places(), places(), half)
+}
+
+fn mirrored(robots: usize, per_9_m2: f64, seed: u64) -> TransitionProblem {
+    let mut scene = random(robots, per_9_m2, seed);
+    scene.goals = scene.starts.iter().map(|at| Vec2::new(-at.x, at.y)).collect();
+    scene
+}
+
+/// A square grid around the origin.
+fn grid(robots: usize, pitch: f64) -> Vec<Vec2> {
+    let side = (robots as f64).sqrt().ceil() as usize;
+    let at = |i: usize| (i as f64 - (side as f64 - 1.0) / 2.0) * pitch;
+    (0..robots).map(|i| Vec2::new(at(i % side), at(i / side))).collect()
+}
+
+/// Two blocks change places; the seed says how far apart they are.
+fn halves(robots: usize, pitch: f64, seed: u64) -> TransitionProblem {
+    let block = grid(robots / 2, pitch);
+    let reach = block.iter().map(|at| at.x.abs()).fold(0.0, f64::max);
+    let by = Vec2::new(reach + 0.1 + 0.05 * seed as f64, 0.0);
+    let (left, right): (Vec<Vec2>, Vec<Vec2>) = block.iter().map(|&at| (at - by, at + by)).unzip();
+    problem([left.clone(), right.clone()].concat(), [right, left].concat(), by.x + reach + 0.3)
+}
+
+/// Rings around the origin, 0.1 m from ring to ring; the innermost becomes the outermost, somewhat turned.
+fn rings(robots: usize, seed: u64) -> TransitionProblem {
+    let mut starts: Vec<(usize, f64)> = Vec::new();
+    let mut ring = 1;
+    while starts.len() < robots {
+        let count = (ring * 6).min(robots - starts.len());
+        starts.extend((0..count).map(|part| (ring, part as f64 / (ring * 6) as f64 * std::f64::consts::TAU)));
+        ring += 1;
+    }
+    let turn = 0.1 * seed as f64;
+    let goals = starts.iter().map(|&(at, angle)| Vec2::unit(angle + turn) * (0.1 * (2 * ring - at) as f64));
+    let half = 0.2 * ring as f64;
+    let goals = goals.collect();
+    problem(starts.iter().map(|&(at, angle)| Vec2::unit(angle) * (0.1 * at as f64)).collect(), goals, half)
+}
+
+fn turned_by(robots: usize, angle: f64) -> TransitionProblem {
+    let places = grid(robots, 0.1);
+    let unit = Vec2::unit(angle);
+    let turned = places.iter().map(|at| unit * at.x + unit.left() * at.y).collect::<Vec<_>>();
+    let half = places.iter().chain(&turned).map(|at| at.x.abs().max(at.y.abs())).fold(0.0, f64::max);
+    problem(places, turned, half * 1.1 + 0.1)
+}
+
+/// A grid turns by 27° and more around its middle.
+fn turned(robots: usize, seed: u64) -> TransitionProblem {
+    turned_by(robots, 0.3 + 0.17 * seed as f64)
+}
+
+/// A grid turns by about half a turn.
+fn turned_half(robots: usize, seed: u64) -> TransitionProblem {
+    turned_by(robots, std::f64::consts::PI - 0.04 * (seed - 1) as f64)
+}
+
+/// Everybody in a grid at 80 mm gets another's place; half as wide again is the floor.
+fn shuffled(robots: usize, seed: u64) -> TransitionProblem {
+    let starts = grid(robots, 0.08);
+    let half = starts.iter().map(|at| at.x.abs()).fold(0.0, f64::max) * 1.5 + 0.05;
+    let mut goals = starts.clone();
+    Dice(seed).shuffle(&mut goals);
+    problem(starts, goals, half)
+}
+
+/// From rows along the front edge to random places.
+fn rows(robots: usize, seed: u64) -> TransitionProblem {
+    let half = half_floor(robots, 300.0);
+    let a_row = ((2.0 * half - 0.06) / 0.1) as usize + 1;
+    let at = |i: usize| {
+        let x = (i % a_row) as f64 * 0.1 - (a_row - 1) as f64 * 0.05;
+        Vec2::new(x, half - 0.03 - (i / a_row) as f64 * 0.1)
+    };
+    let goals = Dice(seed).places(robots, half, &|_| true);
+    problem((0..robots).map(at).collect(), goals, half)
+}
+
+/// One in thirty is dead, a column and a wall stand on the floor.
+fn dead(robots: usize, seed: u64) -> TransitionProblem {
+    let (half, mut dice) = (half_floor(robots, 200.0) + 0.1, Dice(seed));
+    let obstacles = vec![
+        Obstacle::Rect { min: Vec2::new(-0.05, -half * 0.5), max: Vec2::new(0.05, half * 0.3) },
+        Obstacle::Disc { at: Vec2::new(half * 0.55, 0.0), radius_m: 0.1 },
+    ];
+    let clear_of_things = |at: Vec2, gap: f64| {
+        let wall = at.x.abs() > 0.05 + gap || at.y < -half * 0.5 - gap || at.y > half * 0.3 + gap;
+        wall && at.distance(Vec2::new(half * 0.55, 0.0)) > 0.1 + gap
+    };
+    let standing = dice.places(robots / 30 + 1, half, &|at| clear_of_things(at, 0.1));
+    let clear = |at: Vec2| clear_of_things(at, 0.04) && standing.iter().all(|s| s.distance(at) >= APART_M);
+    let (starts, goals) = (dice.places(robots, half, &clear), dice.places(robots, half, &clear));
+    TransitionProblem { obstacles, standing: standing.clone(), ..problem(starts, goals, half) }
+}
