@@ -17,6 +17,9 @@ const REVERSAL: f64 = 0.5;
 const WIGGLE: f64 = 3.0;
 /// Slower than this many creeping speeds a robot may turn for as long as it is slow.
 const SLOW: f64 = 2.6;
+/// Between two moments speed is less than at them by more than 2 % only where its square is less than this times that of
+/// the acceleration.
+const NARROW_SWING: f64 = 0.25;
 /// Share of the limit that a reversal may turn beside its stop.
 const REVERSAL_UNDERCUT: f64 = 0.6;
 /// Weights of a span's control points for its third derivative.
@@ -24,34 +27,80 @@ const JERK: [f64; 4] = [-1.0, 3.0, -3.0, 1.0];
 /// What the limit is undercut by, so that corrections end.
 const UNDERCUT: f64 = 0.97;
 
-/// Weights of a span's control points for its motion at a moment: slopes of the uniform cubic B-spline, for span
-/// length 1.
-#[derive(Clone, Copy)]
-struct Moment {
-    u: f64,
-    velocity: [f64; 4],
-    acceleration: [f64; 4],
+/// A span's motion, for span length 1: velocity is a parabola of the share of the span that has passed.
+struct Course {
+    velocity: Vec2,
+    acceleration: Vec2,
+    jerk: Vec2,
 }
 
-impl Moment {
-    fn new(u: f64) -> Self {
-        let w = 1.0 - u;
-        let inner = [(3.0 * u * u - 4.0 * u) / 2.0, (-3.0 * u * u + 2.0 * u + 1.0) / 2.0];
-        Self {
-            u,
-            velocity: [-w * w / 2.0, inner[0], inner[1], u * u / 2.0],
-            acceleration: [w, 3.0 * u - 2.0, 1.0 - 3.0 * u, u],
-        }
+impl Course {
+    fn new(four: &[Vec2]) -> Self {
+        let velocity = (four[2] - four[0]) * 0.5;
+        let acceleration = four[0] - four[1] * 2.0 + four[2];
+        Self { velocity, acceleration, jerk: blend(four, &JERK) }
     }
 
-    fn motion(&self, four: &[Vec2]) -> (Vec2, Vec2) {
-        (blend(four, &self.velocity), blend(four, &self.acceleration))
+    fn velocity(&self, u: f64) -> Vec2 {
+        self.velocity + (self.acceleration + self.jerk * (u * 0.5)) * u
+    }
+
+    fn acceleration(&self, u: f64) -> Vec2 {
+        self.acceleration + self.jerk * u
+    }
+
+    /// The slowest moment near `u`: Newton's steps on v².
+    fn slowest(&self, mut u: f64) -> f64 {
+        for _ in 0..4 {
+            let (v, a) = (self.velocity(u), self.acceleration(u));
+            let bend = a.length_squared() + v.dot(self.jerk);
+            if bend <= 0.0 {
+                break;
+            }
+            u = (u - v.dot(a) / bend).clamp(0.0, 1.0);
+        }
+        u
+    }
+}
+
+/// Weights of a span's control points for its velocity and its acceleration at a share of it.
+fn slopes(u: f64) -> ([f64; 4], [f64; 4]) {
+    let w = 1.0 - u;
+    let inner = [(3.0 * u * u - 4.0 * u) / 2.0, (-3.0 * u * u + 2.0 * u + 1.0) / 2.0];
+    ([-w * w / 2.0, inner[0], inner[1], u * u / 2.0], [w, 3.0 * u - 2.0, 1.0 - 3.0 * u, u])
+}
+
+/// The middle of each part of a span that is looked at.
+fn moments() -> impl Iterator<Item = f64> {
+    (0..MOMENTS).map(|index| (index as f64 + 0.5) / MOMENTS as f64)
+}
+
+/// What of a way is to be looked at.
+#[derive(Clone, Copy)]
+pub(super) struct Look {
+    /// A bit for each span.
+    spans: u128,
+    /// Whether robots may turn too far while they are slow.
+    swerves: bool,
+}
+
+impl Look {
+    /// Everything.
+    pub const ALL: Self = Self { spans: u128::MAX, swerves: true };
+
+    /// Whether nothing is left.
+    pub fn is_over(self) -> bool {
+        self.spans == 0
+    }
+
+    /// Adds a span and those that share control points with it.
+    fn add(&mut self, span: usize) {
+        self.spans |= (0x7f_u128 << span) >> 3;
     }
 }
 
 /// Turning limits of one weave, for span length 1.
 pub(super) struct Turning {
-    moments: [Moment; MOMENTS],
     /// Most turn within a span, radians.
     turn: f64,
     /// Shortest step within a span whose direction matters, metres.
@@ -62,49 +111,60 @@ impl Turning {
     /// For spans of `span_s` seconds.
     pub fn new(span_s: f64, limits: &Limits) -> Self {
         Self {
-            moments: std::array::from_fn(|i| Moment::new((i as f64 + 0.5) / MOMENTS as f64)),
             turn: limits.turn_radps * span_s * BETWEEN_MOMENTS,
             creep_m: CREEP_MPS * span_s,
         }
     }
 
-    /// Bends a way once where it turns too fast; whether anything changed. `spare` as in [`fold`].
-    pub fn ease(&self, way: &mut [Vec2], spare: bool) -> bool {
-        let mut changed = false;
+    /// Bends a way once where it turns too fast, looking only at spans of `look`; what is to be looked at again after
+    /// that. `spare` as in [`fold`].
+    pub fn ease(&self, way: &mut [Vec2], spare: bool, look: Look) -> Look {
+        let mut again = Look { spans: 0, swerves: false };
         let spans = way.len() - 3;
-        if let Some((span, _)) = self.swerve(way) {
+        if let Some((span, _)) = look.swerves.then(|| self.swerve(way)).flatten() {
             for span in span.saturating_sub(1)..(span + 2).min(spans) {
                 let shifts = smoothed(&way[span..span + 4], span, spans);
                 way[span..span + 4].iter_mut().zip(shifts).for_each(|(point, shift)| *point += shift);
+                again.add(span);
             }
-            changed = true;
+            again.swerves = true;
         }
-        for span in 0..spans {
+        let marked = look.spans | again.spans;
+        for span in (0..spans).filter(|&span| marked >> span & 1 == 1) {
             let four = &way[span..span + 4];
             let Some((turn, fastest)) = self.fastest(four) else { continue };
             if turn <= self.turn {
                 continue;
             }
-            let folded = |weights: &[f64; 4]| fold(weights, span, spans, spare);
-            let slowest = refined(four, fastest.u);
-            let (v, a) = slowest.motion(four);
-            let nearly_stops = v.length() * self.turn < a.length() * REVERSAL;
-            let reversed = || self.reversed(four, (folded(&slowest.velocity), v), (folded(&JERK), a));
-            let widened = || {
-                let (v, a) = fastest.motion(four);
-                self.widened((folded(&fastest.velocity), v), (folded(&fastest.acceleration), a))
-            };
-            let shifts = if self.only_wiggles(four) {
-                Some(smoothed(four, span, spans))
-            } else {
-                nearly_stops.then(reversed).flatten().or_else(widened)
-            };
+            let shifts = self.corrected(four, fastest, &|weights| fold(weights, span, spans, spare));
+            let shifts = if self.only_wiggles(four) { Some(smoothed(four, span, spans)) } else { shifts };
             for (point, shift) in way[span..span + 4].iter_mut().zip(shifts.into_iter().flatten()) {
                 *point += shift;
             }
-            changed = true;
+            again.add(span);
         }
-        changed
+        again
+    }
+
+    /// How a span's control points move so that it turns less fast.
+    fn corrected(
+        &self,
+        four: &[Vec2],
+        fastest: f64,
+        folded: &dyn Fn(&[f64; 4]) -> [f64; 4],
+    ) -> Option<[Vec2; 4]> {
+        let course = Course::new(four);
+        let motion = |u: f64| {
+            let (v, a) = slopes(u);
+            ((folded(&v), course.velocity(u)), (folded(&a), course.acceleration(u)))
+        };
+        let (v, (_, a)) = motion(course.slowest(fastest));
+        let nearly_stops = v.1.length() * self.turn < a.length() * REVERSAL;
+        let reversed = || self.reversed(four, v, (folded(&JERK), a));
+        nearly_stops.then(reversed).flatten().or_else(|| {
+            let (v, a) = motion(fastest);
+            self.widened(v, a)
+        })
     }
 
     /// The fastest turn of a way over the limit.
@@ -126,8 +186,8 @@ impl Turning {
                 heading = Some(steps[2] + steps[1]);
                 continue;
             }
-            for moment in &self.moments {
-                let velocity = moment.motion(four).0;
+            let course = Course::new(four);
+            for velocity in moments().map(|u| course.velocity(u)) {
                 slow += 1.0 / MOMENTS as f64;
                 if velocity.length_squared() < slow_m * slow_m {
                     continue;
@@ -146,31 +206,30 @@ impl Turning {
     }
 
     /// The fastest turn of a span and the moment it is at; `None` where none can be too fast.
-    fn fastest(&self, four: &[Vec2]) -> Option<(f64, Moment)> {
+    fn fastest(&self, four: &[Vec2]) -> Option<(f64, f64)> {
         if self.is_easy(four) {
             return None;
         }
-        let creep = self.creep_m * self.creep_m;
-        let turn = |moment: &Moment| {
-            let (v, a) = moment.motion(four);
-            if v.length_squared() > creep { v.cross(a).abs() / v.length_squared() } else { 0.0 }
-        };
-        let mut worst = (0.0, self.moments[0]);
-        let mut offer = |turn: f64, moment: Moment| {
-            if turn > worst.0 {
-                worst = (turn, moment);
+        let (creep, course) = (self.creep_m * self.creep_m, Course::new(four));
+        let mut worst = (0.0, 0.5);
+        let mut squares = [f64::MAX; MOMENTS + 2];
+        for (index, u) in moments().enumerate() {
+            let v = course.velocity(u);
+            let (square, swing) = (v.length_squared(), v.cross(course.acceleration(u)).abs());
+            squares[index + 1] = square;
+            if square > creep && swing > worst.0 * square {
+                worst = (swing / square, u);
             }
-        };
-        let speed = |index: usize| self.moments[index].motion(four).0.length_squared();
-        let mut speeds = [f64::MAX; MOMENTS + 2];
-        (0..MOMENTS).for_each(|index| speeds[index + 1] = speed(index));
-        for (index, moment) in self.moments.iter().enumerate() {
-            offer(turn(moment), *moment);
-            if speeds[index + 1] <= speeds[index] && speeds[index + 1] <= speeds[index + 2] {
+        }
+        for (index, u) in moments().enumerate() {
+            let [before, here, after] = [squares[index], squares[index + 1], squares[index + 2]];
+            let near = course.acceleration(u).length_squared() * NARROW_SWING;
+            if here <= before && here <= after && here < near {
                 // The narrowest swings fall between two moments.
-                let slowest = refined(four, moment.u);
-                let (v, a) = slowest.motion(four);
-                offer(v.cross(a).abs() / v.length_squared().max(creep), slowest);
+                let u = course.slowest(u);
+                let (v, a) = (course.velocity(u), course.acceleration(u));
+                let turn = v.cross(a).abs() / v.length_squared().max(creep);
+                worst = if turn > worst.0 { (turn, u) } else { worst };
             }
         }
         Some(worst)
@@ -233,20 +292,6 @@ impl Turning {
     }
 }
 
-/// The slowest moment near `u`: Newton's steps on v².
-fn refined(four: &[Vec2], mut u: f64) -> Moment {
-    let jerk = blend(four, &JERK);
-    for _ in 0..4 {
-        let (v, a) = Moment::new(u).motion(four);
-        let bend = a.length_squared() + v.dot(jerk);
-        if bend <= 0.0 {
-            break;
-        }
-        u = (u - v.dot(a) / bend).clamp(0.0, 1.0);
-    }
-    Moment::new(u)
-}
-
 /// How a span's free control points move towards the middle of their neighbours.
 fn smoothed(four: &[Vec2], span: usize, last: usize) -> [Vec2; 4] {
     std::array::from_fn(|i| {
@@ -262,7 +307,7 @@ mod tests {
     fn eased(mut way: Vec<Vec2>) -> (f64, f64) {
         let turning = Turning::new(0.25, &Limits::ELISA_3);
         let before = turning.haste(&way);
-        (0..300).any(|_| !turning.ease(&mut way, false));
+        (0..300).any(|_| turning.ease(&mut way, false, Look::ALL).is_over());
         (before, turning.haste(&way))
     }
 

@@ -7,7 +7,7 @@
 use lightbots_base::{Limits, Piece, Span, Vec2};
 
 use super::scene::Scene;
-use super::turning::Turning;
+use super::turning::{Look, Turning};
 use crate::Path;
 
 /// What the splines of all robots are, sharing one clock.
@@ -95,16 +95,15 @@ impl Weave {
     /// Bends a robot's way until it turns no faster than it may, in at most `passes`; whether anything changed.
     pub fn ease(&mut self, robot: usize, turning: &Turning, passes: usize) -> bool {
         let spare = self.ends[robot].1.is_none();
-        let mut changed = false;
-        for _ in 0..passes {
-            let once = turning.ease(self.way_mut(robot), spare);
-            self.tie_ends(robot);
-            changed |= once;
-            if !once {
-                break;
+        let mut look = Look::ALL;
+        for pass in 0..passes {
+            look = turning.ease(self.way_mut(robot), spare, look);
+            if look.is_over() {
+                return pass > 0;
             }
+            self.tie_ends(robot);
         }
-        changed
+        true
     }
 
     /// The four control points of a robot's span.
