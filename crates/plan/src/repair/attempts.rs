@@ -4,7 +4,8 @@ use lightbots_show::Easing;
 
 use super::around::courses;
 use super::contacts::Wish;
-use super::guess::{Pace, along, length};
+use super::guess::{Guess, Manner, Pace, length};
+use lightbots_base::Vec2;
 use super::lattice::Lattice;
 use super::ordered::ordered;
 use super::relax::{Effort, relax};
@@ -21,38 +22,36 @@ const MOST_WORK: usize = 30_000_000;
 const WORK_TO_SPARE: usize = 24_000_000;
 /// So much longer than the least is good enough.
 const GOOD: f64 = 1.15;
-/// Larger crowds do not bow: the lattice is quicker.
-const MOST_TO_BOW: usize = 600;
-/// Bows tried although a way is known; more are only for those who have none.
-const ENOUGH_BOWS: usize = 4;
+/// Larger crowds take the first way found.
+const MOST_TO_IMPROVE: usize = 600;
+/// Guesses tried where none has led to a way yet, and where one has.
+const MOST_TRIES: usize = 8;
+const ENOUGH_TRIES: usize = 3;
 /// What the first guess aims at: room for robots that follow curves with poor sensors on slippery floors.
 const ROOMY: Wish = Wish { robots_m: 0.0675, walls_m: 0.0115, slack_m: 0.002 };
 /// What further guesses aim at, and the lattice, which is not as wide.
 const WIDE: Wish = Wish { robots_m: 0.0625, walls_m: 0.0075, slack_m: 0.002 };
 const NARROW: Wish = Wish { robots_m: 0.0595, walls_m: 0.0065, slack_m: 0.0015 };
 
-/// The swiftest of what was found and `holds`; `None` where nothing was.
-pub(super) fn best(scene: &Scene, easing: Easing, holds: &dyn Fn(&Weave) -> bool) -> Option<Weave> {
+/// The swiftest of what was found and is `proven`; `None` where nothing was.
+pub(super) fn best(scene: &Scene, easing: Easing, proven: &dyn Fn(Weave) -> Option<Weave>) -> Option<Weave> {
     let lattice = Lattice::new(scene, PITCH_M)?;
     let courses = courses(scene, &lattice)?;
     let longest = courses.iter().map(|course| length(course)).fold(0.0, f64::max);
     let least_s = Pace::new(longest, &scene.limits, easing, 1.0).drive_s;
     let mut work = MOST_WORK;
     let mut best: Option<Weave> = None;
-    let bows: &[f64] = if scene.robots() > MOST_TO_BOW {
-        &[0.0]
-    } else {
-        &[0.0, 0.0, 0.12, 0.25, 0.05, -0.05, 0.18, -0.12, 0.08, -0.2]
-    };
-    for (tries, &bow) in bows.iter().enumerate() {
-        let wish = if tries == 0 && bows.len() > 1 { ROOMY } else { WIDE };
-        let pace = Pace::new(longest, &scene.limits, easing, 1.0 + 2.0 * bow * bow);
-        let effort = Effort { sweeps: 300, stretch: 2.0, wary: true, wish };
-        let found = relax(scene, along(scene, &courses, &pace, bow), effort, &mut work);
-        best = swifter(scene, best, found.filter(|weave| holds(weave)));
-        if best.as_ref().is_some_and(|weave| {
-            tries >= ENOUGH_BOWS || lasts(scene, weave) < least_s * GOOD || work < WORK_TO_SPARE
-        }) {
+    let small = scene.robots() <= MOST_TO_IMPROVE;
+    let guesses = guesses(scene, &courses, easing);
+    let tries = guesses.first().filter(|_| small).map(|best| (best, ROOMY)).into_iter();
+    let tries = tries.chain(guesses.iter().map(|guess| (guess, WIDE))).take(MOST_TRIES);
+    for (tried, (guess, wish)) in tries.enumerate() {
+        let effort = Effort { sweeps: 300, stretch: (2.4 / guess.stretch()).max(1.5), wish };
+        let found = relax(scene, guess.weave(), effort, &mut work);
+        if std::env::var("DBG").is_ok() { eprintln!("{:?} {:?} {}", guess.manner, (guess.badness, guess.stretch()), found.as_ref().map_or(f64::NAN, |w| lasts(scene, w)/least_s)); }
+        best = swifter(scene, best, found.and_then(proven));
+        let enough = !small || tried + 1 >= ENOUGH_TRIES || work < WORK_TO_SPARE;
+        if best.as_ref().is_some_and(|weave| enough || lasts(scene, weave) < least_s * GOOD) {
             return best;
         }
     }
@@ -60,17 +59,25 @@ pub(super) fn best(scene: &Scene, easing: Easing, holds: &dyn Fn(&Weave) -> bool
         if best.is_some() && pitch_m > PITCH_M {
             break;
         }
-        let effort = Effort { sweeps: 300, stretch: 2.5, wary: false, wish: NARROW };
+        let effort = Effort { sweeps: 300, stretch: 2.5, wish: NARROW };
         let lattice = Lattice::new(scene, pitch_m)?;
         let found = ordered(scene, &lattice).and_then(|weave| relax(scene, weave, effort, &mut work));
-        best = swifter(scene, best, found.filter(|weave| holds(weave)));
+        best = swifter(scene, best, found.and_then(proven));
     }
     best
 }
 
+/// First guesses, the most promising first.
+fn guesses<'a>(scene: &'a Scene, courses: &'a [Vec<Vec2>], easing: Easing) -> Vec<Guess<'a>> {
+    let mut guesses: Vec<Guess> =
+        Manner::all().map(|manner| Guess::new(scene, courses, easing, manner, ROOMY.robots_m)).collect();
+    guesses.sort_by(|a, b| a.badness.total_cmp(&b.badness));
+    guesses
+}
+
 /// How long a weave must take, seconds.
 fn lasts(scene: &Scene, weave: &Weave) -> f64 {
-    weave.span_s * weave.spans as f64 * weave.greatest_haste(&scene.limits)
+    weave.least_span_s(&scene.limits) * weave.spans as f64
 }
 
 fn swifter(scene: &Scene, one: Option<Weave>, other: Option<Weave>) -> Option<Weave> {

@@ -10,10 +10,12 @@ use super::weave::Weave;
 const LOOK_OUT_EVERY: usize = 6;
 /// Sweeps after which there must be half as much wrong, or there is more time.
 const STAGE: usize = 12;
-/// So many contacts for each robot are not resolved any more once they become more.
-const HOPELESS: usize = 14;
-/// How much more time.
+/// So many contacts for each robot are hardly resolved without more time.
+const HOPELESS: usize = 5;
+/// How much more time, and how much more still for every contact of a robot, up to so many.
 const GROWTH: f64 = 1.04;
+const GROWTH_A_CONTACT: f64 = 0.014;
+const MOST_CONTACTS: f64 = 12.0;
 /// Bending aims beyond the wish by this, metres: otherwise it would only be neared for ever.
 const BEYOND_M: f64 = 0.0002;
 /// Control points that hardly move a place must not be moved far for it.
@@ -34,8 +36,6 @@ pub(super) struct Effort {
     pub sweeps: usize,
     /// How much longer than at first it may take.
     pub stretch: f64,
-    /// Whether to stop early where contacts become more.
-    pub wary: bool,
     /// How far all shall stay apart.
     pub wish: Wish,
 }
@@ -46,7 +46,7 @@ pub(super) fn relax(scene: &Scene, weave: Weave, effort: Effort, work: &mut usiz
     let longest_s = weave.span_s * effort.stretch;
     let mut state = State::new(scene, weave, effort.wish);
     let mut best: Option<(f64, Weave)> = None;
-    let (mut hoped, mut last) = (usize::MAX, usize::MAX / 2);
+    let mut hoped = usize::MAX;
     for sweep in 0..effort.sweeps {
         let Some(left) = work.checked_sub(state.weave.robots() * state.weave.spans) else { break };
         *work = left;
@@ -61,18 +61,14 @@ pub(super) fn relax(scene: &Scene, weave: Weave, effort: Effort, work: &mut usiz
             }
         }
         if sweep % STAGE == STAGE - 1 {
-            let bearable = if sweep > 2 * STAGE { 2 } else { HOPELESS };
-            let worse = bent > last + last / 10 && bent > bearable * state.weave.robots();
-            if best.is_none() && effort.wary && worse {
-                return None;
-            }
-            if bent + hasty > hoped {
-                state.give_time();
+            if std::env::var("DBG").is_ok() { eprintln!("  sweep {sweep} bent {bent} hasty {hasty} haste {:.3} span {:.3} spans {} work {work}", haste.min(99.0), state.weave.span_s, state.weave.spans); }
+            if bent + hasty > hoped.min(HOPELESS * state.weave.robots()) {
+                state.give_time(bent);
                 if state.weave.span_s > best.as_ref().map_or(longest_s, |(best_s, _)| *best_s) {
                     break;
                 }
             }
-            (last, hoped) = (bent, (bent + hasty) / 2);
+            hoped = (bent + hasty) / 2;
         }
         state.slow(if bent > state.weave.robots() { 1 } else { EASINGS });
     }
@@ -110,8 +106,9 @@ impl<'a> State<'a> {
         }
     }
 
-    fn give_time(&mut self) {
-        self.weave.span_s *= GROWTH;
+    fn give_time(&mut self, bent: usize) {
+        let crowding = bent as f64 / self.weave.robots().max(1) as f64;
+        self.weave.span_s *= GROWTH + GROWTH_A_CONTACT * crowding.min(MOST_CONTACTS);
         self.dirty.fill(true);
         self.stale.fill(true);
     }

@@ -17,6 +17,8 @@ pub(super) struct Weave {
     pub spans: usize,
     /// How long a span takes, seconds.
     pub span_s: f64,
+    /// How many times as slowly as limits ask for it is driven.
+    pub slower: f64,
     ends: Vec<(Vec2, Option<Vec2>)>,
     /// `[robot][spans + 3]`.
     points: Vec<Vec2>,
@@ -70,7 +72,7 @@ impl Weave {
         for robot in 0..ends.len() {
             points.extend((0..spans + 3).map(|j| place(robot, j.saturating_sub(1).min(spans))));
         }
-        let mut weave = Self { spans, span_s, ends, points };
+        let mut weave = Self { spans, span_s, slower: 1.0, ends, points };
         (0..weave.robots()).for_each(|robot| weave.tie_ends(robot));
         weave
     }
@@ -163,6 +165,11 @@ impl Weave {
     /// The greatest haste of all.
     pub fn greatest_haste(&self, limits: &Limits) -> f64 {
         (0..self.robots()).map(|robot| self.haste(robot, limits)).fold(0.0, f64::max)
+    }
+
+    /// How long a span must take at least, seconds.
+    pub fn least_span_s(&self, limits: &Limits) -> f64 {
+        self.span_s * self.greatest_haste(limits) * 1.002 * self.slower
     }
 
     /// The ways as timed paths: a rest of `turn`, then the spans, each taking `span` exactly.
