@@ -26,7 +26,9 @@ const GOOD: f64 = 1.15;
 const MOST_TO_IMPROVE: usize = 600;
 /// Guesses tried where none has led to a way yet, and where one has.
 const MOST_TRIES: usize = 8;
-const ENOUGH_TRIES: usize = 3;
+const ENOUGH_TRIES: usize = 4;
+/// How many times as long as the least a way may take.
+const MOST_STRETCH: f64 = 2.4;
 /// What the first guess aims at: room for robots that follow curves with poor sensors on slippery floors.
 const ROOMY: Wish = Wish { robots_m: 0.0675, walls_m: 0.0115, slack_m: 0.002 };
 /// What further guesses aim at, and the lattice, which is not as wide.
@@ -41,16 +43,15 @@ pub(super) fn best(scene: &Scene, easing: Easing, proven: &dyn Fn(Weave) -> Opti
     let least_s = Pace::new(longest, &scene.limits, easing, 1.0).drive_s;
     let mut work = MOST_WORK;
     let mut best: Option<Weave> = None;
-    let small = scene.robots() <= MOST_TO_IMPROVE;
+    let hurry = scene.robots() > MOST_TO_IMPROVE;
     let guesses = guesses(scene, &courses, easing);
-    let tries = guesses.first().filter(|_| small).map(|best| (best, ROOMY)).into_iter();
-    let tries = tries.chain(guesses.iter().map(|guess| (guess, WIDE))).take(MOST_TRIES);
-    for (tried, (guess, wish)) in tries.enumerate() {
-        let effort = Effort { sweeps: 300, stretch: (2.4 / guess.stretch()).max(1.5), wish };
-        let found = relax(scene, guess.weave(), effort, &mut work);
-        if std::env::var("DBG").is_ok() { eprintln!("{:?} {:?} {}", guess.manner, (guess.badness, guess.stretch()), found.as_ref().map_or(f64::NAN, |w| lasts(scene, w)/least_s)); }
+    for (tried, (guess, wish)) in order(&guesses, hurry).into_iter().enumerate() {
+        let stretch = if hurry || tried >= ENOUGH_TRIES { guess.stretch() } else { 1.0 };
+        let effort = Effort { sweeps: 300, stretch: (MOST_STRETCH / stretch).max(1.5), hurry, wish };
+        let found = relax(scene, guess.weave(stretch), effort, &mut work);
+        if std::env::var("DBG").is_ok() { eprintln!("{:?} {:?} {} {}", guess.manner, (guess.badness, stretch), found.as_ref().map_or(f64::NAN, |w| lasts(scene, w)/least_s), wish.robots_m); }
         best = swifter(scene, best, found.and_then(proven));
-        let enough = !small || tried + 1 >= ENOUGH_TRIES || work < WORK_TO_SPARE;
+        let enough = hurry || tried + 1 >= ENOUGH_TRIES || work < WORK_TO_SPARE;
         if best.as_ref().is_some_and(|weave| enough || lasts(scene, weave) < least_s * GOOD) {
             return best;
         }
@@ -59,12 +60,24 @@ pub(super) fn best(scene: &Scene, easing: Easing, proven: &dyn Fn(Weave) -> Opti
         if best.is_some() && pitch_m > PITCH_M {
             break;
         }
-        let effort = Effort { sweeps: 300, stretch: 2.5, wish: NARROW };
+        let effort = Effort { sweeps: 300, stretch: 2.5, hurry: true, wish: NARROW };
         let lattice = Lattice::new(scene, pitch_m)?;
         let found = ordered(scene, &lattice).and_then(|weave| relax(scene, weave, effort, &mut work));
         best = swifter(scene, best, found.and_then(proven));
     }
     best
+}
+
+/// What to try, one after the other. Small crowds may find room for comfort, and most of them do so along plain lines.
+fn order<'a, 'b>(guesses: &'b [Guess<'a>], hurry: bool) -> Vec<(&'b Guess<'a>, Wish)> {
+    let wide = guesses.iter().map(|guess| (guess, WIDE));
+    if hurry {
+        return wide.take(MOST_TRIES).collect();
+    }
+    let plain = guesses.iter().filter(|guess| guess.manner == Manner::default());
+    let mut roomy: Vec<_> = guesses.iter().take(1).chain(plain).map(|guess| (guess, ROOMY)).collect();
+    roomy.dedup_by_key(|(guess, _)| guess.manner);
+    roomy.into_iter().chain(wide).take(MOST_TRIES).collect()
 }
 
 /// First guesses, the most promising first.

@@ -10,11 +10,11 @@ use super::weave::Weave;
 const SPAN_S: f64 = 0.25;
 /// By how much guesses bow.
 const BOWS: [f64; 5] = [0.0, 0.12, 0.25, 0.5, -0.12];
-/// What being too fast weighs beside being too close, and what arriving early does.
+/// What being too fast weighs beside being too close, and what every other oddity does.
 const RUSH: f64 = 0.03;
-const EARLY: f64 = 0.02;
+const ODD: f64 = 0.015;
 /// Badness that needs no more time, how much more time what is worse needs, and the most.
-const EASY: f64 = 0.085;
+const EASY: f64 = 0.1;
 const STRETCH: f64 = 10.0;
 const MOST_STRETCH: f64 = 1.0;
 /// How much of the way to an even spread a crowd is taken.
@@ -120,9 +120,9 @@ impl<'a> Guess<'a> {
         guess
     }
 
-    /// The guess as a weave.
-    pub fn weave(&self) -> Weave {
-        let drive_s = self.pace.drive_s * self.stretch();
+    /// The guess as a weave, `stretch` times as slow as at full speed.
+    pub fn weave(&self, stretch: f64) -> Weave {
+        let drive_s = self.pace.drive_s * stretch;
         let spans = ((drive_s / SPAN_S).ceil() as usize).clamp(6, MOST_SPANS);
         let span_s = drive_s / spans as f64;
         let places: Vec<Vec<Vec2>> = (0..=spans).map(|step| self.places(step as f64 / spans as f64)).collect();
@@ -208,8 +208,9 @@ impl<'a> Guess<'a> {
             before = places;
         }
         let bow = self.manner.bow * self.manner.bow;
-        let early = if self.manner.early { EARLY } else { 0.0 };
-        crowd / (SAMPLES as f64 * robots) + rush.iter().sum::<f64>() / robots * RUSH + bow + early
+        let Manner { early, level, spread, .. } = self.manner;
+        let odd = [early, level, spread].into_iter().filter(|&is| is).count() as f64 * ODD;
+        crowd / (SAMPLES as f64 * robots) + rush.iter().sum::<f64>() / robots * RUSH + bow + odd
     }
 }
 

@@ -36,6 +36,8 @@ pub(super) struct Effort {
     pub sweeps: usize,
     /// How much longer than at first it may take.
     pub stretch: f64,
+    /// Whether to give more time at once where many are in each other's way.
+    pub hurry: bool,
     /// How far all shall stay apart.
     pub wish: Wish,
 }
@@ -62,8 +64,8 @@ pub(super) fn relax(scene: &Scene, weave: Weave, effort: Effort, work: &mut usiz
         }
         if sweep % STAGE == STAGE - 1 {
             if std::env::var("DBG").is_ok() { eprintln!("  sweep {sweep} bent {bent} hasty {hasty} haste {:.3} span {:.3} spans {} work {work}", haste.min(99.0), state.weave.span_s, state.weave.spans); }
-            if bent + hasty > hoped.min(HOPELESS * state.weave.robots()) {
-                state.give_time(bent);
+            if bent + hasty > if effort.hurry { hoped.min(HOPELESS * state.weave.robots()) } else { hoped } {
+                state.give_time(if effort.hurry { bent } else { 0 });
                 if state.weave.span_s > best.as_ref().map_or(longest_s, |(best_s, _)| *best_s) {
                     break;
                 }
