@@ -4,10 +4,11 @@ use lightbots_show::Easing;
 
 use super::around::courses;
 use super::contacts::Wish;
-use super::guess::{Guess, Manner, Pace, length};
-use lightbots_base::Vec2;
+use super::crowd::Crowd;
+use super::guess::{Guess, Manner};
 use super::lattice::Lattice;
 use super::ordered::ordered;
+use super::pace::Pace;
 use super::relax::{Effort, relax};
 use super::scene::Scene;
 use super::weave::Weave;
@@ -16,10 +17,12 @@ use super::weave::Weave;
 const PITCH_M: f64 = 0.072;
 /// The same, where the first did not do.
 const LOOSE_PITCH_M: f64 = 0.078;
-/// Robots times spans times sweeps, for all attempts: some seconds.
-const MOST_WORK: usize = 30_000_000;
+/// Robots times spans times sweeps, for all guesses: some seconds.
+const MOST_WORK: usize = 24_000_000;
 /// Where this much work is left, a better way is still looked for.
-const WORK_TO_SPARE: usize = 24_000_000;
+const WORK_TO_SPARE: usize = 18_000_000;
+/// The same for each attempt over the lattice.
+const LATTICE_WORK: usize = 12_000_000;
 /// So much longer than the least is good enough.
 const GOOD: f64 = 1.15;
 /// Larger crowds take the first way found.
@@ -39,17 +42,16 @@ const NARROW: Wish = Wish { robots_m: 0.0595, walls_m: 0.0065, slack_m: 0.0015 }
 pub(super) fn best(scene: &Scene, easing: Easing, proven: &dyn Fn(Weave) -> Option<Weave>) -> Option<Weave> {
     let lattice = Lattice::new(scene, PITCH_M)?;
     let courses = courses(scene, &lattice)?;
-    let longest = courses.iter().map(|course| length(course)).fold(0.0, f64::max);
-    let least_s = Pace::new(longest, &scene.limits, easing, 1.0).drive_s;
+    let crowd = Crowd::new(scene, &courses);
+    let least_s = Pace::new(crowd.longest_m, &scene.limits, easing, 1.0).drive_s;
     let mut work = MOST_WORK;
     let mut best: Option<Weave> = None;
     let hurry = scene.robots() > MOST_TO_IMPROVE;
-    let guesses = guesses(scene, &courses, easing);
+    let guesses = guesses(&crowd, easing);
     for (tried, (guess, wish)) in order(&guesses, hurry).into_iter().enumerate() {
         let stretch = if hurry || tried >= ENOUGH_TRIES { guess.stretch() } else { 1.0 };
-        let effort = Effort { sweeps: 300, stretch: (MOST_STRETCH / stretch).max(1.5), hurry, wish };
+        let effort = Effort { sweeps: 300, stretch: (MOST_STRETCH / stretch).max(1.8), hurry, wish };
         let found = relax(scene, guess.weave(stretch), effort, &mut work);
-        if std::env::var("DBG").is_ok() { eprintln!("{:?} {:?} {} {}", guess.manner, (guess.badness, stretch), found.as_ref().map_or(f64::NAN, |w| lasts(scene, w)/least_s), wish.robots_m); }
         best = swifter(scene, best, found.and_then(proven));
         let enough = hurry || tried + 1 >= ENOUGH_TRIES || work < WORK_TO_SPARE;
         if best.as_ref().is_some_and(|weave| enough || lasts(scene, weave) < least_s * GOOD) {
@@ -62,6 +64,7 @@ pub(super) fn best(scene: &Scene, easing: Easing, proven: &dyn Fn(Weave) -> Opti
         }
         let effort = Effort { sweeps: 300, stretch: 2.5, hurry: true, wish: NARROW };
         let lattice = Lattice::new(scene, pitch_m)?;
+        let mut work = LATTICE_WORK;
         let found = ordered(scene, &lattice).and_then(|weave| relax(scene, weave, effort, &mut work));
         best = swifter(scene, best, found.and_then(proven));
     }
@@ -81,9 +84,9 @@ fn order<'a, 'b>(guesses: &'b [Guess<'a>], hurry: bool) -> Vec<(&'b Guess<'a>, W
 }
 
 /// First guesses, the most promising first.
-fn guesses<'a>(scene: &'a Scene, courses: &'a [Vec<Vec2>], easing: Easing) -> Vec<Guess<'a>> {
+fn guesses<'a>(crowd: &'a Crowd<'a>, easing: Easing) -> Vec<Guess<'a>> {
     let mut guesses: Vec<Guess> =
-        Manner::all().map(|manner| Guess::new(scene, courses, easing, manner, ROOMY.robots_m)).collect();
+        Manner::all().map(|manner| Guess::new(crowd, easing, manner, ROOMY.robots_m)).collect();
     guesses.sort_by(|a, b| a.badness.total_cmp(&b.badness));
     guesses
 }

@@ -1,18 +1,23 @@
 //! Timed paths where straight lines conflict: close pixels, fixed identity in a crowd, obstacles, standing robots and
 //! spare ones in the way.
 //!
-//! Everybody's way is a smooth spline in time ([`weave`]). First all take their shortest way ([`guess`], [`around`])
-//! and whoever comes too close is bent aside ([`relax`]), with a little more time at each try. Crowds too thick for
-//! that first learn their order on a hexagonal lattice ([`lattice`], [`dock`], [`search`], [`steps`]), and the same
-//! relaxation makes that smooth and swift. Every loop is bounded, nothing is random, and the proof has the last word.
+//! Everybody's way is a smooth spline in time ([`weave`]). First all take their shortest way ([`around`]) in some manner
+//! ([`guess`]): straight or in bows, together or whoever is near first, kept from gathering in the middle or spread out
+//! on the way ([`crowd`]); what promises most is tried first. Whoever comes too close is bent aside ([`relax`]), with a
+//! little more time at each stage, and the last few that do not come past each other are sent elsewhere. Crowds too
+//! thick for that first learn their order on a hexagonal lattice ([`lattice`], [`dock`], [`search`], [`steps`]), and the
+//! same relaxation makes that smooth and swift. Every loop is bounded, nothing is random, and the proof has the last
+//! word; where it only finds a turn too sharp, all drive a little slower.
 
 mod around;
 mod attempts;
 mod contacts;
+mod crowd;
 mod dock;
 mod guess;
 mod lattice;
 mod ordered;
+mod pace;
 mod relax;
 mod scene;
 mod search;
@@ -63,7 +68,6 @@ fn proven(problem: &TransitionProblem, scene: &Scene, mut weave: Weave) -> Optio
             gap_m: problem.limits.contact_m() + GAP_M,
             obstacle_gap_m: GAP_M,
         });
-        if !proof.holds() && std::env::var("DBG").is_ok() { eprintln!("proof: {} conflicts {:?}, faults {:?}", proof.conflicts.len(), proof.conflicts.iter().map(|c| c.distance_m).collect::<Vec<_>>(), proof.faults); }
         if proof.holds() {
             return Some(weave);
         }

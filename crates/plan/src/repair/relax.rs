@@ -1,17 +1,26 @@
 //! Relaxation in space and time: whoever comes too close is bent aside a little, then speed, acceleration and turning
 //! are pulled back under their limits, again and again until neither is needed.
 
+use lightbots_base::Vec2;
+
 use super::contacts::{Contact, Other, Watch, Wish};
 use super::scene::Scene;
 use super::slow::Slow;
 use super::weave::Weave;
 
+/// Where fewer than one robot in so many are left in each other's way they are sent elsewhere.
+const A_FEW: usize = 60;
+/// How far, metres, in directions this much apart, radians.
+const KICK_M: f64 = 0.06;
+const KICK_TURN: f64 = 2.4;
+/// How much of that control points around the moment take part in.
+const KICK: [f64; 8] = [0.25, 0.6, 0.9, 1.0, 1.0, 0.9, 0.6, 0.25];
 /// Sweeps between two look-outs.
 const LOOK_OUT_EVERY: usize = 6;
 /// Sweeps after which there must be half as much wrong, or there is more time.
 const STAGE: usize = 12;
-/// So many contacts for each robot are hardly resolved without more time.
-const HOPELESS: usize = 5;
+/// So many contacts for each robot are hardly resolved without more time at once.
+const BEARABLE: usize = 5;
 /// How much more time, and how much more still for every contact of a robot, up to so many.
 const GROWTH: f64 = 1.04;
 const GROWTH_A_CONTACT: f64 = 0.014;
@@ -48,7 +57,8 @@ pub(super) fn relax(scene: &Scene, weave: Weave, effort: Effort, work: &mut usiz
     let longest_s = weave.span_s * effort.stretch;
     let mut state = State::new(scene, weave, effort.wish);
     let mut best: Option<(f64, Weave)> = None;
-    let mut hoped = usize::MAX;
+    let (mut hoped, mut kicks) = (usize::MAX, 0);
+    let few = state.weave.robots() / A_FEW + 1;
     for sweep in 0..effort.sweeps {
         let Some(left) = work.checked_sub(state.weave.robots() * state.weave.spans) else { break };
         *work = left;
@@ -63,11 +73,16 @@ pub(super) fn relax(scene: &Scene, weave: Weave, effort: Effort, work: &mut usiz
             }
         }
         if sweep % STAGE == STAGE - 1 {
-            if std::env::var("DBG").is_ok() { eprintln!("  sweep {sweep} bent {bent} hasty {hasty} haste {:.3} span {:.3} spans {} work {work}", haste.min(99.0), state.weave.span_s, state.weave.spans); }
-            if bent + hasty > if effort.hurry { hoped.min(HOPELESS * state.weave.robots()) } else { hoped } {
+            let bearable = if effort.hurry { BEARABLE * state.weave.robots() } else { usize::MAX };
+            if bent + hasty > hoped.min(bearable) {
                 state.give_time(if effort.hurry { bent } else { 0 });
-                if state.weave.span_s > best.as_ref().map_or(longest_s, |(best_s, _)| *best_s) {
+                let most_s = best.as_ref().map_or(longest_s, |(best_s, _)| *best_s);
+                if state.weave.span_s > most_s && (best.is_some() || bent > few) {
                     break;
+                }
+                if bent > 0 && bent <= few {
+                    kicks += 1;
+                    state.kick(kicks);
                 }
             }
             hoped = (bent + hasty) / 2;
@@ -113,6 +128,32 @@ impl<'a> State<'a> {
         self.weave.span_s *= GROWTH + GROWTH_A_CONTACT * crowding.min(MOST_CONTACTS);
         self.dirty.fill(true);
         self.stale.fill(true);
+    }
+
+    /// Sends one of each two that do not come past each other elsewhere, in turn and in another direction every time.
+    fn kick(&mut self, number: usize) {
+        let aside = Vec2::unit(number as f64 * KICK_TURN) * KICK_M;
+        let mut kicked = vec![false; self.weave.robots()];
+        for contact in std::mem::take(&mut self.contacts) {
+            let robot = match contact.b {
+                Other::Robot(b) if number.is_multiple_of(2) => b,
+                _ => contact.a,
+            };
+            let is_close = self.watch.closest(self.scene, &self.weave, &contact).apart < contact.least;
+            if !is_close || std::mem::replace(&mut kicked[robot], true) {
+                continue;
+            }
+            let last = self.weave.spans;
+            let way = self.weave.way_mut(robot);
+            for (offset, share) in KICK.iter().enumerate() {
+                let point = (contact.span + offset).saturating_sub(2);
+                if (2..=last).contains(&point) {
+                    way[point] += aside * *share;
+                }
+            }
+            self.weave.tie_ends(robot);
+            self.touch(robot);
+        }
     }
 
     /// Pulls every robot that changed towards its limits.

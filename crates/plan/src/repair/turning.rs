@@ -110,10 +110,7 @@ pub(super) struct Turning {
 impl Turning {
     /// For spans of `span_s` seconds.
     pub fn new(span_s: f64, limits: &Limits) -> Self {
-        Self {
-            turn: limits.turn_radps * span_s * BETWEEN_MOMENTS,
-            creep_m: CREEP_MPS * span_s,
-        }
+        Self { turn: limits.turn_radps * span_s * BETWEEN_MOMENTS, creep_m: CREEP_MPS * span_s }
     }
 
     /// Bends a way once where it turns too fast, looking only at spans of `look`; what is to be looked at again after
