@@ -2,6 +2,7 @@
 
 use lightbots_show::Easing;
 
+use super::Amiss;
 use super::around::courses;
 use super::contacts::Wish;
 use super::crowd::Crowd;
@@ -18,11 +19,11 @@ const PITCH_M: f64 = 0.072;
 /// The same, where the first did not do.
 const LOOSE_PITCH_M: f64 = 0.078;
 /// Robots times spans times sweeps, for all guesses: some seconds.
-const MOST_WORK: usize = 24_000_000;
+const MOST_WORK: usize = 20_000_000;
 /// Where this much work is left, a better way is still looked for.
-const WORK_TO_SPARE: usize = 18_000_000;
+const WORK_TO_SPARE: usize = 14_000_000;
 /// The same for each attempt over the lattice.
-const LATTICE_WORK: usize = 12_000_000;
+const LATTICE_WORK: usize = 18_000_000;
 /// So much longer than the least is good enough.
 const GOOD: f64 = 1.15;
 /// Larger crowds take the first way found.
@@ -32,14 +33,20 @@ const MOST_TRIES: usize = 8;
 const ENOUGH_TRIES: usize = 4;
 /// How many times as long as the least a way may take.
 const MOST_STRETCH: f64 = 2.4;
+/// How often a way is amended for single robots, and sweeps for each time.
+const AMENDMENTS: usize = 4;
+const AMENDING_SWEEPS: usize = 72;
 /// What the first guess aims at: room for robots that follow curves with poor sensors on slippery floors.
 const ROOMY: Wish = Wish { robots_m: 0.0675, walls_m: 0.0115, slack_m: 0.002 };
 /// What further guesses aim at, and the lattice, which is not as wide.
 const WIDE: Wish = Wish { robots_m: 0.0625, walls_m: 0.0075, slack_m: 0.002 };
 const NARROW: Wish = Wish { robots_m: 0.0595, walls_m: 0.0065, slack_m: 0.0015 };
 
+/// Who says whether a weave may be driven.
+type Judge<'a> = &'a dyn Fn(Weave) -> Result<Weave, Amiss>;
+
 /// The swiftest of what was found and is `proven`; `None` where nothing was.
-pub(super) fn best(scene: &Scene, easing: Easing, proven: &dyn Fn(Weave) -> Option<Weave>) -> Option<Weave> {
+pub(super) fn best(scene: &Scene, easing: Easing, proven: Judge) -> Option<Weave> {
     let lattice = Lattice::new(scene, PITCH_M)?;
     let courses = courses(scene, &lattice)?;
     let crowd = Crowd::new(scene, &courses);
@@ -52,7 +59,7 @@ pub(super) fn best(scene: &Scene, easing: Easing, proven: &dyn Fn(Weave) -> Opti
         let stretch = if hurry || tried >= ENOUGH_TRIES { guess.stretch() } else { 1.0 };
         let effort = Effort { sweeps: 300, stretch: (MOST_STRETCH / stretch).max(1.8), hurry, wish };
         let found = relax(scene, guess.weave(stretch), effort, &mut work);
-        best = swifter(scene, best, found.and_then(proven));
+        best = swifter(scene, best, found.and_then(|weave| amended(scene, weave, effort, &mut work, proven)));
         let enough = hurry || tried + 1 >= ENOUGH_TRIES || work < WORK_TO_SPARE;
         if best.as_ref().is_some_and(|weave| enough || lasts(scene, weave) < least_s * GOOD) {
             return best;
@@ -66,9 +73,28 @@ pub(super) fn best(scene: &Scene, easing: Easing, proven: &dyn Fn(Weave) -> Opti
         let lattice = Lattice::new(scene, pitch_m)?;
         let mut work = LATTICE_WORK;
         let found = ordered(scene, &lattice).and_then(|weave| relax(scene, weave, effort, &mut work));
-        best = swifter(scene, best, found.and_then(proven));
+        best = swifter(scene, best, found.and_then(|weave| amended(scene, weave, effort, &mut work, proven)));
     }
     best
+}
+
+/// The weave once the proof holds: single robots that cannot drive as they should get a smoother way, and whoever is in
+/// that gives way. `None` where that does not help.
+fn amended(scene: &Scene, weave: Weave, effort: Effort, work: &mut usize, proven: Judge) -> Option<Weave> {
+    let effort = Effort { sweeps: AMENDING_SWEEPS, stretch: 1.2, ..effort };
+    let mut weave = weave;
+    for _ in 0..AMENDMENTS {
+        let Amiss { weave: mut refused, spots } = match proven(weave) {
+            Ok(weave) => return Some(weave),
+            Err(amiss) => amiss,
+        };
+        if spots.is_empty() {
+            return None;
+        }
+        spots.into_iter().for_each(|(robot, span)| refused.soften(robot, span));
+        weave = relax(scene, refused, effort, work)?;
+    }
+    proven(weave).ok()
 }
 
 /// What to try, one after the other. Small crowds may find room for comfort, and most of them do so along plain lines.

@@ -91,17 +91,8 @@ impl Watch {
         order: &mut [usize],
         found: &mut Vec<Contact>,
     ) {
-        let at: Vec<Vec2> =
-            (0..weave.robots()).map(|robot| blend(weave.span(robot, span), &self.middle)).collect();
-        let reach: Vec<f64> = at
-            .iter()
-            .enumerate()
-            .map(|(robot, &middle)| {
-                let four = weave.span(robot, span);
-                let ends = [&self.bases[0], &self.bases[STRETCHES]].map(|end| blend(four, end) - middle);
-                ends[0].length_squared().max(ends[1].length_squared()).sqrt()
-            })
-            .collect();
+        let (at, reach): (Vec<Vec2>, Vec<f64>) =
+            (0..weave.robots()).map(|robot| self.extent(weave.span(robot, span))).unzip();
         let apart = wish.robots_m + SKIN_M;
         let near = apart + 2.0 * reach.iter().copied().fold(0.0, f64::max);
         order.sort_by(|&a, &b| at[a].x.total_cmp(&at[b].x));
@@ -124,7 +115,12 @@ impl Watch {
 
     fn walls(&self, scene: &Scene, weave: &Weave, wish: Wish, span: usize, found: &mut Vec<Contact>) {
         for robot in 0..weave.robots() {
+            let four = weave.span(robot, span);
+            let (middle, reach) = self.extent(four);
             for wall in 0..scene.walls.len() {
+                if scene.off_wall(wall, middle).0 - reach >= wish.walls_m + SKIN_M + CUT_M {
+                    continue;
+                }
                 let wish_m = wish.walls_m;
                 let mut contact =
                     Contact { span, a: robot, b: Other::Wall(wall), wish: wish_m, least: wish_m };
@@ -135,6 +131,13 @@ impl Watch {
                 }
             }
         }
+    }
+
+    /// The middle of a span and how far its ends are from there.
+    fn extent(&self, four: &[Vec2]) -> (Vec2, f64) {
+        let middle = blend(four, &self.middle);
+        let ends = [&self.bases[0], &self.bases[STRETCHES]].map(|end| blend(four, end) - middle);
+        (middle, ends[0].length_squared().max(ends[1].length_squared()).sqrt())
     }
 
     /// The closest moment of a contact within its span.

@@ -76,7 +76,7 @@ impl<'a> Guess<'a> {
         let drive_s = self.pace.drive_s * stretch;
         let spans = ((drive_s / SPAN_S).ceil() as usize).clamp(6, MOST_SPANS);
         let places: Vec<Vec<Vec2>> =
-            (0..=spans).map(|step| self.places(step as f64 / spans as f64)).collect();
+            (0..=spans).map(|step| self.free_places(step as f64 / spans as f64)).collect();
         Weave::new(self.crowd.scene, spans, drive_s / spans as f64, |robot, step| places[step][robot])
     }
 
@@ -100,12 +100,34 @@ impl<'a> Guess<'a> {
         places
     }
 
+    /// The same, where nobody is moved from their way onto what stands there.
+    fn free_places(&self, moment: f64) -> Vec<Vec2> {
+        let mut places = self.places(moment);
+        if !self.crowd.scene.walls.is_empty() {
+            let share = self.pace.share(moment * self.pace.drive_s);
+            for (robot, place) in places.iter_mut().enumerate() {
+                if !self.crowd.scene.is_free(*place, 0.0) {
+                    let (course, length) = (&self.crowd.courses[robot], self.crowd.lengths[robot]);
+                    *place = point_along(course, length * self.share_of(robot, share));
+                }
+            }
+        }
+        places
+    }
+
+    /// How much of its way a robot has gone when the longest way has been gone by a share.
+    fn share_of(&self, robot: usize, share: f64) -> f64 {
+        let length = self.crowd.lengths[robot];
+        if self.manner.early && length > 0.0 {
+            (share * self.crowd.longest_m / length).min(1.0)
+        } else {
+            share
+        }
+    }
+
     fn place(&self, robot: usize, share: f64) -> Vec2 {
         let (course, length) = (&self.crowd.courses[robot], self.crowd.lengths[robot]);
-        let share = match self.manner.early {
-            true if length > 0.0 => (share * self.crowd.longest_m / length).min(1.0),
-            _ => share,
-        };
+        let share = self.share_of(robot, share);
         let place = point_along(course, length * share);
         // A bow that begins and ends straight ahead: 16 s²(1 − s)² is 1 half way.
         let aside = 16.0 * (share * (1.0 - share)) * (share * (1.0 - share)) * self.manner.bow;

@@ -41,8 +41,8 @@ const TURN: Span = Span(350_000);
 /// Least gap between rims, and off obstacles, that a way must prove to keep where its ends leave it, metres.
 const GAP_M: f64 = 0.003;
 
-/// How many times as long as estimated a way may take until every robot can turn as it asks for.
-const SLOWER: [f64; 5] = [1.0, 1.02, 1.05, 1.1, 1.2];
+/// How many times as long as estimated a way is given until every robot can turn as it asks for.
+const SLOWER: [f64; 3] = [1.0, 1.02, 1.05];
 
 /// Collision-free timed paths for a settled assignment: `goal_of[start]` is the goal that robot drives to, `None` a
 /// spare robot that may step aside. `paths[start]` all last equally long, at least the problem's duration, and begin
@@ -53,9 +53,11 @@ pub fn repair(problem: &TransitionProblem, goal_of: &[Option<usize>]) -> Option<
     Some(timed(problem, &scene, &weave))
 }
 
-/// The weave in the least of some times in which the proof holds; `None` where it never does. Distances do not depend
-/// on time, but a turn that is a little too sharp for one robot is driven by all a little later.
-fn proven(problem: &TransitionProblem, scene: &Scene, mut weave: Weave) -> Option<Weave> {
+/// The weave in the least of some times in which the proof holds: distances do not depend on time, but a turn that is a
+/// little too sharp for one robot is driven by all a little later. Else what is still wrong; empty where more than
+/// single robots' driving is.
+fn proven(problem: &TransitionProblem, scene: &Scene, mut weave: Weave) -> Result<Weave, Amiss> {
+    let mut spots = Vec::new();
     for slower in SLOWER {
         weave.slower = slower;
         let paths = timed(problem, scene, &weave);
@@ -69,19 +71,33 @@ fn proven(problem: &TransitionProblem, scene: &Scene, mut weave: Weave) -> Optio
             obstacle_gap_m: GAP_M,
         });
         if proof.holds() {
-            return Some(weave);
+            return Ok(weave);
         }
         let in_place = |kind| matches!(kind, FaultKind::Floor | FaultKind::Obstacle | FaultKind::Malformed);
         if !proof.conflicts.is_empty() || proof.faults.iter().any(|fault| in_place(fault.kind)) {
-            return None;
+            return Err(Amiss { weave, spots: Vec::new() });
         }
+        let span = |at: Span| ((at - TURN).as_secs() / span_of(problem, scene, &weave).as_secs()) as usize;
+        spots = proof.faults.iter().map(|fault| (fault.robot, span(fault.at))).collect();
     }
-    None
+    weave.slower = 1.0;
+    Err(Amiss { weave, spots })
+}
+
+/// A weave that the proof refuses.
+struct Amiss {
+    weave: Weave,
+    /// Robots and the spans in which they cannot drive as they should.
+    spots: Vec<(usize, usize)>,
+}
+
+/// How long each span of a weave takes.
+fn span_of(problem: &TransitionProblem, scene: &Scene, weave: &Weave) -> Span {
+    let wished = problem.duration.map_or(0.0, |whole| (whole - TURN).as_secs() / weave.spans as f64);
+    Span((weave.least_span_s(&scene.limits).max(wished) * 1e6).ceil() as i64)
 }
 
 /// The weave at the least legal, or the wished for, duration.
 fn timed(problem: &TransitionProblem, scene: &Scene, weave: &Weave) -> Vec<Path> {
-    let least = weave.least_span_s(&scene.limits);
-    let wished = problem.duration.map_or(0.0, |whole| (whole - TURN).as_secs() / weave.spans as f64);
-    weave.paths(TURN, Span((least.max(wished) * 1e6).ceil() as i64))
+    weave.paths(TURN, span_of(problem, scene, weave))
 }

@@ -9,7 +9,7 @@ use super::slow::Slow;
 use super::weave::Weave;
 
 /// Where fewer than one robot in so many are left in each other's way they are sent elsewhere.
-const A_FEW: usize = 60;
+const A_FEW: usize = 30;
 /// How far, metres, in directions this much apart, radians.
 const KICK_M: f64 = 0.06;
 const KICK_TURN: f64 = 2.4;

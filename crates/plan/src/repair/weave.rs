@@ -10,6 +10,9 @@ use super::scene::Scene;
 use super::turning::{Look, Turning};
 use crate::Path;
 
+/// Passes in which a way is smoothed.
+const SOFTENING: usize = 4;
+
 /// What the splines of all robots are, sharing one clock.
 #[derive(Clone)]
 pub(super) struct Weave {
@@ -127,6 +130,19 @@ impl Weave {
         way[1] = start * 1.5 - way[2] * 0.5;
         way[last + 2] = way[last];
         way[last + 1] = end.map_or(way[last], |end| end * 1.5 - way[last] * 0.5);
+    }
+
+    /// Smooths a robot's way around a span, where it turns too sharply.
+    pub fn soften(&mut self, robot: usize, span: usize) {
+        let last = self.spans;
+        for _ in 0..SOFTENING {
+            let way = self.way_mut(robot);
+            let before = way.to_vec();
+            for point in span.saturating_sub(2).max(2)..=(span + 5).min(last) {
+                way[point] = (before[point - 1] + before[point + 1]) * 0.25 + before[point] * 0.5;
+            }
+            self.tie_ends(robot);
+        }
     }
 
     /// How a place on a span follows its four control points, where only free ones move.
