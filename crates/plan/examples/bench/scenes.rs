@@ -22,7 +22,7 @@ impl Scene {
 }
 
 /// All kinds.
-pub const ALL: [Scene; 12] = [
+pub const ALL: [Scene; 15] = [
     Scene::new("random S", |robots| random(robots, 30.0 / 9.0)),
     Scene::new("random D", |robots| random(robots, 500.0 / 9.0)),
     Scene::new("disc slides", disc_slides),
@@ -35,6 +35,9 @@ pub const ALL: [Scene; 12] = [
     Scene::up_to("close D", 1_000, |robots| random_apart(robots, 500.0 / 9.0, CLOSE_M)),
     Scene::up_to("fixed S", 1_000, |robots| fixed(random(robots, 30.0 / 9.0))),
     Scene::up_to("fixed D", 1_000, |robots| fixed(random(robots, 500.0 / 9.0))),
+    Scene::up_to("fixed mirrored", 1_000, |robots| fixed(mirrored(robots))),
+    Scene::up_to("fixed halves", 1_000, |robots| fixed(halves_change(robots))),
+    Scene::up_to("fixed grid", 1_000, |robots| fixed(grid_shuffled(robots))),
 ];
 
 /// Least distance between pixels, metres: a little over the 76.4 mm of Turpin et al.
@@ -152,6 +155,17 @@ fn grid_turns(robots: usize) -> TransitionProblem {
     let turned =
         places.iter().map(|at| Vec2::new(unit.x * at.x - unit.y * at.y, unit.y * at.x + unit.x * at.y));
     problem(places.clone(), turned.collect())
+}
+
+/// Everybody in a grid at 80 mm gets another's place on a floor half as wide again.
+fn grid_shuffled(robots: usize) -> TransitionProblem {
+    let starts = grid(robots, 0.08);
+    let (mut goals, mut random) = (starts.clone(), Random(5));
+    for last in (1..robots).rev() {
+        goals.swap(last, (random.unit() * (last + 1) as f64) as usize);
+    }
+    let problem = problem(starts, goals);
+    TransitionProblem { half_floor: problem.half_floor * 1.5, ..problem }
 }
 
 /// The left half goes where the right half is, and back, half a step off.

@@ -82,6 +82,65 @@ fn a_dense_crowd_with_fixed_identity_gets_through() {
     }
 }
 
+/// A square grid, 80 mm apart.
+fn grid(side: usize, middle: Vec2) -> Vec<Vec2> {
+    let at = |i: usize| (i as f64 - (side as f64 - 1.0) / 2.0) * 0.08;
+    (0..side * side).map(|i| middle + Vec2::new(at(i % side), at(i / side))).collect()
+}
+
+#[test]
+fn a_shuffled_grid_is_sorted() {
+    for (side, seed) in [(6, 1), (6, 2), (14, 3)] {
+        let (starts, mut seeded) = (grid(side, Vec2::ZERO), Seeded::new(seed));
+        let mut goals = starts.clone();
+        (1..goals.len()).rev().for_each(|last| goals.swap(last, seeded.below(last + 1)));
+        let ratio = ratio(&problem(starts, goals, side as f64 * 0.06));
+        assert!(ratio < 2.6, "{side} {seed}: {ratio}");
+    }
+}
+
+#[test]
+fn a_mirrored_crowd_passes_through_itself() {
+    for seed in 0..3 {
+        let starts = places(&mut Seeded::new(seed), 60, 0.55, 0.0774);
+        let goals = starts.iter().map(|at| Vec2::new(-at.x, at.y)).collect();
+        let ratio = ratio(&problem(starts, goals, 0.55));
+        assert!(ratio < 1.6, "{seed}: {ratio}");
+    }
+}
+
+#[test]
+fn two_blocks_change_places() {
+    let (left, right) = (grid(6, Vec2::new(-0.4, 0.0)), grid(6, Vec2::new(0.4, 0.0)));
+    let problem = problem([left.clone(), right.clone()].concat(), [right, left].concat(), 0.9);
+    assert!(ratio(&problem) < 1.5);
+}
+
+#[test]
+fn a_crowd_turns_half_around_its_middle() {
+    let starts = grid(7, Vec2::ZERO);
+    let goals = starts.iter().map(|&at| -at).collect();
+    assert!(ratio(&problem(starts, goals, 0.5)) < 1.6);
+}
+
+#[test]
+fn a_crowd_gets_through_between_robots_that_stand() {
+    for seed in 0..2 {
+        let mut seeded = Seeded::new(seed);
+        let mut standing = places(&mut seeded, 6, 0.5, 0.25);
+        let mut clear = |count: usize| {
+            let all = places(&mut seeded, count + 20, 0.6, 0.0774);
+            let free = |at: &Vec2| standing.iter().all(|other| other.distance(*at) > 0.08);
+            all.into_iter().filter(free).take(count).collect::<Vec<_>>()
+        };
+        let (starts, goals) = (clear(40), clear(40));
+        let mut problem = problem(starts, goals, 0.6);
+        problem.standing.append(&mut standing);
+        let ratio = ratio(&problem);
+        assert!(ratio < 1.6, "{seed}: {ratio}");
+    }
+}
+
 #[test]
 fn close_pixels_are_no_obstacle() {
     for seed in 0..4 {

@@ -204,8 +204,11 @@ impl Weave {
                 c2: (four[1] + four[2] * 2.0) / 3.0,
                 end: blend(four, &basis(1.0)),
             };
+            // Who arrives early rests exactly where it shall be.
+            if let Some(end) = end.filter(|end| i + 1 == self.spans || end.distance(piece.end) < 1e-9) {
+                piece.end = end;
+            }
             if i + 1 == self.spans {
-                piece.end = end.unwrap_or(piece.end);
                 piece.c2 = piece.end;
             }
             if i == 0 {
