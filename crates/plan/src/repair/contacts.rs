@@ -91,15 +91,22 @@ impl Watch {
         order: &mut [usize],
         found: &mut Vec<Contact>,
     ) {
-        let (at, reach): (Vec<Vec2>, Vec<f64>) =
+        let (at, ends): (Vec<Vec2>, Vec<[Vec2; 2]>) =
             (0..weave.robots()).map(|robot| self.extent(weave.span(robot, span))).unzip();
+        let reach: Vec<f64> = ends.iter().map(farther).collect();
         let apart = wish.robots_m + SKIN_M;
         let near = apart + 2.0 * reach.iter().copied().fold(0.0, f64::max);
         order.sort_by(|&a, &b| at[a].x.total_cmp(&at[b].x));
         for (i, &a) in order.iter().enumerate() {
             for &b in order[i + 1..].iter().take_while(|&&b| at[b].x - at[a].x < near) {
                 let touch = apart + reach[a] + reach[b];
-                if (at[a] - at[b]).length_squared() >= touch * touch {
+                let squared = (at[a] - at[b]).length_squared();
+                if squared >= touch * touch {
+                    continue;
+                }
+                // Who drive alike do not come nearer to each other.
+                let touch = apart + CUT_M + farther(&[ends[a][0] - ends[b][0], ends[a][1] - ends[b][1]]);
+                if squared >= touch * touch {
                     continue;
                 }
                 let slack_m = wish.slack_m;
@@ -116,7 +123,8 @@ impl Watch {
     fn walls(&self, scene: &Scene, weave: &Weave, wish: Wish, span: usize, found: &mut Vec<Contact>) {
         for robot in 0..weave.robots() {
             let four = weave.span(robot, span);
-            let (middle, reach) = self.extent(four);
+            let (middle, ends) = self.extent(four);
+            let reach = farther(&ends);
             for wall in 0..scene.walls.len() {
                 if scene.off_wall(wall, middle).0 - reach >= wish.walls_m + SKIN_M + CUT_M {
                     continue;
@@ -133,11 +141,10 @@ impl Watch {
         }
     }
 
-    /// The middle of a span and how far its ends are from there.
-    fn extent(&self, four: &[Vec2]) -> (Vec2, f64) {
+    /// The middle of a span, and where its ends are from there.
+    fn extent(&self, four: &[Vec2]) -> (Vec2, [Vec2; 2]) {
         let middle = blend(four, &self.middle);
-        let ends = [&self.bases[0], &self.bases[STRETCHES]].map(|end| blend(four, end) - middle);
-        (middle, ends[0].length_squared().max(ends[1].length_squared()).sqrt())
+        (middle, [&self.bases[0], &self.bases[STRETCHES]].map(|end| blend(four, end) - middle))
     }
 
     /// The closest moment of a contact within its span.
@@ -187,4 +194,9 @@ impl Watch {
         let away = if length > 1e-6 { nearest / length } else { aside() };
         Closest { apart: length, away, weights }
     }
+}
+
+/// The length of the longer of two.
+fn farther(both: &[Vec2; 2]) -> f64 {
+    both[0].length_squared().max(both[1].length_squared()).sqrt()
 }
