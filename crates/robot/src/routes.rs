@@ -142,8 +142,10 @@ impl Routes {
         {
             return Some(running.seek.get_or_insert_with(|| Seek::new(motion.position)).step(body, limits));
         }
-        if progress.rate == 0.0 && (running.back.is_some() || running.off_m > STRAYED_M) {
-            // All wait: a robot that was led astray goes back to where it should be.
+        let waits = progress.rate == 0.0 && self.timeline.stays_held(takes_effect);
+        if waits && (running.back.is_some() || running.off_m > STRAYED_M) {
+            // All wait: a robot that was led astray goes back to where it should be. Once it knows when all go on it
+            // turns to its way instead.
             let back = running.back.get_or_insert_with(|| Seek::closely(motion.position));
             if running.off_m > BACK_M {
                 return Some(back.step(body, limits));

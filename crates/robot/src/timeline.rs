@@ -67,6 +67,11 @@ impl Timeline {
         let _ = self.events.insert(place, Event { at, hold });
     }
 
+    /// Whether no resume is known of that comes after this moment.
+    pub(crate) fn stays_held(&self, show: Instant) -> bool {
+        self.events.iter().all(|event| event.hold || event.at <= show)
+    }
+
     /// Progress at a moment of the show clock; before the route's start, its path time is negative.
     pub(crate) fn at(&self, show: Instant) -> Progress {
         let mut point = self.base;
