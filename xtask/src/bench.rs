@@ -59,6 +59,15 @@ const PARTS: [Part; 5] = [
                 embedded broker, and Mosquitto in the same run.",
     },
     Part {
+        name: "light",
+        title: "Lights change together",
+        source: Source::Example("lightbots-server", "light"),
+        about: "From the first robot's light to the last one's, when all are told to change at one moment: robot cores \
+                with clocks of their own (up to 50 ppm off), each on its own connection to the embedded broker over \
+                loopback TCP, asked for their light each millisecond. `by steps`: the same seen only at their steps of \
+                16 ms, which are out of phase.",
+    },
+    Part {
         name: "fps",
         title: "Frames a second",
         source: Source::Browser,
@@ -100,8 +109,10 @@ fn example_rows(part: &str, package: &str, example: &str) -> Outcome<String> {
     let arguments =
         ["run", "--quiet", "--release", "--package", package, "--example", example, "--", "--json"];
     let mut command = shell::command(".", &shell::cargo_program(), &arguments);
-    if part == "round" {
+    if package == "lightbots-server" {
         build_server()?;
+    }
+    if part == "round" {
         command.env("LIGHTBOTS_MOSQUITTO", tools::MOSQUITTO.provide()?);
     }
     shell::output(&mut command)

@@ -60,6 +60,9 @@ fn lint() -> Outcome {
 /// One build of the whole workspace: the program the end-to-end tests start comes out of it too.
 fn rust() -> Outcome {
     let mosquitto = tools::MOSQUITTO.provide()?;
+    if let Err(message) = tools::RABBITMQ.provide() {
+        println!("NOT TESTED: a show on a cluster of brokers of which one dies: {message}");
+    }
     let arguments = ["test", "--workspace", "--no-fail-fast"];
     let mut command = shell::command(".", &shell::cargo_program(), &arguments);
     shell::run(command.env("LIGHTBOTS_MOSQUITTO", mosquitto))

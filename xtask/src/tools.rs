@@ -17,6 +17,8 @@ pub const CHROMIUM: Tool =
     Tool { programs: &["chromium", "chromium-browser", "google-chrome"], package: "chromium" };
 /// The broker that others use.
 pub const MOSQUITTO: Tool = Tool { programs: &["mosquitto"], package: "mosquitto" };
+/// The broker that makes a cluster.
+pub const RABBITMQ: Tool = Tool { programs: &["rabbitmq-server"], package: "rabbitmq-server" };
 
 impl Tool {
     /// Where it is, after installing it if need be.
@@ -54,9 +56,9 @@ impl Tool {
             }
         }
         // Debian starts a broker of its own on the usual port: ours must be free to take it.
-        if self.package == MOSQUITTO.package {
+        if [MOSQUITTO.package, RABBITMQ.package].contains(&self.package) {
             let _ = as_root("service")
-                .args(["mosquitto", "stop"])
+                .args([self.package, "stop"])
                 .stdout(Stdio::null())
                 .stderr(Stdio::null())
                 .status();

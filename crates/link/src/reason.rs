@@ -2,7 +2,7 @@
 
 use std::io::{self, ErrorKind};
 
-use rumqttc::{ConnectReturnCode, ConnectionError, StateError, TlsError};
+use rumqttc::{ConnectReturnCode, ConnectionError, Error as MqttError, StateError, TlsError};
 use tokio_rustls::rustls::{self, AlertDescription, CertificateError};
 
 use crate::Place;
@@ -12,10 +12,10 @@ pub(crate) fn reason(error: &ConnectionError, place: &Place, greeted: bool) -> S
     if let Some(error) = rustls_error(error) {
         return tls_reason(error, place);
     }
+    if let Some(io) = io_error(error) {
+        return io_reason(io, place, greeted);
+    }
     match error {
-        ConnectionError::Io(io)
-        | ConnectionError::MqttState(StateError::Io(io))
-        | ConnectionError::Tls(TlsError::Io(io)) => io_reason(io, place, greeted),
         ConnectionError::MqttState(StateError::ConnectionAborted) => hung_up(place, greeted),
         ConnectionError::MqttState(StateError::Deserialization(_)) | ConnectionError::NotConnAck(_)
             if !greeted =>
@@ -74,22 +74,28 @@ fn hung_up(place: &Place, greeted: bool) -> String {
 
 fn other_port(place: &Place) -> &'static str {
     if place.tls {
-        "is this its port for TLS? mqtt:// is the one without"
+        "is this its port for TLS (mqtt:// is the one without), and does it want a certificate of ours?"
     } else {
         "say mqtts:// where this is its port for TLS"
     }
 }
 
+/// What the system says, however deep it lies.
+fn io_error(error: &ConnectionError) -> Option<&io::Error> {
+    match error {
+        ConnectionError::Io(io)
+        | ConnectionError::MqttState(StateError::Io(io) | StateError::Deserialization(MqttError::Io(io)))
+        | ConnectionError::Tls(TlsError::Io(io)) => Some(io),
+        _ => None,
+    }
+}
+
 /// What rustls says, however deep it lies.
 fn rustls_error(error: &ConnectionError) -> Option<&rustls::Error> {
-    let io = match error {
-        ConnectionError::Tls(TlsError::TLS(error)) => return Some(error),
-        ConnectionError::Io(io)
-        | ConnectionError::MqttState(StateError::Io(io))
-        | ConnectionError::Tls(TlsError::Io(io)) => io,
-        _ => return None,
-    };
-    io.get_ref()?.downcast_ref()
+    if let ConnectionError::Tls(TlsError::TLS(error)) = error {
+        return Some(error);
+    }
+    io_error(error)?.get_ref()?.downcast_ref()
 }
 
 fn tls_reason(error: &rustls::Error, place: &Place) -> String {

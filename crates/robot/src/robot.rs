@@ -121,6 +121,13 @@ impl Robot {
         Outputs { wheels_radps, light: self.shown }
     }
 
+    /// The light at `now` of its own clock, between steps: a shell whose light can change at any time asks for it each
+    /// millisecond or so, that lights of a fleet change together and not each at its next step.
+    pub fn light(&mut self, now: Instant) -> Rgb {
+        self.shown = self.light.step(now, self.clock.show_time(now));
+        self.shown
+    }
+
     /// Writes the next message it has to send; `None`, and an empty message, when there is none.
     pub fn outgoing(&mut self, out: &mut Message) -> Option<Topic> {
         out.clear();

@@ -4,38 +4,24 @@
 //! (the program named in `LIGHTBOTS_MOSQUITTO`, or the one on the path) is measured in the same run.
 #![allow(clippy::print_stdout, clippy::print_stderr)]
 
+mod common;
+
 use std::collections::BTreeSet;
-use std::error::Error;
-use std::net::{TcpListener, TcpStream};
-use std::path::{Path, PathBuf};
-use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
 use lightbots_base::{Piece, RobotId, Span, Vec2};
-use lightbots_link::{BrokerUrl, Link, LinkConfig, LinkEvent, controller_client_id, robot_client_id};
+use lightbots_link::{
+    BrokerUrl, Link, LinkConfig, LinkEvent, controller_client_id, crowd_client_id, robot_client_id,
+};
 use lightbots_wire::{Details, Report, RobotState, Route, Topic, encode};
+
+use common::{Broker, Outcome, embedded, mosquitto};
 
 /// Robots, and how many of them share a connection: one each, and at the largest as the program does it.
 const SIZES: [(usize, usize); 4] = [(30, 1), (100, 1), (1_000, 1), (10_000, 50)];
 const ROUNDS: usize = 7;
 /// After so long, whoever has not answered counts as lost.
 const PATIENCE: Duration = Duration::from_secs(30);
-
-type Outcome<T = ()> = Result<T, Box<dyn Error>>;
-
-struct Broker {
-    child: Child,
-    url: BrokerUrl,
-    folder: PathBuf,
-}
-
-impl Drop for Broker {
-    fn drop(&mut self) {
-        let _ = self.child.kill();
-        let _ = self.child.wait();
-        let _ = std::fs::remove_dir_all(&self.folder);
-    }
-}
 
 /// What one broker made of one size.
 struct Measured {
@@ -131,7 +117,10 @@ async fn answers(controller: &mut Link, wanted: usize, patience: Duration) -> us
 fn robots_on(broker: &BrokerUrl, group: &[RobotId]) -> tokio::task::JoinHandle<()> {
     let mut link = Link::open(LinkConfig {
         broker: broker.clone(),
-        client_id: group.first().map(robot_client_id).unwrap_or_default(),
+        client_id: match group {
+            [id] => robot_client_id(id),
+            _ => crowd_client_id(),
+        },
         filters: group.iter().map(|id| Topic::Robot(*id).write().to_string()).collect(),
         queue: 4 * group.len() + 64,
     });
@@ -179,50 +168,4 @@ fn command(number: usize, id: &RobotId) -> (String, Vec<u8>) {
     let mut text = String::new();
     let _ = encode(&lightbots_wire::Command::Route(route), &mut text);
     (Topic::Robot(*id).write().to_string(), text.into_bytes())
-}
-
-fn embedded() -> Outcome<Broker> {
-    let here = std::env::current_exe()?;
-    let program = here.parent().and_then(Path::parent).ok_or("no folder")?.join("lightbots");
-    if !program.is_file() {
-        return Err(format!("{} is missing: build lightbots-server first", program.display()).into());
-    }
-    start("embedded", |port, folder| {
-        let mut command = Command::new(&program);
-        let address = format!("127.0.0.1:{port}");
-        command.args(["run", "--robots", "0", "--listen", "127.0.0.1:0", "--mqtt-listen", &address]);
-        command.arg("--data").arg(folder);
-        Ok(command)
-    })
-}
-
-fn mosquitto() -> Outcome<Broker> {
-    let program = std::env::var("LIGHTBOTS_MOSQUITTO").unwrap_or_else(|_| "mosquitto".into());
-    start("mosquitto", |port, folder| {
-        let settings = folder.join("mosquitto.conf");
-        let text = format!(
-            "listener {port} 127.0.0.1\nallow_anonymous true\nset_tcp_nodelay true\nmax_queued_messages 0\n\
-             max_inflight_messages 0\n"
-        );
-        std::fs::write(&settings, text)?;
-        let mut command = Command::new(&program);
-        command.arg("-c").arg(settings);
-        Ok(command)
-    })
-}
-
-/// Starts a broker on a free port and waits until it listens.
-fn start(name: &str, command: impl Fn(u16, &Path) -> Outcome<Command>) -> Outcome<Broker> {
-    let port = TcpListener::bind("127.0.0.1:0")?.local_addr()?.port();
-    let folder = std::env::temp_dir().join(format!("lightbots-round-{}-{name}", std::process::id()));
-    std::fs::create_dir_all(&folder)?;
-    let child = command(port, &folder)?.stdout(Stdio::null()).stderr(Stdio::null()).spawn()?;
-    let broker = Broker { child, url: BrokerUrl::new("127.0.0.1", port), folder };
-    for _ in 0..500 {
-        if TcpStream::connect(("127.0.0.1", port)).is_ok() {
-            return Ok(broker);
-        }
-        std::thread::sleep(Duration::from_millis(20));
-    }
-    Err(format!("{name} did not open its port").into())
 }

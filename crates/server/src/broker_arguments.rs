@@ -32,62 +32,41 @@ pub struct BrokerArguments {
     pub client_key: Option<PathBuf>,
 }
 
-/// A broker, as `run` takes it.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum BrokerChoice {
-    /// The one of this program.
-    Embedded,
-    /// Another one.
-    Other(BrokerUrl),
-}
-
-impl BrokerChoice {
-    /// Reads `embedded` or an address.
-    pub fn parse(text: &str) -> Result<Self, UrlError> {
-        if text.trim() == "embedded" {
-            return Ok(Self::Embedded);
-        }
-        BrokerUrl::parse(text).map(Self::Other)
-    }
-
-    /// The broker of others that `choices` name; `None`: the embedded one.
-    pub fn other(choices: &[Self], login: &BrokerArguments) -> Result<Option<BrokerUrl>, Failure> {
-        let urls: Vec<BrokerUrl> = choices
-            .iter()
-            .filter_map(|choice| match choice {
-                Self::Embedded => None,
-                Self::Other(url) => Some(url.clone()),
-            })
-            .collect();
-        if urls.is_empty() {
-            return Ok(None);
-        }
-        if urls.len() < choices.len() {
-            return Err(Failure::input("--broker: say embedded, or addresses, not both"));
-        }
-        login.broker(&urls).map(Some)
-    }
-}
+/// The embedded broker, as `--broker` of `run` names it.
+const EMBEDDED: &str = "embedded";
 
 impl BrokerArguments {
-    /// The broker at all of `urls`, with login and trust.
-    pub fn broker(&self, urls: &[BrokerUrl]) -> Result<BrokerUrl, Failure> {
+    /// The broker at all of `addresses`, with login and trust. They are read here and not by the command line's
+    /// parser, which would repeat a password in its complaint.
+    pub fn broker(&self, addresses: &[String]) -> Result<BrokerUrl, Failure> {
         let set = |name| std::env::var(name).ok().filter(|value: &String| !value.is_empty());
-        self.broker_given(urls, set(USER), set(PASSWORD))
+        self.broker_given(addresses, set(USER), set(PASSWORD))
     }
 
-    /// The same, with what the environment says.
+    /// The same for `run`; `None`: the embedded broker.
+    pub fn broker_or_embedded(&self, addresses: &[String]) -> Result<Option<BrokerUrl>, Failure> {
+        let embedded = addresses.iter().filter(|address| address.trim() == EMBEDDED).count();
+        if embedded == addresses.len() {
+            return Ok(None);
+        }
+        if embedded > 0 {
+            return Err(Failure::input("--broker: say embedded, or addresses, not both"));
+        }
+        self.broker(addresses).map(Some)
+    }
+
+    /// The same with what the environment says.
     fn broker_given(
         &self,
-        urls: &[BrokerUrl],
+        addresses: &[String],
         user: Option<String>,
         password: Option<String>,
     ) -> Result<BrokerUrl, Failure> {
         let wrong = |error: UrlError| Failure::input(format!("--broker: {error}"));
-        let mut all = urls.iter().cloned();
+        let mut all = addresses.iter().map(|address| BrokerUrl::parse(address).map_err(wrong));
         let first =
             all.next().ok_or_else(|| Failure::input("--broker is missing: say --broker mqtt://HOST"))?;
-        let mut broker = all.try_fold(first, BrokerUrl::and).map_err(wrong)?;
+        let mut broker = all.try_fold(first?, |broker, more| broker.and(more?).map_err(wrong))?;
         broker.user = broker.user.or_else(|| self.broker_user.clone()).or(user);
         if broker.password.is_none() {
             let kept = self.broker_password_file.as_deref().map(read_password).transpose()?;
@@ -124,8 +103,8 @@ fn read_password(path: &Path) -> Result<String, Failure> {
 mod tests {
     use super::*;
 
-    fn urls(texts: &[&str]) -> Vec<BrokerUrl> {
-        texts.iter().map(|text| BrokerUrl::parse(text).unwrap()).collect()
+    fn urls(texts: &[&str]) -> Vec<String> {
+        texts.iter().map(ToString::to_string).collect()
     }
 
     #[test]
@@ -146,7 +125,8 @@ mod tests {
         let broker =
             BrokerArguments::default().broker_given(&urls(&["a", "mqtts://b,c"]), None, None).unwrap();
         assert_eq!(broker.to_string(), "mqtt://a:1883,mqtts://b:8883,mqtts://c:8883");
-        let mixed = [BrokerChoice::Embedded, BrokerChoice::parse("a").unwrap()];
-        assert_eq!(BrokerChoice::other(&mixed, &BrokerArguments::default()).unwrap_err().code, 2);
+        let or_embedded = |texts| BrokerArguments::default().broker_or_embedded(&urls(texts));
+        assert_eq!((or_embedded(&[]).unwrap(), or_embedded(&["embedded"]).unwrap()), (None, None));
+        assert_eq!(or_embedded(&["embedded", "a"]).unwrap_err().code, 2);
     }
 }

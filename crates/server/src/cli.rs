@@ -5,10 +5,9 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use lightbots_base::RobotId;
-use lightbots_link::BrokerUrl;
 use lightbots_show::Identity;
 
-use crate::broker_arguments::{BrokerArguments, BrokerChoice};
+use crate::broker_arguments::BrokerArguments;
 use crate::logging::Log;
 use crate::numbers::{address, floor, robot, seed};
 
@@ -28,7 +27,7 @@ pub struct Cli {
 #[derive(Debug, Subcommand)]
 pub enum Command {
     /// Start the controller, its browser app, an embedded broker and simulated robots; prints the address
-    Run(RunArguments),
+    Run(Box<RunArguments>),
     /// Validate, plan and prove a show; nothing is simulated
     Check(CheckArguments),
     /// Write the timed paths of a show
@@ -43,6 +42,8 @@ pub enum Command {
     Convert(ConvertArguments),
     /// Take a robot on a broker through the protocol, rule by rule; it drives, within half a metre of where it stands
     RobotCheck(RobotCheckArguments),
+    /// Make certificates for a broker with TLS: an authority, a server, clients
+    Certs(CertsArguments),
 }
 
 /// How a show is read.
@@ -86,8 +87,8 @@ pub struct RunArguments {
     pub robots: Option<u32>,
     /// Use this broker instead of the embedded one: mqtt[s]://[user[:password]@]host[:port], more addresses of it after
     /// commas; `embedded` overrules a broker that was chosen on the screen before
-    #[arg(long, value_name = "URL", value_parser = BrokerChoice::parse)]
-    pub broker: Vec<BrokerChoice>,
+    #[arg(long, value_name = "URL")]
+    pub broker: Vec<String>,
     #[command(flatten)]
     pub login: BrokerArguments,
     /// Where the browser app is served
@@ -96,9 +97,25 @@ pub struct RunArguments {
     /// Where the embedded broker listens
     #[arg(long, value_name = "HOST:PORT", default_value = "127.0.0.1:1883", value_parser = address)]
     pub mqtt_listen: SocketAddr,
-    /// A user the embedded broker lets in when it listens beyond this machine; may be repeated
-    #[arg(long, value_name = "USER:PASSWORD")]
+    /// Where the embedded broker speaks TLS beside that; `lightbots certs` makes what it needs
+    #[arg(long, value_name = "HOST:PORT", requires_all = ["cert", "key"], value_parser = address)]
+    pub mqtt_tls_listen: Option<SocketAddr>,
+    /// Its certificate with the chain, PEM
+    #[arg(long, value_name = "FILE", requires = "mqtt_tls_listen")]
+    pub cert: Option<PathBuf>,
+    /// The certificate's key, PEM
+    #[arg(long, value_name = "FILE", requires = "mqtt_tls_listen")]
+    pub key: Option<PathBuf>,
+    /// Over TLS let in only who shows a certificate of this authority, PEM
+    #[arg(long, value_name = "FILE", requires = "mqtt_tls_listen")]
+    pub client_ca: Option<PathBuf>,
+    /// A user of the embedded broker; with any, nobody else gets in. ROLE is robot (the one with the user's name),
+    /// any-robot, controller, or left out: a robot where the client id is LightBot/<name>; may be repeated
+    #[arg(long, value_name = "USER:PASSWORD[:ROLE]")]
     pub mqtt_user: Vec<String>,
+    /// File of such users, one a line
+    #[arg(long, value_name = "FILE")]
+    pub mqtt_users: Option<PathBuf>,
     /// Folder of the library of shows [default: lightbots in the user's data folder]
     #[arg(long, value_name = "DIR")]
     pub data: Option<PathBuf>,
@@ -167,8 +184,8 @@ pub struct PlayArguments {
     /// The show: ours or the original's JSON
     pub show: PathBuf,
     /// The broker of the fleet: mqtt[s]://[user[:password]@]host[:port], more addresses of it after commas
-    #[arg(long, value_name = "URL", required = true, value_parser = BrokerUrl::parse)]
-    pub broker: Vec<BrokerUrl>,
+    #[arg(long, value_name = "URL", required = true)]
+    pub broker: Vec<String>,
     #[command(flatten)]
     pub login: BrokerArguments,
     /// Robots that must be there before it starts; with fewer than pixels, some pixels stay dark [default: as many as
@@ -192,8 +209,8 @@ pub struct RobotsArguments {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=20_000))]
     pub count: u32,
     /// Their broker: mqtt[s]://[user[:password]@]host[:port], more addresses of it after commas
-    #[arg(long, value_name = "URL", required = true, value_parser = BrokerUrl::parse)]
-    pub broker: Vec<BrokerUrl>,
+    #[arg(long, value_name = "URL", required = true)]
+    pub broker: Vec<String>,
     #[command(flatten)]
     pub login: BrokerArguments,
     /// How many robots share a connection; 1 where the broker gives each robot rights of its own
@@ -232,8 +249,8 @@ pub struct ConvertArguments {
 #[derive(Debug, Args)]
 pub struct RobotCheckArguments {
     /// The robot's broker: mqtt[s]://[user[:password]@]host[:port], more addresses of it after commas
-    #[arg(long, value_name = "URL", required = true, value_parser = BrokerUrl::parse)]
-    pub broker: Vec<BrokerUrl>,
+    #[arg(long, value_name = "URL", required = true)]
+    pub broker: Vec<String>,
     #[command(flatten)]
     pub login: BrokerArguments,
     /// Which robot, by its name; needed where several are on the broker
@@ -254,4 +271,21 @@ pub struct RobotCheckArguments {
     /// One JSON object on stdout
     #[arg(long)]
     pub json: bool,
+}
+
+/// `certs`
+#[derive(Debug, Args)]
+pub struct CertsArguments {
+    /// Folder for the files; an authority that is there already is used again
+    #[arg(long, value_name = "DIR")]
+    pub out: PathBuf,
+    /// Names and addresses of the broker's machine beside localhost, such as stage.local or 192.168.0.7
+    #[arg(long, value_name = "HOST", num_args = 1..)]
+    pub name: Vec<String>,
+    /// Clients to make certificates for, such as a robot's UUID
+    #[arg(long, value_name = "NAME", num_args = 1..)]
+    pub client: Vec<String>,
+    /// How long they are good for, days
+    #[arg(long, value_name = "N", default_value_t = 825, value_parser = clap::value_parser!(u32).range(1..=3650))]
+    pub days: u32,
 }

@@ -67,7 +67,7 @@ fn misuse(error: &clap::Error) -> i32 {
 async fn run(cli: Cli, stop: Stop) -> i32 {
     logging::start(cli.log);
     let outcome = match cli.command {
-        Command::Run(arguments) => commands::run::run(arguments, stop).await,
+        Command::Run(arguments) => commands::run::run(*arguments, stop).await,
         Command::Check(arguments) => stop.at_once(|| commands::check::run(&arguments)),
         Command::Plan(arguments) => stop.at_once(|| commands::plan::run(&arguments)),
         Command::Rehearse(arguments) => stop.at_once(|| commands::rehearse::run(&arguments)),
@@ -75,6 +75,7 @@ async fn run(cli: Cli, stop: Stop) -> i32 {
         Command::Robots(arguments) => commands::robots::run(arguments, stop).await,
         Command::RobotCheck(arguments) => commands::robot_check::run(arguments, stop).await,
         Command::Convert(arguments) => stop.at_once(|| commands::convert::run(&arguments)),
+        Command::Certs(arguments) => stop.at_once(|| commands::certs::run(&arguments)),
     };
     match outcome {
         Ok(true) => 0,

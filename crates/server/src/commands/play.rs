@@ -22,6 +22,7 @@ const NOTHING: Duration = Duration::from_secs(900);
 
 pub async fn run(arguments: PlayArguments, stop: Stop) -> Outcome {
     stop.take_over();
+    let broker = arguments.login.broker(&arguments.broker)?;
     let opened = show_file::open(&arguments.show, &arguments.reading)?;
     if opened.issues.iter().any(Issue::is_error) {
         let mut report = RunReport::new(&opened.show);
@@ -29,7 +30,6 @@ pub async fn run(arguments: PlayArguments, stop: Stop) -> Outcome {
         print(report, arguments.json)?;
         return Ok(false);
     }
-    let broker = arguments.login.broker(&arguments.broker)?;
     open_files::raise_limit();
     let (handle, task) = Handle::start(stop.clone());
     let (news, links) = (handle.news(), handle.news());
@@ -142,8 +142,10 @@ fn is_ready(robot: &RobotView) -> bool {
 
 /// One line for a wait that ended with too few.
 fn nobody(arguments: &PlayArguments, snapshot: &Snapshot, ready: usize, wanted: usize) -> Failure {
-    let addresses: Vec<String> = arguments.broker.iter().map(ToString::to_string).collect();
-    let (broker, patience) = (addresses.join(","), arguments.patience);
+    // It was read before, and is shown without its login.
+    let broker =
+        arguments.login.broker(&arguments.broker).map(|broker| broker.to_string()).unwrap_or_default();
+    let patience = arguments.patience;
     if !snapshot.connected {
         return Failure::problem(format!(
             "no broker answers at {broker} within {patience} s: is the address right?"

@@ -5,21 +5,22 @@ use std::path::Path;
 use std::sync::Arc;
 use std::time::Duration;
 
+use lightbots_api::Level;
 use lightbots_link::BrokerUrl;
 use lightbots_show::{Show, validate};
+use tokio::sync::mpsc;
 use tokio::task::JoinHandle;
 
 use super::{count, robots};
-use crate::broker_arguments::BrokerChoice;
 use crate::broker_settings::Settings;
 use crate::cli::RunArguments;
 use crate::failure::{Failure, Outcome};
 use crate::library::{Library, name_of_file};
-use crate::live::broker::{Broker, User};
+use crate::live::broker::{Broker, BrokerOptions, TlsOptions, Users};
 use crate::live::cast::Cast;
 use crate::live::conductor::Handle;
 use crate::stop::Stop;
-use crate::web::{self, BrokerDesk, Shared};
+use crate::web::{self, BrokerDesk, Log, Shared};
 use crate::{open_files, say, show_file};
 
 /// The example that is opened when no show is named.
@@ -58,8 +59,8 @@ pub async fn run(arguments: RunArguments, stop: Stop) -> Outcome {
 }
 
 async fn serve(arguments: &RunArguments, stop: &Stop, started: &mut Started) -> Outcome {
-    let users = arguments.mqtt_user.iter().map(|text| User::parse(text)).collect::<Result<Vec<_>, _>>()?;
-    let other = BrokerChoice::other(&arguments.broker, &arguments.login)?;
+    let users = Users::read(&arguments.mqtt_user, arguments.mqtt_users.as_deref())?;
+    let other = arguments.login.broker_or_embedded(&arguments.broker)?;
     let data = arguments.data.clone().unwrap_or_else(Library::default_folder);
     let library = Library::new(data.clone());
     library.prepare().map_err(Failure::problem)?;
@@ -73,8 +74,9 @@ async fn serve(arguments: &RunArguments, stop: &Stop, started: &mut Started) -> 
     let count = arguments.robots.map(|robots| robots as usize);
     let robots = Cast::robots(count, &show);
     let embedded = if other.is_none() {
-        let broker = Broker::start(arguments.mqtt_listen, users.clone(), robots)?;
-        Some(started.broker.insert(broker).url(&users))
+        let (listen, tls) = (arguments.mqtt_listen, tls_options(arguments));
+        let broker = Broker::start(BrokerOptions { listen, tls, users, robots })?;
+        Some(started.broker.insert(broker).url())
     } else {
         None
     };
@@ -93,9 +95,30 @@ async fn serve(arguments: &RunArguments, stop: &Stop, started: &mut Started) -> 
         simulated: shared.simulated.clone(),
     };
     started.tasks.push(tokio::spawn(cast.run(handle, shared.desk.watch(), stop.clone())));
-    greet(address, &broker, robots);
+    if let Some(lines) = started.broker.as_mut().and_then(Broker::notices) {
+        started.tasks.push(tokio::spawn(relay(lines, shared.log.clone(), stop.clone())));
+    }
+    greet(address, &broker, robots, started.broker.as_ref().and_then(Broker::tls_address));
     web::serve(listener, shared).await;
     Ok(false)
+}
+
+fn tls_options(arguments: &RunArguments) -> Option<TlsOptions> {
+    let (cert, key) = (arguments.cert.clone()?, arguments.key.clone()?);
+    let client_ca = arguments.client_ca.clone();
+    Some(TlsOptions { listen: arguments.mqtt_tls_listen?, cert, key, client_ca })
+}
+
+/// Puts what the broker refuses on the screens.
+async fn relay(mut lines: mpsc::Receiver<String>, log: Log, stop: Stop) {
+    loop {
+        let line = tokio::select! {
+            () = stop.wait() => return,
+            line = lines.recv() => line,
+        };
+        let Some(line) = line else { return };
+        log.say(Level::Warn, line);
+    }
 }
 
 /// What the screen's form begins with, and the broker the controller uses: the one on the command line, the one that was
@@ -155,10 +178,13 @@ async fn open(shared: &Arc<Shared>, name: Option<String>) {
     }
 }
 
-fn greet(address: SocketAddr, broker: &BrokerUrl, robots: usize) {
+fn greet(address: SocketAddr, broker: &BrokerUrl, robots: usize, tls: Option<SocketAddr>) {
     let host = if address.ip().is_unspecified() { "127.0.0.1".into() } else { address.ip().to_string() };
     let host = if host.contains(':') { format!("[{host}]") } else { host };
     let fleet = if robots == 0 { "no simulated robots".into() } else { count(robots, "simulated robot") };
     say::line(&format!("LightBots is at http://{host}:{} (Ctrl-C stops it)", address.port()));
     say::line(&format!("Broker {broker}, {fleet}"));
+    if let Some(tls) = tls {
+        say::line(&format!("Broker with TLS mqtts://{tls}"));
+    }
 }

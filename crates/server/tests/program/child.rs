@@ -19,9 +19,15 @@ pub struct Child {
 impl Child {
     /// `lightbots` with these arguments.
     pub fn lightbots(arguments: &[&str]) -> Self {
+        Self::lightbots_with(arguments, &[])
+    }
+
+    /// The same with variables in its environment.
+    pub fn lightbots_with(arguments: &[&str], variables: &[(&str, &str)]) -> Self {
         let mut command = Command::new(env!("CARGO_BIN_EXE_lightbots"));
         // Nobody's library but the test's own.
         command.args(arguments).env("XDG_DATA_HOME", crate::shows::folder().join("data"));
+        command.envs(variables.iter().copied());
         Self::start(command, &arguments.join(" "))
     }
 
@@ -31,6 +37,18 @@ impl Child {
         let out = keep(process.stdout.take().unwrap());
         let err = keep(process.stderr.take().unwrap());
         Self { name: name.to_owned(), process, out, err }
+    }
+
+    /// Waits until stderr holds this.
+    pub fn complains(&mut self, part: &str) {
+        let name = self.name.clone();
+        wait_for(&format!("'{part}' from {name}"), || {
+            if self.err().contains(part) {
+                return Some(());
+            }
+            assert!(self.exit_code().is_none(), "{name} ended without '{part}'");
+            None
+        });
     }
 
     /// Everything it said on stdout.
@@ -77,6 +95,15 @@ impl Child {
     pub fn terminate(&self) {
         let sent = Command::new("kill").args(["-TERM", &self.process.id().to_string()]).status().unwrap();
         assert!(sent.success());
+    }
+
+    /// Kills it and what it started, where it was started in a group of its own.
+    #[cfg(unix)]
+    pub fn kill_group(&mut self) {
+        let group = format!("-{}", self.process.id());
+        // It may have ended.
+        let _ = Command::new("kill").args(["-KILL", "--", &group]).stderr(Stdio::null()).status();
+        self.kill();
     }
 
     pub fn kill(&mut self) {

@@ -6,14 +6,23 @@
 // What children said is shown when a test fails.
 #![allow(clippy::print_stderr)]
 
+mod broker_choice;
+mod certificates;
 mod child;
+#[cfg(unix)]
+mod cluster;
 mod commands;
+mod example_brokers;
 mod fleet;
 mod http;
 mod mosquitto;
 mod original_controller;
 mod original_robot;
 mod plain_mqtt;
+#[cfg(unix)]
+mod rabbitmq;
+mod refusals;
+mod rights;
 mod robot_check;
 mod run;
 mod screen;

@@ -15,18 +15,34 @@ pub struct Mosquitto {
 impl Mosquitto {
     /// Starts one on a free port of loopback; `None` where the tests were told to do without.
     pub fn start() -> Option<Self> {
-        if std::env::var_os("LIGHTBOTS_NO_MOSQUITTO").is_some() {
-            eprintln!("NOT TESTED: LIGHTBOTS_NO_MOSQUITTO is set");
+        if is_unwanted() {
             return None;
         }
         // Another program may take a port between its choice and its use.
         for _ in 0..10 {
-            let port = TcpListener::bind("127.0.0.1:0").unwrap().local_addr().unwrap().port();
+            let port = free_port();
             if let Some(child) = serve(port) {
                 return Some(Self { child, port });
             }
         }
         panic!("mosquitto does not start on any of ten ports");
+    }
+
+    /// Starts one with settings made for as many free ports; the first of them must be listened on.
+    pub fn with_settings<const PORTS: usize>(
+        settings: impl Fn([u16; PORTS]) -> String,
+    ) -> Option<(Self, [u16; PORTS])> {
+        if is_unwanted() {
+            return None;
+        }
+        for _ in 0..10 {
+            let ports = std::array::from_fn(|_| free_port());
+            let file = crate::shows::file("mosquitto.conf", settings(ports));
+            if let Some(child) = answering(&["-c", &file], ports[0]) {
+                return Some((Self { child, port: ports[0] }, ports));
+            }
+        }
+        panic!("mosquitto does not start with these settings");
     }
 
     pub fn url(&self) -> String {
@@ -40,8 +56,25 @@ impl Mosquitto {
     }
 }
 
+/// A port nobody listens on right now.
+pub fn free_port() -> u16 {
+    TcpListener::bind("127.0.0.1:0").unwrap().local_addr().unwrap().port()
+}
+
+fn is_unwanted() -> bool {
+    let unwanted = std::env::var_os("LIGHTBOTS_NO_MOSQUITTO").is_some();
+    if unwanted {
+        eprintln!("NOT TESTED: LIGHTBOTS_NO_MOSQUITTO is set");
+    }
+    unwanted
+}
+
 /// A process that answers at that port, or `None` where it ended.
 fn serve(port: u16) -> Option<Child> {
+    answering(&["-p", &port.to_string()], port)
+}
+
+fn answering(arguments: &[&str], port: u16) -> Option<Child> {
     let installed = Path::new("/usr/sbin/mosquitto");
     let program = if installed.exists() { installed } else { Path::new("mosquitto") };
     let found = Command::new(program).arg("-h").output().is_ok();
@@ -50,7 +83,7 @@ fn serve(port: u16) -> Option<Child> {
         "Mosquitto is missing: install it (apt-get install mosquitto), or set LIGHTBOTS_NO_MOSQUITTO"
     );
     let mut command = Command::new(program);
-    command.args(["-p", &port.to_string()]);
+    command.args(arguments);
     let mut child = Child::start(command, "mosquitto");
     wait_for("mosquitto", || {
         if child.exit_code().is_some() {

@@ -18,11 +18,16 @@ pub struct Mqtt {
 impl Mqtt {
     /// Connects to `address` (`host:port`) as the original's programs do, and subscribes.
     pub fn open(address: &str, client_id: &str, topics: &[&str]) -> Self {
+        Self::open_as(address, client_id, ("default", "default"), topics)
+    }
+
+    /// The same as another user. Subscriptions that are refused count as answered.
+    pub fn open_as(address: &str, client_id: &str, login: (&str, &str), topics: &[&str]) -> Self {
         let (host, port) = address.rsplit_once(':').unwrap();
         let mut options = MqttOptions::new(client_id, (host, port.parse::<u16>().unwrap()));
         options
             .set_keep_alive(60)
-            .set_credentials("default", "default")
+            .set_credentials(login.0, login.1.to_owned())
             .set_max_packet_size(8 << 20, 8 << 20);
         let (client, mut connection) = Client::builder(options).capacity(1000).build();
         let heard = Arc::new(Mutex::new(Messages::new()));

@@ -8,10 +8,13 @@ use crate::screen::Screen;
 use crate::{alone, http, shows};
 
 /// `run` on free ports: the process, the screen's address, the broker's.
-fn start(arguments: &[&str]) -> (Child, String, String) {
+pub fn start(arguments: &[&str]) -> (Child, String, String) {
     let data = shows::folder().join("library");
     let data = data.to_str().unwrap();
-    let mut all = vec!["run", "--listen", "127.0.0.1:0", "--mqtt-listen", "127.0.0.1:0", "--data", data];
+    let mut all = vec!["run", "--listen", "127.0.0.1:0", "--mqtt-listen", "127.0.0.1:0"];
+    if !arguments.contains(&"--data") {
+        all.extend(["--data", data]);
+    }
     all.extend(arguments);
     let mut child = Child::lightbots(&all);
     let (screen, broker) = (child.said("http://"), child.said("Broker mqtt://"));

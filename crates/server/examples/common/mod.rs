@@ -1,0 +1,78 @@
+//! Brokers to measure with: processes on free ports of loopback.
+// Not every example uses all of it.
+#![allow(dead_code)]
+
+use std::error::Error;
+use std::net::{TcpListener, TcpStream};
+use std::path::{Path, PathBuf};
+use std::process::{Child, Command, Stdio};
+use std::time::Duration;
+
+use lightbots_link::BrokerUrl;
+
+/// Any error ends the measurement.
+pub type Outcome<T = ()> = Result<T, Box<dyn Error>>;
+
+/// A broker that ends with the value.
+pub struct Broker {
+    child: Child,
+    /// Where it is.
+    pub url: BrokerUrl,
+    folder: PathBuf,
+}
+
+impl Drop for Broker {
+    fn drop(&mut self) {
+        let _ = self.child.kill();
+        let _ = self.child.wait();
+        let _ = std::fs::remove_dir_all(&self.folder);
+    }
+}
+
+/// The broker of `lightbots run --robots 0`.
+pub fn embedded() -> Outcome<Broker> {
+    let here = std::env::current_exe()?;
+    let program = here.parent().and_then(Path::parent).ok_or("no folder")?.join("lightbots");
+    if !program.is_file() {
+        return Err(format!("{} is missing: build lightbots-server first", program.display()).into());
+    }
+    start("embedded", |port, folder| {
+        let mut command = Command::new(&program);
+        let address = format!("127.0.0.1:{port}");
+        command.args(["run", "--robots", "0", "--listen", "127.0.0.1:0", "--mqtt-listen", &address]);
+        command.arg("--data").arg(folder);
+        Ok(command)
+    })
+}
+
+/// Mosquitto without its limits.
+pub fn mosquitto() -> Outcome<Broker> {
+    let program = std::env::var("LIGHTBOTS_MOSQUITTO").unwrap_or_else(|_| "mosquitto".into());
+    start("mosquitto", |port, folder| {
+        let settings = folder.join("mosquitto.conf");
+        let text = format!(
+            "listener {port} 127.0.0.1\nallow_anonymous true\nset_tcp_nodelay true\nmax_queued_messages 0\n\
+             max_inflight_messages 0\n"
+        );
+        std::fs::write(&settings, text)?;
+        let mut command = Command::new(&program);
+        command.arg("-c").arg(settings);
+        Ok(command)
+    })
+}
+
+/// Starts a broker on a free port and waits until it listens.
+fn start(name: &str, command: impl Fn(u16, &Path) -> Outcome<Command>) -> Outcome<Broker> {
+    let port = TcpListener::bind("127.0.0.1:0")?.local_addr()?.port();
+    let folder = std::env::temp_dir().join(format!("lightbots-round-{}-{name}", std::process::id()));
+    std::fs::create_dir_all(&folder)?;
+    let child = command(port, &folder)?.stdout(Stdio::null()).stderr(Stdio::null()).spawn()?;
+    let broker = Broker { child, url: BrokerUrl::new("127.0.0.1", port), folder };
+    for _ in 0..500 {
+        if TcpStream::connect(("127.0.0.1", port)).is_ok() {
+            return Ok(broker);
+        }
+        std::thread::sleep(Duration::from_millis(20));
+    }
+    Err(format!("{name} did not open its port").into())
+}

@@ -1,0 +1,265 @@
+//! Measures how far apart the lights of a fleet change: robot cores with clocks of their own, each on its own connection
+//! to the embedded broker, told to change at one moment.
+//!
+//! `cargo xtask bench light` runs it with `--json`. A core steps each 16 ms at its own phase, and is asked for its light
+//! each millisecond, as a board does.
+#![allow(clippy::print_stdout, clippy::print_stderr)]
+
+mod common;
+
+use std::time::{Duration, Instant as Moment};
+
+use lightbots_base::{Instant, Rgb, RobotId, Span, Vec2};
+use lightbots_control::{Config as ControlConfig, Controller};
+use lightbots_link::{BrokerUrl, Link, LinkConfig, LinkEvent, Sender, controller_client_id, robot_client_id};
+use lightbots_robot::{Config, Fix, Inputs, Message, Robot};
+use lightbots_wire::{Command, Fade, Topic, encode};
+use tokio::sync::mpsc;
+
+use common::{Outcome, embedded};
+
+const SIZES: [usize; 3] = [30, 100, 1_000];
+const CHANGES: usize = 20;
+/// A light is told so long before its moment.
+const AHEAD: Span = Span::from_millis(500);
+/// How often cores are asked for their light.
+const ASK: Duration = Duration::from_millis(1);
+/// Clocks are watched for so long before the first change.
+const SETTLE: Duration = Duration::from_secs(20);
+const STEP_US: u64 = 16_000;
+const PATIENCE: Duration = Duration::from_secs(60);
+
+/// Something for a robot, with the moment it came in.
+type Heard = (usize, Moment, LinkEvent);
+
+struct Body {
+    robot: Robot,
+    id: RobotId,
+    sender: Sender,
+    /// Its own clock: offset, and how many parts per million it is fast.
+    offset_us: u64,
+    fast_ppm: f64,
+    next_step_us: u64,
+    light: Rgb,
+    /// When the light last changed, and when a step last saw another one, microseconds since the start.
+    changed_us: u64,
+    seen_light: Rgb,
+    seen_us: u64,
+}
+
+struct Fleet {
+    began: Moment,
+    bodies: Vec<Body>,
+    heard: mpsc::Receiver<Heard>,
+    message: Message,
+}
+
+/// Spreads of all changes, milliseconds, sorted.
+struct Spreads {
+    asked_ms: Vec<f64>,
+    stepped_ms: Vec<f64>,
+    missed: usize,
+}
+
+#[tokio::main]
+async fn main() -> Outcome {
+    // Every connection is a file.
+    let _ = rlimit::increase_nofile_limit(65_536);
+    for robots in SIZES {
+        let broker = embedded()?;
+        let spreads = measure(&broker.url, robots).await?;
+        let median = |list: &[f64]| list.get(list.len() / 2).copied().unwrap_or_default();
+        println!(
+            "{{\"robots\":{robots},\"changes\":{CHANGES},\"spread_ms\":{:.2},\"worst_ms\":{:.2},\"by_steps_ms\":{:.2},\"missed\":{}}}",
+            median(&spreads.asked_ms),
+            spreads.asked_ms.last().copied().unwrap_or_default(),
+            median(&spreads.stepped_ms),
+            spreads.missed,
+        );
+    }
+    Ok(())
+}
+
+async fn measure(broker: &BrokerUrl, robots: usize) -> Outcome<Spreads> {
+    let began = Moment::now();
+    let mut fleet = Fleet::start(broker, robots, began);
+    let (orders, inbox) = mpsc::channel(16);
+    let controller = tokio::spawn(control(broker.clone(), began, inbox));
+    fleet.settle().await?;
+    let mut spreads = Spreads { asked_ms: Vec::new(), stepped_ms: Vec::new(), missed: 0 };
+    for change in 0..CHANGES {
+        let to = if change % 2 == 0 { Rgb::new(255, 255, 255) } else { Rgb::new(0, 0, 200) };
+        let at = Instant(fleet.now_us()) + AHEAD;
+        for body in &fleet.bodies {
+            orders.send((body.id, Fade { to, at, over: Span::ZERO })).await?;
+        }
+        let until = Moment::now() + Duration::from_millis(900);
+        while Moment::now() < until {
+            fleet.turn().await;
+        }
+        let shows: Vec<&Body> = fleet.bodies.iter().filter(|body| body.light == to).collect();
+        spreads.missed += robots - shows.len();
+        spreads.asked_ms.push(spread_ms(shows.iter().map(|body| body.changed_us)));
+        spreads.stepped_ms.push(spread_ms(shows.iter().map(|body| body.seen_us)));
+    }
+    controller.abort();
+    spreads.asked_ms.sort_by(f64::total_cmp);
+    spreads.stepped_ms.sort_by(f64::total_cmp);
+    Ok(spreads)
+}
+
+fn spread_ms(moments: impl Iterator<Item = u64> + Clone) -> f64 {
+    let (first, last) = (moments.clone().min().unwrap_or(0), moments.max().unwrap_or(0));
+    (last - first) as f64 / 1e3
+}
+
+/// The controller core on a connection of its own: it answers what robots ask the show clock. Fades go out with it.
+async fn control(broker: BrokerUrl, began: Moment, mut inbox: mpsc::Receiver<(RobotId, Fade)>) {
+    let filters = ["UUID", "Status", "Time"].map(|name| format!("T/LightBot/{name}"));
+    let mut link = Link::open(LinkConfig {
+        broker,
+        client_id: controller_client_id(),
+        filters: filters.into(),
+        queue: 65_536,
+    });
+    let sender = link.sender();
+    let now = || Instant(began.elapsed().as_micros() as u64);
+    let mut controller = Controller::new(ControlConfig::default());
+    loop {
+        let alarm = controller.wake_at().unwrap_or(now() + Span::from_millis(1000));
+        tokio::select! {
+            Some(event) = link.next() => match event {
+                LinkEvent::Connected => controller.connected(now()),
+                LinkEvent::Disconnected { .. } => controller.disconnected(now()),
+                LinkEvent::Message { topic, payload } => controller.message(now(), &topic, &payload),
+            },
+            Some((id, fade)) = inbox.recv() => {
+                let mut text = String::new();
+                if encode(&Command::Fade(fade), &mut text).is_ok() {
+                    sender.send(&Topic::Robot(id).write(), text.into_bytes());
+                }
+            }
+            () = tokio::time::sleep_until((began + Duration::from_micros(alarm.0)).into()) => controller.wake(now()),
+        }
+        while let Some(send) = controller.next_send() {
+            sender.send(&send.topic.write(), send.payload);
+        }
+        while controller.next_event().is_some() {}
+    }
+}
+
+impl Fleet {
+    fn start(broker: &BrokerUrl, robots: usize, began: Moment) -> Self {
+        let (news, heard) = mpsc::channel(65_536);
+        let bodies = (0..robots).map(|index| Body::start(broker, index, news.clone())).collect();
+        Self { began, bodies, heard, message: Message::new() }
+    }
+
+    fn now_us(&self) -> u64 {
+        self.began.elapsed().as_micros() as u64
+    }
+
+    /// Until every clock has been synchronised for a while.
+    async fn settle(&mut self) -> Outcome {
+        let late = Moment::now() + PATIENCE;
+        loop {
+            self.turn().await;
+            let now_us = self.now_us();
+            if self.bodies.iter().all(|body| body.robot.show_time(body.own(now_us)).is_some()) {
+                break;
+            }
+            if Moment::now() > late {
+                return Err("not all robots came to know the show clock".into());
+            }
+        }
+        let until = Moment::now() + SETTLE;
+        while Moment::now() < until {
+            self.turn().await;
+        }
+        Ok(())
+    }
+
+    /// Takes in what came, then lets every robot step where that is due, look at its light, and speak.
+    async fn turn(&mut self) {
+        while let Ok((index, at, event)) = self.heard.try_recv() {
+            let at_us = at.duration_since(self.began).as_micros() as u64;
+            self.bodies[index].hear(at_us, event);
+        }
+        for body in &mut self.bodies {
+            // Each is looked at on its own: a fleet is many boards and not one.
+            body.turn(self.began.elapsed().as_micros() as u64, &mut self.message);
+        }
+        tokio::time::sleep(ASK).await;
+    }
+}
+
+impl Body {
+    fn start(broker: &BrokerUrl, index: usize, news: mpsc::Sender<Heard>) -> Self {
+        let id = RobotId::from_random(0x5eed_0000 + index as u128);
+        let filters = vec![Topic::Broadcast.write().to_string(), Topic::Robot(id).write().to_string()];
+        let mut link = Link::open(LinkConfig {
+            broker: broker.clone(),
+            client_id: robot_client_id(&id),
+            filters,
+            queue: 256,
+        });
+        let sender = link.sender();
+        tokio::spawn(async move {
+            while let Some(event) = link.next().await {
+                if news.send((index, Moment::now(), event)).await.is_err() {
+                    return;
+                }
+            }
+        });
+        let scattered = (index as u64).wrapping_mul(2_654_435_761);
+        Self {
+            robot: Robot::new(Config { seed: scattered as u32, ..Config::new(id) }),
+            id,
+            sender,
+            offset_us: 1_000_000 + scattered % 3_600_000_000,
+            fast_ppm: (scattered % 101) as f64 - 50.0,
+            next_step_us: scattered % STEP_US,
+            light: Rgb::BLACK,
+            changed_us: 0,
+            seen_light: Rgb::BLACK,
+            seen_us: 0,
+        }
+    }
+
+    /// Its own clock.
+    fn own(&self, now_us: u64) -> Instant {
+        Instant(self.offset_us + now_us + (now_us as f64 * self.fast_ppm * 1e-6 + 1e3) as u64)
+    }
+
+    fn hear(&mut self, at_us: u64, event: LinkEvent) {
+        let at = self.own(at_us);
+        match event {
+            LinkEvent::Connected => self.robot.link(at, true),
+            LinkEvent::Disconnected { .. } => self.robot.link(at, false),
+            LinkEvent::Message { topic, payload } => {
+                if let Some(topic) = Topic::parse(&topic) {
+                    self.robot.receive(at, topic, &payload);
+                }
+            }
+        }
+    }
+
+    fn turn(&mut self, now_us: u64, message: &mut Message) {
+        let now = self.own(now_us);
+        if now_us >= self.next_step_us {
+            self.next_step_us += STEP_US * (1 + (now_us - self.next_step_us) / STEP_US);
+            let fix = Some(Fix { at: Vec2::ZERO, heading: Some(0.0) });
+            let light = self.robot.step(now, &Inputs { fix, ..Inputs::default() }).light;
+            if light != self.seen_light {
+                (self.seen_light, self.seen_us) = (light, now_us);
+            }
+        }
+        let light = self.robot.light(now);
+        if light != self.light {
+            (self.light, self.changed_us) = (light, now_us);
+        }
+        while let Some(topic) = self.robot.outgoing(message) {
+            self.sender.send(&topic.write(), message.as_bytes().to_vec());
+        }
+    }
+}

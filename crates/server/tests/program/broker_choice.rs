@@ -1,0 +1,103 @@
+//! The broker chosen on the screen.
+
+use serde_json::{Value, json};
+
+use crate::alone;
+use crate::certificates::Certificates;
+use crate::mosquitto::{Mosquitto, free_port};
+use crate::run::start;
+use crate::screen::Screen;
+use crate::{http, shows};
+
+fn state(screen: &mut Screen, phase: &str) -> Value {
+    screen.until(phase, |screen| {
+        Some(screen.get("state")["broker"].clone()).filter(|broker| broker["phase"] == phase)
+    })
+}
+
+/// Waits until the controller has connected so often: the first time to the embedded broker.
+fn connected_times(screen: &mut Screen, times: usize) {
+    screen.until(&format!("{times} connections"), |screen| {
+        let lines = screen.log.iter().filter(|line| line.starts_with("Connected to the broker"));
+        (lines.count() == times).then_some(())
+    });
+}
+
+#[test]
+fn a_broker_is_chosen_lost_left_and_remembered() {
+    let _turn = alone();
+    let Some(mut broker) = Mosquitto::start() else { return };
+    let data = shows::file("data", "") + ".d";
+    let arguments = ["--robots", "0", "--data", &data];
+    let (mut server, address, _) = start(&arguments);
+    let mut screen = Screen::open(&address);
+    state(&mut screen, "connected");
+    let settings = || http::request(&address, "GET", "/api/broker", &[], "").json();
+    assert_eq!(settings()["address"], "embedded");
+    assert!(settings()["embedded"].as_str().unwrap().starts_with("mqtt://127.0.0.1"));
+
+    // Two addresses: nobody answers at the first.
+    let two = format!("127.0.0.1:{},{}", free_port(), broker.url());
+    screen.must(json!({"do": "connect", "address": two, "user": "me", "password": "secret"}));
+    let url = broker.url();
+    screen.until("the second address", |screen| (screen.get("state")["broker"]["node"] == url).then_some(()));
+    assert_eq!(settings()["has_password"], true);
+    broker.restart();
+    screen.wait_for_log("closed the connection");
+    state(&mut screen, "connected");
+    drop(broker);
+    let lost = state(&mut screen, "retrying");
+    assert!(!lost["reason"].as_str().unwrap().is_empty() && lost["node"].is_null(), "{lost}");
+
+    // At the next start it is the broker again, until somebody leaves it.
+    server.terminate();
+    server.end();
+    let (mut server, address, _) = start(&arguments);
+    let mut screen = Screen::open(&address);
+    let again = state(&mut screen, "retrying");
+    assert!(again["address"].as_str().unwrap().starts_with("mqtt://127.0.0.1"), "{again}");
+    screen.must(json!({"do": "disconnect"}));
+    assert_eq!(state(&mut screen, "off")["address"], "");
+    screen.must(json!({"do": "connect", "address": "embedded"}));
+    state(&mut screen, "connected");
+    server.terminate();
+    server.end();
+}
+
+#[test]
+fn what_a_form_may_hold_and_what_is_refused() {
+    let _turn = alone();
+    let made = Certificates::make();
+    let (cert, key) = (made.file("server.pem"), made.file("server.key"));
+    let tls = ["--mqtt-tls-listen", "127.0.0.1:0", "--cert", &cert, "--key", &key];
+    let data = shows::file("data", "") + ".d";
+    let (mut server, address, _) =
+        start(&[&["--robots", "0", "--data", &data, "--mqtt-user", "me:secret"][..], &tls].concat());
+    let tls = server.said("mqtts://");
+    let mut screen = Screen::open(&address);
+    let connect = |ca: Option<&str>, password: Option<&str>| json!({"do": "connect", "address": format!("mqtts://{tls}"), "user": "me", "password": password, "ca": ca});
+    let pasted = std::fs::read_to_string(made.file("ca.pem")).unwrap();
+    screen.must(connect(Some(&pasted), Some("secret")));
+    connected_times(&mut screen, 2);
+    // The form never got the password; it is the kept one.
+    screen.must(connect(Some(&made.file("ca.pem")), None));
+    connected_times(&mut screen, 3);
+    screen.must(connect(Some(&pasted), Some("wrong")));
+    let refused = state(&mut screen, "retrying");
+    assert!(refused["reason"].as_str().unwrap().contains("user and password"), "{refused}");
+    for (wish, part) in [
+        (json!({"do": "connect", "address": "http://x"}), "no broker address"),
+        (json!({"do": "connect", "address": "mqtts://x", "ca": "no-such.pem"}), "no-such.pem"),
+        (json!({"do": "connect", "address": "mqtts://x", "client_cert": "x.pem"}), "come together"),
+    ] {
+        let answer = screen.operate(wish);
+        assert_eq!(answer["ok"], false);
+        assert!(answer["error"].as_str().unwrap().contains(part), "{answer}");
+    }
+    let settings = http::request(&address, "GET", "/api/broker", &[], "");
+    assert!(
+        !settings.body.contains("wrong") && settings.body.contains("BEGIN CERTIFICATE"),
+        "{}",
+        settings.body
+    );
+}

@@ -1,0 +1,52 @@
+//! A clustered broker: a node dies in the middle of a show, and the show goes on.
+
+use serde_json::Value;
+
+use crate::child::Child;
+use crate::rabbitmq::Cluster;
+use crate::{alone, shows, wait_for};
+
+#[test]
+fn a_show_goes_on_when_a_node_of_the_broker_dies() {
+    let _turn = alone();
+    let Some(mut cluster) = Cluster::start() else { return };
+    let urls = cluster.urls();
+    // A connection each, begun at the nodes in turn: robots at every node.
+    let mut robots = Child::lightbots(&[
+        "robots",
+        "--count",
+        "30",
+        "--together",
+        "1",
+        "--log",
+        "info",
+        "--broker",
+        &urls.join(","),
+    ]);
+    robots.said("30 robots connected");
+    for url in &urls {
+        wait_for(&format!("robots at {url}"), || (arrivals(&robots, url) > 0).then_some(()));
+    }
+    // The controller is at the node that dies, stated by itself.
+    let show = shows::row_file(30, &[0.1, 0.1, 0.1, 0.1]);
+    let brokers = ["--broker", &urls[1], "--broker", &urls[2], "--broker", &urls[0]];
+    let all = ["play", &show, "--json", "--log", "info", "--patience", "90"];
+    let mut play = Child::lightbots(&[&all[..], &brokers].concat());
+    wait_for("the drive to the second picture", || play.err().contains("To frame 2").then_some(()));
+    cluster.kill(1);
+    let code = play.end();
+    let report: Value = serde_json::from_str(&play.out()).unwrap_or_default();
+    assert_eq!((code, report["ok"].as_bool()), (0, Some(true)), "{report}");
+    assert_eq!(
+        (report["frames_played"].as_u64(), report["dropouts"].as_u64()),
+        (Some(4), Some(0)),
+        "{report}"
+    );
+    assert_eq!(arrivals(&play, &urls[2]), 1, "it did not move to the next node");
+}
+
+/// How often it came to a node.
+fn arrivals(child: &Child, url: &str) -> usize {
+    let line = format!("connected to {url}");
+    child.err().lines().filter(|said| said.ends_with(&line)).count()
+}

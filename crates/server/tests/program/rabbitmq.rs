@@ -1,0 +1,126 @@
+//! Three nodes of RabbitMQ on this machine, one broker together.
+
+use std::os::unix::process::CommandExt;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use crate::child::Child;
+use crate::mosquitto::free_port;
+use crate::{shows, wait_for};
+
+/// Debian's script of that name on the path changes the user first; this one does not.
+const DEBIAN: &str = "/usr/lib/rabbitmq/bin/rabbitmq-server";
+
+struct Node {
+    child: Child,
+    mqtt: u16,
+}
+
+/// A cluster. Its processes end with the value.
+pub struct Cluster {
+    nodes: Vec<Node>,
+    /// The nodes find each other through it.
+    _names: Child,
+}
+
+impl Cluster {
+    /// Starts one; `None` where there is no RabbitMQ.
+    pub fn start() -> Option<Self> {
+        let program = if Path::new(DEBIAN).exists() { DEBIAN } else { "rabbitmq-server" };
+        if !has(program) || !has("epmd") {
+            eprintln!(
+                "NOT TESTED: a cluster of brokers: RabbitMQ is missing (apt-get install rabbitmq-server)"
+            );
+            return None;
+        }
+        let names_port = free_port();
+        let mut command = Command::new("epmd");
+        command.args(["-address", "127.0.0.1", "-port", &names_port.to_string()]);
+        let names = Child::start(command, "epmd");
+        let folder = PathBuf::from(shows::file("cluster", "")).with_extension("d");
+        let nodes: Vec<Node> = (1..=3).map(|number| node(program, &folder, number, names_port)).collect();
+        let mut cluster = Self { nodes, _names: names };
+        cluster.wait();
+        Some(cluster)
+    }
+
+    /// The address of each node.
+    pub fn urls(&self) -> Vec<String> {
+        self.nodes.iter().map(|node| format!("mqtt://127.0.0.1:{}", node.mqtt)).collect()
+    }
+
+    /// One of the nodes dies.
+    pub fn kill(&mut self, node: usize) {
+        self.nodes[node].child.kill_group();
+    }
+
+    /// Waits until every node says that it has started: then it knows the others.
+    fn wait(&mut self) {
+        for node in &mut self.nodes {
+            let child = &mut node.child;
+            wait_for("RabbitMQ", || {
+                assert!(child.exit_code().is_none(), "a node ended: {}", child.out());
+                child.out().contains("Starting broker... completed").then_some(())
+            });
+        }
+    }
+}
+
+impl Drop for Cluster {
+    fn drop(&mut self) {
+        for node in &mut self.nodes {
+            node.child.kill_group();
+        }
+    }
+}
+
+fn has(program: &str) -> bool {
+    let path = std::env::var_os("PATH").unwrap_or_default();
+    Path::new(program).is_file() || std::env::split_paths(&path).any(|folder| folder.join(program).is_file())
+}
+
+fn node(program: &str, folder: &Path, number: usize, names_port: u16) -> Node {
+    let home = folder.join(number.to_string());
+    std::fs::create_dir_all(&home).unwrap();
+    let write = |name: &str, text: &str| {
+        let path = home.join(name);
+        std::fs::write(&path, text).unwrap();
+        path
+    };
+    let cookie = write(".erlang.cookie", "LIGHTBOTSTEST");
+    std::fs::set_permissions(&cookie, std::os::unix::fs::PermissionsExt::from_mode(0o400)).unwrap();
+    let mqtt = free_port();
+    let settings = settings(mqtt);
+    let mut command = Command::new(program);
+    command
+        .env_clear()
+        .env("PATH", std::env::var_os("PATH").unwrap_or_default())
+        .env("HOME", &home)
+        .env("RABBITMQ_NODENAME", format!("lightbots{number}@localhost"))
+        .env("RABBITMQ_MNESIA_BASE", home.join("mnesia"))
+        .env("RABBITMQ_LOG_BASE", home.join("log"))
+        .env("RABBITMQ_ENABLED_PLUGINS_FILE", write("plugins", "[rabbitmq_mqtt]."))
+        .env("RABBITMQ_CONFIG_FILE", write("rabbitmq.conf", &settings))
+        .env("RABBITMQ_DIST_PORT", free_port().to_string())
+        .env("RABBITMQ_CONF_ENV_FILE", "/dev/null")
+        .env("ERL_EPMD_ADDRESS", "127.0.0.1")
+        .env("ERL_EPMD_PORT", names_port.to_string())
+        .env("RABBITMQ_SERVER_ADDITIONAL_ERL_ARGS", "-kernel inet_dist_use_interface {127,0,0,1}")
+        // The script starts the node as a child: both are ended together.
+        .process_group(0);
+    Node { child: Child::start(command, &format!("RabbitMQ node {number}")), mqtt }
+}
+
+fn settings(mqtt: u16) -> String {
+    let mut text = format!(
+        "listeners.tcp.1 = 127.0.0.1:{}\nmqtt.listeners.tcp.1 = 127.0.0.1:{mqtt}\nmqtt.allow_anonymous = true\n\
+         cluster_formation.peer_discovery_backend = classic_config\n\
+         cluster_formation.randomized_startup_delay_range.min = 0\n\
+         cluster_formation.randomized_startup_delay_range.max = 2\n",
+        free_port()
+    );
+    for number in 1..=3 {
+        text += &format!("cluster_formation.classic_config.nodes.{number} = lightbots{number}@localhost\n");
+    }
+    text
+}
