@@ -77,6 +77,7 @@ fn what_a_form_may_hold_and_what_is_refused() {
     let mut screen = Screen::open(&address);
     let connect = |ca: Option<&str>, password: Option<&str>| json!({"do": "connect", "address": format!("mqtts://{tls}"), "user": "me", "password": password, "ca": ca});
     let pasted = std::fs::read_to_string(made.file("ca.pem")).unwrap();
+    connected_times(&mut screen, 1);
     screen.must(connect(Some(&pasted), Some("secret")));
     connected_times(&mut screen, 2);
     // The form never got the password; it is the kept one.

@@ -77,9 +77,5 @@ fn mosquitto_runs_with_its_settings_and_keeps_robots_apart() {
     controller.publish("T/LightBot/r8", "|STOP|");
     controller.publish("T/LightBot/r7", "|BLINK 3|");
     assert_eq!(wait_for("its own message", || nosy.next()).0, "T/LightBot/r7");
-    // Nor do our own robots connect where they may not hear what they need.
-    let crowd = format!("mqtt://robot:r@127.0.0.1:{plain}");
-    let mut crowd = Child::lightbots(&["robots", "--count", "2", "--together", "2", "--broker", &crowd]);
-    crowd.complains("refuses the subscription to T/LightBot/");
     drop(broker);
 }
