@@ -19,6 +19,8 @@
 //! robot.step(Instant(0), &Inputs { fix: Some(fix), ..Inputs::default() });
 //! let outputs = robot.step(Instant(16_000), &Inputs { fix: Some(fix), ..Inputs::default() });
 //! assert!(outputs.wheels_radps[0] > 0.0 && outputs.light.b == 255);
+//! robot.receive(Instant(17_000), Topic::Robot(id), b"|COLOR 65280|");
+//! assert_eq!(robot.light(Instant(18_000)).g, 255); // between steps, too
 //! let mut message = Message::new();
 //! assert_eq!(robot.outgoing(&mut message), Some(Topic::Uuid));
 //! assert!(message.starts_with("r1 0.0 0.0 "));
