@@ -24,7 +24,7 @@ enum Source {
     Browser,
 }
 
-const PARTS: [Part; 5] = [
+const PARTS: [Part; 6] = [
     Part {
         name: "plan",
         title: "Planning",
