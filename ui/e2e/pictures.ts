@@ -20,6 +20,9 @@ const SIZES = [
   { name: '2560', viewport: { width: 2560, height: 1440 } },
 ];
 
+/** Nothing fades in or out while a picture is taken. */
+const still = { reducedMotion: 'reduce' } as const;
+
 let browser: Browser;
 let server: Server;
 let empty: Server;
@@ -51,7 +54,7 @@ async function walk(
 }
 
 test('the pictures of the README', async () => {
-  const page = await openPage(browser, server, 'live');
+  const page = await openPage(browser, server, 'live', still);
   await walk(page, server, VIEWS, (view) =>
     README[view] ? `${docs}${README[view]}.png` : undefined,
   );
@@ -63,8 +66,13 @@ for (const { name, ...options } of everything ? SIZES : [])
       const folder = `${everything}/${name}-${scheme}`;
       mkdirSync(folder, { recursive: true });
       const fileOf = (view: string) => `${folder}/${view}.png`;
-      const fresh = await openPage(browser, empty, 'live', { ...options, scheme, tour: true });
+      const fresh = await openPage(browser, empty, 'live', {
+        ...options,
+        ...still,
+        scheme,
+        tour: true,
+      });
       await walk(fresh, empty, FIRST_VIEWS, fileOf);
-      const page = await openPage(browser, server, 'live', { ...options, scheme });
+      const page = await openPage(browser, server, 'live', { ...options, ...still, scheme });
       await walk(page, server, VIEWS, fileOf);
     });

@@ -116,6 +116,11 @@ const liveViews: View[] = [
         .getByText(/broken\.json/)
         .waitFor();
     },
+    async leave(page) {
+      const told = page.getByRole('alert').filter({ hasText: 'broken.json' });
+      await told.getByRole('button', { name: 'Close' }).click();
+      await told.waitFor({ state: 'detached' });
+    },
   },
 ];
 
@@ -148,9 +153,9 @@ const editViews: View[] = [
   {
     name: 'edit-scrubbing',
     async show(page) {
-      await button(page, /^3/).first().click();
+      await button(page, /^2/).first().click();
       await page.getByRole('slider', { name: 'Moment of the show' }).focus();
-      for (let i = 0; i < 24; i++) await page.keyboard.press('ArrowLeft');
+      for (let i = 0; i < 90; i++) await page.keyboard.press('ArrowLeft');
     },
     leave: (page) => page.keyboard.press('w'),
   },

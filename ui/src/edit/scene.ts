@@ -1,5 +1,6 @@
 import type { Plan } from '../api/types.gen';
 import { pathsTo } from '../live/paths';
+import { hollowOf } from '../live/scene';
 import type { EditorState } from '../model/editor';
 import type { Frame } from '../model/show';
 import { dotsAt, timelineOf } from '../model/timeline';
@@ -43,7 +44,8 @@ export function editScene(
   };
   if (moment !== null && plan) {
     const filled = dotsAt(show, plan, timelineOf(show, plan), moment);
-    return { ...base, filled, hollow: NOTHING, paths: NOTHING };
+    const hollow = looks.ghosts ? hollowOf(show.frames[frame]) : NOTHING;
+    return { ...base, filled, hollow, paths: looks.ways ? pathsTo(plan, show, frame) : NOTHING };
   }
   const pixels = show.frames[frame]?.pixels ?? [];
   return {
