@@ -92,6 +92,7 @@ impl Run {
             seat.late = None;
             seat.asked = began;
         }
+        self.forget_blocks();
         let told = EventKind::TransitionStarted { frame: leg.frame, starts: began, duration: leg.duration };
         desk.log.tell(now, told);
         let kind = leg.kind;
@@ -203,6 +204,7 @@ impl Run {
     /// The picture stands: the next frame is the next to be reached.
     fn advance(&mut self) {
         let done = self.next;
+        self.found.clear();
         if let Some(next) = self.after(done) {
             self.next = next;
         } else {

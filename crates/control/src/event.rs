@@ -154,6 +154,8 @@ pub enum Trouble {
     Cut,
     /// It did not reach its goal in time.
     Missed,
+    /// Something stands in its way.
+    Blocked,
 }
 
 /// How a run ended.
@@ -203,6 +205,7 @@ impl fmt::Display for Trouble {
             Self::Faulty => "reports a fault",
             Self::Cut => "was cut off or restarted",
             Self::Missed => "did not reach its goal",
+            Self::Blocked => "finds something in its way",
         })
     }
 }

@@ -5,7 +5,7 @@ use crate::event::EventKind;
 use crate::log::Log;
 use crate::snapshot::{Age, RobotView};
 use lightbots_base::{Instant, Rgb, RobotId, Span, Vec2};
-use lightbots_wire::{Abilities, Details, Firmware, Report, RobotState};
+use lightbots_wire::{Abilities, Blocked, Details, Firmware, Report, RobotState};
 use std::collections::HashMap;
 use std::hash::{BuildHasherDefault, DefaultHasher};
 
@@ -23,6 +23,8 @@ pub(crate) struct Robot {
     /// `None`: an original robot.
     pub state: Option<RobotState>,
     pub off_m: Option<f64>,
+    /// What stands in its way.
+    pub blocked: Option<Blocked>,
     pub clock_us: Option<u32>,
     pub route: u32,
     pub firmware: Firmware,
@@ -74,6 +76,7 @@ impl Robot {
             battery: None,
             state: None,
             off_m: None,
+            blocked: None,
             clock_us: None,
             route: 0,
             firmware: Firmware::new(),
@@ -144,6 +147,7 @@ impl Robot {
         self.battery = details.battery;
         self.state = Some(details.state);
         self.off_m = details.off_m;
+        self.blocked = details.blocked;
         self.clock_us = details.clock_us;
         self.route = details.route;
         self.abilities = details.abilities;

@@ -14,6 +14,7 @@
 //! assert!(controller.snapshot(Instant(5)).robots.len() <= 1);
 //! ```
 
+mod blocked;
 mod clear;
 mod clock;
 mod config;

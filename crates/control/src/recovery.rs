@@ -26,6 +26,8 @@ const CLOCK: Span = Span::from_millis(8_000);
 const UNHEARD: Span = Span::from_millis(600);
 /// Steps in which its path is followed from there.
 const GHOST_STEP: Span = Span::from_millis(50);
+/// So many of them may pass until it stops, if it still hears.
+const UNTIL_STOP: i64 = 2;
 /// Places nearer than this to each other are one, metres.
 const GHOST_M: f64 = 0.01;
 /// A robot that dropped out more often than this in a run stays out.
@@ -38,26 +40,32 @@ impl Run {
         if std::mem::replace(&mut known.out, true) {
             return;
         }
-        known.dropouts = known.dropouts.saturating_add(1);
+        // One that does not drive as told may come back once, after the next picture, to see if it does then.
+        let fails = matches!(why, Trouble::Late | Trouble::Missed | Trouble::Blocked);
+        known.dropouts = known.dropouts.saturating_add(if fails { 2 } else { 1 });
+        known.back_from = if fails { self.frames_played + 1 } else { 0 };
         known.late = None;
         known.fade = None;
         self.dropouts += 1;
         let (robot, heard) = (desk.fleet.robot(known.robot).id, desk.fleet.robot(known.robot).heard);
         if why == Trouble::Silent {
-            self.seats[seat].ghost = self.whereabouts(seat, heard);
+            let mut places = self.whereabouts(now, seat, heard);
+            self.narrow(desk, &mut places);
+            self.seats[seat].ghost = places;
         }
         desk.log.tell(now, EventKind::Dropout { robot, why });
         self.recover(desk, now);
     }
 
-    /// Where a robot that was heard last at `heard` and died on its way may stand: along its path from there.
-    fn whereabouts(&self, seat: usize, heard: Instant) -> Vec<Vec2> {
+    /// Where a robot that was heard last at `heard` may stand: along its path from there if it died, where its path is
+    /// now if it only cannot be heard.
+    fn whereabouts(&self, now: Instant, seat: usize, heard: Instant) -> Vec<Vec2> {
         let Phase::Driving(drive) = &self.phase else { return Vec::new() };
         let Some(path) = self.current.as_ref().and_then(|leg| leg.path(seat)) else { return Vec::new() };
         let since = drive.path_time(heard);
-        let steps = 0..=UNHEARD.0 / GHOST_STEP.0;
-        let mut places: Vec<Vec2> =
-            steps.map(|step| path.as_ref().at(since + GHOST_STEP * step).position).collect();
+        let died = (0..=UNHEARD.0 / GHOST_STEP.0).map(|step| since + GHOST_STEP * step);
+        let lives = (0..=UNTIL_STOP).map(|step| drive.path_time(now + GHOST_STEP * step));
+        let mut places: Vec<Vec2> = died.chain(lives).map(|time| path.as_ref().at(time).position).collect();
         places.dedup_by(|a, b| a.distance(*b) < GHOST_M);
         places
     }
@@ -85,8 +93,9 @@ impl Run {
     /// There is no plan to the next frame from where robots stand: without the guesses where silent ones may be, or
     /// else to the frame after it. Whether there is anything left to try.
     pub fn plan_something_else(&mut self, desk: &mut Desk, now: Instant) -> bool {
-        let guessed = self.seats.iter().any(|known| !known.ghost.is_empty());
+        let guessed = !self.found.is_empty() || self.seats.iter().any(|known| !known.ghost.is_empty());
         if guessed {
+            self.found.clear();
             self.seats.iter_mut().for_each(|known| known.ghost.clear());
         } else {
             match self.after(self.next).filter(|next| next.round == self.next.round) {
@@ -107,6 +116,7 @@ impl Run {
     /// Everybody stops and says where they stand.
     pub fn gather(&mut self, desk: &mut Desk, now: Instant) {
         desk.outbox.cease();
+        self.forget_blocks();
         let first = self.current.is_none() && self.frames_played == 0;
         let mut stop_at = None;
         if matches!(self.phase, Phase::Driving(_)) && self.round_trip > SLOW {
@@ -206,6 +216,11 @@ impl Run {
         let mut joined = false;
         for robot in std::mem::take(&mut self.joiners) {
             if !is_ready(desk, robot) {
+                continue;
+            }
+            let seat = desk.fleet.robot(robot).seat.map(|seat| &self.seats[seat as usize]);
+            if seat.is_some_and(|known| known.back_from > self.frames_played) {
+                self.joiners.push(robot);
                 continue;
             }
             match desk.fleet.robot(robot).seat {

@@ -24,6 +24,8 @@ pub(crate) struct Seat {
     pub out: bool,
     /// How often it dropped out.
     pub dropouts: u8,
+    /// It may come back once so many frames were played.
+    pub back_from: usize,
     /// The route it acknowledged last.
     pub acked: u32,
     /// How often the present route was sent.
@@ -38,6 +40,12 @@ pub(crate) struct Seat {
     pub late: Option<Instant>,
     /// It is late because it is not sure of its place.
     pub unsure: bool,
+    /// Something stands in its way, since when.
+    pub blocked: Option<Instant>,
+    /// How often that led to a new plan.
+    pub blocks: u8,
+    /// Since when it owes a sign of life because somebody near it is blocked.
+    pub probed: Option<Instant>,
     /// It has been asked for a sign of life, last when.
     pub asked: Instant,
     /// Where it may stand, if it fell silent on its way; stage metres.
@@ -133,6 +141,8 @@ pub(crate) struct Run {
     pub stray: bool,
     /// Pixels of the last plan stayed dark.
     pub dark: bool,
+    /// Where robots met something that nobody knew of; stage metres.
+    pub found: Vec<Vec2>,
     /// Robots (indices into the fleet) that want to take part from the next frame on.
     pub joiners: Vec<usize>,
     /// Where the watch over the seats goes on.
@@ -151,6 +161,7 @@ impl Seat {
             robot,
             out: false,
             dropouts: 0,
+            back_from: 0,
             acked: 0,
             tries: 0,
             sent: Instant::ZERO,
@@ -158,6 +169,9 @@ impl Seat {
             arrived: false,
             late: None,
             unsure: false,
+            blocked: None,
+            blocks: 0,
+            probed: None,
             asked: Instant::ZERO,
             ghost: Vec::new(),
             fade: None,
@@ -206,6 +220,7 @@ impl Run {
             step: false,
             stray: false,
             dark: false,
+            found: Vec::new(),
             joiners: Vec::new(),
             watched: 0,
             round_trip: Span::ZERO,

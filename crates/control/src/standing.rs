@@ -126,6 +126,7 @@ impl Run {
             self.seats.iter().filter(|known| known.out).flat_map(|known| known.ghost.iter().copied());
         idle.filter_map(|robot| robot.at)
             .chain(ghosts)
+            .chain(self.found.iter().copied())
             .filter(|at| riders.iter().all(|rider| rider.distance(*at) >= near_m))
             .collect()
     }

@@ -63,7 +63,10 @@ impl Run {
             RobotState::Lost => self.drop_out(desk, now, seat, Trouble::Lost),
             RobotState::Faulty => self.drop_out(desk, now, seat, Trouble::Faulty),
             RobotState::Cut => self.replan_with(desk, now, seat),
-            RobotState::Driving | RobotState::Held => self.judge_progress(desk, now, seat, details),
+            RobotState::Driving | RobotState::Held => {
+                self.hear_block(desk, now, seat, details.blocked);
+                self.judge_progress(desk, now, seat, details);
+            }
             RobotState::Idle | RobotState::Ready => {
                 let at = desk.fleet.robot(self.seats[seat].robot).at;
                 let there = at.is_some_and(|at| is_there(at, goal, desk.config.arrival_tolerance_m));
@@ -131,7 +134,7 @@ impl Run {
         })
     }
 
-    fn mark_late(&mut self, desk: &mut Desk, now: Instant, seat: usize, why: Trouble) {
+    pub fn mark_late(&mut self, desk: &mut Desk, now: Instant, seat: usize, why: Trouble) {
         let Phase::Driving(drive) = &mut self.phase else { return };
         drive.late += 1;
         self.seats[seat].late = Some(now);
@@ -168,11 +171,18 @@ impl Run {
     }
 
     fn watch_driver(&mut self, desk: &mut Desk, now: Instant, seat: usize, drive: &Drive) {
+        if self.watch_probed(desk, now, seat) {
+            return;
+        }
         let robot = desk.fleet.robot(self.seats[seat].robot);
         let silent = now - robot.heard.max(drive.began);
         let silence = desk.config.silence + self.round_trip * 2;
         if silent > silence {
             self.drop_out(desk, now, seat, Trouble::Silent);
+            return;
+        }
+        if let Some(since) = self.seats[seat].blocked {
+            self.watch_blocked(desk, now, seat, since);
             return;
         }
         let held = drive.hold.is_some_and(|hold| hold.until.is_none());

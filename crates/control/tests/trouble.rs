@@ -3,7 +3,8 @@
 mod fleet;
 
 use fleet::{Dice, World, show};
-use lightbots_control::{EventKind, MissingPolicy, Operation, Outcome, Refusal, State};
+use lightbots_control::{EventKind, MissingPolicy, Operation, Outcome, Refusal, State, Trouble};
+use lightbots_wire::Blocked;
 use std::sync::Arc;
 
 const CONTACT_M: f64 = 0.054;
@@ -43,6 +44,32 @@ fn a_robot_that_dies_while_driving_is_planned_around() {
     world.robots[5].dead = true;
     let (outcome, frames, dropouts) = world.run_to_end(90.0);
     assert_eq!((outcome, frames, dropouts), (Outcome::Finished, 3, 1), "{}", world.story());
+}
+
+#[test]
+fn a_robot_that_finds_something_in_its_way_leads_to_the_one_that_died_there() {
+    let mut world = a_second_under_way();
+    let towards = world.robots[4].at - world.robots[3].at;
+    (world.robots[3].stuck, world.robots[4].dead) = (true, true);
+    world.robots[3].blocked = Some(Blocked { gap_m: towards.length() - CONTACT_M, towards: towards.angle() });
+    let (blocked, dead) = (world.robots[3].id, world.robots[4].id);
+    let began = world.now;
+    world.run_until(2.0, |kind| *kind == EventKind::Waiting { robot: blocked, why: Trouble::Blocked });
+    world.run_until(2.0, |kind| *kind == EventKind::Dropout { robot: dead, why: Trouble::Silent });
+    assert!((world.now - began).as_secs() < 1.6, "{}", world.story());
+    (world.robots[3].stuck, world.robots[3].blocked) = (false, None);
+    let ended = world.run_to_end(90.0);
+    assert_eq!(ended, (Outcome::Finished, 3, 1), "{}", world.story());
+}
+
+#[test]
+fn what_nobody_knows_is_driven_around_and_the_run_ends_in_bounded_time() {
+    let mut world = a_second_under_way();
+    world.robots[3].stuck = true;
+    world.robots[3].blocked = Some(Blocked { gap_m: 0.002, towards: 0.3 });
+    let (outcome, frames, dropouts) = world.run_to_end(120.0);
+    assert_eq!((outcome, frames), (Outcome::Finished, 3), "{}", world.story());
+    assert!((1..=2).contains(&dropouts) && world.now.as_secs() < 60.0, "{}", world.story());
 }
 
 #[test]

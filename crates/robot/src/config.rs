@@ -61,6 +61,9 @@ pub struct Inputs {
     pub fix: Option<Fix>,
     /// Charge of the battery, percent.
     pub battery: Option<u8>,
+    /// Gaps between its rim and what is nearest, metres, as eight proximity sensors 45° apart see them,
+    /// counter-clockwise from the front; infinite where nothing is in sight. `None`: it has none.
+    pub proximity_m: Option<[f32; 8]>,
 }
 
 /// Where a positioning system saw the robot [`Config::fix_delay`] ago.

@@ -63,6 +63,18 @@ impl Drive {
         self.wheels(slip)
     }
 
+    /// Goes towards a setpoint within the ramps, but along its front no faster than `most_mps`, at once.
+    pub(crate) fn step_within(&mut self, want: Setpoint, most_mps: f64, slip: [f64; 2], dt: f64) -> [f64; 2] {
+        self.step(want, slip, dt);
+        self.told.speed_mps = self.told.speed_mps.clamp(-most_mps, most_mps);
+        self.wheels(slip)
+    }
+
+    /// What it was told last along its front, m/s.
+    pub(crate) fn speed_mps(&self) -> f64 {
+        self.told.speed_mps
+    }
+
     /// Stops at once, without a ramp: an Elisa-3 stands after 32 ms and 1.3 mm.
     pub(crate) fn halt(&mut self) -> [f64; 2] {
         self.told = Setpoint::default();

@@ -39,6 +39,7 @@ mod follow;
 mod light;
 mod outbox;
 mod outlook;
+mod reflex;
 mod robot;
 mod routes;
 mod seek;

@@ -44,6 +44,7 @@ pub(crate) struct Outbox {
     is_off: bool,
     /// How unsure of its place it last said to be for want of fixes, metres.
     said_err_m: Option<f64>,
+    is_blocked: bool,
 }
 
 impl Outbox {
@@ -60,6 +61,7 @@ impl Outbox {
             state: RobotState::Lost,
             is_off: false,
             said_err_m: None,
+            is_blocked: false,
         }
     }
 
@@ -118,6 +120,12 @@ impl Outbox {
             let busy = matches!(state, RobotState::Driving | RobotState::Held);
             self.next_status = now + if busy { BUSY } else { CALM };
         }
+    }
+
+    /// Something came to stand in its way, or has gone.
+    pub(crate) fn notice_block(&mut self, blocked: bool) {
+        self.status |= blocked != self.is_blocked;
+        self.is_blocked = blocked;
     }
 
     /// The next thing to say. `speaks_ours` is false for a robot that only knows the original protocol.

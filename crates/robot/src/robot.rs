@@ -2,8 +2,8 @@
 
 mod obey;
 
-use lightbots_base::{Instant, Pose, Rgb, RobotId, Span, Vec2};
-use lightbots_wire::{Details, Report, RobotState, TimeQuestion, Topic, commands};
+use lightbots_base::{Instant, Pose, Rgb, RobotId, Span, Vec2, wrap};
+use lightbots_wire::{Blocked, Details, Report, RobotState, TimeQuestion, Topic, commands};
 
 use crate::clock::Clock;
 use crate::config::{Config, Inputs, Outputs};
@@ -11,12 +11,13 @@ use crate::drive::{Body, Drive, Setpoint};
 use crate::estimate::Estimate;
 use crate::light::Light;
 use crate::outbox::{Fact, Outbox};
+use crate::reflex::{Reflex, Wish};
 use crate::routes::Routes;
 use crate::seek::Seek;
 use crate::supervise::{Drives, Supervisor};
 
-/// A message to send. The longest report has 233 bytes.
-pub type Message = heapless::String<256>;
+/// A message to send. The longest report has 286 bytes.
+pub type Message = heapless::String<320>;
 
 /// A step is taken for no longer than this, seconds; longer pauses are gaps.
 const LONGEST_STEP_S: f64 = 0.1;
@@ -42,6 +43,7 @@ pub struct Robot {
     light: Light,
     shown: Rgb,
     seek: Option<Seek>,
+    reflex: Reflex,
     supervisor: Supervisor,
     outbox: Outbox,
     state: RobotState,
@@ -63,6 +65,7 @@ impl Robot {
             light: Light::default(),
             shown: Rgb::BLACK,
             seek: None,
+            reflex: Reflex::new(),
             supervisor: Supervisor::new(config.silence),
             outbox: Outbox::new(phase),
             state: RobotState::Lost,
@@ -108,7 +111,7 @@ impl Robot {
     /// turned meanwhile, but nothing is planned over them.
     pub fn step(&mut self, now: Instant, inputs: &Inputs) -> Outputs {
         let dt = self.take_time(now);
-        self.sense(now, inputs);
+        self.sense(now, inputs, dt);
         let show = self.clock.show_time(now);
         if show.is_some_and(|show| self.routes.begin_due(show)) {
             self.seek = None;
@@ -209,6 +212,12 @@ impl Robot {
         self.unknown
     }
 
+    /// What stands in its way: how far, and in which direction of the stage.
+    fn blocked(&self) -> Option<Blocked> {
+        let (block, pose) = (self.reflex.block()?, self.pose()?);
+        Some(Blocked { gap_m: block.gap_m, towards: wrap(pose.heading + block.towards) })
+    }
+
     fn details(&self) -> Details {
         Details {
             heading: self.pose().map(|pose| pose.heading),
@@ -222,6 +231,7 @@ impl Robot {
             firmware: self.config.firmware.clone(),
             abilities: self.config.abilities,
             unknown: self.unknown,
+            blocked: self.blocked(),
         }
     }
 
@@ -236,10 +246,13 @@ impl Robot {
         dt.clamp(0.0, LONGEST_STEP_S)
     }
 
-    fn sense(&mut self, now: Instant, inputs: &Inputs) {
+    fn sense(&mut self, now: Instant, inputs: &Inputs, dt: f64) {
         let most = self.config.limits.wheel_radps * LONGEST_STEP_S * 2.0;
         if inputs.wheel_turns_rad.iter().all(|turn| turn.abs() <= most) {
             self.estimate.advance(now, inputs.wheel_turns_rad);
+            let [left, right] = inputs.wheel_turns_rad;
+            let way_m = 0.5 * (left + right) * self.config.limits.wheel_radius_m;
+            self.reflex.look(inputs.proximity_m.as_ref(), way_m, dt);
         } else {
             self.supervisor.fault(now);
         }
@@ -292,7 +305,20 @@ impl Robot {
             return self.drive.halt();
         }
         let wants = if self.is_lost(now) { None } else { self.want(show, dt) };
-        let wheels = self.drive.step(wants.unwrap_or_default(), self.estimate.slip(), dt);
+        let wants = wants.unwrap_or_default();
+        let most_mps = if self.routes.under_way() {
+            let wish = Wish { speed_mps: wants.speed_mps, told_mps: self.drive.speed_mps() };
+            self.reflex.limit(wish, &self.config.limits)
+        } else {
+            self.reflex.forget();
+            None
+        };
+        let slip = self.estimate.slip();
+        let wheels = match most_mps {
+            _ if self.reflex.block().is_some() => self.drive.halt(),
+            Some(most_mps) => self.drive.step_within(wants, most_mps, slip, dt),
+            None => self.drive.step(wants, slip, dt),
+        };
         self.arrive(show);
         wheels
     }
@@ -358,5 +384,6 @@ impl Robot {
         let knows_place = self.state != RobotState::Lost && !self.is_lost(now);
         let err_m = (self.routes.under_way() && self.is_blind()).then(|| self.err_m());
         self.outbox.notice(now, self.state, self.routes.off_m(), err_m, knows_place);
+        self.outbox.notice_block(self.reflex.block().is_some());
     }
 }

@@ -48,6 +48,7 @@ impl Dice {
             wheel_turns_rad: [self.number(), self.number()],
             fix: (self.roll(3) > 0).then_some(fix),
             battery: Some(self.roll(256) as u8),
+            proximity_m: (self.roll(2) > 0).then(|| core::array::from_fn(|_| self.number() as f32 * 0.1)),
         }
     }
 

@@ -12,6 +12,8 @@ pub(crate) enum Fate {
     Killed,
     /// Nothing is heard of it any more.
     Muted,
+    /// Its wheels do not turn any more.
+    Stuck,
 }
 
 /// All breakdowns of a rehearsal.
@@ -35,6 +37,7 @@ impl Breakdowns {
         };
         let mut coming: Vec<_> = conditions.killed.iter().map(|b| fate_of(b, Fate::Killed)).collect();
         coming.extend(conditions.muted.iter().map(|b| fate_of(b, Fate::Muted)));
+        coming.extend(conditions.stuck.iter().map(|b| fate_of(b, Fate::Stuck)));
         coming.retain(|&(_, robot, _)| robot < robots);
         coming.sort_by_key(|&(at, robot, _)| core::cmp::Reverse((at, robot)));
         Self { coming, struck: Vec::new(), mute: vec![false; robots] }

@@ -17,6 +17,8 @@ pub struct Conditions {
     pub killed: Vec<Breakdown>,
     /// Robots of which nothing is heard any more; they still hear and drive.
     pub muted: Vec<Breakdown>,
+    /// Robots whose wheels do not turn any more; they still hear and speak.
+    pub stuck: Vec<Breakdown>,
 }
 
 /// What position fixes are like.
@@ -90,6 +92,7 @@ impl Default for Conditions {
             link: LinkConditions::default(),
             killed: Vec::new(),
             muted: Vec::new(),
+            stuck: Vec::new(),
         }
     }
 }

@@ -44,6 +44,10 @@ impl Stance {
 #[derive(Clone, Debug)]
 pub struct Contacts {
     contact_m: f64,
+    /// Pairs this near are seen by proximity sensors, metres.
+    sight_m: f64,
+    /// Pairs within sight.
+    in_sight: Vec<(u32, u32)>,
     /// Pairs that touch, sorted.
     touching: Vec<(u32, u32)>,
     /// Pairs that were closer than contact at the end of this step.
@@ -55,10 +59,19 @@ pub struct Contacts {
 }
 
 impl Contacts {
-    /// Discs that touch where their centres are closer than `contact_m`.
-    pub(crate) fn new(contact_m: f64) -> Self {
+    /// Discs that touch where their centres are closer than `contact_m`, and see each other closer than `sight_m`.
+    pub(crate) fn new(contact_m: f64, sight_m: f64) -> Self {
         let (touching, now, fresh) = (Vec::new(), Vec::new(), Vec::new());
-        Self { contact_m, touching, now, fresh, count: 0, closest_squared: f64::MAX }
+        Self {
+            contact_m,
+            sight_m,
+            in_sight: Vec::new(),
+            touching,
+            now,
+            fresh,
+            count: 0,
+            closest_squared: f64::MAX,
+        }
     }
 
     /// How many pairs came to touch so far; a pair that parted and touches again counts again.
@@ -76,6 +89,11 @@ impl Contacts {
         (self.closest_squared < f64::MAX).then(|| libm::sqrt(self.closest_squared))
     }
 
+    /// Pairs that saw each other before those that touched were moved apart.
+    pub(crate) fn in_sight(&self) -> &[(u32, u32)] {
+        &self.in_sight
+    }
+
     /// Whether nobody touches anybody.
     pub fn none_touching(&self) -> bool {
         self.touching.is_empty() && self.fresh.is_empty()
@@ -86,12 +104,17 @@ impl Contacts {
         let contact_squared = self.contact_m * self.contact_m - 1e-12;
         self.now.clear();
         self.fresh.clear();
+        self.in_sight.clear();
+        let sight_squared = self.sight_m * self.sight_m;
         let mut closest = self.closest_squared;
         for &(a, b) in pairs {
             let distance = (places[b as usize] - places[a as usize]).length_squared();
             closest = closest.min(distance);
-            if distance < contact_squared {
-                self.now.push((a, b));
+            if distance < sight_squared {
+                self.in_sight.push((a, b));
+                if distance < contact_squared {
+                    self.now.push((a, b));
+                }
             }
         }
         self.closest_squared = closest;

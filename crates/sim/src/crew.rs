@@ -33,6 +33,8 @@ struct Member {
     battery: u8,
     light: Rgb,
     alive: bool,
+    /// Its wheels do not turn.
+    stuck: bool,
 }
 
 /// A robot's own clock.
@@ -126,6 +128,12 @@ impl Crew {
         self.world.tell(robot, [0.0; 2]);
     }
 
+    /// A robot's wheels block.
+    pub fn block_wheels(&mut self, robot: usize) {
+        self.members[robot].stuck = true;
+        self.world.tell(robot, [0.0; 2]);
+    }
+
     /// One step of 16 ms that ends at `now`: bodies move, then robots sense, think and speak, one after the other.
     pub fn step(&mut self, now: Instant, hear: &mut impl FnMut(usize, Topic, &[u8])) {
         self.world.step();
@@ -142,11 +150,12 @@ impl Crew {
                 wheel_turns_rad: self.world.wheel_turns(index),
                 fix: fix.map(|fix| Fix { at: fix.at, heading: Some(fix.heading) }),
                 battery: Some(member.battery.saturating_sub(drained)),
+                proximity_m: Some(self.world.proximity_m(index)),
             };
             let outputs = member.robot.step(member.clock.own(now), &inputs);
             self.errors.look_again(self.steps, index, &member.robot, &self.world);
             member.light = outputs.light;
-            self.world.tell(index, outputs.wheels_radps);
+            self.world.tell(index, if member.stuck { [0.0; 2] } else { outputs.wheels_radps });
             member.speak(index, &mut self.payload, hear);
         }
     }
@@ -169,7 +178,7 @@ impl Member {
             ..Config::new(id)
         };
         let battery = 80 + dice.below(21) as u8;
-        Self { robot: Robot::new(config), id, clock, battery, light: Rgb::BLACK, alive: true }
+        Self { robot: Robot::new(config), id, clock, battery, light: Rgb::BLACK, alive: true, stuck: false }
     }
 
     #[inline]

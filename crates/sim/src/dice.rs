@@ -18,6 +18,8 @@ pub enum Purpose {
     Breakdowns = 5,
     /// Made-up shows to rehearse.
     Scene = 6,
+    /// Noise of proximity sensors.
+    Proximity = 7,
 }
 
 /// A stream of random numbers (xoshiro256++ by Blackman and Vigna, seeded through SplitMix64).

@@ -34,12 +34,14 @@ enum Change {
     FixOutlier(f64),
     Kill(Breakdown),
     Mute(Breakdown),
+    Stuck(Breakdown),
 }
 
 /// Every fault, with an example of its value.
 const KNOWN: &str = "loss=5%, delay=100..300ms, jitter or jitter=50ms, double=1%, reorder=1%, slip=10%, gps=5mm, \
                      heading=2deg, bias=5mm, clock=100ppm, fix-delay=100ms, fix-every=5, fix-dropout=1s, \
-                     fix-outlier=1%, kill=random or kill=3@12s, mute=random or mute=3@12s";
+                     fix-outlier=1%, kill=random or kill=3@12s, mute=random or mute=3@12s, \
+                     stuck=random or stuck=3@12s";
 
 /// The most faults a text may state.
 const MOST: usize = 64;
@@ -95,6 +97,7 @@ fn apply(change: Change, conditions: &mut Conditions) {
         Change::FixOutlier(share) => fixes.outliers = share,
         Change::Kill(breakdown) => conditions.killed.push(breakdown),
         Change::Mute(breakdown) => conditions.muted.push(breakdown),
+        Change::Stuck(breakdown) => conditions.stuck.push(breakdown),
     }
 }
 
@@ -120,6 +123,7 @@ fn change(part: &str) -> Result<Change, FaultsError> {
         "fix-outlier" => share(value, 1.0).map(Change::FixOutlier),
         "kill" => breakdown(value).map(Change::Kill),
         "mute" => breakdown(value).map(Change::Mute),
+        "stuck" => breakdown(value).map(Change::Stuck),
         _ => return Err(FaultsError(format!("there is no fault '{}'; there are {KNOWN}", shown(name)))),
     };
     read.ok_or_else(|| {
@@ -191,7 +195,7 @@ mod tests {
     fn every_fault_reaches_its_condition() {
         let all = added(
             "loss=5%,delay=100..300ms,jitter,double=1%,reorder=2%,slip=10%,gps=5mm,heading=2deg,bias=1cm,clock=100ppm,\
-             fix-delay=100ms,fix-every=5,fix-dropout=1s,fix-outlier=3%,kill=random,mute=3@12s",
+             fix-delay=100ms,fix-every=5,fix-dropout=1s,fix-outlier=3%,kill=random,mute=3@12s,stuck=1@2s",
         );
         let mut expected = Conditions::default();
         (expected.slip, expected.clock_ppm) = (0.1, 100.0);
@@ -214,6 +218,7 @@ mod tests {
         };
         expected.killed = vec![Breakdown { robot: None, at: None }];
         expected.muted = vec![Breakdown { robot: Some(3), at: Some(Span::from_millis(12_000)) }];
+        expected.stuck = vec![Breakdown { robot: Some(1), at: Some(Span::from_millis(2_000)) }];
         assert_eq!(all, expected);
     }
 

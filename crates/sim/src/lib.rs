@@ -32,6 +32,7 @@ mod html;
 mod near;
 mod network;
 mod play;
+mod proximity;
 mod rehearsal;
 mod report;
 mod sensors;

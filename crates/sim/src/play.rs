@@ -165,10 +165,12 @@ impl Play {
     fn strike(&mut self) {
         let Some(first_departure) = self.watch.began_at() else { return };
         while let Some((robot, fate)) = self.breakdowns.next_until(self.now - first_departure) {
-            if fate == Fate::Killed {
-                self.crew.kill(robot);
+            match fate {
+                Fate::Killed => self.crew.kill(robot),
+                Fate::Stuck => self.crew.block_wheels(robot),
+                Fate::Muted => {}
             }
-            self.watch.struck(robot, fate, self.now);
+            self.watch.struck(robot, self.crew.id(robot), fate, self.now);
         }
     }
 

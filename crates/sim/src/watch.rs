@@ -1,5 +1,7 @@
 //! Watching a rehearsal: what happened, when, and how well.
 
+use std::collections::BTreeSet;
+
 use lightbots_base::{Instant, RobotId, Span, Vec2};
 use lightbots_control::{Controller, Event, EventKind, Outcome};
 use lightbots_show::{Issue, Issues, Show};
@@ -24,7 +26,8 @@ pub(crate) struct Watch {
     errors_m: Vec<f64>,
     frames: Vec<FrameRecord>,
     bumps: u64,
-    dropouts: usize,
+    /// Robots that dropped out, each once.
+    dropouts: BTreeSet<RobotId>,
     outcome: Option<Outcome>,
     ended: Instant,
     issues: Issues,
@@ -42,7 +45,7 @@ impl Watch {
             errors_m: Vec::with_capacity(robots),
             frames: Vec::new(),
             bumps: 0,
-            dropouts: 0,
+            dropouts: BTreeSet::new(),
             outcome: None,
             ended: Instant::ZERO,
             issues: Vec::new(),
@@ -78,13 +81,16 @@ impl Watch {
     }
 
     /// A robot was made to break down.
-    pub fn struck(&mut self, robot: usize, fate: Fate, now: Instant) {
+    pub fn struck(&mut self, robot: usize, id: RobotId, fate: Fate, now: Instant) {
         let (code, what) = match fate {
             Fate::Killed => ("robot-killed", "lost its power, as asked for"),
             Fate::Muted => ("robot-muted", "fell silent, as asked for"),
+            Fate::Stuck => ("robot-stuck", "got stuck, as asked for"),
         };
-        let issue =
-            Issue::warning(code, format!("Robot {robot} {what}, {:.2} s into the show.", self.since(now)));
+        let issue = Issue::warning(
+            code,
+            format!("Robot {robot} ({id}) {what}, {:.2} s into the show.", self.since(now)),
+        );
         self.add(issue.in_frame(self.heading_for));
     }
 
@@ -132,11 +138,12 @@ impl Watch {
             EventKind::FrameReached { frame, .. } => {
                 self.frame_stands(*frame, show, event.at, controller, crew, by_id);
             }
-            EventKind::Dropout { .. } => {
-                self.dropouts += 1;
+            EventKind::Dropout { robot, .. } => {
+                self.dropouts.insert(*robot);
                 self.note("dropout", event);
             }
             EventKind::Waiting { .. } => self.note("waiting", event),
+            EventKind::LeftOut { .. } => self.note("pixels-dark", event),
             EventKind::Misaligned { .. } => self.note("misaligned", event),
             EventKind::PlanFailed { .. } => self.note("plan-failed", event),
             EventKind::RunEnded { outcome, .. } => {
@@ -164,7 +171,7 @@ impl Watch {
         let ended = if self.outcome.is_some() { self.ended } else { now };
         let spreads: Vec<f64> = self.frames.iter().map(|frame| frame.arrival_spread_s).collect();
         RehearsalReport {
-            ok: finished && self.dropouts <= breakdowns.count(),
+            ok: finished && self.dropouts.len() <= breakdowns.count(),
             robots: 0,
             frames_played: self.frames.len(),
             frames: 0,
@@ -179,7 +186,7 @@ impl Watch {
             tracking_error_m: Spread::default(),
             clock_spread_s: Spread::default(),
             messages: Default::default(),
-            dropouts: self.dropouts,
+            dropouts: self.dropouts.len(),
             seed: 0,
             state_hash: String::new(),
             real_time_factor: None,

@@ -9,6 +9,7 @@ use crate::drive::Drive;
 use crate::floor::{Bump, Floor};
 use crate::hash::StateHash;
 use crate::near::Near;
+use crate::proximity::Proximity;
 use crate::slip::Slip;
 
 /// The length of a step of the world: that of the Webots world and of a robot's control loop.
@@ -25,6 +26,7 @@ pub struct World {
     floor: Floor,
     near: Near,
     contacts: Contacts,
+    proximity: Proximity,
     slip: f64,
     dice: Dice,
     bumps: Bumps,
@@ -67,7 +69,8 @@ impl World {
             stances: starts.iter().map(|start| Stance::new(Vec2::unit(start.heading))).collect(),
             floor: Floor::new(stage, &places),
             near: Near::new(contact_m),
-            contacts: Contacts::new(contact_m),
+            contacts: Contacts::new(contact_m, Proximity::sight_m(stage.limits.radius_m)),
+            proximity: Proximity::new(starts.len(), stage.limits.radius_m, seed),
             bumps: Bumps::default(),
             places,
             bodies,
@@ -87,6 +90,12 @@ impl World {
     pub fn wheel_turns(&self, robot: usize) -> [f64; 2] {
         let [left, right] = self.bodies[robot].drive.wheels();
         [left * STEP_S, right * STEP_S]
+    }
+
+    /// What a robot's proximity sensors see: gaps, counter-clockwise from the front, metres; infinite: nothing.
+    #[inline]
+    pub fn proximity_m(&self, robot: usize) -> [f32; 8] {
+        self.proximity.gaps_m(robot)
     }
 
     /// Where a robot really is.
@@ -126,6 +135,7 @@ impl World {
             self.near.rebuild(&self.places);
         }
         self.contacts.resolve(self.near.pairs(), &mut self.places, &mut self.stances);
+        self.proximity.look(self.contacts.in_sight(), &self.places, &self.stances);
     }
 
     /// Takes all that will decide how things go on into a fingerprint.

@@ -74,7 +74,7 @@ fn inputs(body: &mut Body<'_>) -> Inputs {
     let ([x, y], heading) = body.fix();
     let fix = (x.is_finite() && y.is_finite())
         .then(|| Fix { at: Vec2::new(x, y), heading: heading.is_finite().then_some(heading) });
-    Inputs { wheel_turns_rad: body.wheel_turns_rad(), fix, battery: None }
+    Inputs { wheel_turns_rad: body.wheel_turns_rad(), fix, battery: None, proximity_m: None }
 }
 
 fn listen(robot: &mut Robot, link: &mut Link, now: Instant) {

@@ -28,5 +28,5 @@ pub use command::{Blink, Command, Fade, MAX_PIECES, Pieces, Route, TimeAnswer};
 pub use decode::{Commands, MAX_PAYLOAD, Unknown, commands};
 pub use encode::encode;
 pub use number::number;
-pub use report::{Abilities, Details, Firmware, Report, RobotState, TimeQuestion};
+pub use report::{Abilities, Blocked, Details, Firmware, Report, RobotState, TimeQuestion};
 pub use topic::{Topic, TopicText};

@@ -38,6 +38,17 @@ pub struct Details {
     pub abilities: Abilities,
     /// Commands it did not know, since power-on.
     pub unknown: u32,
+    /// What stands in its way; it stands because of that.
+    pub blocked: Option<Blocked>,
+}
+
+/// Something in a robot's way that should not be there.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Blocked {
+    /// From its rim to that, metres.
+    pub gap_m: f64,
+    /// In which direction it is, radians in the stage, to about 25°.
+    pub towards: f64,
 }
 
 /// Name and version of a firmware, at most 24 bytes of printable ASCII without space.

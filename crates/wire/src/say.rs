@@ -5,8 +5,11 @@ use core::fmt::{self, Write};
 use lightbots_base::{RobotId, Vec2};
 
 use crate::number::{instant, number, write_digits, write_double, write_int};
-use crate::{Abilities, Details, Firmware, Report, RobotState, TimeQuestion};
+use crate::{Abilities, Blocked, Details, Firmware, Report, RobotState, TimeQuestion};
 
+/// The fields we know.
+const KEYS: [&str; 12] =
+    ["h", "bat", "state", "route", "starts", "off", "err", "clock", "fw", "can", "unknown", "blocked"];
 /// The most bytes of a report that are read; longer ones are refused.
 const MAX_REPORT: usize = 1024;
 
@@ -83,10 +86,7 @@ fn text(payload: &[u8]) -> Option<&str> {
 
 /// Notes one `key=value` field; details come to be with the first key we know, whatever its value.
 fn read_detail(details: &mut Option<Details>, key: &str, value: &str) {
-    if !matches!(
-        key,
-        "h" | "bat" | "state" | "route" | "starts" | "off" | "err" | "clock" | "fw" | "can" | "unknown"
-    ) {
+    if !KEYS.contains(&key) {
         return;
     }
     let known = details.get_or_insert_default();
@@ -101,12 +101,20 @@ fn read_detail(details: &mut Option<Details>, key: &str, value: &str) {
         "clock" => known.clock_us = value.parse().ok(),
         "fw" => known.firmware = firmware(value),
         "can" => known.abilities = Abilities::from_words(value),
+        "blocked" => known.blocked = blocked(value),
         _ => known.unknown = value.parse().unwrap_or(0),
     }
 }
 
 fn finite(value: &str) -> Option<f64> {
     number(value).filter(|value| value.is_finite())
+}
+
+/// `gap@towards`.
+fn blocked(value: &str) -> Option<Blocked> {
+    let (gap, towards) = value.split_once('@')?;
+    let gap_m = finite(gap).filter(|&gap| gap >= 0.0)?;
+    Some(Blocked { gap_m, towards: finite(towards)? })
 }
 
 fn firmware(value: &str) -> Firmware {
@@ -151,6 +159,12 @@ fn write_details(details: &Details, out: &mut dyn Write) -> fmt::Result {
     if let Some(err_m) = details.err_m {
         out.write_str(" err=")?;
         write_double(out, err_m)?;
+    }
+    if let Some(blocked) = details.blocked {
+        out.write_str(" blocked=")?;
+        write_double(out, blocked.gap_m)?;
+        out.write_str("@")?;
+        write_double(out, blocked.towards)?;
     }
     Ok(())
 }

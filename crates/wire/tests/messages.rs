@@ -2,8 +2,8 @@
 
 use lightbots_base::{Instant, Piece, Rgb, RobotId, Span, Vec2};
 use lightbots_wire::{
-    Abilities, Blink, Command, Details, Fade, Firmware, MAX_PAYLOAD, MAX_PIECES, Pieces, Report, RobotState,
-    Route, TimeAnswer, TimeQuestion, Unknown, commands, encode,
+    Abilities, Blink, Blocked, Command, Details, Fade, Firmware, MAX_PAYLOAD, MAX_PIECES, Pieces, Report,
+    RobotState, Route, TimeAnswer, TimeQuestion, Unknown, commands, encode,
 };
 
 fn text(command: &Command) -> String {
@@ -67,6 +67,7 @@ fn full_report() -> Report {
         firmware: Firmware::try_from("lightbots-0.1.0").unwrap(),
         abilities: Abilities { route: true, fade: true, blink: true },
         unknown: 3,
+        blocked: Some(Blocked { gap_m: 0.0021, towards: -1.5 }),
     };
     Report {
         id: id("abfe6805-3c60-4e5a-ba40-2dcf7cb5d8e8"),
@@ -98,7 +99,8 @@ fn our_messages_byte_for_byte() {
     assert_eq!(
         said(&full_report()),
         "abfe6805-3c60-4e5a-ba40-2dcf7cb5d8e8 -0.73 1.0E-4 state=driving h=1.25 off=0.0034 route=12 \
-         starts=8000000 clock=450 bat=87 unknown=3 can=route+fade+blink fw=lightbots-0.1.0 err=0.0012"
+         starts=8000000 clock=450 bat=87 unknown=3 can=route+fade+blink fw=lightbots-0.1.0 err=0.0012 \
+         blocked=0.0021@-1.5"
     );
 }
 

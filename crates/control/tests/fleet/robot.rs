@@ -1,7 +1,9 @@
 //! A tiny perfect robot: where it should be is where it is.
 
 use lightbots_base::{Instant, PathRef, Rgb, RobotId, Span, Vec2};
-use lightbots_wire::{Abilities, Command, Details, Report, RobotState, Route, TimeQuestion, Topic, commands};
+use lightbots_wire::{
+    Abilities, Blocked, Command, Details, Report, RobotState, Route, TimeQuestion, Topic, commands,
+};
 
 /// What a robot says.
 pub type Said = (Topic, Vec<u8>);
@@ -20,6 +22,8 @@ pub struct Robot {
     pub stuck: bool,
     /// It is not sure where it is.
     pub unsure: bool,
+    /// Says that something stands in its way.
+    pub blocked: Option<Blocked>,
     pub target: Option<Vec2>,
     pub kept: Option<(Route, Option<Instant>)>,
     pub running: Option<(Route, Instant)>,
@@ -46,6 +50,7 @@ impl Robot {
             dead: false,
             stuck: false,
             unsure: false,
+            blocked: None,
             target: None,
             kept: None,
             running: None,
@@ -108,6 +113,7 @@ impl Robot {
             off_m: self.running.as_ref().map(|_| if self.stuck { 0.2 } else { 0.001 }),
             clock_us: self.synchronised.then_some(500),
             abilities: Abilities { route: true, fade: true, blink: true },
+            blocked: self.blocked,
             ..Details::default()
         };
         let report = Report { id: self.id, at: Some(self.at), details: (!self.original).then_some(details) };

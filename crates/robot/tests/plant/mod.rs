@@ -116,7 +116,7 @@ impl Plant {
         let turns = self.wheels.map(|rate| rate * dt);
         // What is said now takes effect at the next step.
         self.wheels = self.last.wheels_radps;
-        let inputs = Inputs { wheel_turns_rad: turns, fix: self.fix(), battery: Some(80) };
+        let inputs = Inputs { wheel_turns_rad: turns, fix: self.fix(), battery: Some(80), proximity_m: None };
         self.last = self.robot.step(self.now, &inputs);
         self.drain();
     }

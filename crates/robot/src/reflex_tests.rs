@@ -1,0 +1,133 @@
+use super::*;
+
+const DT: f64 = 0.016;
+const SPEED_MPS: f64 = 0.27;
+const LIMITS: Limits = Limits::ELISA_3;
+
+/// A robot that drives along x and one beside its way, both with discs of 27 mm.
+struct Pair {
+    reflex: Reflex,
+    x: f64,
+    /// What the wheels do in the step to come, and what they were told for the one after it.
+    speed_mps: f64,
+    told_mps: f64,
+    other: (f64, f64),
+    other_mps: f64,
+}
+
+impl Pair {
+    /// The other's centre is so far ahead and aside, metres.
+    fn new(ahead_m: f64, aside_m: f64, other_mps: f64) -> Self {
+        Self {
+            reflex: Reflex::new(),
+            x: 0.0,
+            speed_mps: SPEED_MPS,
+            told_mps: SPEED_MPS,
+            other: (ahead_m, aside_m),
+            other_mps,
+        }
+    }
+
+    fn gap_m(&self) -> f64 {
+        libm::hypot(self.other.0 - self.x, self.other.1) - LIMITS.contact_m()
+    }
+
+    /// What the sensors on the rim say.
+    fn readings(&self) -> [f32; SENSORS] {
+        core::array::from_fn(|sensor| {
+            let angle = sensor as f64 * core::f64::consts::FRAC_PI_4;
+            let (dx, dy) = (libm::cos(angle), libm::sin(angle));
+            let (x, y) = (self.other.0 - self.x - 0.027 * dx, self.other.1 - 0.027 * dy);
+            let far = libm::hypot(x, y);
+            if x * dx + y * dy > 0.64 * far { (far - 0.027) as f32 } else { f32::INFINITY }
+        })
+    }
+
+    fn step(&mut self) {
+        self.x += self.speed_mps * DT;
+        self.other.0 += self.other_mps * DT;
+        self.reflex.look(Some(&self.readings()), self.speed_mps * DT, DT);
+        let wish = Wish { speed_mps: SPEED_MPS, told_mps: self.told_mps };
+        let most_mps = self.reflex.limit(wish, &LIMITS).unwrap_or(SPEED_MPS);
+        // Tyres take two steps for the whole of it.
+        self.speed_mps = self.told_mps.max(self.speed_mps - 0.188);
+        self.told_mps = most_mps.min(self.told_mps + 0.02).min(SPEED_MPS);
+    }
+
+    /// The least gap over a second.
+    fn least_gap_m(&mut self) -> f64 {
+        let mut least = self.gap_m();
+        for _ in 0..62 {
+            self.step();
+            least = least.min(self.gap_m());
+        }
+        least
+    }
+}
+
+#[test]
+fn it_stops_before_what_stands_in_its_way_wherever_it_would_hit_it() {
+    for aside_mm in [0, 8, 15, 22, 30, 38, 44, 48] {
+        for start_mm in 0..5 {
+            let mut pair = Pair::new(0.15 + f64::from(start_mm) * 0.001, f64::from(aside_mm) * 1e-3, 0.0);
+            let least_m = pair.least_gap_m();
+            assert!(least_m > 0.0005, "{aside_mm} mm aside: {:.1} mm", least_m * 1e3);
+            assert!(pair.reflex.block().is_some() && pair.told_mps == 0.0, "{aside_mm} mm aside");
+        }
+    }
+}
+
+#[test]
+fn one_that_dies_fifteen_millimetres_ahead_is_not_touched() {
+    for step in 0..8 {
+        let mut pair = Pair::new(0.054 + 0.015, 0.004, SPEED_MPS);
+        (0..8 + step).for_each(|_| pair.step());
+        assert!(pair.reflex.block().is_none() && pair.told_mps == SPEED_MPS);
+        pair.other_mps = 0.08;
+        pair.step();
+        pair.other_mps = 0.0;
+        assert!(pair.least_gap_m() > 0.0005, "{:.1} mm", pair.gap_m() * 1e3);
+    }
+}
+
+#[test]
+fn a_neighbour_on_its_own_way_is_no_hindrance() {
+    // Ahead, aside, speed; and how much of its own speed it keeps at least as it passes.
+    let ways = [(0.058, 0.0, SPEED_MPS, 1.0), (0.04, 0.045, SPEED_MPS, 1.0), (0.2, 0.06, 0.0, 0.6)];
+    for (ahead_m, aside_m, mps, keeps) in ways {
+        let mut pair = Pair::new(ahead_m, aside_m, mps);
+        let mut slowest = SPEED_MPS;
+        for _ in 0..120 {
+            pair.step();
+            slowest = slowest.min(pair.told_mps);
+        }
+        assert!(slowest >= keeps * SPEED_MPS, "{ahead_m} {aside_m}: {slowest}");
+        assert!(pair.reflex.block().is_none());
+    }
+}
+
+#[test]
+fn it_is_free_again_when_what_blocked_it_has_gone() {
+    let mut pair = Pair::new(0.12, 0.0, 0.0);
+    pair.least_gap_m();
+    let block = pair.reflex.block().unwrap();
+    assert!(block.sensor == 0 && block.towards.abs() < 0.3 && block.gap_m < 0.006);
+    pair.other.0 += 0.1;
+    (0..20).for_each(|_| pair.step());
+    assert!(pair.reflex.block().is_none() && pair.told_mps > 0.1);
+}
+
+#[test]
+fn readings_without_sense_are_nothing_seen() {
+    let mut reflex = Reflex::new();
+    for readings in
+        [[f32::NAN; SENSORS], [f32::NEG_INFINITY; SENSORS], [f32::INFINITY; SENSORS], [-1.0; SENSORS]]
+    {
+        for _ in 0..10 {
+            reflex.look(Some(&readings), 0.004, DT);
+            let most = reflex.limit(Wish { speed_mps: 0.27, told_mps: 0.27 }, &LIMITS);
+            assert!(most.is_none_or(|mps| mps >= 0.0));
+        }
+    }
+    reflex.look(None, 0.0, 0.0);
+}

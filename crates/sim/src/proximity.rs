@@ -1,0 +1,149 @@
+//! Proximity sensors: eight around each robot's rim, which see the robots near them.
+
+use lightbots_base::Vec2;
+
+use crate::contacts::Stance;
+use crate::dice::{Dice, Purpose};
+
+/// How far a sensor sees, from its place on the rim, metres. The Elisa-3's tell something up to 60 mm.
+const RANGE_M: f64 = 0.03;
+/// Noise of a reading, 1 sigma: metres, and share of the gap. That of the Elisa-3 in Webots: 0.5 mm at 5 mm, 0.8 at 10.
+const NOISE_M: f64 = 0.0003;
+const NOISE_SHARE: f64 = 0.05;
+/// A sensor sees what lies within 50° of its direction.
+const CONE_COS: f64 = 0.642_787_609_686_539_3;
+const TAN_22_5: f64 = 0.414_213_562_373_095_03;
+const HALF: f64 = core::f64::consts::FRAC_1_SQRT_2;
+/// Directions of the sensors in body space, counter-clockwise from the front.
+const SENSORS: [Vec2; 8] = [
+    Vec2::new(1.0, 0.0),
+    Vec2::new(HALF, HALF),
+    Vec2::new(0.0, 1.0),
+    Vec2::new(-HALF, HALF),
+    Vec2::new(-1.0, 0.0),
+    Vec2::new(-HALF, -HALF),
+    Vec2::new(0.0, -1.0),
+    Vec2::new(HALF, -HALF),
+];
+const NOTHING: [f32; 8] = [f32::INFINITY; 8];
+
+/// What everybody's sensors see.
+#[derive(Clone, Debug)]
+pub(crate) struct Proximity {
+    radius_m: f64,
+    /// `[robot][sensor]`: metres.
+    gaps_m: Vec<[f32; 8]>,
+    /// Robots that see anything.
+    seeing: Vec<u32>,
+    dice: Dice,
+}
+
+impl Proximity {
+    /// Sensors of so many discs.
+    pub fn new(robots: usize, radius_m: f64, seed: u64) -> Self {
+        let dice = Dice::new(seed, Purpose::Proximity);
+        Self { radius_m, gaps_m: vec![NOTHING; robots], seeing: Vec::new(), dice }
+    }
+
+    /// Centres farther apart than this do not see each other, metres.
+    pub fn sight_m(radius_m: f64) -> f64 {
+        2.0 * radius_m + RANGE_M
+    }
+
+    /// What a robot sees: gaps as its eight sensors tell, counter-clockwise from the front, metres.
+    #[inline]
+    pub fn gaps_m(&self, robot: usize) -> [f32; 8] {
+        self.gaps_m[robot]
+    }
+
+    /// Looks anew: `near` are the pairs within sight.
+    pub fn look(&mut self, near: &[(u32, u32)], places: &[Vec2], stances: &[Stance]) {
+        for robot in self.seeing.drain(..) {
+            self.gaps_m[robot as usize] = NOTHING;
+        }
+        for &(a, b) in near {
+            let way = places[b as usize] - places[a as usize];
+            let [first, second, _] = self.dice.normal3();
+            self.see(a, stances[a as usize].forward, way, first);
+            self.see(b, stances[b as usize].forward, -way, second);
+        }
+    }
+
+    /// A robot that faces `forward` sees another whose centre is `way` from its own.
+    #[inline]
+    fn see(&mut self, robot: u32, forward: Vec2, way: Vec2, noise: f64) {
+        let other_in_body = Vec2::new(forward.dot(way), forward.cross(way));
+        let nearest = nearest_sensor(other_in_body);
+        let left = SENSORS[nearest].cross(other_in_body) > 0.0;
+        let beside = if left { nearest + 1 } else { nearest + 7 } % 8;
+        let gaps_m = &mut self.gaps_m[robot as usize];
+        for sensor in [nearest, beside] {
+            let ray = other_in_body - SENSORS[sensor] * self.radius_m;
+            let far = ray.length();
+            let gap = far - self.radius_m;
+            if gap < RANGE_M && ray.dot(SENSORS[sensor]) > CONE_COS * far {
+                let read = (gap + noise * (NOISE_M + NOISE_SHARE * gap.abs())) as f32;
+                gaps_m[sensor] = gaps_m[sensor].min(read.max(0.0));
+            }
+        }
+        if gaps_m[nearest] < f32::INFINITY && self.seeing.last() != Some(&robot) {
+            self.seeing.push(robot);
+        }
+    }
+}
+
+/// The sensor that looks most nearly into a direction of body space.
+#[inline]
+fn nearest_sensor(towards: Vec2) -> usize {
+    let (x, y) = (towards.x.abs(), towards.y.abs());
+    let (ahead, left) = (towards.x > 0.0, towards.y > 0.0);
+    if y < TAN_22_5 * x {
+        return if ahead { 0 } else { 4 };
+    }
+    if x < TAN_22_5 * y {
+        return if left { 2 } else { 6 };
+    }
+    match (ahead, left) {
+        (true, true) => 1,
+        (false, true) => 3,
+        (false, false) => 5,
+        (true, false) => 7,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_nearest_sensor_is_the_nearest() {
+        for degrees in 0..360 {
+            let angle = f64::from(degrees).to_radians() + 1e-9;
+            let expected = (f64::from(degrees) / 45.0).round() as usize % 8;
+            assert!(degrees % 45 == 22 || nearest_sensor(Vec2::unit(angle)) == expected, "{degrees}");
+        }
+    }
+
+    #[test]
+    fn both_see_each_other_and_nothing_when_they_have_parted() {
+        let mut proximity = Proximity::new(2, 0.027, 1);
+        let stances = [Stance::new(Vec2::new(1.0, 0.0)), Stance::new(Vec2::new(0.0, 1.0))];
+        let places = [Vec2::ZERO, Vec2::new(0.064, 0.0)];
+        proximity.look(&[(0, 1)], &places, &stances);
+        let (front, left) = (proximity.gaps_m(0)[0], proximity.gaps_m(1)[2]);
+        assert!((front - 0.01).abs() < 0.004 && (left - 0.01).abs() < 0.004);
+        assert_eq!(proximity.gaps_m(0).iter().filter(|gap| gap.is_finite()).count(), 1);
+        proximity.look(&[], &places, &stances);
+        assert_eq!((proximity.gaps_m(0), proximity.gaps_m(1)), (NOTHING, NOTHING));
+    }
+
+    #[test]
+    fn between_two_sensors_both_see_a_little_farther() {
+        let mut proximity = Proximity::new(2, 0.027, 1);
+        let stances =
+            [Stance::new(Vec2::unit(core::f64::consts::FRAC_PI_8)), Stance::new(Vec2::new(1.0, 0.0))];
+        proximity.look(&[(0, 1)], &[Vec2::ZERO, Vec2::new(0.06, 0.0)], &stances);
+        let [ahead, .., right] = proximity.gaps_m(0);
+        assert!((ahead - right).abs() < 1e-6 && (0.006..0.013).contains(&ahead), "{ahead} {right}");
+    }
+}

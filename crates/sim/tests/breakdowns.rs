@@ -1,0 +1,80 @@
+//! A robot stops dead at a random moment: nobody touches it, and the show goes on without it.
+
+use lightbots_base::{Rgb, Vec2};
+use lightbots_show::{Easing, Frame, Identity, Pixel, Show, Stage};
+use lightbots_sim::{Conditions, Faults, RehearsalOptions, RehearsalReport, rehearse};
+
+const ROBOTS: u32 = 16;
+
+/// A line of 100 mm, a block of 85 mm and a diagonal of 93 mm, so that robots follow each other closely.
+fn dense_show() -> Show {
+    let side = |index: u32| (f64::from(index % 4), f64::from(index / 4));
+    let centred = |steps: f64, of: f64| steps - 0.5 * (of - 1.0);
+    let line = |index: u32| Vec2::new(0.5, 0.1 * centred(f64::from(index), f64::from(ROBOTS)));
+    let block = |index: u32| {
+        let (column, row) = side(index);
+        Vec2::new(-0.4 + 0.085 * column, 0.085 * centred(row, 4.0))
+    };
+    let diagonal = |index: u32| {
+        let along = 0.077 * centred(f64::from(index), f64::from(ROBOTS));
+        Vec2::new(along, along + 0.1) * 0.85
+    };
+    let frame = |name: &str, place: &dyn Fn(u32) -> Vec2| Frame {
+        name: name.into(),
+        air_time_s: 0.2,
+        transition_s: None,
+        easing: Easing::Swift,
+        identity: None,
+        pixels: (0..ROBOTS)
+            .map(|id| Pixel { id, at: place(id), color: Rgb::new(0, 80, id as u8), robot: None })
+            .collect(),
+    };
+    Show {
+        name: "dense".into(),
+        stage: Stage { width_m: 2.4, depth_m: 2.4, ..Stage::default() },
+        identity: Identity::Any,
+        starts: None,
+        music: None,
+        frames: vec![frame("line", &line), frame("block", &block), frame("diagonal", &diagonal)],
+    }
+}
+
+fn play(faults: &str, seed: u64) -> RehearsalReport {
+    let conditions = Faults::parse(faults).unwrap().added_to(Conditions::default());
+    rehearse(&dense_show(), &RehearsalOptions { seed, conditions, robots: None }, &mut |_| {})
+}
+
+/// Robots that follow each other within a centimetre or so are touched now and then when the one ahead dies, as nobody
+/// can stop in time; with what they see of each other that is rare, and the show goes on in any case.
+#[test]
+fn hardly_anybody_touches_a_robot_that_died_and_the_show_goes_on() {
+    let mut touched = 0;
+    for seed in 1..=30 {
+        for fault in ["kill=random", "mute=random"] {
+            let report = play(fault, seed);
+            touched += usize::from(report.contacts > 0);
+            assert_eq!(report.frames_played, 3, "{fault}, seed {seed}: {:#?}", report.issues);
+            assert!((1..=2).contains(&report.dropouts), "{fault}, seed {seed}: {:#?}", report.issues);
+        }
+    }
+    assert!(touched <= 9, "{touched} of 60 runs");
+}
+
+#[test]
+fn whoever_is_waited_for_and_left_out_is_named() {
+    let report = play("kill=5@4s", 2);
+    let struck = report.issues.iter().find(|issue| issue.code == "robot-killed").unwrap();
+    let name = struck.message.split(['(', ')']).nth(1).unwrap();
+    let about =
+        |code: &str| report.issues.iter().any(|issue| issue.code == code && issue.message.contains(name));
+    assert!(about("dropout"), "{name}: {:#?}", report.issues);
+    assert!(report.issues.iter().any(|issue| issue.code == "pixels-dark"), "{:#?}", report.issues);
+}
+
+#[test]
+fn nobody_brakes_where_nothing_is_wrong() {
+    for seed in 1..=10 {
+        let report = play("", seed);
+        assert!(report.ok && report.issues.is_empty(), "seed {seed}: {:#?}", report.issues);
+    }
+}
