@@ -36,15 +36,13 @@ const LEAN_PER_M: f32 = 28.0;
 /// Driving so slowly although it was told to drive so fast, m/s, a robot is stuck.
 const STUCK_MPS: f32 = 0.005;
 const TOLD_MPS: f32 = 0.05;
-/// What closes in for sure with more than this share of its speed stands, as far as a sensor ahead, 45° and 90° beside
-/// that can tell; else it is a neighbour on its own way.
-const STANDS: [f32; 3] = [0.5, 0.35, 0.15];
-/// Share of its speed with which it closes in on what stands in sight of a sensor ahead, 45° and 90° beside it: least
-/// and most. Closing in faster than that is the other's doing, and standing would not help.
-const SHARE_MIN: [f32; 3] = [0.9, 0.4, 0.3];
-const SHARE_MAX: [f32; 3] = [1.0, 0.95, 0.4];
+/// What closes in for sure with more than this share of its speed stands; else it is a neighbour on its own way.
+const STANDS: f32 = 0.6;
+/// Share of its speed with which it closes in at least on what stands ahead. Closing in faster than with all of it is
+/// the other's doing, and standing would not help.
+const SHARE_MIN: f32 = 0.9;
 /// Slack for that, m/s.
-const SHARE_SLACK_MPS: f32 = 0.06;
+const SHARE_SLACK_MPS: f32 = 0.03;
 /// What it would miss by more than this if that stood is no hindrance, metres.
 const MISS_M: f32 = 0.002;
 /// Once it may drive less than half of what it wants, it does so for so many steps, unless the gap widens by so much,
@@ -163,7 +161,7 @@ impl Reflex {
         Some(free_mps.map_or(held_mps, |mps| mps.min(held_mps)))
     }
 
-    /// The speed that the sensor allows which allows least, and which that is.
+    /// The speed that the sensor ahead allows, if it minds, and which that is.
     fn slowest(&mut self, wish: Wish, limits: &Limits) -> Option<(f64, usize)> {
         let forwards =
             if wish.speed_mps.abs() > 1e-3 { wish.speed_mps > 0.0 } else { self.speeds_mps[0] > 0.0 };
@@ -172,19 +170,11 @@ impl Reflex {
         let lately_mps = self.speeds_mps.iter().fold(0.0, |most: f32, mps| most.max(sense * mps));
         let next_mps = (sense * wish.told_mps as f32).max(0.0);
         let contact_m = limits.contact_m() as f32;
-        let mut slowest: Option<(f32, usize)> = None;
-        for (index, turn) in [(0, 0), (1, 1), (SENSORS - 1, 1), (2, 2), (SENSORS - 2, 2)] {
-            let sensor = if forwards { index } else { (index + SENSORS / 2) % SENSORS };
-            let Some(closing) = self.closing(sensor) else { continue };
-            let gap_m = self.gap_m(sensor);
-            let approach = Approach { gap_m, closing, along_mps, lately_mps, next_mps, turn };
-            if let Some(mps) = approach.allowed_mps(contact_m)
-                && slowest.is_none_or(|(least, _)| mps < least)
-            {
-                slowest = Some((mps, sensor));
-            }
-        }
-        slowest.map(|(mps, sensor)| (f64::from(mps), sensor))
+        // Beside its way neighbours pass by plan, as near as they like: only the sensor ahead counts.
+        let sensor = if forwards { 0 } else { SENSORS / 2 };
+        let (closing, gap_m) = (self.closing(sensor)?, self.gap_m(sensor));
+        let approach = Approach { gap_m, closing, along_mps, lately_mps, next_mps };
+        approach.allowed_mps(contact_m).map(|mps| (f64::from(mps), sensor))
     }
 
     /// What a sensor sees, in which direction by what the one beside it sees.
@@ -260,7 +250,7 @@ struct Closing {
     sure_mps: f32,
 }
 
-/// How it nears what one sensor sees, `turn` sensors aside of its way.
+/// How it nears what the sensor ahead sees.
 struct Approach {
     gap_m: f32,
     closing: Closing,
@@ -269,22 +259,21 @@ struct Approach {
     next_mps: f32,
     /// The fastest of the steps over which the gap was watched, m/s.
     lately_mps: f32,
-    turn: usize,
 }
 
 impl Approach {
     /// How fast it may drive for that, m/s; `None`: as it likes.
     fn allowed_mps(&self, contact_m: f32) -> Option<f32> {
-        let Self { gap_m, closing, along_mps, next_mps, lately_mps, turn } = *self;
+        let Self { gap_m, closing, along_mps, next_mps, lately_mps } = *self;
         // One that was told to drive and does not is stuck, and not about to touch anything.
         let moves = lately_mps > STUCK_MPS || next_mps < TOLD_MPS;
-        if gap_m < TOUCHING_M && turn < 2 && moves {
+        if gap_m < TOUCHING_M && moves {
             return Some(0.0);
         }
-        if closing.sure_mps < STANDS[turn] * lately_mps || closing.sure_mps < CALM_MPS {
+        if closing.sure_mps < STANDS * lately_mps || closing.sure_mps < CALM_MPS {
             return None;
         }
-        if closing.mps > SHARE_MAX[turn] * lately_mps + SHARE_SLACK_MPS {
+        if closing.mps > lately_mps + SHARE_SLACK_MPS {
             return None;
         }
         // By how much would it be missed?
@@ -293,7 +282,7 @@ impl Approach {
         if miss_m > MISS_M {
             return None;
         }
-        let share = share.clamp(SHARE_MIN[turn], SHARE_MAX[turn]);
+        let share = share.max(SHARE_MIN);
         let closing_mps = closing.mps.max(share * along_mps);
         let soon_mps = (closing_mps + (next_mps - along_mps) * share).max(0.0);
         let soon_m = gap_m - soon_mps * DEAD_S;
