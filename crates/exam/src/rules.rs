@@ -36,10 +36,11 @@ const fn rule(number: u8, title: &'static str, scope: Scope) -> Rule {
 
 const POWER: &str = "it takes switching the robot off and on";
 const CUT: &str = "it takes cutting the robot's link";
+const OBSTACLE: &str = "it takes something to stand in the robot's way";
 const SENSORS: &str = "it takes spoiling the robot's sensors";
 
 /// All rules, in order: `RULES[n - 1]` is Rn.
-pub const RULES: [Rule; 48] = {
+pub const RULES: [Rule; 49] = {
     use Scope::{Blink, Details, Everybody, Fade, Hidden, Light, Route};
     [
         rule(1, "MQTT 3.1.1, QoS 0, not retained", Hidden("only the broker sees how a robot connects")),
@@ -90,6 +91,7 @@ pub const RULES: [Rule; 48] = {
         rule(46, "stands where it does not know its place", Hidden(SENSORS)),
         rule(47, "stands when sensors or motors make no sense", Hidden(SENSORS)),
         rule(48, "no payload harms it", Everybody),
+        rule(49, "brakes for what it sees in its way", Hidden(OBSTACLE)),
     ]
 };
 

@@ -47,7 +47,7 @@ pub struct Details {
 pub struct Blocked {
     /// From its rim to that, metres.
     pub gap_m: f64,
-    /// In which direction it is, radians in the stage, to about 25°.
+    /// In which direction it is, radians in the stage, to about 15°.
     pub towards: f64,
 }
 
