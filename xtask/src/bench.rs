@@ -64,7 +64,7 @@ const PARTS: [Part; 6] = [
         source: Source::Example("lightbots-server", "light"),
         about: "From the first robot's light to the last one's, when all are told to change at one moment: robot cores \
                 with clocks of their own (up to 50 ppm off), each on its own connection to the embedded broker over \
-                loopback TCP, asked for their light each millisecond. `by steps`: the same seen only at their steps of \
+                loopback TCP, asked for their light each millisecond, all in one pass: less than that cannot be seen. `by steps`: the same seen only at their steps of \
                 16 ms, which are out of phase.",
     },
     Part {

@@ -10,7 +10,6 @@ mod common;
 use std::time::{Duration, Instant as Moment};
 
 use lightbots_base::{Instant, Rgb, RobotId, Span, Vec2};
-use lightbots_control::{Config as ControlConfig, Controller};
 use lightbots_link::{BrokerUrl, Link, LinkConfig, LinkEvent, Sender, controller_client_id, robot_client_id};
 use lightbots_robot::{Config, Fix, Inputs, Message, Robot};
 use lightbots_wire::{Command, Fade, Topic, encode};
@@ -83,15 +82,21 @@ async fn main() -> Outcome {
 async fn measure(broker: &BrokerUrl, robots: usize) -> Outcome<Spreads> {
     let began = Moment::now();
     let mut fleet = Fleet::start(broker, robots, began);
-    let (orders, inbox) = mpsc::channel(16);
-    let controller = tokio::spawn(control(broker.clone(), began, inbox));
+    // The program's own controller keeps the show clock; this connection only says when to change.
+    let client_id = controller_client_id();
+    let mut link =
+        Link::open(LinkConfig { broker: broker.clone(), client_id, filters: vec![], queue: 4 * robots });
+    while !matches!(link.next().await, Some(LinkEvent::Connected)) {}
+    let sender = link.sender();
     fleet.settle().await?;
     let mut spreads = Spreads { asked_ms: Vec::new(), stepped_ms: Vec::new(), missed: 0 };
     for change in 0..CHANGES {
         let to = if change % 2 == 0 { Rgb::new(255, 255, 255) } else { Rgb::new(0, 0, 200) };
-        let at = Instant(fleet.now_us()) + AHEAD;
+        let at = fleet.show_time().ok_or("the first robot has lost the show clock")? + AHEAD;
         for body in &fleet.bodies {
-            orders.send((body.id, Fade { to, at, over: Span::ZERO })).await?;
+            let mut text = String::new();
+            encode(&Command::Fade(Fade { to, at, over: Span::ZERO }), &mut text)?;
+            sender.send(&Topic::Robot(body.id).write(), text.into_bytes());
         }
         let until = Moment::now() + Duration::from_millis(900);
         while Moment::now() < until {
@@ -102,7 +107,7 @@ async fn measure(broker: &BrokerUrl, robots: usize) -> Outcome<Spreads> {
         spreads.asked_ms.push(spread_ms(shows.iter().map(|body| body.changed_us)));
         spreads.stepped_ms.push(spread_ms(shows.iter().map(|body| body.seen_us)));
     }
-    controller.abort();
+    link.close().await;
     spreads.asked_ms.sort_by(f64::total_cmp);
     spreads.stepped_ms.sort_by(f64::total_cmp);
     Ok(spreads)
@@ -111,41 +116,6 @@ async fn measure(broker: &BrokerUrl, robots: usize) -> Outcome<Spreads> {
 fn spread_ms(moments: impl Iterator<Item = u64> + Clone) -> f64 {
     let (first, last) = (moments.clone().min().unwrap_or(0), moments.max().unwrap_or(0));
     (last - first) as f64 / 1e3
-}
-
-/// The controller core on a connection of its own: it answers what robots ask the show clock. Fades go out with it.
-async fn control(broker: BrokerUrl, began: Moment, mut inbox: mpsc::Receiver<(RobotId, Fade)>) {
-    let filters = ["UUID", "Status", "Time"].map(|name| format!("T/LightBot/{name}"));
-    let mut link = Link::open(LinkConfig {
-        broker,
-        client_id: controller_client_id(),
-        filters: filters.into(),
-        queue: 65_536,
-    });
-    let sender = link.sender();
-    let now = || Instant(began.elapsed().as_micros() as u64);
-    let mut controller = Controller::new(ControlConfig::default());
-    loop {
-        let alarm = controller.wake_at().unwrap_or(now() + Span::from_millis(1000));
-        tokio::select! {
-            Some(event) = link.next() => match event {
-                LinkEvent::Connected => controller.connected(now()),
-                LinkEvent::Disconnected { .. } => controller.disconnected(now()),
-                LinkEvent::Message { topic, payload } => controller.message(now(), &topic, &payload),
-            },
-            Some((id, fade)) = inbox.recv() => {
-                let mut text = String::new();
-                if encode(&Command::Fade(fade), &mut text).is_ok() {
-                    sender.send(&Topic::Robot(id).write(), text.into_bytes());
-                }
-            }
-            () = tokio::time::sleep_until((began + Duration::from_micros(alarm.0)).into()) => controller.wake(now()),
-        }
-        while let Some(send) = controller.next_send() {
-            sender.send(&send.topic.write(), send.payload);
-        }
-        while controller.next_event().is_some() {}
-    }
 }
 
 impl Fleet {
@@ -157,6 +127,12 @@ impl Fleet {
 
     fn now_us(&self) -> u64 {
         self.began.elapsed().as_micros() as u64
+    }
+
+    /// The show clock, as the first robot knows it.
+    fn show_time(&self) -> Option<Instant> {
+        let body = self.bodies.first()?;
+        body.robot.show_time(body.own(self.now_us()))
     }
 
     /// Until every clock has been synchronised for a while.
@@ -228,7 +204,7 @@ impl Body {
 
     /// Its own clock.
     fn own(&self, now_us: u64) -> Instant {
-        Instant(self.offset_us + now_us + (now_us as f64 * self.fast_ppm * 1e-6 + 1e3) as u64)
+        Instant((self.offset_us + now_us).wrapping_add_signed((now_us as f64 * self.fast_ppm * 1e-6) as i64))
     }
 
     fn hear(&mut self, at_us: u64, event: LinkEvent) {
