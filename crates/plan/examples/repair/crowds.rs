@@ -8,7 +8,7 @@ use lightbots_show::Obstacle;
 type Build = fn(usize, u64) -> TransitionProblem;
 
 /// All kinds of scenes.
-pub const ALL: [(&str, Build); 12] = [
+pub const ALL: [(&str, Build); 13] = [
     ("sparse", |robots, seed| random(robots, 30.0, seed)),
     ("dense", |robots, seed| random(robots, 500.0, seed)),
     ("mirrored", |robots, seed| mirrored(robots, 100.0, seed)),
@@ -19,6 +19,7 @@ pub const ALL: [(&str, Build); 12] = [
     ("turned", turned),
     ("turned half", turned_half),
     ("shuffled", shuffled),
+    ("full", full),
     ("rows", rows),
     ("dead", dead),
 ];
@@ -136,6 +137,17 @@ fn turned_half(robots: usize, seed: u64) -> TransitionProblem {
 fn shuffled(robots: usize, seed: u64) -> TransitionProblem {
     let starts = grid(robots, 0.08);
     let half = starts.iter().map(|at| at.x.abs()).fold(0.0, f64::max) * 1.5 + 0.05;
+    shuffled_on(starts, half, seed)
+}
+
+/// The same at the distance that messages say leaves room, on a floor that is full of it.
+fn full(robots: usize, seed: u64) -> TransitionProblem {
+    let starts = grid(robots, 0.1215);
+    let half = starts.iter().map(|at| at.x.abs()).fold(0.0, f64::max) + 0.06;
+    shuffled_on(starts, half, seed)
+}
+
+fn shuffled_on(starts: Vec<Vec2>, half: f64, seed: u64) -> TransitionProblem {
     let mut goals = starts.clone();
     Dice(seed).shuffle(&mut goals);
     problem(starts, goals, half)

@@ -2,7 +2,6 @@
 
 use lightbots_show::Easing;
 
-use super::Amiss;
 use super::around::courses;
 use super::contacts::Wish;
 use super::crowd::Crowd;
@@ -13,16 +12,17 @@ use super::pace::Pace;
 use super::relax::{Effort, relax};
 use super::scene::Scene;
 use super::weave::Weave;
+use super::{Amiss, Meeting};
 
 /// Distance of lattice nodes, metres: robots that follow each other around corners stay 0.83 of it apart.
 const PITCH_M: f64 = 0.072;
 /// The same, where the first did not do.
 const LOOSE_PITCH_M: f64 = 0.078;
 /// Robots times spans times sweeps, for all guesses: some seconds.
-const MOST_WORK: usize = 20_000_000;
+const MOST_WORK: usize = 22_000_000;
 /// Where this much work is left, a better way is still looked for.
 const WORK_TO_SPARE: usize = 14_000_000;
-/// The same for each attempt over the lattice.
+/// The same for all attempts over lattices.
 const LATTICE_WORK: usize = 18_000_000;
 /// So much longer than the least is good enough.
 const GOOD: f64 = 1.15;
@@ -31,6 +31,8 @@ const MOST_TO_IMPROVE: usize = 600;
 /// Guesses tried where none has led to a way yet, and where one has.
 const MOST_TRIES: usize = 8;
 const ENOUGH_TRIES: usize = 4;
+/// What being like a better guess weighs where there is no time for all, beside [`Guess::badness`].
+const ALIKE: f64 = 0.06;
 /// How many times as long as the least a way may take.
 const MOST_STRETCH: f64 = 2.4;
 /// How often a way is amended for single robots, and sweeps for each time.
@@ -45,68 +47,87 @@ const NARROW: Wish = Wish { robots_m: 0.0595, walls_m: 0.0065, slack_m: 0.0015 }
 /// Who says whether a weave may be driven.
 type Judge<'a> = &'a dyn Fn(Weave) -> Result<Weave, Amiss>;
 
-/// The swiftest of what was found and is `proven`; `None` where nothing was.
-pub(super) fn best(scene: &Scene, easing: Easing, proven: Judge) -> Option<Weave> {
-    let lattice = Lattice::new(scene, PITCH_M)?;
-    let courses = courses(scene, &lattice)?;
+/// The swiftest of what was found and is `proven`. Where nothing was, who did not get past each other when fewest were
+/// left; empty where it failed for something else.
+pub(super) fn best(scene: &Scene, easing: Easing, proven: Judge) -> Result<Weave, Vec<Meeting>> {
+    let lattice = Lattice::new(scene, PITCH_M).ok_or_else(Vec::new)?;
+    let courses = courses(scene, &lattice).ok_or_else(Vec::new)?;
     let crowd = Crowd::new(scene, &courses);
     let least_s = Pace::new(crowd.longest_m, &scene.limits, easing, 1.0).drive_s;
     let mut work = MOST_WORK;
-    let mut best: Option<Weave> = None;
+    let mut best = Err(Vec::new());
     let hurry = scene.robots() > MOST_TO_IMPROVE;
     let guesses = guesses(&crowd, easing);
     for (tried, (guess, wish)) in order(&guesses, hurry).into_iter().enumerate() {
         let stretch = if hurry || tried >= ENOUGH_TRIES { guess.stretch() } else { 1.0 };
         let effort = Effort { sweeps: 300, stretch: (MOST_STRETCH / stretch).max(1.8), hurry, wish };
         let found = relax(scene, guess.weave(stretch), effort, &mut work);
-        best = swifter(scene, best, found.and_then(|weave| amended(scene, weave, effort, &mut work, proven)));
+        best = better(scene, best, found.and_then(|weave| amended(scene, weave, effort, &mut work, proven)));
         let enough = hurry || tried + 1 >= ENOUGH_TRIES || work < WORK_TO_SPARE;
-        if best.as_ref().is_some_and(|weave| enough || lasts(scene, weave) < least_s * GOOD) {
+        if best.as_ref().is_ok_and(|weave| enough || lasts(scene, weave) < least_s * GOOD) {
             return best;
         }
     }
+    let mut work = LATTICE_WORK;
     for pitch_m in [PITCH_M, LOOSE_PITCH_M] {
-        if best.is_some() && pitch_m > PITCH_M {
+        if best.is_ok() && pitch_m > PITCH_M {
             break;
         }
         let effort = Effort { sweeps: 300, stretch: 2.5, hurry: true, wish: NARROW };
-        let lattice = Lattice::new(scene, pitch_m)?;
-        let mut work = LATTICE_WORK;
-        let found = ordered(scene, &lattice).and_then(|weave| relax(scene, weave, effort, &mut work));
-        best = swifter(scene, best, found.and_then(|weave| amended(scene, weave, effort, &mut work, proven)));
+        let Some(weave) = Lattice::new(scene, pitch_m).and_then(|lattice| ordered(scene, &lattice)) else {
+            continue;
+        };
+        let found = relax(scene, weave, effort, &mut work);
+        best = better(scene, best, found.and_then(|weave| amended(scene, weave, effort, &mut work, proven)));
     }
     best
 }
 
 /// The weave once the proof holds: single robots that cannot drive as they should get a smoother way, and whoever is in
-/// that gives way. `None` where that does not help.
-fn amended(scene: &Scene, weave: Weave, effort: Effort, work: &mut usize, proven: Judge) -> Option<Weave> {
+/// that gives way. Fails as [`best`] does where that does not help.
+fn amended(
+    scene: &Scene,
+    weave: Weave,
+    effort: Effort,
+    work: &mut usize,
+    proven: Judge,
+) -> Result<Weave, Vec<Meeting>> {
     let effort = Effort { sweeps: AMENDING_SWEEPS, stretch: 1.2, ..effort };
     let mut weave = weave;
     for _ in 0..AMENDMENTS {
         let Amiss { weave: mut refused, spots } = match proven(weave) {
-            Ok(weave) => return Some(weave),
+            Ok(weave) => return Ok(weave),
             Err(amiss) => amiss,
         };
         if spots.is_empty() {
-            return None;
+            return Err(Vec::new());
         }
         spots.into_iter().for_each(|(robot, span)| refused.soften(robot, span));
         weave = relax(scene, refused, effort, work)?;
     }
-    proven(weave).ok()
+    proven(weave).map_err(|_| Vec::new())
 }
 
 /// What to try, one after the other. Small crowds may find room for comfort, and most of them do so along plain lines.
 fn order<'a, 'b>(guesses: &'b [Guess<'a>], hurry: bool) -> Vec<(&'b Guess<'a>, Wish)> {
-    let wide = guesses.iter().map(|guess| (guess, WIDE));
     if hurry {
-        return wide.take(MOST_TRIES).collect();
+        return unlike(guesses).into_iter().take(MOST_TRIES).map(|guess| (guess, WIDE)).collect();
     }
+    let wide = guesses.iter().map(|guess| (guess, WIDE));
     let plain = guesses.iter().filter(|guess| guess.manner == Manner::default());
     let mut roomy: Vec<_> = guesses.iter().take(1).chain(plain).map(|guess| (guess, ROOMY)).collect();
     roomy.dedup_by_key(|(guess, _)| guess.manner);
     roomy.into_iter().chain(wide).take(MOST_TRIES).collect()
+}
+
+/// The guesses in another order: where one fails, those that differ from it only in how far they bow mostly fail too.
+fn unlike<'a, 'b>(guesses: &'b [Guess<'a>]) -> Vec<&'b Guess<'a>> {
+    let straight = |at: usize| Manner { bow: 0.0, ..guesses[at].manner };
+    let is_alike = |at: usize| (0..at).any(|before| straight(before) == straight(at));
+    let weigh = |at: usize| guesses[at].badness + if is_alike(at) { ALIKE } else { 0.0 };
+    let mut order: Vec<(f64, usize)> = (0..guesses.len()).map(|at| (weigh(at), at)).collect();
+    order.sort_by(|a, b| a.0.total_cmp(&b.0));
+    order.into_iter().map(|(_, at)| &guesses[at]).collect()
 }
 
 /// First guesses, the most promising first.
@@ -122,9 +143,17 @@ fn lasts(scene: &Scene, weave: &Weave) -> f64 {
     weave.least_span_s(&scene.limits) * weave.spans as f64
 }
 
-fn swifter(scene: &Scene, one: Option<Weave>, other: Option<Weave>) -> Option<Weave> {
+/// The swifter of two ways, or how far the one came that left fewer in each other's way.
+fn better(
+    scene: &Scene,
+    one: Result<Weave, Vec<Meeting>>,
+    other: Result<Weave, Vec<Meeting>>,
+) -> Result<Weave, Vec<Meeting>> {
     match (one, other) {
-        (Some(one), Some(other)) if lasts(scene, &other) < lasts(scene, &one) => Some(other),
-        (one, other) => one.or(other),
+        (Ok(one), Ok(other)) if lasts(scene, &other) < lasts(scene, &one) => Ok(other),
+        (Ok(one), _) => Ok(one),
+        (Err(_), Ok(other)) => Ok(other),
+        (Err(one), Err(other)) if one.is_empty() || (1..one.len()).contains(&other.len()) => Err(other),
+        (Err(one), Err(_)) => Err(one),
     }
 }

@@ -28,7 +28,7 @@ mod tests;
 mod turning;
 mod weave;
 
-use lightbots_base::Span;
+use lightbots_base::{Span, Vec2};
 
 use crate::proof::{FaultKind, ProofInput, prove};
 use crate::{Path, TransitionProblem};
@@ -46,11 +46,21 @@ const SLOWER: [f64; 3] = [1.0, 1.02, 1.05];
 
 /// Collision-free timed paths for a settled assignment: `goal_of[start]` is the goal that robot drives to, `None` a
 /// spare robot that may step aside. `paths[start]` all last equally long, at least the problem's duration, and begin
-/// with the rest in which robots turn. `None` where nothing was found within the bounded work.
-pub fn repair(problem: &TransitionProblem, goal_of: &[Option<usize>]) -> Option<Vec<Path>> {
-    let scene = Scene::new(problem, goal_of)?;
+/// with the rest in which robots turn. Where nothing was found within the bounded work, who did not get past each other
+/// in the attempt that left fewest; empty where it failed for something else.
+pub fn repair(problem: &TransitionProblem, goal_of: &[Option<usize>]) -> Result<Vec<Path>, Vec<Meeting>> {
+    let scene = Scene::new(problem, goal_of).ok_or_else(Vec::new)?;
     let weave = attempts::best(&scene, problem.easing, &|weave| proven(problem, &scene, weave))?;
-    Some(timed(problem, &scene, &weave))
+    Ok(timed(problem, &scene, &weave))
+}
+
+/// Two robots that do not get past each other.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Meeting {
+    /// Which two: indices into `starts`.
+    pub pair: (usize, usize),
+    /// Half way between the two, stage metres.
+    pub place: Vec2,
 }
 
 /// The weave in the least of some times in which the proof holds: distances do not depend on time, but a turn that is a

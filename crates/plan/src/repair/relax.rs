@@ -3,10 +3,11 @@
 
 use lightbots_base::Vec2;
 
+use super::Meeting;
 use super::contacts::{Contact, Other, Watch, Wish};
 use super::scene::Scene;
 use super::slow::Slow;
-use super::weave::Weave;
+use super::weave::{Weave, blend};
 
 /// Where fewer than one robot in so many are left in each other's way they are sent elsewhere.
 const A_FEW: usize = 30;
@@ -51,22 +52,32 @@ pub(super) struct Effort {
     pub wish: Wish,
 }
 
-/// A weave free of contacts, or `None` where the effort did not do. Where a stage does not bring much there is a little
+/// A weave free of contacts, or who is in whose way when fewest are where the effort did not do. Where a stage does not bring much there is a little
 /// more time for the next. The weave's haste says how much slower still it must be driven.
-pub(super) fn relax(scene: &Scene, weave: Weave, effort: Effort, work: &mut usize) -> Option<Weave> {
+pub(super) fn relax(
+    scene: &Scene,
+    weave: Weave,
+    effort: Effort,
+    work: &mut usize,
+) -> Result<Weave, Vec<Meeting>> {
     let longest_s = weave.span_s * effort.stretch;
     let mut state = State::new(scene, weave, effort.wish);
     let mut best: Option<(f64, Weave)> = None;
     let (mut hoped, mut kicks) = (usize::MAX, 0);
+    let (mut fewest, mut left_over) = (usize::MAX, Vec::new());
     let few = state.weave.robots() / A_FEW + 1;
     for sweep in 0..effort.sweeps {
         let Some(left) = work.checked_sub(state.weave.robots() * state.weave.spans) else { break };
         *work = left;
-        let bent = state.bend_all(sweep % LOOK_OUT_EVERY == 0);
+        let in_the_way = state.bend_all(sweep % LOOK_OUT_EVERY == 0);
+        let bent = in_the_way.len();
+        if sweep % LOOK_OUT_EVERY == 0 && (1..fewest).contains(&bent) {
+            (fewest, left_over) = (bent, state.meetings(&in_the_way));
+        }
         let (haste, hasty) = if bent == 0 { state.haste() } else { (f64::MAX, 0) };
         let span_s = state.weave.span_s * haste;
-        if bent == 0 && best.as_ref().is_none_or(|(best_s, _)| span_s < *best_s) && state.bend_all(true) == 0
-        {
+        let is_best = bent == 0 && best.as_ref().is_none_or(|(best_s, _)| span_s < *best_s);
+        if is_best && state.bend_all(true).is_empty() {
             best = Some((span_s, state.weave.clone()));
             if haste < GOOD_HASTE {
                 break;
@@ -89,7 +100,7 @@ pub(super) fn relax(scene: &Scene, weave: Weave, effort: Effort, work: &mut usiz
         }
         state.slow(if bent > state.weave.robots() { 1 } else { EASINGS });
     }
-    best.map(|(_, weave)| weave)
+    best.map(|(_, weave)| weave).ok_or(left_over)
 }
 
 struct State<'a> {
@@ -178,8 +189,8 @@ impl<'a> State<'a> {
         (greatest, self.haste.iter().filter(|&&haste| haste > GOOD_HASTE).count())
     }
 
-    /// Bends whoever is too close, after a new look-out if `anew`; how many were.
-    fn bend_all(&mut self, anew: bool) -> usize {
+    /// Bends whoever is too close, after a new look-out if `anew`, and says who was.
+    fn bend_all(&mut self, anew: bool) -> Vec<Contact> {
         if anew {
             self.contacts = self.watch.look_out(self.scene, &self.weave, self.wish);
         }
@@ -193,9 +204,23 @@ impl<'a> State<'a> {
             };
             (anew || other || moved[contact.a] || self.moved[contact.a]) && self.bend(contact)
         });
-        let bent = bent.count();
+        let bent = bent.copied().collect();
         self.contacts = contacts;
         bent
+    }
+
+    /// Which robots these are, each two once, and where they meet.
+    fn meetings(&self, contacts: &[Contact]) -> Vec<Meeting> {
+        let of_robots = contacts.iter().filter_map(|contact| {
+            let Other::Robot(b) = contact.b else { return None };
+            let weights = self.watch.closest(self.scene, &self.weave, contact).weights;
+            let place = |robot: usize| blend(self.weave.span(robot, contact.span), &weights);
+            Some(Meeting { pair: (contact.a, b), place: place(contact.a).lerp(place(b), 0.5) })
+        });
+        let mut meetings: Vec<Meeting> = of_robots.collect();
+        meetings.sort_by_key(|meeting| meeting.pair);
+        meetings.dedup_by_key(|meeting| meeting.pair);
+        meetings
     }
 
     /// Bends two robots apart, or one off a wall, if they are too close.

@@ -1,8 +1,7 @@
 //! What cannot be solved by anybody, said in words.
 
 use super::parking::distance_to;
-use crate::proof::Proof;
-use crate::{Stuck, Transition, TransitionProblem};
+use crate::{Stuck, TransitionProblem};
 use lightbots_base::Vec2;
 
 /// Whether the goals can be shown at all.
@@ -103,26 +102,4 @@ pub(super) fn pins(problem: &TransitionProblem) -> Stuck {
     let goals =
         (0..problem.goals.len().min(problem.pinned.len())).filter(|&goal| problem.pinned[goal].is_some());
     stuck(goals.collect(), "pixels are bound to robots that are not there or are bound twice".into())
-}
-
-/// Nobody found a way around the conflicts that are left.
-pub(super) fn conflict(problem: &TransitionProblem, transition: &Transition, proof: &Proof) -> Stuck {
-    let mut starts: Vec<usize> = Vec::new();
-    for found in &proof.conflicts {
-        starts.extend([found.pair.0, found.pair.1].into_iter().filter(|&robot| robot < problem.starts.len()));
-    }
-    starts.sort_unstable();
-    starts.dedup();
-    let goals = starts.iter().filter_map(|&start| transition.goal_of[start]).collect();
-    let message = match proof.conflicts.first() {
-        Some(worst) => format!(
-            "no way found that keeps robots apart: two would come within {:.0} mm near ({:.2}, {:.2}) m; pixels {:.0} mm apart leave room",
-            worst.distance_m * 1e3,
-            worst.place.x,
-            worst.place.y,
-            problem.limits.radius_m * 2e3 * core::f64::consts::SQRT_2
-        ),
-        None => "no legal way found".into(),
-    };
-    Stuck { goals, starts, message }
 }

@@ -2,6 +2,7 @@
 
 mod candidate;
 mod check;
+mod conflict;
 mod nudge;
 mod parking;
 mod relax;
@@ -78,7 +79,7 @@ fn settle(problem: &TransitionProblem, choice: &Choice) -> Attempt {
         Some(candidate) if candidate.holds() => Attempt { transition: candidate.transition, stuck: None },
         Some(candidate) if check::possible(problem).is_ok() => mend(problem, candidate),
         Some(Candidate { transition, proof, .. }) => {
-            let stuck = Some(check::conflict(problem, &transition, &proof));
+            let stuck = Some(conflict::stuck(problem, &transition, &proof, Vec::new()));
             Attempt { transition, stuck }
         }
         None => Attempt { transition: candidate::standing_still(problem), stuck: Some(check::pins(problem)) },
@@ -87,13 +88,16 @@ fn settle(problem: &TransitionProblem, choice: &Choice) -> Attempt {
 
 /// What repair makes of straight lines that conflict.
 fn mend(problem: &TransitionProblem, conflicting: Candidate) -> Attempt {
-    let repaired = repair(problem, &conflicting.transition.goal_of)
-        .map(|paths| Candidate::of_paths(problem, paths, conflicting.transition.goal_of.clone()))
-        .filter(Candidate::holds);
+    let goal_of = &conflicting.transition.goal_of;
+    let repaired = repair(problem, goal_of).and_then(|paths| {
+        Some(Candidate::of_paths(problem, paths, goal_of.clone()))
+            .filter(Candidate::holds)
+            .ok_or_else(Vec::new)
+    });
     match repaired {
-        Some(candidate) => Attempt { transition: candidate.transition, stuck: None },
-        None => {
-            let stuck = Some(check::conflict(problem, &conflicting.transition, &conflicting.proof));
+        Ok(candidate) => Attempt { transition: candidate.transition, stuck: None },
+        Err(left) => {
+            let stuck = Some(conflict::stuck(problem, &conflicting.transition, &conflicting.proof, left));
             Attempt { transition: conflicting.transition, stuck }
         }
     }

@@ -130,3 +130,40 @@ fn robots_that_must_cross_are_led_around_each_other() {
         assert!(plan.duration.as_secs() <= (plan.lower_bound_s + 0.62) * 1.2);
     }
 }
+
+/// A square grid that fills its floor, in which everybody is bound to another's place.
+fn shuffled(side: usize, apart: f64) -> TransitionProblem {
+    let at = |i: usize| (i as f64 - (side as f64 - 1.0) / 2.0) * apart;
+    let starts: Vec<Vec2> = (0..side * side).map(|i| Vec2::new(at(i % side), at(i / side))).collect();
+    let (mut goals, mut seeded) = (starts.clone(), Seeded::new(7));
+    (1..goals.len()).rev().for_each(|last| goals.swap(last, seeded.below(last + 1)));
+    let mut fixed = problem(starts, goals, side as f64 * apart / 2.0);
+    fixed.pinned = (0..side * side).map(Some).collect();
+    fixed
+}
+
+#[test]
+fn who_is_left_in_each_others_way_is_named_with_a_distance_that_does() {
+    let stuck = transition(&shuffled(8, 0.058)).unwrap_err();
+    let message = &stuck.message;
+    assert!((2..=8).contains(&message.matches("to (").count()), "{message}");
+    assert!(message.contains(" near (") && message.contains("pixels 122 mm apart"), "{message}");
+    assert!(stuck.goals.len() >= 2 && stuck.goals.len() == stuck.starts.len());
+    for side in [6, 8, 10] {
+        transition(&shuffled(side, 0.122)).unwrap_or_else(|stuck| panic!("{side}: {stuck:?}"));
+    }
+}
+
+#[test]
+fn two_who_cannot_pass_in_a_corridor_are_named_alone() {
+    let places: Vec<Vec2> = (0..6).map(|i| Vec2::new(f64::from(i) * 0.2 - 0.5, 0.0)).collect();
+    let mut goals = places.clone();
+    goals.swap(2, 3);
+    let mut corridor = problem(places, goals, 0.03);
+    corridor.half_floor.x = 0.6;
+    corridor.pinned = (0..6).map(Some).collect();
+    let stuck = transition(&corridor).unwrap_err();
+    assert_eq!(stuck.goals, [2, 3], "{}", stuck.message);
+    let expected = "to (0.10, 0.00) and to (-0.10, 0.00) near (0.00, 0.00) m; leave more room";
+    assert!(stuck.message.contains(expected), "{}", stuck.message);
+}

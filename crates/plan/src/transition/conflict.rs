@@ -1,0 +1,88 @@
+//! Who stands in each other's way where no way was found, and what would do, in words.
+
+use lightbots_base::Vec2;
+
+use super::MARGIN_M;
+use super::check::touching;
+use crate::proof::Proof;
+use crate::repair::Meeting;
+use crate::{Stuck, Transition, TransitionProblem};
+
+/// Pairs named in a message.
+const MOST_NAMED: usize = 4;
+/// Pixels so many diameters apart leave room where any robot may show any pixel: then straight lines of the least sum
+/// of squares keep clear of each other.
+const FREE_DIAMETERS: f64 = core::f64::consts::SQRT_2;
+/// The same where robots are bound to pixels: measured with shuffled grids that fill the floor, up to 1,000 robots.
+const BOUND_DIAMETERS: f64 = 2.25;
+
+/// Nobody found a way. `left` did not get past each other; where it is empty, the straight lines tell who is in whose
+/// way.
+pub(super) fn stuck(
+    problem: &TransitionProblem,
+    transition: &Transition,
+    proof: &Proof,
+    mut left: Vec<Meeting>,
+) -> Stuck {
+    if left.is_empty() {
+        left = on_straight_lines(problem, proof);
+    }
+    let mut starts: Vec<usize> = Vec::new();
+    for robot in left.iter().flat_map(|meeting| [meeting.pair.0, meeting.pair.1]) {
+        if robot < problem.starts.len() && !starts.contains(&robot) {
+            starts.push(robot);
+        }
+    }
+    let goals = starts.iter().filter_map(|&start| transition.goal_of.get(start).copied().flatten());
+    let goals = goals.filter(|&goal| goal < problem.goals.len()).collect();
+    let named: Vec<String> =
+        left.iter().take(MOST_NAMED).map(|meeting| named(problem, transition, meeting)).collect();
+    let message = match left.len().saturating_sub(MOST_NAMED) {
+        _ if left.is_empty() => format!("no legal way found; {}", remedy(problem)),
+        0 => format!("robots do not get past each other: {}; {}", named.join("; "), remedy(problem)),
+        more => format!(
+            "robots do not get past each other: {}; and {more} more pairs; {}",
+            named.join("; "),
+            remedy(problem)
+        ),
+    };
+    Stuck { goals, starts, message }
+}
+
+/// Who comes too close on straight lines, the closest first.
+fn on_straight_lines(problem: &TransitionProblem, proof: &Proof) -> Vec<Meeting> {
+    let least_m = problem.limits.contact_m() + MARGIN_M;
+    let mut close: Vec<_> = proof.conflicts.iter().filter(|found| found.distance_m < least_m).collect();
+    close.sort_by(|a, b| a.distance_m.total_cmp(&b.distance_m));
+    close.into_iter().map(|found| Meeting { pair: found.pair, place: found.place }).collect()
+}
+
+/// A pair by where its robots are to go, and where they meet.
+fn named(problem: &TransitionProblem, transition: &Transition, meeting: &Meeting) -> String {
+    let at = |place: Vec2| format!("({:.2}, {:.2})", place.x, place.y);
+    let name = |robot: usize| {
+        let goal = transition.goal_of.get(robot).copied().flatten();
+        match (goal.and_then(|goal| problem.goals.get(goal)), problem.starts.get(robot)) {
+            (Some(&goal), _) => format!("to {}", at(goal)),
+            (None, Some(&start)) => format!("spare from {}", at(start)),
+            (None, None) => "one that stands".into(),
+        }
+    };
+    format!("{} and {} near {} m", name(meeting.pair.0), name(meeting.pair.1), at(meeting.place))
+}
+
+/// What would do.
+fn remedy(problem: &TransitionProblem) -> String {
+    let is_bound = problem.pinned.iter().any(Option::is_some);
+    let diameters = if is_bound { BOUND_DIAMETERS } else { FREE_DIAMETERS };
+    let enough_m = 2.0 * problem.limits.radius_m * diameters;
+    let is_close = |places: &[Vec2]| touching(places, enough_m).is_some();
+    if is_close(&problem.goals) || is_close(&problem.starts) {
+        let free = if is_bound { ", or let any robot show them" } else { "" };
+        return format!(
+            "pixels {:.0} mm apart in this frame and the one before leave room{free}",
+            enough_m * 1e3
+        );
+    }
+    "leave more room around obstacles, robots that stand and the floor's edge".into()
+}
