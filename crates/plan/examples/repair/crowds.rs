@@ -8,7 +8,7 @@ use lightbots_show::Obstacle;
 type Build = fn(usize, u64) -> TransitionProblem;
 
 /// All kinds of scenes.
-pub const ALL: [(&str, Build); 13] = [
+pub const ALL: [(&str, Build); 14] = [
     ("sparse", |robots, seed| random(robots, 30.0, seed)),
     ("dense", |robots, seed| random(robots, 500.0, seed)),
     ("mirrored", |robots, seed| mirrored(robots, 100.0, seed)),
@@ -20,6 +20,7 @@ pub const ALL: [(&str, Build); 13] = [
     ("turned half", turned_half),
     ("shuffled", shuffled),
     ("full", full),
+    ("hopeless", hopeless),
     ("rows", rows),
     ("dead", dead),
 ];
@@ -144,6 +145,13 @@ fn shuffled(robots: usize, seed: u64) -> TransitionProblem {
 fn full(robots: usize, seed: u64) -> TransitionProblem {
     let starts = grid(robots, 0.1215);
     let half = starts.iter().map(|at| at.x.abs()).fold(0.0, f64::max) + 0.06;
+    shuffled_on(starts, half, seed)
+}
+
+/// The same so close that nobody gets past anybody: what giving up costs.
+fn hopeless(robots: usize, seed: u64) -> TransitionProblem {
+    let starts = grid(robots, 0.06);
+    let half = starts.iter().map(|at| at.x.abs()).fold(0.0, f64::max) + 0.03;
     shuffled_on(starts, half, seed)
 }
 

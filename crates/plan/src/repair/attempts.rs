@@ -18,7 +18,7 @@ use super::{Amiss, Meeting};
 const PITCH_M: f64 = 0.072;
 /// The same, where the first did not do.
 const LOOSE_PITCH_M: f64 = 0.078;
-/// Robots times spans times sweeps, for all guesses: some seconds.
+/// Robots times spans times sweeps, and what is bent in them, for all guesses: some seconds.
 const MOST_WORK: usize = 22_000_000;
 /// Where this much work is left, a better way is still looked for.
 const WORK_TO_SPARE: usize = 14_000_000;

@@ -71,6 +71,7 @@ pub(super) fn relax(
         *work = left;
         let in_the_way = state.bend_all(sweep % LOOK_OUT_EVERY == 0);
         let bent = in_the_way.len();
+        *work = work.saturating_sub(bent);
         if sweep % LOOK_OUT_EVERY == 0 && (1..fewest).contains(&bent) {
             (fewest, left_over) = (bent, state.meetings(&in_the_way));
         }

@@ -27,22 +27,26 @@ pub(super) fn stuck(
     if left.is_empty() {
         left = on_straight_lines(problem, proof);
     }
-    let mut starts: Vec<usize> = Vec::new();
-    for robot in left.iter().flat_map(|meeting| [meeting.pair.0, meeting.pair.1]) {
-        if robot < problem.starts.len() && !starts.contains(&robot) {
-            starts.push(robot);
-        }
+    let mut is_named = vec![false; problem.starts.len() + problem.standing.len()];
+    let (mut starts, mut apart) = (Vec::new(), Vec::new());
+    for meeting in &left {
+        let (a, b) = meeting.pair;
+        let new = [a, b].map(|robot| is_named.get_mut(robot).is_some_and(|is| !std::mem::replace(is, true)));
+        starts.extend([a, b].into_iter().zip(new).filter(|(_, new)| *new).map(|(robot, _)| robot));
+        // Pairs that share nobody tell most.
+        apart.extend((new == [true, true]).then_some(meeting));
     }
+    starts.retain(|&robot| robot < problem.starts.len());
     let goals = starts.iter().filter_map(|&start| transition.goal_of.get(start).copied().flatten());
     let goals = goals.filter(|&goal| goal < problem.goals.len()).collect();
-    let named: Vec<String> =
-        left.iter().take(MOST_NAMED).map(|meeting| named(problem, transition, meeting)).collect();
-    let message = match left.len().saturating_sub(MOST_NAMED) {
+    let pairs: Vec<String> =
+        apart.into_iter().take(MOST_NAMED).map(|meeting| named(problem, transition, meeting)).collect();
+    let message = match left.len() - pairs.len() {
         _ if left.is_empty() => format!("no legal way found; {}", remedy(problem)),
-        0 => format!("robots do not get past each other: {}; {}", named.join("; "), remedy(problem)),
+        0 => format!("robots do not get past each other: {}; {}", pairs.join("; "), remedy(problem)),
         more => format!(
             "robots do not get past each other: {}; and {more} more pairs; {}",
-            named.join("; "),
+            pairs.join("; "),
             remedy(problem)
         ),
     };

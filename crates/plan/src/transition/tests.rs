@@ -144,12 +144,12 @@ fn shuffled(side: usize, apart: f64) -> TransitionProblem {
 
 #[test]
 fn who_is_left_in_each_others_way_is_named_with_a_distance_that_does() {
-    let stuck = transition(&shuffled(8, 0.058)).unwrap_err();
+    let stuck = transition(&shuffled(6, 0.058)).unwrap_err();
     let message = &stuck.message;
     assert!((2..=8).contains(&message.matches("to (").count()), "{message}");
     assert!(message.contains(" near (") && message.contains("pixels 122 mm apart"), "{message}");
     assert!(stuck.goals.len() >= 2 && stuck.goals.len() == stuck.starts.len());
-    for side in [6, 8, 10] {
+    for side in [6, 9] {
         transition(&shuffled(side, 0.122)).unwrap_or_else(|stuck| panic!("{side}: {stuck:?}"));
     }
 }
