@@ -4,6 +4,7 @@ use crate::clear::Floor;
 use crate::leg::{Errand, Kind, Leg, Move};
 use crate::mapping::{Bindings, Cast, Mapping};
 use crate::originals::{self, Journey, Stage};
+use crate::room::rooms;
 use lightbots_base::{RobotId, Span, Vec2};
 use lightbots_plan::{Path, Transition, TransitionProblem, transition};
 use lightbots_show::{Frame, Pixel, Show};
@@ -187,7 +188,7 @@ impl<'a> Draft<'a> {
         let rest = |rider: usize| match plan.goal_of.get(rider).copied().flatten() {
             Some(goal) => {
                 let pixel = cast.pixels[goal];
-                Move { errand: Errand::Stay, goal: pixel.at, pixel: Some(pixel.id), color: pixel.color }
+                Move { goal: pixel.at, pixel: Some(pixel.id), color: pixel.color, ..Move::stay(pixel.at) }
             }
             None => Move::stay(plan.paths.get(rider).map_or(self.places[rider], |path| path.as_ref().end())),
         };
@@ -261,10 +262,11 @@ impl<'a> Draft<'a> {
             return Err(format!("a path has more than the {MAX_PIECES} pieces a robot can keep"));
         }
         let mut leg = self.leg(Kind::Routes, rests, paths.len(), duration, room_m);
-        for (rider, path) in paths {
+        let rooms = rooms(&paths, &self.request.standing, room_m, self.request.show.stage.limits.contact_m());
+        for ((rider, path), room_m) in paths.into_iter().zip(rooms) {
             let goal = path.as_ref().end();
             let step = &mut leg.moves[self.request.riders[rider].seat];
-            *step = Move { errand: Errand::Path(path), goal, ..step.clone() };
+            *step = Move { errand: Errand::Path(path), room_m, goal, ..step.clone() };
         }
         Ok(leg)
     }

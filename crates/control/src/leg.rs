@@ -38,6 +38,8 @@ pub(crate) enum Kind {
 #[derive(Clone, Debug)]
 pub(crate) struct Move {
     pub errand: Errand,
+    /// How far others stay from its rim by plan, metres; infinite where that is far.
+    pub room_m: f64,
     /// Where it stands afterwards, stage metres.
     pub goal: Vec2,
     /// The pixel it shows in the leg's frame.
@@ -60,7 +62,7 @@ pub(crate) enum Errand {
 impl Move {
     /// Standing at a place, dark.
     pub fn stay(at: Vec2) -> Self {
-        Self { errand: Errand::Stay, goal: at, pixel: None, color: Rgb::BLACK }
+        Self { errand: Errand::Stay, room_m: f64::INFINITY, goal: at, pixel: None, color: Rgb::BLACK }
     }
 }
 

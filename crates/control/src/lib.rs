@@ -35,6 +35,7 @@ mod operation;
 mod originals;
 mod outbox;
 mod recovery;
+mod room;
 mod run;
 mod snapshot;
 mod standing;

@@ -11,6 +11,8 @@ use std::collections::VecDeque;
 /// Routes of the next leg wait this long after the current one began: a robot whose clock or step is a little behind has
 /// not begun it yet, and would take the next one in its place.
 const BEGUN: Span = CHECK;
+/// The most room that is told, millimetres.
+const ROOM_MOST_MM: f64 = 40.0;
 
 /// The upload of one leg.
 #[derive(Clone, Debug)]
@@ -149,8 +151,11 @@ impl Run {
             known.sent = now;
         }
         known.tries += 1;
-        let topic = Topic::Robot(desk.fleet.robot(known.robot).id);
-        let route = Command::Route(Route { seq: leg.seq, start: path.start, pieces });
+        let robot = desk.fleet.robot(known.robot);
+        let topic = Topic::Robot(robot.id);
+        // The cast rounds down, and less than nothing to nothing.
+        let room_mm = robot.abilities.room.then(|| (leg.moves[seat].room_m * 1e3).min(ROOM_MOST_MM) as u16);
+        let route = Command::Route(Route { seq: leg.seq, start: path.start, pieces, room_mm });
         match known.fade {
             Some(fade) => desk.outbox.say(topic, &[route, Command::Fade(fade)]),
             None => desk.outbox.say(topic, &[route]),

@@ -36,13 +36,19 @@ const LEAN_PER_M: f32 = 28.0;
 /// Driving so slowly although it was told to drive so fast, m/s, a robot is stuck.
 const STUCK_MPS: f32 = 0.005;
 const TOLD_MPS: f32 = 0.05;
-/// What closes in for sure with more than this share of its speed stands; else it is a neighbour on its own way.
-const STANDS: f32 = 0.6;
-/// Share of its speed with which it closes in at least on what stands ahead. Closing in faster than with all of it is
-/// the other's doing, and standing would not help.
-const SHARE_MIN: f32 = 0.9;
-/// Slack for that, m/s.
-const SHARE_SLACK_MPS: f32 = 0.03;
+/// Who is left so much room by plan, millimetres, has no neighbours and looks beside its way as well.
+pub(crate) const AMPLE_MM: u16 = 8;
+/// How it looks where neighbours are near by plan, and where they are not.
+const NARROW: Look = Look { around: &[(0, 0)], stands: [0.6; 3], slack_mps: 0.03 };
+const WIDE: Look = Look {
+    around: &[(0, 0), (1, 1), (SENSORS - 1, 1), (2, 2), (SENSORS - 2, 2)],
+    stands: [0.5, 0.35, 0.15],
+    slack_mps: 0.06,
+};
+/// Share of its speed with which it closes in on what stands in sight of a sensor ahead, 45° and 90° beside it: least
+/// and most. Closing in faster than that is the other's doing, and standing would not help.
+const SHARE_MIN: [f32; 3] = [0.9, 0.4, 0.3];
+const SHARE_MAX: [f32; 3] = [1.0, 0.95, 0.4];
 /// What it would miss by more than this if that stood is no hindrance, metres.
 const MISS_M: f32 = 0.002;
 /// Once it may drive less than half of what it wants, it does so for so many steps, unless the gap widens by so much,
@@ -66,6 +72,17 @@ pub(crate) struct Block {
     pub towards: f64,
 }
 
+/// Where it looks, and what it minds.
+struct Look {
+    /// Sensors that count for driving forwards, and how many sensors aside of its way each is.
+    around: &'static [(usize, usize)],
+    /// What closes in for sure with more than this share of its speed stands, as far as a sensor ahead, 45° and 90°
+    /// beside can tell; else it is a neighbour on its own way.
+    stands: [f32; 3],
+    /// What closes in may do so faster than by the robot's own speed by this, m/s.
+    slack_mps: f32,
+}
+
 /// What the robot's drive is about.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Wish {
@@ -73,6 +90,8 @@ pub(crate) struct Wish {
     pub speed_mps: f64,
     /// What the wheels were told a step ago, which acts now.
     pub told_mps: f64,
+    /// The others stay far from it by plan.
+    pub ample: bool,
 }
 
 /// What the proximity sensors saw, and what follows from it.
@@ -161,7 +180,7 @@ impl Reflex {
         Some(free_mps.map_or(held_mps, |mps| mps.min(held_mps)))
     }
 
-    /// The speed that the sensor ahead allows, if it minds, and which that is.
+    /// The speed that the sensor allows which allows least, and which that is.
     fn slowest(&mut self, wish: Wish, limits: &Limits) -> Option<(f64, usize)> {
         let forwards =
             if wish.speed_mps.abs() > 1e-3 { wish.speed_mps > 0.0 } else { self.speeds_mps[0] > 0.0 };
@@ -170,11 +189,21 @@ impl Reflex {
         let lately_mps = self.speeds_mps.iter().fold(0.0, |most: f32, mps| most.max(sense * mps));
         let next_mps = (sense * wish.told_mps as f32).max(0.0);
         let contact_m = limits.contact_m() as f32;
-        // Beside its way neighbours pass by plan, as near as they like: only the sensor ahead counts.
-        let sensor = if forwards { 0 } else { SENSORS / 2 };
-        let (closing, gap_m) = (self.closing(sensor)?, self.gap_m(sensor));
-        let approach = Approach { gap_m, closing, along_mps, lately_mps, next_mps };
-        approach.allowed_mps(contact_m).map(|mps| (f64::from(mps), sensor))
+        // Beside its way neighbours may pass by plan, as near as they like: then only the sensor ahead counts.
+        let look = if wish.ample { &WIDE } else { &NARROW };
+        let mut slowest: Option<(f32, usize)> = None;
+        for &(index, turn) in look.around {
+            let sensor = if forwards { index } else { (index + SENSORS / 2) % SENSORS };
+            let Some(closing) = self.closing(sensor) else { continue };
+            let gap_m = self.gap_m(sensor);
+            let approach = Approach { gap_m, closing, along_mps, lately_mps, next_mps, turn };
+            if let Some(mps) = approach.allowed_mps(look, contact_m)
+                && slowest.is_none_or(|(least, _)| mps < least)
+            {
+                slowest = Some((mps, sensor));
+            }
+        }
+        slowest.map(|(mps, sensor)| (f64::from(mps), sensor))
     }
 
     /// What a sensor sees, in which direction by what the one beside it sees.
@@ -250,7 +279,7 @@ struct Closing {
     sure_mps: f32,
 }
 
-/// How it nears what the sensor ahead sees.
+/// How it nears what one sensor sees, `turn` sensors aside of its way.
 struct Approach {
     gap_m: f32,
     closing: Closing,
@@ -259,21 +288,22 @@ struct Approach {
     next_mps: f32,
     /// The fastest of the steps over which the gap was watched, m/s.
     lately_mps: f32,
+    turn: usize,
 }
 
 impl Approach {
     /// How fast it may drive for that, m/s; `None`: as it likes.
-    fn allowed_mps(&self, contact_m: f32) -> Option<f32> {
-        let Self { gap_m, closing, along_mps, next_mps, lately_mps } = *self;
+    fn allowed_mps(&self, look: &Look, contact_m: f32) -> Option<f32> {
+        let Self { gap_m, closing, along_mps, next_mps, lately_mps, turn } = *self;
         // One that was told to drive and does not is stuck, and not about to touch anything.
         let moves = lately_mps > STUCK_MPS || next_mps < TOLD_MPS;
-        if gap_m < TOUCHING_M && moves {
+        if gap_m < TOUCHING_M && turn < 2 && moves {
             return Some(0.0);
         }
-        if closing.sure_mps < STANDS * lately_mps || closing.sure_mps < CALM_MPS {
+        if closing.sure_mps < look.stands[turn] * lately_mps || closing.sure_mps < CALM_MPS {
             return None;
         }
-        if closing.mps > lately_mps + SHARE_SLACK_MPS {
+        if closing.mps > SHARE_MAX[turn] * lately_mps + look.slack_mps {
             return None;
         }
         // By how much would it be missed?
@@ -282,7 +312,7 @@ impl Approach {
         if miss_m > MISS_M {
             return None;
         }
-        let share = share.max(SHARE_MIN);
+        let share = share.clamp(SHARE_MIN[turn], SHARE_MAX[turn]);
         let closing_mps = closing.mps.max(share * along_mps);
         let soon_mps = (closing_mps + (next_mps - along_mps) * share).max(0.0);
         let soon_m = gap_m - soon_mps * DEAD_S;

@@ -13,6 +13,7 @@ struct Pair {
     told_mps: f64,
     other: (f64, f64),
     other_mps: f64,
+    ample: bool,
 }
 
 impl Pair {
@@ -25,6 +26,7 @@ impl Pair {
             told_mps: SPEED_MPS,
             other: (ahead_m, aside_m),
             other_mps,
+            ample: false,
         }
     }
 
@@ -47,7 +49,7 @@ impl Pair {
         self.x += self.speed_mps * DT;
         self.other.0 += self.other_mps * DT;
         self.reflex.look(Some(&self.readings()), self.speed_mps * DT, DT);
-        let wish = Wish { speed_mps: SPEED_MPS, told_mps: self.told_mps };
+        let wish = Wish { speed_mps: SPEED_MPS, told_mps: self.told_mps, ample: self.ample };
         let most_mps = self.reflex.limit(wish, &LIMITS).unwrap_or(SPEED_MPS);
         // Tyres take two steps for the whole of it.
         self.speed_mps = self.told_mps.max(self.speed_mps - 0.188);
@@ -73,6 +75,18 @@ fn it_stops_before_what_stands_ahead() {
             let least_m = pair.least_gap_m();
             assert!(least_m > 0.0005, "{aside_mm} mm aside: {:.1} mm", least_m * 1e3);
             assert!(pair.reflex.block().is_some() && pair.told_mps == 0.0, "{aside_mm} mm aside");
+        }
+    }
+}
+
+#[test]
+fn with_room_by_plan_it_stops_wherever_it_would_hit_something() {
+    for aside_mm in [0, 8, 15, 22, 30, 38, 44, 48] {
+        for start_mm in 0..5 {
+            let mut pair = Pair::new(0.15 + f64::from(start_mm) * 0.001, f64::from(aside_mm) * 1e-3, 0.0);
+            pair.ample = true;
+            let least_m = pair.least_gap_m();
+            assert!(least_m > 0.0005, "{aside_mm} mm aside: {:.1} mm", least_m * 1e3);
         }
     }
 }
@@ -125,7 +139,7 @@ fn readings_without_sense_are_nothing_seen() {
     {
         for _ in 0..10 {
             reflex.look(Some(&readings), 0.004, DT);
-            let most = reflex.limit(Wish { speed_mps: 0.27, told_mps: 0.27 }, &LIMITS);
+            let most = reflex.limit(Wish { speed_mps: 0.27, told_mps: 0.27, ample: true }, &LIMITS);
             assert!(most.is_none_or(|mps| mps >= 0.0));
         }
     }

@@ -11,12 +11,12 @@ use crate::drive::{Body, Drive, Setpoint};
 use crate::estimate::Estimate;
 use crate::light::Light;
 use crate::outbox::{Fact, Outbox};
-use crate::reflex::{Reflex, Wish};
+use crate::reflex::{AMPLE_MM, Reflex, Wish};
 use crate::routes::Routes;
 use crate::seek::Seek;
 use crate::supervise::{Drives, Supervisor};
 
-/// A message to send. The longest report has 286 bytes.
+/// A message to send. The longest report has 291 bytes.
 pub type Message = heapless::String<320>;
 
 /// A step is taken for no longer than this, seconds; longer pauses are gaps.
@@ -307,7 +307,8 @@ impl Robot {
         let wants = if self.is_lost(now) { None } else { self.want(show, dt) };
         let wants = wants.unwrap_or_default();
         let most_mps = if self.routes.under_way() {
-            let wish = Wish { speed_mps: wants.speed_mps, told_mps: self.drive.speed_mps() };
+            let ample = self.routes.room_mm().is_some_and(|room_mm| room_mm >= AMPLE_MM);
+            let wish = Wish { speed_mps: wants.speed_mps, told_mps: self.drive.speed_mps(), ample };
             self.reflex.limit(wish, &self.config.limits)
         } else {
             self.reflex.forget();

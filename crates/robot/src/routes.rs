@@ -92,6 +92,11 @@ impl Routes {
         true
     }
 
+    /// How far others stay away by plan on the route under way, millimetres.
+    pub(crate) fn room_mm(&self) -> Option<u16> {
+        self.running.as_ref()?.route.room_mm
+    }
+
     /// Takes a hold or a resume.
     pub(crate) fn note(&mut self, at: Instant, hold: bool) {
         self.timeline.note(at, hold);
@@ -283,7 +288,7 @@ mod tests {
 
     fn route(seq: u32) -> Route {
         let piece = Piece::straight(Vec2::ZERO, Vec2::new(0.1, 0.0), Span(1_000_000));
-        Route { seq, start: Vec2::ZERO, pieces: Pieces::from_slice(&[piece]).unwrap() }
+        Route { seq, start: Vec2::ZERO, pieces: Pieces::from_slice(&[piece]).unwrap(), room_mm: None }
     }
 
     const BODY: Body = Body { at: Vec2::ZERO, facing: Vec2::new(1.0, 0.0) };

@@ -60,6 +60,8 @@ pub struct Route {
     pub start: Vec2,
     /// Its pieces in order.
     pub pieces: Pieces,
+    /// How far other rims stay from its own by plan, whole millimetres; `None`: not said.
+    pub room_mm: Option<u16>,
 }
 
 impl Route {

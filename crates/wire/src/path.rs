@@ -17,9 +17,13 @@ type Tenths = [i32; 2];
 pub(crate) fn decode_route(fields: &mut SplitAsciiWhitespace<'_>) -> Option<Route> {
     let seq = fields.next()?.parse().ok().filter(|&seq| seq != 0)?;
     let start = place(fields)?;
-    let mut route = Route { seq, start, pieces: Pieces::new() };
+    let mut route = Route { seq, start, pieces: Pieces::new(), room_mm: None };
     let mut from = start;
     while let Some(kind) = fields.next() {
+        if kind == "G" {
+            route.room_mm = Some(fields.next()?.parse().ok()?);
+            break;
+        }
         let piece = decode_piece(kind, from, fields)?;
         from = piece.end;
         route.pieces.push(piece).ok()?;
@@ -52,6 +56,10 @@ pub(crate) fn encode_route(route: &Route, out: &mut dyn Write) -> fmt::Result {
     for piece in &route.pieces {
         encode_piece(piece, from, out)?;
         from = rounded(piece.end);
+    }
+    if let Some(room_mm) = route.room_mm {
+        out.write_str(" G ")?;
+        write_int(out, i64::from(room_mm))?;
     }
     Ok(())
 }

@@ -83,6 +83,8 @@ pub struct Abilities {
     pub fade: bool,
     /// BLINK.
     pub blink: bool,
+    /// Knows how much room a PATH leaves it.
+    pub room: bool,
 }
 
 /// `<uuid> <now>` on `T/LightBot/Time`: what is the show clock?

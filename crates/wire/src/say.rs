@@ -173,12 +173,13 @@ impl Abilities {
     /// Words joined by `+`; those we do not know are skipped.
     fn from_words(words: &str) -> Self {
         let has = |word| words.split('+').any(|one| one == word);
-        Self { route: has("route"), fade: has("fade"), blink: has("blink") }
+        Self { route: has("route"), fade: has("fade"), blink: has("blink"), room: has("room") }
     }
 
     fn write(self, out: &mut dyn Write) -> fmt::Result {
         let mut joint = "";
-        for (has, word) in [(self.route, "route"), (self.fade, "fade"), (self.blink, "blink")] {
+        let words = [(self.route, "route"), (self.fade, "fade"), (self.blink, "blink"), (self.room, "room")];
+        for (has, word) in words {
             if has {
                 out.write_str(joint)?;
                 out.write_str(word)?;

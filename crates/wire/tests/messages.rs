@@ -23,7 +23,12 @@ fn id(name: &str) -> RobotId {
 }
 
 fn route(pieces: &[Piece]) -> Route {
-    Route { seq: 4_000_000_007, start: Vec2::new(-1.25, 1.3), pieces: Pieces::from_slice(pieces).unwrap() }
+    Route {
+        seq: 4_000_000_007,
+        start: Vec2::new(-1.25, 1.3),
+        pieces: Pieces::from_slice(pieces).unwrap(),
+        room_mm: Some(12),
+    }
 }
 
 /// Turn, speed up, cruise, slow down: what most transitions are.
@@ -65,7 +70,7 @@ fn full_report() -> Report {
         err_m: Some(0.0012),
         clock_us: Some(450),
         firmware: Firmware::try_from("lightbots-0.1.0").unwrap(),
-        abilities: Abilities { route: true, fade: true, blink: true },
+        abilities: Abilities { route: true, fade: true, blink: true, room: true },
         unknown: 3,
         blocked: Some(Blocked { gap_m: 0.0021, towards: -1.5 }),
     };
@@ -93,13 +98,13 @@ fn our_messages_byte_for_byte() {
     assert_eq!(
         route,
         "|PATH 4000000007 -12500 13000 R 350000 C 270000 -12500 13000 -12500 12879 -12500 12636 \
-         L 5050370 -12500 -1000 C 270000 -12500 -1243 -12500 -1364 -12500 -1364|"
+         L 5050370 -12500 -1000 C 270000 -12500 -1243 -12500 -1364 -12500 -1364 G 12|"
     );
     assert!(route.len() < 200);
     assert_eq!(
         said(&full_report()),
         "abfe6805-3c60-4e5a-ba40-2dcf7cb5d8e8 -0.73 1.0E-4 state=driving h=1.25 off=0.0034 route=12 \
-         starts=8000000 clock=450 bat=87 unknown=3 can=route+fade+blink fw=lightbots-0.1.0 err=0.0012 \
+         starts=8000000 clock=450 bat=87 unknown=3 can=route+fade+blink+room fw=lightbots-0.1.0 err=0.0012 \
          blocked=0.0021@-1.5"
     );
 }
