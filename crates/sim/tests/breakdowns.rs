@@ -57,7 +57,7 @@ fn hardly_anybody_touches_a_robot_that_died_and_the_show_goes_on() {
             assert!((1..=2).contains(&report.dropouts), "{fault}, seed {seed}: {:#?}", report.issues);
         }
     }
-    assert!(touched <= 9, "{touched} of 60 runs");
+    assert!(touched <= 2, "{touched} of 60 runs");
 }
 
 #[test]

@@ -257,13 +257,27 @@ fn a_target_is_read_for_what_it_is() {
 }
 
 #[test]
+fn a_route_may_say_how_much_room_it_leaves() {
+    let room_mm = |text: &str| match commands(text.as_bytes()).next() {
+        Some(Ok(Command::Route(route))) => Ok(route.room_mm),
+        other => Err(other),
+    };
+    assert_eq!(room_mm("|PATH 7 0 0 R 5|"), Ok(None));
+    assert_eq!(room_mm("|PATH 7 0 0 R 5 G 0|"), Ok(Some(0)));
+    assert_eq!(room_mm("|PATH 7 0 0 G 65535 later|"), Ok(Some(65_535)));
+    for bad in ["|PATH 7 0 0 G|", "|PATH 7 0 0 G -1|", "|PATH 7 0 0 G 65536|", "|PATH 7 0 0 G 1.5|"] {
+        assert_eq!(room_mm(bad), Err(Some(Err(Unknown::Fields))), "{bad}");
+    }
+}
+
+#[test]
 fn a_route_of_the_most_pieces_fits_and_one_more_does_not() {
     let far = Vec2::new(-1000.0, -1000.0);
     let curve = Piece { duration: Span(3_600_000_000), c1: far, c2: Vec2::ZERO, end: far };
     let full = text(&Command::Route(route(&[curve; MAX_PIECES])));
     assert!(full.len() <= MAX_PAYLOAD, "{}", full.len());
     assert!(commands(full.as_bytes()).next().unwrap().is_ok());
-    let over = full.trim_end_matches('|').to_string() + " R 1|";
+    let over = full.replace(" G 12|", " R 1 G 12|");
     assert_eq!(commands(over.as_bytes()).next(), Some(Err(Unknown::Fields)));
 }
 
