@@ -259,14 +259,15 @@ fn a_target_is_read_for_what_it_is() {
 #[test]
 fn a_route_may_say_how_much_room_it_leaves() {
     let room_mm = |text: &str| match commands(text.as_bytes()).next() {
-        Some(Ok(Command::Route(route))) => Ok(route.room_mm),
-        other => Err(other),
+        Some(Ok(Command::Route(route))) => Some(route.room_mm),
+        Some(Err(Unknown::Fields)) => None,
+        other => panic!("{other:?}"),
     };
-    assert_eq!(room_mm("|PATH 7 0 0 R 5|"), Ok(None));
-    assert_eq!(room_mm("|PATH 7 0 0 R 5 G 0|"), Ok(Some(0)));
-    assert_eq!(room_mm("|PATH 7 0 0 G 65535 later|"), Ok(Some(65_535)));
+    assert_eq!(room_mm("|PATH 7 0 0 R 5|"), Some(None));
+    assert_eq!(room_mm("|PATH 7 0 0 R 5 G 0|"), Some(Some(0)));
+    assert_eq!(room_mm("|PATH 7 0 0 G 65535 later|"), Some(Some(65_535)));
     for bad in ["|PATH 7 0 0 G|", "|PATH 7 0 0 G -1|", "|PATH 7 0 0 G 65536|", "|PATH 7 0 0 G 1.5|"] {
-        assert_eq!(room_mm(bad), Err(Some(Err(Unknown::Fields))), "{bad}");
+        assert_eq!(room_mm(bad), None, "{bad}");
     }
 }
 
