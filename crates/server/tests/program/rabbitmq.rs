@@ -1,8 +1,11 @@
 //! Three nodes of RabbitMQ on this machine, one broker together.
 
+use std::io::{Read, Write};
+use std::net::TcpStream;
 use std::os::unix::process::CommandExt;
 use std::path::{Path, PathBuf};
 use std::process::Command;
+use std::time::Duration;
 
 use crate::child::Child;
 use crate::mosquitto::free_port;
@@ -54,7 +57,8 @@ impl Cluster {
         self.nodes[node].child.kill_group();
     }
 
-    /// Waits until every node says that it has started: then it knows the others.
+    /// Waits until every node says that it has started, and then until each lets a client in: before that it may know
+    /// the others and still be busy agreeing with them who its clients are.
     fn wait(&mut self) {
         for node in &mut self.nodes {
             let child = &mut node.child;
@@ -62,6 +66,9 @@ impl Cluster {
                 assert!(child.exit_code().is_none(), "a node ended: {}", child.out());
                 child.out().contains("Starting broker... completed").then_some(())
             });
+        }
+        for node in &self.nodes {
+            wait_for("RabbitMQ to let a client in", || lets_in(node.mqtt).ok().filter(|&is| is).map(|_| ()));
         }
     }
 }
@@ -72,6 +79,17 @@ impl Drop for Cluster {
             node.child.kill_group();
         }
     }
+}
+
+/// Whether a node answers a CONNECT (MQTT 3.1.1, clean session) with a CONNACK that accepts it.
+fn lets_in(port: u16) -> std::io::Result<bool> {
+    let mut stream = TcpStream::connect(("127.0.0.1", port))?;
+    stream.set_read_timeout(Some(Duration::from_secs(5)))?;
+    stream.write_all(b"\x10\x11\x00\x04MQTT\x04\x02\x00\x3c\x00\x05probe")?;
+    let mut answer = [0; 4];
+    stream.read_exact(&mut answer)?;
+    stream.write_all(b"\xe0\x00")?;
+    Ok(answer == [0x20, 2, 0, 0])
 }
 
 fn has(program: &str) -> bool {
