@@ -7,6 +7,8 @@ use lightbots_plan::Path;
 const STEP: Span = Span::from_millis(40);
 /// More room than this is as good as any, metres.
 const AMPLE_M: f64 = 0.04;
+/// Among more robots than this everybody is told the least room of all: looking at each would hold the show up.
+const MOST: usize = 1000;
 
 /// `[path]`: how far its rim stays from those of all others by plan, metres; infinite where that is more than 40 mm.
 /// `standing` are discs that do not move meanwhile, `least_m` what the plan leaves to the closest two of all; 0: nobody
@@ -14,6 +16,9 @@ const AMPLE_M: f64 = 0.04;
 pub(crate) fn rooms(paths: &[(usize, Path)], standing: &[Vec2], least_m: f64, contact_m: f64) -> Vec<f64> {
     if least_m <= 0.0 {
         return vec![0.0; paths.len()];
+    }
+    if paths.len() > MOST {
+        return vec![least_m; paths.len()];
     }
     let near_m = contact_m + AMPLE_M;
     let mut least = vec![f64::INFINITY; paths.len()];
@@ -63,6 +68,13 @@ mod tests {
         let rooms = rooms(&paths, &[Vec2::new(0.5, 0.58)], 0.016, 0.054);
         assert!((rooms[0] - 0.016).abs() < 0.001 && rooms[0] == rooms[1], "{rooms:?}");
         assert!((rooms[2] - 0.026).abs() < 0.001 && rooms[3] == f64::INFINITY, "{rooms:?}");
+    }
+
+    #[test]
+    fn in_a_large_crowd_everybody_has_the_least_room_of_all() {
+        let far = |index: usize| Vec2::new(index as f64, 0.0);
+        let paths: Vec<_> = (0..=MOST).map(|index| (index, straight(far(index), far(index)))).collect();
+        assert!(rooms(&paths, &[], 0.007, 0.054).iter().all(|&room| room == 0.007));
     }
 
     #[test]
