@@ -1,22 +1,14 @@
 import { readFileSync } from 'node:fs';
 import { createRequire } from 'node:module';
-import type { Browser, Page } from 'playwright-core';
-import { afterAll, beforeAll, expect, test } from 'vitest';
-import { launchBrowser, mistakes, openPage, startServer, type Server } from './harness';
+import type { Page } from 'playwright-core';
+import { expect, test } from 'vitest';
+import { openPage, startServer, type Server } from './harness';
+import { createTestBed } from './testBed';
 import { FIRST_VIEWS, VIEWS, type View } from './views';
 
 const axe = readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
 
-let browser: Browser;
-let server: Server;
-beforeAll(async () => {
-  [server, browser] = await Promise.all([startServer('--robots', '30'), launchBrowser()]);
-});
-afterAll(async () => {
-  await browser?.close();
-  await server?.remove();
-  expect(mistakes).toEqual([]);
-});
+const bed = createTestBed('--robots', '30');
 
 /** What axe finds that is serious, one line each. */
 async function findings(page: Page): Promise<string[]> {
@@ -48,12 +40,12 @@ async function look(page: Page, on: Server, views: readonly View[]) {
 for (const scheme of ['dark', 'light']) {
   const options = { reducedMotion: 'reduce', scheme } as const;
   test(`nothing serious on any view, ${scheme}`, async () => {
-    await look(await openPage(browser, server, 'live', options), server, VIEWS);
+    await look(await bed.open('live', options), bed.server, VIEWS);
   });
   test(`nothing serious at the first sight, ${scheme}`, async () => {
     const empty = await startServer('--robots', '0');
     try {
-      const page = await openPage(browser, empty, 'live', { ...options, tour: true });
+      const page = await openPage(bed.browser, empty, 'live', { ...options, tour: true });
       await look(page, empty, FIRST_VIEWS);
     } finally {
       await empty.remove();

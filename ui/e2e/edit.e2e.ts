@@ -1,21 +1,22 @@
-import type { Browser, Page } from 'playwright-core';
-import { afterAll, beforeAll, describe, expect, test } from 'vitest';
-import { eventually, launchBrowser, mistakes, openPage, startServer, type Server } from './harness';
-import { drag, onScreen, openShow, phase, pixels, saved, stored } from './journeys';
+import type { Page } from 'playwright-core';
+import { describe, expect, test } from 'vitest';
+import { eventually } from './harness';
+import {
+  button,
+  countIs,
+  drag,
+  onScreen,
+  openShow,
+  phaseIs,
+  pixels,
+  pixelsAre,
+  saved,
+  stored,
+} from './journeys';
+import { createTestBed } from './testBed';
 
-let browser: Browser;
-let server: Server;
-beforeAll(async () => {
-  [server, browser] = await Promise.all([startServer('--robots', '12'), launchBrowser()]);
-});
-afterAll(async () => {
-  await browser?.close();
-  await server?.remove();
-  expect(mistakes).toEqual([]);
-});
+const bed = createTestBed('--robots', '12');
 
-const button = (page: Page, name: string | RegExp) =>
-  page.getByRole('button', { name, exact: true });
 const frames = (page: Page) => page.getByRole('list', { name: 'Frames' }).locator('li');
 
 /** Begins a show; answers its name in the library. */
@@ -25,18 +26,14 @@ async function begin(page: Page): Promise<string> {
   await page.getByTestId('stage').waitFor();
   const title = page.getByTestId('open-library').getByText(/^Untitled/);
   await title.waitFor();
-  await eventually(
-    () => frames(page).count(),
-    (n) => n === 1,
-    'one frame',
-  );
+  await countIs(frames(page), 1);
   await page.getByRole('dialog').waitFor({ state: 'hidden' });
   return (await title.textContent()) ?? '';
 }
 
 describe('the editor', () => {
   test('three frames from nothing, saved, and played', async () => {
-    const page = await openPage(browser, server, 'edit');
+    const page = await bed.open('edit');
     const name = await begin(page);
     await button(page, 'Heart').click();
     await button(page, /^Add a frame/).click();
@@ -61,16 +58,11 @@ describe('the editor', () => {
     await button(page, 'Play').first().click();
     await page.getByText(/frame 2 of 3/).waitFor();
     await page.keyboard.press('Escape');
-    await eventually(
-      () => phase(page),
-      (p) => p === 'ready',
-      'ready',
-    );
-    await page.close();
+    await phaseIs(page, 'ready');
   });
 
   test('choosing, dragging, undoing and redoing by hand', async () => {
-    const page = await openPage(browser, server, 'edit');
+    const page = await bed.open('edit');
     await begin(page);
     const start = await pixels(page);
     const first = start[0];
@@ -91,11 +83,10 @@ describe('the editor', () => {
     await page.mouse.click(at.x, at.y);
     expect((await pixels(page)).some((p) => p.chosen)).toBe(false);
     await saved(page);
-    await page.close();
   });
 
   test('by keyboard only', async () => {
-    const page = await openPage(browser, server, 'edit');
+    const page = await bed.open('edit');
     const name = await begin(page);
     await page.keyboard.press(']');
     await page.keyboard.press(']');
@@ -106,32 +97,19 @@ describe('the editor', () => {
     expect(before - ((await pixels(page))[1]?.y ?? 0)).toBeCloseTo(0.101, 3);
     await page.keyboard.press('Control+Enter');
     await page.keyboard.press('Control+d');
-    await eventually(
-      () => frames(page).count(),
-      (n) => n === 3,
-      'three frames',
-    );
+    await countIs(frames(page), 3);
     await page.keyboard.press('Control+Delete');
     await page.keyboard.press('Alt+PageUp');
-    await eventually(
-      () => frames(page).count(),
-      (n) => n === 2,
-      'two frames',
-    );
+    await countIs(frames(page), 2);
     await saved(page);
     expect((await stored(page, name)).frames.map((f) => f.name)).toEqual(['Frame 2', 'Start']);
-    await page.close();
   });
 
   test('a change of an example survives reloading, and a second browser sees it', async () => {
-    const page = await openPage(browser, server, 'edit');
+    const page = await bed.open('edit');
     await openShow(page, 'hello');
-    const second = await openPage(browser, server, 'edit');
-    await eventually(
-      () => pixels(page),
-      (p) => p.length > 0,
-      'pixels',
-    );
+    const second = await bed.open('edit');
+    await pixelsAre(page);
     await button(page, 'All').click();
     await button(page, 'Colour cyan #00e0c8').click();
     await saved(page);
@@ -139,21 +117,18 @@ describe('the editor', () => {
     await eventually(() => pixels(second), all, 'the second browser sees it');
     await page.reload();
     await eventually(() => pixels(page), all, 'it is there after reloading');
-    await page.close();
-    await second.close();
   });
 
   test('the server dies in the middle of an edit, and nothing is lost', async () => {
-    const page = await openPage(browser, server, 'edit');
+    const page = await bed.open('edit');
     const name = await begin(page);
-    await server.kill();
+    await bed.server.kill();
     await button(page, 'All').click();
     await button(page, 'Colour violet #b14cff').click();
     await page.getByText('Not saved yet').waitFor();
-    await server.restart();
+    await bed.server.restart();
     await saved(page);
     const document = await stored(page, name);
     expect(document.frames[0]?.pixels.every((p) => p.color === '#b14cff')).toBe(true);
-    await page.close();
   });
 });

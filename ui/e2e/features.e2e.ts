@@ -1,21 +1,22 @@
-import type { Browser } from 'playwright-core';
-import { afterAll, beforeAll, expect, test } from 'vitest';
-import { eventually, launchBrowser, mistakes, openPage, startServer, type Server } from './harness';
-import { phase, pixels, saved, smallShow, stored, uploadText } from './journeys';
+import { expect, test } from 'vitest';
+import { eventually } from './harness';
+import {
+  button,
+  countIs,
+  phaseIs,
+  pixels,
+  pixelsAre,
+  saved,
+  smallShow,
+  stored,
+  uploadText,
+} from './journeys';
+import { createTestBed } from './testBed';
 
-let browser: Browser;
-let server: Server;
-beforeAll(async () => {
-  [server, browser] = await Promise.all([startServer('--robots', '6'), launchBrowser()]);
-});
-afterAll(async () => {
-  await browser?.close();
-  await server?.remove();
-  expect(mistakes).toEqual([]);
-});
+const bed = createTestBed('--robots', '6');
 
 test('a robot is pinned to a pixel from both views, shows it, and is freed again', async () => {
-  const page = await openPage(browser, server);
+  const page = await bed.open();
   await uploadText(page, 'pins.json', smallShow(6));
   const robots = async () =>
     (await stored(page, 'pins')).frames.map((f) => f.pixels.map((p) => p.robot ?? null));
@@ -30,36 +31,27 @@ test('a robot is pinned to a pixel from both views, shows it, and is freed again
   await page.getByRole('option', { name: 'Pixel 0' }).click();
   await eventually(robots, (all) => all.every((frame) => frame[0] === name), 'it is pinned');
   await page.keyboard.press('Escape');
-  await page.getByRole('button', { name: 'Play', exact: true }).click();
+  await button(page, 'Play').click();
   await page.getByText(/Playing frame 2 of 2/).waitFor();
   const line = page.getByRole('row').filter({ hasText: name?.slice(0, 8) ?? '' });
   expect(await line.getByRole('cell').first().textContent()).toBe('0');
-  await eventually(
-    () => phase(page),
-    (p) => p === 'ready',
-    'the end',
-  );
+  await phaseIs(page, 'ready');
   await page.getByRole('button', { name: 'All columns' }).click();
   await page.getByRole('columnheader', { name: 'Firmware' }).waitFor();
   await page.getByText('Edit', { exact: true }).click();
-  await eventually(
-    () => pixels(page),
-    (all) => all.length === 6,
-    'pixels',
-  );
+  await pixelsAre(page, 6);
   await page.keyboard.press(']');
   expect((await pixels(page))[0]?.text).toContain('pinned');
   await page.getByLabel('Robot that always shows it').first().click();
   await page.getByRole('option', { name: 'Any robot' }).click();
   await saved(page);
   expect((await robots()).flat().every((robot) => robot === null)).toBe(true);
-  await page.close();
 });
 
 test('the checklist says what is missing, Stop all is above it, and one can go on without', async () => {
-  const page = await openPage(browser, server);
+  const page = await bed.open();
   await uploadText(page, 'eight.json', smallShow(8));
-  await page.getByRole('button', { name: 'Play', exact: true }).click();
+  await button(page, 'Play').click();
   const dialog = page.getByRole('dialog', { name: 'Not quite ready' });
   await dialog.getByText(/6 of 8 ready; 2 never seen/).waitFor();
   expect(await dialog.locator('[data-verdict=good]').count()).toBeGreaterThanOrEqual(3);
@@ -67,16 +59,11 @@ test('the checklist says what is missing, Stop all is above it, and one can go o
   await dialog.getByRole('button', { name: 'Play with 6 robots' }).click();
   await page.getByText(/Playing frame 2 of 2/).waitFor();
   await page.keyboard.press('Escape');
-  await eventually(
-    () => phase(page),
-    (p) => p === 'ready',
-    'ready',
-  );
-  await page.close();
+  await phaseIs(page, 'ready');
 });
 
 test('the library: pictures, save as, rename, download, delete and undo', async () => {
-  const page = await openPage(browser, server, 'edit');
+  const page = await bed.open('edit');
   await uploadText(page, 'kept.json', smallShow(6));
   const menu = async (name: string, item: string) => {
     await page.getByRole('button', { name: `What to do with ${name}`, exact: true }).click();
@@ -90,25 +77,24 @@ test('the library: pictures, save as, rename, download, delete and undo', async 
   await page.locator('.entry-picture canvas').first().waitFor();
   await menu('kept', 'Save as…');
   await page.getByRole('dialog').last().getByLabel('Name', { exact: true }).fill('second');
-  await page.getByRole('button', { name: 'Save', exact: true }).click();
+  await button(page, 'Save').click();
   await page.getByTestId('open-library').getByText('second').waitFor();
   await page.getByTestId('open-library').click();
   await menu('second', 'Rename…');
   await page.getByRole('dialog').last().getByLabel('Name', { exact: true }).fill('third');
-  await page.getByRole('button', { name: 'Save', exact: true }).click();
+  await button(page, 'Save').click();
   await page.getByTestId('open-library').getByText('third').waitFor();
   const file = page.waitForEvent('download');
   await menu('third', 'Download');
   expect((await file).suggestedFilename()).toBe('third.lightbots.json');
   await menu('kept', 'Delete');
   await eventually(names, (all) => !all.includes('kept') && all.includes('third'), 'deleted');
-  await page.getByRole('button', { name: 'Undo', exact: true }).last().click();
+  await button(page, 'Undo').last().click();
   await eventually(names, (all) => all.includes('kept') && !all.includes('second'), 'back');
-  await page.close();
 });
 
 test('several frames are chosen, moved, timed, copied and deleted together, and renamed in place', async () => {
-  const page = await openPage(browser, server, 'edit');
+  const page = await bed.open('edit');
   await uploadText(page, 'strip.json', smallShow(6));
   const cards = page.getByRole('list', { name: 'Frames' }).locator('.card');
   const names = async () => {
@@ -117,11 +103,7 @@ test('several frames are chosen, moved, timed, copied and deleted together, and 
   };
   await cards.nth(1).click();
   await page.keyboard.press('Control+Enter');
-  await eventually(
-    () => cards.count(),
-    (n) => n === 3,
-    'three frames',
-  );
+  await countIs(cards, 3);
   await page.keyboard.press('F2');
   await page.getByLabel('Name of the frame').fill('Last');
   await page.keyboard.press('Enter');
@@ -136,11 +118,7 @@ test('several frames are chosen, moved, timed, copied and deleted together, and 
   const { frames } = await stored(page, 'strip');
   expect(frames.map((f) => f.air_time_s)).toEqual([7, 7, 0.3]);
   await page.getByRole('button', { name: /^Duplicate/ }).click();
-  await eventually(
-    () => cards.count(),
-    (n) => n === 5,
-    'two copies',
-  );
+  await countIs(cards, 5);
   const moment = page.getByRole('slider', { name: 'Moment of the show' });
   await page.getByRole('button', { name: /^Watch without robots/ }).click();
   await eventually(
@@ -150,16 +128,11 @@ test('several frames are chosen, moved, timed, copied and deleted together, and 
   );
   await page.keyboard.press('Escape');
   await page.getByRole('button', { name: /^Delete/ }).click();
-  await eventually(
-    () => cards.count(),
-    (n) => n === 3,
-    'both copies are gone again',
-  );
-  await page.close();
+  await countIs(cards, 3);
 });
 
 test('settings: unit of lengths, floor, no-go area, robot limits, and the broker', async () => {
-  const page = await openPage(browser, server, 'edit');
+  const page = await bed.open('edit');
   await uploadText(page, 'floor.json', smallShow(6));
   const settings = async () => {
     await page.getByRole('button', { name: 'Settings' }).click();
@@ -174,13 +147,13 @@ test('settings: unit of lengths, floor, no-go area, robot limits, and the broker
     .waitFor();
   await page.getByText('Another one', { exact: true }).click();
   await page.getByLabel('Address').fill('mqtt://127.0.0.1:1');
-  await page.getByRole('button', { name: 'Connect', exact: true }).click();
+  await button(page, 'Connect').click();
   await page.locator('[data-testid=broker][data-phase=retrying]').waitFor();
   expect(await page.getByTestId('broker').textContent()).toMatch(/trying again\. \S+/);
   await page.getByRole('button', { name: 'Disconnect' }).click();
   await page.locator('[data-testid=broker][data-phase=off]').waitFor();
   await page.getByText('The server’s own').click();
-  await page.getByRole('button', { name: 'Connect', exact: true }).click();
+  await button(page, 'Connect').click();
   await page.locator('[data-testid=broker][data-phase=connected]').waitFor();
   await page.keyboard.press('Escape');
   await page.getByRole('tab', { name: /^Show/ }).click();
@@ -200,5 +173,4 @@ test('settings: unit of lengths, floor, no-go area, robot limits, and the broker
   expect(document.stage.width_m).toBe(4);
   expect(document.stage.obstacles).toHaveLength(1);
   expect(document.stage.robot).toEqual({ speed_mps: 0.2 });
-  await page.close();
 });

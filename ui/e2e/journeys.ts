@@ -1,4 +1,6 @@
-import type { Page } from 'playwright-core';
+import type { Locator, Page } from 'playwright-core';
+import type { Phase } from '../src/api/types.gen';
+import { eventually } from './harness';
 
 /** Two frames of `count` pixels in rows; the second 0.4 m behind the first, shown for `air_s`. */
 export function smallShow(count: number, air_s = 0.3): string {
@@ -50,7 +52,25 @@ export async function openShow(page: Page, name: string): Promise<void> {
   await page.getByRole('dialog').waitFor({ state: 'hidden' });
 }
 
-export const phase = async (page: Page) => page.getByTestId('phase').getAttribute('data-phase');
+/** A button by the whole of its name. */
+export const button = (page: Page, name: string | RegExp) =>
+  page.getByRole('button', { name, exact: true });
+
+/** Waits until the run is in that phase. */
+export const phaseIs = (page: Page, wanted: Phase) =>
+  eventually(
+    () => page.getByTestId('phase').getAttribute('data-phase'),
+    (now) => now === wanted,
+    `the phase is ${wanted}`,
+  );
+
+/** Waits until there are so many of something. */
+export const countIs = (things: Locator, wanted: number) =>
+  eventually(
+    () => things.count(),
+    (count) => count === wanted,
+    `there are ${wanted} of ${things}`,
+  );
 
 /** Measured places of the robots by their list in the page, metres. */
 export async function robotPlaces(page: Page): Promise<[number, number][]> {
@@ -83,6 +103,14 @@ export const pixels = (page: Page): Promise<Pixel[]> =>
         chosen: o.getAttribute('aria-selected') === 'true',
       })),
     );
+
+/** Waits until the frame has so many pixels; without a number, until it has any. */
+export const pixelsAre = (page: Page, wanted?: number) =>
+  eventually(
+    () => pixels(page),
+    ({ length }) => (wanted === undefined ? length > 0 : length === wanted),
+    `there are ${wanted ?? 'some'} pixels`,
+  );
 
 /** CSS pixels a metre while the whole of a square floor is shown. */
 export const scaleOf = (box: { width: number; height: number }, side_m: number) =>

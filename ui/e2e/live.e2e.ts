@@ -1,36 +1,23 @@
-import type { Browser } from 'playwright-core';
-import { afterAll, beforeAll, describe, expect, test } from 'vitest';
-import { eventually, launchBrowser, mistakes, openPage, startServer, type Server } from './harness';
-import { openShow, phase, robotPlaces, smallShow, uploadText } from './journeys';
+import { describe, expect, test } from 'vitest';
+import { eventually } from './harness';
+import { button, openShow, phaseIs, robotPlaces, smallShow, uploadText } from './journeys';
+import { createTestBed } from './testBed';
 
-let browser: Browser;
-let server: Server;
-beforeAll(async () => {
-  [server, browser] = await Promise.all([startServer('--robots', '12'), launchBrowser()]);
-});
-afterAll(async () => {
-  await browser?.close();
-  await server?.remove();
-  expect(mistakes).toEqual([]);
-});
+const bed = createTestBed('--robots', '12');
 
 describe('the live view', () => {
   test('a show plays to its end, in two browsers alike', async () => {
-    const page = await openPage(browser, server);
-    const second = await openPage(browser, server, 'live', {
+    const page = await bed.open();
+    const second = await bed.open('live', {
       viewport: { width: 1024, height: 768 },
     });
     await uploadText(page, 'two steps.json', smallShow(12, 4));
     // Both are watched at once: what one sees late the other may not see any more.
     const watched = [page, second].map(async (seer) => {
       await seer.getByText(/Playing frame 2 of 2/).waitFor();
-      await eventually(
-        () => phase(seer),
-        (p) => p === 'ready',
-        'the end',
-      );
+      await phaseIs(seer, 'ready');
     });
-    await page.getByRole('button', { name: 'Play', exact: true }).click();
+    await button(page, 'Play').click();
     await Promise.all(watched);
     const places = await eventually(
       () => robotPlaces(page),
@@ -42,70 +29,38 @@ describe('the live view', () => {
       const off = Math.min(...wanted.map(([wx, wy]) => Math.hypot(wx - x, wy - y)));
       expect(off).toBeLessThan(0.05);
     }
-    await page.close();
-    await second.close();
   });
 
   test('pause holds, resume goes on, abort and Stop all end it', async () => {
-    const page = await openPage(browser, server);
+    const page = await bed.open();
     await uploadText(page, 'long.json', smallShow(12, 60));
-    await page.getByRole('button', { name: 'Play', exact: true }).click();
-    await page.getByRole('button', { name: 'Pause', exact: true }).click();
-    await eventually(
-      () => phase(page),
-      (p) => p === 'paused',
-      'paused',
-    );
-    await page.getByRole('button', { name: 'Resume', exact: true }).click();
-    await eventually(
-      () => phase(page),
-      (p) => p === 'playing',
-      'playing again',
-    );
+    await button(page, 'Play').click();
+    await button(page, 'Pause').click();
+    await phaseIs(page, 'paused');
+    await button(page, 'Resume').click();
+    await phaseIs(page, 'playing');
     await page.getByRole('button', { name: /^Abort/ }).click();
-    await eventually(
-      () => phase(page),
-      (p) => p === 'ready',
-      'ready after abort',
-    );
+    await phaseIs(page, 'ready');
     await page.keyboard.press('Space');
-    await eventually(
-      () => phase(page),
-      (p) => p === 'playing',
-      'playing by key',
-    );
+    await phaseIs(page, 'playing');
     await page.getByRole('button', { name: 'Stop all' }).click();
-    await eventually(
-      () => phase(page),
-      (p) => p === 'ready',
-      'ready after Stop all',
-    );
-    await page.close();
+    await phaseIs(page, 'ready');
   });
 
   test('too few robots: a message and a way to go on', async () => {
-    const page = await openPage(browser, server);
+    const page = await bed.open();
     await uploadText(page, 'crowd.json', smallShow(14));
-    await page.getByRole('button', { name: 'Play', exact: true }).click();
+    await button(page, 'Play').click();
     const dialog = page.getByRole('dialog', { name: 'Not quite ready' });
     await dialog.waitFor();
     await dialog.getByRole('button').last().click();
-    await eventually(
-      () => phase(page),
-      (p) => p === 'playing',
-      'playing without them',
-    );
+    await phaseIs(page, 'playing');
     await page.keyboard.press('Escape');
-    await eventually(
-      () => phase(page),
-      (p) => p === 'ready',
-      'ready after abort',
-    );
-    await page.close();
+    await phaseIs(page, 'ready');
   });
 
   test('a broken file is refused in words, and nothing else breaks', async () => {
-    const page = await openPage(browser, server);
+    const page = await bed.open();
     await openShow(page, 'hello');
     await uploadText(page, 'broken.json', '{"lightbots": 1, "frames": [', false);
     await page
@@ -113,16 +68,14 @@ describe('the live view', () => {
       .getByText(/broken\.json was not taken/)
       .waitFor();
     await page.getByTestId('open-library').getByText('hello').waitFor();
-    await page.close();
   });
 
   test('it comes back by itself when the server does', async () => {
-    const page = await openPage(browser, server);
-    await server.kill();
+    const page = await bed.open();
+    await bed.server.kill();
     await page.getByText('Server away').waitFor();
-    await server.restart();
+    await bed.server.restart();
     await page.getByText('Connected', { exact: true }).waitFor();
     await page.getByText('12 robots', { exact: true }).waitFor();
-    await page.close();
   });
 });

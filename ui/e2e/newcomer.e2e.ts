@@ -1,61 +1,39 @@
-import type { Browser, Locator, Page } from 'playwright-core';
-import { afterAll, beforeAll, expect, test } from 'vitest';
-import { eventually, launchBrowser, mistakes, openPage, startServer, type Server } from './harness';
-import { phase, pixels, saved, stored } from './journeys';
+import type { Locator, Page } from 'playwright-core';
+import { expect, test } from 'vitest';
+import { button, phaseIs, pixelsAre, saved, stored } from './journeys';
+import { createTestBed } from './testBed';
 
 /** Clicks from the first sight of the page to a heart and a word that play. */
 const CLICKS_MAX = 8;
 
-let browser: Browser;
-let server: Server;
-beforeAll(async () => {
-  [server, browser] = await Promise.all([startServer('--robots', '30'), launchBrowser()]);
-});
-afterAll(async () => {
-  await browser?.close();
-  await server?.remove();
-  expect(mistakes).toEqual([]);
-});
-
-const isPhase = (page: Page, wanted: string) =>
-  eventually(
-    () => phase(page),
-    (now) => now === wanted,
-    wanted,
-  );
+const bed = createTestBed('--robots', '30');
 
 test('somebody who never saw it makes a heart and a word with thirty robots, and plays them', async () => {
-  const page = await openPage(browser, server, 'live', { tour: true });
+  const page = await bed.open('live', { tour: true });
   let clicks = 0;
   const click = async (target: Locator) => {
     clicks++;
     await target.click();
   };
-  const button = (name: string | RegExp) => page.getByRole('button', { name, exact: true });
   await page.getByText('30 robots', { exact: true }).waitFor();
-  await click(button('Begin a new show'));
-  await eventually(
-    () => pixels(page),
-    (all) => all.length === 30,
-    'a pixel for every robot',
-  );
-  await click(button('Heart'));
-  await click(button(/^Add a frame/));
+  await click(button(page, 'Begin a new show'));
+  await pixelsAre(page, 30);
+  await click(button(page, 'Heart'));
+  await click(button(page, /^Add a frame/));
   await click(page.getByLabel('Word to write with pixels'));
   await page.keyboard.type('HI');
   await page.keyboard.press('Enter');
   await saved(page);
-  await click(button('Play with robots'));
+  await click(button(page, 'Play with robots'));
   await page.getByTestId('phase').waitFor();
-  await button(/^Checklist: all is ready/).waitFor();
-  await click(button('Play'));
-  await isPhase(page, 'playing');
+  await button(page, /^Checklist: all is ready/).waitFor();
+  await click(button(page, 'Play'));
+  await phaseIs(page, 'playing');
   expect(clicks).toBeLessThanOrEqual(CLICKS_MAX);
   // From the beginning, though the last frame was the one being drawn.
   await page.getByText('Playing frame 1 of 2').waitFor();
   await page.getByRole('button', { name: /^Abort/ }).click();
-  await isPhase(page, 'ready');
-  await page.close();
+  await phaseIs(page, 'ready');
 });
 
 /** Presses Tab until the control of that name has the focus. */
@@ -69,18 +47,14 @@ async function tabTo(page: Page, role: string, name: string) {
 }
 
 test('by keyboard only: a new show, its pixels and colours, a second frame, and play', async () => {
-  const page = await openPage(browser, server, 'live');
+  const page = await bed.open('live');
   const press = (key: string) => page.keyboard.press(key);
   await press('Control+o');
   await page.getByRole('dialog').waitFor();
   await tabTo(page, 'button', 'New show');
   await press('Enter');
   await page.getByRole('dialog').waitFor({ state: 'hidden' });
-  await eventually(
-    () => pixels(page),
-    (all) => all.length > 0,
-    'the new show',
-  );
+  await pixelsAre(page);
   const name = (await page.getByTestId('open-library').textContent()) ?? '';
   await tabTo(page, 'tab', 'Pixels');
   await press('ArrowRight');
@@ -89,11 +63,7 @@ test('by keyboard only: a new show, its pixels and colours, a second frame, and 
   await press('Control+a');
   await page.keyboard.type('9');
   await press('Enter');
-  await eventually(
-    () => pixels(page),
-    (all) => all.length === 9,
-    'nine pixels',
-  );
+  await pixelsAre(page, 9);
   await tabTo(page, 'tab', 'Show');
   await press('ArrowLeft');
   await press('ArrowLeft');
@@ -115,11 +85,10 @@ test('by keyboard only: a new show, its pixels and colours, a second frame, and 
   );
   await press('g');
   await page.getByTestId('phase').waitFor();
-  await isPhase(page, 'ready');
+  await phaseIs(page, 'ready');
   await press('Home');
   await press('Space');
-  await isPhase(page, 'playing');
+  await phaseIs(page, 'playing');
   await press('Escape');
-  await isPhase(page, 'ready');
-  await page.close();
+  await phaseIs(page, 'ready');
 });

@@ -1,20 +1,12 @@
 import { readFile } from 'node:fs/promises';
-import type { Browser, Page } from 'playwright-core';
-import { afterAll, beforeAll, expect, test } from 'vitest';
-import { eventually, launchBrowser, mistakes, openPage, startServer, type Server } from './harness';
-import { pixels, saved, uploadText } from './journeys';
+import type { Page } from 'playwright-core';
+import { expect, test } from 'vitest';
+import { eventually } from './harness';
+import { button, pixels, pixelsAre, saved, uploadText } from './journeys';
 import { originalShow, type OriginalFrame } from './originalShow';
+import { createTestBed } from './testBed';
 
-let browser: Browser;
-let server: Server;
-beforeAll(async () => {
-  [server, browser] = await Promise.all([startServer('--robots', '0'), launchBrowser()]);
-});
-afterAll(async () => {
-  await browser?.close();
-  await server?.remove();
-  expect(mistakes).toEqual([]);
-});
+const bed = createTestBed('--robots', '0');
 
 /** The show as the original's editor would load it, from the download menu. */
 async function exported(page: Page): Promise<OriginalFrame[]> {
@@ -38,13 +30,9 @@ const meaning = (frames: OriginalFrame[]) =>
 
 test('a show of the original: one colour changed, saved, reloaded, exported; all else is as it was', async () => {
   const original = originalShow();
-  const page = await openPage(browser, server, 'edit');
+  const page = await bed.open('edit');
   await uploadText(page, 'rings.json', JSON.stringify(original));
-  await eventually(
-    () => pixels(page),
-    (all) => all.length === 30,
-    'the first frame',
-  );
+  await pixelsAre(page, 30);
   expect(meaning(await exported(page))).toEqual(meaning(original));
 
   await page.getByRole('list', { name: 'Frames' }).getByRole('button').nth(4).click();
@@ -54,14 +42,10 @@ test('a show of the original: one colour changed, saved, reloaded, exported; all
     (all) => all[0]?.chosen === true,
     'pixel 0 is chosen',
   );
-  await page.getByRole('button', { name: 'Colour pink #ff2f92', exact: true }).click();
+  await button(page, 'Colour pink #ff2f92').click();
   await saved(page);
   await page.reload();
-  await eventually(
-    () => pixels(page),
-    (all) => all.length === 30,
-    'it is there after reloading',
-  );
+  await pixelsAre(page, 30);
 
   const wanted = meaning(original);
   const changed = wanted[4]?.pixels[0];
@@ -72,5 +56,4 @@ test('a show of the original: one colour changed, saved, reloaded, exported; all
   // The original loads a file only if its own state is there too.
   const keys = (frames: OriginalFrame[]) => Object.keys(frames[4]?.pixels[0] ?? {}).sort();
   expect(keys(found)).toEqual(keys(original));
-  await page.close();
 });

@@ -1,20 +1,12 @@
-import type { Browser, CDPSession, Page } from 'playwright-core';
-import { afterAll, beforeAll, expect, test } from 'vitest';
-import { eventually, launchBrowser, mistakes, openPage, startServer, type Server } from './harness';
-import { onScreen, pixels, smallShow, uploadText } from './journeys';
+import type { CDPSession, Page } from 'playwright-core';
+import { expect, test } from 'vitest';
+import { eventually } from './harness';
+import { onScreen, pixels, pixelsAre, smallShow, uploadText } from './journeys';
+import { createTestBed } from './testBed';
 
 type At = { x: number; y: number };
 
-let browser: Browser;
-let server: Server;
-beforeAll(async () => {
-  [server, browser] = await Promise.all([startServer('--robots', '12'), launchBrowser()]);
-});
-afterAll(async () => {
-  await browser?.close();
-  await server?.remove();
-  expect(mistakes).toEqual([]);
-});
+const bed = createTestBed('--robots', '12');
 
 const TABLET = { viewport: { width: 1024, height: 768 }, hasTouch: true };
 
@@ -52,13 +44,9 @@ const chosenAre = (page: Page, wanted: number[]) =>
   );
 
 test('a finger chooses and drags, held still it adds, two zoom and pan', async () => {
-  const page = await openPage(browser, server, 'edit', TABLET);
+  const page = await bed.open('edit', TABLET);
   await uploadText(page, 'tablet.json', smallShow(12));
-  await eventually(
-    () => pixels(page),
-    (all) => all.length === 12,
-    'pixels',
-  );
+  await pixelsAre(page, 12);
   const hand = fingers(await page.context().newCDPSession(page));
   const places = await pixels(page);
   const at = async (id: number) => onScreen(page, places[id]?.x ?? 0, places[id]?.y ?? 0);
@@ -104,11 +92,10 @@ test('a finger chooses and drags, held still it adds, two zoom and pan', async (
   );
   expect(once / twice).toBeGreaterThan(1.7);
   expect(once / twice).toBeLessThan(2.3);
-  await page.close();
 });
 
 test('whatever is pressed on a tablet is large enough for a finger', async () => {
-  const page = await openPage(browser, server, 'live', TABLET);
+  const page = await bed.open('live', TABLET);
   await uploadText(page, 'fingers.json', smallShow(12));
   const small = () =>
     page.evaluate(() =>
@@ -122,15 +109,10 @@ test('whatever is pressed on a tablet is large enough for a finger', async () =>
       }),
     );
   await eventually(small, (list) => list.length === 0, 'the live view has room for fingers');
-  await page.goto(`${server.url}/#/edit`);
-  await eventually(
-    () => pixels(page),
-    (all) => all.length === 12,
-    'pixels',
-  );
+  await page.goto(`${bed.server.url}/#/edit`);
+  await pixelsAre(page, 12);
   for (const tab of ['Pixels', 'Frame', 'Show']) {
     await page.getByRole('tab', { name: tab }).click();
     expect(await small()).toEqual([]);
   }
-  await page.close();
 });

@@ -1,6 +1,6 @@
 import type { Page } from 'playwright-core';
 import { eventually, type Server } from './harness';
-import { openShow, phase, pixels, smallShow, uploadText } from './journeys';
+import { button, openShow, phaseIs, pixelsAre, smallShow, uploadText } from './journeys';
 
 /** A state of the screen that is looked at: by people in pictures, by axe in tests. */
 export interface View {
@@ -13,23 +13,10 @@ export interface View {
 
 const goLive = (page: Page, server: Server) => page.goto(`${server.url}/#/live`);
 const escape = (page: Page) => page.keyboard.press('Escape');
-const button = (page: Page, name: string | RegExp) =>
-  page.getByRole('button', { name, exact: true });
-
-const reach = (page: Page, wanted: string) =>
-  eventually(
-    () => phase(page),
-    (now) => now === wanted,
-    wanted,
-  );
 
 async function edit(page: Page, server: Server) {
   await page.goto(`${server.url}/#/edit`);
-  await eventually(
-    () => pixels(page),
-    (all) => all.length > 0,
-    'pixels',
-  );
+  await pixelsAre(page);
 }
 
 async function halfway(page: Page) {
@@ -44,7 +31,7 @@ async function halfway(page: Page) {
 
 async function abort(page: Page) {
   await escape(page);
-  await reach(page, 'ready');
+  await phaseIs(page, 'ready');
 }
 
 const dialog = (name: string, open: (page: Page) => Promise<void>): View => ({
@@ -65,7 +52,7 @@ const liveViews: View[] = [
     async show(page, server) {
       await goLive(page, server);
       await openShow(page, 'heart');
-      await reach(page, 'ready');
+      await phaseIs(page, 'ready');
     },
   },
   {
@@ -78,7 +65,7 @@ const liveViews: View[] = [
     name: 'live-paused',
     async show(page) {
       await button(page, 'Pause').click();
-      await reach(page, 'paused');
+      await phaseIs(page, 'paused');
     },
     leave: abort,
   },

@@ -65,9 +65,6 @@ export const getBroker = async () =>
 /** The plan of the open show, with paths. */
 export const getPlan = async () => (await (await request('/api/plan')).json()) as Plan;
 
-/** Checks a document that need not be open. */
-export const checkShow = async (body: BodyInit) =>
-  (await (await request('/api/check', { method: 'POST', body })).json()) as Plan;
-
+/** A document in another format. */
 export const convertShow = async (body: BodyInit, to: 'lightbots' | 'original') =>
   (await request(`/api/convert?to=${to}`, { method: 'POST', body })).text();

@@ -1,4 +1,4 @@
-import { ActionIcon, SimpleGrid, Stack, Text, Tooltip } from '@mantine/core';
+import { SimpleGrid, Stack, Text } from '@mantine/core';
 import {
   IconArrowsSplit,
   IconCircleDotted,
@@ -19,6 +19,7 @@ import {
   IconStar,
   type Icon,
 } from '@tabler/icons-react';
+import { IconButton } from '../shell/IconButton';
 import * as acts from './acts';
 import { useEditing } from './context';
 import type { Editing } from './editing';
@@ -54,17 +55,16 @@ export function ArrangeSection() {
   const buttons = (list: Act[], cols: number) => (
     <SimpleGrid cols={cols} spacing={6} verticalSpacing={6}>
       {list.map(([label, Glyph, act]) => (
-        <Tooltip key={label} label={label}>
-          <ActionIcon
-            variant="default"
-            size="lg"
-            w="100%"
-            aria-label={label}
-            onClick={() => act(editing)}
-          >
-            <Glyph size={18} />
-          </ActionIcon>
-        </Tooltip>
+        <IconButton
+          key={label}
+          label={label}
+          variant="default"
+          size="lg"
+          w="100%"
+          onClick={() => act(editing)}
+        >
+          <Glyph size={18} />
+        </IconButton>
       ))}
     </SimpleGrid>
   );

@@ -1,4 +1,4 @@
-import { ActionIcon, Button, Slider, Tooltip } from '@mantine/core';
+import { Button, Slider } from '@mantine/core';
 import {
   IconArrowBackUp,
   IconArrowForwardUp,
@@ -8,6 +8,7 @@ import {
 import { useMemo, type ReactNode } from 'react';
 import { useStore } from '../base/store';
 import { clockText } from '../base/time';
+import { IconButton } from '../shell/IconButton';
 import { segmentAt, timelineOf, totalOf } from '../model/timeline';
 import { useSession } from '../shell/session';
 import { goTo } from '../shell/useHash';
@@ -42,18 +43,9 @@ export function EditBar() {
     goTo('live');
   };
   const step = (label: string, enabled: boolean, act: () => void, icon: ReactNode) => (
-    <Tooltip label={label}>
-      <ActionIcon
-        variant="subtle"
-        color="gray"
-        size="lg"
-        aria-label={label}
-        disabled={!enabled}
-        onClick={act}
-      >
-        {icon}
-      </ActionIcon>
-    </Tooltip>
+    <IconButton label={label} size="lg" disabled={!enabled} onClick={act}>
+      {icon}
+    </IconButton>
   );
   return (
     <div className="transport" role="toolbar" aria-label="Editing">

@@ -1,8 +1,8 @@
-import { ActionIcon, Tooltip } from '@mantine/core';
 import { IconCopy, IconPlus, IconTrash } from '@tabler/icons-react';
 import { useEffect, useRef, useState, type ReactNode } from 'react';
 import type { Plan } from '../api/types.gen';
 import { useStore } from '../base/store';
+import { IconButton } from '../shell/IconButton';
 import { useSession } from '../shell/session';
 import * as acts from './acts';
 import { useEditing, useEditor } from './context';
@@ -45,11 +45,17 @@ export function EditStrip() {
     if (from !== null) acts.dropFrames(editing, from, to);
   };
   const button = (label: string, act: () => void, icon: ReactNode, off = false) => (
-    <Tooltip label={label} position="right">
-      <ActionIcon variant="default" size="lg" aria-label={label} disabled={off} onClick={act}>
-        {icon}
-      </ActionIcon>
-    </Tooltip>
+    <IconButton
+      label={label}
+      position="right"
+      variant="default"
+      color={undefined}
+      size="lg"
+      disabled={off}
+      onClick={act}
+    >
+      {icon}
+    </IconButton>
   );
   return (
     <div className="strip-row">

@@ -1,6 +1,7 @@
-import { ActionIcon, Group, Select, Tooltip } from '@mantine/core';
+import { Group, Select } from '@mantine/core';
 import { IconBulb } from '@tabler/icons-react';
 import { useStore } from '../base/store';
+import { IconButton } from '../shell/IconButton';
 import { shortId } from '../live/robotWords';
 import { pinPixel } from '../model/commands';
 import type { Pixel } from '../model/show';
@@ -39,17 +40,15 @@ export function PinField({ pixel }: { pixel: Pixel }) {
           editor.change('Pin', (show) => pinPixel(show, pixel.id, robot || null))
         }
       />
-      <Tooltip label="Let that robot blink">
-        <ActionIcon
-          variant="default"
-          size={30}
-          disabled={!blinks}
-          aria-label="Let that robot blink"
-          onClick={() => pinned && void ask({ do: 'identify', robot: pinned.id })}
-        >
-          <IconBulb size={16} />
-        </ActionIcon>
-      </Tooltip>
+      <IconButton
+        label="Let that robot blink"
+        variant="default"
+        size={30}
+        disabled={!blinks}
+        onClick={() => pinned && void ask({ do: 'identify', robot: pinned.id })}
+      >
+        <IconBulb size={16} />
+      </IconButton>
     </Group>
   );
 }

@@ -16,7 +16,7 @@ const HANDLE_GAP_PX = 16;
 const HANDLE_REACH_PX = 11;
 
 /** Handles of the box around the selection, CSS pixels; none for fewer than two pixels. */
-export function handlesOf(state: EditorState, camera: Camera): { handle: Handle; at: Point }[] {
+function handlesOf(state: EditorState, camera: Camera): { handle: Handle; at: Point }[] {
   const pixels =
     state.show.frames[state.frame]?.pixels.filter((p) => state.selection.has(p.id)) ?? [];
   if (pixels.length < 2) return [];

@@ -1,10 +1,9 @@
 import type { Plan } from '../api/types.gen';
 import { pathsTo } from '../live/paths';
-import { hollowOf } from '../live/scene';
+import { floorOf, hollowOf } from '../live/scene';
 import type { EditorState } from '../model/editor';
 import type { Frame } from '../model/show';
 import { dotsAt, timelineOf } from '../model/timeline';
-import { unitStore } from '../shell/preferences';
 import type { Dot, Scene } from '../stage/scene';
 import type { Looks } from './editing';
 import { paintOverlay } from './overlay';
@@ -32,16 +31,7 @@ export function editScene(
   moment: number | null,
 ): Scene {
   const { show, frame } = state;
-  const { stage } = show;
-  const base = {
-    width_m: stage.width_m,
-    depth_m: stage.depth_m,
-    radius_m: stage.radius_m,
-    obstacles: stage.obstacles,
-    grid: true,
-    unit: unitStore.get(),
-    errors: NOTHING,
-  };
+  const base = { ...floorOf(show.stage), errors: NOTHING };
   if (moment !== null && plan) {
     const filled = dotsAt(show, plan, timelineOf(show, plan), moment);
     const hollow = looks.ghosts ? hollowOf(show.frames[frame]) : NOTHING;

@@ -1,7 +1,7 @@
-import { ActionIcon, Tooltip } from '@mantine/core';
 import { IconBulb, IconDots, IconPinFilled } from '@tabler/icons-react';
 import { memo } from 'react';
 import type { FleetRow } from '../api/types.gen';
+import { IconButton } from '../shell/IconButton';
 import type { Session } from '../shell/session';
 import { CHARGE_LOW } from './checklist';
 import * as words from './robotWords';
@@ -62,29 +62,23 @@ function Line({ row, wide, pinned, ask, choose }: Props) {
         </>
       ) : null}
       <td className="row-actions">
-        <Tooltip label="Let it blink">
-          <ActionIcon
-            variant="subtle"
-            color="gray"
-            size="sm"
-            disabled={!row.abilities.blink || row.presence !== 'active'}
-            aria-label={`Let robot ${name} blink`}
-            onClick={() => void ask({ do: 'identify', robot: row.id })}
-          >
-            <IconBulb size={15} />
-          </ActionIcon>
-        </Tooltip>
-        <Tooltip label="All about it: pin, forget…">
-          <ActionIcon
-            variant="subtle"
-            color="gray"
-            size="sm"
-            aria-label={`More about robot ${name}`}
-            onClick={() => choose(row.id)}
-          >
-            <IconDots size={15} />
-          </ActionIcon>
-        </Tooltip>
+        <IconButton
+          label="Let it blink"
+          name={`Let robot ${name} blink`}
+          size="sm"
+          disabled={!row.abilities.blink || row.presence !== 'active'}
+          onClick={() => void ask({ do: 'identify', robot: row.id })}
+        >
+          <IconBulb size={15} />
+        </IconButton>
+        <IconButton
+          label="All about it: pin, forget…"
+          name={`More about robot ${name}`}
+          size="sm"
+          onClick={() => choose(row.id)}
+        >
+          <IconDots size={15} />
+        </IconButton>
       </td>
     </tr>
   );

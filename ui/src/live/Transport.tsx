@@ -1,4 +1,4 @@
-import { ActionIcon, Button, Group, Tooltip } from '@mantine/core';
+import { Button, Group } from '@mantine/core';
 import {
   IconEye,
   IconPlayerPauseFilled,
@@ -10,6 +10,7 @@ import {
 } from '@tabler/icons-react';
 import type { ReactNode } from 'react';
 import { useStore } from '../base/store';
+import { IconButton } from '../shell/IconButton';
 import { useSession } from '../shell/session';
 import { actionsOf, type Action } from './actions';
 import { ChecklistButton } from './ChecklistButton';
@@ -47,19 +48,17 @@ export function Transport() {
   };
   useTransportKeys(perform, actions.main);
   const icon = (action: Action, label: string, child: ReactNode, on?: boolean) => (
-    <Tooltip label={label}>
-      <ActionIcon
-        variant={on ? 'light' : 'subtle'}
-        color={on ? undefined : 'gray'}
-        size="lg"
-        aria-label={label}
-        aria-pressed={on}
-        disabled={!actions.enabled.has(action)}
-        onClick={() => perform(action)}
-      >
-        {child}
-      </ActionIcon>
-    </Tooltip>
+    <IconButton
+      label={label}
+      variant={on ? 'light' : 'subtle'}
+      color={on ? undefined : 'gray'}
+      size="lg"
+      aria-pressed={on}
+      disabled={!actions.enabled.has(action)}
+      onClick={() => perform(action)}
+    >
+      {child}
+    </IconButton>
   );
   return (
     <div className="transport" role="toolbar" aria-label="Playing">

@@ -1,7 +1,7 @@
 import type { Fleet, Phase } from '../api/types.gen';
 import { unitStore } from '../shell/preferences';
 import { paintPins } from '../stage/pinMark';
-import { contact_m, EMPTY_STAGE, type Frame, type Show } from '../model/show';
+import { contact_m, EMPTY_STAGE, type Frame, type Show, type Stage } from '../model/show';
 import type { Dot, Scene } from '../stage/scene';
 import { paintClose, type CloseWatch } from './closeWatch';
 import type { Live } from './store';
@@ -37,6 +37,16 @@ export function hollowOf(frame: Frame | undefined): readonly Dot[] {
   return dots;
 }
 
+/** The empty floor of a stage, in the unit of this screen. */
+export const floorOf = (stage: Stage) => ({
+  width_m: stage.width_m,
+  depth_m: stage.depth_m,
+  radius_m: stage.radius_m,
+  obstacles: stage.obstacles,
+  grid: true,
+  unit: unitStore.get(),
+});
+
 export interface SceneWish {
   show: Show | null;
   /** The frame chosen in the strip. */
@@ -55,12 +65,7 @@ export function liveScene(live: Live, wish: SceneWish, now_ms: number): Scene {
   const pinned = wish.show?.frames[wish.chosen]?.pixels.filter((p) => p.robot !== null) ?? [];
   const close = wish.close.find(sample.filled, contact_m(stage), now_ms);
   return {
-    width_m: stage.width_m,
-    depth_m: stage.depth_m,
-    radius_m: stage.radius_m,
-    obstacles: stage.obstacles,
-    grid: true,
-    unit: unitStore.get(),
+    ...floorOf(stage),
     filled: sample.filled,
     hollow: wish.targets ? hollow : NOTHING,
     errors: wish.targets && running ? sample.errors : NOTHING,

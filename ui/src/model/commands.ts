@@ -58,12 +58,12 @@ export function pinsOf(show: Show): Map<number, string> {
 }
 
 /** Puts frames in after `index`. */
-export const insertFrames = (show: Show, index: number, frames: readonly Frame[]): Show => ({
+const insertFrames = (show: Show, index: number, frames: readonly Frame[]): Show => ({
   ...show,
   frames: [...show.frames.slice(0, index + 1), ...frames, ...show.frames.slice(index + 1)],
 });
 
-export const copyFrame = (frame: Frame, name: string): Frame => ({ ...frame, key: newKey(), name });
+const copyFrame = (frame: Frame, name: string): Frame => ({ ...frame, key: newKey(), name });
 
 /** A new frame begins as the one before it, because robots are there. */
 export function addFrame(show: Show, after: number): Show {

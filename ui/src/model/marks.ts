@@ -13,7 +13,7 @@ export function marksOf(pixels: readonly Pixel[], stage: Stage): Marks {
   return { tooClose: crowded(pixels, tooClose_m(stage)), offFloor };
 }
 
-export function onFloor(p: { x: number; y: number }, stage: Stage): boolean {
+function onFloor(p: { x: number; y: number }, stage: Stage): boolean {
   const r = stage.radius_m;
   // A robot may be put exactly at the edge by a grid of tenths of a millimetre.
   const slack = 1e-6;

@@ -5,7 +5,7 @@ import { boxBetween } from './geometry';
 import type { Show } from './show';
 
 /** The most a document may have. */
-export const OBSTACLES_MAX = 1000;
+const OBSTACLES_MAX = 1000;
 /** A smaller one is a click that slipped, metres. */
 const SIDE_MIN = 0.01;
 

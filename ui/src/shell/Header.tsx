@@ -1,4 +1,4 @@
-import { ActionIcon, Button, SegmentedControl, Tooltip } from '@mantine/core';
+import { Button, SegmentedControl, Tooltip } from '@mantine/core';
 import { useHotkeys } from '@mantine/hooks';
 import { useKeys } from './useKeys';
 import {
@@ -10,6 +10,7 @@ import {
 } from '@tabler/icons-react';
 import { useState } from 'react';
 import { useStore } from '../base/store';
+import { IconButton } from './IconButton';
 import { KeyboardMap } from './KeyboardMap';
 import { LibraryDialog } from './LibraryDialog';
 import { createShowInLibrary } from './createShow';
@@ -76,27 +77,17 @@ export function Header({ view }: { view: View }) {
       <span className="push" />
       <LinkPill />
       <FleetPill />
-      <Tooltip label="Settings">
-        <ActionIcon
-          variant="subtle"
-          color="gray"
-          aria-label="Settings"
-          onClick={() => setDialog('settings')}
-        >
-          <IconSettings size={18} />
-        </ActionIcon>
-      </Tooltip>
-      <Tooltip label="Keyboard (?)">
-        <ActionIcon
-          className="wide-only"
-          variant="subtle"
-          color="gray"
-          aria-label="Keyboard map"
-          onClick={() => setDialog('keys')}
-        >
-          <IconKeyboard size={18} />
-        </ActionIcon>
-      </Tooltip>
+      <IconButton label="Settings" onClick={() => setDialog('settings')}>
+        <IconSettings size={18} />
+      </IconButton>
+      <IconButton
+        className="wide-only"
+        label="Keyboard (?)"
+        name="Keyboard map"
+        onClick={() => setDialog('keys')}
+      >
+        <IconKeyboard size={18} />
+      </IconButton>
       <Tooltip label="Every robot stops at once (Shift Esc)">
         <Button
           className="stop-all"

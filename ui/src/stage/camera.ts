@@ -17,8 +17,8 @@ export interface Size {
   height_px: number;
 }
 
-export const SCALE_MIN = 10;
-export const SCALE_MAX = 6000;
+const SCALE_MIN = 10;
+const SCALE_MAX = 6000;
 
 /** The camera that shows the whole floor with a margin around it, and with `top_px` more above it, CSS pixels. */
 export function fit(

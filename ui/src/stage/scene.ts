@@ -36,15 +36,3 @@ export interface Scene {
   /** Drawn last, in CSS pixels. */
   overlay?: (context: CanvasRenderingContext2D, camera: Camera) => void;
 }
-
-export const EMPTY_SCENE: Scene = {
-  width_m: 3,
-  depth_m: 3,
-  radius_m: 0.027,
-  obstacles: [],
-  grid: true,
-  filled: [],
-  hollow: [],
-  errors: [],
-  paths: [],
-};
