@@ -1,7 +1,7 @@
 //! START: stated ahead for everybody at once, repeated, confirmed by reports, put off for those who did not hear it.
 
 use crate::desk::Desk;
-use crate::event::Trouble;
+use crate::event::{EventKind, Trouble};
 use crate::leg::Kind;
 use crate::run::{Phase, Run};
 use lightbots_base::{Instant, Span};
@@ -19,6 +19,8 @@ const REPEAT_PUT_OFF: Span = Span::from_millis(15);
 const CHECK_AHEAD: Span = Span::from_millis(80);
 /// How often the moment is put off before the deaf ones are given up.
 const PUT_OFF_MAX: u32 = 12;
+/// A start put off so often is a wait that people are told the reason of.
+const PUT_OFF_TOLD: u32 = 4;
 /// Links slower than this are not waited for.
 const ROUND_TRIP_MAX: Span = Span::from_millis(1_500);
 /// HOLD and RESUME are stated this long ahead at least.
@@ -170,6 +172,12 @@ impl Run {
                 self.drop_out(desk, now, seat, Trouble::Deaf);
             }
             return;
+        }
+        if start.put_off == PUT_OFF_TOLD {
+            for &seat in &deaf {
+                let robot = desk.fleet.robot(self.seats[seat].robot).id;
+                desk.log.tell_limited(now, EventKind::Waiting { robot, why: Trouble::Deaf });
+            }
         }
         self.round_trip = (self.round_trip * 3 / 2).min(ROUND_TRIP_MAX);
         let lead = self.start_lead(desk);

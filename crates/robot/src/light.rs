@@ -1,4 +1,4 @@
-//! The light: a colour, fades by the show clock, and blinking to be found.
+//! The light: a colour, fades by the show clock, blinking to be found, and flashes that say what is wrong.
 
 use lightbots_base::{Instant, Rgb, Span};
 use lightbots_wire::Fade;
@@ -7,6 +7,10 @@ use lightbots_wire::Fade;
 const WAITING: usize = 4;
 /// Half a period of blinking.
 const FLASH: Span = Span::from_millis(125);
+/// Trouble shows once it has lasted for so long, and again each time so much has passed.
+const SETTLED: Span = Span::from_millis(500);
+const TROUBLE: Span = Span::from_millis(2000);
+const RED: Rgb = Rgb::new(255, 0, 0);
 
 /// What the light shows and will show.
 #[derive(Debug, Default)]
@@ -18,6 +22,8 @@ pub(crate) struct Light {
     waiting: heapless::Vec<Fade, WAITING>,
     /// From when until when it blinks, own clock.
     blink: Option<(Instant, Instant)>,
+    /// Since when it has something to say about itself, own clock, and in how many flashes.
+    trouble: Option<(Instant, u8)>,
 }
 
 impl Light {
@@ -47,6 +53,13 @@ impl Light {
         self.blink = Some((now, now + over));
     }
 
+    /// What is wrong at `now`, own clock, in red flashes; 0: nothing.
+    pub(crate) fn say(&mut self, now: Instant, flashes: u8) {
+        if self.trouble.map_or(0, |(_, said)| said) != flashes {
+            self.trouble = (flashes > 0).then_some((now + SETTLED, flashes));
+        }
+    }
+
     /// Forgets the fades that have not begun.
     pub(crate) fn forget_waiting(&mut self) {
         self.waiting.clear();
@@ -57,14 +70,19 @@ impl Light {
         if let Some(show) = show.filter(|_| self.running.is_some() || !self.waiting.is_empty()) {
             self.advance(show);
         }
-        let Some((from, until)) = self.blink else {
-            return self.shown;
+        self.blink.take_if(|(_, until)| now >= *until);
+        let (beat, colour) = match (self.blink, self.trouble) {
+            (Some((from, _)), _) => ((now - from).0 / FLASH.0, Rgb::new(255, 255, 255)),
+            (None, Some((from, flashes))) if now >= from => {
+                let beat = (now - from).0 % TROUBLE.0 / FLASH.0;
+                if beat >= 2 * i64::from(flashes) {
+                    return self.shown;
+                }
+                (beat, RED)
+            }
+            _ => return self.shown,
         };
-        if now >= until {
-            self.blink = None;
-            return self.shown;
-        }
-        if (now - from).0 / FLASH.0 % 2 == 0 { Rgb::new(255, 255, 255) } else { Rgb::BLACK }
+        if beat % 2 == 0 { colour } else { Rgb::BLACK }
     }
 
     fn advance(&mut self, show: Instant) {
@@ -137,6 +155,23 @@ mod tests {
         let mut light = Light::default();
         light.fade(None, fade(WHITE, 1000, 1000));
         assert_eq!(light.step(Instant(0), None), WHITE);
+    }
+
+    #[test]
+    fn trouble_shows_in_red_flashes_and_goes_with_its_reason() {
+        let mut light = Light::default();
+        light.set(Rgb::new(9, 9, 9));
+        light.say(Instant(0), 2);
+        let mut at = |millis: u64| light.step(Instant(millis * 1000), None);
+        let seen = [400, 500, 625, 750, 875, 1000, 2400, 2500, 2750, 3000].map(&mut at);
+        let (own, dark) = (Rgb::new(9, 9, 9), Rgb::BLACK);
+        assert_eq!(seen, [own, RED, dark, RED, dark, own, own, RED, RED, own]);
+        light.blink(Instant(4_500_000), Span(250_000));
+        assert_eq!(light.step(Instant(4_500_000), None), WHITE, "who looks for it finds it");
+        light.say(Instant(6_400_000), 2);
+        assert_eq!(light.step(Instant(6_500_000), None), RED);
+        light.say(Instant(6_510_000), 0);
+        assert_eq!(light.step(Instant(6_520_000), None), own);
     }
 
     #[test]

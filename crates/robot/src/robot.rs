@@ -119,6 +119,7 @@ impl Robot {
         self.supervise(now);
         let wheels_radps = self.act(now, show, dt);
         self.state = self.what_it_does(now, show);
+        self.light.say(now, self.trouble(now));
         self.shown = self.light.step(now, show);
         self.speak(now);
         Outputs { wheels_radps, light: self.shown }
@@ -146,7 +147,10 @@ impl Robot {
             }
         };
         let speaks_ours = self.config.abilities != Default::default();
-        let details = speaks_ours.then(|| Details { route, ..self.details() });
+        // Nobody heard that it was cut while it was: the first report over the new link says it.
+        let was_cut = fact == Fact::Introduction && self.supervisor.take_untold();
+        let state = if was_cut { RobotState::Cut } else { self.state };
+        let details = speaks_ours.then(|| Details { route, state, ..self.details() });
         Report { id: self.config.id, at, details }.encode(out).ok()?;
         Some(topic)
     }
@@ -375,6 +379,18 @@ impl Robot {
             RobotState::Ready
         } else {
             RobotState::Idle
+        }
+    }
+
+    /// What is wrong, in flashes of its light; an original robot shows nothing of it.
+    fn trouble(&self, now: Instant) -> u8 {
+        match self.state {
+            _ if self.config.abilities == Default::default() => 0,
+            RobotState::Faulty => 3,
+            RobotState::Cut => 2,
+            RobotState::Lost => 1,
+            _ if self.supervisor.is_down(now) => 2,
+            _ => 0,
         }
     }
 

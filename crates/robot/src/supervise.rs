@@ -28,6 +28,8 @@ pub(crate) struct Supervisor {
     heard: Instant,
     down_since: Option<Instant>,
     cut: bool,
+    /// It was cut until the link came back, and has not said so.
+    untold: bool,
     faulty_until: Option<Instant>,
     asked: Instant,
 }
@@ -35,7 +37,15 @@ pub(crate) struct Supervisor {
 impl Supervisor {
     pub(crate) fn new(silence: Span) -> Self {
         let start = Instant::ZERO;
-        Self { silence, heard: start, down_since: None, cut: false, faulty_until: None, asked: start }
+        Self {
+            silence,
+            heard: start,
+            down_since: None,
+            cut: false,
+            untold: false,
+            faulty_until: None,
+            asked: start,
+        }
     }
 
     /// A message came in.
@@ -48,6 +58,7 @@ impl Supervisor {
     /// The link went up or down.
     pub(crate) fn link(&mut self, now: Instant, up: bool) {
         if up {
+            self.untold |= self.cut;
             self.hear(now);
         } else if self.down_since.is_none() {
             self.down_since = Some(now);
@@ -59,9 +70,14 @@ impl Supervisor {
         self.down_since.is_none()
     }
 
+    /// Whether the link has been down for longer than it waits for one.
+    pub(crate) fn is_down(&self, now: Instant) -> bool {
+        self.down_since.is_some_and(|since| now - since > self.silence)
+    }
+
     /// Cuts the robot off where the link has been silent too long for what it does. Tells whether it did just now.
     pub(crate) fn check_link(&mut self, now: Instant, drives: Drives) -> bool {
-        let down = self.down_since.is_some_and(|since| now - since > self.silence);
+        let down = self.is_down(now);
         let silent = now - self.heard > self.silence;
         let cuts = match drives {
             Drives::Not | Drives::Soon => false,
@@ -98,6 +114,11 @@ impl Supervisor {
     /// Whether a fault is in force, as of the step before.
     pub(crate) fn is_faulty(&self) -> bool {
         self.faulty_until.is_some()
+    }
+
+    /// Whether the link has come back to one that was cut, once.
+    pub(crate) fn take_untold(&mut self) -> bool {
+        core::mem::take(&mut self.untold)
     }
 
     /// Whether it stands because the link was lost during a run.

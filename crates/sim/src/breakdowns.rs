@@ -14,6 +14,14 @@ pub(crate) enum Fate {
     Muted,
     /// Its wheels do not turn any more.
     Stuck,
+    /// Its link breaks.
+    Cut,
+    /// Its link is there again.
+    Linked,
+    /// Its fixes stay away.
+    Blinded,
+    /// Its fixes come again.
+    Seeing,
 }
 
 /// All breakdowns of a rehearsal.
@@ -23,6 +31,7 @@ pub(crate) struct Breakdowns {
     coming: Vec<(Span, usize, Fate)>,
     struck: Vec<usize>,
     mute: Vec<bool>,
+    cut: Vec<bool>,
 }
 
 impl Breakdowns {
@@ -38,9 +47,17 @@ impl Breakdowns {
         let mut coming: Vec<_> = conditions.killed.iter().map(|b| fate_of(b, Fate::Killed)).collect();
         coming.extend(conditions.muted.iter().map(|b| fate_of(b, Fate::Muted)));
         coming.extend(conditions.stuck.iter().map(|b| fate_of(b, Fate::Stuck)));
+        let outages =
+            [(&conditions.cut, Fate::Cut, Fate::Linked), (&conditions.blind, Fate::Blinded, Fate::Seeing)];
+        for (outages, begins, ends) in outages {
+            for (breakdown, over) in outages {
+                let (at, robot, fate) = fate_of(breakdown, begins);
+                coming.extend([(at, robot, fate), (at + *over, robot, ends)]);
+            }
+        }
         coming.retain(|&(_, robot, _)| robot < robots);
         coming.sort_by_key(|&(at, robot, _)| core::cmp::Reverse((at, robot)));
-        Self { coming, struck: Vec::new(), mute: vec![false; robots] }
+        Self { coming, struck: Vec::new(), mute: vec![false; robots], cut: vec![false; robots] }
     }
 
     /// The next robot that breaks down until then, counted from the show's beginning.
@@ -49,7 +66,11 @@ impl Breakdowns {
             return None;
         }
         let (_, robot, fate) = self.coming.pop()?;
-        self.mute[robot] |= fate == Fate::Muted;
+        match fate {
+            Fate::Muted => self.mute[robot] = true,
+            Fate::Cut | Fate::Linked => self.cut[robot] = fate == Fate::Cut,
+            _ => {}
+        }
         if !self.struck.contains(&robot) {
             self.struck.push(robot);
         }
@@ -59,7 +80,13 @@ impl Breakdowns {
     /// Whether nothing is heard of a robot any more.
     #[inline]
     pub fn is_mute(&self, robot: usize) -> bool {
-        self.mute[robot]
+        self.mute[robot] || self.cut[robot]
+    }
+
+    /// Whether a robot hears nothing.
+    #[inline]
+    pub fn is_deaf(&self, robot: usize) -> bool {
+        self.cut[robot]
     }
 
     /// How many robots broke down so far.
@@ -72,6 +99,20 @@ impl Breakdowns {
 mod tests {
     use super::*;
     use crate::faults::Faults;
+
+    #[test]
+    fn what_passes_ends_after_its_time() {
+        let conditions = Faults::parse("cut=1@2s+3s,blind=0@4s").unwrap().added_to(Conditions::ideal());
+        let mut breakdowns = Breakdowns::new(&conditions, 2, 100.0, 1);
+        let mut until = |millis| {
+            let fate = breakdowns.next_until(Span::from_millis(millis));
+            (fate, breakdowns.is_mute(1), breakdowns.is_deaf(1))
+        };
+        assert_eq!(until(2_000), (Some((1, Fate::Cut)), true, true));
+        assert_eq!(until(4_999), (Some((0, Fate::Blinded)), true, true));
+        assert_eq!(until(5_000), (Some((1, Fate::Linked)), false, false));
+        assert_eq!(until(9_000), (Some((0, Fate::Seeing)), false, false));
+    }
 
     #[test]
     fn breakdowns_come_in_order_and_once() {

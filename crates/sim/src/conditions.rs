@@ -19,6 +19,10 @@ pub struct Conditions {
     pub muted: Vec<Breakdown>,
     /// Robots whose wheels do not turn any more; they still hear and speak.
     pub stuck: Vec<Breakdown>,
+    /// Robots whose link breaks, and for how long.
+    pub cut: Vec<(Breakdown, Span)>,
+    /// Robots whose fixes stay away, and for how long.
+    pub blind: Vec<(Breakdown, Span)>,
 }
 
 /// What position fixes are like.
@@ -93,6 +97,8 @@ impl Default for Conditions {
             killed: Vec::new(),
             muted: Vec::new(),
             stuck: Vec::new(),
+            cut: Vec::new(),
+            blind: Vec::new(),
         }
     }
 }

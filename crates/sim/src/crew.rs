@@ -35,6 +35,8 @@ struct Member {
     alive: bool,
     /// Its wheels do not turn.
     stuck: bool,
+    /// It gets no fixes.
+    blind: bool,
 }
 
 /// A robot's own clock.
@@ -134,6 +136,11 @@ impl Crew {
         self.world.tell(robot, [0.0; 2]);
     }
 
+    /// A robot's fixes stay away, or come again.
+    pub fn blind(&mut self, robot: usize, blind: bool) {
+        self.members[robot].blind = blind;
+    }
+
     /// One step of 16 ms that ends at `now`: bodies move, then robots sense, think and speak, one after the other.
     pub fn step(&mut self, now: Instant, hear: &mut impl FnMut(usize, Topic, &[u8])) {
         self.world.step();
@@ -145,7 +152,7 @@ impl Crew {
                 continue;
             }
             self.errors.look(self.steps, index, &member.robot, &self.world);
-            let fix = self.sensors.fix(index, self.world.pose(index));
+            let fix = self.sensors.fix(index, self.world.pose(index)).filter(|_| !member.blind);
             let inputs = Inputs {
                 wheel_turns_rad: self.world.wheel_turns(index),
                 fix: fix.map(|fix| Fix { at: fix.at, heading: Some(fix.heading) }),
@@ -178,7 +185,16 @@ impl Member {
             ..Config::new(id)
         };
         let battery = 80 + dice.below(21) as u8;
-        Self { robot: Robot::new(config), id, clock, battery, light: Rgb::BLACK, alive: true, stuck: false }
+        Self {
+            robot: Robot::new(config),
+            id,
+            clock,
+            battery,
+            light: Rgb::BLACK,
+            alive: true,
+            stuck: false,
+            blind: false,
+        }
     }
 
     #[inline]

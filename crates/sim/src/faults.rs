@@ -35,13 +35,15 @@ enum Change {
     Kill(Breakdown),
     Mute(Breakdown),
     Stuck(Breakdown),
+    Cut(Breakdown, Span),
+    Blind(Breakdown, Span),
 }
 
 /// Every fault, with an example of its value.
 const KNOWN: &str = "loss=5%, delay=100..300ms, jitter or jitter=50ms, double=1%, reorder=1%, slip=10%, gps=5mm, \
                      heading=2deg, bias=5mm, clock=100ppm, fix-delay=100ms, fix-every=5, fix-dropout=1s, \
                      fix-outlier=1%, kill=random or kill=3@12s, mute=random or mute=3@12s, \
-                     stuck=random or stuck=3@12s";
+                     stuck=random or stuck=3@12s, cut=random or cut=3@12s+4s, blind=random or blind=3@12s+4s";
 
 /// The most faults a text may state.
 const MOST: usize = 64;
@@ -98,6 +100,8 @@ fn apply(change: Change, conditions: &mut Conditions) {
         Change::Kill(breakdown) => conditions.killed.push(breakdown),
         Change::Mute(breakdown) => conditions.muted.push(breakdown),
         Change::Stuck(breakdown) => conditions.stuck.push(breakdown),
+        Change::Cut(breakdown, over) => conditions.cut.push((breakdown, over)),
+        Change::Blind(breakdown, over) => conditions.blind.push((breakdown, over)),
     }
 }
 
@@ -124,6 +128,8 @@ fn change(part: &str) -> Result<Change, FaultsError> {
         "kill" => breakdown(value).map(Change::Kill),
         "mute" => breakdown(value).map(Change::Mute),
         "stuck" => breakdown(value).map(Change::Stuck),
+        "cut" => outage(value).map(|(breakdown, over)| Change::Cut(breakdown, over)),
+        "blind" => outage(value).map(|(breakdown, over)| Change::Blind(breakdown, over)),
         _ => return Err(FaultsError(format!("there is no fault '{}'; there are {KNOWN}", shown(name)))),
     };
     read.ok_or_else(|| {
@@ -181,6 +187,14 @@ fn breakdown(text: &str) -> Option<Breakdown> {
         Some(when) => Some(span(when, most).or_else(|| span(&format!("{when}s"), most))?),
     };
     Some(Breakdown { robot, at })
+}
+
+/// A breakdown that passes: `3@12s+4s`; for five seconds where nothing is said.
+fn outage(text: &str) -> Option<(Breakdown, Span)> {
+    let (begins, over) = text.split_once('+').map_or((text, "5s"), |(begins, over)| (begins, over.trim()));
+    let most = Span::from_millis(3_600_000);
+    let over = span(over, most).or_else(|| span(&format!("{over}s"), most))?;
+    Some((breakdown(begins)?, over))
 }
 
 #[cfg(test)]

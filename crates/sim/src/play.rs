@@ -124,6 +124,7 @@ impl Play {
                 let Some((at, message)) = self.network.next_until(until) else { return };
                 self.now = at.max(self.now);
                 match message.way {
+                    Way::ToRobot(robot) if self.breakdowns.is_deaf(robot) => {}
                     Way::ToRobot(robot) => {
                         self.crew.receive(self.now, robot, message.topic, &message.payload);
                         let Self { crew, network, watch, breakdowns, now, .. } = self;
@@ -169,6 +170,8 @@ impl Play {
                 Fate::Killed => self.crew.kill(robot),
                 Fate::Stuck => self.crew.block_wheels(robot),
                 Fate::Muted => {}
+                Fate::Cut | Fate::Linked => self.crew.link(self.now, robot, fate == Fate::Linked),
+                Fate::Blinded | Fate::Seeing => self.crew.blind(robot, fate == Fate::Blinded),
             }
             self.watch.struck(robot, self.crew.id(robot), fate, self.now);
         }

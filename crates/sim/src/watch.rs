@@ -86,6 +86,9 @@ impl Watch {
             Fate::Killed => ("robot-killed", "lost its power, as asked for"),
             Fate::Muted => ("robot-muted", "fell silent, as asked for"),
             Fate::Stuck => ("robot-stuck", "got stuck, as asked for"),
+            Fate::Cut => ("robot-cut", "lost its link, as asked for"),
+            Fate::Blinded => ("robot-blind", "got no fixes any more, as asked for"),
+            Fate::Linked | Fate::Seeing => ("robot-back", "has what it lacked again"),
         };
         let issue = Issue::warning(
             code,
@@ -144,6 +147,7 @@ impl Watch {
             }
             EventKind::Waiting { .. } => self.note("waiting", event),
             EventKind::LeftOut { .. } => self.note("pixels-dark", event),
+            EventKind::Rejoined(_) => self.note("rejoined", event),
             EventKind::Misaligned { .. } => self.note("misaligned", event),
             EventKind::PlanFailed { .. } => self.note("plan-failed", event),
             EventKind::RunEnded { outcome, .. } => {

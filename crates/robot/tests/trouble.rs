@@ -1,0 +1,197 @@
+//! A robot that is cut off or lost stands in time, says why by light and report, and takes part again when it is back:
+//! the table at the end of the safety rules in `docs/protocol.md`.
+
+mod plant;
+
+use lightbots_base::{Rgb, Span, Vec2};
+use lightbots_robot::Inputs;
+use lightbots_wire::{Command, Report, RobotState, Topic};
+use plant::{Flaws, Plant, straight};
+
+const START: Vec2 = Vec2::new(-0.6, 0.2);
+const FAR: Vec2 = Vec2::new(0.9, 0.2);
+const OWN: Rgb = Rgb::new(0, 60, 90);
+const RED: Rgb = Rgb::new(255, 0, 0);
+
+/// A robot of this colour, with a synchronised clock.
+fn ready(flaws: Flaws) -> Plant {
+    let mut plant = Plant::ready(START, 0.0, flaws, 2);
+    plant.tell(&Command::Color(OWN));
+    plant
+}
+
+/// Sends a route that starts so many milliseconds from now.
+fn send(plant: &mut Plant, seq: u32, to: Vec2, in_ms: i64) {
+    let at = plant.show() + Span::from_millis(in_ms);
+    plant.tell(&Command::Route(straight(seq, plant.at, to)));
+    plant.tell(&Command::Start { seq, at });
+}
+
+/// A robot that is in the middle of a route.
+fn driving() -> Plant {
+    let mut plant = ready(Flaws::STANDARD);
+    send(&mut plant, 9, FAR, 300);
+    plant.run(2.5);
+    assert!(!plant.stands() && plant.robot.state() == RobotState::Driving);
+    plant.said.clear();
+    plant
+}
+
+/// Seconds until it stands, 5 at most.
+fn stands_after(plant: &mut Plant) -> f64 {
+    let began = plant.now;
+    while !plant.stands() && plant.now < began + Span::from_millis(5_000) {
+        plant.step();
+    }
+    (plant.now - began).as_secs()
+}
+
+/// Red flashes within two seconds, and whether it shows its own colour in between.
+fn flashes(plant: &mut Plant) -> (usize, bool) {
+    let mut shown = vec![plant.last.light];
+    for _ in 0..125 {
+        plant.step();
+        shown.push(plant.last.light);
+    }
+    (shown.windows(2).filter(|pair| pair[0] != RED && pair[1] == RED).count(), shown.contains(&OWN))
+}
+
+/// Goes on a route from where it stands.
+fn takes_part_again(plant: &mut Plant, seq: u32) {
+    plant.said.clear();
+    let to = plant.at + Vec2::new(-0.3, 0.2);
+    send(plant, seq, to, 500);
+    plant.run(4.0);
+    assert!(plant.at.distance(to) < 0.02, "{:?} {to:?}", plant.at);
+    assert_eq!(plant.heard(Topic::Arrival).len(), 1);
+    assert_eq!(plant.last.light, OWN);
+}
+
+fn states(reports: &[&Report]) -> Vec<RobotState> {
+    reports.iter().filter_map(|report| report.details.as_ref()).map(|details| details.state).collect()
+}
+
+#[test]
+fn cut_off_on_a_route_it_stands_after_two_seconds() {
+    let mut plant = driving();
+    plant.answers = false;
+    plant.robot.link(plant.now, false);
+    let after_s = stands_after(&mut plant);
+    assert!((1.0..=2.05).contains(&after_s), "{after_s} s");
+    assert_eq!(plant.robot.state(), RobotState::Cut);
+    plant.run(0.5);
+    assert_eq!(flashes(&mut plant), (2, true));
+    // Nothing of what it said meanwhile was heard.
+    plant.said.clear();
+    plant.answers = true;
+    plant.robot.link(plant.now, true);
+    plant.run(0.1);
+    assert_eq!(states(&plant.heard(Topic::Uuid)), [RobotState::Cut]);
+    assert_eq!(plant.robot.state(), RobotState::Idle);
+    plant.run(1.0);
+    takes_part_again(&mut plant, 10);
+}
+
+#[test]
+fn a_controller_that_falls_silent_is_as_good_as_a_broken_link() {
+    let mut plant = driving();
+    plant.answers = false;
+    let after_s = stands_after(&mut plant);
+    assert!((1.0..=2.05).contains(&after_s), "{after_s} s");
+    plant.step();
+    assert_eq!(states(&plant.heard(Topic::Status)).last(), Some(&RobotState::Cut));
+    plant.run(0.5);
+    assert_eq!(flashes(&mut plant), (2, true));
+    plant.answers = true;
+    plant.tell_text(b"|STATUS|");
+    plant.run(0.1);
+    assert_eq!(plant.robot.state(), RobotState::Idle);
+    takes_part_again(&mut plant, 10);
+}
+
+#[test]
+fn cut_off_in_air_time_it_says_so_and_does_not_set_out() {
+    let mut plant = ready(Flaws::STANDARD);
+    send(&mut plant, 9, FAR, 5_000);
+    plant.run(0.5);
+    plant.answers = false;
+    plant.robot.link(plant.now, false);
+    plant.run(2.5);
+    assert_eq!(plant.robot.state(), RobotState::Ready);
+    assert_eq!(flashes(&mut plant), (2, true));
+    plant.run(2.0);
+    // Its moment has passed: others may be where it would have been.
+    assert!(plant.stands() && plant.at.distance(START) < 0.01, "{:?}", plant.at);
+    assert_eq!(plant.robot.state(), RobotState::Cut);
+    plant.said.clear();
+    plant.answers = true;
+    plant.robot.link(plant.now, true);
+    plant.run(0.1);
+    assert_eq!(states(&plant.heard(Topic::Uuid)), [RobotState::Cut]);
+    plant.run(1.0);
+    takes_part_again(&mut plant, 10);
+}
+
+#[test]
+fn a_short_break_in_air_time_is_nobodys_business() {
+    let mut plant = ready(Flaws::STANDARD);
+    send(&mut plant, 9, FAR, 4_000);
+    plant.run(0.5);
+    plant.answers = false;
+    plant.robot.link(plant.now, false);
+    plant.run(1.5);
+    plant.answers = true;
+    plant.robot.link(plant.now, true);
+    plant.run(9.5);
+    assert_eq!(plant.last.light, OWN);
+    assert!(plant.at.distance(FAR) < 0.02);
+    assert!(!states(&plant.heard(Topic::Uuid)).contains(&RobotState::Cut));
+}
+
+#[test]
+fn lost_on_a_route_it_stands_before_its_doubt_is_large() {
+    let mut plant = driving();
+    plant.sees = false;
+    let after_s = stands_after(&mut plant);
+    assert!(after_s <= 3.05, "{after_s} s");
+    assert_eq!(plant.robot.state(), RobotState::Lost);
+    plant.step();
+    let last = plant.heard(Topic::Status).last().map(|report| report.at);
+    assert_eq!(last, Some(None));
+    assert_eq!(states(&plant.heard(Topic::Status)).last(), Some(&RobotState::Lost));
+    plant.run(0.5);
+    assert_eq!(flashes(&mut plant), (1, true));
+    plant.sees = true;
+    plant.run(1.0);
+    assert_eq!(plant.robot.state(), RobotState::Idle);
+    assert!(plant.heard(Topic::Status).last().is_some_and(|report| report.at.is_some()));
+    takes_part_again(&mut plant, 10);
+}
+
+#[test]
+fn lost_in_air_time_it_says_so_and_is_found_again() {
+    let mut plant = ready(Flaws::NONE);
+    plant.sees = false;
+    plant.run(3.6);
+    assert_eq!(states(&plant.heard(Topic::Status)).last(), Some(&RobotState::Lost));
+    assert_eq!(flashes(&mut plant), (1, true));
+    plant.sees = true;
+    plant.run(0.2);
+    assert_eq!(plant.robot.state(), RobotState::Idle);
+    assert_eq!(plant.last.light, OWN);
+    takes_part_again(&mut plant, 10);
+}
+
+#[test]
+fn senseless_wheels_stop_it_at_once_and_show() {
+    let mut plant = driving();
+    let senseless = Inputs { wheel_turns_rad: [f64::NAN, 0.0], ..Inputs::default() };
+    plant.last = plant.robot.step(plant.now + plant::STEP, &senseless);
+    assert!(plant.stands() && plant.robot.state() == RobotState::Faulty);
+    plant.run(0.5);
+    // It lasts for a second only: the first two flashes of three.
+    let (red, _) = flashes(&mut plant);
+    assert_eq!(red, 2);
+    assert_eq!(states(&plant.heard(Topic::Status))[0], RobotState::Faulty);
+    takes_part_again(&mut plant, 10);
+}

@@ -1,0 +1,83 @@
+//! A robot that is cut off or lost for some seconds: nobody is touched, it takes part again when it is back, and the
+//! show is played to its end.
+
+use lightbots_base::{Rgb, Vec2};
+use lightbots_show::{Easing, Frame, Identity, Pixel, Show, Stage};
+use lightbots_sim::{Conditions, Faults, RehearsalOptions, RehearsalReport, rehearse};
+
+const ROBOTS: u32 = 8;
+const FRAMES: usize = 5;
+
+/// A row that goes to and fro by half a metre, with two seconds of air.
+fn show() -> Show {
+    let frame = |number: usize| Frame {
+        name: format!("{number}"),
+        air_time_s: 2.0,
+        transition_s: None,
+        easing: Easing::Swift,
+        identity: None,
+        pixels: (0..ROBOTS)
+            .map(|id| {
+                let x = 0.15 * (f64::from(id) - 3.5);
+                let at = Vec2::new(x, if number.is_multiple_of(2) { 0.5 } else { 0.0 });
+                Pixel { id, at, color: Rgb::new(0, 80, id as u8), robot: None }
+            })
+            .collect(),
+    };
+    Show {
+        name: "to and fro".into(),
+        stage: Stage { width_m: 2.4, depth_m: 2.4, ..Stage::default() },
+        identity: Identity::Any,
+        starts: None,
+        music: None,
+        frames: (0..FRAMES).map(frame).collect(),
+    }
+}
+
+/// Plays with this robot in trouble; everybody must play the last frame.
+fn play(faults: &str, seed: u64) -> RehearsalReport {
+    let conditions = Faults::parse(faults).unwrap().added_to(Conditions::default());
+    let report = rehearse(&show(), &RehearsalOptions { seed, conditions, robots: None }, &mut |_| {});
+    assert_eq!((report.contacts, report.frames_played), (0, FRAMES), "{faults}: {:#?}", report.issues);
+    report
+}
+
+fn has(report: &RehearsalReport, code: &str) -> bool {
+    report.issues.iter().any(|issue| issue.code == code)
+}
+
+#[test]
+fn cut_off_or_lost_on_the_way_it_drops_out_and_comes_back() {
+    for (fault, begun) in [("cut=3@1.5s+4s", "robot-cut"), ("blind=3@1.5s+6s", "robot-blind")] {
+        for seed in 1..=5 {
+            let report = play(fault, seed);
+            assert!(has(&report, begun) && has(&report, "robot-back"), "{:#?}", report.issues);
+            assert!(has(&report, "rejoined"), "{fault}, seed {seed}: {:#?}", report.issues);
+            let last = report.per_frame.last().expect("frames stood");
+            assert!(last.position_error_m.max < 0.02, "{fault}, seed {seed}: {last:?}");
+        }
+    }
+}
+
+#[test]
+fn cut_off_or_lost_beyond_the_air_time_it_is_waited_for_by_name_and_comes_back() {
+    let at_s = play("", 1).per_frame[1].at_s + 0.3;
+    let cut = play(&format!("cut=3@{at_s:.2}s+7s"), 1);
+    // It may have died: nobody sets out without knowing that it has heard when.
+    assert!(has(&cut, "waiting") && cut.dropouts == 0, "{:#?}", cut.issues);
+    let long = play(&format!("cut=3@{at_s:.2}s+20s"), 1);
+    assert!(has(&long, "dropout"), "{:#?}", long.issues);
+    let blind = play(&format!("blind=3@{at_s:.2}s+7s"), 1);
+    assert!(has(&blind, "dropout") && has(&blind, "rejoined"), "{:#?}", blind.issues);
+}
+
+#[test]
+fn an_outage_that_ends_within_the_air_time_changes_nothing() {
+    let whole = play("", 1);
+    let at_s = whole.per_frame[1].at_s + 0.3;
+    for fault in ["cut", "blind"] {
+        let report = play(&format!("{fault}=3@{at_s:.2}s+1.2s"), 1);
+        assert!(has(&report, "robot-back") && report.dropouts == 0, "{fault}: {:#?}", report.issues);
+        assert!((report.duration_s - whole.duration_s).abs() < 0.1, "{fault}: {}", report.duration_s);
+    }
+}
