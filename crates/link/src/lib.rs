@@ -1,7 +1,7 @@
 //! A connection to an MQTT broker that mends itself.
 //!
 //! It carries topics and payloads and knows nothing of what they mean. [`BrokerUrl`] says where the broker is, at one
-//! address or several, and [`Trust`] whom to believe over TLS. [`Link`] stays connected to it: it reconnects with
+//! address or several, and [`Trust`] whom to believe over TLS; [`BrokerArguments`] reads both from a command line. [`Link`] stays connected to it: it reconnects with
 //! back-off and jitter, to the next address where there are several, subscribes again on every fresh session,
 //! never blocks its user, and drops rather than queues what cannot be sent now: a command that is late is worse than
 //! one that is lost, because the protocol repeats what matters.
@@ -12,6 +12,7 @@
 //! assert_eq!(broker.to_string(), "mqtt://floor.local:1883");
 //! ```
 
+mod arguments;
 mod backoff;
 mod client_id;
 mod link;
@@ -21,6 +22,7 @@ mod reason;
 mod trust;
 mod url;
 
+pub use arguments::{ArgumentsError, BrokerArguments};
 pub use client_id::{controller_client_id, crowd_client_id, random_id, robot_client_id};
 pub use link::{Link, LinkConfig, LinkEvent, Sender};
 pub use place::Place;

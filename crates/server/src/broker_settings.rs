@@ -4,10 +4,10 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use lightbots_api::BrokerSettings;
-use lightbots_link::{BrokerUrl, Pem, Trust};
+use lightbots_link::{BrokerArguments, BrokerUrl, Pem, Trust};
 use serde::{Deserialize, Serialize};
 
-use crate::broker_arguments::BrokerArguments;
+use crate::failure::Failure;
 
 /// What stands for the server's own broker.
 pub const EMBEDDED: &str = "embedded";
@@ -123,6 +123,18 @@ impl Settings {
     }
 }
 
+/// The broker of others that `run` is told to use; `None`: its own.
+pub fn other_broker(addresses: &[String], login: &BrokerArguments) -> Result<Option<BrokerUrl>, Failure> {
+    let embedded = addresses.iter().filter(|address| address.trim() == EMBEDDED).count();
+    if embedded == addresses.len() {
+        return Ok(None);
+    }
+    if embedded > 0 {
+        return Err(Failure::input("--broker: say embedded, or addresses, not both"));
+    }
+    Ok(Some(login.broker(addresses)?))
+}
+
 /// A PEM text, or what a file holds.
 struct Text {
     name: String,
@@ -192,6 +204,17 @@ mod tests {
         std::fs::write(folder.join(FILE), "{").unwrap();
         assert_eq!(Settings::load(&folder), None);
         std::fs::remove_dir_all(folder).unwrap();
+    }
+
+    #[test]
+    fn embedded_and_no_address_are_the_own_broker() {
+        let asked = |texts: &[&str]| {
+            let texts: Vec<String> = texts.iter().map(ToString::to_string).collect();
+            other_broker(&texts, &BrokerArguments::default())
+        };
+        assert_eq!((asked(&[]).unwrap(), asked(&["embedded"]).unwrap()), (None, None));
+        assert_eq!(asked(&["a"]).unwrap().unwrap().to_string(), "mqtt://a:1883");
+        assert_eq!(asked(&["embedded", "a"]).unwrap_err().code, 2);
     }
 
     #[test]

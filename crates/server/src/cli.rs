@@ -5,9 +5,9 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use lightbots_base::RobotId;
+use lightbots_link::BrokerArguments;
 use lightbots_show::Identity;
 
-use crate::broker_arguments::BrokerArguments;
 use crate::logging::Log;
 use crate::numbers::{address, floor, robot, seed};
 

@@ -23,3 +23,9 @@ impl Failure {
         Self { line: line.into(), code: 1 }
     }
 }
+
+impl From<lightbots_link::ArgumentsError> for Failure {
+    fn from(error: lightbots_link::ArgumentsError) -> Self {
+        Self::input(error.to_string())
+    }
+}

@@ -4,7 +4,6 @@
 //! fleet needs: the broker, the task that owns the controller core, the simulated robots. `web` is the screen's
 //! server. It decides nothing about shows or robots: the cores do.
 
-mod broker_arguments;
 mod broker_settings;
 mod cli;
 mod commands;

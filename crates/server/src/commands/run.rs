@@ -12,7 +12,7 @@ use tokio::sync::mpsc;
 use tokio::task::JoinHandle;
 
 use super::{count, robots};
-use crate::broker_settings::Settings;
+use crate::broker_settings::{Settings, other_broker};
 use crate::cli::RunArguments;
 use crate::failure::{Failure, Outcome};
 use crate::library::{Library, name_of_file};
@@ -60,7 +60,7 @@ pub async fn run(arguments: RunArguments, stop: Stop) -> Outcome {
 
 async fn serve(arguments: &RunArguments, stop: &Stop, started: &mut Started) -> Outcome {
     let users = Users::read(&arguments.mqtt_user, arguments.mqtt_users.as_deref())?;
-    let other = arguments.login.broker_or_embedded(&arguments.broker)?;
+    let other = other_broker(&arguments.broker, &arguments.login)?;
     let data = arguments.data.clone().unwrap_or_else(Library::default_folder);
     let library = Library::new(data.clone());
     library.prepare().map_err(Failure::problem)?;

@@ -1,11 +1,11 @@
-//! What the command line says about a broker of others.
+//! What a command line says about a broker.
 
+use std::fmt;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use lightbots_link::{BrokerUrl, Trust, UrlError};
 
-use crate::failure::Failure;
+use crate::{BrokerUrl, Trust};
 
 /// User, where neither address nor option names one.
 const USER: &str = "LIGHTBOTS_BROKER_USER";
@@ -32,27 +32,29 @@ pub struct BrokerArguments {
     pub client_key: Option<PathBuf>,
 }
 
-/// The embedded broker, as `--broker` of `run` names it.
-const EMBEDDED: &str = "embedded";
+/// Why arguments name no broker that could be tried: one line for people.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ArgumentsError(String);
+
+impl fmt::Display for ArgumentsError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.0)
+    }
+}
+
+impl std::error::Error for ArgumentsError {}
+
+/// An error about an option.
+fn wrong(option: &str, why: &dyn fmt::Display) -> ArgumentsError {
+    ArgumentsError(format!("{option}: {why}"))
+}
 
 impl BrokerArguments {
     /// The broker at all of `addresses`, with login and trust. They are read here and not by the command line's
     /// parser, which would repeat a password in its complaint.
-    pub fn broker(&self, addresses: &[String]) -> Result<BrokerUrl, Failure> {
+    pub fn broker(&self, addresses: &[String]) -> Result<BrokerUrl, ArgumentsError> {
         let set = |name| std::env::var(name).ok().filter(|value: &String| !value.is_empty());
         self.broker_given(addresses, set(USER), set(PASSWORD))
-    }
-
-    /// The same for `run`; `None`: the embedded broker.
-    pub fn broker_or_embedded(&self, addresses: &[String]) -> Result<Option<BrokerUrl>, Failure> {
-        let embedded = addresses.iter().filter(|address| address.trim() == EMBEDDED).count();
-        if embedded == addresses.len() {
-            return Ok(None);
-        }
-        if embedded > 0 {
-            return Err(Failure::input("--broker: say embedded, or addresses, not both"));
-        }
-        self.broker(addresses).map(Some)
     }
 
     /// The same with what the environment says.
@@ -61,41 +63,43 @@ impl BrokerArguments {
         addresses: &[String],
         user: Option<String>,
         password: Option<String>,
-    ) -> Result<BrokerUrl, Failure> {
-        let wrong = |error: UrlError| Failure::input(format!("--broker: {error}"));
-        let mut all = addresses.iter().map(|address| BrokerUrl::parse(address).map_err(wrong));
-        let first =
-            all.next().ok_or_else(|| Failure::input("--broker is missing: say --broker mqtt://HOST"))?;
-        let mut broker = all.try_fold(first?, |broker, more| broker.and(more?).map_err(wrong))?;
+    ) -> Result<BrokerUrl, ArgumentsError> {
+        let stated = |error| wrong("--broker", &error);
+        let mut all = addresses.iter().map(|address| BrokerUrl::parse(address).map_err(stated));
+        let first = all
+            .next()
+            .ok_or_else(|| ArgumentsError("--broker is missing: say --broker mqtt://HOST".into()))?;
+        let mut broker = all.try_fold(first?, |broker, more| broker.and(more?).map_err(stated))?;
         broker.user = broker.user.or_else(|| self.broker_user.clone()).or(user);
         if broker.password.is_none() {
             let kept = self.broker_password_file.as_deref().map(read_password).transpose()?;
             broker.password = kept.or(password);
         }
         if broker.user.is_none() && self.broker_password_file.is_some() {
-            let line = "--broker-password-file: whose password is it? Say --broker-user, or mqtt://USER@HOST";
-            return Err(Failure::input(line));
+            let why = "whose password is it? Say --broker-user, or mqtt://USER@HOST";
+            return Err(wrong("--broker-password-file", &why));
         }
         Ok(broker.with_trust(self.trust()?))
     }
 
-    fn trust(&self) -> Result<Option<Trust>, Failure> {
+    fn trust(&self) -> Result<Option<Trust>, ArgumentsError> {
         let client = self.client_cert.as_deref().zip(self.client_key.as_deref());
         if self.ca.is_none() && client.is_none() {
             return Ok(None);
         }
-        Trust::read(self.ca.as_deref(), client).map(Some).map_err(|error| Failure::input(error.to_string()))
+        let read = Trust::read(self.ca.as_deref(), client);
+        read.map(Some).map_err(|error| ArgumentsError(error.to_string()))
     }
 }
 
 /// The first line of a file.
-fn read_password(path: &Path) -> Result<String, Failure> {
+fn read_password(path: &Path) -> Result<String, ArgumentsError> {
     let text = std::fs::read_to_string(path).map_err(|error| {
-        Failure::input(format!("the password in {} cannot be read: {error}", path.display()))
+        ArgumentsError(format!("the password in {} cannot be read: {error}", path.display()))
     })?;
     match text.lines().next().filter(|line| !line.is_empty()) {
         Some(line) => Ok(line.to_owned()),
-        None => Err(Failure::input(format!("{} holds no password in its first line", path.display()))),
+        None => Err(ArgumentsError(format!("{} holds no password in its first line", path.display()))),
     }
 }
 
@@ -125,8 +129,7 @@ mod tests {
         let broker =
             BrokerArguments::default().broker_given(&urls(&["a", "mqtts://b,c"]), None, None).unwrap();
         assert_eq!(broker.to_string(), "mqtt://a:1883,mqtts://b:8883,mqtts://c:8883");
-        let or_embedded = |texts| BrokerArguments::default().broker_or_embedded(&urls(texts));
-        assert_eq!((or_embedded(&[]).unwrap(), or_embedded(&["embedded"]).unwrap()), (None, None));
-        assert_eq!(or_embedded(&["embedded", "a"]).unwrap_err().code, 2);
+        let none = BrokerArguments::default().broker_given(&[], None, None);
+        assert!(none.unwrap_err().to_string().starts_with("--broker is missing"));
     }
 }
