@@ -91,6 +91,11 @@ impl RunReport {
         self.issues.splice(0..0, issues.iter().cloned());
     }
 
+    /// Something was wrong with the broker.
+    pub fn warn(&mut self, line: String) {
+        self.issues.push(Issue::warning("broker", line));
+    }
+
     /// Whether robots were sent anywhere.
     pub fn has_begun(&self) -> bool {
         self.robots > 0

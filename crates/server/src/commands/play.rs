@@ -32,15 +32,19 @@ pub async fn run(arguments: PlayArguments, stop: Stop) -> Outcome {
     }
     open_files::raise_limit();
     let (handle, task) = Handle::start(stop.clone());
-    let (news, links) = (handle.news(), handle.news());
+    let (mut news, links) = (handle.news(), handle.news());
     handle.connect(broker).await;
     let mut report = RunReport::new(&opened.show);
     let played = tokio::select! {
-        played = play(&arguments, &opened.show, &handle, &mut report, (news, links)) => played,
+        played = play(&arguments, &opened.show, &handle, &mut report, (&mut news, links)) => played,
         () = stop.wait() => Err(Failure::problem("stopped before the end of the show")),
     };
     report.add_issues(&opened.issues);
     finish(&handle, &stop, task).await;
+    if stop.is_wanted() {
+        // The run ended as the conductor stopped the robots: when is told behind what was not read yet.
+        catch_up(&mut report, &mut news);
+    }
     tell(report, arguments.json, played)
 }
 
@@ -76,7 +80,7 @@ async fn play(
     show: &Show,
     handle: &Handle,
     report: &mut RunReport,
-    (news, links): (broadcast::Receiver<News>, broadcast::Receiver<News>),
+    (news, links): (&mut broadcast::Receiver<News>, broadcast::Receiver<News>),
 ) -> Result<(), Failure> {
     let pixels = show_file::pixels(show);
     let refused = |refusal: Refusal| Failure::problem(refusal.to_string());
@@ -167,12 +171,16 @@ fn nobody(arguments: &PlayArguments, snapshot: &Snapshot, ready: usize, wanted: 
 async fn follow(
     report: &mut RunReport,
     handle: &Handle,
-    mut news: broadcast::Receiver<News>,
+    news: &mut broadcast::Receiver<News>,
 ) -> Result<(), Failure> {
     let bar = Bar::new();
     loop {
         let event = match tokio::time::timeout(NOTHING, news.recv()).await {
             Ok(Ok(News::Event(event))) => event,
+            Ok(Ok(News::Warning(line))) => {
+                report.warn(line);
+                continue;
+            }
             Ok(Ok(News::Link(_)) | Err(broadcast::error::RecvError::Lagged(_))) => continue,
             Ok(Err(broadcast::error::RecvError::Closed)) => return Err(Failure::problem("stopped")),
             Err(_) => return Err(Failure::problem("nothing has happened for 15 minutes: given up")),
@@ -182,6 +190,18 @@ async fn follow(
         bar.set(report.share(), event.kind.to_string());
         if report.is_over() {
             return Ok(());
+        }
+    }
+}
+
+/// Takes in what was said up to now.
+fn catch_up(report: &mut RunReport, news: &mut broadcast::Receiver<News>) {
+    loop {
+        match news.try_recv() {
+            Ok(News::Event(event)) => report.add(&event, None),
+            Ok(News::Warning(line)) => report.warn(line),
+            Ok(News::Link(_)) | Err(broadcast::error::TryRecvError::Lagged(_)) => {}
+            Err(_) => return,
         }
     }
 }

@@ -5,10 +5,12 @@ use std::time::Duration;
 
 use lightbots_control::{Config, Controller, Done, Event, Operation, Refusal, Snapshot, State};
 use lightbots_link::{BrokerUrl, Link, LinkEvent};
+use lightbots_wire::Topic;
 use tokio::sync::{broadcast, mpsc, oneshot};
 
 use super::clock::Clock;
 use super::controller_link;
+use super::rivals::{self, Rivals};
 use crate::stop::Stop;
 
 /// Orders that wait at most; more make the one who gives them wait.
@@ -33,6 +35,8 @@ pub enum News {
     Event(Event),
     /// The link says why it is not connected.
     Link(LinkState),
+    /// Something is wrong with the broker: one sentence for people.
+    Warning(String),
 }
 
 /// How the link to the broker is.
@@ -90,6 +94,7 @@ impl Handle {
             link: None,
             nodes: Vec::new(),
             state: LinkState::default(),
+            rivals: Rivals::new(String::new()),
             inbox,
             news: news.clone(),
             done,
@@ -137,6 +142,7 @@ struct Conductor {
     /// The broker's addresses, one by one.
     nodes: Vec<String>,
     state: LinkState,
+    rivals: Rivals,
     inbox: mpsc::Receiver<Order>,
     news: broadcast::Sender<News>,
     done: mpsc::Receiver<Done>,
@@ -146,7 +152,9 @@ struct Conductor {
 impl Conductor {
     async fn run(mut self, stop: Stop) {
         loop {
-            let alarm = self.controller.wake_at().map(|at| self.clock.deadline(at));
+            let speaks = self.state.is_connected().then(|| self.rivals.speak_at());
+            let wakes = [self.controller.wake_at(), speaks].into_iter().flatten().min();
+            let alarm = wakes.map(|at| self.clock.deadline(at));
             tokio::select! {
                 () = stop.wait() => break,
                 Some(event) = next_of(&mut self.link) => self.take(event),
@@ -181,6 +189,12 @@ impl Conductor {
                 }
                 self.tell_link(LinkPhase::Retrying, Some(reason));
             }
+            LinkEvent::Message { topic, payload } if [rivals::NAMES, rivals::COMMANDS].contains(&&*topic) => {
+                if let Some(line) = self.rivals.hear(now, &topic, &payload) {
+                    tracing::warn!("{line}");
+                    let _ = self.news.send(News::Warning(line));
+                }
+            }
             LinkEvent::Message { topic, payload } => self.controller.message(now, &topic, &payload),
         }
     }
@@ -199,7 +213,10 @@ impl Conductor {
                 self.leave().await;
                 self.state.address = broker.to_string();
                 self.nodes = broker.places.iter().map(ToString::to_string).collect();
-                self.link = Some(Link::open(controller_link(broker)));
+                let mut config = controller_link(broker);
+                self.rivals = Rivals::new(config.client_id.clone());
+                config.filters.extend([rivals::NAMES, rivals::COMMANDS].map(str::to_owned));
+                self.link = Some(Link::open(config));
                 self.tell_link(LinkPhase::Connecting, None);
             }
             Order::Disconnect => {
@@ -213,7 +230,16 @@ impl Conductor {
     /// Hands on what the controller has to say.
     fn drain(&mut self) {
         if let Some(sender) = self.link.as_ref().map(Link::sender) {
+            let now = self.clock.now();
+            if self.state.is_connected()
+                && let Some(name) = self.rivals.name_due(now)
+            {
+                sender.send(rivals::NAMES, name.as_bytes().to_vec());
+            }
             while let Some(send) = self.controller.next_send() {
+                if send.topic == Topic::Broadcast {
+                    self.rivals.said(now, &send.payload);
+                }
                 sender.send(&send.topic.write(), send.payload);
             }
         } else {

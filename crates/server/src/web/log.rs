@@ -54,6 +54,7 @@ impl Log {
                         self.say(Level::Warn, capitalised(&reason));
                     }
                 }
+                Ok(News::Warning(line)) => self.say(Level::Warn, line),
                 Err(broadcast::error::RecvError::Lagged(missed)) => {
                     self.say(Level::Warn, format!("{missed} lines were too many to show."));
                 }

@@ -69,7 +69,8 @@ impl Pictures {
             loop {
                 match news.try_recv() {
                     Ok(News::Link(link)) => painter.link = link,
-                    Ok(News::Event(_)) | Err(broadcast::error::TryRecvError::Lagged(_)) => {}
+                    Ok(News::Event(_) | News::Warning(_))
+                    | Err(broadcast::error::TryRecvError::Lagged(_)) => {}
                     Err(broadcast::error::TryRecvError::Empty) => break,
                     Err(broadcast::error::TryRecvError::Closed) => return,
                 }

@@ -71,6 +71,33 @@ fn fewer_robots_than_pixels_play_what_they_can() {
 }
 
 #[test]
+fn a_run_that_is_stopped_tells_how_long_it_was() {
+    let _turn = alone();
+    let Some(broker) = Mosquitto::start() else { return };
+    let _robots = robots("2", &broker.url());
+    let mut play = play(&shows::row_file(2, &[30.0]), &broker.url(), &[]);
+    wait_for("the first picture", || play.err().contains("Frame 1 stands").then_some(()));
+    play.terminate();
+    assert_eq!(play.end(), 1);
+    let report: Value = serde_json::from_str(&play.out()).expect("one object");
+    assert!(report["duration_s"].as_f64().unwrap() > 1.0, "{report}");
+    assert_eq!((report["ok"].as_bool(), report["frames_played"].as_u64()), (Some(false), Some(1)));
+}
+
+#[test]
+fn two_controllers_on_one_broker_say_so() {
+    let _turn = alone();
+    let Some(broker) = Mosquitto::start() else { return };
+    let one = play(&shows::row_file(2, &[0.1]), &broker.url(), &[]);
+    wait_for("the first controller", || one.err().contains("Connected").then_some(()));
+    assert!(!one.err().contains("Another controller"), "{}", one.err());
+    let other = play(&shows::row_file(2, &[0.1]), &broker.url(), &[]);
+    for controller in [&one, &other] {
+        wait_for("a warning", || controller.err().contains("Another controller").then_some(()));
+    }
+}
+
+#[test]
 fn programs_get_one_object_of_a_run_that_never_began() {
     let show = shows::row_file(2, &[0.1]);
     // Nothing listens on port 1.

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use crate::child::Child;
 use crate::plain_mqtt::Mqtt;
-use crate::{alone, wait_for};
+use crate::{alone, run, wait_for};
 
 /// Where robots say they are, from reports `<uuid> <x> <y>` on a topic; later fields are not looked at.
 fn read(mqtt: &mut Mqtt, topic: &str, places: &mut BTreeMap<String, (f64, f64)>) {
@@ -26,16 +26,7 @@ fn read(mqtt: &mut Mqtt, topic: &str, places: &mut BTreeMap<String, (f64, f64)>)
 #[test]
 fn an_original_controller_drives_our_robots() {
     let _turn = alone();
-    let mut server = Child::lightbots(&[
-        "run",
-        "--robots",
-        "0",
-        "--listen",
-        "127.0.0.1:0",
-        "--mqtt-listen",
-        "127.0.0.1:0",
-    ]);
-    let broker = server.said("Broker mqtt://");
+    let (_server, _, broker) = run::start(&["--robots", "0"]);
     let mut robots = Child::lightbots(&["robots", "--count", "3", "--broker", &broker]);
     let topics = ["T/LightBot/UUID", "T/LightBot/Arrival"];
     let mut mqtt = Mqtt::open(&broker, "BotControl/0d8f3c1e-5a86-4d0e-9a39-d39c6c1a7c11", &topics);

@@ -7,7 +7,7 @@ use serde_json::Value;
 
 use crate::child::Child;
 use crate::mosquitto::Mosquitto;
-use crate::shows;
+use crate::{run, shows};
 
 /// Starts an examination; its robot may drive at once.
 fn check(broker: &str, more: &[&str]) -> Child {
@@ -50,16 +50,7 @@ fn python_robot(port: &str) -> Option<Child> {
 
 #[test]
 fn our_robot_and_the_documents_robot_keep_the_protocol() {
-    let mut server = Child::lightbots(&[
-        "run",
-        "--robots",
-        "0",
-        "--listen",
-        "127.0.0.1:0",
-        "--mqtt-listen",
-        "127.0.0.1:0",
-    ]);
-    let embedded = server.said("Broker mqtt://");
+    let (_server, _, embedded) = run::start(&["--robots", "0"]);
     // `run` is a controller too, and answers time questions; this one is examined on a broker of its own.
     let Some(mosquitto) = Mosquitto::start() else { return };
     let other = Mosquitto::start().expect("there is one");

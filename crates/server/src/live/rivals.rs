@@ -1,0 +1,127 @@
+//! Other controllers on the same broker. Two of them lead robots by two clocks and two minds, so each says that it is
+//! there and listens: to what others of ours say of themselves, and to commands for all that it did not send itself.
+
+use std::collections::VecDeque;
+
+use lightbots_base::{Instant, Span};
+
+/// Where controllers of ours say their names. No robot listens there, and none can be called that.
+pub const NAMES: &str = "T/LightBot/Controller/Here";
+/// Where every controller, an original one as well, speaks to all robots.
+pub const COMMANDS: &str = "T/LightBot/Broadcast";
+/// How often a controller says that it is there.
+const EVERY: Span = Span::from_millis(2_000);
+/// How long the broker may take to bring back what this controller said.
+const ECHO: Span = Span::from_millis(60_000);
+/// Commands whose echo is waited for, at most; the oldest are forgotten.
+const ECHOES: usize = 4_096;
+/// A rival that is still there is spoken of again after this.
+const AGAIN: Span = Span::from_millis(60_000);
+
+/// What this controller knows of others.
+#[derive(Debug)]
+pub struct Rivals {
+    name: String,
+    /// When it says its name next.
+    speak_at: Instant,
+    /// What it told all robots and has not come back, the oldest first. Echoes come in order, so that looking for one
+    /// ends at once.
+    unheard: VecDeque<(Instant, Vec<u8>)>,
+    told: Option<Instant>,
+}
+
+impl Rivals {
+    /// Of a controller of this name, which differs from all others'.
+    pub fn new(name: String) -> Self {
+        Self { name, speak_at: Instant::ZERO, unheard: VecDeque::new(), told: None }
+    }
+
+    /// When [`Self::name_due`] has something to say.
+    pub fn speak_at(&self) -> Instant {
+        self.speak_at
+    }
+
+    /// The name to say on [`NAMES`], where it is time for that.
+    pub fn name_due(&mut self, now: Instant) -> Option<&str> {
+        if now < self.speak_at {
+            return None;
+        }
+        self.speak_at = now + EVERY;
+        Some(&self.name)
+    }
+
+    /// This controller tells all robots something.
+    pub fn said(&mut self, now: Instant, payload: &[u8]) {
+        let old = |(at, _): &(Instant, Vec<u8>)| now - *at > ECHO;
+        while self.unheard.front().is_some_and(old) || self.unheard.len() >= ECHOES {
+            self.unheard.pop_front();
+        }
+        self.unheard.push_back((now, payload.to_vec()));
+    }
+
+    /// A message of a controller came in; a warning where it is not from this one, now and then.
+    pub fn hear(&mut self, now: Instant, topic: &str, payload: &[u8]) -> Option<String> {
+        let own = if topic == NAMES { payload == self.name.as_bytes() } else { self.echoes(payload) };
+        if own || self.told.is_some_and(|told| now - told < AGAIN) {
+            return None;
+        }
+        self.told = Some(now);
+        let who =
+            if topic == NAMES { String::from_utf8_lossy(payload) } else { "one that says no name".into() };
+        let who: String = who.chars().filter(|letter| !letter.is_control()).take(60).collect();
+        Some(format!(
+            "Another controller is on this broker ({who}): robots get two clocks and the commands of both. Stop one of them."
+        ))
+    }
+
+    /// Whether this is what it said itself.
+    fn echoes(&mut self, payload: &[u8]) -> bool {
+        let at = self.unheard.iter().position(|(_, said)| said == payload);
+        at.is_some_and(|at| self.unheard.remove(at).is_some())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn at(seconds: u64) -> Instant {
+        Instant(seconds * 1_000_000)
+    }
+
+    #[test]
+    fn its_own_words_come_back_once_each() {
+        let mut rivals = Rivals::new("me".into());
+        rivals.said(at(1), b"|UUID|");
+        rivals.said(at(1), b"|START 3 9|");
+        rivals.said(at(1), b"|START 3 9|");
+        for own in [&b"|UUID|"[..], b"|START 3 9|", b"|START 3 9|"] {
+            assert_eq!(rivals.hear(at(2), COMMANDS, own), None);
+        }
+        assert!(rivals.hear(at(2), COMMANDS, b"|UUID|").unwrap().contains("no name"));
+    }
+
+    #[test]
+    fn another_name_is_spoken_of_now_and_then() {
+        let mut rivals = Rivals::new("me".into());
+        assert_eq!(rivals.name_due(at(1)), Some("me"));
+        assert_eq!(rivals.name_due(at(2)), None);
+        assert_eq!(rivals.speak_at(), at(3));
+        assert_eq!(rivals.hear(at(1), NAMES, b"me"), None);
+        assert!(rivals.hear(at(2), NAMES, b"y\nou").unwrap().contains("(you)"));
+        assert_eq!(rivals.hear(at(50), NAMES, b"you"), None);
+        assert!(rivals.hear(at(70), NAMES, b"you").is_some());
+    }
+
+    #[test]
+    fn what_never_comes_back_is_forgotten() {
+        let mut rivals = Rivals::new("me".into());
+        rivals.said(at(1), b"|UUID|");
+        rivals.said(at(100), b"|STOP|");
+        assert!(rivals.hear(at(100), COMMANDS, b"|UUID|").is_some());
+        for _ in 0..2 * ECHOES {
+            rivals.said(at(101), b"|STOP|");
+        }
+        assert_eq!(rivals.unheard.len(), ECHOES);
+    }
+}
