@@ -4,7 +4,7 @@
 pub type Tag = u16;
 
 /// Names by tag, from 1.
-const NAMES: [&[u8]; 7] = [
+const NAMES: [&[u8]; 15] = [
     b"gps",
     b"compass",
     b"ledrgb",
@@ -12,12 +12,24 @@ const NAMES: [&[u8]; 7] = [
     b"right wheel motor",
     b"left wheel sensor",
     b"right wheel sensor",
+    b"ps0",
+    b"ps1",
+    b"ps2",
+    b"ps3",
+    b"ps4",
+    b"ps5",
+    b"ps6",
+    b"ps7",
 ];
+/// How many tags there are, with that of no device.
+pub(crate) const TAGS: usize = NAMES.len() + 1;
 
 pub(crate) const GPS: Tag = 1;
 pub(crate) const COMPASS: Tag = 2;
 pub(crate) const MOTORS: [Tag; 2] = [4, 5];
 pub(crate) const SENSORS: [Tag; 2] = [6, 7];
+/// The first of the proximity sensors.
+const PROXIMITY: Tag = 8;
 
 /// The tag of a name; 0: there is none.
 pub(crate) fn tag(name: &[u8]) -> Tag {
@@ -27,4 +39,9 @@ pub(crate) fn tag(name: &[u8]) -> Tag {
 /// Which wheel a tag of `tags` belongs to: 0 left, 1 right.
 pub(crate) fn side(tags: [Tag; 2], tag: Tag) -> Option<usize> {
     tags.iter().position(|known| *known == tag)
+}
+
+/// Which proximity sensor a tag is, clockwise from the front.
+pub(crate) fn proximity(tag: Tag) -> Option<usize> {
+    tag.checked_sub(PROXIMITY).map(usize::from).filter(|sensor| *sensor < 8)
 }

@@ -8,6 +8,7 @@
 #![allow(non_snake_case)]
 
 mod devices;
+pub mod proximity;
 pub mod socket;
 mod state;
 
@@ -118,4 +119,34 @@ pub extern "C" fn wb_compass_get_values(_tag: Tag) -> *const c_double {
 #[unsafe(no_mangle)]
 pub extern "C" fn wb_led_set(_tag: Tag, colour: c_int) {
     with(|robot| robot.told.colour = colour as u32);
+}
+
+/// Switches a proximity sensor on.
+#[unsafe(no_mangle)]
+pub extern "C" fn wb_distance_sensor_enable(tag: Tag, _millis: c_int) {
+    with(|robot| robot.enable(tag));
+}
+
+/// What a proximity sensor reads, as its table has it.
+#[unsafe(no_mangle)]
+pub extern "C" fn wb_distance_sensor_get_value(tag: Tag) -> c_double {
+    with(|robot| robot.proximity(tag))
+}
+
+/// How a proximity sensor measures: by sound, as the nearest of several rays.
+#[unsafe(no_mangle)]
+pub extern "C" fn wb_distance_sensor_get_type(_tag: Tag) -> c_int {
+    2
+}
+
+/// Rows of a proximity sensor's table.
+#[unsafe(no_mangle)]
+pub extern "C" fn wb_distance_sensor_get_lookup_table_size(_tag: Tag) -> c_int {
+    proximity::TABLE.len() as c_int
+}
+
+/// A proximity sensor's table: distance, value, noise.
+#[unsafe(no_mangle)]
+pub extern "C" fn wb_distance_sensor_get_lookup_table(_tag: Tag) -> *const c_double {
+    proximity::TABLE.as_ptr().cast()
 }

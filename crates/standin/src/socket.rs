@@ -30,10 +30,12 @@ pub struct Seen {
     pub at: [f64; 2],
     /// Heading, radians.
     pub heading: f64,
+    /// How far away its proximity sensors see something, clockwise from the front, metres; infinite: nothing.
+    pub near_m: [f64; 8],
 }
 
 const TOLD_BYTES: usize = 20;
-const SEEN_BYTES: usize = 49;
+const SEEN_BYTES: usize = 113;
 
 impl Told {
     /// Writes it.
@@ -59,9 +61,9 @@ impl Seen {
     pub fn write(&self, out: &mut impl Write) -> io::Result<()> {
         let mut bytes = [0; SEEN_BYTES];
         bytes[0] = u8::from(self.ends);
-        let numbers =
+        let pose =
             [self.time_s, self.wheels_rad[0], self.wheels_rad[1], self.at[0], self.at[1], self.heading];
-        for (place, value) in bytes[1..].chunks_exact_mut(8).zip(numbers) {
+        for (place, value) in bytes[1..].chunks_exact_mut(8).zip(pose.into_iter().chain(self.near_m)) {
             place.copy_from_slice(&value.to_le_bytes());
         }
         out.write_all(&bytes)
@@ -77,6 +79,7 @@ impl Seen {
             wheels_rad: [number(&bytes, 9), number(&bytes, 17)],
             at: [number(&bytes, 25), number(&bytes, 33)],
             heading: number(&bytes, 41),
+            near_m: std::array::from_fn(|sensor| number(&bytes, 49 + 8 * sensor)),
         })
     }
 }
@@ -110,7 +113,9 @@ mod tests {
     #[test]
     fn both_ways_survive_the_socket() {
         let told = Told { wheels_radps: [1.5, -2.5], colour: 0xff_a500 };
-        let seen = Seen { ends: true, time_s: 0.016, wheels_rad: [1.0, 2.0], at: [-0.5, 1.3], heading: 1.57 };
+        let near_m = [0.01, 0.02, 0.03, f64::INFINITY, 0.05, 0.06, 0.07, 0.08];
+        let (wheels_rad, at) = ([1.0, 2.0], [-0.5, 1.3]);
+        let seen = Seen { ends: true, time_s: 0.016, wheels_rad, at, heading: 1.57, near_m };
         let mut bytes = Vec::new();
         told.write(&mut bytes).unwrap();
         seen.write(&mut bytes).unwrap();

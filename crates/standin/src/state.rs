@@ -5,7 +5,8 @@ use std::ffi::CString;
 use std::os::unix::net::UnixStream;
 use std::sync::{Mutex, PoisonError};
 
-use crate::devices::{COMPASS, GPS, MOTORS, SENSORS, Tag, side};
+use crate::devices::{COMPASS, GPS, MOTORS, SENSORS, TAGS, Tag, proximity, side};
+use crate::proximity::value;
 use crate::socket::{self, Seen, Told};
 
 const STEP_MS: i32 = 16;
@@ -15,7 +16,7 @@ pub(crate) struct Robot {
     pub(crate) told: Told,
     pub(crate) seen: Seen,
     socket: Option<UnixStream>,
-    enabled: [bool; 8],
+    enabled: [bool; TAGS],
     free: [bool; 2],
     /// What the wheels' sensors say: less than how far the wheels turned.
     read_rad: [f64; 2],
@@ -48,7 +49,7 @@ pub(crate) fn connect() {
         told: Told::default(),
         seen: Seen::default(),
         socket: Some(stream),
-        enabled: [false; 8],
+        enabled: [false; TAGS],
         free: [false; 2],
         read_rad: [0.0; 2],
         steps: 0,
@@ -135,6 +136,13 @@ impl Robot {
             self.compass = [self.seen.heading.sin(), self.seen.heading.cos(), 0.0];
         }
         &self.compass
+    }
+
+    pub(crate) fn proximity(&self, tag: Tag) -> f64 {
+        match proximity(tag) {
+            Some(sensor) if self.samples(tag) => value(self.seen.near_m[sensor]),
+            _ => f64::NAN,
+        }
     }
 
     fn samples(&self, tag: Tag) -> bool {

@@ -1,4 +1,4 @@
-//! The robot's body in Webots: two wheels, GPS, compass and a light.
+//! The robot's body in Webots: two wheels, GPS, compass, a light, and eyes for what is near.
 
 use std::fmt;
 
@@ -6,6 +6,7 @@ use lightbots_base::Rgb;
 
 use crate::library::{Library, Tag};
 use crate::odometry::wheel_turn_rad;
+use crate::proximity::Proximity;
 
 /// A device that the robot must have and has not.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -25,6 +26,7 @@ pub struct Body<'a> {
     gps: Tag,
     compass: Tag,
     light: Tag,
+    proximity: Option<Proximity>,
     last_read_rad: [f64; 2],
     last_rates: [f64; 2],
     last_light: Option<Rgb>,
@@ -35,8 +37,9 @@ pub struct Body<'a> {
 const STEPS_BETWEEN_LIGHTS: u32 = 6;
 
 impl<'a> Body<'a> {
-    /// Finds the devices and switches the sensors on, to be sampled every `step_ms`. The wheels stand.
-    pub fn new(library: &'a Library, step_ms: i32) -> Result<Self, MissingDevice> {
+    /// Finds the devices and switches the sensors on, to be sampled every `step_ms`; not those for what is near where it
+    /// is to be `blind`. The wheels stand.
+    pub fn new(library: &'a Library, step_ms: i32, blind: bool) -> Result<Self, MissingDevice> {
         let find = |name: &'static str| library.device(name).ok_or(MissingDevice(name));
         let motors = [find("left wheel motor")?, find("right wheel motor")?];
         let sensors = [find("left wheel sensor")?, find("right wheel sensor")?];
@@ -57,6 +60,7 @@ impl<'a> Body<'a> {
             gps,
             compass,
             light,
+            proximity: if blind { None } else { Proximity::find(library, step_ms) },
             last_read_rad: [f64::NAN; 2],
             last_rates: [0.0; 2],
             last_light: None,
@@ -78,6 +82,11 @@ impl<'a> Body<'a> {
         let [x, y, _] = self.library.gps_values(self.gps);
         let north = self.library.compass_values(self.compass);
         ([x, y], north[0].atan2(north[1]))
+    }
+
+    /// Gaps to what is near, metres, counter-clockwise from the front; `None`: it has no sensors for that.
+    pub fn gaps_m(&self) -> Option<[f32; 8]> {
+        self.proximity.as_ref().map(|proximity| proximity.gaps_m(self.library))
     }
 
     /// Sets both wheels, rad/s; the core has already clamped them to what the motors can do.

@@ -9,6 +9,7 @@ mod library;
 mod looping;
 mod odometry;
 mod places;
+mod proximity;
 
 pub use body::{Body, MissingDevice};
 pub use library::{Library, LoadError};

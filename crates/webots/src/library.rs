@@ -30,6 +30,11 @@ pub struct Library {
     compass_enable: extern "C" fn(Tag, c_int),
     compass_values: extern "C" fn(Tag) -> *const c_double,
     led_set: extern "C" fn(Tag, c_int),
+    distance_enable: extern "C" fn(Tag, c_int),
+    distance_value: extern "C" fn(Tag) -> c_double,
+    distance_type: extern "C" fn(Tag) -> c_int,
+    distance_table_size: extern "C" fn(Tag) -> c_int,
+    distance_table: extern "C" fn(Tag) -> *const c_double,
     // The functions above live as long as the library is loaded.
     _library: libloading::Library,
 }
@@ -90,6 +95,11 @@ impl Library {
             compass_enable: bind!(library, "wb_compass_enable"),
             compass_values: bind!(library, "wb_compass_get_values"),
             led_set: bind!(library, "wb_led_set"),
+            distance_enable: bind!(library, "wb_distance_sensor_enable"),
+            distance_value: bind!(library, "wb_distance_sensor_get_value"),
+            distance_type: bind!(library, "wb_distance_sensor_get_type"),
+            distance_table_size: bind!(library, "wb_distance_sensor_get_lookup_table_size"),
+            distance_table: bind!(library, "wb_distance_sensor_get_lookup_table"),
             _library: library,
         })
     }
@@ -178,6 +188,32 @@ impl Library {
     /// Sets a light, R·65536 + G·256 + B.
     pub fn led_set(&self, led: Tag, colour: u32) {
         (self.led_set)(led, colour as c_int);
+    }
+
+    /// Samples a distance sensor every `millis`.
+    pub fn distance_enable(&self, sensor: Tag, millis: i32) {
+        (self.distance_enable)(sensor, millis);
+    }
+
+    /// What a distance sensor reads, in the units of its table; NaN before its first sample.
+    pub fn distance_value(&self, sensor: Tag) -> f64 {
+        (self.distance_value)(sensor)
+    }
+
+    /// Whether a distance sensor sees colours (`WB_DISTANCE_SENSOR_INFRA_RED`).
+    pub fn distance_is_infra_red(&self, sensor: Tag) -> bool {
+        (self.distance_type)(sensor) == 1
+    }
+
+    /// The table of a distance sensor: distance in metres, value, noise as a share of it; by distance.
+    pub fn distance_table(&self, sensor: Tag) -> Vec<[f64; 3]> {
+        let rows = usize::try_from((self.distance_table_size)(sensor)).unwrap_or(0);
+        let table = (self.distance_table)(sensor);
+        if table.is_null() {
+            return Vec::new();
+        }
+        // SAFETY: the library returns three doubles a row, which stay until the simulation says otherwise.
+        (0..rows).map(|row| unsafe { *table.add(3 * row).cast::<[f64; 3]>() }).collect()
     }
 }
 

@@ -14,6 +14,8 @@ pub struct Settings {
     pub id: RobotId,
     /// The broker it speaks through.
     pub broker: BrokerUrl,
+    /// Leave its proximity sensors off.
+    pub blind: bool,
 }
 
 /// The core is made for steps of about this length.
@@ -26,7 +28,7 @@ const MESSAGES_A_STEP: usize = 64;
 /// Drives the robot until the simulation ends. Must be called in a tokio runtime, after [`Library::init`].
 pub fn drive(library: &Library, settings: &Settings) -> Result<(), MissingDevice> {
     let step_ms = step_ms(library.basic_time_step_ms());
-    let mut body = Body::new(library, step_ms)?;
+    let mut body = Body::new(library, step_ms, settings.blind)?;
     let mut robot = Robot::new(config(settings));
     let mut link = Link::open(LinkConfig {
         broker: settings.broker.clone(),
@@ -74,7 +76,7 @@ fn inputs(body: &mut Body<'_>) -> Inputs {
     let ([x, y], heading) = body.fix();
     let fix = (x.is_finite() && y.is_finite())
         .then(|| Fix { at: Vec2::new(x, y), heading: heading.is_finite().then_some(heading) });
-    Inputs { wheel_turns_rad: body.wheel_turns_rad(), fix, battery: None, proximity_m: None }
+    Inputs { wheel_turns_rad: body.wheel_turns_rad(), fix, battery: None, proximity_m: body.gaps_m() }
 }
 
 fn listen(robot: &mut Robot, link: &mut Link, now: Instant) {

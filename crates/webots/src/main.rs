@@ -4,19 +4,28 @@ use std::process::ExitCode;
 
 use clap::Parser;
 use lightbots_base::RobotId;
-use lightbots_link::{BrokerUrl, random_id};
+use lightbots_link::{ArgumentsError, BrokerArguments, BrokerUrl, random_id};
 use lightbots_webots::{Library, Settings, drive};
+
+/// Where `lightbots run` listens on this machine.
+const BROKER: &str = "mqtt://default:default@127.0.0.1:1883";
 
 /// The robot core as a Webots controller. Webots starts it; by hand it serves a robot whose controller is `<extern>`.
 #[derive(Parser)]
 #[command(version)]
 struct Arguments {
-    /// The broker, such as mqtt://user:password@host:1883
-    #[arg(long, env = "LIGHTBOTS_BROKER", default_value = "mqtt://default:default@127.0.0.1:1883")]
-    broker: String,
+    /// The broker: mqtt[s]://[user[:password]@]host[:port], more addresses of it after commas [default:
+    /// mqtt://default:default@127.0.0.1:1883]
+    #[arg(long, env = "LIGHTBOTS_BROKER", value_name = "URL", hide_env_values = true)]
+    broker: Vec<String>,
+    #[command(flatten)]
+    login: BrokerArguments,
     /// What the robot calls itself; a new UUID otherwise
     #[arg(long)]
     id: Option<String>,
+    /// Do not read the proximity sensors, which cost a slow machine time
+    #[arg(long)]
+    blind: bool,
 }
 
 fn main() -> ExitCode {
@@ -30,7 +39,7 @@ fn main() -> ExitCode {
 }
 
 fn run(arguments: &Arguments) -> Result<(), String> {
-    let broker = BrokerUrl::parse(&arguments.broker).map_err(|error| error.to_string())?;
+    let broker = broker(arguments).map_err(|error| error.to_string())?;
     let id = match &arguments.id {
         Some(text) => RobotId::new(text).ok_or_else(|| format!("'{text}' cannot be a robot's name"))?,
         None => random_id(),
@@ -41,11 +50,18 @@ fn run(arguments: &Arguments) -> Result<(), String> {
     library.init();
     let runtime = tokio::runtime::Builder::new_multi_thread().worker_threads(1).enable_all().build();
     let runtime = runtime.map_err(|error| format!("cannot start the network: {error}"))?;
-    let outcome = runtime.block_on(async { drive(&library, &Settings { id, broker }) });
+    let outcome =
+        runtime.block_on(async { drive(&library, &Settings { id, broker, blind: arguments.blind }) });
     // Where the simulation ends, the next call does not return: the connection must be gone before it.
     runtime.shutdown_background();
     library.cleanup();
     outcome.map_err(|missing| missing.to_string())
+}
+
+/// The broker named, or the one that `lightbots run` brings.
+fn broker(arguments: &Arguments) -> Result<BrokerUrl, ArgumentsError> {
+    let own = [BROKER.to_owned()];
+    arguments.login.broker(if arguments.broker.is_empty() { &own } else { &arguments.broker })
 }
 
 #[allow(clippy::print_stderr)]

@@ -12,6 +12,8 @@ use lightbots_base::{Pose, Vec2};
 use lightbots_show::Stage;
 use lightbots_sim::{STEP, World};
 
+use crate::eyes::Eyes;
+
 /// What happened on a floor.
 #[derive(Debug)]
 pub struct Account {
@@ -23,8 +25,8 @@ pub struct Account {
     pub colours: Vec<u32>,
     /// Where they stood at the end.
     pub places: Vec<Vec2>,
-    /// Where they were, each a track: `[robot][tenth of a second]`.
-    pub tracks: Vec<Vec<Vec2>>,
+    /// Where they were, each a track: `[robot][tenth of a second]`, seconds of the floor and place.
+    pub tracks: Vec<Vec<(f64, Vec2)>>,
 }
 
 /// Steps between two places of a track.
@@ -37,15 +39,15 @@ pub struct Floor {
 }
 
 impl Floor {
-    /// Listens at `address` and begins once a process for each start has come; robot `LightBot n` stands at start n−1.
-    pub fn open(address: &Path, stage: &Stage, starts: &[Vec2], seed: u64) -> Self {
+    /// Listens at `address` and begins once so many processes have come; robot `LightBot n` stands at start n−1. Where
+    /// there are more starts, a robot without power stands there.
+    pub fn open(address: &Path, stage: &Stage, starts: &[Vec2], processes: usize, seed: u64) -> Self {
         let listener = UnixListener::bind(address).expect("the socket's path is free");
         let poses: Vec<Pose> = starts.iter().map(|at| Pose::new(*at, std::f64::consts::FRAC_PI_2)).collect();
         let world = World::new(stage, &poses, 0.0, seed);
         let stop = Arc::new(AtomicBool::new(false));
         let asked = stop.clone();
-        let count = starts.len();
-        let thread = std::thread::spawn(move || run(&listener, world, count, &asked));
+        let thread = std::thread::spawn(move || run(&listener, world, processes, &asked));
         Self { stop, thread }
     }
 
@@ -60,7 +62,8 @@ fn run(listener: &UnixListener, mut world: World, count: usize, stop: &AtomicBoo
     let mut sockets = gather(listener, count);
     let mut turned = vec![[0.0; 2]; count];
     let mut colours = vec![0; count];
-    let mut tracks: Vec<Vec<Vec2>> = vec![Vec::new(); count];
+    let mut tracks: Vec<Vec<(f64, Vec2)>> = vec![Vec::new(); count];
+    let mut eyes = Eyes::new(1);
     let began = Instant::now();
     for step in 1_u32.. {
         let ends = stop.load(Ordering::Acquire);
@@ -71,12 +74,13 @@ fn run(listener: &UnixListener, mut world: World, count: usize, stop: &AtomicBoo
         }
         world.step();
         let time_s = f64::from(step) * STEP.as_secs();
+        let places = world.places().to_vec();
         for (robot, socket) in sockets.iter_mut().enumerate() {
             let turns = world.wheel_turns(robot);
             turned[robot] = [turned[robot][0] + turns[0], turned[robot][1] + turns[1]];
             let pose = world.pose(robot);
             if step.is_multiple_of(STEPS_A_PLACE) {
-                tracks[robot].push(pose.at);
+                tracks[robot].push((time_s, pose.at));
             }
             let seen = Seen {
                 ends,
@@ -84,6 +88,7 @@ fn run(listener: &UnixListener, mut world: World, count: usize, stop: &AtomicBoo
                 wheels_rad: turned[robot],
                 at: [pose.at.x, pose.at.y],
                 heading: pose.heading,
+                near_m: eyes.near_m(pose, &places),
             };
             seen.write(socket).expect("a driver's process ended");
         }

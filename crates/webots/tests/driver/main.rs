@@ -1,32 +1,43 @@
 //! Whole shows through the real driver: one process a robot on the stand-in, as Webots does it, with a real broker and
 //! the real controller.
 
+mod eyes;
 mod floor;
+mod lead;
 mod processes;
+mod tape;
 
+use std::path::Path;
 use std::process::{Command, Stdio};
 
 use std::sync::{Mutex, PoisonError};
 
 use floor::{Account, Floor};
-use lightbots_base::{Span, Vec2};
-use lightbots_show::{Format, Show};
+use lightbots_base::{RobotId, Span, Vec2};
+use lightbots_show::{Format, Show, Stage};
 use processes::{Running, built, mosquitto, stand_in};
+use tape::{Score, Tape};
 
 /// Shows are played one after the other: each keeps a machine busy.
 static TURN: Mutex<()> = Mutex::new(());
 
 /// A show of `shows/`, or its first `frames` only.
 fn show(file: &str, frames: usize) -> Show {
-    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../shows/").to_owned() + file;
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shows").join(file);
     let bytes = std::fs::read(path).expect("the show is there");
     let mut show = lightbots_show::read(&bytes, Some("json")).expect("the show can be read").show;
     show.frames.truncate(frames);
     show
 }
 
-/// Plays a show with as many drivers as it has pixels; what the controller reported and the floor saw.
-fn play(show: &Show, format: Format) -> (serde_json::Value, Account) {
+/// A robot's name, counted from 1 as in the worlds.
+fn id(number: usize) -> RobotId {
+    RobotId::new(&format!("robot-{number}")).expect("a name")
+}
+
+/// Plays a show with as many drivers as it has pixels; what the controller reported, the floor saw and the broker
+/// carried.
+fn play(show: &Show, format: Format) -> (serde_json::Value, Account, Score) {
     let count = show.frames[0].pixels.len();
     let starts = lightbots_show::front_rows(&show.stage, count);
     let folder = tempfile(&show.name);
@@ -36,22 +47,11 @@ fn play(show: &Show, format: Format) -> (serde_json::Value, Account) {
     });
     std::fs::write(&path, lightbots_show::write(show, format)).expect("the temporary folder can be written");
     let socket = folder.join("floor");
-    let floor = Floor::open(&socket, &show.stage, &starts, 1);
+    let floor = Floor::open(&socket, &show.stage, &starts, count, 1);
     let (_broker, port) = mosquitto();
     let broker = format!("mqtt://127.0.0.1:{port}");
-    let library = stand_in();
-    let drivers: Vec<Running> = (1..=count)
-        .map(|number| {
-            let child = Command::new(env!("CARGO_BIN_EXE_LightBotFirmware"))
-                .args(["--broker", &broker])
-                .env("WEBOTS_ROBOT_NAME", format!("LightBot {number}"))
-                .env("LIGHTBOTS_STANDIN", &socket)
-                .env("LD_LIBRARY_PATH", library.parent().expect("it lies in a folder"))
-                .spawn()
-                .expect("the driver starts");
-            Running(child)
-        })
-        .collect();
+    let tape = Tape::record(&broker);
+    let drivers: Vec<Running> = (1..=count).map(|number| driver(number, &broker, &socket)).collect();
     let output = Command::new(built("lightbots"))
         .arg("play")
         .arg(&path)
@@ -60,14 +60,25 @@ fn play(show: &Show, format: Format) -> (serde_json::Value, Account) {
         .output()
         .expect("the controller starts");
     let account = floor.close();
+    let score = tape.end();
     for mut driver in drivers {
-        let status = driver.0.wait().expect("a child can be waited for");
-        assert!(status.success(), "a driver did not end well: {status}");
+        ends_well(&mut driver);
     }
     let _ = std::fs::remove_dir_all(&folder);
     let text = String::from_utf8_lossy(&output.stdout).into_owned();
     let report = serde_json::from_str(&text).unwrap_or_else(|error| panic!("no report ({error}): {text}"));
-    (report, account)
+    (report, account, score)
+}
+
+/// Robot `LightBot number` of a floor.
+fn driver(number: usize, broker: &str, socket: &Path) -> Running {
+    let child = Command::new(env!("CARGO_BIN_EXE_LightBotFirmware"))
+        .args(["--broker", broker, "--id", id(number).as_str()])
+        .env("WEBOTS_ROBOT_NAME", format!("LightBot {number}"))
+        .env("LIGHTBOTS_STANDIN", socket)
+        .env("LD_LIBRARY_PATH", stand_in().parent().expect("it lies in a folder"))
+        .spawn();
+    Running(child.expect("the driver starts"))
 }
 
 fn tempfile(name: &str) -> std::path::PathBuf {
@@ -77,9 +88,9 @@ fn tempfile(name: &str) -> std::path::PathBuf {
 }
 
 /// Plays a show, and tells where the robots were: `[robot][place]`.
-fn plays_without_contact(show: &Show, format: Format) -> Vec<Vec<Vec2>> {
+fn plays_without_contact(show: &Show, format: Format) -> Vec<Vec<(f64, Vec2)>> {
     let _turn = TURN.lock().unwrap_or_else(PoisonError::into_inner);
-    let (report, account) = play(show, format);
+    let (report, account, score) = play(show, format);
     let Account { contacts, closest_m, places, colours, tracks } = account;
     assert_eq!(report["ok"], true, "{report:#}");
     assert_eq!(report["frames_played"], show.frames.len(), "{report:#}");
@@ -91,13 +102,32 @@ fn plays_without_contact(show: &Show, format: Format) -> Vec<Vec<Vec2>> {
         assert!(nearest <= 0.02, "nobody stands on pixel {}: {nearest} m", pixel.id);
     }
     assert!(colours.iter().any(|colour| *colour != 0), "no light is on");
+    keeps_to_its_routes(show, &score, &tracks);
     tracks
+}
+
+/// Over the whole show robots were where the plan's routes led, and nobody braked for a neighbour.
+#[allow(clippy::print_stdout)]
+fn keeps_to_its_routes(show: &Show, score: &Score, tracks: &[Vec<(f64, Vec2)>]) {
+    let off = tracks.iter().enumerate().map(|(index, track)| score.furthest_off_m(id(index + 1), track));
+    let (beside_m, timed_m) = off.fold((0.0, 0.0), |worst: (f64, f64), (beside_m, timed_m)| {
+        (worst.0.max(beside_m), worst.1.max(timed_m))
+    });
+    println!(
+        "{}: at most {:.1} mm beside the routes, {:.1} mm from where they were due; {} holds",
+        show.name,
+        beside_m * 1e3,
+        timed_m * 1e3,
+        score.holds()
+    );
+    assert!(beside_m > 0.0 && beside_m <= 0.005, "a robot was {:.1} mm beside its route", beside_m * 1e3);
+    assert_eq!(score.blocked(), &[] as &[String]);
 }
 
 /// How far a robot was at most from its way to the first picture in the rehearsal, metres. The same planner plans both,
 /// and the robots begin at the same places; later a controller starts from what robots report, and may choose another
 /// plan that is as good.
-fn furthest_off(show: &Show, tracks: &[Vec<Vec2>]) -> f64 {
+fn furthest_off(show: &Show, tracks: &[Vec<(f64, Vec2)>]) -> f64 {
     let starts = lightbots_show::front_rows(&show.stage, tracks.len());
     let plan = lightbots_plan::show(show, &starts, &lightbots_plan::ShowOptions::default());
     let first = &plan.transitions[0];
@@ -106,18 +136,48 @@ fn furthest_off(show: &Show, tracks: &[Vec<Vec2>]) -> f64 {
         let path = path.as_ref();
         let way: Vec<Vec2> =
             (0..=first.duration.0 / 5_000).map(|step| path.at(Span(step * 5_000)).position).collect();
-        let on_its_way = track.iter().take_while(|at| at.distance(path.end()) > 0.005);
+        let on_its_way = track.iter().map(|(_, at)| *at).take_while(|at| at.distance(path.end()) > 0.005);
         for at in on_its_way {
-            let off_m = way.iter().map(|there| there.distance(*at)).fold(f64::INFINITY, f64::min);
+            let off_m = way.iter().map(|there| there.distance(at)).fold(f64::INFINITY, f64::min);
             furthest = furthest.max(off_m);
         }
     }
     furthest
 }
 
+fn ends_well(driver: &mut Running) {
+    let status = driver.0.wait().expect("a child can be waited for");
+    assert!(status.success(), "a driver did not end well: {status}");
+}
+
+/// The driver tells the core what its sensors see: it does not drive into a robot that stands in its way.
+#[test]
+fn a_driver_sees_who_stands_in_its_way() {
+    let _turn = TURN.lock().unwrap_or_else(PoisonError::into_inner);
+    let folder = tempfile("way");
+    let socket = folder.join("floor");
+    let (start, dead) = (Vec2::new(0.0, -0.5), Vec2::new(0.004, 0.0));
+    let floor = Floor::open(&socket, &Stage::default(), &[start, dead], 1, 1);
+    let (_broker, port) = mosquitto();
+    let broker = format!("mqtt://127.0.0.1:{port}");
+    let mut driver = driver(1, &broker, &socket);
+    let report = lead::into_its_way(&broker, id(1), start, Vec2::new(0.0, 0.5));
+    let account = floor.close();
+    ends_well(&mut driver);
+    let _ = std::fs::remove_dir_all(&folder);
+    let blocked = report.details.and_then(|details| details.blocked).expect("it says so");
+    assert!(blocked.gap_m < 0.01, "{blocked:?}");
+    assert!((blocked.towards - std::f64::consts::FRAC_PI_2).abs() < 0.4, "{blocked:?}");
+    assert_eq!(account.contacts, 0);
+    assert!(account.places[0].distance(dead) < 0.054 + 0.012, "{:?}", account.places);
+}
+
+/// A show with a heart, or the show of `LIGHTBOTS_SHOW`, a file, by hand.
 #[test]
 fn thirty_processes_play_a_show() {
-    plays_without_contact(&show("heart.lightbots.json", usize::MAX), Format::LightBots);
+    let file = std::env::var("LIGHTBOTS_SHOW").unwrap_or_else(|_| "heart.lightbots.json".into());
+    let format = if file.ends_with(".lightbots.json") { Format::LightBots } else { Format::Original };
+    plays_without_contact(&show(&file, usize::MAX), format);
 }
 
 #[test]

@@ -12,8 +12,21 @@ use vrml::{File, Interface, Node, Value, read};
 /// Where Webots' own PROTOs lie since releases ship none, pinned to a release.
 const WEBOTS: &str = "https://raw.githubusercontent.com/cyberbotics/webots/R2025a/projects/";
 /// Webots' Elisa-3: its devices and the fields of its interface (R2025a).
-const ELISA_DEVICES: [&str; 5] =
-    ["left wheel motor", "right wheel motor", "left wheel sensor", "right wheel sensor", "ledrgb"];
+const ELISA_DEVICES: [&str; 13] = [
+    "left wheel motor",
+    "right wheel motor",
+    "left wheel sensor",
+    "right wheel sensor",
+    "ledrgb",
+    "ps0",
+    "ps1",
+    "ps2",
+    "ps3",
+    "ps4",
+    "ps5",
+    "ps6",
+    "ps7",
+];
 const ELISA_FIELDS: [(&str, Holds); 9] = [
     ("translation", Holds::Numbers(3)),
     ("rotation", Holds::Numbers(4)),
@@ -143,10 +156,14 @@ fn use_comes_after_def() {
 
 #[test]
 fn robots_have_every_device_the_driver_asks_for_once() {
-    let source = include_str!("../../src/body.rs");
-    let asked: Vec<&str> =
-        source.split("find(\"").skip(1).filter_map(|rest| rest.split('"').next()).collect();
+    let quoted = |source: &'static str, before: &str| -> Vec<&str> {
+        source.split(before).skip(1).filter_map(|rest| rest.split('"').next()).collect()
+    };
+    let mut asked = quoted(include_str!("../../src/body.rs"), "find(\"");
     assert!(asked.len() >= 7, "{asked:?}");
+    let names = include_str!("../../src/proximity.rs").lines().find(|line| line.starts_with("const NAMES"));
+    asked.extend(names.expect("it names its sensors").split('"').skip(1).step_by(2));
+    assert_eq!(asked.last(), Some(&"ps7"));
     for (path, file) in files("protos", "proto") {
         let (name, fields) = proto(&file);
         let mut found = devices(&file.nodes[0]);
@@ -202,6 +219,37 @@ fn our_robot_has_the_measures_of_the_elisa() {
         }
     });
     assert_eq!((motors, limits.radius_m, limits.wheel_radius_m), (2, 0.027, 0.0045));
+}
+
+#[test]
+fn our_robot_looks_around_as_the_driver_and_its_tests_take_it() {
+    let (_, file) =
+        files("protos", "proto").into_iter().find(|(_, file)| proto(file).0 == "LightBot").unwrap();
+    let mut sensors = Vec::new();
+    file.nodes[0].walk(&mut |node| {
+        if node.kind == "DistanceSensor" {
+            sensors.push(node.clone());
+        }
+    });
+    assert_eq!(sensors.len(), 8);
+    for (index, sensor) in sensors.iter().enumerate() {
+        assert_eq!(sensor.text("name"), Some(format!("ps{index}").as_str()));
+        // Clockwise from the front, 24 mm from the centre, looking away from it.
+        let looks = -(index as f64) * std::f64::consts::FRAC_PI_4;
+        let (at, turned) = (sensor.numbers("translation").unwrap(), sensor.numbers("rotation").unwrap());
+        assert!((at[0] - 0.024 * looks.cos()).abs() < 1e-5 && (at[1] - 0.024 * looks.sin()).abs() < 1e-5);
+        assert_eq!(turned[..3], [0.0, 0.0, 1.0]);
+        assert!((turned[3] - looks).sin().abs() < 1e-4 && (turned[3] - looks).cos() > 0.0, "{turned:?}");
+        // Within the height of other robots' bounding objects.
+        assert!(at[2] > 0.001 && at[2] < 0.031);
+        assert_eq!(sensor.text("type"), Some("sonar"));
+        // Five rays: ahead, and left, right, up and down at half the aperture.
+        let (rays, aperture) = (sensor.numbers("numberOfRays"), sensor.numbers("aperture").unwrap()[0]);
+        assert_eq!(rays, Some(&[5.0][..]));
+        assert!((aperture - std::f64::consts::FRAC_PI_4).abs() < 1e-4);
+        let table = sensor.numbers("lookupTable").unwrap();
+        assert_eq!(table, Controller::proximity::TABLE.concat());
+    }
 }
 
 #[test]
@@ -270,5 +318,9 @@ fn the_controller_is_the_drivers_program() {
 fn what_webots_would_not_read_is_found() {
     let wrong = read("#VRML_SIM R2025a utf8\nRobot { translation 0 0 wheels 2 children [ Cylindre { } ] }");
     let faults = faults(&wrong.nodes[0], &[]);
+    assert_eq!(faults.len(), 3, "{faults:?}");
+    let sensor = "DistanceSensor { type \"sonnar\" numberOfRays 0 lookupTable [ 0 9 0 0.1 5 0 0.1 0 0 ] }";
+    let wrong = read(&format!("#VRML_SIM R2025a utf8\n{sensor}"));
+    let faults = nodes::faults(&wrong.nodes[0], &[]);
     assert_eq!(faults.len(), 3, "{faults:?}");
 }

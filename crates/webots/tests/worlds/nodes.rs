@@ -51,8 +51,17 @@ const MOTOR: Fields = &[("name", Text), ("maxVelocity", Numbers(1)), ("maxTorque
 const SENSOR: Fields = &[("name", Text), ("resolution", Numbers(1))];
 const PHYSICS: Fields =
     &[("density", Numbers(1)), ("mass", Numbers(1)), ("centerOfMass", Lists(3)), ("inertiaMatrix", Lists(3))];
-const DISTANCE: Fields =
-    &[("type", Text), ("lookupTable", Lists(3)), ("numberOfRays", Numbers(1)), ("aperture", Numbers(1))];
+const DISTANCE: Fields = &[
+    ("type", Text),
+    ("lookupTable", Lists(3)),
+    ("numberOfRays", Numbers(1)),
+    ("aperture", Numbers(1)),
+    ("gaussianWidth", Numbers(1)),
+    ("resolution", Numbers(1)),
+    ("redColorSensitivity", Numbers(1)),
+];
+/// How a `DistanceSensor` can measure.
+const DISTANCE_TYPES: [&str; 4] = ["generic", "infra-red", "sonar", "laser"];
 const WORLD: Fields =
     &[("info", Texts), ("title", Text), ("basicTimeStep", Numbers(1)), ("contactProperties", Nodes)];
 const CONTACT: Fields = &[("material1", Text), ("material2", Text), ("coulombFriction", Lists(1))];
@@ -115,7 +124,29 @@ pub fn faults(node: &Node, protos: &[(&str, Vec<(&str, Holds)>)]) -> Vec<String>
                 Some(_) => {}
             }
         }
+        faults.extend(distance_faults(node));
     });
+    faults
+}
+
+/// What Webots would not take of a `DistanceSensor` although its fields are right.
+fn distance_faults(node: &Node) -> Vec<String> {
+    let mut faults = Vec::new();
+    if node.kind != "DistanceSensor" {
+        return faults;
+    }
+    let kind = node.text("type").unwrap_or("generic");
+    if !DISTANCE_TYPES.contains(&kind) {
+        faults.push(format!("a DistanceSensor's type is '{kind}'"));
+    }
+    let rows = node.numbers("lookupTable").unwrap_or_default().chunks(3);
+    if !rows.map(|row| row[0]).is_sorted_by(|near, far| near < far) {
+        faults.push("the rows of a lookupTable are not in the order of their distances".into());
+    }
+    let rays = node.numbers("numberOfRays").map_or(1.0, |rays| rays[0]);
+    if rays < 1.0 || rays.fract() != 0.0 || (kind == "laser" && rays != 1.0) {
+        faults.push(format!("a DistanceSensor of type '{kind}' has {rays} rays"));
+    }
     faults
 }
 

@@ -1,0 +1,68 @@
+//! A controller of a few lines for one robot.
+
+use std::time::Duration;
+
+use lightbots_base::{Instant, Piece, RobotId, Span, Vec2};
+use lightbots_link::{BrokerUrl, Link, LinkConfig, LinkEvent};
+use lightbots_wire::{Command, Pieces, Report, Route, TimeAnswer, TimeQuestion, Topic, encode};
+
+/// Nobody waits so long unless something is broken.
+const PATIENCE: Duration = Duration::from_secs(60);
+
+/// Sends a robot that faces the way straight there; back with the report in which it says that something stands there.
+pub fn into_its_way(broker: &str, id: RobotId, start: Vec2, end: Vec2) -> Report {
+    let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build().expect("a runtime");
+    runtime.block_on(async {
+        let broker = BrokerUrl::parse(broker).expect("the test's own address");
+        let filters = ["UUID", "Status", "Time"].map(|name| format!("T/LightBot/{name}")).into();
+        let mut link = Link::open(LinkConfig { broker, client_id: "lead".into(), filters, queue: 1024 });
+        let route = route(start, end);
+        let led = tokio::time::timeout(PATIENCE, lead(&mut link, id, &route));
+        led.await.expect("the robot meets the other")
+    })
+}
+
+/// Half a second of rest, then 0.25 m/s.
+fn route(start: Vec2, end: Vec2) -> Route {
+    let way = (end - start).normalized().expect("two places");
+    let (cruise, ramp) = (way * 0.25, Span::from_millis(500));
+    let begin = start + way * 0.0625;
+    let pieces = [
+        Piece::rest(start, ramp),
+        Piece::hermite(start, Vec2::ZERO, begin, cruise, ramp),
+        Piece::straight(begin, end, Span::from_secs((end - begin).length() / 0.25)),
+    ];
+    Route { seq: 1, start, pieces: Pieces::from_slice(&pieces).expect("three pieces"), room_mm: Some(40) }
+}
+
+async fn lead(link: &mut Link, id: RobotId, route: &Route) -> Report {
+    let began = std::time::Instant::now();
+    let show = || Instant(began.elapsed().as_micros() as u64 + 1_000_000);
+    let sender = link.sender();
+    let tell = |command: &Command| {
+        let mut text = String::new();
+        encode(command, &mut text).expect("a text takes everything");
+        sender.send(&Topic::Robot(id).write(), text.into_bytes());
+    };
+    let mut sent = false;
+    loop {
+        let Some(event) = link.next().await else { panic!("the link ended") };
+        let LinkEvent::Message { topic, payload } = event else { continue };
+        if Topic::parse(&topic) == Some(Topic::Time) {
+            let question = TimeQuestion::decode(&payload).expect("a question");
+            let (received, sent) = (show(), show());
+            tell(&Command::Time(TimeAnswer { asked: question.asked, received, sent }));
+            continue;
+        }
+        let report = Report::decode(&payload).expect("a report");
+        let details = report.details.as_ref().expect("a robot of ours");
+        if details.blocked.is_some() {
+            return report;
+        }
+        if details.clock_us.is_some() && !sent {
+            tell(&Command::Route(route.clone()));
+            tell(&Command::Start { seq: route.seq, at: show() + Span::from_millis(300) });
+            sent = true;
+        }
+    }
+}

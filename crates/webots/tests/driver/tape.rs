@@ -1,0 +1,182 @@
+//! What went over the broker during a show, and where each robot was to be by it at every moment.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::thread::JoinHandle;
+
+use lightbots_base::{Instant, PathRef, RobotId, Span, Vec2};
+use lightbots_link::{BrokerUrl, Link, LinkConfig, LinkEvent};
+use lightbots_wire::{Command, Report, Route, TimeAnswer, Topic, commands};
+
+/// Messages that may wait; a show of thirty robots has a few hundred a second.
+const QUEUE: usize = 1 << 16;
+
+/// A listener on a broker.
+pub struct Tape {
+    stop: Arc<AtomicBool>,
+    thread: JoinHandle<Score>,
+}
+
+impl Tape {
+    /// Listens from now on; back once the broker has let it in.
+    pub fn record(broker: &str) -> Self {
+        let stop = Arc::new(AtomicBool::new(false));
+        let broker = BrokerUrl::parse(broker).expect("the test's own address");
+        let (asked, (ready, listening)) = (stop.clone(), std::sync::mpsc::channel());
+        let thread = std::thread::spawn(move || {
+            let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build();
+            runtime.expect("a runtime").block_on(async {
+                let filters = vec!["T/LightBot/#".to_owned()];
+                let client_id = "tape".to_owned();
+                let mut link = Link::open(LinkConfig { broker, client_id, filters, queue: QUEUE });
+                let mut score = Score::default();
+                while !asked.load(Ordering::Acquire) {
+                    let look = tokio::time::timeout(std::time::Duration::from_millis(50), link.next());
+                    match look.await {
+                        Ok(Some(LinkEvent::Connected)) => ready.send(()).expect("somebody waits"),
+                        Ok(Some(LinkEvent::Message { topic, payload })) => score.hear(&topic, &payload),
+                        _ => {}
+                    }
+                }
+                score
+            })
+        });
+        listening.recv().expect("the broker lets it in");
+        Self { stop, thread }
+    }
+
+    /// Ends the recording.
+    pub fn end(self) -> Score {
+        self.stop.store(true, Ordering::Release);
+        self.thread.join().expect("it listened to the end")
+    }
+}
+
+/// A route that a robot was given, and when it began.
+struct Given {
+    route: Route,
+    /// The latest moment stated, show clock.
+    starts: Option<Instant>,
+}
+
+/// What robots were told.
+#[derive(Default)]
+pub struct Score {
+    routes: BTreeMap<RobotId, Vec<Given>>,
+    /// Holds (`true`) and resumes, show clock.
+    eases: Vec<(Instant, bool)>,
+    /// The show clock less the floor's, by the quickest question, microseconds.
+    ahead_us: Option<i64>,
+    /// Reports of robots that something stood in the way of.
+    blocked: Vec<String>,
+}
+
+impl Score {
+    fn hear(&mut self, topic: &str, payload: &[u8]) {
+        let to = match Topic::parse(topic) {
+            Some(Topic::Robot(id)) => Some(id),
+            Some(Topic::Broadcast) => None,
+            Some(Topic::Status) => return self.note(payload),
+            _ => return,
+        };
+        for command in commands(payload).flatten() {
+            match (to, command) {
+                (Some(id), Command::Route(route)) => self.keep(id, route),
+                (to, Command::Start { seq, at }) => self.start(to, seq, at),
+                (_, Command::Hold { at }) => self.ease(at, true),
+                (_, Command::Resume { at }) => self.ease(at, false),
+                (Some(_), Command::Time(answer)) => self.compare(answer),
+                _ => {}
+            }
+        }
+    }
+
+    fn note(&mut self, payload: &[u8]) {
+        let details = Report::decode(payload).and_then(|report| report.details);
+        if details.is_some_and(|details| details.blocked.is_some()) {
+            self.blocked.push(String::from_utf8_lossy(payload).into_owned());
+        }
+    }
+
+    fn keep(&mut self, id: RobotId, route: Route) {
+        let given = self.routes.entry(id).or_default();
+        if given.iter().all(|known| known.route.seq != route.seq) {
+            given.push(Given { route, starts: None });
+        }
+    }
+
+    fn start(&mut self, to: Option<RobotId>, seq: u32, at: Instant) {
+        for (id, given) in &mut self.routes {
+            let named = given.iter_mut().filter(|known| known.route.seq == seq);
+            for known in named.filter(|_| to.is_none_or(|to| to == *id)) {
+                known.starts = known.starts.max(Some(at));
+            }
+        }
+    }
+
+    fn ease(&mut self, at: Instant, hold: bool) {
+        if !self.eases.contains(&(at, hold)) {
+            self.eases.push((at, hold));
+            self.eases.sort_unstable();
+        }
+    }
+
+    /// A robot's own clock is the floor's; its question was on its way for a while.
+    fn compare(&mut self, answer: TimeAnswer) {
+        let ahead_us = answer.received.0 as i64 - answer.asked.0 as i64;
+        self.ahead_us = Some(self.ahead_us.map_or(ahead_us, |known| known.min(ahead_us)));
+    }
+
+    /// How often all were held.
+    pub fn holds(&self) -> usize {
+        self.eases.iter().filter(|(_, hold)| *hold).count()
+    }
+
+    /// Reports of robots that something stood in the way of.
+    pub fn blocked(&self) -> &[String] {
+        &self.blocked
+    }
+
+    /// How far a robot was at most from the line of its route near where it was to be, and from that very place, metres.
+    /// The place depends on how well this machine keeps pace, the line does not.
+    pub fn furthest_off_m(&self, id: RobotId, track: &[(f64, Vec2)]) -> (f64, f64) {
+        let given: Vec<&Given> =
+            self.routes.get(&id).into_iter().flatten().filter(|given| given.starts.is_some()).collect();
+        let ahead_us = self.ahead_us.expect("robots asked for the time");
+        let (mut timed_m, mut beside_m) = (0.0_f64, 0.0_f64);
+        for (time_s, at) in track {
+            let show = Instant(((time_s * 1e6) as i64 + ahead_us).max(0) as u64);
+            let begun = |given: &&&Given| given.starts.is_some_and(|starts| starts <= show);
+            let Some(given) = given.iter().filter(begun).max_by_key(|given| given.starts) else { continue };
+            let path = PathRef::new(given.route.start, &given.route.pieces);
+            let time = self.path_time(given.starts.unwrap_or_default(), show);
+            timed_m = timed_m.max(path.at(time).position.distance(*at));
+            beside_m = beside_m.max(beside(&path, time, *at));
+        }
+        (beside_m, timed_m)
+    }
+
+    /// Path time, as R38 has it: in steps of a millisecond.
+    fn path_time(&self, starts: Instant, show: Instant) -> Span {
+        const STEP_US: u64 = 1_000;
+        let eases: Vec<_> = self.eases.iter().filter(|(at, _)| *at >= starts && *at <= show).collect();
+        if eases.is_empty() {
+            return show - starts;
+        }
+        let slope = STEP_US as f64 / Route::EASE.0 as f64;
+        let (mut time_us, mut rate) = (0.0, 1.0_f64);
+        for at in (starts.0..show.0).step_by(STEP_US as usize) {
+            let held = eases.iter().rev().find(|(ease, _)| ease.0 <= at).is_some_and(|(_, hold)| *hold);
+            rate = (rate + if held { -slope } else { slope }).clamp(0.0, 1.0);
+            time_us += rate * STEP_US as f64;
+        }
+        Span(time_us as i64)
+    }
+}
+
+/// How far a place is from a path near this time, metres.
+fn beside(path: &PathRef<'_>, time: Span, at: Vec2) -> f64 {
+    let near = (-250..=250).map(|step| time + Span(step * 2_000));
+    near.map(|time| path.at(time).position.distance(at)).fold(f64::INFINITY, f64::min)
+}
