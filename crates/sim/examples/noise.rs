@@ -9,7 +9,7 @@ use lightbots_sim::{Conditions, Faults, RehearsalOptions, RehearsalReport, Sprea
 /// Thirty robots, pictures of words: close side by side, and long ways between.
 const SHOW: &[u8] = include_bytes!("../../../shows/hello.json");
 const SEEDS: u64 = 3;
-/// What robots suffer on top of, or instead of, the standard conditions.
+/// What robots suffer on top of, or instead of, the standard conditions; nothing in the first row.
 const TROUBLES: [&str; 20] = [
     "",
     "gps=0mm",
@@ -36,7 +36,8 @@ const TROUBLES: [&str; 20] = [
 fn main() {
     let show = lightbots_show::read(SHOW, Some("json")).expect("the show is part of the repository").show;
     for trouble in TROUBLES {
-        let faults = Faults::parse(trouble).expect("all troubles are faults");
+        let stated = (!trouble.is_empty()).then(|| Faults::parse(trouble).expect("all troubles are faults"));
+        let faults = stated.unwrap_or_default();
         let conditions = faults.added_to(Conditions::default());
         let reports: Vec<RehearsalReport> = (1..=SEEDS)
             .map(|seed| {

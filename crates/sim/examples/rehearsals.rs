@@ -29,6 +29,7 @@ fn run(args: &[String]) -> Result<bool, String> {
     let ending = std::path::Path::new(path).extension().and_then(|ending| ending.to_str());
     let show = lightbots_show::read(&bytes, ending).map_err(|error| format!("{path}: {error}"))?.show;
     let conditions = match args.get(1).map_or("", String::as_str) {
+        "" => Conditions::default(),
         "ideal" => Conditions::ideal(),
         faults => Faults::parse(faults).map_err(|error| error.to_string())?.added_to(Conditions::default()),
     };

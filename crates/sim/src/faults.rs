@@ -49,17 +49,29 @@ const KNOWN: &str = "loss=5%, delay=100..300ms, jitter or jitter=50ms, double=1%
 const MOST: usize = 64;
 
 impl Faults {
-    /// Reads `name=value` separated by commas; an empty text states none. Values carry their unit: `%`, `ms` or `s`,
-    /// `mm`, `cm` or `m`, `deg`, `ppm`. Robots are counted from 0, `@` is the time after the show began.
+    /// Reads `name=value` separated by commas, at least one. Values carry their unit: `%`, `ms` or `s`, `mm`, `cm` or
+    /// `m`, `deg`, `ppm`. Robots are counted from 0, `@` is the time after the show began. A name is stated once, but
+    /// several robots may break down.
     pub fn parse(text: &str) -> Result<Self, FaultsError> {
         let parts: Vec<&str> = text.split(',').map(str::trim).filter(|part| !part.is_empty()).collect();
+        if parts.is_empty() {
+            return Err(FaultsError(format!("no fault is stated; there are {KNOWN}")));
+        }
         if parts.len() > MOST {
             return Err(FaultsError(format!(
                 "{} faults are more than the {MOST} that can be stated",
                 parts.len()
             )));
         }
-        let changes = parts.into_iter().map(change).collect::<Result<_, _>>()?;
+        let mut changes: Vec<Change> = Vec::with_capacity(parts.len());
+        for part in parts {
+            let new = change(part)?;
+            if changes.iter().any(|known| known.excludes(new)) {
+                let name = part.split('=').next().unwrap_or(part).trim();
+                return Err(FaultsError(format!("the fault '{name}' is stated twice: state it once")));
+            }
+            changes.push(new);
+        }
         Ok(Self { changes })
     }
 
@@ -69,6 +81,14 @@ impl Faults {
             apply(change, &mut conditions);
         }
         conditions
+    }
+}
+
+impl Change {
+    /// Whether both say the same thing of the same conditions, so that the later would silently win.
+    fn excludes(self, other: Self) -> bool {
+        !matches!(self, Self::Kill(_) | Self::Mute(_) | Self::Stuck(_))
+            && core::mem::discriminant(&self) == core::mem::discriminant(&other)
     }
 }
 
@@ -242,7 +262,16 @@ mod tests {
         assert_eq!(added("delay=0.1s..300ms"), added("delay=100..300ms"));
         assert_eq!(added("delay=100ms").link.delay_max, Span::from_millis(100));
         assert_eq!(added("kill=2@1.5"), added("kill=2@1500ms"));
-        assert_eq!(added(""), Conditions::default());
+        assert_eq!(Faults::default().added_to(Conditions::default()), Conditions::default());
+    }
+
+    #[test]
+    fn a_fault_is_stated_once_but_several_robots_may_break_down() {
+        for (text, name) in [("loss=5%,slip=5%,loss=1%", "loss"), ("jitter,jitter=20ms", "jitter")] {
+            let message = Faults::parse(text).expect_err(text).to_string();
+            assert_eq!(message, format!("the fault '{name}' is stated twice: state it once"));
+        }
+        assert_eq!(added("kill=1,kill=2,stuck=random,stuck=random").killed.len(), 2);
     }
 
     #[test]
@@ -250,6 +279,8 @@ mod tests {
         let long = "x".repeat(5000);
         let many = "loss=1%,".repeat(65);
         for text in [
+            "",
+            " , ",
             "los=5%",
             "loss",
             "loss=5",

@@ -150,8 +150,11 @@ mod tests {
 
     /// Says `count` messages a millisecond apart over one link; numbers and delays (ms) in order of arrival.
     fn arrivals(faults: &str, count: u32) -> (Vec<(u32, f64)>, MessageCounts) {
-        let link = Faults::parse(faults).unwrap().added_to(Conditions::default()).link;
-        let mut network = Network::new(&link, 1, 9);
+        arrivals_over(&Faults::parse(faults).unwrap().added_to(Conditions::default()).link, count)
+    }
+
+    fn arrivals_over(link: &LinkConditions, count: u32) -> (Vec<(u32, f64)>, MessageCounts) {
+        let mut network = Network::new(link, 1, 9);
         let mut got = Vec::new();
         for number in 0..count {
             let now = Instant(u64::from(number) * 1000);
@@ -177,7 +180,7 @@ mod tests {
 
     #[test]
     fn the_standard_link_is_late_in_order_and_loses_none() {
-        let (got, counts) = arrivals("", 1000);
+        let (got, counts) = arrivals_over(&LinkConditions::default(), 1000);
         assert!(in_order(&got) && got.len() == 1000);
         assert!(got.iter().all(|&(_, late)| (5.0..=20.001).contains(&late)));
         assert_eq!(counts, MessageCounts { sent: 1000, lost: 0 });

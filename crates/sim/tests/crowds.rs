@@ -12,7 +12,8 @@ const APART_M: f64 = 0.08;
 const DANCERS: &[u8] = include_bytes!("../../../shows/dancers.lightbots.json");
 
 fn assert_fine(show: &Show, faults: &str, seed: u64) -> RehearsalReport {
-    let conditions = Faults::parse(faults).unwrap().added_to(Conditions::default());
+    let faults = if faults.is_empty() { Faults::default() } else { Faults::parse(faults).unwrap() };
+    let conditions = faults.added_to(Conditions::default());
     let report = rehearse(show, &RehearsalOptions { seed, conditions, robots: None }, &mut |_| {});
     let name = &show.name;
     assert!(report.ok, "{name}, seed {seed}: {:?}", report.issues);

@@ -33,7 +33,8 @@ fn show(count: u32) -> Show {
 }
 
 fn play(show: &Show, faults: &str, seed: u64) -> RehearsalReport {
-    let conditions = Faults::parse(faults).unwrap().added_to(Conditions::default());
+    let faults = if faults.is_empty() { Faults::default() } else { Faults::parse(faults).unwrap() };
+    let conditions = faults.added_to(Conditions::default());
     rehearse(show, &RehearsalOptions { seed, conditions, robots: None }, &mut |_| {})
 }
 

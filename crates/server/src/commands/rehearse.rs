@@ -13,8 +13,8 @@ use crate::progress::Bar;
 use crate::{plan_document, say, show_file};
 
 pub fn run(arguments: &RehearseArguments) -> Outcome {
-    let faults = Faults::parse(arguments.faults.as_deref().unwrap_or(""))
-        .map_err(|error| Failure::input(format!("--faults: {error}")))?;
+    let faults = arguments.faults.as_deref().map(Faults::parse).transpose();
+    let faults = faults.map_err(|error| Failure::input(format!("--faults: {error}")))?.unwrap_or_default();
     let opened = show_file::open(&arguments.show, &arguments.reading)?;
     let usual = if arguments.ideal { Conditions::ideal() } else { Conditions::default() };
     let options = RehearsalOptions {

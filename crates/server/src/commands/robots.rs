@@ -17,8 +17,8 @@ use crate::{open_files, say, show_file};
 
 pub async fn run(arguments: RobotsArguments, stop: Stop) -> Outcome {
     stop.take_over();
-    let faults = Faults::parse(arguments.faults.as_deref().unwrap_or(""))
-        .map_err(|error| Failure::input(format!("--faults: {error}")))?;
+    let faults = arguments.faults.as_deref().map(Faults::parse).transpose();
+    let faults = faults.map_err(|error| Failure::input(format!("--faults: {error}")))?.unwrap_or_default();
     let broker = arguments.login.broker(&arguments.broker)?;
     open_files::raise_limit();
     let robots = arguments.count as usize;

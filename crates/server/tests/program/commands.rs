@@ -174,6 +174,7 @@ fn wrong_use_is_one_line_and_exit_code_2() {
         &["robots", "--count", "0", "--broker", "x"],
         &["robots", "--count", "1", "--broker", "x", "--faults", "gremlins"],
         &["rehearse", "a.json", "--faults", "loss=lots"],
+        &["rehearse", "a.json", "--faults", ""],
         &["rehearse", "a.json", "--seed", "-1"],
         &["check", "a.json", "--floor", "-1x3"],
         &["run", "--mqtt-listen", "0.0.0.0:0", "--listen", "127.0.0.1:0"],

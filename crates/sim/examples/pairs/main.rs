@@ -1,5 +1,5 @@
 //! Random pairs of frames, planned, proven and rehearsed with noise and slip:
-//! `cargo run --release -p lightbots-sim --example pairs [COUNT [FIRST]]`, 10,000 unless told otherwise.
+//! `cargo run --release -p lightbots-sim --example pairs [COUNT [FIRST [FAULTS]]]`, 10,000 unless told otherwise.
 //!
 //! A line for each pair that is not solved, not proven or not free of contact; exit code 1 then.
 #![allow(clippy::print_stdout, clippy::print_stderr)]
@@ -8,23 +8,37 @@ mod scene;
 
 use std::process::ExitCode;
 
-use lightbots_sim::{Conditions, RehearsalOptions, rehearse};
+use lightbots_sim::{Conditions, Faults, RehearsalOptions, rehearse};
 
 const ROBOTS: u64 = 200;
 
 fn main() -> ExitCode {
-    let numbers: Result<Vec<u64>, _> = std::env::args().skip(1).map(|text| text.parse()).collect();
-    let Ok(numbers) = numbers else {
-        eprintln!("usage: pairs [COUNT [FIRST]]");
-        return ExitCode::from(2);
+    let args: Vec<String> = std::env::args().skip(1).collect();
+    match run(&args) {
+        Ok(true) => ExitCode::SUCCESS,
+        Ok(false) => ExitCode::FAILURE,
+        Err(message) => {
+            eprintln!("{message}");
+            ExitCode::from(2)
+        }
+    }
+}
+
+/// Whether every pair was fine.
+fn run(args: &[String]) -> Result<bool, String> {
+    let usage = "usage: pairs [COUNT [FIRST [FAULTS]]]";
+    let number = |index: usize, usual: u64| match args.get(index) {
+        Some(text) => text.parse().map_err(|_| format!("'{text}' is no number; {usage}")),
+        None => Ok(usual),
     };
-    let count = numbers.first().copied().unwrap_or(10_000);
-    let first = numbers.get(1).copied().unwrap_or(0);
+    let (count, first) = (number(0, 10_000)?, number(1, 0)?);
+    let faults = args.get(2).map(|text| Faults::parse(text)).transpose().map_err(|error| error.to_string())?;
+    let conditions = faults.unwrap_or_default().added_to(Conditions::default());
     let mut ratios = Vec::new();
     let mut failed = 0;
     for number in first..first.saturating_add(count) {
         let show = scene::pair(number, ROBOTS);
-        let options = RehearsalOptions { seed: number, conditions: Conditions::default(), robots: None };
+        let options = RehearsalOptions { seed: number, conditions: conditions.clone(), robots: None };
         let report = rehearse(&show, &options, &mut |_| {});
         ratios.push(report.duration_s / report.lower_bound_s.max(0.1));
         if !report.ok {
@@ -42,5 +56,5 @@ fn main() -> ExitCode {
         at(0.5),
         at(1.0)
     );
-    if failed == 0 { ExitCode::SUCCESS } else { ExitCode::FAILURE }
+    Ok(failed == 0)
 }
