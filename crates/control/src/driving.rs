@@ -46,7 +46,8 @@ pub(crate) struct Drive {
 impl Drive {
     /// When something is due.
     pub fn due(&self) -> Instant {
-        self.check_at.min(self.heartbeat_at).min(self.colors_at).min(self.fades_at)
+        let release_at = self.hold.and_then(|hold| hold.release_at).unwrap_or(Instant::FAR);
+        self.check_at.min(self.heartbeat_at).min(self.colors_at).min(self.fades_at).min(release_at)
     }
 
     /// How far along their paths robots are by plan.
@@ -222,6 +223,10 @@ impl Run {
         let Phase::Driving(drive) = &mut self.phase else { return };
         if self.pause && drive.hold.is_none() {
             self.hold(desk, now, true);
+        }
+        let Phase::Driving(drive) = &mut self.phase else { return };
+        if drive.hold.and_then(|hold| hold.release_at).is_some_and(|at| now >= at) {
+            self.release(desk, now);
         }
         let Phase::Driving(drive) = &mut self.phase else { return };
         if let Some(hold) = drive.hold

@@ -22,6 +22,8 @@ pub(crate) struct Hold {
     pub by_operator: bool,
     /// When progress picks up again, once that is said.
     pub until: Option<Instant>,
+    /// When that is to be said: not long before it can be, so that it can still be thought better of.
+    pub release_at: Option<Instant>,
     /// When it is looked at whether all stand.
     pub check_at: Instant,
 }
@@ -35,6 +37,7 @@ impl Run {
             && hold.until.is_none()
         {
             hold.by_operator |= by_operator;
+            hold.release_at = None;
             return;
         }
         if !by_operator && now + HOLD_WORTH > drive.ends {
@@ -47,7 +50,7 @@ impl Run {
             drive.lost += until - before;
         }
         let check_at = at + Route::EASE + Span::from_millis(400);
-        drive.hold = Some(Hold { at, by_operator, until: None, check_at });
+        drive.hold = Some(Hold { at, by_operator, until: None, release_at: None, check_at });
         if self.current.as_ref().is_some_and(|leg| leg.kind == Kind::Targets) {
             self.halt_originals(desk);
         } else {
@@ -55,13 +58,19 @@ impl Run {
         }
     }
 
-    /// Everybody picks up again together.
+    /// Everybody picks up again together, once all stand: stated further ahead, one hold after the other would be put
+    /// off until long after what it is for.
     pub fn release(&mut self, desk: &mut Desk, now: Instant) {
         let lead = self.hold_lead();
         let Phase::Driving(drive) = &mut self.phase else { return };
         let Some(hold) = drive.hold.as_mut().filter(|hold| hold.until.is_none()) else { return };
+        let sayable = hold.at + Route::EASE - lead;
+        if now < sayable {
+            (hold.release_at, hold.by_operator) = (Some(sayable), false);
+            return;
+        }
         let until = (now + lead).max(hold.at + Route::EASE);
-        hold.until = Some(until);
+        (hold.until, hold.release_at) = (Some(until), None);
         drive.ends += until - hold.at;
         drive.ask_at = drive.ends + Span::from_millis(300);
         desk.log.tell(now, EventKind::Resumed);
