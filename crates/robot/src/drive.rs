@@ -9,6 +9,8 @@ const ACCEL_RESERVE: f64 = 1.25;
 const SPEED_RESERVE: f64 = 1.25;
 /// Turning rate changes by at most this, rad/s²: 2 m/s² at the wheels.
 const TURN_ACCEL: f64 = 100.0;
+/// Motors answer so late, and what is told is told until the next step, seconds.
+const DEAD_S: f64 = 0.032;
 /// Slower than this counts as standing.
 const STANDING_MPS: f64 = 0.01;
 const STANDING_RADPS: f64 = 0.2;
@@ -70,6 +72,12 @@ impl Drive {
         self.wheels(slip)
     }
 
+    /// How far it goes on when it stops by its ramp, metres.
+    pub(crate) fn braking_m(&self) -> f64 {
+        let speed_mps = self.told.speed_mps.abs();
+        speed_mps * (speed_mps / (2.0 * ACCEL_RESERVE * self.limits.accel_mps2) + DEAD_S)
+    }
+
     /// What it was told last along its front, m/s.
     pub(crate) fn speed_mps(&self) -> f64 {
         self.told.speed_mps
@@ -116,6 +124,19 @@ mod tests {
         assert!((drive.step(want, [0.0; 2], 0.016)[1] - 60.0).abs() < 1e-9);
         assert_eq!(drive.halt(), [0.0; 2]);
         assert!(drive.stands());
+    }
+
+    #[test]
+    fn it_knows_how_far_it_goes_on_when_it_stops() {
+        let mut drive = Drive::new(Limits::ELISA_3);
+        for _ in 0..40 {
+            drive.step(Setpoint { speed_mps: 0.2, turn_radps: 0.0 }, [0.0; 2], 0.016);
+        }
+        let (told, mut way_m) = (drive.braking_m(), 0.2 * 0.032);
+        while !drive.stands() {
+            way_m += drive.step(Setpoint::default(), [0.0; 2], 0.016)[0] * 0.0045 * 0.016;
+        }
+        assert!((told - way_m).abs() < 0.002, "{told} {way_m}");
     }
 
     #[test]

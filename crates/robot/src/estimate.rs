@@ -116,6 +116,12 @@ impl Estimate {
         libm::sqrt(self.filter.variance() + self.filter.drift(way_m))
     }
 
+    /// What it comes to after so much more way without a fix, if all that leads it astray now goes on the same way.
+    pub(crate) fn error_at_worst_m(&self, way_m: f64) -> f64 {
+        // The filter is as sure as it was when fixes were made that come in now.
+        self.error_m() + self.filter.strays_m(way_m + self.at.distance(self.filter.at()))
+    }
+
     /// Whether no fix came for so long.
     pub(crate) fn blind(&self, now: Instant, span: Span) -> bool {
         self.filter.last_fix().is_none_or(|fix| now - fix > span)

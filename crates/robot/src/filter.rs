@@ -296,6 +296,12 @@ impl Filter {
         self.doubt.place()
     }
 
+    /// How far so much way without a fix leads aside, metres, 1 sigma: by the heading, and by slip that bends it.
+    pub(crate) fn strays_m(&self, way_m: f64) -> f64 {
+        let bend = way_m / self.track_m * core::f64::consts::FRAC_1_SQRT_2;
+        way_m * (libm::sqrt(self.doubt.heading()) + bend * libm::sqrt(self.doubt.slip()))
+    }
+
     /// What so much way without a fix adds to the variance of the place: the heading leads it astray, and slip that
     /// nobody sees bends the way further.
     pub(crate) fn drift(&self, way_m: f64) -> f64 {

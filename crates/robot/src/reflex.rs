@@ -5,6 +5,8 @@
 //! closes in faster than the robot could stop, as it does where the other stands: in a synchronised drive a neighbour
 //! ahead drives as well, and its gap does not close; one that died closes in at the robot's own speed.
 
+mod apart;
+
 use lightbots_base::Limits;
 
 /// Sensors around the rim, 45° apart, counter-clockwise from the front.
@@ -206,8 +208,12 @@ impl Reflex {
         slowest.map(|(mps, sensor)| (f64::from(mps), sensor))
     }
 
-    /// What a sensor sees, in which direction by what the one beside it sees.
     fn block_at(&self, sensor: usize) -> Block {
+        Block { gap_m: f64::from(self.gap_m(sensor)), sensor, towards: self.towards(sensor) }
+    }
+
+    /// In which direction of body space it is what a sensor sees, radians, by what the one beside it sees.
+    fn towards(&self, sensor: usize) -> f64 {
         let now = &self.past_m[0];
         let (left, right) = ((sensor + 1) % SENSORS, (sensor + SENSORS - 1) % SENSORS);
         let (beside, side) = if now[left] < now[right] { (left, 1.0) } else { (right, -1.0) };
@@ -218,8 +224,7 @@ impl Reflex {
         } else {
             0.0
         };
-        let towards = sensor as f64 * 2.0 * middle + side * aside.max(0.0);
-        Block { gap_m: f64::from(self.gap_m(sensor)), sensor, towards }
+        sensor as f64 * 2.0 * middle + side * aside.max(0.0)
     }
 
     /// The gap at a sensor, metres, a little less where the one beside it sees nearly as near.

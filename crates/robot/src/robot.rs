@@ -29,6 +29,8 @@ const FORESIGHT: Span = Span::from_millis(500);
 const OVERDUE: Span = Span::from_millis(16);
 /// A robot without fixes does not say that it is there if its place is less sure than this, metres.
 const SURE_M: f64 = 0.003;
+/// While fixes stay away it drives no farther than its place is as sure as this, metres: less than makes it lost.
+const PAUSE_M: f64 = 0.016;
 /// Without a compass it learns its heading by creeping straight on, m/s.
 const CREEP_MPS: f64 = 0.08;
 
@@ -309,7 +311,7 @@ impl Robot {
             return self.drive.halt();
         }
         let wants = if self.is_lost(now) { None } else { self.want(show, dt) };
-        let wants = wants.unwrap_or_default();
+        let wants = wants.filter(|_| !self.pauses()).unwrap_or_default();
         let most_mps = if self.routes.under_way() {
             let ample = self.routes.room_mm().is_some_and(|room_mm| room_mm >= AMPLE_MM);
             let wish = Wish { speed_mps: wants.speed_mps, told_mps: self.drive.speed_mps(), ample };
@@ -328,6 +330,11 @@ impl Robot {
         wheels
     }
 
+    /// Whether it had better stand until fixes come again, because it would be lost if it drove on.
+    fn pauses(&self) -> bool {
+        self.is_blind() && self.estimate.error_at_worst_m(self.drive.braking_m()) > PAUSE_M
+    }
+
     /// What it wants to do: the route under way, else the target, else turn towards what comes.
     fn want(&mut self, show: Option<Instant>, dt: f64) -> Option<Setpoint> {
         if !self.routes.under_way() && self.seek.is_none() && !self.routes.keeps_one() {
@@ -341,7 +348,9 @@ impl Robot {
         let body = Body { at: self.estimate.at(), facing: self.estimate.facing() };
         let soon = self.drive.foresee(body, dt);
         if let Some(show) = show.filter(|_| self.routes.under_way()) {
-            return self.routes.step(show + Span::from_secs(dt), soon, limits);
+            let away = self.reflex.give_way(self.routes.room_mm());
+            let aside = soon.facing * away.x + soon.facing.left() * away.y;
+            return self.routes.step(show + Span::from_secs(dt), soon, aside, limits);
         }
         match self.seek.as_mut() {
             Some(seek) => Some(seek.step(soon, limits)),

@@ -133,8 +133,15 @@ impl Routes {
         true
     }
 
-    /// What to do next along the route under way; `takes_effect` is the show time when the wheels will answer.
-    pub(crate) fn step(&mut self, takes_effect: Instant, body: Body, limits: &Limits) -> Option<Setpoint> {
+    /// What to do next along the route under way; `takes_effect` is the show time when the wheels will answer, `aside`
+    /// how far beside its route it is to drive, stage metres.
+    pub(crate) fn step(
+        &mut self,
+        takes_effect: Instant,
+        body: Body,
+        aside: Vec2,
+        limits: &Limits,
+    ) -> Option<Setpoint> {
         let running = self.running.as_mut()?;
         let progress = self.timeline.at(takes_effect);
         running.cursor.seek(&running.route, progress.time);
@@ -166,6 +173,7 @@ impl Routes {
         } else {
             None
         };
+        let body = if progress.rate == 0.0 { body } else { Body { at: body.at - aside, ..body } };
         Some(running.follow.step(&motion, ahead, body))
     }
 
@@ -347,7 +355,7 @@ mod tests {
         routes.begin_due(Instant(0));
         routes.keep(route(2));
         assert_eq!(routes.named(), 2);
-        assert!(routes.step(Instant(500_000), BODY, &Limits::ELISA_3).is_some());
+        assert!(routes.step(Instant(500_000), BODY, Vec2::ZERO, &Limits::ELISA_3).is_some());
         assert!((routes.off_m().unwrap() - 0.05).abs() < 1e-9);
         assert_eq!(routes.finish(Instant(1_000_000), Vec2::new(0.05, 0.0)), None);
         assert_eq!(routes.finish(Instant(1_000_000), Vec2::new(0.09, 0.01)), None);

@@ -32,7 +32,8 @@ fn run(args: &[String]) -> Result<bool, String> {
         None => Ok(usual),
     };
     let (count, first) = (number(0, 10_000)?, number(1, 0)?);
-    let faults = args.get(2).map(|text| Faults::parse(text)).transpose().map_err(|error| error.to_string())?;
+    let faults =
+        args.get(2).map(|text| Faults::parse(text)).transpose().map_err(|error| error.to_string())?;
     let conditions = faults.unwrap_or_default().added_to(Conditions::default());
     let mut ratios = Vec::new();
     let mut failed = 0;
