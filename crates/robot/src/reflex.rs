@@ -196,6 +196,9 @@ impl Reflex {
         let mut slowest: Option<(f32, usize)> = None;
         for &(index, turn) in look.around {
             let sensor = if forwards { index } else { (index + SENSORS / 2) % SENSORS };
+            if turn == 2 && self.is_abaft(sensor, forwards) {
+                continue;
+            }
             let Some(closing) = self.closing(sensor) else { continue };
             let gap_m = self.gap_m(sensor);
             let approach = Approach { gap_m, closing, along_mps, lately_mps, next_mps, turn };
@@ -206,6 +209,15 @@ impl Reflex {
             }
         }
         slowest.map(|(mps, sensor)| (f64::from(mps), sensor))
+    }
+
+    /// Whether what a sensor abeam sees lies behind it rather than ahead: then no driving on closes in on it, and
+    /// braking would only let it run into the robot.
+    fn is_abaft(&self, sensor: usize, forwards: bool) -> bool {
+        let now = &self.past_m[0];
+        let (next, last) = (now[(sensor + 1) % SENSORS], now[(sensor + SENSORS - 1) % SENSORS]);
+        let (ahead, behind) = if (sensor == 2) == forwards { (last, next) } else { (next, last) };
+        behind < ahead
     }
 
     fn block_at(&self, sensor: usize) -> Block {

@@ -121,6 +121,30 @@ fn a_neighbour_on_its_own_way_is_no_hindrance() {
 }
 
 #[test]
+fn who_comes_near_from_abaft_the_beam_does_not_make_it_brake() {
+    // It braked, and the other, that drove no faster, ran into it.
+    for forwards in [true, false] {
+        let mut pair = Pair::new(-0.026, 0.062, SPEED_MPS);
+        let mut reflex = Reflex::new();
+        pair.ample = true;
+        let sense = if forwards { 1.0 } else { -1.0 };
+        for _ in 0..12 {
+            pair.step();
+            pair.other.1 -= 0.06 * DT;
+            let mut readings = pair.readings();
+            if !forwards {
+                readings.rotate_right(SENSORS / 2);
+            }
+            reflex.look(Some(&readings), sense * SPEED_MPS * DT, DT);
+            let speed_mps = sense * SPEED_MPS;
+            let limit = reflex.limit(Wish { speed_mps, told_mps: speed_mps, ample: true }, &LIMITS);
+            assert!(limit.is_none(), "{limit:?} at {:.1} mm", pair.gap_m() * 1e3);
+        }
+        assert!(pair.told_mps == SPEED_MPS && pair.gap_m() < 0.004, "{}", pair.gap_m());
+    }
+}
+
+#[test]
 fn it_is_free_again_when_what_blocked_it_has_gone() {
     let mut pair = Pair::new(0.12, 0.0, 0.0);
     pair.least_gap_m();

@@ -322,7 +322,8 @@ impl Robot {
         };
         let slip = self.estimate.slip();
         let wheels = match most_mps {
-            _ if self.reflex.block().is_some() => self.drive.halt(),
+            // Held, it may turn on the spot for what comes.
+            _ if self.reflex.block().is_some() && !self.routes.rests_held() => self.drive.halt(),
             Some(most_mps) => self.drive.step_within(wants, most_mps, slip, dt),
             None => self.drive.step(wants, slip, dt),
         };

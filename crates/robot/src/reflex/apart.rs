@@ -7,13 +7,14 @@ use lightbots_base::Vec2;
 
 use super::{Reflex, SENSORS};
 
-/// Nearer than this share of the room that the plan leaves, a neighbour is too near; …
-const SHARE: f32 = 0.75;
-/// … more room than this is as good as any, and where nobody tells there is this, metres.
+/// More room than this is as good as any, and where nobody tells there is this, metres.
 const MOST_M: f32 = 0.008;
 const UNTOLD_M: f32 = 0.003;
-/// It gives way by this share of what is missing.
+/// It gives way by this share of what is missing; more where little is left, but never more than so many metres.
 const GIVE: f32 = 0.7;
+const GIVE_MOST_M: f32 = 0.008;
+/// So little left that it gives way twice as far as where as much is missing from plenty, metres.
+const LITTLE_M: f32 = 0.0015;
 
 impl Reflex {
     /// How far, and where to in body space, it gives way to neighbours; metres, zero where nobody is too near.
@@ -28,11 +29,15 @@ impl Reflex {
         let now = &self.past_m[0];
         let mut away = Vec2::ZERO;
         for sensor in 0..SENSORS {
-            let missing_m = SHARE * room_m - self.gap_m(sensor);
             // One neighbour is in sight of two sensors: the nearer of them counts.
             let (left, right) = ((sensor + 1) % SENSORS, (sensor + SENSORS - 1) % SENSORS);
-            if missing_m > 0.0 && now[sensor] <= now[left] && now[sensor] < now[right] {
-                away -= Vec2::unit(self.towards(sensor)) * f64::from(GIVE * missing_m);
+            if now[sensor] <= now[left] && now[sensor] < now[right] {
+                let gap_m = self.gap_m(sensor);
+                let missing_m = room_m - gap_m;
+                if missing_m > 0.0 {
+                    let way_m = (GIVE * missing_m * (1.0 + LITTLE_M / gap_m.max(1e-4))).min(GIVE_MOST_M);
+                    away -= Vec2::unit(self.towards(sensor)) * f64::from(way_m);
+                }
             }
         }
         away
@@ -53,26 +58,26 @@ mod tests {
 
     #[test]
     fn it_gives_way_to_who_is_nearer_than_planned_and_to_nobody_else() {
-        let left = seeing([NONE, 0.016, 0.004, 0.016, NONE, NONE, NONE, NONE]);
-        let away = left.give_way(Some(8));
-        assert!(away.y < -0.001 && away.y > -0.0016 && away.x.abs() < 1e-4, "{away:?}");
-        assert_eq!(left.give_way(Some(5)), Vec2::ZERO);
-        assert_eq!(left.give_way(None), Vec2::ZERO);
-        assert_eq!(left.give_way(Some(500)), away);
+        let left = |gap_m: f32| seeing([NONE, gap_m + 0.012, gap_m, gap_m + 0.012, NONE, NONE, NONE, NONE]);
+        let away = left(0.004).give_way(Some(8));
+        assert!((away.y + 0.7 * 0.004 * 1.375).abs() < 1e-4 && away.x.abs() < 4e-4, "{away:?}");
+        assert_eq!(left(0.004).give_way(Some(500)), away);
+        assert_eq!((left(0.004).give_way(Some(4)), left(0.004).give_way(None)), (Vec2::ZERO, Vec2::ZERO));
         assert_eq!(Reflex::new().give_way(Some(8)), Vec2::ZERO);
+        assert!((left(0.0).give_way(Some(8)).length() - 0.008).abs() < 1e-6);
     }
 
     #[test]
     fn who_stands_between_two_sensors_is_one() {
-        let away = seeing([0.006, 0.006, NONE, NONE, NONE, NONE, NONE, NONE]).give_way(Some(8));
+        let away = seeing([0.0086, 0.0086, NONE, NONE, NONE, NONE, NONE, NONE]).give_way(Some(8));
         let middle = Vec2::unit(core::f64::consts::FRAC_PI_8);
         assert!((away.normalized().unwrap() + middle).length() < 1e-6, "{away:?}");
-        assert!((away.length() - 0.7 * 0.0036).abs() < 1e-6, "{away:?}");
+        assert!((away.length() - 0.7 * 0.003 * 1.3).abs() < 1e-5, "{away:?}");
     }
 
     #[test]
     fn between_two_neighbours_it_stays() {
         let both = seeing([NONE, 0.016, 0.004, 0.016, NONE, 0.016, 0.004, 0.016]).give_way(Some(8));
-        assert!(both.length() < 1e-6, "{both:?}");
+        assert!(both.y.abs() < 1e-6 && both.x.abs() < 1e-3, "{both:?}");
     }
 }
