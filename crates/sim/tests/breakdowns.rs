@@ -40,7 +40,8 @@ fn dense_show() -> Show {
 }
 
 fn play(faults: &str, seed: u64) -> RehearsalReport {
-    let conditions = Faults::parse(faults).unwrap().added_to(Conditions::default());
+    let faults = if faults.is_empty() { Faults::default() } else { Faults::parse(faults).unwrap() };
+    let conditions = faults.added_to(Conditions::default());
     rehearse(&dense_show(), &RehearsalOptions { seed, conditions, robots: None }, &mut |_| {})
 }
 

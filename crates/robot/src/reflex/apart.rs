@@ -13,6 +13,9 @@ const UNTOLD_M: f32 = 0.003;
 /// It gives way by this share of what is missing; more where little is left, but never more than so many metres.
 const GIVE: f32 = 0.7;
 const GIVE_MOST_M: f32 = 0.008;
+/// What comes no faster than this, m/s, counts as near as it will be so much later, seconds.
+const DRIFTING_MPS: f32 = 0.1;
+const SOON_S: f32 = 0.1;
 /// So little left that it gives way twice as far as where as much is missing from plenty, metres.
 const LITTLE_M: f32 = 0.0015;
 
@@ -24,6 +27,13 @@ impl Reflex {
         if self.sees { self.away(room_mm) } else { Vec2::ZERO }
     }
 
+    /// How much nearer what a sensor sees will be soon, for sure: only slowly, as those on ways that cross come near fast
+    /// by plan.
+    fn drift_m(&self, sensor: usize) -> f32 {
+        let sure_mps = self.closing(sensor).map_or(0.0, |closing| closing.sure_mps);
+        if (0.0..DRIFTING_MPS).contains(&sure_mps) { sure_mps * SOON_S } else { 0.0 }
+    }
+
     fn away(&self, room_mm: Option<u16>) -> Vec2 {
         let room_m = room_mm.map_or(UNTOLD_M, |room_mm| (f32::from(room_mm) * 1e-3).min(MOST_M));
         let now = &self.past_m[0];
@@ -33,7 +43,7 @@ impl Reflex {
             let (left, right) = ((sensor + 1) % SENSORS, (sensor + SENSORS - 1) % SENSORS);
             if now[sensor] <= now[left] && now[sensor] < now[right] {
                 let gap_m = self.gap_m(sensor);
-                let missing_m = room_m - gap_m;
+                let missing_m = room_m - gap_m + self.drift_m(sensor);
                 if missing_m > 0.0 {
                     let way_m = (GIVE * missing_m * (1.0 + LITTLE_M / gap_m.max(1e-4))).min(GIVE_MOST_M);
                     away -= Vec2::unit(self.towards(sensor)) * f64::from(way_m);
