@@ -51,6 +51,8 @@ pub struct Robot {
     state: RobotState,
     battery: Option<u8>,
     unknown: u32,
+    /// It stands until fixes come again.
+    pauses: bool,
     last_step: Option<Instant>,
     routes: Routes,
 }
@@ -73,6 +75,7 @@ impl Robot {
             state: RobotState::Lost,
             battery: None,
             unknown: 0,
+            pauses: false,
             last_step: None,
             routes: Routes::new(),
             config,
@@ -282,10 +285,12 @@ impl Robot {
             self.routes.abandon();
         }
         if drives == Drives::Route {
-            if self.routes.off_m().is_some_and(|off| off > GIVE_UP_M) {
+            let gives_up = self.routes.off_m().is_some_and(|off| off > GIVE_UP_M);
+            // Who waits for fixes knows why its route runs away.
+            if gives_up && !self.pauses {
                 self.supervisor.fault(now);
             }
-            if self.supervisor.faulty(now) || self.is_lost(now) {
+            if gives_up || self.supervisor.faulty(now) || self.is_lost(now) {
                 self.routes.abandon();
             }
         }
@@ -311,7 +316,7 @@ impl Robot {
             return self.drive.halt();
         }
         let wants = if self.is_lost(now) { None } else { self.want(show, dt) };
-        let wants = wants.filter(|_| !self.pauses()).unwrap_or_default();
+        let wants = if self.pauses() { Setpoint::default() } else { wants.unwrap_or_default() };
         let most_mps = if self.routes.under_way() {
             let ample = self.routes.room_mm().is_some_and(|room_mm| room_mm >= AMPLE_MM);
             let wish = Wish { speed_mps: wants.speed_mps, told_mps: self.drive.speed_mps(), ample };
@@ -332,8 +337,10 @@ impl Robot {
     }
 
     /// Whether it had better stand until fixes come again, because it would be lost if it drove on.
-    fn pauses(&self) -> bool {
-        self.is_blind() && self.estimate.error_at_worst_m(self.drive.braking_m()) > PAUSE_M
+    fn pauses(&mut self) -> bool {
+        self.pauses = self.is_blind()
+            && (self.pauses || self.estimate.error_at_worst_m(self.drive.braking_m()) > PAUSE_M);
+        self.pauses
     }
 
     /// What it wants to do: the route under way, else the target, else turn towards what comes.

@@ -152,9 +152,15 @@ fn a_short_break_in_air_time_is_nobodys_business() {
 fn lost_on_a_route_it_stands_before_its_doubt_is_large() {
     let mut plant = driving();
     plant.sees = false;
+    let began = plant.now;
     let after_s = stands_after(&mut plant);
     assert!(after_s <= 3.05, "{after_s} s");
+    while plant.robot.state() != RobotState::Lost && plant.now < began + Span::from_millis(3_050) {
+        assert!(plant.stands());
+        plant.step();
+    }
     assert_eq!(plant.robot.state(), RobotState::Lost);
+    assert!(!states(&plant.heard(Topic::Status)).contains(&RobotState::Faulty));
     plant.step();
     let last = plant.heard(Topic::Status).last().map(|report| report.at);
     assert_eq!(last, Some(None));
@@ -166,6 +172,24 @@ fn lost_on_a_route_it_stands_before_its_doubt_is_large() {
     assert_eq!(plant.robot.state(), RobotState::Idle);
     assert!(plant.heard(Topic::Status).last().is_some_and(|report| report.at.is_some()));
     takes_part_again(&mut plant, 10);
+}
+
+#[test]
+fn without_fixes_for_a_while_it_stands_before_it_is_lost_and_goes_on() {
+    // In its first metre, not knowing yet how much its wheels slip, it drove on for half a second until it was lost.
+    let mut plant = ready(Flaws { slip: [0.12, 0.03], ..Flaws::STANDARD });
+    send(&mut plant, 9, FAR, 300);
+    plant.run(0.7);
+    assert!(!plant.stands() && plant.robot.state() == RobotState::Driving);
+    plant.sees = false;
+    let after_s = stands_after(&mut plant);
+    assert!(after_s < 0.8, "{after_s} s");
+    plant.run(0.9 - after_s);
+    assert!(plant.stands() && plant.robot.state() == RobotState::Driving);
+    assert!(plant.robot.place_error_m() < 0.02, "{}", plant.robot.place_error_m());
+    plant.sees = true;
+    plant.run(9.0);
+    assert!(plant.at.distance(FAR) < 0.02 && plant.robot.state() == RobotState::Idle);
 }
 
 #[test]

@@ -87,7 +87,7 @@ impl Faults {
 impl Change {
     /// Whether both say the same thing of the same conditions, so that the later would silently win.
     fn excludes(self, other: Self) -> bool {
-        !matches!(self, Self::Kill(_) | Self::Mute(_) | Self::Stuck(_))
+        !matches!(self, Self::Kill(_) | Self::Mute(_) | Self::Stuck(_) | Self::Cut(..) | Self::Blind(..))
             && core::mem::discriminant(&self) == core::mem::discriminant(&other)
     }
 }
@@ -271,7 +271,10 @@ mod tests {
             let message = Faults::parse(text).expect_err(text).to_string();
             assert_eq!(message, format!("the fault '{name}' is stated twice: state it once"));
         }
-        assert_eq!(added("kill=1,kill=2,stuck=random,stuck=random").killed.len(), 2);
+        assert_eq!(
+            added("kill=1,kill=2,stuck=random,stuck=random,blind=1@1s+1s,blind=2@1s+1s").killed.len(),
+            2
+        );
     }
 
     #[test]
