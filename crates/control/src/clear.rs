@@ -4,8 +4,10 @@ use lightbots_base::Vec2;
 use lightbots_show::Obstacle;
 use std::collections::VecDeque;
 
-/// Side of a cell of the grid on which ways round are looked for, metres.
-const CELL_M: f64 = 0.04;
+/// Side of a cell of the grid on which ways round are looked for first, metres.
+pub(crate) const CELL_M: f64 = 0.04;
+/// A way round begins with a straight line no longer than this, metres.
+const NEAR_M: f64 = 0.16;
 /// The most cells of that grid.
 const CELLS_MAX: usize = 1_000_000;
 
@@ -18,14 +20,20 @@ pub(crate) struct Floor<'a> {
     pub radius_m: f64,
     /// Distance of centres that is kept where starts and goals allow it, metres.
     pub gap_m: f64,
+    /// Side of a cell of the grid on which ways round are looked for, metres.
+    pub cell_m: f64,
 }
 
 /// How close the segment `a`–`b` comes to `p`.
-fn segment_to_point(a: Vec2, b: Vec2, p: Vec2) -> f64 {
+pub(crate) fn segment_to_point(a: Vec2, b: Vec2, p: Vec2) -> f64 {
+    squared_to_point(a, b, p).sqrt()
+}
+
+fn squared_to_point(a: Vec2, b: Vec2, p: Vec2) -> f64 {
     let along = b - a;
     let length = along.length_squared();
     let share = if length > 0.0 { ((p - a).dot(along) / length).clamp(0.0, 1.0) } else { 0.0 };
-    (a + along * share).distance(p)
+    (a + along * share - p).length_squared()
 }
 
 /// How close two segments come.
@@ -35,10 +43,11 @@ pub(crate) fn segment_to_segment(a: (Vec2, Vec2), b: (Vec2, Vec2)) -> f64 {
     if crosses {
         return 0.0;
     }
-    segment_to_point(a.0, a.1, b.0)
-        .min(segment_to_point(a.0, a.1, b.1))
-        .min(segment_to_point(b.0, b.1, a.0))
-        .min(segment_to_point(b.0, b.1, a.1))
+    squared_to_point(a.0, a.1, b.0)
+        .min(squared_to_point(a.0, a.1, b.1))
+        .min(squared_to_point(b.0, b.1, a.0))
+        .min(squared_to_point(b.0, b.1, a.1))
+        .sqrt()
 }
 
 impl Floor<'_> {
@@ -88,11 +97,11 @@ impl Floor<'_> {
         Some(way)
     }
 
-    /// A place to step aside to, clear of all discs and of `keep_free`, and the way there.
-    pub fn aside(&self, from: Vec2, discs: &[Vec2], keep_free: &[Vec2]) -> Option<Vec<Vec2>> {
+    /// A place to step aside to, `room_m` from all discs and from `keep_free`, and the way there.
+    pub fn aside(&self, from: Vec2, discs: &[Vec2], keep_free: &[Vec2], room_m: f64) -> Option<Vec<Vec2>> {
         let free = |place: Vec2| {
-            discs.iter().chain(keep_free).all(|other| other.distance(place) >= self.gap_m)
-                && from.distance(place) >= self.gap_m
+            discs.iter().chain(keep_free).all(|other| other.distance(place) >= room_m)
+                && from.distance(place) >= room_m
         };
         let back = self.search(from, discs, free)?;
         self.way(from, *back.first()?, discs)
@@ -105,16 +114,19 @@ impl Floor<'_> {
             return Some(Vec::new());
         }
         let room = self.half - Vec2::new(self.radius_m, self.radius_m);
-        let columns = (2.0 * room.x / CELL_M).max(0.0) as usize + 1;
-        let rows = (2.0 * room.y / CELL_M).max(0.0) as usize + 1;
+        let columns = (2.0 * room.x / self.cell_m).max(0.0) as usize + 1;
+        let rows = (2.0 * room.y / self.cell_m).max(0.0) as usize + 1;
         if columns.saturating_mul(rows) > CELLS_MAX {
             return None;
         }
         let place = |cell: usize| {
-            Vec2::new((cell % columns) as f64 * CELL_M - room.x, (cell / columns) as f64 * CELL_M - room.y)
+            Vec2::new(
+                (cell % columns) as f64 * self.cell_m - room.x,
+                (cell / columns) as f64 * self.cell_m - room.y,
+            )
         };
         let blocked = self.blocked(columns, rows, room, discs);
-        let near = |cell: &usize| place(*cell).distance(from) <= 4.0 * CELL_M;
+        let near = |cell: &usize| place(*cell).distance(from) <= NEAR_M;
         let mut parent = vec![usize::MAX; columns * rows];
         let mut queue: VecDeque<usize> = (0..columns * rows)
             .filter(near)
@@ -145,19 +157,23 @@ impl Floor<'_> {
     /// `[cell]`: whether a robot must not stand there.
     fn blocked(&self, columns: usize, rows: usize, room: Vec2, discs: &[Vec2]) -> Vec<bool> {
         let place = |cell: usize| {
-            Vec2::new((cell % columns) as f64 * CELL_M - room.x, (cell / columns) as f64 * CELL_M - room.y)
+            Vec2::new(
+                (cell % columns) as f64 * self.cell_m - room.x,
+                (cell / columns) as f64 * self.cell_m - room.y,
+            )
         };
         let mut blocked: Vec<bool> =
             (0..columns * rows).map(|cell| !self.passes_obstacles(place(cell), place(cell))).collect();
-        let reach = (self.gap_m / CELL_M) as i64 + 1;
+        // So much more than the gap that steps between two free cells pass too.
+        let free_m = self.gap_m.hypot(self.cell_m / 2.0);
+        let reach = (free_m / self.cell_m) as i64 + 1;
         for &disc in discs {
-            let column = ((disc.x + room.x) / CELL_M) as i64;
-            let row = ((disc.y + room.y) / CELL_M) as i64;
+            let column = ((disc.x + room.x) / self.cell_m) as i64;
+            let row = ((disc.y + room.y) / self.cell_m) as i64;
             for y in (row - reach).max(0)..=(row + reach + 1).min(rows as i64 - 1) {
                 for x in (column - reach).max(0)..=(column + reach + 1).min(columns as i64 - 1) {
                     let cell = y as usize * columns + x as usize;
-                    // A quarter more than the gap: steps between two free cells pass too.
-                    blocked[cell] |= place(cell).distance(disc) < self.gap_m * 1.05;
+                    blocked[cell] |= place(cell).distance(disc) < free_m;
                 }
             }
         }
@@ -179,7 +195,7 @@ mod tests {
     use super::*;
 
     const FLOOR: Floor<'static> =
-        Floor { half: Vec2::new(1.5, 1.5), obstacles: &[], radius_m: 0.027, gap_m: 0.084 };
+        Floor { half: Vec2::new(1.5, 1.5), obstacles: &[], radius_m: 0.027, gap_m: 0.084, cell_m: CELL_M };
 
     #[test]
     fn a_way_leads_round_a_wall_of_discs() {
@@ -214,7 +230,7 @@ mod tests {
     fn a_place_aside_keeps_goals_free() {
         let discs = [Vec2::new(0.1, 0.0)];
         let goals = [Vec2::new(-0.1, 0.0)];
-        let way = FLOOR.aside(Vec2::ZERO, &discs, &goals).unwrap();
+        let way = FLOOR.aside(Vec2::ZERO, &discs, &goals, FLOOR.gap_m).unwrap();
         let place = *way.last().unwrap();
         assert!(place.distance(discs[0]) >= 0.084 && place.distance(goals[0]) >= 0.084);
     }

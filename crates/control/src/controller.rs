@@ -9,7 +9,7 @@ use crate::hearing::unexpected;
 use crate::operation::State;
 use crate::outbox::Send;
 use crate::run::Run;
-use crate::snapshot::{Counters, RobotView, Snapshot};
+use crate::snapshot::{Age, Counters, RobotView, Snapshot};
 use crate::stopping::Stopping;
 use lightbots_base::{Instant, RobotId, Span};
 use lightbots_plan::Path;
@@ -20,6 +20,9 @@ use std::sync::Arc;
 /// The fleet is looked at this often; all of it within [`ROUNDS`] looks.
 const PATROL: Span = Span::from_millis(250);
 const ROUNDS: usize = 8;
+/// Where there are originals, it is asked this often between runs who else is there: one that was not heard when it was
+/// switched on would be driven into.
+const ASK_ALL: Span = Span::from_millis(2_000);
 /// Originals that have not been heard for this share of staleness are asked for a sign of life.
 const ASK_AFTER: i64 = 2;
 
@@ -37,6 +40,7 @@ pub struct Controller {
     pub(crate) stopping: Option<Stopping>,
     said: State,
     patrol_at: Instant,
+    ask_all_at: Instant,
     woken: Instant,
     received: u64,
     junk: u64,
@@ -66,6 +70,7 @@ impl Controller {
             stopping: None,
             said: State::Idle,
             patrol_at: Instant::ZERO,
+            ask_all_at: Instant::ZERO,
             woken: Instant::ZERO,
             received: 0,
             junk: 0,
@@ -165,14 +170,20 @@ impl Controller {
         let desk = &mut self.desk;
         let slice = desk.fleet.patrol(now, ROUNDS, &desk.config, &mut desk.log);
         let patience = desk.config.stale_after / ASK_AFTER;
+        let mut has_originals = false;
         for index in slice {
             let robot = desk.fleet.robot_mut(index);
+            has_originals |= robot.is_original() && robot.age != Age::Gone;
             let due = now - robot.heard >= patience && now - robot.asked >= patience;
             if robot.is_original() && due && now - robot.heard < desk.config.gone_after {
                 robot.asked = now;
                 let topic = Topic::Robot(robot.id);
                 desk.outbox.say(topic, &[Command::Uuid]);
             }
+        }
+        if has_originals && self.run.is_none() && now >= self.ask_all_at {
+            self.ask_all_at = now + ASK_ALL;
+            desk.outbox.say(Topic::Broadcast, &[Command::Uuid]);
         }
     }
 

@@ -1,6 +1,7 @@
 //! Planning, as a job that any thread may run.
 
-use crate::clear::Floor;
+use crate::clear::{CELL_M, Floor};
+use crate::hop::{Hop, drive_s};
 use crate::leg::{Errand, Kind, Leg, Move};
 use crate::mapping::{Bindings, Cast, Mapping};
 use crate::originals::{self, Journey, Stage};
@@ -15,8 +16,6 @@ use std::sync::Arc;
 const BLOCKED_MARGIN_M: f64 = 0.001;
 /// How often conflicting pixels are left out before a frame is given up.
 const LENIENT_TRIES: usize = 8;
-/// Speed original robots are expected to keep at least, m/s.
-pub(crate) const ORIGINAL_MPS: f64 = 0.15;
 
 /// A plan to be made. Pure: the same job gives the same answer, wherever it runs.
 #[derive(Clone, Debug)]
@@ -205,6 +204,7 @@ impl<'a> Draft<'a> {
             obstacles: &stage.obstacles,
             radius_m: stage.limits.radius_m,
             gap_m: stage.limits.contact_m() + originals::MARGIN_M,
+            cell_m: CELL_M,
         };
         let starts = &self.places;
         let journey =
@@ -216,16 +216,24 @@ impl<'a> Draft<'a> {
         let mut legs = Vec::new();
         let mut places = starts.clone();
         for stage in stages {
-            legs.push(match stage {
-                Stage::Targets(batch) => self.targets(&batch, rests, &mut places),
+            let mut leg = match stage {
+                Stage::Targets(hops) => self.targets(hops, rests),
                 Stage::Routes(paths) => {
                     let duration = paths.first().map_or(Span::ZERO, |(_, path)| path.as_ref().duration());
                     self.routes(paths, rests, duration, 0.0)?
                 }
-            });
+            };
+            for (rider, place) in self.request.riders.iter().zip(&mut places) {
+                let step = &mut leg.moves[rider.seat];
+                match step.errand {
+                    Errand::Stay => (step.settles, step.goal) = (step.goal == *place, *place),
+                    _ => *place = step.goal,
+                }
+            }
+            legs.push(leg);
         }
         if legs.is_empty() {
-            legs.push(self.targets(&[], rests, &mut places));
+            legs.push(self.targets(Vec::new(), rests));
         }
         Ok(legs)
     }
@@ -266,21 +274,22 @@ impl<'a> Draft<'a> {
         for ((rider, path), room_m) in paths.into_iter().zip(rooms) {
             let goal = path.as_ref().end();
             let step = &mut leg.moves[self.request.riders[rider].seat];
-            *step = Move { errand: Errand::Path(path), room_m, goal, ..step.clone() };
+            let settles = goal == step.goal;
+            *step = Move { errand: Errand::Path(path), room_m, goal, settles, ..step.clone() };
         }
         Ok(leg)
     }
 
-    fn targets(&self, batch: &[(usize, Vec2)], rests: &[Move], places: &mut [Vec2]) -> Leg {
-        let longest = batch.iter().map(|&(rider, to)| places[rider].distance(to)).fold(0.0, f64::max);
-        let duration = Span::from_secs(longest / ORIGINAL_MPS);
-        let mut leg = self.leg(Kind::Targets, rests, batch.len(), duration, 0.0);
-        for &(rider, to) in batch {
-            places[rider] = to;
-            let step = &mut leg.moves[self.request.riders[rider].seat];
-            *step = Move { errand: Errand::Target(to), goal: to, ..step.clone() };
+    fn targets(&self, mut hops: Vec<Hop>, rests: &[Move]) -> Leg {
+        let mut leg = self.leg(Kind::Targets, rests, 0, Span::from_secs(drive_s(&hops)), 0.0);
+        for hop in &mut hops {
+            let settles = rests[hop.robot].goal == hop.to;
+            hop.robot = self.request.riders[hop.robot].seat;
+            let step = &mut leg.moves[hop.robot];
+            leg.movers += usize::from(matches!(step.errand, Errand::Stay));
+            *step = Move { errand: Errand::Hops, goal: hop.to, settles, ..step.clone() };
         }
-        leg
+        Leg { hops, ..leg }
     }
 
     /// A leg in which nobody moves yet.
@@ -289,7 +298,18 @@ impl<'a> Draft<'a> {
         for (rider, rest) in self.request.riders.iter().zip(rests) {
             moves[rider.seat] = rest.clone();
         }
-        Leg { frame: 0, round: 0, seq: 0, kind, moves, movers, duration, airs: false, room_m }
+        Leg {
+            frame: 0,
+            round: 0,
+            seq: 0,
+            kind,
+            moves,
+            hops: Vec::new(),
+            movers,
+            duration,
+            airs: false,
+            room_m,
+        }
     }
 }
 

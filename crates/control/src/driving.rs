@@ -27,7 +27,6 @@ pub(crate) struct Drive {
     /// Time lost by holds that are over.
     pub lost: Span,
     pub arrived: usize,
-    first_arrival: Instant,
     last_arrival: Instant,
     heartbeat_at: Instant,
     pub check_at: Instant,
@@ -77,7 +76,6 @@ impl Run {
             hold: None,
             lost: Span::ZERO,
             arrived: 0,
-            first_arrival: Instant::FAR,
             last_arrival: Instant::ZERO,
             heartbeat_at: if leg.kind == Kind::Routes { now + HEARTBEAT } else { Instant::FAR },
             check_at: now + CHECK,
@@ -102,27 +100,24 @@ impl Run {
         self.phase = Phase::Driving(drive);
         match kind {
             Kind::Routes => self.plan_lights(desk, now),
-            Kind::Targets => self.send_targets(desk),
+            Kind::Targets => {
+                self.color_originals(desk);
+                self.begin_hops(desk, now);
+            }
         }
         self.pump_upload(desk, now);
         self.end_leg_if_all_arrived(desk, now);
     }
 
-    /// Way-points and lights of those who only know these.
-    pub fn send_targets(&mut self, desk: &mut Desk) {
+    /// Originals learn their lights: all at once, as they leave.
+    pub fn color_originals(&mut self, desk: &mut Desk) {
         let Some(leg) = &self.current else { return };
         for (seat, step) in leg.moves.iter().enumerate() {
             let known = &self.seats[seat];
-            if known.out || known.arrived {
-                continue;
-            }
-            let target = leg.target(seat).map(Command::Target);
-            let recolor = (target.is_some() || leg.airs && step.pixel.is_some())
-                && desk.relight(known.robot, step.color);
-            let color = recolor.then_some(Command::Color(step.color));
-            let commands: Vec<Command> = target.into_iter().chain(color).collect();
-            if !commands.is_empty() {
-                desk.outbox.say(Topic::Robot(desk.fleet.robot(known.robot).id), &commands);
+            let lit = leg.moves(seat) || leg.airs && step.pixel.is_some();
+            if lit && !known.out && desk.relight(known.robot, step.color) {
+                let topic = Topic::Robot(desk.fleet.robot(known.robot).id);
+                desk.outbox.say(topic, &[Command::Color(step.color)]);
             }
         }
     }
@@ -133,6 +128,12 @@ impl Run {
             self.judge_place(desk, now, seat, at);
             return;
         };
+        if self.current.as_ref().is_some_and(|leg| leg.kind == Kind::Targets) {
+            if let Some(at) = at {
+                self.hear_hop(desk, now, seat, at, true);
+            }
+            return;
+        }
         let (ends, begun, held) = (drive.ends, now >= drive.began, drive.hold.is_some());
         let step = self.current.as_ref().and_then(|leg| leg.moves.get(seat));
         let (Some(at), Some(goal)) = (at, step.map(|step| step.goal)) else { return };
@@ -168,8 +169,11 @@ impl Run {
             return;
         }
         drive.arrived += 1;
-        drive.first_arrival = drive.first_arrival.min(now);
         drive.last_arrival = drive.last_arrival.max(now);
+        if self.current.as_ref().and_then(|leg| leg.moves.get(seat)).is_some_and(|step| step.settles) {
+            let first = self.arrivals.map_or(now, |(first, _)| first);
+            self.arrivals = Some((first, now));
+        }
         if self.seats[seat].late.take().is_some() {
             drive.late = drive.late.saturating_sub(1);
         }
@@ -188,8 +192,7 @@ impl Run {
         let air = if airs { Span::from_secs(self.air_time_s(frame)) } else { Span::ZERO };
         self.pause |= held;
         if airs {
-            let spread = (drive.last_arrival - drive.first_arrival).max(Span::ZERO);
-            let spread = if drive.arrived == 0 { Span::ZERO } else { spread };
+            let spread = self.arrivals.take().map_or(Span::ZERO, |(first, last)| last - first);
             let wait = (now - drive.ends).max(Span::ZERO);
             desk.log.tell(now, EventKind::FrameReached { frame, spread, wait });
             self.frames_played += 1;

@@ -83,7 +83,7 @@ pub enum EventKind {
     FrameReached {
         /// Counted from 0.
         frame: usize,
-        /// Between the first and the last arrival.
+        /// Between the first and the last arrival at a place in this frame, whatever stages it took.
         spread: Span,
         /// From the planned end to the last arrival.
         wait: Span,

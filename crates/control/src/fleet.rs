@@ -12,6 +12,18 @@ use std::hash::{BuildHasherDefault, DefaultHasher};
 /// Places farther from the stage's centre than this are no places, metres.
 const PLACE_MAX_M: f64 = 1_000.0;
 
+/// Places nearer than this to each other are the same for one whose fixes are noisy, metres.
+const SAME_M: f64 = 0.012;
+
+/// An original robot is believed to stop so far before its target until it is seen to, metres, …
+const SHORT_M: f64 = 0.012;
+/// … and never farther than this, …
+const SHORT_MAX_M: f64 = 0.02;
+/// … as it rolls on by this once it has said that it is there; …
+const RUNS_ON_M: f64 = 0.006;
+/// … each arrival counts for this share.
+const LEARNS: f64 = 0.5;
+
 /// What is known of a robot.
 #[derive(Clone, Debug)]
 pub(crate) struct Robot {
@@ -31,6 +43,12 @@ pub(crate) struct Robot {
     pub abilities: Abilities,
     pub found: Instant,
     pub heard: Instant,
+    /// Since when it says that it is where it is now.
+    pub stands_since: Instant,
+    /// How far before its target an original robot comes to rest, metres: it stops where it is near enough.
+    pub short_m: f64,
+    /// Where that began, stage metres.
+    said_at: Option<Vec2>,
     /// When an original was asked for a sign of life.
     pub asked: Instant,
     pub age: Age,
@@ -83,6 +101,9 @@ impl Robot {
             abilities: Abilities::default(),
             found: now,
             heard: now,
+            stands_since: now,
+            short_m: SHORT_M,
+            said_at: None,
             asked: now,
             age: Age::Active,
             light: Rgb::BLACK,
@@ -140,6 +161,14 @@ impl Robot {
         matches!(self.state, Some(RobotState::Driving))
     }
 
+    /// An original robot arrived at `at`, having been sent from `from` to `target`: it may be sent a little farther next
+    /// time.
+    pub fn learn_short(&mut self, from: Vec2, target: Vec2, at: Vec2) {
+        let Some(towards) = (target - from).normalized() else { return };
+        let short_m = ((target - at).dot(towards) - RUNS_ON_M).clamp(0.0, SHORT_MAX_M);
+        self.short_m += (short_m - self.short_m) * LEARNS;
+    }
+
     /// Takes over details; whether they say that it was restarted.
     fn learn(&mut self, details: &Details) -> bool {
         let restarted = self.clock_us.is_some() && details.clock_us.is_none() && details.route == 0;
@@ -188,6 +217,10 @@ impl Fleet {
         let robot = &mut self.robots[index];
         robot.heard = now;
         let place = report.at.filter(|at| at.x.abs() < PLACE_MAX_M && at.y.abs() < PLACE_MAX_M);
+        let same = |(at, place): (Vec2, Vec2)| at.distance(place) < SAME_M;
+        if !place.zip(robot.said_at).is_some_and(same) {
+            (robot.said_at, robot.stands_since) = (place, now);
+        }
         if place.is_some() || report.details.is_some() {
             robot.at = place;
         }

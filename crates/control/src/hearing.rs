@@ -1,7 +1,6 @@
 //! What a run makes of a robot's report.
 
 use crate::desk::Desk;
-use crate::driving::is_there;
 use crate::event::{EventKind, Trouble};
 use crate::fleet::Heard;
 use crate::leg::Kind;
@@ -65,13 +64,10 @@ impl Run {
             self.hear_arrival(desk, now, seat, report.at);
             return;
         }
-        let Phase::Driving(drive) = &self.phase else { return };
-        let Some(leg) = self.current.as_ref().filter(|leg| leg.kind == Kind::Targets) else { return };
-        let held = drive.hold.is_some_and(|hold| hold.until.is_none());
-        let (Some(at), Some(goal)) = (report.at, leg.target(seat)) else { return };
-        let there = is_there(at, goal, desk.config.arrival_tolerance_m);
-        if there && !held && self.is_awaited(seat) && !self.seats[seat].arrived {
-            self.arrive(desk, now, seat);
+        if let Some(at) = report.at
+            && self.current.as_ref().is_some_and(|leg| leg.kind == Kind::Targets)
+        {
+            self.hear_hop(desk, now, seat, at, false);
         }
     }
 }

@@ -5,7 +5,7 @@ use crate::event::{EventKind, Trouble};
 use crate::leg::Kind;
 use crate::run::{Phase, Run};
 use lightbots_base::{Instant, Span};
-use lightbots_wire::{Command, Route, Topic};
+use lightbots_wire::{Command, Route};
 
 /// HOLD and RESUME are said this often, …
 const SAY: u32 = 5;
@@ -52,7 +52,7 @@ impl Run {
         let check_at = at + Route::EASE + Span::from_millis(400);
         drive.hold = Some(Hold { at, by_operator, until: None, release_at: None, check_at });
         if self.current.as_ref().is_some_and(|leg| leg.kind == Kind::Targets) {
-            self.halt_originals(desk);
+            self.halt_originals(desk, now);
         } else {
             desk.outbox.broadcast(now, Command::Hold { at }, SAY, SAY_EVERY);
         }
@@ -75,19 +75,9 @@ impl Run {
         drive.ask_at = drive.ends + Span::from_millis(300);
         desk.log.tell(now, EventKind::Resumed);
         if self.current.as_ref().is_some_and(|leg| leg.kind == Kind::Targets) {
-            self.send_targets(desk);
+            self.resume_hops(desk, now);
         } else {
             desk.outbox.broadcast(now, Command::Resume { at: until }, SAY, SAY_EVERY);
-        }
-    }
-
-    /// Originals on their way stop where they last said they are, and say where that is.
-    pub fn halt_originals(&self, desk: &mut Desk) {
-        for known in self.seats.iter().filter(|known| !known.arrived && !known.out) {
-            let robot = desk.fleet.robot(known.robot);
-            if let (true, Some(at)) = (robot.is_original(), robot.at) {
-                desk.outbox.say(Topic::Robot(robot.id), &[Command::Target(at), Command::Uuid]);
-            }
         }
     }
 

@@ -1,10 +1,11 @@
 //! One leg of a run: everybody's errand between two moments at which all stand.
 
+use crate::hop::Hop;
 use lightbots_base::{Rgb, Span, Vec2};
 use lightbots_plan::Path;
 
 /// What everybody does between two moments at which all stand. A frame takes one leg, or several where original
-/// robots have to go one after the other.
+/// robots and others have to go one after the other.
 #[derive(Clone, Debug)]
 pub(crate) struct Leg {
     /// The frame it leads to, counted from 0.
@@ -16,6 +17,8 @@ pub(crate) struct Leg {
     pub kind: Kind,
     /// `[seat]`; seats taken later have none.
     pub moves: Vec<Move>,
+    /// The straight drives of original robots, by seat; see [`Hop`].
+    pub hops: Vec<Hop>,
     /// How many moves are no rests.
     pub movers: usize,
     pub duration: Span,
@@ -30,7 +33,7 @@ pub(crate) struct Leg {
 pub(crate) enum Kind {
     /// Timed paths and a common START.
     Routes,
-    /// TARGETs whose straight lines are clear at any speed.
+    /// TARGETs, said by and by so that nobody is in anybody's way at any speed.
     Targets,
 }
 
@@ -42,6 +45,8 @@ pub(crate) struct Move {
     pub room_m: f64,
     /// Where it stands afterwards, stage metres.
     pub goal: Vec2,
+    /// It stands there in the frame too.
+    pub settles: bool,
     /// The pixel it shows in the leg's frame.
     pub pixel: Option<u32>,
     /// The light of that pixel; black for spares.
@@ -55,14 +60,21 @@ pub(crate) enum Errand {
     Stay,
     /// A timed path.
     Path(Path),
-    /// A way-point.
-    Target(Vec2),
+    /// Hops of its leg.
+    Hops,
 }
 
 impl Move {
     /// Standing at a place, dark.
     pub fn stay(at: Vec2) -> Self {
-        Self { errand: Errand::Stay, room_m: f64::INFINITY, goal: at, pixel: None, color: Rgb::BLACK }
+        Self {
+            errand: Errand::Stay,
+            room_m: f64::INFINITY,
+            goal: at,
+            settles: true,
+            pixel: None,
+            color: Rgb::BLACK,
+        }
     }
 }
 
@@ -71,14 +83,6 @@ impl Leg {
     pub fn path(&self, seat: usize) -> Option<&Path> {
         match self.moves.get(seat).map(|m| &m.errand) {
             Some(Errand::Path(path)) => Some(path),
-            _ => None,
-        }
-    }
-
-    /// The way-point of a seat, if it drives to one.
-    pub fn target(&self, seat: usize) -> Option<Vec2> {
-        match self.moves.get(seat).map(|m| &m.errand) {
-            Some(Errand::Target(at)) => Some(*at),
             _ => None,
         }
     }

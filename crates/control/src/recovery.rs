@@ -20,12 +20,18 @@ const SETTLE: Span = Span::from_millis(200);
 const ASK: Span = Span::from_millis(300);
 /// How long answers are waited for, beyond the silence that drops a robot out.
 const ANSWERS: Span = Span::from_millis(1_500);
+/// An original robot stands if it said the same place for so long: it may turn on the spot before it drives.
+const STILL: Span = Span::from_millis(1_200);
+/// How long one may drive on that does not hear that it shall stop.
+const DRIVES_ON: Span = Span::from_millis(20_000);
 /// How long a robot may take to set its clock.
 const CLOCK: Span = Span::from_millis(8_000);
 /// A robot that fell silent died at most this long after its last report.
 const UNHEARD: Span = Span::from_millis(600);
 /// Steps in which its path is followed from there.
 const GHOST_STEP: Span = Span::from_millis(50);
+/// Steps in which the way of an original robot is followed, metres.
+const HOP_STEP_M: f64 = 0.03;
 /// So many of them may pass until it stops, if it still hears.
 const UNTIL_STOP: i64 = 2;
 /// Places nearer than this to each other are one, metres.
@@ -61,7 +67,9 @@ impl Run {
     /// now if it only cannot be heard.
     fn whereabouts(&self, now: Instant, seat: usize, heard: Instant) -> Vec<Vec2> {
         let Phase::Driving(drive) = &self.phase else { return Vec::new() };
-        let Some(path) = self.current.as_ref().and_then(|leg| leg.path(seat)) else { return Vec::new() };
+        let Some(path) = self.current.as_ref().and_then(|leg| leg.path(seat)) else {
+            return self.hop_whereabouts(seat, HOP_STEP_M);
+        };
         let since = drive.path_time(heard);
         let died = (0..=UNHEARD.0 / GHOST_STEP.0).map(|step| since + GHOST_STEP * step);
         let lives = (0..=UNTIL_STOP).map(|step| drive.path_time(now + GHOST_STEP * step));
@@ -80,10 +88,12 @@ impl Run {
         self.hurry = true;
         self.plan_next = (self.next.frame < self.show.frames.len()).then_some(self.next);
         self.plan_from.clear();
+        self.arrivals = None;
         match self.phase {
             Phase::Offline(_) | Phase::Gathering(_) => {}
-            Phase::Standing(_) => self.say_replanning(desk, now),
-            Phase::Starting(_) | Phase::Driving(_) => {
+            // What originals said last may be old: they say nothing of their own accord.
+            Phase::Standing(_) if !self.has_originals(desk) => self.say_replanning(desk, now),
+            Phase::Standing(_) | Phase::Starting(_) | Phase::Driving(_) => {
                 self.say_replanning(desk, now);
                 self.gather(desk, now);
             }
@@ -127,7 +137,7 @@ impl Run {
         } else {
             desk.outbox.broadcast(now, Command::Stop, SAY, SAY_EVERY);
         }
-        self.halt_originals(desk);
+        self.halt_originals(desk, now);
         let since = stop_at.unwrap_or(now);
         let fresh_from = since + SETTLE + self.round_trip;
         self.phase = Phase::Gathering(Gathering { since, fresh_from, ask_at: fresh_from, stop_at, first });
@@ -150,10 +160,10 @@ impl Run {
                 continue;
             }
             let trouble = missing(desk, &self.seats[seat], gathering.fresh_from);
-            let bound = if trouble == Some(Trouble::Cut) {
-                CLOCK
-            } else {
-                desk.config.silence + ANSWERS + self.round_trip * 2
+            let bound = match trouble {
+                Some(Trouble::Cut) => CLOCK,
+                Some(Trouble::Deaf) if desk.fleet.robot(self.seats[seat].robot).is_original() => DRIVES_ON,
+                _ => desk.config.silence + ANSWERS + self.round_trip * 2,
             };
             match trouble {
                 Some(why) if waited > bound => self.drop_out(desk, now, seat, why),
@@ -164,14 +174,22 @@ impl Run {
         if all_ready {
             self.gathered(desk, now, gathering.first);
         } else if now >= gathering.ask_at {
-            self.ask_again(desk, gathering.fresh_from);
+            self.ask_again(desk, now, gathering.fresh_from);
             self.phase = Phase::Gathering(Gathering { ask_at: now + ASK, ..gathering });
         }
     }
 
-    fn ask_again(&self, desk: &mut Desk, fresh_from: Instant) {
-        for known in self.seats.iter().filter(|known| !known.out) {
+    /// Whether any robot that takes part is an original one.
+    fn has_originals(&self, desk: &Desk) -> bool {
+        self.seats.iter().any(|known| !known.out && desk.fleet.robot(known.robot).is_original())
+    }
+
+    fn ask_again(&self, desk: &mut Desk, now: Instant, fresh_from: Instant) {
+        for (seat, known) in self.seats.iter().enumerate().filter(|(_, known)| !known.out) {
             let Some(trouble) = missing(desk, known, fresh_from) else { continue };
+            if trouble == Trouble::Deaf {
+                self.halt_original(desk, now, seat);
+            }
             let robot = desk.fleet.robot(known.robot);
             let command = match trouble {
                 _ if robot.is_original() => Command::Uuid,
@@ -267,6 +285,7 @@ fn missing(desk: &Desk, known: &Seat, fresh_from: Instant) -> Option<Trouble> {
         Some(RobotState::Lost) => Some(Trouble::Lost),
         Some(RobotState::Driving | RobotState::Held) => Some(Trouble::Deaf),
         _ if robot.at.is_none() => Some(Trouble::Lost),
+        _ if robot.is_original() && robot.heard - robot.stands_since < STILL => Some(Trouble::Deaf),
         _ if !robot.is_original() && robot.clock_us.is_none() => Some(Trouble::Cut),
         _ => None,
     }

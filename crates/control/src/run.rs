@@ -4,6 +4,7 @@ use crate::desk::Desk;
 use crate::driving::Drive;
 use crate::event::{EventKind, Outcome};
 use crate::fleet::Robot;
+use crate::hopping::Hops;
 use crate::leg::Kind;
 use crate::leg::Leg;
 use crate::operation::MissingPolicy;
@@ -117,6 +118,10 @@ pub(crate) struct Run {
     pub phase: Phase,
     /// The leg that is driven or has brought everybody where they stand.
     pub current: Option<Leg>,
+    /// How far the hops of the present leg are.
+    pub hops: Hops,
+    /// The first and the last arrival at a place in the next frame.
+    pub arrivals: Option<(Instant, Instant)>,
     /// The legs that follow; the first is handed out.
     pub queue: VecDeque<Leg>,
     pub upload: Option<Upload>,
@@ -207,6 +212,8 @@ impl Run {
                 first: true,
             }),
             current: None,
+            hops: Hops::default(),
+            arrivals: None,
             queue: VecDeque::new(),
             upload: None,
             next,
@@ -228,8 +235,9 @@ impl Run {
             dropouts: 0,
             over: None,
         };
-        let busy = |robot: &Robot| !matches!(robot.state, None | Some(RobotState::Idle));
-        if run.seats.iter().any(|seat| busy(desk.fleet.robot(seat.robot))) {
+        // Originals do not say whether they drive: their places count once they stay the same.
+        let may_drive = |robot: &Robot| robot.is_original() || robot.state != Some(RobotState::Idle);
+        if run.seats.iter().any(|seat| may_drive(desk.fleet.robot(seat.robot))) {
             run.gather(desk, now);
         }
         run

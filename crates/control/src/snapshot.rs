@@ -34,13 +34,13 @@ pub struct RunView {
     pub frame: usize,
     /// What it is doing, for people: `planning`, `handing out routes`, `driving`, `holding`, `showing`, …
     pub doing: &'static str,
-    /// Share of the drive or of the air time that is over, 0 to 1.
+    /// Share of the drive or of the air time that is over, 0 to 1; of all ways, where robots drive by TARGET.
     pub progress: f64,
     /// How long the drive is planned to take, seconds.
     pub drive_s: f64,
     /// When the drive began, show clock; `None` before.
     pub began: Option<Instant>,
-    /// Robots of the run that everybody waits for, at most 8.
+    /// Robots of the run that others wait for because they do not get on or are not heard, at most 8.
     pub waiting_for: Vec<RobotId>,
     /// Frames reached so far.
     pub frames_played: usize,

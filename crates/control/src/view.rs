@@ -63,6 +63,9 @@ impl Run {
             if whole.0 > 0 { (past.as_secs() / whole.as_secs()).clamp(0.0, 1.0) } else { 1.0 }
         };
         match &self.phase {
+            Phase::Driving(_) if self.current.as_ref().is_some_and(|leg| leg.kind == Kind::Targets) => {
+                self.hops_passed()
+            }
             Phase::Driving(drive) => {
                 share(drive.path_time(now), self.current.as_ref().map_or(Span::ZERO, |leg| leg.duration))
             }
@@ -75,10 +78,13 @@ impl Run {
 
     fn waiting_for(&self, desk: &Desk, now: Instant) -> Vec<RobotId> {
         let Phase::Driving(drive) = &self.phase else { return Vec::new() };
-        let overdue = now > drive.ends;
+        let follows_path = self.current.as_ref().is_some_and(|leg| leg.kind == Kind::Routes);
+        let overdue = now > drive.ends && follows_path;
         let held_up = |seat: &usize| {
             let known = &self.seats[*seat];
-            known.late.is_some() || overdue && !known.arrived && self.is_awaited(*seat)
+            known.late.is_some()
+                || self.is_stuck(*seat) && !known.out
+                || overdue && !known.arrived && self.is_awaited(*seat)
         };
         let late = (0..self.seats.len()).filter(held_up).take(WAITING_MAX);
         late.map(|seat| desk.fleet.robot(self.seats[seat].robot).id).collect()

@@ -36,8 +36,6 @@ const QUIET: Span = Span::from_millis(560);
 const ASK: Span = Span::from_millis(90);
 /// Everybody waits for a driving robot that was not heard for so long, link times on top.
 const HUSH: Span = Span::from_millis(900);
-/// Originals are asked where they are this often.
-const ASK_ORIGINAL: Span = Span::from_millis(500);
 /// Robots that have not arrived so long after the planned end are judged by where they stand.
 const OVERDUE: Span = Span::from_millis(3_000);
 /// A robot standing farther from its goal than this has missed it, metres.
@@ -164,7 +162,7 @@ impl Run {
             if !self.seats[seat].out && !self.seats[seat].arrived && self.is_awaited(seat) {
                 match self.current.as_ref().map(|leg| leg.kind) {
                     Some(Kind::Routes) => self.watch_driver(desk, now, seat, &drive),
-                    _ => self.watch_original(desk, now, seat, &drive),
+                    _ => self.watch_original(desk, now, seat),
                 }
             }
         }
@@ -214,26 +212,6 @@ impl Run {
             self.drop_out(desk, now, seat, Trouble::Missed);
         } else {
             self.accept_misaligned(desk, now, seat, off_m);
-        }
-    }
-
-    fn watch_original(&mut self, desk: &mut Desk, now: Instant, seat: usize, drive: &Drive) {
-        let robot = desk.fleet.robot(self.seats[seat].robot);
-        let topic = Topic::Robot(robot.id);
-        let taken = now - drive.began;
-        let planned = drive.ends - drive.began;
-        let held = drive.hold.is_some_and(|hold| hold.until.is_none());
-        if now - robot.heard.max(drive.began) > desk.config.silence * 4 {
-            self.drop_out(desk, now, seat, Trouble::Silent);
-        } else if !held && taken > planned * 3 + Span::from_millis(10_000) {
-            self.drop_out(desk, now, seat, Trouble::Missed);
-        } else if now - self.seats[seat].asked >= ASK_ORIGINAL {
-            self.seats[seat].asked = now;
-            let target = self.current.as_ref().and_then(|leg| leg.target(seat));
-            // The way-point itself may have been lost: saying it again changes nothing else.
-            let again = target.filter(|_| !held && taken > planned + ASK_ORIGINAL).map(Command::Target);
-            let commands: Vec<Command> = again.into_iter().chain([Command::Uuid]).collect();
-            desk.outbox.say(topic, &commands);
         }
     }
 

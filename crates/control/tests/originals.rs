@@ -60,3 +60,66 @@ fn pause_and_resume_work_with_originals() {
     world.operate(Operation::Resume).unwrap();
     assert_eq!(world.run_to_end(200.0), (Outcome::Finished, 2, 0), "{}", world.story());
 }
+
+#[test]
+fn who_keeps_others_waiting_is_named_before_it_is_given_up() {
+    let mut world = World::ready(5, 5, show(2, 5, 0.1));
+    world.play();
+    world.run_until(10.0, |kind| matches!(kind, EventKind::TransitionStarted { .. }));
+    world.run_for(0.5);
+    let driving = world.robots.iter().position(|robot| robot.target.is_some()).unwrap();
+    world.robots[driving].dead = true;
+    let id = world.robots[driving].id;
+    world.run_until(10.0, |kind| matches!(kind, EventKind::Waiting { robot, .. } if *robot == id));
+    let run = world.controller.snapshot(world.now).run.unwrap();
+    assert_eq!(run.waiting_for, [id], "{}", world.story());
+    assert!((0.1..1.0).contains(&run.progress), "{}", run.progress);
+    world.run_until(10.0, |kind| matches!(kind, EventKind::Dropout { robot, .. } if *robot == id));
+}
+
+#[test]
+fn arrivals_are_spread_from_the_first_to_the_last_whatever_stages_it_takes() {
+    let mut world = World::ready(12, 4, show(1, 12, 0.1));
+    world.play();
+    let begun = world.run_until(10.0, |kind| matches!(kind, EventKind::TransitionStarted { .. })).at;
+    let event = world.run_until(100.0, |kind| matches!(kind, EventKind::FrameReached { .. }));
+    let EventKind::FrameReached { spread, .. } = event.kind else { unreachable!() };
+    let drives = world.count(|kind| matches!(kind, EventKind::TransitionStarted { .. }));
+    assert!(drives >= 2, "ours and the originals drive one after the other\n{}", world.story());
+    assert!(spread.as_secs() > 1.0 && spread < event.at - begun, "{}\n{}", spread.as_secs(), world.story());
+}
+
+#[test]
+fn pins_hold_for_originals_and_ours_alike() {
+    let show = show(2, 8, 0.1);
+    let mut world = World::ready(8, 4, show.clone());
+    // The last four are originals.
+    for (pixel, robot) in [(0, 7), (3, 1), (6, 4)] {
+        let robot = Some(world.robots[robot].id);
+        world.operate(Operation::Pin { pixel, robot }).unwrap();
+    }
+    world.play();
+    assert_eq!(world.run_to_end(100.0), (Outcome::Finished, 2, 0), "{}", world.story());
+    assert!(world.closest_m >= CONTACT_M, "{}", world.closest_m);
+    assert_eq!(world.lit(&show.frames[1]), 8);
+    for (pixel, robot) in [(0, 7), (3, 1), (6, 4)] {
+        let (at, goal) = (world.robots[robot].at, show.frames[1].pixels[pixel].at);
+        assert!(at.distance(goal) < 0.021, "pixel {pixel}: {at:?} for {goal:?}");
+    }
+}
+
+#[test]
+fn a_pause_keeps_originals_where_they_are() {
+    let mut world = World::ready(6, 6, show(1, 6, 0.1));
+    world.play();
+    world.run_until(10.0, |kind| matches!(kind, EventKind::TransitionStarted { .. }));
+    world.run_for(1.5);
+    world.operate(Operation::Pause).unwrap();
+    world.run_for(1.0);
+    let places = |world: &World| world.robots.iter().map(|robot| robot.at).collect::<Vec<_>>();
+    let before = places(&world);
+    world.run_for(10.0);
+    assert_eq!(places(&world), before);
+    world.operate(Operation::Resume).unwrap();
+    assert_eq!(world.run_to_end(100.0), (Outcome::Finished, 1, 0), "{}", world.story());
+}

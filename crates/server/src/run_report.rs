@@ -20,6 +20,7 @@ pub struct RunReport {
     began: Option<Instant>,
     duration_s: f64,
     frames_played: usize,
+    /// Between the first and the last arrival in a frame, one value a frame.
     spreads_s: Vec<f64>,
     errors_m: Vec<f64>,
     dropouts: usize,

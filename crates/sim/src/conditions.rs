@@ -13,6 +13,8 @@ pub struct Conditions {
     pub fixes: FixConditions,
     /// The network between the controller and each robot.
     pub link: LinkConditions,
+    /// So many of the robots, the last ones, are original ones: they speak only `TARGET` and `COLOR`.
+    pub originals: usize,
     /// Robots whose power fails: they stand where they are and say no more.
     pub killed: Vec<Breakdown>,
     /// Robots of which nothing is heard any more; they still hear and drive.
@@ -94,6 +96,7 @@ impl Default for Conditions {
             clock_ppm: 20.0,
             fixes: FixConditions::default(),
             link: LinkConditions::default(),
+            originals: 0,
             killed: Vec::new(),
             muted: Vec::new(),
             stuck: Vec::new(),

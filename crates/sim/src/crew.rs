@@ -8,6 +8,7 @@ use lightbots_wire::Topic;
 use crate::conditions::Conditions;
 use crate::dice::{Dice, Purpose};
 use crate::errors::Errors;
+use crate::original::{Deeds, Original};
 use crate::sensors::Sensors;
 use crate::world::{STEP, World};
 
@@ -27,7 +28,7 @@ pub(crate) struct Crew {
 }
 
 struct Member {
-    robot: Robot,
+    mind: Mind,
     id: RobotId,
     clock: Clock,
     battery: u8,
@@ -37,6 +38,15 @@ struct Member {
     stuck: bool,
     /// It gets no fixes.
     blind: bool,
+}
+
+/// Who decides what a body does.
+#[expect(clippy::large_enum_variant, reason = "nearly all robots are ours, and looked at in order")]
+enum Mind {
+    /// Our firmware.
+    Ours(Robot),
+    /// A robot that knows only TARGET and COLOR.
+    Original(Original),
 }
 
 /// A robot's own clock.
@@ -62,7 +72,9 @@ impl Crew {
         let poses: Vec<Pose> =
             starts.iter().map(|&start| Pose::new(start, core::f64::consts::FRAC_PI_2)).collect();
         let mut dice = Dice::new(seed, Purpose::Robots);
-        let members = starts.iter().map(|_| Member::new(stage, conditions, &mut dice)).collect();
+        let first_original = starts.len().saturating_sub(conditions.originals);
+        let member = |robot| Member::new(stage, conditions, robot >= first_original, &mut dice);
+        let members = (0..starts.len()).map(member).collect();
         Self {
             world: World::new(stage, &poses, conditions.slip, seed),
             sensors: Sensors::new(&conditions.fixes, &poses, seed),
@@ -92,7 +104,10 @@ impl Crew {
     pub fn link(&mut self, now: Instant, robot: usize, up: bool) {
         let member = &mut self.members[robot];
         if member.alive {
-            member.robot.link(member.clock.own(now), up);
+            match &mut member.mind {
+                Mind::Ours(robot) => robot.link(member.clock.own(now), up),
+                Mind::Original(robot) => robot.link(up),
+            }
         }
     }
 
@@ -100,7 +115,10 @@ impl Crew {
     pub fn receive(&mut self, now: Instant, robot: usize, topic: Topic, payload: &[u8]) {
         let member = &mut self.members[robot];
         if member.alive {
-            member.robot.receive(member.clock.own(now), topic, payload);
+            match &mut member.mind {
+                Mind::Ours(robot) => robot.receive(member.clock.own(now), topic, payload),
+                Mind::Original(robot) => robot.receive(payload),
+            }
         }
     }
 
@@ -120,7 +138,10 @@ impl Crew {
     /// Compares the clocks of all robots that have one.
     pub fn compare_clocks(&mut self, now: Instant) {
         let shown = self.members.iter().filter(|member| member.alive);
-        self.errors.clocks(shown.filter_map(|member| member.robot.show_time(member.clock.own(now))));
+        self.errors.clocks(shown.filter_map(|member| match &member.mind {
+            Mind::Ours(robot) => robot.show_time(member.clock.own(now)),
+            Mind::Original(_) => None,
+        }));
     }
 
     /// A robot's power fails.
@@ -151,16 +172,26 @@ impl Crew {
             if !member.alive {
                 continue;
             }
-            self.errors.look(self.steps, index, &member.robot, &self.world);
             let fix = self.sensors.fix(index, self.world.pose(index)).filter(|_| !member.blind);
+            let robot = match &mut member.mind {
+                Mind::Ours(robot) => robot,
+                Mind::Original(robot) => {
+                    let Deeds { wheels_radps, light } = robot.step(fix);
+                    member.light = light;
+                    self.world.tell(index, if member.stuck { [0.0; 2] } else { wheels_radps });
+                    member.speak(index, &mut self.payload, hear);
+                    continue;
+                }
+            };
+            self.errors.look(self.steps, index, robot, &self.world);
             let inputs = Inputs {
                 wheel_turns_rad: self.world.wheel_turns(index),
                 fix: fix.map(|fix| Fix { at: fix.at, heading: Some(fix.heading) }),
                 battery: Some(member.battery.saturating_sub(drained)),
                 proximity_m: Some(self.world.proximity_m(index)),
             };
-            let outputs = member.robot.step(member.clock.own(now), &inputs);
-            self.errors.look_again(self.steps, index, &member.robot, &self.world);
+            let outputs = robot.step(member.clock.own(now), &inputs);
+            self.errors.look_again(self.steps, index, robot, &self.world);
             member.light = outputs.light;
             self.world.tell(index, if member.stuck { [0.0; 2] } else { outputs.wheels_radps });
             member.speak(index, &mut self.payload, hear);
@@ -169,7 +200,7 @@ impl Crew {
 }
 
 impl Member {
-    fn new(stage: &Stage, conditions: &Conditions, dice: &mut Dice) -> Self {
+    fn new(stage: &Stage, conditions: &Conditions, original: bool, dice: &mut Dice) -> Self {
         let id = RobotId::from_random(u128::from(dice.bits()) << 64 | u128::from(dice.bits()));
         let ppm = dice.between(-conditions.clock_ppm, conditions.clock_ppm);
         let clock = Clock { begin_us: dice.below(CLOCK_BEGIN_US), drift_ppb: (ppm * 1000.0) as i64 };
@@ -185,22 +216,24 @@ impl Member {
             ..Config::new(id)
         };
         let battery = 80 + dice.below(21) as u8;
-        Self {
-            robot: Robot::new(config),
-            id,
-            clock,
-            battery,
-            light: Rgb::BLACK,
-            alive: true,
-            stuck: false,
-            blind: false,
-        }
+        let mind = if original { Mind::Original(Original::new(id)) } else { Mind::Ours(Robot::new(config)) };
+        Self { mind, id, clock, battery, light: Rgb::BLACK, alive: true, stuck: false, blind: false }
     }
 
     #[inline]
     fn speak(&mut self, index: usize, payload: &mut Message, hear: &mut impl FnMut(usize, Topic, &[u8])) {
-        while let Some(topic) = self.robot.outgoing(payload) {
+        while let Some(topic) = self.mind.outgoing(payload) {
             hear(index, topic, payload.as_bytes());
+        }
+    }
+}
+
+impl Mind {
+    #[inline]
+    fn outgoing(&mut self, payload: &mut Message) -> Option<Topic> {
+        match self {
+            Self::Ours(robot) => robot.outgoing(payload),
+            Self::Original(robot) => robot.outgoing(payload),
         }
     }
 }

@@ -5,6 +5,7 @@ use core::fmt;
 use lightbots_base::Span;
 
 use crate::conditions::{Breakdown, Conditions};
+use crate::rehearsal::ROBOTS_MAX;
 
 /// What is added to the conditions of a rehearsal.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -32,6 +33,7 @@ enum Change {
     FixEvery(u32),
     FixDropout(Span),
     FixOutlier(f64),
+    Originals(usize),
     Kill(Breakdown),
     Mute(Breakdown),
     Stuck(Breakdown),
@@ -42,7 +44,7 @@ enum Change {
 /// Every fault, with an example of its value.
 const KNOWN: &str = "loss=5%, delay=100..300ms, jitter or jitter=50ms, double=1%, reorder=1%, slip=10%, gps=5mm, \
                      heading=2deg, bias=5mm, clock=100ppm, fix-delay=100ms, fix-every=5, fix-dropout=1s, \
-                     fix-outlier=1%, kill=random or kill=3@12s, mute=random or mute=3@12s, \
+                     fix-outlier=1%, original=30, kill=random or kill=3@12s, mute=random or mute=3@12s, \
                      stuck=random or stuck=3@12s, cut=random or cut=3@12s+4s, blind=random or blind=3@12s+4s";
 
 /// The most faults a text may state.
@@ -117,6 +119,7 @@ fn apply(change: Change, conditions: &mut Conditions) {
         Change::FixEvery(steps) => fixes.every = steps,
         Change::FixDropout(span) => fixes.dropout = span,
         Change::FixOutlier(share) => fixes.outliers = share,
+        Change::Originals(count) => conditions.originals = count,
         Change::Kill(breakdown) => conditions.killed.push(breakdown),
         Change::Mute(breakdown) => conditions.muted.push(breakdown),
         Change::Stuck(breakdown) => conditions.stuck.push(breakdown),
@@ -145,6 +148,7 @@ fn change(part: &str) -> Result<Change, FaultsError> {
         }
         "fix-dropout" => span(value, Span::from_millis(60_000)).map(Change::FixDropout),
         "fix-outlier" => share(value, 1.0).map(Change::FixOutlier),
+        "original" => value.parse().ok().filter(|&count| count <= ROBOTS_MAX).map(Change::Originals),
         "kill" => breakdown(value).map(Change::Kill),
         "mute" => breakdown(value).map(Change::Mute),
         "stuck" => breakdown(value).map(Change::Stuck),
@@ -229,7 +233,7 @@ mod tests {
     fn every_fault_reaches_its_condition() {
         let all = added(
             "loss=5%,delay=100..300ms,jitter,double=1%,reorder=2%,slip=10%,gps=5mm,heading=2deg,bias=1cm,clock=100ppm,\
-             fix-delay=100ms,fix-every=5,fix-dropout=1s,fix-outlier=3%,kill=random,mute=3@12s,stuck=1@2s",
+             fix-delay=100ms,fix-every=5,fix-dropout=1s,fix-outlier=3%,original=4,kill=random,mute=3@12s,stuck=1@2s",
         );
         let mut expected = Conditions::default();
         (expected.slip, expected.clock_ppm) = (0.1, 100.0);
@@ -250,6 +254,7 @@ mod tests {
             dropout: Span::from_millis(1000),
             outliers: 0.03,
         };
+        expected.originals = 4;
         expected.killed = vec![Breakdown { robot: None, at: None }];
         expected.muted = vec![Breakdown { robot: Some(3), at: Some(Span::from_millis(12_000)) }];
         expected.stuck = vec![Breakdown { robot: Some(1), at: Some(Span::from_millis(2_000)) }];
@@ -300,6 +305,8 @@ mod tests {
             "kill=x@1",
             "mute=1@-1",
             "fix-every=0",
+            "original=1.5",
+            "original=20001",
             "heading=2",
             "jitter=inf ms",
             "=",

@@ -31,6 +31,7 @@ mod hash;
 mod html;
 mod near;
 mod network;
+mod original;
 mod play;
 mod proximity;
 mod rehearsal;

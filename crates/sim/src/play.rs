@@ -4,7 +4,7 @@ use std::rc::Rc;
 use std::sync::Arc;
 
 use lightbots_base::{Instant, RobotId, Span, Vec2};
-use lightbots_control::{Config, Controller, MissingPolicy, Operation};
+use lightbots_control::{Config, Controller, MissingPolicy, Operation, RobotView};
 use lightbots_show::{Issue, Show};
 use lightbots_wire::Topic;
 
@@ -149,7 +149,10 @@ impl Play {
             return;
         }
         let robots = self.controller.snapshot(self.now).robots;
-        let ready = robots.iter().filter(|robot| robot.at.is_some() && robot.clock_us.is_some()).count();
+        // An original robot says neither what it does nor what its clock does.
+        let is_ready =
+            |robot: &&RobotView| robot.at.is_some() && (robot.clock_us.is_some() || robot.state.is_none());
+        let ready = robots.iter().filter(is_ready).count();
         let late = self.now > Instant::ZERO + GATHERING;
         if ready < self.crew.len() && !late {
             return;

@@ -27,7 +27,7 @@ pub struct RehearsalReport {
     pub wall_contacts: u64,
     /// The least distance of two centres, metres; `None` where nobody came near anybody.
     pub closest_m: Option<f64>,
-    /// Between the first and the last arrival at a frame, one value a frame, seconds.
+    /// Between the first and the last robot that comes to stay at its place in a frame, one value a frame, seconds.
     pub arrival_spread_s: Spread,
     /// How far robots really were from their pixels when their frame stood, one value a robot and frame, metres.
     pub position_error_m: Spread,

@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use lightbots_base::{Instant, RobotId, Span, Vec2};
-use lightbots_control::{Controller, Event, EventKind, Outcome};
+use lightbots_control::{Controller, Event, EventKind, Outcome, RobotView};
 use lightbots_show::{Issue, Issues, Show};
 
 use crate::breakdowns::{Breakdowns, Fate};
@@ -20,9 +20,11 @@ pub(crate) struct Watch {
     began: Option<Instant>,
     /// When the current transition started.
     started: Instant,
-    /// First and last arrival of the current transition.
-    arrivals: Option<(Instant, Instant)>,
+    /// `[robot]`: its last arrival on the way to the current frame.
+    arrivals: Vec<Option<Instant>>,
     heading_for: usize,
+    /// It stood, or is driven to anew.
+    stood: bool,
     errors_m: Vec<f64>,
     frames: Vec<FrameRecord>,
     bumps: u64,
@@ -40,8 +42,9 @@ impl Watch {
         Self {
             began: None,
             started: Instant::ZERO,
-            arrivals: None,
+            arrivals: vec![None; robots],
             heading_for: 0,
+            stood: true,
             errors_m: Vec::with_capacity(robots),
             frames: Vec::new(),
             bumps: 0,
@@ -75,9 +78,15 @@ impl Watch {
     }
 
     /// A robot says that it has arrived.
-    pub fn arrived(&mut self, _robot: usize, now: Instant) {
-        let (first, last) = self.arrivals.unwrap_or((now, now));
-        self.arrivals = Some((first.min(now), last.max(now)));
+    pub fn arrived(&mut self, robot: usize, now: Instant) {
+        self.arrivals[robot] = Some(now);
+    }
+
+    /// Between the first and the last robot that stays where it is.
+    fn arrival_spread(&self) -> Span {
+        let first = self.arrivals.iter().flatten().min();
+        let last = self.arrivals.iter().flatten().max();
+        first.zip(last).map_or(Span::ZERO, |(first, last)| *last - *first)
     }
 
     /// A robot was made to break down.
@@ -133,13 +142,18 @@ impl Watch {
     ) {
         match &event.kind {
             EventKind::TransitionStarted { frame, starts, .. } => {
-                self.heading_for = *frame;
                 self.began.get_or_insert(*starts);
-                self.started = *starts;
-                self.arrivals = None;
+                // Where original robots take part, a frame takes several drives.
+                if self.stood || self.heading_for != *frame {
+                    self.started = *starts;
+                    self.arrivals.fill(None);
+                }
+                (self.heading_for, self.stood) = (*frame, false);
             }
+            EventKind::Replanning { .. } => self.stood = true,
             EventKind::FrameReached { frame, .. } => {
                 self.frame_stands(*frame, show, event.at, controller, crew, by_id);
+                self.stood = true;
             }
             EventKind::Dropout { robot, .. } => {
                 self.dropouts.insert(*robot);
@@ -211,9 +225,11 @@ impl Watch {
     ) {
         let places = crew.world.places();
         let mut errors_m = Vec::with_capacity(crew.len());
-        for view in
-            controller.snapshot(at).robots.iter().filter(|view| view.takes_part && view.pixel.is_some())
-        {
+        let snapshot = controller.snapshot(at);
+        // Without air time original robots may be on their way to the next frame already.
+        let stands = snapshot.run.as_ref().is_none_or(|run| run.frame == frame);
+        let shows = |view: &&RobotView| stands && view.takes_part && view.pixel.is_some();
+        for view in snapshot.robots.iter().filter(shows) {
             let place = by_id.binary_search_by_key(&view.id, |entry| entry.0);
             if let (Ok(place), Some(goal)) = (place, view.goal) {
                 errors_m.push(places[by_id[place].1].distance(goal));
@@ -226,13 +242,12 @@ impl Watch {
             let pixels = picture.map_or(&[][..], |frame| &frame.pixels);
             errors_m.extend(pixels.iter().filter_map(|pixel| nearest_m(pixel.at)));
         }
-        let (first, last) = self.arrivals.unwrap_or((at, at));
         self.frames.push(FrameRecord {
             frame,
             name: picture.map_or(String::new(), |frame| frame.name.clone()),
             at_s: self.since(at),
             drive_s: (at - self.started).as_secs(),
-            arrival_spread_s: (last - first).as_secs(),
+            arrival_spread_s: self.arrival_spread().as_secs(),
             position_error_m: Spread::of(&errors_m),
         });
         self.errors_m.append(&mut errors_m);

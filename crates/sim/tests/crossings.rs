@@ -90,11 +90,25 @@ fn shows_whose_straight_lines_collide_are_driven_without_contact() {
         let name = &show.name;
         assert!(crossing_pairs(&show) > 0, "{name} must collide on straight lines");
         for seed in 1..=3 {
-            let options = RehearsalOptions { seed, conditions: Conditions::default(), robots: None };
-            let report = rehearse(&show, &options, &mut |_| {});
-            assert!(report.ok, "{name}, seed {seed}: {:?}", report.issues);
-            assert_eq!((report.contacts, report.frames_played), (0, 2), "{name}, seed {seed}");
-            assert!(report.closest_m.unwrap_or(1.0) >= 0.054, "{name}, seed {seed}");
+            plays_without_contact(&show, seed, Conditions::default());
         }
     }
+}
+
+#[test]
+fn robots_that_speak_only_target_and_color_come_through_as_well() {
+    for show in shows() {
+        let robots = show.frames[0].pixels.len();
+        for (seed, originals) in [(1, robots), (2, robots.div_ceil(2))] {
+            plays_without_contact(&show, seed, Conditions { originals, ..Conditions::default() });
+        }
+    }
+}
+
+fn plays_without_contact(show: &Show, seed: u64, conditions: Conditions) {
+    let (name, originals) = (&show.name, conditions.originals);
+    let report = rehearse(show, &RehearsalOptions { seed, conditions, robots: None }, &mut |_| {});
+    assert!(report.ok, "{name}, {originals} originals, seed {seed}: {:?}", report.issues);
+    assert_eq!((report.contacts, report.frames_played), (0, 2), "{name}, seed {seed}");
+    assert!(report.closest_m.unwrap_or(1.0) >= 0.054, "{name}, seed {seed}");
 }
