@@ -9,6 +9,8 @@ use ts_rs::TS;
 pub enum FromScreen {
     /// Do something.
     Operate(Request),
+    /// The oldest `state` it has got has been dealt with.
+    Took,
 }
 
 /// A numbered wish.

@@ -6,7 +6,8 @@ use ts_rs::TS;
 use crate::{Answer, Fleet, Plan, State};
 
 /// A message to a screen. After `hello` come `show`, `plan`, `fleet` and the last lines of the log, then each of them
-/// again when it changes, and `state` twenty times a second.
+/// again when it changes, and `state` twenty times a second, if the screen keeps up: it says `took` after each, and one
+/// that has several before it gets no more. Before each `state` comes a binary message, the robots.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS)]
 #[serde(tag = "type", rename_all = "snake_case")]
 // They are made, written and dropped, one at a time.
@@ -20,7 +21,7 @@ pub enum ToScreen {
     Plan(Plan),
     /// The fleet table.
     Fleet(Fleet),
-    /// Where everything is now.
+    /// How everything is now.
     State(State),
     /// Something happened.
     Log(LogLine),

@@ -3,19 +3,17 @@
 use serde::{Deserialize, Serialize};
 use ts_rs::TS;
 
-/// A snapshot of the run.
+/// A snapshot of the run. Where the robots are is said just before, in a message of its own: `Robots`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS)]
 pub struct State {
     /// The show clock, milliseconds.
     pub at_ms: f64,
-    /// Which `Fleet` names the robots below.
+    /// Which `Fleet` names the robots of the message before.
     pub fleet: u32,
     /// The broker.
     pub broker: Broker,
     /// The show.
     pub playback: Playback,
-    /// The robots.
-    pub robots: Robots,
 }
 
 /// The connection to the broker.
@@ -87,27 +85,4 @@ pub enum Phase {
     Preview,
     /// Robots are coming to rest after an abort.
     Aborting,
-}
-
-/// The robots, one entry each in every list, in the order of the fleet table.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, TS)]
-pub struct Robots {
-    /// Measured place along x, stage metres, to 0.1 mm; null: unknown.
-    pub x: Vec<Option<f64>>,
-    /// Measured place along y, stage metres, to 0.1 mm; null: unknown.
-    pub y: Vec<Option<f64>>,
-    /// Heading, radians counter-clockwise from +x; null: unknown.
-    pub heading: Vec<Option<f64>>,
-    /// Colour of the light: R·65536 + G·256 + B.
-    pub colour: Vec<u32>,
-    /// What it is doing: index into `RobotStatus` in its order, from 0.
-    pub status: Vec<u8>,
-    /// Where its path says it is now along x, stage metres; null: it drives no path. Never draw it as if measured.
-    pub planned_x: Vec<Option<f64>>,
-    /// Where its path says it is now along y, stage metres.
-    pub planned_y: Vec<Option<f64>>,
-    /// Where its pixel is along x, stage metres; null: it stands by.
-    pub goal_x: Vec<Option<f64>>,
-    /// Where its pixel is along y, stage metres; null: it stands by.
-    pub goal_y: Vec<Option<f64>>,
 }

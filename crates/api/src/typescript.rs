@@ -56,6 +56,8 @@ pub fn typescript() -> String {
         ShowEntry,
         Problem,
     );
+    text.push_str("\n/** The lists of `Robots` in the order of its binary message. */\n");
+    text.push_str(&format!("export const ROBOT_COLUMNS = {} as const;\n", Robots::typescript_columns()));
     text.push_str("\n/** Every status, in the order `Robots.status` counts them. */\n");
     let names: Vec<String> =
         RobotStatus::ALL.iter().map(|status| snake_case(&format!("{status:?}"))).collect();

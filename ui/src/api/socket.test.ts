@@ -3,6 +3,7 @@ import { backoff_ms } from './backoff';
 import { createLink, type LinkState, type SocketLike } from './socket';
 
 class FakeSocket implements SocketLike {
+  binaryType = 'blob';
   sent: string[] = [];
   onopen: (() => void) | null = null;
   onclose: (() => void) | null = null;
@@ -26,6 +27,7 @@ function setup() {
       return socket;
     },
     onMessage: (m) => messages.push(m.type),
+    onRobots: (robots) => messages.push(`robots ${robots.x.length}`),
     onLink: (s) => states.push(s),
     random: () => 0.5,
   });
@@ -79,4 +81,18 @@ test('junk is dropped, and questions do not wait for ever', async () => {
   const cut = link.operate({ do: 'pause' });
   socket(0).onclose?.();
   expect((await cut).error).toContain('broke');
+});
+
+test('robots come as bytes, and the server is told once a state has been dealt with', () => {
+  const { socket, messages } = setup();
+  socket(0).onopen?.();
+  expect(socket(0).binaryType).toBe('arraybuffer');
+  const bytes = new Uint8Array(4 + 29);
+  bytes[0] = 1;
+  socket(0).onmessage?.({ data: bytes.buffer });
+  socket(0).onmessage?.({ data: bytes.buffer.slice(1) });
+  expect([messages, socket(0).sent]).toEqual([['robots 1'], []]);
+  socket(0).onmessage?.({ data: '{"type":"state"}' });
+  expect(messages).toEqual(['robots 1', 'state']);
+  expect(socket(0).sent).toEqual(['{"type":"took"}']);
 });

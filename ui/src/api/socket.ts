@@ -1,8 +1,10 @@
 import { backoff_ms } from './backoff';
-import type { Answer, FromScreen, Operation, ToScreen } from './types.gen';
+import { readRobots } from './robots';
+import type { Answer, FromScreen, Operation, Robots, ToScreen } from './types.gen';
 
 /** What of a WebSocket is used, so that tests can stand in for it. */
 export interface SocketLike {
+  binaryType: string;
   send(text: string): void;
   close(): void;
   onopen: (() => void) | null;
@@ -23,6 +25,8 @@ export interface Link {
 export interface LinkOptions {
   open(): SocketLike;
   onMessage(message: ToScreen): void;
+  /** Where robots are; comes before the `state` it belongs to. */
+  onRobots(robots: Robots): void;
   onLink(state: LinkState): void;
   random?(): number;
 }
@@ -53,9 +57,26 @@ export function createLink(options: LinkOptions): Link {
     timer = setTimeout(connect, backoff_ms(tries++, random()));
   };
 
+  const say = (message: FromScreen) => socket?.send(JSON.stringify(message));
+
+  const hear = (data: unknown) => {
+    if (data instanceof ArrayBuffer) {
+      const robots = readRobots(data);
+      if (robots) options.onRobots(robots);
+      return;
+    }
+    const message = decode(data);
+    if (message?.type === 'answer') {
+      waiting.get(message.id)?.(message);
+      waiting.delete(message.id);
+    } else if (message) options.onMessage(message);
+    if (message?.type === 'state') say({ type: 'took' });
+  };
+
   function connect() {
     clearTimeout(timer);
     const mine = options.open();
+    mine.binaryType = 'arraybuffer';
     socket = mine;
     mine.onopen = () => {
       if (socket !== mine) return;
@@ -67,12 +88,7 @@ export function createLink(options: LinkOptions): Link {
       if (socket === mine) lost();
     };
     mine.onmessage = (event) => {
-      if (socket !== mine) return;
-      const message = decode(event.data);
-      if (message?.type === 'answer') {
-        waiting.get(message.id)?.(message);
-        waiting.delete(message.id);
-      } else if (message) options.onMessage(message);
+      if (socket === mine) hear(event.data);
     };
   }
 
@@ -84,8 +100,7 @@ export function createLink(options: LinkOptions): Link {
       return new Promise((resolve) => {
         waiting.set(id, resolve);
         if (!up || !socket) return refuse(id, 'There is no connection to the server right now.');
-        const message: FromScreen = { type: 'operate', id, operation };
-        socket.send(JSON.stringify(message));
+        say({ type: 'operate', id, operation });
         setTimeout(() => refuse(id, 'The server did not answer.'), ANSWER_MAX_MS);
       });
     },

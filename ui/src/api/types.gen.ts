@@ -2,14 +2,15 @@
 
 /**
  * A message to a screen. After `hello` come `show`, `plan`, `fleet` and the last lines of the log, then each of them
- * again when it changes, and `state` twenty times a second.
+ * again when it changes, and `state` twenty times a second, if the screen keeps up: it says `took` after each, and one
+ * that has several before it gets no more. Before each `state` comes a binary message, the robots.
  */
 export type ToScreen = { "type": "hello" } & Hello | { "type": "show" } & OpenShow | { "type": "plan" } & Plan | { "type": "fleet" } & Fleet | { "type": "state" } & State | { "type": "log" } & LogLine | { "type": "answer" } & Answer;
 
 /**
  * Everything a screen says on the WebSocket.
  */
-export type FromScreen = { "type": "operate" } & Request;
+export type FromScreen = { "type": "operate" } & Request | { "type": "took" };
 
 /**
  * Who the server is.
@@ -254,7 +255,7 @@ fade: boolean,
 blink: boolean, };
 
 /**
- * A snapshot of the run.
+ * A snapshot of the run. Where the robots are is said just before, in a message of its own: `Robots`.
  */
 export type State = { 
 /**
@@ -262,7 +263,7 @@ export type State = {
  */
 at_ms: number, 
 /**
- * Which `Fleet` names the robots below.
+ * Which `Fleet` names the robots of the message before.
  */
 fleet: number, 
 /**
@@ -272,11 +273,7 @@ broker: Broker,
 /**
  * The show.
  */
-playback: Playback, 
-/**
- * The robots.
- */
-robots: Robots, };
+playback: Playback, };
 
 /**
  * The connection to the broker.
@@ -388,41 +385,37 @@ export type Phase = "idle" | "ready" | "preparing" | "playing" | "paused" | "pre
  */
 export type Robots = { 
 /**
- * Measured place along x, stage metres, to 0.1 mm; null: unknown.
+ * Measured place along x, stage metres, to 0.1 mm; NaN: unknown.
  */
-x: Array<number | null>, 
+x: Float32Array, 
 /**
- * Measured place along y, stage metres, to 0.1 mm; null: unknown.
+ * Measured place along y, stage metres, to 0.1 mm; NaN: unknown.
  */
-y: Array<number | null>, 
+y: Float32Array, 
 /**
- * Heading, radians counter-clockwise from +x; null: unknown.
+ * Where its path says it is now along x, stage metres; NaN: it drives no path. Never draw it as if measured.
  */
-heading: Array<number | null>, 
-/**
- * Colour of the light: R·65536 + G·256 + B.
- */
-colour: Array<number>, 
-/**
- * What it is doing: index into `RobotStatus` in its order, from 0.
- */
-status: Array<number>, 
-/**
- * Where its path says it is now along x, stage metres; null: it drives no path. Never draw it as if measured.
- */
-planned_x: Array<number | null>, 
+planned_x: Float32Array, 
 /**
  * Where its path says it is now along y, stage metres.
  */
-planned_y: Array<number | null>, 
+planned_y: Float32Array, 
 /**
- * Where its pixel is along x, stage metres; null: it stands by.
+ * Where its pixel is along x, stage metres; NaN: it stands by.
  */
-goal_x: Array<number | null>, 
+goal_x: Float32Array, 
 /**
- * Where its pixel is along y, stage metres; null: it stands by.
+ * Where its pixel is along y, stage metres; NaN: it stands by.
  */
-goal_y: Array<number | null>, };
+goal_y: Float32Array, 
+/**
+ * Colour of the light: R·65536 + G·256 + B.
+ */
+colour: Uint32Array, 
+/**
+ * What it is doing: index into `RobotStatus` in its order, from 0.
+ */
+status: Uint8Array, };
 
 /**
  * A line of the log.
@@ -608,6 +601,18 @@ export type Problem = {
  * One line for people: what is wrong, and what to do.
  */
 error: string, };
+
+/** The lists of `Robots` in the order of its binary message. */
+export const ROBOT_COLUMNS = [
+  ["x", Float32Array],
+  ["y", Float32Array],
+  ["planned_x", Float32Array],
+  ["planned_y", Float32Array],
+  ["goal_x", Float32Array],
+  ["goal_y", Float32Array],
+  ["colour", Uint32Array],
+  ["status", Uint8Array],
+] as const;
 
 /** Every status, in the order `Robots.status` counts them. */
 export const ROBOT_STATUSES: readonly RobotStatus[] = ["idle", "ready", "driving", "held", "lost", "cut", "faulty"];

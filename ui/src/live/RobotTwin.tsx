@@ -35,11 +35,10 @@ export function RobotTwin() {
 
 function describe(robots: Robots | null, fleet: Fleet): Line[] {
   return fleet.rows.slice(0, LISTED_MAX).map((row, i) => {
-    const [x, y] = [robots?.x[i], robots?.y[i]];
-    const place =
-      typeof x === 'number' && typeof y === 'number'
-        ? `at ${x.toFixed(2)}, ${y.toFixed(2)} metres`
-        : 'place unknown';
+    const [x, y] = [robots?.x[i] ?? NaN, robots?.y[i] ?? NaN];
+    const place = Number.isNaN(x + y)
+      ? 'place unknown'
+      : `at ${x.toFixed(2)}, ${y.toFixed(2)} metres`;
     const status = ROBOT_STATUSES[robots?.status[i] ?? -1] ?? row.status;
     const pixel = row.pixel === null ? 'stands by' : `pixel ${row.pixel}`;
     const light = colourName(robots?.colour[i] ?? 0);

@@ -39,7 +39,7 @@ const all = (over: Partial<Situation> = {}): Situation => ({
   show: newShow('x', 2),
   plan,
   rows: [row('a'), row('b')],
-  robots: { x: [0, 1] },
+  robots: { x: new Float32Array([0, 1]) },
   ...over,
 });
 const of = (checks: Check[], name: Check['name']) => checks.find((c) => c.name === name);
@@ -54,7 +54,7 @@ test('what is missing is said, and whether one can go on without', () => {
   const silent = checklistOf(all({ rows: [row('a'), row('b', { presence: 'gone' })] }));
   expect(of(silent, 'robots')?.detail).toMatch(/1 of 2 ready; 1 silent/);
   expect([isReady(silent), canGoOn(silent)]).toEqual([false, true]);
-  const lost = checklistOf(all({ robots: { x: [0, null] } }));
+  const lost = checklistOf(all({ robots: { x: new Float32Array([0, NaN]) } }));
   expect(of(lost, 'places')?.detail).toMatch(/Unknown for b/);
   const low = checklistOf(all({ rows: [row('a'), row('b', { battery: 7 })] }));
   expect(of(low, 'batteries')).toMatchObject({ verdict: 'warn' });

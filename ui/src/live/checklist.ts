@@ -19,7 +19,7 @@ export interface Situation {
   show: Show | null;
   plan: Plan | null;
   rows: readonly FleetRow[];
-  /** Places in the order of `rows`. */
+  /** Places in the order of `rows`, NaN where they are unknown. */
   robots: Pick<Robots, 'x'> | null;
 }
 
@@ -101,8 +101,7 @@ function robotsCheck(show: Show, rows: readonly FleetRow[]): Check {
 
 function placesCheck(show: Show, { rows, robots }: Situation): Check {
   const lost = rows.filter(
-    (row, i) =>
-      canDrive(row) && (row.status === 'lost' || typeof (robots?.x[i] ?? null) !== 'number'),
+    (row, i) => canDrive(row) && (row.status === 'lost' || Number.isNaN(robots?.x[i] ?? NaN)),
   );
   if (lost.length === 0)
     return check('places', 'Positions known', 'good', 'Everyone knows its place.');

@@ -3,6 +3,7 @@ import type { FleetRow, Presence } from '../api/types.gen';
 import { newShow } from '../model/show';
 import { createCloseWatch } from './closeWatch';
 import { fade, liveScene } from './scene';
+import { robotsOf } from './robots.testing';
 import { createLive, hear } from './store';
 
 const row = (presence: Presence): FleetRow => ({
@@ -35,17 +36,16 @@ test('planned is hollow, measured is filled, and neither becomes the other', () 
   };
   expect(liveScene(live, wish, 0)).toMatchObject({ filled: [], hollow: [{}, {}] });
   const playback = { ...live.playback.get(), phase: 'playing' as const };
-  const robots = {
+  const robots = robotsOf({
     x: [0.1],
     y: [0.2],
-    heading: [null],
     colour: [255],
     status: [2],
     planned_x: [0.2],
     planned_y: [0.2],
     goal_x: [0.5],
     goal_y: [0.2],
-  };
+  });
   const broker = {
     address: '',
     phase: 'connected' as const,
@@ -53,9 +53,10 @@ test('planned is hollow, measured is filled, and neither becomes the other', () 
     node: null,
     reason: null,
   };
-  hear(live, { type: 'state', at_ms: 0, fleet: 1, broker, playback, robots }, 0);
+  live.track.push(robots, 0);
+  hear(live, { type: 'state', at_ms: 0, fleet: 1, broker, playback });
   const scene = liveScene(live, wish, 1000);
-  expect(scene.filled).toMatchObject([{ x: 0.1, y: 0.2, color: 255 }]);
-  expect(scene.hollow).toMatchObject([{ x: 0.5, y: 0.2 }]);
+  expect(scene.filled).toMatchObject([{ x: Math.fround(0.1), y: Math.fround(0.2), color: 255 }]);
+  expect(scene.hollow).toMatchObject([{ x: 0.5, y: Math.fround(0.2) }]);
   expect(scene.errors).toHaveLength(1);
 });

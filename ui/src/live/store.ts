@@ -26,8 +26,6 @@ export interface Live {
   playback: Store<Playback>;
   log: Store<readonly LogLine[]>;
   track: Track;
-  /** Counts snapshots, for those who list what robots do now. */
-  beats: Store<number>;
 }
 
 /** Lines of the log kept on screen. */
@@ -62,12 +60,11 @@ export function createLive(): Live {
     playback: createStore<Playback>(NO_PLAYBACK),
     log: createStore<readonly LogLine[]>([]),
     track: createTrack(),
-    beats: createStore(0),
   };
 }
 
 /** Takes in one message of the server. */
-export function hear(live: Live, message: ToScreen, now_ms: number) {
+export function hear(live: Live, message: ToScreen) {
   switch (message.type) {
     case 'hello':
       live.hello.set(message);
@@ -95,8 +92,6 @@ export function hear(live: Live, message: ToScreen, now_ms: number) {
     case 'state':
       keep(live.broker, message.broker);
       keep(live.playback, message.playback);
-      live.track.push(message.robots, now_ms);
-      live.beats.update((n) => n + 1);
       break;
     case 'answer':
       break;
@@ -113,7 +108,8 @@ export function connect(live: Live): Link {
   const address = `${location.protocol === 'https:' ? 'wss' : 'ws'}://${location.host}/ws`;
   return createLink({
     open: () => new WebSocket(address) as never,
-    onMessage: (message) => hear(live, message, performance.now()),
+    onMessage: (message) => hear(live, message),
+    onRobots: (robots) => live.track.push(robots, performance.now()),
     onLink: (state) => {
       live.link.set(state);
       if (state !== 'open') live.playback.update((p) => ({ ...p, phase: 'idle' }));

@@ -20,15 +20,21 @@ export interface Sample {
   errors: [Point, Point][];
 }
 
-/** One robot between its last two reports, stage metres. */
-interface Leg {
-  from: Point;
-  to: Point;
-  changed_ms: number;
+/** Robots between their last two reports, stage metres; one number a robot in every list, NaN where it is unknown. */
+interface Legs {
+  count: number;
+  from: Places;
+  to: Places;
+  changed_ms: Float64Array;
   /** How long the way between the two is drawn. */
-  lasts_ms: number;
+  lasts_ms: Float64Array;
   /** From where it was measured to where it was meant to be at that moment. */
-  off: Point;
+  off: Places;
+}
+
+interface Places {
+  x: Float64Array;
+  y: Float64Array;
 }
 
 /** A robot that jumps farther than this was carried, not driven, metres. */
@@ -37,18 +43,35 @@ const JUMP_M = 0.6;
 const ERROR_MIN_M = 0.02;
 /** Reports come at least this often from a robot that drives, milliseconds. */
 const REPORT_MS = 700;
+/** What happens at once is drawn in this time, milliseconds. */
+const LEAST_MS = 50;
 
 export function createTrack(): Track {
-  let legs: (Leg | null)[] = [];
+  let legs = noLegs(0);
   let now: Robots | null = null;
   let hollow: readonly Dot[] = [];
-  // Drawn sixty times a second: the same dots are filled in again and again.
+  // Drawn sixty times a second: the same dots and lines are filled in again and again.
   const dots: Dot[] = [];
+  const lines: [Point, Point][] = [];
   const sample: Sample = { filled: [], hollow, errors: [] };
+
+  const drawn = (i: number, now_ms: number, alpha: number): Dot => {
+    const dot = (dots[i] ??= { x: 0, y: 0, color: 0, alpha: 1 });
+    placeOn(legs, i, now_ms, dot);
+    dot.color = now?.colour[i] ?? 0;
+    dot.alpha = alpha;
+    return dot;
+  };
+  const lineOf = (i: number, dot: Dot): [Point, Point] => {
+    const line = (lines[i] ??= [dot, { x: 0, y: 0 }]);
+    line[1].x = dot.x + at(legs.off.x, i);
+    line[1].y = dot.y + at(legs.off.y, i);
+    return line;
+  };
   return {
     push(robots, now_ms) {
-      if (legs.length !== robots.x.length) legs = robots.x.map(() => null);
-      for (let i = 0; i < legs.length; i++) legs[i] = advance(legs[i] ?? null, robots, i, now_ms);
+      if (legs.count !== robots.x.length) legs = noLegs(robots.x.length);
+      for (let i = 0; i < legs.count; i++) advance(legs, robots, i, now_ms);
       if (!sameGoals(now, robots)) hollow = goalsOf(robots);
       now = robots;
     },
@@ -57,19 +80,31 @@ export function createTrack(): Track {
       sample.filled.length = 0;
       sample.errors.length = 0;
       sample.hollow = hollow;
-      for (let i = 0; i < legs.length; i++) {
-        const leg = legs[i];
-        if (!leg) continue;
-        const dot = (dots[i] ??= { x: 0, y: 0, color: 0, alpha: 1 });
-        placeOn(leg, now_ms, dot);
-        dot.color = now?.colour[i] ?? 0;
-        dot.alpha = faded(i);
+      for (let i = 0; i < legs.count; i++) {
+        if (Number.isNaN(legs.to.x[i])) continue;
+        const dot = drawn(i, now_ms, faded(i));
         sample.filled.push(dot);
-        if (Math.hypot(leg.off.x, leg.off.y) > ERROR_MIN_M)
-          sample.errors.push([dot, { x: dot.x + leg.off.x, y: dot.y + leg.off.y }]);
+        if (Math.hypot(at(legs.off.x, i), at(legs.off.y, i)) > ERROR_MIN_M)
+          sample.errors.push(lineOf(i, dot));
       }
       return sample;
     },
+  };
+}
+
+/** A number that is there: lists are asked only within their length. */
+const at = (list: ArrayLike<number>, i: number) => list[i] as number;
+
+function noLegs(count: number): Legs {
+  const list = () => new Float64Array(count).fill(NaN);
+  const places = (): Places => ({ x: list(), y: list() });
+  return {
+    count,
+    from: places(),
+    to: places(),
+    changed_ms: list(),
+    lasts_ms: list(),
+    off: places(),
   };
 }
 
@@ -78,46 +113,62 @@ function sameGoals(before: Robots | null, after: Robots): boolean {
   if (!before || before.goal_x.length !== after.goal_x.length) return false;
   for (let i = 0; i < after.goal_x.length; i++)
     if (
-      before.goal_x[i] !== after.goal_x[i] ||
-      before.goal_y[i] !== after.goal_y[i] ||
+      !Object.is(before.goal_x[i], after.goal_x[i]) ||
+      !Object.is(before.goal_y[i], after.goal_y[i]) ||
       before.colour[i] !== after.colour[i]
     )
       return false;
   return true;
 }
 
-function goalsOf(robots: Robots): Dot[] {
+function goalsOf({ goal_x, goal_y, colour }: Robots): Dot[] {
   const dots: Dot[] = [];
-  robots.goal_x.forEach((x, i) => {
-    const goal = placeOf(x, robots.goal_y[i]);
-    if (goal) dots.push({ ...goal, color: robots.colour[i] ?? 0, alpha: 1 });
-  });
+  for (let i = 0; i < goal_x.length; i++)
+    if (!Number.isNaN(goal_x[i]))
+      dots.push({ x: at(goal_x, i), y: at(goal_y, i), color: at(colour, i), alpha: 1 });
   return dots;
 }
 
-const placeOf = (x: number | null | undefined, y: number | null | undefined): Point | null =>
-  typeof x === 'number' && typeof y === 'number' ? { x, y } : null;
-
-/** Puts where a robot is drawn into `at`. */
-function placeOn<P extends Point>(leg: Leg, now_ms: number, at: P): P {
-  const t = Math.max(0, Math.min(1, (now_ms - leg.changed_ms) / leg.lasts_ms));
-  at.x = leg.from.x + (leg.to.x - leg.from.x) * t;
-  at.y = leg.from.y + (leg.to.y - leg.from.y) * t;
-  return at;
+/** Puts where a robot is drawn into `place`. */
+function placeOn(
+  { from, to, changed_ms, lasts_ms }: Legs,
+  i: number,
+  now_ms: number,
+  place: Point,
+) {
+  const t = Math.max(0, Math.min(1, (now_ms - at(changed_ms, i)) / at(lasts_ms, i)));
+  place.x = at(from.x, i) + (at(to.x, i) - at(from.x, i)) * t;
+  place.y = at(from.y, i) + (at(to.y, i) - at(from.y, i)) * t;
 }
 
-function advance(leg: Leg | null, robots: Robots, i: number, now_ms: number): Leg | null {
-  const to = placeOf(robots.x[i], robots.y[i]);
-  if (!to) return null;
-  const meant =
-    placeOf(robots.planned_x[i], robots.planned_y[i]) ??
-    placeOf(robots.goal_x[i], robots.goal_y[i]) ??
-    to;
-  const off = { x: meant.x - to.x, y: meant.y - to.y };
-  if (!leg || Math.hypot(to.x - leg.to.x, to.y - leg.to.y) > JUMP_M)
-    return { from: to, to, changed_ms: now_ms, lasts_ms: 50, off };
-  const silent_ms = now_ms - leg.changed_ms;
-  if (to.x === leg.to.x && to.y === leg.to.y) return silent_ms > REPORT_MS ? { ...leg, off } : leg;
-  const lasts_ms = Math.max(50, Math.min(REPORT_MS, silent_ms));
-  return { from: placeOn(leg, now_ms, { x: 0, y: 0 }), to, changed_ms: now_ms, lasts_ms, off };
+/** Where a robot is drawn, for a moment. */
+const here: Point = { x: 0, y: 0 };
+
+function advance(legs: Legs, robots: Robots, i: number, now_ms: number) {
+  const { from, to, changed_ms, lasts_ms } = legs;
+  const [x, y] = [at(robots.x, i), at(robots.y, i)];
+  const silent_ms = now_ms - at(changed_ms, i);
+  if (x === to.x[i] && y === to.y[i]) {
+    if (silent_ms > REPORT_MS) noteError(legs, robots, i);
+    return;
+  }
+  const away_m = Math.hypot(x - at(to.x, i), y - at(to.y, i));
+  // Unknown until now, unknown from now on, or carried: it is there at once.
+  const jumps = !(away_m <= JUMP_M);
+  if (jumps) [here.x, here.y] = [x, y];
+  else placeOn(legs, i, now_ms, here);
+  [from.x[i], from.y[i]] = [here.x, here.y];
+  [to.x[i], to.y[i]] = [x, y];
+  changed_ms[i] = now_ms;
+  lasts_ms[i] = jumps ? LEAST_MS : Math.max(LEAST_MS, Math.min(REPORT_MS, silent_ms));
+  noteError(legs, robots, i);
+}
+
+/** How far it is from where its path, or else its pixel, wants it. */
+function noteError({ off }: Legs, robots: Robots, i: number) {
+  const onPath = !Number.isNaN(robots.planned_x[i]);
+  const meantX = at(onPath ? robots.planned_x : robots.goal_x, i);
+  const meantY = at(onPath ? robots.planned_y : robots.goal_y, i);
+  off.x[i] = Number.isNaN(meantX) ? 0 : meantX - at(robots.x, i);
+  off.y[i] = Number.isNaN(meantY) ? 0 : meantY - at(robots.y, i);
 }

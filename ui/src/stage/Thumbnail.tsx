@@ -1,9 +1,11 @@
 import { memo, useEffect, useRef } from 'react';
 import type { Frame, Stage } from '../model/show';
 import { fit } from './camera';
+import { createCrowd, CROWD } from './crowd';
 import { createSprites } from './sprites';
 
 const sprites = createSprites();
+const crowd = createCrowd();
 /** Side of a thumbnail, device pixels: twice what it is shown at. */
 const SIDE = 176;
 
@@ -25,6 +27,13 @@ function paint(context: CanvasRenderingContext2D, frame: Frame, stage: Stage) {
   context.fillStyle = '#0a0c11';
   context.fillRect(0, 0, SIDE, SIDE);
   const radius = Math.max(1.5, stage.radius_m * 1.25 * camera.scale);
+  if (frame.pixels.length >= CROWD) {
+    const picture = context.getImageData(0, 0, SIDE, SIDE);
+    const dots = frame.pixels.map((pixel) => ({ ...pixel, alpha: 1 }));
+    crowd.addLights(picture, dots, radius, camera, 1);
+    context.putImageData(picture, 0, 0);
+    return;
+  }
   context.fillStyle = '#2d3543';
   for (const pixel of frame.pixels) {
     const [x, y] = [SIDE / 2 + pixel.x * camera.scale, SIDE / 2 - pixel.y * camera.scale];

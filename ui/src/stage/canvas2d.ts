@@ -1,7 +1,8 @@
 import { canvasFromStage, type Camera } from './camera';
 import { createFloorLayer, type FloorPicture } from './floorLayer';
 import type { Dot, Scene } from './scene';
-import { createCrowd } from './crowd';
+import { createCrowd, CROWD } from './crowd';
+import { addLines } from './lines';
 import { createSprites, isOff } from './sprites';
 
 /** Draws scenes. Canvas2D is the only one there is; another (WebGL) would stand behind the same two calls. */
@@ -10,15 +11,12 @@ export interface StageRenderer {
   draw(scene: Scene, camera: Camera): void;
 }
 
-/** From so many lights on they are added up in numbers: sprites of many colours cost more. */
-const CROWD = 400;
-
 export function createCanvas2d(element: HTMLCanvasElement): StageRenderer {
   const context = element.getContext('2d', { alpha: false });
   if (!context) throw new Error('This browser cannot draw: it gives no 2D canvas.');
   const sprites = createSprites();
-  const floor = createFloorLayer(sprites);
   const crowd = createCrowd();
+  const floor = createFloorLayer(crowd);
   let frame: ImageData | null = null;
   let density = 1;
 
@@ -60,24 +58,15 @@ export function createCanvas2d(element: HTMLCanvasElement): StageRenderer {
     context.globalCompositeOperation = 'source-over';
   };
 
-  const drawMany = (
-    dots: readonly Dot[],
-    radius_px: number,
-    camera: Camera,
-    picture: FloorPicture,
-  ) => {
+  const drawMany = (scene: Scene, radius_px: number, camera: Camera, { pixels }: FloorPicture) => {
     const { width, height } = element;
     if (frame?.width !== width || frame.height !== height) frame = new ImageData(width, height);
-    frame.data.set(picture.pixels());
-    crowd.add(frame, dots, radius_px, camera, density);
+    frame.data.set(pixels.data);
+    const dark = scene.filled.filter((dot) => isOff(dot.color));
+    crowd.layBodies(frame, dark, radius_px, camera, density);
+    crowd.addLights(frame, scene.filled, radius_px, camera, density);
+    addLines(frame, scene.errors, camera, density);
     context.putImageData(frame, 0, 0);
-    const body = sprites.body(radius_px);
-    copy(
-      dots,
-      camera,
-      (dot) => (isOff(dot.color) ? body : null),
-      (dot) => 0.35 + 0.65 * dot.alpha,
-    );
   };
 
   return {
@@ -90,13 +79,13 @@ export function createCanvas2d(element: HTMLCanvasElement): StageRenderer {
       context.setTransform(1, 0, 0, 1, 0, 0);
       const picture = floor.of(scene, camera, element, density);
       const radius_px = Math.max(1.2, scene.radius_m * camera.scale) * density;
-      if (scene.filled.length >= CROWD) drawMany(scene.filled, radius_px, camera, picture);
+      if (scene.filled.length >= CROWD) drawMany(scene, radius_px, camera, picture);
       else {
-        context.drawImage(picture.canvas, 0, 0);
+        context.drawImage(picture.canvas(), 0, 0);
         drawFew(scene.filled, radius_px, camera);
       }
       context.setTransform(density, 0, 0, density, 0, 0);
-      drawErrors(context, scene, camera);
+      if (scene.filled.length < CROWD) drawErrors(context, scene, camera);
       scene.overlay?.(context, camera);
     },
   };

@@ -1,11 +1,12 @@
 import { expect, test } from 'vitest';
 import { createCrowd } from './crowd';
+import { addLines } from './lines';
 import type { Dot } from './scene';
 
 const camera = { scale: 10, originX_px: 20, originY_px: 20 };
 const draw = (dots: Dot[], side = 40) => {
   const pixels = { data: new Uint8ClampedArray(side * side * 4), width: side, height: side };
-  createCrowd().add(pixels, dots, 4, camera, 1);
+  createCrowd().addLights(pixels, dots, 4, camera, 1);
   return (x: number, y: number) => [
     ...pixels.data.subarray((y * side + x) * 4, (y * side + x) * 4 + 3),
   ];
@@ -36,4 +37,73 @@ test('what moves a quarter of a pixel is drawn elsewhere; what leaves the pictur
   const at = draw([dot(-2, 2, 0xffffff), dot(9, 9, 0xffffff), dot(-9, -9, 0xffffff)]);
   expect(at(0, 0)[0]).toBe(255);
   expect(at(39, 1)).toEqual([0, 0, 0]);
+});
+
+const rings = (dots: Dot[], floor: number, radius_px = 8) => {
+  const side = 40;
+  const data = new Uint8ClampedArray(side * side * 4).fill(floor);
+  createCrowd().layRings({ data, width: side, height: side }, dots, radius_px, camera, 1);
+  return (x: number, y: number) => [...data.subarray((y * side + x) * 4, (y * side + x) * 4 + 3)];
+};
+
+test('a ring covers what is under its line and nothing inside or outside', () => {
+  const at = rings([dot(0, 0, 0x00ff00)], 100);
+  const [line, inside, outside] = [at(28, 20), at(20, 20), at(34, 20)];
+  expect(line[1]).toBeGreaterThan(150);
+  expect(line[0]).toBeLessThan(70);
+  expect([inside, outside]).toEqual([
+    [100, 100, 100],
+    [100, 100, 100],
+  ]);
+});
+
+test('a ring of a light that is off can be seen; a faint one hardly', () => {
+  expect(rings([dot(0, 0, 0)], 0)(28, 20)[2]).toBeGreaterThan(60);
+  const faint = rings([dot(0, 0, 0xffffff, 0.1)], 0)(28, 20)[0] ?? 0;
+  expect(faint).toBeGreaterThan(5);
+  expect(faint).toBeLessThan(30);
+});
+
+test('a line is dashed from one end to the other, and what leaves the picture is cut off', () => {
+  const [side, data] = [40, new Uint8ClampedArray(40 * 40 * 4)];
+  const pixels = { data, width: side, height: side };
+  addLines(
+    pixels,
+    [
+      [
+        { x: -1, y: 0 },
+        { x: 1, y: 0 },
+      ],
+    ],
+    camera,
+    1,
+  );
+  addLines(
+    pixels,
+    [
+      [
+        { x: 0, y: -1 },
+        { x: 9e9, y: -1 },
+      ],
+    ],
+    camera,
+    1,
+  );
+  const row = (y: number) =>
+    Array.from({ length: side }, (_, x) => (data[(y * side + x) * 4] ? 1 : 0));
+  expect(row(20).join('')).toBe('0000000000111000111000111000111000000000');
+  expect(row(30).join('')).toBe('0000000000000000000011100011100011100011');
+  expect(row(19).includes(1)).toBe(false);
+});
+
+test('a robot whose light is off is a dark disc with a rim, over what is below', () => {
+  const side = 40;
+  const data = new Uint8ClampedArray(side * side * 4).fill(255);
+  createCrowd().layBodies({ data, width: side, height: side }, [dot(0, 0, 0)], 8, camera, 1);
+  const at = (x: number) => data[(20 * side + x) * 4] ?? 0;
+  const [middle, rim, outside] = [at(20), at(27), at(31)];
+  expect(middle).toBe(0x1b);
+  expect(rim).toBeGreaterThan(middle + 40);
+  expect(rim).toBeLessThan(150);
+  expect(outside).toBe(255);
 });

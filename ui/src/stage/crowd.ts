@@ -1,110 +1,112 @@
 import { blue, green, luma, red } from '../base/colour';
 import type { Camera } from './camera';
-import type { Dot } from './scene';
 import { CORE_ALPHA, CORE_RADII, GLOW_RADII, glowAlpha } from './glow';
+import type { Dot } from './scene';
+import { createStamps, type Ink, type Pixels, type Round, type Stamps } from './stamps';
 
-/** Places within a pixel that have a stamp of their own, along each axis: what moves slowly still moves smoothly. */
-const PHASES = 4;
+/** From so many lights on they are added up in numbers: sprites of many colours cost more. */
+export const CROWD = 400;
 
-/** A light in numbers: how much of its colour and of white each pixel around it gets, 0 to 255. */
-interface Stamp {
-  side: number;
-  glow: Uint8Array;
-  core: Uint8Array;
-  /** First column of every row that gets any, and the one after its last. */
-  from: Uint16Array;
-  until: Uint16Array;
-}
+/** A line of a ring is so thick, of its radius; between one and two CSS pixels. */
+const LINE_RADII = 0.16;
 
-/** Pixels of a picture, RGBA, rows from the top. */
-export interface Pixels {
-  data: Uint8ClampedArray;
-  width: number;
-  height: number;
-}
+/** Presses something at every dot of a picture. */
+type Painter = (
+  pixels: Pixels,
+  dots: readonly Dot[],
+  radius_px: number,
+  camera: Camera,
+  density: number,
+) => void;
 
 /**
- * Adds lights to a picture one by one, in plain numbers. For crowds: no sprite for each of a thousand colours that fade,
- * and as quick without a graphics card as with one.
+ * Lights, the robots under those that are off, and rings, in plain numbers. For crowds: no sprite for each of a thousand
+ * colours that fade, and as quick without a graphics card as with one.
  */
 export interface Crowd {
-  add(
-    pixels: Pixels,
-    dots: readonly Dot[],
-    radius_px: number,
-    camera: Camera,
-    density: number,
-  ): void;
+  addLights: Painter;
+  layBodies: Painter;
+  layRings: Painter;
 }
 
 export function createCrowd(): Crowd {
-  let stamps: (Stamp | undefined)[] = [];
-  let made_px = 0;
-
-  const stampAt = (x: number, y: number, radius_px: number): Stamp => {
-    const [px, py] = [
-      Math.floor((x - Math.floor(x)) * PHASES),
-      Math.floor((y - Math.floor(y)) * PHASES),
-    ];
-    return (stamps[py * PHASES + px] ??= makeStamp(
-      radius_px,
-      (px + 0.5) / PHASES,
-      (py + 0.5) / PHASES,
-    ));
-  };
-
   return {
-    add(pixels, dots, radius_px, camera, density) {
-      if (radius_px !== made_px) [stamps, made_px] = [[], radius_px];
-      for (const dot of dots) {
-        const x = (camera.originX_px + dot.x * camera.scale) * density;
-        const y = (camera.originY_px - dot.y * camera.scale) * density;
-        addLight(pixels, stampAt(x, y, radius_px), Math.floor(x), Math.floor(y), dot);
-      }
-    },
+    addLights: painter((radius_px) => createStamps(lightOf(radius_px), lightInk)),
+    layBodies: painter((radius_px) => createStamps(bodyOf(radius_px), bodyInk)),
+    layRings: painter((radius_px, density) => {
+      const line_px = Math.max(density, Math.min(2 * density, radius_px * LINE_RADII));
+      return createStamps(ringOf(radius_px, line_px), ringInk);
+    }),
   };
 }
 
-function makeStamp(radius_px: number, offX: number, offY: number): Stamp {
-  const reach = Math.ceil(radius_px * GLOW_RADII);
-  const side = 2 * reach + 1;
-  const [glow, core] = [new Uint8Array(side * side), new Uint8Array(side * side)];
-  const [from, until] = [new Uint16Array(side).fill(side), new Uint16Array(side)];
-  for (let row = 0; row < side; row++)
-    for (let column = 0; column < side; column++) {
-      const away = Math.hypot(column + 0.5 - reach - offX, row + 0.5 - reach - offY) / radius_px;
-      const i = row * side + column;
-      glow[i] = Math.round(255 * glowAlpha(away));
-      core[i] = Math.round(255 * CORE_ALPHA * Math.max(0, 1 - away / CORE_RADII));
-      if (glow[i] === 0) continue;
-      from[row] = Math.min(from[row] ?? 0, column);
-      until[row] = column + 1;
-    }
-  return { side, glow, core, from, until };
+function painter(make: (radius_px: number, density: number) => Stamps): Painter {
+  const stamps = remembered(make);
+  return (pixels, dots, radius_px, camera, density) =>
+    stamps(radius_px, density).press(pixels, dots, camera, density);
 }
 
-function addLight({ data, width, height }: Pixels, stamp: Stamp, x: number, y: number, dot: Dot) {
-  const { side, glow, core, from, until } = stamp;
-  const reach = (side - 1) / 2;
-  const [left, top] = [x - reach, y - reach];
-  const strength = dot.alpha / 255;
-  const [r, g, b] = [
-    red(dot.color) * strength,
-    green(dot.color) * strength,
-    blue(dot.color) * strength,
-  ];
-  const white = 255 * Math.min(1, 0.25 + luma(dot.color)) * strength;
-  for (let row = Math.max(0, -top); row < side && top + row < height; row++) {
-    const first = Math.max(from[row] ?? 0, -left);
-    const end = Math.min(until[row] ?? 0, width - left);
-    let at = ((top + row) * width + left + first) * 4;
-    for (let k = row * side + first; k < row * side + end; k++, at += 4) {
-      const light = glow[k] as number;
-      const shine = (core[k] as number) * white;
-      // The array itself keeps sums below 256.
-      data[at] = (data[at] as number) + light * r + shine;
-      data[at + 1] = (data[at + 1] as number) + light * g + shine;
-      data[at + 2] = (data[at + 2] as number) + light * b + shine;
-    }
-  }
+/** The same thing for the same size as last time. */
+function remembered<T>(make: (radius_px: number, density: number) => T) {
+  let last: { radius_px: number; density: number; made: T } | null = null;
+  return (radius_px: number, density: number): T => {
+    if (last?.radius_px !== radius_px || last.density !== density)
+      last = { radius_px, density, made: make(radius_px, density) };
+    return last.made;
+  };
 }
+
+const lightOf = (radius_px: number): Round => ({
+  reach_px: radius_px * GLOW_RADII,
+  bodyAt: (away_px) => glowAlpha(away_px / radius_px),
+  shineAt: (away_px) => CORE_ALPHA * Math.max(0, 1 - away_px / radius_px / CORE_RADII),
+});
+
+function lightInk({ color, alpha }: Dot, ink: Ink) {
+  ink.r = red(color) * alpha;
+  ink.g = green(color) * alpha;
+  ink.b = blue(color) * alpha;
+  ink.white = 255 * Math.min(1, 0.25 + luma(color)) * alpha;
+}
+
+/** A disc with a brighter rim; edges are soft. */
+const bodyOf = (radius_px: number): Round => {
+  const rim_px = Math.max(1, radius_px * 0.12);
+  const cover = (away_px: number, at_px: number) => Math.max(0, Math.min(1, at_px + 0.5 - away_px));
+  return {
+    reach_px: radius_px + 1,
+    bodyAt: (away_px) => cover(away_px, radius_px),
+    shineAt: (away_px) => cover(away_px, radius_px) - cover(away_px, radius_px - rim_px),
+  };
+};
+
+function bodyInk({ alpha }: Dot, ink: Ink) {
+  ink.covers = 0.35 + 0.65 * alpha;
+  ink.r = red(BODY) * ink.covers;
+  ink.g = green(BODY) * ink.covers;
+  ink.b = blue(BODY) * ink.covers;
+  ink.white = RIM * ink.covers;
+}
+
+/** Colour of a robot whose light is off, and how much brighter its rim is. */
+const BODY = 0x1b2029;
+const RIM = 70;
+
+/** A line with soft edges. */
+const ringOf = (radius_px: number, line_px: number): Round => ({
+  reach_px: radius_px + line_px / 2 + 1,
+  bodyAt: (away_px) => Math.max(0, Math.min(1, line_px / 2 + 0.5 - Math.abs(away_px - radius_px))),
+  shineAt: () => 0,
+});
+
+function ringInk(dot: Dot, ink: Ink) {
+  ink.covers = RING_ALPHA * dot.alpha;
+  const color = dot.color === 0 ? OFF : dot.color;
+  ink.r = red(color) * ink.covers;
+  ink.g = green(color) * ink.covers;
+  ink.b = blue(color) * ink.covers;
+}
+
+const RING_ALPHA = 0.7;
+/** Colour of a ring whose light is off. */
+const OFF = 0x7d889c;

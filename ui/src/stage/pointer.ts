@@ -11,9 +11,9 @@ export interface Hand {
 }
 
 /** A finger held still for so long means Shift, milliseconds. */
-const LONG_MS = 450;
+export const LONG_MS = 450;
 /** A finger that stays within this is held still, CSS pixels. */
-const STILL_PX = 8;
+export const STILL_PX = 8;
 
 /** Where on the canvas a pointer is, CSS pixels. */
 function placeOn(canvas: HTMLCanvasElement, event: PointerEvent): Point {

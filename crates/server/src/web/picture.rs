@@ -2,6 +2,7 @@
 
 use std::time::Duration;
 
+use axum::body::Bytes;
 use axum::extract::ws::Utf8Bytes;
 use lightbots_api as api;
 use lightbots_base::{RobotId, Vec2};
@@ -21,8 +22,17 @@ const EVERY: Duration = Duration::from_millis(50);
 /// The newest state and fleet table, ready to send. A screen that is slow skips some. Clones share it.
 #[derive(Clone, Debug)]
 pub struct Pictures {
-    states: watch::Sender<Utf8Bytes>,
+    states: watch::Sender<Picture>,
     fleets: watch::Sender<Utf8Bytes>,
+}
+
+/// Two messages that belong together.
+#[derive(Clone, Debug, Default)]
+pub struct Picture {
+    /// [`api::Robots`].
+    pub robots: Bytes,
+    /// [`api::ToScreen::State`].
+    pub state: Utf8Bytes,
 }
 
 /// What the next picture is made from besides the snapshot.
@@ -40,14 +50,11 @@ struct Painter {
 impl Pictures {
     /// No picture yet.
     pub fn new() -> Self {
-        Self {
-            states: watch::channel(Utf8Bytes::default()).0,
-            fleets: watch::channel(Utf8Bytes::default()).0,
-        }
+        Self { states: watch::channel(Picture::default()).0, fleets: watch::channel(Utf8Bytes::default()).0 }
     }
 
-    /// States from now on.
-    pub fn states(&self) -> watch::Receiver<Utf8Bytes> {
+    /// Pictures from now on.
+    pub fn states(&self) -> watch::Receiver<Picture> {
         self.states.subscribe()
     }
 
@@ -101,7 +108,8 @@ impl Pictures {
             let fleet = api::Fleet { revision: painter.revision, rows };
             self.fleets.send_replace(text(&api::ToScreen::Fleet(fleet)));
         }
-        self.states.send_replace(text(&api::ToScreen::State(painter.state(snapshot))));
+        let state = text(&api::ToScreen::State(painter.state(snapshot)));
+        self.states.send_replace(Picture { robots: robots(snapshot).to_bytes().into(), state });
     }
 }
 
@@ -118,7 +126,6 @@ impl Painter {
                 reason: self.link.reason.clone(),
             },
             playback: self.playback(snapshot),
-            robots: robots(snapshot),
         }
     }
 
@@ -175,18 +182,20 @@ fn phase(state: State) -> api::Phase {
 
 fn robots(snapshot: &Snapshot) -> api::Robots {
     let robots = &snapshot.robots;
-    let x = |place: Option<Vec2>| place.map(|at| rounded(at.x, 4));
-    let y = |place: Option<Vec2>| place.map(|at| rounded(at.y, 4));
+    let metres = |number: Option<f64>| number.map_or(f32::NAN, |metres| rounded(metres, 4) as f32);
+    let along = |place: fn(&RobotView) -> Option<Vec2>, axis: fn(Vec2) -> f64| {
+        robots.iter().map(|robot| metres(place(robot).map(axis))).collect()
+    };
+    let (x, y) = (|at: Vec2| at.x, |at: Vec2| at.y);
     api::Robots {
-        x: robots.iter().map(|robot| x(robot.at)).collect(),
-        y: robots.iter().map(|robot| y(robot.at)).collect(),
-        heading: robots.iter().map(|robot| robot.heading.map(|angle| rounded(angle, 3))).collect(),
+        x: along(|robot| robot.at, x),
+        y: along(|robot| robot.at, y),
+        planned_x: along(|robot| robot.planned, x),
+        planned_y: along(|robot| robot.planned, y),
+        goal_x: along(|robot| robot.goal, x),
+        goal_y: along(|robot| robot.goal, y),
         colour: robots.iter().map(colour).collect(),
         status: robots.iter().map(|robot| status(robot) as u8).collect(),
-        planned_x: robots.iter().map(|robot| x(robot.planned)).collect(),
-        planned_y: robots.iter().map(|robot| y(robot.planned)).collect(),
-        goal_x: robots.iter().map(|robot| x(robot.goal)).collect(),
-        goal_y: robots.iter().map(|robot| y(robot.goal)).collect(),
     }
 }
 

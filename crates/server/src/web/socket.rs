@@ -10,18 +10,21 @@ use axum::response::Response;
 use lightbots_api::{FromScreen, Hello, ToScreen};
 use tokio::sync::broadcast::error::RecvError;
 
+use super::picture::Picture;
 use super::{Shared, operate};
 use crate::plan_document;
 
 /// A screen that does not take a message for so long is dropped: it will come back.
-const PATIENCE: Duration = Duration::from_secs(5);
+const PATIENCE: Duration = Duration::from_secs(20);
+/// A screen that has so many pictures before it gets no more: one is on its way while it deals with another.
+const AHEAD: usize = 2;
 /// The longest message of a screen.
 const LONGEST: usize = 64 << 10;
 
 /// `/ws`
 pub async fn open(State(shared): State<Arc<Shared>>, upgrade: WebSocketUpgrade) -> Response {
     upgrade.max_message_size(LONGEST).max_frame_size(LONGEST).on_upgrade(move |socket| async move {
-        let mut screen = Screen { socket, shared };
+        let mut screen = Screen { socket, shared, ahead: 0 };
         // A screen that left is nothing to report.
         let _ = screen.serve().await;
     })
@@ -39,6 +42,8 @@ struct Gone;
 struct Screen {
     socket: WebSocket,
     shared: Arc<Shared>,
+    /// Pictures it has got and not dealt with.
+    ahead: usize,
 }
 
 impl Screen {
@@ -67,7 +72,7 @@ impl Screen {
                     let summary = plan_document::summary(&plan.borrow_and_update());
                     self.send(text(&ToScreen::Plan(summary))).await?;
                 }
-                Ok(()) = fleets.changed() => {
+                Ok(()) = fleets.changed(), if self.ahead < AHEAD => {
                     let message = fleets.borrow_and_update().clone();
                     self.send(message).await?;
                 }
@@ -76,9 +81,9 @@ impl Screen {
                     Err(RecvError::Lagged(_)) => {}
                     Err(RecvError::Closed) => return Err(Gone),
                 },
-                Ok(()) = states.changed() => {
-                    let message = states.borrow_and_update().clone();
-                    self.send(message).await?;
+                Ok(()) = states.changed(), if self.ahead < AHEAD => {
+                    let picture = states.borrow_and_update().clone();
+                    self.show(picture).await?;
                 }
             }
         }
@@ -98,16 +103,34 @@ impl Screen {
             Some(Ok(Message::Ping(_) | Message::Pong(_))) => return Ok(()),
             _ => return Err(Gone),
         };
-        let FromScreen::Operate(request) = serde_json::from_str(&message).map_err(|error| {
+        let wish = serde_json::from_str(&message).map_err(|error| {
             tracing::debug!("a screen sent what is no message: {error}");
             Gone
         })?;
-        let answer = operate::operate(&self.shared, request).await;
-        self.send(text(&ToScreen::Answer(answer))).await
+        match wish {
+            FromScreen::Operate(request) => {
+                let answer = operate::operate(&self.shared, request).await;
+                self.send(text(&ToScreen::Answer(answer))).await
+            }
+            FromScreen::Took => {
+                self.ahead = self.ahead.saturating_sub(1);
+                Ok(())
+            }
+        }
+    }
+
+    async fn show(&mut self, picture: Picture) -> Result<(), Gone> {
+        self.ahead += 1;
+        self.give(Message::Binary(picture.robots)).await?;
+        self.send(picture.state).await
     }
 
     async fn send(&mut self, message: Utf8Bytes) -> Result<(), Gone> {
-        match tokio::time::timeout(PATIENCE, self.socket.send(Message::Text(message))).await {
+        self.give(Message::Text(message)).await
+    }
+
+    async fn give(&mut self, message: Message) -> Result<(), Gone> {
+        match tokio::time::timeout(PATIENCE, self.socket.send(message)).await {
             Ok(Ok(())) => Ok(()),
             _ => Err(Gone),
         }

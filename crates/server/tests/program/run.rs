@@ -75,7 +75,7 @@ fn abort_stops_everybody_and_the_next_run_begins_from_there() {
     screen.must(json!({"do": "abort"}));
     screen.wait_for_robots(4);
     screen.until("robots that stand", |screen| {
-        let states = screen.get("state")["robots"]["status"].as_array().cloned().unwrap_or_default();
+        let states = screen.get("robots")["status"].as_array().cloned().unwrap_or_default();
         (states.len() == 4 && states.iter().all(|state| *state == 0)).then_some(())
     });
     assert!(screen.places().iter().all(|(_, y)| *y > -1.2), "{:?}", screen.places());

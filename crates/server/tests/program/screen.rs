@@ -9,6 +9,16 @@ use tungstenite::{Message, WebSocket};
 
 use crate::DEADLINE;
 
+/// The robots of a binary message as JSON; null where something is not known.
+fn robots(bytes: &[u8]) -> Value {
+    let robots = lightbots_api::Robots::from_bytes(bytes).expect("a binary message that is not the robots");
+    let (planned_x, planned_y) = (robots.planned_x, robots.planned_y);
+    json!({
+        "x": robots.x, "y": robots.y, "planned_x": planned_x, "planned_y": planned_y,
+        "goal_x": robots.goal_x, "goal_y": robots.goal_y, "colour": robots.colour, "status": robots.status,
+    })
+}
+
 pub struct Screen {
     socket: WebSocket<TcpStream>,
     requests: u32,
@@ -63,6 +73,10 @@ impl Screen {
     fn read(&mut self) {
         let message = match self.socket.read() {
             Ok(Message::Text(text)) => serde_json::from_str::<Value>(&text).unwrap(),
+            Ok(Message::Binary(bytes)) => {
+                self.last.insert("robots".into(), robots(&bytes));
+                return;
+            }
             Ok(_) => return,
             Err(tungstenite::Error::Io(error))
                 if matches!(error.kind(), std::io::ErrorKind::WouldBlock | std::io::ErrorKind::TimedOut) =>
@@ -74,6 +88,9 @@ impl Screen {
         let kind = message["type"].as_str().unwrap().to_owned();
         if kind == "log" {
             self.log.push(message["text"].as_str().unwrap().to_owned());
+        }
+        if kind == "state" {
+            self.send_text(r#"{"type":"took"}"#);
         }
         self.last.insert(kind, message);
     }
@@ -127,7 +144,7 @@ impl Screen {
 
     /// Where robots are; empty until all of them are known.
     pub fn places(&self) -> Vec<(f64, f64)> {
-        let robots = &self.get("state")["robots"];
+        let robots = &self.get("robots");
         let list = |key: &str| {
             robots[key].as_array().map(|list| list.iter().map(Value::as_f64).collect::<Option<Vec<_>>>())
         };

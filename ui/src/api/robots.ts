@@ -1,0 +1,16 @@
+import { ROBOT_COLUMNS, type Robots } from './types.gen';
+
+/** Reads the binary message that says where robots are; `null` where it is something else. Nothing is copied. */
+export function readRobots(data: ArrayBuffer): Robots | null {
+  if (data.byteLength < 4) return null;
+  const count = new DataView(data).getUint32(0, true);
+  const size = ROBOT_COLUMNS.reduce((sum, [, Numbers]) => sum + Numbers.BYTES_PER_ELEMENT, 0);
+  if (data.byteLength !== 4 + count * size) return null;
+  const robots: Partial<Record<keyof Robots, ArrayLike<number>>> = {};
+  let at = 4;
+  for (const [name, Numbers] of ROBOT_COLUMNS) {
+    robots[name] = new Numbers(data, at, count);
+    at += count * Numbers.BYTES_PER_ELEMENT;
+  }
+  return robots as Robots;
+}

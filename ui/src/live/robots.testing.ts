@@ -1,0 +1,18 @@
+import { ROBOT_COLUMNS, type Robots } from '../api/types.gen';
+
+/** Robots for tests, from plain lists: those that are not given are unknown, lights red, all idle. */
+export function robotsOf(lists: Partial<Record<keyof Robots, number[]>>): Robots {
+  const count = Math.max(1, ...Object.values(lists).map((list) => list.length));
+  const otherwise: Partial<Record<keyof Robots, number>> = {
+    x: 0,
+    y: 0,
+    colour: 0xff0000,
+    status: 0,
+  };
+  return Object.fromEntries(
+    ROBOT_COLUMNS.map(([name, Numbers]) => [
+      name,
+      Numbers.from(lists[name] ?? Array<number>(count).fill(otherwise[name] ?? NaN)),
+    ]),
+  ) as unknown as Robots;
+}

@@ -1,0 +1,109 @@
+import type { Camera } from './camera';
+import type { Dot } from './scene';
+
+/** Places within a pixel that have a stamp of their own, along each axis: what moves slowly still moves smoothly. */
+const PHASES = 4;
+
+/** Pixels of a picture, RGBA, rows from the top. */
+export interface Pixels {
+  data: Uint8ClampedArray;
+  width: number;
+  height: number;
+}
+
+/** Something round in numbers: how much of it each pixel around its middle gets, 0 to 255. */
+interface Stamp {
+  side: number;
+  /** What is laid on in the ink's colour, rows from the top. */
+  body: Uint8Array;
+  /** What is added in white. */
+  shine: Uint8Array;
+  /** First column of every row in which there is anything, and the one after its last. */
+  from: Uint16Array;
+  until: Uint16Array;
+}
+
+/** What is round: how much body and shine it has so many pixels from its middle, 0 to 1; nothing beyond its reach. */
+export interface Round {
+  reach_px: number;
+  bodyAt(away_px: number): number;
+  shineAt(away_px: number): number;
+}
+
+/** How a stamp is pressed: numbers a component for a whole share. */
+export interface Ink {
+  r: number;
+  g: number;
+  b: number;
+  /** Added by the shine. */
+  white: number;
+  /** How much of what is below the body covers, 0 (it is added as light is) to 1. */
+  covers: number;
+}
+
+/** Presses a stamp at every dot, in the ink that each has. */
+export interface Stamps {
+  press(pixels: Pixels, dots: readonly Dot[], camera: Camera, density: number): void;
+}
+
+export function createStamps(round: Round, inkOf: (dot: Dot, ink: Ink) => void): Stamps {
+  const stamps: (Stamp | undefined)[] = [];
+  const ink: Ink = { r: 0, g: 0, b: 0, white: 0, covers: 0 };
+  const stampAt = (x: number, y: number) => {
+    const phaseX = Math.floor((x - Math.floor(x)) * PHASES);
+    const phaseY = Math.floor((y - Math.floor(y)) * PHASES);
+    const index = phaseY * PHASES + phaseX;
+    return (stamps[index] ??= makeStamp(round, (phaseX + 0.5) / PHASES, (phaseY + 0.5) / PHASES));
+  };
+  return {
+    press(pixels, dots, camera, density) {
+      for (const dot of dots) {
+        const x = (camera.originX_px + dot.x * camera.scale) * density;
+        const y = (camera.originY_px - dot.y * camera.scale) * density;
+        inkOf(dot, ink);
+        pressOne(pixels, stampAt(x, y), Math.floor(x), Math.floor(y), ink);
+      }
+    },
+  };
+}
+
+function makeStamp({ reach_px, bodyAt, shineAt }: Round, offX: number, offY: number): Stamp {
+  const reach = Math.ceil(reach_px);
+  const side = 2 * reach + 1;
+  const [body, shine] = [new Uint8Array(side * side), new Uint8Array(side * side)];
+  const [from, until] = [new Uint16Array(side).fill(side), new Uint16Array(side)];
+  for (let row = 0; row < side; row++)
+    for (let column = 0; column < side; column++) {
+      const away_px = Math.hypot(column + 0.5 - reach - offX, row + 0.5 - reach - offY);
+      const i = row * side + column;
+      body[i] = Math.round(255 * bodyAt(away_px));
+      shine[i] = Math.round(255 * shineAt(away_px));
+      if (body[i] === 0 && shine[i] === 0) continue;
+      from[row] = Math.min(from[row] ?? 0, column);
+      until[row] = column + 1;
+    }
+  return { side, body, shine, from, until };
+}
+
+/** The innermost loop of all. */
+function pressOne({ data, width, height }: Pixels, stamp: Stamp, x: number, y: number, ink: Ink) {
+  const { side, body, shine, from, until } = stamp;
+  const reach = (side - 1) / 2;
+  const [left, top] = [x - reach, y - reach];
+  const [r, g, b] = [ink.r / 255, ink.g / 255, ink.b / 255];
+  const [white, covers] = [ink.white / 255, ink.covers / 255];
+  for (let row = Math.max(0, -top); row < side && top + row < height; row++) {
+    const first = Math.max(from[row] ?? 0, -left);
+    const end = Math.min(until[row] ?? 0, width - left);
+    let at = ((top + row) * width + left + first) * 4;
+    for (let k = row * side + first; k < row * side + end; k++, at += 4) {
+      const share = body[k] as number;
+      const added = (shine[k] as number) * white;
+      const kept = 1 - share * covers;
+      // The array itself keeps sums below 256.
+      data[at] = (data[at] as number) * kept + share * r + added;
+      data[at + 1] = (data[at + 1] as number) * kept + share * g + added;
+      data[at + 2] = (data[at + 2] as number) * kept + share * b + added;
+    }
+  }
+}
