@@ -6,6 +6,7 @@ use crate::shell::{self, Outcome};
 use crate::{demo, tools};
 use serde_json::{Map, Value};
 use std::fmt::Write as _;
+use std::process::Command;
 
 const FILE: &str = "docs/benchmarks.md";
 
@@ -83,29 +84,52 @@ pub fn run(names: &[String]) -> Outcome {
         let known: Vec<_> = PARTS.iter().map(|part| part.name).collect();
         return Err(format!("there is no bench part '{unknown}'; there are {}", known.join(", ")));
     }
+    let mut failures = Vec::new();
     for part in PARTS.iter().filter(|part| names.is_empty() || names.iter().any(|name| name == part.name)) {
-        let section = measure(part)?;
-        println!("{section}");
-        keep(part, &section)?;
+        let measured = measure(part)?;
+        if let Some(section) = section(part, &measured)? {
+            println!("{section}");
+            keep(part, &section)?;
+        }
+        failures.extend(measured.failure.map(|failure| format!("{}: {failure}", part.name)));
     }
-    Ok(())
+    if failures.is_empty() { Ok(()) } else { Err(failures.join("; ")) }
 }
 
-fn measure(part: &Part) -> Outcome<String> {
+/// What a part printed, and what went wrong before or after.
+struct Measured {
+    rows: Vec<Map<String, Value>>,
+    failure: Option<String>,
+}
+
+fn measure(part: &Part) -> Outcome<Measured> {
     eprintln!("measuring {}", part.name);
-    let printed = match part.source {
-        Source::Example(package, example) => example_rows(part.name, package, example)?,
-        Source::Browser => browser_rows()?,
+    let mut command = match part.source {
+        Source::Example(package, example) => example_command(part.name, package, example)?,
+        Source::Browser => browser_command()?,
     };
-    let rows: Vec<Map<String, Value>> =
-        printed.lines().filter_map(|line| serde_json::from_str(line).ok()).collect();
-    if rows.is_empty() {
-        return Err(format!("the bench of {} printed no rows", part.name));
-    }
-    Ok(format!("## {}\n\n{}\n\n{}\n\n{}", part.title, part.about, machine()?, table(&rows)))
+    let (printed, failure) = shell::printed(&mut command)?;
+    Ok(Measured { rows: rows(&printed), failure })
 }
 
-fn example_rows(part: &str, package: &str, example: &str) -> Outcome<String> {
+fn rows(printed: &str) -> Vec<Map<String, Value>> {
+    printed.lines().filter_map(|line| serde_json::from_str(line).ok()).collect()
+}
+
+/// The part's section of the page; none where nothing was measured, so that what was there before stays.
+fn section(part: &Part, measured: &Measured) -> Outcome<Option<String>> {
+    if measured.rows.is_empty() {
+        return match &measured.failure {
+            Some(_) => Ok(None),
+            None => Err(format!("the bench of {} printed no rows", part.name)),
+        };
+    }
+    let incomplete = if measured.failure.is_some() { "\n\nNot all of it could be measured." } else { "" };
+    let rows = table(&measured.rows);
+    Ok(Some(format!("## {}\n\n{}\n\n{}{incomplete}\n\n{rows}", part.title, part.about, machine()?)))
+}
+
+fn example_command(part: &str, package: &str, example: &str) -> Outcome<Command> {
     let arguments =
         ["run", "--quiet", "--release", "--package", package, "--example", example, "--", "--json"];
     let mut command = shell::command(".", &shell::cargo_program(), &arguments);
@@ -115,17 +139,18 @@ fn example_rows(part: &str, package: &str, example: &str) -> Outcome<String> {
     if part == "round" {
         command.env("LIGHTBOTS_MOSQUITTO", tools::MOSQUITTO.provide()?);
     }
-    shell::output(&mut command)
+    Ok(command)
 }
 
-fn browser_rows() -> Outcome<String> {
+fn browser_command() -> Outcome<Command> {
     let chromium = tools::CHROMIUM.provide()?;
     demo::install_packages()?;
     demo::build_screen()?;
     build_server()?;
     let program = shell::program("release");
     let mut command = shell::command("ui", demo::NPM, &["run", "--silent", "fps"]);
-    shell::output(command.env("LIGHTBOTS_BIN", program).env("CHROMIUM", chromium))
+    command.env("LIGHTBOTS_BIN", program).env("CHROMIUM", chromium);
+    Ok(command)
 }
 
 fn build_server() -> Outcome {
@@ -237,6 +262,19 @@ mod tests {
         assert_eq!(date(0), "1970-01-01");
         assert_eq!(date(1_795_305_600), "2026-11-22");
         assert_eq!(date(951_782_400), "2000-02-29");
+    }
+
+    #[test]
+    fn what_was_measured_before_a_failure_is_kept() {
+        let measured = |printed: &str, failure: Option<&str>| {
+            let measured = Measured { rows: rows(printed), failure: failure.map(str::to_owned) };
+            section(&PARTS[0], &measured)
+        };
+        let half = measured("some words\n{\"robots\":30}\nand more", Some("it broke")).unwrap().unwrap();
+        assert!(half.contains("| 30 |") && half.contains("Not all of it could be measured."), "{half}");
+        assert!(!measured("{\"robots\":30}", None).unwrap().unwrap().contains("Not all"));
+        assert_eq!(measured("nothing", Some("it broke")), Ok(None));
+        assert!(measured("nothing", None).is_err());
     }
 
     #[test]

@@ -29,15 +29,21 @@ pub fn run(command: &mut Command) -> Outcome {
 
 /// Runs it quietly and returns what it prints to stdout.
 pub fn output(command: &mut Command) -> Outcome<String> {
+    match printed(command)? {
+        (printed, None) => Ok(printed),
+        (_, Some(failure)) => Err(failure),
+    }
+}
+
+/// Runs it quietly and returns what it prints to stdout, and how it failed if it did so in the end.
+pub fn printed(command: &mut Command) -> Outcome<(String, Option<String>)> {
     let shown = shown(command);
     let output = command
         .stderr(Stdio::inherit())
         .output()
         .map_err(|error| format!("cannot start `{shown}`: {error}"))?;
-    if !output.status.success() {
-        return Err(format!("`{shown}` failed: {}", output.status));
-    }
-    Ok(String::from_utf8_lossy(&output.stdout).into_owned())
+    let failure = (!output.status.success()).then(|| format!("`{shown}` failed: {}", output.status));
+    Ok((String::from_utf8_lossy(&output.stdout).into_owned(), failure))
 }
 
 /// Runs cargo from the root.
