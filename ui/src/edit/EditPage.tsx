@@ -12,7 +12,6 @@ import { EditStage } from './EditStage';
 import { EditStrip } from './EditStrip';
 import { Inspector } from './Inspector';
 import { Tour } from './Tour';
-import { useSafeLeaving } from './useSafeLeaving';
 
 /** What this page edits; kept while the page lives, so that undo survives a look at the live view. */
 let kept: Editing | null = null;
@@ -21,16 +20,20 @@ let kept: Editing | null = null;
 export function EditPage() {
   const session = useSession();
   const opened = useStore(session.live.opened);
+  const restoring = useStore(session.restoring);
   const [editing, setEditing] = useState(kept);
   const last = useRef(kept);
   useEffect(() => {
-    if (!opened.show || opened.name === null || last.current?.name === opened.name) return;
+    const { name, show, etag } = opened;
+    if (!show || name === null) return;
+    const wanted = restoring?.name === name ? restoring.id : null;
+    if (last.current?.name === name && wanted === null) return;
     last.current?.retire();
-    kept = last.current = createEditing(session, opened.name, opened.show, opened.etag);
+    if (wanted !== null) session.restoring.set(null);
+    kept = last.current = createEditing(session, name, show, etag, wanted);
     session.editing.set(kept);
     setEditing(kept);
-  }, [session, opened]);
-  useSafeLeaving(editing);
+  }, [session, opened, restoring]);
   if (!editing)
     return (
       <main className="empty">
@@ -45,7 +48,7 @@ export function EditPage() {
     );
   return (
     <EditingContext value={editing}>
-      <main className="page" key={editing.name}>
+      <main className="page" key={editing.keeper.id}>
         <EditStage />
         <section className="bottom" aria-label="Frames and time">
           <EditBar />

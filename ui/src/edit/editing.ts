@@ -8,6 +8,7 @@ import type { Show } from '../model/show';
 import type { Session } from '../shell/session';
 import { createView, type View } from '../stage/view';
 import { createSaving, draftOf, restoreDraft } from './saving';
+import { watchLeaving } from './watchLeaving';
 
 export type ToolName = 'arrow' | 'lasso' | 'eyedropper' | 'area';
 
@@ -44,15 +45,17 @@ export interface Editing {
 
 const RECENT_MAX = 10;
 
+/** `wantedDraft`: which of the drafts that were left it begins with; otherwise the newest, if there is any. */
 export function createEditing(
   session: Session,
   name: string,
   show: Show,
   etag: string | null,
+  wantedDraft: string | null = null,
 ): Editing {
   const editor = createEditor(show, session.frame.get());
-  const draft = draftOf(session, name, show);
-  const { saver, keeper } = createSaving(session.drafts, name, draft ? draft.etag : etag, editor);
+  const draft = draftOf(session, name, show, wantedDraft);
+  const { saver, keeper } = createSaving(session.drafts, name, etag, editor, draft);
   const color = createStore<Rgb>(0xffc878);
   let { selection } = editor.state.get();
   const unfollow = editor.state.subscribe(() => {
@@ -83,10 +86,12 @@ export function createEditing(
       saver.flush();
       unfollow();
       stop();
+      keeper.leave();
     },
   };
-  if (draft) restoreDraft(name, editor, draft);
-  stop = followServer(session, editing);
+  if (draft) restoreDraft(session, editing, draft);
+  const stops = [followServer(session, editing), watchLeaving(editing)];
+  stop = () => stops.forEach((each) => each());
   return editing;
 }
 

@@ -1,5 +1,11 @@
 import { getShow, putShow, Refused } from '../api/http';
-import { createKeeper, type Draft, type Drafts, type Keeper } from '../model/drafts';
+import {
+  createKeeper,
+  type Draft,
+  type Drafts,
+  type Keeper,
+  type LeftDraft,
+} from '../model/drafts';
 import type { Editor } from '../model/editor';
 import { readShow, writeShow } from '../model/json';
 import { createSaver, type Saved, type Saver } from '../model/saver';
@@ -17,18 +23,20 @@ const textOf = (show: Show) => JSON.stringify(writeShow(show));
 /** The same text for the same show, whoever wrote the document. */
 const normal = (document: unknown) => textOf(readShow(document));
 
+/** `left`: what an earlier page left and this editor begins with. */
 export function createSaving(
   drafts: Drafts,
   name: string,
   etag: string | null,
   editor: Editor,
+  left: LeftDraft | null,
 ): Saving {
-  const saver = createSaver(etag, createPut(name, editor));
+  const saver = createSaver(left ? left.etag : etag, createPut(name, editor));
   const draft = (): Draft => ({
     etag: saver.etag(),
     document: writeShow(editor.state.get().show),
   });
-  const keeper = createKeeper(drafts, name, draft);
+  const keeper = createKeeper(drafts, name, draft, left?.id);
   let { changes } = editor.state.get();
   editor.state.subscribe(() => {
     const now = editor.state.get().changes;
@@ -53,7 +61,8 @@ function createPut(name: string, editor: Editor) {
   return async (base: string | null): Promise<Saved> => {
     const body = textOf(editor.state.get().show);
     try {
-      const { etag } = await putShow(name, body, base);
+      // What is based on nothing replaces nothing.
+      const { etag } = await putShow(name, body, base ?? 'new');
       sent = null;
       return { ok: true, etag };
     } catch (error) {
@@ -75,17 +84,30 @@ function createPut(name: string, editor: Editor) {
   };
 }
 
-/** What an earlier page could not save; `null` if the server has it after all. */
-export function draftOf(session: Session, name: string, show: Show): Draft | null {
-  session.orphans.update((names) => names.filter((n) => n !== name));
-  const draft = session.drafts.read(name);
-  if (!draft || normal(draft.document) !== textOf(show)) return draft;
-  session.drafts.drop(name);
-  return null;
+/** What an earlier page of this show could not save: the `wanted` one, or the newest; `null` if there is none. */
+export function draftOf(
+  session: Session,
+  name: string,
+  show: Show,
+  wanted: string | null,
+): LeftDraft | null {
+  const text = textOf(show);
+  const left = session.drafts.left().filter((draft) => draft.name === name);
+  const isSaved = (draft: LeftDraft) => normal(draft.document) === text;
+  for (const draft of left) if (isSaved(draft)) session.drafts.drop(draft.id);
+  const unsaved = left.filter((draft) => !isSaved(draft));
+  return unsaved.find((draft) => draft.id === wanted) ?? unsaved[0] ?? null;
 }
 
 /** Puts a draft back as a change. If somebody saved since it was made, saving finds the conflict. */
-export function restoreDraft(name: string, editor: Editor, draft: Draft) {
+export function restoreDraft(session: Session, { editor, keeper }: Restored, draft: LeftDraft) {
   editor.change('Restored changes', () => readShow(draft.document));
-  tell('good', `Your last changes of ${name} were kept in this browser and are back.`);
+  keeper.flush();
+  session.orphans.set(session.drafts.left());
+  tell('good', `Your last changes of ${draft.name} were kept in this browser and are back.`);
+}
+
+interface Restored {
+  editor: Editor;
+  keeper: Keeper;
 }

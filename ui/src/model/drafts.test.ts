@@ -22,50 +22,84 @@ function shelf(room = Infinity): Shelf & { things: Map<string, string> } {
   };
 }
 
-const ME = { tab: 'me', now_ms: () => 1000 };
+/** The drafts of a page; pages of one tab come one after another. */
+const drafts = (on: Shelf | null, tab = 'me', page = 'first', now_ms = 1000) =>
+  createDrafts(on, { tab, page, now_ms: () => now_ms });
+const NOTHING = { etag: null, document: {} };
 
 test('a draft is there until the server has it', async () => {
-  const drafts = createDrafts(shelf(), ME);
+  const common = shelf();
+  const left = () => drafts(common, 'me', 'next').left();
   let n = 0;
-  const keeper = createKeeper(drafts, 'A', () => ({ etag: '"1"', document: { n } }));
+  const keeper = createKeeper(drafts(common), 'A', () => ({ etag: '"1"', document: { n } }));
   for (n = 1; n <= 9; n++) {
     keeper.touch();
     await vi.advanceTimersByTimeAsync(100);
   }
-  expect(drafts.names()).toEqual(['A']);
-  const kept = drafts.read('A')?.document as { n: number };
-  expect(kept.n).toBeGreaterThanOrEqual(7);
+  expect(left()).toMatchObject([{ name: 'A' }]);
+  expect((left()[0]?.document as { n: number }).n).toBeGreaterThanOrEqual(7);
   keeper.touch();
   keeper.flush();
-  expect(drafts.read('A')).toEqual({ etag: '"1"', document: { n: 10 } });
+  expect(left()).toMatchObject([{ name: 'A', etag: '"1"', document: { n: 10 } }]);
   keeper.saved();
   await vi.advanceTimersByTimeAsync(1000);
-  expect(drafts.names()).toEqual([]);
+  expect(left()).toEqual([]);
 });
 
 test('what has no room is said, and no shelf or junk on it is no error', () => {
-  const keeper = createKeeper(createDrafts(shelf(5), ME), 'A', () => ({
-    etag: null,
-    document: {},
-  }));
+  const keeper = createKeeper(drafts(shelf(5)), 'A', () => NOTHING);
   keeper.touch();
   keeper.flush();
   expect(keeper.isEndangered()).toBe(true);
   keeper.saved();
   expect(keeper.isEndangered()).toBe(false);
-  expect(createDrafts(null, ME).names()).toEqual([]);
+  expect(drafts(null).left()).toEqual([]);
   const junk = shelf();
   junk.things.set('lightbots-draft:x', '{"docu');
+  junk.things.set('lightbots-draft:y', 'null');
   junk.things.set('other', '1');
-  expect(createDrafts(junk, ME).names()).toEqual([]);
-  expect(createDrafts(junk, ME).read('x')).toBeNull();
+  expect(drafts(junk).left()).toEqual([]);
 });
 
 test('a draft of another tab is its own until it has been left behind', () => {
   const common = shelf();
-  const at = (tab: string, now_ms: number) => createDrafts(common, { tab, now_ms: () => now_ms });
-  at('a', 1000).keep('A', { etag: null, document: {} });
-  expect([at('a', 1001).names(), at('b', 3000).names()]).toEqual([['A'], []]);
-  expect(at('b', 3000).read('A')).toBeNull();
-  expect(at('b', 9000).read('A')).toEqual({ etag: null, document: {} });
+  const mine = drafts(common, 'a', 'page 1');
+  const place = mine.place('A');
+  place.keep(NOTHING);
+  const names = (of = mine) => of.left().map((draft) => draft.name);
+  expect(names()).toEqual([]);
+  expect(names(drafts(common, 'a', 'page 2', 1001))).toEqual(['A']);
+  expect(names(drafts(common, 'b', 'page 3', 61_000))).toEqual([]);
+  expect(names(drafts(common, 'b', 'page 3', 90_000))).toEqual(['A']);
+  place.keep(NOTHING, true);
+  expect([names(), names(drafts(common, 'b', 'page 3', 1001))]).toEqual([['A'], ['A']]);
+});
+
+test('who begins with a draft that was left takes it over once it is kept again, and not before', () => {
+  const common = shelf();
+  drafts(common, 'a', 'page 1')
+    .place('A')
+    .keep({ etag: null, document: { long: 'changes' } }, true);
+  const begin = (on: Shelf) => {
+    const heir = drafts(on, 'a', 'page 2');
+    const [found] = heir.left();
+    const keeper = createKeeper(
+      heir,
+      'A',
+      () => ({ etag: null, document: found?.document }),
+      found?.id,
+    );
+    keeper.touch();
+    keeper.flush();
+    return heir.left().length;
+  };
+  expect(
+    begin({
+      ...common,
+      setItem: () => {
+        throw new Error('QuotaExceededError');
+      },
+    }),
+  ).toBe(1);
+  expect([begin(common), common.length]).toEqual([0, 1]);
 });

@@ -8,31 +8,58 @@ export interface Draft {
   document: unknown;
 }
 
-/** Drafts by the names of their shows, kept where they outlive the page. */
+/** A draft whose page is gone. */
+export interface LeftDraft extends Draft {
+  /** What `drop` takes. */
+  id: string;
+  /** Of which show. */
+  name: string;
+  /** When it was last written, milliseconds since 1970. */
+  at_ms: number;
+}
+
+/**
+ * Drafts, kept where they outlive the page. Every editor has a place of its own: two tabs that change one show never
+ * write over each other's drafts.
+ */
 export interface Drafts {
-  /** Whether there was room for it. */
-  keep(name: string, draft: Draft): boolean;
-  read(name: string): Draft | null;
-  drop(name: string): void;
-  names(): string[];
+  place(name: string): Place;
+  /** What pages that are gone left behind, newest first. */
+  left(): LeftDraft[];
+  drop(id: string): void;
+}
+
+/** Where the draft of one editor lies. */
+export interface Place {
+  id: string;
+  /** Whether there was room for it. `isLeft`: its page is going, others may have it. */
+  keep(draft: Draft, isLeft?: boolean): boolean;
+  drop(): void;
 }
 
 const PREFIX = 'lightbots-draft:';
-/** A draft of another tab that is younger is still that tab's own: it saves it itself, milliseconds. */
-const ALIVE_MS = 5000;
+/**
+ * A draft of another tab that is younger is still that tab's own: it saves it itself, milliseconds. Browsers let a
+ * hidden page do something once a minute.
+ */
+const ALIVE_MS = 80_000;
+/** What is unsaved is written again this often, so that others see that its page lives, milliseconds. */
+const BEAT_MS = 15_000;
 
 /** Who writes drafts, and when. */
 export interface Writer {
   /** Tells the tabs of a browser apart, and stays the same when one is loaded again. */
   tab: string;
+  /** Tells pages apart: never the same again. */
+  page: string;
   /** Milliseconds since 1970. */
   now_ms(): number;
 }
 
-type Written = Draft & { tab: string; at_ms: number };
+type Written = Draft & { name: string; tab: string; at_ms: number; isLeft: boolean };
 
 /** Drafts on a shelf; without one nothing is kept. A full or forbidden shelf is no error. */
-export function createDrafts(shelf: Shelf | null, { tab, now_ms }: Writer): Drafts {
+export function createDrafts(shelf: Shelf | null, { tab, page, now_ms }: Writer): Drafts {
   const attempt = <T>(act: (shelf: Shelf) => T, otherwise: T): T => {
     try {
       return shelf ? act(shelf) : otherwise;
@@ -40,32 +67,44 @@ export function createDrafts(shelf: Shelf | null, { tab, now_ms }: Writer): Draf
       return otherwise;
     }
   };
-  /** What is kept and has been left behind. */
-  const left = (s: Shelf, key: string): Written | null => {
-    const draft = JSON.parse(s.getItem(key) ?? 'null') as Written | null;
-    if (typeof draft?.document !== 'object') return null;
-    return draft.tab === tab || now_ms() - draft.at_ms > ALIVE_MS ? draft : null;
+  /** Places of this page whose editor still has its draft in hand. */
+  const held = new Set<string>();
+  let places = 0;
+  const isGone = (id: string, draft: Written) =>
+    !held.has(id) && (draft.isLeft || draft.tab === tab || now_ms() - draft.at_ms > ALIVE_MS);
+  const read = (s: Shelf, id: string): LeftDraft[] => {
+    const draft = JSON.parse(s.getItem(PREFIX + id) ?? 'null') as Written | null;
+    if (typeof draft?.document !== 'object' || !isGone(id, draft)) return [];
+    const { name, etag, document, at_ms } = draft;
+    return [{ id, name, etag, document, at_ms }];
   };
+  const drop = (id: string) => attempt((s) => s.removeItem(PREFIX + id), undefined);
   return {
-    keep: (name, draft) =>
-      attempt((s) => {
-        s.setItem(PREFIX + name, JSON.stringify({ ...draft, tab, at_ms: now_ms() }));
-        return true;
-      }, false),
-    read: (name) =>
-      attempt((s) => {
-        const draft = left(s, PREFIX + name);
-        return draft && { etag: draft.etag, document: draft.document };
-      }, null),
-    drop: (name) => attempt((s) => s.removeItem(PREFIX + name), undefined),
-    names: () =>
+    place(name) {
+      const id = `${page}-${++places}`;
+      return {
+        id,
+        keep(draft, isLeft = false) {
+          if (isLeft) held.delete(id);
+          else held.add(id);
+          return attempt((s) => {
+            const written: Written = { ...draft, name, tab, at_ms: now_ms(), isLeft };
+            s.setItem(PREFIX + id, JSON.stringify(written));
+            return true;
+          }, false);
+        },
+        drop: () => drop(id),
+      };
+    },
+    left: () =>
       attempt((s) => {
         const keys = Array.from({ length: s.length }, (_, i) => s.key(i) ?? '');
-        const mine = keys.filter((k) => k.startsWith(PREFIX));
-        return mine
-          .filter((key) => attempt((shelf) => left(shelf, key), null))
-          .map((key) => key.slice(PREFIX.length));
+        const ids = keys.filter((key) => key.startsWith(PREFIX));
+        return ids
+          .flatMap((key) => attempt((known) => read(known, key.slice(PREFIX.length)), []))
+          .sort((a, b) => b.at_ms - a.at_ms);
       }, []),
+    drop,
   };
 }
 
@@ -74,32 +113,71 @@ const EVERY_MS = 250;
 
 /** Keeps what is unsaved: a draft follows every change, and goes once the server has it. */
 export interface Keeper {
+  /** Tells editors of this page apart. */
+  id: string;
+  /** Whether that key of the shelf is its draft's. */
+  isKeptAs(key: string): boolean;
   touch(): void;
   /** Writes now what would be written soon. */
   flush(): void;
+  /** The editor goes: its draft is for whoever comes next. */
+  leave(): void;
+  /** The page came back, or somebody took the draft away: what is unsaved is written again. */
+  hold(): void;
   /** The server has everything. */
   saved(): void;
   /** Whether a change is unsaved that the shelf had no room for. */
   isEndangered(): boolean;
 }
 
-export function createKeeper(drafts: Drafts, name: string, draft: () => Draft): Keeper {
+/** `heirOf`: a draft that was left and is what this editor begins with; it goes once it is kept here or saved. */
+export function createKeeper(
+  drafts: Drafts,
+  name: string,
+  draft: () => Draft,
+  heirOf?: string,
+): Keeper {
+  const place = drafts.place(name);
   let timer: ReturnType<typeof setTimeout> | undefined;
-  let endangered = false;
-  const write = () => {
+  let beat: ReturnType<typeof setInterval> | undefined;
+  let [isUnsaved, isEndangered] = [false, false];
+  const write = (isLeft = false) => {
     clearTimeout(timer);
     timer = undefined;
-    endangered = !drafts.keep(name, draft());
+    isEndangered = !place.keep(draft(), isLeft);
+    if (!isEndangered && heirOf !== undefined) drafts.drop(heirOf);
+  };
+  const rest = () => {
+    clearTimeout(timer);
+    clearInterval(beat);
+    timer = beat = undefined;
   };
   return {
-    touch: () => void (timer ??= setTimeout(write, EVERY_MS)),
-    flush: () => (timer === undefined ? undefined : write()),
-    saved() {
-      clearTimeout(timer);
-      timer = undefined;
-      endangered = false;
-      drafts.drop(name);
+    id: place.id,
+    isKeptAs: (key) => key === PREFIX + place.id,
+    touch() {
+      isUnsaved = true;
+      beat ??= setInterval(write, BEAT_MS);
+      timer ??= setTimeout(write, EVERY_MS);
     },
-    isEndangered: () => endangered,
+    flush() {
+      if (timer !== undefined) write();
+    },
+    leave() {
+      if (isUnsaved) write(true);
+      rest();
+    },
+    hold() {
+      if (!isUnsaved) return;
+      write();
+      beat ??= setInterval(write, BEAT_MS);
+    },
+    saved() {
+      rest();
+      [isUnsaved, isEndangered] = [false, false];
+      place.drop();
+      if (heirOf !== undefined) drafts.drop(heirOf);
+    },
+    isEndangered: () => isEndangered,
   };
 }

@@ -1,25 +1,28 @@
 import { Button } from '@mantine/core';
 import { useStore } from '../base/store';
 import { getShow, putShow, Refused } from '../api/http';
+import type { LeftDraft } from '../model/drafts';
 import { attempt } from './libraryActs';
-import { useSession, type Session } from './session';
+import { useSession } from './session';
 import { goTo } from './useHash';
 
 /** Says that an earlier page left changes the server never got, and where they are. */
 export function DraftBanner() {
   const session = useSession();
-  const name = useStore(session.orphans)[0];
+  const draft = useStore(session.orphans)[0];
   const linked = useStore(session.live.link) === 'open';
-  if (name === undefined || !linked) return null;
+  if (!draft || !linked) return null;
+  const { name } = draft;
   const putBack = () =>
     attempt(async () => {
-      await bringBack(session, name);
+      await bringBack(draft);
+      session.restoring.set(draft);
       if (session.live.opened.get().name === name || (await session.ask({ do: 'open', name })).ok)
         goTo('edit');
     });
   const drop = () => {
-    session.drafts.drop(name);
-    session.orphans.update((names) => names.filter((n) => n !== name));
+    session.drafts.drop(draft.id);
+    session.orphans.set(session.drafts.left());
   };
   return (
     <div className="banner" role="status">
@@ -35,12 +38,11 @@ export function DraftBanner() {
 }
 
 /** Makes sure the library has a show of that name; one that is gone begins again as its draft. */
-async function bringBack({ drafts }: Session, name: string) {
+async function bringBack({ name, document }: LeftDraft) {
   try {
     await getShow(name);
   } catch (error) {
-    const draft = drafts.read(name);
-    if (!(error instanceof Refused) || error.status !== 404 || !draft) throw error;
-    await putShow(name, JSON.stringify(draft.document), 'new');
+    if (!(error instanceof Refused) || error.status !== 404) throw error;
+    await putShow(name, JSON.stringify(document), 'new');
   }
 }

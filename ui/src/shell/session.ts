@@ -2,7 +2,7 @@ import { createContext, useContext } from 'react';
 import type { Link } from '../api/socket';
 import type { Answer, Choice, Operation } from '../api/types.gen';
 import { createStore, type Store } from '../base/store';
-import { createDrafts, type Drafts } from '../model/drafts';
+import { createDrafts, type Drafts, type LeftDraft } from '../model/drafts';
 import { connect, createLive, type Live } from '../live/store';
 import type { Editor } from '../model/editor';
 import { tell } from './notices';
@@ -23,8 +23,10 @@ export interface Session {
   checking: Store<boolean>;
   /** What is not on the server yet. */
   drafts: Drafts;
-  /** Shows of which an earlier page left a draft that has not been put back. */
-  orphans: Store<readonly string[]>;
+  /** Drafts of pages that are gone, that have not been put back. */
+  orphans: Store<readonly LeftDraft[]>;
+  /** The one of them that the editor shall begin anew with. */
+  restoring: Store<LeftDraft | null>;
 }
 
 function shelf(): Storage | null {
@@ -35,9 +37,14 @@ function shelf(): Storage | null {
   }
 }
 
+const randomName = () => Math.random().toString(36).slice(2);
+
+/** What other pages left is looked for this often, milliseconds. */
+const LOOK_MS = 15_000;
+
 /** A name of this tab, the same when the page is loaded again. */
 function tabName(): string {
-  const fresh = Math.random().toString(36).slice(2);
+  const fresh = randomName();
   try {
     const name = sessionStorage.getItem('lightbots-tab') ?? fresh;
     sessionStorage.setItem('lightbots-tab', name);
@@ -51,12 +58,15 @@ export function createSession(): Session {
   const live = createLive();
   const link = connect(live);
   const offer = createStore<{ reason: string; choice: Choice } | null>(null);
-  const drafts = createDrafts(shelf(), { tab: tabName(), now_ms: Date.now });
+  const drafts = createDrafts(shelf(), { tab: tabName(), page: randomName(), now_ms: Date.now });
+  const orphans = createStore<readonly LeftDraft[]>(drafts.left());
+  setInterval(() => orphans.set(drafts.left()), LOOK_MS);
   return {
     drafts,
     editing: createStore<{ name: string; editor: Editor } | null>(null),
     checking: createStore(false),
-    orphans: createStore<readonly string[]>(drafts.names()),
+    orphans,
+    restoring: createStore<LeftDraft | null>(null),
     live,
     link,
     offer,
