@@ -1,7 +1,7 @@
 import type { CDPSession, Page } from 'playwright-core';
 import { expect, test } from 'vitest';
 import { eventually } from './harness';
-import { onScreen, pixels, pixelsAre, smallShow, uploadText } from './journeys';
+import { onScreen, pixels, pixelsAre, saved, smallShow, stored, uploadText } from './journeys';
 import { createTestBed } from './testBed';
 
 type At = { x: number; y: number };
@@ -115,4 +115,49 @@ test('whatever is pressed on a tablet is large enough for a finger', async () =>
     await page.getByRole('tab', { name: tab }).click();
     expect(await small()).toEqual([]);
   }
+});
+
+/** A show of so many frames, each with its number as its name. */
+function longShow(frames: number): string {
+  const show = JSON.parse(smallShow(6)) as { frames: { name: string }[] };
+  const [first] = show.frames;
+  return JSON.stringify({
+    ...show,
+    frames: Array.from({ length: frames }, (_, i) => ({ ...first, name: `${i + 1}` })),
+  });
+}
+
+test('a finger that rests on a frame drags it; one that moves at once scrolls the strip', async () => {
+  const page = await bed.open('edit', TABLET);
+  await uploadText(page, 'strip.json', longShow(12));
+  await pixelsAre(page, 6);
+  const cards = page.getByRole('list', { name: 'Frames' }).locator('li');
+  const hand = fingers(await page.context().newCDPSession(page));
+  const at = async (index: number) => {
+    const box = await cards.nth(index).boundingBox();
+    if (!box) throw new Error(`Frame ${index} is not there.`);
+    return { x: box.x + box.width / 2, y: box.y + box.height / 2 };
+  };
+  const order = async () =>
+    (await stored(page, 'strip')).frames.map((frame) => frame.name).join(' ');
+  const scrolled = () => page.getByRole('list', { name: 'Frames' }).evaluate((e) => e.scrollLeft);
+
+  const [second, fourth] = [await at(1), await at(3)];
+  await hand.down(second);
+  await cards.and(page.locator('[data-held]')).waitFor();
+  await hand.move([second], [fourth]);
+  await hand.up();
+  await eventually(order, (now) => now === '1 3 4 2 5 6 7 8 9 10 11 12', 'it was dragged');
+  expect(await scrolled()).toBe(0);
+
+  await hand.down(fourth);
+  await hand.move([fourth], [{ x: fourth.x - 250, y: fourth.y }]);
+  await hand.up();
+  await eventually(scrolled, (left) => left > 100, 'the strip was scrolled');
+  await saved(page);
+  expect(await order()).toBe('1 3 4 2 5 6 7 8 9 10 11 12');
+
+  // A tap still chooses.
+  await cards.nth(7).tap();
+  await cards.nth(7).locator('[aria-current=true]').waitFor();
 });

@@ -1,5 +1,5 @@
 import { IconCopy, IconPlus, IconTrash } from '@tabler/icons-react';
-import { useEffect, useRef, useState, type ReactNode } from 'react';
+import { useCallback, useEffect, useRef, useState, type ReactNode } from 'react';
 import type { Plan } from '../api/types.gen';
 import { useStore } from '../base/store';
 import { IconButton } from '../shell/IconButton';
@@ -7,6 +7,7 @@ import { useSession } from '../shell/session';
 import * as acts from './acts';
 import { useEditing, useEditor } from './context';
 import { FrameCard } from './FrameCard';
+import { listenToHold } from './holdDrag';
 
 /** Seconds of drive and air time under a frame. */
 function timesOf(plan: Plan | null, index: number, airTime_s: number): string {
@@ -38,12 +39,27 @@ export function EditStrip() {
     const add = event.ctrlKey || event.metaKey;
     editing.editor.goToFrame(index, event.shiftKey ? 'range' : add ? 'add' : 'only');
   };
-  const drop = (to: number) => {
-    const from = dragged.current;
-    dragged.current = null;
-    setOver(null);
-    if (from !== null) acts.dropFrames(editing, from, to);
-  };
+  const drop = useCallback(
+    (to: number) => {
+      const from = dragged.current;
+      dragged.current = null;
+      setOver(null);
+      if (from !== null) acts.dropFrames(editing, from, to);
+    },
+    [editing],
+  );
+  useEffect(
+    () =>
+      list.current
+        ? listenToHold(list.current, {
+            begin: (index) => setOver((dragged.current = index)),
+            over: setOver,
+            drop,
+            giveUp: () => setOver((dragged.current = null)),
+          })
+        : undefined,
+    [drop],
+  );
   const button = (label: string, act: () => void, icon: ReactNode, off = false) => (
     <IconButton
       label={label}

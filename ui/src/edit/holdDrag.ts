@@ -1,0 +1,126 @@
+import { LONG_MS, STILL_PX } from '../stage/pointer';
+
+/** Where a finger that drags something of a list is, by the number of what is under it. */
+export interface HoldDrag {
+  begin(index: number): void;
+  over(index: number): void;
+  /** It was let go there. */
+  drop(index: number): void;
+  giveUp(): void;
+}
+
+/** A finger so near an end of the list scrolls it, CSS pixels, and so far each time. */
+const EDGE_PX = 48;
+const SCROLL_PX = 12;
+const SCROLL_EVERY_MS = 30;
+
+/**
+ * A finger held still on something of a list takes hold of it, and drags it until it is let go; one that moves at once
+ * scrolls the list, as everywhere. Returns how to stop.
+ */
+export function listenToHold(list: HTMLElement, drag: HoldDrag): () => void {
+  const stop = new AbortController();
+  const options = { signal: stop.signal };
+  let waiting: { x: number; y: number; timer: ReturnType<typeof setTimeout> } | null = null;
+  let held: HTMLElement | null = null;
+  let [x, scroll] = [0, undefined as ReturnType<typeof setInterval> | undefined];
+
+  const itemAt = (atX: number, atY: number) => {
+    const item = document.elementFromPoint(atX, atY)?.closest('li');
+    return item?.parentElement === list ? item : null;
+  };
+  const indexOf = (item: Element | null) => (item ? [...list.children].indexOf(item) : -1);
+  const forget = () => {
+    clearTimeout(waiting?.timer);
+    waiting = null;
+  };
+  const letGo = () => {
+    clearInterval(scroll);
+    held?.removeAttribute('data-held');
+    held = null;
+  };
+  const scrollAtEnds = () => {
+    const box = list.getBoundingClientRect();
+    if (x < box.left + EDGE_PX) list.scrollLeft -= SCROLL_PX;
+    if (x > box.right - EDGE_PX) list.scrollLeft += SCROLL_PX;
+  };
+  const take = (item: HTMLElement) => {
+    waiting = null;
+    held = item;
+    item.setAttribute('data-held', '');
+    scroll = setInterval(scrollAtEnds, SCROLL_EVERY_MS);
+    drag.begin(indexOf(item));
+  };
+
+  list.addEventListener(
+    'touchstart',
+    (event) => {
+      forget();
+      const [touch] = event.touches;
+      if (!touch || event.touches.length > 1) {
+        if (held) drag.giveUp();
+        return letGo();
+      }
+      const item = itemAt(touch.clientX, touch.clientY);
+      if (!item) return;
+      x = touch.clientX;
+      const timer = setTimeout(() => take(item), LONG_MS);
+      waiting = { x: touch.clientX, y: touch.clientY, timer };
+    },
+    { ...options, passive: true },
+  );
+  list.addEventListener(
+    'touchmove',
+    (event) => {
+      const [touch] = event.touches;
+      if (!touch) return;
+      if (waiting && Math.hypot(touch.clientX - waiting.x, touch.clientY - waiting.y) > STILL_PX)
+        forget();
+      if (!held) return;
+      // It is the frame that moves now, not the list.
+      event.preventDefault();
+      x = touch.clientX;
+      const over = indexOf(itemAt(touch.clientX, touch.clientY));
+      if (over >= 0) drag.over(over);
+    },
+    { ...options, passive: false },
+  );
+  list.addEventListener(
+    'touchend',
+    (event) => {
+      forget();
+      if (!held) return;
+      // What was dragged is not chosen as well.
+      event.preventDefault();
+      letGo();
+      const [touch] = event.changedTouches;
+      const over = touch ? indexOf(itemAt(touch.clientX, touch.clientY)) : -1;
+      if (over >= 0) drag.drop(over);
+      else drag.giveUp();
+    },
+    options,
+  );
+  list.addEventListener(
+    'touchcancel',
+    () => {
+      forget();
+      if (held) drag.giveUp();
+      letGo();
+    },
+    options,
+  );
+  // Held still, a finger asks for a menu, or for the browser's own dragging: neither is meant here.
+  for (const name of ['contextmenu', 'dragstart'] as const)
+    list.addEventListener(
+      name,
+      (event) => {
+        if (waiting || held) event.preventDefault();
+      },
+      { ...options, capture: true },
+    );
+  return () => {
+    forget();
+    letGo();
+    stop.abort();
+  };
+}
