@@ -27,6 +27,8 @@ pub struct Account {
     pub places: Vec<Vec2>,
     /// Where they were, each a track: `[robot][tenth of a second]`, seconds of the floor and place.
     pub tracks: Vec<Vec<(f64, Vec2)>>,
+    /// How far it fell behind real time at most, seconds.
+    pub behind_s: f64,
 }
 
 /// Steps between two places of a track.
@@ -64,6 +66,7 @@ fn run(listener: &UnixListener, mut world: World, count: usize, stop: &AtomicBoo
     let mut colours = vec![0; count];
     let mut tracks: Vec<Vec<(f64, Vec2)>> = vec![Vec::new(); count];
     let mut eyes = Eyes::new(1);
+    let mut behind_s = 0.0_f64;
     let began = Instant::now();
     for step in 1_u32.. {
         let ends = stop.load(Ordering::Acquire);
@@ -95,6 +98,7 @@ fn run(listener: &UnixListener, mut world: World, count: usize, stop: &AtomicBoo
         if ends {
             break;
         }
+        behind_s = behind_s.max(began.elapsed().as_secs_f64() - time_s);
         let due = Duration::from_secs_f64(time_s);
         std::thread::sleep(due.saturating_sub(began.elapsed()));
     }
@@ -105,6 +109,7 @@ fn run(listener: &UnixListener, mut world: World, count: usize, stop: &AtomicBoo
         colours,
         places: world.places().to_vec(),
         tracks,
+        behind_s,
     }
 }
 

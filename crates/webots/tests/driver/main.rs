@@ -88,10 +88,12 @@ fn tempfile(name: &str) -> std::path::PathBuf {
 }
 
 /// Plays a show, and tells where the robots were: `[robot][place]`.
+#[allow(clippy::print_stdout)]
 fn plays_without_contact(show: &Show, format: Format) -> Vec<Vec<(f64, Vec2)>> {
     let _turn = TURN.lock().unwrap_or_else(PoisonError::into_inner);
     let (report, account, score) = play(show, format);
-    let Account { contacts, closest_m, places, colours, tracks } = account;
+    let Account { contacts, closest_m, places, colours, tracks, behind_s } = account;
+    println!("{}: the floor was at most {behind_s:.3} s behind real time", show.name);
     assert_eq!(report["ok"], true, "{report:#}");
     assert_eq!(report["frames_played"], show.frames.len(), "{report:#}");
     assert_eq!(contacts, 0, "the closest were {closest_m:?} m apart");
