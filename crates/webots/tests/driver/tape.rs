@@ -1,8 +1,8 @@
 //! What went over the broker during a show, and where each robot was to be by it at every moment.
 
-use std::collections::BTreeMap;
-use std::sync::Arc;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::JoinHandle;
 
 use lightbots_base::{Instant, PathRef, RobotId, Span, Vec2};
@@ -11,10 +11,14 @@ use lightbots_wire::{Command, Report, Route, TimeAnswer, Topic, commands};
 
 /// Messages that may wait; a show of thirty robots has a few hundred a second.
 const QUEUE: usize = 1 << 16;
+/// Nobody waits so long unless something is broken.
+const PATIENCE: std::time::Duration = std::time::Duration::from_secs(60);
 
 /// A listener on a broker.
 pub struct Tape {
     stop: Arc<AtomicBool>,
+    /// Robots that reported.
+    heard: Arc<Mutex<BTreeSet<RobotId>>>,
     thread: JoinHandle<Score>,
 }
 
@@ -24,6 +28,8 @@ impl Tape {
         let stop = Arc::new(AtomicBool::new(false));
         let broker = BrokerUrl::parse(broker).expect("the test's own address");
         let (asked, (ready, listening)) = (stop.clone(), std::sync::mpsc::channel());
+        let heard = Arc::<Mutex<BTreeSet<RobotId>>>::default();
+        let those = heard.clone();
         let thread = std::thread::spawn(move || {
             let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build();
             runtime.expect("a runtime").block_on(async {
@@ -35,7 +41,11 @@ impl Tape {
                     let look = tokio::time::timeout(std::time::Duration::from_millis(50), link.next());
                     match look.await {
                         Ok(Some(LinkEvent::Connected)) => ready.send(()).expect("somebody waits"),
-                        Ok(Some(LinkEvent::Message { topic, payload })) => score.hear(&topic, &payload),
+                        Ok(Some(LinkEvent::Message { topic, payload })) => {
+                            let who = Report::decode(&payload).map(|report| report.id);
+                            those.lock().unwrap_or_else(PoisonError::into_inner).extend(who);
+                            score.hear(&topic, &payload);
+                        }
                         _ => {}
                     }
                 }
@@ -43,7 +53,16 @@ impl Tape {
             })
         });
         listening.recv().expect("the broker lets it in");
-        Self { stop, thread }
+        Self { stop, heard, thread }
+    }
+
+    /// Waits until a robot has reported.
+    pub fn wait_for(&self, id: RobotId) {
+        let late = std::time::Instant::now() + PATIENCE;
+        while !self.heard.lock().unwrap_or_else(PoisonError::into_inner).contains(&id) {
+            assert!(std::time::Instant::now() < late, "{id} does not come");
+            std::thread::sleep(std::time::Duration::from_millis(20));
+        }
     }
 
     /// Ends the recording.
@@ -68,6 +87,10 @@ pub struct Score {
     eases: Vec<(Instant, bool)>,
     /// The show clock less the floor's, by the quickest question, microseconds.
     ahead_us: Option<i64>,
+    /// The show clock when a time answer came by, and when that was.
+    show: Option<(Instant, std::time::Instant)>,
+    /// When robots were told to stand and forget their routes, show clock; `None`: all of them.
+    stops: Vec<(Instant, Option<RobotId>)>,
     /// Reports of robots that something stood in the way of.
     blocked: Vec<String>,
 }
@@ -84,6 +107,7 @@ impl Score {
             match (to, command) {
                 (Some(id), Command::Route(route)) => self.keep(id, route),
                 (to, Command::Start { seq, at }) => self.start(to, seq, at),
+                (to, Command::Stop) => self.stops.extend(self.show_now().map(|at| (at, to))),
                 (_, Command::Hold { at }) => self.ease(at, true),
                 (_, Command::Resume { at }) => self.ease(at, false),
                 (Some(_), Command::Time(answer)) => self.compare(answer),
@@ -122,15 +146,20 @@ impl Score {
         }
     }
 
+    fn show_now(&self) -> Option<Instant> {
+        self.show.map(|(at, then)| at + Span::from_secs(then.elapsed().as_secs_f64()))
+    }
+
     /// A robot's own clock is the floor's; its question was on its way for a while.
     fn compare(&mut self, answer: TimeAnswer) {
+        self.show = Some((answer.sent, std::time::Instant::now()));
         let ahead_us = answer.received.0 as i64 - answer.asked.0 as i64;
         self.ahead_us = Some(self.ahead_us.map_or(ahead_us, |known| known.min(ahead_us)));
     }
 
-    /// How often all were held.
-    pub fn holds(&self) -> usize {
-        self.eases.iter().filter(|(_, hold)| *hold).count()
+    /// How often all were held, and how often robots were told to stand.
+    pub fn holds(&self) -> (usize, usize) {
+        (self.eases.iter().filter(|(_, hold)| *hold).count(), self.stops.len())
     }
 
     /// Reports of robots that something stood in the way of.
@@ -149,8 +178,15 @@ impl Score {
             let show = Instant(((time_s * 1e6) as i64 + ahead_us).max(0) as u64);
             let begun = |given: &&&Given| given.starts.is_some_and(|starts| starts <= show);
             let Some(given) = given.iter().filter(begun).max_by_key(|given| given.starts) else { continue };
+            let starts = given.starts.unwrap_or_default();
+            let ended = |(stop, who): &&(Instant, Option<RobotId>)| {
+                (starts..=show).contains(stop) && who.is_none_or(|who| who == id)
+            };
+            if self.stops.iter().any(|stop| ended(&stop)) {
+                continue;
+            }
             let path = PathRef::new(given.route.start, &given.route.pieces);
-            let time = self.path_time(given.starts.unwrap_or_default(), show);
+            let time = self.path_time(starts, show);
             timed_m = timed_m.max(path.at(time).position.distance(*at));
             beside_m = beside_m.max(beside(&path, time, *at));
         }
