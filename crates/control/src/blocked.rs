@@ -22,6 +22,8 @@ const LATER: Span = Span::from_millis(500);
 const BLOCKS_MAX: u8 = 3;
 /// The most obstacles that are remembered.
 const FOUND_MAX: usize = 32;
+/// Whoever brakes for something falls behind at most so long before it says that it is blocked.
+const BRAKES: Span = Span::from_millis(150);
 /// A place so near to where a robot sees something may be what it sees, metres.
 const SAME_M: f64 = 0.035;
 
@@ -32,6 +34,11 @@ const GAP_MIN_M: f64 = 0.0015;
 fn seen_by(robot: &Robot, contact_m: f64) -> Option<Vec2> {
     let (at, blocked) = (robot.at?, robot.blocked?);
     Some(at + Vec2::unit(blocked.towards) * (contact_m + blocked.gap_m.max(GAP_MIN_M)))
+}
+
+/// Whether a robot fell behind its path and not because something stood in its way.
+fn lags(known: &Seat) -> bool {
+    known.late.is_some_and(|late| known.blocked.is_none_or(|blocked| late + BRAKES < blocked))
 }
 
 impl Run {
@@ -86,8 +93,7 @@ impl Run {
             self.drop_out(desk, now, culprit, Trouble::Late);
             return;
         }
-        let suspect =
-            |known: &Seat| known.probed.is_some() || known.late.is_some() && known.blocked.is_none();
+        let suspect = |known: &Seat| known.probed.is_some() || lags(known);
         let suspected = self.seats.iter().any(|known| !known.out && !known.arrived && suspect(known));
         let bound = if suspected { desk.config.late_bound + LATER } else { STAYS };
         if now - since <= bound {
@@ -104,14 +110,16 @@ impl Run {
         self.recover(desk, now);
     }
 
-    /// A late robot that is itself not blocked and stands where a blocked one sees something.
+    /// A late robot that stands where a blocked one sees something, and was late before anything blocked it: one that
+    /// stands still sees those coming who drive on.
     fn late_at(&self, desk: &Desk, seat: usize) -> Option<usize> {
         let contact_m = self.show.stage.limits.contact_m();
         let there = seen_by(desk.fleet.robot(self.seats[seat].robot), contact_m)?;
         (0..self.seats.len()).find(|&other| {
             let known = &self.seats[other];
-            let late = known.late.is_some() && known.blocked.is_none() && !known.out;
-            late && desk.fleet.robot(known.robot).at.is_some_and(|at| at.distance(there) < SAME_M)
+            lags(known)
+                && !known.out
+                && desk.fleet.robot(known.robot).at.is_some_and(|at| at.distance(there) < SAME_M)
         })
     }
 

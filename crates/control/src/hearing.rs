@@ -16,7 +16,7 @@ impl Run {
             if topic == Topic::Arrival {
                 unexpected(desk, now, report);
             }
-            self.consider_joiner(desk, heard.index);
+            self.consider_joiner(desk, now, heard.index);
             return;
         };
         let Some(details) = &report.details else {

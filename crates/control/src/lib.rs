@@ -44,6 +44,7 @@ mod snapshot;
 mod standing;
 mod starting;
 mod stopping;
+mod trial;
 mod upload;
 mod view;
 mod watch;

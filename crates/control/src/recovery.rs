@@ -5,6 +5,7 @@ use crate::event::{EventKind, Outcome, Trouble};
 use crate::operation::MissingPolicy;
 use crate::run::{Gathering, Phase, Run, Seat, Standing};
 use crate::snapshot::Age;
+use crate::trial::Trial;
 use lightbots_base::{Instant, Span, Vec2};
 use lightbots_wire::{Command, RobotState, Route, Topic};
 
@@ -34,8 +35,8 @@ const GHOST_STEP: Span = Span::from_millis(50);
 const HOP_STEP_M: f64 = 0.03;
 /// So many of them may pass until it stops, if it still hears.
 const UNTIL_STOP: i64 = 2;
-/// Places nearer than this to each other are one, metres.
-const GHOST_M: f64 = 0.01;
+/// Places nearer than this to each other are one, metres: a place that is left out must not stick out.
+const GHOST_M: f64 = 0.002;
 /// A robot that dropped out more often than this in a run stays out.
 const DROPOUTS_MAX: u8 = 3;
 
@@ -50,6 +51,7 @@ impl Run {
         let fails = matches!(why, Trouble::Late | Trouble::Missed | Trouble::Blocked);
         known.dropouts = known.dropouts.saturating_add(if fails { 2 } else { 1 });
         known.back_from = if fails { self.frames_played + 1 } else { 0 };
+        known.trial = if fails || why == Trouble::Faulty { Trial::Owed } else { Trial::None };
         known.late = None;
         known.fade = None;
         self.dropouts += 1;
@@ -66,16 +68,21 @@ impl Run {
     /// Where a robot that was heard last at `heard` may stand: along its path from there if it died, where its path is
     /// now if it only cannot be heard.
     fn whereabouts(&self, now: Instant, seat: usize, heard: Instant) -> Vec<Vec2> {
-        let Phase::Driving(drive) = &self.phase else { return Vec::new() };
+        let (drive, stopping, stopped) = match &self.phase {
+            Phase::Driving(drive) => (drive, now, now),
+            Phase::Gathering(Gathering { broken_off: Some(drive), stopping, since, .. }) => {
+                (drive, *stopping, *since)
+            }
+            _ => return Vec::new(),
+        };
         let Some(path) = self.current.as_ref().and_then(|leg| leg.path(seat)) else {
             return self.hop_whereabouts(seat, HOP_STEP_M);
         };
         let since = drive.path_time(heard);
         let died = (0..=UNHEARD.0 / GHOST_STEP.0).map(|step| since + GHOST_STEP * step);
-        let lives = (0..=UNTIL_STOP).map(|step| drive.path_time(now + GHOST_STEP * step));
-        let mut places: Vec<Vec2> = died.chain(lives).map(|time| path.as_ref().at(time).position).collect();
-        places.dedup_by(|a, b| a.distance(*b) < GHOST_M);
-        places
+        let until = (stopped - stopping).0 / GHOST_STEP.0 + UNTIL_STOP;
+        let lives = (0..=until).map(|step| drive.path_time(stopping + GHOST_STEP * step));
+        thinned(died.chain(lives).map(|time| path.as_ref().at(time).position))
     }
 
     /// Plans again from where robots are; who drives is stopped first.
@@ -128,19 +135,25 @@ impl Run {
         desk.outbox.cease();
         self.forget_blocks();
         let first = self.current.is_none() && self.frames_played == 0;
-        let mut stop_at = None;
-        if matches!(self.phase, Phase::Driving(_)) && self.round_trip > SLOW {
+        let broken_off = match self.phase {
+            Phase::Driving(drive) => Some(drive),
+            _ => None,
+        };
+        let (mut stopping, mut stop_at) = (now, None);
+        if broken_off.is_some() && self.round_trip > SLOW {
             // STOP would reach some much later than others: first all come to rest together.
-            let at = now + self.hold_lead();
-            desk.outbox.broadcast(now, Command::Hold { at }, SAY, SAY_EVERY);
-            stop_at = Some(at + Route::EASE);
+            stopping = now + self.hold_lead();
+            desk.outbox.broadcast(now, Command::Hold { at: stopping }, SAY, SAY_EVERY);
+            stop_at = Some(stopping + Route::EASE);
         } else {
             desk.outbox.broadcast(now, Command::Stop, SAY, SAY_EVERY);
         }
         self.halt_originals(desk, now);
         let since = stop_at.unwrap_or(now);
         let fresh_from = since + SETTLE + self.round_trip;
-        self.phase = Phase::Gathering(Gathering { since, fresh_from, ask_at: fresh_from, stop_at, first });
+        let ask_at = fresh_from;
+        self.phase =
+            Phase::Gathering(Gathering { stopping, since, fresh_from, ask_at, stop_at, first, broken_off });
     }
 
     /// Time passes while all are asked where they stand.
@@ -214,14 +227,17 @@ impl Run {
     }
 
     /// A robot without a part, or out, is heard: it may take part from the next frame on.
-    pub fn consider_joiner(&mut self, desk: &Desk, robot: usize) {
-        let known = desk.fleet.robot(robot);
-        let welcome = match known.seat {
-            Some(seat) => self.seats[seat as usize].dropouts <= DROPOUTS_MAX,
+    pub fn consider_joiner(&mut self, desk: &mut Desk, now: Instant, robot: usize) {
+        let seat = desk.fleet.robot(robot).seat.map(|seat| seat as usize);
+        let welcome = match seat {
+            Some(seat) => self.seats[seat].dropouts <= DROPOUTS_MAX,
             None => self.dark,
         };
         let plays = self.purpose == crate::run::Purpose::Play;
-        if welcome && plays && is_ready(desk, robot) && !self.joiners.contains(&robot) {
+        if !welcome || !plays || !is_ready(desk, robot) || self.joiners.contains(&robot) {
+            return;
+        }
+        if seat.is_none_or(|seat| self.has_proven_itself(desk, now, seat)) {
             self.joiners.push(robot);
         }
     }
@@ -274,6 +290,13 @@ impl Run {
     }
 }
 
+/// Places without those that are as good as the one before.
+fn thinned(places: impl Iterator<Item = Vec2>) -> Vec<Vec2> {
+    let mut places: Vec<Vec2> = places.collect();
+    places.dedup_by(|a, b| a.distance(*b) < GHOST_M);
+    places
+}
+
 /// What a seat's robot lacks to be planned for; `None`: nothing.
 fn missing(desk: &Desk, known: &Seat, fresh_from: Instant) -> Option<Trouble> {
     let robot = desk.fleet.robot(known.robot);
@@ -294,4 +317,18 @@ fn missing(desk: &Desk, known: &Seat, fresh_from: Instant) -> Option<Trouble> {
 /// Whether a robot could be planned for now.
 fn is_ready(desk: &Desk, robot: usize) -> bool {
     desk.fleet.robot(robot).age == Age::Active && missing(desk, &Seat::new(robot), Instant::ZERO).is_none()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A disc that is left out must not stick out of those that are kept: others pass them as near as planning likes.
+    #[test]
+    fn no_place_of_a_silent_robot_is_far_from_one_that_is_driven_around() {
+        let braking = || (0..30).map(|step| Vec2::new(0.0135 * f64::from(step) * 0.9f64.powi(step), 0.0));
+        let kept = thinned(braking());
+        assert!(braking().all(|place| kept.iter().any(|disc| disc.distance(place) < 0.002)), "{kept:?}");
+        assert_eq!(thinned([Vec2::ZERO; 9].into_iter()).len(), 1);
+    }
 }

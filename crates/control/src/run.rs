@@ -9,6 +9,7 @@ use crate::leg::Kind;
 use crate::leg::Leg;
 use crate::operation::MissingPolicy;
 use crate::starting::Start;
+use crate::trial::Trial;
 use crate::upload::Upload;
 use lightbots_base::{Instant, Span, Vec2};
 use lightbots_show::Show;
@@ -27,6 +28,8 @@ pub(crate) struct Seat {
     pub dropouts: u8,
     /// It may come back once so many frames were played.
     pub back_from: usize,
+    /// Whether it has to show that it drives before it comes back.
+    pub trial: Trial,
     /// The route it acknowledged last.
     pub acked: u32,
     /// How often the present route was sent.
@@ -80,6 +83,9 @@ pub(crate) enum Phase {
 /// All are asked where they stand.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Gathering {
+    /// Who drove begins to stop then, and stands …
+    pub stopping: Instant,
+    /// … then.
     pub since: Instant,
     /// Reports count from then on.
     pub fresh_from: Instant,
@@ -88,6 +94,8 @@ pub(crate) struct Gathering {
     pub stop_at: Option<Instant>,
     /// Nothing was driven yet: too few robots are a reason not to begin.
     pub first: bool,
+    /// The drive that was broken off: who is silent may stand anywhere along it.
+    pub broken_off: Option<Drive>,
 }
 
 /// All stand.
@@ -167,6 +175,7 @@ impl Seat {
             out: false,
             dropouts: 0,
             back_from: 0,
+            trial: Trial::None,
             acked: 0,
             tries: 0,
             sent: Instant::ZERO,
@@ -205,11 +214,13 @@ impl Run {
             looping,
             seats,
             phase: Phase::Gathering(Gathering {
+                stopping: now,
                 since: now,
                 fresh_from: Instant::ZERO,
                 ask_at: now,
                 stop_at: None,
                 first: true,
+                broken_off: None,
             }),
             current: None,
             hops: Hops::default(),

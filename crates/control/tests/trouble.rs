@@ -47,6 +47,22 @@ fn a_robot_that_dies_while_driving_is_planned_around() {
 }
 
 #[test]
+fn who_dies_while_all_are_stopped_for_another_is_planned_around_too() {
+    for other in [2, 4] {
+        let mut world = World::ready(12, 0, show(4, 12, 0.3));
+        world.play();
+        world.run_until(10.0, started);
+        world.run_for(1.2);
+        world.robots[5].dead = true;
+        world.run_for(1.2);
+        world.robots[other].dead = true;
+        let ended = world.run_to_end(90.0);
+        assert_eq!(ended, (Outcome::Finished, 4, 2), "{}", world.story());
+        assert!(world.closest_m >= CONTACT_M, "{other}: {}", world.closest_m);
+    }
+}
+
+#[test]
 fn a_robot_that_finds_something_in_its_way_leads_to_the_one_that_died_there() {
     let mut world = a_second_under_way();
     let towards = world.robots[4].at - world.robots[3].at;
@@ -87,6 +103,39 @@ fn everybody_waits_for_a_blocked_robot_then_goes_on_without_it() {
     let (outcome, frames, _) = world.run_to_end(90.0);
     assert_eq!((outcome, frames), (Outcome::Finished, 2), "{}", world.story());
     assert_eq!(world.count(|kind| matches!(kind, EventKind::Rejoined(_))), 1, "{}", world.story());
+}
+
+#[test]
+fn a_robot_that_never_drives_again_does_not_come_back() {
+    let mut world = World::ready(8, 0, show(6, 8, 2.0));
+    world.play();
+    world.run_until(10.0, started);
+    world.run_for(1.0);
+    world.robots[3].stuck = true;
+    let ended = world.run_to_end(120.0);
+    assert_eq!(ended, (Outcome::Finished, 6, 1), "{}", world.story());
+    assert_eq!(world.count(|kind| matches!(kind, EventKind::Rejoined(_))), 0, "{}", world.story());
+    assert_eq!(world.robots[3].kept, None);
+}
+
+/// Who stands still sees those coming who drive on, and is blocked by them, too.
+#[test]
+fn of_two_that_see_each_other_the_one_that_was_late_before_is_left_out() {
+    let mut world = a_second_under_way();
+    world.robots[4].stuck = true;
+    world.robots[4].introduce();
+    world.run_for(0.5);
+    let way = world.robots[4].at - world.robots[3].at;
+    for (robot, way) in [(3, way), (4, -way)] {
+        let seen = Blocked { gap_m: way.length() - CONTACT_M, towards: way.angle() };
+        world.robots[robot].blocked = Some(seen);
+        world.robots[robot].introduce();
+    }
+    world.run_until(4.0, |kind| matches!(kind, EventKind::Dropout { .. }));
+    world.robots[3].blocked = None;
+    let left_out = EventKind::Dropout { robot: world.robots[4].id, why: Trouble::Late };
+    assert_eq!(world.count(|kind| *kind == left_out), 1, "{}", world.story());
+    assert_eq!(world.run_to_end(90.0), (Outcome::Finished, 3, 1), "{}", world.story());
 }
 
 #[test]

@@ -44,6 +44,7 @@ mod robot;
 mod routes;
 mod seek;
 mod slip;
+mod stall;
 mod supervise;
 mod timeline;
 mod trail;

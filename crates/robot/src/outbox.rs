@@ -9,6 +9,8 @@ const CALM: Span = Span::from_millis(2000);
 /// Further off its route than this is news; nearer than that, it is over.
 const OFF_M: f64 = 0.008;
 const BACK_M: f64 = 0.006;
+/// So many times as far off as it last said is news again, beyond what braking for a neighbour costs: it may stand.
+const FARTHER: f64 = 4.0;
 /// Without fixes, being so many times as unsure as it last said, and this many metres more, is news.
 const MORE: f64 = 1.25;
 const MORE_M: f64 = 0.0005;
@@ -41,7 +43,8 @@ pub(crate) struct Outbox {
     question: bool,
     next_status: Instant,
     state: RobotState,
-    is_off: bool,
+    /// How far off its route it last said to be, metres; 0: not worth saying.
+    said_off_m: f64,
     /// How unsure of its place it last said to be for want of fixes, metres.
     said_err_m: Option<f64>,
     is_blocked: bool,
@@ -59,7 +62,7 @@ impl Outbox {
             question: false,
             next_status: Instant::ZERO + CALM + phase,
             state: RobotState::Lost,
-            is_off: false,
+            said_off_m: 0.0,
             said_err_m: None,
             is_blocked: false,
         }
@@ -103,7 +106,8 @@ impl Outbox {
             self.introduction = true;
         }
         let off_m = off_m.unwrap_or(0.0);
-        let is_off = off_m > if self.is_off { BACK_M } else { OFF_M };
+        let (was_off, farther_m) = (self.said_off_m > 0.0, self.said_off_m * FARTHER);
+        let is_off = off_m > if was_off { BACK_M } else { OFF_M };
         let unsure = match (err_m, self.said_err_m) {
             (Some(err_m), Some(said_m)) => err_m > said_m * MORE + MORE_M,
             (err_m, said_m) => err_m.is_some() || said_m.is_some(),
@@ -111,12 +115,13 @@ impl Outbox {
         if unsure {
             self.said_err_m = err_m;
         }
-        if unsure || state != self.state || is_off != self.is_off || now >= self.next_status {
+        let strays = is_off != was_off || is_off && off_m > farther_m;
+        if unsure || state != self.state || strays || now >= self.next_status {
             self.status = true;
             self.state = state;
-            self.is_off = is_off;
         }
         if self.status {
+            self.said_off_m = if is_off { off_m } else { 0.0 };
             let busy = matches!(state, RobotState::Driving | RobotState::Held);
             self.next_status = now + if busy { BUSY } else { CALM };
         }
@@ -164,13 +169,14 @@ mod tests {
     }
 
     #[test]
-    fn leaving_the_route_is_said_once_and_coming_back_too() {
+    fn leaving_the_route_is_said_again_when_it_gets_worse_and_coming_back_too() {
         let mut outbox = Outbox::new(Span::ZERO);
         let mut said = |off| {
             outbox.notice(Instant(1), RobotState::Lost, Some(off), None, true);
             outbox.take(true, true).is_some()
         };
         assert!(!said(0.007) && said(0.009) && !said(0.007) && said(0.005) && !said(0.007));
+        assert!(said(0.009) && !said(0.035) && said(0.037) && !said(0.147) && said(0.149) && !said(0.007));
     }
 
     #[test]

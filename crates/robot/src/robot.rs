@@ -14,6 +14,7 @@ use crate::outbox::{Fact, Outbox};
 use crate::reflex::{AMPLE_MM, Reflex, Wish};
 use crate::routes::Routes;
 use crate::seek::Seek;
+use crate::stall::Stall;
 use crate::supervise::{Drives, Supervisor};
 
 /// A message to send. The longest report has 291 bytes.
@@ -46,6 +47,7 @@ pub struct Robot {
     shown: Rgb,
     seek: Option<Seek>,
     reflex: Reflex,
+    stall: Stall,
     supervisor: Supervisor,
     outbox: Outbox,
     state: RobotState,
@@ -70,6 +72,7 @@ impl Robot {
             shown: Rgb::BLACK,
             seek: None,
             reflex: Reflex::new(),
+            stall: Stall::default(),
             supervisor: Supervisor::new(config.silence),
             outbox: Outbox::new(phase),
             state: RobotState::Lost,
@@ -123,6 +126,7 @@ impl Robot {
         }
         self.supervise(now);
         let wheels_radps = self.act(now, show, dt);
+        self.stall.tell(wheels_radps);
         self.state = self.what_it_does(now, show);
         self.light.say(now, self.trouble(now));
         self.shown = self.light.step(now, show);
@@ -262,6 +266,9 @@ impl Robot {
             let [left, right] = inputs.wheel_turns_rad;
             let way_m = 0.5 * (left + right) * self.config.limits.wheel_radius_m;
             self.reflex.look(inputs.proximity_m.as_ref(), way_m, dt);
+            if self.stall.look(inputs.wheel_turns_rad, dt) {
+                self.supervisor.fault(now);
+            }
         } else {
             self.supervisor.fault(now);
         }

@@ -14,6 +14,7 @@ const SPEED_MPS: f64 = 0.25;
 pub struct Robot {
     pub id: RobotId,
     pub at: Vec2,
+    heading: f64,
     pub light: Rgb,
     pub original: bool,
     /// Says nothing and does nothing.
@@ -45,6 +46,7 @@ impl Robot {
         Self {
             id: RobotId::new(&format!("robot-{number}")).unwrap(),
             at,
+            heading: 0.0,
             light: Rgb::BLACK,
             original,
             dead: false,
@@ -104,7 +106,7 @@ impl Robot {
             None => self.running.as_ref().map(|(_, began)| *began),
         };
         let details = Details {
-            heading: Some(0.0),
+            heading: Some(self.heading),
             battery: Some(90),
             state: self.state(),
             route,
@@ -196,6 +198,7 @@ impl Robot {
             self.running = Some((route, at));
             (self.held, self.hold_since) = (Span::ZERO, None);
         }
+        self.turn();
         self.drive(now, dt);
         if let Some((_, color)) = self.fade.take_if(|(at, _)| *at <= now) {
             self.light = color;
@@ -206,6 +209,15 @@ impl Robot {
             self.status_at = now + pace;
             self.state = state;
             self.say_report(Topic::Status, self.named());
+        }
+    }
+
+    /// Before its route begins it turns towards it at once.
+    fn turn(&mut self) {
+        let waits = self.running.is_none() && !self.stuck;
+        if let Some(((route, _), true)) = self.kept.as_ref().map(|kept| (kept, waits)) {
+            let way = PathRef::new(route.start, &route.pieces).end() - route.start;
+            self.heading = way.normalized().map_or(self.heading, Vec2::angle);
         }
     }
 
