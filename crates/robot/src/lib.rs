@@ -43,6 +43,7 @@ mod reflex;
 mod robot;
 mod routes;
 mod seek;
+mod shelf;
 mod slip;
 mod stall;
 mod supervise;
@@ -52,3 +53,4 @@ mod trust;
 
 pub use config::{Config, Fix, Inputs, Outputs};
 pub use robot::{Message, Robot};
+pub use shelf::Shelf;

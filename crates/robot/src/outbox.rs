@@ -133,6 +133,12 @@ impl Outbox {
         self.is_blocked = blocked;
     }
 
+    /// Whether there is nothing to say.
+    #[inline]
+    pub(crate) fn is_empty(&self) -> bool {
+        !(self.introduction || self.arrival.is_some() || self.question || self.status)
+    }
+
     /// The next thing to say. `speaks_ours` is false for a robot that only knows the original protocol.
     pub(crate) fn take(&mut self, knows_place: bool, speaks_ours: bool) -> Option<Fact> {
         if core::mem::take(&mut self.introduction) {

@@ -1,19 +1,23 @@
 //! The robot: messages in, steps in, wheels, light and reports out.
 
 mod obey;
+mod tell;
 
-use lightbots_base::{Instant, Pose, Rgb, RobotId, Span, Vec2, wrap};
-use lightbots_wire::{Blocked, Details, Report, RobotState, TimeQuestion, Topic, commands};
+use core::borrow::BorrowMut;
+
+use lightbots_base::{Instant, Pose, Rgb, RobotId, Span, Vec2};
+use lightbots_wire::{RobotState, Topic, commands};
 
 use crate::clock::Clock;
 use crate::config::{Config, Inputs, Outputs};
 use crate::drive::{Body, Drive, Setpoint};
 use crate::estimate::Estimate;
 use crate::light::Light;
-use crate::outbox::{Fact, Outbox};
+use crate::outbox::Outbox;
 use crate::reflex::{AMPLE_MM, Reflex, Wish};
 use crate::routes::Routes;
 use crate::seek::Seek;
+use crate::shelf::Shelf;
 use crate::stall::Stall;
 use crate::supervise::{Drives, Supervisor};
 
@@ -35,9 +39,10 @@ const PAUSE_M: f64 = 0.016;
 /// Without a compass it learns its heading by creeping straight on, m/s.
 const CREEP_MPS: f64 = 0.08;
 
-/// The whole of a robot's mind: no allocation, no clock, no IO. Feed it messages and steps, drain what it says.
+/// The whole of a robot's mind: no allocation, no clock, no IO. Feed it messages and steps, drain what it says. `S` is
+/// where its routes lie: in itself unless it was given another place.
 #[derive(Debug)]
-pub struct Robot {
+pub struct Robot<S = Shelf> {
     config: Config,
     now: Instant,
     estimate: Estimate,
@@ -56,12 +61,29 @@ pub struct Robot {
     /// It stands until fixes come again.
     pauses: bool,
     last_step: Option<Instant>,
-    routes: Routes,
+    routes: Routes<S>,
+    /// What the latest step knew of its place.
+    doubts: Doubts,
+}
+
+/// Whether a robot knows too little to drive, as of one step.
+#[derive(Clone, Copy, Debug)]
+struct Doubts {
+    lost: bool,
+    /// Even if it need not know its place well.
+    for_good: bool,
 }
 
 impl Robot {
     /// A robot that has just been switched on: it stands, shows nothing and knows nothing.
     pub fn new(config: Config) -> Self {
+        Self::with_shelf(config, Shelf::new())
+    }
+}
+
+impl<S: BorrowMut<Shelf>> Robot<S> {
+    /// The same with its routes on this shelf, which may lie elsewhere.
+    pub fn with_shelf(config: Config, shelf: S) -> Self {
         let phase = Span::from_millis(i64::from(config.seed % 1999));
         Self {
             now: Instant::ZERO,
@@ -80,7 +102,8 @@ impl Robot {
             unknown: 0,
             pauses: false,
             last_step: None,
-            routes: Routes::new(),
+            routes: Routes::new(shelf),
+            doubts: Doubts { lost: true, for_good: true },
             config,
         }
     }
@@ -97,9 +120,11 @@ impl Robot {
         if self.clock.show_time(now).is_some_and(|show| self.routes.begin_due(show)) {
             self.seek = None;
         }
-        for command in commands(payload) {
+        let mut commands = commands(payload);
+        // Looked at where it was decoded: it has room for a route, and moving it would copy all of that.
+        while let Some(command) = &commands.next() {
             match command {
-                Ok(command) if self.can(&command) => self.obey(now, personal, command),
+                Ok(command) if self.can(command) => self.obey(now, personal, command),
                 _ => self.unknown = self.unknown.saturating_add(1),
             }
         }
@@ -120,6 +145,7 @@ impl Robot {
     pub fn step(&mut self, now: Instant, inputs: &Inputs) -> Outputs {
         let dt = self.take_time(now);
         self.sense(now, inputs, dt);
+        self.doubts = Doubts { lost: self.estimate.lost(now), for_good: self.estimate.lost_for_good(now) };
         let show = self.clock.show_time(now);
         if show.is_some_and(|show| self.routes.begin_due(show)) {
             self.seek = None;
@@ -127,7 +153,7 @@ impl Robot {
         self.supervise(now);
         let wheels_radps = self.act(now, show, dt);
         self.stall.tell(wheels_radps);
-        self.state = self.what_it_does(now, show);
+        self.state = self.what_it_does(show);
         self.light.say(now, self.trouble(now));
         self.shown = self.light.step(now, show);
         self.speak(now);
@@ -139,29 +165,6 @@ impl Robot {
     pub fn light(&mut self, now: Instant) -> Rgb {
         self.shown = self.light.step(now, self.clock.show_time(now));
         self.shown
-    }
-
-    /// Writes the next message it has to send; `None`, and an empty message, when there is none.
-    pub fn outgoing(&mut self, out: &mut Message) -> Option<Topic> {
-        out.clear();
-        let at = self.place();
-        let fact = self.outbox.take(at.is_some(), self.config.abilities.route)?;
-        let (topic, route) = match fact {
-            Fact::Introduction => (Topic::Uuid, self.routes.named()),
-            Fact::Arrival(route) => (Topic::Arrival, route),
-            Fact::Status => (Topic::Status, self.routes.named()),
-            Fact::Question => {
-                let question = TimeQuestion { id: self.config.id, asked: self.now };
-                return question.encode(out).ok().map(|()| Topic::Time);
-            }
-        };
-        let speaks_ours = self.config.abilities != Default::default();
-        // Nobody heard that it was cut while it was: the first report over the new link says it.
-        let was_cut = fact == Fact::Introduction && self.supervisor.take_untold();
-        let state = if was_cut { RobotState::Cut } else { self.state };
-        let details = speaks_ours.then(|| Details { route, state, ..self.details() });
-        Report { id: self.config.id, at, details }.encode(out).ok()?;
-        Some(topic)
     }
 
     /// Where it believes to be; `None` where it does not know, or does not know its heading.
@@ -210,6 +213,11 @@ impl Robot {
         if self.routes.rests_held() { self.estimate.lost_for_good(now) } else { self.estimate.lost(now) }
     }
 
+    /// The same as the step under way knows it: asked for again and again, and the answer hangs on the routes alone.
+    fn is_lost_now(&self) -> bool {
+        if self.routes.rests_held() { self.doubts.for_good } else { self.doubts.lost }
+    }
+
     /// Whether fixes that should have come stay away.
     fn is_blind(&self) -> bool {
         self.estimate.blind(self.now, self.config.fix_pace * 3 + OVERDUE)
@@ -223,29 +231,6 @@ impl Robot {
     /// Commands it did not know or could make no sense of, since power-on.
     pub fn unknown(&self) -> u32 {
         self.unknown
-    }
-
-    /// What stands in its way: how far, and in which direction of the stage.
-    fn blocked(&self) -> Option<Blocked> {
-        let (block, pose) = (self.reflex.block()?, self.pose()?);
-        Some(Blocked { gap_m: block.gap_m, towards: wrap(pose.heading + block.towards) })
-    }
-
-    fn details(&self) -> Details {
-        Details {
-            heading: self.pose().map(|pose| pose.heading),
-            battery: self.battery,
-            state: self.state,
-            route: self.routes.named(),
-            starts: self.routes.starts().filter(|_| self.clock.show_time(self.now).is_some()),
-            off_m: self.routes.off_m(),
-            err_m: self.place().map(|_| self.err_m()),
-            clock_us: self.clock.error_us(self.now),
-            firmware: self.config.firmware.clone(),
-            abilities: self.config.abilities,
-            unknown: self.unknown,
-            blocked: self.blocked(),
-        }
     }
 
     /// Seconds since the step before; messages may have come in between.
@@ -297,7 +282,7 @@ impl Robot {
             if gives_up && !self.pauses {
                 self.supervisor.fault(now);
             }
-            if gives_up || self.supervisor.faulty(now) || self.is_lost(now) {
+            if gives_up || self.supervisor.faulty(now) || self.is_lost_now() {
                 self.routes.abandon();
             }
         }
@@ -322,7 +307,7 @@ impl Robot {
         if self.supervisor.faulty(now) || self.supervisor.is_cut() {
             return self.drive.halt();
         }
-        let wants = if self.is_lost(now) { None } else { self.want(show, dt) };
+        let wants = if self.is_lost_now() { None } else { self.want(show, dt) };
         let wants = if self.pauses() { Setpoint::default() } else { wants.unwrap_or_default() };
         let most_mps = if self.routes.under_way() {
             let ample = self.routes.room_mm().is_some_and(|room_mm| room_mm >= AMPLE_MM);
@@ -375,8 +360,10 @@ impl Robot {
 
     /// Says once that it is there, when it stands there.
     fn arrive(&mut self, show: Option<Instant>) {
-        let unsure = self.is_blind() && self.estimate.error_m() > SURE_M;
-        if !self.drive.stands() || unsure || self.is_lost(self.now) {
+        if !self.drive.stands() || self.is_lost_now() {
+            return;
+        }
+        if self.is_blind() && self.estimate.error_m() > SURE_M {
             return;
         }
         let at = self.estimate.at();
@@ -388,12 +375,12 @@ impl Robot {
         }
     }
 
-    fn what_it_does(&self, now: Instant, show: Option<Instant>) -> RobotState {
+    fn what_it_does(&self, show: Option<Instant>) -> RobotState {
         if self.supervisor.is_faulty() {
             RobotState::Faulty
         } else if self.supervisor.is_cut() {
             RobotState::Cut
-        } else if self.is_lost(now) {
+        } else if self.is_lost_now() {
             RobotState::Lost
         } else if self.routes.held(show) {
             RobotState::Held
@@ -422,7 +409,7 @@ impl Robot {
         if self.config.abilities.route && self.supervisor.is_up() && self.clock.take_question(now) {
             self.outbox.ask_time();
         }
-        let knows_place = self.state != RobotState::Lost && !self.is_lost(now);
+        let knows_place = self.state != RobotState::Lost && !self.is_lost_now();
         let err_m = (self.routes.under_way() && self.is_blind()).then(|| self.err_m());
         self.outbox.notice(now, self.state, self.routes.off_m(), err_m, knows_place);
         self.outbox.notice_block(self.reflex.block().is_some());

@@ -1,5 +1,7 @@
 //! The route under way, the one kept for later, and when they begin.
 
+use core::borrow::{Borrow, BorrowMut};
+
 use lightbots_base::{Instant, Limits, Motion, PathRef, Span, Vec2};
 use lightbots_wire::Route;
 
@@ -8,6 +10,7 @@ use crate::drive::{Body, Setpoint};
 use crate::follow::{Follow, RESTING_MPS};
 use crate::outlook::{Ahead, Outlook, SLOW_MPS};
 use crate::seek::{Seek, within_arrival};
+use crate::shelf::{Place, Shelf};
 use crate::timeline::Timeline;
 
 /// A START that comes later than this after its moment is too late.
@@ -25,7 +28,8 @@ const OLD_NUMBERS: u32 = 64;
 /// A route that waits for its START.
 #[derive(Debug)]
 struct Kept {
-    route: Route,
+    place: Place,
+    seq: u32,
     starts: Option<Instant>,
     follow: Follow,
     ahead: Option<Vec2>,
@@ -34,9 +38,13 @@ struct Kept {
 /// A route that has begun.
 #[derive(Debug)]
 struct Running {
-    route: Route,
+    place: Place,
+    seq: u32,
+    room_mm: Option<u16>,
     starts: Instant,
     duration: Span,
+    /// Where the route ends.
+    end: Vec2,
     cursor: Cursor,
     follow: Follow,
     outlook: Outlook,
@@ -53,9 +61,10 @@ struct Running {
     rests: bool,
 }
 
-/// The routes of a robot.
+/// The routes of a robot; `S` is where they lie.
 #[derive(Debug)]
-pub(crate) struct Routes {
+pub(crate) struct Routes<S> {
+    shelf: S,
     running: Option<Running>,
     kept: Option<Kept>,
     timeline: Timeline,
@@ -63,26 +72,28 @@ pub(crate) struct Routes {
     finished: u32,
 }
 
-impl Routes {
-    pub(crate) fn new() -> Self {
-        Self { running: None, kept: None, timeline: Timeline::new(), finished: 0 }
+impl<S: BorrowMut<Shelf>> Routes<S> {
+    pub(crate) fn new(shelf: S) -> Self {
+        Self { shelf, running: None, kept: None, timeline: Timeline::new(), finished: 0 }
     }
 
     /// Keeps a route for its START. The one under way, the one just finished and late old messages change nothing.
-    pub(crate) fn keep(&mut self, route: Route) {
+    pub(crate) fn keep(&mut self, route: &Route) {
         let newest = self.named();
         let age = newest.wrapping_sub(route.seq);
         if newest != 0 && age < OLD_NUMBERS {
             return;
         }
-        let ahead = Outlook::default().look(&route, (0, Span::ZERO), Span::ZERO).map(|ahead| ahead.towards);
-        self.kept = Some(Kept { route, starts: None, follow: Follow::new(), ahead });
+        let ahead = Outlook::default().look(route, (0, Span::ZERO), Span::ZERO).map(|ahead| ahead.towards);
+        let place = self.running.as_ref().map_or(Place::First, |running| running.place.other());
+        self.kept = Some(Kept { place, seq: route.seq, starts: None, follow: Follow::new(), ahead });
+        BorrowMut::<Shelf>::borrow_mut(&mut self.shelf).put(place, route);
     }
 
     /// States when the kept route begins; anew, as long as it has not begun, but only to a later moment: an earlier
     /// one is an old message that was overtaken. Tells whether that changed anything.
     pub(crate) fn start(&mut self, seq: u32, at: Instant, show: Option<Instant>) -> bool {
-        let Some(kept) = self.kept.as_mut().filter(|kept| kept.route.seq == seq) else {
+        let Some(kept) = self.kept.as_mut().filter(|kept| kept.seq == seq) else {
             return false;
         };
         if kept.starts.is_some_and(|known| known >= at) || show.is_some_and(|show| show - at > TOO_LATE) {
@@ -94,7 +105,7 @@ impl Routes {
 
     /// How far others stay away by plan on the route under way, millimetres.
     pub(crate) fn room_mm(&self) -> Option<u16> {
-        self.running.as_ref()?.route.room_mm
+        self.running.as_ref()?.room_mm
     }
 
     /// Takes a hold or a resume.
@@ -109,25 +120,27 @@ impl Routes {
             kept.starts = kept.starts.filter(|&at| show - at <= TOO_LATE);
         }
         let due = |kept: &mut Kept| kept.starts.is_some_and(|at| at <= show);
-        let Some(Kept { route, starts: Some(starts), follow, .. }) = self.kept.take_if(due) else {
+        let Some(Kept { place, seq, starts: Some(starts), follow, .. }) = self.kept.take_if(due) else {
             return false;
         };
         self.timeline.begin(starts);
-        let duration = PathRef::new(route.start, &route.pieces).duration();
-        let cursor = Cursor::new(&route);
-        let (outlook, due, time) = (Outlook::default(), route.start, Span::ZERO);
+        let route = Borrow::<Shelf>::borrow(&self.shelf).at(place);
+        let path = PathRef::new(route.start, &route.pieces);
         self.running = Some(Running {
-            route,
+            place,
+            seq,
+            room_mm: route.room_mm,
             starts,
-            duration,
-            cursor,
+            duration: path.duration(),
+            end: path.end(),
+            cursor: Cursor::new(route),
             follow,
-            outlook,
+            outlook: Outlook::default(),
             seek: None,
             back: None,
             off_m: 0.0,
-            due,
-            time,
+            due: route.start,
+            time: Span::ZERO,
             rests: false,
         });
         true
@@ -143,8 +156,9 @@ impl Routes {
         limits: &Limits,
     ) -> Option<Setpoint> {
         let running = self.running.as_mut()?;
+        let route = Borrow::<Shelf>::borrow(&self.shelf).at(running.place);
         let progress = self.timeline.at(takes_effect);
-        running.cursor.seek(&running.route, progress.time);
+        running.cursor.seek(route, progress.time);
         let by_path_time = running.cursor.motion(progress.time);
         let motion = by_show_time(by_path_time, progress.rate);
         (running.due, running.time, running.rests) = (motion.position, progress.time, progress.rate == 0.0);
@@ -166,7 +180,7 @@ impl Routes {
         running.back = None;
         let speed = by_path_time.velocity.length();
         let ahead = if speed < SLOW_MPS {
-            running.outlook.look(&running.route, running.cursor.piece(), progress.time)
+            running.outlook.look(route, running.cursor.piece(), progress.time)
         } else if motion.velocity.length() < RESTING_MPS {
             // Held on its way, it keeps to the tangent there.
             Some(Ahead { towards: by_path_time.velocity / speed, within_s: 0.0 })
@@ -186,12 +200,11 @@ impl Routes {
     /// Ends the route under way where it is over and the robot stands at its end; gives its number.
     pub(crate) fn finish(&mut self, show: Instant, at: Vec2) -> Option<u32> {
         let over = |running: &mut Running| {
-            let end = PathRef::new(running.route.start, &running.route.pieces).end();
             let time = self.timeline.at(show).time;
-            time >= running.duration && running.is_there(time, at, end)
+            time >= running.duration && running.is_there(time, at, running.end)
         };
         let done = self.running.take_if(over)?;
-        self.finished = done.route.seq;
+        self.finished = done.seq;
         Some(self.finished)
     }
 
@@ -233,7 +246,7 @@ impl Routes {
 
     /// Whether the route under way is held.
     pub(crate) fn held(&self, show: Option<Instant>) -> bool {
-        self.running.is_some() && show.is_some_and(|show| self.timeline.at(show).held)
+        self.running.is_some() && show.is_some_and(|show| self.timeline.held(show))
     }
 
     /// Whether the route under way is held and the robot was to stand by its latest step.
@@ -243,8 +256,8 @@ impl Routes {
 
     /// The route it speaks of: the one kept, else the one under way, else the one finished last; 0: none.
     pub(crate) fn named(&self) -> u32 {
-        let running = self.running.as_ref().map(|running| running.route.seq);
-        self.kept.as_ref().map(|kept| kept.route.seq).or(running).unwrap_or(self.finished)
+        let running = self.running.as_ref().map(|running| running.seq);
+        self.kept.as_ref().map(|kept| kept.seq).or(running).unwrap_or(self.finished)
     }
 
     /// When the route it speaks of begins or began.
@@ -263,7 +276,8 @@ impl Routes {
     /// How far the route under way leads from where it is within so much path time, metres.
     pub(crate) fn way_ahead_m(&self, within: Span) -> f64 {
         let Some(running) = &self.running else { return 0.0 };
-        let path = PathRef::new(running.route.start, &running.route.pieces);
+        let route = Borrow::<Shelf>::borrow(&self.shelf).at(running.place);
+        let path = PathRef::new(route.start, &route.pieces);
         path.at(running.time + within).position.distance(running.due)
     }
 
@@ -303,8 +317,8 @@ mod tests {
 
     #[test]
     fn a_start_may_be_moved_until_the_route_has_begun() {
-        let mut routes = Routes::new();
-        routes.keep(route(7));
+        let mut routes = Routes::new(Shelf::new());
+        routes.keep(&route(7));
         assert!(!routes.start(8, Instant(5), None));
         assert!(routes.start(7, Instant(1_000_000), Some(Instant(0))));
         assert!(!routes.start(7, Instant(1_000_000), Some(Instant(0))));
@@ -318,16 +332,16 @@ mod tests {
 
     #[test]
     fn a_start_long_past_is_refused() {
-        let mut routes = Routes::new();
-        routes.keep(route(7));
+        let mut routes = Routes::new(Shelf::new());
+        routes.keep(&route(7));
         assert!(!routes.start(7, Instant(0), Some(Instant(600_000))));
         assert_eq!(routes.starts(), None);
     }
 
     #[test]
     fn a_moment_missed_without_a_clock_is_forgotten() {
-        let mut routes = Routes::new();
-        routes.keep(route(7));
+        let mut routes = Routes::new(Shelf::new());
+        routes.keep(&route(7));
         assert!(routes.start(7, Instant(0), None));
         assert!(!routes.begin_due(Instant(600_000)));
         assert!(routes.keeps_one() && !routes.in_a_run());
@@ -335,25 +349,25 @@ mod tests {
 
     #[test]
     fn old_and_doubled_paths_change_nothing() {
-        let mut routes = Routes::new();
-        routes.keep(route(100));
+        let mut routes = Routes::new(Shelf::new());
+        routes.keep(&route(100));
         routes.start(100, Instant(5), Some(Instant(0)));
-        routes.keep(route(100));
-        routes.keep(route(99));
+        routes.keep(&route(100));
+        routes.keep(&route(99));
         assert_eq!((routes.named(), routes.starts()), (100, Some(Instant(5))));
-        routes.keep(route(3));
+        routes.keep(&route(3));
         assert_eq!((routes.named(), routes.starts()), (3, None));
-        routes.keep(route(4_000_000_000));
+        routes.keep(&route(4_000_000_000));
         assert_eq!(routes.named(), 4_000_000_000);
     }
 
     #[test]
     fn the_next_route_is_kept_while_one_is_under_way_and_takes_over() {
-        let mut routes = Routes::new();
-        routes.keep(route(1));
+        let mut routes = Routes::new(Shelf::new());
+        routes.keep(&route(1));
         routes.start(1, Instant(0), Some(Instant(0)));
         routes.begin_due(Instant(0));
-        routes.keep(route(2));
+        routes.keep(&route(2));
         assert_eq!(routes.named(), 2);
         assert!(routes.step(Instant(500_000), BODY, Vec2::ZERO, &Limits::ELISA_3).is_some());
         assert!((routes.off_m().unwrap() - 0.05).abs() < 1e-9);

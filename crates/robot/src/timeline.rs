@@ -74,6 +74,12 @@ impl Timeline {
         self.events.iter().all(|event| event.hold || event.at <= show)
     }
 
+    /// Whether a hold is in force at a moment of the show clock.
+    pub(crate) fn held(&self, show: Instant) -> bool {
+        let last = self.events.iter().take_while(|event| event.at <= show).last();
+        last.map_or(self.base.progress.held, |event| event.hold)
+    }
+
     /// Progress at a moment of the show clock; before the route's start, its path time is negative.
     pub(crate) fn at(&self, show: Instant) -> Progress {
         let mut point = self.base;
@@ -148,6 +154,9 @@ mod tests {
         assert_eq!(timeline.at(ms(2150)).time, Span(1_000_000 + 112_500));
         assert_eq!(timeline.at(ms(3000)), Progress { time: Span(1_150_000), rate: 0.0, held: true });
         assert_eq!(timeline.at(ms(5000)), Progress { time: Span(2_000_000), rate: 1.0, held: false });
+        for at in [1000, 1999, 2000, 3000, 3999, 4000, 5000] {
+            assert_eq!(timeline.held(ms(at)), timeline.at(ms(at)).held, "{at}");
+        }
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! Robots: the real firmware core in simulated bodies, each with its own clock.
 
 use lightbots_base::{Instant, Pose, Rgb, RobotId, Vec2};
-use lightbots_robot::{Config, Fix, Inputs, Message, Robot};
+use lightbots_robot::{Config, Fix, Inputs, Message, Robot, Shelf};
 use lightbots_show::Stage;
 use lightbots_wire::Topic;
 
@@ -40,11 +40,15 @@ struct Member {
     blind: bool,
 }
 
+/// Our firmware with its routes apart: a step reads next to nothing of them, and what it reads of ten thousand robots
+/// should lie together.
+pub(crate) type Ours = Robot<Box<Shelf>>;
+
 /// Who decides what a body does.
 #[expect(clippy::large_enum_variant, reason = "nearly all robots are ours, and looked at in order")]
 enum Mind {
     /// Our firmware.
-    Ours(Robot),
+    Ours(Ours),
     /// A robot that knows only TARGET and COLOR.
     Original(Original),
 }
@@ -216,7 +220,11 @@ impl Member {
             ..Config::new(id)
         };
         let battery = 80 + dice.below(21) as u8;
-        let mind = if original { Mind::Original(Original::new(id)) } else { Mind::Ours(Robot::new(config)) };
+        let mind = if original {
+            Mind::Original(Original::new(id))
+        } else {
+            Mind::Ours(Ours::with_shelf(config, Box::default()))
+        };
         Self { mind, id, clock, battery, light: Rgb::BLACK, alive: true, stuck: false, blind: false }
     }
 

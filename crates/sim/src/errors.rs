@@ -1,8 +1,8 @@
 //! How far robots are from where they believe to be and from where their routes are, and their clocks from each other.
 
 use lightbots_base::Instant;
-use lightbots_robot::Robot;
 
+use crate::crew::Ours;
 use crate::statistics::Spread;
 use crate::world::World;
 
@@ -33,7 +33,7 @@ struct Tally {
 impl Errors {
     /// Looks at a robot after the world moved and before it thinks: where its last step wanted it to be by now.
     #[inline]
-    pub fn look(&mut self, step: u64, index: usize, robot: &Robot, world: &World) {
+    pub fn look(&mut self, step: u64, index: usize, robot: &Ours, world: &World) {
         if !(step + index as u64).is_multiple_of(EVERY) {
             return;
         }
@@ -44,7 +44,7 @@ impl Errors {
 
     /// Looks at a robot after it took in what its sensors said.
     #[inline]
-    pub fn look_again(&mut self, step: u64, index: usize, robot: &Robot, world: &World) {
+    pub fn look_again(&mut self, step: u64, index: usize, robot: &Ours, world: &World) {
         if !(step + index as u64).is_multiple_of(EVERY) || robot.route_place().is_none() {
             return;
         }

@@ -2,7 +2,7 @@
 
 use core::str::{Split, SplitAsciiWhitespace};
 
-use lightbots_base::{Rgb, Span, Vec2};
+use lightbots_base::{Instant, Rgb, Span, Vec2};
 
 use crate::number::{instant, number, span};
 use crate::path::decode_route;
@@ -50,61 +50,72 @@ impl Iterator for Commands<'_> {
         if let Some(why) = self.refused.take() {
             return Some(Err(why));
         }
-        self.parts.find_map(|part| {
-            let mut fields = part.split_ascii_whitespace();
-            let word = fields.next()?;
-            Some(decode(word, &mut fields))
-        })
+        loop {
+            let mut fields = self.parts.next()?.split_ascii_whitespace();
+            if let Some(word) = fields.next() {
+                return Some(decode(word, &mut fields));
+            }
+        }
     }
 }
 
 /// One command from its word and the fields after it. Fields beyond those we know are left alone, so that later
 /// versions may add some.
+// Every way makes the whole result where it is returned: a command has room for a route, and handing it on as an
+// `Option` first, or from inlined code, would copy all of that for a `HOLD` as well.
+#[inline(never)]
 fn decode(word: &str, fields: &mut SplitAsciiWhitespace<'_>) -> Result<Command, Unknown> {
-    let command = match word {
+    match word {
         "TARGET" => target(fields),
-        "COLOR" => colour(fields).map(Command::Color),
-        "UUID" => Some(Command::Uuid),
-        "PATH" => decode_route(fields).map(Command::Route),
+        "COLOR" => Ok(Command::Color(colour(fields)?)),
+        "UUID" => Ok(Command::Uuid),
+        "PATH" => Ok(Command::Route(decode_route(fields).ok_or(Unknown::Fields)?)),
         "START" => start(fields),
-        "HOLD" => fields.next().and_then(instant).map(|at| Command::Hold { at }),
-        "RESUME" => fields.next().and_then(instant).map(|at| Command::Resume { at }),
-        "STOP" => Some(Command::Stop),
+        "HOLD" => Ok(Command::Hold { at: moment(fields)? }),
+        "RESUME" => Ok(Command::Resume { at: moment(fields)? }),
+        "STOP" => Ok(Command::Stop),
         "TIME" => time(fields),
         "FADE" => fade(fields),
-        "BLINK" => {
-            fields.next().and_then(span).map(|over| Command::Blink(Blink { over: over.min(LONGEST_BLINK) }))
-        }
-        "STATUS" => Some(Command::Status),
-        _ => return Err(Unknown::Word),
-    };
-    command.ok_or(Unknown::Fields)
+        "BLINK" => Ok(Command::Blink(Blink { over: duration(fields)?.min(LONGEST_BLINK) })),
+        "STATUS" => Ok(Command::Status),
+        _ => Err(Unknown::Word),
+    }
 }
 
-fn target(fields: &mut SplitAsciiWhitespace<'_>) -> Option<Command> {
-    let (x, y) = (number(fields.next()?)?, number(fields.next()?)?);
-    Some(Command::Target(Vec2::new(x, y)))
+fn target(fields: &mut SplitAsciiWhitespace<'_>) -> Result<Command, Unknown> {
+    let mut next = || fields.next().and_then(number).ok_or(Unknown::Fields);
+    let (x, y) = (next()?, next()?);
+    Ok(Command::Target(Vec2::new(x, y)))
 }
 
-fn colour(fields: &mut SplitAsciiWhitespace<'_>) -> Option<Rgb> {
-    Rgb::from_number(fields.next()?.parse().ok()?)
+fn start(fields: &mut SplitAsciiWhitespace<'_>) -> Result<Command, Unknown> {
+    let seq = fields.next().and_then(|field| field.parse().ok()).filter(|&seq| seq != 0);
+    let seq = seq.ok_or(Unknown::Fields)?;
+    Ok(Command::Start { seq, at: moment(fields)? })
 }
 
-fn start(fields: &mut SplitAsciiWhitespace<'_>) -> Option<Command> {
-    let seq = fields.next()?.parse().ok().filter(|&seq| seq != 0)?;
-    Some(Command::Start { seq, at: instant(fields.next()?)? })
+fn time(fields: &mut SplitAsciiWhitespace<'_>) -> Result<Command, Unknown> {
+    let answer = TimeAnswer { asked: moment(fields)?, received: moment(fields)?, sent: moment(fields)? };
+    if answer.received > answer.sent {
+        return Err(Unknown::Fields);
+    }
+    Ok(Command::Time(answer))
 }
 
-fn time(fields: &mut SplitAsciiWhitespace<'_>) -> Option<Command> {
-    let mut next = || fields.next().and_then(instant);
-    let answer = TimeAnswer { asked: next()?, received: next()?, sent: next()? };
-    (answer.received <= answer.sent).then_some(Command::Time(answer))
+fn fade(fields: &mut SplitAsciiWhitespace<'_>) -> Result<Command, Unknown> {
+    let fade = Fade { to: colour(fields)?, at: moment(fields)?, over: duration(fields)? };
+    Ok(Command::Fade(fade))
 }
 
-fn fade(fields: &mut SplitAsciiWhitespace<'_>) -> Option<Command> {
-    Some(Command::Fade(Fade {
-        to: colour(fields)?,
-        at: instant(fields.next()?)?,
-        over: span(fields.next()?)?,
-    }))
+fn colour(fields: &mut SplitAsciiWhitespace<'_>) -> Result<Rgb, Unknown> {
+    let number = fields.next().and_then(|field| field.parse().ok());
+    number.and_then(Rgb::from_number).ok_or(Unknown::Fields)
+}
+
+fn moment(fields: &mut SplitAsciiWhitespace<'_>) -> Result<Instant, Unknown> {
+    fields.next().and_then(instant).ok_or(Unknown::Fields)
+}
+
+fn duration(fields: &mut SplitAsciiWhitespace<'_>) -> Result<Span, Unknown> {
+    fields.next().and_then(span).ok_or(Unknown::Fields)
 }

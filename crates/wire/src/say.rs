@@ -7,9 +7,6 @@ use lightbots_base::{RobotId, Vec2};
 use crate::number::{instant, number, write_digits, write_double, write_int};
 use crate::{Abilities, Blocked, Details, Firmware, Report, RobotState, TimeQuestion};
 
-/// The fields we know.
-const KEYS: [&str; 12] =
-    ["h", "bat", "state", "route", "starts", "off", "err", "clock", "fw", "can", "unknown", "blocked"];
 /// The most bytes of a report that are read; longer ones are refused.
 const MAX_REPORT: usize = 1024;
 
@@ -22,8 +19,9 @@ impl Report {
         let at = Vec2::new(number(fields.next()?)?, number(fields.next()?)?);
         let mut details = None;
         for field in fields {
-            if let Some((key, value)) = field.split_once('=') {
-                read_detail(&mut details, key, value);
+            // Not `split_once`: for a few bytes its search costs more than all the rest.
+            if let Some(end) = field.bytes().position(|byte| byte == b'=') {
+                read_detail(&mut details, &field[..end], &field[end + 1..]);
             }
         }
         Some(Self { id, at: at.is_finite().then_some(at), details })
@@ -86,24 +84,25 @@ fn text(payload: &[u8]) -> Option<&str> {
 
 /// Notes one `key=value` field; details come to be with the first key we know, whatever its value.
 fn read_detail(details: &mut Option<Details>, key: &str, value: &str) {
-    if !KEYS.contains(&key) {
-        return;
-    }
-    let known = details.get_or_insert_default();
     match key {
-        "h" => known.heading = finite(value),
-        "bat" => known.battery = value.parse().ok().filter(|&percent| percent <= 100),
-        "state" => known.state = RobotState::from_word(value).unwrap_or_default(),
-        "route" => known.route = value.parse().unwrap_or(0),
-        "starts" => known.starts = instant(value),
-        "off" => known.off_m = finite(value).filter(|&off| off >= 0.0),
-        "err" => known.err_m = finite(value).filter(|&err| err >= 0.0),
-        "clock" => known.clock_us = value.parse().ok(),
-        "fw" => known.firmware = firmware(value),
-        "can" => known.abilities = Abilities::from_words(value),
-        "blocked" => known.blocked = blocked(value),
-        _ => known.unknown = value.parse().unwrap_or(0),
+        "h" => known(details).heading = finite(value),
+        "bat" => known(details).battery = value.parse().ok().filter(|&percent| percent <= 100),
+        "state" => known(details).state = RobotState::from_word(value).unwrap_or_default(),
+        "route" => known(details).route = value.parse().unwrap_or(0),
+        "starts" => known(details).starts = instant(value),
+        "off" => known(details).off_m = finite(value).filter(|&off| off >= 0.0),
+        "err" => known(details).err_m = finite(value).filter(|&err| err >= 0.0),
+        "clock" => known(details).clock_us = value.parse().ok(),
+        "fw" => known(details).firmware = firmware(value),
+        "can" => known(details).abilities = Abilities::from_words(value),
+        "unknown" => known(details).unknown = value.parse().unwrap_or(0),
+        "blocked" => known(details).blocked = blocked(value),
+        _ => {}
     }
+}
+
+fn known(details: &mut Option<Details>) -> &mut Details {
+    details.get_or_insert_default()
 }
 
 fn finite(value: &str) -> Option<f64> {
@@ -172,8 +171,17 @@ fn write_details(details: &Details, out: &mut dyn Write) -> fmt::Result {
 impl Abilities {
     /// Words joined by `+`; those we do not know are skipped.
     fn from_words(words: &str) -> Self {
-        let has = |word| words.split('+').any(|one| one == word);
-        Self { route: has("route"), fade: has("fade"), blink: has("blink"), room: has("room") }
+        let mut abilities = Self::default();
+        for word in words.as_bytes().split(|&byte| byte == b'+') {
+            match word {
+                b"route" => abilities.route = true,
+                b"fade" => abilities.fade = true,
+                b"blink" => abilities.blink = true,
+                b"room" => abilities.room = true,
+                _ => {}
+            }
+        }
+        abilities
     }
 
     fn write(self, out: &mut dyn Write) -> fmt::Result {

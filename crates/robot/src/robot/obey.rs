@@ -1,15 +1,18 @@
 //! What each command changes.
 
+use core::borrow::BorrowMut;
+
 use lightbots_base::{Instant, Vec2};
 use lightbots_wire::Command;
 
 use super::Robot;
 use crate::seek::Seek;
+use crate::shelf::Shelf;
 
 /// Places further out than this in a coordinate make no sense, metres.
 const FAR_M: f64 = 1000.0;
 
-impl Robot {
+impl<S: BorrowMut<Shelf>> Robot<S> {
     /// Whether it was built to understand a command.
     pub(super) fn can(&self, command: &Command) -> bool {
         let abilities = self.config.abilities;
@@ -22,12 +25,12 @@ impl Robot {
     }
 
     /// Does what a command says; `personal`: it came on the robot's own topic.
-    pub(super) fn obey(&mut self, now: Instant, personal: bool, command: Command) {
-        match command {
+    pub(super) fn obey(&mut self, now: Instant, personal: bool, command: &Command) {
+        match *command {
             Command::Target(goal) => self.take_target(goal),
             Command::Color(colour) => self.light.set(colour),
             Command::Uuid => self.outbox.introduce(),
-            Command::Route(route) => {
+            Command::Route(ref route) => {
                 self.routes.keep(route);
                 self.outbox.report_status();
             }

@@ -1,0 +1,56 @@
+//! Where a robot keeps its routes: they are large and seldom looked at.
+
+use lightbots_base::Vec2;
+use lightbots_wire::{Pieces, Route};
+
+/// Room for the route under way and for the one kept for later: 14 KB, of which a step reads next to nothing.
+///
+/// A [`crate::Robot`] holds it in itself, or is given one that lies elsewhere: where thousands of robots take turns,
+/// what each step needs of them then lies together.
+#[derive(Debug)]
+pub struct Shelf {
+    places: [Route; 2],
+}
+
+/// One of the two places.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Place {
+    First,
+    Second,
+}
+
+impl Shelf {
+    /// A shelf with nothing on it.
+    pub const fn new() -> Self {
+        const NOTHING: Route = Route { seq: 0, start: Vec2::ZERO, pieces: Pieces::new(), room_mm: None };
+        Self { places: [NOTHING; 2] }
+    }
+
+    pub(crate) fn put(&mut self, place: Place, route: &Route) {
+        let Route { seq, start, pieces, room_mm } = route;
+        let free = &mut self.places[place as usize];
+        (free.seq, free.start, free.room_mm) = (*seq, *start, *room_mm);
+        free.pieces.clear();
+        // Fits: both are as large. A copy of the whole would copy all the room that is not used.
+        let _ = free.pieces.extend_from_slice(pieces);
+    }
+
+    pub(crate) fn at(&self, place: Place) -> &Route {
+        &self.places[place as usize]
+    }
+}
+
+impl Default for Shelf {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl Place {
+    pub(crate) fn other(self) -> Self {
+        match self {
+            Self::First => Self::Second,
+            Self::Second => Self::First,
+        }
+    }
+}
