@@ -53,7 +53,7 @@ impl Iterator for Commands<'_> {
         loop {
             let mut fields = self.parts.next()?.split_ascii_whitespace();
             if let Some(word) = fields.next() {
-                return Some(decode(word, &mut fields));
+                return decode(word, &mut fields);
             }
         }
     }
@@ -61,50 +61,52 @@ impl Iterator for Commands<'_> {
 
 /// One command from its word and the fields after it. Fields beyond those we know are left alone, so that later
 /// versions may add some.
-// Every way makes the whole result where it is returned: a command has room for a route, and handing it on as an
-// `Option` first, or from inlined code, would copy all of that for a `HOLD` as well.
-#[inline(never)]
-fn decode(word: &str, fields: &mut SplitAsciiWhitespace<'_>) -> Result<Command, Unknown> {
+// Every way makes the whole answer where it is returned: a command has room for a route, and handing it on once more
+// would copy all of that for a `HOLD` as well.
+fn decode(word: &str, fields: &mut SplitAsciiWhitespace<'_>) -> Option<Result<Command, Unknown>> {
     match word {
-        "TARGET" => target(fields),
-        "COLOR" => Ok(Command::Color(colour(fields)?)),
-        "UUID" => Ok(Command::Uuid),
-        "PATH" => Ok(Command::Route(decode_route(fields).ok_or(Unknown::Fields)?)),
-        "START" => start(fields),
-        "HOLD" => Ok(Command::Hold { at: moment(fields)? }),
-        "RESUME" => Ok(Command::Resume { at: moment(fields)? }),
-        "STOP" => Ok(Command::Stop),
-        "TIME" => time(fields),
-        "FADE" => fade(fields),
-        "BLINK" => Ok(Command::Blink(Blink { over: duration(fields)?.min(LONGEST_BLINK) })),
-        "STATUS" => Ok(Command::Status),
-        _ => Err(Unknown::Word),
+        "TARGET" => made(target(fields), Command::Target),
+        "COLOR" => made(colour(fields), Command::Color),
+        "UUID" => Some(Ok(Command::Uuid)),
+        "PATH" => made(decode_route(fields).ok_or(Unknown::Fields), Command::Route),
+        "START" => made(start(fields), |(seq, at)| Command::Start { seq, at }),
+        "HOLD" => made(moment(fields), |at| Command::Hold { at }),
+        "RESUME" => made(moment(fields), |at| Command::Resume { at }),
+        "STOP" => Some(Ok(Command::Stop)),
+        "TIME" => made(time(fields), Command::Time),
+        "FADE" => made(fade(fields), Command::Fade),
+        "BLINK" => made(duration(fields), |over| Command::Blink(Blink { over: over.min(LONGEST_BLINK) })),
+        "STATUS" => Some(Ok(Command::Status)),
+        _ => Some(Err(Unknown::Word)),
     }
 }
 
-fn target(fields: &mut SplitAsciiWhitespace<'_>) -> Result<Command, Unknown> {
+/// The answer with the command that is made of what was read.
+#[inline(always)]
+fn made<T>(read: Result<T, Unknown>, command: impl Fn(T) -> Command) -> Option<Result<Command, Unknown>> {
+    match read {
+        Ok(value) => Some(Ok(command(value))),
+        Err(why) => Some(Err(why)),
+    }
+}
+
+fn target(fields: &mut SplitAsciiWhitespace<'_>) -> Result<Vec2, Unknown> {
     let mut next = || fields.next().and_then(number).ok_or(Unknown::Fields);
-    let (x, y) = (next()?, next()?);
-    Ok(Command::Target(Vec2::new(x, y)))
+    Ok(Vec2::new(next()?, next()?))
 }
 
-fn start(fields: &mut SplitAsciiWhitespace<'_>) -> Result<Command, Unknown> {
+fn start(fields: &mut SplitAsciiWhitespace<'_>) -> Result<(u32, Instant), Unknown> {
     let seq = fields.next().and_then(|field| field.parse().ok()).filter(|&seq| seq != 0);
-    let seq = seq.ok_or(Unknown::Fields)?;
-    Ok(Command::Start { seq, at: moment(fields)? })
+    Ok((seq.ok_or(Unknown::Fields)?, moment(fields)?))
 }
 
-fn time(fields: &mut SplitAsciiWhitespace<'_>) -> Result<Command, Unknown> {
+fn time(fields: &mut SplitAsciiWhitespace<'_>) -> Result<TimeAnswer, Unknown> {
     let answer = TimeAnswer { asked: moment(fields)?, received: moment(fields)?, sent: moment(fields)? };
-    if answer.received > answer.sent {
-        return Err(Unknown::Fields);
-    }
-    Ok(Command::Time(answer))
+    if answer.received <= answer.sent { Ok(answer) } else { Err(Unknown::Fields) }
 }
 
-fn fade(fields: &mut SplitAsciiWhitespace<'_>) -> Result<Command, Unknown> {
-    let fade = Fade { to: colour(fields)?, at: moment(fields)?, over: duration(fields)? };
-    Ok(Command::Fade(fade))
+fn fade(fields: &mut SplitAsciiWhitespace<'_>) -> Result<Fade, Unknown> {
+    Ok(Fade { to: colour(fields)?, at: moment(fields)?, over: duration(fields)? })
 }
 
 fn colour(fields: &mut SplitAsciiWhitespace<'_>) -> Result<Rgb, Unknown> {
