@@ -3,6 +3,8 @@
 //!
 //! An extended Kalman filter over place, heading and the slip of both wheels; wild fixes are left alone.
 
+mod judge;
+
 use lightbots_base::{Instant, Limits, Span, Vec2, difference, wrap};
 
 use crate::bearing::Bearing;
@@ -10,19 +12,12 @@ use crate::config::{Config, Fix};
 use crate::doubt::{Doubt, Gain, Noise, Stretch};
 use crate::slip::Slip;
 use crate::trust::Trust;
+use judge::{Judge, Verdict};
 
 /// Steps after which the covariance is carried on, …
 const STRETCH: u32 = 4;
 /// … but at once for so many fixes after a gap, as each of them teaches much.
 const TEACHING: u8 = 8;
-/// A fix further off than so many standard deviations, and than these floors, is an outlier.
-const GATE: f64 = 5.0;
-const GATE_FLOOR_M: f64 = 0.006;
-const GATE_FLOOR_RAD: f64 = 0.1;
-/// So many outliers in a row that agree are the truth: the pose jumps to it.
-const OUTLIERS: u8 = 10;
-/// Two jumps within this time make no sense.
-const JUMPS_APART: Span = Span::from_millis(1000);
 /// Fixes count as no better than this, because no positioning system is.
 const BEST_FIX_M: f64 = 0.000_3;
 const BEST_HEADING_RAD: f64 = 0.002;
@@ -50,14 +45,8 @@ pub(crate) struct Filter {
     heading_trust: Trust,
     /// What the fix before was off by, where it was no outlier.
     off: Option<(Vec2, f64)>,
-    last_fix: Option<Instant>,
-    last_heading: Option<Instant>,
+    judge: Judge,
     aligned: bool,
-    odd_places: u8,
-    odd_off: Vec2,
-    odd_headings: u8,
-    last_jump: Option<Instant>,
-    senseless: bool,
     /// All the way by wheels, stage metres.
     way: Vec2,
     bearing: Bearing,
@@ -83,14 +72,8 @@ impl Filter {
             place_trust: trust(config.fix_sigma_m, BEST_FIX_M),
             heading_trust: trust(config.heading_sigma_rad, BEST_HEADING_RAD),
             off: None,
-            last_fix: None,
-            last_heading: None,
+            judge: Judge::default(),
             aligned: false,
-            odd_places: 0,
-            odd_off: Vec2::ZERO,
-            odd_headings: 0,
-            last_jump: None,
-            senseless: false,
             way: Vec2::ZERO,
             bearing: Bearing::default(),
             wheel_radius_m,
@@ -188,63 +171,44 @@ impl Filter {
     /// How far the place is off by a fix that counts; nothing by one that does not.
     fn judge_place(&mut self, now: Instant, off: Vec2) -> Vec2 {
         let noise = self.place_trust.variance();
-        let gate = GATE * GATE * (self.doubt.place() + noise);
-        let odd = off.length_squared() > gate.max(GATE_FLOOR_M * GATE_FLOOR_M);
-        let first = self.last_fix.is_none();
-        if odd && !first {
-            let agrees = (off - self.odd_off).length_squared() < GATE * GATE * 2.0 * noise;
-            // Those that agree with none count against those that agree with each other.
-            self.odd_places = if agrees { self.odd_places + 1 } else { self.odd_places.saturating_sub(1) };
-            if agrees || self.odd_places == 0 {
-                self.odd_off = off;
-                self.odd_places = self.odd_places.max(1);
+        match self.judge.place(now, off, self.doubt.place(), noise) {
+            Verdict::Outlier => Vec2::ZERO,
+            Verdict::Counts => {
+                self.fixes[0] += 1;
+                off
             }
-            if self.odd_places < OUTLIERS {
-                return Vec2::ZERO;
+            Verdict::Truth => {
+                self.at += off;
+                self.doubt.set_place(noise);
+                self.teaching = TEACHING;
+                self.bearing.clear();
+                Vec2::ZERO
             }
-            self.senseless = self.last_jump.is_some_and(|jump| now - jump < JUMPS_APART);
-            self.last_jump = Some(now);
-            self.bearing.clear();
         }
-        self.odd_places = 0;
-        self.last_fix = Some(now);
-        if odd || first {
-            self.at += off;
-            self.doubt.set_place(noise);
-            self.teaching = TEACHING;
-            return Vec2::ZERO;
-        }
-        self.fixes[0] += 1;
-        off
     }
 
     /// How far the heading is off by a fix that counts; nothing by one that does not.
     fn judge_heading(&mut self, now: Instant, off: f64) -> f64 {
         let noise = self.heading_trust.variance();
-        let gate = GATE * GATE * (self.doubt.heading() + noise);
-        let odd = off * off > gate.max(GATE_FLOOR_RAD * GATE_FLOOR_RAD);
-        if odd && self.aligned {
-            self.odd_headings += 1;
-            if self.odd_headings < OUTLIERS {
-                return 0.0;
+        match self.judge.heading(now, off, self.doubt.heading() + noise, !self.aligned) {
+            Verdict::Outlier => 0.0,
+            Verdict::Counts => {
+                self.fixes[1] += 1;
+                off
+            }
+            Verdict::Truth => {
+                self.aligned = true;
+                self.turn_by(off);
+                self.doubt.set_heading(noise);
+                self.teaching = TEACHING;
+                0.0
             }
         }
-        self.odd_headings = 0;
-        self.last_heading = Some(now);
-        if odd || !self.aligned {
-            self.aligned = true;
-            self.turn_by(off);
-            self.doubt.set_heading(noise);
-            self.teaching = TEACHING;
-            return 0.0;
-        }
-        self.fixes[1] += 1;
-        off
     }
 
     /// Without a compass: reads the heading from the way until the filter can follow it.
     fn learn_heading(&mut self, now: Instant, by_fix: Vec2) {
-        if self.last_heading.is_some_and(|seen| now - seen < NO_COMPASS) {
+        if self.judge.last_heading().is_some_and(|seen| now - seen < NO_COMPASS) {
             return;
         }
         if let Some(turn) = self.bearing.add(self.way, by_fix)
@@ -288,7 +252,7 @@ impl Filter {
 
     /// When the last fix came that counted.
     pub(crate) fn last_fix(&self) -> Option<Instant> {
-        self.last_fix
+        self.judge.last_place()
     }
 
     /// Variance of the place in each coordinate.
@@ -311,7 +275,7 @@ impl Filter {
 
     /// Whether fixes and wheels have contradicted each other for longer than a shove explains. Asking clears it.
     pub(crate) fn take_senseless(&mut self) -> bool {
-        core::mem::take(&mut self.senseless)
+        self.judge.take_senseless()
     }
 }
 

@@ -44,7 +44,8 @@ fn run(args: &[String]) -> Result<bool, String> {
         ratios.push(report.duration_s / report.lower_bound_s.max(0.1));
         if !report.ok {
             failed += 1;
-            let why = report.issues.first().map_or("no reason given", |issue| issue.message.as_str());
+            let worst = report.issues.iter().find(|issue| issue.is_error()).or(report.issues.first());
+            let why = worst.map_or("no reason given", |issue| issue.message.as_str());
             println!("pair {number}: {} robots, {:?}: {why}", report.robots, show.identity);
         }
     }
