@@ -12,10 +12,15 @@ use crate::DEADLINE;
 /// The robots of a binary message as JSON; null where something is not known.
 fn robots(bytes: &[u8]) -> Value {
     let robots = lightbots_api::Robots::from_bytes(bytes).expect("a binary message that is not the robots");
-    let (planned_x, planned_y) = (robots.planned_x, robots.planned_y);
+    // They are said to 0.1 mm.
+    let metres = |list: Vec<f32>| -> Vec<f64> {
+        list.into_iter().map(|number| (f64::from(number) * 1e4).round() / 1e4).collect()
+    };
+    let (planned_x, planned_y) = (metres(robots.planned_x), metres(robots.planned_y));
     json!({
-        "x": robots.x, "y": robots.y, "planned_x": planned_x, "planned_y": planned_y,
-        "goal_x": robots.goal_x, "goal_y": robots.goal_y, "colour": robots.colour, "status": robots.status,
+        "x": metres(robots.x), "y": metres(robots.y), "planned_x": planned_x, "planned_y": planned_y,
+        "goal_x": metres(robots.goal_x), "goal_y": metres(robots.goal_y), "colour": robots.colour,
+        "status": robots.status,
     })
 }
 
@@ -154,10 +159,11 @@ impl Screen {
         }
     }
 
-    /// Waits until so many robots are ready.
+    /// Waits until so many robots are ready, and the plan of the open show is made.
     pub fn wait_for_robots(&mut self, count: usize) {
         self.until(&format!("{count} robots"), |screen| {
-            (screen.places().len() == count && screen.phase() == "ready").then_some(())
+            let is_planned = screen.get("plan")["planning"] == false;
+            (screen.places().len() == count && screen.phase() == "ready" && is_planned).then_some(())
         });
     }
 
