@@ -8,6 +8,7 @@ mod body;
 mod library;
 mod looping;
 mod odometry;
+mod pace;
 mod places;
 mod proximity;
 

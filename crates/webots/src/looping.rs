@@ -5,6 +5,7 @@ use lightbots_link::{BrokerUrl, Link, LinkConfig, LinkEvent, Sender, robot_clien
 use lightbots_robot::{Config, Fix, Inputs, Robot};
 use lightbots_wire::Topic;
 
+use crate::pace::Pace;
 use crate::{Body, Library, MissingDevice};
 
 /// What a robot of this program needs to know.
@@ -37,9 +38,9 @@ pub fn drive(library: &Library, settings: &Settings) -> Result<(), MissingDevice
         queue: QUEUE,
     });
     let sender = link.sender();
+    let (mut pace, began) = (Pace::default(), std::time::Instant::now());
     while library.step(step_ms) {
-        // The robot's own clock is the simulation's: its motion and its time then always agree.
-        let now = Instant::from_secs(library.time_s());
+        let now = pace.now(library.time_s(), began.elapsed());
         listen(&mut robot, &mut link, now);
         let outputs = robot.step(now, &inputs(&mut body));
         body.set_wheels(outputs.wheels_radps);

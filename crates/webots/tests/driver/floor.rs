@@ -25,8 +25,8 @@ pub struct Account {
     pub colours: Vec<u32>,
     /// Where they stood at the end.
     pub places: Vec<Vec2>,
-    /// Where they were, each a track: `[robot][tenth of a second]`, seconds of the floor and place.
-    pub tracks: Vec<Vec<(f64, Vec2)>>,
+    /// Where they were, each a track: `[robot][tenth of a second]`, when and where.
+    pub tracks: Vec<Vec<(Instant, Vec2)>>,
     /// How far it fell behind real time at most, seconds.
     pub behind_s: f64,
 }
@@ -64,7 +64,7 @@ fn run(listener: &UnixListener, mut world: World, count: usize, stop: &AtomicBoo
     let mut sockets = gather(listener, count);
     let mut turned = vec![[0.0; 2]; count];
     let mut colours = vec![0; count];
-    let mut tracks: Vec<Vec<(f64, Vec2)>> = vec![Vec::new(); count];
+    let mut tracks: Vec<Vec<(Instant, Vec2)>> = vec![Vec::new(); count];
     let mut eyes = Eyes::new(1);
     let mut behind_s = 0.0_f64;
     let began = Instant::now();
@@ -78,12 +78,14 @@ fn run(listener: &UnixListener, mut world: World, count: usize, stop: &AtomicBoo
         world.step();
         let time_s = f64::from(step) * STEP.as_secs();
         let places = world.places().to_vec();
+        let due = Duration::from_secs_f64(time_s);
+        let moment = Instant::now().max(began + due);
         for (robot, socket) in sockets.iter_mut().enumerate() {
             let turns = world.wheel_turns(robot);
             turned[robot] = [turned[robot][0] + turns[0], turned[robot][1] + turns[1]];
             let pose = world.pose(robot);
             if step.is_multiple_of(STEPS_A_PLACE) {
-                tracks[robot].push((time_s, pose.at));
+                tracks[robot].push((moment, pose.at));
             }
             let seen = Seen {
                 ends,
@@ -99,7 +101,6 @@ fn run(listener: &UnixListener, mut world: World, count: usize, stop: &AtomicBoo
             break;
         }
         behind_s = behind_s.max(began.elapsed().as_secs_f64() - time_s);
-        let due = Duration::from_secs_f64(time_s);
         std::thread::sleep(due.saturating_sub(began.elapsed()));
     }
     let contacts = world.contacts();

@@ -12,6 +12,7 @@ use std::path::Path;
 use std::process::{Command, Stdio};
 
 use std::sync::{Mutex, PoisonError};
+use std::time::Instant;
 
 use floor::{Account, Floor};
 use lightbots_base::{RobotId, Span, Vec2};
@@ -93,7 +94,7 @@ fn tempfile(name: &str) -> std::path::PathBuf {
 }
 
 /// Plays a show, and tells where the robots were: `[robot][place]`.
-fn plays_without_contact(show: &Show, format: Format) -> Vec<Vec<(f64, Vec2)>> {
+fn plays_without_contact(show: &Show, format: Format) -> Vec<Vec<(Instant, Vec2)>> {
     let _turn = TURN.lock().unwrap_or_else(PoisonError::into_inner);
     let (report, account, score) = play(show, format);
     let Account { contacts, closest_m, places, colours, tracks, behind_s } = account;
@@ -113,7 +114,7 @@ fn plays_without_contact(show: &Show, format: Format) -> Vec<Vec<(f64, Vec2)>> {
 
 /// Over the whole show robots were where the plan's routes led, and nobody braked for a neighbour.
 #[allow(clippy::print_stdout)]
-fn keeps_to_its_routes(show: &Show, score: &Score, tracks: &[Vec<(f64, Vec2)>], behind_s: f64) {
+fn keeps_to_its_routes(show: &Show, score: &Score, tracks: &[Vec<(Instant, Vec2)>], behind_s: f64) {
     let off = tracks.iter().enumerate().map(|(index, track)| score.furthest_off_m(id(index + 1), track));
     let (beside_m, timed_m) = off.fold((0.0, 0.0), |worst: (f64, f64), (beside_m, timed_m)| {
         (worst.0.max(beside_m), worst.1.max(timed_m))
@@ -140,7 +141,7 @@ fn keeps_to_its_routes(show: &Show, score: &Score, tracks: &[Vec<(f64, Vec2)>], 
 /// How far a robot was at most from its way to the first picture in the rehearsal, metres. The same planner plans both,
 /// and the robots begin at the same places; later a controller starts from what robots report, and may choose another
 /// plan that is as good.
-fn furthest_off(show: &Show, tracks: &[Vec<(f64, Vec2)>]) -> f64 {
+fn furthest_off(show: &Show, tracks: &[Vec<(Instant, Vec2)>]) -> f64 {
     let starts = lightbots_show::front_rows(&show.stage, tracks.len());
     let plan = lightbots_plan::show(show, &starts, &lightbots_plan::ShowOptions::default());
     let first = &plan.transitions[0];

@@ -85,9 +85,7 @@ pub struct Score {
     routes: BTreeMap<RobotId, Vec<Given>>,
     /// Holds (`true`) and resumes, show clock.
     eases: Vec<(Instant, bool)>,
-    /// The show clock less the floor's, by the quickest question, microseconds.
-    ahead_us: Option<i64>,
-    /// The show clock when a time answer came by, and when that was.
+    /// What the show clock said at least at a moment of this machine, by the quickest time answer.
     show: Option<(Instant, std::time::Instant)>,
     /// When robots were told to stand and forget their routes, show clock; `None`: all of them.
     stops: Vec<(Instant, Option<RobotId>)>,
@@ -107,10 +105,12 @@ impl Score {
             match (to, command) {
                 (Some(id), Command::Route(route)) => self.keep(id, route),
                 (to, Command::Start { seq, at }) => self.start(to, seq, at),
-                (to, Command::Stop) => self.stops.extend(self.show_now().map(|at| (at, to))),
+                (to, Command::Stop) => {
+                    self.stops.extend(self.show_at(std::time::Instant::now()).map(|at| (at, to)))
+                }
                 (_, Command::Hold { at }) => self.ease(at, true),
                 (_, Command::Resume { at }) => self.ease(at, false),
-                (Some(_), Command::Time(answer)) => self.compare(answer),
+                (Some(_), Command::Time(answer)) => self.compare(&answer),
                 _ => {}
             }
         }
@@ -146,15 +146,19 @@ impl Score {
         }
     }
 
-    fn show_now(&self) -> Option<Instant> {
-        self.show.map(|(at, then)| at + Span::from_secs(then.elapsed().as_secs_f64()))
+    /// The show clock at a moment of this machine.
+    fn show_at(&self, moment: std::time::Instant) -> Option<Instant> {
+        let (show, then) = self.show?;
+        let later = moment.saturating_duration_since(then).as_secs_f64();
+        Some(show + Span::from_secs(later - then.saturating_duration_since(moment).as_secs_f64()))
     }
 
-    /// A robot's own clock is the floor's; its question was on its way for a while.
-    fn compare(&mut self, answer: TimeAnswer) {
-        self.show = Some((answer.sent, std::time::Instant::now()));
-        let ahead_us = answer.received.0 as i64 - answer.asked.0 as i64;
-        self.ahead_us = Some(self.ahead_us.map_or(ahead_us, |known| known.min(ahead_us)));
+    /// An answer was on its way for a while: the show clock says no less than it.
+    fn compare(&mut self, answer: &TimeAnswer) {
+        let now = std::time::Instant::now();
+        if self.show_at(now).is_none_or(|known| answer.sent > known) {
+            self.show = Some((answer.sent, now));
+        }
     }
 
     /// How often all were held, and how often robots were told to stand.
@@ -169,13 +173,12 @@ impl Score {
 
     /// How far a robot was at most from the line of its route near where it was to be, and from that very place, metres.
     /// The place depends on how well this machine keeps pace, the line does not.
-    pub fn furthest_off_m(&self, id: RobotId, track: &[(f64, Vec2)]) -> (f64, f64) {
+    pub fn furthest_off_m(&self, id: RobotId, track: &[(std::time::Instant, Vec2)]) -> (f64, f64) {
         let given: Vec<&Given> =
             self.routes.get(&id).into_iter().flatten().filter(|given| given.starts.is_some()).collect();
-        let ahead_us = self.ahead_us.expect("robots asked for the time");
         let (mut timed_m, mut beside_m) = (0.0_f64, 0.0_f64);
-        for (time_s, at) in track {
-            let show = Instant(((time_s * 1e6) as i64 + ahead_us).max(0) as u64);
+        for (moment, at) in track {
+            let Some(show) = self.show_at(*moment) else { continue };
             let begun = |given: &&&Given| given.starts.is_some_and(|starts| starts <= show);
             let Some(given) = given.iter().filter(begun).max_by_key(|given| given.starts) else { continue };
             let starts = given.starts.unwrap_or_default();
