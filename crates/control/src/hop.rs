@@ -2,6 +2,7 @@
 
 use crate::clear::{segment_to_point, segment_to_segment};
 use lightbots_base::Vec2;
+use std::collections::BTreeMap;
 
 /// Halvings of a drive when it is looked for how far it is clear: to a thousandth of a metre on the largest floors.
 const HALVINGS: usize = 14;
@@ -76,11 +77,15 @@ impl Hop {
 /// Says for hops, each valid where all before it are over, to which of them it has to yield so that they may be driven
 /// at the same time. Keeps what they have of yields.
 pub(crate) fn add_yields(hops: &mut [Hop], gap_m: f64) {
+    let (mut next, mut next_of) = (vec![usize::MAX; hops.len()], BTreeMap::new());
+    for (place, hop) in hops.iter().enumerate().rev() {
+        next[place] = next_of.insert(hop.robot, place).unwrap_or(usize::MAX);
+    }
     for later in 1..hops.len() {
         let hop = &hops[later];
         let mut yields = Vec::new();
         for (place, before) in hops[..later].iter().enumerate().filter(|(_, h)| h.robot != hop.robot) {
-            let stays = !hops[place + 1..later].iter().any(|between| between.robot == before.robot);
+            let stays = next[place] > later;
             let stands_m = segment_to_point(hop.from, hop.to, before.to);
             let gap_m = if stays { gap_m.min(stands_m) } else { gap_m };
             if segment_to_segment((hop.from, hop.to), (before.from, before.to)) < gap_m - ROUNDING_M {

@@ -149,11 +149,24 @@ impl Run {
             desk.outbox.broadcast(now, Command::Stop, SAY, SAY_EVERY);
         }
         self.halt_originals(desk, now);
+        let until = match &self.phase {
+            Phase::Standing(standing) => standing.paused.map_or(standing.until, |left| now + left),
+            Phase::Gathering(gathering) => gathering.until,
+            _ => now,
+        };
         let since = stop_at.unwrap_or(now);
         let fresh_from = since + SETTLE + self.round_trip;
         let ask_at = fresh_from;
-        self.phase =
-            Phase::Gathering(Gathering { stopping, since, fresh_from, ask_at, stop_at, first, broken_off });
+        self.phase = Phase::Gathering(Gathering {
+            stopping,
+            since,
+            fresh_from,
+            ask_at,
+            until,
+            stop_at,
+            first,
+            broken_off,
+        });
     }
 
     /// Time passes while all are asked where they stand.
@@ -185,7 +198,7 @@ impl Run {
             }
         }
         if all_ready {
-            self.gathered(desk, now, gathering.first);
+            self.gathered(desk, now, &gathering);
         } else if now >= gathering.ask_at {
             self.ask_again(desk, now, gathering.fresh_from);
             self.phase = Phase::Gathering(Gathering { ask_at: now + ASK, ..gathering });
@@ -214,15 +227,16 @@ impl Run {
     }
 
     /// All stand and their places are known.
-    fn gathered(&mut self, desk: &mut Desk, now: Instant, first: bool) {
+    fn gathered(&mut self, desk: &mut Desk, now: Instant, gathering: &Gathering) {
         let riders = self.seats.iter().filter(|known| !known.out).count();
         let pixels = self.show.frames.get(self.next.frame).map_or(0, |frame| frame.pixels.len());
-        if riders == 0 || first && self.missing == MissingPolicy::Refuse && riders < pixels {
+        if riders == 0 || gathering.first && self.missing == MissingPolicy::Refuse && riders < pixels {
             let why = format!("{riders} robots are left for {pixels} pixels");
             self.over = Some(Outcome::Failed(why));
             return;
         }
-        self.phase = Phase::Standing(Standing { since: now, until: now, paused: None });
+        let until = gathering.until.max(now);
+        self.phase = Phase::Standing(Standing { since: now, until, paused: None });
         self.tick_standing(desk, now);
     }
 

@@ -90,6 +90,8 @@ pub(crate) struct Gathering {
     /// Reports count from then on.
     pub fresh_from: Instant,
     pub ask_at: Instant,
+    /// The picture that stands stays at least until then.
+    pub until: Instant,
     /// When STOP is said, if progress is held first.
     pub stop_at: Option<Instant>,
     /// Nothing was driven yet: too few robots are a reason not to begin.
@@ -218,6 +220,7 @@ impl Run {
                 since: now,
                 fresh_from: Instant::ZERO,
                 ask_at: now,
+                until: now,
                 stop_at: None,
                 first: true,
                 broken_off: None,

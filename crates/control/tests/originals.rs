@@ -123,3 +123,17 @@ fn a_pause_keeps_originals_where_they_are() {
     world.operate(Operation::Resume).unwrap();
     assert_eq!(world.run_to_end(100.0), (Outcome::Finished, 1, 0), "{}", world.story());
 }
+
+#[test]
+fn a_picture_stays_as_long_as_it_should_though_everybody_is_asked_anew_meanwhile() {
+    let mut world = World::ready(5, 3, show(2, 5, 20.0));
+    world.play();
+    let stands = world.run_until(60.0, |kind| matches!(kind, EventKind::FrameReached { .. })).at;
+    world.run_for(5.0);
+    world.inject("T/LightBot/Arrival", b"robot-4 0.9 0.9");
+    assert_eq!(world.count(|kind| matches!(kind, EventKind::Misaligned { .. })), 1);
+    let leaves = world.run_until(60.0, |kind| matches!(kind, EventKind::TransitionStarted { .. })).at;
+    assert!((leaves - stands).as_secs() > 19.9, "{}", world.story());
+    assert_eq!(world.run_to_end(100.0), (Outcome::Finished, 2, 0), "{}", world.story());
+    assert!(world.closest_m >= CONTACT_M, "{}", world.closest_m);
+}

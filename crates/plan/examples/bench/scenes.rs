@@ -1,7 +1,7 @@
 //! Legal scenes, all on the floor: pixels at least 76.4 mm apart, but for those that are called close.
 
 use lightbots_base::{Limits, Vec2};
-use lightbots_plan::TransitionProblem;
+use lightbots_plan::{TransitionProblem, transition};
 
 /// A kind of transition.
 pub struct Scene {
@@ -22,7 +22,7 @@ impl Scene {
 }
 
 /// All kinds.
-pub const ALL: [Scene; 15] = [
+pub const ALL: [Scene; 18] = [
     Scene::new("random S", |robots| random(robots, 30.0 / 9.0)),
     Scene::new("random D", |robots| random(robots, 500.0 / 9.0)),
     Scene::new("disc slides", disc_slides),
@@ -38,6 +38,9 @@ pub const ALL: [Scene; 15] = [
     Scene::up_to("fixed mirrored", 1_000, |robots| fixed(mirrored(robots))),
     Scene::up_to("fixed halves", 1_000, |robots| fixed(halves_change(robots))),
     Scene::up_to("fixed grid", 1_000, |robots| fixed(grid_shuffled(robots))),
+    Scene::up_to("anew S", 1_000, |robots| midway(&random(robots, 30.0 / 9.0))),
+    Scene::up_to("anew D", 1_000, |robots| midway(&random(robots, 500.0 / 9.0))),
+    Scene::up_to("anew fixed S", 1_000, |robots| midway(&fixed(random(robots, 30.0 / 9.0)))),
 ];
 
 /// Least distance between pixels, metres: a little over the 76.4 mm of Turpin et al.
@@ -116,6 +119,27 @@ fn pairs(robots: usize, density: f64) -> TransitionProblem {
 fn fixed(problem: TransitionProblem) -> TransitionProblem {
     let pinned = (0..problem.goals.len()).map(Some).collect();
     TransitionProblem { pinned, ..problem }
+}
+
+/// The same anew, as in a run: one robot died in the middle of the drive, and all stand where they were then.
+fn midway(problem: &TransitionProblem) -> TransitionProblem {
+    let plan = transition(problem).expect("legal scenes are solved");
+    let places: Vec<Vec2> =
+        plan.paths.iter().map(|path| path.as_ref().at(plan.duration / 2).position).collect();
+    let dead = places.len() / 2;
+    let contact_m = problem.limits.contact_m();
+    let is_shown = |goal: &usize| {
+        plan.goal_of[dead] != Some(*goal) && places[dead].distance(problem.goals[*goal]) > contact_m + 0.001
+    };
+    let shown: Vec<usize> = (0..problem.goals.len()).filter(is_shown).collect();
+    let pinned = shown.iter().filter_map(|&goal| problem.pinned.get(goal).copied());
+    TransitionProblem {
+        starts: (0..places.len()).filter(|&robot| robot != dead).map(|robot| places[robot]).collect(),
+        goals: shown.iter().map(|&goal| problem.goals[goal]).collect(),
+        pinned: pinned.map(|robot| robot.map(|robot| robot - usize::from(robot > dead))).collect(),
+        standing: vec![places[dead]],
+        ..problem.clone()
+    }
 }
 
 /// A square grid around the origin, `step` apart.

@@ -12,6 +12,7 @@ mod child;
 #[cfg(unix)]
 mod cluster;
 mod commands;
+mod crossings;
 mod example_brokers;
 mod fleet;
 mod http;
