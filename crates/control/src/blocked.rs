@@ -111,13 +111,14 @@ impl Run {
     }
 
     /// A late robot that stands where a blocked one sees something, and was late before anything blocked it: one that
-    /// stands still sees those coming who drive on.
+    /// stands still sees those coming who drive on. One that stands because its fixes stay away has its reason.
     fn late_at(&self, desk: &Desk, seat: usize) -> Option<usize> {
         let contact_m = self.show.stage.limits.contact_m();
         let there = seen_by(desk.fleet.robot(self.seats[seat].robot), contact_m)?;
         (0..self.seats.len()).find(|&other| {
             let known = &self.seats[other];
             lags(known)
+                && !known.unsure
                 && !known.out
                 && desk.fleet.robot(known.robot).at.is_some_and(|at| at.distance(there) < SAME_M)
         })
