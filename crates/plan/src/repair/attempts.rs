@@ -26,6 +26,9 @@ const WORK_TO_SPARE: usize = 14_000_000;
 const LATTICE_WORK: usize = 18_000_000;
 /// So much longer than the least is good enough.
 const GOOD: f64 = 1.15;
+/// Spans aim at this long, seconds: as long as the smallest bend at full speed takes, and what does for large crowds.
+const SPAN_S: f64 = 0.25;
+const LONG_SPAN_S: f64 = 0.33;
 /// Larger crowds take the first way found.
 const MOST_TO_IMPROVE: usize = 600;
 /// Guesses tried where none has led to a way yet, and where one has.
@@ -61,7 +64,8 @@ pub(super) fn best(scene: &Scene, easing: Easing, proven: Judge) -> Result<Weave
     for (tried, (guess, wish)) in order(&guesses, hurry).into_iter().enumerate() {
         let stretch = if hurry || tried >= ENOUGH_TRIES { guess.stretch() } else { 1.0 };
         let effort = Effort { sweeps: 300, stretch: (MOST_STRETCH / stretch).max(1.8), hurry, wish };
-        let found = relax(scene, guess.weave(stretch), effort, &mut work);
+        let found =
+            relax(scene, guess.weave(stretch, if hurry { LONG_SPAN_S } else { SPAN_S }), effort, &mut work);
         best = better(scene, best, found.and_then(|weave| amended(scene, weave, effort, &mut work, proven)));
         let enough = hurry || tried + 1 >= ENOUGH_TRIES || work < WORK_TO_SPARE;
         if best.as_ref().is_ok_and(|weave| enough || lasts(scene, weave) < least_s * GOOD) {

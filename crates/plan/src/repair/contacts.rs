@@ -2,7 +2,9 @@
 
 use lightbots_base::Vec2;
 
+use super::cells::{Cells, Disc};
 use super::scene::Scene;
+use super::travel::Travel;
 use super::weave::{Weave, basis, blend};
 
 /// Straight stretches a span is looked at in.
@@ -25,6 +27,26 @@ pub(super) struct Contact {
     pub wish: f64,
     /// How far will do, metres.
     pub least: f64,
+    /// Nobody need look again before both have moved so far in all, metres.
+    pub clear_until: f64,
+    /// Whether it was too close when last looked at.
+    pub is_close: bool,
+}
+
+impl Contact {
+    /// Of two robots that will do with their wish.
+    fn of_robots(span: usize, a: usize, b: usize, wish: f64) -> Self {
+        Self { span, a, b: Other::Robot(b), wish, least: wish, clear_until: 0.0, is_close: false }
+    }
+}
+
+/// What a look-out needs for each span; kept to save memory.
+#[derive(Default)]
+struct Near {
+    cells: Cells,
+    discs: Vec<Disc>,
+    /// `[robot]`: where its way on the span begins and ends, from the middle of the span.
+    ends: Vec<[Vec2; 2]>,
 }
 
 /// What a robot may touch.
@@ -70,14 +92,17 @@ impl Watch {
     }
 
     /// All that is closer than wished or soon may be, in order of span and robot.
-    pub fn look_out(&self, scene: &Scene, weave: &Weave, wish: Wish) -> Vec<Contact> {
+    pub fn look_out(&self, scene: &Scene, weave: &Weave, wish: Wish, travel: &Travel) -> Vec<Contact> {
         let mut found = Vec::new();
-        let mut order: Vec<usize> = (0..weave.robots()).collect();
+        let mut near = Near::default();
         for span in 0..weave.spans {
-            self.pairs(scene, weave, wish, span, &mut order, &mut found);
+            self.pairs(scene, weave, wish, span, &mut near, &mut found);
             if !scene.walls.is_empty() {
                 self.walls(scene, weave, wish, span, &mut found);
             }
+        }
+        for contact in &mut found {
+            contact.clear_until += travelled(travel, contact);
         }
         found
     }
@@ -88,36 +113,35 @@ impl Watch {
         weave: &Weave,
         wish: Wish,
         span: usize,
-        order: &mut [usize],
+        near: &mut Near,
         found: &mut Vec<Contact>,
     ) {
-        let (at, ends): (Vec<Vec2>, Vec<[Vec2; 2]>) =
-            (0..weave.robots()).map(|robot| self.extent(weave.span(robot, span))).unzip();
-        let reach: Vec<f64> = ends.iter().map(farther).collect();
-        let apart = wish.robots_m + SKIN_M;
-        let near = apart + 2.0 * reach.iter().copied().fold(0.0, f64::max);
-        order.sort_by(|&a, &b| at[a].x.total_cmp(&at[b].x));
-        for (i, &a) in order.iter().enumerate() {
-            for &b in order[i + 1..].iter().take_while(|&&b| at[b].x - at[a].x < near) {
-                let touch = apart + reach[a] + reach[b];
-                let squared = (at[a] - at[b]).length_squared();
-                if squared >= touch * touch {
-                    continue;
-                }
-                // Who drive alike do not come nearer to each other.
-                let touch = apart + CUT_M + farther(&[ends[a][0] - ends[b][0], ends[a][1] - ends[b][1]]);
-                if squared >= touch * touch {
-                    continue;
-                }
-                let slack_m = wish.slack_m;
-                let wish = wish.robots_m.min(scene.ends_apart(a, b));
-                let least = scene.least_gap(a, b).max(wish - slack_m);
-                let contact = Contact { span, a: a.min(b), b: Other::Robot(a.max(b)), wish, least };
-                if self.closest(scene, weave, &contact).apart < wish + SKIN_M {
-                    found.push(contact);
-                }
-            }
+        let Near { cells, discs, ends } = near;
+        discs.clear();
+        ends.clear();
+        for robot in 0..weave.robots() {
+            let (at, both) = self.extent(weave.span(robot, span));
+            discs.push(Disc { at, radius: farther(&both), owner: robot as u32 });
+            ends.push(both);
         }
+        let apart = wish.robots_m + SKIN_M;
+        cells.near_pairs(discs, apart, |one, other| {
+            let (a, b) = (one.owner.min(other.owner) as usize, one.owner.max(other.owner) as usize);
+            // Who drive alike do not come nearer to each other.
+            let apart = apart + CUT_M;
+            let touch = apart + farther(&[ends[a][0] - ends[b][0], ends[a][1] - ends[b][1]]);
+            if (one.at - other.at).length_squared() >= touch * touch {
+                return;
+            }
+            let mut contact = Contact::of_robots(span, a, b, wish.robots_m);
+            let apart = self.closest(scene, weave, &contact).apart;
+            contact.wish = wish.robots_m.min(scene.ends_apart(a, b));
+            if apart < contact.wish + SKIN_M {
+                contact.least = scene.least_gap(a, b).max(contact.wish - wish.slack_m);
+                contact.clear_until = apart - contact.least;
+                found.push(contact);
+            }
+        });
     }
 
     fn walls(&self, scene: &Scene, weave: &Weave, wish: Wish, span: usize, found: &mut Vec<Contact>) {
@@ -130,11 +154,14 @@ impl Watch {
                     continue;
                 }
                 let wish_m = wish.walls_m;
+                let (a, b) = (robot, Other::Wall(wall));
                 let mut contact =
-                    Contact { span, a: robot, b: Other::Wall(wall), wish: wish_m, least: wish_m };
-                if self.closest(scene, weave, &contact).apart < wish.walls_m + SKIN_M {
+                    Contact { span, a, b, wish: wish_m, least: wish_m, clear_until: 0.0, is_close: false };
+                let apart = self.closest(scene, weave, &contact).apart;
+                if apart < wish.walls_m + SKIN_M {
                     contact.wish = scene.wall_gap(robot, wall, wish.walls_m);
                     contact.least = contact.wish - wish.slack_m.min(contact.wish.max(0.0) / 2.0);
+                    contact.clear_until = apart - contact.least;
                     found.push(contact);
                 }
             }
@@ -194,6 +221,15 @@ impl Watch {
         let away = if length > 1e-6 { nearest / length } else { aside() };
         Closest { apart: length, away, weights }
     }
+}
+
+/// How far those in a contact have moved in all, metres.
+pub(super) fn travelled(travel: &Travel, contact: &Contact) -> f64 {
+    let other = match contact.b {
+        Other::Robot(b) => travel.of(b, contact.span),
+        Other::Wall(_) => 0.0,
+    };
+    travel.of(contact.a, contact.span) + other
 }
 
 /// The length of the longer of two.

@@ -7,8 +7,6 @@ use super::crowd::{Crowd, crowding, point_along};
 use super::pace::Pace;
 use super::weave::Weave;
 
-/// Spans aim at this long, seconds: as long as the smallest bend at full speed takes.
-const SPAN_S: f64 = 0.25;
 /// Spans a weave may have: a path holds 128 pieces.
 pub(super) const MOST_SPANS: usize = 124;
 /// By how much guesses bow.
@@ -20,7 +18,7 @@ const SAMPLES: usize = 16;
 /// What being too fast weighs beside being too close.
 const RUSH: f64 = 0.03;
 /// What every manner but driving straight together weighs.
-const ODD: f64 = 0.015;
+const ODD: f64 = 0.005;
 /// Badness up to here needs no more time.
 const EASY: f64 = 0.1;
 /// How much more time more badness needs, and the most of it: by what random and mirrored crowds of 1,000 came to.
@@ -71,10 +69,10 @@ impl<'a> Guess<'a> {
         guess
     }
 
-    /// The guess as a weave, `stretch` times as slow as at full speed.
-    pub fn weave(&self, stretch: f64) -> Weave {
+    /// The guess as a weave, `stretch` times as slow as at full speed, with spans of about `span_s` seconds.
+    pub fn weave(&self, stretch: f64, span_s: f64) -> Weave {
         let drive_s = self.pace.drive_s * stretch;
-        let spans = ((drive_s / SPAN_S).ceil() as usize).clamp(6, MOST_SPANS);
+        let spans = ((drive_s / span_s).ceil() as usize).clamp(6, MOST_SPANS);
         let places: Vec<Vec<Vec2>> =
             (0..=spans).map(|step| self.free_places(step as f64 / spans as f64)).collect();
         Weave::new(self.crowd.scene, spans, drive_s / spans as f64, |robot, step| places[step][robot])

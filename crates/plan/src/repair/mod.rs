@@ -11,6 +11,7 @@
 
 mod around;
 mod attempts;
+mod cells;
 mod contacts;
 mod crowd;
 mod dock;
@@ -25,6 +26,7 @@ mod slow;
 mod steps;
 #[cfg(test)]
 mod tests;
+mod travel;
 mod turning;
 mod weave;
 

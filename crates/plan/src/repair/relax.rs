@@ -4,9 +4,11 @@
 use lightbots_base::Vec2;
 
 use super::Meeting;
-use super::contacts::{Contact, Other, Watch, Wish};
+use super::contacts::{Contact, Other, Watch, Wish, travelled};
 use super::scene::Scene;
 use super::slow::Slow;
+use super::travel::Travel;
+use super::turning::Look;
 use super::weave::{Weave, blend};
 
 /// Where fewer than one robot in so many are left in each other's way they are sent elsewhere.
@@ -16,14 +18,17 @@ const KICK_M: f64 = 0.06;
 const KICK_TURN: f64 = 2.4;
 /// How much of that control points around the moment take part in.
 const KICK: [f64; 8] = [0.25, 0.6, 0.9, 1.0, 1.0, 0.9, 0.6, 0.25];
-/// Sweeps between two look-outs.
+/// Sweeps between two look-outs at least, and how far somebody must have moved, metres.
 const LOOK_OUT_EVERY: usize = 6;
-/// Sweeps after which there must be half as much wrong, or there is more time.
-const STAGE: usize = 12;
-/// So many contacts for each robot are hardly resolved without more time at once.
-const BEARABLE: usize = 5;
-/// How much more time, and how much more still for every contact of a robot, up to so many.
-const GROWTH: f64 = 1.04;
+const LOOK_OUT_MOVED_M: f64 = 0.006;
+/// Sweeps after which no more than a share of what was wrong may be left, or there is more time; and in a hurry.
+const STAGE: (usize, f64) = (12, 0.5);
+const SHORT_STAGE: (usize, f64) = (7, 0.7);
+/// Sweeps for the last few, which cost little and go in circles for a while.
+const LAST_STAGE: usize = 24;
+/// How much more time, for the last few, and how much more still for every contact of a robot, up to so many.
+const GROWTH: f64 = 1.03;
+const LAST_GROWTH: f64 = 1.02;
 const GROWTH_A_CONTACT: f64 = 0.014;
 const MOST_CONTACTS: f64 = 12.0;
 /// Bending aims beyond the wish by this, metres: otherwise it would only be neared for ever.
@@ -52,8 +57,8 @@ pub(super) struct Effort {
     pub wish: Wish,
 }
 
-/// A weave free of contacts, or who is in whose way when fewest are where the effort did not do. Where a stage does not bring much there is a little
-/// more time for the next. The weave's haste says how much slower still it must be driven.
+/// A weave free of contacts, or who is in whose way when fewest are where the effort did not do. Where a stage does not
+/// bring much there is a little more time for the next. The weave's haste says how much slower still it must be driven.
 pub(super) fn relax(
     scene: &Scene,
     weave: Weave,
@@ -63,45 +68,74 @@ pub(super) fn relax(
     let longest_s = weave.span_s * effort.stretch;
     let mut state = State::new(scene, weave, effort.wish);
     let mut best: Option<(f64, Weave)> = None;
-    let (mut hoped, mut kicks) = (usize::MAX, 0);
     let (mut fewest, mut left_over) = (usize::MAX, Vec::new());
     let few = state.weave.robots() / A_FEW + 1;
+    let patience = if effort.hurry { SHORT_STAGE } else { STAGE };
+    let mut stage = Stage { patience, sweeps: 0, hoped: usize::MAX };
+    let mut kicks = 0;
     for sweep in 0..effort.sweeps {
         let Some(left) = work.checked_sub(state.weave.robots() * state.weave.spans) else { break };
         *work = left;
-        let in_the_way = state.bend_all(sweep % LOOK_OUT_EVERY == 0);
-        let bent = in_the_way.len();
+        let anew = state.must_look_out(sweep);
+        let bent = state.bend_all(anew);
         *work = work.saturating_sub(bent);
-        if sweep % LOOK_OUT_EVERY == 0 && (1..fewest).contains(&bent) {
-            (fewest, left_over) = (bent, state.meetings(&in_the_way));
+        if anew && (1..fewest).contains(&bent) {
+            (fewest, left_over) = (bent, state.meetings());
         }
         let (haste, hasty) = if bent == 0 { state.haste() } else { (f64::MAX, 0) };
         let span_s = state.weave.span_s * haste;
         let is_best = bent == 0 && best.as_ref().is_none_or(|(best_s, _)| span_s < *best_s);
-        if is_best && state.bend_all(true).is_empty() {
+        if is_best && state.bend_all(true) == 0 {
             best = Some((span_s, state.weave.clone()));
             if haste < GOOD_HASTE {
                 break;
             }
         }
-        if sweep % STAGE == STAGE - 1 {
-            let bearable = if effort.hurry { BEARABLE * state.weave.robots() } else { usize::MAX };
-            if bent + hasty > hoped.min(bearable) {
-                state.give_time(if effort.hurry { bent } else { 0 });
-                let most_s = best.as_ref().map_or(longest_s, |(best_s, _)| *best_s);
-                if state.weave.span_s > most_s && (best.is_some() || bent > few) {
-                    break;
-                }
-                if bent > 0 && bent <= few {
-                    kicks += 1;
-                    state.kick(kicks);
-                }
+        if stage.ends_in_vain(bent + hasty, bent <= few) {
+            state.give_time(growth(&effort, bent, few, state.weave.robots()));
+            let most_s = best.as_ref().map_or(longest_s, |(best_s, _)| *best_s);
+            if state.weave.span_s > most_s && (best.is_some() || bent > few) {
+                break;
             }
-            hoped = (bent + hasty) / 2;
+            if bent > 0 && bent <= few {
+                kicks += 1;
+                state.kick(kicks);
+            }
         }
         state.slow(if bent > state.weave.robots() { 1 } else { EASINGS });
     }
     best.map(|(_, weave)| weave).ok_or(left_over)
+}
+
+/// How many times as much time there is after a stage that was in vain.
+fn growth(effort: &Effort, bent: usize, few: usize, robots: usize) -> f64 {
+    let crowding = if effort.hurry { bent as f64 / robots.max(1) as f64 } else { 0.0 };
+    let least = if bent <= few { LAST_GROWTH } else { GROWTH };
+    least + GROWTH_A_CONTACT * crowding.min(MOST_CONTACTS)
+}
+
+/// Sweeps that are to bring something.
+struct Stage {
+    /// How many there may be, and what share of what was wrong may be left then.
+    patience: (usize, f64),
+    /// How many there have been.
+    sweeps: usize,
+    /// How much may be wrong after them.
+    hoped: usize,
+}
+
+impl Stage {
+    /// Counts a sweep that left so much wrong; whether it ended a stage that did not bring enough.
+    fn ends_in_vain(&mut self, wrong: usize, only_few: bool) -> bool {
+        self.sweeps += 1;
+        let (sweeps, share) = self.patience;
+        if self.sweeps < if only_few { LAST_STAGE } else { sweeps } {
+            return false;
+        }
+        let in_vain = wrong > self.hoped;
+        (self.sweeps, self.hoped) = (0, (wrong as f64 * share) as usize);
+        in_vain
+    }
 }
 
 struct State<'a> {
@@ -110,13 +144,16 @@ struct State<'a> {
     wish: Wish,
     watch: Watch,
     contacts: Vec<Contact>,
-    /// `[robot]`: whether its limits must be looked at.
-    dirty: Vec<bool>,
+    /// The sweep in which contacts were last looked out for.
+    looked_out: usize,
+    travel: Travel,
+    /// `[robot]`: where it may be beyond its limits; `None`: nowhere.
+    dirty: Vec<Option<Look>>,
     /// `[robot]`: whether `haste` is out of date.
     stale: Vec<bool>,
     haste: Vec<f64>,
-    /// `[robot]`: whether it has moved since contacts were last looked at.
-    moved: Vec<bool>,
+    /// A way before it changes; kept to save memory.
+    before: Vec<Vec2>,
 }
 
 impl<'a> State<'a> {
@@ -124,21 +161,22 @@ impl<'a> State<'a> {
         let robots = weave.robots();
         Self {
             scene,
-            weave,
             wish,
             watch: Watch::new(),
             contacts: Vec::new(),
-            dirty: vec![true; robots],
+            looked_out: 0,
+            travel: Travel::new(robots, weave.spans + 3),
+            weave,
+            dirty: vec![Some(Look::ALL); robots],
             stale: vec![true; robots],
             haste: vec![0.0; robots],
-            moved: vec![true; robots],
+            before: Vec::new(),
         }
     }
 
-    fn give_time(&mut self, bent: usize) {
-        let crowding = bent as f64 / self.weave.robots().max(1) as f64;
-        self.weave.span_s *= GROWTH + GROWTH_A_CONTACT * crowding.min(MOST_CONTACTS);
-        self.dirty.fill(true);
+    fn give_time(&mut self, factor: f64) {
+        self.weave.span_s *= factor;
+        self.dirty.fill(Some(Look::ALL));
         self.stale.fill(true);
     }
 
@@ -156,6 +194,7 @@ impl<'a> State<'a> {
                 continue;
             }
             let last = self.weave.spans;
+            self.remember(robot);
             let way = self.weave.way_mut(robot);
             for (offset, share) in KICK.iter().enumerate() {
                 let point = (contact.span + offset).saturating_sub(2);
@@ -164,17 +203,25 @@ impl<'a> State<'a> {
                 }
             }
             self.weave.tie_ends(robot);
-            self.touch(robot);
+            self.travel.follow(robot, &self.before, self.weave.way(robot));
+            (self.dirty[robot], self.stale[robot]) = (Some(Look::ALL), true);
         }
+    }
+
+    fn remember(&mut self, robot: usize) {
+        self.before.clear();
+        self.before.extend_from_slice(self.weave.way(robot));
     }
 
     /// Pulls every robot that changed towards its limits.
     fn slow(&mut self, easings: usize) {
         let limits = Slow::new(self.scene, &self.weave, easings);
         for robot in 0..self.dirty.len() {
-            if self.dirty[robot] {
-                (self.stale[robot], self.moved[robot]) = (true, true);
-                self.dirty[robot] = limits.pull(&mut self.weave, robot);
+            if let Some(look) = self.dirty[robot] {
+                self.remember(robot);
+                self.stale[robot] = true;
+                self.dirty[robot] = limits.pull(&mut self.weave, robot, look);
+                self.travel.follow(robot, &self.before, self.weave.way(robot));
             }
         }
     }
@@ -190,29 +237,34 @@ impl<'a> State<'a> {
         (greatest, self.haste.iter().filter(|&&haste| haste > GOOD_HASTE).count())
     }
 
-    /// Bends whoever is too close, after a new look-out if `anew`, and says who was.
-    fn bend_all(&mut self, anew: bool) -> Vec<Contact> {
-        if anew {
-            self.contacts = self.watch.look_out(self.scene, &self.weave, self.wish);
+    /// Whether others than those watched may be too close by now.
+    fn must_look_out(&mut self, sweep: usize) -> bool {
+        let is_due = sweep >= self.looked_out + LOOK_OUT_EVERY && self.travel.since_mark() > LOOK_OUT_MOVED_M;
+        if sweep == 0 || is_due {
+            self.looked_out = sweep;
         }
-        let contacts = std::mem::take(&mut self.contacts);
-        let moved = std::mem::replace(&mut self.moved, vec![false; self.haste.len()]);
-        let bent = contacts.iter().filter(|contact| {
-            // Who kept clear and has not moved keeps clear.
-            let other = match contact.b {
-                Other::Robot(b) => moved[b] || self.moved[b],
-                Other::Wall(_) => false,
-            };
-            (anew || other || moved[contact.a] || self.moved[contact.a]) && self.bend(contact)
-        });
-        let bent = bent.copied().collect();
+        sweep == 0 || is_due
+    }
+
+    /// Bends whoever is too close, after a new look-out if `anew`, and says how many contacts that were.
+    fn bend_all(&mut self, anew: bool) -> usize {
+        if anew {
+            self.contacts = self.watch.look_out(self.scene, &self.weave, self.wish, &self.travel);
+            self.travel.mark();
+        }
+        let mut contacts = std::mem::take(&mut self.contacts);
+        let mut bent = 0;
+        for contact in &mut contacts {
+            contact.is_close = contact.clear_until <= travelled(&self.travel, contact) && self.bend(contact);
+            bent += usize::from(contact.is_close);
+        }
         self.contacts = contacts;
         bent
     }
 
-    /// Which robots these are, each two once, and where they meet.
-    fn meetings(&self, contacts: &[Contact]) -> Vec<Meeting> {
-        let of_robots = contacts.iter().filter_map(|contact| {
+    /// Who was too close, each two once, and where they meet.
+    fn meetings(&self) -> Vec<Meeting> {
+        let of_robots = self.contacts.iter().filter(|contact| contact.is_close).filter_map(|contact| {
             let Other::Robot(b) = contact.b else { return None };
             let weights = self.watch.closest(self.scene, &self.weave, contact).weights;
             let place = |robot: usize| blend(self.weave.span(robot, contact.span), &weights);
@@ -224,12 +276,14 @@ impl<'a> State<'a> {
         meetings
     }
 
-    /// Bends two robots apart, or one off a wall, if they are too close.
-    fn bend(&mut self, contact: &Contact) -> bool {
+    /// Bends two robots apart, or one off a wall, if they are too close; else notes for how long they are clear.
+    fn bend(&mut self, contact: &mut Contact) -> bool {
         let closest = self.watch.closest(self.scene, &self.weave, contact);
         if closest.apart >= contact.least {
+            contact.clear_until = travelled(&self.travel, contact) + closest.apart - contact.least;
             return false;
         }
+        contact.clear_until = 0.0;
         let lack = (contact.wish + BEYOND_M - closest.apart) * OVERSHOOT;
         let square = |pull: &[f64; 4]| pull.iter().map(|share| share * share).sum::<f64>();
         let mine = self.weave.pull(contact.a, contact.span, &closest.weights);
@@ -241,17 +295,18 @@ impl<'a> State<'a> {
             share = agile_a / (agile_a + agile_b);
             whole = whole * share + square(&theirs) * (1.0 - share);
             let force = closest.away * (-lack * (1.0 - share) / whole.max(LEAST_PULL));
-            self.weave.bend(b, contact.span, &theirs, force);
-            self.touch(b);
+            self.move_span(b, contact.span, &theirs, force);
         }
         let force = closest.away * (lack * share / whole.max(LEAST_PULL));
-        self.weave.bend(contact.a, contact.span, &mine, force);
-        self.touch(contact.a);
+        self.move_span(contact.a, contact.span, &mine, force);
         true
     }
 
-    fn touch(&mut self, robot: usize) {
-        (self.dirty[robot], self.stale[robot], self.moved[robot]) = (true, true, true);
+    fn move_span(&mut self, robot: usize, span: usize, pull: &[f64; 4], force: Vec2) {
+        self.weave.bend(robot, span, pull, force);
+        self.travel.bend(robot, span, pull, force);
+        self.stale[robot] = true;
+        self.dirty[robot].get_or_insert(Look::NOTHING).add(span);
     }
 
     /// How easily a robot bends aside: the quicker it is, the less it must turn for that.

@@ -87,15 +87,24 @@ pub(super) struct Look {
 impl Look {
     /// Everything.
     pub const ALL: Self = Self { spans: u128::MAX, swerves: true };
+    /// Nothing.
+    pub const NOTHING: Self = Self { spans: 0, swerves: false };
 
     /// Whether nothing is left.
     pub fn is_over(self) -> bool {
         self.spans == 0
     }
 
-    /// Adds a span and those that share control points with it.
-    fn add(&mut self, span: usize) {
+    /// Adds a span whose control points have moved, and those that share some with it.
+    pub fn add(&mut self, span: usize) {
         self.spans |= (0x7f_u128 << span) >> 3;
+        self.swerves = true;
+    }
+
+    /// Adds the spans that a moved control point rules.
+    pub fn add_point(&mut self, point: usize) {
+        self.spans |= (0xf_u128 << point) >> 3;
+        self.swerves = true;
     }
 }
 
@@ -116,7 +125,7 @@ impl Turning {
     /// Bends a way once where it turns too fast, looking only at spans of `look`; what is to be looked at again after
     /// that. `spare` as in [`fold`].
     pub fn ease(&self, way: &mut [Vec2], spare: bool, look: Look) -> Look {
-        let mut again = Look { spans: 0, swerves: false };
+        let mut again = Look::NOTHING;
         let spans = way.len() - 3;
         if let Some((span, _)) = look.swerves.then(|| self.swerve(way)).flatten() {
             for span in span.saturating_sub(1)..(span + 2).min(spans) {
@@ -124,10 +133,8 @@ impl Turning {
                 way[span..span + 4].iter_mut().zip(shifts).for_each(|(point, shift)| *point += shift);
                 again.add(span);
             }
-            again.swerves = true;
         }
-        let marked = look.spans | again.spans;
-        for span in (0..spans).filter(|&span| marked >> span & 1 == 1) {
+        for span in ones(look.spans | again.spans).take_while(|&span| span < spans) {
             let four = &way[span..span + 4];
             let Some((turn, fastest)) = self.fastest(four) else { continue };
             if turn <= self.turn {
@@ -183,6 +190,10 @@ impl Turning {
                 heading = Some(steps[2] + steps[1]);
                 continue;
             }
+            if self.stays_below(&steps, slow_m) {
+                slow += 1.0;
+                continue;
+            }
             let course = Course::new(four);
             for velocity in moments().map(|u| course.velocity(u)) {
                 slow += 1.0 / MOMENTS as f64;
@@ -210,18 +221,19 @@ impl Turning {
         let (creep, course) = (self.creep_m * self.creep_m, Course::new(four));
         let mut worst = (0.0, 0.5);
         let mut squares = [f64::MAX; MOMENTS + 2];
+        let (mut swings, mut hardest) = ([0.0; MOMENTS], [0.0; MOMENTS]);
         for (index, u) in moments().enumerate() {
-            let v = course.velocity(u);
-            let (square, swing) = (v.length_squared(), v.cross(course.acceleration(u)).abs());
-            squares[index + 1] = square;
-            if square > creep && swing > worst.0 * square {
-                worst = (swing / square, u);
-            }
+            let (v, a) = (course.velocity(u), course.acceleration(u));
+            squares[index + 1] = v.length_squared();
+            swings[index] = v.cross(a).abs();
+            hardest[index] = a.length_squared();
         }
         for (index, u) in moments().enumerate() {
             let [before, here, after] = [squares[index], squares[index + 1], squares[index + 2]];
-            let near = course.acceleration(u).length_squared() * NARROW_SWING;
-            if here <= before && here <= after && here < near {
+            if here > creep && swings[index] > worst.0 * here {
+                worst = (swings[index] / here, u);
+            }
+            if here <= before && here <= after && here < hardest[index] * NARROW_SWING {
                 // The narrowest swings fall between two moments.
                 let u = course.slowest(u);
                 let (v, a) = (course.velocity(u), course.acceleration(u));
@@ -241,12 +253,16 @@ impl Turning {
     fn is_easy(&self, four: &[Vec2]) -> bool {
         let steps = [four[1] - four[0], four[2] - four[1], four[3] - four[2]];
         let along = steps[1];
-        let length = along.length();
-        let slowest = along.dot(steps[0]).min(along.dot(steps[2])).min(length * length);
+        let square = along.length_squared();
+        let slowest = along.dot(steps[0]).min(along.dot(steps[2])).min(square);
         let swing = (steps[1] - steps[0]).length_squared().max((steps[2] - steps[1]).length_squared());
-        let may = slowest * self.turn / length.max(1e-12);
-        let creeps = steps.iter().all(|step| step.length_squared() < self.creep_m * self.creep_m);
-        creeps || (slowest > 0.0 && swing <= may * may)
+        let may = slowest * self.turn;
+        (slowest > 0.0 && swing * square <= may * may) || self.stays_below(&steps, self.creep_m)
+    }
+
+    /// Whether a span's velocity stays below a speed, by the hull of its steps.
+    fn stays_below(&self, steps: &[Vec2; 3], speed_m: f64) -> bool {
+        steps.iter().all(|step| step.length_squared() < speed_m * speed_m)
     }
 
     /// How control points move so that |v × a| ≤ turn · v², to first order; each of `v` and `a` with its weights.
@@ -287,6 +303,15 @@ impl Turning {
         let (v_force, j_force) = ((v_lack * jj - j_lack * vj) / whole, (j_lack * vv - v_lack * vj) / whole);
         Some(std::array::from_fn(|i| across * (v_weights[i] * v_force + j_weights[i] * j_force)))
     }
+}
+
+/// The numbers of the bits that are set, the least first.
+fn ones(mut bits: u128) -> impl Iterator<Item = usize> {
+    std::iter::from_fn(move || {
+        let least = bits.trailing_zeros();
+        bits &= bits.wrapping_sub(1);
+        (least < u128::BITS).then_some(least as usize)
+    })
 }
 
 /// How a span's free control points move towards the middle of their neighbours.

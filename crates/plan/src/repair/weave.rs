@@ -97,18 +97,18 @@ impl Weave {
         &mut self.points[robot * width..(robot + 1) * width]
     }
 
-    /// Bends a robot's way until it turns no faster than it may, in at most `passes`; whether anything changed.
-    pub fn ease(&mut self, robot: usize, turning: &Turning, passes: usize) -> bool {
+    /// Bends a robot's way until it turns no faster than it may where `look` says, in at most `passes`; what is left to
+    /// be looked at, and whether anything changed.
+    pub fn ease(&mut self, robot: usize, turning: &Turning, passes: usize, mut look: Look) -> (Look, bool) {
         let spare = self.ends[robot].1.is_none();
-        let mut look = Look::ALL;
         for pass in 0..passes {
             look = turning.ease(self.way_mut(robot), spare, look);
             if look.is_over() {
-                return pass > 0;
+                return (look, pass > 0);
             }
             self.tie_ends(robot);
         }
-        true
+        (look, true)
     }
 
     /// The four control points of a robot's span.
