@@ -209,6 +209,7 @@ impl Run {
     fn advance(&mut self) {
         let done = self.next;
         self.found.clear();
+        self.disregards_strangers = false;
         if let Some(next) = self.after(done) {
             self.next = next;
         } else {

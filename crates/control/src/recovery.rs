@@ -2,6 +2,7 @@
 
 use crate::desk::Desk;
 use crate::event::{EventKind, Outcome, Trouble};
+use crate::fleet::Robot;
 use crate::operation::MissingPolicy;
 use crate::run::{Gathering, Phase, Run, Seat, Standing};
 use crate::snapshot::Age;
@@ -29,6 +30,8 @@ const DRIVES_ON: Span = Span::from_millis(20_000);
 const CLOCK: Span = Span::from_millis(8_000);
 /// A robot that fell silent died at most this long after its last report.
 const UNHEARD: Span = Span::from_millis(600);
+/// One whose link broke after that drives on for so long at least, and so much longer at most.
+const CUT: (Span, Span) = (Span::from_millis(1_500), Span::from_millis(1_000));
 /// Steps in which its path is followed from there.
 const GHOST_STEP: Span = Span::from_millis(50);
 /// Steps in which the way of an original robot is followed, metres.
@@ -66,7 +69,7 @@ impl Run {
     }
 
     /// Where a robot that was heard last at `heard` may stand: along its path from there if it died, where its path is
-    /// now if it only cannot be heard.
+    /// now if it only cannot be heard, where it gives its route up if it does not hear either.
     fn whereabouts(&self, now: Instant, seat: usize, heard: Instant) -> Vec<Vec2> {
         let (drive, stopping, stopped) = match &self.phase {
             Phase::Driving(drive) => (drive, now, now),
@@ -82,7 +85,8 @@ impl Run {
         let died = (0..=UNHEARD.0 / GHOST_STEP.0).map(|step| since + GHOST_STEP * step);
         let until = (stopped - stopping).0 / GHOST_STEP.0 + UNTIL_STOP;
         let lives = (0..=until).map(|step| drive.path_time(stopping + GHOST_STEP * step));
-        thinned(died.chain(lives).map(|time| path.as_ref().at(time).position))
+        let cut = (0..=CUT.1.0 / GHOST_STEP.0).map(|step| since + CUT.0 + GHOST_STEP * step);
+        thinned(died.chain(lives).chain(cut).map(|time| path.as_ref().at(time).position))
     }
 
     /// Plans again from where robots are; who drives is stopped first.
@@ -107,11 +111,14 @@ impl Run {
         }
     }
 
-    /// There is no plan to the next frame from where robots stand: without the guesses where silent ones may be, or
-    /// else to the frame after it. Whether there is anything left to try.
+    /// There is no plan to the next frame from where robots stand: without those who came during the run and take no
+    /// part, as anybody can say to be anywhere; or without the guesses where silent ones may be; or else to the frame
+    /// after it. Whether there is anything left to try.
     pub fn plan_something_else(&mut self, desk: &mut Desk, now: Instant) -> bool {
         let guessed = !self.found.is_empty() || self.seats.iter().any(|known| !known.ghost.is_empty());
-        if guessed {
+        let strangers = desk.fleet.robots().iter().any(|robot| self.is_stranger(robot));
+        if strangers && !std::mem::replace(&mut self.disregards_strangers, true) {
+        } else if guessed {
             self.found.clear();
             self.seats.iter_mut().for_each(|known| known.ghost.clear());
         } else {
@@ -122,6 +129,11 @@ impl Run {
         }
         self.recover(desk, now);
         true
+    }
+
+    /// Whether a robot takes no part and was not there when the run began.
+    pub fn is_stranger(&self, robot: &Robot) -> bool {
+        robot.seat.is_none() && robot.found > self.begun
     }
 
     fn say_replanning(&self, desk: &mut Desk, now: Instant) {
@@ -235,8 +247,9 @@ impl Run {
             self.over = Some(Outcome::Failed(why));
             return;
         }
-        let until = gathering.until.max(now);
-        self.phase = Phase::Standing(Standing { since: now, until, paused: None });
+        let (until, paused) = self.stood.take().map_or((now, None), |stood| (stood.until, stood.paused));
+        let until = until.max(gathering.until).max(now);
+        self.phase = Phase::Standing(Standing { since: now, until, paused });
         self.tick_standing(desk, now);
     }
 
@@ -291,6 +304,9 @@ impl Run {
 
     /// The broker is lost: robots stop by themselves.
     pub fn go_offline(&mut self, desk: &mut Desk, now: Instant) {
+        if let Phase::Standing(standing) = self.phase {
+            self.stood = Some(standing);
+        }
         self.recover(desk, now);
         self.phase = Phase::Offline(now);
     }

@@ -122,10 +122,16 @@ pub(crate) struct Cursor {
 pub(crate) struct Run {
     pub show: Arc<Show>,
     pub purpose: Purpose,
+    pub begun: Instant,
     pub missing: MissingPolicy,
     pub looping: bool,
     pub seats: Vec<Seat>,
     pub phase: Phase,
+    /// There was no way with robots that came during the run and take no part: they are not driven around until the
+    /// next picture stands.
+    pub disregards_strangers: bool,
+    /// The picture that stood when the broker was lost: its air time runs on.
+    pub stood: Option<Standing>,
     /// The leg that is driven or has brought everybody where they stand.
     pub current: Option<Leg>,
     /// How far the hops of the present leg are.
@@ -212,6 +218,7 @@ impl Run {
         let mut run = Self {
             show,
             purpose,
+            begun: now,
             missing,
             looping,
             seats,
@@ -225,6 +232,8 @@ impl Run {
                 first: true,
                 broken_off: None,
             }),
+            disregards_strangers: false,
+            stood: None,
             current: None,
             hops: Hops::default(),
             arrivals: None,

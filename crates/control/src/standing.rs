@@ -50,7 +50,12 @@ impl Run {
                 self.start(desk, now, until)
             }
             None if self.drafting.is_none() && self.plan_next.is_none() && now >= until => {
-                self.over = Some(self.failed.take().map_or(Outcome::Finished, Outcome::Failed));
+                match self.failed.take() {
+                    None => self.over = Some(Outcome::Finished),
+                    // What stood in the way when that was planned ahead may have gone.
+                    Some(_) if self.plan_something_else(desk, now) => {}
+                    Some(why) => self.over = Some(Outcome::Failed(why)),
+                }
             }
             _ => {}
         }
@@ -121,7 +126,8 @@ impl Run {
             (0..self.seats.len()).filter(|&s| !self.seats[s].out).map(|s| self.plan_from[s]).collect();
         let robots = desk.fleet.robots().iter();
         let idle = robots
-            .filter(|robot| !takes_part(robot.seat) && (robot.seat.is_some() || robot.age != Age::Gone));
+            .filter(|robot| !takes_part(robot.seat) && (robot.seat.is_some() || robot.age != Age::Gone))
+            .filter(|robot| !(self.disregards_strangers && self.is_stranger(robot)));
         let ghosts =
             self.seats.iter().filter(|known| known.out).flat_map(|known| known.ghost.iter().copied());
         idle.filter_map(|robot| robot.at)

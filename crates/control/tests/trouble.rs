@@ -3,6 +3,7 @@
 mod fleet;
 
 use fleet::{Dice, World, show};
+use lightbots_base::Vec2;
 use lightbots_control::{EventKind, MissingPolicy, Operation, Outcome, Refusal, State, Trouble};
 use lightbots_wire::Blocked;
 use std::sync::Arc;
@@ -213,6 +214,40 @@ fn a_broker_lost_in_the_middle_of_a_run_only_costs_time() {
 }
 
 #[test]
+fn a_broker_lost_while_a_picture_stands_does_not_cut_its_air_time_short() {
+    for (gap_s, wait_s) in [(0.5, 5.0), (8.0, 8.0)] {
+        let mut world = World::ready(8, 0, show(2, 8, 5.0));
+        world.play();
+        let stood = world.run_until(20.0, |kind| matches!(kind, EventKind::FrameReached { .. })).at;
+        world.run_for(0.5);
+        world.link(false);
+        world.run_for(gap_s);
+        world.link(true);
+        let left = world.run_until(20.0, started).at - stood;
+        assert!((wait_s - 0.5..wait_s + 1.5).contains(&left.as_secs()), "{left:?}\n{}", world.story());
+        assert_eq!(world.run_to_end(90.0), (Outcome::Finished, 2, 0), "{}", world.story());
+    }
+}
+
+#[test]
+fn reports_of_robots_that_take_no_part_do_not_end_a_run() {
+    let mut world = a_second_under_way();
+    // All is planned anew while they say to stand where others do.
+    world.robots[5].dead = true;
+    for _ in 0..20 {
+        for place in 0..48 {
+            let aside = Vec2::unit(f64::from(place / 8) * 1.05) * 0.055;
+            let at = world.robots[place as usize % 8].at + aside;
+            let report = format!("stranger-{place} {:.4} {:.4}", at.x, at.y);
+            world.inject("T/LightBot/UUID", report.as_bytes());
+        }
+        world.run_for(0.25);
+    }
+    let (outcome, frames, _) = world.run_to_end(240.0);
+    assert_eq!((outcome, frames), (Outcome::Finished, 3), "{}", world.story());
+}
+
+#[test]
 fn a_controller_restarted_in_the_middle_of_a_run_can_play_again() {
     let mut world = a_second_under_way();
     world.replace_controller();
@@ -241,7 +276,7 @@ fn a_new_robot_takes_the_place_of_a_dead_one() {
     world.run_for(1.0);
     world.robots[1].dead = true;
     world.run_until(10.0, |kind| matches!(kind, EventKind::Dropout { .. }));
-    let mut fresh = fleet::robot::Robot::new(77, lightbots_base::Vec2::new(1.3, -1.3), false);
+    let mut fresh = fleet::robot::Robot::new(77, Vec2::new(1.3, -1.3), false);
     fresh.introduce();
     world.robots.push(fresh);
     let (outcome, frames, dropouts) = world.run_to_end(90.0);
