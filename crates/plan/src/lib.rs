@@ -31,6 +31,6 @@ mod transition;
 
 pub use motion::turn_time;
 pub use problem::{Closest, Path, Stuck, Transition, TransitionProblem};
-pub use repair::{Meeting, repair};
+pub use repair::{Meeting, Repaired, repair};
 pub use show::{ShowClosest, ShowOptions, ShowPlan, show};
 pub use transition::transition;

@@ -91,6 +91,30 @@ fn thousands_of_small_floors_agree_with_a_dense_solver() {
 }
 
 #[test]
+fn pins_among_interchangeable_robots_agree_with_a_dense_solver() {
+    let mut seeded = Seeded::new(11);
+    for case in 0..2500 {
+        let (count, spares) = (2 + seeded.below(9), seeded.below(4));
+        // Every fourth floor is a lattice, full of ties.
+        let cells = if case % 4 == 0 { 2.0 } else { 1e9 };
+        let mut place = || {
+            let mut along = || (seeded.between(-1.5, 1.5) * cells).round() / cells;
+            Vec2::new(along(), along())
+        };
+        let starts: Vec<Vec2> = (0..count + spares).map(|_| place()).collect();
+        let goals: Vec<Vec2> = (0..count).map(|_| place()).collect();
+        let mut free: Vec<usize> = (0..starts.len()).collect();
+        let mut pinned: Vec<Option<usize>> = (0..seeded.below(count + 1))
+            .map(|_| (seeded.below(2) == 0).then(|| free.swap_remove(seeded.below(free.len()))))
+            .collect();
+        if case % 10 == 0 {
+            pinned = (0..count).map(Some).collect();
+        }
+        compare(&starts, &goals, &pinned);
+    }
+}
+
+#[test]
 fn a_row_at_the_edge_spreads_over_the_floor() {
     let mut seeded = Seeded::new(3);
     for _ in 0..20 {

@@ -32,7 +32,7 @@ mod weave;
 
 use lightbots_base::{Span, Vec2};
 
-use crate::proof::{FaultKind, ProofInput, prove};
+use crate::proof::{FaultKind, Proof, ProofInput, prove};
 use crate::{Path, TransitionProblem};
 use scene::Scene;
 use weave::Weave;
@@ -46,14 +46,24 @@ const GAP_M: f64 = 0.003;
 /// How many times as long as estimated a way is given until every robot can turn as it asks for.
 const SLOWER: [f64; 3] = [1.0, 1.02, 1.05];
 
+/// A repaired transition.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Repaired {
+    /// `paths[start]` all last equally long, at least the problem's duration, and begin with the rest in which robots
+    /// turn.
+    pub paths: Vec<Path>,
+    /// The least they may last.
+    pub least: Span,
+}
+
 /// Collision-free timed paths for a settled assignment: `goal_of[start]` is the goal that robot drives to, `None` a
-/// spare robot that may step aside. `paths[start]` all last equally long, at least the problem's duration, and begin
-/// with the rest in which robots turn. Where nothing was found within the bounded work, who did not get past each other
+/// spare robot that may step aside. Where nothing was found within the bounded work, who did not get past each other
 /// in the attempt that left fewest; empty where it failed for something else.
-pub fn repair(problem: &TransitionProblem, goal_of: &[Option<usize>]) -> Result<Vec<Path>, Vec<Meeting>> {
+pub fn repair(problem: &TransitionProblem, goal_of: &[Option<usize>]) -> Result<Repaired, Vec<Meeting>> {
     let scene = Scene::new(problem, goal_of).ok_or_else(Vec::new)?;
     let weave = attempts::best(&scene, problem.easing, &|weave| proven(problem, &scene, weave))?;
-    Ok(timed(problem, &scene, &weave))
+    let least = TURN + Span(least_span(&scene, &weave).0 * weave.spans as i64);
+    Ok(Repaired { paths: weave.paths(TURN, span_of(problem, &scene, &weave)), least })
 }
 
 /// Two robots that do not get past each other.
@@ -65,35 +75,42 @@ pub struct Meeting {
     pub place: Vec2,
 }
 
-/// The weave in the least of some times in which the proof holds: distances do not depend on time, but a turn that is a
-/// little too sharp for one robot is driven by all a little later. Else what is still wrong; empty where more than
-/// single robots' driving is.
+/// The weave in the least of some times in which the proof holds, and holds in the wished for time: distances do not
+/// depend on time, but a turn that is a little too sharp for one robot is driven by all a little later. Else what is still
+/// wrong; empty where more than single robots' driving is.
 fn proven(problem: &TransitionProblem, scene: &Scene, mut weave: Weave) -> Result<Weave, Amiss> {
     let mut spots = Vec::new();
     for slower in SLOWER {
         weave.slower = slower;
-        let paths = timed(problem, scene, &weave);
-        let proof = prove(&ProofInput {
-            paths: &paths,
-            standing: &problem.standing,
-            obstacles: &problem.obstacles,
-            half_floor: problem.half_floor,
-            limits: &problem.limits,
-            gap_m: problem.limits.contact_m() + GAP_M,
-            obstacle_gap_m: GAP_M,
-        });
-        if proof.holds() {
-            return Ok(weave);
-        }
+        let (least, wished) = (least_span(scene, &weave), span_of(problem, scene, &weave));
+        let spans = [least, wished];
+        let refused = spans[..if wished > least { 2 } else { 1 }]
+            .iter()
+            .find_map(|&span| refused(problem, &weave, span).map(|proof| (span, proof)));
+        let Some((span, proof)) = refused else { return Ok(weave) };
         let in_place = |kind| matches!(kind, FaultKind::Floor | FaultKind::Obstacle | FaultKind::Malformed);
         if !proof.conflicts.is_empty() || proof.faults.iter().any(|fault| in_place(fault.kind)) {
             return Err(Amiss { weave, spots: Vec::new() });
         }
-        let span = |at: Span| ((at - TURN).as_secs() / span_of(problem, scene, &weave).as_secs()) as usize;
-        spots = proof.faults.iter().map(|fault| (fault.robot, span(fault.at))).collect();
+        let number = |at: Span| ((at - TURN).as_secs() / span.as_secs()) as usize;
+        spots = proof.faults.iter().map(|fault| (fault.robot, number(fault.at))).collect();
     }
     weave.slower = 1.0;
     Err(Amiss { weave, spots })
+}
+
+/// What the proof says of a weave whose spans take so long, if it does not hold.
+fn refused(problem: &TransitionProblem, weave: &Weave, span: Span) -> Option<Proof> {
+    let proof = prove(&ProofInput {
+        paths: &weave.paths(TURN, span),
+        standing: &problem.standing,
+        obstacles: &problem.obstacles,
+        half_floor: problem.half_floor,
+        limits: &problem.limits,
+        gap_m: problem.limits.contact_m() + GAP_M,
+        obstacle_gap_m: GAP_M,
+    });
+    (!proof.holds()).then_some(proof)
 }
 
 /// A weave that the proof refuses.
@@ -103,13 +120,14 @@ struct Amiss {
     spots: Vec<(usize, usize)>,
 }
 
-/// How long each span of a weave takes.
-fn span_of(problem: &TransitionProblem, scene: &Scene, weave: &Weave) -> Span {
-    let wished = problem.duration.map_or(0.0, |whole| (whole - TURN).as_secs() / weave.spans as f64);
-    Span((weave.least_span_s(&scene.limits).max(wished) * 1e6).ceil() as i64)
+/// How long each span of a weave takes at least.
+fn least_span(scene: &Scene, weave: &Weave) -> Span {
+    Span((weave.least_span_s(&scene.limits) * 1e6).ceil() as i64)
 }
 
-/// The weave at the least legal, or the wished for, duration.
-fn timed(problem: &TransitionProblem, scene: &Scene, weave: &Weave) -> Vec<Path> {
-    weave.paths(TURN, span_of(problem, scene, weave))
+/// How long each span of a weave takes: as long as is legal, or as the wished for duration asks.
+fn span_of(problem: &TransitionProblem, scene: &Scene, weave: &Weave) -> Span {
+    let wished_s = problem.duration.map_or(0.0, |whole| (whole - TURN).as_secs() / weave.spans as f64);
+    // A hair less, so that what is whole already stays so.
+    least_span(scene, weave).max(Span((wished_s * 1e6 - 1e-3).ceil() as i64))
 }

@@ -47,7 +47,7 @@ fn judge(problem: &TransitionProblem, paths: &[Path]) -> Proof {
 fn ratio(problem: &TransitionProblem) -> f64 {
     let goal_of: Vec<Option<usize>> =
         (0..problem.starts.len()).map(|i| (i < problem.goals.len()).then_some(i)).collect();
-    let paths = repair(problem, &goal_of).expect("a way");
+    let paths = repair(problem, &goal_of).expect("a way").paths;
     let proof = judge(problem, &paths);
     assert!(proof.holds(), "{} conflicts, faults {:?}", proof.conflicts.len(), proof.faults);
     for (i, path) in paths.iter().enumerate() {
@@ -189,9 +189,16 @@ fn a_wished_for_duration_is_kept() {
     let mut problem = random(10, 0.4, 0.0774, 3);
     problem.duration = Some(Span::from_secs(20.0));
     let goal_of: Vec<Option<usize>> = (0..10).map(Some).collect();
-    let paths = repair(&problem, &goal_of).unwrap();
+    let Repaired { paths, least } = repair(&problem, &goal_of).unwrap();
     assert!((paths[0].as_ref().duration().as_secs() - 20.0).abs() < 1e-3);
     assert!(judge(&problem, &paths).holds());
+    // The least is what the same problem takes without a wish, and may be wished for.
+    for wish in [None, Some(least)] {
+        problem.duration = wish;
+        let quick = repair(&problem, &goal_of).unwrap();
+        assert_eq!((quick.least, quick.paths[0].as_ref().duration()), (least, least));
+        assert!(judge(&problem, &quick.paths).holds() && least < Span::from_secs(10.0));
+    }
 }
 
 #[test]

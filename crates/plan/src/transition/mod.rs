@@ -89,10 +89,10 @@ fn settle(problem: &TransitionProblem, choice: &Choice) -> Attempt {
 /// What repair makes of straight lines that conflict.
 fn mend(problem: &TransitionProblem, conflicting: Candidate) -> Attempt {
     let goal_of = &conflicting.transition.goal_of;
-    let repaired = repair(problem, goal_of).and_then(|paths| {
-        Some(Candidate::of_paths(problem, paths, goal_of.clone()))
-            .filter(Candidate::holds)
-            .ok_or_else(Vec::new)
+    let repaired = repair(problem, goal_of).and_then(|repaired| {
+        let mut candidate = Candidate::of_paths(problem, repaired.paths, goal_of.clone());
+        candidate.transition.least = repaired.least;
+        Some(candidate).filter(Candidate::holds).ok_or_else(Vec::new)
     });
     match repaired {
         Ok(candidate) => Attempt { transition: candidate.transition, stuck: None },

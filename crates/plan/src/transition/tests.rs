@@ -95,6 +95,24 @@ fn a_set_duration_is_met_and_the_least_is_known() {
 }
 
 #[test]
+fn a_repaired_way_knows_its_least_time_whatever_was_asked_for() {
+    let (a, b) = (Vec2::new(-0.5, 0.0), Vec2::new(0.5, 0.0));
+    for easing in [Easing::Swift, Easing::Gentle] {
+        let mut crossing = problem(vec![a, b], vec![b, a], 1.5);
+        (crossing.pinned, crossing.easing) = (vec![Some(0), Some(1)], easing);
+        let quickest = transition(&crossing).unwrap();
+        assert_eq!(quickest.least, quickest.duration);
+        assert!(quickest.closest.unwrap().distance_m < 0.5);
+        crossing.duration = Some(lightbots_base::Span::from_millis(20_000));
+        let slow = transition(&crossing).unwrap();
+        assert_eq!(slow.least, quickest.least);
+        assert!((slow.duration.as_secs() - 20.0).abs() < 1e-3);
+        crossing.duration = Some(quickest.least);
+        assert_eq!(transition(&crossing).unwrap().duration, quickest.least);
+    }
+}
+
+#[test]
 fn what_cannot_be_shown_is_said() {
     let starts = vec![Vec2::ZERO, Vec2::new(0.5, 0.0)];
     let close =
