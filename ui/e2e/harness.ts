@@ -76,6 +76,15 @@ export async function startServer(...more: string[]): Promise<Server> {
   return server;
 }
 
+/** Robots of a process of their own on the server's broker; ends them, as a power cut does. */
+export async function startRobots(server: Server, count: number): Promise<() => Promise<void>> {
+  const settings = await fetch(`${server.url}/api/broker`);
+  const { embedded } = (await settings.json()) as { embedded: string };
+  const args = ['robots', '--count', String(count), '--broker', embedded, '--seed', '11'];
+  const child = spawn(program(), args, { stdio: 'ignore' });
+  return () => end(child);
+}
+
 function launch(args: string[]): Promise<[ChildProcess, string]> {
   const child = spawn(program(), args, { stdio: ['ignore', 'pipe', 'pipe'] });
   return new Promise((resolve, reject) => {

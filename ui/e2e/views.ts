@@ -1,6 +1,6 @@
 import type { Page } from 'playwright-core';
-import { eventually, type Server } from './harness';
-import { button, openShow, phaseIs, pixelsAre, smallShow, uploadText } from './journeys';
+import { eventually, startRobots, type Server } from './harness';
+import { button, countIs, openShow, phaseIs, pixelsAre, smallShow, uploadText } from './journeys';
 
 /** A state of the screen that is looked at: by people in pictures, by axe in tests. */
 export interface View {
@@ -111,6 +111,77 @@ const liveViews: View[] = [
   },
 ];
 
+/** Robots that die while the page looks; they are forgotten afterwards. */
+const deadRobots: View = {
+  name: 'live-dead-robots',
+  async show(page, server) {
+    await goLive(page, server);
+    await openShow(page, 'heart');
+    const silent = page.locator('tr[data-presence=gone], tr[data-presence=stale]');
+    const rows = page.locator('tbody tr');
+    const before = await rows.count();
+    const end = await startRobots(server, 2);
+    await countIs(rows, before + 2);
+    await end();
+    await countIs(silent, 2);
+    await button(page, 'All columns').click();
+    await silent.first().scrollIntoViewIfNeeded();
+  },
+  async leave(page) {
+    const silent = page.locator('tr[data-presence=gone], tr[data-presence=stale]');
+    for (let left = 2; left > 0; left--) {
+      await silent
+        .first()
+        .getByRole('button', { name: /^More about/ })
+        .click();
+      await page.getByRole('dialog').getByRole('button', { name: 'Forget' }).click();
+      await countIs(silent, left - 1);
+    }
+    await button(page, 'Fewer columns').click();
+  },
+};
+
+/** What the checklist says when robots are missing. */
+const missing: View = {
+  name: 'checklist-missing',
+  async show(page, server) {
+    await goLive(page, server);
+    await uploadText(page, 'many.json', smallShow(32));
+    await page.keyboard.press('c');
+    await page
+      .getByRole('dialog')
+      .getByText(/never seen/)
+      .waitFor();
+  },
+  async leave(page) {
+    await escape(page);
+    await page.getByRole('dialog').waitFor({ state: 'hidden' });
+  },
+};
+
+/** Somebody else saved: the server says so to whatever this page saves. */
+const conflict: View = {
+  name: 'edit-conflict',
+  async show(page, server) {
+    await uploadText(page, 'shared.json', smallShow(12));
+    await edit(page, server);
+    await pixelsAre(page, 12);
+    await page.route('**/api/shows/*', (route) =>
+      route.request().method() === 'PUT'
+        ? route.fulfill({ status: 412, json: { error: 'Somebody else was faster.' } })
+        : route.continue(),
+    );
+    await button(page, 'All').click();
+    await button(page, 'Colour pink #ff2f92').click();
+    await page.getByRole('dialog', { name: /Somebody else saved/ }).waitFor();
+  },
+  async leave(page) {
+    await page.unroute('**/api/shows/*');
+    await page.getByRole('button', { name: /^Take theirs/ }).click();
+    await page.getByRole('dialog').waitFor({ state: 'hidden' });
+  },
+};
+
 const editViews: View[] = [
   {
     name: 'edit-nothing-chosen',
@@ -176,4 +247,4 @@ export const FIRST_VIEWS: readonly View[] = [
 ];
 
 /** Every view of a server with robots, in an order in which each follows from the one before. */
-export const VIEWS: readonly View[] = [...liveViews, ...editViews];
+export const VIEWS: readonly View[] = [...liveViews, deadRobots, missing, ...editViews, conflict];

@@ -3,7 +3,7 @@ import { memo } from 'react';
 import type { FleetRow } from '../api/types.gen';
 import { IconButton } from '../shell/IconButton';
 import type { Session } from '../shell/session';
-import { CHARGE_LOW } from './checklist';
+import { canDrive, CHARGE_LOW } from './checklist';
 import * as words from './robotWords';
 
 interface Props {
@@ -48,7 +48,7 @@ function Line({ row, wide, pinned, ask, choose }: Props) {
         {pinned ? <IconPinFilled size={12} role="img" aria-label="pinned" /> : null}
       </td>
       <td className="mono">{name}</td>
-      <td>{words.stateText(row)}</td>
+      <td className={canDrive(row) ? undefined : 'low'}>{words.stateText(row)}</td>
       <td className={low ? 'low' : undefined}>
         {words.chargeText(row)}
         {low ? <span className="hidden-text"> low</span> : null}

@@ -2,6 +2,7 @@ import { useEffect, useState } from 'react';
 import { ROBOT_STATUSES, type Fleet, type Robots } from '../api/types.gen';
 import { colourName } from '../base/colour';
 import { useSession } from '../shell/session';
+import { presenceText } from './robotWords';
 
 /** Robots that are listed; a screen reader is not helped by ten thousand. */
 const LISTED_MAX = 200;
@@ -42,7 +43,7 @@ function describe(robots: Robots | null, fleet: Fleet): Line[] {
     const status = ROBOT_STATUSES[robots?.status[i] ?? -1] ?? row.status;
     const pixel = row.pixel === null ? 'stands by' : `pixel ${row.pixel}`;
     const light = colourName(robots?.colour[i] ?? 0);
-    const silent = row.presence === 'active' ? '' : `, ${row.presence}`;
+    const silent = row.presence === 'active' ? '' : `, ${presenceText(row)}`;
     return { key: row.id, status, text: `${pixel}, ${place}, ${light}, ${status}${silent}` };
   });
 }

@@ -23,10 +23,10 @@ test('an original robot is described too', () => {
     abilities: { route: false, fade: false, blink: false },
     clock_us: null,
   };
-  expect(words.stateText(row)).toBe('stale, 9 s');
+  expect(words.stateText(row)).toBe('silent, 9 s');
   expect(words.abilitiesText(row)).toBe('targets and colours');
   expect([words.chargeText(row), words.firmwareText(row), words.clockText(row)]).toEqual(
-    ['–', 'original', 'not synchronised'], // prettier-ignore
+    ['–', 'original', 'not set'], // prettier-ignore
   );
   expect(words.heardText({ ...row, age_s: 0 })).toBe('now');
 });

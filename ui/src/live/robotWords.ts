@@ -14,7 +14,12 @@ export const heardText = (row: FleetRow) => (row.age_s < 1.5 ? 'now' : `${ageTex
 
 /** What a robot says it is doing, or for how long it has been silent. */
 export const stateText = (row: FleetRow) =>
-  row.presence === 'active' ? row.status : `${row.presence}, ${ageText(row.age_s)}`;
+  row.presence === 'active' ? row.status : `${presenceText(row)}, ${ageText(row.age_s)}`;
+
+const PRESENCES = { active: 'here', stale: 'silent', gone: 'gone' } as const;
+
+/** Whether it is here, as everywhere on screen. */
+export const presenceText = (row: Pick<FleetRow, 'presence'>) => PRESENCES[row.presence];
 
 export const chargeText = (row: FleetRow) => (row.battery === null ? '–' : `${row.battery} %`);
 
@@ -31,4 +36,4 @@ export function abilitiesText({ abilities }: FleetRow): string {
 }
 
 export const clockText = (row: FleetRow) =>
-  row.clock_us === null ? 'not synchronised' : `± ${(row.clock_us / 1000).toFixed(1)} ms`;
+  row.clock_us === null ? 'not set' : `± ${(row.clock_us / 1000).toFixed(1)} ms`;
