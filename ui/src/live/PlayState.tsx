@@ -6,7 +6,8 @@ import { phaseText } from './actions';
 
 /** Frame x of y, who is still on the way, time left. */
 export function PlayState() {
-  const { live, frame } = useSession();
+  const { live, frame, waiting } = useSession();
+  const isWaiting = useStore(waiting, (wish) => wish !== null);
   const from = useStore(frame);
   // Texts, not the snapshot: what says the same is not rendered again twenty times a second.
   const phase = useStore(live.playback, (p) => p.phase);
@@ -21,7 +22,7 @@ export function PlayState() {
   return (
     <div className="play-state">
       <span role="status" data-testid="phase" data-phase={phase}>
-        {text}
+        {isWaiting ? 'Begins when the plan is made' : text}
       </span>
       {phase === 'ready' && from > 0 ? (
         <span className="quiet">

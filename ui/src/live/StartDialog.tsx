@@ -8,7 +8,7 @@ import {
 import { useStore } from '../base/store';
 import { useSession } from '../shell/session';
 import { canDrive, canGoOn, isReady, type Check } from './checklist';
-import { checkNow } from './start';
+import { checkNow, whenPlanned } from './start';
 
 const MARKS = {
   good: [IconCircleCheck, 'Fine'],
@@ -43,7 +43,10 @@ function Checklist({ close }: { close: () => void }) {
   const drivers = rows.filter(canDrive).length;
   const play = (missing: 'refuse' | 'leave_out') => {
     close();
-    void session.ask({ do: 'play', from: session.frame.get(), missing });
+    whenPlanned(
+      session,
+      () => void session.ask({ do: 'play', from: session.frame.get(), missing }),
+    );
   };
   return (
     <>

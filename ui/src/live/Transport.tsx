@@ -8,7 +8,7 @@ import {
   IconRefresh,
   IconRepeat,
 } from '@tabler/icons-react';
-import type { ReactNode } from 'react';
+import { useEffect, type ReactNode } from 'react';
 import { useStore } from '../base/store';
 import { IconButton } from '../shell/IconButton';
 import { useSession } from '../shell/session';
@@ -16,7 +16,7 @@ import { actionsOf, type Action } from './actions';
 import { ChecklistButton } from './ChecklistButton';
 import { DriveProgress } from './DriveProgress';
 import { PlayState } from './PlayState';
-import { startPlay } from './start';
+import { followPlan, startPlay, whenPlanned } from './start';
 import { useTransportKeys } from './useTransportKeys';
 
 const ICONS = {
@@ -34,17 +34,17 @@ export function Transport() {
   const chosen = useStore(frame);
   const linked = useStore(live.link) === 'open';
   const hasShow = useStore(live.opened, (o) => o.show !== null);
+  const isWaiting = useStore(session.waiting, (wish) => wish !== null);
+  useEffect(() => followPlan(session), [session]);
   const actions = actionsOf(phase, linked, hasShow);
   const perform = (action: Action) => {
+    if (isWaiting && (action === 'abort' || action === actions.main))
+      return session.waiting.set(null);
     if (!actions.enabled.has(action)) return;
     if (action === 'play') return startPlay(session);
-    void ask(
-      action === 'preview'
-        ? { do: 'preview', frame: chosen }
-        : action === 'loop'
-          ? { do: 'loop', on: !looping }
-          : { do: action },
-    );
+    if (action === 'preview')
+      return whenPlanned(session, () => void ask({ do: 'preview', frame: chosen }));
+    void ask(action === 'loop' ? { do: 'loop', on: !looping } : { do: action });
   };
   useTransportKeys(perform, actions.main);
   const icon = (action: Action, label: string, child: ReactNode, on?: boolean) => (
@@ -54,7 +54,7 @@ export function Transport() {
       color={on ? undefined : 'gray'}
       size="lg"
       aria-pressed={on}
-      disabled={!actions.enabled.has(action)}
+      disabled={!actions.enabled.has(action) && !(isWaiting && action === 'abort')}
       onClick={() => perform(action)}
     >
       {child}
@@ -68,7 +68,7 @@ export function Transport() {
         disabled={!actions.enabled.has(actions.main)}
         onClick={() => perform(actions.main)}
       >
-        {{ play: 'Play', pause: 'Pause', resume: 'Resume' }[actions.main]}
+        {isWaiting ? 'Cancel' : { play: 'Play', pause: 'Pause', resume: 'Resume' }[actions.main]}
       </Button>
       <Group gap={2} wrap="nowrap">
         {icon('abort', 'Abort (Esc)', <IconPlayerStopFilled size={18} />)}

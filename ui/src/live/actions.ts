@@ -15,8 +15,7 @@ export function actionsOf(phase: Phase, linked: boolean, hasShow: boolean): Acti
   if (!linked) return { main, enabled };
   enabled.add('loop');
   if (phase !== 'idle') enabled.add('refresh');
-  if (phase === 'ready' && hasShow)
-    for (const a of ['play', 'preview', 'step'] as const) enabled.add(a);
+  if (phase === 'ready' && hasShow) for (const a of ['play', 'preview'] as const) enabled.add(a);
   if (phase === 'playing') enabled.add('pause');
   if (phase === 'paused') for (const a of ['resume', 'step'] as const) enabled.add(a);
   if (phase === 'preparing' || phase === 'playing' || phase === 'paused' || phase === 'preview')

@@ -44,7 +44,7 @@ export function checklistOf(s: Situation): Check[] {
   ];
 }
 
-/** Whether nobody need be asked; a plan that is still being made is waited for by the server. */
+/** Whether nobody need be asked; a plan that is still being made is waited for. */
 export const isReady = (checks: readonly Check[]) =>
   checks.every(({ verdict }) => verdict === 'good' || verdict === 'wait');
 

@@ -19,6 +19,8 @@ export interface Session {
   frame: Store<number>;
   /** The editor of this screen; null: it has edited nothing. */
   editing: Store<{ name: string; editor: Editor } | null>;
+  /** What is done when the plan of the show of that name has been made; null: nothing waits for it. */
+  waiting: Store<{ name: string | null; act: () => void } | null>;
   /** Whether the checklist is shown. */
   checking: Store<boolean>;
   /** What is not on the server yet. */
@@ -59,11 +61,13 @@ export function createSession(): Session {
   const link = connect(live);
   const offer = createStore<{ reason: string; choice: Choice } | null>(null);
   const drafts = createDrafts(shelf(), { tab: tabName(), page: randomName(), now_ms: Date.now });
+  const waiting: Session['waiting'] = createStore<ReturnType<Session['waiting']['get']>>(null);
   const orphans = createStore<readonly LeftDraft[]>(drafts.left());
   setInterval(() => orphans.set(drafts.left()), LOOK_MS);
   return {
     drafts,
     editing: createStore<{ name: string; editor: Editor } | null>(null),
+    waiting,
     checking: createStore(false),
     orphans,
     restoring: createStore<LeftDraft | null>(null),
@@ -72,6 +76,7 @@ export function createSession(): Session {
     offer,
     frame: createStore(0),
     async ask(operation) {
+      if (operation.do === 'abort' || operation.do === 'stop_all') waiting.set(null);
       const answer = await link.operate(operation);
       if (answer.ok) return answer;
       const reason = answer.error ?? 'The server refused without saying why.';
