@@ -149,6 +149,10 @@ impl Run {
         let first = self.current.is_none() && self.frames_played == 0;
         let broken_off = match self.phase {
             Phase::Driving(drive) => Some(drive),
+            Phase::Standing(standing) => {
+                self.stood = Some(standing);
+                None
+            }
             _ => None,
         };
         let (mut stopping, mut stop_at) = (now, None);
@@ -161,24 +165,11 @@ impl Run {
             desk.outbox.broadcast(now, Command::Stop, SAY, SAY_EVERY);
         }
         self.halt_originals(desk, now);
-        let until = match &self.phase {
-            Phase::Standing(standing) => standing.paused.map_or(standing.until, |left| now + left),
-            Phase::Gathering(gathering) => gathering.until,
-            _ => now,
-        };
         let since = stop_at.unwrap_or(now);
         let fresh_from = since + SETTLE + self.round_trip;
         let ask_at = fresh_from;
-        self.phase = Phase::Gathering(Gathering {
-            stopping,
-            since,
-            fresh_from,
-            ask_at,
-            until,
-            stop_at,
-            first,
-            broken_off,
-        });
+        self.phase =
+            Phase::Gathering(Gathering { stopping, since, fresh_from, ask_at, stop_at, first, broken_off });
     }
 
     /// Time passes while all are asked where they stand.
@@ -248,8 +239,7 @@ impl Run {
             return;
         }
         let (until, paused) = self.stood.take().map_or((now, None), |stood| (stood.until, stood.paused));
-        let until = until.max(gathering.until).max(now);
-        self.phase = Phase::Standing(Standing { since: now, until, paused });
+        self.phase = Phase::Standing(Standing { since: now, until: until.max(now), paused });
         self.tick_standing(desk, now);
     }
 

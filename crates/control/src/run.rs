@@ -90,8 +90,6 @@ pub(crate) struct Gathering {
     /// Reports count from then on.
     pub fresh_from: Instant,
     pub ask_at: Instant,
-    /// The picture that stands stays at least until then.
-    pub until: Instant,
     /// When STOP is said, if progress is held first.
     pub stop_at: Option<Instant>,
     /// Nothing was driven yet: too few robots are a reason not to begin.
@@ -130,7 +128,7 @@ pub(crate) struct Run {
     /// There was no way with robots that came during the run and take no part: they are not driven around until the
     /// next picture stands.
     pub disregards_strangers: bool,
-    /// The picture that stood when the broker was lost: its air time runs on.
+    /// The picture that stood when all were asked anew: its air time runs on.
     pub stood: Option<Standing>,
     /// The leg that is driven or has brought everybody where they stand.
     pub current: Option<Leg>,
@@ -227,7 +225,6 @@ impl Run {
                 since: now,
                 fresh_from: Instant::ZERO,
                 ask_at: now,
-                until: now,
                 stop_at: None,
                 first: true,
                 broken_off: None,
