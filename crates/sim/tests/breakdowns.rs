@@ -45,20 +45,29 @@ fn play(faults: &str, seed: u64) -> RehearsalReport {
     rehearse(&dense_show(), &RehearsalOptions { seed, conditions, robots: None }, &mut |_| {})
 }
 
+/// In how many of thirty runs robots touched after one of them failed like this. The show goes on in all of them.
+fn touched(fault: &str) -> usize {
+    let touches = |seed| {
+        let report = play(fault, seed);
+        assert_eq!(report.frames_played, 3, "{fault}, seed {seed}: {:#?}", report.issues);
+        assert!((1..=2).contains(&report.dropouts), "{fault}, seed {seed}: {:#?}", report.issues);
+        report.contacts > 0
+    };
+    (1..=30).filter(|&seed| touches(seed)).count()
+}
+
 /// Robots that follow each other within a centimetre or so are touched now and then when the one ahead dies, as nobody
 /// can stop in time; with what they see of each other that is rare, and the show goes on in any case.
 #[test]
 fn hardly_anybody_touches_a_robot_that_died_and_the_show_goes_on() {
-    let mut touched = 0;
-    for seed in 1..=30 {
-        for fault in ["kill=random", "mute=random", "stuck=random"] {
-            let report = play(fault, seed);
-            touched += usize::from(report.contacts > 0);
-            assert_eq!(report.frames_played, 3, "{fault}, seed {seed}: {:#?}", report.issues);
-            assert!((1..=2).contains(&report.dropouts), "{fault}, seed {seed}: {:#?}", report.issues);
-        }
-    }
-    assert!(touched <= 2, "{touched} of 90 runs");
+    let touched = touched("kill=random") + touched("mute=random");
+    assert!(touched <= 2, "{touched} of 60 runs");
+}
+
+#[test]
+fn hardly_anybody_touches_a_robot_that_got_stuck_and_the_show_goes_on() {
+    let touched = touched("stuck=random");
+    assert!(touched <= 1, "{touched} of 30 runs");
 }
 
 #[test]
