@@ -17,9 +17,6 @@ use crate::{Place, Trust};
 
 /// No message of the protocol is nearly as long; one that is longer costs the connection.
 const LONGEST_PACKET: usize = 16 << 20;
-/// Messages that wait to go out are written together, so many at most: one by one, each would cost a system call, a
-/// packet and a wake-up at the other end. None waits for others to come.
-const WRITTEN_TOGETHER: usize = 256;
 /// A packet of subscriptions stays far below every broker's limit.
 const FILTERS_A_PACKET: usize = 100;
 const GOODBYE: Duration = Duration::from_millis(500);
@@ -214,7 +211,6 @@ fn options(config: &LinkConfig, at: usize) -> MqttOptions {
     let place = &broker.places[at];
     let mut options = MqttOptions::new(config.client_id.clone(), (place.host.clone(), place.port));
     options.set_keep_alive(15).set_max_packet_size(LONGEST_PACKET, LONGEST_PACKET).set_inflight(1000);
-    options.set_max_request_batch(WRITTEN_TOGETHER);
     if let Some(user) = &broker.user {
         options.set_credentials(user.clone(), broker.password.clone().unwrap_or_default());
     }
