@@ -95,6 +95,8 @@ pub enum EventKind {
         /// Why.
         why: Trouble,
     },
+    /// Robots are heard, and none acknowledges anything: the way to them is broken.
+    NobodyHears,
     /// On again.
     Resumed,
     /// A robot takes no part any more; the rest goes on without it.
@@ -183,6 +185,7 @@ impl EventKind {
             | FleetFull
             | LeftOut { .. }
             | Waiting { .. }
+            | NobodyHears
             | Replanning { .. }
             | Misaligned { .. }
             | UnexpectedArrival(_)
@@ -248,6 +251,10 @@ impl fmt::Display for EventKind {
                 write!(f, "Frame {} stands; arrivals within {:.2} s.", frame + 1, spread.as_secs())
             }
             Waiting { robot, why } => write!(f, "Everybody waits for robot {robot}: it {why}."),
+            NobodyHears => write!(
+                f,
+                "No robot acknowledges its path, though all are heard: the broker does not pass on what is said to them."
+            ),
             Resumed => write!(f, "On again."),
             Dropout { robot, why } => write!(f, "Robot {robot} drops out: it {why}."),
             Rejoined(id) => write!(f, "Robot {id} takes part from the next frame on."),

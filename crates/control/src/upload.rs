@@ -2,7 +2,7 @@
 
 use crate::desk::Desk;
 use crate::driving::CHECK;
-use crate::event::Trouble;
+use crate::event::{EventKind, Outcome, Trouble};
 use crate::run::{Phase, Run};
 use lightbots_base::{Instant, Span};
 use lightbots_wire::{Command, Pieces, Route, Topic};
@@ -18,6 +18,9 @@ const ROOM_MOST_MM: f64 = 40.0;
 #[derive(Clone, Debug)]
 pub(crate) struct Upload {
     pub seq: u32,
+    began: Instant,
+    /// It was said that nobody hears.
+    told: bool,
     /// The next seat to be served for the first time.
     cursor: usize,
     /// Sent and not known to be acknowledged: when to look again, and the seat. In order of time.
@@ -35,6 +38,11 @@ impl Upload {
     pub fn due(&self) -> Option<Instant> {
         self.sent.front().map(|(due, _)| *due)
     }
+
+    /// Whether several were sent to, and not one acknowledged.
+    fn is_unheard(&self) -> bool {
+        self.open > 1 && self.once.0 + self.again.0 == 0
+    }
 }
 
 impl Run {
@@ -49,13 +57,15 @@ impl Run {
     }
 
     /// Begins handing out the first leg of the queue, unless that has begun.
-    pub fn begin_upload(&mut self) {
+    pub fn begin_upload(&mut self, now: Instant) {
         let Some(leg) = self.queue.front() else { return };
         if self.upload.as_ref().is_some_and(|upload| upload.seq == leg.seq) {
             return;
         }
         self.upload = Some(Upload {
             seq: leg.seq,
+            began: now,
+            told: false,
             cursor: 0,
             sent: VecDeque::new(),
             open: 0,
@@ -69,7 +79,7 @@ impl Run {
         if matches!(&self.phase, Phase::Driving(drive) if now < drive.began + BEGUN) {
             return;
         }
-        self.begin_upload();
+        self.begin_upload(now);
         let Some(mut upload) = self.upload.take() else { return };
         if self.queue.front().is_none_or(|leg| leg.seq != upload.seq) {
             return;
@@ -84,7 +94,8 @@ impl Run {
             if settled {
                 continue;
             }
-            if self.seats[seat].tries >= desk.config.tries {
+            if self.seats[seat].tries >= desk.config.tries && !self.is_link_dumb(desk, now, &mut upload, seat)
+            {
                 self.upload = Some(upload);
                 self.drop_out(desk, now, seat, Trouble::Deaf);
                 return;
@@ -106,6 +117,23 @@ impl Run {
             upload.sent.push_back((now + resend_after, seat));
         }
         self.upload = Some(upload);
+    }
+
+    /// Whether a robot that does not acknowledge is one of many, all of them alive: then nothing that is said reaches
+    /// anybody, and it is not for the robots to be left out. That has its bound, as a broker that is gone has.
+    fn is_link_dumb(&mut self, desk: &mut Desk, now: Instant, upload: &mut Upload, seat: usize) -> bool {
+        if !upload.is_unheard() || desk.fleet.robot(self.seats[seat].robot).heard <= upload.began {
+            return false;
+        }
+        if !std::mem::replace(&mut upload.told, true) {
+            desk.log.tell(now, EventKind::NobodyHears);
+        }
+        // How long the answer takes once the way is free again says nothing of the link.
+        self.seats[seat].sent = now;
+        if now - upload.began > desk.config.offline_bound {
+            self.over = Some(Outcome::Failed("no robot acknowledges its path".into()));
+        }
+        true
     }
 
     /// A report names the route its robot keeps.

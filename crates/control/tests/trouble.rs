@@ -37,6 +37,26 @@ fn lossy_and_slow_links_lose_no_robot() {
 }
 
 #[test]
+fn a_broker_that_passes_nothing_on_costs_no_robot() {
+    let mut world = a_second_under_way();
+    world.mute = true;
+    world.run_until(30.0, |kind| *kind == EventKind::NobodyHears);
+    world.run_for(20.0);
+    world.mute = false;
+    let ended = world.run_to_end(60.0);
+    assert_eq!(ended, (Outcome::Finished, 3, 0), "{}", world.story());
+}
+
+#[test]
+fn one_that_stays_so_ends_the_run_in_bounded_time() {
+    let mut world = a_second_under_way();
+    world.mute = true;
+    let (outcome, _, dropouts) = world.run_to_end(330.0);
+    assert!(matches!(&outcome, Outcome::Failed(why) if why.contains("acknowledges")), "{outcome:?}");
+    assert_eq!(dropouts, 0, "{}", world.story());
+}
+
+#[test]
 fn a_robot_that_dies_while_driving_is_planned_around() {
     let mut world = World::ready(12, 0, show(3, 12, 0.3));
     world.play();

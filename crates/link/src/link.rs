@@ -4,7 +4,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
 
 use rumqttc::{AsyncClient, PublishOptions};
-use tokio::sync::{mpsc, oneshot};
+use tokio::sync::{Notify, mpsc, oneshot};
 
 use crate::{BrokerUrl, pump::Pump};
 
@@ -64,6 +64,8 @@ pub(crate) struct Shared {
     pub(crate) at: AtomicUsize,
     /// Messages dropped in either direction because a queue was full.
     pub(crate) dropped: AtomicU64,
+    /// Somebody wants another connection.
+    pub(crate) renew: Notify,
 }
 
 impl Link {
@@ -88,6 +90,13 @@ impl Link {
     /// The next event, if there is one already.
     pub fn try_next(&mut self) -> Option<LinkEvent> {
         self.events.try_recv().ok()
+    }
+
+    /// The connection stands but is of no use: gives it up for one to the next address. What is queued is lost.
+    pub fn renew(&self) {
+        if self.sender.is_connected() {
+            self.sender.shared.renew.notify_one();
+        }
     }
 
     /// Says goodbye to the broker and waits, for half a second at most, until what was sent before is out.

@@ -78,12 +78,14 @@ impl Pump {
             let polled = tokio::select! {
                 biased;
                 _ = &mut self.stop => break,
-                polled = self.connection.poll() => polled,
+                () = self.shared.renew.notified() => None,
+                polled = self.connection.poll() => Some(polled),
             };
             let going_on = match polled {
-                Ok(Event::Incoming(packet)) => self.incoming(packet).await,
-                Ok(Event::Outgoing(_)) => true,
-                Err(error) => {
+                None => self.renew().await,
+                Some(Ok(Event::Incoming(packet))) => self.incoming(packet).await,
+                Some(Ok(Event::Outgoing(_))) => true,
+                Some(Err(error)) => {
                     let line = reason(&error, self.place(), self.greeted);
                     self.failed(line).await
                 }
@@ -120,6 +122,16 @@ impl Pump {
             }
             _ => true,
         }
+    }
+
+    /// Whoever uses the link has found its connection to be of no use.
+    async fn renew(&mut self) -> bool {
+        if !self.shared.connected.load(Ordering::Acquire) {
+            return true;
+        }
+        self.connection.clean();
+        let line = format!("{} passes on nothing that is said to it", self.place());
+        self.failed(line).await
     }
 
     fn subscribe(&mut self) {

@@ -40,6 +40,8 @@ pub struct World {
     pub robots: Vec<Robot>,
     pub events: Vec<Event>,
     pub linked: bool,
+    /// The broker passes on nothing that the controller says.
+    pub mute: bool,
     /// Share of messages lost, percent.
     pub loss: u64,
     /// Delay of messages, milliseconds: least, and how much more at most.
@@ -60,6 +62,7 @@ impl World {
             robots,
             events: Vec::new(),
             linked: false,
+            mute: false,
             loss: 0,
             delay_ms: (5, 15),
             closest_m: f64::INFINITY,
@@ -127,7 +130,7 @@ impl World {
     }
 
     fn post(&mut self, topic: Topic, payload: Vec<u8>, to_controller: bool) {
-        if !self.linked || self.dice.below(100) < self.loss {
+        if !self.linked || (self.mute && !to_controller) || self.dice.below(100) < self.loss {
             return;
         }
         let delay_ms = self.delay_ms.0 + self.dice.below(self.delay_ms.1 + 1);

@@ -180,6 +180,7 @@ impl Conductor {
         let now = self.clock.now();
         match event {
             LinkEvent::Connected => {
+                self.rivals.connected();
                 self.controller.connected(now);
                 self.tell_link(LinkPhase::Connected, None);
             }
@@ -229,12 +230,15 @@ impl Conductor {
 
     /// Hands on what the controller has to say.
     fn drain(&mut self) {
-        if let Some(sender) = self.link.as_ref().map(Link::sender) {
-            let now = self.clock.now();
+        if let Some(link) = &self.link {
+            let (sender, now) = (link.sender(), self.clock.now());
             if self.state.is_connected()
                 && let Some(name) = self.rivals.name_due(now)
             {
                 sender.send(rivals::NAMES, name.as_bytes().to_vec());
+                if self.rivals.is_mute() {
+                    link.renew();
+                }
             }
             while let Some(send) = self.controller.next_send() {
                 if send.topic == Topic::Broadcast {

@@ -1,5 +1,6 @@
 //! Other controllers on the same broker. Two of them lead robots by two clocks and two minds, so each says that it is
 //! there and listens: to what others of ours say of themselves, and to commands for all that it did not send itself.
+//! By its own name coming back it also knows that the broker passes on what it says.
 
 use std::collections::VecDeque;
 
@@ -11,6 +12,10 @@ pub const NAMES: &str = "T/LightBot/Controller/Here";
 pub const COMMANDS: &str = "T/LightBot/Broadcast";
 /// How often a controller says that it is there.
 const EVERY: Span = Span::from_millis(2_000);
+/// A broker that brought its name back before and did not so many times running is mute, …
+const MUTE: u32 = 4;
+/// … later so many more each time a new connection did not help either, up to this.
+const MUTE_MOST: u32 = 32;
 /// How long the broker may take to bring back what this controller said.
 const ECHO: Span = Span::from_millis(60_000);
 /// Commands whose echo is waited for, at most; the oldest are forgotten.
@@ -24,6 +29,10 @@ pub struct Rivals {
     name: String,
     /// When it says its name next.
     speak_at: Instant,
+    /// How often it said its name since it came back, or since the connection began.
+    unanswered: u32,
+    /// How often it may; `None` until it came back once: a broker need not grant it.
+    mute_after: Option<u32>,
     /// What it told all robots and has not come back, the oldest first. Echoes come in order, so that looking for one
     /// ends at once.
     unheard: VecDeque<(Instant, Vec<u8>)>,
@@ -33,7 +42,14 @@ pub struct Rivals {
 impl Rivals {
     /// Of a controller of this name, which differs from all others'.
     pub fn new(name: String) -> Self {
-        Self { name, speak_at: Instant::ZERO, unheard: VecDeque::new(), told: None }
+        Self {
+            name,
+            speak_at: Instant::ZERO,
+            unanswered: 0,
+            mute_after: None,
+            unheard: VecDeque::new(),
+            told: None,
+        }
     }
 
     /// When [`Self::name_due`] has something to say.
@@ -47,7 +63,22 @@ impl Rivals {
             return None;
         }
         self.speak_at = now + EVERY;
+        self.unanswered += 1;
         Some(&self.name)
+    }
+
+    /// Whether the broker passes on nothing any more of what is said to it. It is to be given another chance before
+    /// this is asked again: the count starts anew.
+    pub fn is_mute(&mut self) -> bool {
+        let Some(after) = self.mute_after.filter(|&after| self.unanswered > after) else { return false };
+        self.mute_after = Some((after * 2).min(MUTE_MOST));
+        self.unanswered = 0;
+        true
+    }
+
+    /// A connection begins: names said on another one need not come back.
+    pub fn connected(&mut self) {
+        self.unanswered = 0;
     }
 
     /// This controller tells all robots something.
@@ -62,6 +93,10 @@ impl Rivals {
     /// A message of a controller came in; a warning where it is not from this one, now and then.
     pub fn hear(&mut self, now: Instant, topic: &str, payload: &[u8]) -> Option<String> {
         let own = if topic == NAMES { payload == self.name.as_bytes() } else { self.echoes(payload) };
+        if own && topic == NAMES {
+            self.unanswered = 0;
+            self.mute_after = Some(MUTE);
+        }
         if own || self.told.is_some_and(|told| now - told < AGAIN) {
             return None;
         }
@@ -111,6 +146,28 @@ mod tests {
         assert!(rivals.hear(at(2), NAMES, b"y\nou").unwrap().contains("(you)"));
         assert_eq!(rivals.hear(at(50), NAMES, b"you"), None);
         assert!(rivals.hear(at(70), NAMES, b"you").is_some());
+    }
+
+    #[test]
+    fn a_broker_that_brings_no_name_back_any_more_is_mute() {
+        let mut rivals = Rivals::new("me".into());
+        let mut time = 0;
+        let mut speaks = |rivals: &mut Rivals| {
+            let mut names = 0;
+            while !rivals.is_mute() && names < 100 {
+                time += 2;
+                names += u32::from(rivals.name_due(at(time)).is_some());
+            }
+            names
+        };
+        assert_eq!(speaks(&mut rivals), 100, "one that never brought it back may have been told not to");
+        rivals.connected();
+        rivals.hear(at(300), NAMES, b"me");
+        assert_eq!([speaks(&mut rivals), speaks(&mut rivals)], [MUTE + 1, 2 * MUTE + 1]);
+        rivals.hear(at(900), NAMES, b"you");
+        assert_eq!(speaks(&mut rivals), 4 * MUTE + 1, "a name of another is no answer");
+        rivals.hear(at(900), NAMES, b"me");
+        assert_eq!(speaks(&mut rivals), MUTE + 1);
     }
 
     #[test]

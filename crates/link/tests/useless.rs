@@ -1,0 +1,62 @@
+//! Brokers that let us in and are of no use all the same.
+
+use std::io::{Read, Write};
+use std::net::TcpListener;
+
+use lightbots_link::{BrokerUrl, Link, LinkConfig, LinkEvent};
+
+/// Just enough of a broker: it accepts every login, and answers a subscription of two filters with these codes.
+fn serve(listener: &TcpListener, granted: [u8; 2]) {
+    while let Ok((mut stream, _)) = listener.accept() {
+        let mut bytes = [0; 512];
+        // CONNECT, then SUBSCRIBE, each in one piece because nothing else is under way.
+        if matches!(stream.read(&mut bytes), Ok(1..)) && stream.write_all(&[0x20, 2, 0, 0]).is_ok() {
+            let _ = stream.read(&mut bytes);
+            let _ = stream.write_all(&[0x90, 4, bytes[2], bytes[3], granted[0], granted[1]]);
+            let _ = stream.read(&mut bytes);
+        }
+    }
+}
+
+/// A link for two filters to brokers that answer them so, and the brokers' addresses.
+fn open(granted: [u8; 2], brokers: usize) -> (Link, Vec<String>) {
+    let listeners: Vec<_> = (0..brokers).map(|_| TcpListener::bind("127.0.0.1:0").unwrap()).collect();
+    let ports: Vec<u16> = listeners.iter().map(|listener| listener.local_addr().unwrap().port()).collect();
+    for listener in listeners {
+        std::thread::spawn(move || serve(&listener, granted));
+    }
+    let mut broker = BrokerUrl::new("127.0.0.1", ports[0]);
+    broker.places = ports.iter().flat_map(|&port| BrokerUrl::new("127.0.0.1", port).places).collect();
+    let link = Link::open(LinkConfig {
+        broker,
+        client_id: "LightBot/r7".into(),
+        filters: vec!["T/LightBot/r7".into(), "T/LightBot/r8".into()],
+        queue: 16,
+    });
+    (link, ports.iter().map(|port| format!("mqtt://127.0.0.1:{port}")).collect())
+}
+
+#[tokio::test]
+async fn a_connection_of_no_use_is_left_for_the_next_address() {
+    let (mut link, places) = open([0, 0], 2);
+    assert_eq!(link.next().await, Some(LinkEvent::Connected));
+    assert_eq!(link.sender().place(), 0);
+    link.renew();
+    let Some(LinkEvent::Disconnected { reason }) = link.next().await else { panic!("it stays") };
+    assert!(reason.starts_with(&places[0]) && reason.contains("passes on nothing"), "{reason}");
+    assert_eq!(link.next().await, Some(LinkEvent::Connected));
+    assert_eq!(link.sender().place(), 1);
+    link.close().await;
+}
+
+#[tokio::test]
+async fn a_refused_subscription_is_named_and_is_no_connection() {
+    let (mut link, places) = open([0, 0x80], 1);
+    let Some(LinkEvent::Disconnected { reason }) = link.next().await else { panic!("it is connected") };
+    assert!(
+        reason.contains("refuses the subscription to T/LightBot/r8") && reason.contains(&places[0]),
+        "{reason}"
+    );
+    assert!(!link.sender().is_connected());
+    link.close().await;
+}
