@@ -5,6 +5,7 @@ use crate::event::{EventKind, Outcome, Trouble};
 use crate::fleet::Robot;
 use crate::operation::MissingPolicy;
 use crate::run::{Gathering, Phase, Run, Seat, Standing};
+use crate::silent::{CUT, UNHEARD};
 use crate::snapshot::Age;
 use crate::trial::Trial;
 use lightbots_base::{Instant, Span, Vec2};
@@ -28,10 +29,6 @@ const STILL: Span = Span::from_millis(1_200);
 const DRIVES_ON: Span = Span::from_millis(20_000);
 /// How long a robot may take to set its clock.
 const CLOCK: Span = Span::from_millis(8_000);
-/// A robot that fell silent died at most this long after its last report.
-const UNHEARD: Span = Span::from_millis(600);
-/// One whose link broke after that drives on for so long at least, and so much longer at most.
-const CUT: (Span, Span) = (Span::from_millis(1_500), Span::from_millis(1_000));
 /// Steps in which its path is followed from there.
 const GHOST_STEP: Span = Span::from_millis(50);
 /// Steps in which the way of an original robot is followed, metres.

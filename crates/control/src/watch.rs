@@ -34,8 +34,6 @@ const IMPATIENCE: Span = Span::from_millis(700);
 const QUIET: Span = Span::from_millis(560);
 /// … this often at most.
 const ASK: Span = Span::from_millis(90);
-/// Everybody waits for a driving robot that was not heard for so long, link times on top.
-const HUSH: Span = Span::from_millis(900);
 /// Robots that have not arrived so long after the planned end are judged by where they stand.
 const OVERDUE: Span = Span::from_millis(3_000);
 /// A robot standing farther from its goal than this has missed it, metres.
@@ -172,11 +170,8 @@ impl Run {
         if self.watch_probed(desk, now, seat) {
             return;
         }
-        let robot = desk.fleet.robot(self.seats[seat].robot);
-        let silent = now - robot.heard.max(drive.began);
-        let silence = desk.config.silence + self.round_trip * 2;
-        if silent > silence {
-            self.drop_out(desk, now, seat, Trouble::Silent);
+        let silent = now - desk.fleet.robot(self.seats[seat].robot).heard.max(drive.began);
+        if self.watch_silent(desk, now, seat, silent) {
             return;
         }
         if let Some(since) = self.seats[seat].blocked {
@@ -192,13 +187,10 @@ impl Run {
             self.settle_overdue(desk, now, seat);
             return;
         }
-        if !held && silent > HUSH + self.round_trip && self.seats[seat].late.is_none() {
-            self.mark_late(desk, now, seat, Trouble::Silent);
-            return;
-        }
         let overdue = !held && now >= drive.ask_at;
         if (overdue || silent > QUIET + self.round_trip) && now - self.seats[seat].asked >= ASK {
             self.seats[seat].asked = now;
+            let robot = desk.fleet.robot(self.seats[seat].robot);
             desk.outbox.say(Topic::Robot(robot.id), &[Command::Status]);
         }
     }

@@ -75,7 +75,8 @@ fn who_dies_while_all_are_stopped_for_another_is_planned_around_too() {
         world.run_until(10.0, started);
         world.run_for(1.2);
         world.robots[5].dead = true;
-        world.run_for(1.2);
+        world.run_until(3.0, |kind| matches!(kind, EventKind::Waiting { why: Trouble::Silent, .. }));
+        world.run_for(0.3);
         world.robots[other].dead = true;
         let ended = world.run_to_end(90.0);
         assert_eq!(ended, (Outcome::Finished, 4, 2), "{}", world.story());

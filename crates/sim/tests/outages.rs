@@ -34,12 +34,34 @@ fn show() -> Show {
     }
 }
 
+/// One behind the other, 18 mm between rims, they go to and fro by a metre.
+fn column() -> Show {
+    let mut show = show();
+    show.identity = Identity::Fixed;
+    for (number, frame) in show.frames.iter_mut().enumerate() {
+        for (pixel, id) in frame.pixels.iter_mut().zip(0..) {
+            let x = 0.072 * f64::from(id) - 0.75;
+            pixel.at = Vec2::new(if number.is_multiple_of(2) { x } else { x + 1.0 }, 0.0);
+        }
+    }
+    show
+}
+
 /// Plays with this robot in trouble; everybody must play the last frame.
 fn play(faults: &str, seed: u64) -> RehearsalReport {
+    play_show(&show(), faults, seed)
+}
+
+fn play_show(show: &Show, faults: &str, seed: u64) -> RehearsalReport {
     let faults_read = if faults.is_empty() { Faults::default() } else { Faults::parse(faults).unwrap() };
     let conditions = faults_read.added_to(Conditions::default());
-    let report = rehearse(&show(), &RehearsalOptions { seed, conditions, robots: None }, &mut |_| {});
-    assert_eq!((report.contacts, report.frames_played), (0, FRAMES), "{faults}: {:#?}", report.issues);
+    let report = rehearse(show, &RehearsalOptions { seed, conditions, robots: None }, &mut |_| {});
+    assert_eq!(
+        (report.contacts, report.frames_played),
+        (0, FRAMES),
+        "{faults}, seed {seed}: {:#?}",
+        report.issues
+    );
     report
 }
 
@@ -56,6 +78,18 @@ fn cut_off_or_lost_on_the_way_it_drops_out_and_comes_back() {
             assert!(has(&report, "rejoined"), "{fault}, seed {seed}: {:#?}", report.issues);
             let last = report.per_frame.last().expect("frames stood");
             assert!(last.position_error_m.max < 0.02, "{fault}, seed {seed}: {last:?}");
+        }
+    }
+}
+
+#[test]
+fn who_is_cut_off_and_drives_on_runs_into_nobody() {
+    // Those ahead held after a second of silence, while the one behind them drove on until it knew that it was cut off.
+    let leaves_s = play_show(&column(), "", 1).per_frame[0].at_s + 2.0;
+    for seed in 1..=5 {
+        for after_s in [0.4, 0.8, 1.2] {
+            let report = play_show(&column(), &format!("cut=0@{:.2}s+5s", leaves_s + after_s), seed);
+            assert_eq!(report.dropouts, 1, "seed {seed}: {:#?}", report.issues);
         }
     }
 }
