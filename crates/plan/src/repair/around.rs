@@ -1,7 +1,11 @@
-//! The shortest way of one robot around walls: over the lattice, then pulled tight.
+//! The shortest way of one robot around walls: over the lattice, then pulled tight; where the lattice does not fit
+//! through, from corner to corner.
+
+use std::cell::OnceCell;
 
 use lightbots_base::Vec2;
 
+use super::corners::Corners;
 use super::lattice::{Lattice, NONE};
 use super::scene::Scene;
 
@@ -12,6 +16,7 @@ const REACH: f64 = 3.0;
 
 /// Corners of each robot's way from its start to its end; `None` where somebody is walled in.
 pub(super) fn courses(scene: &Scene, lattice: &Lattice) -> Option<Vec<Vec<Vec2>>> {
+    let corners = OnceCell::new();
     (0..scene.robots())
         .map(|robot| {
             let start = scene.starts[robot];
@@ -20,6 +25,7 @@ pub(super) fn courses(scene: &Scene, lattice: &Lattice) -> Option<Vec<Vec<Vec2>>
                 return Some(vec![start, end]);
             }
             around(scene, lattice, start, end)
+                .or_else(|| corners.get_or_init(|| Corners::new(scene)).way(scene, start, end))
         })
         .collect()
 }

@@ -22,13 +22,20 @@ const LOOSE_PITCH_M: f64 = 0.078;
 const MOST_WORK: usize = 22_000_000;
 /// Where this much work is left, a better way is still looked for.
 const WORK_TO_SPARE: usize = 14_000_000;
-/// The same for all attempts over lattices.
+/// The same for all attempts with time to spare, and over lattices.
+const PATIENT_WORK: usize = 12_000_000;
 const LATTICE_WORK: usize = 18_000_000;
 /// So much longer than the least is good enough.
 const GOOD: f64 = 1.15;
 /// Spans aim at this long, seconds: as long as the smallest bend at full speed takes, and what does for large crowds.
 const SPAN_S: f64 = 0.25;
 const LONG_SPAN_S: f64 = 0.33;
+/// What takes longer than so many times the least, and this more, is not yet good enough to stop at, seconds.
+const DECENT: f64 = 4.0;
+const DECENT_MORE_S: f64 = 4.0;
+/// The same for ways that small crowds found with time to spare: an order learnt on a lattice may be swifter.
+const SLUGGISH: f64 = 1.8;
+const SLUGGISH_MORE_S: f64 = 1.5;
 /// Larger crowds take the first way found.
 const MOST_TO_IMPROVE: usize = 600;
 /// Guesses tried where none has led to a way yet, and where one has.
@@ -47,6 +54,23 @@ const ROOMY: Wish = Wish { robots_m: 0.0675, walls_m: 0.0115, slack_m: 0.002 };
 const WIDE: Wish = Wish { robots_m: 0.0625, walls_m: 0.0075, slack_m: 0.002 };
 const NARROW: Wish = Wish { robots_m: 0.0595, walls_m: 0.0065, slack_m: 0.0015 };
 
+/// What is aimed at where nothing else led anywhere: hardly more than must be.
+const TIGHT: Wish = Wish { robots_m: 0.0575, walls_m: 0.0033, slack_m: 0.0002 };
+/// Driving together, loosening on the way, and loosening first.
+const TOGETHER: Manner = Manner { bow: 0.0, early: false, level: false, spread: false, staged: false };
+const LOOSE: Manner = Manner { spread: true, ..TOGETHER };
+const STAGED: Manner = Manner { staged: true, ..LOOSE };
+/// What is tried with time to spare: a manner, how many times as long as the least, at least how many seconds of that,
+/// and what is wished for.
+const PATIENT: [(Manner, f64, f64, Wish); 6] = [
+    (TOGETHER, 1.5, 1.3, NARROW),
+    (LOOSE, 1.5, 1.3, NARROW),
+    (STAGED, 1.0, 3.0, NARROW),
+    (STAGED, 2.0, 3.0, NARROW),
+    (TOGETHER, 4.0, 1.3, TIGHT),
+    (STAGED, 4.0, 3.0, TIGHT),
+];
+
 /// Who says whether a weave may be driven.
 type Judge<'a> = &'a dyn Fn(Weave) -> Result<Weave, Amiss>;
 
@@ -57,34 +81,102 @@ pub(super) fn best(scene: &Scene, easing: Easing, proven: Judge) -> Result<Weave
     let courses = courses(scene, &lattice).ok_or_else(Vec::new)?;
     let crowd = Crowd::new(scene, &courses);
     let least_s = Pace::new(crowd.longest_m, &scene.limits, easing, 1.0).drive_s;
-    let mut work = MOST_WORK;
-    let mut best = Err(Vec::new());
-    let hurry = scene.robots() > MOST_TO_IMPROVE;
-    let guesses = guesses(&crowd, easing);
-    for (tried, (guess, wish)) in order(&guesses, hurry).into_iter().enumerate() {
-        let stretch = if hurry || tried >= ENOUGH_TRIES { guess.stretch() } else { 1.0 };
-        let effort = Effort { sweeps: 300, stretch: (MOST_STRETCH / stretch).max(1.8), hurry, wish };
-        let found =
-            relax(scene, guess.weave(stretch, if hurry { LONG_SPAN_S } else { SPAN_S }), effort, &mut work);
-        best = better(scene, best, found.and_then(|weave| amended(scene, weave, effort, &mut work, proven)));
-        let enough = hurry || tried + 1 >= ENOUGH_TRIES || work < WORK_TO_SPARE;
-        if best.as_ref().is_ok_and(|weave| enough || lasts(scene, weave) < least_s * GOOD) {
-            return best;
+    let mut attempts = Attempts { scene, proven, least_s, work: MOST_WORK, best: Err(Vec::new()) };
+    attempts.swift(&guesses(&crowd, easing));
+    // Large crowds seldom have the room to loosen.
+    let orderly = attempts.hurry();
+    for ordered in [orderly, !orderly] {
+        match ordered {
+            true if attempts.lasts() > least_s * SLUGGISH + SLUGGISH_MORE_S => attempts.ordered(),
+            false if !attempts.is_decent() => attempts.patient(&crowd, easing),
+            _ => {}
         }
     }
-    let mut work = LATTICE_WORK;
-    for pitch_m in [PITCH_M, LOOSE_PITCH_M] {
-        if best.is_ok() && pitch_m > PITCH_M {
-            break;
+    attempts.best
+}
+
+/// What was found so far, and how much may still be spent.
+struct Attempts<'a> {
+    scene: &'a Scene,
+    proven: Judge<'a>,
+    /// How long the longest way takes at full speed, seconds.
+    least_s: f64,
+    work: usize,
+    best: Result<Weave, Vec<Meeting>>,
+}
+
+impl Attempts<'_> {
+    /// In about the least time.
+    fn swift(&mut self, guesses: &[Guess]) {
+        let hurry = self.hurry();
+        for (tried, (guess, wish)) in order(guesses, hurry).into_iter().enumerate() {
+            let stretch = if hurry || tried >= ENOUGH_TRIES { guess.stretch() } else { 1.0 };
+            let effort = Effort { sweeps: 300, stretch: (MOST_STRETCH / stretch).max(1.8), hurry, wish };
+            self.relax(guess.weave(stretch, if hurry { LONG_SPAN_S } else { SPAN_S }), effort);
+            let enough = hurry || tried + 1 >= ENOUGH_TRIES || self.work < WORK_TO_SPARE;
+            let good_s = if enough { self.decent_s() } else { self.least_s * GOOD };
+            if self.lasts() < good_s {
+                break;
+            }
         }
-        let effort = Effort { sweeps: 300, stretch: 2.5, hurry: true, wish: NARROW };
-        let Some(weave) = Lattice::new(scene, pitch_m).and_then(|lattice| ordered(scene, &lattice)) else {
-            continue;
-        };
-        let found = relax(scene, weave, effort, &mut work);
-        best = better(scene, best, found.and_then(|weave| amended(scene, weave, effort, &mut work, proven)));
     }
-    best
+
+    /// With time to spare, in which a crowd may loosen before anybody goes anywhere.
+    fn patient(&mut self, crowd: &Crowd, easing: Easing) {
+        self.work = self.work.min(PATIENT_WORK);
+        for (manner, times, least_s, wish) in PATIENT {
+            let guess = Guess::new(crowd, easing, manner, WIDE.robots_m);
+            let lasts_s = guess.least_s().max(least_s) * times;
+            let effort = Effort { sweeps: 300, stretch: 1.8, hurry: self.hurry(), wish };
+            self.relax(guess.weave_lasting(lasts_s, SPAN_S), effort);
+            if self.is_decent() {
+                break;
+            }
+        }
+    }
+
+    /// In an order learnt on a lattice.
+    fn ordered(&mut self) {
+        self.work = LATTICE_WORK;
+        let before_s = self.lasts();
+        for pitch_m in [PITCH_M, LOOSE_PITCH_M] {
+            let effort = Effort { sweeps: 300, stretch: 2.5, hurry: true, wish: NARROW };
+            let weave = Lattice::new(self.scene, pitch_m).and_then(|lattice| ordered(self.scene, &lattice));
+            if let Some(weave) = weave {
+                self.relax(weave, effort);
+            }
+            if self.lasts() < before_s || self.is_decent() {
+                break;
+            }
+        }
+    }
+
+    /// Whether the crowd is so large that the first way found does.
+    fn hurry(&self) -> bool {
+        self.scene.robots() > MOST_TO_IMPROVE
+    }
+
+    /// Relaxes a first guess and keeps the better of what comes of it and what there was.
+    fn relax(&mut self, weave: Weave, effort: Effort) {
+        let found = relax(self.scene, weave, effort, &mut self.work)
+            .and_then(|weave| amended(self.scene, weave, effort, &mut self.work, self.proven));
+        let before = std::mem::replace(&mut self.best, Err(Vec::new()));
+        self.best = better(self.scene, before, found);
+    }
+
+    /// How long the best takes, seconds; infinite where there is none.
+    fn lasts(&self) -> f64 {
+        self.best.as_ref().map_or(f64::INFINITY, |weave| lasts(self.scene, weave))
+    }
+
+    /// What takes longer than this is worth more search, seconds.
+    fn decent_s(&self) -> f64 {
+        self.least_s * DECENT + DECENT_MORE_S
+    }
+
+    fn is_decent(&self) -> bool {
+        self.lasts() < self.decent_s()
+    }
 }
 
 /// The weave once the proof holds: single robots that cannot drive as they should get a smoother way, and whoever is in

@@ -11,6 +11,8 @@ use super::weave::{Weave, basis, blend};
 const STRETCHES: usize = 4;
 /// Pairs farther apart than their wish by this much are not watched until the next look-out, metres.
 const SKIN_M: f64 = 0.012;
+/// How often the closest moment to a wall is looked for at half the distance from the best so far.
+const NEARING: usize = 3;
 /// Straight stretches cut corners by less than this, metres.
 const CUT_M: f64 = 0.003;
 
@@ -185,15 +187,28 @@ impl Watch {
                     contact.wish + SKIN_M + CUT_M,
                 )
             }
-            Other::Wall(wall) => {
-                let nearest = self.bases.iter().map(|weights| {
-                    let (apart, away) = scene.off_wall(wall, blend(four, weights));
-                    Closest { apart, away, weights: *weights }
-                });
-                let none = Closest { apart: f64::MAX, away: Vec2::ZERO, weights: self.middle };
-                nearest.fold(none, |best, next| if next.apart < best.apart { next } else { best })
-            }
+            Other::Wall(wall) => self.closest_to_wall(scene, wall, four),
         }
+    }
+
+    /// The best of the moments that are looked at, then of those half as far from it, and so on.
+    fn closest_to_wall(&self, scene: &Scene, wall: usize, four: &[Vec2]) -> Closest {
+        let at = |u: f64| {
+            let weights = basis(u);
+            let (apart, away) = scene.off_wall(wall, blend(four, &weights));
+            (u, Closest { apart, away, weights })
+        };
+        let nearer = |best: (f64, Closest), next: (f64, Closest)| {
+            if next.1.apart < best.1.apart { next } else { best }
+        };
+        let mut reach = 1.0 / STRETCHES as f64;
+        let mut best = (1..=STRETCHES).map(|i| at(i as f64 * reach)).fold(at(0.0), nearer);
+        for _ in 0..NEARING {
+            reach /= 2.0;
+            let around = [best.0 - reach, best.0 + reach];
+            best = around.into_iter().map(|u| at(u.clamp(0.0, 1.0))).fold(best, nearer);
+        }
+        best.1
     }
 
     fn closest_to_origin(&self, apart: &[Vec2; 4], near: f64) -> Closest {

@@ -60,6 +60,14 @@ impl<'a> Crowd<'a> {
         }
     }
 
+    /// How far the one that moves most is moved when the crowd becomes loose where it starts, metres.
+    pub fn farthest_loosened(&self) -> f64 {
+        let starts: Vec<Vec2> = self.courses.iter().map(|course| course[0]).collect();
+        let mut loose = starts.clone();
+        self.loosen(&mut loose, 1.0);
+        starts.iter().zip(&loose).map(|(from, to)| from.distance(*to)).fold(0.0, f64::max)
+    }
+
     /// Moves places outwards by a share of what makes the crowd loose.
     pub fn loosen(&self, places: &mut [Vec2], share: f64) {
         for (robot, place) in places.iter_mut().enumerate() {

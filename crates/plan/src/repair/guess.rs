@@ -13,6 +13,8 @@ pub(super) const MOST_SPANS: usize = 124;
 const BOWS: [f64; 5] = [0.0, 0.12, 0.25, 0.5, -0.12];
 /// Share of the time in which a tight crowd becomes loose, and tight again at the end.
 const LOOSENED: f64 = 0.3;
+/// The top speed of who loosens and tightens, over the mean.
+const GENTLE: f64 = 1.5;
 /// Moments at which a guess is looked at.
 const SAMPLES: usize = 16;
 /// What being too fast weighs beside being too close.
@@ -38,6 +40,8 @@ pub(super) struct Manner {
     pub level: bool,
     /// Whether a tight crowd loosens on its way.
     pub spread: bool,
+    /// Whether it loosens before anybody goes anywhere, and is tight again only when all have got there.
+    pub staged: bool,
 }
 
 impl Manner {
@@ -46,7 +50,9 @@ impl Manner {
         let flags = [false, true];
         let loose = flags.into_iter().flat_map(move |spread| flags.map(|level| (spread, level)));
         let timed = loose.flat_map(move |(spread, level)| flags.map(|early| (spread, level, early)));
-        timed.flat_map(|(spread, level, early)| BOWS.map(|bow| Self { bow, early, level, spread }))
+        timed.flat_map(|(spread, level, early)| {
+            BOWS.map(|bow| Self { bow, early, level, spread, staged: false })
+        })
     }
 }
 
@@ -71,7 +77,11 @@ impl<'a> Guess<'a> {
 
     /// The guess as a weave, `stretch` times as slow as at full speed, with spans of about `span_s` seconds.
     pub fn weave(&self, stretch: f64, span_s: f64) -> Weave {
-        let drive_s = self.pace.drive_s * stretch;
+        self.weave_lasting(self.pace.drive_s * stretch, span_s)
+    }
+
+    /// The guess as a weave that takes `drive_s` seconds, with spans of about `span_s`.
+    pub fn weave_lasting(&self, drive_s: f64, span_s: f64) -> Weave {
         let spans = ((drive_s / span_s).ceil() as usize).clamp(6, MOST_SPANS);
         let places: Vec<Vec<Vec2>> =
             (0..=spans).map(|step| self.free_places(step as f64 / spans as f64)).collect();
@@ -83,9 +93,26 @@ impl<'a> Guess<'a> {
         1.0 + ((self.badness - EASY) * STRETCH).clamp(0.0, MOST_STRETCH)
     }
 
+    /// Seconds in which everybody gets to the end at full speed, as far as this manner goes.
+    pub fn least_s(&self) -> f64 {
+        if self.manner.staged {
+            let out_s = GENTLE * self.crowd.farthest_loosened() / self.crowd.scene.limits.speed_mps;
+            (self.pace.drive_s / (1.0 - 2.0 * LOOSENED)).max(out_s / LOOSENED)
+        } else {
+            self.pace.drive_s
+        }
+    }
+
+    /// The share of its way that the longest has gone after a share of the time.
+    fn share(&self, moment: f64) -> f64 {
+        let within = (moment - LOOSENED) / (1.0 - 2.0 * LOOSENED);
+        let moment = if self.manner.staged { within.clamp(0.0, 1.0) } else { moment };
+        self.pace.share(moment * self.pace.drive_s)
+    }
+
     /// Where everybody is after a share of the time.
     fn places(&self, moment: f64) -> Vec<Vec2> {
-        let share = self.pace.share(moment * self.pace.drive_s);
+        let share = self.share(moment);
         let mut places: Vec<Vec2> =
             (0..self.crowd.courses.len()).map(|robot| self.place(robot, share)).collect();
         if self.manner.level {
@@ -102,7 +129,7 @@ impl<'a> Guess<'a> {
     fn free_places(&self, moment: f64) -> Vec<Vec2> {
         let mut places = self.places(moment);
         if !self.crowd.scene.walls.is_empty() {
-            let share = self.pace.share(moment * self.pace.drive_s);
+            let share = self.share(moment);
             for (robot, place) in places.iter_mut().enumerate() {
                 if !self.crowd.scene.is_free(*place, 0.0) {
                     let (course, length) = (&self.crowd.courses[robot], self.crowd.lengths[robot]);
@@ -150,7 +177,7 @@ impl<'a> Guess<'a> {
             close += if sample < SAMPLES { crowding(&places, near_m) } else { 0.0 };
             before = places;
         }
-        let Manner { bow, early, level, spread } = self.manner;
+        let Manner { bow, early, level, spread, .. } = self.manner;
         let odd = [early, level, spread].into_iter().filter(|&is| is).count() as f64 * ODD + bow * bow;
         close / (SAMPLES as f64 * robots) + rush.iter().sum::<f64>() / robots * RUSH + odd
     }

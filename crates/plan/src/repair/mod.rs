@@ -13,6 +13,7 @@ mod around;
 mod attempts;
 mod cells;
 mod contacts;
+mod corners;
 mod crowd;
 mod dock;
 mod guess;

@@ -149,6 +149,48 @@ fn close_pixels_are_no_obstacle() {
     }
 }
 
+/// The places nearest to the middle on a hexagonal grid.
+fn blob(count: usize, pitch: f64) -> Vec<Vec2> {
+    let row = |y: i32| (-9..=9).map(move |x| Vec2::new(f64::from(x) + f64::from(y % 2) * 0.5, f64::from(y)));
+    let mut places: Vec<Vec2> = (-9..=9).flat_map(row).collect();
+    places.iter_mut().for_each(|at| *at = Vec2::new(at.x, at.y * 0.75_f64.sqrt()) * pitch);
+    places.sort_by(|a, b| a.length_squared().total_cmp(&b.length_squared()));
+    places.truncate(count);
+    places
+}
+
+#[test]
+fn neighbours_in_a_tight_crowd_change_places() {
+    for (count, pitch) in [(19, 0.06), (19, 0.07), (37, 0.065)] {
+        let starts = blob(count, pitch);
+        let mut goals = starts.clone();
+        // Who is nearest swaps with the nearest, all over the crowd.
+        let mut free: Vec<usize> = (0..count).collect();
+        while let Some(one) = free.pop() {
+            let beside = |other: &usize| starts[one].distance(starts[*other]) < pitch * 1.1;
+            if let Some(at) = free.iter().position(beside) {
+                goals.swap(one, free.swap_remove(at));
+            }
+        }
+        let ratio = ratio(&problem(starts, goals, 0.55));
+        assert!(ratio < 6.5, "{count} {pitch}: {ratio}");
+    }
+}
+
+#[test]
+fn a_queue_gets_through_a_gap_no_wider_than_it_must_be() {
+    let (left, right) = (grid(2, Vec2::new(-0.4, 0.2)), grid(2, Vec2::new(0.4, -0.2)));
+    for width in [0.061, 0.066] {
+        let mut problem = problem(left.clone(), right.clone(), 0.6);
+        problem.obstacles = vec![
+            Obstacle::Rect { min: Vec2::new(-0.1, 0.05 + width), max: Vec2::new(0.1, 0.6) },
+            Obstacle::Rect { min: Vec2::new(-0.1, -0.6), max: Vec2::new(0.1, 0.05) },
+        ];
+        let ratio = ratio(&problem);
+        assert!(ratio < 6.5, "{width}: {ratio}");
+    }
+}
+
 #[test]
 fn ways_lead_around_walls_and_robots_that_stand() {
     let column = |x: f64| (0..6).map(|i| Vec2::new(x, f64::from(i) * 0.1 - 0.25)).collect::<Vec<_>>();

@@ -2,6 +2,10 @@
 
 use lightbots_base::Vec2;
 
+/// The most that a span's outer and inner control points weigh anywhere on it.
+const OUTER_WEIGHT: f64 = 1.0 / 6.0;
+const INNER_WEIGHT: f64 = 2.0 / 3.0;
+
 /// The sum of each control point's moves.
 pub(super) struct Travel {
     /// Control points of a way.
@@ -29,11 +33,12 @@ impl Travel {
         since.fold(0.0, f64::max)
     }
 
-    /// No place on a robot's span has moved farther than this, metres.
+    /// A measure of a robot's span: no place on it moves farther than this grows, metres. A sum, because the greatest of
+    /// four need not grow where one of the others does.
     pub fn of(&self, robot: usize, span: usize) -> f64 {
         let at = robot * self.width + span;
         let four = &self.moved_m[at..at + 4];
-        four[0].max(four[1]).max(four[2].max(four[3]))
+        (four[0] + four[3]) * OUTER_WEIGHT + (four[1] + four[2]) * INNER_WEIGHT
     }
 
     /// A span's control points moved by `shift` times their pull.
@@ -68,4 +73,81 @@ impl Travel {
 /// At least as far as a shift goes, and hardly dearer than its parts.
 fn far(shift: Vec2) -> f64 {
     shift.x.abs() + shift.y.abs()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::TransitionProblem;
+    use crate::repair::scene::Scene;
+    use crate::repair::weave::{Weave, basis, blend};
+    use crate::seeded::Seeded;
+    use lightbots_base::Limits;
+
+    const SPANS: usize = 9;
+
+    fn weave() -> Weave {
+        let problem = TransitionProblem {
+            starts: vec![Vec2::ZERO, Vec2::new(0.0, 0.5)],
+            goals: vec![Vec2::new(1.0, 0.0)],
+            ..TransitionProblem::on_floor(Vec2::new(2.0, 2.0), Limits::ELISA_3)
+        };
+        let scene = Scene::new(&problem, &[Some(0), None]).unwrap();
+        Weave::new(&scene, SPANS, 0.25, |robot, step| match robot {
+            0 => Vec2::new(step as f64 / SPANS as f64, 0.0),
+            _ => Vec2::new(0.0, 0.5),
+        })
+    }
+
+    /// No place on any span is farther from where it was than the travel since then says.
+    fn assert_bounds(travel: &Travel, was: &Weave, is: &Weave, since: &[Vec<f64>]) {
+        for (robot, since) in since.iter().enumerate() {
+            for (span, since) in since.iter().enumerate() {
+                let far = (0..=8).map(|i| basis(f64::from(i) / 8.0)).map(|weights| {
+                    blend(was.span(robot, span), &weights).distance(blend(is.span(robot, span), &weights))
+                });
+                let (far, said) = (far.fold(0.0, f64::max), travel.of(robot, span) - since);
+                assert!(far <= said + 1e-12, "robot {robot}, span {span}: {far} m, said {said} m");
+                assert!(said <= travel.since_mark() * 5.0 / 3.0 + 1e-12);
+            }
+        }
+    }
+
+    #[test]
+    fn nobody_moves_farther_than_their_travel_says() {
+        let (mut seeded, mut weave) = (Seeded::new(4), weave());
+        let mut travel = Travel::new(2, SPANS + 3);
+        for _ in 0..40 {
+            travel.mark();
+            assert!(travel.since_mark() == 0.0);
+            let was = weave.clone();
+            let since: Vec<Vec<f64>> =
+                (0..2).map(|robot| (0..SPANS).map(|span| travel.of(robot, span)).collect()).collect();
+            for _ in 0..3 {
+                let shift = Vec2::new(seeded.between(-0.05, 0.05), seeded.between(-0.05, 0.05));
+                let (robot, span) = (seeded.below(2), seeded.below(SPANS));
+                let pull = weave.pull(robot, span, &basis(seeded.between(0.0, 1.0)));
+                weave.bend(robot, span, &pull, shift);
+                travel.bend(robot, span, &pull, shift);
+                let (other, point) = (1 - robot, 2 + seeded.below(SPANS - 1));
+                let before = weave.way(other).to_vec();
+                weave.way_mut(other)[point] += shift;
+                weave.tie_ends(other);
+                travel.follow(other, &before, weave.way(other));
+            }
+            assert_bounds(&travel, &was, &weave, &since);
+        }
+    }
+
+    #[test]
+    fn who_did_not_move_has_not_travelled() {
+        let weave = weave();
+        let mut travel = Travel::new(2, SPANS + 3);
+        let pull = weave.pull(0, 4, &basis(0.5));
+        travel.bend(0, 4, &pull, Vec2::new(0.01, 0.0));
+        assert!((0..SPANS).all(|span| travel.of(1, span) == 0.0));
+        assert!(travel.of(0, 0) == 0.0 && travel.of(0, 4) > 0.004 && travel.of(0, 4) < 0.01);
+        travel.mark();
+        assert!(travel.since_mark() == 0.0 && travel.of(0, 4) > 0.004);
+    }
 }

@@ -2,8 +2,8 @@
 
 use super::candidate::Candidate;
 use super::{COMFORT_M, MARGIN_M};
-use crate::motion::{Bend, whole_millis};
-use crate::{Closest, Path, TransitionProblem};
+use crate::motion::{Bend, turn_time, whole_millis};
+use crate::{Closest, Path, Transition, TransitionProblem};
 use lightbots_base::{Piece, Span, Vec2};
 use std::collections::BTreeMap;
 
@@ -14,8 +14,38 @@ const SLOWEST: f64 = 1.06;
 /// Pushed a little farther than asked for, because a bend has ebbed a little where the pair is closest then.
 const EXTRA: f64 = 1.15;
 
-/// The best of the candidate and what bending makes of it. Only where few are in conflict.
-pub(super) fn nudge(problem: &TransitionProblem, straight: Candidate, rounds: usize) -> Candidate {
+/// The best of the straight candidate for `start_of[goal]` and what bending makes of it. Only where few are in
+/// conflict.
+pub(super) fn nudge(
+    problem: &TransitionProblem,
+    start_of: &[usize],
+    straight: Candidate,
+    rounds: usize,
+) -> Candidate {
+    let wished = straight.transition.duration;
+    if wished <= straight.transition.least {
+        return bent(problem, straight, rounds);
+    }
+    // Ways bent at full speed tell the least time, and may be driven as slowly as wished.
+    let hurried = TransitionProblem { duration: None, ..problem.clone() };
+    let mut quick = bent(&hurried, Candidate::straight(&hurried, start_of), rounds);
+    if !quick.is_better_than(&straight) {
+        return straight;
+    }
+    let Transition { paths, goal_of, least, .. } = &mut quick.transition;
+    let rest = turn_time(core::f64::consts::FRAC_PI_2, &problem.limits);
+    let factor = (wished - rest).as_secs() / (*least - rest).as_secs().max(1e-6);
+    if factor <= 1.0 {
+        return quick;
+    }
+    let slow = paths.iter().map(|path| slower(path, rest, factor)).collect();
+    let mut candidate = Candidate::of_paths(problem, slow, std::mem::take(goal_of));
+    candidate.transition.least = *least;
+    candidate
+}
+
+/// The best of the candidate, which is as quick as may be, and what bending makes of it.
+fn bent(problem: &TransitionProblem, straight: Candidate, rounds: usize) -> Candidate {
     let lines = straight.transition.paths.clone();
     let mut bends: BTreeMap<usize, Bend> = BTreeMap::new();
     let least = straight.transition.least;
@@ -52,7 +82,7 @@ fn slowed(problem: &TransitionProblem, bent: Candidate) -> Candidate {
     if factor > SLOWEST {
         return bent;
     }
-    let paths = bent.transition.paths.iter().map(|path| slower(path, factor)).collect();
+    let paths = bent.transition.paths.iter().map(|path| slower(path, Span::ZERO, factor)).collect();
     Candidate::of_paths(problem, paths, bent.transition.goal_of)
 }
 
@@ -69,9 +99,9 @@ fn haste(path: &Path, problem: &TransitionProblem) -> f64 {
     })
 }
 
-/// Every moment of the path comes `factor` times as late, to the millisecond, for all paths alike.
-fn slower(path: &Path, factor: f64) -> Path {
-    let late = |at: Span| whole_millis(at.as_secs() * factor);
+/// Every moment of the path after `rest` comes `factor` times as late, to the millisecond, for all paths alike.
+fn slower(path: &Path, rest: Span, factor: f64) -> Path {
+    let late = |at: Span| at.min(rest) + whole_millis((at - rest).as_secs() * factor);
     let pieces = path.as_ref().timed().map(|(_, begin, piece)| {
         let duration = late(begin + piece.duration) - late(begin);
         Piece { duration, ..*piece }

@@ -22,9 +22,10 @@ pub(super) fn relax(problem: &TransitionProblem, choice: &Choice) -> Option<Cand
             continue;
         }
         let straight = Candidate::straight(problem, &start_of);
-        before = Some(start_of);
         let rounds = if straight.holds() { COMFORT_WORK / problem.starts.len().max(1) } else { usize::MAX };
-        let candidate = if straight.is_comfortable() { straight } else { nudge(problem, straight, rounds) };
+        let is_fine = straight.is_comfortable();
+        let candidate = if is_fine { straight } else { nudge(problem, &start_of, straight, rounds) };
+        before = Some(start_of);
         if candidate.holds() || choice.is_settled() {
             return Some(candidate);
         }

@@ -113,6 +113,29 @@ fn a_repaired_way_knows_its_least_time_whatever_was_asked_for() {
 }
 
 #[test]
+fn a_bent_way_knows_its_least_time_whatever_was_asked_for() {
+    // On straight lines they would come within 56.6 mm of each other, and both drive as fast as they may.
+    let starts = vec![Vec2::new(-0.5, 0.0), Vec2::new(0.08, -0.5)];
+    let goals = vec![Vec2::new(0.5, 0.0), Vec2::new(0.08, 0.5)];
+    for easing in [Easing::Swift, Easing::Gentle] {
+        let mut crossing = problem(starts.clone(), goals.clone(), 1.5);
+        (crossing.pinned, crossing.easing) = (vec![Some(0), Some(1)], easing);
+        let quickest = transition(&crossing).unwrap();
+        assert_eq!(quickest.least, quickest.duration);
+        assert!(quickest.closest.unwrap().distance_m >= 0.057);
+        crossing.duration = Some(lightbots_base::Span::from_millis(20_000));
+        let slow = transition(&crossing).unwrap();
+        assert_eq!(slow.least, quickest.least, "{easing:?}");
+        assert_eq!(slow.duration.0, 20_000_000);
+        assert!(slow.closest.unwrap().distance_m >= 0.057);
+        let rests = slow.paths.iter().all(|path| path.pieces[0].duration.0 < 400_000);
+        assert!(rests, "they turn for as long as they need and then drive all the time");
+        crossing.duration = Some(quickest.least);
+        assert_eq!(transition(&crossing).unwrap().duration, quickest.least);
+    }
+}
+
+#[test]
 fn what_cannot_be_shown_is_said() {
     let starts = vec![Vec2::ZERO, Vec2::new(0.5, 0.0)];
     let close =

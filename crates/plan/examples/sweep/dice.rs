@@ -1,0 +1,49 @@
+//! Repeatable numbers.
+
+use lightbots_base::Vec2;
+
+/// A small generator (SplitMix64).
+pub struct Dice(u64);
+
+impl Dice {
+    /// One for a kind of transition and the number of a case.
+    pub fn new(kind: u64, case: u64) -> Self {
+        Self(kind.wrapping_mul(0xd1b5_4a32_d192_ed03).wrapping_add(case))
+    }
+
+    /// From 0 to 1.
+    pub fn share(&mut self) -> f64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
+    }
+
+    /// From `low` to `high`.
+    pub fn between(&mut self, low: f64, high: f64) -> f64 {
+        low + (high - low) * self.share()
+    }
+
+    /// From `low` to `high`, both included.
+    pub fn whole(&mut self, low: usize, high: usize) -> usize {
+        low + (self.share() * (high + 1 - low) as f64) as usize
+    }
+
+    /// Many small numbers, a few large ones, from `low` to `high`.
+    pub fn count(&mut self, low: usize, high: usize) -> usize {
+        (low as f64 * (high as f64 / low as f64).powf(self.share())).round() as usize
+    }
+
+    /// Anywhere on a floor of half this size.
+    pub fn place(&mut self, half: Vec2) -> Vec2 {
+        Vec2::new(self.between(-half.x, half.x), self.between(-half.y, half.y))
+    }
+
+    /// In another order.
+    pub fn shuffle<T>(&mut self, things: &mut [T]) {
+        for last in (1..things.len()).rev() {
+            things.swap(last, self.whole(0, last));
+        }
+    }
+}
