@@ -2,10 +2,13 @@
 
 use std::path::Path;
 
-use lightbots_show::{Identity, Issues, Loaded, MAX_BYTES, Show, read, validate, with_floor};
+use lightbots_show::{Identity, Issue, Issues, Loaded, MAX_BYTES, Show, Stage, read, validate, with_floor};
 
 use crate::cli::ShowArguments;
 use crate::failure::Failure;
+
+/// The code of the issue that `--floor` was given for a show that has a floor of its own.
+pub const FLOOR_IGNORED: &str = "floor-ignored";
 
 /// A show as a command uses it.
 #[derive(Clone, Debug)]
@@ -49,8 +52,12 @@ pub fn interpret(bytes: &[u8], path: &Path, arguments: &ShowArguments) -> Result
 
 fn prepare(loaded: Loaded, arguments: &ShowArguments) -> Opened {
     let Loaded { mut show, has_stage, mut issues, .. } = loaded;
-    if let (Some((width_m, depth_m)), false) = (arguments.floor, has_stage) {
-        show = with_floor(show, width_m, depth_m);
+    if let Some((width_m, depth_m)) = arguments.floor {
+        if has_stage {
+            issues.extend(floor_ignored(&show.stage, (width_m, depth_m)));
+        } else {
+            show = with_floor(show, width_m, depth_m);
+        }
     }
     if let Some(identity) = arguments.identity {
         let identity = Identity::from(identity);
@@ -61,6 +68,17 @@ fn prepare(loaded: Loaded, arguments: &ShowArguments) -> Opened {
     }
     issues.extend(validate(&show));
     Opened { show, issues }
+}
+
+/// Says that a show keeps the floor it has, where another was asked for.
+fn floor_ignored(stage: &Stage, (width_m, depth_m): (f64, f64)) -> Option<Issue> {
+    let same = (stage.width_m, stage.depth_m) == (width_m, depth_m);
+    let message = format!(
+        "the show carries its own floor, {} x {} m, so that --floor {width_m}x{depth_m} is not used; change the floor in \
+         the show",
+        stage.width_m, stage.depth_m
+    );
+    (!same).then(|| Issue::warning(FLOOR_IGNORED, message))
 }
 
 /// How many robots a show needs.

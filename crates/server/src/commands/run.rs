@@ -152,6 +152,10 @@ fn chosen(
 fn first_show(arguments: &RunArguments, library: &Library) -> Result<(Option<String>, Show), Failure> {
     if let Some(file) = &arguments.show {
         let opened = show_file::open(file, &arguments.reading)?;
+        for issue in opened.issues.iter().filter(|issue| issue.code == show_file::FLOOR_IGNORED) {
+            // The screen knows nothing of this command line; what else is wrong it shows.
+            tracing::warn!("{}", issue.message);
+        }
         let name = name_of_file(file);
         library.give(&name, &opened.show);
         return Ok((Some(name), opened.show));

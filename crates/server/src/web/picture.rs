@@ -58,9 +58,14 @@ impl Pictures {
         self.states.subscribe()
     }
 
-    /// Fleet tables from now on.
+    /// The fleet table that other screens have, if any is looking, and those from now on.
     pub fn fleets(&self) -> watch::Receiver<Utf8Bytes> {
-        self.fleets.subscribe()
+        let mut fleets = self.fleets.subscribe();
+        if !fleets.borrow().is_empty() {
+            // The next one may be seconds away when there are thousands of robots.
+            fleets.mark_changed();
+        }
+        fleets
     }
 
     /// Makes pictures until the conductor ends.
@@ -84,6 +89,8 @@ impl Pictures {
             }
             if self.states.receiver_count() == 0 {
                 painter.looked = false;
+                // What nobody looks at grows old.
+                self.fleets.send_replace(Utf8Bytes::default());
                 continue;
             }
             let Some(snapshot) = handle.look().await else { return };
@@ -237,5 +244,18 @@ fn status(robot: &RobotView) -> api::RobotStatus {
         Some(RobotState::Lost) => api::RobotStatus::Lost,
         Some(RobotState::Cut) => api::RobotStatus::Cut,
         Some(RobotState::Faulty) => api::RobotStatus::Faulty,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_screen_that_joins_others_gets_their_fleet_table_at_once() {
+        let pictures = Pictures::new();
+        assert!(!pictures.fleets().has_changed().unwrap(), "there is no table yet");
+        pictures.fleets.send_replace("a table".into());
+        assert!(pictures.fleets().has_changed().unwrap());
     }
 }

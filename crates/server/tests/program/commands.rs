@@ -117,6 +117,20 @@ fn identity_and_floor_can_be_stated() {
 }
 
 #[test]
+fn a_floor_that_is_not_used_is_told() {
+    let staged = shows::row(3, &[0.5]).replacen("{", r#"{"stage":{"width_m":3,"depth_m":3},"#, 1);
+    let staged = shows::file("staged.lightbots.json", staged);
+    let codes = |floor: &str| {
+        let (code, out, _) = run(&["check", &staged, "--floor", floor, "--json"]);
+        assert_eq!(code, 0, "{out}");
+        let issues = json(&out)["issues"].as_array().unwrap().clone();
+        issues.iter().map(|issue| issue["code"].as_str().unwrap().to_owned()).collect::<Vec<_>>()
+    };
+    assert_eq!(codes("4x2"), ["floor-ignored"]);
+    assert_eq!(codes("3x3"), [""; 0], "it is the floor the show has");
+}
+
+#[test]
 fn unreadable_input_is_one_line_and_exit_code_2() {
     let good = shows::row(2, &[1.0]);
     let cases = [
