@@ -1,4 +1,4 @@
-import { useSyncExternalStore } from 'react';
+import { useEffect, useState, useSyncExternalStore } from 'react';
 
 /** A value that tells its listeners when it changes. Knows nothing of React; `useStore` is the bridge. */
 export interface Store<T> {
@@ -34,4 +34,25 @@ export function useStore<T, S = T>(
   select: (value: T) => S = (v) => v as never,
 ): S {
   return useSyncExternalStore(store.subscribe, () => select(store.get()));
+}
+
+/** The value, looked at again this often at most, milliseconds: for what changes a thousand times at once. */
+export function useStorePaced<T>(store: Store<T>, every_ms: number): T {
+  const [value, setValue] = useState(store.get);
+  useEffect(() => {
+    let timer: ReturnType<typeof setTimeout> | undefined;
+    const look = () => {
+      timer = undefined;
+      setValue(() => store.get());
+    };
+    look();
+    const unsubscribe = store.subscribe(() => {
+      timer ??= setTimeout(look, every_ms);
+    });
+    return () => {
+      unsubscribe();
+      clearTimeout(timer);
+    };
+  }, [store, every_ms]);
+  return value;
 }

@@ -94,7 +94,7 @@ export function paintOverlay(
   paintGesture(context, camera, state);
 }
 
-function stamp(c: CanvasRenderingContext2D, sprite: HTMLCanvasElement, at: Point, density: number) {
+function stamp(c: CanvasRenderingContext2D, sprite: ImageBitmap, at: Point, density: number) {
   const side = sprite.width / density;
   c.drawImage(sprite, at.x - side / 2, at.y - side / 2, side, side);
 }

@@ -49,7 +49,7 @@ export function FleetSide() {
           <ShowFacts />
         </Tabs.Panel>
         <Tabs.Panel value="log">
-          <LogList />
+          <LogList seen={tab === 'log'} />
         </Tabs.Panel>
       </Tabs>
     </aside>

@@ -24,7 +24,7 @@ export function createCanvas2d(element: HTMLCanvasElement): StageRenderer {
   const copy = (
     dots: readonly Dot[],
     camera: Camera,
-    sprite: (dot: Dot) => HTMLCanvasElement | null,
+    sprite: (dot: Dot) => ImageBitmap | null,
     alpha: (dot: Dot) => number,
   ) => {
     for (const dot of dots) {

@@ -9,20 +9,20 @@ const KEPT_MAX = 1500;
 /** Lights drawn once for each colour and size, then copied. */
 export interface Sprites {
   /** The glowing light, to be drawn with `lighter`; `null` for one that is off. */
-  glow(color: Rgb, radius_px: number): HTMLCanvasElement | null;
+  glow(color: Rgb, radius_px: number): ImageBitmap | null;
   /** The body of a robot under its light. */
-  body(radius_px: number): HTMLCanvasElement;
+  body(radius_px: number): ImageBitmap;
   /** A circle in a CSS colour, `line_px` thick, dashed or not. */
-  ring(color: string, radius_px: number, line_px: number, dashed?: boolean): HTMLCanvasElement;
+  ring(color: string, radius_px: number, line_px: number, dashed?: boolean): ImageBitmap;
 }
 
 /** Whether a light cannot be seen. */
 export const isOff = (color: Rgb) => luma(color) < 0.004;
 
 export function createSprites(): Sprites {
-  const glows = new Map<number, HTMLCanvasElement | null>();
-  const bodies = new Map<number, HTMLCanvasElement>();
-  const rings = new Map<string, HTMLCanvasElement>();
+  const glows = new Map<number, ImageBitmap | null>();
+  const bodies = new Map<number, ImageBitmap>();
+  const rings = new Map<string, ImageBitmap>();
   return {
     glow(color, radius_px) {
       const size = Math.round(radius_px * 2);
@@ -64,15 +64,14 @@ function roundColour(c: Rgb): Rgb {
   return (round(red(c)) << 16) | (round(green(c)) << 8) | round(blue(c));
 }
 
-function canvas(size: number): [HTMLCanvasElement, CanvasRenderingContext2D] {
-  const element = document.createElement('canvas');
-  element.width = element.height = size;
+function canvas(size: number): [OffscreenCanvas, OffscreenCanvasRenderingContext2D] {
+  const element = new OffscreenCanvas(size, size);
   const context = element.getContext('2d');
   if (!context) throw new Error('This browser cannot draw: it gives no 2D canvas.');
   return [element, context];
 }
 
-function paintGlow(color: Rgb, radius_px: number): HTMLCanvasElement {
+function paintGlow(color: Rgb, radius_px: number): ImageBitmap {
   const reach = radius_px * GLOW_RADII;
   const [element, context] = canvas(Math.max(4, Math.ceil(reach * 2)));
   const half = element.width / 2;
@@ -89,10 +88,10 @@ function paintGlow(color: Rgb, radius_px: number): HTMLCanvasElement {
   context.globalAlpha = Math.min(1, 0.25 + luma(color));
   context.fillStyle = core;
   context.fillRect(0, 0, element.width, element.height);
-  return element;
+  return element.transferToImageBitmap();
 }
 
-function paintBody(radius_px: number): HTMLCanvasElement {
+function paintBody(radius_px: number): ImageBitmap {
   const [element, context] = canvas(Math.max(4, Math.ceil(radius_px * 2 + 4)));
   const half = element.width / 2;
   context.beginPath();
@@ -102,7 +101,7 @@ function paintBody(radius_px: number): HTMLCanvasElement {
   context.lineWidth = Math.max(1, radius_px * 0.12);
   context.strokeStyle = '#59637a';
   context.stroke();
-  return element;
+  return element.transferToImageBitmap();
 }
 
 function paintRing(color: string, radius_px: number, line_px: number, dashed: boolean) {
@@ -114,5 +113,5 @@ function paintRing(color: string, radius_px: number, line_px: number, dashed: bo
   context.beginPath();
   context.arc(half, half, radius_px, 0, 2 * Math.PI);
   context.stroke();
-  return element;
+  return element.transferToImageBitmap();
 }
