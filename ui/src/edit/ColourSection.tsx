@@ -3,7 +3,7 @@ import { useState } from 'react';
 import { colourName, fromHex, fromText, toHex, type Rgb } from '../base/colour';
 import { useStore } from '../base/store';
 import * as acts from './acts';
-import { useEditing, useEditor } from './context';
+import { useEditing } from './context';
 
 /** Colours that look good as light, off among them. */
 const PALETTE: Rgb[] = [
@@ -11,12 +11,11 @@ const PALETTE: Rgb[] = [
   0x2ee55c, 0xd8f000, 0xffe000, 0x804000, 0x303030, 0x000000,
 ];
 
-/** Gives the chosen pixels their light. */
+/** Gives the chosen pixels, or all if none is chosen, their light. */
 export function ColourSection() {
   const editing = useEditing();
   const color = useStore(editing.color);
   const recent = useStore(editing.recent);
-  const none = useEditor((s) => s.selection.size === 0);
   const [to, setTo] = useState<Rgb>(0x18a0ff);
   const swatches = (colors: readonly Rgb[]) => (
     <Group gap={5}>
@@ -39,6 +38,15 @@ export function ColourSection() {
       <Text size="sm" fw={600}>
         Colour
       </Text>
+      {swatches(PALETTE)}
+      {recent.length > 0 ? (
+        <Group gap="xs">
+          <Text size="xs" c="dimmed">
+            Recent
+          </Text>
+          {swatches(recent)}
+        </Group>
+      ) : null}
       <ColorPicker
         fullWidth
         size="sm"
@@ -59,19 +67,10 @@ export function ColourSection() {
           if (typed !== undefined && typed !== color) acts.paint(editing, typed);
         }}
       />
-      {swatches(PALETTE)}
-      {recent.length > 0 ? (
-        <Group gap="xs">
-          <Text size="xs" c="dimmed">
-            Recent
-          </Text>
-          {swatches(recent)}
-        </Group>
-      ) : null}
       <Group gap="xs" align="end" wrap="nowrap">
         <ColorInput
           size="xs"
-          label="Gradient from the colour above to"
+          label="Gradient from this colour to"
           style={{ flex: 1 }}
           withEyeDropper={false}
           value={toHex(to)}
@@ -81,11 +80,6 @@ export function ColourSection() {
           Apply
         </Button>
       </Group>
-      {none ? (
-        <Text size="xs" c="dimmed">
-          Choose pixels first: click one, or drag a frame around some.
-        </Text>
-      ) : null}
     </Stack>
   );
 }

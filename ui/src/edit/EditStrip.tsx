@@ -9,10 +9,10 @@ import { useEditing, useEditor } from './context';
 import { FrameCard } from './FrameCard';
 import { listenToHold } from './holdDrag';
 
-/** Seconds of drive and air time under a frame. */
-function timesOf(plan: Plan | null, index: number, airTime_s: number): string {
-  const drive = plan?.transitions[index]?.duration_s;
-  return drive === undefined ? `${airTime_s} s` : `${drive.toFixed(1)} + ${airTime_s} s`;
+/** Seconds of the drive to a frame. */
+function driveOf(plan: Plan | null, index: number): string {
+  const drive_s = plan?.transitions[index]?.duration_s;
+  return drive_s === undefined ? '' : `${drive_s.toFixed(1)} s`;
 }
 
 /** The frames: choose, add, copy, delete, drag to another place. */
@@ -103,7 +103,7 @@ export function EditStrip() {
               stage={show.stage}
               current={i === at}
               chosen={chosen.has(i)}
-              times={timesOf(plan, i, frame.airTime_s)}
+              drive={driveOf(plan, i)}
               wrong={plan?.issues.some((x) => x.frame === i && x.severity === 'error') ?? false}
               onChoose={(event) => choose(i, event)}
               naming={renaming === i}

@@ -1,3 +1,4 @@
+import { IconBulb, IconRoute } from '@tabler/icons-react';
 import { memo, useRef, type MouseEvent } from 'react';
 import type { Frame, Stage } from '../model/show';
 import { Thumbnail } from '../stage/Thumbnail';
@@ -8,8 +9,8 @@ interface Props {
   stage: Stage;
   current: boolean;
   chosen: boolean;
-  /** Drive and air time, for people. */
-  times: string;
+  /** How long the drive to it takes, for people; empty while that is not known. */
+  drive: string;
   /** Whether it cannot be played as it is. */
   wrong: boolean;
   onChoose: (event: MouseEvent) => void;
@@ -48,7 +49,7 @@ export const FrameCard = memo(function FrameCard(props: Props) {
         props.onDragStart();
       }}
       onDragEnd={props.onDragEnd}
-      title={`${frame.name}: drive + air time ${props.times}. Double click: rename`}
+      title={`${frame.name}: drive there ${props.drive || 'not planned yet'}, shown for ${frame.airTime_s} s. Double click: rename`}
     >
       <Thumbnail frame={frame} stage={props.stage} />
       <span className="label">
@@ -58,7 +59,20 @@ export const FrameCard = memo(function FrameCard(props: Props) {
         </b>
         <span>{frame.name}</span>
       </span>
-      <span className="times">{props.times}</span>
+      <span className="times">
+        {props.drive ? (
+          <span>
+            <IconRoute size={12} aria-hidden />
+            <span className="hidden-text">drive </span>
+            {props.drive}
+          </span>
+        ) : null}
+        <span>
+          <IconBulb size={12} aria-hidden />
+          <span className="hidden-text"> shown for </span>
+          {frame.airTime_s} s
+        </span>
+      </span>
     </button>
   );
 });

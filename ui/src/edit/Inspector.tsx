@@ -28,8 +28,8 @@ export function Inspector() {
         </Tabs.List>
         <Tabs.Panel value="pixels" className="sections">
           <PlaceSection />
-          <ColourSection />
           <ArrangeSection />
+          <ColourSection />
         </Tabs.Panel>
         <Tabs.Panel value="frame" className="sections">
           <FrameSection />

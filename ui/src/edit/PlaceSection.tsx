@@ -25,7 +25,7 @@ export function PlaceSection() {
     />
   );
   const link = (label: string, act: () => void) => (
-    <Button size="compact-xs" variant="subtle" color="gray" onClick={act}>
+    <Button size="compact-xs" variant="subtle" color="gray" px={5} onClick={act}>
       {label}
     </Button>
   );
@@ -35,10 +35,10 @@ export function PlaceSection() {
         {only
           ? `Pixel ${only.id}`
           : chosen.length === 0
-            ? 'No pixel chosen'
+            ? 'No pixel chosen: what you do is for all'
             : `${chosen.length} pixels`}
       </Text>
-      <Group gap={2}>
+      <Group gap={0}>
         {link('All', () => acts.selectAll(editing))}
         {link('None', () => editing.editor.select([]))}
         {link('Invert', () => acts.invertSelection(editing))}

@@ -5,11 +5,11 @@ const KEY = 'lightbots-tour';
 const STEPS = [
   [
     'Every dot is a robot',
-    'Click one or drag a frame around some, then drag them where they shall be. Or let Arrange make a heart, a circle or a word of them.',
+    'Click one or draw a box around some, then drag them where they should be. Or let Arrange, on the right, make a heart, a circle or a word of them.',
   ],
   [
     'Give them light',
-    'Choose pixels and pick a colour on the right. Everything can be undone with Ctrl Z.',
+    'Pick a colour on the right: it is for the pixels you chose, or for all. Everything can be undone with Ctrl Z.',
   ],
   [
     'Add the next picture',
@@ -17,7 +17,7 @@ const STEPS = [
   ],
   [
     'Watch it, then play it',
-    'The arrow under the floor plays without robots. Live plays with them.',
+    'The arrow under the floor shows it here. Play with robots leads to the real floor, where Play lets them drive.',
   ],
 ] as const;
 

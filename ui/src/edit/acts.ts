@@ -93,10 +93,10 @@ export const moveTo = (e: Editing, axis: 'x' | 'y', value: number) =>
     return places.map((p) => ({ ...p, [axis]: p[axis] + by }));
   });
 
-/** Colours what is chosen; keeps the colour at hand. */
+/** Colours what is chosen, or all; keeps the colour at hand. */
 export function paint(e: Editing, color: Rgb) {
   keepColour(e, color);
-  const colors = new Map(e.editor.chosenPixels().map((p) => [p.id, color]));
+  const colors = new Map(subject(e).map((p) => [p.id, color]));
   e.editor.change('Colour', (show, s) => commands.recolour(show, s.frame, colors));
 }
 

@@ -68,8 +68,11 @@ export function LiveStage() {
         <div className="stage-hint" role="status">
           <strong>No robots yet</strong>
           <br />
-          Switch them on, or start <span className="mono">lightbots robots --count 30</span>. They
-          appear here by themselves.
+          Switch them on, or start
+          <br />
+          <span className="mono nowrap">lightbots robots --count 30</span>
+          <br />
+          They appear here by themselves.
         </div>
       ) : null}
       <RobotTwin />

@@ -43,6 +43,10 @@ export function drawFloor(
   context.strokeRect(min.x, min.y, w, h);
 }
 
+/** Rulers grow with the page's letters, which are larger on a wall. */
+const rulerSize_px = () =>
+  Math.round(11 * (parseFloat(getComputedStyle(document.documentElement).fontSize) / 16));
+
 function drawGrid(context: CanvasRenderingContext2D, scene: Scene, camera: Camera) {
   const unit = scene.unit ?? 'm';
   const { metres } = UNITS[unit];
@@ -60,7 +64,7 @@ function drawGrid(context: CanvasRenderingContext2D, scene: Scene, camera: Camer
     context.stroke();
   };
   context.lineWidth = 1;
-  context.font = '11px system-ui, sans-serif';
+  context.font = `${rulerSize_px()}px system-ui, sans-serif`;
   context.fillStyle = RULER;
   context.textBaseline = 'top';
   context.textAlign = 'center';
