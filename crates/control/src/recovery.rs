@@ -37,6 +37,9 @@ const HOP_STEP_M: f64 = 0.03;
 const UNTIL_STOP: i64 = 2;
 /// Places nearer than this to each other are one, metres: a place that is left out must not stick out.
 const GHOST_M: f64 = 0.002;
+/// A broker that came back may still be agreeing with itself who is to hear what: for so long, nobody is given up who is
+/// heard and does not answer.
+const AGREES: Span = Span::from_millis(15_000);
 /// A robot that dropped out more often than this in a run stays out.
 const DROPOUTS_MAX: u8 = 3;
 
@@ -191,6 +194,8 @@ impl Run {
                 Some(Trouble::Deaf) if desk.fleet.robot(self.seats[seat].robot).is_original() => DRIVES_ON,
                 _ => desk.config.silence + ANSWERS + self.round_trip * 2,
             };
+            let unanswered = matches!(trouble, Some(Trouble::Cut | Trouble::Deaf));
+            let bound = if unanswered { bound.max(self.patience(gathering.since)) } else { bound };
             match trouble {
                 Some(why) if waited > bound => self.drop_out(desk, now, seat, why),
                 Some(_) => all_ready = false,
@@ -203,6 +208,11 @@ impl Run {
             self.ask_again(desk, now, gathering.fresh_from);
             self.phase = Phase::Gathering(Gathering { ask_at: now + ASK, ..gathering });
         }
+    }
+
+    /// How long from `since` on a robot that is heard may not answer because the broker came back only now.
+    pub fn patience(&self, since: Instant) -> Span {
+        self.online.map_or(Span::ZERO, |online| (online + AGREES - since).max(Span::ZERO))
     }
 
     /// Whether any robot that takes part is an original one.
@@ -301,6 +311,7 @@ impl Run {
     /// The broker is back: who stands where?
     pub fn come_online(&mut self, desk: &mut Desk, now: Instant) {
         if matches!(self.phase, Phase::Offline(_)) {
+            self.online = Some(now);
             self.say_replanning(desk, now);
             self.gather(desk, now);
         }

@@ -130,6 +130,8 @@ pub(crate) struct Run {
     pub disregards_strangers: bool,
     /// The picture that stood when all were asked anew: its air time runs on.
     pub stood: Option<Standing>,
+    /// When the broker came back last.
+    pub online: Option<Instant>,
     /// The leg that is driven or has brought everybody where they stand.
     pub current: Option<Leg>,
     /// How far the hops of the present leg are.
@@ -231,6 +233,7 @@ impl Run {
             }),
             disregards_strangers: false,
             stood: None,
+            online: None,
             current: None,
             hops: Hops::default(),
             arrivals: None,

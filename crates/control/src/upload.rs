@@ -119,13 +119,16 @@ impl Run {
         self.upload = Some(upload);
     }
 
-    /// Whether a robot that does not acknowledge is one of many, all of them alive: then nothing that is said reaches
-    /// anybody, and it is not for the robots to be left out. That has its bound, as a broker that is gone has.
+    /// Whether a robot that does not acknowledge is one of many, all of them alive, or the broker came back only now:
+    /// then what is said may not reach it, and it is not for the robot to be left out. That has its bound, as a broker
+    /// that is gone has.
     fn is_link_dumb(&mut self, desk: &mut Desk, now: Instant, upload: &mut Upload, seat: usize) -> bool {
-        if !upload.is_unheard() || desk.fleet.robot(self.seats[seat].robot).heard <= upload.began {
+        let returns = now - upload.began < self.patience(upload.began);
+        let heard = desk.fleet.robot(self.seats[seat].robot).heard > upload.began;
+        if !heard || !(upload.is_unheard() || returns) {
             return false;
         }
-        if !std::mem::replace(&mut upload.told, true) {
+        if upload.is_unheard() && !std::mem::replace(&mut upload.told, true) {
             desk.log.tell(now, EventKind::NobodyHears);
         }
         // How long the answer takes once the way is free again says nothing of the link.

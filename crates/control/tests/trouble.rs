@@ -47,6 +47,20 @@ fn a_broker_that_passes_nothing_on_costs_no_robot() {
     assert_eq!(ended, (Outcome::Finished, 3, 0), "{}", world.story());
 }
 
+/// A cluster of brokers that lost a node may drop subscriptions of those who came from there.
+#[test]
+fn robots_that_hear_late_after_the_broker_came_back_are_waited_for() {
+    let mut world = a_second_under_way();
+    world.link(false);
+    world.run_for(3.0);
+    world.deaf = vec![2, 5];
+    world.link(true);
+    world.run_for(11.0);
+    world.deaf.clear();
+    let ended = world.run_to_end(60.0);
+    assert_eq!(ended, (Outcome::Finished, 3, 0), "{}", world.story());
+}
+
 #[test]
 fn one_that_stays_so_ends_the_run_in_bounded_time() {
     let mut world = a_second_under_way();

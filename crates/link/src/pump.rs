@@ -9,6 +9,7 @@ use rumqttc::{
     TlsConfiguration, Transport,
 };
 use tokio::sync::{mpsc, oneshot};
+use tokio::task::AbortHandle;
 
 use crate::backoff::Backoff;
 use crate::link::{LinkConfig, LinkEvent, Shared};
@@ -20,6 +21,10 @@ const LONGEST_PACKET: usize = 16 << 20;
 /// A packet of subscriptions stays far below every broker's limit.
 const FILTERS_A_PACKET: usize = 100;
 const GOODBYE: Duration = Duration::from_millis(500);
+/// After a reconnect the subscriptions are said again so much later each time: a cluster that has just lost a node may
+/// still be clearing away what it knew of that node's clients, under the same names.
+const SUBSCRIBE_AGAIN: [Duration; 3] =
+    [Duration::from_millis(1_000), Duration::from_millis(2_000), Duration::from_millis(6_000)];
 /// The next address is tried within this time, at random, so that a fleet does not knock there at once.
 const NEXT_PLACE: Duration = Duration::from_millis(100);
 
@@ -39,6 +44,10 @@ pub(crate) struct Pump {
     greeted: bool,
     /// Subscription packets not yet acknowledged since the last connect.
     unconfirmed: usize,
+    /// How often it was connected.
+    connects: usize,
+    /// Subscribes again on this connection.
+    again: Option<AbortHandle>,
     /// What was said last about each address.
     said: Vec<Option<String>>,
 }
@@ -68,6 +77,8 @@ impl Pump {
             failures: 0,
             greeted: false,
             unconfirmed: 0,
+            connects: 0,
+            again: None,
         };
         (client, pump, receiver, stopper)
     }
@@ -136,12 +147,31 @@ impl Pump {
 
     fn subscribe(&mut self) {
         self.unconfirmed = 0;
-        for filters in self.config.filters.chunks(FILTERS_A_PACKET) {
-            let filters = filters.iter().map(|filter| SubscribeFilter::new(filter.clone(), QoS::AtMostOnce));
-            match self.client.try_subscribe_many(filters) {
+        for packet in packets(&self.config.filters) {
+            match self.client.try_subscribe_many(packet) {
                 Ok(()) => self.unconfirmed += 1,
                 Err(error) => tracing::error!("cannot subscribe on {}: {error}", self.place()),
             }
+        }
+    }
+
+    /// Says the subscriptions again in a while. Nobody waits for the answers: all was granted before.
+    fn subscribe_later(&mut self) {
+        let (client, filters) = (self.client.clone(), self.config.filters.clone());
+        let later = async move {
+            for wait in SUBSCRIBE_AGAIN {
+                // Spread a little: a fleet comes back all at once.
+                tokio::time::sleep(wait.mul_f64(1.0 + 0.2 * share())).await;
+                // A full queue is another connection's business, or the next time's.
+                let _ = packets(&filters).try_for_each(|packet| client.try_subscribe_many(packet));
+            }
+        };
+        self.again = Some(tokio::spawn(later).abort_handle());
+    }
+
+    fn forget_again(&mut self) {
+        if let Some(again) = self.again.take() {
+            again.abort();
         }
     }
 
@@ -166,6 +196,11 @@ impl Pump {
         self.backoff.reset();
         self.failures = 0;
         self.said.fill(None);
+        self.connects += 1;
+        self.forget_again();
+        if self.connects > 1 {
+            self.subscribe_later();
+        }
         self.shared.at.store(self.at, Ordering::Release);
         self.shared.connected.store(true, Ordering::Release);
         self.events.send(LinkEvent::Connected).await.is_ok()
@@ -175,6 +210,7 @@ impl Pump {
     async fn failed(&mut self, reason: String) -> bool {
         let was_connected = self.shared.connected.swap(false, Ordering::AcqRel);
         self.greeted = false;
+        self.forget_again();
         self.failures += 1;
         // What was to be sent on the old connection is stale on the next.
         self.connection.reset_session_state();
@@ -189,7 +225,7 @@ impl Pump {
         let wait = if self.failures.is_multiple_of(places) {
             self.backoff.wait(random())
         } else {
-            NEXT_PLACE.mul_f64(f64::from(random()) / f64::from(u32::MAX))
+            NEXT_PLACE.mul_f64(share())
         };
         self.at = (self.at + 1) % places;
         self.connection.mqtt_options = options(&self.config, self.at);
@@ -202,6 +238,7 @@ impl Pump {
 
     /// Flushes what was sent and leaves, within [`GOODBYE`].
     async fn goodbye(mut self) {
+        self.forget_again();
         if !self.shared.connected.swap(false, Ordering::AcqRel) || self.client.try_disconnect().is_err() {
             return;
         }
@@ -209,6 +246,17 @@ impl Pump {
         // A broker that does not take it in time loses the connection without a goodbye.
         let _ = tokio::time::timeout(GOODBYE, flush).await;
     }
+}
+
+/// Filters in packets that every broker takes.
+fn packets(filters: &[String]) -> impl Iterator<Item = Vec<SubscribeFilter>> {
+    let filter = |filter: &String| SubscribeFilter::new(filter.clone(), QoS::AtMostOnce);
+    filters.chunks(FILTERS_A_PACKET).map(move |packet| packet.iter().map(filter).collect())
+}
+
+/// At random, 0 to 1.
+fn share() -> f64 {
+    f64::from(random()) / f64::from(u32::MAX)
 }
 
 fn random() -> u32 {

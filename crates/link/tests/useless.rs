@@ -1,7 +1,7 @@
 //! Brokers that let us in and are of no use all the same.
 
 use std::io::{Read, Write};
-use std::net::TcpListener;
+use std::net::{TcpListener, TcpStream};
 
 use lightbots_link::{BrokerUrl, Link, LinkConfig, LinkEvent};
 
@@ -46,6 +46,49 @@ async fn a_connection_of_no_use_is_left_for_the_next_address() {
     assert!(reason.starts_with(&places[0]) && reason.contains("passes on nothing"), "{reason}");
     assert_eq!(link.next().await, Some(LinkEvent::Connected));
     assert_eq!(link.sender().place(), 1);
+    link.close().await;
+}
+
+/// Lets a client in and answers its subscription.
+fn let_in(listener: &TcpListener) -> TcpStream {
+    let (mut stream, _) = listener.accept().unwrap();
+    let mut bytes = [0; 512];
+    let _ = stream.read(&mut bytes);
+    let _ = stream.write_all(&[0x20, 2, 0, 0]);
+    answer_subscription(&mut stream);
+    stream
+}
+
+/// Whether it is a subscription that comes next.
+fn answer_subscription(stream: &mut TcpStream) -> bool {
+    let mut bytes = [0; 512];
+    let subscribes = matches!(stream.read(&mut bytes), Ok(1..)) && bytes[0] == 0x82;
+    subscribes && stream.write_all(&[0x90, 3, bytes[2], bytes[3], 0]).is_ok()
+}
+
+#[tokio::test]
+async fn who_comes_back_subscribes_again_in_a_while() {
+    let listener = TcpListener::bind("127.0.0.1:0").unwrap();
+    let port = listener.local_addr().unwrap().port();
+    let (close, closed) = std::sync::mpsc::channel();
+    let (tell, told) = tokio::sync::oneshot::channel();
+    std::thread::spawn(move || {
+        let first = let_in(&listener);
+        let _ = closed.recv();
+        drop(first);
+        let _ = tell.send(answer_subscription(&mut let_in(&listener)));
+    });
+    let mut link = Link::open(LinkConfig {
+        broker: BrokerUrl::new("127.0.0.1", port),
+        client_id: "LightBot/r7".into(),
+        filters: vec!["T/LightBot/r7".into()],
+        queue: 16,
+    });
+    assert_eq!(link.next().await, Some(LinkEvent::Connected));
+    close.send(()).unwrap();
+    assert!(matches!(link.next().await, Some(LinkEvent::Disconnected { .. })));
+    assert_eq!(link.next().await, Some(LinkEvent::Connected));
+    assert!(told.await.unwrap(), "something else came");
     link.close().await;
 }
 

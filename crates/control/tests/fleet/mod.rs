@@ -42,6 +42,8 @@ pub struct World {
     pub linked: bool,
     /// The broker passes on nothing that the controller says.
     pub mute: bool,
+    /// These robots it passes nothing on to.
+    pub deaf: Vec<usize>,
     /// Share of messages lost, percent.
     pub loss: u64,
     /// Delay of messages, milliseconds: least, and how much more at most.
@@ -63,6 +65,7 @@ impl World {
             events: Vec::new(),
             linked: false,
             mute: false,
+            deaf: Vec::new(),
             loss: 0,
             delay_ms: (5, 15),
             closest_m: f64::INFINITY,
@@ -164,7 +167,10 @@ impl World {
             self.drain();
             return;
         }
-        for robot in &mut self.robots {
+        for (index, robot) in self.robots.iter_mut().enumerate() {
+            if self.deaf.contains(&index) {
+                continue;
+            }
             let personal = letter.topic == Topic::Robot(robot.id);
             if personal || letter.topic == Topic::Broadcast {
                 robot.receive(self.now, &letter.payload, personal);

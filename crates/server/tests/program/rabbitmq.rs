@@ -41,9 +41,12 @@ impl Cluster {
         command.args(["-address", "127.0.0.1", "-port", &names_port.to_string()]);
         let names = Child::start(command, "epmd");
         let folder = PathBuf::from(shows::file("cluster", "")).with_extension("d");
-        let nodes: Vec<Node> = (1..=3).map(|number| node(program, &folder, number, names_port)).collect();
-        let mut cluster = Self { nodes, _names: names };
-        cluster.wait();
+        let mut cluster = Self { nodes: Vec::new(), _names: names };
+        // One after the other: nodes that start together may not agree on who keeps their clients' names, for good.
+        for number in 1..=3 {
+            cluster.nodes.push(node(program, &folder, number, names_port));
+            cluster.wait();
+        }
         Some(cluster)
     }
 
@@ -57,8 +60,8 @@ impl Cluster {
         self.nodes[node].child.kill_group();
     }
 
-    /// Waits until every node says that it has started, and then until each lets a client in: before that it may know
-    /// the others and still be busy agreeing with them who its clients are.
+    /// Waits until every node so far says that it has started, and then until each lets a client in: before that it may
+    /// know the others and still be busy agreeing with them who its clients are.
     fn wait(&mut self) {
         for node in &mut self.nodes {
             let child = &mut node.child;
