@@ -2,7 +2,8 @@
 
 use crate::doubt::Drift;
 
-/// What a deviation from the mean loses in a step of driving: it is forgotten in about a second.
+/// What a deviation from the mean loses in a step: it is forgotten in about a second, also of wheels that stand, as nothing
+/// tells how they will hold when they turn again.
 const FORGETTING: f64 = 0.015;
 /// After so much way the mean is learned as fast as it is first believed, and never slower than after so much more.
 const FIRST_M: f64 = 0.1;
@@ -53,7 +54,7 @@ impl Slip {
         self.now
     }
 
-    /// A step of driving went by.
+    /// A step went by.
     pub(crate) fn pass(&mut self) {
         self.now[0] += (self.mean[0] - self.now[0]) * FORGETTING;
         self.now[1] += (self.mean[1] - self.now[1]) * FORGETTING;
@@ -79,7 +80,7 @@ impl Slip {
         self.wander = self.wander.clamp(self.bounds[0], self.bounds[1]);
     }
 
-    /// How it is expected to change in so many steps of driving.
+    /// How it is expected to change in so many steps.
     pub(crate) fn drift(&self, steps: u32) -> Drift {
         let share = FIRST_M / (FIRST_M + self.learned_m);
         let mean = self.unknown * share * share;
