@@ -20,9 +20,10 @@ use std::sync::Arc;
 /// The fleet is looked at this often; all of it within [`ROUNDS`] looks.
 const PATROL: Span = Span::from_millis(250);
 const ROUNDS: usize = 8;
-/// Where there are originals, it is asked this often between runs who else is there: one that was not heard when it was
-/// switched on would be driven into.
-const ASK_ALL: Span = Span::from_millis(2_000);
+/// Where there are originals, it is asked this often between runs who else is there, less often in large fleets: one that
+/// was not heard when it was switched on would be driven into.
+const ASK_ALL: Span = Span::from_millis(600);
+const ASK_ALL_PER_ROBOT: Span = Span::from_millis(1);
 /// Originals that have not been heard for this share of staleness are asked for a sign of life.
 const ASK_AFTER: i64 = 2;
 
@@ -182,7 +183,7 @@ impl Controller {
             }
         }
         if has_originals && self.run.is_none() && now >= self.ask_all_at {
-            self.ask_all_at = now + ASK_ALL;
+            self.ask_all_at = now + ASK_ALL + ASK_ALL_PER_ROBOT * desk.fleet.robots().len() as i64;
             desk.outbox.say(Topic::Broadcast, &[Command::Uuid]);
         }
     }

@@ -37,6 +37,19 @@ fn lost_targets_are_said_again() {
 }
 
 #[test]
+fn who_was_not_heard_when_it_was_switched_on_is_found_soon() {
+    // Asked for each two seconds, one of thirty could stay unknown until the show began where links lose every fifth
+    // message, and was driven into.
+    let mut world = World::new(6, 6);
+    world.robots[5].dead = true;
+    world.run_for(3.0);
+    assert_eq!(world.controller.snapshot(world.now).robots.len(), 5);
+    world.robots[5].dead = false;
+    world.run_for(0.7);
+    assert_eq!(world.controller.snapshot(world.now).robots.len(), 6);
+}
+
+#[test]
 fn a_dead_original_is_gone_round() {
     let mut world = World::ready(5, 5, show(2, 5, 0.1));
     world.play();
