@@ -185,7 +185,10 @@ const conflict: View = {
 const editViews: View[] = [
   {
     name: 'edit-nothing-chosen',
-    show: edit,
+    async show(page, server) {
+      await openShow(page, 'heart');
+      await edit(page, server);
+    },
   },
   {
     name: 'edit-chosen',

@@ -12,7 +12,7 @@ import { listenToHold } from './holdDrag';
 /** Seconds of the drive to a frame. */
 function driveOf(plan: Plan | null, index: number): string {
   const drive_s = plan?.transitions[index]?.duration_s;
-  return drive_s === undefined ? '' : `${drive_s.toFixed(1)} s`;
+  return drive_s === undefined ? '' : drive_s.toFixed(1);
 }
 
 /** The frames: choose, add, copy, delete, drag to another place. */

@@ -9,7 +9,7 @@ interface Props {
   stage: Stage;
   current: boolean;
   chosen: boolean;
-  /** How long the drive to it takes, for people; empty while that is not known. */
+  /** How long the drive to it takes, seconds, for people; empty while that is not known. */
   drive: string;
   /** Whether it cannot be played as it is. */
   wrong: boolean;
@@ -49,7 +49,7 @@ export const FrameCard = memo(function FrameCard(props: Props) {
         props.onDragStart();
       }}
       onDragEnd={props.onDragEnd}
-      title={`${frame.name}: drive there ${props.drive || 'not planned yet'}, shown for ${frame.airTime_s} s. Double click: rename`}
+      title={`${frame.name}: drive there ${props.drive ? `${props.drive} s` : 'not planned yet'}, shown for ${frame.airTime_s} s. Double click: rename`}
     >
       <Thumbnail frame={frame} stage={props.stage} />
       <span className="label">
@@ -62,13 +62,13 @@ export const FrameCard = memo(function FrameCard(props: Props) {
       <span className="times">
         {props.drive ? (
           <span>
-            <IconRoute size={12} aria-hidden />
-            <span className="hidden-text">drive </span>
+            <IconRoute size={11} aria-hidden />
+            <span className="hidden-text">drive, seconds: </span>
             {props.drive}
           </span>
         ) : null}
         <span>
-          <IconBulb size={12} aria-hidden />
+          <IconBulb size={11} aria-hidden />
           <span className="hidden-text"> shown for </span>
           {frame.airTime_s} s
         </span>
