@@ -15,8 +15,11 @@ const MARGIN_M: f64 = 0.008;
 const REACH: f64 = 3.0;
 
 /// Corners of each robot's way from its start to its end; `None` where somebody is walled in.
-pub(super) fn courses(scene: &Scene, lattice: &Lattice) -> Option<Vec<Vec<Vec2>>> {
-    let corners = OnceCell::new();
+pub(super) fn courses(
+    scene: &Scene,
+    lattice: &Lattice,
+    corners: &OnceCell<Corners>,
+) -> Option<Vec<Vec<Vec2>>> {
     (0..scene.robots())
         .map(|robot| {
             let start = scene.starts[robot];

@@ -1,9 +1,12 @@
 //! What is tried in which order, until one way is good enough or the work is used up.
 
+use std::cell::OnceCell;
+
 use lightbots_show::Easing;
 
 use super::around::courses;
 use super::contacts::Wish;
+use super::corners::{Corners, MOST_WALLS};
 use super::crowd::Crowd;
 use super::guess::{Guess, Manner};
 use super::lattice::Lattice;
@@ -18,12 +21,14 @@ use super::{Amiss, Meeting};
 const PITCH_M: f64 = 0.072;
 /// The same, where the first did not do.
 const LOOSE_PITCH_M: f64 = 0.078;
+/// The same between walls, where neither did: nodes that gaps ask for may be as near as robots may.
+const TIGHT_PITCH_M: f64 = 0.0695;
 /// Robots times spans times sweeps, and what is bent in them, for all guesses: some seconds.
 const MOST_WORK: usize = 22_000_000;
 /// Where this much work is left, a better way is still looked for.
 const WORK_TO_SPARE: usize = 14_000_000;
 /// The same for all attempts with time to spare, and over lattices.
-const PATIENT_WORK: usize = 12_000_000;
+const PATIENT_WORK: usize = 8_000_000;
 const LATTICE_WORK: usize = 18_000_000;
 /// So much longer than the least is good enough.
 const GOOD: f64 = 1.15;
@@ -36,6 +41,8 @@ const DECENT_MORE_S: f64 = 4.0;
 /// The same for ways that small crowds found with time to spare: an order learnt on a lattice may be swifter.
 const SLUGGISH: f64 = 1.8;
 const SLUGGISH_MORE_S: f64 = 1.5;
+/// So many pairs in each other's way for each robot are too many.
+const HOPELESS: usize = 3;
 /// Larger crowds take the first way found.
 const MOST_TO_IMPROVE: usize = 600;
 /// Guesses tried where none has led to a way yet, and where one has.
@@ -78,7 +85,8 @@ type Judge<'a> = &'a dyn Fn(Weave) -> Result<Weave, Amiss>;
 /// left; empty where it failed for something else.
 pub(super) fn best(scene: &Scene, easing: Easing, proven: Judge) -> Result<Weave, Vec<Meeting>> {
     let lattice = Lattice::new(scene, PITCH_M).ok_or_else(Vec::new)?;
-    let courses = courses(scene, &lattice).ok_or_else(Vec::new)?;
+    let corners = OnceCell::new();
+    let courses = courses(scene, &lattice, &corners).ok_or_else(Vec::new)?;
     let crowd = Crowd::new(scene, &courses);
     let least_s = Pace::new(crowd.longest_m, &scene.limits, easing, 1.0).drive_s;
     let mut attempts = Attempts { scene, proven, least_s, work: MOST_WORK, best: Err(Vec::new()) };
@@ -87,10 +95,13 @@ pub(super) fn best(scene: &Scene, easing: Easing, proven: Judge) -> Result<Weave
     let orderly = attempts.hurry();
     for ordered in [orderly, !orderly] {
         match ordered {
-            true if attempts.lasts() > least_s * SLUGGISH + SLUGGISH_MORE_S => attempts.ordered(),
-            false if !attempts.is_decent() => attempts.patient(&crowd, easing),
+            true if !attempts.is_decent() || (!orderly && attempts.is_sluggish()) => attempts.ordered(),
+            false if !attempts.is_decent() && !attempts.is_hopeless() => attempts.patient(&crowd, easing),
             _ => {}
         }
+    }
+    if !attempts.is_decent() && (1..=MOST_WALLS).contains(&scene.walls.len()) {
+        attempts.filled(corners.get_or_init(|| Corners::new(scene)));
     }
     attempts.best
 }
@@ -151,6 +162,21 @@ impl Attempts<'_> {
         }
     }
 
+    /// In an order learnt on a lattice that fits between the walls.
+    fn filled(&mut self, corners: &Corners) {
+        self.work = self.work.max(LATTICE_WORK / 2);
+        for pitch_m in [PITCH_M, LOOSE_PITCH_M, TIGHT_PITCH_M] {
+            let lattice = corners.lattice(self.scene, pitch_m);
+            if let Some(weave) = lattice.and_then(|lattice| ordered(self.scene, &lattice)) {
+                let effort = Effort { sweeps: 600, stretch: 4.0, hurry: true, wish: TIGHT };
+                self.relax(weave, effort);
+            }
+            if self.is_decent() {
+                break;
+            }
+        }
+    }
+
     /// Whether the crowd is so large that the first way found does.
     fn hurry(&self) -> bool {
         self.scene.robots() > MOST_TO_IMPROVE
@@ -176,6 +202,16 @@ impl Attempts<'_> {
 
     fn is_decent(&self) -> bool {
         self.lasts() < self.decent_s()
+    }
+
+    /// Whether an order learnt on a lattice may be swifter.
+    fn is_sluggish(&self) -> bool {
+        self.lasts() > self.least_s * SLUGGISH + SLUGGISH_MORE_S
+    }
+
+    /// Whether so many are in each other's way that time alone does not help.
+    fn is_hopeless(&self) -> bool {
+        self.best.as_ref().is_err_and(|left| left.len() > self.scene.robots() * HOPELESS)
     }
 }
 

@@ -10,6 +10,8 @@ use super::scene::Scene;
 pub(super) const NONE: u32 = u32::MAX;
 /// Robots on nodes keep this off walls, metres; bending sees to the rest.
 const WALL_MARGIN_M: f64 = 0.003;
+/// Neighbours a node that is added is tried with.
+const MOST_BESIDE: usize = 24;
 /// Lattices larger than this are not laid out.
 const MOST_NODES: usize = 200_000;
 
@@ -26,11 +28,18 @@ pub(super) struct Lattice {
     corner: Vec2,
     /// `[row][column]`: the node there, or [`NONE`].
     nodes: Vec<u32>,
+    /// Nodes before this one lie in rows and columns, the others anywhere.
+    in_rows: usize,
 }
 
 impl Lattice {
     /// The lattice of a scene's floor; `None` where it would be far too large.
     pub fn new(scene: &Scene, pitch_m: f64) -> Option<Self> {
+        Self::around_places(scene, pitch_m, &[], 0.0)
+    }
+
+    /// The same without nodes nearer than `apart_m` to some places.
+    pub fn around_places(scene: &Scene, pitch_m: f64, places: &[Vec2], apart_m: f64) -> Option<Self> {
         let rise = pitch_m * 3.0_f64.sqrt() / 2.0;
         let (width, depth) = (scene.inner.x * 2.0, scene.inner.y * 2.0);
         let (columns, rows) = ((width / pitch_m).floor() + 1.0, (depth / rise).floor() + 1.0);
@@ -48,19 +57,21 @@ impl Lattice {
             rows,
             corner,
             nodes: vec![NONE; (columns * rows) as usize],
+            in_rows: 0,
         };
-        lattice.lay_out(scene, rise);
+        lattice.lay_out(scene, rise, |at| places.iter().all(|place| place.distance(at) >= apart_m));
+        lattice.in_rows = lattice.places.len();
         lattice.connect(scene);
         Some(lattice)
     }
 
-    fn lay_out(&mut self, scene: &Scene, rise: f64) {
+    fn lay_out(&mut self, scene: &Scene, rise: f64, is_wanted: impl Fn(Vec2) -> bool) {
         for row in 0..self.rows {
             for column in 0..self.columns {
                 let shift = if row % 2 == 1 { 0.5 } else { 0.0 };
                 let place =
                     self.corner + Vec2::new((column as f64 + shift) * self.pitch_m, row as f64 * rise);
-                if scene.is_free(place, WALL_MARGIN_M) {
+                if scene.is_free(place, WALL_MARGIN_M) && is_wanted(place) {
                     self.nodes[(row * self.columns + column) as usize] = self.places.len() as u32;
                     self.places.push(place);
                 }
@@ -92,6 +103,26 @@ impl Lattice {
         }
     }
 
+    /// Adds a node anywhere and ways to those that `is_beside` it, nearest first: one in each direction, roughly.
+    pub fn add(&mut self, place: Vec2, reach_m: f64, is_beside: impl Fn(Vec2) -> bool) {
+        let node = self.places.len() as u32;
+        let near = self.around(place, reach_m, MOST_BESIDE);
+        self.places.push(place);
+        self.neighbours.push([NONE; 6]);
+        for other in near {
+            let at = self.places[other as usize];
+            let turn = (at - place).angle() / core::f64::consts::FRAC_PI_3;
+            let direction = turn.round().rem_euclid(6.0) as usize % 6;
+            let back = (direction + 3) % 6;
+            let is_free = self.neighbours[node as usize][direction] == NONE
+                && self.neighbours[other as usize][back] == NONE;
+            if is_free && is_beside(at) {
+                self.neighbours[node as usize][direction] = other;
+                self.neighbours[other as usize][back] = node;
+            }
+        }
+    }
+
     fn node(&self, row: i64, column: i64) -> u32 {
         let inside = (0..self.rows).contains(&row) && (0..self.columns).contains(&column);
         if inside { self.nodes[(row * self.columns + column) as usize] } else { NONE }
@@ -117,6 +148,9 @@ impl Lattice {
                 }
             }
         }
+        let others = self.places.iter().enumerate().skip(self.in_rows);
+        let others = others.map(|(node, at)| (at.distance(place), node as u32));
+        found.extend(others.filter(|(far, _)| *far <= reach_m));
         found.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
         found.truncate(most);
         found.into_iter().map(|(_, node)| node).collect()

@@ -191,6 +191,38 @@ fn a_queue_gets_through_a_gap_no_wider_than_it_must_be() {
     }
 }
 
+/// A corridor along the lower edge of a floor 0.3 m deep, so wide, with a bay above it between two walls.
+fn bay(width: f64, from: f64, to: f64) -> Vec<Obstacle> {
+    let top = width - 0.15;
+    vec![
+        Obstacle::Rect { min: Vec2::new(-0.6, top), max: Vec2::new(from, 0.15) },
+        Obstacle::Rect { min: Vec2::new(to, top), max: Vec2::new(0.6, 0.15) },
+    ]
+}
+
+#[test]
+fn two_change_places_where_one_can_step_aside() {
+    for (width, from, to) in [(0.061, -0.04, 0.04), (0.08, 0.1, 0.18), (0.07, -0.3, -0.15)] {
+        let (a, b) = (Vec2::new(-0.4, width / 2.0 - 0.15), Vec2::new(0.4, width / 2.0 - 0.15));
+        let mut problem = problem(vec![a, b], vec![b, a], 0.6);
+        (problem.half_floor.y, problem.obstacles) = (0.15, bay(width, from, to));
+        let ratio = ratio(&problem);
+        assert!(ratio < 4.0, "{width} {from}: {ratio}");
+    }
+}
+
+#[test]
+fn a_gap_one_robot_wide_is_passed_both_ways() {
+    let (left, right) = (grid(2, Vec2::new(-0.4, 0.2)), grid(2, Vec2::new(0.4, -0.2)));
+    let mut problem = problem([left.clone(), right.clone()].concat(), [right, left].concat(), 0.6);
+    problem.obstacles = vec![
+        Obstacle::Rect { min: Vec2::new(-0.15, 0.117), max: Vec2::new(0.15, 0.6) },
+        Obstacle::Rect { min: Vec2::new(-0.15, -0.6), max: Vec2::new(0.15, 0.05) },
+    ];
+    let ratio = ratio(&problem);
+    assert!(ratio < 5.0, "{ratio}");
+}
+
 #[test]
 fn ways_lead_around_walls_and_robots_that_stand() {
     let column = |x: f64| (0..6).map(|i| Vec2::new(x, f64::from(i) * 0.1 - 0.25)).collect::<Vec<_>>();

@@ -1,10 +1,7 @@
-//! How far control points have moved in all: who was clear of somebody by more than both have moved since then still is.
+//! How far control points have moved in all: who was clear of somebody by more than both have moved since then is not
+//! looked at again until the next look-out.
 
 use lightbots_base::Vec2;
-
-/// The most that a span's outer and inner control points weigh anywhere on it.
-const OUTER_WEIGHT: f64 = 1.0 / 6.0;
-const INNER_WEIGHT: f64 = 2.0 / 3.0;
 
 /// The sum of each control point's moves.
 pub(super) struct Travel {
@@ -33,12 +30,13 @@ impl Travel {
         since.fold(0.0, f64::max)
     }
 
-    /// A measure of a robot's span: no place on it moves farther than this grows, metres. A sum, because the greatest of
-    /// four need not grow where one of the others does.
+    /// How far the control point of a robot's span has moved that moved most, metres. From one moment to another a place
+    /// may move farther than this grows, where one point catches up with another: a sum would bound that, and cost half
+    /// as much time again in jams (measured 2026-11-22), where the next look-out comes soon anyway.
     pub fn of(&self, robot: usize, span: usize) -> f64 {
         let at = robot * self.width + span;
         let four = &self.moved_m[at..at + 4];
-        (four[0] + four[3]) * OUTER_WEIGHT + (four[1] + four[2]) * INNER_WEIGHT
+        four[0].max(four[1]).max(four[2].max(four[3]))
     }
 
     /// A span's control points moved by `shift` times their pull.
@@ -99,16 +97,15 @@ mod tests {
         })
     }
 
-    /// No place on any span is farther from where it was than the travel since then says.
-    fn assert_bounds(travel: &Travel, was: &Weave, is: &Weave, since: &[Vec<f64>]) {
-        for (robot, since) in since.iter().enumerate() {
-            for (span, since) in since.iter().enumerate() {
+    /// No place on any span is farther from where it was than `said` of robot and span, metres.
+    fn assert_bounds(was: &Weave, is: &Weave, said: impl Fn(usize, usize) -> f64) {
+        for robot in 0..2 {
+            for span in 0..SPANS {
                 let far = (0..=8).map(|i| basis(f64::from(i) / 8.0)).map(|weights| {
                     blend(was.span(robot, span), &weights).distance(blend(is.span(robot, span), &weights))
                 });
-                let (far, said) = (far.fold(0.0, f64::max), travel.of(robot, span) - since);
+                let (far, said) = (far.fold(0.0, f64::max), said(robot, span));
                 assert!(far <= said + 1e-12, "robot {robot}, span {span}: {far} m, said {said} m");
-                assert!(said <= travel.since_mark() * 5.0 / 3.0 + 1e-12);
             }
         }
     }
@@ -116,13 +113,11 @@ mod tests {
     #[test]
     fn nobody_moves_farther_than_their_travel_says() {
         let (mut seeded, mut weave) = (Seeded::new(4), weave());
-        let mut travel = Travel::new(2, SPANS + 3);
+        let (mut travel, first) = (Travel::new(2, SPANS + 3), weave.clone());
         for _ in 0..40 {
             travel.mark();
             assert!(travel.since_mark() == 0.0);
             let was = weave.clone();
-            let since: Vec<Vec<f64>> =
-                (0..2).map(|robot| (0..SPANS).map(|span| travel.of(robot, span)).collect()).collect();
             for _ in 0..3 {
                 let shift = Vec2::new(seeded.between(-0.05, 0.05), seeded.between(-0.05, 0.05));
                 let (robot, span) = (seeded.below(2), seeded.below(SPANS));
@@ -135,7 +130,8 @@ mod tests {
                 weave.tie_ends(other);
                 travel.follow(other, &before, weave.way(other));
             }
-            assert_bounds(&travel, &was, &weave, &since);
+            assert_bounds(&was, &weave, |_, _| travel.since_mark());
+            assert_bounds(&first, &weave, |robot, span| travel.of(robot, span));
         }
     }
 
@@ -146,7 +142,8 @@ mod tests {
         let pull = weave.pull(0, 4, &basis(0.5));
         travel.bend(0, 4, &pull, Vec2::new(0.01, 0.0));
         assert!((0..SPANS).all(|span| travel.of(1, span) == 0.0));
-        assert!(travel.of(0, 0) == 0.0 && travel.of(0, 4) > 0.004 && travel.of(0, 4) < 0.01);
+        assert!(travel.of(0, 0) == 0.0 && travel.of(0, 8) == 0.0);
+        assert!(travel.of(0, 4) > 0.004 && travel.of(0, 4) < 0.01);
         travel.mark();
         assert!(travel.since_mark() == 0.0 && travel.of(0, 4) > 0.004);
     }
