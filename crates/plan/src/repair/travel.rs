@@ -31,8 +31,7 @@ impl Travel {
     }
 
     /// How far the control point of a robot's span has moved that moved most, metres. From one moment to another a place
-    /// may move farther than this grows, where one point catches up with another: a sum would bound that, and cost half
-    /// as much time again in jams (measured 2026-11-22), where the next look-out comes soon anyway.
+    /// may move farther than this grows, where one point catches up with another: the next look-out sees to that.
     pub fn of(&self, robot: usize, span: usize) -> f64 {
         let at = robot * self.width + span;
         let four = &self.moved_m[at..at + 4];
