@@ -19,6 +19,7 @@ mod link;
 mod place;
 mod pump;
 mod reason;
+mod stream;
 mod trust;
 mod url;
 

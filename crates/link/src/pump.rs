@@ -14,6 +14,7 @@ use tokio::task::AbortHandle;
 use crate::backoff::Backoff;
 use crate::link::{LinkConfig, LinkEvent, Shared};
 use crate::reason::{not_granted, reason};
+use crate::stream::patient;
 use crate::{Place, Trust};
 
 /// No message of the protocol is nearly as long; one that is longer costs the connection.
@@ -271,6 +272,9 @@ fn options(config: &LinkConfig, at: usize) -> MqttOptions {
     let place = &broker.places[at];
     let mut options = MqttOptions::new(config.client_id.clone(), (place.host.clone(), place.port));
     options.set_keep_alive(15).set_max_packet_size(LONGEST_PACKET, LONGEST_PACKET).set_inflight(1000);
+    options.set_socket_connector(|address, network| async {
+        Ok(patient(rumqttc::default_socket_connect(address, network).await?))
+    });
     if let Some(user) = &broker.user {
         options.set_credentials(user.clone(), broker.password.clone().unwrap_or_default());
     }

@@ -1,0 +1,74 @@
+//! A broker that hears nothing while it speaks, as ours does.
+
+use std::io::{Read, Write};
+use std::net::{TcpListener, TcpStream};
+
+use lightbots_link::{BrokerUrl, Link, LinkConfig, LinkEvent};
+
+/// More than the sockets between two programs hold.
+const MESSAGES: usize = 6000;
+const PAYLOAD: usize = 2048;
+
+/// Lets a client in, says a great deal, and only then hears what the client says.
+fn serve(listener: &TcpListener) {
+    let (mut stream, _) = listener.accept().unwrap();
+    let mut bytes = [0; 512];
+    assert!(stream.read(&mut bytes).unwrap() > 0, "CONNECT");
+    stream.write_all(&[0x20, 2, 0, 0]).unwrap();
+    assert!(stream.read(&mut bytes).unwrap() > 0, "SUBSCRIBE");
+    stream.write_all(&[0x90, 3, bytes[2], bytes[3], 0]).unwrap();
+    let message = publish();
+    for _ in 0..2 * MESSAGES {
+        stream.write_all(&message).unwrap();
+    }
+    hear(&mut stream, MESSAGES * message.len());
+    stream.write_all(&[0x30, 3, 0, 1, b'e']).unwrap();
+    // Until the client leaves.
+    let _ = stream.read(&mut bytes);
+}
+
+/// A message at QoS 0 to the topic `t`.
+fn publish() -> Vec<u8> {
+    let length = 3 + PAYLOAD;
+    let head = [0x30, (length % 128) as u8 | 0x80, (length / 128) as u8, 0, 1, b't'];
+    head.into_iter().chain([7; PAYLOAD]).collect()
+}
+
+fn hear(stream: &mut TcpStream, mut bytes: usize) {
+    let mut buffer = [0; 65_536];
+    while bytes > 0 {
+        let wanted = bytes.min(buffer.len());
+        let read = stream.read(&mut buffer[..wanted]).unwrap();
+        assert!(read > 0, "the client left {bytes} bytes before the end");
+        bytes -= read;
+    }
+}
+
+#[tokio::test]
+async fn a_flood_in_both_directions_breaks_no_connection() {
+    let listener = TcpListener::bind("127.0.0.1:0").unwrap();
+    let port = listener.local_addr().unwrap().port();
+    let broker = std::thread::spawn(move || serve(&listener));
+    let mut link = Link::open(LinkConfig {
+        broker: BrokerUrl::new("127.0.0.1", port),
+        client_id: "LightBot/controller".into(),
+        filters: vec!["t".into()],
+        queue: 4 * MESSAGES,
+    });
+    assert_eq!(link.next().await, Some(LinkEvent::Connected));
+    let sender = link.sender();
+    for _ in 0..MESSAGES {
+        sender.send("t", vec![7; PAYLOAD]);
+    }
+    let mut heard = 0;
+    loop {
+        match link.next().await {
+            Some(LinkEvent::Message { topic, .. }) if topic == "t" => heard += 1,
+            Some(LinkEvent::Message { .. }) => break,
+            other => panic!("after {heard} messages: {other:?}"),
+        }
+    }
+    assert_eq!((heard, sender.dropped()), (2 * MESSAGES, 0));
+    link.close().await;
+    broker.join().unwrap();
+}
