@@ -257,6 +257,11 @@ impl Controller {
         &self.desk.config
     }
 
+    /// How many robots it remembers.
+    pub fn robots(&self) -> usize {
+        self.desk.fleet.robots().len()
+    }
+
     /// What came and went.
     pub fn counters(&self) -> Counters {
         Counters {

@@ -14,7 +14,7 @@ use tokio::task::AbortHandle;
 use crate::backoff::Backoff;
 use crate::link::{LinkConfig, LinkEvent, Shared};
 use crate::reason::{not_granted, reason};
-use crate::stream::patient;
+use crate::stream::Mouth;
 use crate::{Place, Trust};
 
 /// No message of the protocol is nearly as long; one that is longer costs the connection.
@@ -33,6 +33,7 @@ pub(crate) struct Pump {
     config: LinkConfig,
     client: AsyncClient,
     connection: EventLoop,
+    mouth: Mouth,
     events: mpsc::Sender<LinkEvent>,
     stop: oneshot::Receiver<()>,
     shared: Arc<Shared>,
@@ -58,7 +59,9 @@ type Parts = (AsyncClient, Pump, mpsc::Receiver<LinkEvent>, oneshot::Sender<()>)
 impl Pump {
     pub(crate) fn new(config: LinkConfig, shared: Arc<Shared>) -> Parts {
         let queue = config.queue.max(16);
-        let (client, mut connection) = AsyncClient::builder(options(&config, 0)).capacity(queue).build();
+        let mouth = Mouth::default();
+        let (client, mut connection) =
+            AsyncClient::builder(options(&config, 0, &mouth)).capacity(queue).build();
         let mut network = connection.network_options();
         network.set_tcp_nodelay(true);
         network.set_connection_timeout(5);
@@ -70,6 +73,7 @@ impl Pump {
             config,
             client: client.clone(),
             connection,
+            mouth,
             events,
             stop,
             shared,
@@ -229,7 +233,7 @@ impl Pump {
             NEXT_PLACE.mul_f64(share())
         };
         self.at = (self.at + 1) % places;
-        self.connection.mqtt_options = options(&self.config, self.at);
+        self.connection.mqtt_options = options(&self.config, self.at, &self.mouth);
         tokio::select! {
             _ = &mut self.stop => false,
             () = self.events.closed() => false,
@@ -243,7 +247,11 @@ impl Pump {
         if !self.shared.connected.swap(false, Ordering::AcqRel) || self.client.try_disconnect().is_err() {
             return;
         }
-        let flush = async { while self.connection.poll().await.is_ok() {} };
+        let flush = async {
+            while self.connection.poll().await.is_ok() {}
+            drop(self.connection);
+            self.mouth.finish().await;
+        };
         // A broker that does not take it in time loses the connection without a goodbye.
         let _ = tokio::time::timeout(GOODBYE, flush).await;
     }
@@ -267,13 +275,15 @@ fn random() -> u32 {
     u32::from_le_bytes(bytes)
 }
 
-fn options(config: &LinkConfig, at: usize) -> MqttOptions {
+fn options(config: &LinkConfig, at: usize, mouth: &Mouth) -> MqttOptions {
     let broker = &config.broker;
     let place = &broker.places[at];
     let mut options = MqttOptions::new(config.client_id.clone(), (place.host.clone(), place.port));
     options.set_keep_alive(15).set_max_packet_size(LONGEST_PACKET, LONGEST_PACKET).set_inflight(1000);
-    options.set_socket_connector(|address, network| async {
-        Ok(patient(rumqttc::default_socket_connect(address, network).await?))
+    let mouth = mouth.clone();
+    options.set_socket_connector(move |address, network| {
+        let mouth = mouth.clone();
+        async move { Ok(mouth.speaks_on(rumqttc::default_socket_connect(address, network).await?)) }
     });
     if let Some(user) = &broker.user {
         options.set_credentials(user.clone(), broker.password.clone().unwrap_or_default());

@@ -1,4 +1,4 @@
-//! A broker that hears nothing while it speaks, as ours does.
+//! Brokers that are slow to hear: because they speak meanwhile, as ours does, or because there is much to hear.
 
 use std::io::{Read, Write};
 use std::net::{TcpListener, TcpStream};
@@ -71,4 +71,36 @@ async fn a_flood_in_both_directions_breaks_no_connection() {
     assert_eq!((heard, sender.dropped()), (2 * MESSAGES, 0));
     link.close().await;
     broker.join().unwrap();
+}
+
+/// Messages in a farewell: more than a socket takes at once.
+const LAST_WORDS: usize = 6000;
+
+#[tokio::test]
+async fn what_is_said_before_the_end_gets_out() {
+    let listener = TcpListener::bind("127.0.0.1:0").unwrap();
+    let port = listener.local_addr().unwrap().port();
+    let broker = std::thread::spawn(move || {
+        let (mut stream, _) = listener.accept().unwrap();
+        let mut bytes = Vec::new();
+        assert!(stream.read(&mut [0; 512]).unwrap() > 0, "CONNECT");
+        stream.write_all(&[0x20, 2, 0, 0]).unwrap();
+        stream.read_to_end(&mut bytes).unwrap();
+        bytes
+    });
+    let mut link = Link::open(LinkConfig {
+        broker: BrokerUrl::new("127.0.0.1", port),
+        client_id: "LightBot/controller".into(),
+        filters: Vec::new(),
+        queue: 2 * LAST_WORDS,
+    });
+    assert_eq!(link.next().await, Some(LinkEvent::Connected));
+    let sender = link.sender();
+    for _ in 0..LAST_WORDS {
+        assert!(sender.send("t", vec![7; PAYLOAD]));
+    }
+    link.close().await;
+    let heard = broker.join().unwrap();
+    assert_eq!(heard.len(), LAST_WORDS * publish().len() + 2);
+    assert!(heard.ends_with(&[0xe0, 0]), "no goodbye");
 }

@@ -236,7 +236,7 @@ impl Conductor {
                 && let Some(name) = self.rivals.name_due(now)
             {
                 sender.send(rivals::NAMES, name.as_bytes().to_vec());
-                if self.rivals.is_mute() {
+                if self.rivals.is_mute(self.controller.robots()) {
                     link.renew();
                 }
             }

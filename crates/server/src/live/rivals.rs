@@ -14,8 +14,10 @@ pub const COMMANDS: &str = "T/LightBot/Broadcast";
 const EVERY: Span = Span::from_millis(2_000);
 /// A broker that brought its name back before and did not so many times running is mute, …
 const MUTE: u32 = 4;
-/// … later so many more each time a new connection did not help either, up to this.
+/// … later so many more each time a new connection did not help either, up to this. …
 const MUTE_MOST: u32 = 32;
+/// … One more for so many robots: its name may wait behind what they say, or be lost where that is too much at once.
+const MUTE_PER: usize = 250;
 /// How long the broker may take to bring back what this controller said.
 const ECHO: Span = Span::from_millis(60_000);
 /// Commands whose echo is waited for, at most; the oldest are forgotten.
@@ -68,9 +70,11 @@ impl Rivals {
     }
 
     /// Whether the broker passes on nothing any more of what is said to it. It is to be given another chance before
-    /// this is asked again: the count starts anew.
-    pub fn is_mute(&mut self) -> bool {
-        let Some(after) = self.mute_after.filter(|&after| self.unanswered > after) else { return false };
+    /// this is asked again: the count starts anew. `robots` are on it.
+    pub fn is_mute(&mut self, robots: usize) -> bool {
+        let crowd = u32::try_from(robots / MUTE_PER).unwrap_or(u32::MAX);
+        let is_patient = |after: &u32| self.unanswered <= after.saturating_add(crowd);
+        let Some(after) = self.mute_after.filter(|after| !is_patient(after)) else { return false };
         self.mute_after = Some((after * 2).min(MUTE_MOST));
         self.unanswered = 0;
         true
@@ -152,22 +156,22 @@ mod tests {
     fn a_broker_that_brings_no_name_back_any_more_is_mute() {
         let mut rivals = Rivals::new("me".into());
         let mut time = 0;
-        let mut speaks = |rivals: &mut Rivals| {
+        let mut speaks = |rivals: &mut Rivals, robots: usize| {
             let mut names = 0;
-            while !rivals.is_mute() && names < 100 {
+            while !rivals.is_mute(robots) && names < 100 {
                 time += 2;
                 names += u32::from(rivals.name_due(at(time)).is_some());
             }
             names
         };
-        assert_eq!(speaks(&mut rivals), 100, "one that never brought it back may have been told not to");
+        assert_eq!(speaks(&mut rivals, 30), 100, "one that never brought it back may have been told not to");
         rivals.connected();
         rivals.hear(at(300), NAMES, b"me");
-        assert_eq!([speaks(&mut rivals), speaks(&mut rivals)], [MUTE + 1, 2 * MUTE + 1]);
+        assert_eq!([speaks(&mut rivals, 30), speaks(&mut rivals, 30)], [MUTE + 1, 2 * MUTE + 1]);
         rivals.hear(at(900), NAMES, b"you");
-        assert_eq!(speaks(&mut rivals), 4 * MUTE + 1, "a name of another is no answer");
+        assert_eq!(speaks(&mut rivals, 30), 4 * MUTE + 1, "a name of another is no answer");
         rivals.hear(at(900), NAMES, b"me");
-        assert_eq!(speaks(&mut rivals), MUTE + 1);
+        assert_eq!(speaks(&mut rivals, 1_000), MUTE + 1 + 4, "a crowd may be louder");
     }
 
     #[test]
