@@ -6,12 +6,23 @@
 //! ahead drives as well, and its gap does not close; one that died closes in at the robot's own speed.
 
 mod apart;
-mod sight;
 
 use lightbots_base::Limits;
-pub(crate) use sight::SENSORS;
-use sight::{Closing, LONG_PAST, PAST, Sight};
 
+/// Sensors around the rim, 45° apart, counter-clockwise from the front.
+pub(crate) const SENSORS: usize = 8;
+/// Gaps wider than this are of no interest, metres.
+const SIGHT_M: f32 = 0.03;
+/// How many steps are remembered to see how fast a gap closes.
+const PAST: usize = 3;
+/// Noise of a difference of two readings, 1 sigma: metres, and share of the gap.
+const NOISE_M: f32 = 0.0004;
+const NOISE_SHARE: f32 = 0.07;
+/// How many sigma are taken off what one, two and three steps say.
+const SIGMAS: [f32; PAST] = [2.4, 1.5, 1.3];
+/// Between two sensors a disc is so much nearer than either says, at most; less where one says more than the other.
+const BETWEEN_M: f32 = 0.0036;
+const APART_M: f32 = 0.012;
 /// Wheels answer a step late, seconds; a braking robot rolls on as if it had braked so much later.
 const DEAD_S: f32 = 0.016;
 const BRAKING_S: f32 = 0.025;
@@ -21,21 +32,14 @@ const SPARE_M: f32 = 0.003;
 const CALM_MPS: f32 = 0.012;
 /// Nearer than this ahead nothing may be, whether it closes in or not, metres.
 const TOUCHING_M: f32 = 0.0015;
+/// Sine of the angle between the middle of two sensors and what both see, for each metre by which one sees it nearer:
+/// for discs of 27 mm with their rims about 3 mm apart.
+const LEAN_PER_M: f32 = 28.0;
 /// Driving so slowly although it was told to drive so fast, m/s, a robot is stuck.
 const STUCK_MPS: f32 = 0.005;
 const TOLD_MPS: f32 = 0.05;
 /// Who is left so much room by plan, millimetres, has no neighbours and looks beside its way as well.
-const AMPLE_MM: u16 = 8;
-/// With so much room, nobody is nearer than that less this by plan, even if both are off their routes, metres: it is watched
-/// over more steps, and minded even if it hardly closes in. More room than this cannot be overlooked well.
-const OFF_M: f32 = 0.0045;
-const ROOM_MOST_M: f32 = 0.015;
-/// Then closing in for sure with this share of its speed suffices; …
-const INTRUDER_STANDS: f32 = 0.15;
-/// … and what one sensor beside its way sees alone may be so much nearer than that says, metres.
-const ALONE_M: f32 = 0.0015;
-/// One that kept pace stands if it now closes in for sure with more than this share of its speed.
-const PACER_STANDS: f32 = 0.3;
+pub(crate) const AMPLE_MM: u16 = 8;
 /// How it looks where neighbours are near by plan, and where they are not.
 const NARROW: Look = Look { around: &[(0, 0)], stands: [0.6; 3], slack_mps: 0.03 };
 const WIDE: Look = Look {
@@ -58,13 +62,6 @@ const WISH_MPS: f64 = 0.02;
 /// What blocked it has gone when it is so much farther away, metres, for so many steps.
 const GONE_M: f32 = 0.004;
 const STEPS_TO_FREE: u8 = 8;
-/// Nearer than this to what blocks it, metres, it rolls back so fast, m/s, for at most so many steps, where nothing is as
-/// near behind it as this, metres, and what blocks it is ahead by this at least (cosine).
-const BACK_M: f32 = 0.0035;
-const BACK_MPS: f64 = 0.03;
-const STEPS_BACK: u8 = 12;
-const BEHIND_M: f32 = 0.008;
-const BACK_COS: f64 = 0.5;
 
 /// What stands in its way.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -95,58 +92,66 @@ pub(crate) struct Wish {
     pub speed_mps: f64,
     /// What the wheels were told a step ago, which acts now.
     pub told_mps: f64,
-    /// How far the others stay from it by plan, where it was told, millimetres.
-    pub room_mm: Option<u16>,
-}
-
-impl Wish {
     /// The others stay far from it by plan.
-    fn ample(&self) -> bool {
-        self.room_mm.is_some_and(|room_mm| room_mm >= AMPLE_MM)
-    }
-
-    /// Whether nothing is so near to it by plan, even where both are off their routes.
-    fn is_too_near(&self, gap_m: f32) -> bool {
-        let least_m = |room_mm: u16| (f32::from(room_mm) * 1e-3).min(ROOM_MOST_M) - OFF_M;
-        self.room_mm.is_some_and(|room_mm| room_mm >= AMPLE_MM && gap_m < least_m(room_mm))
-    }
+    pub ample: bool,
 }
 
 /// What the proximity sensors saw, and what follows from it.
 #[derive(Debug)]
 pub(crate) struct Reflex {
-    sight: Sight,
+    /// `[steps ago][sensor]`: gaps, metres; infinite where nothing was in sight.
+    past_m: [[f32; SENSORS]; PAST + 1],
+    sees: bool,
     /// `[steps ago]`: how fast it drove, m/s; backwards is negative.
     speeds_mps: [f32; PAST],
+    dt: f32,
     /// What holds it back: the sensor, its gap then, and how fast it may drive, m/s.
     held: Option<(usize, f32, f64)>,
     /// Steps in a row in which it was held back, or free again.
     count: u8,
     block: Option<Block>,
-    /// Steps in which it rolled back from that.
-    backed: u8,
 }
+
+const NOTHING: [f32; SENSORS] = [f32::INFINITY; SENSORS];
 
 impl Reflex {
     pub(crate) fn new() -> Self {
-        Self { sight: Sight::new(), speeds_mps: [0.0; PAST], held: None, count: 0, block: None, backed: 0 }
+        Self {
+            past_m: [NOTHING; PAST + 1],
+            sees: false,
+            speeds_mps: [0.0; PAST],
+            dt: 0.0,
+            held: None,
+            count: 0,
+            block: None,
+        }
     }
 
     /// Takes the readings of a step of `dt` seconds in which it drove `way_m` forwards. What is not a number is nothing
     /// seen.
     #[inline]
     pub(crate) fn look(&mut self, gaps_m: Option<&[f32; SENSORS]>, way_m: f64, dt: f64) {
-        self.sight.look(gaps_m, dt);
-        if self.sight.sees {
-            self.speeds_mps.copy_within(..PAST - 1, 1);
-            self.speeds_mps[0] = (way_m / dt) as f32;
+        let gaps_m = gaps_m.filter(|gaps| dt > 0.0 && gaps.iter().any(|&gap| gap < SIGHT_M));
+        if gaps_m.is_none() && !self.sees {
+            return;
+        }
+        self.sees = gaps_m.is_some();
+        let seen = |gap: f32| if gap < SIGHT_M { gap.max(0.0) } else { f32::INFINITY };
+        match gaps_m {
+            Some(gaps) => {
+                self.past_m.copy_within(..PAST, 1);
+                self.past_m[0] = gaps.map(seen);
+                self.speeds_mps.copy_within(..PAST - 1, 1);
+                (self.speeds_mps[0], self.dt) = ((way_m / dt) as f32, dt as f32);
+            }
+            None => self.past_m = [NOTHING; PAST + 1],
         }
     }
 
     /// How fast it may drive, m/s, at least 0. `None`: as it likes.
     #[inline]
     pub(crate) fn limit(&mut self, wish: Wish, limits: &Limits) -> Option<f64> {
-        if !self.sight.sees && self.block.is_none() {
+        if !self.sees && self.block.is_none() {
             self.held = None;
             return None;
         }
@@ -161,11 +166,11 @@ impl Reflex {
             && self.held.is_none_or(|(_, _, held_mps)| mps < held_mps)
         {
             self.count = if self.held.is_some() { self.count } else { 0 };
-            self.held = Some((sensor, self.sight.gap_m(sensor), mps));
+            self.held = Some((sensor, self.gap_m(sensor), mps));
         }
         let free_mps = slowest.map(|(mps, _)| mps);
         let Some((sensor, gap_m, held_mps)) = self.held else { return free_mps };
-        if self.sight.gap_m(sensor) > gap_m + WIDENS_M {
+        if self.gap_m(sensor) > gap_m + WIDENS_M {
             self.held = None;
             return free_mps;
         }
@@ -187,22 +192,16 @@ impl Reflex {
         let next_mps = (sense * wish.told_mps as f32).max(0.0);
         let contact_m = limits.contact_m() as f32;
         // Beside its way neighbours may pass by plan, as near as they like: then only the sensor ahead counts.
-        let look = if wish.ample() { &WIDE } else { &NARROW };
+        let look = if wish.ample { &WIDE } else { &NARROW };
         let mut slowest: Option<(f32, usize)> = None;
         for &(index, turn) in look.around {
             let sensor = if forwards { index } else { (index + SENSORS / 2) % SENSORS };
-            if turn == 2 && self.sight.is_abaft(sensor, forwards) {
+            if turn == 2 && self.is_abaft(sensor, forwards) {
                 continue;
             }
-            let gap_m = self.sight.gap_m(sensor);
-            let intrudes = wish.is_too_near(gap_m);
-            let past = if intrudes { LONG_PAST } else { PAST };
-            let Some(closing) = self.sight.closing(sensor, past) else { continue };
-            let alone_m = if intrudes && turn > 0 && self.sight.is_alone(sensor) { ALONE_M } else { 0.0 };
-            let gap_m = (gap_m - alone_m).max(0.0);
-            let ahead = (libm::cos(self.sight.towards(sensor)) as f32 * sense).max(0.0);
-            let approach =
-                Approach { gap_m, closing, along_mps, lately_mps, next_mps, turn, ahead, intrudes };
+            let Some(closing) = self.closing(sensor) else { continue };
+            let gap_m = self.gap_m(sensor);
+            let approach = Approach { gap_m, closing, along_mps, lately_mps, next_mps, turn };
             if let Some(mps) = approach.allowed_mps(look, contact_m)
                 && slowest.is_none_or(|(least, _)| mps < least)
             {
@@ -212,46 +211,89 @@ impl Reflex {
         slowest.map(|(mps, sensor)| (f64::from(mps), sensor))
     }
 
+    /// Whether what a sensor abeam sees lies behind it rather than ahead: then no driving on closes in on it, and
+    /// braking would only let it run into the robot.
+    fn is_abaft(&self, sensor: usize, forwards: bool) -> bool {
+        let now = &self.past_m[0];
+        let (next, last) = (now[(sensor + 1) % SENSORS], now[(sensor + SENSORS - 1) % SENSORS]);
+        let (ahead, behind) = if (sensor == 2) == forwards { (last, next) } else { (next, last) };
+        behind < ahead
+    }
+
     fn block_at(&self, sensor: usize) -> Block {
-        Block { gap_m: f64::from(self.sight.gap_m(sensor)), sensor, towards: self.sight.towards(sensor) }
+        Block { gap_m: f64::from(self.gap_m(sensor)), sensor, towards: self.towards(sensor) }
+    }
+
+    /// In which direction of body space it is what a sensor sees, radians, by what the one beside it sees.
+    fn towards(&self, sensor: usize) -> f64 {
+        let now = &self.past_m[0];
+        let (left, right) = ((sensor + 1) % SENSORS, (sensor + SENSORS - 1) % SENSORS);
+        let (beside, side) = if now[left] < now[right] { (left, 1.0) } else { (right, -1.0) };
+        let middle = core::f64::consts::FRAC_PI_8;
+        let aside = if now[beside].is_finite() {
+            let lean = LEAN_PER_M * (now[beside] - now[sensor]);
+            middle - libm::asin(f64::from(lean.clamp(0.0, 0.38)))
+        } else {
+            0.0
+        };
+        sensor as f64 * 2.0 * middle + side * aside.max(0.0)
+    }
+
+    /// The gap at a sensor, metres, a little less where the one beside it sees nearly as near.
+    fn gap_m(&self, sensor: usize) -> f32 {
+        let now = &self.past_m[0];
+        let beside = now[(sensor + 1) % SENSORS].min(now[(sensor + SENSORS - 1) % SENSORS]);
+        let even = (1.0 - (beside - now[sensor]).abs() / APART_M).max(0.0);
+        (now[sensor] - BETWEEN_M * even * even).max(0.0)
+    }
+
+    /// How fast the gap at a sensor shrinks; `None` where nothing was in sight twice.
+    fn closing(&self, sensor: usize) -> Option<Closing> {
+        let gap_m = self.past_m[0][sensor];
+        let noise_m = NOISE_M + NOISE_SHARE * gap_m;
+        let mut closing = None;
+        for steps in 1..=PAST {
+            let before_m = self.past_m[steps][sensor];
+            if !before_m.is_finite() || !gap_m.is_finite() {
+                break;
+            }
+            let over_s = steps as f32 * self.dt;
+            let mps = (before_m - gap_m) / over_s;
+            let sure_mps = mps - SIGMAS[steps - 1] * noise_m / over_s;
+            let surest_mps = closing.map_or(sure_mps, |known: Closing| known.sure_mps.max(sure_mps));
+            closing = Some(Closing { mps: mps.max(surest_mps), sure_mps: surest_mps });
+        }
+        closing
     }
 
     /// Whether what blocked it has gone.
     fn watch_block(&mut self) {
         let Some(block) = self.block else { return };
-        let gone = self.sight.around_m(block.sensor) > block.gap_m as f32 + GONE_M;
+        let beside = [block.sensor, (block.sensor + 1) % SENSORS, (block.sensor + SENSORS - 1) % SENSORS];
+        let gap_m = beside.iter().map(|&sensor| self.past_m[0][sensor]).fold(f32::INFINITY, f32::min);
+        let gone = gap_m > block.gap_m as f32 + GONE_M;
         self.count = if gone { self.count + 1 } else { 0 };
         if self.count >= STEPS_TO_FREE {
             self.forget();
         }
     }
 
-    /// How fast it rolls back from what blocks it, m/s along its front, where it stands too near to drive around that;
-    /// `None`: it stands far enough, or does not know that there is room behind it.
-    pub(crate) fn back_mps(&mut self) -> Option<f64> {
-        let gap_m = self.sight.gap_m(self.block?.sensor);
-        let block = self.block.as_mut()?;
-        let ahead = libm::cos(block.towards);
-        if self.backed >= STEPS_BACK || gap_m > BACK_M || ahead.abs() < BACK_COS {
-            return None;
-        }
-        if self.sight.around_m(if ahead > 0.0 { SENSORS / 2 } else { 0 }) < BEHIND_M {
-            return None;
-        }
-        block.gap_m = block.gap_m.max(f64::from(gap_m));
-        self.backed += 1;
-        Some(-BACK_MPS.copysign(ahead))
-    }
-
     /// What it is to do has changed: it may try again.
     pub(crate) fn forget(&mut self) {
-        (self.block, self.held, self.count, self.backed) = (None, None, 0, 0);
+        (self.block, self.held, self.count) = (None, None, 0);
     }
 
     /// What stands in its way.
     pub(crate) fn block(&self) -> Option<Block> {
         self.block
     }
+}
+
+/// How fast a gap closes in, m/s: as it seems over three steps, and at least.
+#[derive(Clone, Copy)]
+struct Closing {
+    mps: f32,
+    sure_mps: f32,
 }
 
 /// How it nears what one sensor sees, `turn` sensors aside of its way.
@@ -264,38 +306,18 @@ struct Approach {
     /// The fastest of the steps over which the gap was watched, m/s.
     lately_mps: f32,
     turn: usize,
-    /// Cosine of the angle between its way and what is seen.
-    ahead: f32,
-    /// Nothing is so near by plan.
-    intrudes: bool,
 }
 
 impl Approach {
-    /// Share of its speed with which what stands closes in for sure.
-    fn stands(&self, look: &Look) -> f32 {
-        let stands = look.stands[self.turn];
-        let stands = if self.closing.kept_pace { stands.min(PACER_STANDS) } else { stands };
-        if self.intrudes { stands.min(INTRUDER_STANDS) } else { stands }
-    }
-
-    /// How fast the gap closes in; of one that kept pace no faster than by the robot's own speed: it brakes, but does not
-    /// turn round at once.
-    fn at_most_its_own(&self) -> Closing {
-        let most_mps = if self.closing.kept_pace { self.lately_mps } else { f32::INFINITY };
-        let Closing { mps, sure_mps, .. } = self.closing;
-        Closing { mps: mps.min(most_mps), sure_mps: sure_mps.min(most_mps), ..self.closing }
-    }
-
     /// How fast it may drive for that, m/s; `None`: as it likes.
     fn allowed_mps(&self, look: &Look, contact_m: f32) -> Option<f32> {
-        let Self { gap_m, along_mps, next_mps, lately_mps, turn, .. } = *self;
-        let closing = self.at_most_its_own();
+        let Self { gap_m, closing, along_mps, next_mps, lately_mps, turn } = *self;
         // One that was told to drive and does not is stuck, and not about to touch anything.
         let moves = lately_mps > STUCK_MPS || next_mps < TOLD_MPS;
         if gap_m < TOUCHING_M && turn < 2 && moves {
             return Some(0.0);
         }
-        if closing.sure_mps < self.stands(look) * lately_mps || closing.sure_mps < CALM_MPS {
+        if closing.sure_mps < look.stands[turn] * lately_mps || closing.sure_mps < CALM_MPS {
             return None;
         }
         if closing.mps > SHARE_MAX[turn] * lately_mps + look.slack_mps {
@@ -307,7 +329,7 @@ impl Approach {
         if miss_m > MISS_M {
             return None;
         }
-        let share = share.max(self.ahead).clamp(SHARE_MIN[turn], SHARE_MAX[turn]);
+        let share = share.clamp(SHARE_MIN[turn], SHARE_MAX[turn]);
         let closing_mps = closing.mps.max(share * along_mps);
         let soon_mps = (closing_mps + (next_mps - along_mps) * share).max(0.0);
         let soon_m = gap_m - soon_mps * DEAD_S;

@@ -15,7 +15,7 @@ use crate::drive::{Body, Drive, Setpoint};
 use crate::estimate::Estimate;
 use crate::light::Light;
 use crate::outbox::Outbox;
-use crate::reflex::{Reflex, Wish};
+use crate::reflex::{AMPLE_MM, Reflex, Wish};
 use crate::routes::Routes;
 use crate::seek::Seek;
 use crate::shelf::Shelf;
@@ -241,21 +241,19 @@ impl<S: BorrowMut<Shelf>> Robot<S> {
         let wants = if self.is_lost_now() { None } else { self.want(show, dt) };
         let wants = if self.pauses() { Setpoint::default() } else { wants.unwrap_or_default() };
         let most_mps = if self.routes.under_way() {
-            let room_mm = self.routes.room_mm();
-            let wish = Wish { speed_mps: wants.speed_mps, told_mps: self.drive.speed_mps(), room_mm };
+            let ample = self.routes.room_mm().is_some_and(|room_mm| room_mm >= AMPLE_MM);
+            let wish = Wish { speed_mps: wants.speed_mps, told_mps: self.drive.speed_mps(), ample };
             self.reflex.limit(wish, &self.config.limits)
         } else {
             self.reflex.forget();
             None
         };
         let slip = self.estimate.slip();
-        let back = self.reflex.back_mps().map(|speed_mps| Setpoint { speed_mps, turn_radps: 0.0 });
-        let wheels = match (back, most_mps) {
-            (Some(back), _) => self.drive.step(back, slip, dt),
+        let wheels = match most_mps {
             // Held, it may turn on the spot for what comes.
             _ if self.reflex.block().is_some() && !self.routes.rests_held() => self.drive.halt(),
-            (_, Some(most_mps)) => self.drive.step_within(wants, most_mps, slip, dt),
-            (_, None) => self.drive.step(wants, slip, dt),
+            Some(most_mps) => self.drive.step_within(wants, most_mps, slip, dt),
+            None => self.drive.step(wants, slip, dt),
         };
         self.arrive(show);
         wheels
@@ -281,7 +279,7 @@ impl<S: BorrowMut<Shelf>> Robot<S> {
         let body = Body { at: self.estimate.at(), facing: self.estimate.facing() };
         let soon = self.drive.foresee(body, dt);
         if let Some(show) = show.filter(|_| self.routes.under_way()) {
-            let away = self.reflex.give_way(self.routes.room_mm(), self.drive.speed_mps());
+            let away = self.reflex.give_way(self.routes.room_mm());
             let aside = soon.facing * away.x + soon.facing.left() * away.y;
             return self.routes.step(show + Span::from_secs(dt), soon, aside, limits);
         }
