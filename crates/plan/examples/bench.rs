@@ -3,6 +3,10 @@
 //! `cargo run --release -p lightbots-plan --example bench -- [--json] [--quick] [--robots N] [--scene NAME]`
 #![allow(clippy::print_stdout, missing_docs)]
 
+#[path = "common/cpu.rs"]
+mod cpu;
+#[path = "common/dice.rs"]
+mod dice;
 #[path = "bench/measure.rs"]
 mod measure;
 #[path = "bench/scenes.rs"]

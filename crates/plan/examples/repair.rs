@@ -2,11 +2,17 @@
 //! `cargo run --release -p lightbots-plan --example repair -- [SCENE] [ROBOTS] [SEEDS]`.
 #![allow(clippy::print_stdout)]
 
+#[path = "common/cpu.rs"]
+mod cpu;
 #[path = "repair/crowds.rs"]
 mod crowds;
+#[path = "common/dice.rs"]
+mod dice;
+#[path = "common/places.rs"]
+mod places;
 
+use cpu::Watch;
 use lightbots_plan::{TransitionProblem, transition};
-use std::time::Instant;
 
 /// What was measured of one scene and size.
 #[derive(Default)]
@@ -22,10 +28,9 @@ struct Row {
 
 impl Row {
     fn measure(&mut self, problem: &TransitionProblem, verbose: bool) {
-        let (began, began_cpu) = (Instant::now(), cpu_ms());
+        let watch = Watch::started();
         let plan = transition(problem);
-        let wall_ms = began.elapsed().as_secs_f64() * 1e3;
-        let millis = cpu_ms().zip(began_cpu).map_or(wall_ms, |(after, before)| after - before);
+        let millis = watch.ms();
         self.seeds += 1;
         self.millis.push(millis);
         let plan = match plan {
@@ -68,12 +73,6 @@ impl Row {
             self.pieces
         );
     }
-}
-
-/// What this thread has computed so far, milliseconds, so that a busy machine does not falsify times. Linux only.
-fn cpu_ms() -> Option<f64> {
-    let text = std::fs::read_to_string("/proc/thread-self/schedstat").ok()?;
-    Some(text.split_whitespace().next()?.parse::<f64>().ok()? / 1e6)
 }
 
 fn main() {

@@ -3,6 +3,9 @@
 use lightbots_base::{Limits, PathRef, Piece, Span, Vec2};
 use lightbots_show::{Easing, Obstacle};
 
+use crate::proof::ProofInput;
+use crate::transition::MARGIN_M;
+
 /// A drive from one set of places to another.
 #[derive(Clone, Debug)]
 pub struct TransitionProblem {
@@ -40,6 +43,19 @@ impl TransitionProblem {
             limits,
             duration: None,
             easing: Easing::Swift,
+        }
+    }
+
+    /// What the proof is asked of paths that solve it: the least distances that may be driven.
+    pub fn to_prove<'a>(&'a self, paths: &'a [Path]) -> ProofInput<'a> {
+        ProofInput {
+            paths,
+            standing: &self.standing,
+            obstacles: &self.obstacles,
+            half_floor: self.half_floor,
+            limits: &self.limits,
+            gap_m: self.limits.contact_m() + MARGIN_M,
+            obstacle_gap_m: MARGIN_M,
         }
     }
 }

@@ -1,10 +1,10 @@
 //! One row: our plan, squared distances alone (CAPT), and a dense library solver.
 
-use lightbots_base::{Piece, Span, Vec2};
+use crate::cpu::Watch;
+use lightbots_base::{Piece, Span};
 use lightbots_plan::assignment::Choice;
-use lightbots_plan::proof::{ProofInput, prove};
+use lightbots_plan::proof::prove;
 use lightbots_plan::{Path, TransitionProblem, transition};
-use std::time::Instant;
 
 /// Robots up to which the dense solver is run; it needs memory and time for every pair.
 const DENSE_MOST: usize = 1_000;
@@ -75,22 +75,15 @@ fn median_ms(robots: usize, mut work: impl FnMut()) -> f64 {
     let times = if robots > 2_000 { 1 } else { 7 };
     let mut taken: Vec<f64> = (0..times)
         .map(|_| {
-            let (began, began_cpu) = (Instant::now(), cpu_ms());
+            let watch = Watch::started();
             work();
-            let wall_ms = began.elapsed().as_secs_f64() * 1e3;
             // Short work is rarely interrupted, and the processor's own account is coarse.
-            let cpu = cpu_ms().zip(began_cpu).filter(|_| wall_ms > 8.0);
-            cpu.map_or(wall_ms, |(after, before)| after - before)
+            let wall_ms = watch.wall_ms();
+            if wall_ms > 8.0 { watch.ms() } else { wall_ms }
         })
         .collect();
     taken.sort_by(f64::total_cmp);
     taken[times / 2]
-}
-
-/// What this thread has computed so far, milliseconds, so that a busy machine does not falsify times. Linux only.
-fn cpu_ms() -> Option<f64> {
-    let text = std::fs::read_to_string("/proc/thread-self/schedstat").ok()?;
-    Some(text.split_whitespace().next()?.parse::<f64>().ok()? / 1e6)
 }
 
 /// Least squares without a bottleneck: `start_of[goal]`.
@@ -116,16 +109,7 @@ fn lines(problem: &TransitionProblem, start_of: &[usize]) -> (f64, Vec<Path>) {
 
 /// How many pairs come too close.
 fn judged(problem: &TransitionProblem, paths: &[Path]) -> usize {
-    let proof = prove(&ProofInput {
-        paths,
-        standing: &[],
-        obstacles: &[],
-        half_floor: problem.half_floor + Vec2::new(1.0, 1.0),
-        limits: &problem.limits,
-        gap_m: problem.limits.contact_m() + 0.003,
-        obstacle_gap_m: 0.003,
-    });
-    proof.conflicts.len()
+    prove(&problem.to_prove(paths)).conflicts.len()
 }
 
 /// Least squares by a dense solver: `start_of[goal]`.

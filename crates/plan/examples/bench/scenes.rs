@@ -1,5 +1,6 @@
 //! Legal scenes, all on the floor: pixels at least 76.4 mm apart, but for those that are called close.
 
+use crate::dice::Dice;
 use lightbots_base::{Limits, Vec2};
 use lightbots_plan::{TransitionProblem, transition};
 
@@ -48,19 +49,6 @@ const APART_M: f64 = 0.0774;
 /// The least that is always to be solved, metres.
 const CLOSE_M: f64 = 0.06;
 
-/// A small repeatable generator (SplitMix64).
-struct Random(u64);
-
-impl Random {
-    fn unit(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
-    }
-}
-
 fn problem(starts: Vec<Vec2>, goals: Vec<Vec2>) -> TransitionProblem {
     let reach = starts.iter().chain(&goals).map(|at| at.x.abs().max(at.y.abs())).fold(0.0, f64::max);
     let half = Vec2::new(reach + 0.03, reach + 0.03);
@@ -68,14 +56,14 @@ fn problem(starts: Vec<Vec2>, goals: Vec<Vec2>) -> TransitionProblem {
 }
 
 /// Random places on a square floor of a density (robots per m²), drawn again where too near to another.
-fn scatter(random: &mut Random, robots: usize, density: f64, apart_m: f64) -> Vec<Vec2> {
+fn scatter(dice: &mut Dice, robots: usize, density: f64, apart_m: f64) -> Vec<Vec2> {
     let half = (robots as f64 / density).sqrt() / 2.0 - 0.03;
     let cells = (2.0 * half / apart_m) as usize + 2;
     let cell_of = |at: Vec2| (((at.x + half) / apart_m) as usize, ((at.y + half) / apart_m) as usize);
     let mut grid: Vec<Option<Vec2>> = vec![None; cells * cells];
     let mut places = Vec::new();
     while places.len() < robots {
-        let at = Vec2::new((random.unit() * 2.0 - 1.0) * half, (random.unit() * 2.0 - 1.0) * half);
+        let at = Vec2::new((dice.share() * 2.0 - 1.0) * half, (dice.share() * 2.0 - 1.0) * half);
         let (x, y) = cell_of(at);
         let mut around = (y.saturating_sub(1)..(y + 2).min(cells))
             .flat_map(|y| (x.saturating_sub(1)..(x + 2).min(cells)).map(move |x| y * cells + x));
@@ -94,19 +82,19 @@ fn random(robots: usize, density: f64) -> TransitionProblem {
 }
 
 fn random_apart(robots: usize, density: f64, apart_m: f64) -> TransitionProblem {
-    let mut random = Random(1);
-    let mut places = || scatter(&mut random, robots, density, apart_m);
+    let mut dice = Dice::new(0, 1);
+    let mut places = || scatter(&mut dice, robots, density, apart_m);
     problem(places(), places())
 }
 
 /// Random places, every one with a neighbour at the least distance.
 fn pairs(robots: usize, density: f64) -> TransitionProblem {
-    let mut random = Random(4);
+    let mut dice = Dice::new(0, 4);
     let mut places = || {
-        let mut firsts = scatter(&mut random, robots.div_ceil(2), density / 2.0, APART_M + 2.0 * CLOSE_M);
+        let mut firsts = scatter(&mut dice, robots.div_ceil(2), density / 2.0, APART_M + 2.0 * CLOSE_M);
         let beside: Vec<Vec2> = firsts
             .iter()
-            .map(|&at| at + Vec2::unit(random.unit() * std::f64::consts::TAU) * CLOSE_M)
+            .map(|&at| at + Vec2::unit(dice.share() * std::f64::consts::TAU) * CLOSE_M)
             .collect();
         firsts.extend(beside);
         firsts.truncate(robots);
@@ -184,10 +172,8 @@ fn grid_turns(robots: usize) -> TransitionProblem {
 /// Everybody in a grid at 80 mm gets another's place on a floor half as wide again.
 fn grid_shuffled(robots: usize) -> TransitionProblem {
     let starts = grid(robots, 0.08);
-    let (mut goals, mut random) = (starts.clone(), Random(5));
-    for last in (1..robots).rev() {
-        goals.swap(last, (random.unit() * (last + 1) as f64) as usize);
-    }
+    let mut goals = starts.clone();
+    Dice::new(0, 5).shuffle(&mut goals);
     let problem = problem(starts, goals);
     TransitionProblem { half_floor: problem.half_floor * 1.5, ..problem }
 }
@@ -229,13 +215,13 @@ fn rings_inside_out(robots: usize) -> TransitionProblem {
 }
 
 fn mirrored(robots: usize) -> TransitionProblem {
-    let starts = scatter(&mut Random(2), robots, 100.0 / 9.0, APART_M);
+    let starts = scatter(&mut Dice::new(0, 2), robots, 100.0 / 9.0, APART_M);
     problem(starts.clone(), starts.iter().map(|at| Vec2::new(-at.x, at.y)).collect())
 }
 
 /// From rows along the front edge, as every show begins.
 fn rows_to_random(robots: usize) -> TransitionProblem {
-    let goals = scatter(&mut Random(3), robots, 100.0 / 9.0, APART_M);
+    let goals = scatter(&mut Dice::new(0, 3), robots, 100.0 / 9.0, APART_M);
     let half = (robots as f64 * 0.09).sqrt() / 2.0;
     let a_row = ((2.0 * half - 0.06) / 0.1) as usize + 1;
     let starts = (0..robots).map(|i| {

@@ -1,6 +1,8 @@
 //! Crowds in which everybody has a place of their own to go to.
 
-use lightbots_base::{Limits, Vec2};
+use super::dice::Dice;
+use super::places::{Bound, problem as bound, square};
+use lightbots_base::Vec2;
 use lightbots_plan::TransitionProblem;
 use lightbots_show::Obstacle;
 
@@ -28,44 +30,21 @@ pub const ALL: [(&str, Build); 14] = [
 /// Least distance between pixels, metres.
 const APART_M: f64 = 0.0774;
 
-/// A small repeatable generator (SplitMix64).
-struct Dice(u64);
-
-impl Dice {
-    fn share(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
-    }
-
-    fn place(&mut self, half: f64) -> Vec2 {
-        Vec2::new((self.share() * 2.0 - 1.0) * half, (self.share() * 2.0 - 1.0) * half)
-    }
-
-    fn places(&mut self, count: usize, half: f64, clear: &dyn Fn(Vec2) -> bool) -> Vec<Vec2> {
-        let mut places: Vec<Vec2> = Vec::new();
-        while places.len() < count {
-            let place = self.place(half - 0.027);
-            if clear(place) && places.iter().all(|other| other.distance(place) >= APART_M) {
-                places.push(place);
-            }
-        }
-        places
-    }
-
-    fn shuffle(&mut self, places: &mut [Vec2]) {
-        for last in (1..places.len()).rev() {
-            places.swap(last, (self.share() * (last + 1) as f64) as usize);
+/// Places on a square floor that are clear and far enough from each other.
+fn places(dice: &mut Dice, count: usize, half: f64, clear: &dyn Fn(Vec2) -> bool) -> Vec<Vec2> {
+    let mut places: Vec<Vec2> = Vec::new();
+    let inner = Vec2::new(half - 0.027, half - 0.027);
+    while places.len() < count {
+        let place = dice.place(inner);
+        if clear(place) && places.iter().all(|other| other.distance(place) >= APART_M) {
+            places.push(place);
         }
     }
+    places
 }
 
 fn problem(starts: Vec<Vec2>, goals: Vec<Vec2>, half: f64) -> TransitionProblem {
-    let pinned = (0..goals.len()).map(Some).collect();
-    let floor = TransitionProblem::on_floor(Vec2::new(half, half), Limits::ELISA_3);
-    TransitionProblem { starts, goals, pinned, ..floor }
+    bound(starts, goals, Vec2::new(half, half), Bound::Yes)
 }
 
 fn half_floor(robots: usize, per_9_m2: f64) -> f64 {
@@ -73,8 +52,8 @@ fn half_floor(robots: usize, per_9_m2: f64) -> f64 {
 }
 
 fn random(robots: usize, per_9_m2: f64, seed: u64) -> TransitionProblem {
-    let (half, mut dice) = (half_floor(robots, per_9_m2), Dice(seed));
-    let mut places = || dice.places(robots, half, &|_| true);
+    let (half, mut dice) = (half_floor(robots, per_9_m2), Dice::new(0, seed));
+    let mut places = || places(&mut dice, robots, half, &|_| true);
     problem(places(), places(), half)
 }
 
@@ -84,16 +63,9 @@ fn mirrored(robots: usize, per_9_m2: f64, seed: u64) -> TransitionProblem {
     scene
 }
 
-/// A square grid around the origin.
-fn grid(robots: usize, pitch: f64) -> Vec<Vec2> {
-    let side = (robots as f64).sqrt().ceil() as usize;
-    let at = |i: usize| (i as f64 - (side as f64 - 1.0) / 2.0) * pitch;
-    (0..robots).map(|i| Vec2::new(at(i % side), at(i / side))).collect()
-}
-
 /// Two blocks change places; the seed says how far apart they are.
 fn halves(robots: usize, pitch: f64, seed: u64) -> TransitionProblem {
-    let block = grid(robots / 2, pitch);
+    let block = square(robots / 2, pitch);
     let reach = block.iter().map(|at| at.x.abs()).fold(0.0, f64::max);
     let by = Vec2::new(reach + 0.1 + 0.05 * seed as f64, 0.0);
     let (left, right): (Vec<Vec2>, Vec<Vec2>) = block.iter().map(|&at| (at - by, at + by)).unzip();
@@ -117,7 +89,7 @@ fn rings(robots: usize, seed: u64) -> TransitionProblem {
 }
 
 fn turned_by(robots: usize, angle: f64) -> TransitionProblem {
-    let places = grid(robots, 0.1);
+    let places = square(robots, 0.1);
     let unit = Vec2::unit(angle);
     let turned = places.iter().map(|at| unit * at.x + unit.left() * at.y).collect::<Vec<_>>();
     let half = places.iter().chain(&turned).map(|at| at.x.abs().max(at.y.abs())).fold(0.0, f64::max);
@@ -136,28 +108,28 @@ fn turned_half(robots: usize, seed: u64) -> TransitionProblem {
 
 /// Everybody in a grid at 80 mm gets another's place; half as wide again is the floor.
 fn shuffled(robots: usize, seed: u64) -> TransitionProblem {
-    let starts = grid(robots, 0.08);
+    let starts = square(robots, 0.08);
     let half = starts.iter().map(|at| at.x.abs()).fold(0.0, f64::max) * 1.5 + 0.05;
     shuffled_on(starts, half, seed)
 }
 
 /// The same at the distance that messages say leaves room, on a floor that is full of it.
 fn full(robots: usize, seed: u64) -> TransitionProblem {
-    let starts = grid(robots, 0.1215);
+    let starts = square(robots, 0.1215);
     let half = starts.iter().map(|at| at.x.abs()).fold(0.0, f64::max) + 0.06;
     shuffled_on(starts, half, seed)
 }
 
 /// The same so close that nobody gets past anybody: what giving up costs.
 fn hopeless(robots: usize, seed: u64) -> TransitionProblem {
-    let starts = grid(robots, 0.06);
+    let starts = square(robots, 0.06);
     let half = starts.iter().map(|at| at.x.abs()).fold(0.0, f64::max) + 0.03;
     shuffled_on(starts, half, seed)
 }
 
 fn shuffled_on(starts: Vec<Vec2>, half: f64, seed: u64) -> TransitionProblem {
     let mut goals = starts.clone();
-    Dice(seed).shuffle(&mut goals);
+    Dice::new(0, seed).shuffle(&mut goals);
     problem(starts, goals, half)
 }
 
@@ -169,13 +141,13 @@ fn rows(robots: usize, seed: u64) -> TransitionProblem {
         let x = (i % a_row) as f64 * 0.1 - (a_row - 1) as f64 * 0.05;
         Vec2::new(x, half - 0.03 - (i / a_row) as f64 * 0.1)
     };
-    let goals = Dice(seed).places(robots, half, &|_| true);
+    let goals = places(&mut Dice::new(0, seed), robots, half, &|_| true);
     problem((0..robots).map(at).collect(), goals, half)
 }
 
 /// One in thirty is dead, a column and a wall stand on the floor.
 fn dead(robots: usize, seed: u64) -> TransitionProblem {
-    let (half, mut dice) = (half_floor(robots, 200.0) + 0.1, Dice(seed));
+    let (half, mut dice) = (half_floor(robots, 200.0) + 0.1, Dice::new(0, seed));
     let obstacles = vec![
         Obstacle::Rect { min: Vec2::new(-0.05, -half * 0.5), max: Vec2::new(0.05, half * 0.3) },
         Obstacle::Disc { at: Vec2::new(half * 0.55, 0.0), radius_m: 0.1 },
@@ -184,8 +156,8 @@ fn dead(robots: usize, seed: u64) -> TransitionProblem {
         let wall = at.x.abs() > 0.05 + gap || at.y < -half * 0.5 - gap || at.y > half * 0.3 + gap;
         wall && at.distance(Vec2::new(half * 0.55, 0.0)) > 0.1 + gap
     };
-    let standing = dice.places(robots / 30 + 1, half, &|at| clear_of_things(at, 0.1));
+    let standing = places(&mut dice, robots / 30 + 1, half, &|at| clear_of_things(at, 0.1));
     let clear = |at: Vec2| clear_of_things(at, 0.04) && standing.iter().all(|s| s.distance(at) >= APART_M);
-    let (starts, goals) = (dice.places(robots, half, &clear), dice.places(robots, half, &clear));
+    let (starts, goals) = (places(&mut dice, robots, half, &clear), places(&mut dice, robots, half, &clear));
     TransitionProblem { obstacles, standing: standing.clone(), ..problem(starts, goals, half) }
 }

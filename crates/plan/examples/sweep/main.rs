@@ -2,15 +2,19 @@
 //! `cargo run --release -p lightbots-plan --example sweep -- [KIND [COUNT [FIRST]]]`; exit code 1 where one is not.
 #![allow(clippy::print_stdout)]
 
+#[path = "../common/cpu.rs"]
+mod cpu;
 mod crowds;
+#[path = "../common/dice.rs"]
 mod dice;
+#[path = "../common/places.rs"]
 mod places;
 mod rooms;
 
-use lightbots_plan::proof::{ProofInput, prove};
+use cpu::Watch;
+use lightbots_plan::proof::prove;
 use lightbots_plan::{TransitionProblem, transition};
 use std::process::ExitCode;
-use std::time::Instant;
 
 /// A kind of transition, and what makes one of a number.
 type Kind = (&'static str, fn(u64) -> TransitionProblem);
@@ -27,11 +31,9 @@ struct Row {
 impl Row {
     /// Solves one and counts it; what went wrong, if anything.
     fn solve(&mut self, problem: &TransitionProblem) -> Option<String> {
-        let began = Instant::now();
-        let before_ms = cpu_ms();
+        let watch = Watch::started();
         let plan = transition(problem);
-        let wall_ms = began.elapsed().as_secs_f64() * 1e3;
-        let millis = cpu_ms().zip(before_ms).map_or(wall_ms, |(after, before)| after - before);
+        let millis = watch.ms();
         self.cases += 1;
         self.millis.push(millis);
         let robots = problem.starts.len();
@@ -40,15 +42,7 @@ impl Row {
             Err(stuck) => return Some(format!("{robots} robots, {millis:.0} ms: {}", stuck.message)),
         };
         self.ratios.push(plan.duration.as_secs() / (plan.lower_bound_s + 0.62));
-        let proof = prove(&ProofInput {
-            paths: &plan.paths,
-            standing: &problem.standing,
-            obstacles: &problem.obstacles,
-            half_floor: problem.half_floor,
-            limits: &problem.limits,
-            gap_m: problem.limits.contact_m() + 0.003,
-            obstacle_gap_m: 0.003,
-        });
+        let proof = prove(&problem.to_prove(&plan.paths));
         let arrived =
             plan.goal_of.iter().enumerate().filter_map(|(robot, goal)| goal.map(|goal| (robot, goal)));
         let arrived =
@@ -86,12 +80,6 @@ impl Row {
             millis[2]
         );
     }
-}
-
-/// What this thread has computed so far, milliseconds, so that a busy machine does not falsify times. Linux only.
-fn cpu_ms() -> Option<f64> {
-    let text = std::fs::read_to_string("/proc/thread-self/schedstat").ok()?;
-    Some(text.split_whitespace().next()?.parse::<f64>().ok()? / 1e6)
 }
 
 fn main() -> ExitCode {

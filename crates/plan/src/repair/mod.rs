@@ -34,16 +34,13 @@ mod weave;
 
 use lightbots_base::{Span, Vec2};
 
-use crate::proof::{FaultKind, Proof, ProofInput, prove};
+use crate::proof::{FaultKind, Proof, prove};
 use crate::{Path, TransitionProblem};
 use scene::Scene;
 use weave::Weave;
 
 /// The rest at the beginning of every path, in which robots turn towards their way.
 const TURN: Span = Span(350_000);
-
-/// Least gap between rims, and off obstacles, that a way must prove to keep where its ends leave it, metres.
-const GAP_M: f64 = 0.003;
 
 /// How many times as long as estimated a way is given until every robot can turn as it asks for.
 const SLOWER: [f64; 3] = [1.0, 1.02, 1.05];
@@ -103,15 +100,7 @@ fn proven(problem: &TransitionProblem, scene: &Scene, mut weave: Weave) -> Resul
 
 /// What the proof says of a weave whose spans take so long, if it does not hold.
 fn refused(problem: &TransitionProblem, weave: &Weave, span: Span) -> Option<Proof> {
-    let proof = prove(&ProofInput {
-        paths: &weave.paths(TURN, span),
-        standing: &problem.standing,
-        obstacles: &problem.obstacles,
-        half_floor: problem.half_floor,
-        limits: &problem.limits,
-        gap_m: problem.limits.contact_m() + GAP_M,
-        obstacle_gap_m: GAP_M,
-    });
+    let proof = prove(&problem.to_prove(&weave.paths(TURN, span)));
     (!proof.holds()).then_some(proof)
 }
 

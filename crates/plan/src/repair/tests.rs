@@ -1,7 +1,7 @@
 //! Whole repairs, judged by the proof.
 
 use super::*;
-use crate::proof::{Proof, ProofInput, prove};
+use crate::proof::prove;
 use crate::seeded::Seeded;
 use lightbots_base::{Limits, Vec2};
 use lightbots_show::Obstacle;
@@ -30,25 +30,13 @@ fn random(count: usize, half: f64, apart: f64, seed: u64) -> TransitionProblem {
     problem(starts, goals, half)
 }
 
-fn judge(problem: &TransitionProblem, paths: &[Path]) -> Proof {
-    prove(&ProofInput {
-        paths,
-        standing: &problem.standing,
-        obstacles: &problem.obstacles,
-        half_floor: problem.half_floor,
-        limits: &problem.limits,
-        gap_m: problem.limits.contact_m() + 0.003,
-        obstacle_gap_m: 0.003,
-    })
-}
-
 /// Repairs with goal i for start i, asserts that the proof holds and paths are whole, and returns the duration over
 /// that of the longest straight line.
 fn ratio(problem: &TransitionProblem) -> f64 {
     let goal_of: Vec<Option<usize>> =
         (0..problem.starts.len()).map(|i| (i < problem.goals.len()).then_some(i)).collect();
     let paths = repair(problem, &goal_of).expect("a way").paths;
-    let proof = judge(problem, &paths);
+    let proof = prove(&problem.to_prove(&paths));
     assert!(proof.holds(), "{} conflicts, faults {:?}", proof.conflicts.len(), proof.faults);
     for (i, path) in paths.iter().enumerate() {
         assert_eq!(path.start, problem.starts[i]);
@@ -265,13 +253,13 @@ fn a_wished_for_duration_is_kept() {
     let goal_of: Vec<Option<usize>> = (0..10).map(Some).collect();
     let Repaired { paths, least } = repair(&problem, &goal_of).unwrap();
     assert!((paths[0].as_ref().duration().as_secs() - 20.0).abs() < 1e-3);
-    assert!(judge(&problem, &paths).holds());
+    assert!(prove(&problem.to_prove(&paths)).holds());
     // The least is what the same problem takes without a wish, and may be wished for.
     for wish in [None, Some(least)] {
         problem.duration = wish;
         let quick = repair(&problem, &goal_of).unwrap();
         assert_eq!((quick.least, quick.paths[0].as_ref().duration()), (least, least));
-        assert!(judge(&problem, &quick.paths).holds() && least < Span::from_secs(10.0));
+        assert!(prove(&problem.to_prove(&quick.paths)).holds() && least < Span::from_secs(10.0));
     }
 }
 

@@ -36,15 +36,8 @@ impl Candidate {
 
     /// Any paths, all equally long.
     pub fn of_paths(problem: &TransitionProblem, paths: Vec<Path>, goal_of: Vec<Option<usize>>) -> Self {
-        let proof = prove(&ProofInput {
-            paths: &paths,
-            standing: &problem.standing,
-            obstacles: &problem.obstacles,
-            half_floor: problem.half_floor,
-            limits: &problem.limits,
-            gap_m: problem.limits.contact_m() + COMFORT_M,
-            obstacle_gap_m: MARGIN_M,
-        });
+        let gap_m = problem.limits.contact_m() + COMFORT_M;
+        let proof = prove(&ProofInput { gap_m, ..problem.to_prove(&paths) });
         let duration = paths.iter().map(|path| path.as_ref().duration()).max().unwrap_or(Span::ZERO);
         let closest = proof.closest;
         let transition =

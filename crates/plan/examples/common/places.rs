@@ -1,4 +1,6 @@
 //! Places to stand at.
+// Not every example needs all of it.
+#![allow(dead_code)]
 
 use super::dice::Dice;
 use lightbots_base::{Limits, Vec2};

@@ -1,4 +1,6 @@
 //! Repeatable numbers.
+// Not every example needs all of it.
+#![allow(dead_code)]
 
 use lightbots_base::Vec2;
 
