@@ -31,6 +31,8 @@ const ASK_PER_ROBOT: Span = Span::from_millis(1);
 const NAMED_AFTER: Span = Span::from_millis(2_000);
 /// … where it then stands near enough to its goal, it is taken to be there, …
 const ACCEPTED_AFTER: Span = Span::from_millis(1_000);
+/// Who stands at its goal for so long and does not say that it arrived is told again: that, or its target, was lost.
+const SAYS_SO: Span = Span::from_millis(250);
 /// … and given up after so many times the patience with late robots.
 const PATIENCE: i64 = 2;
 
@@ -165,7 +167,8 @@ impl Run {
         if state.told >= 1.0 && (arrived || !held) {
             let off_m = at.distance(hop.to);
             let waited = now - state.moved_at > ACCEPTED_AFTER;
-            if is_there(at, hop.to, desk.config.arrival_tolerance_m) {
+            let there = is_there(at, hop.to, desk.config.arrival_tolerance_m);
+            if there && (arrived || waited) {
                 if arrived {
                     let (from, index) = (hop.from, self.seats[seat].robot);
                     let target = self.beyond(hop, desk.fleet.robot(index).short_m);
@@ -173,6 +176,9 @@ impl Run {
                 }
                 self.end_hop(desk, now, place, None);
                 return;
+            } else if there && now - state.told_at.max(state.moved_at) > SAYS_SO {
+                // It may also never have heard of this target, and still be as far off as a robot there may be.
+                self.tell(desk, now, place);
             } else if arrived && waited && off_m <= MISSED_M {
                 self.end_hop(desk, now, place, Some(off_m));
                 return;

@@ -3,6 +3,7 @@
 mod fleet;
 
 use fleet::{World, show};
+use lightbots_base::Vec2;
 use lightbots_control::{EventKind, MissingPolicy, Operation, Outcome};
 
 const CONTACT_M: f64 = 0.054;
@@ -34,6 +35,25 @@ fn lost_targets_are_said_again() {
     world.loss = 20;
     world.play();
     assert_eq!(world.run_to_end(300.0), (Outcome::Finished, 2, 0), "{}", world.story());
+}
+
+#[test]
+fn who_is_near_its_goal_is_not_there_before_it_says_so() {
+    // The target of a robot 18 mm from its goal was lost: it was taken to be there, and others passed too close.
+    let mut show = show(2, 1, 0.5);
+    show.frames[1].pixels[0].at = show.frames[0].pixels[0].at + Vec2::new(0.018, 0.0);
+    let goal = show.frames[1].pixels[0].at;
+    let mut world = World::ready(1, 1, show);
+    world.play();
+    world.run_until(60.0, |kind| matches!(kind, EventKind::FrameReached { .. }));
+    world.deaf = vec![0];
+    world.run_until(60.0, |kind| matches!(kind, EventKind::TransitionStarted { .. }));
+    world.run_for(0.05);
+    let at = world.robots[0].at;
+    world.inject("T/LightBot/UUID", format!("robot-0 {} {}", at.x, at.y).as_bytes());
+    world.deaf.clear();
+    assert_eq!(world.run_to_end(60.0), (Outcome::Finished, 2, 0), "{}", world.story());
+    assert!(world.robots[0].at.distance(goal) < 0.01, "{:?} for {goal:?}", world.robots[0].at);
 }
 
 #[test]
