@@ -33,6 +33,8 @@ const NAMED_AFTER: Span = Span::from_millis(2_000);
 const ACCEPTED_AFTER: Span = Span::from_millis(1_000);
 /// Who stands at its goal for so long and does not say that it arrived is told again: that, or its target, was lost.
 const SAYS_SO: Span = Span::from_millis(250);
+/// After so long it is believed all the same: it has been told again many times.
+const SAID_BY: Span = Span::from_millis(2_000);
 /// … and given up after so many times the patience with late robots.
 const PATIENCE: i64 = 2;
 
@@ -168,7 +170,7 @@ impl Run {
             let off_m = at.distance(hop.to);
             let waited = now - state.moved_at > ACCEPTED_AFTER;
             let there = is_there(at, hop.to, desk.config.arrival_tolerance_m);
-            if there && (arrived || waited) {
+            if there && (arrived || now - state.moved_at > SAID_BY) {
                 if arrived {
                     let (from, index) = (hop.from, self.seats[seat].robot);
                     let target = self.beyond(hop, desk.fleet.robot(index).short_m);

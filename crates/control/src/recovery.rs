@@ -192,7 +192,7 @@ impl Run {
             let bound = match trouble {
                 Some(Trouble::Cut) => CLOCK,
                 Some(Trouble::Deaf) if desk.fleet.robot(self.seats[seat].robot).is_original() => DRIVES_ON,
-                _ => desk.config.silence + ANSWERS + self.round_trip * 2,
+                _ => desk.config.silence + ANSWERS * self.tries(desk, seat) + self.round_trip * 2,
             };
             let unanswered = matches!(trouble, Some(Trouble::Cut | Trouble::Deaf));
             let bound = if unanswered { bound.max(self.patience(gathering.since)) } else { bound };
@@ -213,6 +213,12 @@ impl Run {
     /// How long from `since` on a robot that is heard may not answer because the broker came back only now.
     pub fn patience(&self, since: Instant) -> Span {
         self.online.map_or(Span::ZERO, |online| (online + AGREES - since).max(Span::ZERO))
+    }
+
+    /// How many times longer a robot's answer is waited for: an original says nothing of its own accord, so that a
+    /// question and its answer must both come through.
+    fn tries(&self, desk: &Desk, seat: usize) -> i64 {
+        if desk.fleet.robot(self.seats[seat].robot).is_original() { 3 } else { 1 }
     }
 
     /// Whether any robot that takes part is an original one.
