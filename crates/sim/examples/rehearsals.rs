@@ -78,7 +78,8 @@ fn line(show: &Show, options: &RehearsalOptions) -> bool {
         report.state_hash,
         report.duration_s / begin.elapsed().as_secs_f64(),
     );
-    for issue in report.issues.iter().take(8) {
+    let (errors, others): (Vec<_>, Vec<_>) = report.issues.iter().partition(|issue| issue.is_error());
+    for issue in errors.into_iter().chain(others).take(8) {
         println!("          {:?}: {}", issue.severity, issue.message);
     }
     report.ok
