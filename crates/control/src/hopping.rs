@@ -31,6 +31,10 @@ const ASK_PER_ROBOT: Span = Span::from_millis(1);
 const NAMED_AFTER: Span = Span::from_millis(2_000);
 /// … where it then stands near enough to its goal, it is taken to be there, …
 const ACCEPTED_AFTER: Span = Span::from_millis(1_000);
+/// Who says that it arrived farther from its goal than this, metres, is told again, so often: it stopped where it was
+/// told before, or more short than known. Others may pass no farther away than leaves room for a little more than that.
+const OFF_M: f64 = 0.015;
+const CORRECTIONS: u8 = 2;
 /// Who stands at its goal for so long and does not say that it arrived is told again: that, or its target, was lost.
 const SAYS_SO: Span = Span::from_millis(250);
 /// After so long it is believed all the same: it has been told again many times.
@@ -59,6 +63,8 @@ struct State {
     told_at: Instant,
     /// When it was told to go farther or got on last.
     moved_at: Instant,
+    /// How often it was told again because it stood beside its goal.
+    corrected: u8,
     done: bool,
     /// It was said that it does not get on.
     named: bool,
@@ -71,6 +77,7 @@ impl Hops {
             told: 0.0,
             told_at: Instant::ZERO,
             moved_at: Instant::ZERO,
+            corrected: 0,
             done: false,
             named: false,
         };
@@ -166,27 +173,36 @@ impl Run {
         if (passed - state.passed) * length_m > MOVED_M {
             (state.passed, state.moved_at) = (passed.min(1.0), now);
         }
-        if state.told >= 1.0 && (arrived || !held) {
-            let off_m = at.distance(hop.to);
-            let waited = now - state.moved_at > ACCEPTED_AFTER;
-            let there = is_there(at, hop.to, desk.config.arrival_tolerance_m);
-            if there && (arrived || now - state.moved_at > SAID_BY) {
-                if arrived {
-                    let (from, index) = (hop.from, self.seats[seat].robot);
-                    let target = self.beyond(hop, desk.fleet.robot(index).short_m);
-                    desk.fleet.robot_mut(index).learn_short(from, target, at);
-                }
-                self.end_hop(desk, now, place, None);
-                return;
-            } else if there && now - state.told_at.max(state.moved_at) > SAYS_SO {
-                // It may also never have heard of this target, and still be as far off as a robot there may be.
-                self.tell(desk, now, place);
-            } else if arrived && waited && off_m <= MISSED_M {
-                self.end_hop(desk, now, place, Some(off_m));
-                return;
-            }
+        let told = state.told >= 1.0 && (arrived || !held);
+        if !(told && self.settle(desk, now, place, at, arrived)) {
+            self.let_follow(desk, now, place);
         }
-        self.let_follow(desk, now, place);
+    }
+
+    /// An original robot that was told its goal says where it is: whether that ends its hop.
+    fn settle(&mut self, desk: &mut Desk, now: Instant, place: usize, at: Vec2, arrived: bool) -> bool {
+        let Some(leg) = &self.current else { return false };
+        let (hop, state) = (&leg.hops[place], self.hops.states[place]);
+        let (index, off_m, stood) = (self.seats[hop.robot].robot, at.distance(hop.to), now - state.moved_at);
+        let there = is_there(at, hop.to, desk.config.arrival_tolerance_m);
+        if there && arrived {
+            let target = self.beyond(hop, desk.fleet.robot(index).short_m);
+            desk.fleet.robot_mut(index).learn_short(hop.from, target, at);
+        }
+        if there && arrived && off_m > OFF_M && state.corrected < CORRECTIONS {
+            self.hops.states[place].corrected += 1;
+            self.tell(desk, now, place);
+        } else if there && (arrived || stood > SAID_BY) {
+            self.end_hop(desk, now, place, None);
+            return true;
+        } else if there && now - state.told_at.max(state.moved_at) > SAYS_SO {
+            // It may also never have heard of this target, and still be as far off as a robot there may be.
+            self.tell(desk, now, place);
+        } else if arrived && stood > ACCEPTED_AFTER && off_m <= MISSED_M {
+            self.end_hop(desk, now, place, Some(off_m));
+            return true;
+        }
+        false
     }
 
     fn let_follow(&mut self, desk: &mut Desk, now: Instant, place: usize) {

@@ -57,6 +57,25 @@ fn who_is_near_its_goal_is_not_there_before_it_says_so() {
 }
 
 #[test]
+fn who_says_it_arrived_far_from_its_goal_is_told_again() {
+    // An arrival may belong to the target before: then the robot stands 25 mm away, where others pass.
+    let mut show = show(2, 1, 0.5);
+    show.frames[1].pixels[0].at = show.frames[0].pixels[0].at + Vec2::new(0.06, 0.0);
+    let goal = show.frames[1].pixels[0].at;
+    let mut world = World::ready(1, 1, show);
+    world.play();
+    world.run_until(60.0, |kind| matches!(kind, EventKind::FrameReached { .. }));
+    world.deaf = vec![0];
+    world.run_until(60.0, |kind| matches!(kind, EventKind::TransitionStarted { .. }));
+    world.run_for(0.05);
+    let said = goal - Vec2::new(0.018, 0.018);
+    world.inject("T/LightBot/Arrival", format!("robot-0 {} {}", said.x, said.y).as_bytes());
+    world.deaf.clear();
+    assert_eq!(world.run_to_end(60.0), (Outcome::Finished, 2, 0), "{}", world.story());
+    assert!(world.robots[0].at.distance(goal) < 0.015, "{:?} for {goal:?}", world.robots[0].at);
+}
+
+#[test]
 fn who_was_not_heard_when_it_was_switched_on_is_found_soon() {
     // Asked for each two seconds, one of thirty could stay unknown until the show began where links lose every fifth
     // message, and was driven into.
