@@ -42,6 +42,11 @@ impl Corners {
         Self { places, sees }
     }
 
+    /// All of them, stage metres.
+    pub fn places(&self) -> &[Vec2] {
+        &self.places
+    }
+
     /// A lattice that reaches through gaps and into corners that rows of nodes pass by: first come nodes in narrow
     /// gaps, then rows where these leave room, then more wherever one fits. `None` as for any lattice.
     pub fn lattice(&self, scene: &Scene, pitch_m: f64) -> Option<Lattice> {

@@ -7,8 +7,10 @@
 //! little more time at each stage, and the last few that do not come past each other are sent elsewhere. Where that does
 //! not do, a crowd gets more time, and loosens before anybody goes anywhere ([`attempts`]). Crowds too thick for that
 //! first learn their order on a hexagonal lattice ([`lattice`], [`dock`], [`search`], [`steps`]), and the same
-//! relaxation makes that smooth and swift; between walls the lattice follows gaps from corner to corner ([`corners`]). Every loop is bounded, nothing is random, and the proof has the last
-//! word; where it only finds a turn too sharp, all drive a little slower.
+//! relaxation makes that smooth and swift; between walls the lattice follows gaps from corner to corner ([`corners`]). The last resort are ways with
+//! stops ([`stops`]) over a roadmap ([`roadmap`]): slow, but what the search ([`push`]) finds can be driven as it is.
+//! Every loop is bounded, nothing is random, and the proof has the last word; where it only finds a turn too sharp, all
+//! drive a little slower.
 
 mod around;
 mod attempts;
@@ -18,14 +20,19 @@ mod corners;
 mod crowd;
 mod dock;
 mod guess;
+mod hops;
 mod lattice;
 mod ordered;
 mod pace;
+mod push;
 mod relax;
+mod roadmap;
 mod scene;
 mod search;
+mod shorten;
 mod slow;
 mod steps;
+mod stops;
 #[cfg(test)]
 mod tests;
 mod travel;
@@ -36,6 +43,7 @@ use lightbots_base::{Span, Vec2};
 
 use crate::proof::{FaultKind, Proof, prove};
 use crate::{Path, TransitionProblem};
+use corners::Corners;
 use scene::Scene;
 use weave::Weave;
 
@@ -60,9 +68,17 @@ pub struct Repaired {
 /// in the attempt that left fewest; empty where it failed for something else.
 pub fn repair(problem: &TransitionProblem, goal_of: &[Option<usize>]) -> Result<Repaired, Vec<Meeting>> {
     let scene = Scene::new(problem, goal_of).ok_or_else(Vec::new)?;
-    let weave = attempts::best(&scene, problem.easing, &|weave| proven(problem, &scene, weave))?;
-    let least = TURN + Span(least_span(&scene, &weave).0 * weave.spans as i64);
-    Ok(Repaired { paths: weave.paths(TURN, span_of(problem, &scene, &weave)), least })
+    match attempts::best(&scene, problem.easing, &|weave| proven(problem, &scene, weave)) {
+        Ok(weave) => {
+            let least = TURN + Span(least_span(&scene, &weave).0 * weave.spans as i64);
+            Ok(Repaired { paths: weave.paths(TURN, span_of(problem, &scene, &weave)), least })
+        }
+        Err(left) => {
+            let corners = Corners::new(&scene);
+            let found = stops::with_stops(&scene, &corners, problem.duration);
+            found.filter(|found| prove(&problem.to_prove(&found.paths)).holds()).ok_or(left)
+        }
+    }
 }
 
 /// Two robots that do not get past each other.

@@ -7,6 +7,7 @@ use super::guess::MOST_SPANS;
 use super::lattice::{Lattice, NONE};
 use super::scene::Scene;
 use super::search::search;
+use super::steps::Stepper;
 use super::weave::Weave;
 
 /// A weave of steps over the lattice, at a pace in which its corners are about legal; `None` where no order was found.
@@ -19,7 +20,7 @@ pub(super) fn ordered(scene: &Scene, lattice: &Lattice) -> Option<Weave> {
     for (&robot, &node) in bound.iter().zip(&docks) {
         goals[robot] = node;
     }
-    let steps = search(lattice, &starts, &goals)?;
+    let steps = search(&mut Stepper::new(lattice, &goals), &starts, &goals)?;
     let pitch = lattice.pitch_m;
     let legs = |robot: usize, node: u32, place: Vec2| (robot, lattice.places[node as usize].distance(place));
     let farthest =

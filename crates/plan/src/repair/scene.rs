@@ -66,7 +66,12 @@ impl Scene {
 
     /// The centre distance two robots must keep, metres.
     pub fn least_gap(&self, a: usize, b: usize) -> f64 {
-        (self.limits.contact_m() + LEAST_MARGIN_M).min(self.ends_apart(a, b) - 1e-6)
+        self.widest_gap_m().min(self.ends_apart(a, b) - 1e-6)
+    }
+
+    /// The most of any two's, metres: who is farther apart keeps it whoever they are.
+    pub fn widest_gap_m(&self) -> f64 {
+        self.limits.contact_m() + LEAST_MARGIN_M
     }
 
     /// How far a robot's ends let it stay off a wall, at most `wish`, metres.

@@ -1,15 +1,35 @@
 //! The way of everybody over the lattice: lazy constraints search (LaCAM; Okumura 2023). Depth first from one
-//! configuration to the next that [`steps`](super::steps) offers; where that leads back, single robots are ordered
-//! elsewhere, one order more each time. Complete on the lattice, were it not for the bound on work.
+//! configuration to the next that a [`Steps`] offers; where that leads back, single robots are ordered
+//! elsewhere, one order more each time. Complete on the nodes, were it not for the bound on work.
 
 use std::collections::BTreeMap;
 use std::collections::VecDeque;
 
-use super::lattice::{Lattice, NONE};
-use super::steps::{Order, Stepper};
+use super::lattice::NONE;
 
 /// Robot-steps planned before giving up.
 const MOST_WORK: usize = 1_500_000;
+
+/// A robot that must go to a node in a step.
+pub(super) type Order = (usize, u32);
+
+/// Nodes, the ways between them, and who may go at the same time.
+pub(super) trait Steps {
+    /// Nodes a robot may go to from another, beside staying.
+    fn around(&self, robot: usize, node: u32) -> impl Iterator<Item = u32>;
+
+    /// How far a robot still has to go from a node; infinite where there is no way, 0 for those without goal.
+    fn far(&self, robot: usize, node: u32) -> f64;
+
+    /// Where everybody stands after one step from `now`: robots earlier in `ranks` choose first, `orders` are
+    /// followed. `None` where the orders cannot be.
+    fn step(&mut self, now: &[u32], ranks: &[usize], orders: &[Order]) -> Option<Vec<u32>>;
+
+    /// Whether more work than was granted has been done.
+    fn is_spent(&self) -> bool {
+        false
+    }
+}
 
 /// One configuration that has been reached.
 struct Visit {
@@ -24,19 +44,18 @@ struct Visit {
 }
 
 /// `[step][robot]`: nodes from `starts` until everybody with a goal is there; `None` where not found.
-pub(super) fn search(lattice: &Lattice, starts: &[u32], goals: &[u32]) -> Option<Vec<Vec<u32>>> {
-    let mut stepper = Stepper::new(lattice, goals);
-    let far: Vec<u16> = (0..starts.len()).map(|robot| stepper.steps_left(robot, starts[robot])).collect();
-    if far.contains(&u16::MAX) {
+pub(super) fn search(stepper: &mut impl Steps, starts: &[u32], goals: &[u32]) -> Option<Vec<Vec<u32>>> {
+    let far: Vec<f64> = (0..starts.len()).map(|robot| stepper.far(robot, starts[robot])).collect();
+    if far.contains(&f64::INFINITY) {
         return None;
     }
-    let longest = f64::from(far.iter().copied().max().unwrap_or(0)) + 1.0;
-    let share: Vec<f64> = far.iter().map(|&steps| f64::from(steps) / longest).collect();
+    let longest = far.iter().copied().fold(0.0, f64::max) + 1.0;
+    let share: Vec<f64> = far.iter().map(|far| far / longest).collect();
     let mut visits = vec![Visit::new(starts.to_vec(), 0, share.clone())];
     let mut known = BTreeMap::from([(starts.to_vec(), 0)]);
     let mut open = vec![0];
     let mut work = MOST_WORK / starts.len().max(1);
-    while let Some(&top) = open.last() {
+    while let Some(&top) = open.last().filter(|_| !stepper.is_spent()) {
         work = work.checked_sub(1)?;
         let visit = &mut visits[top];
         if visit.nodes.iter().zip(goals).all(|(node, goal)| *goal == NONE || node == goal) {
@@ -46,7 +65,7 @@ pub(super) fn search(lattice: &Lattice, starts: &[u32], goals: &[u32]) -> Option
             open.pop();
             continue;
         };
-        visit.branch(lattice, &orders);
+        visit.branch(stepper, &orders);
         let visit = &visits[top];
         let Some(next) = stepper.step(&visit.nodes, &visit.ranks, &orders) else { continue };
         if let Some(&seen) = known.get(&next) {
@@ -73,11 +92,10 @@ impl Visit {
     }
 
     /// Adds every order for the next robot by urgency to those that `orders` already holds.
-    fn branch(&mut self, lattice: &Lattice, orders: &[Order]) {
+    fn branch(&mut self, stepper: &impl Steps, orders: &[Order]) {
         let Some(&robot) = self.ranks.get(orders.len()) else { return };
         let here = self.nodes[robot];
-        let around = lattice.neighbours[here as usize].into_iter().filter(|&node| node != NONE);
-        for node in around.chain([here]) {
+        for node in stepper.around(robot, here).chain([here]) {
             self.orders.push_back(orders.iter().copied().chain([(robot, node)]).collect());
         }
     }
@@ -95,7 +113,9 @@ fn trace(visits: &[Visit], mut at: usize) -> Vec<Vec<u32>> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::lattice::Lattice;
     use super::super::scene::Scene;
+    use super::super::steps::Stepper;
     use super::*;
     use crate::TransitionProblem;
     use lightbots_base::{Limits, Vec2};
@@ -138,7 +158,7 @@ mod tests {
         let count = lattice.places.len();
         let starts: Vec<u32> = (0..count as u32).filter(|node| node % 2 == 0).collect();
         let goals: Vec<u32> = starts.iter().rev().copied().collect();
-        let steps = search(&lattice, &starts, &goals).unwrap();
+        let steps = search(&mut Stepper::new(&lattice, &goals), &starts, &goals).unwrap();
         assert_eq!(steps.first(), Some(&starts));
         assert_eq!(steps.last(), Some(&goals));
         assert_legal(&lattice, &steps);
@@ -151,7 +171,7 @@ mod tests {
         let mut goals = vec![NONE; starts.len()];
         goals[0] = lattice.places.len() as u32 / 2;
         goals[1] = 0;
-        let steps = search(&lattice, &starts, &goals).unwrap();
+        let steps = search(&mut Stepper::new(&lattice, &goals), &starts, &goals).unwrap();
         assert_legal(&lattice, &steps);
         assert_eq!(steps.last().unwrap()[1], 0);
     }

@@ -5,6 +5,7 @@
 use lightbots_base::Vec2;
 
 use super::lattice::{Lattice, NONE};
+use super::search::{Order, Steps};
 
 const NOBODY: u32 = u32::MAX;
 /// The direction of one who stays.
@@ -26,9 +27,6 @@ pub(super) struct Stepper<'a> {
     holder_next: Vec<u32>,
 }
 
-/// A robot that must go to a node in this step.
-pub(super) type Order = (usize, u32);
-
 impl<'a> Stepper<'a> {
     /// For robots that head for these goals.
     pub fn new(lattice: &'a Lattice, goals: &'a [u32]) -> Self {
@@ -45,15 +43,19 @@ impl<'a> Stepper<'a> {
             holder_next: vec![NOBODY; nodes],
         }
     }
+}
 
-    /// Steps a robot still has to go from a node at least; 0 for those without goal.
-    pub fn steps_left(&self, robot: usize, node: u32) -> u16 {
-        self.steps[robot].get(node as usize).copied().unwrap_or(0)
+impl Steps for Stepper<'_> {
+    fn around(&self, _robot: usize, node: u32) -> impl Iterator<Item = u32> {
+        self.lattice.neighbours[node as usize].into_iter().filter(|&node| node != NONE)
     }
 
-    /// Where everybody stands after one step from `now`: robots earlier in `ranks` choose first, `orders` are
-    /// followed. `None` where the orders cannot be.
-    pub fn step(&mut self, now: &[u32], ranks: &[usize], orders: &[Order]) -> Option<Vec<u32>> {
+    fn far(&self, robot: usize, node: u32) -> f64 {
+        let steps = self.steps[robot].get(node as usize).copied().unwrap_or(0);
+        if steps == u16::MAX { f64::INFINITY } else { f64::from(steps) }
+    }
+
+    fn step(&mut self, now: &[u32], ranks: &[usize], orders: &[Order]) -> Option<Vec<u32>> {
         self.now.clear();
         self.now.extend_from_slice(now);
         self.next.fill(NONE);
@@ -75,7 +77,9 @@ impl<'a> Stepper<'a> {
         }
         next.filter(|next| self.is_legal(now, next))
     }
+}
 
+impl Stepper<'_> {
     fn direction_to(&self, from: u32, to: u32) -> Option<u8> {
         if from == to {
             return Some(STAYS);

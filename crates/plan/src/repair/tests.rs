@@ -200,6 +200,23 @@ fn two_change_places_where_one_can_step_aside() {
 }
 
 #[test]
+fn two_change_places_where_one_must_stop_and_turn_into_a_bay() {
+    for (width, wide, deep, at) in [(0.062, 0.0875, 0.0713, -0.1771), (0.0754, 0.0701, 0.1027, -0.1568)] {
+        let half = Vec2::new(0.6, width / 2.0 + deep);
+        let (top, y) = (width - half.y, width / 2.0 - half.y);
+        let (a, b) = (Vec2::new(-0.4, y), Vec2::new(0.4, y));
+        let mut problem = problem(vec![a, b], vec![b, a], 0.6);
+        problem.half_floor = half;
+        problem.obstacles = vec![
+            Obstacle::Rect { min: Vec2::new(-0.6, top), max: Vec2::new(at - wide / 2.0, half.y) },
+            Obstacle::Rect { min: Vec2::new(at + wide / 2.0, top), max: half },
+        ];
+        let ratio = ratio(&problem);
+        assert!(ratio < 4.0, "{width} {wide}: {ratio}");
+    }
+}
+
+#[test]
 fn a_gap_one_robot_wide_is_passed_both_ways() {
     let (left, right) = (grid(2, Vec2::new(-0.4, 0.2)), grid(2, Vec2::new(0.4, -0.2)));
     let mut problem = problem([left.clone(), right.clone()].concat(), [right, left].concat(), 0.6);

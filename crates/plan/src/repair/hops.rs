@@ -1,0 +1,89 @@
+//! Timed paths of those who drive from stop to stop: in every step all who move leave and arrive together, after a rest
+//! in which they turn. Progress is one cubic for all, so everybody is on the straight line that was looked at.
+
+use lightbots_base::{Piece, Span, Vec2};
+
+use super::scene::Scene;
+use super::{Repaired, TURN};
+use crate::Path;
+
+/// A path holds as many pieces.
+const MOST_PIECES: usize = 128;
+/// How much more time than limits ask for.
+const EASE: f64 = 1.002;
+
+/// The paths through `stops[step][robot]`, as slow as is wished for; `None` where somebody stops too often for a path.
+pub(super) fn repaired(scene: &Scene, stops: &[Vec<Vec2>], wished: Option<Span>) -> Option<Repaired> {
+    let steps = timed(scene, stops);
+    let whole: i64 = steps.iter().map(|step| step.rest.0 + step.drive.0).sum();
+    let wished = wished.map_or(0, |wished| (wished - TURN).0);
+    let slower = (wished as f64 / whole.max(1) as f64).max(1.0);
+    let steps: Vec<Step> = steps.iter().map(|step| step.slower(slower)).collect();
+    let paths: Vec<Path> = (0..scene.robots()).map(|robot| path(robot, stops, &steps)).collect();
+    let is_short = paths.iter().all(|path| path.pieces.len() <= MOST_PIECES);
+    is_short.then_some(Repaired { paths, least: TURN + Span(whole) })
+}
+
+/// How long everybody rests, and then drives.
+struct Step {
+    rest: Span,
+    drive: Span,
+}
+
+impl Step {
+    fn slower(&self, times: f64) -> Self {
+        let stretched = |span: Span| Span((span.0 as f64 * times).ceil() as i64);
+        Self { rest: stretched(self.rest), drive: stretched(self.drive) }
+    }
+}
+
+/// The least time for each step.
+fn timed(scene: &Scene, stops: &[Vec<Vec2>]) -> Vec<Step> {
+    let limits = &scene.limits;
+    let mut headings: Vec<Option<Vec2>> = vec![None; scene.robots()];
+    let mut stood_s = vec![TURN.as_secs(); scene.robots()];
+    let micros = |seconds: f64| Span((seconds * 1e6).ceil() as i64);
+    let one = |pair: &[Vec<Vec2>]| {
+        let (mut rest_s, mut drive_s) = (0.0_f64, 0.0_f64);
+        for (robot, (from, to)) in pair[0].iter().zip(&pair[1]).enumerate() {
+            let Some(line) = (*to - *from).normalized() else { continue };
+            let turn = headings[robot].map_or(core::f64::consts::FRAC_PI_2, |before| {
+                Vec2::new(before.dot(line).abs(), before.cross(line).abs()).angle()
+            });
+            rest_s = rest_s.max(turn / limits.turn_radps * EASE - stood_s[robot]);
+            // The cubic is at most 1.5 times as fast as the mean, and speeds up by 6 lengths a square of its time.
+            let far_m = from.distance(*to);
+            let least_s = (1.5 * far_m / limits.speed_mps).max((6.0 * far_m / limits.accel_mps2).sqrt());
+            drive_s = drive_s.max(least_s * EASE);
+            headings[robot] = Some(line);
+        }
+        for (robot, (from, to)) in pair[0].iter().zip(&pair[1]).enumerate() {
+            stood_s[robot] = if from == to { stood_s[robot] + rest_s + drive_s } else { 0.0 };
+        }
+        Step { rest: micros(rest_s), drive: micros(drive_s) }
+    };
+    stops.windows(2).map(one).collect()
+}
+
+fn path(robot: usize, stops: &[Vec<Vec2>], steps: &[Step]) -> Path {
+    let start = stops[0][robot];
+    let mut pieces = Vec::new();
+    let mut rested = TURN;
+    for (pair, step) in stops.windows(2).zip(steps) {
+        let (from, to) = (pair[0][robot], pair[1][robot]);
+        rested += step.rest;
+        if from == to {
+            rested += step.drive;
+            continue;
+        }
+        if rested > Span::ZERO {
+            pieces.push(Piece::rest(from, rested));
+        }
+        pieces.push(Piece { duration: step.drive, c1: from, c2: to, end: to });
+        rested = Span::ZERO;
+    }
+    if rested > Span::ZERO {
+        pieces.push(Piece::rest(stops[stops.len() - 1][robot], rested));
+    }
+    Path { start, pieces }
+}
