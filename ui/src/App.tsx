@@ -19,7 +19,7 @@ export function App() {
   return (
     <MantineProvider theme={theme} defaultColorScheme="dark">
       <SessionContext value={session}>
-        <Notifications position="bottom-right" limit={4} />
+        <Notifications className="notices" position="bottom-left" limit={4} />
         <div className="app">
           <div>
             <Header view={view} />

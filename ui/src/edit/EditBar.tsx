@@ -10,6 +10,7 @@ import { useStore } from '../base/store';
 import { clockText } from '../base/time';
 import { IconButton } from '../shell/IconButton';
 import { segmentAt, timelineOf, totalOf } from '../model/timeline';
+import { startPlay } from '../live/start';
 import { useSession } from '../shell/session';
 import { goTo } from '../shell/useHash';
 import { useEditing, useEditor } from './context';
@@ -37,10 +38,12 @@ export function EditBar() {
     const segment = segmentAt(timeline, time_s);
     if (segment && segment.frame !== frame) editor.goToFrame(segment.frame);
   };
-  /** The whole show, whichever frame was drawn last. */
+  /** The whole show, whichever frame was drawn last; what is missing is shown there. */
   const playWithRobots = () => {
     session.frame.set(0);
     goTo('live');
+    editing.saver.flush();
+    if (session.live.playback.get().phase === 'ready') startPlay(session);
   };
   const step = (label: string, enabled: boolean, act: () => void, icon: ReactNode) => (
     <IconButton label={label} size="lg" disabled={!enabled} onClick={act}>

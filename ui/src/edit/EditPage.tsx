@@ -1,6 +1,7 @@
 import { Button, Group, Text, Title } from '@mantine/core';
 import { useEffect, useRef, useState } from 'react';
 import { useStore } from '../base/store';
+import { Bottom } from '../shell/Bottom';
 import { createShowInLibrary } from '../shell/createShow';
 import { useSession } from '../shell/session';
 import { ConflictDialog } from './ConflictDialog';
@@ -50,10 +51,10 @@ export function EditPage() {
     <EditingContext value={editing}>
       <main className="page" key={editing.keeper.id}>
         <EditStage />
-        <section className="bottom" aria-label="Frames and time">
+        <Bottom label="Frames and time">
           <EditBar />
           <EditStrip />
-        </section>
+        </Bottom>
         <Inspector />
         <EditKeys />
         <ConflictDialog />

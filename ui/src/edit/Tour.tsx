@@ -17,7 +17,7 @@ const STEPS = [
   ],
   [
     'Watch it, then play it',
-    'The arrow under the floor shows it here. Play with robots leads to the real floor, where Play lets them drive.',
+    'The arrow under the floor shows it here. Play with robots saves it, leads to the real floor, and lets them drive.',
   ],
 ] as const;
 

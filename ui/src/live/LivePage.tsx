@@ -1,3 +1,4 @@
+import { Bottom } from '../shell/Bottom';
 import { FleetSide } from './FleetSide';
 import { FrameStrip } from './FrameStrip';
 import { LiveStage } from './LiveStage';
@@ -9,10 +10,10 @@ export function LivePage() {
   return (
     <main className="page">
       <LiveStage />
-      <section className="bottom" aria-label="Playing">
+      <Bottom label="Playing">
         <Transport />
         <FrameStrip />
-      </section>
+      </Bottom>
       <FleetSide />
       <StartDialog />
     </main>

@@ -1,6 +1,9 @@
 import { expect, test, vi } from 'vitest';
 import { createStore } from '../base/store';
 import type { Session } from '../shell/session';
+import { createEditor } from '../model/editor';
+import { readShow } from '../model/json';
+import { createSaver, type Saved } from '../model/saver';
 import { followPlan, whenPlanned } from './start';
 import { createLive, hear } from './store';
 
@@ -16,7 +19,11 @@ const PLAN = {
 
 function setup() {
   const live = createLive();
-  const session = { live, waiting: createStore<ReturnType<Session['waiting']['get']>>(null) };
+  const session = {
+    live,
+    waiting: createStore<ReturnType<Session['waiting']['get']>>(null),
+    editing: createStore<ReturnType<Session['editing']['get']>>(null),
+  };
   const stop = followPlan(session);
   live.link.set('open');
   const open = (revision: number, name = 'A') =>
@@ -54,6 +61,24 @@ test('a plan of the show as it was is waited out too', () => {
   open(2);
   wish();
   expect(act).not.toHaveBeenCalled();
+  plan(2);
+  expect(act).toHaveBeenCalledTimes(1);
+});
+
+test('what was edited a moment ago is saved and planned before it is played', async () => {
+  const { plan, editing, live, wish, act } = setup();
+  let answer: (saved: Saved) => void = () => {};
+  const saver = createSaver('"1"', () => new Promise((resolve) => (answer = resolve)));
+  editing.set({ name: 'A', editor: createEditor(readShow({}), 0), saver });
+  plan(1);
+  saver.touch();
+  wish();
+  saver.flush();
+  answer({ ok: true, etag: '"2"' });
+  await vi.waitFor(() => expect(saver.state.get().name).toBe('saved'));
+  expect(act, 'the server has not said so yet').not.toHaveBeenCalled();
+  hear(live, { type: 'show', revision: 2, name: 'A', etag: '"2"', document: {} });
+  expect(act, 'there is no plan of it yet').not.toHaveBeenCalled();
   plan(2);
   expect(act).toHaveBeenCalledTimes(1);
 });

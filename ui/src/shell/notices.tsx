@@ -1,7 +1,7 @@
 import { Button, Group } from '@mantine/core';
 import { notifications } from '@mantine/notifications';
 
-/** Says something in the corner. Errors stay until they are closed. */
+/** Says something in the corner, and takes it back by itself; errors are left for longer. */
 export function tell(tone: 'good' | 'info' | 'error', message: string) {
   notifications.show({
     message,

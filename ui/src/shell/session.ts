@@ -5,6 +5,7 @@ import { createStore, type Store } from '../base/store';
 import { createDrafts, type Drafts, type LeftDraft } from '../model/drafts';
 import { connect, createLive, type Live } from '../live/store';
 import type { Editor } from '../model/editor';
+import type { Saver } from '../model/saver';
 import { tell } from './notices';
 
 /** What every part of the page shares. */
@@ -18,7 +19,7 @@ export interface Session {
   /** The frame chosen in the strip: where Play starts, what Preview shows. */
   frame: Store<number>;
   /** The editor of this screen; null: it has edited nothing. */
-  editing: Store<{ name: string; editor: Editor } | null>;
+  editing: Store<{ name: string; editor: Editor; saver: Saver } | null>;
   /** What is done when the plan of the show of that name has been made; null: nothing waits for it. */
   waiting: Store<{ name: string | null; act: () => void } | null>;
   /** Whether the checklist is shown. */
@@ -66,7 +67,7 @@ export function createSession(): Session {
   setInterval(() => orphans.set(drafts.left()), LOOK_MS);
   return {
     drafts,
-    editing: createStore<{ name: string; editor: Editor } | null>(null),
+    editing: createStore<ReturnType<Session['editing']['get']>>(null),
     waiting,
     checking: createStore(false),
     orphans,

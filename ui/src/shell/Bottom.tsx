@@ -1,0 +1,24 @@
+import { useLayoutEffect, useRef, type ReactNode } from 'react';
+
+/** What lies under the floor. Notices keep above it: it says how high it is. */
+export function Bottom({ label, children }: { label: string; children: ReactNode }) {
+  const section = useRef<HTMLElement>(null);
+  useLayoutEffect(() => {
+    const element = section.current;
+    if (!element) return;
+    const { style } = document.documentElement;
+    const say = () => style.setProperty('--bottom', `${element.offsetHeight}px`);
+    const observer = new ResizeObserver(say);
+    observer.observe(element);
+    say();
+    return () => {
+      observer.disconnect();
+      style.removeProperty('--bottom');
+    };
+  }, []);
+  return (
+    <section className="bottom" aria-label={label} ref={section}>
+      {children}
+    </section>
+  );
+}
