@@ -57,12 +57,18 @@ pub struct OpenShow {
 /// A line of the log.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS)]
 pub struct LogLine {
-    /// When, milliseconds since 1970.
+    /// Its number. A line with a number that was there before takes that line's place: it has grown.
+    pub id: u32,
+    /// When, milliseconds since 1970; of the first where it sums up many events.
     pub time_ms: u64,
     /// How grave.
     pub level: Level,
     /// One line for people.
     pub text: String,
+    /// How many robots it is about, where it sums up what happened to several; else 0.
+    pub count: usize,
+    /// Names of the first of them.
+    pub robots: Vec<String>,
 }
 
 /// How grave a line of the log is.

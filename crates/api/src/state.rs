@@ -8,6 +8,8 @@ use ts_rs::TS;
 pub struct State {
     /// The show clock, milliseconds.
     pub at_ms: f64,
+    /// How fast it goes: 1 is real time, less where this machine is too slow for its simulated robots.
+    pub pace: f64,
     /// Which `Fleet` names the robots of the message before.
     pub fleet: u32,
     /// The broker.

@@ -223,6 +223,15 @@ impl fmt::Display for Outcome {
     }
 }
 
+/// So many of something.
+struct Count<'a>(usize, &'a str);
+
+impl fmt::Display for Count<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} {}{}", self.0, self.1, if self.0 == 1 { "" } else { "s" })
+    }
+}
+
 impl fmt::Display for EventKind {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         use EventKind::*;
@@ -236,13 +245,22 @@ impl fmt::Display for EventKind {
             RobotGone(id) => write!(f, "Robot {id} is gone."),
             RobotBack(id) => write!(f, "Robot {id} is back."),
             FleetFull => write!(f, "Too many robots: further names are not remembered."),
-            ShowOpened { name, frames } => write!(f, "Show \"{name}\" with {frames} frames is open."),
-            RunBegun { from, robots } => write!(f, "Run with {robots} robots from frame {}.", from + 1),
-            Planned { frames } => write!(f, "Planned the way to {frames} frames."),
+            ShowOpened { name, frames } if name.trim().is_empty() => {
+                write!(f, "A show without a name, with {}, is open.", Count(*frames, "frame"))
+            }
+            ShowOpened { name, frames } => {
+                write!(f, "Show \"{name}\" with {} is open.", Count(*frames, "frame"))
+            }
+            RunBegun { from, robots } => {
+                write!(f, "Run with {} from frame {}.", Count(*robots, "robot"), from + 1)
+            }
+            Planned { frames } => write!(f, "Planned the way to {}.", Count(*frames, "frame")),
             PlanFailed { frame, message } => write!(f, "No way to frame {}: {message}", frame + 1),
             LeftOut { frame, pixels, count } => {
                 let more = if *count > pixels.len() { " and more" } else { "" };
-                write!(f, "Frame {}: {count} pixels stay dark: {pixels:?}{more}.", frame + 1)
+                let dark =
+                    if *count == 1 { "1 pixel stays dark" } else { &format!("{count} pixels stay dark") };
+                write!(f, "Frame {}: {dark}: {pixels:?}{more}.", frame + 1)
             }
             TransitionStarted { frame, duration, .. } => {
                 write!(f, "To frame {} in {:.2} s.", frame + 1, duration.as_secs())
@@ -263,11 +281,32 @@ impl fmt::Display for EventKind {
                 write!(f, "Robot {robot} stands {:.0} mm off its goal.", off_m * 1000.0)
             }
             UnexpectedArrival(id) => write!(f, "Robot {id} arrived unexpectedly."),
+            Suppressed(1) => write!(f, "One more event was not listed."),
             Suppressed(count) => write!(f, "{count} more events were not listed."),
             StoppedAll => write!(f, "All robots were told to stop."),
             RunEnded { outcome, frames_played, dropouts } => {
-                write!(f, "Run {outcome}; {frames_played} frames, {dropouts} dropouts.")
+                let (frames, dropouts) = (Count(*frames_played, "frame"), Count(*dropouts, "dropout"));
+                write!(f, "Run {outcome}; {frames}, {dropouts}.")
             }
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lines_count_in_words_people_use() {
+        let opened = |name: &str, frames| EventKind::ShowOpened { name: name.into(), frames }.to_string();
+        assert_eq!(opened("Heart", 1), "Show \"Heart\" with 1 frame is open.");
+        assert_eq!(opened(" ", 2), "A show without a name, with 2 frames, is open.");
+        assert_eq!(EventKind::Planned { frames: 1 }.to_string(), "Planned the way to 1 frame.");
+        assert_eq!(EventKind::RunBegun { from: 0, robots: 1 }.to_string(), "Run with 1 robot from frame 1.");
+        let dark = |count| EventKind::LeftOut { frame: 1, pixels: vec![7], count }.to_string();
+        assert_eq!(dark(1), "Frame 2: 1 pixel stays dark: [7].");
+        assert_eq!(dark(2), "Frame 2: 2 pixels stay dark: [7] and more.");
+        let ended = EventKind::RunEnded { outcome: Outcome::Finished, frames_played: 1, dropouts: 0 };
+        assert_eq!(ended.to_string(), "Run finished; 1 frame, 0 dropouts.");
     }
 }

@@ -263,6 +263,10 @@ export type State = {
  */
 at_ms: number, 
 /**
+ * How fast it goes: 1 is real time, less where this machine is too slow for its simulated robots.
+ */
+pace: number, 
+/**
  * Which `Fleet` names the robots of the message before.
  */
 fleet: number, 
@@ -422,7 +426,11 @@ status: Uint8Array, };
  */
 export type LogLine = { 
 /**
- * When, milliseconds since 1970.
+ * Its number. A line with a number that was there before takes that line's place: it has grown.
+ */
+id: number, 
+/**
+ * When, milliseconds since 1970; of the first where it sums up many events.
  */
 time_ms: number, 
 /**
@@ -432,7 +440,15 @@ level: Level,
 /**
  * One line for people.
  */
-text: string, };
+text: string, 
+/**
+ * How many robots it is about, where it sums up what happened to several; else 0.
+ */
+count: number, 
+/**
+ * Names of the first of them.
+ */
+robots: Array<string>, };
 
 /**
  * How grave a line of the log is.

@@ -1,12 +1,13 @@
 import { SegmentedControl } from '@mantine/core';
 import { useEffect, useRef, useState } from 'react';
 import { useStorePaced } from '../base/store';
+import type { LogLine } from '../api/types.gen';
 import { useSession } from '../shell/session';
-import { shortNames } from './robotWords';
+import { shortId, shortNames } from './robotWords';
 
 const WORDS = { debug: '', info: '', warn: 'Warning: ', error: 'Error: ' } as const;
 
-/** When thousands of robots come at once, each has a line. */
+/** Lines may come one upon the other. */
 const EVERY_MS = 100;
 
 /** What happened, newest at the end; nothing is done for it while nobody looks. */
@@ -45,18 +46,31 @@ function Lines({ only }: { only: string }) {
   );
   return (
     <ol className="log" aria-label="Log" tabIndex={0}>
-      {shown.map((line, i) => (
-        <li key={i} data-level={line.level}>
+      {shown.map((line) => (
+        <li key={line.id} data-level={line.level}>
           <time dateTime={new Date(line.time_ms).toISOString()}>
             {new Date(line.time_ms).toTimeString().slice(0, 8)}
           </time>
           <span>
             <b>{WORDS[line.level]}</b>
             {shortNames(line.text)}
+            {line.count > 0 ? <Names line={line} /> : null}
           </span>
         </li>
       ))}
       <li ref={end} aria-hidden />
     </ol>
+  );
+}
+
+/** Whom a line is about that sums up several robots; the names are there only while somebody wants to see them. */
+function Names({ line: { robots, count } }: { line: LogLine }) {
+  const [open, setOpen] = useState(false);
+  const more = count - robots.length;
+  return (
+    <details open={open} onToggle={(event) => setOpen(event.currentTarget.open)}>
+      <summary>Which</summary>
+      {open ? robots.map(shortId).join(', ') + (more > 0 ? ` and ${more} more` : '') : null}
+    </details>
   );
 }

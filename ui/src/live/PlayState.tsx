@@ -14,6 +14,7 @@ export function PlayState() {
   const text = useStore(live.playback, phaseText);
   const left = useStore(live.playback, (p) => (p.left_s === null ? null : clockText(p.left_s)));
   const late = useStore(live.playback, (p) => p.late.join(' '));
+  const pace = useStore(live.pace, (share) => Math.round(share * 100));
   const rows = live.fleet.get().rows;
   const names = (late ? late.split(' ') : []).map((id) => {
     const pixel = rows.find((row) => row.id === id)?.pixel;
@@ -43,6 +44,7 @@ export function PlayState() {
           <span className="quiet">{names.length === 20 ? '20+' : names.length} on the way</span>
         </Tooltip>
       ) : null}
+      {pace < 100 ? <SlowTime percent={pace} /> : null}
       {left === null ? null : (
         <span className="quiet">
           −{left}
@@ -50,5 +52,20 @@ export function PlayState() {
         </span>
       )}
     </div>
+  );
+}
+
+/** The machine that simulates the robots is too slow for them. */
+function SlowTime({ percent }: { percent: number }) {
+  return (
+    <Tooltip
+      multiline
+      w={260}
+      label={`The computer of the server cannot simulate so many robots in real time. They and the show go at ${percent} % of their speed instead; nothing is lost.`}
+    >
+      <span className="quiet slow-time" tabIndex={0} data-testid="pace">
+        at {percent} % speed
+      </span>
+    </Tooltip>
   );
 }

@@ -24,6 +24,8 @@ export interface Live {
   fleet: Store<Fleet>;
   broker: Store<Broker>;
   playback: Store<Playback>;
+  /** How fast the show clock goes; 1: as real time does. */
+  pace: Store<number>;
   log: Store<readonly LogLine[]>;
   track: Track;
 }
@@ -58,6 +60,7 @@ export function createLive(): Live {
       reason: null,
     }),
     playback: createStore<Playback>(NO_PLAYBACK),
+    pace: createStore(1),
     log: createStore<readonly LogLine[]>([]),
     track: createTrack(),
   };
@@ -87,15 +90,22 @@ export function hear(live: Live, message: ToScreen) {
       live.fleet.set(message);
       break;
     case 'log':
-      live.log.update((lines) => [...lines.slice(-LOG_MAX + 1), message]);
+      live.log.update((lines) => withLine(lines, message));
       break;
     case 'state':
       keep(live.broker, message.broker);
       keep(live.playback, message.playback);
+      live.pace.set(message.pace);
       break;
     case 'answer':
       break;
   }
+}
+
+/** A line that has grown takes the place of what it was before. */
+function withLine(lines: readonly LogLine[], line: LogLine): readonly LogLine[] {
+  const before = lines.findLastIndex(({ id }) => id === line.id);
+  return before >= 0 ? lines.with(before, line) : [...lines.slice(-LOG_MAX + 1), line];
 }
 
 /** Sets a value unless it says the same as the one before. */

@@ -1,6 +1,7 @@
 //! `robots`: simulated robots only.
 
 use std::path::Path;
+use std::sync::Arc;
 
 use lightbots_base::Vec2;
 use lightbots_show::{Stage, front_rows};
@@ -9,6 +10,7 @@ use lightbots_sim::{Conditions, Faults, FleetConfig};
 use super::count;
 use crate::cli::{RobotsArguments, ShowArguments};
 use crate::failure::{Failure, Outcome};
+use crate::live::clock::Clock;
 use crate::live::conductor::LOOK;
 use crate::live::crowd::{Crowd, Losses};
 use crate::numbers::place;
@@ -27,7 +29,8 @@ pub async fn run(arguments: RobotsArguments, stop: Stop) -> Outcome {
     let starts = starts(&arguments.start, &stage, robots)?;
     let conditions = faults.added_to(conditions(arguments.ideal));
     let config = FleetConfig { stage, starts, seed: seed(arguments.seed), conditions };
-    let crowd = Crowd::start(&config, &broker, arguments.together as usize, &stop);
+    let crowd =
+        Crowd::start(&config, &broker, arguments.together as usize, (Clock::start(), Arc::default()), &stop);
     let connected = crowd.connections();
     let going = tokio::spawn(crowd.run(stop.clone()));
     say::note(&format!("{} connecting to {}; Ctrl-C stops them", count(robots, "robot"), broker));

@@ -54,9 +54,13 @@ impl Cast {
                 return;
             }
             let (until, end) = stop.child();
-            let crowd = Crowd::start(&self.fleet(&show, robots), &self.broker, TOGETHER, &until);
+            let time = (handle.clock(), handle.pace());
+            handle.pace().simulates(robots, Some(self.broker.to_string()));
+            let crowd = Crowd::start(&self.fleet(&show, robots), &self.broker, TOGETHER, time, &until);
             let names = crowd.ids();
-            let going = tokio::spawn(crowd.run(until));
+            // On a thread of its own: thousands of robots keep one busy that others wait for.
+            let runtime = tokio::runtime::Handle::current();
+            let going = tokio::task::spawn_blocking(move || runtime.block_on(crowd.run(until)));
             tokio::select! {
                 () = stop.wait() => {}
                 () = self.wait_for_misfit(&handle, &mut shown, &show.stage, robots) => {}
@@ -64,6 +68,7 @@ impl Cast {
             end.now();
             // A simulation that failed has ended as well.
             let _ = going.await;
+            handle.pace().simulates(0, None);
             for name in names {
                 if stop.is_wanted() {
                     return;

@@ -1,33 +1,75 @@
 //! The show clock of this program.
 
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::{Duration, SystemTime, UNIX_EPOCH};
 
 use lightbots_base::Instant;
 
 /// Microseconds since 1970 at the program's start, from then on counted by the monotonic clock: it never goes back,
-/// and a controller that is started again goes on close to where the one before it was.
-#[derive(Clone, Copy, Debug)]
+/// and a controller that is started again goes on close to where the one before it was. It may be made to stand for a
+/// while, for all who share it: clones do.
+#[derive(Clone, Debug)]
 pub struct Clock {
     began: std::time::Instant,
     offset_us: u64,
+    shared: Arc<Shared>,
+}
+
+/// What clones have in common; microseconds since the start.
+#[derive(Debug)]
+struct Shared {
+    /// How long it stood.
+    withheld_us: AtomicU64,
+    /// It shows no more than this.
+    limit_us: AtomicU64,
+    /// The latest moment it showed.
+    shown_us: AtomicU64,
 }
 
 impl Clock {
     /// A clock that starts now.
     pub fn start() -> Self {
         let since_1970 = SystemTime::now().duration_since(UNIX_EPOCH).unwrap_or_default();
-        Self { began: std::time::Instant::now(), offset_us: since_1970.as_micros() as u64 }
+        let shared = Shared {
+            withheld_us: AtomicU64::new(0),
+            limit_us: AtomicU64::new(u64::MAX),
+            shown_us: AtomicU64::new(0),
+        };
+        Self {
+            began: std::time::Instant::now(),
+            offset_us: since_1970.as_micros() as u64,
+            shared: Arc::new(shared),
+        }
     }
 
     /// The moment it is.
     pub fn now(&self) -> Instant {
-        Instant(self.offset_us + self.began.elapsed().as_micros() as u64)
+        let us = self.free_us().min(self.shared.limit_us.load(Ordering::Relaxed));
+        Instant(self.offset_us + self.shared.shown_us.fetch_max(us, Ordering::Relaxed).max(us))
     }
 
-    /// When the system's clock shows `at`; at once for a moment that is over.
+    /// It may go on until `until` from now on, and stands there. [`Instant::FAR`]: for good. For one task alone.
+    pub fn grant(&self, until: Instant) {
+        let over_us = self.free_us().saturating_sub(self.shared.limit_us.load(Ordering::Relaxed));
+        self.shared.withheld_us.fetch_add(over_us, Ordering::Relaxed);
+        self.shared.limit_us.store(until.0.saturating_sub(self.offset_us), Ordering::Relaxed);
+    }
+
+    fn free_us(&self) -> u64 {
+        let elapsed_us = self.began.elapsed().as_micros() as u64;
+        elapsed_us.saturating_sub(self.shared.withheld_us.load(Ordering::Relaxed))
+    }
+
+    /// How long it has stood in all.
+    pub fn withheld(&self) -> Duration {
+        Duration::from_micros(self.shared.withheld_us.load(Ordering::Relaxed))
+    }
+
+    /// When the system's clock shows `at`, unless this one stands before; at once for a moment that is over.
     pub fn deadline(&self, at: Instant) -> tokio::time::Instant {
-        let after_start = Duration::from_micros(at.0.saturating_sub(self.offset_us));
-        tokio::time::Instant::from_std(self.began + after_start.min(Duration::from_secs(86_400 * 365)))
+        let ahead = Duration::from_micros(at.0.saturating_sub(self.now().0));
+        tokio::time::Instant::now() + ahead.min(Duration::from_secs(86_400 * 365))
     }
 
     /// A first route number that no controller started before on this machine has reached.
@@ -49,9 +91,30 @@ mod tests {
     fn deadlines_are_moments_of_the_same_clock() {
         let clock = Clock::start();
         let now = clock.now();
-        let later = clock.deadline(Instant(now.0 + 5_000_000)) - clock.deadline(now);
-        assert_eq!(later, Duration::from_secs(5));
+        clock.grant(now);
+        let before = tokio::time::Instant::now();
+        let later = clock.deadline(Instant(now.0 + 5_000_000)) - Duration::from_secs(5);
+        assert!(before <= later && later <= tokio::time::Instant::now());
         assert!(clock.deadline(Instant::ZERO) <= tokio::time::Instant::now());
         assert!(clock.now() >= now);
+    }
+
+    #[test]
+    fn a_clock_goes_as_far_as_it_may_for_all_and_never_back() {
+        let clock = Clock::start();
+        let other = clock.clone();
+        let shown = other.now();
+        clock.grant(shown);
+        assert_eq!((other.now(), clock.now()), (shown, shown), "it stands");
+        while clock.free_us() + clock.offset_us < shown.0 + 2_000 {
+            std::thread::yield_now();
+        }
+        assert_eq!(other.now(), shown);
+        clock.grant(Instant::FAR);
+        assert!(other.withheld() >= Duration::from_micros(2_000));
+        assert!(other.now() >= shown, "it went back");
+        while other.now() <= shown {
+            std::thread::yield_now();
+        }
     }
 }

@@ -3,20 +3,21 @@
 use std::sync::Arc;
 use std::time::Duration;
 
-use lightbots_control::{Config, Controller, Done, Event, Operation, Refusal, Snapshot, State};
+use lightbots_control::{Config, Controller, Done, Event, Job, Operation, Refusal, Snapshot, State};
 use lightbots_link::{BrokerUrl, Link, LinkEvent};
 use lightbots_wire::Topic;
 use tokio::sync::{broadcast, mpsc, oneshot};
 
 use super::clock::Clock;
 use super::controller_link;
+use super::pace::Pace;
 use super::rivals::{self, Rivals};
 use crate::stop::Stop;
 
 /// Orders that wait at most; more make the one who gives them wait.
 const ORDERS: usize = 256;
-/// Events a slow listener may be behind before it misses some.
-const EVENTS: usize = 4096;
+/// Events a slow listener may be behind before it misses some: one of each of many robots.
+const EVENTS: usize = 16_384;
 /// Messages taken in before the controller's answers are sent and others get a turn.
 const BATCH: usize = 512;
 
@@ -78,6 +79,8 @@ impl LinkState {
 pub struct Handle {
     orders: mpsc::Sender<Order>,
     news: broadcast::Sender<News>,
+    clock: Clock,
+    pace: Arc<Pace>,
 }
 
 impl Handle {
@@ -88,9 +91,13 @@ impl Handle {
         let (news, _) = broadcast::channel(EVENTS);
         let config = Config { seq_base: clock.seq_base(), ..Config::default() };
         let (done_sender, done) = mpsc::channel(4);
+        let pace = Arc::new(Pace::default());
         let conductor = Conductor {
             controller: Controller::new(config),
-            clock,
+            clock: clock.clone(),
+            pace: pace.clone(),
+            planning: false,
+            next_job: None,
             link: None,
             nodes: Vec::new(),
             state: LinkState::default(),
@@ -101,7 +108,7 @@ impl Handle {
             done_sender,
         };
         let task = tokio::spawn(conductor.run(stop));
-        (Self { orders, news }, task)
+        (Self { orders, news, clock, pace }, task)
     }
 
     /// Does something with show and fleet.
@@ -129,6 +136,16 @@ impl Handle {
         let _ = self.orders.send(Order::Disconnect).await;
     }
 
+    /// The show clock.
+    pub fn clock(&self) -> Clock {
+        self.clock.clone()
+    }
+
+    /// How fast it may go.
+    pub fn pace(&self) -> Arc<Pace> {
+        self.pace.clone()
+    }
+
     /// What happens from now on.
     pub fn news(&self) -> broadcast::Receiver<News> {
         self.news.subscribe()
@@ -138,6 +155,11 @@ impl Handle {
 struct Conductor {
     controller: Controller,
     clock: Clock,
+    pace: Arc<Pace>,
+    /// A plan is being made.
+    planning: bool,
+    /// The newest plan that is wanted: one is made after the other, and those that are not wanted any more never.
+    next_job: Option<Job>,
     link: Option<Link>,
     /// The broker's addresses, one by one.
     nodes: Vec<String>,
@@ -145,8 +167,8 @@ struct Conductor {
     rivals: Rivals,
     inbox: mpsc::Receiver<Order>,
     news: broadcast::Sender<News>,
-    done: mpsc::Receiver<Done>,
-    done_sender: mpsc::Sender<Done>,
+    done: mpsc::Receiver<Option<Done>>,
+    done_sender: mpsc::Sender<Option<Done>>,
 }
 
 impl Conductor {
@@ -159,7 +181,12 @@ impl Conductor {
                 () = stop.wait() => break,
                 Some(event) = next_of(&mut self.link) => self.take(event),
                 Some(order) = self.inbox.recv() => self.obey(order).await,
-                Some(done) = self.done.recv() => self.controller.planned(self.clock.now(), done),
+                Some(done) = self.done.recv() => {
+                    self.planning = false;
+                    if let Some(done) = done {
+                        self.controller.planned(self.clock.now(), done);
+                    }
+                }
                 () = sleep_until(alarm) => self.controller.wake(self.clock.now()),
             }
             self.drain();
@@ -196,7 +223,10 @@ impl Conductor {
                     let _ = self.news.send(News::Warning(line));
                 }
             }
-            LinkEvent::Message { topic, payload } => self.controller.message(now, &topic, &payload),
+            LinkEvent::Message { topic, payload } => {
+                self.pace.reports.hear(1);
+                self.controller.message(now, &topic, &payload);
+            }
         }
     }
 
@@ -213,6 +243,7 @@ impl Conductor {
             Order::Connect(broker) => {
                 self.leave().await;
                 self.state.address = broker.to_string();
+                self.pace.controls(Some(broker.to_string()));
                 self.nodes = broker.places.iter().map(ToString::to_string).collect();
                 let mut config = controller_link(broker);
                 self.rivals = Rivals::new(config.client_id.clone());
@@ -223,6 +254,7 @@ impl Conductor {
             Order::Disconnect => {
                 self.leave().await;
                 self.state.address.clear();
+                self.pace.controls(None);
                 self.tell_link(LinkPhase::Off, None);
             }
         }
@@ -244,23 +276,35 @@ impl Conductor {
                 if send.topic == Topic::Broadcast {
                     self.rivals.said(now, &send.payload);
                 }
-                sender.send(&send.topic.write(), send.payload);
+                let sent = sender.send(&send.topic.write(), send.payload);
+                self.pace.commands.say(u64::from(sent && send.topic != Topic::Broadcast));
             }
         } else {
             while self.controller.next_send().is_some() {}
         }
+        self.pace.knows(self.controller.robots());
         while let Some(event) = self.controller.next_event() {
             tracing::info!("{}", event.kind);
             // Nobody listening is no error.
             let _ = self.news.send(News::Event(event));
         }
+        self.plan();
+    }
+
+    /// Has the newest plan made that is wanted, once the one before is done.
+    fn plan(&mut self) {
         while let Some(job) = self.controller.next_job() {
-            let answer = self.done_sender.clone();
-            tokio::task::spawn_blocking(move || {
-                // A conductor that has ended needs no plan.
-                let _ = answer.blocking_send(job.run());
-            });
+            self.next_job = Some(job);
         }
+        let Some(job) = self.next_job.take_if(|_| !self.planning) else { return };
+        self.planning = true;
+        let answer = self.done_sender.clone();
+        tokio::spawn(async move {
+            // One that failed must not keep others from being made.
+            let done = tokio::task::spawn_blocking(|| job.run()).await.ok();
+            // A conductor that has ended needs no plan.
+            let _ = answer.send(done).await;
+        });
     }
 
     fn tell_link(&mut self, phase: LinkPhase, reason: Option<String>) {

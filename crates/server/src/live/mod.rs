@@ -5,6 +5,7 @@ pub mod cast;
 pub mod clock;
 pub mod conductor;
 pub mod crowd;
+mod pace;
 mod rivals;
 
 use lightbots_link::{BrokerUrl, LinkConfig, controller_client_id};

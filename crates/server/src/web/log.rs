@@ -1,23 +1,34 @@
-//! The log that screens show.
+//! The log that screens show. What happens to many robots at once is one line that grows.
 
 use std::collections::VecDeque;
 use std::sync::{Arc, Mutex, PoisonError};
+use std::time::Duration;
 
 use lightbots_api::{Level, LogLine};
 use lightbots_show::Severity;
 use tokio::sync::broadcast;
+use tokio::time::Instant;
 
+use super::sums::{Sum, Sums};
 use crate::live::clock::unix_ms;
 use crate::live::conductor::News;
 
 /// Lines a new screen is shown.
 const KEPT: usize = 300;
+/// A line that grows is said this often at most.
+const GROWS: Duration = Duration::from_millis(200);
 
 /// The last lines, and those to come. Clones share it.
 #[derive(Clone, Debug)]
 pub struct Log {
-    kept: Arc<Mutex<VecDeque<LogLine>>>,
+    kept: Arc<Mutex<Kept>>,
     lines: broadcast::Sender<LogLine>,
+}
+
+#[derive(Debug, Default)]
+struct Kept {
+    lines: VecDeque<LogLine>,
+    last_id: u32,
 }
 
 impl Log {
@@ -28,12 +39,38 @@ impl Log {
 
     /// Adds a line.
     pub fn say(&self, level: Level, text: impl Into<String>) {
-        let line = LogLine { time_ms: unix_ms(), level, text: text.into() };
         let mut kept = self.kept.lock().unwrap_or_else(PoisonError::into_inner);
-        if kept.len() == KEPT {
-            kept.pop_front();
+        let id = kept.next_id();
+        let line = LogLine { id, time_ms: unix_ms(), level, text: text.into(), count: 0, robots: Vec::new() };
+        self.add(&mut kept, line);
+    }
+
+    /// Adds the line of a sum, or lets it grow.
+    fn sum(&self, sum: &mut Sum) {
+        let mut kept = self.kept.lock().unwrap_or_else(PoisonError::into_inner);
+        let known = sum.line.and_then(|id| kept.lines.iter().rposition(|line| line.id == id));
+        let (id, time_ms) = match known {
+            Some(index) => (kept.lines[index].id, kept.lines[index].time_ms),
+            None => (kept.next_id(), unix_ms()),
+        };
+        sum.line = Some(id);
+        let level = level(sum.severity());
+        let line = LogLine { id, time_ms, level, text: sum.text(), count: sum.count(), robots: sum.names() };
+        match known {
+            Some(index) => {
+                kept.lines[index] = line.clone();
+                // No screen is no error.
+                let _ = self.lines.send(line);
+            }
+            None => self.add(&mut kept, line),
         }
-        kept.push_back(line.clone());
+    }
+
+    fn add(&self, kept: &mut Kept, line: LogLine) {
+        if kept.lines.len() == KEPT {
+            kept.lines.pop_front();
+        }
+        kept.lines.push_back(line.clone());
         // No screen is no error.
         let _ = self.lines.send(line);
     }
@@ -41,26 +78,67 @@ impl Log {
     /// The last lines, oldest first, and all that follow.
     pub fn read(&self) -> (Vec<LogLine>, broadcast::Receiver<LogLine>) {
         let kept = self.kept.lock().unwrap_or_else(PoisonError::into_inner);
-        (kept.iter().cloned().collect(), self.lines.subscribe())
+        (kept.lines.iter().cloned().collect(), self.lines.subscribe())
     }
 
     /// Writes down what happens, until the conductor ends.
     pub async fn follow(self, mut news: broadcast::Receiver<News>) {
+        let mut sums = Sums::default();
+        let mut due: Option<Instant> = None;
         loop {
-            match news.recv().await {
-                Ok(News::Event(event)) => self.say(level(event.kind.severity()), event.kind.to_string()),
-                Ok(News::Link(link)) => {
-                    if let Some(reason) = link.reason.clone().filter(|_| !link.is_connected()) {
-                        self.say(Level::Warn, capitalised(&reason));
-                    }
+            let heard = tokio::select! {
+                heard = news.recv() => heard,
+                () = sleep_until(due) => {
+                    due = None;
+                    sums.each_grown(|sum| self.sum(sum));
+                    continue;
                 }
-                Ok(News::Warning(line)) => self.say(Level::Warn, line),
+            };
+            match heard {
+                Ok(News::Event(event)) if sums.take(std::time::Instant::now(), &event.kind) => {
+                    due.get_or_insert(Instant::now() + GROWS);
+                }
+                Ok(news) => {
+                    // In the order in which it happened.
+                    sums.each_grown(|sum| self.sum(sum));
+                    sums.close_run();
+                    self.write(news);
+                }
                 Err(broadcast::error::RecvError::Lagged(missed)) => {
                     self.say(Level::Warn, format!("{missed} lines were too many to show."));
                 }
-                Err(broadcast::error::RecvError::Closed) => return,
+                Err(broadcast::error::RecvError::Closed) => {
+                    sums.each_grown(|sum| self.sum(sum));
+                    return;
+                }
             }
         }
+    }
+
+    fn write(&self, news: News) {
+        match news {
+            News::Event(event) => self.say(level(event.kind.severity()), event.kind.to_string()),
+            News::Link(link) => {
+                if let Some(reason) = link.reason.clone().filter(|_| !link.is_connected()) {
+                    self.say(Level::Warn, capitalised(&reason));
+                }
+            }
+            News::Warning(line) => self.say(Level::Warn, line),
+        }
+    }
+}
+
+impl Kept {
+    fn next_id(&mut self) -> u32 {
+        self.last_id = self.last_id.wrapping_add(1);
+        self.last_id
+    }
+}
+
+async fn sleep_until(due: Option<Instant>) {
+    match due {
+        Some(due) => tokio::time::sleep_until(due).await,
+        None => std::future::pending().await,
     }
 }
 
@@ -76,4 +154,52 @@ fn capitalised(text: &str) -> String {
     let mut letters = text.chars();
     let first = letters.next().map(|first| first.to_uppercase().to_string()).unwrap_or_default();
     format!("{first}{}.", letters.as_str())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use lightbots_base::{Instant, RobotId};
+    use lightbots_control::{Event, EventKind};
+
+    fn robot(kind: fn(RobotId) -> EventKind, number: usize) -> News {
+        let id = RobotId::new(&format!("r{number}")).unwrap();
+        News::Event(Event { at: Instant::ZERO, kind: kind(id) })
+    }
+
+    async fn lines_of(news: Vec<News>) -> Vec<LogLine> {
+        let (teller, told) = broadcast::channel(32_768);
+        for news in news {
+            teller.send(news).unwrap();
+        }
+        drop(teller);
+        let log = Log::new();
+        log.clone().follow(told).await;
+        log.read().0
+    }
+
+    #[tokio::test]
+    async fn ten_thousand_robots_are_one_line_that_names_the_first() {
+        let opened = News::Warning("A show is open.".into());
+        let mut news: Vec<News> = (0..10_000).map(|number| robot(EventKind::RobotFound, number)).collect();
+        news.insert(5_000, opened.clone());
+        news.push(opened);
+        let lines = lines_of(news).await;
+        assert_eq!(lines.len(), 3, "{lines:?}");
+        assert_eq!((lines[0].text.as_str(), lines[0].count), ("10000 robots are here.", 10_000));
+        assert!(lines[0].robots.len() < 1_000 && lines[0].robots[..2] == ["r0", "r1"]);
+    }
+
+    #[tokio::test]
+    async fn one_robot_is_named_and_waits_are_told_apart() {
+        let wait = |number| {
+            robot(|robot| EventKind::Waiting { robot, why: lightbots_control::Trouble::Late }, number)
+        };
+        let on = News::Event(Event { at: Instant::ZERO, kind: EventKind::Resumed });
+        let lines = lines_of(vec![wait(1), on.clone(), wait(2), wait(3), on]).await;
+        let texts: Vec<&str> = lines.iter().map(|line| line.text.as_str()).collect();
+        let first = "Everybody waits for robot r1: it is behind its path.";
+        let then = "Everybody waits for 2 robots. Of each: it is behind its path.";
+        assert_eq!(texts, [first, "On again.", then, "On again."]);
+    }
 }

@@ -9,6 +9,7 @@ mod origin;
 mod pages;
 mod picture;
 mod socket;
+mod sums;
 
 use std::net::SocketAddr;
 use std::sync::Arc;

@@ -45,6 +45,36 @@ struct Painter {
     /// Pictures since the last fleet table.
     since_fleet: usize,
     looked: bool,
+    pace: PaceMeter,
+}
+
+/// How fast the show clock goes, over the last seconds.
+#[derive(Debug, Default)]
+struct PaceMeter {
+    /// When it was looked at, and what it showed.
+    before: Option<(std::time::Instant, lightbots_base::Instant)>,
+    share: Option<f64>,
+}
+
+impl PaceMeter {
+    /// Over so long it is measured.
+    const OVER: Duration = Duration::from_secs(2);
+    /// What differs less from real time is real time.
+    const LEAST: f64 = 0.03;
+
+    /// Its share of real time, at most 1.
+    fn look(&mut self, real: std::time::Instant, show: lightbots_base::Instant) -> f64 {
+        let (since, shown) = *self.before.get_or_insert((real, show));
+        let passed = real - since;
+        if passed >= Self::OVER {
+            self.before = Some((real, show));
+            // After a while in which nobody looked, what comes next is looked at first.
+            let lately = passed < Self::OVER * 2;
+            self.share = lately.then(|| (show - shown).as_secs() / passed.as_secs_f64());
+        }
+        let share = self.share.unwrap_or(1.0);
+        if share > 1.0 - Self::LEAST { 1.0 } else { rounded(share.max(0.0), 2) }
+    }
 }
 
 impl Pictures {
@@ -74,8 +104,15 @@ impl Pictures {
         let mut ticks = tokio::time::interval(EVERY);
         ticks.set_missed_tick_behavior(MissedTickBehavior::Delay);
         let link = LinkState::default();
-        let mut painter =
-            Painter { desk, link, names: Vec::new(), revision: 0, since_fleet: 0, looked: false };
+        let mut painter = Painter {
+            desk,
+            link,
+            names: Vec::new(),
+            revision: 0,
+            since_fleet: 0,
+            looked: false,
+            pace: PaceMeter::default(),
+        };
         loop {
             ticks.tick().await;
             loop {
@@ -115,15 +152,17 @@ impl Pictures {
             let fleet = api::Fleet { revision: painter.revision, rows };
             self.fleets.send_replace(text(&api::ToScreen::Fleet(fleet)));
         }
-        let state = text(&api::ToScreen::State(painter.state(snapshot)));
+        let pace = painter.pace.look(std::time::Instant::now(), snapshot.at);
+        let state = text(&api::ToScreen::State(painter.state(snapshot, pace)));
         self.states.send_replace(Picture { robots: robots(snapshot).to_bytes().into(), state });
     }
 }
 
 impl Painter {
-    fn state(&self, snapshot: &Snapshot) -> api::State {
+    fn state(&self, snapshot: &Snapshot, pace: f64) -> api::State {
         api::State {
             at_ms: snapshot.at.0 as f64 / 1e3,
+            pace,
             fleet: self.revision,
             broker: api::Broker {
                 address: self.link.address.clone(),
@@ -250,6 +289,18 @@ fn status(robot: &RobotView) -> api::RobotStatus {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_clock_that_goes_slower_is_said_to() {
+        let (began, mut meter) = (std::time::Instant::now(), PaceMeter::default());
+        let mut look = |real_ms: u64, show_ms: u64| {
+            let show = lightbots_base::Instant(7_000_000 + show_ms * 1000);
+            meter.look(began + Duration::from_millis(real_ms), show)
+        };
+        assert_eq!([look(0, 0), look(1000, 400), look(2000, 800)], [1.0, 1.0, 0.4]);
+        assert_eq!([look(3000, 1800), look(4000, 2790)], [0.4, 1.0]);
+        assert_eq!(look(60_000, 3000), 1.0, "while nobody looked it may have stood or not");
+    }
 
     #[test]
     fn a_screen_that_joins_others_gets_their_fleet_table_at_once() {
