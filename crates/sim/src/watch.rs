@@ -12,8 +12,8 @@ use crate::report::{FrameRecord, RehearsalReport};
 use crate::statistics::Spread;
 use crate::world::World;
 
-/// The most issues of one rehearsal; what comes on top is counted.
-const ISSUES_MAX: usize = 100;
+/// Of one kind so many issues are listed; the rest is counted.
+const OF_A_KIND_MAX: usize = 20;
 
 /// What is known of a rehearsal so far.
 pub(crate) struct Watch {
@@ -265,7 +265,8 @@ impl Watch {
     }
 
     fn add(&mut self, issue: Issue) {
-        if self.issues.len() < ISSUES_MAX {
+        // Of each kind some: a hundred waits would hide the one robot that dropped out.
+        if self.issues.iter().filter(|known| known.code == issue.code).count() < OF_A_KIND_MAX {
             self.issues.push(issue);
         } else {
             self.unlisted += 1;
