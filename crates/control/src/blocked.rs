@@ -38,7 +38,11 @@ fn seen_by(robot: &Robot, contact_m: f64) -> Option<Vec2> {
 
 /// Whether a robot fell behind its path and not because something stood in its way.
 fn lags(known: &Seat) -> bool {
-    known.late.is_some_and(|late| known.blocked.is_none_or(|blocked| late + BRAKES < blocked))
+    let unhindered = |late: Instant| {
+        known.blocked.is_none_or(|blocked| late + BRAKES < blocked)
+            && known.hindered.is_none_or(|at| at < late)
+    };
+    known.late.is_some_and(unhindered)
 }
 
 impl Run {
@@ -52,6 +56,9 @@ impl Run {
             return;
         }
         self.seats[seat].blocked = Some(now);
+        if self.seats[seat].late.is_none_or(|late| now <= late + BRAKES) {
+            self.seats[seat].hindered = Some(now);
+        }
         if self.seats[seat].late.is_none() {
             self.mark_late(desk, now, seat, Trouble::Blocked);
         }

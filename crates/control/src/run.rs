@@ -46,6 +46,8 @@ pub(crate) struct Seat {
     pub unsure: bool,
     /// Something stands in its way, since when.
     pub blocked: Option<Instant>,
+    /// When something stood in its way last while it was not late yet: then that is why it is late.
+    pub hindered: Option<Instant>,
     /// How often that led to a new plan.
     pub blocks: u8,
     /// Since when it owes a sign of life because somebody near it is blocked.
@@ -192,6 +194,7 @@ impl Seat {
             late: None,
             unsure: false,
             blocked: None,
+            hindered: None,
             blocks: 0,
             probed: None,
             asked: Instant::ZERO,

@@ -4,7 +4,7 @@
 mod scene;
 
 use lightbots_show::Identity;
-use lightbots_sim::{Conditions, RehearsalOptions, rehearse};
+use lightbots_sim::{Conditions, Faults, RehearsalOptions, rehearse};
 
 #[test]
 fn random_pairs_of_frames_are_solved_proven_and_driven_without_contact() {
@@ -20,4 +20,19 @@ fn random_pairs_of_frames_are_solved_proven_and_driven_without_contact() {
         assert!(report.position_error_m.max > 1e-4, "pair {number}: {report:?}");
     }
     assert_eq!(fixed, 30);
+}
+
+/// A robot braked for a moment for what its sensors made of noise, fell behind, and found another in its way when it
+/// wanted to catch up with those who held: it was given up, though it only needed a plan of its own.
+#[test]
+fn who_fell_behind_because_something_was_in_its_way_is_planned_anew_and_not_given_up() {
+    let faults = Faults::parse("slip=10%,gps=5mm,heading=2deg,fix-delay=100ms,fix-dropout=1s").unwrap();
+    let conditions = faults.added_to(Conditions::default());
+    let report = rehearse(
+        &scene::pair(73, 200),
+        &RehearsalOptions { seed: 73, conditions, robots: None },
+        &mut |_| {},
+    );
+    assert!(report.ok, "{:?}", report.issues);
+    assert_eq!((report.contacts, report.dropouts), (0, 0));
 }
