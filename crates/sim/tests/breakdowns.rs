@@ -56,8 +56,8 @@ fn touched(fault: &str) -> usize {
     (1..=30).filter(|&seed| touches(seed)).count()
 }
 
-/// Robots that follow each other within a centimetre or so are touched now and then when the one ahead dies, as nobody
-/// can stop in time; with what they see of each other that is rare, and the show goes on in any case.
+/// Where pixels leave no room to stop, robots that follow each other within a centimetre or so are touched now and then when
+/// the one ahead dies; the show goes on in any case.
 #[test]
 fn hardly_anybody_touches_a_robot_that_died_and_the_show_goes_on() {
     let touched = touched("kill=random") + touched("mute=random");
@@ -86,5 +86,34 @@ fn nobody_brakes_where_nothing_is_wrong() {
     for seed in 1..=10 {
         let report = play("", seed);
         assert!(report.ok && report.issues.is_empty(), "seed {seed}: {:#?}", report.issues);
+    }
+}
+
+/// Pairs that drive 1.6 m together and come within 64 mm of each other half way, one then straight behind the other. The
+/// one ahead of pair n is robot 2n, the other 2n + 1.
+fn pairs_in_line() -> Show {
+    let place = |x: f64, aside: f64, id: u32| {
+        let back = f64::from(id % 2);
+        Vec2::new(x - 0.064 * back, 0.3 * f64::from(id / 2) - 0.9 + aside * back)
+    };
+    let mut show = dense_show();
+    show.starts = Some((0..12).map(|id| place(-0.8, 0.05, id)).collect());
+    show.frames.truncate(1);
+    show.frames[0].pixels.truncate(12);
+    show.frames[0].pixels.iter_mut().for_each(|pixel| pixel.at = place(0.8, -0.05, pixel.id));
+    show
+}
+
+/// Left on straight lines, 10 mm behind, nine in ten touched.
+#[test]
+fn who_follows_close_behind_stops_in_time_when_the_one_ahead_dies() {
+    for fault in ["kill=0@3.2s", "stuck=4@3.4s", "kill=6@3.6s", "stuck=2@3.3s"] {
+        for seed in 1..=4 {
+            let conditions = Faults::parse(fault).unwrap().added_to(Conditions::default());
+            let options = RehearsalOptions { seed, conditions, robots: None };
+            let report = rehearse(&pairs_in_line(), &options, &mut |_| {});
+            let issues = &report.issues;
+            assert_eq!((report.contacts, report.dropouts), (0, 1), "{fault}, seed {seed}: {issues:?}");
+        }
     }
 }

@@ -1,16 +1,32 @@
 //! Paths for a settled assignment, with what the proof says of them.
 
-use super::{COMFORT_M, MARGIN_M};
-use crate::motion::Profile;
+use super::{COMFORT_M, MARGIN_M, room};
+use crate::motion::{Profile, turn_time};
 use crate::proof::{Proof, ProofInput, prove};
 use crate::{Closest, Path, Transition, TransitionProblem};
-use lightbots_base::Span;
+use lightbots_base::{Limits, Span};
+
+/// Among more robots than this nobody looks for room to stop behind others: it would take too long.
+const ROOM_MOST: usize = 1000;
+
+/// What ways are bent for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Wish {
+    /// Nobody passes nearer than is comfortable.
+    Comfort,
+    /// Who drives behind another could stop if that died, as well.
+    Room,
+}
 
 /// A transition that may turn out not to hold.
 pub(super) struct Candidate {
     pub transition: Transition,
-    /// What the proof says when asked for comfortable distances.
+    /// What the proof says when asked for comfortable distances; where room was asked for, for that.
     pub proof: Proof,
+    /// How many of its conflicts are closer than comfortable, and not only too near to who is ahead.
+    uncomfortable: usize,
+    /// Least distance of centres that is comfortable, metres.
+    comfort_m: f64,
     /// How much of that must not be: single robots' faults, and pairs closer than the least margin.
     pub wrong: usize,
 }
@@ -29,15 +45,26 @@ impl Candidate {
         let quickest = Profile::quickest(longest_m, problem.easing, &problem.limits);
         let profile = quickest.stretched(problem.duration.unwrap_or(Span::ZERO));
         let paths = lines().map(|(&from, &to)| profile.path(from, to)).collect();
-        let mut candidate = Self::of_paths(problem, paths, goal_of);
+        let slower = slower_than(quickest.duration(), profile.duration(), &problem.limits);
+        let mut candidate = Self::of_paths(problem, paths, goal_of, slower);
         candidate.transition.least = quickest.duration();
         candidate
     }
 
-    /// Any paths, all equally long.
-    pub fn of_paths(problem: &TransitionProblem, paths: Vec<Path>, goal_of: Vec<Option<usize>>) -> Self {
-        let gap_m = problem.limits.contact_m() + COMFORT_M;
-        let proof = prove(&ProofInput { gap_m, ..problem.to_prove(&paths) });
+    /// Any paths, all equally long, on which everybody drives this many times as slowly as they could: they are judged as
+    /// if they did, so that the least time does not depend on the time that was asked for.
+    pub fn of_paths(
+        problem: &TransitionProblem,
+        paths: Vec<Path>,
+        goal_of: Vec<Option<usize>>,
+        slower: f64,
+    ) -> Self {
+        let comfort_m = problem.limits.contact_m() + COMFORT_M - 1e-6;
+        let gap_m = if paths.len() <= ROOM_MOST { room::widest_m(&problem.limits) } else { comfort_m + 1e-6 };
+        let mut proof = prove(&ProofInput { gap_m, ..problem.to_prove(&paths) });
+        let wanted_m = |found: &Closest| room::wanted_m(&paths, found, &problem.limits, slower);
+        proof.conflicts.retain(|found| found.distance_m < wanted_m(found) - 1e-6);
+        let uncomfortable = proof.conflicts.iter().filter(|found| found.distance_m < comfort_m).count();
         let duration = paths.iter().map(|path| path.as_ref().duration()).max().unwrap_or(Span::ZERO);
         let closest = proof.closest;
         let transition =
@@ -54,7 +81,7 @@ impl Candidate {
             found.distance_m < least.min(ends) - 1e-6
         };
         let wrong = proof.conflicts.iter().filter(is_wrong).count() + proof.faults.len();
-        Self { transition, proof, wrong }
+        Self { transition, proof, uncomfortable, comfort_m, wrong }
     }
 
     /// Whether it may be driven.
@@ -62,15 +89,40 @@ impl Candidate {
         self.wrong == 0
     }
 
+    /// Pairs for which ways are to be bent; none where they are too many.
+    pub fn worth_bending(&self, wish: Wish) -> Vec<Closest> {
+        let is_asked = |found: &&Closest| wish == Wish::Room || found.distance_m < self.comfort_m;
+        let asked: Vec<Closest> = self.proof.conflicts.iter().filter(is_asked).copied().collect();
+        let robots = self.transition.paths.len();
+        let most = match wish {
+            Wish::Comfort => robots / 8 + 4,
+            // Rows that turn have as many pairs in line as robots.
+            Wish::Room => robots,
+        };
+        if asked.len() > most { Vec::new() } else { asked }
+    }
+
     /// Whether it leaves room for robots that do not follow exactly.
     pub fn is_comfortable(&self) -> bool {
         self.proof.holds()
     }
 
-    /// Fewer things wrong, then fewer pairs that are close.
+    /// Fewer things wrong, then fewer pairs that are close, then fewer that are too near to who is ahead.
     pub fn is_better_than(&self, other: &Self) -> bool {
-        (self.wrong, self.proof.conflicts.len()) < (other.wrong, other.proof.conflicts.len())
+        self.wrong < other.wrong || (self.wrong == other.wrong && self.is_roomier_than(other))
     }
+
+    /// The same, whatever else is wrong.
+    pub fn is_roomier_than(&self, other: &Self) -> bool {
+        let rank = |of: &Self| (of.uncomfortable, of.proof.conflicts.len());
+        rank(self) < rank(other)
+    }
+}
+
+/// How many times as slow a drive is that takes one time, rest for turning included, instead of a least time.
+pub(super) fn slower_than(least: Span, duration: Span, limits: &Limits) -> f64 {
+    let rest = turn_time(core::f64::consts::FRAC_PI_2, limits);
+    (duration - rest).as_secs() / (least - rest).as_secs().max(1e-6)
 }
 
 /// Everybody stays where they are, as long as the problem asks for.

@@ -6,6 +6,7 @@ mod conflict;
 mod nudge;
 mod parking;
 mod relax;
+mod room;
 #[cfg(test)]
 mod tests;
 
@@ -90,7 +91,7 @@ fn settle(problem: &TransitionProblem, choice: &Choice) -> Attempt {
 fn mend(problem: &TransitionProblem, conflicting: Candidate) -> Attempt {
     let goal_of = &conflicting.transition.goal_of;
     let repaired = repair(problem, goal_of).and_then(|repaired| {
-        let mut candidate = Candidate::of_paths(problem, repaired.paths, goal_of.clone());
+        let mut candidate = Candidate::of_paths(problem, repaired.paths, goal_of.clone(), 1.0);
         candidate.transition.least = repaired.least;
         Some(candidate).filter(Candidate::holds).ok_or_else(Vec::new)
     });

@@ -1,7 +1,7 @@
 //! Bends the paths of those who pass too close a few millimetres aside, without any time lost.
 
-use super::candidate::Candidate;
-use super::{COMFORT_M, MARGIN_M};
+use super::candidate::{Candidate, Wish, slower_than};
+use super::{COMFORT_M, MARGIN_M, room};
 use crate::motion::{Bend, turn_time, whole_millis};
 use crate::{Closest, Path, Transition, TransitionProblem};
 use lightbots_base::{Piece, Span, Vec2};
@@ -9,8 +9,16 @@ use std::collections::BTreeMap;
 
 /// Rounds of bending and proving.
 const ROUNDS: usize = 6;
+/// Robots times rounds that are spent on room to stop behind others.
+const ROOM_WORK: usize = 2_000;
 /// Bends that need everybody to be slower than this many times are not worth it.
-const SLOWEST: f64 = 1.06;
+const fn slowest(wish: Wish) -> f64 {
+    match wish {
+        Wish::Comfort => 1.06,
+        Wish::Room => 1.04,
+    }
+}
+
 /// Pushed a little farther than asked for, because a bend has ebbed a little where the pair is closest then.
 const EXTRA: f64 = 1.15;
 
@@ -33,57 +41,61 @@ pub(super) fn nudge(
         return straight;
     }
     let Transition { paths, goal_of, least, .. } = &mut quick.transition;
-    let rest = turn_time(core::f64::consts::FRAC_PI_2, &problem.limits);
-    let factor = (wished - rest).as_secs() / (*least - rest).as_secs().max(1e-6);
+    let factor = slower_than(*least, wished, &problem.limits);
     if factor <= 1.0 {
         return quick;
     }
+    let rest = turn_time(core::f64::consts::FRAC_PI_2, &problem.limits);
     let slow = paths.iter().map(|path| slower(path, rest, factor)).collect();
-    let mut candidate = Candidate::of_paths(problem, slow, std::mem::take(goal_of));
+    let mut candidate = Candidate::of_paths(problem, slow, std::mem::take(goal_of), factor);
     candidate.transition.least = *least;
     candidate
 }
 
-/// The best of the candidate, which is as quick as may be, and what bending makes of it.
+/// The best of the candidate, which is as quick as may be, and what bending makes of it: comfortable first, then with room
+/// to stop behind others.
 fn bent(problem: &TransitionProblem, straight: Candidate, rounds: usize) -> Candidate {
     let lines = straight.transition.paths.clone();
     let mut bends: BTreeMap<usize, Bend> = BTreeMap::new();
     let least = straight.transition.least;
     let mut best = straight;
-    let mut conflicts = best.proof.conflicts.clone();
-    for _ in 0..rounds.min(ROUNDS) {
-        if conflicts.is_empty() || conflicts.len() > lines.len() / 8 + 4 {
-            break;
-        }
-        let mut paths = lines.clone();
-        for found in &conflicts {
-            part(problem, &lines, found, &mut bends);
-        }
-        for (&robot, bend) in &bends {
-            paths[robot] = bend.applied_to(&lines[robot]);
-        }
-        let mut bent = Candidate::of_paths(problem, paths, best.transition.goal_of.clone());
-        bent.transition.least = least;
-        conflicts.clone_from(&bent.proof.conflicts);
-        if !bent.proof.faults.is_empty() && bent.proof.conflicts.len() < best.proof.conflicts.len() {
-            bent = slowed(problem, bent);
-        }
-        if bent.is_better_than(&best) {
-            best = bent;
+    for wish in [Wish::Comfort, Wish::Room] {
+        let mut conflicts = best.worth_bending(wish);
+        let most = if wish == Wish::Room { ROOM_WORK / lines.len().max(1) } else { ROUNDS };
+        for _ in 0..rounds.min(ROUNDS).min(most) {
+            if conflicts.is_empty() {
+                break;
+            }
+            let mut paths = lines.clone();
+            for found in &conflicts {
+                part(problem, &lines, found, wish, &mut bends);
+            }
+            for (&robot, bend) in &bends {
+                paths[robot] = bend.applied_to(&lines[robot]);
+            }
+            let mut bent = Candidate::of_paths(problem, paths, best.transition.goal_of.clone(), 1.0);
+            bent.transition.least = least;
+            conflicts = bent.worth_bending(wish);
+            if !bent.proof.faults.is_empty() && bent.is_roomier_than(&best) {
+                bent = slowed(problem, bent, wish);
+            }
+            if bent.is_better_than(&best) {
+                best = bent;
+            }
         }
     }
     best
 }
 
 /// The same ways as much slower as limits ask for: who drives at the limit already has nothing left for a bend.
-fn slowed(problem: &TransitionProblem, bent: Candidate) -> Candidate {
+fn slowed(problem: &TransitionProblem, bent: Candidate, wish: Wish) -> Candidate {
     let hasty = bent.proof.faults.iter().map(|fault| haste(&bent.transition.paths[fault.robot], problem));
     let factor = hasty.fold(1.0, f64::max) * 1.000_5;
-    if factor > SLOWEST {
+    if factor > slowest(wish) {
         return bent;
     }
     let paths = bent.transition.paths.iter().map(|path| slower(path, Span::ZERO, factor)).collect();
-    Candidate::of_paths(problem, paths, bent.transition.goal_of)
+    Candidate::of_paths(problem, paths, bent.transition.goal_of, 1.0)
 }
 
 /// How many times as slow a path must be to keep speed and acceleration, by its control points.
@@ -110,7 +122,13 @@ fn slower(path: &Path, rest: Span, factor: f64) -> Path {
 }
 
 /// Pushes a pair apart where it is closest; who has the longer way gives way more.
-fn part(problem: &TransitionProblem, lines: &[Path], found: &Closest, bends: &mut BTreeMap<usize, Bend>) {
+fn part(
+    problem: &TransitionProblem,
+    lines: &[Path],
+    found: &Closest,
+    wish: Wish,
+    bends: &mut BTreeMap<usize, Bend>,
+) {
     let (i, j) = found.pair;
     let way_m = |disc: usize| lines.get(disc).map_or(0.0, |line| line.start.distance(line.as_ref().end()));
     let place = |disc: usize| match lines.get(disc) {
@@ -119,7 +137,10 @@ fn part(problem: &TransitionProblem, lines: &[Path], found: &Closest, bends: &mu
     };
     let both_m = way_m(i) + way_m(j);
     let Some(apart) = (place(i) - place(j)).normalized() else { return };
-    let comfort_m = problem.limits.contact_m() + COMFORT_M;
+    let room_m = match wish {
+        Wish::Comfort => problem.limits.contact_m() + COMFORT_M,
+        Wish::Room => room::wanted_m(lines, found, &problem.limits, 1.0),
+    };
     // What ends closer than comfortable need not be pushed farther than that.
     let ends_m = |at_end: bool| {
         let end = |disc: usize| match lines.get(disc) {
@@ -129,7 +150,7 @@ fn part(problem: &TransitionProblem, lines: &[Path], found: &Closest, bends: &mu
         };
         end(i).distance(end(j))
     };
-    let wanted_m = comfort_m.min(ends_m(false)).min(ends_m(true)) - found.distance_m + MARGIN_M / 10.0;
+    let wanted_m = room_m.min(ends_m(false)).min(ends_m(true)) - found.distance_m + MARGIN_M / 10.0;
     if both_m <= 0.0 || wanted_m <= 0.0 {
         return;
     }

@@ -84,6 +84,30 @@ fn a_spare_robot_stays_or_steps_aside() {
     assert!(plan.paths[1].as_ref().end().distance(Vec2::new(0.01, 0.0)) >= 0.057);
 }
 
+/// Two who drive 1.5 m together, 81 mm apart where they start and end; on straight lines they come within 64 mm half way.
+fn pair_that_turns(apart_at_start: Vec2, apart_at_end: Vec2) -> TransitionProblem {
+    let ends = [Vec2::new(-0.75, 0.0), Vec2::new(0.75, 0.0)];
+    let starts = vec![ends[0], ends[0] + apart_at_start];
+    let mut pair = problem(starts, vec![ends[1], ends[1] + apart_at_end], 1.5);
+    pair.pinned = vec![Some(0), Some(1)];
+    pair
+}
+
+#[test]
+fn who_drives_behind_another_is_left_room_to_stop_and_who_drives_beside_it_is_not() {
+    let in_line = pair_that_turns(Vec2::new(0.064, 0.05), Vec2::new(0.064, -0.05));
+    let least = transition(&in_line).unwrap().least;
+    for seconds in [None, Some(6.3), Some(15.0)] {
+        let duration = seconds.map(lightbots_base::Span::from_secs);
+        let plan = transition(&TransitionProblem { duration, ..in_line.clone() }).unwrap();
+        assert_eq!(plan.least, least, "whatever was asked for");
+        assert!(plan.closest.unwrap().distance_m >= 0.072, "{:?}", plan.closest);
+        assert!(plan.least.as_secs() <= (plan.lower_bound_s + 0.62) * 1.02, "{:?}", plan.least);
+    }
+    let beside = pair_that_turns(Vec2::new(0.05, 0.064), Vec2::new(-0.05, 0.064));
+    assert!(transition(&beside).unwrap().closest.unwrap().distance_m < 0.0645);
+}
+
 #[test]
 fn a_set_duration_is_met_and_the_least_is_known() {
     let mut slow = problem(vec![Vec2::ZERO], vec![Vec2::new(0.54, 0.0)], 1.5);
