@@ -95,23 +95,29 @@ async function measure(page: Page) {
   };
 }
 
-/** Size and number of the snapshots that a screen gets. */
+/** Size and number of the snapshots that a screen gets, and how fast the show clock goes: a machine that is too slow for
+ * its simulated robots slows them down. */
 const snapshots = (page: Page) =>
   page.evaluate(async () => {
     const socket = new WebSocket(`ws://${location.host}/ws`);
     socket.binaryType = 'arraybuffer';
-    let [bytes, count] = [0, 0];
+    let [bytes, count, pace] = [0, 0, 1];
     socket.onmessage = ({ data }: MessageEvent<string | ArrayBuffer>) => {
       if (typeof data === 'string' && !data.startsWith('{"type":"state"')) return;
       bytes += typeof data === 'string' ? data.length : data.byteLength;
       if (typeof data !== 'string') return;
       count++;
+      pace = (JSON.parse(data) as { pace: number }).pace;
       socket.send('{"type":"took"}');
     };
     await new Promise((resolve) => (socket.onopen = resolve));
     await new Promise((resolve) => setTimeout(resolve, 2000));
     socket.close();
-    return { snapshot_kB: bytes / Math.max(1, count) / 1000, snapshots_a_second: count / 2 };
+    return {
+      snapshot_kB: bytes / Math.max(1, count) / 1000,
+      snapshots_a_second: count / 2,
+      'show_time_%_of_real_time': Math.round(pace * 100),
+    };
   });
 
 const row = (
@@ -130,6 +136,7 @@ const row = (
       main_thread_ms_a_frame: measured.busy_ms,
       snapshot_kB: null,
       snapshots_a_second: null,
+      'show_time_%_of_real_time': null,
       ...more,
     })}\n`,
   );

@@ -28,7 +28,7 @@ export const firmwareText = (row: FleetRow) => row.firmware ?? 'original';
 /** What it can do beyond the original protocol. */
 export function abilitiesText({ abilities }: FleetRow): string {
   const words = [
-    abilities.route ? 'timed paths' : '',
+    abilities.route ? 'paths' : '',
     abilities.fade ? 'fades' : '',
     abilities.blink ? 'blinks' : '',
   ].filter(Boolean);

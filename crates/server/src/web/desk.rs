@@ -64,7 +64,7 @@ impl Desk {
         let mut given = self.given.lock().await;
         let shown = self.shown();
         if shown.revision != *given {
-            self.handle.operate(Operation::Open(shown.show.clone())).await?;
+            self.handle.operate(Operation::Open(shown.named())).await?;
             *given = shown.revision;
         }
         Ok(())
@@ -121,6 +121,16 @@ impl Desk {
 }
 
 impl Shown {
+    /// The show with a name: one that its author gave none is called as in the library.
+    fn named(&self) -> Arc<Show> {
+        match &self.name {
+            Some(name) if self.show.name.trim().is_empty() => {
+                Arc::new(Show { name: name.clone(), ..(*self.show).clone() })
+            }
+            _ => self.show.clone(),
+        }
+    }
+
     fn new(
         revision: u32,
         name: Option<String>,
@@ -130,5 +140,19 @@ impl Shown {
     ) -> Self {
         let message = api::ToScreen::Show(api::OpenShow { revision, name: name.clone(), etag, document });
         Self { revision, name, show, message: super::socket::text(&message) }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_show_without_a_name_is_called_as_in_the_library() {
+        let shown = |title: &str| {
+            let show = Show { name: title.into(), ..Show::default() };
+            Shown::new(1, Some("heart 2".into()), None, Arc::new(show), serde_json::Value::Null).named()
+        };
+        assert_eq!((&*shown("").name, &*shown("Heart").name), ("heart 2", "Heart"));
     }
 }
