@@ -4,6 +4,8 @@
 //! took longer than the shortest one known, so that excess is each answer's own measure of trust: over a jittery link
 //! the few quick answers count, and none is thrown away.
 
+use core::hint::black_box;
+
 use lightbots_base::{Instant, Span};
 use lightbots_wire::TimeAnswer;
 
@@ -38,22 +40,23 @@ const SET_ANEW_US: f64 = 500_000.0;
 
 /// What a robot knows of the show clock.
 #[derive(Debug)]
+#[repr(C)] // See `Robot`.
 pub(crate) struct Clock {
-    answers: u32,
-    answered: [Instant; ANSWERED],
     /// Offset = `base_us` + `offset_us` at `at` of the own clock; the whole part apart keeps small numbers exact.
     base_us: i64,
     offset_us: f64,
     drift: f64,
     at: Instant,
+    next_question: Instant,
+    answers: u32,
+    unanswered: u8,
+    was_reset: bool,
+    synchronised: bool,
     /// Covariance: offset², offset·drift, drift².
     variance: [f64; 3],
     shortest_us: f64,
     mean_us: f64,
-    next_question: Instant,
-    unanswered: u8,
-    was_reset: bool,
-    synchronised: bool,
+    answered: [Instant; ANSWERED],
 }
 
 impl Clock {
@@ -74,6 +77,12 @@ impl Clock {
             was_reset: false,
             synchronised: false,
         }
+    }
+
+    /// Reads a little of each cache line, in order: see `Robot::fetch`.
+    #[inline]
+    pub(crate) fn fetch(&self) {
+        black_box((self.base_us, self.variance[0], self.answered[0], self.answered[ANSWERED - 1]));
     }
 
     /// The show time at `now` of the own clock; `None` until synchronised.

@@ -5,30 +5,31 @@ use lightbots_wire::{Abilities, Firmware};
 
 /// What a robot is and has, fixed at power-on.
 #[derive(Clone, Debug)]
+#[repr(C)] // See `Robot`.
 pub struct Config {
     /// Its name.
     pub id: RobotId,
-    /// Its body.
-    pub limits: Limits,
     /// Name and version it reports.
     pub firmware: Firmware,
-    /// How old a position fix is when it comes in; 0 to 0.45 s.
-    pub fix_delay: Span,
-    /// How often position fixes come.
-    pub fix_pace: Span,
-    /// With nothing heard for so long while it drives a route, or with the link down for so long while it drives at
-    /// all, it stops and is cut off.
-    pub silence: Span,
     /// Spreads the periodic messages of a fleet over time.
     pub seed: u32,
+    /// How old a position fix is when it comes in; 0 to 0.45 s.
+    pub fix_delay: Span,
     /// Noise of a position fix in each coordinate, 1 sigma, metres.
     pub fix_sigma_m: f64,
     /// Noise of a heading fix, 1 sigma, radians.
     pub heading_sigma_rad: f64,
     /// What share of their turning its wheels lose at most, usually: it learns the rest.
     pub slip: f64,
+    /// With nothing heard for so long while it drives a route, or with the link down for so long while it drives at
+    /// all, it stops and is cut off.
+    pub silence: Span,
     /// What it can do beyond the original protocol. With none of it, it behaves and reports like an original robot.
     pub abilities: Abilities,
+    /// How often position fixes come.
+    pub fix_pace: Span,
+    /// Its body.
+    pub limits: Limits,
 }
 
 impl Config {

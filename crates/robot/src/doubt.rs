@@ -3,6 +3,8 @@
 //! What a fix corrects changes slowly, so the covariance is carried over several steps at once and its gains are used
 //! in between: the filter then costs a few multiplications a step.
 
+use core::hint::black_box;
+
 use lightbots_base::Vec2;
 
 /// Stage x and y, heading, slip of the left and the right wheel.
@@ -62,7 +64,11 @@ pub(crate) struct Gain {
 
 /// The covariance.
 #[derive(Debug)]
+#[repr(C)] // See `Robot`.
 pub(crate) struct Doubt {
+    /// What is asked for at every step, of the covariance as it is.
+    place: f64,
+    heading: f64,
     p: [Row; STATES],
 }
 
@@ -73,7 +79,12 @@ impl Doubt {
         for (state, sigma) in [1.0, 1.0, core::f64::consts::PI, slip, slip].into_iter().enumerate() {
             p[state][state] = sigma * sigma;
         }
-        Self { p }
+        Self { place: p[X][X], heading: p[HEADING][HEADING], p }
+    }
+
+    fn sum_up(&mut self) {
+        self.place = self.p[X][X].max(self.p[Y][Y]);
+        self.heading = self.p[HEADING][HEADING];
     }
 
     /// Carries it over a stretch that ended facing this way.
@@ -109,6 +120,7 @@ impl Doubt {
         p[Y][Y] += way + steps * (STANDING_M * STANDING_M);
         p[HEADING][HEADING] +=
             TURN * TURN * stretch.turn * stretch.turn + steps * (STANDING_RAD * STANDING_RAD);
+        self.sum_up();
     }
 
     /// Takes in measurements of this noise.
@@ -125,6 +137,7 @@ impl Doubt {
                 }
             }
         }
+        self.sum_up();
     }
 
     /// What one measurement of x, y and heading corrects, each by its variance.
@@ -151,16 +164,23 @@ impl Doubt {
         self.p[state] = [0.0; STATES];
         self.p.iter_mut().for_each(|row| row[state] = 0.0);
         self.p[state][state] = variance;
+        self.sum_up();
     }
 
     /// Variance of the place, the greater of both coordinates.
     pub(crate) fn place(&self) -> f64 {
-        self.p[X][X].max(self.p[Y][Y])
+        self.place
+    }
+
+    /// Reads a little of each cache line, in order: see `Robot::fetch`.
+    #[inline]
+    pub(crate) fn fetch(&self) {
+        black_box((self.place, self.p[1][2], self.p[2][4], self.p[4][1], self.p[4][4]));
     }
 
     /// Variance of the heading.
     pub(crate) fn heading(&self) -> f64 {
-        self.p[HEADING][HEADING]
+        self.heading
     }
 
     /// Variance of the wheels' slip, in the mean of both.

@@ -31,18 +31,13 @@ pub(crate) struct Body {
     pub facing: Vec2,
 }
 
-/// The drive base: what it was told last, and its limits.
-#[derive(Debug)]
+/// The drive base: what it was told last.
+#[derive(Debug, Default)]
 pub(crate) struct Drive {
     told: Setpoint,
-    limits: Limits,
 }
 
 impl Drive {
-    pub(crate) fn new(limits: Limits) -> Self {
-        Self { told: Setpoint::default(), limits }
-    }
-
     /// Where the body will be in `dt` seconds, when what is said now takes effect: motors answer one step late.
     pub(crate) fn foresee(&self, body: Body, dt: f64) -> Body {
         let facing = turned(body.facing, (self.told.turn_radps * dt).clamp(-0.1, 0.1));
@@ -52,8 +47,7 @@ impl Drive {
 
     /// Goes towards a setpoint within the ramps; wheel rates left and right, rad/s, of wheels that lose these shares of
     /// their turning.
-    pub(crate) fn step(&mut self, want: Setpoint, slip: [f64; 2], dt: f64) -> [f64; 2] {
-        let limits = &self.limits;
+    pub(crate) fn step(&mut self, want: Setpoint, slip: [f64; 2], dt: f64, limits: &Limits) -> [f64; 2] {
         let speed_max = limits.speed_mps * SPEED_RESERVE;
         let speed = want.speed_mps.clamp(-speed_max, speed_max);
         let turn = want.turn_radps.clamp(-limits.turn_radps, limits.turn_radps);
@@ -62,20 +56,27 @@ impl Drive {
             speed_mps: self.told.speed_mps + (speed - self.told.speed_mps).clamp(-speed_step, speed_step),
             turn_radps: self.told.turn_radps + (turn - self.told.turn_radps).clamp(-turn_step, turn_step),
         };
-        self.wheels(slip)
+        self.wheels(slip, limits)
     }
 
     /// Goes towards a setpoint within the ramps, but along its front no faster than `most_mps`, at once.
-    pub(crate) fn step_within(&mut self, want: Setpoint, most_mps: f64, slip: [f64; 2], dt: f64) -> [f64; 2] {
-        self.step(want, slip, dt);
+    pub(crate) fn step_within(
+        &mut self,
+        want: Setpoint,
+        most_mps: f64,
+        slip: [f64; 2],
+        dt: f64,
+        limits: &Limits,
+    ) -> [f64; 2] {
+        self.step(want, slip, dt, limits);
         self.told.speed_mps = self.told.speed_mps.clamp(-most_mps, most_mps);
-        self.wheels(slip)
+        self.wheels(slip, limits)
     }
 
     /// How far it goes on when it stops by its ramp, metres.
-    pub(crate) fn braking_m(&self) -> f64 {
+    pub(crate) fn braking_m(&self, limits: &Limits) -> f64 {
         let speed_mps = self.told.speed_mps.abs();
-        speed_mps * (speed_mps / (2.0 * ACCEL_RESERVE * self.limits.accel_mps2) + DEAD_S)
+        speed_mps * (speed_mps / (2.0 * ACCEL_RESERVE * limits.accel_mps2) + DEAD_S)
     }
 
     /// What it was told last along its front, m/s.
@@ -95,15 +96,15 @@ impl Drive {
     }
 
     /// Where a wheel would have to turn too fast, both turn slower in proportion: the curve stays, the speed gives.
-    fn wheels(&self, slip: [f64; 2]) -> [f64; 2] {
+    fn wheels(&self, slip: [f64; 2], limits: &Limits) -> [f64; 2] {
         let Setpoint { speed_mps, turn_radps } = self.told;
-        let half = turn_radps * self.limits.track_m * 0.5;
+        let half = turn_radps * limits.track_m * 0.5;
         let rates = [
-            (speed_mps - half) / (self.limits.wheel_radius_m * (1.0 - slip[0])),
-            (speed_mps + half) / (self.limits.wheel_radius_m * (1.0 - slip[1])),
+            (speed_mps - half) / (limits.wheel_radius_m * (1.0 - slip[0])),
+            (speed_mps + half) / (limits.wheel_radius_m * (1.0 - slip[1])),
         ];
         let fastest = rates[0].abs().max(rates[1].abs());
-        let scale = if fastest > self.limits.wheel_radps { self.limits.wheel_radps / fastest } else { 1.0 };
+        let scale = if fastest > limits.wheel_radps { limits.wheel_radps / fastest } else { 1.0 };
         rates.map(|rate| rate * scale)
     }
 }
@@ -114,45 +115,45 @@ mod tests {
 
     #[test]
     fn wheels_follow_the_ramp_and_the_measured_numbers() {
-        let mut drive = Drive::new(Limits::ELISA_3);
+        let mut drive = Drive::default();
         let want = Setpoint { speed_mps: 0.27, turn_radps: 0.0 };
-        let first = drive.step(want, [0.0; 2], 0.016);
+        let first = drive.step(want, [0.0; 2], 0.016, &Limits::ELISA_3);
         assert!((first[0] - 0.02 / 0.0045).abs() < 1e-9);
         for _ in 0..20 {
-            drive.step(want, [0.0; 2], 0.016);
+            drive.step(want, [0.0; 2], 0.016, &Limits::ELISA_3);
         }
-        assert!((drive.step(want, [0.0; 2], 0.016)[1] - 60.0).abs() < 1e-9);
+        assert!((drive.step(want, [0.0; 2], 0.016, &Limits::ELISA_3)[1] - 60.0).abs() < 1e-9);
         assert_eq!(drive.halt(), [0.0; 2]);
         assert!(drive.stands());
     }
 
     #[test]
     fn it_knows_how_far_it_goes_on_when_it_stops() {
-        let mut drive = Drive::new(Limits::ELISA_3);
+        let mut drive = Drive::default();
         for _ in 0..40 {
-            drive.step(Setpoint { speed_mps: 0.2, turn_radps: 0.0 }, [0.0; 2], 0.016);
+            drive.step(Setpoint { speed_mps: 0.2, turn_radps: 0.0 }, [0.0; 2], 0.016, &Limits::ELISA_3);
         }
-        let (told, mut way_m) = (drive.braking_m(), 0.2 * 0.032);
+        let (told, mut way_m) = (drive.braking_m(&Limits::ELISA_3), 0.2 * 0.032);
         while !drive.stands() {
-            way_m += drive.step(Setpoint::default(), [0.0; 2], 0.016)[0] * 0.0045 * 0.016;
+            way_m += drive.step(Setpoint::default(), [0.0; 2], 0.016, &Limits::ELISA_3)[0] * 0.0045 * 0.016;
         }
         assert!((told - way_m).abs() < 0.002, "{told} {way_m}");
     }
 
     #[test]
     fn turning_on_the_spot_stays_below_twenty_at_the_wheels() {
-        let mut drive = Drive::new(Limits::ELISA_3);
+        let mut drive = Drive::default();
         let spin = Setpoint { speed_mps: 0.0, turn_radps: 99.0 };
-        let wheels = (0..20).map(|_| drive.step(spin, [0.0; 2], 0.016)).last().unwrap();
+        let wheels = (0..20).map(|_| drive.step(spin, [0.0; 2], 0.016, &Limits::ELISA_3)).last().unwrap();
         assert!(wheels[1] > 20.0 && wheels[1] < 20.2 && wheels[0] == -wheels[1]);
     }
 
     #[test]
     fn a_wheel_at_its_limit_keeps_the_curve() {
         let limits = Limits { wheel_radps: 30.0, ..Limits::ELISA_3 };
-        let mut drive = Drive::new(limits);
+        let mut drive = Drive::default();
         let want = Setpoint { speed_mps: 0.27, turn_radps: 2.0 };
-        let wheels = (0..40).map(|_| drive.step(want, [0.0; 2], 0.016)).last().unwrap();
+        let wheels = (0..40).map(|_| drive.step(want, [0.0; 2], 0.016, &limits)).last().unwrap();
         assert!((wheels[1] - 30.0).abs() < 1e-9);
         assert!((wheels[0] / wheels[1] - (0.27 - 0.0402) / (0.27 + 0.0402)).abs() < 1e-9);
     }

@@ -1,6 +1,8 @@
 //! Where the robot is now. The filter lives in the past that fixes speak of, which is now where they come at once; from
 //! there wheel turns lead to the present.
 
+use core::hint::black_box;
+
 use lightbots_base::{Instant, Pose, Span, Vec2, wrap};
 
 use crate::config::{Config, Fix};
@@ -13,14 +15,14 @@ const LOST_AFTER: Span = Span::from_millis(3000);
 
 /// The estimated pose and how sure it is.
 #[derive(Debug)]
+#[repr(C)] // See `Robot`.
 pub(crate) struct Estimate {
-    filter: Filter,
-    delay: Span,
-    trail: Trail,
     at: Vec2,
-    heading: f64,
     /// Unit vector of `heading`.
     facing: Vec2,
+    heading: f64,
+    delay: Span,
+    filter: Filter,
 }
 
 impl Estimate {
@@ -28,50 +30,49 @@ impl Estimate {
         Self {
             filter: Filter::new(config),
             delay: config.fix_delay,
-            trail: Trail::new(),
             at: Vec2::ZERO,
             heading: 0.0,
             facing: Vec2::new(1.0, 0.0),
         }
     }
 
-    /// Carries the pose over one step by wheel turns, radians.
-    pub(crate) fn advance(&mut self, now: Instant, turns_rad: [f64; 2]) {
+    /// Carries the pose over one step by wheel turns, radians. `trail` is its own, which lies elsewhere.
+    pub(crate) fn advance(&mut self, now: Instant, turns_rad: [f64; 2], trail: &mut Trail) {
         if self.delay <= Span::ZERO {
             self.filter.advance(turns_rad);
         } else {
-            if let Some(turns) = self.trail.add(now, turns_rad) {
+            if let Some(turns) = trail.add(now, turns_rad) {
                 self.filter.advance(turns);
             }
-            while let Some(turns) = self.trail.take_until(now - self.delay) {
+            while let Some(turns) = trail.take_until(now - self.delay) {
                 self.filter.advance(turns);
             }
         }
-        self.come_to_now();
+        self.come_to_now(trail);
     }
 
     /// Pulls the pose towards a fix. What is not a number is no fix.
-    pub(crate) fn correct(&mut self, now: Instant, fix: &Fix) {
+    pub(crate) fn correct(&mut self, now: Instant, fix: &Fix, trail: &Trail) {
         if self.delay <= Span::ZERO {
             self.filter.correct(now, fix);
         } else {
             // The fix speaks of a moment within the step that follows on the filter's.
-            let (way, turn) = self.filter.motion(self.trail.begun_by(now - self.delay));
+            let (way, turn) = self.filter.motion(trail.begun_by(now - self.delay));
             let moved = self.filter.facing() * way;
             let fix = Fix { at: fix.at - moved, heading: fix.heading.map(|heading| heading - turn) };
             self.filter.correct(now, &fix);
         }
-        self.come_to_now();
+        self.come_to_now(trail);
     }
 
-    fn come_to_now(&mut self) {
+    fn come_to_now(&mut self, trail: &Trail) {
         (self.at, self.heading, self.facing) =
             (self.filter.at(), self.filter.heading(), self.filter.facing());
         if self.delay <= Span::ZERO {
             return;
         }
         let mut turned_by = 0.0;
-        for turns in self.trail.turns() {
+        for turns in trail.turns() {
             let (way, turn) = self.filter.motion(turns);
             let before = self.facing;
             self.facing = turned(before, turn.clamp(-0.3, 0.3));
@@ -79,6 +80,13 @@ impl Estimate {
             turned_by += turn;
         }
         self.heading = wrap(self.heading + turned_by);
+    }
+
+    /// Reads a little of each cache line, in order: see `Robot::fetch`.
+    #[inline]
+    pub(crate) fn fetch(&self) {
+        black_box(self.at.x);
+        self.filter.fetch();
     }
 
     /// The place as far as it is known.
@@ -158,15 +166,16 @@ mod tests {
 
     #[test]
     fn dead_reckoning_ends_in_being_lost() {
+        let mut trail = Trail::new();
         let mut one = Estimate::new(&config());
         assert!(one.lost(Instant(0)));
-        one.correct(Instant(0), &fix(0.0, 0.0));
+        one.correct(Instant(0), &fix(0.0, 0.0), &trail);
         assert!(!one.lost(Instant(2_900_000)));
         assert!(one.lost(Instant(3_100_000)));
         let mut steps = 0;
         while !one.lost(Instant(0)) {
             steps += 1;
-            one.advance(Instant(steps * 16_000), [0.96, 0.96]);
+            one.advance(Instant(steps * 16_000), [0.96, 0.96], &mut trail);
         }
         assert!((20..120).contains(&steps), "{steps}");
         assert!(one.error_m() > LOST_M);
@@ -175,12 +184,14 @@ mod tests {
     #[test]
     fn what_is_not_a_number_is_no_fix() {
         let mut one = Estimate::new(&config());
-        one.correct(Instant(0), &Fix { at: Vec2::new(f64::NAN, 0.0), heading: Some(f64::INFINITY) });
+        let trail = Trail::new();
+        one.correct(Instant(0), &Fix { at: Vec2::new(f64::NAN, 0.0), heading: Some(f64::INFINITY) }, &trail);
         assert!(one.lost(Instant(0)) && !one.aligned());
     }
 
     #[test]
     fn late_fixes_between_two_steps_leave_no_lag() {
+        let mut trail = Trail::new();
         let mut one = Estimate::new(&Config { fix_delay: Span::from_millis(40), ..config() });
         let (speed, turn) = (0.2, 0.5);
         let truth = |at_s: f64| {
@@ -191,9 +202,9 @@ mod tests {
         for step in 1..200u64 {
             let now = Instant(step * 16_000);
             let turns = if step > 50 { [wheel(-1.0), wheel(1.0)] } else { [0.0; 2] };
-            one.advance(now, turns);
+            one.advance(now, turns, &mut trail);
             let (at, heading) = truth((step as f64 * 0.016 - 0.8 - 0.04).max(0.0));
-            one.correct(now, &Fix { at, heading: Some(heading) });
+            one.correct(now, &Fix { at, heading: Some(heading) }, &trail);
             let (at, heading) = truth((step as f64 * 0.016 - 0.8).max(0.0));
             assert!(one.at().distance(at) < 1e-4, "step {step}: {:?} {at:?}", one.at());
             assert!((one.facing() - Vec2::unit(heading)).length() < 1e-3, "step {step}");

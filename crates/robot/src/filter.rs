@@ -7,6 +7,8 @@ mod judge;
 #[cfg(test)]
 mod tests;
 
+use core::hint::black_box;
+
 use lightbots_base::{Instant, Limits, Span, Vec2, difference, wrap};
 
 use crate::bearing::Bearing;
@@ -31,29 +33,30 @@ const BEARING_OFF_RAD: f64 = 0.2;
 
 /// The pose, the slip, and how sure both are.
 #[derive(Debug)]
+#[repr(C)] // See `Robot`.
 pub(crate) struct Filter {
     at: Vec2,
-    heading: f64,
     /// Unit vector of `heading`, turned along step by step: far cheaper than a sine and a cosine each time.
     facing: Vec2,
-    slip: Slip,
-    doubt: Doubt,
-    gains: [Gain; 3],
+    heading: f64,
+    aligned: bool,
+    teaching: u8,
+    wheel_radius_m: f64,
+    track_m: f64,
+    /// All the way by wheels, stage metres.
+    way: Vec2,
     /// Since the covariance was carried on, and the fixes within: of places and of headings.
     stretch: Stretch,
     fixes: [u32; 2],
-    teaching: u8,
+    slip: Slip,
+    judge: Judge,
     place_trust: Trust,
     heading_trust: Trust,
     /// What the fix before was off by, where it was no outlier.
     off: Option<(Vec2, f64)>,
-    judge: Judge,
-    aligned: bool,
-    /// All the way by wheels, stage metres.
-    way: Vec2,
+    gains: [Gain; 3],
+    doubt: Doubt,
     bearing: Bearing,
-    wheel_radius_m: f64,
-    track_m: f64,
 }
 
 impl Filter {
@@ -225,6 +228,15 @@ impl Filter {
     fn turn_by(&mut self, turn: f64) {
         self.heading = wrap(self.heading + turn);
         self.facing = if turn.abs() < 0.1 { turned(self.facing, turn) } else { Vec2::unit(self.heading) };
+    }
+
+    /// Reads a little of each cache line, in order: see `Robot::fetch`.
+    #[inline]
+    pub(crate) fn fetch(&self) {
+        let ([x, y, turn], Stretch { turn: turned, .. }) = (&self.gains, &self.stretch);
+        black_box((self.at.x, self.track_m, turned, self.slip.now(), self.judge.last_place()));
+        black_box((self.off.is_some(), x.at.x, y.turn, turn.slip));
+        self.doubt.fetch();
     }
 
     /// What of their turning the wheels lose, left and right.

@@ -1,5 +1,7 @@
 //! The light: a colour, fades by the show clock, blinking to be found, and flashes that say what is wrong.
 
+use core::hint::black_box;
+
 use lightbots_base::{Instant, Rgb, Span};
 use lightbots_wire::Fade;
 
@@ -14,8 +16,11 @@ const RED: Rgb = Rgb::new(255, 0, 0);
 
 /// What the light shows and will show.
 #[derive(Debug, Default)]
+#[repr(C)] // See `Robot`.
 pub(crate) struct Light {
     shown: Rgb,
+    /// There is more to it than `shown`.
+    busy: bool,
     /// The colour a running fade came from, and the fade.
     running: Option<(Rgb, Fade)>,
     /// In order of time.
@@ -27,6 +32,18 @@ pub(crate) struct Light {
 }
 
 impl Light {
+    /// Reads a little of each cache line, in order: see `Robot::fetch`.
+    #[inline]
+    pub(crate) fn fetch(&self) {
+        black_box((
+            self.busy,
+            self.running.is_some(),
+            self.waiting.len(),
+            self.blink.is_some(),
+            self.trouble.is_some(),
+        ));
+    }
+
     /// Shows a colour at once and for good: what was under way is forgotten.
     pub(crate) fn set(&mut self, colour: Rgb) {
         self.shown = colour;
@@ -43,6 +60,7 @@ impl Light {
         if self.waiting.is_full() {
             self.waiting.pop();
         }
+        self.busy = true;
         // Fits: there is room, and `place` lies within what is left.
         let _ = self.waiting.insert(place.min(self.waiting.len()), fade);
         self.advance(show);
@@ -51,11 +69,16 @@ impl Light {
     /// Blinks from `now` on, own clock.
     pub(crate) fn blink(&mut self, now: Instant, over: Span) {
         self.blink = Some((now, now + over));
+        self.busy = true;
     }
 
     /// What is wrong at `now`, own clock, in red flashes; 0: nothing.
     pub(crate) fn say(&mut self, now: Instant, flashes: u8) {
+        if flashes == 0 && !self.busy {
+            return;
+        }
         if self.trouble.map_or(0, |(_, said)| said) != flashes {
+            self.busy = true;
             self.trouble = (flashes > 0).then_some((now + SETTLED, flashes));
         }
     }
@@ -67,10 +90,15 @@ impl Light {
 
     /// The colour now, by the own clock and the show clock.
     pub(crate) fn step(&mut self, now: Instant, show: Option<Instant>) -> Rgb {
+        if !self.busy {
+            return self.shown;
+        }
         if let Some(show) = show.filter(|_| self.running.is_some() || !self.waiting.is_empty()) {
             self.advance(show);
         }
         self.blink.take_if(|(_, until)| now >= *until);
+        let fades = self.running.is_some() || !self.waiting.is_empty();
+        self.busy = fades || self.blink.is_some() || self.trouble.is_some();
         let (beat, colour) = match (self.blink, self.trouble) {
             (Some((from, _)), _) => ((now - from).0 / FLASH.0, Rgb::new(255, 255, 255)),
             (None, Some((from, flashes))) if now >= from => {

@@ -7,6 +7,8 @@
 
 mod apart;
 
+use core::hint::black_box;
+
 use lightbots_base::Limits;
 
 /// Sensors around the rim, 45° apart, counter-clockwise from the front.
@@ -98,18 +100,19 @@ pub(crate) struct Wish {
 
 /// What the proximity sensors saw, and what follows from it.
 #[derive(Debug)]
+#[repr(C)] // See `Robot`.
 pub(crate) struct Reflex {
     /// `[steps ago][sensor]`: gaps, metres; infinite where nothing was in sight.
     past_m: [[f32; SENSORS]; PAST + 1],
-    sees: bool,
     /// `[steps ago]`: how fast it drove, m/s; backwards is negative.
     speeds_mps: [f32; PAST],
     dt: f32,
     /// What holds it back: the sensor, its gap then, and how fast it may drive, m/s.
     held: Option<(usize, f32, f64)>,
+    block: Option<Block>,
+    sees: bool,
     /// Steps in a row in which it was held back, or free again.
     count: u8,
-    block: Option<Block>,
 }
 
 const NOTHING: [f32; SENSORS] = [f32::INFINITY; SENSORS];
@@ -152,7 +155,7 @@ impl Reflex {
     #[inline]
     pub(crate) fn limit(&mut self, wish: Wish, limits: &Limits) -> Option<f64> {
         if !self.sees && self.block.is_none() {
-            self.held = None;
+            self.let_go();
             return None;
         }
         if self.block.is_some() {
@@ -280,7 +283,23 @@ impl Reflex {
 
     /// What it is to do has changed: it may try again.
     pub(crate) fn forget(&mut self) {
-        (self.block, self.held, self.count) = (None, None, 0);
+        self.let_go();
+        if self.block.is_some() || self.count > 0 {
+            (self.block, self.count) = (None, 0);
+        }
+    }
+
+    /// Writes only where that changes anything: what is written has to go back to memory.
+    fn let_go(&mut self) {
+        if self.held.is_some() {
+            self.held = None;
+        }
+    }
+
+    /// Reads a little of each cache line, in order: see `Robot::fetch`.
+    #[inline]
+    pub(crate) fn fetch(&self) {
+        black_box((self.past_m[0][0], self.past_m[2][0], self.dt, self.block.is_some(), self.count));
     }
 
     /// What stands in its way.

@@ -37,30 +37,35 @@ const PAUSE_M: f64 = 0.016;
 const CREEP_MPS: f64 = 0.08;
 
 /// The whole of a robot's mind: no allocation, no clock, no IO. Feed it messages and steps, drain what it says. `S` is
-/// where its routes lie: in itself unless it was given another place.
+/// where its routes and its trail lie: in itself unless it was given another place.
+///
+/// It lies in memory as it is declared, and its larger parts as well: what every step looks at lies together, and
+/// [`fetch`](Self::fetch) reads it in order.
 #[derive(Debug)]
+#[repr(C)]
 pub struct Robot<S = Shelf> {
-    config: Config,
     now: Instant,
-    estimate: Estimate,
-    clock: Clock,
-    drive: Drive,
-    light: Light,
+    last_step: Option<Instant>,
+    state: RobotState,
     shown: Rgb,
-    seek: Option<Seek>,
-    reflex: Reflex,
+    battery: Option<u8>,
+    /// It stands until fixes come again.
+    pauses: bool,
+    /// What the latest step knew of its place.
+    doubts: Doubts,
+    drive: Drive,
     stall: Stall,
     supervisor: Supervisor,
     outbox: Outbox,
-    state: RobotState,
-    battery: Option<u8>,
+    seek: Option<Seek>,
+    light: Light,
     unknown: u32,
-    /// It stands until fixes come again.
-    pauses: bool,
-    last_step: Option<Instant>,
-    routes: Routes<S>,
-    /// What the latest step knew of its place.
-    doubts: Doubts,
+    config: Config,
+    clock: Clock,
+    reflex: Reflex,
+    estimate: Estimate,
+    routes: Routes,
+    shelf: S,
 }
 
 /// Whether a robot knows too little to drive, as of one step.
@@ -79,14 +84,14 @@ impl Robot {
 }
 
 impl<S: BorrowMut<Shelf>> Robot<S> {
-    /// The same with its routes on this shelf, which may lie elsewhere.
+    /// The same with its routes and its trail on this shelf, which may lie elsewhere.
     pub fn with_shelf(config: Config, shelf: S) -> Self {
         let phase = Span::from_millis(i64::from(config.seed % 1999));
         Self {
             now: Instant::ZERO,
             estimate: Estimate::new(&config),
             clock: Clock::new(Instant::ZERO + phase / 10),
-            drive: Drive::new(config.limits),
+            drive: Drive::default(),
             light: Light::default(),
             shown: Rgb::BLACK,
             seek: None,
@@ -99,7 +104,8 @@ impl<S: BorrowMut<Shelf>> Robot<S> {
             unknown: 0,
             pauses: false,
             last_step: None,
-            routes: Routes::new(shelf),
+            routes: Routes::new(),
+            shelf,
             doubts: Doubts { lost: true, for_good: true },
             config,
         }
@@ -114,7 +120,7 @@ impl<S: BorrowMut<Shelf>> Robot<S> {
         self.now = self.now.max(now);
         self.supervisor.hear(now);
         // A route whose moment has come is under way, even if no step saw it yet: the next one must not replace it.
-        if self.clock.show_time(now).is_some_and(|show| self.routes.begin_due(show)) {
+        if self.clock.show_time(now).is_some_and(|show| self.routes.begin_due(show, self.shelf.borrow())) {
             self.seek = None;
         }
         let mut commands = commands(payload);
@@ -144,7 +150,7 @@ impl<S: BorrowMut<Shelf>> Robot<S> {
         self.sense(now, inputs, dt);
         self.doubts = Doubts { lost: self.estimate.lost(now), for_good: self.estimate.lost_for_good(now) };
         let show = self.clock.show_time(now);
-        if show.is_some_and(|show| self.routes.begin_due(show)) {
+        if show.is_some_and(|show| self.routes.begin_due(show, self.shelf.borrow())) {
             self.seek = None;
         }
         self.supervise(now);
@@ -178,7 +184,7 @@ impl<S: BorrowMut<Shelf>> Robot<S> {
     fn sense(&mut self, now: Instant, inputs: &Inputs, dt: f64) {
         let most = self.config.limits.wheel_radps * LONGEST_STEP_S * 2.0;
         if inputs.wheel_turns_rad.iter().all(|turn| turn.abs() <= most) {
-            self.estimate.advance(now, inputs.wheel_turns_rad);
+            self.estimate.advance(now, inputs.wheel_turns_rad, &mut self.shelf.borrow_mut().trail);
             let [left, right] = inputs.wheel_turns_rad;
             let way_m = 0.5 * (left + right) * self.config.limits.wheel_radius_m;
             self.reflex.look(inputs.proximity_m.as_ref(), way_m, dt);
@@ -189,7 +195,7 @@ impl<S: BorrowMut<Shelf>> Robot<S> {
             self.supervisor.fault(now);
         }
         if let Some(fix) = &inputs.fix {
-            self.estimate.correct(now, fix);
+            self.estimate.correct(now, fix, &self.shelf.borrow().trail);
             if self.estimate.take_senseless() {
                 self.supervisor.fault(now);
             }
@@ -248,12 +254,12 @@ impl<S: BorrowMut<Shelf>> Robot<S> {
             self.reflex.forget();
             None
         };
-        let slip = self.estimate.slip();
+        let (slip, limits) = (self.estimate.slip(), &self.config.limits);
         let wheels = match most_mps {
             // Held, it may turn on the spot for what comes.
             _ if self.reflex.block().is_some() && !self.routes.rests_held() => self.drive.halt(),
-            Some(most_mps) => self.drive.step_within(wants, most_mps, slip, dt),
-            None => self.drive.step(wants, slip, dt),
+            Some(most_mps) => self.drive.step_within(wants, most_mps, slip, dt, limits),
+            None => self.drive.step(wants, slip, dt, limits),
         };
         self.arrive(show);
         wheels
@@ -262,7 +268,8 @@ impl<S: BorrowMut<Shelf>> Robot<S> {
     /// Whether it had better stand until fixes come again, because it would be lost if it drove on.
     fn pauses(&mut self) -> bool {
         self.pauses = self.is_blind()
-            && (self.pauses || self.estimate.error_at_worst_m(self.drive.braking_m()) > PAUSE_M);
+            && (self.pauses
+                || self.estimate.error_at_worst_m(self.drive.braking_m(&self.config.limits)) > PAUSE_M);
         self.pauses
     }
 
@@ -281,7 +288,7 @@ impl<S: BorrowMut<Shelf>> Robot<S> {
         if let Some(show) = show.filter(|_| self.routes.under_way()) {
             let away = self.reflex.give_way(self.routes.room_mm());
             let aside = soon.facing * away.x + soon.facing.left() * away.y;
-            return self.routes.step(show + Span::from_secs(dt), soon, aside, limits);
+            return self.routes.step(show + Span::from_secs(dt), soon, aside, limits, self.shelf.borrow());
         }
         match self.seek.as_mut() {
             Some(seek) => Some(seek.step(soon, limits)),

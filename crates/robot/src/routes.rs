@@ -1,6 +1,6 @@
 //! The route under way, the one kept for later, and when they begin.
 
-use core::borrow::{Borrow, BorrowMut};
+use core::hint::black_box;
 
 use lightbots_base::{Instant, Limits, Motion, PathRef, Span, Vec2};
 use lightbots_wire::Route;
@@ -27,58 +27,60 @@ const OLD_NUMBERS: u32 = 64;
 
 /// A route that waits for its START.
 #[derive(Debug)]
+#[repr(C)] // See `Robot`.
 struct Kept {
-    place: Place,
-    seq: u32,
-    starts: Option<Instant>,
     follow: Follow,
+    seq: u32,
+    place: Place,
     ahead: Option<Vec2>,
+    starts: Option<Instant>,
 }
 
 /// A route that has begun.
 #[derive(Debug)]
+#[repr(C)] // See `Robot`.
 struct Running {
     place: Place,
-    seq: u32,
+    /// Held by when the wheels have answered.
+    rests: bool,
     room_mm: Option<u16>,
-    starts: Instant,
+    seq: u32,
     duration: Span,
-    /// Where the route ends.
-    end: Vec2,
+    /// Path time when the wheels have answered.
+    time: Span,
+    /// Where it should be then.
+    due: Vec2,
+    off_m: f64,
     cursor: Cursor,
     follow: Follow,
-    outlook: Outlook,
     /// While the route is held and the robot goes back to where it should be.
     back: Option<Seek>,
     /// Once the route is over and the robot is not there yet.
     seek: Option<Seek>,
-    off_m: f64,
-    /// Where it should be once the wheels have answered.
-    due: Vec2,
-    /// Path time then.
-    time: Span,
-    /// Held by then.
-    rests: bool,
+    /// Where the route ends.
+    end: Vec2,
+    outlook: Outlook,
+    starts: Instant,
 }
 
-/// The routes of a robot; `S` is where they lie.
+/// The routes of a robot, which lie on its shelf.
 #[derive(Debug)]
-pub(crate) struct Routes<S> {
-    shelf: S,
+#[repr(C)] // See `Robot`.
+pub(crate) struct Routes {
+    timeline: Timeline,
     running: Option<Running>,
     kept: Option<Kept>,
-    timeline: Timeline,
     /// Number of the route that ended last.
     finished: u32,
 }
 
-impl<S: BorrowMut<Shelf>> Routes<S> {
-    pub(crate) fn new(shelf: S) -> Self {
-        Self { shelf, running: None, kept: None, timeline: Timeline::new(), finished: 0 }
+impl Routes {
+    pub(crate) fn new() -> Self {
+        Self { running: None, kept: None, timeline: Timeline::new(), finished: 0 }
     }
 
     /// Keeps a route for its START. The one under way, the one just finished and late old messages change nothing.
-    pub(crate) fn keep(&mut self, route: &Route) {
+    pub(crate) fn keep(&mut self, route: &Route, shelf: &mut Shelf) {
         let newest = self.named();
         let age = newest.wrapping_sub(route.seq);
         if newest != 0 && age < OLD_NUMBERS {
@@ -87,7 +89,7 @@ impl<S: BorrowMut<Shelf>> Routes<S> {
         let ahead = Outlook::default().look(route, (0, Span::ZERO), Span::ZERO).map(|ahead| ahead.towards);
         let place = self.running.as_ref().map_or(Place::First, |running| running.place.other());
         self.kept = Some(Kept { place, seq: route.seq, starts: None, follow: Follow::new(), ahead });
-        BorrowMut::<Shelf>::borrow_mut(&mut self.shelf).put(place, route);
+        shelf.put(place, route);
     }
 
     /// States when the kept route begins; anew, as long as it has not begun, but only to a later moment: an earlier
@@ -115,7 +117,7 @@ impl<S: BorrowMut<Shelf>> Routes<S> {
 
     /// Lets the kept route take over when its moment has come, or forgets a moment that was missed because the clock
     /// was not known. Tells whether it took over.
-    pub(crate) fn begin_due(&mut self, show: Instant) -> bool {
+    pub(crate) fn begin_due(&mut self, show: Instant, shelf: &Shelf) -> bool {
         if let Some(kept) = self.kept.as_mut() {
             kept.starts = kept.starts.filter(|&at| show - at <= TOO_LATE);
         }
@@ -124,7 +126,7 @@ impl<S: BorrowMut<Shelf>> Routes<S> {
             return false;
         };
         self.timeline.begin(starts);
-        let route = Borrow::<Shelf>::borrow(&self.shelf).at(place);
+        let route = shelf.at(place);
         let path = PathRef::new(route.start, &route.pieces);
         self.running = Some(Running {
             place,
@@ -154,9 +156,10 @@ impl<S: BorrowMut<Shelf>> Routes<S> {
         body: Body,
         aside: Vec2,
         limits: &Limits,
+        shelf: &Shelf,
     ) -> Option<Setpoint> {
         let running = self.running.as_mut()?;
-        let route = Borrow::<Shelf>::borrow(&self.shelf).at(running.place);
+        let route = shelf.at(running.place);
         let progress = self.timeline.at(takes_effect);
         running.cursor.seek(route, progress.time);
         let by_path_time = running.cursor.motion(progress.time);
@@ -177,7 +180,9 @@ impl<S: BorrowMut<Shelf>> Routes<S> {
                 return Some(back.step(body, limits));
             }
         }
-        running.back = None;
+        if running.back.is_some() {
+            running.back = None;
+        }
         let speed = by_path_time.velocity.length();
         let ahead = if speed < SLOW_MPS {
             running.outlook.look(route, running.cursor.piece(), progress.time)
@@ -229,6 +234,22 @@ impl<S: BorrowMut<Shelf>> Routes<S> {
         }
     }
 
+    /// Reads a little of each cache line, in order: see `Robot::fetch`.
+    #[inline]
+    pub(crate) fn fetch(&self) {
+        self.timeline.fetch();
+        if let Some(running) = &self.running {
+            black_box((
+                running.duration,
+                running.cursor.piece(),
+                running.off_m,
+                running.end.x,
+                running.starts,
+            ));
+        }
+        black_box((self.kept.is_some(), self.finished));
+    }
+
     /// Whether a route is under way.
     pub(crate) fn under_way(&self) -> bool {
         self.running.is_some()
@@ -274,9 +295,9 @@ impl<S: BorrowMut<Shelf>> Routes<S> {
     }
 
     /// How far the route under way leads from where it is within so much path time, metres.
-    pub(crate) fn way_ahead_m(&self, within: Span) -> f64 {
+    pub(crate) fn way_ahead_m(&self, within: Span, shelf: &Shelf) -> f64 {
         let Some(running) = &self.running else { return 0.0 };
-        let route = Borrow::<Shelf>::borrow(&self.shelf).at(running.place);
+        let route = shelf.at(running.place);
         let path = PathRef::new(route.start, &route.pieces);
         path.at(running.time + within).position.distance(running.due)
     }
@@ -317,59 +338,59 @@ mod tests {
 
     #[test]
     fn a_start_may_be_moved_until_the_route_has_begun() {
-        let mut routes = Routes::new(Shelf::new());
-        routes.keep(&route(7));
+        let (mut routes, mut shelf) = (Routes::new(), Shelf::new());
+        routes.keep(&route(7), &mut shelf);
         assert!(!routes.start(8, Instant(5), None));
         assert!(routes.start(7, Instant(1_000_000), Some(Instant(0))));
         assert!(!routes.start(7, Instant(1_000_000), Some(Instant(0))));
         assert!(routes.start(7, Instant(2_000_000), Some(Instant(0))));
         assert!(!routes.start(7, Instant(1_500_000), Some(Instant(0))), "overtaken by the one before");
-        assert!(!routes.begin_due(Instant(1_999_999)));
-        assert!(routes.begin_due(Instant(2_000_000)));
+        assert!(!routes.begin_due(Instant(1_999_999), &shelf));
+        assert!(routes.begin_due(Instant(2_000_000), &shelf));
         assert!(!routes.start(7, Instant(3_000_000), Some(Instant(2_000_000))));
         assert_eq!(routes.starts(), Some(Instant(2_000_000)));
     }
 
     #[test]
     fn a_start_long_past_is_refused() {
-        let mut routes = Routes::new(Shelf::new());
-        routes.keep(&route(7));
+        let (mut routes, mut shelf) = (Routes::new(), Shelf::new());
+        routes.keep(&route(7), &mut shelf);
         assert!(!routes.start(7, Instant(0), Some(Instant(600_000))));
         assert_eq!(routes.starts(), None);
     }
 
     #[test]
     fn a_moment_missed_without_a_clock_is_forgotten() {
-        let mut routes = Routes::new(Shelf::new());
-        routes.keep(&route(7));
+        let (mut routes, mut shelf) = (Routes::new(), Shelf::new());
+        routes.keep(&route(7), &mut shelf);
         assert!(routes.start(7, Instant(0), None));
-        assert!(!routes.begin_due(Instant(600_000)));
+        assert!(!routes.begin_due(Instant(600_000), &shelf));
         assert!(routes.keeps_one() && !routes.in_a_run());
     }
 
     #[test]
     fn old_and_doubled_paths_change_nothing() {
-        let mut routes = Routes::new(Shelf::new());
-        routes.keep(&route(100));
+        let (mut routes, mut shelf) = (Routes::new(), Shelf::new());
+        routes.keep(&route(100), &mut shelf);
         routes.start(100, Instant(5), Some(Instant(0)));
-        routes.keep(&route(100));
-        routes.keep(&route(99));
+        routes.keep(&route(100), &mut shelf);
+        routes.keep(&route(99), &mut shelf);
         assert_eq!((routes.named(), routes.starts()), (100, Some(Instant(5))));
-        routes.keep(&route(3));
+        routes.keep(&route(3), &mut shelf);
         assert_eq!((routes.named(), routes.starts()), (3, None));
-        routes.keep(&route(4_000_000_000));
+        routes.keep(&route(4_000_000_000), &mut shelf);
         assert_eq!(routes.named(), 4_000_000_000);
     }
 
     #[test]
     fn the_next_route_is_kept_while_one_is_under_way_and_takes_over() {
-        let mut routes = Routes::new(Shelf::new());
-        routes.keep(&route(1));
+        let (mut routes, mut shelf) = (Routes::new(), Shelf::new());
+        routes.keep(&route(1), &mut shelf);
         routes.start(1, Instant(0), Some(Instant(0)));
-        routes.begin_due(Instant(0));
-        routes.keep(&route(2));
+        routes.begin_due(Instant(0), &shelf);
+        routes.keep(&route(2), &mut shelf);
         assert_eq!(routes.named(), 2);
-        assert!(routes.step(Instant(500_000), BODY, Vec2::ZERO, &Limits::ELISA_3).is_some());
+        assert!(routes.step(Instant(500_000), BODY, Vec2::ZERO, &Limits::ELISA_3, &shelf).is_some());
         assert!((routes.off_m().unwrap() - 0.05).abs() < 1e-9);
         assert_eq!(routes.finish(Instant(1_000_000), Vec2::new(0.05, 0.0)), None);
         assert_eq!(routes.finish(Instant(1_000_000), Vec2::new(0.09, 0.01)), None);

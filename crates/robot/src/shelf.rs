@@ -1,15 +1,19 @@
-//! Where a robot keeps its routes: they are large and seldom looked at.
+//! Where a robot keeps what is large and seldom looked at: its routes, and what its wheels did while fixes come late.
 
 use lightbots_base::Vec2;
 use lightbots_wire::{Pieces, Route};
 
-/// Room for the route under way and for the one kept for later: 14 KB, of which a step reads next to nothing.
+use crate::trail::Trail;
+
+/// Room for the route under way, for the one kept for later and for the trail: 15 KB, of which a step reads next to
+/// nothing.
 ///
 /// A [`crate::Robot`] holds it in itself, or is given one that lies elsewhere: where thousands of robots take turns,
 /// what each step needs of them then lies together.
 #[derive(Debug)]
 pub struct Shelf {
     places: [Route; 2],
+    pub(crate) trail: Trail,
 }
 
 /// One of the two places.
@@ -23,7 +27,7 @@ impl Shelf {
     /// A shelf with nothing on it.
     pub const fn new() -> Self {
         const NOTHING: Route = Route { seq: 0, start: Vec2::ZERO, pieces: Pieces::new(), room_mm: None };
-        Self { places: [NOTHING; 2] }
+        Self { places: [NOTHING; 2], trail: Trail::new() }
     }
 
     pub(crate) fn put(&mut self, place: Place, route: &Route) {

@@ -18,6 +18,7 @@ const BOUND: f64 = 0.4;
 
 /// Slip of the left and the right wheel, shares of their turning.
 #[derive(Debug)]
+#[repr(C)] // See `Robot`.
 pub(crate) struct Slip {
     now: [f64; 2],
     mean: [f64; 2],

@@ -1,5 +1,7 @@
 //! Path time: show time since the route's start, less what holds have eaten.
 
+use core::hint::black_box;
+
 use lightbots_base::{Instant, Span};
 use lightbots_wire::Route;
 
@@ -33,10 +35,11 @@ struct Point {
 /// The path time of the running route, as a function of show time alone: whoever has the same holds is at the same
 /// path time, however late the messages came.
 #[derive(Debug)]
+#[repr(C)] // See `Robot`.
 pub(crate) struct Timeline {
-    base: Point,
     /// In order of time, not before `base`.
     events: heapless::Vec<Event, EVENTS>,
+    base: Point,
 }
 
 impl Timeline {
@@ -67,6 +70,12 @@ impl Timeline {
         let place = self.events.iter().position(|event| event.at > at).unwrap_or(self.events.len());
         // Fits: room was made above.
         let _ = self.events.insert(place, Event { at, hold });
+    }
+
+    /// Reads a little of each cache line, in order: see `Robot::fetch`.
+    #[inline]
+    pub(crate) fn fetch(&self) {
+        black_box((self.events.first().map(|event| event.at), self.events.len(), self.base.at));
     }
 
     /// Whether no resume is known of that comes after this moment.

@@ -20,7 +20,7 @@ pub(crate) struct Trail {
 }
 
 impl Trail {
-    pub(crate) fn new() -> Self {
+    pub(crate) const fn new() -> Self {
         Self { steps: [(Instant::ZERO, [0.0; 2]); STEPS], oldest: 0, count: 0, taken: Instant::ZERO }
     }
 

@@ -16,6 +16,8 @@ use crate::world::{STEP, World};
 const CLOCK_BEGIN_US: u64 = 3_600_000_000;
 /// Steps in which a battery loses one percent: three minutes.
 const STEPS_PER_PERCENT: u64 = 11_250;
+/// Up to so many robots it does not pay to fetch them ahead: the processor still has them at hand from the step before.
+const CACHED: usize = 1_500;
 
 /// N robots on a floor.
 pub(crate) struct Crew {
@@ -27,17 +29,19 @@ pub(crate) struct Crew {
     payload: Message,
 }
 
+/// As declared, so that what each step looks at lies together.
+#[repr(C)]
 struct Member {
-    mind: Mind,
     id: RobotId,
-    clock: Clock,
-    battery: u8,
-    light: Rgb,
     alive: bool,
     /// Its wheels do not turn.
     stuck: bool,
     /// It gets no fixes.
     blind: bool,
+    light: Rgb,
+    battery: u8,
+    clock: Clock,
+    mind: Mind,
 }
 
 /// Our firmware with its routes apart: a step reads next to nothing of them, and what it reads of ten thousand robots
@@ -46,6 +50,7 @@ pub(crate) type Ours = Robot<Box<Shelf>>;
 
 /// Who decides what a body does.
 #[expect(clippy::large_enum_variant, reason = "nearly all robots are ours, and looked at in order")]
+#[repr(u8)]
 enum Mind {
     /// Our firmware.
     Ours(Ours),
@@ -172,7 +177,11 @@ impl Crew {
         self.sensors.next_step();
         self.steps += 1;
         let drained = (self.steps / STEPS_PER_PERCENT).min(100) as u8;
-        for (index, member) in self.members.iter_mut().enumerate() {
+        for index in 0..self.members.len() {
+            if self.members.len() > CACHED {
+                self.fetch(index + 1);
+            }
+            let member = &mut self.members[index];
             if !member.alive {
                 continue;
             }
@@ -199,6 +208,14 @@ impl Crew {
             member.light = outputs.light;
             self.world.tell(index, if member.stuck { [0.0; 2] } else { outputs.wheels_radps });
             member.speak(index, &mut self.payload, hear);
+        }
+    }
+
+    /// Fetches a robot from memory before its turn.
+    #[inline]
+    fn fetch(&self, index: usize) {
+        if let Some(Member { mind: Mind::Ours(robot), .. }) = self.members.get(index) {
+            robot.fetch();
         }
     }
 }

@@ -25,14 +25,15 @@ pub(super) enum Verdict {
 
 /// What was odd lately, and when fixes came that were not.
 #[derive(Debug, Default)]
+#[repr(C)] // See `Robot`.
 pub(super) struct Judge {
+    odd_off: Vec2,
+    last_jump: Option<Instant>,
     /// When the last fix of the place and of the heading came that counted.
     last_place: Option<Instant>,
     last_heading: Option<Instant>,
     odd_places: u8,
-    odd_off: Vec2,
     odd_headings: u8,
-    last_jump: Option<Instant>,
     senseless: bool,
 }
 

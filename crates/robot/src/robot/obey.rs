@@ -31,7 +31,7 @@ impl<S: BorrowMut<Shelf>> Robot<S> {
             Command::Color(colour) => self.light.set(colour),
             Command::Uuid => self.outbox.introduce(),
             Command::Route(ref route) => {
-                self.routes.keep(route);
+                self.routes.keep(route, self.shelf.borrow_mut());
                 self.outbox.report_status();
             }
             Command::Start { seq, at } => {
