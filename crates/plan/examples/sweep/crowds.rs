@@ -7,7 +7,7 @@ use lightbots_base::Vec2;
 use lightbots_plan::TransitionProblem;
 
 /// All kinds.
-pub const ALL: [Kind; 16] = [
+pub const ALL: [Kind; 18] = [
     ("close any", |case| scattered_crowd(1, case, (2, 300), 55.6, (0.06, 0.0764), Bound::No)),
     ("close fixed", |case| scattered_crowd(2, case, (2, 300), 55.6, (0.06, 0.0764), Bound::Yes)),
     ("close any wide", |case| scattered_crowd(3, case, (2, 300), 22.0, (0.06, 0.0764), Bound::No)),
@@ -15,6 +15,8 @@ pub const ALL: [Kind; 16] = [
     ("packed any", |case| scattered_crowd(5, case, (2, 300), 90.0, (0.06, 0.0764), Bound::No)),
     ("packed fixed", |case| scattered_crowd(6, case, (2, 150), 80.0, (0.06, 0.0764), Bound::Yes)),
     ("dense fixed", |case| scattered_crowd(7, case, (2, 300), 55.6, (0.0774, 0.0774), Bound::Yes)),
+    ("thousand any", |case| scattered_crowd(8, case, (1_000, 1_000), 55.6, (0.06, 0.0764), Bound::No)),
+    ("thousand wide", |case| scattered_crowd(9, case, (1_000, 1_000), 22.0, (0.06, 0.0764), Bound::No)),
     ("pairs swap", pairs_swap),
     ("blob pairs swap", blob_pairs_swap),
     ("chain", chain),
