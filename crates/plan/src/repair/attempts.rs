@@ -12,7 +12,7 @@ use super::guess::{Guess, Manner};
 use super::lattice::Lattice;
 use super::ordered::ordered;
 use super::pace::Pace;
-use super::relax::{Effort, relax};
+use super::relax::{Effort, Relaxation, relax};
 use super::scene::Scene;
 use super::weave::Weave;
 use super::{Amiss, Meeting};
@@ -48,6 +48,13 @@ const MOST_TO_IMPROVE: usize = 600;
 /// Guesses tried where none has led to a way yet, and where one has.
 const MOST_TRIES: usize = 8;
 const ENOUGH_TRIES: usize = 4;
+/// Guesses of large crowds that are compared after so many sweeps, unless one promises enough: no more than so many
+/// contacts for each robot.
+const RACERS: usize = 4;
+const FIRST_SWEEPS: usize = 7;
+const PROMISING: usize = 6;
+/// The share of its contacts that counts of the one that promised most before.
+const HEAD_START: f64 = 0.75;
 /// What being like a better guess weighs where there is no time for all, beside [`Guess::badness`].
 const ALIKE: f64 = 0.06;
 /// How many times as long as the least a way may take.
@@ -90,9 +97,13 @@ pub(super) fn best(scene: &Scene, easing: Easing, proven: Judge) -> Result<Weave
     let crowd = Crowd::new(scene, &courses);
     let least_s = Pace::new(crowd.longest_m, &scene.limits, easing, 1.0).drive_s;
     let mut attempts = Attempts { scene, proven, least_s, work: MOST_WORK, best: Err(Vec::new()) };
-    attempts.swift(&guesses(&crowd, easing));
     // Large crowds seldom have the room to loosen.
     let orderly = attempts.hurry();
+    if orderly {
+        attempts.race(&guesses(&crowd, easing));
+    } else {
+        attempts.swift(&guesses(&crowd, easing));
+    }
     for ordered in [orderly, !orderly] {
         match ordered {
             true if !attempts.is_decent() || (!orderly && attempts.is_sluggish()) => attempts.ordered(),
@@ -119,14 +130,48 @@ struct Attempts<'a> {
 impl Attempts<'_> {
     /// In about the least time.
     fn swift(&mut self, guesses: &[Guess]) {
-        let hurry = self.hurry();
-        for (tried, (guess, wish)) in order(guesses, hurry).into_iter().enumerate() {
-            let stretch = if hurry || tried >= ENOUGH_TRIES { guess.stretch() } else { 1.0 };
-            let effort = Effort { sweeps: 300, stretch: (MOST_STRETCH / stretch).max(1.8), hurry, wish };
-            self.relax(guess.weave(stretch, if hurry { LONG_SPAN_S } else { SPAN_S }), effort);
-            let enough = hurry || tried + 1 >= ENOUGH_TRIES || self.work < WORK_TO_SPARE;
+        for (tried, (guess, wish)) in plain_first(guesses).into_iter().enumerate() {
+            let stretch = if tried >= ENOUGH_TRIES { guess.stretch() } else { 1.0 };
+            let effort =
+                Effort { sweeps: 300, stretch: (MOST_STRETCH / stretch).max(1.8), hurry: false, wish };
+            self.relax(guess.weave(stretch, SPAN_S), effort);
+            let enough = tried + 1 >= ENOUGH_TRIES || self.work < WORK_TO_SPARE;
             let good_s = if enough { self.decent_s() } else { self.least_s * GOOD };
             if self.lasts() < good_s {
+                break;
+            }
+        }
+    }
+
+    /// The same for large crowds: of some guesses that is gone on with first which is least in its own way after a
+    /// few sweeps.
+    fn race(&mut self, guesses: &[Guess]) {
+        let tried = unlike(guesses);
+        // Who is kept from gathering in the middle and early besides has mostly won.
+        let is_favourite = tried.first().is_some_and(|first| first.manner.level && first.manner.early);
+        let mut tried = tried.into_iter().take(MOST_TRIES).map(|guess| {
+            let stretch = guess.stretch();
+            let stretches = (MOST_STRETCH / stretch).max(1.8);
+            let effort = Effort { sweeps: 300, stretch: stretches, hurry: true, wish: WIDE };
+            (guess.weave(stretch, LONG_SPAN_S), effort)
+        });
+        let mut racers = Vec::new();
+        for (weave, effort) in tried.by_ref().take(RACERS) {
+            let mut racer = Relaxation::new(self.scene, weave, effort);
+            racer.go_on(FIRST_SWEEPS, &mut self.work);
+            let bent = racer.bent();
+            let head_start = if racers.is_empty() { HEAD_START } else { 1.0 };
+            racers.push((bent as f64 * head_start, racer, effort));
+            if is_favourite || bent < self.scene.robots() * PROMISING {
+                break;
+            }
+        }
+        racers.sort_by(|(one, ..), (other, ..)| one.total_cmp(other));
+        let racers = racers.into_iter().map(|(_, racer, effort)| (racer, effort));
+        let late = tried.map(|(weave, effort)| (Relaxation::new(self.scene, weave, effort), effort));
+        for (racer, effort) in racers.chain(late) {
+            self.finish(racer, effort);
+            if self.is_decent() {
                 break;
             }
         }
@@ -184,7 +229,14 @@ impl Attempts<'_> {
 
     /// Relaxes a first guess and keeps the better of what comes of it and what there was.
     fn relax(&mut self, weave: Weave, effort: Effort) {
-        let found = relax(self.scene, weave, effort, &mut self.work)
+        self.finish(Relaxation::new(self.scene, weave, effort), effort);
+    }
+
+    /// The same with a relaxation that may have begun.
+    fn finish(&mut self, mut relaxation: Relaxation, effort: Effort) {
+        relaxation.go_on(effort.sweeps, &mut self.work);
+        let found = relaxation
+            .outcome()
             .and_then(|weave| amended(self.scene, weave, effort, &mut self.work, self.proven));
         let before = std::mem::replace(&mut self.best, Err(Vec::new()));
         self.best = better(self.scene, before, found);
@@ -241,10 +293,7 @@ fn amended(
 }
 
 /// What to try, one after the other. Small crowds may find room for comfort, and most of them do so along plain lines.
-fn order<'a, 'b>(guesses: &'b [Guess<'a>], hurry: bool) -> Vec<(&'b Guess<'a>, Wish)> {
-    if hurry {
-        return unlike(guesses).into_iter().take(MOST_TRIES).map(|guess| (guess, WIDE)).collect();
-    }
+fn plain_first<'a, 'b>(guesses: &'b [Guess<'a>]) -> Vec<(&'b Guess<'a>, Wish)> {
     let wide = guesses.iter().map(|guess| (guess, WIDE));
     let plain = guesses.iter().filter(|guess| guess.manner == Manner::default());
     let mut roomy: Vec<_> = guesses.iter().take(1).chain(plain).map(|guess| (guess, ROOMY)).collect();
@@ -253,11 +302,14 @@ fn order<'a, 'b>(guesses: &'b [Guess<'a>], hurry: bool) -> Vec<(&'b Guess<'a>, W
 }
 
 /// The guesses in another order: where one fails, those that differ from it only in how far they bow mostly fail too.
+/// Of those that are the same, as who is early is where all ways are equally long, there is one.
 fn unlike<'a, 'b>(guesses: &'b [Guess<'a>]) -> Vec<&'b Guess<'a>> {
     let straight = |at: usize| Manner { bow: 0.0, ..guesses[at].manner };
     let is_alike = |at: usize| (0..at).any(|before| straight(before) == straight(at));
     let weigh = |at: usize| guesses[at].badness + if is_alike(at) { ALIKE } else { 0.0 };
-    let mut order: Vec<(f64, usize)> = (0..guesses.len()).map(|at| (weigh(at), at)).collect();
+    let is_same = |at: usize| (0..at).any(|before| guesses[before].is_like(&guesses[at]));
+    let all = (0..guesses.len()).filter(|&at| !is_same(at));
+    let mut order: Vec<(f64, usize)> = all.map(|at| (weigh(at), at)).collect();
     order.sort_by(|a, b| a.0.total_cmp(&b.0));
     order.into_iter().map(|(_, at)| &guesses[at]).collect()
 }

@@ -63,6 +63,8 @@ pub(super) struct Guess<'a> {
     pace: Pace,
     /// How little it promises: how much of others is in everybody's way, how much too fast they are, and how odd it is.
     pub badness: f64,
+    /// The same but for how odd it is.
+    plain_badness: f64,
 }
 
 impl<'a> Guess<'a> {
@@ -70,9 +72,18 @@ impl<'a> Guess<'a> {
     pub fn new(crowd: &'a Crowd<'a>, easing: Easing, manner: Manner, near_m: f64) -> Self {
         let longer = 1.0 + 2.0 * manner.bow * manner.bow;
         let pace = Pace::new(crowd.longest_m, &crowd.scene.limits, easing, longer);
-        let mut guess = Self { crowd, manner, pace, badness: 0.0 };
-        guess.badness = guess.judged(near_m);
+        let mut guess = Self { crowd, manner, pace, badness: 0.0, plain_badness: 0.0 };
+        guess.plain_badness = guess.judged(near_m);
+        let Manner { bow, early, level, spread, .. } = manner;
+        let odd = [early, level, spread].into_iter().filter(|&is| is).count() as f64 * ODD + bow * bow;
+        guess.badness = guess.plain_badness + odd;
         guess
+    }
+
+    /// Whether all ways are the same as in another guess for all that its manner differs in who is early.
+    pub fn is_like(&self, other: &Self) -> bool {
+        let timed = |guess: &Self| Manner { early: true, ..guess.manner };
+        timed(self) == timed(other) && (self.plain_badness - other.plain_badness).abs() < 1e-6
     }
 
     /// The guess as a weave, `stretch` times as slow as at full speed, with spans of about `span_s` seconds.
@@ -177,8 +188,32 @@ impl<'a> Guess<'a> {
             close += if sample < SAMPLES { crowding(&places, near_m) } else { 0.0 };
             before = places;
         }
-        let Manner { bow, early, level, spread, .. } = self.manner;
-        let odd = [early, level, spread].into_iter().filter(|&is| is).count() as f64 * ODD + bow * bow;
-        close / (SAMPLES as f64 * robots) + rush.iter().sum::<f64>() / robots * RUSH + odd
+        close / (SAMPLES as f64 * robots) + rush.iter().sum::<f64>() / robots * RUSH
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::scene::Scene;
+    use super::*;
+    use crate::TransitionProblem;
+    use lightbots_base::Limits;
+
+    #[test]
+    fn guesses_are_alike_where_only_who_is_early_differs_and_nobody_is() {
+        for (last_m, is_alike) in [(0.4, true), (0.2, false)] {
+            let starts: Vec<Vec2> = (0..4).map(|i| Vec2::new(-0.2, f64::from(i) * 0.1)).collect();
+            let mut courses: Vec<Vec<Vec2>> =
+                starts.iter().map(|&at| vec![at, at + Vec2::new(0.4, 0.0)]).collect();
+            courses[3][1].x = last_m - 0.2;
+            let floor = TransitionProblem::on_floor(Vec2::new(0.6, 0.6), Limits::ELISA_3);
+            let scene = Scene::new(&TransitionProblem { starts, ..floor }, &[None; 4]).unwrap();
+            let crowd = Crowd::new(&scene, &courses);
+            let guess = |manner| Guess::new(&crowd, Easing::Swift, manner, 0.12);
+            let (plain, early) =
+                (guess(Manner::default()), guess(Manner { early: true, ..Manner::default() }));
+            assert_eq!(plain.is_like(&early), is_alike);
+            assert!(!plain.is_like(&guess(Manner { bow: 0.25, ..Manner::default() })));
+        }
     }
 }

@@ -65,46 +65,103 @@ pub(super) fn relax(
     effort: Effort,
     work: &mut usize,
 ) -> Result<Weave, Vec<Meeting>> {
-    let longest_s = weave.span_s * effort.stretch;
-    let mut state = State::new(scene, weave, effort.wish);
-    let mut best: Option<(f64, Weave)> = None;
-    let (mut fewest, mut left_over) = (usize::MAX, Vec::new());
-    let few = state.weave.robots() / A_FEW + 1;
-    let patience = if effort.hurry { SHORT_STAGE } else { STAGE };
-    let mut stage = Stage { patience, sweeps: 0, hoped: usize::MAX };
-    let mut kicks = 0;
-    for sweep in 0..effort.sweeps {
-        let Some(left) = work.checked_sub(state.weave.robots() * state.weave.spans) else { break };
-        *work = left;
-        let anew = state.must_look_out(sweep);
-        let bent = state.bend_all(anew);
-        *work = work.saturating_sub(bent);
-        if anew && (1..fewest).contains(&bent) {
-            (fewest, left_over) = (bent, state.meetings());
+    let mut relaxation = Relaxation::new(scene, weave, effort);
+    relaxation.go_on(effort.sweeps, work);
+    relaxation.outcome()
+}
+
+/// A relaxation that can be left and gone on with.
+pub(super) struct Relaxation<'a> {
+    state: State<'a>,
+    effort: Effort,
+    /// No span may become longer, seconds.
+    longest_s: f64,
+    stage: Stage,
+    sweep: usize,
+    kicks: usize,
+    is_over: bool,
+    /// How many contacts were bent in the last sweep.
+    bent: usize,
+    /// The swiftest weave without contacts, and how long its spans take, seconds.
+    best: Option<(f64, Weave)>,
+    fewest: usize,
+    left_over: Vec<Meeting>,
+}
+
+impl<'a> Relaxation<'a> {
+    /// One that has not begun.
+    pub fn new(scene: &'a Scene, weave: Weave, effort: Effort) -> Self {
+        let patience = if effort.hurry { SHORT_STAGE } else { STAGE };
+        Self {
+            longest_s: weave.span_s * effort.stretch,
+            state: State::new(scene, weave, effort.wish),
+            effort,
+            stage: Stage { patience, sweeps: 0, hoped: usize::MAX },
+            sweep: 0,
+            kicks: 0,
+            is_over: false,
+            bent: usize::MAX,
+            best: None,
+            fewest: usize::MAX,
+            left_over: Vec::new(),
         }
-        let (haste, hasty) = if bent == 0 { state.haste() } else { (f64::MAX, 0) };
-        let span_s = state.weave.span_s * haste;
-        let is_best = bent == 0 && best.as_ref().is_none_or(|(best_s, _)| span_s < *best_s);
-        if is_best && state.bend_all(true) == 0 {
-            best = Some((span_s, state.weave.clone()));
+    }
+
+    /// Sweeps so often at most, in as much time as there is for all.
+    pub fn go_on(&mut self, sweeps: usize, work: &mut usize) {
+        for _ in 0..sweeps {
+            let cost = self.state.weave.robots() * self.state.weave.spans;
+            let Some(left) = work.checked_sub(cost).filter(|_| !self.is_over) else { break };
+            *work = left;
+            self.is_over = !self.sweep() || self.sweep == self.effort.sweeps;
+            *work = work.saturating_sub(self.bent);
+        }
+    }
+
+    /// How many were in each other's way in the last sweep.
+    pub fn bent(&self) -> usize {
+        self.bent
+    }
+
+    /// What it has come to.
+    pub fn outcome(self) -> Result<Weave, Vec<Meeting>> {
+        self.best.map(|(_, weave)| weave).ok_or(self.left_over)
+    }
+
+    /// Bends all once; whether another time may help.
+    fn sweep(&mut self) -> bool {
+        let anew = self.state.must_look_out(self.sweep);
+        self.sweep += 1;
+        let bent = self.state.bend_all(anew);
+        self.bent = bent;
+        if anew && (1..self.fewest).contains(&bent) {
+            (self.fewest, self.left_over) = (bent, self.state.meetings());
+        }
+        let (haste, hasty) = if bent == 0 { self.state.haste() } else { (f64::MAX, 0) };
+        let span_s = self.state.weave.span_s * haste;
+        let is_best = bent == 0 && self.best.as_ref().is_none_or(|(best_s, _)| span_s < *best_s);
+        if is_best && self.state.bend_all(true) == 0 {
+            self.best = Some((span_s, self.state.weave.clone()));
             if haste < GOOD_HASTE {
-                break;
+                return false;
             }
         }
-        if stage.ends_in_vain(bent + hasty, bent <= few) {
-            state.give_time(growth(&effort, bent, few, state.weave.robots()));
-            let most_s = best.as_ref().map_or(longest_s, |(best_s, _)| *best_s);
-            if state.weave.span_s > most_s && (best.is_some() || bent > few) {
-                break;
+        let robots = self.state.weave.robots();
+        let few = robots / A_FEW + 1;
+        if self.stage.ends_in_vain(bent + hasty, bent <= few) {
+            self.state.give_time(growth(&self.effort, bent, few, robots));
+            let most_s = self.best.as_ref().map_or(self.longest_s, |(best_s, _)| *best_s);
+            if self.state.weave.span_s > most_s && (self.best.is_some() || bent > few) {
+                return false;
             }
             if bent > 0 && bent <= few {
-                kicks += 1;
-                state.kick(kicks);
+                self.kicks += 1;
+                self.state.kick(self.kicks);
             }
         }
-        state.slow(if bent > state.weave.robots() { 1 } else { EASINGS });
+        self.state.slow(if bent > robots { 1 } else { EASINGS });
+        true
     }
-    best.map(|(_, weave)| weave).ok_or(left_over)
 }
 
 /// How many times as much time there is after a stage that was in vain.
