@@ -5,6 +5,7 @@ import { limitOf, LIMITS_USUAL, setLimit, type LimitName } from '../model/limits
 import { LengthInput } from '../shell/LengthInput';
 import { useSession } from '../shell/session';
 import { useEditing, useEditor } from './context';
+import { CountInput } from './CountInput';
 
 /** The most pixels a frame is given here; larger shows come from files. */
 const FLEET_MAX = 2000;
@@ -32,17 +33,7 @@ export function RobotsSection() {
         Robots
       </Text>
       <Group align="end" gap="xs" wrap="nowrap">
-        <NumberInput
-          style={{ flex: 1 }}
-          label="How many"
-          size="xs"
-          min={1}
-          max={FLEET_MAX}
-          value={size}
-          onChange={(value) => {
-            if (typeof value === 'number' && value >= 1 && value !== size) resize(value);
-          }}
-        />
+        <CountInput label="How many" max={FLEET_MAX} value={size} onChange={resize} />
         {here > 0 && here !== size && here <= FLEET_MAX ? (
           <Button size="xs" variant="default" onClick={() => resize(here)}>
             As many as are here: {here}

@@ -35,6 +35,7 @@ export function LengthInput({ label, value, onChange, min, max, disabled }: Prop
         if (typeof next !== 'number') return;
         const metres = fromUnit(next, unit);
         if (min !== undefined && metres < min - SAME_M) return;
+        if (max !== undefined && metres > max + SAME_M) return;
         if (value === null || Math.abs(metres - value) > SAME_M) onChange(metres);
       }}
     />
