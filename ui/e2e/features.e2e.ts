@@ -146,6 +146,14 @@ test('settings: unit of lengths, floor, no-go area, robot limits, and the broker
     .getByText(/^Connected to/)
     .waitFor();
   await page.getByText('Another one', { exact: true }).click();
+  await page.getByLabel('Address').fill('no address');
+  await button(page, 'Connect').click();
+  // Where it is mended, and over nothing.
+  await page
+    .getByRole('dialog')
+    .getByRole('alert')
+    .getByText(/is no broker address/)
+    .waitFor();
   await page.getByLabel('Address').fill('mqtt://127.0.0.1:1');
   await button(page, 'Connect').click();
   await page.locator('[data-testid=broker][data-phase=retrying]').waitFor();

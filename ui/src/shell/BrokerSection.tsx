@@ -19,10 +19,11 @@ import { useSession } from './session';
 
 /** Which broker, how it is reached, and how far the connection is. */
 export function BrokerSection() {
-  const { live, ask } = useSession();
+  const { live, link, ask } = useSession();
   const broker = useStore(live.broker);
   const [settings, setSettings] = useState<BrokerSettings>();
   const [fields, setFields] = useState<BrokerFields>();
+  const [refused, setRefused] = useState<string | null>(null);
   useEffect(() => {
     void attempt(async () => {
       const found = await getBroker();
@@ -38,7 +39,7 @@ export function BrokerSection() {
       aria-label="Broker"
       onSubmit={(event) => {
         event.preventDefault();
-        if (wish) void ask(wish);
+        if (wish) void link.operate(wish).then(({ error }) => setRefused(error));
       }}
     >
       <Stack gap="xs">
@@ -66,6 +67,11 @@ export function BrokerSection() {
         <Text size="sm" role="status" data-testid="broker" data-phase={broker.phase}>
           {brokerText(broker)}
         </Text>
+        {refused ? (
+          <Text size="sm" c="var(--bad)" role="alert">
+            {refused}
+          </Text>
+        ) : null}
         <Group justify="flex-end">
           <Button
             variant="default"
