@@ -60,33 +60,36 @@ impl Run {
         self.dropouts += 1;
         let (robot, heard) = (desk.fleet.robot(known.robot).id, desk.fleet.robot(known.robot).heard);
         if why == Trouble::Silent {
-            let mut places = self.whereabouts(now, seat, heard);
+            let [mut likely, mut places] = self.whereabouts(now, seat, heard);
+            places.extend(&likely);
             self.narrow(desk, &mut places);
-            self.seats[seat].ghost = places;
+            self.narrow(desk, &mut likely);
+            (self.seats[seat].ghost, self.seats[seat].likely) = (places, likely);
         }
         desk.log.tell(now, EventKind::Dropout { robot, why });
         self.recover(desk, now);
     }
 
-    /// Where a robot that was heard last at `heard` may stand: along its path from there if it died, where its path is
-    /// now if it only cannot be heard, where it gives its route up if it does not hear either.
-    fn whereabouts(&self, now: Instant, seat: usize, heard: Instant) -> Vec<Vec2> {
+    /// Where a robot that was heard last at `heard` may stand. Likely along its path from there, as it died, or where its
+    /// path is now, as it only cannot be heard; or else where it gives its route up, as it does not hear either.
+    fn whereabouts(&self, now: Instant, seat: usize, heard: Instant) -> [Vec<Vec2>; 2] {
         let (drive, stopping, stopped) = match &self.phase {
             Phase::Driving(drive) => (drive, now, now),
             Phase::Gathering(Gathering { broken_off: Some(drive), stopping, since, .. }) => {
                 (drive, *stopping, *since)
             }
-            _ => return Vec::new(),
+            _ => return Default::default(),
         };
         let Some(path) = self.current.as_ref().and_then(|leg| leg.path(seat)) else {
-            return self.hop_whereabouts(seat, HOP_STEP_M);
+            return [self.hop_whereabouts(seat, HOP_STEP_M), Vec::new()];
         };
         let since = drive.path_time(heard);
         let died = (0..=UNHEARD.0 / GHOST_STEP.0).map(|step| since + GHOST_STEP * step);
         let until = (stopped - stopping).0 / GHOST_STEP.0 + UNTIL_STOP;
         let lives = (0..=until).map(|step| drive.path_time(stopping + GHOST_STEP * step));
         let cut = (0..=CUT.1.0 / GHOST_STEP.0).map(|step| since + CUT.0 + GHOST_STEP * step);
-        thinned(died.chain(lives).chain(cut).map(|time| path.as_ref().at(time).position))
+        let place = |time: Span| path.as_ref().at(time).position;
+        [thinned(died.chain(lives).map(place)), thinned(cut.map(place))]
     }
 
     /// Plans again from where robots are; who drives is stopped first.
@@ -112,15 +115,18 @@ impl Run {
     }
 
     /// There is no plan to the next frame from where robots stand: without those who came during the run and take no
-    /// part, as anybody can say to be anywhere; or without the guesses where silent ones may be; or else to the frame
-    /// after it. Whether there is anything left to try.
+    /// part, as anybody can say to be anywhere; or only around the likely places of silent ones; or around none of them; or
+    /// else to the frame after it. Whether there is anything left to try.
     pub fn plan_something_else(&mut self, desk: &mut Desk, now: Instant) -> bool {
         let guessed = !self.found.is_empty() || self.seats.iter().any(|known| !known.ghost.is_empty());
+        let unlikely = self.seats.iter().any(|known| known.ghost.len() > known.likely.len());
         let strangers = desk.fleet.robots().iter().any(|robot| self.is_stranger(robot));
         if strangers && !std::mem::replace(&mut self.disregards_strangers, true) {
+        } else if unlikely {
+            self.seats.iter_mut().for_each(|known| known.ghost.clone_from(&known.likely));
         } else if guessed {
             self.found.clear();
-            self.seats.iter_mut().for_each(|known| known.ghost.clear());
+            self.seats.iter_mut().for_each(Seat::forget_ghost);
         } else {
             match self.after(self.next).filter(|next| next.round == self.next.round) {
                 Some(next) => self.next = next,
@@ -290,7 +296,7 @@ impl Run {
             match desk.fleet.robot(robot).seat {
                 Some(seat) => {
                     self.seats[seat as usize].out = false;
-                    self.seats[seat as usize].ghost.clear();
+                    self.seats[seat as usize].forget_ghost();
                 }
                 None => {
                     desk.fleet.robot_mut(robot).seat = Some(self.seats.len() as u32);

@@ -56,6 +56,8 @@ pub(crate) struct Seat {
     pub asked: Instant,
     /// Where it may stand, if it fell silent on its way; stage metres.
     pub ghost: Vec<Vec2>,
+    /// The likely ones of them.
+    pub likely: Vec<Vec2>,
     /// A change of its light that it may not know yet.
     pub fade: Option<Fade>,
 }
@@ -199,8 +201,14 @@ impl Seat {
             probed: None,
             asked: Instant::ZERO,
             ghost: Vec::new(),
+            likely: Vec::new(),
             fade: None,
         }
+    }
+
+    /// It is somewhere else by now, or taken to be.
+    pub fn forget_ghost(&mut self) {
+        (self.ghost, self.likely) = (Vec::new(), Vec::new());
     }
 }
 
