@@ -7,7 +7,11 @@
 
 use super::NONE;
 use super::kdtree::{KdTree, Remaining};
+use super::within::Within;
 use lightbots_base::Vec2;
+
+/// Squared distances this close are one: they differ by rounding only.
+const SAME: f64 = 1.0 - 1e-12;
 
 /// A matching of all rows with the least longest edge.
 pub(super) struct Bottleneck {
@@ -19,41 +23,63 @@ pub(super) struct Bottleneck {
 
 /// Matches every row to its own column. `known[row]` is some matching of all rows, the better the faster.
 pub(super) fn bottleneck(rows: &[Vec2], columns: &[Vec2], known: &[u32]) -> Bottleneck {
-    let mut matcher = Matcher::new(rows, columns);
-    let mut low = matcher.least_thinkable();
-    matcher.column_of.copy_from_slice(known);
-    let mut best = Bottleneck { reach_squared: matcher.longest_squared(), column_of: known.to_vec() };
-    // Distances this close are one: they differ by rounding only.
-    while low < best.reach_squared * (1.0 - 1e-12) {
+    let mut low = least_thinkable(rows, columns);
+    let mut best =
+        Bottleneck { reach_squared: longest_squared(rows, columns, known), column_of: known.to_vec() };
+    if low >= best.reach_squared * SAME {
+        return best;
+    }
+    let mut matcher = Matcher::new(rows, columns, best.reach_squared);
+    // What the last search that failed had matched: all within any reach that is tried after it.
+    let mut partial = vec![NONE; rows.len()];
+    while low < best.reach_squared * SAME {
         let middle = (low.sqrt() + best.reach_squared.sqrt()) / 2.0;
         let trial = (middle * middle).clamp(low, best.reach_squared);
-        matcher.keep_within(&best.column_of, trial);
+        matcher.begin(&best.column_of, &partial, trial);
         match matcher.complete(&best.column_of, trial) {
             Ok(()) => {
-                best.reach_squared = matcher.longest_squared();
+                best.reach_squared = longest_squared(rows, columns, &matcher.column_of);
                 best.column_of.copy_from_slice(&matcher.column_of);
             }
-            Err(needed) => low = needed,
+            Err(needed) => {
+                low = needed;
+                partial.copy_from_slice(&matcher.column_of);
+            }
         }
     }
     best
 }
 
+/// Nobody's longest way can be shorter: every row needs some column, and each column a row if there are no more columns
+/// than rows.
+fn least_thinkable(rows: &[Vec2], columns: &[Vec2]) -> f64 {
+    let farthest = |from: &[Vec2], to: &[Vec2]| {
+        let tree = KdTree::new(to);
+        let all = Remaining::new(&tree, |_| true);
+        let nearest = |&at: &Vec2| all.nearest_squared(&tree, at, f64::INFINITY);
+        from.iter().map(nearest).fold(0.0, f64::max)
+    };
+    let least = farthest(rows, columns);
+    if rows.len() == columns.len() { farthest(columns, rows).max(least) } else { least }
+}
+
+fn longest_squared(rows: &[Vec2], columns: &[Vec2], column_of: &[u32]) -> f64 {
+    let way = |(&row, &column): (&Vec2, &u32)| (columns[column as usize] - row).length_squared();
+    rows.iter().zip(column_of).map(way).fold(0.0, f64::max)
+}
+
 struct Matcher<'a> {
     rows: &'a [Vec2],
     columns: &'a [Vec2],
-    tree: KdTree,
-    /// Columns without a row.
-    free: Remaining,
-    /// Columns with a row that the phase has not seen.
-    unseen: Remaining,
+    /// Columns the phase has not seen.
+    within: Within<'a>,
     column_of: Vec<u32>,
     row_of: Vec<u32>,
     /// How the phase got to each row.
     reached: Vec<Reached>,
     /// Rows seen in this phase, in order.
     queue: Vec<u32>,
-    /// Columns taken out of `unseen`, or out of `free` by a row, in this phase.
+    /// Columns the phase has seen.
     seen: Vec<u32>,
 }
 
@@ -67,57 +93,40 @@ struct Reached {
 }
 
 impl<'a> Matcher<'a> {
-    fn new(rows: &'a [Vec2], columns: &'a [Vec2]) -> Self {
-        let tree = KdTree::new(columns);
-        let free = Remaining::new(&tree, |_| true);
-        let unseen = Remaining::new(&tree, |_| false);
+    fn new(rows: &'a [Vec2], columns: &'a [Vec2], most_squared: f64) -> Self {
+        let within = Within::new(rows, columns, most_squared);
         let (column_of, row_of) = (vec![NONE; rows.len()], vec![NONE; columns.len()]);
         let reached = vec![Reached { root: NONE, from: NONE }; rows.len()];
         let (queue, seen) = (Vec::new(), Vec::new());
-        Self { rows, columns, tree, free, unseen, column_of, row_of, reached, queue, seen }
-    }
-
-    /// Nobody's longest way can be shorter: every row needs some column, and each column a row if there are no more
-    /// columns than rows.
-    fn least_thinkable(&self) -> f64 {
-        let farthest = |remaining: &Remaining, tree: &KdTree, from: &[Vec2]| {
-            from.iter().map(|&at| remaining.nearest_squared(tree, at, f64::INFINITY)).fold(0.0, f64::max)
-        };
-        let mut least = farthest(&self.free, &self.tree, self.rows);
-        if self.rows.len() == self.columns.len() {
-            let tree = KdTree::new(self.rows);
-            least = farthest(&Remaining::new(&tree, |_| true), &tree, self.columns).max(least);
-        }
-        least
+        Self { rows, columns, within, column_of, row_of, reached, queue, seen }
     }
 
     fn squared(&self, row: usize, column: u32) -> f64 {
         (self.columns[column as usize] - self.rows[row]).length_squared()
     }
 
-    fn longest_squared(&self) -> f64 {
-        (0..self.rows.len()).map(|row| self.squared(row, self.column_of[row])).fold(0.0, f64::max)
-    }
-
-    /// Starts from those edges of a matching that are within reach.
-    fn keep_within(&mut self, column_of: &[u32], reach_squared: f64) {
-        self.row_of.fill(NONE);
-        for (row, &column) in column_of.iter().enumerate() {
-            let keep = column != NONE && self.squared(row, column) <= reach_squared;
+    /// Starts from those edges of a matching that are within reach, or from another matching if that has more.
+    fn begin(&mut self, known: &[u32], partial: &[u32], reach_squared: f64) {
+        for (row, &column) in known.iter().enumerate() {
+            let keep = self.squared(row, column) <= reach_squared;
             self.column_of[row] = if keep { column } else { NONE };
-            if keep {
+        }
+        let matched = |of: &[u32]| of.iter().filter(|&&column| column != NONE).count();
+        if matched(partial) > matched(&self.column_of) {
+            self.column_of.copy_from_slice(partial);
+        }
+        self.row_of.fill(NONE);
+        for (row, &column) in self.column_of.iter().enumerate() {
+            if column != NONE {
                 self.row_of[column as usize] = row as u32;
             }
         }
-        let row_of = &self.row_of;
-        self.free.reset(&self.tree, |column| row_of[column] == NONE);
+        self.within.reset(&self.row_of);
     }
 
     /// Extends the matching to all rows with edges within reach. Where that cannot be: a greater reach (squared) that
     /// any perfect matching needs. `before[row]` is a matching with longer edges.
     fn complete(&mut self, before: &[u32], reach_squared: f64) -> Result<(), f64> {
-        let row_of = &self.row_of;
-        self.unseen.reset(&self.tree, |column| row_of[column] != NONE);
         let mut open: Vec<u32> = (0..self.rows.len() as u32).collect();
         open.retain(|&row| self.column_of[row as usize] == NONE);
         let length = |row: u32| self.squared(row as usize, before[row as usize]);
@@ -139,7 +148,7 @@ impl<'a> Matcher<'a> {
     }
 
     /// Searches from all open rows at once, breadth first, and flips one augmenting path for every row that has one
-    /// left; how many. What was seen stays in `queue` and out of `unseen` until [`Self::forget_seen`].
+    /// left; how many. What was seen stays in `queue` and out of `within` until [`Self::forget_seen`].
     fn phase(&mut self, open: &[u32], reach_squared: f64) -> usize {
         let mut found = 0;
         for &row in open {
@@ -153,14 +162,14 @@ impl<'a> Matcher<'a> {
             if self.column_of[root as usize] != NONE {
                 continue;
             }
-            let at = self.rows[row as usize];
-            if let Some(column) = self.free.take(&self.tree, at, reach_squared) {
+            if let Some(column) = self.within.take_free(row, reach_squared) {
                 self.flip(row, column);
                 found += 1;
                 continue;
             }
-            while let Some(column) = self.unseen.take(&self.tree, at, reach_squared) {
-                self.seen.push(column);
+            let before = self.seen.len();
+            self.within.drain(row, reach_squared, &mut self.seen);
+            for &column in &self.seen[before..] {
                 let owner = self.row_of[column as usize];
                 self.reached[owner as usize] = Reached { root, from: row };
                 self.queue.push(owner);
@@ -182,7 +191,7 @@ impl<'a> Matcher<'a> {
     /// Makes a new phase possible: every column that has a row is unseen again.
     fn forget_seen(&mut self) {
         for column in self.seen.drain(..) {
-            self.unseen.put(&self.tree, column as usize);
+            self.within.put(column);
         }
         self.queue.clear();
     }
@@ -190,11 +199,8 @@ impl<'a> Matcher<'a> {
     /// After a phase that found nothing: the rows seen are more than the columns they reach (Hall), so one of them
     /// needs a column not seen. The nearest such distance, squared.
     fn needed(&mut self) -> f64 {
-        let least = self.queue.iter().fold(f64::INFINITY, |least, &row| {
-            let at = self.rows[row as usize];
-            let least = self.unseen.nearest_squared(&self.tree, at, least);
-            self.free.nearest_squared(&self.tree, at, least)
-        });
+        let least = |least, &row: &u32| self.within.nearest_squared(row, least);
+        let least = self.queue.iter().fold(f64::INFINITY, least);
         self.seen.clear();
         self.queue.clear();
         least

@@ -2,7 +2,7 @@
 
 use lightbots_base::Vec2;
 
-/// Leaves hold up to twice this many places.
+/// Leaves hold this many places at most.
 const LEAF: usize = 6;
 
 /// How many places are asked for, and how cheap they must be.
@@ -54,8 +54,13 @@ impl Node {
 
 impl KdTree {
     pub fn new(points: &[Vec2]) -> Self {
+        Self::with_leaves(points, LEAF)
+    }
+
+    /// With `leaf` places at most in every leaf, and one more where they do not come out even.
+    pub fn with_leaves(points: &[Vec2], leaf: usize) -> Self {
         let mut levels = 0;
-        while points.len() >> levels > LEAF {
+        while points.len() >> levels > leaf {
             levels += 1;
         }
         let first_leaf = 1usize << levels;
@@ -120,6 +125,11 @@ impl KdTree {
         self.places.len()
     }
 
+    /// A node and those it is in.
+    fn up_from(&self, node: usize) -> impl Iterator<Item = usize> + use<> {
+        core::iter::successors(Some(node), |&node| (node > 1).then_some(node / 2))
+    }
+
     /// The greatest weight in every node, for [`Self::cheaper`]; `weights[id]`.
     pub fn greatest(&self, weights: &[f64]) -> Vec<f64> {
         let mut greatest = vec![f64::NEG_INFINITY; self.nodes.len()];
@@ -170,6 +180,29 @@ impl KdTree {
                     if found.len() == most.count {
                         limit = found[most.count - 1].0;
                     }
+                }
+            }
+        }
+    }
+
+    /// All places no farther than the root of `reach_squared` away, with their squared distances.
+    pub fn within(&self, from: Vec2, reach_squared: f64, found: &mut Vec<(f64, u32)>) {
+        found.clear();
+        let mut stack = Stack::new(1);
+        while let Some(node) = stack.pop() {
+            let here = &self.nodes[node];
+            if here.first == here.last || here.distance_squared(from) > reach_squared {
+                continue;
+            }
+            if node < self.first_leaf {
+                stack.push(2 * node + 1);
+                stack.push(2 * node);
+                continue;
+            }
+            for position in here.first as usize..here.last as usize {
+                let squared = (self.places[position] - from).length_squared();
+                if squared <= reach_squared {
+                    found.push((squared, self.ids[position]));
                 }
             }
         }
@@ -249,21 +282,15 @@ impl Remaining {
 
     fn remove(&mut self, tree: &KdTree, position: usize) {
         self.here[position] = false;
-        let mut node = tree.leaf_of[tree.ids[position] as usize] as usize;
-        while node > 0 {
-            self.counts[node] -= 1;
-            node /= 2;
-        }
+        let leaf = tree.leaf_of[tree.ids[position] as usize] as usize;
+        tree.up_from(leaf).for_each(|node| self.counts[node] -= 1);
     }
 
     /// Puts a place back; it must not be there.
     pub fn put(&mut self, tree: &KdTree, id: usize) {
         self.here[tree.position_of[id] as usize] = true;
-        let mut node = tree.leaf_of[id] as usize;
-        while node > 0 {
-            self.counts[node] += 1;
-            node /= 2;
-        }
+        let leaf = tree.leaf_of[id] as usize;
+        tree.up_from(leaf).for_each(|node| self.counts[node] += 1);
     }
 
     /// Takes some place no farther than the root of `reach_squared` away.
@@ -286,6 +313,32 @@ impl Remaining {
             }
         }
         None
+    }
+
+    /// Takes all places no farther than the root of `reach_squared` away, in the order in which [`Self::take`] would.
+    pub fn drain(&mut self, tree: &KdTree, from: Vec2, reach_squared: f64, taken: &mut Vec<u32>) {
+        let mut stack = Stack::new(1);
+        while let Some(node) = stack.pop() {
+            let here = &tree.nodes[node];
+            if self.counts[node] == 0 || here.distance_squared(from) > reach_squared {
+                continue;
+            }
+            if node < tree.first_leaf {
+                stack.push_both(tree, node, from);
+                continue;
+            }
+            let before = taken.len();
+            for position in here.first as usize..here.last as usize {
+                if self.here[position] && (tree.places[position] - from).length_squared() <= reach_squared {
+                    self.here[position] = false;
+                    taken.push(tree.ids[position]);
+                }
+            }
+            let count = (taken.len() - before) as u32;
+            if count > 0 {
+                tree.up_from(node).for_each(|node| self.counts[node] -= count);
+            }
+        }
     }
 
     /// The squared distance of the nearest place, or `bound` where none is nearer.

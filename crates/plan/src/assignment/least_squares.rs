@@ -7,7 +7,7 @@
 use super::NONE;
 use super::kdtree::{KdTree, Most, Weights};
 use super::scales;
-use super::search::Search;
+use super::search::{Edges, Search};
 use super::space;
 use lightbots_base::Vec2;
 
@@ -70,16 +70,18 @@ impl Costs {
     }
 
     /// The cheapest edges of every row, and one that all can have together.
-    fn first_edges(&self) -> Vec<Vec<(u32, f64)>> {
-        let mut edges: Vec<Vec<(u32, f64)>> = Vec::with_capacity(self.rows.len());
+    fn first_edges(&self) -> Vec<Edges> {
+        let mut edges: Vec<Edges> = Vec::with_capacity(self.rows.len());
         let most = Most { count: FIRST, below: f64::INFINITY };
         self.cheapest(&self.duals, most, |found| {
-            edges.push(found.iter().map(|&(_, cost, column)| (column, cost)).collect());
+            let list = found.iter().map(|&(_, cost, column)| (column, cost)).collect();
+            edges.push(Edges { list, complete_below: complete_below(found, most) });
         });
         let row_tree = KdTree::new(&self.rows);
         for (row, column) in row_tree.in_step_with(&self.tree) {
-            if edges[row as usize].iter().all(|edge| edge.0 != column) {
-                edges[row as usize].push((column, self.cost(row as usize, column)));
+            let list = &mut edges[row as usize].list;
+            if list.iter().all(|edge| edge.0 != column) {
+                list.push((column, self.cost(row as usize, column)));
             }
         }
         edges
@@ -109,22 +111,32 @@ impl Costs {
         }
     }
 
-    /// Adds edges that would improve the sum; the rows that got some.
+    /// Adds edges that would improve the sum; the rows that got some. Only rows are looked at whose dual rose above what
+    /// is known to be listed.
     fn price(&self, search: &mut Search, allowed: &impl Fn(usize, u32) -> bool) -> Vec<u32> {
         let mut improved = Vec::new();
         let mut found = Vec::new();
         let greatest = self.tree.greatest(search.column_duals());
         for (row, &at) in self.rows.iter().enumerate() {
             let most = Most { count: ADDED, below: search.row_duals()[row] - EPSILON };
+            if most.below <= search.complete_below(row) {
+                continue;
+            }
             let weights = Weights { of: search.column_duals(), greatest: &greatest };
             self.tree.cheapest(at, most, weights, |column| allowed(row, column), &mut found);
             let added = found.iter().map(|&(_, cost, column)| (column, cost));
             if !found.is_empty() && search.add(row, added) {
                 improved.push(row as u32);
             }
+            search.set_complete_below(row, complete_below(&found, most));
         }
         improved
     }
+}
+
+/// Below which reduced cost all edges are among those that [`KdTree::cheapest`] found.
+fn complete_below(found: &[(f64, f64, u32)], most: Most) -> f64 {
+    if found.len() < most.count { most.below } else { found[most.count - 1].0 }
 }
 
 /// An assignment with limited ways.
@@ -134,6 +146,10 @@ pub(super) struct LeastSquares<'a> {
     columns: &'a [Vec2],
     costs: &'a Costs,
     search: Search,
+    /// Row duals of the best assignment without limit: no edge of a row, however long, costs less after column duals,
+    /// which only fall; where columns are left over, they begin anew, and nothing is known.
+    unlimited_duals: Vec<f64>,
+    reach_squared: f64,
 }
 
 impl<'a> LeastSquares<'a> {
@@ -157,7 +173,12 @@ impl<'a> LeastSquares<'a> {
             }
             search.reopen(&changed);
         }
-        Self { rows, columns, costs, search }
+        let unlimited_duals = if rows.len() == columns.len() {
+            unlimited.row_duals().to_vec()
+        } else {
+            vec![f64::NEG_INFINITY; rows.len()]
+        };
+        Self { rows, columns, costs, search, unlimited_duals, reach_squared }
     }
 
     /// The best assignment within `reach_squared`, which must not be less than before: `column_of[row]`. `None` where
@@ -166,6 +187,10 @@ impl<'a> LeastSquares<'a> {
         let within = |row: usize, column: u32| {
             (self.columns[column as usize] - self.rows[row]).length_squared() <= reach_squared
         };
+        if reach_squared > self.reach_squared {
+            self.reach_squared = reach_squared;
+            self.search.allow_more(&self.unlimited_duals);
+        }
         self.costs.improve(&mut self.search, within);
         let column_of = self.search.column_of();
         (!column_of.contains(&NONE)).then_some(column_of)

@@ -11,6 +11,7 @@ mod search;
 mod space;
 #[cfg(test)]
 mod tests;
+mod within;
 
 use bottleneck::bottleneck;
 use least_squares::{Costs, LeastSquares};

@@ -13,13 +13,17 @@ use lightbots_base::Vec2;
 /// Problems this small need no help.
 const SMALL: usize = 60;
 
+/// At most this many places become one. With more, the finer problem begins with duals that are too rough, and its
+/// augmenting paths grow long.
+const DRAWN_TOGETHER: usize = 3;
+
 /// Duals for the columns of a problem with as many rows as columns.
 pub(super) fn duals(rows: &[Vec2], columns: &[Vec2]) -> Vec<f64> {
     if rows.len() <= SMALL {
         return vec![0.0; columns.len()];
     }
-    let (coarse_rows, coarse_columns) =
-        (KdTree::new(rows).leaf_centres(), KdTree::new(columns).leaf_centres());
+    let drawn_together = |places: &[Vec2]| KdTree::with_leaves(places, DRAWN_TOGETHER).leaf_centres();
+    let (coarse_rows, coarse_columns) = (drawn_together(rows), drawn_together(columns));
     let costs = Costs::plain(&coarse_rows, &coarse_columns, duals(&coarse_rows, &coarse_columns));
     let solved = costs.solve();
     let tree = KdTree::new(&coarse_rows);

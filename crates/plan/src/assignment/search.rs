@@ -8,13 +8,23 @@ use std::collections::BinaryHeap;
 /// dual) below zero, matched edges have zero, columns never used have a dual of zero.
 #[derive(Clone, Debug)]
 pub(super) struct Search {
-    /// `edges[row]`: columns and costs, in no order.
-    edges: Vec<Vec<(u32, f64)>>,
+    /// `edges[row]`.
+    edges: Vec<Edges>,
     row_duals: Vec<f64>,
     column_duals: Vec<f64>,
     column_of: Vec<u32>,
     row_of: Vec<u32>,
     scratch: Scratch,
+}
+
+/// The edges of a row that are listed.
+#[derive(Clone, Debug)]
+pub(super) struct Edges {
+    /// Columns and costs, in no order.
+    pub list: Vec<(u32, f64)>,
+    /// No edge that may be used and is not listed costs less than this after column duals. That stays true while
+    /// column duals fall.
+    pub complete_below: f64,
 }
 
 /// The state of one search for a path, cleared by `touched`.
@@ -24,23 +34,43 @@ struct Scratch {
     distance: Vec<f64>,
     /// `from[column]`: the row that path comes from.
     from: Vec<u32>,
-    done: Vec<bool>,
     touched: Vec<u32>,
     /// Columns whose shortest path is settled, in order.
     settled: Vec<u32>,
-    /// Paths to be settled, by length (bits of a float that is not negative order as it does), then column.
+    /// Columns to be settled that are no farther than the last one.
+    level: Vec<u32>,
+    /// The other paths to be settled, by length (bits of a float that is not negative order as it does), then column.
     heap: BinaryHeap<Reverse<(u64, u32)>>,
 }
 
+impl Scratch {
+    /// The nearest column not settled and nearer than `below`; now it is settled.
+    fn next(&mut self, below: f64) -> Option<u32> {
+        if let Some(column) = self.level.pop() {
+            return Some(column);
+        }
+        loop {
+            let Reverse((bits, column)) = self.heap.pop()?;
+            let distance = f64::from_bits(bits);
+            if distance >= below {
+                return None;
+            }
+            if distance == self.distance[column as usize] {
+                return Some(column);
+            }
+        }
+    }
+}
+
 impl Search {
-    pub fn new(edges: Vec<Vec<(u32, f64)>>, column_duals: Vec<f64>) -> Self {
+    pub fn new(edges: Vec<Edges>, column_duals: Vec<f64>) -> Self {
         let (rows, columns) = (edges.len(), column_duals.len());
         let scratch = Scratch {
             distance: vec![f64::INFINITY; columns],
             from: vec![NONE; columns],
-            done: vec![false; columns],
             touched: Vec::new(),
             settled: Vec::new(),
+            level: Vec::new(),
             heap: BinaryHeap::new(),
         };
         let mut search = Self {
@@ -69,7 +99,7 @@ impl Search {
 
     /// Adds edges a row does not have yet; whether one of them is so cheap that the row must be reopened.
     pub fn add(&mut self, row: usize, edges: impl Iterator<Item = (u32, f64)>) -> bool {
-        let (list, dual) = (&mut self.edges[row], self.row_duals[row]);
+        let (list, dual) = (&mut self.edges[row].list, self.row_duals[row]);
         let before = list.len();
         let mut undercuts = false;
         for (column, cost) in edges {
@@ -81,12 +111,28 @@ impl Search {
         undercuts
     }
 
+    /// See [`Edges::complete_below`].
+    pub fn complete_below(&self, row: usize) -> f64 {
+        self.edges[row].complete_below
+    }
+
+    pub fn set_complete_below(&mut self, row: usize, cost: f64) {
+        self.edges[row].complete_below = cost;
+    }
+
+    /// More edges may be used from now on; `complete_below[row]` holds for all of them.
+    pub fn allow_more(&mut self, complete_below: &[f64]) {
+        for (edges, &below) in self.edges.iter_mut().zip(complete_below) {
+            edges.complete_below = below;
+        }
+    }
+
     /// Keeps only edges for which `keep(row, column)` holds; the rows that lose the one they have and must be
     /// reopened.
     pub fn retain(&mut self, keep: impl Fn(usize, u32) -> bool) -> Vec<u32> {
         let mut losers = Vec::new();
-        for (row, list) in self.edges.iter_mut().enumerate() {
-            list.retain(|edge| keep(row, edge.0));
+        for (row, edges) in self.edges.iter_mut().enumerate() {
+            edges.list.retain(|edge| keep(row, edge.0));
             let column = self.column_of[row];
             if column != NONE && !keep(row, column) {
                 losers.push(row as u32);
@@ -100,6 +146,7 @@ impl Search {
         if self.edges.len() < self.column_duals.len() {
             // A column left free must cost nothing, which holds only for those never used: start again.
             self.column_duals.fill(0.0);
+            self.edges.iter_mut().for_each(|edges| edges.complete_below = f64::NEG_INFINITY);
             self.row_of.fill(NONE);
             self.column_of.fill(NONE);
             return (0..self.edges.len()).for_each(|row| self.lift(row));
@@ -116,7 +163,7 @@ impl Search {
     /// Sets a row's dual to the greatest legal one.
     fn lift(&mut self, row: usize) {
         let duals = &self.column_duals;
-        let least = self.edges[row].iter().map(|&(column, cost)| cost - duals[column as usize]);
+        let least = self.edges[row].list.iter().map(|&(column, cost)| cost - duals[column as usize]);
         self.row_duals[row] = least.fold(f64::INFINITY, f64::min);
     }
 
@@ -164,7 +211,7 @@ impl Search {
     /// and the first is not free.
     fn take_cheapest(&mut self, row: u32) -> Option<u32> {
         let (mut first, mut second, mut column) = (f64::INFINITY, f64::INFINITY, NONE);
-        for &(candidate, cost) in &self.edges[row as usize] {
+        for &(candidate, cost) in &self.edges[row as usize].list {
             let reduced = cost - self.column_duals[candidate as usize];
             if reduced < first {
                 (second, first, column) = (first, reduced, candidate);
@@ -223,35 +270,38 @@ impl Search {
     fn shortest(&mut self, root: u32) -> Option<(u32, f64)> {
         let scratch = &mut self.scratch;
         let (mut row, mut length) = (root, 0.0);
+        // The nearest free column so far: what is farther away need not be remembered.
+        let (mut nearest, mut last) = (f64::INFINITY, NONE);
         loop {
             let base = length - self.row_duals[row as usize];
-            for &(column, cost) in &self.edges[row as usize] {
+            for &(column, cost) in &self.edges[row as usize].list {
                 let place = column as usize;
                 // Rounding may leave a reduced cost a hair below zero.
                 let distance = (base + cost - self.column_duals[place]).max(length);
-                if distance < scratch.distance[place] && !scratch.done[place] {
-                    if scratch.distance[place] == f64::INFINITY {
-                        scratch.touched.push(column);
-                    }
-                    scratch.distance[place] = distance;
-                    scratch.from[place] = row;
+                // Settled columns are no farther than `length`.
+                if distance >= nearest || distance >= scratch.distance[place] {
+                    continue;
+                }
+                if scratch.distance[place] == f64::INFINITY {
+                    scratch.touched.push(column);
+                }
+                scratch.distance[place] = distance;
+                scratch.from[place] = row;
+                let owner = self.row_of[place];
+                if owner == NONE {
+                    (nearest, last) = (distance, column);
+                } else if distance == length {
+                    scratch.level.push(column);
+                } else {
                     scratch.heap.push(Reverse((distance.to_bits(), column)));
                 }
             }
-            let column = loop {
-                let Reverse((bits, column)) = scratch.heap.pop()?;
-                if !scratch.done[column as usize] && bits == scratch.distance[column as usize].to_bits() {
-                    break column;
-                }
+            let Some(column) = scratch.next(nearest) else {
+                return (last != NONE).then_some((last, nearest));
             };
             length = scratch.distance[column as usize];
-            let owner = self.row_of[column as usize];
-            if owner == NONE {
-                return Some((column, length));
-            }
-            scratch.done[column as usize] = true;
             scratch.settled.push(column);
-            row = owner;
+            row = self.row_of[column as usize];
         }
     }
 
@@ -259,9 +309,9 @@ impl Search {
         let scratch = &mut self.scratch;
         for column in scratch.touched.drain(..) {
             scratch.distance[column as usize] = f64::INFINITY;
-            scratch.done[column as usize] = false;
         }
         scratch.settled.clear();
+        scratch.level.clear();
         scratch.heap.clear();
     }
 }
