@@ -4,7 +4,7 @@
 use lightbots_base::{Piece, Span, Vec2};
 
 use super::scene::Scene;
-use super::{Repaired, TURN};
+use super::{Repaired, turn};
 use crate::Path;
 
 /// A path holds as many pieces.
@@ -16,12 +16,13 @@ const EASE: f64 = 1.002;
 pub(super) fn repaired(scene: &Scene, stops: &[Vec<Vec2>], wished: Option<Span>) -> Option<Repaired> {
     let steps = timed(scene, stops);
     let whole: i64 = steps.iter().map(|step| step.rest.0 + step.drive.0).sum();
-    let wished = wished.map_or(0, |wished| (wished - TURN).0);
+    let first = turn(&scene.limits);
+    let wished = wished.map_or(0, |wished| (wished - first).0);
     let slower = (wished as f64 / whole.max(1) as f64).max(1.0);
     let steps: Vec<Step> = steps.iter().map(|step| step.slower(slower)).collect();
-    let paths: Vec<Path> = (0..scene.robots()).map(|robot| path(robot, stops, &steps)).collect();
+    let paths: Vec<Path> = (0..scene.robots()).map(|robot| path(robot, stops, first, &steps)).collect();
     let is_short = paths.iter().all(|path| path.pieces.len() <= MOST_PIECES);
-    is_short.then_some(Repaired { paths, least: TURN + Span(whole) })
+    is_short.then_some(Repaired { paths, least: first + Span(whole) })
 }
 
 /// How long everybody rests, and then drives.
@@ -41,7 +42,7 @@ impl Step {
 fn timed(scene: &Scene, stops: &[Vec<Vec2>]) -> Vec<Step> {
     let limits = &scene.limits;
     let mut headings: Vec<Option<Vec2>> = vec![None; scene.robots()];
-    let mut stood_s = vec![TURN.as_secs(); scene.robots()];
+    let mut stood_s = vec![turn(limits).as_secs(); scene.robots()];
     let micros = |seconds: f64| Span((seconds * 1e6).ceil() as i64);
     let one = |pair: &[Vec<Vec2>]| {
         let (mut rest_s, mut drive_s) = (0.0_f64, 0.0_f64);
@@ -65,10 +66,11 @@ fn timed(scene: &Scene, stops: &[Vec<Vec2>]) -> Vec<Step> {
     stops.windows(2).map(one).collect()
 }
 
-fn path(robot: usize, stops: &[Vec<Vec2>], steps: &[Step]) -> Path {
+/// A robot's way, which begins with a rest for the first turn.
+fn path(robot: usize, stops: &[Vec<Vec2>], first: Span, steps: &[Step]) -> Path {
     let start = stops[0][robot];
     let mut pieces = Vec::new();
-    let mut rested = TURN;
+    let mut rested = first;
     for (pair, step) in stops.windows(2).zip(steps) {
         let (from, to) = (pair[0][robot], pair[1][robot]);
         rested += step.rest;

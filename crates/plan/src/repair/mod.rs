@@ -9,6 +9,7 @@
 //! first learn their order on a hexagonal lattice ([`lattice`], [`dock`], [`search`], [`steps`]), and the same
 //! relaxation makes that smooth and swift; between walls the lattice follows gaps from corner to corner ([`corners`]). The last resort are ways with
 //! stops ([`stops`]) over a roadmap ([`roadmap`]): slow, but what the search ([`push`]) finds can be driven as it is.
+//! All that is for robots like the Elisa-3; those of other sizes are scaled to them first ([`scale`]).
 //! Every loop is bounded, nothing is random, and the proof has the last word; where it only finds a turn too sharp, all
 //! drive a little slower.
 
@@ -27,6 +28,7 @@ mod pace;
 mod push;
 mod relax;
 mod roadmap;
+mod scale;
 mod scene;
 mod search;
 mod shorten;
@@ -39,16 +41,14 @@ mod travel;
 mod turning;
 mod weave;
 
-use lightbots_base::{Span, Vec2};
+use lightbots_base::{Limits, Span, Vec2};
 
 use crate::proof::{FaultKind, Proof, prove};
-use crate::{Path, TransitionProblem};
+use crate::{Path, TransitionProblem, turn_time};
 use corners::Corners;
+use scale::Scale;
 use scene::Scene;
 use weave::Weave;
-
-/// The rest at the beginning of every path, in which robots turn towards their way.
-const TURN: Span = Span(350_000);
 
 /// How many times as long as estimated a way is given until every robot can turn as it asks for.
 const SLOWER: [f64; 3] = [1.0, 1.02, 1.05];
@@ -67,11 +67,25 @@ pub struct Repaired {
 /// spare robot that may step aside. Where nothing was found within the bounded work, who did not get past each other
 /// in the attempt that left fewest; empty where it failed for something else.
 pub fn repair(problem: &TransitionProblem, goal_of: &[Option<usize>]) -> Result<Repaired, Vec<Meeting>> {
+    for scale in Scale::of(&problem.limits) {
+        let Ok(found) = of_usual(&scale.problem(problem), goal_of) else { continue };
+        let found = scale.repaired(problem, goal_of, found);
+        // Below which speed robots may turn at will does not grow with them.
+        if prove(&problem.to_prove(&found.paths)).holds() {
+            return Ok(found);
+        }
+    }
+    of_usual(problem, goal_of)
+}
+
+/// The same for robots as large as those that distances here were measured with.
+fn of_usual(problem: &TransitionProblem, goal_of: &[Option<usize>]) -> Result<Repaired, Vec<Meeting>> {
     let scene = Scene::new(problem, goal_of).ok_or_else(Vec::new)?;
     match attempts::best(&scene, problem.easing, &|weave| proven(problem, &scene, weave)) {
         Ok(weave) => {
-            let least = TURN + Span(least_span(&scene, &weave).0 * weave.spans as i64);
-            Ok(Repaired { paths: weave.paths(TURN, span_of(problem, &scene, &weave)), least })
+            let turn = turn(&scene.limits);
+            let least = turn + Span(least_span(&scene, &weave).0 * weave.spans as i64);
+            Ok(Repaired { paths: weave.paths(turn, span_of(problem, &scene, &weave)), least })
         }
         Err(left) => {
             let corners = Corners::new(&scene);
@@ -79,6 +93,11 @@ pub fn repair(problem: &TransitionProblem, goal_of: &[Option<usize>]) -> Result<
             found.filter(|found| prove(&problem.to_prove(&found.paths)).holds()).ok_or(left)
         }
     }
+}
+
+/// The rest at the beginning of every path, in which robots turn towards their way.
+fn turn(limits: &Limits) -> Span {
+    turn_time(core::f64::consts::FRAC_PI_2, limits)
 }
 
 /// Two robots that do not get past each other.
@@ -107,7 +126,7 @@ fn proven(problem: &TransitionProblem, scene: &Scene, mut weave: Weave) -> Resul
         if !proof.conflicts.is_empty() || proof.faults.iter().any(|fault| in_place(fault.kind)) {
             return Err(Amiss { weave, spots: Vec::new() });
         }
-        let number = |at: Span| ((at - TURN).as_secs() / span.as_secs()) as usize;
+        let number = |at: Span| ((at - turn(&scene.limits)).as_secs() / span.as_secs()) as usize;
         spots = proof.faults.iter().map(|fault| (fault.robot, number(fault.at))).collect();
     }
     weave.slower = 1.0;
@@ -116,7 +135,7 @@ fn proven(problem: &TransitionProblem, scene: &Scene, mut weave: Weave) -> Resul
 
 /// What the proof says of a weave whose spans take so long, if it does not hold.
 fn refused(problem: &TransitionProblem, weave: &Weave, span: Span) -> Option<Proof> {
-    let proof = prove(&problem.to_prove(&weave.paths(TURN, span)));
+    let proof = prove(&problem.to_prove(&weave.paths(turn(&problem.limits), span)));
     (!proof.holds()).then_some(proof)
 }
 
@@ -134,7 +153,8 @@ fn least_span(scene: &Scene, weave: &Weave) -> Span {
 
 /// How long each span of a weave takes: as long as is legal, or as the wished for duration asks.
 fn span_of(problem: &TransitionProblem, scene: &Scene, weave: &Weave) -> Span {
-    let wished_s = problem.duration.map_or(0.0, |whole| (whole - TURN).as_secs() / weave.spans as f64);
+    let wished_s =
+        problem.duration.map_or(0.0, |whole| (whole - turn(&scene.limits)).as_secs() / weave.spans as f64);
     // A hair less, so that what is whole already stays so.
     least_span(scene, weave).max(Span((wished_s * 1e6 - 1e-3).ceil() as i64))
 }

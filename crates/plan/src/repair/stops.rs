@@ -40,7 +40,7 @@ mod tests {
     use super::*;
     use crate::TransitionProblem;
     use crate::proof::prove;
-    use crate::repair::TURN;
+    use crate::repair::turn;
     use crate::seeded::Seeded;
     use lightbots_base::Limits;
 
@@ -85,7 +85,7 @@ mod tests {
         assert_eq!(with_stops(&scene, &corners, Some(quick.least)).unwrap(), quick);
         let slow = with_stops(&scene, &corners, Some(quick.least + quick.least)).unwrap();
         let late = slow.paths[0].as_ref().duration() - quick.least - quick.least;
-        assert!(late >= Span::ZERO && late < TURN / 100, "{late:?}");
+        assert!(late >= Span::ZERO && late < turn(&scene.limits) / 100, "{late:?}");
         assert!(slow.least == quick.least && prove(&problem.to_prove(&slow.paths)).holds());
     }
 

@@ -42,7 +42,7 @@ fn ratio(problem: &TransitionProblem) -> f64 {
         assert_eq!(path.start, problem.starts[i]);
         assert!(problem.goals.get(i).is_none_or(|&goal| path.as_ref().end() == goal));
         assert_eq!(path.as_ref().duration(), paths[0].as_ref().duration());
-        assert!(path.pieces.len() <= 128 && path.pieces[0].duration >= TURN);
+        assert!(path.pieces.len() <= 128 && path.pieces[0].duration >= turn(&problem.limits));
     }
     let longest = problem.starts.iter().zip(&problem.goals).map(|(a, b)| a.distance(*b)).fold(0.0, f64::max);
     paths[0].as_ref().duration().as_secs() / (longest / 0.27 + 0.62)
