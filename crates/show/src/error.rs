@@ -80,7 +80,7 @@ impl fmt::Display for ReadError {
 impl std::error::Error for ReadError {}
 
 /// How messages name a frame: `frame 3 "Heart"`, counted from 1.
-pub(crate) fn frame_label(index: usize, name: &str) -> String {
+pub fn frame_label(index: usize, name: &str) -> String {
     if name.is_empty() {
         return format!("frame {}", index + 1);
     }

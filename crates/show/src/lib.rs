@@ -23,7 +23,7 @@ mod spacing;
 mod validate;
 mod write;
 
-pub use error::{PixelName, ReadError};
+pub use error::{PixelName, ReadError, frame_label};
 pub use front::front_rows;
 pub use issue::{Issue, Issues, Severity};
 pub use model::{Easing, Frame, Identity, Obstacle, Pixel, Show, Stage, with_floor};

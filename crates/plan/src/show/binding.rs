@@ -39,6 +39,7 @@ impl Binding {
     ) -> Vec<Option<usize>> {
         let mut taken = vec![false; self.robots];
         let mut pins = vec![None; pixels.len()];
+        let mut fresh = Vec::new();
         let mut pin = |index: usize, robot: usize| {
             let free = !taken[robot];
             if free {
@@ -53,18 +54,39 @@ impl Binding {
                 Some(&robot) if pin(index, robot) => {}
                 Some(_) => issues.push(issues::bound_twice(frame, pixel.id, name)),
                 None if self.names_known => issues.push(issues::unknown_robot(frame, pixel.id, name)),
-                None => {}
+                None => fresh.push(index),
             }
         }
         if identity == Identity::Fixed {
             for (index, pixel) in pixels.iter().enumerate() {
-                if let (None, Some(&robot)) = (&pixel.robot, self.by_id.get(&pixel.id)) {
-                    pin(index, robot);
+                let (None, Some(&robot)) = (&pixel.robot, self.by_id.get(&pixel.id)) else { continue };
+                if !pin(index, robot) {
+                    issues.push(issues::bound_to_another(frame, pixel.id));
                 }
             }
+        }
+        self.place_fresh_names(places, pixels, fresh, (&mut taken, &mut pins));
+        if identity == Identity::Fixed {
             self.place_newcomers(places, pixels, &mut taken, &mut pins);
         }
         pins
+    }
+
+    /// Gives names that nobody has borne yet to robots without one: two names are two robots. Where nobody bears one
+    /// yet, any robots will do.
+    fn place_fresh_names(
+        &self,
+        places: &[Vec2],
+        pixels: &[Pixel],
+        fresh: Vec<usize>,
+        (taken, pins): (&mut [bool], &mut [Option<usize>]),
+    ) {
+        let mut named = vec![false; self.robots];
+        self.by_name.values().for_each(|&robot| named[robot] = true);
+        if (0..self.robots).any(|robot| named[robot] && !taken[robot]) {
+            let robots = (0..self.robots).filter(|&robot| !named[robot] && !taken[robot]).collect();
+            place(places, pixels, robots, fresh, (taken, pins));
+        }
     }
 
     /// Gives ids that nobody has shown yet to robots that have shown nothing yet, where there are enough of those.
@@ -84,15 +106,7 @@ impl Binding {
         if robots.len() == self.robots || new.is_empty() {
             return;
         }
-        let from: Vec<Vec2> = robots.iter().map(|&robot| places[robot]).collect();
-        let to: Vec<Vec2> = new.iter().map(|&index| pixels[index].at).collect();
-        let choice = Choice::new(&from, &to, &[]);
-        if let Some(start_of) = choice.and_then(|choice| choice.least_squares().solve(0.0)) {
-            for (&index, &start) in new.iter().zip(&start_of) {
-                pins[index] = Some(robots[start]);
-                taken[robots[start]] = true;
-            }
-        }
+        place(places, pixels, robots, new, (taken, pins));
     }
 
     /// Keeps who showed what; `goal_of[robot]` is an index into `pixels`.
@@ -103,6 +117,25 @@ impl Binding {
             if let (false, Some(name)) = (self.names_known, &pixel.robot) {
                 self.by_name.entry(name.clone()).or_insert(robot);
             }
+        }
+    }
+}
+
+/// Pins pixels to robots, both by their indices, as near as may be; nothing where there are too few robots.
+fn place(
+    places: &[Vec2],
+    pixels: &[Pixel],
+    robots: Vec<usize>,
+    new: Vec<usize>,
+    (taken, pins): (&mut [bool], &mut [Option<usize>]),
+) {
+    let from: Vec<Vec2> = robots.iter().map(|&robot| places[robot]).collect();
+    let to: Vec<Vec2> = new.iter().map(|&index| pixels[index].at).collect();
+    let choice = Choice::new(&from, &to, &[]);
+    if let Some(start_of) = choice.and_then(|choice| choice.least_squares().solve(0.0)) {
+        for (&index, &start) in new.iter().zip(&start_of) {
+            pins[index] = Some(robots[start]);
+            taken[robots[start]] = true;
         }
     }
 }

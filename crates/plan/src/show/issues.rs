@@ -3,7 +3,7 @@
 use crate::Stuck;
 use crate::transition::{MARGIN_M, distance_to, touching};
 use lightbots_base::Vec2;
-use lightbots_show::{Issue, Issues, Pixel, Show};
+use lightbots_show::{Issue, Issues, Pixel, Show, frame_label};
 
 /// What no plan can mend in a frame: too few robots, pixels that touch, lie outside the floor or in obstacles.
 pub(super) fn of_frame(show: &Show, index: usize, robots: usize, issues: &mut Issues) {
@@ -45,8 +45,14 @@ pub(super) fn of_frame(show: &Show, index: usize, robots: usize, issues: &mut Is
 
 /// A frame nobody can get to.
 pub(super) fn no_plan(show: &Show, index: usize, pixels: &[Pixel], stuck: &Stuck) -> Issue {
-    let ids = stuck.goals.iter().filter_map(|&goal| pixels.get(goal)).map(|pixel| pixel.id);
-    let message = format!("no plan to {}: {}", name_of(show, index), stuck.message);
+    let ids: Vec<u32> =
+        stuck.goals.iter().filter_map(|&goal| pixels.get(goal)).map(|pixel| pixel.id).collect();
+    let whose = match ids.len() {
+        0 => String::new(),
+        1 => format!(", pixel {}", ids[0]),
+        _ => format!(", pixels {}", few(&ids)),
+    };
+    let message = format!("no plan to {}{whose}: {}", name_of(show, index), stuck.message);
     Issue::error("no-plan", message).in_frame(index).with_pixels(ids)
 }
 
@@ -65,6 +71,16 @@ pub(super) fn bound_twice(frame: usize, pixel: u32, name: &str) -> Issue {
     Issue::error("robot-bound-twice", message).in_frame(frame).with_pixels([pixel])
 }
 
+/// Where identity is fixed, another pixel asks by name for the robot that showed a pixel before.
+pub(super) fn bound_to_another(frame: usize, pixel: u32) -> Issue {
+    let message = format!(
+        "frame {}: another pixel asks for the robot that showed pixel {pixel} before, though identity is fixed; \
+         pixel {pixel} gets another robot",
+        frame + 1
+    );
+    Issue::warning("robot-bound-to-another", message).in_frame(frame).with_pixels([pixel])
+}
+
 /// A pixel asks for a robot that is not there.
 pub(super) fn unknown_robot(frame: usize, pixel: u32, name: &str) -> Issue {
     let message = format!(
@@ -75,8 +91,7 @@ pub(super) fn unknown_robot(frame: usize, pixel: u32, name: &str) -> Issue {
 }
 
 fn name_of(show: &Show, index: usize) -> String {
-    let name = &show.frames[index].name;
-    if name.is_empty() { format!("frame {}", index + 1) } else { format!("frame {} “{name}”", index + 1) }
+    frame_label(index, &show.frames[index].name)
 }
 
 /// The first few ids as text.

@@ -153,3 +153,35 @@ fn no_show_panics() {
         assert_eq!(plan.mapping.len(), odd.frames.len());
     }
 }
+
+/// A frame whose pixels stand in a row and ask for robots by name, `None` for any.
+fn asking(y: f64, names: [Option<&str>; 3]) -> Frame {
+    let mut frame = frame(&[(0, -0.5, y), (1, 0.0, y), (2, 0.5, y)]);
+    for (pixel, name) in frame.pixels.iter_mut().zip(names) {
+        pixel.robot = name.map(str::to_owned);
+    }
+    frame
+}
+
+#[test]
+fn two_names_are_two_robots_even_where_no_frame_asks_for_both() {
+    // Whoever is nearest to the pixel that asks for bert is anna.
+    let [first, second] = [("anna", 0.5), ("bert", 0.0)].map(|(name, y)| asking(y, [Some(name), None, None]));
+    let both = asking(-0.5, [Some("anna"), Some("bert"), None]);
+    let plan = show(&of(vec![first, second, both]), &STARTS, &ShowOptions::default());
+    assert_eq!(codes(&plan), Vec::<&str>::new());
+    let shows = |frame: usize, id: u32| plan.mapping[frame].iter().position(|&shown| shown == Some(id));
+    assert_ne!(shows(0, 0), shows(1, 0));
+    assert_eq!((shows(2, 0), shows(2, 1)), (shows(0, 0), shows(1, 0)));
+}
+
+#[test]
+fn a_name_that_takes_another_pixels_robot_is_told() {
+    let mut show_of =
+        of(vec![asking(0.5, [Some("anna"), None, None]), asking(0.0, [None, Some("anna"), None])]);
+    show_of.identity = Identity::Fixed;
+    let plan = show(&show_of, &STARTS, &ShowOptions::default());
+    assert_eq!(codes(&plan), ["robot-bound-to-another"]);
+    assert_eq!((plan.issues[0].frame, plan.issues[0].pixels.as_slice()), (Some(1), &[0][..]));
+    assert!(plan.ok());
+}

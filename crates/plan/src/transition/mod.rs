@@ -5,10 +5,12 @@ mod check;
 mod conflict;
 mod nudge;
 mod parking;
+mod regions;
 mod relax;
 mod room;
 #[cfg(test)]
 mod tests;
+mod walled;
 
 pub(crate) use check::touching;
 pub(crate) use parking::distance_to;
@@ -18,6 +20,7 @@ use crate::repair::repair;
 use crate::{Stuck, Transition, TransitionProblem};
 use candidate::Candidate;
 use relax::relax;
+use walled::Walls;
 
 /// Least distance between rims that is planned for, metres, where starts and goals leave that much.
 pub(crate) const MARGIN_M: f64 = 0.003;
@@ -49,13 +52,20 @@ pub(crate) fn attempt(problem: &TransitionProblem) -> Attempt {
         return Attempt { transition: candidate::standing_still(problem), stuck: Some(stuck) };
     };
     let lower_bound_s = choice.bottleneck_m() / problem.limits.speed_mps.max(1e-3);
-    let mut attempt = if choice.spares() == 0 {
-        settle(problem, &choice)
-    } else {
-        with_spares(problem, &choice).unwrap_or_else(|| Attempt {
-            transition: candidate::standing_still(problem),
-            stuck: Some(check::pins(problem)),
-        })
+    let mut attempt = match walled::look(problem) {
+        Walls::Open => solve(problem, &choice),
+        Walls::Apart(pinned) => {
+            let sent = TransitionProblem { pinned, ..problem.clone() };
+            let choice = Choice::new(&sent.starts, &sent.goals, &sent.pinned).unwrap_or(choice);
+            solve(&sent, &choice)
+        }
+        Walls::Closed(stuck) => {
+            let transition = choice.least_squares().solve(0.0).map_or_else(
+                || candidate::standing_still(problem),
+                |start_of| Candidate::straight(problem, &start_of).transition,
+            );
+            Attempt { transition, stuck: Some(stuck) }
+        }
     };
     // Where spare robots wait is nobody's goal.
     for goal in &mut attempt.transition.goal_of {
@@ -64,6 +74,17 @@ pub(crate) fn attempt(problem: &TransitionProblem) -> Attempt {
     attempt.transition.lower_bound_s = lower_bound_s;
     attempt.stuck = impossible.or(attempt.stuck);
     attempt
+}
+
+/// The best transition between places that ways lead between.
+fn solve(problem: &TransitionProblem, choice: &Choice) -> Attempt {
+    if choice.spares() == 0 {
+        return settle(problem, choice);
+    }
+    with_spares(problem, choice).unwrap_or_else(|| Attempt {
+        transition: candidate::standing_still(problem),
+        stuck: Some(check::pins(problem)),
+    })
 }
 
 /// With more robots than goals: gives the spare ones places to wait first.
