@@ -1,6 +1,6 @@
 //! Where robots wait before a show that does not say where.
 
-use lightbots_base::Vec2;
+use lightbots_base::{Limits, Vec2};
 
 use crate::{Obstacle, Stage};
 
@@ -16,26 +16,29 @@ const SIDE_M: f64 = 0.05;
 /// On the original's floor of 3 m by 3 m the first thirty stand on y = 1.3 m from x = −1.45 m. Places on obstacles
 /// are left out.
 ///
-/// Always `count` places: rows get closer, down to 60 mm, where the floor is small, and where that is not enough they
+/// Robots larger than an Elisa-3 get as much more room. Always `count` places: rows get closer, down to 60 mm for an Elisa-3, where the floor is small, and where that is not enough they
 /// go on beyond its edge, which [`validate`](crate::validate) reports.
 pub fn front_rows(stage: &Stage, count: usize) -> Vec<Vec2> {
+    let size = (stage.limits.radius_m / Limits::ELISA_3.radius_m).clamp(1.0, 100.0);
     for step_m in [STEP_M, 0.08] {
-        let places = rows(stage, count, step_m);
+        let places = rows(stage, count, step_m, size);
         let far_edge_m = -stage.depth_m / 2.0 + stage.limits.radius_m;
         if places.iter().all(|place| place.y >= far_edge_m) {
             return places;
         }
     }
-    rows(stage, count, 0.06)
+    rows(stage, count, 0.06, size)
 }
 
-fn rows(stage: &Stage, count: usize, step_m: f64) -> Vec<Vec2> {
+/// Rows for robots that are `size` times as large as an Elisa-3, for which `step_m` is stated.
+fn rows(stage: &Stage, count: usize, step_m: f64, size: f64) -> Vec<Vec2> {
+    let (step_m, side_m, first_row_m) = (step_m * size, SIDE_M * size, FIRST_ROW_M * size);
     // A floor that is no floor gets a single file, so that there are places to complain about.
     let usable_m =
-        if stage.width_m.is_finite() { (stage.width_m - 2.0 * SIDE_M).clamp(0.0, 1e3) } else { 0.0 };
+        if stage.width_m.is_finite() { (stage.width_m - 2.0 * side_m).clamp(0.0, 1e3) } else { 0.0 };
     let columns = (usable_m / step_m + 1e-9) as usize + 1;
     let first_y = if stage.depth_m.is_finite() {
-        stage.depth_m / 2.0 - FIRST_ROW_M.min(stage.depth_m / 4.0)
+        stage.depth_m / 2.0 - first_row_m.min(stage.depth_m / 4.0)
     } else {
         0.0
     };
@@ -102,6 +105,17 @@ mod tests {
         let places = front_rows(&Stage::default(), 32);
         assert_eq!(places[30], Vec2::new(-0.05, 1.2));
         assert_eq!(places[31], Vec2::new(0.05, 1.2));
+    }
+
+    #[test]
+    fn large_robots_wait_farther_apart_and_off_the_edge() {
+        let limits = Limits { radius_m: 0.1, ..Limits::default() };
+        let stage = Stage { width_m: 6.0, depth_m: 6.0, limits, ..Stage::default() };
+        let places = front_rows(&stage, 30);
+        assert!(places.iter().all(|place| place.x.abs() <= 2.9 && place.y.abs() <= 2.9), "{places:?}");
+        let pairs =
+            places.iter().enumerate().flat_map(|(i, a)| places[..i].iter().map(move |b| a.distance(*b)));
+        assert!(pairs.fold(f64::INFINITY, f64::min) > 0.3);
     }
 
     #[test]

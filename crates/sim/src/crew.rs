@@ -75,14 +75,23 @@ impl Clock {
 }
 
 impl Crew {
-    /// Robots at rest on a stage, that were just switched on and have no link.
-    pub fn new(stage: &Stage, starts: &[Vec2], conditions: &Conditions, seed: u64) -> Self {
+    /// Robots at rest on a stage, that were just switched on and have no link. `names[robot]` where one is stated.
+    pub fn new(
+        stage: &Stage,
+        starts: &[Vec2],
+        names: &[Option<RobotId>],
+        conditions: &Conditions,
+        seed: u64,
+    ) -> Self {
         // Facing away from the viewer, as the original's robots do.
         let poses: Vec<Pose> =
             starts.iter().map(|&start| Pose::new(start, core::f64::consts::FRAC_PI_2)).collect();
         let mut dice = Dice::new(seed, Purpose::Robots);
         let first_original = starts.len().saturating_sub(conditions.originals);
-        let member = |robot| Member::new(stage, conditions, robot >= first_original, &mut dice);
+        let member = |robot| {
+            let name = names.get(robot).copied().flatten();
+            Member::new(stage, conditions, robot >= first_original, name, &mut dice)
+        };
         let members = (0..starts.len()).map(member).collect();
         Self {
             world: World::new(stage, &poses, conditions.slip, seed),
@@ -221,8 +230,15 @@ impl Crew {
 }
 
 impl Member {
-    fn new(stage: &Stage, conditions: &Conditions, original: bool, dice: &mut Dice) -> Self {
-        let id = RobotId::from_random(u128::from(dice.bits()) << 64 | u128::from(dice.bits()));
+    fn new(
+        stage: &Stage,
+        conditions: &Conditions,
+        original: bool,
+        name: Option<RobotId>,
+        dice: &mut Dice,
+    ) -> Self {
+        let random = RobotId::from_random(u128::from(dice.bits()) << 64 | u128::from(dice.bits()));
+        let id = name.unwrap_or(random);
         let ppm = dice.between(-conditions.clock_ppm, conditions.clock_ppm);
         let clock = Clock { begin_us: dice.below(CLOCK_BEGIN_US), drift_ppb: (ppm * 1000.0) as i64 };
         let delay_steps = (conditions.fixes.delay.0.max(0) + STEP.0 / 2) / STEP.0;

@@ -42,10 +42,16 @@ pub(crate) struct Play {
 }
 
 impl Play {
-    /// Robots at `starts`, switched on; a controller that has just found its broker.
-    pub fn new(show: Arc<Show>, starts: &[Vec2], options: &RehearsalOptions, planned_s: f64) -> Self {
+    /// Robots at `starts`, switched on, some with names that are stated; a controller that has just found its broker.
+    pub fn new(
+        show: Arc<Show>,
+        starts: &[Vec2],
+        names: &[Option<RobotId>],
+        options: &RehearsalOptions,
+        planned_s: f64,
+    ) -> Self {
         let RehearsalOptions { seed, conditions, .. } = options;
-        let crew = Crew::new(&show.stage, starts, conditions, *seed);
+        let crew = Crew::new(&show.stage, starts, names, conditions, *seed);
         let mut by_id: Vec<_> = (0..crew.len()).map(|robot| (crew.id(robot), robot)).collect();
         by_id.sort_unstable();
         Self {

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use lightbots_base::{Instant, Span, Vec2};
+use lightbots_base::{Instant, RobotId, Span, Vec2};
 use lightbots_plan::{ShowOptions, ShowPlan};
 use lightbots_show::{Issue, Show, front_rows};
 
@@ -18,7 +18,7 @@ pub struct RehearsalOptions {
     pub seed: u64,
     /// What robots and networks suffer.
     pub conditions: Conditions,
-    /// How many robots there are; `None`: as many as the largest frame has pixels.
+    /// How many robots there are; `None`: as many as the largest frame has pixels, or as the show has starts.
     pub robots: Option<usize>,
 }
 
@@ -42,7 +42,7 @@ pub enum Progress {
 pub const ROBOTS_MAX: usize = 20_000;
 
 impl Default for RehearsalOptions {
-    /// Seed 1, standard conditions, as many robots as pixels.
+    /// Seed 1, standard conditions, as many robots as the show needs.
     fn default() -> Self {
         Self { seed: 1, conditions: Conditions::default(), robots: None }
     }
@@ -56,7 +56,7 @@ pub fn rehearse(
     progress: &mut dyn FnMut(Progress),
 ) -> RehearsalReport {
     progress(Progress::Planning);
-    let robots = options.robots.unwrap_or_else(|| most_pixels(show));
+    let robots = options.robots.unwrap_or_else(|| usual_robots(show));
     if robots == 0 || robots > ROBOTS_MAX || show.frames.is_empty() {
         let message = match (show.frames.is_empty(), robots) {
             (true, _) => "The show has no frames: add one.".into(),
@@ -73,7 +73,8 @@ pub fn rehearse(
         let lower_bound_s = plan.lower_bound_s;
         return RehearsalReport { lower_bound_s, ..unplayed(show, options, robots, issues) };
     }
-    let play = Play::new(Arc::new(show.clone()), &starts, options, plan.duration_s);
+    let names = names(show, &plan, starts.len());
+    let play = Play::new(Arc::new(show.clone()), &starts, &names, options, plan.duration_s);
     let mut report = play.run(progress);
     report.lower_bound_s = plan.lower_bound_s;
     issues.append(&mut report.issues);
@@ -81,9 +82,28 @@ pub fn rehearse(
     report
 }
 
-/// Pixels of the largest frame.
-fn most_pixels(show: &Show) -> usize {
-    show.frames.iter().map(|frame| frame.pixels.len()).max().unwrap_or(0)
+/// One for each pixel of the largest frame; where the show says where more robots start, those are there as well.
+fn usual_robots(show: &Show) -> usize {
+    let pixels = show.frames.iter().map(|frame| frame.pixels.len()).max().unwrap_or(0);
+    pixels.max(show.starts.as_ref().map_or(0, Vec::len))
+}
+
+/// `[robot]`: the name by which a pixel asks for it, so that who is bound to a pixel takes part.
+fn names(show: &Show, plan: &ShowPlan, robots: usize) -> Vec<Option<RobotId>> {
+    let mut names = vec![None; robots];
+    for (frame, shown) in show.frames.iter().zip(&plan.mapping) {
+        let name_of = |id: u32| {
+            let pixel = frame.pixels.binary_search_by_key(&id, |pixel| pixel.id).ok()?;
+            frame.pixels[pixel].robot.as_deref().and_then(RobotId::new)
+        };
+        for (robot, id) in shown.iter().enumerate() {
+            let name = id.and_then(name_of);
+            if name.is_some() && names[robot].is_none() && !names.contains(&name) {
+                names[robot] = name;
+            }
+        }
+    }
+    names
 }
 
 /// Where the show says robots start, in rows along the front edge where it does not or says too few.

@@ -209,3 +209,23 @@ fn the_report_has_the_keys_scripts_rely_on() {
     }
     assert!(["sent", "lost"].iter().all(|count| report["messages"][count].is_u64()));
 }
+
+#[test]
+fn who_is_bound_to_a_pixel_takes_part() {
+    let mut show = show(12);
+    for (frame, pins) in [(0, [(0, "anna"), (11, "bert")]), (1, [(6, "anna"), (3, "carl")])] {
+        for (pixel, name) in pins {
+            show.frames[frame].pixels[pixel].robot = Some(name.into());
+        }
+    }
+    assert_fine(&play(&show, "", 1));
+}
+
+#[test]
+fn a_show_with_more_starts_than_pixels_has_spare_robots() {
+    let mut show = show(6);
+    show.starts = Some((0..9).map(|nth| Vec2::new(0.1 * f64::from(nth) - 0.4, 1.3)).collect());
+    let report = play(&show, "", 1);
+    assert_fine(&report);
+    assert_eq!(report.robots, 9);
+}

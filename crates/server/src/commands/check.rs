@@ -1,11 +1,14 @@
 //! `check`: validate, plan, prove.
 
 use lightbots_api as api;
+use lightbots_plan::{ShowClosest, ShowPlan};
+use lightbots_show::{Show, frame_label};
 use serde::Serialize;
 
 use super::{count, print_issues, print_json};
 use crate::cli::CheckArguments;
 use crate::failure::Outcome;
+use crate::numbers::rounded;
 use crate::{plan_document, say, show_file};
 
 /// The JSON of `check`.
@@ -17,9 +20,25 @@ pub(super) struct Summary<'a> {
     duration_s: f64,
     lower_bound_s: f64,
     closest_m: Option<f64>,
+    closest: Option<Pair>,
     plan_ms: f64,
     issues: &'a [api::Issue],
     transitions: Vec<Drive>,
+}
+
+/// The two robots whose centres come closest in the whole show.
+#[derive(Debug, Serialize)]
+struct Pair {
+    distance_m: f64,
+    /// The frame they drive to, counted from 0.
+    to: usize,
+    /// When, after the drive began, and after the show began, seconds.
+    at_s: f64,
+    show_at_s: f64,
+    /// The pixels they drive to; null: a robot that has none.
+    pixels: [Option<u32>; 2],
+    /// Half way between the two, stage metres.
+    place: [f64; 2],
 }
 
 /// One transition without its paths.
@@ -35,18 +54,18 @@ struct Drive {
 
 pub fn run(arguments: &CheckArguments) -> Outcome {
     let opened = show_file::open(&arguments.show, &arguments.reading)?;
-    let (_, plan) = plan_document::plan(&opened.show, &opened.issues);
-    let summary = Summary::new(&opened.show, &plan);
+    let (made, plan) = plan_document::plan(&opened.show, &opened.issues);
+    let summary = Summary::new(&opened.show, &made, &plan);
     if arguments.json {
         print_json(&summary)?;
     } else {
-        summary.print();
+        summary.print(&opened.show);
     }
     Ok(plan.ok)
 }
 
 impl<'a> Summary<'a> {
-    pub(super) fn new(show: &lightbots_show::Show, plan: &'a api::Plan) -> Self {
+    pub(super) fn new(show: &Show, made: &ShowPlan, plan: &'a api::Plan) -> Self {
         let drive = |transition: &api::Transition| Drive {
             from: transition.from,
             to: transition.to,
@@ -62,25 +81,62 @@ impl<'a> Summary<'a> {
             duration_s: plan.duration_s,
             lower_bound_s: plan.lower_bound_s,
             closest_m: plan.closest_m,
+            closest: Pair::of(show, made),
             plan_ms: plan.plan_ms,
             issues: &plan.issues,
             transitions: plan.transitions.iter().map(drive).collect(),
         }
     }
 
-    pub(super) fn print(&self) {
+    pub(super) fn print(&self, show: &Show) {
         print_issues(self.issues);
         let verdict = if self.ok { "fine" } else { "this show must not be played" };
-        let closest = self
-            .closest_m
-            .map_or(String::new(), |metres| format!(", centres never closer than {:.1} mm", metres * 1e3));
         say::line(&format!(
-            "{verdict}: {}, {}, {:.2} s (at least {:.2} s){closest}; planned in {:.1} ms",
+            "{verdict}: {}, {}, {:.2} s (at least {:.2} s); planned in {:.1} ms",
             count(self.frames, "frame"),
             count(self.pixels, "pixel"),
             self.duration_s,
             self.lower_bound_s,
             self.plan_ms
         ));
+        if let Some(pair) = &self.closest {
+            say::line(&pair.line(show));
+        }
+    }
+}
+
+impl Pair {
+    fn of(show: &Show, made: &ShowPlan) -> Option<Self> {
+        let ShowClosest { transition, closest } = made.closest?;
+        let pixel = |robot: usize| made.mapping.get(transition)?.get(robot).copied().flatten();
+        let before = made.transitions.iter().zip(&show.frames).take(transition);
+        let began_s: f64 = before.map(|(way, frame)| way.duration.as_secs() + frame.air_time_s).sum();
+        let at_s = closest.at.as_secs();
+        let mut pixels = [pixel(closest.pair.0), pixel(closest.pair.1)];
+        pixels.sort_unstable();
+        Some(Self {
+            distance_m: rounded(closest.distance_m, 5),
+            to: transition,
+            at_s: rounded(at_s, 3),
+            show_at_s: rounded(began_s + at_s, 3),
+            pixels,
+            place: [rounded(closest.place.x, 4), rounded(closest.place.y, 4)],
+        })
+    }
+
+    fn line(&self, show: &Show) -> String {
+        let who = match self.pixels {
+            [Some(a), Some(b)] => format!("the robots for pixels {a} and {b}"),
+            [Some(one), None] | [None, Some(one)] => format!("the robot for pixel {one} and a spare one"),
+            [None, None] => "two spare robots".into(),
+        };
+        let name = show.frames.get(self.to).map_or("", |frame| &frame.name);
+        let [x, y] = self.place;
+        format!(
+            "closest: {who}, {:.1} mm between their centres at ({x:.2}, {y:.2}) m, {:.2} s into the show, on the way to {}",
+            self.distance_m * 1e3,
+            self.show_at_s,
+            frame_label(self.to, name)
+        )
     }
 }

@@ -8,18 +8,18 @@ use crate::{plan_document, say, show_file};
 
 pub fn run(arguments: &PlanArguments) -> Outcome {
     let opened = show_file::open(&arguments.show, &arguments.reading)?;
-    let (_, plan) = plan_document::plan(&opened.show, &opened.issues);
+    let (made, plan) = plan_document::plan(&opened.show, &opened.issues);
     let out = &arguments.out;
     let cannot = |error: &dyn std::fmt::Display| {
         Failure::input(format!("{}: cannot be written: {error}", out.display()))
     };
     let text = serde_json::to_string(&plan).map_err(|error| cannot(&error))?;
     std::fs::write(out, text + "\n").map_err(|error| cannot(&error))?;
-    let summary = Summary::new(&opened.show, &plan);
+    let summary = Summary::new(&opened.show, &made, &plan);
     if arguments.json {
         print_json(&summary)?;
     } else {
-        summary.print();
+        summary.print(&opened.show);
         say::line(&format!("paths written to {}", out.display()));
     }
     Ok(plan.ok)

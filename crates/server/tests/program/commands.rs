@@ -42,6 +42,28 @@ fn check_says_what_it_promises() {
 }
 
 #[test]
+fn check_says_who_comes_closest_when_and_where() {
+    // Two who change places past each other, and one far away.
+    let show = r##"{"lightbots":1,"identity":"fixed","starts":[[-0.5,0],[0.5,0],[0,1]],"frames":[
+        {"name":"A","air_time_s":1,"pixels":[{"id":4,"place":[-0.5,0],"color":"#ffffff"},
+            {"id":7,"place":[0.5,0],"color":"#ffffff"},{"id":9,"place":[0,1],"color":"#ffffff"}]},
+        {"name":"B","air_time_s":1,"pixels":[{"id":4,"place":[0.5,0],"color":"#ffffff"},
+            {"id":7,"place":[-0.5,0],"color":"#ffffff"},{"id":9,"place":[0,1],"color":"#ffffff"}]}]}"##;
+    let file = shows::file("swap.lightbots.json", show);
+    let report = json(&run(&["check", &file, "--json"]).1);
+    let closest = &report["closest"];
+    assert_eq!(closest["distance_m"], report["closest_m"]);
+    assert_eq!((&closest["to"], &closest["pixels"]), (&Value::from(1), &serde_json::json!([4, 7])));
+    let (at_s, show_at_s) = (closest["at_s"].as_f64().unwrap(), closest["show_at_s"].as_f64().unwrap());
+    assert!(at_s > 1.0 && (show_at_s - at_s - 1.0).abs() < 1e-9, "{closest}");
+    assert!(closest["place"][0].as_f64().unwrap().abs() < 0.1, "{closest}");
+    let (code, text, _) = run(&["check", &file]);
+    assert_eq!(code, 0);
+    let line = text.lines().find(|line| line.starts_with("closest: the robots for pixels 4 and 7")).unwrap();
+    assert!(line.ends_with("on the way to frame 2 \"B\""), "{line}");
+}
+
+#[test]
 fn a_rehearsal_is_its_seed() {
     let show = shows::row_file(6, &[0.3, 0.2]);
     let rehearse = |more: &[&str]| {
