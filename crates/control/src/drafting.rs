@@ -118,6 +118,7 @@ impl<'a> Draft<'a> {
         let blocked = |pixel: &Pixel| self.request.standing.iter().any(|at| at.distance(pixel.at) < contact);
         let mut cast = self.bindings.cast(frame, identity, &self.places, blocked);
         let plan = self.solve(frame, &mut cast)?;
+        self.bindings.remember(&cast, &plan.goal_of);
         let rests = self.rests(&cast, &plan);
         let legs = if self.request.riders.iter().any(|rider| rider.original) {
             self.staged(frame, &rests)?

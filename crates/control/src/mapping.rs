@@ -11,6 +11,9 @@ pub(crate) struct Mapping {
     pub pins: BTreeMap<u32, RobotId>,
     /// Who showed a pixel in shows with fixed identity: it stays so.
     pub owners: BTreeMap<u32, RobotId>,
+    /// Who shows a pixel last in the frames of this run that are planned, whatever their identity: a frame with fixed
+    /// identity goes by that.
+    pub shown: BTreeMap<u32, RobotId>,
 }
 
 impl Mapping {
@@ -18,6 +21,7 @@ impl Mapping {
     pub fn forget(&mut self, id: RobotId) {
         self.pins.retain(|_, robot| *robot != id);
         self.owners.retain(|_, robot| *robot != id);
+        self.shown.retain(|_, robot| *robot != id);
     }
 }
 
@@ -46,8 +50,8 @@ impl Bindings {
         Self { names, mapping, index_of }
     }
 
-    /// Casts a frame. Without a binding, pixel ids in ascending order go to robots by x, smallest first, where
-    /// identity is fixed. Pixels for which `blocked` holds, or without a robot, stay dark.
+    /// Casts a frame. Where identity is fixed a pixel stays with who showed it last; ids that nobody has shown go to
+    /// robots by x, in ascending order, smallest first. Pixels for which `blocked` holds, or without a robot, stay dark.
     pub fn cast<'a>(
         &mut self,
         frame: &'a Frame,
@@ -84,15 +88,30 @@ impl Bindings {
     /// The robot a pixel is bound to, present or not.
     fn wanted(&self, pixel: &Pixel, identity: Identity) -> Option<RobotId> {
         let named = pixel.robot.as_deref().and_then(RobotId::new);
-        let owner = || self.mapping.owners.get(&pixel.id).copied().filter(|_| identity == Identity::Fixed);
+        let owner = || self.owner(pixel.id).filter(|_| identity == Identity::Fixed);
         named.or_else(|| self.mapping.pins.get(&pixel.id).copied()).or_else(owner)
+    }
+
+    /// Who showed a pixel before, somebody who is here if possible.
+    fn owner(&self, pixel: u32) -> Option<RobotId> {
+        let Mapping { shown, owners, .. } = &self.mapping;
+        let here = shown.get(&pixel).filter(|robot| self.index_of.contains_key(robot));
+        here.or_else(|| owners.get(&pixel)).copied()
+    }
+
+    /// Keeps who shows what; `goal_of[robot]` is an index into the cast's pixels.
+    pub fn remember(&mut self, cast: &Cast<'_>, goal_of: &[Option<usize>]) {
+        for (&name, goal) in self.names.iter().zip(goal_of) {
+            if let Some(pixel) = goal.and_then(|goal| cast.pixels.get(goal)) {
+                self.mapping.shown.insert(pixel.id, name);
+            }
+        }
     }
 
     /// Gives an owner to every pixel of the frame that has none who is here.
     fn adopt(&mut self, frame: &Frame, places: &[Vec2]) {
         let pinned = |pixel: &Pixel| pixel.robot.is_some() || self.mapping.pins.contains_key(&pixel.id);
-        let owned =
-            |id: u32| self.mapping.owners.get(&id).is_some_and(|robot| self.index_of.contains_key(robot));
+        let owned = |id: u32| self.owner(id).is_some_and(|robot| self.index_of.contains_key(&robot));
         let needy: Vec<u32> = frame
             .pixels
             .iter()
@@ -104,7 +123,8 @@ impl Bindings {
         }
         let busy: BTreeSet<RobotId> =
             frame.pixels.iter().filter_map(|pixel| self.wanted(pixel, Identity::Fixed)).collect();
-        let owners: BTreeSet<RobotId> = self.mapping.owners.values().copied().collect();
+        let Mapping { owners, shown, .. } = &self.mapping;
+        let owners: BTreeSet<RobotId> = owners.values().chain(shown.values()).copied().collect();
         let mut free: Vec<usize> =
             (0..self.names.len()).filter(|&r| !busy.contains(&self.names[r])).collect();
         // Owners of pixels that this frame does not show come last.
@@ -170,6 +190,25 @@ mod tests {
         let moved = [PLACES[1], PLACES[0], PLACES[2]];
         let again = bindings.cast(&frame, Identity::Fixed, &moved, |_| false);
         assert_eq!(again.pinned, cast.pinned);
+    }
+
+    #[test]
+    fn a_fixed_frame_among_others_keeps_who_showed_its_pixels() {
+        let mut bindings = bindings(Mapping::default());
+        let frame = frame(&[0, 1, 2]);
+        let any = bindings.cast(&frame, Identity::Any, &PLACES, |_| false);
+        assert_eq!(any.pinned, [None; 3]);
+        bindings.remember(&any, &[Some(2), Some(0), Some(1)]);
+        let fixed = bindings.cast(&frame, Identity::Fixed, &PLACES, |_| false);
+        assert_eq!(fixed.pinned, [Some(1), Some(2), Some(0)]);
+        bindings.remember(&any, &[Some(0), Some(1), Some(2)]);
+        let again = bindings.cast(&frame, Identity::Fixed, &PLACES, |_| false);
+        assert_eq!(again.pinned, [Some(0), Some(1), Some(2)]);
+        // Whose robot is gone gets another that shows nothing.
+        let mapping = bindings.mapping.clone();
+        let mut without = Bindings::new(vec![id("d"), id("b"), id("c")], mapping);
+        let cast = without.cast(&frame, Identity::Fixed, &PLACES, |_| false);
+        assert_eq!(cast.pinned, [Some(0), Some(1), Some(2)]);
     }
 
     #[test]

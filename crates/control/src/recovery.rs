@@ -8,8 +8,9 @@ use crate::run::{Gathering, Phase, Run, Seat, Standing};
 use crate::silent::{CUT, UNHEARD};
 use crate::snapshot::Age;
 use crate::trial::Trial;
-use lightbots_base::{Instant, Span, Vec2};
+use lightbots_base::{Instant, RobotId, Span, Vec2};
 use lightbots_wire::{Command, RobotState, Route, Topic};
+use std::collections::BTreeMap;
 
 /// STOP is said this often, …
 const SAY: u32 = 4;
@@ -92,6 +93,15 @@ impl Run {
         [thinned(died.chain(lives).map(place)), thinned(cut.map(place))]
     }
 
+    /// Who shows each pixel, or is on the way to it.
+    fn shown(&self, desk: &Desk) -> BTreeMap<u32, RobotId> {
+        let moves = self.current.iter().flat_map(|leg| leg.moves.iter().zip(&self.seats));
+        let taking_part = moves.filter(|(_, seat)| !seat.out);
+        let shown =
+            taking_part.filter_map(|(step, seat)| Some((step.pixel?, desk.fleet.robot(seat.robot).id)));
+        shown.collect()
+    }
+
     /// Plans again from where robots are; who drives is stopped first.
     pub fn recover(&mut self, desk: &mut Desk, now: Instant) {
         self.upload = None;
@@ -102,6 +112,7 @@ impl Run {
         self.hurry = true;
         self.plan_next = (self.next.frame < self.show.frames.len()).then_some(self.next);
         self.plan_from.clear();
+        desk.mapping.shown = self.shown(desk);
         self.arrivals = None;
         match self.phase {
             Phase::Offline(_) | Phase::Gathering(_) => {}

@@ -224,6 +224,7 @@ impl Run {
         looping: bool,
     ) -> Self {
         let next = Cursor { frame, round: 0 };
+        desk.mapping.shown.clear();
         let seats = take_seats(desk);
         desk.log.tell(now, EventKind::RunBegun { from: frame, robots: seats.len() });
         let mut run = Self {

@@ -143,7 +143,7 @@ impl Run {
             return;
         }
         self.drafting = None;
-        desk.mapping.owners = done.mapping.owners;
+        (desk.mapping.owners, desk.mapping.shown) = (done.mapping.owners, done.mapping.shown);
         if let Some(last) = done.legs.last() {
             self.plan_from = last.moves.iter().map(|step| step.goal).collect();
             for seat in (0..self.seats.len()).filter(|&seat| self.seats[seat].out) {

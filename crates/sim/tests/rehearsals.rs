@@ -229,3 +229,14 @@ fn a_show_with_more_starts_than_pixels_has_spare_robots() {
     assert_fine(&report);
     assert_eq!(report.robots, 9);
 }
+
+#[test]
+fn a_frame_with_fixed_identity_among_others_keeps_who_showed_its_pixels() {
+    let mut show = show(12);
+    let mirrored = |pixel: &Pixel| Pixel { at: -pixel.at, ..pixel.clone() };
+    let ring = show.frames[1].clone();
+    let pixels = ring.pixels.iter().map(mirrored).collect();
+    show.frames[2] = Frame { identity: Some(Identity::Fixed), pixels, ..ring };
+    // Everybody crosses the ring: were anybody else allowed to show a pixel, nobody would move.
+    assert_fine(&play(&show, "", 1));
+}
