@@ -117,6 +117,10 @@ test('several frames are chosen, moved, timed, copied and deleted together, and 
   await saved(page);
   const { frames } = await stored(page, 'strip');
   expect(frames.map((f) => f.air_time_s)).toEqual([7, 7, 0.3]);
+  await page.getByText('Same as before', { exact: true }).click();
+  await saved(page);
+  const identities = (await stored(page, 'strip')).frames.map((f) => f.identity ?? null);
+  expect(identities).toEqual(['fixed', 'fixed', null]);
   await page.getByRole('button', { name: /^Duplicate/ }).click();
   await countIs(cards, 5);
   const moment = page.getByRole('slider', { name: 'Moment of the show' });

@@ -160,5 +160,6 @@ export interface StoredStage {
 export interface StoredFrame {
   name: string;
   air_time_s: number;
+  identity?: string;
   pixels: { id: number; place: [number, number]; color: string; robot?: string }[];
 }

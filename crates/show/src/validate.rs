@@ -4,6 +4,8 @@ mod fleet;
 mod frame;
 mod stage;
 
+use std::collections::BTreeSet;
+
 use crate::error::frame_label;
 use crate::{Issue, Issues, Show};
 
@@ -59,15 +61,18 @@ impl Findings {
         self.add(Issue::error(code, format!("{}: {message}", label(show, frame))).in_frame(frame));
     }
 
-    /// Adds issues of one kind about pixels of a frame: the first few, then how many more there are.
+    /// Adds issues of one kind about pixels of a frame: the first few, then how many more there are, and about which.
     fn pixels(&mut self, show: &Show, frame: usize, code: &str, found: Vec<(Vec<u32>, String)>) {
-        let more = found.len().saturating_sub(Self::MOST_OF_A_KIND);
+        let rest = found.get(Self::MOST_OF_A_KIND..).unwrap_or_default();
+        let more = rest.len();
+        let of_rest: BTreeSet<u32> = rest.iter().flat_map(|(pixels, _)| pixels.iter().copied()).collect();
         for (pixels, message) in found.into_iter().take(Self::MOST_OF_A_KIND) {
             let message = format!("{}, {message}", label(show, frame));
             self.add(Issue::error(code, message).in_frame(frame).with_pixels(pixels));
         }
         if more > 0 {
-            self.frame(show, frame, code, &format!("{more} more like this"));
+            let message = format!("{}: {more} more like this", label(show, frame));
+            self.add(Issue::error(code, message).in_frame(frame).with_pixels(of_rest));
         }
     }
 }

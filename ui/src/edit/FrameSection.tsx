@@ -98,6 +98,20 @@ export function FrameSection() {
           { value: 'gentle', label: 'Gentle' },
         ]}
       />
+      <Text size="xs">Which robot shows which pixel of this frame</Text>
+      <SegmentedControl
+        aria-label="Which robot shows which pixel of this frame"
+        size="xs"
+        value={frame.identity ?? 'show'}
+        onChange={(value) =>
+          acts.setFrames(editing, { identity: value === 'any' || value === 'fixed' ? value : null })
+        }
+        data={[
+          { value: 'show', label: 'As the show' },
+          { value: 'any', label: 'Nearest' },
+          { value: 'fixed', label: 'Same as before' },
+        ]}
+      />
     </Stack>
   );
 }

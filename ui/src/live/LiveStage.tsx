@@ -9,7 +9,7 @@ import { fitView, StageTool, zoomView, ZoomTools } from '../stage/ViewTools';
 import { createCloseWatch } from './closeWatch';
 import { createFullPlan, pathsTo } from './paths';
 import { RobotTwin } from './RobotTwin';
-import { liveScene } from './scene';
+import { liveScene, wrongIn } from './scene';
 
 /** The floor as it is now. */
 export function LiveStage() {
@@ -23,6 +23,8 @@ export function LiveStage() {
   const chosen = useStore(frame);
   const playing = useStore(live.playback, (p) => p.frame);
   const plan = useStore(full.plan);
+  const found = useStore(live.plan);
+  const wrong = useMemo(() => wrongIn(found, chosen), [found, chosen]);
   const empty = useStore(live.fleet, (fleet) => fleet.rows.length === 0);
   const linked = useStore(live.link) === 'open';
   useEffect(() => (ways ? full.follow() : undefined), [ways, full]);
@@ -38,8 +40,8 @@ export function LiveStage() {
     [ways, plan, show, playing, chosen],
   );
   const sceneAt = useCallback(
-    (now_ms: number) => liveScene(live, { show, chosen, targets, paths, close }, now_ms),
-    [live, show, chosen, targets, paths, close],
+    (now_ms: number) => liveScene(live, { show, chosen, targets, paths, wrong, close }, now_ms),
+    [live, show, chosen, targets, paths, wrong, close],
   );
   return (
     <section className="stage" aria-label="The floor">

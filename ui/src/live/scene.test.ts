@@ -2,7 +2,7 @@ import { expect, test } from 'vitest';
 import type { FleetRow, Presence } from '../api/types.gen';
 import { newShow } from '../model/show';
 import { createCloseWatch } from './closeWatch';
-import { fade, liveScene } from './scene';
+import { fade, liveScene, wrongIn } from './scene';
 import { robotsOf } from './robots.testing';
 import { createLive, hear } from './store';
 
@@ -25,6 +25,29 @@ test('silent robots fade', () => {
   expect(alpha(2)).toBeLessThan(alpha(1));
 });
 
+test('pixels that errors of the plan are about are wrong in their frame', () => {
+  const issue = (severity: 'error' | 'warning', frame: number | null, pixels: number[]) => ({
+    code: 'x',
+    severity,
+    frame,
+    pixels,
+    message: '',
+  });
+  const plan = {
+    revision: 1,
+    planning: false,
+    ok: false,
+    duration_s: 0,
+    lower_bound_s: 0,
+    closest_m: null,
+    plan_ms: 0,
+    issues: [issue('error', 1, [3, 4]), issue('warning', 1, [5]), issue('error', 0, [6])],
+    transitions: [],
+  };
+  expect([...wrongIn(plan, 1)]).toEqual([3, 4]);
+  expect(wrongIn(plan, 2).size + wrongIn(null, 1).size).toBe(0);
+});
+
 test('planned is hollow, measured is filled, and neither becomes the other', () => {
   const live = createLive();
   const wish = {
@@ -32,6 +55,7 @@ test('planned is hollow, measured is filled, and neither becomes the other', () 
     chosen: 0,
     targets: true,
     paths: [],
+    wrong: new Set<number>(),
     close: createCloseWatch(),
   };
   expect(liveScene(live, wish, 0)).toMatchObject({ filled: [], hollow: [{}, {}] });

@@ -1,4 +1,4 @@
-import type { Fleet, Phase } from '../api/types.gen';
+import type { Fleet, Phase, Plan } from '../api/types.gen';
 import { unitStore } from '../shell/preferences';
 import { paintPins } from '../stage/pinMark';
 import { contact_m, EMPTY_STAGE, type Frame, type Show, type Stage } from '../model/show';
@@ -53,8 +53,18 @@ export interface SceneWish {
   chosen: number;
   targets: boolean;
   paths: Scene['paths'];
+  /** Ids of the pixels of the chosen frame that the plan finds wrong. */
+  wrong: ReadonlySet<number>;
   close: CloseWatch;
 }
+
+/** Ids of the pixels of a frame that errors of the plan are about: too close, in the way, or out of reach. */
+export const wrongIn = (plan: Plan | null, frame: number): ReadonlySet<number> =>
+  new Set(
+    plan?.issues
+      .filter((issue) => issue.severity === 'error' && issue.frame === frame)
+      .flatMap((issue) => issue.pixels),
+  );
 
 /** What the live stage shows now. */
 export function liveScene(live: Live, wish: SceneWish, now_ms: number): Scene {
@@ -63,6 +73,8 @@ export function liveScene(live: Live, wish: SceneWish, now_ms: number): Scene {
   const stage = wish.show?.stage ?? EMPTY_STAGE;
   const hollow = running ? sample.hollow : hollowOf(wish.show?.frames[wish.chosen]);
   const pinned = wish.show?.frames[wish.chosen]?.pixels.filter((p) => p.robot !== null) ?? [];
+  const wrong =
+    wish.show?.frames[wish.chosen]?.pixels.filter((p) => wish.wrong.has(p.id)) ?? NOTHING;
   const close = wish.close.find(sample.filled, contact_m(stage), now_ms);
   return {
     ...floorOf(stage),
@@ -71,7 +83,10 @@ export function liveScene(live: Live, wish: SceneWish, now_ms: number): Scene {
     errors: wish.targets && running ? sample.errors : NOTHING,
     paths: wish.paths,
     overlay: (context, camera) => {
-      if (wish.targets && !running) paintPins(context, camera, stage.radius_m, pinned);
+      if (wish.targets && !running) {
+        paintPins(context, camera, stage.radius_m, pinned);
+        paintClose(context, camera, stage.radius_m, wrong);
+      }
       paintClose(
         context,
         camera,

@@ -102,7 +102,9 @@ export function moveFrames(show: Show, indices: readonly number[], before: numbe
   return all.every((frame, i) => frame === show.frames[i]) ? show : { ...show, frames: all };
 }
 
-export type FrameFields = Partial<Pick<Frame, 'name' | 'airTime_s' | 'transition_s' | 'easing'>>;
+export type FrameFields = Partial<
+  Pick<Frame, 'name' | 'airTime_s' | 'transition_s' | 'easing' | 'identity'>
+>;
 
 export function setFrames(show: Show, indices: readonly number[], fields: FrameFields): Show {
   const wanted = new Set(indices);

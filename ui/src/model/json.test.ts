@@ -47,3 +47,11 @@ test('as fast as legal is the absence of a time', () => {
   expect(show.frames[0]?.transition_s).toBeNull();
   expect(JSON.stringify(writeShow(show))).not.toContain('transition_s');
 });
+
+test('a frame that says nothing of identity is as the show', () => {
+  const [frame] = readShow({ identity: 'fixed', frames: [{ pixels: [] }] }).frames;
+  expect(frame?.identity).toBeNull();
+  expect(writeShow(readShow({ frames: [{ pixels: [], identity: 'fixed' }] }))).toMatchObject({
+    frames: [{ identity: 'fixed' }],
+  });
+});

@@ -54,7 +54,7 @@ function readObstacle(value: unknown): Obstacle {
   return { kind: 'rect', minX, minY, maxX, maxY };
 }
 
-const FRAME_FIELDS = ['name', 'air_time_s', 'transition_s', 'easing', 'pixels'];
+const FRAME_FIELDS = ['name', 'air_time_s', 'transition_s', 'easing', 'identity', 'pixels'];
 
 function readFrame(value: unknown): Frame {
   const json = object(value);
@@ -64,6 +64,7 @@ function readFrame(value: unknown): Frame {
     airTime_s: number(json.air_time_s, 0),
     transition_s: typeof json.transition_s === 'number' ? json.transition_s : null,
     easing: json.easing === 'gentle' ? 'gentle' : 'swift',
+    identity: json.identity === 'fixed' || json.identity === 'any' ? json.identity : null,
     pixels: list(json.pixels)
       .map(readPixel)
       .sort((a, b) => a.id - b.id),
@@ -107,6 +108,7 @@ function writeFrame(frame: Frame): unknown {
     air_time_s: frame.airTime_s,
     ...(frame.transition_s === null ? {} : { transition_s: frame.transition_s }),
     easing: frame.easing,
+    ...(frame.identity === null ? {} : { identity: frame.identity }),
     ...frame.rest,
     pixels: frame.pixels.map((p) => ({
       id: p.id,

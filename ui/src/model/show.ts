@@ -37,6 +37,8 @@ export interface Frame {
   /** How long the drive to it takes, seconds; null: as fast as legal. */
   transition_s: number | null;
   easing: Easing;
+  /** Overrides the show's; null: as the show. */
+  identity: Identity | null;
   /** Sorted by id, ids unique. */
   pixels: readonly Pixel[];
   rest: Readonly<Record<string, unknown>>;
@@ -90,6 +92,7 @@ export function newFrame(name: string, pixels: readonly Pixel[]): Frame {
     airTime_s: 1,
     transition_s: null,
     easing: 'swift',
+    identity: null,
     pixels,
     rest: {},
   };
