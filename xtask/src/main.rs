@@ -16,7 +16,7 @@ cargo xtask <command>
   demo [ARGS]      build everything and start `lightbots run` on an example show; ARGS are passed on
   test [PART…]     run the tests, all of them or some: tidy ui lint rust firmware e2e licences
   bench [PART…]    measure and write docs/benchmarks.md: plan rehearsal noise round light fps
-  pairs [COUNT [FIRST]]   rehearse random pairs of frames, ten thousand unless told otherwise: for the night
+  pairs [COUNT [FIRST [FAULTS]]]   rehearse random pairs of frames, ten thousand unless told otherwise: for the night
   webots [--robots N [--floor METRES]]   write the Webots worlds and put the driver in place
   tidy             only the checks of the source tree itself
 ";

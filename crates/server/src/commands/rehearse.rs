@@ -58,6 +58,10 @@ fn title(name: &str, file: &Path) -> String {
 
 fn print(report: &RehearsalReport) {
     print_issues(&report.issues.iter().map(plan_document::issue).collect::<Vec<_>>());
+    if report.messages.sent == 0 && !report.ok {
+        say::line("this show must not be played like this; nothing was rehearsed");
+        return;
+    }
     let closest =
         report.closest_m.map_or(String::new(), |metres| format!(", closest {:.1} mm", metres * 1e3));
     let contacts = report.contacts + report.wall_contacts;

@@ -98,6 +98,13 @@ fn a_rehearsal_is_its_seed() {
 }
 
 #[test]
+fn a_show_that_must_not_be_played_is_not_rehearsed() {
+    let (code, out, _) = run(&["rehearse", &shows::row_file(3, &[0.5]), "--floor", "1x1"]);
+    assert_eq!(code, 1);
+    assert!(out.contains("nothing was rehearsed") && !out.contains("contacts"), "{out}");
+}
+
+#[test]
 fn a_rehearsal_can_be_read_by_people() {
     let page = shows::file("report.html", "");
     let (code, out, _) = run(&["rehearse", &shows::row_file(3, &[0.1]), "--report", &page]);

@@ -1,7 +1,8 @@
 //! Random pairs of frames, planned, proven and rehearsed with noise and slip:
 //! `cargo run --release -p lightbots-sim --example pairs [COUNT [FIRST [FAULTS]]]`, 10,000 unless told otherwise.
 //!
-//! A line for each pair that is not solved, not proven or not free of contact; exit code 1 then.
+//! A line for each pair that is not solved, not proven or not free of contact, with the command that repeats it, and all
+//! their numbers at the end; exit code 1 then.
 #![allow(clippy::print_stdout, clippy::print_stderr)]
 
 mod scene;
@@ -11,9 +12,17 @@ use std::process::ExitCode;
 use lightbots_sim::{Conditions, Faults, RehearsalOptions, rehearse};
 
 const ROBOTS: u64 = 200;
+const USAGE: &str = "\
+usage: pairs [COUNT [FIRST [FAULTS]]]
+Rehearses COUNT random pairs of frames (10,000) from number FIRST (0) on, with noise and slip, and FAULTS on top, such as
+loss=5%,kill=random. The same number gives the same pair and the same run: `cargo xtask pairs 1 NUMBER` repeats one.";
 
 fn main() -> ExitCode {
     let args: Vec<String> = std::env::args().skip(1).collect();
+    if args.iter().any(|argument| matches!(argument.as_str(), "--help" | "-h" | "help")) {
+        println!("{USAGE}");
+        return ExitCode::SUCCESS;
+    }
     match run(&args) {
         Ok(true) => ExitCode::SUCCESS,
         Ok(false) => ExitCode::FAILURE,
@@ -26,9 +35,8 @@ fn main() -> ExitCode {
 
 /// Whether every pair was fine.
 fn run(args: &[String]) -> Result<bool, String> {
-    let usage = "usage: pairs [COUNT [FIRST [FAULTS]]]";
     let number = |index: usize, usual: u64| match args.get(index) {
-        Some(text) => text.parse().map_err(|_| format!("'{text}' is no number; {usage}")),
+        Some(text) => text.parse().map_err(|_| format!("'{text}' is no number; {USAGE}")),
         None => Ok(usual),
     };
     let (count, first) = (number(0, 10_000)?, number(1, 0)?);
@@ -36,17 +44,19 @@ fn run(args: &[String]) -> Result<bool, String> {
         args.get(2).map(|text| Faults::parse(text)).transpose().map_err(|error| error.to_string())?;
     let conditions = faults.unwrap_or_default().added_to(Conditions::default());
     let mut ratios = Vec::new();
-    let mut failed = 0;
+    let mut failed = Vec::new();
     for number in first..first.saturating_add(count) {
         let show = scene::pair(number, ROBOTS);
         let options = RehearsalOptions { seed: number, conditions: conditions.clone(), robots: None };
         let report = rehearse(&show, &options, &mut |_| {});
         ratios.push(report.duration_s / report.lower_bound_s.max(0.1));
         if !report.ok {
-            failed += 1;
+            failed.push(number.to_string());
             let worst = report.issues.iter().find(|issue| issue.is_error()).or(report.issues.first());
             let why = worst.map_or("no reason given", |issue| issue.message.as_str());
             println!("pair {number}: {} robots, {:?}: {why}", report.robots, show.identity);
+            let faults = args.get(2).map_or(String::new(), |text| format!(" {text}"));
+            println!("  again: cargo xtask pairs 1 {number}{faults}");
         }
     }
     ratios.sort_by(f64::total_cmp);
@@ -54,9 +64,12 @@ fn run(args: &[String]) -> Result<bool, String> {
         |share: f64| ratios.get(((ratios.len() as f64 - 1.0) * share) as usize).copied().unwrap_or(f64::NAN);
     println!(
         "{} of {count} fine; duration over the bound: median {:.2}, most {:.2}",
-        count - failed,
+        count - failed.len() as u64,
         at(0.5),
         at(1.0)
     );
-    Ok(failed == 0)
+    if !failed.is_empty() {
+        println!("not fine: {}", failed.join(", "));
+    }
+    Ok(failed.is_empty())
 }
