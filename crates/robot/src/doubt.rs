@@ -7,13 +7,11 @@ use core::hint::black_box;
 
 use lightbots_base::Vec2;
 
-/// Stage x and y, heading, slip of the left and the right wheel.
+/// Stage x and y, heading, slip of the left wheel; that of the right wheel lies apart.
 const X: usize = 0;
 const Y: usize = 1;
 const HEADING: usize = 2;
 const LEFT: usize = 3;
-const RIGHT: usize = 4;
-const STATES: usize = 5;
 
 /// Growth of the error of a robot that stands, for who is pushed, metres and radians a step.
 const STANDING_M: f64 = 1e-5;
@@ -22,7 +20,9 @@ const STANDING_RAD: f64 = 5e-5;
 const WAY: f64 = 0.01;
 const TURN: f64 = 0.03;
 
-type Row = [f64; STATES];
+/// Covariances with x, y, heading and the slip of the left wheel. Single precision is far finer than what is known of
+/// any of them, and half the work.
+type Row = [f32; 4];
 
 /// What the wheels did since the covariance was last carried on.
 #[derive(Clone, Copy, Debug, Default)]
@@ -57,9 +57,23 @@ pub(crate) struct Noise {
 /// What a place off by one along x or y, or a heading off by one, corrects.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Gain {
-    pub at: Vec2,
-    pub turn: f64,
-    pub slip: [f64; 2],
+    /// Stage x and y, heading, slip of the left wheel.
+    pub by: [f32; 4],
+    /// Slip of the right wheel.
+    pub right: f32,
+}
+
+impl Gain {
+    /// What x, y and heading off by so much correct together.
+    #[inline(never)] // As `Doubt::learn_one`.
+    pub(crate) fn sum(gains: &[Self; 3], off: [f32; 3]) -> Self {
+        let mut sum = Self::default();
+        for (gain, off) in gains.iter().zip(off) {
+            add(&mut sum.by, off, &gain.by);
+            sum.right += gain.right * off;
+        }
+        sum
+    }
 }
 
 /// The covariance.
@@ -69,83 +83,104 @@ pub(crate) struct Doubt {
     /// What is asked for at every step, of the covariance as it is.
     place: f64,
     heading: f64,
-    p: [Row; STATES],
+    rows: [Row; 4],
+    /// Slip of the right wheel with the others, and its own variance.
+    right: Row,
+    right_own: f32,
 }
 
 impl Doubt {
     /// Nothing is known of the pose, and slip up to this (1 sigma).
     pub(crate) fn new(slip: f64) -> Self {
-        let mut p = [[0.0; STATES]; STATES];
-        for (state, sigma) in [1.0, 1.0, core::f64::consts::PI, slip, slip].into_iter().enumerate() {
-            p[state][state] = sigma * sigma;
+        let mut rows = [[0.0; 4]; 4];
+        let slip = (slip * slip) as f32;
+        let turn = core::f32::consts::PI * core::f32::consts::PI;
+        for (state, variance) in [1.0, 1.0, turn, slip].into_iter().enumerate() {
+            rows[state][state] = variance;
         }
-        Self { place: p[X][X], heading: p[HEADING][HEADING], p }
+        let mut doubt = Self { place: 0.0, heading: 0.0, rows, right: [0.0; 4], right_own: slip };
+        doubt.sum_up();
+        doubt
     }
 
     fn sum_up(&mut self) {
-        self.place = self.p[X][X].max(self.p[Y][Y]);
-        self.heading = self.p[HEADING][HEADING];
+        self.place = f64::from(self.rows[X][X].max(self.rows[Y][Y]));
+        self.heading = f64::from(self.rows[HEADING][HEADING]);
     }
 
     /// Carries it over a stretch that ended facing this way.
     pub(crate) fn carry(&mut self, stretch: &Stretch, facing: Vec2, track_m: f64, drift: Drift) {
         let [left, right] = stretch.ways_m;
         let (half_left, half_right, by) = (-0.5 * left, -0.5 * right, 1.0 / track_m);
-        let rows = [
-            [-stretch.moved.y, facing.x * half_left, facing.x * half_right],
-            [stretch.moved.x, facing.y * half_left, facing.y * half_right],
-            [0.0, left * by, -right * by],
-        ];
-        let p = &mut self.p;
-        let sources = [p[HEADING], p[LEFT], p[RIGHT]];
-        for (row, factors) in p.iter_mut().zip(&rows) {
-            for (source, factor) in sources.iter().zip(factors) {
-                row.iter_mut().zip(source).for_each(|(value, with)| *value += factor * with);
-            }
+        // What an error of the heading or of a wheel's slip adds to x, y and heading.
+        let by_heading = [-stretch.moved.y, stretch.moved.x, 0.0, 0.0].map(|share| share as f32);
+        let by_left = [facing.x * half_left, facing.y * half_left, left * by, 0.0].map(|share| share as f32);
+        let by_right =
+            [facing.x * half_right, facing.y * half_right, -right * by, 0.0].map(|share| share as f32);
+        let [.., heading_row, left_row] = self.rows;
+        let mut with_right = self.right;
+        for state in [X, Y, HEADING] {
+            let (turn, left, right) = (by_heading[state], by_left[state], by_right[state]);
+            add(&mut self.rows[state], turn, &heading_row);
+            add(&mut self.rows[state], left, &left_row);
+            add(&mut self.rows[state], right, &self.right);
+            with_right[state] +=
+                turn * self.right[HEADING] + left * self.right[LEFT] + right * self.right_own;
         }
-        for row in p.iter_mut() {
-            for (column, factors) in rows.iter().enumerate() {
-                row[column] += factors[0] * row[HEADING] + factors[1] * row[LEFT] + factors[2] * row[RIGHT];
-            }
-            row[LEFT] *= drift.left;
-            row[RIGHT] *= drift.left;
-        }
-        for wheel in [LEFT, RIGHT] {
-            p[wheel].iter_mut().for_each(|both| *both *= drift.left);
-            p[wheel][wheel] += (1.0 - drift.left * drift.left) * drift.variance;
-        }
+        let by = [by_heading, by_left, by_right];
+        self.rows.iter_mut().zip(with_right).for_each(|(row, with_right)| add_columns(row, with_right, &by));
+        add_columns(&mut self.right, self.right_own, &by);
+        self.let_slip_drift(drift);
         let way = WAY * WAY * stretch.moved.length_squared();
         let steps = f64::from(stretch.steps);
-        p[X][X] += way + steps * (STANDING_M * STANDING_M);
-        p[Y][Y] += way + steps * (STANDING_M * STANDING_M);
-        p[HEADING][HEADING] +=
-            TURN * TURN * stretch.turn * stretch.turn + steps * (STANDING_RAD * STANDING_RAD);
+        let place = (way + steps * (STANDING_M * STANDING_M)) as f32;
+        self.rows[X][X] += place;
+        self.rows[Y][Y] += place;
+        self.rows[HEADING][HEADING] +=
+            (TURN * TURN * stretch.turn * stretch.turn + steps * (STANDING_RAD * STANDING_RAD)) as f32;
         self.sum_up();
+    }
+
+    fn let_slip_drift(&mut self, drift: Drift) {
+        let (left, variance) = (drift.left as f32, drift.variance as f32);
+        let fresh = (1.0 - left * left) * variance;
+        for row in &mut self.rows {
+            row[LEFT] *= left;
+        }
+        self.rows[LEFT].iter_mut().for_each(|both| *both *= left);
+        self.right.iter_mut().for_each(|both| *both *= left);
+        self.right[LEFT] *= left;
+        self.rows[LEFT][LEFT] += fresh;
+        self.right_own = self.right_own * left * left + fresh;
     }
 
     /// Takes in measurements of this noise.
     pub(crate) fn learn(&mut self, noise: Noise) {
         for (state, variance) in [(X, noise.place), (Y, noise.place), (HEADING, noise.heading)] {
             if variance.is_finite() {
-                let seen = self.p[state];
-                let share = 1.0 / (seen[state] + variance);
-                for (row, &with) in self.p.iter_mut().zip(&seen) {
-                    let gain = with * share;
-                    for (both, &with) in row.iter_mut().zip(&seen) {
-                        *both -= gain * with;
-                    }
-                }
+                self.learn_one(state, variance as f32);
             }
         }
         self.sum_up();
     }
 
+    /// Takes in one measurement. On its own: the compiler does worse where it sees three at once.
+    #[inline(never)]
+    fn learn_one(&mut self, state: usize, variance: f32) {
+        let (seen, seen_right) = (self.rows[state], self.right[state]);
+        let share = -1.0 / (seen[state] + variance);
+        for (row, with) in self.rows.iter_mut().zip(seen) {
+            add(row, with * share, &seen);
+        }
+        add(&mut self.right, seen_right * share, &seen);
+        self.right_own += seen_right * share * seen_right;
+    }
+
     /// What one measurement of x, y and heading corrects, each by its variance.
     pub(crate) fn gains(&self, place: f64, heading: f64) -> [Gain; 3] {
         [(X, place), (Y, place), (HEADING, heading)].map(|(state, variance)| {
-            let by = 1.0 / variance;
-            let [x, y, turn, left, right] = self.p[state];
-            Gain { at: Vec2::new(x, y) * by, turn: turn * by, slip: [left * by, right * by] }
+            let by = (1.0 / variance) as f32;
+            Gain { by: self.rows[state].map(|with| with * by), right: self.right[state] * by }
         })
     }
 
@@ -161,9 +196,10 @@ impl Doubt {
     }
 
     fn set(&mut self, state: usize, variance: f64) {
-        self.p[state] = [0.0; STATES];
-        self.p.iter_mut().for_each(|row| row[state] = 0.0);
-        self.p[state][state] = variance;
+        self.rows[state] = [0.0; 4];
+        self.rows.iter_mut().for_each(|row| row[state] = 0.0);
+        self.right[state] = 0.0;
+        self.rows[state][state] = variance as f32;
         self.sum_up();
     }
 
@@ -175,7 +211,7 @@ impl Doubt {
     /// Reads a little of each cache line, in order: see `Robot::fetch`.
     #[inline]
     pub(crate) fn fetch(&self) {
-        black_box((self.place, self.p[1][2], self.p[2][4], self.p[4][1], self.p[4][4]));
+        black_box((self.place, self.rows[3][0], self.right_own));
     }
 
     /// Variance of the heading.
@@ -185,6 +221,21 @@ impl Doubt {
 
     /// Variance of the wheels' slip, in the mean of both.
     pub(crate) fn slip(&self) -> f64 {
-        0.5 * (self.p[LEFT][LEFT] + self.p[RIGHT][RIGHT])
+        0.5 * f64::from(self.rows[LEFT][LEFT] + self.right_own)
     }
+}
+
+/// Adds so much of another row.
+#[inline]
+fn add(row: &mut Row, share: f32, other: &Row) {
+    row.iter_mut().zip(other).for_each(|(value, with)| *value += share * with);
+}
+
+/// Adds what x, y and heading take from the columns of heading and slip. On its own, as `Doubt::learn_one`.
+#[inline(never)]
+fn add_columns(row: &mut Row, with_right: f32, by: &[Row; 3]) {
+    let (turn, left) = (row[HEADING], row[LEFT]);
+    add(row, turn, &by[0]);
+    add(row, left, &by[1]);
+    add(row, with_right, &by[2]);
 }

@@ -103,9 +103,11 @@ impl Drive {
             (speed_mps - half) / (limits.wheel_radius_m * (1.0 - slip[0])),
             (speed_mps + half) / (limits.wheel_radius_m * (1.0 - slip[1])),
         ];
-        let fastest = rates[0].abs().max(rates[1].abs());
-        let scale = if fastest > limits.wheel_radps { limits.wheel_radps / fastest } else { 1.0 };
-        rates.map(|rate| rate * scale)
+        if rates.iter().all(|rate| rate.abs() <= limits.wheel_radps) {
+            return rates;
+        }
+        let scale = limits.wheel_radps / rates[0].abs().max(rates[1].abs());
+        [rates[0] * scale, rates[1] * scale]
     }
 }
 

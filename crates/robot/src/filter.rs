@@ -144,14 +144,12 @@ impl Filter {
             self.teaching = self.teaching.saturating_sub(1);
             self.carry();
         }
-        let [x, y, turn] = &self.gains;
         let (place, angle) = off;
-        self.at += x.at * place.x + y.at * place.y + turn.at * angle;
-        let slip =
-            |wheel: usize| x.slip[wheel] * place.x + y.slip[wheel] * place.y + turn.slip[wheel] * angle;
-        self.slip.correct([slip(0), slip(1)]);
-        let turned = x.turn * place.x + y.turn * place.y + turn.turn * angle;
-        self.turn_by(turned);
+        let sum = Gain::sum(&self.gains, [place.x, place.y, angle].map(|off| off as f32));
+        let [x, y, turn, left] = sum.by;
+        self.at += Vec2::new(f64::from(x), f64::from(y));
+        self.slip.correct([f64::from(left), f64::from(sum.right)]);
+        self.turn_by(f64::from(turn));
     }
 
     /// Carries the covariance over the stretch behind and takes in what was measured on it.
@@ -235,7 +233,7 @@ impl Filter {
     pub(crate) fn fetch(&self) {
         let ([x, y, turn], Stretch { turn: turned, .. }) = (&self.gains, &self.stretch);
         black_box((self.at.x, self.track_m, turned, self.slip.now(), self.judge.last_place()));
-        black_box((self.off.is_some(), x.at.x, y.turn, turn.slip));
+        black_box((self.off.is_some(), x.by[0], y.right, turn.right));
         self.doubt.fetch();
     }
 

@@ -23,12 +23,14 @@ impl Trust {
 
     /// The variance to reckon with: never better than described.
     pub(crate) fn variance(&self) -> f64 {
-        self.seen.max(self.described)
+        // Not `max`, which minds NaN at some cost, and this is asked for at every step.
+        if self.seen > self.described { self.seen } else { self.described }
     }
 
     /// Two readings in a row differed by this beyond what the robot did: mean square of one coordinate.
     pub(crate) fn learn(&mut self, square: f64) {
-        self.seen += ((0.5 * square).min(CLIP * self.variance()) - self.seen) * (1.0 / READINGS);
+        let (read, most) = (0.5 * square, CLIP * self.variance());
+        self.seen += (if read < most { read } else { most } - self.seen) * (1.0 / READINGS);
     }
 }
 

@@ -109,7 +109,9 @@ impl Contacts {
         let mut closest = self.closest_squared;
         for &(a, b) in pairs {
             let distance = (places[b as usize] - places[a as usize]).length_squared();
-            closest = closest.min(distance);
+            if distance < closest {
+                closest = distance;
+            }
             if distance < sight_squared {
                 self.in_sight.push((a, b));
                 if distance < contact_squared {

@@ -5,10 +5,17 @@ use core::fmt::{self, Write};
 use crate::Command;
 use crate::number::{write_int, write_six_decimals};
 use crate::path::encode_route;
+use crate::pen::Pen;
 
 /// Appends one command between bars, as the original writes it: `|TARGET 0.500000 -1.250000|`. Several commands in a
 /// row make one payload.
 pub fn encode(command: &Command, out: &mut dyn Write) -> fmt::Result {
+    let mut pen = Pen::new(out);
+    write(command, &mut pen)?;
+    pen.finish()
+}
+
+fn write(command: &Command, out: &mut Pen<'_>) -> fmt::Result {
     out.write_str("|")?;
     match command {
         Command::Target(at) => {
@@ -34,7 +41,7 @@ pub fn encode(command: &Command, out: &mut dyn Write) -> fmt::Result {
     out.write_str("|")
 }
 
-fn words(out: &mut dyn Write, word: &str, numbers: &[u64]) -> fmt::Result {
+fn words(out: &mut Pen<'_>, word: &str, numbers: &[u64]) -> fmt::Result {
     out.write_str(word)?;
     for &number in numbers {
         out.write_str(" ")?;

@@ -20,6 +20,7 @@ mod decode;
 mod encode;
 mod number;
 mod path;
+mod pen;
 mod report;
 mod say;
 mod topic;

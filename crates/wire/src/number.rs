@@ -4,6 +4,8 @@ use core::fmt::{self, Write};
 
 use lightbots_base::{Instant, Span};
 
+use crate::pen::Pen;
+
 /// The longest text read as a number, bytes. `Double.toString` needs at most 24.
 const MAX_NUMBER: usize = 32;
 /// Mantissas up to here are exact in an `f64`, so that one division by a power of ten rounds correctly.
@@ -91,7 +93,7 @@ fn round(value: f64) -> i64 {
 }
 
 /// Writes a whole number.
-pub(crate) fn write_int(out: &mut dyn Write, value: i64) -> fmt::Result {
+pub(crate) fn write_int(out: &mut Pen<'_>, value: i64) -> fmt::Result {
     if value < 0 {
         out.write_str("-")?;
     }
@@ -99,7 +101,7 @@ pub(crate) fn write_int(out: &mut dyn Write, value: i64) -> fmt::Result {
 }
 
 /// Writes digits, with zeros in front up to `width` (at most 20).
-pub(crate) fn write_digits(out: &mut dyn Write, mut value: u64, width: usize) -> fmt::Result {
+pub(crate) fn write_digits(out: &mut Pen<'_>, mut value: u64, width: usize) -> fmt::Result {
     let mut digits = [b'0'; 20];
     let mut first = digits.len();
     while value > 0 {
@@ -108,11 +110,11 @@ pub(crate) fn write_digits(out: &mut dyn Write, mut value: u64, width: usize) ->
         value /= 10;
     }
     first = first.min(digits.len() - width.clamp(1, 20));
-    out.write_str(core::str::from_utf8(&digits[first..]).unwrap_or("0"))
+    out.bytes(&digits[first..])
 }
 
 /// Writes a number as C and Java print it with `%f` in an English locale: six decimals. Beyond 10¹² it is clamped.
-pub(crate) fn write_six_decimals(out: &mut dyn Write, value: f64) -> fmt::Result {
+pub(crate) fn write_six_decimals(out: &mut Pen<'_>, value: f64) -> fmt::Result {
     if !value.is_finite() {
         return write_not_finite(out, value);
     }
@@ -127,7 +129,7 @@ pub(crate) fn write_six_decimals(out: &mut dyn Write, value: f64) -> fmt::Result
 
 /// Writes a number as Java's `Double.toString` prints it, after rounding it to four decimals: `1.3`, `-0.73`,
 /// `1.0E-4`, `NaN`. Places in metres thus come to the tenth of a millimetre.
-pub(crate) fn write_double(out: &mut dyn Write, value: f64) -> fmt::Result {
+pub(crate) fn write_double(out: &mut Pen<'_>, value: f64) -> fmt::Result {
     if !value.is_finite() || value.abs() > 1e6 {
         return write_not_finite(out, if value.is_finite() { f64::NAN } else { value });
     }
@@ -150,7 +152,7 @@ pub(crate) fn write_double(out: &mut dyn Write, value: f64) -> fmt::Result {
     write_digits(out, decimals, width)
 }
 
-fn write_not_finite(out: &mut dyn Write, value: f64) -> fmt::Result {
+fn write_not_finite(out: &mut Pen<'_>, value: f64) -> fmt::Result {
     out.write_str(match value {
         f64::INFINITY => "Infinity",
         f64::NEG_INFINITY => "-Infinity",
@@ -163,6 +165,13 @@ mod tests {
     use super::*;
 
     type Text = heapless::String<64>;
+
+    fn written(write: impl FnOnce(&mut Pen<'_>) -> fmt::Result) -> Text {
+        let mut text = Text::new();
+        let mut pen = Pen::new(&mut text);
+        write(&mut pen).and_then(|()| pen.finish()).unwrap();
+        text
+    }
 
     #[test]
     fn numbers_are_read_for_what_they_are() {
@@ -235,9 +244,7 @@ mod tests {
             (1e9, "NaN"),
         ];
         for (value, expected) in cases {
-            let mut text = Text::new();
-            write_double(&mut text, value).unwrap();
-            assert_eq!(text.as_str(), expected);
+            assert_eq!(written(|pen| write_double(pen, value)).as_str(), expected);
         }
     }
 
@@ -251,9 +258,7 @@ mod tests {
             (f64::NAN, "NaN"),
         ];
         for (value, expected) in cases {
-            let mut text = Text::new();
-            write_six_decimals(&mut text, value).unwrap();
-            assert_eq!(text.as_str(), expected);
+            assert_eq!(written(|pen| write_six_decimals(pen, value)).as_str(), expected);
         }
     }
 

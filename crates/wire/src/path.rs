@@ -8,6 +8,7 @@ use core::str::SplitAsciiWhitespace;
 use lightbots_base::{Piece, Span, Vec2};
 
 use crate::number::{metres, span, tenths, write_digits, write_int};
+use crate::pen::Pen;
 use crate::{Pieces, Route};
 
 /// A place in tenths of a millimetre: what the wire carries, so what both ends agree on.
@@ -48,7 +49,7 @@ fn place(fields: &mut SplitAsciiWhitespace<'_>) -> Option<Vec2> {
 
 /// Writes `PATH …` without the bars. Places are rounded to the tenth of a millimetre; a duration below one
 /// microsecond becomes one.
-pub(crate) fn encode_route(route: &Route, out: &mut dyn Write) -> fmt::Result {
+pub(crate) fn encode_route(route: &Route, out: &mut Pen<'_>) -> fmt::Result {
     out.write_str("PATH ")?;
     write_int(out, i64::from(route.seq))?;
     let mut from = rounded(route.start);
@@ -64,7 +65,7 @@ pub(crate) fn encode_route(route: &Route, out: &mut dyn Write) -> fmt::Result {
     Ok(())
 }
 
-fn encode_piece(piece: &Piece, from: Tenths, out: &mut dyn Write) -> fmt::Result {
+fn encode_piece(piece: &Piece, from: Tenths, out: &mut Pen<'_>) -> fmt::Result {
     let (c1, c2, end) = (rounded(piece.c1), rounded(piece.c2), rounded(piece.end));
     let even = Piece::straight(metres_of(from), metres_of(end), piece.duration);
     let kind = if c1 == from && c2 == from && end == from {
@@ -91,7 +92,7 @@ fn metres_of(at: Tenths) -> Vec2 {
     Vec2::new(f64::from(at[0]) / 1e4, f64::from(at[1]) / 1e4)
 }
 
-fn write_place(out: &mut dyn Write, at: Tenths) -> fmt::Result {
+fn write_place(out: &mut Pen<'_>, at: Tenths) -> fmt::Result {
     for coordinate in at {
         out.write_str(" ")?;
         write_int(out, i64::from(coordinate))?;

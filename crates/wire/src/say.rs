@@ -5,6 +5,7 @@ use core::fmt::{self, Write};
 use lightbots_base::{RobotId, Vec2};
 
 use crate::number::{instant, number, write_digits, write_double, write_int};
+use crate::pen::Pen;
 use crate::{Abilities, Blocked, Details, Firmware, Report, RobotState, TimeQuestion};
 
 /// The most bytes of a report that are read; longer ones are refused.
@@ -30,12 +31,14 @@ impl Report {
     /// Appends the report: `<uuid> <x> <y>` and our fields, where it has them.
     pub fn encode(&self, out: &mut dyn Write) -> fmt::Result {
         let at = self.at.unwrap_or(Vec2::new(f64::NAN, f64::NAN));
-        out.write_str(self.id.as_str())?;
-        out.write_str(" ")?;
-        write_double(out, at.x)?;
-        out.write_str(" ")?;
-        write_double(out, at.y)?;
-        self.details.as_ref().map_or(Ok(()), |details| write_details(details, out))
+        let mut pen = Pen::new(out);
+        pen.write_str(self.id.as_str())?;
+        pen.write_str(" ")?;
+        write_double(&mut pen, at.x)?;
+        pen.write_str(" ")?;
+        write_double(&mut pen, at.y)?;
+        self.details.as_ref().map_or(Ok(()), |details| write_details(details, &mut pen))?;
+        pen.finish()
     }
 }
 
@@ -48,9 +51,11 @@ impl TimeQuestion {
 
     /// Appends `<uuid> <now>`.
     pub fn encode(&self, out: &mut dyn Write) -> fmt::Result {
-        out.write_str(self.id.as_str())?;
-        out.write_str(" ")?;
-        write_digits(out, self.asked.0.min(i64::MAX.unsigned_abs()), 1)
+        let mut pen = Pen::new(out);
+        pen.write_str(self.id.as_str())?;
+        pen.write_str(" ")?;
+        write_digits(&mut pen, self.asked.0.min(i64::MAX.unsigned_abs()), 1)?;
+        pen.finish()
     }
 }
 
@@ -125,7 +130,7 @@ fn firmware(value: &str) -> Firmware {
     name
 }
 
-fn write_details(details: &Details, out: &mut dyn Write) -> fmt::Result {
+fn write_details(details: &Details, out: &mut Pen<'_>) -> fmt::Result {
     out.write_str(" state=")?;
     out.write_str(details.state.word())?;
     if let Some(heading) = details.heading {
@@ -184,7 +189,7 @@ impl Abilities {
         abilities
     }
 
-    fn write(self, out: &mut dyn Write) -> fmt::Result {
+    fn write(self, out: &mut Pen<'_>) -> fmt::Result {
         let mut joint = "";
         let words = [(self.route, "route"), (self.fade, "fade"), (self.blink, "blink"), (self.room, "room")];
         for (has, word) in words {

@@ -41,8 +41,8 @@ impl Judge {
     /// A place is so far off; by how much it may be is the variance of what is believed and of the fix's noise.
     #[inline]
     pub(super) fn place(&mut self, now: Instant, off: Vec2, believed: f64, noise: f64) -> Verdict {
-        let gate = GATE * GATE * (believed + noise);
-        let odd = off.length_squared() > gate.max(GATE_FLOOR_M * GATE_FLOOR_M);
+        let square = off.length_squared();
+        let odd = square > GATE * GATE * (believed + noise) && square > GATE_FLOOR_M * GATE_FLOOR_M;
         let first = self.last_place.is_none();
         if odd && !first {
             let agrees = (off - self.odd_off).length_squared() < GATE * GATE * 2.0 * noise;
@@ -66,8 +66,7 @@ impl Judge {
     /// A heading is so far off, likewise; the first is the truth.
     #[inline]
     pub(super) fn heading(&mut self, now: Instant, off: f64, variance: f64, first: bool) -> Verdict {
-        let gate = GATE * GATE * variance;
-        let odd = off * off > gate.max(GATE_FLOOR_RAD * GATE_FLOOR_RAD);
+        let odd = off * off > GATE * GATE * variance && off * off > GATE_FLOOR_RAD * GATE_FLOOR_RAD;
         if odd && !first {
             self.odd_headings += 1;
             if self.odd_headings < OUTLIERS {

@@ -11,11 +11,13 @@ use crate::shelf::Shelf;
 
 impl<S: BorrowMut<Shelf>> Robot<S> {
     /// Writes the next message it has to send; `None`, and an empty message, when there is none.
+    #[inline]
     pub fn outgoing(&mut self, out: &mut Message) -> Option<Topic> {
         out.clear();
-        if self.outbox.is_empty() {
-            return None;
-        }
+        if self.outbox.is_empty() { None } else { self.write_next(out) }
+    }
+
+    fn write_next(&mut self, out: &mut Message) -> Option<Topic> {
         let at = self.place();
         let fact = self.outbox.take(at.is_some(), self.config.abilities.route)?;
         let (topic, route) = match fact {
