@@ -45,16 +45,19 @@ const SLUGGISH_MORE_S: f64 = 1.5;
 const HOPELESS: usize = 3;
 /// Larger crowds take the first way found.
 const MOST_TO_IMPROVE: usize = 600;
+/// So do crowds larger than this, if the best guess promises so little that it is given so many times as long.
+const MANY: usize = 350;
+const LITTLE_PROMISED: f64 = 1.4;
 /// Guesses tried where none has led to a way yet, and where one has.
 const MOST_TRIES: usize = 8;
 const ENOUGH_TRIES: usize = 4;
 /// Guesses of large crowds that are compared after so many sweeps, unless one promises enough: no more than so many
 /// contacts for each robot.
-const RACERS: usize = 4;
+const RACERS: usize = 2;
 const FIRST_SWEEPS: usize = 7;
 const PROMISING: usize = 6;
 /// The share of its contacts that counts of the one that promised most before.
-const HEAD_START: f64 = 0.75;
+const HEAD_START: f64 = 0.9;
 /// What being like a better guess weighs where there is no time for all, beside [`Guess::badness`].
 const ALIKE: f64 = 0.06;
 /// How many times as long as the least a way may take.
@@ -99,10 +102,13 @@ pub(super) fn best(scene: &Scene, easing: Easing, proven: Judge) -> Result<Weave
     let mut attempts = Attempts { scene, proven, least_s, work: MOST_WORK, best: Err(Vec::new()) };
     // Large crowds seldom have the room to loosen.
     let orderly = attempts.hurry();
-    if orderly {
-        attempts.race(&guesses(&crowd, easing));
-    } else {
-        attempts.swift(&guesses(&crowd, easing));
+    let guesses = guesses(&crowd, easing);
+    let promises_little = guesses.first().is_some_and(|guess| guess.stretch() > LITTLE_PROMISED);
+    if orderly || (scene.robots() > MANY && promises_little) {
+        attempts.race(&guesses);
+    }
+    if !orderly && !attempts.is_decent() {
+        attempts.swift(&guesses);
     }
     for ordered in [orderly, !orderly] {
         match ordered {

@@ -23,7 +23,7 @@ const LOOK_OUT_EVERY: usize = 6;
 const LOOK_OUT_MOVED_M: f64 = 0.006;
 /// Sweeps after which no more than a share of what was wrong may be left, or there is more time; and in a hurry.
 const STAGE: (usize, f64) = (12, 0.5);
-const SHORT_STAGE: (usize, f64) = (7, 0.7);
+const SHORT_STAGE: (usize, f64) = (10, 0.7);
 /// Sweeps for the last few, which cost little and go in circles for a while.
 const LAST_STAGE: usize = 24;
 /// How much more time, for the last few, and how much more still for every contact of a robot, up to so many.
