@@ -26,6 +26,8 @@ const FOUND_MAX: usize = 32;
 const BRAKES: Span = Span::from_millis(150);
 /// A place so near to where a robot sees something may be what it sees, metres.
 const SAME_M: f64 = 0.035;
+/// Places of a way nearer to each other than this follow on each other, metres.
+const NEXT_M: f64 = 0.03;
 
 /// A gap is taken for at least this, metres: nobody can plan a way out of a contact.
 const GAP_MIN_M: f64 = 0.0015;
@@ -34,6 +36,17 @@ const GAP_MIN_M: f64 = 0.0015;
 fn seen_by(robot: &Robot, contact_m: f64) -> Option<Vec2> {
     let (at, blocked) = (robot.at?, robot.blocked?);
     Some(at + Vec2::unit(blocked.towards) * (contact_m + blocked.gap_m.max(GAP_MIN_M)))
+}
+
+/// The place nearest to `there` on a way of which these places are known.
+fn nearest_of(places: &[Vec2], there: Vec2) -> Option<Vec2> {
+    let between = places.windows(2).filter(|pair| pair[0].distance(pair[1]) < NEXT_M).map(|pair| {
+        let along = pair[1] - pair[0];
+        let share = (there - pair[0]).dot(along) / along.length_squared().max(1e-12);
+        pair[0] + along * share.clamp(0.0, 1.0)
+    });
+    let off_m = |place: &Vec2| place.distance(there);
+    places.iter().copied().chain(between).min_by(|a, b| off_m(a).total_cmp(&off_m(b)))
 }
 
 /// Whether a robot fell behind its path and not because something stood in its way.
@@ -138,10 +151,8 @@ impl Run {
         let mut seen = Vec::new();
         for robot in blocked.map(|known| desk.fleet.robot(known.robot)) {
             let (Some(at), Some(there)) = (robot.at, seen_by(robot, contact_m)) else { continue };
-            let off_m = |place: &Vec2| place.distance(there);
-            let nearest = places.iter().copied().min_by(|a, b| off_m(a).total_cmp(&off_m(b)));
             // The path says in which direction, the sensor how far.
-            if let Some(nearest) = nearest.filter(|place| off_m(place) < SAME_M)
+            if let Some(nearest) = nearest_of(places, there).filter(|place| place.distance(there) < SAME_M)
                 && let Some(towards) = (nearest - at).normalized()
             {
                 seen.push(at + towards * at.distance(there));

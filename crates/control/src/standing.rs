@@ -127,7 +127,9 @@ impl Run {
         let robots = desk.fleet.robots().iter();
         let idle = robots
             .filter(|robot| !takes_part(robot.seat) && (robot.seat.is_some() || robot.age != Age::Gone))
-            .filter(|robot| !(self.disregards_strangers && self.is_stranger(robot)));
+            .filter(|robot| !(self.disregards_strangers && self.is_stranger(robot)))
+            // Where a silent one may be by now is known better than by what it said last.
+            .filter(|robot| robot.seat.is_none_or(|seat| self.seats[seat as usize].ghost.is_empty()));
         let ghosts =
             self.seats.iter().filter(|known| known.out).flat_map(|known| known.ghost.iter().copied());
         idle.filter_map(|robot| robot.at)

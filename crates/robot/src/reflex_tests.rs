@@ -48,7 +48,7 @@ impl Pair {
     fn step(&mut self) {
         self.x += self.speed_mps * DT;
         self.other.0 += self.other_mps * DT;
-        self.reflex.look(Some(&self.readings()), self.speed_mps * DT, DT);
+        self.reflex.look(Some(&self.readings()), (self.speed_mps * DT, 0.0), DT);
         let wish = Wish { speed_mps: SPEED_MPS, told_mps: self.told_mps, ample: self.ample };
         let most_mps = self.reflex.limit(wish, &LIMITS).unwrap_or(SPEED_MPS);
         // Tyres take two steps for the whole of it.
@@ -135,7 +135,7 @@ fn who_comes_near_from_abaft_the_beam_does_not_make_it_brake() {
             if !forwards {
                 readings.rotate_right(SENSORS / 2);
             }
-            reflex.look(Some(&readings), sense * SPEED_MPS * DT, DT);
+            reflex.look(Some(&readings), (sense * SPEED_MPS * DT, 0.0), DT);
             let speed_mps = sense * SPEED_MPS;
             let limit = reflex.limit(Wish { speed_mps, told_mps: speed_mps, ample: true }, &LIMITS);
             assert!(limit.is_none(), "{limit:?} at {:.1} mm", pair.gap_m() * 1e3);
@@ -162,10 +162,10 @@ fn readings_without_sense_are_nothing_seen() {
         [[f32::NAN; SENSORS], [f32::NEG_INFINITY; SENSORS], [f32::INFINITY; SENSORS], [-1.0; SENSORS]]
     {
         for _ in 0..10 {
-            reflex.look(Some(&readings), 0.004, DT);
+            reflex.look(Some(&readings), (0.004, 0.0), DT);
             let most = reflex.limit(Wish { speed_mps: 0.27, told_mps: 0.27, ample: true }, &LIMITS);
             assert!(most.is_none_or(|mps| mps >= 0.0));
         }
     }
-    reflex.look(None, 0.0, 0.0);
+    reflex.look(None, (0.0, 0.0), 0.0);
 }

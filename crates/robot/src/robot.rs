@@ -187,7 +187,8 @@ impl<S: BorrowMut<Shelf>> Robot<S> {
             self.estimate.advance(now, inputs.wheel_turns_rad, &mut self.shelf.borrow_mut().trail);
             let [left, right] = inputs.wheel_turns_rad;
             let way_m = 0.5 * (left + right) * self.config.limits.wheel_radius_m;
-            self.reflex.look(inputs.proximity_m.as_ref(), way_m, dt);
+            let turn_rad = (right - left) * self.config.limits.wheel_radius_m / self.config.limits.track_m;
+            self.reflex.look(inputs.proximity_m.as_ref(), (way_m, turn_rad), dt);
             if self.stall.look(inputs.wheel_turns_rad, dt) {
                 self.supervisor.fault(now);
             }
@@ -257,7 +258,15 @@ impl<S: BorrowMut<Shelf>> Robot<S> {
         let (slip, limits) = (self.estimate.slip(), &self.config.limits);
         let wheels = match most_mps {
             // Held, it may turn on the spot for what comes.
-            _ if self.reflex.block().is_some() && !self.routes.rests_held() => self.drive.halt(),
+            _ if self.reflex.block().is_some() && !self.routes.rests_held() => {
+                match self.reflex.back_away() {
+                    0.0 => self.drive.halt(),
+                    speed_mps => {
+                        let back = Setpoint { speed_mps, turn_radps: 0.0 };
+                        self.drive.step(back, slip, dt, limits)
+                    }
+                }
+            }
             Some(most_mps) => self.drive.step_within(wants, most_mps, slip, dt, limits),
             None => self.drive.step(wants, slip, dt, limits),
         };

@@ -62,7 +62,7 @@ mod tests {
 
     fn seeing(gaps_m: [f32; SENSORS]) -> Reflex {
         let mut reflex = Reflex::new();
-        reflex.look(Some(&gaps_m), 0.004, 0.016);
+        reflex.look(Some(&gaps_m), (0.004, 0.0), 0.016);
         reflex
     }
 
