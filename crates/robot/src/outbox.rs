@@ -1,6 +1,6 @@
 //! What the robot has to say, and when it says it unasked. Facts, not texts: a report is written when it is sent.
 
-use lightbots_base::{Instant, Span};
+use lightbots_base::{Instant, Span, wrap};
 use lightbots_wire::RobotState;
 
 /// Pace of status reports while something goes on, and while nothing does.
@@ -14,6 +14,8 @@ const FARTHER: f64 = 4.0;
 /// Without fixes, being so many times as unsure as it last said, and this many metres more, is news.
 const MORE: f64 = 1.25;
 const MORE_M: f64 = 0.0005;
+/// What stands in its way is news again so far, radians, from where it last said.
+const ELSEWHERE: f64 = 0.08;
 /// A robot that has just been switched on waits so long for its first fix before it introduces itself without.
 const POWER_ON: Span = Span::from_millis(500);
 
@@ -47,7 +49,8 @@ pub(crate) struct Outbox {
     said_off_m: f64,
     /// How unsure of its place it last said to be for want of fixes, metres.
     said_err_m: Option<f64>,
-    is_blocked: bool,
+    /// In which direction of the stage it last said that something stands in its way, radians.
+    said_towards: Option<f64>,
 }
 
 impl Outbox {
@@ -64,7 +67,7 @@ impl Outbox {
             state: RobotState::Lost,
             said_off_m: 0.0,
             said_err_m: None,
-            is_blocked: false,
+            said_towards: None,
         }
     }
 
@@ -127,10 +130,17 @@ impl Outbox {
         }
     }
 
-    /// Something came to stand in its way, or has gone.
-    pub(crate) fn notice_block(&mut self, blocked: bool) {
-        self.status |= blocked != self.is_blocked;
-        self.is_blocked = blocked;
+    /// Something came to stand in its way, turns out to be in another direction of the stage, radians, or has gone.
+    #[inline]
+    pub(crate) fn notice_block(&mut self, towards: Option<f64>) {
+        let news = match (towards, self.said_towards) {
+            (Some(towards), Some(said)) => wrap(towards - said).abs() > ELSEWHERE,
+            (towards, said) => towards.is_some() != said.is_some(),
+        };
+        if news {
+            self.status = true;
+            self.said_towards = towards;
+        }
     }
 
     /// Whether there is nothing to say.
@@ -194,6 +204,17 @@ mod tests {
         };
         assert!(!said(None) && said(Some(0.004)) && !said(Some(0.005)) && said(Some(0.006)));
         assert!(!said(Some(0.004)) && said(None) && !said(None));
+    }
+
+    #[test]
+    fn where_something_blocks_it_is_said_again_once_it_knows_better() {
+        let mut outbox = Outbox::new(Span::ZERO);
+        let mut said = |towards| {
+            outbox.notice_block(towards);
+            outbox.take(true, true).is_some()
+        };
+        assert!(!said(None) && said(Some(3.12)) && !said(Some(3.06)) && !said(Some(-3.11)));
+        assert!(said(Some(2.9)) && said(None) && !said(None));
     }
 
     #[test]

@@ -37,6 +37,8 @@ pub(crate) const AMPLE_MM: u16 = 8;
 /// metres; after them it is blocked. As it slows down the gap no longer closes, and that must not set it free.
 const STEPS_TO_BLOCK: u8 = 5;
 const WIDENS_M: f32 = 0.002;
+/// What is farther away than this by then does not block it, metres: it stops nearer to what stands.
+const BLOCKS_M: f32 = 0.009;
 /// What it would pass by so little, metres, it would hit.
 const REACH_M: f32 = 0.001;
 /// So badly the place of something that stands explains all readings that are remembered at most, and those of so many
@@ -150,8 +152,11 @@ impl Reflex {
         }
         self.count += 1;
         if self.count >= STEPS_TO_BLOCK {
-            self.come_to_stand(sensor, wish.speed_mps);
             (self.held, self.count) = (None, 0);
+            if self.nearest_m(sensor) > BLOCKS_M {
+                return free_mps;
+            }
+            self.come_to_stand(sensor, wish.speed_mps);
         }
         Some(free_mps.map_or(held_mps, |mps| mps.min(held_mps)))
     }
@@ -176,8 +181,8 @@ impl Reflex {
             let Some(closing) = self.closing(sensor) else { continue };
             let gap_m = self.gap_m(sensor);
             let approach = Approach { gap_m, closing, along_mps, lately_mps, next_mps, turn };
-            let there = approach.wants_place(wish.ample).then(|| self.until_hit_m(sensor, sense, contact_m));
-            if let Some(mps) = approach.allowed_mps(there.flatten(), look, contact_m)
+            let until_hit_m = || self.until_hit_m(sensor, sense, contact_m);
+            if let Some(mps) = approach.allowed_mps(look, contact_m, until_hit_m)
                 && slowest.is_none_or(|(least, _)| mps < least)
             {
                 slowest = Some((mps, sensor));

@@ -169,3 +169,38 @@ fn readings_without_sense_are_nothing_seen() {
     }
     reflex.look(None, (0.0, 0.0), 0.0);
 }
+
+#[test]
+fn what_passes_to_the_next_sensor_still_holds_it() {
+    // It stood, took it for gone as its place passed to the sensor beside, and crept on until it touched.
+    for aside_mm in [48, 50, 52] {
+        let mut pair = Pair::new(0.1, f64::from(aside_mm) * 1e-3, 0.0);
+        pair.ample = true;
+        (0..100).for_each(|_| pair.step());
+        assert!(pair.gap_m() > 0.0005, "{aside_mm} mm aside: {:.1} mm", pair.gap_m() * 1e3);
+        assert!(pair.reflex.block().is_some());
+    }
+}
+
+#[test]
+fn it_backs_away_from_what_blocks_it_until_there_is_room_and_no_farther() {
+    let mut pair = Pair::new(0.12, 0.0, 0.0);
+    pair.least_gap_m();
+    let (mut backed_m, came_m) = (0.0, pair.gap_m());
+    for _ in 0..60 {
+        let back_mps = pair.reflex.back_away();
+        assert!((-0.031..=0.0).contains(&back_mps));
+        backed_m -= back_mps * DT;
+        pair.x += back_mps * DT;
+        pair.reflex.look(Some(&pair.readings()), (back_mps * DT, 0.0), DT);
+    }
+    assert!(came_m < 0.004 && backed_m > 0.0 && backed_m < 0.0085, "{came_m} {backed_m}");
+    assert!((0.0035..0.006).contains(&pair.gap_m()), "{}", pair.gap_m());
+    // Nobody is backed into.
+    let mut pair = Pair::new(0.12, 0.0, 0.0);
+    pair.least_gap_m();
+    let mut readings = pair.readings();
+    readings[4] = 0.01;
+    pair.reflex.look(Some(&readings), (0.0, 0.0), DT);
+    assert_eq!(pair.reflex.back_away(), 0.0);
+}

@@ -329,6 +329,6 @@ impl<S: BorrowMut<Shelf>> Robot<S> {
         let knows_place = self.state != RobotState::Lost && !self.is_lost_now();
         let err_m = (self.routes.under_way() && self.is_blind()).then(|| self.err_m());
         self.outbox.notice(now, self.state, self.routes.off_m(), err_m, knows_place);
-        self.outbox.notice_block(self.reflex.block().is_some());
+        self.outbox.notice_block(self.blocked().map(|blocked| blocked.towards));
     }
 }

@@ -4,7 +4,7 @@
 mod scene;
 
 use lightbots_show::Identity;
-use lightbots_sim::{Conditions, Faults, RehearsalOptions, rehearse};
+use lightbots_sim::{Conditions, Faults, RehearsalOptions, RehearsalReport, rehearse};
 
 #[test]
 fn random_pairs_of_frames_are_solved_proven_and_driven_without_contact() {
@@ -22,17 +22,40 @@ fn random_pairs_of_frames_are_solved_proven_and_driven_without_contact() {
     assert_eq!(fixed, 30);
 }
 
+/// A pair of the thousands, of up to 200 robots.
+fn run(number: u64, faults: &str) -> RehearsalReport {
+    let faults = if faults.is_empty() { Faults::default() } else { Faults::parse(faults).unwrap() };
+    let conditions = faults.added_to(Conditions::default());
+    rehearse(
+        &scene::pair(number, 200),
+        &RehearsalOptions { seed: number, conditions, robots: None },
+        &mut |_| {},
+    )
+}
+
+/// In crowds as tight as planning makes them, a robot braked for a neighbour that only crossed, fell behind by as much as
+/// others had for room, and they drove into it, or it was given up.
+#[test]
+fn nobody_brakes_for_one_that_crosses() {
+    for number in [2763, 4523, 5045, 5355, 7953, 8855] {
+        let report = run(number, "");
+        assert!(report.ok, "pair {number}: {:?}", report.issues);
+        assert_eq!((report.contacts, report.dropouts), (0, 0), "pair {number}");
+    }
+}
+
+/// Coming slowly, it took one that had died for farther away the nearer it was, and sped up.
+#[test]
+fn nobody_creeps_into_one_that_died() {
+    let report = run(103, "kill=random");
+    assert_eq!((report.contacts, report.dropouts), (0, 1), "{:?}", report.issues);
+}
+
 /// A robot braked for a moment for what its sensors made of noise, fell behind, and found another in its way when it
 /// wanted to catch up with those who held: it was given up, though it only needed a plan of its own.
 #[test]
 fn who_fell_behind_because_something_was_in_its_way_is_planned_anew_and_not_given_up() {
-    let faults = Faults::parse("slip=10%,gps=5mm,heading=2deg,fix-delay=100ms,fix-dropout=1s").unwrap();
-    let conditions = faults.added_to(Conditions::default());
-    let report = rehearse(
-        &scene::pair(73, 200),
-        &RehearsalOptions { seed: 73, conditions, robots: None },
-        &mut |_| {},
-    );
+    let report = run(73, "slip=10%,gps=5mm,heading=2deg,fix-delay=100ms,fix-dropout=1s");
     assert!(report.ok, "{:?}", report.issues);
     assert_eq!((report.contacts, report.dropouts), (0, 0));
 }

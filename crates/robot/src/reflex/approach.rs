@@ -15,9 +15,10 @@ const TOUCHING_M: f32 = 0.0015;
 const STUCK_MPS: f32 = 0.005;
 const TOLD_MPS: f32 = 0.05;
 /// How it looks where neighbours are near by plan, and where they are not.
-pub(super) const NARROW: Look = Look { around: &[(0, 0)], stands: [0.6; 3], slack_mps: 0.03 };
+pub(super) const NARROW: Look = Look { around: &[(0, 0)], aside: false, stands: [0.6; 3], slack_mps: 0.03 };
 pub(super) const WIDE: Look = Look {
     around: &[(0, 0), (1, 1), (SENSORS - 1, 1), (2, 2), (SENSORS - 2, 2)],
+    aside: true,
     stands: [0.5, 0.35, 0.15],
     slack_mps: 0.06,
 };
@@ -29,11 +30,15 @@ const SHARE_MAX: [f32; 3] = [1.0, 0.95, 0.4];
 const MISS_M: f32 = 0.002;
 /// What lies ahead so near, metres, may be nearer than a sensor says that sees it alone.
 const ALONE_M: f32 = 0.008;
+/// By so much nearer at most, metres.
+const ALONE_MORE_M: f32 = 0.0025;
 
 /// Where it looks, and what it minds.
 pub(super) struct Look {
     /// Sensors that count for driving forwards, and how many sensors aside of its way each is.
     pub around: &'static [(usize, usize)],
+    /// It looks beside its way as well.
+    aside: bool,
     /// What closes in for sure with more than this share of its speed stands, as far as a sensor ahead, 45° and 90°
     /// beside can tell; else it is a neighbour on its own way.
     stands: [f32; 3],
@@ -61,18 +66,22 @@ pub(super) struct Approach {
 }
 
 impl Approach {
-    /// Whether it matters where exactly it is that is seen.
-    pub fn wants_place(&self, ample: bool) -> bool {
-        ample && self.gap_m > TOUCHING_M && (self.turn > 0 || self.gap_m < ALONE_M)
-    }
-
     /// How fast it may drive for that, m/s; `None`: as it likes. `until_hit_m`: how far it may drive before it hits that if
-    /// it stands, where that is known.
-    pub fn allowed_mps(&self, until_hit_m: Option<f32>, look: &Look, contact_m: f32) -> Option<f32> {
+    /// it stands, where that is known; asked only where it matters.
+    pub fn allowed_mps(
+        &self,
+        look: &Look,
+        contact_m: f32,
+        until_hit_m: impl FnOnce() -> Option<f32>,
+    ) -> Option<f32> {
         let by_gap = self.by_gap_mps(look, contact_m);
         let braking_m = self.next_mps * DEAD_S + self.lately_mps * BRAKING_S + SPARE_M;
         let nears = self.closing.sure_mps > CALM_MPS && self.gap_m < braking_m;
-        let Some(until_hit_m) = until_hit_m.filter(|_| by_gap.is_some() || nears) else { return by_gap };
+        let tells = self.gap_m > TOUCHING_M && (self.turn > 0 || look.aside && self.gap_m < ALONE_M);
+        let known = if tells && (nears || by_gap.is_some()) { until_hit_m() } else { None };
+        let Some(until_hit_m) = known else { return by_gap };
+        // One sensor alone makes it look farther away, and noise nearer.
+        let until_hit_m = until_hit_m.max(self.gap_m - ALONE_MORE_M);
         let most_mps = ((until_hit_m - self.next_mps * DEAD_S - SPARE_M) / BRAKING_S).max(0.0);
         let by_place = (most_mps < self.next_mps.max(self.along_mps)).then_some(most_mps);
         // Beside the way the gap alone tells little.

@@ -184,3 +184,68 @@ impl Sums {
         Point { x: (yy * pull.x - xy * pull.y) * share, y: (xx * pull.y - xy * pull.x) * share }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const RADIUS_M: f32 = 0.027;
+    const DT: f64 = 0.016;
+
+    /// What a robot has seen that drove 4 mm and turned a little each step, and passes a disc at `other`, in its body space
+    /// by now, that moved so far each step.
+    fn seeing(other: Point, step: Point) -> Reflex {
+        let mut reflex = Reflex::new();
+        let (way_m, turn) = (0.004, 0.02);
+        reflex.moves = [(way_m, turn); STEPS - 1];
+        let poses = reflex.poses();
+        for (ago, was) in poses.iter().enumerate().rev() {
+            let ago = ago as f32;
+            let from = Point { x: other.x - step.x * ago - was.at.x, y: other.y - step.y * ago - was.at.y };
+            let body = from.turned(Point { x: was.facing.x, y: -was.facing.y });
+            let readings = core::array::from_fn(|sensor| {
+                let ray =
+                    Point { x: body.x - AXES[sensor].x * RADIUS_M, y: body.y - AXES[sensor].y * RADIUS_M };
+                let far_m = libm::sqrtf(ray.dot(ray));
+                if ray.dot(AXES[sensor]) > 0.643 * far_m { far_m - RADIUS_M } else { f32::INFINITY }
+            });
+            reflex.look(Some(&readings), (f64::from(way_m), f64::from(turn)), DT);
+        }
+        reflex
+    }
+
+    #[test]
+    fn what_stands_is_found_where_it_stands() {
+        for (degrees, sensor) in [(5.0f32, 0), (30.0, 1), (50.0, 1), (75.0, 2), (-40.0, 7)] {
+            let angle = degrees.to_radians();
+            let other = Point { x: 0.064 * libm::cosf(angle), y: 0.064 * libm::sinf(angle) };
+            let found = seeing(other, Point::default()).standing(sensor, STEPS, RADIUS_M).unwrap();
+            let off_m = libm::hypotf(found.at.x - other.x, found.at.y - other.y);
+            let away_m = libm::hypotf(found.at.x, found.at.y) - 0.064;
+            assert!(off_m < 0.007 && away_m.abs() < 0.001, "{degrees}: {found:?} for {other:?}");
+            assert!(found.misfit < 0.1, "{degrees}: {found:?}");
+        }
+    }
+
+    #[test]
+    fn no_place_explains_one_that_drives_along_or_comes_the_other_way() {
+        for step in [Point { x: 0.004, y: 0.0 }, Point { x: 0.003, y: 0.003 }, Point { x: -0.004, y: -0.002 }]
+        {
+            let found = seeing(Point { x: 0.045, y: 0.045 }, step).standing(1, STEPS, RADIUS_M).unwrap();
+            assert!(found.misfit > 2.5, "{step:?}: {found:?}");
+        }
+    }
+
+    #[test]
+    fn what_was_not_seen_before_has_only_just_come() {
+        let mut reflex = Reflex::new();
+        let mut readings = [f32::INFINITY; SENSORS];
+        readings[0] = 0.01;
+        reflex.look(Some(&readings), (0.004, 0.0), DT);
+        assert!(reflex.standing(0, STEPS, RADIUS_M).unwrap().misfit > 2.5);
+        readings[0] = 0.028;
+        reflex = Reflex::new();
+        reflex.look(Some(&readings), (0.004, 0.0), DT);
+        assert!(reflex.standing(0, STEPS, RADIUS_M).is_none());
+    }
+}

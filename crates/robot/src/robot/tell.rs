@@ -39,7 +39,7 @@ impl<S: BorrowMut<Shelf>> Robot<S> {
     }
 
     /// What stands in its way: how far, and in which direction of the stage.
-    fn blocked(&self) -> Option<Blocked> {
+    pub(super) fn blocked(&self) -> Option<Blocked> {
         let (block, pose) = (self.reflex.block()?, self.pose()?);
         Some(Blocked { gap_m: block.gap_m, towards: wrap(pose.heading + block.towards) })
     }
