@@ -204,3 +204,19 @@ fn it_backs_away_from_what_blocks_it_until_there_is_room_and_no_farther() {
     pair.reflex.look(Some(&readings), (0.0, 0.0), DT);
     assert_eq!(pair.reflex.back_away(), 0.0);
 }
+
+#[test]
+fn what_stands_between_two_sensors_has_not_gone() {
+    // Both say it is farther away than it is: read so, it had gone, and the robot drove into it.
+    let mut pair = Pair::new(0.12, 0.022, 0.0);
+    pair.ample = true;
+    pair.least_gap_m();
+    assert!(pair.reflex.block().is_some());
+    pair.x -= 0.003;
+    pair.speed_mps = 0.0;
+    for _ in 0..40 {
+        pair.reflex.look(Some(&pair.readings()), (0.0, 0.0), DT);
+        pair.reflex.limit(Wish { speed_mps: SPEED_MPS, told_mps: 0.0, ample: true }, &LIMITS);
+    }
+    assert!(pair.reflex.block().is_some(), "{:.1} mm", pair.gap_m() * 1e3);
+}

@@ -72,15 +72,17 @@ impl Reflex {
     /// Whether what blocked it has gone; where it is, by the latest readings of two sensors.
     pub(super) fn watch_block(&mut self) {
         let Some(block) = self.block else { return };
+        let gone = self.nearest_m(block.sensor) > self.blocked_m + GONE_M;
+        self.count = if gone { self.count + 1 } else { 0 };
+        if self.count >= STEPS_TO_FREE {
+            self.forget();
+            return;
+        }
         let now = &self.past_m[0];
         let [sensor, left, right] = around(block.sensor);
         let nearer = |best: usize, other: usize| if now[other] < now[best] { other } else { best };
         let nearest = nearer(nearer(sensor, left), right);
-        let gone = now[nearest] > self.blocked_m + GONE_M;
-        self.count = if gone { self.count + 1 } else { 0 };
-        if self.count >= STEPS_TO_FREE {
-            self.forget();
-        } else if !gone && around(nearest)[1..].iter().any(|&beside| now[beside].is_finite()) {
+        if !gone && around(nearest)[1..].iter().any(|&beside| now[beside].is_finite()) {
             self.block = Some(self.block_at(nearest));
         }
     }
