@@ -37,7 +37,7 @@ fn run(number: u64, faults: &str) -> RehearsalReport {
 /// others had for room, and they drove into it, or it was given up.
 #[test]
 fn nobody_brakes_for_one_that_crosses() {
-    for number in [2763, 4523, 5045, 5355, 7953, 8855] {
+    for number in [2763, 3331, 4523, 5045, 5355, 7953, 8737, 8855] {
         let report = run(number, "");
         assert!(report.ok, "pair {number}: {:?}", report.issues);
         assert_eq!((report.contacts, report.dropouts), (0, 0), "pair {number}");

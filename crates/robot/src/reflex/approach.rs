@@ -30,8 +30,6 @@ const SHARE_MAX: [f32; 3] = [1.0, 0.95, 0.4];
 const MISS_M: f32 = 0.002;
 /// What lies ahead so near, metres, may be nearer than a sensor says that sees it alone.
 const ALONE_M: f32 = 0.008;
-/// By so much nearer at most, metres.
-const ALONE_MORE_M: f32 = 0.0025;
 
 /// Where it looks, and what it minds.
 pub(super) struct Look {
@@ -80,8 +78,8 @@ impl Approach {
         let tells = self.gap_m > TOUCHING_M && (self.turn > 0 || look.aside && self.gap_m < ALONE_M);
         let known = if tells && (nears || by_gap.is_some()) { until_hit_m() } else { None };
         let Some(until_hit_m) = known else { return by_gap };
-        // One sensor alone makes it look farther away, and noise nearer.
-        let until_hit_m = until_hit_m.max(self.gap_m - ALONE_MORE_M);
+        // Noise makes it look nearer.
+        let until_hit_m = until_hit_m.max(self.gap_m);
         let most_mps = ((until_hit_m - self.next_mps * DEAD_S - SPARE_M) / BRAKING_S).max(0.0);
         let by_place = (most_mps < self.next_mps.max(self.along_mps)).then_some(most_mps);
         // Beside the way the gap alone tells little.
