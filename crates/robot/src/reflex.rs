@@ -210,7 +210,7 @@ impl Reflex {
     /// braking would only let it run into the robot.
     fn is_abaft(&self, sensor: usize, forwards: bool) -> bool {
         let now = &self.past_m[0];
-        let (next, last) = (now[(sensor + 1) % SENSORS], now[(sensor + SENSORS - 1) % SENSORS]);
+        let [_, next, last] = around(sensor).map(|sensor| now[sensor]);
         let (ahead, behind) = if (sensor == 2) == forwards { (last, next) } else { (next, last) };
         behind < ahead
     }
@@ -218,7 +218,8 @@ impl Reflex {
     /// The gap at a sensor, metres, a little less where the one beside it sees nearly as near.
     fn gap_m(&self, sensor: usize) -> f32 {
         let now = &self.past_m[0];
-        let beside = now[(sensor + 1) % SENSORS].min(now[(sensor + SENSORS - 1) % SENSORS]);
+        let [_, left, right] = around(sensor);
+        let beside = now[left].min(now[right]);
         let even = (1.0 - (beside - now[sensor]).abs() / APART_M).max(0.0);
         (now[sensor] - BETWEEN_M * even * even).max(0.0)
     }

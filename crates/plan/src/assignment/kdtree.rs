@@ -280,12 +280,6 @@ impl Remaining {
         }
     }
 
-    fn remove(&mut self, tree: &KdTree, position: usize) {
-        self.here[position] = false;
-        let leaf = tree.leaf_of[tree.ids[position] as usize] as usize;
-        tree.up_from(leaf).for_each(|node| self.counts[node] -= 1);
-    }
-
     /// Puts a place back; it must not be there.
     pub fn put(&mut self, tree: &KdTree, id: usize) {
         self.here[tree.position_of[id] as usize] = true;
@@ -295,28 +289,25 @@ impl Remaining {
 
     /// Takes some place no farther than the root of `reach_squared` away.
     pub fn take(&mut self, tree: &KdTree, from: Vec2, reach_squared: f64) -> Option<u32> {
-        let mut stack = Stack::new(1);
-        while let Some(node) = stack.pop() {
-            let here = &tree.nodes[node];
-            if self.counts[node] == 0 || here.distance_squared(from) > reach_squared {
-                continue;
-            }
-            if node < tree.first_leaf {
-                stack.push_both(tree, node, from);
-                continue;
-            }
-            for position in here.first as usize..here.last as usize {
-                if self.here[position] && (tree.places[position] - from).length_squared() <= reach_squared {
-                    self.remove(tree, position);
-                    return Some(tree.ids[position]);
-                }
-            }
-        }
-        None
+        let mut taken = None;
+        self.pull(tree, from, reach_squared, 1, |id| taken = Some(id));
+        taken
     }
 
     /// Takes all places no farther than the root of `reach_squared` away, in the order in which [`Self::take`] would.
     pub fn drain(&mut self, tree: &KdTree, from: Vec2, reach_squared: f64, taken: &mut Vec<u32>) {
+        self.pull(tree, from, reach_squared, u32::MAX, |id| taken.push(id));
+    }
+
+    /// Takes up to `most` places no farther than the root of `reach_squared` away.
+    fn pull(
+        &mut self,
+        tree: &KdTree,
+        from: Vec2,
+        reach_squared: f64,
+        mut most: u32,
+        mut take: impl FnMut(u32),
+    ) {
         let mut stack = Stack::new(1);
         while let Some(node) = stack.pop() {
             let here = &tree.nodes[node];
@@ -327,16 +318,20 @@ impl Remaining {
                 stack.push_both(tree, node, from);
                 continue;
             }
-            let before = taken.len();
+            let before = most;
             for position in here.first as usize..here.last as usize {
-                if self.here[position] && (tree.places[position] - from).length_squared() <= reach_squared {
+                let near = || (tree.places[position] - from).length_squared() <= reach_squared;
+                if most > 0 && self.here[position] && near() {
                     self.here[position] = false;
-                    taken.push(tree.ids[position]);
+                    most -= 1;
+                    take(tree.ids[position]);
                 }
             }
-            let count = (taken.len() - before) as u32;
-            if count > 0 {
-                tree.up_from(node).for_each(|node| self.counts[node] -= count);
+            if most < before {
+                tree.up_from(node).for_each(|node| self.counts[node] -= before - most);
+            }
+            if most == 0 {
+                return;
             }
         }
     }

@@ -5,7 +5,7 @@
 
 use lightbots_base::Vec2;
 
-use super::{Reflex, SENSORS};
+use super::{Reflex, SENSORS, around};
 
 /// More room than this is as good as any, and where nobody tells there is this, metres.
 const MOST_M: f32 = 0.008;
@@ -40,7 +40,7 @@ impl Reflex {
         let mut away = Vec2::ZERO;
         for sensor in 0..SENSORS {
             // One neighbour is in sight of two sensors: the nearer of them counts.
-            let (left, right) = ((sensor + 1) % SENSORS, (sensor + SENSORS - 1) % SENSORS);
+            let [_, left, right] = around(sensor);
             if now[sensor] <= now[left] && now[sensor] < now[right] {
                 let gap_m = self.gap_m(sensor);
                 let missing_m = room_m - gap_m + self.drift_m(sensor);

@@ -57,7 +57,7 @@ impl Reflex {
     /// In which direction of body space it is what a sensor sees, radians, by what the one beside it sees.
     pub(super) fn towards(&self, sensor: usize) -> f64 {
         let now = &self.past_m[0];
-        let (left, right) = ((sensor + 1) % SENSORS, (sensor + SENSORS - 1) % SENSORS);
+        let [_, left, right] = around(sensor);
         let (beside, side) = if now[left] < now[right] { (left, 1.0) } else { (right, -1.0) };
         let middle = core::f64::consts::FRAC_PI_8;
         let aside = if now[beside].is_finite() {
