@@ -3,11 +3,11 @@
 use crate::clear::{CELL_M, Floor};
 use crate::hop::{Hop, drive_s};
 use crate::leg::{Errand, Kind, Leg, Move};
-use crate::mapping::{Bindings, Cast, Mapping};
+use crate::mapping::{Mapping, Roles};
 use crate::originals::{self, Journey, Stage};
 use crate::room::rooms;
 use lightbots_base::{RobotId, Span, Vec2};
-use lightbots_plan::{Path, Transition, TransitionProblem, transition};
+use lightbots_plan::{Cast, Path, Transition, TransitionProblem, transition};
 use lightbots_show::{Frame, Pixel, Show};
 use lightbots_wire::MAX_PIECES;
 use std::sync::Arc;
@@ -81,7 +81,7 @@ impl Job {
             frames: draft.frames,
             dark: draft.dark,
             failed,
-            mapping: draft.bindings.mapping,
+            mapping: draft.roles.mapping,
         }
     }
 }
@@ -90,7 +90,7 @@ impl Job {
 struct Draft<'a> {
     request: &'a Request,
     places: Vec<Vec2>,
-    bindings: Bindings,
+    roles: Roles,
     legs: Vec<Leg>,
     frames: usize,
     dark: Vec<(usize, Vec<u32>)>,
@@ -102,7 +102,7 @@ impl<'a> Draft<'a> {
         Self {
             request,
             places: request.riders.iter().map(|rider| rider.at).collect(),
-            bindings: Bindings::new(names, request.mapping.clone()),
+            roles: Roles::new(names, request.mapping.clone()),
             legs: Vec::new(),
             frames: 0,
             dark: Vec::new(),
@@ -116,9 +116,9 @@ impl<'a> Draft<'a> {
         let identity = frame.identity.unwrap_or(show.identity);
         let contact = show.stage.limits.contact_m() + BLOCKED_MARGIN_M;
         let blocked = |pixel: &Pixel| self.request.standing.iter().any(|at| at.distance(pixel.at) < contact);
-        let mut cast = self.bindings.cast(frame, identity, &self.places, blocked);
+        let mut cast = self.roles.cast(frame, identity, &self.places, blocked);
         let plan = self.solve(frame, &mut cast)?;
-        self.bindings.remember(&cast, &plan.goal_of);
+        self.roles.remember(&cast, identity, &plan.goal_of);
         let rests = self.rests(&cast, &plan);
         let legs = if self.request.riders.iter().any(|rider| rider.original) {
             self.staged(frame, &rests)?

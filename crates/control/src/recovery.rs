@@ -9,8 +9,8 @@ use crate::silent::{CUT, UNHEARD};
 use crate::snapshot::Age;
 use crate::trial::Trial;
 use lightbots_base::{Instant, RobotId, Span, Vec2};
+use lightbots_plan::Claims;
 use lightbots_wire::{Command, RobotState, Route, Topic};
-use std::collections::BTreeMap;
 
 /// STOP is said this often, …
 const SAY: u32 = 4;
@@ -94,12 +94,16 @@ impl Run {
     }
 
     /// Who shows each pixel, or is on the way to it.
-    fn shown(&self, desk: &Desk) -> BTreeMap<u32, RobotId> {
+    fn shown(&self, desk: &Desk) -> Claims<RobotId> {
         let moves = self.current.iter().flat_map(|leg| leg.moves.iter().zip(&self.seats));
         let taking_part = moves.filter(|(_, seat)| !seat.out);
-        let shown =
-            taking_part.filter_map(|(step, seat)| Some((step.pixel?, desk.fleet.robot(seat.robot).id)));
-        shown.collect()
+        let mut shown = Claims::default();
+        for (step, seat) in taking_part {
+            if let Some(pixel) = step.pixel {
+                shown.show(pixel, desk.fleet.robot(seat.robot).id);
+            }
+        }
+        shown
     }
 
     /// Plans again from where robots are; who drives is stopped first.

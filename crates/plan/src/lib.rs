@@ -4,7 +4,8 @@
 //!
 //! In reading order: [`TransitionProblem`] is what is asked, [`assignment`] decides who goes where, `motion` makes
 //! timed paths of it, [`proof`] judges them without trusting either, [`transition()`] puts the three together and
-//! relaxes or repairs until the proof holds, and [`show()`] chains transitions through all frames.
+//! relaxes or repairs until the proof holds, [`Bindings`] say who must show which pixel of a frame, and [`show()`] chains
+//! transitions through all frames.
 //!
 //! ```
 //! use lightbots_base::{Limits, Vec2};
@@ -20,6 +21,7 @@
 //! ```
 
 pub mod assignment;
+mod casting;
 mod motion;
 mod problem;
 pub mod proof;
@@ -29,6 +31,7 @@ mod seeded;
 mod show;
 mod transition;
 
+pub use casting::{Bindings, Cast, Claims, Oddity};
 pub use motion::turn_time;
 pub use problem::{Closest, Path, Stuck, Transition, TransitionProblem};
 pub use repair::{Meeting, Repaired, repair};

@@ -5,10 +5,9 @@ use std::time::Instant;
 use lightbots_api as api;
 use lightbots_base::Vec2;
 use lightbots_plan::{ShowOptions, ShowPlan, Transition};
-use lightbots_show::{Issue, Issues, Severity, Show, front_rows};
+use lightbots_show::{Issue, Issues, Severity, Show, front_rows, robots_needed};
 
 use crate::numbers::rounded;
-use crate::show_file::pixels;
 
 /// Plans a show from its starting places. `found` is what reading and validating it showed.
 pub fn plan(show: &Show, found: &Issues) -> (ShowPlan, api::Plan) {
@@ -22,7 +21,7 @@ pub fn plan(show: &Show, found: &Issues) -> (ShowPlan, api::Plan) {
 
 /// Where the robots of a show wait.
 pub fn starts(show: &Show) -> Vec<Vec2> {
-    show.starts.clone().unwrap_or_else(|| front_rows(&show.stage, pixels(show)))
+    show.starts.clone().unwrap_or_else(|| front_rows(&show.stage, robots_needed(show)))
 }
 
 /// The same without the paths, for the WebSocket.

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use lightbots_base::{Instant, RobotId, Span, Vec2};
 use lightbots_plan::{ShowOptions, ShowPlan};
-use lightbots_show::{Issue, Show, front_rows};
+use lightbots_show::{Issue, Show, front_rows, robots_needed};
 
 use crate::conditions::Conditions;
 use crate::play::Play;
@@ -18,7 +18,7 @@ pub struct RehearsalOptions {
     pub seed: u64,
     /// What robots and networks suffer.
     pub conditions: Conditions,
-    /// How many robots there are; `None`: as many as the largest frame has pixels, or as the show has starts.
+    /// How many robots there are; `None`: as many as the show needs, or as it has starts.
     pub robots: Option<usize>,
 }
 
@@ -73,7 +73,7 @@ pub fn rehearse(
         let lower_bound_s = plan.lower_bound_s;
         return RehearsalReport { lower_bound_s, ..unplayed(show, options, robots, issues) };
     }
-    let names = names(show, &plan, starts.len());
+    let names = names(&plan, starts.len());
     let play = Play::new(Arc::new(show.clone()), &starts, &names, options, plan.duration_s);
     let mut report = play.run(progress);
     report.lower_bound_s = plan.lower_bound_s;
@@ -82,26 +82,16 @@ pub fn rehearse(
     report
 }
 
-/// One for each pixel of the largest frame; where the show says where more robots start, those are there as well.
+/// As many as the show needs; where it says where more robots start, those are there as well.
 fn usual_robots(show: &Show) -> usize {
-    let pixels = show.frames.iter().map(|frame| frame.pixels.len()).max().unwrap_or(0);
-    pixels.max(show.starts.as_ref().map_or(0, Vec::len))
+    robots_needed(show).max(show.starts.as_ref().map_or(0, Vec::len))
 }
 
-/// `[robot]`: the name by which a pixel asks for it, so that who is bound to a pixel takes part.
-fn names(show: &Show, plan: &ShowPlan, robots: usize) -> Vec<Option<RobotId>> {
+/// `[robot]`: the name by which pixels ask for it, so that who is bound to a pixel takes part.
+fn names(plan: &ShowPlan, robots: usize) -> Vec<Option<RobotId>> {
     let mut names = vec![None; robots];
-    for (frame, shown) in show.frames.iter().zip(&plan.mapping) {
-        let name_of = |id: u32| {
-            let pixel = frame.pixels.binary_search_by_key(&id, |pixel| pixel.id).ok()?;
-            frame.pixels[pixel].robot.as_deref().and_then(RobotId::new)
-        };
-        for (robot, id) in shown.iter().enumerate() {
-            let name = id.and_then(name_of);
-            if name.is_some() && names[robot].is_none() && !names.contains(&name) {
-                names[robot] = name;
-            }
-        }
+    for (name, &robot) in &plan.names {
+        names[robot] = RobotId::new(name);
     }
     names
 }

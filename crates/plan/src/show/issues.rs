@@ -1,19 +1,19 @@
 //! What is wrong with frames, seen from the floor.
 
-use crate::Stuck;
 use crate::transition::{MARGIN_M, distance_to, touching};
+use crate::{Bindings, Cast, Oddity, Stuck};
 use lightbots_base::Vec2;
-use lightbots_show::{Issue, Issues, Pixel, Show, frame_label};
+use lightbots_show::{Issue, Issues, Pixel, Show, frame_label, robots_asked_for};
 
 /// What no plan can mend in a frame: too few robots, pixels that touch, lie outside the floor or in obstacles.
-pub(super) fn of_frame(show: &Show, index: usize, robots: usize, issues: &mut Issues) {
+pub(super) fn of_frame(show: &Show, index: usize, robots: usize, dark: &[u32], issues: &mut Issues) {
     let frame = &show.frames[index];
     let name = name_of(show, index);
     let limits = &show.stage.limits;
     if frame.pixels.len() > robots {
-        let dark = frame.pixels[robots..].iter().map(|pixel| pixel.id);
         let message = format!("{name} has {} pixels, but there are {robots} robots", frame.pixels.len());
-        issues.push(Issue::error("too-few-robots", message).in_frame(index).with_pixels(dark));
+        issues
+            .push(Issue::error("too-few-robots", message).in_frame(index).with_pixels(dark.iter().copied()));
     }
     let places: Vec<Vec2> = frame.pixels.iter().map(|pixel| pixel.at).collect();
     if let Some((a, b, distance)) = touching(&places, limits.contact_m()) {
@@ -44,7 +44,7 @@ pub(super) fn of_frame(show: &Show, index: usize, robots: usize, issues: &mut Is
 }
 
 /// A frame nobody can get to.
-pub(super) fn no_plan(show: &Show, index: usize, pixels: &[Pixel], stuck: &Stuck) -> Issue {
+pub(super) fn no_plan(show: &Show, index: usize, pixels: &[&Pixel], stuck: &Stuck) -> Issue {
     let ids: Vec<u32> =
         stuck.goals.iter().filter_map(|&goal| pixels.get(goal)).map(|pixel| pixel.id).collect();
     let whose = match ids.len() {
@@ -65,29 +65,40 @@ pub(super) fn takes_longer(show: &Show, index: usize, asked_s: f64, takes_s: f64
     Issue::warning("takes-longer", message).in_frame(index)
 }
 
-/// Two pixels of a frame ask for the same robot.
-pub(super) fn bound_twice(frame: usize, pixel: u32, name: &str) -> Issue {
-    let message = format!("frame {}: robot {name} is asked for twice, pixel {pixel} gets another", frame + 1);
-    Issue::error("robot-bound-twice", message).in_frame(frame).with_pixels([pixel])
+/// More names than robots.
+pub(super) fn of_names(show: &Show, robots: usize, bindings: &Bindings, issues: &mut Issues) {
+    let names = robots_asked_for(show);
+    if !bindings.names_known && names > robots {
+        let message = format!("pixels ask for {names} robots by name, but there are {robots} robots");
+        issues.push(Issue::error("too-few-robots", message));
+    }
 }
 
-/// Where identity is fixed, another pixel asks by name for the robot that showed a pixel before.
-pub(super) fn bound_to_another(frame: usize, pixel: u32) -> Issue {
-    let message = format!(
-        "frame {}: another pixel asks for the robot that showed pixel {pixel} before, though identity is fixed; \
-         pixel {pixel} gets another robot",
-        frame + 1
-    );
-    Issue::warning("robot-bound-to-another", message).in_frame(frame).with_pixels([pixel])
-}
-
-/// A pixel asks for a robot that is not there.
-pub(super) fn unknown_robot(frame: usize, pixel: u32, name: &str) -> Issue {
-    let message = format!(
-        "frame {}: pixel {pixel} asks for robot {name}, which is not here; any robot shows it",
-        frame + 1
-    );
-    Issue::warning("unknown-robot", message).in_frame(frame).with_pixels([pixel])
+/// Pixels whose robot is not the one people may expect.
+pub(super) fn of_cast(show: &Show, frame: usize, cast: &Cast<'_>, issues: &mut Issues) {
+    for &(id, oddity) in &cast.oddities {
+        let pixel = show.frames[frame].pixels.iter().find(|pixel| pixel.id == id);
+        let name = pixel.and_then(|pixel| pixel.robot.as_deref()).unwrap_or_default();
+        let frame_name = name_of(show, frame);
+        let issue = match oddity {
+            Oddity::BoundTwice => {
+                let what = format!("robot {name} is asked for twice, pixel {id} stays dark");
+                Issue::error("robot-bound-twice", format!("{frame_name}: {what}"))
+            }
+            Oddity::Unknown => {
+                let what = format!("pixel {id} asks for robot {name}, which is not here; it stays dark");
+                Issue::warning("unknown-robot", format!("{frame_name}: {what}"))
+            }
+            Oddity::Lost => {
+                let what = format!(
+                    "the robot that showed pixel {id} before must show another pixel, though identity is fixed; \
+                     pixel {id} gets another robot"
+                );
+                Issue::warning("robot-bound-to-another", format!("{frame_name}: {what}"))
+            }
+        };
+        issues.push(issue.in_frame(frame).with_pixels([id]));
+    }
 }
 
 fn name_of(show: &Show, index: usize) -> String {

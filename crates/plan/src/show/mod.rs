@@ -1,15 +1,14 @@
 //! A whole show: transition 0 from where the robots stand, then frame after frame.
 
-mod binding;
 mod issues;
 #[cfg(test)]
 mod tests;
 
 use crate::transition::attempt;
-use crate::{Closest, Transition, TransitionProblem};
-use binding::Binding;
+use crate::{Bindings, Closest, Transition, TransitionProblem};
 use lightbots_base::{Span, Vec2};
-use lightbots_show::{Frame, Identity, Issues, Show};
+use lightbots_show::{Frame, Identity, Issue, Issues, Show};
+use std::collections::BTreeMap;
 
 /// What the planner is told besides the show.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -29,6 +28,8 @@ pub struct ShowPlan {
     pub transitions: Vec<Transition>,
     /// `mapping[k][robot]`: id of the pixel that robot shows in frame k; `None`: it is spare.
     pub mapping: Vec<Vec<Option<u32>>>,
+    /// The robot each name means that pixels ask for.
+    pub names: BTreeMap<String, usize>,
     /// What is wrong. With an error among them the plan must not be played.
     pub issues: Issues,
     /// Transitions and air times, seconds.
@@ -51,7 +52,7 @@ pub struct ShowClosest {
 impl ShowPlan {
     /// Whether it may be played.
     pub fn ok(&self) -> bool {
-        !self.issues.iter().any(lightbots_show::Issue::is_error)
+        !self.issues.iter().any(Issue::is_error)
     }
 }
 
@@ -59,20 +60,20 @@ impl ShowPlan {
 pub fn show(show: &Show, starts: &[Vec2], options: &ShowOptions) -> ShowPlan {
     let mut plan = ShowPlan::default();
     let mut places = starts.to_vec();
-    let mut binding = Binding::new(show, starts.len(), options);
+    let mut bindings = bindings(starts.len(), options);
+    issues::of_names(show, starts.len(), &bindings, &mut plan.issues);
     for (index, frame) in show.frames.iter().enumerate() {
         let found_before = plan.issues.len();
-        issues::of_frame(show, index, starts.len(), &mut plan.issues);
-        // Fewer robots than pixels: the pixels with the highest ids stay dark.
-        let pixels = &frame.pixels[..frame.pixels.len().min(starts.len())];
-        let goals: Vec<Vec2> = pixels.iter().map(|pixel| pixel.at).collect();
         let identity = options.identity.or(frame.identity).unwrap_or(show.identity);
-        let pinned = binding.pins(&places, pixels, identity, index, &mut plan.issues);
-        let attempt = attempt(&problem(show, frame, places, goals, pinned));
+        let cast = bindings.cast(&frame.pixels, identity, &places, |_| false);
+        issues::of_frame(show, index, starts.len(), &cast.dark, &mut plan.issues);
+        issues::of_cast(show, index, &cast, &mut plan.issues);
+        let goals: Vec<Vec2> = cast.pixels.iter().map(|pixel| pixel.at).collect();
+        let attempt = attempt(&problem(show, frame, places, goals, cast.pinned.clone()));
         if let Some(stuck) = attempt.stuck
-            && plan.issues.len() == found_before
+            && !plan.issues[found_before..].iter().any(Issue::is_error)
         {
-            plan.issues.push(issues::no_plan(show, index, pixels, &stuck));
+            plan.issues.push(issues::no_plan(show, index, &cast.pixels, &stuck));
         }
         let transition = attempt.transition;
         let takes_s = transition.duration.as_secs();
@@ -82,12 +83,22 @@ pub fn show(show: &Show, starts: &[Vec2], options: &ShowOptions) -> ShowPlan {
             plan.issues.push(issues::takes_longer(show, index, asked_s, takes_s));
         }
         let shown: Vec<Option<u32>> =
-            transition.goal_of.iter().map(|goal| goal.map(|goal| pixels[goal].id)).collect();
-        binding.remember(pixels, &transition.goal_of);
+            transition.goal_of.iter().map(|goal| goal.map(|goal| cast.pixels[goal].id)).collect();
+        bindings.remember(&cast, &transition.goal_of);
         places = transition.paths.iter().map(|path| path.as_ref().end()).collect();
         plan.take(transition, shown, frame);
     }
+    plan.names = bindings.by_name;
     plan
+}
+
+fn bindings(robots: usize, options: &ShowOptions) -> Bindings {
+    let names = options.robots.iter().take(robots).enumerate();
+    Bindings {
+        by_name: names.map(|(robot, name)| (name.clone(), robot)).collect(),
+        names_known: !options.robots.is_empty(),
+        ..Bindings::default()
+    }
 }
 
 impl ShowPlan {

@@ -79,7 +79,9 @@ fn a_named_robot_shows_its_pixel() {
     let robots = ["left", "middle", "right"].map(String::from).to_vec();
     let plan = show(&both, &STARTS, &ShowOptions { robots, ..ShowOptions::default() });
     assert_eq!((plan.mapping[0][0], plan.mapping[1][0]), (Some(2), Some(0)));
+    // Whom a pixel asks for is the only robot that may show it.
     assert_eq!(codes(&plan), ["unknown-robot"]);
+    assert!(!plan.mapping[1].contains(&Some(1)));
     // Without names a name still means one robot: the one that showed it first.
     let plan = show(&both, &STARTS, &ShowOptions::default());
     assert!(plan.ok() && plan.issues.is_empty());

@@ -6,13 +6,12 @@ use std::time::Duration;
 
 use lightbots_control::{Operation, State};
 use lightbots_link::BrokerUrl;
-use lightbots_show::{Show, Stage, front_rows};
+use lightbots_show::{Show, Stage, front_rows, robots_needed};
 use lightbots_sim::{Conditions, FleetConfig};
 use tokio::sync::watch;
 
 use super::conductor::Handle;
 use super::crowd::{Crowd, TOGETHER};
-use crate::show_file::pixels;
 use crate::stop::Stop;
 use crate::web::Shown;
 
@@ -41,7 +40,7 @@ pub struct Cast {
 impl Cast {
     /// How many robots a show is given.
     pub fn robots(count: Option<usize>, show: &Show) -> usize {
-        count.unwrap_or_else(|| pixels(show).clamp(USUAL, MOST))
+        count.unwrap_or_else(|| robots_needed(show).clamp(USUAL, MOST))
     }
 
     /// Keeps robots on the broker until `stop` is wanted.

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use lightbots_base::Vec2;
 
 use super::{Findings, MAX_FRAMES, MAX_PIXELS, PROVABLE_GAP_M, millimetres};
-use crate::{Frame, Identity, Issue, Show, close_pairs, front_rows};
+use crate::{Frame, Identity, Issue, Show, close_pairs, front_rows, robots_asked_for};
 
 pub(super) fn check(show: &Show, is_stage_sound: bool, findings: &mut Findings) {
     if show.frames.is_empty() {
@@ -21,7 +21,7 @@ pub(super) fn check(show: &Show, is_stage_sound: bool, findings: &mut Findings) 
     counts(show, usual, findings);
     same_ids(show, usual, findings);
     if is_stage_sound && usual <= MAX_PIXELS {
-        starts(show, usual, findings);
+        starts(show, usual, usual.max(robots_asked_for(show)), findings);
     }
     if show.music.as_deref().is_some_and(|name| name.contains(['/', '\\', '\0'])) {
         let what = "the music is a path; name a file that lies beside the show";
@@ -74,7 +74,8 @@ fn same_ids(show: &Show, usual: usize, findings: &mut Findings) {
     }
 }
 
-fn starts(show: &Show, usual: usize, findings: &mut Findings) {
+/// `usual` pixels are shown by `needed` robots.
+fn starts(show: &Show, usual: usize, needed: usize, findings: &mut Findings) {
     let stage = &show.stage;
     let radius_m = stage.limits.radius_m;
     let is_off = |at: &Vec2| {
@@ -82,15 +83,20 @@ fn starts(show: &Show, usual: usize, findings: &mut Findings) {
         !(at.x.abs() <= most_x + 1e-4 && at.y.abs() <= most_y + 1e-4)
     };
     let Some(starts) = &show.starts else {
-        if front_rows(stage, usual).iter().any(is_off) {
+        if front_rows(stage, needed).iter().any(is_off) {
             let what =
-                format!("{usual} robots cannot wait on this floor; make it larger or take pixels away");
+                format!("{needed} robots cannot wait on this floor; make it larger or take pixels away");
             findings.show("floor-too-small", what);
         }
         return;
     };
     if starts.len() < usual {
         let what = format!("{} starts for {usual} pixels; add {}", starts.len(), usual - starts.len());
+        findings.show("too-few-starts", what);
+    } else if starts.len() < needed {
+        let missing = needed - starts.len();
+        let what =
+            format!("{} starts, but pixels ask for {needed} robots by name; add {missing}", starts.len());
         findings.show("too-few-starts", what);
     }
     if starts.len() > MAX_PIXELS {

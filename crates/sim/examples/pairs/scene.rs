@@ -29,7 +29,7 @@ pub fn pair(number: u64, most: u64) -> Show {
         identity: None,
         pixels: pixels.collect(),
     };
-    // Identity binds robots from the first frame on: the starts are a frame of their own then.
+    // Identity binds robots from the first frame on: the starts are a frame of their own then, where all stay.
     let frames = if fixed { vec![standing(&starts[..count]), frame] } else { vec![frame] };
     Show {
         name: format!("pair {number}"),
