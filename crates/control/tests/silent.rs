@@ -1,0 +1,52 @@
+//! A robot that fell silent, and where it may stand.
+
+mod fleet;
+
+use fleet::{World, show};
+use lightbots_base::Vec2;
+use lightbots_control::{EventKind, Outcome};
+use lightbots_show::{Identity, Obstacle, Show};
+
+const CONTACT_M: f64 = 0.054;
+/// How far in front of the walls one robot drives past the bay, metres.
+const LANE_M: f64 = 0.04;
+
+/// A bay between walls, 0.12 m wide and open at its upper end, with robot 0 in it. Robot 3 drives past its mouth from left
+/// to right; then robot 0 drives out and along where robot 3 came from. Robots 1 and 2 stand far away.
+fn past_a_bay() -> Show {
+    let wall = |x0, y0, x1, y1| Obstacle::Rect { min: Vec2::new(x0, y0), max: Vec2::new(x1, y1) };
+    let mut show = show(3, 4, 0.3);
+    show.stage.obstacles =
+        vec![wall(-0.1, -0.3, -0.06, 0.0), wall(0.06, -0.3, 0.1, 0.0), wall(-0.1, -0.34, 0.1, -0.3)];
+    let (far, bay) = ([Vec2::new(1.2, 1.2), Vec2::new(1.2, -1.2)], Vec2::new(0.0, -0.15));
+    let lane = |x| Vec2::new(x, LANE_M);
+    let places = [[bay, lane(-1.2)], [bay, lane(0.9)], [lane(-0.9), lane(1.2)]];
+    for (frame, [of_bay, passing]) in show.frames.iter_mut().zip(places) {
+        for (pixel, at) in frame.pixels.iter_mut().zip([of_bay, far[0], far[1], passing]) {
+            pixel.at = at;
+        }
+    }
+    show.frames[1].identity = Some(Identity::Fixed);
+    show
+}
+
+/// It may still drive until it knows that its link broke, and then stands in front of the bay: who is in there could not
+/// get out. That it died where it was heard last is likelier, and driven around even then.
+#[test]
+fn where_there_is_no_way_around_all_places_of_a_silent_robot_the_likely_ones_are_driven_around() {
+    let mut world = World::ready(4, 0, past_a_bay());
+    world.play();
+    world.run_until(60.0, |kind| matches!(kind, EventKind::FrameReached { frame: 0, .. }));
+    let passing = world.robots.iter().position(|robot| robot.at.x < -1.1).unwrap();
+    while world.robots[passing].at.x < -0.54 {
+        world.step();
+    }
+    world.robots[passing].dead = true;
+    let failed = |kind: &EventKind| matches!(kind, EventKind::PlanFailed { frame: 2, .. });
+    let why = world.run_until(30.0, failed).kind.to_string();
+    assert!(why.contains("walled in"), "{why}");
+    let (outcome, frames, dropouts) = world.run_to_end(90.0);
+    assert_eq!((outcome, frames, dropouts), (Outcome::Finished, 3, 1), "{}", world.story());
+    assert!(world.closest_m >= CONTACT_M, "{} m: {}", world.closest_m, world.story());
+    assert_eq!(world.lit(&past_a_bay().frames[2]), 3, "{}", world.story());
+}
