@@ -1,0 +1,102 @@
+//! Random floors with things on them and gaps between, planned, proven and rehearsed with noise and slip:
+//! `cargo run --release -p lightbots-sim --example floors [COUNT [FIRST [FAULTS [DIR]]]]`, 500 unless told otherwise.
+//!
+//! A line for each floor where somebody touches or gets lost, and for each that is refused, with the planner's reason;
+//! where DIR is named their shows are kept there. All numbers at the end; exit code 1 if anything was touched.
+#![allow(clippy::print_stdout, clippy::print_stderr)]
+
+mod scene;
+
+use std::process::ExitCode;
+
+use lightbots_show::{Format, Issue, Show, write};
+use lightbots_sim::{Conditions, Faults, RehearsalOptions, RehearsalReport, rehearse};
+
+const ROBOTS: u64 = 60;
+const USAGE: &str = "usage: floors [COUNT [FIRST [FAULTS [DIR]]]]";
+
+fn main() -> ExitCode {
+    let args: Vec<String> = std::env::args().skip(1).collect();
+    match run(&args) {
+        Ok(true) => ExitCode::SUCCESS,
+        Ok(false) => ExitCode::FAILURE,
+        Err(message) => {
+            eprintln!("{message}");
+            ExitCode::from(2)
+        }
+    }
+}
+
+/// How floors went.
+#[derive(Default)]
+struct Tally {
+    fine: u64,
+    refused: u64,
+    touched: u64,
+    contacts: u64,
+    walls: u64,
+    other: u64,
+}
+
+/// Whether nothing was touched and everybody arrived.
+fn run(args: &[String]) -> Result<bool, String> {
+    let number = |index: usize, usual: u64| match args.get(index) {
+        Some(text) => text.parse().map_err(|_| format!("'{text}' is no number; {USAGE}")),
+        None => Ok(usual),
+    };
+    let (count, first) = (number(0, 500)?, number(1, 0)?);
+    let faults = args.get(2).filter(|text| !text.is_empty()).map(|text| Faults::parse(text));
+    let faults = faults.transpose().map_err(|error| error.to_string())?;
+    let conditions = faults.unwrap_or_default().added_to(Conditions::default());
+    let mut tally = Tally::default();
+    for number in first..first.saturating_add(count) {
+        let show = scene::floor(number, ROBOTS);
+        let options = RehearsalOptions { seed: number, conditions: conditions.clone(), robots: None };
+        let report = rehearse(&show, &options, &mut |_| {});
+        if !tally.count(number, &report)
+            && let Some(directory) = args.get(3)
+        {
+            keep(&show, directory, number)?;
+        }
+    }
+    let Tally { fine, refused, touched, contacts, walls, other } = tally;
+    println!(
+        "{fine} of {count} fine, {refused} refused, {other} otherwise; {touched} with {contacts} contacts"
+    );
+    println!("the floor's edge was touched {walls} times");
+    Ok(touched + other == 0)
+}
+
+impl Tally {
+    /// Counts a floor and says what was wrong; whether all was well.
+    fn count(&mut self, number: u64, report: &RehearsalReport) -> bool {
+        self.walls += report.wall_contacts;
+        let refused = report.messages.sent == 0;
+        let which = match () {
+            () if report.contacts > 0 => {
+                self.contacts += report.contacts;
+                &mut self.touched
+            }
+            () if refused => &mut self.refused,
+            () if !report.ok => &mut self.other,
+            () => &mut self.fine,
+        };
+        *which += 1;
+        if report.ok && report.wall_contacts == 0 {
+            return true;
+        }
+        let error = report.issues.iter().find(|issue| issue.is_error()).or(report.issues.first());
+        let what = if refused { "refused" } else { "BAD" };
+        let why = error.map_or("no reason given", |issue: &Issue| issue.message.as_str());
+        println!(
+            "floor {number}: {what}, {} robots, {} contacts, {} with the edge: {why}",
+            report.robots, report.contacts, report.wall_contacts
+        );
+        refused
+    }
+}
+
+fn keep(show: &Show, directory: &str, number: u64) -> Result<(), String> {
+    let path = format!("{directory}/floor-{number}.json");
+    std::fs::write(&path, write(show, Format::LightBots)).map_err(|error| format!("{path}: {error}"))
+}
