@@ -114,7 +114,7 @@ fn every_colour_survives_the_originals_format() {
 #[test]
 fn what_the_original_cannot_hold_is_said() {
     let lost = losses(&rich(), Format::Original);
-    assert!(lost.iter().any(|issue| issue.message.contains("obstacles")));
+    assert!(lost.iter().any(|issue| issue.message.contains("no-go areas")));
     assert!(lost.iter().any(|issue| issue.code == "not-30-pixels"));
     assert_eq!(losses(&rich(), Format::LightBots), []);
 }

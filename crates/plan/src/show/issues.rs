@@ -40,7 +40,7 @@ pub(super) fn of_frame(show: &Show, index: usize, robots: usize, dark: &[u32], i
     let what = format!("robots need {:.0} mm to the floor's edge", radius * 1e3);
     list("off-floor", &what, ids(&off), issues);
     let blocked = |at: Vec2| show.stage.obstacles.iter().any(|thing| distance_to(thing, at) < radius);
-    list("in-obstacle", &format!("robots need {:.0} mm to obstacles", radius * 1e3), ids(&blocked), issues);
+    list("in-obstacle", &format!("robots need {:.0} mm to no-go areas", radius * 1e3), ids(&blocked), issues);
 }
 
 /// A frame nobody can get to.

@@ -68,7 +68,7 @@ fn off_floor(problem: &TransitionProblem, goal: usize, place: Vec2) -> Result<()
 fn blocked(problem: &TransitionProblem, goal: usize, place: Vec2) -> Result<(), Stuck> {
     let radius = problem.limits.radius_m;
     if problem.obstacles.iter().any(|thing| distance_to(thing, place) < radius) {
-        let message = format!("a pixel is nearer than {:.0} mm to an obstacle", radius * 1e3);
+        let message = format!("a pixel is nearer than {:.0} mm to a no-go area", radius * 1e3);
         return Err(stuck(vec![goal], message));
     }
     if problem.standing.iter().any(|disc| disc.distance(place) < 2.0 * radius) {

@@ -88,5 +88,5 @@ fn remedy(problem: &TransitionProblem) -> String {
             enough_m * 1e3
         );
     }
-    "leave more room around obstacles, robots that stand and the floor's edge".into()
+    "leave more room around no-go areas, robots that stand and the floor's edge".into()
 }

@@ -173,7 +173,7 @@ fn place(at: Vec2) -> String {
     format!("({:.2}, {:.2}) m", at.x + 0.0, at.y + 0.0)
 }
 
-/// Things as text: obstacles counted from 1, as they are listed in the show.
+/// Things as text: no-go areas counted from 1, as they are listed in the show.
 fn named(things: &[Thing]) -> String {
     let numbers: Vec<String> = things
         .iter()
@@ -186,15 +186,11 @@ fn named(things: &[Thing]) -> String {
     let mut parts = Vec::new();
     match numbers.len() {
         0 => {}
-        1 => parts.push(format!("obstacle {}", numbers[0])),
+        1 => parts.push(format!("area {}", numbers[0])),
         many if many > MOST_NAMED => {
-            parts.push(format!(
-                "obstacles {} and {} more",
-                numbers[..MOST_NAMED].join(", "),
-                many - MOST_NAMED
-            ));
+            parts.push(format!("areas {} and {} more", numbers[..MOST_NAMED].join(", "), many - MOST_NAMED));
         }
-        _ => parts.push(format!("obstacles {}", list(&numbers))),
+        _ => parts.push(format!("areas {}", list(&numbers))),
     }
     match standing {
         0 => {}
@@ -249,8 +245,8 @@ mod tests {
         assert_eq!(stuck.goals, [1]);
         assert_eq!(
             stuck.message,
-            "the pixel at (0.00, 0.10) m is cut off from all robots by obstacles 1, 2, 3, 4 and 1 more; \
-             the gap between obstacles 4 and 5 near (0.00, 0.22) m is 58.0 mm wide, 61 mm do"
+            "the pixel at (0.00, 0.10) m is cut off from all robots by areas 1, 2, 3, 4 and 1 more; \
+             the gap between areas 4 and 5 near (0.00, 0.22) m is 58.0 mm wide, 61 mm do"
         );
     }
 
@@ -259,7 +255,7 @@ mod tests {
         let message = message(&problem(&[OUTSIDE[0], (0.0, 0.0)], &OUTSIDE, boxed(0.0)));
         assert_eq!(
             message,
-            "the robot at (0.00, 0.00) m is walled in by obstacles 1, 2, 3, 4 and 1 more; leave a gap of 61 mm"
+            "the robot at (0.00, 0.00) m is walled in by areas 1, 2, 3, 4 and 1 more; leave a gap of 61 mm"
         );
     }
 
@@ -269,8 +265,8 @@ mod tests {
         let goals = [(-0.5, -0.5), (0.5, -0.5)];
         assert_eq!(
             message(&problem(&OUTSIDE, &goals, wall(1.45))),
-            "2 pixels such as the one at (-0.50, -0.50) m are cut off from all robots by obstacle 1; \
-             the gap between obstacle 1 and the floor's edge near (1.48, 0.05) m is 50.0 mm wide, 58 mm do"
+            "2 pixels such as the one at (-0.50, -0.50) m are cut off from all robots by area 1; \
+             the gap between area 1 and the floor's edge near (1.48, 0.05) m is 50.0 mm wide, 58 mm do"
         );
         assert!(transition(&problem(&OUTSIDE, &goals, wall(1.44))).is_ok());
     }
@@ -281,9 +277,11 @@ mod tests {
         assert!(transition(&problem).is_ok());
         problem.pinned = vec![Some(0)];
         let stuck = transition(&problem).unwrap_err();
-        assert!(stuck.message.starts_with(
-            "the robot at (-0.50, 1.00) m is kept from the pixel at (0.00, 0.10) m by obstacles"
-        ));
+        assert!(
+            stuck.message.starts_with(
+                "the robot at (-0.50, 1.00) m is kept from the pixel at (0.00, 0.10) m by areas"
+            )
+        );
         assert_eq!((stuck.goals, stuck.starts), (vec![0], vec![0]));
     }
 

@@ -91,7 +91,7 @@ fn obstacles(json: &mut Json<'_>, notes: &mut Notes) -> Result<Vec<Obstacle>, Re
     json.list(|json, index| {
         if index >= MAX_OBSTACLES {
             return Err(
-                json.fail("too-many-obstacles", format!("more than {MAX_OBSTACLES} obstacles; join some"))
+                json.fail("too-many-obstacles", format!("more than {MAX_OBSTACLES} no-go areas; join some"))
             );
         }
         obstacles.push(obstacle(json, notes)?);
@@ -108,7 +108,7 @@ fn obstacle(json: &mut Json<'_>, notes: &mut Notes) -> Result<Obstacle, ReadErro
             "radius_m" => radius_m = Some(json.number(key)?),
             "min" => min = Some(place(json, key)?),
             "max" => max = Some(place(json, key)?),
-            _ => notes.unknown(json, "obstacle", key)?,
+            _ => notes.unknown(json, "no-go area", key)?,
         }
         Ok(())
     })?;
@@ -116,7 +116,7 @@ fn obstacle(json: &mut Json<'_>, notes: &mut Notes) -> Result<Obstacle, ReadErro
         (Some(at), Some(radius_m), None, None) => Ok(Obstacle::Disc { at, radius_m }),
         (None, None, Some(min), Some(max)) => Ok(Obstacle::Rect { min, max }),
         _ => Err(json
-            .fail("bad-obstacle", "an obstacle has either \"at\" and \"radius_m\" or \"min\" and \"max\"")),
+            .fail("bad-obstacle", "a no-go area has either \"at\" and \"radius_m\" or \"min\" and \"max\"")),
     }
 }
 

@@ -115,7 +115,7 @@ fn starts(show: &Show, usual: usize, needed: usize, findings: &mut Findings) {
         } else if stage.obstacles.iter().any(|obstacle| obstacle.gap_m(*at) < reach_m) {
             findings.show(
                 "start-on-obstacle",
-                format!("start {}: ({x}, {y}) is on an obstacle; move it", nth + 1),
+                format!("start {}: ({x}, {y}) is on a no-go area; move it", nth + 1),
             );
         }
     }

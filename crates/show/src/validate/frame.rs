@@ -119,7 +119,7 @@ fn on_obstacle(frame: &Frame, stage: &Stage) -> Vec<(Vec<u32>, String)> {
         let hit = stage.obstacles.iter().position(|obstacle| obstacle.gap_m(pixel.at) < reach_m - ROUNDING_M);
         if let Some(nth) = hit {
             let what = format!(
-                "pixel {}: ({}) is closer than {} to obstacle {}; move it away",
+                "pixel {}: ({}) is closer than {} to area {}; move it away",
                 pixel.id,
                 place(pixel),
                 millimetres(reach_m),

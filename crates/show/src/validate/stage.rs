@@ -25,12 +25,12 @@ pub(super) fn check(stage: &Stage, findings: &mut Findings) -> bool {
         let count = stage.obstacles.len();
         findings.show(
             "too-many-obstacles",
-            format!("{count} obstacles; a stage has at most {MAX_OBSTACLES}: join some"),
+            format!("{count} no-go areas; a stage has at most {MAX_OBSTACLES}: join some"),
         );
     }
     for (nth, obstacle) in stage.obstacles.iter().take(MAX_OBSTACLES).enumerate() {
         if let Some(problem) = problem_of(obstacle) {
-            findings.show("bad-obstacle", format!("obstacle {}: {problem}", nth + 1));
+            findings.show("bad-obstacle", format!("area {}: {problem}", nth + 1));
         }
     }
     findings.issues.len() == before

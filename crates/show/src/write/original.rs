@@ -24,7 +24,7 @@ pub(super) fn losses(show: &Show) -> Issues {
         lost.push("the size of the floor, which is always 3 m x 3 m there");
     }
     if !show.stage.obstacles.is_empty() {
-        lost.push("the obstacles");
+        lost.push("the no-go areas");
     }
     if show.starts.is_some() {
         lost.push("where robots start");
