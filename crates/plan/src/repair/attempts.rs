@@ -47,7 +47,7 @@ const HOPELESS: usize = 3;
 const MOST_TO_IMPROVE: usize = 600;
 /// So do crowds larger than this, if the best guess promises so little that it is given so many times as long.
 const MANY: usize = 350;
-const LITTLE_PROMISED: f64 = 1.4;
+const LITTLE_PROMISED: f64 = 1.16;
 /// Guesses tried where none has led to a way yet, and where one has.
 const MOST_TRIES: usize = 8;
 const ENOUGH_TRIES: usize = 4;

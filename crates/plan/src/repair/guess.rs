@@ -5,6 +5,7 @@ use lightbots_show::Easing;
 
 use super::crowd::{Crowd, crowding, point_along};
 use super::pace::Pace;
+use super::thick::{moments, slowed};
 use super::weave::Weave;
 
 /// Spans a weave may have: a path holds 128 pieces.
@@ -23,9 +24,12 @@ const RUSH: f64 = 0.03;
 const ODD: f64 = 0.005;
 /// Badness up to here needs no more time.
 const EASY: f64 = 0.1;
-/// How much more time more badness needs, and the most of it: by what random and mirrored crowds of 1,000 came to.
-const STRETCH: f64 = 10.0;
-const MOST_STRETCH: f64 = 1.0;
+/// How much more time more badness is given at first, and the most of it: less than crowds of 1,000 mostly come to, as
+/// the relaxation knows better where they need it.
+const STRETCH: f64 = 4.0;
+const MOST_STRETCH: f64 = 0.4;
+/// Parts of the time between two of those moments that each take as long as they need.
+const PARTS: usize = 16;
 
 /// How everybody gets along their course.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -65,6 +69,8 @@ pub(super) struct Guess<'a> {
     pub badness: f64,
     /// The same but for how odd it is.
     plain_badness: f64,
+    /// How much the crowd is in its own way at each moment that was looked at.
+    thick: [f64; SAMPLES + 1],
 }
 
 impl<'a> Guess<'a> {
@@ -72,8 +78,9 @@ impl<'a> Guess<'a> {
     pub fn new(crowd: &'a Crowd<'a>, easing: Easing, manner: Manner, near_m: f64) -> Self {
         let longer = 1.0 + 2.0 * manner.bow * manner.bow;
         let pace = Pace::new(crowd.longest_m, &crowd.scene.limits, easing, longer);
-        let mut guess = Self { crowd, manner, pace, badness: 0.0, plain_badness: 0.0 };
-        guess.plain_badness = guess.judged(near_m);
+        let thick = [0.0; SAMPLES + 1];
+        let mut guess = Self { crowd, manner, pace, badness: 0.0, plain_badness: 0.0, thick };
+        (guess.plain_badness, guess.thick) = guess.judged(near_m);
         let Manner { bow, early, level, spread, .. } = manner;
         let odd = [early, level, spread].into_iter().filter(|&is| is).count() as f64 * ODD + bow * bow;
         guess.badness = guess.plain_badness + odd;
@@ -86,16 +93,31 @@ impl<'a> Guess<'a> {
         timed(self) == timed(other) && (self.plain_badness - other.plain_badness).abs() < 1e-6
     }
 
-    /// The guess as a weave, `stretch` times as slow as at full speed, with spans of about `span_s` seconds.
+    /// The guess as a weave, `stretch` times as slow as at full speed, with spans of about `span_s` seconds. It is slow
+    /// where the crowd is in its own way, and only there.
     pub fn weave(&self, stretch: f64, span_s: f64) -> Weave {
-        self.weave_lasting(self.pace.drive_s * stretch, span_s)
+        let parts = SAMPLES * PARTS;
+        let thick = (0..parts).map(|part| {
+            let (sample, within) = (part / PARTS, ((part % PARTS) as f64 + 0.5) / PARTS as f64);
+            self.thick[sample] * (1.0 - within) + self.thick[sample + 1] * within
+        });
+        let lasts = slowed(&thick.collect::<Vec<_>>(), stretch, f64::INFINITY);
+        self.weave_through(self.pace.drive_s * stretch, span_s, |spans| {
+            moments(&lasts, spans).into_iter().map(|moment| moment / parts as f64).collect()
+        })
     }
 
     /// The guess as a weave that takes `drive_s` seconds, with spans of about `span_s`.
     pub fn weave_lasting(&self, drive_s: f64, span_s: f64) -> Weave {
+        let evenly = |spans: usize| (0..=spans).map(|step| step as f64 / spans as f64).collect();
+        self.weave_through(drive_s, span_s, evenly)
+    }
+
+    /// The same, through where everybody is at some shares of the time, one more than there are spans.
+    fn weave_through(&self, drive_s: f64, span_s: f64, moments: impl Fn(usize) -> Vec<f64>) -> Weave {
         let spans = ((drive_s / span_s).ceil() as usize).clamp(6, MOST_SPANS);
         let places: Vec<Vec<Vec2>> =
-            (0..=spans).map(|step| self.free_places(step as f64 / spans as f64)).collect();
+            moments(spans).into_iter().map(|moment| self.free_places(moment)).collect();
         Weave::new(self.crowd.scene, spans, drive_s / spans as f64, |robot, step| places[step][robot])
     }
 
@@ -175,20 +197,22 @@ impl<'a> Guess<'a> {
         }
     }
 
-    fn judged(&self, near_m: f64) -> f64 {
+    /// How little it promises but for how odd it is, and how much the crowd is in its own way at each moment.
+    fn judged(&self, near_m: f64) -> (f64, [f64; SAMPLES + 1]) {
         let robots = self.crowd.courses.len().max(1) as f64;
         let step_m = self.crowd.scene.limits.speed_mps * self.pace.drive_s / SAMPLES as f64;
         let mut rush = vec![0.0_f64; self.crowd.courses.len()];
-        let (mut close, mut before) = (0.0, self.places(0.0));
-        for sample in 1..=SAMPLES {
+        let (mut thick, mut before) = ([0.0; SAMPLES + 1], self.places(0.0));
+        for (sample, thick) in thick.iter_mut().enumerate().skip(1) {
             let places = self.places(sample as f64 / SAMPLES as f64);
             for (robot, most) in rush.iter_mut().enumerate() {
                 *most = most.max(places[robot].distance(before[robot]) / step_m - 1.0);
             }
-            close += if sample < SAMPLES { crowding(&places, near_m) } else { 0.0 };
+            *thick = if sample < SAMPLES { crowding(&places, near_m) } else { 0.0 };
             before = places;
         }
-        close / (SAMPLES as f64 * robots) + rush.iter().sum::<f64>() / robots * RUSH
+        let close = thick.iter().sum::<f64>() / (SAMPLES as f64 * robots);
+        (close + rush.iter().sum::<f64>() / robots * RUSH, thick)
     }
 }
 

@@ -4,7 +4,7 @@
 //! Everybody's way is a smooth spline in time ([`weave`]). First all take their shortest way ([`around`]) in some manner
 //! ([`guess`]): straight or in bows, together or whoever is near first, kept from gathering in the middle or spread out
 //! on the way ([`crowd`]); what promises most is tried first. Whoever comes too close is bent aside ([`relax`]), with a
-//! little more time at each stage, and the last few that do not come past each other are sent elsewhere. Where that does
+//! little more time at each stage for the moments that need it ([`thick`]), and the last few that do not come past each other are sent elsewhere. Where that does
 //! not do, a crowd gets more time, and loosens before anybody goes anywhere ([`attempts`]). Crowds too thick for that
 //! first learn their order on a hexagonal lattice ([`lattice`], [`dock`], [`search`], [`steps`]), and the same
 //! relaxation makes that smooth and swift; between walls the lattice follows gaps from corner to corner ([`corners`]). The last resort are ways with
@@ -33,10 +33,12 @@ mod scene;
 mod search;
 mod shorten;
 mod slow;
+mod stage;
 mod steps;
 mod stops;
 #[cfg(test)]
 mod tests;
+mod thick;
 mod travel;
 mod turning;
 mod weave;

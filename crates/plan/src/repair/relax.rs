@@ -5,8 +5,11 @@ use lightbots_base::Vec2;
 
 use super::Meeting;
 use super::contacts::{Contact, Other, Watch, Wish, travelled};
+use super::guess::MOST_SPANS;
 use super::scene::Scene;
 use super::slow::Slow;
+use super::stage::{Stage, growth};
+use super::thick::{blurred, moments, slowed};
 use super::travel::Travel;
 use super::turning::Look;
 use super::weave::{Weave, blend};
@@ -21,16 +24,13 @@ const KICK: [f64; 8] = [0.25, 0.6, 0.9, 1.0, 1.0, 0.9, 0.6, 0.25];
 /// Sweeps between two look-outs at least, and how far somebody must have moved, metres.
 const LOOK_OUT_EVERY: usize = 6;
 const LOOK_OUT_MOVED_M: f64 = 0.006;
-/// Sweeps after which no more than a share of what was wrong may be left, or there is more time; and in a hurry.
-const STAGE: (usize, f64) = (12, 0.5);
-const SHORT_STAGE: (usize, f64) = (10, 0.7);
-/// Sweeps for the last few, which cost little and go in circles for a while.
-const LAST_STAGE: usize = 24;
-/// How much more time, for the last few, and how much more still for every contact of a robot, up to so many.
-const GROWTH: f64 = 1.03;
-const LAST_GROWTH: f64 = 1.02;
-const GROWTH_A_CONTACT: f64 = 0.014;
-const MOST_CONTACTS: f64 = 12.0;
+/// More time goes where contacts are, and to the spans beside them by as many passes; no span becomes longer than so many
+/// times at once.
+const BLUR: usize = 3;
+const MOST_SLOWED: f64 = 1.5;
+/// Rather than longer than this spans become more, seconds: long ones cannot be bent where two contacts are near each
+/// other.
+const LONGEST_SPAN_S: f64 = 0.36;
 /// Bending aims beyond the wish by this, metres: otherwise it would only be neared for ever.
 const BEYOND_M: f64 = 0.0002;
 /// Control points that hardly move a place must not be moved far for it.
@@ -74,7 +74,7 @@ pub(super) fn relax(
 pub(super) struct Relaxation<'a> {
     state: State<'a>,
     effort: Effort,
-    /// No span may become longer, seconds.
+    /// It may not take longer, seconds.
     longest_s: f64,
     stage: Stage,
     sweep: usize,
@@ -82,7 +82,7 @@ pub(super) struct Relaxation<'a> {
     is_over: bool,
     /// How many contacts were bent in the last sweep.
     bent: usize,
-    /// The swiftest weave without contacts, and how long its spans take, seconds.
+    /// The swiftest weave without contacts, and how long it takes, seconds.
     best: Option<(f64, Weave)>,
     fewest: usize,
     left_over: Vec<Meeting>,
@@ -91,12 +91,11 @@ pub(super) struct Relaxation<'a> {
 impl<'a> Relaxation<'a> {
     /// One that has not begun.
     pub fn new(scene: &'a Scene, weave: Weave, effort: Effort) -> Self {
-        let patience = if effort.hurry { SHORT_STAGE } else { STAGE };
         Self {
-            longest_s: weave.span_s * effort.stretch,
+            longest_s: weave.lasts_s() * effort.stretch,
             state: State::new(scene, weave, effort.wish),
             effort,
-            stage: Stage { patience, sweeps: 0, hoped: usize::MAX },
+            stage: Stage::new(effort.hurry),
             sweep: 0,
             kicks: 0,
             is_over: false,
@@ -138,10 +137,10 @@ impl<'a> Relaxation<'a> {
             (self.fewest, self.left_over) = (bent, self.state.meetings());
         }
         let (haste, hasty) = if bent == 0 { self.state.haste() } else { (f64::MAX, 0) };
-        let span_s = self.state.weave.span_s * haste;
-        let is_best = bent == 0 && self.best.as_ref().is_none_or(|(best_s, _)| span_s < *best_s);
+        let lasts_s = self.state.weave.lasts_s() * haste;
+        let is_best = bent == 0 && self.best.as_ref().is_none_or(|(best_s, _)| lasts_s < *best_s);
         if is_best && self.state.bend_all(true) == 0 {
-            self.best = Some((span_s, self.state.weave.clone()));
+            self.best = Some((lasts_s, self.state.weave.clone()));
             if haste < GOOD_HASTE {
                 return false;
             }
@@ -149,49 +148,18 @@ impl<'a> Relaxation<'a> {
         let robots = self.state.weave.robots();
         let few = robots / A_FEW + 1;
         if self.stage.ends_in_vain(bent + hasty, bent <= few) {
-            self.state.give_time(growth(&self.effort, bent, few, robots));
-            let most_s = self.best.as_ref().map_or(self.longest_s, |(best_s, _)| *best_s);
-            if self.state.weave.span_s > most_s && (self.best.is_some() || bent > few) {
-                return false;
-            }
             if bent > 0 && bent <= few {
                 self.kicks += 1;
                 self.state.kick(self.kicks);
             }
+            self.state.give_time(growth(self.effort.hurry, bent, few, robots));
+            let most_s = self.best.as_ref().map_or(self.longest_s, |(best_s, _)| *best_s);
+            if self.state.weave.lasts_s() > most_s && (self.best.is_some() || bent > few) {
+                return false;
+            }
         }
         self.state.slow(if bent > robots { 1 } else { EASINGS });
         true
-    }
-}
-
-/// How many times as much time there is after a stage that was in vain.
-fn growth(effort: &Effort, bent: usize, few: usize, robots: usize) -> f64 {
-    let crowding = if effort.hurry { bent as f64 / robots.max(1) as f64 } else { 0.0 };
-    let least = if bent <= few { LAST_GROWTH } else { GROWTH };
-    least + GROWTH_A_CONTACT * crowding.min(MOST_CONTACTS)
-}
-
-/// Sweeps that are to bring something.
-struct Stage {
-    /// How many there may be, and what share of what was wrong may be left then.
-    patience: (usize, f64),
-    /// How many there have been.
-    sweeps: usize,
-    /// How much may be wrong after them.
-    hoped: usize,
-}
-
-impl Stage {
-    /// Counts a sweep that left so much wrong; whether it ended a stage that did not bring enough.
-    fn ends_in_vain(&mut self, wrong: usize, only_few: bool) -> bool {
-        self.sweeps += 1;
-        let (sweeps, share) = self.patience;
-        if self.sweeps < if only_few { LAST_STAGE } else { sweeps } {
-            return false;
-        }
-        let in_vain = wrong > self.hoped;
-        (self.sweeps, self.hoped) = (0, (wrong as f64 * share) as usize);
-        in_vain
     }
 }
 
@@ -201,8 +169,8 @@ struct State<'a> {
     wish: Wish,
     watch: Watch,
     contacts: Vec<Contact>,
-    /// The sweep in which contacts were last looked out for.
-    looked_out: usize,
+    /// The sweep in which contacts were last looked out for, since the weave's spans are what they are.
+    looked_out: Option<usize>,
     travel: Travel,
     /// `[robot]`: where it may be beyond its limits; `None`: nowhere.
     dirty: Vec<Option<Look>>,
@@ -221,7 +189,7 @@ impl<'a> State<'a> {
             wish,
             watch: Watch::new(),
             contacts: Vec::new(),
-            looked_out: 0,
+            looked_out: None,
             travel: Travel::new(robots, weave.spans + 3),
             weave,
             dirty: vec![Some(Look::ALL); robots],
@@ -231,10 +199,31 @@ impl<'a> State<'a> {
         }
     }
 
+    /// Lets the whole take so many times as long, and what of it is in the way of others.
     fn give_time(&mut self, factor: f64) {
-        self.weave.span_s *= factor;
+        let mut thick = vec![0.0; self.weave.spans];
+        for contact in self.contacts.iter().filter(|contact| contact.is_close) {
+            thick[contact.span] += 1.0;
+        }
+        if thick.iter().any(|&contacts| contacts > 0.0) {
+            self.slow_down(&slowed(&blurred(thick, BLUR), factor, MOST_SLOWED));
+        } else {
+            self.weave.span_s *= factor;
+        }
         self.dirty.fill(Some(Look::ALL));
         self.stale.fill(true);
+    }
+
+    /// Lets each span take so many times as long.
+    fn slow_down(&mut self, times: &[f64]) {
+        let (spans, lasts_s) = (times.len(), self.weave.span_s * times.iter().sum::<f64>());
+        let wanted = (lasts_s / LONGEST_SPAN_S).ceil() as usize;
+        let more = if self.weave.span_s < LONGEST_SPAN_S { spans } else { wanted.min(MOST_SPANS).max(spans) };
+        self.weave.retime(&moments(times, more));
+        self.weave.span_s = lasts_s / more as f64;
+        self.travel = Travel::new(self.weave.robots(), more + 3);
+        self.contacts.clear();
+        self.looked_out = None;
     }
 
     /// Sends one of each two that do not come past each other elsewhere, in turn and in another direction every time.
@@ -296,11 +285,13 @@ impl<'a> State<'a> {
 
     /// Whether others than those watched may be too close by now.
     fn must_look_out(&mut self, sweep: usize) -> bool {
-        let is_due = sweep >= self.looked_out + LOOK_OUT_EVERY && self.travel.since_mark() > LOOK_OUT_MOVED_M;
-        if sweep == 0 || is_due {
-            self.looked_out = sweep;
+        let is_due = self
+            .looked_out
+            .is_none_or(|last| sweep >= last + LOOK_OUT_EVERY && self.travel.since_mark() > LOOK_OUT_MOVED_M);
+        if is_due {
+            self.looked_out = Some(sweep);
         }
-        sweep == 0 || is_due
+        is_due
     }
 
     /// Bends whoever is too close, after a new look-out if `anew`, and says how many contacts that were.

@@ -66,6 +66,33 @@ pub(super) fn fold(weights: &[f64; 4], span: usize, last: usize, spare: bool) ->
     folded
 }
 
+/// The free control points of a way that passes these places between its spans: each place is a sixth of one, two thirds
+/// of the next and a sixth of the one after, which is solved from the first to the last and back.
+fn through(places: impl ExactSizeIterator<Item = Vec2>, start: Vec2, end: Option<Vec2>) -> Vec<Vec2> {
+    let last = places.len() - 1;
+    let (mut points, mut shares) = (Vec::with_capacity(last + 1), Vec::with_capacity(last + 1));
+    let (mut share, mut so_far) = (0.0, Vec2::ZERO);
+    for (number, place) in places.enumerate() {
+        let (mut sum, mut own) = (place * 6.0 - so_far, 4.0 - share);
+        if number == 0 {
+            sum -= start * 1.5;
+            own -= 0.5;
+        }
+        if number == last {
+            sum -= end.map_or(Vec2::ZERO, |end| end * 1.5);
+            own += if end.is_some() { -0.5 } else { 1.0 };
+        }
+        (share, so_far) = (1.0 / own, sum / own);
+        shares.push(share);
+        points.push(so_far);
+    }
+    for number in (0..last).rev() {
+        let next = points[number + 1];
+        points[number] -= next * shares[number];
+    }
+    points
+}
+
 impl Weave {
     /// Ways through `place(robot, step)` for steps 0..=spans, which serve as control points: corners are rounded.
     pub fn new(scene: &Scene, spans: usize, span_s: f64, place: impl Fn(usize, usize) -> Vec2) -> Self {
@@ -83,6 +110,11 @@ impl Weave {
     /// How many robots.
     pub fn robots(&self) -> usize {
         self.ends.len()
+    }
+
+    /// How long it takes, seconds.
+    pub fn lasts_s(&self) -> f64 {
+        self.span_s * self.spans as f64
     }
 
     /// A robot's control points.
@@ -130,6 +162,26 @@ impl Weave {
         way[1] = start * 1.5 - way[2] * 0.5;
         way[last + 2] = way[last];
         way[last + 1] = end.map_or(way[last], |end| end * 1.5 - way[last] * 0.5);
+    }
+
+    /// Moves everybody through the same places at other times, in one span less than `was` has moments: span `k` then
+    /// ends where they were `was[k + 1]` of the spans before from the beginning.
+    pub fn retime(&mut self, was: &[f64]) {
+        let (before, last) = (self.spans, was.len() - 1);
+        let at = |&was: &f64| {
+            let span = (was as usize).min(before - 1);
+            (span, basis(was - span as f64))
+        };
+        let moments: Vec<_> = was[1..last].iter().map(at).collect();
+        let ways = std::mem::take(&mut self.points);
+        for (way, &(start, end)) in ways.chunks_exact(before + 3).zip(&self.ends) {
+            let places = moments.iter().map(|(span, weights)| blend(&way[*span..*span + 4], weights));
+            self.points.extend([start; 2]);
+            self.points.extend(through(places, start, end));
+            self.points.extend([start; 2]);
+        }
+        self.spans = last;
+        (0..self.robots()).for_each(|robot| self.tie_ends(robot));
     }
 
     /// Smooths a robot's way around a span, where it turns too sharply.
@@ -224,5 +276,42 @@ impl Weave {
             at = pieces.last().map_or(at, |piece| piece.end);
         }
         Path { start, pieces }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::TransitionProblem;
+
+    #[test]
+    fn retimed_ways_lead_through_the_same_places_from_rest_to_rest() {
+        let problem = TransitionProblem {
+            starts: vec![Vec2::ZERO, Vec2::new(0.0, 0.5)],
+            goals: vec![Vec2::new(1.0, 0.0)],
+            ..TransitionProblem::on_floor(Vec2::new(2.0, 2.0), Limits::ELISA_3)
+        };
+        let scene = Scene::new(&problem, &[Some(0), None]).unwrap();
+        let mut weave = Weave::new(&scene, 8, 0.25, |robot, step| {
+            let along = f64::from(step as u32) / 8.0;
+            Vec2::new(along, 0.5 * robot as f64 + 0.1 * (9.0 * along).sin())
+        });
+        let before = weave.clone();
+        let place = |weave: &Weave, robot: usize, moment: f64| {
+            let span = (moment as usize).min(weave.spans - 1);
+            blend(weave.span(robot, span), &basis(moment - span as f64))
+        };
+        let was = [0.0, 1.5, 2.25, 3.0, 3.5, 4.0, 4.5, 5.0, 6.0, 7.0, 8.0];
+        weave.retime(&was);
+        assert_eq!(weave.spans, 10);
+        for robot in 0..2 {
+            for (step, &moment) in was.iter().enumerate().take(10) {
+                let (now, then) = (place(&weave, robot, step as f64), place(&before, robot, moment));
+                assert!(now.distance(then) < 1e-12, "robot {robot}, step {step}: {now:?} {then:?}");
+            }
+            let way = weave.way(robot);
+            assert!(way[0] == way[2] && way[10] == way[12]);
+        }
+        assert!(place(&weave, 0, 10.0).distance(Vec2::new(1.0, 0.0)) < 1e-12);
     }
 }
