@@ -71,8 +71,8 @@ pub(crate) struct Reflex {
     /// `[steps ago]`: how fast it drove, m/s; backwards is negative.
     speeds_mps: [f32; PAST],
     dt: f32,
-    /// What holds it back: the sensor, its gap then, and how fast it may drive, m/s.
-    held: Option<(usize, f32, f64)>,
+    /// What holds it back: the sensor, how near it was then, see `near_m`, and how fast it may drive, m/s.
+    held: Option<(usize, [f32; 2], f64)>,
     block: Option<Block>,
     /// How far away it was that blocks it when it came to stand, and how much farther it may back away from that, metres;
     /// negative: forwards.
@@ -142,11 +142,11 @@ impl Reflex {
             && self.held.is_none_or(|(_, _, held_mps)| mps < held_mps)
         {
             self.count = if self.held.is_some() { self.count } else { 0 };
-            self.held = Some((sensor, self.nearest_m(sensor), mps));
+            self.held = Some((sensor, self.near_m(sensor), mps));
         }
         let free_mps = slowest.map(|(mps, _)| mps);
-        let Some((sensor, gap_m, held_mps)) = self.held else { return free_mps };
-        if self.nearest_m(sensor) > gap_m + WIDENS_M {
+        let Some((sensor, held_m, held_mps)) = self.held else { return free_mps };
+        if self.near_m(sensor).iter().zip(held_m).all(|(&now_m, then_m)| now_m > then_m + WIDENS_M) {
             self.held = None;
             return free_mps;
         }
@@ -227,6 +227,14 @@ impl Reflex {
     /// The gap at a sensor or those beside it, metres: what is in sight passes from one to the next.
     fn nearest_m(&self, sensor: usize) -> f32 {
         around(sensor).iter().map(|&sensor| self.gap_m(sensor)).fold(f32::INFINITY, f32::min)
+    }
+
+    /// How near it is what a sensor or those beside it see, metres: the gap, and the least that one of them says. As it
+    /// passes from one to the next either of the two may widen, but not both.
+    fn near_m(&self, sensor: usize) -> [f32; 2] {
+        let says_m =
+            around(sensor).iter().map(|&sensor| self.past_m[0][sensor]).fold(f32::INFINITY, f32::min);
+        [self.nearest_m(sensor), says_m]
     }
 
     /// How fast the gap at a sensor shrinks; `None` where nothing was in sight twice.

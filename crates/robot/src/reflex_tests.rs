@@ -220,3 +220,34 @@ fn what_stands_between_two_sensors_has_not_gone() {
     }
     assert!(pair.reflex.block().is_some(), "{:.1} mm", pair.gap_m() * 1e3);
 }
+
+#[test]
+fn what_comes_from_between_two_sensors_into_sight_of_one_holds_it_on() {
+    // Two that say 6.5 mm mean 3 mm, one that says 4.3 mm means that: read so, the gap had widened, and it drove on.
+    let mut reflex = Reflex::new();
+    let seen_mm = [
+        (17.3, 40.0),
+        (15.2, 40.0),
+        (9.8, 40.0),
+        (10.2, 40.0),
+        (10.3, 15.0),
+        (7.9, 10.3),
+        (6.5, 6.6),
+        (5.7, 3.7),
+    ];
+    let mut told_mps = SPEED_MPS;
+    let mut look = |one_mm: f32, two_mm: f32, way_m: f64, told_mps: f64| {
+        let mut readings = NOTHING;
+        (readings[1], readings[2]) = (one_mm * 1e-3, two_mm * 1e-3);
+        reflex.look(Some(&readings), (way_m, -0.005), DT);
+        let limit = reflex.limit(Wish { speed_mps: SPEED_MPS, told_mps, ample: true }, &LIMITS);
+        (limit, reflex.block().is_some())
+    };
+    for (one_mm, two_mm) in seen_mm {
+        told_mps = look(one_mm, two_mm, 0.0041, told_mps).0.unwrap_or(SPEED_MPS);
+    }
+    assert!(told_mps < 0.1, "{told_mps}");
+    let stands = [(7.8, 4.6), (7.8, 4.3), (40.0, 4.3), (40.0, 3.8), (40.0, 4.4)];
+    let blocked = stands.map(|(one_mm, two_mm)| look(one_mm, two_mm, 0.0, 0.0));
+    assert!(blocked[4].1, "{blocked:?}");
+}
