@@ -2,12 +2,12 @@
 
 use super::SENSORS;
 
-/// Wheels answer a step late, seconds; a braking robot rolls on as if it had braked so much later: three times of what an
-/// Elisa-3 does at full speed. Who brakes earlier brakes for many more who only cross its way.
+/// Wheels answer a step late, seconds; a braking robot rolls on as if it had braked so much later. Ahead there is a step to
+/// spare, which noise can cost; who brakes as early for what lies aside of its way brakes for many who only cross it.
 const DEAD_S: f32 = 0.016;
-const BRAKING_S: f32 = 0.015;
+const BRAKING_S: [f32; 3] = [0.025, 0.015, 0.015];
 /// This is left when it stands, metres.
-const SPARE_M: f32 = 0.0035;
+const SPARE_M: f32 = 0.003;
 /// Slower than this nothing closes in: noise, m/s.
 const CALM_MPS: f32 = 0.012;
 /// Nearer than this ahead nothing may be, whether it closes in or not, metres.
@@ -74,14 +74,14 @@ impl Approach {
         until_hit_m: impl FnOnce() -> Option<f32>,
     ) -> Option<f32> {
         let by_gap = self.by_gap_mps(look, contact_m);
-        let braking_m = self.next_mps * DEAD_S + self.lately_mps * BRAKING_S + SPARE_M;
+        let braking_m = self.next_mps * DEAD_S + self.lately_mps * BRAKING_S[self.turn] + SPARE_M;
         let nears = self.closing.sure_mps > CALM_MPS && self.gap_m < braking_m;
         let tells = self.gap_m > TOUCHING_M && (self.turn > 0 || look.aside && self.gap_m < ALONE_M);
         let known = if tells && (nears || by_gap.is_some()) { until_hit_m() } else { None };
         let Some(until_hit_m) = known else { return by_gap };
         // Noise makes it look nearer.
         let until_hit_m = until_hit_m.max(self.gap_m);
-        let most_mps = ((until_hit_m - self.next_mps * DEAD_S - SPARE_M) / BRAKING_S).max(0.0);
+        let most_mps = ((until_hit_m - self.next_mps * DEAD_S - SPARE_M) / BRAKING_S[self.turn]).max(0.0);
         let by_place = (most_mps < self.next_mps.max(self.along_mps)).then_some(most_mps);
         // Beside the way the gap alone tells little.
         if self.turn > 0 {
@@ -114,7 +114,7 @@ impl Approach {
         let closing_mps = closing.mps.max(share * along_mps);
         let soon_mps = (closing_mps + (next_mps - along_mps) * share).max(0.0);
         let soon_m = gap_m - soon_mps * DEAD_S;
-        let most_closing_mps = ((soon_m - SPARE_M) / BRAKING_S).max(0.0);
+        let most_closing_mps = ((soon_m - SPARE_M) / BRAKING_S[self.turn]).max(0.0);
         let others_mps = closing_mps - along_mps * share;
         let most_mps = ((most_closing_mps - others_mps) / share).max(0.0);
         (most_mps < next_mps.max(along_mps) || most_closing_mps == 0.0).then_some(most_mps)
