@@ -17,11 +17,16 @@ impl RobotId {
     /// The name a text states; `None` where it cannot be a name.
     pub fn new(text: &str) -> Option<Self> {
         let fits = (1..=Self::MAX_LEN).contains(&text.len());
-        if !fits || !text.bytes().all(Self::may_hold) {
+        if !fits {
             return None;
         }
-        let mut bytes = [0; Self::MAX_LEN];
+        // All bytes there may be, filled up with one that is right: that many the processor looks at together.
+        let mut bytes = [b'-'; Self::MAX_LEN];
         bytes[..text.len()].copy_from_slice(text.as_bytes());
+        if !bytes.iter().fold(true, |all, &byte| all & Self::may_hold(byte)) {
+            return None;
+        }
+        bytes[text.len()..].fill(0);
         Some(Self { bytes, len: text.len() as u8 })
     }
 
@@ -42,7 +47,12 @@ impl RobotId {
 
     /// The name as text.
     pub fn as_str(&self) -> &str {
-        core::str::from_utf8(&self.bytes[..self.len as usize]).unwrap_or("?")
+        core::str::from_utf8(self.as_bytes()).unwrap_or("?")
+    }
+
+    /// The bytes of the name: ASCII.
+    pub fn as_bytes(&self) -> &[u8] {
+        &self.bytes[..self.len as usize]
     }
 
     fn may_hold(byte: u8) -> bool {

@@ -37,6 +37,7 @@ impl Estimate {
     }
 
     /// Carries the pose over one step by wheel turns, radians. `trail` is its own, which lies elsewhere.
+    #[inline]
     pub(crate) fn advance(&mut self, now: Instant, turns_rad: [f64; 2], trail: &mut Trail) {
         if self.delay <= Span::ZERO {
             self.filter.advance(turns_rad);
@@ -52,6 +53,7 @@ impl Estimate {
     }
 
     /// Pulls the pose towards a fix. What is not a number is no fix.
+    #[inline]
     pub(crate) fn correct(&mut self, now: Instant, fix: &Fix, trail: &Trail) {
         if self.delay <= Span::ZERO {
             self.filter.correct(now, fix);
@@ -65,12 +67,16 @@ impl Estimate {
         self.come_to_now(trail);
     }
 
+    #[inline]
     fn come_to_now(&mut self, trail: &Trail) {
         (self.at, self.heading, self.facing) =
             (self.filter.at(), self.filter.heading(), self.filter.facing());
-        if self.delay <= Span::ZERO {
-            return;
+        if self.delay > Span::ZERO {
+            self.follow_trail(trail);
         }
+    }
+
+    fn follow_trail(&mut self, trail: &Trail) {
         let mut turned_by = 0.0;
         for turns in trail.turns() {
             let (way, turn) = self.filter.motion(turns);

@@ -120,7 +120,7 @@ impl Filter {
     /// Pulls the pose towards a fix. What is not a number is no fix.
     pub(crate) fn correct(&mut self, now: Instant, fix: &Fix) {
         let mut off = (Vec2::ZERO, 0.0);
-        if fix.at.is_finite() && fix.at.x.abs() < 1e3 && fix.at.y.abs() < 1e3 {
+        if fix.at.x.abs() < 1e3 && fix.at.y.abs() < 1e3 {
             off.0 = self.judge_place(now, fix.at - self.at);
             self.learn_heading(now, fix.at);
         }

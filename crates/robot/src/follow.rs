@@ -53,6 +53,7 @@ impl Follow {
 
     /// What to do next: `motion` is where the route is and how it moves when this takes effect, by show time; `ahead`
     /// is which way it goes on where it rests or is slow.
+    #[inline]
     pub(crate) fn step(&mut self, motion: &Motion, ahead: Option<Ahead>, body: Body) -> Setpoint {
         let speed = motion.velocity.length();
         if let Some(ahead) = ahead {

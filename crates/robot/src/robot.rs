@@ -25,8 +25,9 @@ use crate::supervise::{Drives, Supervisor};
 /// A message to send. The longest report has 291 bytes.
 pub type Message = heapless::String<320>;
 
-/// A step is taken for no longer than this, seconds; longer pauses are gaps.
-const LONGEST_STEP_S: f64 = 0.1;
+/// A step is taken for no longer than this; longer pauses are gaps.
+const LONGEST_STEP: Span = Span::from_millis(100);
+const LONGEST_STEP_S: f64 = LONGEST_STEP.as_secs();
 /// This far off its route, metres, the robot gives the route up: it is stuck, or was never where the route starts.
 const GIVE_UP_M: f64 = 0.3;
 /// A robot without fixes does not say that it is there if its place is less sure than this, metres.
@@ -74,6 +75,8 @@ struct Doubts {
     lost: bool,
     /// Even if it need not know its place well.
     for_good: bool,
+    /// Fixes that should have come stay away.
+    blind: bool,
 }
 
 impl Robot {
@@ -106,7 +109,7 @@ impl<S: BorrowMut<Shelf>> Robot<S> {
             last_step: None,
             routes: Routes::new(),
             shelf,
-            doubts: Doubts { lost: true, for_good: true },
+            doubts: Doubts { lost: true, for_good: true, blind: true },
             config,
         }
     }
@@ -146,15 +149,19 @@ impl<S: BorrowMut<Shelf>> Robot<S> {
     /// One step, each 16 ms, at `now` of its own clock. Steps further apart than 0.1 s are gaps: the wheels may have
     /// turned meanwhile, but nothing is planned over them.
     pub fn step(&mut self, now: Instant, inputs: &Inputs) -> Outputs {
-        let dt = self.take_time(now);
-        self.sense(now, inputs, dt);
-        self.doubts = Doubts { lost: self.estimate.lost(now), for_good: self.estimate.lost_for_good(now) };
+        let took = self.take_time(now);
+        self.sense(now, inputs, took.as_secs());
+        self.doubts = Doubts {
+            lost: self.estimate.lost(now),
+            for_good: self.estimate.lost_for_good(now),
+            blind: self.is_blind(),
+        };
         let show = self.clock.show_time(now);
         if show.is_some_and(|show| self.routes.begin_due(show, self.shelf.borrow())) {
             self.seek = None;
         }
         self.supervise(now);
-        let wheels_radps = self.act(now, show, dt);
+        let wheels_radps = self.act(now, show, took);
         self.stall.tell(wheels_radps);
         self.state = self.what_it_does(show);
         self.light.say(now, self.trouble(now));
@@ -170,15 +177,15 @@ impl<S: BorrowMut<Shelf>> Robot<S> {
         self.shown
     }
 
-    /// Seconds since the step before; messages may have come in between.
-    fn take_time(&mut self, now: Instant) -> f64 {
+    /// How long the step took; messages may have come in between.
+    fn take_time(&mut self, now: Instant) -> Span {
         if self.last_step.is_none() {
             self.outbox.arrive_new(now);
         }
-        let dt = self.last_step.map_or(0.0, |last| (now - last).as_secs());
+        let took = self.last_step.map_or(Span::ZERO, |last| now - last);
         self.last_step = Some(now);
         self.now = now;
-        dt.clamp(0.0, LONGEST_STEP_S)
+        took.clamp(Span::ZERO, LONGEST_STEP)
     }
 
     fn sense(&mut self, now: Instant, inputs: &Inputs, dt: f64) {
@@ -241,11 +248,11 @@ impl<S: BorrowMut<Shelf>> Robot<S> {
         }
     }
 
-    fn act(&mut self, now: Instant, show: Option<Instant>, dt: f64) -> [f64; 2] {
+    fn act(&mut self, now: Instant, show: Option<Instant>, took: Span) -> [f64; 2] {
         if self.supervisor.faulty(now) || self.supervisor.is_cut() {
             return self.drive.halt();
         }
-        let wants = if self.is_lost_now() { None } else { self.want(show, dt) };
+        let wants = if self.is_lost_now() { None } else { self.want(show, took) };
         let wants = if self.pauses() { Setpoint::default() } else { wants.unwrap_or_default() };
         let most_mps = if self.routes.under_way() {
             let ample = self.routes.room_mm().is_some_and(|room_mm| room_mm >= AMPLE_MM);
@@ -255,7 +262,7 @@ impl<S: BorrowMut<Shelf>> Robot<S> {
             self.reflex.forget();
             None
         };
-        let (slip, limits) = (self.estimate.slip(), &self.config.limits);
+        let (slip, limits, dt) = (self.estimate.slip(), &self.config.limits, took.as_secs());
         let wheels = match most_mps {
             // Held, it may turn on the spot for what comes.
             _ if self.reflex.block().is_some() && !self.routes.rests_held() => {
@@ -276,14 +283,14 @@ impl<S: BorrowMut<Shelf>> Robot<S> {
 
     /// Whether it had better stand until fixes come again, because it would be lost if it drove on.
     fn pauses(&mut self) -> bool {
-        self.pauses = self.is_blind()
+        self.pauses = self.doubts.blind
             && (self.pauses
                 || self.estimate.error_at_worst_m(self.drive.braking_m(&self.config.limits)) > PAUSE_M);
         self.pauses
     }
 
     /// What it wants to do: the route under way, else the target, else turn towards what comes.
-    fn want(&mut self, show: Option<Instant>, dt: f64) -> Option<Setpoint> {
+    fn want(&mut self, show: Option<Instant>, took: Span) -> Option<Setpoint> {
         if !self.routes.under_way() && self.seek.is_none() && !self.routes.keeps_one() {
             return None;
         }
@@ -293,11 +300,11 @@ impl<S: BorrowMut<Shelf>> Robot<S> {
         }
         let limits = &self.config.limits;
         let body = Body { at: self.estimate.at(), facing: self.estimate.facing() };
-        let soon = self.drive.foresee(body, dt);
+        let soon = self.drive.foresee(body, took.as_secs());
         if let Some(show) = show.filter(|_| self.routes.under_way()) {
             let away = self.reflex.give_way(self.routes.room_mm());
             let aside = soon.facing * away.x + soon.facing.left() * away.y;
-            return self.routes.step(show + Span::from_secs(dt), soon, aside, limits, self.shelf.borrow());
+            return self.routes.step(show + took, soon, aside, limits, self.shelf.borrow());
         }
         match self.seek.as_mut() {
             Some(seek) => Some(seek.step(soon, limits)),
@@ -310,7 +317,7 @@ impl<S: BorrowMut<Shelf>> Robot<S> {
         if !self.drive.stands() || self.is_lost_now() {
             return;
         }
-        if self.is_blind() && self.estimate.error_m() > SURE_M {
+        if self.doubts.blind && self.estimate.error_m() > SURE_M {
             return;
         }
         let at = self.estimate.at();
@@ -327,7 +334,7 @@ impl<S: BorrowMut<Shelf>> Robot<S> {
             self.outbox.ask_time();
         }
         let knows_place = self.state != RobotState::Lost && !self.is_lost_now();
-        let err_m = (self.routes.under_way() && self.is_blind()).then(|| self.err_m());
+        let err_m = (self.routes.under_way() && self.doubts.blind).then(|| self.err_m());
         self.outbox.notice(now, self.state, self.routes.off_m(), err_m, knows_place);
         self.outbox.notice_block(self.blocked().map(|blocked| blocked.towards));
     }

@@ -117,7 +117,12 @@ impl Routes {
 
     /// Lets the kept route take over when its moment has come, or forgets a moment that was missed because the clock
     /// was not known. Tells whether it took over.
+    #[inline]
     pub(crate) fn begin_due(&mut self, show: Instant, shelf: &Shelf) -> bool {
+        self.kept.is_some() && self.begin_kept(show, shelf)
+    }
+
+    fn begin_kept(&mut self, show: Instant, shelf: &Shelf) -> bool {
         if let Some(kept) = self.kept.as_mut() {
             kept.starts = kept.starts.filter(|&at| show - at <= TOO_LATE);
         }

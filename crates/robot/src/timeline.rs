@@ -90,6 +90,7 @@ impl Timeline {
     }
 
     /// Progress at a moment of the show clock; before the route's start, its path time is negative.
+    #[inline]
     pub(crate) fn at(&self, show: Instant) -> Progress {
         let mut point = self.base;
         for event in self.events.iter().take_while(|event| event.at <= show) {

@@ -54,11 +54,12 @@ fn print(robots: usize, measured: &Measured, json: bool) {
     let (factor, whole) = (report.duration_s / play_s, report.duration_s / (plan_s + play_s));
     let row = format!(
         "{{\"robots\":{robots},\"show_s\":{:.1},\"plan_s\":{plan_s:.3},\"play_s\":{play_s:.3},\"times_real_time\":{factor:.1},\
-         \"with_planning\":{whole:.1},\"ns_a_robot_step\":{:.0},\"ok\":{},\"contacts\":{}}}",
+         \"with_planning\":{whole:.1},\"ns_a_robot_step\":{:.0},\"ok\":{},\"contacts\":{},\"state_hash\":\"{}\"}}",
         report.duration_s,
         play_s / steps * 1e9,
         report.ok,
         report.contacts,
+        report.state_hash,
     );
     println!("{row}");
     for issue in report.issues.iter().take(if json { 0 } else { 5 }) {

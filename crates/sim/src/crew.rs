@@ -186,46 +186,48 @@ impl Crew {
         self.sensors.next_step();
         self.steps += 1;
         let drained = (self.steps / STEPS_PER_PERCENT).min(100) as u8;
-        for index in 0..self.members.len() {
-            if self.members.len() > CACHED {
-                self.fetch(index + 1);
+        let Self { world, sensors, members, errors, payload, steps, .. } = self;
+        let (members, steps) = (members.as_mut_slice(), *steps);
+        for index in 0..members.len() {
+            if members.len() > CACHED {
+                fetch(members, index + 1);
             }
-            let member = &mut self.members[index];
+            let member = &mut members[index];
             if !member.alive {
                 continue;
             }
-            let fix = self.sensors.fix(index, self.world.pose(index)).filter(|_| !member.blind);
+            let fix = sensors.fix(index, world.pose(index)).filter(|_| !member.blind);
             let robot = match &mut member.mind {
                 Mind::Ours(robot) => robot,
                 Mind::Original(robot) => {
                     let Deeds { wheels_radps, light } = robot.step(fix);
                     member.light = light;
-                    self.world.tell(index, if member.stuck { [0.0; 2] } else { wheels_radps });
-                    member.speak(index, &mut self.payload, hear);
+                    world.tell(index, if member.stuck { [0.0; 2] } else { wheels_radps });
+                    member.speak(index, payload, hear);
                     continue;
                 }
             };
-            self.errors.look(self.steps, index, robot, &self.world);
+            errors.look(steps, index, robot, world);
             let inputs = Inputs {
-                wheel_turns_rad: self.world.wheel_turns(index),
+                wheel_turns_rad: world.wheel_turns(index),
                 fix: fix.map(|fix| Fix { at: fix.at, heading: Some(fix.heading) }),
                 battery: Some(member.battery.saturating_sub(drained)),
-                proximity_m: Some(self.world.proximity_m(index)),
+                proximity_m: Some(world.proximity_m(index)),
             };
             let outputs = robot.step(member.clock.own(now), &inputs);
-            self.errors.look_again(self.steps, index, robot, &self.world);
+            errors.look_again(steps, index, robot, world);
             member.light = outputs.light;
-            self.world.tell(index, if member.stuck { [0.0; 2] } else { outputs.wheels_radps });
-            member.speak(index, &mut self.payload, hear);
+            world.tell(index, if member.stuck { [0.0; 2] } else { outputs.wheels_radps });
+            member.speak(index, payload, hear);
         }
     }
+}
 
-    /// Fetches a robot from memory before its turn.
-    #[inline]
-    fn fetch(&self, index: usize) {
-        if let Some(Member { mind: Mind::Ours(robot), .. }) = self.members.get(index) {
-            robot.fetch();
-        }
+/// Fetches a robot from memory before its turn.
+#[inline]
+fn fetch(members: &[Member], index: usize) {
+    if let Some(Member { mind: Mind::Ours(robot), .. }) = members.get(index) {
+        robot.fetch();
     }
 }
 

@@ -1,7 +1,5 @@
 //! How quickly a turning Elisa-3 turns: its effective track, as measured.
 
-use std::sync::LazyLock;
-
 /// Metres of rim a wheel lays down per radian: its radius.
 pub(crate) const WHEEL_RADIUS_M: f64 = 0.0045;
 
@@ -23,8 +21,7 @@ const DRIVING_RADPS: f64 = 50.0;
 /// Rows of the look-up table, one for each rad/s of half the difference; wheels cannot differ by more.
 const ROWS: usize = 142;
 
-static ROWS_BY_RATE: LazyLock<Box<[(f64, f64); ROWS]>> =
-    LazyLock::new(|| Box::new(std::array::from_fn(|rate| interpolate(rate as f64))));
+static ROWS_BY_RATE: [(f64, f64); ROWS] = rows_by_rate();
 
 /// The turning rate (rad/s, counter-clockwise) that wheels turning at these rates (rad/s) settle at.
 #[inline]
@@ -34,25 +31,37 @@ pub(crate) fn turn_radps(left: f64, right: f64) -> f64 {
         return 0.0;
     }
     let rate = half.abs().min((ROWS - 2) as f64);
-    let row = rate as usize;
-    let share = rate - row as f64;
-    let rows: &[(f64, f64); ROWS] = &ROWS_BY_RATE;
-    let (low, high) = (rows[row], rows[row + 1]);
+    // A whole number of 32 bits: the processor has an instruction for that.
+    let row = rate as i32;
+    let share = rate - f64::from(row);
+    let (low, high) = (ROWS_BY_RATE[row as usize], ROWS_BY_RATE[row as usize + 1]);
     let driving = (0.5 * (left + right).abs() * (1.0 / DRIVING_RADPS)).min(1.0);
     let track = low.0 + (high.0 - low.0) * share + (low.1 + (high.1 - low.1) * share) * driving;
     2.0 * WHEEL_RADIUS_M * half / track
 }
 
-fn interpolate(rate: f64) -> (f64, f64) {
-    let first = MEASURED[0];
-    let mut before = first;
-    for row in MEASURED {
+const fn rows_by_rate() -> [(f64, f64); ROWS] {
+    let mut rows = [(0.0, 0.0); ROWS];
+    let mut rate = 0;
+    while rate < ROWS {
+        rows[rate] = interpolate(rate as f64);
+        rate += 1;
+    }
+    rows
+}
+
+const fn interpolate(rate: f64) -> (f64, f64) {
+    let mut before = MEASURED[0];
+    let mut next = 0;
+    while next < MEASURED.len() {
+        let row = MEASURED[next];
         if rate <= row.0 {
             let span = row.0 - before.0;
             let share = if span > 0.0 { (rate - before.0) / span } else { 0.0 };
             return (before.1 + (row.1 - before.1) * share, before.2 + (row.2 - before.2) * share);
         }
         before = row;
+        next += 1;
     }
     (before.1, before.2)
 }

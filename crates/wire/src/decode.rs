@@ -1,9 +1,8 @@
 //! Bytes → commands.
 
-use core::str::{Split, SplitAsciiWhitespace};
-
 use lightbots_base::{Instant, Rgb, Span, Vec2};
 
+use crate::fields::{Fields, cut};
 use crate::number::{instant, number, span};
 use crate::path::decode_route;
 use crate::{Blink, Command, Fade, TimeAnswer};
@@ -30,7 +29,8 @@ pub enum Unknown {
 /// The commands of a payload, decoded one by one as they are asked for.
 #[derive(Clone, Debug)]
 pub struct Commands<'a> {
-    parts: Split<'a, char>,
+    /// What is left to read.
+    rest: Option<&'a str>,
     refused: Option<Unknown>,
 }
 
@@ -40,7 +40,7 @@ pub fn commands(payload: &[u8]) -> Commands<'_> {
         0..=MAX_PAYLOAD => core::str::from_utf8(payload).map_err(|_| Unknown::NotText),
         _ => Err(Unknown::TooLong),
     };
-    Commands { parts: read.unwrap_or("").split('|'), refused: read.err() }
+    Commands { rest: read.ok(), refused: read.err() }
 }
 
 impl Iterator for Commands<'_> {
@@ -51,7 +51,9 @@ impl Iterator for Commands<'_> {
             return Some(Err(why));
         }
         loop {
-            let mut fields = self.parts.next()?.split_ascii_whitespace();
+            let (part, rest) = cut(self.rest?, b'|');
+            self.rest = rest;
+            let mut fields = Fields::new(part);
             if let Some(word) = fields.next() {
                 return decode(word, &mut fields);
             }
@@ -63,7 +65,7 @@ impl Iterator for Commands<'_> {
 /// versions may add some.
 // Every way makes the whole answer where it is returned: a command has room for a route, and handing it on once more
 // would copy all of that for a `HOLD` as well.
-fn decode(word: &str, fields: &mut SplitAsciiWhitespace<'_>) -> Option<Result<Command, Unknown>> {
+fn decode(word: &str, fields: &mut Fields<'_>) -> Option<Result<Command, Unknown>> {
     match word {
         "TARGET" => made(target(fields), Command::Target),
         "COLOR" => made(colour(fields), Command::Color),
@@ -90,34 +92,34 @@ fn made<T>(read: Result<T, Unknown>, command: impl Fn(T) -> Command) -> Option<R
     }
 }
 
-fn target(fields: &mut SplitAsciiWhitespace<'_>) -> Result<Vec2, Unknown> {
+fn target(fields: &mut Fields<'_>) -> Result<Vec2, Unknown> {
     let mut next = || fields.next().and_then(number).ok_or(Unknown::Fields);
     Ok(Vec2::new(next()?, next()?))
 }
 
-fn start(fields: &mut SplitAsciiWhitespace<'_>) -> Result<(u32, Instant), Unknown> {
+fn start(fields: &mut Fields<'_>) -> Result<(u32, Instant), Unknown> {
     let seq = fields.next().and_then(|field| field.parse().ok()).filter(|&seq| seq != 0);
     Ok((seq.ok_or(Unknown::Fields)?, moment(fields)?))
 }
 
-fn time(fields: &mut SplitAsciiWhitespace<'_>) -> Result<TimeAnswer, Unknown> {
+fn time(fields: &mut Fields<'_>) -> Result<TimeAnswer, Unknown> {
     let answer = TimeAnswer { asked: moment(fields)?, received: moment(fields)?, sent: moment(fields)? };
     if answer.received <= answer.sent { Ok(answer) } else { Err(Unknown::Fields) }
 }
 
-fn fade(fields: &mut SplitAsciiWhitespace<'_>) -> Result<Fade, Unknown> {
+fn fade(fields: &mut Fields<'_>) -> Result<Fade, Unknown> {
     Ok(Fade { to: colour(fields)?, at: moment(fields)?, over: duration(fields)? })
 }
 
-fn colour(fields: &mut SplitAsciiWhitespace<'_>) -> Result<Rgb, Unknown> {
+fn colour(fields: &mut Fields<'_>) -> Result<Rgb, Unknown> {
     let number = fields.next().and_then(|field| field.parse().ok());
     number.and_then(Rgb::from_number).ok_or(Unknown::Fields)
 }
 
-fn moment(fields: &mut SplitAsciiWhitespace<'_>) -> Result<Instant, Unknown> {
+fn moment(fields: &mut Fields<'_>) -> Result<Instant, Unknown> {
     fields.next().and_then(instant).ok_or(Unknown::Fields)
 }
 
-fn duration(fields: &mut SplitAsciiWhitespace<'_>) -> Result<Span, Unknown> {
+fn duration(fields: &mut Fields<'_>) -> Result<Span, Unknown> {
     fields.next().and_then(span).ok_or(Unknown::Fields)
 }

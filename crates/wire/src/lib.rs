@@ -18,6 +18,7 @@
 mod command;
 mod decode;
 mod encode;
+mod fields;
 mod number;
 mod path;
 mod pen;

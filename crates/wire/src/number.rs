@@ -29,11 +29,16 @@ pub fn number(text: &str) -> Option<f64> {
     plain_decimal(bytes).or_else(|| any_number(bytes))
 }
 
-/// `[-]digits[.,]digits` with so few digits that the result is exact to the last bit.
+/// `[-]digits[.,]digits[E-digit]` with so few digits that the result is exact to the last bit.
 fn plain_decimal(bytes: &[u8]) -> Option<f64> {
     let (negative, digits) = match bytes {
         [b'-', rest @ ..] => (true, rest),
         _ => (false, bytes),
+    };
+    // As `Double.toString` writes what is below a thousandth.
+    let (digits, smaller) = match digits {
+        [digits @ .., b'E', b'-', exponent @ b'0'..=b'9'] => (digits, usize::from(exponent - b'0')),
+        _ => (digits, 0),
     };
     let mut mantissa = 0u64;
     let mut point = None;
@@ -49,7 +54,7 @@ fn plain_decimal(bytes: &[u8]) -> Option<f64> {
         }
     }
     let decimals = count - point.unwrap_or(count);
-    let scale = POWERS_OF_TEN.get(decimals).filter(|_| count > 0)?;
+    let scale = POWERS_OF_TEN.get(decimals + smaller).filter(|_| count > 0)?;
     let value = mantissa as f64 / scale;
     Some(if negative { -value } else { value })
 }
@@ -102,12 +107,20 @@ pub(crate) fn write_int(out: &mut Pen<'_>, value: i64) -> fmt::Result {
 
 /// Writes digits, with zeros in front up to `width` (at most 20).
 pub(crate) fn write_digits(out: &mut Pen<'_>, mut value: u64, width: usize) -> fmt::Result {
+    if value < 10 && width <= 1 {
+        return out.bytes(&[b'0' + value as u8]);
+    }
     let mut digits = [b'0'; 20];
     let mut first = digits.len();
-    while value > 0 {
+    while value >= 10 {
+        first -= 2;
+        let two = (value % 100) as u8;
+        (digits[first], digits[first + 1]) = (b'0' + two / 10, b'0' + two % 10);
+        value /= 100;
+    }
+    if value > 0 {
         first -= 1;
-        digits[first] = b'0' + (value % 10) as u8;
-        value /= 10;
+        digits[first] = b'0' + value as u8;
     }
     first = first.min(digits.len() - width.clamp(1, 20));
     out.bytes(&digits[first..])
@@ -179,6 +192,9 @@ mod tests {
             ("0,500000", 0.5),
             ("-1.250000", -1.25),
             ("1.0E-4", 1e-4),
+            ("-7,0E-4", -7e-4),
+            ("1E-22", 1e-22),
+            ("123456789.0123E-9", 0.123_456_789_012_3),
             ("-2,5e3", -2500.0),
             ("+3", 3.0),
             (".5", 0.5),
@@ -208,6 +224,9 @@ mod tests {
             "1 ",
             "ü",
             "--1",
+            "E-4",
+            "1E-",
+            "1E-4.0",
             "000000000000000000000000000000001",
         ] {
             assert_eq!(number(text), None, "{text:?}");
@@ -223,6 +242,27 @@ mod tests {
             let mut text = Text::new();
             write!(text, "{value}").unwrap();
             assert_eq!(number(&text), Some(value), "{text}");
+        }
+    }
+
+    #[test]
+    fn what_is_below_a_thousandth_is_read_as_by_the_standard_library() {
+        for mantissa in (0..10_000_000u64).step_by(977) {
+            for exponent in 0..10 {
+                let mut text = Text::new();
+                write!(text, "-{}.{:04}E-{exponent}", mantissa / 10_000, mantissa % 10_000).unwrap();
+                assert_eq!(number(&text), text.parse().ok(), "{text}");
+            }
+        }
+    }
+
+    #[test]
+    fn whole_numbers_have_all_their_digits() {
+        let around = |power: u64| [power - 1, power, power + 1, power * 5 / 2];
+        for value in (0..19).flat_map(|power| around(10u64.pow(power))).chain([u64::MAX]) {
+            let mut text = Text::new();
+            write!(text, "{value:03}").unwrap();
+            assert_eq!(written(|pen| write_digits(pen, value, 3)), text);
         }
     }
 

@@ -3,10 +3,10 @@
 //! A piece is `R us` (rest), `L us x y` (straight at constant speed) or `C us x1 y1 x2 y2 x y` (cubic Bézier).
 
 use core::fmt::{self, Write};
-use core::str::SplitAsciiWhitespace;
 
 use lightbots_base::{Piece, Span, Vec2};
 
+use crate::fields::Fields;
 use crate::number::{metres, span, tenths, write_digits, write_int};
 use crate::pen::Pen;
 use crate::{Pieces, Route};
@@ -15,7 +15,7 @@ use crate::{Pieces, Route};
 type Tenths = [i32; 2];
 
 /// The route after the word `PATH`; `None` unless every field is right and there are at most `MAX_PIECES` pieces.
-pub(crate) fn decode_route(fields: &mut SplitAsciiWhitespace<'_>) -> Option<Route> {
+pub(crate) fn decode_route(fields: &mut Fields<'_>) -> Option<Route> {
     let seq = fields.next()?.parse().ok().filter(|&seq| seq != 0)?;
     let start = place(fields)?;
     let mut route = Route { seq, start, pieces: Pieces::new(), room_mm: None };
@@ -32,7 +32,7 @@ pub(crate) fn decode_route(fields: &mut SplitAsciiWhitespace<'_>) -> Option<Rout
     Some(route)
 }
 
-fn decode_piece(kind: &str, from: Vec2, fields: &mut SplitAsciiWhitespace<'_>) -> Option<Piece> {
+fn decode_piece(kind: &str, from: Vec2, fields: &mut Fields<'_>) -> Option<Piece> {
     let duration = fields.next().and_then(span).filter(|&duration| duration > Span::ZERO)?;
     Some(match kind {
         "R" => Piece::rest(from, duration),
@@ -42,7 +42,7 @@ fn decode_piece(kind: &str, from: Vec2, fields: &mut SplitAsciiWhitespace<'_>) -
     })
 }
 
-fn place(fields: &mut SplitAsciiWhitespace<'_>) -> Option<Vec2> {
+fn place(fields: &mut Fields<'_>) -> Option<Vec2> {
     let (x, y) = (metres(fields.next()?)?, metres(fields.next()?)?);
     Some(Vec2::new(x, y))
 }

@@ -25,13 +25,18 @@ impl<'a> Pen<'a> {
     }
 
     /// Writes whole characters of UTF-8.
-    #[inline]
+    #[inline(always)] // What is written is a word that the compiler knows, mostly: then it copies it without a call.
     pub(crate) fn bytes(&mut self, bytes: &[u8]) -> fmt::Result {
         if let Some(room) = self.text.get_mut(self.len..self.len + bytes.len()) {
             room.copy_from_slice(bytes);
             self.len += bytes.len();
             return Ok(());
         }
+        self.apart(bytes)
+    }
+
+    #[cold]
+    fn apart(&mut self, bytes: &[u8]) -> fmt::Result {
         self.hand_on()?;
         self.out.write_str(core::str::from_utf8(bytes).map_err(|_| fmt::Error)?)
     }
@@ -44,7 +49,7 @@ impl<'a> Pen<'a> {
 }
 
 impl Write for Pen<'_> {
-    #[inline]
+    #[inline(always)] // As `Pen::bytes`.
     fn write_str(&mut self, text: &str) -> fmt::Result {
         self.bytes(text.as_bytes())
     }

@@ -1,0 +1,104 @@
+//! Texts cut into their fields, eight bytes at a time: messages are short, but there are many.
+
+const EACH: u64 = 0x0101_0101_0101_0101;
+const HIGH: u64 = 0x8080_8080_8080_8080;
+
+/// What lies between ASCII whitespace, in order; as `str::split_ascii_whitespace` has it.
+#[derive(Clone, Debug)]
+pub(crate) struct Fields<'a> {
+    rest: &'a str,
+}
+
+impl<'a> Fields<'a> {
+    pub(crate) fn new(text: &'a str) -> Self {
+        Self { rest: text }
+    }
+}
+
+impl<'a> Iterator for Fields<'a> {
+    type Item = &'a str;
+
+    #[inline]
+    fn next(&mut self) -> Option<&'a str> {
+        loop {
+            let end = first(self.rest.as_bytes(), below_exclamation, |byte| byte.is_ascii_whitespace());
+            let field = &self.rest[..end];
+            self.rest = self.rest.get(end + 1..).unwrap_or("");
+            if !field.is_empty() {
+                return Some(field);
+            }
+            if self.rest.is_empty() {
+                return None;
+            }
+        }
+    }
+}
+
+/// What lies before the first `stop`, an ASCII character, and what lies after it, if there is one.
+#[inline]
+pub(crate) fn cut(text: &str, stop: u8) -> (&str, Option<&str>) {
+    let pattern = EACH * u64::from(stop);
+    let end = first(text.as_bytes(), |word| zeros(word ^ pattern), |byte| byte == stop);
+    (&text[..end], text.get(end + 1..))
+}
+
+/// The index of the first byte that is sought, or the length. `marks` sets the highest bit of each byte of a word that
+/// may be sought, of the lowest such byte for sure; higher ones it may mark wrongly.
+#[inline]
+fn first(bytes: &[u8], marks: impl Fn(u64) -> u64, sought: impl Fn(u8) -> bool) -> usize {
+    let mut at = 0;
+    while let Some(word) = bytes[at..].first_chunk() {
+        let marks = marks(u64::from_le_bytes(*word));
+        if marks == 0 {
+            at += 8;
+            continue;
+        }
+        at += marks.trailing_zeros() as usize / 8;
+        if sought(bytes[at]) {
+            return at;
+        }
+        at += 1;
+    }
+    at + bytes[at..].iter().position(|&byte| sought(byte)).unwrap_or(bytes.len() - at)
+}
+
+/// Marks bytes below `!`: whitespace, and control characters.
+fn below_exclamation(word: u64) -> u64 {
+    word.wrapping_sub(EACH * 0x21) & !word & HIGH
+}
+
+/// Marks bytes that are zero.
+fn zeros(word: u64) -> u64 {
+    word.wrapping_sub(EACH) & !word & HIGH
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn fields_are_those_of_the_standard_library() {
+        // All that a byte can be to it, in all orders of up to eight around the seam of two words.
+        let parts = ["a", " ", "\t", "\u{b}", "ü", "=\u{1}", "bcdefgh"];
+        for number in 0..7u32.pow(6) {
+            let mut text = heapless::String::<64>::new();
+            for place in 0..6 {
+                text.push_str(parts[(number / 7u32.pow(place)) as usize % 7]).unwrap();
+            }
+            assert!(Fields::new(&text).eq(text.split_ascii_whitespace()), "{text:?}");
+            let (before, after) = cut(&text, b'=');
+            match text.split_once('=') {
+                Some(both) => assert_eq!((before, after), (both.0, Some(both.1)), "{text:?}"),
+                None => assert_eq!((before, after), (text.as_str(), None), "{text:?}"),
+            }
+        }
+    }
+
+    #[test]
+    fn there_are_no_fields_in_nothing() {
+        assert_eq!(Fields::new("").next(), None);
+        assert_eq!(Fields::new("  \r\n ").next(), None);
+        assert_eq!(cut("", b'|'), ("", None));
+        assert_eq!(cut("|", b'|'), ("", Some("")));
+    }
+}
