@@ -119,7 +119,8 @@ pub struct RunArguments {
     /// Folder of the library of shows [default: lightbots in the user's data folder]
     #[arg(long, value_name = "DIR")]
     pub data: Option<PathBuf>,
-    /// Seed of the simulated robots, their names included [default: another one each time]
+    /// Seed of the simulated robots, their names included, which pins in a show go by [default: 1; with --broker,
+    /// where others may bear those names, another one each time]
     #[arg(long, value_name = "S", allow_hyphen_values = true, value_parser = seed)]
     pub seed: Option<u64>,
     /// Simulated robots without sensor noise and wheel slip

@@ -144,9 +144,9 @@ fn issue(kind: &EventKind) -> Option<Issue> {
 
 /// The report on stdout.
 pub fn print(report: RunReport, json: bool) -> Result<(), Failure> {
-    let spread = |values: Vec<f64>| {
+    let spread = |values: Vec<f64>, decimals: i32| {
         let Spread { median, p99, max } = Spread::of(values);
-        Spread { median: rounded(median, 4), p99: rounded(p99, 4), max: rounded(max, 4) }
+        Spread { median: rounded(median, decimals), p99: rounded(p99, decimals), max: rounded(max, decimals) }
     };
     let summary = Summary {
         ok: report.ok(),
@@ -154,8 +154,8 @@ pub fn print(report: RunReport, json: bool) -> Result<(), Failure> {
         frames: report.frames,
         frames_played: report.frames_played,
         duration_s: rounded(report.duration_s, 3),
-        arrival_spread_s: spread(report.spreads_s),
-        position_error_m: spread(report.errors_m),
+        arrival_spread_s: spread(report.spreads_s, 3),
+        position_error_m: spread(report.errors_m, 5),
         dropouts: report.dropouts,
         issues: &report.issues,
     };

@@ -25,7 +25,7 @@ pub struct FleetConfig {
     pub stage: Stage,
     /// Where robots stand at power-on, stage metres; one each.
     pub starts: Vec<Vec2>,
-    /// Names, clocks, slip and noise follow from it.
+    /// Names, clocks, slip and noise follow from it. A robot's name is the same however many there are.
     pub seed: u64,
     /// Slip, sensors and clocks. Links and breakdowns are left to the real network.
     pub conditions: Conditions,

@@ -92,6 +92,17 @@ fn robots_on_a_path_are_where_it_says_when_it_says() {
 }
 
 #[test]
+fn names_follow_from_the_seed_and_the_place_in_the_list_alone() {
+    let names = |robots: u32, seed, conditions| {
+        let starts = (0..robots).map(|nth| Vec2::new(0.1 * f64::from(nth), 0.0)).collect();
+        Fleet::new(&FleetConfig { stage: Stage::default(), starts, seed, conditions }).ids()
+    };
+    let few = names(3, 7, Conditions::default());
+    assert_eq!(few, names(9, 7, Conditions::ideal())[..3]);
+    assert!(names(9, 8, Conditions::default()).iter().all(|name| !few.contains(name)));
+}
+
+#[test]
 fn an_original_controller_is_understood() {
     let mut hall = Hall::new(vec![Vec2::ZERO, Vec2::new(0.5, 0.0)], Conditions::default());
     hall.run(20);

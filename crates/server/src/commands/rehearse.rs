@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::time::Instant;
 
-use lightbots_sim::{Conditions, Faults, Progress, RehearsalOptions, RehearsalReport, rehearse};
+use lightbots_sim::{Conditions, Faults, Progress, RehearsalOptions, RehearsalReport, Spread, rehearse};
 
 use super::{count, print_issues, print_json};
 use crate::cli::RehearseArguments;
@@ -43,7 +43,7 @@ pub fn run(arguments: &RehearseArguments) -> Outcome {
             .map_err(|error| Failure::input(format!("{}: cannot be written: {error}", file.display())))?;
     }
     if arguments.json {
-        print_json(&report)?;
+        print_json(&readable(report.clone()))?;
     } else {
         print(&report);
     }
@@ -54,6 +54,32 @@ pub fn run(arguments: &RehearseArguments) -> Outcome {
 fn title(name: &str, file: &Path) -> String {
     let stem = file.file_stem().map(|stem| stem.to_string_lossy().into_owned());
     if name.is_empty() { stem.unwrap_or_default() } else { name.to_owned() }
+}
+
+/// The report with numbers rounded as those of `check` are.
+fn readable(mut report: RehearsalReport) -> RehearsalReport {
+    for seconds in [&mut report.duration_s, &mut report.lower_bound_s] {
+        *seconds = rounded(*seconds, 3);
+    }
+    report.closest_m = report.closest_m.map(|metres| rounded(metres, 5));
+    report.arrival_spread_s = of_spread(report.arrival_spread_s, 3);
+    // Clocks are microseconds apart.
+    report.clock_spread_s = of_spread(report.clock_spread_s, 6);
+    for errors_m in [&mut report.position_error_m, &mut report.estimate_error_m, &mut report.tracking_error_m]
+    {
+        *errors_m = of_spread(*errors_m, 5);
+    }
+    for frame in &mut report.per_frame {
+        for seconds in [&mut frame.at_s, &mut frame.drive_s, &mut frame.arrival_spread_s] {
+            *seconds = rounded(*seconds, 3);
+        }
+        frame.position_error_m = of_spread(frame.position_error_m, 5);
+    }
+    report
+}
+
+fn of_spread(Spread { median, p99, max }: Spread, decimals: i32) -> Spread {
+    Spread { median: rounded(median, decimals), p99: rounded(p99, decimals), max: rounded(max, decimals) }
 }
 
 fn print(report: &RehearsalReport) {

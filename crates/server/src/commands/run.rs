@@ -25,6 +25,8 @@ use crate::{open_files, say, show_file};
 
 /// The example that is opened when no show is named.
 const FIRST: &str = "countdown";
+/// The seed of simulated robots, where no other is asked for.
+const USUAL_SEED: u64 = 1;
 /// So many faults of the show are said at the start; the screen lists them all.
 const ISSUES_SHOWN: usize = 5;
 /// Robots and broker get so long to say goodbye.
@@ -81,6 +83,7 @@ async fn serve(arguments: &RunArguments, stop: &Stop, started: &mut Started) -> 
         None
     };
     let Some(own) = other.clone().or_else(|| embedded.clone()) else { return Ok(false) };
+    let seed = robots_seed(arguments.seed, other.is_none());
     let (settings, broker) = chosen(arguments, other, &own, &data);
     let (handle, conductor) = Handle::start(stop.clone());
     started.tasks.push(conductor);
@@ -90,7 +93,7 @@ async fn serve(arguments: &RunArguments, stop: &Stop, started: &mut Started) -> 
     let cast = Cast {
         broker: own,
         count,
-        seed: robots::seed(arguments.seed),
+        seed,
         conditions: robots::conditions(arguments.ideal),
         simulated: shared.simulated.clone(),
     };
@@ -101,6 +104,12 @@ async fn serve(arguments: &RunArguments, stop: &Stop, started: &mut Started) -> 
     greet(address, &broker, robots, started.broker.as_ref().and_then(Broker::tls_address));
     web::serve(listener, shared).await;
     Ok(false)
+}
+
+/// On our own broker robots have the same names each time, so that a show's pins still fit; on that of others somebody
+/// else's may have them.
+fn robots_seed(asked: Option<u64>, is_own_broker: bool) -> u64 {
+    if is_own_broker { asked.unwrap_or(USUAL_SEED) } else { robots::seed(asked) }
 }
 
 fn tls_options(arguments: &RunArguments) -> Option<TlsOptions> {

@@ -29,7 +29,7 @@ pub struct Cast {
     pub broker: BrokerUrl,
     /// How many; `None`: as many as the open show needs.
     pub count: Option<usize>,
-    /// Seed of the first ones.
+    /// Their seed: robots that are recast have the names of those before.
     pub seed: u64,
     /// What they suffer.
     pub conditions: Conditions,
@@ -44,7 +44,7 @@ impl Cast {
     }
 
     /// Keeps robots on the broker until `stop` is wanted.
-    pub async fn run(mut self, handle: Handle, mut shown: watch::Receiver<Arc<Shown>>, stop: Stop) {
+    pub async fn run(self, handle: Handle, mut shown: watch::Receiver<Arc<Shown>>, stop: Stop) {
         while !stop.is_wanted() {
             let show = shown.borrow_and_update().show.clone();
             let robots = Self::robots(self.count, &show);
@@ -75,7 +75,6 @@ impl Cast {
                 // One that nobody knew needs not be forgotten.
                 let _ = handle.operate(Operation::Forget(name)).await;
             }
-            self.seed = self.seed.wrapping_add(1);
         }
     }
 

@@ -63,6 +63,46 @@ fn check_says_who_comes_closest_when_and_where() {
     assert!(line.ends_with("on the way to frame 2 \"B\""), "{line}");
 }
 
+/// The most decimals of a number below a key that ends like this, and whether there was one.
+fn most_decimals(value: &Value, key: &str, ending: &str) -> Option<usize> {
+    let inside = |pairs: Vec<(String, &Value)>| {
+        pairs.iter().filter_map(|(key, value)| most_decimals(value, key, ending)).max()
+    };
+    match value {
+        Value::Object(map) => {
+            // What lies below a key has its unit.
+            let key_of = |inner: &String| {
+                let own = inner.ends_with("_s") || inner.ends_with("_m") || inner.ends_with("_ms");
+                if own { inner.clone() } else { key.to_owned() }
+            };
+            inside(map.iter().map(|(inner, value)| (key_of(inner), value)).collect())
+        }
+        Value::Array(list) => inside(list.iter().map(|value| (key.to_owned(), value)).collect()),
+        Value::Number(number) if key.ends_with(ending) => {
+            let value = number.as_f64().unwrap();
+            let is_whole = |&decimals: &usize| {
+                let scaled = value * 10_f64.powi(decimals as i32);
+                (scaled - scaled.round()).abs() < 1e-7
+            };
+            (0..15).find(is_whole)
+        }
+        _ => None,
+    }
+}
+
+#[test]
+fn numbers_are_as_long_in_a_rehearsal_as_in_a_check() {
+    let show = shows::row_file(6, &[0.3, 0.2]);
+    for command in ["check", "rehearse"] {
+        let mut report = json(&run(&[command, &show, "--json"]).1);
+        // Clocks are microseconds apart.
+        report.as_object_mut().unwrap().remove("clock_spread_s");
+        let decimals = ["_s", "_m"].map(|unit| most_decimals(&report, "", unit).unwrap());
+        assert!(decimals[0] <= 3 && decimals[1] <= 5, "{command}: {decimals:?} {report}");
+        assert!(decimals[0] > 0 && decimals[1] > 2, "{command}: {decimals:?} {report}");
+    }
+}
+
 #[test]
 fn a_rehearsal_is_its_seed() {
     let show = shows::row_file(6, &[0.3, 0.2]);

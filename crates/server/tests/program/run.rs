@@ -37,14 +37,6 @@ fn a_show_plays_to_its_end_on_two_screens() {
     two.wait_for_robots(4);
     one.wait_for_robots(4);
     assert_eq!(one.get("fleet")["rows"].as_array().unwrap().len(), 4);
-    let names = |screen: &Screen| {
-        screen.get("fleet")["rows"]
-            .as_array()
-            .unwrap()
-            .iter()
-            .map(|row| row["id"].to_string())
-            .collect::<Vec<_>>()
-    };
     assert_eq!(names(&one), names(&two));
     for (index, (x, y)) in sorted(one.places()).into_iter().enumerate() {
         let goal = 0.1 * (index as f64 - 1.5);
@@ -52,6 +44,29 @@ fn a_show_plays_to_its_end_on_two_screens() {
     }
     server.terminate();
     assert_eq!(server.end(), 0);
+}
+
+/// The robots' names, in the order they were found.
+fn names(screen: &Screen) -> Vec<String> {
+    let fleet = screen.get("fleet");
+    fleet["rows"].as_array().unwrap().iter().map(|row| row["id"].to_string()).collect()
+}
+
+#[test]
+fn pins_of_a_show_fit_when_the_program_is_started_again() {
+    let _turn = alone();
+    let show = shows::row_file(3, &[0.1]);
+    let of_a_start = |more: &[&str]| {
+        let (_server, address, _) = start(&[&["--robots", "3", &show], more].concat());
+        let mut screen = Screen::open(&address);
+        screen.wait_for_robots(3);
+        let mut names = names(&screen);
+        names.sort();
+        names
+    };
+    let first = of_a_start(&[]);
+    assert_eq!(first, of_a_start(&[]));
+    assert_ne!(first, of_a_start(&["--seed", "2"]));
 }
 
 fn sorted(mut places: Vec<(f64, f64)>) -> Vec<(f64, f64)> {
@@ -104,6 +119,7 @@ fn a_larger_show_gets_a_larger_cast_on_its_own_floor() {
     let (_server, address, _) = start(&[&shows::row_file(2, &[0.1])]);
     let mut screen = Screen::open(&address);
     screen.wait_for_robots(30);
+    let before = names(&screen);
     let wide = shows::row(32, &[0.1]).replacen("\"name\"", r#""stage":{"width_m":4,"depth_m":4},"name""#, 1);
     assert_eq!(http::request(&address, "PUT", "/api/shows/Wide", &[], &wide).status, 200);
     screen.must(json!({"do": "open", "name": "Wide"}));
@@ -111,6 +127,8 @@ fn a_larger_show_gets_a_larger_cast_on_its_own_floor() {
         let places = screen.places();
         (places.len() == 32 && places.iter().all(|(_, y)| *y > 1.6)).then_some(())
     });
+    let after = names(&screen);
+    assert!(before.iter().all(|name| after.contains(name)), "who had a name and pins has them still");
     screen.must(json!({"do": "play", "from": 0, "missing": "refuse"}));
     screen.wait_for_log("Run finished");
 }
