@@ -99,7 +99,9 @@ fn numbers_are_as_long_in_a_rehearsal_as_in_a_check() {
         report.as_object_mut().unwrap().remove("clock_spread_s");
         let decimals = ["_s", "_m"].map(|unit| most_decimals(&report, "", unit).unwrap());
         assert!(decimals[0] <= 3 && decimals[1] <= 5, "{command}: {decimals:?} {report}");
-        assert!(decimals[0] > 0 && decimals[1] > 2, "{command}: {decimals:?} {report}");
+        // Places by plan are round numbers, those of robots are not.
+        let least = if command == "check" { [2, 1] } else { [2, 4] };
+        assert!(decimals[0] >= least[0] && decimals[1] >= least[1], "{command}: {decimals:?} {report}");
     }
 }
 
