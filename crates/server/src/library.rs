@@ -7,10 +7,9 @@ use std::sync::{Arc, Mutex, MutexGuard};
 use std::time::UNIX_EPOCH;
 
 use lightbots_api::ShowEntry;
-use lightbots_show::{Format, Show, read, write};
+use lightbots_show::{Format, Show, most_pixels, read, write};
 
 use crate::examples;
-use crate::show_file::pixels;
 
 /// The file that names the show that was open last.
 const OPEN: &str = ".open";
@@ -232,7 +231,7 @@ impl Library {
             name: name.to_owned(),
             title: kept.show.name.clone(),
             frames: kept.show.frames.len(),
-            pixels: pixels(&kept.show),
+            pixels: most_pixels(&kept.show),
             modified_ms: if example { 0 } else { modified_ms(&self.path(name)) },
             etag: kept.etag,
             example,

@@ -3,6 +3,7 @@
 use std::net::{SocketAddr, ToSocketAddrs};
 
 use lightbots_base::{RobotId, Vec2};
+use lightbots_sim::Spread;
 
 /// Reads `WxH` in metres, such as `3x3` or `4.5x2`.
 pub fn floor(text: &str) -> Result<(f64, f64), String> {
@@ -37,34 +38,16 @@ pub fn address(text: &str) -> Result<SocketAddr, String> {
     text.trim().to_socket_addrs().ok().and_then(|mut found| found.next()).ok_or_else(wrong)
 }
 
-/// Median, 99th percentile and maximum of a set of values; zeros where it is empty.
-#[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize)]
-pub struct Spread {
-    /// Half are at most this.
-    pub median: f64,
-    /// 99 in 100 are at most this.
-    pub p99: f64,
-    /// None is more.
-    pub max: f64,
-}
-
-impl Spread {
-    /// Of these values.
-    pub fn of(mut values: Vec<f64>) -> Self {
-        values.sort_by(f64::total_cmp);
-        let at = |share: f64| {
-            let index = (values.len() as f64 * share).ceil() as usize;
-            values.get(index.saturating_sub(1)).copied().unwrap_or(0.0)
-        };
-        Self { median: at(0.5), p99: at(0.99), max: at(1.0) }
-    }
-}
-
 /// A number rounded to `decimals`, so that JSON stays readable.
 pub fn rounded(value: f64, decimals: i32) -> f64 {
     let factor = 10_f64.powi(decimals);
     let rounded = (value * factor).round() / factor + 0.0;
     if rounded.is_finite() { rounded } else { value }
+}
+
+/// A spread with its numbers rounded to `decimals`.
+pub fn rounded_spread(Spread { median, p99, max }: Spread, decimals: i32) -> Spread {
+    Spread { median: rounded(median, decimals), p99: rounded(p99, decimals), max: rounded(max, decimals) }
 }
 
 #[cfg(test)]
@@ -100,10 +83,10 @@ mod tests {
 
     #[test]
     fn percentiles_are_values_of_the_set() {
-        let spread = Spread::of((1..=200).map(f64::from).collect());
+        let spread = Spread::of(&(1..=200).map(f64::from).collect::<Vec<_>>());
         assert_eq!(spread, Spread { median: 100.0, p99: 198.0, max: 200.0 });
-        assert_eq!(Spread::of(vec![]), Spread::default());
-        assert_eq!(Spread::of(vec![7.0]), Spread { median: 7.0, p99: 7.0, max: 7.0 });
+        assert_eq!(Spread::of(&[]), Spread::default());
+        assert_eq!(Spread::of(&[7.0]), Spread { median: 7.0, p99: 7.0, max: 7.0 });
     }
 
     #[test]

@@ -3,10 +3,11 @@
 use lightbots_base::Instant;
 use lightbots_control::{Event, EventKind, Outcome, Snapshot};
 use lightbots_show::{Issue, Issues, Severity, Show};
+use lightbots_sim::Spread;
 use serde::Serialize;
 
 use crate::failure::Failure;
-use crate::numbers::{Spread, rounded};
+use crate::numbers::{rounded, rounded_spread};
 use crate::{commands, plan_document, say};
 
 /// The most issues of a run that are kept.
@@ -144,18 +145,15 @@ fn issue(kind: &EventKind) -> Option<Issue> {
 
 /// The report on stdout.
 pub fn print(report: RunReport, json: bool) -> Result<(), Failure> {
-    let spread = |values: Vec<f64>, decimals: i32| {
-        let Spread { median, p99, max } = Spread::of(values);
-        Spread { median: rounded(median, decimals), p99: rounded(p99, decimals), max: rounded(max, decimals) }
-    };
+    let spread = |values: &[f64], decimals: i32| rounded_spread(Spread::of(values), decimals);
     let summary = Summary {
         ok: report.ok(),
         robots: report.robots,
         frames: report.frames,
         frames_played: report.frames_played,
         duration_s: rounded(report.duration_s, 3),
-        arrival_spread_s: spread(report.spreads_s, 3),
-        position_error_m: spread(report.errors_m, 5),
+        arrival_spread_s: spread(&report.spreads_s, 3),
+        position_error_m: spread(&report.errors_m, 5),
         dropouts: report.dropouts,
         issues: &report.issues,
     };

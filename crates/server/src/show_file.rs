@@ -80,8 +80,3 @@ fn floor_ignored(stage: &Stage, (width_m, depth_m): (f64, f64)) -> Option<Issue>
     );
     (!same).then(|| Issue::warning(FLOOR_IGNORED, message))
 }
-
-/// How many robots a show needs.
-pub fn pixels(show: &Show) -> usize {
-    show.frames.iter().map(|frame| frame.pixels.len()).max().unwrap_or(0)
-}

@@ -28,7 +28,7 @@ pub use error::{PixelName, ReadError, frame_label};
 pub use front::front_rows;
 pub use issue::{Issue, Issues, Severity};
 pub use model::{Easing, Frame, Identity, Obstacle, Pixel, Show, Stage, with_floor};
-pub use need::{robots_asked_for, robots_needed};
+pub use need::{most_pixels, robots_asked_for, robots_needed};
 pub use read::{Format, Loaded, MAX_BYTES, read};
 pub use spacing::{CloseApproach, close_pairs};
 pub use validate::{MAX_FRAMES, MAX_OBSTACLES, MAX_PIXELS, PROVABLE_GAP_M, validate};

@@ -10,10 +10,14 @@ pub fn robots_asked_for(show: &Show) -> usize {
     pixels.filter_map(|pixel| pixel.robot.as_deref()).collect::<BTreeSet<_>>().len()
 }
 
+/// How many pixels the largest frame of a show has.
+pub fn most_pixels(show: &Show) -> usize {
+    show.frames.iter().map(|frame| frame.pixels.len()).max().unwrap_or(0)
+}
+
 /// How many robots a show needs: one for each pixel of its largest frame, and everybody a pixel asks for by name.
 pub fn robots_needed(show: &Show) -> usize {
-    let pixels = show.frames.iter().map(|frame| frame.pixels.len()).max().unwrap_or(0);
-    pixels.max(robots_asked_for(show))
+    most_pixels(show).max(robots_asked_for(show))
 }
 
 #[cfg(test)]

@@ -3,22 +3,17 @@
 //! One line for each seed, with what went wrong; FAULTS may be `ideal`, or empty for standard conditions.
 #![allow(clippy::print_stdout, clippy::print_stderr)]
 
+#[path = "arguments/mod.rs"]
+mod arguments;
+
 use std::process::ExitCode;
 use std::time::Instant;
 
 use lightbots_show::Show;
-use lightbots_sim::{Conditions, Faults, RehearsalOptions, rehearse};
+use lightbots_sim::{RehearsalOptions, rehearse};
 
 fn main() -> ExitCode {
-    let args: Vec<String> = std::env::args().skip(1).collect();
-    match run(&args) {
-        Ok(true) => ExitCode::SUCCESS,
-        Ok(false) => ExitCode::from(1),
-        Err(message) => {
-            eprintln!("{message}");
-            ExitCode::from(2)
-        }
-    }
+    arguments::main(run)
 }
 
 /// Whether every rehearsal was fine.
@@ -28,15 +23,8 @@ fn run(args: &[String]) -> Result<bool, String> {
     let bytes = std::fs::read(path).map_err(|error| format!("{path}: {error}"))?;
     let ending = std::path::Path::new(path).extension().and_then(|ending| ending.to_str());
     let show = lightbots_show::read(&bytes, ending).map_err(|error| format!("{path}: {error}"))?.show;
-    let conditions = match args.get(1).map_or("", String::as_str) {
-        "" => Conditions::default(),
-        "ideal" => Conditions::ideal(),
-        faults => Faults::parse(faults).map_err(|error| error.to_string())?.added_to(Conditions::default()),
-    };
-    let number = |index: usize, default: u64| match args.get(index) {
-        Some(text) => text.parse().map_err(|_| format!("'{text}' is no number; {usage}")),
-        None => Ok(default),
-    };
+    let conditions = arguments::conditions(args, 1)?;
+    let number = |index: usize, usual: u64| arguments::number(args, index, usual, usage);
     let (first, count) = (number(2, 1)?, number(3, 1)?);
     let mut failed = 0;
     for seed in first..first.saturating_add(count) {

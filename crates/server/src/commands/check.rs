@@ -2,7 +2,7 @@
 
 use lightbots_api as api;
 use lightbots_plan::{ShowClosest, ShowPlan};
-use lightbots_show::{Show, frame_label};
+use lightbots_show::{Show, frame_label, most_pixels};
 use serde::Serialize;
 
 use super::{count, print_issues, print_json};
@@ -77,7 +77,7 @@ impl<'a> Summary<'a> {
         Self {
             ok: plan.ok,
             frames: show.frames.len(),
-            pixels: show_file::pixels(show),
+            pixels: most_pixels(show),
             duration_s: plan.duration_s,
             lower_bound_s: plan.lower_bound_s,
             closest_m: plan.closest_m,

@@ -3,7 +3,7 @@
 use std::time::{Duration, Instant};
 
 use lightbots_control::{Age, MissingPolicy, Operation, Refusal, RobotView, Snapshot};
-use lightbots_show::{Issue, Show};
+use lightbots_show::{Issue, Show, most_pixels};
 use lightbots_wire::RobotState;
 use tokio::sync::broadcast;
 
@@ -82,7 +82,7 @@ async fn play(
     report: &mut RunReport,
     (news, links): (&mut broadcast::Receiver<News>, broadcast::Receiver<News>),
 ) -> Result<(), Failure> {
-    let pixels = show_file::pixels(show);
+    let pixels = most_pixels(show);
     let refused = |refusal: Refusal| Failure::problem(refusal.to_string());
     let missing = gather(arguments, pixels, handle, links).await?;
     handle.operate(conductor::open(show.clone())).await.map_err(refused)?;

@@ -3,12 +3,12 @@
 use std::path::Path;
 use std::time::Instant;
 
-use lightbots_sim::{Conditions, Faults, Progress, RehearsalOptions, RehearsalReport, Spread, rehearse};
+use lightbots_sim::{Conditions, Faults, Progress, RehearsalOptions, RehearsalReport, rehearse};
 
 use super::{count, print_issues, print_json};
 use crate::cli::RehearseArguments;
 use crate::failure::{Failure, Outcome};
-use crate::numbers::rounded;
+use crate::numbers::{rounded, rounded_spread};
 use crate::progress::Bar;
 use crate::{plan_document, say, show_file};
 
@@ -62,24 +62,20 @@ fn readable(mut report: RehearsalReport) -> RehearsalReport {
         *seconds = rounded(*seconds, 3);
     }
     report.closest_m = report.closest_m.map(|metres| rounded(metres, 5));
-    report.arrival_spread_s = of_spread(report.arrival_spread_s, 3);
+    report.arrival_spread_s = rounded_spread(report.arrival_spread_s, 3);
     // Clocks are microseconds apart.
-    report.clock_spread_s = of_spread(report.clock_spread_s, 6);
+    report.clock_spread_s = rounded_spread(report.clock_spread_s, 6);
     for errors_m in [&mut report.position_error_m, &mut report.estimate_error_m, &mut report.tracking_error_m]
     {
-        *errors_m = of_spread(*errors_m, 5);
+        *errors_m = rounded_spread(*errors_m, 5);
     }
     for frame in &mut report.per_frame {
         for seconds in [&mut frame.at_s, &mut frame.drive_s, &mut frame.arrival_spread_s] {
             *seconds = rounded(*seconds, 3);
         }
-        frame.position_error_m = of_spread(frame.position_error_m, 5);
+        frame.position_error_m = rounded_spread(frame.position_error_m, 5);
     }
     report
-}
-
-fn of_spread(Spread { median, p99, max }: Spread, decimals: i32) -> Spread {
-    Spread { median: rounded(median, decimals), p99: rounded(p99, decimals), max: rounded(max, decimals) }
 }
 
 fn print(report: &RehearsalReport) {

@@ -5,26 +5,20 @@
 //! where DIR is named their shows are kept there. All numbers at the end; exit code 1 if anything was touched.
 #![allow(clippy::print_stdout, clippy::print_stderr)]
 
+#[path = "../arguments/mod.rs"]
+mod arguments;
 mod scene;
 
 use std::process::ExitCode;
 
 use lightbots_show::{Format, Issue, Show, write};
-use lightbots_sim::{Conditions, Faults, RehearsalOptions, RehearsalReport, rehearse};
+use lightbots_sim::{RehearsalOptions, RehearsalReport, rehearse};
 
 const ROBOTS: u64 = 60;
 const USAGE: &str = "usage: floors [COUNT [FIRST [FAULTS [DIR]]]]";
 
 fn main() -> ExitCode {
-    let args: Vec<String> = std::env::args().skip(1).collect();
-    match run(&args) {
-        Ok(true) => ExitCode::SUCCESS,
-        Ok(false) => ExitCode::FAILURE,
-        Err(message) => {
-            eprintln!("{message}");
-            ExitCode::from(2)
-        }
-    }
+    arguments::main(run)
 }
 
 /// How floors went.
@@ -40,14 +34,9 @@ struct Tally {
 
 /// Whether nothing was touched and everybody arrived.
 fn run(args: &[String]) -> Result<bool, String> {
-    let number = |index: usize, usual: u64| match args.get(index) {
-        Some(text) => text.parse().map_err(|_| format!("'{text}' is no number; {USAGE}")),
-        None => Ok(usual),
-    };
+    let number = |index: usize, usual: u64| arguments::number(args, index, usual, USAGE);
     let (count, first) = (number(0, 500)?, number(1, 0)?);
-    let faults = args.get(2).filter(|text| !text.is_empty()).map(|text| Faults::parse(text));
-    let faults = faults.transpose().map_err(|error| error.to_string())?;
-    let conditions = faults.unwrap_or_default().added_to(Conditions::default());
+    let conditions = arguments::conditions(args, 2)?;
     let mut tally = Tally::default();
     for number in first..first.saturating_add(count) {
         let show = scene::floor(number, ROBOTS);

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use lightbots_base::Rgb;
 use lightbots_control::Outcome;
 use lightbots_plan::{ShowOptions, ShowPlan};
-use lightbots_show::{Frame, Identity, Show};
+use lightbots_show::{Frame, Identity, Show, most_pixels};
 use lightbots_sim::{Conditions, RehearsalOptions, rehearse};
 
 use crate::hall::{Hall, Picture, Played};
@@ -21,7 +21,7 @@ const SHORTER: f64 = 0.02;
 /// Everything that is wrong with how a scene is played.
 pub fn faults(number: u64, scene: &Scene, conditions: &Conditions) -> Vec<String> {
     let mut faults = live(number, scene, conditions);
-    let most = scene.show.frames.iter().map(|frame| frame.pixels.len()).max().unwrap_or(0);
+    let most = most_pixels(&scene.show);
     if scene.starts.len() >= most {
         faults.extend(rehearsed(number, scene, conditions));
     }

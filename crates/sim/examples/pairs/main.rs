@@ -5,11 +5,13 @@
 //! their numbers at the end; exit code 1 then.
 #![allow(clippy::print_stdout, clippy::print_stderr)]
 
+#[path = "../arguments/mod.rs"]
+mod arguments;
 mod scene;
 
 use std::process::ExitCode;
 
-use lightbots_sim::{Conditions, Faults, RehearsalOptions, rehearse};
+use lightbots_sim::{RehearsalOptions, rehearse};
 
 const ROBOTS: u64 = 200;
 const USAGE: &str = "\
@@ -18,31 +20,18 @@ Rehearses COUNT random pairs of frames (10,000) from number FIRST (0) on, with n
 loss=5%,kill=random. The same number gives the same pair and the same run: `cargo xtask pairs 1 NUMBER` repeats one.";
 
 fn main() -> ExitCode {
-    let args: Vec<String> = std::env::args().skip(1).collect();
-    if args.iter().any(|argument| matches!(argument.as_str(), "--help" | "-h" | "help")) {
-        println!("{USAGE}");
-        return ExitCode::SUCCESS;
-    }
-    match run(&args) {
-        Ok(true) => ExitCode::SUCCESS,
-        Ok(false) => ExitCode::FAILURE,
-        Err(message) => {
-            eprintln!("{message}");
-            ExitCode::from(2)
-        }
-    }
+    arguments::main(run)
 }
 
 /// Whether every pair was fine.
 fn run(args: &[String]) -> Result<bool, String> {
-    let number = |index: usize, usual: u64| match args.get(index) {
-        Some(text) => text.parse().map_err(|_| format!("'{text}' is no number; {USAGE}")),
-        None => Ok(usual),
-    };
+    if args.iter().any(|argument| matches!(argument.as_str(), "--help" | "-h" | "help")) {
+        println!("{USAGE}");
+        return Ok(true);
+    }
+    let number = |index: usize, usual: u64| arguments::number(args, index, usual, USAGE);
     let (count, first) = (number(0, 10_000)?, number(1, 0)?);
-    let faults =
-        args.get(2).map(|text| Faults::parse(text)).transpose().map_err(|error| error.to_string())?;
-    let conditions = faults.unwrap_or_default().added_to(Conditions::default());
+    let conditions = arguments::conditions(args, 2)?;
     let mut ratios = Vec::new();
     let mut failed = Vec::new();
     for number in first..first.saturating_add(count) {
