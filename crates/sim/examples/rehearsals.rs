@@ -40,7 +40,7 @@ fn line(show: &Show, options: &RehearsalOptions) -> bool {
     let begin = Instant::now();
     let report = rehearse(show, options, &mut |_| {});
     println!(
-        "seed {:>4} {} {}/{} frames {:.2} s (bound {:.2}) contacts {} closest {:.1} mm spread {:.0}/{:.0} ms \
+        "seed {:>4} {} {}/{} frames {:.2} s (bound {:.2}) contacts {} edge {} ({:.1} mm) closest {:.1} mm spread {:.0}/{:.0} ms \
          error {:.1}/{:.1}/{:.1} mm estimate {:.1}/{:.1} tracking {:.1}/{:.1} mm clocks {:.1} ms lost {}/{} dropouts {} hash {} {:.0}x",
         options.seed,
         if report.ok { "fine" } else { "BAD " },
@@ -49,6 +49,8 @@ fn line(show: &Show, options: &RehearsalOptions) -> bool {
         report.duration_s,
         report.lower_bound_s,
         report.contacts,
+        report.wall_contacts,
+        report.wall_pressed_m * 1e3,
         report.closest_m.unwrap_or(f64::NAN) * 1e3,
         report.arrival_spread_s.median * 1e3,
         report.arrival_spread_s.max * 1e3,

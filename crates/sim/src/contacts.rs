@@ -8,7 +8,7 @@ const SLACK_M: f64 = 0.01;
 /// How far a standing robot moves sideways in a step when pushed, metres. Measured in Webots: 0.06 m/s.
 const SIDEWAYS_M: f64 = 0.06 * 0.016;
 /// Two that touched have parted when their rims are this far apart, metres.
-const PARTED_M: f64 = 0.0005;
+pub(crate) const PARTED_M: f64 = 0.0005;
 /// How often a step goes over the list to pull chains of robots apart.
 const ROUNDS: usize = 4;
 

@@ -14,11 +14,11 @@ pub(crate) struct Floor {
 
 /// What a disc ran into.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Bump {
-    /// The wall around the floor.
-    Wall,
-    /// Something on the floor.
-    Obstacle,
+pub enum Thing {
+    /// The wall around the floor: its edge.
+    Edge,
+    /// A no-go area, by its index.
+    Obstacle(usize),
 }
 
 impl Floor {
@@ -33,20 +33,33 @@ impl Floor {
         Self { half, radius_m, obstacles: stage.obstacles.clone() }
     }
 
-    /// Moves a disc out of walls and obstacles; what it ran into, the obstacle where both.
+    /// Moves a disc out of walls and obstacles; what it ran into, the obstacle where both, and how far it was in it, metres.
     #[inline]
-    pub fn keep_out(&self, place: &mut Vec2) -> Option<Bump> {
-        let inside =
-            Vec2::new(place.x.clamp(-self.half.x, self.half.x), place.y.clamp(-self.half.y, self.half.y));
-        let mut bump = (inside != *place).then_some(Bump::Wall);
+    pub fn keep_out(&self, place: &mut Vec2) -> Option<(Thing, f64)> {
+        let inside = self.inside(*place);
+        let mut bump = (inside != *place).then(|| (Thing::Edge, inside.distance(*place)));
         *place = inside;
-        for obstacle in &self.obstacles {
+        for (index, obstacle) in self.obstacles.iter().enumerate() {
             if let Some(out) = self.out_of(obstacle, *place) {
+                bump = Some((Thing::Obstacle(index), out.distance(*place)));
                 *place = out;
-                bump = Some(Bump::Obstacle);
             }
         }
         bump
+    }
+
+    /// The nearest place within the floor's edge.
+    #[inline]
+    fn inside(&self, place: Vec2) -> Vec2 {
+        Vec2::new(place.x.clamp(-self.half.x, self.half.x), place.y.clamp(-self.half.y, self.half.y))
+    }
+
+    /// From a disc's rim to what it may have touched, metres; 0 or less where it touches it.
+    pub fn off_m(&self, place: Vec2, thing: Thing) -> f64 {
+        match thing {
+            Thing::Edge => (self.half.x - place.x.abs()).min(self.half.y - place.y.abs()),
+            Thing::Obstacle(index) => self.obstacles[index].gap_m(place) - self.radius_m,
+        }
     }
 
     /// The nearest place outside of an obstacle; `None` for a disc that does not touch it.
@@ -89,15 +102,15 @@ mod tests {
         Floor::new(&Stage { obstacles, ..Stage::default() }, &[])
     }
 
-    fn kept_out(floor: &Floor, x: f64, y: f64) -> (Vec2, Option<Bump>) {
+    fn kept_out(floor: &Floor, x: f64, y: f64) -> (Vec2, Option<Thing>) {
         let mut place = Vec2::new(x, y);
         let bump = floor.keep_out(&mut place);
-        (place, bump)
+        (place, bump.map(|bump| bump.0))
     }
 
     #[test]
     fn a_robot_stands_a_radius_from_the_wall() {
-        assert_eq!(kept_out(&floor(vec![]), 1.6, 0.0), (Vec2::new(1.473, 0.0), Some(Bump::Wall)));
+        assert_eq!(kept_out(&floor(vec![]), 1.6, 0.0), (Vec2::new(1.473, 0.0), Some(Thing::Edge)));
         assert_eq!(kept_out(&floor(vec![]), 1.4, -0.3), (Vec2::new(1.4, -0.3), None));
     }
 
@@ -105,7 +118,7 @@ mod tests {
     fn obstacles_push_out_by_the_shortest_way() {
         let disc = floor(vec![Obstacle::Disc { at: Vec2::ZERO, radius_m: 0.1 }]);
         let (place, bump) = kept_out(&disc, 0.0, 0.12);
-        assert!((place - Vec2::new(0.0, 0.127)).length() < 1e-12 && bump == Some(Bump::Obstacle));
+        assert!((place - Vec2::new(0.0, 0.127)).length() < 1e-12 && bump == Some(Thing::Obstacle(0)));
         let rect = floor(vec![Obstacle::Rect { min: Vec2::ZERO, max: Vec2::new(1.0, 0.5) }]);
         assert_eq!(kept_out(&rect, 0.5, 0.45).0, Vec2::new(0.5, 0.527));
         assert_eq!(kept_out(&rect, 0.5, 0.6), (Vec2::new(0.5, 0.6), None));

@@ -18,6 +18,7 @@
 //! ```
 
 mod breakdowns;
+mod bumps;
 mod conditions;
 mod contacts;
 mod crew;
@@ -43,14 +44,16 @@ mod track;
 mod watch;
 mod world;
 
+pub use bumps::{Bump, Bumps, EDGE_SLACK_M};
 pub use conditions::{Breakdown, Conditions, FixConditions, LinkConditions};
 pub use contacts::Contacts;
 pub use dice::{Dice, Purpose};
 pub use faults::{Faults, FaultsError};
 pub use fleet::{Fleet, FleetConfig, FleetMessage};
+pub use floor::Thing;
 pub use hash::StateHash;
 pub use network::MessageCounts;
 pub use rehearsal::{Progress, ROBOTS_MAX, RehearsalOptions, rehearse};
 pub use report::{FrameRecord, RehearsalReport};
 pub use statistics::Spread;
-pub use world::{Bumps, STEP, World};
+pub use world::{STEP, World};

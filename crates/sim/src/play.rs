@@ -229,8 +229,9 @@ impl Play {
         let world = &self.crew.world;
         let bumps = world.bumps();
         let mut report = self.watch.report(self.now, &self.breakdowns);
-        report.contacts = world.contacts().count() + bumps.obstacles;
-        report.wall_contacts = bumps.walls;
+        report.contacts = world.contacts().count() + bumps.obstacles + bumps.over;
+        report.wall_contacts = bumps.edges;
+        report.wall_pressed_m = bumps.edge_most_m;
         report.closest_m = world.contacts().closest_m();
         report.estimate_error_m = self.crew.errors().estimate_m();
         report.tracking_error_m = self.crew.errors().tracking_m();

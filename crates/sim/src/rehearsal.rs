@@ -124,6 +124,7 @@ fn unplayed(show: &Show, options: &RehearsalOptions, robots: usize, issues: Vec<
         lower_bound_s: 0.0,
         contacts: 0,
         wall_contacts: 0,
+        wall_pressed_m: 0.0,
         closest_m: None,
         arrival_spread_s: Spread::default(),
         position_error_m: Spread::default(),

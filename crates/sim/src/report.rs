@@ -21,10 +21,13 @@ pub struct RehearsalReport {
     pub duration_s: f64,
     /// What no plan can be shorter than, seconds; see the plan.
     pub lower_bound_s: f64,
-    /// How often two robots came to touch, or one an obstacle.
+    /// How often two robots came to touch, or one an obstacle, or one went over the floor's edge by more than robots may
+    /// be off their routes, [`EDGE_SLACK_M`](crate::EDGE_SLACK_M).
     pub contacts: u64,
-    /// How often a robot touched the edge of the floor.
+    /// How often a robot touched the edge of the floor, however lightly.
     pub wall_contacts: u64,
+    /// How far a robot would have come over the edge of the floor at most, metres.
+    pub wall_pressed_m: f64,
     /// The least distance of two centres, metres; `None` where nobody came near anybody.
     pub closest_m: Option<f64>,
     /// Between the first and the last robot that comes to stay at its place in a frame, one value a frame, seconds.
@@ -52,6 +55,16 @@ pub struct RehearsalReport {
     pub issues: Issues,
     /// The frames that stood, in the order played.
     pub per_frame: Vec<FrameRecord>,
+}
+
+impl RehearsalReport {
+    /// How often the floor's edge was touched, in words.
+    pub fn edge_touches(&self) -> String {
+        match self.wall_contacts {
+            0 => "0".into(),
+            count => format!("{count}, at most {:.1} mm over it", self.wall_pressed_m * 1e3),
+        }
+    }
 }
 
 /// One frame that stood.

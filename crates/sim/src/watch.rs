@@ -7,7 +7,9 @@ use lightbots_control::{Controller, Event, EventKind, Outcome, RobotView};
 use lightbots_show::{Issue, Issues, Show};
 
 use crate::breakdowns::{Breakdowns, Fate};
+use crate::bumps::{Bump, EDGE_SLACK_M};
 use crate::crew::Crew;
+use crate::floor::Thing;
 use crate::report::{FrameRecord, RehearsalReport};
 use crate::statistics::Spread;
 use crate::world::World;
@@ -27,7 +29,6 @@ pub(crate) struct Watch {
     stood: bool,
     errors_m: Vec<f64>,
     frames: Vec<FrameRecord>,
-    bumps: u64,
     /// Robots that dropped out, each once.
     dropouts: BTreeSet<RobotId>,
     outcome: Option<Outcome>,
@@ -47,7 +48,6 @@ impl Watch {
             stood: true,
             errors_m: Vec::with_capacity(robots),
             frames: Vec::new(),
-            bumps: 0,
             dropouts: BTreeSet::new(),
             outcome: None,
             ended: Instant::ZERO,
@@ -108,26 +108,19 @@ impl Watch {
 
     /// Looks for new contacts after a step.
     pub fn contacts(&mut self, now: Instant, world: &World) {
-        let fresh = world.contacts().fresh();
-        if fresh.is_empty() && world.bumps().obstacles == self.bumps {
+        let (touches, bumps) = (world.contacts().fresh(), world.bumps().fresh());
+        if touches.is_empty() && bumps.is_empty() {
             return;
         }
-        let (at_s, frame) = (self.since(now), self.heading_for);
-        for &(a, b) in fresh {
+        let frame = self.heading_for;
+        let when = format!("{:.2} s into the show, about frame {}", self.since(now), frame + 1);
+        for &(a, b) in touches {
             let place = (world.places()[a as usize] + world.places()[b as usize]) / 2.0;
-            let message = format!(
-                "Robots {a} and {b} touched at ({:.3}, {:.3}) m, {at_s:.2} s into the show, about frame {}.",
-                place.x,
-                place.y,
-                frame + 1
-            );
+            let message = format!("Robots {a} and {b} touched at {}, {when}.", at(place));
             self.add(Issue::error("contact", message).in_frame(frame));
         }
-        if world.bumps().obstacles > self.bumps {
-            self.bumps = world.bumps().obstacles;
-            let message =
-                format!("A robot touched an obstacle {at_s:.2} s into the show, about frame {}.", frame + 1);
-            self.add(Issue::error("contact-obstacle", message).in_frame(frame));
+        for bump in bumps {
+            self.add(bumped(bump, world.places()[bump.robot], &when).in_frame(frame));
         }
     }
 
@@ -197,6 +190,7 @@ impl Watch {
             lower_bound_s: 0.0,
             contacts: 0,
             wall_contacts: 0,
+            wall_pressed_m: 0.0,
             closest_m: None,
             arrival_spread_s: Spread::of(&spreads),
             position_error_m: Spread::of(&self.errors_m),
@@ -275,5 +269,52 @@ impl Watch {
 
     fn since(&self, now: Instant) -> f64 {
         self.began.map_or(0.0, |began| (now - began).as_secs())
+    }
+}
+
+/// What happened between a robot, centred at a place, and what does not move.
+fn bumped(bump: &Bump, place: Vec2, when: &str) -> Issue {
+    let (robot, place) = (bump.robot, at(place));
+    match bump.thing {
+        Thing::Obstacle(index) => {
+            let message = format!("Robot {robot} touched area {} at {place}, {when}.", index + 1);
+            Issue::error("contact-obstacle", message)
+        }
+        Thing::Edge if bump.over => {
+            let over_mm = EDGE_SLACK_M * 1e3;
+            let message = format!(
+                "Robot {robot} went over the floor's edge by more than {over_mm:.0} mm at {place}, {when}."
+            );
+            Issue::error("contact-edge", message)
+        }
+        Thing::Edge => {
+            let message = format!("Robot {robot} touched the floor's edge at {place}, {when}.");
+            Issue::warning("edge-touched", message)
+        }
+    }
+}
+
+fn at(place: Vec2) -> String {
+    format!("({:.3}, {:.3}) m", place.x, place.y)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn who_touches_what_is_said_with_place_and_time() {
+        let say = |thing, over| {
+            let bump = Bump { robot: 7, thing, over };
+            let issue = bumped(&bump, Vec2::new(0.5, -0.25), "3.20 s into the show, about frame 2");
+            (issue.is_error(), issue.message)
+        };
+        let area = "Robot 7 touched area 3 at (0.500, -0.250) m, 3.20 s into the show, about frame 2.";
+        assert_eq!(say(Thing::Obstacle(2), false), (true, area.into()));
+        let edge =
+            "Robot 7 touched the floor's edge at (0.500, -0.250) m, 3.20 s into the show, about frame 2.";
+        assert_eq!(say(Thing::Edge, false), (false, edge.into()));
+        let over = "Robot 7 went over the floor's edge by more than 10 mm at (0.500, -0.250) m, 3.20 s into the show, about frame 2.";
+        assert_eq!(say(Thing::Edge, true), (true, over.into()));
     }
 }

@@ -3,10 +3,11 @@
 use lightbots_base::{Pose, Span, Vec2, wrap};
 use lightbots_show::Stage;
 
+use crate::bumps::{Against, Bumps};
 use crate::contacts::{Contacts, Stance};
 use crate::dice::{Dice, Purpose};
 use crate::drive::Drive;
-use crate::floor::{Bump, Floor};
+use crate::floor::Floor;
 use crate::hash::StateHash;
 use crate::near::Near;
 use crate::proximity::Proximity;
@@ -32,23 +33,14 @@ pub struct World {
     bumps: Bumps,
 }
 
-/// How often robots ran into things that do not move.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Bumps {
-    /// Into the wall around the floor.
-    pub walls: u64,
-    /// Into obstacles.
-    pub obstacles: u64,
-}
-
 #[derive(Clone, Debug)]
 struct Body {
     drive: Drive,
     told: [f64; 2],
     slip: Slip,
     heading: f64,
-    /// What it stood against at the last step.
-    bump: Option<Bump>,
+    /// What it stands against.
+    against: Option<Against>,
 }
 
 impl World {
@@ -61,7 +53,7 @@ impl World {
             told: [0.0; 2],
             slip: Slip::new(slip, &mut dice),
             heading: wrap(start.heading),
-            bump: None,
+            against: None,
         };
         let contact_m = stage.limits.contact_m();
         let bodies = starts.iter().map(body).collect();
@@ -115,13 +107,14 @@ impl World {
     }
 
     /// Contacts with what does not move.
-    pub fn bumps(&self) -> Bumps {
-        self.bumps
+    pub fn bumps(&self) -> &Bumps {
+        &self.bumps
     }
 
     /// Moves everybody by one step of 16 ms.
     pub fn step(&mut self) {
         let (mut moved, mut outdated) = (false, false);
+        self.bumps.begin_step();
         for robot in 0..self.bodies.len() {
             if self.move_body(robot) {
                 moved = true;
@@ -165,14 +158,9 @@ impl World {
         body.heading = wrap(body.heading + 2.0 * half_turn);
         let place = &mut self.places[robot];
         *place += middle * (STEP_S * twist.speed_mps);
-        let bump = self.floor.keep_out(place);
-        if bump != body.bump {
-            match bump {
-                Some(Bump::Wall) => self.bumps.walls += 1,
-                Some(Bump::Obstacle) => self.bumps.obstacles += 1,
-                None => {}
-            }
-            body.bump = bump;
+        let out_of = self.floor.keep_out(place);
+        if out_of.is_some() || body.against.is_some() {
+            body.against = self.bumps.look(robot, body.against, out_of, &self.floor, *place);
         }
         true
     }

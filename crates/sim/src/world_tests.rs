@@ -78,7 +78,7 @@ fn a_wall_holds_at_a_radius_and_counts_once() {
     world.tell(0, [60.0; 2]);
     run(&mut world, 200);
     assert!((1.5 - world.pose(0).at.x - 0.027).abs() < 1e-9);
-    assert_eq!(world.bumps(), Bumps { walls: 1, obstacles: 0 });
+    assert_eq!((world.bumps().edges, world.bumps().obstacles, world.bumps().over), (1, 0, 1));
 }
 
 #[test]

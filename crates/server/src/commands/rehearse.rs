@@ -62,6 +62,7 @@ fn readable(mut report: RehearsalReport) -> RehearsalReport {
         *seconds = rounded(*seconds, 3);
     }
     report.closest_m = report.closest_m.map(|metres| rounded(metres, 5));
+    report.wall_pressed_m = rounded(report.wall_pressed_m, 5);
     report.arrival_spread_s = rounded_spread(report.arrival_spread_s, 3);
     // Clocks are microseconds apart.
     report.clock_spread_s = rounded_spread(report.clock_spread_s, 6);
@@ -86,7 +87,10 @@ fn print(report: &RehearsalReport) {
     }
     let closest =
         report.closest_m.map_or(String::new(), |metres| format!(", closest {:.1} mm", metres * 1e3));
-    let contacts = report.contacts + report.wall_contacts;
+    let edge = match report.wall_contacts {
+        0 => String::new(),
+        _ => format!(", touches of the floor's edge: {}", report.edge_touches()),
+    };
     say::line(&format!(
         "{}: {} of {} by {} in {:.2} s (at least {:.2} s)",
         if report.ok { "fine" } else { "this show has problems" },
@@ -97,8 +101,8 @@ fn print(report: &RehearsalReport) {
         report.lower_bound_s,
     ));
     say::line(&format!(
-        "{}{closest}; arrivals within {:.2} s, places within {:.1} mm (99 %)",
-        count(contacts as usize, "contact"),
+        "{}{edge}{closest}; arrivals within {:.2} s, places within {:.1} mm (99 %)",
+        count(report.contacts as usize, "contact"),
         report.arrival_spread_s.p99,
         report.position_error_m.p99 * 1e3,
     ));
