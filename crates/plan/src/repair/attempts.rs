@@ -13,7 +13,7 @@ use super::lattice::Lattice;
 use super::ordered::ordered;
 use super::pace::Pace;
 use super::relax::{Effort, Relaxation, relax};
-use super::scene::Scene;
+use super::scene::{EDGE_M, Scene};
 use super::weave::Weave;
 use super::{Amiss, Meeting};
 
@@ -66,13 +66,14 @@ const MOST_STRETCH: f64 = 2.4;
 const AMENDMENTS: usize = 4;
 const AMENDING_SWEEPS: usize = 72;
 /// What the first guess aims at: room for robots that follow curves with poor sensors on slippery floors.
-const ROOMY: Wish = Wish { robots_m: 0.0675, walls_m: 0.0115, slack_m: 0.002 };
+const ROOMY: Wish = Wish { robots_m: 0.0675, walls_m: 0.0115, edge_m: EDGE_M, slack_m: 0.002 };
 /// What further guesses aim at, and the lattice, which is not as wide.
-const WIDE: Wish = Wish { robots_m: 0.0625, walls_m: 0.0075, slack_m: 0.002 };
-const NARROW: Wish = Wish { robots_m: 0.0595, walls_m: 0.0065, slack_m: 0.0015 };
+const WIDE: Wish = Wish { robots_m: 0.0625, walls_m: 0.0075, edge_m: EDGE_M, slack_m: 0.002 };
+const NARROW: Wish = Wish { robots_m: 0.0595, walls_m: 0.0065, edge_m: EDGE_M, slack_m: 0.0015 };
 
-/// What is aimed at where nothing else led anywhere: hardly more than must be.
-const TIGHT: Wish = Wish { robots_m: 0.0575, walls_m: 0.0033, slack_m: 0.0002 };
+/// What is aimed at where nothing else led anywhere: hardly more than must be; and that still off the floor's edge.
+const TIGHT: Wish = Wish { robots_m: 0.0575, walls_m: 0.0033, edge_m: 0.0, slack_m: 0.0002 };
+const OFF_EDGE: Wish = Wish { edge_m: EDGE_M, ..TIGHT };
 /// Driving together, loosening on the way, and loosening first.
 const TOGETHER: Manner = Manner { bow: 0.0, early: false, level: false, spread: false, staged: false };
 const LOOSE: Manner = Manner { spread: true, ..TOGETHER };
@@ -216,10 +217,10 @@ impl Attempts<'_> {
     /// In an order learnt on a lattice that fits between the walls.
     fn filled(&mut self, corners: &Corners) {
         self.work = self.work.max(LATTICE_WORK / 2);
-        for pitch_m in [PITCH_M, LOOSE_PITCH_M, TIGHT_PITCH_M] {
+        for (pitch_m, wish) in [(PITCH_M, OFF_EDGE), (LOOSE_PITCH_M, OFF_EDGE), (TIGHT_PITCH_M, TIGHT)] {
             let lattice = corners.lattice(self.scene, pitch_m);
             if let Some(weave) = lattice.and_then(|lattice| ordered(self.scene, &lattice)) {
-                let effort = Effort { sweeps: 600, stretch: 4.0, hurry: true, wish: TIGHT };
+                let effort = Effort { sweeps: 600, stretch: 4.0, hurry: true, wish };
                 self.relax(weave, effort);
             }
             if self.is_decent() {

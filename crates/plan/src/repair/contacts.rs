@@ -77,6 +77,8 @@ pub(super) struct Wish {
     pub robots_m: f64,
     /// A robot's rim off walls, metres.
     pub walls_m: f64,
+    /// A robot's rim off the floor's edge, at most as far as its scene says; metres.
+    pub edge_m: f64,
     /// How much less will do, metres: who is left alone within it settles sooner.
     pub slack_m: f64,
 }

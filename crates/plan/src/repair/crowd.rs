@@ -73,7 +73,7 @@ impl<'a> Crowd<'a> {
         for (robot, place) in places.iter_mut().enumerate() {
             let out = *place - self.middle;
             let aside = Vec2::new(out.x * (self.wider.x - 1.0), out.y * (self.wider.y - 1.0));
-            *place = self.scene.on_floor(robot, *place + aside * share);
+            *place = self.scene.on_floor(robot, *place + aside * share, self.scene.off_edge_m);
         }
     }
 }

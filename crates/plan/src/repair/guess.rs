@@ -191,7 +191,8 @@ impl<'a> Guess<'a> {
         let aside = 16.0 * (share * (1.0 - share)) * (share * (1.0 - share)) * self.manner.bow;
         match course[..] {
             [from, to] if aside != 0.0 => {
-                self.crowd.scene.on_floor(robot, place - (to - from).left() * aside)
+                let scene = self.crowd.scene;
+                scene.on_floor(robot, place - (to - from).left() * aside, scene.off_edge_m)
             }
             _ => place,
         }

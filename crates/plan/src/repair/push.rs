@@ -211,7 +211,7 @@ mod tests {
     fn who_meets_on_the_way_is_not_apart_though_both_ends_are() {
         let (left, right, up) = (Vec2::new(-0.04, 0.0), Vec2::new(0.04, 0.0), Vec2::new(-0.04, 0.1));
         let scene = scene(vec![left, right, up], vec![right, left, up]);
-        let roads = Roadmap::new(&scene, &Corners::new(&scene), 0.072).unwrap();
+        let roads = Roadmap::new(&scene, &Corners::new(&scene), 0.072, 0.0).unwrap();
         let pusher = Pusher::new(&scene, &roads, usize::MAX);
         assert!(!pusher.are_apart((0, 0, 1), (1, 1, 0)), "through each other");
         assert!(pusher.are_apart((0, 0, 1), (2, 2, 0)), "one follows the other around a corner");
@@ -223,7 +223,7 @@ mod tests {
         // Three in a ring of places so close that they can only go on together.
         let place = |third: i32| Vec2::unit(f64::from(third) * std::f64::consts::TAU / 3.0) * 0.068;
         let scene = scene((0..3).map(place).collect(), (1..4).map(place).collect());
-        let roads = Roadmap::new(&scene, &Corners::new(&scene), 0.072).unwrap();
+        let roads = Roadmap::new(&scene, &Corners::new(&scene), 0.072, 0.0).unwrap();
         let mut pusher = Pusher::new(&scene, &roads, usize::MAX);
         let starts = roads.starts.clone();
         let around = [(0, starts[1]), (1, starts[2]), (2, starts[0])];

@@ -261,7 +261,8 @@ impl<'a> State<'a> {
 
     /// Pulls every robot that changed towards its limits.
     fn slow(&mut self, easings: usize) {
-        let limits = Slow::new(self.scene, &self.weave, easings);
+        let off_edge_m = self.scene.off_edge_m.min(self.wish.edge_m);
+        let limits = Slow::new(self.scene, &self.weave, off_edge_m, easings);
         for robot in 0..self.dirty.len() {
             if let Some(look) = self.dirty[robot] {
                 self.remember(robot);

@@ -39,15 +39,20 @@ pub(super) struct Roadmap {
     pub ends: Vec<Option<u32>>,
     /// The longest way, metres.
     pub reach_m: f64,
+    /// Half the extents of the rectangle that places but for ends are in, metres.
+    inner: Vec2,
 }
 
 impl Roadmap {
-    /// The roadmap of a scene with a lattice of this pitch; `None` where it would be too large.
-    pub fn new(scene: &Scene, corners: &Corners, pitch_m: f64) -> Option<Self> {
+    /// The roadmap of a scene with a lattice of this pitch, but for ends so far off the floor's edge; `None` where it would
+    /// be too large.
+    pub fn new(scene: &Scene, corners: &Corners, pitch_m: f64, off_edge_m: f64) -> Option<Self> {
         let lattice = corners.lattice(scene, pitch_m)?;
         let reach_m = (pitch_m * REACH).max(LEAST_REACH_M);
         let (places, ways, is_private) = (Vec::new(), Vec::new(), Vec::new());
-        let mut roads = Self { places, ways, is_private, starts: Vec::new(), ends: Vec::new(), reach_m };
+        let (starts, ends) = (Vec::new(), Vec::new());
+        let inner = scene.inner - Vec2::new(off_edge_m, off_edge_m);
+        let mut roads = Self { places, ways, is_private, starts, ends, reach_m, inner };
         roads.starts = scene.starts.iter().map(|&start| roads.node_at(start)).collect();
         roads.ends = scene.ends.iter().map(|end| end.map(|end| roads.node_at(end))).collect();
         for &place in corners.places() {
@@ -77,6 +82,8 @@ impl Roadmap {
     }
 
     fn add(&mut self, scene: &Scene, place: Vec2, apart_m: f64) {
+        let within = |at: f64, most: f64| at.clamp(-most, most);
+        let place = Vec2::new(within(place.x, self.inner.x), within(place.y, self.inner.y));
         let is_new = self.places.iter().all(|other| other.distance(place) >= apart_m);
         if is_new && self.places.len() <= MOST_NODES && scene.is_free(place, MARGIN_M) {
             self.places.push(place);
@@ -259,7 +266,7 @@ mod tests {
             ..TransitionProblem::on_floor(Vec2::new(0.5, 0.2), Limits::ELISA_3)
         };
         let scene = Scene::new(&problem, &[Some(0)]).unwrap();
-        let roads = Roadmap::new(&scene, &Corners::new(&scene), 0.072).unwrap();
+        let roads = Roadmap::new(&scene, &Corners::new(&scene), 0.072, 0.0).unwrap();
         assert!(roads.far_m(0)[roads.starts[0] as usize] < 1.6, "through the gap");
         for (node, beside) in roads.ways.iter().enumerate() {
             for &other in beside {

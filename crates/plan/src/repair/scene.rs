@@ -7,6 +7,8 @@ use crate::TransitionProblem;
 
 /// Robots keep this much more than contact wherever their ends allow, metres.
 const LEAST_MARGIN_M: f64 = 0.0031;
+/// Robots keep this off the floor's edge where they have a choice, metres: they follow their paths within 3 mm.
+pub(super) const EDGE_M: f64 = 0.0035;
 
 /// A transition whose assignment is settled.
 pub(super) struct Scene {
@@ -18,6 +20,8 @@ pub(super) struct Scene {
     pub walls: Vec<Obstacle>,
     /// Half the extents of the rectangle that centres stay in, metres.
     pub inner: Vec2,
+    /// How far rims stay off the floor's edge where their ends and what stands beside it leave them a choice, metres.
+    pub off_edge_m: f64,
     /// What the robots can do.
     pub limits: Limits,
 }
@@ -37,13 +41,15 @@ impl Scene {
             });
         }
         let standing = problem.standing.iter().map(|&at| Obstacle::Disc { at, radius_m: limits.radius_m });
-        let scene = Self {
+        let mut scene = Self {
             starts: problem.starts.clone(),
             ends,
             walls: problem.obstacles.iter().copied().chain(standing).collect(),
             inner: problem.half_floor - Vec2::new(limits.radius_m, limits.radius_m),
+            off_edge_m: EDGE_M,
             limits,
         };
+        scene.off_edge_m = scene.room_at_edge_m();
         let places = scene.starts.iter().chain(scene.ends.iter().flatten());
         let sane = limits.speed_mps > 0.0 && limits.accel_mps2 > 0.0 && limits.radius_m > 0.0;
         (sane && scene.inner.x > 0.0 && scene.inner.y > 0.0 && places.copied().all(Vec2::is_finite))
@@ -104,15 +110,39 @@ impl Scene {
         })
     }
 
-    /// The nearest place on the floor for a robot, which may be as far out as its own ends are.
-    pub fn on_floor(&self, robot: usize, place: Vec2) -> Vec2 {
-        if place.x.abs() <= self.inner.x && place.y.abs() <= self.inner.y {
+    /// How far rims can stay off the floor's edge so that a robot gets through every gap to it still, and two past each
+    /// other on a narrow floor.
+    fn room_at_edge_m(&self) -> f64 {
+        let least_m = 2.0 * self.limits.radius_m + LEAST_MARGIN_M;
+        let gaps = self.walls.iter().flat_map(|wall| self.off_edges(wall)).map(|gap_m| gap_m - least_m);
+        let abreast = |room_m: f64| [room_m, room_m - self.widest_gap_m() / 2.0];
+        let to_spare = gaps.chain([self.inner.x, self.inner.y].into_iter().flat_map(abreast));
+        to_spare.filter(|&room_m| room_m >= 0.0).fold(EDGE_M, f64::min)
+    }
+
+    /// From a shape to the four sides of the floor, metres.
+    fn off_edges(&self, shape: &Obstacle) -> [f64; 4] {
+        let (min, max) = match *shape {
+            Obstacle::Disc { at, radius_m } => {
+                (at - Vec2::new(radius_m, radius_m), at + Vec2::new(radius_m, radius_m))
+            }
+            Obstacle::Rect { min, max } => (min, max),
+        };
+        let half = self.inner + Vec2::new(self.limits.radius_m, self.limits.radius_m);
+        [min.x + half.x, half.x - max.x, min.y + half.y, half.y - max.y]
+    }
+
+    /// The nearest place for a robot that is so far off the floor's edge, or as far out as its own ends are.
+    pub fn on_floor(&self, robot: usize, place: Vec2, off_edge_m: f64) -> Vec2 {
+        let room = self.inner - Vec2::new(off_edge_m, off_edge_m);
+        if place.x.abs() <= room.x && place.y.abs() <= room.y {
             return place;
         }
-        let (start, end) = (self.starts[robot], self.ends[robot].unwrap_or(Vec2::ZERO));
-        let x = self.inner.x.max(start.x.abs()).max(end.x.abs());
-        let y = self.inner.y.max(start.y.abs()).max(end.y.abs());
-        Vec2::new(place.x.clamp(-x, x), place.y.clamp(-y, y))
+        let start = self.starts[robot];
+        let end = self.ends[robot].unwrap_or(start);
+        let within =
+            |at: f64, room: f64, (a, b): (f64, f64)| at.clamp(a.min(b).min(-room), a.max(b).max(room));
+        Vec2::new(within(place.x, room.x, (start.x, end.x)), within(place.y, room.y, (start.y, end.y)))
     }
 }
 
@@ -151,5 +181,40 @@ mod tests {
         assert!((off_shape(&shape, Vec2::new(0.9, 1.0)).0 + 0.1).abs() < 1e-12);
         assert_eq!(off_shape(&shape, Vec2::new(0.5, -0.25)), (0.25, Vec2::new(0.0, -1.0)));
         assert!((off_shape(&shape, Vec2::new(4.0, 6.0)).0 - 5.0).abs() < 1e-12);
+    }
+
+    /// A robot from one place to another on a floor of 1 m by 1 m.
+    fn scene(start: (f64, f64), end: (f64, f64), obstacles: Vec<Obstacle>, half: Vec2) -> Scene {
+        let at = |(x, y)| vec![Vec2::new(x, y)];
+        let floor = TransitionProblem::on_floor(half, Limits::ELISA_3);
+        let problem = TransitionProblem { starts: at(start), goals: at(end), obstacles, ..floor };
+        Scene::new(&problem, &[Some(0)]).unwrap()
+    }
+
+    #[test]
+    fn places_are_brought_off_each_side_but_for_ends_there() {
+        let half = Vec2::new(0.527, 0.527);
+        let scene = scene((-0.499, 0.2), (0.0, 0.51), Vec::new(), half);
+        let moved = |x: f64, y: f64| scene.on_floor(0, Vec2::new(x, y), 0.003);
+        assert_eq!(moved(-0.4999, -0.4999), Vec2::new(-0.499, -0.497));
+        assert_eq!(moved(0.499, 0.52), Vec2::new(0.497, 0.51));
+        assert_eq!(moved(-0.4985, 0.3), Vec2::new(-0.4985, 0.3));
+    }
+
+    #[test]
+    fn gaps_to_the_edge_that_are_just_wide_enough_stay_open() {
+        let wall = |gap_m: f64| {
+            vec![Obstacle::Rect { min: Vec2::new(-0.1, -0.2), max: Vec2::new(0.1, 0.5 - gap_m) }]
+        };
+        let off_edge_mm = |gap_m: f64, half: Vec2| {
+            let room_m = scene((-0.3, 0.0), (0.3, 0.0), wall(gap_m), half).off_edge_m;
+            (room_m * 1e5).round() / 1e2
+        };
+        let half = Vec2::new(0.5, 0.5);
+        assert_eq!(off_edge_mm(0.2, half), 3.5);
+        assert_eq!(off_edge_mm(0.059, half), 1.9);
+        assert_eq!(off_edge_mm(0.056, half), 3.5);
+        // Two pass each other on a floor that is 114 mm deep with 1.45 mm to spare on either side.
+        assert_eq!(off_edge_mm(0.056, Vec2::new(0.5, 0.057)), 1.45);
     }
 }

@@ -116,7 +116,7 @@ mod tests {
         let starts = vec![at(-0.15, 0.0), at(0.0, 0.0)];
         let goals = vec![at(0.15, 0.0), at(0.0, 0.0)];
         let scene = Scene::new(&TransitionProblem { starts, goals, ..floor }, &[Some(0), Some(1)]).unwrap();
-        let roads = Roadmap::new(&scene, &Corners::new(&scene), 0.072).unwrap();
+        let roads = Roadmap::new(&scene, &Corners::new(&scene), 0.072, 0.0).unwrap();
         let pusher = Pusher::new(&scene, &roads, usize::MAX);
         // The first drives far around the second, there and back and there again.
         let mut way = vec![roads.starts[0]];

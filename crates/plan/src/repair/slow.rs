@@ -14,6 +14,8 @@ pub(super) struct Slow<'a> {
     scene: &'a Scene,
     turning: Turning,
     easings: usize,
+    /// How far rims stay off the floor's edge, metres.
+    off_edge_m: f64,
     /// The longest step between control points, metres.
     step_m: f64,
     /// The longest second difference of control points, metres.
@@ -21,12 +23,13 @@ pub(super) struct Slow<'a> {
 }
 
 impl<'a> Slow<'a> {
-    /// For a weave of this span; against fast turns there are `easings` passes.
-    pub fn new(scene: &'a Scene, weave: &Weave, easings: usize) -> Self {
+    /// For a weave of this span, so far off the floor's edge, metres; against fast turns there are `easings` passes.
+    pub fn new(scene: &'a Scene, weave: &Weave, off_edge_m: f64, easings: usize) -> Self {
         Self {
             scene,
             turning: Turning::new(weave.span_s, &scene.limits),
             easings,
+            off_edge_m,
             step_m: scene.limits.speed_mps * weave.span_s,
             bow_m: scene.limits.accel_mps2 * weave.span_s * weave.span_s,
         }
@@ -46,7 +49,7 @@ impl<'a> Slow<'a> {
         }
         let last = weave.spans;
         for (point, place) in weave.way_mut(robot)[2..=last].iter_mut().enumerate() {
-            let on_floor = self.scene.on_floor(robot, *place);
+            let on_floor = self.scene.on_floor(robot, *place, self.off_edge_m);
             if on_floor != *place {
                 *place = on_floor;
                 look.add_point(point + 2);

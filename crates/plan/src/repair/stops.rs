@@ -9,20 +9,20 @@ use super::hops::repaired;
 use super::lattice::NONE;
 use super::push::Pusher;
 use super::roadmap::Roadmap;
-use super::scene::Scene;
+use super::scene::{EDGE_M, Scene};
 use super::search::search;
 use super::shorten::shorten;
 
-/// Distance of lattice nodes, metres: coarse first.
-const PITCHES_M: [f64; 3] = [0.072, 0.05, 0.036];
+/// Distance of lattice nodes, metres: coarse first; and how far they are off the floor's edge if they can.
+const PITCHES_M: [(f64, f64); 3] = [(0.072, EDGE_M), (0.05, EDGE_M), (0.036, 0.0)];
 /// Looks at pairs of moves in all: some seconds for crowds that nobody gets through.
 const MOST_LOOKS: usize = 120_000_000;
 
 /// Paths with stops; `None` where nothing was found.
 pub(super) fn with_stops(scene: &Scene, corners: &Corners, wished: Option<Span>) -> Option<Repaired> {
     let mut looks = MOST_LOOKS;
-    PITCHES_M.iter().find_map(|&pitch_m| {
-        let roads = Roadmap::new(scene, corners, pitch_m)?;
+    PITCHES_M.iter().find_map(|&(pitch_m, off_edge_m)| {
+        let roads = Roadmap::new(scene, corners, pitch_m, off_edge_m.min(scene.off_edge_m))?;
         let goals: Vec<u32> = roads.ends.iter().map(|end| end.unwrap_or(NONE)).collect();
         let mut pusher = Pusher::new(scene, &roads, looks);
         let steps = search(&mut pusher, &roads.starts, &goals);

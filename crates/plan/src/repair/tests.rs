@@ -70,6 +70,59 @@ fn a_dense_crowd_with_fixed_identity_gets_through() {
     }
 }
 
+/// How much nearer to a side of the floor robots come than their ends are, and than they shall where those are farther
+/// away, metres.
+fn nearer_to_edge_m(problem: &TransitionProblem, wanted_m: f64) -> f64 {
+    let goal_of: Vec<Option<usize>> = (0..problem.starts.len()).map(Some).collect();
+    let paths = repair(problem, &goal_of).expect("a way").paths;
+    let half = problem.half_floor - Vec2::new(1.0, 1.0) * problem.limits.radius_m;
+    let off = |at: Vec2| [half.x - at.x, half.x + at.x, half.y - at.y, half.y + at.y];
+    let mut most_m = f64::NEG_INFINITY;
+    for path in &paths {
+        let path = path.as_ref();
+        let (start, end) = (off(path.start), off(path.end()));
+        for moment in 0..=path.duration().0 / 20_000 {
+            let at = off(path.at(Span::from_millis(20 * moment)).position);
+            let sides = (0..4).map(|side| wanted_m.min(start[side]).min(end[side]) - at[side]);
+            most_m = sides.fold(most_m, f64::max);
+        }
+    }
+    most_m
+}
+
+#[test]
+fn a_crowd_keeps_off_the_edge_where_its_ends_do() {
+    for seed in 0..3 {
+        let nearer_m = nearer_to_edge_m(&random(40, 0.42, 0.0774, seed), 0.0035);
+        assert!(nearer_m < 1e-6, "{seed}: {nearer_m}");
+    }
+}
+
+#[test]
+fn who_drives_from_stop_to_stop_keeps_off_the_edge_too() {
+    // A bay in a corridor: one must step aside into it.
+    let wall = |from: f64, to: f64| Obstacle::Rect { min: Vec2::new(from, -0.02), max: Vec2::new(to, 0.1) };
+    let (a, b) = (Vec2::new(-0.25, -0.06), Vec2::new(0.25, -0.06));
+    let floor = TransitionProblem::on_floor(Vec2::new(0.3, 0.1), Limits::ELISA_3);
+    let problem = TransitionProblem {
+        obstacles: vec![wall(-0.3, -0.07), wall(0.0, 0.3)],
+        starts: vec![a, b],
+        goals: vec![b, a],
+        ..floor
+    };
+    let nearer_m = nearer_to_edge_m(&problem, 0.003);
+    assert!(nearer_m < 1e-6, "{nearer_m}");
+}
+
+#[test]
+fn a_gap_to_the_edge_that_just_lets_a_robot_through_is_still_used() {
+    let wall = Obstacle::Rect { min: Vec2::new(-0.02, -0.3), max: Vec2::new(0.02, 0.3 - 0.0575) };
+    let (start, goal) = (vec![Vec2::new(-0.2, 0.0)], vec![Vec2::new(0.2, 0.0)]);
+    let problem = TransitionProblem { obstacles: vec![wall], ..problem(start, goal, 0.3) };
+    let ratio = ratio(&problem);
+    assert!(ratio < 6.0, "{ratio}");
+}
+
 /// A square grid, 80 mm apart.
 fn grid(side: usize, middle: Vec2) -> Vec<Vec2> {
     let at = |i: usize| (i as f64 - (side as f64 - 1.0) / 2.0) * 0.08;
