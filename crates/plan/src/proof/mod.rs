@@ -98,18 +98,28 @@ const SLACK_M: f64 = 1e-6;
 
 /// Judges paths.
 pub fn prove(input: &ProofInput<'_>) -> Proof {
-    let horizon = input.paths.iter().map(|path| path.as_ref().duration()).max().unwrap_or(Span::ZERO);
-    let mut proof = Proof::default();
-    for (robot, path) in input.paths.iter().enumerate() {
-        let before = proof.faults.len();
-        drive::judge(path, horizon, input.limits, |kind, at| proof.faults.push(Fault { robot, kind, at }));
-        if proof.faults[before..].iter().any(|fault| fault.kind == FaultKind::Malformed) {
-            continue;
-        }
-        surroundings::judge(path, input, |kind, at| proof.faults.push(Fault { robot, kind, at }));
-    }
+    let mut proof = Proof { faults: faults(input), ..Proof::default() };
     if !proof.faults.iter().any(|fault| fault.kind == FaultKind::Malformed) {
-        (proof.conflicts, proof.closest) = pairs::judge(input, horizon);
+        (proof.conflicts, proof.closest) = pairs::judge(input, horizon(input));
     }
     proof
+}
+
+/// The proof's faults alone: what single robots do that they must not.
+pub(crate) fn faults(input: &ProofInput<'_>) -> Vec<Fault> {
+    let (horizon, mut faults) = (horizon(input), Vec::<Fault>::new());
+    for (robot, path) in input.paths.iter().enumerate() {
+        let before = faults.len();
+        drive::judge(path, horizon, input.limits, |kind, at| faults.push(Fault { robot, kind, at }));
+        if faults[before..].iter().any(|fault| fault.kind == FaultKind::Malformed) {
+            continue;
+        }
+        surroundings::judge(path, input, |kind, at| faults.push(Fault { robot, kind, at }));
+    }
+    faults
+}
+
+/// When the last path ends.
+fn horizon(input: &ProofInput<'_>) -> Span {
+    input.paths.iter().map(|path| path.as_ref().duration()).max().unwrap_or(Span::ZERO)
 }

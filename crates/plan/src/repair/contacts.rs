@@ -2,13 +2,12 @@
 
 use lightbots_base::Vec2;
 
-use super::cells::{Cells, Disc};
+use super::cells::Disc;
+use super::near::{Near, Places, STRETCHES, come_near, reach};
 use super::scene::Scene;
 use super::travel::Travel;
 use super::weave::{Weave, basis, blend};
 
-/// Straight stretches a span is looked at in.
-const STRETCHES: usize = 4;
 /// Pairs farther apart than their wish by this much are not watched until the next look-out, metres.
 const SKIN_M: f64 = 0.012;
 /// How often the closest moment to a wall is looked for at half the distance from the best so far.
@@ -40,15 +39,6 @@ impl Contact {
     fn of_robots(span: usize, a: usize, b: usize, wish: f64) -> Self {
         Self { span, a, b: Other::Robot(b), wish, least: wish, clear_until: 0.0, is_close: false }
     }
-}
-
-/// What a look-out needs for each span; kept to save memory.
-#[derive(Default)]
-struct Near {
-    cells: Cells,
-    discs: Vec<Disc>,
-    /// `[robot]`: where its way on the span begins and ends, from the middle of the span.
-    ends: Vec<[Vec2; 2]>,
 }
 
 /// What a robot may touch.
@@ -95,18 +85,34 @@ impl Watch {
         Self { bases: std::array::from_fn(|i| basis(i as f64 / STRETCHES as f64)), middle: basis(0.5) }
     }
 
-    /// All that is closer than wished or soon may be, in order of span and robot.
-    pub fn look_out(&self, scene: &Scene, weave: &Weave, wish: Wish, travel: &Travel) -> Vec<Contact> {
-        let mut found = Vec::new();
+    /// All that is closer than wished or soon may be, in order of spans; `known` is what there was at the look-out
+    /// before.
+    pub fn look_out(
+        &self,
+        scene: &Scene,
+        weave: &Weave,
+        wish: Wish,
+        travel: &Travel,
+        mut known: &[Contact],
+    ) -> Vec<Contact> {
+        let mut found = Vec::with_capacity(known.len());
         let mut near = Near::default();
         for span in 0..weave.spans {
+            near.stir(weave.robots(), span, travel);
+            let (of_span, later) = known.split_at(known.partition_point(|contact| contact.span <= span));
+            found.extend(of_span.iter().filter_map(|contact| near.still(contact)));
+            known = later;
+            if near.stirred.is_empty() {
+                continue;
+            }
+            let old = found.len();
             self.pairs(scene, weave, wish, span, &mut near, &mut found);
             if !scene.walls.is_empty() {
-                self.walls(scene, weave, wish, span, &mut found);
+                self.walls(scene, weave, wish, span, &near, &mut found);
             }
-        }
-        for contact in &mut found {
-            contact.clear_until += travelled(travel, contact);
+            for contact in &mut found[old..] {
+                contact.clear_until += travelled(travel, contact);
+            }
         }
         found
     }
@@ -120,21 +126,18 @@ impl Watch {
         near: &mut Near,
         found: &mut Vec<Contact>,
     ) {
-        let Near { cells, discs, ends } = near;
-        discs.clear();
-        ends.clear();
-        for robot in 0..weave.robots() {
-            let (at, both) = self.extent(weave.span(robot, span));
-            discs.push(Disc { at, radius: farther(&both), owner: robot as u32 });
-            ends.push(both);
-        }
-        let apart = wish.robots_m + SKIN_M;
-        cells.near_pairs(discs, apart, |one, other| {
-            let (a, b) = (one.owner.min(other.owner) as usize, one.owner.max(other.owner) as usize);
-            // Who drive alike do not come nearer to each other.
-            let apart = apart + CUT_M;
-            let touch = apart + farther(&[ends[a][0] - ends[b][0], ends[a][1] - ends[b][1]]);
-            if (one.at - other.at).length_squared() >= touch * touch {
+        let mut places = std::mem::take(&mut near.places);
+        places.clear();
+        places.extend((0..weave.robots()).map(|robot| self.places(weave.span(robot, span))));
+        near.discs.clear();
+        near.discs.extend(places.iter().enumerate().map(|(robot, places)| Disc {
+            at: places[STRETCHES / 2],
+            radius: reach(places),
+            owner: robot as u32,
+        }));
+        let reach_m = wish.robots_m + SKIN_M + CUT_M;
+        near.pairs(wish.robots_m + SKIN_M, |a, b| {
+            if !come_near(&std::array::from_fn(|i| places[a][i] - places[b][i]), reach_m) {
                 return;
             }
             let mut contact = Contact::of_robots(span, a, b, wish.robots_m);
@@ -146,15 +149,22 @@ impl Watch {
                 found.push(contact);
             }
         });
+        near.places = places;
     }
 
-    fn walls(&self, scene: &Scene, weave: &Weave, wish: Wish, span: usize, found: &mut Vec<Contact>) {
-        for robot in 0..weave.robots() {
-            let four = weave.span(robot, span);
-            let (middle, ends) = self.extent(four);
-            let reach = farther(&ends);
+    fn walls(
+        &self,
+        scene: &Scene,
+        weave: &Weave,
+        wish: Wish,
+        span: usize,
+        near: &Near,
+        found: &mut Vec<Contact>,
+    ) {
+        for &robot in &near.stirred {
+            let Disc { at, radius, .. } = near.discs[robot];
             for wall in 0..scene.walls.len() {
-                if scene.off_wall(wall, middle).0 - reach >= wish.walls_m + SKIN_M + CUT_M {
+                if scene.off_wall(wall, at).0 - radius >= wish.walls_m + SKIN_M + CUT_M {
                     continue;
                 }
                 let wish_m = wish.walls_m;
@@ -172,10 +182,9 @@ impl Watch {
         }
     }
 
-    /// The middle of a span, and where its ends are from there.
-    fn extent(&self, four: &[Vec2]) -> (Vec2, [Vec2; 2]) {
-        let middle = blend(four, &self.middle);
-        (middle, [&self.bases[0], &self.bases[STRETCHES]].map(|end| blend(four, end) - middle))
+    /// The ends of a span's straight stretches.
+    fn places(&self, four: &[Vec2]) -> Places {
+        std::array::from_fn(|i| blend(four, &self.bases[i]))
     }
 
     /// The closest moment of a contact within its span.
@@ -249,7 +258,6 @@ pub(super) fn travelled(travel: &Travel, contact: &Contact) -> f64 {
     travel.of(contact.a, contact.span) + other
 }
 
-/// The length of the longer of two.
-fn farther(both: &[Vec2; 2]) -> f64 {
-    both[0].length_squared().max(both[1].length_squared()).sqrt()
-}
+#[cfg(test)]
+#[path = "contacts_tests.rs"]
+mod tests;

@@ -2,6 +2,7 @@
 
 use lightbots_base::Vec2;
 
+use super::cells::{Cells, Disc};
 use super::scene::Scene;
 
 /// How much of the way to an even spread a crowd is taken.
@@ -48,13 +49,13 @@ impl<'a> Crowd<'a> {
     /// Spreads places along both axes, most of the way to how starts and ends are spread: by rank, from where the one
     /// of that rank starts to where the one of that rank ends.
     pub fn level(&self, places: &mut [Vec2], share: f64) {
-        let mut order: Vec<usize> = (0..places.len()).collect();
         for (axis, (starts, ends)) in self.spreads.iter().enumerate() {
-            let of = |place: Vec2| if axis == 0 { place.x } else { place.y };
-            order.sort_unstable_by(|&a, &b| of(places[a]).total_cmp(&of(places[b])).then(a.cmp(&b)));
-            for (rank, &robot) in order.iter().enumerate() {
+            let of = |place: &Vec2| if axis == 0 { place.x } else { place.y };
+            let mut order: Vec<(f64, usize)> = places.iter().map(of).zip(0..).collect();
+            order.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+            for (rank, (along, robot)) in order.into_iter().enumerate() {
                 let even = starts[rank] * (1.0 - share) + ends[rank] * share;
-                let aside = (even - of(places[robot])) * LEVELLED;
+                let aside = (even - along) * LEVELLED;
                 places[robot] += if axis == 0 { Vec2::new(aside, 0.0) } else { Vec2::new(0.0, aside) };
             }
         }
@@ -97,18 +98,11 @@ fn room(scene: &Scene, spreads: &[(Vec<f64>, Vec<f64>); 2]) -> (Vec2, Vec2) {
 }
 
 /// Pairs closer than `near_m`, each by how close.
-pub(super) fn crowding(places: &[Vec2], near_m: f64) -> f64 {
-    let mut sorted = places.to_vec();
-    sorted.sort_unstable_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
+pub(super) fn crowding(cells: &mut Cells, places: &[Vec2], near_m: f64) -> f64 {
+    let disc = |(robot, &at): (usize, &Vec2)| Disc { at, radius: 0.0, owner: robot as u32 };
+    let discs: Vec<Disc> = places.iter().enumerate().map(disc).collect();
     let mut sum = 0.0;
-    for (rank, a) in sorted.iter().enumerate() {
-        for b in sorted[rank + 1..].iter().take_while(|b| b.x - a.x < near_m) {
-            let square = (*a - *b).length_squared();
-            if square < near_m * near_m {
-                sum += 1.0 - square.sqrt() / near_m;
-            }
-        }
-    }
+    cells.near_pairs(&discs, near_m, |a, b| sum += 1.0 - a.at.distance(b.at) / near_m);
     sum
 }
 
@@ -147,11 +141,11 @@ mod tests {
         let courses: Vec<Vec<Vec2>> = (0..10).map(|i| vec![ring(i), -ring(i)]).collect();
         let crowd = Crowd::new(&scene, &courses);
         let mut places: Vec<Vec2> = (0..10).map(|i| ring(i) * 0.1).collect();
-        let before = crowding(&places, 0.06);
+        let before = crowding(&mut Cells::default(), &places, 0.06);
         crowd.level(&mut places, 0.45);
-        let levelled = crowding(&places, 0.06);
+        let levelled = crowding(&mut Cells::default(), &places, 0.06);
         crowd.loosen(&mut places, 1.0);
-        let loosened = crowding(&places, 0.06);
+        let loosened = crowding(&mut Cells::default(), &places, 0.06);
         assert!(before > 10.0 && levelled < 1.0 && loosened <= levelled, "{before} {levelled} {loosened}");
         assert!(places.iter().all(|place| place.length() < 0.7));
     }

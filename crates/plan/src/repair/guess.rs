@@ -3,6 +3,7 @@
 use lightbots_base::Vec2;
 use lightbots_show::Easing;
 
+use super::cells::Cells;
 use super::crowd::{Crowd, crowding, point_along};
 use super::pace::Pace;
 use super::thick::{moments, slowed};
@@ -203,13 +204,13 @@ impl<'a> Guess<'a> {
         let robots = self.crowd.courses.len().max(1) as f64;
         let step_m = self.crowd.scene.limits.speed_mps * self.pace.drive_s / SAMPLES as f64;
         let mut rush = vec![0.0_f64; self.crowd.courses.len()];
-        let (mut thick, mut before) = ([0.0; SAMPLES + 1], self.places(0.0));
+        let (mut thick, mut before, mut cells) = ([0.0; SAMPLES + 1], self.places(0.0), Cells::default());
         for (sample, thick) in thick.iter_mut().enumerate().skip(1) {
             let places = self.places(sample as f64 / SAMPLES as f64);
             for (robot, most) in rush.iter_mut().enumerate() {
                 *most = most.max(places[robot].distance(before[robot]) / step_m - 1.0);
             }
-            *thick = if sample < SAMPLES { crowding(&places, near_m) } else { 0.0 };
+            *thick = if sample < SAMPLES { crowding(&mut cells, &places, near_m) } else { 0.0 };
             before = places;
         }
         let close = thick.iter().sum::<f64>() / (SAMPLES as f64 * robots);

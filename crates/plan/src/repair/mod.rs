@@ -22,7 +22,9 @@ mod crowd;
 mod dock;
 mod guess;
 mod hops;
+mod hull;
 mod lattice;
+mod near;
 mod ordered;
 mod pace;
 mod push;
@@ -45,7 +47,7 @@ mod weave;
 
 use lightbots_base::{Limits, Span, Vec2};
 
-use crate::proof::{FaultKind, Proof, prove};
+use crate::proof::{FaultKind, Proof, faults, prove};
 use crate::{Path, TransitionProblem, turn_time};
 use corners::Corners;
 use scale::Scale;
@@ -85,9 +87,9 @@ fn of_usual(problem: &TransitionProblem, goal_of: &[Option<usize>]) -> Result<Re
     let scene = Scene::new(problem, goal_of).ok_or_else(Vec::new)?;
     match attempts::best(&scene, problem.easing, &|weave| proven(problem, &scene, weave)) {
         Ok(weave) => {
-            let turn = turn(&scene.limits);
-            let least = turn + Span(least_span(&scene, &weave).0 * weave.spans as i64);
-            Ok(Repaired { paths: weave.paths(turn, span_of(problem, &scene, &weave)), least })
+            let (turn, span) = (turn(&scene.limits), least_span(&scene, &weave));
+            let least = turn + Span(span.0 * weave.spans as i64);
+            Ok(Repaired { paths: weave.paths(turn, span_of(problem, &scene, &weave, span)), least })
         }
         Err(left) => {
             let corners = Corners::new(&scene);
@@ -118,7 +120,8 @@ fn proven(problem: &TransitionProblem, scene: &Scene, mut weave: Weave) -> Resul
     let mut spots = Vec::new();
     for slower in SLOWER {
         weave.slower = slower;
-        let (least, wished) = (least_span(scene, &weave), span_of(problem, scene, &weave));
+        let least = least_span(scene, &weave);
+        let wished = span_of(problem, scene, &weave, least);
         let spans = [least, wished];
         let refused = spans[..if wished > least { 2 } else { 1 }]
             .iter()
@@ -137,7 +140,11 @@ fn proven(problem: &TransitionProblem, scene: &Scene, mut weave: Weave) -> Resul
 
 /// What the proof says of a weave whose spans take so long, if it does not hold.
 fn refused(problem: &TransitionProblem, weave: &Weave, span: Span) -> Option<Proof> {
-    let proof = prove(&problem.to_prove(&weave.paths(turn(&problem.limits), span)));
+    let paths = weave.paths(turn(&problem.limits), span);
+    let input = problem.to_prove(&paths);
+    // Most that are refused turn too fast, which is seen without looking at pairs.
+    let alone = Proof { faults: faults(&input), ..Proof::default() };
+    let proof = if alone.holds() { prove(&input) } else { alone };
     (!proof.holds()).then_some(proof)
 }
 
@@ -153,10 +160,10 @@ fn least_span(scene: &Scene, weave: &Weave) -> Span {
     Span((weave.least_span_s(&scene.limits) * 1e6).ceil() as i64)
 }
 
-/// How long each span of a weave takes: as long as is legal, or as the wished for duration asks.
-fn span_of(problem: &TransitionProblem, scene: &Scene, weave: &Weave) -> Span {
+/// How long each span of a weave takes that takes `least` at least: that, or as long as the wished for duration asks.
+fn span_of(problem: &TransitionProblem, scene: &Scene, weave: &Weave, least: Span) -> Span {
     let wished_s =
         problem.duration.map_or(0.0, |whole| (whole - turn(&scene.limits)).as_secs() / weave.spans as f64);
     // A hair less, so that what is whole already stays so.
-    least_span(scene, weave).max(Span((wished_s * 1e6 - 1e-3).ceil() as i64))
+    least.max(Span((wished_s * 1e6 - 1e-3).ceil() as i64))
 }

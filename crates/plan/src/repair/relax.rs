@@ -6,6 +6,7 @@ use lightbots_base::Vec2;
 use super::Meeting;
 use super::contacts::{Contact, Other, Watch, Wish, travelled};
 use super::guess::MOST_SPANS;
+use super::near::STIR_M;
 use super::scene::Scene;
 use super::slow::Slow;
 use super::stage::{Stage, growth};
@@ -230,12 +231,13 @@ impl<'a> State<'a> {
     fn kick(&mut self, number: usize) {
         let aside = Vec2::unit(number as f64 * KICK_TURN) * KICK_M;
         let mut kicked = vec![false; self.weave.robots()];
-        for contact in std::mem::take(&mut self.contacts) {
+        let contacts = std::mem::take(&mut self.contacts);
+        for contact in &contacts {
             let robot = match contact.b {
                 Other::Robot(b) if number.is_multiple_of(2) => b,
                 _ => contact.a,
             };
-            let is_close = self.watch.closest(self.scene, &self.weave, &contact).apart < contact.least;
+            let is_close = self.watch.closest(self.scene, &self.weave, contact).apart < contact.least;
             if !is_close || std::mem::replace(&mut kicked[robot], true) {
                 continue;
             }
@@ -252,6 +254,7 @@ impl<'a> State<'a> {
             self.travel.follow(robot, &self.before, self.weave.way(robot));
             (self.dirty[robot], self.stale[robot]) = (Some(Look::ALL), true);
         }
+        self.contacts = contacts;
     }
 
     fn remember(&mut self, robot: usize) {
@@ -298,8 +301,9 @@ impl<'a> State<'a> {
     /// Bends whoever is too close, after a new look-out if `anew`, and says how many contacts that were.
     fn bend_all(&mut self, anew: bool) -> usize {
         if anew {
-            self.contacts = self.watch.look_out(self.scene, &self.weave, self.wish, &self.travel);
-            self.travel.mark();
+            self.contacts =
+                self.watch.look_out(self.scene, &self.weave, self.wish, &self.travel, &self.contacts);
+            self.travel.mark(STIR_M);
         }
         let mut contacts = std::mem::take(&mut self.contacts);
         let mut bent = 0;

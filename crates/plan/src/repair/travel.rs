@@ -9,19 +9,31 @@ pub(super) struct Travel {
     width: usize,
     /// `[robot][point]`, metres; at least as far as it really was.
     moved_m: Vec<f64>,
-    /// The same when it was marked.
+    /// The same when it was marked; before everything where it never was.
     marked_m: Vec<f64>,
 }
 
 impl Travel {
     /// Of ways that have not moved yet.
     pub fn new(robots: usize, width: usize) -> Self {
-        Self { width, moved_m: vec![0.0; robots * width], marked_m: vec![0.0; robots * width] }
+        let points = robots * width;
+        Self { width, moved_m: vec![0.0; points], marked_m: vec![f64::NEG_INFINITY; points] }
     }
 
-    /// From now on [`Self::since_mark`] counts anew.
-    pub fn mark(&mut self) {
-        self.marked_m.copy_from_slice(&self.moved_m);
+    /// From now on [`Self::since_mark`] counts anew for points that have moved farther than this since then, metres.
+    pub fn mark(&mut self, far_m: f64) {
+        for (marked_m, moved_m) in self.marked_m.iter_mut().zip(&self.moved_m) {
+            if moved_m - *marked_m > far_m {
+                *marked_m = *moved_m;
+            }
+        }
+    }
+
+    /// How far the control point of a span has moved that moved most since it was marked, metres.
+    pub fn stirred_m(&self, robot: usize, span: usize) -> f64 {
+        let at = robot * self.width + span;
+        let since = |point: usize| self.moved_m[point] - self.marked_m[point];
+        since(at).max(since(at + 1)).max(since(at + 2).max(since(at + 3)))
     }
 
     /// No place has moved farther than this since the mark, metres.
@@ -114,7 +126,7 @@ mod tests {
         let (mut seeded, mut weave) = (Seeded::new(4), weave());
         let (mut travel, first) = (Travel::new(2, SPANS + 3), weave.clone());
         for _ in 0..40 {
-            travel.mark();
+            travel.mark(0.0);
             assert!(travel.since_mark() == 0.0);
             let was = weave.clone();
             for _ in 0..3 {
@@ -143,7 +155,7 @@ mod tests {
         assert!((0..SPANS).all(|span| travel.of(1, span) == 0.0));
         assert!(travel.of(0, 0) == 0.0 && travel.of(0, 8) == 0.0);
         assert!(travel.of(0, 4) > 0.004 && travel.of(0, 4) < 0.01);
-        travel.mark();
+        travel.mark(0.0);
         assert!(travel.since_mark() == 0.0 && travel.of(0, 4) > 0.004);
     }
 }

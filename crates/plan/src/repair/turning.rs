@@ -3,6 +3,7 @@
 
 use lightbots_base::{Limits, Vec2};
 
+use super::hull::{crosses, halves, squares};
 use super::weave::{blend, fold};
 
 /// Slower than this the direction does not matter, m/s.
@@ -49,6 +50,15 @@ impl Course {
         self.acceleration + self.jerk * u
     }
 
+    /// A bit for each of the moments that are looked at: whether it is slower then than `speed_m`.
+    fn slow_moments(&self, speed_m: f64) -> u32 {
+        let squares: [f64; MOMENTS] =
+            std::array::from_fn(|index| self.velocity(moment(index)).length_squared());
+        let bits =
+            squares.iter().enumerate().map(|(index, &square)| u32::from(square < speed_m * speed_m) << index);
+        bits.fold(0, |all, bit| all | bit)
+    }
+
     /// The slowest moment near `u`: Newton's steps on v².
     fn slowest(&self, mut u: f64) -> f64 {
         for _ in 0..4 {
@@ -72,7 +82,11 @@ fn slopes(u: f64) -> ([f64; 4], [f64; 4]) {
 
 /// The middle of each part of a span that is looked at.
 fn moments() -> impl Iterator<Item = f64> {
-    (0..MOMENTS).map(|index| (index as f64 + 0.5) / MOMENTS as f64)
+    (0..MOMENTS).map(moment)
+}
+
+fn moment(index: usize) -> f64 {
+    (index as f64 + 0.5) / MOMENTS as f64
 }
 
 /// What of a way is to be looked at.
@@ -136,10 +150,8 @@ impl Turning {
         }
         for span in ones(look.spans | again.spans).take_while(|&span| span < spans) {
             let four = &way[span..span + 4];
-            let Some((turn, fastest)) = self.fastest(four) else { continue };
-            if turn <= self.turn {
-                continue;
-            }
+            let worst = if self.stays_within(four, self.turn) { None } else { self.fastest(four) };
+            let Some((_, fastest)) = worst.filter(|(turn, _)| *turn > self.turn) else { continue };
             let shifts = self.corrected(four, fastest, &|weights| fold(weights, span, spans, spare));
             let shifts = if self.only_wiggles(four) { Some(smoothed(four, span, spans)) } else { shifts };
             for (point, shift) in way[span..span + 4].iter_mut().zip(shifts.into_iter().flatten()) {
@@ -173,9 +185,11 @@ impl Turning {
 
     /// The fastest turn of a way over the limit.
     pub fn haste(&self, way: &[Vec2]) -> f64 {
-        let turns = way.windows(4).filter_map(|four| self.fastest(four));
-        let fastest = turns.fold(0.0, |most: f64, (turn, _)| most.max(turn)) / self.turn;
-        fastest.max(self.swerve(way).map_or(0.0, |(_, haste)| haste))
+        let fastest = way.windows(4).fold(0.0_f64, |most, four| {
+            let faster = if self.stays_within(four, most) { None } else { self.fastest(four) };
+            faster.map_or(most, |(turn, _)| most.max(turn))
+        });
+        (fastest / self.turn).max(self.swerve(way).map_or(0.0, |(_, haste)| haste))
     }
 
     /// The worst turn of a robot while it is slow, over what the time it is slow for allows, and the span in which it
@@ -185,9 +199,10 @@ impl Turning {
         let (mut heading, mut slow, mut worst) = (None::<Vec2>, 0.0, None::<(usize, f64)>);
         for (span, four) in way.windows(4).enumerate() {
             let steps = [four[1] - four[0], four[2] - four[1], four[3] - four[2]];
-            let ahead = steps[0].dot(steps[1]).min(steps[1].dot(steps[2])).min(steps[0].dot(steps[2]));
-            if slow == 0.0 && heading.is_some() && ahead > 2.0 * slow_m * slow_m && self.is_easy(four) {
-                heading = Some(steps[2] + steps[1]);
+            if (slow == 0.0 || heading.is_none())
+                && squares(&steps).iter().all(|&square| square > slow_m * slow_m)
+            {
+                (heading, slow) = (Some(steps[1] + steps[2]), 0.0);
                 continue;
             }
             if self.stays_below(&steps, slow_m) {
@@ -195,19 +210,26 @@ impl Turning {
                 continue;
             }
             let course = Course::new(four);
-            for velocity in moments().map(|u| course.velocity(u)) {
-                slow += 1.0 / MOMENTS as f64;
-                if velocity.length_squared() < slow_m * slow_m {
-                    continue;
+            let slow_moments = course.slow_moments(slow_m);
+            let mut at = 0;
+            while at < MOMENTS {
+                let slow_for = (slow_moments >> at).trailing_ones() as usize;
+                slow += slow_for as f64 / MOMENTS as f64;
+                at += slow_for;
+                if at == MOMENTS {
+                    break;
                 }
+                slow += 1.0 / MOMENTS as f64;
                 if let Some(before) = heading.filter(|_| slow > 1.5 / MOMENTS as f64) {
+                    let velocity = course.velocity(moment(at));
                     let angle = Vec2::new(before.dot(velocity).abs(), before.cross(velocity).abs()).angle();
                     let haste = angle / (self.turn * slow);
                     if haste > 1.0 && worst.is_none_or(|(_, most)| haste > most) {
                         worst = Some((span, haste));
                     }
                 }
-                (heading, slow) = (Some(velocity), 0.0);
+                at += ((slow_moments >> at).trailing_zeros() as usize).min(MOMENTS - at);
+                (heading, slow) = (Some(course.velocity(moment(at - 1))), 0.0);
             }
         }
         worst
@@ -258,6 +280,21 @@ impl Turning {
         let swing = (steps[1] - steps[0]).length_squared().max((steps[2] - steps[1]).length_squared());
         let may = slowest * self.turn;
         (slowest > 0.0 && swing * square <= may * may) || self.stays_below(&steps, self.creep_m)
+    }
+
+    /// Whether a span surely turns no more than `turn`, or not too fast at all: what it may turn less what it does is a
+    /// polynomial, which stays above its least Bernstein coefficient, and above those of its halves more closely.
+    fn stays_within(&self, four: &[Vec2], turn: f64) -> bool {
+        if self.is_easy(four) {
+            return true;
+        }
+        let steps = [four[1] - four[0], four[2] - four[1], four[3] - four[2]];
+        let (may, does) = (squares(&steps).map(|square| square * turn), crosses(&steps));
+        let is_positive = |half: &[f64; 5]| half.iter().all(|&coefficient| coefficient >= 0.0);
+        may.iter().zip(&does).all(|(may, does)| does.abs() <= *may)
+            || [1.0, -1.0]
+                .into_iter()
+                .all(|side| halves(std::array::from_fn(|i| may[i] - does[i] * side)).iter().all(is_positive))
     }
 
     /// Whether a span's velocity stays below a speed, by the hull of its steps.
@@ -323,37 +360,5 @@ fn smoothed(four: &[Vec2], span: usize, last: usize) -> [Vec2; 4] {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn eased(mut way: Vec<Vec2>) -> (f64, f64) {
-        let turning = Turning::new(0.25, &Limits::ELISA_3);
-        let before = turning.haste(&way);
-        (0..300).any(|_| turning.ease(&mut way, false, Look::ALL).is_over());
-        (before, turning.haste(&way))
-    }
-
-    #[test]
-    fn a_sharp_corner_becomes_one_that_can_be_driven() {
-        let corner = [0.0, 0.04, 0.08, 0.11, 0.125, 0.135];
-        let mut way: Vec<Vec2> = corner.iter().map(|&x| Vec2::new(x, 0.0)).collect();
-        way.extend(corner.iter().rev().map(|&x| Vec2::new(0.135, 0.145 - x)));
-        let (before, after) = eased(way);
-        assert!(before > 1.2 && after <= 1.0, "{before} {after}");
-    }
-
-    #[test]
-    fn what_nearly_is_a_reversal_becomes_one() {
-        let there = [0.0, 0.03, 0.06, 0.08].map(|x| Vec2::new(x, 0.0));
-        let back = [0.081, 0.06, 0.03, 0.0].map(|x| Vec2::new(x, 0.006));
-        let (before, after) = eased([there, back].concat());
-        assert!(before > 1.2 && after <= 1.0, "{before} {after}");
-    }
-
-    #[test]
-    fn there_and_back_on_a_line_is_no_turn() {
-        let turning = Turning::new(0.25, &Limits::ELISA_3);
-        let way: Vec<Vec2> = [0.0, 0.02, 0.05, 0.05, 0.02, 0.0].iter().map(|&x| Vec2::new(x, x)).collect();
-        assert!(turning.haste(&way) < 1e-9);
-    }
-}
+#[path = "turning_tests.rs"]
+mod tests;

@@ -16,7 +16,8 @@ pub(crate) use check::touching;
 pub(crate) use parking::distance_to;
 
 use crate::assignment::Choice;
-use crate::repair::repair;
+use crate::proof::{Proof, prove};
+use crate::repair::{Repaired, repair};
 use crate::{Stuck, Transition, TransitionProblem};
 use candidate::Candidate;
 use relax::relax;
@@ -111,13 +112,14 @@ fn settle(problem: &TransitionProblem, choice: &Choice) -> Attempt {
 /// What repair makes of straight lines that conflict.
 fn mend(problem: &TransitionProblem, conflicting: Candidate) -> Attempt {
     let goal_of = &conflicting.transition.goal_of;
-    let repaired = repair(problem, goal_of).and_then(|repaired| {
-        let mut candidate = Candidate::of_paths(problem, repaired.paths, goal_of.clone(), 1.0);
-        candidate.transition.least = repaired.least;
-        Some(candidate).filter(Candidate::holds).ok_or_else(Vec::new)
+    let repaired = repair(problem, goal_of).and_then(|Repaired { paths, least }| {
+        let proof = Some(prove(&problem.to_prove(&paths))).filter(Proof::holds).ok_or_else(Vec::new)?;
+        let duration = paths.iter().map(|path| path.as_ref().duration()).max().unwrap_or(least);
+        let (goal_of, closest) = (goal_of.clone(), proof.closest);
+        Ok(Transition { goal_of, paths, duration, least, lower_bound_s: 0.0, closest })
     });
     match repaired {
-        Ok(candidate) => Attempt { transition: candidate.transition, stuck: None },
+        Ok(transition) => Attempt { transition, stuck: None },
         Err(left) => {
             let stuck = Some(conflict::stuck(problem, &conflicting.transition, &conflicting.proof, left));
             Attempt { transition: conflicting.transition, stuck }
