@@ -38,6 +38,11 @@ impl Profile {
         Self { rest, beats }
     }
 
+    /// The same progress without the rest before it.
+    pub(crate) fn without_rest(self) -> Self {
+        Self { rest: Span::ZERO, ..self }
+    }
+
     /// How long it takes, the turning included.
     pub(crate) fn duration(&self) -> Span {
         self.beats.iter().fold(self.rest, |sum, beat| sum + beat.duration)
