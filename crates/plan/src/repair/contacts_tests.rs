@@ -6,7 +6,7 @@ use crate::TransitionProblem;
 use crate::seeded::Seeded;
 use lightbots_base::Limits;
 
-const WISH: Wish = Wish { robots_m: 0.06, walls_m: 0.006, slack_m: 0.002 };
+const WISH: Wish = Wish { robots_m: 0.06, walls_m: 0.006, edge_m: 0.0, slack_m: 0.002 };
 const ROBOTS: usize = 60;
 
 /// Every pair and span that is nearer than a contact need be, by `less_m`.
