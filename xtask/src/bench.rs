@@ -50,7 +50,8 @@ const PARTS: [Part; 6] = [
         source: Source::Example("lightbots-sim", "noise"),
         about: "How far robots on their way were from where they believed to be (estimate) and from where their routes \
                 were (tracking), and at their pixels, in millimetres: the worst of three seeds of shows/hello.json. \
-                Each trouble is added to the standard conditions or replaces one of them.",
+                Each trouble is added to the standard conditions or replaces one of them. The last rows are of other shows \
+                under standard conditions: places where robots have 3 mm to what does not move.",
     },
     Part {
         name: "round",

@@ -1,14 +1,20 @@
 //! How far robots are from where they believe to be and from where they should be, by what their sensors and wheels
 //! suffer: `cargo run --release -p lightbots-sim --example noise [--json]`.
 //!
-//! A row for each kind of trouble, over three seeds of a show of the repository; distances in millimetres.
+//! A row for each kind of trouble, over three seeds of a show of the repository, and one for each kind of place that is
+//! narrow, under standard conditions; distances in millimetres.
 #![allow(clippy::print_stdout)]
 
+mod places;
+
+use lightbots_show::Show;
 use lightbots_sim::{Conditions, Faults, RehearsalOptions, RehearsalReport, Spread, rehearse};
 
 /// Thirty robots, pictures of words: close side by side, and long ways between.
-const SHOW: &[u8] = include_bytes!("../../../shows/hello.json");
+const SHOW: &[u8] = include_bytes!("../../../../shows/hello.json");
 const SEEDS: u64 = 3;
+/// Gaps that eight robots drive through, millimetres; 60.2 are the least for a plan.
+const GAPS_MM: [f64; 4] = [60.5, 61.0, 65.0, 70.0];
 /// What robots suffer on top of, or instead of, the standard conditions; nothing in the first row.
 const TROUBLES: [&str; 20] = [
     "",
@@ -38,15 +44,22 @@ fn main() {
     for trouble in TROUBLES {
         let stated = (!trouble.is_empty()).then(|| Faults::parse(trouble).expect("all troubles are faults"));
         let faults = stated.unwrap_or_default();
-        let conditions = faults.added_to(Conditions::default());
-        let reports: Vec<RehearsalReport> = (1..=SEEDS)
-            .map(|seed| {
-                let options = RehearsalOptions { seed, conditions: conditions.clone(), robots: None };
-                rehearse(&show, &options, &mut |_| {})
-            })
-            .collect();
-        println!("{}", row(if trouble.is_empty() { "none: standard conditions" } else { trouble }, &reports));
+        let name = if trouble.is_empty() { "none: standard conditions" } else { trouble };
+        print(name, &show, &faults.added_to(Conditions::default()));
     }
+    print("place: along the edge, 3 mm off it", &places::along_edge(0.003), &Conditions::default());
+    print("place: a bay, from stop to stop", &places::bay(), &Conditions::default());
+    for wide_mm in GAPS_MM {
+        let name = format!("place: a gap of {wide_mm} mm");
+        print(&name, &places::gap(wide_mm * 1e-3), &Conditions::default());
+    }
+}
+
+fn print(name: &str, show: &Show, conditions: &Conditions) {
+    let rehearsed = |seed| {
+        rehearse(show, &RehearsalOptions { seed, conditions: conditions.clone(), robots: None }, &mut |_| {})
+    };
+    println!("{}", row(name, &(1..=SEEDS).map(rehearsed).collect::<Vec<_>>()));
 }
 
 /// The worst of all seeds in each column; the columns' names are the keys.

@@ -1,0 +1,63 @@
+//! Shows in which robots drive close to what does not move.
+
+use lightbots_base::{Rgb, Vec2};
+use lightbots_show::{Easing, Frame, Identity, Obstacle, Pixel, Show, Stage};
+
+/// Eight robots from the front edge through a gap in a wall, to a ring around the middle.
+pub fn gap(wide_m: f64) -> Show {
+    let half_m = wide_m / 2.0;
+    let walls = vec![rect((-1.5, 0.85), (-half_m, 0.95)), rect((half_m, 0.85), (1.5, 0.95))];
+    let stage = Stage { obstacles: walls, ..Stage::default() };
+    let ring = |id: u32| Vec2::unit(f64::from(id) / 8.0 * std::f64::consts::TAU) * 0.5;
+    Show { stage, frames: vec![frame(&(0..8).map(ring).collect::<Vec<_>>())], ..Show::default() }
+}
+
+/// Two robots change places in a corridor along the floor's edge: one steps aside into a bay.
+pub fn bay() -> Show {
+    let (width, wide, deep, at) = (0.0754, 0.0701, 0.1027, -0.1568);
+    let half = Vec2::new(0.6, width / 2.0 + deep);
+    let (top, y) = (width - half.y, width / 2.0 - half.y);
+    let bay =
+        vec![rect((-0.6, top), (at - wide / 2.0, half.y)), rect((at + wide / 2.0, top), (half.x, half.y))];
+    let stage = Stage { width_m: 2.0 * half.x, depth_m: 2.0 * half.y, obstacles: bay, ..Stage::default() };
+    let (a, b) = (Vec2::new(-0.4, y), Vec2::new(0.4, y));
+    Show {
+        stage,
+        identity: Identity::Fixed,
+        starts: Some(vec![a, b]),
+        frames: vec![frame(&[a, b]), frame(&[b, a])],
+        ..Show::default()
+    }
+}
+
+/// Two rows of robots, so far off two edges of a small floor, that move on along them.
+pub fn along_edge(off_m: f64) -> Show {
+    let stage = Stage { width_m: 0.8, depth_m: 0.8, ..Stage::default() };
+    let far_m = 0.4 - stage.limits.radius_m - off_m;
+    let rows = |aside_m: f64| {
+        let place = |id: u32| {
+            let along_m = 0.1 * f64::from(id / 2) - 0.3 + aside_m;
+            Vec2::new(along_m, if id.is_multiple_of(2) { far_m } else { -far_m })
+        };
+        frame(&(0..8).map(place).collect::<Vec<_>>())
+    };
+    let frames = vec![rows(0.0), rows(0.25), rows(0.0)];
+    Show { stage, identity: Identity::Fixed, frames, ..Show::default() }
+}
+
+fn frame(places: &[Vec2]) -> Frame {
+    let pixels =
+        (0..).zip(places).map(|(id, &at)| Pixel { id, at, color: Rgb::new(255, 160, 0), robot: None });
+    Frame {
+        name: "there".into(),
+        air_time_s: 0.3,
+        transition_s: None,
+        easing: Easing::Swift,
+        identity: None,
+        pixels: pixels.collect(),
+    }
+}
+
+fn rect(min: (f64, f64), max: (f64, f64)) -> Obstacle {
+    Obstacle::Rect { min: Vec2::new(min.0, min.1), max: Vec2::new(max.0, max.1) }
+}
