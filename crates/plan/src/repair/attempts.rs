@@ -118,7 +118,8 @@ pub(super) fn best(scene: &Scene, easing: Easing, proven: Judge) -> Result<Weave
             _ => {}
         }
     }
-    if !attempts.is_decent() && (1..=MOST_WALLS).contains(&scene.walls.len()) {
+    // Between walls what was found with much time to spare is mostly several times as slow.
+    if attempts.is_sluggish() && (1..=MOST_WALLS).contains(&scene.walls.len()) {
         attempts.filled(corners.get_or_init(|| Corners::new(scene)));
     }
     attempts.best
