@@ -228,8 +228,15 @@ impl Watch {
         for stretch in 0..STRETCHES {
             let after = blend(apart, &self.bases[stretch + 1]);
             let way = after - before;
-            let share = (-before.dot(way) / way.length_squared().max(1e-18)).clamp(0.0, 1.0);
-            let nearest = before + way * share;
+            let (toward, whole) = (-before.dot(way), way.length_squared());
+            // Most stretches are nearest at an end, which takes no division.
+            let (share, nearest) = if toward <= 0.0 {
+                (0.0, before)
+            } else if toward < whole {
+                (toward / whole, before + way * (toward / whole))
+            } else {
+                (1.0, after)
+            };
             if nearest.length_squared() < best.0 {
                 best = (nearest.length_squared(), (stretch as f64 + share) / STRETCHES as f64, nearest);
             }

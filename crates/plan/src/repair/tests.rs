@@ -141,6 +141,15 @@ fn a_shuffled_grid_is_sorted() {
 }
 
 #[test]
+fn a_thousand_in_a_shuffled_grid_take_no_longer_than_twice_the_least() {
+    let (starts, mut seeded) = (grid(32, Vec2::ZERO), Seeded::new(4));
+    let mut goals = starts.clone();
+    (1..goals.len()).rev().for_each(|last| goals.swap(last, seeded.below(last + 1)));
+    let ratio = ratio(&problem(starts, goals, 32.0 * 0.06 + 0.03));
+    assert!(ratio < 2.0, "{ratio}");
+}
+
+#[test]
 fn a_mirrored_crowd_passes_through_itself() {
     for seed in 0..3 {
         let starts = places(&mut Seeded::new(seed), 60, 0.55, 0.0774);
