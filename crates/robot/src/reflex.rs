@@ -8,6 +8,7 @@
 mod apart;
 mod approach;
 mod block;
+mod held;
 mod standing;
 
 use core::hint::black_box;
@@ -16,6 +17,7 @@ use lightbots_base::Limits;
 
 use approach::{Approach, Closing, NARROW, WIDE};
 pub(crate) use block::Block;
+use held::Held;
 
 /// Sensors around the rim, 45° apart, counter-clockwise from the front.
 pub(crate) const SENSORS: usize = 8;
@@ -71,8 +73,7 @@ pub(crate) struct Reflex {
     /// `[steps ago]`: how fast it drove, m/s; backwards is negative.
     speeds_mps: [f32; PAST],
     dt: f32,
-    /// What holds it back: the sensor, how near it was then, see `near_m`, and how fast it may drive, m/s.
-    held: Option<(usize, [f32; 2], f64)>,
+    held: Option<Held>,
     block: Option<Block>,
     /// How far away it was that blocks it when it came to stand, and how much farther it may back away from that, metres;
     /// negative: forwards.
@@ -136,20 +137,22 @@ impl Reflex {
             return self.block.map(|_| 0.0);
         }
         let slowest = self.slowest(wish, limits);
-        if let Some((mps, sensor)) = slowest
-            && mps < wish.speed_mps.abs() * 0.5
-            && wish.speed_mps.abs() > WISH_MPS
-            && self.held.is_none_or(|(_, _, held_mps)| mps < held_mps)
-        {
-            self.count = if self.held.is_some() { self.count } else { 0 };
-            self.held = Some((sensor, self.near_m(sensor), mps));
-        }
-        let free_mps = slowest.map(|(mps, _)| mps);
-        let Some((sensor, held_m, held_mps)) = self.held else { return free_mps };
-        if self.near_m(sensor).iter().zip(held_m).all(|(&now_m, then_m)| now_m > then_m + WIDENS_M) {
+        let free_mps = slowest.map(|(mps, ..)| mps);
+        let mut held = self.held;
+        if held.as_mut().is_some_and(|held| self.was_nothing(held)) {
             self.held = None;
             return free_mps;
         }
+        if let Some((mps, sensor, turn)) = slowest
+            && mps < wish.speed_mps.abs() * 0.5
+            && wish.speed_mps.abs() > WISH_MPS
+            && held.is_none_or(|held| mps < held.mps)
+        {
+            self.count = if held.is_some() { self.count } else { 0 };
+            held = Some(self.hold(sensor, turn, mps));
+        }
+        self.held = held;
+        let Some(Held { sensor, mps: held_mps, .. }) = held else { return free_mps };
         self.count += 1;
         if self.count >= STEPS_TO_BLOCK {
             (self.held, self.count) = (None, 0);
@@ -162,7 +165,7 @@ impl Reflex {
     }
 
     /// The speed that the sensor allows which allows least, and which that is.
-    fn slowest(&mut self, wish: Wish, limits: &Limits) -> Option<(f64, usize)> {
+    fn slowest(&mut self, wish: Wish, limits: &Limits) -> Option<(f64, usize, usize)> {
         let forwards =
             if wish.speed_mps.abs() > 1e-3 { wish.speed_mps > 0.0 } else { self.speeds_mps[0] > 0.0 };
         let sense = if forwards { 1.0 } else { -1.0 };
@@ -172,7 +175,7 @@ impl Reflex {
         let contact_m = limits.contact_m() as f32;
         // Beside its way neighbours may pass by plan, as near as they like: then only the sensor ahead counts.
         let look = if wish.ample { &WIDE } else { &NARROW };
-        let mut slowest: Option<(f32, usize)> = None;
+        let mut slowest: Option<(f32, usize, usize)> = None;
         for &(index, turn) in look.around {
             let sensor = if forwards { index } else { (index + SENSORS / 2) % SENSORS };
             if turn == 2 && self.is_abaft(sensor, forwards) {
@@ -183,12 +186,12 @@ impl Reflex {
             let approach = Approach { gap_m, closing, along_mps, lately_mps, next_mps, turn };
             let until_hit_m = || self.until_hit_m(sensor, sense, contact_m);
             if let Some(mps) = approach.allowed_mps(look, contact_m, until_hit_m)
-                && slowest.is_none_or(|(least, _)| mps < least)
+                && slowest.is_none_or(|(least, ..)| mps < least)
             {
-                slowest = Some((mps, sensor));
+                slowest = Some((mps, sensor, turn));
             }
         }
-        slowest.map(|(mps, sensor)| (f64::from(mps), sensor))
+        slowest.map(|(mps, sensor, turn)| (f64::from(mps), sensor, turn))
     }
 
     /// How far it may drive until it hits what a sensor sees, if that stands, metres; infinite: it would not, or it does
@@ -232,9 +235,7 @@ impl Reflex {
     /// How near it is what a sensor or those beside it see, metres: the gap, and the least that one of them says. As it
     /// passes from one to the next either of the two may widen, but not both.
     fn near_m(&self, sensor: usize) -> [f32; 2] {
-        let says_m =
-            around(sensor).iter().map(|&sensor| self.past_m[0][sensor]).fold(f32::INFINITY, f32::min);
-        [self.nearest_m(sensor), says_m]
+        [self.nearest_m(sensor), self.says_m(sensor, 0)]
     }
 
     /// How fast the gap at a sensor shrinks; `None` where nothing was in sight twice.
