@@ -7,9 +7,10 @@ use crate::filter::turned;
 /// Feedback may ask for a little more than plans do.
 const ACCEL_RESERVE: f64 = 1.25;
 const SPEED_RESERVE: f64 = 1.25;
-/// Speed that it lost by braking at once comes back so many times as fast as its ramp would give it. An Elisa-3 stumbles
-/// at that, which costs it a millimetre; by the ramp it would lose two centimetres, and others would drive into it.
-const RECOVERS: f64 = 3.0;
+/// Speed that it lost by braking at once comes back so many times as fast as its ramp would give it: about as fast as tyres
+/// grip. An Elisa-3 stumbles at that, which costs it 4 mm at most; by the ramp it would lose two centimetres, and those
+/// close behind it would have to brake in turn, each a little more than the one before.
+const RECOVERS: f64 = 9.0;
 /// Turning rate changes by at most this, rad/s²: 2 m/s² at the wheels.
 const TURN_ACCEL: f64 = 100.0;
 /// Motors answer so late, and what is told is told until the next step, seconds.
@@ -152,7 +153,7 @@ mod tests {
         };
         assert_eq!(steps_to_speed(&mut drive), Some(14));
         drive.step_within(want, 0.0, [0.0; 2], 0.016, &Limits::ELISA_3);
-        assert_eq!((drive.speed_mps(), steps_to_speed(&mut drive)), (0.0, Some(5)));
+        assert_eq!((drive.speed_mps(), steps_to_speed(&mut drive)), (0.0, Some(2)));
         drive.step_within(want, 0.0, [0.0; 2], 0.016, &Limits::ELISA_3);
         drive.halt();
         assert_eq!(steps_to_speed(&mut drive), Some(14));

@@ -148,8 +148,14 @@ impl Reflex {
             && wish.speed_mps.abs() > WISH_MPS
             && held.is_none_or(|held| mps < held.mps)
         {
-            self.count = if held.is_some() { self.count } else { 0 };
-            held = Some(self.hold(sensor, turn, mps));
+            if held.is_none() {
+                self.count = 0;
+            }
+            match &mut held {
+                // What was seen before it braked tells most.
+                Some(held) if around(sensor).contains(&held.sensor) => held.mps = mps,
+                _ => held = Some(self.hold(sensor, turn, mps)),
+            }
         }
         self.held = held;
         let Some(Held { sensor, mps: held_mps, .. }) = held else { return free_mps };

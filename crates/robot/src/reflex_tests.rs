@@ -251,3 +251,45 @@ fn what_comes_from_between_two_sensors_into_sight_of_one_holds_it_on() {
     let blocked = stands.map(|(one_mm, two_mm)| look(one_mm, two_mm, 0.0, 0.0));
     assert!(blocked[4].1, "{blocked:?}");
 }
+
+/// Drives close behind a neighbour as fast as itself, which two readings put so much nearer, metres, than it is; in how
+/// many steps it was held back since.
+fn steps_held_by_false_readings(nearer_m: [f32; 2]) -> usize {
+    let mut pair = Pair::new(0.0635, 0.0, SPEED_MPS);
+    let step = |pair: &mut Pair, off_m: f32| {
+        pair.x += pair.speed_mps * DT;
+        pair.other.0 += pair.other_mps * DT;
+        let readings = pair.readings().map(|gap_m| gap_m - off_m);
+        pair.reflex.look(Some(&readings), (pair.speed_mps * DT, 0.0), DT);
+        let wish = Wish { speed_mps: SPEED_MPS, told_mps: pair.told_mps, ample: false };
+        let most_mps = pair.reflex.limit(wish, &LIMITS);
+        pair.speed_mps = pair.told_mps;
+        pair.told_mps = most_mps.unwrap_or(SPEED_MPS).min(SPEED_MPS);
+        usize::from(most_mps.is_some())
+    };
+    for _ in 0..8 {
+        assert_eq!(step(&mut pair, 0.0), 0);
+    }
+    nearer_m.into_iter().chain([0.0; 12]).map(|off_m| step(&mut pair, off_m)).sum()
+}
+
+#[test]
+fn a_false_reading_holds_it_back_no_longer_than_until_the_next() {
+    assert_eq!(steps_held_by_false_readings([0.0; 2]), 0);
+    assert_eq!(steps_held_by_false_readings([0.0045, 0.003]), 1);
+}
+
+#[test]
+fn a_reading_too_far_does_not_set_it_free_from_what_stands() {
+    let mut pair = Pair::new(0.15, 0.0, 0.0);
+    while pair.reflex.held.is_none() {
+        pair.step();
+    }
+    pair.x += pair.speed_mps * DT;
+    let far = pair.readings().map(|gap_m| gap_m + 0.004);
+    pair.reflex.look(Some(&far), (pair.speed_mps * DT, 0.0), DT);
+    let wish = Wish { speed_mps: SPEED_MPS, told_mps: pair.told_mps, ample: false };
+    assert!(pair.reflex.limit(wish, &LIMITS).is_some_and(|mps| mps < 0.1));
+    (pair.speed_mps, pair.told_mps) = (pair.told_mps, 0.0);
+    assert!(pair.least_gap_m() > 0.0005);
+}

@@ -52,17 +52,16 @@ impl Reflex {
 
     /// Whether what it braked for is farther away than when it braked, or drives on. To be asked at every step after that.
     pub(super) fn was_nothing(&self, held: &mut Held) -> bool {
-        let widened = self
-            .near_m(held.sensor)
-            .iter()
-            .zip(held.near_m)
-            .all(|(&now_m, then_m)| now_m > then_m + WIDENS_M);
         held.driven_m += self.moves[0].0.abs();
         held.wanted_m += held.step_m;
-        let Some(before_m) = held.before_m else { return widened };
-        let nearer_m = held.share * held.driven_m;
         let half_m = 0.5 * held.share * held.wanted_m;
-        widened || half_m > TELLS_M && self.says_m(held.sensor, 0) > before_m - nearer_m + half_m
+        if let Some(before_m) = held.before_m
+            && half_m > TELLS_M
+        {
+            return self.says_m(held.sensor, 0) > before_m - held.share * held.driven_m + half_m;
+        }
+        let now_m = self.near_m(held.sensor);
+        now_m.iter().zip(held.near_m).all(|(&now_m, then_m)| now_m > then_m + WIDENS_M)
     }
 
     /// The least that a sensor and those beside it said so many steps ago.
