@@ -137,13 +137,13 @@ impl Reflex {
             return self.block.map(|_| 0.0);
         }
         let slowest = self.slowest(wish, limits);
-        let free_mps = slowest.map(|(mps, ..)| mps);
+        let free_mps = slowest.map(|(mps, _)| mps);
         let mut held = self.held;
-        if held.as_mut().is_some_and(|held| self.was_nothing(held)) {
+        if held.as_mut().is_some_and(|held| self.was_nothing(held, limits.contact_m() as f32)) {
             self.held = None;
             return free_mps;
         }
-        if let Some((mps, sensor, turn)) = slowest
+        if let Some((mps, sensor)) = slowest
             && mps < wish.speed_mps.abs() * 0.5
             && wish.speed_mps.abs() > WISH_MPS
             && held.is_none_or(|held| mps < held.mps)
@@ -154,7 +154,7 @@ impl Reflex {
             match &mut held {
                 // What was seen before it braked tells most.
                 Some(held) if around(sensor).contains(&held.sensor) => held.mps = mps,
-                _ => held = Some(self.hold(sensor, turn, mps)),
+                _ => held = Some(self.hold(sensor, mps)),
             }
         }
         self.held = held;
@@ -162,7 +162,7 @@ impl Reflex {
         self.count += 1;
         if self.count >= STEPS_TO_BLOCK {
             (self.held, self.count) = (None, 0);
-            if self.nearest_m(sensor) > BLOCKS_M {
+            if self.nearest_m(sensor, 0) > BLOCKS_M {
                 return free_mps;
             }
             self.come_to_stand(sensor, wish.speed_mps);
@@ -171,7 +171,7 @@ impl Reflex {
     }
 
     /// The speed that the sensor allows which allows least, and which that is.
-    fn slowest(&mut self, wish: Wish, limits: &Limits) -> Option<(f64, usize, usize)> {
+    fn slowest(&mut self, wish: Wish, limits: &Limits) -> Option<(f64, usize)> {
         let forwards =
             if wish.speed_mps.abs() > 1e-3 { wish.speed_mps > 0.0 } else { self.speeds_mps[0] > 0.0 };
         let sense = if forwards { 1.0 } else { -1.0 };
@@ -181,7 +181,7 @@ impl Reflex {
         let contact_m = limits.contact_m() as f32;
         // Beside its way neighbours may pass by plan, as near as they like: then only the sensor ahead counts.
         let look = if wish.ample { &WIDE } else { &NARROW };
-        let mut slowest: Option<(f32, usize, usize)> = None;
+        let mut slowest: Option<(f32, usize)> = None;
         for &(index, turn) in look.around {
             let sensor = if forwards { index } else { (index + SENSORS / 2) % SENSORS };
             if turn == 2 && self.is_abaft(sensor, forwards) {
@@ -192,12 +192,12 @@ impl Reflex {
             let approach = Approach { gap_m, closing, along_mps, lately_mps, next_mps, turn };
             let until_hit_m = || self.until_hit_m(sensor, sense, contact_m);
             if let Some(mps) = approach.allowed_mps(look, contact_m, until_hit_m)
-                && slowest.is_none_or(|(least, ..)| mps < least)
+                && slowest.is_none_or(|(least, _)| mps < least)
             {
-                slowest = Some((mps, sensor, turn));
+                slowest = Some((mps, sensor));
             }
         }
-        slowest.map(|(mps, sensor, turn)| (f64::from(mps), sensor, turn))
+        slowest.map(|(mps, sensor)| (f64::from(mps), sensor))
     }
 
     /// How far it may drive until it hits what a sensor sees, if that stands, metres; infinite: it would not, or it does
@@ -226,22 +226,29 @@ impl Reflex {
 
     /// The gap at a sensor, metres, a little less where the one beside it sees nearly as near.
     fn gap_m(&self, sensor: usize) -> f32 {
-        let now = &self.past_m[0];
-        let [_, left, right] = around(sensor);
-        let beside = now[left].min(now[right]);
-        let even = (1.0 - (beside - now[sensor]).abs() / APART_M).max(0.0);
-        (now[sensor] - BETWEEN_M * even * even).max(0.0)
+        self.gap_then_m(sensor, 0)
     }
 
-    /// The gap at a sensor or those beside it, metres: what is in sight passes from one to the next.
-    fn nearest_m(&self, sensor: usize) -> f32 {
-        around(sensor).iter().map(|&sensor| self.gap_m(sensor)).fold(f32::INFINITY, f32::min)
+    /// The same so many steps ago.
+    fn gap_then_m(&self, sensor: usize, ago: usize) -> f32 {
+        let then = &self.past_m[ago];
+        let [_, left, right] = around(sensor);
+        let beside = then[left].min(then[right]);
+        let even = (1.0 - (beside - then[sensor]).abs() / APART_M).max(0.0);
+        (then[sensor] - BETWEEN_M * even * even).max(0.0)
+    }
+
+    /// The gap at a sensor or those beside it so many steps ago, metres: what is in sight passes from one to the next.
+    fn nearest_m(&self, sensor: usize, ago: usize) -> f32 {
+        around(sensor).iter().map(|&sensor| self.gap_then_m(sensor, ago)).fold(f32::INFINITY, f32::min)
     }
 
     /// How near it is what a sensor or those beside it see, metres: the gap, and the least that one of them says. As it
     /// passes from one to the next either of the two may widen, but not both.
     fn near_m(&self, sensor: usize) -> [f32; 2] {
-        [self.nearest_m(sensor), self.says_m(sensor, 0)]
+        let says_m =
+            around(sensor).iter().map(|&sensor| self.past_m[0][sensor]).fold(f32::INFINITY, f32::min);
+        [self.nearest_m(sensor, 0), says_m]
     }
 
     /// How fast the gap at a sensor shrinks; `None` where nothing was in sight twice.

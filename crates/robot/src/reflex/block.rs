@@ -45,12 +45,12 @@ impl Reflex {
         let left_m = self.retreat_m.abs() - (self.speeds_mps[0] * self.dt).abs();
         let behind = if self.retreat_m > 0.0 { SENSORS / 2 } else { 0 };
         let followed = around(behind).iter().any(|&sensor| self.past_m[0][sensor] < FOLLOWED_M);
-        if left_m <= 0.0 || followed || self.nearest_m(block.sensor) > CLEAR_M {
+        if left_m <= 0.0 || followed || self.nearest_m(block.sensor, 0) > CLEAR_M {
             self.retreat_m = 0.0;
             return 0.0;
         }
         self.retreat_m = left_m.copysign(self.retreat_m);
-        self.blocked_m = self.nearest_m(block.sensor);
+        self.blocked_m = self.nearest_m(block.sensor, 0);
         RETREAT_MPS.copysign(-f64::from(self.retreat_m))
     }
 
@@ -72,7 +72,7 @@ impl Reflex {
     /// Whether what blocked it has gone; where it is, by the latest readings of two sensors.
     pub(super) fn watch_block(&mut self) {
         let Some(block) = self.block else { return };
-        let gone = self.nearest_m(block.sensor) > self.blocked_m + GONE_M;
+        let gone = self.nearest_m(block.sensor, 0) > self.blocked_m + GONE_M;
         self.count = if gone { self.count + 1 } else { 0 };
         if self.count >= STEPS_TO_FREE {
             self.forget();

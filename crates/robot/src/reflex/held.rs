@@ -9,9 +9,6 @@ use super::{Reflex, WIDENS_M, around};
 /// Steps before the brake of which the mean says how near it was, and how long ago that was, in steps.
 const BEFORE: core::ops::RangeInclusive<usize> = 1..=3;
 const MIDDLE: usize = 2;
-/// Share of the way driven by which what a sensor ahead or 45° beside sees comes nearer if it stands; one abeam hardly
-/// does.
-const SHARE: [f32; 2] = [1.0, 0.75];
 /// Differences less than this tell nothing, metres.
 const TELLS_M: f32 = 0.002;
 
@@ -23,49 +20,59 @@ pub(super) struct Held {
     pub mps: f64,
     /// How near it was when the robot braked, see `Reflex::near_m`.
     near_m: [f32; 2],
-    /// How near it was before, if it was in sight then, and how far the robot drove and would have driven since.
+    /// How near it was before, if it was in sight then, metres.
     before_m: Option<f32>,
+    /// Cosine and sine of how far aside of the way it was.
+    ahead: f32,
+    aside: f32,
+    /// How far the robot drove since then, and would have driven, in all and in each step, metres.
     driven_m: f32,
     wanted_m: f32,
-    /// How far it would have driven in each step.
     step_m: f32,
-    share: f32,
+}
+
+impl Held {
+    /// How far away it is by now if it stands, and if it drives as the robot would have, metres: from rim to rim.
+    fn expected_m(&self, before_m: f32, contact_m: f32) -> [f32; 2] {
+        let far_m = before_m + contact_m;
+        let (ahead_m, aside_m) = (far_m * self.ahead - self.driven_m, far_m * self.aside);
+        let drives_m = before_m + self.ahead * (self.wanted_m - self.driven_m);
+        [libm::sqrtf(ahead_m * ahead_m + aside_m * aside_m) - contact_m, drives_m]
+    }
 }
 
 impl Reflex {
-    /// It brakes now for what a sensor sees, `turn` sensors aside of its way, which allows it so much, m/s.
-    pub(super) fn hold(&self, sensor: usize, turn: usize, mps: f64) -> Held {
-        let seen = BEFORE.map(|ago| self.says_m(sensor, ago)).filter(|gap| gap.is_finite());
+    /// It brakes now for what a sensor sees, which allows it so much, m/s.
+    pub(super) fn hold(&self, sensor: usize, mps: f64) -> Held {
+        let seen = BEFORE.map(|ago| self.nearest_m(sensor, ago)).filter(|gap| gap.is_finite());
         let (sum_m, count) = seen.fold((0.0, 0u8), |(sum, count), gap| (sum + gap, count + 1));
-        let step_m = self.moves[..MIDDLE].iter().fold(0.0, |most: f32, way| most.max(way.0.abs()));
+        let lately = &self.moves[..MIDDLE];
+        let way_m: f32 = lately.iter().map(|way| way.0).sum();
+        let step_m = lately.iter().fold(0.0, |most: f32, way| most.max(way.0.abs()));
+        let (aside, ahead) = libm::sincosf(self.towards(sensor) as f32);
         Held {
             sensor,
             mps,
             near_m: self.near_m(sensor),
-            before_m: (count > 1 && turn < SHARE.len()).then_some(sum_m / f32::from(count)),
-            driven_m: self.moves[..MIDDLE].iter().map(|way| way.0.abs()).sum(),
+            before_m: (count > 1).then_some(sum_m / f32::from(count)),
+            ahead: ahead.copysign(ahead * way_m),
+            aside,
+            driven_m: way_m.abs(),
             wanted_m: step_m * MIDDLE as f32,
             step_m,
-            share: SHARE[turn.min(SHARE.len() - 1)],
         }
     }
 
     /// Whether what it braked for is farther away than when it braked, or drives on. To be asked at every step after that.
-    pub(super) fn was_nothing(&self, held: &mut Held) -> bool {
+    pub(super) fn was_nothing(&self, held: &mut Held, contact_m: f32) -> bool {
         held.driven_m += self.moves[0].0.abs();
         held.wanted_m += held.step_m;
-        let half_m = 0.5 * held.share * held.wanted_m;
-        if let Some(before_m) = held.before_m
-            && half_m > TELLS_M
-        {
-            return self.says_m(held.sensor, 0) > before_m - held.share * held.driven_m + half_m;
-        }
         let now_m = self.near_m(held.sensor);
+        if let Some([stands_m, drives_m]) = held.before_m.map(|before_m| held.expected_m(before_m, contact_m))
+            && drives_m - stands_m > 2.0 * TELLS_M
+        {
+            return now_m[0] > 0.5 * (stands_m + drives_m);
+        }
         now_m.iter().zip(held.near_m).all(|(&now_m, then_m)| now_m > then_m + WIDENS_M)
-    }
-
-    /// The least that a sensor and those beside it said so many steps ago.
-    pub(super) fn says_m(&self, sensor: usize, ago: usize) -> f32 {
-        around(sensor).iter().map(|&sensor| self.past_m[ago][sensor]).fold(f32::INFINITY, f32::min)
     }
 }
