@@ -243,12 +243,12 @@ impl Reflex {
         around(sensor).iter().map(|&sensor| self.gap_then_m(sensor, ago)).fold(f32::INFINITY, f32::min)
     }
 
-    /// How near it is what a sensor or those beside it see, metres: the gap, and the least that one of them says. As it
-    /// passes from one to the next either of the two may widen, but not both.
-    fn near_m(&self, sensor: usize) -> [f32; 2] {
+    /// How near it was so many steps ago what a sensor or those beside it see, metres: the gap, and the least that one of
+    /// them said. As it passes from one to the next either of the two may widen, but not both.
+    fn near_m(&self, sensor: usize, ago: usize) -> [f32; 2] {
         let says_m =
-            around(sensor).iter().map(|&sensor| self.past_m[0][sensor]).fold(f32::INFINITY, f32::min);
-        [self.nearest_m(sensor, 0), says_m]
+            around(sensor).iter().map(|&sensor| self.past_m[ago][sensor]).fold(f32::INFINITY, f32::min);
+        [self.nearest_m(sensor, ago), says_m]
     }
 
     /// How fast the gap at a sensor shrinks; `None` where nothing was in sight twice.

@@ -18,10 +18,9 @@ pub(super) struct Held {
     pub sensor: usize,
     /// How fast it may drive, m/s.
     pub mps: f64,
-    /// How near it was when the robot braked, see `Reflex::near_m`.
+    /// How near it was when the robot braked, and before, if it was in sight then, metres; see `Reflex::near_m`.
     near_m: [f32; 2],
-    /// How near it was before, if it was in sight then, metres.
-    before_m: Option<f32>,
+    before_m: Option<[f32; 2]>,
     /// Cosine and sine of how far aside of the way it was.
     ahead: f32,
     aside: f32,
@@ -32,20 +31,29 @@ pub(super) struct Held {
 }
 
 impl Held {
-    /// How far away it is by now if it stands, and if it drives as the robot would have, metres: from rim to rim.
+    /// How near it would be by now that was so near before, metres: if it stands, and if it drives as the robot would have.
     fn expected_m(&self, before_m: f32, contact_m: f32) -> [f32; 2] {
         let far_m = before_m + contact_m;
         let (ahead_m, aside_m) = (far_m * self.ahead - self.driven_m, far_m * self.aside);
         let drives_m = before_m + self.ahead * (self.wanted_m - self.driven_m);
         [libm::sqrtf(ahead_m * ahead_m + aside_m * aside_m) - contact_m, drives_m]
     }
+
+    /// Whether it is so near now that it rather drives; `None`: that cannot be told.
+    fn drives(&self, now_m: [f32; 2], contact_m: f32) -> Option<bool> {
+        let expected = self.before_m?.map(|before_m| self.expected_m(before_m, contact_m));
+        let tells = |[stands_m, drives_m]: [f32; 2]| drives_m - stands_m > 2.0 * TELLS_M;
+        let drives = |(now_m, [stands_m, drives_m]): (f32, [f32; 2])| now_m > 0.5 * (stands_m + drives_m);
+        expected.into_iter().all(tells).then(|| now_m.into_iter().zip(expected).all(drives))
+    }
 }
 
 impl Reflex {
     /// It brakes now for what a sensor sees, which allows it so much, m/s.
     pub(super) fn hold(&self, sensor: usize, mps: f64) -> Held {
-        let seen = BEFORE.map(|ago| self.nearest_m(sensor, ago)).filter(|gap| gap.is_finite());
-        let (sum_m, count) = seen.fold((0.0, 0u8), |(sum, count), gap| (sum + gap, count + 1));
+        let seen = BEFORE.map(|ago| self.near_m(sensor, ago)).filter(|near| near[0].is_finite());
+        let (sum_m, count) = seen
+            .fold(([0.0; 2], 0u8), |(sum, count), near| ([sum[0] + near[0], sum[1] + near[1]], count + 1));
         let lately = &self.moves[..MIDDLE];
         let way_m: f32 = lately.iter().map(|way| way.0).sum();
         let step_m = lately.iter().fold(0.0, |most: f32, way| most.max(way.0.abs()));
@@ -53,8 +61,8 @@ impl Reflex {
         Held {
             sensor,
             mps,
-            near_m: self.near_m(sensor),
-            before_m: (count > 1).then_some(sum_m / f32::from(count)),
+            near_m: self.near_m(sensor, 0),
+            before_m: (count > 1).then_some(sum_m.map(|sum_m| sum_m / f32::from(count))),
             ahead: ahead.copysign(ahead * way_m),
             aside,
             driven_m: way_m.abs(),
@@ -67,12 +75,8 @@ impl Reflex {
     pub(super) fn was_nothing(&self, held: &mut Held, contact_m: f32) -> bool {
         held.driven_m += self.moves[0].0.abs();
         held.wanted_m += held.step_m;
-        let now_m = self.near_m(held.sensor);
-        if let Some([stands_m, drives_m]) = held.before_m.map(|before_m| held.expected_m(before_m, contact_m))
-            && drives_m - stands_m > 2.0 * TELLS_M
-        {
-            return now_m[0] > 0.5 * (stands_m + drives_m);
-        }
-        now_m.iter().zip(held.near_m).all(|(&now_m, then_m)| now_m > then_m + WIDENS_M)
+        let now_m = self.near_m(held.sensor, 0);
+        let widened = now_m.iter().zip(held.near_m).all(|(&now_m, then_m)| now_m > then_m + WIDENS_M);
+        held.drives(now_m, contact_m).unwrap_or(widened)
     }
 }
