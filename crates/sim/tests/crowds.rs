@@ -77,6 +77,29 @@ fn crowds_have_room_for_poor_sensors_and_slippery_floors() {
     }
 }
 
+/// Sixty robots on a ring, 65 mm apart, each to the place across from it: all drive close behind one another. A robot that
+/// braked for what its sensors made of noise was late getting its speed back, the one behind it had to brake for that, and
+/// so on around the ring until two touched: one seed in three.
+#[test]
+fn a_tight_ring_turns_by_half() {
+    let ring = |name: &str, sign: f64| Frame {
+        name: name.into(),
+        air_time_s: 0.5,
+        transition_s: None,
+        easing: Easing::Swift,
+        identity: None,
+        pixels: (0..60)
+            .map(|id| (id, Vec2::unit(f64::from(id) * std::f64::consts::TAU / 60.0) * (0.62 * sign)))
+            .map(|(id, at)| Pixel { id, at, color: Rgb::new(90, 90, 255), robot: None })
+            .collect(),
+    };
+    let frames = vec![ring("one", 1.0), ring("other", -1.0)];
+    let show = Show { name: "ring".into(), identity: Identity::Fixed, frames, ..Show::default() };
+    for seed in [4, 5, 9, 16, 19, 31] {
+        assert_fine(&show, "", seed);
+    }
+}
+
 #[test]
 fn the_dancers_dance() {
     let show = lightbots_show::read(DANCERS, None).unwrap().show;

@@ -3,7 +3,7 @@
 #[path = "../examples/pairs/scene.rs"]
 mod scene;
 
-use lightbots_show::Identity;
+use lightbots_show::{Identity, Show};
 use lightbots_sim::{Conditions, Faults, RehearsalOptions, RehearsalReport, rehearse};
 
 #[test]
@@ -32,9 +32,13 @@ fn run(number: u64, faults: &str) -> RehearsalReport {
         (0..).zip(&mut before.pixels).for_each(|(id, pixel)| pixel.id = id);
         show.frames.insert(0, before);
     }
+    rehearsed(&show, number, faults)
+}
+
+fn rehearsed(show: &Show, seed: u64, faults: &str) -> RehearsalReport {
     let faults = if faults.is_empty() { Faults::default() } else { Faults::parse(faults).unwrap() };
     let conditions = faults.added_to(Conditions::default());
-    rehearse(&show, &RehearsalOptions { seed: number, conditions, robots: None }, &mut |_| {})
+    rehearse(show, &RehearsalOptions { seed, conditions, robots: None }, &mut |_| {})
 }
 
 /// In crowds as tight as planning makes them, a robot braked for a neighbour that only crossed, fell behind by as much as
@@ -53,6 +57,16 @@ fn nobody_brakes_for_one_that_crosses() {
 fn nobody_creeps_into_one_that_died() {
     let report = run(103, "kill=random");
     assert_eq!((report.contacts, report.dropouts), (0, 1), "{:?}", report.issues);
+}
+
+/// Having braked for one that died beside its way, it took it for one that drives on, as what is passed so hardly comes
+/// nearer, or as it passed out of sight of one of two sensors.
+#[test]
+fn who_brakes_for_one_that_died_beside_its_way_does_not_go_on() {
+    for number in [39, 561] {
+        let report = rehearsed(&scene::pair(number, 200), number, "kill=random");
+        assert_eq!((report.contacts, report.dropouts), (0, 1), "pair {number}: {:?}", report.issues);
+    }
 }
 
 /// A robot braked for a moment for what its sensors made of noise, fell behind, and found another in its way when it
