@@ -4,7 +4,7 @@
 //! to stand. Once the robot brakes the two come apart soon: one that stands is as much nearer as the robot drove since,
 //! one that drives on is not. Who would brake on for nothing would be driven into by those behind.
 
-use super::{Reflex, WIDENS_M, around};
+use super::{Reflex, WIDENS_M};
 
 /// Steps before the brake of which the mean says how near it was, and how long ago that was, in steps.
 const BEFORE: core::ops::RangeInclusive<usize> = 1..=3;
