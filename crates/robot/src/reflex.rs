@@ -138,27 +138,21 @@ impl Reflex {
         }
         let slowest = self.slowest(wish, limits);
         let free_mps = slowest.map(|(mps, _)| mps);
-        let mut held = self.held;
-        if held.as_mut().is_some_and(|held| self.was_nothing(held, limits.contact_m() as f32)) {
-            self.held = None;
-            return free_mps;
+        if let Some(mut held) = self.held {
+            let was_nothing = self.was_nothing(&mut held, limits.contact_m() as f32);
+            self.held = (!was_nothing).then_some(held);
+            if was_nothing {
+                return free_mps;
+            }
         }
         if let Some((mps, sensor)) = slowest
             && mps < wish.speed_mps.abs() * 0.5
             && wish.speed_mps.abs() > WISH_MPS
-            && held.is_none_or(|held| mps < held.mps)
+            && self.held.is_none_or(|held| mps < held.mps)
         {
-            if held.is_none() {
-                self.count = 0;
-            }
-            match &mut held {
-                // What was seen before it braked tells most.
-                Some(held) if around(sensor).contains(&held.sensor) => held.mps = mps,
-                _ => held = Some(self.hold(sensor, mps)),
-            }
+            self.brake_for(sensor, mps);
         }
-        self.held = held;
-        let Some(Held { sensor, mps: held_mps, .. }) = held else { return free_mps };
+        let Some(Held { sensor, mps: held_mps, .. }) = self.held else { return free_mps };
         self.count += 1;
         if self.count >= STEPS_TO_BLOCK {
             (self.held, self.count) = (None, 0);

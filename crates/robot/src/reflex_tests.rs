@@ -45,12 +45,18 @@ impl Pair {
         })
     }
 
-    fn step(&mut self) {
+    /// Both move on; how fast it may drive by readings that are so much too large, metres.
+    fn may_drive(&mut self, off_m: f32) -> Option<f64> {
         self.x += self.speed_mps * DT;
         self.other.0 += self.other_mps * DT;
-        self.reflex.look(Some(&self.readings()), (self.speed_mps * DT, 0.0), DT);
+        let readings = self.readings().map(|gap_m| gap_m + off_m);
+        self.reflex.look(Some(&readings), (self.speed_mps * DT, 0.0), DT);
         let wish = Wish { speed_mps: SPEED_MPS, told_mps: self.told_mps, ample: self.ample };
-        let most_mps = self.reflex.limit(wish, &LIMITS).unwrap_or(SPEED_MPS);
+        self.reflex.limit(wish, &LIMITS)
+    }
+
+    fn step(&mut self) {
+        let most_mps = self.may_drive(0.0).unwrap_or(SPEED_MPS);
         // Tyres take two steps for the whole of it.
         self.speed_mps = self.told_mps.max(self.speed_mps - 0.188);
         self.told_mps = most_mps.min(self.told_mps + 0.02).min(SPEED_MPS);
@@ -257,12 +263,7 @@ fn what_comes_from_between_two_sensors_into_sight_of_one_holds_it_on() {
 fn steps_held_by_false_readings(nearer_m: [f32; 2]) -> usize {
     let mut pair = Pair::new(0.0635, 0.0, SPEED_MPS);
     let step = |pair: &mut Pair, off_m: f32| {
-        pair.x += pair.speed_mps * DT;
-        pair.other.0 += pair.other_mps * DT;
-        let readings = pair.readings().map(|gap_m| gap_m - off_m);
-        pair.reflex.look(Some(&readings), (pair.speed_mps * DT, 0.0), DT);
-        let wish = Wish { speed_mps: SPEED_MPS, told_mps: pair.told_mps, ample: false };
-        let most_mps = pair.reflex.limit(wish, &LIMITS);
+        let most_mps = pair.may_drive(-off_m);
         pair.speed_mps = pair.told_mps;
         pair.told_mps = most_mps.unwrap_or(SPEED_MPS).min(SPEED_MPS);
         usize::from(most_mps.is_some())
@@ -285,11 +286,7 @@ fn a_reading_too_far_does_not_set_it_free_from_what_stands() {
     while pair.reflex.held.is_none() {
         pair.step();
     }
-    pair.x += pair.speed_mps * DT;
-    let far = pair.readings().map(|gap_m| gap_m + 0.004);
-    pair.reflex.look(Some(&far), (pair.speed_mps * DT, 0.0), DT);
-    let wish = Wish { speed_mps: SPEED_MPS, told_mps: pair.told_mps, ample: false };
-    assert!(pair.reflex.limit(wish, &LIMITS).is_some_and(|mps| mps < 0.1));
+    assert!(pair.may_drive(0.004).is_some_and(|mps| mps < 0.1));
     (pair.speed_mps, pair.told_mps) = (pair.told_mps, 0.0);
     assert!(pair.least_gap_m() > 0.0005);
 }

@@ -4,7 +4,7 @@
 //! to stand. Once the robot brakes the two come apart soon: one that stands is as much nearer as the robot drove since,
 //! one that drives on is not. Who would brake on for nothing would be driven into by those behind.
 
-use super::{Reflex, WIDENS_M};
+use super::{Reflex, WIDENS_M, around};
 
 /// Steps before the brake of which the mean says how near it was, and how long ago that was, in steps.
 const BEFORE: core::ops::RangeInclusive<usize> = 1..=3;
@@ -49,8 +49,17 @@ impl Held {
 }
 
 impl Reflex {
-    /// It brakes now for what a sensor sees, which allows it so much, m/s.
-    pub(super) fn hold(&self, sensor: usize, mps: f64) -> Held {
+    /// It brakes now, or harder, for what a sensor sees, which allows it so much, m/s.
+    pub(super) fn brake_for(&mut self, sensor: usize, mps: f64) {
+        match &mut self.held {
+            // What was seen before it braked tells most.
+            Some(held) if around(sensor).contains(&held.sensor) => held.mps = mps,
+            Some(_) => self.held = Some(self.hold(sensor, mps)),
+            None => (self.held, self.count) = (Some(self.hold(sensor, mps)), 0),
+        }
+    }
+
+    fn hold(&self, sensor: usize, mps: f64) -> Held {
         let seen = BEFORE.map(|ago| self.near_m(sensor, ago)).filter(|near| near[0].is_finite());
         let (sum_m, count) = seen
             .fold(([0.0; 2], 0u8), |(sum, count), near| ([sum[0] + near[0], sum[1] + near[1]], count + 1));
