@@ -74,6 +74,13 @@ const NARROW: Wish = Wish { robots_m: 0.0595, walls_m: 0.0065, edge_m: EDGE_M, s
 /// What is aimed at where nothing else led anywhere: hardly more than must be; and that still off the floor's edge.
 const TIGHT: Wish = Wish { robots_m: 0.0575, walls_m: 0.0033, edge_m: 0.0, slack_m: 0.0002 };
 const OFF_EDGE: Wish = Wish { edge_m: EDGE_M, ..TIGHT };
+/// What is aimed at in gaps that leave robots so much room beside them, the widest first: who waits in front of a narrow
+/// gap has room to keep as far from the others as elsewhere, and who follows through it only has to leave later.
+const GAPS: [Wish; 4] =
+    [in_gap(0.0065, 0.0005), in_gap(0.005, 0.0005), in_gap(0.004, 0.0005), in_gap(0.0033, 0.0002)];
+/// So many times as long as it takes counts a way on which robots come nearer than anywhere else is wished for: they
+/// follow their ways within 3 mm, and whoever brakes there is late at once.
+const CLOSE: f64 = 1.25;
 /// Driving together, loosening on the way, and loosening first.
 const TOGETHER: Manner = Manner { bow: 0.0, early: false, level: false, spread: false, staged: false };
 const LOOSE: Manner = Manner { spread: true, ..TOGETHER };
@@ -89,6 +96,11 @@ const PATIENT: [(Manner, f64, f64, Wish); 6] = [
     (STAGED, 4.0, 3.0, TIGHT),
 ];
 
+/// Robots keep apart, as far as they may be off the walls.
+const fn in_gap(walls_m: f64, slack_m: f64) -> Wish {
+    Wish { robots_m: 0.065, walls_m, slack_m, ..OFF_EDGE }
+}
+
 /// Who says whether a weave may be driven.
 type Judge<'a> = &'a dyn Fn(Weave) -> Result<Weave, Amiss>;
 
@@ -100,7 +112,8 @@ pub(super) fn best(scene: &Scene, easing: Easing, proven: Judge) -> Result<Weave
     let courses = courses(scene, &lattice, &corners).ok_or_else(Vec::new)?;
     let crowd = Crowd::new(scene, &courses);
     let least_s = Pace::new(crowd.longest_m, &scene.limits, easing, 1.0).drive_s;
-    let mut attempts = Attempts { scene, proven, least_s, work: MOST_WORK, best: Err(Vec::new()) };
+    let mut attempts =
+        Attempts { scene, proven, least_s, work: MOST_WORK, best: Err(Vec::new()), is_close: false };
     // Large crowds seldom have the room to loosen.
     let orderly = attempts.hurry();
     let guesses = guesses(&crowd, easing);
@@ -119,7 +132,7 @@ pub(super) fn best(scene: &Scene, easing: Easing, proven: Judge) -> Result<Weave
         }
     }
     // Between walls what was found with much time to spare is mostly several times as slow.
-    if attempts.is_sluggish() && (1..=MOST_WALLS).contains(&scene.walls.len()) {
+    if (attempts.is_sluggish() || attempts.is_close) && (1..=MOST_WALLS).contains(&scene.walls.len()) {
         attempts.filled(corners.get_or_init(|| Corners::new(scene)));
     }
     attempts.best
@@ -133,6 +146,8 @@ struct Attempts<'a> {
     least_s: f64,
     work: usize,
     best: Result<Weave, Vec<Meeting>>,
+    /// Whether robots come nearer each other in the best than anywhere else is wished for.
+    is_close: bool,
 }
 
 impl Attempts<'_> {
@@ -217,16 +232,28 @@ impl Attempts<'_> {
 
     /// In an order learnt on a lattice that fits between the walls.
     fn filled(&mut self, corners: &Corners) {
+        let before_s = self.lasts();
+        self.work = self.work.max(LATTICE_WORK / 2);
+        for wish in GAPS {
+            self.relax_filled(corners, PITCH_M, wish);
+            if self.lasts() < before_s {
+                return;
+            }
+        }
         self.work = self.work.max(LATTICE_WORK / 2);
         for (pitch_m, wish) in [(PITCH_M, OFF_EDGE), (LOOSE_PITCH_M, OFF_EDGE), (TIGHT_PITCH_M, TIGHT)] {
-            let lattice = corners.lattice(self.scene, pitch_m);
-            if let Some(weave) = lattice.and_then(|lattice| ordered(self.scene, &lattice)) {
-                let effort = Effort { sweeps: 600, stretch: 4.0, hurry: true, wish };
-                self.relax(weave, effort);
-            }
+            self.relax_filled(corners, pitch_m, wish);
             if self.is_decent() {
-                break;
+                return;
             }
+        }
+    }
+
+    /// The same over one lattice.
+    fn relax_filled(&mut self, corners: &Corners, pitch_m: f64, wish: Wish) {
+        let lattice = corners.lattice(self.scene, pitch_m);
+        if let Some(weave) = lattice.and_then(|lattice| ordered(self.scene, &lattice)) {
+            self.relax(weave, Effort { sweeps: 600, stretch: 4.0, hurry: true, wish });
         }
     }
 
@@ -246,13 +273,21 @@ impl Attempts<'_> {
         let found = relaxation
             .outcome()
             .and_then(|weave| amended(self.scene, weave, effort, &mut self.work, self.proven));
-        let before = std::mem::replace(&mut self.best, Err(Vec::new()));
-        self.best = better(self.scene, before, found);
+        let is_close = effort.wish.robots_m < NARROW.robots_m;
+        let best_s = self.lasts();
+        match (&mut self.best, found) {
+            (Ok(_), Ok(found)) if weighed(self.scene, &found, is_close) >= best_s => {}
+            (best, Ok(found)) => (*best, self.is_close) = (Ok(found), is_close),
+            (Err(least), Err(left)) if least.is_empty() || (1..least.len()).contains(&left.len()) => {
+                *least = left
+            }
+            (_, Err(_)) => {}
+        }
     }
 
-    /// How long the best takes, seconds; infinite where there is none.
+    /// How long the best takes, seconds, more where robots come close; infinite where there is none.
     fn lasts(&self) -> f64 {
-        self.best.as_ref().map_or(f64::INFINITY, |weave| lasts(self.scene, weave))
+        self.best.as_ref().map_or(f64::INFINITY, |weave| weighed(self.scene, weave, self.is_close))
     }
 
     /// What takes longer than this is worth more search, seconds.
@@ -330,22 +365,7 @@ fn guesses<'a>(crowd: &'a Crowd<'a>, easing: Easing) -> Vec<Guess<'a>> {
     guesses
 }
 
-/// How long a weave must take, seconds.
-fn lasts(scene: &Scene, weave: &Weave) -> f64 {
-    weave.least_span_s(&scene.limits) * weave.spans as f64
-}
-
-/// The swifter of two ways, or how far the one came that left fewer in each other's way.
-fn better(
-    scene: &Scene,
-    one: Result<Weave, Vec<Meeting>>,
-    other: Result<Weave, Vec<Meeting>>,
-) -> Result<Weave, Vec<Meeting>> {
-    match (one, other) {
-        (Ok(one), Ok(other)) if lasts(scene, &other) < lasts(scene, &one) => Ok(other),
-        (Ok(one), _) => Ok(one),
-        (Err(_), Ok(other)) => Ok(other),
-        (Err(one), Err(other)) if one.is_empty() || (1..one.len()).contains(&other.len()) => Err(other),
-        (Err(one), Err(_)) => Err(one),
-    }
+/// How long a weave must take, seconds, more where robots come close.
+fn weighed(scene: &Scene, weave: &Weave, is_close: bool) -> f64 {
+    weave.least_span_s(&scene.limits) * weave.spans as f64 * if is_close { CLOSE } else { 1.0 }
 }

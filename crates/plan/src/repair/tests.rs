@@ -48,6 +48,12 @@ fn ratio(problem: &TransitionProblem) -> f64 {
     paths[0].as_ref().duration().as_secs() / (longest / 0.27 + 0.62)
 }
 
+/// So many in a row, 0.1 m apart.
+fn row(count: usize, y: f64) -> Vec<Vec2> {
+    let x = |index: usize| (index as f64 - (count as f64 - 1.0) / 2.0) * 0.1;
+    (0..count).map(|index| Vec2::new(x(index), y)).collect()
+}
+
 #[test]
 fn two_who_change_places_pass_each_other() {
     let (a, b) = (Vec2::new(-0.5, 0.0), Vec2::new(0.5, 0.0));
@@ -95,6 +101,21 @@ fn a_crowd_keeps_off_the_edge_where_its_ends_do() {
     for seed in 0..3 {
         let nearer_m = nearer_to_edge_m(&random(40, 0.42, 0.0774, seed), 0.0035);
         assert!(nearer_m < 1e-6, "{seed}: {nearer_m}");
+    }
+}
+
+#[test]
+fn who_waits_in_front_of_a_narrow_gap_keeps_apart_from_the_others() {
+    let wall = |from: f64, to: f64| Obstacle::Rect { min: Vec2::new(from, -0.05), max: Vec2::new(to, 0.05) };
+    for wide_m in [0.061, 0.064] {
+        let problem = TransitionProblem {
+            obstacles: vec![wall(-0.6, wide_m / -2.0), wall(wide_m / 2.0, 0.6)],
+            ..problem(row(8, 0.3), row(8, -0.3), 0.6)
+        };
+        let goal_of: Vec<Option<usize>> = (0..8).map(Some).collect();
+        let proof = prove(&problem.to_prove(&repair(&problem, &goal_of).expect("a way").paths));
+        let apart_m = proof.closest.expect("a closest pair").distance_m;
+        assert!(proof.holds() && apart_m > 0.0615, "{wide_m}: {apart_m}");
     }
 }
 

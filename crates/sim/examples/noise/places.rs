@@ -5,11 +5,16 @@ use lightbots_show::{Easing, Frame, Identity, Obstacle, Pixel, Show, Stage};
 
 /// Eight robots from the front edge through a gap in a wall, to a ring around the middle.
 pub fn gap(wide_m: f64) -> Show {
+    queue(8, 0.5, wide_m)
+}
+
+/// The same with so many robots, to a ring so far around the middle.
+pub fn queue(robots: u32, radius_m: f64, wide_m: f64) -> Show {
     let half_m = wide_m / 2.0;
     let walls = vec![rect((-1.5, 0.85), (-half_m, 0.95)), rect((half_m, 0.85), (1.5, 0.95))];
     let stage = Stage { obstacles: walls, ..Stage::default() };
-    let ring = |id: u32| Vec2::unit(f64::from(id) / 8.0 * std::f64::consts::TAU) * 0.5;
-    Show { stage, frames: vec![frame(&(0..8).map(ring).collect::<Vec<_>>())], ..Show::default() }
+    let ring = |id: u32| Vec2::unit(f64::from(id) / f64::from(robots) * std::f64::consts::TAU) * radius_m;
+    Show { stage, frames: vec![frame(&(0..robots).map(ring).collect::<Vec<_>>())], ..Show::default() }
 }
 
 /// Two robots change places in a corridor along the floor's edge: one steps aside into a bay.
