@@ -4,10 +4,10 @@
 //! took longer than the shortest one known, so that excess is each answer's own measure of trust: over a jittery link
 //! the few quick answers count, and none is thrown away.
 
-use core::hint::black_box;
-
 use lightbots_base::{Instant, Span};
 use lightbots_wire::TimeAnswer;
+
+use crate::processor::Processor;
 
 /// Answers before the clock counts as synchronised, …
 const ENOUGH: u32 = 4;
@@ -42,21 +42,22 @@ const SET_ANEW_US: f64 = 500_000.0;
 #[derive(Debug)]
 #[repr(C)] // See `Robot`.
 pub(crate) struct Clock {
+    answered: [Instant; ANSWERED],
+    shortest_us: f64,
+    mean_us: f64,
+    /// Covariance: offset², offset·drift, drift².
+    variance: [f64; 3],
+    answers: u32,
+    unanswered: u8,
+    was_reset: bool,
+    /// Each step looks at this and at what follows.
+    synchronised: bool,
+    next_question: Instant,
     /// Offset = `base_us` + `offset_us` at `at` of the own clock; the whole part apart keeps small numbers exact.
     base_us: i64,
     offset_us: f64,
     drift: f64,
     at: Instant,
-    next_question: Instant,
-    answers: u32,
-    unanswered: u8,
-    was_reset: bool,
-    synchronised: bool,
-    /// Covariance: offset², offset·drift, drift².
-    variance: [f64; 3],
-    shortest_us: f64,
-    mean_us: f64,
-    answered: [Instant; ANSWERED],
 }
 
 impl Clock {
@@ -79,10 +80,11 @@ impl Clock {
         }
     }
 
-    /// Reads a little of each cache line, in order: see `Robot::fetch`.
+    /// Names something in each cache line that every step looks at: see `Robot::fetch`.
     #[inline]
-    pub(crate) fn fetch(&self) {
-        black_box((self.base_us, self.variance[0], self.answered[0], self.answered[ANSWERED - 1]));
+    pub(crate) fn fetch(&self, processor: &impl Processor) {
+        processor.fetch(&self.synchronised);
+        processor.fetch(&self.at);
     }
 
     /// The show time at `now` of the own clock; `None` until synchronised.

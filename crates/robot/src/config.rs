@@ -24,10 +24,10 @@ pub struct Config {
     /// With nothing heard for so long while it drives a route, or with the link down for so long while it drives at
     /// all, it stops and is cut off.
     pub silence: Span,
-    /// What it can do beyond the original protocol. With none of it, it behaves and reports like an original robot.
-    pub abilities: Abilities,
     /// How often position fixes come.
     pub fix_pace: Span,
+    /// What it can do beyond the original protocol. With none of it, it behaves and reports like an original robot.
+    pub abilities: Abilities,
     /// Its body.
     pub limits: Limits,
 }

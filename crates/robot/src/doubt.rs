@@ -3,9 +3,9 @@
 //! What a fix corrects changes slowly, so the covariance is carried over several steps at once and its gains are used
 //! in between: the filter then costs a few multiplications a step.
 
-use core::hint::black_box;
-
 use lightbots_base::Vec2;
+
+use crate::processor::Processor;
 
 /// Stage x and y, heading, slip of the left wheel; that of the right wheel lies apart.
 const X: usize = 0;
@@ -208,10 +208,10 @@ impl Doubt {
         self.place
     }
 
-    /// Reads a little of each cache line, in order: see `Robot::fetch`.
+    /// Names something in each cache line that every step looks at: see `Robot::fetch`.
     #[inline]
-    pub(crate) fn fetch(&self) {
-        black_box((self.place, self.rows[3][0], self.right_own));
+    pub(crate) fn fetch(&self, processor: &impl Processor) {
+        processor.fetch(&self.place);
     }
 
     /// Variance of the heading.

@@ -1,12 +1,11 @@
 //! Where the robot is now. The filter lives in the past that fixes speak of, which is now where they come at once; from
 //! there wheel turns lead to the present.
 
-use core::hint::black_box;
-
 use lightbots_base::{Instant, Pose, Span, Vec2, wrap};
 
 use crate::config::{Config, Fix};
 use crate::filter::{Filter, turned};
+use crate::processor::Processor;
 use crate::trail::Trail;
 
 /// Lost with an error estimate above this, metres, or without a fix for so long.
@@ -88,11 +87,11 @@ impl Estimate {
         self.heading = wrap(self.heading + turned_by);
     }
 
-    /// Reads a little of each cache line, in order: see `Robot::fetch`.
+    /// Names something in each cache line that every step looks at: see `Robot::fetch`.
     #[inline]
-    pub(crate) fn fetch(&self) {
-        black_box(self.at.x);
-        self.filter.fetch();
+    pub(crate) fn fetch(&self, processor: &impl Processor) {
+        processor.fetch(&self.at);
+        self.filter.fetch(processor);
     }
 
     /// The place as far as it is known.

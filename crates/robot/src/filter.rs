@@ -7,13 +7,12 @@ mod judge;
 #[cfg(test)]
 mod tests;
 
-use core::hint::black_box;
-
 use lightbots_base::{Instant, Limits, Span, Vec2, difference, wrap};
 
 use crate::bearing::Bearing;
 use crate::config::{Config, Fix};
 use crate::doubt::{Doubt, Gain, Noise, Stretch};
+use crate::processor::Processor;
 use crate::slip::Slip;
 use crate::trust::Trust;
 use judge::{Judge, Verdict};
@@ -228,13 +227,18 @@ impl Filter {
         self.facing = if turn.abs() < 0.1 { turned(self.facing, turn) } else { Vec2::unit(self.heading) };
     }
 
-    /// Reads a little of each cache line, in order: see `Robot::fetch`.
+    /// Names something in each cache line that every step looks at: see `Robot::fetch`.
     #[inline]
-    pub(crate) fn fetch(&self) {
-        let ([x, y, turn], Stretch { turn: turned, .. }) = (&self.gains, &self.stretch);
-        black_box((self.at.x, self.track_m, turned, self.slip.now(), self.judge.last_place()));
-        black_box((self.off.is_some(), x.by[0], y.right, turn.right));
-        self.doubt.fetch();
+    pub(crate) fn fetch(&self, processor: &impl Processor) {
+        processor.fetch(&self.at);
+        processor.fetch(&self.track_m);
+        processor.fetch(&self.stretch.turn);
+        processor.fetch(&self.slip);
+        processor.fetch(&self.judge);
+        processor.fetch(&self.place_trust);
+        processor.fetch(&self.off);
+        self.gains.iter().for_each(|gain| processor.fetch(gain));
+        self.doubt.fetch(processor);
     }
 
     /// What of their turning the wheels lose, left and right.

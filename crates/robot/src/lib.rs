@@ -39,6 +39,7 @@ mod follow;
 mod light;
 mod outbox;
 mod outlook;
+mod processor;
 mod reflex;
 mod robot;
 mod routes;
@@ -52,5 +53,6 @@ mod trail;
 mod trust;
 
 pub use config::{Config, Fix, Inputs, Outputs};
+pub use processor::Processor;
 pub use robot::{Message, Robot};
 pub use shelf::Shelf;

@@ -1,9 +1,9 @@
 //! The light: a colour, fades by the show clock, blinking to be found, and flashes that say what is wrong.
 
-use core::hint::black_box;
-
 use lightbots_base::{Instant, Rgb, Span};
 use lightbots_wire::Fade;
+
+use crate::processor::Processor;
 
 /// Fades that wait for their moment; one more replaces the latest.
 const WAITING: usize = 4;
@@ -19,7 +19,7 @@ const RED: Rgb = Rgb::new(255, 0, 0);
 #[repr(C)] // See `Robot`.
 pub(crate) struct Light {
     shown: Rgb,
-    /// There is more to it than `shown`.
+    /// There is more to it than `shown`: else no step looks at what follows.
     busy: bool,
     /// The colour a running fade came from, and the fade.
     running: Option<(Rgb, Fade)>,
@@ -32,16 +32,10 @@ pub(crate) struct Light {
 }
 
 impl Light {
-    /// Reads a little of each cache line, in order: see `Robot::fetch`.
+    /// Names something in each cache line that every step looks at: see `Robot::fetch`.
     #[inline]
-    pub(crate) fn fetch(&self) {
-        black_box((
-            self.busy,
-            self.running.is_some(),
-            self.waiting.len(),
-            self.blink.is_some(),
-            self.trouble.is_some(),
-        ));
+    pub(crate) fn fetch(&self, processor: &impl Processor) {
+        processor.fetch(&self.busy);
     }
 
     /// Shows a colour at once and for good: what was under way is forgotten.

@@ -11,8 +11,6 @@ mod block;
 mod held;
 mod standing;
 
-use core::hint::black_box;
-
 use lightbots_base::Limits;
 
 use approach::{Approach, Closing, NARROW, WIDE};
@@ -104,9 +102,8 @@ impl Reflex {
 
     /// Takes the readings of a step of `dt` seconds in which it drove so far forwards, metres, and turned so far
     /// counter-clockwise, radians. What is not a number is nothing seen.
-    #[inline]
     pub(crate) fn look(&mut self, gaps_m: Option<&[f32; SENSORS]>, (way_m, turn_rad): (f64, f64), dt: f64) {
-        let gaps_m = gaps_m.filter(|gaps| dt > 0.0 && gaps.iter().any(|&gap| gap < SIGHT_M));
+        let gaps_m = gaps_m.filter(|gaps| dt > 0.0 && Self::notices(gaps));
         if gaps_m.is_none() && !self.sees {
             return;
         }
@@ -125,8 +122,18 @@ impl Reflex {
         }
     }
 
-    /// How fast it may drive, m/s, at least 0. `None`: as it likes.
+    /// Whether there is anything in such readings.
     #[inline]
+    pub(crate) fn notices(gaps_m: &[f32; SENSORS]) -> bool {
+        gaps_m.iter().any(|&gap| gap < SIGHT_M)
+    }
+
+    /// Whether it sees something or does something about what it saw: else there is nothing to ask it until it looks again.
+    pub(crate) fn is_wary(&self) -> bool {
+        self.sees || self.held.is_some() || self.block.is_some()
+    }
+
+    /// How fast it may drive, m/s, at least 0. `None`: as it likes.
     pub(crate) fn limit(&mut self, wish: Wish, limits: &Limits) -> Option<f64> {
         if !self.sees && self.block.is_none() {
             self.let_go();
@@ -277,19 +284,6 @@ impl Reflex {
         if self.held.is_some() {
             self.held = None;
         }
-    }
-
-    /// Reads a little of each cache line, in order: see `Robot::fetch`.
-    #[inline]
-    pub(crate) fn fetch(&self) {
-        black_box((
-            self.past_m[0][0],
-            self.past_m[2][0],
-            self.past_m[4][0],
-            self.past_m[6][0],
-            self.dt,
-            self.count,
-        ));
     }
 
     /// What stands in its way.

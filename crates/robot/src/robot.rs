@@ -6,7 +6,7 @@ mod tell;
 
 use core::borrow::BorrowMut;
 
-use lightbots_base::{Instant, Rgb, Span};
+use lightbots_base::{Instant, Rgb, Span, Vec2};
 use lightbots_wire::{RobotState, Topic, commands};
 
 use crate::clock::Clock;
@@ -40,11 +40,13 @@ const CREEP_MPS: f64 = 0.08;
 /// The whole of a robot's mind: no allocation, no clock, no IO. Feed it messages and steps, drain what it says. `S` is
 /// where its routes and its trail lie: in itself unless it was given another place.
 ///
-/// It lies in memory as it is declared, and its larger parts as well: what every step looks at lies together, and
-/// [`fetch`](Self::fetch) reads it in order.
+/// It lies in memory as it is declared, and its larger parts as well: what every step looks at lies together in a few
+/// stretches, between them what few steps do, and [`fetch`](Self::fetch) names the former in order.
 #[derive(Debug)]
 #[repr(C)]
 pub struct Robot<S = Shelf> {
+    /// Ends with what each step looks at.
+    config: Config,
     now: Instant,
     last_step: Option<Instant>,
     state: RobotState,
@@ -52,6 +54,8 @@ pub struct Robot<S = Shelf> {
     battery: Option<u8>,
     /// It stands until fixes come again.
     pauses: bool,
+    /// Its reflex sees something or does something about it. Else nobody need ask it.
+    wary: bool,
     /// What the latest step knew of its place.
     doubts: Doubts,
     drive: Drive,
@@ -59,11 +63,12 @@ pub struct Robot<S = Shelf> {
     supervisor: Supervisor,
     outbox: Outbox,
     seek: Option<Seek>,
+    /// Begins with what each step looks at.
     light: Light,
     unknown: u32,
-    config: Config,
-    clock: Clock,
     reflex: Reflex,
+    /// Ends with what each step looks at.
+    clock: Clock,
     estimate: Estimate,
     routes: Routes,
     shelf: S,
@@ -106,6 +111,7 @@ impl<S: BorrowMut<Shelf>> Robot<S> {
             battery: None,
             unknown: 0,
             pauses: false,
+            wary: false,
             last_step: None,
             routes: Routes::new(),
             shelf,
@@ -162,6 +168,7 @@ impl<S: BorrowMut<Shelf>> Robot<S> {
         }
         self.supervise(now);
         let wheels_radps = self.act(now, show, took);
+        self.wary = self.wary && self.reflex.is_wary();
         self.stall.tell(wheels_radps);
         self.state = self.what_it_does(show);
         self.light.say(now, self.trouble(now));
@@ -195,7 +202,11 @@ impl<S: BorrowMut<Shelf>> Robot<S> {
             let [left, right] = inputs.wheel_turns_rad;
             let way_m = 0.5 * (left + right) * self.config.limits.wheel_radius_m;
             let turn_rad = (right - left) * self.config.limits.wheel_radius_m / self.config.limits.track_m;
-            self.reflex.look(inputs.proximity_m.as_ref(), (way_m, turn_rad), dt);
+            let gaps_m = inputs.proximity_m.as_ref().filter(|gaps| Reflex::notices(gaps));
+            if self.wary || gaps_m.is_some() {
+                self.reflex.look(gaps_m, (way_m, turn_rad), dt);
+                self.wary = true;
+            }
             if self.stall.look(inputs.wheel_turns_rad, dt) {
                 self.supervisor.fault(now);
             }
@@ -254,7 +265,9 @@ impl<S: BorrowMut<Shelf>> Robot<S> {
         }
         let wants = if self.is_lost_now() { None } else { self.want(show, took) };
         let wants = if self.pauses() { Setpoint::default() } else { wants.unwrap_or_default() };
-        let most_mps = if self.routes.under_way() {
+        let most_mps = if !self.wary {
+            None
+        } else if self.routes.under_way() {
             let ample = self.routes.room_mm().is_some_and(|room_mm| room_mm >= AMPLE_MM);
             let wish = Wish { speed_mps: wants.speed_mps, told_mps: self.drive.speed_mps(), ample };
             self.reflex.limit(wish, &self.config.limits)
@@ -265,15 +278,13 @@ impl<S: BorrowMut<Shelf>> Robot<S> {
         let (slip, limits, dt) = (self.estimate.slip(), &self.config.limits, took.as_secs());
         let wheels = match most_mps {
             // Held, it may turn on the spot for what comes.
-            _ if self.reflex.block().is_some() && !self.routes.rests_held() => {
-                match self.reflex.back_away() {
-                    0.0 => self.drive.halt(),
-                    speed_mps => {
-                        let back = Setpoint { speed_mps, turn_radps: 0.0 };
-                        self.drive.step(back, slip, dt, limits)
-                    }
+            _ if self.block().is_some() && !self.routes.rests_held() => match self.reflex.back_away() {
+                0.0 => self.drive.halt(),
+                speed_mps => {
+                    let back = Setpoint { speed_mps, turn_radps: 0.0 };
+                    self.drive.step(back, slip, dt, limits)
                 }
-            }
+            },
             Some(most_mps) => self.drive.step_within(wants, most_mps, slip, dt, limits),
             None => self.drive.step(wants, slip, dt, limits),
         };
@@ -302,7 +313,7 @@ impl<S: BorrowMut<Shelf>> Robot<S> {
         let body = Body { at: self.estimate.at(), facing: self.estimate.facing() };
         let soon = self.drive.foresee(body, took.as_secs());
         if let Some(show) = show.filter(|_| self.routes.under_way()) {
-            let away = self.reflex.give_way(self.routes.room_mm());
+            let away = if self.wary { self.reflex.give_way(self.routes.room_mm()) } else { Vec2::ZERO };
             let aside = soon.facing * away.x + soon.facing.left() * away.y;
             return self.routes.step(show + took, soon, aside, limits, self.shelf.borrow());
         }

@@ -1,7 +1,5 @@
 //! The route under way, the one kept for later, and when they begin.
 
-use core::hint::black_box;
-
 use lightbots_base::{Instant, Limits, Motion, PathRef, Span, Vec2};
 use lightbots_wire::Route;
 
@@ -9,6 +7,7 @@ use crate::cursor::Cursor;
 use crate::drive::{Body, Setpoint};
 use crate::follow::{Follow, RESTING_MPS};
 use crate::outlook::{Ahead, Outlook, SLOW_MPS};
+use crate::processor::Processor;
 use crate::seek::{Seek, within_arrival};
 use crate::shelf::{Place, Shelf};
 use crate::timeline::Timeline;
@@ -29,9 +28,9 @@ const OLD_NUMBERS: u32 = 64;
 #[derive(Debug)]
 #[repr(C)] // See `Robot`.
 struct Kept {
-    follow: Follow,
-    seq: u32,
     place: Place,
+    seq: u32,
+    follow: Follow,
     ahead: Option<Vec2>,
     starts: Option<Instant>,
 }
@@ -40,6 +39,14 @@ struct Kept {
 #[derive(Debug)]
 #[repr(C)] // See `Robot`.
 struct Running {
+    starts: Instant,
+    /// Where the route ends.
+    end: Vec2,
+    outlook: Outlook,
+    /// Once the route is over and the robot is not there yet.
+    seek: Option<Seek>,
+    /// While the route is held and the robot goes back to where it should be. Each step looks at this and at what follows.
+    back: Option<Seek>,
     place: Place,
     /// Held by when the wheels have answered.
     rests: bool,
@@ -53,22 +60,14 @@ struct Running {
     off_m: f64,
     cursor: Cursor,
     follow: Follow,
-    /// While the route is held and the robot goes back to where it should be.
-    back: Option<Seek>,
-    /// Once the route is over and the robot is not there yet.
-    seek: Option<Seek>,
-    /// Where the route ends.
-    end: Vec2,
-    outlook: Outlook,
-    starts: Instant,
 }
 
 /// The routes of a robot, which lie on its shelf.
 #[derive(Debug)]
 #[repr(C)] // See `Robot`.
 pub(crate) struct Routes {
-    timeline: Timeline,
     running: Option<Running>,
+    timeline: Timeline,
     kept: Option<Kept>,
     /// Number of the route that ended last.
     finished: u32,
@@ -239,20 +238,16 @@ impl Routes {
         }
     }
 
-    /// Reads a little of each cache line, in order: see `Robot::fetch`.
+    /// Names something in each cache line that every step looks at: see `Robot::fetch`.
     #[inline]
-    pub(crate) fn fetch(&self) {
-        self.timeline.fetch();
-        if let Some(running) = &self.running {
-            black_box((
-                running.duration,
-                running.cursor.piece(),
-                running.off_m,
-                running.end.x,
-                running.starts,
-            ));
+    pub(crate) fn fetch(&self, processor: &impl Processor) {
+        if let Some(Running { back, due, cursor, .. }) = &self.running {
+            processor.fetch(back);
+            processor.fetch(due);
+            cursor.fetch(processor);
         }
-        black_box((self.kept.is_some(), self.finished));
+        self.timeline.fetch(processor);
+        processor.fetch(&self.kept);
     }
 
     /// Whether a route is under way.

@@ -1,9 +1,9 @@
 //! Path time: show time since the route's start, less what holds have eaten.
 
-use core::hint::black_box;
-
 use lightbots_base::{Instant, Span};
 use lightbots_wire::Route;
+
+use crate::processor::Processor;
 
 /// Holds and resumes remembered; older ones are folded into where the route had got to.
 const EVENTS: usize = 8;
@@ -37,9 +37,9 @@ struct Point {
 #[derive(Debug)]
 #[repr(C)] // See `Robot`.
 pub(crate) struct Timeline {
+    base: Point,
     /// In order of time, not before `base`.
     events: heapless::Vec<Event, EVENTS>,
-    base: Point,
 }
 
 impl Timeline {
@@ -72,10 +72,11 @@ impl Timeline {
         let _ = self.events.insert(place, Event { at, hold });
     }
 
-    /// Reads a little of each cache line, in order: see `Robot::fetch`.
+    /// Names something in each cache line that every step looks at: see `Robot::fetch`.
     #[inline]
-    pub(crate) fn fetch(&self) {
-        black_box((self.events.first().map(|event| event.at), self.events.len(), self.base.at));
+    pub(crate) fn fetch(&self, processor: &impl Processor) {
+        processor.fetch(&self.base);
+        processor.fetch(&self.events);
     }
 
     /// Whether no resume is known of that comes after this moment.

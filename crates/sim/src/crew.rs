@@ -1,14 +1,16 @@
 //! Robots: the real firmware core in simulated bodies, each with its own clock.
 
 use lightbots_base::{Instant, Pose, Rgb, RobotId, Vec2};
-use lightbots_robot::{Config, Fix, Inputs, Message, Robot, Shelf};
+use lightbots_robot::{Config, Fix, Inputs, Message, Processor, Robot, Shelf};
 use lightbots_show::Stage;
 use lightbots_wire::Topic;
 
 use crate::conditions::Conditions;
 use crate::dice::{Dice, Purpose};
 use crate::errors::Errors;
+use crate::memory::ThisProcessor;
 use crate::original::{Deeds, Original};
+use crate::said::Said;
 use crate::sensors::Sensors;
 use crate::world::{STEP, World};
 
@@ -18,22 +20,26 @@ const CLOCK_BEGIN_US: u64 = 3_600_000_000;
 const STEPS_PER_PERCENT: u64 = 11_250;
 /// Up to so many robots it does not pay to fetch them ahead: the processor still has them at hand from the step before.
 const CACHED: usize = 1_500;
+/// They are fetched so many turns ahead.
+const AHEAD: usize = 2;
 
 /// N robots on a floor.
 pub(crate) struct Crew {
     pub world: World,
     sensors: Sensors,
     members: Vec<Member>,
+    /// Whether they have power.
+    alive: Vec<bool>,
     steps: u64,
     errors: Errors,
     payload: Message,
+    said: Said,
 }
 
 /// As declared, so that what each step looks at lies together.
 #[repr(C)]
 struct Member {
     id: RobotId,
-    alive: bool,
     /// Its wheels do not turn.
     stuck: bool,
     /// It gets no fixes.
@@ -97,9 +103,11 @@ impl Crew {
             world: World::new(stage, &poses, conditions.slip, seed),
             sensors: Sensors::new(&conditions.fixes, &poses, seed),
             members,
+            alive: vec![true; starts.len()],
             steps: 0,
             errors: Errors::default(),
             payload: Message::new(),
+            said: Said::default(),
         }
     }
 
@@ -120,8 +128,8 @@ impl Crew {
 
     /// A robot's link comes up or breaks.
     pub fn link(&mut self, now: Instant, robot: usize, up: bool) {
-        let member = &mut self.members[robot];
-        if member.alive {
+        if self.alive[robot] {
+            let member = &mut self.members[robot];
             match &mut member.mind {
                 Mind::Ours(robot) => robot.link(member.clock.own(now), up),
                 Mind::Original(robot) => robot.link(up),
@@ -131,8 +139,8 @@ impl Crew {
 
     /// A message reaches a robot.
     pub fn receive(&mut self, now: Instant, robot: usize, topic: Topic, payload: &[u8]) {
-        let member = &mut self.members[robot];
-        if member.alive {
+        if self.alive[robot] {
+            let member = &mut self.members[robot];
             match &mut member.mind {
                 Mind::Ours(robot) => robot.receive(member.clock.own(now), topic, payload),
                 Mind::Original(robot) => robot.receive(payload),
@@ -142,9 +150,8 @@ impl Crew {
 
     /// Says what a robot has to say now.
     pub fn listen(&mut self, robot: usize, hear: &mut impl FnMut(usize, Topic, &[u8])) {
-        let member = &mut self.members[robot];
-        if member.alive {
-            member.speak(robot, &mut self.payload, hear);
+        if self.alive[robot] {
+            self.members[robot].speak(robot, &mut self.payload, hear);
         }
     }
 
@@ -155,8 +162,8 @@ impl Crew {
 
     /// Compares the clocks of all robots that have one.
     pub fn compare_clocks(&mut self, now: Instant) {
-        let shown = self.members.iter().filter(|member| member.alive);
-        self.errors.clocks(shown.filter_map(|member| match &member.mind {
+        let shown = self.members.iter().zip(&self.alive).filter(|(_, alive)| **alive);
+        self.errors.clocks(shown.filter_map(|(member, _)| match &member.mind {
             Mind::Ours(robot) => robot.show_time(member.clock.own(now)),
             Mind::Original(_) => None,
         }));
@@ -164,7 +171,7 @@ impl Crew {
 
     /// A robot's power fails.
     pub fn kill(&mut self, robot: usize) {
-        self.members[robot].alive = false;
+        self.alive[robot] = false;
         self.members[robot].light = Rgb::BLACK;
         self.world.tell(robot, [0.0; 2]);
     }
@@ -181,53 +188,73 @@ impl Crew {
     }
 
     /// One step of 16 ms that ends at `now`: bodies move, then robots sense, think and speak, one after the other.
+    ///
+    /// Thousands take turns forwards in one step and backwards in the next, so that the processor still has those at hand
+    /// that were the last in the step before. What they say is heard in their order all the same.
     pub fn step(&mut self, now: Instant, hear: &mut impl FnMut(usize, Topic, &[u8])) {
         self.world.step();
-        self.sensors.next_step();
+        self.sensors.next_step(&self.alive);
         self.steps += 1;
-        let drained = (self.steps / STEPS_PER_PERCENT).min(100) as u8;
-        let Self { world, sensors, members, errors, payload, steps, .. } = self;
-        let (members, steps) = (members.as_mut_slice(), *steps);
-        for index in 0..members.len() {
-            if members.len() > CACHED {
-                fetch(members, index + 1);
+        let count = self.members.len();
+        if count <= CACHED {
+            (0..count).for_each(|index| self.turn(now, index, hear));
+        } else if self.steps.is_multiple_of(2) && self.sensors.in_any_order() {
+            let mut said = core::mem::take(&mut self.said);
+            for index in (0..count).rev() {
+                fetch(&self.members, index.wrapping_sub(AHEAD));
+                self.turn(now, index, &mut |robot, topic, text| said.push(robot, topic, text));
             }
-            let member = &mut members[index];
-            if !member.alive {
-                continue;
+            said.drain(hear);
+            self.said = said;
+        } else {
+            for index in 0..count {
+                fetch(&self.members, index + AHEAD);
+                self.turn(now, index, hear);
             }
-            let fix = sensors.fix(index, world.pose(index)).filter(|_| !member.blind);
-            let robot = match &mut member.mind {
-                Mind::Ours(robot) => robot,
-                Mind::Original(robot) => {
-                    let Deeds { wheels_radps, light } = robot.step(fix);
-                    member.light = light;
-                    world.tell(index, if member.stuck { [0.0; 2] } else { wheels_radps });
-                    member.speak(index, payload, hear);
-                    continue;
-                }
-            };
-            errors.look(steps, index, robot, world);
-            let inputs = Inputs {
-                wheel_turns_rad: world.wheel_turns(index),
-                fix: fix.map(|fix| Fix { at: fix.at, heading: Some(fix.heading) }),
-                battery: Some(member.battery.saturating_sub(drained)),
-                proximity_m: Some(world.proximity_m(index)),
-            };
-            let outputs = robot.step(member.clock.own(now), &inputs);
-            errors.look_again(steps, index, robot, world);
-            member.light = outputs.light;
-            world.tell(index, if member.stuck { [0.0; 2] } else { outputs.wheels_radps });
-            member.speak(index, payload, hear);
         }
+    }
+
+    /// One robot's turn within a step.
+    #[inline]
+    fn turn(&mut self, now: Instant, index: usize, hear: &mut impl FnMut(usize, Topic, &[u8])) {
+        let Self { world, sensors, members, alive, errors, payload, steps, .. } = self;
+        if !alive[index] {
+            return;
+        }
+        let (member, steps) = (&mut members[index], *steps);
+        let fix = sensors.fix(index, world.pose(index)).filter(|_| !member.blind);
+        let robot = match &mut member.mind {
+            Mind::Ours(robot) => robot,
+            Mind::Original(robot) => {
+                let Deeds { wheels_radps, light } = robot.step(fix);
+                member.light = light;
+                world.tell(index, if member.stuck { [0.0; 2] } else { wheels_radps });
+                member.speak(index, payload, hear);
+                return;
+            }
+        };
+        errors.look(steps, index, robot, world);
+        let drained = (steps / STEPS_PER_PERCENT).min(100) as u8;
+        let inputs = Inputs {
+            wheel_turns_rad: world.wheel_turns(index),
+            fix: fix.map(|fix| Fix { at: fix.at, heading: Some(fix.heading) }),
+            battery: Some(member.battery.saturating_sub(drained)),
+            proximity_m: Some(world.proximity_m(index)),
+        };
+        let outputs = robot.step(member.clock.own(now), &inputs);
+        errors.look_again(steps, index, robot, world);
+        member.light = outputs.light;
+        world.tell(index, if member.stuck { [0.0; 2] } else { outputs.wheels_radps });
+        member.speak(index, payload, hear);
     }
 }
 
 /// Fetches a robot from memory before its turn.
 #[inline]
 fn fetch(members: &[Member], index: usize) {
-    if let Some(Member { mind: Mind::Ours(robot), .. }) = members.get(index) {
-        robot.fetch();
+    if let Some(Member { clock, mind: Mind::Ours(robot), .. }) = members.get(index) {
+        ThisProcessor.fetch(clock);
+        robot.fetch(&ThisProcessor);
     }
 }
 
@@ -260,7 +287,7 @@ impl Member {
         } else {
             Mind::Ours(Ours::with_shelf(config, Box::default()))
         };
-        Self { mind, id, clock, battery, light: Rgb::BLACK, alive: true, stuck: false, blind: false }
+        Self { mind, id, clock, battery, light: Rgb::BLACK, stuck: false, blind: false }
     }
 
     #[inline]

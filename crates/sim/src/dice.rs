@@ -80,11 +80,16 @@ impl Dice {
     /// they are needed for every robot at every step.
     #[inline]
     pub fn normal3(&mut self) -> [f64; 3] {
-        let bits = self.bits();
-        let table: &[f32; NORMAL_LEN] = &NORMAL;
-        let pick = |shift: u32| f64::from(table[(bits >> shift) as usize % NORMAL_LEN]);
-        [pick(52), pick(40), pick(28)]
+        normal3_of(self.bits())
     }
+}
+
+/// The normal numbers that one throw stands for.
+#[inline]
+pub(crate) fn normal3_of(bits: u64) -> [f64; 3] {
+    let table: &[f32; NORMAL_LEN] = &NORMAL;
+    let pick = |shift: u32| f64::from(table[(bits >> shift) as usize % NORMAL_LEN]);
+    [pick(52), pick(40), pick(28)]
 }
 
 fn split_mix(state: &mut u64) -> u64 {

@@ -3,7 +3,7 @@
 use lightbots_base::{Pose, Span, Vec2, wrap};
 
 use crate::conditions::FixConditions;
-use crate::dice::{Dice, Purpose};
+use crate::dice::{Dice, Purpose, normal3_of};
 use crate::world::{STEP, STEP_S};
 
 /// How often a robot's fixes drop out, where they do: once in this time in the mean, seconds.
@@ -22,8 +22,10 @@ pub(crate) struct Sensors {
     /// The step until which a robot gets no fix; empty without drop-outs.
     dark_until: Vec<u64>,
     step: u64,
-    /// Whether anything but noise was asked for.
+    /// Whether nothing but noise was asked for.
     plain: bool,
+    /// `[robot]`: what was thrown for this step, where noise is all there is.
+    throws: Vec<u64>,
 }
 
 impl Sensors {
@@ -40,26 +42,44 @@ impl Sensors {
         let dark = if conditions.dropout > Span::ZERO { starts.len() } else { 0 };
         let mut offset = || dice.between(-conditions.bias_m, conditions.bias_m);
         let bias = starts.iter().map(|_| Vec2::new(offset(), offset())).collect();
-        Self { conditions: conditions.clone(), bias, past, dark_until: vec![0; dark], step: 0, plain, dice }
+        Self {
+            conditions: conditions.clone(),
+            bias,
+            past,
+            dark_until: vec![0; dark],
+            step: 0,
+            plain,
+            throws: vec![0; if plain { starts.len() } else { 0 }],
+            dice,
+        }
     }
 
     /// Begins the next step: call once before the robots' senses are asked for.
-    pub fn next_step(&mut self) {
+    pub fn next_step(&mut self, alive: &[bool]) {
         self.step += 1;
+        for (throw, _) in self.throws.iter_mut().zip(alive).filter(|&(_, &alive)| alive) {
+            *throw = self.dice.bits();
+        }
     }
 
-    /// What a robot that really is at `pose` is told about it in this step; call once a step for each robot, in order.
+    /// Whether robots may ask for their fixes in any order; else only in their own.
+    pub fn in_any_order(&self) -> bool {
+        self.plain
+    }
+
+    /// What a robot that really is at `pose` is told about it in this step; call once a step for each robot that is alive.
     #[inline]
     pub fn fix(&mut self, robot: usize, pose: Pose) -> Option<Pose> {
         if self.plain {
-            return Some(self.noisy(pose));
+            return Some(self.noisy(pose, self.throws[robot]));
         }
         let pose = self.delayed(robot, pose);
         let staggered = self.step + robot as u64;
         if !staggered.is_multiple_of(u64::from(self.conditions.every.max(1))) || self.is_dark(robot) {
             return None;
         }
-        let mut fix = self.noisy(Pose { at: pose.at + self.bias[robot], ..pose });
+        let throw = self.dice.bits();
+        let mut fix = self.noisy(Pose { at: pose.at + self.bias[robot], ..pose }, throw);
         if self.dice.chance(self.conditions.outliers) {
             let mut off = || self.dice.between(-OUTLIER_M, OUTLIER_M);
             fix.at += Vec2::new(off(), off());
@@ -68,8 +88,8 @@ impl Sensors {
     }
 
     #[inline]
-    fn noisy(&mut self, pose: Pose) -> Pose {
-        let [x, y, turn] = self.dice.normal3();
+    fn noisy(&self, pose: Pose, throw: u64) -> Pose {
+        let [x, y, turn] = normal3_of(throw);
         let sigma = self.conditions.place_sigma_m;
         Pose {
             at: pose.at + Vec2::new(x * sigma, y * sigma),
@@ -113,7 +133,7 @@ mod tests {
         (1..=5000)
             .map(|step| {
                 let truth = Pose::new(Vec2::new(f64::from(step) * 0.001, 0.0), 0.5);
-                sensors.next_step();
+                sensors.next_step(&[true]);
                 sensors.fix(0, truth).map(|fix| (fix.at.x - truth.at.x, fix.heading - truth.heading))
             })
             .collect()
@@ -127,6 +147,20 @@ mod tests {
     #[test]
     fn ideal_fixes_are_true() {
         assert!(errors_of(&Faults::default()).iter().all(|&error| error == Some((0.0, 0.0))));
+    }
+
+    #[test]
+    fn fixes_are_the_same_in_whatever_order_they_are_asked_for() {
+        let fixes = |order: [usize; 2]| {
+            let mut sensors = Sensors::new(&Conditions::default().fixes, &[Pose::default(); 3], 4);
+            assert!(sensors.in_any_order());
+            sensors.next_step(&[true, false, true]);
+            let mut fixes = order.map(|robot| (robot, sensors.fix(robot, Pose::default())));
+            fixes.sort_by_key(|fix| fix.0);
+            fixes
+        };
+        assert_eq!(fixes([0, 2]), fixes([2, 0]));
+        assert_ne!(fixes([0, 2])[0].1, fixes([0, 2])[1].1);
     }
 
     #[test]

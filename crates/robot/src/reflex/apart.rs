@@ -22,7 +22,6 @@ const LITTLE_M: f32 = 0.0015;
 impl Reflex {
     /// How far, and where to in body space, it gives way to neighbours; metres, zero where nobody is too near.
     /// `room_mm`: how far others stay away by plan.
-    #[inline]
     pub(crate) fn give_way(&self, room_mm: Option<u16>) -> Vec2 {
         if self.sees { self.away(room_mm) } else { Vec2::ZERO }
     }

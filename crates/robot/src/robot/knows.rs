@@ -1,10 +1,9 @@
 //! What a robot knows of itself: place, doubt, what it is doing and what is wrong.
 
 use super::Robot;
-use crate::config::Config;
+use crate::processor::Processor;
 use crate::shelf::Shelf;
 use core::borrow::BorrowMut;
-use core::hint::black_box;
 use lightbots_base::{Instant, Pose, RobotId, Span, Vec2};
 use lightbots_wire::RobotState;
 
@@ -71,19 +70,22 @@ impl<S: BorrowMut<Shelf>> Robot<S> {
         self.estimate.blind(self.now, self.config.fix_pace * 3 + OVERDUE)
     }
 
-    /// Reads a little of each of its cache lines, in order. Who lets thousands of robots take turns does so a turn ahead:
-    /// memory is quick where it is read in order, and slow where a step reads it here and there.
+    /// Lets a processor fetch what the next step will look at. Who lets thousands of robots take turns does so a turn or two
+    /// ahead: a step that has to wait for memory itself waits longer than it works.
     #[inline]
-    pub fn fetch(&self) {
-        black_box((self.now, self.drive.speed_mps(), self.supervisor.is_cut(), self.outbox.is_empty()));
-        black_box(self.seek.is_some());
-        self.light.fetch();
-        let Config { fix_delay, slip, limits, .. } = &self.config;
-        black_box((self.unknown, *fix_delay, *slip, limits.track_m));
-        self.clock.fetch();
-        self.reflex.fetch();
-        self.estimate.fetch();
-        self.routes.fetch();
+    pub fn fetch(&self, processor: &impl Processor) {
+        processor.fetch(&self.config.fix_pace);
+        processor.fetch(&self.config.limits.track_m);
+        processor.fetch(&self.now);
+        processor.fetch(&self.drive);
+        processor.fetch(&self.stall);
+        processor.fetch(&self.supervisor);
+        processor.fetch(&self.outbox);
+        processor.fetch(&self.seek);
+        self.light.fetch(processor);
+        self.clock.fetch(processor);
+        self.estimate.fetch(processor);
+        self.routes.fetch(processor);
     }
 
     /// Its name.

@@ -7,6 +7,7 @@ use lightbots_wire::{Blocked, Details, Report, RobotState, TimeQuestion, Topic};
 
 use super::{Message, Robot};
 use crate::outbox::Fact;
+use crate::reflex::Block;
 use crate::shelf::Shelf;
 
 impl<S: BorrowMut<Shelf>> Robot<S> {
@@ -38,9 +39,14 @@ impl<S: BorrowMut<Shelf>> Robot<S> {
         Some(topic)
     }
 
+    /// What stands in its way.
+    pub(super) fn block(&self) -> Option<Block> {
+        if self.wary { self.reflex.block() } else { None }
+    }
+
     /// What stands in its way: how far, and in which direction of the stage.
     pub(super) fn blocked(&self) -> Option<Blocked> {
-        let (block, pose) = (self.reflex.block()?, self.pose()?);
+        let (block, pose) = (self.block()?, self.pose()?);
         Some(Blocked { gap_m: block.gap_m, towards: wrap(pose.heading + block.towards) })
     }
 
