@@ -78,8 +78,8 @@ const OFF_EDGE: Wish = Wish { edge_m: EDGE_M, ..TIGHT };
 /// gap has room to keep as far from the others as elsewhere, and who follows through it only has to leave later.
 const GAPS: [Wish; 4] =
     [in_gap(0.0065, 0.0005), in_gap(0.005, 0.0005), in_gap(0.004, 0.0005), in_gap(0.0033, 0.0002)];
-/// So many times as long as it takes counts a way on which robots come nearer than anywhere else is wished for: they
-/// follow their ways within 3 mm, and whoever brakes there is late at once.
+/// So many times as long as it takes counts a way between walls on which robots come nearer than is wished for where there
+/// is room: whoever brakes there is in the way of others at once. Elsewhere there is nothing else to try.
 const CLOSE: f64 = 1.25;
 /// Driving together, loosening on the way, and loosening first.
 const TOGETHER: Manner = Manner { bow: 0.0, early: false, level: false, spread: false, staged: false };
@@ -113,7 +113,7 @@ pub(super) fn best(scene: &Scene, easing: Easing, proven: Judge) -> Result<Weave
     let crowd = Crowd::new(scene, &courses);
     let least_s = Pace::new(crowd.longest_m, &scene.limits, easing, 1.0).drive_s;
     let mut attempts =
-        Attempts { scene, proven, least_s, work: MOST_WORK, best: Err(Vec::new()), is_close: false };
+        Attempts { scene, proven, least_s, work: MOST_WORK, best: Err(Vec::new()), weight: 1.0 };
     // Large crowds seldom have the room to loosen.
     let orderly = attempts.hurry();
     let guesses = guesses(&crowd, easing);
@@ -132,7 +132,7 @@ pub(super) fn best(scene: &Scene, easing: Easing, proven: Judge) -> Result<Weave
         }
     }
     // Between walls what was found with much time to spare is mostly several times as slow.
-    if (attempts.is_sluggish() || attempts.is_close) && (1..=MOST_WALLS).contains(&scene.walls.len()) {
+    if attempts.has_walls() && (attempts.is_sluggish() || attempts.weight > 1.0) {
         attempts.filled(corners.get_or_init(|| Corners::new(scene)));
     }
     attempts.best
@@ -146,8 +146,8 @@ struct Attempts<'a> {
     least_s: f64,
     work: usize,
     best: Result<Weave, Vec<Meeting>>,
-    /// Whether robots come nearer each other in the best than anywhere else is wished for.
-    is_close: bool,
+    /// How many seconds each that the best takes counts.
+    weight: f64,
 }
 
 impl Attempts<'_> {
@@ -230,15 +230,20 @@ impl Attempts<'_> {
         }
     }
 
-    /// In an order learnt on a lattice that fits between the walls.
+    /// In an order learnt on a lattice that fits between the walls. Who hardly fits where it shall be as far off them as it
+    /// can is slow there: the next that is aimed at may be swifter.
     fn filled(&mut self, corners: &Corners) {
-        let before_s = self.lasts();
+        let (before_s, mut is_found) = (self.lasts(), false);
         self.work = self.work.max(LATTICE_WORK / 2);
         for wish in GAPS {
             self.relax_filled(corners, PITCH_M, wish);
-            if self.lasts() < before_s {
+            if is_found && !self.is_sluggish() {
                 return;
             }
+            is_found |= self.lasts() < before_s;
+        }
+        if !self.is_sluggish() {
+            return;
         }
         self.work = self.work.max(LATTICE_WORK / 2);
         for (pitch_m, wish) in [(PITCH_M, OFF_EDGE), (LOOSE_PITCH_M, OFF_EDGE), (TIGHT_PITCH_M, TIGHT)] {
@@ -257,6 +262,11 @@ impl Attempts<'_> {
         }
     }
 
+    /// Whether there are walls, and so few that gaps between them can be looked for.
+    fn has_walls(&self) -> bool {
+        (1..=MOST_WALLS).contains(&self.scene.walls.len())
+    }
+
     /// Whether the crowd is so large that the first way found does.
     fn hurry(&self) -> bool {
         self.scene.robots() > MOST_TO_IMPROVE
@@ -273,11 +283,12 @@ impl Attempts<'_> {
         let found = relaxation
             .outcome()
             .and_then(|weave| amended(self.scene, weave, effort, &mut self.work, self.proven));
-        let is_close = effort.wish.robots_m < NARROW.robots_m;
+        let is_close = self.has_walls() && effort.wish.robots_m < WIDE.robots_m;
+        let weight = if is_close { CLOSE } else { 1.0 };
         let best_s = self.lasts();
         match (&mut self.best, found) {
-            (Ok(_), Ok(found)) if weighed(self.scene, &found, is_close) >= best_s => {}
-            (best, Ok(found)) => (*best, self.is_close) = (Ok(found), is_close),
+            (Ok(_), Ok(found)) if lasts(self.scene, &found) * weight >= best_s => {}
+            (best, Ok(found)) => (*best, self.weight) = (Ok(found), weight),
             (Err(least), Err(left)) if least.is_empty() || (1..least.len()).contains(&left.len()) => {
                 *least = left
             }
@@ -287,7 +298,7 @@ impl Attempts<'_> {
 
     /// How long the best takes, seconds, more where robots come close; infinite where there is none.
     fn lasts(&self) -> f64 {
-        self.best.as_ref().map_or(f64::INFINITY, |weave| weighed(self.scene, weave, self.is_close))
+        self.best.as_ref().map_or(f64::INFINITY, |weave| lasts(self.scene, weave) * self.weight)
     }
 
     /// What takes longer than this is worth more search, seconds.
@@ -365,7 +376,7 @@ fn guesses<'a>(crowd: &'a Crowd<'a>, easing: Easing) -> Vec<Guess<'a>> {
     guesses
 }
 
-/// How long a weave must take, seconds, more where robots come close.
-fn weighed(scene: &Scene, weave: &Weave, is_close: bool) -> f64 {
-    weave.least_span_s(&scene.limits) * weave.spans as f64 * if is_close { CLOSE } else { 1.0 }
+/// How long a weave must take, seconds.
+fn lasts(scene: &Scene, weave: &Weave) -> f64 {
+    weave.least_span_s(&scene.limits) * weave.spans as f64
 }
