@@ -42,22 +42,22 @@ const SET_ANEW_US: f64 = 500_000.0;
 #[derive(Debug)]
 #[repr(C)] // See `Robot`.
 pub(crate) struct Clock {
-    answered: [Instant; ANSWERED],
-    shortest_us: f64,
-    mean_us: f64,
-    /// Covariance: offset², offset·drift, drift².
-    variance: [f64; 3],
-    answers: u32,
-    unanswered: u8,
-    was_reset: bool,
-    /// Each step looks at this and at what follows.
-    synchronised: bool,
-    next_question: Instant,
     /// Offset = `base_us` + `offset_us` at `at` of the own clock; the whole part apart keeps small numbers exact.
     base_us: i64,
     offset_us: f64,
     drift: f64,
     at: Instant,
+    next_question: Instant,
+    synchronised: bool,
+    // No step looks at what follows.
+    was_reset: bool,
+    unanswered: u8,
+    answers: u32,
+    /// Covariance: offset², offset·drift, drift².
+    variance: [f64; 3],
+    shortest_us: f64,
+    mean_us: f64,
+    answered: [Instant; ANSWERED],
 }
 
 impl Clock {
@@ -83,8 +83,8 @@ impl Clock {
     /// Names something in each cache line that every step looks at: see `Robot::fetch`.
     #[inline]
     pub(crate) fn fetch(&self, processor: &impl Processor) {
+        processor.fetch(&self.base_us);
         processor.fetch(&self.synchronised);
-        processor.fetch(&self.at);
     }
 
     /// The show time at `now` of the own clock; `None` until synchronised.

@@ -16,12 +16,13 @@ const LOST_AFTER: Span = Span::from_millis(3000);
 #[derive(Debug)]
 #[repr(C)] // See `Robot`.
 pub(crate) struct Estimate {
+    delay: Span,
+    filter: Filter,
+    /// Where fixes come late: where it is by now; else nobody looks at this and at what follows.
     at: Vec2,
     /// Unit vector of `heading`.
     facing: Vec2,
     heading: f64,
-    delay: Span,
-    filter: Filter,
 }
 
 impl Estimate {
@@ -38,7 +39,7 @@ impl Estimate {
     /// Carries the pose over one step by wheel turns, radians. `trail` is its own, which lies elsewhere.
     #[inline]
     pub(crate) fn advance(&mut self, now: Instant, turns_rad: [f64; 2], trail: &mut Trail) {
-        if self.delay <= Span::ZERO {
+        if !self.is_ahead() {
             self.filter.advance(turns_rad);
         } else {
             if let Some(turns) = trail.add(now, turns_rad) {
@@ -54,7 +55,7 @@ impl Estimate {
     /// Pulls the pose towards a fix. What is not a number is no fix.
     #[inline]
     pub(crate) fn correct(&mut self, now: Instant, fix: &Fix, trail: &Trail) {
-        if self.delay <= Span::ZERO {
+        if !self.is_ahead() {
             self.filter.correct(now, fix);
         } else {
             // The fix speaks of a moment within the step that follows on the filter's.
@@ -68,9 +69,9 @@ impl Estimate {
 
     #[inline]
     fn come_to_now(&mut self, trail: &Trail) {
-        (self.at, self.heading, self.facing) =
-            (self.filter.at(), self.filter.heading(), self.filter.facing());
-        if self.delay > Span::ZERO {
+        if self.is_ahead() {
+            (self.at, self.heading, self.facing) =
+                (self.filter.at(), self.filter.heading(), self.filter.facing());
             self.follow_trail(trail);
         }
     }
@@ -90,18 +91,27 @@ impl Estimate {
     /// Names something in each cache line that every step looks at: see `Robot::fetch`.
     #[inline]
     pub(crate) fn fetch(&self, processor: &impl Processor) {
-        processor.fetch(&self.at);
+        processor.fetch(&self.delay);
         self.filter.fetch(processor);
     }
 
     /// The place as far as it is known.
     pub(crate) fn at(&self) -> Vec2 {
-        self.at
+        if self.is_ahead() { self.at } else { self.filter.at() }
     }
 
     /// Unit vector of the heading.
     pub(crate) fn facing(&self) -> Vec2 {
-        self.facing
+        if self.is_ahead() { self.facing } else { self.filter.facing() }
+    }
+
+    fn heading(&self) -> f64 {
+        if self.is_ahead() { self.heading } else { self.filter.heading() }
+    }
+
+    /// Whether now is later than what fixes speak of.
+    fn is_ahead(&self) -> bool {
+        self.delay > Span::ZERO
     }
 
     /// Whether the heading is known.
@@ -116,7 +126,7 @@ impl Estimate {
 
     /// The pose, as far as it is known; nothing where the heading is not known yet.
     pub(crate) fn pose(&self) -> Option<Pose> {
-        self.aligned().then_some(Pose::new(self.at, self.heading))
+        self.aligned().then_some(Pose::new(self.at(), self.heading()))
     }
 
     /// Expected error of the place, 1 sigma in each coordinate, metres.
@@ -132,7 +142,7 @@ impl Estimate {
     /// What it comes to after so much more way without a fix, if all that leads it astray now goes on the same way.
     pub(crate) fn error_at_worst_m(&self, way_m: f64) -> f64 {
         // The filter is as sure as it was when fixes were made that come in now.
-        self.error_m() + self.filter.strays_m(way_m + self.at.distance(self.filter.at()))
+        self.error_m() + self.filter.strays_m(way_m + self.at().distance(self.filter.at()))
     }
 
     /// Whether no fix came for so long.

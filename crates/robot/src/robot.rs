@@ -45,6 +45,8 @@ const CREEP_MPS: f64 = 0.08;
 #[derive(Debug)]
 #[repr(C)]
 pub struct Robot<S = Shelf> {
+    /// Begins with what each step looks at.
+    clock: Clock,
     /// Ends with what each step looks at.
     config: Config,
     now: Instant,
@@ -67,8 +69,6 @@ pub struct Robot<S = Shelf> {
     light: Light,
     unknown: u32,
     reflex: Reflex,
-    /// Ends with what each step looks at.
-    clock: Clock,
     estimate: Estimate,
     routes: Routes,
     shelf: S,

@@ -148,6 +148,15 @@ impl Crew {
         }
     }
 
+    /// Fetches a robot from memory before its turn, or before it hears something.
+    #[inline]
+    pub fn fetch(&self, robot: usize) {
+        if let Some(Member { clock, mind: Mind::Ours(robot), .. }) = self.members.get(robot) {
+            ThisProcessor.fetch(clock);
+            robot.fetch(&ThisProcessor);
+        }
+    }
+
     /// Says what a robot has to say now.
     pub fn listen(&mut self, robot: usize, hear: &mut impl FnMut(usize, Topic, &[u8])) {
         if self.alive[robot] {
@@ -201,14 +210,14 @@ impl Crew {
         } else if self.steps.is_multiple_of(2) && self.sensors.in_any_order() {
             let mut said = core::mem::take(&mut self.said);
             for index in (0..count).rev() {
-                fetch(&self.members, index.wrapping_sub(AHEAD));
+                self.fetch(index.wrapping_sub(AHEAD));
                 self.turn(now, index, &mut |robot, topic, text| said.push(robot, topic, text));
             }
             said.drain(hear);
             self.said = said;
         } else {
             for index in 0..count {
-                fetch(&self.members, index + AHEAD);
+                self.fetch(index + AHEAD);
                 self.turn(now, index, hear);
             }
         }
@@ -246,15 +255,6 @@ impl Crew {
         member.light = outputs.light;
         world.tell(index, if member.stuck { [0.0; 2] } else { outputs.wheels_radps });
         member.speak(index, payload, hear);
-    }
-}
-
-/// Fetches a robot from memory before its turn.
-#[inline]
-fn fetch(members: &[Member], index: usize) {
-    if let Some(Member { clock, mind: Mind::Ours(robot), .. }) = members.get(index) {
-        ThisProcessor.fetch(clock);
-        robot.fetch(&ThisProcessor);
     }
 }
 

@@ -5,16 +5,21 @@ use std::collections::BinaryHeap;
 use std::rc::Rc;
 
 use lightbots_base::{Instant, Span};
+use lightbots_robot::Processor;
 use lightbots_wire::Topic;
 
 use crate::conditions::LinkConditions;
 use crate::dice::{Dice, Purpose};
+use crate::memory::ThisProcessor;
 
 /// The most messages that are under way, for each robot and for all together on top; more are lost.
 const UNDER_WAY_PER_ROBOT: usize = 64;
 const UNDER_WAY: usize = 1024;
 /// Share of messages that jitter makes late.
 const JITTERED: f64 = 0.1;
+
+/// Who hears a message that no robot hears.
+const CONTROLLER: u32 = u32::MAX;
 
 /// Which way a message goes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -50,8 +55,8 @@ pub struct MessageCounts {
 pub(crate) struct Network {
     conditions: LinkConditions,
     dice: Dice,
-    /// When, in which order, and where in `slots`.
-    queue: BinaryHeap<Reverse<(Instant, u64, u32)>>,
+    /// When, in which order, where in `slots`, and to which robot, or `CONTROLLER`.
+    queue: BinaryHeap<Reverse<(Instant, u64, u32, u32)>>,
     slots: Vec<Option<Message>>,
     free: Vec<u32>,
     /// When the last message of each link arrives: `[robot]`, to it and from it.
@@ -100,9 +105,18 @@ impl Network {
         if self.next_at()? > until {
             return None;
         }
-        let Reverse((at, _, slot)) = self.queue.pop()?;
+        let Reverse((at, _, slot, _)) = self.queue.pop()?;
         self.free.push(slot);
+        if let Some(&Reverse((_, _, next, _))) = self.queue.peek() {
+            ThisProcessor.fetch(&self.slots[next as usize]);
+        }
         Some((at, self.slots[slot as usize].take()?))
+    }
+
+    /// The robot that hears the next message, if a robot does.
+    pub fn next_listener(&self) -> Option<usize> {
+        let &Reverse((.., robot)) = self.queue.peek()?;
+        (robot != CONTROLLER).then_some(robot as usize)
     }
 
     /// How many messages were said and lost.
@@ -128,8 +142,12 @@ impl Network {
             self.slots.len() as u32 - 1
         });
         self.slots[slot as usize] = Some(message);
+        if let Some(&next) = self.free.last() {
+            ThisProcessor.fetch(&self.slots[next as usize]);
+        }
         self.said += 1;
-        self.queue.push(Reverse((at, self.said, slot)));
+        let listener = if direction == 0 { robot as u32 } else { CONTROLLER };
+        self.queue.push(Reverse((at, self.said, slot, listener)));
     }
 
     fn delay(&mut self) -> Span {

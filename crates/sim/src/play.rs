@@ -129,6 +129,9 @@ impl Play {
             } else {
                 let Some((at, message)) = self.network.next_until(until) else { return };
                 self.now = at.max(self.now);
+                if let Some(robot) = self.network.next_listener() {
+                    self.crew.fetch(robot);
+                }
                 match message.way {
                     Way::ToRobot(robot) if self.breakdowns.is_deaf(robot) => {}
                     Way::ToRobot(robot) => {

@@ -18,11 +18,13 @@ pub const STEP: Span = Span::from_millis(16);
 
 pub(crate) const STEP_S: f64 = 0.016;
 
-/// N robots' bodies on a floor. Places are kept apart from the rest, as contacts look at nothing else.
+/// N robots' bodies on a floor. Places are kept apart from the rest, as contacts look at nothing else, and so is what robots
+/// look at.
 #[derive(Clone, Debug)]
 pub struct World {
     places: Vec<Vec2>,
     stances: Vec<Stance>,
+    shafts: Vec<Shaft>,
     bodies: Vec<Body>,
     floor: Floor,
     near: Near,
@@ -33,12 +35,19 @@ pub struct World {
     bumps: Bumps,
 }
 
+/// Between a robot's mind and its body.
+#[derive(Clone, Debug)]
+struct Shaft {
+    /// What its wheels are told, and how fast they turned in the last step, left and right, rad/s.
+    told: [f64; 2],
+    wheels: [f64; 2],
+    heading: f64,
+}
+
 #[derive(Clone, Debug)]
 struct Body {
     drive: Drive,
-    told: [f64; 2],
     slip: Slip,
-    heading: f64,
     /// What it stands against.
     against: Option<Against>,
 }
@@ -48,13 +57,9 @@ impl World {
     pub fn new(stage: &Stage, starts: &[Pose], slip: f64, seed: u64) -> Self {
         let mut dice = Dice::new(seed, Purpose::Slip);
         let places: Vec<Vec2> = starts.iter().map(|start| start.at).collect();
-        let body = |start: &Pose| Body {
-            drive: Drive::default(),
-            told: [0.0; 2],
-            slip: Slip::new(slip, &mut dice),
-            heading: wrap(start.heading),
-            against: None,
-        };
+        let body =
+            |_: &Pose| Body { drive: Drive::default(), slip: Slip::new(slip, &mut dice), against: None };
+        let shaft = |start: &Pose| Shaft { told: [0.0; 2], wheels: [0.0; 2], heading: wrap(start.heading) };
         let contact_m = stage.limits.contact_m();
         let bodies = starts.iter().map(body).collect();
         Self {
@@ -65,6 +70,7 @@ impl World {
             proximity: Proximity::new(starts.len(), stage.limits.radius_m, seed),
             bumps: Bumps::default(),
             places,
+            shafts: starts.iter().map(shaft).collect(),
             bodies,
             slip,
             dice,
@@ -74,13 +80,13 @@ impl World {
     /// Tells a robot's wheels their rates, left and right, rad/s. They act from the step after the next on.
     #[inline]
     pub fn tell(&mut self, robot: usize, wheels_radps: [f64; 2]) {
-        self.bodies[robot].told = wheels_radps;
+        self.shafts[robot].told = wheels_radps;
     }
 
     /// How far a robot's wheels turned in the last step, left and right, radians.
     #[inline]
     pub fn wheel_turns(&self, robot: usize) -> [f64; 2] {
-        let [left, right] = self.bodies[robot].drive.wheels();
+        let [left, right] = self.shafts[robot].wheels;
         [left * STEP_S, right * STEP_S]
     }
 
@@ -93,7 +99,7 @@ impl World {
     /// Where a robot really is.
     #[inline]
     pub fn pose(&self, robot: usize) -> Pose {
-        Pose { at: self.places[robot], heading: self.bodies[robot].heading }
+        Pose { at: self.places[robot], heading: self.shafts[robot].heading }
     }
 
     /// Where everybody's centre really is, stage metres.
@@ -133,10 +139,10 @@ impl World {
 
     /// Takes all that will decide how things go on into a fingerprint.
     pub fn imprint(&self, hash: &mut StateHash) {
-        for (place, body) in self.places.iter().zip(&self.bodies) {
+        for (place, shaft) in self.places.iter().zip(&self.shafts) {
             hash.number(place.x);
             hash.number(place.y);
-            hash.number(body.heading);
+            hash.number(shaft.heading);
         }
     }
 
@@ -144,18 +150,20 @@ impl World {
     #[inline]
     fn move_body(&mut self, robot: usize) -> bool {
         let body = &mut self.bodies[robot];
+        let shaft = &mut self.shafts[robot];
         let stance = &mut self.stances[robot];
-        if body.told == [0.0; 2] && body.drive.rests() {
+        if shaft.told == [0.0; 2] && body.drive.rests() {
             stance.stands = true;
             return false;
         }
         let grip = body.slip.grip(self.slip, &mut self.dice);
-        let twist = body.drive.step(body.told, grip);
+        let twist = body.drive.step(shaft.told, grip);
+        shaft.wheels = body.drive.wheels();
         stance.stands = twist.speed_mps == 0.0 && twist.turn_radps == 0.0;
         let half_turn = 0.5 * STEP_S * twist.turn_radps;
         let middle = turned(stance.forward, half_turn);
         stance.forward = turned(middle, half_turn);
-        body.heading = wrap(body.heading + 2.0 * half_turn);
+        shaft.heading = wrap(shaft.heading + 2.0 * half_turn);
         let place = &mut self.places[robot];
         *place += middle * (STEP_S * twist.speed_mps);
         let out_of = self.floor.keep_out(place);
