@@ -212,6 +212,8 @@ impl Doubt {
     #[inline]
     pub(crate) fn fetch(&self, processor: &impl Processor) {
         processor.fetch(&self.place);
+        processor.fetch(&self.rows[2]);
+        processor.fetch(&self.right_own);
     }
 
     /// Variance of the heading.

@@ -237,7 +237,7 @@ impl Filter {
         processor.fetch(&self.judge);
         processor.fetch(&self.place_trust);
         processor.fetch(&self.off);
-        self.gains.iter().for_each(|gain| processor.fetch(gain));
+        processor.fetch(&self.gains);
         self.doubt.fetch(processor);
     }
 

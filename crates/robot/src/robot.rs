@@ -45,6 +45,7 @@ const CREEP_MPS: f64 = 0.08;
 #[derive(Debug)]
 #[repr(C)]
 pub struct Robot<S = Shelf> {
+    shelf: S,
     /// Begins with what each step looks at.
     clock: Clock,
     /// Ends with what each step looks at.
@@ -60,18 +61,17 @@ pub struct Robot<S = Shelf> {
     wary: bool,
     /// What the latest step knew of its place.
     doubts: Doubts,
+    unknown: u32,
     drive: Drive,
     stall: Stall,
     supervisor: Supervisor,
-    outbox: Outbox,
     seek: Option<Seek>,
+    outbox: Outbox,
     /// Begins with what each step looks at.
     light: Light,
-    unknown: u32,
     reflex: Reflex,
     estimate: Estimate,
     routes: Routes,
-    shelf: S,
 }
 
 /// Whether a robot knows too little to drive, as of one step.

@@ -238,13 +238,20 @@ impl Routes {
         }
     }
 
+    /// Where it says whether a route is under way: `fetch` has to know.
+    #[inline]
+    pub(crate) fn fetch_first(&self, processor: &impl Processor) {
+        processor.fetch(&self.running);
+    }
+
     /// Names something in each cache line that every step looks at: see `Robot::fetch`.
     #[inline]
     pub(crate) fn fetch(&self, processor: &impl Processor) {
-        if let Some(Running { back, due, cursor, .. }) = &self.running {
+        if let Some(Running { back, due, cursor, follow, .. }) = &self.running {
             processor.fetch(back);
             processor.fetch(due);
             cursor.fetch(processor);
+            processor.fetch(follow);
         }
         self.timeline.fetch(processor);
         processor.fetch(&self.kept);

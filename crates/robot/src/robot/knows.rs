@@ -70,6 +70,12 @@ impl<S: BorrowMut<Shelf>> Robot<S> {
         self.estimate.blind(self.now, self.config.fix_pace * 3 + OVERDUE)
     }
 
+    /// Lets a processor fetch what [`fetch`](Self::fetch) looks at itself: some turns before that.
+    #[inline]
+    pub fn fetch_first(&self, processor: &impl Processor) {
+        self.routes.fetch_first(processor);
+    }
+
     /// Lets a processor fetch what the next step will look at. Who lets thousands of robots take turns does so a turn or two
     /// ahead: a step that has to wait for memory itself waits longer than it works.
     #[inline]
@@ -80,8 +86,8 @@ impl<S: BorrowMut<Shelf>> Robot<S> {
         processor.fetch(&self.drive);
         processor.fetch(&self.stall);
         processor.fetch(&self.supervisor);
-        processor.fetch(&self.outbox);
         processor.fetch(&self.seek);
+        processor.fetch(&self.outbox);
         self.light.fetch(processor);
         self.clock.fetch(processor);
         self.estimate.fetch(processor);
