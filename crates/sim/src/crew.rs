@@ -29,6 +29,8 @@ pub(crate) struct Crew {
     pub world: World,
     sensors: Sensors,
     members: Vec<Member>,
+    /// Up to so many of them the processor has at hand.
+    pub cached: usize,
     /// Whether they have power.
     alive: Vec<bool>,
     steps: u64,
@@ -104,6 +106,7 @@ impl Crew {
             world: World::new(stage, &poses, conditions.slip, seed),
             sensors: Sensors::new(&conditions.fixes, &poses, seed),
             members,
+            cached: CACHED,
             alive: vec![true; starts.len()],
             steps: 0,
             errors: Errors::default(),
@@ -218,7 +221,7 @@ impl Crew {
         self.sensors.next_step(&self.alive);
         self.steps += 1;
         let count = self.members.len();
-        if count <= CACHED {
+        if count <= self.cached {
             (0..count).for_each(|index| self.turn(now, index, hear));
         } else if self.steps.is_multiple_of(2) && self.sensors.in_any_order() {
             let mut said = core::mem::take(&mut self.said);

@@ -268,3 +268,54 @@ fn heard(
         network.send(now, Way::ToController(robot), topic, text.into());
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::conditions::Conditions;
+    use crate::faults::Faults;
+    use lightbots_base::Rgb;
+    use lightbots_show::{Easing, Frame, Identity, Pixel, Stage};
+
+    const ROBOTS: u32 = 20;
+
+    /// Robots in a block, then in a row.
+    fn show() -> Show {
+        let at = |x: u32, y: u32| Vec2::new(f64::from(x) * 0.08 - 0.8, f64::from(y) * 0.08);
+        let frame = |place: &dyn Fn(u32) -> Vec2| Frame {
+            name: String::new(),
+            air_time_s: 0.3,
+            transition_s: None,
+            easing: Easing::Swift,
+            identity: None,
+            pixels: (0..ROBOTS)
+                .map(|id| Pixel { id, at: place(id), color: Rgb::new(255, 80, 0), robot: None })
+                .collect(),
+        };
+        Show {
+            name: "test".into(),
+            stage: Stage::default(),
+            identity: Identity::Any,
+            starts: None,
+            music: None,
+            frames: vec![frame(&|id| at(id % 5, id / 5)), frame(&|id| at(id, 1))],
+        }
+    }
+
+    #[test]
+    fn robots_that_take_turns_there_and_back_play_the_same_to_the_bit() {
+        for faults in ["kill=random", "slip=10%,gps=5mm", "fix-dropout=0.5s"] {
+            let conditions = Faults::parse(faults).unwrap().added_to(Conditions::default());
+            let options = RehearsalOptions { seed: 3, conditions, robots: None };
+            let starts: Vec<Vec2> = (0..ROBOTS).map(|x| Vec2::new(f64::from(x) * 0.08 - 0.8, -0.3)).collect();
+            let play = |cached| {
+                let mut play = Play::new(Arc::new(show()), &starts, &[], &options, 10.0);
+                play.crew.cached = cached;
+                play.run(&mut |_| {})
+            };
+            let (there, back) = (play(ROBOTS as usize), play(0));
+            assert_eq!(there, back, "{faults}");
+            assert_eq!(there.frames_played, 2, "{faults}");
+        }
+    }
+}
