@@ -98,6 +98,29 @@ fn with_room_by_plan_it_stops_wherever_it_would_hit_something() {
 }
 
 #[test]
+fn with_room_by_plan_it_does_not_start_towards_what_is_nearer_ahead_than_that() {
+    for gap_mm in [1.8, 2.4, 3.0, 4.0, 5.0] {
+        for degrees in [0.0f64, 13.0] {
+            let far_m = LIMITS.contact_m() + gap_mm * 1e-3;
+            let (aside, ahead) = libm::sincos(degrees.to_radians());
+            let mut pair = Pair::new(far_m * ahead, far_m * aside, 0.0);
+            (pair.ample, pair.speed_mps, pair.told_mps) = (true, 0.0, 0.0);
+            (0..4).for_each(|_| _ = pair.may_drive(0.0));
+            pair.reflex.forget();
+            let mut least_m = f64::INFINITY;
+            for _ in 0..62 {
+                let most_mps = pair.may_drive(0.0).unwrap_or(SPEED_MPS);
+                // What was lost by braking comes back within two steps.
+                pair.speed_mps = pair.told_mps;
+                pair.told_mps = most_mps.min(pair.told_mps + 0.18);
+                least_m = least_m.min(pair.gap_m());
+            }
+            assert!(least_m > 0.0002, "{gap_mm} mm, {degrees}°: {:.2} mm", least_m * 1e3);
+        }
+    }
+}
+
+#[test]
 fn one_that_dies_fifteen_millimetres_ahead_is_not_touched() {
     for step in 0..8 {
         let mut pair = Pair::new(0.054 + 0.015, 0.004, SPEED_MPS);

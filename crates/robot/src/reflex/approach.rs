@@ -12,6 +12,8 @@ const SPARE_M: f32 = 0.003;
 const CALM_MPS: f32 = 0.012;
 /// Nearer than this ahead nothing may be, whether it closes in or not, metres.
 const TOUCHING_M: f32 = 0.0015;
+/// So much is left at least where by plan there is plenty, metres.
+const LEAST_M: f32 = 0.001;
 /// Driving so slowly although it was told to drive so fast, m/s, a robot is stuck.
 const STUCK_MPS: f32 = 0.005;
 const TOLD_MPS: f32 = 0.05;
@@ -73,7 +75,7 @@ impl Approach {
         contact_m: f32,
         until_hit_m: impl FnOnce() -> Option<f32>,
     ) -> Option<f32> {
-        let by_gap = self.by_gap_mps(look, contact_m);
+        let by_gap = self.by_gap_mps(look, contact_m).or_else(|| self.by_nearness_mps(look));
         let braking_m = self.next_mps * DEAD_S + self.lately_mps * BRAKING_S[self.turn] + SPARE_M;
         let nears = self.closing.sure_mps > CALM_MPS && self.gap_m < braking_m;
         let tells = self.gap_m > TOUCHING_M && (self.turn > 0 || look.aside && self.gap_m < ALONE_M);
@@ -88,6 +90,13 @@ impl Approach {
             return by_place;
         }
         by_gap.zip(by_place).map(|(gap, place)| gap.min(place)).or(by_gap).or(by_place)
+    }
+
+    /// The same where by plan nobody comes so near: whatever that does, it may stand by the next step.
+    fn by_nearness_mps(&self, look: &Look) -> Option<f32> {
+        let stops_s = DEAD_S + BRAKING_S[self.turn];
+        let most_mps = (self.gap_m - LEAST_M).max(0.0) / stops_s;
+        (look.aside && self.turn == 0 && self.gap_m < ALONE_M).then_some(most_mps)
     }
 
     /// The same, by how the gap closes in.
