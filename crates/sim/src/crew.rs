@@ -152,9 +152,17 @@ impl Crew {
         }
     }
 
-    /// Fetches a robot from memory before its turn, or before it hears something.
+    /// Fetches a robot from memory before it hears something, where the processor does not have it at hand.
     #[inline]
-    pub fn fetch(&self, robot: usize) {
+    pub fn fetch_listener(&self, robot: usize) {
+        if self.members.len() > self.cached {
+            self.fetch(robot);
+        }
+    }
+
+    /// Fetches a robot from memory before it is needed.
+    #[inline]
+    fn fetch(&self, robot: usize) {
         if let Some(Member { clock, mind: Mind::Ours(robot), .. }) = self.members.get(robot) {
             ThisProcessor.fetch(clock);
             robot.fetch(&ThisProcessor);

@@ -130,7 +130,7 @@ impl Play {
                 let Some((at, message)) = self.network.next_until(until) else { return };
                 self.now = at.max(self.now);
                 if let Some(robot) = self.network.next_listener() {
-                    self.crew.fetch(robot);
+                    self.crew.fetch_listener(robot);
                 }
                 match message.way {
                     Way::ToRobot(robot) if self.breakdowns.is_deaf(robot) => {}
@@ -274,48 +274,24 @@ mod tests {
     use super::*;
     use crate::conditions::Conditions;
     use crate::faults::Faults;
-    use lightbots_base::Rgb;
-    use lightbots_show::{Easing, Frame, Identity, Pixel, Stage};
-
-    const ROBOTS: u32 = 20;
-
-    /// Robots in a block, then in a row.
-    fn show() -> Show {
-        let at = |x: u32, y: u32| Vec2::new(f64::from(x) * 0.08 - 0.8, f64::from(y) * 0.08);
-        let frame = |place: &dyn Fn(u32) -> Vec2| Frame {
-            name: String::new(),
-            air_time_s: 0.3,
-            transition_s: None,
-            easing: Easing::Swift,
-            identity: None,
-            pixels: (0..ROBOTS)
-                .map(|id| Pixel { id, at: place(id), color: Rgb::new(255, 80, 0), robot: None })
-                .collect(),
-        };
-        Show {
-            name: "test".into(),
-            stage: Stage::default(),
-            identity: Identity::Any,
-            starts: None,
-            music: None,
-            frames: vec![frame(&|id| at(id % 5, id / 5)), frame(&|id| at(id, 1))],
-        }
-    }
+    use lightbots_show::front_rows;
 
     #[test]
     fn robots_that_take_turns_there_and_back_play_the_same_to_the_bit() {
+        let show =
+            Arc::new(lightbots_show::read(include_bytes!("../../../shows/hello.json"), None).unwrap().show);
+        let starts = front_rows(&show.stage, 30);
         for faults in ["kill=random", "slip=10%,gps=5mm", "fix-dropout=0.5s"] {
             let conditions = Faults::parse(faults).unwrap().added_to(Conditions::default());
             let options = RehearsalOptions { seed: 3, conditions, robots: None };
-            let starts: Vec<Vec2> = (0..ROBOTS).map(|x| Vec2::new(f64::from(x) * 0.08 - 0.8, -0.3)).collect();
             let play = |cached| {
-                let mut play = Play::new(Arc::new(show()), &starts, &[], &options, 10.0);
+                let mut play = Play::new(show.clone(), &starts, &[], &options, 30.0);
                 play.crew.cached = cached;
                 play.run(&mut |_| {})
             };
-            let (there, back) = (play(ROBOTS as usize), play(0));
+            let (there, back) = (play(starts.len()), play(0));
             assert_eq!(there, back, "{faults}");
-            assert_eq!(there.frames_played, 2, "{faults}");
+            assert_eq!(there.frames_played, show.frames.len(), "{faults}");
         }
     }
 }
