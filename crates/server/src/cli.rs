@@ -38,6 +38,8 @@ pub enum Command {
     Play(PlayArguments),
     /// Start simulated robots only, for another machine or another controller
     Robots(RobotsArguments),
+    /// Start only the embedded broker, for other controllers and robots; `run` starts one by itself
+    Broker(BrokerOnlyArguments),
     /// Convert between show formats, by the files' endings
     Convert(ConvertArguments),
     /// Take a robot on a broker through the protocol, rule by rule; it drives, within half a metre of where it stands
@@ -94,6 +96,23 @@ pub struct RunArguments {
     /// Where the browser app is served
     #[arg(long, value_name = "HOST:PORT", default_value = "127.0.0.1:8420", value_parser = address)]
     pub listen: SocketAddr,
+    #[command(flatten)]
+    pub mqtt: MqttArguments,
+    /// Folder of the library of shows [default: lightbots in the user's data folder]
+    #[arg(long, value_name = "DIR")]
+    pub data: Option<PathBuf>,
+    /// Seed of the simulated robots, their names included, which pins in a show go by [default: 1; with --broker,
+    /// where others may bear those names, another one each time]
+    #[arg(long, value_name = "S", allow_hyphen_values = true, value_parser = seed)]
+    pub seed: Option<u64>,
+    /// Simulated robots without sensor noise and wheel slip
+    #[arg(long)]
+    pub ideal: bool,
+}
+
+/// The embedded broker, of `run` and `broker`
+#[derive(Debug, Args)]
+pub struct MqttArguments {
     /// Where the embedded broker listens
     #[arg(long, value_name = "HOST:PORT", default_value = "127.0.0.1:1883", value_parser = address)]
     pub mqtt_listen: SocketAddr,
@@ -116,16 +135,19 @@ pub struct RunArguments {
     /// File of such users, one a line
     #[arg(long, value_name = "FILE")]
     pub mqtt_users: Option<PathBuf>,
-    /// Folder of the library of shows [default: lightbots in the user's data folder]
-    #[arg(long, value_name = "DIR")]
-    pub data: Option<PathBuf>,
-    /// Seed of the simulated robots, their names included, which pins in a show go by [default: 1; with --broker,
-    /// where others may bear those names, another one each time]
-    #[arg(long, value_name = "S", allow_hyphen_values = true, value_parser = seed)]
-    pub seed: Option<u64>,
-    /// Simulated robots without sensor noise and wheel slip
-    #[arg(long)]
-    pub ideal: bool,
+}
+
+/// `broker`
+#[derive(Debug, Args)]
+pub struct BrokerOnlyArguments {
+    #[command(flatten)]
+    pub mqtt: MqttArguments,
+    /// How many robots there will be: its queues are sized for them
+    #[arg(long, value_name = "N", default_value_t = 10_000, value_parser = clap::value_parser!(u32).range(1..=20_000))]
+    pub robots: u32,
+    /// Be the child process of a running lightbots: orders come on stdin
+    #[arg(long, hide = true)]
+    pub child: bool,
 }
 
 /// `check`

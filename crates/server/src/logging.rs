@@ -20,8 +20,24 @@ pub enum Log {
     Debug,
 }
 
+/// What was chosen, in the command line's words.
+static LEVEL: std::sync::OnceLock<Log> = std::sync::OnceLock::new();
+
+/// How much this program logs, for a program that it starts.
+pub fn level() -> &'static str {
+    match LEVEL.get() {
+        Some(Log::Off) => "off",
+        Some(Log::Error) => "error",
+        Some(Log::Info) => "info",
+        Some(Log::Debug) => "debug",
+        Some(Log::Warn) | None => "warn",
+    }
+}
+
 /// Starts logging to stderr. The broker's own lines count one level less: it calls ordinary departures news.
 pub fn start(log: Log) {
+    // A second start keeps the first.
+    let _ = LEVEL.set(log);
     let (ours, broker) = match log {
         Log::Off => (LevelFilter::OFF, LevelFilter::OFF),
         Log::Error => (LevelFilter::ERROR, LevelFilter::OFF),

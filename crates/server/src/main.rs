@@ -73,6 +73,7 @@ async fn run(cli: Cli, stop: Stop) -> i32 {
         Command::Play(arguments) => commands::play::run(arguments, stop).await,
         Command::Robots(arguments) => commands::robots::run(arguments, stop).await,
         Command::RobotCheck(arguments) => commands::robot_check::run(arguments, stop).await,
+        Command::Broker(arguments) => commands::broker::run(arguments, stop).await,
         Command::Convert(arguments) => stop.at_once(|| commands::convert::run(&arguments)),
         Command::Certs(arguments) => stop.at_once(|| commands::certs::run(&arguments)),
     };

@@ -1,5 +1,6 @@
 //! One file a command.
 
+pub mod broker;
 pub mod certs;
 pub mod check;
 pub mod convert;

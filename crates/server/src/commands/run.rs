@@ -1,4 +1,4 @@
-//! `run`: controller, browser app, broker and simulated robots in one process.
+//! `run`: controller, browser app and simulated robots in one process, the embedded broker in another.
 
 use std::net::SocketAddr;
 use std::path::Path;
@@ -11,12 +11,12 @@ use lightbots_show::{Show, validate};
 use tokio::sync::mpsc;
 use tokio::task::JoinHandle;
 
-use super::{count, robots};
+use super::{broker, count, robots};
 use crate::broker_settings::{Settings, other_broker};
 use crate::cli::RunArguments;
 use crate::failure::{Failure, Outcome};
 use crate::library::{Library, name_of_file};
-use crate::live::broker::{Broker, BrokerOptions, TlsOptions, Users};
+use crate::live::broker::Broker;
 use crate::live::cast::Cast;
 use crate::live::conductor::Handle;
 use crate::stop::Stop;
@@ -61,7 +61,7 @@ pub async fn run(arguments: RunArguments, stop: Stop) -> Outcome {
 }
 
 async fn serve(arguments: &RunArguments, stop: &Stop, started: &mut Started) -> Outcome {
-    let users = Users::read(&arguments.mqtt_user, arguments.mqtt_users.as_deref())?;
+    let mut options = broker::options(&arguments.mqtt, 0)?;
     let other = other_broker(&arguments.broker, &arguments.login)?;
     let data = arguments.data.clone().unwrap_or_else(Library::default_folder);
     let library = Library::new(data.clone());
@@ -76,8 +76,8 @@ async fn serve(arguments: &RunArguments, stop: &Stop, started: &mut Started) -> 
     let count = arguments.robots.map(|robots| robots as usize);
     let robots = Cast::robots(count, &show);
     let embedded = if other.is_none() {
-        let (listen, tls) = (arguments.mqtt_listen, tls_options(arguments));
-        let broker = Broker::start(BrokerOptions { listen, tls, users, robots })?;
+        options.robots = robots;
+        let broker = Broker::start(options).await?;
         Some(started.broker.insert(broker).url())
     } else {
         None
@@ -112,13 +112,7 @@ fn robots_seed(asked: Option<u64>, is_own_broker: bool) -> u64 {
     if is_own_broker { asked.unwrap_or(USUAL_SEED) } else { robots::seed(asked) }
 }
 
-fn tls_options(arguments: &RunArguments) -> Option<TlsOptions> {
-    let (cert, key) = (arguments.cert.clone()?, arguments.key.clone()?);
-    let client_ca = arguments.client_ca.clone();
-    Some(TlsOptions { listen: arguments.mqtt_tls_listen?, cert, key, client_ca })
-}
-
-/// Puts what the broker refuses on the screens.
+/// Puts what the broker refuses, and how it fares, on the screens.
 async fn relay(mut lines: mpsc::Receiver<String>, log: Log, stop: Stop) {
     loop {
         let line = tokio::select! {

@@ -90,6 +90,19 @@ impl Child {
         code
     }
 
+    /// Its number in the system.
+    pub fn id(&self) -> u32 {
+        self.process.id()
+    }
+
+    /// The processes that it has started.
+    #[cfg(target_os = "linux")]
+    pub fn children(&self) -> Vec<u32> {
+        let list =
+            Command::new("ps").args(["-o", "pid=", "--ppid", &self.id().to_string()]).output().unwrap();
+        String::from_utf8_lossy(&list.stdout).split_whitespace().map(|id| id.parse().unwrap()).collect()
+    }
+
     /// Sends TERM, as a service manager does.
     #[cfg(unix)]
     pub fn terminate(&self) {
@@ -120,6 +133,12 @@ impl Drop for Child {
             eprintln!("--- {}: stdout\n{}\n--- stderr\n{}", self.name, self.out(), self.err());
         }
     }
+}
+
+/// Kills a process that is no child of ours.
+#[cfg(target_os = "linux")]
+pub fn kill(process: u32) {
+    assert!(Command::new("kill").args(["-KILL", &process.to_string()]).status().unwrap().success());
 }
 
 /// Keeps the lines of a pipe, from a thread.

@@ -15,6 +15,7 @@ mod commands;
 mod crossings;
 mod example_brokers;
 mod fleet;
+mod hostile;
 mod http;
 mod mosquitto;
 mod original_controller;
@@ -22,6 +23,7 @@ mod original_robot;
 mod plain_mqtt;
 #[cfg(unix)]
 mod rabbitmq;
+mod raw_mqtt;
 mod refusals;
 mod rights;
 mod robot_check;

@@ -9,7 +9,9 @@ use rmqtt::context::ServerContext;
 use rmqtt::hook::{Handler, HookResult, Parameter, ReturnType, Type};
 use rmqtt::types::{AuthResult, Id, LastWill, PublishAclResult, SubscribeAclResult};
 
+use super::admitted::Admitted;
 use super::gate::Peers;
+use super::limits;
 use super::notices::Notices;
 use super::rights::Who;
 use super::users::{Role, Users};
@@ -22,13 +24,23 @@ pub struct Door {
     pub notices: Arc<Notices>,
     /// Connections that came through the TLS gate, and where that hands them over.
     pub peers: Arc<Peers>,
+    /// Connections that have logged in.
+    pub admitted: Arc<Admitted>,
+    /// Knows the subscriptions of all clients.
+    pub context: ServerContext,
 }
 
 impl Door {
     /// Puts it up.
     pub async fn hang(&self, context: &ServerContext) {
         let register = context.extends.hook_mgr().register();
-        for kind in [Type::ClientAuthenticate, Type::ClientSubscribeCheckAcl, Type::MessagePublishCheckAcl] {
+        let kinds = [
+            Type::ClientAuthenticate,
+            Type::ClientDisconnected,
+            Type::ClientSubscribeCheckAcl,
+            Type::MessagePublishCheckAcl,
+        ];
+        for kind in kinds {
             register.add(kind, Box::new(self.clone())).await;
         }
         register.start().await;
@@ -50,13 +62,34 @@ impl Door {
         let role = role.ok_or(Refused::Password)?;
         let who = Who::of(role, user, &id.client_id).map_err(Refused::Rights)?;
         // A last will is published without being asked about again.
-        let (topic, message) = match &will {
-            Some(LastWill::V3(will)) => (&will.topic, &will.message),
-            Some(LastWill::V5(will)) => (&will.topic, &will.message),
-            None => return Ok(()),
+        let will = match &will {
+            Some(LastWill::V3(will)) => Some((&will.topic, &will.message)),
+            Some(LastWill::V5(will)) => Some((&will.topic, &will.message)),
+            None => None,
         };
-        who.may_publish(topic, message)
-            .map_err(|why| Refused::Rights(format!("its last will on {topic}: {why}")))
+        if let Some((topic, message)) = will {
+            short_enough(topic)
+                .and_then(|()| who.may_publish(topic, message))
+                .map_err(|why| Refused::Rights(format!("its last will on {}: {why}", shortened(topic))))?;
+        }
+        let has_room = from.is_none_or(|from| self.admitted.add(from));
+        if has_room { Ok(()) } else { Err(Refused::Rights(full("connections", limits::CONNECTIONS))) }
+    }
+
+    /// Why a client may not subscribe to this, if so.
+    async fn subscription(&self, id: &Id, filter: &str) -> Result<(), String> {
+        short_enough(filter)?;
+        let there_are = self.context.extends.router().await.routes().count();
+        if usize::try_from(there_are).unwrap_or(0) >= limits::SUBSCRIPTIONS_TOTAL {
+            return Err(full("subscriptions", limits::SUBSCRIPTIONS_TOTAL));
+        }
+        self.who(id)?.may_subscribe(filter)
+    }
+
+    /// Why a client may not publish this, if so.
+    fn message(&self, id: &Id, topic: &str, payload: &[u8]) -> Result<(), String> {
+        short_enough(topic)?;
+        self.who(id)?.may_publish(topic, payload)
     }
 
     /// One line about a refusal: who, what, why.
@@ -101,9 +134,7 @@ impl Handler for Door {
                 (false, Some(HookResult::AuthResult(answer)))
             }
             Parameter::MessagePublishCheckAcl(session, publish) => {
-                let allowed =
-                    self.who(&session.id).and_then(|who| who.may_publish(&publish.topic, &publish.payload));
-                let answer = match allowed {
+                let answer = match self.message(&session.id, &publish.topic, &publish.payload) {
                     Ok(()) => PublishAclResult::allow(),
                     Err(why) => {
                         self.refuse(
@@ -118,7 +149,7 @@ impl Handler for Door {
             }
             Parameter::ClientSubscribeCheckAcl(session, subscribe) => {
                 let filter = &subscribe.topic_filter;
-                match self.who(&session.id).and_then(|who| who.may_subscribe(filter)) {
+                match self.subscription(&session.id, filter).await {
                     Ok(()) => (true, result),
                     Err(why) => {
                         let what = format!("the subscription to {}", shortened(filter));
@@ -128,9 +159,31 @@ impl Handler for Door {
                     }
                 }
             }
+            Parameter::ClientDisconnected(session, _) => {
+                if let Some(peer) = session.id.remote_addr {
+                    self.admitted.remove(peer);
+                }
+                (true, result)
+            }
             _ => (true, result),
         }
     }
+}
+
+/// Refuses topics and filters of a length that only an attack has.
+fn short_enough(topic: &str) -> Result<(), String> {
+    let levels = topic.split('/').count();
+    if levels > limits::TOPIC_LEVELS {
+        return Err(format!("it has {levels} levels; at most {} are possible", limits::TOPIC_LEVELS));
+    }
+    if topic.len() > limits::TOPIC_BYTES {
+        return Err(format!("it has {} bytes; at most {} are possible", topic.len(), limits::TOPIC_BYTES));
+    }
+    Ok(())
+}
+
+fn full(what: &str, limit: usize) -> String {
+    format!("the broker has {limit} {what} already, the most it takes")
 }
 
 /// A topic fit for a line.

@@ -1,0 +1,257 @@
+//! The embedded broker as a child process: started, watched, and started again when it dies.
+//!
+//! The parent writes one line of JSON, an [`Order`], to the child's stdin and keeps that open: when the parent ends, however
+//! it ends, the child's stdin ends, and so does the child. The child writes a [`Word`] per line to stdout. Passwords
+//! never stand on a command line, where every user of the machine could read them.
+
+use std::net::{IpAddr, SocketAddr};
+use std::path::PathBuf;
+use std::process::{ExitStatus, Stdio};
+use std::time::{Duration, Instant};
+
+use lightbots_link::{BrokerUrl, random_id};
+use serde::{Deserialize, Serialize};
+use tokio::io::{AsyncBufReadExt, AsyncWriteExt, BufReader, Lines};
+use tokio::process::{Child, ChildStdin, ChildStdout, Command};
+use tokio::sync::mpsc;
+
+use super::users::{Role, Users};
+use super::{BrokerOptions, Engine};
+use crate::failure::{Failure, Outcome};
+
+/// How long the child may take to listen or to say why it cannot.
+const START_WITHIN: Duration = Duration::from_secs(20);
+/// The pause before the child is started again, doubled up to [`LONGEST_PAUSE`] while it keeps dying. Together with the
+/// child's start (some 10 ms) the longest stays within one second.
+const FIRST_PAUSE: Duration = Duration::from_millis(50);
+const LONGEST_PAUSE: Duration = Duration::from_millis(800);
+/// A child that lived this long died of something new: the next pause is short again.
+const STABLE: Duration = Duration::from_secs(10);
+/// Lines that wait to be shown; more are dropped.
+const NOTICES: usize = 64;
+/// The command of the child process, and what tells it that it is one.
+const COMMAND: [&str; 2] = ["broker", "--child"];
+
+/// What the parent tells the child.
+#[derive(Debug, Serialize, Deserialize)]
+pub struct Order(pub BrokerOptions);
+
+/// What the child tells the parent.
+#[derive(Debug, Serialize, Deserialize)]
+pub enum Word {
+    /// It takes connections.
+    Listening { plain: SocketAddr, tls: Option<SocketAddr> },
+    /// It cannot start.
+    Failed { line: String, code: i32 },
+    /// A line for the screen's log.
+    Notice(String),
+}
+
+/// A broker in a child process, for as long as the value lives.
+#[derive(Debug)]
+pub struct Broker {
+    address: SocketAddr,
+    tls_address: Option<SocketAddr>,
+    /// How this program itself logs in; `None`: it need not.
+    login: Option<(String, String)>,
+    notices: Option<mpsc::Receiver<String>>,
+    watch: tokio::task::JoinHandle<()>,
+}
+
+impl Broker {
+    /// Starts the child and waits until it listens.
+    pub async fn start(options: BrokerOptions) -> Result<Self, Failure> {
+        let (users, login) = with_this_program(options.users);
+        let mut options = BrokerOptions { users, ..options };
+        let (running, address, tls_address) = Running::start(&options).await?;
+        // Another start must find the same ports.
+        options.listen = address;
+        if let (Some(tls), Some(address)) = (&mut options.tls, tls_address) {
+            tls.listen = address;
+        }
+        let (sender, notices) = mpsc::channel(NOTICES);
+        let watch = tokio::spawn(watch(running, options, sender));
+        Ok(Self { address, tls_address, login, notices: Some(notices), watch })
+    }
+
+    /// How this program's own parts reach it.
+    pub fn url(&self) -> BrokerUrl {
+        let ip = match self.address.ip() {
+            ip if !ip.is_unspecified() => ip.to_string(),
+            IpAddr::V4(_) => "127.0.0.1".into(),
+            IpAddr::V6(_) => "::1".into(),
+        };
+        let (user, password) = self.login.clone().unzip();
+        BrokerUrl::new(ip, self.address.port()).with_login(user, password)
+    }
+
+    /// Where it speaks TLS.
+    pub fn tls_address(&self) -> Option<SocketAddr> {
+        self.tls_address
+    }
+
+    /// What it refuses and how it fares from now on, a line each; once.
+    pub fn notices(&mut self) -> Option<mpsc::Receiver<String>> {
+        self.notices.take()
+    }
+}
+
+impl Drop for Broker {
+    fn drop(&mut self) {
+        // The task holds the child, which is killed with it.
+        self.watch.abort();
+    }
+}
+
+/// Where users are named, this program is one of them.
+fn with_this_program(users: Users) -> (Users, Option<(String, String)>) {
+    if users.is_empty() {
+        return (users, None);
+    }
+    let (name, password) = (format!("lightbots-{}", random_id()), random_id().to_string());
+    (users.with(&name, &password, Role::Controller), Some((name, password)))
+}
+
+/// Passes on what the child says, and starts it again whenever it has died.
+async fn watch(mut running: Running, options: BrokerOptions, notices: mpsc::Sender<String>) {
+    let mut pause = FIRST_PAUSE;
+    loop {
+        let began = Instant::now();
+        let how = running.relay(&notices).await;
+        if began.elapsed() > STABLE {
+            pause = FIRST_PAUSE;
+        }
+        let line = format!("The broker {how}. It is started again; robots reconnect by themselves.");
+        tracing::error!("{line}");
+        let _ = notices.try_send(line);
+        running = loop {
+            tokio::time::sleep(pause).await;
+            pause = (pause * 2).min(LONGEST_PAUSE);
+            match Running::start(&options).await {
+                Ok((running, ..)) => break running,
+                Err(failure) => {
+                    tracing::error!("{}", failure.line);
+                    let _ = notices.try_send(format!("The broker does not start again: {}.", failure.line));
+                }
+            }
+        };
+    }
+}
+
+/// A child process that listens.
+struct Running {
+    child: Child,
+    words: Lines<BufReader<ChildStdout>>,
+    /// The child ends when this is dropped.
+    _order: ChildStdin,
+}
+
+impl Running {
+    async fn start(options: &BrokerOptions) -> Result<(Self, SocketAddr, Option<SocketAddr>), Failure> {
+        let failed = |why: String| Failure::problem(format!("the broker's process does not start: {why}"));
+        let mut child = Command::new(program())
+            .args(COMMAND)
+            .args(["--log", crate::logging::level()])
+            .stdin(Stdio::piped())
+            .stdout(Stdio::piped())
+            .kill_on_drop(true)
+            .spawn()
+            .map_err(|error| failed(error.to_string()))?;
+        let (Some(mut order), Some(out)) = (child.stdin.take(), child.stdout.take()) else {
+            return Err(failed("it has no pipes".into()));
+        };
+        let mut line =
+            serde_json::to_vec(&Order(options.clone())).map_err(|error| failed(error.to_string()))?;
+        line.push(b'\n');
+        order.write_all(&line).await.map_err(|error| failed(error.to_string()))?;
+        let mut running = Self { child, words: BufReader::new(out).lines(), _order: order };
+        match tokio::time::timeout(START_WITHIN, running.word()).await {
+            Ok(Some(Word::Listening { plain, tls })) => Ok((running, plain, tls)),
+            Ok(Some(Word::Failed { line, code })) => Err(Failure { line, code }),
+            Ok(Some(Word::Notice(line))) => Err(failed(line)),
+            Ok(None) => Err(failed(running.end().await)),
+            Err(_) => Err(failed(format!("it says nothing for {} s", START_WITHIN.as_secs()))),
+        }
+    }
+
+    /// Passes on notices until the child dies; how it did.
+    async fn relay(&mut self, notices: &mpsc::Sender<String>) -> String {
+        while let Some(word) = self.word().await {
+            if let Word::Notice(line) = word {
+                // With no reader there is nobody to tell.
+                let _ = notices.try_send(line);
+            }
+        }
+        self.end().await
+    }
+
+    async fn word(&mut self) -> Option<Word> {
+        loop {
+            let line = self.words.next_line().await.ok()??;
+            match serde_json::from_str(&line) {
+                Ok(word) => return Some(word),
+                Err(error) => tracing::debug!("the broker's process says '{line}': {error}"),
+            }
+        }
+    }
+
+    async fn end(&mut self) -> String {
+        // Where only its output ended, it is of no use either.
+        let _ = self.child.start_kill();
+        self.child.wait().await.map_or_else(|error| error.to_string(), ending)
+    }
+}
+
+fn ending(status: ExitStatus) -> String {
+    #[cfg(unix)]
+    if let Some(signal) = std::os::unix::process::ExitStatusExt::signal(&status) {
+        return format!("was ended by signal {signal}");
+    }
+    status.code().map_or_else(|| "ended".into(), |code| format!("ended with code {code}"))
+}
+
+/// This program, also after its file was replaced by a newer build.
+fn program() -> PathBuf {
+    let running = PathBuf::from("/proc/self/exe");
+    if cfg!(target_os = "linux") && running.exists() {
+        return running;
+    }
+    std::env::current_exe().unwrap_or_else(|_| PathBuf::from("lightbots"))
+}
+
+/// What the child process does: reads its order, serves until its stdin ends.
+pub async fn child() -> Outcome {
+    let mut orders = BufReader::new(tokio::io::stdin()).lines();
+    let order = orders.next_line().await.ok().flatten().unwrap_or_default();
+    let Order(options) = serde_json::from_str(&order).map_err(|error| {
+        Failure::input(format!("--child takes its order from a running lightbots: {error}"))
+    })?;
+    let mut engine = match Engine::start(options) {
+        Ok(engine) => engine,
+        Err(Failure { line, code }) => {
+            tell(&Word::Failed { line, code });
+            return Ok(false);
+        }
+    };
+    tell(&Word::Listening { plain: engine.address(), tls: engine.tls_address() });
+    let notices = engine.notices();
+    let relay = async {
+        if let Some(mut notices) = notices {
+            while let Some(line) = notices.recv().await {
+                tell(&Word::Notice(line));
+            }
+        }
+        std::future::pending::<()>().await;
+    };
+    tokio::select! {
+        () = relay => {}
+        _ = orders.next_line() => {}
+    }
+    Ok(true)
+}
+
+fn tell(word: &Word) {
+    if let Ok(line) = serde_json::to_string(word) {
+        crate::say::line(&line);
+    }
+}

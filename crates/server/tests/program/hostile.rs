@@ -1,0 +1,133 @@
+//! What an attacker sends to the embedded broker, and what becomes of the others.
+
+use serde_json::json;
+
+use crate::child::Child;
+use crate::raw_mqtt::{RawMqtt, connect, packet, publish, text};
+use crate::run::start;
+use crate::screen::Screen;
+use crate::{alone, shows, wait_for};
+
+/// `lightbots broker` on a free port, and its address.
+fn broker() -> (Child, String) {
+    let mut broker = Child::lightbots(&["broker", "--mqtt-listen", "127.0.0.1:0"]);
+    let address = broker.said("Broker mqtt://");
+    (broker, address)
+}
+
+#[test]
+fn topics_of_ten_thousand_levels_are_refused_and_the_broker_goes_on() {
+    let (mut process, address) = broker();
+    let deep = "/".repeat(10_000);
+    let mut all = RawMqtt::open(&address, "all");
+    assert!(all.subscribe("#"));
+    let mut hostile = RawMqtt::open(&address, "hostile");
+    assert!(!hostile.subscribe(&deep));
+    assert!(!hostile.subscribe(&"x".repeat(600)));
+    hostile.send(&packet(0xa2, &[&[0, 2][..], &text(&deep)].concat()));
+    assert_eq!(hostile.read(4), [0xb0, 2, 0, 2]);
+    hostile.send(&publish(&deep, b"x"));
+    hostile.send(&publish("short", b"x"));
+    assert_eq!(all.read(10), publish("short", b"x"), "the deep topic is not passed on");
+    let mut with_will = RawMqtt::silent(&address);
+    let will = [&text("MQTT")[..], &[4, 6, 0, 0], &text("will"), &text(&deep), &text("x")].concat();
+    with_will.send(&packet(0x10, &will));
+    assert_eq!(with_will.read(4), [0x20, 2, 0, 5]);
+    assert!(hostile.is_answered() && process.exit_code().is_none());
+}
+
+#[test]
+fn a_packet_longer_than_any_message_costs_the_connection() {
+    let (_process, address) = broker();
+    let mut hostile = RawMqtt::open(&address, "hostile");
+    // Only the head of 256 MB: nobody should wait for the rest.
+    hostile.send(&[0x30, 0xff, 0xff, 0xff, 0x7f]);
+    hostile.wait_for_close();
+    assert!(RawMqtt::open(&address, "robot").is_answered());
+}
+
+/// The most memory a process has had, in bytes.
+#[cfg(target_os = "linux")]
+fn peak_memory(process: u32) -> u64 {
+    let status = std::fs::read_to_string(format!("/proc/{process}/status")).unwrap();
+    let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:")).unwrap();
+    line.trim().trim_end_matches(" kB").parse::<u64>().unwrap() << 10
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn clients_that_do_not_read_cost_bounded_memory_and_nobody_elses_messages() {
+    let (process, address) = broker();
+    let mut slow: Vec<_> = (0..10).map(|number| RawMqtt::open(&address, &format!("slow-{number}"))).collect();
+    assert!(slow.iter_mut().all(|client| client.subscribe("flood")));
+    let mut robot = RawMqtt::open(&address, "LightBot/r1");
+    assert!(robot.subscribe("T/LightBot/r1"));
+    let mut hostile = RawMqtt::open(&address, "hostile");
+    let message = publish("flood", &[b'x'; 60_000]);
+    // 600 MB to each of ten.
+    for _ in 0..10_000 {
+        hostile.send(&message);
+    }
+    assert!(hostile.is_answered(), "all of it was taken");
+    let stop = publish("T/LightBot/r1", b"|STOP|");
+    hostile.send(&stop);
+    assert_eq!(robot.read(stop.len()), stop);
+    let peak = peak_memory(process.id());
+    assert!(peak < 300 << 20, "the broker took {} MiB", peak >> 20);
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn connections_that_do_not_log_in_are_closed() {
+    let (mut process, address) = broker();
+    let silent = RawMqtt::silent(&address);
+    let mut half = RawMqtt::silent(&address);
+    half.send(&connect("half")[..9]);
+    // More than may be without a login at once: the first of them go early.
+    let crowd: Vec<_> = (0..700).map(|_| RawMqtt::silent(&address)).collect();
+    let mut robot = RawMqtt::open(&address, "LightBot/r1");
+    for client in [silent, half].into_iter().chain(crowd) {
+        client.wait_for_close();
+    }
+    assert!(robot.is_answered(), "one that has logged in stays");
+    process.complains("it did not log in");
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_broker_that_dies_is_started_again_and_the_show_goes_on() {
+    let _turn = alone();
+    let (mut server, address, broker) = start(&["--robots", "4", &shows::row_file(4, &[0.1, 0.1, 0.1])]);
+    let mut screen = Screen::open(&address);
+    screen.wait_for_robots(4);
+    screen.must(json!({"do": "play", "from": 0, "missing": "refuse"}));
+    screen.until("the show", |screen| (screen.phase() == "playing").then_some(()));
+    let children = server.children();
+    assert_eq!(children.len(), 1);
+    crate::child::kill(children[0]);
+    let line = screen.wait_for_log("It is started again");
+    assert!(line.contains("ended by signal 9"), "{line}");
+    let last = screen.wait_for_log("Run finished");
+    assert!(last.contains("3 frames") && last.contains("0 dropouts"), "{last}");
+    assert!(RawMqtt::open(&broker, "other").is_answered(), "it has the same address");
+    server.terminate();
+    assert_eq!(server.end(), 0);
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn the_brokers_process_ends_with_the_program() {
+    let (mut server, _, broker) = start(&["--robots", "0"]);
+    assert_eq!(server.children().len(), 1);
+    server.kill();
+    wait_for("the end of the broker", || std::net::TcpStream::connect(&broker).is_err().then_some(()));
+}
+
+#[test]
+fn a_broker_alone_is_refused_where_it_would_be_open_to_every_machine() {
+    let (code, _, error) = crate::child::run(&["broker", "--mqtt-listen", "0.0.0.0:0"]);
+    assert!(code == 2 && error.contains("--mqtt-user"), "{code} {error}");
+    let (_process, address) = broker();
+    let (code, _, error) = crate::child::run(&["run", "--listen", "127.0.0.1:0", "--mqtt-listen", &address]);
+    assert!(code == 1 && error.contains("is taken"), "{code} {error}");
+}
