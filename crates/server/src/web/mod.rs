@@ -10,6 +10,7 @@ mod pages;
 mod picture;
 mod socket;
 mod sums;
+mod uploads;
 
 use std::net::SocketAddr;
 use std::sync::Arc;
@@ -81,6 +82,7 @@ pub async fn serve(listener: TcpListener, shared: Arc<Shared>) {
         .route("/api/broker", get(broker::settings))
         .route("/api/{*rest}", any(api::unknown))
         .fallback(pages::page)
+        .layer(axum::middleware::from_fn_with_state(uploads::Uploads::new(), uploads::bound))
         .layer(axum::extract::DefaultBodyLimit::max(api::BODY_MAX))
         .layer(axum::middleware::from_fn_with_state(local, origin::guard))
         .with_state(shared);

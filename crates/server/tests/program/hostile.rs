@@ -1,12 +1,14 @@
 //! What an attacker sends to the embedded broker, and what becomes of the others.
 
+use std::io::Write;
+
 use serde_json::json;
 
 use crate::child::Child;
 use crate::raw_mqtt::{RawMqtt, connect, packet, publish, text};
 use crate::run::start;
 use crate::screen::Screen;
-use crate::{alone, shows, wait_for};
+use crate::{alone, http, shows, wait_for};
 
 /// `lightbots broker` on a free port, and its address.
 fn broker() -> (Child, String) {
@@ -130,4 +132,28 @@ fn a_broker_alone_is_refused_where_it_would_be_open_to_every_machine() {
     let (_process, address) = broker();
     let (code, _, error) = crate::child::run(&["run", "--listen", "127.0.0.1:0", "--mqtt-listen", &address]);
     assert!(code == 1 && error.contains("is taken"), "{code} {error}");
+}
+
+/// Sends the head of an upload of `length` bytes and the first byte of it.
+fn begin_upload(address: &str, length: usize) -> std::net::TcpStream {
+    let mut stream = std::net::TcpStream::connect(address).unwrap();
+    let head = format!("POST /api/check HTTP/1.1\r\nHost: {address}\r\nContent-Length: {length}\r\n\r\n[");
+    stream.write_all(head.as_bytes()).unwrap();
+    stream
+}
+
+#[test]
+fn uploads_that_never_end_do_not_keep_others_from_saving() {
+    let (_server, address, _) = start(&["--robots", "0"]);
+    let mut uploads: Vec<_> = (0..20).map(|_| begin_upload(&address, 60_000_000)).collect();
+    uploads.extend((0..20).map(|_| begin_upload(&address, 1_000_000)));
+    let show = shows::row(2, &[1.0]);
+    let saved = http::request(&address, "PUT", "/api/shows/Saved%20meanwhile", &[], &show);
+    assert_eq!(saved.status, 200, "{}", saved.body);
+    let long = http::request(&address, "POST", "/api/check", &[("Content-Length", "70000000")], "");
+    assert_eq!(long.status, 413, "{}", long.body);
+    // One that breaks off is no show, and its room is free again at once.
+    drop(uploads);
+    let padded = format!("{}{}", " ".repeat(40_000_000), show);
+    assert_eq!(http::request(&address, "POST", "/api/check", &[], &padded).status, 200);
 }

@@ -1,0 +1,78 @@
+//! Bounds what uploads cost: a body is read whole before anything is done with it, within a bounded time, and while a
+//! bounded number of bytes of other bodies is held.
+
+use std::sync::Arc;
+use std::time::Duration;
+
+use axum::body::{Body, HttpBody, to_bytes};
+use axum::extract::{Request, State};
+use axum::http::StatusCode;
+use axum::middleware::Next;
+use axum::response::{IntoResponse, Response};
+use tokio::sync::Semaphore;
+
+use super::api::{BODY_MAX, refuse, too_long};
+
+/// A body up to this is short: the shows that people save. Long ones cannot keep them waiting.
+const SHORT: usize = 1 << 20;
+/// Bytes of short bodies that are held at once.
+const SHORT_AT_ONCE: usize = 32 << 20;
+/// Bytes of long bodies that are held at once: one of the longest.
+const LONG_AT_ONCE: usize = BODY_MAX;
+/// Bytes that one permit stands for: a semaphore counts in 32 bits.
+const PERMIT_BYTES: usize = 1 << 10;
+/// How long a request waits for the ones before it.
+const TURN_WITHIN: Duration = Duration::from_secs(20);
+/// How long a body may take to arrive, and so much more for each [`SHORT`]: 1 MB/s is a poor radio link.
+const BODY_WITHIN: Duration = Duration::from_secs(10);
+const BODY_WITHIN_MORE: Duration = Duration::from_secs(1);
+
+/// Bytes that may still be held.
+#[derive(Clone, Debug)]
+pub struct Uploads {
+    short: Arc<Semaphore>,
+    long: Arc<Semaphore>,
+}
+
+impl Uploads {
+    /// All of it.
+    pub fn new() -> Self {
+        let room = |bytes| Arc::new(Semaphore::new(bytes / PERMIT_BYTES));
+        Self { short: room(SHORT_AT_ONCE), long: room(LONG_AT_ONCE) }
+    }
+
+    fn room(&self, bytes: usize) -> Arc<Semaphore> {
+        if bytes <= SHORT { self.short.clone() } else { self.long.clone() }
+    }
+}
+
+/// Reads the body, within the bounds, and hands the request on. The bytes count until the answer is made.
+pub async fn bound(State(uploads): State<Uploads>, request: Request, next: Next) -> Response {
+    if request.body().is_end_stream() {
+        return next.run(request).await;
+    }
+    let hint = request.body().size_hint();
+    if hint.lower() > BODY_MAX as u64 {
+        return too_long().into_response();
+    }
+    // A body that does not say how long it is may be as long as any.
+    let bytes = hint.exact().map_or(BODY_MAX, |bytes| bytes as usize);
+    let turn = uploads.room(bytes).acquire_many_owned(bytes.div_ceil(PERMIT_BYTES) as u32);
+    let Ok(Ok(_turn)) = tokio::time::timeout(TURN_WITHIN, turn).await else {
+        let line = "the server is busy with other uploads; try again in a minute";
+        return refuse(StatusCode::SERVICE_UNAVAILABLE, line).into_response();
+    };
+    let (head, body) = request.into_parts();
+    let within = BODY_WITHIN + BODY_WITHIN_MORE * (bytes / SHORT) as u32;
+    match tokio::time::timeout(within, to_bytes(body, bytes)).await {
+        Ok(Ok(bytes)) => next.run(Request::from_parts(head, Body::from(bytes))).await,
+        Ok(Err(error)) if is_too_long(&error) => too_long().into_response(),
+        Ok(Err(_)) => refuse(StatusCode::BAD_REQUEST, "the upload broke off; try again").into_response(),
+        Err(_) => refuse(StatusCode::REQUEST_TIMEOUT, "the upload took too long; try again").into_response(),
+    }
+}
+
+/// Whether a body was cut off because it is longer than it may be.
+fn is_too_long(error: &axum::Error) -> bool {
+    std::error::Error::source(error).is_some_and(|cause| cause.to_string().contains("length limit"))
+}
