@@ -25,7 +25,7 @@ enum Source {
     Browser,
 }
 
-const PARTS: [Part; 6] = [
+const PARTS: [Part; 7] = [
     Part {
         name: "plan",
         title: "Planning",
@@ -68,6 +68,16 @@ const PARTS: [Part; 6] = [
                 with clocks of their own (up to 50 ppm off), each on its own connection to the embedded broker over \
                 loopback TCP, asked for their light each millisecond, all in one pass: less than that cannot be seen. `by steps`: the same seen only at their steps of \
                 16 ms, which are out of phase.",
+    },
+    Part {
+        name: "siege",
+        title: "A show under attack",
+        source: Source::Example("lightbots-server", "siege"),
+        about: "`lightbots run` plays shows/hello.json with thirty simulated robots again and again while its broker and \
+                its web server are attacked: packets with changed bytes, topics of ten thousand levels, twenty clients \
+                that do not read 10 MB a second, 800 connections that never log in, 200 messages and 20 uploads \
+                that never end, uploads of 60 MB of nonsense, plans of 3,000 robots. `quiet s`: the show before the \
+                attacks; `peak mb`: program and broker together.",
     },
     Part {
         name: "fps",

@@ -1,6 +1,6 @@
 //! Measures a frame's round: a route to every robot through a broker, and every robot's answer back, on loopback TCP.
 //!
-//! `cargo xtask bench round` runs it with `--json`. The embedded broker is that of `lightbots run --robots 0`; Mosquitto
+//! `cargo xtask bench round` runs it with `--json`. The embedded broker is `lightbots broker`; Mosquitto
 //! (the program named in `LIGHTBOTS_MOSQUITTO`, or the one on the path) is measured in the same run.
 #![allow(clippy::print_stdout, clippy::print_stderr)]
 

@@ -29,18 +29,22 @@ impl Drop for Broker {
     }
 }
 
-/// The broker of `lightbots run --robots 0`.
-pub fn embedded() -> Outcome<Broker> {
+/// The program `lightbots`, built beside this one.
+pub fn program() -> Outcome<PathBuf> {
     let here = std::env::current_exe()?;
     let program = here.parent().and_then(Path::parent).ok_or("no folder")?.join("lightbots");
     if !program.is_file() {
         return Err(format!("{} is missing: build lightbots-server first", program.display()).into());
     }
-    start("embedded", |port, folder| {
+    Ok(program)
+}
+
+/// The embedded broker: `lightbots broker`, as `run` starts it.
+pub fn embedded() -> Outcome<Broker> {
+    let program = program()?;
+    start("embedded", |port, _| {
         let mut command = Command::new(&program);
-        let address = format!("127.0.0.1:{port}");
-        command.args(["run", "--robots", "0", "--listen", "127.0.0.1:0", "--mqtt-listen", &address]);
-        command.arg("--data").arg(folder);
+        command.args(["broker", "--mqtt-listen", &format!("127.0.0.1:{port}")]);
         Ok(command)
     })
 }
