@@ -98,18 +98,31 @@ describe('the editor', () => {
     expect((await stored(page, name)).frames.map((f) => f.name)).toEqual(['Frame 2', 'Start']);
   });
 
-  test('a change of an example survives reloading, and a second browser sees it', async () => {
+  test('an edited example becomes a copy, says so, and is there after reloading and a restart', async () => {
     const page = await bed.open('edit');
     await openShow(page, 'hello');
     const second = await bed.open('edit');
     await pixelsAre(page);
+    const before = await stored(page, 'hello');
     await button(page, 'All').click();
     await button(page, 'Colour cyan #00e0c8').click();
+    await page.getByText('Examples are read-only. Saved as "hello 2".').waitFor();
+    await page.getByTestId('open-library').getByText('hello 2', { exact: true }).waitFor();
+    // The same editor goes on: what was done can be undone, and every change goes to the copy.
+    await page.keyboard.press('Control+z');
+    await page.keyboard.press('Control+Shift+z');
     await saved(page);
+    expect(await stored(page, 'hello')).toEqual(before);
     const all = (p: { color: string }[]) => p.length > 0 && p.every((x) => x.color === '00e0c8');
     await eventually(() => pixels(second), all, 'the second browser sees it');
     await page.reload();
     await eventually(() => pixels(page), all, 'it is there after reloading');
+    await bed.server.kill();
+    await bed.server.restart();
+    await page.reload();
+    await eventually(() => pixels(page), all, 'it is there after a restart');
+    await page.getByTestId('open-library').getByText('hello 2', { exact: true }).waitFor();
+    expect((await stored(page, 'hello 2')).frames).toHaveLength(before.frames.length);
   });
 
   test('the server dies in the middle of an edit, and nothing is lost', async () => {

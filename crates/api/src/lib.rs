@@ -24,7 +24,7 @@ mod typescript;
 
 pub use broker::BrokerSettings;
 pub use fleet::{Abilities, Fleet, FleetRow, Presence, RobotStatus};
-pub use library::{Problem, ShowEntry};
+pub use library::{Problem, ShowEntry, ShowOrigin};
 pub use operation::{Answer, Choice, FromScreen, Missing, Operation, Request};
 pub use plan::{Issue, Path, Plan, Severity, Transition};
 pub use robots::Robots;

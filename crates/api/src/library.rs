@@ -4,8 +4,8 @@
 //! |---|---|
 //! | `GET /api/shows` | `ShowEntry[]`, by name |
 //! | `GET /api/shows/{name}` | the document (our format) with its `ETag` |
-//! | `PUT /api/shows/{name}` | body: a document in either format. `If-Match: <etag>` to replace, `If-None-Match: *` to create only; 412 and a `Problem` where somebody else was faster. Answers the `ShowEntry` |
-//! | `DELETE /api/shows/{name}` | 204; honours `If-Match` |
+//! | `PUT /api/shows/{name}` | body: a document in either format. `If-Match: <etag>` to replace, `If-None-Match: *` to create only; 412 and a `Problem` where somebody else was faster. Answers the `ShowEntry`: for a read-only show that of a copy, with a name of its own and `copy_of` |
+//! | `DELETE /api/shows/{name}` | 204; honours `If-Match`; 403 and a `Problem` for a read-only show |
 //! | `POST /api/check` | body: a document; answers a `Plan` with paths |
 //! | `POST /api/convert?to=lightbots\|original` | body: a document; answers it in that format |
 //! | `GET /api/plan` | the `Plan` with paths of the show that is open |
@@ -28,8 +28,22 @@ pub struct ShowEntry {
     pub modified_ms: u64,
     /// Its version, as `If-Match` takes it, with its quotes.
     pub etag: String,
-    /// Whether it came with the program: saving it makes a copy of the same name that can be deleted again.
-    pub example: bool,
+    /// Where it comes from.
+    pub origin: ShowOrigin,
+    /// Only in the answer to a save of a read-only show: what this entry, which is new, is a copy of.
+    pub copy_of: Option<ShowOrigin>,
+}
+
+/// Where a show of the library comes from. All but saved shows are read-only.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, TS)]
+#[serde(rename_all = "snake_case")]
+pub enum ShowOrigin {
+    /// It is a file of the library's folder.
+    Saved,
+    /// It comes with the program.
+    Example,
+    /// It is the file the program was started with.
+    StartFile,
 }
 
 /// The body of every HTTP answer that is not a success.

@@ -5,7 +5,7 @@ use ts_rs::{Config, TS};
 use crate::{
     Abilities, Answer, Broker, BrokerPhase, BrokerSettings, Choice, Fleet, FleetRow, FromScreen, Hello,
     Issue, Level, LogLine, Missing, OpenShow, Operation, Path, Phase, Plan, Playback, Presence, Problem,
-    Request, RobotStatus, Robots, Severity, ShowEntry, State, ToScreen, Transition,
+    Request, RobotStatus, Robots, Severity, ShowEntry, ShowOrigin, State, ToScreen, Transition,
 };
 
 /// The text of `ui/src/api/types.gen.ts`: every type of this crate, with its documentation.
@@ -54,6 +54,7 @@ pub fn typescript() -> String {
         Answer,
         Choice,
         ShowEntry,
+        ShowOrigin,
         Problem,
     );
     text.push_str("\n/** The lists of `Robots` in the order of its binary message. */\n");

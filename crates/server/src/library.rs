@@ -1,12 +1,18 @@
-//! The library: a folder of shows, and the examples that come with the program.
+//! The library: a folder of shows, and the shows that are given with the program.
+//!
+//! Given shows are the examples, and the file `run` was started with. They are read-only and in no folder:
+//! - Saving one makes a copy in the folder under a free name of its own, such as "heart 2".
+//! - Deleting one is refused. Renaming is saving under another name and deleting, so that it is refused too.
+//! - A file of the folder always keeps its name. Where it has the name of a given show, such as one that an older version
+//!   saved, the given show is listed under another: "heart (example)" or "my show (file)".
 
-use std::collections::BTreeMap;
-use std::io::Write;
+use std::collections::{BTreeMap, BTreeSet};
+use std::io::{ErrorKind, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard};
 use std::time::UNIX_EPOCH;
 
-use lightbots_api::ShowEntry;
+use lightbots_api::{ShowEntry, ShowOrigin};
 use lightbots_show::{Format, Show, most_pixels, read, write};
 
 use crate::examples;
@@ -23,10 +29,20 @@ const SHOWS_MAX: usize = 10_000;
 #[derive(Clone, Debug)]
 pub struct Library {
     folder: PathBuf,
-    /// Shows that are in no folder: the examples, and the file the program was started with. Our format.
-    given: Arc<Mutex<BTreeMap<String, Vec<u8>>>>,
+    /// Shows that are in no folder, by the name they are listed under.
+    given: Arc<Mutex<BTreeMap<String, Given>>>,
     /// Held while a file is compared and replaced.
     writing: Arc<Mutex<()>>,
+}
+
+/// A read-only show that is in no folder.
+#[derive(Clone, Debug)]
+struct Given {
+    /// What it is called where no file has that name, and what its copies are named after.
+    base: String,
+    origin: ShowOrigin,
+    /// Its document in our format.
+    bytes: Vec<u8>,
 }
 
 /// A show as the library keeps it.
@@ -49,6 +65,8 @@ pub enum LibraryError {
     Missing(String),
     /// Somebody else saved it first.
     Conflict(String),
+    /// It is given with the program, and stays as it is.
+    ReadOnly(String),
     /// It is no show.
     NoShow(String),
     /// The disk does not want to.
@@ -74,6 +92,7 @@ impl LibraryError {
             Self::BadName(line)
             | Self::Missing(line)
             | Self::Conflict(line)
+            | Self::ReadOnly(line)
             | Self::NoShow(line)
             | Self::Disk(line) => line,
         }
@@ -86,7 +105,9 @@ impl Library {
         let library = Self { folder, given: Arc::default(), writing: Arc::default() };
         for (name, bytes) in examples::all() {
             match read(bytes, Some("json")) {
-                Ok(loaded) => library.give(name, &loaded.show),
+                Ok(loaded) => {
+                    library.give(name, ShowOrigin::Example, &loaded.show);
+                }
                 Err(error) => tracing::error!("the example {name} is no show: {error}"),
             }
         }
@@ -116,9 +137,19 @@ impl Library {
             })
     }
 
-    /// Adds a show that is in no folder, under a name as close to `name` as it may be. It hides one of the same name.
-    pub fn give(&self, name: &str, show: &Show) {
-        lock(&self.given).insert(tidy_name(name), write(show, Format::LightBots));
+    /// Adds a read-only show that is in no folder; answers the name it is listed under, as close to `name` as it may be.
+    /// The file of the command line takes its name from an example, which is then listed under another.
+    pub fn give(&self, name: &str, origin: ShowOrigin, show: &Show) -> String {
+        let base = tidy_name(name);
+        let bytes = write(show, Format::LightBots);
+        let mut given = lock(&self.given);
+        let displaces = given.get(&base).is_some_and(|other| other.origin < origin);
+        let listed = if displaces { base.clone() } else { self.listed_name(&base, origin, &given) };
+        if let Some(moved) = given.insert(listed.clone(), Given { base, origin, bytes }) {
+            let elsewhere = self.listed_name(&moved.base, moved.origin, &given);
+            given.insert(elsewhere, moved);
+        }
+        listed
     }
 
     /// Remembers which show is open, for the next start. A disk that does not want to is no reason to fail.
@@ -138,33 +169,25 @@ impl Library {
 
     /// Every show, by name.
     pub fn list(&self) -> Vec<ShowEntry> {
-        let mut entries = BTreeMap::new();
-        for name in self.saved().into_iter().take(SHOWS_MAX) {
-            if let Ok(entry) = self.entry(&name) {
-                entries.insert(name, entry);
-            }
-        }
         let given: Vec<String> = lock(&self.given).keys().cloned().collect();
-        for name in given {
-            if let Ok(entry) = self.entry(&name) {
-                entries.insert(name, entry);
-            }
-        }
-        entries.into_values().collect()
+        let names = self.saved().into_iter().take(SHOWS_MAX).chain(given);
+        let entries = names.filter_map(|name| Some((name.clone(), self.entry(&name).ok()?)));
+        entries.collect::<BTreeMap<_, _>>().into_values().collect()
     }
 
-    /// A show by its name.
+    /// A show by its name: the file of that name, else the given show.
     pub fn get(&self, name: &str) -> Result<Kept, LibraryError> {
         let name = checked(name)?;
-        let given = lock(&self.given).get(name).cloned();
-        let bytes = match given {
-            Some(bytes) => bytes,
-            None => std::fs::read(self.path(name)).map_err(|error| match error.kind() {
-                std::io::ErrorKind::NotFound => {
+        let bytes = match std::fs::read(self.path(name)) {
+            Ok(bytes) => bytes,
+            Err(error) if error.kind() == ErrorKind::NotFound => {
+                lock(&self.given).get(name).map(|given| given.bytes.clone()).ok_or_else(|| {
                     LibraryError::Missing(format!("there is no show \"{name}\" in the library"))
-                }
-                _ => LibraryError::Disk(format!("the show \"{name}\" cannot be read: {error}")),
-            })?,
+                })?
+            }
+            Err(error) => {
+                return Err(LibraryError::Disk(format!("the show \"{name}\" cannot be read: {error}")));
+            }
         };
         let show = read(&bytes, Some("json"))
             .map_err(|error| LibraryError::NoShow(format!("\"{name}\" cannot be read: {error}")))?
@@ -172,33 +195,69 @@ impl Library {
         Ok(Kept { etag: etag(&bytes), bytes, show })
     }
 
-    /// Saves a show in either format; what is kept is ours.
+    /// Saves a show in either format; what is kept is ours. A given show is not changed: unless a new show is wanted, a
+    /// copy of a free name is made, and the entry tells that name and `copy_of`.
     pub fn put(&self, name: &str, bytes: &[u8], condition: &Condition) -> Result<ShowEntry, LibraryError> {
         let name = checked(name)?;
         let loaded = read(bytes, Some("json")).map_err(|error| LibraryError::NoShow(error.to_string()))?;
         let document = write(&loaded.show, Format::LightBots);
         let _guard = lock(&self.writing);
-        self.check(name, condition)?;
-        self.replace(name, &document).map_err(|error| {
-            LibraryError::Disk(format!("\"{name}\" cannot be saved in {}: {error}", self.folder.display()))
+        let given = self.given_show(name).filter(|_| *condition != Condition::IsNew);
+        let target = match &given {
+            Some(given) => self.copy_name(&given.base),
+            None => {
+                self.check(name, condition)?;
+                name.to_owned()
+            }
+        };
+        self.replace(&target, &document).map_err(|error| {
+            LibraryError::Disk(format!("\"{target}\" cannot be saved in {}: {error}", self.folder.display()))
         })?;
-        lock(&self.given).remove(name);
-        self.entry(name)
+        Ok(ShowEntry { copy_of: given.map(|given| given.origin), ..self.entry(&target)? })
     }
 
-    /// Deletes a show. Examples come back at the next start.
+    /// Deletes a show of the folder. Given shows stay.
     pub fn delete(&self, name: &str, condition: &Condition) -> Result<(), LibraryError> {
         let name = checked(name)?;
         let _guard = lock(&self.writing);
+        if let Some(given) = self.given_show(name) {
+            let what = match given.origin {
+                ShowOrigin::StartFile => "is the file LightBots was started with",
+                _ => "is an example",
+            };
+            let line = format!("\"{name}\" {what}, which cannot be deleted or renamed: save a copy instead");
+            return Err(LibraryError::ReadOnly(line));
+        }
         self.get(name)?;
         self.check(name, condition)?;
-        let was_given = lock(&self.given).remove(name).is_some();
-        match std::fs::remove_file(self.path(name)) {
-            Err(error) if !was_given => {
-                Err(LibraryError::Disk(format!("\"{name}\" cannot be deleted: {error}")))
-            }
-            _ => Ok(()),
-        }
+        std::fs::remove_file(self.path(name))
+            .map_err(|error| LibraryError::Disk(format!("\"{name}\" cannot be deleted: {error}")))
+    }
+
+    /// The given show of that name, unless a file has the name.
+    fn given_show(&self, name: &str) -> Option<Given> {
+        lock(&self.given).get(name).filter(|_| !self.path(name).exists()).cloned()
+    }
+
+    /// `base`, or where that is taken `base (example)`, `base (example 2)`…, or `base (file)` and so on.
+    fn listed_name(&self, base: &str, origin: ShowOrigin, given: &BTreeMap<String, Given>) -> String {
+        let word = if origin == ShowOrigin::StartFile { "file" } else { "example" };
+        let others = (2..).map(|number| format!("{base} ({word} {number})"));
+        let names = [base.to_owned(), format!("{base} ({word})")].into_iter().chain(others);
+        self.first_free(names, given)
+    }
+
+    /// `base 2`, `base 3`…, the first that is free.
+    fn copy_name(&self, base: &str) -> String {
+        self.first_free((2..).map(|number| format!("{base} {number}")), &lock(&self.given))
+    }
+
+    /// The first of endless `names` that no show has, whatever the case of its letters.
+    fn first_free(&self, mut names: impl Iterator<Item = String>, given: &BTreeMap<String, Given>) -> String {
+        let saved = self.saved();
+        let taken: BTreeSet<String> =
+            saved.iter().chain(given.keys()).map(|name| name.to_lowercase()).collect();
+        names.find(|name| !taken.contains(&name.to_lowercase())).unwrap_or_default()
     }
 
     fn check(&self, name: &str, condition: &Condition) -> Result<(), LibraryError> {
@@ -226,15 +285,16 @@ impl Library {
 
     fn entry(&self, name: &str) -> Result<ShowEntry, LibraryError> {
         let kept = self.get(name)?;
-        let example = lock(&self.given).contains_key(name);
+        let given = self.given_show(name);
         Ok(ShowEntry {
             name: name.to_owned(),
             title: kept.show.name.clone(),
             frames: kept.show.frames.len(),
             pixels: most_pixels(&kept.show),
-            modified_ms: if example { 0 } else { modified_ms(&self.path(name)) },
+            modified_ms: if given.is_some() { 0 } else { modified_ms(&self.path(name)) },
             etag: kept.etag,
-            example,
+            origin: given.map_or(ShowOrigin::Saved, |given| given.origin),
+            copy_of: None,
         })
     }
 

@@ -28,7 +28,10 @@ fn what_is_saved_is_there() {
     let temporary = Temporary::new("saved");
     let library = &temporary.library;
     let entry = library.put("My dot", DOT, &Condition::IsNew).unwrap();
-    assert_eq!((entry.title.as_str(), entry.frames, entry.pixels, entry.example), ("Dot", 1, 1, false));
+    assert_eq!(
+        (entry.title.as_str(), entry.frames, entry.pixels, entry.origin),
+        ("Dot", 1, 1, ShowOrigin::Saved)
+    );
     assert_eq!(library.get("My dot").unwrap().etag, entry.etag);
     assert_eq!(library.list(), [entry]);
     library.delete("My dot", &Condition::Any).unwrap();
@@ -62,18 +65,73 @@ fn names_never_leave_the_folder() {
     assert!(!temporary.folder.exists());
 }
 
+/// The show `DOT` under another title.
+fn titled(title: &str) -> Show {
+    let show = read(DOT, Some("json")).unwrap().show;
+    Show { name: title.into(), ..show }
+}
+
+fn names(library: &Library) -> Vec<(String, ShowOrigin)> {
+    library.list().into_iter().map(|entry| (entry.name, entry.origin)).collect()
+}
+
 #[test]
-fn a_given_show_hides_a_saved_one_until_it_is_saved() {
+fn a_given_show_stays_as_it_is_and_saving_it_makes_copies() {
     let temporary = Temporary::new("given");
     let library = &temporary.library;
-    library.put("a", DOT, &Condition::Any).unwrap();
-    let mut show = library.get("a").unwrap().show;
-    show.name = "Given".into();
-    library.give("a", &show);
-    assert_eq!(library.get("a").unwrap().show.name, "Given");
-    assert!(library.list()[0].example);
-    library.put("a", DOT, &Condition::Any).unwrap();
-    assert_eq!(library.get("a").unwrap().show.name, "Dot");
+    assert_eq!(library.give("heart", ShowOrigin::Example, &titled("Given")), "heart");
+    library.put("Heart 3", DOT, &Condition::IsNew).unwrap();
+    let etag = library.get("heart").unwrap().etag;
+    let first = library.put("heart", DOT, &Condition::Is(etag)).unwrap();
+    assert_eq!((first.name.as_str(), first.copy_of), ("heart 2", Some(ShowOrigin::Example)));
+    assert_eq!((first.origin, library.get("heart 2").unwrap().etag), (ShowOrigin::Saved, first.etag.clone()));
+    // Whatever version a screen knows of what cannot change: nothing is overwritten, so that nothing is refused.
+    let second = library.put("heart", DOT, &Condition::Is("\"old\"".into())).unwrap();
+    assert_eq!(second.name, "heart 4");
+    assert_eq!(library.get("heart").unwrap().show.name, "Given");
+    let again = library.put("heart 2", DOT, &Condition::Is(first.etag)).unwrap();
+    assert_eq!((again.name.as_str(), again.copy_of), ("heart 2", None));
+    assert!(matches!(library.put("heart", DOT, &Condition::IsNew), Err(LibraryError::Conflict(_))));
+    let kept = library.delete("heart", &Condition::Any).unwrap_err();
+    assert!(matches!(&kept, LibraryError::ReadOnly(line) if line.contains("example")), "{kept:?}");
+    assert_eq!(library.get("heart").unwrap().show.name, "Given");
+}
+
+#[test]
+fn a_file_of_an_older_version_keeps_the_name_of_an_example() {
+    let temporary = Temporary::new("older");
+    let library = &temporary.library;
+    library.put("heart", DOT, &Condition::Any).unwrap();
+    library.put("heart (example)", DOT, &Condition::Any).unwrap();
+    assert_eq!(library.give("heart", ShowOrigin::Example, &titled("Given")), "heart (example 2)");
+    let saved = |name: &str| (name.to_owned(), ShowOrigin::Saved);
+    let example = ("heart (example 2)".to_owned(), ShowOrigin::Example);
+    assert_eq!(names(library), [saved("heart"), example, saved("heart (example)")]);
+    assert_eq!(library.get("heart").unwrap().show.name, "Dot");
+    assert_eq!(library.get("heart (example 2)").unwrap().show.name, "Given");
+    assert_eq!(library.put("heart (example 2)", DOT, &Condition::Any).unwrap().name, "heart 2");
+    assert_eq!(library.put("heart", DOT, &Condition::Any).unwrap().name, "heart");
+    library.delete("heart", &Condition::Any).unwrap();
+}
+
+#[test]
+fn the_file_of_the_command_line_hides_nothing_and_is_not_hidden() {
+    let temporary = Temporary::new("start-file");
+    let library = &temporary.library;
+    library.give("heart", ShowOrigin::Example, &titled("Given"));
+    assert_eq!(library.give("heart", ShowOrigin::StartFile, &titled("File")), "heart");
+    let listed = [("heart", ShowOrigin::StartFile), ("heart (example)", ShowOrigin::Example)];
+    assert_eq!(names(library), listed.map(|(name, origin)| (name.to_owned(), origin)));
+    assert_eq!(library.get("heart").unwrap().show.name, "File");
+    let copy = library.put("heart", DOT, &Condition::Any).unwrap();
+    assert_eq!((copy.name.as_str(), copy.copy_of), ("heart 2", Some(ShowOrigin::StartFile)));
+    // The next start with the same file.
+    let next = Library { given: Arc::default(), ..library.clone() };
+    assert_eq!(next.give("heart", ShowOrigin::StartFile, &titled("File")), "heart");
+    assert_eq!(next.get("heart 2").unwrap().show.name, "Dot");
+    next.put("mine", DOT, &Condition::Any).unwrap();
+    assert_eq!(next.give("mine", ShowOrigin::StartFile, &titled("File")), "mine (file)");
+    assert_eq!(next.get("mine").unwrap().show.name, "Dot");
 }
 
 #[test]

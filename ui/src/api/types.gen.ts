@@ -605,9 +605,18 @@ modified_ms: number,
  */
 etag: string, 
 /**
- * Whether it came with the program: saving it makes a copy of the same name that can be deleted again.
+ * Where it comes from.
  */
-example: boolean, };
+origin: ShowOrigin, 
+/**
+ * Only in the answer to a save of a read-only show: what this entry, which is new, is a copy of.
+ */
+copy_of: ShowOrigin | null, };
+
+/**
+ * Where a show of the library comes from. All but saved shows are read-only.
+ */
+export type ShowOrigin = "saved" | "example" | "start_file";
 
 /**
  * The body of every HTTP answer that is not a success.

@@ -10,18 +10,19 @@ import { useEditing } from './context';
 /** Somebody else saved this show meanwhile: people choose, nothing is overwritten silently. */
 export function ConflictDialog() {
   const session = useSession();
-  const { name, editor, saver } = useEditing();
+  const editing = useEditing();
+  const { editor, saver } = editing;
   const conflict = useStore(saver.state, (s) => s.name === 'conflict');
   const run = (act: () => Promise<void>) =>
     void act().catch((e: unknown) => tell('error', e instanceof Error ? e.message : String(e)));
   const takeTheirs = async () => {
-    const { document, etag } = await getShow(name);
+    const { document, etag } = await getShow(editing.name);
     editor.adopt(readShow(document));
     saver.settle(etag);
   };
   const keepMine = async () => {
     try {
-      saver.rebase((await getShow(name)).etag);
+      saver.rebase((await getShow(editing.name)).etag);
     } catch (error) {
       if (!(error instanceof Refused) || error.status !== 404) throw error;
       // They deleted it: mine is a new one of that name.
@@ -30,7 +31,7 @@ export function ConflictDialog() {
   };
   const keepBoth = async () => {
     const copy = freeName(
-      `${name} mine`,
+      `${editing.name} mine`,
       (await listShows()).map((entry) => entry.name),
     );
     await putShow(copy, JSON.stringify(writeShow(editor.state.get().show)), 'new');

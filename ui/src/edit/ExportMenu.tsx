@@ -11,14 +11,16 @@ import { useEditing } from './context';
 /** The show as a file: ours, or the original's. */
 export function ExportMenu() {
   const session = useSession();
-  const { editor, name } = useEditing();
+  const editing = useEditing();
+  const { editor } = editing;
   const text = () => JSON.stringify(writeShow(editor.state.get().show), null, 1);
   const run = (act: () => Promise<void>) =>
     void act().catch((e: unknown) => tell('error', e instanceof Error ? e.message : String(e)));
-  const original = async () => download(await convertShow(text(), 'original'), `${name}.json`);
+  const original = async () =>
+    download(await convertShow(text(), 'original'), `${editing.name}.json`);
   const saveAs = async () => {
     const copy = freeName(
-      `${name} copy`,
+      `${editing.name} copy`,
       (await listShows()).map((entry) => entry.name),
     );
     await putShow(copy, text(), 'new');
@@ -32,7 +34,9 @@ export function ExportMenu() {
         </ActionIcon>
       </Menu.Target>
       <Menu.Dropdown>
-        <Menu.Item onClick={() => download(text(), `${name}.lightbots.json`)}>Download</Menu.Item>
+        <Menu.Item onClick={() => download(text(), `${editing.name}.lightbots.json`)}>
+          Download
+        </Menu.Item>
         <Menu.Item onClick={() => run(original)}>Download in the original’s format</Menu.Item>
         <Menu.Divider />
         <Menu.Item onClick={() => run(saveAs)}>Save as a copy</Menu.Item>

@@ -7,7 +7,8 @@ import type { Saver } from '../model/saver';
 import type { Show } from '../model/show';
 import type { Session } from '../shell/session';
 import { createView, type View } from '../stage/view';
-import { createSaving, draftOf, restoreDraft } from './saving';
+import { followCopy } from '../shell/copies';
+import { createSaving, draftOf, restoreDraft, type Saving } from './saving';
 import { watchLeaving } from './watchLeaving';
 
 export type ToolName = 'arrow' | 'lasso' | 'eyedropper' | 'area';
@@ -22,6 +23,7 @@ export interface Looks {
 
 /** A show being edited on this screen. It lives as long as the page, so that undo survives a look at the live view. */
 export interface Editing {
+  /** Its name in the library. Changes once: when a read-only show was saved as a copy and that copy is open. */
   name: string;
   editor: Editor;
   saver: Saver;
@@ -55,7 +57,10 @@ export function createEditing(
 ): Editing {
   const editor = createEditor(show, session.frame.get());
   const draft = draftOf(session, name, show, wantedDraft);
-  const { saver, keeper } = createSaving(session.drafts, name, etag, editor, draft);
+  const saving = createSaving(session.drafts, name, etag, editor, draft, (from, copy) =>
+    followCopy(session, from, copy),
+  );
+  const { saver, keeper } = saving;
   const color = createStore<Rgb>(0xffc878);
   let { selection } = editor.state.get();
   const unfollow = editor.state.subscribe(() => {
@@ -90,17 +95,38 @@ export function createEditing(
     },
   };
   if (draft) restoreDraft(session, editing, draft);
-  const stops = [followServer(session, editing), watchLeaving(editing)];
+  const stops = [
+    moveToCopy(session, editing, saving),
+    followServer(session, editing),
+    watchLeaving(editing),
+  ];
   stop = () => stops.forEach((each) => each());
   return editing;
 }
 
+/** Goes on as the copy of a read-only show once that is open, and opens it again where the link broke meanwhile. */
+function moveToCopy(session: Session, editing: Editing, saving: Saving): () => void {
+  const { live } = session;
+  const stops = [
+    live.opened.subscribe(() => {
+      if (live.opened.get().name === saving.name()) editing.name = saving.name();
+    }),
+    live.link.subscribe(() => {
+      const isDue = saving.name() !== editing.name && live.opened.get().name === editing.name;
+      if (isDue && live.link.get() === 'open')
+        void session.ask({ do: 'open', name: saving.name() });
+    }),
+  ];
+  return () => stops.forEach((stop) => stop());
+}
+
 /** Takes in what other screens save, unless this one has something unsaved: then saving finds the conflict. */
-function followServer(session: Session, { name, editor, saver }: Editing): () => void {
+function followServer(session: Session, editing: Editing): () => void {
+  const { editor, saver } = editing;
   const known = new Set([saver.etag(), session.live.opened.get().etag]);
   const look = () => {
     const opened = session.live.opened.get();
-    if (opened.name !== name || !opened.show || known.has(opened.etag)) return;
+    if (opened.name !== editing.name || !opened.show || known.has(opened.etag)) return;
     if (saver.state.get().name !== 'saved' || editor.isGesturing()) return;
     known.add(opened.etag);
     editor.adopt(opened.show);

@@ -1,4 +1,5 @@
 import { getShow, putShow, Refused } from '../api/http';
+import type { ShowEntry } from '../api/types.gen';
 import {
   createKeeper,
   type Draft,
@@ -17,21 +18,37 @@ import type { Session } from '../shell/session';
 export interface Saving {
   saver: Saver;
   keeper: Keeper;
+  /** The show in the library that the next save goes to: once a read-only show was saved, its copy. */
+  name(): string;
 }
 
 const textOf = (show: Show) => JSON.stringify(writeShow(show));
 /** The same text for the same show, whoever wrote the document. */
 const normal = (document: unknown) => textOf(readShow(document));
 
-/** `left`: what an earlier page left and this editor begins with. */
+/**
+ * `left`: what an earlier page left and this editor begins with. `copied`: the show is read-only, and a copy of it was
+ * saved and is what is saved from now on.
+ */
 export function createSaving(
   drafts: Drafts,
-  name: string,
+  first: string,
   etag: string | null,
   editor: Editor,
   left: LeftDraft | null,
+  copied: (from: string, copy: ShowEntry) => void,
 ): Saving {
-  const saver = createSaver(left ? left.etag : etag, createPut(name, editor));
+  let name = first;
+  const target: Target = {
+    name: () => name,
+    move(copy) {
+      const from = name;
+      name = copy.name;
+      keeper.rename(name);
+      copied(from, copy);
+    },
+  };
+  const saver = createSaver(left ? left.etag : etag, createPut(target, editor));
   const draft = (): Draft => ({
     etag: saver.etag(),
     document: writeShow(editor.state.get().show),
@@ -48,23 +65,35 @@ export function createSaving(
   saver.state.subscribe(() => {
     if (saver.state.get().name === 'saved') keeper.saved();
   });
-  return { saver, keeper };
+  return { saver, keeper, name: target.name };
 }
 
-function createPut(name: string, editor: Editor) {
+/** The show that is saved. */
+interface Target {
+  name(): string;
+  /** What was sent is in the library as this copy. */
+  move(copy: ShowEntry): void;
+}
+
+function createPut(target: Target, editor: Editor) {
   /** What was sent and not answered: the server may have it all the same. */
   let sent: string | null = null;
   const mine = async () => {
-    const theirs = await getShow(name);
+    const theirs = await getShow(target.name());
     return sent !== null && normal(theirs.document) === sent ? theirs.etag : null;
+  };
+  const save = async (body: string, base: string): Promise<Saved> => {
+    const entry = await putShow(target.name(), body, base);
+    if (entry.name !== target.name()) target.move(entry);
+    return { ok: true, etag: entry.etag };
   };
   return async (base: string | null): Promise<Saved> => {
     const body = textOf(editor.state.get().show);
     try {
       // What is based on nothing replaces nothing.
-      const { etag } = await putShow(name, body, base ?? 'new');
+      const saved = await save(body, base ?? 'new');
       sent = null;
-      return { ok: true, etag };
+      return saved;
     } catch (error) {
       const reason = error instanceof Error ? error.message : String(error);
       const conflict = error instanceof Refused && error.status === 412;
@@ -72,14 +101,11 @@ function createPut(name: string, editor: Editor) {
       const etag = conflict ? await mine().catch(() => null) : null;
       if (etag === null) return { ok: false, conflict, reason };
       // The lost answer was a yes: what came since then follows.
-      return putShow(name, body, etag).then(
-        (entry) => ({ ok: true, etag: entry.etag }),
-        (again: unknown) => ({
-          ok: false,
-          conflict: again instanceof Refused && again.status === 412,
-          reason,
-        }),
-      );
+      return save(body, etag).catch((again: unknown) => ({
+        ok: false,
+        conflict: again instanceof Refused && again.status === 412,
+        reason,
+      }));
     }
   };
 }

@@ -4,6 +4,8 @@ import type { Session } from '../shell/session';
 import { createEditor } from '../model/editor';
 import { readShow } from '../model/json';
 import { createSaver, type Saved } from '../model/saver';
+import type { ShowEntry } from '../api/types.gen';
+import { copyText, followCopy } from '../shell/copies';
 import { followPlan, whenPlanned } from './start';
 import { createLive, hear } from './store';
 
@@ -96,4 +98,30 @@ test.each<[string, (world: ReturnType<typeof setup>) => void]>([
   world.live.link.set('open');
   world.plan(2);
   expect(world.act).not.toHaveBeenCalled();
+});
+
+test('what waits for an example goes on with the copy that its save made', () => {
+  const world = setup();
+  const { plan, wish, act, editing, live } = world;
+  const saver = createSaver('"1"', () => Promise.resolve({ ok: true, etag: '"2"' }));
+  const edited = { name: 'A', editor: createEditor(readShow({}), 0), saver };
+  editing.set(edited);
+  plan(1, true);
+  wish();
+  const asked = vi.fn(() => Promise.resolve({ id: 1, ok: true, error: null, choice: null }));
+  saver.settle('"2"');
+  followCopy({ ...world, ask: asked }, 'A', { name: 'A 2', copy_of: 'example' } as ShowEntry);
+  expect(asked).toHaveBeenCalledWith({ do: 'open', name: 'A 2' });
+  plan(1);
+  expect(act, 'the plan of the example is none of what was edited').not.toHaveBeenCalled();
+  edited.name = 'A 2';
+  hear(live, { type: 'show', revision: 2, name: 'A 2', etag: '"2"', document: {} });
+  plan(2);
+  expect(act).toHaveBeenCalledTimes(1);
+});
+
+test('a copy is told in plain words', () => {
+  expect(copyText({ name: 'heart 2', copy_of: 'example' })).toBe(
+    'Examples are read-only. Saved as "heart 2".',
+  );
 });

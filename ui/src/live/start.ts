@@ -25,7 +25,7 @@ export const startPlay = (session: Session) =>
 /** Does it once the show as it is on this screen is saved and planned: at once, or when that has come about. */
 export function whenPlanned(desk: Desk, act: () => void) {
   if (isPlanned(desk)) act();
-  else desk.waiting.set({ name: desk.live.opened.get().name, act });
+  else desk.waiting.set({ names: [desk.live.opened.get().name], act });
 }
 
 /** Does what waits for the plan when it comes; gives it up with the link or the show. Returns how to stop. */
@@ -34,7 +34,7 @@ export function followPlan(desk: Desk): () => void {
   const look = () => {
     const wish = waiting.get();
     if (!wish) return;
-    const isGivenUp = live.link.get() !== 'open' || live.opened.get().name !== wish.name;
+    const isGivenUp = live.link.get() !== 'open' || !wish.names.includes(live.opened.get().name);
     if (!isGivenUp && !isPlanned(desk)) return;
     waiting.set(null);
     if (!isGivenUp) wish.act();

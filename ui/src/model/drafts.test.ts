@@ -64,22 +64,22 @@ test('what has no room is said, and no shelf or junk on it is no error', () => {
 test('a draft of another tab is its own until it has been left behind', () => {
   const common = shelf();
   const mine = drafts(common, 'a', 'page 1');
-  const place = mine.place('A');
-  place.keep(NOTHING);
+  const place = mine.place();
+  place.keep('A', NOTHING);
   const names = (of = mine) => of.left().map((draft) => draft.name);
   expect(names()).toEqual([]);
   expect(names(drafts(common, 'a', 'page 2', 1001))).toEqual(['A']);
   expect(names(drafts(common, 'b', 'page 3', 61_000))).toEqual([]);
   expect(names(drafts(common, 'b', 'page 3', 90_000))).toEqual(['A']);
-  place.keep(NOTHING, true);
+  place.keep('A', NOTHING, true);
   expect([names(), names(drafts(common, 'b', 'page 3', 1001))]).toEqual([['A'], ['A']]);
 });
 
 test('who begins with a draft that was left takes it over once it is kept again, and not before', () => {
   const common = shelf();
   drafts(common, 'a', 'page 1')
-    .place('A')
-    .keep({ etag: null, document: { long: 'changes' } }, true);
+    .place()
+    .keep('A', { etag: null, document: { long: 'changes' } }, true);
   const begin = (on: Shelf) => {
     const heir = drafts(on, 'a', 'page 2');
     const [found] = heir.left();

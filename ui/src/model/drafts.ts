@@ -23,7 +23,7 @@ export interface LeftDraft extends Draft {
  * write over each other's drafts.
  */
 export interface Drafts {
-  place(name: string): Place;
+  place(): Place;
   /** What pages that are gone left behind, newest first. */
   left(): LeftDraft[];
   drop(id: string): void;
@@ -32,8 +32,8 @@ export interface Drafts {
 /** Where the draft of one editor lies. */
 export interface Place {
   id: string;
-  /** Whether there was room for it. `isLeft`: its page is going, others may have it. */
-  keep(draft: Draft, isLeft?: boolean): boolean;
+  /** Whether there was room for the draft of that show. `isLeft`: its page is going, others may have it. */
+  keep(name: string, draft: Draft, isLeft?: boolean): boolean;
   drop(): void;
 }
 
@@ -80,11 +80,11 @@ export function createDrafts(shelf: Shelf | null, { tab, page, now_ms }: Writer)
   };
   const drop = (id: string) => attempt((s) => s.removeItem(PREFIX + id), undefined);
   return {
-    place(name) {
+    place() {
       const id = `${page}-${++places}`;
       return {
         id,
-        keep(draft, isLeft = false) {
+        keep(name, draft, isLeft = false) {
           if (isLeft) held.delete(id);
           else held.add(id);
           return attempt((s) => {
@@ -120,6 +120,8 @@ export interface Keeper {
   touch(): void;
   /** Writes now what would be written soon. */
   flush(): void;
+  /** The show has another name from now on. */
+  rename(name: string): void;
   /** The editor goes: its draft is for whoever comes next. */
   leave(): void;
   /** The page came back, or somebody took the draft away: what is unsaved is written again. */
@@ -133,18 +135,19 @@ export interface Keeper {
 /** `heirOf`: a draft that was left and is what this editor begins with; it goes once it is kept here or saved. */
 export function createKeeper(
   drafts: Drafts,
-  name: string,
+  first: string,
   draft: () => Draft,
   heirOf?: string,
 ): Keeper {
-  const place = drafts.place(name);
+  const place = drafts.place();
+  let name = first;
   let timer: ReturnType<typeof setTimeout> | undefined;
   let beat: ReturnType<typeof setInterval> | undefined;
   let [isUnsaved, isEndangered] = [false, false];
   const write = (isLeft = false) => {
     clearTimeout(timer);
     timer = undefined;
-    isEndangered = !place.keep(draft(), isLeft);
+    isEndangered = !place.keep(name, draft(), isLeft);
     if (!isEndangered && heirOf !== undefined) drafts.drop(heirOf);
   };
   const rest = () => {
@@ -162,6 +165,10 @@ export function createKeeper(
     },
     flush() {
       if (timer !== undefined) write();
+    },
+    rename(next) {
+      name = next;
+      if (isUnsaved) write();
     },
     leave() {
       if (isUnsaved) write(true);

@@ -15,12 +15,17 @@ interface Props {
   onChanged: () => void;
 }
 
+const ORIGINS = { example: 'example', start_file: 'start file' } as const;
+
 /** A show of the library, and what can be done with it. */
 export function LibraryEntry({ entry, open, onOpen, onName, onChanged }: Props) {
   const { name } = entry;
   const subtitle =
     entry.title && entry.title.toLowerCase() !== name.toLowerCase() ? ` – ${entry.title}` : '';
-  const saved = entry.example ? 'example' : new Date(entry.modified_ms).toLocaleDateString();
+  const saved =
+    entry.origin === 'saved'
+      ? new Date(entry.modified_ms).toLocaleDateString()
+      : ORIGINS[entry.origin];
   return (
     <li>
       <button type="button" className="entry" aria-current={open} onClick={onOpen}>
@@ -41,7 +46,9 @@ export function LibraryEntry({ entry, open, onOpen, onName, onChanged }: Props) 
         </Menu.Target>
         <Menu.Dropdown>
           <Menu.Item onClick={() => onName('copy')}>Save as…</Menu.Item>
-          {entry.example ? null : <Menu.Item onClick={() => onName('rename')}>Rename…</Menu.Item>}
+          {entry.origin !== 'saved' ? null : (
+            <Menu.Item onClick={() => onName('rename')}>Rename…</Menu.Item>
+          )}
           <Menu.Divider />
           <Menu.Item onClick={() => void attempt(() => downloadShow(name, 'lightbots'))}>
             Download
@@ -49,7 +56,7 @@ export function LibraryEntry({ entry, open, onOpen, onName, onChanged }: Props) 
           <Menu.Item onClick={() => void attempt(() => downloadShow(name, 'original'))}>
             Download in the original’s format
           </Menu.Item>
-          {entry.example ? null : (
+          {entry.origin !== 'saved' ? null : (
             <>
               <Menu.Divider />
               <Menu.Item

@@ -1,6 +1,7 @@
 import { getShow, putShow } from '../api/http';
 import { readShow, writeShow } from '../model/json';
 import type { Show } from '../model/show';
+import { followCopy } from './copies';
 import { tell } from './notices';
 import type { Session } from './session';
 
@@ -17,7 +18,9 @@ export async function changeShow(session: Session, label: string, change: (show:
     const { document, etag } = await getShow(name);
     const show = readShow(document);
     const next = change(show);
-    if (next !== show) await putShow(name, JSON.stringify(writeShow(next)), etag);
+    if (next === show) return;
+    const entry = await putShow(name, JSON.stringify(writeShow(next)), etag);
+    if (entry.name !== name) followCopy(session, name, entry);
   } catch (error) {
     tell('error', error instanceof Error ? error.message : String(error));
   }

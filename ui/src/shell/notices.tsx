@@ -1,12 +1,25 @@
 import { Button, Group } from '@mantine/core';
 import { notifications } from '@mantine/notifications';
 
-/** Says something in the corner, and takes it back by itself; errors are left for longer. */
-export function tell(tone: 'good' | 'info' | 'error', message: string) {
+const SHORT_MS = 4000;
+const LONG_MS = 12_000;
+
+/** Colour, and how long it is left. */
+const TONES = {
+  good: ['teal', SHORT_MS],
+  info: ['gray', SHORT_MS],
+  /** To be read to its end: something went another way than people expect. */
+  kept: ['gray', LONG_MS],
+  error: ['red', LONG_MS],
+} as const;
+
+/** Says something in the corner, and takes it back by itself. */
+export function tell(tone: keyof typeof TONES, message: string) {
+  const [color, autoClose] = TONES[tone];
   notifications.show({
     message,
-    color: { good: 'teal', info: 'gray', error: 'red' }[tone],
-    autoClose: tone === 'error' ? 12_000 : 4000,
+    color,
+    autoClose,
     withBorder: true,
     closeButtonProps: { 'aria-label': 'Close' },
     role: tone === 'error' ? 'alert' : 'status',

@@ -20,8 +20,8 @@ export interface Session {
   frame: Store<number>;
   /** The editor of this screen; null: it has edited nothing. */
   editing: Store<{ name: string; editor: Editor; saver: Saver } | null>;
-  /** What is done when the plan of the show of that name has been made; null: nothing waits for it. */
-  waiting: Store<{ name: string | null; act: () => void } | null>;
+  /** What is done when the plan of the show of one of these names has been made; null: nothing waits for it. */
+  waiting: Store<{ names: readonly (string | null)[]; act: () => void } | null>;
   /** Whether the checklist is shown. */
   checking: Store<boolean>;
   /** What is not on the server yet. */

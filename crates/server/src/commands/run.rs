@@ -5,7 +5,7 @@ use std::path::Path;
 use std::sync::Arc;
 use std::time::Duration;
 
-use lightbots_api::Level;
+use lightbots_api::{Level, ShowOrigin};
 use lightbots_link::BrokerUrl;
 use lightbots_show::{Show, validate};
 use tokio::sync::mpsc;
@@ -159,8 +159,7 @@ fn first_show(arguments: &RunArguments, library: &Library) -> Result<(Option<Str
             // The screen knows nothing of this command line; what else is wrong it shows.
             tracing::warn!("{}", issue.message);
         }
-        let name = name_of_file(file);
-        library.give(&name, &opened.show);
+        let name = library.give(&name_of_file(file), ShowOrigin::StartFile, &opened.show);
         return Ok((Some(name), opened.show));
     }
     let named = |name: String| library.get(&name).ok().map(|kept| (name, kept));

@@ -49,6 +49,7 @@ fn library_problem(error: LibraryError) -> Refused {
         LibraryError::BadName(_) => StatusCode::BAD_REQUEST,
         LibraryError::Missing(_) => StatusCode::NOT_FOUND,
         LibraryError::Conflict(_) => StatusCode::PRECONDITION_FAILED,
+        LibraryError::ReadOnly(_) => StatusCode::FORBIDDEN,
         LibraryError::NoShow(_) => StatusCode::UNPROCESSABLE_ENTITY,
         LibraryError::Disk(_) => StatusCode::INTERNAL_SERVER_ERROR,
     };
@@ -96,7 +97,7 @@ pub async fn get(State(shared): State<Arc<Shared>>, Path(name): Path<String>) ->
     Ok((about, kept.bytes).into_response())
 }
 
-/// `PUT /api/shows/{name}`
+/// `PUT /api/shows/{name}`. A copy of a read-only show is not opened on screens: whoever saved it may go on with it.
 pub async fn put(
     State(shared): State<Arc<Shared>>,
     Path(name): Path<String>,
@@ -104,15 +105,15 @@ pub async fn put(
     bytes: Result<Bytes, BytesRejection>,
 ) -> Answer<Response> {
     let (bytes, condition) = (body(bytes)?, condition(&headers)?);
-    let (library, saved) = (shared.library.clone(), name.clone());
+    let library = shared.library.clone();
     let put = beside(move || {
-        let entry = library.put(&saved, &bytes, &condition)?;
-        library.get(&saved).map(|kept| (entry, kept))
+        let entry = library.put(&name, &bytes, &condition)?;
+        library.get(&entry.name).map(|kept| (entry, kept))
     });
     let (entry, kept) = put.await?.map_err(library_problem)?;
     let etag = entry.etag.clone();
-    if shared.desk.shown().name.as_ref() == Some(&name) {
-        shared.desk.open(name, kept).await;
+    if shared.desk.shown().name.as_ref() == Some(&entry.name) {
+        shared.desk.open(entry.name.clone(), kept).await;
     }
     Ok(([(header::ETAG, etag)], Json(entry)).into_response())
 }

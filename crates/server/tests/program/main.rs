@@ -17,6 +17,7 @@ mod example_brokers;
 mod fleet;
 mod hostile;
 mod http;
+mod library;
 mod mosquitto;
 mod original_controller;
 mod original_robot;

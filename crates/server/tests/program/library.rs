@@ -1,0 +1,59 @@
+//! The library over restarts of the program.
+
+use crate::screen::Screen;
+use crate::{alone, http, run, shows};
+
+fn title(address: &str, name: &str) -> String {
+    let got = http::request(address, "GET", &format!("/api/shows/{name}"), &[], "");
+    assert_eq!(got.status, 200, "{name}: {}", got.body);
+    got.json()["name"].as_str().unwrap().to_owned()
+}
+
+/// Saves a show titled `title` over `name`, as a screen does that edits it; answers the name it is saved under.
+fn save(address: &str, name: &str, title: &str) -> String {
+    let path = format!("/api/shows/{name}");
+    let etag = http::request(address, "GET", &path, &[], "").header("ETag");
+    let body = shows::row(2, &[1.0]).replace("Rows", title);
+    let answer = http::request(address, "PUT", &path, &[("If-Match", &etag)], &body);
+    assert_eq!(answer.status, 200, "{}", answer.body);
+    answer.json()["name"].as_str().unwrap().to_owned()
+}
+
+#[test]
+fn what_was_made_of_read_only_shows_is_there_after_a_restart() {
+    let _turn = alone();
+    let data = shows::folder().join("restarted");
+    let file = shows::file("rows.lightbots.json", shows::row(2, &[1.0]));
+    let arguments = ["--robots", "0", "--data", data.to_str().unwrap(), &file];
+    {
+        let (_server, address, _) = run::start(&arguments);
+        assert_eq!(save(&address, "heart", "My heart"), "heart 2");
+        assert_eq!(save(&address, "heart%202", "My heart again"), "heart 2");
+        assert_eq!(save(&address, "rows", "My rows"), "rows 2");
+        let refused = http::request(&address, "DELETE", "/api/shows/heart", &[], "");
+        assert_eq!(refused.status, 403);
+        assert!(refused.json()["error"].as_str().unwrap().contains("save a copy"), "{}", refused.body);
+    }
+    let (_server, address, _) = run::start(&arguments);
+    assert_eq!(title(&address, "heart%202"), "My heart again");
+    assert_eq!(title(&address, "rows%202"), "My rows");
+    assert_eq!((title(&address, "rows"), title(&address, "heart")), ("Rows".into(), "Heart".into()));
+}
+
+#[test]
+fn a_show_that_an_older_version_saved_under_the_name_of_an_example_is_found_and_opened() {
+    let _turn = alone();
+    let data = shows::folder().join("older");
+    std::fs::create_dir_all(&data).unwrap();
+    let file = data.join("heart.lightbots.json");
+    let mine = shows::row(2, &[1.0]).replace("Rows", "My heart");
+    std::fs::write(&file, &mine).unwrap();
+    std::fs::write(data.join(".open"), "heart").unwrap();
+    let (_server, address, _) = run::start(&["--robots", "0", "--data", data.to_str().unwrap()]);
+    let mut screen = Screen::open(&address);
+    screen.until("the show", |screen| (screen.get("show")["document"]["name"] == "My heart").then_some(()));
+    assert_eq!(title(&address, "heart%20(example)"), "Heart");
+    assert_eq!(save(&address, "heart%20(example)", "Another"), "heart 2");
+    assert_eq!(std::fs::read_to_string(&file).unwrap(), mine);
+    assert_eq!(save(&address, "heart", "My heart again"), "heart");
+}
