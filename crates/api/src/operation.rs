@@ -57,6 +57,8 @@ pub enum Operation {
     Abort,
     /// Every robot's wheels stop at once, whatever is going on.
     StopAll,
+    /// The operator has read `Playback.failure`: it goes from every screen.
+    DismissFailure,
     /// Ask all robots to introduce themselves.
     Refresh,
     /// Let a robot blink.

@@ -63,6 +63,8 @@ pub struct Playback {
     pub progress: f64,
     /// Time left to the end of the show, seconds, as far as it is known.
     pub left_s: Option<f64>,
+    /// Where and why the last run failed, a sentence for people; until it is dismissed or robots are started again.
+    pub failure: Option<String>,
     /// Whether it begins again after the last frame.
     pub looping: bool,
     /// Names of the robots everybody is waiting for; at most twenty.

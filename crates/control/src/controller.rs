@@ -4,7 +4,7 @@ use crate::clock;
 use crate::config::Config;
 use crate::desk::Desk;
 use crate::drafting::{Done, Job};
-use crate::event::{Event, EventKind};
+use crate::event::{Event, EventKind, Outcome};
 use crate::hearing::unexpected;
 use crate::operation::State;
 use crate::outbox::Send;
@@ -39,6 +39,8 @@ pub struct Controller {
     pub(crate) looping: bool,
     pub(crate) run: Option<Run>,
     pub(crate) stopping: Option<Stopping>,
+    /// Where and why the last run failed, for people; until the operator dismisses it or starts again.
+    pub(crate) failure: Option<String>,
     said: State,
     patrol_at: Instant,
     ask_all_at: Instant,
@@ -69,6 +71,7 @@ impl Controller {
             looping: false,
             run: None,
             stopping: None,
+            failure: None,
             said: State::Idle,
             patrol_at: Instant::ZERO,
             ask_all_at: Instant::ZERO,
@@ -201,10 +204,19 @@ impl Controller {
         if let Some(run) = &mut self.run
             && let Some(outcome) = run.over.take()
         {
+            let frame = run.view(&self.desk, now).frame;
             run.leave(&mut self.desk);
             let (frames_played, dropouts) = (run.frames_played, run.dropouts);
             self.run = None;
             self.desk.job = None;
+            let outcome = match outcome {
+                Outcome::Failed(why) => {
+                    let line = format!("Show stopped in frame {}: {why}", frame + 1);
+                    self.failure = Some(format!("{line}."));
+                    Outcome::Failed(line)
+                }
+                other => other,
+            };
             self.desk.log.tell(now, EventKind::RunEnded { outcome, frames_played, dropouts });
         }
         let state = self.state();
@@ -285,6 +297,7 @@ impl Controller {
             frames: self.show.as_ref().map_or(0, |show| show.frames.len()),
             looping: self.looping,
             run: self.run.as_ref().map(|run| run.view(&self.desk, now)),
+            failure: self.failure.clone(),
             robots: self.robot_views(now),
             counters: self.counters(),
         }

@@ -167,7 +167,7 @@ pub enum Outcome {
     Finished,
     /// The operator ended it.
     Aborted,
-    /// It could not go on.
+    /// It could not go on: where it stopped and why, for people, without a full stop.
     Failed(String),
 }
 
@@ -218,7 +218,7 @@ impl fmt::Display for Outcome {
         match self {
             Self::Finished => f.write_str("finished"),
             Self::Aborted => f.write_str("aborted"),
-            Self::Failed(why) => write!(f, "failed: {why}"),
+            Self::Failed(line) => f.write_str(line),
         }
     }
 }
@@ -284,6 +284,7 @@ impl fmt::Display for EventKind {
             Suppressed(1) => write!(f, "One more event was not listed."),
             Suppressed(count) => write!(f, "{count} more events were not listed."),
             StoppedAll => write!(f, "All robots were told to stop."),
+            RunEnded { outcome: Outcome::Failed(line), .. } => write!(f, "{line}."),
             RunEnded { outcome, frames_played, dropouts } => {
                 let (frames, dropouts) = (Count(*frames_played, "frame"), Count(*dropouts, "dropout"));
                 write!(f, "Run {outcome}; {frames}, {dropouts}.")

@@ -27,6 +27,10 @@ impl Controller {
             Operation::Step => self.resume(now, true),
             Operation::Abort => self.abort(now),
             Operation::StopAll => self.stop_all(now),
+            Operation::DismissFailure => {
+                self.failure = None;
+                Ok(())
+            }
             Operation::Refresh => self.linked().map(|()| self.refresh(now)),
             Operation::Identify(id) => self.identify(id),
             Operation::Forget(id) => self.forget(id),
@@ -90,6 +94,7 @@ impl Controller {
         }
         let last = if purpose == Purpose::Preview { frame } else { frames - 1 };
         self.enough(&show, frame..=last, missing)?;
+        self.failure = None;
         self.run = Some(Run::begin(&mut self.desk, now, show, purpose, frame, missing, self.looping));
         Ok(())
     }

@@ -34,6 +34,8 @@ pub enum Operation {
     Abort,
     /// Every robot stops at once, whoever set it going. Always possible while there is a broker.
     StopAll,
+    /// The operator has read why the last run failed.
+    DismissFailure,
     /// Ask who is out there.
     Refresh,
     /// This robot flashes for five seconds.

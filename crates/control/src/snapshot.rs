@@ -21,6 +21,8 @@ pub struct Snapshot {
     pub looping: bool,
     /// The run, if there is one.
     pub run: Option<RunView>,
+    /// Where and why the last run failed: a sentence for people. It stays until the operator dismisses it or starts again.
+    pub failure: Option<String>,
     /// Every known robot, in the order they were found.
     pub robots: Vec<RobotView>,
     /// What came and went.

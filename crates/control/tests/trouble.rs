@@ -327,7 +327,26 @@ fn when_all_robots_die_the_run_ends() {
     world.run_until(10.0, started);
     world.robots.iter_mut().for_each(|robot| robot.dead = true);
     let (outcome, _, dropouts) = world.run_to_end(30.0);
-    assert!(matches!(outcome, Outcome::Failed(_)) && dropouts == 4, "{}", world.story());
+    let why = "Show stopped in frame 1: all 4 robots lost contact";
+    assert_eq!((outcome, dropouts), (Outcome::Failed(why.into()), 4), "{}", world.story());
+    assert_eq!(world.controller.snapshot(world.now).failure, Some(format!("{why}.")));
+    assert_eq!(world.controller.snapshot(world.now).state, State::Ready);
+    world.operate(Operation::DismissFailure).unwrap();
+    assert_eq!(world.controller.snapshot(world.now).failure, None);
+}
+
+#[test]
+fn starting_again_takes_back_why_the_last_run_failed() {
+    let mut world = World::ready(4, 0, show(2, 4, 0.3));
+    world.play();
+    world.run_until(10.0, started);
+    world.robots.iter_mut().for_each(|robot| robot.dead = true);
+    world.run_to_end(30.0);
+    world.robots.iter_mut().for_each(|robot| robot.dead = false);
+    world.operate(Operation::Refresh).unwrap();
+    world.run_for(3.0);
+    world.play();
+    assert_eq!(world.controller.snapshot(world.now).failure, None);
 }
 
 #[test]

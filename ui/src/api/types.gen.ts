@@ -371,6 +371,10 @@ progress: number,
  */
 left_s: number | null, 
 /**
+ * Where and why the last run failed, a sentence for people; until it is dismissed or robots are started again.
+ */
+failure: string | null, 
+/**
  * Whether it begins again after the last frame.
  */
 looping: boolean, 
@@ -491,7 +495,7 @@ missing?: Missing, } | { "do": "pause" } | { "do": "resume" } | { "do": "step" }
 /**
  * Whether to.
  */
-on: boolean, } | { "do": "abort" } | { "do": "stop_all" } | { "do": "refresh" } | { "do": "identify", 
+on: boolean, } | { "do": "abort" } | { "do": "stop_all" } | { "do": "dismiss_failure" } | { "do": "refresh" } | { "do": "identify", 
 /**
  * Its name.
  */

@@ -1,4 +1,5 @@
 import { Bottom } from '../shell/Bottom';
+import { FailureNote } from './FailureNote';
 import { FleetSide } from './FleetSide';
 import { FrameStrip } from './FrameStrip';
 import { LiveStage } from './LiveStage';
@@ -11,6 +12,7 @@ export function LivePage() {
     <main className="page">
       <LiveStage />
       <Bottom label="Playing">
+        <FailureNote />
         <Transport />
         <FrameStrip />
       </Bottom>

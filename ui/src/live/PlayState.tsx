@@ -12,6 +12,7 @@ export function PlayState() {
   // Texts, not the snapshot: what says the same is not rendered again twenty times a second.
   const phase = useStore(live.playback, (p) => p.phase);
   const text = useStore(live.playback, phaseText);
+  const failed = useStore(live.playback, (p) => p.phase === 'ready' && p.failure !== null);
   const left = useStore(live.playback, (p) => (p.left_s === null ? null : clockText(p.left_s)));
   const late = useStore(live.playback, (p) => p.late.join(' '));
   const pace = useStore(live.pace, (share) => Math.round(share * 100));
@@ -22,7 +23,7 @@ export function PlayState() {
   });
   return (
     <div className="play-state">
-      <span role="status" data-testid="phase" data-phase={phase}>
+      <span role="status" data-testid="phase" data-phase={phase} data-failed={failed || undefined}>
         {isWaiting ? 'Begins when the plan is made' : text}
       </span>
       {phase === 'ready' && from > 0 ? (

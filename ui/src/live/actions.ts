@@ -24,14 +24,16 @@ export function actionsOf(phase: Phase, linked: boolean, hasShow: boolean): Acti
 }
 
 /** What is going on, in a few words. */
-export function phaseText(playback: Pick<Playback, 'phase' | 'frame' | 'frames'>): string {
-  const { phase, frame, frames } = playback;
+export function phaseText(
+  playback: Pick<Playback, 'phase' | 'frame' | 'frames' | 'failure'>,
+): string {
+  const { phase, frame, frames, failure } = playback;
   const where = frame === null ? '' : `frame ${frame + 1} of ${frames}`;
   switch (phase) {
     case 'idle':
       return 'No broker';
     case 'ready':
-      return 'Ready';
+      return failure === null ? 'Ready' : 'Show stopped';
     case 'preparing':
       return 'Getting ready';
     case 'playing':

@@ -40,6 +40,7 @@ const NO_PLAYBACK: Playback = {
   frames: 0,
   progress: 0,
   left_s: null,
+  failure: null,
   looping: false,
   late: [],
 };

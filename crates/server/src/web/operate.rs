@@ -47,6 +47,7 @@ async fn act(shared: &Shared, operation: api::Operation) -> Result<(), Refused> 
         Wish::Loop { on } => Operation::Loop(on),
         Wish::Abort => Operation::Abort,
         Wish::StopAll => Operation::StopAll,
+        Wish::DismissFailure => Operation::DismissFailure,
         Wish::Refresh => Operation::Refresh,
         Wish::Identify { robot } => Operation::Identify(robot_id(&robot).map_err(plain)?),
         Wish::Forget { robot } => Operation::Forget(robot_id(&robot).map_err(plain)?),

@@ -186,6 +186,7 @@ impl Painter {
             frames: self.desk.shown().show.frames.len(),
             progress: rounded(progress, 3),
             left_s: self.left_s(snapshot, is_showing),
+            failure: snapshot.failure.clone(),
             looping: snapshot.looping,
             late: run.map_or(Vec::new(), |run| run.waiting_for.iter().map(ToString::to_string).collect()),
         }

@@ -1,0 +1,24 @@
+import { Button } from '@mantine/core';
+import { IconAlertTriangle } from '@tabler/icons-react';
+import { useStore } from '../base/store';
+import { useSession } from '../shell/session';
+
+/** Where and why the last run failed, above Play, until the operator has read it or starts again. */
+export function FailureNote() {
+  const { live, ask } = useSession();
+  const failure = useStore(live.playback, (p) => p.failure);
+  if (failure === null) return null;
+  return (
+    <div className="failure" role="alert">
+      <IconAlertTriangle size={20} aria-hidden />
+      <strong>{failure}</strong>
+      <Button
+        size="compact-sm"
+        variant="default"
+        onClick={() => void ask({ do: 'dismiss_failure' })}
+      >
+        Got it
+      </Button>
+    </div>
+  );
+}
