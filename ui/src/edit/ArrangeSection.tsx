@@ -27,7 +27,7 @@ import { TextShape } from './TextShape';
 
 type Act = [string, Icon, (e: Editing) => void];
 
-const SHAPES: Act[] = [
+export const SHAPES: Act[] = [
   ['Line', IconLineDashed, acts.line],
   ['Circle', IconCircleDotted, (e) => acts.shape(e, 'circle')],
   ['Heart', IconHeart, (e) => acts.shape(e, 'heart')],
@@ -35,8 +35,8 @@ const SHAPES: Act[] = [
   ['Square', IconSquare, (e) => acts.shape(e, 'square')],
   ['Grid', IconGridDots, acts.grid],
   ['Spread apart', IconArrowsSplit, acts.spread],
-  ['Mirror left and right', IconFlipVertical, (e) => acts.mirror(e, 'x')],
-  ['Mirror top and bottom', IconFlipHorizontal, (e) => acts.mirror(e, 'y')],
+  ['Mirror left and right', IconFlipHorizontal, (e) => acts.mirror(e, 'x')],
+  ['Mirror top and bottom', IconFlipVertical, (e) => acts.mirror(e, 'y')],
 ];
 const ALIGN: Act[] = [
   ['Align left', IconLayoutAlignLeft, (e) => acts.align(e, 'left')],

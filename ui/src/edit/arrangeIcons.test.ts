@@ -1,0 +1,16 @@
+import { createElement } from 'react';
+import { renderToStaticMarkup } from 'react-dom/server';
+import { expect, test } from 'vitest';
+import { SHAPES } from './ArrangeSection';
+
+/** The straight line of an icon: the axis that its two halves mirror each other at. */
+const axisOf = (label: string) => {
+  const Glyph = SHAPES.find(([name]) => name === label)?.[1];
+  if (!Glyph) throw new Error(`There is no ${label}.`);
+  return / d="([^"]+)"/.exec(renderToStaticMarkup(createElement(Glyph)))?.[1];
+};
+
+test('the icon of a mirror shows the axis it mirrors at', () => {
+  expect(axisOf('Mirror left and right'), 'upright').toBe('M12 3l0 18');
+  expect(axisOf('Mirror top and bottom'), 'level').toBe('M3 12l18 0');
+});
