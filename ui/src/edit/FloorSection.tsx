@@ -9,6 +9,9 @@ import { useEditing, useEditor } from './context';
 /** Areas that are listed with their numbers; the rest is on the floor. */
 const LISTED_MAX = 20;
 
+/** The smallest round area, metres. */
+const RADIUS_MIN_M = 0.001;
+
 /** Size of the floor, and where robots must not be. */
 export function FloorSection() {
   const { editor, tool } = useEditing();
@@ -61,12 +64,12 @@ function Area({ index, area }: { index: number; area: Obstacle }) {
   const { editor } = useEditing();
   const set = (next: Obstacle) =>
     editor.change('No-go area', (show) => setObstacle(show, index, next));
-  const fields: [string, number, (m: number) => void][] =
+  const fields: [string, number, (m: number) => void, min?: number][] =
     area.kind === 'disc'
       ? [
           ['x', area.x, (x) => set({ ...area, x })],
           ['y', area.y, (y) => set({ ...area, y })],
-          ['Radius', area.radius_m, (radius_m) => set({ ...area, radius_m })],
+          ['Radius', area.radius_m, (radius_m) => set({ ...area, radius_m }), RADIUS_MIN_M],
         ]
       : [
           ['Left', area.minX, (minX) => set({ ...area, minX })],
@@ -78,8 +81,8 @@ function Area({ index, area }: { index: number; area: Obstacle }) {
     <fieldset className="area">
       <legend>{area.kind === 'disc' ? `Round area ${index + 1}` : `Area ${index + 1}`}</legend>
       <div className="area-fields">
-        {fields.map(([label, value, onChange]) => (
-          <LengthInput key={label} label={label} value={value} onChange={onChange} />
+        {fields.map(([label, value, onChange, min]) => (
+          <LengthInput key={label} label={label} value={value} min={min} onChange={onChange} />
         ))}
       </div>
       <ActionIcon

@@ -1,15 +1,7 @@
-import {
-  Button,
-  Checkbox,
-  Group,
-  NumberInput,
-  SegmentedControl,
-  Stack,
-  Text,
-  TextInput,
-} from '@mantine/core';
+import { Button, Checkbox, Group, SegmentedControl, Stack, Text, TextInput } from '@mantine/core';
 import { useStore } from '../base/store';
 import { secondsText } from '../base/time';
+import { NumberField } from '../shell/NumberField';
 import { useSession } from '../shell/session';
 import * as acts from './acts';
 import { useEditing, useEditor } from './context';
@@ -49,17 +41,15 @@ export function FrameSection() {
           if (event.key === 'Enter') event.currentTarget.blur();
         }}
       />
-      <NumberInput
-        label="Air time: how long the picture stays, seconds"
-        size="xs"
+      <NumberField
+        label="Air time (s)"
+        unit=" s"
         min={0}
         max={3600}
         step={0.5}
-        decimalScale={2}
+        digits={2}
         value={frame.airTime_s}
-        onChange={(value) => {
-          if (typeof value === 'number') acts.setFrames(editing, { airTime_s: value });
-        }}
+        onChange={(airTime_s) => acts.setFrames(editing, { airTime_s })}
       />
       <Checkbox
         label="Drive as fast as legal"
@@ -71,19 +61,17 @@ export function FrameSection() {
           })
         }
       />
-      <NumberInput
-        label="Time of the drive to this frame, seconds"
+      <NumberField
+        label="Travel time (s)"
         description={least === undefined ? undefined : `at least ${secondsText(least)}`}
-        size="xs"
+        unit=" s"
         min={0.1}
         max={3600}
         step={0.5}
-        decimalScale={2}
+        digits={2}
         disabled={fast}
-        value={frame.transition_s ?? (plan ? Number(plan.duration_s.toFixed(2)) : '')}
-        onChange={(value) => {
-          if (!fast && typeof value === 'number') acts.setFrames(editing, { transition_s: value });
-        }}
+        value={frame.transition_s ?? plan?.duration_s ?? null}
+        onChange={(transition_s) => acts.setFrames(editing, { transition_s })}
       />
       <Text size="xs">
         Speeding up and slowing down: swift is as quick as it may be, gentle all along the way

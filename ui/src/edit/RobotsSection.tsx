@@ -1,19 +1,19 @@
-import { Button, Group, NumberInput, SegmentedControl, Stack, Text } from '@mantine/core';
+import { Button, Group, SegmentedControl, Stack, Text } from '@mantine/core';
 import { useStore } from '../base/store';
 import { fleetSize, setFleetSize, setShow } from '../model/commands';
 import { limitOf, LIMITS_USUAL, setLimit, type LimitName } from '../model/limits';
 import { LengthInput } from '../shell/LengthInput';
+import { NumberField } from '../shell/NumberField';
 import { useSession } from '../shell/session';
 import { useEditing, useEditor } from './context';
-import { CountInput } from './CountInput';
 
 /** The most pixels a frame is given here; larger shows come from files. */
 const FLEET_MAX = 2000;
 
 const NUMBERS: [LimitName, string, number, number, number][] = [
-  ['speed_mps', 'Speed, metres a second', 0.01, 10, 0.01],
-  ['accel_mps2', 'Acceleration, m/s²', 0.01, 100, 0.1],
-  ['turn_radps', 'Turning, radians a second', 0.1, 100, 0.1],
+  ['speed_mps', 'Speed (m/s)', 0.01, 10, 0.01],
+  ['accel_mps2', 'Acceleration (m/s²)', 0.01, 100, 0.1],
+  ['turn_radps', 'Turn rate (rad/s)', 0.1, 100, 0.1],
 ];
 
 /** How many robots the show has, and what they can do. */
@@ -33,7 +33,14 @@ export function RobotsSection() {
         Robots
       </Text>
       <Group align="end" gap="xs" wrap="nowrap">
-        <CountInput label="How many" max={FLEET_MAX} value={size} onChange={resize} />
+        <NumberField
+          label="How many"
+          whole
+          min={1}
+          max={FLEET_MAX}
+          value={size}
+          onChange={resize}
+        />
         {here > 0 && here !== size && here <= FLEET_MAX ? (
           <Button size="xs" variant="default" onClick={() => resize(here)}>
             As many as are here: {here}
@@ -66,19 +73,16 @@ export function RobotsSection() {
             onChange={(m) => limit('radius_m', m)}
           />
           {NUMBERS.map(([name, label, min, max, step]) => (
-            <NumberInput
+            <NumberField
               key={name}
               label={label}
-              description={`an Elisa-3: ${LIMITS_USUAL[name]}`}
-              size="xs"
+              description={`Elisa-3: ${LIMITS_USUAL[name]}`}
               min={min}
               max={max}
               step={step}
-              decimalScale={3}
+              digits={3}
               value={limitOf(show.stage, name)}
-              onChange={(value) => {
-                if (typeof value === 'number' && value >= min && value <= max) limit(name, value);
-              }}
+              onChange={(value) => limit(name, value)}
             />
           ))}
         </Stack>

@@ -1,5 +1,5 @@
-import { NumberInput } from '@mantine/core';
 import { fromUnit, inUnit, UNITS } from '../base/units';
+import { NumberField } from './NumberField';
 import { useUnit } from './preferences';
 
 interface Props {
@@ -8,36 +8,37 @@ interface Props {
   /** Metres; null: nothing stands there. */
   value: number | null;
   onChange: (metres: number) => void;
-  /** Metres. */
+  /** Metres; no place is farther from the floor's centre than the usual limit. */
   min?: number;
   max?: number;
   disabled?: boolean;
 }
 
-/** Changes below this are rounding, metres. */
-const SAME_M = 5e-5;
+/** As far from the origin as the protocol can say, metres. */
+const FAR_M = 1000;
 
 /** A length in the unit of this screen. */
-export function LengthInput({ label, value, onChange, min, max, disabled }: Props) {
+export function LengthInput({
+  label,
+  value,
+  onChange,
+  min = -FAR_M,
+  max = FAR_M,
+  disabled,
+}: Props) {
   const unit = useUnit();
   const { name, digits, step } = UNITS[unit];
   return (
-    <NumberInput
+    <NumberField
       label={`${label}, ${name}`}
-      size="xs"
+      unit={` ${unit}`}
       step={step}
-      decimalScale={digits}
-      min={min === undefined ? undefined : inUnit(min, unit)}
-      max={max === undefined ? undefined : inUnit(max, unit)}
+      digits={digits}
+      min={inUnit(min, unit)}
+      max={inUnit(max, unit)}
       disabled={disabled}
-      value={value === null ? '' : inUnit(value, unit)}
-      onChange={(next) => {
-        if (typeof next !== 'number') return;
-        const metres = fromUnit(next, unit);
-        if (min !== undefined && metres < min - SAME_M) return;
-        if (max !== undefined && metres > max + SAME_M) return;
-        if (value === null || Math.abs(metres - value) > SAME_M) onChange(metres);
-      }}
+      value={value === null ? null : inUnit(value, unit)}
+      onChange={(next) => onChange(fromUnit(next, unit))}
     />
   );
 }

@@ -1,0 +1,39 @@
+/** What a field for a number takes. */
+export interface NumberRule {
+  min: number;
+  max: number;
+  /** Only whole numbers. */
+  whole?: boolean;
+  /** Said after a limit, such as ` s`. */
+  unit?: string;
+}
+
+/** A number, or what is wrong with what was typed, in words for people. */
+export type Typed = { ok: true; value: number } | { ok: false; problem: string };
+
+const NUMBER = /^[+-]?(\d+([.,]\d*)?|[.,]\d+)$/;
+const refuse = (problem: string): Typed => ({ ok: false, problem });
+
+/** Reads what people type: with a point or a comma before the decimals, and nothing between thousands. */
+export function readNumber(text: string, { min, max, whole, unit = '' }: NumberRule): Typed {
+  const plain = text.trim().replace(/^\u2212/, '-');
+  if (plain === '') return refuse('Type a number');
+  if (!NUMBER.test(plain)) return refuse('This is not a number');
+  const value = Number(plain.replace(',', '.'));
+  if (whole && (/[.,]/.test(plain) || !Number.isInteger(value)))
+    return refuse('Type a whole number');
+  if (value < min) return refuse(`At least ${min}${unit}`);
+  if (value > max) return refuse(`At most ${max}${unit}`);
+  return { ok: true, value: value + 0 };
+}
+
+/** The number one step up or down, on a multiple of the step, within the limits. */
+export function stepped(
+  value: number,
+  step: number,
+  up: boolean,
+  { min, max }: NumberRule,
+): number {
+  const steps = up ? Math.floor(value / step + 1e-9) + 1 : Math.ceil(value / step - 1e-9) - 1;
+  return Math.min(max, Math.max(min, Number((steps * step).toFixed(6))));
+}
