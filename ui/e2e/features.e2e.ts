@@ -113,7 +113,7 @@ test('several frames are chosen, moved, timed, copied and deleted together, and 
   expect(await names()).toEqual(['Two', 'Last', 'One']);
   await page.getByRole('tab', { name: 'Frame' }).click();
   await page.getByLabel(/^Air time/).fill('7');
-  await page.keyboard.press('Escape');
+  await page.keyboard.press('Enter');
   await saved(page);
   const { frames } = await stored(page, 'strip');
   expect(frames.map((f) => f.air_time_s)).toEqual([7, 7, 0.3]);
@@ -124,7 +124,7 @@ test('several frames are chosen, moved, timed, copied and deleted together, and 
   await page.getByRole('button', { name: /^Duplicate/ }).click();
   await countIs(cards, 5);
   const moment = page.getByRole('slider', { name: 'Moment of the show' });
-  await page.getByRole('button', { name: /^Watch without robots/ }).click();
+  await page.getByRole('button', { name: /^Preview/ }).click();
   await eventually(
     async () => Number(await moment.getAttribute('aria-valuenow')),
     (t) => t > 0.4,
@@ -194,6 +194,7 @@ test('settings: unit of lengths, floor, no-go area, robot limits, and the broker
   await page.getByText('Area 1', { exact: true }).waitFor();
   await page.getByText('What they can do').click();
   await page.getByLabel(/^Speed/).fill('0.2');
+  await page.keyboard.press('Enter');
   await saved(page);
   const document = await stored(page, 'floor');
   expect(document.stage.width_m).toBe(4);

@@ -33,6 +33,8 @@ pub struct FleetRow {
     pub abilities: Abilities,
     /// How far its clock may be off, microseconds; null: not synchronised.
     pub clock_us: Option<u32>,
+    /// Whether it says that it is simulated. Every other robot is real, and a fleet with one such robot is a real fleet.
+    pub simulated: bool,
 }
 
 /// What a robot is doing. In `State` it is the index in this order, from 0.

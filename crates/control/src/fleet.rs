@@ -41,6 +41,8 @@ pub(crate) struct Robot {
     pub route: u32,
     pub firmware: Firmware,
     pub abilities: Abilities,
+    /// Whether its last report said that it is simulated.
+    pub simulated: bool,
     pub found: Instant,
     pub heard: Instant,
     /// Since when it says that it is where it is now.
@@ -99,6 +101,7 @@ impl Robot {
             route: 0,
             firmware: Firmware::new(),
             abilities: Abilities::default(),
+            simulated: false,
             found: now,
             heard: now,
             stands_since: now,
@@ -147,6 +150,7 @@ impl Robot {
             clock_us: self.clock_us,
             firmware: self.firmware.clone(),
             abilities: self.abilities,
+            simulated: self.simulated,
             takes_part: false,
         }
     }
@@ -224,6 +228,8 @@ impl Fleet {
         if place.is_some() || report.details.is_some() {
             robot.at = place;
         }
+        // An original robot says nothing of it: it is real, even where a simulated one had its name.
+        robot.simulated = report.details.as_ref().is_some_and(|details| details.simulated);
         let restarted = report.details.as_ref().is_some_and(|details| robot.learn(details));
         if robot.age != Age::Active {
             robot.age = Age::Active;

@@ -85,6 +85,8 @@ pub struct RobotView {
     pub firmware: Firmware,
     /// What it can do.
     pub abilities: Abilities,
+    /// Whether its last report said that it is simulated. Every other robot is real.
+    pub simulated: bool,
     /// Whether it takes part in the run.
     pub takes_part: bool,
 }

@@ -197,3 +197,16 @@ fn a_pin_binds_a_pixel_to_a_robot() {
     let refused = world.operate(Operation::Play { from: 0, missing: MissingPolicy::Refuse });
     assert_eq!(refused, Err(Refusal::PinnedMissing { pixels: vec![1] }));
 }
+
+#[test]
+fn a_robot_is_simulated_only_while_its_last_report_says_so() {
+    let mut world = World::new(0, 0);
+    let mut said = |report: &str| {
+        world.controller.message(world.now, "T/LightBot/UUID", report.as_bytes());
+        world.controller.snapshot(world.now).robots[0].simulated
+    };
+    assert!(said("r7 0.1 0.2 state=idle sim=1"));
+    assert!(!said("r7 0.1 0.2 state=idle"));
+    assert!(said("r7 0.1 0.2 state=idle sim=1"));
+    assert!(!said("r7 0.1 0.2"), "an original robot is real");
+}

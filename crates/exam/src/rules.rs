@@ -40,7 +40,7 @@ const OBSTACLE: &str = "it takes something to stand in the robot's way";
 const SENSORS: &str = "it takes spoiling the robot's sensors";
 
 /// All rules, in order: `RULES[n - 1]` is Rn.
-pub const RULES: [Rule; 51] = {
+pub const RULES: [Rule; 52] = {
     use Scope::{Blink, Details, Everybody, Fade, Hidden, Light, Route};
     [
         rule(1, "MQTT 3.1.1, QoS 0, not retained", Hidden("only the broker sees how a robot connects")),
@@ -94,6 +94,7 @@ pub const RULES: [Rule; 51] = {
         rule(49, "brakes for what it sees in its way", Hidden(OBSTACLE)),
         rule(50, "its light says why it stands", Hidden(CUT)),
         rule(51, "controllers warn of each other", Hidden("it binds the controller")),
+        rule(52, "a simulated robot says so", Hidden("messages do not show whether a robot is simulated")),
     ]
 };
 

@@ -30,6 +30,8 @@ pub struct Config {
     pub abilities: Abilities,
     /// Its body.
     pub limits: Limits,
+    /// Whether it says in its reports that it is simulated. Firmware of real robots never sets this.
+    pub simulated: bool,
 }
 
 impl Config {
@@ -38,6 +40,7 @@ impl Config {
     pub fn new(id: RobotId) -> Self {
         Self {
             id,
+            simulated: false,
             limits: Limits::ELISA_3,
             firmware: Firmware::try_from(concat!("lightbots-", env!("CARGO_PKG_VERSION")))
                 .unwrap_or_default(),

@@ -85,12 +85,15 @@ impl Clock {
 
 impl Crew {
     /// Robots at rest on a stage, that were just switched on and have no link. `names[robot]` where one is stated.
+    /// `says_simulated`: robots of ours report `sim=1`. Rehearsals leave it out: their messages are as long as those of
+    /// real robots, and nobody takes their robots for real.
     pub fn new(
         stage: &Stage,
         starts: &[Vec2],
         names: &[Option<RobotId>],
         conditions: &Conditions,
         seed: u64,
+        says_simulated: bool,
     ) -> Self {
         // Facing away from the viewer, as the original's robots do.
         let poses: Vec<Pose> =
@@ -99,7 +102,7 @@ impl Crew {
         let first_original = starts.len().saturating_sub(conditions.originals);
         let member = |robot| {
             let name = names.get(robot).copied().flatten();
-            Member::new(stage, conditions, robot >= first_original, name, &mut dice)
+            Member::new(stage, conditions, robot >= first_original, name, says_simulated, &mut dice)
         };
         let members = (0..starts.len()).map(member).collect();
         Self {
@@ -288,6 +291,7 @@ impl Member {
         conditions: &Conditions,
         original: bool,
         name: Option<RobotId>,
+        says_simulated: bool,
         dice: &mut Dice,
     ) -> Self {
         let random = RobotId::from_random(u128::from(dice.bits()) << 64 | u128::from(dice.bits()));
@@ -303,6 +307,7 @@ impl Member {
             // What a builder states for a robot's sensors: as they are, but never nothing.
             fix_sigma_m: conditions.fixes.place_sigma_m.max(0.0005),
             heading_sigma_rad: conditions.fixes.heading_sigma_rad.max(0.002),
+            simulated: says_simulated,
             ..Config::new(id)
         };
         let battery = 80 + dice.below(21) as u8;

@@ -64,7 +64,7 @@ struct Waiting {
 impl Fleet {
     /// Robots that were just switched on and have no link yet.
     pub fn new(config: &FleetConfig) -> Self {
-        let crew = Crew::new(&config.stage, &config.starts, &[], &config.conditions, config.seed);
+        let crew = Crew::new(&config.stage, &config.starts, &[], &config.conditions, config.seed, true);
         let by_id = (0..crew.len()).map(|robot| (crew.id(robot), robot)).collect();
         Self {
             waiting: Waiting {

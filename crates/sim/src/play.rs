@@ -51,7 +51,7 @@ impl Play {
         planned_s: f64,
     ) -> Self {
         let RehearsalOptions { seed, conditions, .. } = options;
-        let crew = Crew::new(&show.stage, starts, names, conditions, *seed);
+        let crew = Crew::new(&show.stage, starts, names, conditions, *seed, false);
         let mut by_id: Vec<_> = (0..crew.len()).map(|robot| (crew.id(robot), robot)).collect();
         by_id.sort_unstable();
         Self {

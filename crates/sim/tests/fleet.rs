@@ -137,3 +137,12 @@ fn what_is_for_nobody_is_not_heard() {
     }
     assert!(hall.fleet.receive(Instant::ZERO, "T/LightBot/Broadcast", &[0xff; 4096]));
 }
+
+#[test]
+fn robots_of_a_fleet_say_in_every_report_that_they_are_simulated() {
+    let starts = vec![Vec2::new(-0.1, 0.0), Vec2::new(0.1, 0.0)];
+    let mut hall = Hall::new(starts, Conditions::default());
+    hall.run(200);
+    assert!(hall.said.len() > 2);
+    assert!(hall.said.iter().all(|(_, report)| report.details.as_ref().is_some_and(|it| it.simulated)));
+}

@@ -69,6 +69,7 @@ fn config(settings: &Settings) -> Config {
         seed,
         fix_sigma_m: 0.0005,
         heading_sigma_rad: 0.002,
+        simulated: true,
         ..Config::new(settings.id)
     }
 }

@@ -40,6 +40,8 @@ pub struct Details {
     pub unknown: u32,
     /// What stands in its way; it stands because of that.
     pub blocked: Option<Blocked>,
+    /// Whether it says that it is simulated, so that nothing real moves.
+    pub simulated: bool,
 }
 
 /// Something in a robot's way that should not be there.

@@ -102,6 +102,7 @@ fn read_detail(details: &mut Option<Details>, key: &str, value: &str) {
         "can" => known(details).abilities = Abilities::from_words(value),
         "unknown" => known(details).unknown = value.parse().unwrap_or(0),
         "blocked" => known(details).blocked = blocked(value),
+        "sim" => known(details).simulated = value == "1",
         _ => {}
     }
 }
@@ -169,6 +170,9 @@ fn write_details(details: &Details, out: &mut Pen<'_>) -> fmt::Result {
         write_double(out, blocked.gap_m)?;
         out.write_str("@")?;
         write_double(out, blocked.towards)?;
+    }
+    if details.simulated {
+        out.write_str(" sim=1")?;
     }
     Ok(())
 }

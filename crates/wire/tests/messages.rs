@@ -73,6 +73,7 @@ fn full_report() -> Report {
         abilities: Abilities { route: true, fade: true, blink: true, room: true },
         unknown: 3,
         blocked: Some(Blocked { gap_m: 0.0021, towards: -1.5 }),
+        simulated: true,
     };
     Report {
         id: id("abfe6805-3c60-4e5a-ba40-2dcf7cb5d8e8"),
@@ -105,8 +106,23 @@ fn our_messages_byte_for_byte() {
         said(&full_report()),
         "abfe6805-3c60-4e5a-ba40-2dcf7cb5d8e8 -0.73 1.0E-4 state=driving h=1.25 off=0.0034 route=12 \
          starts=8000000 clock=450 bat=87 unknown=3 can=route+fade+blink+room fw=lightbots-0.1.0 err=0.0012 \
-         blocked=0.0021@-1.5"
+         blocked=0.0021@-1.5 sim=1"
     );
+}
+
+#[test]
+fn only_who_says_so_in_these_bytes_is_simulated() {
+    let said = |fields: &str| Report::decode(format!("r7 0.5 1.3{fields}").as_bytes()).unwrap().details;
+    for (fields, simulated) in [
+        (" sim=1", true),
+        (" state=idle sim=1 more=1", true),
+        (" sim=0", false),
+        (" sim=yes", false),
+        (" state=idle", false),
+    ] {
+        assert_eq!(said(fields).unwrap().simulated, simulated, "{fields}");
+    }
+    assert_eq!(said(""), None);
 }
 
 #[test]

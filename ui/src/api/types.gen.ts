@@ -225,7 +225,11 @@ abilities: Abilities,
 /**
  * How far its clock may be off, microseconds; null: not synchronised.
  */
-clock_us: number | null, };
+clock_us: number | null, 
+/**
+ * Whether it says that it is simulated. Every other robot is real, and a fleet with one such robot is a real fleet.
+ */
+simulated: boolean, };
 
 /**
  * What a robot is doing. In `State` it is the index in this order, from 0.

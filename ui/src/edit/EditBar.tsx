@@ -60,7 +60,7 @@ export function EditBar() {
         <IconArrowForwardUp size={19} />,
       )}
       {step(
-        running ? 'Pause (Space)' : 'Watch without robots (Space)',
+        running ? 'Pause (Space)' : 'Preview (Space)',
         true,
         () => editing.running.set(!running),
         running ? <IconPlayerPauseFilled size={18} /> : <IconPlayerPlayFilled size={18} />,

@@ -24,6 +24,7 @@ function Details({ row, onClose }: { row: FleetRow; onClose: () => void }) {
   const { ask } = useSession();
   const facts: [string, string][] = [
     ['Name', row.id],
+    ['Kind', row.simulated ? 'simulated' : 'real'],
     ['State', words.stateText(row)],
     ['Heard', words.heardText(row)],
     ['Charge', words.chargeText(row)],

@@ -1,6 +1,6 @@
 import { Button, Group } from '@mantine/core';
 import {
-  IconEye,
+  IconNavigation,
   IconPlayerPauseFilled,
   IconPlayerPlayFilled,
   IconPlayerStopFilled,
@@ -8,13 +8,15 @@ import {
   IconRefresh,
   IconRepeat,
 } from '@tabler/icons-react';
-import { useEffect, type ReactNode } from 'react';
+import { useEffect, useState, type ReactNode } from 'react';
 import { useStore } from '../base/store';
 import { IconButton } from '../shell/IconButton';
 import { useSession } from '../shell/session';
 import { actionsOf, type Action } from './actions';
 import { ChecklistButton } from './ChecklistButton';
+import { DriveDialog } from './DriveDialog';
 import { DriveProgress } from './DriveProgress';
+import { fleetKind } from './fleetKind';
 import { PlayState } from './PlayState';
 import { followPlan, startPlay, whenPlanned } from './start';
 import { useTransportKeys } from './useTransportKeys';
@@ -35,15 +37,21 @@ export function Transport() {
   const linked = useStore(live.link) === 'open';
   const hasShow = useStore(live.opened, (o) => o.show !== null);
   const isWaiting = useStore(session.waiting, (wish) => wish !== null);
+  const [asking, setAsking] = useState({ opened: false, frame: 0 });
   useEffect(() => followPlan(session), [session]);
   const actions = actionsOf(phase, linked, hasShow);
+  const drive = (to: number) => whenPlanned(session, () => void ask({ do: 'preview', frame: to }));
   const perform = (action: Action) => {
     if (isWaiting && (action === 'abort' || action === actions.main))
       return session.waiting.set(null);
     if (!actions.enabled.has(action)) return;
     if (action === 'play') return startPlay(session);
-    if (action === 'preview')
-      return whenPlanned(session, () => void ask({ do: 'preview', frame: chosen }));
+    if (action === 'preview') {
+      // Nothing real moves unasked.
+      if (fleetKind(live.fleet.get().rows) === 'real') setAsking({ opened: true, frame: chosen });
+      else drive(chosen);
+      return;
+    }
     void ask(action === 'loop' ? { do: 'loop', on: !looping } : { do: action });
   };
   useTransportKeys(perform, actions.main);
@@ -73,13 +81,19 @@ export function Transport() {
       <Group gap={2} wrap="nowrap">
         {icon('abort', 'Abort (Esc)', <IconPlayerStopFilled size={18} />)}
         {icon('step', 'Step to the next frame (S)', <IconPlayerTrackNextFilled size={18} />)}
-        {icon('preview', 'Preview the chosen frame (P)', <IconEye size={19} />)}
+        {icon('preview', 'Drive robots to this frame (P)', <IconNavigation size={19} />)}
         {icon('loop', 'Loop (L)', <IconRepeat size={18} />, looping)}
         <ChecklistButton />
         {icon('refresh', 'Refresh: who is there? (R)', <IconRefresh size={18} />)}
       </Group>
       <DriveProgress />
       <PlayState />
+      <DriveDialog
+        {...asking}
+        rows={live.fleet.get().rows}
+        onDrive={drive}
+        onClose={() => setAsking({ ...asking, opened: false })}
+      />
     </div>
   );
 }

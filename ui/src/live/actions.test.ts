@@ -36,6 +36,7 @@ test('without a server nothing works, without a show nothing plays', () => {
 test('words', () => {
   expect(phaseText(playback('playing'))).toBe('Playing frame 2 of 12');
   expect(phaseText({ ...playback('paused'), frame: null })).toBe('Paused');
+  expect(phaseText(playback('preview'))).toBe('Driving to frame 2 of 12');
   expect(phaseText(playback('ready'))).toBe('Ready');
   const failure = 'Show stopped in frame 1: all 20 robots lost contact.';
   expect(phaseText({ ...playback('ready'), failure }), 'a dead show is not ready').toBe(

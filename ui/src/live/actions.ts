@@ -41,7 +41,7 @@ export function phaseText(
     case 'paused':
       return `Paused, ${where}`.replace(/, $/, '');
     case 'preview':
-      return `Preview ${where}`.trim();
+      return `Driving to ${where}`.replace(/ to $/, '');
     case 'aborting':
       return 'Stopping';
   }

@@ -14,6 +14,7 @@ const row = (id: string, over: Partial<FleetRow> = {}): FleetRow => ({
   firmware: null,
   abilities: { route: true, fade: true, blink: true },
   clock_us: 5,
+  simulated: false,
   ...over,
 });
 const plan: Plan = {

@@ -22,6 +22,7 @@ test('an original robot is described too', () => {
     firmware: null,
     abilities: { route: false, fade: false, blink: false },
     clock_us: null,
+    simulated: false,
   };
   expect(words.stateText(row)).toBe('silent, 9 s');
   expect(words.abilitiesText(row)).toBe('targets and colours');

@@ -16,6 +16,7 @@ const row = (presence: Presence): FleetRow => ({
   firmware: null,
   abilities: { route: true, fade: true, blink: true },
   clock_us: null,
+  simulated: false,
 });
 
 test('silent robots fade', () => {

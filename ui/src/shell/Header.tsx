@@ -14,7 +14,7 @@ import { IconButton } from './IconButton';
 import { KeyboardMap } from './KeyboardMap';
 import { LibraryDialog } from './LibraryDialog';
 import { createShowInLibrary } from './createShow';
-import { FleetPill, LinkPill } from './Pills';
+import { FleetPill, KindPill, LinkPill } from './Pills';
 import { useSession } from './session';
 import { SettingsDialog } from './SettingsDialog';
 import { goTo, type View } from './useHash';
@@ -38,7 +38,7 @@ export function Header({ view }: { view: View }) {
     <header className="header">
       <span className="wordmark">
         <i aria-hidden />
-        LightBots
+        <span>LightBots</span>
       </span>
       <SegmentedControl
         size="xs"
@@ -75,6 +75,7 @@ export function Header({ view }: { view: View }) {
         </Button>
       </Tooltip>
       <span className="push" />
+      <KindPill />
       <LinkPill />
       <FleetPill />
       <IconButton label="Settings" onClick={() => setDialog('settings')}>

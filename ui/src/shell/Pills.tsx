@@ -1,6 +1,7 @@
 import { Tooltip } from '@mantine/core';
 import type { ReactNode } from 'react';
 import { useStore } from '../base/store';
+import { fleetKind, KIND_WORDS, kindHint } from '../live/fleetKind';
 import { useSession } from './session';
 
 type Tone = 'good' | 'warn' | 'bad' | 'quiet';
@@ -42,6 +43,21 @@ export function LinkPill() {
     >
       {broker.connected ? 'Connected' : 'No broker'}
     </Pill>
+  );
+}
+
+/** Whether robots move anything real. */
+export function KindPill() {
+  const { live } = useSession();
+  const rows = useStore(live.fleet, (fleet) => fleet.rows);
+  const kind = fleetKind(rows);
+  if (kind === null) return null;
+  return (
+    <Tooltip label={kindHint(rows)}>
+      <span className="kind" data-kind={kind} data-testid="kind" role="status">
+        {KIND_WORDS[kind]}
+      </span>
+    </Tooltip>
   );
 }
 

@@ -14,7 +14,7 @@ export const KEYS: { title: string; keys: [string[], string][] }[] = [
     keys: [
       [['Space'], 'Play, pause, resume'],
       [['S'], 'Step to the next frame'],
-      [['P'], 'Preview the chosen frame'],
+      [['P'], 'Drive robots to this frame'],
       [['Esc'], 'Abort'],
       [['L'], 'Loop'],
       [['T', 'W'], 'Planned places, planned ways'],
@@ -48,7 +48,7 @@ export const KEYS: { title: string; keys: [string[], string][] }[] = [
       [['F2'], 'Rename frame'],
       [['Ctrl', 'Z'], 'Undo'],
       [['Ctrl', 'Shift', 'Z'], 'Redo'],
-      [['Space'], 'Watch the show without robots'],
+      [['Space'], 'Preview, without robots'],
       [['M', 'N', 'H', 'W'], 'Snap, ids, ghosts, planned ways'],
       [['0', '+', '−'], 'Fit, zoom'],
     ],

@@ -16,7 +16,7 @@ export interface Session {
   ask(operation: Operation): Promise<Answer>;
   /** A refusal that offers a way to go on. */
   offer: Store<{ reason: string; choice: Choice } | null>;
-  /** The frame chosen in the strip: where Play starts, what Preview shows. */
+  /** The frame chosen in the strip: where Play starts, where robots are driven to. */
   frame: Store<number>;
   /** The editor of this screen; null: it has edited nothing. */
   editing: Store<{ name: string; editor: Editor; saver: Saver } | null>;

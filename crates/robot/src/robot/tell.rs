@@ -64,6 +64,7 @@ impl<S: BorrowMut<Shelf>> Robot<S> {
             abilities: self.config.abilities,
             unknown: self.unknown,
             blocked: self.blocked(),
+            simulated: self.config.simulated,
         }
     }
 }

@@ -271,6 +271,7 @@ fn row(robot: &RobotView, snapshot: &Snapshot) -> api::FleetRow {
             blink: robot.abilities.blink,
         },
         clock_us: robot.clock_us,
+        simulated: robot.simulated,
     }
 }
 

@@ -179,7 +179,9 @@ fn a_driver_sees_who_stands_in_its_way() {
     let account = floor.close();
     ends_well(&mut driver);
     let _ = std::fs::remove_dir_all(&folder);
-    let blocked = report.details.and_then(|details| details.blocked).expect("it says so");
+    let details = report.details.expect("a robot of ours");
+    assert!(details.simulated, "a robot of Webots is no real one");
+    let blocked = details.blocked.expect("it says so");
     assert!(blocked.gap_m < 0.01, "{blocked:?}");
     assert!((blocked.towards - std::f64::consts::FRAC_PI_2).abs() < 0.4, "{blocked:?}");
     assert_eq!(account.contacts, 0);

@@ -1,0 +1,31 @@
+import type { FleetRow } from '../api/types.gen';
+
+/** Whether robots move anything real. One real robot makes a real fleet. */
+export type FleetKind = 'simulated' | 'real';
+
+type Row = Pick<FleetRow, 'simulated'>;
+
+/** What kind of fleet it is; null: no robot is known. */
+export function fleetKind(rows: readonly Row[]): FleetKind | null {
+  if (rows.length === 0) return null;
+  return rows.every((row) => row.simulated) ? 'simulated' : 'real';
+}
+
+export const KIND_WORDS = { simulated: 'Simulated robots', real: 'Real robots' } as const;
+
+/** What the kind means, for those who ask. */
+export function kindHint(rows: readonly Row[]): string {
+  const real = rows.filter((row) => !row.simulated).length;
+  if (real === 0) return 'All robots are simulated: nothing moves but on this screen.';
+  if (real === rows.length)
+    return 'Robots really move. A robot that does not say that it is simulated is real.';
+  return `${real} of ${rows.length} robots ${real === 1 ? 'is' : 'are'} real, the others are simulated.`;
+}
+
+/** What is asked before real robots leave for a frame, counted from 0. */
+export function driveQuestion(rows: readonly Row[], frame: number): string {
+  const [all, real] = [rows.length, rows.filter((row) => !row.simulated).length];
+  const robots = `${all} ${all === 1 ? 'robot' : 'robots'}`;
+  if (real < all) return `Drive ${robots} to frame ${frame + 1}, ${real} of them real?`;
+  return `Drive ${all} real ${all === 1 ? 'robot' : 'robots'} to frame ${frame + 1}?`;
+}
