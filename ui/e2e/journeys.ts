@@ -163,3 +163,13 @@ export interface StoredFrame {
   identity?: string;
   pixels: { id: number; place: [number, number]; color: string; robot?: string }[];
 }
+
+/** Presses Tab until the control of that name has the focus. */
+export async function tabTo(page: Page, role: string, name: string) {
+  const wanted = page.getByRole(role as 'button', { name, exact: true }).first();
+  for (let i = 0; i < 90; i++) {
+    if (await wanted.evaluate((element) => element === document.activeElement)) return;
+    await page.keyboard.press('Tab');
+  }
+  throw new Error(`Tab never came to ${role} ${name}.`);
+}

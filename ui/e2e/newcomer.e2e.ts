@@ -1,6 +1,6 @@
-import type { Locator, Page } from 'playwright-core';
+import type { Locator } from 'playwright-core';
 import { expect, test } from 'vitest';
-import { button, phaseIs, pixelsAre, saved, stored } from './journeys';
+import { button, phaseIs, pixelsAre, saved, stored, tabTo } from './journeys';
 import { createTestBed } from './testBed';
 
 /** Clicks from the first sight of the page to a heart and a word that play. */
@@ -32,16 +32,6 @@ test('somebody who never saw it makes a heart and a word with thirty robots, and
   await page.getByRole('button', { name: /^Abort/ }).click();
   await phaseIs(page, 'ready');
 });
-
-/** Presses Tab until the control of that name has the focus. */
-async function tabTo(page: Page, role: string, name: string) {
-  const wanted = page.getByRole(role as 'button', { name, exact: true }).first();
-  for (let i = 0; i < 90; i++) {
-    if (await wanted.evaluate((element) => element === document.activeElement)) return;
-    await page.keyboard.press('Tab');
-  }
-  throw new Error(`Tab never came to ${role} ${name}.`);
-}
 
 test('by keyboard only: a new show, its pixels and colours, a second frame, and play', async () => {
   const page = await bed.open('live');

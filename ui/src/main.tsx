@@ -2,7 +2,9 @@ import '@mantine/core/styles.css';
 import './styles.css';
 import { createRoot } from 'react-dom/client';
 import { App } from './App';
+import { followFocus } from './shell/focusOrigin';
 
 const root = document.getElementById('root');
 if (!root) throw new Error('The page has no root.');
+followFocus(document);
 createRoot(root).render(<App />);

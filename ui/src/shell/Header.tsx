@@ -1,5 +1,5 @@
 import { Button, SegmentedControl, Tooltip } from '@mantine/core';
-import { useHotkeys } from '@mantine/hooks';
+import { useEscape } from './useEscape';
 import { useKeys } from './useKeys';
 import {
   IconFolderOpen,
@@ -8,7 +8,7 @@ import {
   IconPlus,
   IconSettings,
 } from '@tabler/icons-react';
-import { useState } from 'react';
+import { useCallback, useState } from 'react';
 import { useStore } from '../base/store';
 import { IconButton } from './IconButton';
 import { KeyboardMap } from './KeyboardMap';
@@ -28,7 +28,8 @@ export function Header({ view }: { view: View }) {
   const [dialog, setDialog] = useState<Dialog>(null);
   const title = useStore(live.opened, (o) => o.name);
   const close = () => setDialog(null);
-  useHotkeys([['shift+Escape', () => void ask({ do: 'stop_all' })]], []);
+  const stopAll = useCallback(() => void ask({ do: 'stop_all' }), [ask]);
+  useEscape('shift+Escape', stopAll);
   useKeys([
     ['shift+?', () => setDialog('keys')],
     ['mod+o', () => setDialog('library')],
@@ -95,7 +96,7 @@ export function Header({ view }: { view: View }) {
           color="red.7"
           size="sm"
           leftSection={<IconHandStop size={18} />}
-          onClick={() => void ask({ do: 'stop_all' })}
+          onClick={stopAll}
         >
           Stop all
         </Button>

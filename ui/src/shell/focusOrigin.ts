@@ -1,0 +1,26 @@
+/**
+ * Whether the focus came by keyboard. `:focus-visible` does not tell: browsers turn it on with the next key, whichever it
+ * is, also on a button that was clicked.
+ */
+let [isKeyLast, isByKeyboard] = [false, false];
+
+export const isFocusByKeyboard = () => isByKeyboard;
+
+/** Follows how the focus moves; the page's `data-focus` says it to the style sheet, which draws the ring. */
+export function followFocus(page: Document) {
+  const say = (byKeyboard: boolean) => {
+    isByKeyboard = byKeyboard;
+    page.documentElement.dataset.focus = byKeyboard ? 'keyboard' : 'pointer';
+  };
+  const capture = { capture: true, passive: true };
+  page.addEventListener('keydown', () => void (isKeyLast = true), capture);
+  page.addEventListener(
+    'pointerdown',
+    () => {
+      isKeyLast = false;
+      say(false);
+    },
+    capture,
+  );
+  page.addEventListener('focusin', () => say(isKeyLast), capture);
+}

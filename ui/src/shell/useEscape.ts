@@ -1,0 +1,15 @@
+import { getHotkeyHandler } from '@mantine/hooks';
+import { useEffect } from 'react';
+
+/**
+ * Does it on Escape, or on Shift and Escape, before anything else hears the key: a tip that is shown takes every Escape
+ * for itself.
+ */
+export function useEscape(key: 'Escape' | 'shift+Escape', act?: (event: KeyboardEvent) => void) {
+  useEffect(() => {
+    if (!act) return;
+    const hear = getHotkeyHandler([[key, act as () => void, { preventDefault: false }]]);
+    window.addEventListener('keydown', hear, { capture: true });
+    return () => window.removeEventListener('keydown', hear, { capture: true });
+  }, [key, act]);
+}
