@@ -1,5 +1,6 @@
 import '@mantine/core/styles.css';
 import './styles.css';
+import './narrow.css';
 import { createRoot } from 'react-dom/client';
 import { App } from './App';
 import { followFocus } from './shell/focusOrigin';

@@ -40,6 +40,7 @@ mod rearranging;
 mod recovery;
 mod room;
 mod run;
+mod shortage;
 mod silent;
 mod snapshot;
 mod standing;

@@ -268,27 +268,13 @@ impl Run {
         let riders = self.seats.iter().filter(|known| !known.out).count();
         let pixels = self.show.frames.get(self.next.frame).map_or(0, |frame| frame.pixels.len());
         if riders == 0 || gathering.first && self.missing == MissingPolicy::Refuse && riders < pixels {
-            let why = if riders == 0 {
-                self.why_none_is_left(desk, gathering.fresh_from)
-            } else {
-                format!("only {riders} of the {pixels} robots it needs can take part")
-            };
+            let why = self.shortage(desk, gathering.fresh_from, riders, pixels);
             self.over = Some(Outcome::Failed(why));
             return;
         }
         let (until, paused) = self.stood.take().map_or((now, None), |stood| (stood.until, stood.paused));
         self.phase = Phase::Standing(Standing { since: now, until: until.max(now), paused });
         self.tick_standing(desk, now);
-    }
-
-    /// What all robots of the run have in common that takes part no more.
-    fn why_none_is_left(&self, desk: &Desk, fresh_from: Instant) -> String {
-        let is_silent = |known: &Seat| missing(desk, known, fresh_from) == Some(Trouble::Silent);
-        let what = if self.seats.iter().all(is_silent) { "lost contact" } else { "dropped out" };
-        match self.seats.len() {
-            1 => format!("the only robot {what}"),
-            robots => format!("all {robots} robots {what}"),
-        }
     }
 
     /// A robot without a part, or out, is heard: it may take part from the next frame on.
@@ -367,7 +353,7 @@ fn thinned(places: impl Iterator<Item = Vec2>) -> Vec<Vec2> {
 }
 
 /// What a seat's robot lacks to be planned for; `None`: nothing.
-fn missing(desk: &Desk, known: &Seat, fresh_from: Instant) -> Option<Trouble> {
+pub(crate) fn missing(desk: &Desk, known: &Seat, fresh_from: Instant) -> Option<Trouble> {
     let robot = desk.fleet.robot(known.robot);
     if robot.heard < fresh_from {
         return Some(Trouble::Silent);
