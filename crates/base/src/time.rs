@@ -26,9 +26,12 @@ impl Instant {
         Self(libm::round(seconds * 1e6) as u64)
     }
 
-    /// How long ago `earlier` was; negative where it lies ahead. Saturates.
+    /// How long ago `earlier` was; negative where it lies ahead. Saturates: farther apart than a [`Span`] holds is the
+    /// longest span, with its sign.
     pub const fn since(self, earlier: Self) -> Span {
-        Span(self.0.wrapping_sub(earlier.0) as i64)
+        let apart = self.0.abs_diff(earlier.0);
+        let apart = if apart > i64::MAX as u64 { i64::MAX } else { apart as i64 };
+        Span(if self.0 < earlier.0 { -apart } else { apart })
     }
 }
 
@@ -135,6 +138,8 @@ mod tests {
         assert_eq!(Instant(5) - Span(9), Instant::ZERO);
         assert_eq!(Instant::FAR + Span(1), Instant::FAR);
         assert_eq!(Instant(5) - Instant(9), Span(-4));
+        assert_eq!(Instant::FAR - Instant::ZERO, Span(i64::MAX));
+        assert_eq!(Instant::ZERO - Instant::FAR, Span(-i64::MAX));
     }
 
     #[test]
