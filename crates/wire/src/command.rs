@@ -2,7 +2,7 @@
 
 use lightbots_base::{Instant, Piece, Rgb, Span, Vec2};
 
-/// The most pieces a route has; a longer path is cut into several routes by the controller.
+/// The most pieces a route has. The controller refuses a frame whose plan has a longer path; it never cuts a path.
 pub const MAX_PIECES: usize = 128;
 
 /// The pieces of a route.
