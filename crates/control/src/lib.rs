@@ -6,12 +6,14 @@
 //! Read [`Controller`] first, then [`Operation`], [`Snapshot`] and [`Event`].
 //!
 //! ```
-//! use lightbots_base::Instant;
+//! use lightbots_base::{Instant, Vec2};
 //! use lightbots_control::{Config, Controller};
 //! let mut controller = Controller::new(Config::default());
 //! controller.connected(Instant::ZERO);
 //! controller.message(Instant(5), "T/LightBot/UUID", b"robot-1 0.5 1.3");
-//! assert!(controller.snapshot(Instant(5)).robots.len() <= 1);
+//! let robots = controller.snapshot(Instant(5)).robots;
+//! assert_eq!(robots.len(), 1);
+//! assert_eq!(robots[0].at, Some(Vec2::new(0.5, 1.3)));
 //! ```
 
 mod blocked;
