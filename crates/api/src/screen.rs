@@ -38,6 +38,8 @@ pub struct Hello {
     pub screen: u32,
     /// How many simulated robots this server runs.
     pub simulated: usize,
+    /// Whether anyone on the network can reach this server, and drive the robots: there is no sign-in.
+    pub open_to_network: bool,
 }
 
 /// The show that is open on every screen.

@@ -96,6 +96,12 @@ pub struct RunArguments {
     /// Where the browser app is served
     #[arg(long, value_name = "HOST:PORT", default_value = "127.0.0.1:8420", value_parser = address)]
     pub listen: SocketAddr,
+    /// Allow a --listen that others on the network can reach: anyone there can then drive the robots
+    #[arg(long)]
+    pub open_to_network: bool,
+    /// A further name of this machine in the browser's address line, such as stage.local; may be repeated
+    #[arg(long, value_name = "NAME[:PORT]")]
+    pub host_name: Vec<String>,
     #[command(flatten)]
     pub mqtt: MqttArguments,
     /// Folder of the library of shows [default: lightbots in the user's data folder]

@@ -27,7 +27,11 @@ screen: number,
 /**
  * How many simulated robots this server runs.
  */
-simulated: number, };
+simulated: number, 
+/**
+ * Whether anyone on the network can reach this server, and drive the robots: there is no sign-in.
+ */
+open_to_network: boolean, };
 
 /**
  * The show that is open on every screen.

@@ -20,7 +20,7 @@ use crate::live::broker::Broker;
 use crate::live::cast::Cast;
 use crate::live::conductor::Handle;
 use crate::stop::Stop;
-use crate::web::{self, BrokerDesk, Log, Shared};
+use crate::web::{self, BrokerDesk, Exposure, Log, Shared};
 use crate::{open_files, say, show_file};
 
 /// The example that is opened when no show is named.
@@ -61,6 +61,7 @@ pub async fn run(arguments: RunArguments, stop: Stop) -> Outcome {
 }
 
 async fn serve(arguments: &RunArguments, stop: &Stop, started: &mut Started) -> Outcome {
+    let exposure = exposure(arguments)?;
     let mut options = broker::options(&arguments.mqtt, 0)?;
     let other = other_broker(&arguments.broker, &arguments.login)?;
     let data = arguments.data.clone().unwrap_or_else(Library::default_folder);
@@ -71,7 +72,7 @@ async fn serve(arguments: &RunArguments, stop: &Stop, started: &mut Started) -> 
         say::error(&issue.message);
     }
     open_files::raise_limit();
-    let listener = web::listen(arguments.listen).await?;
+    let (listener, names) = web::listen(&exposure).await?;
     let address = listener.local_addr().unwrap_or(arguments.listen);
     let count = arguments.robots.map(|robots| robots as usize);
     let robots = Cast::robots(count, &show);
@@ -87,7 +88,7 @@ async fn serve(arguments: &RunArguments, stop: &Stop, started: &mut Started) -> 
     let (settings, broker) = chosen(arguments, other, &own, &data);
     let (handle, conductor) = Handle::start(stop.clone());
     started.tasks.push(conductor);
-    let shared = Shared::new(handle.clone(), library, BrokerDesk::new(data, settings, embedded));
+    let shared = Shared::new(handle.clone(), library, BrokerDesk::new(data, settings, embedded), names);
     handle.connect(broker.clone()).await;
     open(&shared, name).await;
     let cast = Cast {
@@ -102,6 +103,9 @@ async fn serve(arguments: &RunArguments, stop: &Stop, started: &mut Started) -> 
         started.tasks.push(tokio::spawn(relay(lines, shared.log.clone(), stop.clone())));
     }
     greet(address, &broker, robots, started.broker.as_ref().and_then(Broker::tls_address));
+    if shared.names.is_open() {
+        say::line("Open to the network: anyone who can reach this address can drive the robots");
+    }
     web::serve(listener, shared).await;
     Ok(false)
 }
@@ -110,6 +114,10 @@ async fn serve(arguments: &RunArguments, stop: &Stop, started: &mut Started) -> 
 /// else's may have them.
 fn robots_seed(asked: Option<u64>, is_own_broker: bool) -> u64 {
     if is_own_broker { asked.unwrap_or(USUAL_SEED) } else { robots::seed(asked) }
+}
+
+fn exposure(arguments: &RunArguments) -> Result<Exposure, Failure> {
+    Exposure::new(arguments.listen, arguments.open_to_network, arguments.host_name.clone())
 }
 
 /// Puts what the broker refuses, and how it fares, on the screens.

@@ -2,8 +2,10 @@
 
 mod api;
 mod broker;
+mod connection;
 mod desk;
 mod log;
+mod names;
 mod operate;
 mod origin;
 mod pages;
@@ -12,22 +14,22 @@ mod socket;
 mod sums;
 mod uploads;
 
-use std::net::SocketAddr;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU32, AtomicUsize};
 
 use axum::Router;
 use axum::routing::{any, get, post};
-use axum::serve::ListenerExt;
 use tokio::net::TcpListener;
 
 pub use broker::BrokerDesk;
 pub use desk::{Desk, Shown};
 pub use log::Log;
+pub use names::{Exposure, Names};
 
 use crate::failure::Failure;
 use crate::library::Library;
 use crate::live::conductor::Handle;
+use connection::{Connections, Ends};
 use picture::Pictures;
 
 /// What every request may use.
@@ -39,6 +41,8 @@ pub struct Shared {
     pub log: Log,
     pub pictures: Pictures,
     pub broker: BrokerDesk,
+    /// Under which names it is served.
+    pub names: Names,
     /// How many simulated robots there are.
     pub simulated: Arc<AtomicUsize>,
     pub screens: AtomicU32,
@@ -46,7 +50,7 @@ pub struct Shared {
 
 impl Shared {
     /// Everything a screen's server needs; starts the tasks that watch the conductor.
-    pub fn new(handle: Handle, library: Library, broker: BrokerDesk) -> Arc<Self> {
+    pub fn new(handle: Handle, library: Library, broker: BrokerDesk, names: Names) -> Arc<Self> {
         let log = Log::new();
         tokio::spawn(log.clone().follow(handle.news()));
         let desk = Desk::new(handle.clone());
@@ -54,24 +58,26 @@ impl Shared {
         let pictures = Pictures::new();
         tokio::spawn(pictures.clone().follow(handle.clone(), desk.clone()));
         let (screens, simulated) = (AtomicU32::new(0), Arc::default());
-        Arc::new(Self { handle, library, desk, log, pictures, broker, simulated, screens })
+        Arc::new(Self { handle, library, desk, log, pictures, broker, names, simulated, screens })
     }
 }
 
 /// Takes the address; one line with what to do where it is taken.
-pub async fn listen(address: SocketAddr) -> Result<TcpListener, Failure> {
-    TcpListener::bind(address).await.map_err(|error| {
+pub async fn listen(exposure: &Exposure) -> Result<(TcpListener, Names), Failure> {
+    let address = exposure.listen();
+    let listener = TcpListener::bind(address).await.map_err(|error| {
         if error.kind() == std::io::ErrorKind::AddrInUse {
             let line = "stop the program there, or choose a port with --listen";
             return Failure::problem(format!("the address {address} is taken: {line}"));
         }
         Failure::problem(format!("cannot listen on {address}: {error}; choose another --listen"))
-    })
+    })?;
+    let port = listener.local_addr().unwrap_or(address).port();
+    Ok((listener, exposure.names(port)?))
 }
 
 /// Serves until the task is dropped.
 pub async fn serve(listener: TcpListener, shared: Arc<Shared>) {
-    let local = listener.local_addr().is_ok_and(|address| address.ip().is_loopback());
     let routes = Router::new()
         .route("/ws", any(socket::open))
         .route("/api/shows", get(api::list))
@@ -84,13 +90,10 @@ pub async fn serve(listener: TcpListener, shared: Arc<Shared>) {
         .fallback(pages::page)
         .layer(axum::middleware::from_fn_with_state(uploads::Uploads::new(), uploads::bound))
         .layer(axum::extract::DefaultBodyLimit::max(api::BODY_MAX))
-        .layer(axum::middleware::from_fn_with_state(local, origin::guard))
+        .layer(axum::middleware::from_fn_with_state(shared.clone(), origin::guard))
         .with_state(shared);
-    let listener = listener.tap_io(|stream| {
-        // Without it a snapshot may wait for the one before it to be acknowledged.
-        let _ = stream.set_nodelay(true);
-    });
-    if let Err(error) = axum::serve(listener, routes).await {
+    let routes = routes.into_make_service_with_connect_info::<Ends>();
+    if let Err(error) = axum::serve(Connections(listener), routes).await {
         tracing::error!("the web server failed: {error}");
     }
 }

@@ -1,24 +1,32 @@
-//! Who may ask, and how much: pages of this server only, and nothing without end.
+//! Which requests are answered: those to a name of this server, from pages of this server, and none without end.
 
+use std::net::IpAddr;
+use std::sync::Arc;
 use std::time::Duration;
 
-use axum::extract::{Request, State};
-use axum::http::{HeaderMap, Method, StatusCode, header};
+use axum::extract::{ConnectInfo, Request, State};
+use axum::http::{HeaderMap, HeaderName, StatusCode, Uri, header};
 use axum::middleware::Next;
 use axum::response::{IntoResponse, Response};
 
-use super::api::{BODY_MAX, refuse, too_long};
+use super::Shared;
+use super::api::{BODY_MAX, Refused, refuse, too_long};
+use super::connection::Ends;
+use super::names::{Authority, Names};
 
 /// A request that takes longer to come in and be answered is given up.
 const PATIENCE: Duration = Duration::from_secs(300);
 
-/// Turns away what a page of another site sends through a visitor's browser. `local`: the server can only be reached
-/// from this machine, so that any other name for it is one a stranger made.
-pub async fn guard(State(local): State<bool>, request: Request, next: Next) -> Response {
-    let changes = !matches!(*request.method(), Method::GET | Method::HEAD) || request.uri().path() == "/ws";
-    if changes && !is_ours(request.headers(), local) {
-        let line = "this page belongs to another site: open the address that lightbots printed";
-        return refuse(StatusCode::FORBIDDEN, line).into_response();
+/// Turns away requests to other names, which DNS may have been made to point here, and requests that pages of other
+/// servers send through a visitor's browser.
+pub async fn guard(
+    State(shared): State<Arc<Shared>>,
+    ConnectInfo(ends): ConnectInfo<Ends>,
+    request: Request,
+    next: Next,
+) -> Response {
+    if let Err(refused) = check(&shared.names, ends.local.ip(), request.uri(), request.headers()) {
+        return refused.into_response();
     }
     let length = request.headers().get(header::CONTENT_LENGTH).and_then(|length| length.to_str().ok());
     if length.and_then(|length| length.parse::<usize>().ok()).is_some_and(|length| length > BODY_MAX) {
@@ -30,48 +38,93 @@ pub async fn guard(State(local): State<bool>, request: Request, next: Next) -> R
     }
 }
 
-/// Whether the page that asks came from this server or, such as a development server's, from this machine. Programs
-/// that are no browser state no origin and may ask.
-fn is_ours(headers: &HeaderMap, local: bool) -> bool {
-    let Some(origin) = headers.get(header::ORIGIN) else { return true };
-    let origin = origin.to_str().ok().and_then(|origin| origin.split_once("://")).map(|(_, host)| host);
-    let host = headers.get(header::HOST).and_then(|host| host.to_str().ok());
-    let (Some(origin), Some(host)) = (origin, host) else { return false };
-    is_loopback(origin) && is_loopback(host) || !local && host.eq_ignore_ascii_case(origin)
+/// Whether a request on a connection to the address `local` is meant for this server and comes from a page of it.
+/// Programs that are no browser state no origin and may ask.
+fn check(names: &Names, local: IpAddr, uri: &Uri, headers: &HeaderMap) -> Result<(), Refused> {
+    let unclear = || refuse(StatusCode::BAD_REQUEST, "a request needs one Host header with host and port");
+    let host = only(headers, header::HOST).ok_or_else(unclear)?;
+    let host = host.and_then(Authority::of_host).ok_or_else(unclear)?;
+    // A request line may name the host as well.
+    if uri.authority().is_some_and(|named| Authority::of_host(named.as_str()).as_ref() != Some(&host)) {
+        return Err(unclear());
+    }
+    if !names.hold(&host, local) {
+        let line = "this server is not served under that name: open the address that lightbots printed, or start it \
+                    with --host-name NAME";
+        return Err(refuse(StatusCode::MISDIRECTED_REQUEST, line));
+    }
+    match only(headers, header::ORIGIN) {
+        Some(None) => Ok(()),
+        Some(Some(origin)) if Authority::of_origin(origin) == Some(host) => Ok(()),
+        _ => {
+            let line = "this page belongs to another site: open the address that lightbots printed";
+            Err(refuse(StatusCode::FORBIDDEN, line))
+        }
+    }
 }
 
-fn is_loopback(host: &str) -> bool {
-    let host = match host.strip_prefix('[') {
-        Some(rest) => rest.split(']').next().unwrap_or(rest),
-        None => host.split(':').next().unwrap_or(host),
-    };
-    host.eq_ignore_ascii_case("localhost")
-        || host.parse::<std::net::IpAddr>().is_ok_and(|ip| ip.is_loopback())
+/// The value of a header that is there once at most; `Some(None)`: it is not there, `None`: it is there twice or is no
+/// text.
+fn only(headers: &HeaderMap, name: HeaderName) -> Option<Option<&str>> {
+    let mut values = headers.get_all(name).iter();
+    let Some(value) = values.next() else { return Some(None) };
+    let text = value.to_str().ok()?;
+    values.next().is_none().then_some(Some(text))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::web::names::Exposure;
 
-    fn ours(host: &str, origin: &str, local: bool) -> bool {
-        let mut headers = HeaderMap::new();
-        headers.insert(header::HOST, host.parse().unwrap());
-        headers.insert(header::ORIGIN, origin.parse().unwrap());
-        is_ours(&headers, local)
+    fn status(uri: &str, headers: &[(&str, &str)]) -> u16 {
+        let listen: std::net::SocketAddr = "127.0.0.1:8420".parse().unwrap();
+        let names = Exposure::new(listen, false, Vec::new()).unwrap().names(8420).unwrap();
+        let mut map = HeaderMap::new();
+        for (name, value) in headers {
+            map.append(HeaderName::try_from(*name).unwrap(), value.parse().unwrap());
+        }
+        let checked = check(&names, listen.ip(), &uri.parse().unwrap(), &map);
+        checked.map_or_else(|refused| refused.into_response().status().as_u16(), |()| 200)
     }
 
     #[test]
-    fn only_own_pages_may_ask() {
-        assert!(is_ours(&HeaderMap::new(), true));
-        for local in [true, false] {
-            assert!(ours("127.0.0.1:8420", "http://127.0.0.1:8420", local));
-            assert!(ours("localhost:8420", "http://127.0.0.1:5173", local));
-            assert!(ours("[::1]:8420", "http://[::1]:8420", local));
-            assert!(!ours("127.0.0.1:8420", "http://evil.example", local));
-            assert!(!ours("127.0.0.1:8420", "null", local));
-            assert!(!ours("192.168.0.7:8420", "http://localhost:8420", local));
-            // A server that can be reached from elsewhere may well have a name.
-            assert_eq!(ours("stage.example:8420", "http://stage.example:8420", local), !local);
+    fn one_host_header_names_this_server() {
+        for (host, expected) in [
+            (&[("host", "127.0.0.1:8420")][..], 200),
+            (&[], 400),
+            (&[("host", "")], 400),
+            (&[("host", "127.0.0.1:8420"), ("host", "127.0.0.1:8420")], 400),
+            (&[("host", "evil.example:8420"), ("host", "127.0.0.1:8420")], 400),
+            (&[("host", "evil.example:8420")], 421),
+            (&[("host", "127.0.0.1")], 421),
+        ] {
+            assert_eq!(status("/api/shows", host), expected, "{host:?}");
         }
+        let ours = [("host", "127.0.0.1:8420")];
+        assert_eq!(status("http://127.0.0.1:8420/api/shows", &ours), 200);
+        assert_eq!(status("http://evil.example:8420/api/shows", &ours), 400);
+    }
+
+    #[test]
+    fn an_origin_is_that_of_the_host() {
+        for (host, origin, expected) in [
+            ("127.0.0.1:8420", "http://127.0.0.1:8420", 200),
+            ("LOCALHOST:8420", "http://localhost:8420", 200),
+            ("[::1]:8420", "http://[::1]:8420", 200),
+            ("localhost:8420", "http://127.0.0.1:8420", 403),
+            ("localhost:8420", "http://localhost:5173", 403),
+            ("localhost:8420", "http://localhost", 403),
+            ("localhost:8420", "https://localhost:8420", 403),
+            ("localhost:8420", "http://evil.example", 403),
+            ("localhost:8420", "http://localhost:8420/", 403),
+            ("localhost:8420", "null", 403),
+            ("localhost:8420", "", 403),
+            ("evil.example:8420", "http://evil.example:8420", 421),
+        ] {
+            assert_eq!(status("/ws", &[("host", host), ("origin", origin)]), expected, "{host} {origin}");
+        }
+        let own = "http://localhost:8420";
+        assert_eq!(status("/", &[("host", "localhost:8420"), ("origin", own), ("origin", own)]), 403);
     }
 }

@@ -93,7 +93,8 @@ impl Screen {
         let screen = self.shared.screens.fetch_add(1, Ordering::Relaxed);
         let version = env!("CARGO_PKG_VERSION").to_owned();
         let simulated = self.shared.simulated.load(Ordering::Relaxed);
-        self.send(text(&ToScreen::Hello(Hello { version, screen, simulated }))).await
+        let open_to_network = self.shared.names.is_open();
+        self.send(text(&ToScreen::Hello(Hello { version, screen, simulated, open_to_network }))).await
     }
 
     /// Does what a message asks for. What is no message of ours is answered by hanging up.

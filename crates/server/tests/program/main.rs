@@ -31,6 +31,7 @@ mod robot_check;
 mod run;
 mod screen;
 mod shows;
+mod strangers;
 
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
