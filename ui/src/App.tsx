@@ -9,6 +9,7 @@ import { DropFile } from './shell/DropFile';
 import { Header } from './shell/Header';
 import { LinkBanner } from './shell/LinkBanner';
 import { OfferDialog } from './shell/OfferDialog';
+import { OpenBanner } from './shell/OpenBanner';
 import { createSession, SessionContext } from './shell/session';
 import { useView } from './shell/useHash';
 import { theme } from './theme';
@@ -23,6 +24,7 @@ export function App() {
         <div className="app">
           <div>
             <Header view={view} />
+            <OpenBanner />
             <LinkBanner />
             <DraftBanner />
           </div>

@@ -33,7 +33,8 @@ export function useStore<T, S = T>(
   store: Store<T>,
   select: (value: T) => S = (v) => v as never,
 ): S {
-  return useSyncExternalStore(store.subscribe, () => select(store.get()));
+  const look = () => select(store.get());
+  return useSyncExternalStore(store.subscribe, look, look);
 }
 
 /** The value, looked at again this often at most, milliseconds: for what changes a thousand times at once. */

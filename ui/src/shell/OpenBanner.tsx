@@ -1,0 +1,15 @@
+import { useStore } from '../base/store';
+import { useSession } from './session';
+
+/** Says that the server is open to the network, as long as it is. */
+export function OpenBanner() {
+  const { live } = useSession();
+  const isOpen = useStore(live.hello, (hello) => hello?.open_to_network);
+  if (!isOpen) return null;
+  return (
+    <div className="banner" role="status">
+      Open to the network: anyone on this network can drive the robots and change shows. To close
+      it, start LightBots without --open-to-network.
+    </div>
+  );
+}
