@@ -10,6 +10,8 @@ const STEP_M: f64 = 0.1;
 const FIRST_ROW_M: f64 = 0.2;
 /// From the side edges to the first and last robot of a row, metres.
 const SIDE_M: f64 = 0.05;
+/// Spots times obstacles that are looked at: far more than shows need whose robots fit on their floor.
+const MOST_LOOKS: usize = 200_000_000;
 
 /// Where `count` robots wait before a show: in rows along the front edge, that is the one with the largest y, 0.1 m
 /// apart, the first row 0.2 m from the edge, further rows behind it, each from left to right and the last one centred.
@@ -44,7 +46,7 @@ fn rows(stage: &Stage, count: usize, step_m: f64, size: f64) -> Vec<Vec2> {
     };
     let mut places = Vec::with_capacity(count);
     let mut row = 0;
-    let mut left_out = 0;
+    let (mut left_out, mut looks) = (0, MOST_LOOKS);
     while places.len() < count {
         let y = first_y - row as f64 * step_m;
         let in_row = columns.min(count - places.len());
@@ -55,7 +57,8 @@ fn rows(stage: &Stage, count: usize, step_m: f64, size: f64) -> Vec<Vec2> {
         // Rows full of obstacles are passed over, but not without end.
         left_out += usize::from(places.len() == before);
         row += 1;
-        if left_out > 10_000 {
+        looks = looks.saturating_sub(in_row * stage.obstacles.len());
+        if left_out > 10_000 || looks == 0 {
             let at = places.len();
             places.extend((at..count).map(|nth| Vec2::new(0.0, first_y - (row + nth) as f64 * step_m)));
         }

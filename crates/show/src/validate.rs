@@ -6,6 +6,8 @@ mod stage;
 
 use std::collections::BTreeSet;
 
+use lightbots_base::Vec2;
+
 use crate::error::frame_label;
 use crate::{Issue, Issues, Show};
 
@@ -79,6 +81,17 @@ impl Findings {
 
 fn label(show: &Show, frame: usize) -> String {
     frame_label(frame, &show.frames[frame].name)
+}
+
+/// A number of a file as messages show it: those that no show needs with their exponent, so that lines stay short.
+fn number(value: f64) -> String {
+    if value == 0.0 || (1e-4..1e7).contains(&value.abs()) { format!("{value}") } else { format!("{value:e}") }
+}
+
+/// A place of a file as messages show it, metres.
+fn place(at: Vec2) -> String {
+    let metres = |value: f64| if value.abs() < 1e7 { format!("{value:.3}") } else { number(value) };
+    format!("{}, {}", metres(at.x), metres(at.y))
 }
 
 /// Millimetres with one decimal, as messages state gaps.

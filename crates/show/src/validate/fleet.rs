@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use lightbots_base::Vec2;
 
-use super::{Findings, MAX_FRAMES, MAX_PIXELS, PROVABLE_GAP_M, millimetres};
+use super::{Findings, MAX_FRAMES, MAX_PIXELS, PROVABLE_GAP_M, millimetres, place};
 use crate::{Frame, Identity, Issue, Show, close_pairs, front_rows, robots_asked_for};
 
 pub(super) fn check(show: &Show, is_stage_sound: bool, findings: &mut Findings) {
@@ -106,16 +106,15 @@ fn starts(show: &Show, usual: usize, needed: usize, findings: &mut Findings) {
     }
     let reach_m = radius_m + PROVABLE_GAP_M - 1e-4;
     for (nth, at) in starts.iter().enumerate() {
-        let (x, y) = (at.x, at.y);
         if is_off(at) {
             findings.show(
                 "start-off-floor",
-                format!("start {}: ({x}, {y}) is off the floor; move it in", nth + 1),
+                format!("start {}: ({}) is off the floor; move it in", nth + 1, place(*at)),
             );
         } else if stage.obstacles.iter().any(|obstacle| obstacle.gap_m(*at) < reach_m) {
             findings.show(
                 "start-on-obstacle",
-                format!("start {}: ({x}, {y}) is on a no-go area; move it", nth + 1),
+                format!("start {}: ({}) is on a no-go area; move it", nth + 1, place(*at)),
             );
         }
     }

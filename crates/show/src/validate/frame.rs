@@ -4,9 +4,9 @@ use std::collections::BTreeMap;
 
 use lightbots_base::{RobotId, Vec2};
 
-use super::{Findings, MAX_PIXELS, PROVABLE_GAP_M, millimetres};
+use super::{Findings, MAX_PIXELS, PROVABLE_GAP_M, millimetres, number, place};
 use crate::error::shown;
-use crate::{Frame, Pixel, Show, Stage, close_pairs};
+use crate::{Frame, Show, Stage, close_pairs};
 
 /// Longest air time or transition, seconds.
 const MOST_S: f64 = 86_400.0;
@@ -40,13 +40,15 @@ pub(super) fn check(show: &Show, index: usize, is_stage_sound: bool, findings: &
 fn times(show: &Show, index: usize, findings: &mut Findings) {
     let frame = &show.frames[index];
     if !(0.0..=MOST_S).contains(&frame.air_time_s) {
-        let what = format!("the air time is {} s; it must be 0 to {MOST_S} s", frame.air_time_s);
+        let what = format!("the air time is {} s; it must be 0 to {MOST_S} s", number(frame.air_time_s));
         findings.frame(show, index, "bad-air-time", &what);
     }
     let wanted_s = frame.transition_s.unwrap_or(1.0);
     if !(wanted_s > 0.0 && wanted_s <= MOST_S) {
-        let what =
-            format!("the transition takes {wanted_s} s; it must be more than 0 and at most {MOST_S} s");
+        let what = format!(
+            "the transition takes {} s; it must be more than 0 and at most {MOST_S} s",
+            number(wanted_s)
+        );
         findings.frame(show, index, "bad-transition-time", &what);
     }
 }
@@ -103,7 +105,7 @@ fn off_floor(frame: &Frame, stage: &Stage) -> Vec<(Vec<u32>, String)> {
         let what = format!(
             "pixel {}: ({}) is off the {} m x {} m floor; keep x within ±{most_x:.3} m and y within ±{most_y:.3} m",
             pixel.id,
-            place(pixel),
+            place(pixel.at),
             stage.width_m,
             stage.depth_m
         );
@@ -121,7 +123,7 @@ fn on_obstacle(frame: &Frame, stage: &Stage) -> Vec<(Vec<u32>, String)> {
             let what = format!(
                 "pixel {}: ({}) is closer than {} to area {}; move it away",
                 pixel.id,
-                place(pixel),
+                place(pixel.at),
                 millimetres(reach_m),
                 nth + 1
             );
@@ -159,8 +161,4 @@ fn close(show: &Show, index: usize, findings: &mut Findings) {
     }
     findings.pixels(show, index, "pixels-overlap", overlapping);
     findings.pixels(show, index, "pixels-too-close", close);
-}
-
-fn place(pixel: &Pixel) -> String {
-    format!("{:.3}, {:.3}", pixel.at.x, pixel.at.y)
 }

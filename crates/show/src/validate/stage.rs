@@ -2,7 +2,7 @@
 
 use lightbots_base::Limits;
 
-use super::{Findings, MAX_OBSTACLES};
+use super::{Findings, MAX_OBSTACLES, number};
 use crate::{Obstacle, Stage};
 
 /// Shortest side of a floor, metres.
@@ -15,8 +15,10 @@ pub(super) fn check(stage: &Stage, findings: &mut Findings) -> bool {
     let before = findings.issues.len();
     for (name, side_m) in [("width", stage.width_m), ("depth", stage.depth_m)] {
         if !(LEAST_SIDE_M..=MOST_SIDE_M).contains(&side_m) {
-            let what =
-                format!("the stage's {name} is {side_m} m; it must be {LEAST_SIDE_M} to {MOST_SIDE_M} m");
+            let what = format!(
+                "the stage's {name} is {} m; it must be {LEAST_SIDE_M} to {MOST_SIDE_M} m",
+                number(side_m)
+            );
             findings.show("bad-stage", what);
         }
     }
@@ -49,7 +51,7 @@ fn limits(limits: &Limits, findings: &mut Findings) {
     let mut is_sound = true;
     for (name, value, least, most) in ranges {
         if !(least..=most).contains(&value) {
-            let what = format!("the robot's {name} is {value}; it must be {least} to {most}");
+            let what = format!("the robot's {name} is {}; it must be {least} to {most}", number(value));
             findings.show("bad-limits", what);
             is_sound = false;
         }
