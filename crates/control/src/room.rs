@@ -5,6 +5,8 @@ use lightbots_plan::Path;
 
 /// Robots are looked at this often: two that pass at full speed come 1 mm nearer in between.
 const STEP: Span = Span::from_millis(40);
+/// Paths that last longer are looked at less often: stretched to so many steps, nobody goes a millimetre in one.
+const MOST_STEPS: i64 = 30_000;
 /// More room than this is as good as any, metres.
 const AMPLE_M: f64 = 0.04;
 /// Among more robots than this everybody is told the least room of all: looking at each would hold the show up.
@@ -26,10 +28,11 @@ pub(crate) fn rooms(paths: &[(usize, Path)], standing: &[Vec2], least_m: f64, co
     let mut at: Vec<(Vec2, usize)> = standing.iter().map(|&place| (place, usize::MAX)).collect();
     at.extend(paths.iter().enumerate().map(|(index, (_, path))| (path.start, index)));
     // At the end of the last step all stand.
-    for step in 0..=longest.0 / STEP.0 + 1 {
+    let every = STEP.max(Span(longest.0 / MOST_STEPS));
+    for step in 0..=longest.0 / every.0 + 1 {
         for (place, index) in &mut at {
             if let Some((_, path)) = paths.get(*index) {
-                *place = path.as_ref().at(STEP * step).position;
+                *place = path.as_ref().at(every * step).position;
             }
         }
         // Hardly anything changes its turn from step to step.

@@ -21,6 +21,7 @@
 //! ```
 
 pub mod assignment;
+mod cancel;
 mod casting;
 mod motion;
 mod problem;
@@ -31,9 +32,10 @@ mod seeded;
 mod show;
 mod transition;
 
+pub use cancel::Cancelled;
 pub use casting::{Bindings, Cast, Claims, Oddity};
 pub use motion::turn_time;
 pub use problem::{Closest, Path, Stuck, Transition, TransitionProblem};
 pub use repair::{Meeting, Repaired, repair};
-pub use show::{ShowClosest, ShowOptions, ShowPlan, show};
-pub use transition::transition;
+pub use show::{ShowClosest, ShowOptions, ShowPlan, show, show_unless};
+pub use transition::{transition, transition_unless};

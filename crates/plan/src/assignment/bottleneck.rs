@@ -8,10 +8,14 @@
 use super::NONE;
 use super::kdtree::{KdTree, Remaining};
 use super::within::Within;
+use crate::cancel::Cancel;
 use lightbots_base::Vec2;
 
 /// Squared distances this close are one: they differ by rounding only.
 const SAME: f64 = 1.0 - 1e-12;
+
+/// Rows between two questions whether to give up.
+const POLLED: usize = 256;
 
 /// A matching of all rows with the least longest edge.
 pub(super) struct Bottleneck {
@@ -22,21 +26,22 @@ pub(super) struct Bottleneck {
 }
 
 /// Matches every row to its own column. `known[row]` is some matching of all rows, the better the faster.
-pub(super) fn bottleneck(rows: &[Vec2], columns: &[Vec2], known: &[u32]) -> Bottleneck {
+pub(super) fn bottleneck(rows: &[Vec2], columns: &[Vec2], known: &[u32], cancel: Cancel<'_>) -> Bottleneck {
     let mut low = least_thinkable(rows, columns);
     let mut best =
         Bottleneck { reach_squared: longest_squared(rows, columns, known), column_of: known.to_vec() };
     if low >= best.reach_squared * SAME {
         return best;
     }
-    let mut matcher = Matcher::new(rows, columns, best.reach_squared);
+    let mut matcher = Matcher::new(rows, columns, best.reach_squared, cancel);
     // What the last search that failed had matched: all within any reach that is tried after it.
     let mut partial = vec![NONE; rows.len()];
-    while low < best.reach_squared * SAME {
+    while low < best.reach_squared * SAME && !cancel.is_wanted() {
         let middle = (low.sqrt() + best.reach_squared.sqrt()) / 2.0;
         let trial = (middle * middle).clamp(low, best.reach_squared);
         matcher.begin(&best.column_of, &partial, trial);
         match matcher.complete(&best.column_of, trial) {
+            _ if cancel.is_wanted() => break,
             Ok(()) => {
                 best.reach_squared = longest_squared(rows, columns, &matcher.column_of);
                 best.column_of.copy_from_slice(&matcher.column_of);
@@ -69,6 +74,7 @@ fn longest_squared(rows: &[Vec2], columns: &[Vec2], column_of: &[u32]) -> f64 {
 }
 
 struct Matcher<'a> {
+    cancel: Cancel<'a>,
     rows: &'a [Vec2],
     columns: &'a [Vec2],
     /// Columns the phase has not seen.
@@ -93,12 +99,12 @@ struct Reached {
 }
 
 impl<'a> Matcher<'a> {
-    fn new(rows: &'a [Vec2], columns: &'a [Vec2], most_squared: f64) -> Self {
+    fn new(rows: &'a [Vec2], columns: &'a [Vec2], most_squared: f64, cancel: Cancel<'a>) -> Self {
         let within = Within::new(rows, columns, most_squared);
         let (column_of, row_of) = (vec![NONE; rows.len()], vec![NONE; columns.len()]);
         let reached = vec![Reached { root: NONE, from: NONE }; rows.len()];
         let (queue, seen) = (Vec::new(), Vec::new());
-        Self { rows, columns, within, column_of, row_of, reached, queue, seen }
+        Self { cancel, rows, columns, within, column_of, row_of, reached, queue, seen }
     }
 
     fn squared(&self, row: usize, column: u32) -> f64 {
@@ -131,7 +137,7 @@ impl<'a> Matcher<'a> {
         open.retain(|&row| self.column_of[row as usize] == NONE);
         let length = |row: u32| self.squared(row as usize, before[row as usize]);
         open.sort_by(|&a, &b| length(b).total_cmp(&length(a)));
-        while let Some(&hardest) = open.first() {
+        while let Some(&hardest) = open.first().filter(|_| !self.cancel.is_wanted()) {
             // Where there is no matching, who had the longest way most likely has no path: that settles it.
             if self.phase(&[hardest], reach_squared) == 0 {
                 return Err(self.needed());
@@ -158,6 +164,9 @@ impl<'a> Matcher<'a> {
         let mut next = 0;
         while let Some(&row) = self.queue.get(next) {
             next += 1;
+            if next.is_multiple_of(POLLED) && self.cancel.is_wanted() {
+                break;
+            }
             let root = self.reached[row as usize].root;
             if self.column_of[root as usize] != NONE {
                 continue;

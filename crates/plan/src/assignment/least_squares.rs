@@ -9,6 +9,7 @@ use super::kdtree::{KdTree, Most, Weights};
 use super::scales;
 use super::search::{Edges, Search};
 use super::space;
+use crate::cancel::Cancel;
 use lightbots_base::Vec2;
 
 /// Edges each row begins with.
@@ -22,21 +23,22 @@ const EPSILON: f64 = 1e-11;
 
 /// Rows and columns in the space where edges have their costs, and column duals to begin with.
 #[derive(Clone, Debug)]
-pub(super) struct Costs {
+pub(super) struct Costs<'a> {
+    cancel: Cancel<'a>,
     rows: Vec<Vec2>,
     tree: KdTree,
     duals: Vec<f64>,
 }
 
-impl Costs {
+impl<'a> Costs<'a> {
     /// Squared ways between places on the floor, or costs for which the same assignments are best.
-    pub fn new(rows: &[Vec2], columns: &[Vec2]) -> Self {
+    pub fn new(rows: &[Vec2], columns: &[Vec2], cancel: Cancel<'a>) -> Self {
         let (rows, columns) = space::common(rows, columns);
         let none = vec![0.0; columns.len()];
         // A column left free must cost nothing: only where all are used may there be better duals than none.
         let is_square = rows.len() == columns.len();
-        let from_afar = is_square.then(|| scales::duals(&rows, &columns));
-        let mut costs = Self { tree: KdTree::new(&columns), rows, duals: none };
+        let from_afar = is_square.then(|| scales::duals(&rows, &columns, cancel));
+        let mut costs = Self { cancel, tree: KdTree::new(&columns), rows, duals: none };
         if let Some(duals) = from_afar
             && costs.dual_sum(&duals) > costs.dual_sum(&costs.duals)
         {
@@ -59,14 +61,19 @@ impl Costs {
         let weights = Weights { of: duals, greatest: &greatest };
         let mut found = Vec::new();
         for &at in &self.rows {
+            if self.cancel.is_wanted() {
+                found.clear();
+                each(&found);
+                continue;
+            }
             self.tree.cheapest(at, most, weights, |_| true, &mut found);
             each(&found);
         }
     }
 
     /// The squared ways themselves, with known duals; as many rows as columns.
-    pub fn plain(rows: &[Vec2], columns: &[Vec2], duals: Vec<f64>) -> Self {
-        Self { rows: rows.to_vec(), tree: KdTree::new(columns), duals }
+    pub fn plain(rows: &[Vec2], columns: &[Vec2], duals: Vec<f64>, cancel: Cancel<'a>) -> Self {
+        Self { cancel, rows: rows.to_vec(), tree: KdTree::new(columns), duals }
     }
 
     /// The cheapest edges of every row, and one that all can have together.
@@ -100,14 +107,17 @@ impl Costs {
 
     /// Completes an assignment, and prices edges among those `allowed(row, column)` until it is the best.
     fn improve(&self, search: &mut Search, allowed: impl Fn(usize, u32) -> bool) {
-        search.complete();
+        search.complete(self.cancel);
         for _ in 0..ROUNDS {
+            if self.cancel.is_wanted() {
+                break;
+            }
             let improved = self.price(search, &allowed);
             if improved.is_empty() {
                 break;
             }
             search.reopen(&improved);
-            search.complete();
+            search.complete(self.cancel);
         }
     }
 
@@ -119,7 +129,7 @@ impl Costs {
         let greatest = self.tree.greatest(search.column_duals());
         for (row, &at) in self.rows.iter().enumerate() {
             let most = Most { count: ADDED, below: search.row_duals()[row] - EPSILON };
-            if most.below <= search.complete_below(row) {
+            if most.below <= search.complete_below(row) || self.cancel.is_wanted() {
                 continue;
             }
             let weights = Weights { of: search.column_duals(), greatest: &greatest };
@@ -144,7 +154,7 @@ pub(super) struct LeastSquares<'a> {
     /// True places, metres: they decide what is within reach.
     rows: &'a [Vec2],
     columns: &'a [Vec2],
-    costs: &'a Costs,
+    costs: &'a Costs<'a>,
     search: Search,
     /// Row duals of the best assignment without limit: no edge of a row, however long, costs less after column duals,
     /// which only fall; where columns are left over, they begin anew, and nothing is known.
@@ -156,7 +166,7 @@ impl<'a> LeastSquares<'a> {
     /// Limits `unlimited`, the best assignment, to ways within reach; `feasible[row]` is a matching of such ways.
     pub fn new(
         (rows, columns): (&'a [Vec2], &'a [Vec2]),
-        (costs, unlimited): (&'a Costs, &Search),
+        (costs, unlimited): (&'a Costs<'a>, &Search),
         feasible: &[u32],
         reach_squared: f64,
     ) -> Self {

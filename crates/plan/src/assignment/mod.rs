@@ -13,6 +13,7 @@ mod space;
 mod tests;
 mod within;
 
+use crate::cancel::Cancel;
 use bottleneck::bottleneck;
 use least_squares::{Costs, LeastSquares};
 use lightbots_base::Vec2;
@@ -25,7 +26,7 @@ const ROUNDING: f64 = 1.0 + 1e-11;
 
 /// Goals, and who may go there.
 #[derive(Clone, Debug)]
-pub struct Choice {
+pub struct Choice<'a> {
     starts: usize,
     goals: usize,
     /// Pairs of goal and start that are settled.
@@ -36,7 +37,7 @@ pub struct Choice {
     goal_places: Vec<Vec2>,
     start_places: Vec<Vec2>,
     /// What ways between the open ones cost.
-    costs: Costs,
+    costs: Costs<'a>,
     /// The assignment of the open ones with the least sum, however long its longest way.
     shortest: Search,
     /// A matching of the open ones with no way longer than the reach.
@@ -45,26 +46,38 @@ pub struct Choice {
     reach_squared: f64,
 }
 
-impl Choice {
+impl<'a> Choice<'a> {
     /// Finds the least longest way. `pinned[goal]` names the start that must go there; shorter than `goals`: no pins
     /// for the rest. `None` where there are fewer starts than goals, a place is not finite, or a pin names a start
     /// that does not exist or is taken.
     pub fn new(starts: &[Vec2], goals: &[Vec2], pinned: &[Option<usize>]) -> Option<Self> {
-        let mut choice = Self::open(starts, goals, pinned)?;
-        let found = bottleneck(&choice.goal_places, &choice.start_places, choice.shortest.column_of());
+        Choice::unless(Cancel::NEVER, starts, goals, pinned)
+    }
+
+    /// The same; `None` also where it is given up.
+    pub(crate) fn unless(
+        cancel: Cancel<'a>,
+        starts: &[Vec2],
+        goals: &[Vec2],
+        pinned: &[Option<usize>],
+    ) -> Option<Self> {
+        let mut choice = Self::open(cancel, starts, goals, pinned)?;
+        let (rows, columns) = (&choice.goal_places, &choice.start_places);
+        let found = bottleneck(rows, columns, choice.shortest.column_of(), cancel);
         choice.reach_squared = choice.reach_squared.max(found.reach_squared);
         choice.feasible = found.column_of;
         Some(choice)
     }
 
     /// The choice that contains a known assignment, `start_of[goal]`: no way needs to be longer than its longest.
-    pub fn containing(
+    pub(crate) fn containing(
+        cancel: Cancel<'a>,
         starts: &[Vec2],
         goals: &[Vec2],
         pinned: &[Option<usize>],
         start_of: &[usize],
     ) -> Option<Self> {
-        let mut choice = Self::open(starts, goals, pinned)?;
+        let mut choice = Self::open(cancel, starts, goals, pinned)?;
         let mut column_of_start = vec![NONE; starts.len()];
         for (column, &start) in choice.open_starts.iter().enumerate() {
             column_of_start[start] = column as u32;
@@ -76,7 +89,7 @@ impl Choice {
         Some(choice)
     }
 
-    fn open(starts: &[Vec2], goals: &[Vec2], pinned: &[Option<usize>]) -> Option<Self> {
+    fn open(cancel: Cancel<'a>, starts: &[Vec2], goals: &[Vec2], pinned: &[Option<usize>]) -> Option<Self> {
         if goals.len() > starts.len() || !starts.iter().chain(goals).all(|place| place.is_finite()) {
             return None;
         }
@@ -95,11 +108,16 @@ impl Choice {
         let open_starts: Vec<usize> = (0..starts.len()).filter(|&start| !taken[start]).collect();
         let goal_places: Vec<Vec2> = open_goals.iter().map(|&goal| goals[goal]).collect();
         let start_places: Vec<Vec2> = open_starts.iter().map(|&start| starts[start]).collect();
-        let costs = Costs::new(&goal_places, &start_places);
+        let costs = Costs::new(&goal_places, &start_places, cancel);
+        let shortest = costs.solve();
+        // What was given up has rows without a column.
+        if cancel.is_wanted() {
+            return None;
+        }
         Some(Self {
             starts: starts.len(),
             goals: goals.len(),
-            shortest: costs.solve(),
+            shortest,
             costs,
             goal_places,
             start_places,
@@ -134,12 +152,12 @@ impl Choice {
 
 /// Finds assignments with the least sum of squared ways, for greater and greater reach.
 pub struct Minimiser<'a> {
-    choice: &'a Choice,
+    choice: &'a Choice<'a>,
     solver: LeastSquares<'a>,
 }
 
 impl<'a> Minimiser<'a> {
-    fn new(choice: &'a Choice) -> Self {
+    fn new(choice: &'a Choice<'a>) -> Self {
         let reach_squared = choice.reach_squared * ROUNDING;
         let places = (&choice.goal_places[..], &choice.start_places[..]);
         let costs = (&choice.costs, &choice.shortest);

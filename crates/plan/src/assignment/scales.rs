@@ -8,6 +8,7 @@
 
 use super::kdtree::{KdTree, Most, Weights};
 use super::least_squares::Costs;
+use crate::cancel::Cancel;
 use lightbots_base::Vec2;
 
 /// Problems this small need no help.
@@ -18,13 +19,14 @@ const SMALL: usize = 60;
 const DRAWN_TOGETHER: usize = 3;
 
 /// Duals for the columns of a problem with as many rows as columns.
-pub(super) fn duals(rows: &[Vec2], columns: &[Vec2]) -> Vec<f64> {
+pub(super) fn duals(rows: &[Vec2], columns: &[Vec2], cancel: Cancel<'_>) -> Vec<f64> {
     if rows.len() <= SMALL {
         return vec![0.0; columns.len()];
     }
     let drawn_together = |places: &[Vec2]| KdTree::with_leaves(places, DRAWN_TOGETHER).leaf_centres();
     let (coarse_rows, coarse_columns) = (drawn_together(rows), drawn_together(columns));
-    let costs = Costs::plain(&coarse_rows, &coarse_columns, duals(&coarse_rows, &coarse_columns));
+    let costs =
+        Costs::plain(&coarse_rows, &coarse_columns, duals(&coarse_rows, &coarse_columns, cancel), cancel);
     let solved = costs.solve();
     let tree = KdTree::new(&coarse_rows);
     let greatest = tree.greatest(solved.row_duals());

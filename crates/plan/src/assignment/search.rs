@@ -1,6 +1,7 @@
 //! Shortest augmenting paths over listed edges, with duals (Jonker & Volgenant 1987, sparse).
 
 use super::NONE;
+use crate::cancel::Cancel;
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
@@ -168,8 +169,11 @@ impl Search {
     }
 
     /// Gives every row a column, as far as the edges allow.
-    pub fn complete(&mut self) {
+    pub fn complete(&mut self, cancel: Cancel<'_>) {
         for row in self.bid_for_all() {
+            if cancel.is_wanted() {
+                return;
+            }
             self.augment(row);
         }
     }

@@ -7,6 +7,8 @@ pub(super) type Cubic = [Vec2; 4];
 
 /// Distances are exact to this, metres.
 const TOLERANCE_M: f64 = 1e-7;
+/// Parts that are divided: some dozens for any curve on a floor. What is left then counts as its hull, which is nearer.
+const MOST_PARTS: usize = 100_000;
 /// Stretches of the parameter shorter than this are not divided any more.
 const SHORTEST: f64 = 1e-7;
 
@@ -23,15 +25,16 @@ pub(super) fn nearest(curve: &Cubic, enough: f64) -> Option<(f64, f64)> {
     offer(curve[3].length(), 1.0, &mut best);
     // Each step replaces one entry by two; halves shrink below SHORTEST before 64 are open.
     let mut open = [(*curve, 0.0, 1.0); 64];
-    let mut count = 1;
+    let (mut count, mut parts) = (1, 0);
     while count > 0 {
+        parts += 1;
         count -= 1;
         let (part, from, to) = open[count];
         let lower = distance_of_hull(&part);
         if lower >= best - TOLERANCE_M {
             continue;
         }
-        if to - from < SHORTEST || count + 2 > open.len() {
+        if to - from < SHORTEST || count + 2 > open.len() || parts > MOST_PARTS {
             offer(lower, from, &mut best);
             continue;
         }

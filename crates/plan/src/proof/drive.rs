@@ -14,6 +14,8 @@ const STEP_MPS: f64 = 1e-3;
 pub(super) const CREEP_MPS: f64 = 20e-3;
 /// Velocity times turning rate below which a piece is straight, m/s · rad/s · m/s.
 const STRAIGHT: f64 = 1e-12;
+/// Places farther out than this are on no floor, and their squares not exact, metres.
+const FARTHEST_M: f64 = 1e6;
 /// Halvings before a stretch that is still undecided is judged by its middle.
 const HALVINGS: u32 = 8;
 
@@ -53,10 +55,13 @@ pub(super) fn judge(path: &Path, horizon: Span, limits: &Limits, mut fault: impl
 }
 
 fn is_well_formed(path: &Path, horizon: Span) -> bool {
-    let finite = path.pieces.iter().all(|piece| {
-        piece.duration > Span::ZERO && [piece.c1, piece.c2, piece.end].iter().all(|at| at.is_finite())
-    });
-    finite && path.start.is_finite() && path.as_ref().duration() == horizon
+    // Comparisons are false for what is no number.
+    let is_place = |at: &Vec2| at.x.abs() <= FARTHEST_M && at.y.abs() <= FARTHEST_M;
+    let are_places = path
+        .pieces
+        .iter()
+        .all(|piece| piece.duration > Span::ZERO && [piece.c1, piece.c2, piece.end].iter().all(is_place));
+    are_places && is_place(&path.start) && path.as_ref().duration() == horizon
 }
 
 /// A piece's velocity and acceleration as Bézier control values.

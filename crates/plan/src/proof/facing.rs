@@ -7,6 +7,9 @@ use lightbots_base::{Limits, Vec2};
 const GRACE_S: f64 = 0.05;
 /// From this share of the creeping speed on a robot may be called fast, so that speeds between are either.
 const FAST_SHARE: f64 = 0.9;
+/// Stretches of one piece that are looked at. Paths that are driven need some dozens; what is still undecided after so
+/// many is refused.
+const MOST_STRETCHES: usize = 10_000;
 /// Shorter stretches that are neither slow nor fast give no time for turning, seconds.
 const SHORTEST_S: f64 = 1e-3;
 
@@ -29,6 +32,15 @@ impl<'a> Facing<'a> {
     /// Goes on along a piece that takes `seconds`; whether there is time enough for all turns at its beginning and
     /// where it is slow. Turns while it is fast are not asked for.
     pub fn follow(&mut self, course: &Course, seconds: f64) -> bool {
+        let mut left = MOST_STRETCHES;
+        self.go_on(course, seconds, &mut left) && left > 0
+    }
+
+    fn go_on(&mut self, course: &Course, seconds: f64, left: &mut usize) -> bool {
+        *left = left.saturating_sub(1);
+        if *left == 0 {
+            return false;
+        }
         if course.speed_bound() < CREEP_MPS {
             self.slow_s += seconds;
             return true;
@@ -43,9 +55,9 @@ impl<'a> Facing<'a> {
         if seconds < SHORTEST_S {
             return true;
         }
-        let (left, right) = course.halves();
-        let in_time = self.follow(&left, seconds / 2.0);
-        self.follow(&right, seconds / 2.0) && in_time
+        let (first, second) = course.halves();
+        let in_time = self.go_on(&first, seconds / 2.0, left);
+        self.go_on(&second, seconds / 2.0, left) && in_time
     }
 
     /// Drives fast along a line from now on.

@@ -99,3 +99,10 @@ fn the_proof_agrees_with_a_robot_that_turns_step_by_step() {
     }
     assert!(seen[0] > 10 && seen[1] > 10, "{seen:?}");
 }
+
+#[test]
+fn pieces_without_end_are_refused_and_not_looked_at_without_end() {
+    let far = Vec2::new(0.3, 1e308);
+    let all_time = Piece { duration: Span(i64::MAX), c1: Vec2::ZERO, c2: far, end: far };
+    assert_eq!(kinds(Path { start: Vec2::ZERO, pieces: vec![all_time] }), [FaultKind::Malformed]);
+}

@@ -18,6 +18,7 @@ mod surroundings;
 mod tests;
 mod timeline;
 
+use crate::cancel::Cancel;
 use crate::{Closest, Path};
 use lightbots_base::{Limits, Span, Vec2};
 use lightbots_show::Obstacle;
@@ -98,17 +99,25 @@ const SLACK_M: f64 = 1e-6;
 
 /// Judges paths.
 pub fn prove(input: &ProofInput<'_>) -> Proof {
-    let mut proof = Proof { faults: faults(input), ..Proof::default() };
+    prove_unless(input, Cancel::NEVER)
+}
+
+/// The same; means nothing where it is given up.
+pub(crate) fn prove_unless(input: &ProofInput<'_>, cancel: Cancel<'_>) -> Proof {
+    let mut proof = Proof { faults: faults(input, cancel), ..Proof::default() };
     if !proof.faults.iter().any(|fault| fault.kind == FaultKind::Malformed) {
-        (proof.conflicts, proof.closest) = pairs::judge(input, horizon(input));
+        (proof.conflicts, proof.closest) = pairs::judge(input, horizon(input), cancel);
     }
     proof
 }
 
 /// The proof's faults alone: what single robots do that they must not.
-pub(crate) fn faults(input: &ProofInput<'_>) -> Vec<Fault> {
+pub(crate) fn faults(input: &ProofInput<'_>, cancel: Cancel<'_>) -> Vec<Fault> {
     let (horizon, mut faults) = (horizon(input), Vec::<Fault>::new());
     for (robot, path) in input.paths.iter().enumerate() {
+        if cancel.is_wanted() {
+            break;
+        }
         let before = faults.len();
         drive::judge(path, horizon, input.limits, |kind, at| faults.push(Fault { robot, kind, at }));
         if faults[before..].iter().any(|fault| fault.kind == FaultKind::Malformed) {

@@ -4,14 +4,21 @@ use super::grid::{Bounds, near_pairs};
 use super::timeline::{self, Stretch};
 use super::{ProofInput, SLACK_M};
 use crate::Closest;
+use crate::cancel::Cancel;
 use lightbots_base::{Span, Vec2};
 use std::collections::BTreeMap;
 
+/// Pairs between two questions whether to give up.
+const POLLED: usize = 4096;
 /// Slices of time at most.
 const MOST_SLICES: f64 = 2000.0;
 
 /// All pairs that come closer than they must, and the closest pair of all.
-pub(super) fn judge(input: &ProofInput<'_>, horizon: Span) -> (Vec<Closest>, Option<Closest>) {
+pub(super) fn judge(
+    input: &ProofInput<'_>,
+    horizon: Span,
+    cancel: Cancel<'_>,
+) -> (Vec<Closest>, Option<Closest>) {
     let discs = Discs::new(input, horizon.0.max(1));
     let mut verdict = Verdict { input, closest: None, conflicts: BTreeMap::new() };
     if discs.first.len() > 2 {
@@ -19,11 +26,11 @@ pub(super) fn judge(input: &ProofInput<'_>, horizon: Span) -> (Vec<Closest>, Opt
         let step_m = discs.step_m(input);
         let count = (discs.longest_m / step_m).ceil().clamp(1.0, MOST_SLICES) as i64;
         let mut cursors = vec![0; discs.first.len() - 1];
-        for number in 0..count {
+        for number in (0..count).take_while(|_| !cancel.is_wanted()) {
             let from_us = (i128::from(discs.horizon_us) * i128::from(number) / i128::from(count)) as i64;
             let to_us = (i128::from(discs.horizon_us) * i128::from(number + 1) / i128::from(count)) as i64;
             slice.cut(&discs, &mut cursors, from_us, to_us);
-            slice.judge(&discs, &mut verdict);
+            slice.judge(&discs, &mut verdict, cancel);
         }
     }
     (verdict.conflicts.into_values().collect(), verdict.closest)
@@ -135,10 +142,13 @@ impl Slice {
         self.first.push(self.cuts.len());
     }
 
-    fn judge(&self, discs: &Discs, verdict: &mut Verdict<'_>) {
+    fn judge(&self, discs: &Discs, verdict: &mut Verdict<'_>, cancel: Cancel<'_>) {
         let reach = verdict.reach_m().min(discs.closest_at_start_m.max(verdict.input.gap_m) + SLACK_M);
+        let (mut pairs, mut is_over) = (0usize, false);
         near_pairs(&self.boxes, reach, |i, j| {
-            if i >= verdict.input.paths.len() {
+            pairs += 1;
+            is_over |= pairs.is_multiple_of(POLLED) && cancel.is_wanted();
+            if is_over || i >= verdict.input.paths.len() {
                 return;
             }
             let reach = verdict.reach_m();

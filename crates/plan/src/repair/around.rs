@@ -22,6 +22,9 @@ pub(super) fn courses(
 ) -> Option<Vec<Vec<Vec2>>> {
     (0..scene.robots())
         .map(|robot| {
+            if scene.cancel.is_wanted() {
+                return None;
+            }
             let start = scene.starts[robot];
             let Some(end) = scene.ends[robot] else { return Some(vec![start, start]) };
             if scene.walls.is_empty() || scene.is_way_free(start, end, MARGIN_M) {

@@ -140,7 +140,7 @@ pub(super) fn best(scene: &Scene, easing: Easing, proven: Judge) -> Result<Weave
 
 /// What was found so far, and how much may still be spent.
 struct Attempts<'a> {
-    scene: &'a Scene,
+    scene: &'a Scene<'a>,
     proven: Judge<'a>,
     /// How long the longest way takes at full speed, seconds.
     least_s: f64,
@@ -370,8 +370,10 @@ fn unlike<'a, 'b>(guesses: &'b [Guess<'a>]) -> Vec<&'b Guess<'a>> {
 
 /// First guesses, the most promising first.
 fn guesses<'a>(crowd: &'a Crowd<'a>, easing: Easing) -> Vec<Guess<'a>> {
-    let mut guesses: Vec<Guess> =
-        Manner::all().map(|manner| Guess::new(crowd, easing, manner, ROOMY.robots_m)).collect();
+    let mut guesses: Vec<Guess> = Manner::all()
+        .take_while(|_| !crowd.scene.cancel.is_wanted())
+        .map(|manner| Guess::new(crowd, easing, manner, ROOMY.robots_m))
+        .collect();
     guesses.sort_by(|a, b| a.badness.total_cmp(&b.badness));
     guesses
 }

@@ -97,7 +97,7 @@ impl Watch {
     ) -> Vec<Contact> {
         let mut found = Vec::with_capacity(known.len());
         let mut near = Near::default();
-        for span in 0..weave.spans {
+        for span in (0..weave.spans).take_while(|_| !scene.cancel.is_wanted()) {
             near.stir(weave.robots(), span, travel);
             let (of_span, later) = known.split_at(known.partition_point(|contact| contact.span <= span));
             found.extend(of_span.iter().filter_map(|contact| near.still(contact)));

@@ -59,6 +59,9 @@ impl Corners {
         }
         let count = |half: f64| (half / FILL_STEP_M) as i32;
         for row in -count(scene.inner.y)..=count(scene.inner.y) {
+            if scene.cancel.is_wanted() {
+                return None;
+            }
             for column in -count(scene.inner.x)..=count(scene.inner.x) {
                 let place = Vec2::new(f64::from(column), f64::from(row)) * FILL_STEP_M;
                 if lattice.around(place, apart_m, 1).is_empty() && scene.is_free(place, MARGIN_M - 1e-5) {
@@ -78,6 +81,9 @@ impl Corners {
                 for (a, b) in
                     seen.iter().filter(|&&to| to > from).map(|&to| (self.places[from], self.places[to]))
                 {
+                    if scene.cancel.is_wanted() {
+                        return gaps;
+                    }
                     let steps = (a.distance(b) / step_m).floor().max(1.0);
                     for place in (0..=steps as usize).map(|step| a.lerp(b, step as f64 / steps)) {
                         let is_apart = gaps.iter().all(|other| other.distance(place) >= apart_m);
@@ -165,7 +171,7 @@ mod tests {
     use crate::repair::lattice::NONE;
     use lightbots_base::Limits;
 
-    fn scene(gap_m: f64) -> Scene {
+    fn scene(gap_m: f64) -> Scene<'static> {
         let wall = |min: (f64, f64), max: (f64, f64)| Obstacle::Rect {
             min: Vec2::new(min.0, min.1),
             max: Vec2::new(max.0, max.1),

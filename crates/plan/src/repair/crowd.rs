@@ -12,7 +12,7 @@ const LOOSE_M: f64 = 0.14;
 
 /// Everybody's shortest way, and what it tells of all.
 pub(super) struct Crowd<'a> {
-    pub scene: &'a Scene,
+    pub scene: &'a Scene<'a>,
     /// Corners of each robot's way.
     pub courses: &'a [Vec<Vec2>],
     /// How long each is, metres.
@@ -29,7 +29,7 @@ pub(super) struct Crowd<'a> {
 
 impl<'a> Crowd<'a> {
     /// The crowd that has these ways to go.
-    pub fn new(scene: &'a Scene, courses: &'a [Vec<Vec2>]) -> Self {
+    pub fn new(scene: &'a Scene<'a>, courses: &'a [Vec<Vec2>]) -> Self {
         let lengths: Vec<f64> = courses.iter().map(|course| length(course)).collect();
         let longest_m = lengths.iter().copied().fold(0.0, f64::max);
         let spread = |of: fn(Vec2) -> f64| {

@@ -4,6 +4,7 @@ use lightbots_base::Vec2;
 
 use super::lattice::Lattice;
 use super::scene::Scene;
+use crate::cancel::Cancel;
 
 /// How far from its place a robot looks for a node, in pitches, and at how many; wider where the crowd is too thick.
 const REACHES: [(f64, usize); 3] = [(1.7, 8), (3.5, 40), (9.0, 250)];
@@ -18,6 +19,9 @@ pub(super) fn dock(scene: &Scene, lattice: &Lattice, places: &[Vec2]) -> Option<
         let choices: Option<Vec<Vec<(u32, f64)>>> = places
             .iter()
             .map(|&place| {
+                if scene.cancel.is_wanted() {
+                    return None;
+                }
                 let near = lattice.around(place, reach * lattice.pitch_m, most);
                 let free = near.into_iter().filter(|&node| {
                     scene.walls.is_empty() || scene.is_way_free(place, lattice.places[node as usize], 0.0)
@@ -27,20 +31,20 @@ pub(super) fn dock(scene: &Scene, lattice: &Lattice, places: &[Vec2]) -> Option<
                 (!choice.is_empty()).then_some(choice)
             })
             .collect();
-        auction(lattice.places.len(), &choices?)
+        auction(lattice.places.len(), &choices?, scene.cancel)
     })
 }
 
 /// An object for each bidder so that the sum of costs is within a least bid each of the least; `None` where the bids
 /// did not suffice.
-fn auction(objects: usize, choices: &[Vec<(u32, f64)>]) -> Option<Vec<u32>> {
+fn auction(objects: usize, choices: &[Vec<(u32, f64)>], cancel: Cancel<'_>) -> Option<Vec<u32>> {
     let mut prices = vec![0.0_f64; objects];
     let mut owner = vec![usize::MAX; objects];
     let mut owns = vec![u32::MAX; choices.len()];
     let mut waiting: Vec<usize> = (0..choices.len()).rev().collect();
     let mut bids = MOST_BIDS * choices.len();
     while let Some(bidder) = waiting.pop() {
-        bids = bids.checked_sub(1)?;
+        bids = bids.checked_sub(1).filter(|_| !cancel.is_wanted())?;
         let (mut best, mut second) = ((f64::MAX, u32::MAX), f64::MAX);
         for &(object, cost) in &choices[bidder] {
             let total = cost + prices[object as usize];
@@ -69,11 +73,11 @@ mod tests {
     #[test]
     fn an_auction_finds_the_cheapest_sum() {
         let choices = vec![vec![(0, 0.1), (1, 0.2)], vec![(0, 0.1), (1, 0.5)], vec![(1, 0.9), (2, 1.0)]];
-        assert_eq!(auction(3, &choices), Some(vec![1, 0, 2]));
+        assert_eq!(auction(3, &choices, Cancel::NEVER), Some(vec![1, 0, 2]));
     }
 
     #[test]
     fn too_few_objects_are_noticed() {
-        assert_eq!(auction(1, &[vec![(0, 0.1)], vec![(0, 0.1)]]), None);
+        assert_eq!(auction(1, &[vec![(0, 0.1)], vec![(0, 0.1)]], Cancel::NEVER), None);
     }
 }

@@ -66,7 +66,7 @@ impl Lattice {
     }
 
     fn lay_out(&mut self, scene: &Scene, rise: f64, is_wanted: impl Fn(Vec2) -> bool) {
-        for row in 0..self.rows {
+        for row in (0..self.rows).take_while(|_| !scene.cancel.is_wanted()) {
             for column in 0..self.columns {
                 let shift = if row % 2 == 1 { 0.5 } else { 0.0 };
                 let place =
@@ -81,7 +81,7 @@ impl Lattice {
 
     fn connect(&mut self, scene: &Scene) {
         self.neighbours = vec![[NONE; 6]; self.places.len()];
-        for row in 0..self.rows {
+        for row in (0..self.rows).take_while(|_| !scene.cancel.is_wanted()) {
             let odd = row % 2;
             let around = [(1, 0), (odd, 1), (odd - 1, 1), (-1, 0), (odd - 1, -1), (odd, -1)];
             for column in 0..self.columns {
@@ -181,7 +181,7 @@ mod tests {
     use lightbots_base::Limits;
     use lightbots_show::{Easing, Obstacle};
 
-    fn scene(obstacles: Vec<Obstacle>) -> Scene {
+    fn scene(obstacles: Vec<Obstacle>) -> Scene<'static> {
         let problem = TransitionProblem {
             starts: Vec::new(),
             goals: Vec::new(),

@@ -47,7 +47,8 @@ mod weave;
 
 use lightbots_base::{Limits, Span, Vec2};
 
-use crate::proof::{FaultKind, Proof, faults, prove};
+use crate::cancel::Cancel;
+use crate::proof::{FaultKind, Proof, faults, prove_unless};
 use crate::{Path, TransitionProblem, turn_time};
 use corners::Corners;
 use scale::Scale;
@@ -71,30 +72,44 @@ pub struct Repaired {
 /// spare robot that may step aside. Where nothing was found within the bounded work, who did not get past each other
 /// in the attempt that left fewest; empty where it failed for something else.
 pub fn repair(problem: &TransitionProblem, goal_of: &[Option<usize>]) -> Result<Repaired, Vec<Meeting>> {
+    repair_unless(problem, goal_of, Cancel::NEVER)
+}
+
+/// The same; means nothing where it is given up.
+pub(crate) fn repair_unless(
+    problem: &TransitionProblem,
+    goal_of: &[Option<usize>],
+    cancel: Cancel<'_>,
+) -> Result<Repaired, Vec<Meeting>> {
     for scale in Scale::of(&problem.limits) {
-        let Ok(found) = of_usual(&scale.problem(problem), goal_of) else { continue };
+        let Ok(found) = of_usual(&scale.problem(problem), goal_of, cancel) else { continue };
         let found = scale.repaired(problem, goal_of, found);
         // Below which speed robots may turn at will does not grow with them.
-        if prove(&problem.to_prove(&found.paths)).holds() {
+        if prove_unless(&problem.to_prove(&found.paths), cancel).holds() {
             return Ok(found);
         }
     }
-    of_usual(problem, goal_of)
+    of_usual(problem, goal_of, cancel)
 }
 
 /// The same for robots as large as those that distances here were measured with.
-fn of_usual(problem: &TransitionProblem, goal_of: &[Option<usize>]) -> Result<Repaired, Vec<Meeting>> {
-    let scene = Scene::new(problem, goal_of).ok_or_else(Vec::new)?;
+fn of_usual(
+    problem: &TransitionProblem,
+    goal_of: &[Option<usize>],
+    cancel: Cancel<'_>,
+) -> Result<Repaired, Vec<Meeting>> {
+    let scene = Scene::new(problem, goal_of).map(|scene| Scene { cancel, ..scene }).ok_or_else(Vec::new)?;
     match attempts::best(&scene, problem.easing, &|weave| proven(problem, &scene, weave)) {
         Ok(weave) => {
             let (turn, span) = (turn(&scene.limits), least_span(&scene, &weave));
             let least = turn + Span(span.0 * weave.spans as i64);
             Ok(Repaired { paths: weave.paths(turn, span_of(problem, &scene, &weave, span)), least })
         }
+        Err(left) if cancel.is_wanted() => Err(left),
         Err(left) => {
             let corners = Corners::new(&scene);
             let found = stops::with_stops(&scene, &corners, problem.duration);
-            found.filter(|found| prove(&problem.to_prove(&found.paths)).holds()).ok_or(left)
+            found.filter(|found| prove_unless(&problem.to_prove(&found.paths), cancel).holds()).ok_or(left)
         }
     }
 }
@@ -125,7 +140,7 @@ fn proven(problem: &TransitionProblem, scene: &Scene, mut weave: Weave) -> Resul
         let spans = [least, wished];
         let refused = spans[..if wished > least { 2 } else { 1 }]
             .iter()
-            .find_map(|&span| refused(problem, &weave, span).map(|proof| (span, proof)));
+            .find_map(|&span| refused(problem, scene, &weave, span).map(|proof| (span, proof)));
         let Some((span, proof)) = refused else { return Ok(weave) };
         let in_place = |kind| matches!(kind, FaultKind::Floor | FaultKind::Obstacle | FaultKind::Malformed);
         if !proof.conflicts.is_empty() || proof.faults.iter().any(|fault| in_place(fault.kind)) {
@@ -139,12 +154,12 @@ fn proven(problem: &TransitionProblem, scene: &Scene, mut weave: Weave) -> Resul
 }
 
 /// What the proof says of a weave whose spans take so long, if it does not hold.
-fn refused(problem: &TransitionProblem, weave: &Weave, span: Span) -> Option<Proof> {
+fn refused(problem: &TransitionProblem, scene: &Scene, weave: &Weave, span: Span) -> Option<Proof> {
     let paths = weave.paths(turn(&problem.limits), span);
     let input = problem.to_prove(&paths);
     // Most that are refused turn too fast, which is seen without looking at pairs.
-    let alone = Proof { faults: faults(&input), ..Proof::default() };
-    let proof = if alone.holds() { prove(&input) } else { alone };
+    let alone = Proof { faults: faults(&input, scene.cancel), ..Proof::default() };
+    let proof = if alone.holds() { prove_unless(&input, scene.cancel) } else { alone };
     (!proof.holds()).then_some(proof)
 }
 

@@ -20,7 +20,7 @@ pub(super) fn ordered(scene: &Scene, lattice: &Lattice) -> Option<Weave> {
     for (&robot, &node) in bound.iter().zip(&docks) {
         goals[robot] = node;
     }
-    let steps = search(&mut Stepper::new(lattice, &goals), &starts, &goals)?;
+    let steps = search(&mut Stepper::new(lattice, &goals, scene.cancel)?, &starts, &goals)?;
     let pitch = lattice.pitch_m;
     let legs = |robot: usize, node: u32, place: Vec2| (robot, lattice.places[node as usize].distance(place));
     let farthest =

@@ -18,7 +18,7 @@ const PUSH_M: f64 = 0.02;
 
 /// Plans steps; keeps its memory.
 pub(super) struct Pusher<'a> {
-    scene: &'a Scene,
+    scene: &'a Scene<'a>,
     roads: &'a Roadmap,
     /// `[robot][node]`: what is left to its end.
     far_m: Vec<Vec<f64>>,
@@ -35,14 +35,18 @@ pub(super) struct Pusher<'a> {
 
 impl<'a> Pusher<'a> {
     /// For all robots of a scene, and so many looks at pairs.
-    pub fn new(scene: &'a Scene, roads: &'a Roadmap, looks: usize) -> Self {
+    pub fn new(scene: &'a Scene<'a>, roads: &'a Roadmap, looks: usize) -> Self {
         let robots = scene.robots();
         // Finding out how far everybody has to go costs about as much as a few looks for each node.
         let looks = looks.saturating_sub(robots * roads.places.len() * LOOKS_A_NODE);
+        let far_m = |robot: usize| match scene.cancel.is_wanted() {
+            true => vec![f64::INFINITY; roads.places.len()],
+            false => roads.far_m(robot),
+        };
         Self {
             scene,
             roads,
-            far_m: (0..robots).map(|robot| roads.far_m(robot)).collect(),
+            far_m: (0..robots).map(far_m).collect(),
             now: Vec::new(),
             next: vec![OPEN; robots],
             decided: Vec::new(),
@@ -50,6 +54,11 @@ impl<'a> Pusher<'a> {
             tries: 0,
             looks,
         }
+    }
+
+    /// Whether to give up.
+    pub fn is_given_up(&self) -> bool {
+        self.scene.cancel.is_wanted()
     }
 
     /// How many looks are left.
@@ -190,7 +199,7 @@ impl Steps for Pusher<'_> {
     }
 
     fn is_spent(&self) -> bool {
-        self.looks == 0
+        self.looks == 0 || self.scene.cancel.is_wanted()
     }
 }
 
@@ -201,7 +210,7 @@ mod tests {
     use crate::repair::corners::Corners;
     use lightbots_base::{Limits, Vec2};
 
-    fn scene(starts: Vec<Vec2>, goals: Vec<Vec2>) -> Scene {
+    fn scene(starts: Vec<Vec2>, goals: Vec<Vec2>) -> Scene<'static> {
         let ends: Vec<Option<usize>> = (0..starts.len()).map(Some).collect();
         let floor = TransitionProblem::on_floor(Vec2::new(0.3, 0.3), Limits::ELISA_3);
         Scene::new(&TransitionProblem { starts, goals, ..floor }, &ends).unwrap()

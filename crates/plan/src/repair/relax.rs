@@ -45,6 +45,9 @@ const EASINGS: usize = 8;
 /// Haste that is worth no further sweeps.
 const GOOD_HASTE: f64 = 1.03;
 
+/// Contacts between two questions whether to give up.
+const POLLED: usize = 1024;
+
 /// How hard to try.
 #[derive(Clone, Copy)]
 pub(super) struct Effort {
@@ -91,7 +94,7 @@ pub(super) struct Relaxation<'a> {
 
 impl<'a> Relaxation<'a> {
     /// One that has not begun.
-    pub fn new(scene: &'a Scene, weave: Weave, effort: Effort) -> Self {
+    pub fn new(scene: &'a Scene<'a>, weave: Weave, effort: Effort) -> Self {
         Self {
             longest_s: weave.lasts_s() * effort.stretch,
             state: State::new(scene, weave, effort.wish),
@@ -111,7 +114,11 @@ impl<'a> Relaxation<'a> {
     pub fn go_on(&mut self, sweeps: usize, work: &mut usize) {
         for _ in 0..sweeps {
             let cost = self.state.weave.robots() * self.state.weave.spans;
-            let Some(left) = work.checked_sub(cost).filter(|_| !self.is_over) else { break };
+            let Some(left) =
+                work.checked_sub(cost).filter(|_| !self.is_over && !self.state.scene.cancel.is_wanted())
+            else {
+                break;
+            };
             *work = left;
             self.is_over = !self.sweep() || self.sweep == self.effort.sweeps;
             *work = work.saturating_sub(self.bent);
@@ -134,6 +141,9 @@ impl<'a> Relaxation<'a> {
         self.sweep += 1;
         let bent = self.state.bend_all(anew);
         self.bent = bent;
+        if self.state.scene.cancel.is_wanted() {
+            return false;
+        }
         if anew && (1..self.fewest).contains(&bent) {
             (self.fewest, self.left_over) = (bent, self.state.meetings());
         }
@@ -153,6 +163,9 @@ impl<'a> Relaxation<'a> {
                 self.kicks += 1;
                 self.state.kick(self.kicks);
             }
+            if self.state.scene.cancel.is_wanted() {
+                return false;
+            }
             self.state.give_time(growth(self.effort.hurry, bent, few, robots));
             let most_s = self.best.as_ref().map_or(self.longest_s, |(best_s, _)| *best_s);
             if self.state.weave.lasts_s() > most_s && (self.best.is_some() || bent > few) {
@@ -165,7 +178,7 @@ impl<'a> Relaxation<'a> {
 }
 
 struct State<'a> {
-    scene: &'a Scene,
+    scene: &'a Scene<'a>,
     weave: Weave,
     wish: Wish,
     watch: Watch,
@@ -183,7 +196,7 @@ struct State<'a> {
 }
 
 impl<'a> State<'a> {
-    fn new(scene: &'a Scene, weave: Weave, wish: Wish) -> Self {
+    fn new(scene: &'a Scene<'a>, weave: Weave, wish: Wish) -> Self {
         let robots = weave.robots();
         Self {
             scene,
@@ -267,6 +280,9 @@ impl<'a> State<'a> {
         let off_edge_m = self.scene.off_edge_m.min(self.wish.edge_m);
         let limits = Slow::new(self.scene, &self.weave, off_edge_m, easings);
         for robot in 0..self.dirty.len() {
+            if self.scene.cancel.is_wanted() {
+                break;
+            }
             if let Some(look) = self.dirty[robot] {
                 self.remember(robot);
                 self.stale[robot] = true;
@@ -307,7 +323,10 @@ impl<'a> State<'a> {
         }
         let mut contacts = std::mem::take(&mut self.contacts);
         let mut bent = 0;
-        for contact in &mut contacts {
+        for (number, contact) in contacts.iter_mut().enumerate() {
+            if number % POLLED == 0 && self.scene.cancel.is_wanted() {
+                break;
+            }
             contact.is_close = contact.clear_until <= travelled(&self.travel, contact) && self.bend(contact);
             bent += usize::from(contact.is_close);
         }
@@ -317,7 +336,9 @@ impl<'a> State<'a> {
 
     /// Who was too close, each two once, and where they meet.
     fn meetings(&self) -> Vec<Meeting> {
-        let of_robots = self.contacts.iter().filter(|contact| contact.is_close).filter_map(|contact| {
+        let close = self.contacts.iter().filter(|contact| contact.is_close).enumerate();
+        let close = close.take_while(|(number, _)| number % POLLED != 0 || !self.scene.cancel.is_wanted());
+        let of_robots = close.filter_map(|(_, contact)| {
             let Other::Robot(b) = contact.b else { return None };
             let weights = self.watch.closest(self.scene, &self.weave, contact).weights;
             let place = |robot: usize| blend(self.weave.span(robot, contact.span), &weights);

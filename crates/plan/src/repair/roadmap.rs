@@ -47,6 +47,10 @@ impl Roadmap {
     /// The roadmap of a scene with a lattice of this pitch, but for ends so far off the floor's edge; `None` where it would
     /// be too large.
     pub fn new(scene: &Scene, corners: &Corners, pitch_m: f64, off_edge_m: f64) -> Option<Self> {
+        // Each start is a node of its own.
+        if scene.robots() > MOST_NODES {
+            return None;
+        }
         let lattice = corners.lattice(scene, pitch_m)?;
         let reach_m = (pitch_m * REACH).max(LEAST_REACH_M);
         let (places, ways, is_private) = (Vec::new(), Vec::new(), Vec::new());
@@ -59,6 +63,9 @@ impl Roadmap {
             roads.add(scene, place, 1e-4);
         }
         for &place in &lattice.places {
+            if scene.cancel.is_wanted() {
+                return None;
+            }
             roads.add(scene, place, pitch_m * APART);
         }
         for &place in corners.places() {
@@ -113,7 +120,7 @@ impl Roadmap {
         let count = self.places.len();
         self.is_private = self.places.iter().map(|&place| !scene.is_free(place, MARGIN_M)).collect();
         let mut ways: Vec<Vec<u32>> = vec![Vec::new(); count];
-        for a in 0..count {
+        for a in (0..count).take_while(|_| !scene.cancel.is_wanted()) {
             for b in 0..a {
                 let (from, to) = (self.places[a], self.places[b]);
                 if from.distance(to) <= self.reach_m && is_clear(scene, from, to) {

@@ -4,6 +4,7 @@ use lightbots_base::{Limits, Vec2};
 use lightbots_show::Obstacle;
 
 use crate::TransitionProblem;
+use crate::cancel::Cancel;
 
 /// Robots keep this much more than contact wherever their ends allow, metres.
 const LEAST_MARGIN_M: f64 = 0.0031;
@@ -11,7 +12,9 @@ const LEAST_MARGIN_M: f64 = 0.0031;
 pub(super) const EDGE_M: f64 = 0.0035;
 
 /// A transition whose assignment is settled.
-pub(super) struct Scene {
+pub(super) struct Scene<'a> {
+    /// When to give up.
+    pub cancel: Cancel<'a>,
     /// Where each robot starts, stage metres.
     pub starts: Vec<Vec2>,
     /// Where each robot ends; `None`: it is spare and may end anywhere.
@@ -26,7 +29,7 @@ pub(super) struct Scene {
     pub limits: Limits,
 }
 
-impl Scene {
+impl Scene<'_> {
     /// The scene of a problem; `None` where the assignment does not fit it or something is not a number.
     pub fn new(problem: &TransitionProblem, goal_of: &[Option<usize>]) -> Option<Self> {
         if goal_of.len() != problem.starts.len() {
@@ -42,6 +45,7 @@ impl Scene {
         }
         let standing = problem.standing.iter().map(|&at| Obstacle::Disc { at, radius_m: limits.radius_m });
         let mut scene = Self {
+            cancel: Cancel::NEVER,
             starts: problem.starts.clone(),
             ends,
             walls: problem.obstacles.iter().copied().chain(standing).collect(),
@@ -184,7 +188,7 @@ mod tests {
     }
 
     /// A robot from one place to another on a floor of 1 m by 1 m.
-    fn scene(start: (f64, f64), end: (f64, f64), obstacles: Vec<Obstacle>, half: Vec2) -> Scene {
+    fn scene(start: (f64, f64), end: (f64, f64), obstacles: Vec<Obstacle>, half: Vec2) -> Scene<'static> {
         let at = |(x, y)| vec![Vec2::new(x, y)];
         let floor = TransitionProblem::on_floor(half, Limits::ELISA_3);
         let problem = TransitionProblem { starts: at(start), goals: at(end), obstacles, ..floor };

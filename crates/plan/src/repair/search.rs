@@ -25,10 +25,8 @@ pub(super) trait Steps {
     /// followed. `None` where the orders cannot be.
     fn step(&mut self, now: &[u32], ranks: &[usize], orders: &[Order]) -> Option<Vec<u32>>;
 
-    /// Whether more work than was granted has been done.
-    fn is_spent(&self) -> bool {
-        false
-    }
+    /// Whether more work than was granted has been done, or it is given up.
+    fn is_spent(&self) -> bool;
 }
 
 /// One configuration that has been reached.
@@ -118,6 +116,7 @@ mod tests {
     use super::super::steps::Stepper;
     use super::*;
     use crate::TransitionProblem;
+    use crate::cancel::Cancel;
     use lightbots_base::{Limits, Vec2};
     use lightbots_show::Easing;
 
@@ -158,7 +157,8 @@ mod tests {
         let count = lattice.places.len();
         let starts: Vec<u32> = (0..count as u32).filter(|node| node % 2 == 0).collect();
         let goals: Vec<u32> = starts.iter().rev().copied().collect();
-        let steps = search(&mut Stepper::new(&lattice, &goals), &starts, &goals).unwrap();
+        let steps =
+            search(&mut Stepper::new(&lattice, &goals, Cancel::NEVER).unwrap(), &starts, &goals).unwrap();
         assert_eq!(steps.first(), Some(&starts));
         assert_eq!(steps.last(), Some(&goals));
         assert_legal(&lattice, &steps);
@@ -171,7 +171,8 @@ mod tests {
         let mut goals = vec![NONE; starts.len()];
         goals[0] = lattice.places.len() as u32 / 2;
         goals[1] = 0;
-        let steps = search(&mut Stepper::new(&lattice, &goals), &starts, &goals).unwrap();
+        let steps =
+            search(&mut Stepper::new(&lattice, &goals, Cancel::NEVER).unwrap(), &starts, &goals).unwrap();
         assert_legal(&lattice, &steps);
         assert_eq!(steps.last().unwrap()[1], 0);
     }

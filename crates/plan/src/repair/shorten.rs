@@ -19,7 +19,7 @@ pub(super) fn shorten(pusher: &Pusher, roads: &Roadmap, mut steps: Vec<Vec<u32>>
     let mut looks = MOST_LOOKS;
     for _ in 0..ROUNDS {
         let mut is_better = false;
-        for robot in 0..roads.starts.len() {
+        for robot in (0..roads.starts.len()).take_while(|_| !pusher.is_given_up()) {
             let mut lane = Lane { pusher, roads, steps: &steps, robot, looks };
             let way = lane.best();
             looks = lane.looks;

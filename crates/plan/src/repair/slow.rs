@@ -11,7 +11,7 @@ const PASSES: usize = 2;
 
 /// The limits of a scene, in lengths of a span.
 pub(super) struct Slow<'a> {
-    scene: &'a Scene,
+    scene: &'a Scene<'a>,
     turning: Turning,
     easings: usize,
     /// How far rims stay off the floor's edge, metres.
@@ -24,7 +24,7 @@ pub(super) struct Slow<'a> {
 
 impl<'a> Slow<'a> {
     /// For a weave of this span, so far off the floor's edge, metres; against fast turns there are `easings` passes.
-    pub fn new(scene: &'a Scene, weave: &Weave, off_edge_m: f64, easings: usize) -> Self {
+    pub fn new(scene: &'a Scene<'a>, weave: &Weave, off_edge_m: f64, easings: usize) -> Self {
         Self {
             scene,
             turning: Turning::new(weave.span_s, &scene.limits),

@@ -6,15 +6,19 @@ use lightbots_base::Vec2;
 
 use super::lattice::{Lattice, NONE};
 use super::search::{Order, Steps};
+use crate::cancel::Cancel;
 
 const NOBODY: u32 = u32::MAX;
 /// The direction of one who stays.
 const STAYS: u8 = 6;
 /// A robot may push a row of this many.
 const MOST_PUSHED: usize = 500;
+/// Robots times nodes whose steps to goals are kept, two bytes each: a gigabyte.
+const MOST_STEPS: usize = 1 << 29;
 
 /// What a step is planned with; kept between steps to save memory.
 pub(super) struct Stepper<'a> {
+    cancel: Cancel<'a>,
     lattice: &'a Lattice,
     /// Where each robot heads for; [`NONE`]: it only makes way.
     goals: &'a [u32],
@@ -28,11 +32,18 @@ pub(super) struct Stepper<'a> {
 }
 
 impl<'a> Stepper<'a> {
-    /// For robots that head for these goals.
-    pub fn new(lattice: &'a Lattice, goals: &'a [u32]) -> Self {
+    /// For robots that head for these goals; `None` where they and the nodes are too many.
+    pub fn new(lattice: &'a Lattice, goals: &'a [u32], cancel: Cancel<'a>) -> Option<Self> {
         let nodes = lattice.places.len();
-        let to = |&goal: &u32| if goal == NONE { Vec::new() } else { lattice.steps_to(goal) };
-        Self {
+        if nodes.saturating_mul(goals.len()) > MOST_STEPS {
+            return None;
+        }
+        // Nobody asks for a step that is given up.
+        let to = |&goal: &u32| {
+            if goal == NONE || cancel.is_wanted() { Vec::new() } else { lattice.steps_to(goal) }
+        };
+        Some(Self {
+            cancel,
             lattice,
             goals,
             steps: goals.iter().map(to).collect(),
@@ -41,11 +52,15 @@ impl<'a> Stepper<'a> {
             direction: vec![STAYS; goals.len()],
             holder_now: vec![NOBODY; nodes],
             holder_next: vec![NOBODY; nodes],
-        }
+        })
     }
 }
 
 impl Steps for Stepper<'_> {
+    fn is_spent(&self) -> bool {
+        self.cancel.is_wanted()
+    }
+
     fn around(&self, _robot: usize, node: u32) -> impl Iterator<Item = u32> {
         self.lattice.neighbours[node as usize].into_iter().filter(|&node| node != NONE)
     }

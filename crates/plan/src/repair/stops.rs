@@ -58,7 +58,7 @@ mod tests {
         }
     }
 
-    fn scene_of(problem: &TransitionProblem) -> Scene {
+    fn scene_of(problem: &TransitionProblem) -> Scene<'static> {
         Scene::new(problem, &(0..problem.starts.len()).map(Some).collect::<Vec<_>>()).unwrap()
     }
 

@@ -4,10 +4,11 @@ mod issues;
 #[cfg(test)]
 mod tests;
 
+use crate::cancel::{Cancel, Cancelled, unless};
 use crate::transition::attempt;
 use crate::{Bindings, Closest, Transition, TransitionProblem};
 use lightbots_base::{Span, Vec2};
-use lightbots_show::{Frame, Identity, Issue, Issues, Show};
+use lightbots_show::{Frame, Identity, Issue, Issues, Show, validate};
 use std::collections::BTreeMap;
 
 /// What the planner is told besides the show.
@@ -23,7 +24,7 @@ pub struct ShowOptions {
 /// The plan of a show.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ShowPlan {
-    /// `transitions[k]` leads to frame k: as many as frames. Where `issues` has an error it is the best that could be
+    /// `transitions[k]` leads to frame k: as many as frames, none where the show is not fit to be planned. Where `issues` has an error it is the best that could be
     /// drawn, not proven.
     pub transitions: Vec<Transition>,
     /// `mapping[k][robot]`: id of the pixel that robot shows in frame k; `None`: it is spare.
@@ -56,20 +57,48 @@ impl ShowPlan {
     }
 }
 
-/// Plans a show for robots that stand at `starts` (stage metres). Never fails: what cannot be planned is an issue.
+/// Plans a show for robots that stand at `starts` (stage metres). Never fails: what cannot be planned is an issue. A show
+/// in which [`validate`] finds errors is not planned at all; its errors are the issues.
 pub fn show(show: &Show, starts: &[Vec2], options: &ShowOptions) -> ShowPlan {
+    planned(show, starts, options, Cancel::NEVER)
+}
+
+/// The same, given up as soon as `is_wanted` says so: it is asked at least every tenth of a second or so, from this
+/// thread, and must be cheap.
+pub fn show_unless(
+    show: &Show,
+    starts: &[Vec2],
+    options: &ShowOptions,
+    is_wanted: &dyn Fn() -> bool,
+) -> Result<ShowPlan, Cancelled> {
+    unless(is_wanted, |cancel| planned(show, starts, options, cancel))
+}
+
+fn planned(show: &Show, starts: &[Vec2], options: &ShowOptions, cancel: Cancel<'_>) -> ShowPlan {
+    let issues: Issues = validate(show).into_iter().filter(Issue::is_error).collect();
+    if !issues.is_empty() {
+        return ShowPlan { issues, ..ShowPlan::default() };
+    }
+    chained(show, starts, options, cancel)
+}
+
+/// The plan of a show that is fit to be planned.
+fn chained(show: &Show, starts: &[Vec2], options: &ShowOptions, cancel: Cancel<'_>) -> ShowPlan {
     let mut plan = ShowPlan::default();
     let mut places = starts.to_vec();
     let mut bindings = bindings(starts.len(), options);
     issues::of_names(show, starts.len(), &bindings, &mut plan.issues);
     for (index, frame) in show.frames.iter().enumerate() {
+        if cancel.is_wanted() {
+            break;
+        }
         let found_before = plan.issues.len();
         let identity = options.identity.or(frame.identity).unwrap_or(show.identity);
         let cast = bindings.cast(&frame.pixels, identity, &places, |_| false);
         issues::of_frame(show, index, starts.len(), &cast.dark, &mut plan.issues);
         issues::of_cast(show, index, &cast, &mut plan.issues);
         let goals: Vec<Vec2> = cast.pixels.iter().map(|pixel| pixel.at).collect();
-        let attempt = attempt(&problem(show, frame, places, goals, cast.pinned.clone()));
+        let attempt = attempt(&problem(show, frame, places, goals, cast.pinned.clone()), cancel);
         if let Some(stuck) = attempt.stuck
             && !plan.issues[found_before..].iter().any(Issue::is_error)
         {

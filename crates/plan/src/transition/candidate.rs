@@ -1,8 +1,9 @@
 //! Paths for a settled assignment, with what the proof says of them.
 
 use super::{COMFORT_M, MARGIN_M, room};
+use crate::cancel::Cancel;
 use crate::motion::{Profile, turn_time};
-use crate::proof::{Proof, ProofInput, prove};
+use crate::proof::{Proof, ProofInput, prove_unless};
 use crate::{Closest, Path, Transition, TransitionProblem};
 use lightbots_base::{Limits, Span};
 
@@ -33,7 +34,7 @@ pub(super) struct Candidate {
 
 impl Candidate {
     /// Straight synchronised lines; `start_of[goal]`. Robots without a goal stay.
-    pub fn straight(problem: &TransitionProblem, start_of: &[usize]) -> Self {
+    pub fn straight(problem: &TransitionProblem, start_of: &[usize], cancel: Cancel<'_>) -> Self {
         let mut ends = problem.starts.clone();
         let mut goal_of = vec![None; ends.len()];
         for (goal, &start) in start_of.iter().enumerate() {
@@ -46,7 +47,7 @@ impl Candidate {
         let profile = quickest.stretched(problem.duration.unwrap_or(Span::ZERO));
         let paths = lines().map(|(&from, &to)| profile.path(from, to)).collect();
         let slower = slower_than(quickest.duration(), profile.duration(), &problem.limits);
-        let mut candidate = Self::of_paths(problem, paths, goal_of, slower);
+        let mut candidate = Self::of_paths(problem, paths, goal_of, slower, cancel);
         candidate.transition.least = quickest.duration();
         candidate
     }
@@ -58,10 +59,14 @@ impl Candidate {
         paths: Vec<Path>,
         goal_of: Vec<Option<usize>>,
         slower: f64,
+        cancel: Cancel<'_>,
     ) -> Self {
         let comfort_m = problem.limits.contact_m() + COMFORT_M - 1e-6;
         let gap_m = if paths.len() <= ROOM_MOST { room::widest_m(&problem.limits) } else { comfort_m + 1e-6 };
-        let mut proof = prove(&ProofInput { gap_m, ..problem.to_prove(&paths) });
+        let mut proof = prove_unless(&ProofInput { gap_m, ..problem.to_prove(&paths) }, cancel);
+        if cancel.is_wanted() {
+            proof = Proof::default();
+        }
         let wanted_m = |found: &Closest| room::wanted_m(&paths, found, &problem.limits, slower);
         proof.conflicts.retain(|found| found.distance_m < wanted_m(found) - 1e-6);
         let uncomfortable = proof.conflicts.iter().filter(|found| found.distance_m < comfort_m).count();
@@ -92,13 +97,14 @@ impl Candidate {
     /// Pairs for which ways are to be bent; none where they are too many.
     pub fn worth_bending(&self, wish: Wish) -> Vec<Closest> {
         let is_asked = |found: &&Closest| wish == Wish::Room || found.distance_m < self.comfort_m;
-        let asked: Vec<Closest> = self.proof.conflicts.iter().filter(is_asked).copied().collect();
         let robots = self.transition.paths.len();
         let most = match wish {
             Wish::Comfort => robots / 8 + 4,
             // Rows that turn have as many pairs in line as robots.
             Wish::Room => robots,
         };
+        let asked = self.proof.conflicts.iter().filter(is_asked).copied();
+        let asked: Vec<Closest> = asked.take(most + 1).collect();
         if asked.len() > most { Vec::new() } else { asked }
     }
 
@@ -125,10 +131,23 @@ pub(super) fn slower_than(least: Span, duration: Span, limits: &Limits) -> f64 {
     (duration - rest).as_secs() / (least - rest).as_secs().max(1e-6)
 }
 
+/// No path at all for anybody: nothing is looked at, as nothing can be counted on.
+pub(super) fn unmoved(problem: &TransitionProblem) -> Transition {
+    Transition {
+        goal_of: vec![None; problem.starts.len()],
+        paths: problem.starts.iter().map(|&start| Path { start, pieces: Vec::new() }).collect(),
+        duration: Span::ZERO,
+        least: Span::ZERO,
+        lower_bound_s: 0.0,
+        closest: None,
+    }
+}
+
 /// Everybody stays where they are, as long as the problem asks for.
 pub(super) fn standing_still(problem: &TransitionProblem) -> Transition {
     let mut transition =
-        Candidate::straight(&TransitionProblem { goals: Vec::new(), ..problem.clone() }, &[]).transition;
+        Candidate::straight(&TransitionProblem { goals: Vec::new(), ..problem.clone() }, &[], Cancel::NEVER)
+            .transition;
     transition.least = Span::ZERO;
     transition
 }

@@ -3,6 +3,46 @@
 use super::parking::distance_to;
 use crate::{Stuck, TransitionProblem};
 use lightbots_base::Vec2;
+use lightbots_show::Obstacle;
+
+/// Places farther out than this are on no floor, metres: far beyond the largest, and still exact to a micrometre.
+const FARTHEST_M: f64 = 10_000.0;
+/// Numbers of robots and floors outside this range are mistakes, whatever their unit is.
+const SANE: core::ops::RangeInclusive<f64> = 1e-4..=1e5;
+
+/// Whether all numbers are such that the planner can count on them; nothing else must be tried with what is not.
+pub(super) fn measurable(problem: &TransitionProblem) -> Result<(), Stuck> {
+    // Comparisons are false for what is no number.
+    let is_place = |at: &Vec2| at.x.abs() <= FARTHEST_M && at.y.abs() <= FARTHEST_M;
+    let no_place = |who: &str, at: Vec2| {
+        let message =
+            format!("{who} at ({:?}, {:?}) m is on no floor: bring it nearer to the middle", at.x, at.y);
+        Stuck { goals: Vec::new(), starts: Vec::new(), message }
+    };
+    if let Some(goal) = problem.goals.iter().position(|at| !is_place(at)) {
+        return Err(Stuck { goals: vec![goal], ..no_place("a pixel", problem.goals[goal]) });
+    }
+    if let Some(start) = problem.starts.iter().position(|at| !is_place(at)) {
+        return Err(Stuck { starts: vec![start], ..no_place("a robot", problem.starts[start]) });
+    }
+    if let Some(&at) = problem.standing.iter().find(|at| !is_place(at)) {
+        return Err(no_place("a robot", at));
+    }
+    let is_shape = |thing: &Obstacle| match thing {
+        Obstacle::Disc { at, radius_m } => is_place(at) && (0.0..=FARTHEST_M).contains(radius_m),
+        Obstacle::Rect { min, max } => is_place(min) && is_place(max) && min.x <= max.x && min.y <= max.y,
+    };
+    if let Some(index) = problem.obstacles.iter().position(|thing| !is_shape(thing)) {
+        let message = format!("no-go area {} is no disc or rectangle on a floor: draw it again", index + 1);
+        return Err(stuck(Vec::new(), message));
+    }
+    let half = problem.half_floor;
+    if is_sane(problem) && is_place(&half) {
+        return Ok(());
+    }
+    let message = "the floor is too small or too large, or a limit of the robots makes no sense: mend them";
+    Err(stuck(Vec::new(), message.into()))
+}
 
 /// Whether the goals can be shown at all.
 pub(super) fn possible(problem: &TransitionProblem) -> Result<(), Stuck> {
@@ -10,18 +50,6 @@ pub(super) fn possible(problem: &TransitionProblem) -> Result<(), Stuck> {
     if goals.len() > starts.len() {
         let message = format!("{} pixels need as many robots, but there are {}", goals.len(), starts.len());
         return Err(stuck(Vec::new(), message));
-    }
-    if let Some(goal) = goals.iter().chain(starts).position(|place| !place.is_finite()) {
-        return Err(stuck(
-            vec![goal].into_iter().filter(|&goal| goal < goals.len()).collect(),
-            "a place is not a number".into(),
-        ));
-    }
-    if !is_sane(problem) {
-        return Err(stuck(
-            Vec::new(),
-            "the floor is too small, or a limit of the robots is not a positive number".into(),
-        ));
     }
     let contact = problem.limits.contact_m();
     if let Some((a, b, distance)) = touching(goals, contact) {
@@ -44,7 +72,7 @@ fn is_sane(problem: &TransitionProblem) -> bool {
     let (limits, half) = (&problem.limits, problem.half_floor);
     let of_robots = [limits.radius_m, limits.speed_mps, limits.accel_mps2, limits.turn_radps];
     let room = [half.x - limits.radius_m, half.y - limits.radius_m];
-    of_robots.iter().chain(&room).all(|&value| value > 0.0 && value.is_finite())
+    of_robots.iter().all(|value| SANE.contains(value)) && room.iter().all(|&value| value > 0.0)
 }
 
 fn stuck(goals: Vec<usize>, message: String) -> Stuck {

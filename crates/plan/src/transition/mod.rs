@@ -16,8 +16,9 @@ pub(crate) use check::touching;
 pub(crate) use parking::distance_to;
 
 use crate::assignment::Choice;
-use crate::proof::{Proof, prove};
-use crate::repair::{Repaired, repair};
+use crate::cancel::{Cancel, Cancelled, unless};
+use crate::proof::{Proof, prove_unless};
+use crate::repair::{Repaired, repair_unless};
 use crate::{Stuck, Transition, TransitionProblem};
 use candidate::Candidate;
 use relax::relax;
@@ -30,11 +31,16 @@ const COMFORT_M: f64 = 0.008;
 
 /// The quickest proven transition that can be found, or why there is none.
 pub fn transition(problem: &TransitionProblem) -> Result<Transition, Stuck> {
-    let attempt = attempt(problem);
-    match attempt.stuck {
-        None => Ok(attempt.transition),
-        Some(stuck) => Err(stuck),
-    }
+    attempt(problem, Cancel::NEVER).into_result()
+}
+
+/// The same, given up as soon as `is_wanted` says so: it is asked at least every tenth of a second or so, from this
+/// thread, and must be cheap.
+pub fn transition_unless(
+    problem: &TransitionProblem,
+    is_wanted: &dyn Fn() -> bool,
+) -> Result<Result<Transition, Stuck>, Cancelled> {
+    unless(is_wanted, |cancel| attempt(problem, cancel).into_result())
 }
 
 /// A transition that can be drawn even where it must not be driven.
@@ -45,25 +51,37 @@ pub(crate) struct Attempt {
     pub stuck: Option<Stuck>,
 }
 
+impl Attempt {
+    fn into_result(self) -> Result<Transition, Stuck> {
+        match self.stuck {
+            None => Ok(self.transition),
+            Some(stuck) => Err(stuck),
+        }
+    }
+}
+
 /// The best transition that can be found, proven or not.
-pub(crate) fn attempt(problem: &TransitionProblem) -> Attempt {
+pub(crate) fn attempt(problem: &TransitionProblem, cancel: Cancel<'_>) -> Attempt {
+    if let Err(stuck) = check::measurable(problem) {
+        return Attempt { transition: candidate::unmoved(problem), stuck: Some(stuck) };
+    }
     let impossible = check::possible(problem).err();
-    let Some(choice) = Choice::new(&problem.starts, &problem.goals, &problem.pinned) else {
+    let Some(choice) = Choice::unless(cancel, &problem.starts, &problem.goals, &problem.pinned) else {
         let stuck = impossible.unwrap_or_else(|| check::pins(problem));
         return Attempt { transition: candidate::standing_still(problem), stuck: Some(stuck) };
     };
     let lower_bound_s = choice.bottleneck_m() / problem.limits.speed_mps.max(1e-3);
-    let mut attempt = match walled::look(problem) {
-        Walls::Open => solve(problem, &choice),
+    let mut attempt = match walled::look(problem, cancel) {
+        Walls::Open => solve(problem, &choice, cancel),
         Walls::Apart(pinned) => {
             let sent = TransitionProblem { pinned, ..problem.clone() };
-            let choice = Choice::new(&sent.starts, &sent.goals, &sent.pinned).unwrap_or(choice);
-            solve(&sent, &choice)
+            let choice = Choice::unless(cancel, &sent.starts, &sent.goals, &sent.pinned).unwrap_or(choice);
+            solve(&sent, &choice, cancel)
         }
         Walls::Closed(stuck) => {
             let transition = choice.least_squares().solve(0.0).map_or_else(
                 || candidate::standing_still(problem),
-                |start_of| Candidate::straight(problem, &start_of).transition,
+                |start_of| Candidate::straight(problem, &start_of, cancel).transition,
             );
             Attempt { transition, stuck: Some(stuck) }
         }
@@ -78,29 +96,29 @@ pub(crate) fn attempt(problem: &TransitionProblem) -> Attempt {
 }
 
 /// The best transition between places that ways lead between.
-fn solve(problem: &TransitionProblem, choice: &Choice) -> Attempt {
+fn solve(problem: &TransitionProblem, choice: &Choice, cancel: Cancel<'_>) -> Attempt {
     if choice.spares() == 0 {
-        return settle(problem, choice);
+        return settle(problem, choice, cancel);
     }
-    with_spares(problem, choice).unwrap_or_else(|| Attempt {
+    with_spares(problem, choice, cancel).unwrap_or_else(|| Attempt {
         transition: candidate::standing_still(problem),
         stuck: Some(check::pins(problem)),
     })
 }
 
 /// With more robots than goals: gives the spare ones places to wait first.
-fn with_spares(problem: &TransitionProblem, choice: &Choice) -> Option<Attempt> {
+fn with_spares(problem: &TransitionProblem, choice: &Choice, cancel: Cancel<'_>) -> Option<Attempt> {
     let start_of = choice.least_squares().solve(0.0)?;
-    let (whole, start_of) = parking::with_spares(problem, start_of);
-    let choice = Choice::containing(&whole.starts, &whole.goals, &whole.pinned, &start_of)?;
-    Some(settle(&whole, &choice))
+    let (whole, start_of) = parking::with_spares(problem, start_of, cancel);
+    let choice = Choice::containing(cancel, &whole.starts, &whole.goals, &whole.pinned, &start_of)?;
+    Some(settle(&whole, &choice, cancel))
 }
 
 /// Straight lines if the proof can be made to hold, else what repair makes of them. Every robot has a goal here.
-fn settle(problem: &TransitionProblem, choice: &Choice) -> Attempt {
-    match relax(problem, choice) {
+fn settle(problem: &TransitionProblem, choice: &Choice, cancel: Cancel<'_>) -> Attempt {
+    match relax(problem, choice, cancel) {
         Some(candidate) if candidate.holds() => Attempt { transition: candidate.transition, stuck: None },
-        Some(candidate) if check::possible(problem).is_ok() => mend(problem, candidate),
+        Some(candidate) if check::possible(problem).is_ok() => mend(problem, candidate, cancel),
         Some(Candidate { transition, proof, .. }) => {
             let stuck = Some(conflict::stuck(problem, &transition, &proof, Vec::new()));
             Attempt { transition, stuck }
@@ -110,10 +128,12 @@ fn settle(problem: &TransitionProblem, choice: &Choice) -> Attempt {
 }
 
 /// What repair makes of straight lines that conflict.
-fn mend(problem: &TransitionProblem, conflicting: Candidate) -> Attempt {
+fn mend(problem: &TransitionProblem, conflicting: Candidate, cancel: Cancel<'_>) -> Attempt {
     let goal_of = &conflicting.transition.goal_of;
-    let repaired = repair(problem, goal_of).and_then(|Repaired { paths, least }| {
-        let proof = Some(prove(&problem.to_prove(&paths))).filter(Proof::holds).ok_or_else(Vec::new)?;
+    let repaired = repair_unless(problem, goal_of, cancel).and_then(|Repaired { paths, least }| {
+        let proof = Some(prove_unless(&problem.to_prove(&paths), cancel))
+            .filter(Proof::holds)
+            .ok_or_else(Vec::new)?;
         let duration = paths.iter().map(|path| path.as_ref().duration()).max().unwrap_or(least);
         let (goal_of, closest) = (goal_of.clone(), proof.closest);
         Ok(Transition { goal_of, paths, duration, least, lower_bound_s: 0.0, closest })

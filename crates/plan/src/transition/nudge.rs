@@ -2,11 +2,14 @@
 
 use super::candidate::{Candidate, Wish, slower_than};
 use super::{COMFORT_M, MARGIN_M, room};
+use crate::cancel::Cancel;
 use crate::motion::{Bend, turn_time, whole_millis};
 use crate::{Closest, Path, Transition, TransitionProblem};
 use lightbots_base::{Piece, Span, Vec2};
 use std::collections::BTreeMap;
 
+/// Conflicts between two questions whether to give up.
+const POLLED: usize = 1024;
 /// Rounds of bending and proving.
 const ROUNDS: usize = 6;
 /// Robots times rounds that are spent on room to stop behind others.
@@ -29,14 +32,15 @@ pub(super) fn nudge(
     start_of: &[usize],
     straight: Candidate,
     rounds: usize,
+    cancel: Cancel<'_>,
 ) -> Candidate {
     let wished = straight.transition.duration;
     if wished <= straight.transition.least {
-        return bent(problem, straight, rounds);
+        return bent(problem, straight, rounds, cancel);
     }
     // Ways bent at full speed tell the least time, and may be driven as slowly as wished.
     let hurried = TransitionProblem { duration: None, ..problem.clone() };
-    let mut quick = bent(&hurried, Candidate::straight(&hurried, start_of), rounds);
+    let mut quick = bent(&hurried, Candidate::straight(&hurried, start_of, cancel), rounds, cancel);
     if !quick.is_better_than(&straight) {
         return straight;
     }
@@ -47,14 +51,14 @@ pub(super) fn nudge(
     }
     let rest = turn_time(core::f64::consts::FRAC_PI_2, &problem.limits);
     let slow = paths.iter().map(|path| slower(path, rest, factor)).collect();
-    let mut candidate = Candidate::of_paths(problem, slow, std::mem::take(goal_of), factor);
+    let mut candidate = Candidate::of_paths(problem, slow, std::mem::take(goal_of), factor, cancel);
     candidate.transition.least = *least;
     candidate
 }
 
 /// The best of the candidate, which is as quick as may be, and what bending makes of it: comfortable first, then with room
 /// to stop behind others.
-fn bent(problem: &TransitionProblem, straight: Candidate, rounds: usize) -> Candidate {
+fn bent(problem: &TransitionProblem, straight: Candidate, rounds: usize, cancel: Cancel<'_>) -> Candidate {
     let lines = straight.transition.paths.clone();
     let mut bends: BTreeMap<usize, Bend> = BTreeMap::new();
     let least = straight.transition.least;
@@ -63,21 +67,24 @@ fn bent(problem: &TransitionProblem, straight: Candidate, rounds: usize) -> Cand
         let mut conflicts = best.worth_bending(wish);
         let most = if wish == Wish::Room { ROOM_WORK / lines.len().max(1) } else { ROUNDS };
         for _ in 0..rounds.min(ROUNDS).min(most) {
-            if conflicts.is_empty() {
+            if conflicts.is_empty() || cancel.is_wanted() {
                 break;
             }
             let mut paths = lines.clone();
-            for found in &conflicts {
+            for (number, found) in conflicts.iter().enumerate() {
+                if number.is_multiple_of(POLLED) && cancel.is_wanted() {
+                    return best;
+                }
                 part(problem, &lines, found, wish, &mut bends);
             }
             for (&robot, bend) in &bends {
                 paths[robot] = bend.applied_to(&lines[robot]);
             }
-            let mut bent = Candidate::of_paths(problem, paths, best.transition.goal_of.clone(), 1.0);
+            let mut bent = Candidate::of_paths(problem, paths, best.transition.goal_of.clone(), 1.0, cancel);
             bent.transition.least = least;
             conflicts = bent.worth_bending(wish);
             if !bent.proof.faults.is_empty() && bent.is_roomier_than(&best) {
-                bent = slowed(problem, bent, wish);
+                bent = slowed(problem, bent, wish, cancel);
             }
             if bent.is_better_than(&best) {
                 best = bent;
@@ -88,14 +95,14 @@ fn bent(problem: &TransitionProblem, straight: Candidate, rounds: usize) -> Cand
 }
 
 /// The same ways as much slower as limits ask for: who drives at the limit already has nothing left for a bend.
-fn slowed(problem: &TransitionProblem, bent: Candidate, wish: Wish) -> Candidate {
+fn slowed(problem: &TransitionProblem, bent: Candidate, wish: Wish, cancel: Cancel<'_>) -> Candidate {
     let hasty = bent.proof.faults.iter().map(|fault| haste(&bent.transition.paths[fault.robot], problem));
     let factor = hasty.fold(1.0, f64::max) * 1.000_5;
     if factor > slowest(wish) {
         return bent;
     }
     let paths = bent.transition.paths.iter().map(|path| slower(path, Span::ZERO, factor)).collect();
-    Candidate::of_paths(problem, paths, bent.transition.goal_of, 1.0)
+    Candidate::of_paths(problem, paths, bent.transition.goal_of, 1.0, cancel)
 }
 
 /// How many times as slow a path must be to keep speed and acceleration, by its control points.

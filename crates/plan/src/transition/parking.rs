@@ -1,6 +1,7 @@
 //! Where robots wait that have nothing to show.
 
 use crate::TransitionProblem;
+use crate::cancel::Cancel;
 use lightbots_base::Vec2;
 use lightbots_show::Obstacle;
 use std::collections::BTreeMap;
@@ -14,6 +15,7 @@ const RINGS: i32 = 400;
 pub(super) fn with_spares(
     problem: &TransitionProblem,
     mut start_of: Vec<usize>,
+    cancel: Cancel<'_>,
 ) -> (TransitionProblem, Vec<usize>) {
     let mut whole = problem.clone();
     let mut shows = vec![false; problem.starts.len()];
@@ -30,7 +32,8 @@ pub(super) fn with_spares(
         whole.goals.push(problem.starts[spare]);
     }
     for &spare in &go {
-        let place = free_place(problem, &taken, problem.starts[spare]).unwrap_or(problem.starts[spare]);
+        let place =
+            free_place(problem, &taken, problem.starts[spare], cancel).unwrap_or(problem.starts[spare]);
         taken.add(place);
         whole.goals.push(place);
     }
@@ -72,7 +75,7 @@ impl Taken {
 }
 
 /// The nearest place on rings around `from` that is on the floor and clear of everything.
-fn free_place(problem: &TransitionProblem, taken: &Taken, from: Vec2) -> Option<Vec2> {
+fn free_place(problem: &TransitionProblem, taken: &Taken, from: Vec2, cancel: Cancel<'_>) -> Option<Vec2> {
     let (half, radius) = (problem.half_floor, problem.limits.radius_m);
     let step = radius.max(1e-3);
     let is_free = |place: Vec2| {
@@ -81,7 +84,8 @@ fn free_place(problem: &TransitionProblem, taken: &Taken, from: Vec2) -> Option<
             && problem.obstacles.iter().all(|thing| distance_to(thing, place) >= 2.0 * radius)
             && taken.is_clear(place)
     };
-    (1..RINGS).find_map(|ring| {
+    let mut rings = (1..RINGS).take_while(|_| !cancel.is_wanted());
+    rings.find_map(|ring| {
         let count = ring * 6;
         let place = |part: i32| {
             let angle = f64::from(part) / f64::from(count) * core::f64::consts::TAU;

@@ -6,6 +6,7 @@ use lightbots_show::Obstacle;
 
 use super::MARGIN_M;
 use crate::TransitionProblem;
+use crate::cancel::Cancel;
 
 /// Squares of the floor are a robot's radius over this wide.
 const SQUARES_A_RADIUS: f64 = 3.0;
@@ -114,7 +115,7 @@ pub(super) fn enough_m(problem: &TransitionProblem, (_, other): (Thing, Thing)) 
 
 impl Regions {
     /// The parts of a problem's floor; `None` where nothing stands on it, or it is too large to be looked at.
-    pub fn new(problem: &TransitionProblem) -> Option<Self> {
+    pub fn new(problem: &TransitionProblem, cancel: Cancel<'_>) -> Option<Self> {
         let half = problem.half_floor;
         let square_m = problem.limits.radius_m / SQUARES_A_RADIUS;
         let count = |half: f64| (2.0 * half / square_m).ceil();
@@ -139,7 +140,7 @@ impl Regions {
             shapes: things.chain(discs).collect(),
         };
         regions.gaps = regions.closed(problem);
-        regions.build_walls(problem.limits.radius_m * WALL_SHARE);
+        regions.build_walls(problem.limits.radius_m * WALL_SHARE, cancel);
         regions.fill();
         Some(regions)
     }
@@ -178,13 +179,14 @@ impl Regions {
         })
     }
 
-    fn build_walls(&mut self, thick_m: f64) {
-        for index in 0..self.shapes.len() {
+    fn build_walls(&mut self, thick_m: f64, cancel: Cancel<'_>) {
+        for index in (0..self.shapes.len()).take_while(|_| !cancel.is_wanted()) {
             let shape = self.shapes[index].1;
             self.wall(shape.min, shape.max, shape.round_m + thick_m, |place| shape.off_m(place) < thick_m);
         }
         let thick_m = self.square_m * GAP_SQUARES;
-        for Gap { ends: (from, to), .. } in self.gaps.clone() {
+        for Gap { ends: (from, to), .. } in self.gaps.clone().into_iter().take_while(|_| !cancel.is_wanted())
+        {
             let min = Vec2::new(from.x.min(to.x), from.y.min(to.y));
             let max = Vec2::new(from.x.max(to.x), from.y.max(to.y));
             self.wall(min, max, thick_m, |place| off_line(place, from, to) < thick_m);

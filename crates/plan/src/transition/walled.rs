@@ -5,6 +5,7 @@ use lightbots_base::Vec2;
 
 use super::regions::{Gap, Regions, Thing, enough_m};
 use crate::assignment::Choice;
+use crate::cancel::Cancel;
 use crate::{Stuck, TransitionProblem};
 
 /// Things named in a message.
@@ -23,8 +24,10 @@ pub(super) enum Walls {
 }
 
 /// Looks at a transition.
-pub(super) fn look(problem: &TransitionProblem) -> Walls {
-    let Some(regions) = Regions::new(problem).filter(|regions| regions.parts > 1) else { return Walls::Open };
+pub(super) fn look(problem: &TransitionProblem, cancel: Cancel<'_>) -> Walls {
+    let Some(regions) = Regions::new(problem, cancel).filter(|regions| regions.parts > 1) else {
+        return Walls::Open;
+    };
     let parts =
         |places: &[Vec2]| places.iter().map(|&place| regions.part(place)).collect::<Option<Vec<u32>>>();
     let (Some(starts), Some(goals)) = (parts(&problem.starts), parts(&problem.goals)) else {
@@ -36,7 +39,7 @@ pub(super) fn look(problem: &TransitionProblem) -> Walls {
     let scene = Scene { problem, regions, starts, goals };
     match scene.closed() {
         Some(stuck) => Walls::Closed(stuck),
-        None => scene.sent().map_or(Walls::Open, Walls::Apart),
+        None => scene.sent(cancel).map_or(Walls::Open, Walls::Apart),
     }
 }
 
@@ -140,7 +143,7 @@ impl Scene<'_> {
     }
 
     /// The start that goes to each goal, within each part.
-    fn sent(&self) -> Option<Vec<Option<usize>>> {
+    fn sent(&self, cancel: Cancel<'_>) -> Option<Vec<Option<usize>>> {
         let mut start_of = vec![None; self.goals.len()];
         for part in 0..self.regions.parts as u32 {
             let goals: Vec<usize> = (0..self.goals.len()).filter(|&goal| self.goals[goal] == part).collect();
@@ -154,8 +157,12 @@ impl Scene<'_> {
                 goals.iter().map(|&goal| self.pin(goal).and_then(rank)).collect();
             let at =
                 |places: &[Vec2], of: &[usize]| of.iter().map(|&index| places[index]).collect::<Vec<_>>();
-            let choice =
-                Choice::new(&at(&self.problem.starts, &starts), &at(&self.problem.goals, &goals), &pinned)?;
+            let choice = Choice::unless(
+                cancel,
+                &at(&self.problem.starts, &starts),
+                &at(&self.problem.goals, &goals),
+                &pinned,
+            )?;
             for (&goal, start) in goals.iter().zip(choice.least_squares().solve(0.0)?) {
                 start_of[goal] = Some(starts[start]);
             }
