@@ -6,7 +6,7 @@ use crate::operation::{MissingPolicy, Operation, Refusal, State};
 use crate::run::{Phase, Purpose, Run};
 use crate::stopping::Stopping;
 use lightbots_base::{Instant, RobotId, Span};
-use lightbots_show::Show;
+use lightbots_show::{Issue, Show, validate};
 use lightbots_wire::{Blink, Command, Topic};
 use std::sync::Arc;
 
@@ -94,6 +94,9 @@ impl Controller {
         }
         let last = if purpose == Purpose::Preview { frame } else { frames - 1 };
         self.enough(&show, frame..=last, missing)?;
+        if let Some(issue) = validate(&show).into_iter().find(Issue::is_error) {
+            return Err(Refusal::Unfit { issue: issue.message });
+        }
         self.failure = None;
         self.run = Some(Run::begin(&mut self.desk, now, show, purpose, frame, missing, self.looping));
         Ok(())

@@ -90,6 +90,11 @@ pub enum Refusal {
     NotConnected,
     /// No show is open.
     NoShow,
+    /// The show is not fit to be played.
+    Unfit {
+        /// What is wrong with it and what to do: the first error that validation finds, one line.
+        issue: String,
+    },
     /// The show has no such frame.
     NoSuchFrame {
         /// Asked for, counted from 0.
@@ -144,6 +149,7 @@ impl fmt::Display for Refusal {
         match self {
             Self::NotConnected => write!(f, "There is no broker: connect first."),
             Self::NoShow => write!(f, "No show is open: open one first."),
+            Self::Unfit { issue } => write!(f, "This show cannot be played: {issue}."),
             Self::NoSuchFrame { frame, frames } => {
                 write!(f, "There is no frame {}: the show has {frames}.", frame + 1)
             }
