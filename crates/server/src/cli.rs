@@ -102,6 +102,9 @@ pub struct RunArguments {
     /// A further name of this machine in the browser's address line, such as stage.local; may be repeated
     #[arg(long, value_name = "NAME[:PORT]")]
     pub host_name: Vec<String>,
+    /// How long a plan that a program asks the web app for may take, seconds
+    #[arg(long, value_name = "S", default_value_t = 30, value_parser = clap::value_parser!(u32).range(1..=86_400))]
+    pub plan_budget: u32,
     #[command(flatten)]
     pub mqtt: MqttArguments,
     /// Folder of the library of shows [default: lightbots in the user's data folder]

@@ -1,22 +1,43 @@
 //! Plans as JSON: for the screen, for `check` and for `plan`.
 
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use lightbots_api as api;
 use lightbots_base::Vec2;
-use lightbots_plan::{ShowOptions, ShowPlan, Transition};
+use lightbots_plan::{Cancelled, ShowOptions, ShowPlan, Transition};
 use lightbots_show::{Issue, Issues, Severity, Show, front_rows, robots_needed};
 
 use crate::numbers::rounded;
 
 /// Plans a show from its starting places. `found` is what reading and validating it showed.
 pub fn plan(show: &Show, found: &Issues) -> (ShowPlan, api::Plan) {
+    // Nobody gives it up.
+    plan_unless(show, found, &|| false).unwrap_or_default()
+}
+
+/// The same, given up as soon as `is_wanted` says so.
+pub fn plan_unless(
+    show: &Show,
+    found: &Issues,
+    is_wanted: &dyn Fn() -> bool,
+) -> Result<(ShowPlan, api::Plan), Cancelled> {
     let began = Instant::now();
     let starts = starts(show);
-    let plan = lightbots_plan::show(show, &starts, &ShowOptions::default());
+    let plan = lightbots_plan::show_unless(show, &starts, &ShowOptions::default(), is_wanted)?;
     let plan_ms = began.elapsed().as_secs_f64() * 1e3;
     let document = document(&plan, merge(found, &plan.issues), plan_ms);
-    (plan, document)
+    Ok((plan, document))
+}
+
+/// What is said of a show whose planning took too long: no part of a plan.
+pub fn cut_off(found: &Issues, budget: Duration) -> api::Plan {
+    let message = format!(
+        "planning took longer than {} s and was cut off: check the show on the command line, make it smaller, or start \
+         lightbots with a longer --plan-budget",
+        budget.as_secs()
+    );
+    let issues = found.iter().chain([&Issue::error("planning-cut-off", message)]).map(issue).collect();
+    api::Plan { issues, ..api::Plan::default() }
 }
 
 /// Where the robots of a show wait.
@@ -99,12 +120,13 @@ fn path(path: &lightbots_plan::Path) -> api::Path {
 /// What was found before planning, then what planning adds: it repeats some of it in other words.
 fn merge(found: &Issues, planned: &Issues) -> Issues {
     let known = |issue: &Issue| {
-        found.iter().any(|other| {
-            other.is_error()
-                && issue.frame.is_some()
-                && other.frame == issue.frame
-                && (issue.pixels.is_empty() || other.pixels.iter().any(|id| issue.pixels.contains(id)))
-        })
+        found.contains(issue)
+            || found.iter().any(|other| {
+                other.is_error()
+                    && issue.frame.is_some()
+                    && other.frame == issue.frame
+                    && (issue.pixels.is_empty() || other.pixels.iter().any(|id| issue.pixels.contains(id)))
+            })
     };
     found.iter().chain(planned.iter().filter(|issue| !known(issue))).cloned().collect()
 }

@@ -20,7 +20,7 @@ use crate::live::broker::Broker;
 use crate::live::cast::Cast;
 use crate::live::conductor::Handle;
 use crate::stop::Stop;
-use crate::web::{self, BrokerDesk, Exposure, Log, Shared};
+use crate::web::{self, BrokerDesk, Exposure, Log, Planner, Shared};
 use crate::{open_files, say, show_file};
 
 /// The example that is opened when no show is named.
@@ -88,7 +88,9 @@ async fn serve(arguments: &RunArguments, stop: &Stop, started: &mut Started) -> 
     let (settings, broker) = chosen(arguments, other, &own, &data);
     let (handle, conductor) = Handle::start(stop.clone());
     started.tasks.push(conductor);
-    let shared = Shared::new(handle.clone(), library, BrokerDesk::new(data, settings, embedded), names);
+    let planner = Planner::new(Duration::from_secs(arguments.plan_budget.into()));
+    let desk = BrokerDesk::new(data, settings, embedded);
+    let shared = Shared::new(handle.clone(), library, desk, names, planner);
     handle.connect(broker.clone()).await;
     open(&shared, name).await;
     let cast = Cast {

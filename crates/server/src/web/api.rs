@@ -5,13 +5,16 @@ use std::sync::Arc;
 use axum::Json;
 use axum::body::Bytes;
 use axum::extract::rejection::BytesRejection;
-use axum::extract::{Path, Query, State};
+use axum::extract::{ConnectInfo, Path, Query, State};
 use axum::http::{HeaderMap, StatusCode, header};
 use axum::response::{IntoResponse, Response};
 use lightbots_api::{Plan, Problem, ShowEntry};
+use lightbots_plan::Cancelled;
 use lightbots_show::{Format, read, validate, write};
 
 use super::Shared;
+use super::connection::Ends;
+use super::planner::CutOff;
 use crate::library::{Condition, LibraryError};
 use crate::plan_document;
 
@@ -129,10 +132,15 @@ pub async fn delete(
     Ok(StatusCode::NO_CONTENT)
 }
 
-/// `POST /api/check`
-pub async fn check(bytes: Result<Bytes, BytesRejection>) -> Answer<Json<Plan>> {
+/// `POST /api/check`: of each client one at a time, the newest.
+pub async fn check(
+    State(shared): State<Arc<Shared>>,
+    ConnectInfo(ends): ConnectInfo<Ends>,
+    bytes: Result<Bytes, BytesRejection>,
+) -> Answer<Json<Plan>> {
     let bytes = body(bytes)?;
-    let plan = beside(move || {
+    let budget = shared.planner.budget();
+    let plan = shared.planner.work(ends.remote.ip().to_canonical(), move |is_wanted| {
         let loaded = match read(&bytes, Some("json")) {
             Ok(loaded) => loaded,
             Err(error) => {
@@ -141,9 +149,19 @@ pub async fn check(bytes: Result<Bytes, BytesRejection>) -> Answer<Json<Plan>> {
         };
         let mut found = loaded.issues;
         found.extend(validate(&loaded.show));
-        plan_document::plan(&loaded.show, &found).1
+        match plan_document::plan_unless(&loaded.show, &found, is_wanted) {
+            Ok((_, plan)) => plan,
+            Err(Cancelled) => plan_document::cut_off(&found, budget),
+        }
     });
-    plan.await.map(Json)
+    match plan.await {
+        Ok(plan) => Ok(Json(plan)),
+        Err(CutOff::TimeUp) => Ok(Json(plan_document::cut_off(&Vec::new(), budget))),
+        Err(CutOff::Superseded) => {
+            Err(refuse(StatusCode::CONFLICT, "a newer request of this client took the place of this one"))
+        }
+        Err(CutOff::Failed) => Err(refuse(StatusCode::INTERNAL_SERVER_ERROR, "the server failed at this")),
+    }
 }
 
 /// Which format to convert to.

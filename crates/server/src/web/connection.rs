@@ -10,6 +10,8 @@ use tokio::net::{TcpListener, TcpStream};
 /// Ends of a connection.
 #[derive(Clone, Copy, Debug)]
 pub struct Ends {
+    /// Of the client.
+    pub remote: SocketAddr,
     /// Of this server: which of its addresses the client reached.
     pub local: SocketAddr,
 }
@@ -23,19 +25,19 @@ impl Listener for Connections {
 
     async fn accept(&mut self) -> (TcpStream, Ends) {
         loop {
-            let (stream, _) = Listener::accept(&mut self.0).await;
+            let (stream, remote) = Listener::accept(&mut self.0).await;
             // Without it a snapshot may wait for the one before it to be acknowledged.
             let _ = stream.set_nodelay(true);
             // One that has gone already has no address any more.
             if let Ok(local) = stream.local_addr() {
-                return (stream, Ends { local });
+                return (stream, Ends { remote, local });
             }
         }
     }
 
     fn local_addr(&self) -> io::Result<Ends> {
         let local = self.0.local_addr()?;
-        Ok(Ends { local })
+        Ok(Ends { remote: local, local })
     }
 }
 

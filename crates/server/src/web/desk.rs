@@ -1,6 +1,6 @@
 //! The show that is open on every screen, and its plan.
 
-use std::sync::Arc;
+use std::sync::{Arc, PoisonError};
 
 use axum::extract::ws::Utf8Bytes;
 use lightbots_api as api;
@@ -12,12 +12,16 @@ use crate::library::Kept;
 use crate::live::conductor::{Handle, News};
 use crate::plan_document;
 
+use super::planner::GiveUp;
+
 /// The open show. Clones share it.
 #[derive(Clone, Debug)]
 pub struct Desk {
     handle: Handle,
     shown: watch::Sender<Arc<Shown>>,
     plan: watch::Sender<Arc<api::Plan>>,
+    /// Gives up the plan that is being made, once it is replaced by another.
+    planning: Arc<std::sync::Mutex<GiveUp>>,
     /// Revision the controller has; held while it is changed.
     given: Arc<Mutex<u32>>,
 }
@@ -41,7 +45,7 @@ impl Desk {
         let nothing = Shown::new(0, None, None, Arc::default(), serde_json::Value::Null);
         let (shown, _) = watch::channel(Arc::new(nothing));
         let (plan, _) = watch::channel(Arc::default());
-        Self { handle, shown, plan, given: Arc::default() }
+        Self { handle, shown, plan, planning: Arc::default(), given: Arc::default() }
     }
 
     /// Puts a show on the desk, for the controller and for every screen, and begins to plan it.
@@ -106,8 +110,13 @@ impl Desk {
 
     fn begin_plan(&self, revision: u32, show: Arc<Show>) {
         let sender = self.plan.clone();
+        let give_up = GiveUp::default();
+        let is_given_up = give_up.asked();
+        // The plan before it is not wanted any more.
+        *self.planning.lock().unwrap_or_else(PoisonError::into_inner) = give_up;
         tokio::task::spawn_blocking(move || {
-            let (_, mut plan) = plan_document::plan(&show, &validate(&show));
+            let planned = plan_document::plan_unless(&show, &validate(&show), &|| is_given_up.get());
+            let Ok((_, mut plan)) = planned else { return };
             plan.revision = revision;
             sender.send_if_modified(|current| {
                 let wanted = current.revision == revision;

@@ -10,6 +10,7 @@ mod operate;
 mod origin;
 mod pages;
 mod picture;
+mod planner;
 mod socket;
 mod sums;
 mod uploads;
@@ -25,6 +26,7 @@ pub use broker::BrokerDesk;
 pub use desk::{Desk, Shown};
 pub use log::Log;
 pub use names::{Exposure, Names};
+pub use planner::Planner;
 
 use crate::failure::Failure;
 use crate::library::Library;
@@ -41,6 +43,8 @@ pub struct Shared {
     pub log: Log,
     pub pictures: Pictures,
     pub broker: BrokerDesk,
+    /// Plans on request.
+    pub planner: Planner,
     /// Under which names it is served.
     pub names: Names,
     /// How many simulated robots there are.
@@ -50,7 +54,13 @@ pub struct Shared {
 
 impl Shared {
     /// Everything a screen's server needs; starts the tasks that watch the conductor.
-    pub fn new(handle: Handle, library: Library, broker: BrokerDesk, names: Names) -> Arc<Self> {
+    pub fn new(
+        handle: Handle,
+        library: Library,
+        broker: BrokerDesk,
+        names: Names,
+        planner: Planner,
+    ) -> Arc<Self> {
         let log = Log::new();
         tokio::spawn(log.clone().follow(handle.news()));
         let desk = Desk::new(handle.clone());
@@ -58,7 +68,7 @@ impl Shared {
         let pictures = Pictures::new();
         tokio::spawn(pictures.clone().follow(handle.clone(), desk.clone()));
         let (screens, simulated) = (AtomicU32::new(0), Arc::default());
-        Arc::new(Self { handle, library, desk, log, pictures, broker, names, simulated, screens })
+        Arc::new(Self { handle, library, desk, log, pictures, broker, names, planner, simulated, screens })
     }
 }
 
