@@ -210,3 +210,21 @@ fn a_robot_is_simulated_only_while_its_last_report_says_so() {
     assert!(said("r7 0.1 0.2 state=idle sim=1"));
     assert!(!said("r7 0.1 0.2"), "an original robot is real");
 }
+
+#[test]
+fn a_show_that_validation_rejects_is_not_begun() {
+    let mut unfit = show(2, 2, 0.0);
+    unfit.frames[1].pixels[1].at.y = 1e308;
+    let mut world = World::ready(2, 0, unfit);
+    for operation in [
+        Operation::Play { from: 0, missing: MissingPolicy::LeaveOut },
+        Operation::Preview { frame: 0, missing: MissingPolicy::Refuse },
+    ] {
+        let refused = world.operate(operation).unwrap_err();
+        assert!(matches!(refused, Refusal::Unfit { .. }), "{refused:?}");
+        assert!(
+            refused.to_string().contains("frame 2") && refused.to_string().contains("1e308"),
+            "{refused}"
+        );
+    }
+}

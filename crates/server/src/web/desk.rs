@@ -164,4 +164,19 @@ mod tests {
         };
         assert_eq!((&*shown("").name, &*shown("Heart").name), ("heart 2", "Heart"));
     }
+
+    #[tokio::test]
+    async fn the_plan_of_a_show_that_was_replaced_is_given_up() {
+        let (handle, _conductor) = Handle::start(crate::stop::Stop::install());
+        let desk = Desk::new(handle);
+        let kept = || Kept { bytes: b"{}".to_vec(), show: Show::default(), etag: String::new() };
+        let is_given_up = || desk.planning.lock().unwrap().asked();
+        desk.open("one".into(), kept()).await;
+        let of_first = is_given_up();
+        assert!(!of_first.get());
+        desk.open("two".into(), kept()).await;
+        assert!(of_first.get() && !is_given_up().get());
+        let mut plans = desk.watch_plan();
+        plans.wait_for(|plan| plan.revision == 2 && !plan.planning).await.unwrap();
+    }
 }
