@@ -2,7 +2,7 @@
 //! by name, a different one in every frame.
 
 use lightbots_base::{Rgb, Vec2};
-use lightbots_show::{Frame, Identity, Pixel, Show, Stage};
+use lightbots_show::{Frame, Identity, Pixel, Show, Stage, robots_needed};
 use lightbots_sim::{Dice, Purpose};
 
 /// The least distance between two places, metres.
@@ -42,7 +42,12 @@ pub fn scene(number: u64) -> Scene {
     });
     let frames = frames.collect();
     let starts = places(&mut dice, robots);
-    Scene { show: Show { identity, frames, starts: Some(starts.clone()), ..Show::default() }, starts }
+    let mut show = Show { identity, frames, starts: Some(starts.clone()), ..Show::default() };
+    // A fleet that lacks robots plays a show that has starts for all.
+    if starts.len() < robots_needed(&show) {
+        show.starts = None;
+    }
+    Scene { show, starts }
 }
 
 fn any_or_fixed(dice: &mut Dice) -> Identity {
