@@ -65,6 +65,10 @@ pub struct Inputs {
     pub fix: Option<Fix>,
     /// Charge of the battery, percent.
     pub battery: Option<u8>,
+    /// How far the world that its wheels are in lags behind its own clock; negative: runs ahead. Zero on a board. A
+    /// simulation that is slower than real time lags: routes go by the world's time then, so that the robots of one
+    /// simulation are at the same path time; the show clock, the link and the light go by the own clock.
+    pub lag: Span,
     /// Gaps between its rim and what is nearest, metres, as eight proximity sensors 45° apart see them,
     /// counter-clockwise from the front; infinite where nothing is in sight. `None`: it has none.
     pub proximity_m: Option<[f32; 8]>,

@@ -51,7 +51,10 @@ pub struct Robot<S = Shelf> {
     /// Ends with what each step looks at.
     config: Config,
     now: Instant,
+    /// When the latest step was, in the time of the world that the wheels are in.
     last_step: Option<Instant>,
+    /// How far that world lags behind the own clock, as of the latest step.
+    lag: Span,
     state: RobotState,
     shown: Rgb,
     battery: Option<u8>,
@@ -113,6 +116,7 @@ impl<S: BorrowMut<Shelf>> Robot<S> {
             pauses: false,
             wary: false,
             last_step: None,
+            lag: Span::ZERO,
             routes: Routes::new(),
             shelf,
             doubts: Doubts { lost: true, for_good: true, blind: true },
@@ -129,7 +133,7 @@ impl<S: BorrowMut<Shelf>> Robot<S> {
         self.now = self.now.max(now);
         self.supervisor.hear(now);
         // A route whose moment has come is under way, even if no step saw it yet: the next one must not replace it.
-        if self.clock.show_time(now).is_some_and(|show| self.routes.begin_due(show, self.shelf.borrow())) {
+        if self.route_time(now).is_some_and(|show| self.routes.begin_due(show, self.shelf.borrow())) {
             self.seek = None;
         }
         let mut commands = commands(payload);
@@ -152,17 +156,19 @@ impl<S: BorrowMut<Shelf>> Robot<S> {
         }
     }
 
-    /// One step, each 16 ms, at `now` of its own clock. Steps further apart than 0.1 s are gaps: the wheels may have
-    /// turned meanwhile, but nothing is planned over them.
+    /// One step, each 16 ms, at `now` of its own clock. Steps further apart than 0.1 s of the wheels' world are gaps: the
+    /// wheels may have turned meanwhile, but nothing is planned over them.
     pub fn step(&mut self, now: Instant, inputs: &Inputs) -> Outputs {
-        let took = self.take_time(now);
-        self.sense(now, inputs, took.as_secs());
+        self.lag = inputs.lag;
+        let world = now - inputs.lag;
+        let took = self.take_time(now, world);
+        self.sense(world, inputs, took.as_secs());
         self.doubts = Doubts {
-            lost: self.estimate.lost(now),
-            for_good: self.estimate.lost_for_good(now),
+            lost: self.estimate.lost(world),
+            for_good: self.estimate.lost_for_good(world),
             blind: self.is_blind(),
         };
-        let show = self.clock.show_time(now);
+        let show = self.route_time(now);
         if show.is_some_and(|show| self.routes.begin_due(show, self.shelf.borrow())) {
             self.seek = None;
         }
@@ -172,7 +178,7 @@ impl<S: BorrowMut<Shelf>> Robot<S> {
         self.stall.tell(wheels_radps);
         self.state = self.what_it_does(show);
         self.light.say(now, self.trouble(now));
-        self.shown = self.light.step(now, show);
+        self.shown = self.light.step(now, self.clock.show_time(now));
         self.speak(now);
         Outputs { wheels_radps, light: self.shown }
     }
@@ -185,20 +191,20 @@ impl<S: BorrowMut<Shelf>> Robot<S> {
     }
 
     /// How long the step took; messages may have come in between.
-    fn take_time(&mut self, now: Instant) -> Span {
+    fn take_time(&mut self, now: Instant, world: Instant) -> Span {
         if self.last_step.is_none() {
             self.outbox.arrive_new(now);
         }
-        let took = self.last_step.map_or(Span::ZERO, |last| now - last);
-        self.last_step = Some(now);
+        let took = self.last_step.map_or(Span::ZERO, |last| world - last);
+        self.last_step = Some(world);
         self.now = now;
         took.clamp(Span::ZERO, LONGEST_STEP)
     }
 
-    fn sense(&mut self, now: Instant, inputs: &Inputs, dt: f64) {
+    fn sense(&mut self, world: Instant, inputs: &Inputs, dt: f64) {
         let most = self.config.limits.wheel_radps * LONGEST_STEP_S * 2.0;
         if inputs.wheel_turns_rad.iter().all(|turn| turn.abs() <= most) {
-            self.estimate.advance(now, inputs.wheel_turns_rad, &mut self.shelf.borrow_mut().trail);
+            self.estimate.advance(world, inputs.wheel_turns_rad, &mut self.shelf.borrow_mut().trail);
             let [left, right] = inputs.wheel_turns_rad;
             let way_m = 0.5 * (left + right) * self.config.limits.wheel_radius_m;
             let turn_rad = (right - left) * self.config.limits.wheel_radius_m / self.config.limits.track_m;
@@ -208,15 +214,15 @@ impl<S: BorrowMut<Shelf>> Robot<S> {
                 self.wary = true;
             }
             if self.stall.look(inputs.wheel_turns_rad, dt) {
-                self.supervisor.fault(now);
+                self.supervisor.fault(self.now);
             }
         } else {
-            self.supervisor.fault(now);
+            self.supervisor.fault(self.now);
         }
         if let Some(fix) = &inputs.fix {
-            self.estimate.correct(now, fix, &self.shelf.borrow().trail);
+            self.estimate.correct(world, fix, &self.shelf.borrow().trail);
             if self.estimate.take_senseless() {
-                self.supervisor.fault(now);
+                self.supervisor.fault(self.now);
             }
         }
         if let Some(percent) = inputs.battery {

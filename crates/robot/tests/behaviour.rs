@@ -33,6 +33,31 @@ fn worst_off(plant: &mut Plant, route: &Route, held: Span) -> (f64, f64) {
 }
 
 #[test]
+fn a_world_that_paused_leaves_its_robot_on_its_route_and_the_show_clock_right() {
+    let mut plant = Plant::ready(START, 0.0, Flaws::NONE, 3);
+    let route = straight(1, START, END);
+    let at = send(&mut plant, &route);
+    let path = PathRef::new(route.start, &route.pieces);
+    for pause_ms in [0, 400, 900] {
+        // The world stands while the robot's own clock and the show clock go on, as in a simulation that pauses.
+        plant.now += Span::from_millis(pause_ms);
+        plant.lag += Span::from_millis(pause_ms);
+        // Time questions are asked and answered meanwhile: the filter must not count the pause as well.
+        for _ in 0..50 {
+            plant.step();
+            let due = path.at_instant(at, plant.show() - plant.lag).position;
+            let off_m = plant.at.distance(due);
+            assert!(off_m < 0.004, "after a pause of {pause_ms} ms it is {off_m} m off");
+            let show = plant.robot.show_time(plant.now).expect("it is synchronised");
+            assert!((show - plant.show()).0.abs() < 3_000, "{pause_ms}: the show clock is off");
+        }
+        assert_eq!(plant.robot.state(), RobotState::Driving);
+    }
+    plant.run(6.0);
+    assert_eq!(plant.heard(Topic::Arrival).len(), 1);
+}
+
+#[test]
 fn a_target_is_reached_from_every_side_and_said_once() {
     for turn in 0..12 {
         let heading = f64::from(turn) * 0.55 - 3.1;

@@ -1,7 +1,7 @@
 //! A robot among senseless messages and sensors: it never panics, its wheels stay within bounds, and the same inputs give
 //! the same outputs.
 
-use lightbots_base::{Instant, RobotId, Vec2};
+use lightbots_base::{Instant, RobotId, Span, Vec2};
 use lightbots_robot::{Config, Fix, Inputs, Message, Robot};
 use lightbots_wire::Topic;
 
@@ -47,6 +47,7 @@ impl Dice {
         Inputs {
             wheel_turns_rad: [self.number(), self.number()],
             fix: (self.roll(3) > 0).then_some(fix),
+            lag: Span(self.roll(4_000_000) as i64 - 1_000_000),
             battery: Some(self.roll(256) as u8),
             proximity_m: (self.roll(2) > 0).then(|| core::array::from_fn(|_| self.number() as f32 * 0.1)),
         }

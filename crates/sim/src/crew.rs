@@ -1,6 +1,6 @@
 //! Robots: the real firmware core in simulated bodies, each with its own clock.
 
-use lightbots_base::{Instant, Pose, Rgb, RobotId, Vec2};
+use lightbots_base::{Instant, Pose, Rgb, RobotId, Span, Vec2};
 use lightbots_robot::{Config, Fix, Inputs, Message, Processor, Robot, Shelf};
 use lightbots_show::Stage;
 use lightbots_wire::Topic;
@@ -276,6 +276,7 @@ impl Crew {
             fix: fix.map(|fix| Fix { at: fix.at, heading: Some(fix.heading) }),
             battery: Some(member.battery.saturating_sub(drained)),
             proximity_m: Some(world.proximity_m(index)),
+            lag: Span::ZERO,
         };
         let outputs = robot.step(member.clock.own(now), &inputs);
         errors.look_again(steps, index, robot, world);

@@ -5,7 +5,7 @@ use lightbots_link::{BrokerUrl, Link, LinkConfig, LinkEvent, Sender, robot_clien
 use lightbots_robot::{Config, Fix, Inputs, Robot};
 use lightbots_wire::Topic;
 
-use crate::pace::Pace;
+use crate::pace::{Pace, Tick};
 use crate::{Body, Library, MissingDevice};
 
 /// What a robot of this program needs to know.
@@ -40,14 +40,20 @@ pub fn drive(library: &Library, settings: &Settings) -> Result<(), MissingDevice
     let sender = link.sender();
     let (mut pace, began) = (Pace::default(), std::time::Instant::now());
     while library.step(step_ms) {
-        let now = pace.now(library.time_s(), began.elapsed());
-        listen(&mut robot, &mut link, now);
-        let outputs = robot.step(now, &inputs(&mut body));
-        body.set_wheels(outputs.wheels_radps);
+        // Read first: what a pause of the simulation left in the queue is old news by then.
+        listen(&mut robot, &mut link, own(began.elapsed()));
+        let Tick { now, lag, rate } = pace.tick(library.time_s(), began.elapsed(), robot.off_m().is_some());
+        let outputs = robot.step(now, &Inputs { lag, ..inputs(&mut body) });
+        body.set_wheels(outputs.wheels_radps.map(|radps| radps * rate));
         body.set_light(outputs.light);
         speak(&mut robot, &sender);
     }
     Ok(())
+}
+
+/// The robot's own clock.
+fn own(passed: std::time::Duration) -> Instant {
+    Instant::from_secs(passed.as_secs_f64())
 }
 
 /// The smallest multiple of the world's step that is not below the core's.
@@ -78,7 +84,7 @@ fn inputs(body: &mut Body<'_>) -> Inputs {
     let ([x, y], heading) = body.fix();
     let fix = (x.is_finite() && y.is_finite())
         .then(|| Fix { at: Vec2::new(x, y), heading: heading.is_finite().then_some(heading) });
-    Inputs { wheel_turns_rad: body.wheel_turns_rad(), fix, battery: None, proximity_m: body.gaps_m() }
+    Inputs { wheel_turns_rad: body.wheel_turns_rad(), fix, proximity_m: body.gaps_m(), ..Inputs::default() }
 }
 
 fn listen(robot: &mut Robot, link: &mut Link, now: Instant) {

@@ -19,7 +19,7 @@ impl<S: BorrowMut<Shelf>> Robot<S> {
     }
 
     pub(super) fn place(&self) -> Option<Vec2> {
-        (!self.is_lost(self.now)).then(|| self.estimate.at())
+        (!self.is_lost(self.now - self.lag)).then(|| self.estimate.at())
     }
 
     /// What it is doing.
@@ -30,6 +30,11 @@ impl<S: BorrowMut<Shelf>> Robot<S> {
     /// The show clock at `now` of its own clock; `None` until it is synchronised.
     pub fn show_time(&self, now: Instant) -> Option<Instant> {
         self.clock.show_time(now)
+    }
+
+    /// The show clock by which its route goes on: that of the world its wheels are in.
+    pub(super) fn route_time(&self, now: Instant) -> Option<Instant> {
+        self.clock.show_time(now).map(|show| show - self.lag)
     }
 
     /// How far it is from where its route says, metres; `None` without a route under way.
@@ -67,7 +72,7 @@ impl<S: BorrowMut<Shelf>> Robot<S> {
 
     /// Whether fixes that should have come stay away.
     pub(super) fn is_blind(&self) -> bool {
-        self.estimate.blind(self.now, self.config.fix_pace * 3 + OVERDUE)
+        self.estimate.blind(self.now - self.lag, self.config.fix_pace * 3 + OVERDUE)
     }
 
     /// Lets a processor fetch what [`fetch`](Self::fetch) looks at itself: some turns before that.

@@ -35,7 +35,7 @@ impl<S: BorrowMut<Shelf>> Robot<S> {
                 self.outbox.report_status();
             }
             Command::Start { seq, at } => {
-                if self.routes.start(seq, at, self.clock.show_time(now)) || personal {
+                if self.routes.start(seq, at, self.route_time(now)) || personal {
                     self.outbox.report_status();
                 }
             }

@@ -36,6 +36,8 @@ pub struct Plant {
     pub id: RobotId,
     /// The robot's own clock, which here is 5 s behind the show clock.
     pub now: Instant,
+    /// How far this world lags behind the robot's own clock.
+    pub lag: Span,
     /// Where it truly is.
     pub at: Vec2,
     pub heading: f64,
@@ -63,6 +65,7 @@ impl Plant {
             robot,
             id,
             now: Instant::ZERO,
+            lag: Span::ZERO,
             at,
             heading,
             flaws,
@@ -116,7 +119,8 @@ impl Plant {
         let turns = self.wheels.map(|rate| rate * dt);
         // What is said now takes effect at the next step.
         self.wheels = self.last.wheels_radps;
-        let inputs = Inputs { wheel_turns_rad: turns, fix: self.fix(), battery: Some(80), proximity_m: None };
+        let (fix, lag) = (self.fix(), self.lag);
+        let inputs = Inputs { wheel_turns_rad: turns, fix, battery: Some(80), lag, ..Inputs::default() };
         self.last = self.robot.step(self.now, &inputs);
         self.drain();
     }
