@@ -94,6 +94,11 @@ impl<'a> PathRef<'a> {
         self.pieces.last().map_or(self.start, |piece| piece.end)
     }
 
+    /// Whether it leads nowhere: its pieces, if it has any, stay at its start.
+    pub fn rests(&self) -> bool {
+        self.timed().all(|(_, _, piece)| piece.is_rest(self.start))
+    }
+
     /// The motion `t` after the path's start. Walks the pieces: use a cursor of your own where that is too slow.
     pub fn at(&self, t: Span) -> Motion {
         let mut start = self.start;

@@ -7,7 +7,7 @@ use crate::leg::Kind;
 use crate::run::{Phase, Purpose, Run, Standing};
 use crate::watch::MISSED_M;
 use lightbots_base::{Instant, Span, Vec2};
-use lightbots_wire::{Command, Route, Topic};
+use lightbots_wire::{Command, RobotState, Route, Topic};
 
 /// The START that is under way is repeated, so that robots know the link is alive.
 const HEARTBEAT: Span = Span::from_millis(500);
@@ -106,7 +106,22 @@ impl Run {
             }
         }
         self.pump_upload(desk, now);
+        self.arrive_before_start(desk, now);
         self.end_leg_if_all_arrived(desk, now);
+    }
+
+    /// Robots that had ended the leg's route before it was under way here will not say so again.
+    fn arrive_before_start(&mut self, desk: &mut Desk, now: Instant) {
+        let Some(leg) = self.current.as_ref().filter(|leg| leg.kind == Kind::Routes) else { return };
+        let there = |seat: &usize| {
+            let robot = desk.fleet.robot(self.seats[*seat].robot);
+            let ended = robot.state == Some(RobotState::Idle) && robot.route == leg.seq;
+            let near = |at: Vec2| is_there(at, leg.moves[*seat].goal, desk.config.arrival_tolerance_m);
+            self.is_awaited(*seat) && ended && robot.at.is_some_and(near)
+        };
+        for seat in (0..leg.moves.len()).filter(there).collect::<Vec<usize>>() {
+            self.arrive(desk, now, seat);
+        }
     }
 
     /// Originals learn their lights: all at once, as they leave.

@@ -25,7 +25,9 @@ impl Run {
         };
         if topic == Topic::Arrival {
             let drives = |run: &Self| run.current.as_ref().is_some_and(|leg| leg.seq == details.route);
-            if !matches!(self.phase, Phase::Driving(_)) || drives(self) {
+            if self.began_alone(seat, details) {
+                self.replan_with(desk, now, seat);
+            } else if !matches!(self.phase, Phase::Driving(_)) || drives(self) {
                 self.hear_arrival(desk, now, seat, report.at);
             }
             return;
@@ -50,7 +52,7 @@ impl Run {
         match details.state {
             RobotState::Faulty => self.drop_out(desk, now, seat, Trouble::Faulty),
             RobotState::Lost => self.drop_out(desk, now, seat, Trouble::Lost),
-            _ if self.began_alone(details) => self.replan_with(desk, now, seat),
+            _ if self.began_alone(seat, details) => self.replan_with(desk, now, seat),
             _ if heard.restarted => {
                 self.upload_again(now, seat);
                 self.pump_upload(desk, now);

@@ -41,8 +41,6 @@ pub(crate) struct Start {
     /// When those who did not confirm are asked by name, and how often that was done.
     ask_at: Instant,
     asked: usize,
-    /// Seats that confirmed this moment.
-    confirmed: usize,
     put_off: u32,
     /// All had confirmed when it was looked at.
     checked: bool,
@@ -89,7 +87,6 @@ impl Run {
             repeat_at: now + REPEAT,
             ask_at: now + lead * ASKS[0] / 100,
             asked: 0,
-            confirmed: 0,
             put_off: 0,
             checked: false,
         };
@@ -99,34 +96,37 @@ impl Run {
 
     /// A report says when the robot's route starts.
     pub fn hear_start(&mut self, seat: usize, route: u32, starts: Option<Instant>) {
-        let Phase::Starting(start) = &mut self.phase else { return };
-        let known = &mut self.seats[seat];
-        if route != start.seq || starts != Some(start.at) || known.starts == starts {
-            return;
+        let Phase::Starting(start) = &self.phase else { return };
+        if route == start.seq && starts == Some(start.at) {
+            self.seats[seat].starts = starts;
         }
-        known.starts = starts;
-        start.confirmed += 1;
     }
 
-    /// Whether a robot has begun at a moment that was put off: it did not hear so in time.
-    pub fn began_alone(&self, details: &Details) -> bool {
+    /// Whether a robot has begun at a moment that was put off, and may have ended its route since: it did not receive the
+    /// later moment in time. Where its route leads nowhere that makes no difference.
+    pub fn began_alone(&self, seat: usize, details: &Details) -> bool {
         let Phase::Starting(start) = &self.phase else { return false };
-        details.state == RobotState::Driving && details.route == start.seq && details.starts != Some(start.at)
+        let elsewhen = match details.state {
+            RobotState::Driving | RobotState::Held => details.starts != Some(start.at),
+            RobotState::Idle => self.seats[seat].starts != Some(start.at),
+            _ => false,
+        };
+        let path = self.queue.front().and_then(|leg| leg.path(seat));
+        elsewhen && details.route == start.seq && path.is_some_and(|path| !path.as_ref().rests())
     }
 
     /// Time passes while START is stated.
     pub fn tick_start(&mut self, desk: &mut Desk, now: Instant) {
         let Phase::Starting(mut start) = self.phase.clone() else { return };
-        let needed = self.queue.front().map_or(0, |leg| leg.movers);
         if now >= start.ask_at {
             start.asked += 1;
             let lead = self.start_lead(desk);
             start.ask_at =
                 ASKS.get(start.asked).map_or(Instant::FAR, |share| start.stated + lead * *share / 100);
-            self.ask_unconfirmed(desk, &start, needed);
+            self.ask_unconfirmed(desk, &start);
         }
         if now >= start.check_at && !start.checked {
-            start.checked = start.confirmed >= needed;
+            start.checked = self.unconfirmed(desk, &start).is_empty();
             if !start.checked {
                 self.put_off(desk, now, &mut start);
             }
@@ -145,19 +145,30 @@ impl Run {
         self.phase = Phase::Starting(start);
     }
 
-    /// Seats that did not confirm the stated moment.
-    fn unconfirmed(&self, at: Instant) -> Vec<usize> {
+    /// Seats that did not answer to the stated moment. One whose route leads nowhere has answered as soon as it reports
+    /// that it has begun or ended it: its clock was ahead of a moment that was put off, and no later START changes
+    /// anything for it.
+    fn unconfirmed(&self, desk: &Desk, start: &Start) -> Vec<usize> {
         let Some(leg) = self.queue.front() else { return Vec::new() };
-        let starts = |seat: &usize| !self.seats[*seat].out && leg.path(*seat).is_some();
-        (0..self.seats.len()).filter(starts).filter(|&seat| self.seats[seat].starts != Some(at)).collect()
+        let owes = |&seat: &usize| {
+            let (known, Some(path)) = (&self.seats[seat], leg.path(seat)) else { return false };
+            let robot = desk.fleet.robot(known.robot);
+            let begun =
+                matches!(robot.state, Some(RobotState::Driving | RobotState::Held | RobotState::Idle));
+            let rests_already = begun && robot.route == start.seq && path.as_ref().rests();
+            !known.out && known.starts != Some(start.at) && !rests_already
+        };
+        (0..self.seats.len()).filter(owes).collect()
     }
 
     /// Asks the few by name whose answer may be lost.
-    fn ask_unconfirmed(&mut self, desk: &mut Desk, start: &Start, needed: usize) {
-        if needed - start.confirmed.min(needed) > FEW.max(needed / 8) {
+    fn ask_unconfirmed(&mut self, desk: &mut Desk, start: &Start) {
+        let unconfirmed = self.unconfirmed(desk, start);
+        let starters = self.queue.front().map_or(0, |leg| leg.movers);
+        if unconfirmed.len() > FEW.max(starters / 8) {
             return;
         }
-        for seat in self.unconfirmed(start.at) {
+        for seat in unconfirmed {
             let topic = Topic::Robot(desk.fleet.robot(self.seats[seat].robot).id);
             desk.outbox.say(topic, &[Command::Start { seq: start.seq, at: start.at }, Command::Status]);
         }
@@ -166,7 +177,7 @@ impl Run {
     /// A later moment for all; who did not confirm is told by name, or gets the route again.
     fn put_off(&mut self, desk: &mut Desk, now: Instant, start: &mut Start) {
         start.put_off += 1;
-        let deaf = self.unconfirmed(start.at);
+        let deaf = self.unconfirmed(desk, start);
         if start.put_off > PUT_OFF_MAX {
             for seat in deaf {
                 self.drop_out(desk, now, seat, Trouble::Deaf);
@@ -183,7 +194,6 @@ impl Run {
         let lead = self.start_lead(desk);
         start.at = now + lead;
         start.check_at = start.at - self.check_ahead();
-        start.confirmed = 0;
         start.repeat_at = now + REPEAT_PUT_OFF;
         start.ask_at = now + lead * ASKS[0] / 100;
         start.asked = 0;

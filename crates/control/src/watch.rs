@@ -55,6 +55,7 @@ impl Run {
         }
         let (began, ends, seq) = (drive.began, drive.ends, leg.seq);
         let goal = leg.moves[seat].goal;
+        let rested = details.route == seq && leg.path(seat).is_some_and(|path| path.as_ref().rests());
         match details.state {
             RobotState::Lost => self.drop_out(desk, now, seat, Trouble::Lost),
             RobotState::Faulty => self.drop_out(desk, now, seat, Trouble::Faulty),
@@ -67,7 +68,8 @@ impl Run {
                 let at = desk.fleet.robot(self.seats[seat].robot).at;
                 let there = at.is_some_and(|at| is_there(at, goal, desk.config.arrival_tolerance_m));
                 let waits = details.state == RobotState::Ready && details.route == seq;
-                if there && now + EARLY >= ends && !waits {
+                // Whether one that only had to rest began too early makes no difference.
+                if there && (now + EARLY >= ends || rested) && !waits {
                     self.arrive(desk, now, seat);
                 } else if now + EARLY < ends && now > began + OLD_NEWS {
                     self.replan_with(desk, now, seat);

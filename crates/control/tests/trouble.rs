@@ -3,8 +3,9 @@
 mod fleet;
 
 use fleet::{Dice, World, show};
-use lightbots_base::Vec2;
+use lightbots_base::{Span, Vec2};
 use lightbots_control::{EventKind, MissingPolicy, Operation, Outcome, Refusal, State, Trouble};
+use lightbots_show::Identity;
 use lightbots_wire::Blocked;
 use std::sync::Arc;
 
@@ -21,6 +22,51 @@ fn a_second_under_way() -> World {
     world.run_until(10.0, started);
     world.run_for(1.0);
     world
+}
+
+/// Eight robots in the first of two frames, in the second of which those beyond `movers` stay where they are. The START
+/// of the drive there is put off because the first robot that has to move does not receive it, while the clocks of the
+/// `early` robots are so far ahead that they begin before they learn that.
+fn put_off_while_some_are_early(movers: usize, early: std::ops::Range<usize>) -> World {
+    let mut show = show(1, 8, 3.0);
+    let mut second = show.frames[0].clone();
+    second.pixels[..movers].iter_mut().for_each(|pixel| pixel.at -= Vec2::new(0.0, 0.6));
+    show.frames.push(second);
+    show.identity = Identity::Fixed;
+    let mut world = World::ready(8, 0, show.clone());
+    world.play();
+    world.run_until(20.0, |kind| matches!(kind, EventKind::FrameReached { .. }));
+    world.run_for(1.0);
+    let on = |world: &World, pixel: usize| {
+        let there = |robot: &fleet::robot::Robot| robot.at.distance(show.frames[0].pixels[pixel].at) < 0.01;
+        world.robots.iter().position(there).expect("each pixel has a robot")
+    };
+    for pixel in early {
+        let robot = on(&world, pixel);
+        world.robots[robot].ahead = Span::from_millis(450);
+    }
+    world.deaf = vec![on(&world, 0)];
+    world.run_for(2.3);
+    world.deaf.clear();
+    world.robots.iter_mut().for_each(|robot| robot.ahead = Span::ZERO);
+    world
+}
+
+#[test]
+fn robots_that_have_ended_an_empty_route_do_not_keep_the_others_from_starting() {
+    let mut world = put_off_while_some_are_early(1, 1..8);
+    let started = world.run_until(5.0, started);
+    assert_eq!(world.run_to_end(20.0), (Outcome::Finished, 2, 0), "{}", world.story());
+    assert_eq!(world.count(|kind| matches!(kind, EventKind::Waiting { .. })), 0, "{}", world.story());
+    assert!(matches!(started.kind, EventKind::TransitionStarted { frame: 1, .. }));
+}
+
+#[test]
+fn a_robot_that_drove_its_route_alone_is_planned_for_anew() {
+    let mut world = put_off_while_some_are_early(2, 1..2);
+    let waits = |kind: &EventKind| matches!(kind, EventKind::Waiting { why: Trouble::Cut, .. });
+    assert!(world.count(waits) > 0, "{}", world.story());
+    assert_eq!(world.run_to_end(20.0), (Outcome::Finished, 2, 0), "{}", world.story());
 }
 
 #[test]

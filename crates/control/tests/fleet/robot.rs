@@ -21,6 +21,8 @@ pub struct Robot {
     pub dead: bool,
     /// Stands still whatever it is told, and says so.
     pub stuck: bool,
+    /// How far its idea of the show clock is ahead.
+    pub ahead: Span,
     /// It is not sure where it is.
     pub unsure: bool,
     /// Says that something stands in its way.
@@ -51,6 +53,7 @@ impl Robot {
             original,
             dead: false,
             stuck: false,
+            ahead: Span::ZERO,
             unsure: false,
             blocked: None,
             target: None,
@@ -194,12 +197,14 @@ impl Robot {
             TimeQuestion { id: self.id, asked: now }.encode(&mut text).unwrap();
             self.said.push((Topic::Time, text.into_bytes()));
         }
-        if let Some((route, Some(at))) = self.kept.take_if(|(_, starts)| starts.is_some_and(|at| at <= now)) {
+        let show = now + self.ahead;
+        if let Some((route, Some(at))) = self.kept.take_if(|(_, starts)| starts.is_some_and(|at| at <= show))
+        {
             self.running = Some((route, at));
             (self.held, self.hold_since) = (Span::ZERO, None);
         }
         self.turn();
-        self.drive(now, dt);
+        self.drive(now, show, dt);
         if let Some((_, color)) = self.fade.take_if(|(at, _)| *at <= now) {
             self.light = color;
         }
@@ -221,13 +226,13 @@ impl Robot {
         }
     }
 
-    fn drive(&mut self, now: Instant, dt: Span) {
+    fn drive(&mut self, now: Instant, show: Instant, dt: Span) {
         if let Some((route, began)) = self.running.clone() {
             if now - self.heard > Span::from_millis(2_000) {
                 self.stop();
                 return;
             }
-            let until = self.hold_since.map_or(now, |since| since.min(now));
+            let until = self.hold_since.map_or(show, |since| since.min(show));
             let path = PathRef::new(route.start, &route.pieces);
             let time = until - began - self.held;
             if !self.stuck {
