@@ -1,13 +1,15 @@
 //! A stand-in for Webots' libController: the same C functions, with a floor of ours behind a socket.
 //!
 //! It lets the Webots driver be tested without Webots. What makes drivers stumble is copied: NaN before the first
-//! sample, a rate that is refused before the motor was freed, position sensors that under-read, a step that returns −1
-//! once, after which the process ends in the next call. [`socket`] says what goes over the socket.
+//! sample, a negative rate that is refused before the motor was freed, motors that do what they were told last when their
+//! controller is gone, position sensors that under-read, a step that returns −1 once, after which the process ends in the
+//! next call. [`socket`] says what goes over the socket.
 #![allow(unsafe_code)]
 // Named after the file that Webots has.
 #![allow(non_snake_case)]
 
 mod devices;
+pub mod motor;
 pub mod proximity;
 pub mod socket;
 mod state;
@@ -67,10 +69,10 @@ pub unsafe extern "C" fn wb_robot_get_device(name: *const c_char) -> Tag {
     devices::tag(unsafe { CStr::from_ptr(name) }.to_bytes())
 }
 
-/// Frees a motor with infinity.
+/// Where a motor turns to, radians; infinity: on and on.
 #[unsafe(no_mangle)]
 pub extern "C" fn wb_motor_set_position(tag: Tag, position: c_double) {
-    with(|robot| robot.free_motor(tag, position));
+    with(|robot| robot.aim_motor(tag, position));
 }
 
 /// Sets a motor's rate, rad/s.

@@ -5,14 +5,17 @@
 
 use std::io::{self, Read, Write};
 
+use crate::motor::Motor;
+use crate::proximity::RAYS;
+
 /// The environment variable with the socket's path.
 pub const ADDRESS: &str = "LIGHTBOTS_STANDIN";
 
 /// What a robot's process says at the end of a step.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Told {
-    /// Wheel rates, left and right, rad/s.
-    pub wheels_radps: [f64; 2],
+    /// Its motors, left and right.
+    pub motors: [Motor; 2],
     /// Its light, R·65536 + G·256 + B.
     pub colour: u32,
 }
@@ -24,26 +27,29 @@ pub struct Seen {
     pub ends: bool,
     /// Simulated seconds.
     pub time_s: f64,
-    /// How far the wheels have turned since the start, left and right, radians.
+    /// What the wheels' sensors read, left and right, radians.
     pub wheels_rad: [f64; 2],
     /// Place, metres.
     pub at: [f64; 2],
     /// Heading, radians.
     pub heading: f64,
     /// How far away its proximity sensors see something, clockwise from the front, metres; infinite: nothing.
-    pub near_m: [f64; 8],
+    pub near_m: [f64; RAYS],
 }
 
-const TOLD_BYTES: usize = 20;
-const SEEN_BYTES: usize = 113;
+const TOLD_BYTES: usize = 36;
+const SEEN_BYTES: usize = 1 + 8 * (6 + RAYS);
 
 impl Told {
     /// Writes it.
     pub fn write(&self, out: &mut impl Write) -> io::Result<()> {
         let mut bytes = [0; TOLD_BYTES];
-        bytes[..8].copy_from_slice(&self.wheels_radps[0].to_le_bytes());
-        bytes[8..16].copy_from_slice(&self.wheels_radps[1].to_le_bytes());
-        bytes[16..].copy_from_slice(&self.colour.to_le_bytes());
+        let [left, right] = self.motors;
+        let numbers = [left.target_rad, left.radps, right.target_rad, right.radps];
+        for (place, number) in bytes.chunks_exact_mut(8).zip(numbers) {
+            place.copy_from_slice(&number.to_le_bytes());
+        }
+        bytes[32..].copy_from_slice(&self.colour.to_le_bytes());
         out.write_all(&bytes)
     }
 
@@ -51,8 +57,9 @@ impl Told {
     pub fn read(from: &mut impl Read) -> io::Result<Self> {
         let mut bytes = [0; TOLD_BYTES];
         from.read_exact(&mut bytes)?;
-        let colour = u32::from_le_bytes([bytes[16], bytes[17], bytes[18], bytes[19]]);
-        Ok(Self { wheels_radps: [number(&bytes, 0), number(&bytes, 8)], colour })
+        let colour = u32::from_le_bytes([bytes[32], bytes[33], bytes[34], bytes[35]]);
+        let motor = |at| Motor { target_rad: number(&bytes, at), radps: number(&bytes, at + 8) };
+        Ok(Self { motors: [motor(0), motor(16)], colour })
     }
 }
 
@@ -112,7 +119,9 @@ mod tests {
 
     #[test]
     fn both_ways_survive_the_socket() {
-        let told = Told { wheels_radps: [1.5, -2.5], colour: 0xff_a500 };
+        let motors =
+            [Motor { target_rad: 7.0, radps: 1.5 }, Motor { target_rad: f64::INFINITY, radps: -2.5 }];
+        let told = Told { motors, colour: 0xff_a500 };
         let near_m = [0.01, 0.02, 0.03, f64::INFINITY, 0.05, 0.06, 0.07, 0.08];
         let (wheels_rad, at) = ([1.0, 2.0], [-0.5, 1.3]);
         let seen = Seen { ends: true, time_s: 0.016, wheels_rad, at, heading: 1.57, near_m };

@@ -6,6 +6,7 @@ use std::os::unix::net::UnixStream;
 use std::sync::{Mutex, PoisonError};
 
 use crate::devices::{COMPASS, GPS, MOTORS, SENSORS, TAGS, Tag, proximity, side};
+use crate::motor::RATE_MAX_RADPS;
 use crate::proximity::value;
 use crate::socket::{self, Seen, Told};
 
@@ -17,9 +18,6 @@ pub(crate) struct Robot {
     pub(crate) seen: Seen,
     socket: Option<UnixStream>,
     enabled: [bool; TAGS],
-    free: [bool; 2],
-    /// What the wheels' sensors say: less than how far the wheels turned.
-    read_rad: [f64; 2],
     steps: u64,
     gps: [f64; 3],
     compass: [f64; 3],
@@ -50,8 +48,6 @@ pub(crate) fn connect() {
         seen: Seen::default(),
         socket: Some(stream),
         enabled: [false; TAGS],
-        free: [false; 2],
-        read_rad: [0.0; 2],
         steps: 0,
         gps: [f64::NAN; 3],
         compass: [f64::NAN; 3],
@@ -80,12 +76,7 @@ impl Robot {
     fn step_once(&mut self) {
         let Some(socket) = &mut self.socket else { fail("the floor is gone") };
         let answer = self.told.write(socket).and_then(|()| Seen::read(socket));
-        let seen = answer.unwrap_or_else(|error| fail(&format!("the floor is gone: {error}")));
-        for wheel in [0, 1] {
-            let turned = seen.wheels_rad[wheel] - self.seen.wheels_rad[wheel];
-            self.read_rad[wheel] += 2.0 * (turned / 2.0).atan();
-        }
-        self.seen = seen;
+        self.seen = answer.unwrap_or_else(|error| fail(&format!("the floor is gone: {error}")));
         self.steps += 1;
     }
 
@@ -96,19 +87,20 @@ impl Robot {
         }
     }
 
-    pub(crate) fn free_motor(&mut self, tag: Tag, position: f64) {
+    pub(crate) fn aim_motor(&mut self, tag: Tag, position: f64) {
         if let Some(wheel) = side(MOTORS, tag) {
-            self.free[wheel] = position == f64::INFINITY;
+            self.told.motors[wheel].target_rad = position;
         }
     }
 
     pub(crate) fn turn_motor(&mut self, tag: Tag, radps: f64) {
         let Some(wheel) = side(MOTORS, tag) else { return };
-        if !self.free[wheel] && radps < 0.0 {
+        let motor = &mut self.told.motors[wheel];
+        if motor.target_rad.is_finite() && radps < 0.0 {
             eprintln!("Error: negative velocity before wb_motor_set_position(INFINITY)");
             return;
         }
-        self.told.wheels_radps[wheel] = radps.clamp(-133.33, 133.33);
+        motor.radps = radps.clamp(-RATE_MAX_RADPS, RATE_MAX_RADPS);
     }
 
     pub(crate) fn enable(&mut self, tag: Tag) {
@@ -119,7 +111,7 @@ impl Robot {
 
     pub(crate) fn wheel_sensor(&self, tag: Tag) -> f64 {
         match side(SENSORS, tag) {
-            Some(wheel) if self.samples(tag) => self.read_rad[wheel],
+            Some(wheel) if self.samples(tag) => self.seen.wheels_rad[wheel],
             _ => f64::NAN,
         }
     }

@@ -145,12 +145,13 @@ impl Library {
         Some((self.device)(name.as_ptr())).filter(|tag| *tag != 0)
     }
 
-    /// Lets a motor turn without end. Must come before any velocity.
-    pub fn motor_free(&self, motor: Tag) {
-        (self.motor_position)(motor, f64::INFINITY);
+    /// Where a motor turns to, as its sensor reads, radians; infinite: on and on.
+    pub fn motor_position(&self, motor: Tag, radians: f64) {
+        (self.motor_position)(motor, radians);
     }
 
-    /// Sets a motor's rate, rad/s.
+    /// Sets a motor's rate, rad/s. Negative only where it turns on and on: towards a position, the sign is that of the way
+    /// there.
     pub fn motor_velocity(&self, motor: Tag, radps: f64) {
         (self.motor_velocity)(motor, radps);
     }

@@ -1,18 +1,23 @@
-//! The floor that the drivers' processes stand on: our simulated world behind the stand-in's socket, at real pace.
+//! The floor that the drivers' processes stand on: our simulated world behind the stand-in's socket, at the pace of a
+//! Webots.
 
 use std::os::unix::net::{UnixListener, UnixStream};
 use std::path::Path;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
+use Controller::motor::Motor;
+use Controller::proximity::RAYS;
 use Controller::socket::{Seen, Told, read_name};
 use lightbots_base::{Pose, Vec2};
 use lightbots_show::Stage;
 use lightbots_sim::{STEP, World};
 
 use crate::eyes::Eyes;
+use crate::pace::{Pace, Steps};
+use crate::processes::PATIENCE;
 
 /// What happened on a floor.
 #[derive(Debug)]
@@ -27,8 +32,8 @@ pub struct Account {
     pub places: Vec<Vec2>,
     /// Where they were, each a track: `[robot][tenth of a second]`, when and where.
     pub tracks: Vec<Vec<(Instant, Vec2)>>,
-    /// How far it fell behind real time at most, seconds.
-    pub behind_s: f64,
+    /// Simulated seconds in a real one, pauses included.
+    pub rate: f64,
 }
 
 /// Steps between two places of a track.
@@ -37,20 +42,38 @@ const STEPS_A_PLACE: u32 = 6;
 /// A floor with a thread that steps it.
 pub struct Floor {
     stop: Arc<AtomicBool>,
+    steps: Arc<AtomicU32>,
     thread: JoinHandle<Account>,
 }
 
 impl Floor {
     /// Listens at `address` and begins once so many processes have come; robot `LightBot n` stands at start n−1. Where
     /// there are more starts, a robot without power stands there.
-    pub fn open(address: &Path, stage: &Stage, starts: &[Vec2], processes: usize, seed: u64) -> Self {
+    pub fn open(
+        address: &Path,
+        stage: &Stage,
+        starts: &[Vec2],
+        processes: usize,
+        (pace, seed): (Pace, u64),
+    ) -> Self {
         let listener = UnixListener::bind(address).expect("the socket's path is free");
         let poses: Vec<Pose> = starts.iter().map(|at| Pose::new(*at, std::f64::consts::FRAC_PI_2)).collect();
         let world = World::new(stage, &poses, 0.0, seed);
-        let stop = Arc::new(AtomicBool::new(false));
-        let asked = stop.clone();
-        let thread = std::thread::spawn(move || run(&listener, world, processes, &asked));
-        Self { stop, thread }
+        let (stop, steps) = (Arc::<AtomicBool>::default(), Arc::<AtomicU32>::default());
+        let (asked, taken) = (stop.clone(), steps.clone());
+        let paces = Steps::new(pace, STEP.as_secs(), seed);
+        let thread = std::thread::spawn(move || run(&listener, world, processes, paces, (&asked, &taken)));
+        Self { stop, steps, thread }
+    }
+
+    /// Waits until so much more simulated time has passed.
+    pub fn wait(&self, simulated_s: f64) {
+        let until = self.steps.load(Ordering::Acquire) + (simulated_s / STEP.as_secs()) as u32;
+        let late = Instant::now() + PATIENCE;
+        while self.steps.load(Ordering::Acquire) < until {
+            assert!(Instant::now() < late, "the floor does not go on");
+            std::thread::sleep(Duration::from_millis(20));
+        }
     }
 
     /// Ends the simulation as Webots does, and tells what happened.
@@ -60,57 +83,92 @@ impl Floor {
     }
 }
 
-fn run(listener: &UnixListener, mut world: World, count: usize, stop: &AtomicBool) -> Account {
-    let mut sockets = gather(listener, count);
-    let mut turned = vec![[0.0; 2]; count];
-    let mut colours = vec![0; count];
-    let mut tracks: Vec<Vec<(Instant, Vec2)>> = vec![Vec::new(); count];
+/// A robot on the floor and the process that drives it.
+struct Body {
+    /// Gone once the process is: Webots goes on without it.
+    process: Option<UnixStream>,
+    told: Told,
+    /// What its wheels' sensors read: less than how far the wheels turned.
+    read_rad: [f64; 2],
+    track: Vec<(Instant, Vec2)>,
+}
+
+impl Body {
+    /// Waits for its process, which the whole world does in every step.
+    fn listen(&mut self) {
+        if let Some(process) = &mut self.process {
+            match Told::read(process) {
+                Ok(told) => self.told = told,
+                Err(_) => self.process = None,
+            }
+        }
+    }
+
+    fn wheels_radps(&self) -> [f64; 2] {
+        [0, 1].map(|side| Motor::rate_radps(&self.told.motors[side], self.read_rad[side]))
+    }
+
+    fn answer(&mut self, seen: Seen) {
+        if self.process.as_mut().is_some_and(|process| seen.write(process).is_err()) {
+            self.process = None;
+        }
+    }
+}
+
+fn run(
+    listener: &UnixListener,
+    mut world: World,
+    count: usize,
+    mut paces: Steps,
+    (stop, steps): (&AtomicBool, &AtomicU32),
+) -> Account {
+    let body = |process| Body {
+        process: Some(process),
+        told: Told::default(),
+        read_rad: [0.0; 2],
+        track: Vec::new(),
+    };
+    let mut bodies: Vec<Body> = gather(listener, count).into_iter().map(body).collect();
     let mut eyes = Eyes::new(1);
-    let mut behind_s = 0.0_f64;
     let began = Instant::now();
+    let mut due = began;
     for step in 1_u32.. {
         let ends = stop.load(Ordering::Acquire);
-        for (robot, socket) in sockets.iter_mut().enumerate() {
-            let told = Told::read(socket).expect("a driver's process ended");
-            world.tell(robot, told.wheels_radps);
-            colours[robot] = told.colour;
+        for (robot, body) in bodies.iter_mut().enumerate() {
+            body.listen();
+            world.tell(robot, body.wheels_radps());
         }
         world.step();
+        steps.store(step, Ordering::Release);
+        // As Webots does: time that was lost is not made good.
+        due = (due + paces.take()).max(Instant::now());
+        std::thread::sleep(due.saturating_duration_since(Instant::now()));
         let time_s = f64::from(step) * STEP.as_secs();
         let places = world.places().to_vec();
-        let due = Duration::from_secs_f64(time_s);
-        let moment = Instant::now().max(began + due);
-        for (robot, socket) in sockets.iter_mut().enumerate() {
-            let turns = world.wheel_turns(robot);
-            turned[robot] = [turned[robot][0] + turns[0], turned[robot][1] + turns[1]];
+        for (robot, body) in bodies.iter_mut().enumerate() {
+            for (read_rad, turn) in body.read_rad.iter_mut().zip(world.wheel_turns(robot)) {
+                *read_rad += 2.0 * (turn / 2.0).atan();
+            }
             let pose = world.pose(robot);
             if step.is_multiple_of(STEPS_A_PLACE) {
-                tracks[robot].push((moment, pose.at));
+                body.track.push((due, pose.at));
             }
-            let seen = Seen {
-                ends,
-                time_s,
-                wheels_rad: turned[robot],
-                at: [pose.at.x, pose.at.y],
-                heading: pose.heading,
-                near_m: eyes.near_m(pose, &places),
-            };
-            seen.write(socket).expect("a driver's process ended");
+            let near_m = if body.process.is_some() { eyes.near_m(pose, &places) } else { [0.0; RAYS] };
+            let at = [pose.at.x, pose.at.y];
+            body.answer(Seen { ends, time_s, wheels_rad: body.read_rad, at, heading: pose.heading, near_m });
         }
         if ends {
             break;
         }
-        behind_s = behind_s.max(began.elapsed().as_secs_f64() - time_s);
-        std::thread::sleep(due.saturating_sub(began.elapsed()));
     }
     let contacts = world.contacts();
     Account {
         contacts: contacts.count(),
         closest_m: contacts.closest_m(),
-        colours,
+        colours: bodies.iter().map(|body| body.told.colour).collect(),
         places: world.places().to_vec(),
-        tracks,
-        behind_s,
+        rate: f64::from(steps.load(Ordering::Acquire)) * STEP.as_secs() / began.elapsed().as_secs_f64(),
+        tracks: bodies.into_iter().map(|body| body.track).collect(),
     }
 }
 

@@ -11,19 +11,31 @@ const PATIENCE: Duration = Duration::from_secs(60);
 
 /// Sends a robot that faces the way straight there; back with the report in which it says that something stands there.
 pub fn into_its_way(broker: &str, id: RobotId, start: Vec2, end: Vec2) -> Report {
+    drive_until(broker, id, (start, end), |report| {
+        report.details.as_ref().is_some_and(|details| details.blocked.is_some())
+    })
+}
+
+/// The same; back with the first report `that` is true of.
+pub fn drive_until(
+    broker: &str,
+    id: RobotId,
+    (start, end): (Vec2, Vec2),
+    that: impl Fn(&Report) -> bool,
+) -> Report {
     let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build().expect("a runtime");
     runtime.block_on(async {
         let broker = BrokerUrl::parse(broker).expect("the test's own address");
         let filters = ["UUID", "Status", "Time"].map(|name| format!("T/LightBot/{name}")).into();
         let mut link = Link::open(LinkConfig { broker, client_id: "lead".into(), filters, queue: 1024 });
         let route = route(start, end);
-        let led = tokio::time::timeout(PATIENCE, lead(&mut link, id, &route));
-        led.await.expect("the robot meets the other")
+        let led = tokio::time::timeout(PATIENCE, lead(&mut link, id, &route, that));
+        led.await.expect("the robot reports it")
     })
 }
 
 /// Half a second of rest, then 0.25 m/s.
-fn route(start: Vec2, end: Vec2) -> Route {
+pub fn route(start: Vec2, end: Vec2) -> Route {
     let way = (end - start).normalized().expect("two places");
     let (cruise, ramp) = (way * 0.25, Span::from_millis(500));
     let begin = start + way * 0.0625;
@@ -35,7 +47,7 @@ fn route(start: Vec2, end: Vec2) -> Route {
     Route { seq: 1, start, pieces: Pieces::from_slice(&pieces).expect("three pieces"), room_mm: Some(40) }
 }
 
-async fn lead(link: &mut Link, id: RobotId, route: &Route) -> Report {
+async fn lead(link: &mut Link, id: RobotId, route: &Route, that: impl Fn(&Report) -> bool) -> Report {
     let began = std::time::Instant::now();
     let show = || Instant(began.elapsed().as_micros() as u64 + 1_000_000);
     let sender = link.sender();
@@ -55,10 +67,10 @@ async fn lead(link: &mut Link, id: RobotId, route: &Route) -> Report {
             continue;
         }
         let report = Report::decode(&payload).expect("a report");
-        let details = report.details.as_ref().expect("a robot of ours");
-        if details.blocked.is_some() {
+        if that(&report) {
             return report;
         }
+        let details = report.details.as_ref().expect("a robot of ours");
         if details.clock_us.is_some() && !sent {
             tell(&Command::Route(route.clone()));
             tell(&Command::Start { seq: route.seq, at: show() + Span::from_millis(300) });

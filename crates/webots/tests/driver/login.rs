@@ -9,6 +9,7 @@ use lightbots_base::Vec2;
 use lightbots_show::Stage;
 
 use crate::floor::Floor;
+use crate::pace::Pace;
 use crate::processes::{Running, built};
 use crate::tape::Tape;
 use crate::{TURN, driver, ends_well, id, tempfile};
@@ -45,7 +46,7 @@ fn a_driver_believes_the_authority_it_is_told_and_logs_in() {
     let (_server, plain, safe) = server(&folder);
     std::fs::write(folder.join("password"), "default\n").expect("the folder can be written");
     let socket = folder.join("floor");
-    let floor = Floor::open(&socket, &Stage::default(), &[Vec2::ZERO], 1, 1);
+    let floor = Floor::open(&socket, &Stage::default(), &[Vec2::ZERO], 1, (Pace::WEBOTS, 1));
     let tape = Tape::record(&plain);
     let file = |name: &str| folder.join(name).display().to_string();
     let login =

@@ -6,7 +6,7 @@ use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
 /// Long enough for a busy machine; nobody waits for it unless something is broken.
-const PATIENCE: Duration = Duration::from_secs(60);
+pub const PATIENCE: Duration = Duration::from_secs(60);
 
 /// A process that does not outlive its test.
 pub struct Running(pub Child);
@@ -62,7 +62,8 @@ pub fn mosquitto() -> (Running, u16) {
     panic!("Mosquitto did not open its port");
 }
 
-fn free_port() -> u16 {
+/// A port on loopback that nothing listens on.
+pub fn free_port() -> u16 {
     let listener = TcpListener::bind("127.0.0.1:0").expect("loopback has a free port");
     listener.local_addr().expect("it is bound").port()
 }

@@ -91,6 +91,8 @@ pub struct Score {
     stops: Vec<(Instant, Option<RobotId>)>,
     /// Reports of robots that something stood in the way of.
     blocked: Vec<String>,
+    /// How far a robot said it was off its route at most, metres.
+    off_m: f64,
 }
 
 impl Score {
@@ -118,6 +120,8 @@ impl Score {
 
     fn note(&mut self, payload: &[u8]) {
         let details = Report::decode(payload).and_then(|report| report.details);
+        let off_m = details.as_ref().and_then(|details| details.off_m).unwrap_or(0.0);
+        self.off_m = self.off_m.max(off_m);
         if details.is_some_and(|details| details.blocked.is_some()) {
             self.blocked.push(String::from_utf8_lossy(payload).into_owned());
         }
@@ -164,6 +168,11 @@ impl Score {
     /// How often all were held, and how often robots were told to stand.
     pub fn holds(&self) -> (usize, usize) {
         (self.eases.iter().filter(|(_, hold)| *hold).count(), self.stops.len())
+    }
+
+    /// How far a robot said it was off its route at most, metres.
+    pub fn off_m(&self) -> f64 {
+        self.off_m
     }
 
     /// Reports of robots that something stood in the way of.

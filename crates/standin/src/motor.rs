@@ -1,0 +1,57 @@
+//! A motor as Webots has it: it turns at its rate, or towards a position.
+//!
+//! Source: the reference manual of R2025a, `Motor`, and `WbMotor::computeCurrentDynamicVelocity`: with a position it turns
+//! at `P` times what is missing, no faster than its rate, whose sign then counts for nothing. What was said last stays in
+//! force when the controller is gone.
+
+/// `controlPID` of a motor that has no other: rad/s for each radian that is missing.
+const P: f64 = 10.0;
+/// `maxVelocity` of the LightBot's motors, rad/s.
+pub const RATE_MAX_RADPS: f64 = 133.33;
+
+/// What a motor was told.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Motor {
+    /// Where it turns to, as its sensor reads, radians; infinite: on and on.
+    pub target_rad: f64,
+    /// How fast, rad/s.
+    pub radps: f64,
+}
+
+impl Default for Motor {
+    /// Webots' motors begin with their highest rate towards the position they have.
+    fn default() -> Self {
+        Self { target_rad: 0.0, radps: RATE_MAX_RADPS }
+    }
+}
+
+impl Motor {
+    /// How fast it turns while its sensor reads this, rad/s.
+    #[must_use]
+    pub fn rate_radps(&self, read_rad: f64) -> f64 {
+        if self.target_rad.is_infinite() {
+            return self.radps;
+        }
+        let most = self.radps.abs();
+        (P * (self.target_rad - read_rad)).clamp(-most, most)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_position_is_reached_and_kept_and_infinity_never() {
+        let mut read_rad = 5.0;
+        let motor = Motor { target_rad: -3.0, radps: 60.0 };
+        assert_eq!(motor.rate_radps(5.0), -60.0);
+        for _ in 0..100 {
+            read_rad += motor.rate_radps(read_rad) * 0.016;
+        }
+        assert!((read_rad + 3.0).abs() < 1e-6, "{read_rad}");
+        assert_eq!(Motor { target_rad: f64::INFINITY, radps: -60.0 }.rate_radps(1e6), -60.0);
+        assert_eq!(Motor { target_rad: 9.0, radps: 0.0 }.rate_radps(0.0), 0.0);
+        assert_eq!(Motor::default().rate_radps(0.0), 0.0);
+    }
+}
