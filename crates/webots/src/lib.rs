@@ -15,3 +15,9 @@ mod proximity;
 pub use body::{Body, MissingDevice};
 pub use library::{Library, LoadError};
 pub use looping::{Settings, drive};
+
+/// Says what is wrong where Webots shows it: in its console.
+#[allow(clippy::print_stderr)]
+pub fn complain(message: &str) {
+    eprintln!("LightBotFirmware: {message}");
+}

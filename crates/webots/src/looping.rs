@@ -6,7 +6,7 @@ use lightbots_robot::{Config, Fix, Inputs, Robot};
 use lightbots_wire::Topic;
 
 use crate::pace::{Pace, Tick};
-use crate::{Body, Library, MissingDevice};
+use crate::{Body, Library, MissingDevice, complain};
 
 /// What a robot of this program needs to know.
 #[derive(Clone, Debug)]
@@ -91,7 +91,10 @@ fn listen(robot: &mut Robot, link: &mut Link, now: Instant) {
     for _ in 0..MESSAGES_A_STEP {
         match link.try_next() {
             Some(LinkEvent::Connected) => robot.link(now, true),
-            Some(LinkEvent::Disconnected { .. }) => robot.link(now, false),
+            Some(LinkEvent::Disconnected { reason }) => {
+                complain(&reason);
+                robot.link(now, false);
+            }
             Some(LinkEvent::Message { topic, payload }) => {
                 if let Some(topic) = Topic::parse(&topic) {
                     robot.receive(now, topic, &payload);

@@ -5,7 +5,7 @@ use std::process::ExitCode;
 use clap::Parser;
 use lightbots_base::RobotId;
 use lightbots_link::{ArgumentsError, BrokerArguments, BrokerUrl, random_id};
-use lightbots_webots::{Library, Settings, drive};
+use lightbots_webots::{Library, Settings, complain, drive};
 
 /// Where `lightbots run` listens on this machine.
 const BROKER: &str = "mqtt://default:default@127.0.0.1:1883";
@@ -62,9 +62,4 @@ fn run(arguments: &Arguments) -> Result<(), String> {
 fn broker(arguments: &Arguments) -> Result<BrokerUrl, ArgumentsError> {
     let own = [BROKER.to_owned()];
     arguments.login.broker(if arguments.broker.is_empty() { &own } else { &arguments.broker })
-}
-
-#[allow(clippy::print_stderr)]
-fn complain(message: &str) {
-    eprintln!("LightBotFirmware: {message}");
 }

@@ -10,9 +10,9 @@ use lightbots_show::Stage;
 
 use crate::floor::Floor;
 use crate::pace::Pace;
-use crate::processes::{Running, built};
+use crate::processes::{Running, built, free_port};
 use crate::tape::Tape;
-use crate::{TURN, driver, ends_well, id, tempfile};
+use crate::{TURN, driver, driver_command, ends_well, id, tempfile};
 
 /// `lightbots run` without robots, with TLS by certificates of its own in `folder`: it, its plain and its safe address.
 fn server(folder: &Path) -> (Running, String, String) {
@@ -55,5 +55,23 @@ fn a_driver_believes_the_authority_it_is_told_and_logs_in() {
     tape.wait_for(id(1));
     floor.close();
     ends_well(&mut driver);
+    let _ = std::fs::remove_dir_all(&folder);
+}
+
+#[test]
+fn a_driver_says_which_broker_it_cannot_reach() {
+    let _turn = TURN.lock().unwrap_or_else(PoisonError::into_inner);
+    let folder = tempfile("nobody");
+    let socket = folder.join("floor");
+    let floor = Floor::open(&socket, &Stage::default(), &[Vec2::ZERO], 1, (Pace::WEBOTS, 1));
+    let nothing = format!("127.0.0.1:{}", free_port());
+    let mut command = driver_command(1, &format!("mqtt://{nothing}"), &socket);
+    let mut child = command.stderr(Stdio::piped()).spawn().expect("the driver starts");
+    let lines = BufReader::new(child.stderr.take().expect("a pipe")).lines();
+    let mut running = Running(child);
+    let line = lines.map_while(Result::ok).find(|line| line.contains(&nothing));
+    assert!(line.is_some_and(|line| line.starts_with("LightBotFirmware: no broker answers at")));
+    floor.close();
+    ends_well(&mut running);
     let _ = std::fs::remove_dir_all(&folder);
 }
