@@ -17,7 +17,8 @@ cargo xtask <command>
   test [PART…]     run the tests, all of them or some: tidy ui lint rust firmware e2e licences
   bench [PART…]    measure and write docs/benchmarks.md: plan rehearsal noise round light fps
   pairs [COUNT [FIRST [FAULTS]]]   rehearse random pairs of frames, ten thousand unless told otherwise: for the night
-  webots [--robots N [--floor METRES]]   write the Webots worlds and put the driver in place
+  webots [--robots N] [--floor METRES] [--blind]   write the Webots worlds and put the driver in place
+  webots paces [SHOW…]   play shows with the Webots driver in slow and pausing worlds and print a table: a quarter of an hour
   tidy             only the checks of the source tree itself
 ";
 

@@ -51,6 +51,11 @@ pub fn cargo(arguments: &[&str]) -> Outcome {
     run(&mut command(".", &cargo_program(), arguments))
 }
 
+/// The same with more of an environment.
+pub fn cargo_with(arguments: &[&str], environment: &[(&str, &str)]) -> Outcome {
+    run(command(".", &cargo_program(), arguments).envs(environment.iter().copied()))
+}
+
 /// The cargo that runs us.
 pub fn cargo_program() -> String {
     std::env::var("CARGO").unwrap_or_else(|_| "cargo".into())

@@ -13,32 +13,62 @@ struct World<'a> {
     proto: &'a str,
     robots: usize,
     floor_m: f64,
+    /// Robots have no proximity sensors, whose rays cost time even where nobody reads them.
+    blind: bool,
 }
 
-/// Writes the worlds of the repository, or with `--robots N [--floor METRES]` one more, and builds the driver.
+/// Writes the worlds of the repository, with `--robots N`, `--floor METRES` or `--blind` one more, and builds the driver;
+/// `paces` plays shows in worlds that are slow and pause instead.
 pub fn run(arguments: &[String]) -> Outcome {
+    if let Some(("paces", shows)) = arguments.split_first().map(|(first, rest)| (first.as_str(), rest)) {
+        return paces(shows);
+    }
     let wanted = wanted(arguments)?;
     for world in &STANDARD {
         write(world)?;
     }
-    if let Some((robots, floor_m)) = wanted {
-        let file = format!("lightbots_{robots}.wbt");
-        write(&World { file: &file, proto: "LightBot", robots, floor_m })?;
+    if let Some((robots, floor_m, blind)) = wanted {
+        let file = format!("lightbots_{robots}{}.wbt", if blind { "_blind" } else { "" });
+        write(&World { file: &file, proto: "LightBot", robots, floor_m, blind })?;
     }
     place_driver()
 }
 
+/// Plays shows of `shows/` with the real driver in worlds of every pace, about a quarter of an hour; prints the table.
+fn paces(shows: &[String]) -> Outcome {
+    let shows = if shows.is_empty() { PACED.join(",") } else { shows.join(",") };
+    shell::cargo(&["build", "--package", "lightbots-server"])?;
+    let test = ["test", "--package", "lightbots-webots", "--test", "driver", "paces::", "--", "--nocapture"];
+    shell::cargo_with(&test, &[("LIGHTBOTS_PACES", &shows)])
+}
+
+/// Robots pass each other closely in these.
+const PACED: [&str; 2] = ["hello.json", "dancers.lightbots.json"];
+
 const STANDARD: [World<'_>; 2] = [
-    World { file: "lightbots.wbt", proto: "LightBot", robots: 30, floor_m: 3.0 },
-    World { file: "lightbots_elisa3.wbt", proto: "LightBotElisa3", robots: 30, floor_m: 3.0 },
+    World { file: "lightbots.wbt", proto: "LightBot", robots: 30, floor_m: 3.0, blind: false },
+    World { file: "lightbots_elisa3.wbt", proto: "LightBotElisa3", robots: 30, floor_m: 3.0, blind: false },
 ];
 
-fn wanted(arguments: &[String]) -> Outcome<Option<(usize, f64)>> {
+/// Robots, side of the floor in metres, and whether they are blind, of one more world.
+fn wanted(arguments: &[String]) -> Outcome<Option<(usize, f64, bool)>> {
+    let mut rest = arguments.iter();
+    while let Some(argument) = rest.next() {
+        match argument.as_str() {
+            "--robots" | "--floor" => drop(rest.next()),
+            "--blind" => {}
+            other => return Err(format!("`cargo xtask webots` does not know '{other}'")),
+        }
+    }
+    if arguments.is_empty() {
+        return Ok(None);
+    }
+    let blind = arguments.iter().any(|argument| argument == "--blind");
     let value = |name: &str| {
         let at = arguments.iter().position(|argument| argument == name)?;
         Some(arguments.get(at + 1).cloned().unwrap_or_default())
     };
-    let Some(robots) = value("--robots") else { return Ok(None) };
+    let robots = value("--robots").unwrap_or_else(|| STANDARD[0].robots.to_string());
     let robots: usize = robots.parse().map_err(|_| format!("--robots takes a number, not '{robots}'"))?;
     let side_m = match value("--floor") {
         Some(text) => text.parse().map_err(|_| format!("--floor takes metres, not '{text}'"))?,
@@ -47,7 +77,7 @@ fn wanted(arguments: &[String]) -> Outcome<Option<(usize, f64)>> {
     if places(robots, side_m).len() < robots {
         return Err(format!("{robots} robots do not fit on {side_m} m x {side_m} m: take a larger --floor"));
     }
-    Ok(Some((robots, side_m)))
+    Ok(Some((robots, side_m, blind)))
 }
 
 fn write(world: &World<'_>) -> Outcome {
@@ -77,9 +107,11 @@ fn text(world: &World<'_>) -> String {
         floor(world.floor_m)
     );
     for (number, (x_m, y_m)) in places(world.robots, world.floor_m).into_iter().enumerate() {
+        let blind =
+            if world.blind { "  controllerArgs [\n    \"--blind\"\n  ]\n  proximity [\n  ]\n" } else { "" };
         let _ = write!(
             text,
-            "{} {{\n  translation {x_m:.3} {y_m:.3} 0\n  rotation 0 0 1 1.5708\n  name \"LightBot {}\"\n}}\n",
+            "{} {{\n  translation {x_m:.3} {y_m:.3} 0\n  rotation 0 0 1 1.5708\n  name \"LightBot {}\"\n{blind}}}\n",
             world.proto,
             number + 1
         );
@@ -149,6 +181,24 @@ mod tests {
                 std::fs::read_to_string(shell::root().join("webots/worlds").join(world.file)).unwrap();
             assert!(found == text(world), "webots/worlds/{} is stale: run `cargo xtask webots`", world.file);
         }
+    }
+
+    fn more(arguments: &[&str]) -> Outcome<Option<(usize, f64, bool)>> {
+        wanted(&arguments.iter().map(|argument| (*argument).to_owned()).collect::<Vec<String>>())
+    }
+
+    #[test]
+    fn a_blind_fleet_has_no_sensors() {
+        assert_eq!(
+            more(&["--robots", "100", "--blind"]).unwrap().map(|more| (more.0, more.2)),
+            Some((100, true))
+        );
+        assert_eq!(more(&["--blind"]).unwrap(), Some((30, 3.0, true)));
+        assert_eq!((more(&[]).unwrap(), more(&["--blnd"]).is_err()), (None, true));
+        let world = World { blind: true, ..STANDARD[0] };
+        assert_eq!(text(&world).matches("proximity [\n  ]").count(), 30);
+        assert_eq!(text(&world).matches("\"--blind\"").count(), 30);
+        assert!(!text(&STANDARD[0]).contains("proximity"));
     }
 
     #[test]

@@ -1,10 +1,12 @@
 //! The devices of the one robot that a process is.
 
+use crate::proximity::RAYS;
+
 /// A device's tag as Webots has it: small numbers from 1.
 pub type Tag = u16;
 
 /// Names by tag, from 1.
-const NAMES: [&[u8]; 15] = [
+const NAMES: [&[u8]; 17] = [
     b"gps",
     b"compass",
     b"ledrgb",
@@ -20,6 +22,8 @@ const NAMES: [&[u8]; 15] = [
     b"ps5",
     b"ps6",
     b"ps7",
+    b"ps8",
+    b"ps9",
 ];
 /// How many tags there are, with that of no device.
 pub(crate) const TAGS: usize = NAMES.len() + 1;
@@ -43,5 +47,5 @@ pub(crate) fn side(tags: [Tag; 2], tag: Tag) -> Option<usize> {
 
 /// Which proximity sensor a tag is, clockwise from the front.
 pub(crate) fn proximity(tag: Tag) -> Option<usize> {
-    tag.checked_sub(PROXIMITY).map(usize::from).filter(|sensor| *sensor < 8)
+    tag.checked_sub(PROXIMITY).map(usize::from).filter(|sensor| *sensor < RAYS)
 }

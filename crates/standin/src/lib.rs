@@ -135,10 +135,10 @@ pub extern "C" fn wb_distance_sensor_get_value(tag: Tag) -> c_double {
     with(|robot| robot.proximity(tag))
 }
 
-/// How a proximity sensor measures: by sound, as the nearest of several rays.
+/// How a proximity sensor measures: `WB_DISTANCE_SENSOR_GENERIC`, by one ray.
 #[unsafe(no_mangle)]
 pub extern "C" fn wb_distance_sensor_get_type(_tag: Tag) -> c_int {
-    2
+    0
 }
 
 /// Rows of a proximity sensor's table.

@@ -1,7 +1,7 @@
 //! The proximity sensors: rows of distance, value and noise as in `webots/protos/LightBot.proto`.
 
-/// Sensors, in even steps.
-pub const RAYS: usize = 8;
+/// Sensors of one ray each, in even steps.
+pub const RAYS: usize = 10;
 /// Distance in metres, the value that stands for it, and its noise as a share of it; by distance.
 pub const TABLE: [[f64; 3]; 5] = [
     [0.0, 1000.0, 0.0075],

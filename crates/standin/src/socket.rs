@@ -122,7 +122,7 @@ mod tests {
         let motors =
             [Motor { target_rad: 7.0, radps: 1.5 }, Motor { target_rad: f64::INFINITY, radps: -2.5 }];
         let told = Told { motors, colour: 0xff_a500 };
-        let near_m = [0.01, 0.02, 0.03, f64::INFINITY, 0.05, 0.06, 0.07, 0.08];
+        let near_m = [0.01, 0.02, 0.03, f64::INFINITY, 0.05, 0.06, 0.07, 0.08, 0.09, 0.1];
         let (wheels_rad, at) = ([1.0, 2.0], [-0.5, 1.3]);
         let seen = Seen { ends: true, time_s: 0.016, wheels_rad, at, heading: 1.57, near_m };
         let mut bytes = Vec::new();

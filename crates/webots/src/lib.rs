@@ -11,6 +11,7 @@ mod odometry;
 mod pace;
 mod places;
 mod proximity;
+pub mod rays;
 
 pub use body::{Body, MissingDevice};
 pub use library::{Library, LoadError};

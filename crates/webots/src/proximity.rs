@@ -1,14 +1,18 @@
 //! What is near, from Webots' distance sensors.
 //!
-//! The eight sensors are called `ps0` to `ps7` as on the Elisa-3: `ps0` looks ahead, the others follow clockwise. How
-//! far something is stands in a table from distances to values that Webots tells, so that a PROTO may have any.
+//! The sensors are called `ps0`, `ps1` … as on the Elisa-3: `ps0` looks ahead, the others follow clockwise in even steps.
+//! The Elisa-3 has eight, our PROTO ten. How far something is stands in a table from distances to values that Webots tells,
+//! so that a PROTO may have any.
 
 use lightbots_base::Limits;
 
 use crate::library::{Library, Tag};
+use crate::rays::gaps_m;
 
 /// The devices' names, clockwise from the front.
-const NAMES: [&str; 8] = ["ps0", "ps1", "ps2", "ps3", "ps4", "ps5", "ps6", "ps7"];
+const NAMES: [&str; 10] = ["ps0", "ps1", "ps2", "ps3", "ps4", "ps5", "ps6", "ps7", "ps8", "ps9"];
+/// Fewer make no sense of what is around.
+const LEAST: usize = 8;
 /// From the robot's centre to a sensor, metres.
 const SENSOR_M: f64 = 0.024;
 /// Infra-red sensors see shapes and not bounding objects: at their height an Elisa-3's is a white ring of 21 mm, and its
@@ -27,7 +31,8 @@ pub(crate) enum Kind {
 
 /// The sensors of a robot that has them.
 pub(crate) struct Proximity {
-    sensors: [Sensor; 8],
+    /// Counter-clockwise from the front.
+    sensors: Vec<Sensor>,
 }
 
 struct Sensor {
@@ -37,39 +42,38 @@ struct Sensor {
 }
 
 impl Proximity {
-    /// Finds the sensors and switches them on; `None` where the robot has not all of them.
+    /// Finds the sensors and switches them on; `None` where the robot has too few of them.
     pub(crate) fn find(library: &Library, step_ms: i32) -> Option<Self> {
         // Webots complains about every device that is not there: one complaint is enough.
-        let mut tags = [0; 8];
-        for (tag, name) in tags.iter_mut().zip(NAMES) {
-            *tag = library.device(name)?;
-        }
-        let sensors = tags.map(|tag| {
+        let tags: Vec<Tag> = NAMES.iter().map_while(|name| library.device(name)).collect();
+        let sensor = |tag: Tag| {
             library.distance_enable(tag, step_ms);
             let kind = if library.distance_is_infra_red(tag) { Kind::InfraRed } else { Kind::Bounds };
             Sensor { tag, kind, table: Table::new(&library.distance_table(tag)) }
-        });
+        };
+        let (front, others) = tags.split_first().filter(|_| tags.len() >= LEAST)?;
+        let sensors = std::iter::once(front).chain(others.iter().rev()).map(|tag| sensor(*tag)).collect();
         Some(Self { sensors })
     }
 
     /// Gaps from rim to rim, metres, counter-clockwise from the front as the core has them; infinite where nothing is
     /// in sight, and before the first sample.
     pub(crate) fn gaps_m(&self, library: &Library) -> [f32; 8] {
-        core::array::from_fn(|direction| {
-            let Sensor { tag, kind, table } = &self.sensors[(8 - direction) % 8];
-            gap_m(*kind, table.distance_m(library.distance_value(*tag))) as f32
-        })
+        let along_m = self.sensors.iter().map(|Sensor { tag, kind, table }| {
+            along_m(*kind, table.distance_m(library.distance_value(*tag)))
+        });
+        gaps_m(&along_m.collect::<Vec<f64>>())
     }
 }
 
-/// What a distance from the sensor means from rim to rim.
-fn gap_m(kind: Kind, distance_m: f64) -> f64 {
+/// What a distance from the sensor means from rim to rim, straight ahead of the sensor.
+fn along_m(kind: Kind, distance_m: f64) -> f64 {
     let radius_m = Limits::ELISA_3.radius_m;
-    let gap_m = match kind {
+    let along_m = match kind {
         Kind::Bounds => distance_m + SENSOR_M - radius_m,
         Kind::InfraRed => distance_m * REFLECTION + SENSOR_M + SHAPE_M - 2.0 * radius_m,
     };
-    gap_m.max(0.0)
+    along_m.max(0.0)
 }
 
 /// Distances and the values that stand for them, straight between its rows.
@@ -128,15 +132,15 @@ mod tests {
         assert_eq!(Table::new(&[]).distance_m(5.0), f64::INFINITY);
         let flat = Table::new(&[[0.0, 7.0, 0.0], [0.1, 7.0, 0.0]]);
         assert_eq!(flat.distance_m(7.0), f64::INFINITY);
-        assert_eq!(gap_m(Kind::Bounds, f64::INFINITY), f64::INFINITY);
+        assert_eq!(along_m(Kind::Bounds, f64::INFINITY), f64::INFINITY);
     }
 
     #[test]
     fn gaps_are_from_rim_to_rim() {
         // Centres 64 mm apart: the bounds are 37 mm before the centre, the ring 21 mm and by its colour farther.
         let (bounds, ring) = (0.064 - 0.024 - 0.027, (0.064 - 0.024 - 0.021) / 0.84);
-        assert!((gap_m(Kind::Bounds, bounds) - 0.01).abs() < 1e-12);
-        assert!((gap_m(Kind::InfraRed, ring) - 0.01).abs() < 1e-12);
-        assert_eq!(gap_m(Kind::Bounds, 0.001), 0.0);
+        assert!((along_m(Kind::Bounds, bounds) - 0.01).abs() < 1e-12);
+        assert!((along_m(Kind::InfraRed, ring) - 0.01).abs() < 1e-12);
+        assert_eq!(along_m(Kind::Bounds, 0.001), 0.0);
     }
 }

@@ -8,6 +8,7 @@ mod login;
 mod pace;
 mod paces;
 mod processes;
+mod rays;
 mod tape;
 
 use std::path::Path;
