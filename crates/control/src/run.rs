@@ -54,6 +54,8 @@ pub(crate) struct Seat {
     pub probed: Option<Instant>,
     /// It has been asked for a sign of life, last when.
     pub asked: Instant,
+    /// When it was seen last to be on its way although the plan has ended.
+    pub on_its_way: Instant,
     /// Where it may stand, if it fell silent on its way; stage metres.
     pub ghost: Vec<Vec2>,
     /// The likely ones of them.
@@ -200,6 +202,7 @@ impl Seat {
             blocks: 0,
             probed: None,
             asked: Instant::ZERO,
+            on_its_way: Instant::ZERO,
             ghost: Vec::new(),
             likely: Vec::new(),
             fade: None,

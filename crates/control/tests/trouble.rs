@@ -69,6 +69,16 @@ fn a_robot_that_drove_its_route_alone_is_planned_for_anew() {
     assert_eq!(world.run_to_end(20.0), (Outcome::Finished, 2, 0), "{}", world.story());
 }
 
+/// As in a simulation on a busy machine: all are late together, and on their routes.
+#[test]
+fn robots_of_a_slow_world_are_waited_for() {
+    let mut world = World::ready(8, 0, show(3, 8, 0.3));
+    world.robots.iter_mut().for_each(|robot| robot.pace = 0.4);
+    world.play();
+    assert_eq!(world.run_to_end(120.0), (Outcome::Finished, 3, 0), "{}", world.story());
+    assert!(world.closest_m >= CONTACT_M, "{}", world.closest_m);
+}
+
 #[test]
 fn lossy_and_slow_links_lose_no_robot() {
     for (loss, delay_ms) in [(5, (5, 15)), (20, (5, 50)), (5, (100, 200))] {

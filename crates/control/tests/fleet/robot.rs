@@ -23,6 +23,8 @@ pub struct Robot {
     pub stuck: bool,
     /// How far its idea of the show clock is ahead.
     pub ahead: Span,
+    /// How fast its route goes on, as a share of the show clock.
+    pub pace: f64,
     /// It is not sure where it is.
     pub unsure: bool,
     /// Says that something stands in its way.
@@ -54,6 +56,7 @@ impl Robot {
             dead: false,
             stuck: false,
             ahead: Span::ZERO,
+            pace: 1.0,
             unsure: false,
             blocked: None,
             target: None,
@@ -234,7 +237,7 @@ impl Robot {
             }
             let until = self.hold_since.map_or(show, |since| since.min(show));
             let path = PathRef::new(route.start, &route.pieces);
-            let time = until - began - self.held;
+            let time = Span::from_secs((until - began - self.held).as_secs() * self.pace);
             if !self.stuck {
                 self.at = path.at(time).position;
             }
