@@ -2,6 +2,7 @@
 
 use crate::shell::{self, Outcome};
 use crate::{demo, tidy, tools};
+use std::process::Command;
 use std::time::Instant;
 
 const FIRMWARE_TARGET: &str = "thumbv7em-none-eabihf";
@@ -57,15 +58,27 @@ fn lint() -> Outcome {
     shell::cargo(&["clippy", "--quiet", "--workspace", "--all-targets", "--", "-D", "warnings"])
 }
 
-/// One build of the whole workspace: the program the end-to-end tests start comes out of it too.
+/// One build of the whole workspace. Examples are only linted: to link each of them takes minutes.
 fn rust() -> Outcome {
     let mosquitto = tools::MOSQUITTO.provide()?;
     if let Err(message) = tools::RABBITMQ.provide() {
         println!("NOT TESTED: a show on a cluster of brokers of which one dies: {message}");
     }
-    let arguments = ["test", "--workspace", "--no-fail-fast"];
+    let tests = shell::run(cargo_test(&["--tests", "--no-fail-fast"]).env("LIGHTBOTS_MOSQUITTO", mosquitto));
+    let docs = shell::run(&mut cargo_test(&["--doc", "--no-fail-fast"]));
+    tests.and(docs)
+}
+
+/// `cargo test` of the whole workspace. All parts build with it: a build of single packages would choose other features for
+/// what they depend on, and build that again.
+fn cargo_test(arguments: &[&str]) -> Command {
+    let arguments = [&["test", "--workspace"], arguments].concat();
     let mut command = shell::command(".", &shell::cargo_program(), &arguments);
-    shell::run(command.env("LIGHTBOTS_MOSQUITTO", mosquitto))
+    if std::env::var_os("CI").is_some() {
+        // Nothing is built twice there.
+        command.env("CARGO_INCREMENTAL", "0");
+    }
+    command
 }
 
 fn firmware() -> Outcome {
@@ -83,7 +96,7 @@ fn e2e() -> Outcome {
     if !shell::root().join("ui/dist/index.html").is_file() {
         demo::build_screen()?;
     }
-    shell::cargo(&["build", "--package", "lightbots-server"])?;
+    shell::run(&mut cargo_test(&["--tests", "--no-run"]))?;
     let program = shell::program("debug");
     let mut command = shell::command("ui", demo::NPM, &["run", "--silent", "e2e"]);
     shell::run(command.env("LIGHTBOTS_BIN", program).env("CHROMIUM", chromium))

@@ -8,8 +8,8 @@ use lightbots_plan::{ShowOptions, ShowPlan};
 use lightbots_show::{Frame, Identity, Show, most_pixels};
 use lightbots_sim::{Conditions, RehearsalOptions, rehearse};
 
-use crate::hall::{Hall, Picture, Played};
-use crate::scene::{Scene, name};
+use super::hall::{Hall, Picture, Played};
+use super::scene::{Scene, name};
 
 /// Robots are this near to their pixels, metres.
 const NEAR_M: f64 = 0.012;

@@ -1,6 +1,6 @@
 //! A few of the random pairs of frames that `cargo xtask pairs` rehearses by the thousand.
 
-#[path = "../examples/pairs/scene.rs"]
+#[path = "../../examples/pairs/scene.rs"]
 mod scene;
 
 use lightbots_show::{Identity, Show};

@@ -1,7 +1,7 @@
 //! Gaps between things on the floor hardly wider than a robot, and the floor's edge: what is planned there is driven
 //! without touching anything, and who touches the edge all the same is told of.
 
-#[path = "../examples/noise/places.rs"]
+#[path = "../../examples/noise/places.rs"]
 mod places;
 
 use lightbots_show::Show;

@@ -1,11 +1,11 @@
 //! Robots that may show any pixel, that keep theirs, and that are asked for by name, in random shows: the picture on the
 //! floor is the frame, and what is played is what was checked.
 
-#[path = "../examples/identities/hall.rs"]
+#[path = "../../examples/identities/hall.rs"]
 mod hall;
-#[path = "../examples/identities/scene.rs"]
+#[path = "../../examples/identities/scene.rs"]
 mod scene;
-#[path = "../examples/identities/verdict.rs"]
+#[path = "../../examples/identities/verdict.rs"]
 mod verdict;
 
 use lightbots_sim::Conditions;

@@ -9,7 +9,7 @@ const ROBOTS: u32 = 30;
 const APART_M: f64 = 0.08;
 
 /// The example show that mixes rows, rings and grids with fixed identity.
-const DANCERS: &[u8] = include_bytes!("../../../shows/dancers.lightbots.json");
+const DANCERS: &[u8] = include_bytes!("../../../../shows/dancers.lightbots.json");
 
 fn assert_fine(show: &Show, faults: &str, seed: u64) -> RehearsalReport {
     let faults = if faults.is_empty() { Faults::default() } else { Faults::parse(faults).unwrap() };

@@ -9,7 +9,7 @@ const HEAVY: &str = "slip=10%,gps=5mm,heading=2deg,fix-delay=100ms";
 /// … and that stay away now and then.
 const WORST: &str = "slip=10%,gps=5mm,heading=2deg,fix-delay=100ms,fix-dropout=1s";
 /// A hundred robots: with fixes that drop out, some are unsure of their places all the time.
-const FIREWORKS: &[u8] = include_bytes!("../../../shows/fireworks.lightbots.json");
+const FIREWORKS: &[u8] = include_bytes!("../../../../shows/fireworks.lightbots.json");
 
 /// Pairs that start and end so far apart and on the way turn about each other, down to three quarters of it.
 fn turning_pairs(apart_m: f64) -> Show {

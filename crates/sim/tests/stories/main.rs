@@ -1,0 +1,15 @@
+//! Whole systems in virtual time, one file a subject. One program for all of them: each program of tests is linked with
+//! everything below it, which takes longer than most of these tests.
+
+mod breakdowns;
+mod crossings;
+mod crowds;
+mod fleet;
+mod gaps;
+mod identities;
+mod noise;
+mod originals;
+mod outages;
+mod pairs;
+mod rapier;
+mod rehearsals;
