@@ -131,6 +131,12 @@ impl<S: BorrowMut<Shelf>> Robot<S> {
             return;
         }
         self.now = self.now.max(now);
+        // The message does not undo a silence that no step could notice because the simulation stood.
+        if self.supervisor.check_link(now, self.drives()) {
+            self.seek = None;
+            self.routes.abandon();
+            self.drive.halt();
+        }
         self.supervisor.hear(now);
         // A route whose moment has come is under way, even if no step saw it yet: the next one must not replace it.
         if self.route_time(now).is_some_and(|show| self.routes.begin_due(show, self.shelf.borrow())) {
@@ -159,9 +165,9 @@ impl<S: BorrowMut<Shelf>> Robot<S> {
     /// One step, each 16 ms, at `now` of its own clock. Steps further apart than 0.1 s of the wheels' world are gaps: the
     /// wheels may have turned meanwhile, but nothing is planned over them.
     pub fn step(&mut self, now: Instant, inputs: &Inputs) -> Outputs {
-        self.lag = inputs.lag;
         let world = now - inputs.lag;
         let took = self.take_time(now, world);
+        self.lag = inputs.lag;
         self.sense(world, inputs, took.as_secs());
         self.doubts = Doubts {
             lost: self.estimate.lost(world),
@@ -195,7 +201,11 @@ impl<S: BorrowMut<Shelf>> Robot<S> {
         if self.last_step.is_none() {
             self.outbox.arrive_new(now);
         }
-        let took = self.last_step.map_or(Span::ZERO, |last| world - last);
+        let took = self.last_step.map_or(Span::ZERO, |last| {
+            // Lag that is made good at rest is no time in which wheels turned.
+            let most = if self.routes.under_way() { LONGEST_STEP } else { now - (last + self.lag) };
+            (world - last).min(most)
+        });
         self.last_step = Some(world);
         self.now = now;
         took.clamp(Span::ZERO, LONGEST_STEP)

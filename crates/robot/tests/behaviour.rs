@@ -58,6 +58,20 @@ fn a_world_that_paused_leaves_its_robot_on_its_route_and_the_show_clock_right() 
 }
 
 #[test]
+fn after_a_pause_longer_than_its_patience_a_message_does_not_set_a_robot_going_again() {
+    let mut plant = Plant::ready(START, 0.0, Flaws::NONE, 3);
+    send(&mut plant, &straight(1, START, END));
+    plant.run(1.5);
+    assert_eq!(plant.robot.state(), RobotState::Driving);
+    plant.now += Span::from_millis(2_500);
+    plant.lag += Span::from_millis(2_500);
+    plant.tell(&Command::Status);
+    plant.run(0.1);
+    assert_eq!(plant.robot.state(), RobotState::Idle);
+    assert!(plant.stands());
+}
+
+#[test]
 fn a_target_is_reached_from_every_side_and_said_once() {
     for turn in 0..12 {
         let heading = f64::from(turn) * 0.55 - 3.1;

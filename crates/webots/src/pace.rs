@@ -17,9 +17,11 @@ const DRIVING_SHARE: f64 = 0.05;
 const RESTING_SHARE: f64 = 0.3;
 /// Seconds of the world's clock in a second of the simulation, at most: of robots that drive, because accelerations grow
 /// with its square and an Elisa-3 stumbles somewhere between 1 and 2 m/s² (docs/simulator.md); and of robots that have
-/// no route, so that a step more or less makes little difference.
+/// no route: fast enough for one that arrives last to be where the others are before the next START, 0.3 s later.
 const DRIVING_RATE: f64 = 1.1;
-const RESTING_RATE: f64 = 4.0;
+const RESTING_RATE: f64 = 14.0;
+/// A step that takes longer than this is a pause, seconds.
+const PAUSE_S: f64 = 0.05;
 /// The world's clock goes on by at least this in every step, seconds.
 const LEAST_S: f64 = 0.000_5;
 
@@ -40,6 +42,8 @@ pub(crate) struct Tick {
 pub(crate) struct Pace {
     /// What the simulation showed at the latest step, and the world's clock then, seconds.
     last: Option<(f64, f64)>,
+    /// This machine's clock then, seconds.
+    last_real_s: f64,
 }
 
 impl Pace {
@@ -47,8 +51,10 @@ impl Pace {
     /// `drives`: a route is under way.
     pub(crate) fn tick(&mut self, simulated_s: f64, passed: Duration, drives: bool) -> Tick {
         let real_s = passed.as_secs_f64();
+        // The first step after a pause is one like the others: the robot takes it for as long as this machine did.
+        let paused = real_s - std::mem::replace(&mut self.last_real_s, real_s) > PAUSE_S;
         let (share, rate_max) =
-            if drives { (DRIVING_SHARE, DRIVING_RATE) } else { (RESTING_SHARE, RESTING_RATE) };
+            if drives || paused { (DRIVING_SHARE, DRIVING_RATE) } else { (RESTING_SHARE, RESTING_RATE) };
         // Both begin together: what stood on the simulation's clock before is of no interest.
         let (last_simulated_s, last_world_s) = self.last.unwrap_or((simulated_s, real_s));
         let step_s = (simulated_s - last_simulated_s).max(0.0);
@@ -148,6 +154,18 @@ mod tests {
         world.run(60, STEP_S / 0.8, false);
         let (apart_s, behind_s) = world.apart_and_behind_s();
         assert!(apart_s < 0.005 && behind_s < 0.02, "{apart_s} {behind_s}");
+    }
+
+    #[test]
+    fn a_robot_that_arrives_last_after_a_long_pause_begins_its_next_route_with_the_others() {
+        let mut world = World::new(2);
+        world.run(100, STEP_S / 0.97, true);
+        world.real_s += 2.5;
+        world.run(1, STEP_S / 0.97, true);
+        // 0.32 s from its arrival to the next START.
+        world.run(20, STEP_S / 0.97, false);
+        let (_, behind_s) = world.apart_and_behind_s();
+        assert!(behind_s < 0.05, "{behind_s}");
     }
 
     #[test]
