@@ -27,6 +27,16 @@ pub fn run(command: &mut Command) -> Outcome {
     if status.success() { Ok(()) } else { Err(format!("`{shown}` failed: {status}")) }
 }
 
+/// Runs it and shows what it printed when it has ended, for commands that run beside others.
+pub fn captured(command: &mut Command) -> Outcome {
+    let shown = shown(command);
+    let output = command.output().map_err(|error| format!("cannot start `{shown}`: {error}"))?;
+    eprintln!("$ {shown}");
+    eprint!("{}", String::from_utf8_lossy(&output.stderr));
+    print!("{}", String::from_utf8_lossy(&output.stdout));
+    if output.status.success() { Ok(()) } else { Err(format!("`{shown}` failed: {}", output.status)) }
+}
+
 /// Runs it quietly and returns what it prints to stdout.
 pub fn output(command: &mut Command) -> Outcome<String> {
     match printed(command)? {

@@ -2,6 +2,8 @@
 
 use crate::shell::{self, Outcome};
 use crate::{demo, tidy, tools};
+use std::collections::BTreeSet;
+use std::path::Path;
 use std::process::Command;
 use std::time::Instant;
 
@@ -58,15 +60,40 @@ fn lint() -> Outcome {
     shell::cargo(&["clippy", "--quiet", "--workspace", "--all-targets", "--", "-D", "warnings"])
 }
 
+/// Tests in real time, with real processes and sockets: they wait most of the time, so that the others run beside them.
+const REAL_TIME: &str = "program";
+
 /// One build of the whole workspace. Examples are only linted: to link each of them takes minutes.
 fn rust() -> Outcome {
     let mosquitto = tools::MOSQUITTO.provide()?;
     if let Err(message) = tools::RABBITMQ.provide() {
         println!("NOT TESTED: a show on a cluster of brokers of which one dies: {message}");
     }
-    let tests = shell::run(cargo_test(&["--tests", "--no-fail-fast"]).env("LIGHTBOTS_MOSQUITTO", mosquitto));
+    shell::run(&mut cargo_test(&["--tests", "--no-run"]))?;
+    let mut real_time = cargo_test(&["--test", REAL_TIME]);
+    real_time.env("LIGHTBOTS_MOSQUITTO", mosquitto);
+    let beside = std::thread::spawn(move || shell::captured(&mut real_time));
+    let names = test_programs()?;
+    let others = names.iter().filter(|name| *name != REAL_TIME).flat_map(|name| ["--test", name]);
+    let others: Vec<&str> = ["--lib", "--bins", "--no-fail-fast"].into_iter().chain(others).collect();
+    let tests = shell::run(&mut cargo_test(&others));
     let docs = shell::run(&mut cargo_test(&["--doc", "--no-fail-fast"]));
-    tests.and(docs)
+    let real_time = beside.join().map_err(|_| "the real-time tests were not run".to_owned())?;
+    tests.and(docs).and(real_time)
+}
+
+/// The names of all integration tests: files in `crates/*/tests`, and folders with a `main.rs` there.
+fn test_programs() -> Outcome<BTreeSet<String>> {
+    let list =
+        |folder: &Path| std::fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path());
+    let crates = shell::root().join("crates");
+    let entries = list(&crates).flat_map(|package| list(&package.join("tests")).collect::<Vec<_>>());
+    let programs = entries.filter(|path| {
+        path.join("main.rs").is_file() || path.extension().is_some_and(|extension| extension == "rs")
+    });
+    let names: BTreeSet<String> =
+        programs.filter_map(|path| Some(path.file_stem()?.to_str()?.to_owned())).collect();
+    if names.contains(REAL_TIME) { Ok(names) } else { Err(format!("{} has no tests", crates.display())) }
 }
 
 /// `cargo test` of the whole workspace. All parts build with it: a build of single packages would choose other features for

@@ -13,7 +13,7 @@ struct World<'a> {
     proto: &'a str,
     robots: usize,
     floor_m: f64,
-    /// Robots have no proximity sensors, whose rays cost time even where nobody reads them.
+    /// Robots have no proximity sensors, whose rays cost time even where they are not read.
     blind: bool,
 }
 

@@ -5,7 +5,7 @@ use lightbots_plan::Path;
 
 /// Robots are looked at this often: two that pass at full speed come 1 mm nearer in between.
 const STEP: Span = Span::from_millis(40);
-/// Paths that last longer are looked at less often: stretched to so many steps, nobody goes a millimetre in one.
+/// Steps at most: longer paths are sampled less often. Over 30,000 steps no robot moves by a millimetre in one.
 const MOST_STEPS: i64 = 30_000;
 /// More room than this is as good as any, metres.
 const AMPLE_M: f64 = 0.04;

@@ -26,7 +26,7 @@ fn a_second_under_way() -> World {
 
 /// Eight robots in the first of two frames, in the second of which those beyond `movers` stay where they are. The START
 /// of the drive there is put off because the first robot that has to move does not receive it, while the clocks of the
-/// `early` robots are so far ahead that they begin before they learn that.
+/// The clocks of `early` robots are ahead, so that they begin before they learn that.
 fn put_off_while_some_are_early(movers: usize, early: std::ops::Range<usize>) -> World {
     let mut show = show(1, 8, 3.0);
     let mut second = show.frames[0].clone();

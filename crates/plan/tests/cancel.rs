@@ -65,7 +65,7 @@ fn whenever_a_plan_is_given_up_there_is_none() {
         let every = (questions / 40).max(1) as usize;
         for last in (1..20).chain((20..=questions).step_by(every)) {
             let left = Cell::new(last);
-            // Yes once only: who is told so must not forget.
+            // Yes once only: callers must remember it.
             let is_wanted = || {
                 left.set(left.get().saturating_sub(1));
                 left.get() == 0 && asked.replace(0) != 0

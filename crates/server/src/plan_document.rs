@@ -11,7 +11,7 @@ use crate::numbers::rounded;
 
 /// Plans a show from its starting places. `found` is what reading and validating it showed.
 pub fn plan(show: &Show, found: &Issues) -> (ShowPlan, api::Plan) {
-    // Nobody gives it up.
+    // It is never given up.
     plan_unless(show, found, &|| false).unwrap_or_default()
 }
 

@@ -86,7 +86,7 @@ impl Clock {
 impl Crew {
     /// Robots at rest on a stage, that were just switched on and have no link. `names[robot]` where one is stated.
     /// `says_simulated`: robots of ours report `sim=1`. Rehearsals leave it out: their messages are as long as those of
-    /// real robots, and nobody takes their robots for real.
+    /// real robots, and their robots are never taken for real.
     pub fn new(
         stage: &Stage,
         starts: &[Vec2],

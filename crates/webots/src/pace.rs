@@ -47,7 +47,7 @@ pub(crate) struct Pace {
 }
 
 impl Pace {
-    /// The moment it is when the simulation shows `simulated_s` and so much real time has passed since some start;
+    /// The moment it is when the simulation shows `simulated_s` and `real` time has passed since some start;
     /// `drives`: a route is under way.
     pub(crate) fn tick(&mut self, simulated_s: f64, passed: Duration, drives: bool) -> Tick {
         let real_s = passed.as_secs_f64();
@@ -88,7 +88,7 @@ mod tests {
             Self { robots, simulated_s: 0.0, real_s: 0.0, ticks: Vec::new() }
         }
 
-        /// `steps` steps, each of which takes so much real time.
+        /// `steps` steps, each of which takes this much real time.
         fn run(&mut self, steps: usize, real_step_s: f64, drives: bool) {
             for _ in 0..steps {
                 self.simulated_s += STEP_S;

@@ -13,7 +13,7 @@ export function fleetKind(rows: readonly Row[]): FleetKind | null {
 
 export const KIND_WORDS = { simulated: 'Simulated robots', real: 'Real robots' } as const;
 
-/** What the kind means, for those who ask. */
+/** What the kind means: the text of the badge's tooltip. */
 export function kindHint(rows: readonly Row[]): string {
   const real = rows.filter((row) => !row.simulated).length;
   if (real === 0) return 'All robots are simulated: nothing moves but on this screen.';

@@ -50,7 +50,7 @@ const ruled = (act: Key[1]) => (event: KeyboardEvent) => {
   act(event);
 };
 
-/** Keys of a view: silent while a dialog is open or somebody types. */
+/** Keys of a view: silent while a dialog is open or a text field has the focus. */
 export function useKeys(keys: readonly Key[]) {
   const hotkeys = keys.filter(([key]) => key !== 'Escape');
   useHotkeys(

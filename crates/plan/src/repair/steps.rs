@@ -38,7 +38,7 @@ impl<'a> Stepper<'a> {
         if nodes.saturating_mul(goals.len()) > MOST_STEPS {
             return None;
         }
-        // Nobody asks for a step that is given up.
+        // A step that is given up is not asked for.
         let to = |&goal: &u32| {
             if goal == NONE || cancel.is_wanted() { Vec::new() } else { lattice.steps_to(goal) }
         };

@@ -6,6 +6,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use crate::Target;
+use crate::packets::{connect, packet, publish, subscribe, text};
 
 const SHORT: Duration = Duration::from_millis(5);
 const LONG: Duration = Duration::from_secs(1);
@@ -127,37 +128,4 @@ fn roll(dice: &mut u64, sides: usize) -> usize {
     *dice ^= *dice >> 7;
     *dice ^= *dice << 17;
     (*dice % sides as u64) as usize
-}
-
-fn connect(client_id: &str) -> Vec<u8> {
-    packet(0x10, &[&text("MQTT")[..], &[4, 2, 0, 0], &text(client_id)].concat())
-}
-
-fn subscribe(filter: &str) -> Vec<u8> {
-    packet(0x82, &[&[0, 1][..], &text(filter), &[0]].concat())
-}
-
-fn publish(topic: &str, payload: &[u8]) -> Vec<u8> {
-    packet(0x30, &[&text(topic)[..], payload].concat())
-}
-
-/// A string with its length before it.
-fn text(text: &str) -> Vec<u8> {
-    [&(text.len() as u16).to_be_bytes()[..], text.as_bytes()].concat()
-}
-
-/// A whole packet (MQTT 3.1.1, section 2.2).
-fn packet(kind: u8, rest: &[u8]) -> Vec<u8> {
-    let mut bytes = vec![kind];
-    let mut length = rest.len();
-    loop {
-        let more = if length > 127 { 0x80 } else { 0 };
-        bytes.push((length % 128) as u8 | more);
-        length /= 128;
-        if length == 0 {
-            break;
-        }
-    }
-    bytes.extend_from_slice(rest);
-    bytes
 }

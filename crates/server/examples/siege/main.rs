@@ -9,6 +9,8 @@
 mod common;
 
 mod broker_attacks;
+#[path = "../common/packets.rs"]
+mod packets;
 mod program;
 mod screen;
 mod web_attacks;

@@ -100,7 +100,7 @@ pub async fn get(State(shared): State<Arc<Shared>>, Path(name): Path<String>) ->
     Ok((about, kept.bytes).into_response())
 }
 
-/// `PUT /api/shows/{name}`. A copy of a read-only show is not opened on screens: whoever saved it may go on with it.
+/// `PUT /api/shows/{name}`. A copy of a read-only show is not opened on screens: the client that saved it may go on with it.
 pub async fn put(
     State(shared): State<Arc<Shared>>,
     Path(name): Path<String>,

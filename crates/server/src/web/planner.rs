@@ -118,7 +118,7 @@ impl Planner {
         }
     }
 
-    /// The client of an address; forgets those that nobody works for.
+    /// The client of an address; forgets clients without work.
     fn client(&self, address: IpAddr) -> Arc<Client> {
         // Entries are whole ones: a panic elsewhere leaves none half made.
         let mut clients = self.clients.lock().unwrap_or_else(PoisonError::into_inner);

@@ -23,7 +23,8 @@ const LONG_AT_ONCE: usize = BODY_MAX;
 const PERMIT_BYTES: usize = 1 << 10;
 /// How long a request waits for the ones before it.
 const TURN_WITHIN: Duration = Duration::from_secs(20);
-/// How long a body may take to arrive, and so much more for each [`SHORT`]: 1 MB/s is a poor radio link.
+/// How long a body may take to arrive; a longer body gets [`BODY_WITHIN_MORE`] for each [`SHORT`] of it, because a poor
+/// radio link carries 1 MB/s.
 const BODY_WITHIN: Duration = Duration::from_secs(10);
 const BODY_WITHIN_MORE: Duration = Duration::from_secs(1);
 

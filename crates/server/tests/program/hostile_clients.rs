@@ -42,7 +42,7 @@ fn topics_of_ten_thousand_levels_are_refused_and_the_broker_goes_on() {
 fn a_packet_longer_than_any_message_costs_the_connection() {
     let (_process, address) = broker();
     let mut hostile = RawMqtt::open(&address, "hostile");
-    // Only the head of 256 MB: nobody should wait for the rest.
+    // Only the head of 256 MB: the broker must not wait for the rest.
     hostile.send(&[0x30, 0xff, 0xff, 0xff, 0x7f]);
     hostile.wait_for_close();
     assert!(RawMqtt::open(&address, "robot").is_answered());

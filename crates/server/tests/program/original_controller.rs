@@ -75,7 +75,7 @@ fn junk(mqtt: &Mqtt, broker: &str, robot: &str) {
         mqtt.publish(topic, "");
         mqtt.publish(topic, vec![0xff, 0xfe, 0x00, b'|', 0xc3]);
         mqtt.publish(topic, vec![b'A'; 60_000]);
-        // Longer than a packet may be: it costs this client its connection, and nobody else anything.
+        // Longer than a packet may be: it costs this client its connection, and no other client anything.
         Mqtt::open(broker, "junk", &[]).publish(topic, vec![b'A'; 1_000_000]);
         mqtt.publish(
             topic,

@@ -4,6 +4,10 @@ use std::io::{Read, Write};
 use std::net::TcpStream;
 
 use crate::DEADLINE;
+pub use packets::{connect, packet, publish, subscribe, text};
+
+#[path = "../../examples/common/packets.rs"]
+mod packets;
 
 pub struct RawMqtt {
     pub stream: TcpStream,
@@ -37,8 +41,7 @@ impl RawMqtt {
 
     /// Subscribes; whether that was granted.
     pub fn subscribe(&mut self, filter: &str) -> bool {
-        let rest = [&[0, 1][..], &text(filter), &[0]].concat();
-        self.send(&packet(0x82, &rest));
+        self.send(&subscribe(filter));
         self.read(5)[4] == 0
     }
 
@@ -54,34 +57,4 @@ impl RawMqtt {
         // A reset is an end as well.
         let _ = self.stream.read_to_end(&mut rest);
     }
-}
-
-/// A whole packet.
-pub fn packet(kind: u8, rest: &[u8]) -> Vec<u8> {
-    let mut bytes = vec![kind];
-    let mut length = rest.len();
-    loop {
-        let more = if length > 127 { 0x80 } else { 0 };
-        bytes.push((length % 128) as u8 | more);
-        length /= 128;
-        if length == 0 {
-            break;
-        }
-    }
-    bytes.extend_from_slice(rest);
-    bytes
-}
-
-pub fn connect(client_id: &str) -> Vec<u8> {
-    packet(0x10, &[&text("MQTT")[..], &[4, 2, 0, 0], &text(client_id)].concat())
-}
-
-/// A message without acknowledgement.
-pub fn publish(topic: &str, payload: &[u8]) -> Vec<u8> {
-    packet(0x30, &[&text(topic)[..], payload].concat())
-}
-
-/// A string with its length before it.
-pub fn text(text: &str) -> Vec<u8> {
-    [&(text.len() as u16).to_be_bytes()[..], text.as_bytes()].concat()
 }

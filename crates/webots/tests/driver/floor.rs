@@ -66,7 +66,7 @@ impl Floor {
         Self { stop, steps, thread }
     }
 
-    /// Waits until so much more simulated time has passed.
+    /// Waits until this much more simulated time has passed.
     pub fn wait(&self, simulated_s: f64) {
         let until = self.steps.load(Ordering::Acquire) + (simulated_s / STEP.as_secs()) as u32;
         let late = Instant::now() + PATIENCE;

@@ -79,7 +79,7 @@ impl Meeting {
     }
 }
 
-/// How fast a robot at 0.25 m/s touches one that stands so far beside the middle of its way, m/s; `None`: it does not.
+/// How fast a robot at 0.25 m/s touches one that stands `beside` the middle of its way, m/s; `None`: it does not.
 fn touches_mps(aside_m: f64, seed: u64) -> Option<f64> {
     let (start, end) = (Vec2::new(0.0, -0.5), Vec2::new(0.0, 0.5));
     let mut meeting = Meeting::new(start, Vec2::new(aside_m, 0.0), seed);

@@ -98,7 +98,7 @@ fn bind(listen: SocketAddr, robots: usize) -> Result<Listener, Failure> {
         .backlog(4096)
         .nodelay(true)
         .reuseaddr(Some(true))
-        // The door decides about everybody.
+        // The door decides about every client.
         .allow_anonymous(false)
         .max_packet_size(limits::PACKET_BYTES)
         .max_topic_levels(limits::TOPIC_LEVELS)

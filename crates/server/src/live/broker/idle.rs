@@ -1,6 +1,7 @@
 //! Closes connections that do not log in. rmqtt waits for the first byte of a connection for ever, and gives no hold of its
 //! sockets; so they are found among the open files of this process.
 
+#[cfg(target_os = "linux")]
 use std::net::SocketAddr;
 use std::sync::Arc;
 

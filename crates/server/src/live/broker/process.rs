@@ -178,7 +178,7 @@ impl Running {
     async fn relay(&mut self, notices: &mpsc::Sender<String>) -> String {
         while let Some(word) = self.word().await {
             if let Word::Notice(line) = word {
-                // With no reader there is nobody to tell.
+                // Without a reader the line is dropped.
                 let _ = notices.try_send(line);
             }
         }
