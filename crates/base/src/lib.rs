@@ -1,4 +1,4 @@
-//! The words every other crate shares: vectors, poses, angles, instants, ids, colours, limits and timed paths.
+//! The words every other crate shares: vectors, poses, angles, instants, ids, colours, limits, braking and timed paths.
 //!
 //! It knows nothing of shows, messages or wheels, allocates nothing and reads no clock. All lengths are metres, all
 //! angles radians counter-clockwise, all times microseconds.
@@ -12,6 +12,7 @@
 #![no_std]
 
 mod angle;
+pub mod braking;
 mod colour;
 mod id;
 mod limits;

@@ -1,10 +1,12 @@
 //! The drive train of an Elisa-3: what its body does when its wheels are told a rate. Fitted to the measurements in
 //! Webots R2023b of 2026-11-21; docs/simulator.md has both side by side.
 
+use lightbots_base::braking::GRIP_MPS2;
+
 use crate::track::{WHEEL_RADIUS_M, turn_radps};
 
-/// The most a body's speed changes in a step, m/s: the grip of its tyres.
-const SPEED_CHANGE_MPS: f64 = 0.188;
+/// The most a body's speed changes in a step of 16 ms, m/s: the grip of its tyres.
+const SPEED_CHANGE_MPS: f64 = GRIP_MPS2 * 0.016;
 /// The same in the third and fourth step of a braking too hard for that grip, in which the body hops.
 const HOP_CHANGE_MPS: [f64; 2] = [0.129, 0.076];
 /// The most a body's turning rate changes in a step, rad/s.

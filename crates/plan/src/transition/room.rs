@@ -5,15 +5,12 @@
 
 use super::COMFORT_M;
 use crate::{Closest, Path};
+use lightbots_base::braking::stopping_m;
 use lightbots_base::{Limits, Vec2};
-
-/// For so long at its speed a robot drives on once the one ahead of it died, seconds: three steps of 16 ms at most until its
-/// noisy sensors are sure, one until its wheels answer, and the braking.
-const STOP_S: f64 = 0.07;
 
 /// The distance of centres within which anybody may be too near to somebody ahead, metres.
 pub(super) fn widest_m(limits: &Limits) -> f64 {
-    limits.contact_m() + COMFORT_M.max(STOP_S * limits.speed_mps)
+    limits.contact_m() + COMFORT_M.max(stopping_m(limits.speed_mps))
 }
 
 /// How far apart a pair's centres had better be at the moment it is closest, metres, if everybody drove this many times
@@ -25,7 +22,7 @@ pub(super) fn wanted_m(paths: &[Path], found: &Closest, limits: &Limits, faster:
     let [one, other] = [one, other].map(|path| path.as_ref().at(found.at));
     let Some(apart) = (other.position - one.position).normalized() else { return comfort_m };
     let following_mps = following_mps(apart, one.velocity, other.velocity) * faster;
-    limits.contact_m() + COMFORT_M.max(STOP_S * following_mps.min(limits.speed_mps))
+    limits.contact_m() + COMFORT_M.max(stopping_m(following_mps.min(limits.speed_mps)))
 }
 
 /// How fast either would near the other if that stood; `apart` is the direction from one to the other.
