@@ -5,7 +5,7 @@ use crate::hop::{Hop, drive_s};
 use crate::leg::{Errand, Kind, Leg, Move};
 use crate::mapping::{Mapping, Roles};
 use crate::originals::{self, Journey, Stage};
-use crate::room::rooms;
+use crate::surroundings::{Surroundings, surroundings};
 use lightbots_base::{RobotId, Span, Vec2};
 use lightbots_plan::{Cast, Path, Transition, TransitionProblem, transition};
 use lightbots_show::{Frame, Pixel, Show};
@@ -271,12 +271,13 @@ impl<'a> Draft<'a> {
             return Err(format!("a path has more than the {MAX_PIECES} pieces a robot can keep"));
         }
         let mut leg = self.leg(Kind::Routes, rests, paths.len(), duration, room_m);
-        let rooms = rooms(&paths, &self.request.standing, room_m, self.request.show.stage.limits.contact_m());
-        for ((rider, path), room_m) in paths.into_iter().zip(rooms) {
+        let contact_m = self.request.show.stage.limits.contact_m();
+        let around = surroundings(&paths, &self.request.standing, room_m, contact_m);
+        for ((rider, path), Surroundings { room_m, neighbours }) in paths.into_iter().zip(around) {
             let goal = path.as_ref().end();
             let step = &mut leg.moves[self.request.riders[rider].seat];
             let settles = goal == step.goal;
-            *step = Move { errand: Errand::Path(path), room_m, goal, settles, ..step.clone() };
+            *step = Move { errand: Errand::Path(path), room_m, neighbours, goal, settles, ..step.clone() };
         }
         Ok(leg)
     }

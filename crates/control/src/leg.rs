@@ -3,6 +3,8 @@
 use crate::hop::Hop;
 use lightbots_base::{Rgb, Span, Vec2};
 use lightbots_plan::Path;
+use lightbots_wire::Neighbours;
+use std::sync::Arc;
 
 /// What everybody does between two moments at which all stand. A frame takes one leg, or several where original
 /// robots and others have to go one after the other.
@@ -43,6 +45,8 @@ pub(crate) struct Move {
     pub errand: Errand,
     /// How far others stay from its rim by plan, metres; infinite where that is far.
     pub room_m: f64,
+    /// Which neighbours come into sight on its path.
+    pub neighbours: Option<Arc<Neighbours>>,
     /// Where it stands afterwards, stage metres.
     pub goal: Vec2,
     /// It stands there in the frame too.
@@ -70,6 +74,7 @@ impl Move {
         Self {
             errand: Errand::Stay,
             room_m: f64::INFINITY,
+            neighbours: None,
             goal: at,
             settles: true,
             pixel: None,

@@ -66,7 +66,8 @@ impl Run {
         let way = Piece::straight(at, at + Vec2::unit(heading + TURN) * WAY_M, WAY);
         let Ok(pieces) = Pieces::from_slice(&[way]) else { return false };
         let topic = Topic::Robot(desk.fleet.robot(self.seats[seat].robot).id);
-        let route = Route { seq: desk.take_seq(), start: at, pieces, room_mm: None };
+        let route =
+            Route { seq: desk.take_seq(), start: at, pieces, room_mm: None, neighbours: Default::default() };
         desk.outbox.say(topic, &[Command::Route(route)]);
         self.seats[seat].trial = Trial::Turns { from: heading, since: now, tries: tries + 1 };
         false

@@ -186,7 +186,9 @@ impl Run {
         let topic = Topic::Robot(robot.id);
         // The cast rounds down, and less than nothing to nothing.
         let room_mm = robot.abilities.room.then(|| (leg.moves[seat].room_m * 1e3).min(ROOM_MOST_MM) as u16);
-        let route = Command::Route(Route { seq: leg.seq, start: path.start, pieces, room_mm });
+        let neighbours = leg.moves[seat].neighbours.as_deref().filter(|_| robot.abilities.neighbours);
+        let neighbours = neighbours.cloned().unwrap_or_default();
+        let route = Command::Route(Route { seq: leg.seq, start: path.start, pieces, room_mm, neighbours });
         match known.fade {
             Some(fade) => desk.outbox.say(topic, &[route, Command::Fade(fade)]),
             None => desk.outbox.say(topic, &[route]),

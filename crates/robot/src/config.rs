@@ -32,6 +32,122 @@ pub struct Config {
     pub limits: Limits,
     /// Whether it says in its reports that it is simulated. Firmware of real robots never sets this.
     pub simulated: bool,
+    /// What its proximity sensors are.
+    pub proximity: ProximitySensors,
+    /// How careful its reflex is.
+    pub reflex: ReflexParameters,
+}
+
+/// How many proximity sensors a robot can have.
+pub const SENSORS: usize = 8;
+
+/// What the proximity sensors of a robot are. Each sits on the rim and reads the distance to the nearest point of any rim
+/// in its cone.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ProximitySensors {
+    /// Directions in which they look, radians counter-clockwise from the front; those next to each other look next to
+    /// each other.
+    pub bearings_rad: [f32; SENSORS],
+    /// Half the angle of their cones, radians.
+    pub half_cone_rad: f32,
+    /// Farthest gap of interest, metres. What is farther away cannot be reached within the stopping distance.
+    pub range_m: f32,
+    /// Noise of a reading, 1 sigma: metres, and share of the gap.
+    pub noise_m: f32,
+    /// See `noise_m`.
+    pub noise_share: f32,
+}
+
+impl ProximitySensors {
+    /// Those of an Elisa-3: eight, 45° apart. Noise as measured in Webots R2023b on 2026-11-21: 0.5 mm at 5 mm, 0.8 mm
+    /// at 10 mm.
+    pub const ELISA_3: Self = Self {
+        bearings_rad: {
+            const STEP: f32 = core::f32::consts::FRAC_PI_4;
+            [0.0, STEP, 2.0 * STEP, 3.0 * STEP, 4.0 * STEP, 5.0 * STEP, 6.0 * STEP, 7.0 * STEP]
+        },
+        half_cone_rad: 0.872_664_6,
+        range_m: 0.03,
+        noise_m: 0.0003,
+        noise_share: 0.05,
+    };
+}
+
+/// The parameters of the reflex; docs/reflex.md says what breaks above and below each.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ReflexParameters {
+    /// Growth of the swept discs, in sigma of the neighbour's place when they are nearest.
+    pub sigmas: f32,
+    /// What is left between rims when the robot stands, metres.
+    pub spare_m: f32,
+    /// Share of the planned clearance that the growth takes at most.
+    pub planned_share: f32,
+    /// How much nearer than it is already a neighbour may come before the robot brakes for it, metres.
+    pub tolerance_m: f32,
+    /// Unforeseen acceleration of neighbours, 1 sigma in each axis, m/s².
+    pub accel_sigma_mps2: f32,
+    /// The same of neighbours that the plan does not know, m/s².
+    pub unplanned_accel_mps2: f32,
+    /// Error of the own wheels' way, 1 sigma, as a share of it.
+    pub odometry_share: f32,
+    /// A neighbour has changed its motion when readings were off by this many sigma in sum, …
+    pub manoeuvre_sigmas: f32,
+    /// … each less this many.
+    pub manoeuvre_drift: f32,
+    /// By how much it may have changed it, 1 sigma in each axis, m/s.
+    pub manoeuvre_mps: f32,
+    /// Velocity of a neighbour of which nothing is known, 1 sigma in each axis, m/s.
+    pub unknown_sigma_mps: f32,
+    /// How far neighbours are off their plan, 1 sigma in each axis: metres.
+    pub planned_sigma_m: f32,
+    /// The same for velocity, m/s.
+    pub planned_sigma_mps: f32,
+    /// Steps in a row that a robot wants to drive and must not before it counts as blocked.
+    pub steps_to_block: u8,
+    /// What blocked it has gone when it is this much farther away, metres, …
+    pub gone_m: f32,
+    /// … in this many steps.
+    pub steps_to_free: u8,
+    /// A blocked robot backs away until there is this much room, metres, …
+    pub clear_m: f32,
+    /// … by no more than this, metres, …
+    pub retreat_m: f32,
+    /// … this fast, m/s, …
+    pub retreat_mps: f32,
+    /// … unless anybody is this near behind, metres.
+    pub followed_m: f32,
+    /// Share of missing clearance that it gives way by, …
+    pub give_way_share: f32,
+    /// … and the most, metres.
+    pub give_way_most_m: f32,
+}
+
+impl ReflexParameters {
+    /// Tuned in rehearsals of formations, random pairs and deaths.
+    pub const DEFAULT: Self = Self {
+        sigmas: 2.0,
+        spare_m: 0.001,
+        planned_share: 0.5,
+        tolerance_m: 0.0005,
+        accel_sigma_mps2: 0.4,
+        unplanned_accel_mps2: 2.5,
+        odometry_share: 0.04,
+        manoeuvre_sigmas: 5.0,
+        manoeuvre_drift: 1.5,
+        manoeuvre_mps: 0.15,
+        unknown_sigma_mps: 0.135,
+        planned_sigma_m: 0.0035,
+        planned_sigma_mps: 0.015,
+        steps_to_block: 5,
+        gone_m: 0.004,
+        steps_to_free: 8,
+        clear_m: 0.004,
+        retreat_m: 0.008,
+        retreat_mps: 0.03,
+        followed_m: 0.014,
+        give_way_share: 0.7,
+        give_way_most_m: 0.008,
+    };
 }
 
 impl Config {
@@ -41,6 +157,8 @@ impl Config {
         Self {
             id,
             simulated: false,
+            proximity: ProximitySensors::ELISA_3,
+            reflex: ReflexParameters::DEFAULT,
             limits: Limits::ELISA_3,
             firmware: Firmware::try_from(concat!("lightbots-", env!("CARGO_PKG_VERSION")))
                 .unwrap_or_default(),
@@ -51,7 +169,7 @@ impl Config {
             fix_sigma_m: 0.002,
             heading_sigma_rad: 0.0175,
             slip: 0.08,
-            abilities: Abilities { route: true, fade: true, blink: true, room: true },
+            abilities: Abilities { route: true, fade: true, blink: true, room: true, neighbours: true },
         }
     }
 }
@@ -71,7 +189,7 @@ pub struct Inputs {
     pub lag: Span,
     /// Gaps between its rim and what is nearest, metres, as eight proximity sensors 45° apart see them,
     /// counter-clockwise from the front; infinite where nothing is in sight. `None`: it has none.
-    pub proximity_m: Option<[f32; 8]>,
+    pub proximity_m: Option<[f32; SENSORS]>,
 }
 
 /// Where a positioning system saw the robot [`Config::fix_delay`] ago.

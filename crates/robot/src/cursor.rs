@@ -108,7 +108,13 @@ mod tests {
             Piece { duration: Span(900_000), c1: Vec2::ZERO, c2: Vec2::new(0.0, 0.3), end: a },
             Piece::straight(a, b, Span(1_700_000)),
         ];
-        Route { seq: 1, start: Vec2::ZERO, pieces: Pieces::from_slice(&pieces).unwrap(), room_mm: None }
+        Route {
+            seq: 1,
+            start: Vec2::ZERO,
+            pieces: Pieces::from_slice(&pieces).unwrap(),
+            room_mm: None,
+            neighbours: Default::default(),
+        }
     }
 
     #[test]
@@ -128,7 +134,13 @@ mod tests {
 
     #[test]
     fn a_route_without_pieces_rests_at_its_start() {
-        let route = Route { seq: 1, start: Vec2::new(1.0, 2.0), pieces: Pieces::new(), room_mm: None };
+        let route = Route {
+            seq: 1,
+            start: Vec2::new(1.0, 2.0),
+            pieces: Pieces::new(),
+            room_mm: None,
+            neighbours: Default::default(),
+        };
         let mut cursor = Cursor::new(&route);
         cursor.seek(&route, Span(5));
         assert_eq!(cursor.motion(Span(5)).position, route.start);

@@ -90,7 +90,13 @@ mod tests {
     const SECOND: Span = Span(1_000_000);
 
     fn route(pieces: &[Piece]) -> Route {
-        Route { seq: 1, start: Vec2::ZERO, pieces: Pieces::from_slice(pieces).unwrap(), room_mm: None }
+        Route {
+            seq: 1,
+            start: Vec2::ZERO,
+            pieces: Pieces::from_slice(pieces).unwrap(),
+            room_mm: None,
+            neighbours: Default::default(),
+        }
     }
 
     fn look(route: &Route, index: usize, begin: i64, time: i64) -> Option<(Vec2, f64)> {

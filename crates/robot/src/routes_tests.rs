@@ -4,7 +4,13 @@ use lightbots_wire::Pieces;
 
 fn route(seq: u32) -> Route {
     let piece = Piece::straight(Vec2::ZERO, Vec2::new(0.1, 0.0), Span(1_000_000));
-    Route { seq, start: Vec2::ZERO, pieces: Pieces::from_slice(&[piece]).unwrap(), room_mm: None }
+    Route {
+        seq,
+        start: Vec2::ZERO,
+        pieces: Pieces::from_slice(&[piece]).unwrap(),
+        room_mm: None,
+        neighbours: Default::default(),
+    }
 }
 
 const BODY: Body = Body { at: Vec2::ZERO, facing: Vec2::new(1.0, 0.0) };

@@ -1,11 +1,11 @@
 //! Where a robot keeps what is large and seldom looked at: its routes, and what its wheels did while fixes come late.
 
 use lightbots_base::Vec2;
-use lightbots_wire::{Pieces, Route};
+use lightbots_wire::{Neighbours, Pieces, Route};
 
 use crate::trail::Trail;
 
-/// Room for the route under way, for the one kept for later and for the trail: 15 KB, of which a step reads next to
+/// Room for the route under way, for the one kept for later and for the trail: 20 KB, of which a step reads next to
 /// nothing.
 ///
 /// A [`crate::Robot`] holds it in itself, or is given one that lies elsewhere: where thousands of robots take turns,
@@ -26,17 +26,27 @@ pub(crate) enum Place {
 impl Shelf {
     /// A shelf with nothing on it.
     pub const fn new() -> Self {
-        const NOTHING: Route = Route { seq: 0, start: Vec2::ZERO, pieces: Pieces::new(), room_mm: None };
+        const NOTHING: Route = Route {
+            seq: 0,
+            start: Vec2::ZERO,
+            pieces: Pieces::new(),
+            room_mm: None,
+            neighbours: Neighbours::new(),
+        };
         Self { places: [NOTHING; 2], trail: Trail::new() }
     }
 
     pub(crate) fn put(&mut self, place: Place, route: &Route) {
-        let Route { seq, start, pieces, room_mm } = route;
+        let Route { seq, start, pieces, room_mm, neighbours } = route;
         let free = &mut self.places[place as usize];
         (free.seq, free.start, free.room_mm) = (*seq, *start, *room_mm);
         free.pieces.clear();
         // Fits: both are as large. A copy of the whole would copy all the room that is not used.
         let _ = free.pieces.extend_from_slice(pieces);
+        free.neighbours.list.clear();
+        free.neighbours.knots.clear();
+        let _ = free.neighbours.list.extend_from_slice(&neighbours.list);
+        let _ = free.neighbours.knots.extend_from_slice(&neighbours.knots);
     }
 
     pub(crate) fn at(&self, place: Place) -> &Route {

@@ -184,7 +184,10 @@ fn held_in_a_curve_it_keeps_its_heading() {
         end: Vec2::new(0.4, 0.4),
     };
     let pieces = Pieces::from_slice(&[quarter]).unwrap();
-    let at = send(&mut plant, &Route { seq: 1, start: Vec2::ZERO, pieces, room_mm: None });
+    let at = send(
+        &mut plant,
+        &Route { seq: 1, start: Vec2::ZERO, pieces, room_mm: None, neighbours: Default::default() },
+    );
     plant.tell(&Command::Hold { at: at + Span(1_850_000) });
     plant.run(4.0);
     let tangent = quarter.at(Vec2::ZERO, Span(2_000_000));

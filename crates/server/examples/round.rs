@@ -154,7 +154,13 @@ fn answer(id: RobotId) -> Vec<u8> {
 /// A route as a transition has it: rest, speed up, cruise, slow down.
 fn command(number: usize, id: &RobotId) -> (String, Vec<u8>) {
     let place = |share: f64| Vec2::new(number as f64 * 0.001 - 1.4, -1.0 + share);
-    let mut route = Route { seq: 17, start: place(0.0), pieces: Default::default(), room_mm: None };
+    let mut route = Route {
+        seq: 17,
+        start: place(0.0),
+        pieces: Default::default(),
+        room_mm: None,
+        neighbours: Default::default(),
+    };
     let _ = route.pieces.push(Piece::rest(place(0.0), Span::from_millis(350)));
     for share in [0.1, 0.9, 1.0] {
         let _ = route.pieces.push(Piece::hermite(

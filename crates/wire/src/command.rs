@@ -2,6 +2,8 @@
 
 use lightbots_base::{Instant, Piece, Rgb, Span, Vec2};
 
+use crate::Neighbours;
+
 /// The most pieces a route has. The controller refuses a frame whose plan has a longer path; it never cuts a path.
 pub const MAX_PIECES: usize = 128;
 
@@ -62,6 +64,8 @@ pub struct Route {
     pub pieces: Pieces,
     /// How far other rims stay from its own by plan, whole millimetres; `None`: not said.
     pub room_mm: Option<u16>,
+    /// Which neighbours come into sight, where and when, by plan.
+    pub neighbours: Neighbours,
 }
 
 impl Route {

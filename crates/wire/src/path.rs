@@ -9,7 +9,7 @@ use lightbots_base::{Piece, Span, Vec2};
 use crate::fields::Fields;
 use crate::number::{metres, span, tenths, write_digits, write_int};
 use crate::pen::Pen;
-use crate::{Pieces, Route};
+use crate::{Neighbours, Pieces, Route};
 
 /// A place in tenths of a millimetre: what the wire carries, so what both ends agree on.
 type Tenths = [i32; 2];
@@ -18,11 +18,12 @@ type Tenths = [i32; 2];
 pub(crate) fn decode_route(fields: &mut Fields<'_>) -> Option<Route> {
     let seq = fields.next()?.parse().ok().filter(|&seq| seq != 0)?;
     let start = place(fields)?;
-    let mut route = Route { seq, start, pieces: Pieces::new(), room_mm: None };
+    let mut route = Route { seq, start, pieces: Pieces::new(), room_mm: None, neighbours: Neighbours::new() };
     let mut from = start;
     while let Some(kind) = fields.next() {
         if kind == "G" {
             route.room_mm = Some(fields.next()?.parse().ok()?);
+            route.neighbours = Neighbours::decode(fields);
             break;
         }
         let piece = decode_piece(kind, from, fields)?;
@@ -61,6 +62,7 @@ pub(crate) fn encode_route(route: &Route, out: &mut Pen<'_>) -> fmt::Result {
     if let Some(room_mm) = route.room_mm {
         out.write_str(" G ")?;
         write_int(out, i64::from(room_mm))?;
+        route.neighbours.encode(out)?;
     }
     Ok(())
 }

@@ -87,6 +87,8 @@ pub struct Abilities {
     pub blink: bool,
     /// Knows how much room a PATH leaves it.
     pub room: bool,
+    /// Knows which neighbours come into sight on a PATH.
+    pub neighbours: bool,
 }
 
 /// `<uuid> <now>` on `T/LightBot/Time`: what is the show clock?

@@ -179,8 +179,8 @@ fn write_details(details: &Details, out: &mut Pen<'_>) -> fmt::Result {
 
 impl Abilities {
     /// What nearly all robots say that have any, apart because it is said in every report.
-    const ALL: Self = Self { route: true, fade: true, blink: true, room: true };
-    const ALL_WORDS: &'static str = "route+fade+blink+room";
+    const ALL: Self = Self { route: true, fade: true, blink: true, room: true, neighbours: true };
+    const ALL_WORDS: &'static str = "route+fade+blink+room+neighbours";
 
     /// Words joined by `+`; those we do not know are skipped.
     fn from_words(words: &str) -> Self {
@@ -194,6 +194,7 @@ impl Abilities {
                 b"fade" => abilities.fade = true,
                 b"blink" => abilities.blink = true,
                 b"room" => abilities.room = true,
+                b"neighbours" => abilities.neighbours = true,
                 _ => {}
             }
         }
@@ -205,7 +206,13 @@ impl Abilities {
             return out.write_str(Self::ALL_WORDS);
         }
         let mut joint = "";
-        let words = [(self.route, "route"), (self.fade, "fade"), (self.blink, "blink"), (self.room, "room")];
+        let words = [
+            (self.route, "route"),
+            (self.fade, "fade"),
+            (self.blink, "blink"),
+            (self.room, "room"),
+            (self.neighbours, "neighbours"),
+        ];
         for (has, word) in words {
             if has {
                 out.write_str(joint)?;

@@ -28,6 +28,7 @@ fn route(pieces: &[Piece]) -> Route {
         start: Vec2::new(-1.25, 1.3),
         pieces: Pieces::from_slice(pieces).unwrap(),
         room_mm: Some(12),
+        neighbours: Default::default(),
     }
 }
 
@@ -70,7 +71,7 @@ fn full_report() -> Report {
         err_m: Some(0.0012),
         clock_us: Some(450),
         firmware: Firmware::try_from("lightbots-0.1.0").unwrap(),
-        abilities: Abilities { route: true, fade: true, blink: true, room: true },
+        abilities: Abilities { route: true, fade: true, blink: true, room: true, neighbours: true },
         unknown: 3,
         blocked: Some(Blocked { gap_m: 0.0021, towards: -1.5 }),
         simulated: true,
@@ -105,7 +106,7 @@ fn our_messages_byte_for_byte() {
     assert_eq!(
         said(&full_report()),
         "abfe6805-3c60-4e5a-ba40-2dcf7cb5d8e8 -0.73 1.0E-4 state=driving h=1.25 off=0.0034 route=12 \
-         starts=8000000 clock=450 bat=87 unknown=3 can=route+fade+blink+room fw=lightbots-0.1.0 err=0.0012 \
+         starts=8000000 clock=450 bat=87 unknown=3 can=route+fade+blink+room+neighbours fw=lightbots-0.1.0 err=0.0012 \
          blocked=0.0021@-1.5 sim=1"
     );
 }

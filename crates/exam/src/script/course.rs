@@ -68,7 +68,13 @@ pub(super) fn rest(seq: u32, at: Vec2, over: Span) -> Route {
 }
 
 fn route(seq: u32, start: Vec2, pieces: &[Piece]) -> Route {
-    Route { seq, start, pieces: Pieces::from_slice(pieces).unwrap_or_default(), room_mm: None }
+    Route {
+        seq,
+        start,
+        pieces: Pieces::from_slice(pieces).unwrap_or_default(),
+        room_mm: None,
+        neighbours: Default::default(),
+    }
 }
 
 /// `|PATH …|`.

@@ -183,5 +183,11 @@ pub fn straight(seq: u32, start: Vec2, end: Vec2) -> Route {
         Piece::straight(a, b, cruise),
         Piece::hermite(b, v, end, Vec2::ZERO, ramp),
     ];
-    Route { seq, start, pieces: Pieces::from_slice(&pieces).unwrap(), room_mm: None }
+    Route {
+        seq,
+        start,
+        pieces: Pieces::from_slice(&pieces).unwrap(),
+        room_mm: None,
+        neighbours: Default::default(),
+    }
 }

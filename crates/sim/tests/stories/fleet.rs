@@ -58,7 +58,16 @@ fn ride(seq: u32, start: Vec2) -> (Route, Span) {
         Piece::hermite(mid(1.4375), cruise, mid(1.5), Vec2::ZERO, ramp),
     ];
     let total = pieces.iter().fold(Span::ZERO, |sum, piece| sum + piece.duration);
-    (Route { seq, start, pieces: pieces.into_iter().collect(), room_mm: None }, total)
+    (
+        Route {
+            seq,
+            start,
+            pieces: pieces.into_iter().collect(),
+            room_mm: None,
+            neighbours: Default::default(),
+        },
+        total,
+    )
 }
 
 #[test]

@@ -44,7 +44,13 @@ pub fn route(start: Vec2, end: Vec2) -> Route {
         Piece::hermite(start, Vec2::ZERO, begin, cruise, ramp),
         Piece::straight(begin, end, Span::from_secs((end - begin).length() / 0.25)),
     ];
-    Route { seq: 1, start, pieces: Pieces::from_slice(&pieces).expect("three pieces"), room_mm: Some(40) }
+    Route {
+        seq: 1,
+        start,
+        pieces: Pieces::from_slice(&pieces).expect("three pieces"),
+        room_mm: Some(40),
+        neighbours: Default::default(),
+    }
 }
 
 async fn lead(link: &mut Link, id: RobotId, route: &Route, that: impl Fn(&Report) -> bool) -> Report {

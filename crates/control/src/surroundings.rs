@@ -1,0 +1,227 @@
+//! What a plan leaves around each robot: how near others come, and which of them come into sight, where and when.
+
+use std::sync::Arc;
+
+use lightbots_base::{Span, Vec2};
+use lightbots_plan::Path;
+use lightbots_wire::{Knot, Neighbours};
+
+/// Robots are looked at this often: two that pass at full speed come 1 mm nearer in between.
+const STEP: Span = Span::from_millis(40);
+/// Steps at most: longer paths are sampled less often. Over 30,000 steps no robot moves by a millimetre in one.
+const MOST_STEPS: i64 = 30_000;
+/// More room than this is as good as any, metres: beyond the range of proximity sensors and what robots are off their
+/// paths.
+const AMPLE_M: f64 = 0.04;
+/// Neighbours farther away than this are not in sight, metres.
+const SIGHT_M: f64 = 0.034;
+/// Among more robots than this everybody is told the least room of all: looking at each would hold the show up.
+const MOST: usize = 1000;
+/// A neighbour out of sight for no longer than this many steps stays the same sighting.
+const PAUSE_STEPS: i64 = 3;
+/// Knots follow the path within this distance, metres, …
+const KNOT_ERROR_M: f64 = 0.001;
+/// … unless they would be nearer to each other than this.
+const KNOT_EVERY: Span = Span::from_millis(60);
+
+/// What is around one robot on its path.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Surroundings {
+    /// How far its rim stays from those of all others by plan, metres; infinite where that is more than 40 mm.
+    pub room_m: f64,
+    /// Which neighbours come into sight; `None` where nobody looked.
+    pub neighbours: Option<Arc<Neighbours>>,
+}
+
+/// One stretch of time in which a neighbour is near.
+#[derive(Clone, Copy, Debug)]
+struct Sighting {
+    /// Index of the path; beyond the paths: of a disc that stands.
+    other: usize,
+    first: i64,
+    last: i64,
+    least_m: f64,
+}
+
+/// `[path]`: what is around each. `standing` are discs that do not move meanwhile, `least_m` what the plan leaves to the
+/// closest two of all; 0: nobody knows.
+pub(crate) fn surroundings(
+    paths: &[(usize, Path)],
+    standing: &[Vec2],
+    least_m: f64,
+    contact_m: f64,
+) -> Vec<Surroundings> {
+    let alike = |room_m| vec![Surroundings { room_m, neighbours: None }; paths.len()];
+    if least_m <= 0.0 {
+        return alike(0.0);
+    }
+    if paths.len() > MOST {
+        return alike(least_m);
+    }
+    let longest = paths.iter().map(|(_, path)| path.as_ref().duration()).max().unwrap_or(Span::ZERO);
+    let every = STEP.max(Span(longest.0 / MOST_STEPS));
+    let sightings = sight(paths, standing, longest, every, contact_m);
+    let of_one = |mut sightings: Vec<Sighting>| {
+        sightings.sort_by(|a, b| a.least_m.total_cmp(&b.least_m));
+        let room_m = sightings.first().map_or(f64::INFINITY, |one| one.least_m);
+        let mut neighbours = Neighbours::new();
+        for one in sightings.iter().filter(|one| one.least_m < SIGHT_M) {
+            let clearance_tenths = (one.least_m.max(0.0) * 1e4) as u16;
+            let knots = knots_of(one, paths, standing, longest, every);
+            // The farthest are left out where there is no room: the reflex looks at them as at strangers.
+            neighbours.push(clearance_tenths, &knots);
+        }
+        Surroundings { room_m, neighbours: Some(Arc::new(neighbours)) }
+    };
+    sightings.into_iter().map(of_one).collect()
+}
+
+/// `[path]`: who comes near it, and when.
+fn sight(
+    paths: &[(usize, Path)],
+    standing: &[Vec2],
+    longest: Span,
+    every: Span,
+    contact_m: f64,
+) -> Vec<Vec<Sighting>> {
+    let near_m = contact_m + AMPLE_M;
+    let mut sightings: Vec<Vec<Sighting>> = vec![Vec::new(); paths.len()];
+    let places = paths.iter().map(|(_, path)| path.start).chain(standing.iter().copied());
+    let mut at: Vec<(Vec2, usize)> = places.enumerate().map(|(index, place)| (place, index)).collect();
+    // At the end of the last step all stand.
+    for step in 0..=longest.0 / every.0 + 1 {
+        for (place, index) in &mut at {
+            if let Some((_, path)) = paths.get(*index) {
+                *place = path.as_ref().at(every * step).position;
+            }
+        }
+        // Hardly anything changes its turn from step to step.
+        at.sort_by(|a, b| a.0.x.total_cmp(&b.0.x));
+        for (turn, &(place, index)) in at.iter().enumerate() {
+            for &(other_place, other) in at[turn + 1..].iter().take_while(|next| next.0.x - place.x < near_m)
+            {
+                let apart_m = place.distance(other_place);
+                if apart_m < near_m {
+                    note(&mut sightings, index, other, step, apart_m - contact_m);
+                    note(&mut sightings, other, index, step, apart_m - contact_m);
+                }
+            }
+        }
+    }
+    sightings
+}
+
+/// One sees another at a step.
+fn note(sightings: &mut [Vec<Sighting>], one: usize, other: usize, step: i64, gap_m: f64) {
+    let Some(known) = sightings.get_mut(one) else { return };
+    let goes_on = |sighting: &&mut Sighting| sighting.other == other && step - sighting.last <= PAUSE_STEPS;
+    match known.iter_mut().rev().find(goes_on) {
+        Some(sighting) => (sighting.last, sighting.least_m) = (step, sighting.least_m.min(gap_m)),
+        None => known.push(Sighting { other, first: step, last: step, least_m: gap_m }),
+    }
+}
+
+/// Where the neighbour of a sighting is meanwhile, and a step before and after.
+fn knots_of(
+    one: &Sighting,
+    paths: &[(usize, Path)],
+    standing: &[Vec2],
+    longest: Span,
+    every: Span,
+) -> Vec<Knot> {
+    let from = every * (one.first - 1).max(0);
+    let to = (every * (one.last + 1)).min(longest).max(from + Span::from_millis(1));
+    match paths.get(one.other) {
+        Some((_, path)) => {
+            let knot = |at: Span| {
+                let motion = path.as_ref().at(at);
+                knot(at, motion.position, motion.velocity)
+            };
+            let mut knots = vec![knot(from)];
+            divide(path, from, to, &mut knots);
+            knots
+        }
+        None => vec![knot(from, standing[one.other - paths.len()], Vec2::ZERO)],
+    }
+}
+
+/// Adds knots after `from` up to `to`, as many as it takes to follow the path.
+fn divide(path: &Path, from: Span, to: Span, knots: &mut Vec<Knot>) {
+    let ends = [from, to].map(|at| path.as_ref().at(at));
+    let over_s = (to - from).as_secs();
+    let off = |share: f64| {
+        let (u, w) = (share, 1.0 - share);
+        let guess = ends[0].position * (w * w * (1.0 + 2.0 * u))
+            + ends[0].velocity * (over_s * u * w * w)
+            + ends[1].position * (u * u * (1.0 + 2.0 * w))
+            - ends[1].velocity * (over_s * u * u * w);
+        guess.distance(path.as_ref().at(from + Span::from_secs(over_s * share)).position)
+    };
+    let fits = [0.2, 0.4, 0.6, 0.8].into_iter().all(|share| off(share) < KNOT_ERROR_M);
+    if fits || to - from < KNOT_EVERY {
+        knots.push(knot(to, ends[1].position, ends[1].velocity));
+        return;
+    }
+    let middle = from + Span((to - from).0 / 2);
+    divide(path, from, middle, knots);
+    divide(path, middle, to, knots);
+}
+
+fn knot(at: Span, place: Vec2, velocity: Vec2) -> Knot {
+    // Casts saturate, and places on a floor are far from their limits.
+    Knot {
+        at_ms: (at.0.max(0) / 1000) as u32,
+        place_tenths: [place.x, place.y].map(|metres| (metres * 1e4).round() as i32),
+        velocity_mmps: [velocity.x, velocity.y].map(|mps| (mps * 1e3).round() as i16),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use lightbots_base::Piece;
+
+    fn straight(from: Vec2, to: Vec2) -> Path {
+        Path { start: from, pieces: vec![Piece::straight(from, to, Span::from_millis(4_000))] }
+    }
+
+    #[test]
+    fn room_is_to_the_nearest_wherever_it_is_met() {
+        let along = |y| straight(Vec2::new(0.0, y), Vec2::new(1.0, y));
+        let back = straight(Vec2::new(1.0, 0.07), Vec2::new(0.0, 0.07));
+        let paths = [(0, along(0.0)), (1, back), (2, along(0.5)), (3, along(1.0))];
+        let around = surroundings(&paths, &[Vec2::new(0.5, 0.58)], 0.016, 0.054);
+        let room_m = |index: usize| around[index].room_m;
+        assert!((room_m(0) - 0.016).abs() < 0.001 && room_m(0) == room_m(1), "{around:?}");
+        assert!((room_m(2) - 0.026).abs() < 0.001 && room_m(3) == f64::INFINITY, "{around:?}");
+    }
+
+    #[test]
+    fn neighbours_are_named_with_time_and_place() {
+        let along = |y| straight(Vec2::new(0.0, y), Vec2::new(1.0, y));
+        let back = straight(Vec2::new(1.0, 0.07), Vec2::new(0.0, 0.07));
+        let paths = [(0, along(0.0)), (1, back)];
+        let around = surroundings(&paths, &[Vec2::new(0.8, -0.07)], 0.016, 0.054);
+        let named = around[0].neighbours.as_deref().unwrap();
+        assert_eq!(named.list.len(), 2);
+        let meets = Span::from_millis(2_000);
+        let places: Vec<_> = named.list.iter().filter_map(|one| named.motion(one, meets)).collect();
+        assert_eq!(places.len(), 1);
+        assert!(places[0].position.distance(Vec2::new(0.5, 0.07)) < 0.0005, "{places:?}");
+        assert!(places[0].velocity.distance(Vec2::new(-0.25, 0.0)) < 0.001, "{places:?}");
+    }
+
+    #[test]
+    fn in_a_large_crowd_everybody_has_the_least_room_of_all() {
+        let far = |index: usize| Vec2::new(index as f64, 0.0);
+        let paths: Vec<_> = (0..=MOST).map(|index| (index, straight(far(index), far(index)))).collect();
+        let around = surroundings(&paths, &[], 0.007, 0.054);
+        assert!(around.iter().all(|one| one.room_m == 0.007 && one.neighbours.is_none()));
+    }
+
+    #[test]
+    fn where_the_plan_knows_none_there_is_none() {
+        let paths = [(0, straight(Vec2::ZERO, Vec2::new(1.0, 0.0)))];
+        assert_eq!(surroundings(&paths, &[], 0.0, 0.054)[0].room_m, 0.0);
+    }
+}
