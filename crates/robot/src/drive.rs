@@ -41,6 +41,8 @@ pub(crate) struct Drive {
     told: Setpoint,
     /// It braked at once, and has not got its speed back.
     braked: bool,
+    /// It does not get that back at once.
+    pub gently: bool,
 }
 
 impl Drive {
@@ -60,7 +62,7 @@ impl Drive {
         let (ramp_step, turn_step) = (limits.accel_mps2 * ACCEL_RESERVE * dt, TURN_ACCEL * dt);
         let missing = speed - self.told.speed_mps;
         self.braked &= missing * self.told.speed_mps >= 0.0 && missing.abs() > ramp_step;
-        let speed_step = if self.braked { RECOVERS * ramp_step } else { ramp_step };
+        let speed_step = if self.braked && !self.gently { RECOVERS * ramp_step } else { ramp_step };
         self.told = Setpoint {
             speed_mps: self.told.speed_mps + missing.clamp(-speed_step, speed_step),
             turn_radps: self.told.turn_radps + (turn - self.told.turn_radps).clamp(-turn_step, turn_step),

@@ -15,8 +15,8 @@ use crate::drive::{Body, Drive, Setpoint};
 use crate::estimate::Estimate;
 use crate::light::Light;
 use crate::outbox::Outbox;
-use crate::reflex::{AMPLE_MM, Reflex, Wish};
-use crate::routes::Routes;
+use crate::reflex::{Reflex, Wish};
+use crate::routes::{InSight, Routes};
 use crate::seek::Seek;
 use crate::shelf::Shelf;
 use crate::stall::Stall;
@@ -106,7 +106,7 @@ impl<S: BorrowMut<Shelf>> Robot<S> {
             light: Light::default(),
             shown: Rgb::BLACK,
             seek: None,
-            reflex: Reflex::new(),
+            reflex: Reflex::new(&config),
             stall: Stall::default(),
             supervisor: Supervisor::new(config.silence),
             outbox: Outbox::new(phase),
@@ -141,6 +141,7 @@ impl<S: BorrowMut<Shelf>> Robot<S> {
         // A route whose moment has come is under way, even if no step saw it yet: the next one must not replace it.
         if self.route_time(now).is_some_and(|show| self.routes.begin_due(show, self.shelf.borrow())) {
             self.seek = None;
+            self.reflex.begin_route();
         }
         let mut commands = commands(payload);
         // Looked at where it was decoded: it has room for a route, and moving it would copy all of that.
@@ -177,6 +178,7 @@ impl<S: BorrowMut<Shelf>> Robot<S> {
         let show = self.route_time(now);
         if show.is_some_and(|show| self.routes.begin_due(show, self.shelf.borrow())) {
             self.seek = None;
+            self.reflex.begin_route();
         }
         self.supervise(now);
         let wheels_radps = self.act(now, show, took);
@@ -218,9 +220,12 @@ impl<S: BorrowMut<Shelf>> Robot<S> {
             let [left, right] = inputs.wheel_turns_rad;
             let way_m = 0.5 * (left + right) * self.config.limits.wheel_radius_m;
             let turn_rad = (right - left) * self.config.limits.wheel_radius_m / self.config.limits.track_m;
-            let gaps_m = inputs.proximity_m.as_ref().filter(|gaps| Reflex::notices(gaps));
+            let gaps_m = inputs.proximity_m.as_ref().filter(|gaps| self.reflex.notices(gaps));
             if self.wary || gaps_m.is_some() {
-                self.reflex.look(gaps_m, (way_m, turn_rad), dt);
+                let mut expected = InSight::new();
+                let body = Body { at: self.estimate.at(), facing: self.estimate.facing() };
+                self.routes.expect(body, self.shelf.borrow(), &mut expected);
+                self.reflex.look(gaps_m, (way_m, turn_rad), dt, &expected);
                 self.wary = true;
             }
             if self.stall.look(inputs.wheel_turns_rad, dt) {
@@ -284,13 +289,15 @@ impl<S: BorrowMut<Shelf>> Robot<S> {
         let most_mps = if !self.wary {
             None
         } else if self.routes.under_way() {
-            let ample = self.routes.room_mm().is_some_and(|room_mm| room_mm >= AMPLE_MM);
-            let wish = Wish { speed_mps: wants.speed_mps, told_mps: self.drive.speed_mps(), ample };
-            self.reflex.limit(wish, &self.config.limits)
+            let [speed_mps, told_mps] = [wants.speed_mps, self.drive.speed_mps()].map(|mps| mps as f32);
+            let wish = Wish { speed_mps, told_mps, dt: took.as_secs() as f32 };
+            let named = self.routes.names_neighbours(self.shelf.borrow());
+            self.reflex.limit(wish, self.routes.room_mm().filter(|_| !named))
         } else {
             self.reflex.forget();
             None
         };
+        self.drive.gently = self.wary && self.reflex.sees_strays();
         let (slip, limits, dt) = (self.estimate.slip(), &self.config.limits, took.as_secs());
         let wheels = match most_mps {
             // Held, it may turn on the spot for what comes.

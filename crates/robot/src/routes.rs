@@ -8,6 +8,7 @@ use crate::drive::{Body, Setpoint};
 use crate::follow::{Follow, RESTING_MPS};
 use crate::outlook::{Ahead, Outlook, SLOW_MPS};
 use crate::processor::Processor;
+use crate::reflex::{Expectation, Point};
 use crate::seek::{Seek, within_arrival};
 use crate::shelf::{Place, Shelf};
 use crate::timeline::Timeline;
@@ -23,6 +24,11 @@ const STRAYED_M: f64 = 0.0055;
 const BACK_M: f64 = 0.004;
 /// A route whose number lies so little below the one kept is an old message that came late.
 const OLD_NUMBERS: u32 = 64;
+
+/// Most neighbours in sight at once that are expected.
+pub(crate) const MAX_IN_SIGHT: usize = 12;
+/// The neighbours expected in sight.
+pub(crate) type InSight = heapless::Vec<Expectation, MAX_IN_SIGHT>;
 
 /// A route that waits for its START.
 #[derive(Debug)]
@@ -53,8 +59,9 @@ struct Running {
     room_mm: Option<u16>,
     seq: u32,
     duration: Span,
-    /// Path time when the wheels have answered.
+    /// Path time when the wheels have answered, and how fast it runs then, 0 to 1.
     time: Span,
+    rate: f64,
     /// Where it should be then.
     due: Vec2,
     off_m: f64,
@@ -109,6 +116,36 @@ impl Routes {
         self.running.as_ref()?.room_mm
     }
 
+    /// The neighbours that the plan of the route under way has in sight now, as the latest step foresaw it; at most
+    /// [`MAX_IN_SIGHT`].
+    pub(crate) fn expect(&self, body: Body, shelf: &Shelf, expected: &mut InSight) {
+        let Some(running) = &self.running else { return };
+        let neighbours = &shelf.at(running.place).neighbours;
+        let back = Vec2::new(body.facing.x, -body.facing.y);
+        let into_body = |vector: Vec2| {
+            let turned = turned_by(vector, back);
+            Point::new(turned.x as f32, turned.y as f32)
+        };
+        for (index, neighbour) in neighbours.list.iter().enumerate() {
+            let Some(motion) = neighbours.motion(neighbour, running.time) else { continue };
+            let one = Expectation {
+                index: index as u8,
+                at: into_body(motion.position - body.at),
+                velocity: into_body(motion.velocity * running.rate),
+                acceleration: into_body(motion.acceleration * (running.rate * running.rate)),
+                clearance_m: f32::from(neighbour.clearance_tenths) * 1e-4,
+            };
+            if expected.push(one).is_err() {
+                return;
+            }
+        }
+    }
+
+    /// Whether the route under way names its neighbours.
+    pub(crate) fn names_neighbours(&self, shelf: &Shelf) -> bool {
+        self.running.as_ref().is_some_and(|running| !shelf.at(running.place).neighbours.list.is_empty())
+    }
+
     /// Takes a hold or a resume.
     pub(crate) fn note(&mut self, at: Instant, hold: bool) {
         self.timeline.note(at, hold);
@@ -147,6 +184,7 @@ impl Routes {
             off_m: 0.0,
             due: route.start,
             time: Span::ZERO,
+            rate: 1.0,
             rests: false,
         });
         true
@@ -168,7 +206,8 @@ impl Routes {
         running.cursor.seek(route, progress.time);
         let by_path_time = running.cursor.motion(progress.time);
         let motion = by_show_time(by_path_time, progress.rate);
-        (running.due, running.time, running.rests) = (motion.position, progress.time, progress.rate == 0.0);
+        (running.due, running.time, running.rate) = (motion.position, progress.time, progress.rate);
+        running.rests = progress.rate == 0.0;
         running.off_m = motion.position.distance(body.at);
         if progress.time >= running.duration
             && (running.seek.is_some() || !running.is_there(progress.time, body.at, motion.position))
@@ -320,6 +359,11 @@ impl Running {
     fn is_there(&self, time: Span, at: Vec2, end: Vec2) -> bool {
         at.distance(end) <= NEAR_M || time >= self.duration + TRYING && within_arrival(at, end)
     }
+}
+
+/// A vector rotated by the angle of a unit vector.
+fn turned_by(vector: Vec2, by: Vec2) -> Vec2 {
+    Vec2::new(vector.x * by.x - vector.y * by.y, vector.x * by.y + vector.y * by.x)
 }
 
 /// Motion per path time → motion per show time; the ease of holds itself is too gentle to matter as acceleration.

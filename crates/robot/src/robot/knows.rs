@@ -22,6 +22,12 @@ impl<S: BorrowMut<Shelf>> Robot<S> {
         (!self.is_lost(self.now - self.lag)).then(|| self.estimate.at())
     }
 
+    /// In which direction of body space that is for which its safety layer slows it in this step, radians; `None`: it is
+    /// free.
+    pub fn braking_towards(&self) -> Option<f64> {
+        if self.wary { self.reflex.braking_towards() } else { None }
+    }
+
     /// What it is doing.
     pub fn state(&self) -> RobotState {
         self.state

@@ -1,0 +1,169 @@
+//! The covariance of a track: place and velocity, two axes each.
+
+use super::point::Point;
+
+/// A symmetric matrix of two by two.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+struct Symmetric {
+    xx: f32,
+    xy: f32,
+    yy: f32,
+}
+
+impl Symmetric {
+    fn diagonal(value: f32) -> Self {
+        Self { xx: value, xy: 0.0, yy: value }
+    }
+
+    fn times(self, by: Point) -> Point {
+        Point { x: self.xx * by.x + self.xy * by.y, y: self.xy * by.x + self.yy * by.y }
+    }
+
+    fn rotated(self, by: Point) -> Self {
+        let (cc, ss, cs) = (by.x * by.x, by.y * by.y, by.x * by.y);
+        Self {
+            xx: cc * self.xx - 2.0 * cs * self.xy + ss * self.yy,
+            xy: cs * (self.xx - self.yy) + (cc - ss) * self.xy,
+            yy: ss * self.xx + 2.0 * cs * self.xy + cc * self.yy,
+        }
+    }
+
+    fn minus_outer(&mut self, of: Point, share: f32) {
+        self.xx -= of.x * of.x * share;
+        self.xy -= of.x * of.y * share;
+        self.yy -= of.y * of.y * share;
+    }
+}
+
+/// Covariance of place (metres) and velocity (m/s) in body space.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct Covariance {
+    place: Symmetric,
+    velocity: Symmetric,
+    /// Place with velocity: rows of place (x, y), each with the velocity's x and y.
+    both: [Point; 2],
+}
+
+impl Covariance {
+    /// Independent place and velocity: variances of the place along and across a direction, and of the velocity.
+    pub fn new(along: Point, along_m2: f32, across_m2: f32, velocity_m2ps2: f32) -> Self {
+        let place = Symmetric { xx: along_m2, xy: 0.0, yy: across_m2 }.rotated(along);
+        Self { place, velocity: Symmetric::diagonal(velocity_m2ps2), both: [Point::ZERO; 2] }
+    }
+
+    /// Variance of the place along a unit vector, square metres.
+    pub fn place_along(&self, unit: Point) -> f32 {
+        unit.dot(self.place.times(unit))
+    }
+
+    /// Variance of the velocity along a unit vector, m²/s².
+    pub fn velocity_along(&self, unit: Point) -> f32 {
+        unit.dot(self.velocity.times(unit))
+    }
+
+    /// Variance along a unit vector of the place `after_s` seconds from now, square metres.
+    pub fn place_after(&self, unit: Point, after_s: f32) -> f32 {
+        let both = unit.x * self.both[0].dot(unit) + unit.y * self.both[1].dot(unit);
+        self.place_along(unit) + after_s * (2.0 * both + after_s * self.velocity_along(unit))
+    }
+
+    /// A step of `dt` seconds at constant velocity, then a change of velocity of unknown direction (1 sigma, m/s).
+    pub fn predict(&mut self, dt: f32, change_mps: f32) {
+        let [x, y] = &mut self.both;
+        let velocity = self.velocity;
+        self.place.xx += dt * (2.0 * x.x + dt * velocity.xx);
+        self.place.xy += dt * (x.y + y.x + dt * velocity.xy);
+        self.place.yy += dt * (2.0 * y.y + dt * velocity.yy);
+        *x = x.plus(Point { x: velocity.xx, y: velocity.xy }.times(dt));
+        *y = y.plus(Point { x: velocity.xy, y: velocity.yy }.times(dt));
+        self.kick(change_mps, 0.5 * dt);
+    }
+
+    /// The velocity changed by an unknown amount (1 sigma, m/s) `ago_s` seconds ago.
+    pub fn kick(&mut self, sigma_mps: f32, ago_s: f32) {
+        let variance = sigma_mps * sigma_mps;
+        self.velocity.xx += variance;
+        self.velocity.yy += variance;
+        self.both[0].x += variance * ago_s;
+        self.both[1].y += variance * ago_s;
+        self.add_place(variance * ago_s * ago_s);
+    }
+
+    /// The velocity changed along a unit vector by an unknown amount (1 sigma, m/s) `ago_s` seconds ago.
+    pub fn kick_along(&mut self, unit: Point, sigma_mps: f32, ago_s: f32) {
+        let change = unit.times(sigma_mps);
+        self.velocity.minus_outer(change, -1.0);
+        self.place.minus_outer(change, -ago_s * ago_s);
+        self.both[0] = self.both[0].plus(change.times(change.x * ago_s));
+        self.both[1] = self.both[1].plus(change.times(change.y * ago_s));
+    }
+
+    /// The place is less sure by this variance in all directions, square metres.
+    pub fn add_place(&mut self, variance_m2: f32) {
+        self.place.xx += variance_m2;
+        self.place.yy += variance_m2;
+    }
+
+    /// Body space has turned: all axes rotate by the angle of a unit vector.
+    pub fn rotate(&mut self, by: Point) {
+        self.place = self.place.rotated(by);
+        self.velocity = self.velocity.rotated(by);
+        let [x, y] = self.both.map(|row| row.rotated(by));
+        self.both = [x.times(by.x).minus(y.times(by.y)), x.times(by.y).plus(y.times(by.x))];
+    }
+
+    /// Takes a scalar measurement and returns how place and velocity move.
+    pub fn correct(&mut self, gradient: Point, innovation: f32, variance: f32) -> (Point, Point) {
+        let place = self.place.times(gradient);
+        let velocity = self.both[0].times(gradient.x).plus(self.both[1].times(gradient.y));
+        self.gain(place, velocity, innovation, variance)
+    }
+
+    /// What is known of place and velocity goes with a measurement, by their covariance with it.
+    fn gain(&mut self, place: Point, velocity: Point, innovation: f32, variance: f32) -> (Point, Point) {
+        let share = 1.0 / variance;
+        self.place.minus_outer(place, share);
+        self.velocity.minus_outer(velocity, share);
+        self.both[0] = self.both[0].minus(velocity.times(place.x * share));
+        self.both[1] = self.both[1].minus(velocity.times(place.y * share));
+        (place.times(innovation * share), velocity.times(innovation * share))
+    }
+
+    /// Takes a scalar measurement of the velocity along a unit vector and returns how place and velocity move.
+    pub fn correct_velocity(&mut self, unit: Point, innovation: f32, variance: f32) -> (Point, Point) {
+        let velocity = self.velocity.times(unit);
+        let place = Point { x: self.both[0].dot(unit), y: self.both[1].dot(unit) };
+        self.gain(place, velocity, innovation, variance)
+    }
+
+    /// Squared Mahalanobis length of an error in place and velocity: chi-square with four degrees of freedom.
+    #[cfg(test)]
+    pub fn mahalanobis2(&self, place: Point, velocity: Point) -> f64 {
+        let [bx, by] = self.both;
+        let (p, v) = (self.place, self.velocity);
+        let matrix = [
+            [p.xx, p.xy, bx.x, bx.y],
+            [p.xy, p.yy, by.x, by.y],
+            [bx.x, by.x, v.xx, v.xy],
+            [bx.y, by.y, v.xy, v.yy],
+        ];
+        let mut rows = matrix.map(|row| row.map(f64::from));
+        let error = [place.x, place.y, velocity.x, velocity.y].map(f64::from);
+        let mut solved = error;
+        // Gaussian elimination: the matrix is positive definite.
+        for pivot in 0..4 {
+            for row in pivot + 1..4 {
+                let factor = rows[row][pivot] / rows[pivot][pivot];
+                for column in pivot..4 {
+                    rows[row][column] -= factor * rows[pivot][column];
+                }
+                solved[row] -= factor * solved[pivot];
+            }
+        }
+        for row in (0..4).rev() {
+            let known: f64 = (row + 1..4).map(|column| rows[row][column] * solved[column]).sum();
+            solved[row] = (solved[row] - known) / rows[row][row];
+        }
+        error.iter().zip(solved).map(|(error, solved)| error * solved).sum()
+    }
+}

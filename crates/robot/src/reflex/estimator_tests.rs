@@ -1,0 +1,201 @@
+//! How good the estimates of neighbours are, and how honest their covariances: five scenes, ten thousand steps each.
+
+extern crate std;
+
+use std::println;
+use std::vec;
+use std::vec::Vec;
+
+use super::point::Point;
+use super::sensors::Sensors;
+use super::track::{OwnMotion, Track};
+use super::tracks::Tracks;
+use crate::config::{ProximitySensors, ReflexParameters, SENSORS};
+
+const DT: f32 = 0.016;
+const RADIUS_M: f32 = 0.027;
+/// The 95 % quantile of chi-square with four degrees of freedom.
+const CHI2_95: f64 = 9.488;
+
+struct Dice(u64);
+
+impl Dice {
+    fn uniform(&mut self) -> f32 {
+        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (self.0 >> 40) as f32 / (1u64 << 24) as f32
+    }
+
+    fn between(&mut self, least: f32, most: f32) -> f32 {
+        least + (most - least) * self.uniform()
+    }
+
+    fn normal(&mut self) -> f32 {
+        let sum: f32 = (0..12).map(|_| self.uniform()).sum();
+        sum - 6.0
+    }
+}
+
+/// A disc in the robot's body space.
+#[derive(Clone, Copy)]
+struct Disc {
+    at: Point,
+    velocity: Point,
+}
+
+/// What a sensor reads without noise: the nearest rim in its cone.
+fn reads_m(discs: &[Disc], sensor: usize) -> f32 {
+    let axis = Point::unit(sensor as f32 * core::f32::consts::FRAC_PI_4);
+    let reads = |disc: &Disc| {
+        let ray = disc.at.minus(axis.times(RADIUS_M));
+        let far_m = ray.length();
+        let gap_m = far_m - RADIUS_M;
+        if ray.dot(axis) > 0.642_787_6 * far_m && gap_m < 0.03 { gap_m } else { f32::INFINITY }
+    };
+    discs.iter().map(reads).fold(f32::INFINITY, f32::min)
+}
+
+fn readings(discs: &[Disc], dice: &mut Dice) -> [f32; SENSORS] {
+    core::array::from_fn(|sensor| {
+        let gap_m = reads_m(discs, sensor);
+        (gap_m + dice.normal() * (0.0003 + 0.05 * gap_m.abs())).max(0.0)
+    })
+    .map(|gap_m: f32| if gap_m.is_nan() { f32::INFINITY } else { gap_m })
+}
+
+#[derive(Default)]
+struct Tally {
+    places_m: Vec<f32>,
+    speeds_mps: Vec<f32>,
+    inside: usize,
+    lost: usize,
+}
+
+impl Tally {
+    fn add(&mut self, track: Option<&Track>, disc: &Disc) {
+        let Some(track) = track else { return self.lost += 1 };
+        let (place, velocity) = (track.at.minus(disc.at), track.velocity.minus(disc.velocity));
+        self.places_m.push(place.length());
+        self.speeds_mps.push(velocity.length());
+        self.inside += usize::from(track.covariance.mahalanobis2(place, velocity) < CHI2_95);
+    }
+
+    fn say(&mut self, name: &str) {
+        let median = |values: &mut Vec<f32>| {
+            values.sort_by(f32::total_cmp);
+            values[values.len() / 2]
+        };
+        let count = self.places_m.len();
+        println!(
+            "{name}: {count} steps, {} lost, median {:.2} mm {:.1} mm/s, inside {:.1} %",
+            self.lost,
+            median(&mut self.places_m) * 1e3,
+            median(&mut self.speeds_mps) * 1e3,
+            self.inside as f64 / count as f64 * 100.0
+        );
+    }
+}
+
+/// Both move on for a step: discs by their velocity with random accelerations, the robot by `own`.
+fn advance(discs: &mut [Disc], own: &OwnMotion, accel_mps2: f32, dice: &mut Dice) {
+    let turn = Point::unit(-own.turn_rad);
+    let half = Point::unit(0.5 * own.turn_rad);
+    for disc in discs {
+        let way = Point::new(own.way_m, 0.0).rotated(half);
+        disc.at = disc.at.plus(disc.velocity.times(DT)).minus(way).rotated(turn);
+        let push = Point::new(dice.normal(), dice.normal()).times(accel_mps2 * DT);
+        disc.velocity = disc.velocity.plus(push).rotated(turn);
+    }
+}
+
+fn scene(
+    name: &str,
+    count: usize,
+    warm: usize,
+    episode: usize,
+    make: impl Fn(&mut Dice) -> (Vec<Disc>, OwnMotion),
+) {
+    let (sensors, of) = (Sensors::new(&ProximitySensors::ELISA_3, 0.027), ReflexParameters::DEFAULT);
+    let (mut dice, mut tally, mut steps) = (Dice(7), Tally::default(), 0);
+    while steps < 10_000 {
+        let (mut discs, own) = make(&mut dice);
+        let mut tracks = Tracks::default();
+        for step in 0..episode {
+            advance(&mut discs, &own, of.accel_sigma_mps2, &mut dice);
+            let touch = |a: &Disc, b: Point| a.at.minus(b).length() < 2.0 * RADIUS_M;
+            let apart = discs.len() < 2 || !touch(&discs[0], discs[1].at);
+            if !apart || discs.iter().any(|disc| touch(disc, Point::ZERO)) {
+                break;
+            }
+            let gaps_m = readings(&discs, &mut dice);
+            let in_sight = (0..SENSORS).any(|sensor| reads_m(&discs[..1], sensor) < 0.03);
+            tracks.step(&gaps_m, &own, &[], &sensors, &of);
+            if step >= warm && in_sight {
+                for disc in &discs[..count] {
+                    let off = |track: &&Track| track.at.minus(disc.at).length();
+                    let track = tracks
+                        .iter()
+                        .min_by(|a, b| off(a).total_cmp(&off(b)))
+                        .filter(|track| off(track) < 0.03);
+                    tally.add(track, disc);
+                }
+                steps += 1;
+            }
+        }
+    }
+    tally.say(name);
+}
+
+fn along(dice: &mut Dice) -> OwnMotion {
+    OwnMotion { way_m: dice.between(0.0, 0.0043), turn_rad: 0.03 * dice.normal(), dt: DT }
+}
+
+fn any(dice: &mut Dice) -> Point {
+    Point::unit(dice.between(-3.1416, 3.1416)).times(0.27 * libm::sqrtf(dice.uniform()))
+}
+
+#[test]
+fn scenes() {
+    let polar = |degrees: f32, gap_m: f32| Point::unit(degrees.to_radians()).times(2.0 * RADIUS_M + gap_m);
+    scene("anyone, anywhere", 1, 5, 25, |dice| {
+        let own = along(dice);
+        (
+            vec![Disc {
+                at: polar(dice.between(-180.0, 180.0), dice.between(0.02, 0.03)),
+                velocity: any(dice),
+            }],
+            own,
+        )
+    });
+    scene("one stands, passes", 1, 5, 20, |dice| {
+        let own = OwnMotion { way_m: 0.0043, turn_rad: 0.0, dt: DT };
+        (
+            vec![Disc {
+                at: polar(dice.between(50.0, 70.0), dice.between(0.01, 0.028)),
+                velocity: Point::ZERO,
+            }],
+            own,
+        )
+    });
+    scene("one across two cones", 1, 5, 20, |dice| {
+        let own = along(dice);
+        (
+            vec![Disc { at: polar(dice.between(15.0, 30.0), dice.between(0.01, 0.02)), velocity: any(dice) }],
+            own,
+        )
+    });
+    scene("appears at 10 mm", 1, 0, 10, |dice| {
+        let own = along(dice);
+        (vec![Disc { at: polar(dice.between(-180.0, 180.0), 0.010), velocity: any(dice) }], own)
+    });
+    scene("two in one cone", 2, 5, 20, |dice| {
+        let own = OwnMotion { way_m: 0.004, turn_rad: 0.0, dt: DT };
+        let velocity = any(dice);
+        (
+            vec![
+                Disc { at: polar(-30.0, dice.between(0.004, 0.012)), velocity },
+                Disc { at: polar(32.0, dice.between(0.004, 0.012)), velocity },
+            ],
+            own,
+        )
+    });
+}

@@ -1,0 +1,96 @@
+//! How fast the robot may drive for one neighbour: the highest speed from which it can stop before the swept discs of
+//! both, grown by what is not known of the neighbour, touch.
+
+use lightbots_base::braking::{ACTUATION_S, GRIP_MPS2};
+
+use super::point::Point;
+use super::sensors::Sensors;
+use super::track::Track;
+use crate::config::ReflexParameters;
+
+/// Halvings in the search for the highest speed: 0.27 m/s to within 1 mm/s.
+const HALVINGS: usize = 8;
+/// A neighbour less than this ahead of abeam (cosine) is not neared by driving on.
+const ABEAM: f32 = 0.05;
+
+/// What the robot is about to do along its front; negative is backwards.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Wish {
+    /// The speed that its route or target asks for, m/s.
+    pub speed_mps: f32,
+    /// The speed that its wheels were told a step ago, which acts now, m/s.
+    pub told_mps: f32,
+    /// Length of a step, seconds.
+    pub dt: f32,
+}
+
+impl Wish {
+    /// 1 forwards, −1 backwards.
+    fn sense(&self) -> f32 {
+        let decides = if self.speed_mps.abs() > 1e-3 { self.speed_mps } else { self.told_mps };
+        1f32.copysign(decides)
+    }
+}
+
+/// The highest speed allowed for a neighbour, m/s; `None`: the wish is no danger. `clearance_m`: what the plan leaves
+/// the two, where it is known.
+pub(crate) fn allowed_mps(
+    track: &Track,
+    wish: &Wish,
+    clearance_m: Option<f32>,
+    sensors: &Sensors,
+    of: &ReflexParameters,
+) -> Option<f32> {
+    let sense = wish.sense();
+    let ahead = track.at.x * sense / track.at.length().max(1e-3);
+    if ahead < ABEAM {
+        return None;
+    }
+    let stop = Stop { track, wish, sense };
+    let wanted_mps = wish.speed_mps * sense;
+    let (at_wanted, direction, after_s) = stop.nearest(wanted_mps);
+    let sigma_m = libm::sqrtf(track.covariance.place_after(direction, after_s).max(0.0));
+    let grown_m = of.spare_m + of.sigmas * sigma_m;
+    let grown_m = clearance_m.map_or(grown_m, |clearance_m| grown_m.min(of.planned_share * clearance_m));
+    let least_m = sensors.contact_m() + grown_m;
+    if at_wanted >= least_m {
+        return None;
+    }
+    // Nearer than that already, or driven into by the other: then it must not make it worse.
+    let (at_rest, ..) = stop.nearest(0.0);
+    let tolerance_m = if clearance_m.is_some() { of.tolerance_m } else { 0.0 };
+    let least_m = least_m.min(at_rest - tolerance_m);
+    if at_wanted >= least_m {
+        return None;
+    }
+    let (mut safe, mut unsafe_) = (0.0, wanted_mps);
+    for _ in 0..HALVINGS {
+        let middle = 0.5 * (safe + unsafe_);
+        if stop.nearest(middle).0 >= least_m { safe = middle } else { unsafe_ = middle }
+    }
+    Some(safe)
+}
+
+/// Driving on at some speed for a step, then stopping at the grip limit.
+struct Stop<'a> {
+    track: &'a Track,
+    wish: &'a Wish,
+    sense: f32,
+}
+
+impl Stop<'_> {
+    /// How near the two centres come until the robot stands, metres, in which direction the neighbour is then, and when.
+    fn nearest(&self, speed_mps: f32) -> (f32, Point, f32) {
+        let (reaction_s, grip) = (ACTUATION_S as f32, GRIP_MPS2 as f32);
+        let told_mps = self.wish.told_mps * self.sense;
+        let way_m = told_mps * reaction_s + speed_mps * (self.wish.dt + speed_mps / (2.0 * grip));
+        let over_s = reaction_s + self.wish.dt + speed_mps / grip;
+        let start = self.track.at;
+        let step = self.track.velocity.times(over_s).minus(Point::new(self.sense * way_m, 0.0));
+        let length2 = step.dot(step).max(1e-12);
+        let share = (-start.dot(step) / length2).clamp(0.0, 1.0);
+        let nearest = start.plus(step.times(share));
+        let far_m = nearest.length().max(1e-3);
+        (far_m, nearest.times(1.0 / far_m), share * over_s)
+    }
+}

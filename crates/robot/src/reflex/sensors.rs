@@ -1,0 +1,76 @@
+//! What the proximity sensors are, and what they read of a disc at a place.
+
+use super::point::Point;
+use crate::config::{ProximitySensors, SENSORS};
+
+/// The sensors of one robot, prepared for the formulas.
+#[derive(Clone, Debug)]
+pub(crate) struct Sensors {
+    /// Unit vectors of the directions in which they look, body space.
+    pub axes: [Point; SENSORS],
+    /// Cosine of the half angle of their cones.
+    cone_cos: f32,
+    /// Farthest gap of interest, metres.
+    pub range_m: f32,
+    noise_m: f32,
+    noise_share: f32,
+    /// Radius of the robot, and of every disc it sees, metres.
+    pub radius_m: f32,
+}
+
+/// What a sensor would read of a disc.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Expected {
+    /// Sensor to rim, metres.
+    pub gap_m: f32,
+    /// Sensor to centre, metres.
+    pub far_m: f32,
+    /// Unit vector from the sensor to the disc's centre: how the reading changes with the disc's place.
+    pub towards: Point,
+    /// How far inside the sensor's cone the centre is, metres; negative outside.
+    pub inside_m: f32,
+}
+
+impl Sensors {
+    pub fn new(of: &ProximitySensors, radius_m: f64) -> Self {
+        Self {
+            axes: of.bearings_rad.map(Point::unit),
+            cone_cos: libm::cosf(of.half_cone_rad),
+            range_m: of.range_m,
+            noise_m: of.noise_m,
+            noise_share: of.noise_share,
+            radius_m: radius_m as f32,
+        }
+    }
+
+    /// Distance of two centres that touch, metres.
+    pub fn contact_m(&self) -> f32 {
+        2.0 * self.radius_m
+    }
+
+    /// Whether anything is in sight.
+    pub fn notice(&self, gaps_m: &[f32; SENSORS]) -> bool {
+        gaps_m.iter().any(|&gap_m| gap_m < self.range_m)
+    }
+
+    /// What a sensor would read of a disc centred at `at`.
+    pub fn expected(&self, sensor: usize, at: Point) -> Expected {
+        let axis = self.axes[sensor];
+        let ray = at.minus(axis.times(self.radius_m));
+        let far_m = ray.length().max(1e-3);
+        let towards = ray.times(1.0 / far_m);
+        let inside_m = ray.dot(axis) - self.cone_cos * far_m;
+        Expected { gap_m: far_m - self.radius_m, far_m, towards, inside_m }
+    }
+
+    /// How `Expected::inside_m` changes with the disc's place.
+    pub fn inside_gradient(&self, sensor: usize, expected: &Expected) -> Point {
+        self.axes[sensor].minus(expected.towards.times(self.cone_cos))
+    }
+
+    /// Variance of a reading of this gap, square metres.
+    pub fn variance_m2(&self, gap_m: f32) -> f32 {
+        let sigma_m = self.noise_m + self.noise_share * gap_m.abs();
+        sigma_m * sigma_m
+    }
+}
