@@ -3,13 +3,15 @@
 use lightbots_base::{Instant, Pose, Rgb, RobotId, Span, Vec2};
 use lightbots_robot::{Config, Fix, Inputs, Message, Processor, Robot, Shelf};
 use lightbots_show::Stage;
-use lightbots_wire::Topic;
+use lightbots_wire::{RobotState, Topic};
 
+use crate::brakes::{BrakeCounts, Brakes};
 use crate::conditions::Conditions;
 use crate::dice::{Dice, Purpose};
 use crate::errors::Errors;
 use crate::memory::ThisProcessor;
 use crate::original::{Deeds, Original};
+use crate::proximity::Proximity;
 use crate::said::Said;
 use crate::sensors::Sensors;
 use crate::world::{STEP, World};
@@ -35,6 +37,7 @@ pub(crate) struct Crew {
     alive: Vec<bool>,
     steps: u64,
     errors: Errors,
+    brakes: Brakes,
     payload: Message,
     said: Said,
 }
@@ -113,6 +116,7 @@ impl Crew {
             alive: vec![true; starts.len()],
             steps: 0,
             errors: Errors::default(),
+            brakes: Brakes::new(starts.len(), Proximity::sight_m(stage.limits.radius_m)),
             payload: Message::new(),
             said: Said::default(),
         }
@@ -196,6 +200,11 @@ impl Crew {
         &self.errors
     }
 
+    /// How often robots braked so far.
+    pub fn brakes(&self) -> BrakeCounts {
+        self.brakes.counts()
+    }
+
     /// Compares the clocks of all robots that have one.
     pub fn compare_clocks(&mut self, now: Instant) {
         let shown = self.members.iter().zip(&self.alive).filter(|(_, alive)| **alive);
@@ -229,6 +238,7 @@ impl Crew {
     /// that were the last in the step before. What they say is heard in their order all the same.
     pub fn step(&mut self, now: Instant, hear: &mut impl FnMut(usize, Topic, &[u8])) {
         self.world.step();
+        self.judge_brakes();
         self.sensors.next_step(&self.alive);
         self.steps += 1;
         let count = self.members.len();
@@ -250,10 +260,18 @@ impl Crew {
         }
     }
 
+    /// Counts the brakes that began in the step before.
+    #[inline]
+    fn judge_brakes(&mut self) {
+        let Self { world, members, alive, brakes, .. } = self;
+        let places = world.places();
+        brakes.judge(places, |robot, off_m| !alive[robot] || members[robot].is_amiss(places[robot], off_m));
+    }
+
     /// One robot's turn within a step.
     #[inline]
     fn turn(&mut self, now: Instant, index: usize, hear: &mut impl FnMut(usize, Topic, &[u8])) {
-        let Self { world, sensors, members, alive, errors, payload, steps, .. } = self;
+        let Self { world, sensors, members, alive, errors, brakes, payload, steps, .. } = self;
         if !alive[index] {
             return;
         }
@@ -280,6 +298,9 @@ impl Crew {
         };
         let outputs = robot.step(member.clock.own(now), &inputs);
         errors.look_again(steps, index, robot, world);
+        if let Some(towards) = robot.braking_towards() {
+            brakes.note(steps, index, Vec2::unit(world.pose(index).heading + towards));
+        }
         member.light = outputs.light;
         world.tell(index, if member.stuck { [0.0; 2] } else { outputs.wheels_radps });
         member.speak(index, payload, hear);
@@ -318,6 +339,15 @@ impl Member {
             Mind::Ours(Ours::with_shelf(config, Box::default()))
         };
         Self { mind, id, clock, battery, light: Rgb::BLACK, stuck: false, blind: false }
+    }
+
+    /// Whether a robot at a place is faulty, or farther than `off_m` from where its route wants it. A mute robot drives on
+    /// its route: it is not faulty here. An original robot has no route.
+    fn is_amiss(&self, place: Vec2, off_m: f64) -> bool {
+        let Mind::Ours(robot) = &self.mind else { return self.stuck || self.blind };
+        let is_off = robot.route_place().is_some_and(|due| due.distance(place) > off_m);
+        let failed = matches!(robot.state(), RobotState::Faulty | RobotState::Cut | RobotState::Lost);
+        self.stuck || self.blind || failed || is_off
     }
 
     #[inline]

@@ -51,6 +51,7 @@ impl RehearsalReport {
             ("Duration", format!("{:.2} s (at least {:.2} s)", self.duration_s, self.lower_bound_s)),
             ("Contacts", self.contacts.to_string()),
             ("Touches of the floor's edge", self.edge_touches()),
+            ("Brakes", format!("{}, {} of them false", self.brakes.all, self.brakes.unfounded)),
             ("Closest centres", closest),
             ("Arrivals within", three(&self.arrival_spread_s, "ms")),
             ("Position error", three(&self.position_error_m, "mm")),
@@ -163,6 +164,7 @@ fn escaped(text: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::brakes::BrakeCounts;
     use crate::network::MessageCounts;
     use lightbots_show::Issue;
 
@@ -187,6 +189,7 @@ mod tests {
             contacts: 0,
             wall_contacts: 3,
             wall_pressed_m: 0.0017,
+            brakes: BrakeCounts { all: 5, unfounded: 2 },
             closest_m: Some(0.0612),
             arrival_spread_s: Spread { median: 0.12, p99: 0.12, max: 0.12 },
             position_error_m,
@@ -217,6 +220,7 @@ mod tests {
             "not fine",
             "1 of 2",
             "61.2 mm",
+            "5, 2 of them false",
             "3, at most 1.7 mm over it",
             "100 sent, 3 lost",
             "120.0 / 120.0 / 120.0 ms",

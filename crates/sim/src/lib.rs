@@ -17,6 +17,7 @@
 //! assert!(report.ok && report.contacts == 0 && report.frames_played == 1);
 //! ```
 
+mod brakes;
 mod breakdowns;
 mod bumps;
 mod conditions;
@@ -46,6 +47,7 @@ mod track;
 mod watch;
 mod world;
 
+pub use brakes::BrakeCounts;
 pub use bumps::{Bump, Bumps, EDGE_SLACK_M};
 pub use conditions::{Breakdown, Conditions, FixConditions, LinkConditions};
 pub use contacts::Contacts;

@@ -235,6 +235,7 @@ impl Play {
         report.contacts = world.contacts().count() + bumps.obstacles + bumps.over;
         report.wall_contacts = bumps.edges;
         report.wall_pressed_m = bumps.edge_most_m;
+        report.brakes = self.crew.brakes();
         report.closest_m = world.contacts().closest_m();
         report.estimate_error_m = self.crew.errors().estimate_m();
         report.tracking_error_m = self.crew.errors().tracking_m();

@@ -125,6 +125,7 @@ fn unplayed(show: &Show, options: &RehearsalOptions, robots: usize, issues: Vec<
         contacts: 0,
         wall_contacts: 0,
         wall_pressed_m: 0.0,
+        brakes: Default::default(),
         closest_m: None,
         arrival_spread_s: Spread::default(),
         position_error_m: Spread::default(),

@@ -3,6 +3,7 @@
 use lightbots_show::Issues;
 use serde::Serialize;
 
+use crate::brakes::BrakeCounts;
 use crate::network::MessageCounts;
 use crate::statistics::Spread;
 
@@ -28,6 +29,8 @@ pub struct RehearsalReport {
     pub wall_contacts: u64,
     /// How far a robot would have come over the edge of the floor at most, metres.
     pub wall_pressed_m: f64,
+    /// How often safety layers slowed robots, and how often nothing faulty or off its route was ahead of them.
+    pub brakes: BrakeCounts,
     /// The least distance of two centres, metres; `None` where nobody came near anybody.
     pub closest_m: Option<f64>,
     /// Between the first and the last robot that comes to stay at its place in a frame, one value a frame, seconds.

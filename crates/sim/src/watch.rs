@@ -191,6 +191,7 @@ impl Watch {
             contacts: 0,
             wall_contacts: 0,
             wall_pressed_m: 0.0,
+            brakes: Default::default(),
             closest_m: None,
             arrival_spread_s: Spread::of(&spreads),
             position_error_m: Spread::of(&self.errors_m),

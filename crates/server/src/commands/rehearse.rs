@@ -101,8 +101,10 @@ fn print(report: &RehearsalReport) {
         report.lower_bound_s,
     ));
     say::line(&format!(
-        "{}{edge}{closest}; arrivals within {:.2} s, places within {:.1} mm (99 %)",
+        "{}{edge}, {} ({} false){closest}; arrivals within {:.2} s, places within {:.1} mm (99 %)",
         count(report.contacts as usize, "contact"),
+        count(report.brakes.all as usize, "brake"),
+        report.brakes.unfounded,
         report.arrival_spread_s.p99,
         report.position_error_m.p99 * 1e3,
     ));

@@ -122,6 +122,8 @@ fn a_rehearsal_is_its_seed() {
         &[
             "arrival_spread_s",
             "position_error_m",
+            "tracking_error_m",
+            "brakes",
             "messages",
             "seed",
             "state_hash",
@@ -131,6 +133,7 @@ fn a_rehearsal_is_its_seed() {
     );
     has(&first["arrival_spread_s"], &["median", "p99", "max"]);
     has(&first["messages"], &["sent", "lost"]);
+    has(&first["brakes"], &["all", "false"]);
     assert_eq!((first["contacts"].as_u64(), first["frames_played"].as_u64()), (Some(0), Some(2)));
     assert_eq!(first["state_hash"], again["state_hash"]);
     assert_ne!(first["state_hash"], rehearse(&["--seed", "8"])["state_hash"]);

@@ -2,7 +2,7 @@
 
 use lightbots_base::{Rgb, Vec2};
 use lightbots_show::{Easing, Frame, Identity, Pixel, Show, Stage};
-use lightbots_sim::{Conditions, Faults, RehearsalOptions, RehearsalReport, rehearse};
+use lightbots_sim::{BrakeCounts, Conditions, Faults, RehearsalOptions, RehearsalReport, rehearse};
 
 const ROBOTS: u32 = 16;
 
@@ -84,6 +84,7 @@ fn nobody_brakes_where_nothing_is_wrong() {
     for seed in 1..=10 {
         let report = play("", seed);
         assert!(report.ok && report.issues.is_empty(), "seed {seed}: {:#?}", report.issues);
+        assert_eq!(report.brakes, BrakeCounts::default(), "seed {seed}");
     }
 }
 
@@ -112,6 +113,9 @@ fn who_follows_close_behind_stops_in_time_when_the_one_ahead_dies() {
             let report = rehearse(&pairs_in_line(), &options, &mut |_| {});
             let issues = &report.issues;
             assert_eq!((report.contacts, report.dropouts), (0, 1), "{fault}, seed {seed}: {issues:?}");
+            // The one behind the dead robot brakes with a cause.
+            let BrakeCounts { all, unfounded } = report.brakes;
+            assert!(all > 0 && unfounded == 0, "{fault}, seed {seed}: {all} brakes, {unfounded} false");
         }
     }
 }

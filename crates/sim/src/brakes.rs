@@ -1,0 +1,116 @@
+//! How often the safety layers of robots brake, and how often nothing faulty was ahead.
+
+use lightbots_base::Vec2;
+use serde::Serialize;
+
+/// A brake after at least this many steps (0.16 s) without one begins a new episode. Fewer would count one brake of a
+/// noisy sensor several times, more would join brakes for different robots.
+const FREE_STEPS: u64 = 10;
+/// A robot farther than this from where its route wants it is off its route, metres. Planned clearances are about as wide.
+const OFF_ROUTE_M: f64 = 0.01;
+/// Robots this much beyond the range of the proximity sensors still count as ahead, metres: both move by at most 9 mm
+/// between the reading and the judgement.
+const BEYOND_SIGHT_M: f64 = 0.01;
+
+/// Episodes of braking in a rehearsal.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+pub struct BrakeCounts {
+    /// How often the safety layer of a robot began to slow it.
+    pub all: u64,
+    /// How many of those had no faulty and no off-route robot ahead.
+    #[serde(rename = "false")]
+    pub unfounded: u64,
+}
+
+/// Counts brakes. An episode is judged one step after it began: by then the world has moved to the moment for which
+/// routes state where robots are due.
+#[derive(Debug)]
+pub(crate) struct Brakes {
+    counts: BrakeCounts,
+    /// `[robot]`: the first step in which a brake begins a new episode.
+    new_from: Vec<u64>,
+    /// Episodes that wait for their judgement.
+    begun: Vec<Brake>,
+    sight_m: f64,
+}
+
+/// An episode that began.
+#[derive(Clone, Copy, Debug)]
+struct Brake {
+    robot: usize,
+    /// Towards what, a unit vector in stage space.
+    towards: Vec2,
+}
+
+impl Brakes {
+    /// No brakes of this many robots, whose proximity sensors see others whose centres are at most `sight_m` away.
+    pub fn new(robots: usize, sight_m: f64) -> Self {
+        Self {
+            counts: BrakeCounts::default(),
+            new_from: vec![0; robots],
+            begun: Vec::new(),
+            sight_m: sight_m + BEYOND_SIGHT_M,
+        }
+    }
+
+    /// Notes that a robot brakes in a step, for what lies in a direction of the stage.
+    pub fn note(&mut self, step: u64, robot: usize, towards: Vec2) {
+        if step >= self.new_from[robot] {
+            self.begun.push(Brake { robot, towards });
+        }
+        self.new_from[robot] = step + FREE_STEPS + 1;
+    }
+
+    /// Counts the episodes that began in the step before. `is_amiss` tells of a robot whether it is faulty, or farther off
+    /// its route than a distance in metres.
+    #[inline]
+    pub fn judge(&mut self, places: &[Vec2], is_amiss: impl Fn(usize, f64) -> bool) {
+        for Brake { robot, towards } in self.begun.drain(..) {
+            let is_ahead = |other: usize| {
+                let to_other = places[other] - places[robot];
+                other != robot && to_other.length() < self.sight_m && to_other.dot(towards) > 0.0
+            };
+            let has_cause = (0..places.len()).any(|other| is_ahead(other) && is_amiss(other, OFF_ROUTE_M));
+            self.counts.all += 1;
+            self.counts.unfounded += u64::from(!has_cause);
+        }
+    }
+
+    /// Episodes judged until now.
+    pub fn counts(&self) -> BrakeCounts {
+        self.counts
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const AHEAD: Vec2 = Vec2::new(1.0, 0.0);
+
+    #[test]
+    fn an_episode_ends_after_ten_free_steps() {
+        let mut brakes = Brakes::new(1, 0.084);
+        for step in [1, 2, 3, 13, 24, 25] {
+            brakes.note(step, 0, AHEAD);
+        }
+        brakes.judge(&[Vec2::ZERO], |_, _| false);
+        // Nine free steps between 3 and 13 are too few, ten between 13 and 24 are enough.
+        assert_eq!(brakes.counts(), BrakeCounts { all: 2, unfounded: 2 });
+    }
+
+    #[test]
+    fn a_brake_is_false_where_nothing_amiss_is_ahead_and_in_sight() {
+        let unfounded = |other: Vec2, amiss: bool| {
+            let mut brakes = Brakes::new(2, 0.084);
+            brakes.note(1, 0, AHEAD);
+            brakes.judge(&[Vec2::ZERO, other], |robot, _| amiss && robot == 1);
+            assert_eq!(brakes.counts().all, 1);
+            brakes.counts().unfounded == 1
+        };
+        assert!(!unfounded(Vec2::new(0.05, 0.06), true));
+        assert!(unfounded(Vec2::new(0.05, 0.06), false));
+        assert!(unfounded(Vec2::new(-0.01, 0.06), true));
+        assert!(unfounded(Vec2::new(0.1, 0.0), true));
+    }
+}
