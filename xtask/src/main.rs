@@ -1,4 +1,4 @@
-//! Build, try, test and measure LightBots: `cargo xtask <demo|test|bench|pairs|tidy>`.
+//! Build, try, test and measure LightBots: `cargo xtask <demo|test|bench|pairs|formations|tidy>`.
 
 mod bench;
 mod demo;
@@ -17,6 +17,7 @@ cargo xtask <command>
   test [PART…]     run the tests, all of them or some: tidy ui lint rust firmware e2e licences
   bench [PART…]    measure and write docs/benchmarks.md: plan rehearsal noise round light fps
   pairs [COUNT [FIRST [FAULTS]]]   rehearse random pairs of frames, ten thousand unless told otherwise: for the night
+  formations [OPTION VALUE]…       rehearse drives to grids, hexagons, discs, rings and rows of every spacing; --help lists options
   webots [--robots N] [--floor METRES] [--blind]   write the Webots worlds and put the driver in place
   webots paces [SHOW…]   play shows with the Webots driver in slow and pausing worlds and print a table: a quarter of an hour
   tidy             only the checks of the source tree itself
@@ -29,7 +30,8 @@ fn main() -> ExitCode {
         Some("demo") => demo::run(rest),
         Some("test") => test::run(rest),
         Some("bench") => bench::run(rest),
-        Some("pairs") => shell::cargo(&pairs(rest)),
+        Some("pairs") => shell::cargo(&example("pairs", rest)),
+        Some("formations") => shell::cargo(&example("formations", rest)),
         Some("tidy") => tidy::run(),
         Some("webots") => webots::run(rest),
         Some("help" | "--help" | "-h") => {
@@ -53,7 +55,8 @@ fn main() -> ExitCode {
     }
 }
 
-fn pairs(rest: &[String]) -> Vec<&str> {
-    let program = ["run", "--quiet", "--release", "--package", "lightbots-sim", "--example", "pairs", "--"];
+/// Runs an example of the simulator with these arguments.
+fn example<'a>(name: &'a str, rest: &'a [String]) -> Vec<&'a str> {
+    let program = ["run", "--quiet", "--release", "--package", "lightbots-sim", "--example", name, "--"];
     program.into_iter().chain(rest.iter().map(String::as_str)).collect()
 }
