@@ -5,6 +5,7 @@ mod breakdowns;
 mod crossings;
 mod crowds;
 mod fleet;
+mod formations;
 mod gaps;
 mod identities;
 mod noise;
