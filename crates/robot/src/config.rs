@@ -90,10 +90,10 @@ pub struct ReflexParameters {
     pub unplanned_accel_mps2: f32,
     /// Error of the own wheels' way, 1 sigma, as a share of it.
     pub odometry_share: f32,
-    /// A neighbour has changed its motion when readings were off by this many sigma in sum, …
+    /// A named neighbour has changed its motion when a reading jumps by this many sigma against the plan.
     pub manoeuvre_sigmas: f32,
-    /// … each less this many.
-    pub manoeuvre_drift: f32,
+    /// How much the offset between readings and the plan drifts in a step, 1 sigma, metres.
+    pub planned_drift_m: f32,
     /// By how much it may have changed it, 1 sigma in each axis, m/s.
     pub manoeuvre_mps: f32,
     /// Velocity of a neighbour of which nothing is known, 1 sigma in each axis, m/s.
@@ -133,7 +133,7 @@ impl ReflexParameters {
         unplanned_accel_mps2: 2.5,
         odometry_share: 0.04,
         manoeuvre_sigmas: 5.0,
-        manoeuvre_drift: 1.5,
+        planned_drift_m: 0.00025,
         manoeuvre_mps: 0.15,
         unknown_sigma_mps: 0.135,
         planned_sigma_m: 0.0035,

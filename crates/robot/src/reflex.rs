@@ -1,9 +1,11 @@
 //! The reflex: a robot sees its neighbours with its proximity sensors, estimates where they are and how they move, and
 //! drives no faster than it can stop for them, sooner than any message could tell it. See docs/reflex.md.
 
+mod birth;
 mod covariance;
 mod point;
 mod policy;
+mod scan;
 mod sensors;
 mod separation;
 mod track;
@@ -14,9 +16,10 @@ use lightbots_base::Vec2;
 use crate::config::{Config, ReflexParameters, SENSORS};
 pub(crate) use point::Point;
 pub(crate) use policy::Wish;
+pub(crate) use scan::Expectation;
+use scan::Scan;
 use sensors::Sensors;
 use track::{OwnMotion, Track};
-pub(crate) use tracks::Expectation;
 use tracks::Tracks;
 
 /// A wish slower than this, m/s, is no drive: nothing blocks it.
@@ -101,7 +104,9 @@ impl Reflex {
         );
         let seen = |gap_m: f32| if gap_m < self.sensors.range_m { gap_m.max(0.0) } else { f32::INFINITY };
         let gaps_m = gaps_m.map_or([f32::INFINITY; SENSORS], |gaps_m| gaps_m.map(seen));
-        self.tracks.step(&gaps_m, &self.own, planned, &self.sensors, &self.of);
+        let scan =
+            Scan { gaps_m: &gaps_m, own: &self.own, planned, sensors: &self.sensors, of: &self.of };
+        self.tracks.step(&scan);
     }
 
     /// Whether it sees something or does something about what it saw: else there is nothing to ask it until it looks again.
@@ -249,3 +254,6 @@ fn block_by(track: &Track, sensors: &Sensors, stood_m: f32) -> Block {
 #[cfg(test)]
 #[path = "reflex/estimator_tests.rs"]
 mod estimator_tests;
+#[cfg(test)]
+#[path = "reflex/death_tests.rs"]
+mod death_tests;

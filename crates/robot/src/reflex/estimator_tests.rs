@@ -7,6 +7,7 @@ use std::vec;
 use std::vec::Vec;
 
 use super::point::Point;
+use super::scan::Scan;
 use super::sensors::Sensors;
 use super::track::{OwnMotion, Track};
 use super::tracks::Tracks;
@@ -17,19 +18,19 @@ const RADIUS_M: f32 = 0.027;
 /// The 95 % quantile of chi-square with four degrees of freedom.
 const CHI2_95: f64 = 9.488;
 
-struct Dice(u64);
+pub(super) struct Dice(pub u64);
 
 impl Dice {
-    fn uniform(&mut self) -> f32 {
+    pub fn uniform(&mut self) -> f32 {
         self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         (self.0 >> 40) as f32 / (1u64 << 24) as f32
     }
 
-    fn between(&mut self, least: f32, most: f32) -> f32 {
+    pub fn between(&mut self, least: f32, most: f32) -> f32 {
         least + (most - least) * self.uniform()
     }
 
-    fn normal(&mut self) -> f32 {
+    pub fn normal(&mut self) -> f32 {
         let sum: f32 = (0..12).map(|_| self.uniform()).sum();
         sum - 6.0
     }
@@ -37,9 +38,9 @@ impl Dice {
 
 /// A disc in the robot's body space.
 #[derive(Clone, Copy)]
-struct Disc {
-    at: Point,
-    velocity: Point,
+pub(super) struct Disc {
+    pub at: Point,
+    pub velocity: Point,
 }
 
 /// What a sensor reads without noise: the nearest rim in its cone.
@@ -54,12 +55,12 @@ fn reads_m(discs: &[Disc], sensor: usize) -> f32 {
     discs.iter().map(reads).fold(f32::INFINITY, f32::min)
 }
 
-fn readings(discs: &[Disc], dice: &mut Dice) -> [f32; SENSORS] {
+pub(super) fn readings(discs: &[Disc], dice: &mut Dice) -> [f32; SENSORS] {
     core::array::from_fn(|sensor| {
         let gap_m = reads_m(discs, sensor);
-        (gap_m + dice.normal() * (0.0003 + 0.05 * gap_m.abs())).max(0.0)
+        let noise = dice.normal() * (0.0003 + 0.05 * gap_m.abs());
+        if gap_m.is_finite() { (gap_m + noise).max(0.0) } else { f32::INFINITY }
     })
-    .map(|gap_m: f32| if gap_m.is_nan() { f32::INFINITY } else { gap_m })
 }
 
 #[derive(Default)]
@@ -128,7 +129,8 @@ fn scene(
             }
             let gaps_m = readings(&discs, &mut dice);
             let in_sight = (0..SENSORS).any(|sensor| reads_m(&discs[..1], sensor) < 0.03);
-            tracks.step(&gaps_m, &own, &[], &sensors, &of);
+            let scan = Scan { gaps_m: &gaps_m, own: &own, planned: &[], sensors: &sensors, of: &of };
+            tracks.step(&scan);
             if step >= warm && in_sight {
                 for disc in &discs[..count] {
                     let off = |track: &&Track| track.at.minus(disc.at).length();

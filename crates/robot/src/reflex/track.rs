@@ -8,7 +8,7 @@
 use super::covariance::Covariance;
 use super::point::Point;
 use super::sensors::{Expected, Sensors};
-use crate::config::ReflexParameters;
+use crate::config::{ReflexParameters, SENSORS};
 
 /// Uncertainty of the edge of a cone, metres: what a neighbour moves along it in a step.
 const EDGE_SIGMA_M: f32 = 0.003;
@@ -16,6 +16,10 @@ const EDGE_SIGMA_M: f32 = 0.003;
 /// A neighbour off its plan by more sigma than this, in place or velocity, does not keep to it.
 const RECOGNISED_SIGMAS: f32 = 3.5;
 
+/// Share of its speed that a neighbour most likely has left after a jump towards the robot, and the uncertainty of that as
+/// a share of its speed.
+const STOPPED_SHARE: f32 = 0.25;
+const STOPPED_SIGMA: f32 = 0.5;
 /// Robots are off their plan by much the same for this many steps.
 const CORRELATED_STEPS: f32 = 10.0;
 
@@ -28,6 +32,20 @@ pub(crate) struct OwnMotion {
     pub turn_rad: f32,
     /// Length of the step, seconds.
     pub dt: f32,
+}
+
+/// A slowly drifting offset between readings and the plan: mean in metres, and variance in square metres.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Bias {
+    pub m: f32,
+    variance: f32,
+    sensor: usize,
+}
+
+impl Bias {
+    pub fn unknown(of: &ReflexParameters) -> Self {
+        Self { m: 0.0, variance: of.planned_sigma_m * of.planned_sigma_m, sensor: usize::MAX }
+    }
 }
 
 /// A neighbour in sight.
@@ -44,12 +62,10 @@ pub(crate) struct Track {
     pub missed: u8,
     /// Sensors that saw it in the latest step, one bit each.
     pub seen_by: u8,
-    /// Cumulative sums of innovations, in sigma: nearer than expected, and farther.
-    pub alarm: [f32; 2],
+    /// By how much it is read farther than the plan says, lately.
+    pub bias: Bias,
     /// Steps until the plan counts again, after it has done something the plan does not know.
     pub shaken: u8,
-    /// Steps in a row in which the plan did not know it.
-    pub unplanned: u8,
     /// It has done something that its plan does not know.
     pub strays: bool,
     /// Steps since it came into sight, at most 255.
@@ -57,6 +73,24 @@ pub(crate) struct Track {
 }
 
 impl Track {
+    /// Whether a sensor saw it in the latest step.
+    pub fn is_seen_by(&self, sensor: usize) -> bool {
+        self.seen_by >> sensor & 1 == 1
+    }
+
+    /// The sensors that saw it in the latest step.
+    pub fn sensors(&self) -> impl Iterator<Item = usize> + use<> {
+        let seen_by = self.seen_by;
+        (0..SENSORS).filter(move |sensor| seen_by >> sensor & 1 == 1)
+    }
+
+    /// Takes a reading.
+    pub fn take(&mut self, sensor: usize, read_m: f32, sensors: &Sensors) {
+        let expected = sensors.expected(sensor, self.at);
+        let (off_m, variance) = self.innovation(&expected, read_m, sensors);
+        self.correct(expected.towards, off_m, variance);
+    }
+
     /// Distance from rim to rim, metres.
     pub fn gap_m(&self, sensors: &Sensors) -> f32 {
         self.at.length() - sensors.contact_m()
@@ -80,29 +114,36 @@ impl Track {
         self.covariance.rotate(turn);
     }
 
-    /// Watches innovations for a change of motion that the model does not know, such as a robot that stops dead: a
-    /// two-sided cumulative sum (Page, 1954) of innovations in sigma, each less `manoeuvre_drift`. Whether it has come to
-    /// `manoeuvre_sigmas`.
-    pub fn is_shaken_by(&mut self, innovation: f32, variance: f32, of: &ReflexParameters) -> bool {
-        let sigmas = innovation / libm::sqrtf(variance);
-        let [nearer, farther] = self.alarm;
-        self.alarm = [
-            (nearer - sigmas - of.manoeuvre_drift).max(0.0),
-            (farther + sigmas - of.manoeuvre_drift).max(0.0),
-        ];
-        self.alarm.iter().any(|&alarm| alarm > of.manoeuvre_sigmas)
+    /// Watches readings of a neighbour that the plan names for a change of motion that the plan does not know, such as a
+    /// robot that stops dead: `off_m` is how much farther it is read than the plan says, `variance` that of the reading.
+    /// The two are off by much the same from step to step; a jump of `manoeuvre_sigmas` is a change.
+    pub fn is_shaken_by(&mut self, sensor: usize, off_m: f32, variance: f32, of: &ReflexParameters) -> bool {
+        if self.bias.sensor != sensor {
+            self.bias = Bias { sensor, ..Bias::unknown(of) };
+        }
+        let bias = &mut self.bias;
+        bias.variance += of.planned_drift_m * of.planned_drift_m;
+        let (jump_m, sum) = (off_m - bias.m, bias.variance + variance);
+        let is_jump = jump_m * jump_m > of.manoeuvre_sigmas * of.manoeuvre_sigmas * sum;
+        if !is_jump {
+            let gain = bias.variance / sum;
+            bias.m += gain * jump_m;
+            bias.variance *= 1.0 - gain;
+        }
+        is_jump
     }
 
-    /// It has changed its motion: it most likely stopped, or drove off.
-    pub fn loosen(&mut self, sigma_mps: f32, dt: f32) {
-        self.alarm = [0.0; 2];
+    /// It has changed its motion: nearer than expected, it most likely stopped.
+    pub fn loosen(&mut self, is_nearer: bool, sigma_mps: f32, dt: f32) {
         let speed_mps = self.velocity.length();
-        if speed_mps > sigma_mps {
-            let along = self.velocity.times(1.0 / speed_mps);
-            self.covariance.kick_along(along, speed_mps, 2.0 * dt);
-        } else {
-            self.covariance.kick(sigma_mps, 2.0 * dt);
+        if speed_mps <= sigma_mps {
+            return self.covariance.kick(sigma_mps, dt);
         }
+        let along = self.velocity.times(1.0 / speed_mps);
+        if is_nearer {
+            self.velocity = self.velocity.times(STOPPED_SHARE);
+        }
+        self.covariance.kick_along(along, STOPPED_SIGMA * speed_mps, 2.0 * dt);
     }
 
     /// Innovation of a reading, metres, and its variance, square metres.
@@ -117,7 +158,7 @@ impl Track {
     }
 
     /// Takes a measurement with this innovation and variance that changes with the place as `gradient` says.
-    pub fn correct(&mut self, gradient: Point, innovation: f32, variance: f32) {
+    fn correct(&mut self, gradient: Point, innovation: f32, variance: f32) {
         let (place, velocity) = self.covariance.correct(gradient, innovation, variance);
         self.at = self.at.plus(place);
         self.velocity = self.velocity.plus(velocity);

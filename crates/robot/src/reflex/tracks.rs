@@ -1,46 +1,35 @@
-//! All neighbours in sight: which reading belongs to which of them, and who has come or gone.
+//! All neighbours in sight: which of them a step corrects, who has come and who has gone.
 
-use super::covariance::Covariance;
+use super::birth::{expected_there, unknown};
 use super::point::Point;
+use super::scan::Scan;
 use super::sensors::Sensors;
-use super::track::{OwnMotion, Track};
-use crate::config::{ReflexParameters, SENSORS};
+use super::track::Track;
+use crate::config::SENSORS;
 
-/// Neighbours that are followed at once: as many robots of one size as fit around another. More are not looked at.
+/// Neighbours that are followed at once: as many robots of one size as fit around another. More are not followed.
 pub(super) const TRACKS: usize = 6;
-/// A reading belongs to a neighbour if it is this near to what is expected, metres, or within `ASSIGN_SIGMAS`: 8 mm is
-/// what a gap of two robots that drive towards each other at full speed loses in a step.
-const ASSIGN_M: f32 = 0.009;
-const ASSIGN_SIGMAS: f32 = 4.0;
+/// A reading belongs to a neighbour if it is within this of what is expected, metres. Above: readings of another
+/// neighbour are taken for this one's. Below 13 mm: a robot that stops dead is lost instead of followed, because the
+/// filter follows it one or two steps late and each step adds up to 4.3 mm.
+const ASSIGN_M: f32 = 0.014;
+/// The same in sigma of the innovation, where that is more.
+pub(super) const ASSIGN_SIGMAS: f32 = 4.0;
 /// A neighbour this far outside a sensor's cone, metres, may still be what the sensor sees: its place is not that sure.
-const BESIDE_M: f32 = 0.012;
-/// A neighbour this far inside a sensor's cone, metres, and nearer than this share of its range is seen for sure.
+pub(super) const BESIDE_M: f32 = 0.012;
+/// A neighbour this far inside a sensor's cone, metres, is seen for sure, …
 const SURELY_INSIDE_M: f32 = 0.008;
+/// … if it is nearer than this share of the sensor's range.
 const SURELY_NEAR: f32 = 0.8;
-/// A neighbour that is not seen in this many steps, although it should be, has gone.
+/// A neighbour that is not seen in this many steps has gone; one that should be seen counts double.
 const MISSED_MOST: u8 = 3;
-/// Uncertainty across of a place known from one sensor alone, as a share of its distance: ±19°, evenly spread.
-const BEARING_SIGMA: f32 = 0.19;
-/// Readings of two sensors side by side that differ by less than this, metres, may be of one disc.
-const SHARED_M: f32 = 0.015;
-
 /// Steps for which the plan does not count after a neighbour has done something it does not know.
 const SHAKEN_STEPS: u8 = 5;
+/// Centres of two tracks nearer than this, metres, are of one disc.
+const SAME_M: f32 = 0.03;
 
-/// A neighbour that the plan expects in sight.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Expectation {
-    /// Its number among the neighbours of the route.
-    pub index: u8,
-    /// Its centre, body space, metres.
-    pub at: Point,
-    /// Over the floor along the axes of body space, m/s.
-    pub velocity: Point,
-    /// Its planned acceleration, m/s².
-    pub acceleration: Point,
-    /// Least distance from rim to rim that the plan leaves the two, metres.
-    pub clearance_m: f32,
-}
+/// Whose reading each sensor's is: index of a track.
+type Owners = [Option<usize>; SENSORS];
 
 /// The neighbours in sight.
 #[derive(Debug, Default)]
@@ -61,53 +50,38 @@ impl Tracks {
         self.list.clear();
     }
 
-    /// Takes the readings of a step in which the robot moved as `own` says.
-    pub fn step(
-        &mut self,
-        gaps_m: &[f32; SENSORS],
-        own: &OwnMotion,
-        planned: &[Expectation],
-        sensors: &Sensors,
-        of: &ReflexParameters,
-    ) {
+    /// Takes the readings of a step.
+    pub fn step(&mut self, scan: &Scan<'_>) {
         for track in &mut self.list {
-            track.predict(own, of);
-            if let Some(one) = planned.iter().find(|one| track.planned == Some(one.index)) {
-                track.velocity = track.velocity.plus(one.acceleration.times(own.dt));
+            track.predict(scan.own, scan.of);
+            if let Some(one) = scan.plan_of(track.planned) {
+                track.velocity = track.velocity.plus(one.acceleration.times(scan.own.dt));
             }
         }
-        let mut owner = [None; SENSORS];
-        for (sensor, owner) in owner.iter_mut().enumerate() {
-            if gaps_m[sensor] < sensors.range_m {
-                *owner = self.owner(sensor, gaps_m[sensor], planned, sensors, of);
-            }
-        }
+        let owners: Owners = core::array::from_fn(|sensor| self.owner(sensor, scan));
         for index in 0..self.list.len() {
-            self.correct(index, gaps_m, &owner, own.dt, sensors, of);
+            let seen_by =
+                (0..SENSORS).fold(0, |seen, sensor| seen | u8::from(owners[sensor] == Some(index)) << sensor);
+            correct(&mut self.list[index], seen_by, scan);
         }
+        self.welcome(owners, scan);
         self.list.retain(|track| track.missed < MISSED_MOST);
-        self.welcome(gaps_m, owner, planned, sensors, of);
-        self.part();
-        self.recognise(planned, of);
-        self.explain(gaps_m, &owner, planned, sensors, of);
+        self.merge();
+        self.recognise(scan);
+        self.explain(scan);
     }
 
-    /// Whose reading this most likely is; nobody's where a planned neighbour that is not followed yet explains it better.
-    fn owner(
-        &self,
-        sensor: usize,
-        read_m: f32,
-        planned: &[Expectation],
-        sensors: &Sensors,
-        of: &ReflexParameters,
-    ) -> Option<usize> {
+    /// Whose reading a sensor's most likely is; nobody's where a planned neighbour that is not followed yet explains it
+    /// better.
+    fn owner(&self, sensor: usize, scan: &Scan<'_>) -> Option<usize> {
+        let read_m = scan.reads_m(sensor)?;
         let mut best: Option<(f32, usize)> = None;
         for (index, track) in self.list.iter().enumerate() {
-            let expected = sensors.expected(sensor, track.at);
+            let expected = scan.sensors.expected(sensor, track.at);
             if expected.inside_m < -BESIDE_M {
                 continue;
             }
-            let (off_m, variance) = track.innovation(&expected, read_m, sensors);
+            let (off_m, variance) = track.innovation(&expected, read_m, scan.sensors);
             let off_m = off_m.abs();
             let within_m = ASSIGN_M.max(ASSIGN_SIGMAS * libm::sqrtf(variance));
             if off_m < within_m && best.is_none_or(|(least_m, _)| off_m < least_m) {
@@ -115,90 +89,33 @@ impl Tracks {
             }
         }
         let (least_m, index) = best?;
-        let newcomer = self.expected_there(sensor, read_m, planned, sensors, of);
-        let explains_better = |track: Track| {
-            let expected = sensors.expected(sensor, track.at);
+        let explains_better = |newcomer: Track| {
+            let expected = scan.sensors.expected(sensor, newcomer.at);
             expected.inside_m > 0.0 && (read_m - expected.gap_m).abs() < least_m
         };
-        (!newcomer.is_some_and(explains_better)).then_some(index)
-    }
-
-    /// Corrects a neighbour by the readings that are its own, and by what did not see it.
-    fn correct(
-        &mut self,
-        index: usize,
-        gaps_m: &[f32; SENSORS],
-        owner: &[Option<usize>; SENSORS],
-        dt: f32,
-        sensors: &Sensors,
-        of: &ReflexParameters,
-    ) {
-        let track = &mut self.list[index];
-        track.age = track.age.saturating_add(1);
-        track.shaken = track.shaken.saturating_sub(1);
-        let mut seen = false;
-        for sensor in 0..SENSORS {
-            if owner[sensor] != Some(index) {
-                continue;
-            }
-            let expected = sensors.expected(sensor, track.at);
-            let (off_m, variance) = track.innovation(&expected, gaps_m[sensor], sensors);
-            if track.is_shaken_by(off_m, variance, of) {
-                track.loosen(of.manoeuvre_mps, dt);
-                track.shaken = SHAKEN_STEPS;
-                track.strays = true;
-            }
-            take(track, sensor, gaps_m[sensor], sensors);
-            seen = true;
-        }
-        bound_bearing(track, index, owner, sensors);
-        let (mut surely, mut seen_by) = (false, 0);
-        for sensor in 0..SENSORS {
-            let expected = sensors.expected(sensor, track.at);
-            let sees = owner[sensor] == Some(index);
-            let blank = gaps_m[sensor] >= sensors.range_m;
-            let near = expected.gap_m < SURELY_NEAR * sensors.range_m;
-            surely |= expected.inside_m > SURELY_INSIDE_M && near;
-            seen_by |= u8::from(sees) << sensor;
-            let contradicts = sees && expected.inside_m < 0.0 || blank && near && expected.inside_m > 0.0;
-            if contradicts && track.planned.is_none() {
-                let gradient = sensors.inside_gradient(sensor, &expected);
-                track.stay_within(expected.towards.left(), gradient, expected.inside_m);
-            }
-        }
-        track.seen_by = seen_by;
-        let gone = !seen && (surely || track.gap_m(sensors) > sensors.range_m);
-        track.missed = if seen { 0 } else { track.missed.saturating_add(if gone { 2 } else { 1 }) };
+        (!expected_there(sensor, &self.list, scan).is_some_and(explains_better)).then_some(index)
     }
 
     /// Begins to follow what readings show that belong to nobody yet, the nearest first.
-    fn welcome(
-        &mut self,
-        gaps_m: &[f32; SENSORS],
-        mut owner: [Option<usize>; SENSORS],
-        planned: &[Expectation],
-        sensors: &Sensors,
-        of: &ReflexParameters,
-    ) {
-        loop {
-            let free = |sensor: &usize| owner[*sensor].is_none() && gaps_m[*sensor] < sensors.range_m;
-            let nearest = (0..SENSORS).filter(free).min_by(|a, b| gaps_m[*a].total_cmp(&gaps_m[*b]));
-            let Some(sensor) = nearest else { return };
-            let known = self.expected_there(sensor, gaps_m[sensor], planned, sensors, of);
-            let mut track = known.unwrap_or_else(|| unknown(sensor, gaps_m, &owner, sensors, of));
+    fn welcome(&mut self, mut owners: Owners, scan: &Scan<'_>) {
+        // Each round gives one sensor at least an owner.
+        for _ in 0..SENSORS {
+            let free = (0..SENSORS).filter(|&sensor| owners[sensor].is_none());
+            let readings = free.filter_map(|sensor| Some((sensor, scan.reads_m(sensor)?)));
+            let Some((sensor, _)) = readings.min_by(|a, b| a.1.total_cmp(&b.1)) else { return };
             let index = self.list.len();
-            owner[sensor] = Some(index);
-            take(&mut track, sensor, gaps_m[sensor], sensors);
-            for (beside, owner) in owner.iter_mut().enumerate() {
-                let read_m = gaps_m[beside];
-                if owner.is_some() || read_m >= sensors.range_m {
-                    continue;
-                }
-                let expected = sensors.expected(beside, track.at);
-                let (off_m, variance) = track.innovation(&expected, read_m, sensors);
-                if expected.inside_m > -BESIDE_M && off_m * off_m < ASSIGN_SIGMAS * ASSIGN_SIGMAS * variance {
-                    *owner = Some(index);
-                    take(&mut track, beside, read_m, sensors);
+            let is_free = |sensor: usize| owners[sensor].is_none();
+            let mut track = expected_there(sensor, &self.list, scan)
+                .unwrap_or_else(|| unknown(sensor, &is_free, scan));
+            for one in core::iter::once(sensor).chain((0..SENSORS).filter(|&beside| beside != sensor)) {
+                let Some(read_m) = scan.reads_m(one).filter(|_| owners[one].is_none()) else { continue };
+                let expected = scan.sensors.expected(one, track.at);
+                let (off_m, variance) = track.innovation(&expected, read_m, scan.sensors);
+                let is_near = off_m * off_m < ASSIGN_SIGMAS * ASSIGN_SIGMAS * variance;
+                if one == sensor || expected.inside_m > -BESIDE_M && is_near {
+                    owners[one] = Some(index);
+                    track.seen_by |= 1 << one;
+                    track.take(one, read_m, scan.sensors);
                 }
             }
             if self.list.push(track).is_err() {
@@ -207,105 +124,55 @@ impl Tracks {
         }
     }
 
-    /// The planned neighbour that explains a reading, if there is one that is not followed yet.
-    fn expected_there(
-        &self,
-        sensor: usize,
-        read_m: f32,
-        planned: &[Expectation],
-        sensors: &Sensors,
-        of: &ReflexParameters,
-    ) -> Option<Track> {
-        let place_m2 = of.planned_sigma_m * of.planned_sigma_m;
-        let mut best: Option<(f32, Track)> = None;
-        for one in planned {
-            let expected = sensors.expected(sensor, one.at);
-            let variance = place_m2 + sensors.variance_m2(expected.gap_m);
-            let off_m = (read_m - expected.gap_m).abs();
-            let explains = expected.inside_m > -BESIDE_M && off_m * off_m < 9.0 * variance;
-            let followed = self.list.iter().any(|track| track.planned == Some(one.index));
-            if explains && !followed && best.as_ref().is_none_or(|(least_m, _)| off_m < *least_m) {
-                let velocity_variance = of.planned_sigma_mps * of.planned_sigma_mps;
-                let track = Track {
-                    at: one.at,
-                    velocity: one.velocity,
-                    covariance: Covariance::new(Point::new(1.0, 0.0), place_m2, place_m2, velocity_variance),
-                    planned: Some(one.index),
-                    missed: 0,
-                    seen_by: 0,
-                    shaken: 0,
-                    strays: false,
-                    unplanned: 0,
-                    alarm: [0.0; 2],
-                    age: 0,
-                };
-                best = Some((off_m, track));
-            }
-        }
-        best.map(|(_, track)| track)
-    }
-
     /// Compares neighbours with the plan: those that keep to it are known by it.
-    fn recognise(&mut self, planned: &[Expectation], of: &ReflexParameters) {
+    fn recognise(&mut self, scan: &Scan<'_>) {
         for index in 0..self.list.len() {
             let track = &self.list[index];
-            let expected = match track.planned {
-                Some(known) => planned.iter().find(|one| one.index == known),
-                None => planned.iter().find(|one| {
-                    let taken = self.list.iter().any(|other| other.planned == Some(one.index));
-                    !taken && track.keeps_to(one.at, one.velocity, of)
-                }),
-            };
-            let kept = expected.filter(|one| track.keeps_to(one.at, one.velocity, of));
+            let expected = scan.plan_of(track.planned).or_else(|| {
+                let is_free = |index: u8| self.list.iter().all(|other| other.planned != Some(index));
+                let keeps_to = |index: u8, at, velocity| is_free(index) && track.keeps_to(at, velocity, scan.of);
+                scan.planned.iter().find(|one| keeps_to(one.index, one.at, one.velocity))
+            });
+            let kept = expected.filter(|one| track.keeps_to(one.at, one.velocity, scan.of));
             let track = &mut self.list[index];
             track.planned = kept.map(|one| one.index);
-            track.unplanned = if kept.is_some() { 0 } else { track.unplanned.saturating_add(1) };
             if let Some(one) = kept.filter(|_| track.shaken == 0) {
                 for axis in [Point::new(1.0, 0.0), Point::new(0.0, 1.0)] {
-                    track.learn_place(axis, one.at, of.planned_sigma_m);
-                    track.learn_velocity(axis, one.velocity, of.planned_sigma_mps);
+                    track.learn_place(axis, one.at, scan.of.planned_sigma_m);
+                    track.learn_velocity(axis, one.velocity, scan.of.planned_sigma_mps);
                 }
             }
         }
     }
 
-    /// A neighbour that the plan does not know, and that a planned one explains as well which nobody follows, is that one.
-    /// What has left its plan is never taken for another.
-    fn explain(
-        &mut self,
-        gaps_m: &[f32; SENSORS],
-        owner: &[Option<usize>; SENSORS],
-        planned: &[Expectation],
-        sensors: &Sensors,
-        of: &ReflexParameters,
-    ) {
+    /// A stranger that a planned neighbour explains as well, if no track follows that one yet, is that neighbour. A
+    /// neighbour that has left its plan is never taken for another.
+    fn explain(&mut self, scan: &Scan<'_>) {
         for index in 0..self.list.len() {
-            let track = &self.list[index];
+            let track = self.list[index];
             if track.planned.is_some() || track.strays {
                 continue;
             }
-            let seeing = |sensor: &usize| owner[*sensor] == Some(index);
-            let Some(sensor) = (0..SENSORS).filter(seeing).min_by(|a, b| gaps_m[*a].total_cmp(&gaps_m[*b]))
-            else {
-                continue;
-            };
-            if let Some(known) = self.expected_there(sensor, gaps_m[sensor], planned, sensors, of) {
-                let seen = *track;
-                let track = &mut self.list[index];
-                *track = Track { age: seen.age, seen_by: seen.seen_by, ..known };
-                (0..SENSORS).filter(seeing).for_each(|sensor| take(track, sensor, gaps_m[sensor], sensors));
+            let readings = track.sensors().filter_map(|sensor| Some((sensor, scan.reads_m(sensor)?)));
+            let Some((sensor, _)) = readings.min_by(|a, b| a.1.total_cmp(&b.1)) else { continue };
+            if let Some(known) = expected_there(sensor, &self.list, scan) {
+                let mut known = Track { age: track.age, seen_by: track.seen_by, ..known };
+                for sensor in track.sensors() {
+                    if let Some(read_m) = scan.reads_m(sensor) {
+                        known.take(sensor, read_m, scan.sensors);
+                    }
+                }
+                self.list[index] = known;
             }
         }
     }
 
-    /// Two discs are never in one place: the one that is known for a shorter time is no other.
-    fn part(&mut self) {
+    /// Two discs are never in one place: the younger track goes.
+    fn merge(&mut self) {
         let mut index = 1;
         while index < self.list.len() {
-            let track = self.list[index];
-            let near_m = 0.03;
-            let double = self.list[..index].iter().any(|other| other.at.minus(track.at).length() < near_m);
-            if double {
+            let at = self.list[index].at;
+            if self.list[..index].iter().any(|other| other.at.minus(at).length() < SAME_M) {
                 self.list.remove(index);
             } else {
                 index += 1;
@@ -314,59 +181,57 @@ impl Tracks {
     }
 }
 
+/// Corrects a track by the readings that are its own, and by what did not see it.
+fn correct(track: &mut Track, seen_by: u8, scan: &Scan<'_>) {
+    track.age = track.age.saturating_add(1);
+    track.shaken = track.shaken.saturating_sub(1);
+    track.seen_by = seen_by;
+    watch(track, scan);
+    for sensor in 0..SENSORS {
+        if let Some(read_m) = scan.reads_m(sensor).filter(|_| track.is_seen_by(sensor)) {
+            track.take(sensor, read_m, scan.sensors);
+        }
+    }
+    bound_bearing(track, scan.sensors);
+    let mut surely = false;
+    for sensor in 0..SENSORS {
+        let expected = scan.sensors.expected(sensor, track.at);
+        let near = expected.gap_m < SURELY_NEAR * scan.sensors.range_m;
+        surely |= expected.inside_m > SURELY_INSIDE_M && near;
+        let is_outside = track.is_seen_by(sensor) && expected.inside_m < 0.0;
+        let is_inside = scan.reads_m(sensor).is_none() && near && expected.inside_m > 0.0;
+        if (is_outside || is_inside) && track.planned.is_none() {
+            let gradient = scan.sensors.inside_gradient(sensor, &expected);
+            track.stay_within(expected.towards.left(), gradient, expected.inside_m);
+        }
+    }
+    let should_be_seen = surely || track.gap_m(scan.sensors) > scan.sensors.range_m;
+    let missed = if should_be_seen { 2 } else { 1 };
+    track.missed = if seen_by != 0 { 0 } else { track.missed.saturating_add(missed) };
+}
+
+/// Compares a neighbour that the plan names with the plan, by the sensor that looks at it most nearly.
+fn watch(track: &mut Track, scan: &Scan<'_>) {
+    let Some(one) = scan.plan_of(track.planned) else { return };
+    let expected = track.sensors().map(|sensor| (sensor, scan.sensors.expected(sensor, one.at)));
+    let nearest = expected.max_by(|a, b| a.1.inside_m.total_cmp(&b.1.inside_m));
+    let Some((sensor, expected)) = nearest.filter(|(_, expected)| expected.inside_m > 0.0) else { return };
+    let Some(read_m) = scan.reads_m(sensor) else { return };
+    let off_m = read_m - expected.gap_m;
+    if track.is_shaken_by(sensor, off_m, scan.sensors.variance_m2(read_m), scan.of) {
+        track.loosen(off_m < track.bias.m, scan.of.manoeuvre_mps, scan.own.dt);
+        track.shaken = SHAKEN_STEPS;
+        track.strays = true;
+    }
+}
+
 /// What one sensor sees lies around its axis, what two see between them.
-fn bound_bearing(track: &mut Track, index: usize, owner: &[Option<usize>; SENSORS], sensors: &Sensors) {
-    let seeing = (0..SENSORS).filter(|&sensor| owner[sensor] == Some(index));
-    let sum = seeing.fold(Point::ZERO, |sum, sensor| sum.plus(sensors.axes[sensor]));
+fn bound_bearing(track: &mut Track, sensors: &Sensors) {
+    let sum = track.sensors().fold(Point::ZERO, |sum, sensor| sum.plus(sensors.axes[sensor]));
     let size = sum.length();
     if size < 0.1 {
         return;
     }
     let (axis, far_m) = (sum.times(1.0 / size), track.at.length());
-    track.bound_place(axis.left(), axis.times(far_m), BEARING_SIGMA * far_m);
-}
-
-/// Takes a reading into a track.
-fn take(track: &mut Track, sensor: usize, read_m: f32, sensors: &Sensors) {
-    let expected = sensors.expected(sensor, track.at);
-    let (off_m, variance) = track.innovation(&expected, read_m, sensors);
-    track.correct(expected.towards, off_m, variance);
-}
-
-/// A disc of which nothing is known but a reading: straight ahead of the sensor, or between two that see it.
-fn unknown(
-    sensor: usize,
-    gaps_m: &[f32; SENSORS],
-    owner: &[Option<usize>; SENSORS],
-    sensors: &Sensors,
-    of: &ReflexParameters,
-) -> Track {
-    let read_m = gaps_m[sensor];
-    let shares = |beside: &usize| {
-        owner[*beside].is_none()
-            && (gaps_m[*beside] - read_m).abs() < SHARED_M
-            && gaps_m[*beside] < sensors.range_m
-    };
-    let beside = [(sensor + 1) % SENSORS, (sensor + SENSORS - 1) % SENSORS].into_iter().find(shares);
-    let axis = sensors.axes[sensor];
-    let direction = beside.map_or(axis, |beside| {
-        let sum = axis.plus(sensors.axes[beside]);
-        sum.times(1.0 / sum.length().max(0.1))
-    });
-    let far_m = sensors.contact_m() + read_m - if beside.is_some() { 0.002 } else { 0.0 };
-    let (along, across) = (libm::sqrtf(sensors.variance_m2(read_m)) + 0.002, BEARING_SIGMA * far_m);
-    let unknown_mps = of.unknown_sigma_mps * of.unknown_sigma_mps;
-    Track {
-        at: direction.times(far_m),
-        velocity: Point::ZERO,
-        covariance: Covariance::new(direction, along * along, across * across, unknown_mps),
-        planned: None,
-        missed: 0,
-        seen_by: 0,
-        shaken: 0,
-        strays: false,
-        unplanned: 0,
-        alarm: [0.0; 2],
-        age: 0,
-    }
+    track.bound_place(axis.left(), axis.times(far_m), super::birth::BEARING_SIGMA * far_m);
 }

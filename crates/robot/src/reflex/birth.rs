@@ -1,0 +1,77 @@
+//! How a track begins: from the plan where that explains a reading, else from the reading alone.
+
+use super::covariance::Covariance;
+use super::point::Point;
+use super::scan::{Expectation, Scan};
+use super::track::{Bias, Track};
+use super::tracks::BESIDE_M;
+use crate::config::SENSORS;
+
+/// Uncertainty across of a place known from one sensor alone, as a share of its distance: ±19°, evenly spread. That is
+/// where a disc 10 mm away is in the cone of one sensor and of no other.
+pub(super) const BEARING_SIGMA: f32 = 0.19;
+/// Readings of two sensors side by side that differ by less than this, metres, may be of one disc: at 20 mm, a disc at
+/// the edge of a cone reads that much farther there.
+const SHARED_M: f32 = 0.015;
+/// A disc between two sensors is this much nearer than either reads, metres, and readings of one sensor alone are this
+/// uncertain on top of their noise.
+const BETWEEN_M: f32 = 0.002;
+/// A planned neighbour explains readings within this many sigma.
+const EXPLAINS_SIGMAS: f32 = 3.0;
+
+/// The planned neighbour that explains a reading best, if none of `tracks` follows it yet.
+pub(super) fn expected_there(sensor: usize, tracks: &[Track], scan: &Scan<'_>) -> Option<Track> {
+    let read_m = scan.reads_m(sensor)?;
+    let place_m2 = scan.of.planned_sigma_m * scan.of.planned_sigma_m;
+    let off_m = |one: &Expectation| {
+        let expected = scan.sensors.expected(sensor, one.at);
+        let variance = place_m2 + scan.sensors.variance_m2(expected.gap_m);
+        let off_m = (read_m - expected.gap_m).abs();
+        let explains = off_m * off_m < EXPLAINS_SIGMAS * EXPLAINS_SIGMAS * variance;
+        (explains && expected.inside_m > -BESIDE_M).then_some(off_m)
+    };
+    let is_followed = |one: &&Expectation| tracks.iter().any(|track| track.planned == Some(one.index));
+    let candidates = scan.planned.iter().filter(|one| !is_followed(one));
+    let (_, one) =
+        candidates.filter_map(|one| Some((off_m(one)?, one))).min_by(|a, b| a.0.total_cmp(&b.0))?;
+    let velocity_variance = scan.of.planned_sigma_mps * scan.of.planned_sigma_mps;
+    let covariance = Covariance::new(Point::new(1.0, 0.0), place_m2, place_m2, velocity_variance);
+    Some(Track { planned: Some(one.index), ..begun(one.at, one.velocity, covariance, scan) })
+}
+
+/// A disc of which nothing is known but a reading: straight ahead of the sensor, or between two that see it. `is_free`:
+/// whether a sensor's reading belongs to nobody.
+pub(super) fn unknown(sensor: usize, is_free: &dyn Fn(usize) -> bool, scan: &Scan<'_>) -> Track {
+    let read_m = scan.gaps_m[sensor];
+    let shares = |beside: &usize| {
+        let near = scan.reads_m(*beside).is_some_and(|gap_m| (gap_m - read_m).abs() < SHARED_M);
+        near && is_free(*beside)
+    };
+    let beside = [(sensor + 1) % SENSORS, (sensor + SENSORS - 1) % SENSORS].into_iter().find(shares);
+    let axis = scan.sensors.axes[sensor];
+    let direction = beside.map_or(axis, |beside| {
+        let sum = axis.plus(scan.sensors.axes[beside]);
+        sum.times(1.0 / sum.length().max(0.1))
+    });
+    let far_m = scan.sensors.contact_m() + read_m - if beside.is_some() { BETWEEN_M } else { 0.0 };
+    let along = libm::sqrtf(scan.sensors.variance_m2(read_m)) + BETWEEN_M;
+    let across = BEARING_SIGMA * far_m;
+    let unknown_mps = scan.of.unknown_sigma_mps * scan.of.unknown_sigma_mps;
+    let covariance = Covariance::new(direction, along * along, across * across, unknown_mps);
+    begun(direction.times(far_m), Point::ZERO, covariance, scan)
+}
+
+fn begun(at: Point, velocity: Point, covariance: Covariance, scan: &Scan<'_>) -> Track {
+    Track {
+        at,
+        velocity,
+        covariance,
+        planned: None,
+        missed: 0,
+        seen_by: 0,
+        bias: Bias::unknown(scan.of),
+        shaken: 0,
+        strays: false,
+        age: 0,
+    }
+}

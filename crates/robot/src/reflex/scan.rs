@@ -1,0 +1,44 @@
+//! What one step knows: readings, own motion, and the neighbours that the plan has in sight.
+
+use super::point::Point;
+use super::sensors::Sensors;
+use super::track::OwnMotion;
+use crate::config::{ReflexParameters, SENSORS};
+
+/// A neighbour that the plan expects in sight.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Expectation {
+    /// Its number among the neighbours of the route.
+    pub index: u8,
+    /// Its centre, body space, metres.
+    pub at: Point,
+    /// Over the floor along the axes of body space, m/s.
+    pub velocity: Point,
+    /// Its planned acceleration, m/s².
+    pub acceleration: Point,
+    /// Least distance from rim to rim that the plan leaves the two, metres.
+    pub clearance_m: f32,
+}
+
+/// The readings of a step and all that they are compared with.
+#[derive(Clone, Copy)]
+pub(crate) struct Scan<'a> {
+    /// Gaps by sensor, metres; at least the sensors' range: nothing.
+    pub gaps_m: &'a [f32; SENSORS],
+    pub own: &'a OwnMotion,
+    pub planned: &'a [Expectation],
+    pub sensors: &'a Sensors,
+    pub of: &'a ReflexParameters,
+}
+
+impl Scan<'_> {
+    /// What a sensor reads, metres; `None`: it sees nothing.
+    pub fn reads_m(&self, sensor: usize) -> Option<f32> {
+        Some(self.gaps_m[sensor]).filter(|&gap_m| gap_m < self.sensors.range_m)
+    }
+
+    /// What the plan says of the neighbour with this number.
+    pub fn plan_of(&self, index: Option<u8>) -> Option<&Expectation> {
+        self.planned.iter().find(|one| index == Some(one.index))
+    }
+}
