@@ -185,7 +185,8 @@ impl Attempts<'_> {
             let bent = racer.bent();
             let head_start = if racers.is_empty() { HEAD_START } else { 1.0 };
             racers.push((bent as f64 * head_start, racer, effort));
-            if is_favourite || bent < self.scene.robots() * PROMISING {
+            let is_enough = is_favourite || bent < self.scene.robots() * PROMISING;
+            if is_enough || self.scene.cancel.is_wanted() {
                 break;
             }
         }
@@ -194,7 +195,8 @@ impl Attempts<'_> {
         let late = tried.map(|(weave, effort)| (Relaxation::new(self.scene, weave, effort), effort));
         for (racer, effort) in racers.chain(late) {
             self.finish(racer, effort);
-            if self.is_decent() {
+            // Laying out a guess takes long where robots are many, also where there is no work left to relax it.
+            if self.is_decent() || self.scene.cancel.is_wanted() {
                 break;
             }
         }
