@@ -156,6 +156,11 @@ const missing: View = {
   async leave(page) {
     await escape(page);
     await page.getByRole('dialog').waitFor({ state: 'hidden' });
+    // The notice of the upload covers a corner of the views that follow.
+    await page
+      .getByText(/is in the library and open/)
+      .first()
+      .waitFor({ state: 'detached' });
   },
 };
 
