@@ -240,6 +240,7 @@ impl Play {
         report.estimate_error_m = self.crew.errors().estimate_m();
         report.tracking_error_m = self.crew.errors().tracking_m();
         report.clock_spread_s = self.crew.errors().clocks_s();
+        report.planned_s = self.planned_s;
         report.robots = self.crew.len();
         report.frames = self.show.frames.len();
         report.messages = self.network.counts();

@@ -20,11 +20,17 @@ pub struct RehearsalReport {
     pub frames: usize,
     /// From the first departure to the end of the last air time, seconds.
     pub duration_s: f64,
+    /// How long the show is planned to take, seconds.
+    pub planned_s: f64,
     /// What no plan can be shorter than, seconds; see the plan.
     pub lower_bound_s: f64,
     /// How often two robots came to touch, or one an obstacle, or one went over the floor's edge by more than robots may
     /// be off their routes, [`EDGE_SLACK_M`](crate::EDGE_SLACK_M).
     pub contacts: u64,
+    /// Contacts of two robots after the first replan began: recovery caused them.
+    pub contacts_after_replan: u64,
+    /// How often the run was planned anew from where robots stood.
+    pub replans: usize,
     /// How often a robot touched the edge of the floor, however lightly.
     pub wall_contacts: u64,
     /// How far a robot would have come over the edge of the floor at most, metres.

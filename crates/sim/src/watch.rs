@@ -27,6 +27,9 @@ pub(crate) struct Watch {
     heading_for: usize,
     /// It stood, or is driven to anew.
     stood: bool,
+    /// How often the run was planned anew, and how many robots have touched since the first time.
+    replans: usize,
+    contacts_after_replan: u64,
     errors_m: Vec<f64>,
     frames: Vec<FrameRecord>,
     /// Robots that dropped out, each once.
@@ -46,6 +49,8 @@ impl Watch {
             arrivals: vec![None; robots],
             heading_for: 0,
             stood: true,
+            replans: 0,
+            contacts_after_replan: 0,
             errors_m: Vec::with_capacity(robots),
             frames: Vec::new(),
             dropouts: BTreeSet::new(),
@@ -112,6 +117,9 @@ impl Watch {
         if touches.is_empty() && bumps.is_empty() {
             return;
         }
+        if self.replans > 0 {
+            self.contacts_after_replan += touches.len() as u64;
+        }
         let frame = self.heading_for;
         let when = format!("{:.2} s into the show, about frame {}", self.since(now), frame + 1);
         for &(a, b) in touches {
@@ -143,7 +151,10 @@ impl Watch {
                 }
                 (self.heading_for, self.stood) = (*frame, false);
             }
-            EventKind::Replanning { .. } => self.stood = true,
+            EventKind::Replanning { .. } => {
+                self.stood = true;
+                self.replans += 1;
+            }
             EventKind::FrameReached { frame, .. } => {
                 self.frame_stands(*frame, show, event.at, controller, crew, by_id);
                 self.stood = true;
@@ -187,8 +198,11 @@ impl Watch {
             frames_played: self.frames.len(),
             frames: 0,
             duration_s: self.began.map_or(0.0, |began| (ended - began).max(Span::ZERO).as_secs()),
+            planned_s: 0.0,
             lower_bound_s: 0.0,
             contacts: 0,
+            contacts_after_replan: self.contacts_after_replan,
+            replans: self.replans,
             wall_contacts: 0,
             wall_pressed_m: 0.0,
             brakes: Default::default(),
