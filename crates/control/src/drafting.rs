@@ -5,6 +5,7 @@ use crate::hop::{Hop, drive_s};
 use crate::leg::{Errand, Kind, Leg, Move};
 use crate::mapping::{Mapping, Roles};
 use crate::originals::{self, Journey, Stage};
+use crate::separation;
 use crate::surroundings::{Surroundings, surroundings};
 use lightbots_base::{RobotId, Span, Vec2};
 use lightbots_plan::{Cast, Path, Transition, TransitionProblem, transition};
@@ -38,6 +39,8 @@ pub(crate) struct Request {
     pub mapping: Mapping,
     /// Pixels in each other's way are left out rather than the frame given up.
     pub lenient: bool,
+    /// Robots were stopped on their way and may stand closer to each other than is ever planned.
+    pub stopped: bool,
 }
 
 /// A robot that takes part.
@@ -116,6 +119,7 @@ impl<'a> Draft<'a> {
         let identity = frame.identity.unwrap_or(show.identity);
         let contact = show.stage.limits.contact_m() + BLOCKED_MARGIN_M;
         let blocked = |pixel: &Pixel| self.request.standing.iter().any(|at| at.distance(pixel.at) < contact);
+        let apart = self.separate();
         let mut cast = self.roles.cast(frame, identity, &self.places, blocked);
         let plan = self.solve(frame, &mut cast)?;
         self.roles.remember(&cast, identity, &plan.goal_of);
@@ -124,8 +128,12 @@ impl<'a> Draft<'a> {
             self.staged(frame, &rests)?
         } else {
             let room_m = room(&plan, show.stage.limits.contact_m());
-            let paths: Vec<(usize, Path)> = plan.paths.into_iter().enumerate().collect();
-            vec![self.routes(paths, &rests, plan.duration, room_m)?]
+            let last = self.routes(numbered(plan.paths), &rests, plan.duration, room_m)?;
+            let first = apart.map(|apart| {
+                let room_m = room(&apart, show.stage.limits.contact_m());
+                self.routes(numbered(apart.paths), &rests, apart.duration, room_m)
+            });
+            first.transpose()?.into_iter().chain([last]).collect()
         };
         if !cast.dark.is_empty() {
             self.dark.push((index, cast.dark));
@@ -137,6 +145,34 @@ impl<'a> Draft<'a> {
         self.places = rests.iter().map(|rest| rest.goal).collect();
         self.frames += 1;
         Ok(())
+    }
+
+    /// A drive that moves robots apart that were stopped too close to each other, if there are any. The frame is then
+    /// planned from its end.
+    fn separate(&mut self) -> Option<Transition> {
+        let Request { riders, standing, stopped, .. } = self.request;
+        let problem = self.empty_problem();
+        if !stopped || !self.legs.is_empty() || riders.iter().any(|rider| rider.original) {
+            return None;
+        }
+        let place = separation::Place {
+            half_floor: problem.half_floor,
+            obstacles: &problem.obstacles,
+            standing,
+            radius_m: problem.limits.radius_m,
+            contact_m: problem.limits.contact_m(),
+        };
+        let goals = place.separated(&self.places)?;
+        let apart = transition(&TransitionProblem {
+            starts: self.places.clone(),
+            goals: goals.clone(),
+            pinned: (0..goals.len()).map(Some).collect(),
+            standing: standing.clone(),
+            ..problem
+        });
+        let apart = apart.ok()?;
+        self.places = goals;
+        Some(apart)
     }
 
     /// The transition, without the pixels that make it impossible where that is allowed.
@@ -313,6 +349,10 @@ impl<'a> Draft<'a> {
             room_m,
         }
     }
+}
+
+fn numbered(paths: Vec<Path>) -> Vec<(usize, Path)> {
+    paths.into_iter().enumerate().collect()
 }
 
 fn room(plan: &Transition, contact_m: f64) -> f64 {

@@ -41,6 +41,7 @@ mod outbox;
 mod rearranging;
 mod recovery;
 mod run;
+mod separation;
 mod shortage;
 mod silent;
 mod snapshot;

@@ -86,7 +86,8 @@ impl Run {
             self.plan_from = (0..self.seats.len()).map(|seat| self.place(desk, seat)).collect();
         }
         let lenient = self.missing == MissingPolicy::LeaveOut || self.current.is_some() || self.hurry;
-        let most = if std::mem::take(&mut self.hurry) { 1 } else { ROUTES_A_JOB / self.seats.len().max(1) };
+        let stopped = std::mem::take(&mut self.hurry);
+        let most = if stopped { 1 } else { ROUTES_A_JOB / self.seats.len().max(1) };
         let mut frames = vec![(first.frame, first.round)];
         self.plan_tail = first;
         self.plan_next = self.after(first);
@@ -104,6 +105,7 @@ impl Run {
             standing: self.standing_discs(desk),
             mapping: desk.mapping.clone(),
             lenient,
+            stopped,
         };
         desk.job_number += 1;
         desk.job = Some(Job { number: desk.job_number, request });

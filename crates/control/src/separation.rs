@@ -1,0 +1,203 @@
+//! Robots that stand too close to plan for are moved apart first, each by no more than it takes.
+//!
+//! Two robots that begin a drive close to each other may stay that close all the way: the proof asks no more of a pair
+//! than its start leaves. After a death in a queue whole rows stand rim to rim, and would touch again and again.
+
+use std::collections::BTreeMap;
+
+use lightbots_base::Vec2;
+use lightbots_show::Obstacle;
+
+/// Clearance that is made between any two robots, metres: what the planner keeps where there is space (8 mm), and the
+/// error of two position fixes on top. With less the drive that follows is planned tighter than it need be; with more,
+/// robots are moved in crowds that need it not.
+pub(crate) const CLEARANCE_M: f64 = 0.010;
+/// A robot closer to another than this makes it worth a drive of its own, metres: what the planner keeps at least, 3 mm,
+/// and the errors of two fixes.
+const TOO_CLOSE_M: f64 = 0.006;
+/// Sweeps over all pairs at most; a row of twenty that stand rim to rim takes a hundred.
+const SWEEPS: usize = 400;
+/// Moves shorter than this are not driven, metres: a robot follows its path within 2 mm.
+const SHORT_M: f64 = 0.001;
+/// Added to what is asked for, so that it is reached in finitely many sweeps, metres.
+const SLACK_M: f64 = 0.000_2;
+
+/// Where robots may stand.
+pub(crate) struct Place<'a> {
+    /// Half the floor's width and depth, metres.
+    pub half_floor: Vec2,
+    pub obstacles: &'a [Obstacle],
+    /// Discs that do not move.
+    pub standing: &'a [Vec2],
+    pub radius_m: f64,
+    pub contact_m: f64,
+}
+
+impl Place<'_> {
+    /// Places near `robots`, in the same order, that leave [`CLEARANCE_M`] between them; `None` where no robot is too
+    /// close to another, or no such places were found.
+    pub fn separated(&self, robots: &[Vec2]) -> Option<Vec<Vec2>> {
+        if !self.has_pair_within(robots, self.contact_m + TOO_CLOSE_M) {
+            return None;
+        }
+        let apart_m = self.contact_m + CLEARANCE_M;
+        let mut places = robots.to_vec();
+        for _ in 0..SWEEPS {
+            if !self.push_apart(&mut places, apart_m + SLACK_M) {
+                break;
+            }
+            for (place, from) in places.iter_mut().zip(robots) {
+                *place = self.inside(*place, *from);
+            }
+        }
+        for (place, from) in places.iter_mut().zip(robots) {
+            if place.distance(*from) < SHORT_M {
+                *place = *from;
+            }
+        }
+        (!self.has_pair_within(&places, self.contact_m + TOO_CLOSE_M)).then_some(places)
+    }
+
+    /// Whether two robots, or a robot and a standing disc, are closer than a distance between centres.
+    fn has_pair_within(&self, robots: &[Vec2], apart_m: f64) -> bool {
+        let cells = Cells::new(robots, self.standing, apart_m);
+        let close = |(a, b): (usize, usize)| cells.all[a].distance(cells.all[b]) < apart_m;
+        (0..robots.len()).any(|robot| cells.near(robot).any(|other| close((robot, other))))
+    }
+
+    /// One sweep: each pair that is too close moves apart along the line between its centres. Whether any was.
+    fn push_apart(&self, robots: &mut [Vec2], apart_m: f64) -> bool {
+        let mut cells = Cells::new(robots, self.standing, apart_m);
+        let mut pushed = false;
+        for robot in 0..robots.len() {
+            let near: Vec<usize> = cells.near(robot).collect();
+            for other in near {
+                let (at, there) = (cells.all[robot], cells.all[other]);
+                let missing_m = apart_m - at.distance(there);
+                if missing_m <= SLACK_M / 2.0 || (other < robot && other < robots.len()) {
+                    continue;
+                }
+                pushed = true;
+                // Two at one place part in a direction of their own.
+                let away = (at - there).normalized().unwrap_or(Vec2::unit(robot as f64));
+                if other < robots.len() {
+                    cells.all[robot] += away * (missing_m / 2.0);
+                    cells.all[other] -= away * (missing_m / 2.0);
+                } else {
+                    cells.all[robot] += away * missing_m;
+                }
+            }
+        }
+        robots.copy_from_slice(&cells.all[..robots.len()]);
+        pushed
+    }
+
+    /// The place itself, or the nearest on the floor; `from` where that is in an obstacle.
+    fn inside(&self, place: Vec2, from: Vec2) -> Vec2 {
+        if place == from {
+            return place;
+        }
+        let most = self.half_floor - Vec2::new(self.radius_m, self.radius_m) * 1.15;
+        let keep = |value: f64, from: f64, most: f64| {
+            let most = most.max(from.abs());
+            value.clamp(-most, most)
+        };
+        let place = Vec2::new(keep(place.x, from.x, most.x), keep(place.y, from.y, most.y));
+        let gap_m = self.radius_m * 1.15;
+        let is_in = |obstacle: &Obstacle| match *obstacle {
+            Obstacle::Disc { at, radius_m } => place.distance(at) < radius_m + gap_m,
+            Obstacle::Rect { min, max } => {
+                let nearest = Vec2::new(place.x.clamp(min.x, max.x), place.y.clamp(min.y, max.y));
+                place.distance(nearest) < gap_m
+            }
+        };
+        if self.obstacles.iter().any(is_in) { from } else { place }
+    }
+}
+
+/// Robots and standing discs by the squares of a grid.
+struct Cells {
+    /// Robots first, then standing discs.
+    all: Vec<Vec2>,
+    side_m: f64,
+    cells: BTreeMap<(i64, i64), Vec<usize>>,
+}
+
+impl Cells {
+    fn new(robots: &[Vec2], standing: &[Vec2], side_m: f64) -> Self {
+        let all: Vec<Vec2> = robots.iter().chain(standing).copied().collect();
+        let mut cells: BTreeMap<(i64, i64), Vec<usize>> = BTreeMap::new();
+        for (index, at) in all.iter().enumerate() {
+            cells.entry(cell(*at, side_m)).or_default().push(index);
+        }
+        Self { all, side_m, cells }
+    }
+
+    /// What is in the squares around one, itself left out.
+    fn near(&self, index: usize) -> impl Iterator<Item = usize> + '_ {
+        let (x, y) = cell(self.all[index], self.side_m);
+        (y - 1..=y + 1)
+            .flat_map(move |y| (x - 1..=x + 1).map(move |x| (x, y)))
+            .filter_map(|cell| self.cells.get(&cell))
+            .flatten()
+            .copied()
+            .filter(move |other| *other != index)
+    }
+}
+
+fn cell(at: Vec2, side_m: f64) -> (i64, i64) {
+    ((at.x / side_m).floor() as i64, (at.y / side_m).floor() as i64)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const CONTACT_M: f64 = 0.0544;
+
+    fn place<'a>(standing: &'a [Vec2], obstacles: &'a [Obstacle]) -> Place<'a> {
+        let half_floor = Vec2::new(1.0, 1.0);
+        Place { half_floor, obstacles, standing, radius_m: CONTACT_M / 2.0, contact_m: CONTACT_M }
+    }
+
+    fn closest_m(places: &[Vec2]) -> f64 {
+        let pairs = (0..places.len()).flat_map(|a| (0..a).map(move |b| (a, b)));
+        pairs.map(|(a, b)| places[a].distance(places[b])).fold(f64::MAX, f64::min)
+    }
+
+    #[test]
+    fn robots_with_clearance_stay_where_they_are() {
+        let row: Vec<Vec2> = (0..9).map(|i| Vec2::new(0.062 * f64::from(i), 0.0)).collect();
+        assert_eq!(place(&[], &[]).separated(&row), None);
+    }
+
+    #[test]
+    fn a_row_that_stands_rim_to_rim_behind_a_dead_robot_spreads_away_from_it() {
+        let row: Vec<Vec2> = (1..=12).map(|i| Vec2::new(0.0546 * f64::from(i), 0.0)).collect();
+        let dead = [Vec2::ZERO];
+        let places = place(&dead, &[]).separated(&row).unwrap();
+        assert!(closest_m(&places) > CONTACT_M + TOO_CLOSE_M, "{places:?}");
+        assert!(places[0].x > CONTACT_M + TOO_CLOSE_M, "{places:?}");
+        assert!(places.iter().zip(&row).all(|(to, from)| to.distance(*from) < 0.15), "{places:?}");
+    }
+
+    #[test]
+    fn robots_at_one_place_part_and_far_ones_do_not_move() {
+        let robots = [Vec2::ZERO, Vec2::ZERO, Vec2::new(0.5, 0.5)];
+        let places = place(&[], &[]).separated(&robots).unwrap();
+        assert!(closest_m(&places) > CONTACT_M + TOO_CLOSE_M);
+        assert_eq!(places[2], robots[2]);
+    }
+
+    #[test]
+    fn nobody_is_moved_off_the_floor_or_into_an_obstacle() {
+        let edge = 1.0 - CONTACT_M / 2.0;
+        let robots = [Vec2::new(edge, 0.0), Vec2::new(edge - 0.055, 0.0)];
+        let places = place(&[], &[]).separated(&robots).unwrap();
+        assert!(places.iter().all(|at| at.x <= edge), "{places:?}");
+        let wall = [Obstacle::Rect { min: Vec2::new(0.04, -1.0), max: Vec2::new(1.0, 1.0) }];
+        let robots = [Vec2::ZERO, Vec2::new(-0.055, 0.0)];
+        let places = place(&[], &wall).separated(&robots).unwrap();
+        assert!(places.iter().all(|at| at.x < 0.009), "{places:?}");
+    }
+}
