@@ -36,8 +36,10 @@ pub(crate) struct Start {
     /// When it is looked at whether all have confirmed: early enough to put it off for all.
     check_at: Instant,
     repeat_at: Instant,
-    /// When it was stated first.
+    /// When its present moment was stated first.
     stated: Instant,
+    /// When its first moment was stated, and how slow the link was taken to be then.
+    first: (Instant, Span),
     /// When those who did not confirm are asked by name, and how often that was done.
     ask_at: Instant,
     asked: usize,
@@ -83,6 +85,7 @@ impl Run {
             at,
             seq,
             stated: now,
+            first: (now, self.round_trip),
             check_at: at - self.check_ahead(),
             repeat_at: now + REPEAT,
             ask_at: now + lead * ASKS[0] / 100,
@@ -174,10 +177,32 @@ impl Run {
         }
     }
 
+    /// A robot that was asked again and again since START was stated first and says nothing at all has died: the others do
+    /// not wait as long for it as for one that is heard over a slow link. Whether any dropped out.
+    fn drop_silent(&mut self, desk: &mut Desk, now: Instant, start: &Start, deaf: &[usize]) -> bool {
+        let (first, round_trip) = start.first;
+        let bound = desk.config.silence + round_trip * 2;
+        let is_silent =
+            |seat: &usize| now - desk.fleet.robot(self.seats[*seat].robot).heard.max(first) > bound;
+        let silent: Vec<usize> = deaf.iter().copied().filter(is_silent).collect();
+        if silent.is_empty() || self.patience(first) > now - first {
+            return false;
+        }
+        // The link is as fast as before: only the dead robot did not answer.
+        self.round_trip = round_trip;
+        for seat in silent {
+            self.drop_out(desk, now, seat, Trouble::Silent);
+        }
+        true
+    }
+
     /// A later moment for all; who did not confirm is told by name, or gets the route again.
     fn put_off(&mut self, desk: &mut Desk, now: Instant, start: &mut Start) {
         start.put_off += 1;
         let deaf = self.unconfirmed(desk, start);
+        if self.drop_silent(desk, now, start, &deaf) {
+            return;
+        }
         if start.put_off > PUT_OFF_MAX {
             for seat in deaf {
                 self.drop_out(desk, now, seat, Trouble::Deaf);

@@ -53,7 +53,14 @@ fn there_and_back(name: &str, (starts, goals, half_floor): Places) -> Show {
     };
     let frames = vec![frame("from", &starts), frame("to", &goals), frame("back", &starts)];
     let stage = Stage { width_m: 2.0 * half_floor.x, depth_m: 2.0 * half_floor.y, ..Stage::default() };
-    Show { name: name.into(), stage, identity: Identity::Fixed, starts: Some(starts), frames, ..Show::default() }
+    Show {
+        name: name.into(),
+        stage,
+        identity: Identity::Fixed,
+        starts: Some(starts),
+        frames,
+        ..Show::default()
+    }
 }
 
 /// Two blocks beside each other; each robot goes to the same place in the other block.
