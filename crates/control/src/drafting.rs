@@ -8,15 +8,23 @@ use crate::originals::{self, Journey, Stage};
 use crate::separation;
 use crate::surroundings::{Surroundings, surroundings};
 use lightbots_base::{RobotId, Span, Vec2};
-use lightbots_plan::{Cast, Path, Transition, TransitionProblem, transition};
+use lightbots_plan::{Cancelled, Cast, Path, Transition, TransitionProblem, transition_unless};
 use lightbots_show::{Frame, Pixel, Show};
 use lightbots_wire::MAX_PIECES;
 use std::sync::Arc;
 
 /// A goal closer than this to a disc that does not move cannot be reached, metres more than contact.
 const BLOCKED_MARGIN_M: f64 = 0.001;
+/// The same for discs whose places are guessed, metres: what others see of a dead robot is off by 5 mm.
+const GUESSED_MARGIN_M: f64 = 0.008;
 /// How often conflicting pixels are left out before a frame is given up.
 const LENIENT_TRIES: usize = 8;
+
+/// A replan may take this long for up to [`FEW`] robots, …
+const BUDGET: Span = Span::from_millis(1_000);
+/// … and this much longer for each robot more: 5 s for 1,000.
+const BUDGET_PER_ROBOT: Span = Span(4_445);
+const FEW: usize = 100;
 
 /// A plan to be made. Pure: the same job gives the same answer, wherever it runs.
 #[derive(Clone, Debug)]
@@ -36,6 +44,8 @@ pub(crate) struct Request {
     pub seats: usize,
     /// Discs that do not move, stage metres.
     pub standing: Vec<Vec2>,
+    /// Those of them whose places nobody reported: of silent robots, and of what blocked others.
+    pub guessed: Vec<Vec2>,
     pub mapping: Mapping,
     /// Pixels in each other's way are left out rather than the frame given up.
     pub lenient: bool,
@@ -58,6 +68,8 @@ pub(crate) struct Rider {
 pub struct Done {
     pub(crate) number: u64,
     pub(crate) legs: Vec<Leg>,
+    /// It begins where robots were stopped on their way.
+    pub(crate) stopped: bool,
     /// Frames planned.
     pub(crate) frames: usize,
     /// Pixels that stay dark, by frame.
@@ -68,9 +80,22 @@ pub struct Done {
 }
 
 impl Job {
-    /// Makes the plan. Takes milliseconds for small fleets, seconds for the largest; never panics.
+    /// How long it may take while robots wait for it; `None`: they do not. The caller measures that, as there is no clock
+    /// in here, and gives the job up with [`run_unless`](Self::run_unless).
+    pub fn budget(&self) -> Option<Span> {
+        let more = self.request.riders.len().saturating_sub(FEW);
+        self.request.stopped.then_some(BUDGET + BUDGET_PER_ROBOT * more as i64)
+    }
+
+    /// Makes the plan, however long that takes: milliseconds for small fleets, seconds for the largest; never panics.
     pub fn run(self) -> Done {
-        let mut draft = Draft::new(&self.request);
+        self.run_unless(&|| false)
+    }
+
+    /// The same, given up as soon as `is_over` says so: it is asked at least every tenth of a second or so, and must go on
+    /// saying so. What is planned until then counts.
+    pub fn run_unless(self, is_over: &dyn Fn() -> bool) -> Done {
+        let mut draft = Draft::new(&self.request, is_over);
         let mut failed = None;
         for &(frame, round) in &self.request.frames {
             if let Err(why) = draft.frame(frame, round) {
@@ -81,6 +106,7 @@ impl Job {
         Done {
             number: self.number,
             legs: draft.legs,
+            stopped: self.request.stopped,
             frames: draft.frames,
             dark: draft.dark,
             failed,
@@ -92,6 +118,7 @@ impl Job {
 /// A plan being made.
 struct Draft<'a> {
     request: &'a Request,
+    is_over: &'a dyn Fn() -> bool,
     places: Vec<Vec2>,
     roles: Roles,
     legs: Vec<Leg>,
@@ -100,10 +127,11 @@ struct Draft<'a> {
 }
 
 impl<'a> Draft<'a> {
-    fn new(request: &'a Request) -> Self {
+    fn new(request: &'a Request, is_over: &'a dyn Fn() -> bool) -> Self {
         let names = request.riders.iter().map(|rider| rider.id).collect();
         Self {
             request,
+            is_over,
             places: request.riders.iter().map(|rider| rider.at).collect(),
             roles: Roles::new(names, request.mapping.clone()),
             legs: Vec::new(),
@@ -117,8 +145,13 @@ impl<'a> Draft<'a> {
         let show = &self.request.show;
         let frame = show.frames.get(index).ok_or_else(|| "there is no such frame".to_string())?;
         let identity = frame.identity.unwrap_or(show.identity);
-        let contact = show.stage.limits.contact_m() + BLOCKED_MARGIN_M;
-        let blocked = |pixel: &Pixel| self.request.standing.iter().any(|at| at.distance(pixel.at) < contact);
+        let contact_m = show.stage.limits.contact_m();
+        let near = |discs: &[Vec2], pixel: &Pixel, margin_m: f64| {
+            discs.iter().any(|at| at.distance(pixel.at) < contact_m + margin_m)
+        };
+        let Request { standing, guessed, .. } = self.request;
+        let blocked =
+            |pixel: &Pixel| near(standing, pixel, BLOCKED_MARGIN_M) || near(guessed, pixel, GUESSED_MARGIN_M);
         let apart = self.separate();
         let mut cast = self.roles.cast(frame, identity, &self.places, blocked);
         let plan = self.solve(frame, &mut cast)?;
@@ -163,13 +196,14 @@ impl<'a> Draft<'a> {
             contact_m: problem.limits.contact_m(),
         };
         let goals = place.separated(&self.places)?;
-        let apart = transition(&TransitionProblem {
+        let problem = TransitionProblem {
             starts: self.places.clone(),
             goals: goals.clone(),
             pinned: (0..goals.len()).map(Some).collect(),
             standing: standing.clone(),
             ..problem
-        });
+        };
+        let apart = transition_unless(&problem, self.is_over).ok()?;
         let apart = apart.ok()?;
         self.places = goals;
         Some(apart)
@@ -188,7 +222,7 @@ impl<'a> Draft<'a> {
                 easing: frame.easing,
                 ..self.empty_problem()
             };
-            let stuck = match transition(&problem) {
+            let stuck = match transition_unless(&problem, self.is_over).map_err(given_up)? {
                 Ok(plan) => return Ok(plan),
                 Err(stuck) => stuck,
             };
@@ -292,7 +326,7 @@ impl<'a> Draft<'a> {
             easing: frame.easing,
             ..self.empty_problem()
         };
-        let plan = transition(&problem).ok()?;
+        let plan = transition_unless(&problem, self.is_over).ok()?.ok()?;
         Some(drivers.iter().copied().zip(plan.paths).collect())
     }
 
@@ -349,6 +383,10 @@ impl<'a> Draft<'a> {
             room_m,
         }
     }
+}
+
+fn given_up(_: Cancelled) -> String {
+    "planning took longer than robots may wait".into()
 }
 
 fn numbered(paths: Vec<Path>) -> Vec<(usize, Path)> {

@@ -90,6 +90,7 @@ impl Run {
             seat.fade = None;
             seat.late = None;
             seat.asked = began;
+            seat.nearest = (f64::INFINITY, began);
         }
         self.forget_blocks();
         let told = EventKind::TransitionStarted { frame: leg.frame, starts: began, duration: leg.duration };
@@ -211,7 +212,9 @@ impl Run {
             let wait = (now - drive.ends).max(Span::ZERO);
             desk.log.tell(now, EventKind::FrameReached { frame, spread, wait });
             self.frames_played += 1;
+            self.bound.reached(now);
             self.round_trip = self.round_trip * 9 / 10;
+            self.lossy = self.lossy * 9 / 10;
             self.pause |= std::mem::take(&mut self.step);
             self.advance();
         }

@@ -40,6 +40,7 @@ mod originals;
 mod outbox;
 mod rearranging;
 mod recovery;
+mod recovery_bound;
 mod run;
 mod separation;
 mod shortage;

@@ -69,7 +69,18 @@ impl Run {
             (self.seats[seat].ghost, self.seats[seat].likely) = (places, likely);
         }
         desk.log.tell(now, EventKind::Dropout { robot, why });
+        self.bound.dropped_out(robot, why);
+        self.bound.begins(self.reached_by(now));
         self.recover(desk, now);
+    }
+
+    /// When the next frame would be reached as planned.
+    pub fn reached_by(&self, now: Instant) -> Instant {
+        match &self.phase {
+            Phase::Driving(drive) => drive.ends,
+            Phase::Starting(start) => start.at + self.queue.front().map_or(Span::ZERO, |leg| leg.duration),
+            _ => now + self.queue.front().map_or(Span::ZERO, |leg| leg.duration),
+        }
     }
 
     /// Where a robot that was heard last at `heard` may stand. Likely along its path from there, as it died, or where its
@@ -218,6 +229,10 @@ impl Run {
             }
             return;
         }
+        if let Some(why) = self.bound.exceeded(now) {
+            self.over = Some(Outcome::Failed(why));
+            return;
+        }
         let waited = now - gathering.since;
         let mut all_ready = true;
         for seat in 0..self.seats.len() {
@@ -352,7 +367,8 @@ impl Run {
 
     /// The broker is back: who stands where?
     pub fn come_online(&mut self, desk: &mut Desk, now: Instant) {
-        if matches!(self.phase, Phase::Offline(_)) {
+        if let Phase::Offline(since) = self.phase {
+            self.bound.put_off(now - since);
             self.online = Some(now);
             self.say_replanning(desk, now);
             self.gather(desk, now);

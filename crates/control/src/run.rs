@@ -8,6 +8,7 @@ use crate::hopping::Hops;
 use crate::leg::Kind;
 use crate::leg::Leg;
 use crate::operation::MissingPolicy;
+use crate::recovery_bound::RecoveryBound;
 use crate::starting::Start;
 use crate::trial::Trial;
 use crate::upload::Upload;
@@ -56,6 +57,8 @@ pub(crate) struct Seat {
     pub asked: Instant,
     /// When it was seen last to be on its way although the plan has ended.
     pub on_its_way: Instant,
+    /// How near to its goal it was at the nearest, metres, and when it last came nearer by a step that counts.
+    pub nearest: (f64, Instant),
     /// Where it may stand, if it fell silent on its way; stage metres.
     pub ghost: Vec<Vec2>,
     /// The likely ones of them.
@@ -176,6 +179,10 @@ pub(crate) struct Run {
     pub watched: usize,
     /// The longest a robot took to acknowledge lately, links both ways included.
     pub round_trip: Span,
+    /// Added to the lead of a START, as answers were lost lately.
+    pub lossy: Span,
+    /// What recovery may still cost.
+    pub bound: RecoveryBound,
     pub frames_played: usize,
     pub dropouts: usize,
     /// How it ended, once it has.
@@ -203,6 +210,7 @@ impl Seat {
             probed: None,
             asked: Instant::ZERO,
             on_its_way: Instant::ZERO,
+            nearest: (f64::INFINITY, Instant::ZERO),
             ghost: Vec::new(),
             likely: Vec::new(),
             fade: None,
@@ -269,6 +277,8 @@ impl Run {
             joiners: Vec::new(),
             watched: 0,
             round_trip: Span::ZERO,
+            lossy: Span::ZERO,
+            bound: RecoveryBound::default(),
             frames_played: 0,
             dropouts: 0,
             over: None,
@@ -294,6 +304,7 @@ impl Run {
 
     /// Time passes.
     pub fn tick(&mut self, desk: &mut Desk, now: Instant) {
+        self.bound.pause(now, self.pause);
         match self.phase {
             Phase::Gathering(_) => self.tick_gathering(desk, now),
             Phase::Standing(_) => self.tick_standing(desk, now),

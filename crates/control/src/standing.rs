@@ -17,6 +17,12 @@ const FRAMES_AHEAD: usize = 3;
 const EARLY: Span = Span::from_millis(20);
 /// Two robots cannot stand closer than this share of contact: one report is out of date.
 const SAME_PLACE: f64 = 0.9;
+/// A guessed disc is moved by at most this out of robots whose places are known, metres: guesses are off by 20 mm.
+const GUESS_OFF_M: f64 = 0.03;
+/// Clearance it is then given, metres: less than the planner can start with is moved apart by a drive of its own.
+const OUTSIDE_M: f64 = 0.001;
+/// Sweeps over the robots around a guessed disc: it lies between three at most.
+const OUTSIDE_SWEEPS: usize = 10;
 /// The most pixels an event lists.
 const LISTED: usize = 16;
 
@@ -97,12 +103,14 @@ impl Run {
             self.plan_tail = next;
             self.plan_next = self.after(next);
         }
+        let [reported, guessed] = self.standing_discs(desk);
         let request = Request {
             show: self.show.clone(),
             frames,
             riders: self.riders(desk),
             seats: self.seats.len(),
-            standing: self.standing_discs(desk),
+            standing: [&reported[..], &guessed[..]].concat(),
+            guessed,
             mapping: desk.mapping.clone(),
             lenient,
             stopped,
@@ -120,8 +128,9 @@ impl Run {
         (0..self.seats.len()).filter(|&seat| !self.seats[seat].out).map(rider).collect()
     }
 
-    /// Robots that stand on the floor and take no part. One that would stand inside another that does is out of date.
-    fn standing_discs(&self, desk: &Desk) -> Vec<Vec2> {
+    /// Robots that stand on the floor and take no part, and after them what is guessed to stand there. One that would stand
+    /// inside another that does is out of date.
+    fn standing_discs(&self, desk: &Desk) -> [Vec<Vec2>; 2] {
         let takes_part = |seat: Option<u32>| seat.is_some_and(|seat| !self.seats[seat as usize].out);
         let near_m = self.show.stage.limits.contact_m() * SAME_PLACE;
         let riders: Vec<Vec2> =
@@ -132,13 +141,13 @@ impl Run {
             .filter(|robot| !(self.disregards_strangers && self.is_stranger(robot)))
             // Where a silent one may be by now is known better than by what it said last.
             .filter(|robot| robot.seat.is_none_or(|seat| self.seats[seat as usize].ghost.is_empty()));
-        let ghosts =
-            self.seats.iter().filter(|known| known.out).flat_map(|known| known.ghost.iter().copied());
-        idle.filter_map(|robot| robot.at)
-            .chain(ghosts)
-            .chain(self.found.iter().copied())
-            .filter(|at| riders.iter().all(|rider| rider.distance(*at) >= near_m))
-            .collect()
+        let ghosts = self.seats.iter().filter(|known| known.out).flat_map(|known| known.ghost.iter());
+        let free = |at: &Vec2| riders.iter().all(|rider| rider.distance(*at) >= near_m);
+        let outside = |at: &Vec2| outside(*at, &riders, self.show.stage.limits.contact_m());
+        [
+            idle.filter_map(|robot| robot.at).filter(free).collect(),
+            ghosts.chain(&self.found).map(outside).filter(free).collect(),
+        ]
     }
 
     /// A plan is there.
@@ -147,6 +156,12 @@ impl Run {
             return;
         }
         self.drafting = None;
+        if done.stopped && done.failed.is_none() {
+            if self.costs_too_much(desk, now, &done) {
+                return;
+            }
+            self.bound.replanned();
+        }
         (desk.mapping.owners, desk.mapping.shown) = (done.mapping.owners, done.mapping.shown);
         if let Some(last) = done.legs.last() {
             self.plan_from = last.moves.iter().map(|step| step.goal).collect();
@@ -160,8 +175,15 @@ impl Run {
             pixels.truncate(LISTED);
             desk.log.tell(now, EventKind::LeftOut { frame, pixels, count });
         }
+        let mut takes = Span::ZERO;
         for mut leg in done.legs {
             leg.seq = desk.take_seq();
+            takes += leg.duration;
+            if leg.airs {
+                let air_s = self.show.frames.get(leg.frame).map_or(0.0, |frame| frame.air_time_s);
+                let air = Span::from_secs(if air_s.is_finite() { air_s.clamp(0.0, 86_400.0) } else { 0.0 });
+                self.bound.planned(leg.frame, std::mem::take(&mut takes) + air);
+            }
             self.queue.push_back(leg);
         }
         desk.log.tell(now, EventKind::Planned { frames: done.frames });
@@ -188,6 +210,19 @@ impl Run {
             Phase::Driving(_) => self.pump_upload(desk, now),
             _ => {}
         }
+    }
+
+    /// Whether recovery has cost too much, or would with this plan: then another is made, or the run ends.
+    fn costs_too_much(&mut self, desk: &mut Desk, now: Instant, done: &Done) -> bool {
+        let takes = done.legs.iter().fold(Span::ZERO, |sum, leg| sum + leg.duration);
+        let Some(why) = self.bound.exceeded(now + takes) else { return false };
+        let frame = self.next.frame;
+        let message = format!("the drive around what stands there would take {:.0} s", takes.as_secs());
+        desk.log.tell(now, EventKind::PlanFailed { frame, message });
+        if self.bound.exceeded(now).is_some() || !self.plan_something_else(desk, now) {
+            self.over = Some(Outcome::Failed(why));
+        }
+        true
     }
 
     /// The show starts again after its last frame, or does not.
@@ -219,4 +254,21 @@ impl Run {
             self.next = Cursor { frame: usize::MAX, round: present };
         }
     }
+}
+
+/// A guessed place of a disc, moved until it touches none of the robots that are known to stand there; farther than
+/// [`GUESS_OFF_M`] it stays inside one, and is wrong.
+fn outside(guess: Vec2, riders: &[Vec2], contact_m: f64) -> Vec2 {
+    let near: Vec<Vec2> =
+        riders.iter().copied().filter(|rider| rider.distance(guess) < 2.0 * contact_m).collect();
+    let mut at = guess;
+    for _ in 0..OUTSIDE_SWEEPS {
+        for rider in &near {
+            let missing_m = contact_m + OUTSIDE_M - rider.distance(at);
+            if missing_m > 0.0 {
+                at += (at - *rider).normalized().unwrap_or(Vec2::new(1.0, 0.0)) * missing_m;
+            }
+        }
+    }
+    if at.distance(guess) <= GUESS_OFF_M { at } else { guess }
 }

@@ -153,7 +153,7 @@ impl Watch {
             }
             EventKind::Replanning { .. } => {
                 self.stood = true;
-                self.replans += 1;
+                self.replans += usize::from(self.began.is_some());
             }
             EventKind::FrameReached { frame, .. } => {
                 self.frame_stands(*frame, show, event.at, controller, crew, by_id);

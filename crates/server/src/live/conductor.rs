@@ -1,7 +1,8 @@
 //! The task that owns the controller core: the only place where its ways in and out meet clock and broker.
 
 use std::sync::Arc;
-use std::time::Duration;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::{Duration, Instant};
 
 use lightbots_control::{Config, Controller, Done, Event, Job, Operation, Refusal, Snapshot, State};
 use lightbots_link::{BrokerUrl, Link, LinkEvent};
@@ -96,7 +97,7 @@ impl Handle {
             controller: Controller::new(config),
             clock: clock.clone(),
             pace: pace.clone(),
-            planning: false,
+            planning: None,
             next_job: None,
             link: None,
             nodes: Vec::new(),
@@ -156,8 +157,8 @@ struct Conductor {
     controller: Controller,
     clock: Clock,
     pace: Arc<Pace>,
-    /// A plan is being made.
-    planning: bool,
+    /// A plan is being made, and is given up once this is true.
+    planning: Option<Arc<AtomicBool>>,
     /// The newest plan that is wanted: one is made after the other, and those that are not wanted any more never.
     next_job: Option<Job>,
     link: Option<Link>,
@@ -182,7 +183,7 @@ impl Conductor {
                 Some(event) = next_of(&mut self.link) => self.take(event),
                 Some(order) = self.inbox.recv() => self.obey(order).await,
                 Some(done) = self.done.recv() => {
-                    self.planning = false;
+                    self.planning = None;
                     if let Some(done) = done {
                         self.controller.planned(self.clock.now(), done);
                     }
@@ -295,13 +296,23 @@ impl Conductor {
     fn plan(&mut self) {
         while let Some(job) = self.controller.next_job() {
             self.next_job = Some(job);
+            // The plan under way is not wanted any more, and robots may wait for the new one.
+            if let Some(old) = &self.planning {
+                old.store(true, Ordering::Relaxed);
+            }
         }
-        let Some(job) = self.next_job.take_if(|_| !self.planning) else { return };
-        self.planning = true;
+        let Some(job) = self.next_job.take_if(|_| self.planning.is_none()) else { return };
+        let unwanted = Arc::new(AtomicBool::new(false));
+        self.planning = Some(unwanted.clone());
         let answer = self.done_sender.clone();
+        let (began, budget) = (Instant::now(), job.budget());
+        let is_over = move || {
+            unwanted.load(Ordering::Relaxed)
+                || budget.is_some_and(|most| began.elapsed().as_micros() as i64 > most.0)
+        };
         tokio::spawn(async move {
             // One that failed must not keep others from being made.
-            let done = tokio::task::spawn_blocking(|| job.run()).await.ok();
+            let done = tokio::task::spawn_blocking(move || job.run_unless(&is_over)).await.ok();
             // A conductor that has ended needs no plan.
             let _ = answer.send(done).await;
         });
