@@ -11,7 +11,7 @@ use crate::event::Trouble;
 const REPLANS: usize = 3;
 /// Recovery may take this long even in a show that is shorter: silence, a drive that is broken off and one that is
 /// planned anew take 15 s.
-const LEAST: Span = Span::from_millis(30_000);
+const LEAST: Span = Span::from_millis(15_000);
 
 /// Replans and time that robots that dropped out have cost so far.
 #[derive(Clone, Debug, Default)]

@@ -13,4 +13,5 @@ mod originals;
 mod outages;
 mod pairs;
 mod rapier;
+mod recovery;
 mod rehearsals;
