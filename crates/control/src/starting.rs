@@ -4,6 +4,7 @@ use crate::desk::Desk;
 use crate::event::{EventKind, Trouble};
 use crate::leg::Kind;
 use crate::run::{Phase, Run};
+use crate::silent::CUT;
 use lightbots_base::{Instant, Span};
 use lightbots_wire::{Command, Details, RobotState, Topic};
 
@@ -182,7 +183,8 @@ impl Run {
     /// not wait as long for it as for one that is heard over a slow link. Whether any dropped out.
     fn drop_silent(&mut self, desk: &mut Desk, now: Instant, start: &Start, deaf: &[usize]) -> bool {
         let (first, round_trip) = start.first;
-        let bound = desk.config.silence + round_trip * 2;
+        // One whose link broke after it received START stands by then.
+        let bound = desk.config.silence + CUT.0 + CUT.1 + round_trip * 2;
         let is_silent =
             |seat: &usize| now - desk.fleet.robot(self.seats[*seat].robot).heard.max(first) > bound;
         let silent: Vec<usize> = deaf.iter().copied().filter(is_silent).collect();
