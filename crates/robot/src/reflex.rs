@@ -104,8 +104,7 @@ impl Reflex {
         );
         let seen = |gap_m: f32| if gap_m < self.sensors.range_m { gap_m.max(0.0) } else { f32::INFINITY };
         let gaps_m = gaps_m.map_or([f32::INFINITY; SENSORS], |gaps_m| gaps_m.map(seen));
-        let scan =
-            Scan { gaps_m: &gaps_m, own: &self.own, planned, sensors: &self.sensors, of: &self.of };
+        let scan = Scan { gaps_m: &gaps_m, own: &self.own, planned, sensors: &self.sensors, of: &self.of };
         self.tracks.step(&scan);
     }
 
@@ -252,8 +251,8 @@ fn block_by(track: &Track, sensors: &Sensors, stood_m: f32) -> Block {
 }
 
 #[cfg(test)]
-#[path = "reflex/estimator_tests.rs"]
-mod estimator_tests;
-#[cfg(test)]
 #[path = "reflex/death_tests.rs"]
 mod death_tests;
+#[cfg(test)]
+#[path = "reflex/estimator_tests.rs"]
+mod estimator_tests;

@@ -105,8 +105,8 @@ impl Tracks {
             let Some((sensor, _)) = readings.min_by(|a, b| a.1.total_cmp(&b.1)) else { return };
             let index = self.list.len();
             let is_free = |sensor: usize| owners[sensor].is_none();
-            let mut track = expected_there(sensor, &self.list, scan)
-                .unwrap_or_else(|| unknown(sensor, &is_free, scan));
+            let mut track =
+                expected_there(sensor, &self.list, scan).unwrap_or_else(|| unknown(sensor, &is_free, scan));
             for one in core::iter::once(sensor).chain((0..SENSORS).filter(|&beside| beside != sensor)) {
                 let Some(read_m) = scan.reads_m(one).filter(|_| owners[one].is_none()) else { continue };
                 let expected = scan.sensors.expected(one, track.at);
@@ -130,7 +130,8 @@ impl Tracks {
             let track = &self.list[index];
             let expected = scan.plan_of(track.planned).or_else(|| {
                 let is_free = |index: u8| self.list.iter().all(|other| other.planned != Some(index));
-                let keeps_to = |index: u8, at, velocity| is_free(index) && track.keeps_to(at, velocity, scan.of);
+                let keeps_to =
+                    |index: u8, at, velocity| is_free(index) && track.keeps_to(at, velocity, scan.of);
                 scan.planned.iter().find(|one| keeps_to(one.index, one.at, one.velocity))
             });
             let kept = expected.filter(|one| track.keeps_to(one.at, one.velocity, scan.of));
