@@ -154,9 +154,8 @@ impl Covariance {
         for pivot in 0..4 {
             for row in pivot + 1..4 {
                 let factor = rows[row][pivot] / rows[pivot][pivot];
-                for column in pivot..4 {
-                    rows[row][column] -= factor * rows[pivot][column];
-                }
+                let above = rows[pivot];
+                rows[row].iter_mut().zip(above).for_each(|(value, above)| *value -= factor * above);
                 solved[row] -= factor * solved[pivot];
             }
         }

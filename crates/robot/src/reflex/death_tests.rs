@@ -1,90 +1,85 @@
-extern crate std;
-use std::println;
+//! A robot that follows another that stops dead, with noisy sensors: how often they touch, and how often it brakes for
+//! nothing.
 
 use super::estimator_tests::{Dice, Disc, readings};
 use super::scan::Expectation;
 use super::{Point, Reflex, Wish};
 use crate::config::Config;
 use lightbots_base::RobotId;
+use lightbots_base::braking::stopping_m;
 
 const DT: f32 = 0.016;
+const SPEED_MPS: f32 = 0.27;
+const RUNS: usize = 2000;
+/// Steps before the other dies, and after.
+const BEFORE: usize = 45;
+const AFTER: usize = 40;
 
-fn run(gap_m: f32, aside_m: f32, speed: f32, dice: &mut Dice) -> (bool, usize, usize) {
+/// What came of many deaths.
+#[derive(Debug, Default)]
+struct Tally {
+    touched: usize,
+    false_brakes: usize,
+}
+
+/// Follows at a planned gap, `aside_m` beside the way of the one ahead, which dies.
+fn follow(gap_m: f32, aside_m: f32, dice: &mut Dice, tally: &mut Tally) {
     let mut reflex = Reflex::new(&Config::new(RobotId::from_random(1)));
-    let (mut x, mut now, mut told) = (0.0f32, speed, speed);
-    let far = 0.054 + gap_m;
-    let ahead = libm::sqrtf(far * far - aside_m * aside_m);
+    let far_m = 0.054 + gap_m;
+    let ahead_m = libm::sqrtf(far_m * far_m - aside_m * aside_m);
+    // Both are off their routes, by much the same all the time.
     let off = Point::new(0.0025 * dice.normal(), 0.0025 * dice.normal());
-    let mut other = Point::new(ahead, aside_m);
-    let mut other_mps = speed;
-    let plan =
-        |step: usize, x: f32| Point::new(ahead + off.x + speed * DT * step as f32 - x, aside_m + off.y);
-    let dies = 40 + (dice.uniform() * 10.0) as usize;
-    let (mut brakes, mut late) = (0, 0);
-    for step in 1..dies + 40 {
-        if step == dies {
-            other_mps = speed * 0.3
-        } else if step > dies {
-            other_mps = 0.0
-        }
-        x += now * DT;
+    let (mut x, mut now_mps, mut told_mps) = (0.0f32, SPEED_MPS, SPEED_MPS);
+    let mut other = Point::new(ahead_m, aside_m);
+    for step in 0..BEFORE + AFTER {
+        // It dies within a step and slides to a stand.
+        let other_mps = match step {
+            ..BEFORE => SPEED_MPS,
+            BEFORE => SPEED_MPS * dice.uniform(),
+            _ => 0.0,
+        };
+        x += now_mps * DT;
         other.x += other_mps * DT;
         let at = Point::new(other.x - x, other.y);
         if at.length() < 0.054 {
-            return (true, brakes, late);
+            tally.touched += 1;
+            return;
         }
-        let gaps = readings(&[Disc { at, velocity: Point::new(other_mps, 0.0) }], dice);
-        let expected = Expectation {
+        let due = Point::new(ahead_m + SPEED_MPS * DT * (step + 1) as f32 - x, aside_m);
+        let planned = Expectation {
             index: 0,
-            at: plan(step, x),
-            velocity: Point::new(speed, 0.0),
+            at: due.plus(off),
+            velocity: Point::new(SPEED_MPS, 0.0),
             acceleration: Point::ZERO,
             clearance_m: gap_m,
         };
-        reflex.look(Some(&gaps), (f64::from(now * DT), 0.0), f64::from(DT), &[expected]);
-        let limit = reflex.limit(Wish { speed_mps: speed, told_mps: told, dt: DT }, None);
-        now = told.max(now - 0.188);
-        let most = limit.map_or(speed, |mps| mps as f32);
-        if most < speed - 0.001 {
-            if step < dies {
-                brakes += 1
-            }
-        } else if step >= dies {
-            late += 1
+        let gaps_m = readings(&[Disc { at, velocity: Point::new(other_mps, 0.0) }], dice);
+        reflex.look(Some(&gaps_m), (f64::from(now_mps * DT), 0.0), f64::from(DT), &[planned]);
+        let limit = reflex.limit(Wish { speed_mps: SPEED_MPS, told_mps, dt: DT }, None);
+        let most_mps = limit.map_or(SPEED_MPS, |mps| mps as f32);
+        if most_mps < SPEED_MPS - 0.001 && step < BEFORE {
+            tally.false_brakes += 1;
         }
-        told = most.min(told + 0.18);
-        if reflex.block().is_some() {
-            told = 0.0
-        }
+        // Tyres lose at most this much in a step.
+        now_mps = told_mps.max(now_mps - 0.188);
+        told_mps = most_mps;
     }
-    (false, brakes, late)
+}
+
+fn tally(gap_m: f32, aside_m: f32) -> Tally {
+    let (mut dice, mut tally) = (Dice(3), Tally::default());
+    (0..RUNS).for_each(|_| follow(gap_m, aside_m, &mut dice, &mut tally));
+    tally
 }
 
 #[test]
-fn deaths() {
-    for (gap, aside) in [
-        (0.010, 0.01),
-        (0.010, 0.03),
-        (0.0125, 0.005),
-        (0.015, 0.005),
-        (0.018, 0.005),
-        (0.018, 0.03),
-        (0.022, 0.005),
-    ] {
-        let mut dice = Dice(3);
-        let n = 4000;
-        let (mut hit, mut brakes, mut late) = (0, 0, 0);
-        for _ in 0..n {
-            let (touched, b, l) = run(gap, aside, 0.27, &mut dice);
-            hit += usize::from(touched);
-            brakes += b;
-            late += l;
-        }
-        println!(
-            "D gap {gap} aside {aside}: hit {:.2} % false {:.3} /1000 steps  free steps after death {:.2}",
-            hit as f32 / n as f32 * 100.0,
-            brakes as f32 / (n * 45) as f32 * 1000.0,
-            late as f32 / n as f32
-        );
+fn deaths_beyond_the_stopping_distance_are_seen_in_time() {
+    let stopping_m = stopping_m(f64::from(SPEED_MPS)) as f32;
+    for (gap_m, aside_m) in
+        [(stopping_m, 0.0), (stopping_m, 0.03), (0.02, 0.01), (0.022, 0.005), (0.026, 0.0)]
+    {
+        let tally = tally(gap_m, aside_m);
+        assert!(tally.touched * 100 <= 3 * RUNS, "{gap_m} {aside_m}: {tally:?}");
+        assert!(tally.false_brakes * 20_000 <= RUNS * BEFORE, "{gap_m} {aside_m}: {tally:?}");
     }
 }
