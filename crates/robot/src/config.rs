@@ -132,7 +132,7 @@ impl ReflexParameters {
         accel_sigma_mps2: 0.4,
         unplanned_accel_mps2: 2.5,
         odometry_share: 0.04,
-        manoeuvre_sigmas: 4.75,
+        manoeuvre_sigmas: 5.4,
         planned_drift_m: 0.00025,
         manoeuvre_mps: 0.15,
         unknown_sigma_mps: 0.135,
