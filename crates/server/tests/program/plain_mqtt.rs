@@ -54,7 +54,12 @@ impl Mqtt {
     }
 
     pub fn publish(&self, topic: &str, payload: impl Into<Vec<u8>>) {
-        self.client.publish(topic, payload.into(), PublishOptions::at_most_once()).unwrap();
+        assert!(self.try_publish(topic, payload), "the connection of {topic}'s sender is gone");
+    }
+
+    /// Publishes unless the broker has ended the connection.
+    pub fn try_publish(&self, topic: &str, payload: impl Into<Vec<u8>>) -> bool {
+        self.client.publish(topic, payload.into(), PublishOptions::at_most_once()).is_ok()
     }
 
     /// The next message, if one came.

@@ -6,6 +6,8 @@ use lightbots_base::{Instant, Piece, RobotId, Span, Vec2};
 use lightbots_link::{BrokerUrl, Link, LinkConfig, LinkEvent};
 use lightbots_wire::{Command, Pieces, Report, Route, TimeAnswer, TimeQuestion, Topic, encode};
 
+/// What its route leaves a robot to others, metres.
+pub const ROOM_M: f64 = 0.04;
 /// Nobody waits so long unless something is broken.
 const PATIENCE: Duration = Duration::from_secs(60);
 
@@ -48,7 +50,7 @@ pub fn route(start: Vec2, end: Vec2) -> Route {
         seq: 1,
         start,
         pieces: Pieces::from_slice(&pieces).expect("three pieces"),
-        room_mm: Some(40),
+        room_mm: Some((ROOM_M * 1e3).round() as u16),
         neighbours: Default::default(),
     }
 }
