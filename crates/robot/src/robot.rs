@@ -30,6 +30,9 @@ const LONGEST_STEP: Span = Span::from_millis(100);
 const LONGEST_STEP_S: f64 = LONGEST_STEP.as_secs();
 /// This far off its route, metres, the robot gives the route up: it is stuck, or was never where the route starts.
 const GIVE_UP_M: f64 = 0.3;
+/// Neighbours this much beyond the range of the sensors may be in sight all the same, metres: both are off their places.
+const OFF_PLAN_M: f64 = 0.025;
+
 /// A robot without fixes does not say that it is there if its place is less sure than this, metres.
 const SURE_M: f64 = 0.003;
 /// While fixes stay away it drives no farther than its place is as sure as this, metres: less than makes it lost.
@@ -224,7 +227,9 @@ impl<S: BorrowMut<Shelf>> Robot<S> {
             if self.wary || gaps_m.is_some() {
                 let mut expected = InSight::new();
                 let body = Body { at: self.estimate.at(), facing: self.estimate.facing() };
-                self.routes.expect(body, self.shelf.borrow(), &mut expected);
+                let range_m = f64::from(self.config.proximity.range_m);
+                let sight_m = self.config.limits.contact_m() + range_m + OFF_PLAN_M;
+                self.routes.expect(body, sight_m, self.shelf.borrow(), &mut expected);
                 self.reflex.look(gaps_m, (way_m, turn_rad), dt, &expected);
                 self.wary = true;
             }

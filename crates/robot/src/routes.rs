@@ -25,7 +25,7 @@ const BACK_M: f64 = 0.004;
 /// A route whose number lies so little below the one kept is an old message that came late.
 const OLD_NUMBERS: u32 = 64;
 
-/// Most neighbours in sight at once that are expected.
+/// Most neighbours in sight at once that are expected: no more discs of a robot's size have their centres within 0.11 m.
 pub(crate) const MAX_IN_SIGHT: usize = 12;
 /// The neighbours expected in sight.
 pub(crate) type InSight = heapless::Vec<Expectation, MAX_IN_SIGHT>;
@@ -116,9 +116,9 @@ impl Routes {
         self.running.as_ref()?.room_mm
     }
 
-    /// The neighbours that the plan of the route under way has in sight now, as the latest step foresaw it; at most
-    /// [`MAX_IN_SIGHT`].
-    pub(crate) fn expect(&self, body: Body, shelf: &Shelf, expected: &mut InSight) {
+    /// The neighbours that the plan of the route under way has within `sight_m` of the body now, as the latest step foresaw
+    /// it; at most [`MAX_IN_SIGHT`]. The plan says no more when one that rests gets out of sight.
+    pub(crate) fn expect(&self, body: Body, sight_m: f64, shelf: &Shelf, expected: &mut InSight) {
         let Some(running) = &self.running else { return };
         let neighbours = &shelf.at(running.place).neighbours;
         let back = Vec2::new(body.facing.x, -body.facing.y);
@@ -128,6 +128,9 @@ impl Routes {
         };
         for (index, neighbour) in neighbours.list.iter().enumerate() {
             let Some(motion) = neighbours.motion(neighbour, running.time) else { continue };
+            if motion.position.distance(body.at) > sight_m {
+                continue;
+            }
             let one = Expectation {
                 index: index as u8,
                 at: into_body(motion.position - body.at),

@@ -1,6 +1,6 @@
 use super::*;
 use lightbots_base::Piece;
-use lightbots_wire::Pieces;
+use lightbots_wire::{Knot, Pieces};
 
 fn route(seq: u32) -> Route {
     let piece = Piece::straight(Vec2::ZERO, Vec2::new(0.1, 0.0), Span(1_000_000));
@@ -75,4 +75,21 @@ fn the_next_route_is_kept_while_one_is_under_way_and_takes_over() {
     assert_eq!(routes.finish(Instant(1_000_000), Vec2::new(0.09, 0.01)), None);
     assert_eq!(routes.finish(Instant(1_000_000), Vec2::new(0.09, 0.005)), Some(1));
     assert!(!routes.under_way() && routes.keeps_one());
+}
+
+#[test]
+fn neighbours_that_rested_by_the_way_do_not_crowd_out_who_is_near() {
+    let (mut routes, mut shelf) = (Routes::new(), Shelf::new());
+    let mut named = route(1);
+    let knot = |x_tenths: i32| [Knot { at_ms: 0, place_tenths: [x_tenths, 700], velocity_mmps: [0; 2] }];
+    for number in 0..30 {
+        named.neighbours.push(100, &knot(-1_200 - 600 * number));
+    }
+    named.neighbours.push(120, &knot(200));
+    routes.keep(&named, &mut shelf);
+    routes.start(1, Instant(0), Some(Instant(0)));
+    routes.begin_due(Instant(0), &shelf);
+    let mut expected = InSight::new();
+    routes.expect(BODY, 0.11, &shelf, &mut expected);
+    assert_eq!((expected.len(), expected[0].index), (1, 30));
 }
