@@ -156,7 +156,7 @@ impl Reflex {
 
     /// Whether anything is in sight that the plan does not know.
     pub(crate) fn sees_strays(&self) -> bool {
-        self.tracks.iter().any(|track| track.strays && track.planned.is_none())
+        self.tracks.iter().any(Track::strays)
     }
 
     /// What the plan leaves the robot and this neighbour, metres.

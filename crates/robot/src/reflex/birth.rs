@@ -19,7 +19,8 @@ const BETWEEN_M: f32 = 0.002;
 /// A planned neighbour explains readings within this many sigma.
 const EXPLAINS_SIGMAS: f32 = 3.0;
 
-/// The planned neighbour that explains a reading best, if none of `tracks` follows it yet.
+/// The planned neighbour that explains a reading best, if none of `tracks` follows it yet, and none is it that has left
+/// its plan: where the plan has that one it is not.
 pub(super) fn expected_there(sensor: usize, tracks: &[Track], scan: &Scan<'_>) -> Option<Track> {
     let read_m = scan.reads_m(sensor)?;
     let place_m2 = scan.of.planned_sigma_m * scan.of.planned_sigma_m;
@@ -30,7 +31,7 @@ pub(super) fn expected_there(sensor: usize, tracks: &[Track], scan: &Scan<'_>) -
         let explains = off_m * off_m < EXPLAINS_SIGMAS * EXPLAINS_SIGMAS * variance;
         (explains && expected.inside_m > -BESIDE_M).then_some(off_m)
     };
-    let is_followed = |one: &&Expectation| tracks.iter().any(|track| track.planned == Some(one.index));
+    let is_followed = |one: &&Expectation| tracks.iter().any(|track| track.stands_for(one.index));
     let candidates = scan.planned.iter().filter(|one| !is_followed(one));
     let (_, one) =
         candidates.filter_map(|one| Some((off_m(one)?, one))).min_by(|a, b| a.0.total_cmp(&b.0))?;
@@ -71,7 +72,7 @@ fn begun(at: Point, velocity: Point, covariance: Covariance, scan: &Scan<'_>) ->
         seen_by: 0,
         bias: Bias::unknown(scan.of),
         shaken: 0,
-        strays: false,
+        left: None,
         age: 0,
     }
 }

@@ -51,7 +51,9 @@ pub(crate) fn allowed_mps(
     let (at_wanted, direction, after_s) = stop.nearest(wanted_mps);
     let sigma_m = libm::sqrtf(track.covariance.place_after(direction, after_s).max(0.0));
     let grown_m = of.spare_m + of.sigmas * sigma_m;
-    let grown_m = clearance_m.map_or(grown_m, |clearance_m| grown_m.min(of.planned_share * clearance_m));
+    // Whom the plan names is believed to keep to it unless it is nearer for sure.
+    let planned_m = |clearance_m: f32| (of.planned_share * clearance_m - sigma_m).max(0.0);
+    let grown_m = clearance_m.map_or(grown_m, |clearance_m| grown_m.min(planned_m(clearance_m)));
     let least_m = sensors.contact_m() + grown_m;
     if at_wanted >= least_m {
         return None;

@@ -71,13 +71,23 @@ pub(crate) struct Track {
     pub bias: Bias,
     /// Steps until the plan counts again, after it has done something the plan does not know.
     pub shaken: u8,
-    /// It has done something that its plan does not know.
-    pub strays: bool,
+    /// The planned neighbour that it was before it did something that the plan does not know.
+    pub left: Option<u8>,
     /// Steps since it came into sight, at most 255.
     pub age: u8,
 }
 
 impl Track {
+    /// Whether it is a neighbour that has left its plan.
+    pub fn strays(&self) -> bool {
+        self.left.is_some() && self.planned.is_none()
+    }
+
+    /// Whether it is the planned neighbour of this number, or was until that left its plan.
+    pub fn stands_for(&self, index: u8) -> bool {
+        self.planned == Some(index) || self.left == Some(index)
+    }
+
     /// Whether a sensor saw it in the latest step.
     pub fn is_seen_by(&self, sensor: usize) -> bool {
         self.seen_by >> sensor & 1 == 1

@@ -129,7 +129,8 @@ impl Tracks {
         for index in 0..self.list.len() {
             let track = &self.list[index];
             let expected = scan.plan_of(track.planned).or_else(|| {
-                let is_free = |index: u8| self.list.iter().all(|other| other.planned != Some(index));
+                let others = || self.list[..index].iter().chain(&self.list[index + 1..]);
+                let is_free = |planned: u8| others().all(|other| !other.stands_for(planned));
                 let keeps_to =
                     |index: u8, at, velocity| is_free(index) && track.keeps_to(at, velocity, scan.of);
                 scan.planned.iter().find(|one| keeps_to(one.index, one.at, one.velocity))
@@ -151,7 +152,7 @@ impl Tracks {
     fn explain(&mut self, scan: &Scan<'_>) {
         for index in 0..self.list.len() {
             let track = self.list[index];
-            if track.planned.is_some() || track.strays {
+            if track.planned.is_some() || track.left.is_some() {
                 continue;
             }
             let readings = track.sensors().filter_map(|sensor| Some((sensor, scan.reads_m(sensor)?)));
@@ -168,15 +169,19 @@ impl Tracks {
         }
     }
 
-    /// Two discs are never in one place: the younger track goes.
+    /// Two discs are never in one place: of two tracks there the one that no sensor saw goes, else the younger.
     fn merge(&mut self) {
         let mut index = 1;
         while index < self.list.len() {
             let at = self.list[index].at;
-            if self.list[..index].iter().any(|other| other.at.minus(at).length() < SAME_M) {
-                self.list.remove(index);
-            } else {
-                index += 1;
+            match self.list[..index].iter().position(|other| other.at.minus(at).length() < SAME_M) {
+                Some(older) if self.list[older].seen_by == 0 && self.list[index].seen_by != 0 => {
+                    self.list.remove(older);
+                }
+                Some(_) => {
+                    self.list.remove(index);
+                }
+                None => index += 1,
             }
         }
     }
@@ -222,7 +227,7 @@ fn watch(track: &mut Track, scan: &Scan<'_>) {
     if track.is_shaken_by(sensor, off_m, scan.sensors.variance_m2(read_m), scan.of) {
         track.loosen(off_m < track.bias.m, scan.of.manoeuvre_mps, scan.own.dt);
         track.shaken = SHAKEN_STEPS;
-        track.strays = true;
+        track.left = Some(one.index);
     }
 }
 
