@@ -26,6 +26,7 @@ mod casting;
 mod motion;
 mod problem;
 pub mod proof;
+mod raise;
 mod repair;
 #[cfg(test)]
 mod seeded;
@@ -36,6 +37,7 @@ pub use cancel::Cancelled;
 pub use casting::{Bindings, Cast, Claims, Oddity};
 pub use motion::turn_time;
 pub use problem::{Closest, Path, Stuck, Transition, TransitionProblem};
+pub use raise::{raise, raise_unless};
 pub use repair::{Meeting, Repaired, repair};
 pub use show::{ShowClosest, ShowOptions, ShowPlan, show, show_unless};
 pub use transition::{transition, transition_unless};

@@ -13,6 +13,7 @@ mod grid;
 #[cfg(test)]
 mod mutants;
 mod pairs;
+pub mod stop_safe;
 mod surroundings;
 #[cfg(test)]
 mod tests;

@@ -5,6 +5,8 @@ mod issues;
 mod tests;
 
 use crate::cancel::{Cancel, Cancelled, unless};
+use crate::proof::stop_safe::{StopSafety, UnsafeMoment};
+use crate::raise::raised;
 use crate::transition::attempt;
 use crate::{Bindings, Closest, Transition, TransitionProblem};
 use lightbots_base::{Span, Vec2};
@@ -39,6 +41,8 @@ pub struct ShowPlan {
     pub lower_bound_s: f64,
     /// The closest two centres of the whole show.
     pub closest: Option<ShowClosest>,
+    /// `stop_safety[k]`: at which moments of transition k robots may stop dead.
+    pub stop_safety: Vec<StopSafety>,
 }
 
 /// The closest two centres of a show.
@@ -54,6 +58,19 @@ impl ShowPlan {
     /// Whether it may be played.
     pub fn ok(&self) -> bool {
         !self.issues.iter().any(Issue::is_error)
+    }
+
+    /// The share of all moments at which robots that drive may stop dead, 0 to 1.
+    pub fn stop_safe_share(&self) -> f64 {
+        let sum = |count: fn(&StopSafety) -> usize| self.stop_safety.iter().map(count).sum::<usize>();
+        1.0 - sum(|safety| safety.unsafe_moments.len()) as f64 / sum(|safety| safety.moments).max(1) as f64
+    }
+
+    /// The transition and the moment of it at which a robot that stops dead leaves somebody least room to stop.
+    pub fn least_stop_safe(&self) -> Option<(usize, &UnsafeMoment)> {
+        let worst = self.stop_safety.iter().enumerate();
+        let worst = worst.filter_map(|(transition, safety)| Some((transition, safety.worst()?)));
+        worst.reduce(|worst, one| if one.1.missing_m > worst.1.missing_m { one } else { worst })
     }
 }
 
@@ -98,7 +115,13 @@ fn chained(show: &Show, starts: &[Vec2], options: &ShowOptions, cancel: Cancel<'
         issues::of_frame(show, index, starts.len(), &cast.dark, &mut plan.issues);
         issues::of_cast(show, index, &cast, &mut plan.issues);
         let goals: Vec<Vec2> = cast.pixels.iter().map(|pixel| pixel.at).collect();
-        let attempt = attempt(&problem(show, frame, places, goals, cast.pinned.clone()), cancel);
+        let problem = problem(show, frame, places, goals, cast.pinned.clone());
+        let mut attempt = attempt(&problem, cancel);
+        let safety = match attempt.stuck {
+            None => raised(&problem, &mut attempt.transition, cancel),
+            Some(_) => StopSafety::default(),
+        };
+        plan.stop_safety.push(safety);
         if let Some(stuck) = attempt.stuck
             && !plan.issues[found_before..].iter().any(Issue::is_error)
         {

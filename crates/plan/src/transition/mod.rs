@@ -27,7 +27,7 @@ use walled::Walls;
 /// Least distance between rims that is planned for, metres, where starts and goals leave that much.
 pub(crate) const MARGIN_M: f64 = 0.003;
 /// Distance between rims that is worth some search, metres: robots follow their paths within 5 mm, most within 2.
-const COMFORT_M: f64 = 0.008;
+pub(crate) const COMFORT_M: f64 = 0.008;
 
 /// The quickest proven transition that can be found, or why there is none.
 pub fn transition(problem: &TransitionProblem) -> Result<Transition, Stuck> {

@@ -1,0 +1,104 @@
+//! Measures and raises stop-safety: one row a scene and size of the planner's bench.
+//!
+//! `cargo run --release -p lightbots-plan --example stop_safe -- [--json] [--robots N] [--scene NAME]`
+#![allow(clippy::print_stdout, missing_docs)]
+
+#[path = "common/cpu.rs"]
+mod cpu;
+#[path = "common/dice.rs"]
+mod dice;
+#[path = "bench/scenes.rs"]
+mod scenes;
+
+use cpu::Watch;
+use lightbots_plan::proof::stop_safe::{StopSafety, stop_safety};
+use lightbots_plan::{TransitionProblem, raise, transition};
+
+fn main() {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let value = |name: &str| arguments.iter().skip_while(|argument| *argument != name).nth(1);
+    let json = arguments.iter().any(|argument| argument == "--json");
+    let sizes = match value("--robots").and_then(|text| text.parse().ok()) {
+        Some(robots) => vec![robots],
+        None => vec![30, 100, 1_000, 10_000],
+    };
+    let wanted = |name: &str| value("--scene").is_none_or(|part| name.contains(part));
+    for scene in scenes::ALL.iter().filter(|scene| !scene.name.starts_with("anew") && wanted(scene.name)) {
+        for &robots in sizes.iter().filter(|&&robots| robots <= scene.most) {
+            if let Some(row) = row(scene.name, &(scene.build)(robots)) {
+                println!("{}", if json { row.json() } else { row.text() });
+            }
+        }
+    }
+}
+
+struct Row {
+    scene: &'static str,
+    robots: usize,
+    measure_ms: f64,
+    raise_ms: f64,
+    before: StopSafety,
+    after: StopSafety,
+    /// Duration after over before.
+    longer: f64,
+}
+
+/// `None` where there is no plan.
+fn row(scene: &'static str, problem: &TransitionProblem) -> Option<Row> {
+    let plan = transition(problem).ok()?;
+    let times = if plan.paths.len() > 2_000 { 1 } else { 5 };
+    let mut before = StopSafety::default();
+    let measure_ms = median_ms(times, || before = stop_safety(&plan.paths, &problem.limits));
+    let (mut raised, mut after) = (plan.clone(), StopSafety::default());
+    let raise_ms = median_ms(times, || {
+        raised = plan.clone();
+        after = raise(problem, &mut raised);
+    });
+    let longer = raised.duration.as_secs() / plan.duration.as_secs();
+    Some(Row { scene, robots: plan.paths.len(), measure_ms, raise_ms, before, after, longer })
+}
+
+fn median_ms(times: usize, mut work: impl FnMut()) -> f64 {
+    let mut taken: Vec<f64> = (0..times)
+        .map(|_| {
+            let watch = Watch::started();
+            work();
+            let wall_ms = watch.wall_ms();
+            if wall_ms > 8.0 { watch.ms() } else { wall_ms }
+        })
+        .collect();
+    taken.sort_by(f64::total_cmp);
+    taken[times / 2]
+}
+
+impl Row {
+    fn text(&self) -> String {
+        format!(
+            "{:<18} {:>6} | {:>8.2} ms, raised {:>8.2} ms | {:.4} -> {:.4}, {:.4} x",
+            self.scene,
+            self.robots,
+            self.measure_ms,
+            self.raise_ms,
+            self.before.share(),
+            self.after.share(),
+            self.longer
+        )
+    }
+
+    fn json(&self) -> String {
+        let missing_mm = |safety: &StopSafety| safety.worst().map_or(0.0, |worst| worst.missing_m * 1e3);
+        format!(
+            "{{\"scene\":\"{}\",\"robots\":{},\"measure_ms\":{:.3},\"both_ms\":{:.3},\"share_before\":{:.5},\
+             \"share_after\":{:.5},\"longer\":{:.4},\"missing_mm_before\":{:.1},\"missing_mm_after\":{:.1}}}",
+            self.scene,
+            self.robots,
+            self.measure_ms,
+            self.raise_ms,
+            self.before.share(),
+            self.after.share(),
+            self.longer,
+            missing_mm(&self.before),
+            missing_mm(&self.after)
+        )
+    }
+}

@@ -1,0 +1,119 @@
+//! Raises the stop-safety of a transition by a little more time: robots leave a little later than planned, so that who
+//! drives close behind another falls back, and who crosses a way just behind another crosses it later.
+
+mod delays;
+#[cfg(test)]
+mod tests;
+
+use crate::cancel::{Cancel, Cancelled, unless};
+use crate::proof::stop_safe::{STEP, StopAssumptions, StopSafety, measured};
+use crate::proof::{Proof, prove_unless};
+use crate::{Path, Transition, TransitionProblem};
+use lightbots_base::{Piece, Span};
+
+/// At most this share of the planned duration is spent.
+const SHARE: f64 = 0.05;
+/// The most pieces a path may have: what a robot can keep.
+const MOST_PIECES: usize = 128;
+
+/// Measures a transition's stop-safety, and raises it where that costs at most 5 % of its duration and `problem` asks for
+/// no duration of its own. The transition stays proven, and none gets less safe.
+pub fn raise(problem: &TransitionProblem, transition: &mut Transition) -> StopSafety {
+    raised(problem, transition, Cancel::NEVER)
+}
+
+/// The same, given up as soon as `is_wanted` says so, which leaves the transition proven.
+pub fn raise_unless(
+    problem: &TransitionProblem,
+    transition: &mut Transition,
+    is_wanted: &dyn Fn() -> bool,
+) -> Result<StopSafety, Cancelled> {
+    unless(is_wanted, |cancel| raised(problem, transition, cancel))
+}
+
+pub(crate) fn raised(
+    problem: &TransitionProblem,
+    transition: &mut Transition,
+    cancel: Cancel<'_>,
+) -> StopSafety {
+    let measure = |paths: &[Path]| measured(paths, &problem.limits, &StopAssumptions::default(), cancel);
+    let before = measure(&transition.paths);
+    let is_long = before.pace > STEP;
+    if before.unsafe_moments.is_empty() || problem.duration.is_some() || is_long || cancel.is_wanted() {
+        return before;
+    }
+    let most = Span((transition.duration.0 as f64 * SHARE) as i64);
+    let delays = delays::delays(&transition.paths, &before, &problem.limits, most, cancel);
+    let paths = delayed(&transition.paths, &delays);
+    if delays.iter().all(|delay| *delay == Span::ZERO)
+        || paths.iter().any(|path| path.pieces.len() > MOST_PIECES)
+        || cancel.is_wanted()
+    {
+        return before;
+    }
+    let after = measure(&paths);
+    if after.share() <= before.share() {
+        return before;
+    }
+    let proof = Some(prove_unless(&problem.to_prove(&paths), cancel)).filter(Proof::holds);
+    let Some(proof) = proof.filter(|_| !cancel.is_wanted()) else { return before };
+    transition.duration = paths.first().map_or(transition.duration, |path| path.as_ref().duration());
+    transition.closest = proof.closest;
+    transition.paths = paths;
+    after
+}
+
+/// The paths begun later by such delays; all end together.
+fn delayed(paths: &[Path], delays: &[Span]) -> Vec<Path> {
+    let moves = |path: &Path| path.pieces.iter().any(|piece| !piece.is_rest(path.start));
+    let latest =
+        paths.iter().zip(delays).filter(|(path, _)| moves(path)).map(|(path, delay)| ends(path) + *delay);
+    let before = paths.iter().map(|path| path.as_ref().duration()).max().unwrap_or(Span::ZERO);
+    let duration = latest.max().unwrap_or(Span::ZERO).max(before);
+    let later = |(path, delay): (&Path, &Span)| {
+        let mut later = Path { start: path.start, pieces: Vec::with_capacity(path.pieces.len() + 2) };
+        add_rest(&mut later, *delay);
+        path.pieces.iter().for_each(|piece| add(&mut later, *piece));
+        let over = later.as_ref().duration() - duration;
+        if over > Span::ZERO {
+            shorten(&mut later, over);
+        } else {
+            add_rest(&mut later, Span(-over.0));
+        }
+        later
+    };
+    paths.iter().zip(delays).map(later).collect()
+}
+
+/// When a path stops moving.
+fn ends(path: &Path) -> Span {
+    let moving = path.as_ref().timed().filter(|(from, _, piece)| !piece.is_rest(*from));
+    moving.map(|(_, begin, piece)| begin + piece.duration).last().unwrap_or(Span::ZERO)
+}
+
+fn add(path: &mut Path, piece: Piece) {
+    let at = path.as_ref().end();
+    if piece.is_rest(at) { add_rest(path, piece.duration) } else { path.pieces.push(piece) }
+}
+
+fn add_rest(path: &mut Path, duration: Span) {
+    if duration <= Span::ZERO {
+        return;
+    }
+    let at = path.as_ref().end();
+    let before = path.pieces.len().checked_sub(2).map_or(path.start, |index| path.pieces[index].end);
+    match path.pieces.last_mut() {
+        Some(last) if last.is_rest(before) => last.duration += duration,
+        _ => path.pieces.push(Piece::rest(at, duration)),
+    }
+}
+
+/// Takes so much off the rest at its end.
+fn shorten(path: &mut Path, by: Span) {
+    if let Some(last) = path.pieces.last_mut() {
+        last.duration -= by;
+        if last.duration <= Span::ZERO {
+            path.pieces.pop();
+        }
+    }
+}

@@ -1,0 +1,184 @@
+//! Who leaves how much later so that more moments are stop-safe.
+//!
+//! For each moment at which `by` would touch `robot`, `by` is put back behind it, or `robot` is put behind `by`; whoever
+//! that brings too near to somebody else puts that one back in turn, as far as the time lasts. A chain of delays counts
+//! only if no pair in it gets worse.
+
+mod pair;
+
+use crate::Path;
+use crate::cancel::Cancel;
+use crate::proof::stop_safe::{STEP, StopSafety};
+use lightbots_base::{Limits, Span, Vec2};
+use pair::PairLaw;
+use std::collections::BTreeMap;
+
+/// Delays are whole multiples of this.
+pub(super) const LEVEL: Span = Span(STEP.0 / 2);
+/// Nobody is delayed by more than this: pairs that come near each other only after longer delays are not looked at.
+const MOST: Span = Span::from_millis(400);
+/// Moments of pairs that are looked at, for each robot of the transition, …
+const MOST_LOOKS: usize = 1_500;
+/// … and in all: half a second or so on one core.
+const MOST_LOOKS_IN_ALL: usize = 3_000_000;
+/// Moments between two looks for who comes near.
+const STRIDE: usize = 4;
+/// Delayed robots in one chain at most.
+const MOST_CHAIN: usize = 64;
+
+/// `[robot]`: by how much later each begins. `most`: how much later the last may arrive.
+pub(super) fn delays(
+    paths: &[Path],
+    before: &StopSafety,
+    limits: &Limits,
+    most: Span,
+    cancel: Cancel<'_>,
+) -> Vec<Span> {
+    let mut search = Search::new(paths, limits, most);
+    let mut pairs: Vec<(usize, usize)> = before
+        .unsafe_moments
+        .iter()
+        .filter(|one| one.missing_m > 0.0)
+        .map(|one| (one.robot, one.by))
+        .collect();
+    pairs.sort_unstable();
+    pairs.dedup();
+    // The second time some chains fit that did not fit before.
+    for (robot, by) in pairs.iter().chain(&pairs).copied() {
+        if search.looks == 0 || cancel.is_wanted() {
+            break;
+        }
+        if search.put_behind(robot, by).is_none() {
+            search.put_behind(by, robot);
+        }
+    }
+    search.levels.iter().map(|level| LEVEL * i64::from(*level)).collect()
+}
+
+/// Somebody who may come near, and the moments in which that may be.
+#[derive(Clone, Copy)]
+struct Near {
+    other: usize,
+    first: usize,
+    last: usize,
+}
+
+struct Search<'a> {
+    law: PairLaw<'a>,
+    /// `[robot][moment]`: where each is if nobody is delayed, stage metres.
+    tracks: Vec<Vec<Vec2>>,
+    levels: Vec<u8>,
+    /// `[robot]`: the most levels each may be delayed by.
+    most: Vec<u8>,
+    near: BTreeMap<usize, Vec<Near>>,
+    /// How many moments of pairs may still be looked at.
+    looks: usize,
+}
+
+impl<'a> Search<'a> {
+    fn new(paths: &[Path], limits: &'a Limits, most: Span) -> Self {
+        let duration = paths.iter().map(|path| path.as_ref().duration()).max().unwrap_or(Span::ZERO);
+        let count = (duration.0 / STEP.0) as usize + 2;
+        let track = |path: &Path| {
+            (0..count).map(|moment| path.as_ref().at(STEP * moment as i64).position).collect::<Vec<_>>()
+        };
+        let most = |path: &Path| {
+            let left = most + duration - super::ends(path);
+            (left.0.clamp(0, MOST.0) / LEVEL.0) as u8
+        };
+        Self {
+            law: PairLaw::new(limits),
+            tracks: paths.iter().map(track).collect(),
+            levels: vec![0; paths.len()],
+            most: paths.iter().map(most).collect(),
+            near: BTreeMap::new(),
+            looks: (MOST_LOOKS * paths.len()).min(MOST_LOOKS_IN_ALL),
+        }
+    }
+
+    /// Delays `later` until it does not touch `sooner` any more if that stops dead, and others as they need; `None`: that
+    /// cannot be done, and nothing has changed.
+    fn put_behind(&mut self, sooner: usize, later: usize) -> Option<()> {
+        let pair = self.near(later).iter().find(|near| near.other == sooner).copied()?;
+        if self.cost(later, &pair)? == 0 {
+            return Some(());
+        }
+        let kept = self.levels.clone();
+        let done = self.chain(later, pair);
+        if done.is_none() {
+            self.levels = kept;
+        }
+        done
+    }
+
+    fn chain(&mut self, later: usize, pair: Near) -> Option<()> {
+        let before = self.levels.clone();
+        self.delay(later, &pair, 0)?;
+        let mut open = vec![later];
+        let mut delayed = 1;
+        while let Some(robot) = open.pop() {
+            for near in self.near(robot) {
+                let now = self.levels[robot];
+                let allowed = self.cost_at(robot, &near, (before[robot], before[near.other]))?;
+                if self.cost_at(robot, &near, (now, self.levels[near.other]))? <= allowed {
+                    continue;
+                }
+                delayed += 1;
+                if delayed > MOST_CHAIN {
+                    return None;
+                }
+                let seen_by_other = Near { other: robot, ..near };
+                self.delay(near.other, &seen_by_other, allowed)?;
+                open.push(near.other);
+            }
+        }
+        Some(())
+    }
+
+    /// Delays a robot as little as brings the cost of a pair down to `allowed`.
+    fn delay(&mut self, robot: usize, pair: &Near, allowed: u32) -> Option<()> {
+        for level in self.levels[robot] + 1..=self.most[robot] {
+            if self.cost_at(robot, pair, (level, self.levels[pair.other]))? <= allowed {
+                self.levels[robot] = level;
+                return Some(());
+            }
+        }
+        None
+    }
+
+    fn cost(&mut self, robot: usize, pair: &Near) -> Option<u32> {
+        self.cost_at(robot, pair, (self.levels[robot], self.levels[pair.other]))
+    }
+
+    /// At how many moments one of a pair would touch the other if that stopped dead, with such levels; `None`: no more
+    /// may be asked.
+    fn cost_at(&mut self, robot: usize, pair: &Near, levels: (u8, u8)) -> Option<u32> {
+        self.looks = self.looks.checked_sub(pair.last - pair.first + 1)?;
+        let tracks = (&self.tracks[robot][..], &self.tracks[pair.other][..]);
+        Some(self.law.cost(tracks, levels, (pair.first, pair.last)))
+    }
+
+    /// Everybody who may come near to a robot.
+    fn near(&mut self, robot: usize) -> Vec<Near> {
+        if let Some(known) = self.near.get(&robot) {
+            return known.clone();
+        }
+        let own = &self.tracks[robot];
+        let reach_m = self.law.reach_m(MOST + STEP * STRIDE as i64);
+        let pad = (MOST.0 / STEP.0) as usize + STRIDE;
+        let near = |other: usize| {
+            let track = &self.tracks[other];
+            let is_near = |moment: &usize| own[*moment].distance(track[*moment]) < reach_m;
+            let mut moments = (0..own.len()).step_by(STRIDE).filter(is_near);
+            let first = moments.next()?;
+            let last = moments.next_back().unwrap_or(first);
+            Some(Near { other, first: first.saturating_sub(pad), last: last + pad })
+        };
+        let found: Vec<Near> =
+            (0..self.tracks.len()).filter(|other| *other != robot).filter_map(near).collect();
+        // One such look costs a tenth of one at what would follow a death.
+        self.looks = self.looks.saturating_sub(self.tracks.len() * own.len() / (10 * STRIDE));
+        self.near.insert(robot, found.clone());
+        found
+    }
+}

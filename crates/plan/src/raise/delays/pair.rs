@@ -1,0 +1,91 @@
+//! What two robots do to each other that leave later by some levels.
+
+use super::LEVEL;
+use crate::proof::stop_safe::{Law, STEP, StopAssumptions};
+use crate::transition::COMFORT_M;
+use lightbots_base::{Limits, Span, Vec2};
+
+/// More than any number of moments: who comes too close to another.
+const CONTACT: u32 = 1 << 20;
+
+pub(super) struct PairLaw<'a> {
+    limits: &'a Limits,
+    stop: Law,
+    rest: Span,
+}
+
+impl<'a> PairLaw<'a> {
+    pub fn new(limits: &'a Limits) -> Self {
+        let assumed = StopAssumptions::default();
+        Self { limits, stop: Law::new(limits, assumed), rest: Span::from_secs(assumed.rest_s) }
+    }
+
+    /// Robots farther apart than this, metres, do not matter to each other within this time and until they rest.
+    pub fn reach_m(&self, within: Span) -> f64 {
+        self.limits.contact_m() + COMFORT_M + 2.0 * self.limits.speed_mps * (within + self.rest).as_secs()
+    }
+
+    /// At how many moments of `between` one would touch the other if that stopped dead; more than any number where they
+    /// come closer than they do without delays and than is comfortable.
+    pub fn cost(&self, tracks: (&[Vec2], &[Vec2]), levels: (u8, u8), between: (usize, usize)) -> u32 {
+        let (one, other) = (Delayed::new(tracks.0, levels.0), Delayed::new(tracks.1, levels.1));
+        let undelayed = (Delayed::new(tracks.0, 0), Delayed::new(tracks.1, 0));
+        let most_m = self.limits.contact_m() + COMFORT_M;
+        let closest_m = |one: &Delayed<'_>, other: &Delayed<'_>| {
+            let apart = |moment: usize| one.at(moment) - other.at(moment);
+            let steps = between.0..between.1;
+            steps.map(|moment| least_m(apart(moment), apart(moment + 1))).fold(most_m, f64::min)
+        };
+        let is_moved = levels.0 != levels.1;
+        if is_moved && closest_m(&one, &other) < closest_m(&undelayed.0, &undelayed.1) - 1e-9 {
+            return CONTACT;
+        }
+        let moments = between.0..=between.1;
+        moments.map(|moment| self.touches(&one, &other, moment) + self.touches(&other, &one, moment)).sum()
+    }
+
+    /// 1 where `by` would touch `dead` if that stopped dead at a moment.
+    fn touches(&self, dead: &Delayed<'_>, by: &Delayed<'_>, moment: usize) -> u32 {
+        let place = dead.at(moment);
+        let far_m = self.limits.contact_m() + COMFORT_M + self.limits.speed_mps * self.rest.as_secs();
+        if place.distance(by.at(moment)) > far_m || dead.rests() || by.rests() {
+            return 0;
+        }
+        let fate = self.stop.judge(place, &|step| by.at(moment + step));
+        u32::from(fate.is_some_and(|(last, _)| last == 0))
+    }
+}
+
+/// The least distance of a straight line between two differences from none, metres.
+fn least_m(from: Vec2, to: Vec2) -> f64 {
+    let way = to - from;
+    let length_squared = way.length_squared();
+    let share = if length_squared > 0.0 { -from.dot(way) / length_squared } else { 0.0 };
+    (from + way * share.clamp(0.0, 1.0)).length()
+}
+
+/// Where somebody is that leaves later.
+struct Delayed<'a> {
+    track: &'a [Vec2],
+    /// Half moments.
+    level: usize,
+}
+
+impl<'a> Delayed<'a> {
+    fn new(track: &'a [Vec2], level: u8) -> Self {
+        const { assert!(2 * LEVEL.0 == STEP.0) };
+        Self { track, level: level.into() }
+    }
+
+    fn rests(&self) -> bool {
+        self.track.first() == self.track.last()
+    }
+
+    fn at(&self, moment: usize) -> Vec2 {
+        let Some(half) = (2 * moment).checked_sub(self.level) else { return self.track[0] };
+        let last = self.track.len() - 1;
+        let place = |moment: usize| self.track[moment.min(last)];
+        let from = place(half / 2);
+        if half.is_multiple_of(2) { from } else { from.lerp(place(half / 2 + 1), 0.5) }
+    }
+}
