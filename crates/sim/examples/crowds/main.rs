@@ -76,7 +76,7 @@ fn line(show: &Show, options: &RehearsalOptions) -> Line {
     let report = &line.report;
     println!(
         "seed {:>4} {} {}/{} frames, {:.1} s = {:.2} x planned, contacts {} ({} after a replan), replans {}, \
-         plans {replans_ms:?} ms, dropouts {}, hash {}",
+         plans {replans_ms:?} ms, brakes {} ({} false), dropouts {}, hash {}",
         options.seed,
         if line.is_fine() { "fine" } else { "BAD " },
         report.frames_played,
@@ -86,6 +86,8 @@ fn line(show: &Show, options: &RehearsalOptions) -> Line {
         report.contacts,
         report.contacts_after_replan,
         report.replans,
+        report.brakes.all,
+        report.brakes.unfounded,
         report.dropouts,
         report.state_hash,
     );

@@ -1,0 +1,182 @@
+//! Is the planner's label true that a robot may stop dead at a moment? Robots are killed at moments of both kinds:
+//! `cargo run --release -p lightbots-sim --example deaths SCENE ROBOTS [SAFE [UNSAFE [FAULTS [SEED]]]]`.
+//!
+//! The scenes are those of the example `crowds`. SAFE and UNSAFE moments are drawn at random among all moments of the
+//! drive; each is a rehearsal of its own. The last lines say what labels under other assumptions would have been worth.
+#![allow(clippy::print_stdout, clippy::print_stderr)]
+
+#[path = "../arguments/mod.rs"]
+mod arguments;
+#[path = "../../../plan/examples/bench/scenes.rs"]
+#[allow(dead_code)]
+mod bench;
+#[path = "../../../plan/examples/common/dice.rs"]
+mod dice;
+#[path = "../crowds/scenes.rs"]
+mod scenes;
+
+use std::process::ExitCode;
+
+use lightbots_base::{Limits, Span};
+use lightbots_plan::proof::stop_safe::{StopAssumptions, StopSafety, stop_safety_unless};
+use lightbots_plan::{Path, ShowOptions};
+use lightbots_show::Show;
+use lightbots_sim::{Conditions, RehearsalOptions, RehearsalReport, rehearse};
+
+/// Seeds of the noise; each is rehearsed once without a death, to know when the drive begins.
+const NOISES: u64 = 10;
+
+fn main() -> ExitCode {
+    arguments::main(run)
+}
+
+/// Whether no safe moment led to a contact, and at least three in ten unsafe ones did.
+fn run(args: &[String]) -> Result<bool, String> {
+    let usage = format!("usage: deaths {} ROBOTS [SAFE [UNSAFE [FAULTS [SEED]]]]", scenes::NAMES.join("|"));
+    let number = |index: usize, usual: u64| arguments::number(args, index, usual, &usage);
+    let robots = number(1, 30)? as usize;
+    let mut show = args.first().and_then(|name| scenes::show(name, robots)).ok_or(&usage)?;
+    show.frames.truncate(2);
+    let conditions = arguments::conditions(args, 4)?;
+    let (safe, unsafe_) = (number(2, 100)? as usize, number(3, 40)? as usize);
+    let trial = Trial::new(&show, conditions, number(5, 1)?)?;
+    let deaths = trial.deaths(safe, unsafe_, number(5, 1)?);
+    let count = |is_safe: bool| {
+        let of = || deaths.iter().filter(move |death| death.is_safe(0) == is_safe);
+        (of().count(), of().filter(|death| death.touched > 0).count())
+    };
+    let ((safe, safe_bad), (unsafe_, unsafe_bad)) = (count(true), count(false));
+    println!(
+        "{} {robots}: share {:.4}; safe {safe}, of these with contacts {safe_bad}; unsafe {unsafe_}, of these with \
+         contacts {unsafe_bad}",
+        args[0],
+        trial.labels[0].share(),
+    );
+    for (index, (of, label)) in ASSUMED.iter().zip(&trial.labels).enumerate() {
+        let of_kind = |is_safe: bool| deaths.iter().filter(move |death| death.is_safe(index) == is_safe);
+        let part = |is_safe: bool| {
+            let bad = of_kind(is_safe).filter(|death| death.touched > 0).count();
+            format!("{bad}/{}", of_kind(is_safe).count())
+        };
+        println!(
+            "  reaction {:>3.0} ms, rest {:.1} s, spare {:.0} mm: share {:.4}, contacts {} of safe, {} of unsafe ones",
+            of.reaction_s * 1e3,
+            of.rest_s,
+            of.spare_m * 1e3,
+            label.share(),
+            part(true),
+            part(false)
+        );
+    }
+    Ok(safe_bad == 0 && unsafe_bad * 10 >= 3 * unsafe_)
+}
+
+const fn assumed(reaction_s: f64, rest_s: f64, spare_m: f64) -> StopAssumptions {
+    StopAssumptions { reaction_s, rest_s, spare_m }
+}
+
+/// The planner's assumptions first.
+const ASSUMED: [StopAssumptions; 5] = [
+    assumed(0.056, 1.2, 0.003),
+    assumed(0.056, 0.4, 0.001),
+    assumed(0.056, 0.8, 0.002),
+    assumed(0.072, 1.2, 0.003),
+    assumed(0.072, 1.6, 0.005),
+];
+
+/// A drive in which robots are killed.
+struct Trial<'a> {
+    show: &'a Show,
+    conditions: Conditions,
+    first_seed: u64,
+    duration: Span,
+    drivers: Vec<usize>,
+    /// By assumption.
+    labels: Vec<StopSafety>,
+    /// `[noise]`: when the drive begins, seconds after the show does.
+    begins_s: Vec<f64>,
+}
+
+/// What came of a death.
+struct Death {
+    safe: Vec<bool>,
+    /// Contacts before robots were planned anew.
+    touched: u64,
+}
+
+impl Death {
+    fn is_safe(&self, assumed: usize) -> bool {
+        self.safe[assumed]
+    }
+}
+
+impl<'a> Trial<'a> {
+    fn new(show: &'a Show, conditions: Conditions, first_seed: u64) -> Result<Self, String> {
+        let starts = show.starts.as_ref().ok_or("the scene has no starts")?;
+        let plan = lightbots_plan::show(show, starts, &ShowOptions::default());
+        let drive = plan.transitions.get(1).filter(|_| plan.ok()).ok_or("the scene has no plan")?;
+        let limits = &show.stage.limits;
+        let drives = |robot: &usize| !drive.paths[*robot].as_ref().rests();
+        let mut trial = Self {
+            show,
+            conditions,
+            first_seed,
+            duration: drive.duration,
+            drivers: (0..drive.paths.len()).filter(drives).collect(),
+            labels: ASSUMED.iter().map(|of| labels(&drive.paths, limits, of)).collect(),
+            begins_s: Vec::new(),
+        };
+        for noise in 0..NOISES {
+            let report = trial.rehearsed(noise, None);
+            let frame = report.per_frame.get(1).ok_or("the scene is not played to its end")?;
+            trial.begins_s.push(frame.at_s - frame.drive_s);
+        }
+        Ok(trial)
+    }
+
+    fn rehearsed(&self, noise: u64, killed: Option<(usize, Span)>) -> RehearsalReport {
+        let mut conditions = self.conditions.clone();
+        conditions
+            .killed
+            .extend(killed.map(|(robot, at)| lightbots_sim::Breakdown { robot: Some(robot), at: Some(at) }));
+        let options = RehearsalOptions { seed: self.first_seed + noise, conditions, robots: None };
+        rehearse(self.show, &options, &mut |_| {})
+    }
+
+    /// Deaths at random moments of both kinds, so many of each; fewer where there are hardly any of a kind.
+    fn deaths(&self, safe: usize, unsafe_: usize, seed: u64) -> Vec<Death> {
+        let mut dice = dice::Dice::new(seed, 7);
+        let (mut left, mut deaths) = ([unsafe_, safe], Vec::new());
+        for _ in 0..1000 * (safe + unsafe_) {
+            if left == [0, 0] {
+                break;
+            }
+            let robot = self.drivers[(dice.share() * self.drivers.len() as f64) as usize];
+            let at = Span::from_secs(dice.share() * self.duration.as_secs());
+            let noise = (dice.share() * NOISES as f64) as u64;
+            let labels: Vec<bool> = self.labels.iter().map(|label| label.is_safe(robot, at)).collect();
+            let left = &mut left[usize::from(labels[0])];
+            if *left == 0 {
+                continue;
+            }
+            *left -= 1;
+            let show_at = Span::from_secs(self.begins_s[noise as usize]) + at;
+            let report = self.rehearsed(noise, Some((robot, show_at)));
+            let touched = report.contacts - report.contacts_after_replan;
+            if labels[0] && touched > 0 {
+                println!(
+                    "touched though safe: kill={robot}@{:.3}s seed {} ({:.2} s into the drive): {touched} contacts, labels {labels:?}",
+                    show_at.as_secs(),
+                    self.first_seed + noise,
+                    at.as_secs()
+                );
+            }
+            deaths.push(Death { safe: labels, touched });
+        }
+        deaths
+    }
+}
+
+fn labels(paths: &[Path], limits: &Limits, of: &StopAssumptions) -> StopSafety {
+    stop_safety_unless(paths, limits, of, &|| false).unwrap_or_default()
+}
