@@ -18,6 +18,8 @@ pub struct Plan {
     pub lower_bound_s: f64,
     /// The least distance of two centres, metres; null with fewer than two robots.
     pub closest_m: Option<f64>,
+    /// The share of all moments at which any one robot may stop dead without a contact, 0 to 1.
+    pub stop_safe: f64,
     /// How long planning took, milliseconds.
     pub plan_ms: f64,
     /// What is wrong or worth knowing, in the order of frames.
@@ -41,6 +43,8 @@ pub struct Transition {
     pub lower_bound_s: f64,
     /// The least distance of two centres, metres.
     pub closest_m: Option<f64>,
+    /// The share of its moments at which any one robot may stop dead without a contact, 0 to 1.
+    pub stop_safe: f64,
     /// `pixels[robot]`: the pixel a robot shows afterwards; null: it stands by. Empty in the `plan` message of the
     /// WebSocket, full over HTTP.
     pub pixels: Vec<Option<u32>>,

@@ -8,7 +8,7 @@ use crate::originals::{self, Journey, Stage};
 use crate::separation;
 use crate::surroundings::{Surroundings, surroundings};
 use lightbots_base::{RobotId, Span, Vec2};
-use lightbots_plan::{Cancelled, Cast, Path, Transition, TransitionProblem, transition_unless};
+use lightbots_plan::{Cancelled, Cast, Path, Transition, TransitionProblem, raise_unless, transition_unless};
 use lightbots_show::{Frame, Pixel, Show};
 use lightbots_wire::MAX_PIECES;
 use std::sync::Arc;
@@ -223,7 +223,11 @@ impl<'a> Draft<'a> {
                 ..self.empty_problem()
             };
             let stuck = match transition_unless(&problem, self.is_over).map_err(given_up)? {
-                Ok(plan) => return Ok(plan),
+                Ok(mut plan) => {
+                    // Given up it leaves a plan that is proven.
+                    let _ = raise_unless(&problem, &mut plan, self.is_over);
+                    return Ok(plan);
+                }
                 Err(stuck) => stuck,
             };
             tries -= 1;

@@ -54,6 +54,7 @@ pub fn summary(plan: &api::Plan) -> api::Plan {
         least_s: transition.least_s,
         lower_bound_s: transition.lower_bound_s,
         closest_m: transition.closest_m,
+        stop_safe: transition.stop_safe,
         pixels: Vec::new(),
         paths: Vec::new(),
     });
@@ -84,15 +85,19 @@ fn document(plan: &ShowPlan, issues: Issues, plan_ms: f64) -> api::Plan {
         duration_s: rounded(plan.duration_s, 3),
         lower_bound_s: rounded(plan.lower_bound_s, 3),
         closest_m: plan.closest.as_ref().map(|closest| rounded(closest.closest.distance_m, 5)),
+        stop_safe: share(plan.stop_safe_share()),
         plan_ms: rounded(plan_ms, 3),
         issues: issues.iter().map(issue).collect(),
-        transitions: transitions
-            .map(|(index, way)| transition(index, way, plan.mapping.get(index)))
-            .collect(),
+        transitions: transitions.map(|(index, way)| transition(index, way, plan)).collect(),
     }
 }
 
-fn transition(index: usize, way: &Transition, pixels: Option<&Vec<Option<u32>>>) -> api::Transition {
+/// A share of moments, rounded down: 1 means all of them.
+pub fn share(share: f64) -> f64 {
+    (share * 1e5 + 1e-6).floor() / 1e5
+}
+
+fn transition(index: usize, way: &Transition, plan: &ShowPlan) -> api::Transition {
     api::Transition {
         from: index.checked_sub(1),
         to: index,
@@ -100,7 +105,8 @@ fn transition(index: usize, way: &Transition, pixels: Option<&Vec<Option<u32>>>)
         least_s: rounded(way.least.as_secs(), 3),
         lower_bound_s: rounded(way.lower_bound_s, 3),
         closest_m: way.closest.as_ref().map(|closest| rounded(closest.distance_m, 5)),
-        pixels: pixels.cloned().unwrap_or_default(),
+        stop_safe: plan.stop_safety.get(index).map_or(1.0, |safety| share(safety.share())),
+        pixels: plan.mapping.get(index).cloned().unwrap_or_default(),
         paths: way.paths.iter().map(path).collect(),
     }
 }

@@ -83,6 +83,10 @@ lower_bound_s: number,
  */
 closest_m: number | null, 
 /**
+ * The share of all moments at which any one robot may stop dead without a contact, 0 to 1.
+ */
+stop_safe: number, 
+/**
  * How long planning took, milliseconds.
  */
 plan_ms: number, 
@@ -123,6 +127,10 @@ lower_bound_s: number,
  * The least distance of two centres, metres.
  */
 closest_m: number | null, 
+/**
+ * The share of its moments at which any one robot may stop dead without a contact, 0 to 1.
+ */
+stop_safe: number, 
 /**
  * `pixels[robot]`: the pixel a robot shows afterwards; null: it stands by. Empty in the `plan` message of the
  * WebSocket, full over HTTP.

@@ -60,8 +60,25 @@ function PlanFacts({ plan }: { plan: Plan }) {
           ? '–'
           : `${(plan.closest_m * 1000).toFixed(0)} mm, centre to centre`}
       </dd>
+      <dt>Stop-safe</dt>
+      <dd>{stopSafeText(plan)}</dd>
       <dt>Plan</dt>
       <dd>{plan.ok ? 'proven: nobody touches' : 'cannot be played as it is'}</dd>
     </>
   );
+}
+
+/** At how many moments any one robot may stop dead, and on the way to which pictures at not all of them. */
+function stopSafeText(plan: Plan): string {
+  if (plan.transitions.length === 0) return '–';
+  if (plan.stop_safe >= 1) return 'any one robot may stop dead at any moment';
+  const least = plan.transitions.reduce((one, other) =>
+    other.stop_safe < one.stop_safe ? other : one,
+  );
+  return `at ${percentText(plan.stop_safe)} of all moments; least on the way to frame ${least.to + 1}: ${percentText(least.stop_safe)}`;
+}
+
+/** Rounded down, so that 100 % means all. */
+function percentText(share: number): string {
+  return `${(Math.floor(share * 1000) / 10).toFixed(1)} %`;
 }

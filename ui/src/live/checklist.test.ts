@@ -24,6 +24,7 @@ const plan: Plan = {
   duration_s: 9,
   lower_bound_s: 8,
   closest_m: 0.08,
+  stop_safe: 1,
   plan_ms: 1,
   issues: [],
   transitions: [],

@@ -41,6 +41,7 @@ test('pixels that errors of the plan are about are wrong in their frame', () => 
     duration_s: 0,
     lower_bound_s: 0,
     closest_m: null,
+    stop_safe: 1,
     plan_ms: 0,
     issues: [issue('error', 1, [3, 4]), issue('warning', 1, [5]), issue('error', 0, [6])],
     transitions: [],

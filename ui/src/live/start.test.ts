@@ -14,6 +14,7 @@ const PLAN = {
   duration_s: 1,
   lower_bound_s: 1,
   closest_m: 0.1,
+  stop_safe: 1,
   plan_ms: 1,
   issues: [],
   transitions: [],

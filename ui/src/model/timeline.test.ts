@@ -11,6 +11,7 @@ const transition = (to: number, x: number): Transition => ({
   least_s: 2,
   lower_bound_s: 1,
   closest_m: null,
+  stop_safe: 1,
   pixels: [0],
   paths: [{ start: [0, 0], pieces: [[2, x / 3, 0, (2 * x) / 3, 0, x, 0]] }],
 });
@@ -21,6 +22,7 @@ const plan: Plan = {
   duration_s: 7,
   lower_bound_s: 0,
   closest_m: null,
+  stop_safe: 1,
   plan_ms: 0,
   issues: [],
   transitions: [transition(0, 0), transition(1, 1)],

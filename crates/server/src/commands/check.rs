@@ -1,5 +1,7 @@
 //! `check`: validate, plan, prove.
 
+mod stop_safe;
+
 use lightbots_api as api;
 use lightbots_plan::{ShowClosest, ShowPlan};
 use lightbots_show::{Show, frame_label, most_pixels};
@@ -10,6 +12,7 @@ use crate::cli::CheckArguments;
 use crate::failure::Outcome;
 use crate::numbers::rounded;
 use crate::{plan_document, say, show_file};
+use stop_safe::StopSafe;
 
 /// The JSON of `check`.
 #[derive(Debug, Serialize)]
@@ -21,6 +24,7 @@ pub(super) struct Summary<'a> {
     lower_bound_s: f64,
     closest_m: Option<f64>,
     closest: Option<Pair>,
+    stop_safe: StopSafe,
     plan_ms: f64,
     issues: &'a [api::Issue],
     transitions: Vec<Drive>,
@@ -50,6 +54,7 @@ struct Drive {
     least_s: f64,
     lower_bound_s: f64,
     closest_m: Option<f64>,
+    stop_safe: f64,
 }
 
 pub fn run(arguments: &CheckArguments) -> Outcome {
@@ -73,6 +78,7 @@ impl<'a> Summary<'a> {
             least_s: transition.least_s,
             lower_bound_s: transition.lower_bound_s,
             closest_m: transition.closest_m,
+            stop_safe: transition.stop_safe,
         };
         Self {
             ok: plan.ok,
@@ -82,6 +88,7 @@ impl<'a> Summary<'a> {
             lower_bound_s: plan.lower_bound_s,
             closest_m: plan.closest_m,
             closest: Pair::of(show, made),
+            stop_safe: StopSafe::of(show, made, plan),
             plan_ms: plan.plan_ms,
             issues: &plan.issues,
             transitions: plan.transitions.iter().map(drive).collect(),
@@ -102,15 +109,26 @@ impl<'a> Summary<'a> {
         if let Some(pair) = &self.closest {
             say::line(&pair.line(show));
         }
+        self.stop_safe.lines(show).iter().for_each(|line| say::line(line));
     }
+}
+
+/// The pixel that a robot drives to in a transition.
+fn pixel(made: &ShowPlan, transition: usize, robot: usize) -> Option<u32> {
+    made.mapping.get(transition)?.get(robot).copied().flatten()
+}
+
+/// When a transition begins, seconds after the show does.
+fn began_s(show: &Show, made: &ShowPlan, transition: usize) -> f64 {
+    let before = made.transitions.iter().zip(&show.frames).take(transition);
+    before.map(|(way, frame)| way.duration.as_secs() + frame.air_time_s).sum()
 }
 
 impl Pair {
     fn of(show: &Show, made: &ShowPlan) -> Option<Self> {
         let ShowClosest { transition, closest } = made.closest?;
-        let pixel = |robot: usize| made.mapping.get(transition)?.get(robot).copied().flatten();
-        let before = made.transitions.iter().zip(&show.frames).take(transition);
-        let began_s: f64 = before.map(|(way, frame)| way.duration.as_secs() + frame.air_time_s).sum();
+        let pixel = |robot| pixel(made, transition, robot);
+        let began_s = began_s(show, made, transition);
         let at_s = closest.at.as_secs();
         let mut pixels = [pixel(closest.pair.0), pixel(closest.pair.1)];
         pixels.sort_unstable();

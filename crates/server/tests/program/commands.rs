@@ -32,9 +32,11 @@ fn check_says_what_it_promises() {
             "plan_ms",
             "issues",
             "transitions",
+            "stop_safe",
         ],
     );
-    has(&report["transitions"][0], &["from", "to", "duration_s", "lower_bound_s", "closest_m"]);
+    has(&report["transitions"][0], &["from", "to", "duration_s", "lower_bound_s", "closest_m", "stop_safe"]);
+    has(&report["stop_safe"], &["share", "worst"]);
     assert_eq!((report["ok"].as_bool(), report["pixels"].as_u64()), (Some(true), Some(30)));
     assert!(report["closest_m"].as_f64().unwrap() > 0.054);
     assert!(report["duration_s"].as_f64() > report["lower_bound_s"].as_f64());
@@ -61,6 +63,31 @@ fn check_says_who_comes_closest_when_and_where() {
     assert_eq!(code, 0);
     let line = text.lines().find(|line| line.starts_with("closest: the robots for pixels 4 and 7")).unwrap();
     assert!(line.ends_with("on the way to frame 2 \"B\""), "{line}");
+}
+
+#[test]
+fn check_says_where_no_robot_may_stop_dead() {
+    // Two that drive 6 mm apart, one behind the other; the frame says how long that takes.
+    let show = r##"{"lightbots":1,"identity":"fixed","starts":[[-1,0],[-1.06,0]],"frames":[
+        {"name":"A","air_time_s":1,"transition_s":8.5,"pixels":[{"id":4,"place":[1,0],"color":"#ffffff"},
+            {"id":7,"place":[0.94,0],"color":"#ffffff"}]}]}"##;
+    let file = shows::file("queue.lightbots.json", show);
+    let report = json(&run(&["check", &file, "--json"]).1);
+    let (share, worst) = (report["stop_safe"]["share"].as_f64().unwrap(), &report["stop_safe"]["worst"]);
+    assert!((0.5..0.8).contains(&share), "{report}");
+    assert_eq!(report["transitions"][0]["stop_safe"], share);
+    has(worst, &["robot", "pixel", "by", "by_pixel", "frame", "moment", "show_moment", "place", "missing_m"]);
+    assert_eq!((&worst["pixel"], &worst["by_pixel"], &worst["frame"]), (&4.into(), &7.into(), &0.into()));
+    assert!((0.008..0.015).contains(&worst["missing_m"].as_f64().unwrap()), "{worst}");
+    let (code, text, _) = run(&["check", &file]);
+    assert_eq!(code, 0);
+    assert!(text.contains("if the robot for pixel 4 does"), "{text}");
+    assert!(text.contains("too tight for more on the way to: frame 1 \"A\""), "{text}");
+    // With as much time as it takes the one behind leaves a little later.
+    let file = shows::file("queue.lightbots.json", show.replace(r#""transition_s":8.5,"#, ""));
+    let report = json(&run(&["check", &file, "--json"]).1);
+    assert_eq!((&report["stop_safe"]["share"], &report["stop_safe"]["worst"]), (&1.0.into(), &Value::Null));
+    assert!(run(&["check", &file]).1.contains("any one robot may stop dead at any moment"));
 }
 
 /// The most decimals of a number below a key that ends like this, and whether there was one.
