@@ -25,7 +25,7 @@ enum Source {
     Browser,
 }
 
-const PARTS: [Part; 7] = [
+const PARTS: [Part; 8] = [
     Part {
         name: "plan",
         title: "Planning",
@@ -36,6 +36,14 @@ const PARTS: [Part; 7] = [
                 by the dense solver of the crate `lsap`, judged in the same way; it is not asked at ten \
                 thousand robots. Where everybody is bound to a pixel there is nothing \
                 to assign.",
+    },
+    Part {
+        name: "stop-safe",
+        title: "Stop-safety",
+        source: Source::Example("lightbots-plan", "stop_safe"),
+        about: "The share of all moments of a drive, every 50 ms and for each robot, at which that robot may stop dead \
+                without a contact, as planned and after robots were delayed for it; one thread. `longer`: the duration \
+                after over before. `missing`: how much room to stop somebody is short of at the worst moment.",
     },
     Part {
         name: "rehearsal",
