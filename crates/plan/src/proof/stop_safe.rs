@@ -31,6 +31,8 @@ pub struct StopAssumptions {
     pub rest_s: f64,
     /// Room between two rims that counts as a contact, metres.
     pub spare_m: f64,
+    /// A robot may brake for another that stands this near to its way, rim to rim, metres.
+    pub wary_m: f64,
 }
 
 impl Default for StopAssumptions {
@@ -39,7 +41,7 @@ impl Default for StopAssumptions {
     /// of it. Robots are up to 3 mm off their paths. Places between two moments are taken from a straight line: at most
     /// 0.3 mm off it at 1 m/s².
     fn default() -> Self {
-        Self { reaction_s: REACTION_S, rest_s: 1.2, spare_m: 0.003 }
+        Self { reaction_s: REACTION_S, rest_s: 1.2, spare_m: 0.003, wary_m: 0.008 }
     }
 }
 
@@ -146,7 +148,7 @@ impl Sweep {
     /// not stop in turn at one of the moments at which it may come to stand.
     fn look(&mut self, rows: &Rows<'_>, drives: &[bool]) {
         let boxes: Vec<Bounds> = (0..drives.len()).map(|robot| rows.bounds(robot)).collect();
-        let reach_m = self.law.contact_m;
+        let reach_m = self.law.wary_m;
         let mut here: Vec<UnsafeMoment> = Vec::new();
         near_pairs(&boxes, reach_m, |i, j| {
             for (robot, by) in [(i, j), (j, i)] {
@@ -184,6 +186,8 @@ impl Sweep {
 /// What counts as a contact, and how robots brake.
 pub(crate) struct Law {
     contact_m: f64,
+    /// Distance of two centres within which one may brake for the other, metres.
+    wary_m: f64,
     /// The farthest anybody drives in a step, metres.
     step_m: f64,
     of: StopAssumptions,
@@ -192,7 +196,8 @@ pub(crate) struct Law {
 impl Law {
     pub fn new(limits: &Limits, of: StopAssumptions) -> Self {
         let step_m = (limits.speed_mps * STEP.as_secs() * 1.01).max(1e-4);
-        Self { contact_m: limits.contact_m() + of.spare_m, step_m, of }
+        let [contact_m, wary_m] = [of.spare_m, of.wary_m.max(of.spare_m)].map(|m| limits.contact_m() + m);
+        Self { contact_m, wary_m, step_m, of }
     }
 
     /// How many steps ahead a robot must be looked at.
@@ -203,8 +208,10 @@ impl Law {
     /// What becomes of who is `at(steps ahead)` if somebody else stops dead at a place: the last step in which it may begin
     /// to brake, 0 where it cannot stop in time, and how much room it is short of, metres. `None`: nothing.
     pub fn judge(&self, place: Vec2, at: &impl Fn(usize) -> Vec2) -> Option<(u8, f32)> {
-        let need_m = self.contact_m.min(place.distance(at(0))) - 1e-6;
-        let touched = self.touched(place, at, need_m)?;
+        let apart_m = place.distance(at(0));
+        let need_m = self.contact_m.min(apart_m) - 1e-6;
+        let wary_m = self.wary_m.min(apart_m) - 1e-6;
+        let touched = self.touched(place, at, wary_m)?;
         // Reaction and braking end within three steps.
         if touched < 3 {
             let missing_m = need_m - self.stopped_m(place, at, self.of.reaction_s);
@@ -212,8 +219,8 @@ impl Law {
                 return Some((0, missing_m as f32));
             }
         }
-        // It may begin to brake in any step before it touches; in that one if it stands before.
-        let in_time = |step: &usize| self.rolling_m(place, at, *step as f64 * STEP.as_secs()) >= need_m;
+        // It may begin to brake in any step before it comes near; in that one if it stands before.
+        let in_time = |step: &usize| self.rolling_m(place, at, *step as f64 * STEP.as_secs()) >= wary_m;
         let last = (1..=touched).rev().find(in_time).unwrap_or(1);
         Some((last as u8, 0.0))
     }

@@ -59,10 +59,11 @@ fn run(args: &[String]) -> Result<bool, String> {
             format!("{bad}/{}", of_kind(is_safe).count())
         };
         println!(
-            "  reaction {:>3.0} ms, rest {:.1} s, spare {:.0} mm: share {:.4}, contacts {} of safe, {} of unsafe ones",
+            "  reaction {:>3.0} ms, rest {:.1} s, spare {:.0} mm, wary {:.0} mm: share {:.4}, contacts {} of safe, {} of unsafe ones",
             of.reaction_s * 1e3,
             of.rest_s,
             of.spare_m * 1e3,
+            of.wary_m * 1e3,
             label.share(),
             part(true),
             part(false)
@@ -71,17 +72,18 @@ fn run(args: &[String]) -> Result<bool, String> {
     Ok(safe_bad == 0 && unsafe_bad * 10 >= 3 * unsafe_)
 }
 
-const fn assumed(reaction_s: f64, rest_s: f64, spare_m: f64) -> StopAssumptions {
-    StopAssumptions { reaction_s, rest_s, spare_m }
+const fn assumed(reaction_s: f64, rest_s: f64, spare_m: f64, wary_m: f64) -> StopAssumptions {
+    StopAssumptions { reaction_s, rest_s, spare_m, wary_m }
 }
 
 /// The planner's assumptions first.
-const ASSUMED: [StopAssumptions; 5] = [
-    assumed(0.056, 1.2, 0.003),
-    assumed(0.056, 0.4, 0.001),
-    assumed(0.056, 0.8, 0.002),
-    assumed(0.072, 1.2, 0.003),
-    assumed(0.072, 1.6, 0.005),
+const ASSUMED: [StopAssumptions; 6] = [
+    assumed(0.056, 1.2, 0.003, 0.008),
+    assumed(0.056, 0.4, 0.001, 0.001),
+    assumed(0.056, 1.2, 0.003, 0.003),
+    assumed(0.056, 1.2, 0.003, 0.006),
+    assumed(0.056, 1.2, 0.003, 0.010),
+    assumed(0.072, 1.6, 0.005, 0.012),
 ];
 
 /// A drive in which robots are killed.
@@ -165,7 +167,7 @@ impl<'a> Trial<'a> {
             let touched = report.contacts - report.contacts_after_replan;
             if labels[0] && touched > 0 {
                 println!(
-                    "touched though safe: kill={robot}@{:.3}s seed {} ({:.2} s into the drive): {touched} contacts, labels {labels:?}",
+                    "touched though safe: kill={robot}@{:.6}s seed {} ({:.2} s into the drive): {touched} contacts, labels {labels:?}",
                     show_at.as_secs(),
                     self.first_seed + noise,
                     at.as_secs()
