@@ -43,7 +43,8 @@ const PARTS: [Part; 8] = [
         source: Source::Example("lightbots-plan", "stop_safe"),
         about: "The share of all moments of a drive, every 50 ms and for each robot, at which that robot may stop dead \
                 without a contact, as planned and after robots were delayed for it; one thread. `longer`: the duration \
-                after over before. `missing`: how much room to stop somebody is short of at the worst moment.",
+                after over before. `missing`: how much room to stop somebody is short of at the worst moment. [Where fixed D of 30 is not stop-safe](stop-safe.svg): all paths, and a \
+                dot where a robot must not stop dead, darker the more room is missing.",
     },
     Part {
         name: "rehearsal",

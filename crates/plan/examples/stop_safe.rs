@@ -1,6 +1,9 @@
 //! Measures and raises stop-safety: one row a scene and size of the planner's bench.
 //!
-//! `cargo run --release -p lightbots-plan --example stop_safe -- [--json] [--robots N] [--scene NAME]`
+//! `cargo run --release -p lightbots-plan --example stop_safe -- [--json] [--robots N] [--scene NAME] [--svg FILE]`
+//!
+//! With `--svg` the last row is drawn too: all paths, and a dot where a robot must not stop dead, darker the more room
+//! somebody is short of.
 #![allow(clippy::print_stdout, missing_docs)]
 
 #[path = "common/cpu.rs"]
@@ -10,9 +13,12 @@ mod dice;
 #[path = "bench/scenes.rs"]
 mod scenes;
 
+use core::fmt::Write as _;
+
 use cpu::Watch;
+use lightbots_base::Span;
 use lightbots_plan::proof::stop_safe::{StopSafety, stop_safety};
-use lightbots_plan::{TransitionProblem, raise, transition};
+use lightbots_plan::{Path, TransitionProblem, raise, transition};
 
 fn main() {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
@@ -27,6 +33,9 @@ fn main() {
         for &robots in sizes.iter().filter(|&&robots| robots <= scene.most) {
             if let Some(row) = row(scene.name, &(scene.build)(robots)) {
                 println!("{}", if json { row.json() } else { row.text() });
+                if let Some(file) = value("--svg") {
+                    std::fs::write(file, row.svg()).expect("the picture can be written");
+                }
             }
         }
     }
@@ -41,6 +50,8 @@ struct Row {
     after: StopSafety,
     /// Duration after over before.
     longer: f64,
+    paths: Vec<Path>,
+    half_m: f64,
 }
 
 /// `None` where there is no plan.
@@ -55,7 +66,8 @@ fn row(scene: &'static str, problem: &TransitionProblem) -> Option<Row> {
         after = raise(problem, &mut raised);
     });
     let longer = raised.duration.as_secs() / plan.duration.as_secs();
-    Some(Row { scene, robots: plan.paths.len(), measure_ms, raise_ms, before, after, longer })
+    let (robots, half_m) = (plan.paths.len(), problem.half_floor.x.max(problem.half_floor.y));
+    Some(Row { scene, robots, measure_ms, raise_ms, before, after, longer, paths: raised.paths, half_m })
 }
 
 fn median_ms(times: usize, mut work: impl FnMut()) -> f64 {
@@ -100,5 +112,31 @@ impl Row {
             missing_mm(&self.before),
             missing_mm(&self.after)
         )
+    }
+
+    /// The floor from above, 800 wide.
+    fn svg(&self) -> String {
+        let scale = 400.0 / self.half_m;
+        let mut svg = String::from(
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"-400 -400 800 800\">\n\
+             <rect x=\"-400\" y=\"-400\" width=\"800\" height=\"800\" fill=\"#fff\"/>\n",
+        );
+        for path in &self.paths {
+            let moments = (0..=path.as_ref().duration().0 / 200_000).map(|number| Span(number * 200_000));
+            let places = moments.map(|at| path.as_ref().at(at).position * scale);
+            let points: Vec<String> = places.map(|at| format!("{:.0},{:.0}", at.x, -at.y)).collect();
+            let _ =
+                writeln!(svg, "<polyline points=\"{}\" fill=\"none\" stroke=\"#c8cdd4\"/>", points.join(" "));
+        }
+        for one in &self.after.unsafe_moments {
+            let (at, dark) = (one.place * scale, 0.15 + (one.missing_m / 0.015).min(1.0) * 0.85);
+            let _ = writeln!(
+                svg,
+                "<circle cx=\"{:.0}\" cy=\"{:.0}\" r=\"3\" fill=\"#c0392b\" fill-opacity=\"{dark:.2}\"/>",
+                at.x, -at.y
+            );
+        }
+        svg.push_str("</svg>\n");
+        svg
     }
 }
