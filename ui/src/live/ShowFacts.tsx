@@ -70,7 +70,7 @@ function PlanFacts({ plan }: { plan: Plan }) {
 
 /** At how many moments any one robot may stop dead, and on the way to which pictures at not all of them. */
 function stopSafeText(plan: Plan): string {
-  if (plan.transitions.length === 0) return '–';
+  if (!plan.ok || plan.transitions.length === 0) return '–';
   if (plan.stop_safe >= 1) return 'any one robot may stop dead at any moment';
   const least = plan.transitions.reduce((one, other) =>
     other.stop_safe < one.stop_safe ? other : one,

@@ -83,6 +83,11 @@ fn check_says_where_no_robot_may_stop_dead() {
     assert_eq!(code, 0);
     assert!(text.contains("if the robot for pixel 4 does"), "{text}");
     assert!(text.contains("too tight for more on the way to: frame 1 \"A\""), "{text}");
+    // A show that cannot be played says nothing of it.
+    let off_floor = show.replace("[0.94,0]", "[9.4,0]");
+    let file = shows::file("off-floor.lightbots.json", &off_floor);
+    assert_eq!(json(&run(&["check", &file, "--json"]).1)["stop_safe"]["share"], Value::Null);
+    assert!(!run(&["check", &file]).1.contains("stop dead"));
     // With as much time as it takes the one behind leaves a little later.
     let file = shows::file("queue.lightbots.json", show.replace(r#""transition_s":8.5,"#, ""));
     let report = json(&run(&["check", &file, "--json"]).1);

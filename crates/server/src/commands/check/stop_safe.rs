@@ -11,8 +11,8 @@ use crate::numbers::rounded;
 /// At which moments robots may stop dead.
 #[derive(Debug, Serialize)]
 pub(super) struct StopSafe {
-    /// The share of all moments of robots that drive, 0 to 1.
-    share: f64,
+    /// The share of all moments of robots that drive, 0 to 1; null where the plan must not be played.
+    share: Option<f64>,
     /// The moment at which most room is missing; null where the share is 1.
     worst: Option<Worst>,
     /// `(transition, share)` of those with less than all.
@@ -55,11 +55,12 @@ impl StopSafe {
         });
         let transitions = plan.transitions.iter().map(|transition| (transition.to, transition.stop_safe));
         let less = transitions.filter(|(_, share)| *share < 1.0).collect();
-        Self { share: plan.stop_safe, worst, less }
+        Self { share: plan.ok.then_some(plan.stop_safe), worst, less }
     }
 
     /// For people: how much, where least, and which pictures are too tight.
     pub fn lines(&self, show: &Show) -> Vec<String> {
+        let Some(share) = self.share else { return Vec::new() };
         let Some(worst) = &self.worst else {
             return vec!["stop-safe: any one robot may stop dead at any moment".into()];
         };
@@ -71,7 +72,7 @@ impl StopSafe {
         let mut lines = vec![format!(
             "stop-safe: at {} of all moments any one robot may stop dead; worst: if {} does {:.2} s into the show, on the way \
              to {}, at ({x:.2}, {y:.2}) m, {} is {:.1} mm short of room to stop",
-            percent(self.share),
+            percent(share),
             who(worst.pixel),
             worst.show_moment,
             name(worst.frame),
