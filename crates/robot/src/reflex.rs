@@ -256,3 +256,9 @@ mod death_tests;
 #[cfg(test)]
 #[path = "reflex/estimator_tests.rs"]
 mod estimator_tests;
+#[cfg(test)]
+#[path = "reflex/policy_tests.rs"]
+mod policy_tests;
+#[cfg(test)]
+#[path = "reflex/stray_tests.rs"]
+mod stray_tests;

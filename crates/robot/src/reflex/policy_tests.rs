@@ -1,0 +1,37 @@
+//! For whom the plan names the robot brakes when it is nearer for sure.
+
+use super::Point;
+use super::covariance::Covariance;
+use super::policy::{Wish, allowed_mps};
+use super::sensors::Sensors;
+use super::track::{Bias, Track};
+use crate::config::{ProximitySensors, ReflexParameters};
+
+/// The speed allowed for a robot that comes the other way and will pass 55 mm from centre to centre, known to so many
+/// metres (1 sigma), where the plan leaves so much.
+fn allowed(sigma_m: f32, clearance_m: Option<f32>) -> Option<f32> {
+    let of = ReflexParameters::DEFAULT;
+    let covariance = Covariance::new(Point::new(1.0, 0.0), sigma_m * sigma_m, sigma_m * sigma_m, 1e-6);
+    let track = Track {
+        at: Point::new(0.02, 0.0552),
+        velocity: Point::new(-0.24, 0.0),
+        covariance,
+        planned: clearance_m.map(|_| 0),
+        missed: 0,
+        seen_by: 1,
+        bias: Bias::unknown(&of),
+        shaken: 0,
+        left: None,
+        age: 4,
+    };
+    let wish = Wish { speed_mps: 0.24, told_mps: 0.24, dt: 0.016 };
+    allowed_mps(&track, &wish, clearance_m, &Sensors::new(&ProximitySensors::ELISA_3, 0.027), &of)
+}
+
+#[test]
+fn a_planned_neighbour_is_believed_to_keep_to_its_plan_until_it_is_nearer_for_sure() {
+    assert_eq!(allowed(0.003, Some(0.008)), None);
+    assert!(allowed(0.0005, Some(0.008)).is_some_and(|mps| mps < 0.2), "{:?}", allowed(0.0005, Some(0.008)));
+    // Of a stranger less is known, and it is braked for sooner.
+    assert!(allowed(0.003, None).is_some_and(|mps| mps < 0.2), "{:?}", allowed(0.003, None));
+}
