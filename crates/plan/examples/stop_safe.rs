@@ -15,7 +15,7 @@ mod scenes;
 
 use core::fmt::Write as _;
 
-use cpu::Watch;
+use cpu::median_ms;
 use lightbots_base::Span;
 use lightbots_plan::proof::stop_safe::{StopSafety, stop_safety};
 use lightbots_plan::{Path, TransitionProblem, raise, transition};
@@ -68,19 +68,6 @@ fn row(scene: &'static str, problem: &TransitionProblem) -> Option<Row> {
     let longer = raised.duration.as_secs() / plan.duration.as_secs();
     let (robots, half_m) = (plan.paths.len(), problem.half_floor.x.max(problem.half_floor.y));
     Some(Row { scene, robots, measure_ms, raise_ms, before, after, longer, paths: raised.paths, half_m })
-}
-
-fn median_ms(times: usize, mut work: impl FnMut()) -> f64 {
-    let mut taken: Vec<f64> = (0..times)
-        .map(|_| {
-            let watch = Watch::started();
-            work();
-            let wall_ms = watch.wall_ms();
-            if wall_ms > 8.0 { watch.ms() } else { wall_ms }
-        })
-        .collect();
-    taken.sort_by(f64::total_cmp);
-    taken[times / 2]
 }
 
 impl Row {

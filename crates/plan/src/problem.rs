@@ -111,6 +111,9 @@ pub struct Path {
 }
 
 impl Path {
+    /// The most pieces of a path: what a robot can keep.
+    pub(crate) const MOST_PIECES: usize = 128;
+
     /// The path as others read it.
     pub fn as_ref(&self) -> PathRef<'_> {
         PathRef::new(self.start, &self.pieces)

@@ -13,8 +13,6 @@ use lightbots_base::{Piece, Span};
 
 /// At most this share of the planned duration is spent.
 const SHARE: f64 = 0.05;
-/// The most pieces a path may have: what a robot can keep.
-const MOST_PIECES: usize = 128;
 
 /// Measures a transition's stop-safety, and raises it where that costs at most 5 % of its duration and `problem` asks for
 /// no duration of its own. The transition stays proven, and none gets less safe.
@@ -46,7 +44,7 @@ pub(crate) fn raised(
     let delays = delays::delays(&transition.paths, &before, &problem.limits, most, cancel);
     let paths = delayed(&transition.paths, &delays);
     if delays.iter().all(|delay| *delay == Span::ZERO)
-        || paths.iter().any(|path| path.pieces.len() > MOST_PIECES)
+        || paths.iter().any(|path| path.pieces.len() > Path::MOST_PIECES)
         || cancel.is_wanted()
     {
         return before;
@@ -65,9 +63,8 @@ pub(crate) fn raised(
 
 /// The paths begun later by such delays; all end together.
 fn delayed(paths: &[Path], delays: &[Span]) -> Vec<Path> {
-    let moves = |path: &Path| path.pieces.iter().any(|piece| !piece.is_rest(path.start));
-    let latest =
-        paths.iter().zip(delays).filter(|(path, _)| moves(path)).map(|(path, delay)| ends(path) + *delay);
+    let driving = paths.iter().zip(delays).filter(|(path, _)| !path.as_ref().rests());
+    let latest = driving.map(|(path, delay)| ends(path) + *delay);
     let before = paths.iter().map(|path| path.as_ref().duration()).max().unwrap_or(Span::ZERO);
     let duration = latest.max().unwrap_or(Span::ZERO).max(before);
     let later = |(path, delay): (&Path, &Span)| {

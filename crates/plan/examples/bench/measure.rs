@@ -1,6 +1,6 @@
 //! One row: our plan, squared distances alone (CAPT), and a dense library solver.
 
-use crate::cpu::Watch;
+use crate::cpu::median_ms;
 use lightbots_base::{Piece, Span};
 use lightbots_plan::assignment::Choice;
 use lightbots_plan::proof::prove;
@@ -41,8 +41,9 @@ pub fn measure(scene: &'static str, problem: &TransitionProblem) -> Row {
     let bottleneck_m = Choice::new(&problem.starts, &problem.goals, &problem.pinned)
         .map_or(0.0, |choice| choice.bottleneck_m());
     let least_s = bottleneck_m / problem.limits.speed_mps + 0.62;
+    let times = if robots > 2_000 { 1 } else { 7 };
     let mut plan = None;
-    let plan_ms = median_ms(robots, || plan = transition(problem).ok());
+    let plan_ms = median_ms(times, || plan = transition(problem).ok());
     let ours = plan.as_ref().map(|plan| Way {
         ms: plan_ms,
         ratio: plan.duration.as_secs() / least_s,
@@ -56,7 +57,7 @@ pub fn measure(scene: &'static str, problem: &TransitionProblem) -> Row {
     let is_bound = problem.pinned.iter().any(Option::is_some);
     let capt = (!is_bound).then(|| {
         let mut start_of = Vec::new();
-        let ms = median_ms(robots, || {
+        let ms = median_ms(times, || {
             start_of = squares_alone(problem);
             judged(problem, &lines(problem, &start_of).1);
         });
@@ -64,26 +65,11 @@ pub fn measure(scene: &'static str, problem: &TransitionProblem) -> Row {
     });
     let dense = (!is_bound && robots <= DENSE_MOST).then(|| {
         let mut start_of = Vec::new();
-        let ms = median_ms(robots, || start_of = dense(problem));
+        let ms = median_ms(times, || start_of = dense(problem));
         straight(ms, &start_of)
     });
     let closest_mm = plan.and_then(|plan| plan.closest).map_or(0.0, |closest| closest.distance_m * 1e3);
     Row { scene, robots, ours, plan_ms, closest_mm, capt, dense }
-}
-
-fn median_ms(robots: usize, mut work: impl FnMut()) -> f64 {
-    let times = if robots > 2_000 { 1 } else { 7 };
-    let mut taken: Vec<f64> = (0..times)
-        .map(|_| {
-            let watch = Watch::started();
-            work();
-            // Short work is rarely interrupted, and the processor's own account is coarse.
-            let wall_ms = watch.wall_ms();
-            if wall_ms > 8.0 { watch.ms() } else { wall_ms }
-        })
-        .collect();
-    taken.sort_by(f64::total_cmp);
-    taken[times / 2]
 }
 
 /// Least squares without a bottleneck: `start_of[goal]`.

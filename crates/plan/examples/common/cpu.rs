@@ -1,5 +1,8 @@
 //! How long something took.
 
+// Not every example needs all of it.
+#![allow(dead_code)]
+
 use std::time::Instant;
 
 /// A stop-watch that a busy machine does not falsify.
@@ -23,6 +26,21 @@ impl Watch {
     pub fn ms(&self) -> f64 {
         cpu_ms().zip(self.began_cpu_ms).map_or_else(|| self.wall_ms(), |(after, before)| after - before)
     }
+}
+
+/// Median time of work done an odd number of times, milliseconds.
+pub fn median_ms(times: usize, mut work: impl FnMut()) -> f64 {
+    let mut taken: Vec<f64> = (0..times)
+        .map(|_| {
+            let watch = Watch::started();
+            work();
+            // Short work is rarely interrupted, and the processor's own account is coarse.
+            let wall_ms = watch.wall_ms();
+            if wall_ms > 8.0 { watch.ms() } else { wall_ms }
+        })
+        .collect();
+    taken.sort_by(f64::total_cmp);
+    taken[times / 2]
 }
 
 /// What this thread has computed so far. Linux only.

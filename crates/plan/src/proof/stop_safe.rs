@@ -9,6 +9,7 @@ mod rows;
 #[cfg(test)]
 mod tests;
 
+use super::curve::share_of_foot;
 use super::grid::{Bounds, near_pairs};
 use crate::Path;
 use crate::cancel::{Cancel, Cancelled, unless};
@@ -261,10 +262,8 @@ impl Law {
     }
 }
 
-/// The least distance of a place from a straight line between two others, metres.
-fn distance_m(place: Vec2, from: Vec2, to: Vec2) -> f64 {
-    let way = to - from;
-    let length_squared = way.length_squared();
-    let share = if length_squared > 0.0 { (place - from).dot(way) / length_squared } else { 0.0 };
-    place.distance(from + way * share.clamp(0.0, 1.0))
+/// Distance of a place from the line segment between two others, metres.
+pub(crate) fn distance_m(place: Vec2, from: Vec2, to: Vec2) -> f64 {
+    let (start, chord) = (from - place, to - from);
+    (start + chord * share_of_foot(start, chord)).length()
 }

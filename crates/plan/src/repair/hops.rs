@@ -9,8 +9,6 @@ use super::{Repaired, turn};
 use crate::Path;
 use crate::motion::Profile;
 
-/// A path holds as many pieces.
-const MOST_PIECES: usize = 128;
 /// How much more time than limits ask for.
 const EASE: f64 = 1.002;
 
@@ -33,7 +31,7 @@ fn eased(scene: &Scene, stops: &[Vec<Vec2>], wished: Option<Span>, easing: Easin
     let slower = (wished as f64 / whole.max(1) as f64).max(1.0);
     let steps: Vec<Step> = steps.iter().map(|step| step.slower(slower)).collect();
     let paths: Vec<Path> = (0..scene.robots()).map(|robot| path(robot, stops, first, &steps)).collect();
-    let is_short = paths.iter().all(|path| path.pieces.len() <= MOST_PIECES);
+    let is_short = paths.iter().all(|path| path.pieces.len() <= Path::MOST_PIECES);
     is_short.then_some(Repaired { paths, least: first + Span(whole) })
 }
 

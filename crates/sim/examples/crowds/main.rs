@@ -12,7 +12,6 @@ mod arguments;
 #[allow(dead_code)]
 mod bench;
 #[path = "../../../plan/examples/common/cpu.rs"]
-#[allow(dead_code)]
 mod cpu;
 #[path = "../../../plan/examples/common/dice.rs"]
 mod dice;

@@ -52,7 +52,7 @@ fn run(args: &[String]) -> Result<bool, String> {
         args[0],
         trial.labels[0].share(),
     );
-    for (index, (of, label)) in ASSUMED.iter().zip(&trial.labels).enumerate() {
+    for (index, (of, label)) in assumed().iter().zip(&trial.labels).enumerate() {
         let of_kind = |is_safe: bool| deaths.iter().filter(move |death| death.is_safe(index) == is_safe);
         let part = |is_safe: bool| {
             let bad = of_kind(is_safe).filter(|death| death.touched > 0).count();
@@ -72,19 +72,19 @@ fn run(args: &[String]) -> Result<bool, String> {
     Ok(safe_bad == 0 && unsafe_bad * 10 >= 3 * unsafe_)
 }
 
-const fn assumed(reaction_s: f64, rest_s: f64, spare_m: f64, wary_m: f64) -> StopAssumptions {
-    StopAssumptions { reaction_s, rest_s, spare_m, wary_m }
-}
-
 /// The planner's assumptions first.
-const ASSUMED: [StopAssumptions; 6] = [
-    assumed(0.056, 1.2, 0.003, 0.008),
-    assumed(0.056, 0.4, 0.001, 0.001),
-    assumed(0.056, 1.2, 0.003, 0.003),
-    assumed(0.056, 1.2, 0.003, 0.006),
-    assumed(0.056, 1.2, 0.003, 0.010),
-    assumed(0.072, 1.6, 0.005, 0.012),
-];
+fn assumed() -> Vec<StopAssumptions> {
+    let usual = StopAssumptions::default();
+    let other = |reaction_s, rest_s, spare_m, wary_m| StopAssumptions { reaction_s, rest_s, spare_m, wary_m };
+    vec![
+        usual,
+        other(0.056, 0.4, 0.001, 0.001),
+        StopAssumptions { wary_m: 0.003, ..usual },
+        StopAssumptions { wary_m: 0.006, ..usual },
+        StopAssumptions { wary_m: 0.010, ..usual },
+        other(0.072, 1.6, 0.005, 0.012),
+    ]
+}
 
 /// A drive in which robots are killed.
 struct Trial<'a> {
@@ -125,7 +125,7 @@ impl<'a> Trial<'a> {
             first_seed,
             duration: drive.duration,
             drivers: (0..drive.paths.len()).filter(drives).collect(),
-            labels: ASSUMED.iter().map(|of| labels(&drive.paths, limits, of)).collect(),
+            labels: assumed().iter().map(|of| labels(&drive.paths, limits, of)).collect(),
             begins_s: Vec::new(),
         };
         for noise in 0..NOISES {

@@ -1,7 +1,7 @@
 //! What two robots do to each other that leave later by some levels.
 
 use super::LEVEL;
-use crate::proof::stop_safe::{Law, STEP, StopAssumptions};
+use crate::proof::stop_safe::{Law, STEP, StopAssumptions, distance_m};
 use crate::transition::COMFORT_M;
 use lightbots_base::{Limits, Span, Vec2};
 
@@ -34,7 +34,9 @@ impl<'a> PairLaw<'a> {
         let closest_m = |one: &Delayed<'_>, other: &Delayed<'_>| {
             let apart = |moment: usize| one.at(moment) - other.at(moment);
             let steps = between.0..between.1;
-            steps.map(|moment| least_m(apart(moment), apart(moment + 1))).fold(most_m, f64::min)
+            steps
+                .map(|moment| distance_m(Vec2::ZERO, apart(moment), apart(moment + 1)))
+                .fold(most_m, f64::min)
         };
         let is_moved = levels.0 != levels.1;
         if is_moved && closest_m(&one, &other) < closest_m(&undelayed.0, &undelayed.1) - 1e-9 {
@@ -54,14 +56,6 @@ impl<'a> PairLaw<'a> {
         let fate = self.stop.judge(place, &|step| by.at(moment + step));
         u32::from(fate.is_some_and(|(last, _)| last == 0))
     }
-}
-
-/// The least distance of a straight line between two differences from none, metres.
-fn least_m(from: Vec2, to: Vec2) -> f64 {
-    let way = to - from;
-    let length_squared = way.length_squared();
-    let share = if length_squared > 0.0 { -from.dot(way) / length_squared } else { 0.0 };
-    (from + way * share.clamp(0.0, 1.0)).length()
 }
 
 /// Where somebody is that leaves later.
