@@ -12,7 +12,7 @@ const SAY: u32 = 5;
 /// … this far apart.
 const SAY_EVERY: Span = Span::from_millis(30);
 /// Later than this before the end, holding gains nothing.
-pub(crate) const HOLD_WORTH: Span = Span::from_millis(700);
+const HOLD_WORTH: Span = Span::from_millis(400);
 
 /// Progress is held.
 #[derive(Clone, Copy, Debug)]

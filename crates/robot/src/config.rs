@@ -90,15 +90,21 @@ pub struct ReflexParameters {
     pub unplanned_accel_mps2: f32,
     /// Error of the own wheels' way, 1 sigma, as a share of it.
     pub odometry_share: f32,
-    /// A named neighbour has changed its motion when a reading jumps by this many sigma against the plan.
-    pub manoeuvre_sigmas: f32,
-    /// How much the offset between readings and the plan drifts in a step, 1 sigma, metres.
-    pub planned_drift_m: f32,
-    /// By how much it may have changed it, 1 sigma in each axis, m/s.
-    pub manoeuvre_mps: f32,
+    /// A planned neighbour has stopped when its readings are more likely by this factor than those of one that drives by
+    /// plan, natural logarithm.
+    pub stop_log_ratio: f32,
+    /// It has left its plan when its readings are off it by this many sigma.
+    pub stray_sigmas: f32,
+    /// Share of its offset from the plan that a neighbour makes good in a second: the inverse of the correlation time, 1/s.
+    pub offset_share: f32,
+    /// Error of the place at which a neighbour was found to stand, 1 sigma across the line of sight, metres.
+    pub stop_sigma_m: f32,
+    /// The same of its velocity, m/s.
+    pub stop_sigma_mps: f32,
     /// Velocity of a neighbour of which nothing is known, 1 sigma in each axis, m/s.
     pub unknown_sigma_mps: f32,
-    /// How far neighbours are off their plan, 1 sigma in each axis: metres.
+    /// How far neighbours are off their plan beside what they and this robot mistake their places by, 1 sigma in each
+    /// axis: metres.
     pub planned_sigma_m: f32,
     /// The same for velocity, m/s.
     pub planned_sigma_mps: f32,
@@ -132,11 +138,13 @@ impl ReflexParameters {
         accel_sigma_mps2: 0.4,
         unplanned_accel_mps2: 2.5,
         odometry_share: 0.04,
-        manoeuvre_sigmas: 5.4,
-        planned_drift_m: 0.00025,
-        manoeuvre_mps: 0.15,
+        stop_log_ratio: 11.0,
+        stray_sigmas: 5.5,
+        offset_share: 3.5,
+        stop_sigma_m: 0.003,
+        stop_sigma_mps: 0.04,
         unknown_sigma_mps: 0.135,
-        planned_sigma_m: 0.0035,
+        planned_sigma_m: 0.0006,
         planned_sigma_mps: 0.015,
         steps_to_block: 5,
         gone_m: 0.004,

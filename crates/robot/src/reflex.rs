@@ -3,6 +3,7 @@
 
 mod birth;
 mod covariance;
+mod departure;
 mod point;
 mod policy;
 mod scan;
@@ -32,10 +33,13 @@ const SLOWS_MPS: f32 = 0.001;
 pub(crate) enum Safety {
     /// The robot drives as it likes.
     Free,
-    /// It drives slower than it would like, for this many steps.
-    Braking { steps: u8, towards: f32 },
-    /// It stands because something stands in its way.
-    Blocked { block: Block, gone: u8, retreat_m: f32 },
+    /// It drives slower than it would like for what is at `block`; for this many `steps` in a row it hardly drove. `alarm`:
+    /// the plan does not know what that is.
+    Braking { block: Block, steps: u8, alarm: bool },
+    /// It stands because something stands in its way; that was not there in the last `gone` steps.
+    Blocked { block: Block, gone: u8 },
+    /// Blocked, it backs away by what is left of `retreat_m`, metres along its front.
+    BackingOff { block: Block, gone: u8, retreat_m: f32 },
 }
 
 /// What stands in the way.
@@ -83,13 +87,14 @@ impl Reflex {
     }
 
     /// Takes the readings of a step of `dt` seconds in which the robot drove `way_m` forwards and turned `turn_rad`
-    /// counter-clockwise, with the neighbours that the plan expects in sight. What is not a number is nothing seen.
+    /// counter-clockwise, with the neighbours that the plan expects in sight. `error_m`: error of the own place, 1 sigma. What is not a number is nothing seen.
     pub(crate) fn look(
         &mut self,
         gaps_m: Option<&[f32; SENSORS]>,
         (way_m, turn_rad): (f64, f64),
         dt: f64,
         planned: &[Expectation],
+        error_m: f64,
     ) {
         if dt <= 0.0 {
             return;
@@ -104,7 +109,11 @@ impl Reflex {
         );
         let seen = |gap_m: f32| if gap_m < self.sensors.range_m { gap_m.max(0.0) } else { f32::INFINITY };
         let gaps_m = gaps_m.map_or([f32::INFINITY; SENSORS], |gaps_m| gaps_m.map(seen));
-        let scan = Scan { gaps_m: &gaps_m, own: &self.own, planned, sensors: &self.sensors, of: &self.of };
+        // The neighbour's own place is about as unsure as that of this robot.
+        let planned_sigma_m =
+            libm::sqrtf(self.of.planned_sigma_m * self.of.planned_sigma_m + 2.0 * (error_m * error_m) as f32);
+        let (own, sensors, of) = (&self.own, &self.sensors, &self.of);
+        let scan = Scan { gaps_m: &gaps_m, own, planned, sensors, planned_sigma_m, of };
         self.tracks.step(&scan);
     }
 
@@ -116,40 +125,48 @@ impl Reflex {
     /// How fast the robot may drive, m/s, at least 0; `None`: as it likes. `room_mm`: what the plan leaves it at least.
     pub(crate) fn limit(&mut self, wish: Wish, room_mm: Option<u16>) -> Option<f64> {
         let slowest = self.slowest(&wish, room_mm);
-        let wants = wish.speed_mps.abs() > DRIVES_MPS;
         self.safety = match self.safety {
-            Safety::Blocked { block, gone, retreat_m } => self.still_blocked(block, gone, retreat_m),
-            _ => match slowest {
-                Some((mps, track)) if wish.speed_mps.abs() - mps > SLOWS_MPS => {
-                    let before = if let Safety::Braking { steps, .. } = self.safety { steps } else { 0 };
-                    let hardly = wants && mps < 0.5 * wish.speed_mps.abs();
-                    let steps = if hardly { before + 1 } else { before };
-                    if steps >= self.of.steps_to_block {
-                        self.come_to_stand(&track, wish.speed_mps)
-                    } else {
-                        Safety::Braking { steps, towards: libm::atan2f(track.at.y, track.at.x) }
-                    }
+            Safety::Blocked { block, gone } => self.still_blocked(block, gone, 0.0),
+            Safety::BackingOff { block, gone, retreat_m } => self.still_blocked(block, gone, retreat_m),
+            before => match slowest {
+                Some((mps, cause)) if wish.speed_mps.abs() - mps > SLOWS_MPS => {
+                    self.slowed(before, &wish, mps, cause, room_mm.is_none())
                 }
-                _ => match self.safety {
+                _ => match before {
                     // One step on its way is not free of what blocks it.
-                    Safety::Braking { steps, towards } if steps > 1 => {
-                        Safety::Braking { steps: steps - 1, towards }
+                    Safety::Braking { block, steps, alarm } if steps > 1 => {
+                        Safety::Braking { block, steps: steps - 1, alarm }
                     }
                     _ => Safety::Free,
                 },
             },
         };
         match self.safety {
-            Safety::Blocked { .. } => Some(0.0),
+            Safety::Blocked { .. } | Safety::BackingOff { .. } => Some(0.0),
             _ => slowest.map(|(mps, _)| f64::from(mps)),
         }
     }
 
-    /// The least speed that any neighbour allows, and which that is.
-    fn slowest(&self, wish: &Wish, room_mm: Option<u16>) -> Option<(f32, Track)> {
+    /// It may drive at `mps` only, slower than it wishes. `named`: the route names all neighbours.
+    fn slowed(&self, before: Safety, wish: &Wish, mps: f32, cause: Cause, named: bool) -> Safety {
+        let (steps, alarm) =
+            if let Safety::Braking { steps, alarm, .. } = before { (steps, alarm) } else { (0, false) };
+        let hardly = wish.speed_mps.abs() > DRIVES_MPS && mps < 0.5 * wish.speed_mps.abs();
+        let steps = if hardly { steps + 1 } else { steps };
+        let gap_m = cause.at.length() - self.sensors.contact_m();
+        let block = block_at(cause.at, gap_m, gap_m);
+        if steps < self.of.steps_to_block {
+            return Safety::Braking { block, steps, alarm: alarm || hardly && named && cause.unplanned };
+        }
+        self.retreats(block, 0, self.of.retreat_m.copysign(wish.speed_mps))
+    }
+
+    /// The least speed that any neighbour allows, and for which that is.
+    fn slowest(&self, wish: &Wish, room_mm: Option<u16>) -> Option<(f32, Cause)> {
         let allowed = |track: &Track| {
             let clearance_m = self.clearance_m(track, room_mm, true);
-            Some((policy::allowed_mps(track, wish, clearance_m, &self.sensors, &self.of)?, *track))
+            let mps = policy::allowed_mps(track, wish, clearance_m, &self.sensors, &self.of)?;
+            Some((mps, Cause { at: track.at, unplanned: track.planned.is_none() }))
         };
         self.tracks.iter().filter_map(allowed).min_by(|one, other| one.0.total_cmp(&other.0))
     }
@@ -170,40 +187,42 @@ impl Reflex {
         }
     }
 
-    fn come_to_stand(&self, track: &Track, speed_mps: f32) -> Safety {
-        let block = block_by(track, &self.sensors, track.gap_m(&self.sensors));
-        Safety::Blocked { block, gone: 0, retreat_m: self.of.retreat_m.copysign(speed_mps) }
-    }
-
     /// Whether what blocks it is still there; and where, by the latest readings.
     fn still_blocked(&self, block: Block, gone: u8, retreat_m: f32) -> Safety {
         let moved = block.at.minus(Point::new(self.own.way_m, 0.0));
         let near = |track: &&Track| track.at.minus(moved).length() < 2.0 * self.sensors.radius_m;
         let off_m = |track: &Track| track.at.minus(moved).length();
         let track = self.tracks.iter().filter(near).min_by(|one, other| off_m(one).total_cmp(&off_m(other)));
-        match track {
+        let (block, gone) = match track {
             Some(track) if track.gap_m(&self.sensors) <= block.stood_m + self.of.gone_m => {
-                Safety::Blocked { block: block_by(track, &self.sensors, block.stood_m), gone: 0, retreat_m }
+                (block_at(track.at, track.gap_m(&self.sensors), block.stood_m), 0)
             }
-            _ if gone + 1 >= self.of.steps_to_free => Safety::Free,
-            _ => Safety::Blocked { block: Block { at: moved, ..block }, gone: gone + 1, retreat_m },
-        }
+            _ if gone + 1 >= self.of.steps_to_free => return Safety::Free,
+            _ => (Block { at: moved, ..block }, gone + 1),
+        };
+        if retreat_m == 0.0 { Safety::Blocked { block, gone } } else { self.retreats(block, gone, retreat_m) }
     }
 
-    /// How fast it backs away from what it nearly touches, m/s along its front, so that there is a way past that: the
-    /// way it came, unless somebody follows.
-    pub(crate) fn back_away(&mut self) -> f64 {
-        let Safety::Blocked { block, gone, retreat_m } = self.safety else { return 0.0 };
+    /// It goes on backing away from what it nearly touches, so that there is a path past that: the way it came, unless a
+    /// neighbour follows.
+    fn retreats(&self, block: Block, gone: u8, retreat_m: f32) -> Safety {
         let left_m = retreat_m.abs() - self.own.way_m.abs();
-        let followed = self
-            .tracks
-            .iter()
-            .any(|track| track.at.x * retreat_m < 0.0 && track.gap_m(&self.sensors) < self.of.followed_m);
-        let done = left_m <= 0.0 || followed || block.gap_m > f64::from(self.of.clear_m);
-        let retreat_m = if done { 0.0 } else { left_m.copysign(retreat_m) };
-        let stood_m = if done { block.stood_m } else { block.gap_m as f32 };
-        self.safety = Safety::Blocked { block: Block { stood_m, ..block }, gone, retreat_m };
-        if done { 0.0 } else { f64::from(self.of.retreat_mps.copysign(-retreat_m)) }
+        let is_near = |track: &Track| track.gap_m(&self.sensors) < self.of.followed_m;
+        let followed = self.tracks.iter().any(|track| track.at.x * retreat_m < 0.0 && is_near(track));
+        if left_m <= 0.0 || followed || block.gap_m > f64::from(self.of.clear_m) {
+            return Safety::Blocked { block, gone };
+        }
+        let block = Block { stood_m: block.gap_m as f32, ..block };
+        Safety::BackingOff { block, gone, retreat_m: left_m.copysign(retreat_m) }
+    }
+
+    /// How fast it backs away, m/s along its front; `None`: it is not blocked.
+    pub(crate) fn blocked_mps(&self) -> Option<f64> {
+        match self.safety {
+            Safety::BackingOff { retreat_m, .. } => Some(f64::from(self.of.retreat_mps.copysign(-retreat_m))),
+            Safety::Blocked { .. } => Some(0.0),
+            Safety::Free | Safety::Braking { .. } => None,
+        }
     }
 
     /// How far, and where to in body space, it gives way to neighbours; metres, zero where nobody is too near.
@@ -227,11 +246,13 @@ impl Reflex {
         self.safety = Safety::Free;
     }
 
-    /// What stands in its way.
+    /// What it says that is in its way: what it stands for, and what it brakes for if the plan does not know that.
     pub(crate) fn block(&self) -> Option<Block> {
         match self.safety {
-            Safety::Blocked { block, .. } => Some(block),
-            _ => None,
+            Safety::Blocked { block, .. }
+            | Safety::BackingOff { block, .. }
+            | Safety::Braking { block, alarm: true, .. } => Some(block),
+            Safety::Free | Safety::Braking { .. } => None,
         }
     }
 
@@ -239,15 +260,24 @@ impl Reflex {
     pub(crate) fn braking_towards(&self) -> Option<f64> {
         match self.safety {
             Safety::Free => None,
-            Safety::Braking { towards, .. } => Some(f64::from(towards)),
-            Safety::Blocked { block, .. } => Some(block.towards),
+            Safety::Braking { block, .. } | Safety::Blocked { block, .. } | Safety::BackingOff { block, .. } => {
+                Some(block.towards)
+            }
         }
     }
 }
 
-fn block_by(track: &Track, sensors: &Sensors, stood_m: f32) -> Block {
-    let towards = f64::from(libm::atan2f(track.at.y, track.at.x));
-    Block { gap_m: f64::from(track.gap_m(sensors)), towards, at: track.at, stood_m }
+/// The neighbour that slows a robot most.
+#[derive(Clone, Copy)]
+struct Cause {
+    /// Body space.
+    at: Point,
+    /// The plan does not know it.
+    unplanned: bool,
+}
+
+fn block_at(at: Point, gap_m: f32, stood_m: f32) -> Block {
+    Block { gap_m: f64::from(gap_m), towards: f64::from(libm::atan2f(at.y, at.x)), at, stood_m }
 }
 
 #[cfg(test)]

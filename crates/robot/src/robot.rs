@@ -230,7 +230,7 @@ impl<S: BorrowMut<Shelf>> Robot<S> {
                 let range_m = f64::from(self.config.proximity.range_m);
                 let sight_m = self.config.limits.contact_m() + range_m + OFF_PLAN_M;
                 self.routes.expect(body, sight_m, self.shelf.borrow(), &mut expected);
-                self.reflex.look(gaps_m, (way_m, turn_rad), dt, &expected);
+                self.reflex.look(gaps_m, (way_m, turn_rad), dt, &expected, self.estimate.error_m());
                 self.wary = true;
             }
             if self.stall.look(inputs.wheel_turns_rad, dt) {
@@ -304,9 +304,10 @@ impl<S: BorrowMut<Shelf>> Robot<S> {
         };
         self.drive.gently = self.wary && self.reflex.sees_strays();
         let (slip, limits, dt) = (self.estimate.slip(), &self.config.limits, took.as_secs());
+        let blocked_mps = if self.wary { self.reflex.blocked_mps() } else { None };
         let wheels = match most_mps {
             // Held, it may turn on the spot for what comes.
-            _ if self.block().is_some() && !self.routes.rests_held() => match self.reflex.back_away() {
+            _ if blocked_mps.is_some() && !self.routes.rests_held() => match blocked_mps.unwrap_or(0.0) {
                 0.0 => self.drive.halt(),
                 speed_mps => {
                     let back = Setpoint { speed_mps, turn_radps: 0.0 };

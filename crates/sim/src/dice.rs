@@ -76,6 +76,12 @@ impl Dice {
         probability > 0.0 && self.unit() < probability
     }
 
+    /// The same with four numbers.
+    #[inline]
+    pub fn normal4(&mut self) -> [f64; 4] {
+        normal_of(self.bits(), [52, 40, 28, 16])
+    }
+
     /// Three independent normal numbers of deviation 1, cut off at 3.7: one throw and three look-ups in a table, as
     /// they are needed for every robot at every step.
     #[inline]
@@ -87,9 +93,14 @@ impl Dice {
 /// The normal numbers that one throw stands for.
 #[inline]
 pub(crate) fn normal3_of(bits: u64) -> [f64; 3] {
+    normal_of(bits, [52, 40, 28])
+}
+
+/// The same from the bits above these places.
+#[inline]
+fn normal_of<const COUNT: usize>(bits: u64, shifts: [u32; COUNT]) -> [f64; COUNT] {
     let table: &[f32; NORMAL_LEN] = &NORMAL;
-    let pick = |shift: u32| f64::from(table[(bits >> shift) as usize % NORMAL_LEN]);
-    [pick(52), pick(40), pick(28)]
+    shifts.map(|shift| f64::from(table[(bits >> shift) as usize % NORMAL_LEN]))
 }
 
 fn split_mix(state: &mut u64) -> u64 {

@@ -71,7 +71,7 @@ impl Play {
     }
 
     /// Plays to the end, or until it is clear that there is none.
-    pub fn run(mut self, progress: &mut dyn FnMut(Progress)) -> RehearsalReport {
+    pub fn run(mut self, progress: &mut dyn FnMut(Progress<'_>)) -> RehearsalReport {
         self.controller.connected(self.now);
         // Opening is refused only during a run.
         let _ = self.controller.operate(self.now, Operation::Open(self.show.clone()));
@@ -84,6 +84,7 @@ impl Play {
         while !self.watch.is_over() && self.now < limit {
             self.step();
             self.plan(progress);
+            self.tell_departure(progress);
             step += 1;
             if step.is_multiple_of(HASH_EVERY) {
                 self.crew.world.imprint(&mut self.hash);
@@ -190,7 +191,7 @@ impl Play {
     }
 
     /// Makes the plans the controller asks for. That takes no virtual time: how long it takes depends on the machine.
-    fn plan(&mut self, progress: &mut dyn FnMut(Progress)) {
+    fn plan(&mut self, progress: &mut dyn FnMut(Progress<'_>)) {
         while let Some(job) = self.controller.next_job() {
             progress(Progress::Planning);
             self.controller.planned(self.now, job.run());
@@ -199,7 +200,21 @@ impl Play {
         }
     }
 
-    fn progress(&self) -> Progress {
+    /// Says which paths are driven once a drive has begun.
+    fn tell_departure(&mut self, progress: &mut dyn FnMut(Progress<'_>)) {
+        if !self.watch.take_departure() {
+            return;
+        }
+        let (Some(view), Some(first)) = (self.controller.paths(), self.watch.began_at()) else { return };
+        let number = |id: RobotId| self.by_id.binary_search_by_key(&id, |entry| entry.0);
+        let number_of = |id| number(id).ok().map(|place| self.by_id[place].1);
+        let paths: Vec<_> =
+            view.paths.iter().filter_map(|&(id, path)| Some((number_of(id)?, path))).collect();
+        let begins_s = (view.began - first).as_secs();
+        progress(Progress::Departing { frame: view.frame, begins_s, paths: &paths });
+    }
+
+    fn progress(&self) -> Progress<'static> {
         let frames = self.watch.frames_played();
         Progress::Playing { at_s: self.now.as_secs(), planned_s: self.planned_s, frames }
     }

@@ -63,21 +63,22 @@ impl Proximity {
         }
         for &(a, b) in near {
             let way = places[b as usize] - places[a as usize];
-            let [first, second, _] = self.dice.normal3();
-            self.see(a, stances[a as usize].forward, way, first);
-            self.see(b, stances[b as usize].forward, -way, second);
+            // Each sensor has noise of its own.
+            let [first, second, third, fourth] = self.dice.normal4();
+            self.see(a, stances[a as usize].forward, way, [first, second]);
+            self.see(b, stances[b as usize].forward, -way, [third, fourth]);
         }
     }
 
     /// A robot that faces `forward` sees another whose centre is `way` from its own.
     #[inline]
-    fn see(&mut self, robot: u32, forward: Vec2, way: Vec2, noise: f64) {
+    fn see(&mut self, robot: u32, forward: Vec2, way: Vec2, noise: [f64; 2]) {
         let other_in_body = Vec2::new(forward.dot(way), forward.cross(way));
         let nearest = nearest_sensor(other_in_body);
         let left = SENSORS[nearest].cross(other_in_body) > 0.0;
         let beside = if left { nearest + 1 } else { nearest + 7 } % 8;
         let gaps_m = &mut self.gaps_m[robot as usize];
-        for sensor in [nearest, beside] {
+        for (sensor, noise) in [nearest, beside].into_iter().zip(noise) {
             let ray = other_in_body - SENSORS[sensor] * self.radius_m;
             let far = ray.length();
             let gap = far - self.radius_m;

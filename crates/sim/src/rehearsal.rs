@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use lightbots_base::{Instant, RobotId, Span, Vec2};
-use lightbots_plan::{ShowOptions, ShowPlan};
+use lightbots_plan::{Path, ShowOptions, ShowPlan};
 use lightbots_show::{Issue, Show, front_rows, robots_needed};
 
 use crate::conditions::Conditions;
@@ -24,7 +24,7 @@ pub struct RehearsalOptions {
 
 /// How far a rehearsal is.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Progress {
+pub enum Progress<'a> {
     /// The show is being planned, or planned again after something went wrong.
     Planning,
     /// It plays, again after planning too: so that callers can time the two apart.
@@ -35,6 +35,16 @@ pub enum Progress {
         planned_s: f64,
         /// Frames that stood so far.
         frames: usize,
+    },
+    /// Robots are about to leave, or have just left.
+    Departing {
+        /// The frame they drive to, counted from 0.
+        frame: usize,
+        /// When they leave, seconds after the first departure of the show; holds delay what follows.
+        begins_s: f64,
+        /// `(robot, its path)`, of the robots that drive paths. The plan of a rehearsal begins where robots report to be,
+        /// so that it differs from seed to seed.
+        paths: &'a [(usize, &'a Path)],
     },
 }
 
@@ -53,7 +63,7 @@ impl Default for RehearsalOptions {
 pub fn rehearse(
     show: &Show,
     options: &RehearsalOptions,
-    progress: &mut dyn FnMut(Progress),
+    progress: &mut dyn FnMut(Progress<'_>),
 ) -> RehearsalReport {
     progress(Progress::Planning);
     let robots = options.robots.unwrap_or_else(|| usual_robots(show));

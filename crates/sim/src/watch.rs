@@ -22,6 +22,8 @@ pub(crate) struct Watch {
     began: Option<Instant>,
     /// When the current transition started.
     started: Instant,
+    /// A drive has begun since that was asked last.
+    departed: bool,
     /// `[robot]`: its last arrival on the way to the current frame.
     arrivals: Vec<Option<Instant>>,
     heading_for: usize,
@@ -46,6 +48,7 @@ impl Watch {
         Self {
             began: None,
             started: Instant::ZERO,
+            departed: false,
             arrivals: vec![None; robots],
             heading_for: 0,
             stood: true,
@@ -69,6 +72,11 @@ impl Watch {
     /// When robots first left.
     pub fn began_at(&self) -> Option<Instant> {
         self.began
+    }
+
+    /// Whether a drive has begun since this was asked last.
+    pub fn take_departure(&mut self) -> bool {
+        std::mem::take(&mut self.departed)
     }
 
     /// How many frames stood.
@@ -144,6 +152,7 @@ impl Watch {
         match &event.kind {
             EventKind::TransitionStarted { frame, starts, .. } => {
                 self.began.get_or_insert(*starts);
+                self.departed = true;
                 // Where original robots take part, a frame takes several drives.
                 if self.stood || self.heading_for != *frame {
                     self.started = *starts;

@@ -3,7 +3,8 @@
 use super::covariance::Covariance;
 use super::point::Point;
 use super::scan::{Expectation, Scan};
-use super::track::{Bias, Track};
+use super::departure::Departure;
+use super::track::Track;
 use super::tracks::BESIDE_M;
 use crate::config::SENSORS;
 
@@ -17,27 +18,35 @@ const SHARED_M: f32 = 0.015;
 /// uncertain on top of their noise.
 const BETWEEN_M: f32 = 0.002;
 /// A planned neighbour explains readings within this many sigma.
-const EXPLAINS_SIGMAS: f32 = 3.0;
+const EXPLAINS_SIGMAS: f32 = 4.5;
 
 /// The planned neighbour that explains a reading best, if none of `tracks` follows it yet, and none is it that has left
 /// its plan: where the plan has that one it is not.
 pub(super) fn expected_there(sensor: usize, tracks: &[Track], scan: &Scan<'_>) -> Option<Track> {
     let read_m = scan.reads_m(sensor)?;
-    let place_m2 = scan.of.planned_sigma_m * scan.of.planned_sigma_m;
-    let off_m = |one: &Expectation| {
-        let expected = scan.sensors.expected(sensor, one.at);
-        let variance = place_m2 + scan.sensors.variance_m2(expected.gap_m);
-        let off_m = (read_m - expected.gap_m).abs();
-        let explains = off_m * off_m < EXPLAINS_SIGMAS * EXPLAINS_SIGMAS * variance;
-        (explains && expected.inside_m > -BESIDE_M).then_some(off_m)
-    };
+    let place_m2 = scan.planned_sigma_m * scan.planned_sigma_m;
     let is_followed = |one: &&Expectation| tracks.iter().any(|track| track.stands_for(one.index));
     let candidates = scan.planned.iter().filter(|one| !is_followed(one));
     let (_, one) =
-        candidates.filter_map(|one| Some((off_m(one)?, one))).min_by(|a, b| a.0.total_cmp(&b.0))?;
+        candidates.filter_map(|one| Some((explained_off_m(one, sensor, read_m, scan)?, one))).min_by(|a, b| a.0.total_cmp(&b.0))?;
     let velocity_variance = scan.of.planned_sigma_mps * scan.of.planned_sigma_mps;
     let covariance = Covariance::new(Point::new(1.0, 0.0), place_m2, place_m2, velocity_variance);
-    Some(Track { planned: Some(one.index), ..begun(one.at, one.velocity, covariance, scan) })
+    let departure = Departure::at_first_sight(sensor, read_m, scan);
+    Some(Track { planned: Some(one.index), departure, ..begun(one.at, one.velocity, covariance, scan) })
+}
+
+/// How far a reading is off what a planned neighbour explains, metres; `None`: the neighbour does not explain it.
+pub(super) fn explained_off_m(
+    one: &Expectation,
+    sensor: usize,
+    read_m: f32,
+    scan: &Scan<'_>,
+) -> Option<f32> {
+    let expected = scan.sensors.expected(sensor, one.at);
+    let variance = scan.planned_sigma_m * scan.planned_sigma_m + scan.sensors.variance_m2(expected.gap_m);
+    let off_m = (read_m - expected.gap_m).abs();
+    let explains = off_m * off_m < EXPLAINS_SIGMAS * EXPLAINS_SIGMAS * variance;
+    (explains && expected.inside_m > -BESIDE_M).then_some(off_m)
 }
 
 /// A disc of which nothing is known but a reading: straight ahead of the sensor, or between two that see it. `is_free`:
@@ -70,8 +79,7 @@ fn begun(at: Point, velocity: Point, covariance: Covariance, scan: &Scan<'_>) ->
         planned: None,
         missed: 0,
         seen_by: 0,
-        bias: Bias::unknown(scan.of),
-        shaken: 0,
+        departure: Departure::new(scan.planned_sigma_m),
         left: None,
         age: 0,
     }

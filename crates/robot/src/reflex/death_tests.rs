@@ -11,6 +11,9 @@ use lightbots_base::braking::stopping_m;
 const DT: f32 = 0.016;
 const SPEED_MPS: f32 = 0.27;
 const RUNS: usize = 2000;
+/// How far each of the two is off its route, 1 sigma in each axis, metres: 0.5 to 0.9 mm along the line of sight were measured
+/// in rehearsals with standard conditions on 2026-11-24.
+const OFF_M: f32 = 0.001;
 /// Steps before the other dies, and after.
 const BEFORE: usize = 45;
 const AFTER: usize = 40;
@@ -23,12 +26,12 @@ struct Tally {
 }
 
 /// Follows at a planned gap, `aside_m` beside the way of the one ahead, which dies.
-fn follow(gap_m: f32, aside_m: f32, dice: &mut Dice, tally: &mut Tally) {
+fn follow(gap_m: f32, aside_m: f32, off_m: f32, dice: &mut Dice, tally: &mut Tally) {
     let mut reflex = Reflex::new(&Config::new(RobotId::from_random(1)));
     let far_m = 0.054 + gap_m;
     let ahead_m = libm::sqrtf(far_m * far_m - aside_m * aside_m);
     // Both are off their routes, by much the same all the time.
-    let off = Point::new(0.0025 * dice.normal(), 0.0025 * dice.normal());
+    let off = Point::new(off_m * dice.normal(), off_m * dice.normal());
     let (mut x, mut now_mps, mut told_mps) = (0.0f32, SPEED_MPS, SPEED_MPS);
     let mut other = Point::new(ahead_m, aside_m);
     for step in 0..BEFORE + AFTER {
@@ -54,7 +57,7 @@ fn follow(gap_m: f32, aside_m: f32, dice: &mut Dice, tally: &mut Tally) {
             clearance_m: gap_m,
         };
         let gaps_m = readings(&[Disc { at, velocity: Point::new(other_mps, 0.0) }], dice);
-        reflex.look(Some(&gaps_m), (f64::from(now_mps * DT), 0.0), f64::from(DT), &[planned]);
+        reflex.look(Some(&gaps_m), (f64::from(now_mps * DT), 0.0), f64::from(DT), &[planned], f64::from(0.5 * off_m));
         let limit = reflex.limit(Wish { speed_mps: SPEED_MPS, told_mps, dt: DT }, None);
         let most_mps = limit.map_or(SPEED_MPS, |mps| mps as f32);
         if most_mps < SPEED_MPS - 0.001 && step < BEFORE {
@@ -66,9 +69,9 @@ fn follow(gap_m: f32, aside_m: f32, dice: &mut Dice, tally: &mut Tally) {
     }
 }
 
-fn tally(gap_m: f32, aside_m: f32) -> Tally {
+fn tally(gap_m: f32, aside_m: f32, off_m: f32) -> Tally {
     let (mut dice, mut tally) = (Dice(3), Tally::default());
-    (0..RUNS).for_each(|_| follow(gap_m, aside_m, &mut dice, &mut tally));
+    (0..RUNS).for_each(|_| follow(gap_m, aside_m, off_m, &mut dice, &mut tally));
     tally
 }
 
@@ -78,7 +81,7 @@ fn deaths_beyond_the_stopping_distance_are_seen_in_time() {
     for (gap_m, aside_m) in
         [(stopping_m, 0.0), (stopping_m, 0.03), (0.02, 0.01), (0.022, 0.005), (0.026, 0.0)]
     {
-        let tally = tally(gap_m, aside_m);
+        let tally = tally(gap_m, aside_m, OFF_M);
         assert!(tally.touched * 100 <= 3 * RUNS, "{gap_m} {aside_m}: {tally:?}");
         assert!(tally.false_brakes * 20_000 <= RUNS * BEFORE, "{gap_m} {aside_m}: {tally:?}");
     }

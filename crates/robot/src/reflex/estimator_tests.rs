@@ -128,7 +128,8 @@ fn scene(
             }
             let gaps_m = readings(&discs, &mut dice);
             let in_sight = (0..SENSORS).any(|sensor| reads_m(&discs[..1], sensor) < 0.03);
-            let scan = Scan { gaps_m: &gaps_m, own: &own, planned: &[], sensors: &sensors, of: &of };
+            let scan =
+                Scan { gaps_m: &gaps_m, own: &own, planned: &[], sensors: &sensors, planned_sigma_m: 0.001, of: &of };
             tracks.step(&scan);
             if step >= warm && in_sight {
                 for disc in &discs[..count] {

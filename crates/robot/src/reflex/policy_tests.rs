@@ -4,7 +4,8 @@ use super::Point;
 use super::covariance::Covariance;
 use super::policy::{Wish, allowed_mps};
 use super::sensors::Sensors;
-use super::track::{Bias, Track};
+use super::departure::Departure;
+use super::track::Track;
 use crate::config::{ProximitySensors, ReflexParameters};
 
 /// The speed allowed for a robot that comes the other way and will pass 55 mm from centre to centre, known to so many
@@ -19,8 +20,7 @@ fn allowed(sigma_m: f32, clearance_m: Option<f32>) -> Option<f32> {
         planned: clearance_m.map(|_| 0),
         missed: 0,
         seen_by: 1,
-        bias: Bias::unknown(&of),
-        shaken: 0,
+        departure: Departure::new(0.001),
         left: None,
         age: 4,
     };

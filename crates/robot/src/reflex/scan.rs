@@ -28,6 +28,8 @@ pub(crate) struct Scan<'a> {
     pub own: &'a OwnMotion,
     pub planned: &'a [Expectation],
     pub sensors: &'a Sensors,
+    /// How far neighbours are off their plan as this robot sees it, 1 sigma in each axis, metres.
+    pub planned_sigma_m: f32,
     pub of: &'a ReflexParameters,
 }
 

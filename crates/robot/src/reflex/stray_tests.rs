@@ -30,12 +30,13 @@ fn where_the_plan_has_a_neighbour_that_left_it_there_is_nobody() {
         own: &own,
         planned: &planned,
         sensors: &sensors,
+        planned_sigma_m: 0.001,
         of: &ReflexParameters::DEFAULT,
     };
     let known = expected_there(2, &[], &scan).expect("the plan explains what the sensor sees");
-    let stray = Track { at: stopped, planned: None, left: Some(NUMBER), ..known };
+    let stray = Track { at: stopped, planned: None, left: Some(NUMBER), ..known.clone() };
     assert!(stray.strays() && stray.stands_for(NUMBER));
-    assert!(expected_there(2, &[stray], &scan).is_none());
+    assert!(expected_there(2, core::slice::from_ref(&stray), &scan).is_none());
     let other = Track { left: None, ..stray };
     assert!(!other.strays() && expected_there(2, &[other], &scan).is_some());
 }

@@ -6,6 +6,7 @@
 //! over the floor along the axes of body space. A standing neighbour is the special case of velocity zero.
 
 use super::covariance::Covariance;
+use super::departure::Departure;
 use super::point::Point;
 use super::sensors::{Expected, Sensors};
 use crate::config::{ReflexParameters, SENSORS};
@@ -14,15 +15,8 @@ use crate::config::{ReflexParameters, SENSORS};
 const EDGE_SIGMA_M: f32 = 0.003;
 
 /// A neighbour off its plan by more sigma than this, in place or velocity, does not keep to it.
-const RECOGNISED_SIGMAS: f32 = 3.5;
+const RECOGNISED_SIGMAS: f32 = 4.5;
 
-/// Weight of the jump of the step before: a robot that stops dead is read 2 sigma nearer within the step in which it
-/// stops, and 5 sigma nearer after the next (18 mm ahead at 0.27 m/s).
-const STEP_BEFORE: f32 = 0.4;
-/// Share of its speed that a neighbour most likely has left after a jump towards the robot, and the uncertainty of that as
-/// a share of its speed.
-const STOPPED_SHARE: f32 = 0.25;
-const STOPPED_SIGMA: f32 = 0.5;
 /// Robots are off their plan by much the same for this many steps.
 const CORRELATED_STEPS: f32 = 10.0;
 
@@ -37,24 +31,17 @@ pub(crate) struct OwnMotion {
     pub dt: f32,
 }
 
-/// A slowly drifting offset between readings and the plan: mean in metres, and variance in square metres.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Bias {
-    pub m: f32,
-    variance: f32,
-    /// The latest jump, in sigma.
-    sigmas: f32,
-    sensor: usize,
-}
-
-impl Bias {
-    pub fn unknown(of: &ReflexParameters) -> Self {
-        Self { m: 0.0, variance: of.planned_sigma_m * of.planned_sigma_m, sigmas: 0.0, sensor: usize::MAX }
+impl OwnMotion {
+    /// Where a place that does not move is in body space after the step.
+    pub fn carry(&self, at: Point) -> Point {
+        // The own path bends by half the turn.
+        let moved = Point::of_small_angle(0.5 * self.turn_rad).times(self.way_m);
+        at.minus(moved).rotated(Point::of_small_angle(-self.turn_rad))
     }
 }
 
 /// A neighbour in sight.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct Track {
     /// Its centre in body space, metres.
     pub at: Point,
@@ -67,10 +54,8 @@ pub(crate) struct Track {
     pub missed: u8,
     /// Sensors that saw it in the latest step, one bit each.
     pub seen_by: u8,
-    /// By how much it is read farther than the plan says, lately.
-    pub bias: Bias,
-    /// Steps until the plan counts again, after it has done something the plan does not know.
-    pub shaken: u8,
+    /// Whether it still keeps to the plan.
+    pub departure: Departure,
     /// The planned neighbour that it was before it did something that the plan does not know.
     pub left: Option<u8>,
     /// Steps since it came into sight, at most 255.
@@ -94,7 +79,7 @@ impl Track {
     }
 
     /// The sensors that saw it in the latest step.
-    pub fn sensors(&self) -> impl Iterator<Item = usize> + use<> {
+    pub fn sensors(&self) -> impl Iterator<Item = usize> + Clone + use<> {
         let seen_by = self.seen_by;
         (0..SENSORS).filter(move |sensor| seen_by >> sensor & 1 == 1)
     }
@@ -113,14 +98,10 @@ impl Track {
 
     /// Carries the state over a step in which the robot itself moved.
     pub fn predict(&mut self, own: &OwnMotion, of: &ReflexParameters) {
-        let middle = Point::of_small_angle(-0.5 * own.turn_rad);
-        let moved = self.velocity.times(own.dt).minus(Point::new(own.way_m, 0.0).rotated(
-            // The own way bends by half the turn.
-            Point { x: middle.x, y: -middle.y },
-        ));
         let turn = Point::of_small_angle(-own.turn_rad);
-        self.at = self.at.plus(moved).rotated(turn);
+        self.at = own.carry(self.at.plus(self.velocity.times(own.dt)));
         self.velocity = self.velocity.rotated(turn);
+        self.departure.predict(own);
         let known = self.planned.is_some();
         let accel_mps2 = if known { of.accel_sigma_mps2 } else { of.unplanned_accel_mps2 };
         self.covariance.predict(own.dt, accel_mps2 * own.dt);
@@ -129,38 +110,12 @@ impl Track {
         self.covariance.rotate(turn);
     }
 
-    /// Watches readings of a neighbour that the plan names for a change of motion that the plan does not know, such as a
-    /// robot that stops dead: `off_m` is how much farther it is read than the plan says, `variance` that of the reading.
-    /// The two are off by much the same from step to step; a jump of `manoeuvre_sigmas` is a change.
-    pub fn is_shaken_by(&mut self, sensor: usize, off_m: f32, variance: f32, of: &ReflexParameters) -> bool {
-        if self.bias.sensor != sensor {
-            self.bias = Bias { sensor, ..Bias::unknown(of) };
-        }
-        let bias = &mut self.bias;
-        bias.variance += of.planned_drift_m * of.planned_drift_m;
-        let (jump_m, sum) = (off_m - bias.m, bias.variance + variance);
-        let sigmas = jump_m / libm::sqrtf(sum);
-        let is_jump = (sigmas + STEP_BEFORE * bias.sigmas).abs() > of.manoeuvre_sigmas;
-        bias.sigmas = sigmas;
-        if !is_jump {
-            let gain = bias.variance / sum;
-            bias.m += gain * jump_m;
-            bias.variance *= 1.0 - gain;
-        }
-        is_jump
-    }
-
-    /// It has changed its motion: nearer than expected, it most likely stopped.
-    pub fn loosen(&mut self, is_nearer: bool, sigma_mps: f32, dt: f32) {
-        let speed_mps = self.velocity.length();
-        if speed_mps <= sigma_mps {
-            return self.covariance.kick(sigma_mps, dt);
-        }
-        let along = self.velocity.times(1.0 / speed_mps);
-        if is_nearer {
-            self.velocity = self.velocity.times(STOPPED_SHARE);
-        }
-        self.covariance.kick_along(along, STOPPED_SIGMA * speed_mps, 2.0 * dt);
+    /// It has left its plan and stands at a place of body space.
+    pub fn stand(&mut self, at: Point, of: &ReflexParameters) {
+        let towards = at.times(1.0 / at.length().max(1e-3));
+        let [place_m2, velocity_m2ps2] = [of.stop_sigma_m, of.stop_sigma_mps].map(|sigma| sigma * sigma);
+        (self.at, self.velocity, self.planned) = (at, Point::ZERO, None);
+        self.covariance = Covariance::new(towards, 0.25 * place_m2, place_m2, velocity_m2ps2);
     }
 
     /// Innovation of a reading, metres, and its variance, square metres.
@@ -207,13 +162,13 @@ impl Track {
     }
 
     /// Whether it is where the plan has it, and moves as the plan says, as far as can be told.
-    pub fn keeps_to(&self, at: Point, velocity: Point, of: &ReflexParameters) -> bool {
+    pub fn keeps_to(&self, at: Point, velocity: Point, sigma_m: f32, of: &ReflexParameters) -> bool {
         let agrees = |off: Point, planned_sigma: f32, variance: &dyn Fn(Point) -> f32| {
             let size = off.length().max(1e-6);
             let known = variance(off.times(1.0 / size)).max(0.0);
             size * size < RECOGNISED_SIGMAS * RECOGNISED_SIGMAS * (known + planned_sigma * planned_sigma)
         };
-        agrees(self.at.minus(at), of.planned_sigma_m, &|unit| self.covariance.place_along(unit))
+        agrees(self.at.minus(at), sigma_m, &|unit| self.covariance.place_along(unit))
             && agrees(self.velocity.minus(velocity), of.planned_sigma_mps, &|unit| {
                 self.covariance.velocity_along(unit)
             })

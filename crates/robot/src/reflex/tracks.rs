@@ -1,8 +1,9 @@
 //! All neighbours in sight: which of them a step corrects, who has come and who has gone.
 
-use super::birth::{expected_there, unknown};
+use super::birth::{expected_there, explained_off_m, unknown};
+use super::departure::{Departure, Left};
 use super::point::Point;
-use super::scan::Scan;
+use super::scan::{Expectation, Scan};
 use super::sensors::Sensors;
 use super::track::Track;
 use crate::config::SENSORS;
@@ -23,8 +24,6 @@ const SURELY_INSIDE_M: f32 = 0.008;
 const SURELY_NEAR: f32 = 0.8;
 /// A neighbour that is not seen in this many steps has gone; one that should be seen counts double.
 const MISSED_MOST: u8 = 3;
-/// Steps for which the plan does not count after a neighbour has done something it does not know.
-const SHAKEN_STEPS: u8 = 5;
 /// Centres of two tracks nearer than this, metres, are of one disc.
 const SAME_M: f32 = 0.03;
 
@@ -131,16 +130,17 @@ impl Tracks {
             let expected = scan.plan_of(track.planned).or_else(|| {
                 let others = || self.list[..index].iter().chain(&self.list[index + 1..]);
                 let is_free = |planned: u8| others().all(|other| !other.stands_for(planned));
-                let keeps_to =
-                    |index: u8, at, velocity| is_free(index) && track.keeps_to(at, velocity, scan.of);
-                scan.planned.iter().find(|one| keeps_to(one.index, one.at, one.velocity))
+                scan.planned.iter().find(|one| is_free(one.index) && keeps_to(track, one, scan))
             });
-            let kept = expected.filter(|one| track.keeps_to(one.at, one.velocity, scan.of));
+            let kept = expected.filter(|one| keeps_to(track, one, scan));
             let track = &mut self.list[index];
+            if track.planned.is_none() && kept.is_some() {
+                track.departure = Departure::new(scan.planned_sigma_m);
+            }
             track.planned = kept.map(|one| one.index);
-            if let Some(one) = kept.filter(|_| track.shaken == 0) {
+            if let Some(one) = kept {
                 for axis in [Point::new(1.0, 0.0), Point::new(0.0, 1.0)] {
-                    track.learn_place(axis, one.at, scan.of.planned_sigma_m);
+                    track.learn_place(axis, one.at, scan.planned_sigma_m);
                     track.learn_velocity(axis, one.velocity, scan.of.planned_sigma_mps);
                 }
             }
@@ -151,7 +151,7 @@ impl Tracks {
     /// neighbour that has left its plan is never taken for another.
     fn explain(&mut self, scan: &Scan<'_>) {
         for index in 0..self.list.len() {
-            let track = self.list[index];
+            let track = &self.list[index];
             if track.planned.is_some() || track.left.is_some() {
                 continue;
             }
@@ -187,10 +187,18 @@ impl Tracks {
     }
 }
 
+/// Whether a neighbour is where the plan has it: the estimate agrees, and so do the readings, as an estimate that is hardly
+/// known agrees with anything.
+fn keeps_to(track: &Track, one: &Expectation, scan: &Scan<'_>) -> bool {
+    let explains = |sensor: usize| {
+        scan.reads_m(sensor).is_none_or(|read_m| explained_off_m(one, sensor, read_m, scan).is_some())
+    };
+    track.keeps_to(one.at, one.velocity, scan.planned_sigma_m, scan.of) && track.sensors().all(explains)
+}
+
 /// Corrects a track by the readings that are its own, and by what did not see it.
 fn correct(track: &mut Track, seen_by: u8, scan: &Scan<'_>) {
     track.age = track.age.saturating_add(1);
-    track.shaken = track.shaken.saturating_sub(1);
     track.seen_by = seen_by;
     watch(track, scan);
     for sensor in 0..SENSORS {
@@ -216,19 +224,21 @@ fn correct(track: &mut Track, seen_by: u8, scan: &Scan<'_>) {
     track.missed = if seen_by != 0 { 0 } else { track.missed.saturating_add(missed) };
 }
 
-/// Compares a neighbour that the plan names with the plan, by the sensor that looks at it most nearly.
+/// Compares a neighbour that the plan names with the plan.
 fn watch(track: &mut Track, scan: &Scan<'_>) {
     let Some(one) = scan.plan_of(track.planned) else { return };
-    let expected = track.sensors().map(|sensor| (sensor, scan.sensors.expected(sensor, one.at)));
-    let nearest = expected.max_by(|a, b| a.1.inside_m.total_cmp(&b.1.inside_m));
-    let Some((sensor, expected)) = nearest.filter(|(_, expected)| expected.inside_m > 0.0) else { return };
-    let Some(read_m) = scan.reads_m(sensor) else { return };
-    let off_m = read_m - expected.gap_m;
-    if track.is_shaken_by(sensor, off_m, scan.sensors.variance_m2(read_m), scan.of) {
-        track.loosen(off_m < track.bias.m, scan.of.manoeuvre_mps, scan.own.dt);
-        track.shaken = SHAKEN_STEPS;
-        track.left = Some(one.index);
+    let seen_by = track.sensors();
+    match track.departure.test(one, seen_by.clone(), scan) {
+        Some(Left::Stands(at)) => track.stand(at, scan.of),
+        Some(Left::Strays) => {
+            let nearest = seen_by.min_by(|&a, &b| scan.gaps_m[a].total_cmp(&scan.gaps_m[b]));
+            let Some(sensor) = nearest else { return };
+            let seen = track.seen_by;
+            *track = Track { age: track.age, seen_by: seen, ..unknown(sensor, &|beside| seen >> beside & 1 == 1, scan) };
+        }
+        None => return,
     }
+    track.left = Some(one.index);
 }
 
 /// What one sensor sees lies around its axis, what two see between them.

@@ -28,6 +28,7 @@ pub fn run(arguments: &RehearseArguments) -> Outcome {
         let bar = Bar::new();
         rehearse(&opened.show, &options, &mut |progress| match progress {
             Progress::Planning => bar.set(0.0, "planning"),
+            Progress::Departing { .. } => {}
             Progress::Playing { at_s, planned_s, frames } => {
                 virtual_s = at_s;
                 bar.set(at_s / planned_s.max(1.0), format!("{} played", count(frames, "frame")));

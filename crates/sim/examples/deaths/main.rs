@@ -19,11 +19,11 @@ use std::process::ExitCode;
 
 use lightbots_base::{Limits, Span};
 use lightbots_plan::proof::stop_safe::{StopAssumptions, StopSafety, stop_safety_unless};
-use lightbots_plan::{Path, ShowOptions};
+use lightbots_plan::Path;
 use lightbots_show::Show;
-use lightbots_sim::{Conditions, RehearsalOptions, RehearsalReport, rehearse};
+use lightbots_sim::{Conditions, Progress, RehearsalOptions, RehearsalReport, rehearse};
 
-/// Seeds of the noise; each is rehearsed once without a death, to know when the drive begins.
+/// Seeds of the noise; each is rehearsed once without a death, to know the drive.
 const NOISES: u64 = 10;
 
 fn main() -> ExitCode {
@@ -50,9 +50,9 @@ fn run(args: &[String]) -> Result<bool, String> {
         "{} {robots}: share {:.4}; safe {safe}, of these with contacts {safe_bad}; unsafe {unsafe_}, of these with \
          contacts {unsafe_bad}",
         args[0],
-        trial.labels[0].share(),
+        trial.share(0),
     );
-    for (index, (of, label)) in assumed().iter().zip(&trial.labels).enumerate() {
+    for (index, of) in assumed().iter().enumerate() {
         let of_kind = |is_safe: bool| deaths.iter().filter(move |death| death.is_safe(index) == is_safe);
         let part = |is_safe: bool| {
             let bad = of_kind(is_safe).filter(|death| death.touched > 0).count();
@@ -64,7 +64,7 @@ fn run(args: &[String]) -> Result<bool, String> {
             of.rest_s,
             of.spare_m * 1e3,
             of.wary_m * 1e3,
-            label.share(),
+            trial.share(index),
             part(true),
             part(false)
         );
@@ -86,21 +86,31 @@ fn assumed() -> Vec<StopAssumptions> {
     ]
 }
 
-/// A drive in which robots are killed.
+/// Shows in which robots are killed: the same show with several seeds of the noise.
 struct Trial<'a> {
     show: &'a Show,
     conditions: Conditions,
-    first_seed: u64,
+    /// One for each seed of the noise: the plan begins where robots report to be, and differs from seed to seed.
+    drives: Vec<Drive>,
+}
+
+/// A drive as it was planned and driven with one seed.
+struct Drive {
+    seed: u64,
+    /// When it begins, seconds after the first departure.
+    begins_s: f64,
     duration: Span,
+    /// Robots that drive.
     drivers: Vec<usize>,
-    /// By assumption.
+    /// `[assumption]`.
     labels: Vec<StopSafety>,
-    /// `[noise]`: when the drive begins, seconds after the show does.
-    begins_s: Vec<f64>,
+    /// `[path]`: which robot's it is.
+    robots: Vec<usize>,
 }
 
 /// What came of a death.
 struct Death {
+    /// `[assumption]`.
     safe: Vec<bool>,
     /// Contacts before robots were planned anew.
     touched: u64,
@@ -114,35 +124,35 @@ impl Death {
 
 impl<'a> Trial<'a> {
     fn new(show: &'a Show, conditions: Conditions, first_seed: u64) -> Result<Self, String> {
-        let starts = show.starts.as_ref().ok_or("the scene has no starts")?;
-        let plan = lightbots_plan::show(show, starts, &ShowOptions::default());
-        let drive = plan.transitions.get(1).filter(|_| plan.ok()).ok_or("the scene has no plan")?;
-        let limits = &show.stage.limits;
-        let drives = |robot: &usize| !drive.paths[*robot].as_ref().rests();
-        let mut trial = Self {
-            show,
-            conditions,
-            first_seed,
-            duration: drive.duration,
-            drivers: (0..drive.paths.len()).filter(drives).collect(),
-            labels: assumed().iter().map(|of| labels(&drive.paths, limits, of)).collect(),
-            begins_s: Vec::new(),
-        };
-        for noise in 0..NOISES {
-            let report = trial.rehearsed(noise, None);
-            let frame = report.per_frame.get(1).ok_or("the scene is not played to its end")?;
-            trial.begins_s.push(frame.at_s - frame.drive_s);
+        let mut trial = Self { show, conditions, drives: Vec::new() };
+        for seed in first_seed..first_seed + NOISES {
+            let mut drive = None;
+            trial.rehearsed(seed, None, &mut |progress| {
+                if let Progress::Departing { frame: 1, begins_s, paths } = progress {
+                    drive.get_or_insert_with(|| Drive::new(seed, begins_s, paths, &show.stage.limits));
+                }
+            });
+            trial.drives.push(drive.ok_or("the scene is not played to its end")?);
         }
         Ok(trial)
     }
 
-    fn rehearsed(&self, noise: u64, killed: Option<(usize, Span)>) -> RehearsalReport {
+    fn rehearsed(
+        &self,
+        seed: u64,
+        killed: Option<(usize, Span)>,
+        progress: &mut dyn FnMut(Progress<'_>),
+    ) -> RehearsalReport {
         let mut conditions = self.conditions.clone();
         conditions
             .killed
             .extend(killed.map(|(robot, at)| lightbots_sim::Breakdown { robot: Some(robot), at: Some(at) }));
-        let options = RehearsalOptions { seed: self.first_seed + noise, conditions, robots: None };
-        rehearse(self.show, &options, &mut |_| {})
+        rehearse(self.show, &RehearsalOptions { seed, conditions, robots: None }, progress)
+    }
+
+    /// The mean share of stop-safe moments.
+    fn share(&self, assumed: usize) -> f64 {
+        self.drives.iter().map(|drive| drive.labels[assumed].share()).sum::<f64>() / self.drives.len() as f64
     }
 
     /// Deaths at random moments of both kinds, so many of each; fewer where there are hardly any of a kind.
@@ -153,23 +163,24 @@ impl<'a> Trial<'a> {
             if left == [0, 0] {
                 break;
             }
-            let robot = self.drivers[(dice.share() * self.drivers.len() as f64) as usize];
-            let at = Span::from_secs(dice.share() * self.duration.as_secs());
-            let noise = (dice.share() * NOISES as f64) as u64;
-            let labels: Vec<bool> = self.labels.iter().map(|label| label.is_safe(robot, at)).collect();
+            let drive = &self.drives[(dice.share() * self.drives.len() as f64) as usize];
+            let path = drive.drivers[(dice.share() * drive.drivers.len() as f64) as usize];
+            let at = Span::from_secs(dice.share() * drive.duration.as_secs());
+            let labels: Vec<bool> = drive.labels.iter().map(|label| label.is_safe(path, at)).collect();
             let left = &mut left[usize::from(labels[0])];
             if *left == 0 {
                 continue;
             }
             *left -= 1;
-            let show_at = Span::from_secs(self.begins_s[noise as usize]) + at;
-            let report = self.rehearsed(noise, Some((robot, show_at)));
+            let show_at = Span::from_secs(drive.begins_s) + at;
+            let robot = drive.robots[path];
+            let report = self.rehearsed(drive.seed, Some((robot, show_at)), &mut |_| {});
             let touched = report.contacts - report.contacts_after_replan;
             if labels[0] && touched > 0 {
                 println!(
                     "touched though safe: kill={robot}@{:.6}s seed {} ({:.2} s into the drive): {touched} contacts, labels {labels:?}",
                     show_at.as_secs(),
-                    self.first_seed + noise,
+                    drive.seed,
                     at.as_secs()
                 );
             }
@@ -179,6 +190,20 @@ impl<'a> Trial<'a> {
     }
 }
 
-fn labels(paths: &[Path], limits: &Limits, of: &StopAssumptions) -> StopSafety {
-    stop_safety_unless(paths, limits, of, &|| false).unwrap_or_default()
+impl Drive {
+    fn new(seed: u64, begins_s: f64, paths: &[(usize, &Path)], limits: &Limits) -> Self {
+        let (robots, paths): (Vec<usize>, Vec<Path>) =
+            paths.iter().map(|&(robot, path)| (robot, path.clone())).unzip();
+        let labels = |of: &StopAssumptions| {
+            stop_safety_unless(&paths, limits, of, &|| false).unwrap_or_default()
+        };
+        Self {
+            seed,
+            begins_s,
+            duration: paths.iter().map(|path| path.as_ref().duration()).max().unwrap_or(Span::ZERO),
+            drivers: (0..paths.len()).filter(|&path| !paths[path].as_ref().rests()).collect(),
+            labels: assumed().iter().map(labels).collect(),
+            robots,
+        }
+    }
 }

@@ -1,0 +1,145 @@
+//! Whether a planned neighbour has left its plan: a generalised likelihood ratio test (Willsky and Jones, *A Generalized
+//! Likelihood Ratio Approach to the Detection and Estimation of Jumps in Linear Systems*, 1976).
+//!
+//! The null hypothesis: the neighbour drives by plan, but for an offset of the readings that drifts slowly (a first-order
+//! Gauss-Markov process, Bar-Shalom, Li and Kirubarajan, section 4.2). The alternatives: it stopped dead at one of the
+//! last places of its path. Each hypothesis has an offset filter of its own and gathers the logarithm of its likelihood
+//! ratio, so that readings of several steps count together.
+
+use super::point::Point;
+use super::scan::{Expectation, Scan};
+use super::track::OwnMotion;
+
+/// Places at which a neighbour may have stopped that are followed at once. Fewer: a robot that drives slowly leaves all of
+/// them before readings can tell.
+const STOPS: usize = 6;
+/// Distance on the path between two of them, metres. More: the place of the stop is known less well. Less: fewer steps
+/// fit in.
+const STOP_EVERY_M: f32 = 0.002;
+/// Directions from the axis of the sensor that sees a neighbour first in which it may stand, radians: 16° apart.
+const FIRST_BEARINGS_RAD: [f32; 5] = [-0.56, -0.28, 0.0, 0.28, 0.56];
+/// One planned neighbour compared with its plan.
+#[derive(Clone, Debug)]
+pub(crate) struct Departure {
+    /// Offset of the readings from the plan if the neighbour keeps to it, metres.
+    offset_m: f32,
+    /// Variance of the offset, square metres.
+    variance: f32,
+    /// How far the neighbour drove by plan since the last stop was added, metres.
+    driven_m: f32,
+    stops: heapless::Vec<Stop, STOPS>,
+}
+
+/// The hypothesis that the neighbour stopped at a place.
+#[derive(Clone, Copy, Debug)]
+struct Stop {
+    /// Its centre, body space.
+    at: Point,
+    offset_m: f32,
+    /// Logarithm of its likelihood over that of the null hypothesis.
+    log_ratio: f32,
+}
+
+/// How a neighbour left its plan.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Left {
+    /// It stands at this place, body space.
+    Stands(Point),
+    /// It does something else.
+    Strays,
+}
+
+impl Departure {
+    /// Nothing has been read yet; `sigma_m`: how far neighbours are off their plan.
+    pub fn new(sigma_m: f32) -> Self {
+        Self { offset_m: 0.0, variance: sigma_m * sigma_m, driven_m: STOP_EVERY_M, stops: heapless::Vec::new() }
+    }
+
+    /// A neighbour comes into sight of a sensor: it may have stopped long before, anywhere at that distance.
+    pub fn at_first_sight(sensor: usize, read_m: f32, scan: &Scan<'_>) -> Self {
+        let (axis, radius_m) = (scan.sensors.axes[sensor], scan.sensors.radius_m);
+        let mut departure = Self::new(scan.planned_sigma_m);
+        for bearing in FIRST_BEARINGS_RAD {
+            let towards = axis.rotated(Point::unit(bearing));
+            let at = axis.times(radius_m).plus(towards.times(radius_m + read_m));
+            let _ = departure.stops.push(Stop { at, offset_m: 0.0, log_ratio: 0.0 });
+        }
+        departure
+    }
+
+    /// Carries the places of the stops over a step in which the robot itself moved.
+    pub fn predict(&mut self, own: &OwnMotion) {
+        for stop in &mut self.stops {
+            stop.at = own.carry(stop.at);
+        }
+    }
+
+    /// Takes the readings of the sensors that see the neighbour; whether it has left its plan.
+    pub fn test(&mut self, one: &Expectation, seen_by: impl Iterator<Item = usize> + Clone, scan: &Scan<'_>) -> Option<Left> {
+        let mean = Mean { seen_by, scan };
+        if let Some((off_m, noise)) = mean.off_m(one.at) {
+            let (sigma_m, share) = (scan.planned_sigma_m, scan.of.offset_share * scan.own.dt);
+            self.variance += 2.0 * share * (sigma_m * sigma_m - self.variance);
+            let sum = self.variance + noise;
+            let gain = self.variance / sum;
+            let step = |offset_m: &mut f32, off_m: f32| {
+                *offset_m -= share * *offset_m;
+                let innovation = off_m - *offset_m;
+                *offset_m += gain * innovation;
+                innovation * innovation
+            };
+            let null = step(&mut self.offset_m, off_m);
+            self.variance *= 1.0 - gain;
+            for stop in &mut self.stops {
+                let Some((off_m, _)) = mean.off_m(stop.at) else { continue };
+                stop.log_ratio += (null - step(&mut stop.offset_m, off_m)) / (2.0 * sum);
+            }
+        }
+        let likeliest = self.stops.iter().max_by(|a, b| a.log_ratio.total_cmp(&b.log_ratio));
+        if let Some(stop) = likeliest.filter(|stop| stop.log_ratio > scan.of.stop_log_ratio) {
+            let towards = stop.at.times(1.0 / stop.at.length().max(1e-3));
+            return Some(Left::Stands(stop.at.plus(towards.times(stop.offset_m))));
+        }
+        if self.offset_m.abs() > scan.of.stray_sigmas * scan.planned_sigma_m {
+            return Some(Left::Strays);
+        }
+        self.add_stop(one, scan.own.dt);
+        None
+    }
+
+    /// From now on it may have stopped where the plan has it now.
+    fn add_stop(&mut self, one: &Expectation, dt: f32) {
+        self.driven_m += one.velocity.length() * dt;
+        if self.driven_m < STOP_EVERY_M {
+            return;
+        }
+        self.driven_m = 0.0;
+        if self.stops.is_full() {
+            let least = (0..STOPS).min_by(|&a, &b| self.stops[a].log_ratio.total_cmp(&self.stops[b].log_ratio));
+            self.stops.remove(least.unwrap_or(0));
+        }
+        let _ = self.stops.push(Stop { at: one.at, offset_m: self.offset_m, log_ratio: 0.0 });
+    }
+}
+
+/// The mean of the sensors that see a neighbour.
+struct Mean<'a, S> {
+    seen_by: S,
+    scan: &'a Scan<'a>,
+}
+
+impl<S: Iterator<Item = usize> + Clone> Mean<'_, S> {
+    /// By how much they read more than they would if it were at a place, metres, and the variance of that; `None`: none
+    /// reads anything.
+    fn off_m(&self, at: Point) -> Option<(f32, f32)> {
+        let (mut off_m, mut variance, mut count) = (0.0, 0.0, 0.0);
+        for sensor in self.seen_by.clone() {
+            let Some(read_m) = self.scan.reads_m(sensor) else { continue };
+            let expected = self.scan.sensors.expected(sensor, at);
+            off_m += read_m - expected.gap_m;
+            variance += self.scan.sensors.variance_m2(expected.gap_m);
+            count += 1.0;
+        }
+        (count > 0.0).then_some((off_m / count, variance / (count * count)))
+    }
+}
