@@ -138,7 +138,7 @@ impl ReflexParameters {
         accel_sigma_mps2: 0.4,
         unplanned_accel_mps2: 2.5,
         odometry_share: 0.04,
-        stop_log_ratio: 11.0,
+        stop_log_ratio: 10.5,
         stray_sigmas: 5.5,
         offset_share: 3.5,
         stop_sigma_m: 0.003,
