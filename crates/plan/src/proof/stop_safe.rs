@@ -1,9 +1,10 @@
 //! Stop-safety: at which moments a robot may stop dead without any contact.
 //!
-//! A robot that stops dead stands where it is from then on. Who would touch it before the fleet rests has seen it
-//! after the reaction time and brakes at the grip limit; everybody else drives on until the fleet eases to rest on one
-//! HOLD. Who brakes becomes an obstacle too, somewhere between the first moment at which it can stand and the last one
-//! at which it must: whoever follows it must be able to stop in turn, at each of these moments. Moments are sampled.
+//! A robot that stops dead stands where it is from then on. A robot that would touch it before the fleet rests has seen it
+//! after the reaction time and brakes at the grip limit; all others drive on until the fleet eases to rest on one HOLD,
+//! which is sent as soon as the first robot brakes. A robot that brakes becomes an obstacle too, at any moment between the
+//! first at which it may see the dead one and the last at which it must brake: robots behind it must be able to stop in
+//! turn at each of these moments. Moments are sampled.
 
 mod rows;
 #[cfg(test)]
@@ -26,23 +27,34 @@ const MOST_MOMENTS: usize = 10_000;
 /// What is assumed of a fleet of which one robot stops dead.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StopAssumptions {
-    /// From the death until the wheels of who comes near begin to brake, seconds.
+    /// From the death until the wheels of a robot that comes near begin to brake, seconds.
     pub reaction_s: f64,
-    /// Path time until the fleet rests on a HOLD, seconds.
-    pub rest_s: f64,
-    /// Room between two rims that counts as a contact, metres.
+    /// Path time from the death until the fleet rests on a HOLD if no robot sees the dead one, seconds.
+    pub silence_s: f64,
+    /// The same from the moment at which a robot begins to brake for something that the plan does not know, seconds.
+    pub alarm_s: f64,
+    /// Clearance that counts as a contact, metres.
     pub spare_m: f64,
-    /// A robot may brake for another that stands this near to its way, rim to rim, metres.
+    /// A robot may brake for another that stands this near to its path, rim to rim, metres.
     pub wary_m: f64,
+    /// It does not brake for one that is farther away than this, rim to rim, metres.
+    pub sight_m: f64,
 }
 
 impl Default for StopAssumptions {
-    /// The reaction time of `base`. Nobody but those it is in the way of tells that a robot is dead before it has been
-    /// silent for 0.56 s and was asked in vain for some 0.3 s; HOLD is said 0.15 s ahead and its ease of 0.3 s costs half
-    /// of it. Robots are up to 3 mm off their paths. Places between two moments are taken from a straight line: at most
-    /// 0.3 mm off it at 1 m/s².
+    /// The reaction time of `base`. A silent robot is asked for a report after 0.56 s and given up for the HOLD after 0.8 s,
+    /// looked at every 0.1 s; a HOLD takes effect 0.15 s after it is sent and its ease of 0.3 s costs half of that. A robot
+    /// that brakes says so at once: 0.02 s on the way, then the same. Robots are up to 3 mm off their paths. Places between
+    /// two moments are taken from a straight line: at most 0.3 mm off it at 1 m/s².
     fn default() -> Self {
-        Self { reaction_s: REACTION_S, rest_s: 1.2, spare_m: 0.003, wary_m: 0.008 }
+        Self {
+            reaction_s: REACTION_S,
+            silence_s: 1.2,
+            alarm_s: 0.4,
+            spare_m: 0.003,
+            wary_m: 0.008,
+            sight_m: 0.02,
+        }
     }
 }
 
@@ -122,7 +134,7 @@ pub(crate) fn measured(
     let count = steps.div_ceil(stride);
     let law = Law::new(limits, *assumptions);
     let mut rows = Rows::new(paths, law.ahead(), STEP * ((count - 1) * stride) as i64);
-    let mut sweep = Sweep { law, stride, is_unsafe: VecDeque::new(), found: Vec::new() };
+    let mut sweep = Sweep { law, stride, cannot_brake: VecDeque::new(), found: Vec::new() };
     for _ in (0..count).take_while(|_| !cancel.is_wanted()) {
         sweep.look(&rows, &drives);
         rows.go_back(stride);
@@ -139,18 +151,60 @@ struct Sweep {
     law: Law,
     /// Steps from one moment to the next.
     stride: usize,
-    /// `is_unsafe[moments ahead][robot]`, of the moments looked at last.
-    is_unsafe: VecDeque<Vec<bool>>,
+    /// `[moments ahead][robot]`, of the moments looked at last: a robot that brakes there is touched.
+    cannot_brake: VecDeque<Vec<bool>>,
     found: Vec<UnsafeMoment>,
 }
 
+/// What becomes of a robot because another stands at a place.
+struct Meeting {
+    robot: usize,
+    by: usize,
+    braking: Braking,
+    /// `by` must brake, or may, at a moment at which a third robot touches it then.
+    chained: bool,
+}
+
 impl Sweep {
-    /// Who must not stop dead at the first of the rows: whom somebody touches, and for whom somebody must brake who must
-    /// not stop in turn at one of the moments at which it may come to stand.
+    /// Which robots must not stop dead at the first of the rows: those that another robot touches, and those for which
+    /// another must brake that must not stop in turn at one of the moments at which it may come to stand.
     fn look(&mut self, rows: &Rows<'_>, drives: &[bool]) {
+        let mut meetings = self.meetings(rows, drives);
+        meetings.sort_by(|a, b| b.robot.cmp(&a.robot).then(a.braking.last.cmp(&b.braking.last)));
+        let kept = self.law.ahead().div_ceil(self.stride);
+        let oldest = if self.cannot_brake.len() < kept { None } else { self.cannot_brake.pop_back() };
+        let mut cannot_brake = oldest.unwrap_or_default();
+        cannot_brake.clear();
+        cannot_brake.resize(drives.len(), false);
+        let alarm = self.law.steps(self.law.of.alarm_s);
+        for group in meetings.chunk_by(|a, b| a.robot == b.robot) {
+            // The first robot that brakes says so, and the fleet rests soon after.
+            let rests = group.first().map_or(0, |first| usize::from(first.braking.last) + alarm);
+            let (robot, mut worst) = (group[0].robot, None::<&Meeting>);
+            for one in group.iter().filter(|one| one.braking.is_contact() || one.chained) {
+                let touches_by = |steps: usize| usize::from(one.braking.touched) <= steps;
+                cannot_brake[robot] |= touches_by(alarm);
+                let is_worse = worst.is_none_or(|worst| one.braking.missing_m > worst.braking.missing_m);
+                if touches_by(rests) && is_worse {
+                    worst = Some(one);
+                }
+            }
+            self.found.extend(worst.map(|one| UnsafeMoment {
+                robot,
+                at: rows.first(),
+                place: rows.at(0, robot),
+                by: one.by,
+                missing_m: f64::from(one.braking.missing_m),
+            }));
+        }
+        self.cannot_brake.push_front(cannot_brake);
+    }
+
+    /// Every pair of which one comes near the place of the other.
+    fn meetings(&self, rows: &Rows<'_>, drives: &[bool]) -> Vec<Meeting> {
         let boxes: Vec<Bounds> = (0..drives.len()).map(|robot| rows.bounds(robot)).collect();
         let reach_m = self.law.wary_m;
-        let mut here: Vec<UnsafeMoment> = Vec::new();
+        let mut meetings = Vec::new();
         near_pairs(&boxes, reach_m, |i, j| {
             for (robot, by) in [(i, j), (j, i)] {
                 let place = rows.at(0, robot);
@@ -158,29 +212,34 @@ impl Sweep {
                 if !drives[robot] || !drives[by] || point.distance_squared(&boxes[by]) >= reach_m * reach_m {
                     continue;
                 }
-                let Some((last, missing_m)) = self.law.judge(place, &|step| rows.at(step, by)) else {
-                    continue;
-                };
-                let later = usize::from(last).div_ceil(self.stride);
-                if last == 0 || self.is_unsafe.iter().take(later).any(|is_unsafe| is_unsafe[by]) {
-                    let missing_m = f64::from(missing_m);
-                    here.push(UnsafeMoment { robot, at: rows.first(), place, by, missing_m });
-                }
+                let Some(braking) = self.law.judge(place, &|step| rows.at(step, by)) else { continue };
+                let moments = usize::from(braking.first).div_ceil(self.stride).max(1)
+                    ..=usize::from(braking.last).div_ceil(self.stride);
+                let ahead = |moment: usize| self.cannot_brake.get(moment - 1);
+                let chained = moments.filter_map(ahead).any(|cannot_brake| cannot_brake[by]);
+                meetings.push(Meeting { robot, by, braking, chained });
             }
         });
-        // Of several who touch one robot the worst counts.
-        here.sort_by(|a, b| {
-            b.robot.cmp(&a.robot).then(b.missing_m.total_cmp(&a.missing_m)).then(a.by.cmp(&b.by))
-        });
-        here.dedup_by_key(|one| one.robot);
-        let kept = self.law.ahead().div_ceil(self.stride);
-        let mut is_unsafe =
-            if self.is_unsafe.len() < kept { None } else { self.is_unsafe.pop_back() }.unwrap_or_default();
-        is_unsafe.clear();
-        is_unsafe.resize(drives.len(), false);
-        here.iter().for_each(|one| is_unsafe[one.robot] = true);
-        self.is_unsafe.push_front(is_unsafe);
-        self.found.append(&mut here);
+        meetings
+    }
+}
+
+/// How a robot brakes for another that stands in its way.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Braking {
+    /// The first and the last step ahead in which it may begin to brake; 0 where it cannot stop in time.
+    pub first: u8,
+    pub last: u8,
+    /// The step in which it would come near if it did not brake.
+    pub touched: u8,
+    /// How much room it is short of, metres.
+    pub missing_m: f32,
+}
+
+impl Braking {
+    /// Whether it cannot stop in time.
+    pub fn is_contact(&self) -> bool {
+        self.last == 0
     }
 }
 
@@ -189,7 +248,9 @@ pub(crate) struct Law {
     contact_m: f64,
     /// Distance of two centres within which one may brake for the other, metres.
     wary_m: f64,
-    /// The farthest anybody drives in a step, metres.
+    /// Distance of two centres beyond which neither sees the other, metres.
+    sight_m: f64,
+    /// The farthest a robot drives in a step, metres.
     step_m: f64,
     of: StopAssumptions,
 }
@@ -198,32 +259,39 @@ impl Law {
     pub fn new(limits: &Limits, of: StopAssumptions) -> Self {
         let step_m = (limits.speed_mps * STEP.as_secs() * 1.01).max(1e-4);
         let [contact_m, wary_m] = [of.spare_m, of.wary_m.max(of.spare_m)].map(|m| limits.contact_m() + m);
-        Self { contact_m, wary_m, step_m, of }
+        let sight_m = limits.contact_m() + of.sight_m;
+        Self { contact_m, wary_m, sight_m, step_m, of }
     }
 
     /// How many steps ahead a robot must be looked at.
     fn ahead(&self) -> usize {
-        (self.of.rest_s / STEP.as_secs()).ceil().clamp(2.0, 100.0) as usize
+        self.steps(self.of.silence_s.max(self.of.alarm_s)).clamp(2, 100)
     }
 
-    /// What becomes of who is `at(steps ahead)` if somebody else stops dead at a place: the last step in which it may begin
-    /// to brake, 0 where it cannot stop in time, and how much room it is short of, metres. `None`: nothing.
-    pub fn judge(&self, place: Vec2, at: &impl Fn(usize) -> Vec2) -> Option<(u8, f32)> {
+    /// A time in whole steps, rounded up.
+    fn steps(&self, seconds: f64) -> usize {
+        (seconds / STEP.as_secs() - 1e-9).ceil().max(0.0) as usize
+    }
+
+    /// How a robot that is `at(steps ahead)` brakes if another stops dead at a place; `None`: it does not come near.
+    pub fn judge(&self, place: Vec2, at: &impl Fn(usize) -> Vec2) -> Option<Braking> {
         let apart_m = place.distance(at(0));
         let need_m = self.contact_m.min(apart_m) - 1e-6;
         let wary_m = self.wary_m.min(apart_m) - 1e-6;
         let touched = self.touched(place, at, wary_m)?;
         // Reaction and braking end within three steps.
         if touched < 3 {
-            let missing_m = need_m - self.stopped_m(place, at, self.of.reaction_s);
+            let missing_m = (need_m - self.stopped_m(place, at, self.of.reaction_s)) as f32;
             if missing_m > 0.0 {
-                return Some((0, missing_m as f32));
+                return Some(Braking { first: 0, last: 0, touched: touched as u8, missing_m });
             }
         }
         // It may begin to brake in any step before it comes near; in that one if it stands before.
         let in_time = |step: &usize| self.rolling_m(place, at, *step as f64 * STEP.as_secs()) >= wary_m;
         let last = (1..=touched).rev().find(in_time).unwrap_or(1);
-        Some((last as u8, 0.0))
+        let in_sight = |step: &usize| place.distance(at(*step)) < self.sight_m;
+        let first = (1..last).find(in_sight).unwrap_or(last);
+        Some(Braking { first: first as u8, last: last as u8, touched: touched as u8, missing_m: 0.0 })
     }
 
     /// The step in which a robot comes nearer to a place than it must.

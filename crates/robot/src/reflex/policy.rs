@@ -46,7 +46,10 @@ pub(crate) fn allowed_mps(
     if ahead < ABEAM {
         return None;
     }
-    let stop = Stop { track, wish, sense };
+    // A neighbour that the plan does not know may stop at any moment: that it drives off is not counted on.
+    let away = track.at.times(track.velocity.dot(track.at).max(0.0) / track.at.dot(track.at).max(1e-6));
+    let velocity = if clearance_m.is_some() { track.velocity } else { track.velocity.minus(away) };
+    let stop = Stop { at: track.at, velocity, wish, sense };
     let wanted_mps = wish.speed_mps * sense;
     let (at_wanted, direction, after_s) = stop.nearest(wanted_mps);
     let sigma_m = libm::sqrtf(track.covariance.place_after(direction, after_s).max(0.0));
@@ -75,7 +78,10 @@ pub(crate) fn allowed_mps(
 
 /// Driving on at some speed for a step, then stopping at the grip limit.
 struct Stop<'a> {
-    track: &'a Track,
+    /// Where the neighbour is, body space.
+    at: Point,
+    /// Over the floor along the axes of body space, m/s.
+    velocity: Point,
     wish: &'a Wish,
     sense: f32,
 }
@@ -87,8 +93,8 @@ impl Stop<'_> {
         let told_mps = self.wish.told_mps * self.sense;
         let way_m = told_mps * reaction_s + speed_mps * (self.wish.dt + speed_mps / (2.0 * grip));
         let over_s = reaction_s + self.wish.dt + speed_mps / grip;
-        let start = self.track.at;
-        let step = self.track.velocity.times(over_s).minus(Point::new(self.sense * way_m, 0.0));
+        let start = self.at;
+        let step = self.velocity.times(over_s).minus(Point::new(self.sense * way_m, 0.0));
         let length2 = step.dot(step).max(1e-12);
         let share = (-start.dot(step) / length2).clamp(0.0, 1.0);
         let nearest = start.plus(step.times(share));

@@ -59,11 +59,14 @@ fn run(args: &[String]) -> Result<bool, String> {
             format!("{bad}/{}", of_kind(is_safe).count())
         };
         println!(
-            "  reaction {:>3.0} ms, rest {:.1} s, spare {:.0} mm, wary {:.0} mm: share {:.4}, contacts {} of safe, {} of unsafe ones",
+            "  reaction {:.0} ms, silence {:.1} s, alarm {:.1} s, spare {:.0} mm, wary {:.0} mm, sight {:.0} mm: share {:.4}, \
+             contacts {} of safe, {} of unsafe ones",
             of.reaction_s * 1e3,
-            of.rest_s,
+            of.silence_s,
+            of.alarm_s,
             of.spare_m * 1e3,
             of.wary_m * 1e3,
+            of.sight_m * 1e3,
             trial.share(index),
             part(true),
             part(false)
@@ -75,14 +78,16 @@ fn run(args: &[String]) -> Result<bool, String> {
 /// The planner's assumptions first.
 fn assumed() -> Vec<StopAssumptions> {
     let usual = StopAssumptions::default();
-    let other = |reaction_s, rest_s, spare_m, wary_m| StopAssumptions { reaction_s, rest_s, spare_m, wary_m };
     vec![
         usual,
-        other(0.056, 0.4, 0.001, 0.001),
+        StopAssumptions { silence_s: 1.2, alarm_s: 1.2, ..usual },
+        StopAssumptions { spare_m: 0.001, ..usual },
+        StopAssumptions { spare_m: 0.001, wary_m: 0.003, ..usual },
         StopAssumptions { wary_m: 0.003, ..usual },
-        StopAssumptions { wary_m: 0.006, ..usual },
-        StopAssumptions { wary_m: 0.010, ..usual },
-        other(0.072, 1.6, 0.005, 0.012),
+        StopAssumptions { wary_m: 0.005, ..usual },
+        StopAssumptions { sight_m: 0.03, ..usual },
+        StopAssumptions { reaction_s: 0.056, ..usual },
+        StopAssumptions { reaction_s: 0.056, spare_m: 0.001, wary_m: 0.003, sight_m: 0.02, ..usual },
     ]
 }
 

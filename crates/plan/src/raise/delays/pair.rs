@@ -17,7 +17,7 @@ pub(super) struct PairLaw<'a> {
 impl<'a> PairLaw<'a> {
     pub fn new(limits: &'a Limits) -> Self {
         let assumed = StopAssumptions::default();
-        Self { limits, stop: Law::new(limits, assumed), rest: Span::from_secs(assumed.rest_s) }
+        Self { limits, stop: Law::new(limits, assumed), rest: Span::from_secs(assumed.alarm_s) }
     }
 
     /// Robots farther apart than this, metres, do not matter to each other within this time and until they rest.
@@ -53,8 +53,8 @@ impl<'a> PairLaw<'a> {
         if place.distance(by.at(moment)) > far_m || dead.rests() || by.rests() {
             return 0;
         }
-        let fate = self.stop.judge(place, &|step| by.at(moment + step));
-        u32::from(fate.is_some_and(|(last, _)| last == 0))
+        let braking = self.stop.judge(place, &|step| by.at(moment + step));
+        u32::from(braking.is_some_and(|braking| braking.is_contact()))
     }
 }
 
