@@ -34,8 +34,10 @@ pub struct Config {
     pub simulated: bool,
     /// What its proximity sensors are.
     pub proximity: ProximitySensors,
-    /// How careful its reflex is.
-    pub reflex: ReflexParameters,
+    /// What its estimator of neighbours assumes.
+    pub neighbours: NeighbourModel,
+    /// How careful its safety layer is.
+    pub policy: SafetyPolicy,
 }
 
 /// How many proximity sensors a robot can have.
@@ -73,88 +75,96 @@ impl ProximitySensors {
     };
 }
 
-/// The parameters of the reflex; docs/reflex.md says what breaks above and below each.
+/// How the safety layer decides; docs/reflex.md says what breaks above and below each value.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ReflexParameters {
+pub struct SafetyPolicy {
     /// Growth of the swept discs, in sigma of the neighbour's place when they are nearest.
     pub sigmas: f32,
     /// What is left between rims when the robot stands, metres.
     pub spare_m: f32,
     /// Share of the planned clearance that the growth takes at most.
     pub planned_share: f32,
-    /// How much nearer than it is already a neighbour may come before the robot brakes for it, metres.
+    /// How much nearer than it is already a planned neighbour may come before the robot brakes for it, metres.
     pub tolerance_m: f32,
-    /// Unforeseen acceleration of neighbours, 1 sigma in each axis, m/s².
+    /// Steps in a row in which a robot wants to drive and must not before it counts as blocked.
+    pub steps_to_block: u8,
+    /// It is free again when what blocked it was missing from its place for this many steps.
+    pub steps_to_free: u8,
+    /// What blocked it is missing when it is this much farther away, metres. A blocked robot backs away until there is this
+    /// much room, …
+    pub clear_m: f32,
+    /// … this fast, m/s, …
+    pub retreat_mps: f32,
+    /// … unless a neighbour is this near behind it, metres.
+    pub followed_m: f32,
+    /// How far it leaves its route at most, backing away or giving way to a neighbour, metres.
+    pub evade_most_m: f32,
+    /// Share of missing clearance that it gives way by.
+    pub give_way_share: f32,
+}
+
+impl SafetyPolicy {
+    /// Tuned in rehearsals of formations, random pairs and deaths, 2026-11-23 and 2026-11-24.
+    pub const DEFAULT: Self = Self {
+        sigmas: 2.0,
+        spare_m: 0.001,
+        planned_share: 0.5,
+        tolerance_m: 0.0005,
+        steps_to_block: 5,
+        steps_to_free: 8,
+        clear_m: 0.004,
+        retreat_mps: 0.03,
+        followed_m: 0.014,
+        evade_most_m: 0.008,
+        give_way_share: 0.7,
+    };
+}
+
+/// What the estimator of neighbours assumes of their motion and of the plan's errors; docs/reflex.md says what breaks above
+/// and below each value.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct NeighbourModel {
+    /// How far neighbours are off their plan beside what they and this robot mistake their places by, 1 sigma in each
+    /// axis: metres.
+    pub planned_sigma_m: f32,
+    /// The same for velocity, m/s.
+    pub planned_sigma_mps: f32,
+    /// Share of its offset from the plan that a neighbour makes good in a second: the inverse of the correlation time, 1/s.
+    pub offset_share: f32,
+    /// Unforeseen acceleration of planned neighbours, 1 sigma in each axis, m/s².
     pub accel_sigma_mps2: f32,
     /// The same of neighbours that the plan does not know, m/s².
     pub unplanned_accel_mps2: f32,
-    /// Error of the own wheels' way, 1 sigma, as a share of it.
+    /// Velocity of a neighbour of which nothing is known, 1 sigma in each axis, m/s.
+    pub unknown_sigma_mps: f32,
+    /// Error of the distance that the own wheels drive, 1 sigma, as a share of it.
     pub odometry_share: f32,
     /// A planned neighbour has stopped when its readings are more likely by this factor than those of one that drives by
     /// plan, natural logarithm.
     pub stop_log_ratio: f32,
     /// It has left its plan when its readings are off it by this many sigma.
     pub stray_sigmas: f32,
-    /// Share of its offset from the plan that a neighbour makes good in a second: the inverse of the correlation time, 1/s.
-    pub offset_share: f32,
     /// Error of the place at which a neighbour was found to stand, 1 sigma across the line of sight, metres.
     pub stop_sigma_m: f32,
     /// The same of its velocity, m/s.
     pub stop_sigma_mps: f32,
-    /// Velocity of a neighbour of which nothing is known, 1 sigma in each axis, m/s.
-    pub unknown_sigma_mps: f32,
-    /// How far neighbours are off their plan beside what they and this robot mistake their places by, 1 sigma in each
-    /// axis: metres.
-    pub planned_sigma_m: f32,
-    /// The same for velocity, m/s.
-    pub planned_sigma_mps: f32,
-    /// Steps in a row that a robot wants to drive and must not before it counts as blocked.
-    pub steps_to_block: u8,
-    /// What blocked it has gone when it is this much farther away, metres, …
-    pub gone_m: f32,
-    /// … in this many steps.
-    pub steps_to_free: u8,
-    /// A blocked robot backs away until there is this much room, metres, …
-    pub clear_m: f32,
-    /// … by no more than this, metres, …
-    pub retreat_m: f32,
-    /// … this fast, m/s, …
-    pub retreat_mps: f32,
-    /// … unless anybody is this near behind, metres.
-    pub followed_m: f32,
-    /// Share of missing clearance that it gives way by, …
-    pub give_way_share: f32,
-    /// … and the most, metres.
-    pub give_way_most_m: f32,
 }
 
-impl ReflexParameters {
-    /// Tuned in rehearsals of formations, random pairs and deaths.
+impl NeighbourModel {
+    /// `planned_sigma_m` and `offset_share` were measured in rehearsals with standard conditions on 2026-11-24; the others
+    /// were tuned on formations, random pairs and deaths, 2026-11-23 and 2026-11-24.
     pub const DEFAULT: Self = Self {
-        sigmas: 2.0,
-        spare_m: 0.001,
-        planned_share: 0.5,
-        tolerance_m: 0.0005,
+        planned_sigma_m: 0.0006,
+        planned_sigma_mps: 0.015,
+        offset_share: 3.5,
         accel_sigma_mps2: 0.4,
         unplanned_accel_mps2: 2.5,
+        unknown_sigma_mps: 0.135,
         odometry_share: 0.04,
         stop_log_ratio: 10.5,
         stray_sigmas: 5.5,
-        offset_share: 3.5,
         stop_sigma_m: 0.003,
         stop_sigma_mps: 0.04,
-        unknown_sigma_mps: 0.135,
-        planned_sigma_m: 0.0006,
-        planned_sigma_mps: 0.015,
-        steps_to_block: 5,
-        gone_m: 0.004,
-        steps_to_free: 8,
-        clear_m: 0.004,
-        retreat_m: 0.008,
-        retreat_mps: 0.03,
-        followed_m: 0.014,
-        give_way_share: 0.7,
-        give_way_most_m: 0.008,
     };
 }
 
@@ -166,7 +176,8 @@ impl Config {
             id,
             simulated: false,
             proximity: ProximitySensors::ELISA_3,
-            reflex: ReflexParameters::DEFAULT,
+            neighbours: NeighbourModel::DEFAULT,
+            policy: SafetyPolicy::DEFAULT,
             limits: Limits::ELISA_3,
             firmware: Firmware::try_from(concat!("lightbots-", env!("CARGO_PKG_VERSION")))
                 .unwrap_or_default(),

@@ -52,7 +52,7 @@ mod timeline;
 mod trail;
 mod trust;
 
-pub use config::{Config, Fix, Inputs, Outputs, ProximitySensors, ReflexParameters, SENSORS};
+pub use config::{Config, Fix, Inputs, NeighbourModel, Outputs, ProximitySensors, SENSORS, SafetyPolicy};
 pub use processor::Processor;
 pub use robot::{Message, Robot};
 pub use shelf::Shelf;

@@ -14,7 +14,7 @@ mod tracks;
 
 use lightbots_base::Vec2;
 
-use crate::config::{Config, ReflexParameters, SENSORS};
+use crate::config::{Config, NeighbourModel, SENSORS, SafetyPolicy};
 pub(crate) use point::Point;
 pub(crate) use policy::Wish;
 pub(crate) use scan::Expectation;
@@ -65,7 +65,8 @@ pub(crate) struct Reflex {
     /// `(index, clearance in metres, whether it moves)` of the planned neighbours in sight.
     clearances: heapless::Vec<(u8, f32, bool), 16>,
     sensors: Sensors,
-    of: ReflexParameters,
+    model: NeighbourModel,
+    policy: SafetyPolicy,
 }
 
 impl Reflex {
@@ -76,7 +77,8 @@ impl Reflex {
             tracks: Tracks::default(),
             clearances: heapless::Vec::new(),
             sensors: Sensors::new(&config.proximity, config.limits.radius_m),
-            of: config.reflex,
+            model: config.neighbours,
+            policy: config.policy,
         }
     }
 
@@ -110,9 +112,10 @@ impl Reflex {
         let seen = |gap_m: f32| if gap_m < self.sensors.range_m { gap_m.max(0.0) } else { f32::INFINITY };
         let gaps_m = gaps_m.map_or([f32::INFINITY; SENSORS], |gaps_m| gaps_m.map(seen));
         // The neighbour's own place is about as unsure as that of this robot.
-        let planned_sigma_m =
-            libm::sqrtf(self.of.planned_sigma_m * self.of.planned_sigma_m + 2.0 * (error_m * error_m) as f32);
-        let (own, sensors, of) = (&self.own, &self.sensors, &self.of);
+        let planned_sigma_m = libm::sqrtf(
+            self.model.planned_sigma_m * self.model.planned_sigma_m + 2.0 * (error_m * error_m) as f32,
+        );
+        let (own, sensors, of) = (&self.own, &self.sensors, &self.model);
         let scan = Scan { gaps_m: &gaps_m, own, planned, sensors, planned_sigma_m, of };
         self.tracks.step(&scan);
     }
@@ -155,17 +158,17 @@ impl Reflex {
         let steps = if hardly { steps + 1 } else { steps };
         let gap_m = cause.at.length() - self.sensors.contact_m();
         let block = block_at(cause.at, gap_m, gap_m);
-        if steps < self.of.steps_to_block {
+        if steps < self.policy.steps_to_block {
             return Safety::Braking { block, steps, alarm: alarm || hardly && named && cause.unplanned };
         }
-        self.retreats(block, 0, self.of.retreat_m.copysign(wish.speed_mps))
+        self.retreats(block, 0, self.policy.evade_most_m.copysign(wish.speed_mps))
     }
 
     /// The least speed that any neighbour allows, and for which that is.
     fn slowest(&self, wish: &Wish, room_mm: Option<u16>) -> Option<(f32, Cause)> {
         let allowed = |track: &Track| {
             let clearance_m = self.clearance_m(track, room_mm, true);
-            let mps = policy::allowed_mps(track, wish, clearance_m, &self.sensors, &self.of)?;
+            let mps = policy::allowed_mps(track, wish, clearance_m, &self.sensors, &self.policy)?;
             Some((mps, Cause { at: track.at, unplanned: track.planned.is_none() }))
         };
         self.tracks.iter().filter_map(allowed).min_by(|one, other| one.0.total_cmp(&other.0))
@@ -194,10 +197,10 @@ impl Reflex {
         let off_m = |track: &Track| track.at.minus(moved).length();
         let track = self.tracks.iter().filter(near).min_by(|one, other| off_m(one).total_cmp(&off_m(other)));
         let (block, gone) = match track {
-            Some(track) if track.gap_m(&self.sensors) <= block.stood_m + self.of.gone_m => {
+            Some(track) if track.gap_m(&self.sensors) <= block.stood_m + self.policy.clear_m => {
                 (block_at(track.at, track.gap_m(&self.sensors), block.stood_m), 0)
             }
-            _ if gone + 1 >= self.of.steps_to_free => return Safety::Free,
+            _ if gone + 1 >= self.policy.steps_to_free => return Safety::Free,
             _ => (Block { at: moved, ..block }, gone + 1),
         };
         if retreat_m == 0.0 { Safety::Blocked { block, gone } } else { self.retreats(block, gone, retreat_m) }
@@ -207,9 +210,9 @@ impl Reflex {
     /// neighbour follows.
     fn retreats(&self, block: Block, gone: u8, retreat_m: f32) -> Safety {
         let left_m = retreat_m.abs() - self.own.way_m.abs();
-        let is_near = |track: &Track| track.gap_m(&self.sensors) < self.of.followed_m;
+        let is_near = |track: &Track| track.gap_m(&self.sensors) < self.policy.followed_m;
         let followed = self.tracks.iter().any(|track| track.at.x * retreat_m < 0.0 && is_near(track));
-        if left_m <= 0.0 || followed || block.gap_m > f64::from(self.of.clear_m) {
+        if left_m <= 0.0 || followed || block.gap_m > f64::from(self.policy.clear_m) {
             return Safety::Blocked { block, gone };
         }
         let block = Block { stood_m: block.gap_m as f32, ..block };
@@ -219,7 +222,9 @@ impl Reflex {
     /// How fast it backs away, m/s along its front; `None`: it is not blocked.
     pub(crate) fn blocked_mps(&self) -> Option<f64> {
         match self.safety {
-            Safety::BackingOff { retreat_m, .. } => Some(f64::from(self.of.retreat_mps.copysign(-retreat_m))),
+            Safety::BackingOff { retreat_m, .. } => {
+                Some(f64::from(self.policy.retreat_mps.copysign(-retreat_m)))
+            }
             Safety::Blocked { .. } => Some(0.0),
             Safety::Free | Safety::Braking { .. } => None,
         }
@@ -231,7 +236,7 @@ impl Reflex {
         let own_mps = self.own.way_m / self.own.dt;
         self.tracks.iter().fold(Vec2::ZERO, |sum, track| {
             let clearance_m = self.clearance_m(track, room_mm, false);
-            sum + separation::give_way(track, own_mps, clearance_m, &self.sensors, &self.of)
+            sum + separation::give_way(track, own_mps, clearance_m, &self.sensors, &self.policy)
         })
     }
 
@@ -260,9 +265,9 @@ impl Reflex {
     pub(crate) fn braking_towards(&self) -> Option<f64> {
         match self.safety {
             Safety::Free => None,
-            Safety::Braking { block, .. } | Safety::Blocked { block, .. } | Safety::BackingOff { block, .. } => {
-                Some(block.towards)
-            }
+            Safety::Braking { block, .. }
+            | Safety::Blocked { block, .. }
+            | Safety::BackingOff { block, .. } => Some(block.towards),
         }
     }
 }

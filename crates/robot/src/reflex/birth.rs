@@ -1,9 +1,9 @@
 //! How a track begins: from the plan where that explains a reading, else from the reading alone.
 
 use super::covariance::Covariance;
+use super::departure::Departure;
 use super::point::Point;
 use super::scan::{Expectation, Scan};
-use super::departure::Departure;
 use super::track::Track;
 use super::tracks::BESIDE_M;
 use crate::config::SENSORS;
@@ -27,8 +27,9 @@ pub(super) fn expected_there(sensor: usize, tracks: &[Track], scan: &Scan<'_>) -
     let place_m2 = scan.planned_sigma_m * scan.planned_sigma_m;
     let is_followed = |one: &&Expectation| tracks.iter().any(|track| track.stands_for(one.index));
     let candidates = scan.planned.iter().filter(|one| !is_followed(one));
-    let (_, one) =
-        candidates.filter_map(|one| Some((explained_off_m(one, sensor, read_m, scan)?, one))).min_by(|a, b| a.0.total_cmp(&b.0))?;
+    let (_, one) = candidates
+        .filter_map(|one| Some((explained_off_m(one, sensor, read_m, scan)?, one)))
+        .min_by(|a, b| a.0.total_cmp(&b.0))?;
     let velocity_variance = scan.of.planned_sigma_mps * scan.of.planned_sigma_mps;
     let covariance = Covariance::new(Point::new(1.0, 0.0), place_m2, place_m2, velocity_variance);
     let departure = Departure::at_first_sight(sensor, read_m, scan);
@@ -36,12 +37,7 @@ pub(super) fn expected_there(sensor: usize, tracks: &[Track], scan: &Scan<'_>) -
 }
 
 /// How far a reading is off what a planned neighbour explains, metres; `None`: the neighbour does not explain it.
-pub(super) fn explained_off_m(
-    one: &Expectation,
-    sensor: usize,
-    read_m: f32,
-    scan: &Scan<'_>,
-) -> Option<f32> {
+pub(super) fn explained_off_m(one: &Expectation, sensor: usize, read_m: f32, scan: &Scan<'_>) -> Option<f32> {
     let expected = scan.sensors.expected(sensor, one.at);
     let variance = scan.planned_sigma_m * scan.planned_sigma_m + scan.sensors.variance_m2(expected.gap_m);
     let off_m = (read_m - expected.gap_m).abs();

@@ -89,15 +89,6 @@ impl Covariance {
         self.add_place(variance * ago_s * ago_s);
     }
 
-    /// The velocity changed along a unit vector by an unknown amount (1 sigma, m/s) `ago_s` seconds ago.
-    pub fn kick_along(&mut self, unit: Point, sigma_mps: f32, ago_s: f32) {
-        let change = unit.times(sigma_mps);
-        self.velocity.minus_outer(change, -1.0);
-        self.place.minus_outer(change, -ago_s * ago_s);
-        self.both[0] = self.both[0].plus(change.times(change.x * ago_s));
-        self.both[1] = self.both[1].plus(change.times(change.y * ago_s));
-    }
-
     /// The place is less sure by this variance in all directions, square metres.
     pub fn add_place(&mut self, variance_m2: f32) {
         self.place.xx += variance_m2;

@@ -57,7 +57,13 @@ fn follow(gap_m: f32, aside_m: f32, off_m: f32, dice: &mut Dice, tally: &mut Tal
             clearance_m: gap_m,
         };
         let gaps_m = readings(&[Disc { at, velocity: Point::new(other_mps, 0.0) }], dice);
-        reflex.look(Some(&gaps_m), (f64::from(now_mps * DT), 0.0), f64::from(DT), &[planned], f64::from(0.5 * off_m));
+        reflex.look(
+            Some(&gaps_m),
+            (f64::from(now_mps * DT), 0.0),
+            f64::from(DT),
+            &[planned],
+            f64::from(0.5 * off_m),
+        );
         let limit = reflex.limit(Wish { speed_mps: SPEED_MPS, told_mps, dt: DT }, None);
         let most_mps = limit.map_or(SPEED_MPS, |mps| mps as f32);
         if most_mps < SPEED_MPS - 0.001 && step < BEFORE {

@@ -52,7 +52,12 @@ pub(crate) enum Left {
 impl Departure {
     /// Nothing has been read yet; `sigma_m`: how far neighbours are off their plan.
     pub fn new(sigma_m: f32) -> Self {
-        Self { offset_m: 0.0, variance: sigma_m * sigma_m, driven_m: STOP_EVERY_M, stops: heapless::Vec::new() }
+        Self {
+            offset_m: 0.0,
+            variance: sigma_m * sigma_m,
+            driven_m: STOP_EVERY_M,
+            stops: heapless::Vec::new(),
+        }
     }
 
     /// A neighbour comes into sight of a sensor: it may have stopped long before, anywhere at that distance.
@@ -75,7 +80,12 @@ impl Departure {
     }
 
     /// Takes the readings of the sensors that see the neighbour; whether it has left its plan.
-    pub fn test(&mut self, one: &Expectation, seen_by: impl Iterator<Item = usize> + Clone, scan: &Scan<'_>) -> Option<Left> {
+    pub fn test(
+        &mut self,
+        one: &Expectation,
+        seen_by: impl Iterator<Item = usize> + Clone,
+        scan: &Scan<'_>,
+    ) -> Option<Left> {
         let mean = Mean { seen_by, scan };
         if let Some((off_m, noise)) = mean.off_m(one.at) {
             let (sigma_m, share) = (scan.planned_sigma_m, scan.of.offset_share * scan.own.dt);
@@ -115,7 +125,8 @@ impl Departure {
         }
         self.driven_m = 0.0;
         if self.stops.is_full() {
-            let least = (0..STOPS).min_by(|&a, &b| self.stops[a].log_ratio.total_cmp(&self.stops[b].log_ratio));
+            let least =
+                (0..STOPS).min_by(|&a, &b| self.stops[a].log_ratio.total_cmp(&self.stops[b].log_ratio));
             self.stops.remove(least.unwrap_or(0));
         }
         let _ = self.stops.push(Stop { at: one.at, offset_m: self.offset_m, log_ratio: 0.0 });

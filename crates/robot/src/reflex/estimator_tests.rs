@@ -11,7 +11,7 @@ use super::scan::Scan;
 use super::sensors::Sensors;
 use super::track::{OwnMotion, Track};
 use super::tracks::Tracks;
-use crate::config::{ProximitySensors, ReflexParameters, SENSORS};
+use crate::config::{NeighbourModel, ProximitySensors, SENSORS};
 
 const DT: f32 = 0.016;
 const RADIUS_M: f32 = 0.027;
@@ -114,7 +114,7 @@ fn scene(
     episode: usize,
     make: impl Fn(&mut Dice) -> (Vec<Disc>, OwnMotion),
 ) -> [f32; 4] {
-    let (sensors, of) = (Sensors::new(&ProximitySensors::ELISA_3, 0.027), ReflexParameters::DEFAULT);
+    let (sensors, of) = (Sensors::new(&ProximitySensors::ELISA_3, 0.027), NeighbourModel::DEFAULT);
     let (mut dice, mut tally, mut steps) = (Dice(7), Tally::default(), 0);
     while steps < 10_000 {
         let (mut discs, own) = make(&mut dice);
@@ -128,8 +128,14 @@ fn scene(
             }
             let gaps_m = readings(&discs, &mut dice);
             let in_sight = (0..SENSORS).any(|sensor| reads_m(&discs[..1], sensor) < 0.03);
-            let scan =
-                Scan { gaps_m: &gaps_m, own: &own, planned: &[], sensors: &sensors, planned_sigma_m: 0.001, of: &of };
+            let scan = Scan {
+                gaps_m: &gaps_m,
+                own: &own,
+                planned: &[],
+                sensors: &sensors,
+                planned_sigma_m: 0.001,
+                of: &of,
+            };
             tracks.step(&scan);
             if step >= warm && in_sight {
                 for disc in &discs[..count] {

@@ -6,7 +6,7 @@ use lightbots_base::braking::{ACTUATION_S, GRIP_MPS2};
 use super::point::Point;
 use super::sensors::Sensors;
 use super::track::Track;
-use crate::config::ReflexParameters;
+use crate::config::SafetyPolicy;
 
 /// Halvings in the search for the highest speed: 0.27 m/s to within 1 mm/s.
 const HALVINGS: usize = 8;
@@ -39,7 +39,7 @@ pub(crate) fn allowed_mps(
     wish: &Wish,
     clearance_m: Option<f32>,
     sensors: &Sensors,
-    of: &ReflexParameters,
+    of: &SafetyPolicy,
 ) -> Option<f32> {
     let sense = wish.sense();
     let ahead = track.at.x * sense / track.at.length().max(1e-3);

@@ -2,16 +2,16 @@
 
 use super::Point;
 use super::covariance::Covariance;
+use super::departure::Departure;
 use super::policy::{Wish, allowed_mps};
 use super::sensors::Sensors;
-use super::departure::Departure;
 use super::track::Track;
-use crate::config::{ProximitySensors, ReflexParameters};
+use crate::config::{ProximitySensors, SafetyPolicy};
 
 /// The speed allowed for a robot that comes the other way and will pass 55 mm from centre to centre, known to so many
 /// metres (1 sigma), where the plan leaves so much.
 fn allowed(sigma_m: f32, clearance_m: Option<f32>) -> Option<f32> {
-    let of = ReflexParameters::DEFAULT;
+    let of = SafetyPolicy::DEFAULT;
     let covariance = Covariance::new(Point::new(1.0, 0.0), sigma_m * sigma_m, sigma_m * sigma_m, 1e-6);
     let track = Track {
         at: Point::new(0.02, 0.0552),

@@ -3,7 +3,7 @@
 use super::point::Point;
 use super::sensors::Sensors;
 use super::track::OwnMotion;
-use crate::config::{ReflexParameters, SENSORS};
+use crate::config::{NeighbourModel, SENSORS};
 
 /// A neighbour that the plan expects in sight.
 #[derive(Clone, Copy, Debug)]
@@ -30,7 +30,7 @@ pub(crate) struct Scan<'a> {
     pub sensors: &'a Sensors,
     /// How far neighbours are off their plan as this robot sees it, 1 sigma in each axis, metres.
     pub planned_sigma_m: f32,
-    pub of: &'a ReflexParameters,
+    pub of: &'a NeighbourModel,
 }
 
 impl Scan<'_> {

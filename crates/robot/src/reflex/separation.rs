@@ -7,7 +7,7 @@ use lightbots_base::Vec2;
 
 use super::sensors::Sensors;
 use super::track::Track;
-use crate::config::ReflexParameters;
+use crate::config::SafetyPolicy;
 
 /// Clearance where the plan tells none, and the most that is asked for, metres.
 const UNTOLD_M: f32 = 0.003;
@@ -27,7 +27,7 @@ pub(crate) fn give_way(
     own_mps: f32,
     clearance_m: Option<f32>,
     sensors: &Sensors,
-    of: &ReflexParameters,
+    of: &SafetyPolicy,
 ) -> Vec2 {
     let far_m = track.at.length().max(1e-3);
     let towards = track.at.times(1.0 / far_m);
@@ -41,6 +41,6 @@ pub(crate) fn give_way(
         return Vec2::ZERO;
     }
     let more = 1.0 + LITTLE_M / gap_m.max(1e-4);
-    let way_m = (of.give_way_share * missing_m * more).min(of.give_way_most_m);
+    let way_m = (of.give_way_share * missing_m * more).min(of.evade_most_m);
     Vec2::new(f64::from(-towards.x * way_m), f64::from(-towards.y * way_m))
 }

@@ -5,7 +5,7 @@ use super::scan::{Expectation, Scan};
 use super::sensors::Sensors;
 use super::track::OwnMotion;
 use super::{Point, Track};
-use crate::config::{ProximitySensors, ReflexParameters, SENSORS};
+use crate::config::{NeighbourModel, ProximitySensors, SENSORS};
 
 /// Number of the planned neighbour.
 const NUMBER: u8 = 7;
@@ -31,7 +31,7 @@ fn where_the_plan_has_a_neighbour_that_left_it_there_is_nobody() {
         planned: &planned,
         sensors: &sensors,
         planned_sigma_m: 0.001,
-        of: &ReflexParameters::DEFAULT,
+        of: &NeighbourModel::DEFAULT,
     };
     let known = expected_there(2, &[], &scan).expect("the plan explains what the sensor sees");
     let stray = Track { at: stopped, planned: None, left: Some(NUMBER), ..known.clone() };

@@ -9,7 +9,7 @@ use super::covariance::Covariance;
 use super::departure::Departure;
 use super::point::Point;
 use super::sensors::{Expected, Sensors};
-use crate::config::{ReflexParameters, SENSORS};
+use crate::config::{NeighbourModel, SENSORS};
 
 /// Uncertainty of the edge of a cone, metres: what a neighbour moves along it in a step.
 const EDGE_SIGMA_M: f32 = 0.003;
@@ -97,7 +97,7 @@ impl Track {
     }
 
     /// Carries the state over a step in which the robot itself moved.
-    pub fn predict(&mut self, own: &OwnMotion, of: &ReflexParameters) {
+    pub fn predict(&mut self, own: &OwnMotion, of: &NeighbourModel) {
         let turn = Point::of_small_angle(-own.turn_rad);
         self.at = own.carry(self.at.plus(self.velocity.times(own.dt)));
         self.velocity = self.velocity.rotated(turn);
@@ -111,7 +111,7 @@ impl Track {
     }
 
     /// It has left its plan and stands at a place of body space.
-    pub fn stand(&mut self, at: Point, of: &ReflexParameters) {
+    pub fn stand(&mut self, at: Point, of: &NeighbourModel) {
         let towards = at.times(1.0 / at.length().max(1e-3));
         let [place_m2, velocity_m2ps2] = [of.stop_sigma_m, of.stop_sigma_mps].map(|sigma| sigma * sigma);
         (self.at, self.velocity, self.planned) = (at, Point::ZERO, None);
@@ -162,7 +162,7 @@ impl Track {
     }
 
     /// Whether it is where the plan has it, and moves as the plan says, as far as can be told.
-    pub fn keeps_to(&self, at: Point, velocity: Point, sigma_m: f32, of: &ReflexParameters) -> bool {
+    pub fn keeps_to(&self, at: Point, velocity: Point, sigma_m: f32, of: &NeighbourModel) -> bool {
         let agrees = |off: Point, planned_sigma: f32, variance: &dyn Fn(Point) -> f32| {
             let size = off.length().max(1e-6);
             let known = variance(off.times(1.0 / size)).max(0.0);

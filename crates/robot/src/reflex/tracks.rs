@@ -234,7 +234,11 @@ fn watch(track: &mut Track, scan: &Scan<'_>) {
             let nearest = seen_by.min_by(|&a, &b| scan.gaps_m[a].total_cmp(&scan.gaps_m[b]));
             let Some(sensor) = nearest else { return };
             let seen = track.seen_by;
-            *track = Track { age: track.age, seen_by: seen, ..unknown(sensor, &|beside| seen >> beside & 1 == 1, scan) };
+            *track = Track {
+                age: track.age,
+                seen_by: seen,
+                ..unknown(sensor, &|beside| seen >> beside & 1 == 1, scan)
+            };
         }
         None => return,
     }

@@ -18,8 +18,8 @@ mod scenes;
 use std::process::ExitCode;
 
 use lightbots_base::{Limits, Span};
-use lightbots_plan::proof::stop_safe::{StopAssumptions, StopSafety, stop_safety_unless};
 use lightbots_plan::Path;
+use lightbots_plan::proof::stop_safe::{StopAssumptions, StopSafety, stop_safety_unless};
 use lightbots_show::Show;
 use lightbots_sim::{Conditions, Progress, RehearsalOptions, RehearsalReport, rehearse};
 
@@ -199,9 +199,8 @@ impl Drive {
     fn new(seed: u64, begins_s: f64, paths: &[(usize, &Path)], limits: &Limits) -> Self {
         let (robots, paths): (Vec<usize>, Vec<Path>) =
             paths.iter().map(|&(robot, path)| (robot, path.clone())).unzip();
-        let labels = |of: &StopAssumptions| {
-            stop_safety_unless(&paths, limits, of, &|| false).unwrap_or_default()
-        };
+        let labels =
+            |of: &StopAssumptions| stop_safety_unless(&paths, limits, of, &|| false).unwrap_or_default();
         Self {
             seed,
             begins_s,
