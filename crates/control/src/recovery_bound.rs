@@ -9,9 +9,9 @@ use crate::event::Trouble;
 /// Replans for each robot that dropped out. Two do where a dead robot was run into and stands beside its path; a robot
 /// that is still in the way after three is not where others see it.
 const REPLANS: usize = 3;
-/// Recovery may take this long even in a show that is shorter: silence, a drive that is broken off and one that is
-/// planned anew take 15 s.
-const LEAST: Span = Span::from_millis(15_000);
+/// Recovery may take this long even in a show that is shorter: a robot that falls silent, a drive that is broken off and
+/// a short one that is planned anew take 5 s.
+const LEAST: Span = Span::from_millis(5_000);
 
 /// Replans and time that robots that dropped out have cost so far.
 #[derive(Clone, Debug, Default)]

@@ -139,12 +139,28 @@ mod tests {
     }
 
     #[test]
-    fn between_two_sensors_both_see_a_little_farther() {
+    fn between_two_sensors_both_see_a_little_farther_each_with_noise_of_its_own() {
         let mut proximity = Proximity::new(2, 0.027, 1);
         let stances =
             [Stance::new(Vec2::unit(core::f64::consts::FRAC_PI_8)), Stance::new(Vec2::new(1.0, 0.0))];
-        proximity.look(&[(0, 1)], &[Vec2::ZERO, Vec2::new(0.06, 0.0)], &stances);
-        let [ahead, .., right] = proximity.gaps_m(0);
-        assert!((ahead - right).abs() < 1e-6 && (0.006..0.013).contains(&ahead), "{ahead} {right}");
+        let mut looks = (0..1000).map(|_| {
+            proximity.look(&[(0, 1)], &[Vec2::ZERO, Vec2::new(0.06, 0.0)], &stances);
+            let [ahead, .., right] = proximity.gaps_m(0);
+            [ahead, right]
+        });
+        let [ahead, right] = looks.next().unwrap();
+        assert!(ahead != right && (0.006..0.013).contains(&ahead), "{ahead} {right}");
+        let looks: Vec<[f32; 2]> = looks.collect();
+        let mean_m = |of: &dyn Fn(&[f32; 2]) -> f32| looks.iter().map(of).sum::<f32>() / looks.len() as f32;
+        let means_m = [mean_m(&|look| look[0]), mean_m(&|look| look[1])];
+        assert!(
+            (means_m[0] - means_m[1]).abs() < 1e-4 && (0.0094..0.0097).contains(&means_m[0]),
+            "{means_m:?}"
+        );
+        let product = mean_m(&|look| (look[0] - means_m[0]) * (look[1] - means_m[1]));
+        assert!(
+            product.abs() < 0.1 * 0.0007 * 0.0007,
+            "the noise of one goes with that of the other: {product}"
+        );
     }
 }

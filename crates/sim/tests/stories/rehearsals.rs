@@ -66,12 +66,22 @@ fn the_same_seed_gives_the_same_run_to_the_bit() {
 
 #[test]
 fn watching_does_not_change_what_is_watched() {
-    let mut told = Vec::new();
+    let (mut planned_first, mut frames, mut departures) = (None, 0, Vec::new());
     let options = RehearsalOptions { seed: 5, ..RehearsalOptions::default() };
-    let watched = rehearse(&show(8), &options, &mut |progress| told.push(progress));
+    let watched = rehearse(&show(8), &options, &mut |progress| {
+        planned_first.get_or_insert(progress == Progress::Planning);
+        match progress {
+            Progress::Planning => {}
+            Progress::Playing { frames: so_far, .. } => frames = so_far,
+            Progress::Departing { frame, begins_s, paths } => departures.push((frame, begins_s, paths.len())),
+        }
+    });
     assert_eq!(watched, play(&show(8), "", 5));
-    assert_eq!(told[0], Progress::Planning);
-    assert!(matches!(told.last(), Some(Progress::Playing { frames: 1.., .. })));
+    assert!(planned_first == Some(true) && frames > 0);
+    let frame_of = |departure: &(usize, f64, usize)| departure.0;
+    assert!(departures.iter().map(frame_of).eq(0..watched.frames), "{departures:?}");
+    assert!(departures[0].1 == 0.0 && departures.is_sorted_by(|a, b| a.1 < b.1), "{departures:?}");
+    assert!(departures.iter().all(|departure| departure.2 == watched.robots), "{departures:?}");
 }
 
 #[test]
