@@ -10,8 +10,8 @@ use crate::event::Trouble;
 /// that is still in the way after three is not where others see it.
 const REPLANS: usize = 3;
 /// Recovery may take this long even in a show that is shorter: a robot that falls silent, a drive that is broken off and
-/// a short one that is planned anew take 5 s.
-const LEAST: Span = Span::from_millis(5_000);
+/// one around it, that may be long and slow, take 10 s.
+const LEAST: Span = Span::from_millis(10_000);
 
 /// Replans and time that robots that dropped out have cost so far.
 #[derive(Clone, Debug, Default)]

@@ -292,8 +292,14 @@ mod death_tests;
 #[path = "reflex/estimator_tests.rs"]
 mod estimator_tests;
 #[cfg(test)]
+#[path = "reflex/planned_scene_tests.rs"]
+mod planned_scene_tests;
+#[cfg(test)]
 #[path = "reflex/policy_tests.rs"]
 mod policy_tests;
 #[cfg(test)]
 #[path = "reflex/stray_tests.rs"]
 mod stray_tests;
+#[cfg(test)]
+#[path = "reflex/wall_scene_tests.rs"]
+mod wall_scene_tests;

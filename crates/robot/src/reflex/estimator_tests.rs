@@ -1,4 +1,5 @@
-//! How good the estimates of neighbours are, and how honest their covariances: five scenes, ten thousand steps each.
+//! How good the estimates of strangers are, neighbours that the plan does not know, and how honest their covariances: three
+//! scenes, ten thousand steps each. Planned neighbours: planned_scene_tests.rs; walls: wall_scene_tests.rs.
 
 extern crate std;
 
@@ -13,8 +14,8 @@ use super::track::{OwnMotion, Track};
 use super::tracks::Tracks;
 use crate::config::{NeighbourModel, ProximitySensors, SENSORS};
 
-const DT: f32 = 0.016;
-const RADIUS_M: f32 = 0.027;
+pub(super) const DT: f32 = 0.016;
+pub(super) const RADIUS_M: f32 = 0.027;
 /// Accelerations of neighbours, 1 sigma in each axis: ramps of robots have 1 m/s².
 const RAMP_MPS2: f32 = 0.7;
 /// The 95 % quantile of chi-square with four degrees of freedom.
@@ -46,7 +47,7 @@ pub(super) struct Disc {
 }
 
 /// What a sensor reads without noise: the nearest rim in its cone.
-fn reads_m(discs: &[Disc], sensor: usize) -> f32 {
+pub(super) fn reads_m(discs: &[Disc], sensor: usize) -> f32 {
     let axis = Point::unit(sensor as f32 * core::f32::consts::FRAC_PI_4);
     let reads = |disc: &Disc| {
         let ray = disc.at.minus(axis.times(RADIUS_M));
@@ -58,15 +59,17 @@ fn reads_m(discs: &[Disc], sensor: usize) -> f32 {
 }
 
 pub(super) fn readings(discs: &[Disc], dice: &mut Dice) -> [f32; SENSORS] {
-    core::array::from_fn(|sensor| {
-        let gap_m = reads_m(discs, sensor);
-        let noise = dice.normal() * (0.0003 + 0.05 * gap_m.abs());
-        if gap_m.is_finite() { (gap_m + noise).max(0.0) } else { f32::INFINITY }
-    })
+    core::array::from_fn(|sensor| noisy(reads_m(discs, sensor), dice))
+}
+
+/// A reading with the noise of a sensor, metres.
+pub(super) fn noisy(gap_m: f32, dice: &mut Dice) -> f32 {
+    let noise = dice.normal() * (0.0003 + 0.05 * gap_m.abs());
+    if gap_m.is_finite() { (gap_m + noise).max(0.0) } else { f32::INFINITY }
 }
 
 #[derive(Default)]
-struct Tally {
+pub(super) struct Tally {
     places_m: Vec<f32>,
     speeds_mps: Vec<f32>,
     inside: usize,
@@ -82,9 +85,16 @@ impl Tally {
         self.inside += usize::from(track.covariance.mahalanobis2(place, velocity) < CHI2_95);
     }
 
+    /// Adds the errors of the track nearest to a disc.
+    pub fn add_nearest(&mut self, tracks: &Tracks, disc: &Disc) {
+        let off = |track: &&Track| track.at.minus(disc.at).length();
+        let nearest = tracks.iter().min_by(|a, b| off(a).total_cmp(&off(b)));
+        self.add(nearest.filter(|track| off(track) < 0.03), disc);
+    }
+
     /// Median errors of place, metres, and velocity, m/s; share of errors within the 95 % ellipse; share of steps in which
     /// the disc was followed.
-    fn figures(&mut self) -> [f32; 4] {
+    pub fn figures(&mut self) -> [f32; 4] {
         let median = |values: &mut Vec<f32>| {
             values.sort_by(f32::total_cmp);
             values[values.len() / 2]
@@ -138,14 +148,7 @@ fn scene(
             };
             tracks.step(&scan);
             if step >= warm && in_sight {
-                for disc in &discs[..count] {
-                    let off = |track: &&Track| track.at.minus(disc.at).length();
-                    let track = tracks
-                        .iter()
-                        .min_by(|a, b| off(a).total_cmp(&off(b)))
-                        .filter(|track| off(track) < 0.03);
-                    tally.add(track, disc);
-                }
+                discs[..count].iter().for_each(|disc| tally.add_nearest(&tracks, disc));
                 steps += 1;
             }
         }
@@ -153,21 +156,23 @@ fn scene(
     tally.figures()
 }
 
-fn along(dice: &mut Dice) -> OwnMotion {
+pub(super) fn along(dice: &mut Dice) -> OwnMotion {
     OwnMotion { way_m: dice.between(0.0, 0.0043), turn_rad: 0.03 * dice.normal(), dt: DT }
 }
 
-fn any(dice: &mut Dice) -> Point {
+pub(super) fn any(dice: &mut Dice) -> Point {
     Point::unit(dice.between(-PI, PI)).times(0.27 * libm::sqrtf(dice.uniform()))
 }
 
-fn polar(degrees: f32, gap_m: f32) -> Point {
+pub(super) fn polar(degrees: f32, gap_m: f32) -> Point {
     Point::unit(degrees.to_radians()).times(2.0 * RADIUS_M + gap_m)
 }
 
+/// Median errors of place and velocity are at most these, and the 95 % ellipse holds 92 to 98 % of the errors.
+///
 /// A stranger's bearing is hardly seen by one sensor: ±19° are 10 mm to either side. Its covariance says so.
 #[track_caller]
-fn expect(figures: [f32; 4], place_m: f32, speed_mps: f32) {
+pub(super) fn expect(figures: [f32; 4], place_m: f32, speed_mps: f32) {
     let [place, speed, inside, followed] = figures;
     assert!(place <= place_m && speed <= speed_mps, "{figures:?}");
     assert!((0.92..=0.98).contains(&inside) && followed > 0.97, "{figures:?}");
