@@ -49,6 +49,10 @@ pub struct World {
     /// Delay of messages, milliseconds: least, and how much more at most.
     pub delay_ms: (u64, u64),
     pub closest_m: f64,
+    /// How long each plan might take, in the order they were asked for; `None`: as long as it needs.
+    pub budgets: Vec<Option<Span>>,
+    /// So many plans with a budget take longer than that, and are given up.
+    pub slow_plans: usize,
     dice: Dice,
     letters: Vec<Letter>,
 }
@@ -69,6 +73,8 @@ impl World {
             loss: 0,
             delay_ms: (5, 15),
             closest_m: f64::INFINITY,
+            budgets: Vec::new(),
+            slow_plans: 0,
             dice: Dice(7),
             letters: Vec::new(),
         };
@@ -122,7 +128,10 @@ impl World {
 
     fn drain(&mut self) {
         while let Some(job) = self.controller.next_job() {
-            self.controller.planned(self.now, job.run());
+            self.budgets.push(job.budget());
+            let is_over = job.budget().is_some() && self.slow_plans > 0;
+            self.slow_plans -= usize::from(is_over);
+            self.controller.planned(self.now, job.run_unless(&|| is_over));
         }
         while let Some(send) = self.controller.next_send() {
             self.post(send.topic, send.payload, false);
