@@ -78,7 +78,8 @@ fn check_says_where_no_robot_may_stop_dead() {
     assert_eq!(report["transitions"][0]["stop_safe"], share);
     has(worst, &["robot", "pixel", "by", "by_pixel", "frame", "moment", "show_moment", "place", "missing_m"]);
     assert_eq!((&worst["pixel"], &worst["by_pixel"], &worst["frame"]), (&4.into(), &7.into(), &0.into()));
-    assert!((0.008..0.015).contains(&worst["missing_m"].as_f64().unwrap()), "{worst}");
+    // 20 mm to stop and 3 mm to spare, less the 6 mm that there are.
+    assert!((0.010..0.0175).contains(&worst["missing_m"].as_f64().unwrap()), "{worst}");
     let (code, text, _) = run(&["check", &file]);
     assert_eq!(code, 0);
     assert!(text.contains("if the robot for pixel 4 does"), "{text}");

@@ -80,7 +80,8 @@ fn a_run_that_is_stopped_tells_how_long_it_was() {
     play.terminate();
     assert_eq!(play.end(), 1);
     let report: Value = serde_json::from_str(&play.out()).expect("one object");
-    assert!(report["duration_s"].as_f64().unwrap() > 1.0, "{report}");
+    // The drive of 0.1 m takes 0.99 s.
+    assert!(report["duration_s"].as_f64().unwrap() > 0.98, "{report}");
     assert_eq!((report["ok"].as_bool(), report["frames_played"].as_u64()), (Some(false), Some(1)));
 }
 
