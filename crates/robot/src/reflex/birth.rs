@@ -32,7 +32,7 @@ pub(super) fn expected_there(sensor: usize, tracks: &[Track], scan: &Scan<'_>) -
         .min_by(|a, b| a.0.total_cmp(&b.0))?;
     let velocity_variance = scan.of.planned_sigma_mps * scan.of.planned_sigma_mps;
     let covariance = Covariance::new(Point::new(1.0, 0.0), place_m2, place_m2, velocity_variance);
-    let departure = Departure::at_first_sight(sensor, read_m, scan);
+    let departure = Departure::at_first_sight(sensor, read_m, one.at, scan);
     Some(Track { planned: Some(one.index), departure, ..begun(one.at, one.velocity, covariance, scan) })
 }
 
