@@ -51,7 +51,7 @@ pub struct World {
     pub closest_m: f64,
     /// How long each plan might take, in the order they were asked for; `None`: as long as it needs.
     pub budgets: Vec<Option<Span>>,
-    /// So many plans with a budget take longer than that, and are given up.
+    /// How many of the next plans with a budget take longer than it, and are given up.
     pub slow_plans: usize,
     dice: Dice,
     letters: Vec<Letter>,
