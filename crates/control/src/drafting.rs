@@ -1,13 +1,11 @@
 //! Planning, as a job that any thread may run.
 
-use crate::clear::{CELL_M, Floor};
-use crate::hop::{Hop, drive_s};
 use crate::leg::{Errand, Kind, Leg, Move};
 use crate::mapping::{Mapping, Roles};
-use crate::originals::{self, Journey, Stage};
 use crate::separation;
 use crate::surroundings::{Surroundings, surroundings};
 use lightbots_base::{RobotId, Span, Vec2};
+use lightbots_plan::unsynchronised::{self, DriveStage, FreeSpace, StraightDrive, UnsynchronisedProblem};
 use lightbots_plan::{Cancelled, Cast, Path, Transition, TransitionProblem, raise_unless, transition_unless};
 use lightbots_show::{Frame, Pixel, Show};
 use lightbots_wire::MAX_PIECES;
@@ -274,26 +272,26 @@ impl<'a> Draft<'a> {
         let stage = &self.request.show.stage;
         let goals: Vec<Vec2> = rests.iter().map(|rest| rest.goal).collect();
         let original: Vec<bool> = self.request.riders.iter().map(|rider| rider.original).collect();
-        let floor = Floor {
-            half: Vec2::new(stage.width_m / 2.0, stage.depth_m / 2.0),
-            obstacles: &stage.obstacles,
-            radius_m: stage.limits.radius_m,
-            gap_m: stage.limits.contact_m() + originals::MARGIN_M,
-            cell_m: CELL_M,
-        };
+        let half_floor = Vec2::new(stage.width_m / 2.0, stage.depth_m / 2.0);
+        let space = FreeSpace::new(half_floor, &stage.obstacles, &stage.limits);
         let starts = &self.places;
-        let journey =
-            Journey { floor, starts, goals: &goals, original: &original, standing: &self.request.standing };
+        let problem = UnsynchronisedProblem {
+            space,
+            starts,
+            goals: &goals,
+            unsynchronised: &original,
+            standing: &self.request.standing,
+        };
         let drivers: Vec<usize> = (0..starts.len()).filter(|&rider| !original[rider]).collect();
         let drive = |standing: &[Vec2]| self.drive(frame, &drivers, &goals, standing);
-        let stages = originals::stages(&journey, drive)
+        let stages = unsynchronised::stages(&problem, drive)
             .ok_or("robots that only know TARGET cannot be brought there one after the other")?;
         let mut legs = Vec::new();
         let mut places = starts.clone();
         for stage in stages {
             let mut leg = match stage {
-                Stage::Targets(hops) => self.targets(hops, rests),
-                Stage::Routes(paths) => {
+                DriveStage::Targets(hops) => self.targets(hops, rests),
+                DriveStage::Routes(paths) => {
                     let duration = paths.first().map_or(Span::ZERO, |(_, path)| path.as_ref().duration());
                     self.routes(paths, rests, duration, 0.0)?
                 }
@@ -356,8 +354,9 @@ impl<'a> Draft<'a> {
         Ok(leg)
     }
 
-    fn targets(&self, mut hops: Vec<Hop>, rests: &[Move]) -> Leg {
-        let mut leg = self.leg(Kind::Targets, rests, 0, Span::from_secs(drive_s(&hops)), 0.0);
+    fn targets(&self, mut hops: Vec<StraightDrive>, rests: &[Move]) -> Leg {
+        let mut leg =
+            self.leg(Kind::Targets, rests, 0, Span::from_secs(unsynchronised::expected_s(&hops)), 0.0);
         for hop in &mut hops {
             let settles = rests[hop.robot].goal == hop.to;
             hop.robot = self.request.riders[hop.robot].seat;

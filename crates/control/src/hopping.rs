@@ -3,11 +3,11 @@
 use crate::desk::Desk;
 use crate::driving::is_there;
 use crate::event::{EventKind, Trouble};
-use crate::hop::Hop;
 use crate::leg::Leg;
 use crate::run::{Phase, Run};
 use crate::watch::MISSED_M;
 use lightbots_base::{Instant, Span, Vec2};
+use lightbots_plan::unsynchronised::StraightDrive;
 use lightbots_wire::{Command, Topic};
 
 /// A robot is told to go on only when it may go so much farther, metres: it would not move for less.
@@ -103,7 +103,7 @@ impl Hops {
     }
 
     /// Whether the robot has stood still for so long although it was told to go on.
-    fn stands(&self, place: usize, hop: &Hop, now: Instant, since: Span) -> bool {
+    fn stands(&self, place: usize, hop: &StraightDrive, now: Instant, since: Span) -> bool {
         let state = &self.states[place];
         let rests = state.told < 1.0 && (state.told - state.passed) * hop.length_m() < RESTS_M;
         !rests && now - state.moved_at > since
@@ -153,7 +153,7 @@ impl Run {
     }
 
     /// Where a robot is sent that stops a little before its targets, to stand where a hop ends.
-    fn beyond(&self, hop: &Hop, short_m: f64) -> Vec2 {
+    fn beyond(&self, hop: &StraightDrive, short_m: f64) -> Vec2 {
         let stage = &self.show.stage;
         let inset = Vec2::new(stage.limits.radius_m, stage.limits.radius_m);
         let most = Vec2::new(stage.width_m, stage.depth_m) / 2.0 - inset;
@@ -307,7 +307,7 @@ impl Run {
     pub fn hops_passed(&self) -> f64 {
         let Some(leg) = &self.current else { return 0.0 };
         let ways = leg.hops.iter().zip(&self.hops.states);
-        let whole_m: f64 = leg.hops.iter().map(Hop::length_m).sum();
+        let whole_m: f64 = leg.hops.iter().map(StraightDrive::length_m).sum();
         let passed_m: f64 =
             ways.map(|(hop, state)| hop.length_m() * if state.done { 1.0 } else { state.passed }).sum();
         if whole_m > 0.0 { passed_m / whole_m } else { 1.0 }

@@ -1,8 +1,8 @@
 //! One leg of a run: everybody's errand between two moments at which all stand.
 
-use crate::hop::Hop;
 use lightbots_base::{Rgb, Span, Vec2};
 use lightbots_plan::Path;
+use lightbots_plan::unsynchronised::StraightDrive;
 use lightbots_wire::Neighbours;
 use std::sync::Arc;
 
@@ -19,8 +19,8 @@ pub(crate) struct Leg {
     pub kind: Kind,
     /// `[seat]`; seats taken later have none.
     pub moves: Vec<Move>,
-    /// The straight drives of original robots, by seat; see [`Hop`].
-    pub hops: Vec<Hop>,
+    /// The straight drives of original robots, by seat; see [`StraightDrive`].
+    pub hops: Vec<StraightDrive>,
     /// How many moves are no rests.
     pub movers: usize,
     pub duration: Span,

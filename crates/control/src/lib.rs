@@ -17,7 +17,6 @@
 //! ```
 
 mod blocked;
-mod clear;
 mod clock;
 mod config;
 mod controller;
@@ -28,7 +27,6 @@ mod event;
 mod fleet;
 mod hearing;
 mod holding;
-mod hop;
 mod hopping;
 mod leg;
 mod lights;
@@ -36,9 +34,7 @@ mod log;
 mod mapping;
 mod operating;
 mod operation;
-mod originals;
 mod outbox;
-mod rearranging;
 mod recovery;
 mod recovery_bound;
 mod run;

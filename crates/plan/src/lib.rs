@@ -32,6 +32,7 @@ mod repair;
 mod seeded;
 mod show;
 mod transition;
+pub mod unsynchronised;
 
 pub use cancel::Cancelled;
 pub use casting::{Bindings, Cast, Claims, Oddity};

@@ -1,31 +1,35 @@
-//! Straight ways for robots whose speed nobody knows: clear of everything at any speed, or round it by way-points.
+//! Straight lines and paths for one robot while all others stand. Because nothing else moves, they are collision-free at
+//! any speed.
 
-use lightbots_base::Vec2;
+use super::MARGIN_M;
+use lightbots_base::{Limits, Vec2};
 use lightbots_show::Obstacle;
 use std::collections::VecDeque;
 
-/// Side of a cell of the grid on which ways round are looked for first, metres.
-pub(crate) const CELL_M: f64 = 0.04;
-/// A way round begins with a straight line no longer than this, metres.
+/// Side of a grid cell in the first search for a path, metres.
+pub(super) const CELL_M: f64 = 0.04;
+/// Longest straight line from the start to the grid, metres.
 const NEAR_M: f64 = 0.16;
-/// The most cells of that grid.
+/// Most cells of the grid; larger floors are not searched.
 const CELLS_MAX: usize = 1_000_000;
 
-/// The floor on which one robot wants to move while others stand.
-pub(crate) struct Floor<'a> {
-    /// Half width and depth, metres.
-    pub half: Vec2,
+/// The floor on which one robot moves while all others stand.
+#[derive(Clone, Copy, Debug)]
+pub struct FreeSpace<'a> {
+    /// Half the floor's width and depth, metres.
+    pub half_floor: Vec2,
+    /// No-go areas, stage metres.
     pub obstacles: &'a [Obstacle],
-    /// A robot's radius, metres.
+    /// Radius of a robot, metres.
     pub radius_m: f64,
-    /// Distance of centres that is kept where starts and goals allow it, metres.
+    /// Distance of centres to keep, metres. Starts and goals that are closer keep their own distance.
     pub gap_m: f64,
-    /// Side of a cell of the grid on which ways round are looked for, metres.
+    /// Side of a cell of the search grid, metres.
     pub cell_m: f64,
 }
 
-/// How close the segment `a`–`b` comes to `p`.
-pub(crate) fn segment_to_point(a: Vec2, b: Vec2, p: Vec2) -> f64 {
+/// Distance of `p` from the segment `a`–`b`.
+pub(super) fn segment_to_point(a: Vec2, b: Vec2, p: Vec2) -> f64 {
     squared_to_point(a, b, p).sqrt()
 }
 
@@ -36,8 +40,8 @@ fn squared_to_point(a: Vec2, b: Vec2, p: Vec2) -> f64 {
     (a + along * share - p).length_squared()
 }
 
-/// How close two segments come.
-pub(crate) fn segment_to_segment(a: (Vec2, Vec2), b: (Vec2, Vec2)) -> f64 {
+/// Distance of two segments.
+pub(super) fn segment_to_segment(a: (Vec2, Vec2), b: (Vec2, Vec2)) -> f64 {
     let side = |s: (Vec2, Vec2), p: Vec2| (s.1 - s.0).cross(p - s.0);
     let crosses = side(a, b.0) * side(a, b.1) < 0.0 && side(b, a.0) * side(b, a.1) < 0.0;
     if crosses {
@@ -50,15 +54,21 @@ pub(crate) fn segment_to_segment(a: (Vec2, Vec2), b: (Vec2, Vec2)) -> f64 {
         .sqrt()
 }
 
-impl Floor<'_> {
-    /// Whether the straight way `a`–`b` passes a disc at `p`: never closer than the gap or than its own ends are.
-    pub fn passes(&self, a: Vec2, b: Vec2, p: Vec2) -> bool {
+impl<'a> FreeSpace<'a> {
+    /// The floor of robots that drive straight lines without a common clock.
+    pub fn new(half_floor: Vec2, obstacles: &'a [Obstacle], limits: &Limits) -> Self {
+        let gap_m = limits.contact_m() + MARGIN_M;
+        Self { half_floor, obstacles, radius_m: limits.radius_m, gap_m, cell_m: CELL_M }
+    }
+
+    /// Whether the line `a`–`b` keeps the gap to a disc at `p`. Ends that are closer only keep their own distance.
+    pub fn clears_disc(&self, a: Vec2, b: Vec2, p: Vec2) -> bool {
         let needed = self.gap_m.min(a.distance(p)).min(b.distance(p));
         segment_to_point(a, b, p) >= needed - 1e-9 && b.distance(p) >= 2.0 * self.radius_m
     }
 
-    /// Whether the straight way `a`–`b` stays clear of the obstacles.
-    pub fn passes_obstacles(&self, a: Vec2, b: Vec2) -> bool {
+    /// Whether the line `a`–`b` is clear of the obstacles.
+    pub fn clears_obstacles(&self, a: Vec2, b: Vec2) -> bool {
         self.obstacles.iter().all(|obstacle| match *obstacle {
             Obstacle::Disc { at, radius_m } => segment_to_point(a, b, at) >= radius_m + self.radius_m,
             Obstacle::Rect { min, max } => {
@@ -72,48 +82,54 @@ impl Floor<'_> {
         })
     }
 
-    /// Whether the straight way is clear of discs and obstacles.
+    /// Whether the line `a`–`b` is clear of discs and obstacles.
     pub fn is_clear(&self, a: Vec2, b: Vec2, discs: &[Vec2]) -> bool {
-        discs.iter().all(|&disc| self.passes(a, b, disc)) && self.passes_obstacles(a, b)
+        discs.iter().all(|&disc| self.clears_disc(a, b, disc)) && self.clears_obstacles(a, b)
     }
 
-    /// Way-points from `from` to `to`, `to` included, round all discs and obstacles; `None`: there is no way.
-    pub fn way(&self, from: Vec2, to: Vec2, discs: &[Vec2]) -> Option<Vec<Vec2>> {
+    /// Waypoints from `from` to `to` around all discs and obstacles, without `from`; `None`: there is no path.
+    pub fn path(&self, from: Vec2, to: Vec2, discs: &[Vec2]) -> Option<Vec<Vec2>> {
         let came_from = self.search(from, discs, |place| self.is_clear(place, to, discs))?;
         let mut places = vec![to];
         places.extend(came_from);
         places.push(from);
         places.reverse();
-        let mut way = Vec::new();
+        let mut path = Vec::new();
         let mut here = 0;
         while here + 1 < places.len() {
             let next = (here + 1..places.len())
                 .rev()
                 .find(|&next| self.is_clear(places[here], places[next], discs))
                 .unwrap_or(here + 1);
-            way.push(places[next]);
+            path.push(places[next]);
             here = next;
         }
-        Some(way)
+        Some(path)
     }
 
-    /// A place to step aside to, `room_m` from all discs and from `keep_free`, and the way there.
-    pub fn aside(&self, from: Vec2, discs: &[Vec2], keep_free: &[Vec2], room_m: f64) -> Option<Vec<Vec2>> {
+    /// Waypoints to the nearest place that is `room_m` from all discs, from `keep_free` and from `from`.
+    pub fn path_aside(
+        &self,
+        from: Vec2,
+        discs: &[Vec2],
+        keep_free: &[Vec2],
+        room_m: f64,
+    ) -> Option<Vec<Vec2>> {
         let free = |place: Vec2| {
             discs.iter().chain(keep_free).all(|other| other.distance(place) >= room_m)
                 && from.distance(place) >= room_m
         };
         let back = self.search(from, discs, free)?;
-        self.way(from, *back.first()?, discs)
+        self.path(from, *back.first()?, discs)
     }
 
-    /// Breadth first over the grid from `from` to the nearest place that is `wanted`; the places on the way, last
-    /// one first, without `from`.
+    /// Breadth-first search over the grid from `from` to the nearest place that is `wanted`; its places in reverse order,
+    /// without `from`.
     fn search(&self, from: Vec2, discs: &[Vec2], wanted: impl Fn(Vec2) -> bool) -> Option<Vec<Vec2>> {
         if wanted(from) {
             return Some(Vec::new());
         }
-        let room = self.half - Vec2::new(self.radius_m, self.radius_m);
+        let room = self.half_floor - Vec2::new(self.radius_m, self.radius_m);
         let columns = (2.0 * room.x / self.cell_m).max(0.0) as usize + 1;
         let rows = (2.0 * room.y / self.cell_m).max(0.0) as usize + 1;
         if columns.saturating_mul(rows) > CELLS_MAX {
@@ -163,8 +179,8 @@ impl Floor<'_> {
             )
         };
         let mut blocked: Vec<bool> =
-            (0..columns * rows).map(|cell| !self.passes_obstacles(place(cell), place(cell))).collect();
-        // So much more than the gap that steps between two free cells pass too.
+            (0..columns * rows).map(|cell| !self.clears_obstacles(place(cell), place(cell))).collect();
+        // Half a cell more than the gap, so that steps between two free cells keep the gap too.
         let free_m = self.gap_m.hypot(self.cell_m / 2.0);
         let reach = (free_m / self.cell_m) as i64 + 1;
         for &disc in discs {
@@ -194,44 +210,49 @@ fn trace(parent: &[usize], mut cell: usize) -> Vec<usize> {
 mod tests {
     use super::*;
 
-    const FLOOR: Floor<'static> =
-        Floor { half: Vec2::new(1.5, 1.5), obstacles: &[], radius_m: 0.027, gap_m: 0.084, cell_m: CELL_M };
+    const FLOOR: FreeSpace<'static> = FreeSpace {
+        half_floor: Vec2::new(1.5, 1.5),
+        obstacles: &[],
+        radius_m: 0.027,
+        gap_m: 0.084,
+        cell_m: CELL_M,
+    };
 
     #[test]
-    fn a_way_leads_round_a_wall_of_discs() {
+    fn a_path_leads_round_a_wall_of_discs() {
         let wall: Vec<Vec2> = (0..20).map(|i| Vec2::new(0.0, f64::from(i) * 0.1 - 1.0)).collect();
         let (from, to) = (Vec2::new(-0.5, 0.0), Vec2::new(0.5, 0.0));
         assert!(!FLOOR.is_clear(from, to, &wall));
-        let way = FLOOR.way(from, to, &wall).unwrap();
+        let path = FLOOR.path(from, to, &wall).unwrap();
         let mut here = from;
-        for &next in &way {
+        for &next in &path {
             assert!(FLOOR.is_clear(here, next, &wall), "{here:?} {next:?}");
             here = next;
         }
         assert_eq!(here, to);
-        assert!(way.len() < 8, "{way:?}");
+        assert!(path.len() < 8, "{path:?}");
     }
 
     #[test]
-    fn without_a_way_there_is_none() {
+    fn where_all_is_closed_there_is_no_path() {
         let ring: Vec<Vec2> = (0..24).map(|i| Vec2::unit(f64::from(i) * 0.2618) * 0.3).collect();
-        assert!(FLOOR.way(Vec2::ZERO, Vec2::new(1.0, 0.0), &ring).is_none());
+        assert!(FLOOR.path(Vec2::ZERO, Vec2::new(1.0, 0.0), &ring).is_none());
     }
 
     #[test]
     fn obstacles_are_gone_round() {
         let obstacles = [Obstacle::Rect { min: Vec2::new(-0.1, -1.0), max: Vec2::new(0.1, 1.0) }];
-        let floor = Floor { obstacles: &obstacles, ..FLOOR };
-        assert!(!floor.passes_obstacles(Vec2::new(-1.0, 0.0), Vec2::new(1.0, 0.0)));
-        assert!(floor.way(Vec2::new(-1.0, 0.0), Vec2::new(1.0, 0.0), &[]).is_some());
+        let floor = FreeSpace { obstacles: &obstacles, ..FLOOR };
+        assert!(!floor.clears_obstacles(Vec2::new(-1.0, 0.0), Vec2::new(1.0, 0.0)));
+        assert!(floor.path(Vec2::new(-1.0, 0.0), Vec2::new(1.0, 0.0), &[]).is_some());
     }
 
     #[test]
     fn a_place_aside_keeps_goals_free() {
         let discs = [Vec2::new(0.1, 0.0)];
         let goals = [Vec2::new(-0.1, 0.0)];
-        let way = FLOOR.aside(Vec2::ZERO, &discs, &goals, FLOOR.gap_m).unwrap();
-        let place = *way.last().unwrap();
+        let path = FLOOR.path_aside(Vec2::ZERO, &discs, &goals, FLOOR.gap_m).unwrap();
+        let place = *path.last().unwrap();
         assert!(place.distance(discs[0]) >= 0.084 && place.distance(goals[0]) >= 0.084);
     }
 }
