@@ -1,11 +1,13 @@
-//! Build, try, test and measure LightBots: `cargo xtask <demo|test|bench|pairs|formations|tidy>`.
+//! Build, try, test and measure LightBots: `cargo xtask <command>`.
 
 mod bench;
 mod demo;
+mod house;
 mod shell;
 mod test;
 mod tidy;
 mod tools;
+mod walk;
 mod webots;
 
 use std::process::ExitCode;
@@ -17,10 +19,11 @@ cargo xtask <command>
   test [PART…]     run the tests, all of them or some: tidy ui lint rust firmware e2e licences
   bench [PART…]    measure and write docs/benchmarks.md: plan rehearsal noise round light fps
   pairs [COUNT [FIRST [FAULTS]]]   rehearse random pairs of frames, ten thousand unless told otherwise: for the night
-  formations [OPTION VALUE]…       rehearse drives to grids, hexagons, discs, rings and rows of every spacing; --help lists options
+  formations [OPTION VALUE]…       rehearse drives to grids, hexagons, discs, rings and rows of every spacing; see --help
   webots [--robots N] [--floor METRES] [--blind]   write the Webots worlds and put the driver in place
-  webots paces [SHOW…]   play shows with the Webots driver in slow and pausing worlds and print a table: a quarter of an hour
-  tidy             only the checks of the source tree itself
+  webots paces [SHOW…]   play shows with the Webots driver in slow and pausing worlds: a quarter of an hour
+  tidy             check the source tree itself: dependencies, circles of files, names, lengths
+  house [--json] [--tree DIR] [--list KEY]   count what makes the source tree easy or hard to read; --help explains
 ";
 
 fn main() -> ExitCode {
@@ -33,6 +36,7 @@ fn main() -> ExitCode {
         Some("pairs") => shell::cargo(&example("pairs", rest)),
         Some("formations") => shell::cargo(&example("formations", rest)),
         Some("tidy") => tidy::run(),
+        Some("house") => house::run(rest),
         Some("webots") => webots::run(rest),
         Some("help" | "--help" | "-h") => {
             println!("{HELP}");

@@ -4,7 +4,9 @@
 //! |---|---|
 //! | `GET /api/shows` | `ShowEntry[]`, by name |
 //! | `GET /api/shows/{name}` | the document (our format) with its `ETag` |
-//! | `PUT /api/shows/{name}` | body: a document in either format. `If-Match: <etag>` to replace, `If-None-Match: *` to create only; 412 and a `Problem` where another client saved first. Answers the `ShowEntry`: for a read-only show that of a copy, with a name of its own and `copy_of` |
+//! | `PUT /api/shows/{name}` | body: a document in either format. `If-Match: <etag>` to replace, `If-None-Match: *`
+//! to create only; 412 and a `Problem` where another client saved first. Answers the `ShowEntry`: for a read-only
+//! show that of a copy, with a name of its own and `copy_of` |
 //! | `DELETE /api/shows/{name}` | 204; honours `If-Match`; 403 and a `Problem` for a read-only show |
 //! | `POST /api/check` | body: a document; answers a `Plan` with paths |
 //! | `POST /api/convert?to=lightbots\|original` | body: a document; answers it in that format |

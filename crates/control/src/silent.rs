@@ -1,7 +1,8 @@
 //! A driving robot falls silent: the fleet holds.
 //!
 //! It may have died, or nobody hears it and it holds with the others, or its link broke and it drives on along its path
-//! until it stops by itself. Robots that hold where it drives on are seen by its proximity sensors; a dead robot sees nothing.
+//! until it stops by itself. Robots that hold where it drives on are seen by its proximity sensors; a dead robot sees
+//! nothing.
 
 use crate::desk::Desk;
 use crate::driving::Drive;

@@ -1,4 +1,5 @@
-//! Plans that are made while robots stand on the floor and wait: how long they may take, and what follows if they take longer.
+//! Plans that are made while robots stand on the floor and wait: how long they may take, and what follows if they
+//! take longer.
 
 mod fleet;
 

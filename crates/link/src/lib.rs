@@ -1,7 +1,8 @@
 //! A connection to an MQTT broker that mends itself.
 //!
 //! It carries topics and payloads and knows nothing of what they mean. [`BrokerUrl`] says where the broker is, at one
-//! address or several, and [`Trust`] whom to believe over TLS; [`BrokerArguments`] reads both from a command line. [`Link`] stays connected to it: it reconnects with
+//! address or several, and [`Trust`] whom to believe over TLS; [`BrokerArguments`] reads both from a command line.
+//! [`Link`] stays connected to it: it reconnects with
 //! back-off and jitter, to the next address where there are several, subscribes again on every fresh session,
 //! never blocks its user, and drops rather than queues what cannot be sent now: a command that is late is worse than
 //! one that is lost, because the protocol repeats what matters.

@@ -152,7 +152,8 @@ pub struct NeighbourModel {
 
 impl NeighbourModel {
     /// `planned_sigma_m` and `offset_share` were measured in rehearsals with standard conditions on 2026-11-24.
-    /// `accel_sigma_mps2` makes the covariances of planned neighbours honest (reflex/planned_scene_tests.rs). The others were
+    /// `accel_sigma_mps2` makes the covariances of planned neighbours honest (reflex/planned_scene_tests.rs). The
+    /// others were
     /// tuned on formations, random pairs and deaths, 2026-11-23 and 2026-11-24.
     pub const DEFAULT: Self = Self {
         planned_sigma_m: 0.0006,

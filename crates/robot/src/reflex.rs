@@ -89,7 +89,8 @@ impl Reflex {
     }
 
     /// Takes the readings of a step of `dt` seconds in which the robot drove `way_m` forwards and turned `turn_rad`
-    /// counter-clockwise, with the neighbours that the plan expects in sight. `error_m`: error of the own place, 1 sigma. What is not a number is nothing seen.
+    /// counter-clockwise, with the neighbours that the plan expects in sight. `error_m`: error of the own place, 1
+    /// sigma. What is not a number is nothing seen.
     pub(crate) fn look(
         &mut self,
         gaps_m: Option<&[f32; SENSORS]>,

@@ -18,7 +18,8 @@ const MOST_LOOKS: usize = 200_000_000;
 /// On the original's floor of 3 m by 3 m the first thirty stand on y = 1.3 m from x = −1.45 m. Places on obstacles
 /// are left out.
 ///
-/// Robots larger than an Elisa-3 get as much more room. Always `count` places: rows get closer, down to 60 mm for an Elisa-3, where the floor is small, and where that is not enough they
+/// Robots larger than an Elisa-3 get as much more room. Always `count` places: rows get closer, down to 60 mm for an
+/// Elisa-3, where the floor is small, and where that is not enough they
 /// go on beyond its edge, which [`validate`](crate::validate) reports.
 pub fn front_rows(stage: &Stage, count: usize) -> Vec<Vec2> {
     let size = (stage.limits.radius_m / Limits::ELISA_3.radius_m).clamp(1.0, 100.0);

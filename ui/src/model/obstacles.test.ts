@@ -60,5 +60,6 @@ test('limits are written only where they are set, and survive the document', () 
   const again = readShow(JSON.parse(JSON.stringify(writeShow(slow))));
   expect(limitOf(again.stage, 'speed_mps')).toBe(0.1);
   expect(again.stage.radius_m).toBe(0.05);
-  expect((writeShow(slow) as { stage: { robot: unknown } }).stage.robot).toEqual({ speed_mps: 0.1, radius_m: 0.05 }); // prettier-ignore
+  const written = writeShow(slow) as { stage: { robot: unknown } };
+  expect(written.stage.robot).toEqual({ speed_mps: 0.1, radius_m: 0.05 });
 });

@@ -1,21 +1,52 @@
-//! Files stay small enough to be read.
+//! Files and functions stay small enough to be read.
 
 use super::{files, shown};
+use crate::house::FUNCTION_LINES_MAX;
+use crate::house::functions::{Function, functions};
 use std::path::Path;
 
-const LONGEST_SOURCE: usize = 600;
-const LONGEST_COMPONENT: usize = 150;
+/// Lines of a Rust or TypeScript file, at most.
+const SOURCE_LINES_MAX: usize = 600;
+/// Lines of a file with UI components, at most.
+const COMPONENT_LINES_MAX: usize = 150;
 
-/// Every file that has grown too long. Generated files are not read by people.
+/// Every file and Rust function that is too long. Generated files are not read by people.
 pub fn findings(root: &Path) -> Vec<String> {
-    files(root, &["rs", "ts", "tsx"])
-        .iter()
-        .filter(|path| !path.to_string_lossy().ends_with(".gen.ts"))
-        .filter_map(|path| {
-            let lines = std::fs::read_to_string(path).ok()?.lines().count();
-            let component = path.extension().is_some_and(|ending| ending == "tsx");
-            let most = if component { LONGEST_COMPONENT } else { LONGEST_SOURCE };
-            (lines > most).then(|| format!("{}: {lines} lines, {most} are the most", shown(root, path)))
-        })
-        .collect()
+    let mut found = Vec::new();
+    for path in files(root, &["rs", "ts", "tsx"]) {
+        let Ok(text) = std::fs::read_to_string(&path) else { continue };
+        let place = shown(root, &path).to_string();
+        if place.ends_with(".gen.ts") {
+            continue;
+        }
+        let most = if place.ends_with(".tsx") { COMPONENT_LINES_MAX } else { SOURCE_LINES_MAX };
+        let lines = text.lines().count();
+        if lines > most {
+            found.push(format!("{place}: {lines} lines, {most} are the most"));
+        }
+        if place.ends_with(".rs") {
+            found.extend(long_functions(&text).iter().map(|function| {
+                let Function { name, line, lines } = function;
+                format!("{place}:{line}: `{name}` has {lines} lines, {FUNCTION_LINES_MAX} are the most")
+            }));
+        }
+    }
+    found
+}
+
+fn long_functions(text: &str) -> Vec<Function> {
+    let all = syn::parse_file(text).map(|syntax| functions(&syntax)).unwrap_or_default();
+    all.into_iter().filter(|function| function.lines > FUNCTION_LINES_MAX).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_function_of_seventy_lines_is_short_enough() {
+        let with = |lines: usize| format!("fn f() {{\n{}}}\n", "g();\n".repeat(lines - 2));
+        assert!(long_functions(&with(FUNCTION_LINES_MAX)).is_empty());
+        assert_eq!(long_functions(&with(FUNCTION_LINES_MAX + 1)).len(), 1);
+    }
 }

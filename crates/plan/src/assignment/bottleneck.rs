@@ -2,7 +2,8 @@
 //!
 //! Whether a perfect matching exists within a reach is decided by augmenting paths (breadth-first searches from all
 //! open rows at once, Azad, Buluç & Pothen 2017) over edges that are never listed: a k-d tree hands out places within
-//! reach that the search has not seen yet (Efrat, Itai & Katz 2001). The reach is bisected between bounds that a failed search
+//! reach that the search has not seen yet (Efrat, Itai & Katz 2001). The reach is bisected between bounds that a
+//! failed search
 //! and a found matching sharpen to distances that really occur.
 
 use super::NONE;

@@ -4,10 +4,12 @@
 //! Everybody's way is a smooth spline in time ([`weave`]). First all take their shortest way ([`around`]) in some manner
 //! ([`guess`]): straight or in bows, together or whoever is near first, kept from gathering in the middle or spread out
 //! on the way ([`crowd`]); what promises most is tried first. Whoever comes too close is bent aside ([`relax`]), with a
-//! little more time at each stage for the moments that need it ([`thick`]), and the last few that do not come past each other are sent elsewhere. Where that does
+//! little more time at each stage for the moments that need it ([`thick`]), and the last few that do not come past
+//! each other are sent elsewhere. Where that does
 //! not do, a crowd gets more time, and loosens before anybody goes anywhere ([`attempts`]). Crowds too thick for that
 //! first learn their order on a hexagonal lattice ([`lattice`], [`dock`], [`search`], [`steps`]), and the same
-//! relaxation makes that smooth and swift; between walls the lattice follows gaps from corner to corner ([`corners`]). The last resort are ways with
+//! relaxation makes that smooth and swift; between walls the lattice follows gaps from corner to corner
+//! ([`corners`]). The last resort are ways with
 //! stops ([`stops`]) over a roadmap ([`roadmap`]): slow, but what the search ([`push`]) finds can be driven as it is.
 //! All that is for robots like the Elisa-3; those of other sizes are scaled to them first ([`scale`]).
 //! Every loop is bounded, nothing is random, and the proof has the last word; where it only finds a turn too sharp, all

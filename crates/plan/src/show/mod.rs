@@ -26,7 +26,8 @@ pub struct ShowOptions {
 /// The plan of a show.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ShowPlan {
-    /// `transitions[k]` leads to frame k: as many as frames, none where the show is not fit to be planned. Where `issues` has an error it is the best that could be
+    /// `transitions[k]` leads to frame k: as many as frames, none where the show is not fit to be planned. Where
+    /// `issues` has an error it is the best that could be
     /// drawn, not proven.
     pub transitions: Vec<Transition>,
     /// `mapping[k][robot]`: id of the pixel that robot shows in frame k; `None`: it is spare.

@@ -11,7 +11,8 @@ use lightbots_base::braking::stopping_m;
 const DT: f32 = 0.016;
 const SPEED_MPS: f32 = 0.27;
 const RUNS: usize = 2000;
-/// How far each of the two is off its route, 1 sigma in each axis, metres: 0.5 to 0.9 mm along the line of sight were measured
+/// How far each of the two is off its route, 1 sigma in each axis, metres: 0.5 to 0.9 mm along the line of sight were
+/// measured
 /// in rehearsals with standard conditions on 2026-11-24.
 const OFF_M: f32 = 0.001;
 /// Steps before the other dies, and after.

@@ -17,7 +17,8 @@ const STOPS: usize = 6;
 /// fit in.
 const STOP_EVERY_M: f32 = 0.002;
 /// Share of a log-likelihood ratio that remains after a step. The model of the offset is only approximate, and in seconds
-/// small misfits add up: at 1, robots that drove side by side for 4 s, 2 mm off the neighbour's spline, braked (formation 274).
+/// small misfits add up: at 1, robots that drove side by side for 4 s, 2 mm off the neighbour's spline, braked
+/// (formation 274).
 const REMEMBERED: f32 = 0.95;
 /// Directions from the axis of the sensor that sees a neighbour first in which it may stand, radians: 16° apart.
 const FIRST_BEARINGS_RAD: [f32; 5] = [-0.56, -0.28, 0.0, 0.28, 0.56];

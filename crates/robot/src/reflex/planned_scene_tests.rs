@@ -1,4 +1,5 @@
-//! How good the estimates of planned neighbours are, and how honest their covariances: three scenes, ten thousand steps each.
+//! How good the estimates of planned neighbours are, and how honest their covariances: three scenes, ten thousand
+//! steps each.
 
 extern crate std;
 

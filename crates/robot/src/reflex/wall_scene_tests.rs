@@ -122,11 +122,13 @@ fn wall_from(from_m: f32, dice: &mut Dice) -> Wall {
     Wall([from_m, 1.0].map(|along_m| foot.plus(towards.left().times(along_m))))
 }
 
-/// Median errors of place, metres, and velocity, m/s, are at most `medians`; at least the share `inside` of the errors lies in
+/// Median errors of place, metres, and velocity, m/s, are at most `medians`; at least the share `inside` of the
+/// errors lies in
 /// the 95 % ellipse; in 90 % of the steps the gap is wrong by -4 mm to `far_m`.
 ///
 /// The goals are 2 mm, 20 mm/s and 92 to 98 %. They are missed because a wall is no disc. Three sensors or more see `a_wall`
-/// in half of the steps, while at most two see one disc. Each track explains some of their readings, so that up to four discs
+/// in half of the steps, while at most two see one disc. Each track explains some of their readings, so that up to
+/// four discs
 /// stand for the wall, beside its nearest point. Measured on 2026-11-24 in `a_wall`, the ellipse holds 87 % of the errors
 /// where one sensor sees the wall, 65 % where two do, and 12 % where three do or more. The bearing is wrong more than the
 /// gap, and the robot brakes by the gap.

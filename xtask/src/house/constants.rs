@@ -1,0 +1,162 @@
+//! Constants: whether each has a doc of its own, and whether that says where its value comes from.
+
+use super::tree::string;
+use quote::ToTokens;
+use syn::visit::{self, Visit};
+use syn::{Attribute, Expr, Ident, Type};
+
+/// A constant outside tests.
+pub struct Constant {
+    /// Its name.
+    pub name: String,
+    /// Line of its name.
+    pub line: usize,
+    /// Its doc, empty where it has none.
+    pub doc: String,
+    /// Whether its value is a number or holds numbers. Texts and tables of texts have no source.
+    pub numeric: bool,
+    /// Whether its value is calculated from other constants.
+    pub derived: bool,
+}
+
+impl Constant {
+    /// Whether the doc or the value says where the value comes from.
+    pub fn has_source(&self) -> bool {
+        self.derived || names_source(&self.doc)
+    }
+}
+
+/// All constants of a file, those of `impl` blocks included; `const _` is an assertion and is left out.
+pub fn constants(syntax: &syn::File) -> Vec<Constant> {
+    let mut found = Found(Vec::new());
+    found.visit_file(syntax);
+    found.0
+}
+
+struct Found(Vec<Constant>);
+
+impl Found {
+    fn add(&mut self, name: &Ident, attributes: &[Attribute], kind: &Type, value: &Expr) {
+        if name == "_" {
+            return;
+        }
+        let kind = kind.to_token_stream().to_string();
+        self.0.push(Constant {
+            name: name.to_string(),
+            line: name.span().start().line,
+            doc: doc(attributes),
+            numeric: !["str", "char", "bool"].iter().any(|text| kind.contains(text)),
+            derived: words(&value.to_token_stream().to_string()).any(is_constant_name),
+        });
+    }
+}
+
+impl<'ast> Visit<'ast> for Found {
+    fn visit_item_const(&mut self, item: &'ast syn::ItemConst) {
+        self.add(&item.ident, &item.attrs, &item.ty, &item.expr);
+        visit::visit_item_const(self, item);
+    }
+
+    fn visit_impl_item_const(&mut self, item: &'ast syn::ImplItemConst) {
+        self.add(&item.ident, &item.attrs, &item.ty, &item.expr);
+        visit::visit_impl_item_const(self, item);
+    }
+}
+
+fn doc(attributes: &[Attribute]) -> String {
+    let lines = attributes.iter().filter(|attribute| attribute.path().is_ident("doc"));
+    let lines = lines.filter_map(|attribute| match &attribute.meta {
+        syn::Meta::NameValue(pair) => string(&pair.value),
+        _ => None,
+    });
+    lines.collect::<Vec<_>>().join("\n")
+}
+
+/// Phrases that name a source: a paper, an equation, a data sheet, a standard, a measurement or a tuning run.
+const SOURCES: [&str; 21] = [
+    " et al",
+    "equation",
+    " eq. ",
+    "theorem",
+    "lemma",
+    "chapter",
+    "section ",
+    "§",
+    "rfc ",
+    "ieee",
+    "mqtt 3",
+    "data sheet",
+    "datasheet",
+    "measured",
+    "measurement",
+    "tuned on",
+    "chosen on",
+    "by definition",
+    "docs/",
+    "stated in",
+    "protocol",
+];
+
+/// Whether a doc names a paper, data sheet, measurement, tuning, rule of the protocol, page, or other constants.
+fn names_source(doc: &str) -> bool {
+    let lower = doc.to_lowercase();
+    SOURCES.iter().any(|phrase| lower.contains(phrase))
+        || words(doc).any(|word| is_rule(word) || is_constant_name(word) || is_year(word))
+}
+
+fn words(text: &str) -> impl Iterator<Item = &str> {
+    text.split(|letter: char| !letter.is_alphanumeric() && letter != '_')
+}
+
+/// A name such as `GAP_M`: at least three letters, all upper-case, and an underscore unless it is long.
+fn is_constant_name(word: &str) -> bool {
+    let capital = |letter: char| letter.is_ascii_uppercase() || letter.is_ascii_digit() || letter == '_';
+    word.starts_with(|first: char| first.is_ascii_uppercase())
+        && word.chars().all(capital)
+        && (word.contains('_') || word.len() > 4)
+        && !["PROTO", "MQTT", "TARGET", "COLOR", "START", "RESUME", "STATUS", "BLINK"].contains(&word)
+}
+
+/// A rule of docs/protocol.md, such as `R49`.
+fn is_rule(word: &str) -> bool {
+    word.strip_prefix('R').is_some_and(|number| number.len() < 3 && number.parse::<u8>().is_ok())
+}
+
+/// The year of a publication or measurement.
+fn is_year(word: &str) -> bool {
+    word.len() == 4 && word.parse::<u16>().is_ok_and(|year| (1950..2050).contains(&year))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn one(text: &str) -> Constant {
+        constants(&syn::parse_file(text).expect("Rust")).pop().expect("one constant")
+    }
+
+    #[test]
+    fn a_source_is_a_paper_a_measurement_a_rule_or_another_constant() {
+        assert!(!one("/// Metres: robots nearer than this stop.\nconst A_M: f64 = 1.0;").has_source());
+        assert!(
+            one("/// Gravity, m/s² (Coulomb friction, Thrun 2005, eq. 5.3).\nconst A: f64 = 1.0;")
+                .has_source()
+        );
+        assert!(one("/// Metres, measured on 2026-11-20.\nconst A_M: f64 = 1.0;").has_source());
+        assert!(one("/// Seconds of silence (R43).\nconst A_S: f64 = 2.0;").has_source());
+        assert!(one("/// Half of `STEP_US`.\nconst A_US: u64 = 8;").has_source());
+        assert!(one("const A_US: u64 = STEP_US / 2;").has_source());
+    }
+
+    #[test]
+    fn texts_are_not_numeric_and_assertions_are_no_constants() {
+        assert!(!one("const HELP: &str = \"help\";").numeric);
+        assert!(one("const TABLE: [(f64, f64); 1] = [(1.0, 2.0)];").numeric);
+        assert!(constants(&syn::parse_file("const _: () = assert!(true);").expect("Rust")).is_empty());
+    }
+
+    #[test]
+    fn constants_of_types_count() {
+        assert_eq!(one("impl A { const B: u8 = 1; }").name, "B");
+    }
+}

@@ -1,0 +1,93 @@
+//! A type name has one meaning in the whole repository.
+
+use crate::house::names::doubled;
+use crate::house::tree::Source;
+
+/// Names that may stand in more than one place, and in how many at most.
+const EXCEPTIONS: [(&str, usize); 57] = [
+    ("Abilities", 2),
+    ("Body", 2),
+    ("Broker", 2),
+    ("Cast", 2),
+    ("Choice", 2),
+    ("Clock", 2),
+    ("Closest", 2),
+    ("Command", 2),
+    ("Config", 2),
+    ("Connections", 2),
+    ("Course", 2),
+    ("Crowd", 3),
+    ("Cursor", 2),
+    ("Desk", 3),
+    ("Drive", 3),
+    ("Fleet", 3),
+    ("Floor", 2),
+    ("Heard", 2),
+    ("Issue", 2),
+    ("Kind", 2),
+    ("Library", 2),
+    ("Log", 4),
+    ("Message", 2),
+    ("Near", 2),
+    ("News", 2),
+    ("Operation", 2),
+    ("Order", 2),
+    ("Other", 2),
+    ("Outbox", 2),
+    ("Outcome", 2),
+    ("Pace", 3),
+    ("Path", 2),
+    ("Phase", 2),
+    ("Place", 3),
+    ("Progress", 2),
+    ("Proximity", 2),
+    ("Purpose", 2),
+    ("Request", 2),
+    ("Robot", 3),
+    ("Send", 2),
+    ("Sensors", 2),
+    ("Settings", 2),
+    ("Severity", 2),
+    ("Shared", 2),
+    ("Slip", 2),
+    ("Stage", 3),
+    ("State", 2),
+    ("Stretch", 2),
+    ("Tag", 2),
+    ("Thing", 2),
+    ("To", 2),
+    ("Transition", 2),
+    ("Trial", 2),
+    ("Trust", 2),
+    ("Verdict", 2),
+    ("Watch", 3),
+    ("Wish", 3),
+];
+
+/// Every type name with two meanings.
+pub fn findings(sources: &[Source]) -> Vec<String> {
+    let wrong = doubled(sources).into_iter().filter(|(name, places)| places.len() > meanings_max(name));
+    wrong
+        .map(|(name, places)| format!("`{name}` has {} meanings: {}", places.len(), places.join(", ")))
+        .collect()
+}
+
+fn meanings_max(name: &str) -> usize {
+    EXCEPTIONS.iter().find(|(exception, _)| *exception == name).map_or(1, |(_, most)| *most)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::house::tree::parsed;
+
+    #[test]
+    fn a_second_meaning_is_found() {
+        let file = |name: &str| parsed(&format!("crates/a/src/{name}.rs"), "pub struct Unheard;");
+        assert!(findings(&[file("a")]).is_empty());
+        assert_eq!(
+            findings(&[file("a"), file("b")]),
+            ["`Unheard` has 2 meanings: crates/a/src/a.rs:1, crates/a/src/b.rs:1"]
+        );
+    }
+}

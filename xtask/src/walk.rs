@@ -1,0 +1,30 @@
+//! Files of the source tree.
+
+use std::path::{Path, PathBuf};
+
+/// Folders with build outputs or history.
+const SKIPPED: [&str; 4] = ["target", "node_modules", "dist", ".git"];
+
+/// Files under `folder` with one of these endings, sorted by path; build outputs are left out.
+pub fn files(folder: &Path, endings: &[&str]) -> Vec<PathBuf> {
+    let mut found = Vec::new();
+    let mut left = vec![folder.to_path_buf()];
+    while let Some(folder) = left.pop() {
+        for entry in std::fs::read_dir(&folder).into_iter().flatten().flatten() {
+            let path = entry.path();
+            let name = entry.file_name();
+            if path.is_dir() && !SKIPPED.iter().any(|skipped| name == *skipped) {
+                left.push(path);
+            } else if endings.iter().any(|ending| path.extension().is_some_and(|found| found == *ending)) {
+                found.push(path);
+            }
+        }
+    }
+    found.sort();
+    found
+}
+
+/// A path below the root as findings print it.
+pub fn shown<'a>(root: &Path, path: &'a Path) -> std::path::Display<'a> {
+    path.strip_prefix(root).unwrap_or(path).display()
+}
