@@ -31,7 +31,7 @@ const EXCEPTIONS: [(&str, usize); 57] = [
     ("Near", 2),
     ("News", 2),
     ("Operation", 2),
-    ("Order", 2),
+    ("Order", 3),
     ("Other", 2),
     ("Outbox", 2),
     ("Outcome", 2),
