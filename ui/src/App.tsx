@@ -10,8 +10,8 @@ import { Header } from './shell/Header';
 import { LinkBanner } from './shell/LinkBanner';
 import { OfferDialog } from './shell/OfferDialog';
 import { OpenBanner } from './shell/OpenBanner';
-import { createSession, SessionContext } from './shell/session';
-import { useView } from './shell/useHash';
+import { createSession, SessionContext } from './session/session';
+import { useView } from './session/useHash';
 import { theme } from './theme';
 
 export function App() {

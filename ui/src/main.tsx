@@ -3,7 +3,7 @@ import './styles.css';
 import './narrow.css';
 import { createRoot } from 'react-dom/client';
 import { App } from './App';
-import { followFocus } from './shell/focusOrigin';
+import { followFocus } from './parts/focusOrigin';
 
 const root = document.getElementById('root');
 if (!root) throw new Error('The page has no root.');

@@ -19,7 +19,7 @@ import {
   IconStar,
   type Icon,
 } from '@tabler/icons-react';
-import { IconButton } from '../shell/IconButton';
+import { IconButton } from '../parts/IconButton';
 import * as acts from './acts';
 import { useEditing } from './context';
 import type { Editing } from './editing';

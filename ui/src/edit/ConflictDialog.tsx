@@ -2,9 +2,9 @@ import { Button, Modal, Stack, Text } from '@mantine/core';
 import { getShow, listShows, putShow, Refused } from '../api/http';
 import { useStore } from '../base/store';
 import { readShow, writeShow } from '../model/json';
-import { tell } from '../shell/notices';
-import { useSession } from '../shell/session';
-import { freeName } from '../shell/upload';
+import { tell } from '../session/notices';
+import { useSession } from '../session/session';
+import { freeName } from '../session/upload';
 import { useEditing } from './context';
 
 /** Somebody else saved this show meanwhile: people choose, nothing is overwritten silently. */

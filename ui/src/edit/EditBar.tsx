@@ -8,11 +8,11 @@ import {
 import { useMemo, type ReactNode } from 'react';
 import { useStore } from '../base/store';
 import { clockText } from '../base/time';
-import { IconButton } from '../shell/IconButton';
+import { IconButton } from '../parts/IconButton';
 import { segmentAt, timelineOf, totalOf } from '../model/timeline';
-import { startPlay } from '../live/start';
-import { useSession } from '../shell/session';
-import { goTo } from '../shell/useHash';
+import { startPlay } from '../session/start';
+import { useSession } from '../session/session';
+import { goTo } from '../session/useHash';
 import { useEditing, useEditor } from './context';
 import { ExportMenu } from './ExportMenu';
 import { SaveMark } from './SaveMark';

@@ -1,9 +1,9 @@
-import { useKeys } from '../shell/useKeys';
+import { useKeys } from '../parts/useKeys';
 import { fitView, zoomView } from '../stage/ViewTools';
 import * as acts from './acts';
 import { useEditing } from './context';
 import type { Looks } from './editing';
-import { tell } from '../shell/notices';
+import { tell } from '../session/notices';
 
 /** Metres an arrow key moves: alone, with Shift, with Alt. */
 const STEPS = [

@@ -1,9 +1,9 @@
 import { Button, Group, Text, Title } from '@mantine/core';
 import { useEffect, useRef, useState } from 'react';
 import { useStore } from '../base/store';
-import { Bottom } from '../shell/Bottom';
-import { createShowInLibrary } from '../shell/createShow';
-import { useSession } from '../shell/session';
+import { Bottom } from '../parts/Bottom';
+import { createShowInLibrary } from '../session/createShow';
+import { useSession } from '../session/session';
 import { ConflictDialog } from './ConflictDialog';
 import { EditingContext } from './context';
 import { EditBar } from './EditBar';

@@ -10,8 +10,8 @@ import { StageHint } from './StageHint';
 import { StageTools } from './StageTools';
 import { usePlayback } from './usePlayback';
 import { useHand } from './useHand';
-import { unitStore } from '../shell/preferences';
-import { useKeys } from '../shell/useKeys';
+import { unitStore } from '../session/preferences';
+import { useKeys } from '../parts/useKeys';
 
 /** The same scene as long as nothing it is made of changed. */
 function rememberScene(editing: Editing): () => Scene {

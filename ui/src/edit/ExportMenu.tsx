@@ -2,10 +2,10 @@ import { ActionIcon, Menu } from '@mantine/core';
 import { IconDownload } from '@tabler/icons-react';
 import { convertShow, listShows, putShow } from '../api/http';
 import { writeShow } from '../model/json';
-import { download } from '../shell/download';
-import { tell } from '../shell/notices';
-import { useSession } from '../shell/session';
-import { freeName } from '../shell/upload';
+import { download } from '../session/download';
+import { tell } from '../session/notices';
+import { useSession } from '../session/session';
+import { freeName } from '../session/upload';
 import { useEditing } from './context';
 
 /** The show as a file: ours, or the original's. */

@@ -1,9 +1,9 @@
+import type { Obstacle } from '../base/geometry';
 import { ActionIcon, Button, Group, Stack, Text } from '@mantine/core';
 import { IconTrash } from '@tabler/icons-react';
 import { addObstacle, removeObstacle, setObstacle } from '../model/obstacles';
 import { setStage } from '../model/commands';
-import { LengthInput } from '../shell/LengthInput';
-import type { Obstacle } from '../stage/scene';
+import { LengthInput } from '../parts/LengthInput';
 import { useEditing, useEditor } from './context';
 
 /** Areas that are listed with their numbers; the rest is on the floor. */

@@ -1,8 +1,8 @@
 import { Button, Checkbox, Group, SegmentedControl, Stack, Text, TextInput } from '@mantine/core';
 import { useStore } from '../base/store';
 import { secondsText } from '../base/time';
-import { NumberField } from '../shell/NumberField';
-import { useSession } from '../shell/session';
+import { NumberField } from '../parts/NumberField';
+import { useSession } from '../session/session';
 import * as acts from './acts';
 import { useEditing, useEditor } from './context';
 

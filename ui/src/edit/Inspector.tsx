@@ -1,7 +1,7 @@
 import { Tabs } from '@mantine/core';
 import { useStore } from '../base/store';
-import { useSession } from '../shell/session';
-import { IssueList } from '../live/IssueList';
+import { useSession } from '../session/session';
+import { IssueList } from '../parts/IssueList';
 import { ArrangeSection } from './ArrangeSection';
 import { ColourSection } from './ColourSection';
 import { useEditing } from './context';

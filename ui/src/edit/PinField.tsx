@@ -1,11 +1,11 @@
 import { Group, Select } from '@mantine/core';
 import { IconBulb } from '@tabler/icons-react';
 import { useStore } from '../base/store';
-import { IconButton } from '../shell/IconButton';
-import { shortId } from '../live/robotWords';
+import { IconButton } from '../parts/IconButton';
+import { shortId } from '../session/robotWords';
 import { pinPixel } from '../model/commands';
 import type { Pixel } from '../model/show';
-import { useSession } from '../shell/session';
+import { useSession } from '../session/session';
 import { useEditing } from './context';
 
 /** Which robot must show a pixel, in every frame. */

@@ -1,7 +1,7 @@
 import { Button, Group, Stack, Text } from '@mantine/core';
 import { useMemo } from 'react';
-import { boxOf, centreOf } from '../model/geometry';
-import { LengthInput } from '../shell/LengthInput';
+import { boxOf, centreOf } from '../base/geometry';
+import { LengthInput } from '../parts/LengthInput';
 import * as acts from './acts';
 import { useEditing, useEditor } from './context';
 import { PinField } from './PinField';

@@ -2,9 +2,9 @@ import { Button, Group, SegmentedControl, Stack, Text } from '@mantine/core';
 import { useStore } from '../base/store';
 import { fleetSize, setFleetSize, setShow } from '../model/commands';
 import { limitOf, LIMITS_USUAL, setLimit, type LimitName } from '../model/limits';
-import { LengthInput } from '../shell/LengthInput';
-import { NumberField } from '../shell/NumberField';
-import { useSession } from '../shell/session';
+import { LengthInput } from '../parts/LengthInput';
+import { NumberField } from '../parts/NumberField';
+import { useSession } from '../session/session';
 import { useEditing, useEditor } from './context';
 
 /** The most pixels a frame is given here; larger shows come from files. */

@@ -2,7 +2,7 @@ import { Stack, Text, TextInput } from '@mantine/core';
 import { useStore } from '../base/store';
 import { clockText } from '../base/time';
 import { setShow } from '../model/commands';
-import { useSession } from '../shell/session';
+import { useSession } from '../session/session';
 import { useEditing, useEditor } from './context';
 
 /** Title and verdict. */

@@ -1,10 +1,9 @@
+import { type Box, type Point, boxOf, centreOf, inBox } from '../base/geometry';
 import type { Rgb } from '../base/colour';
 import * as arrange from '../model/arrange';
 import * as commands from '../model/commands';
-import { boxOf, centreOf, inBox, type Box } from '../model/geometry';
 import { letterPoints } from '../model/letters';
 import { tooClose_m, type Pixel, type Show, type Stage } from '../model/show';
-import type { Point } from '../stage/camera';
 import { keepColour, type Editing } from './editing';
 
 /** Robots this far apart are easy to plan: arrangements keep it where they can, metres. */

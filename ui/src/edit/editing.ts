@@ -1,13 +1,13 @@
 import type { Rgb } from '../base/colour';
 import { createStore, type Store } from '../base/store';
-import { createFullPlan, type FullPlan } from '../live/paths';
+import { createFullPlan, type FullPlan } from '../session/fullPlan';
 import { createEditor, type Editor } from '../model/editor';
 import type { Keeper } from '../model/drafts';
 import type { Saver } from '../model/saver';
 import type { Show } from '../model/show';
-import type { Session } from '../shell/session';
+import type { Session } from '../session/session';
 import { createView, type View } from '../stage/view';
-import { followCopy } from '../shell/copies';
+import { followCopy } from '../session/copies';
 import { createSaving, draftOf, restoreDraft, type Saving } from './saving';
 import { watchLeaving } from './watchLeaving';
 

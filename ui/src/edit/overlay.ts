@@ -1,5 +1,5 @@
-import { canvasFromStage, type Camera, type Point } from '../stage/camera';
-import { boxOf } from '../model/geometry';
+import { type Point, boxOf } from '../base/geometry';
+import { canvasFromStage, type Camera } from '../stage/camera';
 import type { EditorState } from '../model/editor';
 import { marksOf, type Marks } from '../model/marks';
 import type { Frame } from '../model/show';

@@ -11,8 +11,8 @@ import type { Editor } from '../model/editor';
 import { readShow, writeShow } from '../model/json';
 import { createSaver, type Saved, type Saver } from '../model/saver';
 import type { Show } from '../model/show';
-import { tell } from '../shell/notices';
-import type { Session } from '../shell/session';
+import { tell } from '../session/notices';
+import type { Session } from '../session/session';
 
 /** Where the changes of a show go: soon to this browser's storage, and to the server. */
 export interface Saving {

@@ -1,10 +1,12 @@
+import type { Dot } from '../base/geometry';
 import type { Plan } from '../api/types.gen';
-import { pathsTo } from '../live/paths';
-import { floorOf, hollowOf } from '../live/scene';
+import { pathsTo } from '../model/plannedPaths';
+import { hollowOf } from '../model/dots';
+import { unitStore } from '../session/preferences';
 import type { EditorState } from '../model/editor';
 import type { Frame } from '../model/show';
 import { dotsAt, timelineOf } from '../model/timeline';
-import type { Dot, Scene } from '../stage/scene';
+import { floorOf, type Scene } from '../stage/scene';
 import type { Looks } from './editing';
 import { paintOverlay } from './overlay';
 
@@ -31,7 +33,7 @@ export function editScene(
   moment: number | null,
 ): Scene {
   const { show, frame } = state;
-  const base = { ...floorOf(show.stage), errors: NOTHING };
+  const base = { ...floorOf(show.stage, unitStore.get()), errors: NOTHING };
   if (moment !== null && plan) {
     const filled = dotsAt(show, plan, timelineOf(show, plan), moment);
     const hollow = looks.ghosts ? hollowOf(show.frames[frame]) : NOTHING;

@@ -1,14 +1,15 @@
+import type { Point } from '../base/geometry';
 import { useEffect, useMemo } from 'react';
 import { useStore } from '../base/store';
 import { lengthText } from '../base/units';
-import { unitStore } from '../shell/preferences';
+import { unitStore } from '../session/preferences';
 import { createArrowTool } from '../model/arrowTool';
 import { createEyedropper } from '../model/eyedropper';
 import { createObstacleTool } from '../model/obstacleTool';
 import { createLassoTool } from '../model/lassoTool';
 import { pixelAt, type Tool, type Touch } from '../model/tool';
 import { createTransformTool } from '../model/transformTool';
-import { gridStep, stageFromCanvas, type Point } from '../stage/camera';
+import { gridStep, stageFromCanvas } from '../stage/camera';
 import type { Hand } from '../stage/pointer';
 import * as acts from './acts';
 import { keepColour, type Editing } from './editing';

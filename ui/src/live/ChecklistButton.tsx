@@ -1,9 +1,9 @@
 import { ActionIcon, Indicator, Tooltip } from '@mantine/core';
 import { IconChecklist } from '@tabler/icons-react';
 import { useStore } from '../base/store';
-import { useSession } from '../shell/session';
-import { isReady } from './checklist';
-import { checkNow } from './start';
+import { useSession } from '../session/session';
+import { isReady } from '../session/checklist';
+import { checkNow } from '../session/start';
 
 /** Opens the checklist; says before Play is pressed whether something is missing. */
 export function ChecklistButton() {

@@ -1,6 +1,6 @@
 import { Button, Group, Modal, Text } from '@mantine/core';
 import type { FleetRow } from '../api/types.gen';
-import { driveQuestion } from './fleetKind';
+import { driveQuestion } from '../session/fleetKind';
 
 interface Props {
   opened: boolean;

@@ -1,5 +1,5 @@
 import { useStore } from '../base/store';
-import { useSession } from '../shell/session';
+import { useSession } from '../session/session';
 
 /** How much of the drive to the frame is done: the one thing here that changes with every snapshot. */
 export function DriveProgress() {

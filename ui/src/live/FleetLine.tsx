@@ -1,10 +1,10 @@
 import { IconBulb, IconDots, IconPinFilled } from '@tabler/icons-react';
 import { memo } from 'react';
 import type { FleetRow } from '../api/types.gen';
-import { IconButton } from '../shell/IconButton';
-import type { Session } from '../shell/session';
-import { canDrive, CHARGE_LOW } from './checklist';
-import * as words from './robotWords';
+import { IconButton } from '../parts/IconButton';
+import type { Session } from '../session/session';
+import { canDrive, CHARGE_LOW } from '../session/checklist';
+import * as words from '../session/robotWords';
 
 interface Props {
   row: FleetRow;

@@ -1,7 +1,7 @@
 import { Badge, Tabs } from '@mantine/core';
 import { useState } from 'react';
 import { useStore } from '../base/store';
-import { useSession } from '../shell/session';
+import { useSession } from '../session/session';
 import { FleetTable } from './FleetTable';
 import { LogList } from './LogList';
 import { ShowFacts } from './ShowFacts';

@@ -3,7 +3,7 @@ import { useMemo, useState } from 'react';
 import type { FleetRow } from '../api/types.gen';
 import { useStore } from '../base/store';
 import { pinsOf } from '../model/commands';
-import { useSession } from '../shell/session';
+import { useSession } from '../session/session';
 import { FleetLine } from './FleetLine';
 import { RobotDialog } from './RobotDialog';
 

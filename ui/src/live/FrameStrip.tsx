@@ -1,6 +1,6 @@
 import { useEffect, useRef } from 'react';
 import { useStore } from '../base/store';
-import { useSession } from '../shell/session';
+import { useSession } from '../session/session';
 import { Thumbnail } from '../stage/Thumbnail';
 import { isRunning } from './scene';
 

@@ -1,4 +1,4 @@
-import { Bottom } from '../shell/Bottom';
+import { Bottom } from '../parts/Bottom';
 import { FailureNote } from './FailureNote';
 import { FleetSide } from './FleetSide';
 import { FrameStrip } from './FrameStrip';

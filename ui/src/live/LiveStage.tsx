@@ -1,13 +1,14 @@
+import { pathsTo } from '../model/plannedPaths';
 import { IconRoute, IconTarget } from '@tabler/icons-react';
-import { useKeys } from '../shell/useKeys';
+import { useKeys } from '../parts/useKeys';
 import { useCallback, useEffect, useMemo, useState } from 'react';
 import { useStore } from '../base/store';
-import { useSession } from '../shell/session';
+import { useSession } from '../session/session';
 import { StageCanvas } from '../stage/StageCanvas';
 import { createView } from '../stage/view';
 import { fitView, StageTool, zoomView, ZoomTools } from '../stage/ViewTools';
 import { createCloseWatch } from './closeWatch';
-import { createFullPlan, pathsTo } from './paths';
+import { createFullPlan } from '../session/fullPlan';
 import { RobotTwin } from './RobotTwin';
 import { liveScene, wrongIn } from './scene';
 

@@ -2,8 +2,8 @@ import { SegmentedControl } from '@mantine/core';
 import { useEffect, useRef, useState } from 'react';
 import { useStorePaced } from '../base/store';
 import type { LogLine } from '../api/types.gen';
-import { useSession } from '../shell/session';
-import { shortId, shortNames } from './robotWords';
+import { useSession } from '../session/session';
+import { shortId, shortNames } from '../session/robotWords';
 
 const WORDS = { debug: '', info: '', warn: 'Warning: ', error: 'Error: ' } as const;
 

@@ -1,7 +1,7 @@
 import { Button, Tooltip } from '@mantine/core';
 import { useStore } from '../base/store';
 import { clockText } from '../base/time';
-import { useSession } from '../shell/session';
+import { useSession } from '../session/session';
 import { phaseText } from './actions';
 
 /** Frame x of y, who is still on the way, time left. */

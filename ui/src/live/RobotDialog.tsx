@@ -3,9 +3,9 @@ import { useMemo } from 'react';
 import type { FleetRow } from '../api/types.gen';
 import { useStore } from '../base/store';
 import { fleetSize, pinPixel, pinsOf } from '../model/commands';
-import { changeShow } from '../shell/changeShow';
-import { useSession } from '../shell/session';
-import * as words from './robotWords';
+import { changeShow } from '../session/changeShow';
+import { useSession } from '../session/session';
+import * as words from '../session/robotWords';
 
 /** Everything about one robot, and what can be done with it. */
 export function RobotDialog({ row, onClose }: { row: FleetRow | null; onClose: () => void }) {

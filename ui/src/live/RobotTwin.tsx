@@ -1,8 +1,8 @@
 import { useEffect, useState } from 'react';
 import { ROBOT_STATUSES, type Fleet, type Robots } from '../api/types.gen';
 import { colourName } from '../base/colour';
-import { useSession } from '../shell/session';
-import { presenceText } from './robotWords';
+import { useSession } from '../session/session';
+import { presenceText } from '../session/robotWords';
 
 /** Robots that are listed; a screen reader is not helped by ten thousand. */
 const LISTED_MAX = 200;

@@ -3,9 +3,9 @@ import type { Plan } from '../api/types.gen';
 import { useStore } from '../base/store';
 import { clockText } from '../base/time';
 import { sizeText } from '../base/units';
-import { useUnit } from '../shell/preferences';
-import { useSession } from '../shell/session';
-import { IssueList } from './IssueList';
+import { useUnit } from '../session/preferences';
+import { useSession } from '../session/session';
+import { IssueList } from '../parts/IssueList';
 
 /** The open show in numbers, and what is wrong with it. */
 export function ShowFacts() {

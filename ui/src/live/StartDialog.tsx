@@ -6,9 +6,9 @@ import {
   IconHourglass,
 } from '@tabler/icons-react';
 import { useStore } from '../base/store';
-import { useSession } from '../shell/session';
-import { canDrive, canGoOn, isReady, type Check } from './checklist';
-import { checkNow, whenPlanned } from './start';
+import { useSession } from '../session/session';
+import { canDrive, canGoOn, isReady, type Check } from '../session/checklist';
+import { checkNow, whenPlanned } from '../session/start';
 
 const MARKS = {
   good: [IconCircleCheck, 'Fine'],

@@ -10,15 +10,15 @@ import {
 } from '@tabler/icons-react';
 import { useEffect, useState, type ReactNode } from 'react';
 import { useStore } from '../base/store';
-import { IconButton } from '../shell/IconButton';
-import { useSession } from '../shell/session';
+import { IconButton } from '../parts/IconButton';
+import { useSession } from '../session/session';
 import { actionsOf, type Action } from './actions';
 import { ChecklistButton } from './ChecklistButton';
 import { DriveDialog } from './DriveDialog';
 import { DriveProgress } from './DriveProgress';
-import { fleetKind } from './fleetKind';
+import { fleetKind } from '../session/fleetKind';
 import { PlayState } from './PlayState';
-import { followPlan, startPlay, whenPlanned } from './start';
+import { followPlan, startPlay, whenPlanned } from '../session/start';
 import { useTransportKeys } from './useTransportKeys';
 
 const ICONS = {

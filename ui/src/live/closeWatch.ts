@@ -1,5 +1,6 @@
+import type { Point } from '../base/geometry';
 import { crowded } from '../model/marks';
-import { canvasFromStage, type Camera, type Point } from '../stage/camera';
+import { canvasFromStage, type Camera } from '../stage/camera';
 
 /** Looked for this often, milliseconds: among thousands it takes a while. */
 const EVERY_MS = 200;

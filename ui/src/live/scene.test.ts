@@ -3,8 +3,8 @@ import type { FleetRow, Presence } from '../api/types.gen';
 import { newShow } from '../model/show';
 import { createCloseWatch } from './closeWatch';
 import { fade, liveScene, wrongIn } from './scene';
-import { robotsOf } from './robots.testing';
-import { createLive, hear } from './store';
+import { robotsOf } from '../session/robots.testing';
+import { createLive, hear } from '../session/live';
 
 const row = (presence: Presence): FleetRow => ({
   id: presence,

@@ -1,10 +1,11 @@
 import type { Fleet, Phase, Plan } from '../api/types.gen';
-import { unitStore } from '../shell/preferences';
+import { unitStore } from '../session/preferences';
 import { paintPins } from '../stage/pinMark';
-import { contact_m, EMPTY_STAGE, type Frame, type Show, type Stage } from '../model/show';
-import type { Dot, Scene } from '../stage/scene';
+import { contact_m, EMPTY_STAGE, type Show } from '../model/show';
+import { hollowOf } from '../model/dots';
+import { floorOf, type Scene } from '../stage/scene';
 import { paintClose, type CloseWatch } from './closeWatch';
-import type { Live } from './store';
+import type { Live } from '../session/live';
 
 const ALPHAS = { active: 1, stale: 0.4, gone: 0.15 } as const;
 const fades = new WeakMap<Fleet, (robot: number) => number>();
@@ -24,29 +25,6 @@ export function fade(fleet: Fleet): (robot: number) => number {
 export const isRunning = (phase: Phase) => phase !== 'idle' && phase !== 'ready';
 
 const NOTHING: readonly never[] = [];
-const hollows = new WeakMap<Frame, readonly Dot[]>();
-
-/** A frame's pixels as planned places; the same list for the same frame. */
-export function hollowOf(frame: Frame | undefined): readonly Dot[] {
-  if (!frame) return NOTHING;
-  let dots = hollows.get(frame);
-  if (!dots) {
-    dots = frame.pixels.map((p) => ({ x: p.x, y: p.y, color: p.color, alpha: 0.75 }));
-    hollows.set(frame, dots);
-  }
-  return dots;
-}
-
-/** The empty floor of a stage, in the unit of this screen. */
-export const floorOf = (stage: Stage) => ({
-  width_m: stage.width_m,
-  depth_m: stage.depth_m,
-  radius_m: stage.radius_m,
-  obstacles: stage.obstacles,
-  grid: true,
-  unit: unitStore.get(),
-});
-
 export interface SceneWish {
   show: Show | null;
   /** The frame chosen in the strip. */
@@ -77,7 +55,7 @@ export function liveScene(live: Live, wish: SceneWish, now_ms: number): Scene {
     wish.show?.frames[wish.chosen]?.pixels.filter((p) => wish.wrong.has(p.id)) ?? NOTHING;
   const close = wish.close.find(sample.filled, contact_m(stage), now_ms);
   return {
-    ...floorOf(stage),
+    ...floorOf(stage, unitStore.get()),
     filled: sample.filled,
     hollow: wish.targets ? hollow : NOTHING,
     errors: wish.targets && running ? sample.errors : NOTHING,

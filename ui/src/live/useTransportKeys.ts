@@ -1,6 +1,6 @@
-import { useKeys } from '../shell/useKeys';
+import { useKeys } from '../parts/useKeys';
 import { useStore } from '../base/store';
-import { useSession } from '../shell/session';
+import { useSession } from '../session/session';
 import type { Action } from './actions';
 
 /** The keys of the live view. */

@@ -1,7 +1,6 @@
+import { type Point, along, boxOf, inPolygon, rotate } from '../base/geometry';
 import { expect, test } from 'vitest';
-import type { Point } from '../stage/camera';
 import { align, distribute, grid, line, mirror, shape, spread } from './arrange';
-import { along, boxOf, inPolygon, rotate } from './geometry';
 
 const at = (...pairs: [number, number][]): Point[] => pairs.map(([x, y]) => ({ x, y }));
 const least = (points: Point[]) =>

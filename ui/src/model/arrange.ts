@@ -1,5 +1,4 @@
-import type { Point } from '../stage/camera';
-import { along, boxOf, centreOf, type Box } from './geometry';
+import { type Box, type Point, along, boxOf, centreOf } from '../base/geometry';
 
 /** Places of the chosen pixels, in the order of their ids; each arrangement gives as many back. */
 export type Places = readonly Point[];

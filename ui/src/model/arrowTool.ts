@@ -1,7 +1,6 @@
-import type { Point } from '../stage/camera';
+import { type Point, boxBetween, inBox } from '../base/geometry';
 import { placePixels } from './commands';
 import { NO_OVERLAY, type Editor } from './editor';
-import { boxBetween, inBox } from './geometry';
 import { snap } from './snap';
 import { pixelAt, type Tool, type Touch } from './tool';
 

@@ -1,5 +1,5 @@
+import type { Point } from '../base/geometry';
 import { mix, type Rgb } from '../base/colour';
-import type { Point } from '../stage/camera';
 import { frontRows, newFrame, newKey, type Frame, type Pixel, type Show, type Stage } from './show';
 
 /** Every change of a show: pure, and the same show when there is nothing to do. */

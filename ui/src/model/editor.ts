@@ -1,6 +1,6 @@
+import type { Point } from '../base/geometry';
 import type { Rgb } from '../base/colour';
 import { createStore, type Store } from '../base/store';
-import type { Point } from '../stage/camera';
 import * as commands from './commands';
 import { noHistory, remember, stepBack, stepForth, type History } from './history';
 import type { Guide } from './snap';

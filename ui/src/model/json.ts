@@ -1,5 +1,5 @@
+import type { Obstacle } from '../base/geometry';
 import { fromHex, toHex } from '../base/colour';
-import type { Obstacle } from '../stage/scene';
 import { EMPTY_STAGE, newKey, type Frame, type Pixel, type Show, type Stage } from './show';
 
 type Json = Record<string, unknown>;

@@ -1,6 +1,5 @@
-import type { Point } from '../stage/camera';
+import { type Point, inPolygon } from '../base/geometry';
 import { NO_OVERLAY } from './editor';
-import { inPolygon } from './geometry';
 import { pixelAt, type Tool } from './tool';
 
 /** Corners of a lasso; beyond it the last one moves. */

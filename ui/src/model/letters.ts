@@ -1,5 +1,4 @@
-import type { Point } from '../stage/camera';
-import { along } from './geometry';
+import { type Point, along } from '../base/geometry';
 
 /** Strokes of each letter on a grid 2 wide and 4 high: places as pairs of digits x y, strokes parted by spaces. */
 const STROKES: Record<string, string> = {

@@ -1,5 +1,4 @@
-import type { Point } from '../stage/camera';
-import type { Obstacle } from '../stage/scene';
+import type { Obstacle, Point } from '../base/geometry';
 import { NO_OVERLAY } from './editor';
 import { addObstacle, obstacleAt, obstacleBetween, setObstacle, shiftObstacle } from './obstacles';
 import type { Show } from './show';

@@ -1,7 +1,5 @@
-import type { Point } from '../stage/camera';
-import type { Obstacle } from '../stage/scene';
+import { type Obstacle, type Point, boxBetween } from '../base/geometry';
 import { setStage } from './commands';
-import { boxBetween } from './geometry';
 import type { Show } from './show';
 
 /** The most a document may have. */

@@ -1,5 +1,5 @@
+import type { Point } from '../base/geometry';
 import type { Path } from '../api/types.gen';
-import type { Point } from '../stage/camera';
 
 /** Where a path is `t` seconds after its start. Before it rests at its start, afterwards at its end. */
 export function pathAt(path: Path, t: number): Point {

@@ -1,5 +1,5 @@
+import type { Obstacle } from '../base/geometry';
 import type { Rgb } from '../base/colour';
-import type { Obstacle } from '../stage/scene';
 
 /** A show: frames in playing order, and the stage they play on. Values are never changed in place. */
 export interface Show {

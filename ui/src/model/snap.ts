@@ -1,4 +1,4 @@
-import type { Point } from '../stage/camera';
+import type { Point } from '../base/geometry';
 
 /** A line that shows what something snapped to, stage metres. */
 export interface Guide {

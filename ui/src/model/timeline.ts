@@ -1,6 +1,6 @@
+import type { Dot } from '../base/geometry';
 import type { Plan } from '../api/types.gen';
 import { mix } from '../base/colour';
-import type { Dot } from '../stage/scene';
 import { pathAt } from './path';
 import type { Show } from './show';
 

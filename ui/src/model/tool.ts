@@ -1,4 +1,4 @@
-import type { Point } from '../stage/camera';
+import type { Point } from '../base/geometry';
 import type { Editor } from './editor';
 
 /** A pointer on the stage, stage metres. */

@@ -1,7 +1,6 @@
-import type { Point } from '../stage/camera';
+import { type Box, type Point, boxOf, centreOf, rotate, scaleAbout } from '../base/geometry';
 import { placePixels } from './commands';
 import { NO_OVERLAY, type Editor } from './editor';
-import { boxOf, centreOf, rotate, scaleAbout, type Box } from './geometry';
 import type { Tool } from './tool';
 
 /** Which handle of the box around the selection: a corner or side, or the knob that turns. */

@@ -14,8 +14,8 @@ import type { BrokerSettings } from '../api/types.gen';
 import { useStore } from '../base/store';
 import { connectOf, fieldsOf, usesTls, type BrokerFields } from './brokerForm';
 import { brokerText } from './brokerWords';
-import { attempt } from './libraryActs';
-import { useSession } from './session';
+import { attempt } from '../session/libraryActs';
+import { useSession } from '../session/session';
 
 /** Which broker, how it is reached, and how far the connection is. */
 export function BrokerSection() {

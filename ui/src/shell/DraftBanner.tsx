@@ -2,9 +2,9 @@ import { Button } from '@mantine/core';
 import { useStore } from '../base/store';
 import { getShow, putShow, Refused } from '../api/http';
 import type { LeftDraft } from '../model/drafts';
-import { attempt } from './libraryActs';
-import { useSession } from './session';
-import { goTo } from './useHash';
+import { attempt } from '../session/libraryActs';
+import { useSession } from '../session/session';
+import { goTo } from '../session/useHash';
 
 /** Says that an earlier page left changes the server never got, and where they are. */
 export function DraftBanner() {

@@ -1,6 +1,6 @@
 import { useEffect, useState } from 'react';
-import { useSession } from './session';
-import { uploadShow } from './upload';
+import { useSession } from '../session/session';
+import { uploadShow } from '../session/upload';
 
 /** Takes a show file dropped anywhere on the page. */
 export function DropFile() {

@@ -1,6 +1,6 @@
 import { Button, SegmentedControl, Tooltip } from '@mantine/core';
-import { useEscape } from './useEscape';
-import { useKeys } from './useKeys';
+import { useEscape } from '../parts/useEscape';
+import { useKeys } from '../parts/useKeys';
 import {
   IconFolderOpen,
   IconHandStop,
@@ -10,14 +10,14 @@ import {
 } from '@tabler/icons-react';
 import { useCallback, useState } from 'react';
 import { useStore } from '../base/store';
-import { IconButton } from './IconButton';
+import { IconButton } from '../parts/IconButton';
 import { KeyboardMap } from './KeyboardMap';
 import { LibraryDialog } from './LibraryDialog';
-import { createShowInLibrary } from './createShow';
+import { createShowInLibrary } from '../session/createShow';
 import { FleetPill, KindPill, LinkPill } from './Pills';
-import { useSession } from './session';
+import { useSession } from '../session/session';
 import { SettingsDialog } from './SettingsDialog';
-import { goTo, type View } from './useHash';
+import { goTo, type View } from '../session/useHash';
 
 type Dialog = 'library' | 'keys' | 'settings' | null;
 

@@ -4,13 +4,13 @@ import { useCallback, useEffect, useState } from 'react';
 import { listShows } from '../api/http';
 import type { ShowEntry } from '../api/types.gen';
 import { useStore } from '../base/store';
-import { createShowInLibrary } from './createShow';
-import { attempt, copyShow, renameShow } from './libraryActs';
+import { createShowInLibrary } from '../session/createShow';
+import { attempt, copyShow, renameShow } from '../session/libraryActs';
 import { LibraryEntry } from './LibraryEntry';
 import { NameDialog } from './NameDialog';
-import { useSession } from './session';
-import { uploadShow } from './upload';
-import { goTo } from './useHash';
+import { useSession } from '../session/session';
+import { uploadShow } from '../session/upload';
+import { goTo } from '../session/useHash';
 
 /** Every show on the server: open one, add one, begin one. */
 export function LibraryDialog({ opened, onClose }: { opened: boolean; onClose: () => void }) {

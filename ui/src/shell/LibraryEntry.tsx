@@ -1,8 +1,8 @@
 import { ActionIcon, Menu } from '@mantine/core';
 import { IconDots } from '@tabler/icons-react';
 import type { ShowEntry } from '../api/types.gen';
-import { downloadShow } from './download';
-import { attempt, deleteWithUndo } from './libraryActs';
+import { downloadShow } from '../session/download';
+import { attempt, deleteWithUndo } from '../session/libraryActs';
 import { ShowThumbnail } from './ShowThumbnail';
 
 interface Props {

@@ -1,6 +1,6 @@
 import { Button } from '@mantine/core';
 import { useStore } from '../base/store';
-import { useSession } from './session';
+import { useSession } from '../session/session';
 
 /** Says that the server is away. The page tries again by itself; the button is for the impatient. */
 export function LinkBanner() {

@@ -1,6 +1,6 @@
 import { Button, Group, Modal, Text } from '@mantine/core';
 import { useStore } from '../base/store';
-import { useSession } from './session';
+import { useSession } from '../session/session';
 
 /** A refusal with a way to go on: say why, and let people choose. */
 export function OfferDialog() {

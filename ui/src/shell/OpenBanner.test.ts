@@ -1,9 +1,9 @@
 import { createElement } from 'react';
 import { renderToStaticMarkup } from 'react-dom/server';
 import { expect, test } from 'vitest';
-import { createLive, hear } from '../live/store';
+import { createLive, hear } from '../session/live';
 import { OpenBanner } from './OpenBanner';
-import { SessionContext, type Session } from './session';
+import { SessionContext, type Session } from '../session/session';
 
 test('a server that is open to the network says so until it is not', () => {
   const live = createLive();

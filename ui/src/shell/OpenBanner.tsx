@@ -1,5 +1,5 @@
 import { useStore } from '../base/store';
-import { useSession } from './session';
+import { useSession } from '../session/session';
 
 /** Says that the server is open to the network, as long as it is. */
 export function OpenBanner() {

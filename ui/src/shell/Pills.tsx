@@ -1,8 +1,8 @@
 import { Tooltip } from '@mantine/core';
 import type { ReactNode } from 'react';
 import { useStore } from '../base/store';
-import { fleetKind, KIND_WORDS, kindHint } from '../live/fleetKind';
-import { useSession } from './session';
+import { fleetKind, KIND_WORDS, kindHint } from '../session/fleetKind';
+import { useSession } from '../session/session';
 
 type Tone = 'good' | 'warn' | 'bad' | 'quiet';
 

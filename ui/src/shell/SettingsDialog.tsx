@@ -11,9 +11,9 @@ import {
 import { useStore } from '../base/store';
 import { isUnit, UNITS, type Unit } from '../base/units';
 import { BrokerSection } from './BrokerSection';
-import { setUnit, useUnit } from './preferences';
-import { useSession } from './session';
-import { goTo } from './useHash';
+import { setUnit, useUnit } from '../session/preferences';
+import { useSession } from '../session/session';
+import { goTo } from '../session/useHash';
 
 interface Props {
   opened: boolean;

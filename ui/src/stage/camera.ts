@@ -1,3 +1,5 @@
+import type { Point } from '../base/geometry';
+
 /** Where on the canvas a place of the stage is. The only conversion between metres and CSS pixels. */
 export interface Camera {
   /** CSS pixels a metre. */
@@ -5,11 +7,6 @@ export interface Camera {
   /** CSS pixel of the stage's origin. */
   originX_px: number;
   originY_px: number;
-}
-
-export interface Point {
-  x: number;
-  y: number;
 }
 
 export interface Size {

@@ -1,6 +1,7 @@
+import type { Dot } from '../base/geometry';
 import { canvasFromStage, type Camera } from './camera';
 import { createFloorLayer, type FloorPicture } from './floorLayer';
-import type { Dot, Scene } from './scene';
+import type { Scene } from './scene';
 import { createCrowd, CROWD } from './crowd';
 import { addLines } from './lines';
 import { createSprites, isOff } from './sprites';

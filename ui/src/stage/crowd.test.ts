@@ -1,7 +1,7 @@
+import type { Dot } from '../base/geometry';
 import { expect, test } from 'vitest';
 import { createCrowd } from './crowd';
 import { addLines } from './lines';
-import type { Dot } from './scene';
 
 const camera = { scale: 10, originX_px: 20, originY_px: 20 };
 const draw = (dots: Dot[], side = 40) => {

@@ -1,7 +1,7 @@
+import type { Dot } from '../base/geometry';
 import { blue, green, luma, red } from '../base/colour';
 import type { Camera } from './camera';
 import { CORE_ALPHA, CORE_RADII, GLOW_RADII, glowAlpha } from './glow';
-import type { Dot } from './scene';
 import { createStamps, type Ink, type Pixels, type Round, type Stamps } from './stamps';
 
 /** From so many lights on they are added up in numbers: sprites of many colours cost more. */

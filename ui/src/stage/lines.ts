@@ -1,4 +1,5 @@
-import type { Camera, Point } from './camera';
+import type { Point } from '../base/geometry';
+import type { Camera } from './camera';
 import type { Pixels } from './stamps';
 
 /** How much white a line adds, 0 to 255. */

@@ -1,4 +1,5 @@
-import { canvasFromStage, type Camera, type Point } from './camera';
+import type { Point } from '../base/geometry';
+import { canvasFromStage, type Camera } from './camera';
 
 const PIN = '#edb256';
 

@@ -1,5 +1,6 @@
+import type { Point } from '../base/geometry';
 import type { Store } from '../base/store';
-import { panBy, zoomAt, type Camera, type Point } from './camera';
+import { panBy, zoomAt, type Camera } from './camera';
 import type { View } from './view';
 
 /** Pointer events on the stage, canvas CSS pixels. `adds`: a finger was held still, which is a finger's Shift. */

@@ -1,20 +1,7 @@
-import type { Rgb } from '../base/colour';
+import type { Dot, Obstacle, Point, Polyline } from '../base/geometry';
 import type { Unit } from '../base/units';
-import type { Camera, Point } from './camera';
-
-/** A disc on the floor, stage metres. */
-export interface Dot {
-  x: number;
-  y: number;
-  color: Rgb;
-  /** 1 is there, less is stale or a ghost. */
-  alpha: number;
-}
-
-/** Something on the floor that robots must not touch, stage metres. */
-export type Obstacle =
-  | { kind: 'disc'; x: number; y: number; radius_m: number }
-  | { kind: 'rect'; minX: number; minY: number; maxX: number; maxY: number };
+import type { Stage } from '../model/show';
+import type { Camera } from './camera';
 
 /** Everything a renderer draws. Measured places are filled, planned ones hollow; neither is drawn as the other. */
 export interface Scene {
@@ -31,8 +18,18 @@ export interface Scene {
   hollow: readonly Dot[];
   /** From measured to planned: the error. Pairs of ends. */
   errors: readonly [Point, Point][];
-  /** Planned ways, each a line of points. */
-  paths: readonly { points: readonly Point[]; color: Rgb }[];
+  /** Planned paths. */
+  paths: readonly Polyline[];
   /** Drawn last, in CSS pixels. */
   overlay?: (context: CanvasRenderingContext2D, camera: Camera) => void;
 }
+
+/** The empty floor of a show's stage, with a grid and rulers in `unit`. */
+export const floorOf = (stage: Stage, unit: Unit) => ({
+  width_m: stage.width_m,
+  depth_m: stage.depth_m,
+  radius_m: stage.radius_m,
+  obstacles: stage.obstacles,
+  grid: true,
+  unit,
+});

@@ -1,5 +1,5 @@
+import type { Dot } from '../base/geometry';
 import type { Camera } from './camera';
-import type { Dot } from './scene';
 
 /** Places within a pixel that have a stamp of their own, along each axis: what moves slowly still moves smoothly. */
 const PHASES = 4;

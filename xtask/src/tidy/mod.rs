@@ -3,6 +3,7 @@
 mod circles;
 mod edges;
 mod names;
+mod screen;
 mod sizes;
 mod sources;
 mod width;
@@ -22,6 +23,7 @@ pub fn run() -> Outcome {
         width::findings(&root),
         circles::findings(&parsed),
         names::findings(&parsed),
+        screen::findings(&root),
     ]
     .into_iter()
     .flatten()

@@ -1,4 +1,27 @@
-import type { Point } from '../stage/camera';
+import type { Rgb } from './colour';
+
+export interface Point {
+  x: number;
+  y: number;
+}
+
+/** A coloured disc of light on the floor, stage metres. */
+export interface Dot extends Point {
+  color: Rgb;
+  /** 1: solid. A smaller value fades the dot, because it is stale or belongs to another frame. */
+  alpha: number;
+}
+
+/** A coloured line through points, stage metres. */
+export interface Polyline {
+  points: readonly Point[];
+  color: Rgb;
+}
+
+/** An area of the floor that robots must not touch, stage metres. */
+export type Obstacle =
+  | { kind: 'disc'; x: number; y: number; radius_m: number }
+  | { kind: 'rect'; minX: number; minY: number; maxX: number; maxY: number };
 
 export interface Box {
   minX: number;

@@ -1,6 +1,6 @@
-import type { Session } from '../shell/session';
+import type { Session } from './session';
 import { checklistOf, isReady, type Check } from './checklist';
-import type { Opened } from './store';
+import type { Opened } from './live';
 
 type Desk = Pick<Session, 'live' | 'waiting' | 'editing'>;
 

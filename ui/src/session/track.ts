@@ -1,6 +1,5 @@
+import type { Dot, Point } from '../base/geometry';
 import type { Robots } from '../api/types.gen';
-import type { Point } from '../stage/camera';
-import type { Dot } from '../stage/scene';
 
 /**
  * Where robots were measured, drawn smoothly. Robots report about twice a second: each is drawn on its way between its

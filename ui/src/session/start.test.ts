@@ -1,13 +1,13 @@
 import { expect, test, vi } from 'vitest';
 import { createStore } from '../base/store';
-import type { Session } from '../shell/session';
+import type { Session } from './session';
 import { createEditor } from '../model/editor';
 import { readShow } from '../model/json';
 import { createSaver, type Saved } from '../model/saver';
 import type { ShowEntry } from '../api/types.gen';
-import { copyText, followCopy } from '../shell/copies';
+import { copyText, followCopy } from './copies';
 import { followPlan, whenPlanned } from './start';
-import { createLive, hear } from './store';
+import { createLive, hear } from './live';
 
 const PLAN = {
   ok: true,

@@ -1,6 +1,6 @@
 import { expect, test } from 'vitest';
 import type { LogLine } from '../api/types.gen';
-import { createLive, hear } from './store';
+import { createLive, hear } from './live';
 
 const line = (id: number, text: string): LogLine => ({
   id,

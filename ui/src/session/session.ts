@@ -3,7 +3,7 @@ import type { Link } from '../api/socket';
 import type { Answer, Choice, Operation } from '../api/types.gen';
 import { createStore, type Store } from '../base/store';
 import { createDrafts, type Drafts, type LeftDraft } from '../model/drafts';
-import { connect, createLive, type Live } from '../live/store';
+import { connect, createLive, type Live } from './live';
 import type { Editor } from '../model/editor';
 import type { Saver } from '../model/saver';
 import { tell } from './notices';

@@ -1,6 +1,6 @@
 import { fromUnit, inUnit, UNITS } from '../base/units';
 import { NumberField } from './NumberField';
-import { useUnit } from './preferences';
+import { useUnit } from '../session/preferences';
 
 interface Props {
   /** Without the unit: that is added. */

@@ -1,0 +1,39 @@
+import { getPlan } from '../api/http';
+import type { Plan } from '../api/types.gen';
+import { createStore, type Store } from '../base/store';
+import type { Live } from './live';
+
+/** The plan of the open show with its paths, fetched when somebody wants to see them. */
+export interface FullPlan {
+  plan: Store<Plan | null>;
+  /** Fetches as long as it is wanted; returns how to stop. */
+  follow(): () => void;
+}
+
+export function createFullPlan(live: Live): FullPlan {
+  const plan = createStore<Plan | null>(null);
+  let followers = 0;
+  const load = () => {
+    const brief = live.plan.get();
+    if (followers === 0 || !brief || brief.planning) return;
+    if (plan.get()?.revision === brief.revision) return;
+    getPlan().then(
+      (full) => {
+        // One that is still being made is announced again when it is there.
+        if (!full.planning) plan.set(full);
+      },
+      () => plan.set(null),
+    );
+  };
+  live.plan.subscribe(load);
+  return {
+    plan,
+    follow() {
+      followers++;
+      load();
+      return () => {
+        followers--;
+      };
+    },
+  };
+}
