@@ -21,24 +21,30 @@
 //! ```
 
 pub mod assignment;
+mod bindings;
 mod cancel;
-mod casting;
+mod instance;
+mod mapf;
+mod margins;
 mod motion;
+mod optimise;
 mod problem;
 pub mod proof;
 mod raise;
-mod repair;
+mod roads;
 #[cfg(test)]
 mod seeded;
 mod show;
+mod solve;
+mod spline;
 mod transition;
 pub mod unsynchronised;
 
+pub use bindings::{Bindings, Cast, Claims, Oddity};
 pub use cancel::Cancelled;
-pub use casting::{Bindings, Cast, Claims, Oddity};
 pub use motion::turn_time;
-pub use problem::{Closest, Path, Stuck, Transition, TransitionProblem};
+pub use problem::{Closest, Meeting, Path, Repaired, Stuck, Transition, TransitionProblem};
 pub use raise::{raise, raise_unless};
-pub use repair::{Meeting, Repaired, repair};
 pub use show::{ShowClosest, ShowOptions, ShowPlan, show, show_unless};
+pub use solve::repair;
 pub use transition::{transition, transition_unless};

@@ -3,8 +3,8 @@
 use lightbots_base::{Limits, PathRef, Piece, Span, Vec2};
 use lightbots_show::{Easing, Obstacle};
 
+use crate::margins::MARGIN_M;
 use crate::proof::ProofInput;
-use crate::transition::MARGIN_M;
 
 /// A drive from one set of places to another.
 #[derive(Clone, Debug)]
@@ -99,6 +99,25 @@ pub struct Stuck {
     pub starts: Vec<usize>,
     /// One line for people: who, and what distance would do.
     pub message: String,
+}
+
+/// A repaired transition.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Repaired {
+    /// `paths[start]` all last equally long, at least the problem's duration, and begin with the rest in which robots
+    /// turn.
+    pub paths: Vec<Path>,
+    /// The least they may last.
+    pub least: Span,
+}
+
+/// Two robots that do not get past each other.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Meeting {
+    /// Which two: indices into `starts`.
+    pub pair: (usize, usize),
+    /// Half way between the two, stage metres.
+    pub place: Vec2,
 }
 
 /// A path that owns its pieces.

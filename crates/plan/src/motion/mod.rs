@@ -2,6 +2,8 @@
 
 mod bend;
 mod profile;
+pub(crate) mod progress;
+pub(crate) mod stop_and_go;
 
 pub(crate) use bend::Bend;
 pub(crate) use profile::Profile;
@@ -12,6 +14,11 @@ use lightbots_base::{Limits, Span};
 /// is the most anybody needs, because driving backwards is as good as driving forwards.
 pub fn turn_time(angle: f64, limits: &Limits) -> Span {
     whole_millis(angle.abs() / limits.turn_radps.max(0.01))
+}
+
+/// How long a robot needs for a quarter turn on the spot: every path begins with this rest.
+pub(crate) fn quarter_turn(limits: &Limits) -> Span {
+    turn_time(core::f64::consts::FRAC_PI_2, limits)
 }
 
 /// `seconds` rounded up to whole milliseconds, at least zero: what the wire carries without loss.

@@ -1,6 +1,7 @@
 //! What is wrong with frames, seen from the floor.
 
-use crate::transition::{MARGIN_M, distance_to, touching};
+use crate::margins::MARGIN_M;
+use crate::transition::{distance_to, touching};
 use crate::{Bindings, Cast, Oddity, Stuck};
 use lightbots_base::Vec2;
 use lightbots_show::{Issue, Issues, Pixel, Show, frame_label, robots_asked_for};

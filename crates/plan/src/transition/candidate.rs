@@ -1,7 +1,8 @@
 //! Paths for a settled assignment, with what the proof says of them.
 
-use super::{COMFORT_M, MARGIN_M, room};
+use super::following;
 use crate::cancel::Cancel;
+use crate::margins::{COMFORT_M, MARGIN_M};
 use crate::motion::{Profile, turn_time};
 use crate::proof::{Proof, ProofInput, prove_unless};
 use crate::{Closest, Path, Transition, TransitionProblem};
@@ -62,12 +63,13 @@ impl Candidate {
         cancel: Cancel<'_>,
     ) -> Self {
         let comfort_m = problem.limits.contact_m() + COMFORT_M - 1e-6;
-        let gap_m = if paths.len() <= ROOM_MOST { room::widest_m(&problem.limits) } else { comfort_m + 1e-6 };
+        let gap_m =
+            if paths.len() <= ROOM_MOST { following::widest_m(&problem.limits) } else { comfort_m + 1e-6 };
         let mut proof = prove_unless(&ProofInput { gap_m, ..problem.to_prove(&paths) }, cancel);
         if cancel.is_wanted() {
             proof = Proof::default();
         }
-        let wanted_m = |found: &Closest| room::wanted_m(&paths, found, &problem.limits, slower);
+        let wanted_m = |found: &Closest| following::wanted_m(&paths, found, &problem.limits, slower);
         proof.conflicts.retain(|found| found.distance_m < wanted_m(found) - 1e-6);
         let uncomfortable = proof.conflicts.iter().filter(|found| found.distance_m < comfort_m).count();
         let duration = paths.iter().map(|path| path.as_ref().duration()).max().unwrap_or(Span::ZERO);

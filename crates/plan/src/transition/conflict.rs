@@ -2,10 +2,10 @@
 
 use lightbots_base::Vec2;
 
-use super::MARGIN_M;
-use super::check::touching;
+use super::feasibility::touching;
+use crate::Meeting;
+use crate::margins::MARGIN_M;
 use crate::proof::Proof;
-use crate::repair::Meeting;
 use crate::{Stuck, Transition, TransitionProblem};
 
 /// Pairs named in a message.

@@ -1,33 +1,27 @@
 //! One transition from question to proven answer.
 
 mod candidate;
-mod check;
 mod conflict;
-mod nudge;
-mod parking;
-mod regions;
-mod relax;
-mod room;
+mod deform;
+mod feasibility;
+mod following;
+mod reachability;
+mod spares;
+mod straight;
 #[cfg(test)]
 mod tests;
-mod walled;
 
-pub(crate) use check::touching;
-pub(crate) use parking::distance_to;
+pub(crate) use feasibility::touching;
+pub(crate) use spares::distance_to;
 
 use crate::assignment::Choice;
 use crate::cancel::{Cancel, Cancelled, unless};
 use crate::proof::{Proof, prove_unless};
-use crate::repair::{Repaired, repair_unless};
-use crate::{Stuck, Transition, TransitionProblem};
+use crate::solve::repair_unless;
+use crate::{Repaired, Stuck, Transition, TransitionProblem};
 use candidate::Candidate;
-use relax::relax;
-use walled::Walls;
-
-/// Least distance between rims that is planned for, metres, where starts and goals leave that much.
-pub(crate) const MARGIN_M: f64 = 0.003;
-/// Distance between rims that is worth some search, metres: robots follow their paths within 5 mm, most within 2.
-pub(crate) const COMFORT_M: f64 = 0.008;
+use reachability::Walls;
+use straight::relax;
 
 /// The quickest proven transition that can be found, or why there is none.
 pub fn transition(problem: &TransitionProblem) -> Result<Transition, Stuck> {
@@ -62,16 +56,16 @@ impl Attempt {
 
 /// The best transition that can be found, proven or not.
 pub(crate) fn attempt(problem: &TransitionProblem, cancel: Cancel<'_>) -> Attempt {
-    if let Err(stuck) = check::measurable(problem) {
+    if let Err(stuck) = feasibility::measurable(problem) {
         return Attempt { transition: candidate::unmoved(problem), stuck: Some(stuck) };
     }
-    let impossible = check::possible(problem).err();
+    let impossible = feasibility::possible(problem).err();
     let Some(choice) = Choice::unless(cancel, &problem.starts, &problem.goals, &problem.pinned) else {
-        let stuck = impossible.unwrap_or_else(|| check::pins(problem));
+        let stuck = impossible.unwrap_or_else(|| feasibility::pins(problem));
         return Attempt { transition: candidate::standing_still(problem), stuck: Some(stuck) };
     };
     let lower_bound_s = choice.bottleneck_m() / problem.limits.speed_mps.max(1e-3);
-    let mut attempt = match walled::look(problem, cancel) {
+    let mut attempt = match reachability::look(problem, cancel) {
         Walls::Open => solve(problem, &choice, cancel),
         Walls::Apart(pinned) => {
             let sent = TransitionProblem { pinned, ..problem.clone() };
@@ -102,14 +96,14 @@ fn solve(problem: &TransitionProblem, choice: &Choice, cancel: Cancel<'_>) -> At
     }
     with_spares(problem, choice, cancel).unwrap_or_else(|| Attempt {
         transition: candidate::standing_still(problem),
-        stuck: Some(check::pins(problem)),
+        stuck: Some(feasibility::pins(problem)),
     })
 }
 
 /// With more robots than goals: gives the spare ones places to wait first.
 fn with_spares(problem: &TransitionProblem, choice: &Choice, cancel: Cancel<'_>) -> Option<Attempt> {
     let start_of = choice.least_squares().solve(0.0)?;
-    let (whole, start_of) = parking::with_spares(problem, start_of, cancel);
+    let (whole, start_of) = spares::with_spares(problem, start_of, cancel);
     let choice = Choice::containing(cancel, &whole.starts, &whole.goals, &whole.pinned, &start_of)?;
     Some(settle(&whole, &choice, cancel))
 }
@@ -118,12 +112,15 @@ fn with_spares(problem: &TransitionProblem, choice: &Choice, cancel: Cancel<'_>)
 fn settle(problem: &TransitionProblem, choice: &Choice, cancel: Cancel<'_>) -> Attempt {
     match relax(problem, choice, cancel) {
         Some(candidate) if candidate.holds() => Attempt { transition: candidate.transition, stuck: None },
-        Some(candidate) if check::possible(problem).is_ok() => mend(problem, candidate, cancel),
+        Some(candidate) if feasibility::possible(problem).is_ok() => mend(problem, candidate, cancel),
         Some(Candidate { transition, proof, .. }) => {
             let stuck = Some(conflict::stuck(problem, &transition, &proof, Vec::new()));
             Attempt { transition, stuck }
         }
-        None => Attempt { transition: candidate::standing_still(problem), stuck: Some(check::pins(problem)) },
+        None => Attempt {
+            transition: candidate::standing_still(problem),
+            stuck: Some(feasibility::pins(problem)),
+        },
     }
 }
 

@@ -1,8 +1,8 @@
 //! What two robots do to each other that leave later by some levels.
 
 use super::LEVEL;
+use crate::margins::COMFORT_M;
 use crate::proof::stop_safe::{Law, STEP, StopAssumptions, distance_m};
-use crate::transition::COMFORT_M;
 use lightbots_base::{Limits, Span, Vec2};
 
 /// More than any number of moments: who comes too close to another.

@@ -1,0 +1,220 @@
+//! What the repair must respect: ends of ways, the floor, what stands on it.
+
+use lightbots_base::{Limits, Vec2};
+use lightbots_show::Obstacle;
+
+use crate::TransitionProblem;
+use crate::cancel::Cancel;
+use crate::margins::{EDGE_M, SPLINE_M};
+
+/// A transition whose assignment is settled.
+pub(crate) struct Scene<'a> {
+    /// When to give up.
+    pub cancel: Cancel<'a>,
+    /// Where each robot starts, stage metres.
+    pub starts: Vec<Vec2>,
+    /// Where each robot ends; `None`: it is spare and may end anywhere.
+    pub ends: Vec<Option<Vec2>>,
+    /// What does not move: obstacles and standing robots.
+    pub walls: Vec<Obstacle>,
+    /// Half the extents of the rectangle that centres stay in, metres.
+    pub inner: Vec2,
+    /// How far rims stay off the floor's edge where their ends and what stands beside it leave them a choice, metres.
+    pub off_edge_m: f64,
+    /// What the robots can do.
+    pub limits: Limits,
+}
+
+impl Scene<'_> {
+    /// The scene of a problem; `None` where the assignment does not fit it or something is not a number.
+    pub fn new(problem: &TransitionProblem, goal_of: &[Option<usize>]) -> Option<Self> {
+        if goal_of.len() != problem.starts.len() {
+            return None;
+        }
+        let limits = problem.limits;
+        let mut ends = Vec::with_capacity(goal_of.len());
+        for goal in goal_of {
+            ends.push(match goal {
+                Some(goal) => Some(*problem.goals.get(*goal)?),
+                None => None,
+            });
+        }
+        let standing = problem.standing.iter().map(|&at| Obstacle::Disc { at, radius_m: limits.radius_m });
+        let mut scene = Self {
+            cancel: Cancel::NEVER,
+            starts: problem.starts.clone(),
+            ends,
+            walls: problem.obstacles.iter().copied().chain(standing).collect(),
+            inner: problem.half_floor - Vec2::new(limits.radius_m, limits.radius_m),
+            off_edge_m: EDGE_M,
+            limits,
+        };
+        scene.off_edge_m = scene.room_at_edge_m();
+        let places = scene.starts.iter().chain(scene.ends.iter().flatten());
+        let sane = limits.speed_mps > 0.0 && limits.accel_mps2 > 0.0 && limits.radius_m > 0.0;
+        (sane && scene.inner.x > 0.0 && scene.inner.y > 0.0 && places.copied().all(Vec2::is_finite))
+            .then_some(scene)
+    }
+
+    /// How many robots.
+    pub fn robots(&self) -> usize {
+        self.starts.len()
+    }
+
+    /// How far two robots' ends let them stay apart all the way, metres.
+    pub fn ends_apart(&self, a: usize, b: usize) -> f64 {
+        let before = self.starts[a].distance(self.starts[b]);
+        match (self.ends[a], self.ends[b]) {
+            (Some(one), Some(other)) => before.min(one.distance(other)),
+            _ => before,
+        }
+    }
+
+    /// The centre distance two robots must keep, metres.
+    pub fn least_gap(&self, a: usize, b: usize) -> f64 {
+        self.widest_gap_m().min(self.ends_apart(a, b) - 1e-6)
+    }
+
+    /// The most of any two's, metres: who is farther apart keeps it whoever they are.
+    pub fn widest_gap_m(&self) -> f64 {
+        self.limits.contact_m() + SPLINE_M
+    }
+
+    /// How far a robot's ends let it stay off a wall, at most `wish`, metres.
+    pub fn wall_gap(&self, robot: usize, wall: usize, wish: f64) -> f64 {
+        let at = |place| self.off_wall(wall, place).0;
+        let end = self.ends[robot].map_or(wish, at);
+        wish.min(at(self.starts[robot])).min(end)
+    }
+
+    /// The gap between a robot's rim at `place` and a wall, and the direction away from it.
+    pub fn off_wall(&self, wall: usize, place: Vec2) -> (f64, Vec2) {
+        let (gap, away) = off_shape(&self.walls[wall], place);
+        (gap - self.limits.radius_m, away)
+    }
+
+    /// Whether a robot at `place` is on the floor and `margin_m` off every wall.
+    pub fn is_free(&self, place: Vec2, margin_m: f64) -> bool {
+        let on_floor = place.x.abs() <= self.inner.x && place.y.abs() <= self.inner.y;
+        on_floor && (0..self.walls.len()).all(|wall| self.off_wall(wall, place).0 >= margin_m)
+    }
+
+    /// Whether a robot may drive straight from one place to another, `margin_m` off every wall except where an end
+    /// itself is closer.
+    pub fn is_way_free(&self, from: Vec2, to: Vec2, margin_m: f64) -> bool {
+        let samples = (from.distance(to) / 0.01).min(4000.0) as usize + 1;
+        (0..self.walls.len()).all(|wall| {
+            let ends = self.off_wall(wall, from).0.min(self.off_wall(wall, to).0);
+            let margin = margin_m.min(ends - 1e-9);
+            (1..samples).all(|i| self.off_wall(wall, from.lerp(to, i as f64 / samples as f64)).0 >= margin)
+        })
+    }
+
+    /// How far rims can stay off the floor's edge so that a robot gets through every gap to it still, and two past each
+    /// other on a narrow floor.
+    fn room_at_edge_m(&self) -> f64 {
+        let least_m = 2.0 * self.limits.radius_m + SPLINE_M;
+        let gaps = self.walls.iter().flat_map(|wall| self.off_edges(wall)).map(|gap_m| gap_m - least_m);
+        let abreast = |room_m: f64| [room_m, room_m - self.widest_gap_m() / 2.0];
+        let to_spare = gaps.chain([self.inner.x, self.inner.y].into_iter().flat_map(abreast));
+        to_spare.filter(|&room_m| room_m >= 0.0).fold(EDGE_M, f64::min)
+    }
+
+    /// From a shape to the four sides of the floor, metres.
+    fn off_edges(&self, shape: &Obstacle) -> [f64; 4] {
+        let (min, max) = match *shape {
+            Obstacle::Disc { at, radius_m } => {
+                (at - Vec2::new(radius_m, radius_m), at + Vec2::new(radius_m, radius_m))
+            }
+            Obstacle::Rect { min, max } => (min, max),
+        };
+        let half = self.inner + Vec2::new(self.limits.radius_m, self.limits.radius_m);
+        [min.x + half.x, half.x - max.x, min.y + half.y, half.y - max.y]
+    }
+
+    /// The nearest place for a robot that is so far off the floor's edge, or as far out as its own ends are.
+    pub fn on_floor(&self, robot: usize, place: Vec2, off_edge_m: f64) -> Vec2 {
+        let room = self.inner - Vec2::new(off_edge_m, off_edge_m);
+        if place.x.abs() <= room.x && place.y.abs() <= room.y {
+            return place;
+        }
+        let start = self.starts[robot];
+        let end = self.ends[robot].unwrap_or(start);
+        let within =
+            |at: f64, room: f64, (a, b): (f64, f64)| at.clamp(a.min(b).min(-room), a.max(b).max(room));
+        Vec2::new(within(place.x, room.x, (start.x, end.x)), within(place.y, room.y, (start.y, end.y)))
+    }
+}
+
+/// Distance from a place to a shape's rim, negative inside, and the unit vector away from it.
+fn off_shape(shape: &Obstacle, place: Vec2) -> (f64, Vec2) {
+    match *shape {
+        Obstacle::Disc { at, radius_m } => {
+            let out = place - at;
+            (out.length() - radius_m, out.normalized().unwrap_or(Vec2::new(1.0, 0.0)))
+        }
+        Obstacle::Rect { min, max } => {
+            let nearest = Vec2::new(place.x.max(min.x).min(max.x), place.y.max(min.y).min(max.y));
+            if let Some(away) = (place - nearest).normalized() {
+                return (place.distance(nearest), away);
+            }
+            let sides = [
+                (place.x - min.x, Vec2::new(-1.0, 0.0)),
+                (max.x - place.x, Vec2::new(1.0, 0.0)),
+                (place.y - min.y, Vec2::new(0.0, -1.0)),
+                (max.y - place.y, Vec2::new(0.0, 1.0)),
+            ];
+            let nearest = sides.into_iter().min_by(|a, b| a.0.total_cmp(&b.0));
+            nearest.map_or((0.0, Vec2::new(1.0, 0.0)), |(depth, away)| (-depth, away))
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_rectangle_is_left_by_its_nearest_side() {
+        let shape = Obstacle::Rect { min: Vec2::ZERO, max: Vec2::new(1.0, 2.0) };
+        assert_eq!(off_shape(&shape, Vec2::new(0.9, 1.0)).1, Vec2::new(1.0, 0.0));
+        assert!((off_shape(&shape, Vec2::new(0.9, 1.0)).0 + 0.1).abs() < 1e-12);
+        assert_eq!(off_shape(&shape, Vec2::new(0.5, -0.25)), (0.25, Vec2::new(0.0, -1.0)));
+        assert!((off_shape(&shape, Vec2::new(4.0, 6.0)).0 - 5.0).abs() < 1e-12);
+    }
+
+    /// A robot from one place to another on a floor of 1 m by 1 m.
+    fn scene(start: (f64, f64), end: (f64, f64), obstacles: Vec<Obstacle>, half: Vec2) -> Scene<'static> {
+        let at = |(x, y)| vec![Vec2::new(x, y)];
+        let floor = TransitionProblem::on_floor(half, Limits::ELISA_3);
+        let problem = TransitionProblem { starts: at(start), goals: at(end), obstacles, ..floor };
+        Scene::new(&problem, &[Some(0)]).unwrap()
+    }
+
+    #[test]
+    fn places_are_brought_off_each_side_but_for_ends_there() {
+        let half = Vec2::new(0.527, 0.527);
+        let scene = scene((-0.499, 0.2), (0.0, 0.51), Vec::new(), half);
+        let moved = |x: f64, y: f64| scene.on_floor(0, Vec2::new(x, y), 0.003);
+        assert_eq!(moved(-0.4999, -0.4999), Vec2::new(-0.499, -0.497));
+        assert_eq!(moved(0.499, 0.52), Vec2::new(0.497, 0.51));
+        assert_eq!(moved(-0.4985, 0.3), Vec2::new(-0.4985, 0.3));
+    }
+
+    #[test]
+    fn gaps_to_the_edge_that_are_just_wide_enough_stay_open() {
+        let wall = |gap_m: f64| {
+            vec![Obstacle::Rect { min: Vec2::new(-0.1, -0.2), max: Vec2::new(0.1, 0.5 - gap_m) }]
+        };
+        let off_edge_mm = |gap_m: f64, half: Vec2| {
+            let room_m = scene((-0.3, 0.0), (0.3, 0.0), wall(gap_m), half).off_edge_m;
+            (room_m * 1e5).round() / 1e2
+        };
+        let half = Vec2::new(0.5, 0.5);
+        assert_eq!(off_edge_mm(0.2, half), 3.5);
+        assert_eq!(off_edge_mm(0.059, half), 1.9);
+        assert_eq!(off_edge_mm(0.056, half), 3.5);
+        // Two pass each other on a floor that is 114 mm deep with 1.45 mm to spare on either side.
+        assert_eq!(off_edge_mm(0.056, Vec2::new(0.5, 0.057)), 1.45);
+    }
+}

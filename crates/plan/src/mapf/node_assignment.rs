@@ -1,0 +1,83 @@
+//! Which robot takes which node of the lattice: an auction (Bertsekas 1988) over the nodes near each robot's place.
+
+use lightbots_base::Vec2;
+
+use crate::cancel::Cancel;
+use crate::instance::Scene;
+use crate::roads::lattice::Lattice;
+
+/// How far from its place a robot looks for a node, in pitches, and at how many; wider where the crowd is too thick.
+const REACHES: [(f64, usize); 3] = [(1.7, 8), (3.5, 40), (9.0, 250)];
+/// Bids rise by at least this, square metres: what an assignment may cost more than the best, each.
+const LEAST_BID: f64 = 2e-5;
+/// Bids for each robot on average, after which the reach is too small.
+const MOST_BIDS: usize = 400;
+
+/// A node of its own for each place, near it by squares of distance; `None` where there are not enough.
+pub(crate) fn dock(scene: &Scene, lattice: &Lattice, places: &[Vec2]) -> Option<Vec<u32>> {
+    REACHES.iter().find_map(|&(reach, most)| {
+        let choices: Option<Vec<Vec<(u32, f64)>>> = places
+            .iter()
+            .map(|&place| {
+                if scene.cancel.is_wanted() {
+                    return None;
+                }
+                let near = lattice.around(place, reach * lattice.pitch_m, most);
+                let free = near.into_iter().filter(|&node| {
+                    scene.walls.is_empty() || scene.is_way_free(place, lattice.places[node as usize], 0.0)
+                });
+                let cost = |node: u32| lattice.places[node as usize].distance(place);
+                let choice: Vec<_> = free.map(|node| (node, cost(node) * cost(node))).collect();
+                (!choice.is_empty()).then_some(choice)
+            })
+            .collect();
+        auction(lattice.places.len(), &choices?, scene.cancel)
+    })
+}
+
+/// An object for each bidder so that the sum of costs is within a least bid each of the least; `None` where the bids
+/// did not suffice.
+fn auction(objects: usize, choices: &[Vec<(u32, f64)>], cancel: Cancel<'_>) -> Option<Vec<u32>> {
+    let mut prices = vec![0.0_f64; objects];
+    let mut owner = vec![usize::MAX; objects];
+    let mut owns = vec![u32::MAX; choices.len()];
+    let mut waiting: Vec<usize> = (0..choices.len()).rev().collect();
+    let mut bids = MOST_BIDS * choices.len();
+    while let Some(bidder) = waiting.pop() {
+        bids = bids.checked_sub(1).filter(|_| !cancel.is_wanted())?;
+        let (mut best, mut second) = ((f64::MAX, u32::MAX), f64::MAX);
+        for &(object, cost) in &choices[bidder] {
+            let total = cost + prices[object as usize];
+            if total < best.0 {
+                second = best.0;
+                best = (total, object);
+            } else {
+                second = second.min(total);
+            }
+        }
+        let object = best.1 as usize;
+        prices[object] += (second - best.0).min(1.0) + LEAST_BID;
+        if owner[object] != usize::MAX {
+            waiting.push(owner[object]);
+        }
+        owner[object] = bidder;
+        owns[bidder] = best.1;
+    }
+    Some(owns)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_auction_finds_the_cheapest_sum() {
+        let choices = vec![vec![(0, 0.1), (1, 0.2)], vec![(0, 0.1), (1, 0.5)], vec![(1, 0.9), (2, 1.0)]];
+        assert_eq!(auction(3, &choices, Cancel::NEVER), Some(vec![1, 0, 2]));
+    }
+
+    #[test]
+    fn too_few_objects_are_noticed() {
+        assert_eq!(auction(1, &[vec![(0, 0.1)], vec![(0, 0.1)]], Cancel::NEVER), None);
+    }
+}

@@ -1,0 +1,247 @@
+//! One step of everybody on a roadmap: priority inheritance with backtracking (PIBT; Okumura et al. 2022) where who is in
+//! whose way is told by distances. All who move in a step leave, drive and arrive together, so two of them are closest
+//! where the straight line from how they stood apart to how they will is closest to nothing: that is exact.
+
+use crate::instance::Scene;
+use crate::mapf::lacam::{Order, Steps};
+use crate::roads::roadmap::{Roadmap, nearest};
+
+/// Not decided yet.
+const OPEN: u32 = u32::MAX;
+/// Moves tried for one robot and all that it pushes, and robots pushed in a row.
+const MOST_TRIES: usize = 600;
+const MOST_PUSHED: usize = 200;
+/// What the way from one node to a robot's end costs, in looks.
+const LOOKS_A_NODE: usize = 10;
+/// What pushing somebody costs, metres.
+const PUSH_M: f64 = 0.02;
+
+/// Plans steps; keeps its memory.
+pub(crate) struct Pusher<'a> {
+    scene: &'a Scene<'a>,
+    roads: &'a Roadmap,
+    /// `[robot][node]`: what is left to its end.
+    far_m: Vec<Vec<f64>>,
+    now: Vec<u32>,
+    next: Vec<u32>,
+    /// Who has been decided, in order.
+    decided: Vec<usize>,
+    /// `[robot]`: who may be in its way in this step.
+    near: Vec<Vec<usize>>,
+    tries: usize,
+    /// Pairs that may still be looked at in all.
+    looks: usize,
+}
+
+impl<'a> Pusher<'a> {
+    /// For all robots of a scene, and so many looks at pairs.
+    pub fn new(scene: &'a Scene<'a>, roads: &'a Roadmap, looks: usize) -> Self {
+        let robots = scene.robots();
+        // Finding out how far everybody has to go costs about as much as a few looks for each node.
+        let looks = looks.saturating_sub(robots * roads.places.len() * LOOKS_A_NODE);
+        let far_m = |robot: usize| match scene.cancel.is_wanted() {
+            true => vec![f64::INFINITY; roads.places.len()],
+            false => roads.far_m(robot),
+        };
+        Self {
+            scene,
+            roads,
+            far_m: (0..robots).map(far_m).collect(),
+            now: Vec::new(),
+            next: vec![OPEN; robots],
+            decided: Vec::new(),
+            near: vec![Vec::new(); robots],
+            tries: 0,
+            looks,
+        }
+    }
+
+    /// Whether to give up.
+    pub fn is_given_up(&self) -> bool {
+        self.scene.cancel.is_wanted()
+    }
+
+    /// How many looks are left.
+    pub fn looks_left(&self) -> usize {
+        self.looks
+    }
+
+    /// What a robot still has to go from a node.
+    pub fn far_m(&self, robot: usize, node: u32) -> f64 {
+        self.far_m[robot][node as usize]
+    }
+
+    /// Whether two moves, each from a node to another or the same, may be made at once.
+    pub fn are_apart(&self, a: (usize, u32, u32), b: (usize, u32, u32)) -> bool {
+        let place = |node: u32| self.roads.places[node as usize];
+        let closest = nearest(place(a.1) - place(b.1), place(a.2) - place(b.2)).length_squared();
+        let wide_m = self.scene.widest_gap_m();
+        closest >= wide_m * wide_m || {
+            let gap_m = self.scene.least_gap(a.0, b.0);
+            closest >= gap_m * gap_m
+        }
+    }
+
+    fn look_around(&mut self) {
+        self.looks = self.looks.saturating_sub(self.now.len() * self.now.len() / 8);
+        let reach_m = 2.0 * self.roads.reach_m + self.scene.widest_gap_m();
+        let place = |robot: usize| self.roads.places[self.now[robot] as usize];
+        for a in 0..self.now.len() {
+            self.near[a].clear();
+            for b in 0..a {
+                if (place(a) - place(b)).length_squared() < reach_m * reach_m {
+                    self.near[a].push(b);
+                    self.near[b].push(a);
+                }
+            }
+        }
+    }
+
+    /// Who must make way for a move; `None` where it cannot be made beside what has been decided.
+    fn pushed_by(&self, robot: usize, node: u32) -> Option<Vec<usize>> {
+        let mine = (robot, self.now[robot], node);
+        let mut pushed = Vec::new();
+        for &other in &self.near[robot] {
+            let (from, to) = (self.now[other], self.next[other]);
+            let is_open = to == OPEN;
+            if !self.are_apart(mine, (other, from, if is_open { from } else { to })) {
+                if !is_open {
+                    return None;
+                }
+                pushed.push(other);
+            }
+        }
+        Some(pushed)
+    }
+
+    fn decide(&mut self, robot: usize, node: u32) {
+        self.next[robot] = node;
+        self.decided.push(robot);
+    }
+
+    fn undo(&mut self, mark: usize) {
+        for robot in self.decided.drain(mark..) {
+            self.next[robot] = OPEN;
+        }
+    }
+
+    /// Decides a move and those of all who must make way for it, or nothing.
+    fn goes(&mut self, robot: usize, node: u32, depth: usize) -> bool {
+        self.looks = self.looks.saturating_sub(self.near[robot].len() + 1);
+        let Some(pushed) = self.pushed_by(robot, node) else { return false };
+        if self.tries == 0 || self.looks == 0 || (depth >= MOST_PUSHED && !pushed.is_empty()) {
+            return false;
+        }
+        self.tries -= 1;
+        let mark = self.decided.len();
+        self.decide(robot, node);
+        let all = pushed.into_iter().all(|other| self.next[other] != OPEN || self.choose(other, depth + 1));
+        if !all {
+            self.undo(mark);
+        }
+        all
+    }
+
+    /// Lets a robot choose, and whoever is in its way after it; whether there was a choice.
+    fn choose(&mut self, robot: usize, depth: usize) -> bool {
+        let here = self.now[robot];
+        let place = |node: u32| self.roads.places[node as usize];
+        let far_m = &self.far_m[robot];
+        let costs = |node: u32| {
+            let is_taken = self.near[robot].iter().any(|&other| self.now[other] == node);
+            far_m[node as usize]
+                + if is_taken { PUSH_M } else { 0.0 }
+                + place(here).distance(place(node)) * 1e-3
+        };
+        let mut choices: Vec<(f64, u32)> =
+            self.around(robot, here).chain([here]).map(|node| (costs(node), node)).collect();
+        choices.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        choices.into_iter().any(|(_, node)| self.goes(robot, node, depth))
+    }
+}
+
+impl Steps for Pusher<'_> {
+    fn around(&self, robot: usize, node: u32) -> impl Iterator<Item = u32> {
+        let ways = self.roads.ways[node as usize].iter().copied();
+        ways.filter(move |&next| self.roads.may_be(robot, next))
+    }
+
+    fn far(&self, robot: usize, node: u32) -> f64 {
+        self.far_m(robot, node)
+    }
+
+    fn step(&mut self, now: &[u32], ranks: &[usize], orders: &[Order]) -> Option<Vec<u32>> {
+        self.now.clear();
+        self.now.extend_from_slice(now);
+        self.undo(0);
+        self.look_around();
+        // Orders first, and only then whoever is in their way: with an order for everybody any step that may be made
+        // is made.
+        let mut pushed = Vec::new();
+        for &(robot, node) in orders {
+            pushed.extend(self.pushed_by(robot, node)?);
+            self.decide(robot, node);
+        }
+        for robot in pushed {
+            self.tries = MOST_TRIES;
+            if self.next[robot] == OPEN && !self.choose(robot, 0) {
+                return None;
+            }
+        }
+        for &robot in ranks {
+            self.tries = MOST_TRIES;
+            if self.next[robot] == OPEN && !self.choose(robot, 0) {
+                // Nobody who has been decided comes near one who stays.
+                self.decide(robot, now[robot]);
+            }
+        }
+        Some(self.next.clone())
+    }
+
+    fn is_spent(&self) -> bool {
+        self.looks == 0 || self.scene.cancel.is_wanted()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::TransitionProblem;
+    use crate::roads::visibility::Corners;
+    use lightbots_base::{Limits, Vec2};
+
+    fn scene(starts: Vec<Vec2>, goals: Vec<Vec2>) -> Scene<'static> {
+        let ends: Vec<Option<usize>> = (0..starts.len()).map(Some).collect();
+        let floor = TransitionProblem::on_floor(Vec2::new(0.3, 0.3), Limits::ELISA_3);
+        Scene::new(&TransitionProblem { starts, goals, ..floor }, &ends).unwrap()
+    }
+
+    #[test]
+    fn who_meets_on_the_way_is_not_apart_though_both_ends_are() {
+        let (left, right, up) = (Vec2::new(-0.04, 0.0), Vec2::new(0.04, 0.0), Vec2::new(-0.04, 0.1));
+        let scene = scene(vec![left, right, up], vec![right, left, up]);
+        let roads = Roadmap::new(&scene, &Corners::new(&scene), 0.072, 0.0).unwrap();
+        let pusher = Pusher::new(&scene, &roads, usize::MAX);
+        assert!(!pusher.are_apart((0, 0, 1), (1, 1, 0)), "through each other");
+        assert!(pusher.are_apart((0, 0, 1), (2, 2, 0)), "one follows the other around a corner");
+        assert!(pusher.are_apart((0, 0, 0), (1, 1, 1)) && !pusher.are_apart((0, 0, 1), (1, 1, 1)));
+    }
+
+    #[test]
+    fn a_step_that_is_ordered_whole_is_made_as_ordered_or_not_at_all() {
+        // Three in a ring of places so close that they can only go on together.
+        let place = |third: i32| Vec2::unit(f64::from(third) * std::f64::consts::TAU / 3.0) * 0.068;
+        let scene = scene((0..3).map(place).collect(), (1..4).map(place).collect());
+        let roads = Roadmap::new(&scene, &Corners::new(&scene), 0.072, 0.0).unwrap();
+        let mut pusher = Pusher::new(&scene, &roads, usize::MAX);
+        let starts = roads.starts.clone();
+        let around = [(0, starts[1]), (1, starts[2]), (2, starts[0])];
+        let made = pusher.step(&starts, &[0, 1, 2], &around);
+        assert_eq!(made, Some(vec![starts[1], starts[2], starts[0]]));
+        assert_eq!(pusher.step(&starts, &[0, 1, 2], &[(0, starts[1]), (1, starts[0])]), None);
+        let next = pusher.step(&starts, &[2, 1, 0], &[]).unwrap();
+        for (a, b) in [(0, 1), (0, 2), (1, 2)] {
+            assert!(pusher.are_apart((a, starts[a], next[a]), (b, starts[b], next[b])));
+        }
+    }
+}

@@ -1,0 +1,141 @@
+//! Makes steps found by a depth-first search fewer: one robot after the other looks for its best way through space and
+//! steps while all others do as they did, and steps in which nobody moves are left out. Nothing gets worse by that.
+
+use crate::mapf::lacam::Steps;
+use crate::mapf::roadmap_pibt::Pusher;
+use crate::roads::roadmap::Roadmap;
+
+/// Rounds over all robots, and pairs of moves looked at in all.
+const ROUNDS: usize = 4;
+const MOST_LOOKS: usize = 30_000_000;
+/// What a step costs: to stand where it need not end, to move, and for every metre.
+const WAIT: f64 = 1.0;
+const MOVE: f64 = 1.5;
+const METRE: f64 = 4.0;
+const NOWHERE: u32 = u32::MAX;
+
+/// The same from the first to the last, in fewer steps and moves where that is found.
+pub(crate) fn shorten(pusher: &Pusher, roads: &Roadmap, mut steps: Vec<Vec<u32>>) -> Vec<Vec<u32>> {
+    let mut looks = MOST_LOOKS;
+    for _ in 0..ROUNDS {
+        let mut is_better = false;
+        for robot in (0..roads.starts.len()).take_while(|_| !pusher.is_given_up()) {
+            let mut lane = Lane { pusher, roads, steps: &steps, robot, looks };
+            let way = lane.best();
+            looks = lane.looks;
+            let Some(way) = way else { continue };
+            is_better |= steps.iter().zip(&way).any(|(step, node)| step[robot] != *node);
+            steps.iter_mut().zip(way).for_each(|(step, node)| step[robot] = node);
+        }
+        steps.dedup();
+        if !is_better {
+            break;
+        }
+    }
+    steps
+}
+
+/// One robot's way among those of all others.
+struct Lane<'a> {
+    pusher: &'a Pusher<'a>,
+    roads: &'a Roadmap,
+    steps: &'a [Vec<u32>],
+    robot: usize,
+    looks: usize,
+}
+
+impl Lane<'_> {
+    /// `[step]`: the node of the cheapest way; `None` where the looks did not suffice.
+    fn best(&mut self) -> Option<Vec<u32>> {
+        let nodes = self.roads.places.len();
+        let last = self.steps.len() - 1;
+        let mut costs = vec![f64::INFINITY; nodes];
+        costs[self.roads.starts[self.robot] as usize] = 0.0;
+        let mut before: Vec<Vec<u32>> = Vec::with_capacity(last);
+        for step in 0..last {
+            let (after, from) = self.spread(step, &costs)?;
+            before.push(from);
+            costs = after;
+        }
+        let end = self.roads.ends[self.robot].or_else(|| {
+            let cheapest = (0..nodes).min_by(|&a, &b| costs[a].total_cmp(&costs[b]));
+            cheapest.map(|node| node as u32)
+        })?;
+        let mut way = vec![end];
+        for from in before.iter().rev() {
+            way.push(from[way[way.len() - 1] as usize]);
+        }
+        way.reverse();
+        (!way.contains(&NOWHERE)).then_some(way)
+    }
+
+    /// What it costs to be at each node after a step, and from where.
+    fn spread(&mut self, step: usize, costs: &[f64]) -> Option<(Vec<f64>, Vec<u32>)> {
+        let mut after = vec![f64::INFINITY; costs.len()];
+        let mut from = vec![NOWHERE; costs.len()];
+        let place = |node: u32| self.roads.places[node as usize];
+        let end = self.roads.ends[self.robot];
+        for here in (0..costs.len() as u32).filter(|&node| costs[node as usize] < f64::INFINITY) {
+            let wait = if end.is_none_or(|end| end == here) { 0.0 } else { WAIT };
+            let stays = [(here, wait)];
+            let moves = self.pusher.around(self.robot, here);
+            let moves = moves.map(|to| (to, MOVE + METRE * place(here).distance(place(to))));
+            for (to, cost) in stays.into_iter().chain(moves) {
+                let whole = costs[here as usize] + cost;
+                if whole >= after[to as usize] {
+                    continue;
+                }
+                self.looks = self.looks.checked_sub(self.roads.starts.len())?;
+                if self.is_clear(step, here, to) {
+                    (after[to as usize], from[to as usize]) = (whole, here);
+                }
+            }
+        }
+        Some((after, from))
+    }
+
+    fn is_clear(&self, step: usize, here: u32, to: u32) -> bool {
+        let (now, next) = (&self.steps[step], &self.steps[step + 1]);
+        let mut others = (0..now.len()).filter(|&other| other != self.robot);
+        others.all(|other| self.pusher.are_apart((self.robot, here, to), (other, now[other], next[other])))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::TransitionProblem;
+    use crate::instance::Scene;
+    use crate::roads::visibility::Corners;
+    use lightbots_base::{Limits, Vec2};
+
+    #[test]
+    fn detours_are_left_out_and_who_is_in_the_way_still_makes_way() {
+        let at = |x: f64, y: f64| Vec2::new(x, y);
+        let floor = TransitionProblem::on_floor(at(0.3, 0.3), Limits::ELISA_3);
+        let starts = vec![at(-0.15, 0.0), at(0.0, 0.0)];
+        let goals = vec![at(0.15, 0.0), at(0.0, 0.0)];
+        let scene = Scene::new(&TransitionProblem { starts, goals, ..floor }, &[Some(0), Some(1)]).unwrap();
+        let roads = Roadmap::new(&scene, &Corners::new(&scene), 0.072, 0.0).unwrap();
+        let pusher = Pusher::new(&scene, &roads, usize::MAX);
+        // The first drives far around the second, there and back and there again.
+        let mut way = vec![roads.starts[0]];
+        let far_m = pusher.far_m(0, way[0]);
+        let node = |x: f64, y: f64| {
+            let far = |node: &u32| roads.places[*node as usize].distance(at(x, y));
+            (0..roads.places.len() as u32).min_by(|a, b| far(a).total_cmp(&far(b))).unwrap()
+        };
+        let around = [(-0.15, 0.1), (-0.08, 0.14), (0.0, 0.14), (0.08, 0.14), (0.15, 0.1)];
+        way.extend(around.map(|(x, y)| node(x, y)));
+        way.extend(around.map(|(x, y)| node(x, y)).iter().rev());
+        way.extend(around.map(|(x, y)| node(x, y)));
+        way.extend(roads.ends[0]);
+        let steps: Vec<Vec<u32>> = way.iter().map(|&node| vec![node, roads.starts[1]]).collect();
+        let short = shorten(&pusher, &roads, steps.clone());
+        assert!(short.len() < 9 && short.first() == steps.first() && short.last() == steps.last());
+        for pair in short.windows(2) {
+            assert!(pusher.are_apart((0, pair[0][0], pair[1][0]), (1, pair[0][1], pair[1][1])));
+            assert!(pair[0] != pair[1] && pusher.far_m(0, pair[0][0]) <= far_m + 0.2);
+        }
+    }
+}

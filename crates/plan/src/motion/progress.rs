@@ -1,0 +1,64 @@
+//! One progress for all, for a longest way.
+
+use lightbots_base::Limits;
+use lightbots_show::Easing;
+
+/// How far everybody is at each moment, for a longest way.
+pub(crate) struct Pace {
+    /// From start to end, seconds.
+    pub drive_s: f64,
+    ramp_s: f64,
+}
+
+impl Pace {
+    /// The swiftest, or gentlest, for a longest way, stretched by `stretch`.
+    pub fn new(longest_m: f64, limits: &Limits, easing: Easing, stretch: f64) -> Self {
+        let (speed, accel) = (limits.speed_mps, limits.accel_mps2);
+        let halves = 2.0 * (longest_m / accel).sqrt();
+        let least = match easing {
+            Easing::Swift if longest_m > speed * speed / accel => longest_m / speed + speed / accel,
+            Easing::Swift => halves,
+            Easing::Gentle => halves.max(2.0 * longest_m / speed),
+        };
+        let drive_s = least.max(0.4) * stretch;
+        let ramp_s = match easing {
+            Easing::Swift => (speed / accel).min(drive_s / 2.0),
+            Easing::Gentle => drive_s / 2.0,
+        };
+        Self { drive_s, ramp_s }
+    }
+
+    /// The share of the way done after `t` seconds.
+    pub fn share(&self, t: f64) -> f64 {
+        let top = 1.0 / (self.drive_s - self.ramp_s);
+        let ramp = |t: f64| top * t * t / (2.0 * self.ramp_s);
+        if t <= 0.0 {
+            0.0
+        } else if t < self.ramp_s {
+            ramp(t)
+        } else if t <= self.drive_s - self.ramp_s {
+            top * (t - self.ramp_s / 2.0)
+        } else {
+            1.0 - ramp((self.drive_s - t).max(0.0))
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_pace_keeps_the_limits_it_is_made_for() {
+        for (longest, easing) in [(2.0, Easing::Swift), (0.05, Easing::Swift), (2.0, Easing::Gentle)] {
+            let pace = Pace::new(longest, &Limits::ELISA_3, easing, 1.0);
+            let at = |i: i32| longest * pace.share(pace.drive_s * f64::from(i) / 1000.0);
+            let step = pace.drive_s / 1000.0;
+            for i in 1..1000 {
+                assert!((at(i + 1) - at(i)) / step <= 0.27 * 1.0001);
+                assert!((at(i + 1) - 2.0 * at(i) + at(i - 1)).abs() / (step * step) <= 1.001);
+            }
+            assert!(at(0) == 0.0 && (at(1000) - longest).abs() < 1e-12);
+        }
+    }
+}

@@ -1,0 +1,100 @@
+//! Timed paths of those who drive from stop to stop: in every step all who move leave and arrive together, after a rest
+//! in which they turn. Progress is one for all, so everybody is on the straight line that was looked at.
+
+use lightbots_base::{Piece, Span, Vec2};
+use lightbots_show::Easing;
+
+use super::{Profile, quarter_turn};
+use crate::instance::Scene;
+use crate::{Path, Repaired};
+
+/// How much more time than limits ask for.
+const EASE: f64 = 1.002;
+
+/// A robot turns the slower the nearer it is to its new direction: the last of a turn of so much or more takes it so
+/// much longer, seconds. Who drives off before that leaves its line by 7 mm.
+const SETTLING_RAD: f64 = 0.2;
+const SETTLING_S: f64 = 0.18;
+
+/// The paths through `stops[step][robot]`, as slow as is wished for; `None` where somebody stops too often for a path.
+pub(crate) fn repaired(scene: &Scene, stops: &[Vec<Vec2>], wished: Option<Span>) -> Option<Repaired> {
+    // Ramps and a cruise are swifter than one cubic, and take more pieces.
+    [Easing::Swift, Easing::Gentle].into_iter().find_map(|easing| eased(scene, stops, wished, easing))
+}
+
+fn eased(scene: &Scene, stops: &[Vec<Vec2>], wished: Option<Span>, easing: Easing) -> Option<Repaired> {
+    let steps = timed(scene, stops, easing);
+    let whole: i64 = steps.iter().map(|step| step.rest.0 + step.drive.duration().0).sum();
+    let first = quarter_turn(&scene.limits);
+    let wished = wished.map_or(0, |wished| (wished - first).0);
+    let slower = (wished as f64 / whole.max(1) as f64).max(1.0);
+    let steps: Vec<Step> = steps.iter().map(|step| step.slower(slower)).collect();
+    let paths: Vec<Path> = (0..scene.robots()).map(|robot| path(robot, stops, first, &steps)).collect();
+    let is_short = paths.iter().all(|path| path.pieces.len() <= Path::MOST_PIECES);
+    is_short.then_some(Repaired { paths, least: first + Span(whole) })
+}
+
+/// How long everybody rests, and how they drive then.
+struct Step {
+    rest: Span,
+    drive: Profile,
+}
+
+impl Step {
+    fn slower(&self, times: f64) -> Self {
+        let stretched = |span: Span| Span((span.0 as f64 * times).ceil() as i64);
+        Self { rest: stretched(self.rest), drive: self.drive.stretched(stretched(self.drive.duration())) }
+    }
+}
+
+/// The least time for each step.
+fn timed(scene: &Scene, stops: &[Vec<Vec2>], easing: Easing) -> Vec<Step> {
+    let limits = &scene.limits;
+    let mut headings: Vec<Option<Vec2>> = vec![None; scene.robots()];
+    let mut stood_s = vec![quarter_turn(limits).as_secs(); scene.robots()];
+    let one = |pair: &[Vec<Vec2>]| {
+        let (mut rest_s, mut longest_m) = (0.0_f64, 0.0_f64);
+        for (robot, (from, to)) in pair[0].iter().zip(&pair[1]).enumerate() {
+            let Some(line) = (*to - *from).normalized() else { continue };
+            let turn = headings[robot].map_or(core::f64::consts::FRAC_PI_2, |before| {
+                Vec2::new(before.dot(line).abs(), before.cross(line).abs()).angle()
+            });
+            let turned_s = turn / limits.turn_radps * EASE + SETTLING_S * (turn / SETTLING_RAD).min(1.0);
+            rest_s = rest_s.max(turned_s - stood_s[robot]);
+            longest_m = longest_m.max(from.distance(*to));
+            headings[robot] = Some(line);
+        }
+        let rest = Span((rest_s * 1e6).ceil() as i64);
+        let drive = Profile::quickest(longest_m * EASE, easing, limits).without_rest();
+        let lasts_s = (rest + drive.duration()).as_secs();
+        for (robot, (from, to)) in pair[0].iter().zip(&pair[1]).enumerate() {
+            stood_s[robot] = if from == to { stood_s[robot] + lasts_s } else { 0.0 };
+        }
+        Step { rest, drive }
+    };
+    stops.windows(2).map(one).collect()
+}
+
+/// A robot's way, which begins with a rest for the first turn.
+fn path(robot: usize, stops: &[Vec<Vec2>], first: Span, steps: &[Step]) -> Path {
+    let start = stops[0][robot];
+    let mut pieces = Vec::new();
+    let mut rested = first;
+    for (pair, step) in stops.windows(2).zip(steps) {
+        let (from, to) = (pair[0][robot], pair[1][robot]);
+        rested += step.rest;
+        if from == to {
+            rested += step.drive.duration();
+            continue;
+        }
+        if rested > Span::ZERO {
+            pieces.push(Piece::rest(from, rested));
+        }
+        pieces.extend(step.drive.path(from, to).pieces);
+        rested = Span::ZERO;
+    }
+    if rested > Span::ZERO {
+        pieces.push(Piece::rest(stops[stops.len() - 1][robot], rested));
+    }
+    Path { start, pieces }
+}

@@ -1,0 +1,161 @@
+//! How far control points have moved in all: who was clear of somebody by more than both have moved since then is not
+//! looked at again until the next look-out.
+
+use lightbots_base::Vec2;
+
+/// The sum of each control point's moves.
+pub(crate) struct Travel {
+    /// Control points of a way.
+    width: usize,
+    /// `[robot][point]`, metres; at least as far as it really was.
+    moved_m: Vec<f64>,
+    /// The same when it was marked; before everything where it never was.
+    marked_m: Vec<f64>,
+}
+
+impl Travel {
+    /// Of ways that have not moved yet.
+    pub fn new(robots: usize, width: usize) -> Self {
+        let points = robots * width;
+        Self { width, moved_m: vec![0.0; points], marked_m: vec![f64::NEG_INFINITY; points] }
+    }
+
+    /// From now on [`Self::since_mark`] counts anew for points that have moved farther than this since then, metres.
+    pub fn mark(&mut self, far_m: f64) {
+        for (marked_m, moved_m) in self.marked_m.iter_mut().zip(&self.moved_m) {
+            if moved_m - *marked_m > far_m {
+                *marked_m = *moved_m;
+            }
+        }
+    }
+
+    /// How far the control point of a span has moved that moved most since it was marked, metres.
+    pub fn stirred_m(&self, robot: usize, span: usize) -> f64 {
+        let at = robot * self.width + span;
+        let since = |point: usize| self.moved_m[point] - self.marked_m[point];
+        since(at).max(since(at + 1)).max(since(at + 2).max(since(at + 3)))
+    }
+
+    /// No place has moved farther than this since the mark, metres.
+    pub fn since_mark(&self) -> f64 {
+        let since = self.moved_m.iter().zip(&self.marked_m).map(|(now, then)| now - then);
+        since.fold(0.0, f64::max)
+    }
+
+    /// How far the control point of a robot's span has moved that moved most, metres. From one moment to another a place
+    /// may move farther than this grows, where one point catches up with another: the next look-out sees to that.
+    pub fn of(&self, robot: usize, span: usize) -> f64 {
+        let at = robot * self.width + span;
+        let four = &self.moved_m[at..at + 4];
+        four[0].max(four[1]).max(four[2].max(four[3]))
+    }
+
+    /// A span's control points moved by `shift` times their pull.
+    pub fn bend(&mut self, robot: usize, span: usize, pull: &[f64; 4], shift: Vec2) {
+        let far_m = far(shift);
+        let at = robot * self.width + span;
+        for (moved_m, share) in self.moved_m[at..at + 4].iter_mut().zip(pull) {
+            *moved_m += far_m * share.abs();
+        }
+        if span < 2 || span + 6 > self.width {
+            self.tie_ends(robot);
+        }
+    }
+
+    /// A way moved from `before` to `after`.
+    pub fn follow(&mut self, robot: usize, before: &[Vec2], after: &[Vec2]) {
+        let own = &mut self.moved_m[robot * self.width..(robot + 1) * self.width];
+        for ((moved_m, before), after) in own.iter_mut().zip(before).zip(after) {
+            *moved_m += far(*after - *before);
+        }
+    }
+
+    /// The outer points follow the inner ones, at most as far.
+    fn tie_ends(&mut self, robot: usize) {
+        let own = &mut self.moved_m[robot * self.width..(robot + 1) * self.width];
+        let last = own.len() - 3;
+        (own[0], own[1]) = (own[2], own[2]);
+        (own[last + 1], own[last + 2]) = (own[last], own[last]);
+    }
+}
+
+/// At least as far as a shift goes, and hardly dearer than its parts.
+fn far(shift: Vec2) -> f64 {
+    shift.x.abs() + shift.y.abs()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::TransitionProblem;
+    use crate::instance::Scene;
+    use crate::seeded::Seeded;
+    use crate::spline::set::{Weave, basis, blend};
+    use lightbots_base::Limits;
+
+    const SPANS: usize = 9;
+
+    fn weave() -> Weave {
+        let problem = TransitionProblem {
+            starts: vec![Vec2::ZERO, Vec2::new(0.0, 0.5)],
+            goals: vec![Vec2::new(1.0, 0.0)],
+            ..TransitionProblem::on_floor(Vec2::new(2.0, 2.0), Limits::ELISA_3)
+        };
+        let scene = Scene::new(&problem, &[Some(0), None]).unwrap();
+        Weave::new(&scene, SPANS, 0.25, |robot, step| match robot {
+            0 => Vec2::new(step as f64 / SPANS as f64, 0.0),
+            _ => Vec2::new(0.0, 0.5),
+        })
+    }
+
+    /// No place on any span is farther from where it was than `said` of robot and span, metres.
+    fn assert_bounds(was: &Weave, is: &Weave, said: impl Fn(usize, usize) -> f64) {
+        for robot in 0..2 {
+            for span in 0..SPANS {
+                let far = (0..=8).map(|i| basis(f64::from(i) / 8.0)).map(|weights| {
+                    blend(was.span(robot, span), &weights).distance(blend(is.span(robot, span), &weights))
+                });
+                let (far, said) = (far.fold(0.0, f64::max), said(robot, span));
+                assert!(far <= said + 1e-12, "robot {robot}, span {span}: {far} m, said {said} m");
+            }
+        }
+    }
+
+    #[test]
+    fn nobody_moves_farther_than_their_travel_says() {
+        let (mut seeded, mut weave) = (Seeded::new(4), weave());
+        let (mut travel, first) = (Travel::new(2, SPANS + 3), weave.clone());
+        for _ in 0..40 {
+            travel.mark(0.0);
+            assert!(travel.since_mark() == 0.0);
+            let was = weave.clone();
+            for _ in 0..3 {
+                let shift = Vec2::new(seeded.between(-0.05, 0.05), seeded.between(-0.05, 0.05));
+                let (robot, span) = (seeded.below(2), seeded.below(SPANS));
+                let pull = weave.pull(robot, span, &basis(seeded.between(0.0, 1.0)));
+                weave.bend(robot, span, &pull, shift);
+                travel.bend(robot, span, &pull, shift);
+                let (other, point) = (1 - robot, 2 + seeded.below(SPANS - 1));
+                let before = weave.way(other).to_vec();
+                weave.way_mut(other)[point] += shift;
+                weave.tie_ends(other);
+                travel.follow(other, &before, weave.way(other));
+            }
+            assert_bounds(&was, &weave, |_, _| travel.since_mark());
+            assert_bounds(&first, &weave, |robot, span| travel.of(robot, span));
+        }
+    }
+
+    #[test]
+    fn who_did_not_move_has_not_travelled() {
+        let weave = weave();
+        let mut travel = Travel::new(2, SPANS + 3);
+        let pull = weave.pull(0, 4, &basis(0.5));
+        travel.bend(0, 4, &pull, Vec2::new(0.01, 0.0));
+        assert!((0..SPANS).all(|span| travel.of(1, span) == 0.0));
+        assert!(travel.of(0, 0) == 0.0 && travel.of(0, 8) == 0.0);
+        assert!(travel.of(0, 4) > 0.004 && travel.of(0, 4) < 0.01);
+        travel.mark(0.0);
+        assert!(travel.since_mark() == 0.0 && travel.of(0, 4) > 0.004);
+    }
+}

@@ -1,0 +1,8 @@
+//! Trajectory optimisation: robots that come too close are displaced, then limits are restored, until neither is needed.
+
+pub(crate) mod cells;
+pub(crate) mod contacts;
+pub(crate) mod displacement;
+pub(crate) mod neighbours;
+pub(crate) mod relaxation;
+pub(crate) mod stagnation;

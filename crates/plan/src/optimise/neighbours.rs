@@ -1,0 +1,97 @@
+//! Who is near whom on a span, of those who have moved: pairs that have hardly done so since they were compared are not
+//! compared again.
+
+use lightbots_base::Vec2;
+
+use crate::optimise::cells::{Cells, Disc};
+use crate::optimise::contacts::{Contact, Other};
+use crate::optimise::displacement::Travel;
+
+/// Straight stretches a span is looked at in.
+pub(crate) const STRETCHES: usize = 4;
+/// Who has not moved farther than this is as near to others like that as at the look-out before, metres.
+pub(crate) const STIR_M: f64 = 0.002;
+/// Where fewer than one robot in so many have moved farther, each of them is compared with all.
+const FEW: usize = 40;
+
+/// What a look-out needs for each span; kept to save memory.
+#[derive(Default)]
+pub(crate) struct Near {
+    cells: Cells,
+    /// `[robot]`: where it is during the span.
+    pub discs: Vec<Disc>,
+    /// `[robot]`: the ends of the straight stretches of its way on the span.
+    pub places: Vec<Places>,
+    /// `[robot]`: how far it has moved since it was last compared with all, metres.
+    moved_m: Vec<f64>,
+    /// Who has stirred.
+    pub stirred: Vec<usize>,
+}
+
+/// The ends of a span's straight stretches.
+pub(crate) type Places = [Vec2; STRETCHES + 1];
+
+impl Near {
+    /// Looks who has moved on a span.
+    pub fn stir(&mut self, robots: usize, span: usize, travel: &Travel) {
+        self.moved_m.clear();
+        self.moved_m.extend((0..robots).map(|robot| travel.stirred_m(robot, span)));
+        self.stirred.clear();
+        self.stirred.extend((0..robots).filter(|&robot| self.moved_m[robot] > STIR_M));
+    }
+
+    /// A contact as it was known; `None` where somebody in it has stirred.
+    pub fn still(&self, contact: &Contact) -> Option<Contact> {
+        let moved_m = match contact.b {
+            Other::Robot(b) => self.moved_m[contact.a].max(self.moved_m[b]),
+            Other::Wall(_) => self.moved_m[contact.a],
+        };
+        let clear_until = if moved_m > 0.0 { 0.0 } else { contact.clear_until };
+        (moved_m <= STIR_M).then_some(Contact { clear_until, ..*contact })
+    }
+
+    /// Calls `near` for every two whose discs are less than `apart` from each other and of whom one has stirred.
+    pub fn pairs(&mut self, apart: f64, mut near: impl FnMut(usize, usize)) {
+        let (discs, has_stirred) = (&self.discs, |robot: usize| self.moved_m[robot] > STIR_M);
+        if self.stirred.len() * FEW > discs.len() {
+            self.cells.near_pairs(discs, apart, |one, other| {
+                let (a, b) = (one.owner.min(other.owner) as usize, one.owner.max(other.owner) as usize);
+                if has_stirred(a) || has_stirred(b) {
+                    near(a, b);
+                }
+            });
+            return;
+        }
+        for &one in &self.stirred {
+            for (other, disc) in discs.iter().enumerate() {
+                let touch = apart + discs[one].radius + disc.radius;
+                let is_near = (discs[one].at - disc.at).length_squared() < touch * touch;
+                if is_near && other != one && !(other < one && has_stirred(other)) {
+                    near(one.min(other), one.max(other));
+                }
+            }
+        }
+    }
+}
+
+/// How far from its middle a span's ends are.
+pub(crate) fn reach(places: &Places) -> f64 {
+    let middle = places[STRETCHES / 2];
+    let (first, last) = (places[0] - middle, places[STRETCHES] - middle);
+    first.length_squared().max(last.length_squared()).sqrt()
+}
+
+/// Whether straight stretches from place to place come nearer to the origin than `near`.
+pub(crate) fn come_near(places: &Places, near: f64) -> bool {
+    // Who drive alike do not come nearer to each other.
+    let far = near + reach(places);
+    let square = near * near;
+    let comes_near = |pair: &[Vec2]| {
+        let (before, way) = (pair[0], pair[1] - pair[0]);
+        let (toward, whole, beside) = (-before.dot(way), way.length_squared(), before.cross(way));
+        let passes = toward > 0.0 && toward < whole && beside * beside < square * whole;
+        passes || pair[1].length_squared() < square
+    };
+    places[STRETCHES / 2].length_squared() < far * far
+        && (places[0].length_squared() < square || places.windows(2).any(comes_near))
+}

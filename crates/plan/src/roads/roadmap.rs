@@ -1,0 +1,286 @@
+//! Ways for those who drive from stop to stop: everybody's ends, places beside corners and in gaps, and a lattice, as
+//! fine as asked for; between them every straight line that is free and short.
+
+use std::cmp::Ordering;
+use std::collections::BinaryHeap;
+
+use lightbots_base::Vec2;
+use lightbots_show::Obstacle;
+
+use crate::instance::Scene;
+use crate::margins::ROADMAP_M;
+use crate::roads::visibility::Corners;
+
+/// Ways are this long at most, in pitches, and at least up to this, metres.
+const REACH: f64 = 1.5;
+const LEAST_REACH_M: f64 = 0.075;
+/// Places keep this much off those there are, in pitches; those of a row beside a corner.
+const APART: f64 = 0.5;
+/// Places in a row, and halvings of the last step to where it ends.
+const MOST_IN_ROW: usize = 40;
+const HALVINGS: usize = 12;
+/// Larger ones are not made.
+const MOST_NODES: usize = 5_000;
+/// What every stop costs beside the way, metres: about what could be driven meanwhile.
+const STOP_M: f64 = 0.05;
+
+/// Places and the ways between them.
+pub(crate) struct Roadmap {
+    /// Where each node is, stage metres.
+    pub places: Vec<Vec2>,
+    /// `[node]`: nodes there is a way to, nearest first.
+    pub ways: Vec<Vec<u32>>,
+    /// `[node]`: whether it is so near to a wall that only those may be there who start or end there.
+    is_private: Vec<bool>,
+    /// `[robot]`: where it starts.
+    pub starts: Vec<u32>,
+    /// `[robot]`: where it ends; `None`: anywhere.
+    pub ends: Vec<Option<u32>>,
+    /// The longest way, metres.
+    pub reach_m: f64,
+    /// Half the extents of the rectangle that places but for ends are in, metres.
+    inner: Vec2,
+}
+
+impl Roadmap {
+    /// The roadmap of a scene with a lattice of this pitch, but for ends so far off the floor's edge; `None` where it would
+    /// be too large.
+    pub fn new(scene: &Scene, corners: &Corners, pitch_m: f64, off_edge_m: f64) -> Option<Self> {
+        // Each start is a node of its own.
+        if scene.robots() > MOST_NODES {
+            return None;
+        }
+        let lattice = corners.lattice(scene, pitch_m)?;
+        let reach_m = (pitch_m * REACH).max(LEAST_REACH_M);
+        let (places, ways, is_private) = (Vec::new(), Vec::new(), Vec::new());
+        let (starts, ends) = (Vec::new(), Vec::new());
+        let inner = scene.inner - Vec2::new(off_edge_m, off_edge_m);
+        let mut roads = Self { places, ways, is_private, starts, ends, reach_m, inner };
+        roads.starts = scene.starts.iter().map(|&start| roads.node_at(start)).collect();
+        roads.ends = scene.ends.iter().map(|end| end.map(|end| roads.node_at(end))).collect();
+        for &place in corners.places() {
+            roads.add(scene, place, 1e-4);
+        }
+        for &place in &lattice.places {
+            if scene.cancel.is_wanted() {
+                return None;
+            }
+            roads.add(scene, place, pitch_m * APART);
+        }
+        for &place in corners.places() {
+            for direction in [(1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0)] {
+                roads.add_row(scene, place, Vec2::new(direction.0, direction.1) * pitch_m, pitch_m * APART);
+            }
+        }
+        if roads.places.len() > MOST_NODES {
+            return None;
+        }
+        roads.connect(scene);
+        Some(roads)
+    }
+
+    fn node_at(&mut self, place: Vec2) -> u32 {
+        let known = self.places.iter().position(|other| *other == place);
+        known.unwrap_or_else(|| {
+            self.places.push(place);
+            self.places.len() - 1
+        }) as u32
+    }
+
+    fn add(&mut self, scene: &Scene, place: Vec2, apart_m: f64) {
+        let within = |at: f64, most: f64| at.clamp(-most, most);
+        let place = Vec2::new(within(place.x, self.inner.x), within(place.y, self.inner.y));
+        let is_new = self.places.iter().all(|other| other.distance(place) >= apart_m);
+        if is_new && self.places.len() <= MOST_NODES && scene.is_free(place, ROADMAP_M) {
+            self.places.push(place);
+        }
+    }
+
+    /// Places in a row beside a place as far as it is free, the last one where that ends.
+    fn add_row(&mut self, scene: &Scene, from: Vec2, step: Vec2, apart_m: f64) {
+        let mut at = from;
+        for _ in 0..MOST_IN_ROW {
+            if is_clear(scene, at, at + step) {
+                at += step;
+                self.add(scene, at, apart_m);
+                continue;
+            }
+            let mut share = 0.0;
+            for halving in 1..=HALVINGS {
+                let more = share + 0.5_f64.powi(halving as i32);
+                share = if is_clear(scene, at, at + step * more) { more } else { share };
+            }
+            self.add(scene, at + step * share, apart_m);
+            return;
+        }
+    }
+
+    fn connect(&mut self, scene: &Scene) {
+        let count = self.places.len();
+        self.is_private = self.places.iter().map(|&place| !scene.is_free(place, ROADMAP_M)).collect();
+        let mut ways: Vec<Vec<u32>> = vec![Vec::new(); count];
+        for a in (0..count).take_while(|_| !scene.cancel.is_wanted()) {
+            for b in 0..a {
+                let (from, to) = (self.places[a], self.places[b]);
+                if from.distance(to) <= self.reach_m && is_clear(scene, from, to) {
+                    ways[a].push(b as u32);
+                    ways[b].push(a as u32);
+                }
+            }
+        }
+        for (node, beside) in ways.iter_mut().enumerate() {
+            let far_m = |other: u32| self.places[other as usize].distance(self.places[node]);
+            beside.sort_by(|&a, &b| far_m(a).total_cmp(&far_m(b)).then(a.cmp(&b)));
+        }
+        self.ways = ways;
+    }
+
+    /// Whether a robot may be at a node.
+    pub fn may_be(&self, robot: usize, node: u32) -> bool {
+        !self.is_private[node as usize] || self.starts[robot] == node || self.ends[robot] == Some(node)
+    }
+
+    /// What it takes a robot from every node to where it ends: metres, and some for every stop; infinite where there
+    /// is no way.
+    pub fn far_m(&self, robot: usize) -> Vec<f64> {
+        let mut far = vec![f64::INFINITY; self.places.len()];
+        let Some(end) = self.ends[robot] else { return vec![0.0; self.places.len()] };
+        let mut open = BinaryHeap::from([Reached { far_m: 0.0, node: end }]);
+        far[end as usize] = 0.0;
+        while let Some(Reached { far_m, node }) = open.pop() {
+            if far_m > far[node as usize] {
+                continue;
+            }
+            for &next in self.ways[node as usize].iter().filter(|&&next| self.may_be(robot, next)) {
+                let way_m = self.places[node as usize].distance(self.places[next as usize]);
+                let whole = far_m + way_m + STOP_M;
+                if whole < far[next as usize] {
+                    far[next as usize] = whole;
+                    open.push(Reached { far_m: whole, node: next });
+                }
+            }
+        }
+        far
+    }
+}
+
+/// A node that has been reached; the nearest is the greatest.
+#[derive(PartialEq)]
+struct Reached {
+    far_m: f64,
+    node: u32,
+}
+
+impl Eq for Reached {}
+
+impl PartialOrd for Reached {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl Ord for Reached {
+    fn cmp(&self, other: &Self) -> Ordering {
+        other.far_m.total_cmp(&self.far_m).then(other.node.cmp(&self.node))
+    }
+}
+
+/// Whether a robot may drive straight from one place on the floor to another: off every wall by the margin, or by as
+/// much as its ends are.
+fn is_clear(scene: &Scene, from: Vec2, to: Vec2) -> bool {
+    let on_floor = |at: Vec2| at.x.abs() <= scene.inner.x + 1e-6 && at.y.abs() <= scene.inner.y + 1e-6;
+    on_floor(from)
+        && on_floor(to)
+        && scene.walls.iter().enumerate().all(|(wall, shape)| {
+            let ends_m = scene.off_wall(wall, from).0.min(scene.off_wall(wall, to).0);
+            let least_m = scene.limits.radius_m + ROADMAP_M.min(ends_m - 1e-9);
+            off_shape(shape, from, to) >= least_m
+        })
+}
+
+/// The least distance of a line from a shape, metres; 0 where it goes through.
+fn off_shape(shape: &Obstacle, from: Vec2, to: Vec2) -> f64 {
+    let to_line = |place: Vec2| nearest(from - place, to - place).length();
+    match *shape {
+        Obstacle::Disc { at, radius_m } => (to_line(at) - radius_m).max(0.0),
+        Obstacle::Rect { min, max } => {
+            if meets(min, max, from, to) {
+                return 0.0;
+            }
+            let corners = [min, Vec2::new(min.x, max.y), max, Vec2::new(max.x, min.y)].map(to_line);
+            let ends = [from, to]
+                .map(|at| at.distance(Vec2::new(at.x.max(min.x).min(max.x), at.y.max(min.y).min(max.y))));
+            corners.into_iter().chain(ends).fold(f64::INFINITY, f64::min)
+        }
+    }
+}
+
+/// Whether a line goes through a rectangle (Liang and Barsky 1984).
+fn meets(min: Vec2, max: Vec2, from: Vec2, to: Vec2) -> bool {
+    let way = to - from;
+    let (mut enters, mut leaves) = (0.0_f64, 1.0_f64);
+    for (at, along, low, high) in [(from.x, way.x, min.x, max.x), (from.y, way.y, min.y, max.y)] {
+        if along == 0.0 {
+            if at < low || at > high {
+                return false;
+            }
+            continue;
+        }
+        let (a, b) = ((low - at) / along, (high - at) / along);
+        (enters, leaves) = (enters.max(a.min(b)), leaves.min(a.max(b)));
+    }
+    enters <= leaves
+}
+
+/// The place on a line that is nearest to the origin.
+pub(crate) fn nearest(from: Vec2, to: Vec2) -> Vec2 {
+    let way = to - from;
+    let share = (-from.dot(way) / way.length_squared().max(1e-18)).clamp(0.0, 1.0);
+    from + way * share
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::TransitionProblem;
+    use lightbots_base::Limits;
+
+    #[test]
+    fn a_line_is_as_far_off_a_rectangle_as_its_nearest_point() {
+        let shape = Obstacle::Rect { min: Vec2::ZERO, max: Vec2::new(1.0, 1.0) };
+        let off = |from: (f64, f64), to: (f64, f64)| {
+            off_shape(&shape, Vec2::new(from.0, from.1), Vec2::new(to.0, to.1))
+        };
+        assert_eq!(off((-1.0, 0.5), (2.0, 0.6)), 0.0);
+        assert_eq!(off((0.2, 0.2), (0.3, 0.3)), 0.0);
+        assert!((off((2.0, 0.0), (0.0, 2.0)) - 0.0).abs() < 1e-12);
+        assert!((off((3.0, 0.0), (0.0, 3.0)) - 0.5_f64.sqrt()).abs() < 1e-12);
+        assert!((off((-1.0, 1.25), (3.0, 1.25)) - 0.25).abs() < 1e-12);
+        assert!((off((1.5, 0.5), (4.0, 0.5)) - 0.5).abs() < 1e-12);
+    }
+
+    #[test]
+    fn every_way_is_free_and_leads_back() {
+        let wall = |min: (f64, f64), max: (f64, f64)| Obstacle::Rect {
+            min: Vec2::new(min.0, min.1),
+            max: Vec2::new(max.0, max.1),
+        };
+        let problem = TransitionProblem {
+            starts: vec![Vec2::new(-0.4, 0.0)],
+            goals: vec![Vec2::new(0.4, 0.0)],
+            obstacles: vec![wall((-0.1, 0.0305), (0.1, 0.2)), wall((-0.1, -0.2), (0.1, -0.0305))],
+            ..TransitionProblem::on_floor(Vec2::new(0.5, 0.2), Limits::ELISA_3)
+        };
+        let scene = Scene::new(&problem, &[Some(0)]).unwrap();
+        let roads = Roadmap::new(&scene, &Corners::new(&scene), 0.072, 0.0).unwrap();
+        assert!(roads.far_m(0)[roads.starts[0] as usize] < 1.6, "through the gap");
+        for (node, beside) in roads.ways.iter().enumerate() {
+            for &other in beside {
+                assert!(roads.ways[other as usize].contains(&(node as u32)));
+                let (from, to) = (roads.places[node], roads.places[other as usize]);
+                let sampled = (0..=50).map(|i| from.lerp(to, f64::from(i) / 50.0));
+                assert!(sampled.into_iter().all(|at| scene.is_free(at, 0.003)));
+            }
+        }
+    }
+}

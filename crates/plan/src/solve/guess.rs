@@ -1,0 +1,243 @@
+//! First guesses: everybody drives their shortest way, through each other if need be, in one manner or another.
+
+use lightbots_base::Vec2;
+use lightbots_show::Easing;
+
+use crate::motion::progress::Pace;
+use crate::optimise::cells::Cells;
+use crate::solve::path_set::{Crowd, crowding, point_along};
+use crate::spline::retime::{moments, slowed};
+use crate::spline::set::{MOST_SPANS, Weave};
+
+/// By how much guesses bow.
+const BOWS: [f64; 5] = [0.0, 0.12, 0.25, 0.5, -0.12];
+/// Share of the time in which a tight crowd becomes loose, and tight again at the end.
+const LOOSENED: f64 = 0.3;
+/// The top speed of who loosens and tightens, over the mean.
+const GENTLE: f64 = 1.5;
+/// Moments at which a guess is looked at.
+const SAMPLES: usize = 16;
+/// What being too fast weighs beside being too close.
+const RUSH: f64 = 0.03;
+/// What every manner but driving straight together weighs.
+const ODD: f64 = 0.005;
+/// Badness up to here needs no more time.
+const EASY: f64 = 0.1;
+/// How much more time more badness is given at first, and the most of it: less than crowds of 1,000 mostly come to, as
+/// the relaxation knows better where they need it.
+const STRETCH: f64 = 4.0;
+const MOST_STRETCH: f64 = 0.4;
+/// Parts of the time between two of those moments that each take as long as they need.
+const PARTS: usize = 16;
+
+/// How everybody gets along their course.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct Manner {
+    /// Straight courses bow to the right by this share of their length, to the left where it is negative, so that
+    /// crowds that meet head-on pass each other.
+    pub bow: f64,
+    /// Whether all drive equally fast and who has a short way arrives early, instead of all arriving together: so who
+    /// crosses a line meets there only a few at a time.
+    pub early: bool,
+    /// Whether the crowd is kept from gathering in the middle.
+    pub level: bool,
+    /// Whether a tight crowd loosens on its way.
+    pub spread: bool,
+    /// Whether it loosens before anybody goes anywhere, and is tight again only when all have got there.
+    pub staged: bool,
+}
+
+impl Manner {
+    /// All that are worth a look.
+    pub fn all() -> impl Iterator<Item = Self> {
+        let flags = [false, true];
+        let loose = flags.into_iter().flat_map(move |spread| flags.map(|level| (spread, level)));
+        let timed = loose.flat_map(move |(spread, level)| flags.map(|early| (spread, level, early)));
+        timed.flat_map(|(spread, level, early)| {
+            BOWS.map(|bow| Self { bow, early, level, spread, staged: false })
+        })
+    }
+}
+
+/// A crowd's ways in a manner.
+pub(crate) struct Guess<'a> {
+    crowd: &'a Crowd<'a>,
+    pub manner: Manner,
+    pace: Pace,
+    /// How little it promises: how much of others is in everybody's way, how much too fast they are, and how odd it is.
+    pub badness: f64,
+    /// The same but for how odd it is.
+    plain_badness: f64,
+    /// How much the crowd is in its own way at each moment that was looked at.
+    thick: [f64; SAMPLES + 1],
+}
+
+impl<'a> Guess<'a> {
+    /// The guess of a manner, judged by who comes closer than `near_m`.
+    pub fn new(crowd: &'a Crowd<'a>, easing: Easing, manner: Manner, near_m: f64) -> Self {
+        let longer = 1.0 + 2.0 * manner.bow * manner.bow;
+        let pace = Pace::new(crowd.longest_m, &crowd.scene.limits, easing, longer);
+        let thick = [0.0; SAMPLES + 1];
+        let mut guess = Self { crowd, manner, pace, badness: 0.0, plain_badness: 0.0, thick };
+        (guess.plain_badness, guess.thick) = guess.judged(near_m);
+        let Manner { bow, early, level, spread, .. } = manner;
+        let odd = [early, level, spread].into_iter().filter(|&is| is).count() as f64 * ODD + bow * bow;
+        guess.badness = guess.plain_badness + odd;
+        guess
+    }
+
+    /// Whether all ways are the same as in another guess for all that its manner differs in who is early.
+    pub fn is_like(&self, other: &Self) -> bool {
+        let timed = |guess: &Self| Manner { early: true, ..guess.manner };
+        timed(self) == timed(other) && (self.plain_badness - other.plain_badness).abs() < 1e-6
+    }
+
+    /// The guess as a weave, `stretch` times as slow as at full speed, with spans of about `span_s` seconds. It is slow
+    /// where the crowd is in its own way, and only there.
+    pub fn weave(&self, stretch: f64, span_s: f64) -> Weave {
+        let parts = SAMPLES * PARTS;
+        let thick = (0..parts).map(|part| {
+            let (sample, within) = (part / PARTS, ((part % PARTS) as f64 + 0.5) / PARTS as f64);
+            self.thick[sample] * (1.0 - within) + self.thick[sample + 1] * within
+        });
+        let lasts = slowed(&thick.collect::<Vec<_>>(), stretch, f64::INFINITY);
+        self.weave_through(self.pace.drive_s * stretch, span_s, |spans| {
+            moments(&lasts, spans).into_iter().map(|moment| moment / parts as f64).collect()
+        })
+    }
+
+    /// The guess as a weave that takes `drive_s` seconds, with spans of about `span_s`.
+    pub fn weave_lasting(&self, drive_s: f64, span_s: f64) -> Weave {
+        let evenly = |spans: usize| (0..=spans).map(|step| step as f64 / spans as f64).collect();
+        self.weave_through(drive_s, span_s, evenly)
+    }
+
+    /// The same, through where everybody is at some shares of the time, one more than there are spans.
+    fn weave_through(&self, drive_s: f64, span_s: f64, moments: impl Fn(usize) -> Vec<f64>) -> Weave {
+        let spans = ((drive_s / span_s).ceil() as usize).clamp(6, MOST_SPANS);
+        let places: Vec<Vec<Vec2>> =
+            moments(spans).into_iter().map(|moment| self.free_places(moment)).collect();
+        Weave::new(self.crowd.scene, spans, drive_s / spans as f64, |robot, step| places[step][robot])
+    }
+
+    /// How many times as long as at full speed it should take for the crowd to give way.
+    pub fn stretch(&self) -> f64 {
+        1.0 + ((self.badness - EASY) * STRETCH).clamp(0.0, MOST_STRETCH)
+    }
+
+    /// Seconds in which everybody gets to the end at full speed, as far as this manner goes.
+    pub fn least_s(&self) -> f64 {
+        if self.manner.staged {
+            let out_s = GENTLE * self.crowd.farthest_loosened() / self.crowd.scene.limits.speed_mps;
+            (self.pace.drive_s / (1.0 - 2.0 * LOOSENED)).max(out_s / LOOSENED)
+        } else {
+            self.pace.drive_s
+        }
+    }
+
+    /// The share of its way that the longest has gone after a share of the time.
+    fn share(&self, moment: f64) -> f64 {
+        let within = (moment - LOOSENED) / (1.0 - 2.0 * LOOSENED);
+        let moment = if self.manner.staged { within.clamp(0.0, 1.0) } else { moment };
+        self.pace.share(moment * self.pace.drive_s)
+    }
+
+    /// Where everybody is after a share of the time.
+    fn places(&self, moment: f64) -> Vec<Vec2> {
+        let share = self.share(moment);
+        let mut places: Vec<Vec2> =
+            (0..self.crowd.courses.len()).map(|robot| self.place(robot, share)).collect();
+        if self.manner.level {
+            self.crowd.level(&mut places, share);
+        }
+        if self.manner.spread {
+            let ebb = (moment.min(1.0 - moment) / LOOSENED).clamp(0.0, 1.0);
+            self.crowd.loosen(&mut places, ebb * ebb * (3.0 - 2.0 * ebb));
+        }
+        places
+    }
+
+    /// The same, where nobody is moved from their way onto what stands there.
+    fn free_places(&self, moment: f64) -> Vec<Vec2> {
+        let mut places = self.places(moment);
+        if !self.crowd.scene.walls.is_empty() {
+            let share = self.share(moment);
+            for (robot, place) in places.iter_mut().enumerate() {
+                if !self.crowd.scene.is_free(*place, 0.0) {
+                    let (course, length) = (&self.crowd.courses[robot], self.crowd.lengths[robot]);
+                    *place = point_along(course, length * self.share_of(robot, share));
+                }
+            }
+        }
+        places
+    }
+
+    /// How much of its way a robot has gone when the longest way has been gone by a share.
+    fn share_of(&self, robot: usize, share: f64) -> f64 {
+        let length = self.crowd.lengths[robot];
+        if self.manner.early && length > 0.0 {
+            (share * self.crowd.longest_m / length).min(1.0)
+        } else {
+            share
+        }
+    }
+
+    fn place(&self, robot: usize, share: f64) -> Vec2 {
+        let (course, length) = (&self.crowd.courses[robot], self.crowd.lengths[robot]);
+        let share = self.share_of(robot, share);
+        let place = point_along(course, length * share);
+        // A bow that begins and ends straight ahead: 16 s²(1 − s)² is 1 half way.
+        let aside = 16.0 * (share * (1.0 - share)) * (share * (1.0 - share)) * self.manner.bow;
+        match course[..] {
+            [from, to] if aside != 0.0 => {
+                let scene = self.crowd.scene;
+                scene.on_floor(robot, place - (to - from).left() * aside, scene.off_edge_m)
+            }
+            _ => place,
+        }
+    }
+
+    /// How little it promises but for how odd it is, and how much the crowd is in its own way at each moment.
+    fn judged(&self, near_m: f64) -> (f64, [f64; SAMPLES + 1]) {
+        let robots = self.crowd.courses.len().max(1) as f64;
+        let step_m = self.crowd.scene.limits.speed_mps * self.pace.drive_s / SAMPLES as f64;
+        let mut rush = vec![0.0_f64; self.crowd.courses.len()];
+        let (mut thick, mut before, mut cells) = ([0.0; SAMPLES + 1], self.places(0.0), Cells::default());
+        for (sample, thick) in thick.iter_mut().enumerate().skip(1) {
+            let places = self.places(sample as f64 / SAMPLES as f64);
+            for (robot, most) in rush.iter_mut().enumerate() {
+                *most = most.max(places[robot].distance(before[robot]) / step_m - 1.0);
+            }
+            *thick = if sample < SAMPLES { crowding(&mut cells, &places, near_m) } else { 0.0 };
+            before = places;
+        }
+        let close = thick.iter().sum::<f64>() / (SAMPLES as f64 * robots);
+        (close + rush.iter().sum::<f64>() / robots * RUSH, thick)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::TransitionProblem;
+    use crate::instance::Scene;
+    use lightbots_base::Limits;
+
+    #[test]
+    fn guesses_are_alike_where_only_who_is_early_differs_and_nobody_is() {
+        for (last_m, is_alike) in [(0.4, true), (0.2, false)] {
+            let starts: Vec<Vec2> = (0..4).map(|i| Vec2::new(-0.2, f64::from(i) * 0.1)).collect();
+            let mut courses: Vec<Vec<Vec2>> =
+                starts.iter().map(|&at| vec![at, at + Vec2::new(0.4, 0.0)]).collect();
+            courses[3][1].x = last_m - 0.2;
+            let floor = TransitionProblem::on_floor(Vec2::new(0.6, 0.6), Limits::ELISA_3);
+            let scene = Scene::new(&TransitionProblem { starts, ..floor }, &[None; 4]).unwrap();
+            let crowd = Crowd::new(&scene, &courses);
+            let guess = |manner| Guess::new(&crowd, Easing::Swift, manner, 0.12);
+            let (plain, early) =
+                (guess(Manner::default()), guess(Manner { early: true, ..Manner::default() }));
+            assert_eq!(plain.is_like(&early), is_alike);
+            assert!(!plain.is_like(&guess(Manner { bow: 0.25, ..Manner::default() })));
+        }
+    }
+}

@@ -1,0 +1,152 @@
+//! A crowd on its way: how it is kept from gathering in the middle, and how much it is in its own way.
+
+use lightbots_base::Vec2;
+
+use crate::instance::Scene;
+use crate::optimise::cells::{Cells, Disc};
+
+/// How much of the way to an even spread a crowd is taken.
+const LEVELLED: f64 = 0.6;
+/// How far apart robots of a loose crowd are, metres.
+const LOOSE_M: f64 = 0.14;
+
+/// Everybody's shortest way, and what it tells of all.
+pub(crate) struct Crowd<'a> {
+    pub scene: &'a Scene<'a>,
+    /// Corners of each robot's way.
+    pub courses: &'a [Vec<Vec2>],
+    /// How long each is, metres.
+    pub lengths: Vec<f64>,
+    /// The longest of them, metres.
+    pub longest_m: f64,
+    /// Coordinates of starts and of ends along each axis, sorted.
+    spreads: [(Vec<f64>, Vec<f64>); 2],
+    /// The middle of all ends, stage metres.
+    middle: Vec2,
+    /// How many times as wide along each axis it becomes when it is loose.
+    wider: Vec2,
+}
+
+impl<'a> Crowd<'a> {
+    /// The crowd that has these ways to go.
+    pub fn new(scene: &'a Scene<'a>, courses: &'a [Vec<Vec2>]) -> Self {
+        let lengths: Vec<f64> = courses.iter().map(|course| length(course)).collect();
+        let longest_m = lengths.iter().copied().fold(0.0, f64::max);
+        let spread = |of: fn(Vec2) -> f64| {
+            let sorted = |ends: &mut dyn Iterator<Item = Vec2>| {
+                let mut along: Vec<f64> = ends.map(of).collect();
+                along.sort_unstable_by(f64::total_cmp);
+                along
+            };
+            let starts = sorted(&mut courses.iter().map(|course| course[0]));
+            (starts, sorted(&mut courses.iter().map(|course| course[course.len() - 1])))
+        };
+        let spreads = [spread(|at| at.x), spread(|at| at.y)];
+        let (middle, wider) = room(scene, &spreads);
+        Self { scene, courses, lengths, longest_m, spreads, middle, wider }
+    }
+
+    /// Spreads places along both axes, most of the way to how starts and ends are spread: by rank, from where the one
+    /// of that rank starts to where the one of that rank ends.
+    pub fn level(&self, places: &mut [Vec2], share: f64) {
+        for (axis, (starts, ends)) in self.spreads.iter().enumerate() {
+            let of = |place: &Vec2| if axis == 0 { place.x } else { place.y };
+            let mut order: Vec<(f64, usize)> = places.iter().map(of).zip(0..).collect();
+            order.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+            for (rank, (along, robot)) in order.into_iter().enumerate() {
+                let even = starts[rank] * (1.0 - share) + ends[rank] * share;
+                let aside = (even - along) * LEVELLED;
+                places[robot] += if axis == 0 { Vec2::new(aside, 0.0) } else { Vec2::new(0.0, aside) };
+            }
+        }
+    }
+
+    /// How far the one that moves most is moved when the crowd becomes loose where it starts, metres.
+    pub fn farthest_loosened(&self) -> f64 {
+        let starts: Vec<Vec2> = self.courses.iter().map(|course| course[0]).collect();
+        let mut loose = starts.clone();
+        self.loosen(&mut loose, 1.0);
+        starts.iter().zip(&loose).map(|(from, to)| from.distance(*to)).fold(0.0, f64::max)
+    }
+
+    /// Moves places outwards by a share of what makes the crowd loose.
+    pub fn loosen(&self, places: &mut [Vec2], share: f64) {
+        for (robot, place) in places.iter_mut().enumerate() {
+            let out = *place - self.middle;
+            let aside = Vec2::new(out.x * (self.wider.x - 1.0), out.y * (self.wider.y - 1.0));
+            *place = self.scene.on_floor(robot, *place + aside * share, self.scene.off_edge_m);
+        }
+    }
+}
+
+/// The middle of all ends, and how much wider along each axis a crowd can become on its floor until it is loose.
+fn room(scene: &Scene, spreads: &[(Vec<f64>, Vec<f64>); 2]) -> (Vec2, Vec2) {
+    let extent = |(starts, ends): &(Vec<f64>, Vec<f64>)| {
+        let (Some(first), Some(last)) = (starts.first(), starts.last()) else { return (0.0, 0.0) };
+        let least = ends.first().map_or(*first, |end| end.min(*first));
+        (least, ends.last().map_or(*last, |end| end.max(*last)))
+    };
+    let ((left, right), (front, back)) = (extent(&spreads[0]), extent(&spreads[1]));
+    let count = spreads[0].0.len().max(1) as f64;
+    let apart_m = ((right - left + LOOSE_M) * (back - front + LOOSE_M) / count).sqrt();
+    let wider = |least: f64, most: f64, inner: f64| {
+        let (reach, room) = ((most - least) / 2.0, inner - ((least + most) / 2.0).abs());
+        (LOOSE_M / apart_m).min(room / reach.max(1e-3)).max(1.0)
+    };
+    let middle = Vec2::new(left + right, front + back) * 0.5;
+    (middle, Vec2::new(wider(left, right, scene.inner.x), wider(front, back, scene.inner.y)))
+}
+
+/// Pairs closer than `near_m`, each by how close.
+pub(crate) fn crowding(cells: &mut Cells, places: &[Vec2], near_m: f64) -> f64 {
+    let disc = |(robot, &at): (usize, &Vec2)| Disc { at, radius: 0.0, owner: robot as u32 };
+    let discs: Vec<Disc> = places.iter().enumerate().map(disc).collect();
+    let mut sum = 0.0;
+    cells.near_pairs(&discs, near_m, |a, b| sum += 1.0 - a.at.distance(b.at) / near_m);
+    sum
+}
+
+/// The length of a line through corners, metres.
+pub(crate) fn length(course: &[Vec2]) -> f64 {
+    course.windows(2).map(|leg| leg[0].distance(leg[1])).sum()
+}
+
+/// The place `way_m` along a line through corners; a course has at least one.
+pub(crate) fn point_along(course: &[Vec2], mut way_m: f64) -> Vec2 {
+    for leg in course.windows(2) {
+        let length = leg[0].distance(leg[1]);
+        if way_m < length {
+            return leg[0].lerp(leg[1], way_m / length);
+        }
+        way_m -= length;
+    }
+    course.last().copied().unwrap_or(Vec2::ZERO)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::TransitionProblem;
+    use lightbots_base::Limits;
+
+    #[test]
+    fn a_crowd_that_meets_in_the_middle_is_kept_apart() {
+        let ring = |i: usize| Vec2::unit(i as f64 * 0.1 * std::f64::consts::TAU) * 0.3;
+        let problem = TransitionProblem {
+            starts: (0..10).map(ring).collect(),
+            goals: (0..10).map(|i| -ring(i)).collect(),
+            ..TransitionProblem::on_floor(Vec2::new(1.0, 1.0), Limits::ELISA_3)
+        };
+        let scene = Scene::new(&problem, &(0..10).map(Some).collect::<Vec<_>>()).unwrap();
+        let courses: Vec<Vec<Vec2>> = (0..10).map(|i| vec![ring(i), -ring(i)]).collect();
+        let crowd = Crowd::new(&scene, &courses);
+        let mut places: Vec<Vec2> = (0..10).map(|i| ring(i) * 0.1).collect();
+        let before = crowding(&mut Cells::default(), &places, 0.06);
+        crowd.level(&mut places, 0.45);
+        let levelled = crowding(&mut Cells::default(), &places, 0.06);
+        crowd.loosen(&mut places, 1.0);
+        let loosened = crowding(&mut Cells::default(), &places, 0.06);
+        assert!(before > 10.0 && levelled < 1.0 && loosened <= levelled, "{before} {levelled} {loosened}");
+        assert!(places.iter().all(|place| place.length() < 0.7));
+    }
+}

@@ -1,0 +1,101 @@
+//! The last resort: everybody drives from stop to stop over a roadmap. Who may go at the same time is told exactly, the
+//! search leaves nothing out but for its bounded work, and what it finds can be driven as it is.
+
+use lightbots_base::{Span, Vec2};
+
+use crate::Repaired;
+use crate::instance::Scene;
+use crate::mapf::lacam::search;
+use crate::mapf::roadmap_pibt::Pusher;
+use crate::mapf::shortening::shorten;
+use crate::margins::EDGE_M;
+use crate::motion::stop_and_go::repaired;
+use crate::roads::lattice::NONE;
+use crate::roads::roadmap::Roadmap;
+use crate::roads::visibility::Corners;
+
+/// Distance of lattice nodes, metres: coarse first; and how far they are off the floor's edge if they can.
+const PITCHES_M: [(f64, f64); 3] = [(0.072, EDGE_M), (0.05, EDGE_M), (0.036, 0.0)];
+/// Looks at pairs of moves in all: some seconds for crowds that nobody gets through.
+const MOST_LOOKS: usize = 120_000_000;
+
+/// Paths with stops; `None` where nothing was found.
+pub(crate) fn with_stops(scene: &Scene, corners: &Corners, wished: Option<Span>) -> Option<Repaired> {
+    let mut looks = MOST_LOOKS;
+    PITCHES_M.iter().find_map(|&(pitch_m, off_edge_m)| {
+        let roads = Roadmap::new(scene, corners, pitch_m, off_edge_m.min(scene.off_edge_m))?;
+        let goals: Vec<u32> = roads.ends.iter().map(|end| end.unwrap_or(NONE)).collect();
+        let mut pusher = Pusher::new(scene, &roads, looks);
+        let steps = search(&mut pusher, &roads.starts, &goals);
+        looks = pusher.looks_left();
+        let steps = steps?;
+        let steps = shorten(&pusher, &roads, steps);
+        let place = |node: &u32| roads.places[*node as usize];
+        let stops: Vec<Vec<Vec2>> = steps.iter().map(|step| step.iter().map(place).collect()).collect();
+        repaired(scene, &stops, wished)
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::TransitionProblem;
+    use crate::motion::quarter_turn;
+    use crate::proof::prove;
+    use crate::seeded::Seeded;
+    use lightbots_base::Limits;
+
+    /// Everybody in a square grid gets another's place; half as wide again is the floor.
+    fn shuffled(side: usize, apart_m: f64) -> TransitionProblem {
+        let at = |i: usize| (i as f64 - (side as f64 - 1.0) / 2.0) * apart_m;
+        let starts: Vec<Vec2> = (0..side * side).map(|i| Vec2::new(at(i % side), at(i / side))).collect();
+        let (mut goals, mut seeded) = (starts.clone(), Seeded::new(3));
+        (1..goals.len()).rev().for_each(|last| goals.swap(last, seeded.below(last + 1)));
+        let half = side as f64 * apart_m * 0.75;
+        TransitionProblem {
+            starts,
+            goals,
+            ..TransitionProblem::on_floor(Vec2::new(half, half), Limits::ELISA_3)
+        }
+    }
+
+    fn scene_of(problem: &TransitionProblem) -> Scene<'static> {
+        Scene::new(problem, &(0..problem.starts.len()).map(Some).collect::<Vec<_>>()).unwrap()
+    }
+
+    #[test]
+    fn a_crowd_is_sorted_from_stop_to_stop_alone() {
+        for (side, apart_m) in [(3, 0.08), (5, 0.1), (6, 0.09)] {
+            let problem = shuffled(side, apart_m);
+            let scene = scene_of(&problem);
+            let found = with_stops(&scene, &Corners::new(&scene), None).expect("a way");
+            let proof = prove(&problem.to_prove(&found.paths));
+            assert!(proof.holds(), "{side}: {:?} {:?}", proof.conflicts, proof.faults);
+            for (path, goal) in found.paths.iter().zip(&problem.goals) {
+                assert_eq!((path.as_ref().end(), path.as_ref().duration()), (*goal, found.least));
+            }
+        }
+    }
+
+    #[test]
+    fn stops_are_as_slow_as_is_wished_for() {
+        let problem = shuffled(2, 0.1);
+        let scene = scene_of(&problem);
+        let corners = Corners::new(&scene);
+        let quick = with_stops(&scene, &corners, None).unwrap();
+        assert_eq!(with_stops(&scene, &corners, Some(quick.least)).unwrap(), quick);
+        let slow = with_stops(&scene, &corners, Some(quick.least + quick.least)).unwrap();
+        let late = slow.paths[0].as_ref().duration() - quick.least - quick.least;
+        assert!(late >= Span::ZERO && late < quarter_turn(&scene.limits) / 100, "{late:?}");
+        assert!(slow.least == quick.least && prove(&problem.to_prove(&slow.paths)).holds());
+    }
+
+    #[test]
+    fn what_there_is_no_room_for_is_not_found() {
+        // Two in a corridor one robot wide, whatever they do.
+        let (a, b) = (Vec2::new(-0.2, 0.0), Vec2::new(0.2, 0.0));
+        let floor = TransitionProblem::on_floor(Vec2::new(0.3, 0.05), Limits::ELISA_3);
+        let scene = scene_of(&TransitionProblem { starts: vec![a, b], goals: vec![b, a], ..floor });
+        assert_eq!(with_stops(&scene, &Corners::new(&scene), None), None);
+    }
+}

@@ -1,0 +1,7 @@
+//! Uniform cubic B-splines in time: one per robot, all on one clock.
+
+pub(crate) mod hull;
+pub(crate) mod limits;
+pub(crate) mod retime;
+pub(crate) mod set;
+pub(crate) mod turn_rate;

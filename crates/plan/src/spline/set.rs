@@ -1,0 +1,319 @@
+//! All robots' ways as uniform cubic B-splines in time: smooth without stops, and easy to bend.
+//!
+//! A way of `spans` spans has `spans + 3` control points; span `i` is ruled by points `i..i + 4`. Points 2 to `spans`
+//! are free. The two at either end follow from them so that the way starts and ends at rest exactly at its ends; a
+//! spare robot comes to rest at its last free point.
+
+use lightbots_base::{Limits, Piece, Span, Vec2};
+
+use crate::Path;
+use crate::instance::Scene;
+use crate::spline::turn_rate::{Look, Turning};
+
+/// Most spans of a spline: a path holds 128 pieces, and the rests at both ends need some.
+pub(crate) const MOST_SPANS: usize = 124;
+/// Passes in which a way is smoothed.
+const SOFTENING: usize = 4;
+
+/// What the splines of all robots are, sharing one clock.
+#[derive(Clone)]
+pub(crate) struct Weave {
+    /// How many spans each way has; at least 4.
+    pub spans: usize,
+    /// How long a span takes, seconds.
+    pub span_s: f64,
+    /// How many times as slowly as limits ask for it is driven.
+    pub slower: f64,
+    ends: Vec<(Vec2, Option<Vec2>)>,
+    /// `[robot][spans + 3]`.
+    points: Vec<Vec2>,
+}
+
+/// The weights of a span's four control points at share `u` of it.
+pub(crate) fn basis(u: f64) -> [f64; 4] {
+    let w = 1.0 - u;
+    let (u2, u3) = (u * u, u * u * u);
+    [
+        w * w * w / 6.0,
+        (3.0 * u3 - 6.0 * u2 + 4.0) / 6.0,
+        (-3.0 * u3 + 3.0 * u2 + 3.0 * u + 1.0) / 6.0,
+        u3 / 6.0,
+    ]
+}
+
+/// The weighted sum of a span's control points.
+#[inline]
+pub(crate) fn blend(points: &[Vec2], weights: &[f64; 4]) -> Vec2 {
+    points[0] * weights[0] + points[1] * weights[1] + points[2] * weights[2] + points[3] * weights[3]
+}
+
+/// Weights of a span's control points, with those of points that follow others added to these: only points 2 to
+/// `last` of a way are free.
+pub(crate) fn fold(weights: &[f64; 4], span: usize, last: usize, spare: bool) -> [f64; 4] {
+    if span >= 2 && span + 3 <= last {
+        return *weights;
+    }
+    let mut folded = [0.0; 4];
+    for (i, &weight) in weights.iter().enumerate() {
+        let point = span + i;
+        let (to, share) = match point {
+            0 => (2, 1.0),
+            1 => (2, -0.5),
+            _ if point == last + 1 => (last, if spare { 1.0 } else { -0.5 }),
+            _ if point == last + 2 => (last, 1.0),
+            _ => (point, 1.0),
+        };
+        folded[to - span] += weight * share;
+    }
+    folded
+}
+
+/// The free control points of a way that passes these places between its spans: each place is a sixth of one, two thirds
+/// of the next and a sixth of the one after, which is solved from the first to the last and back.
+fn through(places: impl ExactSizeIterator<Item = Vec2>, start: Vec2, end: Option<Vec2>) -> Vec<Vec2> {
+    let last = places.len() - 1;
+    let (mut points, mut shares) = (Vec::with_capacity(last + 1), Vec::with_capacity(last + 1));
+    let (mut share, mut so_far) = (0.0, Vec2::ZERO);
+    for (number, place) in places.enumerate() {
+        let (mut sum, mut own) = (place * 6.0 - so_far, 4.0 - share);
+        if number == 0 {
+            sum -= start * 1.5;
+            own -= 0.5;
+        }
+        if number == last {
+            sum -= end.map_or(Vec2::ZERO, |end| end * 1.5);
+            own += if end.is_some() { -0.5 } else { 1.0 };
+        }
+        (share, so_far) = (1.0 / own, sum / own);
+        shares.push(share);
+        points.push(so_far);
+    }
+    for number in (0..last).rev() {
+        let next = points[number + 1];
+        points[number] -= next * shares[number];
+    }
+    points
+}
+
+impl Weave {
+    /// Ways through `place(robot, step)` for steps 0..=spans, which serve as control points: corners are rounded.
+    pub fn new(scene: &Scene, spans: usize, span_s: f64, place: impl Fn(usize, usize) -> Vec2) -> Self {
+        let spans = spans.max(4);
+        let ends = scene.starts.iter().copied().zip(scene.ends.iter().copied()).collect::<Vec<_>>();
+        let mut points = Vec::with_capacity(ends.len() * (spans + 3));
+        for robot in 0..ends.len() {
+            points.extend((0..spans + 3).map(|j| place(robot, j.saturating_sub(1).min(spans))));
+        }
+        let mut weave = Self { spans, span_s, slower: 1.0, ends, points };
+        (0..weave.robots()).for_each(|robot| weave.tie_ends(robot));
+        weave
+    }
+
+    /// How many robots.
+    pub fn robots(&self) -> usize {
+        self.ends.len()
+    }
+
+    /// How long it takes, seconds.
+    pub fn lasts_s(&self) -> f64 {
+        self.span_s * self.spans as f64
+    }
+
+    /// A robot's control points.
+    pub fn way(&self, robot: usize) -> &[Vec2] {
+        let width = self.spans + 3;
+        &self.points[robot * width..(robot + 1) * width]
+    }
+
+    /// The same, to change; call [`Self::tie_ends`] after.
+    pub fn way_mut(&mut self, robot: usize) -> &mut [Vec2] {
+        let width = self.spans + 3;
+        &mut self.points[robot * width..(robot + 1) * width]
+    }
+
+    /// Bends a robot's way until it turns no faster than it may where `look` says, in at most `passes`; what is left to
+    /// be looked at, and whether anything changed.
+    pub fn ease(&mut self, robot: usize, turning: &Turning, passes: usize, mut look: Look) -> (Look, bool) {
+        let spare = self.ends[robot].1.is_none();
+        for pass in 0..passes {
+            look = turning.ease(self.way_mut(robot), spare, look);
+            if look.is_over() {
+                return (look, pass > 0);
+            }
+            self.tie_ends(robot);
+        }
+        (look, true)
+    }
+
+    /// The four control points of a robot's span.
+    pub fn span(&self, robot: usize, span: usize) -> &[Vec2] {
+        &self.way(robot)[span..span + 4]
+    }
+
+    /// The fixed ends of a robot's way.
+    pub fn ends(&self, robot: usize) -> (Vec2, Option<Vec2>) {
+        self.ends[robot]
+    }
+
+    /// Makes the outer control points follow the free ones, so that the way is at rest at its ends.
+    pub fn tie_ends(&mut self, robot: usize) {
+        let (start, end) = self.ends[robot];
+        let last = self.spans;
+        let way = self.way_mut(robot);
+        way[0] = way[2];
+        way[1] = start * 1.5 - way[2] * 0.5;
+        way[last + 2] = way[last];
+        way[last + 1] = end.map_or(way[last], |end| end * 1.5 - way[last] * 0.5);
+    }
+
+    /// Moves everybody through the same places at other times, in one span less than `was` has moments: span `k` then
+    /// ends where they were `was[k + 1]` of the spans before from the beginning.
+    pub fn retime(&mut self, was: &[f64]) {
+        let (before, last) = (self.spans, was.len() - 1);
+        let at = |&was: &f64| {
+            let span = (was as usize).min(before - 1);
+            (span, basis(was - span as f64))
+        };
+        let moments: Vec<_> = was[1..last].iter().map(at).collect();
+        let ways = std::mem::take(&mut self.points);
+        for (way, &(start, end)) in ways.chunks_exact(before + 3).zip(&self.ends) {
+            let places = moments.iter().map(|(span, weights)| blend(&way[*span..*span + 4], weights));
+            self.points.extend([start; 2]);
+            self.points.extend(through(places, start, end));
+            self.points.extend([start; 2]);
+        }
+        self.spans = last;
+        (0..self.robots()).for_each(|robot| self.tie_ends(robot));
+    }
+
+    /// Smooths a robot's way around a span, where it turns too sharply.
+    pub fn soften(&mut self, robot: usize, span: usize) {
+        let last = self.spans;
+        for _ in 0..SOFTENING {
+            let way = self.way_mut(robot);
+            let before = way.to_vec();
+            for point in span.saturating_sub(2).max(2)..=(span + 5).min(last) {
+                way[point] = (before[point - 1] + before[point + 1]) * 0.25 + before[point] * 0.5;
+            }
+            self.tie_ends(robot);
+        }
+    }
+
+    /// How a place on a span follows its four control points, where only free ones move.
+    pub fn pull(&self, robot: usize, span: usize, weights: &[f64; 4]) -> [f64; 4] {
+        fold(weights, span, self.spans, self.ends[robot].1.is_none())
+    }
+
+    /// Moves a span's control points by `shift` times their pull.
+    pub fn bend(&mut self, robot: usize, span: usize, pull: &[f64; 4], shift: Vec2) {
+        let outer = span < 2 || span + 3 > self.spans;
+        let way = &mut self.way_mut(robot)[span..span + 4];
+        for (point, &share) in way.iter_mut().zip(pull) {
+            *point += shift * share;
+        }
+        if outer {
+            self.tie_ends(robot);
+        }
+    }
+
+    /// By how much a robot's way, driven in this time, is too fast: 1 is just legal.
+    pub fn haste(&self, robot: usize, limits: &Limits) -> f64 {
+        let way = self.way(robot);
+        let (mut speed, mut accel) = (0.0_f64, 0.0_f64);
+        for four in way.windows(4) {
+            let (a, b, c) = (four[1] - four[0], four[2] - four[1], four[3] - four[2]);
+            speed = speed.max((a + b).length_squared() / 4.0).max((a + b * 6.0 + c).length_squared() / 64.0);
+            speed = speed.max((a * 9.0 + b * 22.0 + c).length_squared() / 1024.0);
+            speed = speed.max((a + b * 22.0 + c * 9.0).length_squared() / 1024.0);
+            accel = accel.max((b - a).length_squared()).max((c - b).length_squared());
+        }
+        let speed = speed.sqrt() / self.span_s / limits.speed_mps;
+        let accel = accel.sqrt() / (self.span_s * self.span_s) / limits.accel_mps2;
+        speed.max(accel.sqrt()).max(Turning::new(self.span_s, limits).haste(way))
+    }
+
+    /// The greatest haste of all.
+    pub fn greatest_haste(&self, limits: &Limits) -> f64 {
+        (0..self.robots()).map(|robot| self.haste(robot, limits)).fold(0.0, f64::max)
+    }
+
+    /// How long a span must take at least, seconds.
+    pub fn least_span_s(&self, limits: &Limits) -> f64 {
+        self.span_s * self.greatest_haste(limits) * 1.002 * self.slower
+    }
+
+    /// The ways as timed paths: a rest of `turn`, then the spans, each taking `span` exactly.
+    pub fn paths(&self, turn: Span, span: Span) -> Vec<Path> {
+        (0..self.robots()).map(|robot| self.path(robot, turn, span)).collect()
+    }
+
+    fn path(&self, robot: usize, turn: Span, span: Span) -> Path {
+        let (start, end) = self.ends[robot];
+        let mut pieces = vec![Piece::rest(start, turn)];
+        let (mut at, mut resting) = (start, true);
+        for (i, four) in self.way(robot).windows(4).enumerate() {
+            let mut piece = Piece {
+                duration: span,
+                c1: (four[1] * 2.0 + four[2]) / 3.0,
+                c2: (four[1] + four[2] * 2.0) / 3.0,
+                end: blend(four, &basis(1.0)),
+            };
+            // Who arrives early rests exactly where it shall be.
+            if let Some(end) = end.filter(|end| i + 1 == self.spans || end.distance(piece.end) < 1e-9) {
+                piece.end = end;
+            }
+            if i + 1 == self.spans {
+                piece.c2 = piece.end;
+            }
+            if i == 0 {
+                piece.c1 = start;
+            }
+            let still = [piece.c1, piece.c2, piece.end].iter().all(|place| place.distance(at) < 1e-9);
+            match pieces.last_mut() {
+                Some(before) if still && resting => before.duration += span,
+                _ if still => pieces.push(Piece::rest(at, span)),
+                _ => pieces.push(piece),
+            }
+            resting = still;
+            at = pieces.last().map_or(at, |piece| piece.end);
+        }
+        Path { start, pieces }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::TransitionProblem;
+
+    #[test]
+    fn retimed_ways_lead_through_the_same_places_from_rest_to_rest() {
+        let problem = TransitionProblem {
+            starts: vec![Vec2::ZERO, Vec2::new(0.0, 0.5)],
+            goals: vec![Vec2::new(1.0, 0.0)],
+            ..TransitionProblem::on_floor(Vec2::new(2.0, 2.0), Limits::ELISA_3)
+        };
+        let scene = Scene::new(&problem, &[Some(0), None]).unwrap();
+        let mut weave = Weave::new(&scene, 8, 0.25, |robot, step| {
+            let along = f64::from(step as u32) / 8.0;
+            Vec2::new(along, 0.5 * robot as f64 + 0.1 * (9.0 * along).sin())
+        });
+        let before = weave.clone();
+        let place = |weave: &Weave, robot: usize, moment: f64| {
+            let span = (moment as usize).min(weave.spans - 1);
+            blend(weave.span(robot, span), &basis(moment - span as f64))
+        };
+        let was = [0.0, 1.5, 2.25, 3.0, 3.5, 4.0, 4.5, 5.0, 6.0, 7.0, 8.0];
+        weave.retime(&was);
+        assert_eq!(weave.spans, 10);
+        for robot in 0..2 {
+            for (step, &moment) in was.iter().enumerate().take(10) {
+                let (now, then) = (place(&weave, robot, step as f64), place(&before, robot, moment));
+                assert!(now.distance(then) < 1e-12, "robot {robot}, step {step}: {now:?} {then:?}");
+            }
+            let way = weave.way(robot);
+            assert!(way[0] == way[2] && way[10] == way[12]);
+        }
+        assert!(place(&weave, 0, 10.0).distance(Vec2::new(1.0, 0.0)) < 1e-12);
+    }
+}

@@ -1,0 +1,364 @@
+//! Ways that a differential drive can follow: it turns only so fast, so the direction must not swing where a robot is
+//! slow. Driving back the way it came is no turn, so what nearly is a reversal becomes one.
+
+use lightbots_base::{Limits, Vec2};
+
+use crate::spline::hull::{crosses, halves, squares};
+use crate::spline::set::{blend, fold};
+
+/// Slower than this the direction does not matter, m/s.
+const CREEP_MPS: f64 = 0.008;
+/// Moments of a span that are looked at.
+const MOMENTS: usize = 16;
+/// Share of the limit that is used: between two moments a robot may turn a little faster than at them.
+const BETWEEN_MOMENTS: f64 = 0.96;
+/// Below this share of the speed that a turn needs, a reversal is nearer than a bend.
+const REVERSAL: f64 = 0.5;
+/// Steps shorter than this many creeping ones are wiggles.
+const WIGGLE: f64 = 3.0;
+/// Slower than this many creeping speeds a robot may turn for as long as it is slow.
+const SLOW: f64 = 2.6;
+/// Between two moments speed is less than at them by more than 2 % only where its square is less than this times that of
+/// the acceleration.
+const NARROW_SWING: f64 = 0.25;
+/// Share of the limit that a reversal may turn beside its stop.
+const REVERSAL_UNDERCUT: f64 = 0.6;
+/// Weights of a span's control points for its third derivative.
+const JERK: [f64; 4] = [-1.0, 3.0, -3.0, 1.0];
+/// What the limit is undercut by, so that corrections end.
+const UNDERCUT: f64 = 0.97;
+
+/// A span's motion, for span length 1: velocity is a parabola of the share of the span that has passed.
+struct Course {
+    velocity: Vec2,
+    acceleration: Vec2,
+    jerk: Vec2,
+}
+
+impl Course {
+    fn new(four: &[Vec2]) -> Self {
+        let velocity = (four[2] - four[0]) * 0.5;
+        let acceleration = four[0] - four[1] * 2.0 + four[2];
+        Self { velocity, acceleration, jerk: blend(four, &JERK) }
+    }
+
+    fn velocity(&self, u: f64) -> Vec2 {
+        self.velocity + (self.acceleration + self.jerk * (u * 0.5)) * u
+    }
+
+    fn acceleration(&self, u: f64) -> Vec2 {
+        self.acceleration + self.jerk * u
+    }
+
+    /// A bit for each of the moments that are looked at: whether it is slower then than `speed_m`.
+    fn slow_moments(&self, speed_m: f64) -> u32 {
+        let squares: [f64; MOMENTS] =
+            std::array::from_fn(|index| self.velocity(moment(index)).length_squared());
+        let bits =
+            squares.iter().enumerate().map(|(index, &square)| u32::from(square < speed_m * speed_m) << index);
+        bits.fold(0, |all, bit| all | bit)
+    }
+
+    /// The slowest moment near `u`: Newton's steps on v².
+    fn slowest(&self, mut u: f64) -> f64 {
+        for _ in 0..4 {
+            let (v, a) = (self.velocity(u), self.acceleration(u));
+            let bend = a.length_squared() + v.dot(self.jerk);
+            if bend <= 0.0 {
+                break;
+            }
+            u = (u - v.dot(a) / bend).clamp(0.0, 1.0);
+        }
+        u
+    }
+}
+
+/// Weights of a span's control points for its velocity and its acceleration at a share of it.
+fn slopes(u: f64) -> ([f64; 4], [f64; 4]) {
+    let w = 1.0 - u;
+    let inner = [(3.0 * u * u - 4.0 * u) / 2.0, (-3.0 * u * u + 2.0 * u + 1.0) / 2.0];
+    ([-w * w / 2.0, inner[0], inner[1], u * u / 2.0], [w, 3.0 * u - 2.0, 1.0 - 3.0 * u, u])
+}
+
+/// The middle of each part of a span that is looked at.
+fn moments() -> impl Iterator<Item = f64> {
+    (0..MOMENTS).map(moment)
+}
+
+fn moment(index: usize) -> f64 {
+    (index as f64 + 0.5) / MOMENTS as f64
+}
+
+/// What of a way is to be looked at.
+#[derive(Clone, Copy)]
+pub(crate) struct Look {
+    /// A bit for each span.
+    spans: u128,
+    /// Whether robots may turn too far while they are slow.
+    swerves: bool,
+}
+
+impl Look {
+    /// Everything.
+    pub const ALL: Self = Self { spans: u128::MAX, swerves: true };
+    /// Nothing.
+    pub const NOTHING: Self = Self { spans: 0, swerves: false };
+
+    /// Whether nothing is left.
+    pub fn is_over(self) -> bool {
+        self.spans == 0
+    }
+
+    /// Adds a span whose control points have moved, and those that share some with it.
+    pub fn add(&mut self, span: usize) {
+        self.spans |= (0x7f_u128 << span) >> 3;
+        self.swerves = true;
+    }
+
+    /// Adds the spans that a moved control point rules.
+    pub fn add_point(&mut self, point: usize) {
+        self.spans |= (0xf_u128 << point) >> 3;
+        self.swerves = true;
+    }
+}
+
+/// Turning limits of one weave, for span length 1.
+pub(crate) struct Turning {
+    /// Most turn within a span, radians.
+    turn: f64,
+    /// Shortest step within a span whose direction matters, metres.
+    creep_m: f64,
+}
+
+impl Turning {
+    /// For spans of `span_s` seconds.
+    pub fn new(span_s: f64, limits: &Limits) -> Self {
+        Self { turn: limits.turn_radps * span_s * BETWEEN_MOMENTS, creep_m: CREEP_MPS * span_s }
+    }
+
+    /// Bends a way once where it turns too fast, looking only at spans of `look`; what is to be looked at again after
+    /// that. `spare` as in [`fold`].
+    pub fn ease(&self, way: &mut [Vec2], spare: bool, look: Look) -> Look {
+        let mut again = Look::NOTHING;
+        let spans = way.len() - 3;
+        if let Some((span, _)) = look.swerves.then(|| self.swerve(way)).flatten() {
+            for span in span.saturating_sub(1)..(span + 2).min(spans) {
+                let shifts = smoothed(&way[span..span + 4], span, spans);
+                way[span..span + 4].iter_mut().zip(shifts).for_each(|(point, shift)| *point += shift);
+                again.add(span);
+            }
+        }
+        for span in ones(look.spans | again.spans).take_while(|&span| span < spans) {
+            let four = &way[span..span + 4];
+            let worst = if self.stays_within(four, self.turn) { None } else { self.fastest(four) };
+            let Some((_, fastest)) = worst.filter(|(turn, _)| *turn > self.turn) else { continue };
+            let shifts = self.corrected(four, fastest, &|weights| fold(weights, span, spans, spare));
+            let shifts = if self.only_wiggles(four) { Some(smoothed(four, span, spans)) } else { shifts };
+            for (point, shift) in way[span..span + 4].iter_mut().zip(shifts.into_iter().flatten()) {
+                *point += shift;
+            }
+            again.add(span);
+        }
+        again
+    }
+
+    /// How a span's control points move so that it turns less fast.
+    fn corrected(
+        &self,
+        four: &[Vec2],
+        fastest: f64,
+        folded: &dyn Fn(&[f64; 4]) -> [f64; 4],
+    ) -> Option<[Vec2; 4]> {
+        let course = Course::new(four);
+        let motion = |u: f64| {
+            let (v, a) = slopes(u);
+            ((folded(&v), course.velocity(u)), (folded(&a), course.acceleration(u)))
+        };
+        let (v, (_, a)) = motion(course.slowest(fastest));
+        let nearly_stops = v.1.length() * self.turn < a.length() * REVERSAL;
+        let reversed = || self.reversed(four, v, (folded(&JERK), a));
+        nearly_stops.then(reversed).flatten().or_else(|| {
+            let (v, a) = motion(fastest);
+            self.widened(v, a)
+        })
+    }
+
+    /// The fastest turn of a way over the limit.
+    pub fn haste(&self, way: &[Vec2]) -> f64 {
+        let fastest = way.windows(4).fold(0.0_f64, |most, four| {
+            let faster = if self.stays_within(four, most) { None } else { self.fastest(four) };
+            faster.map_or(most, |(turn, _)| most.max(turn))
+        });
+        (fastest / self.turn).max(self.swerve(way).map_or(0.0, |(_, haste)| haste))
+    }
+
+    /// The worst turn of a robot while it is slow, over what the time it is slow for allows, and the span in which it
+    /// is fast again; `None` where all are legal.
+    fn swerve(&self, way: &[Vec2]) -> Option<(usize, f64)> {
+        let slow_m = SLOW * self.creep_m;
+        let (mut heading, mut slow, mut worst) = (None::<Vec2>, 0.0, None::<(usize, f64)>);
+        for (span, four) in way.windows(4).enumerate() {
+            let steps = [four[1] - four[0], four[2] - four[1], four[3] - four[2]];
+            if (slow == 0.0 || heading.is_none())
+                && squares(&steps).iter().all(|&square| square > slow_m * slow_m)
+            {
+                (heading, slow) = (Some(steps[1] + steps[2]), 0.0);
+                continue;
+            }
+            if self.stays_below(&steps, slow_m) {
+                slow += 1.0;
+                continue;
+            }
+            let course = Course::new(four);
+            let slow_moments = course.slow_moments(slow_m);
+            let mut at = 0;
+            while at < MOMENTS {
+                let slow_for = (slow_moments >> at).trailing_ones() as usize;
+                slow += slow_for as f64 / MOMENTS as f64;
+                at += slow_for;
+                if at == MOMENTS {
+                    break;
+                }
+                slow += 1.0 / MOMENTS as f64;
+                if let Some(before) = heading.filter(|_| slow > 1.5 / MOMENTS as f64) {
+                    let velocity = course.velocity(moment(at));
+                    let angle = Vec2::new(before.dot(velocity).abs(), before.cross(velocity).abs()).angle();
+                    let haste = angle / (self.turn * slow);
+                    if haste > 1.0 && worst.is_none_or(|(_, most)| haste > most) {
+                        worst = Some((span, haste));
+                    }
+                }
+                at += ((slow_moments >> at).trailing_zeros() as usize).min(MOMENTS - at);
+                (heading, slow) = (Some(course.velocity(moment(at - 1))), 0.0);
+            }
+        }
+        worst
+    }
+
+    /// The fastest turn of a span and the moment it is at; `None` where none can be too fast.
+    fn fastest(&self, four: &[Vec2]) -> Option<(f64, f64)> {
+        if self.is_easy(four) {
+            return None;
+        }
+        let (creep, course) = (self.creep_m * self.creep_m, Course::new(four));
+        let mut worst = (0.0, 0.5);
+        let mut squares = [f64::MAX; MOMENTS + 2];
+        let (mut swings, mut hardest) = ([0.0; MOMENTS], [0.0; MOMENTS]);
+        for (index, u) in moments().enumerate() {
+            let (v, a) = (course.velocity(u), course.acceleration(u));
+            squares[index + 1] = v.length_squared();
+            swings[index] = v.cross(a).abs();
+            hardest[index] = a.length_squared();
+        }
+        for (index, u) in moments().enumerate() {
+            let [before, here, after] = [squares[index], squares[index + 1], squares[index + 2]];
+            if here > creep && swings[index] > worst.0 * here {
+                worst = (swings[index] / here, u);
+            }
+            if here <= before && here <= after && here < hardest[index] * NARROW_SWING {
+                // The narrowest swings fall between two moments.
+                let u = course.slowest(u);
+                let (v, a) = (course.velocity(u), course.acceleration(u));
+                let turn = v.cross(a).abs() / v.length_squared().max(creep);
+                worst = if turn > worst.0 { (turn, u) } else { worst };
+            }
+        }
+        Some(worst)
+    }
+
+    /// Whether nothing in a span is worth a reversal.
+    fn only_wiggles(&self, four: &[Vec2]) -> bool {
+        four.windows(2).all(|step| step[0].distance(step[1]) < WIGGLE * self.creep_m)
+    }
+
+    /// Whether a span cannot turn too fast, by the hull of its velocity.
+    fn is_easy(&self, four: &[Vec2]) -> bool {
+        let steps = [four[1] - four[0], four[2] - four[1], four[3] - four[2]];
+        let along = steps[1];
+        let square = along.length_squared();
+        let slowest = along.dot(steps[0]).min(along.dot(steps[2])).min(square);
+        let swing = (steps[1] - steps[0]).length_squared().max((steps[2] - steps[1]).length_squared());
+        let may = slowest * self.turn;
+        (slowest > 0.0 && swing * square <= may * may) || self.stays_below(&steps, self.creep_m)
+    }
+
+    /// Whether a span surely turns no more than `turn`, or not too fast at all: what it may turn less what it does is a
+    /// polynomial, which stays above its least Bernstein coefficient, and above those of its halves more closely.
+    fn stays_within(&self, four: &[Vec2], turn: f64) -> bool {
+        if self.is_easy(four) {
+            return true;
+        }
+        let steps = [four[1] - four[0], four[2] - four[1], four[3] - four[2]];
+        let (may, does) = (squares(&steps).map(|square| square * turn), crosses(&steps));
+        let is_positive = |half: &[f64; 5]| half.iter().all(|&coefficient| coefficient >= 0.0);
+        may.iter().zip(&does).all(|(may, does)| does.abs() <= *may)
+            || [1.0, -1.0]
+                .into_iter()
+                .all(|side| halves(std::array::from_fn(|i| may[i] - does[i] * side)).iter().all(is_positive))
+    }
+
+    /// Whether a span's velocity stays below a speed, by the hull of its steps.
+    fn stays_below(&self, steps: &[Vec2; 3], speed_m: f64) -> bool {
+        steps.iter().all(|step| step.length_squared() < speed_m * speed_m)
+    }
+
+    /// How control points move so that |v × a| ≤ turn · v², to first order; each of `v` and `a` with its weights.
+    fn widened(&self, v: ([f64; 4], Vec2), a: ([f64; 4], Vec2)) -> Option<[Vec2; 4]> {
+        let ((v_weights, v), (a_weights, a)) = (v, a);
+        let cross = v.cross(a);
+        let excess = cross.abs() - self.turn * UNDERCUT * v.length_squared();
+        let slope: [Vec2; 4] = std::array::from_fn(|i| {
+            let (vw, aw) = (v_weights[i], a_weights[i]);
+            let of_cross = Vec2::new(vw * a.y - aw * v.y, aw * v.x - vw * a.x);
+            of_cross * cross.signum() - v * (2.0 * self.turn * vw)
+        });
+        let steep = slope.iter().map(|s| s.length_squared()).sum::<f64>().sqrt();
+        if excess <= 0.0 || steep < 1e-12 {
+            return None;
+        }
+        // First order does not reach beyond about the speed itself.
+        let far = (excess / steep).min(v.length() * 0.5 + self.creep_m);
+        Some(slope.map(|s| s * (-far / steep)))
+    }
+
+    /// How control points move so that nothing is left of `v` across `a`, and so little of the jerk that the way back
+    /// leaves along the way there: near a stop the turn is half of jerk across `a` over `a`. Of all such moves the
+    /// least, by the normal equations of the two. `None`: it is a reversal already.
+    fn reversed(&self, four: &[Vec2], v: ([f64; 4], Vec2), jerk: ([f64; 4], Vec2)) -> Option<[Vec2; 4]> {
+        let ((v_weights, v), (j_weights, a)) = (v, jerk);
+        let across = a.normalized()?.left();
+        let swerve = blend(four, &JERK).dot(across);
+        let may = 2.0 * self.turn * a.length() * REVERSAL_UNDERCUT;
+        let (v_lack, j_lack) = (-v.dot(across), swerve.clamp(-may, may) - swerve);
+        if v_lack.abs() < self.creep_m * 0.0025 && j_lack == 0.0 {
+            return None;
+        }
+        let dot = |one: &[f64; 4], other: &[f64; 4]| one.iter().zip(other).map(|(a, b)| a * b).sum::<f64>();
+        let (vv, vj) = (dot(&v_weights, &v_weights) + 1e-6, dot(&v_weights, &j_weights));
+        let jj = dot(&j_weights, &j_weights) + 1e-6;
+        let whole = vv * jj - vj * vj;
+        let (v_force, j_force) = ((v_lack * jj - j_lack * vj) / whole, (j_lack * vv - v_lack * vj) / whole);
+        Some(std::array::from_fn(|i| across * (v_weights[i] * v_force + j_weights[i] * j_force)))
+    }
+}
+
+/// The numbers of the bits that are set, the least first.
+fn ones(mut bits: u128) -> impl Iterator<Item = usize> {
+    std::iter::from_fn(move || {
+        let least = bits.trailing_zeros();
+        bits &= bits.wrapping_sub(1);
+        (least < u128::BITS).then_some(least as usize)
+    })
+}
+
+/// How a span's free control points move towards the middle of their neighbours.
+fn smoothed(four: &[Vec2], span: usize, last: usize) -> [Vec2; 4] {
+    std::array::from_fn(|i| {
+        let inner = (1..3).contains(&i) && (2..=last).contains(&(span + i));
+        if inner { (four[i - 1] + four[i + 1] - four[i] * 2.0) * 0.25 } else { Vec2::ZERO }
+    })
+}
+
+#[cfg(test)]
+#[path = "turn_rate_tests.rs"]
+mod tests;

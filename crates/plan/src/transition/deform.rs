@@ -1,0 +1,173 @@
+//! Bends the paths of those who pass too close a few millimetres aside, without any time lost.
+
+use super::candidate::{Candidate, Wish, slower_than};
+use super::following;
+use crate::cancel::Cancel;
+use crate::margins::{COMFORT_M, MARGIN_M};
+use crate::motion::{Bend, turn_time, whole_millis};
+use crate::{Closest, Path, Transition, TransitionProblem};
+use lightbots_base::{Piece, Span, Vec2};
+use std::collections::BTreeMap;
+
+/// Conflicts between two questions whether to give up.
+const POLLED: usize = 1024;
+/// Rounds of bending and proving.
+const ROUNDS: usize = 6;
+/// Robots times rounds that are spent on room to stop behind others.
+const ROOM_WORK: usize = 2_000;
+/// Bends that need everybody to be slower than this many times are not worth it.
+const fn slowest(wish: Wish) -> f64 {
+    match wish {
+        Wish::Comfort => 1.06,
+        Wish::Room => 1.04,
+    }
+}
+
+/// Pushed a little farther than asked for, because a bend has ebbed a little where the pair is closest then.
+const EXTRA: f64 = 1.15;
+
+/// The best of the straight candidate for `start_of[goal]` and what bending makes of it. Only where few are in
+/// conflict.
+pub(super) fn nudge(
+    problem: &TransitionProblem,
+    start_of: &[usize],
+    straight: Candidate,
+    rounds: usize,
+    cancel: Cancel<'_>,
+) -> Candidate {
+    let wished = straight.transition.duration;
+    if wished <= straight.transition.least {
+        return bent(problem, straight, rounds, cancel);
+    }
+    // Ways bent at full speed tell the least time, and may be driven as slowly as wished.
+    let hurried = TransitionProblem { duration: None, ..problem.clone() };
+    let mut quick = bent(&hurried, Candidate::straight(&hurried, start_of, cancel), rounds, cancel);
+    if !quick.is_better_than(&straight) {
+        return straight;
+    }
+    let Transition { paths, goal_of, least, .. } = &mut quick.transition;
+    let factor = slower_than(*least, wished, &problem.limits);
+    if factor <= 1.0 {
+        return quick;
+    }
+    let rest = turn_time(core::f64::consts::FRAC_PI_2, &problem.limits);
+    let slow = paths.iter().map(|path| slower(path, rest, factor)).collect();
+    let mut candidate = Candidate::of_paths(problem, slow, std::mem::take(goal_of), factor, cancel);
+    candidate.transition.least = *least;
+    candidate
+}
+
+/// The best of the candidate, which is as quick as may be, and what bending makes of it: comfortable first, then with room
+/// to stop behind others.
+fn bent(problem: &TransitionProblem, straight: Candidate, rounds: usize, cancel: Cancel<'_>) -> Candidate {
+    let lines = straight.transition.paths.clone();
+    let mut bends: BTreeMap<usize, Bend> = BTreeMap::new();
+    let least = straight.transition.least;
+    let mut best = straight;
+    for wish in [Wish::Comfort, Wish::Room] {
+        let mut conflicts = best.worth_bending(wish);
+        let most = if wish == Wish::Room { ROOM_WORK / lines.len().max(1) } else { ROUNDS };
+        for _ in 0..rounds.min(ROUNDS).min(most) {
+            if conflicts.is_empty() || cancel.is_wanted() {
+                break;
+            }
+            let mut paths = lines.clone();
+            for (number, found) in conflicts.iter().enumerate() {
+                if number.is_multiple_of(POLLED) && cancel.is_wanted() {
+                    return best;
+                }
+                part(problem, &lines, found, wish, &mut bends);
+            }
+            for (&robot, bend) in &bends {
+                paths[robot] = bend.applied_to(&lines[robot]);
+            }
+            let mut bent = Candidate::of_paths(problem, paths, best.transition.goal_of.clone(), 1.0, cancel);
+            bent.transition.least = least;
+            conflicts = bent.worth_bending(wish);
+            if !bent.proof.faults.is_empty() && bent.is_roomier_than(&best) {
+                bent = slowed(problem, bent, wish, cancel);
+            }
+            if bent.is_better_than(&best) {
+                best = bent;
+            }
+        }
+    }
+    best
+}
+
+/// The same ways as much slower as limits ask for: who drives at the limit already has nothing left for a bend.
+fn slowed(problem: &TransitionProblem, bent: Candidate, wish: Wish, cancel: Cancel<'_>) -> Candidate {
+    let hasty = bent.proof.faults.iter().map(|fault| haste(&bent.transition.paths[fault.robot], problem));
+    let factor = hasty.fold(1.0, f64::max) * 1.000_5;
+    if factor > slowest(wish) {
+        return bent;
+    }
+    let paths = bent.transition.paths.iter().map(|path| slower(path, Span::ZERO, factor)).collect();
+    Candidate::of_paths(problem, paths, bent.transition.goal_of, 1.0, cancel)
+}
+
+/// How many times as slow a path must be to keep speed and acceleration, by its control points.
+fn haste(path: &Path, problem: &TransitionProblem) -> f64 {
+    let (speed, accel) = (problem.limits.speed_mps.max(1e-3), problem.limits.accel_mps2.max(1e-3));
+    path.as_ref().timed().fold(1.0, |most, (from, _, piece)| {
+        let seconds = piece.duration.as_secs().max(1e-6);
+        let steps =
+            [piece.c1 - from, piece.c2 - piece.c1, piece.end - piece.c2].map(|step| step * (3.0 / seconds));
+        let fastest = steps.iter().map(|step| step.length()).fold(0.0, f64::max);
+        let hardest = (steps[1] - steps[0]).length().max((steps[2] - steps[1]).length()) * (2.0 / seconds);
+        most.max(fastest / speed).max((hardest / accel).sqrt())
+    })
+}
+
+/// Every moment of the path after `rest` comes `factor` times as late, to the millisecond, for all paths alike.
+fn slower(path: &Path, rest: Span, factor: f64) -> Path {
+    let late = |at: Span| at.min(rest) + whole_millis((at - rest).as_secs() * factor);
+    let pieces = path.as_ref().timed().map(|(_, begin, piece)| {
+        let duration = late(begin + piece.duration) - late(begin);
+        Piece { duration, ..*piece }
+    });
+    Path { start: path.start, pieces: pieces.collect() }
+}
+
+/// Pushes a pair apart where it is closest; who has the longer way gives way more.
+fn part(
+    problem: &TransitionProblem,
+    lines: &[Path],
+    found: &Closest,
+    wish: Wish,
+    bends: &mut BTreeMap<usize, Bend>,
+) {
+    let (i, j) = found.pair;
+    let way_m = |disc: usize| lines.get(disc).map_or(0.0, |line| line.start.distance(line.as_ref().end()));
+    let place = |disc: usize| match lines.get(disc) {
+        Some(line) => line.as_ref().at(found.at).position,
+        None => problem.standing[disc - lines.len()],
+    };
+    let both_m = way_m(i) + way_m(j);
+    let Some(apart) = (place(i) - place(j)).normalized() else { return };
+    let room_m = match wish {
+        Wish::Comfort => problem.limits.contact_m() + COMFORT_M,
+        Wish::Room => following::wanted_m(lines, found, &problem.limits, 1.0),
+    };
+    // What ends closer than comfortable need not be pushed farther than that.
+    let ends_m = |at_end: bool| {
+        let end = |disc: usize| match lines.get(disc) {
+            Some(line) if at_end => line.as_ref().end(),
+            Some(line) => line.start,
+            None => place(disc),
+        };
+        end(i).distance(end(j))
+    };
+    let wanted_m = room_m.min(ends_m(false)).min(ends_m(true)) - found.distance_m + MARGIN_M / 10.0;
+    if both_m <= 0.0 || wanted_m <= 0.0 {
+        return;
+    }
+    let mut push = |disc: usize, direction: Vec2| {
+        let share = way_m(disc) / both_m;
+        if share > 0.0 {
+            bends.entry(disc).or_default().push(found.at, direction * (wanted_m * share * EXTRA));
+        }
+    };
+    push(i, apart);
+    push(j, -apart);
+}

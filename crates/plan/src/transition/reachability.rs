@@ -1,0 +1,322 @@
+//! Robots and pixels on parts of the floor that no way leads between: who goes where within each part, and what to say
+//! where that cannot be.
+
+use lightbots_base::Vec2;
+
+use crate::assignment::Choice;
+use crate::cancel::Cancel;
+use crate::roads::regions::{Gap, Regions, Thing, enough_m};
+use crate::{Stuck, TransitionProblem};
+
+/// Things named in a message.
+const MOST_NAMED: usize = 4;
+/// Gaps less wide than this are named as none, metres.
+const LEAST_GAP_M: f64 = 0.001;
+
+/// What walls do to a transition.
+pub(super) enum Walls {
+    /// Nothing: everybody can drive to wherever they are sent.
+    Open,
+    /// Robots must be sent elsewhere: `[goal]` is the start that goes there.
+    Apart(Vec<Option<usize>>),
+    /// There is somebody or something that no way leads to.
+    Closed(Stuck),
+}
+
+/// Looks at a transition.
+pub(super) fn look(problem: &TransitionProblem, cancel: Cancel<'_>) -> Walls {
+    let Some(regions) = Regions::new(problem, cancel).filter(|regions| regions.parts > 1) else {
+        return Walls::Open;
+    };
+    let parts =
+        |places: &[Vec2]| places.iter().map(|&place| regions.part(place)).collect::<Option<Vec<u32>>>();
+    let (Some(starts), Some(goals)) = (parts(&problem.starts), parts(&problem.goals)) else {
+        return Walls::Open;
+    };
+    if goals.iter().chain(&starts).all(|&part| goals.first() == Some(&part)) {
+        return Walls::Open;
+    }
+    let scene = Scene { problem, regions, starts, goals };
+    match scene.closed() {
+        Some(stuck) => Walls::Closed(stuck),
+        None => scene.sent(cancel).map_or(Walls::Open, Walls::Apart),
+    }
+}
+
+/// A transition and the part of the floor everybody is in.
+struct Scene<'a> {
+    problem: &'a TransitionProblem,
+    regions: Regions,
+    /// `[start]`.
+    starts: Vec<u32>,
+    /// `[goal]`.
+    goals: Vec<u32>,
+}
+
+impl Scene<'_> {
+    fn pin(&self, goal: usize) -> Option<usize> {
+        self.problem.pinned.get(goal).copied().flatten()
+    }
+
+    /// Who cannot get where they must.
+    fn closed(&self) -> Option<Stuck> {
+        let pinned = (0..self.goals.len()).filter_map(|goal| self.pin(goal).map(|start| (goal, start)));
+        if let Some((goal, start)) =
+            pinned.clone().find(|&(goal, start)| self.goals[goal] != self.starts[start])
+        {
+            let (from, to) = (self.problem.starts[start], self.problem.goals[goal]);
+            let who = format!("the robot at {} is kept from the pixel at {}", place(from), place(to));
+            return Some(self.stuck(
+                who,
+                self.smaller(self.starts[start], self.goals[goal]),
+                vec![goal],
+                vec![start],
+            ));
+        }
+        let count = |of: &[u32], part: u32| of.iter().filter(|&&other| other == part).count();
+        let mut parts: Vec<u32> = self.goals.clone();
+        parts.sort_unstable();
+        parts.dedup();
+        let lacking =
+            parts.iter().copied().find(|&part| count(&self.goals, part) > count(&self.starts, part))?;
+        // Either pixels that robots do not get to, or robots that do not get out: whichever are fewer.
+        let walled: Vec<usize> =
+            (0..self.starts.len()).filter(|&start| self.starts[start] != lacking).collect();
+        let goals: Vec<usize> = (0..self.goals.len()).filter(|&goal| self.goals[goal] == lacking).collect();
+        if goals.len() <= walled.len() {
+            return Some(self.pixels_cut_off(goals, count(&self.starts, lacking)));
+        }
+        let at = place(self.problem.starts[walled[0]]);
+        let who = match walled.len() {
+            1 => format!("the robot at {at} is walled in"),
+            more => format!("{more} robots such as the one at {at} are walled in"),
+        };
+        let part = self.starts[walled[0]];
+        Some(self.stuck(who, part, Vec::new(), walled))
+    }
+
+    /// More pixels in one part than robots.
+    fn pixels_cut_off(&self, goals: Vec<usize>, robots: usize) -> Stuck {
+        let at = place(self.problem.goals[goals[0]]);
+        let what = match goals.len() {
+            1 => format!("the pixel at {at} is cut off"),
+            many => format!("{many} pixels such as the one at {at} are cut off"),
+        };
+        let who = match robots {
+            0 => format!("{what} from all robots"),
+            1 => format!("{what} with only one robot"),
+            few => format!("{what} with only {few} robots"),
+        };
+        self.stuck(who, self.goals[goals[0]], goals, Vec::new())
+    }
+
+    /// Of two parts the one with fewer robots and pixels.
+    fn smaller(&self, a: u32, b: u32) -> u32 {
+        let count = |part: u32| self.starts.iter().chain(&self.goals).filter(|&&other| other == part).count();
+        if count(a) < count(b) { a } else { b }
+    }
+
+    fn stuck(&self, who: String, part: u32, goals: Vec<usize>, starts: Vec<usize>) -> Stuck {
+        let things = named(&self.regions.around(part));
+        let remedy = match self.regions.way_out(part) {
+            Some(gap) if gap.wide_m >= LEAST_GAP_M => self.wider(&gap),
+            _ => {
+                let enough = enough_m(self.problem, (Thing::Obstacle(0), Thing::Obstacle(1)));
+                format!("leave a gap of {:.0} mm", whole_mm(enough))
+            }
+        };
+        Stuck { goals, starts, message: format!("{who} by {things}; {remedy}") }
+    }
+
+    fn wider(&self, gap: &Gap) -> String {
+        let (from, to) = gap.ends;
+        let between = match gap.between {
+            (thing, Thing::Edge) => format!("{} and the floor's edge", named(&[thing])),
+            (one, other) => named(&[one, other]),
+        };
+        format!(
+            "the gap between {between} near {} is {:.1} mm wide, {:.0} mm do",
+            place(from.lerp(to, 0.5)),
+            gap.wide_m * 1e3,
+            whole_mm(enough_m(self.problem, gap.between))
+        )
+    }
+
+    /// The start that goes to each goal, within each part.
+    fn sent(&self, cancel: Cancel<'_>) -> Option<Vec<Option<usize>>> {
+        let mut start_of = vec![None; self.goals.len()];
+        for part in 0..self.regions.parts as u32 {
+            let goals: Vec<usize> = (0..self.goals.len()).filter(|&goal| self.goals[goal] == part).collect();
+            let starts: Vec<usize> =
+                (0..self.starts.len()).filter(|&start| self.starts[start] == part).collect();
+            if goals.is_empty() {
+                continue;
+            }
+            let rank = |start: usize| starts.iter().position(|&other| other == start);
+            let pinned: Vec<Option<usize>> =
+                goals.iter().map(|&goal| self.pin(goal).and_then(rank)).collect();
+            let at =
+                |places: &[Vec2], of: &[usize]| of.iter().map(|&index| places[index]).collect::<Vec<_>>();
+            let choice = Choice::unless(
+                cancel,
+                &at(&self.problem.starts, &starts),
+                &at(&self.problem.goals, &goals),
+                &pinned,
+            )?;
+            for (&goal, start) in goals.iter().zip(choice.least_squares().solve(0.0)?) {
+                start_of[goal] = Some(starts[start]);
+            }
+        }
+        Some(start_of)
+    }
+}
+
+/// Whole millimetres that are enough.
+fn whole_mm(metres: f64) -> f64 {
+    (metres * 1e3 - 1e-6).ceil()
+}
+
+fn place(at: Vec2) -> String {
+    format!("({:.2}, {:.2}) m", at.x + 0.0, at.y + 0.0)
+}
+
+/// Things as text: no-go areas counted from 1, as they are listed in the show.
+fn named(things: &[Thing]) -> String {
+    let numbers: Vec<String> = things
+        .iter()
+        .filter_map(|thing| match thing {
+            Thing::Obstacle(index) => Some((index + 1).to_string()),
+            _ => None,
+        })
+        .collect();
+    let standing = things.iter().filter(|thing| matches!(thing, Thing::Standing(_))).count();
+    let mut parts = Vec::new();
+    match numbers.len() {
+        0 => {}
+        1 => parts.push(format!("area {}", numbers[0])),
+        many if many > MOST_NAMED => {
+            parts.push(format!("areas {} and {} more", numbers[..MOST_NAMED].join(", "), many - MOST_NAMED));
+        }
+        _ => parts.push(format!("areas {}", list(&numbers))),
+    }
+    match standing {
+        0 => {}
+        1 => parts.push("a robot that stands".into()),
+        many => parts.push(format!("{many} robots that stand")),
+    }
+    if parts.is_empty() { "the floor's edge".into() } else { list(&parts) }
+}
+
+fn list(parts: &[String]) -> String {
+    match parts {
+        [most @ .., last] if !most.is_empty() => format!("{} and {last}", most.join(", ")),
+        _ => parts.concat(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::transition;
+    use lightbots_base::Limits;
+    use lightbots_show::Obstacle;
+
+    /// Four walls around the middle, 0.4 m apart, with a gap in the upper one.
+    fn boxed(gap_m: f64) -> Vec<Obstacle> {
+        let wall = |x0, y0, x1, y1| Obstacle::Rect { min: Vec2::new(x0, y0), max: Vec2::new(x1, y1) };
+        vec![
+            wall(-0.24, -0.24, 0.24, -0.2),
+            wall(-0.24, -0.2, -0.2, 0.2),
+            wall(0.2, -0.2, 0.24, 0.2),
+            wall(-0.24, 0.2, -gap_m / 2.0, 0.24),
+            wall(gap_m / 2.0, 0.2, 0.24, 0.24),
+        ]
+    }
+
+    fn problem(starts: &[(f64, f64)], goals: &[(f64, f64)], obstacles: Vec<Obstacle>) -> TransitionProblem {
+        let places = |of: &[(f64, f64)]| of.iter().map(|&(x, y)| Vec2::new(x, y)).collect();
+        let floor = TransitionProblem::on_floor(Vec2::new(1.5, 1.5), Limits::ELISA_3);
+        TransitionProblem { starts: places(starts), goals: places(goals), obstacles, ..floor }
+    }
+
+    #[track_caller]
+    fn message(problem: &TransitionProblem) -> String {
+        transition(problem).unwrap_err().message
+    }
+
+    const OUTSIDE: [(f64, f64); 2] = [(-0.5, 1.0), (0.5, 1.0)];
+
+    #[test]
+    fn a_pixel_in_a_box_is_named_with_its_walls_and_the_gap_that_would_do() {
+        let stuck = transition(&problem(&OUTSIDE, &[(0.6, 0.8), (0.0, 0.1)], boxed(0.058))).unwrap_err();
+        assert_eq!(stuck.goals, [1]);
+        assert_eq!(
+            stuck.message,
+            "the pixel at (0.00, 0.10) m is cut off from all robots by areas 1, 2, 3, 4 and 1 more; \
+             the gap between areas 4 and 5 near (0.00, 0.22) m is 58.0 mm wide, 61 mm do"
+        );
+    }
+
+    #[test]
+    fn a_robot_in_a_box_is_named() {
+        let message = message(&problem(&[OUTSIDE[0], (0.0, 0.0)], &OUTSIDE, boxed(0.0)));
+        assert_eq!(
+            message,
+            "the robot at (0.00, 0.00) m is walled in by areas 1, 2, 3, 4 and 1 more; leave a gap of 61 mm"
+        );
+    }
+
+    #[test]
+    fn a_wall_almost_to_the_edge_cuts_the_floor_in_two() {
+        let wall = |right| vec![Obstacle::Rect { min: Vec2::new(-1.5, 0.0), max: Vec2::new(right, 0.1) }];
+        let goals = [(-0.5, -0.5), (0.5, -0.5)];
+        assert_eq!(
+            message(&problem(&OUTSIDE, &goals, wall(1.45))),
+            "2 pixels such as the one at (-0.50, -0.50) m are cut off from all robots by area 1; \
+             the gap between area 1 and the floor's edge near (1.48, 0.05) m is 50.0 mm wide, 58 mm do"
+        );
+        assert!(transition(&problem(&OUTSIDE, &goals, wall(1.44))).is_ok());
+    }
+
+    #[test]
+    fn who_is_pinned_to_a_pixel_behind_a_wall_is_named() {
+        let mut problem = problem(&[OUTSIDE[0], (0.0, 0.0)], &[(0.0, 0.1), OUTSIDE[1]], boxed(0.02));
+        assert!(transition(&problem).is_ok());
+        problem.pinned = vec![Some(0)];
+        let stuck = transition(&problem).unwrap_err();
+        assert!(
+            stuck.message.starts_with(
+                "the robot at (-0.50, 1.00) m is kept from the pixel at (0.00, 0.10) m by areas"
+            )
+        );
+        assert_eq!((stuck.goals, stuck.starts), (vec![0], vec![0]));
+    }
+
+    #[test]
+    fn robots_are_sent_only_where_ways_lead() {
+        // Straight lines would send the one in the box to the pixel below it, and another into the box.
+        let starts = [(-0.5, 1.3), (0.5, 1.3), (0.0, 0.0)];
+        let goals = [(0.0, -0.9), (0.0, 0.1), (0.5, 0.9)];
+        let plan = transition(&problem(&starts, &goals, boxed(0.0))).unwrap();
+        assert_eq!(plan.goal_of, [Some(0), Some(2), Some(1)]);
+    }
+
+    #[test]
+    fn who_is_walled_in_is_the_one_to_spare() {
+        let starts = [(-0.5, 1.3), (0.5, 1.3), (0.0, 0.0)];
+        let plan = transition(&problem(&starts, &[(0.0, -0.9), (0.3, 0.0)], boxed(0.0))).unwrap();
+        assert_eq!(plan.goal_of[2], None);
+    }
+
+    #[test]
+    fn gaps_are_measured_between_discs_too() {
+        let row = |apart_m: f64| {
+            let disc =
+                |nth: i32| Obstacle::Disc { at: Vec2::new(f64::from(nth) * apart_m, 0.0), radius_m: 0.07 };
+            (-8..=8).map(disc).collect::<Vec<_>>()
+        };
+        let goals = [(-0.5, -0.5), (0.5, -0.5)];
+        assert!(message(&problem(&OUTSIDE, &goals, row(0.199))).contains("is 59.0 mm wide, 61 mm do"));
+        assert!(transition(&problem(&OUTSIDE, &goals, row(0.21))).is_ok());
+    }
+}

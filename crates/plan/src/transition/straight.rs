@@ -1,0 +1,41 @@
+//! Makes straight lines hold: small bends for those who pass too close, then longer ways for all.
+
+use super::candidate::Candidate;
+use super::deform::nudge;
+use crate::TransitionProblem;
+use crate::assignment::Choice;
+use crate::cancel::Cancel;
+
+/// Shares by which the longest way may exceed the bottleneck, tried in turn.
+const SLACKS: [f64; 7] = [0.0, 0.01, 0.02, 0.04, 0.07, 0.1, 0.15];
+/// Robots times rounds of bending that are spent on comfort where distances are legal already.
+const COMFORT_WORK: usize = 30_000;
+
+/// The best lines: comfortable ones if they can be had, else legal ones, else those with the fewest conflicts. `None`
+/// where there is no assignment at all.
+pub(super) fn relax(problem: &TransitionProblem, choice: &Choice, cancel: Cancel<'_>) -> Option<Candidate> {
+    let mut minimiser = choice.least_squares();
+    let mut best: Option<Candidate> = None;
+    let mut before = None;
+    for slack in SLACKS {
+        if cancel.is_wanted() {
+            return None;
+        }
+        let start_of = minimiser.solve(slack)?;
+        if before.as_ref() == Some(&start_of) {
+            continue;
+        }
+        let straight = Candidate::straight(problem, &start_of, cancel);
+        let rounds = if straight.holds() { COMFORT_WORK / problem.starts.len().max(1) } else { usize::MAX };
+        let is_fine = straight.is_comfortable();
+        let candidate = if is_fine { straight } else { nudge(problem, &start_of, straight, rounds, cancel) };
+        before = Some(start_of);
+        if candidate.holds() || choice.is_settled() {
+            return Some(candidate);
+        }
+        if best.as_ref().is_none_or(|best| candidate.is_better_than(best)) {
+            best = Some(candidate);
+        }
+    }
+    best
+}
