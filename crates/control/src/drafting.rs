@@ -6,7 +6,9 @@ use crate::separation;
 use crate::surroundings::{Surroundings, surroundings};
 use lightbots_base::{RobotId, Span, Vec2};
 use lightbots_plan::unsynchronised::{self, DriveStage, FreeSpace, StraightDrive, UnsynchronisedProblem};
-use lightbots_plan::{Cancelled, Cast, Path, Transition, TransitionProblem, raise_unless, transition_unless};
+use lightbots_plan::{
+    BoundFrame, Cancelled, Path, Transition, TransitionProblem, raise_unless, transition_unless,
+};
 use lightbots_show::{Frame, Pixel, Show};
 use lightbots_wire::MAX_PIECES;
 use std::sync::Arc;
@@ -208,7 +210,7 @@ impl<'a> Draft<'a> {
     }
 
     /// The transition, without the pixels that make it impossible where that is allowed.
-    fn solve(&self, frame: &Frame, cast: &mut Cast<'_>) -> Result<Transition, String> {
+    fn solve(&self, frame: &Frame, cast: &mut BoundFrame<'_>) -> Result<Transition, String> {
         let mut tries = LENIENT_TRIES;
         loop {
             let problem = TransitionProblem {
@@ -256,7 +258,7 @@ impl<'a> Draft<'a> {
     }
 
     /// `[rider]`: where each stands when the frame is reached, and its light.
-    fn rests(&self, cast: &Cast<'_>, plan: &Transition) -> Vec<Move> {
+    fn rests(&self, cast: &BoundFrame<'_>, plan: &Transition) -> Vec<Move> {
         let rest = |rider: usize| match plan.goal_of.get(rider).copied().flatten() {
             Some(goal) => {
                 let pixel = cast.pixels[goal];

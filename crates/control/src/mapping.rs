@@ -1,7 +1,7 @@
 //! Which robot shows which pixel: what is kept of it from plan to plan, and from run to run.
 
 use lightbots_base::{RobotId, Vec2};
-use lightbots_plan::{Bindings, Cast, Claims};
+use lightbots_plan::{Bindings, BoundFrame, Claims};
 use lightbots_show::{Frame, Identity, Pixel};
 use std::collections::BTreeMap;
 
@@ -61,12 +61,12 @@ impl Roles {
         identity: Identity,
         places: &[Vec2],
         blocked: impl Fn(&Pixel) -> bool,
-    ) -> Cast<'a> {
-        self.bindings.cast(&frame.pixels, identity, places, blocked)
+    ) -> BoundFrame<'a> {
+        self.bindings.bind(&frame.pixels, identity, places, blocked)
     }
 
     /// Keeps who shows what; `goal_of[robot]` is an index into the cast's pixels.
-    pub fn remember(&mut self, cast: &Cast<'_>, identity: Identity, goal_of: &[Option<usize>]) {
+    pub fn remember(&mut self, cast: &BoundFrame<'_>, identity: Identity, goal_of: &[Option<usize>]) {
         self.bindings.remember(cast, goal_of);
         for (&name, goal) in self.names.iter().zip(goal_of) {
             let Some(pixel) = goal.and_then(|goal| cast.pixels.get(goal)) else { continue };

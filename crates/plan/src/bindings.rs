@@ -30,7 +30,7 @@ pub struct Bindings {
 
 /// The pixels of a frame that will be shown, and who must show them.
 #[derive(Clone, Debug, Default)]
-pub struct Cast<'a> {
+pub struct BoundFrame<'a> {
     /// Those that are shown.
     pub pixels: Vec<&'a Pixel>,
     /// `[pixel]`: the robot bound to it; `None`: whoever is near.
@@ -38,12 +38,12 @@ pub struct Cast<'a> {
     /// Ids of the pixels that stay dark.
     pub dark: Vec<u32>,
     /// What people may not expect, and with which pixel.
-    pub oddities: Vec<(u32, Oddity)>,
+    pub issues: Vec<(u32, BindingIssue)>,
 }
 
 /// What people may not expect of a cast.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Oddity {
+pub enum BindingIssue {
     /// The robot that the pixel asks for must show another pixel: it stays dark.
     BoundTwice,
     /// The robot that the pixel asks for is not here: it stays dark.
@@ -87,14 +87,14 @@ impl Bindings {
     /// Casts a frame for robots that stand at `places`, stage metres. A pixel is shown by the robot it asks for, or is
     /// pinned to; where identity is fixed, by who showed it last. Pixels that must stay dark, and those no robot is
     /// left for, are not shown.
-    pub fn cast<'a>(
+    pub fn bind<'a>(
         &self,
         frame: &'a [Pixel],
         identity: Identity,
         places: &[Vec2],
         stays_dark: impl Fn(&Pixel) -> bool,
-    ) -> Cast<'a> {
-        let mut casting = Casting {
+    ) -> BoundFrame<'a> {
+        let mut binder = Binder {
             bindings: self,
             places,
             roles: frame
@@ -102,27 +102,27 @@ impl Bindings {
                 .map(|pixel| Role { pixel, is_dark: stays_dark(pixel), robot: None })
                 .collect(),
             taken: vec![false; places.len()],
-            oddities: Vec::new(),
+            issues: Vec::new(),
         };
-        casting.bind();
+        binder.bind();
         if identity == Identity::Fixed {
-            casting.name_owners();
+            binder.name_owners();
         }
-        casting.name_others(identity);
+        binder.name_others(identity);
         if identity == Identity::Fixed {
-            casting.keep_owners();
+            binder.keep_owners();
         }
-        casting.drop_surplus();
+        binder.drop_surplus();
         if identity == Identity::Fixed {
-            casting.place_newcomers();
+            binder.place_newcomers();
         }
-        casting.done()
+        binder.done()
     }
 
     /// Keeps who shows what; `goal_of[robot]` is an index into the cast's pixels.
-    pub fn remember(&mut self, cast: &Cast<'_>, goal_of: &[Option<usize>]) {
+    pub fn remember(&mut self, bound: &BoundFrame<'_>, goal_of: &[Option<usize>]) {
         for (robot, goal) in goal_of.iter().enumerate() {
-            let Some(pixel) = goal.and_then(|goal| cast.pixels.get(goal)) else { continue };
+            let Some(pixel) = goal.and_then(|goal| bound.pixels.get(goal)) else { continue };
             self.claims.show(pixel.id, robot);
             if let (false, Some(name)) = (self.names_known, &pixel.robot) {
                 self.by_name.entry(name.clone()).or_insert(robot);
@@ -145,16 +145,16 @@ impl Role<'_> {
 }
 
 /// A frame that is being cast.
-struct Casting<'a, 'b> {
+struct Binder<'a, 'b> {
     bindings: &'b Bindings,
     places: &'b [Vec2],
     roles: Vec<Role<'a>>,
     /// `[robot]`.
     taken: Vec<bool>,
-    oddities: Vec<(u32, Oddity)>,
+    issues: Vec<(u32, BindingIssue)>,
 }
 
-impl<'a> Casting<'a, '_> {
+impl<'a> Binder<'a, '_> {
     /// Gives a pixel to a robot unless that has one.
     fn give(&mut self, role: usize, robot: usize) -> bool {
         let free = self.taken.get(robot) == Some(&false);
@@ -165,9 +165,9 @@ impl<'a> Casting<'a, '_> {
         free
     }
 
-    fn leave_dark(&mut self, role: usize, why: Oddity) {
+    fn leave_dark(&mut self, role: usize, why: BindingIssue) {
         self.roles[role].is_dark = true;
-        self.oddities.push((self.roles[role].pixel.id, why));
+        self.issues.push((self.roles[role].pixel.id, why));
     }
 
     /// Pixels that ask for robots by name, then those that were pinned to one.
@@ -191,8 +191,8 @@ impl<'a> Casting<'a, '_> {
                 };
                 match wanted {
                     Some(robot) if self.give(role, robot) => {}
-                    Some(_) => self.leave_dark(role, Oddity::BoundTwice),
-                    None => self.leave_dark(role, Oddity::Unknown),
+                    Some(_) => self.leave_dark(role, BindingIssue::BoundTwice),
+                    None => self.leave_dark(role, BindingIssue::Unknown),
                 }
             }
         }
@@ -252,7 +252,7 @@ impl<'a> Casting<'a, '_> {
         }
         let fit: Vec<usize> = (0..self.taken.len()).filter(free).filter(|&robot| !named[robot]).collect();
         for &role in nameless.iter().skip(fit.len()) {
-            self.leave_dark(role, Oddity::Unknown);
+            self.leave_dark(role, BindingIssue::Unknown);
         }
         self.place(fit, self.nameless());
     }
@@ -272,7 +272,7 @@ impl<'a> Casting<'a, '_> {
             if let Some(robot) = self.owner(role)
                 && !self.give(role, robot)
             {
-                self.oddities.push((self.roles[role].pixel.id, Oddity::Lost));
+                self.issues.push((self.roles[role].pixel.id, BindingIssue::Lost));
             }
         }
     }
@@ -317,17 +317,17 @@ impl<'a> Casting<'a, '_> {
         }
     }
 
-    fn done(self) -> Cast<'a> {
-        let mut cast = Cast { oddities: self.oddities, ..Cast::default() };
+    fn done(self) -> BoundFrame<'a> {
+        let mut bound = BoundFrame { issues: self.issues, ..BoundFrame::default() };
         for role in self.roles {
             if role.is_dark {
-                cast.dark.push(role.pixel.id);
+                bound.dark.push(role.pixel.id);
             } else {
-                cast.pixels.push(role.pixel);
-                cast.pinned.push(role.robot);
+                bound.pixels.push(role.pixel);
+                bound.pinned.push(role.robot);
             }
         }
-        cast
+        bound
     }
 }
 

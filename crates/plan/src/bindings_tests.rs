@@ -16,8 +16,8 @@ fn row(robots: usize) -> Vec<Vec2> {
     (0..robots).map(|robot| Vec2::new(robot as f64, 0.0)).collect()
 }
 
-fn cast<'a>(bindings: &Bindings, frame: &'a [Pixel], identity: Identity, robots: usize) -> Cast<'a> {
-    bindings.cast(frame, identity, &row(robots), |_| false)
+fn bind<'a>(bindings: &Bindings, frame: &'a [Pixel], identity: Identity, robots: usize) -> BoundFrame<'a> {
+    bindings.bind(frame, identity, &row(robots), |_| false)
 }
 
 /// Robots with names, of whom `shown` showed pixels, oldest first.
@@ -32,11 +32,11 @@ fn bindings(names: &[&str], shown: &[(u32, usize)]) -> Bindings {
 fn who_loses_its_robot_to_a_name_gets_the_one_that_is_left() {
     let all = bindings(&["a", "b", "c"], &[(0, 0), (1, 1), (2, 2)]);
     let frame = frame(&[(0, Some("b")), (1, None), (2, None)]);
-    let found = cast(&all, &frame, Identity::Fixed, 3);
+    let found = bind(&all, &frame, Identity::Fixed, 3);
     assert_eq!(found.pinned, [Some(1), None, Some(2)]);
-    assert_eq!((found.dark, found.oddities), (vec![], vec![(1, Oddity::Lost)]));
+    assert_eq!((found.dark, found.issues), (vec![], vec![(1, BindingIssue::Lost)]));
     // Robots that have shown nothing yet are nobody's, and rather taken.
-    assert_eq!(cast(&all, &frame, Identity::Fixed, 5).pinned[1], Some(3));
+    assert_eq!(bind(&all, &frame, Identity::Fixed, 5).pinned[1], Some(3));
 }
 
 #[test]
@@ -45,11 +45,11 @@ fn names_and_pins_bind_whatever_the_identity_and_names_come_first() {
     all.pins = [(0, Some(2)), (1, Some(0)), (2, None)].into();
     let frame = frame(&[(0, None), (1, None), (2, None), (3, Some("c")), (4, Some("x"))]);
     for identity in [Identity::Any, Identity::Fixed] {
-        let found = cast(&all, &frame, identity, 3);
+        let found = bind(&all, &frame, identity, 3);
         assert_eq!(found.pixels.iter().map(|pixel| pixel.id).collect::<Vec<_>>(), [1, 3]);
         assert_eq!((found.pinned, found.dark), (vec![Some(0), Some(2)], vec![0, 2, 4]));
-        let odd = [(4, Oddity::Unknown), (0, Oddity::BoundTwice), (2, Oddity::Unknown)];
-        assert_eq!(found.oddities, odd);
+        let odd = [(4, BindingIssue::Unknown), (0, BindingIssue::BoundTwice), (2, BindingIssue::Unknown)];
+        assert_eq!(found.issues, odd);
     }
 }
 
@@ -58,7 +58,7 @@ fn of_two_pixels_that_one_robot_showed_it_keeps_the_later() {
     for (shown, pinned) in [([(0, 1), (5, 1)], [None, Some(1)]), ([(5, 1), (0, 1)], [Some(1), None])] {
         let found = bindings(&[], &shown);
         let frame = frame(&[(0, None), (5, None)]);
-        assert_eq!(cast(&found, &frame, Identity::Fixed, 2).pinned, pinned);
+        assert_eq!(bind(&found, &frame, Identity::Fixed, 2).pinned, pinned);
     }
 }
 
@@ -66,7 +66,7 @@ fn of_two_pixels_that_one_robot_showed_it_keeps_the_later() {
 fn a_pixel_that_must_stay_dark_leaves_its_robot_to_others() {
     let all = bindings(&["a", "b"], &[(0, 0), (1, 1)]);
     let frame = frame(&[(0, None), (1, None), (2, None)]);
-    let found = all.cast(&frame, Identity::Fixed, &row(2), |pixel| pixel.id == 1);
+    let found = all.bind(&frame, Identity::Fixed, &row(2), |pixel| pixel.id == 1);
     assert_eq!((found.pinned, found.dark), (vec![Some(0), None], vec![1]));
 }
 
@@ -75,14 +75,14 @@ fn a_new_name_is_the_robot_that_showed_the_pixel_where_identity_is_fixed() {
     let mut unnamed = bindings(&[], &[(0, 2), (1, 0), (2, 1)]);
     unnamed.names_known = false;
     let named = frame(&[(0, None), (1, Some("ann")), (2, None)]);
-    let found = cast(&unnamed, &named, Identity::Fixed, 5);
+    let found = bind(&unnamed, &named, Identity::Fixed, 5);
     assert_eq!(found.pinned, [Some(2), Some(0), Some(1)]);
     unnamed.remember(&found, &[Some(1), Some(2), Some(0)]);
     assert_eq!(unnamed.by_name, [("ann".to_owned(), 0)].into());
     // Bob is somebody else, though ann is nearest and showed the pixel.
     let other = frame(&[(1, Some("bob"))]);
     for identity in [Identity::Any, Identity::Fixed] {
-        assert!(cast(&unnamed, &other, identity, 5).pinned[0].is_some_and(|robot| robot != 0));
+        assert!(bind(&unnamed, &other, identity, 5).pinned[0].is_some_and(|robot| robot != 0));
     }
 }
 
@@ -91,12 +91,12 @@ fn new_names_take_robots_that_keep_a_pixel_only_where_no_others_are_left() {
     let mut known = bindings(&["ann"], &[(0, 0), (1, 1), (2, 2)]);
     known.names_known = false;
     let frame = frame(&[(1, None), (2, None), (7, Some("bob"))]);
-    let found = cast(&known, &frame, Identity::Fixed, 4);
-    assert_eq!((found.pinned, found.oddities.len()), (vec![Some(1), Some(2), Some(3)], 0));
-    let found = cast(&known, &frame, Identity::Fixed, 3);
+    let found = bind(&known, &frame, Identity::Fixed, 4);
+    assert_eq!((found.pinned, found.issues.len()), (vec![Some(1), Some(2), Some(3)], 0));
+    let found = bind(&known, &frame, Identity::Fixed, 3);
     // Bob cannot be ann: pixel 2 loses the robot that is nearest to bob's pixel.
     assert_eq!(found.pinned, [Some(1), None, Some(2)]);
-    assert_eq!(found.oddities, [(2, Oddity::Lost)]);
+    assert_eq!(found.issues, [(2, BindingIssue::Lost)]);
 }
 
 #[test]
@@ -104,11 +104,11 @@ fn with_fewer_robots_the_last_pixels_stay_dark_and_those_that_ask_for_somebody_l
     let mut nobody = Bindings::default();
     let frame = frame(&[(0, None), (1, None), (2, None), (3, Some("ann"))]);
     for identity in [Identity::Any, Identity::Fixed] {
-        assert_eq!(cast(&nobody, &frame, identity, 2).dark, [1, 2]);
-        assert_eq!(cast(&nobody, &frame, identity, 0).dark, [0, 1, 2, 3]);
+        assert_eq!(bind(&nobody, &frame, identity, 2).dark, [1, 2]);
+        assert_eq!(bind(&nobody, &frame, identity, 0).dark, [0, 1, 2, 3]);
     }
     nobody.claims.show(2, 0);
-    assert_eq!(cast(&nobody, &frame, Identity::Fixed, 2).dark, [0, 1]);
+    assert_eq!(bind(&nobody, &frame, Identity::Fixed, 2).dark, [0, 1]);
 }
 
 #[test]

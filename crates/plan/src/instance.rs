@@ -8,7 +8,7 @@ use crate::cancel::Cancel;
 use crate::margins::{EDGE_M, SPLINE_M};
 
 /// A transition whose assignment is settled.
-pub(crate) struct Scene<'a> {
+pub(crate) struct Instance<'a> {
     /// When to give up.
     pub cancel: Cancel<'a>,
     /// Where each robot starts, stage metres.
@@ -25,8 +25,8 @@ pub(crate) struct Scene<'a> {
     pub limits: Limits,
 }
 
-impl Scene<'_> {
-    /// The scene of a problem; `None` where the assignment does not fit it or something is not a number.
+impl Instance<'_> {
+    /// The instance of a problem; `None` where the assignment does not fit it or something is not a number.
     pub fn new(problem: &TransitionProblem, goal_of: &[Option<usize>]) -> Option<Self> {
         if goal_of.len() != problem.starts.len() {
             return None;
@@ -40,7 +40,7 @@ impl Scene<'_> {
             });
         }
         let standing = problem.standing.iter().map(|&at| Obstacle::Disc { at, radius_m: limits.radius_m });
-        let mut scene = Self {
+        let mut instance = Self {
             cancel: Cancel::NEVER,
             starts: problem.starts.clone(),
             ends,
@@ -49,11 +49,11 @@ impl Scene<'_> {
             off_edge_m: EDGE_M,
             limits,
         };
-        scene.off_edge_m = scene.room_at_edge_m();
-        let places = scene.starts.iter().chain(scene.ends.iter().flatten());
+        instance.off_edge_m = instance.room_at_edge_m();
+        let places = instance.starts.iter().chain(instance.ends.iter().flatten());
         let sane = limits.speed_mps > 0.0 && limits.accel_mps2 > 0.0 && limits.radius_m > 0.0;
-        (sane && scene.inner.x > 0.0 && scene.inner.y > 0.0 && places.copied().all(Vec2::is_finite))
-            .then_some(scene)
+        (sane && instance.inner.x > 0.0 && instance.inner.y > 0.0 && places.copied().all(Vec2::is_finite))
+            .then_some(instance)
     }
 
     /// How many robots.
@@ -184,18 +184,23 @@ mod tests {
     }
 
     /// A robot from one place to another on a floor of 1 m by 1 m.
-    fn scene(start: (f64, f64), end: (f64, f64), obstacles: Vec<Obstacle>, half: Vec2) -> Scene<'static> {
+    fn instance(
+        start: (f64, f64),
+        end: (f64, f64),
+        obstacles: Vec<Obstacle>,
+        half: Vec2,
+    ) -> Instance<'static> {
         let at = |(x, y)| vec![Vec2::new(x, y)];
         let floor = TransitionProblem::on_floor(half, Limits::ELISA_3);
         let problem = TransitionProblem { starts: at(start), goals: at(end), obstacles, ..floor };
-        Scene::new(&problem, &[Some(0)]).unwrap()
+        Instance::new(&problem, &[Some(0)]).unwrap()
     }
 
     #[test]
     fn places_are_brought_off_each_side_but_for_ends_there() {
         let half = Vec2::new(0.527, 0.527);
-        let scene = scene((-0.499, 0.2), (0.0, 0.51), Vec::new(), half);
-        let moved = |x: f64, y: f64| scene.on_floor(0, Vec2::new(x, y), 0.003);
+        let instance = instance((-0.499, 0.2), (0.0, 0.51), Vec::new(), half);
+        let moved = |x: f64, y: f64| instance.on_floor(0, Vec2::new(x, y), 0.003);
         assert_eq!(moved(-0.4999, -0.4999), Vec2::new(-0.499, -0.497));
         assert_eq!(moved(0.499, 0.52), Vec2::new(0.497, 0.51));
         assert_eq!(moved(-0.4985, 0.3), Vec2::new(-0.4985, 0.3));
@@ -207,7 +212,7 @@ mod tests {
             vec![Obstacle::Rect { min: Vec2::new(-0.1, -0.2), max: Vec2::new(0.1, 0.5 - gap_m) }]
         };
         let off_edge_mm = |gap_m: f64, half: Vec2| {
-            let room_m = scene((-0.3, 0.0), (0.3, 0.0), wall(gap_m), half).off_edge_m;
+            let room_m = instance((-0.3, 0.0), (0.3, 0.0), wall(gap_m), half).off_edge_m;
             (room_m * 1e5).round() / 1e2
         };
         let half = Vec2::new(0.5, 0.5);

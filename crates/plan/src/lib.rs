@@ -40,10 +40,10 @@ mod spline;
 mod transition;
 pub mod unsynchronised;
 
-pub use bindings::{Bindings, Cast, Claims, Oddity};
+pub use bindings::{BindingIssue, Bindings, BoundFrame, Claims};
 pub use cancel::Cancelled;
 pub use motion::turn_time;
-pub use problem::{Closest, Meeting, Path, Repaired, Stuck, Transition, TransitionProblem};
+pub use problem::{Closest, Infeasible, Meeting, Path, Repaired, Transition, TransitionProblem};
 pub use raise::{raise, raise_unless};
 pub use show::{ShowClosest, ShowOptions, ShowPlan, show, show_unless};
 pub use solve::repair;

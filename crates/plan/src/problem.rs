@@ -92,7 +92,7 @@ pub struct Closest {
 
 /// Why there is no plan.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Stuck {
+pub struct Infeasible {
     /// Goals (indices) that stand in each other's way; may be empty.
     pub goals: Vec<usize>,
     /// Starts (indices) that stand in each other's way; may be empty.

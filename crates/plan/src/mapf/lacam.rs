@@ -1,5 +1,5 @@
 //! The way of everybody over the lattice: lazy constraints search (LaCAM; Okumura 2023). Depth first from one
-//! configuration to the next that a [`Steps`] offers; where that leads back, single robots are ordered
+//! configuration to the next that a [`Generator`] offers; where that leads back, single robots are ordered
 //! elsewhere, one order more each time. Complete on the nodes, were it not for the bound on work.
 
 use std::collections::BTreeMap;
@@ -11,26 +11,26 @@ use crate::roads::lattice::NONE;
 const MOST_WORK: usize = 1_500_000;
 
 /// A robot that must go to a node in a step.
-pub(crate) type Order = (usize, u32);
+pub(crate) type Constraint = (usize, u32);
 
 /// Nodes, the ways between them, and who may go at the same time.
-pub(crate) trait Steps {
+pub(crate) trait Generator {
     /// Nodes a robot may go to from another, beside staying.
     fn around(&self, robot: usize, node: u32) -> impl Iterator<Item = u32>;
 
     /// How far a robot still has to go from a node; infinite where there is no way, 0 for those without goal.
     fn far(&self, robot: usize, node: u32) -> f64;
 
-    /// Where everybody stands after one step from `now`: robots earlier in `ranks` choose first, `orders` are
-    /// followed. `None` where the orders cannot be.
-    fn step(&mut self, now: &[u32], ranks: &[usize], orders: &[Order]) -> Option<Vec<u32>>;
+    /// Where everybody stands after one step from `now`: robots earlier in `ranks` choose first, `constraints` are
+    /// followed. `None` where the constraints cannot be.
+    fn step(&mut self, now: &[u32], ranks: &[usize], constraints: &[Constraint]) -> Option<Vec<u32>>;
 
     /// Whether more work than was granted has been done, or it is given up.
     fn is_spent(&self) -> bool;
 }
 
 /// One configuration that has been reached.
-struct Visit {
+struct SearchNode {
     nodes: Vec<u32>,
     from: usize,
     /// Robots by urgency, the most urgent first.
@@ -38,72 +38,72 @@ struct Visit {
     /// Urgency of each: steps since it was last at its goal, and a share for how far it had to go.
     urgency: Vec<f64>,
     /// Orders not tried yet, breadth first.
-    orders: VecDeque<Vec<Order>>,
+    constraints: VecDeque<Vec<Constraint>>,
 }
 
 /// `[step][robot]`: nodes from `starts` until everybody with a goal is there; `None` where not found.
-pub(crate) fn search(stepper: &mut impl Steps, starts: &[u32], goals: &[u32]) -> Option<Vec<Vec<u32>>> {
-    let far: Vec<f64> = (0..starts.len()).map(|robot| stepper.far(robot, starts[robot])).collect();
+pub(crate) fn search(generator: &mut impl Generator, starts: &[u32], goals: &[u32]) -> Option<Vec<Vec<u32>>> {
+    let far: Vec<f64> = (0..starts.len()).map(|robot| generator.far(robot, starts[robot])).collect();
     if far.contains(&f64::INFINITY) {
         return None;
     }
     let longest = far.iter().copied().fold(0.0, f64::max) + 1.0;
     let share: Vec<f64> = far.iter().map(|far| far / longest).collect();
-    let mut visits = vec![Visit::new(starts.to_vec(), 0, share.clone())];
+    let mut search_nodes = vec![SearchNode::new(starts.to_vec(), 0, share.clone())];
     let mut known = BTreeMap::from([(starts.to_vec(), 0)]);
     let mut open = vec![0];
     let mut work = MOST_WORK / starts.len().max(1);
-    while let Some(&top) = open.last().filter(|_| !stepper.is_spent()) {
+    while let Some(&top) = open.last().filter(|_| !generator.is_spent()) {
         work = work.checked_sub(1)?;
-        let visit = &mut visits[top];
-        if visit.nodes.iter().zip(goals).all(|(node, goal)| *goal == NONE || node == goal) {
-            return Some(trace(&visits, top));
+        let expanded = &mut search_nodes[top];
+        if expanded.nodes.iter().zip(goals).all(|(node, goal)| *goal == NONE || node == goal) {
+            return Some(trace(&search_nodes, top));
         }
-        let Some(orders) = visit.orders.pop_front() else {
+        let Some(constraints) = expanded.constraints.pop_front() else {
             open.pop();
             continue;
         };
-        visit.branch(stepper, &orders);
-        let visit = &visits[top];
-        let Some(next) = stepper.step(&visit.nodes, &visit.ranks, &orders) else { continue };
+        expanded.branch(generator, &constraints);
+        let expanded = &search_nodes[top];
+        let Some(next) = generator.step(&expanded.nodes, &expanded.ranks, &constraints) else { continue };
         if let Some(&seen) = known.get(&next) {
             open.push(seen);
             continue;
         }
         let urgency = (0..next.len()).map(|robot| {
             let there = goals[robot] == NONE || next[robot] == goals[robot];
-            if there { share[robot] - 1.0 } else { visit.urgency[robot] + 1.0 }
+            if there { share[robot] - 1.0 } else { expanded.urgency[robot] + 1.0 }
         });
         let urgency = urgency.collect();
-        known.insert(next.clone(), visits.len());
-        open.push(visits.len());
-        visits.push(Visit::new(next, top, urgency));
+        known.insert(next.clone(), search_nodes.len());
+        open.push(search_nodes.len());
+        search_nodes.push(SearchNode::new(next, top, urgency));
     }
     None
 }
 
-impl Visit {
+impl SearchNode {
     fn new(nodes: Vec<u32>, from: usize, urgency: Vec<f64>) -> Self {
         let mut ranks: Vec<usize> = (0..nodes.len()).collect();
         ranks.sort_by(|&a, &b| urgency[b].total_cmp(&urgency[a]).then(a.cmp(&b)));
-        Self { nodes, from, ranks, urgency, orders: VecDeque::from([Vec::new()]) }
+        Self { nodes, from, ranks, urgency, constraints: VecDeque::from([Vec::new()]) }
     }
 
-    /// Adds every order for the next robot by urgency to those that `orders` already holds.
-    fn branch(&mut self, stepper: &impl Steps, orders: &[Order]) {
-        let Some(&robot) = self.ranks.get(orders.len()) else { return };
+    /// Adds every order for the next robot by urgency to those that `constraints` already holds.
+    fn branch(&mut self, generator: &impl Generator, constraints: &[Constraint]) {
+        let Some(&robot) = self.ranks.get(constraints.len()) else { return };
         let here = self.nodes[robot];
-        for node in stepper.around(robot, here).chain([here]) {
-            self.orders.push_back(orders.iter().copied().chain([(robot, node)]).collect());
+        for node in generator.around(robot, here).chain([here]) {
+            self.constraints.push_back(constraints.iter().copied().chain([(robot, node)]).collect());
         }
     }
 }
 
-fn trace(visits: &[Visit], mut at: usize) -> Vec<Vec<u32>> {
-    let mut steps = vec![visits[at].nodes.clone()];
+fn trace(search_nodes: &[SearchNode], mut at: usize) -> Vec<Vec<u32>> {
+    let mut steps = vec![search_nodes[at].nodes.clone()];
     while at != 0 {
-        at = visits[at].from;
-        steps.push(visits[at].nodes.clone());
+        at = search_nodes[at].from;
+        steps.push(search_nodes[at].nodes.clone());
     }
     steps.reverse();
     steps
@@ -114,8 +114,8 @@ mod tests {
     use super::*;
     use crate::TransitionProblem;
     use crate::cancel::Cancel;
-    use crate::instance::Scene;
-    use crate::mapf::lattice_pibt::Stepper;
+    use crate::instance::Instance;
+    use crate::mapf::lattice_pibt::LatticePibt;
     use crate::roads::lattice::Lattice;
     use lightbots_base::{Limits, Vec2};
     use lightbots_show::Easing;
@@ -132,7 +132,7 @@ mod tests {
             duration: None,
             easing: Easing::Swift,
         };
-        Lattice::new(&Scene::new(&problem, &[]).unwrap(), 0.072).unwrap()
+        Lattice::new(&Instance::new(&problem, &[]).unwrap(), 0.072).unwrap()
     }
 
     /// Nobody shares a node, swaps, or follows around a sharp corner.
@@ -158,7 +158,7 @@ mod tests {
         let starts: Vec<u32> = (0..count as u32).filter(|node| node % 2 == 0).collect();
         let goals: Vec<u32> = starts.iter().rev().copied().collect();
         let steps =
-            search(&mut Stepper::new(&lattice, &goals, Cancel::NEVER).unwrap(), &starts, &goals).unwrap();
+            search(&mut LatticePibt::new(&lattice, &goals, Cancel::NEVER).unwrap(), &starts, &goals).unwrap();
         assert_eq!(steps.first(), Some(&starts));
         assert_eq!(steps.last(), Some(&goals));
         assert_legal(&lattice, &steps);
@@ -172,7 +172,7 @@ mod tests {
         goals[0] = lattice.places.len() as u32 / 2;
         goals[1] = 0;
         let steps =
-            search(&mut Stepper::new(&lattice, &goals, Cancel::NEVER).unwrap(), &starts, &goals).unwrap();
+            search(&mut LatticePibt::new(&lattice, &goals, Cancel::NEVER).unwrap(), &starts, &goals).unwrap();
         assert_legal(&lattice, &steps);
         assert_eq!(steps.last().unwrap()[1], 0);
     }

@@ -5,10 +5,10 @@
 use lightbots_base::Vec2;
 
 use crate::cancel::Cancel;
-use crate::mapf::lacam::{Order, Steps};
+use crate::mapf::lacam::{Constraint, Generator};
 use crate::roads::lattice::{Lattice, NONE};
 
-const NOBODY: u32 = u32::MAX;
+const NO_ROBOT: u32 = u32::MAX;
 /// The direction of one who stays.
 const STAYS: u8 = 6;
 /// A robot may push a row of this many.
@@ -17,7 +17,7 @@ const MOST_PUSHED: usize = 500;
 const MOST_STEPS: usize = 1 << 29;
 
 /// What a step is planned with; kept between steps to save memory.
-pub(crate) struct Stepper<'a> {
+pub(crate) struct LatticePibt<'a> {
     cancel: Cancel<'a>,
     lattice: &'a Lattice,
     /// Where each robot heads for; [`NONE`]: it only makes way.
@@ -31,7 +31,7 @@ pub(crate) struct Stepper<'a> {
     holder_next: Vec<u32>,
 }
 
-impl<'a> Stepper<'a> {
+impl<'a> LatticePibt<'a> {
     /// For robots that head for these goals; `None` where they and the nodes are too many.
     pub fn new(lattice: &'a Lattice, goals: &'a [u32], cancel: Cancel<'a>) -> Option<Self> {
         let nodes = lattice.places.len();
@@ -50,13 +50,13 @@ impl<'a> Stepper<'a> {
             now: Vec::new(),
             next: vec![NONE; goals.len()],
             direction: vec![STAYS; goals.len()],
-            holder_now: vec![NOBODY; nodes],
-            holder_next: vec![NOBODY; nodes],
+            holder_now: vec![NO_ROBOT; nodes],
+            holder_next: vec![NO_ROBOT; nodes],
         })
     }
 }
 
-impl Steps for Stepper<'_> {
+impl Generator for LatticePibt<'_> {
     fn is_spent(&self) -> bool {
         self.cancel.is_wanted()
     }
@@ -70,14 +70,14 @@ impl Steps for Stepper<'_> {
         if steps == u16::MAX { f64::INFINITY } else { f64::from(steps) }
     }
 
-    fn step(&mut self, now: &[u32], ranks: &[usize], orders: &[Order]) -> Option<Vec<u32>> {
+    fn step(&mut self, now: &[u32], ranks: &[usize], constraints: &[Constraint]) -> Option<Vec<u32>> {
         self.now.clear();
         self.now.extend_from_slice(now);
         self.next.fill(NONE);
         for (robot, &node) in now.iter().enumerate() {
             self.holder_now[node as usize] = robot as u32;
         }
-        let done = orders.iter().all(|&(robot, node)| {
+        let done = constraints.iter().all(|&(robot, node)| {
             let direction = self.direction_to(now[robot], node);
             let may = direction.is_some_and(|direction| self.may_enter(robot, node, direction));
             if may {
@@ -86,15 +86,15 @@ impl Steps for Stepper<'_> {
             may
         }) && ranks.iter().all(|&robot| self.next[robot] != NONE || self.choose(robot, 0));
         let next = done.then(|| self.next.clone());
-        self.holder_next.fill(NOBODY);
+        self.holder_next.fill(NO_ROBOT);
         for &node in now {
-            self.holder_now[node as usize] = NOBODY;
+            self.holder_now[node as usize] = NO_ROBOT;
         }
         next.filter(|next| self.is_legal(now, next))
     }
 }
 
-impl Stepper<'_> {
+impl LatticePibt<'_> {
     fn direction_to(&self, from: u32, to: u32) -> Option<u8> {
         if from == to {
             return Some(STAYS);
@@ -105,7 +105,7 @@ impl Stepper<'_> {
     fn reserve(&mut self, robot: usize, node: u32, direction: u8) {
         let before = self.next[robot];
         if before != NONE && self.holder_next[before as usize] == robot as u32 {
-            self.holder_next[before as usize] = NOBODY;
+            self.holder_next[before as usize] = NO_ROBOT;
         }
         self.next[robot] = node;
         self.direction[robot] = direction;
@@ -114,18 +114,18 @@ impl Stepper<'_> {
 
     /// Whether a robot may enter a node beside what has been decided.
     fn may_enter(&self, robot: usize, node: u32, direction: u8) -> bool {
-        if self.holder_next[node as usize] != NOBODY {
+        if self.holder_next[node as usize] != NO_ROBOT {
             return false;
         }
         if direction == STAYS {
             return true;
         }
         let ahead = self.holder_now[node as usize];
-        let follows = ahead == NOBODY
+        let follows = ahead == NO_ROBOT
             || self.next[ahead as usize] == NONE
             || may_follow(direction, self.direction[ahead as usize]);
         let behind = self.holder_next[self.now[robot] as usize];
-        follows && (behind == NOBODY || may_follow(self.direction[behind as usize], direction))
+        follows && (behind == NO_ROBOT || may_follow(self.direction[behind as usize], direction))
     }
 
     /// Lets a robot choose, and whoever is in its way after it; whether it could move on or stay by its own choice.
@@ -147,17 +147,17 @@ impl Stepper<'_> {
             }
             self.reserve(robot, node, direction);
             let ahead = self.holder_now[node as usize];
-            let free = ahead == NOBODY || ahead as usize == robot || self.next[ahead as usize] != NONE;
+            let free = ahead == NO_ROBOT || ahead as usize == robot || self.next[ahead as usize] != NONE;
             if free || (depth < MOST_PUSHED && self.choose(ahead as usize, depth + 1)) {
                 return true;
             }
-            if ahead != NOBODY && self.next[ahead as usize] == NONE {
+            if ahead != NO_ROBOT && self.next[ahead as usize] == NONE {
                 self.next[robot] = NONE;
-                self.holder_next[node as usize] = NOBODY;
+                self.holder_next[node as usize] = NO_ROBOT;
             }
         }
         let holder = self.holder_next[here as usize];
-        if holder == NOBODY || holder == robot as u32 {
+        if holder == NO_ROBOT || holder == robot as u32 {
             self.reserve(robot, here, STAYS);
         } else {
             // Whoever wanted this node finds it taken and chooses again.
@@ -170,7 +170,7 @@ impl Stepper<'_> {
 
     /// What a node costs a robot: steps left, then whether somebody stands there, then the bee-line to its goal.
     fn reluctance(&self, robot: usize, here: u32, node: u32) -> u64 {
-        let taken = u64::from(node != here && self.holder_now[node as usize] != NOBODY);
+        let taken = u64::from(node != here && self.holder_now[node as usize] != NO_ROBOT);
         let goal = self.goals[robot];
         if goal == NONE {
             return (u64::from(node != here) << 40) + (taken << 32);
@@ -187,18 +187,18 @@ impl Stepper<'_> {
         }
         let mut legal = true;
         for (robot, &node) in next.iter().enumerate() {
-            legal &= self.holder_next[node as usize] == NOBODY;
+            legal &= self.holder_next[node as usize] == NO_ROBOT;
             self.holder_next[node as usize] = robot as u32;
             let ahead = self.holder_now[node as usize];
-            if node != now[robot] && ahead != NOBODY {
+            if node != now[robot] && ahead != NO_ROBOT {
                 let mine = self.direction_to(now[robot], node);
                 let theirs = self.direction_to(now[ahead as usize], next[ahead as usize]);
                 legal &= mine.zip(theirs).is_some_and(|(mine, theirs)| may_follow(mine, theirs));
             }
         }
         for (&before, &after) in now.iter().zip(next) {
-            self.holder_now[before as usize] = NOBODY;
-            self.holder_next[after as usize] = NOBODY;
+            self.holder_now[before as usize] = NO_ROBOT;
+            self.holder_next[after as usize] = NO_ROBOT;
         }
         legal
     }

@@ -3,7 +3,7 @@
 use lightbots_base::Vec2;
 
 use crate::cancel::Cancel;
-use crate::instance::Scene;
+use crate::instance::Instance;
 use crate::roads::lattice::Lattice;
 
 /// How far from its place a robot looks for a node, in pitches, and at how many; wider where the crowd is too thick.
@@ -14,24 +14,25 @@ const LEAST_BID: f64 = 2e-5;
 const MOST_BIDS: usize = 400;
 
 /// A node of its own for each place, near it by squares of distance; `None` where there are not enough.
-pub(crate) fn dock(scene: &Scene, lattice: &Lattice, places: &[Vec2]) -> Option<Vec<u32>> {
+pub(crate) fn assign_nodes(instance: &Instance, lattice: &Lattice, places: &[Vec2]) -> Option<Vec<u32>> {
     REACHES.iter().find_map(|&(reach, most)| {
         let choices: Option<Vec<Vec<(u32, f64)>>> = places
             .iter()
             .map(|&place| {
-                if scene.cancel.is_wanted() {
+                if instance.cancel.is_wanted() {
                     return None;
                 }
                 let near = lattice.around(place, reach * lattice.pitch_m, most);
                 let free = near.into_iter().filter(|&node| {
-                    scene.walls.is_empty() || scene.is_way_free(place, lattice.places[node as usize], 0.0)
+                    instance.walls.is_empty()
+                        || instance.is_way_free(place, lattice.places[node as usize], 0.0)
                 });
                 let cost = |node: u32| lattice.places[node as usize].distance(place);
                 let choice: Vec<_> = free.map(|node| (node, cost(node) * cost(node))).collect();
                 (!choice.is_empty()).then_some(choice)
             })
             .collect();
-        auction(lattice.places.len(), &choices?, scene.cancel)
+        auction(lattice.places.len(), &choices?, instance.cancel)
     })
 }
 

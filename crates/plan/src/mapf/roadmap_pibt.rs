@@ -2,8 +2,8 @@
 //! whose way is told by distances. All who move in a step leave, drive and arrive together, so two of them are closest
 //! where the straight line from how they stood apart to how they will is closest to nothing: that is exact.
 
-use crate::instance::Scene;
-use crate::mapf::lacam::{Order, Steps};
+use crate::instance::Instance;
+use crate::mapf::lacam::{Constraint, Generator};
 use crate::roads::roadmap::{Roadmap, nearest};
 
 /// Not decided yet.
@@ -17,8 +17,8 @@ const LOOKS_A_NODE: usize = 10;
 const PUSH_M: f64 = 0.02;
 
 /// Plans steps; keeps its memory.
-pub(crate) struct Pusher<'a> {
-    scene: &'a Scene<'a>,
+pub(crate) struct RoadmapPibt<'a> {
+    instance: &'a Instance<'a>,
     roads: &'a Roadmap,
     /// `[robot][node]`: what is left to its end.
     far_m: Vec<Vec<f64>>,
@@ -33,18 +33,18 @@ pub(crate) struct Pusher<'a> {
     looks: usize,
 }
 
-impl<'a> Pusher<'a> {
-    /// For all robots of a scene, and so many looks at pairs.
-    pub fn new(scene: &'a Scene<'a>, roads: &'a Roadmap, looks: usize) -> Self {
-        let robots = scene.robots();
+impl<'a> RoadmapPibt<'a> {
+    /// For all robots of a instance, and so many looks at pairs.
+    pub fn new(instance: &'a Instance<'a>, roads: &'a Roadmap, looks: usize) -> Self {
+        let robots = instance.robots();
         // Finding out how far everybody has to go costs about as much as a few looks for each node.
         let looks = looks.saturating_sub(robots * roads.places.len() * LOOKS_A_NODE);
-        let far_m = |robot: usize| match scene.cancel.is_wanted() {
+        let far_m = |robot: usize| match instance.cancel.is_wanted() {
             true => vec![f64::INFINITY; roads.places.len()],
             false => roads.far_m(robot),
         };
         Self {
-            scene,
+            instance,
             roads,
             far_m: (0..robots).map(far_m).collect(),
             now: Vec::new(),
@@ -58,7 +58,7 @@ impl<'a> Pusher<'a> {
 
     /// Whether to give up.
     pub fn is_given_up(&self) -> bool {
-        self.scene.cancel.is_wanted()
+        self.instance.cancel.is_wanted()
     }
 
     /// How many looks are left.
@@ -75,16 +75,16 @@ impl<'a> Pusher<'a> {
     pub fn are_apart(&self, a: (usize, u32, u32), b: (usize, u32, u32)) -> bool {
         let place = |node: u32| self.roads.places[node as usize];
         let closest = nearest(place(a.1) - place(b.1), place(a.2) - place(b.2)).length_squared();
-        let wide_m = self.scene.widest_gap_m();
+        let wide_m = self.instance.widest_gap_m();
         closest >= wide_m * wide_m || {
-            let gap_m = self.scene.least_gap(a.0, b.0);
+            let gap_m = self.instance.least_gap(a.0, b.0);
             closest >= gap_m * gap_m
         }
     }
 
     fn look_around(&mut self) {
         self.looks = self.looks.saturating_sub(self.now.len() * self.now.len() / 8);
-        let reach_m = 2.0 * self.roads.reach_m + self.scene.widest_gap_m();
+        let reach_m = 2.0 * self.roads.reach_m + self.instance.widest_gap_m();
         let place = |robot: usize| self.roads.places[self.now[robot] as usize];
         for a in 0..self.now.len() {
             self.near[a].clear();
@@ -160,17 +160,17 @@ impl<'a> Pusher<'a> {
     }
 }
 
-impl Steps for Pusher<'_> {
+impl Generator for RoadmapPibt<'_> {
     fn around(&self, robot: usize, node: u32) -> impl Iterator<Item = u32> {
-        let ways = self.roads.ways[node as usize].iter().copied();
-        ways.filter(move |&next| self.roads.may_be(robot, next))
+        let edges = self.roads.edges[node as usize].iter().copied();
+        edges.filter(move |&next| self.roads.may_be(robot, next))
     }
 
     fn far(&self, robot: usize, node: u32) -> f64 {
         self.far_m(robot, node)
     }
 
-    fn step(&mut self, now: &[u32], ranks: &[usize], orders: &[Order]) -> Option<Vec<u32>> {
+    fn step(&mut self, now: &[u32], ranks: &[usize], constraints: &[Constraint]) -> Option<Vec<u32>> {
         self.now.clear();
         self.now.extend_from_slice(now);
         self.undo(0);
@@ -178,7 +178,7 @@ impl Steps for Pusher<'_> {
         // Orders first, and only then whoever is in their way: with an order for everybody any step that may be made
         // is made.
         let mut pushed = Vec::new();
-        for &(robot, node) in orders {
+        for &(robot, node) in constraints {
             pushed.extend(self.pushed_by(robot, node)?);
             self.decide(robot, node);
         }
@@ -199,7 +199,7 @@ impl Steps for Pusher<'_> {
     }
 
     fn is_spent(&self) -> bool {
-        self.looks == 0 || self.scene.cancel.is_wanted()
+        self.looks == 0 || self.instance.cancel.is_wanted()
     }
 }
 
@@ -207,41 +207,41 @@ impl Steps for Pusher<'_> {
 mod tests {
     use super::*;
     use crate::TransitionProblem;
-    use crate::roads::visibility::Corners;
+    use crate::roads::visibility::VisibilityGraph;
     use lightbots_base::{Limits, Vec2};
 
-    fn scene(starts: Vec<Vec2>, goals: Vec<Vec2>) -> Scene<'static> {
+    fn instance(starts: Vec<Vec2>, goals: Vec<Vec2>) -> Instance<'static> {
         let ends: Vec<Option<usize>> = (0..starts.len()).map(Some).collect();
         let floor = TransitionProblem::on_floor(Vec2::new(0.3, 0.3), Limits::ELISA_3);
-        Scene::new(&TransitionProblem { starts, goals, ..floor }, &ends).unwrap()
+        Instance::new(&TransitionProblem { starts, goals, ..floor }, &ends).unwrap()
     }
 
     #[test]
     fn who_meets_on_the_way_is_not_apart_though_both_ends_are() {
         let (left, right, up) = (Vec2::new(-0.04, 0.0), Vec2::new(0.04, 0.0), Vec2::new(-0.04, 0.1));
-        let scene = scene(vec![left, right, up], vec![right, left, up]);
-        let roads = Roadmap::new(&scene, &Corners::new(&scene), 0.072, 0.0).unwrap();
-        let pusher = Pusher::new(&scene, &roads, usize::MAX);
-        assert!(!pusher.are_apart((0, 0, 1), (1, 1, 0)), "through each other");
-        assert!(pusher.are_apart((0, 0, 1), (2, 2, 0)), "one follows the other around a corner");
-        assert!(pusher.are_apart((0, 0, 0), (1, 1, 1)) && !pusher.are_apart((0, 0, 1), (1, 1, 1)));
+        let instance = instance(vec![left, right, up], vec![right, left, up]);
+        let roads = Roadmap::new(&instance, &VisibilityGraph::new(&instance), 0.072, 0.0).unwrap();
+        let pibt = RoadmapPibt::new(&instance, &roads, usize::MAX);
+        assert!(!pibt.are_apart((0, 0, 1), (1, 1, 0)), "through each other");
+        assert!(pibt.are_apart((0, 0, 1), (2, 2, 0)), "one follows the other around a corner");
+        assert!(pibt.are_apart((0, 0, 0), (1, 1, 1)) && !pibt.are_apart((0, 0, 1), (1, 1, 1)));
     }
 
     #[test]
     fn a_step_that_is_ordered_whole_is_made_as_ordered_or_not_at_all() {
         // Three in a ring of places so close that they can only go on together.
         let place = |third: i32| Vec2::unit(f64::from(third) * std::f64::consts::TAU / 3.0) * 0.068;
-        let scene = scene((0..3).map(place).collect(), (1..4).map(place).collect());
-        let roads = Roadmap::new(&scene, &Corners::new(&scene), 0.072, 0.0).unwrap();
-        let mut pusher = Pusher::new(&scene, &roads, usize::MAX);
+        let instance = instance((0..3).map(place).collect(), (1..4).map(place).collect());
+        let roads = Roadmap::new(&instance, &VisibilityGraph::new(&instance), 0.072, 0.0).unwrap();
+        let mut pibt = RoadmapPibt::new(&instance, &roads, usize::MAX);
         let starts = roads.starts.clone();
         let around = [(0, starts[1]), (1, starts[2]), (2, starts[0])];
-        let made = pusher.step(&starts, &[0, 1, 2], &around);
+        let made = pibt.step(&starts, &[0, 1, 2], &around);
         assert_eq!(made, Some(vec![starts[1], starts[2], starts[0]]));
-        assert_eq!(pusher.step(&starts, &[0, 1, 2], &[(0, starts[1]), (1, starts[0])]), None);
-        let next = pusher.step(&starts, &[2, 1, 0], &[]).unwrap();
+        assert_eq!(pibt.step(&starts, &[0, 1, 2], &[(0, starts[1]), (1, starts[0])]), None);
+        let next = pibt.step(&starts, &[2, 1, 0], &[]).unwrap();
         for (a, b) in [(0, 1), (0, 2), (1, 2)] {
-            assert!(pusher.are_apart((a, starts[a], next[a]), (b, starts[b], next[b])));
+            assert!(pibt.are_apart((a, starts[a], next[a]), (b, starts[b], next[b])));
         }
     }
 }

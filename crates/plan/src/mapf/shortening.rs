@@ -1,8 +1,8 @@
-//! Makes steps found by a depth-first search fewer: one robot after the other looks for its best way through space and
+//! Makes steps found by a depth-first search fewer: one robot after the other looks for its best path through space and
 //! steps while all others do as they did, and steps in which nobody moves are left out. Nothing gets worse by that.
 
-use crate::mapf::lacam::Steps;
-use crate::mapf::roadmap_pibt::Pusher;
+use crate::mapf::lacam::Generator;
+use crate::mapf::roadmap_pibt::RoadmapPibt;
 use crate::roads::roadmap::Roadmap;
 
 /// Rounds over all robots, and pairs of moves looked at in all.
@@ -15,17 +15,17 @@ const METRE: f64 = 4.0;
 const NOWHERE: u32 = u32::MAX;
 
 /// The same from the first to the last, in fewer steps and moves where that is found.
-pub(crate) fn shorten(pusher: &Pusher, roads: &Roadmap, mut steps: Vec<Vec<u32>>) -> Vec<Vec<u32>> {
+pub(crate) fn shorten(pibt: &RoadmapPibt, roads: &Roadmap, mut steps: Vec<Vec<u32>>) -> Vec<Vec<u32>> {
     let mut looks = MOST_LOOKS;
     for _ in 0..ROUNDS {
         let mut is_better = false;
-        for robot in (0..roads.starts.len()).take_while(|_| !pusher.is_given_up()) {
-            let mut lane = Lane { pusher, roads, steps: &steps, robot, looks };
-            let way = lane.best();
-            looks = lane.looks;
-            let Some(way) = way else { continue };
-            is_better |= steps.iter().zip(&way).any(|(step, node)| step[robot] != *node);
-            steps.iter_mut().zip(way).for_each(|(step, node)| step[robot] = node);
+        for robot in (0..roads.starts.len()).take_while(|_| !pibt.is_given_up()) {
+            let mut search = SingleRobotSearch { pibt, roads, steps: &steps, robot, looks };
+            let path = search.best();
+            looks = search.looks;
+            let Some(path) = path else { continue };
+            is_better |= steps.iter().zip(&path).any(|(step, node)| step[robot] != *node);
+            steps.iter_mut().zip(path).for_each(|(step, node)| step[robot] = node);
         }
         steps.dedup();
         if !is_better {
@@ -35,17 +35,17 @@ pub(crate) fn shorten(pusher: &Pusher, roads: &Roadmap, mut steps: Vec<Vec<u32>>
     steps
 }
 
-/// One robot's way among those of all others.
-struct Lane<'a> {
-    pusher: &'a Pusher<'a>,
+/// One robot's path among those of all others.
+struct SingleRobotSearch<'a> {
+    pibt: &'a RoadmapPibt<'a>,
     roads: &'a Roadmap,
     steps: &'a [Vec<u32>],
     robot: usize,
     looks: usize,
 }
 
-impl Lane<'_> {
-    /// `[step]`: the node of the cheapest way; `None` where the looks did not suffice.
+impl SingleRobotSearch<'_> {
+    /// `[step]`: the node of the cheapest path; `None` where the looks did not suffice.
     fn best(&mut self) -> Option<Vec<u32>> {
         let nodes = self.roads.places.len();
         let last = self.steps.len() - 1;
@@ -61,12 +61,12 @@ impl Lane<'_> {
             let cheapest = (0..nodes).min_by(|&a, &b| costs[a].total_cmp(&costs[b]));
             cheapest.map(|node| node as u32)
         })?;
-        let mut way = vec![end];
+        let mut path = vec![end];
         for from in before.iter().rev() {
-            way.push(from[way[way.len() - 1] as usize]);
+            path.push(from[path[path.len() - 1] as usize]);
         }
-        way.reverse();
-        (!way.contains(&NOWHERE)).then_some(way)
+        path.reverse();
+        (!path.contains(&NOWHERE)).then_some(path)
     }
 
     /// What it costs to be at each node after a step, and from where.
@@ -78,7 +78,7 @@ impl Lane<'_> {
         for here in (0..costs.len() as u32).filter(|&node| costs[node as usize] < f64::INFINITY) {
             let wait = if end.is_none_or(|end| end == here) { 0.0 } else { WAIT };
             let stays = [(here, wait)];
-            let moves = self.pusher.around(self.robot, here);
+            let moves = self.pibt.around(self.robot, here);
             let moves = moves.map(|to| (to, MOVE + METRE * place(here).distance(place(to))));
             for (to, cost) in stays.into_iter().chain(moves) {
                 let whole = costs[here as usize] + cost;
@@ -97,7 +97,7 @@ impl Lane<'_> {
     fn is_clear(&self, step: usize, here: u32, to: u32) -> bool {
         let (now, next) = (&self.steps[step], &self.steps[step + 1]);
         let mut others = (0..now.len()).filter(|&other| other != self.robot);
-        others.all(|other| self.pusher.are_apart((self.robot, here, to), (other, now[other], next[other])))
+        others.all(|other| self.pibt.are_apart((self.robot, here, to), (other, now[other], next[other])))
     }
 }
 
@@ -105,8 +105,8 @@ impl Lane<'_> {
 mod tests {
     use super::*;
     use crate::TransitionProblem;
-    use crate::instance::Scene;
-    use crate::roads::visibility::Corners;
+    use crate::instance::Instance;
+    use crate::roads::visibility::VisibilityGraph;
     use lightbots_base::{Limits, Vec2};
 
     #[test]
@@ -115,27 +115,28 @@ mod tests {
         let floor = TransitionProblem::on_floor(at(0.3, 0.3), Limits::ELISA_3);
         let starts = vec![at(-0.15, 0.0), at(0.0, 0.0)];
         let goals = vec![at(0.15, 0.0), at(0.0, 0.0)];
-        let scene = Scene::new(&TransitionProblem { starts, goals, ..floor }, &[Some(0), Some(1)]).unwrap();
-        let roads = Roadmap::new(&scene, &Corners::new(&scene), 0.072, 0.0).unwrap();
-        let pusher = Pusher::new(&scene, &roads, usize::MAX);
+        let instance =
+            Instance::new(&TransitionProblem { starts, goals, ..floor }, &[Some(0), Some(1)]).unwrap();
+        let roads = Roadmap::new(&instance, &VisibilityGraph::new(&instance), 0.072, 0.0).unwrap();
+        let pibt = RoadmapPibt::new(&instance, &roads, usize::MAX);
         // The first drives far around the second, there and back and there again.
-        let mut way = vec![roads.starts[0]];
-        let far_m = pusher.far_m(0, way[0]);
+        let mut path = vec![roads.starts[0]];
+        let far_m = pibt.far_m(0, path[0]);
         let node = |x: f64, y: f64| {
             let far = |node: &u32| roads.places[*node as usize].distance(at(x, y));
             (0..roads.places.len() as u32).min_by(|a, b| far(a).total_cmp(&far(b))).unwrap()
         };
         let around = [(-0.15, 0.1), (-0.08, 0.14), (0.0, 0.14), (0.08, 0.14), (0.15, 0.1)];
-        way.extend(around.map(|(x, y)| node(x, y)));
-        way.extend(around.map(|(x, y)| node(x, y)).iter().rev());
-        way.extend(around.map(|(x, y)| node(x, y)));
-        way.extend(roads.ends[0]);
-        let steps: Vec<Vec<u32>> = way.iter().map(|&node| vec![node, roads.starts[1]]).collect();
-        let short = shorten(&pusher, &roads, steps.clone());
+        path.extend(around.map(|(x, y)| node(x, y)));
+        path.extend(around.map(|(x, y)| node(x, y)).iter().rev());
+        path.extend(around.map(|(x, y)| node(x, y)));
+        path.extend(roads.ends[0]);
+        let steps: Vec<Vec<u32>> = path.iter().map(|&node| vec![node, roads.starts[1]]).collect();
+        let short = shorten(&pibt, &roads, steps.clone());
         assert!(short.len() < 9 && short.first() == steps.first() && short.last() == steps.last());
         for pair in short.windows(2) {
-            assert!(pusher.are_apart((0, pair[0][0], pair[1][0]), (1, pair[0][1], pair[1][1])));
-            assert!(pair[0] != pair[1] && pusher.far_m(0, pair[0][0]) <= far_m + 0.2);
+            assert!(pibt.are_apart((0, pair[0][0], pair[1][0]), (1, pair[0][1], pair[1][1])));
+            assert!(pair[0] != pair[1] && pibt.far_m(0, pair[0][0]) <= far_m + 0.2);
         }
     }
 }

@@ -8,12 +8,12 @@ const APART_US: i64 = 200_000;
 
 /// Where a path is pushed to the side: offsets at moments, swelling and ebbing smoothly between them.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Bend {
+pub(crate) struct Displacements {
     /// Moment after the path's start in microseconds and offset in stage metres, sorted by time.
     knots: Vec<(i64, Vec2)>,
 }
 
-impl Bend {
+impl Displacements {
     /// Pushes by `offset` more at a moment; moments close to each other are one.
     pub(crate) fn push(&mut self, at: Span, offset: Vec2) {
         // Whole milliseconds travel on the wire without loss.
@@ -98,12 +98,12 @@ mod tests {
     fn a_bent_path_passes_aside_and_arrives_where_and_when_it_did() {
         let to = Vec2::new(1.0, 0.0);
         let straight = Profile::quickest(1.0, Easing::Swift, &Limits::ELISA_3).path(Vec2::ZERO, to);
-        let mut bend = Bend::default();
+        let mut displacement = Displacements::default();
         let (early, late) = (Span::from_millis(1_500), Span::from_millis(3_000));
-        bend.push(early, Vec2::new(0.0, 0.004));
-        bend.push(early + Span::from_millis(50), Vec2::new(0.0, 0.002));
-        bend.push(late, Vec2::new(0.0, -0.005));
-        let bent = bend.applied_to(&straight);
+        displacement.push(early, Vec2::new(0.0, 0.004));
+        displacement.push(early + Span::from_millis(50), Vec2::new(0.0, 0.002));
+        displacement.push(late, Vec2::new(0.0, -0.005));
+        let bent = displacement.applied_to(&straight);
         assert_eq!(bent.as_ref().duration(), straight.as_ref().duration());
         assert_eq!(bent.as_ref().end(), to);
         assert!((bent.as_ref().at(early).position.y - 0.006).abs() < 1e-9);

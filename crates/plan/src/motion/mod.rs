@@ -5,7 +5,7 @@ mod profile;
 pub(crate) mod progress;
 pub(crate) mod stop_and_go;
 
-pub(crate) use bend::Bend;
+pub(crate) use bend::Displacements;
 pub(crate) use profile::Profile;
 
 use lightbots_base::{Limits, Span};

@@ -43,13 +43,13 @@ impl Profile {
         Self { rest: Span::ZERO, ..self }
     }
 
-    /// How long it takes, the turning included.
+    /// How long it takes, the turn_rate included.
     pub(crate) fn duration(&self) -> Span {
         self.beats.iter().fold(self.rest, |sum, beat| sum + beat.duration)
     }
 
     /// The same profile, slowed down to take `total`; unchanged where it takes that long already. The rest for
-    /// turning stays as it is.
+    /// turn_rate stays as it is.
     pub(crate) fn stretched(&self, total: Span) -> Self {
         let before = self.duration();
         if total <= before {

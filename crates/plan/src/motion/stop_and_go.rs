@@ -5,7 +5,7 @@ use lightbots_base::{Piece, Span, Vec2};
 use lightbots_show::Easing;
 
 use super::{Profile, quarter_turn};
-use crate::instance::Scene;
+use crate::instance::Instance;
 use crate::{Path, Repaired};
 
 /// How much more time than limits ask for.
@@ -16,20 +16,30 @@ const EASE: f64 = 1.002;
 const SETTLING_RAD: f64 = 0.2;
 const SETTLING_S: f64 = 0.18;
 
-/// The paths through `stops[step][robot]`, as slow as is wished for; `None` where somebody stops too often for a path.
-pub(crate) fn repaired(scene: &Scene, stops: &[Vec<Vec2>], wished: Option<Span>) -> Option<Repaired> {
+/// The paths through `waypoints[step][robot]`, as slow as is wished for; `None` where somebody waypoints too often for a path.
+pub(crate) fn timed_paths(
+    instance: &Instance,
+    waypoints: &[Vec<Vec2>],
+    wished: Option<Span>,
+) -> Option<Repaired> {
     // Ramps and a cruise are swifter than one cubic, and take more pieces.
-    [Easing::Swift, Easing::Gentle].into_iter().find_map(|easing| eased(scene, stops, wished, easing))
+    [Easing::Swift, Easing::Gentle].into_iter().find_map(|easing| eased(instance, waypoints, wished, easing))
 }
 
-fn eased(scene: &Scene, stops: &[Vec<Vec2>], wished: Option<Span>, easing: Easing) -> Option<Repaired> {
-    let steps = timed(scene, stops, easing);
+fn eased(
+    instance: &Instance,
+    waypoints: &[Vec<Vec2>],
+    wished: Option<Span>,
+    easing: Easing,
+) -> Option<Repaired> {
+    let steps = timed(instance, waypoints, easing);
     let whole: i64 = steps.iter().map(|step| step.rest.0 + step.drive.duration().0).sum();
-    let first = quarter_turn(&scene.limits);
+    let first = quarter_turn(&instance.limits);
     let wished = wished.map_or(0, |wished| (wished - first).0);
     let slower = (wished as f64 / whole.max(1) as f64).max(1.0);
     let steps: Vec<Step> = steps.iter().map(|step| step.slower(slower)).collect();
-    let paths: Vec<Path> = (0..scene.robots()).map(|robot| path(robot, stops, first, &steps)).collect();
+    let paths: Vec<Path> =
+        (0..instance.robots()).map(|robot| path(robot, waypoints, first, &steps)).collect();
     let is_short = paths.iter().all(|path| path.pieces.len() <= Path::MOST_PIECES);
     is_short.then_some(Repaired { paths, least: first + Span(whole) })
 }
@@ -48,10 +58,10 @@ impl Step {
 }
 
 /// The least time for each step.
-fn timed(scene: &Scene, stops: &[Vec<Vec2>], easing: Easing) -> Vec<Step> {
-    let limits = &scene.limits;
-    let mut headings: Vec<Option<Vec2>> = vec![None; scene.robots()];
-    let mut stood_s = vec![quarter_turn(limits).as_secs(); scene.robots()];
+fn timed(instance: &Instance, waypoints: &[Vec<Vec2>], easing: Easing) -> Vec<Step> {
+    let limits = &instance.limits;
+    let mut headings: Vec<Option<Vec2>> = vec![None; instance.robots()];
+    let mut stood_s = vec![quarter_turn(limits).as_secs(); instance.robots()];
     let one = |pair: &[Vec<Vec2>]| {
         let (mut rest_s, mut longest_m) = (0.0_f64, 0.0_f64);
         for (robot, (from, to)) in pair[0].iter().zip(&pair[1]).enumerate() {
@@ -72,15 +82,15 @@ fn timed(scene: &Scene, stops: &[Vec<Vec2>], easing: Easing) -> Vec<Step> {
         }
         Step { rest, drive }
     };
-    stops.windows(2).map(one).collect()
+    waypoints.windows(2).map(one).collect()
 }
 
 /// A robot's way, which begins with a rest for the first turn.
-fn path(robot: usize, stops: &[Vec<Vec2>], first: Span, steps: &[Step]) -> Path {
-    let start = stops[0][robot];
+fn path(robot: usize, waypoints: &[Vec<Vec2>], first: Span, steps: &[Step]) -> Path {
+    let start = waypoints[0][robot];
     let mut pieces = Vec::new();
     let mut rested = first;
-    for (pair, step) in stops.windows(2).zip(steps) {
+    for (pair, step) in waypoints.windows(2).zip(steps) {
         let (from, to) = (pair[0][robot], pair[1][robot]);
         rested += step.rest;
         if from == to {
@@ -94,7 +104,7 @@ fn path(robot: usize, stops: &[Vec<Vec2>], first: Span, steps: &[Step]) -> Path 
         rested = Span::ZERO;
     }
     if rested > Span::ZERO {
-        pieces.push(Piece::rest(stops[stops.len() - 1][robot], rested));
+        pieces.push(Piece::rest(waypoints[waypoints.len() - 1][robot], rested));
     }
     Path { start, pieces }
 }

@@ -2,13 +2,13 @@
 
 use lightbots_base::Vec2;
 
-use crate::instance::Scene;
+use crate::instance::Instance;
 use crate::optimise::cells::Disc;
-use crate::optimise::displacement::Travel;
-use crate::optimise::neighbours::{Near, Places, STRETCHES, come_near, reach};
-use crate::spline::set::{Weave, basis, blend};
+use crate::optimise::displacement::Displacement;
+use crate::optimise::neighbours::{MovedNeighbours, Places, STRETCHES, come_near, reach};
+use crate::spline::set::{SplineSet, basis, blend};
 
-/// Pairs farther apart than their wish by this much are not watched until the next look-out, metres.
+/// Pairs farther apart than their clearances by this much are not watched until the next look-out, metres.
 const SKIN_M: f64 = 0.012;
 /// How often the closest moment to a wall is looked for at half the distance from the best so far.
 const NEARING: usize = 3;
@@ -18,14 +18,14 @@ const CUT_M: f64 = 0.003;
 /// Two robots, or a robot and a wall, that are or may come too close within a span.
 #[derive(Clone, Copy)]
 pub(crate) struct Contact {
-    /// Which span of the weave.
+    /// Which span of the splines.
     pub span: usize,
     /// The robot.
     pub a: usize,
     /// The other robot, or the wall.
     pub b: Other,
     /// How far they shall stay apart: centres of robots, or rim and wall; metres.
-    pub wish: f64,
+    pub wanted: f64,
     /// How far will do, metres.
     pub least: f64,
     /// Nobody need look again before both have moved so far in all, metres.
@@ -35,9 +35,9 @@ pub(crate) struct Contact {
 }
 
 impl Contact {
-    /// Of two robots that will do with their wish.
-    fn of_robots(span: usize, a: usize, b: usize, wish: f64) -> Self {
-        Self { span, a, b: Other::Robot(b), wish, least: wish, clear_until: 0.0, is_close: false }
+    /// Of two robots that will do with their clearances.
+    fn of_robots(span: usize, a: usize, b: usize, wanted: f64) -> Self {
+        Self { span, a, b: Other::Robot(b), wanted, least: wanted, clear_until: 0.0, is_close: false }
     }
 }
 
@@ -46,13 +46,13 @@ impl Contact {
 pub(crate) enum Other {
     /// Another robot.
     Robot(usize),
-    /// A wall of the scene.
+    /// A wall of the instance.
     Wall(usize),
 }
 
 /// The closest moment of a contact.
-pub(crate) struct Closest {
-    /// How far apart, as in [`Contact::wish`].
+pub(crate) struct Approach {
+    /// How far apart, as in [`Contact::wanted`].
     pub apart: f64,
     /// Unit vector from the other to `a`.
     pub away: Vec2,
@@ -62,24 +62,24 @@ pub(crate) struct Closest {
 
 /// How far all shall stay apart.
 #[derive(Clone, Copy)]
-pub(crate) struct Wish {
+pub(crate) struct Clearances {
     /// Centres of robots, metres.
     pub robots_m: f64,
     /// A robot's rim off walls, metres.
     pub walls_m: f64,
-    /// A robot's rim off the floor's edge, at most as far as its scene says; metres.
+    /// A robot's rim off the floor's edge, at most as far as its instance says; metres.
     pub edge_m: f64,
     /// How much less will do, metres: who is left alone within it settles sooner.
     pub slack_m: f64,
 }
 
 /// Looks at spans in straight stretches.
-pub(crate) struct Watch {
+pub(crate) struct ContactDetector {
     bases: [[f64; 4]; STRETCHES + 1],
     middle: [f64; 4],
 }
 
-impl Watch {
+impl ContactDetector {
     /// One that is ready.
     pub fn new() -> Self {
         Self { bases: std::array::from_fn(|i| basis(i as f64 / STRETCHES as f64)), middle: basis(0.5) }
@@ -87,31 +87,31 @@ impl Watch {
 
     /// All that is closer than wished or soon may be, in order of spans; `known` is what there was at the look-out
     /// before.
-    pub fn look_out(
+    pub fn detect(
         &self,
-        scene: &Scene,
-        weave: &Weave,
-        wish: Wish,
-        travel: &Travel,
+        instance: &Instance,
+        splines: &SplineSet,
+        clearances: Clearances,
+        displacement: &Displacement,
         mut known: &[Contact],
     ) -> Vec<Contact> {
         let mut found = Vec::with_capacity(known.len());
-        let mut near = Near::default();
-        for span in (0..weave.spans).take_while(|_| !scene.cancel.is_wanted()) {
-            near.stir(weave.robots(), span, travel);
+        let mut near = MovedNeighbours::default();
+        for span in (0..splines.spans).take_while(|_| !instance.cancel.is_wanted()) {
+            near.find_moved(splines.robots(), span, displacement);
             let (of_span, later) = known.split_at(known.partition_point(|contact| contact.span <= span));
             found.extend(of_span.iter().filter_map(|contact| near.still(contact)));
             known = later;
-            if near.stirred.is_empty() {
+            if near.moved.is_empty() {
                 continue;
             }
             let old = found.len();
-            self.pairs(scene, weave, wish, span, &mut near, &mut found);
-            if !scene.walls.is_empty() {
-                self.walls(scene, weave, wish, span, &near, &mut found);
+            self.pairs(instance, splines, clearances, span, &mut near, &mut found);
+            if !instance.walls.is_empty() {
+                self.walls(instance, splines, clearances, span, &near, &mut found);
             }
             for contact in &mut found[old..] {
-                contact.clear_until += travelled(travel, contact);
+                contact.clear_until += displacement_m(displacement, contact);
             }
         }
         found
@@ -119,32 +119,32 @@ impl Watch {
 
     fn pairs(
         &self,
-        scene: &Scene,
-        weave: &Weave,
-        wish: Wish,
+        instance: &Instance,
+        splines: &SplineSet,
+        clearances: Clearances,
         span: usize,
-        near: &mut Near,
+        near: &mut MovedNeighbours,
         found: &mut Vec<Contact>,
     ) {
         let mut places = std::mem::take(&mut near.places);
         places.clear();
-        places.extend((0..weave.robots()).map(|robot| self.places(weave.span(robot, span))));
+        places.extend((0..splines.robots()).map(|robot| self.places(splines.span(robot, span))));
         near.discs.clear();
         near.discs.extend(places.iter().enumerate().map(|(robot, places)| Disc {
             at: places[STRETCHES / 2],
             radius: reach(places),
             owner: robot as u32,
         }));
-        let reach_m = wish.robots_m + SKIN_M + CUT_M;
-        near.pairs(wish.robots_m + SKIN_M, |a, b| {
+        let reach_m = clearances.robots_m + SKIN_M + CUT_M;
+        near.pairs(clearances.robots_m + SKIN_M, |a, b| {
             if !come_near(&std::array::from_fn(|i| places[a][i] - places[b][i]), reach_m) {
                 return;
             }
-            let mut contact = Contact::of_robots(span, a, b, wish.robots_m);
-            let apart = self.closest(scene, weave, &contact).apart;
-            contact.wish = wish.robots_m.min(scene.ends_apart(a, b));
-            if apart < contact.wish + SKIN_M {
-                contact.least = scene.least_gap(a, b).max(contact.wish - wish.slack_m);
+            let mut contact = Contact::of_robots(span, a, b, clearances.robots_m);
+            let apart = self.closest(instance, splines, &contact).apart;
+            contact.wanted = clearances.robots_m.min(instance.ends_apart(a, b));
+            if apart < contact.wanted + SKIN_M {
+                contact.least = instance.least_gap(a, b).max(contact.wanted - clearances.slack_m);
                 contact.clear_until = apart - contact.least;
                 found.push(contact);
             }
@@ -154,27 +154,34 @@ impl Watch {
 
     fn walls(
         &self,
-        scene: &Scene,
-        weave: &Weave,
-        wish: Wish,
+        instance: &Instance,
+        splines: &SplineSet,
+        clearances: Clearances,
         span: usize,
-        near: &Near,
+        near: &MovedNeighbours,
         found: &mut Vec<Contact>,
     ) {
-        for &robot in &near.stirred {
+        for &robot in &near.moved {
             let Disc { at, radius, .. } = near.discs[robot];
-            for wall in 0..scene.walls.len() {
-                if scene.off_wall(wall, at).0 - radius >= wish.walls_m + SKIN_M + CUT_M {
+            for wall in 0..instance.walls.len() {
+                if instance.off_wall(wall, at).0 - radius >= clearances.walls_m + SKIN_M + CUT_M {
                     continue;
                 }
-                let wish_m = wish.walls_m;
+                let wanted_m = clearances.walls_m;
                 let (a, b) = (robot, Other::Wall(wall));
-                let mut contact =
-                    Contact { span, a, b, wish: wish_m, least: wish_m, clear_until: 0.0, is_close: false };
-                let apart = self.closest(scene, weave, &contact).apart;
-                if apart < wish.walls_m + SKIN_M {
-                    contact.wish = scene.wall_gap(robot, wall, wish.walls_m);
-                    contact.least = contact.wish - wish.slack_m.min(contact.wish.max(0.0) / 2.0);
+                let mut contact = Contact {
+                    span,
+                    a,
+                    b,
+                    wanted: wanted_m,
+                    least: wanted_m,
+                    clear_until: 0.0,
+                    is_close: false,
+                };
+                let apart = self.closest(instance, splines, &contact).apart;
+                if apart < clearances.walls_m + SKIN_M {
+                    contact.wanted = instance.wall_gap(robot, wall, clearances.walls_m);
+                    contact.least = contact.wanted - clearances.slack_m.min(contact.wanted.max(0.0) / 2.0);
                     contact.clear_until = apart - contact.least;
                     found.push(contact);
                 }
@@ -188,28 +195,28 @@ impl Watch {
     }
 
     /// The closest moment of a contact within its span.
-    pub fn closest(&self, scene: &Scene, weave: &Weave, contact: &Contact) -> Closest {
-        let four = weave.span(contact.a, contact.span);
+    pub fn closest(&self, instance: &Instance, splines: &SplineSet, contact: &Contact) -> Approach {
+        let four = splines.span(contact.a, contact.span);
         match contact.b {
             Other::Robot(b) => {
-                let other = weave.span(b, contact.span);
+                let other = splines.span(b, contact.span);
                 self.closest_to_origin(
                     &std::array::from_fn(|i| four[i] - other[i]),
-                    contact.wish + SKIN_M + CUT_M,
+                    contact.wanted + SKIN_M + CUT_M,
                 )
             }
-            Other::Wall(wall) => self.closest_to_wall(scene, wall, four),
+            Other::Wall(wall) => self.closest_to_wall(instance, wall, four),
         }
     }
 
     /// The best of the moments that are looked at, then of those half as far from it, and so on.
-    fn closest_to_wall(&self, scene: &Scene, wall: usize, four: &[Vec2]) -> Closest {
+    fn closest_to_wall(&self, instance: &Instance, wall: usize, four: &[Vec2]) -> Approach {
         let at = |u: f64| {
             let weights = basis(u);
-            let (apart, away) = scene.off_wall(wall, blend(four, &weights));
-            (u, Closest { apart, away, weights })
+            let (apart, away) = instance.off_wall(wall, blend(four, &weights));
+            (u, Approach { apart, away, weights })
         };
-        let nearer = |best: (f64, Closest), next: (f64, Closest)| {
+        let nearer = |best: (f64, Approach), next: (f64, Approach)| {
             if next.1.apart < best.1.apart { next } else { best }
         };
         let mut reach = 1.0 / STRETCHES as f64;
@@ -222,7 +229,7 @@ impl Watch {
         best.1
     }
 
-    fn closest_to_origin(&self, apart: &[Vec2; 4], near: f64) -> Closest {
+    fn closest_to_origin(&self, apart: &[Vec2; 4], near: f64) -> Approach {
         let mut before = blend(apart, &self.bases[0]);
         let mut best = (before.length_squared(), 0.0, before);
         for stretch in 0..STRETCHES {
@@ -244,7 +251,7 @@ impl Watch {
         }
         let (squared, u, nearest) = best;
         if squared > near * near {
-            return Closest { apart: squared.sqrt(), away: nearest, weights: self.middle };
+            return Approach { apart: squared.sqrt(), away: nearest, weights: self.middle };
         }
         let weights = basis(u);
         let nearest = blend(apart, &weights);
@@ -252,17 +259,17 @@ impl Watch {
         // Those who meet head-on pass each other on the right.
         let aside = || (apart[0] - apart[3]).left().normalized().unwrap_or(Vec2::new(1.0, 0.0));
         let away = if length > 1e-6 { nearest / length } else { aside() };
-        Closest { apart: length, away, weights }
+        Approach { apart: length, away, weights }
     }
 }
 
 /// How far those in a contact have moved in all, metres.
-pub(crate) fn travelled(travel: &Travel, contact: &Contact) -> f64 {
+pub(crate) fn displacement_m(displacement: &Displacement, contact: &Contact) -> f64 {
     let other = match contact.b {
-        Other::Robot(b) => travel.of(b, contact.span),
+        Other::Robot(b) => displacement.of(b, contact.span),
         Other::Wall(_) => 0.0,
     };
-    travel.of(contact.a, contact.span) + other
+    displacement.of(contact.a, contact.span) + other
 }
 
 #[cfg(test)]

@@ -4,7 +4,7 @@
 use lightbots_base::Vec2;
 
 /// The sum of each control point's moves.
-pub(crate) struct Travel {
+pub(crate) struct Displacement {
     /// Control points of a way.
     width: usize,
     /// `[robot][point]`, metres; at least as far as it really was.
@@ -13,7 +13,7 @@ pub(crate) struct Travel {
     marked_m: Vec<f64>,
 }
 
-impl Travel {
+impl Displacement {
     /// Of ways that have not moved yet.
     pub fn new(robots: usize, width: usize) -> Self {
         let points = robots * width;
@@ -30,7 +30,7 @@ impl Travel {
     }
 
     /// How far the control point of a span has moved that moved most since it was marked, metres.
-    pub fn stirred_m(&self, robot: usize, span: usize) -> f64 {
+    pub fn since_mark_m(&self, robot: usize, span: usize) -> f64 {
         let at = robot * self.width + span;
         let since = |point: usize| self.moved_m[point] - self.marked_m[point];
         since(at).max(since(at + 1)).max(since(at + 2).max(since(at + 3)))
@@ -50,11 +50,11 @@ impl Travel {
         four[0].max(four[1]).max(four[2].max(four[3]))
     }
 
-    /// A span's control points moved by `shift` times their pull.
-    pub fn bend(&mut self, robot: usize, span: usize, pull: &[f64; 4], shift: Vec2) {
+    /// A span's control points moved by `shift` times their influence.
+    pub fn displace(&mut self, robot: usize, span: usize, influence: &[f64; 4], shift: Vec2) {
         let far_m = far(shift);
         let at = robot * self.width + span;
-        for (moved_m, share) in self.moved_m[at..at + 4].iter_mut().zip(pull) {
+        for (moved_m, share) in self.moved_m[at..at + 4].iter_mut().zip(influence) {
             *moved_m += far_m * share.abs();
         }
         if span < 2 || span + 6 > self.width {
@@ -88,28 +88,28 @@ fn far(shift: Vec2) -> f64 {
 mod tests {
     use super::*;
     use crate::TransitionProblem;
-    use crate::instance::Scene;
+    use crate::instance::Instance;
     use crate::seeded::Seeded;
-    use crate::spline::set::{Weave, basis, blend};
+    use crate::spline::set::{SplineSet, basis, blend};
     use lightbots_base::Limits;
 
     const SPANS: usize = 9;
 
-    fn weave() -> Weave {
+    fn splines() -> SplineSet {
         let problem = TransitionProblem {
             starts: vec![Vec2::ZERO, Vec2::new(0.0, 0.5)],
             goals: vec![Vec2::new(1.0, 0.0)],
             ..TransitionProblem::on_floor(Vec2::new(2.0, 2.0), Limits::ELISA_3)
         };
-        let scene = Scene::new(&problem, &[Some(0), None]).unwrap();
-        Weave::new(&scene, SPANS, 0.25, |robot, step| match robot {
+        let instance = Instance::new(&problem, &[Some(0), None]).unwrap();
+        SplineSet::new(&instance, SPANS, 0.25, |robot, step| match robot {
             0 => Vec2::new(step as f64 / SPANS as f64, 0.0),
             _ => Vec2::new(0.0, 0.5),
         })
     }
 
     /// No place on any span is farther from where it was than `said` of robot and span, metres.
-    fn assert_bounds(was: &Weave, is: &Weave, said: impl Fn(usize, usize) -> f64) {
+    fn assert_bounds(was: &SplineSet, is: &SplineSet, said: impl Fn(usize, usize) -> f64) {
         for robot in 0..2 {
             for span in 0..SPANS {
                 let far = (0..=8).map(|i| basis(f64::from(i) / 8.0)).map(|weights| {
@@ -123,39 +123,39 @@ mod tests {
 
     #[test]
     fn nobody_moves_farther_than_their_travel_says() {
-        let (mut seeded, mut weave) = (Seeded::new(4), weave());
-        let (mut travel, first) = (Travel::new(2, SPANS + 3), weave.clone());
+        let (mut seeded, mut splines) = (Seeded::new(4), splines());
+        let (mut displacement, first) = (Displacement::new(2, SPANS + 3), splines.clone());
         for _ in 0..40 {
-            travel.mark(0.0);
-            assert!(travel.since_mark() == 0.0);
-            let was = weave.clone();
+            displacement.mark(0.0);
+            assert!(displacement.since_mark() == 0.0);
+            let was = splines.clone();
             for _ in 0..3 {
                 let shift = Vec2::new(seeded.between(-0.05, 0.05), seeded.between(-0.05, 0.05));
                 let (robot, span) = (seeded.below(2), seeded.below(SPANS));
-                let pull = weave.pull(robot, span, &basis(seeded.between(0.0, 1.0)));
-                weave.bend(robot, span, &pull, shift);
-                travel.bend(robot, span, &pull, shift);
+                let influence = splines.influence(robot, span, &basis(seeded.between(0.0, 1.0)));
+                splines.displace(robot, span, &influence, shift);
+                displacement.displace(robot, span, &influence, shift);
                 let (other, point) = (1 - robot, 2 + seeded.below(SPANS - 1));
-                let before = weave.way(other).to_vec();
-                weave.way_mut(other)[point] += shift;
-                weave.tie_ends(other);
-                travel.follow(other, &before, weave.way(other));
+                let before = splines.spline(other).to_vec();
+                splines.spline_mut(other)[point] += shift;
+                splines.tie_ends(other);
+                displacement.follow(other, &before, splines.spline(other));
             }
-            assert_bounds(&was, &weave, |_, _| travel.since_mark());
-            assert_bounds(&first, &weave, |robot, span| travel.of(robot, span));
+            assert_bounds(&was, &splines, |_, _| displacement.since_mark());
+            assert_bounds(&first, &splines, |robot, span| displacement.of(robot, span));
         }
     }
 
     #[test]
     fn who_did_not_move_has_not_travelled() {
-        let weave = weave();
-        let mut travel = Travel::new(2, SPANS + 3);
-        let pull = weave.pull(0, 4, &basis(0.5));
-        travel.bend(0, 4, &pull, Vec2::new(0.01, 0.0));
-        assert!((0..SPANS).all(|span| travel.of(1, span) == 0.0));
-        assert!(travel.of(0, 0) == 0.0 && travel.of(0, 8) == 0.0);
-        assert!(travel.of(0, 4) > 0.004 && travel.of(0, 4) < 0.01);
-        travel.mark(0.0);
-        assert!(travel.since_mark() == 0.0 && travel.of(0, 4) > 0.004);
+        let splines = splines();
+        let mut displacement = Displacement::new(2, SPANS + 3);
+        let influence = splines.influence(0, 4, &basis(0.5));
+        displacement.displace(0, 4, &influence, Vec2::new(0.01, 0.0));
+        assert!((0..SPANS).all(|span| displacement.of(1, span) == 0.0));
+        assert!(displacement.of(0, 0) == 0.0 && displacement.of(0, 8) == 0.0);
+        assert!(displacement.of(0, 4) > 0.004 && displacement.of(0, 4) < 0.01);
+        displacement.mark(0.0);
+        assert!(displacement.since_mark() == 0.0 && displacement.of(0, 4) > 0.004);
     }
 }

@@ -5,18 +5,18 @@ use lightbots_base::Vec2;
 
 use crate::optimise::cells::{Cells, Disc};
 use crate::optimise::contacts::{Contact, Other};
-use crate::optimise::displacement::Travel;
+use crate::optimise::displacement::Displacement;
 
 /// Straight stretches a span is looked at in.
 pub(crate) const STRETCHES: usize = 4;
 /// Who has not moved farther than this is as near to others like that as at the look-out before, metres.
-pub(crate) const STIR_M: f64 = 0.002;
+pub(crate) const MOVED_M: f64 = 0.002;
 /// Where fewer than one robot in so many have moved farther, each of them is compared with all.
 const FEW: usize = 40;
 
 /// What a look-out needs for each span; kept to save memory.
 #[derive(Default)]
-pub(crate) struct Near {
+pub(crate) struct MovedNeighbours {
     cells: Cells,
     /// `[robot]`: where it is during the span.
     pub discs: Vec<Disc>,
@@ -24,49 +24,49 @@ pub(crate) struct Near {
     pub places: Vec<Places>,
     /// `[robot]`: how far it has moved since it was last compared with all, metres.
     moved_m: Vec<f64>,
-    /// Who has stirred.
-    pub stirred: Vec<usize>,
+    /// Who has moved.
+    pub moved: Vec<usize>,
 }
 
 /// The ends of a span's straight stretches.
 pub(crate) type Places = [Vec2; STRETCHES + 1];
 
-impl Near {
+impl MovedNeighbours {
     /// Looks who has moved on a span.
-    pub fn stir(&mut self, robots: usize, span: usize, travel: &Travel) {
+    pub fn find_moved(&mut self, robots: usize, span: usize, displacement: &Displacement) {
         self.moved_m.clear();
-        self.moved_m.extend((0..robots).map(|robot| travel.stirred_m(robot, span)));
-        self.stirred.clear();
-        self.stirred.extend((0..robots).filter(|&robot| self.moved_m[robot] > STIR_M));
+        self.moved_m.extend((0..robots).map(|robot| displacement.since_mark_m(robot, span)));
+        self.moved.clear();
+        self.moved.extend((0..robots).filter(|&robot| self.moved_m[robot] > MOVED_M));
     }
 
-    /// A contact as it was known; `None` where somebody in it has stirred.
+    /// A contact as it was known; `None` where somebody in it has moved.
     pub fn still(&self, contact: &Contact) -> Option<Contact> {
         let moved_m = match contact.b {
             Other::Robot(b) => self.moved_m[contact.a].max(self.moved_m[b]),
             Other::Wall(_) => self.moved_m[contact.a],
         };
         let clear_until = if moved_m > 0.0 { 0.0 } else { contact.clear_until };
-        (moved_m <= STIR_M).then_some(Contact { clear_until, ..*contact })
+        (moved_m <= MOVED_M).then_some(Contact { clear_until, ..*contact })
     }
 
-    /// Calls `near` for every two whose discs are less than `apart` from each other and of whom one has stirred.
+    /// Calls `near` for every two whose discs are less than `apart` from each other and of whom one has moved.
     pub fn pairs(&mut self, apart: f64, mut near: impl FnMut(usize, usize)) {
-        let (discs, has_stirred) = (&self.discs, |robot: usize| self.moved_m[robot] > STIR_M);
-        if self.stirred.len() * FEW > discs.len() {
+        let (discs, has_moved) = (&self.discs, |robot: usize| self.moved_m[robot] > MOVED_M);
+        if self.moved.len() * FEW > discs.len() {
             self.cells.near_pairs(discs, apart, |one, other| {
                 let (a, b) = (one.owner.min(other.owner) as usize, one.owner.max(other.owner) as usize);
-                if has_stirred(a) || has_stirred(b) {
+                if has_moved(a) || has_moved(b) {
                     near(a, b);
                 }
             });
             return;
         }
-        for &one in &self.stirred {
+        for &one in &self.moved {
             for (other, disc) in discs.iter().enumerate() {
                 let touch = apart + discs[one].radius + disc.radius;
                 let is_near = (discs[one].at - disc.at).length_squared() < touch * touch;
-                if is_near && other != one && !(other < one && has_stirred(other)) {
+                if is_near && other != one && !(other < one && has_moved(other)) {
                     near(one.min(other), one.max(other));
                 }
             }

@@ -4,7 +4,7 @@ use std::collections::VecDeque;
 
 use lightbots_base::Vec2;
 
-use crate::instance::Scene;
+use crate::instance::Instance;
 use crate::margins::MARGIN_M;
 
 /// No node there.
@@ -18,7 +18,7 @@ const MOST_NODES: usize = 200_000;
 pub(crate) struct Lattice {
     /// Where each node is, stage metres.
     pub places: Vec<Vec2>,
-    /// `[node][direction]`: direction k points to k · 60°; [`NONE`] where there is no way.
+    /// `[node][direction]`: direction k points to k · 60°; [`NONE`] where there is no edge.
     pub neighbours: Vec<[u32; 6]>,
     /// Distance of neighbours, metres.
     pub pitch_m: f64,
@@ -32,21 +32,21 @@ pub(crate) struct Lattice {
 }
 
 impl Lattice {
-    /// The lattice of a scene's floor; `None` where it would be far too large.
-    pub fn new(scene: &Scene, pitch_m: f64) -> Option<Self> {
-        Self::around_places(scene, pitch_m, &[], 0.0)
+    /// The lattice of a instance's floor; `None` where it would be far too large.
+    pub fn new(instance: &Instance, pitch_m: f64) -> Option<Self> {
+        Self::around_places(instance, pitch_m, &[], 0.0)
     }
 
     /// The same without nodes nearer than `apart_m` to some places.
-    pub fn around_places(scene: &Scene, pitch_m: f64, places: &[Vec2], apart_m: f64) -> Option<Self> {
+    pub fn around_places(instance: &Instance, pitch_m: f64, places: &[Vec2], apart_m: f64) -> Option<Self> {
         let rise = pitch_m * 3.0_f64.sqrt() / 2.0;
-        let (width, depth) = (scene.inner.x * 2.0, scene.inner.y * 2.0);
+        let (width, depth) = (instance.inner.x * 2.0, instance.inner.y * 2.0);
         let (columns, rows) = ((width / pitch_m).floor() + 1.0, (depth / rise).floor() + 1.0);
         if columns * rows > MOST_NODES as f64 {
             return None;
         }
         let slack = Vec2::new(width - (columns - 0.5) * pitch_m, depth - (rows - 1.0) * rise) / 2.0;
-        let corner = Vec2::new(slack.x.max(0.0), slack.y) - scene.inner;
+        let corner = Vec2::new(slack.x.max(0.0), slack.y) - instance.inner;
         let (columns, rows) = (columns as i64, rows as i64);
         let mut lattice = Self {
             places: Vec::new(),
@@ -58,19 +58,19 @@ impl Lattice {
             nodes: vec![NONE; (columns * rows) as usize],
             in_rows: 0,
         };
-        lattice.lay_out(scene, rise, |at| places.iter().all(|place| place.distance(at) >= apart_m));
+        lattice.lay_out(instance, rise, |at| places.iter().all(|place| place.distance(at) >= apart_m));
         lattice.in_rows = lattice.places.len();
-        lattice.connect(scene);
+        lattice.connect(instance);
         Some(lattice)
     }
 
-    fn lay_out(&mut self, scene: &Scene, rise: f64, is_wanted: impl Fn(Vec2) -> bool) {
-        for row in (0..self.rows).take_while(|_| !scene.cancel.is_wanted()) {
+    fn lay_out(&mut self, instance: &Instance, rise: f64, is_wanted: impl Fn(Vec2) -> bool) {
+        for row in (0..self.rows).take_while(|_| !instance.cancel.is_wanted()) {
             for column in 0..self.columns {
                 let shift = if row % 2 == 1 { 0.5 } else { 0.0 };
                 let place =
                     self.corner + Vec2::new((column as f64 + shift) * self.pitch_m, row as f64 * rise);
-                if scene.is_free(place, MARGIN_M) && is_wanted(place) {
+                if instance.is_free(place, MARGIN_M) && is_wanted(place) {
                     self.nodes[(row * self.columns + column) as usize] = self.places.len() as u32;
                     self.places.push(place);
                 }
@@ -78,9 +78,9 @@ impl Lattice {
         }
     }
 
-    fn connect(&mut self, scene: &Scene) {
+    fn connect(&mut self, instance: &Instance) {
         self.neighbours = vec![[NONE; 6]; self.places.len()];
-        for row in (0..self.rows).take_while(|_| !scene.cancel.is_wanted()) {
+        for row in (0..self.rows).take_while(|_| !instance.cancel.is_wanted()) {
             let odd = row % 2;
             let around = [(1, 0), (odd, 1), (odd - 1, 1), (-1, 0), (odd - 1, -1), (odd, -1)];
             for column in 0..self.columns {
@@ -94,7 +94,7 @@ impl Lattice {
                         continue;
                     }
                     let middle = self.places[node as usize].lerp(self.places[other as usize], 0.5);
-                    if scene.walls.is_empty() || scene.is_free(middle, 0.0) {
+                    if instance.walls.is_empty() || instance.is_free(middle, 0.0) {
                         self.neighbours[node as usize][direction] = other;
                     }
                 }
@@ -102,7 +102,7 @@ impl Lattice {
         }
     }
 
-    /// Adds a node anywhere and ways to those that `is_beside` it, nearest first: one in each direction, roughly.
+    /// Adds a node anywhere and edges to those that `is_beside` it, nearest first: one in each direction, roughly.
     pub fn add(&mut self, place: Vec2, reach_m: f64, is_beside: impl Fn(Vec2) -> bool) {
         let node = self.places.len() as u32;
         let near = self.around(place, reach_m, MOST_BESIDE);
@@ -155,7 +155,7 @@ impl Lattice {
         found.into_iter().map(|(_, node)| node).collect()
     }
 
-    /// Steps from every node to `goal`; `u16::MAX` where there is no way.
+    /// Steps from every node to `goal`; `u16::MAX` where there is no edge.
     pub fn steps_to(&self, goal: u32) -> Vec<u16> {
         let mut steps = vec![u16::MAX; self.places.len()];
         let mut queue = VecDeque::from([goal]);
@@ -180,7 +180,7 @@ mod tests {
     use lightbots_base::Limits;
     use lightbots_show::{Easing, Obstacle};
 
-    fn scene(obstacles: Vec<Obstacle>) -> Scene<'static> {
+    fn instance(obstacles: Vec<Obstacle>) -> Instance<'static> {
         let problem = TransitionProblem {
             starts: Vec::new(),
             goals: Vec::new(),
@@ -192,29 +192,29 @@ mod tests {
             duration: None,
             easing: Easing::Swift,
         };
-        Scene::new(&problem, &[]).unwrap()
+        Instance::new(&problem, &[]).unwrap()
     }
 
     #[test]
     fn neighbours_lie_in_their_direction_and_know_each_other() {
-        let lattice = Lattice::new(&scene(Vec::new()), 0.072).unwrap();
-        let mut ways = 0;
+        let lattice = Lattice::new(&instance(Vec::new()), 0.072).unwrap();
+        let mut edges = 0;
         for (node, around) in lattice.neighbours.iter().enumerate() {
             for (direction, &other) in around.iter().enumerate().filter(|(_, other)| **other != NONE) {
-                let way = lattice.places[other as usize] - lattice.places[node];
+                let edge = lattice.places[other as usize] - lattice.places[node];
                 let ideal = Vec2::unit(direction as f64 * std::f64::consts::FRAC_PI_3) * 0.072;
-                assert!(way.distance(ideal) < 1e-9);
+                assert!(edge.distance(ideal) < 1e-9);
                 assert_eq!(lattice.neighbours[other as usize][(direction + 3) % 6] as usize, node);
-                ways += 1;
+                edges += 1;
             }
         }
-        assert!(ways > 5 * lattice.places.len(), "{ways}");
+        assert!(edges > 5 * lattice.places.len(), "{edges}");
     }
 
     #[test]
     fn steps_lead_around_walls() {
         let wall = Obstacle::Rect { min: Vec2::new(-0.02, -0.5), max: Vec2::new(0.02, 0.3) };
-        let lattice = Lattice::new(&scene(vec![wall]), 0.072).unwrap();
+        let lattice = Lattice::new(&instance(vec![wall]), 0.072).unwrap();
         let near = |x: f64, y: f64| lattice.around(Vec2::new(x, y), 0.1, 1)[0];
         let steps = lattice.steps_to(near(0.3, -0.4));
         assert!(steps[near(0.3, 0.0) as usize] <= 6);

@@ -7,9 +7,9 @@ use std::collections::BinaryHeap;
 use lightbots_base::Vec2;
 use lightbots_show::Obstacle;
 
-use crate::instance::Scene;
+use crate::instance::Instance;
 use crate::margins::ROADMAP_M;
-use crate::roads::visibility::Corners;
+use crate::roads::visibility::VisibilityGraph;
 
 /// Ways are this long at most, in pitches, and at least up to this, metres.
 const REACH: f64 = 1.5;
@@ -21,61 +21,71 @@ const MOST_IN_ROW: usize = 40;
 const HALVINGS: usize = 12;
 /// Larger ones are not made.
 const MOST_NODES: usize = 5_000;
-/// What every stop costs beside the way, metres: about what could be driven meanwhile.
+/// What every stop costs beside the line, metres: about what could be driven meanwhile.
 const STOP_M: f64 = 0.05;
 
-/// Places and the ways between them.
+/// Places and the edges between them.
 pub(crate) struct Roadmap {
     /// Where each node is, stage metres.
     pub places: Vec<Vec2>,
-    /// `[node]`: nodes there is a way to, nearest first.
-    pub ways: Vec<Vec<u32>>,
+    /// `[node]`: nodes there is a line to, nearest first.
+    pub edges: Vec<Vec<u32>>,
     /// `[node]`: whether it is so near to a wall that only those may be there who start or end there.
     is_private: Vec<bool>,
     /// `[robot]`: where it starts.
     pub starts: Vec<u32>,
     /// `[robot]`: where it ends; `None`: anywhere.
     pub ends: Vec<Option<u32>>,
-    /// The longest way, metres.
+    /// The longest line, metres.
     pub reach_m: f64,
     /// Half the extents of the rectangle that places but for ends are in, metres.
     inner: Vec2,
 }
 
 impl Roadmap {
-    /// The roadmap of a scene with a lattice of this pitch, but for ends so far off the floor's edge; `None` where it would
+    /// The roadmap of a instance with a lattice of this pitch, but for ends so far off the floor's edge; `None` where it would
     /// be too large.
-    pub fn new(scene: &Scene, corners: &Corners, pitch_m: f64, off_edge_m: f64) -> Option<Self> {
+    pub fn new(
+        instance: &Instance,
+        visibility: &VisibilityGraph,
+        pitch_m: f64,
+        off_edge_m: f64,
+    ) -> Option<Self> {
         // Each start is a node of its own.
-        if scene.robots() > MOST_NODES {
+        if instance.robots() > MOST_NODES {
             return None;
         }
-        let lattice = corners.lattice(scene, pitch_m)?;
+        let lattice = visibility.lattice(instance, pitch_m)?;
         let reach_m = (pitch_m * REACH).max(LEAST_REACH_M);
-        let (places, ways, is_private) = (Vec::new(), Vec::new(), Vec::new());
+        let (places, edges, is_private) = (Vec::new(), Vec::new(), Vec::new());
         let (starts, ends) = (Vec::new(), Vec::new());
-        let inner = scene.inner - Vec2::new(off_edge_m, off_edge_m);
-        let mut roads = Self { places, ways, is_private, starts, ends, reach_m, inner };
-        roads.starts = scene.starts.iter().map(|&start| roads.node_at(start)).collect();
-        roads.ends = scene.ends.iter().map(|end| end.map(|end| roads.node_at(end))).collect();
-        for &place in corners.places() {
-            roads.add(scene, place, 1e-4);
+        let inner = instance.inner - Vec2::new(off_edge_m, off_edge_m);
+        let mut roads = Self { places, edges, is_private, starts, ends, reach_m, inner };
+        roads.starts = instance.starts.iter().map(|&start| roads.node_at(start)).collect();
+        roads.ends = instance.ends.iter().map(|end| end.map(|end| roads.node_at(end))).collect();
+        for &place in visibility.places() {
+            roads.add(instance, place, 1e-4);
         }
         for &place in &lattice.places {
-            if scene.cancel.is_wanted() {
+            if instance.cancel.is_wanted() {
                 return None;
             }
-            roads.add(scene, place, pitch_m * APART);
+            roads.add(instance, place, pitch_m * APART);
         }
-        for &place in corners.places() {
+        for &place in visibility.places() {
             for direction in [(1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0)] {
-                roads.add_row(scene, place, Vec2::new(direction.0, direction.1) * pitch_m, pitch_m * APART);
+                roads.add_row(
+                    instance,
+                    place,
+                    Vec2::new(direction.0, direction.1) * pitch_m,
+                    pitch_m * APART,
+                );
             }
         }
         if roads.places.len() > MOST_NODES {
             return None;
         }
-        roads.connect(scene);
+        roads.connect(instance);
         Some(roads)
     }
 
@@ -87,52 +97,52 @@ impl Roadmap {
         }) as u32
     }
 
-    fn add(&mut self, scene: &Scene, place: Vec2, apart_m: f64) {
+    fn add(&mut self, instance: &Instance, place: Vec2, apart_m: f64) {
         let within = |at: f64, most: f64| at.clamp(-most, most);
         let place = Vec2::new(within(place.x, self.inner.x), within(place.y, self.inner.y));
         let is_new = self.places.iter().all(|other| other.distance(place) >= apart_m);
-        if is_new && self.places.len() <= MOST_NODES && scene.is_free(place, ROADMAP_M) {
+        if is_new && self.places.len() <= MOST_NODES && instance.is_free(place, ROADMAP_M) {
             self.places.push(place);
         }
     }
 
     /// Places in a row beside a place as far as it is free, the last one where that ends.
-    fn add_row(&mut self, scene: &Scene, from: Vec2, step: Vec2, apart_m: f64) {
+    fn add_row(&mut self, instance: &Instance, from: Vec2, step: Vec2, apart_m: f64) {
         let mut at = from;
         for _ in 0..MOST_IN_ROW {
-            if is_clear(scene, at, at + step) {
+            if is_clear(instance, at, at + step) {
                 at += step;
-                self.add(scene, at, apart_m);
+                self.add(instance, at, apart_m);
                 continue;
             }
             let mut share = 0.0;
             for halving in 1..=HALVINGS {
                 let more = share + 0.5_f64.powi(halving as i32);
-                share = if is_clear(scene, at, at + step * more) { more } else { share };
+                share = if is_clear(instance, at, at + step * more) { more } else { share };
             }
-            self.add(scene, at + step * share, apart_m);
+            self.add(instance, at + step * share, apart_m);
             return;
         }
     }
 
-    fn connect(&mut self, scene: &Scene) {
+    fn connect(&mut self, instance: &Instance) {
         let count = self.places.len();
-        self.is_private = self.places.iter().map(|&place| !scene.is_free(place, ROADMAP_M)).collect();
-        let mut ways: Vec<Vec<u32>> = vec![Vec::new(); count];
-        for a in (0..count).take_while(|_| !scene.cancel.is_wanted()) {
+        self.is_private = self.places.iter().map(|&place| !instance.is_free(place, ROADMAP_M)).collect();
+        let mut edges: Vec<Vec<u32>> = vec![Vec::new(); count];
+        for a in (0..count).take_while(|_| !instance.cancel.is_wanted()) {
             for b in 0..a {
                 let (from, to) = (self.places[a], self.places[b]);
-                if from.distance(to) <= self.reach_m && is_clear(scene, from, to) {
-                    ways[a].push(b as u32);
-                    ways[b].push(a as u32);
+                if from.distance(to) <= self.reach_m && is_clear(instance, from, to) {
+                    edges[a].push(b as u32);
+                    edges[b].push(a as u32);
                 }
             }
         }
-        for (node, beside) in ways.iter_mut().enumerate() {
+        for (node, beside) in edges.iter_mut().enumerate() {
             let far_m = |other: u32| self.places[other as usize].distance(self.places[node]);
             beside.sort_by(|&a, &b| far_m(a).total_cmp(&far_m(b)).then(a.cmp(&b)));
         }
-        self.ways = ways;
+        self.edges = edges;
     }
 
     /// Whether a robot may be at a node.
@@ -141,7 +151,7 @@ impl Roadmap {
     }
 
     /// What it takes a robot from every node to where it ends: metres, and some for every stop; infinite where there
-    /// is no way.
+    /// is no line.
     pub fn far_m(&self, robot: usize) -> Vec<f64> {
         let mut far = vec![f64::INFINITY; self.places.len()];
         let Some(end) = self.ends[robot] else { return vec![0.0; self.places.len()] };
@@ -151,9 +161,9 @@ impl Roadmap {
             if far_m > far[node as usize] {
                 continue;
             }
-            for &next in self.ways[node as usize].iter().filter(|&&next| self.may_be(robot, next)) {
-                let way_m = self.places[node as usize].distance(self.places[next as usize]);
-                let whole = far_m + way_m + STOP_M;
+            for &next in self.edges[node as usize].iter().filter(|&&next| self.may_be(robot, next)) {
+                let length_m = self.places[node as usize].distance(self.places[next as usize]);
+                let whole = far_m + length_m + STOP_M;
                 if whole < far[next as usize] {
                     far[next as usize] = whole;
                     open.push(Reached { far_m: whole, node: next });
@@ -187,13 +197,13 @@ impl Ord for Reached {
 
 /// Whether a robot may drive straight from one place on the floor to another: off every wall by the margin, or by as
 /// much as its ends are.
-fn is_clear(scene: &Scene, from: Vec2, to: Vec2) -> bool {
-    let on_floor = |at: Vec2| at.x.abs() <= scene.inner.x + 1e-6 && at.y.abs() <= scene.inner.y + 1e-6;
+fn is_clear(instance: &Instance, from: Vec2, to: Vec2) -> bool {
+    let on_floor = |at: Vec2| at.x.abs() <= instance.inner.x + 1e-6 && at.y.abs() <= instance.inner.y + 1e-6;
     on_floor(from)
         && on_floor(to)
-        && scene.walls.iter().enumerate().all(|(wall, shape)| {
-            let ends_m = scene.off_wall(wall, from).0.min(scene.off_wall(wall, to).0);
-            let least_m = scene.limits.radius_m + ROADMAP_M.min(ends_m - 1e-9);
+        && instance.walls.iter().enumerate().all(|(wall, shape)| {
+            let ends_m = instance.off_wall(wall, from).0.min(instance.off_wall(wall, to).0);
+            let least_m = instance.limits.radius_m + ROADMAP_M.min(ends_m - 1e-9);
             off_shape(shape, from, to) >= least_m
         })
 }
@@ -217,9 +227,9 @@ fn off_shape(shape: &Obstacle, from: Vec2, to: Vec2) -> f64 {
 
 /// Whether a line goes through a rectangle (Liang and Barsky 1984).
 fn meets(min: Vec2, max: Vec2, from: Vec2, to: Vec2) -> bool {
-    let way = to - from;
+    let line = to - from;
     let (mut enters, mut leaves) = (0.0_f64, 1.0_f64);
-    for (at, along, low, high) in [(from.x, way.x, min.x, max.x), (from.y, way.y, min.y, max.y)] {
+    for (at, along, low, high) in [(from.x, line.x, min.x, max.x), (from.y, line.y, min.y, max.y)] {
         if along == 0.0 {
             if at < low || at > high {
                 return false;
@@ -234,9 +244,9 @@ fn meets(min: Vec2, max: Vec2, from: Vec2, to: Vec2) -> bool {
 
 /// The place on a line that is nearest to the origin.
 pub(crate) fn nearest(from: Vec2, to: Vec2) -> Vec2 {
-    let way = to - from;
-    let share = (-from.dot(way) / way.length_squared().max(1e-18)).clamp(0.0, 1.0);
-    from + way * share
+    let line = to - from;
+    let share = (-from.dot(line) / line.length_squared().max(1e-18)).clamp(0.0, 1.0);
+    from + line * share
 }
 
 #[cfg(test)]
@@ -271,15 +281,15 @@ mod tests {
             obstacles: vec![wall((-0.1, 0.0305), (0.1, 0.2)), wall((-0.1, -0.2), (0.1, -0.0305))],
             ..TransitionProblem::on_floor(Vec2::new(0.5, 0.2), Limits::ELISA_3)
         };
-        let scene = Scene::new(&problem, &[Some(0)]).unwrap();
-        let roads = Roadmap::new(&scene, &Corners::new(&scene), 0.072, 0.0).unwrap();
+        let instance = Instance::new(&problem, &[Some(0)]).unwrap();
+        let roads = Roadmap::new(&instance, &VisibilityGraph::new(&instance), 0.072, 0.0).unwrap();
         assert!(roads.far_m(0)[roads.starts[0] as usize] < 1.6, "through the gap");
-        for (node, beside) in roads.ways.iter().enumerate() {
+        for (node, beside) in roads.edges.iter().enumerate() {
             for &other in beside {
-                assert!(roads.ways[other as usize].contains(&(node as u32)));
+                assert!(roads.edges[other as usize].contains(&(node as u32)));
                 let (from, to) = (roads.places[node], roads.places[other as usize]);
                 let sampled = (0..=50).map(|i| from.lerp(to, f64::from(i) / 50.0));
-                assert!(sampled.into_iter().all(|at| scene.is_free(at, 0.003)));
+                assert!(sampled.into_iter().all(|at| instance.is_free(at, 0.003)));
             }
         }
     }

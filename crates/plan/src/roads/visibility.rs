@@ -1,10 +1,10 @@
-//! Ways past the corners of walls, for gaps that a lattice does not fit through: the shortest way leads from corner to
+//! Ways past the corners of walls, for gaps that a lattice does not fit through: the shortest path leads from corner to
 //! corner along lines that are free (a visibility graph; Lozano-Pérez and Wesley 1979).
 
 use lightbots_base::Vec2;
 use lightbots_show::Obstacle;
 
-use crate::instance::Scene;
+use crate::instance::Instance;
 use crate::margins::VISIBILITY_M;
 use crate::roads::lattice::Lattice;
 
@@ -19,24 +19,24 @@ const NARROW_M: f64 = 0.04;
 const EVEN: f64 = 1.08;
 /// Distance of places at which one is tried, metres.
 const FILL_STEP_M: f64 = 0.01;
-/// Corners of the line that leads around a disc.
+/// VisibilityGraph of the line that leads around a disc.
 const DISC_CORNERS: u32 = 8;
 
 /// Places beside the walls' corners, and who sees whom.
-pub(crate) struct Corners {
+pub(crate) struct VisibilityGraph {
     places: Vec<Vec2>,
     /// `[place]`: places that can be driven to straight.
     sees: Vec<Vec<usize>>,
 }
 
-impl Corners {
-    /// Those of a scene; none where there are too many.
-    pub fn new(scene: &Scene) -> Self {
-        let off_m = scene.limits.radius_m + VISIBILITY_M;
-        let walls = if scene.walls.len() > MOST_WALLS { &[][..] } else { &scene.walls[..] };
+impl VisibilityGraph {
+    /// Those of a instance; none where there are too many.
+    pub fn new(instance: &Instance) -> Self {
+        let off_m = instance.limits.radius_m + VISIBILITY_M;
+        let walls = if instance.walls.len() > MOST_WALLS { &[][..] } else { &instance.walls[..] };
         let mut places: Vec<Vec2> = walls.iter().flat_map(|wall| around(wall, off_m)).collect();
-        places.retain(|&place| scene.is_free(place, VISIBILITY_M - 1e-5));
-        let sees = |&from: &Vec2| seen(scene, &places, from);
+        places.retain(|&place| instance.is_free(place, VISIBILITY_M - 1e-5));
+        let sees = |&from: &Vec2| seen(instance, &places, from);
         let sees = places.iter().map(sees).collect();
         Self { places, sees }
     }
@@ -48,22 +48,24 @@ impl Corners {
 
     /// A lattice that reaches through gaps and into corners that rows of nodes pass by: first come nodes in narrow
     /// gaps, then rows where these leave room, then more wherever one fits. `None` as for any lattice.
-    pub fn lattice(&self, scene: &Scene, pitch_m: f64) -> Option<Lattice> {
+    pub fn lattice(&self, instance: &Instance, pitch_m: f64) -> Option<Lattice> {
         let (apart_m, reach_m) = (pitch_m * LEAST_PITCH, pitch_m * MOST_PITCH);
-        let gaps = self.in_gaps(scene, apart_m);
-        let mut lattice = Lattice::around_places(scene, pitch_m, &gaps, apart_m)?;
-        let is_beside = |a: Vec2, b: Vec2| scene.is_way_free(a, b, VISIBILITY_M - 1e-5);
+        let gaps = self.in_gaps(instance, apart_m);
+        let mut lattice = Lattice::around_places(instance, pitch_m, &gaps, apart_m)?;
+        let is_beside = |a: Vec2, b: Vec2| instance.is_way_free(a, b, VISIBILITY_M - 1e-5);
         for &place in &gaps {
             lattice.add(place, reach_m, |other| is_beside(place, other));
         }
         let count = |half: f64| (half / FILL_STEP_M) as i32;
-        for row in -count(scene.inner.y)..=count(scene.inner.y) {
-            if scene.cancel.is_wanted() {
+        for row in -count(instance.inner.y)..=count(instance.inner.y) {
+            if instance.cancel.is_wanted() {
                 return None;
             }
-            for column in -count(scene.inner.x)..=count(scene.inner.x) {
+            for column in -count(instance.inner.x)..=count(instance.inner.x) {
                 let place = Vec2::new(f64::from(column), f64::from(row)) * FILL_STEP_M;
-                if lattice.around(place, apart_m, 1).is_empty() && scene.is_free(place, VISIBILITY_M - 1e-5) {
+                if lattice.around(place, apart_m, 1).is_empty()
+                    && instance.is_free(place, VISIBILITY_M - 1e-5)
+                {
                     lattice.add(place, reach_m, |other| is_beside(place, other));
                 }
             }
@@ -73,20 +75,23 @@ impl Corners {
 
     /// Places on lines from corner to corner, at least `apart_m` from each other, where robots can only drive one after
     /// the other: those that divide a line evenly, so that its ends are among them, then any.
-    fn in_gaps(&self, scene: &Scene, apart_m: f64) -> Vec<Vec2> {
+    fn in_gaps(&self, instance: &Instance, apart_m: f64) -> Vec<Vec2> {
         let mut gaps: Vec<Vec2> = Vec::new();
         for step_m in [apart_m * EVEN, FILL_STEP_M] {
             for (from, seen) in self.sees.iter().enumerate() {
                 for (a, b) in
                     seen.iter().filter(|&&to| to > from).map(|&to| (self.places[from], self.places[to]))
                 {
-                    if scene.cancel.is_wanted() {
+                    if instance.cancel.is_wanted() {
                         return gaps;
                     }
                     let steps = (a.distance(b) / step_m).floor().max(1.0);
                     for place in (0..=steps as usize).map(|step| a.lerp(b, step as f64 / steps)) {
                         let is_apart = gaps.iter().all(|other| other.distance(place) >= apart_m);
-                        if is_apart && is_narrow(scene, place) && scene.is_free(place, VISIBILITY_M - 1e-5) {
+                        if is_apart
+                            && is_narrow(instance, place)
+                            && instance.is_free(place, VISIBILITY_M - 1e-5)
+                        {
                             gaps.push(place);
                         }
                     }
@@ -96,12 +101,12 @@ impl Corners {
         gaps
     }
 
-    /// Corners of the shortest way from one place to another; `None` where there is none.
-    pub fn way(&self, scene: &Scene, start: Vec2, end: Vec2) -> Option<Vec<Vec2>> {
-        let from_end = seen(scene, &self.places, end);
+    /// VisibilityGraph of the shortest path from one place to another; `None` where there is none.
+    pub fn path(&self, instance: &Instance, start: Vec2, end: Vec2) -> Option<Vec<Vec2>> {
+        let from_end = seen(instance, &self.places, end);
         let mut far_m = vec![f64::INFINITY; self.places.len()];
         let mut before = vec![None; self.places.len()];
-        for at in seen(scene, &self.places, start) {
+        for at in seen(instance, &self.places, start) {
             far_m[at] = start.distance(self.places[at]);
         }
         let mut is_settled = vec![false; self.places.len()];
@@ -123,32 +128,32 @@ impl Corners {
         if last.is_none_or(|at| far_m[at] == f64::INFINITY) {
             return None;
         }
-        let mut way = vec![end];
+        let mut path = vec![end];
         while let Some(at) = last {
-            way.push(self.places[at]);
+            path.push(self.places[at]);
             last = before[at];
         }
-        way.push(start);
-        way.reverse();
-        Some(way)
+        path.push(start);
+        path.reverse();
+        Some(path)
     }
 }
 
 /// Whether the two nearest walls, the floor's edges among them, leave a robot little room.
-fn is_narrow(scene: &Scene, place: Vec2) -> bool {
-    let edges = [scene.inner.x - place.x.abs(), scene.inner.y - place.y.abs()];
-    let off_walls = (0..scene.walls.len()).map(|wall| scene.off_wall(wall, place).0);
+fn is_narrow(instance: &Instance, place: Vec2) -> bool {
+    let edges = [instance.inner.x - place.x.abs(), instance.inner.y - place.y.abs()];
+    let off_walls = (0..instance.walls.len()).map(|wall| instance.off_wall(wall, place).0);
     let two = edges.into_iter().chain(off_walls).fold((f64::INFINITY, f64::INFINITY), |(one, two), gap| {
         if gap < one { (gap, one) } else { (one, two.min(gap)) }
     });
     two.0 + two.1 < NARROW_M
 }
 
-fn seen(scene: &Scene, places: &[Vec2], from: Vec2) -> Vec<usize> {
-    (0..places.len()).filter(|&at| scene.is_way_free(from, places[at], VISIBILITY_M - 1e-5)).collect()
+fn seen(instance: &Instance, places: &[Vec2], from: Vec2) -> Vec<usize> {
+    (0..places.len()).filter(|&at| instance.is_way_free(from, places[at], VISIBILITY_M - 1e-5)).collect()
 }
 
-/// Corners of a line that keeps `off_m` off a wall.
+/// VisibilityGraph of a line that keeps `off_m` off a wall.
 fn around(wall: &Obstacle, off_m: f64) -> Vec<Vec2> {
     match *wall {
         Obstacle::Disc { at, radius_m } => {
@@ -170,7 +175,7 @@ mod tests {
     use crate::roads::lattice::NONE;
     use lightbots_base::Limits;
 
-    fn scene(gap_m: f64) -> Scene<'static> {
+    fn instance(gap_m: f64) -> Instance<'static> {
         let wall = |min: (f64, f64), max: (f64, f64)| Obstacle::Rect {
             min: Vec2::new(min.0, min.1),
             max: Vec2::new(max.0, max.1),
@@ -179,34 +184,34 @@ mod tests {
             obstacles: vec![wall((-0.2, 0.1 + gap_m), (0.2, 0.5)), wall((-0.2, -0.5), (0.2, 0.1))],
             ..TransitionProblem::on_floor(Vec2::new(0.5, 0.5), Limits::ELISA_3)
         };
-        Scene::new(&problem, &[]).unwrap()
+        Instance::new(&problem, &[]).unwrap()
     }
 
     #[test]
     fn a_gap_that_just_lets_a_robot_through_is_found() {
         let (start, end) = (Vec2::new(-0.4, -0.4), Vec2::new(0.4, -0.4));
-        let just = scene(0.0602);
-        let way = Corners::new(&just).way(&just, start, end).unwrap();
-        assert_eq!((way[0], way[way.len() - 1]), (start, end));
-        assert!(way.windows(2).all(|leg| just.is_way_free(leg[0], leg[1], 0.003)), "{way:?}");
-        let closed = scene(0.0598);
-        assert_eq!(Corners::new(&closed).way(&closed, start, end), None);
+        let just = instance(0.0602);
+        let path = VisibilityGraph::new(&just).path(&just, start, end).unwrap();
+        assert_eq!((path[0], path[path.len() - 1]), (start, end));
+        assert!(path.windows(2).all(|leg| just.is_way_free(leg[0], leg[1], 0.003)), "{path:?}");
+        let closed = instance(0.0598);
+        assert_eq!(VisibilityGraph::new(&closed).path(&closed, start, end), None);
     }
 
     #[test]
     fn a_lattice_reaches_through_a_narrow_gap() {
-        let scene = scene(0.064);
-        let lattice = Corners::new(&scene).lattice(&scene, 0.072).unwrap();
+        let instance = instance(0.064);
+        let lattice = VisibilityGraph::new(&instance).lattice(&instance, 0.072).unwrap();
         let node = |x: f64| lattice.around(Vec2::new(x, -0.3), 0.2, 1)[0];
         assert!(lattice.steps_to(node(-0.35))[node(0.35) as usize] < u16::MAX);
-        let plain = Lattice::new(&scene, 0.072).unwrap();
+        let plain = Lattice::new(&instance, 0.072).unwrap();
         let node = |x: f64| plain.around(Vec2::new(x, -0.3), 0.2, 1)[0];
         assert_eq!(plain.steps_to(node(-0.35))[node(0.35) as usize], u16::MAX);
         for (node, around) in lattice.neighbours.iter().enumerate() {
             for (direction, &other) in around.iter().enumerate().filter(|(_, other)| **other != NONE) {
                 assert_eq!(lattice.neighbours[other as usize][(direction + 3) % 6] as usize, node);
                 let (from, to) = (lattice.places[node], lattice.places[other as usize]);
-                assert!(from.distance(to) > 0.0597 && scene.is_way_free(from, to, 0.0));
+                assert!(from.distance(to) > 0.0597 && instance.is_way_free(from, to, 0.0));
             }
         }
     }

@@ -2,7 +2,7 @@
 
 use crate::margins::MARGIN_M;
 use crate::transition::{distance_to, touching};
-use crate::{Bindings, Cast, Oddity, Stuck};
+use crate::{BindingIssue, Bindings, BoundFrame, Infeasible};
 use lightbots_base::Vec2;
 use lightbots_show::{Issue, Issues, Pixel, Show, frame_label, robots_asked_for};
 
@@ -45,15 +45,15 @@ pub(super) fn of_frame(show: &Show, index: usize, robots: usize, dark: &[u32], i
 }
 
 /// A frame nobody can get to.
-pub(super) fn no_plan(show: &Show, index: usize, pixels: &[&Pixel], stuck: &Stuck) -> Issue {
+pub(super) fn no_plan(show: &Show, index: usize, pixels: &[&Pixel], infeasible: &Infeasible) -> Issue {
     let ids: Vec<u32> =
-        stuck.goals.iter().filter_map(|&goal| pixels.get(goal)).map(|pixel| pixel.id).collect();
+        infeasible.goals.iter().filter_map(|&goal| pixels.get(goal)).map(|pixel| pixel.id).collect();
     let whose = match ids.len() {
         0 => String::new(),
         1 => format!(", pixel {}", ids[0]),
         _ => format!(", pixels {}", few(&ids)),
     };
-    let message = format!("no plan to {}{whose}: {}", name_of(show, index), stuck.message);
+    let message = format!("no plan to {}{whose}: {}", name_of(show, index), infeasible.message);
     Issue::error("no-plan", message).in_frame(index).with_pixels(ids)
 }
 
@@ -76,21 +76,21 @@ pub(super) fn of_names(show: &Show, robots: usize, bindings: &Bindings, issues: 
 }
 
 /// Pixels whose robot is not the one people may expect.
-pub(super) fn of_cast(show: &Show, frame: usize, cast: &Cast<'_>, issues: &mut Issues) {
-    for &(id, oddity) in &cast.oddities {
+pub(super) fn of_bound_frame(show: &Show, frame: usize, bound: &BoundFrame<'_>, issues: &mut Issues) {
+    for &(id, issue) in &bound.issues {
         let pixel = show.frames[frame].pixels.iter().find(|pixel| pixel.id == id);
         let name = pixel.and_then(|pixel| pixel.robot.as_deref()).unwrap_or_default();
         let frame_name = name_of(show, frame);
-        let issue = match oddity {
-            Oddity::BoundTwice => {
+        let issue = match issue {
+            BindingIssue::BoundTwice => {
                 let what = format!("robot {name} is asked for twice, pixel {id} stays dark");
                 Issue::error("robot-bound-twice", format!("{frame_name}: {what}"))
             }
-            Oddity::Unknown => {
+            BindingIssue::Unknown => {
                 let what = format!("pixel {id} asks for robot {name}, which is not here; it stays dark");
                 Issue::warning("unknown-robot", format!("{frame_name}: {what}"))
             }
-            Oddity::Lost => {
+            BindingIssue::Lost => {
                 let what = format!(
                     "the robot that showed pixel {id} before must show another pixel, though identity is fixed; \
                      pixel {id} gets another robot"

@@ -112,21 +112,21 @@ fn chained(show: &Show, starts: &[Vec2], options: &ShowOptions, cancel: Cancel<'
         }
         let found_before = plan.issues.len();
         let identity = options.identity.or(frame.identity).unwrap_or(show.identity);
-        let cast = bindings.cast(&frame.pixels, identity, &places, |_| false);
-        issues::of_frame(show, index, starts.len(), &cast.dark, &mut plan.issues);
-        issues::of_cast(show, index, &cast, &mut plan.issues);
-        let goals: Vec<Vec2> = cast.pixels.iter().map(|pixel| pixel.at).collect();
-        let problem = problem(show, frame, places, goals, cast.pinned.clone());
+        let bound = bindings.bind(&frame.pixels, identity, &places, |_| false);
+        issues::of_frame(show, index, starts.len(), &bound.dark, &mut plan.issues);
+        issues::of_bound_frame(show, index, &bound, &mut plan.issues);
+        let goals: Vec<Vec2> = bound.pixels.iter().map(|pixel| pixel.at).collect();
+        let problem = problem(show, frame, places, goals, bound.pinned.clone());
         let mut attempt = attempt(&problem, cancel);
-        let safety = match attempt.stuck {
+        let safety = match attempt.infeasible {
             None => raised(&problem, &mut attempt.transition, cancel),
             Some(_) => StopSafety::default(),
         };
         plan.stop_safety.push(safety);
-        if let Some(stuck) = attempt.stuck
+        if let Some(infeasible) = attempt.infeasible
             && !plan.issues[found_before..].iter().any(Issue::is_error)
         {
-            plan.issues.push(issues::no_plan(show, index, &cast.pixels, &stuck));
+            plan.issues.push(issues::no_plan(show, index, &bound.pixels, &infeasible));
         }
         let transition = attempt.transition;
         let takes_s = transition.duration.as_secs();
@@ -136,8 +136,8 @@ fn chained(show: &Show, starts: &[Vec2], options: &ShowOptions, cancel: Cancel<'
             plan.issues.push(issues::takes_longer(show, index, asked_s, takes_s));
         }
         let shown: Vec<Option<u32>> =
-            transition.goal_of.iter().map(|goal| goal.map(|goal| cast.pixels[goal].id)).collect();
-        bindings.remember(&cast, &transition.goal_of);
+            transition.goal_of.iter().map(|goal| goal.map(|goal| bound.pixels[goal].id)).collect();
+        bindings.remember(&bound, &transition.goal_of);
         places = transition.paths.iter().map(|path| path.as_ref().end()).collect();
         plan.take(transition, shown, frame);
     }

@@ -2,38 +2,38 @@
 
 use lightbots_base::Vec2;
 
-use crate::instance::Scene;
+use crate::instance::Instance;
 use crate::mapf::lacam::search;
-use crate::mapf::lattice_pibt::Stepper;
-use crate::mapf::node_assignment::dock;
+use crate::mapf::lattice_pibt::LatticePibt;
+use crate::mapf::node_assignment::assign_nodes;
 use crate::roads::lattice::{Lattice, NONE};
-use crate::spline::set::{MOST_SPANS, Weave};
+use crate::spline::set::{MOST_SPANS, SplineSet};
 
-/// A weave of steps over the lattice, at a pace in which its corners are about legal; `None` where no order was found.
-pub(crate) fn ordered(scene: &Scene, lattice: &Lattice) -> Option<Weave> {
-    let starts = dock(scene, lattice, &scene.starts)?;
-    let bound: Vec<usize> = (0..scene.robots()).filter(|&robot| scene.ends[robot].is_some()).collect();
-    let ends: Vec<Vec2> = bound.iter().filter_map(|&robot| scene.ends[robot]).collect();
-    let docks = dock(scene, lattice, &ends)?;
-    let mut goals = vec![NONE; scene.robots()];
-    for (&robot, &node) in bound.iter().zip(&docks) {
+/// A splines of steps over the lattice, at a pace in which its corners are about legal; `None` where no order was found.
+pub(crate) fn from_lattice(instance: &Instance, lattice: &Lattice) -> Option<SplineSet> {
+    let starts = assign_nodes(instance, lattice, &instance.starts)?;
+    let bound: Vec<usize> = (0..instance.robots()).filter(|&robot| instance.ends[robot].is_some()).collect();
+    let ends: Vec<Vec2> = bound.iter().filter_map(|&robot| instance.ends[robot]).collect();
+    let assigned = assign_nodes(instance, lattice, &ends)?;
+    let mut goals = vec![NONE; instance.robots()];
+    for (&robot, &node) in bound.iter().zip(&assigned) {
         goals[robot] = node;
     }
-    let steps = search(&mut Stepper::new(lattice, &goals, scene.cancel)?, &starts, &goals)?;
+    let steps = search(&mut LatticePibt::new(lattice, &goals, instance.cancel)?, &starts, &goals)?;
     let pitch = lattice.pitch_m;
     let legs = |robot: usize, node: u32, place: Vec2| (robot, lattice.places[node as usize].distance(place));
     let farthest =
         |legs: &mut dyn Iterator<Item = (usize, f64)>| legs.fold(0.0_f64, |far, leg| far.max(leg.1));
     let before =
-        farthest(&mut (0..scene.robots()).map(|robot| legs(robot, starts[robot], scene.starts[robot])));
+        farthest(&mut (0..instance.robots()).map(|robot| legs(robot, starts[robot], instance.starts[robot])));
     let after = farthest(&mut bound.iter().zip(&ends).map(|(&robot, &end)| legs(robot, goals[robot], end)));
     let (before, after) = ((before / pitch).ceil() as usize, (after / pitch).ceil() as usize);
     let middle = steps.len() - 1;
     let whole = before + middle + after;
     let place = |robot: usize, moment: f64| {
         let at = |step: usize| lattice.places[steps[step][robot] as usize];
-        let start = scene.starts[robot];
-        let end = scene.ends[robot].unwrap_or(at(middle));
+        let start = instance.starts[robot];
+        let end = instance.ends[robot].unwrap_or(at(middle));
         let share = |from: usize, length: usize| (moment - from as f64) / length as f64;
         if moment < before as f64 {
             start.lerp(at(0), share(0, before))
@@ -47,9 +47,9 @@ pub(crate) fn ordered(scene: &Scene, lattice: &Lattice) -> Option<Weave> {
         }
     };
     let spans = whole.clamp(4, MOST_SPANS);
-    let step_s = (pitch / scene.limits.speed_mps).max((pitch / scene.limits.accel_mps2).sqrt());
+    let step_s = (pitch / instance.limits.speed_mps).max((pitch / instance.limits.accel_mps2).sqrt());
     let span_s = step_s * whole.max(1) as f64 / spans as f64;
-    Some(Weave::new(scene, spans, span_s, |robot, step| {
+    Some(SplineSet::new(instance, spans, span_s, |robot, step| {
         place(robot, step as f64 * whole as f64 / spans as f64)
     }))
 }

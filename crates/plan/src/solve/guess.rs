@@ -3,11 +3,11 @@
 use lightbots_base::Vec2;
 use lightbots_show::Easing;
 
-use crate::motion::progress::Pace;
+use crate::motion::progress::Progress;
 use crate::optimise::cells::Cells;
-use crate::solve::path_set::{Crowd, crowding, point_along};
-use crate::spline::retime::{moments, slowed};
-use crate::spline::set::{MOST_SPANS, Weave};
+use crate::solve::path_set::{PathSet, crowding, point_along};
+use crate::spline::retime::{moments, time_scaled};
+use crate::spline::set::{MOST_SPANS, SplineSet};
 
 /// By how much guesses bow.
 const BOWS: [f64; 5] = [0.0, 0.12, 0.25, 0.5, -0.12];
@@ -30,10 +30,10 @@ const MOST_STRETCH: f64 = 0.4;
 /// Parts of the time between two of those moments that each take as long as they need.
 const PARTS: usize = 16;
 
-/// How everybody gets along their course.
+/// How everybody gets along their path.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Manner {
-    /// Straight courses bow to the right by this share of their length, to the left where it is negative, so that
+    /// Straight paths bow to the right by this share of their length, to the left where it is negative, so that
     /// crowds that meet head-on pass each other.
     pub bow: f64,
     /// Whether all drive equally fast and who has a short way arrives early, instead of all arriving together: so who
@@ -61,25 +61,25 @@ impl Manner {
 
 /// A crowd's ways in a manner.
 pub(crate) struct Guess<'a> {
-    crowd: &'a Crowd<'a>,
+    path_set: &'a PathSet<'a>,
     pub manner: Manner,
-    pace: Pace,
+    progress: Progress,
     /// How little it promises: how much of others is in everybody's way, how much too fast they are, and how odd it is.
     pub badness: f64,
     /// The same but for how odd it is.
     plain_badness: f64,
     /// How much the crowd is in its own way at each moment that was looked at.
-    thick: [f64; SAMPLES + 1],
+    congestion: [f64; SAMPLES + 1],
 }
 
 impl<'a> Guess<'a> {
     /// The guess of a manner, judged by who comes closer than `near_m`.
-    pub fn new(crowd: &'a Crowd<'a>, easing: Easing, manner: Manner, near_m: f64) -> Self {
+    pub fn new(path_set: &'a PathSet<'a>, easing: Easing, manner: Manner, near_m: f64) -> Self {
         let longer = 1.0 + 2.0 * manner.bow * manner.bow;
-        let pace = Pace::new(crowd.longest_m, &crowd.scene.limits, easing, longer);
-        let thick = [0.0; SAMPLES + 1];
-        let mut guess = Self { crowd, manner, pace, badness: 0.0, plain_badness: 0.0, thick };
-        (guess.plain_badness, guess.thick) = guess.judged(near_m);
+        let progress = Progress::new(path_set.longest_m, &path_set.instance.limits, easing, longer);
+        let congestion = [0.0; SAMPLES + 1];
+        let mut guess = Self { path_set, manner, progress, badness: 0.0, plain_badness: 0.0, congestion };
+        (guess.plain_badness, guess.congestion) = guess.judged(near_m);
         let Manner { bow, early, level, spread, .. } = manner;
         let odd = [early, level, spread].into_iter().filter(|&is| is).count() as f64 * ODD + bow * bow;
         guess.badness = guess.plain_badness + odd;
@@ -92,32 +92,34 @@ impl<'a> Guess<'a> {
         timed(self) == timed(other) && (self.plain_badness - other.plain_badness).abs() < 1e-6
     }
 
-    /// The guess as a weave, `stretch` times as slow as at full speed, with spans of about `span_s` seconds. It is slow
+    /// The guess as a splines, `stretch` times as slow as at full speed, with spans of about `span_s` seconds. It is slow
     /// where the crowd is in its own way, and only there.
-    pub fn weave(&self, stretch: f64, span_s: f64) -> Weave {
+    pub fn splines(&self, stretch: f64, span_s: f64) -> SplineSet {
         let parts = SAMPLES * PARTS;
-        let thick = (0..parts).map(|part| {
+        let congestion = (0..parts).map(|part| {
             let (sample, within) = (part / PARTS, ((part % PARTS) as f64 + 0.5) / PARTS as f64);
-            self.thick[sample] * (1.0 - within) + self.thick[sample + 1] * within
+            self.congestion[sample] * (1.0 - within) + self.congestion[sample + 1] * within
         });
-        let lasts = slowed(&thick.collect::<Vec<_>>(), stretch, f64::INFINITY);
-        self.weave_through(self.pace.drive_s * stretch, span_s, |spans| {
+        let lasts = time_scaled(&congestion.collect::<Vec<_>>(), stretch, f64::INFINITY);
+        self.splines_through(self.progress.drive_s * stretch, span_s, |spans| {
             moments(&lasts, spans).into_iter().map(|moment| moment / parts as f64).collect()
         })
     }
 
-    /// The guess as a weave that takes `drive_s` seconds, with spans of about `span_s`.
-    pub fn weave_lasting(&self, drive_s: f64, span_s: f64) -> Weave {
+    /// The guess as a splines that takes `drive_s` seconds, with spans of about `span_s`.
+    pub fn splines_lasting(&self, drive_s: f64, span_s: f64) -> SplineSet {
         let evenly = |spans: usize| (0..=spans).map(|step| step as f64 / spans as f64).collect();
-        self.weave_through(drive_s, span_s, evenly)
+        self.splines_through(drive_s, span_s, evenly)
     }
 
     /// The same, through where everybody is at some shares of the time, one more than there are spans.
-    fn weave_through(&self, drive_s: f64, span_s: f64, moments: impl Fn(usize) -> Vec<f64>) -> Weave {
+    fn splines_through(&self, drive_s: f64, span_s: f64, moments: impl Fn(usize) -> Vec<f64>) -> SplineSet {
         let spans = ((drive_s / span_s).ceil() as usize).clamp(6, MOST_SPANS);
         let places: Vec<Vec<Vec2>> =
             moments(spans).into_iter().map(|moment| self.free_places(moment)).collect();
-        Weave::new(self.crowd.scene, spans, drive_s / spans as f64, |robot, step| places[step][robot])
+        SplineSet::new(self.path_set.instance, spans, drive_s / spans as f64, |robot, step| {
+            places[step][robot]
+        })
     }
 
     /// How many times as long as at full speed it should take for the crowd to give way.
@@ -128,10 +130,10 @@ impl<'a> Guess<'a> {
     /// Seconds in which everybody gets to the end at full speed, as far as this manner goes.
     pub fn least_s(&self) -> f64 {
         if self.manner.staged {
-            let out_s = GENTLE * self.crowd.farthest_loosened() / self.crowd.scene.limits.speed_mps;
-            (self.pace.drive_s / (1.0 - 2.0 * LOOSENED)).max(out_s / LOOSENED)
+            let out_s = GENTLE * self.path_set.farthest_loosened() / self.path_set.instance.limits.speed_mps;
+            (self.progress.drive_s / (1.0 - 2.0 * LOOSENED)).max(out_s / LOOSENED)
         } else {
-            self.pace.drive_s
+            self.progress.drive_s
         }
     }
 
@@ -139,20 +141,20 @@ impl<'a> Guess<'a> {
     fn share(&self, moment: f64) -> f64 {
         let within = (moment - LOOSENED) / (1.0 - 2.0 * LOOSENED);
         let moment = if self.manner.staged { within.clamp(0.0, 1.0) } else { moment };
-        self.pace.share(moment * self.pace.drive_s)
+        self.progress.share(moment * self.progress.drive_s)
     }
 
     /// Where everybody is after a share of the time.
     fn places(&self, moment: f64) -> Vec<Vec2> {
         let share = self.share(moment);
         let mut places: Vec<Vec2> =
-            (0..self.crowd.courses.len()).map(|robot| self.place(robot, share)).collect();
+            (0..self.path_set.paths.len()).map(|robot| self.place(robot, share)).collect();
         if self.manner.level {
-            self.crowd.level(&mut places, share);
+            self.path_set.level(&mut places, share);
         }
         if self.manner.spread {
             let ebb = (moment.min(1.0 - moment) / LOOSENED).clamp(0.0, 1.0);
-            self.crowd.loosen(&mut places, ebb * ebb * (3.0 - 2.0 * ebb));
+            self.path_set.loosen(&mut places, ebb * ebb * (3.0 - 2.0 * ebb));
         }
         places
     }
@@ -160,12 +162,12 @@ impl<'a> Guess<'a> {
     /// The same, where nobody is moved from their way onto what stands there.
     fn free_places(&self, moment: f64) -> Vec<Vec2> {
         let mut places = self.places(moment);
-        if !self.crowd.scene.walls.is_empty() {
+        if !self.path_set.instance.walls.is_empty() {
             let share = self.share(moment);
             for (robot, place) in places.iter_mut().enumerate() {
-                if !self.crowd.scene.is_free(*place, 0.0) {
-                    let (course, length) = (&self.crowd.courses[robot], self.crowd.lengths[robot]);
-                    *place = point_along(course, length * self.share_of(robot, share));
+                if !self.path_set.instance.is_free(*place, 0.0) {
+                    let (path, length) = (&self.path_set.paths[robot], self.path_set.lengths[robot]);
+                    *place = point_along(path, length * self.share_of(robot, share));
                 }
             }
         }
@@ -174,24 +176,24 @@ impl<'a> Guess<'a> {
 
     /// How much of its way a robot has gone when the longest way has been gone by a share.
     fn share_of(&self, robot: usize, share: f64) -> f64 {
-        let length = self.crowd.lengths[robot];
+        let length = self.path_set.lengths[robot];
         if self.manner.early && length > 0.0 {
-            (share * self.crowd.longest_m / length).min(1.0)
+            (share * self.path_set.longest_m / length).min(1.0)
         } else {
             share
         }
     }
 
     fn place(&self, robot: usize, share: f64) -> Vec2 {
-        let (course, length) = (&self.crowd.courses[robot], self.crowd.lengths[robot]);
+        let (path, length) = (&self.path_set.paths[robot], self.path_set.lengths[robot]);
         let share = self.share_of(robot, share);
-        let place = point_along(course, length * share);
+        let place = point_along(path, length * share);
         // A bow that begins and ends straight ahead: 16 s²(1 − s)² is 1 half way.
         let aside = 16.0 * (share * (1.0 - share)) * (share * (1.0 - share)) * self.manner.bow;
-        match course[..] {
+        match path[..] {
             [from, to] if aside != 0.0 => {
-                let scene = self.crowd.scene;
-                scene.on_floor(robot, place - (to - from).left() * aside, scene.off_edge_m)
+                let instance = self.path_set.instance;
+                instance.on_floor(robot, place - (to - from).left() * aside, instance.off_edge_m)
             }
             _ => place,
         }
@@ -199,20 +201,21 @@ impl<'a> Guess<'a> {
 
     /// How little it promises but for how odd it is, and how much the crowd is in its own way at each moment.
     fn judged(&self, near_m: f64) -> (f64, [f64; SAMPLES + 1]) {
-        let robots = self.crowd.courses.len().max(1) as f64;
-        let step_m = self.crowd.scene.limits.speed_mps * self.pace.drive_s / SAMPLES as f64;
-        let mut rush = vec![0.0_f64; self.crowd.courses.len()];
-        let (mut thick, mut before, mut cells) = ([0.0; SAMPLES + 1], self.places(0.0), Cells::default());
-        for (sample, thick) in thick.iter_mut().enumerate().skip(1) {
+        let robots = self.path_set.paths.len().max(1) as f64;
+        let step_m = self.path_set.instance.limits.speed_mps * self.progress.drive_s / SAMPLES as f64;
+        let mut rush = vec![0.0_f64; self.path_set.paths.len()];
+        let (mut congestion, mut before, mut cells) =
+            ([0.0; SAMPLES + 1], self.places(0.0), Cells::default());
+        for (sample, congestion) in congestion.iter_mut().enumerate().skip(1) {
             let places = self.places(sample as f64 / SAMPLES as f64);
             for (robot, most) in rush.iter_mut().enumerate() {
                 *most = most.max(places[robot].distance(before[robot]) / step_m - 1.0);
             }
-            *thick = if sample < SAMPLES { crowding(&mut cells, &places, near_m) } else { 0.0 };
+            *congestion = if sample < SAMPLES { crowding(&mut cells, &places, near_m) } else { 0.0 };
             before = places;
         }
-        let close = thick.iter().sum::<f64>() / (SAMPLES as f64 * robots);
-        (close + rush.iter().sum::<f64>() / robots * RUSH, thick)
+        let close = congestion.iter().sum::<f64>() / (SAMPLES as f64 * robots);
+        (close + rush.iter().sum::<f64>() / robots * RUSH, congestion)
     }
 }
 
@@ -220,20 +223,20 @@ impl<'a> Guess<'a> {
 mod tests {
     use super::*;
     use crate::TransitionProblem;
-    use crate::instance::Scene;
+    use crate::instance::Instance;
     use lightbots_base::Limits;
 
     #[test]
     fn guesses_are_alike_where_only_who_is_early_differs_and_nobody_is() {
         for (last_m, is_alike) in [(0.4, true), (0.2, false)] {
             let starts: Vec<Vec2> = (0..4).map(|i| Vec2::new(-0.2, f64::from(i) * 0.1)).collect();
-            let mut courses: Vec<Vec<Vec2>> =
+            let mut paths: Vec<Vec<Vec2>> =
                 starts.iter().map(|&at| vec![at, at + Vec2::new(0.4, 0.0)]).collect();
-            courses[3][1].x = last_m - 0.2;
+            paths[3][1].x = last_m - 0.2;
             let floor = TransitionProblem::on_floor(Vec2::new(0.6, 0.6), Limits::ELISA_3);
-            let scene = Scene::new(&TransitionProblem { starts, ..floor }, &[None; 4]).unwrap();
-            let crowd = Crowd::new(&scene, &courses);
-            let guess = |manner| Guess::new(&crowd, Easing::Swift, manner, 0.12);
+            let instance = Instance::new(&TransitionProblem { starts, ..floor }, &[None; 4]).unwrap();
+            let path_set = PathSet::new(&instance, &paths);
+            let guess = |manner| Guess::new(&path_set, Easing::Swift, manner, 0.12);
             let (plain, early) =
                 (guess(Manner::default()), guess(Manner { early: true, ..Manner::default() }));
             assert_eq!(plain.is_like(&early), is_alike);

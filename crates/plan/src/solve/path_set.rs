@@ -2,7 +2,7 @@
 
 use lightbots_base::Vec2;
 
-use crate::instance::Scene;
+use crate::instance::Instance;
 use crate::optimise::cells::{Cells, Disc};
 
 /// How much of the way to an even spread a crowd is taken.
@@ -11,10 +11,10 @@ const LEVELLED: f64 = 0.6;
 const LOOSE_M: f64 = 0.14;
 
 /// Everybody's shortest way, and what it tells of all.
-pub(crate) struct Crowd<'a> {
-    pub scene: &'a Scene<'a>,
-    /// Corners of each robot's way.
-    pub courses: &'a [Vec<Vec2>],
+pub(crate) struct PathSet<'a> {
+    pub instance: &'a Instance<'a>,
+    /// VisibilityGraph of each robot's way.
+    pub paths: &'a [Vec<Vec2>],
     /// How long each is, metres.
     pub lengths: Vec<f64>,
     /// The longest of them, metres.
@@ -27,10 +27,10 @@ pub(crate) struct Crowd<'a> {
     wider: Vec2,
 }
 
-impl<'a> Crowd<'a> {
+impl<'a> PathSet<'a> {
     /// The crowd that has these ways to go.
-    pub fn new(scene: &'a Scene<'a>, courses: &'a [Vec<Vec2>]) -> Self {
-        let lengths: Vec<f64> = courses.iter().map(|course| length(course)).collect();
+    pub fn new(instance: &'a Instance<'a>, paths: &'a [Vec<Vec2>]) -> Self {
+        let lengths: Vec<f64> = paths.iter().map(|path| length(path)).collect();
         let longest_m = lengths.iter().copied().fold(0.0, f64::max);
         let spread = |of: fn(Vec2) -> f64| {
             let sorted = |ends: &mut dyn Iterator<Item = Vec2>| {
@@ -38,12 +38,12 @@ impl<'a> Crowd<'a> {
                 along.sort_unstable_by(f64::total_cmp);
                 along
             };
-            let starts = sorted(&mut courses.iter().map(|course| course[0]));
-            (starts, sorted(&mut courses.iter().map(|course| course[course.len() - 1])))
+            let starts = sorted(&mut paths.iter().map(|path| path[0]));
+            (starts, sorted(&mut paths.iter().map(|path| path[path.len() - 1])))
         };
         let spreads = [spread(|at| at.x), spread(|at| at.y)];
-        let (middle, wider) = room(scene, &spreads);
-        Self { scene, courses, lengths, longest_m, spreads, middle, wider }
+        let (middle, wider) = room(instance, &spreads);
+        Self { instance, paths, lengths, longest_m, spreads, middle, wider }
     }
 
     /// Spreads places along both axes, most of the way to how starts and ends are spread: by rank, from where the one
@@ -63,7 +63,7 @@ impl<'a> Crowd<'a> {
 
     /// How far the one that moves most is moved when the crowd becomes loose where it starts, metres.
     pub fn farthest_loosened(&self) -> f64 {
-        let starts: Vec<Vec2> = self.courses.iter().map(|course| course[0]).collect();
+        let starts: Vec<Vec2> = self.paths.iter().map(|path| path[0]).collect();
         let mut loose = starts.clone();
         self.loosen(&mut loose, 1.0);
         starts.iter().zip(&loose).map(|(from, to)| from.distance(*to)).fold(0.0, f64::max)
@@ -74,13 +74,13 @@ impl<'a> Crowd<'a> {
         for (robot, place) in places.iter_mut().enumerate() {
             let out = *place - self.middle;
             let aside = Vec2::new(out.x * (self.wider.x - 1.0), out.y * (self.wider.y - 1.0));
-            *place = self.scene.on_floor(robot, *place + aside * share, self.scene.off_edge_m);
+            *place = self.instance.on_floor(robot, *place + aside * share, self.instance.off_edge_m);
         }
     }
 }
 
 /// The middle of all ends, and how much wider along each axis a crowd can become on its floor until it is loose.
-fn room(scene: &Scene, spreads: &[(Vec<f64>, Vec<f64>); 2]) -> (Vec2, Vec2) {
+fn room(instance: &Instance, spreads: &[(Vec<f64>, Vec<f64>); 2]) -> (Vec2, Vec2) {
     let extent = |(starts, ends): &(Vec<f64>, Vec<f64>)| {
         let (Some(first), Some(last)) = (starts.first(), starts.last()) else { return (0.0, 0.0) };
         let least = ends.first().map_or(*first, |end| end.min(*first));
@@ -94,7 +94,7 @@ fn room(scene: &Scene, spreads: &[(Vec<f64>, Vec<f64>); 2]) -> (Vec2, Vec2) {
         (LOOSE_M / apart_m).min(room / reach.max(1e-3)).max(1.0)
     };
     let middle = Vec2::new(left + right, front + back) * 0.5;
-    (middle, Vec2::new(wider(left, right, scene.inner.x), wider(front, back, scene.inner.y)))
+    (middle, Vec2::new(wider(left, right, instance.inner.x), wider(front, back, instance.inner.y)))
 }
 
 /// Pairs closer than `near_m`, each by how close.
@@ -107,20 +107,20 @@ pub(crate) fn crowding(cells: &mut Cells, places: &[Vec2], near_m: f64) -> f64 {
 }
 
 /// The length of a line through corners, metres.
-pub(crate) fn length(course: &[Vec2]) -> f64 {
-    course.windows(2).map(|leg| leg[0].distance(leg[1])).sum()
+pub(crate) fn length(path: &[Vec2]) -> f64 {
+    path.windows(2).map(|segment| segment[0].distance(segment[1])).sum()
 }
 
-/// The place `way_m` along a line through corners; a course has at least one.
-pub(crate) fn point_along(course: &[Vec2], mut way_m: f64) -> Vec2 {
-    for leg in course.windows(2) {
-        let length = leg[0].distance(leg[1]);
-        if way_m < length {
-            return leg[0].lerp(leg[1], way_m / length);
+/// The place `length_m` along a line through corners; a path has at least one.
+pub(crate) fn point_along(path: &[Vec2], mut length_m: f64) -> Vec2 {
+    for segment in path.windows(2) {
+        let length = segment[0].distance(segment[1]);
+        if length_m < length {
+            return segment[0].lerp(segment[1], length_m / length);
         }
-        way_m -= length;
+        length_m -= length;
     }
-    course.last().copied().unwrap_or(Vec2::ZERO)
+    path.last().copied().unwrap_or(Vec2::ZERO)
 }
 
 #[cfg(test)]
@@ -137,14 +137,14 @@ mod tests {
             goals: (0..10).map(|i| -ring(i)).collect(),
             ..TransitionProblem::on_floor(Vec2::new(1.0, 1.0), Limits::ELISA_3)
         };
-        let scene = Scene::new(&problem, &(0..10).map(Some).collect::<Vec<_>>()).unwrap();
-        let courses: Vec<Vec<Vec2>> = (0..10).map(|i| vec![ring(i), -ring(i)]).collect();
-        let crowd = Crowd::new(&scene, &courses);
+        let instance = Instance::new(&problem, &(0..10).map(Some).collect::<Vec<_>>()).unwrap();
+        let paths: Vec<Vec<Vec2>> = (0..10).map(|i| vec![ring(i), -ring(i)]).collect();
+        let path_set = PathSet::new(&instance, &paths);
         let mut places: Vec<Vec2> = (0..10).map(|i| ring(i) * 0.1).collect();
         let before = crowding(&mut Cells::default(), &places, 0.06);
-        crowd.level(&mut places, 0.45);
+        path_set.level(&mut places, 0.45);
         let levelled = crowding(&mut Cells::default(), &places, 0.06);
-        crowd.loosen(&mut places, 1.0);
+        path_set.loosen(&mut places, 1.0);
         let loosened = crowding(&mut Cells::default(), &places, 0.06);
         assert!(before > 10.0 && levelled < 1.0 && loosened <= levelled, "{before} {levelled} {loosened}");
         assert!(places.iter().all(|place| place.length() < 0.7));

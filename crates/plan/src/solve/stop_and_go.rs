@@ -4,15 +4,15 @@
 use lightbots_base::{Span, Vec2};
 
 use crate::Repaired;
-use crate::instance::Scene;
+use crate::instance::Instance;
 use crate::mapf::lacam::search;
-use crate::mapf::roadmap_pibt::Pusher;
+use crate::mapf::roadmap_pibt::RoadmapPibt;
 use crate::mapf::shortening::shorten;
 use crate::margins::EDGE_M;
-use crate::motion::stop_and_go::repaired;
+use crate::motion::stop_and_go::timed_paths;
 use crate::roads::lattice::NONE;
 use crate::roads::roadmap::Roadmap;
-use crate::roads::visibility::Corners;
+use crate::roads::visibility::VisibilityGraph;
 
 /// Distance of lattice nodes, metres: coarse first; and how far they are off the floor's edge if they can.
 const PITCHES_M: [(f64, f64); 3] = [(0.072, EDGE_M), (0.05, EDGE_M), (0.036, 0.0)];
@@ -20,19 +20,23 @@ const PITCHES_M: [(f64, f64); 3] = [(0.072, EDGE_M), (0.05, EDGE_M), (0.036, 0.0
 const MOST_LOOKS: usize = 120_000_000;
 
 /// Paths with stops; `None` where nothing was found.
-pub(crate) fn with_stops(scene: &Scene, corners: &Corners, wished: Option<Span>) -> Option<Repaired> {
+pub(crate) fn stop_and_go(
+    instance: &Instance,
+    visibility: &VisibilityGraph,
+    wished: Option<Span>,
+) -> Option<Repaired> {
     let mut looks = MOST_LOOKS;
     PITCHES_M.iter().find_map(|&(pitch_m, off_edge_m)| {
-        let roads = Roadmap::new(scene, corners, pitch_m, off_edge_m.min(scene.off_edge_m))?;
+        let roads = Roadmap::new(instance, visibility, pitch_m, off_edge_m.min(instance.off_edge_m))?;
         let goals: Vec<u32> = roads.ends.iter().map(|end| end.unwrap_or(NONE)).collect();
-        let mut pusher = Pusher::new(scene, &roads, looks);
-        let steps = search(&mut pusher, &roads.starts, &goals);
-        looks = pusher.looks_left();
+        let mut pibt = RoadmapPibt::new(instance, &roads, looks);
+        let steps = search(&mut pibt, &roads.starts, &goals);
+        looks = pibt.looks_left();
         let steps = steps?;
-        let steps = shorten(&pusher, &roads, steps);
+        let steps = shorten(&pibt, &roads, steps);
         let place = |node: &u32| roads.places[*node as usize];
-        let stops: Vec<Vec<Vec2>> = steps.iter().map(|step| step.iter().map(place).collect()).collect();
-        repaired(scene, &stops, wished)
+        let waypoints: Vec<Vec<Vec2>> = steps.iter().map(|step| step.iter().map(place).collect()).collect();
+        timed_paths(instance, &waypoints, wished)
     })
 }
 
@@ -59,16 +63,16 @@ mod tests {
         }
     }
 
-    fn scene_of(problem: &TransitionProblem) -> Scene<'static> {
-        Scene::new(problem, &(0..problem.starts.len()).map(Some).collect::<Vec<_>>()).unwrap()
+    fn scene_of(problem: &TransitionProblem) -> Instance<'static> {
+        Instance::new(problem, &(0..problem.starts.len()).map(Some).collect::<Vec<_>>()).unwrap()
     }
 
     #[test]
     fn a_crowd_is_sorted_from_stop_to_stop_alone() {
         for (side, apart_m) in [(3, 0.08), (5, 0.1), (6, 0.09)] {
             let problem = shuffled(side, apart_m);
-            let scene = scene_of(&problem);
-            let found = with_stops(&scene, &Corners::new(&scene), None).expect("a way");
+            let instance = scene_of(&problem);
+            let found = stop_and_go(&instance, &VisibilityGraph::new(&instance), None).expect("a way");
             let proof = prove(&problem.to_prove(&found.paths));
             assert!(proof.holds(), "{side}: {:?} {:?}", proof.conflicts, proof.faults);
             for (path, goal) in found.paths.iter().zip(&problem.goals) {
@@ -80,13 +84,13 @@ mod tests {
     #[test]
     fn stops_are_as_slow_as_is_wished_for() {
         let problem = shuffled(2, 0.1);
-        let scene = scene_of(&problem);
-        let corners = Corners::new(&scene);
-        let quick = with_stops(&scene, &corners, None).unwrap();
-        assert_eq!(with_stops(&scene, &corners, Some(quick.least)).unwrap(), quick);
-        let slow = with_stops(&scene, &corners, Some(quick.least + quick.least)).unwrap();
+        let instance = scene_of(&problem);
+        let visibility = VisibilityGraph::new(&instance);
+        let quick = stop_and_go(&instance, &visibility, None).unwrap();
+        assert_eq!(stop_and_go(&instance, &visibility, Some(quick.least)).unwrap(), quick);
+        let slow = stop_and_go(&instance, &visibility, Some(quick.least + quick.least)).unwrap();
         let late = slow.paths[0].as_ref().duration() - quick.least - quick.least;
-        assert!(late >= Span::ZERO && late < quarter_turn(&scene.limits) / 100, "{late:?}");
+        assert!(late >= Span::ZERO && late < quarter_turn(&instance.limits) / 100, "{late:?}");
         assert!(slow.least == quick.least && prove(&problem.to_prove(&slow.paths)).holds());
     }
 
@@ -95,7 +99,7 @@ mod tests {
         // Two in a corridor one robot wide, whatever they do.
         let (a, b) = (Vec2::new(-0.2, 0.0), Vec2::new(0.2, 0.0));
         let floor = TransitionProblem::on_floor(Vec2::new(0.3, 0.05), Limits::ELISA_3);
-        let scene = scene_of(&TransitionProblem { starts: vec![a, b], goals: vec![b, a], ..floor });
-        assert_eq!(with_stops(&scene, &Corners::new(&scene), None), None);
+        let instance = scene_of(&TransitionProblem { starts: vec![a, b], goals: vec![b, a], ..floor });
+        assert_eq!(stop_and_go(&instance, &VisibilityGraph::new(&instance), None), None);
     }
 }

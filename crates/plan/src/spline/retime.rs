@@ -3,10 +3,10 @@
 
 /// How many times as long each of equal parts of a drive takes where the whole takes `times` as long: the more robots
 /// are in each other's way in it, the longer, but no more than `most` times.
-pub(crate) fn slowed(thick: &[f64], times: f64, most: f64) -> Vec<f64> {
-    let mean = thick.iter().sum::<f64>() / thick.len().max(1) as f64;
-    let share = |thick: f64| if mean > 0.0 { thick / mean } else { 1.0 };
-    thick.iter().map(|&thick| (1.0 + (times - 1.0) * share(thick)).min(most)).collect()
+pub(crate) fn time_scaled(congestion: &[f64], times: f64, most: f64) -> Vec<f64> {
+    let mean = congestion.iter().sum::<f64>() / congestion.len().max(1) as f64;
+    let share = |congestion: f64| if mean > 0.0 { congestion / mean } else { 1.0 };
+    congestion.iter().map(|&congestion| (1.0 + (times - 1.0) * share(congestion)).min(most)).collect()
 }
 
 /// `[step]`: which moment of the old drive, in parts, is reached after so many of `steps` equal steps of the new one, in
@@ -27,13 +27,13 @@ pub(crate) fn moments(lasts: &[f64], steps: usize) -> Vec<f64> {
 }
 
 /// What there is in each part, with some of it in the parts beside it.
-pub(crate) fn blurred(mut thick: Vec<f64>, passes: usize) -> Vec<f64> {
-    let last = thick.len().saturating_sub(1);
+pub(crate) fn smoothed(mut congestion: Vec<f64>, passes: usize) -> Vec<f64> {
+    let last = congestion.len().saturating_sub(1);
     for _ in 0..passes {
-        let beside = |at: usize| (thick[at.saturating_sub(1)] + thick[(at + 1).min(last)]) * 0.25;
-        thick = (0..thick.len()).map(|at| thick[at] * 0.5 + beside(at)).collect();
+        let beside = |at: usize| (congestion[at.saturating_sub(1)] + congestion[(at + 1).min(last)]) * 0.25;
+        congestion = (0..congestion.len()).map(|at| congestion[at] * 0.5 + beside(at)).collect();
     }
-    thick
+    congestion
 }
 
 #[cfg(test)]
@@ -42,7 +42,7 @@ mod tests {
 
     #[test]
     fn time_goes_where_robots_are_in_each_others_way() {
-        let lasts = slowed(&[0.0, 3.0, 1.0, 0.0], 1.5, 10.0);
+        let lasts = time_scaled(&[0.0, 3.0, 1.0, 0.0], 1.5, 10.0);
         assert_eq!(lasts, [1.0, 2.5, 1.5, 1.0]);
         let moments = moments(&lasts, 6);
         assert_eq!(moments, [0.0, 1.0, 1.4, 1.8, 2.0 + 1.0 / 3.0, 3.0, 4.0]);
@@ -50,15 +50,15 @@ mod tests {
 
     #[test]
     fn where_nobody_is_in_the_way_all_takes_longer_alike() {
-        assert_eq!(slowed(&[0.0; 4], 1.25, 10.0), [1.25; 4]);
-        assert_eq!(slowed(&[0.0, 8.0], 1.5, 1.6), [1.0, 1.6]);
+        assert_eq!(time_scaled(&[0.0; 4], 1.25, 10.0), [1.25; 4]);
+        assert_eq!(time_scaled(&[0.0, 8.0], 1.5, 1.6), [1.0, 1.6]);
         assert_eq!(moments(&[1.25; 4], 2), [0.0, 2.0, 4.0]);
     }
 
     #[test]
     fn blurring_loses_nothing() {
-        let blurred = blurred(vec![4.0, 0.0, 0.0, 8.0], 3);
-        assert!((blurred.iter().sum::<f64>() - 12.0).abs() < 1e-12);
-        assert!(blurred.iter().all(|&thick| thick > 0.0) && blurred[3] > blurred[2]);
+        let smoothed = smoothed(vec![4.0, 0.0, 0.0, 8.0], 3);
+        assert!((smoothed.iter().sum::<f64>() - 12.0).abs() < 1e-12);
+        assert!(smoothed.iter().all(|&congestion| congestion > 0.0) && smoothed[3] > smoothed[2]);
     }
 }

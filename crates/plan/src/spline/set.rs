@@ -1,29 +1,29 @@
-//! All robots' ways as uniform cubic B-splines in time: smooth without stops, and easy to bend.
+//! All robots' splines as uniform cubic B-splines in time: smooth without stops, and easy to displace.
 //!
-//! A way of `spans` spans has `spans + 3` control points; span `i` is ruled by points `i..i + 4`. Points 2 to `spans`
-//! are free. The two at either end follow from them so that the way starts and ends at rest exactly at its ends; a
+//! A spline of `spans` spans has `spans + 3` control points; span `i` is ruled by points `i..i + 4`. Points 2 to `spans`
+//! are free. The two at either end follow from them so that the spline starts and ends at rest exactly at its ends; a
 //! spare robot comes to rest at its last free point.
 
 use lightbots_base::{Limits, Piece, Span, Vec2};
 
 use crate::Path;
-use crate::instance::Scene;
-use crate::spline::turn_rate::{Look, Turning};
+use crate::instance::Instance;
+use crate::spline::turn_rate::{DirtySpans, TurnRate};
 
 /// Most spans of a spline: a path holds 128 pieces, and the rests at both ends need some.
 pub(crate) const MOST_SPANS: usize = 124;
-/// Passes in which a way is smoothed.
-const SOFTENING: usize = 4;
+/// Passes in which a spline is smoothed.
+const SMOOTHING: usize = 4;
 
 /// What the splines of all robots are, sharing one clock.
 #[derive(Clone)]
-pub(crate) struct Weave {
-    /// How many spans each way has; at least 4.
+pub(crate) struct SplineSet {
+    /// How many spans each spline has; at least 4.
     pub spans: usize,
     /// How long a span takes, seconds.
     pub span_s: f64,
     /// How many times as slowly as limits ask for it is driven.
-    pub slower: f64,
+    pub slowdown: f64,
     ends: Vec<(Vec2, Option<Vec2>)>,
     /// `[robot][spans + 3]`.
     points: Vec<Vec2>,
@@ -48,7 +48,7 @@ pub(crate) fn blend(points: &[Vec2], weights: &[f64; 4]) -> Vec2 {
 }
 
 /// Weights of a span's control points, with those of points that follow others added to these: only points 2 to
-/// `last` of a way are free.
+/// `last` of a spline are free.
 pub(crate) fn fold(weights: &[f64; 4], span: usize, last: usize, spare: bool) -> [f64; 4] {
     if span >= 2 && span + 3 <= last {
         return *weights;
@@ -68,7 +68,7 @@ pub(crate) fn fold(weights: &[f64; 4], span: usize, last: usize, spare: bool) ->
     folded
 }
 
-/// The free control points of a way that passes these places between its spans: each place is a sixth of one, two thirds
+/// The free control points of a spline that passes these places between its spans: each place is a sixth of one, two thirds
 /// of the next and a sixth of the one after, which is solved from the first to the last and back.
 fn through(places: impl ExactSizeIterator<Item = Vec2>, start: Vec2, end: Option<Vec2>) -> Vec<Vec2> {
     let last = places.len() - 1;
@@ -95,18 +95,18 @@ fn through(places: impl ExactSizeIterator<Item = Vec2>, start: Vec2, end: Option
     points
 }
 
-impl Weave {
+impl SplineSet {
     /// Ways through `place(robot, step)` for steps 0..=spans, which serve as control points: corners are rounded.
-    pub fn new(scene: &Scene, spans: usize, span_s: f64, place: impl Fn(usize, usize) -> Vec2) -> Self {
+    pub fn new(instance: &Instance, spans: usize, span_s: f64, place: impl Fn(usize, usize) -> Vec2) -> Self {
         let spans = spans.max(4);
-        let ends = scene.starts.iter().copied().zip(scene.ends.iter().copied()).collect::<Vec<_>>();
+        let ends = instance.starts.iter().copied().zip(instance.ends.iter().copied()).collect::<Vec<_>>();
         let mut points = Vec::with_capacity(ends.len() * (spans + 3));
         for robot in 0..ends.len() {
             points.extend((0..spans + 3).map(|j| place(robot, j.saturating_sub(1).min(spans))));
         }
-        let mut weave = Self { spans, span_s, slower: 1.0, ends, points };
-        (0..weave.robots()).for_each(|robot| weave.tie_ends(robot));
-        weave
+        let mut splines = Self { spans, span_s, slowdown: 1.0, ends, points };
+        (0..splines.robots()).for_each(|robot| splines.tie_ends(robot));
+        splines
     }
 
     /// How many robots.
@@ -120,50 +120,56 @@ impl Weave {
     }
 
     /// A robot's control points.
-    pub fn way(&self, robot: usize) -> &[Vec2] {
+    pub fn spline(&self, robot: usize) -> &[Vec2] {
         let width = self.spans + 3;
         &self.points[robot * width..(robot + 1) * width]
     }
 
     /// The same, to change; call [`Self::tie_ends`] after.
-    pub fn way_mut(&mut self, robot: usize) -> &mut [Vec2] {
+    pub fn spline_mut(&mut self, robot: usize) -> &mut [Vec2] {
         let width = self.spans + 3;
         &mut self.points[robot * width..(robot + 1) * width]
     }
 
-    /// Bends a robot's way until it turns no faster than it may where `look` says, in at most `passes`; what is left to
+    /// Bends a robot's spline until it turns no faster than it may where `dirty` says, in at most `passes`; what is left to
     /// be looked at, and whether anything changed.
-    pub fn ease(&mut self, robot: usize, turning: &Turning, passes: usize, mut look: Look) -> (Look, bool) {
+    pub fn smooth_turns(
+        &mut self,
+        robot: usize,
+        turn_rate: &TurnRate,
+        passes: usize,
+        mut dirty: DirtySpans,
+    ) -> (DirtySpans, bool) {
         let spare = self.ends[robot].1.is_none();
         for pass in 0..passes {
-            look = turning.ease(self.way_mut(robot), spare, look);
-            if look.is_over() {
-                return (look, pass > 0);
+            dirty = turn_rate.smooth_turns(self.spline_mut(robot), spare, dirty);
+            if dirty.is_over() {
+                return (dirty, pass > 0);
             }
             self.tie_ends(robot);
         }
-        (look, true)
+        (dirty, true)
     }
 
     /// The four control points of a robot's span.
     pub fn span(&self, robot: usize, span: usize) -> &[Vec2] {
-        &self.way(robot)[span..span + 4]
+        &self.spline(robot)[span..span + 4]
     }
 
-    /// The fixed ends of a robot's way.
+    /// The fixed ends of a robot's spline.
     pub fn ends(&self, robot: usize) -> (Vec2, Option<Vec2>) {
         self.ends[robot]
     }
 
-    /// Makes the outer control points follow the free ones, so that the way is at rest at its ends.
+    /// Makes the outer control points follow the free ones, so that the spline is at rest at its ends.
     pub fn tie_ends(&mut self, robot: usize) {
         let (start, end) = self.ends[robot];
         let last = self.spans;
-        let way = self.way_mut(robot);
-        way[0] = way[2];
-        way[1] = start * 1.5 - way[2] * 0.5;
-        way[last + 2] = way[last];
-        way[last + 1] = end.map_or(way[last], |end| end * 1.5 - way[last] * 0.5);
+        let spline = self.spline_mut(robot);
+        spline[0] = spline[2];
+        spline[1] = start * 1.5 - spline[2] * 0.5;
+        spline[last + 2] = spline[last];
+        spline[last + 1] = end.map_or(spline[last], |end| end * 1.5 - spline[last] * 0.5);
     }
 
     /// Moves everybody through the same places at other times, in one span less than `was` has moments: span `k` then
@@ -175,9 +181,9 @@ impl Weave {
             (span, basis(was - span as f64))
         };
         let moments: Vec<_> = was[1..last].iter().map(at).collect();
-        let ways = std::mem::take(&mut self.points);
-        for (way, &(start, end)) in ways.chunks_exact(before + 3).zip(&self.ends) {
-            let places = moments.iter().map(|(span, weights)| blend(&way[*span..*span + 4], weights));
+        let splines = std::mem::take(&mut self.points);
+        for (spline, &(start, end)) in splines.chunks_exact(before + 3).zip(&self.ends) {
+            let places = moments.iter().map(|(span, weights)| blend(&spline[*span..*span + 4], weights));
             self.points.extend([start; 2]);
             self.points.extend(through(places, start, end));
             self.points.extend([start; 2]);
@@ -186,29 +192,29 @@ impl Weave {
         (0..self.robots()).for_each(|robot| self.tie_ends(robot));
     }
 
-    /// Smooths a robot's way around a span, where it turns too sharply.
-    pub fn soften(&mut self, robot: usize, span: usize) {
+    /// Smooths a robot's spline around a span, where it turns too sharply.
+    pub fn smooth(&mut self, robot: usize, span: usize) {
         let last = self.spans;
-        for _ in 0..SOFTENING {
-            let way = self.way_mut(robot);
-            let before = way.to_vec();
+        for _ in 0..SMOOTHING {
+            let spline = self.spline_mut(robot);
+            let before = spline.to_vec();
             for point in span.saturating_sub(2).max(2)..=(span + 5).min(last) {
-                way[point] = (before[point - 1] + before[point + 1]) * 0.25 + before[point] * 0.5;
+                spline[point] = (before[point - 1] + before[point + 1]) * 0.25 + before[point] * 0.5;
             }
             self.tie_ends(robot);
         }
     }
 
     /// How a place on a span follows its four control points, where only free ones move.
-    pub fn pull(&self, robot: usize, span: usize, weights: &[f64; 4]) -> [f64; 4] {
+    pub fn influence(&self, robot: usize, span: usize, weights: &[f64; 4]) -> [f64; 4] {
         fold(weights, span, self.spans, self.ends[robot].1.is_none())
     }
 
-    /// Moves a span's control points by `shift` times their pull.
-    pub fn bend(&mut self, robot: usize, span: usize, pull: &[f64; 4], shift: Vec2) {
+    /// Moves a span's control points by `shift` times their influence.
+    pub fn displace(&mut self, robot: usize, span: usize, influence: &[f64; 4], shift: Vec2) {
         let outer = span < 2 || span + 3 > self.spans;
-        let way = &mut self.way_mut(robot)[span..span + 4];
-        for (point, &share) in way.iter_mut().zip(pull) {
+        let spline = &mut self.spline_mut(robot)[span..span + 4];
+        for (point, &share) in spline.iter_mut().zip(influence) {
             *point += shift * share;
         }
         if outer {
@@ -216,11 +222,11 @@ impl Weave {
         }
     }
 
-    /// By how much a robot's way, driven in this time, is too fast: 1 is just legal.
-    pub fn haste(&self, robot: usize, limits: &Limits) -> f64 {
-        let way = self.way(robot);
+    /// By how much a robot's spline, driven in this time, is too fast: 1 is just legal.
+    pub fn time_scale(&self, robot: usize, limits: &Limits) -> f64 {
+        let spline = self.spline(robot);
         let (mut speed, mut accel) = (0.0_f64, 0.0_f64);
-        for four in way.windows(4) {
+        for four in spline.windows(4) {
             let (a, b, c) = (four[1] - four[0], four[2] - four[1], four[3] - four[2]);
             speed = speed.max((a + b).length_squared() / 4.0).max((a + b * 6.0 + c).length_squared() / 64.0);
             speed = speed.max((a * 9.0 + b * 22.0 + c).length_squared() / 1024.0);
@@ -229,20 +235,20 @@ impl Weave {
         }
         let speed = speed.sqrt() / self.span_s / limits.speed_mps;
         let accel = accel.sqrt() / (self.span_s * self.span_s) / limits.accel_mps2;
-        speed.max(accel.sqrt()).max(Turning::new(self.span_s, limits).haste(way))
+        speed.max(accel.sqrt()).max(TurnRate::new(self.span_s, limits).time_scale(spline))
     }
 
-    /// The greatest haste of all.
-    pub fn greatest_haste(&self, limits: &Limits) -> f64 {
-        (0..self.robots()).map(|robot| self.haste(robot, limits)).fold(0.0, f64::max)
+    /// The greatest time_scale of all.
+    pub fn greatest_time_scale(&self, limits: &Limits) -> f64 {
+        (0..self.robots()).map(|robot| self.time_scale(robot, limits)).fold(0.0, f64::max)
     }
 
     /// How long a span must take at least, seconds.
     pub fn least_span_s(&self, limits: &Limits) -> f64 {
-        self.span_s * self.greatest_haste(limits) * 1.002 * self.slower
+        self.span_s * self.greatest_time_scale(limits) * 1.002 * self.slowdown
     }
 
-    /// The ways as timed paths: a rest of `turn`, then the spans, each taking `span` exactly.
+    /// The splines as timed paths: a rest of `turn`, then the spans, each taking `span` exactly.
     pub fn paths(&self, turn: Span, span: Span) -> Vec<Path> {
         (0..self.robots()).map(|robot| self.path(robot, turn, span)).collect()
     }
@@ -251,7 +257,7 @@ impl Weave {
         let (start, end) = self.ends[robot];
         let mut pieces = vec![Piece::rest(start, turn)];
         let (mut at, mut resting) = (start, true);
-        for (i, four) in self.way(robot).windows(4).enumerate() {
+        for (i, four) in self.spline(robot).windows(4).enumerate() {
             let mut piece = Piece {
                 duration: span,
                 c1: (four[1] * 2.0 + four[2]) / 3.0,
@@ -293,27 +299,27 @@ mod tests {
             goals: vec![Vec2::new(1.0, 0.0)],
             ..TransitionProblem::on_floor(Vec2::new(2.0, 2.0), Limits::ELISA_3)
         };
-        let scene = Scene::new(&problem, &[Some(0), None]).unwrap();
-        let mut weave = Weave::new(&scene, 8, 0.25, |robot, step| {
+        let instance = Instance::new(&problem, &[Some(0), None]).unwrap();
+        let mut splines = SplineSet::new(&instance, 8, 0.25, |robot, step| {
             let along = f64::from(step as u32) / 8.0;
             Vec2::new(along, 0.5 * robot as f64 + 0.1 * (9.0 * along).sin())
         });
-        let before = weave.clone();
-        let place = |weave: &Weave, robot: usize, moment: f64| {
-            let span = (moment as usize).min(weave.spans - 1);
-            blend(weave.span(robot, span), &basis(moment - span as f64))
+        let before = splines.clone();
+        let place = |splines: &SplineSet, robot: usize, moment: f64| {
+            let span = (moment as usize).min(splines.spans - 1);
+            blend(splines.span(robot, span), &basis(moment - span as f64))
         };
         let was = [0.0, 1.5, 2.25, 3.0, 3.5, 4.0, 4.5, 5.0, 6.0, 7.0, 8.0];
-        weave.retime(&was);
-        assert_eq!(weave.spans, 10);
+        splines.retime(&was);
+        assert_eq!(splines.spans, 10);
         for robot in 0..2 {
             for (step, &moment) in was.iter().enumerate().take(10) {
-                let (now, then) = (place(&weave, robot, step as f64), place(&before, robot, moment));
+                let (now, then) = (place(&splines, robot, step as f64), place(&before, robot, moment));
                 assert!(now.distance(then) < 1e-12, "robot {robot}, step {step}: {now:?} {then:?}");
             }
-            let way = weave.way(robot);
-            assert!(way[0] == way[2] && way[10] == way[12]);
+            let spline = splines.spline(robot);
+            assert!(spline[0] == spline[2] && spline[10] == spline[12]);
         }
-        assert!(place(&weave, 0, 10.0).distance(Vec2::new(1.0, 0.0)) < 1e-12);
+        assert!(place(&splines, 0, 10.0).distance(Vec2::new(1.0, 0.0)) < 1e-12);
     }
 }

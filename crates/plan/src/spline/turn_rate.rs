@@ -1,5 +1,5 @@
 //! Ways that a differential drive can follow: it turns only so fast, so the direction must not swing where a robot is
-//! slow. Driving back the way it came is no turn, so what nearly is a reversal becomes one.
+//! slow. Driving back the spline it came is no turn, so what nearly is a reversal becomes one.
 
 use lightbots_base::{Limits, Vec2};
 
@@ -29,13 +29,13 @@ const JERK: [f64; 4] = [-1.0, 3.0, -3.0, 1.0];
 const UNDERCUT: f64 = 0.97;
 
 /// A span's motion, for span length 1: velocity is a parabola of the share of the span that has passed.
-struct Course {
+struct SpanMotion {
     velocity: Vec2,
     acceleration: Vec2,
     jerk: Vec2,
 }
 
-impl Course {
+impl SpanMotion {
     fn new(four: &[Vec2]) -> Self {
         let velocity = (four[2] - four[0]) * 0.5;
         let acceleration = four[0] - four[1] * 2.0 + four[2];
@@ -50,7 +50,7 @@ impl Course {
         self.acceleration + self.jerk * u
     }
 
-    /// A bit for each of the moments that are looked at: whether it is slower then than `speed_m`.
+    /// A bit for each of the moments that are looked at: whether it is slowdown then than `speed_m`.
     fn slow_moments(&self, speed_m: f64) -> u32 {
         let squares: [f64; MOMENTS] =
             std::array::from_fn(|index| self.velocity(moment(index)).length_squared());
@@ -89,20 +89,20 @@ fn moment(index: usize) -> f64 {
     (index as f64 + 0.5) / MOMENTS as f64
 }
 
-/// What of a way is to be looked at.
+/// What of a spline is to be looked at.
 #[derive(Clone, Copy)]
-pub(crate) struct Look {
+pub(crate) struct DirtySpans {
     /// A bit for each span.
     spans: u128,
     /// Whether robots may turn too far while they are slow.
-    swerves: bool,
+    slow_turns: bool,
 }
 
-impl Look {
+impl DirtySpans {
     /// Everything.
-    pub const ALL: Self = Self { spans: u128::MAX, swerves: true };
+    pub const ALL: Self = Self { spans: u128::MAX, slow_turns: true };
     /// Nothing.
-    pub const NOTHING: Self = Self { spans: 0, swerves: false };
+    pub const NOTHING: Self = Self { spans: 0, slow_turns: false };
 
     /// Whether nothing is left.
     pub fn is_over(self) -> bool {
@@ -112,49 +112,49 @@ impl Look {
     /// Adds a span whose control points have moved, and those that share some with it.
     pub fn add(&mut self, span: usize) {
         self.spans |= (0x7f_u128 << span) >> 3;
-        self.swerves = true;
+        self.slow_turns = true;
     }
 
     /// Adds the spans that a moved control point rules.
     pub fn add_point(&mut self, point: usize) {
         self.spans |= (0xf_u128 << point) >> 3;
-        self.swerves = true;
+        self.slow_turns = true;
     }
 }
 
-/// Turning limits of one weave, for span length 1.
-pub(crate) struct Turning {
+/// TurnRate limits of one splines, for span length 1.
+pub(crate) struct TurnRate {
     /// Most turn within a span, radians.
     turn: f64,
     /// Shortest step within a span whose direction matters, metres.
     creep_m: f64,
 }
 
-impl Turning {
+impl TurnRate {
     /// For spans of `span_s` seconds.
     pub fn new(span_s: f64, limits: &Limits) -> Self {
         Self { turn: limits.turn_radps * span_s * BETWEEN_MOMENTS, creep_m: CREEP_MPS * span_s }
     }
 
-    /// Bends a way once where it turns too fast, looking only at spans of `look`; what is to be looked at again after
+    /// Bends a spline once where it turns too fast, looking only at spans of `dirty`; what is to be looked at again after
     /// that. `spare` as in [`fold`].
-    pub fn ease(&self, way: &mut [Vec2], spare: bool, look: Look) -> Look {
-        let mut again = Look::NOTHING;
-        let spans = way.len() - 3;
-        if let Some((span, _)) = look.swerves.then(|| self.swerve(way)).flatten() {
+    pub fn smooth_turns(&self, spline: &mut [Vec2], spare: bool, dirty: DirtySpans) -> DirtySpans {
+        let mut again = DirtySpans::NOTHING;
+        let spans = spline.len() - 3;
+        if let Some((span, _)) = dirty.slow_turns.then(|| self.slow_turn(spline)).flatten() {
             for span in span.saturating_sub(1)..(span + 2).min(spans) {
-                let shifts = smoothed(&way[span..span + 4], span, spans);
-                way[span..span + 4].iter_mut().zip(shifts).for_each(|(point, shift)| *point += shift);
+                let shifts = smoothed(&spline[span..span + 4], span, spans);
+                spline[span..span + 4].iter_mut().zip(shifts).for_each(|(point, shift)| *point += shift);
                 again.add(span);
             }
         }
-        for span in ones(look.spans | again.spans).take_while(|&span| span < spans) {
-            let four = &way[span..span + 4];
+        for span in ones(dirty.spans | again.spans).take_while(|&span| span < spans) {
+            let four = &spline[span..span + 4];
             let worst = if self.stays_within(four, self.turn) { None } else { self.fastest(four) };
             let Some((_, fastest)) = worst.filter(|(turn, _)| *turn > self.turn) else { continue };
             let shifts = self.corrected(four, fastest, &|weights| fold(weights, span, spans, spare));
             let shifts = if self.only_wiggles(four) { Some(smoothed(four, span, spans)) } else { shifts };
-            for (point, shift) in way[span..span + 4].iter_mut().zip(shifts.into_iter().flatten()) {
+            for (point, shift) in spline[span..span + 4].iter_mut().zip(shifts.into_iter().flatten()) {
                 *point += shift;
             }
             again.add(span);
@@ -169,35 +169,35 @@ impl Turning {
         fastest: f64,
         folded: &dyn Fn(&[f64; 4]) -> [f64; 4],
     ) -> Option<[Vec2; 4]> {
-        let course = Course::new(four);
-        let motion = |u: f64| {
+        let motion = SpanMotion::new(four);
+        let weighted = |u: f64| {
             let (v, a) = slopes(u);
-            ((folded(&v), course.velocity(u)), (folded(&a), course.acceleration(u)))
+            ((folded(&v), motion.velocity(u)), (folded(&a), motion.acceleration(u)))
         };
-        let (v, (_, a)) = motion(course.slowest(fastest));
+        let (v, (_, a)) = weighted(motion.slowest(fastest));
         let nearly_stops = v.1.length() * self.turn < a.length() * REVERSAL;
         let reversed = || self.reversed(four, v, (folded(&JERK), a));
         nearly_stops.then(reversed).flatten().or_else(|| {
-            let (v, a) = motion(fastest);
+            let (v, a) = weighted(fastest);
             self.widened(v, a)
         })
     }
 
-    /// The fastest turn of a way over the limit.
-    pub fn haste(&self, way: &[Vec2]) -> f64 {
-        let fastest = way.windows(4).fold(0.0_f64, |most, four| {
+    /// The fastest turn of a spline over the limit.
+    pub fn time_scale(&self, spline: &[Vec2]) -> f64 {
+        let fastest = spline.windows(4).fold(0.0_f64, |most, four| {
             let faster = if self.stays_within(four, most) { None } else { self.fastest(four) };
             faster.map_or(most, |(turn, _)| most.max(turn))
         });
-        (fastest / self.turn).max(self.swerve(way).map_or(0.0, |(_, haste)| haste))
+        (fastest / self.turn).max(self.slow_turn(spline).map_or(0.0, |(_, time_scale)| time_scale))
     }
 
     /// The worst turn of a robot while it is slow, over what the time it is slow for allows, and the span in which it
     /// is fast again; `None` where all are legal.
-    fn swerve(&self, way: &[Vec2]) -> Option<(usize, f64)> {
+    fn slow_turn(&self, spline: &[Vec2]) -> Option<(usize, f64)> {
         let slow_m = SLOW * self.creep_m;
         let (mut heading, mut slow, mut worst) = (None::<Vec2>, 0.0, None::<(usize, f64)>);
-        for (span, four) in way.windows(4).enumerate() {
+        for (span, four) in spline.windows(4).enumerate() {
             let steps = [four[1] - four[0], four[2] - four[1], four[3] - four[2]];
             if (slow == 0.0 || heading.is_none())
                 && squares(&steps).iter().all(|&square| square > slow_m * slow_m)
@@ -209,8 +209,8 @@ impl Turning {
                 slow += 1.0;
                 continue;
             }
-            let course = Course::new(four);
-            let slow_moments = course.slow_moments(slow_m);
+            let motion = SpanMotion::new(four);
+            let slow_moments = motion.slow_moments(slow_m);
             let mut at = 0;
             while at < MOMENTS {
                 let slow_for = (slow_moments >> at).trailing_ones() as usize;
@@ -221,15 +221,15 @@ impl Turning {
                 }
                 slow += 1.0 / MOMENTS as f64;
                 if let Some(before) = heading.filter(|_| slow > 1.5 / MOMENTS as f64) {
-                    let velocity = course.velocity(moment(at));
+                    let velocity = motion.velocity(moment(at));
                     let angle = Vec2::new(before.dot(velocity).abs(), before.cross(velocity).abs()).angle();
-                    let haste = angle / (self.turn * slow);
-                    if haste > 1.0 && worst.is_none_or(|(_, most)| haste > most) {
-                        worst = Some((span, haste));
+                    let time_scale = angle / (self.turn * slow);
+                    if time_scale > 1.0 && worst.is_none_or(|(_, most)| time_scale > most) {
+                        worst = Some((span, time_scale));
                     }
                 }
                 at += ((slow_moments >> at).trailing_zeros() as usize).min(MOMENTS - at);
-                (heading, slow) = (Some(course.velocity(moment(at - 1))), 0.0);
+                (heading, slow) = (Some(motion.velocity(moment(at - 1))), 0.0);
             }
         }
         worst
@@ -240,12 +240,12 @@ impl Turning {
         if self.is_easy(four) {
             return None;
         }
-        let (creep, course) = (self.creep_m * self.creep_m, Course::new(four));
+        let (creep, motion) = (self.creep_m * self.creep_m, SpanMotion::new(four));
         let mut worst = (0.0, 0.5);
         let mut squares = [f64::MAX; MOMENTS + 2];
         let (mut swings, mut hardest) = ([0.0; MOMENTS], [0.0; MOMENTS]);
         for (index, u) in moments().enumerate() {
-            let (v, a) = (course.velocity(u), course.acceleration(u));
+            let (v, a) = (motion.velocity(u), motion.acceleration(u));
             squares[index + 1] = v.length_squared();
             swings[index] = v.cross(a).abs();
             hardest[index] = a.length_squared();
@@ -257,8 +257,8 @@ impl Turning {
             }
             if here <= before && here <= after && here < hardest[index] * NARROW_SWING {
                 // The narrowest swings fall between two moments.
-                let u = course.slowest(u);
-                let (v, a) = (course.velocity(u), course.acceleration(u));
+                let u = motion.slowest(u);
+                let (v, a) = (motion.velocity(u), motion.acceleration(u));
                 let turn = v.cross(a).abs() / v.length_squared().max(creep);
                 worst = if turn > worst.0 { (turn, u) } else { worst };
             }
@@ -321,15 +321,15 @@ impl Turning {
         Some(slope.map(|s| s * (-far / steep)))
     }
 
-    /// How control points move so that nothing is left of `v` across `a`, and so little of the jerk that the way back
-    /// leaves along the way there: near a stop the turn is half of jerk across `a` over `a`. Of all such moves the
+    /// How control points move so that nothing is left of `v` across `a`, and so little of the jerk that the spline back
+    /// leaves along the spline there: near a stop the turn is half of jerk across `a` over `a`. Of all such moves the
     /// least, by the normal equations of the two. `None`: it is a reversal already.
     fn reversed(&self, four: &[Vec2], v: ([f64; 4], Vec2), jerk: ([f64; 4], Vec2)) -> Option<[Vec2; 4]> {
         let ((v_weights, v), (j_weights, a)) = (v, jerk);
         let across = a.normalized()?.left();
-        let swerve = blend(four, &JERK).dot(across);
+        let slow_turn = blend(four, &JERK).dot(across);
         let may = 2.0 * self.turn * a.length() * REVERSAL_UNDERCUT;
-        let (v_lack, j_lack) = (-v.dot(across), swerve.clamp(-may, may) - swerve);
+        let (v_lack, j_lack) = (-v.dot(across), slow_turn.clamp(-may, may) - slow_turn);
         if v_lack.abs() < self.creep_m * 0.0025 && j_lack == 0.0 {
             return None;
         }

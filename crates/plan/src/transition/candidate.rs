@@ -11,9 +11,9 @@ use lightbots_base::{Limits, Span};
 /// Among more robots than this nobody looks for room to stop behind others: it would take too long.
 const ROOM_MOST: usize = 1000;
 
-/// What ways are bent for.
+/// What ways are deformed for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Wish {
+pub(super) enum Aim {
     /// Nobody passes nearer than is comfortable.
     Comfort,
     /// Who drives behind another could stop if that died, as well.
@@ -96,14 +96,14 @@ impl Candidate {
         self.wrong == 0
     }
 
-    /// Pairs for which ways are to be bent; none where they are too many.
-    pub fn worth_bending(&self, wish: Wish) -> Vec<Closest> {
-        let is_asked = |found: &&Closest| wish == Wish::Room || found.distance_m < self.comfort_m;
+    /// Pairs for which ways are to be deformed; none where they are too many.
+    pub fn worth_deforming(&self, aim: Aim) -> Vec<Closest> {
+        let is_asked = |found: &&Closest| aim == Aim::Room || found.distance_m < self.comfort_m;
         let robots = self.transition.paths.len();
-        let most = match wish {
-            Wish::Comfort => robots / 8 + 4,
+        let most = match aim {
+            Aim::Comfort => robots / 8 + 4,
             // Rows that turn have as many pairs in line as robots.
-            Wish::Room => robots,
+            Aim::Room => robots,
         };
         let asked = self.proof.conflicts.iter().filter(is_asked).copied();
         let asked: Vec<Closest> = asked.take(most + 1).collect();

@@ -6,7 +6,7 @@ use super::feasibility::touching;
 use crate::Meeting;
 use crate::margins::MARGIN_M;
 use crate::proof::Proof;
-use crate::{Stuck, Transition, TransitionProblem};
+use crate::{Infeasible, Transition, TransitionProblem};
 
 /// Pairs named in a message.
 const MOST_NAMED: usize = 4;
@@ -18,12 +18,12 @@ const BOUND_DIAMETERS: f64 = 2.25;
 
 /// Nobody found a way. `left` did not get past each other; where it is empty, the straight lines tell who is in whose
 /// way.
-pub(super) fn stuck(
+pub(super) fn infeasible(
     problem: &TransitionProblem,
     transition: &Transition,
     proof: &Proof,
     mut left: Vec<Meeting>,
-) -> Stuck {
+) -> Infeasible {
     if left.is_empty() {
         left = on_straight_lines(problem, proof);
     }
@@ -50,7 +50,7 @@ pub(super) fn stuck(
             remedy(problem)
         ),
     };
-    Stuck { goals, starts, message }
+    Infeasible { goals, starts, message }
 }
 
 /// Who comes too close on straight lines, the closest first.

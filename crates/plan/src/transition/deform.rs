@@ -1,10 +1,10 @@
 //! Bends the paths of those who pass too close a few millimetres aside, without any time lost.
 
-use super::candidate::{Candidate, Wish, slower_than};
+use super::candidate::{Aim, Candidate, slower_than};
 use super::following;
 use crate::cancel::Cancel;
 use crate::margins::{COMFORT_M, MARGIN_M};
-use crate::motion::{Bend, turn_time, whole_millis};
+use crate::motion::{Displacements, turn_time, whole_millis};
 use crate::{Closest, Path, Transition, TransitionProblem};
 use lightbots_base::{Piece, Span, Vec2};
 use std::collections::BTreeMap;
@@ -16,19 +16,19 @@ const ROUNDS: usize = 6;
 /// Robots times rounds that are spent on room to stop behind others.
 const ROOM_WORK: usize = 2_000;
 /// Bends that need everybody to be slower than this many times are not worth it.
-const fn slowest(wish: Wish) -> f64 {
-    match wish {
-        Wish::Comfort => 1.06,
-        Wish::Room => 1.04,
+const fn slowest(aim: Aim) -> f64 {
+    match aim {
+        Aim::Comfort => 1.06,
+        Aim::Room => 1.04,
     }
 }
 
-/// Pushed a little farther than asked for, because a bend has ebbed a little where the pair is closest then.
+/// Pushed a little farther than asked for, because a displacement has ebbed a little where the pair is closest then.
 const EXTRA: f64 = 1.15;
 
 /// The best of the straight candidate for `start_of[goal]` and what bending makes of it. Only where few are in
 /// conflict.
-pub(super) fn nudge(
+pub(super) fn deform(
     problem: &TransitionProblem,
     start_of: &[usize],
     straight: Candidate,
@@ -37,11 +37,11 @@ pub(super) fn nudge(
 ) -> Candidate {
     let wished = straight.transition.duration;
     if wished <= straight.transition.least {
-        return bent(problem, straight, rounds, cancel);
+        return deformed(problem, straight, rounds, cancel);
     }
-    // Ways bent at full speed tell the least time, and may be driven as slowly as wished.
+    // Ways deformed at full speed tell the least time, and may be driven as slowly as wished.
     let hurried = TransitionProblem { duration: None, ..problem.clone() };
-    let mut quick = bent(&hurried, Candidate::straight(&hurried, start_of, cancel), rounds, cancel);
+    let mut quick = deformed(&hurried, Candidate::straight(&hurried, start_of, cancel), rounds, cancel);
     if !quick.is_better_than(&straight) {
         return straight;
     }
@@ -59,14 +59,19 @@ pub(super) fn nudge(
 
 /// The best of the candidate, which is as quick as may be, and what bending makes of it: comfortable first, then with room
 /// to stop behind others.
-fn bent(problem: &TransitionProblem, straight: Candidate, rounds: usize, cancel: Cancel<'_>) -> Candidate {
+fn deformed(
+    problem: &TransitionProblem,
+    straight: Candidate,
+    rounds: usize,
+    cancel: Cancel<'_>,
+) -> Candidate {
     let lines = straight.transition.paths.clone();
-    let mut bends: BTreeMap<usize, Bend> = BTreeMap::new();
+    let mut displacements: BTreeMap<usize, Displacements> = BTreeMap::new();
     let least = straight.transition.least;
     let mut best = straight;
-    for wish in [Wish::Comfort, Wish::Room] {
-        let mut conflicts = best.worth_bending(wish);
-        let most = if wish == Wish::Room { ROOM_WORK / lines.len().max(1) } else { ROUNDS };
+    for aim in [Aim::Comfort, Aim::Room] {
+        let mut conflicts = best.worth_deforming(aim);
+        let most = if aim == Aim::Room { ROOM_WORK / lines.len().max(1) } else { ROUNDS };
         for _ in 0..rounds.min(ROUNDS).min(most) {
             if conflicts.is_empty() || cancel.is_wanted() {
                 break;
@@ -76,38 +81,43 @@ fn bent(problem: &TransitionProblem, straight: Candidate, rounds: usize, cancel:
                 if number.is_multiple_of(POLLED) && cancel.is_wanted() {
                     return best;
                 }
-                part(problem, &lines, found, wish, &mut bends);
+                part(problem, &lines, found, aim, &mut displacements);
             }
-            for (&robot, bend) in &bends {
-                paths[robot] = bend.applied_to(&lines[robot]);
+            for (&robot, displacement) in &displacements {
+                paths[robot] = displacement.applied_to(&lines[robot]);
             }
-            let mut bent = Candidate::of_paths(problem, paths, best.transition.goal_of.clone(), 1.0, cancel);
-            bent.transition.least = least;
-            conflicts = bent.worth_bending(wish);
-            if !bent.proof.faults.is_empty() && bent.is_roomier_than(&best) {
-                bent = slowed(problem, bent, wish, cancel);
+            let mut deformed =
+                Candidate::of_paths(problem, paths, best.transition.goal_of.clone(), 1.0, cancel);
+            deformed.transition.least = least;
+            conflicts = deformed.worth_deforming(aim);
+            if !deformed.proof.faults.is_empty() && deformed.is_roomier_than(&best) {
+                deformed = time_scaled(problem, deformed, aim, cancel);
             }
-            if bent.is_better_than(&best) {
-                best = bent;
+            if deformed.is_better_than(&best) {
+                best = deformed;
             }
         }
     }
     best
 }
 
-/// The same ways as much slower as limits ask for: who drives at the limit already has nothing left for a bend.
-fn slowed(problem: &TransitionProblem, bent: Candidate, wish: Wish, cancel: Cancel<'_>) -> Candidate {
-    let hasty = bent.proof.faults.iter().map(|fault| haste(&bent.transition.paths[fault.robot], problem));
-    let factor = hasty.fold(1.0, f64::max) * 1.000_5;
-    if factor > slowest(wish) {
-        return bent;
+/// The same ways as much slower as limits ask for: who drives at the limit already has nothing left for a displacement.
+fn time_scaled(problem: &TransitionProblem, deformed: Candidate, aim: Aim, cancel: Cancel<'_>) -> Candidate {
+    let too_fast = deformed
+        .proof
+        .faults
+        .iter()
+        .map(|fault| time_scale(&deformed.transition.paths[fault.robot], problem));
+    let factor = too_fast.fold(1.0, f64::max) * 1.000_5;
+    if factor > slowest(aim) {
+        return deformed;
     }
-    let paths = bent.transition.paths.iter().map(|path| slower(path, Span::ZERO, factor)).collect();
-    Candidate::of_paths(problem, paths, bent.transition.goal_of, 1.0, cancel)
+    let paths = deformed.transition.paths.iter().map(|path| slower(path, Span::ZERO, factor)).collect();
+    Candidate::of_paths(problem, paths, deformed.transition.goal_of, 1.0, cancel)
 }
 
 /// How many times as slow a path must be to keep speed and acceleration, by its control points.
-fn haste(path: &Path, problem: &TransitionProblem) -> f64 {
+fn time_scale(path: &Path, problem: &TransitionProblem) -> f64 {
     let (speed, accel) = (problem.limits.speed_mps.max(1e-3), problem.limits.accel_mps2.max(1e-3));
     path.as_ref().timed().fold(1.0, |most, (from, _, piece)| {
         let seconds = piece.duration.as_secs().max(1e-6);
@@ -134,8 +144,8 @@ fn part(
     problem: &TransitionProblem,
     lines: &[Path],
     found: &Closest,
-    wish: Wish,
-    bends: &mut BTreeMap<usize, Bend>,
+    aim: Aim,
+    displacements: &mut BTreeMap<usize, Displacements>,
 ) {
     let (i, j) = found.pair;
     let way_m = |disc: usize| lines.get(disc).map_or(0.0, |line| line.start.distance(line.as_ref().end()));
@@ -145,9 +155,9 @@ fn part(
     };
     let both_m = way_m(i) + way_m(j);
     let Some(apart) = (place(i) - place(j)).normalized() else { return };
-    let room_m = match wish {
-        Wish::Comfort => problem.limits.contact_m() + COMFORT_M,
-        Wish::Room => following::wanted_m(lines, found, &problem.limits, 1.0),
+    let room_m = match aim {
+        Aim::Comfort => problem.limits.contact_m() + COMFORT_M,
+        Aim::Room => following::wanted_m(lines, found, &problem.limits, 1.0),
     };
     // What ends closer than comfortable need not be pushed farther than that.
     let ends_m = |at_end: bool| {
@@ -165,7 +175,7 @@ fn part(
     let mut push = |disc: usize, direction: Vec2| {
         let share = way_m(disc) / both_m;
         if share > 0.0 {
-            bends.entry(disc).or_default().push(found.at, direction * (wanted_m * share * EXTRA));
+            displacements.entry(disc).or_default().push(found.at, direction * (wanted_m * share * EXTRA));
         }
     };
     push(i, apart);

@@ -1,7 +1,7 @@
 //! What cannot be solved by anybody, said in words.
 
 use super::spares::distance_to;
-use crate::{Stuck, TransitionProblem};
+use crate::{Infeasible, TransitionProblem};
 use lightbots_base::Vec2;
 use lightbots_show::Obstacle;
 
@@ -11,19 +11,19 @@ const FARTHEST_M: f64 = 10_000.0;
 const SANE: core::ops::RangeInclusive<f64> = 1e-4..=1e5;
 
 /// Whether all numbers are such that the planner can count on them; nothing else must be tried with what is not.
-pub(super) fn measurable(problem: &TransitionProblem) -> Result<(), Stuck> {
+pub(super) fn measurable(problem: &TransitionProblem) -> Result<(), Infeasible> {
     // Comparisons are false for what is no number.
     let is_place = |at: &Vec2| at.x.abs() <= FARTHEST_M && at.y.abs() <= FARTHEST_M;
     let no_place = |who: &str, at: Vec2| {
         let message =
             format!("{who} at ({:?}, {:?}) m is on no floor: bring it nearer to the middle", at.x, at.y);
-        Stuck { goals: Vec::new(), starts: Vec::new(), message }
+        Infeasible { goals: Vec::new(), starts: Vec::new(), message }
     };
     if let Some(goal) = problem.goals.iter().position(|at| !is_place(at)) {
-        return Err(Stuck { goals: vec![goal], ..no_place("a pixel", problem.goals[goal]) });
+        return Err(Infeasible { goals: vec![goal], ..no_place("a pixel", problem.goals[goal]) });
     }
     if let Some(start) = problem.starts.iter().position(|at| !is_place(at)) {
-        return Err(Stuck { starts: vec![start], ..no_place("a robot", problem.starts[start]) });
+        return Err(Infeasible { starts: vec![start], ..no_place("a robot", problem.starts[start]) });
     }
     if let Some(&at) = problem.standing.iter().find(|at| !is_place(at)) {
         return Err(no_place("a robot", at));
@@ -34,22 +34,22 @@ pub(super) fn measurable(problem: &TransitionProblem) -> Result<(), Stuck> {
     };
     if let Some(index) = problem.obstacles.iter().position(|thing| !is_shape(thing)) {
         let message = format!("no-go area {} is no disc or rectangle on a floor: draw it again", index + 1);
-        return Err(stuck(Vec::new(), message));
+        return Err(infeasible(Vec::new(), message));
     }
     let half = problem.half_floor;
     if is_sane(problem) && is_place(&half) {
         return Ok(());
     }
     let message = "the floor is too small or too large, or a limit of the robots makes no sense: mend them";
-    Err(stuck(Vec::new(), message.into()))
+    Err(infeasible(Vec::new(), message.into()))
 }
 
 /// Whether the goals can be shown at all.
-pub(super) fn possible(problem: &TransitionProblem) -> Result<(), Stuck> {
+pub(super) fn possible(problem: &TransitionProblem) -> Result<(), Infeasible> {
     let (starts, goals) = (&problem.starts, &problem.goals);
     if goals.len() > starts.len() {
         let message = format!("{} pixels need as many robots, but there are {}", goals.len(), starts.len());
-        return Err(stuck(Vec::new(), message));
+        return Err(infeasible(Vec::new(), message));
     }
     let contact = problem.limits.contact_m();
     if let Some((a, b, distance)) = touching(goals, contact) {
@@ -58,7 +58,7 @@ pub(super) fn possible(problem: &TransitionProblem) -> Result<(), Stuck> {
             distance * 1e3,
             (contact + crate::margins::MARGIN_M) * 1e3
         );
-        return Err(stuck(vec![a, b], message));
+        return Err(infeasible(vec![a, b], message));
     }
     for (goal, &place) in goals.iter().enumerate() {
         off_floor(problem, goal, place)?;
@@ -75,11 +75,11 @@ fn is_sane(problem: &TransitionProblem) -> bool {
     of_robots.iter().all(|value| SANE.contains(value)) && room.iter().all(|&value| value > 0.0)
 }
 
-fn stuck(goals: Vec<usize>, message: String) -> Stuck {
-    Stuck { goals, starts: Vec::new(), message }
+fn infeasible(goals: Vec<usize>, message: String) -> Infeasible {
+    Infeasible { goals, starts: Vec::new(), message }
 }
 
-fn off_floor(problem: &TransitionProblem, goal: usize, place: Vec2) -> Result<(), Stuck> {
+fn off_floor(problem: &TransitionProblem, goal: usize, place: Vec2) -> Result<(), Infeasible> {
     let (half, radius) = (problem.half_floor, problem.limits.radius_m);
     if place.x.abs() <= half.x - radius + 1e-6 && place.y.abs() <= half.y - radius + 1e-6 {
         return Ok(());
@@ -90,19 +90,19 @@ fn off_floor(problem: &TransitionProblem, goal: usize, place: Vec2) -> Result<()
         place.y,
         radius * 1e3
     );
-    Err(stuck(vec![goal], message))
+    Err(infeasible(vec![goal], message))
 }
 
-fn blocked(problem: &TransitionProblem, goal: usize, place: Vec2) -> Result<(), Stuck> {
+fn blocked(problem: &TransitionProblem, goal: usize, place: Vec2) -> Result<(), Infeasible> {
     let radius = problem.limits.radius_m;
     if problem.obstacles.iter().any(|thing| distance_to(thing, place) < radius) {
         let message = format!("a pixel is nearer than {:.0} mm to a no-go area", radius * 1e3);
-        return Err(stuck(vec![goal], message));
+        return Err(infeasible(vec![goal], message));
     }
     if problem.standing.iter().any(|disc| disc.distance(place) < 2.0 * radius) {
         let message =
             format!("a robot that does not move stands at a pixel; {:.0} mm between them do", 2e3 * radius);
-        return Err(stuck(vec![goal], message));
+        return Err(infeasible(vec![goal], message));
     }
     Ok(())
 }
@@ -126,8 +126,8 @@ pub(crate) fn touching(places: &[Vec2], reach_m: f64) -> Option<(usize, usize, f
 }
 
 /// Pins that contradict each other.
-pub(super) fn pins(problem: &TransitionProblem) -> Stuck {
+pub(super) fn pins(problem: &TransitionProblem) -> Infeasible {
     let goals =
         (0..problem.goals.len().min(problem.pinned.len())).filter(|&goal| problem.pinned[goal].is_some());
-    stuck(goals.collect(), "pixels are bound to robots that are not there or are bound twice".into())
+    infeasible(goals.collect(), "pixels are bound to robots that are not there or are bound twice".into())
 }

@@ -18,13 +18,13 @@ use crate::assignment::Choice;
 use crate::cancel::{Cancel, Cancelled, unless};
 use crate::proof::{Proof, prove_unless};
 use crate::solve::repair_unless;
-use crate::{Repaired, Stuck, Transition, TransitionProblem};
+use crate::{Infeasible, Repaired, Transition, TransitionProblem};
 use candidate::Candidate;
 use reachability::Walls;
-use straight::relax;
+use straight::straight_lines;
 
 /// The quickest proven transition that can be found, or why there is none.
-pub fn transition(problem: &TransitionProblem) -> Result<Transition, Stuck> {
+pub fn transition(problem: &TransitionProblem) -> Result<Transition, Infeasible> {
     attempt(problem, Cancel::NEVER).into_result()
 }
 
@@ -33,36 +33,36 @@ pub fn transition(problem: &TransitionProblem) -> Result<Transition, Stuck> {
 pub fn transition_unless(
     problem: &TransitionProblem,
     is_wanted: &dyn Fn() -> bool,
-) -> Result<Result<Transition, Stuck>, Cancelled> {
+) -> Result<Result<Transition, Infeasible>, Cancelled> {
     unless(is_wanted, |cancel| attempt(problem, cancel).into_result())
 }
 
 /// A transition that can be drawn even where it must not be driven.
 pub(crate) struct Attempt {
-    /// The best there is; straight lines that conflict if `stuck` says so.
+    /// The best there is; straight lines that conflict if `infeasible` says so.
     pub transition: Transition,
     /// Why it must not be driven.
-    pub stuck: Option<Stuck>,
+    pub infeasible: Option<Infeasible>,
 }
 
 impl Attempt {
-    fn into_result(self) -> Result<Transition, Stuck> {
-        match self.stuck {
+    fn into_result(self) -> Result<Transition, Infeasible> {
+        match self.infeasible {
             None => Ok(self.transition),
-            Some(stuck) => Err(stuck),
+            Some(infeasible) => Err(infeasible),
         }
     }
 }
 
 /// The best transition that can be found, proven or not.
 pub(crate) fn attempt(problem: &TransitionProblem, cancel: Cancel<'_>) -> Attempt {
-    if let Err(stuck) = feasibility::measurable(problem) {
-        return Attempt { transition: candidate::unmoved(problem), stuck: Some(stuck) };
+    if let Err(infeasible) = feasibility::measurable(problem) {
+        return Attempt { transition: candidate::unmoved(problem), infeasible: Some(infeasible) };
     }
     let impossible = feasibility::possible(problem).err();
     let Some(choice) = Choice::unless(cancel, &problem.starts, &problem.goals, &problem.pinned) else {
-        let stuck = impossible.unwrap_or_else(|| feasibility::pins(problem));
-        return Attempt { transition: candidate::standing_still(problem), stuck: Some(stuck) };
+        let infeasible = impossible.unwrap_or_else(|| feasibility::pins(problem));
+        return Attempt { transition: candidate::standing_still(problem), infeasible: Some(infeasible) };
     };
     let lower_bound_s = choice.bottleneck_m() / problem.limits.speed_mps.max(1e-3);
     let mut attempt = match reachability::look(problem, cancel) {
@@ -72,12 +72,12 @@ pub(crate) fn attempt(problem: &TransitionProblem, cancel: Cancel<'_>) -> Attemp
             let choice = Choice::unless(cancel, &sent.starts, &sent.goals, &sent.pinned).unwrap_or(choice);
             solve(&sent, &choice, cancel)
         }
-        Walls::Closed(stuck) => {
+        Walls::Closed(infeasible) => {
             let transition = choice.least_squares().solve(0.0).map_or_else(
                 || candidate::standing_still(problem),
                 |start_of| Candidate::straight(problem, &start_of, cancel).transition,
             );
-            Attempt { transition, stuck: Some(stuck) }
+            Attempt { transition, infeasible: Some(infeasible) }
         }
     };
     // Where spare robots wait is nobody's goal.
@@ -85,7 +85,7 @@ pub(crate) fn attempt(problem: &TransitionProblem, cancel: Cancel<'_>) -> Attemp
         *goal = goal.filter(|&goal| goal < problem.goals.len());
     }
     attempt.transition.lower_bound_s = lower_bound_s;
-    attempt.stuck = impossible.or(attempt.stuck);
+    attempt.infeasible = impossible.or(attempt.infeasible);
     attempt
 }
 
@@ -96,7 +96,7 @@ fn solve(problem: &TransitionProblem, choice: &Choice, cancel: Cancel<'_>) -> At
     }
     with_spares(problem, choice, cancel).unwrap_or_else(|| Attempt {
         transition: candidate::standing_still(problem),
-        stuck: Some(feasibility::pins(problem)),
+        infeasible: Some(feasibility::pins(problem)),
     })
 }
 
@@ -110,16 +110,18 @@ fn with_spares(problem: &TransitionProblem, choice: &Choice, cancel: Cancel<'_>)
 
 /// Straight lines if the proof can be made to hold, else what repair makes of them. Every robot has a goal here.
 fn settle(problem: &TransitionProblem, choice: &Choice, cancel: Cancel<'_>) -> Attempt {
-    match relax(problem, choice, cancel) {
-        Some(candidate) if candidate.holds() => Attempt { transition: candidate.transition, stuck: None },
+    match straight_lines(problem, choice, cancel) {
+        Some(candidate) if candidate.holds() => {
+            Attempt { transition: candidate.transition, infeasible: None }
+        }
         Some(candidate) if feasibility::possible(problem).is_ok() => mend(problem, candidate, cancel),
         Some(Candidate { transition, proof, .. }) => {
-            let stuck = Some(conflict::stuck(problem, &transition, &proof, Vec::new()));
-            Attempt { transition, stuck }
+            let infeasible = Some(conflict::infeasible(problem, &transition, &proof, Vec::new()));
+            Attempt { transition, infeasible }
         }
         None => Attempt {
             transition: candidate::standing_still(problem),
-            stuck: Some(feasibility::pins(problem)),
+            infeasible: Some(feasibility::pins(problem)),
         },
     }
 }
@@ -136,10 +138,11 @@ fn mend(problem: &TransitionProblem, conflicting: Candidate, cancel: Cancel<'_>)
         Ok(Transition { goal_of, paths, duration, least, lower_bound_s: 0.0, closest })
     });
     match repaired {
-        Ok(transition) => Attempt { transition, stuck: None },
+        Ok(transition) => Attempt { transition, infeasible: None },
         Err(left) => {
-            let stuck = Some(conflict::stuck(problem, &conflicting.transition, &conflicting.proof, left));
-            Attempt { transition: conflicting.transition, stuck }
+            let infeasible =
+                Some(conflict::infeasible(problem, &conflicting.transition, &conflicting.proof, left));
+            Attempt { transition: conflicting.transition, infeasible }
         }
     }
 }

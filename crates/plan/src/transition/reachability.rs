@@ -6,7 +6,7 @@ use lightbots_base::Vec2;
 use crate::assignment::Choice;
 use crate::cancel::Cancel;
 use crate::roads::regions::{Gap, Regions, Thing, enough_m};
-use crate::{Stuck, TransitionProblem};
+use crate::{Infeasible, TransitionProblem};
 
 /// Things named in a message.
 const MOST_NAMED: usize = 4;
@@ -20,7 +20,7 @@ pub(super) enum Walls {
     /// Robots must be sent elsewhere: `[goal]` is the start that goes there.
     Apart(Vec<Option<usize>>),
     /// There is somebody or something that no way leads to.
-    Closed(Stuck),
+    Closed(Infeasible),
 }
 
 /// Looks at a transition.
@@ -36,15 +36,15 @@ pub(super) fn look(problem: &TransitionProblem, cancel: Cancel<'_>) -> Walls {
     if goals.iter().chain(&starts).all(|&part| goals.first() == Some(&part)) {
         return Walls::Open;
     }
-    let scene = Scene { problem, regions, starts, goals };
-    match scene.closed() {
-        Some(stuck) => Walls::Closed(stuck),
-        None => scene.sent(cancel).map_or(Walls::Open, Walls::Apart),
+    let partition = Partition { problem, regions, starts, goals };
+    match partition.closed() {
+        Some(infeasible) => Walls::Closed(infeasible),
+        None => partition.sent(cancel).map_or(Walls::Open, Walls::Apart),
     }
 }
 
 /// A transition and the part of the floor everybody is in.
-struct Scene<'a> {
+struct Partition<'a> {
     problem: &'a TransitionProblem,
     regions: Regions,
     /// `[start]`.
@@ -53,20 +53,20 @@ struct Scene<'a> {
     goals: Vec<u32>,
 }
 
-impl Scene<'_> {
+impl Partition<'_> {
     fn pin(&self, goal: usize) -> Option<usize> {
         self.problem.pinned.get(goal).copied().flatten()
     }
 
     /// Who cannot get where they must.
-    fn closed(&self) -> Option<Stuck> {
+    fn closed(&self) -> Option<Infeasible> {
         let pinned = (0..self.goals.len()).filter_map(|goal| self.pin(goal).map(|start| (goal, start)));
         if let Some((goal, start)) =
             pinned.clone().find(|&(goal, start)| self.goals[goal] != self.starts[start])
         {
             let (from, to) = (self.problem.starts[start], self.problem.goals[goal]);
             let who = format!("the robot at {} is kept from the pixel at {}", place(from), place(to));
-            return Some(self.stuck(
+            return Some(self.infeasible(
                 who,
                 self.smaller(self.starts[start], self.goals[goal]),
                 vec![goal],
@@ -92,11 +92,11 @@ impl Scene<'_> {
             more => format!("{more} robots such as the one at {at} are walled in"),
         };
         let part = self.starts[walled[0]];
-        Some(self.stuck(who, part, Vec::new(), walled))
+        Some(self.infeasible(who, part, Vec::new(), walled))
     }
 
     /// More pixels in one part than robots.
-    fn pixels_cut_off(&self, goals: Vec<usize>, robots: usize) -> Stuck {
+    fn pixels_cut_off(&self, goals: Vec<usize>, robots: usize) -> Infeasible {
         let at = place(self.problem.goals[goals[0]]);
         let what = match goals.len() {
             1 => format!("the pixel at {at} is cut off"),
@@ -107,7 +107,7 @@ impl Scene<'_> {
             1 => format!("{what} with only one robot"),
             few => format!("{what} with only {few} robots"),
         };
-        self.stuck(who, self.goals[goals[0]], goals, Vec::new())
+        self.infeasible(who, self.goals[goals[0]], goals, Vec::new())
     }
 
     /// Of two parts the one with fewer robots and pixels.
@@ -116,7 +116,7 @@ impl Scene<'_> {
         if count(a) < count(b) { a } else { b }
     }
 
-    fn stuck(&self, who: String, part: u32, goals: Vec<usize>, starts: Vec<usize>) -> Stuck {
+    fn infeasible(&self, who: String, part: u32, goals: Vec<usize>, starts: Vec<usize>) -> Infeasible {
         let things = named(&self.regions.around(part));
         let remedy = match self.regions.way_out(part) {
             Some(gap) if gap.wide_m >= LEAST_GAP_M => self.wider(&gap),
@@ -125,7 +125,7 @@ impl Scene<'_> {
                 format!("leave a gap of {:.0} mm", whole_mm(enough))
             }
         };
-        Stuck { goals, starts, message: format!("{who} by {things}; {remedy}") }
+        Infeasible { goals, starts, message: format!("{who} by {things}; {remedy}") }
     }
 
     fn wider(&self, gap: &Gap) -> String {
@@ -248,10 +248,10 @@ mod tests {
 
     #[test]
     fn a_pixel_in_a_box_is_named_with_its_walls_and_the_gap_that_would_do() {
-        let stuck = transition(&problem(&OUTSIDE, &[(0.6, 0.8), (0.0, 0.1)], boxed(0.058))).unwrap_err();
-        assert_eq!(stuck.goals, [1]);
+        let infeasible = transition(&problem(&OUTSIDE, &[(0.6, 0.8), (0.0, 0.1)], boxed(0.058))).unwrap_err();
+        assert_eq!(infeasible.goals, [1]);
         assert_eq!(
-            stuck.message,
+            infeasible.message,
             "the pixel at (0.00, 0.10) m is cut off from all robots by areas 1, 2, 3, 4 and 1 more; \
              the gap between areas 4 and 5 near (0.00, 0.22) m is 58.0 mm wide, 61 mm do"
         );
@@ -283,13 +283,13 @@ mod tests {
         let mut problem = problem(&[OUTSIDE[0], (0.0, 0.0)], &[(0.0, 0.1), OUTSIDE[1]], boxed(0.02));
         assert!(transition(&problem).is_ok());
         problem.pinned = vec![Some(0)];
-        let stuck = transition(&problem).unwrap_err();
+        let infeasible = transition(&problem).unwrap_err();
         assert!(
-            stuck.message.starts_with(
+            infeasible.message.starts_with(
                 "the robot at (-0.50, 1.00) m is kept from the pixel at (0.00, 0.10) m by areas"
             )
         );
-        assert_eq!((stuck.goals, stuck.starts), (vec![0], vec![0]));
+        assert_eq!((infeasible.goals, infeasible.starts), (vec![0], vec![0]));
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! Makes straight lines hold: small bends for those who pass too close, then longer ways for all.
 
 use super::candidate::Candidate;
-use super::deform::nudge;
+use super::deform::deform;
 use crate::TransitionProblem;
 use crate::assignment::Choice;
 use crate::cancel::Cancel;
@@ -13,7 +13,11 @@ const COMFORT_WORK: usize = 30_000;
 
 /// The best lines: comfortable ones if they can be had, else legal ones, else those with the fewest conflicts. `None`
 /// where there is no assignment at all.
-pub(super) fn relax(problem: &TransitionProblem, choice: &Choice, cancel: Cancel<'_>) -> Option<Candidate> {
+pub(super) fn straight_lines(
+    problem: &TransitionProblem,
+    choice: &Choice,
+    cancel: Cancel<'_>,
+) -> Option<Candidate> {
     let mut minimiser = choice.least_squares();
     let mut best: Option<Candidate> = None;
     let mut before = None;
@@ -28,7 +32,7 @@ pub(super) fn relax(problem: &TransitionProblem, choice: &Choice, cancel: Cancel
         let straight = Candidate::straight(problem, &start_of, cancel);
         let rounds = if straight.holds() { COMFORT_WORK / problem.starts.len().max(1) } else { usize::MAX };
         let is_fine = straight.is_comfortable();
-        let candidate = if is_fine { straight } else { nudge(problem, &start_of, straight, rounds, cancel) };
+        let candidate = if is_fine { straight } else { deform(problem, &start_of, straight, rounds, cancel) };
         before = Some(start_of);
         if candidate.holds() || choice.is_settled() {
             return Some(candidate);

@@ -35,7 +35,8 @@ fn random_pairs_of_frames_are_solved_and_proven() {
             continue;
         };
         let problem = problem(starts, goals, 1.5);
-        let plan = transition(&problem).unwrap_or_else(|stuck| panic!("{count} at {apart}: {stuck:?}"));
+        let plan =
+            transition(&problem).unwrap_or_else(|infeasible| panic!("{count} at {apart}: {infeasible:?}"));
         let least = plan.lower_bound_s + 0.62;
         assert!(plan.duration.as_secs() <= least * 1.2, "{count} at {apart}: {:?} {least}", plan.duration);
         assert!(plan.closest.unwrap().distance_m >= 0.057 - 1e-6);
@@ -190,7 +191,7 @@ fn robots_that_must_cross_are_led_around_each_other() {
         let goals = scatter(&mut seeded, count, 0.12, 1.5).unwrap();
         let mut fixed = problem(starts, goals, 1.5);
         fixed.pinned = (0..count).map(Some).collect();
-        let plan = transition(&fixed).unwrap_or_else(|stuck| panic!("{count}: {stuck:?}"));
+        let plan = transition(&fixed).unwrap_or_else(|infeasible| panic!("{count}: {infeasible:?}"));
         assert!(plan.closest.unwrap().distance_m >= 0.057 - 1e-6);
         assert!(plan.duration.as_secs() <= (plan.lower_bound_s + 0.62) * 1.2);
     }
@@ -209,13 +210,13 @@ fn shuffled(side: usize, apart: f64) -> TransitionProblem {
 
 #[test]
 fn who_is_left_in_each_others_way_is_named_with_a_distance_that_does() {
-    let stuck = transition(&shuffled(6, 0.058)).unwrap_err();
-    let message = &stuck.message;
+    let infeasible = transition(&shuffled(6, 0.058)).unwrap_err();
+    let message = &infeasible.message;
     assert!((2..=8).contains(&message.matches("to (").count()), "{message}");
     assert!(message.contains(" near (") && message.contains("pixels 122 mm apart"), "{message}");
-    assert!(stuck.goals.len() >= 2 && stuck.goals.len() == stuck.starts.len());
+    assert!(infeasible.goals.len() >= 2 && infeasible.goals.len() == infeasible.starts.len());
     for side in [6, 9] {
-        transition(&shuffled(side, 0.122)).unwrap_or_else(|stuck| panic!("{side}: {stuck:?}"));
+        transition(&shuffled(side, 0.122)).unwrap_or_else(|infeasible| panic!("{side}: {infeasible:?}"));
     }
 }
 
@@ -227,8 +228,8 @@ fn two_who_cannot_pass_in_a_corridor_are_named_alone() {
     let mut corridor = problem(places, goals, 0.03);
     corridor.half_floor.x = 0.6;
     corridor.pinned = (0..6).map(Some).collect();
-    let stuck = transition(&corridor).unwrap_err();
-    assert_eq!(stuck.goals, [2, 3], "{}", stuck.message);
+    let infeasible = transition(&corridor).unwrap_err();
+    assert_eq!(infeasible.goals, [2, 3], "{}", infeasible.message);
     let expected = "to (0.10, 0.00) and to (-0.10, 0.00) near (0.00, 0.00) m; leave more room";
-    assert!(stuck.message.contains(expected), "{}", stuck.message);
+    assert!(infeasible.message.contains(expected), "{}", infeasible.message);
 }
