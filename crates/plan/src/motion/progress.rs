@@ -4,13 +4,13 @@ use lightbots_base::Limits;
 use lightbots_show::Easing;
 
 /// How far everybody is at each moment, for a longest way.
-pub(crate) struct Progress {
+pub(crate) struct ProgressLaw {
     /// From start to end, seconds.
     pub drive_s: f64,
     ramp_s: f64,
 }
 
-impl Progress {
+impl ProgressLaw {
     /// The swiftest, or gentlest, for a longest way, stretched by `stretch`.
     pub fn new(longest_m: f64, limits: &Limits, easing: Easing, stretch: f64) -> Self {
         let (speed, accel) = (limits.speed_mps, limits.accel_mps2);
@@ -51,7 +51,7 @@ mod tests {
     #[test]
     fn a_pace_keeps_the_limits_it_is_made_for() {
         for (longest, easing) in [(2.0, Easing::Swift), (0.05, Easing::Swift), (2.0, Easing::Gentle)] {
-            let progress = Progress::new(longest, &Limits::ELISA_3, easing, 1.0);
+            let progress = ProgressLaw::new(longest, &Limits::ELISA_3, easing, 1.0);
             let at = |i: i32| longest * progress.share(progress.drive_s * f64::from(i) / 1000.0);
             let step = progress.drive_s / 1000.0;
             for i in 1..1000 {

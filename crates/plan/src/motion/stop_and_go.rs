@@ -16,7 +16,7 @@ const EASE: f64 = 1.002;
 const SETTLING_RAD: f64 = 0.2;
 const SETTLING_S: f64 = 0.18;
 
-/// The paths through `waypoints[step][robot]`, as slow as is wished for; `None` where somebody waypoints too often for a path.
+/// The paths through `waypoints[step][robot]`, as slow as is wished for; `None` where a path has too many pieces.
 pub(crate) fn timed_paths(
     instance: &Instance,
     waypoints: &[Vec<Vec2>],

@@ -60,8 +60,8 @@ pub(crate) struct Effort {
     pub clearances: Clearances,
 }
 
-/// A splines free of contacts, or who is in whose way when fewest are where the effort did not do. Where a stagnation does not
-/// bring much there is a little more time for the next. The splines's time_scale says how much slowdown still it must be driven.
+/// Splines without contacts, or the contacts of the sweep that left fewest. The time scale of the result says by which
+/// factor it must still be slowed down.
 pub(crate) fn relax(
     instance: &Instance,
     splines: SplineSet,

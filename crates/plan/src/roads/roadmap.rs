@@ -43,8 +43,8 @@ pub(crate) struct Roadmap {
 }
 
 impl Roadmap {
-    /// The roadmap of a instance with a lattice of this pitch, but for ends so far off the floor's edge; `None` where it would
-    /// be too large.
+    /// The roadmap of an instance with a lattice of this pitch. All nodes but starts and ends are `off_edge_m` from the
+    /// floor's edge. `None` where it would be too large.
     pub fn new(
         instance: &Instance,
         visibility: &VisibilityGraph,

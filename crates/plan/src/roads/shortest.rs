@@ -1,5 +1,5 @@
-//! The shortest path of one robot shortest_path walls: over the lattice, then pulled without_detours; where the lattice does not fit
-//! through, from corner to corner.
+//! The shortest path of one robot around walls: over the lattice, then without needless corners. Where the lattice does
+//! not fit through a gap, the path follows the visibility graph.
 
 use std::cell::OnceCell;
 

@@ -3,7 +3,7 @@
 use lightbots_base::Vec2;
 use lightbots_show::Easing;
 
-use crate::motion::progress::Progress;
+use crate::motion::progress::ProgressLaw;
 use crate::optimise::cells::Cells;
 use crate::solve::path_set::{PathSet, crowding, point_along};
 use crate::spline::retime::{moments, time_scaled};
@@ -63,7 +63,7 @@ impl Manner {
 pub(crate) struct Guess<'a> {
     path_set: &'a PathSet<'a>,
     pub manner: Manner,
-    progress: Progress,
+    progress: ProgressLaw,
     /// How little it promises: how much of others is in everybody's way, how much too fast they are, and how odd it is.
     pub badness: f64,
     /// The same but for how odd it is.
@@ -76,7 +76,7 @@ impl<'a> Guess<'a> {
     /// The guess of a manner, judged by who comes closer than `near_m`.
     pub fn new(path_set: &'a PathSet<'a>, easing: Easing, manner: Manner, near_m: f64) -> Self {
         let longer = 1.0 + 2.0 * manner.bow * manner.bow;
-        let progress = Progress::new(path_set.longest_m, &path_set.instance.limits, easing, longer);
+        let progress = ProgressLaw::new(path_set.longest_m, &path_set.instance.limits, easing, longer);
         let congestion = [0.0; SAMPLES + 1];
         let mut guess = Self { path_set, manner, progress, badness: 0.0, plain_badness: 0.0, congestion };
         (guess.plain_badness, guess.congestion) = guess.judged(near_m);

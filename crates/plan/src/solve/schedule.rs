@@ -8,7 +8,7 @@ use super::Rejected;
 use crate::Meeting;
 use crate::instance::Instance;
 use crate::margins::EDGE_M;
-use crate::motion::progress::Progress;
+use crate::motion::progress::ProgressLaw;
 use crate::optimise::contacts::Clearances;
 use crate::optimise::relaxation::{Effort, Relaxation, relax};
 use crate::roads::lattice::Lattice;
@@ -113,7 +113,7 @@ pub(crate) fn best(instance: &Instance, easing: Easing, proven: Judge) -> Result
     let visibility = OnceCell::new();
     let shortest_paths = shortest_paths(instance, &lattice, &visibility).ok_or_else(Vec::new)?;
     let path_set = PathSet::new(instance, &shortest_paths);
-    let least_s = Progress::new(path_set.longest_m, &instance.limits, easing, 1.0).drive_s;
+    let least_s = ProgressLaw::new(path_set.longest_m, &instance.limits, easing, 1.0).drive_s;
     let mut attempts =
         Attempts { instance, proven, least_s, work: MOST_WORK, best: Err(Vec::new()), weight: 1.0 };
     // Large crowds seldom have the room to loosen.

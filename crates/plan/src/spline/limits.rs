@@ -23,7 +23,8 @@ pub(crate) struct LimitProjector<'a> {
 }
 
 impl<'a> LimitProjector<'a> {
-    /// For a splines of this span, so far off the floor's edge, metres; against fast turns there are `smoothing_passes` passes.
+    /// For splines of this span that stay `off_edge_m` from the floor's edge. Fast turns are smoothed in at most
+    /// `smoothing_passes` passes.
     pub fn new(
         instance: &'a Instance<'a>,
         splines: &SplineSet,
