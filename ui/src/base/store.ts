@@ -1,12 +1,17 @@
 import { useEffect, useState, useSyncExternalStore } from 'react';
 
-/** A value that tells its listeners when it changes. Knows nothing of React; `useStore` is the bridge. */
-export interface Store<T> {
+/** A value that only its owner changes. */
+export interface Readable<T> {
   get(): T;
+  /** Calls the listener after every change; returns a function that ends this. */
+  subscribe(listener: () => void): () => void;
+}
+
+/** A value that tells its listeners when it changes. Knows nothing of React; `useStore` is the bridge. */
+export interface Store<T> extends Readable<T> {
   /** Replaces the value; listeners run only when it is another one (`Object.is`). */
   set(next: T): void;
   update(change: (now: T) => T): void;
-  subscribe(listener: () => void): () => void;
 }
 
 export function createStore<T>(initial: T): Store<T> {
@@ -30,7 +35,7 @@ export function createStore<T>(initial: T): Store<T> {
 
 /** Renders again when `select` gives another value. `select` must return the same object for the same state. */
 export function useStore<T, S = T>(
-  store: Store<T>,
+  store: Readable<T>,
   select: (value: T) => S = (v) => v as never,
 ): S {
   const look = () => select(store.get());
@@ -38,7 +43,7 @@ export function useStore<T, S = T>(
 }
 
 /** The value, looked at again this often at most, milliseconds: for what changes a thousand times at once. */
-export function useStorePaced<T>(store: Store<T>, every_ms: number): T {
+export function useStorePaced<T>(store: Readable<T>, every_ms: number): T {
   const [value, setValue] = useState(store.get);
   useEffect(() => {
     let timer: ReturnType<typeof setTimeout> | undefined;

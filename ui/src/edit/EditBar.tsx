@@ -9,7 +9,7 @@ import { useMemo, type ReactNode } from 'react';
 import { useStore } from '../base/store';
 import { clockText } from '../base/time';
 import { IconButton } from '../parts/IconButton';
-import { segmentAt, timelineOf, totalOf } from '../model/timeline';
+import { timelineOf, totalOf } from '../model/timeline';
 import { startPlay } from '../session/start';
 import { useSession } from '../session/session';
 import { goTo } from '../session/useHash';
@@ -25,19 +25,14 @@ export function EditBar() {
   const show = useEditor((s) => s.show);
   const canUndo = useEditor((s) => s.history.past.length > 0);
   const canRedo = useEditor((s) => s.history.future.length > 0);
-  const running = useStore(editing.running);
-  const moment = useStore(editing.moment);
+  const { preview } = editing;
+  const running = useStore(preview.running);
+  const time_s = useStore(preview.time_s);
   const plan = useStore(session.live.settled);
   const frame = useEditor((s) => s.frame);
   const timeline = useMemo(() => timelineOf(show, plan), [show, plan]);
   const total = totalOf(timeline);
-  const at = moment ?? timeline[frame]?.shownFrom_s ?? 0;
-  const scrub = (time_s: number) => {
-    editing.running.set(false);
-    editing.moment.set(time_s);
-    const segment = segmentAt(timeline, time_s);
-    if (segment && segment.frame !== frame) editor.goToFrame(segment.frame);
-  };
+  const at = time_s ?? timeline[frame]?.shownFrom_s ?? 0;
   /** The whole show, whichever frame was drawn last; what is missing is shown there. */
   const playWithRobots = () => {
     session.frame.set(0);
@@ -62,7 +57,7 @@ export function EditBar() {
       {step(
         running ? 'Pause (Space)' : 'Preview (Space)',
         true,
-        () => editing.running.set(!running),
+        preview.toggle,
         running ? <IconPlayerPauseFilled size={18} /> : <IconPlayerPlayFilled size={18} />,
       )}
       <Slider
@@ -74,7 +69,7 @@ export function EditBar() {
         max={Math.max(total, 0.1)}
         step={0.05}
         value={at}
-        onChange={scrub}
+        onChange={(to_s) => preview.scrub(timeline, to_s)}
       />
       <span className="quiet time">
         {clockText(at)} / {clockText(total)}

@@ -59,7 +59,7 @@ export function EditKeys() {
     ['n', () => toggle('ids')],
     ['h', () => toggle('ghosts')],
     ['w', () => toggle('ways')],
-    ['space', () => editing.running.update((on) => !on)],
+    ['space', () => editing.preview.toggle()],
     ['0', () => fitView(editing.view)],
     ['+', () => zoomView(editing.view, 1.4)],
     ['-', () => zoomView(editing.view, 1 / 1.4)],

@@ -8,7 +8,7 @@ import { PixelTwin } from './PixelTwin';
 import { editScene } from './scene';
 import { StageHint } from './StageHint';
 import { StageTools } from './StageTools';
-import { usePlayback } from './usePlayback';
+import { usePreview } from './usePreview';
 import { useHand } from './useHand';
 import { unitStore } from '../session/preferences';
 import { useKeys } from '../parts/useKeys';
@@ -19,15 +19,15 @@ function rememberScene(editing: Editing): () => Scene {
   let scene: Scene | null = null;
   return () => {
     const state = editing.editor.state.get();
-    const [looks, plan, moment] = [
+    const [looks, plan, time_s] = [
       editing.looks.get(),
       editing.full.plan.get(),
-      editing.moment.get(),
+      editing.preview.time_s.get(),
     ];
-    const now = [state, looks, plan, moment, unitStore.get()];
+    const now = [state, looks, plan, time_s, unitStore.get()];
     if (!scene || now.some((input, i) => input !== inputs[i])) {
       inputs = now;
-      scene = editScene(state, looks, plan, moment);
+      scene = editScene(state, looks, plan, time_s);
     }
     return scene;
   };
@@ -42,7 +42,7 @@ export function EditStage() {
   const ways = useStore(editing.looks, (looks) => looks.ways);
   const { full } = editing;
   useEffect(() => (ways ? full.follow() : undefined), [ways, full]);
-  usePlayback(editing);
+  usePreview(editing);
   useKeys([
     [
       'Escape',
@@ -50,8 +50,7 @@ export function EditStage() {
         if (giveUp()) return;
         if (editing.tool.get() !== 'arrow') editing.tool.set('arrow');
         else editing.editor.select([]);
-        editing.running.set(false);
-        editing.moment.set(null);
+        editing.preview.stop();
       },
     ],
   ]);

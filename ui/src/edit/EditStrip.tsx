@@ -34,8 +34,7 @@ export function EditStrip() {
     index: number,
     event: { shiftKey: boolean; ctrlKey: boolean; metaKey: boolean },
   ) => {
-    editing.running.set(false);
-    editing.moment.set(null);
+    editing.preview.stop();
     const add = event.ctrlKey || event.metaKey;
     editing.editor.goToFrame(index, event.shiftKey ? 'range' : add ? 'add' : 'only');
   };

@@ -1,6 +1,6 @@
+import type { EditorState } from '../model/editorState';
 import { createContext, useContext } from 'react';
 import { useStore } from '../base/store';
-import type { EditorState } from '../model/editor';
 import type { Editing } from './editing';
 import { settledOf } from './settled';
 

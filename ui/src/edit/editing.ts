@@ -4,6 +4,7 @@ import { createFullPlan, type FullPlan } from '../session/fullPlan';
 import { createEditor, type Editor } from '../model/editor';
 import type { Keeper } from '../model/drafts';
 import type { Saver } from '../model/saver';
+import { createPreview, type Preview } from '../model/preview';
 import type { Show } from '../model/show';
 import type { Session } from '../session/session';
 import { createView, type View } from '../stage/view';
@@ -36,9 +37,7 @@ export interface Editing {
   recent: Store<readonly Rgb[]>;
   /** Colour of the picker. */
   color: Store<Rgb>;
-  /** The moment that is looked at, seconds from the start; null: the frame itself. */
-  moment: Store<number | null>;
-  running: Store<boolean>;
+  preview: Preview;
   /** The frame whose name is being typed in the strip; null: none. */
   renaming: Store<number | null>;
   /** Another show takes its place: it still saves what is unsaved, and follows nobody. */
@@ -84,8 +83,7 @@ export function createEditing(
     looks: createStore<Looks>({ snap: true, ids: false, ghosts: true, ways: false }),
     recent: createStore<readonly Rgb[]>([]),
     color,
-    moment: createStore<number | null>(null),
-    running: createStore(false),
+    preview: createPreview(editor),
     renaming: createStore<number | null>(null),
     retire() {
       saver.flush();

@@ -1,6 +1,6 @@
+import type { EditorState } from '../model/editorState';
 import { type Point, boxOf } from '../base/geometry';
 import { canvasFromStage, type Camera } from '../stage/camera';
-import type { EditorState } from '../model/editor';
 import { marksOf, type Marks } from '../model/marks';
 import type { Frame } from '../model/show';
 import { createSprites } from '../stage/sprites';

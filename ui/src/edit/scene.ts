@@ -1,9 +1,9 @@
+import type { EditorState } from '../model/editorState';
 import type { Dot } from '../base/geometry';
 import type { Plan } from '../api/types.gen';
 import { pathsTo } from '../model/plannedPaths';
 import { hollowOf } from '../model/dots';
 import { unitStore } from '../session/preferences';
-import type { EditorState } from '../model/editor';
 import type { Frame } from '../model/show';
 import { dotsAt, timelineOf } from '../model/timeline';
 import { floorOf, type Scene } from '../stage/scene';
@@ -25,17 +25,17 @@ function ghostsOf({ show, frame }: EditorState): readonly Dot[] {
   return ghosts.dots;
 }
 
-/** What the editor's stage shows: the frame on it, or the plan at a moment. */
+/** What the editor's stage shows: the frame on it, or the plan at a moment of the show. */
 export function editScene(
   state: EditorState,
   looks: Looks,
   plan: Plan | null,
-  moment: number | null,
+  time_s: number | null,
 ): Scene {
   const { show, frame } = state;
   const base = { ...floorOf(show.stage, unitStore.get()), errors: NOTHING };
-  if (moment !== null && plan) {
-    const filled = dotsAt(show, plan, timelineOf(show, plan), moment);
+  if (time_s !== null && plan) {
+    const filled = dotsAt(show, plan, timelineOf(show, plan), time_s);
     const hollow = looks.ghosts ? hollowOf(show.frames[frame]) : NOTHING;
     return { ...base, filled, hollow, paths: looks.ways ? pathsTo(plan, show, frame) : NOTHING };
   }

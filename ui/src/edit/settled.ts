@@ -1,5 +1,6 @@
+import type { EditorState } from '../model/editorState';
 import { createStore, type Store } from '../base/store';
-import type { Editor, EditorState } from '../model/editor';
+import type { Editor } from '../model/editor';
 
 const kept = new WeakMap<Editor, Store<EditorState>>();
 

@@ -90,8 +90,7 @@ function lead(editing: Editing): { hand: Hand; giveUp: () => boolean } {
     giveUp,
     hand: {
       down(at, event, adds) {
-        editing.running.set(false);
-        editing.moment.set(null);
+        editing.preview.stop();
         const handle = editing.tool.get() === 'area' ? null : handleUnder(at, event);
         active = handle ? createTransformTool(handle) : chosen;
         active.down(editor, touch(at, event, adds));

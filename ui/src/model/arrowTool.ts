@@ -1,6 +1,7 @@
+import { NO_OVERLAY } from './editorState';
 import { type Point, boxBetween, inBox } from '../base/geometry';
 import { placePixels } from './commands';
-import { NO_OVERLAY, type Editor } from './editor';
+import { type Editor } from './editor';
 import { snap } from './snap';
 import { pixelAt, type Tool, type Touch } from './tool';
 

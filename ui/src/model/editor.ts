@@ -1,181 +1,167 @@
-import type { Point } from '../base/geometry';
 import type { Rgb } from '../base/colour';
+import type { Point } from '../base/geometry';
 import { createStore, type Store } from '../base/store';
 import * as commands from './commands';
-import { noHistory, remember, stepBack, stepForth, type History } from './history';
-import type { Guide } from './snap';
+import {
+  firstState,
+  NO_OVERLAY,
+  withFrame,
+  withinShow,
+  withMark,
+  withShowOf,
+  type ChooseHow,
+  type EditorState,
+  type Overlay,
+} from './editorState';
+import { stepBack, stepForth } from './history';
 import type { Frame, Pixel, Show } from './show';
 
-export interface EditorState {
-  show: Show;
-  /** The frame on the stage. */
-  frame: number;
-  /** All frames that are chosen, the one on the stage among them. */
-  frames: ReadonlySet<number>;
-  /** Ids of the chosen pixels; they stay chosen from frame to frame. */
-  selection: ReadonlySet<number>;
-  history: History<Show>;
-  /** What a gesture shows while it lasts: lines, rectangle or lasso. */
-  overlay: Overlay;
-  /** Counts every change that is worth saving. */
-  changes: number;
-}
-
-export interface Overlay {
-  guides: readonly Guide[];
-  marquee: readonly Point[];
-  /** Says distance or angle of the drag. */
-  hint: string;
-}
-
-export const NO_OVERLAY: Overlay = { guides: [], marquee: [], hint: '' };
-
 /** The editor without a screen: a show, what is chosen in it, and what can be undone. */
-export interface Editor {
+export interface Editor extends Gestures, Choice, CopyPaste {
   state: Store<EditorState>;
   current(): Frame | undefined;
   chosenPixels(): Pixel[];
-  /** Changes the show as one mark of the history. Within a gesture it only shows. */
+  /** Takes back the last change; answers its label, `null` when there is none. */
+  undo(): string | null;
+  redo(): string | null;
+}
+
+/** Changes of the show. */
+interface Gestures {
+  /** Changes the show as one mark of the history. Within a gesture the change makes no mark. */
   change(label: string, change: (show: Show, state: EditorState) => Show): void;
-  /** Begins a gesture: what follows is one mark, and `cancel` restores what was. */
+  /** Begins a gesture: all changes until `commit` are one mark, and `cancel` takes them back. */
   begin(): void;
   commit(label: string): void;
   cancel(): void;
   isGesturing(): boolean;
-  undo(): string | null;
-  redo(): string | null;
-  select(ids: Iterable<number>): void;
-  goToFrame(index: number, how?: 'only' | 'add' | 'range'): void;
-  /** Chooses frames; the first of them is on the stage. */
-  chooseFrames(indices: readonly number[]): void;
   overlay(overlay: Overlay): void;
-  /** Copies chosen pixels; answers how many. */
-  copy(): number;
-  paste(): number;
-  /** Takes in another state of the same show, as another screen saved it: one mark, and nothing to save. */
+  /** Takes over another state of the same show, as another screen saved it: one mark, and nothing to save. */
   adopt(show: Show): void;
 }
 
-export function createEditor(show: Show, frame = 0): Editor {
-  const state = createStore<EditorState>({
-    show,
-    frame: Math.max(0, Math.min(show.frames.length - 1, frame)),
-    frames: new Set([frame]),
-    selection: new Set(),
-    history: noHistory(),
-    overlay: NO_OVERLAY,
-    changes: 0,
-  });
-  let gesture: EditorState | null = null;
-  let clipboard: readonly Pixel[] = [];
-
-  const settle = (next: EditorState): EditorState => {
-    const last = next.show.frames.length - 1;
-    const at = Math.max(0, Math.min(last, next.frame));
-    const frames = new Set([...next.frames].filter((i) => i <= last).concat(at));
-    return { ...next, frame: at, frames };
-  };
-  const mark = (before: Show, after: Show, label: string, at: number, toSave = 1) =>
-    state.update((s) =>
-      settle({
-        ...s,
-        show: after,
-        history: remember(s.history, { before, after, label, frame: at }),
-        changes: s.changes + toSave,
-      }),
-    );
-  const travel = (
-    step: (h: History<Show>) => ReturnType<typeof stepBack<Show>>,
-    pick: 'before' | 'after',
-  ): string | null => {
-    if (gesture) editor.cancel();
-    const moved = step(state.get().history);
-    if (!moved) return null;
-    const [history, done] = moved;
-    state.update((s) => {
-      const at = Math.min(done.frame, done[pick].frames.length - 1);
-      const frames = new Set([at]);
-      return settle({ ...s, show: done[pick], history, frame: at, frames, changes: s.changes + 1 });
-    });
-    return done.label;
-  };
-
-  const editor: Editor = {
-    state,
-    current: () => state.get().show.frames[state.get().frame],
-    chosenPixels: () =>
-      editor.current()?.pixels.filter((p) => state.get().selection.has(p.id)) ?? [],
-    change(label, change) {
-      const now = state.get();
-      const next = change(now.show, now);
-      if (next === now.show) return;
-      if (gesture) state.update((s) => settle({ ...s, show: next }));
-      else mark(now.show, next, label, now.frame);
-    },
-    begin() {
-      if (!gesture) gesture = state.get();
-    },
-    commit(label) {
-      const from = gesture;
-      gesture = null;
-      editor.overlay(NO_OVERLAY);
-      const { show: after, frame: at } = state.get();
-      if (from && from.show !== after) mark(from.show, after, label, at);
-    },
-    cancel() {
-      const from = gesture;
-      gesture = null;
-      if (from) state.set({ ...from, overlay: NO_OVERLAY });
-    },
-    isGesturing: () => gesture !== null,
-    undo: () => travel(stepBack, 'before'),
-    redo: () => travel(stepForth, 'after'),
-    select(ids) {
-      const selection = new Set(ids);
-      state.update((s) => ({ ...s, selection }));
-    },
-    goToFrame(index, how = 'only') {
-      state.update((s) => {
-        const at = Math.max(0, Math.min(s.show.frames.length - 1, index));
-        return { ...s, frame: at, frames: chosenFrames(s, at, how) };
-      });
-    },
-    chooseFrames(indices) {
-      const [at] = indices;
-      if (at !== undefined)
-        state.update((s) => settle({ ...s, frame: at, frames: new Set(indices) }));
-    },
-    overlay: (overlay) => state.update((s) => ({ ...s, overlay })),
-    copy() {
-      clipboard = editor.chosenPixels();
-      return clipboard.length;
-    },
-    paste() {
-      const ids = new Map(clipboard.map((p) => [p.id, p]));
-      const mine = (editor.current()?.pixels ?? []).filter((p) => ids.has(p.id));
-      editor.change('Paste', (now, s) => {
-        const places = new Map<number, Point>(clipboard.map((p) => [p.id, p]));
-        const colors = new Map<number, Rgb>(clipboard.map((p) => [p.id, p.color]));
-        return commands.recolour(commands.placePixels(now, s.frame, places), s.frame, colors);
-      });
-      editor.select(mine.map((p) => p.id));
-      return mine.length;
-    },
-    adopt(next) {
-      gesture = null;
-      const { show: before, frame: at } = state.get();
-      editor.overlay(NO_OVERLAY);
-      mark(before, keepKeys(before, next), 'Changes of another screen', at, 0);
-    },
-  };
-  return editor;
+interface Choice {
+  select(ids: Iterable<number>): void;
+  goToFrame(index: number, how?: ChooseHow): void;
+  /** Chooses frames; the first of them is on the stage. */
+  chooseFrames(indices: readonly number[]): void;
 }
 
-function chosenFrames(s: EditorState, at: number, how: 'only' | 'add' | 'range'): Set<number> {
-  if (how === 'only') return new Set([at]);
-  if (how === 'add') return new Set([...s.frames, at]);
-  const [from, to] = [Math.min(s.frame, at), Math.max(s.frame, at)];
-  return new Set(Array.from({ length: to - from + 1 }, (_, i) => from + i));
+interface CopyPaste {
+  /** Copies the chosen pixels; answers their number. */
+  copy(): number;
+  /** Gives the copied pixels their places and colours in the frame on the stage; answers their number. */
+  paste(): number;
+}
+
+export function createEditor(show: Show, frame = 0): Editor {
+  const state = createStore(firstState(show, frame));
+  const current = () => state.get().show.frames[state.get().frame];
+  const chosenPixels = () =>
+    current()?.pixels.filter((pixel) => state.get().selection.has(pixel.id)) ?? [];
+  const gestures = createGestures(state);
+  const choice = createChoice(state);
+  const travel = (step: typeof stepBack, side: 'before' | 'after'): string | null => {
+    gestures.cancel();
+    const moved = step(state.get().history);
+    if (!moved) return null;
+    const [history, mark] = moved;
+    state.update((now) => withShowOf(now, history, mark[side], mark.frame));
+    return mark.label;
+  };
+  return {
+    state,
+    current,
+    chosenPixels,
+    ...gestures,
+    ...choice,
+    ...createCopyPaste({ ...gestures, ...choice, current, chosenPixels }),
+    undo: () => travel(stepBack, 'before'),
+    redo: () => travel(stepForth, 'after'),
+  };
+}
+
+function createGestures(state: Store<EditorState>): Gestures {
+  /** The state that a gesture began with; null: there is no gesture. */
+  let begun: EditorState | null = null;
+  const overlay = (next: Overlay) => state.update((now) => ({ ...now, overlay: next }));
+  const end = () => {
+    const from = begun;
+    begun = null;
+    return from;
+  };
+  return {
+    overlay,
+    isGesturing: () => begun !== null,
+    change(label, change) {
+      const now = state.get();
+      const after = change(now.show, now);
+      if (after === now.show) return;
+      if (begun) state.set(withinShow({ ...now, show: after }));
+      else state.set(withMark(now, { before: now.show, after, label, frame: now.frame }));
+    },
+    begin() {
+      begun ??= state.get();
+    },
+    commit(label) {
+      const from = end();
+      overlay(NO_OVERLAY);
+      const { show: after, frame } = state.get();
+      if (from && from.show !== after)
+        state.update((now) => withMark(now, { before: from.show, after, label, frame }));
+    },
+    cancel() {
+      const from = end();
+      if (from) state.set({ ...from, overlay: NO_OVERLAY });
+    },
+    adopt(next) {
+      end();
+      overlay(NO_OVERLAY);
+      const { show: before, frame } = state.get();
+      const mark = {
+        before,
+        after: keepKeys(before, next),
+        label: 'Changes of another screen',
+        frame,
+      };
+      state.update((now) => withMark(now, mark, 0));
+    },
+  };
+}
+
+const createChoice = (state: Store<EditorState>): Choice => ({
+  select(ids) {
+    const selection = new Set(ids);
+    state.update((now) => ({ ...now, selection }));
+  },
+  goToFrame: (index, how = 'only') => state.update((now) => withFrame(now, index, how)),
+  chooseFrames(indices) {
+    const [frame] = indices;
+    if (frame !== undefined)
+      state.update((now) => withinShow({ ...now, frame, frames: new Set(indices) }));
+  },
+});
+
+function createCopyPaste(
+  editor: Pick<Editor, 'change' | 'select' | 'current' | 'chosenPixels'>,
+): CopyPaste {
+  let copied: readonly Pixel[] = [];
+  return {
+    copy() {
+      copied = editor.chosenPixels();
+      return copied.length;
+    },
+    paste() {
+      const places = new Map<number, Point>(copied.map((pixel) => [pixel.id, pixel]));
+      const colors = new Map<number, Rgb>(copied.map((pixel) => [pixel.id, pixel.color]));
+      const pasted = (editor.current()?.pixels ?? []).filter((pixel) => places.has(pixel.id));
+      editor.change('Paste', (show, { frame }) =>
+        commands.recolour(commands.placePixels(show, frame, places), frame, colors),
+      );
+      editor.select(pasted.map((pixel) => pixel.id));
+      return pasted.length;
+    },
+  };
 }
 
 /** The same frame keeps its key, so that the strip does not flicker when another screen saves. */

@@ -1,5 +1,5 @@
+import { NO_OVERLAY } from './editorState';
 import { type Point, inPolygon } from '../base/geometry';
-import { NO_OVERLAY } from './editor';
 import { pixelAt, type Tool } from './tool';
 
 /** Corners of a lasso; beyond it the last one moves. */

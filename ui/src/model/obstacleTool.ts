@@ -1,5 +1,5 @@
+import { NO_OVERLAY } from './editorState';
 import type { Obstacle, Point } from '../base/geometry';
-import { NO_OVERLAY } from './editor';
 import { addObstacle, obstacleAt, obstacleBetween, setObstacle, shiftObstacle } from './obstacles';
 import type { Show } from './show';
 import type { Tool } from './tool';

@@ -2,7 +2,7 @@ import { expect, test } from 'vitest';
 import type { Plan, Transition } from '../api/types.gen';
 import { addFrame, recolour, setFrames } from './commands';
 import { newShow } from './show';
-import { dotsAt, segmentAt, timelineOf, totalOf, watchFrom } from './timeline';
+import { dotsAt, segmentAt, timelineOf, totalOf, previewFrom } from './timeline';
 
 const transition = (to: number, x: number): Transition => ({
   from: to === 0 ? null : to - 1,
@@ -57,10 +57,10 @@ test('watching begins where one looks, or with the frame on the stage', () => {
     until_s: frame * 3 + 3,
   });
   const timeline = [0, 1, 2].map(segment);
-  expect(watchFrom(timeline, 1, 4.5)).toBe(4.5);
-  expect(watchFrom(timeline, 1, null)).toBe(5);
-  expect(watchFrom(timeline, 0, null)).toBe(0);
-  expect(watchFrom(timeline, 2, null)).toBe(0);
-  expect(watchFrom(timeline, 1, 9)).toBe(5);
-  expect(watchFrom([], 0, null)).toBe(0);
+  expect(previewFrom(timeline, 1, 4.5)).toBe(4.5);
+  expect(previewFrom(timeline, 1, null)).toBe(5);
+  expect(previewFrom(timeline, 0, null)).toBe(0);
+  expect(previewFrom(timeline, 2, null)).toBe(0);
+  expect(previewFrom(timeline, 1, 9)).toBe(5);
+  expect(previewFrom([], 0, null)).toBe(0);
 });

@@ -31,14 +31,14 @@ export function segmentAt(timeline: readonly Segment[], time_s: number): Segment
   return timeline.find((s) => time_s < s.until_s) ?? timeline[timeline.length - 1] ?? null;
 }
 
-/** Where watching begins: at the moment that is looked at, else where the frame on the stage is reached. */
-export function watchFrom(
+/** The moment that a preview begins with: the moment on the stage, else when the frame on the stage is reached. */
+export function previewFrom(
   timeline: readonly Segment[],
   frame: number,
-  moment: number | null,
+  time_s: number | null,
 ): number {
-  if (moment !== null && moment < totalOf(timeline)) return moment;
-  // The first frame is watched with the drive that leads to it, and after the last there is nothing to watch.
+  if (time_s !== null && time_s < totalOf(timeline)) return time_s;
+  // The first frame is shown with the drive that leads to it; after the last frame nothing is left to show.
   const isEdge = frame === 0 || frame === timeline.length - 1;
   return isEdge ? 0 : (timeline[frame]?.shownFrom_s ?? 0);
 }

@@ -1,6 +1,7 @@
+import { NO_OVERLAY } from './editorState';
 import { type Box, type Point, boxOf, centreOf, rotate, scaleAbout } from '../base/geometry';
 import { placePixels } from './commands';
-import { NO_OVERLAY, type Editor } from './editor';
+import { type Editor } from './editor';
 import type { Tool } from './tool';
 
 /** Which handle of the box around the selection: a corner or side, or the knob that turns. */

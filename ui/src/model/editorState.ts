@@ -1,0 +1,92 @@
+import type { Point } from '../base/geometry';
+import { noHistory, remember, type History, type Mark } from './history';
+import type { Guide } from './snap';
+import type { Show } from './show';
+
+export interface EditorState {
+  show: Show;
+  /** The frame on the stage. */
+  frame: number;
+  /** All chosen frames, the one on the stage among them. */
+  frames: ReadonlySet<number>;
+  /** Ids of the chosen pixels; they stay chosen from frame to frame. */
+  selection: ReadonlySet<number>;
+  history: History<Show>;
+  /** What a gesture shows while it lasts: lines, rectangle or lasso. */
+  overlay: Overlay;
+  /** Counts every change that is worth saving. */
+  changes: number;
+}
+
+export interface Overlay {
+  guides: readonly Guide[];
+  marquee: readonly Point[];
+  /** Distance or angle of the drag, with its unit. */
+  hint: string;
+}
+
+export const NO_OVERLAY: Overlay = { guides: [], marquee: [], hint: '' };
+
+/** The state of an editor that has just begun, with a frame of the show on the stage. */
+export const firstState = (show: Show, frame: number): EditorState => ({
+  show,
+  frame: inside(show, frame),
+  frames: new Set([inside(show, frame)]),
+  selection: new Set(),
+  history: noHistory(),
+  overlay: NO_OVERLAY,
+  changes: 0,
+});
+
+/** The nearest frame that the show has. */
+const inside = (show: Show, frame: number) => Math.max(0, Math.min(show.frames.length - 1, frame));
+
+/** The state with the chosen frames limited to the frames that the show has. */
+export function withinShow(state: EditorState): EditorState {
+  const frame = inside(state.show, state.frame);
+  const kept = [...state.frames].filter((index) => index < state.show.frames.length);
+  return { ...state, frame, frames: new Set(kept.concat(frame)) };
+}
+
+/** The state after a change of the show; `mark` is what undo takes back, `toSave` is 0 for what is saved already. */
+export const withMark = (state: EditorState, mark: Mark<Show>, toSave: 0 | 1 = 1): EditorState =>
+  withinShow({
+    ...state,
+    show: mark.after,
+    history: remember(state.history, mark),
+    changes: state.changes + toSave,
+  });
+
+/** The state with another show from the history, and the frame that the mark is about on the stage. */
+export function withShowOf(
+  state: EditorState,
+  history: History<Show>,
+  show: Show,
+  frame: number,
+): EditorState {
+  const at = Math.min(frame, show.frames.length - 1);
+  return withinShow({
+    ...state,
+    show,
+    history,
+    frame: at,
+    frames: new Set([at]),
+    changes: state.changes + 1,
+  });
+}
+
+/** How choosing a frame treats the frames that are chosen already. */
+export type ChooseHow = 'only' | 'add' | 'range';
+
+/** The state with the nearest frame to `index` on the stage. */
+export function withFrame(state: EditorState, index: number, how: ChooseHow): EditorState {
+  const frame = inside(state.show, index);
+  return { ...state, frame, frames: chosenFrames(state, frame, how) };
+}
+
+function chosenFrames(state: EditorState, frame: number, how: ChooseHow): Set<number> {
+  if (how === 'only') return new Set([frame]);
+  if (how === 'add') return new Set([...state.frames, frame]);
+  const [from, to] = [Math.min(state.frame, frame), Math.max(state.frame, frame)];
+  return new Set(Array.from({ length: to - from + 1 }, (_, i) => from + i));
+}
