@@ -5,19 +5,30 @@
 use std::fmt::Write as _;
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
+use std::time::SystemTime;
 use std::{env, fs, io};
 
 fn main() -> io::Result<()> {
     let root = PathBuf::from(env::var("CARGO_MANIFEST_DIR").unwrap_or_default()).join("../..");
     let out = PathBuf::from(env::var("OUT_DIR").unwrap_or_default());
     let (dist, shows) = (root.join("ui/dist"), root.join("shows"));
-    // While a folder is missing this runs at every build, so that it is noticed once it is there.
+    make_watchable(&dist);
     for folder in [&dist, &shows] {
         println!("cargo::rerun-if-changed={}", folder.display());
     }
     println!("cargo::rerun-if-changed=build.rs");
     screen(&dist, &out)?;
     examples(&shows, &out)
+}
+
+/// Makes an empty folder for the built screen where none is there. While a watched path is missing, Cargo takes every
+/// build for the first one and links the program again, 100 s with optimisation. Errors are ignored: they cost that time.
+fn make_watchable(folder: &Path) {
+    if folder.is_dir() || fs::create_dir(folder).is_err() {
+        return;
+    }
+    // Cargo runs this program again for a path that is younger than its last run.
+    let _ = fs::File::open(folder).and_then(|folder| folder.set_modified(SystemTime::UNIX_EPOCH));
 }
 
 /// Writes `screen.rs`: path, content type, entity tag and gzipped bytes of every file.
@@ -43,17 +54,15 @@ fn screen(dist: &Path, out: &Path) -> io::Result<()> {
     fs::write(out.join("screen.rs"), code)
 }
 
-/// Writes `examples.rs`: name and bytes of every example show.
+/// Writes `examples.rs`: file name and bytes of every example show.
 fn examples(shows: &Path, out: &Path) -> io::Result<()> {
     let mut files = Vec::new();
     collect(shows, &mut files)?;
-    files.retain(|file| file.to_string_lossy().ends_with(".json"));
     files.sort();
     let mut code = String::from("static EXAMPLES: &[(&str, &[u8])] = &[\n");
     for file in files {
         let file = file.canonicalize()?;
         let name = file.file_name().unwrap_or_default().to_string_lossy().into_owned();
-        let name = name.trim_end_matches(".json").trim_end_matches(".lightbots");
         let _ = writeln!(code, "    ({name:?}, include_bytes!({file:?})),");
     }
     code.push_str("];\n");
