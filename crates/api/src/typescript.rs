@@ -1,5 +1,6 @@
 //! The same types in TypeScript.
 
+use lightbots_exchange::{FORMATS, Format, Part};
 use ts_rs::{Config, TS};
 
 use crate::{
@@ -8,7 +9,8 @@ use crate::{
     Request, RobotStatus, Robots, Severity, ShowEntry, ShowOrigin, State, ToScreen, Transition,
 };
 
-/// The text of `ui/src/api/types.gen.ts`: every type of this crate, with its documentation.
+/// The text of `ui/src/api/types.gen.ts`: every type of this crate with its documentation, the columns of the binary
+/// message, and the table of formats.
 pub fn typescript() -> String {
     let config = Config::new().with_large_int("number");
     let mut text = String::from(
@@ -66,7 +68,32 @@ pub fn typescript() -> String {
         "export const ROBOT_STATUSES: readonly RobotStatus[] = [{}];\n",
         names.join(", ")
     ));
+    text.push_str(&formats());
     text
+}
+
+/// The table of formats: what the screen may show in menus and file dialogs.
+fn formats() -> String {
+    let rows: Vec<String> = FORMATS.iter().map(|format| format!("  {},\n", row(format))).collect();
+    format!(
+        "\n/** Every format of show files; the first is our own. A written file gets the first of `endings`. */\n\
+         export const FORMATS = [\n{}] as const;\n\
+         \n/** Name of a format, as in `/api/convert?to=`. */\n\
+         export type FormatName = (typeof FORMATS)[number]['name'];\n",
+        rows.concat()
+    )
+}
+
+fn row(format: &Format) -> String {
+    let list = |words: Vec<&str>| format!("{words:?}");
+    format!(
+        "{{ name: {:?}, program: {:?}, endings: {}, mediaType: {:?}, carries: {} }}",
+        format.name,
+        format.program,
+        list(format.endings.to_vec()),
+        format.media_type,
+        list(format.carries.iter().map(|part| Part::name(*part)).collect())
+    )
 }
 
 fn snake_case(variant: &str) -> String {

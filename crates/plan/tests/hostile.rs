@@ -3,10 +3,10 @@
 use std::cell::Cell;
 
 use lightbots_base::{Limits, Rgb, Vec2};
+use lightbots_exchange::{FORMATS, read};
 use lightbots_plan::{ShowOptions, TransitionProblem, show_unless, transition_unless};
 use lightbots_show::{
-    Easing, Format, Frame, Identity, Issue, Obstacle, Pixel, Show, Stage, front_rows, read, robots_needed,
-    validate, write,
+    Easing, Frame, Identity, Issue, Obstacle, Pixel, Show, Stage, front_rows, robots_needed, validate,
 };
 
 /// Stands in for numbers of a file.
@@ -103,15 +103,15 @@ fn numbers(text: &str) -> Vec<std::ops::Range<usize>> {
 fn every_number_of_a_document_may_be_any_number() {
     assert!(take(&seed_show(), "the seed"));
     let (mut fit, mut unfit) = (0, 0);
-    for format in [Format::LightBots, Format::Original] {
-        let text = String::from_utf8(write(&seed_show(), format)).unwrap();
+    for format in FORMATS {
+        let text = String::from_utf8(format.write(&seed_show(), None).bytes).unwrap();
         let places = numbers(&text);
         assert!(places.len() > 20, "{}", places.len());
         for place in places {
             for word in WORDS {
                 let mut other = text.clone();
                 other.replace_range(place.clone(), word);
-                let Ok(loaded) = read(other.as_bytes(), Some("json")) else { continue };
+                let Ok(loaded) = read(other.as_bytes(), None) else { continue };
                 let around = text[place.start.saturating_sub(30)..place.start].replace('\n', " ");
                 let is_fit = take(&loaded.show, &format!("{word} after {around}"));
                 *(if is_fit { &mut fit } else { &mut unfit }) += 1;

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use lightbots_base::RobotId;
+use lightbots_exchange::formats_in_words;
 use lightbots_link::BrokerArguments;
 use lightbots_show::Identity;
 
@@ -162,7 +163,7 @@ pub struct BrokerOnlyArguments {
 /// `check`
 #[derive(Debug, Args)]
 pub struct CheckArguments {
-    /// The show: ours or the original's JSON
+    #[arg(help = show_help())]
     pub show: PathBuf,
     #[command(flatten)]
     pub reading: ShowArguments,
@@ -174,7 +175,7 @@ pub struct CheckArguments {
 /// `plan`
 #[derive(Debug, Args)]
 pub struct PlanArguments {
-    /// The show: ours or the original's JSON
+    #[arg(help = show_help())]
     pub show: PathBuf,
     /// Where the timed paths are written, as JSON
     #[arg(long, value_name = "FILE")]
@@ -189,7 +190,7 @@ pub struct PlanArguments {
 /// `rehearse`
 #[derive(Debug, Args)]
 pub struct RehearseArguments {
-    /// The show: ours or the original's JSON
+    #[arg(help = show_help())]
     pub show: PathBuf,
     #[command(flatten)]
     pub reading: ShowArguments,
@@ -213,7 +214,7 @@ pub struct RehearseArguments {
 /// `play`
 #[derive(Debug, Args)]
 pub struct PlayArguments {
-    /// The show: ours or the original's JSON
+    #[arg(help = show_help())]
     pub show: PathBuf,
     /// The broker of the fleet: mqtt[s]://[user[:password]@]host[:port], more addresses of it after commas
     #[arg(long, value_name = "URL", required = true)]
@@ -269,12 +270,15 @@ pub struct RobotsArguments {
 /// `convert`
 #[derive(Debug, Args)]
 pub struct ConvertArguments {
-    /// The show to read, in either format
-    #[arg(value_name = "IN")]
+    #[arg(value_name = "IN", help = show_help())]
     pub input: PathBuf,
-    /// The file to write: .lightbots.json is our format, any other .json the original's
-    #[arg(value_name = "OUT")]
+    #[arg(value_name = "OUT", help = format!("The file to write: a {}", formats_in_words()))]
     pub output: PathBuf,
+}
+
+/// The help for a show file, with the endings of all formats.
+fn show_help() -> String {
+    format!("The {}", formats_in_words())
 }
 
 /// `robot-check`

@@ -2,7 +2,7 @@
 
 include!(concat!(env!("OUT_DIR"), "/examples.rs"));
 
-/// Every example: its name in the library, and its file's bytes. Sorted by name.
-pub fn all() -> &'static [(&'static str, &'static [u8])] {
-    EXAMPLES
+/// Every example: its name in the library, and the bytes of its file. Sorted by file name.
+pub fn all() -> impl Iterator<Item = (&'static str, &'static [u8])> {
+    EXAMPLES.iter().map(|(file, bytes)| (lightbots_exchange::stem(file), *bytes))
 }

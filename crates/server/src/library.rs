@@ -13,13 +13,13 @@ use std::sync::{Arc, Mutex, MutexGuard};
 use std::time::UNIX_EPOCH;
 
 use lightbots_api::{ShowEntry, ShowOrigin};
-use lightbots_show::{Format, Show, most_pixels, read, write};
+use lightbots_exchange::{LIGHTBOTS, read, stem};
+use lightbots_show::{Show, most_pixels};
 
 use crate::examples;
 
 /// The file that names the show that was open last.
 const OPEN: &str = ".open";
-const ENDING: &str = ".lightbots.json";
 /// The longest name, in characters.
 const NAME_MAX: usize = 80;
 /// The most shows that are listed and kept.
@@ -104,7 +104,7 @@ impl Library {
     pub fn new(folder: PathBuf) -> Self {
         let library = Self { folder, given: Arc::default(), writing: Arc::default() };
         for (name, bytes) in examples::all() {
-            match read(bytes, Some("json")) {
+            match read(bytes, None) {
                 Ok(loaded) => {
                     library.give(name, ShowOrigin::Example, &loaded.show);
                 }
@@ -141,7 +141,7 @@ impl Library {
     /// The file of the command line takes its name from an example, which is then listed under another.
     pub fn give(&self, name: &str, origin: ShowOrigin, show: &Show) -> String {
         let base = tidy_name(name);
-        let bytes = write(show, Format::LightBots);
+        let bytes = LIGHTBOTS.write(show, None).bytes;
         let mut given = lock(&self.given);
         let displaces = given.get(&base).is_some_and(|other| other.origin < origin);
         let listed = if displaces { base.clone() } else { self.listed_name(&base, origin, &given) };
@@ -189,7 +189,7 @@ impl Library {
                 return Err(LibraryError::Disk(format!("the show \"{name}\" cannot be read: {error}")));
             }
         };
-        let show = read(&bytes, Some("json"))
+        let show = read(&bytes, None)
             .map_err(|error| LibraryError::NoShow(format!("\"{name}\" cannot be read: {error}")))?
             .show;
         Ok(Kept { etag: etag(&bytes), bytes, show })
@@ -199,8 +199,8 @@ impl Library {
     /// copy of a free name is made, and the entry tells that name and `copy_of`.
     pub fn put(&self, name: &str, bytes: &[u8], condition: &Condition) -> Result<ShowEntry, LibraryError> {
         let name = checked(name)?;
-        let loaded = read(bytes, Some("json")).map_err(|error| LibraryError::NoShow(error.to_string()))?;
-        let document = write(&loaded.show, Format::LightBots);
+        let loaded = read(bytes, None).map_err(|error| LibraryError::NoShow(error.to_string()))?;
+        let document = LIGHTBOTS.write(&loaded.show, None).bytes;
         let _guard = lock(&self.writing);
         let given = self.given_show(name).filter(|_| *condition != Condition::IsNew);
         let target = match &given {
@@ -300,13 +300,14 @@ impl Library {
 
     fn saved(&self) -> Vec<String> {
         let Ok(files) = std::fs::read_dir(&self.folder) else { return Vec::new() };
-        let name =
-            |file: std::fs::DirEntry| file.file_name().to_str()?.strip_suffix(ENDING).map(str::to_owned);
+        let name = |file: std::fs::DirEntry| {
+            file.file_name().to_str()?.strip_suffix(LIGHTBOTS.ending()).map(str::to_owned)
+        };
         files.flatten().filter_map(name).filter(|name| checked(name).is_ok()).collect()
     }
 
     fn path(&self, name: &str) -> PathBuf {
-        self.folder.join(format!("{name}{ENDING}"))
+        self.folder.join(format!("{name}{}", LIGHTBOTS.ending()))
     }
 }
 
@@ -350,8 +351,7 @@ fn tidy_name(text: &str) -> String {
 /// The name a file's show gets in the library.
 pub fn name_of_file(path: &Path) -> String {
     let name = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
-    let stem = name.strip_suffix(".json").unwrap_or(&name);
-    tidy_name(stem.strip_suffix(".lightbots").unwrap_or(stem))
+    tidy_name(stem(&name))
 }
 
 /// A panic elsewhere leaves whole values behind: each is replaced in one step.

@@ -67,7 +67,7 @@ fn names_never_leave_the_folder() {
 
 /// The show `DOT` under another title.
 fn titled(title: &str) -> Show {
-    let show = read(DOT, Some("json")).unwrap().show;
+    let show = read(DOT, None).unwrap().show;
     Show { name: title.into(), ..show }
 }
 
@@ -152,7 +152,7 @@ fn files_give_names() {
 #[test]
 fn every_example_is_a_show() {
     let library = Library::new(PathBuf::from("nowhere"));
-    assert_eq!(library.list().len(), examples::all().len());
+    assert_eq!(library.list().len(), examples::all().count());
 }
 
 #[test]

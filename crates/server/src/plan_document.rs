@@ -154,7 +154,8 @@ mod tests {
 
     #[test]
     fn a_summary_has_no_paths_but_all_numbers() {
-        let show = lightbots_show::read(br#"[{"name":"A","airTime":1.0,"pixels":[]}]"#, None).unwrap().show;
+        let show =
+            lightbots_exchange::read(br#"[{"name":"A","airTime":1.0,"pixels":[]}]"#, None).unwrap().show;
         let (_, full) = plan(&show, &Vec::new());
         let summary = summary(&full);
         assert_eq!(summary.duration_s, full.duration_s);

@@ -2,7 +2,8 @@
 
 use std::path::Path;
 
-use lightbots_show::{Identity, Issue, Issues, Loaded, MAX_BYTES, Show, Stage, read, validate, with_floor};
+use lightbots_exchange::{Loaded, MAX_BYTES, read};
+use lightbots_show::{Identity, Issue, Issues, Show, Stage, validate, with_floor};
 
 use crate::cli::ShowArguments;
 use crate::failure::Failure;
@@ -19,10 +20,16 @@ pub struct Opened {
     pub issues: Issues,
 }
 
-/// Reads a show file. The failure is one line with the file's name, exit code 2.
+/// The show of a file, with the floor and identity of the command line. A failure is one line with the file's name.
 pub fn open(path: &Path, arguments: &ShowArguments) -> Result<Opened, Failure> {
     let bytes = bytes(path)?;
     interpret(&bytes, path, arguments)
+}
+
+/// What a file of any format holds. A failure is one line with the file's name.
+pub fn load(path: &Path) -> Result<Loaded, Failure> {
+    let bytes = bytes(path)?;
+    loaded(&bytes, path)
 }
 
 /// The bytes of a file that is not too long to be a show.
@@ -44,10 +51,12 @@ pub fn bytes(path: &Path) -> Result<Vec<u8>, Failure> {
 
 /// The show in a file's bytes.
 pub fn interpret(bytes: &[u8], path: &Path, arguments: &ShowArguments) -> Result<Opened, Failure> {
-    let ending = path.extension().and_then(|ending| ending.to_str());
-    let loaded =
-        read(bytes, ending).map_err(|error| Failure::input(format!("{}: {error}", path.display())))?;
-    Ok(prepare(loaded, arguments))
+    Ok(prepare(loaded(bytes, path)?, arguments))
+}
+
+fn loaded(bytes: &[u8], path: &Path) -> Result<Loaded, Failure> {
+    let name = path.file_name().and_then(|name| name.to_str());
+    read(bytes, name).map_err(|error| Failure::input(format!("{}: {error}", path.display())))
 }
 
 fn prepare(loaded: Loaded, arguments: &ShowArguments) -> Opened {

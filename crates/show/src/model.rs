@@ -3,7 +3,7 @@
 use lightbots_base::{Limits, Rgb, Vec2};
 
 /// A show: frames in playing order, and the stage they play on.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Show {
     /// Its name for people; may be empty.
     pub name: String,
@@ -62,7 +62,7 @@ pub enum Identity {
 }
 
 /// A picture.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Frame {
     /// Its name for people; may be empty.
     pub name: String,
@@ -104,19 +104,6 @@ pub struct Pixel {
 impl Default for Stage {
     fn default() -> Self {
         Self { width_m: 3.0, depth_m: 3.0, obstacles: Vec::new(), limits: Limits::default() }
-    }
-}
-
-impl Default for Show {
-    fn default() -> Self {
-        Self {
-            name: String::new(),
-            stage: Stage::default(),
-            identity: Identity::Any,
-            starts: None,
-            music: None,
-            frames: Vec::new(),
-        }
     }
 }
 

@@ -8,8 +8,7 @@ use std::collections::BTreeSet;
 
 use lightbots_base::Vec2;
 
-use crate::error::frame_label;
-use crate::{Issue, Issues, Show};
+use crate::{Issue, Issues, Show, frame_label};
 
 /// Most frames of a show.
 pub const MAX_FRAMES: usize = 10_000;

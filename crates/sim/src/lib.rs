@@ -10,7 +10,7 @@
 //!
 //! ```
 //! use lightbots_sim::{Conditions, Faults, RehearsalOptions, rehearse};
-//! let show = lightbots_show::read(br#"[{"name": "one", "airTime": 0.1, "pixels": [{"pixelId": 0,
+//! let show = lightbots_exchange::read(br#"[{"name": "one", "airTime": 0.1, "pixels": [{"pixelId": 0,
 //!     "color": {"R": 1, "G": 0, "B": 0}, "physicalLocation": {"X": 0, "Y": 1}}]}]"#, None).unwrap().show;
 //! let conditions = Faults::parse("loss=5%").unwrap().added_to(Conditions::default());
 //! let report = rehearse(&show, &RehearsalOptions { conditions, ..Default::default() }, &mut |_| {});

@@ -295,8 +295,9 @@ mod tests {
 
     #[test]
     fn robots_that_take_turns_there_and_back_play_the_same_to_the_bit() {
-        let show =
-            Arc::new(lightbots_show::read(include_bytes!("../../../shows/hello.json"), None).unwrap().show);
+        let show = Arc::new(
+            lightbots_exchange::read(include_bytes!("../../../shows/hello.json"), None).unwrap().show,
+        );
         let starts = front_rows(&show.stage, 30);
         for faults in ["kill=random", "slip=10%,gps=5mm", "fix-dropout=0.5s"] {
             let conditions = Faults::parse(faults).unwrap().added_to(Conditions::default());

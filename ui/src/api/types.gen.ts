@@ -661,3 +661,12 @@ export const ROBOT_COLUMNS = [
 
 /** Every status, in the order `Robots.status` counts them. */
 export const ROBOT_STATUSES: readonly RobotStatus[] = ["idle", "ready", "driving", "held", "lost", "cut", "faulty"];
+
+/** Every format of show files; the first is our own. A written file gets the first of `endings`. */
+export const FORMATS = [
+  { name: "lightbots", program: "LightBots", endings: [".lightbots.json", ".lightbots"], mediaType: "application/json", carries: ["title", "floor_size", "no_go_areas", "robot_limits", "identity", "starts", "music", "durations", "easing", "chosen_robots"] },
+  { name: "original", program: "the original LightBots", endings: [".json"], mediaType: "application/json", carries: [] },
+] as const;
+
+/** Name of a format, as in `/api/convert?to=`. */
+export type FormatName = (typeof FORMATS)[number]['name'];

@@ -1,8 +1,9 @@
-//! `convert`: between show formats, by the files' endings.
+//! `convert`: a show in another format.
 
 use std::path::Path;
 
-use lightbots_show::{Format, losses, read, validate, write};
+use lightbots_exchange::{Format, for_file, formats_in_words};
+use lightbots_show::validate;
 
 use crate::cli::ConvertArguments;
 use crate::failure::{Failure, Outcome};
@@ -11,32 +12,26 @@ use crate::{say, show_file};
 pub fn run(arguments: &ConvertArguments) -> Outcome {
     let (input, output) = (&arguments.input, &arguments.output);
     let format = format_of(output)?;
-    let bytes = show_file::bytes(input)?;
-    let ending = input.extension().and_then(|ending| ending.to_str());
-    let loaded =
-        read(&bytes, ending).map_err(|error| Failure::input(format!("{}: {error}", input.display())))?;
+    let loaded = show_file::load(input)?;
+    let written = format.write(&loaded.show, loaded.plan.as_ref());
     let mut fine = true;
-    for issue in loaded.issues.iter().chain(&validate(&loaded.show)).chain(&losses(&loaded.show, format)) {
+    for issue in loaded.issues.iter().chain(&validate(&loaded.show)).chain(&written.issues) {
         fine &= !issue.is_error();
         let level = if issue.is_error() { "error" } else { "warning" };
         say::note(&format!("{level}: {} [{}]", issue.message, issue.code));
     }
-    std::fs::write(output, write(&loaded.show, format))
+    std::fs::write(output, written.bytes)
         .map_err(|error| Failure::input(format!("{}: cannot be written: {error}", output.display())))?;
     Ok(fine)
 }
 
-/// The format a file's ending stands for.
-fn format_of(path: &Path) -> Result<Format, Failure> {
-    let name = path.file_name().map(|name| name.to_string_lossy().to_ascii_lowercase()).unwrap_or_default();
-    if name.ends_with(".lightbots.json") || name.ends_with(".lightbots") {
-        Ok(Format::LightBots)
-    } else if name.ends_with(".json") {
-        Ok(Format::Original)
-    } else {
-        let line = "its ending names no show format: .lightbots.json is ours, any other .json the original's";
-        Err(Failure::input(format!("{}: {line}", path.display())))
-    }
+/// The format that the ending of a file's name stands for.
+fn format_of(path: &Path) -> Result<&'static Format, Failure> {
+    let name = path.file_name().map(|name| name.to_string_lossy()).unwrap_or_default();
+    for_file(&name).ok_or_else(|| {
+        let line = format!("no format has this ending; write a {}", formats_in_words());
+        Failure::input(format!("{}: {line}", path.display()))
+    })
 }
 
 #[cfg(test)]
@@ -44,10 +39,9 @@ mod tests {
     use super::*;
 
     #[test]
-    fn endings_name_formats() {
-        assert_eq!(format_of(Path::new("a/b.lightbots.json")), Ok(Format::LightBots));
-        assert_eq!(format_of(Path::new("3210.JSON")), Ok(Format::Original));
-        assert!(format_of(Path::new("show.txt")).is_err());
-        assert!(format_of(Path::new("json")).is_err());
+    fn a_file_without_an_ending_of_a_format_is_refused_and_the_formats_in_words_are_named() {
+        assert!(format_of(Path::new("folder.json/show.lightbots.json")).is_ok());
+        let failure = format_of(Path::new("folder.json/show.txt")).unwrap_err();
+        assert!(format!("{failure:?}").contains(".lightbots.json"), "{failure:?}");
     }
 }

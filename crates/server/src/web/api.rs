@@ -9,8 +9,9 @@ use axum::extract::{ConnectInfo, Path, Query, State};
 use axum::http::{HeaderMap, StatusCode, header};
 use axum::response::{IntoResponse, Response};
 use lightbots_api::{Plan, Problem, ShowEntry};
+use lightbots_exchange::{FORMATS, named, read};
 use lightbots_plan::Cancelled;
-use lightbots_show::{Format, read, validate, write};
+use lightbots_show::validate;
 
 use super::Shared;
 use super::connection::Ends;
@@ -141,7 +142,7 @@ pub async fn check(
     let bytes = body(bytes)?;
     let budget = shared.planner.budget();
     let plan = shared.planner.work(ends.remote.ip().to_canonical(), move |is_wanted| {
-        let loaded = match read(&bytes, Some("json")) {
+        let loaded = match read(&bytes, None) {
             Ok(loaded) => loaded,
             Err(error) => {
                 return Plan { issues: vec![plan_document::issue(&error.issue())], ..Plan::default() };
@@ -164,24 +165,26 @@ pub async fn check(
     }
 }
 
-/// Which format to convert to.
+/// The query of `convert`.
 #[derive(Debug, serde::Deserialize)]
 pub struct To {
+    /// Name of the wanted format in [`FORMATS`].
     to: String,
 }
 
-/// `POST /api/convert?to=lightbots|original`
+/// `POST /api/convert?to=FORMAT`: the show of the body as a file of a format of [`FORMATS`].
 pub async fn convert(Query(To { to }): Query<To>, bytes: Result<Bytes, BytesRejection>) -> Answer<Response> {
-    let format = match to.as_str() {
-        "lightbots" => Format::LightBots,
-        "original" => Format::Original,
-        _ => return Err(refuse(StatusCode::BAD_REQUEST, "say ?to=lightbots or ?to=original")),
+    let Some(format) = named(&to) else {
+        let names = FORMATS.map(|format| format!("?to={}", format.name)).join(" or ");
+        return Err(refuse(StatusCode::BAD_REQUEST, &format!("there is no such format: say {names}")));
     };
     let bytes = body(bytes)?;
-    let converted = beside(move || read(&bytes, Some("json")).map(|loaded| write(&loaded.show, format)));
+    let converted = beside(move || {
+        read(&bytes, None).map(|loaded| format.write(&loaded.show, loaded.plan.as_ref()).bytes)
+    });
     let document =
         converted.await?.map_err(|error| refuse(StatusCode::UNPROCESSABLE_ENTITY, &error.to_string()))?;
-    Ok(([(header::CONTENT_TYPE, "application/json")], document).into_response())
+    Ok(([(header::CONTENT_TYPE, format.media_type)], document).into_response())
 }
 
 /// `GET /api/plan`

@@ -5,8 +5,7 @@ use std::collections::BTreeMap;
 use lightbots_base::{RobotId, Vec2};
 
 use super::{Findings, MAX_PIXELS, PROVABLE_GAP_M, millimetres, number, place};
-use crate::error::shown;
-use crate::{Frame, Show, Stage, close_pairs};
+use crate::{Frame, Show, Stage, close_pairs, excerpt};
 
 /// Longest air time or transition, seconds.
 const MOST_S: f64 = 86_400.0;
@@ -71,8 +70,11 @@ fn bad_pins(frame: &Frame) -> Vec<(Vec<u32>, String)> {
     for pixel in &frame.pixels {
         let Some(robot) = &pixel.robot else { continue };
         if RobotId::new(robot).is_none() {
-            let what =
-                format!("pixel {}: \"{}\" is no robot's name; choose a robot again", pixel.id, shown(robot));
+            let what = format!(
+                "pixel {}: \"{}\" is no robot's name; choose a robot again",
+                pixel.id,
+                excerpt(robot)
+            );
             found.push((vec![pixel.id], what));
         } else if let Some(first) = pinned.insert(robot.as_str(), pixel.id) {
             let what =

@@ -11,7 +11,8 @@ mod scene;
 
 use std::process::ExitCode;
 
-use lightbots_show::{Format, Issue, Show, write};
+use lightbots_exchange::LIGHTBOTS;
+use lightbots_show::{Issue, Show};
 use lightbots_sim::{RehearsalOptions, RehearsalReport, rehearse};
 
 const ROBOTS: u64 = 60;
@@ -87,5 +88,5 @@ impl Tally {
 
 fn keep(show: &Show, directory: &str, number: u64) -> Result<(), String> {
     let path = format!("{directory}/floor-{number}.json");
-    std::fs::write(&path, write(show, Format::LightBots)).map_err(|error| format!("{path}: {error}"))
+    std::fs::write(&path, LIGHTBOTS.write(show, None).bytes).map_err(|error| format!("{path}: {error}"))
 }

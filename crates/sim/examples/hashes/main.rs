@@ -67,7 +67,7 @@ fn example_shows() -> Result<Vec<String>, String> {
     let mut paths: Vec<String> = entries
         .flatten()
         .map(|entry| entry.path().display().to_string())
-        .filter(|path| path.ends_with(".json"))
+        .filter(|path| lightbots_exchange::for_file(path).is_some())
         .collect();
     paths.sort();
     Ok(paths)
@@ -75,8 +75,7 @@ fn example_shows() -> Result<Vec<String>, String> {
 
 fn read(path: &str) -> Result<Show, String> {
     let bytes = std::fs::read(path).map_err(|error| format!("{path}: {error}"))?;
-    let ending = Path::new(path).extension().and_then(|ending| ending.to_str());
-    Ok(lightbots_show::read(&bytes, ending).map_err(|error| format!("{path}: {error}"))?.show)
+    Ok(lightbots_exchange::read(&bytes, Some(path)).map_err(|error| format!("{path}: {error}"))?.show)
 }
 
 fn under_all_conditions(name: &str, show: &Show) -> Result<(), String> {

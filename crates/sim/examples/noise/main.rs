@@ -40,7 +40,7 @@ const TROUBLES: [&str; 20] = [
 ];
 
 fn main() {
-    let show = lightbots_show::read(SHOW, Some("json")).expect("the show is part of the repository").show;
+    let show = lightbots_exchange::read(SHOW, None).expect("the show is part of the repository").show;
     for trouble in TROUBLES {
         let stated = (!trouble.is_empty()).then(|| Faults::parse(trouble).expect("all troubles are faults"));
         let faults = stated.unwrap_or_default();

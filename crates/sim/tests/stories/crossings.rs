@@ -1,7 +1,8 @@
 //! Shows as the original saves them, where pixel 7 is the same robot in every frame and straight lines would collide.
 
 use lightbots_base::{Rgb, Vec2};
-use lightbots_show::{Easing, Format, Frame, Identity, Pixel, Show, read, write};
+use lightbots_exchange::{ORIGINAL, read};
+use lightbots_show::{Easing, Frame, Identity, Pixel, Show};
 use lightbots_sim::{Conditions, RehearsalOptions, rehearse};
 
 /// A show of two pictures in the original's format, and the ways between them that cross.
@@ -18,10 +19,9 @@ fn show(name: &str, from: &[Vec2], to: &[Vec2]) -> Show {
             .collect(),
     };
     let there = Show { frames: vec![frame("From", from), frame("To", to)], ..Show::default() };
-    let bytes = write(&there, Format::Original);
+    let bytes = ORIGINAL.write(&there, None).bytes;
     assert_eq!(bytes[0], b'[', "a list of frames");
-    let loaded = read(&bytes, Some("json")).unwrap();
-    assert_eq!(loaded.format, Format::Original);
+    let loaded = read(&bytes, None).unwrap();
     Show { name: name.into(), identity: Identity::Fixed, ..loaded.show }
 }
 

@@ -102,7 +102,7 @@ fn a_tight_ring_turns_by_half() {
 
 #[test]
 fn the_dancers_dance() {
-    let show = lightbots_show::read(DANCERS, None).unwrap().show;
+    let show = lightbots_exchange::read(DANCERS, None).unwrap().show;
     for seed in 1..=3 {
         assert_eq!(assert_fine(&show, "", seed).frames_played, 10);
     }

@@ -71,7 +71,7 @@ fn who_gets_no_fixes_for_a_second_waits_for_them_and_goes_on() {
 fn one_hold_after_another_is_kept_when_it_is_needed() {
     // Holds were stated up to 2 s ahead, each after the resume of the one before, until robots forgot the first of them:
     // all hundred were thrown a quarter of a metre back on their routes.
-    let show = lightbots_show::read(FIREWORKS, None).unwrap().show;
+    let show = lightbots_exchange::read(FIREWORKS, None).unwrap().show;
     let report = play(&show, "fix-dropout=1s", 3);
     assert!(report.tracking_error_m.max < 0.03, "{:?}", report.tracking_error_m);
 }

@@ -19,7 +19,8 @@ use std::time::Instant;
 
 use floor::{Account, Floor};
 use lightbots_base::{RobotId, Span, Vec2};
-use lightbots_show::{Format, Show, Stage};
+use lightbots_exchange::{Format, LIGHTBOTS, ORIGINAL, for_file};
+use lightbots_show::{Show, Stage};
 use pace::Pace;
 use processes::{Running, built, mosquitto, stand_in};
 use tape::{Score, Tape};
@@ -31,7 +32,7 @@ pub static TURN: Mutex<()> = Mutex::new(());
 fn show(file: &str, frames: usize) -> Show {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shows").join(file);
     let bytes = std::fs::read(path).expect("the show is there");
-    let mut show = lightbots_show::read(&bytes, Some("json")).expect("the show can be read").show;
+    let mut show = lightbots_exchange::read(&bytes, Some(file)).expect("the show can be read").show;
     show.frames.truncate(frames);
     show
 }
@@ -43,15 +44,12 @@ fn id(number: usize) -> RobotId {
 
 /// Plays a show with as many drivers as it has pixels; what the controller reported, the floor saw and the broker
 /// carried.
-fn play(show: &Show, format: Format, pace: Pace) -> (serde_json::Value, Account, Score) {
+fn play(show: &Show, format: &Format, pace: Pace) -> (serde_json::Value, Account, Score) {
     let count = show.frames[0].pixels.len();
     let starts = lightbots_show::front_rows(&show.stage, count);
     let folder = tempfile(&show.name);
-    let path = folder.join(match format {
-        Format::LightBots => "show.lightbots.json",
-        Format::Original => "show.json",
-    });
-    std::fs::write(&path, lightbots_show::write(show, format)).expect("the temporary folder can be written");
+    let path = folder.join(format!("show{}", format.ending()));
+    std::fs::write(&path, format.write(show, None).bytes).expect("the temporary folder can be written");
     let socket = folder.join("floor");
     let floor = Floor::open(&socket, &show.stage, &starts, count, (pace, 1));
     let (_broker, port) = mosquitto();
@@ -99,7 +97,7 @@ fn tempfile(name: &str) -> std::path::PathBuf {
 }
 
 /// Plays a show at Webots' usual pace, and tells where the robots were: `[robot][place]`.
-fn plays_without_contact(show: &Show, format: Format) -> Vec<Vec<(Instant, Vec2)>> {
+fn plays_without_contact(show: &Show, format: &Format) -> Vec<Vec<(Instant, Vec2)>> {
     let _turn = TURN.lock().unwrap_or_else(PoisonError::into_inner);
     let (report, account, score) = play(show, format, Pace::WEBOTS);
     let Account { contacts, closest_m, places, colours, .. } = &account;
@@ -228,19 +226,19 @@ fn a_robot_whose_driver_is_killed_stops_by_itself() {
 #[test]
 fn thirty_processes_play_a_show() {
     let file = std::env::var("LIGHTBOTS_SHOW").unwrap_or_else(|_| "heart.lightbots.json".into());
-    let format = if file.ends_with(".lightbots.json") { Format::LightBots } else { Format::Original };
+    let format = for_file(&file).expect("a file of a known format");
     plays_without_contact(&show(&file, usize::MAX), format);
 }
 
 #[test]
 fn thirty_processes_begin_another_show() {
-    plays_without_contact(&show("rings.lightbots.json", 2), Format::LightBots);
+    plays_without_contact(&show("rings.lightbots.json", 2), &LIGHTBOTS);
 }
 
 #[test]
 fn thirty_processes_begin_a_show_in_the_originals_format_on_the_ways_of_its_rehearsal() {
     let show = show("hello.json", 2);
-    let tracks = plays_without_contact(&show, Format::Original);
+    let tracks = plays_without_contact(&show, &ORIGINAL);
     let off_m = furthest_off(&show, &tracks);
     assert!(off_m <= 0.005, "a robot was {:.1} mm beside its way in the rehearsal", off_m * 1e3);
 }

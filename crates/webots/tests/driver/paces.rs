@@ -3,7 +3,8 @@
 
 use std::sync::PoisonError;
 
-use lightbots_show::{Format, Show};
+use lightbots_exchange::{Format, LIGHTBOTS, for_file};
+use lightbots_show::Show;
 
 use crate::pace::Pace;
 use crate::{TURN, off_m, play, show};
@@ -36,7 +37,7 @@ const ALL: [Scenario; 6] = [
 fn robots_stay_apart_whatever_the_pace_of_their_world() {
     let _turn = TURN.lock().unwrap_or_else(PoisonError::into_inner);
     let Ok(files) = std::env::var("LIGHTBOTS_PACES") else {
-        let wrong = wrong_in(&ALL[ALL.len() - 1], &show("rings.lightbots.json", 2), Format::LightBots);
+        let wrong = wrong_in(&ALL[ALL.len() - 1], &show("rings.lightbots.json", 2), &LIGHTBOTS);
         assert_eq!(wrong, Vec::<String>::new());
         return;
     };
@@ -47,7 +48,7 @@ fn robots_stay_apart_whatever_the_pace_of_their_world() {
     let mut wrong = Vec::new();
     for (file, scenario) in files.split(',').flat_map(|file| ALL.iter().map(move |scenario| (file, scenario)))
     {
-        let format = if file.ends_with(".lightbots.json") { Format::LightBots } else { Format::Original };
+        let format = for_file(file).expect("a file of a known format");
         wrong.extend(wrong_in(scenario, &show(file, usize::MAX), format));
     }
     assert_eq!(wrong, Vec::<String>::new());
@@ -55,7 +56,7 @@ fn robots_stay_apart_whatever_the_pace_of_their_world() {
 
 /// Plays a show in a world, prints a line of the table, and tells what is not as it must be.
 #[allow(clippy::print_stdout)]
-fn wrong_in(scenario: &Scenario, show: &Show, format: Format) -> Vec<String> {
+fn wrong_in(scenario: &Scenario, show: &Show, format: &Format) -> Vec<String> {
     let (report, account, score) = play(show, format, scenario.pace);
     let (holds, stops) = score.holds();
     let (_, due_m) = off_m(&score, &account);

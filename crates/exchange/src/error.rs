@@ -1,31 +1,31 @@
-//! Why bytes are no show.
+//! Why bytes are not a show.
 
 use std::fmt;
 
-use crate::Issue;
+use lightbots_show::{Issue, frame_label};
 
-/// Why bytes cannot be read as a show. Its `Display` is one line that says where, what, and what to do; it does not
-/// say which file: the one who opened it knows.
+/// Why bytes cannot be read as a show. `Display` gives one line: place, cause and remedy. The caller, which knows the
+/// name of the file, puts it before the line.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ReadError {
-    /// What it is, for programs: lower case words with hyphens, such as `not-json`.
+    /// The kind of error for programs: lower case words with hyphens, such as `not-json`.
     pub code: &'static str,
-    /// Line and column, both counted from 1, the column in characters; `None` where the whole file is concerned.
+    /// Line and column, counted from 1, the column in characters. `None` if the error concerns the whole file.
     pub place: Option<(usize, usize)>,
-    /// Which frame, counted from 0, and its name if it is known.
+    /// Index of the frame, counted from 0, and the frame's name, which may be empty.
     pub frame: Option<(usize, String)>,
-    /// Which pixel.
+    /// The pixel of that frame.
     pub pixel: Option<PixelName>,
-    /// What is wrong and what to do, without the place.
+    /// Cause and remedy, without the place.
     pub what: String,
 }
 
 /// How an error names a pixel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PixelName {
-    /// By its id.
+    /// The pixel's id.
     Id(u32),
-    /// By its position in the frame's list, counted from 0, where it has no readable id.
+    /// The pixel's position in the list of the frame, counted from 0. For pixels without a readable id.
     Nth(usize),
 }
 
@@ -40,12 +40,12 @@ impl ReadError {
         let before = &text.as_bytes()[..byte.min(text.len())];
         let line = before.iter().filter(|byte| **byte == b'\n').count() + 1;
         let line_start = before.iter().rposition(|byte| *byte == b'\n').map_or(0, |at| at + 1);
-        // Continuation bytes are no characters of their own.
+        // Continuation bytes of UTF-8 do not count as characters.
         let column = before[line_start..].iter().filter(|byte| **byte & 0xc0 != 0x80).count() + 1;
         Self { place: Some((line, column)), ..Self::whole(code, what) }
     }
 
-    /// The same as an issue, for lists of issues.
+    /// The error as an issue, for lists of issues.
     pub fn issue(&self) -> Issue {
         let mut issue = Issue::error(self.code, self.to_string());
         issue.frame = self.frame.as_ref().map(|(index, _)| *index);
@@ -79,25 +79,6 @@ impl fmt::Display for ReadError {
 
 impl std::error::Error for ReadError {}
 
-/// How messages name a frame: `frame 3 "Heart"`, counted from 1.
-pub fn frame_label(index: usize, name: &str) -> String {
-    if name.is_empty() {
-        return format!("frame {}", index + 1);
-    }
-    format!("frame {} \"{}\"", index + 1, shown(name))
-}
-
-/// Text of a file as a message may show it: short, and without what would break the line.
-pub(crate) fn shown(text: &str) -> String {
-    const LONGEST: usize = 40;
-    let mut short: String =
-        text.chars().take(LONGEST).map(|char| if char.is_control() { '\u{fffd}' } else { char }).collect();
-    if text.chars().nth(LONGEST).is_some() {
-        short.push('…');
-    }
-    short
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -106,11 +87,5 @@ mod tests {
     fn columns_count_characters() {
         let error = ReadError::at("not-json", "é\nöx!", 6, "bad");
         assert_eq!(error.to_string(), "line 2, column 3: bad");
-    }
-
-    #[test]
-    fn names_cannot_break_the_line() {
-        assert_eq!(frame_label(0, "a\nb"), "frame 1 \"a\u{fffd}b\"");
-        assert!(frame_label(0, &"x".repeat(1000)).len() < 60);
     }
 }

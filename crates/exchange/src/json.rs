@@ -1,18 +1,25 @@
-//! Reads JSON as it comes, without a tree: a show of 10,000 robots costs the memory of the show. Unlike a common
-//! parser it reads `NaN` and `Infinity` for what they are, so that an error can name the pixel that has them.
+//! A JSON reader without a tree, and the parts that JSON formats share (`frames`, `text`).
+//!
+//! Reading takes no memory besides the show. Unlike common parsers this one reads `NaN` and `Infinity`, so that an error
+//! can name the pixel that has them.
+
+pub(crate) mod frames;
+pub(crate) mod text;
 
 use std::borrow::Cow;
 
-use crate::error::{ReadError, shown};
+use lightbots_show::excerpt;
 
-/// A place in a JSON text, reading onwards.
+use crate::error::ReadError;
+
+/// A position in a JSON text. Reading a value moves the position behind it.
 #[derive(Clone)]
 pub(crate) struct Json<'a> {
     text: &'a str,
     at: usize,
 }
 
-/// A value that is not looked into.
+/// A value; of lists and objects only the kind.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Scalar<'a> {
     Number(f64),
@@ -23,8 +30,9 @@ pub(crate) enum Scalar<'a> {
     Object,
 }
 
-/// How deep lists and objects that are skipped may lie in each other.
-const DEEPEST: usize = 32;
+/// Deepest nesting of lists and objects in a skipped value. Shows of both formats nest at most 5 deep. The reader is
+/// recursive, so a much larger bound would let a hostile file overflow the stack.
+const DEPTH_MAX: usize = 32;
 
 type Read<T> = Result<T, ReadError>;
 
@@ -33,24 +41,29 @@ impl<'a> Json<'a> {
         Self { text, at: 0 }
     }
 
-    /// An error at the place reached.
+    /// The line of the position, counted from 1.
+    pub fn line(&self) -> usize {
+        self.text.as_bytes()[..self.at].iter().filter(|byte| **byte == b'\n').count() + 1
+    }
+
+    /// An error at the position.
     pub fn fail(&self, code: &'static str, what: impl Into<String>) -> ReadError {
         ReadError::at(code, self.text, self.at, what)
     }
 
-    /// The next byte that is not white space, not taken.
+    /// The next byte that is not white space. The position stops before it.
     pub fn peek(&mut self) -> Read<u8> {
         self.blank();
         self.text.as_bytes().get(self.at).copied().ok_or_else(|| self.cut_off())
     }
 
-    /// Whether nothing but white space follows.
+    /// Whether only white space follows. Skips it.
     pub fn is_at_end(&mut self) -> bool {
         self.blank();
         self.at >= self.text.len()
     }
 
-    /// Reads an object; `field` must take the value of each key.
+    /// Reads an object. `field` gets each key and must read its value.
     pub fn object(&mut self, mut field: impl FnMut(&mut Self, &str) -> Read<()>) -> Read<()> {
         self.open(b'{', "an object in { }")?;
         if self.peek()? == b'}' {
@@ -73,7 +86,7 @@ impl<'a> Json<'a> {
         }
     }
 
-    /// Reads a list; `item` must take each value and is told its index.
+    /// Reads a list. `item` gets the index of each value and must read the value.
     pub fn list(&mut self, mut item: impl FnMut(&mut Self, usize) -> Read<()>) -> Read<()> {
         self.open(b'[', "a list in [ ]")?;
         if self.peek()? == b']' {
@@ -89,30 +102,30 @@ impl<'a> Json<'a> {
         Ok(())
     }
 
-    /// Takes any value; lists and objects are skipped.
+    /// Reads any value. Lists and objects are skipped.
     pub fn scalar(&mut self) -> Read<Scalar<'a>> {
-        self.value(DEEPEST)
+        self.value(DEPTH_MAX)
     }
 
-    /// Takes a value without looking at it.
+    /// Skips a value.
     pub fn skip(&mut self) -> Read<()> {
         self.scalar().map(drop)
     }
 
-    /// Takes a finite number; `name` is what messages call it.
+    /// Reads a finite number. `name` stands for the number in messages.
     pub fn number(&mut self, name: &str) -> Read<f64> {
         self.blank();
         let before = self.clone();
         let problem = match self.scalar()? {
             Scalar::Number(number) if number.is_finite() => return Ok(number),
-            Scalar::Number(number) if number.is_nan() => "NaN, which is no number".into(),
+            Scalar::Number(number) if number.is_nan() => "NaN, not a number".into(),
             Scalar::Number(_) => "infinite".into(),
             other => format!("{}, not a number", other.kind()),
         };
         Err(before.fail("not-a-number", format!("{name} is {problem}; give it a number")))
     }
 
-    /// Takes a whole number from 0 to 4294967295.
+    /// Reads a whole number from 0 to 4294967295.
     pub fn whole(&mut self, name: &str) -> Read<u32> {
         self.blank();
         let before = self.clone();
@@ -120,11 +133,13 @@ impl<'a> Json<'a> {
         if number.fract() == 0.0 && (0.0..=u32::MAX as f64).contains(&number) {
             return Ok(number as u32);
         }
-        Err(before
-            .fail("not-a-whole-number", format!("{name} is {number}; give it a whole number from 0 on")))
+        Err(before.fail(
+            "not-a-whole-number",
+            format!("{name} is {number}; give it a whole number from 0 to 4294967295"),
+        ))
     }
 
-    /// Takes a text.
+    /// Reads a text.
     pub fn text(&mut self, name: &str) -> Read<Cow<'a, str>> {
         self.blank();
         let before = self.clone();
@@ -137,10 +152,10 @@ impl<'a> Json<'a> {
         }
     }
 
-    /// The value of `key` in the object that follows, read ahead; `None` where there is none that can be read.
+    /// The value of `key` in the object that follows. The position stays. `None` if the key cannot be read.
     pub fn ahead(&self, key: &str) -> Option<Scalar<'a>> {
         let mut found = None;
-        // What lies before a fault is still good for naming the place of the fault.
+        // An error behind the key does not matter: the value names the place of that error.
         let _ = self.clone().object(|json, name| {
             let value = json.scalar()?;
             if name == key {
@@ -151,22 +166,19 @@ impl<'a> Json<'a> {
         found
     }
 
-    /// That something else than `wanted` follows.
+    /// The error that something else than `wanted` follows.
     pub fn unexpected(&self, wanted: &str) -> ReadError {
         match self.text[self.at..].chars().next() {
             None => self.cut_off(),
             Some(char) => {
-                let found = shown(char.encode_utf8(&mut [0; 4]));
+                let found = excerpt(char.encode_utf8(&mut [0; 4]));
                 self.fail("not-json", format!("expected {wanted}, found '{found}'; is this a show file?"))
             }
         }
     }
 
     fn cut_off(&self) -> ReadError {
-        self.fail(
-            "cut-off",
-            "the file ends in the middle; it was not saved or copied to its end: get it again",
-        )
+        self.fail("cut-off", "the file ends here, in the middle of the show; save or copy it again")
     }
 
     fn blank(&mut self) {
@@ -201,7 +213,7 @@ impl<'a> Json<'a> {
         match self.peek()? {
             b'{' | b'[' if depth == 0 => {
                 Err(self
-                    .fail("too-deep", format!("more than {DEEPEST} lists in each other; this is no show")))
+                    .fail("too-deep", format!("lists nest more than {DEPTH_MAX} deep; this is not a show")))
             }
             b'{' => {
                 self.object(|json, _| json.value(depth - 1).map(drop))?;
@@ -217,7 +229,7 @@ impl<'a> Json<'a> {
         }
     }
 
-    /// A number or one of the words JSON and its relatives know.
+    /// A number, or `true`, `false` or `null`.
     fn word(&mut self) -> Read<Scalar<'a>> {
         let rest = &self.text[self.at..];
         let part = |byte: &u8| byte.is_ascii_alphanumeric() || matches!(byte, b'-' | b'+' | b'.');
@@ -227,12 +239,12 @@ impl<'a> Json<'a> {
             "true" => Scalar::Bool(true),
             "false" => Scalar::Bool(false),
             "null" => Scalar::Null,
-            // Rust reads NaN, inf and infinity in any case, with a sign or without.
+            // `parse` also reads NaN, inf and infinity, in any case and with any sign.
             _ => match word.parse() {
                 Ok(number) => Scalar::Number(number),
                 Err(_) if end == rest.len() => return Err(Self { at: self.text.len(), ..*self }.cut_off()),
                 Err(_) => {
-                    let what = format!("'{}' is neither a number nor true, false or null", shown(word));
+                    let what = format!("'{}' is neither a number nor true, false or null", excerpt(word));
                     return Err(self.fail("not-json", what));
                 }
             },
@@ -241,7 +253,7 @@ impl<'a> Json<'a> {
         Ok(scalar)
     }
 
-    /// A text in double quotes; the opening quote follows.
+    /// A text in double quotes. The position is before the opening quote.
     fn string(&mut self) -> Read<Cow<'a, str>> {
         self.at += 1;
         let start = self.at;
@@ -272,7 +284,7 @@ impl<'a> Json<'a> {
         }
     }
 
-    /// The character behind a backslash.
+    /// The character that a backslash and what follows stand for.
     fn escape(&mut self) -> Read<char> {
         let escaped = self.text.as_bytes().get(self.at + 1).copied().ok_or_else(|| self.cut_off())?;
         let char = match escaped {
@@ -289,7 +301,7 @@ impl<'a> Json<'a> {
         Ok(char)
     }
 
-    /// `\uXXXX`, or two of them where the first is half a character. Halves without the other half are U+FFFD.
+    /// `\uXXXX`, or a pair of surrogates. A surrogate without its pair becomes U+FFFD.
     fn unicode_escape(&mut self) -> Read<char> {
         let hex = |at: usize| {
             let digits = self.text.get(at..at + 6)?.strip_prefix("\\u")?;
@@ -309,12 +321,30 @@ impl<'a> Json<'a> {
     }
 }
 
+/// The first byte that is neither white space nor a byte order mark.
+pub(crate) fn first_byte(bytes: &[u8]) -> Option<u8> {
+    without_mark(bytes).iter().copied().find(|byte| !byte.is_ascii_whitespace())
+}
+
+/// The bytes as text, without a byte order mark.
+pub(crate) fn text(bytes: &[u8]) -> Result<&str, ReadError> {
+    let bytes = without_mark(bytes);
+    std::str::from_utf8(bytes).map_err(|error| {
+        let before = std::str::from_utf8(&bytes[..error.valid_up_to()]).unwrap_or("");
+        ReadError::at("not-utf-8", before, before.len(), "this is not UTF-8 text")
+    })
+}
+
+fn without_mark(bytes: &[u8]) -> &[u8] {
+    bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes)
+}
+
 impl Scalar<'_> {
-    /// What messages call it.
+    /// The value in messages.
     fn kind(&self) -> String {
         match self {
             Self::Number(number) => format!("the number {number}"),
-            Self::Text(text) => format!("the text \"{}\"", shown(text)),
+            Self::Text(text) => format!("the text \"{}\"", excerpt(text)),
             Self::Bool(value) => value.to_string(),
             Self::Null => "null".into(),
             Self::List => "a list".into(),

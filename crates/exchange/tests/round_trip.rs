@@ -1,9 +1,9 @@
-//! What is written is read again as it was, in both formats.
+//! What a format keeps comes back from its files unchanged.
 
 use lightbots_base::{Limits, Rgb, Vec2};
-use lightbots_show::{
-    Easing, Format, Frame, Identity, Obstacle, Pixel, Show, Stage, losses, read, validate, with_floor, write,
-};
+use lightbots_exchange::{FORMATS, LIGHTBOTS, ORIGINAL, Part, for_file, named, read, sniff};
+use lightbots_plan::ShowPlan;
+use lightbots_show::{Easing, Frame, Identity, Obstacle, Pixel, Show, Stage, validate, with_floor};
 
 /// A show that uses every field.
 fn rich() -> Show {
@@ -43,8 +43,8 @@ fn rich() -> Show {
 fn ours_keeps_everything() {
     let show = rich();
     assert_eq!(validate(&show), []);
-    let loaded = read(&write(&show, Format::LightBots), None).unwrap();
-    assert_eq!((loaded.format, loaded.has_stage, loaded.issues.len()), (Format::LightBots, true, 0));
+    let loaded = read(&LIGHTBOTS.write(&show, None).bytes, None).unwrap();
+    assert!(loaded.has_stage && loaded.issues.is_empty());
     assert_eq!(loaded.show, show);
 }
 
@@ -74,12 +74,12 @@ fn our_layout_is_a_pixel_a_line() {
   ]
 }
 "##;
-    assert_eq!(String::from_utf8(write(&show, Format::LightBots)).unwrap(), expected);
+    assert_eq!(String::from_utf8(LIGHTBOTS.write(&show, None).bytes).unwrap(), expected);
 }
 
 #[test]
 fn the_originals_format_has_every_field_its_editor_needs() {
-    let json: serde_json::Value = serde_json::from_slice(&write(&rich(), Format::Original)).unwrap();
+    let json: serde_json::Value = serde_json::from_slice(&ORIGINAL.write(&rich(), None).bytes).unwrap();
     let frame = &json[0];
     assert_eq!((&frame["selected"], &json[1]["selected"]), (&true.into(), &false.into()));
     assert_eq!((&frame["airTime"], &frame["selectedPixels"]), (&0.25.into(), &serde_json::json!([])));
@@ -100,7 +100,7 @@ fn every_colour_survives_the_originals_format() {
     for byte in 0..=255 {
         show.frames[0].pixels.truncate(1);
         show.frames[0].pixels[0].color = Rgb::new(byte, 0, 255 - byte);
-        let back = read(&write(&show, Format::Original), None).unwrap().show;
+        let back = read(&ORIGINAL.write(&show, None).bytes, None).unwrap().show;
         assert_eq!(back.frames, show.frames);
         let rounded = format!(
             "[{{\"name\":\"\",\"airTime\":0,\"pixels\":[{{\"pixelId\":0,\"physicalLocation\":{{\"X\":0,\"Y\":0}},\
@@ -112,11 +112,25 @@ fn every_colour_survives_the_originals_format() {
 }
 
 #[test]
-fn what_the_original_cannot_hold_is_said() {
-    let lost = losses(&rich(), Format::Original);
+fn a_part_that_the_format_does_not_keep_is_a_warning() {
+    let lost = ORIGINAL.write(&rich(), None).issues;
+    let codes: Vec<&str> = lost.iter().map(|issue| issue.code.as_str()).collect();
+    assert_eq!(codes, [vec!["lost-in-format"; Part::ALL.len() - 1], vec!["not-30-pixels"]].concat());
     assert!(lost.iter().any(|issue| issue.message.contains("no-go areas")));
-    assert!(lost.iter().any(|issue| issue.code == "not-30-pixels"));
-    assert_eq!(losses(&rich(), Format::LightBots), []);
+    assert_eq!(LIGHTBOTS.write(&rich(), None).issues, []);
+    let planned = LIGHTBOTS.write(&rich(), Some(&ShowPlan::default())).issues;
+    assert_eq!(planned.len(), usize::from(!LIGHTBOTS.keeps(Part::Plan)));
+}
+
+#[test]
+fn every_format_recognises_its_own_files() {
+    for format in FORMATS {
+        let written = format.write(&rich(), None);
+        assert_eq!(sniff(&written.bytes), Some(format));
+        assert_eq!(read(&written.bytes, None).unwrap().show.frames.len(), 2);
+        assert_eq!(named(format.name), Some(format));
+        assert_eq!(for_file(&format!("show{}", format.ending())), Some(format));
+    }
 }
 
 #[test]
@@ -134,7 +148,7 @@ fn an_original_carries_no_stage_and_may_lack_what_can_be_derived() {
 
 #[test]
 fn a_byte_order_mark_is_no_fault() {
-    let bytes = [b"\xef\xbb\xbf".as_slice(), &write(&rich(), Format::LightBots)].concat();
+    let bytes = [b"\xef\xbb\xbf".as_slice(), &LIGHTBOTS.write(&rich(), None).bytes].concat();
     assert_eq!(read(&bytes, None).unwrap().show, rich());
 }
 
@@ -144,7 +158,7 @@ fn ten_thousand_robots_are_read_and_found_sound() {
     let pixels = (0..10_000).map(|id| Pixel { id, at: place(id), color: Rgb::new(9, 9, 9), robot: None });
     let frame = Frame { pixels: pixels.collect(), ..rich().frames.remove(0) };
     let show = with_floor(Show { frames: vec![frame; 10], ..Show::default() }, 24.0, 24.0);
-    let loaded = read(&write(&show, Format::LightBots), None).unwrap();
+    let loaded = read(&LIGHTBOTS.write(&show, None).bytes, None).unwrap();
     assert_eq!(validate(&loaded.show), []);
     assert_eq!(loaded.show.frames[9].pixels[9_999].id, 9_999);
     assert!((loaded.show.frames[9].pixels[9_999].at - Vec2::new(9.9, 9.9)).length() < 1e-9);

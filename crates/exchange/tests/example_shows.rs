@@ -6,7 +6,8 @@ mod programme;
 use std::path::Path;
 
 use lightbots_base::Vec2;
-use lightbots_show::{Format, close_pairs, read, validate};
+use lightbots_exchange::{ORIGINAL, read, sniff};
+use lightbots_show::{close_pairs, validate};
 
 /// Between the pixels of a frame, metres: more than 76.4 mm keeps synchronised straight lines apart.
 const LEAST_GAP_M: f64 = 0.08;
@@ -16,7 +17,7 @@ fn the_files_are_current() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shows");
     for entry in programme::all() {
         let kept = std::fs::read(folder.join(entry.file)).unwrap_or_default();
-        let hint = "run `cargo run -p lightbots-show --example shows`";
+        let hint = "run `cargo run -p lightbots-exchange --example shows`";
         assert!(kept == entry.bytes(), "{} is not what its generator writes; {hint}", entry.file);
     }
 }
@@ -24,8 +25,8 @@ fn the_files_are_current() {
 #[test]
 fn they_are_sound_and_spacious() {
     for entry in programme::all() {
-        let loaded = read(&entry.bytes(), Some("json")).unwrap();
-        assert_eq!((loaded.format, loaded.issues.len()), (entry.format, 0), "{}", entry.file);
+        let loaded = read(&entry.bytes(), Some(entry.file)).unwrap();
+        assert_eq!((sniff(&entry.bytes()), loaded.issues.len()), (Some(entry.format), 0), "{}", entry.file);
         assert_eq!(validate(&loaded.show), [], "{}", entry.file);
         for frame in &loaded.show.frames {
             let places: Vec<Vec2> = frame.pixels.iter().map(|pixel| pixel.at).collect();
@@ -37,8 +38,7 @@ fn they_are_sound_and_spacious() {
 
 #[test]
 fn those_in_the_originals_format_suit_its_thirty_robots() {
-    let originals: Vec<_> =
-        programme::all().into_iter().filter(|entry| entry.format == Format::Original).collect();
+    let originals: Vec<_> = programme::all().into_iter().filter(|entry| *entry.format == ORIGINAL).collect();
     assert!(originals.len() >= 2);
     for entry in originals {
         for frame in &entry.show.frames {

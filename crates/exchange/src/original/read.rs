@@ -1,25 +1,23 @@
-//! The original's format: a list of frames. Only what carries meaning is read; the rest was its editor's state.
+//! From a file of the original to a show. Fields that hold the state of the original's editor are skipped.
 
 use lightbots_base::{Rgb, Vec2};
+use lightbots_show::{Easing, Frame, Issue, Pixel, Show, frame_label};
 
-use super::{Format, Loaded, Notes, frames, missing, pixels};
+use super::canvas::stage_from_canvas;
 use crate::error::ReadError;
+use crate::format::Loaded;
 use crate::json::Json;
-use crate::{Easing, Frame, Issue, Pixel, Show};
+use crate::json::frames::{Notes, document, frames, missing, pixels};
 
-/// Canvas pixels of the original's editor along each side of its floor.
-const CANVAS_PX: f64 = 720.0;
-/// Metres along each side of its floor.
-const FLOOR_M: f64 = 3.0;
+/// How far a colour component may lie outside 0 to 1. Covers the rounding of 32-bit numbers (6e-8 near 1); without it
+/// files of other programs with 1.0000001 would be refused.
+const COLOR_SLACK: f64 = 1e-6;
 
-pub(super) fn show(json: &mut Json<'_>, notes: &mut Notes) -> Result<Loaded, ReadError> {
-    let frames = frames(json, |json, index| frame(json, index, notes))?;
-    Ok(Loaded {
-        show: Show { frames, ..Show::default() },
-        format: Format::Original,
-        has_stage: false,
-        issues: Vec::new(),
-    })
+pub(crate) fn read(bytes: &[u8]) -> Result<Loaded, ReadError> {
+    let (frames, issues) =
+        document(bytes, |json, notes| frames(json, |json, index| frame(json, index, notes)))?;
+    let show = Show { frames, ..Show::default() };
+    Ok(Loaded { show, plan: None, has_stage: false, issues })
 }
 
 fn frame(json: &mut Json<'_>, index: usize, notes: &mut Notes) -> Result<Frame, ReadError> {
@@ -37,7 +35,7 @@ fn frame(json: &mut Json<'_>, index: usize, notes: &mut Notes) -> Result<Frame, 
         Ok(())
     })?;
     if air_time_s.is_none() {
-        let what = format!("{} has no airTime; it is taken as 0 s", crate::error::frame_label(index, &name));
+        let what = format!("{} has no airTime; it is taken as 0 s", frame_label(index, &name));
         notes.issues.push(Issue::warning("missing-field", what).in_frame(index));
     }
     Ok(Frame {
@@ -71,12 +69,6 @@ fn pixel(json: &mut Json<'_>, notes: &mut Notes) -> Result<Pixel, ReadError> {
         color: color.or(preview).ok_or_else(|| missing(json, "color"))?,
         robot: None,
     })
-}
-
-/// Metres from canvas pixels.
-fn stage_from_canvas(px: Vec2) -> Vec2 {
-    let metres = FLOOR_M / CANVAS_PX;
-    Vec2::new((px.x - CANVAS_PX / 2.0) * metres, (CANVAS_PX / 2.0 - px.y) * metres)
 }
 
 fn location(json: &mut Json<'_>, name: &str) -> Result<Vec2, ReadError> {
@@ -113,12 +105,12 @@ fn rgb(json: &mut Json<'_>) -> Result<Rgb, ReadError> {
     }
 }
 
-/// A channel stated as 0 to 1.
+/// A colour component, which files state as 0 to 1, as 0 to 255.
 fn channel_byte(json: &mut Json<'_>, name: &str) -> Result<u8, ReadError> {
     json.peek()?;
     let before = json.clone();
     let share = json.number(name)?;
-    if !(-1e-6..=1.000_001).contains(&share) {
+    if !(-COLOR_SLACK..=1.0 + COLOR_SLACK).contains(&share) {
         let what = format!("colour component {name} is {share}; it must be from 0 to 1");
         return Err(before.fail("bad-color", what));
     }

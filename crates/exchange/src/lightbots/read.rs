@@ -1,13 +1,26 @@
-//! Our own format, version 1.
+//! From a file of our format to a show.
 
 use lightbots_base::{Limits, Rgb, Vec2};
+use lightbots_show::{
+    Easing, Frame, Identity, MAX_OBSTACLES, MAX_PIXELS, Obstacle, Pixel, Show, Stage, excerpt,
+};
 
-use super::{Format, Loaded, Notes, frames, missing, pixels};
-use crate::error::{ReadError, shown};
+use crate::error::ReadError;
+use crate::format::Loaded;
 use crate::json::Json;
-use crate::{Easing, Frame, Identity, MAX_OBSTACLES, MAX_PIXELS, Obstacle, Pixel, Show, Stage};
+use crate::json::frames::{Notes, document, frames, missing, pixels};
 
-pub(super) fn show(json: &mut Json<'_>, notes: &mut Notes) -> Result<Loaded, ReadError> {
+/// Version of the format, in the field `lightbots`. A file of another version is refused, because this reader would
+/// miss what it means.
+pub(super) const VERSION: u32 = 1;
+
+pub(crate) fn read(bytes: &[u8]) -> Result<Loaded, ReadError> {
+    let ((show, has_stage), issues) = document(bytes, show)?;
+    Ok(Loaded { show, plan: None, has_stage, issues })
+}
+
+/// The show, and whether the file has a stage.
+fn show(json: &mut Json<'_>, notes: &mut Notes) -> Result<(Show, bool), ReadError> {
     let mut show = Show::default();
     let (mut has_version, mut has_stage, mut has_frames) = (false, false, false);
     json.object(|json, key| {
@@ -30,26 +43,24 @@ pub(super) fn show(json: &mut Json<'_>, notes: &mut Notes) -> Result<Loaded, Rea
         Ok(())
     })?;
     if !has_version {
-        let what = "this is JSON, but no show: it has no field \"lightbots\" (and is no list of frames)";
+        let what = "this is JSON, but not a show: the field \"lightbots\" is missing; open another file";
         return Err(ReadError::whole("not-a-show", what));
     }
     if !has_frames {
         return Err(missing(json, "the list \"frames\""));
     }
-    Ok(Loaded { show, format: Format::LightBots, has_stage, issues: Vec::new() })
+    Ok((show, has_stage))
 }
 
 fn version(json: &mut Json<'_>) -> Result<bool, ReadError> {
     json.peek()?;
     let before = json.clone();
-    match json.whole("lightbots")? {
-        1 => Ok(true),
-        other => {
-            let what =
-                format!("the show is of format version {other}, this program reads version 1; update it");
-            Err(before.fail("unknown-version", what))
-        }
+    let version = json.whole("lightbots")?;
+    if version == VERSION {
+        return Ok(true);
     }
+    let what = format!("the show has format version {version}, but this program reads {VERSION}; update it");
+    Err(before.fail("unknown-version", what))
 }
 
 fn stage(json: &mut Json<'_>, notes: &mut Notes) -> Result<Stage, ReadError> {
@@ -125,7 +136,7 @@ fn starts(json: &mut Json<'_>) -> Result<Vec<Vec2>, ReadError> {
     json.list(|json, index| {
         if index >= MAX_PIXELS {
             return Err(
-                json.fail("too-many-starts", format!("more than {MAX_PIXELS} starts; no fleet has so many"))
+                json.fail("too-many-starts", format!("more than {MAX_PIXELS} starts; take some away"))
             );
         }
         starts.push(place(json, "start")?);
@@ -212,7 +223,7 @@ fn rgb(json: &mut Json<'_>) -> Result<Rgb, ReadError> {
     let digits = text.strip_prefix('#').filter(|digits| digits.len() == 6 && !digits.starts_with('+'));
     let number = digits.and_then(|digits| u32::from_str_radix(digits, 16).ok());
     number.and_then(Rgb::from_number).ok_or_else(|| {
-        let what = format!("\"{}\" is no colour; write it like \"#ffa500\"", shown(&text));
+        let what = format!("\"{}\" is not a colour; write it like \"#ffa500\"", excerpt(&text));
         before.fail("bad-color", what)
     })
 }
@@ -221,14 +232,14 @@ fn identity(json: &mut Json<'_>) -> Result<Identity, ReadError> {
     one_of(json, "identity", &[("any", Identity::Any), ("fixed", Identity::Fixed)])
 }
 
-/// One of the words that a field knows.
+/// The value of one of the words that a field may have.
 fn one_of<T: Copy>(json: &mut Json<'_>, name: &str, words: &[(&str, T)]) -> Result<T, ReadError> {
     json.peek()?;
     let before = json.clone();
     let text = json.text(name)?;
     words.iter().find(|(word, _)| *word == text).map(|(_, value)| *value).ok_or_else(|| {
         let known: Vec<String> = words.iter().map(|(word, _)| format!("\"{word}\"")).collect();
-        let what = format!("{name} is \"{}\"; it can be {}", shown(&text), known.join(" or "));
+        let what = format!("{name} is \"{}\"; it can be {}", excerpt(&text), known.join(" or "));
         before.fail("unknown-word", what)
     })
 }

@@ -1,15 +1,22 @@
-//! Our own format: a field a line, a pixel a line; fields that are what they are by default are left out, except the
-//! stage, because a show is drawn for a floor.
+//! From a show to a file of our format: one field per line, one pixel per line. Fields with default values are left out.
+//! The stage is always there, because places of pixels mean nothing without their floor.
 
 use std::fmt::Write;
 
 use lightbots_base::{Limits, Vec2};
+use lightbots_plan::ShowPlan;
+use lightbots_show::{Easing, Frame, Identity, Obstacle, Pixel, Show, Stage};
 
-use super::{lines, number, quoted};
-use crate::{Easing, Frame, Identity, Obstacle, Pixel, Show, Stage};
+use super::read::VERSION;
+use crate::format::Written;
+use crate::json::text::{lines, number, quoted};
 
-pub(super) fn text(show: &Show) -> String {
-    let mut fields = vec!["\"lightbots\": 1".to_owned()];
+pub(crate) fn encode(show: &Show, _: Option<&ShowPlan>) -> Written {
+    Written { bytes: text(show).into_bytes(), issues: Vec::new() }
+}
+
+fn text(show: &Show) -> String {
+    let mut fields = vec![format!("\"lightbots\": {VERSION}")];
     if !show.name.is_empty() {
         fields.push(format!("\"name\": {}", quoted(&show.name)));
     }
@@ -50,7 +57,7 @@ fn obstacle(obstacle: &Obstacle) -> String {
     }
 }
 
-/// The limits that differ from the default; at full precision, for they may be small.
+/// The limits that differ from the default, with all digits: a wheel radius of 0.00451 m would lose its last ones.
 fn limits(limits: &Limits) -> String {
     let usual = Limits::default();
     let all = [

@@ -14,14 +14,15 @@ mod stroke;
 mod thousand;
 mod words;
 
-use lightbots_show::{Format, Show};
+use lightbots_exchange::{Format, LIGHTBOTS, ORIGINAL};
+use lightbots_show::Show;
 
 /// One example.
 pub struct Entry {
     /// Its file in the folder of shows.
     pub file: &'static str,
-    /// What format the file is in.
-    pub format: Format,
+    /// The format of the file.
+    pub format: &'static Format,
     /// The show.
     pub show: Show,
 }
@@ -29,14 +30,14 @@ pub struct Entry {
 impl Entry {
     /// The bytes of its file.
     pub fn bytes(&self) -> Vec<u8> {
-        lightbots_show::write(&self.show, self.format)
+        self.format.write(&self.show, None).bytes
     }
 }
 
 /// Every example show.
 pub fn all() -> Vec<Entry> {
-    let original = |file, show| Entry { file, format: Format::Original, show };
-    let ours = |file, show| Entry { file, format: Format::LightBots, show };
+    let original = |file, show| Entry { file, format: &ORIGINAL, show };
+    let ours = |file, show| Entry { file, format: &LIGHTBOTS, show };
     vec![
         original("hello.json", hello::show()),
         original("countdown.json", countdown::show()),

@@ -1,4 +1,4 @@
-//! Writes the example shows into the folder `shows` of the project: `cargo run -p lightbots-show --example shows`.
+//! Writes the example shows into the folder `shows` of the project: `cargo run -p lightbots-exchange --example shows`.
 
 #[path = "programme.rs"]
 mod programme;

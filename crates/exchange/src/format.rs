@@ -1,0 +1,85 @@
+//! What a format is, what a file holds, and what writing gives.
+
+use std::fmt;
+
+use lightbots_plan::ShowPlan;
+use lightbots_show::{Issues, Show};
+
+use crate::error::ReadError;
+use crate::part::{Part, losses};
+
+/// A file format: its names, its contents, and functions that read and write it.
+pub struct Format {
+    /// The word that programs use, such as `?to=original`. Lower case, unique.
+    pub name: &'static str,
+    /// The program that the format is for, in messages and menus: "a show of …", "Export for …".
+    pub program: &'static str,
+    /// Endings of file names: lower case, with the dot, unique. A written file gets the first. Never empty.
+    pub endings: &'static [&'static str],
+    /// Media type of the bytes, for HTTP.
+    pub media_type: &'static str,
+    /// What a file keeps besides frames with their names, air times and pixels, which every format keeps.
+    pub carries: &'static [Part],
+    /// Whether bytes look like this format. Looks at the beginning only and never fails.
+    pub sniff: fn(&[u8]) -> bool,
+    /// Reads the bytes of a file.
+    pub(crate) read: fn(&[u8]) -> Result<Loaded, ReadError>,
+    /// Writes the parts that the format carries. What it does not carry is left out without an issue.
+    pub(crate) encode: fn(&Show, Option<&ShowPlan>) -> Written,
+}
+
+/// What a file holds.
+#[derive(Clone, Debug)]
+pub struct Loaded {
+    /// The show.
+    pub show: Show,
+    /// The plan, if the file has one. It is not proven: a file may hold any plan.
+    pub plan: Option<ShowPlan>,
+    /// Whether the file says what stage it plays on. Without one the floor is 3 m by 3 m and may be replaced.
+    pub has_stage: bool,
+    /// Issues of reading, such as unknown fields. Without those that [`validate`](lightbots_show::validate) finds.
+    pub issues: Issues,
+}
+
+/// A file to be saved.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Written {
+    /// The bytes of the file.
+    pub bytes: Vec<u8>,
+    /// One warning for each part that is used and that the format does not keep, then what else the format finds.
+    pub issues: Issues,
+}
+
+impl Format {
+    /// The bytes of a file with the show and, where the format keeps it, the plan. The same bytes for the same show.
+    pub fn write(&self, show: &Show, plan: Option<&ShowPlan>) -> Written {
+        let mut issues = losses(self.program, self.carries, show, plan);
+        let written = (self.encode)(show, plan);
+        issues.extend(written.issues);
+        Written { bytes: written.bytes, issues }
+    }
+
+    /// The ending that a written file gets.
+    pub fn ending(&self) -> &'static str {
+        self.endings[0]
+    }
+
+    /// Whether a file keeps a part.
+    pub fn keeps(&self, part: Part) -> bool {
+        self.carries.contains(&part)
+    }
+}
+
+impl PartialEq for Format {
+    fn eq(&self, other: &Self) -> bool {
+        self.name == other.name
+    }
+}
+
+impl Eq for Format {}
+
+impl fmt::Debug for Format {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name)
+    }
+}

@@ -1,0 +1,43 @@
+//! JSON text for files: laid out so that differences between versions read well.
+
+/// Decimals that a written number keeps: a place to a tenth of a millimetre, as the original's files have it. Fewer
+/// would move pixels by more than sensors notice; more would only lengthen files.
+const DECIMALS_SCALE: f64 = 1e4;
+/// Above this magnitude a double has no such decimals: 2^53 / `DECIMALS_SCALE`, rounded down.
+const WITHOUT_DECIMALS: f64 = 9e11;
+
+/// A number with at most four decimals. A number that is not finite becomes `null`, which readers refuse.
+pub(crate) fn number(value: f64) -> String {
+    if !value.is_finite() {
+        return "null".into();
+    }
+    let is_small = value.abs() < WITHOUT_DECIMALS;
+    // Adding 0 turns -0 into 0.
+    let rounded = if is_small { (value * DECIMALS_SCALE).round() / DECIMALS_SCALE + 0.0 } else { value };
+    rounded.to_string()
+}
+
+/// A text in double quotes.
+pub(crate) fn quoted(text: &str) -> String {
+    let mut out = String::with_capacity(text.len() + 2);
+    out.push('"');
+    for char in text.chars() {
+        match char {
+            '"' | '\\' => out.extend(['\\', char]),
+            '\n' => out.push_str("\\n"),
+            char if char.is_control() => out.push_str(&format!("\\u{:04x}", char as u32)),
+            char => out.push(char),
+        }
+    }
+    out.push('"');
+    out
+}
+
+/// A list with one item per line. Its closing bracket is indented by `indent`.
+pub(crate) fn lines(items: impl ExactSizeIterator<Item = String>, indent: &str) -> String {
+    if items.len() == 0 {
+        return "[]".into();
+    }
+    let items: Vec<String> = items.map(|item| format!("{indent}  {item}")).collect();
+    format!("[\n{}\n{indent}]", items.join(",\n"))
+}

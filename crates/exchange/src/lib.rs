@@ -1,0 +1,35 @@
+//! File formats for shows and plans: from bytes to values and back.
+//!
+//! [`FORMATS`] is the only list of formats. The command line, the web API and the screen read names, endings and
+//! contents of formats from it. A further format is a module beside `lightbots` and `original`, and a row of the table.
+//!
+//! The crate does no IO and does not judge a show: [`lightbots_show::validate`] does. In reading order: [`Format`] is a
+//! row of the table, [`read()`] takes a file of any format and gives [`Loaded`], [`Format::write`] gives [`Written`],
+//! [`ReadError`] says why bytes are not a show.
+//!
+//! ```
+//! use lightbots_exchange::{ORIGINAL, read, sniff};
+//! let file = br##"{"lightbots": 1, "frames": [
+//!     {"name": "Dot", "air_time_s": 2, "pixels": [{"id": 0, "place": [0.5, 0], "color": "#ffa500"}]}
+//! ]}"##;
+//! let loaded = read(file, Some("dot.lightbots.json")).unwrap();
+//! assert_eq!(loaded.show.frames[0].pixels[0].color.r, 255);
+//! let written = ORIGINAL.write(&loaded.show, None);
+//! assert_eq!(written.issues[0].code, "not-30-pixels");
+//! assert_eq!(sniff(&written.bytes), Some(&ORIGINAL));
+//! ```
+
+mod error;
+mod format;
+mod json;
+mod lightbots;
+mod original;
+mod part;
+mod read;
+mod table;
+
+pub use error::{PixelName, ReadError};
+pub use format::{Format, Loaded, Written};
+pub use part::Part;
+pub use read::{MAX_BYTES, read};
+pub use table::{FORMATS, LIGHTBOTS, ORIGINAL, for_file, formats_in_words, named, sniff, stem};

@@ -1,0 +1,112 @@
+//! The table of formats, and how programs find a row.
+
+use crate::format::Format;
+use crate::part::Part;
+use crate::{lightbots, original};
+
+/// Every format. The first whose `sniff` accepts the bytes of a file reads it, so a format that looks at fewer bytes
+/// stands behind one that looks at more.
+pub static FORMATS: [&Format; 2] = [&LIGHTBOTS, &ORIGINAL];
+
+/// Our own format. It keeps every part of a show.
+pub static LIGHTBOTS: Format = Format {
+    name: "lightbots",
+    program: "LightBots",
+    endings: &[".lightbots.json", ".lightbots"],
+    media_type: "application/json",
+    carries: &[
+        Part::Title,
+        Part::FloorSize,
+        Part::NoGoAreas,
+        Part::RobotLimits,
+        Part::Identity,
+        Part::Starts,
+        Part::Music,
+        Part::Durations,
+        Part::Easing,
+        Part::ChosenRobots,
+    ],
+    sniff: lightbots::sniff,
+    read: lightbots::read,
+    encode: lightbots::encode,
+};
+
+/// The format of the original system, which is for thirty robots on a floor of 3 m by 3 m.
+pub static ORIGINAL: Format = Format {
+    name: "original",
+    program: "the original LightBots",
+    endings: &[".json"],
+    media_type: "application/json",
+    carries: &[],
+    sniff: original::sniff,
+    read: original::read,
+    encode: original::encode,
+};
+
+/// The format of a file's bytes: the first in [`FORMATS`] that accepts them.
+pub fn sniff(bytes: &[u8]) -> Option<&'static Format> {
+    FORMATS.into_iter().find(|format| (format.sniff)(bytes))
+}
+
+/// The format of that name.
+pub fn named(name: &str) -> Option<&'static Format> {
+    FORMATS.into_iter().find(|format| format.name == name)
+}
+
+/// The format that a file's name stands for: the one with the longest ending that fits, in upper or lower case.
+pub fn for_file(file: &str) -> Option<&'static Format> {
+    ending_of(file).map(|(format, _)| format)
+}
+
+/// A file's name without the ending of its format.
+pub fn stem(file: &str) -> &str {
+    let ending = ending_of(file).map_or(0, |(_, ending)| ending.len());
+    &file[..file.len() - ending]
+}
+
+/// Every format with its ending, for messages: "show of LightBots (.lightbots.json) or of …".
+pub fn formats_in_words() -> String {
+    let formats = FORMATS.map(|format| format!("of {} ({})", format.program, format.ending()));
+    format!("show {}", formats.join(" or "))
+}
+
+fn ending_of(file: &str) -> Option<(&'static Format, &'static str)> {
+    let endings =
+        FORMATS.into_iter().flat_map(|format| format.endings.iter().map(move |ending| (format, *ending)));
+    endings.filter(|(_, ending)| ends_with(file, ending)).max_by_key(|(_, ending)| ending.len())
+}
+
+/// Endings are ASCII, so that a byte of one is never a part of a longer character.
+fn ends_with(file: &str, ending: &str) -> bool {
+    let start = file.len().checked_sub(ending.len());
+    start.is_some_and(|start| file.as_bytes()[start..].eq_ignore_ascii_case(ending.as_bytes()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_and_endings_are_unique_lower_case_and_ascii() {
+        let mut words: Vec<&str> =
+            FORMATS.iter().flat_map(|format| format.endings.iter().chain([&format.name])).copied().collect();
+        assert!(words.iter().all(|word| word.is_ascii() && *word == word.to_ascii_lowercase()));
+        assert!(FORMATS.iter().all(|format| format.endings.iter().all(|ending| ending.starts_with('.'))));
+        let count = words.len();
+        words.sort_unstable();
+        words.dedup();
+        assert_eq!(words.len(), count);
+    }
+
+    #[test]
+    fn files_are_told_apart_by_their_longest_ending() {
+        assert_eq!(for_file("a/b.lightbots.json"), Some(&LIGHTBOTS));
+        assert_eq!(for_file("3210.JSON"), Some(&ORIGINAL));
+        assert_eq!(for_file("show.txt"), None);
+        assert_eq!(for_file("json"), None);
+        assert_eq!(for_file("é"), None);
+        assert_eq!(stem("Heart beat.Lightbots.json"), "Heart beat");
+        assert_eq!(stem("3210.json"), "3210");
+        assert_eq!(stem("notes.txt"), "notes.txt");
+    }
+}
