@@ -2,11 +2,10 @@
 //!
 //! The proof reads [`REACTION_S`] and [`GRIP_MPS2`] and keeps a formula of its own.
 
-/// Time from the moment a robot stops dead until the robot behind it has seen that for certain: three steps of 16 ms,
-/// in which 97 of 100 robots see the death of the one ahead and do not touch it (`reflex/death_tests.rs`,
-/// 2026-11-24). Below: the
-/// planner trusts a robot to brake on one noisy reading. Above: robots that follow one another are planned farther apart
-/// than they need.
+/// Time from the moment a robot stops dead until the robot behind it has detected that: three steps of 16 ms. Within
+/// them, 97 of 100 robots detect the death of the robot ahead and do not touch it (`reflex/death_tests.rs`, measured on
+/// 2026-11-24). Below: the planner relies on one noisy reading. Above: robots that follow each other are planned farther
+/// apart than necessary.
 pub const DETECTION_S: f64 = 0.048;
 /// Time from a command to the wheels until the wheels obey: one step of the Elisa-3's motors, measured in Webots R2023b
 /// on 2026-11-21.

@@ -1,6 +1,6 @@
 //! Colours of a light.
 
-/// A colour as a light shows it: 8 bits a channel, not premultiplied, sRGB as screens use it.
+/// Colour of a light: 8 bits per channel, sRGB, not premultiplied.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Rgb {
     /// Red, 0 to 255.
@@ -12,10 +12,10 @@ pub struct Rgb {
 }
 
 impl Rgb {
-    /// A light that is off.
+    /// Colour of a light that is off.
     pub const BLACK: Self = Self::new(0, 0, 0);
 
-    /// A colour of three channels.
+    /// A colour from its three channels.
     pub const fn new(r: u8, g: u8, b: u8) -> Self {
         Self { r, g, b }
     }

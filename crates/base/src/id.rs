@@ -2,8 +2,8 @@
 
 use core::fmt;
 
-/// A robot's name: what it calls itself on the wire. Usually a UUID; any 1 to 36 bytes of printable ASCII without
-/// space, `/`, `+`, `#` and `|` will do, because the name is a topic level and a field of reports.
+/// A robot's name on the wire, usually a UUID. Allowed are 1 to 36 bytes of printable ASCII without space, `/`, `+`, `#` and
+/// `|`, because the name is a topic level and a field of reports (R3).
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct RobotId {
     bytes: [u8; Self::MAX_LEN],
@@ -11,16 +11,16 @@ pub struct RobotId {
 }
 
 impl RobotId {
-    /// The longest name, in bytes: that of a UUID.
+    /// Longest name, bytes: that of a UUID (R3).
     pub const MAX_LEN: usize = 36;
 
-    /// The name a text states; `None` where it cannot be a name.
+    /// The name in a text; `None` if the text is not a valid name.
     pub fn new(text: &str) -> Option<Self> {
         let fits = (1..=Self::MAX_LEN).contains(&text.len());
         if !fits {
             return None;
         }
-        // All bytes there may be, filled up with one that is right: that many the processor looks at together.
+        // Padded with a valid byte to the longest name, because the compiler checks a fixed number of bytes at once.
         let mut bytes = [b'-'; Self::MAX_LEN];
         bytes[..text.len()].copy_from_slice(text.as_bytes());
         if !bytes.iter().fold(true, |all, &byte| all & Self::may_hold(byte)) {

@@ -1,6 +1,6 @@
-//! The words every other crate shares: vectors, poses, angles, instants, ids, colours, limits, braking and timed paths.
+//! The types that all other crates share: vectors, poses, angles, instants, ids, colours, limits, braking and timed paths.
 //!
-//! It knows nothing of shows, messages or wheels, allocates nothing and reads no clock. All lengths are metres, all
+//! The crate knows nothing of shows, messages or wheels, allocates nothing and reads no clock. All lengths are metres, all
 //! angles radians counter-clockwise, all times microseconds.
 //!
 //! ```

@@ -1,10 +1,10 @@
-//! What a robot's body can do.
+//! Measures and limits of a robot's body.
 
 /// Measures and limits of one kind of robot. The default is the GCtronic Elisa-3 as measured in Webots R2023b
 /// on 2026-11-21: it follows ramps of 1 m/s² within 5 mm/s and stops from 4.5 rad/s within 1°.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Limits {
-    /// Radius of the disc that must not be touched, metres.
+    /// Radius of the disc that stands for the body, metres.
     pub radius_m: f64,
     /// Highest planned speed, m/s.
     pub speed_mps: f64,
@@ -21,7 +21,7 @@ pub struct Limits {
 }
 
 impl Limits {
-    /// The Elisa-3.
+    /// The GCtronic Elisa-3, measured in Webots R2023b on 2026-11-21.
     pub const ELISA_3: Self = Self {
         radius_m: 0.027,
         speed_mps: 0.27,
@@ -32,7 +32,7 @@ impl Limits {
         track_m: 0.0402,
     };
 
-    /// Two centres closer than this touch, metres.
+    /// Distance of two centres below which the robots touch, metres.
     pub const fn contact_m(&self) -> f64 {
         2.0 * self.radius_m
     }

@@ -2,21 +2,21 @@
 
 use crate::{Instant, Span, Vec2};
 
-/// One stretch of a path: a cubic Bézier curve whose parameter is proportional to time. It starts where the piece
-/// before it ends. Equal control points are a rest.
+/// One piece of a path: a cubic Bézier curve whose parameter is proportional to time. It starts at the end of the previous
+/// piece. A piece whose points are all equal is a rest.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Piece {
-    /// How long the piece takes; positive.
+    /// Duration of the piece; positive.
     pub duration: Span,
     /// First control point after the start, stage metres.
     pub c1: Vec2,
     /// Second control point, stage metres.
     pub c2: Vec2,
-    /// Where the piece ends, stage metres.
+    /// End of the piece, stage metres.
     pub end: Vec2,
 }
 
-/// Where a path is at a moment, and how it moves there.
+/// Position, velocity and acceleration of a path at one moment.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Motion {
     /// Stage metres.
@@ -27,10 +27,10 @@ pub struct Motion {
     pub acceleration: Vec2,
 }
 
-/// A path: its start and its pieces in order. Before its start it rests there, after its end it rests at its end.
+/// A path: its start and its pieces in order. It rests at `start` before it begins, and at its end afterwards.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PathRef<'a> {
-    /// Where it starts, stage metres.
+    /// First place, stage metres.
     pub start: Vec2,
     /// Its pieces in order of time; may be empty.
     pub pieces: &'a [Piece],
@@ -42,7 +42,7 @@ impl Piece {
         Self { duration, c1: start.lerp(end, 1.0 / 3.0), c2: start.lerp(end, 2.0 / 3.0), end }
     }
 
-    /// Standing at `at`.
+    /// A rest at `at`.
     pub fn rest(at: Vec2, duration: Span) -> Self {
         Self { duration, c1: at, c2: at, end: at }
     }
@@ -72,7 +72,7 @@ impl Piece {
         }
     }
 
-    /// Whether the piece moves at all from `start`.
+    /// Whether the piece stays at `start`.
     pub fn is_rest(&self, start: Vec2) -> bool {
         self.c1 == start && self.c2 == start && self.end == start
     }
@@ -84,22 +84,22 @@ impl<'a> PathRef<'a> {
         Self { start, pieces }
     }
 
-    /// How long the whole path takes.
+    /// Duration of the whole path.
     pub fn duration(&self) -> Span {
         self.pieces.iter().fold(Span::ZERO, |sum, piece| sum + piece.duration)
     }
 
-    /// Where it ends.
+    /// Last place, stage metres.
     pub fn end(&self) -> Vec2 {
         self.pieces.last().map_or(self.start, |piece| piece.end)
     }
 
-    /// Whether it leads nowhere: its pieces, if it has any, stay at its start.
+    /// Whether all pieces stay at the start; also for a path without pieces.
     pub fn rests(&self) -> bool {
         self.timed().all(|(_, _, piece)| piece.is_rest(self.start))
     }
 
-    /// The motion `t` after the path's start. Walks the pieces: use a cursor of your own where that is too slow.
+    /// The motion `t` after the path's start. Takes time linear in the number of pieces.
     pub fn at(&self, t: Span) -> Motion {
         let mut start = self.start;
         let mut left = t;
@@ -116,7 +116,7 @@ impl<'a> PathRef<'a> {
         Motion { position: start, ..Motion::default() }
     }
 
-    /// Every piece with its start and the time it begins at after the path's start.
+    /// Each piece with its start place and its start time, counted from the path's start.
     pub fn timed(&self) -> impl Iterator<Item = (Vec2, Span, &'a Piece)> + use<'a> {
         let mut start = self.start;
         let mut begin = Span::ZERO;

@@ -2,7 +2,7 @@
 
 use core::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
-/// A point in time, microseconds since some start that all who compare it share.
+/// A point in time: microseconds since a start that all compared instants share.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Instant(pub u64);
 
@@ -11,7 +11,7 @@ pub struct Instant(pub u64);
 pub struct Span(pub i64);
 
 impl Instant {
-    /// The start.
+    /// The start of the count.
     pub const ZERO: Self = Self(0);
     /// Later than anything that happens.
     pub const FAR: Self = Self(u64::MAX);
@@ -21,13 +21,12 @@ impl Instant {
         self.0 as f64 / 1e6
     }
 
-    /// `seconds` after the start, rounded to the microsecond; what is negative or NaN is the start.
+    /// `seconds` after the start, rounded to the microsecond; negative values and NaN give the start.
     pub fn from_secs(seconds: f64) -> Self {
         Self(libm::round(seconds * 1e6) as u64)
     }
 
-    /// How long ago `earlier` was; negative where it lies ahead. Saturates: farther apart than a [`Span`] holds is the
-    /// longest span, with its sign.
+    /// Time from `earlier` to this instant; negative if `earlier` is later. Saturates at the longest [`Span`].
     pub const fn since(self, earlier: Self) -> Span {
         let apart = self.0.abs_diff(earlier.0);
         let apart = if apart > i64::MAX as u64 { i64::MAX } else { apart as i64 };
@@ -36,7 +35,7 @@ impl Instant {
 }
 
 impl Span {
-    /// Nothing.
+    /// A span of zero length.
     pub const ZERO: Self = Self(0);
 
     /// Whole milliseconds.
@@ -44,7 +43,7 @@ impl Span {
         Self(millis * 1000)
     }
 
-    /// Seconds, rounded to the microsecond; NaN is nothing.
+    /// Seconds, rounded to the microsecond; NaN gives zero.
     pub fn from_secs(seconds: f64) -> Self {
         Self(libm::round(seconds * 1e6) as i64)
     }

@@ -12,10 +12,10 @@ pub struct Vec2 {
     pub y: f64,
 }
 
-/// Where a robot is and which way it faces.
+/// Position and heading of a robot.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Pose {
-    /// Its centre in the stage.
+    /// Centre of the robot, stage metres.
     pub at: Vec2,
     /// Angle of its front, radians counter-clockwise from +x.
     pub heading: f64,
@@ -55,7 +55,7 @@ impl Vec2 {
         libm::sqrt(self.length_squared())
     }
 
-    /// How far apart two places are.
+    /// Distance between two places.
     pub fn distance(self, other: Self) -> f64 {
         (self - other).length()
     }
@@ -75,7 +75,7 @@ impl Vec2 {
         self + (other - self) * share
     }
 
-    /// The vector of length 1, or `None` where there is no direction to keep.
+    /// The vector scaled to length 1; `None` if its length is below 1e-12 or not finite.
     pub fn normalized(self) -> Option<Self> {
         let length = self.length();
         (length > 1e-12 && length.is_finite()).then(|| self / length)

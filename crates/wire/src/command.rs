@@ -1,10 +1,10 @@
-//! What the controller says: commands, one or many in a payload.
+//! Commands from the controller; a payload holds one or several.
 
 use lightbots_base::{Instant, Piece, Rgb, Span, Vec2};
 
 use crate::Neighbours;
 
-/// The most pieces a route has. The controller refuses a frame whose plan has a longer path; it never cuts a path.
+/// Most pieces of a route (R31). The controller rejects a frame whose plan has a longer path.
 pub const MAX_PIECES: usize = 128;
 
 /// The pieces of a route.
@@ -19,29 +19,29 @@ pub enum Command {
     Target(Vec2),
     /// `COLOR n`: show this colour at once.
     Color(Rgb),
-    /// `UUID`: introduce yourself on `T/LightBot/UUID`.
+    /// `UUID`: report on `T/LightBot/UUID`.
     Uuid,
-    /// `PATH …`: keep this timed path until a `START` names it. Replaces a kept one that was not started.
+    /// `PATH …`: keep this route until a `START` names it. It replaces a kept route that was not started.
     Route(Route),
     /// `START seq at`: the kept route `seq` begins at this moment of the show clock.
     Start {
-        /// Which route.
+        /// Number of the route.
         seq: u32,
-        /// When, show clock.
+        /// Moment on the show clock.
         at: Instant,
     },
     /// `HOLD at`: from this moment of the show clock on, progress along the route slows to rest within
     /// [`Route::EASE`], the same for every robot.
     Hold {
-        /// When, show clock.
+        /// Moment on the show clock.
         at: Instant,
     },
-    /// `RESUME at`: progress picks up again within [`Route::EASE`].
+    /// `RESUME at`: from this moment on, progress along the route returns to full rate within [`Route::EASE`].
     Resume {
-        /// When, show clock.
+        /// Moment on the show clock.
         at: Instant,
     },
-    /// `STOP`: wheels stop at once; target and route are forgotten.
+    /// `STOP`: wheels stop at once; target and routes are deleted.
     Stop,
     /// `TIME asked received sent`: the answer to a [`crate::TimeQuestion`].
     Time(TimeAnswer),
@@ -53,52 +53,51 @@ pub enum Command {
     Status,
 }
 
-/// A timed path to be kept by a robot.
+/// A timed path that a robot keeps.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Route {
-    /// Its number, chosen by the controller, never 0; a robot names it in its reports.
+    /// Number chosen by the controller, never 0; a robot repeats it in its reports.
     pub seq: u32,
     /// Where it starts, stage metres.
     pub start: Vec2,
     /// Its pieces in order.
     pub pieces: Pieces,
-    /// How far other rims stay from its own by plan, whole millimetres; `None`: not said.
+    /// Least planned clearance to other rims, whole millimetres; `None`: not sent.
     pub room_mm: Option<u16>,
-    /// Which neighbours come into sight, where and when, by plan.
+    /// Planned neighbours that come into sight.
     pub neighbours: Neighbours,
 }
 
 impl Route {
-    /// How long a hold takes to bring progress to rest, and a resume to bring it back to full: progress per time
-    /// falls and rises linearly.
+    /// Time in which a hold brings progress to rest, and a resume back to full rate; linear in both directions (R38).
     pub const EASE: Span = Span::from_millis(300);
 }
 
-/// Two-way time transfer: what the controller answers.
+/// The controller's answer in two-way time transfer (R26).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct TimeAnswer {
-    /// When the robot asked, by the robot's own clock.
+    /// Moment of the question, robot's own clock.
     pub asked: Instant,
-    /// When the question came in, by the show clock.
+    /// Arrival of the question, show clock.
     pub received: Instant,
-    /// When this answer left, by the show clock.
+    /// Departure of the answer, show clock.
     pub sent: Instant,
 }
 
 /// A change of the light.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Fade {
-    /// The colour it ends with.
+    /// Final colour.
     pub to: Rgb,
-    /// When it begins, show clock.
+    /// Beginning, show clock.
     pub at: Instant,
-    /// How long it takes; zero is a switch.
+    /// Duration; zero switches at once.
     pub over: Span,
 }
 
-/// Flashing to be found.
+/// Flashes that let people find a robot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Blink {
-    /// For how long; at most a minute.
+    /// Duration, at most a minute (R24).
     pub over: Span,
 }

@@ -7,29 +7,29 @@ use crate::number::{instant, number, span};
 use crate::path::decode_route;
 use crate::{Blink, Command, Fade, TimeAnswer};
 
-/// The most bytes of a payload that are read. A route of [`crate::MAX_PIECES`] curves needs half of it.
+/// Longest payload that a robot reads, bytes (R4). A route of [`crate::MAX_PIECES`] curves needs half of it.
 pub const MAX_PAYLOAD: usize = 16 * 1024;
 
-/// The longest a robot blinks: a minute.
+/// Longest `BLINK` (R24).
 const LONGEST_BLINK: Span = Span::from_millis(60_000);
 
-/// Why a part of a payload is no command. It is counted and dropped, nothing else.
+/// Why a part of a payload is not a command. The robot counts and drops the part (R7).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Unknown {
-    /// Its first word is none we know.
+    /// The first word is not a known command.
     Word,
-    /// We know the word; its fields are missing, out of range or no numbers.
+    /// The command is known; fields are missing, out of range or not numbers.
     Fields,
-    /// The payload is not UTF-8. Nothing of it was read.
+    /// The payload is not UTF-8; all of it is dropped.
     NotText,
-    /// The payload is longer than [`MAX_PAYLOAD`]. Nothing of it was read.
+    /// The payload is longer than [`MAX_PAYLOAD`]; all of it is dropped.
     TooLong,
 }
 
-/// The commands of a payload, decoded one by one as they are asked for.
+/// Iterator over the commands of a payload; decodes each when it is requested.
 #[derive(Clone, Debug)]
 pub struct Commands<'a> {
-    /// What is left to read.
+    /// Text that is not read yet.
     rest: Option<&'a str>,
     refused: Option<Unknown>,
 }
@@ -61,10 +61,10 @@ impl Iterator for Commands<'_> {
     }
 }
 
-/// One command from its word and the fields after it. Fields beyond those we know are left alone, so that later
-/// versions may add some.
-// Every way makes the whole answer where it is returned: a command has room for a route, and handing it on once more
-// would copy all of that for a `HOLD` as well.
+/// Decodes one command from its word and the fields after it. Surplus fields are ignored, so that later versions may add
+/// some.
+// Each arm builds the whole result in place: a command has room for a route, and another move would copy all of it, even
+// for a `HOLD`.
 fn decode(word: &str, fields: &mut Fields<'_>) -> Option<Result<Command, Unknown>> {
     match word {
         "TARGET" => made(target(fields), Command::Target),
@@ -83,7 +83,7 @@ fn decode(word: &str, fields: &mut Fields<'_>) -> Option<Result<Command, Unknown
     }
 }
 
-/// The answer with the command that is made of what was read.
+/// The decoded value as a command.
 #[inline(always)]
 fn made<T>(read: Result<T, Unknown>, command: impl Fn(T) -> Command) -> Option<Result<Command, Unknown>> {
     match read {

@@ -5,17 +5,17 @@ use core::fmt::{self, Write};
 use crate::Command;
 use crate::number::{write_int, write_six_decimals};
 use crate::path::encode_route;
-use crate::pen::Pen;
+use crate::text_buffer::TextBuffer;
 
-/// Appends one command between bars, as the original writes it: `|TARGET 0.500000 -1.250000|`. Several commands in a
-/// row make one payload.
+/// Appends one command between bars, as the original writes it: `|TARGET 0.500000 -1.250000|`. Several calls build one
+/// payload.
 pub fn encode(command: &Command, out: &mut dyn Write) -> fmt::Result {
-    let mut pen = Pen::new(out);
-    write(command, &mut pen)?;
-    pen.finish()
+    let mut buffer = TextBuffer::new(out);
+    write(command, &mut buffer)?;
+    buffer.finish()
 }
 
-fn write(command: &Command, out: &mut Pen<'_>) -> fmt::Result {
+fn write(command: &Command, out: &mut TextBuffer<'_>) -> fmt::Result {
     out.write_str("|")?;
     match command {
         Command::Target(at) => {
@@ -41,7 +41,7 @@ fn write(command: &Command, out: &mut Pen<'_>) -> fmt::Result {
     out.write_str("|")
 }
 
-fn words(out: &mut Pen<'_>, word: &str, numbers: &[u64]) -> fmt::Result {
+fn words(out: &mut TextBuffer<'_>, word: &str, numbers: &[u64]) -> fmt::Result {
     out.write_str(word)?;
     for &number in numbers {
         out.write_str(" ")?;

@@ -1,9 +1,11 @@
-//! Texts cut into their fields, eight bytes at a time: messages are short, but there are many.
+//! Splits texts into fields, eight bytes at a time, because a controller reads many short messages.
 
-const EACH: u64 = 0x0101_0101_0101_0101;
-const HIGH: u64 = 0x8080_8080_8080_8080;
+/// The lowest bit of each byte of a word: the multiplier that repeats a byte eight times.
+const LOW_BITS: u64 = 0x0101_0101_0101_0101;
+/// The highest bit of each byte of a word.
+const HIGH_BITS: u64 = 0x8080_8080_8080_8080;
 
-/// What lies between ASCII whitespace, in order; as `str::split_ascii_whitespace` has it.
+/// Iterator over the fields between ASCII whitespace, equal to `str::split_ascii_whitespace`.
 #[derive(Clone, Debug)]
 pub(crate) struct Fields<'a> {
     rest: &'a str,
@@ -34,16 +36,16 @@ impl<'a> Iterator for Fields<'a> {
     }
 }
 
-/// What lies before the first `stop`, an ASCII character, and what lies after it, if there is one.
+/// The texts before and after the first `stop`, an ASCII character; `None` after it if there is no `stop`.
 #[inline]
 pub(crate) fn cut(text: &str, stop: u8) -> (&str, Option<&str>) {
-    let pattern = EACH * u64::from(stop);
+    let pattern = LOW_BITS * u64::from(stop);
     let end = first(text.as_bytes(), |word| zeros(word ^ pattern), |byte| byte == stop);
     (&text[..end], text.get(end + 1..))
 }
 
-/// The index of the first byte that is sought, or the length. `marks` sets the highest bit of each byte of a word that
-/// may be sought, of the lowest such byte for sure; higher ones it may mark wrongly.
+/// Index of the first byte for which `sought` holds, or the length. `marks` sets the highest bit of candidate bytes in a
+/// word: correct for the lowest candidate, possibly wrong for higher bytes.
 #[inline]
 fn first(bytes: &[u8], marks: impl Fn(u64) -> u64, sought: impl Fn(u8) -> bool) -> usize {
     let mut at = 0;
@@ -62,14 +64,14 @@ fn first(bytes: &[u8], marks: impl Fn(u64) -> u64, sought: impl Fn(u8) -> bool) 
     at + bytes[at..].iter().position(|&byte| sought(byte)).unwrap_or(bytes.len() - at)
 }
 
-/// Marks bytes below `!`: whitespace, and control characters.
+/// Marks bytes below `!`: whitespace and control characters.
 fn below_exclamation(word: u64) -> u64 {
-    word.wrapping_sub(EACH * 0x21) & !word & HIGH
+    word.wrapping_sub(LOW_BITS * 0x21) & !word & HIGH_BITS
 }
 
 /// Marks bytes that are zero.
 fn zeros(word: u64) -> u64 {
-    word.wrapping_sub(EACH) & !word & HIGH
+    word.wrapping_sub(LOW_BITS) & !word & HIGH_BITS
 }
 
 #[cfg(test)]
@@ -78,7 +80,7 @@ mod tests {
 
     #[test]
     fn fields_are_those_of_the_standard_library() {
-        // All that a byte can be to it, in all orders of up to eight around the seam of two words.
+        // Every class of byte, in all orders across the boundary of two words.
         let parts = ["a", " ", "\t", "\u{b}", "ü", "=\u{1}", "bcdefgh"];
         for number in 0..7u32.pow(6) {
             let mut text = heapless::String::<64>::new();

@@ -1,8 +1,8 @@
 //! The messages between controller and robot: bytes ↔ values, as `docs/protocol.md` specifies them.
 //!
-//! Decoding never panics, never allocates, and takes time linear in the bytes. It knows nothing of brokers, shows or
-//! wheels. The original protocol is kept byte for byte; what is ours is added beside it, so that an original robot and
-//! an original controller still work.
+//! Decoding never panics, never allocates, and takes time linear in the bytes. The crate knows nothing of brokers, shows or
+//! wheels. The original protocol is kept byte for byte. Our additions leave it unchanged, so that an original robot and an
+//! original controller still work.
 //!
 //! ```
 //! use lightbots_base::Vec2;
@@ -22,9 +22,9 @@ mod fields;
 mod neighbours;
 mod number;
 mod path;
-mod pen;
 mod report;
-mod say;
+mod report_text;
+mod text_buffer;
 mod topic;
 
 pub use command::{Blink, Command, Fade, MAX_PIECES, Pieces, Route, TimeAnswer};

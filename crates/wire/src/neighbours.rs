@@ -1,8 +1,8 @@
-//! `N clearance knots…` after a route: which neighbours come into sight, where and when.
+//! `N clearance knots…` after a route: the planned neighbours in sight, with places and times.
 //!
-//! Each neighbour is a clearance in tenths of a millimetre, a number of knots, and the knots: path time in milliseconds,
-//! place in tenths of a millimetre, velocity in millimetres per second. Between two knots it moves on the cubic that has
-//! both places and both velocities (a cubic Hermite spline).
+//! A neighbour is a clearance in tenths of a millimetre, a number of knots, and the knots. A knot has a path time in
+//! milliseconds, a place in tenths of a millimetre, and a velocity in millimetres per second. Between two knots the neighbour
+//! moves on the cubic with both places and both velocities (a cubic Hermite spline).
 
 use core::fmt::{self, Write};
 
@@ -10,14 +10,14 @@ use lightbots_base::{Span, Vec2};
 
 use crate::fields::Fields;
 use crate::number::write_int;
-use crate::pen::Pen;
+use crate::text_buffer::TextBuffer;
 
-/// Most neighbours of one route.
+/// Most neighbours of one route (R31).
 pub const MAX_NEIGHBOURS: usize = 64;
-/// Most knots of all neighbours of one route.
+/// Most knots of all neighbours of one route (R31).
 pub const MAX_KNOTS: usize = 256;
 
-/// Where a neighbour is at a moment by plan.
+/// Planned place and velocity of a neighbour at one moment.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Knot {
     /// Path time, milliseconds.
@@ -28,23 +28,23 @@ pub struct Knot {
     pub velocity_mmps: [i16; 2],
 }
 
-/// One neighbour that comes into sight.
+/// One planned neighbour.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Neighbour {
-    /// Least distance from rim to rim by plan, tenths of a millimetre.
+    /// Least planned distance from rim to rim, tenths of a millimetre.
     pub clearance_tenths: u16,
-    /// Its first knot among [`Neighbours::knots`].
+    /// Index of its first knot in [`Neighbours::knots`].
     pub first: u16,
-    /// How many knots it has, at least one.
+    /// Number of its knots, at least one.
     pub count: u16,
 }
 
 /// The neighbours of a route, the nearest first.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Neighbours {
-    /// Who they are.
+    /// The neighbours.
     pub list: heapless::Vec<Neighbour, MAX_NEIGHBOURS>,
-    /// Where they are, one neighbour's knots after the other's, in order of time.
+    /// Knots of all neighbours, neighbour after neighbour; those of one neighbour are sorted by time.
     pub knots: heapless::Vec<Knot, MAX_KNOTS>,
 }
 
@@ -53,9 +53,9 @@ pub struct Neighbours {
 pub struct NeighbourMotion {
     /// Centre, metres.
     pub position: Vec2,
-    /// By path time, m/s.
+    /// Per path time, m/s.
     pub velocity: Vec2,
-    /// By path time, m/s².
+    /// Per path time, m/s².
     pub acceleration: Vec2,
 }
 
@@ -65,7 +65,7 @@ impl Neighbours {
         Self { list: heapless::Vec::new(), knots: heapless::Vec::new() }
     }
 
-    /// Adds a neighbour with its knots; `false` where there is no room for all of it.
+    /// Adds a neighbour with its knots; `false` if they do not all fit, and nothing is added.
     pub fn push(&mut self, clearance_tenths: u16, knots: &[Knot]) -> bool {
         if knots.is_empty() || self.knots.len() + knots.len() > MAX_KNOTS {
             return false;
@@ -75,7 +75,7 @@ impl Neighbours {
         has_room && self.knots.extend_from_slice(knots).is_ok()
     }
 
-    /// Where a neighbour is at a path time; `None` where the plan does not have it in sight then. What is at rest at its
+    /// Motion of a neighbour at a path time; `None` while the plan does not have it in sight. A neighbour that rests at its
     /// last knot stays there.
     pub fn motion(&self, neighbour: &Neighbour, at: Span) -> Option<NeighbourMotion> {
         let first = usize::from(neighbour.first);
@@ -95,7 +95,7 @@ impl Neighbours {
         Some(hermite(&from.motion(), &to.motion(), (at_us - us(from)) as f64 * 1e-6 / over_s, over_s))
     }
 
-    /// The rest of a route; what makes no sense ends it, and is not an error.
+    /// Reads the rest of a route. An invalid entry ends the list and is not an error (R31).
     pub(crate) fn decode(fields: &mut Fields<'_>) -> Self {
         let mut all = Self::new();
         while fields.next() == Some("N") {
@@ -106,7 +106,7 @@ impl Neighbours {
         all
     }
 
-    pub(crate) fn encode(&self, out: &mut Pen<'_>) -> fmt::Result {
+    pub(crate) fn encode(&self, out: &mut TextBuffer<'_>) -> fmt::Result {
         for neighbour in &self.list {
             let first = usize::from(neighbour.first);
             let knots = self.knots.get(first..first + usize::from(neighbour.count)).unwrap_or_default();
@@ -132,7 +132,7 @@ impl Knot {
     }
 }
 
-/// The cubic with both places and velocities, at the share `u` of the time between.
+/// Motion on the cubic with both places and velocities, at the share `u` of the time between them.
 fn hermite(from: &NeighbourMotion, to: &NeighbourMotion, u: f64, over_s: f64) -> NeighbourMotion {
     let (chord, m0, m1) = (to.position - from.position, from.velocity * over_s, to.velocity * over_s);
     // position = p0 + m0·u + b·u² + a·u³
@@ -156,7 +156,7 @@ fn decode_one(fields: &mut Fields<'_>, all: &mut Neighbours) -> Option<()> {
             all.knots.truncate(first);
             return None;
         };
-        // Fits: counted above.
+        // Fits, because the length was checked above.
         let _ = all.knots.push(knot);
     }
     let ordered = all.knots[first..].windows(2).all(|pair| pair[0].at_ms < pair[1].at_ms);
@@ -176,7 +176,7 @@ fn decode_knot(fields: &mut Fields<'_>) -> Option<Knot> {
     })
 }
 
-fn write_field(out: &mut Pen<'_>, value: i64) -> fmt::Result {
+fn write_field(out: &mut TextBuffer<'_>, value: i64) -> fmt::Result {
     out.write_str(" ")?;
     write_int(out, value)
 }

@@ -1,26 +1,27 @@
-//! Numbers as text, both ways, without the general float machinery where a message is hot.
+//! Numbers ↔ text, with a short path for the numbers that frequent messages hold.
 
 use core::fmt::{self, Write};
 
 use lightbots_base::{Instant, Span};
 
-use crate::pen::Pen;
+use crate::text_buffer::TextBuffer;
 
-/// The longest text read as a number, bytes. `Double.toString` needs at most 24.
+/// Longest text read as a number, bytes (R8). `Double.toString` needs at most 24.
 const MAX_NUMBER: usize = 32;
-/// Mantissas up to here are exact in an `f64`, so that one division by a power of ten rounds correctly.
-const EXACT: u64 = 1 << 53;
+/// Largest mantissa that an `f64` holds exactly (IEEE 754, 53 bits), so that one division by a power of ten rounds correctly.
+const EXACT_MAX: u64 = 1 << 53;
+/// Powers of ten by exponent. All are exact in an `f64` (IEEE 754), as is each up to 10²².
 const POWERS_OF_TEN: [f64; 16] =
     [1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15];
-/// The latest instant on the wire, so that differences of instants never wrap.
-const LATEST: u64 = i64::MAX as u64;
-/// The longest duration on the wire: one hour.
-const LONGEST: Span = Span(3_600_000_000);
-/// Places on the wire lie within this many metres of the origin in each coordinate.
-const FAR_M: f64 = 1000.0;
+/// Latest instant on the wire, microseconds: a difference of two instants then always fits into `i64`, by definition.
+const INSTANT_MAX_US: u64 = i64::MAX as u64;
+/// Longest duration on the wire: one hour (R22, R31).
+const DURATION_MAX: Span = Span(3_600_000_000);
+/// Largest coordinate on the wire, metres from the origin (R19, R31).
+const COORDINATE_MAX_M: f64 = 1000.0;
 
-/// The number a text states: decimal point or comma, exponent, `NaN`, `Infinity`. `None` for anything else and for
-/// texts of more than 32 bytes.
+/// Reads a number: decimal point or comma, exponent, `NaN`, `Infinity`. `None` for all other texts and for texts longer than
+/// `MAX_NUMBER`.
 pub fn number(text: &str) -> Option<f64> {
     let bytes = text.as_bytes();
     if bytes.len() > MAX_NUMBER {
@@ -29,13 +30,13 @@ pub fn number(text: &str) -> Option<f64> {
     plain_decimal(bytes).or_else(|| any_number(bytes))
 }
 
-/// `[-]digits[.,]digits[E-digit]` with so few digits that the result is exact to the last bit.
+/// Reads `[-]digits[.,]digits[E-digit]` with a mantissa of at most `EXACT_MAX`: the result is exact to the last bit.
 fn plain_decimal(bytes: &[u8]) -> Option<f64> {
     let (negative, digits) = match bytes {
         [b'-', rest @ ..] => (true, rest),
         _ => (false, bytes),
     };
-    // As `Double.toString` writes what is below a thousandth.
+    // `Double.toString` writes numbers below a thousandth in this form.
     let (digits, smaller) = match digits {
         [digits @ .., b'E', b'-', exponent @ b'0'..=b'9'] => (digits, usize::from(exponent - b'0')),
         _ => (digits, 0),
@@ -45,7 +46,7 @@ fn plain_decimal(bytes: &[u8]) -> Option<f64> {
     let mut count = 0usize;
     for &byte in digits {
         match byte {
-            b'0'..=b'9' if mantissa < EXACT / 10 => {
+            b'0'..=b'9' if mantissa < EXACT_MAX / 10 => {
                 mantissa = mantissa * 10 + u64::from(byte - b'0');
                 count += 1;
             }
@@ -59,7 +60,7 @@ fn plain_decimal(bytes: &[u8]) -> Option<f64> {
     Some(if negative { -value } else { value })
 }
 
-/// Whatever else is a number, by the standard library's parser after the comma has become a point.
+/// Reads all other numbers with the standard library's parser, after replacing the comma by a point.
 fn any_number(bytes: &[u8]) -> Option<f64> {
     let mut buffer = [0; MAX_NUMBER];
     let copy = &mut buffer[..bytes.len()];
@@ -70,43 +71,43 @@ fn any_number(bytes: &[u8]) -> Option<f64> {
     core::str::from_utf8(copy).ok()?.parse().ok()
 }
 
-/// An instant in microseconds.
+/// Reads an instant in microseconds.
 pub(crate) fn instant(text: &str) -> Option<Instant> {
-    text.parse().ok().filter(|&us| us <= LATEST).map(Instant)
+    text.parse().ok().filter(|&us| us <= INSTANT_MAX_US).map(Instant)
 }
 
-/// A duration in microseconds, 0 to one hour.
+/// Reads a duration in microseconds, 0 to `DURATION_MAX`.
 pub(crate) fn span(text: &str) -> Option<Span> {
-    text.parse().ok().map(Span).filter(|span| (Span::ZERO..=LONGEST).contains(span))
+    text.parse().ok().map(Span).filter(|span| (Span::ZERO..=DURATION_MAX).contains(span))
 }
 
-/// A coordinate in whole tenths of a millimetre, to metres.
+/// Reads a coordinate in whole tenths of a millimetre; returns metres.
 pub(crate) fn metres(text: &str) -> Option<f64> {
     let tenths: i32 = text.parse().ok()?;
     let metres = f64::from(tenths) / 1e4;
-    (metres.abs() <= FAR_M).then_some(metres)
+    (metres.abs() <= COORDINATE_MAX_M).then_some(metres)
 }
 
-/// Metres in whole tenths of a millimetre, clamped to what [`metres`] reads; NaN is 0.
+/// Metres in whole tenths of a millimetre, clamped to the range of [`metres`]; NaN gives 0.
 pub(crate) fn tenths(metres: f64) -> i32 {
-    round(metres.clamp(-FAR_M, FAR_M) * 1e4) as i32
+    round(metres.clamp(-COORDINATE_MAX_M, COORDINATE_MAX_M) * 1e4) as i32
 }
 
-/// To the nearest whole number, halves away from zero. `core` has no `f64::round` before 1.90 on bare metal.
+/// The nearest whole number, halves away from zero. `core` has no `f64::round` before 1.90 on bare metal.
 fn round(value: f64) -> i64 {
     (value + if value < 0.0 { -0.5 } else { 0.5 }) as i64
 }
 
 /// Writes a whole number.
-pub(crate) fn write_int(out: &mut Pen<'_>, value: i64) -> fmt::Result {
+pub(crate) fn write_int(out: &mut TextBuffer<'_>, value: i64) -> fmt::Result {
     if value < 0 {
         out.write_str("-")?;
     }
     write_digits(out, value.unsigned_abs(), 1)
 }
 
-/// Writes digits, with zeros in front up to `width` (at most 20).
-pub(crate) fn write_digits(out: &mut Pen<'_>, mut value: u64, width: usize) -> fmt::Result {
+/// Writes digits with leading zeros up to `width`, at most 20.
+pub(crate) fn write_digits(out: &mut TextBuffer<'_>, mut value: u64, width: usize) -> fmt::Result {
     if value < 10 && width <= 1 {
         return out.bytes(&[b'0' + value as u8]);
     }
@@ -126,8 +127,9 @@ pub(crate) fn write_digits(out: &mut Pen<'_>, mut value: u64, width: usize) -> f
     out.bytes(&digits[first..])
 }
 
-/// Writes a number as C and Java print it with `%f` in an English locale: six decimals. Beyond 10¹² it is clamped.
-pub(crate) fn write_six_decimals(out: &mut Pen<'_>, value: f64) -> fmt::Result {
+/// Writes a number as C and Java print it with `%f` in an English locale: six decimals. Values beyond 10¹² are
+/// clamped.
+pub(crate) fn write_six_decimals(out: &mut TextBuffer<'_>, value: f64) -> fmt::Result {
     if !value.is_finite() {
         return write_not_finite(out, value);
     }
@@ -141,8 +143,8 @@ pub(crate) fn write_six_decimals(out: &mut Pen<'_>, value: f64) -> fmt::Result {
 }
 
 /// Writes a number as Java's `Double.toString` prints it, after rounding it to four decimals: `1.3`, `-0.73`,
-/// `1.0E-4`, `NaN`. Places in metres thus come to the tenth of a millimetre.
-pub(crate) fn write_double(out: &mut Pen<'_>, value: f64) -> fmt::Result {
+/// `1.0E-4`, `NaN`. Places in metres are thus rounded to a tenth of a millimetre.
+pub(crate) fn write_double(out: &mut TextBuffer<'_>, value: f64) -> fmt::Result {
     if !value.is_finite() || value.abs() > 1e6 {
         return write_not_finite(out, if value.is_finite() { f64::NAN } else { value });
     }
@@ -165,7 +167,7 @@ pub(crate) fn write_double(out: &mut Pen<'_>, value: f64) -> fmt::Result {
     write_digits(out, decimals, width)
 }
 
-fn write_not_finite(out: &mut Pen<'_>, value: f64) -> fmt::Result {
+fn write_not_finite(out: &mut TextBuffer<'_>, value: f64) -> fmt::Result {
     out.write_str(match value {
         f64::INFINITY => "Infinity",
         f64::NEG_INFINITY => "-Infinity",
@@ -179,10 +181,10 @@ mod tests {
 
     type Text = heapless::String<64>;
 
-    fn written(write: impl FnOnce(&mut Pen<'_>) -> fmt::Result) -> Text {
+    fn written(write: impl FnOnce(&mut TextBuffer<'_>) -> fmt::Result) -> Text {
         let mut text = Text::new();
-        let mut pen = Pen::new(&mut text);
-        write(&mut pen).and_then(|()| pen.finish()).unwrap();
+        let mut buffer = TextBuffer::new(&mut text);
+        write(&mut buffer).and_then(|()| buffer.finish()).unwrap();
         text
     }
 
@@ -262,7 +264,7 @@ mod tests {
         for value in (0..19).flat_map(|power| around(10u64.pow(power))).chain([u64::MAX]) {
             let mut text = Text::new();
             write!(text, "{value:03}").unwrap();
-            assert_eq!(written(|pen| write_digits(pen, value, 3)), text);
+            assert_eq!(written(|buffer| write_digits(buffer, value, 3)), text);
         }
     }
 
@@ -284,7 +286,7 @@ mod tests {
             (1e9, "NaN"),
         ];
         for (value, expected) in cases {
-            assert_eq!(written(|pen| write_double(pen, value)).as_str(), expected);
+            assert_eq!(written(|buffer| write_double(buffer, value)).as_str(), expected);
         }
     }
 
@@ -298,7 +300,7 @@ mod tests {
             (f64::NAN, "NaN"),
         ];
         for (value, expected) in cases {
-            assert_eq!(written(|pen| write_six_decimals(pen, value)).as_str(), expected);
+            assert_eq!(written(|buffer| write_six_decimals(buffer, value)).as_str(), expected);
         }
     }
 

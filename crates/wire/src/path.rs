@@ -8,13 +8,13 @@ use lightbots_base::{Piece, Span, Vec2};
 
 use crate::fields::Fields;
 use crate::number::{metres, span, tenths, write_digits, write_int};
-use crate::pen::Pen;
+use crate::text_buffer::TextBuffer;
 use crate::{Neighbours, Pieces, Route};
 
-/// A place in tenths of a millimetre: what the wire carries, so what both ends agree on.
+/// A place in tenths of a millimetre, as on the wire, so that both sides calculate with equal values.
 type Tenths = [i32; 2];
 
-/// The route after the word `PATH`; `None` unless every field is right and there are at most `MAX_PIECES` pieces.
+/// Reads the route after the word `PATH`; `None` if a field is invalid or the route has more than `MAX_PIECES` pieces.
 pub(crate) fn decode_route(fields: &mut Fields<'_>) -> Option<Route> {
     let seq = fields.next()?.parse().ok().filter(|&seq| seq != 0)?;
     let start = place(fields)?;
@@ -48,9 +48,8 @@ fn place(fields: &mut Fields<'_>) -> Option<Vec2> {
     Some(Vec2::new(x, y))
 }
 
-/// Writes `PATH …` without the bars. Places are rounded to the tenth of a millimetre; a duration below one
-/// microsecond becomes one.
-pub(crate) fn encode_route(route: &Route, out: &mut Pen<'_>) -> fmt::Result {
+/// Writes `PATH …` without the bars. Places are rounded to a tenth of a millimetre; durations are at least one microsecond.
+pub(crate) fn encode_route(route: &Route, out: &mut TextBuffer<'_>) -> fmt::Result {
     out.write_str("PATH ")?;
     write_int(out, i64::from(route.seq))?;
     let mut from = rounded(route.start);
@@ -67,7 +66,7 @@ pub(crate) fn encode_route(route: &Route, out: &mut Pen<'_>) -> fmt::Result {
     Ok(())
 }
 
-fn encode_piece(piece: &Piece, from: Tenths, out: &mut Pen<'_>) -> fmt::Result {
+fn encode_piece(piece: &Piece, from: Tenths, out: &mut TextBuffer<'_>) -> fmt::Result {
     let (c1, c2, end) = (rounded(piece.c1), rounded(piece.c2), rounded(piece.end));
     let even = Piece::straight(metres_of(from), metres_of(end), piece.duration);
     let kind = if c1 == from && c2 == from && end == from {
@@ -94,7 +93,7 @@ fn metres_of(at: Tenths) -> Vec2 {
     Vec2::new(f64::from(at[0]) / 1e4, f64::from(at[1]) / 1e4)
 }
 
-fn write_place(out: &mut Pen<'_>, at: Tenths) -> fmt::Result {
+fn write_place(out: &mut TextBuffer<'_>, at: Tenths) -> fmt::Result {
     for coordinate in at {
         out.write_str(" ")?;
         write_int(out, i64::from(coordinate))?;

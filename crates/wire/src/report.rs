@@ -1,101 +1,101 @@
-//! What a robot says: reports and questions.
+//! Reports and time questions from robots.
 
 use lightbots_base::{Instant, RobotId, Vec2};
 
 /// A robot's report, on `T/LightBot/UUID`, `Arrival` and `Status`: `<uuid> <x> <y>`, then our fields.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Report {
-    /// Who says it.
+    /// Name of the robot.
     pub id: RobotId,
-    /// Where it is, stage metres; `None` where it does not know (NaN on the wire).
+    /// Position, stage metres; `None`: not known (NaN on the wire).
     pub at: Option<Vec2>,
-    /// What an original robot does not say.
+    /// Fields after the position; `None` for an original robot.
     pub details: Option<Details>,
 }
 
-/// The fields after the place, `key=value` each, in any order, all optional on the wire.
+/// The fields `key=value` after the position, in any order, all optional on the wire (R10).
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Details {
     /// Heading, radians in the stage.
     pub heading: Option<f64>,
     /// Charge of the battery, percent.
     pub battery: Option<u8>,
-    /// What it is doing.
+    /// State (R12).
     pub state: RobotState,
-    /// Number of the route it keeps or drives; 0: none.
+    /// Number of the kept route, else of the route under way or finished last; 0: none.
     pub route: u32,
-    /// When that route starts, show clock, once it knows.
+    /// Start of that route, show clock; `None`: not known.
     pub starts: Option<Instant>,
-    /// How far it is from where its route says, metres.
+    /// Distance from the place of its route at this moment, metres; `None`: no route under way.
     pub off_m: Option<f64>,
-    /// How far off its place may be (1 sigma), metres; where fixes stay away, half a second of its route from now.
+    /// 1 sigma of its position, metres; while fixes are missing, the value predicted for half a second later.
     pub err_m: Option<f64>,
-    /// How far it believes its clock may be off, microseconds; `None`: not synchronised.
+    /// 2 sigma of its show clock, microseconds; `None`: not synchronised.
     pub clock_us: Option<u32>,
     /// Name and version of its firmware.
     pub firmware: Firmware,
-    /// What it can do.
+    /// Commands that it supports.
     pub abilities: Abilities,
-    /// Commands it did not know, since power-on.
+    /// Number of commands ignored by R7 since power-on.
     pub unknown: u32,
-    /// What stands in its way; it stands because of that.
+    /// Obstacle for which it stands or brakes (R49).
     pub blocked: Option<Blocked>,
-    /// Whether it says that it is simulated, so that nothing real moves.
+    /// Whether it reports itself as simulated (R52).
     pub simulated: bool,
 }
 
-/// Something in a robot's way that should not be there.
+/// An unplanned obstacle (R49).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Blocked {
-    /// From its rim to that, metres.
+    /// Distance from the robot's rim to the obstacle, metres.
     pub gap_m: f64,
-    /// In which direction it is, radians in the stage, to about 15°.
+    /// Direction of the obstacle, radians in the stage, accurate to about 15°.
     pub towards: f64,
 }
 
 /// Name and version of a firmware, at most 24 bytes of printable ASCII without space.
 pub type Firmware = heapless::String<24>;
 
-/// What a robot is doing.
+/// State of a robot (R12).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub enum RobotState {
-    /// It stands and waits.
+    /// Stands and waits.
     #[default]
     Idle,
-    /// It keeps a route that has not begun.
+    /// Keeps a route that has not begun.
     Ready,
-    /// It drives, to a target or along a route.
+    /// Drives, to a target or along a route.
     Driving,
-    /// Its route is held.
+    /// Drives a route that is held.
     Held,
-    /// It does not know where it is and stands.
+    /// Stands because its position is not known.
     Lost,
-    /// It lost the link during a run and stands.
+    /// Stands because its link was lost during a drive.
     Cut,
-    /// Its sensors or motors make no sense and it stands.
+    /// Stands because of implausible sensors or motors.
     Faulty,
 }
 
-/// What a robot can do beyond TARGET, COLOR and UUID.
+/// Commands that a robot supports beyond TARGET, COLOR and UUID.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Abilities {
-    /// Timed paths: PATH, START, HOLD, RESUME, STOP and the clock.
+    /// Routes: PATH, START, HOLD, RESUME, STOP, STATUS and TIME.
     pub route: bool,
     /// FADE.
     pub fade: bool,
     /// BLINK.
     pub blink: bool,
-    /// Knows how much room a PATH leaves it.
+    /// `G` in PATH: the planned clearance.
     pub room: bool,
-    /// Knows which neighbours come into sight on a PATH.
+    /// `N` in PATH: the planned neighbours in sight.
     pub neighbours: bool,
 }
 
-/// `<uuid> <now>` on `T/LightBot/Time`: what is the show clock?
+/// `<uuid> <now>` on `T/LightBot/Time`: a question for the show clock (R25).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct TimeQuestion {
-    /// Who asks.
+    /// Name of the robot.
     pub id: RobotId,
-    /// The robot's own clock when it asks.
+    /// Moment of the question, robot's own clock.
     pub asked: Instant,
 }

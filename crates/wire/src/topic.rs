@@ -1,31 +1,32 @@
-//! Topics: which way a message goes.
+//! Topics of the protocol.
 
 use lightbots_base::RobotId;
 
+/// Beginning of all topics.
 const ROOT: &str = "T/LightBot/";
 
-/// A topic as text; the longest has 47 bytes.
+/// A topic as text; the longest has 47 bytes (R3).
 pub type TopicText = heapless::String<56>;
 
-/// Where a message is published, under `T/LightBot/`.
+/// Topic of a message, below `T/LightBot/`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Topic {
-    /// `UUID`: robots introduce themselves. Original.
+    /// `UUID`: presence of robots. Original.
     Uuid,
-    /// `Arrival`: robots say that they have reached their target or the end of their route. Original.
+    /// `Arrival`: robots have reached their target or the end of their route. Original.
     Arrival,
-    /// `Status`: robots report how they are, while they drive and when something changes. Ours.
+    /// `Status`: periodic reports, and reports of changes. Ours.
     Status,
     /// `Time`: robots ask for the show clock. Ours.
     Time,
-    /// `Broadcast`: the controller speaks to all robots. Original.
+    /// `Broadcast`: commands for all robots. Original.
     Broadcast,
-    /// `<uuid>`: the controller speaks to one robot. Original.
+    /// `<uuid>`: commands for one robot. Original.
     Robot(RobotId),
 }
 
 impl Topic {
-    /// The topic a text names; `None` where it is none of ours.
+    /// Reads a topic; `None` if the text is not a topic of the protocol.
     pub fn parse(text: &str) -> Option<Self> {
         Some(match text.strip_prefix(ROOT)? {
             "UUID" => Self::Uuid,
@@ -48,7 +49,7 @@ impl Topic {
             Self::Broadcast => "Broadcast",
             Self::Robot(id) => id.as_str(),
         };
-        // Cannot fail: 11 bytes of root and at most 36 of name.
+        // Always fits: 11 bytes of root and at most 36 of the name.
         let _ = text.push_str(ROOT).and_then(|()| text.push_str(name));
         text
     }

@@ -6,15 +6,14 @@ use lightbots_base::{RobotId, Vec2};
 
 use crate::fields::{Fields, cut};
 use crate::number::{instant, number, write_digits, write_double, write_int};
-use crate::pen::Pen;
+use crate::text_buffer::TextBuffer;
 use crate::{Abilities, Blocked, Details, Firmware, Report, RobotState, TimeQuestion};
 
-/// The most bytes of a report that are read; longer ones are refused.
+/// Longest report that a controller reads, bytes (R4).
 const MAX_REPORT: usize = 1024;
 
 impl Report {
-    /// The report a payload holds: three fields at least, of which the first can be a name and the others are numbers.
-    /// `None` for anything else. Fields after them that make no sense are skipped.
+    /// Reads a report: a name and two numbers at least; `None` for all other payloads. Invalid fields after them are skipped.
     pub fn decode(payload: &[u8]) -> Option<Self> {
         let mut fields = Fields::new(text(payload)?);
         let id = RobotId::new(fields.next()?)?;
@@ -28,22 +27,22 @@ impl Report {
         Some(Self { id, at: at.is_finite().then_some(at), details })
     }
 
-    /// Appends the report: `<uuid> <x> <y>` and our fields, where it has them.
+    /// Appends the report: `<uuid> <x> <y>` and the details, if there are any.
     pub fn encode(&self, out: &mut dyn Write) -> fmt::Result {
         let at = self.at.unwrap_or(Vec2::new(f64::NAN, f64::NAN));
-        let mut pen = Pen::new(out);
-        pen.bytes(self.id.as_bytes())?;
-        pen.write_str(" ")?;
-        write_double(&mut pen, at.x)?;
-        pen.write_str(" ")?;
-        write_double(&mut pen, at.y)?;
-        self.details.as_ref().map_or(Ok(()), |details| write_details(details, &mut pen))?;
-        pen.finish()
+        let mut buffer = TextBuffer::new(out);
+        buffer.bytes(self.id.as_bytes())?;
+        buffer.write_str(" ")?;
+        write_double(&mut buffer, at.x)?;
+        buffer.write_str(" ")?;
+        write_double(&mut buffer, at.y)?;
+        self.details.as_ref().map_or(Ok(()), |details| write_details(details, &mut buffer))?;
+        buffer.finish()
     }
 }
 
 impl TimeQuestion {
-    /// The question a payload holds.
+    /// Reads a question; `None` for all other payloads.
     pub fn decode(payload: &[u8]) -> Option<Self> {
         let mut fields = Fields::new(text(payload)?);
         Some(Self { id: RobotId::new(fields.next()?)?, asked: instant(fields.next()?)? })
@@ -51,15 +50,16 @@ impl TimeQuestion {
 
     /// Appends `<uuid> <now>`.
     pub fn encode(&self, out: &mut dyn Write) -> fmt::Result {
-        let mut pen = Pen::new(out);
-        pen.bytes(self.id.as_bytes())?;
-        pen.write_str(" ")?;
-        write_digits(&mut pen, self.asked.0.min(i64::MAX.unsigned_abs()), 1)?;
-        pen.finish()
+        let mut buffer = TextBuffer::new(out);
+        buffer.bytes(self.id.as_bytes())?;
+        buffer.write_str(" ")?;
+        write_digits(&mut buffer, self.asked.0.min(i64::MAX.unsigned_abs()), 1)?;
+        buffer.finish()
     }
 }
 
 impl RobotState {
+    /// Each state and its word on the wire (R12).
     const WORDS: [(Self, &'static str); 7] = [
         (Self::Idle, "idle"),
         (Self::Ready, "ready"),
@@ -70,12 +70,12 @@ impl RobotState {
         (Self::Faulty, "faulty"),
     ];
 
-    /// The word for it on the wire and on screen.
+    /// The word of the state on the wire and on the screen.
     pub fn word(self) -> &'static str {
         Self::WORDS.iter().find(|(state, _)| *state == self).map_or("idle", |(_, word)| word)
     }
 
-    /// The state a word names.
+    /// The state of a word; `None` if there is none.
     pub fn from_word(word: &str) -> Option<Self> {
         Self::WORDS.iter().find(|(_, known)| *known == word).map(|(state, _)| *state)
     }
@@ -87,7 +87,7 @@ fn text(payload: &[u8]) -> Option<&str> {
         .filter(|text| text.len() <= MAX_REPORT)
 }
 
-/// Notes one `key=value` field; details come to be with the first key we know, whatever its value.
+/// Stores one `key=value` field. The first known key creates the details, also if its value is invalid.
 fn read_detail(details: &mut Option<Details>, key: &str, value: &str) {
     match key {
         "h" => known(details).heading = finite(value),
@@ -125,13 +125,13 @@ fn blocked(value: &str) -> Option<Blocked> {
 fn firmware(value: &str) -> Firmware {
     let mut name = Firmware::new();
     if value.bytes().all(|byte| byte.is_ascii_graphic()) {
-        // A name too long for us is no name: the push leaves it empty.
+        // A name that does not fit is dropped: the failed push leaves it empty.
         let _ = name.push_str(value);
     }
     name
 }
 
-fn write_details(details: &Details, out: &mut Pen<'_>) -> fmt::Result {
+fn write_details(details: &Details, out: &mut TextBuffer<'_>) -> fmt::Result {
     out.write_str(" state=")?;
     out.write_str(details.state.word())?;
     if let Some(heading) = details.heading {
@@ -178,11 +178,12 @@ fn write_details(details: &Details, out: &mut Pen<'_>) -> fmt::Result {
 }
 
 impl Abilities {
-    /// What nearly all robots say that have any, apart because it is said in every report.
+    /// All abilities, read and written without a loop, because nearly all reports hold them.
     const ALL: Self = Self { route: true, fade: true, blink: true, room: true, neighbours: true };
+    /// `ALL` on the wire.
     const ALL_WORDS: &'static str = "route+fade+blink+room+neighbours";
 
-    /// Words joined by `+`; those we do not know are skipped.
+    /// Reads words joined by `+`; unknown words are skipped.
     fn from_words(words: &str) -> Self {
         if words == Self::ALL_WORDS {
             return Self::ALL;
@@ -201,7 +202,7 @@ impl Abilities {
         abilities
     }
 
-    fn write(self, out: &mut Pen<'_>) -> fmt::Result {
+    fn write(self, out: &mut TextBuffer<'_>) -> fmt::Result {
         if self == Self::ALL {
             return out.write_str(Self::ALL_WORDS);
         }

@@ -1,55 +1,56 @@
-//! Text put together before it is handed on.
+//! A buffer in front of a slow text sink.
 
 use core::fmt::{self, Write};
 
-/// How much is put together, bytes: most messages as a whole.
-const ROOM: usize = 320;
+/// Bytes of the buffer: most messages fit as a whole. Smaller: more calls of the sink. Larger: more stack. A report
+/// with all fields and long values, chosen on 2026-11-24, needs 260.
+const BUFFER_BYTES: usize = 320;
 
-/// Collects the dozens of pieces of a message and hands them on as one: that costs far less than to hand on each.
-pub(crate) struct Pen<'a> {
+/// Collects the many short parts of a message and writes them at once, because each call of the sink is dynamic.
+pub(crate) struct TextBuffer<'a> {
     out: &'a mut dyn Write,
-    /// Whole characters.
-    text: [u8; ROOM],
+    /// Whole UTF-8 characters up to `len`.
+    text: [u8; BUFFER_BYTES],
     len: usize,
 }
 
-impl<'a> Pen<'a> {
-    /// A pen that writes to this.
+impl<'a> TextBuffer<'a> {
+    /// An empty buffer in front of `out`.
     pub(crate) fn new(out: &'a mut dyn Write) -> Self {
-        Self { out, text: [0; ROOM], len: 0 }
+        Self { out, text: [0; BUFFER_BYTES], len: 0 }
     }
 
-    /// Hands on what is left.
+    /// Writes the rest of the text.
     pub(crate) fn finish(mut self) -> fmt::Result {
-        self.hand_on()
+        self.flush()
     }
 
     /// Writes whole characters of UTF-8.
-    #[inline(always)] // What is written is a word that the compiler knows, mostly: then it copies it without a call.
+    #[inline(always)] // Most parts are literals, which the compiler then copies without a call.
     pub(crate) fn bytes(&mut self, bytes: &[u8]) -> fmt::Result {
         if let Some(room) = self.text.get_mut(self.len..self.len + bytes.len()) {
             room.copy_from_slice(bytes);
             self.len += bytes.len();
             return Ok(());
         }
-        self.apart(bytes)
+        self.bypass(bytes)
     }
 
     #[cold]
-    fn apart(&mut self, bytes: &[u8]) -> fmt::Result {
-        self.hand_on()?;
+    fn bypass(&mut self, bytes: &[u8]) -> fmt::Result {
+        self.flush()?;
         self.out.write_str(core::str::from_utf8(bytes).map_err(|_| fmt::Error)?)
     }
 
-    fn hand_on(&mut self) -> fmt::Result {
+    fn flush(&mut self) -> fmt::Result {
         let text = core::str::from_utf8(&self.text[..self.len]).map_err(|_| fmt::Error)?;
         self.len = 0;
         self.out.write_str(text)
     }
 }
 
-impl Write for Pen<'_> {
-    #[inline(always)] // As `Pen::bytes`.
+impl Write for TextBuffer<'_> {
+    #[inline(always)] // As `TextBuffer::bytes`.
     fn write_str(&mut self, text: &str) -> fmt::Result {
         self.bytes(text.as_bytes())
     }
@@ -62,21 +63,21 @@ mod tests {
     #[test]
     fn what_is_longer_than_the_room_comes_whole_and_in_order() {
         let (mut out, mut expected) = (heapless::String::<2048>::new(), heapless::String::<2048>::new());
-        let mut pen = Pen::new(&mut out);
+        let mut buffer = TextBuffer::new(&mut out);
         let long = "ü".repeat(200);
         for piece in ["a", "bü", &long[..398], "c", &long, "d", &long[..300], "e"] {
-            pen.write_str(piece).unwrap();
+            buffer.write_str(piece).unwrap();
             expected.push_str(piece).unwrap();
         }
-        pen.finish().unwrap();
+        buffer.finish().unwrap();
         assert_eq!(out, expected);
     }
 
     #[test]
     fn who_has_no_room_says_so() {
         let mut out = heapless::String::<4>::new();
-        let mut pen = Pen::new(&mut out);
-        pen.write_str("12345").unwrap();
-        assert!(pen.finish().is_err());
+        let mut buffer = TextBuffer::new(&mut out);
+        buffer.write_str("12345").unwrap();
+        assert!(buffer.finish().is_err());
     }
 }
