@@ -1,107 +1,52 @@
-//! The exam from outside: inputs with `now`, outputs drained, the script polled by hand.
+//! The exam as its user sees it: inputs with `now`, and outputs to drain. The script is polled after each input.
 
 use std::future::Future;
 use std::pin::Pin;
 use std::rc::Rc;
 use std::task::{Context, Waker};
 
-use lightbots_base::{Instant, RobotId, Vec2};
+use lightbots_base::{Instant, RobotId};
 
-use crate::desk::Desk;
 use crate::finding::Finding;
+use crate::interface::{Ending, ExamEvent, Options, Publish};
 use crate::script;
-use crate::sight::Question;
-
-/// How the robot is examined.
-#[derive(Clone, Debug)]
-pub struct Options {
-    /// Which robot; `None`: the only one there is.
-    pub robot: Option<RobotId>,
-    /// Width and depth of the floor, metres: the robot is not sent off it, and places off it are wrong.
-    pub floor: (f64, f64),
-    /// Whether somebody answers questions about the light.
-    pub looks: bool,
-}
-
-impl Default for Options {
-    fn default() -> Self {
-        Self { robot: None, floor: (3.0, 3.0), looks: false }
-    }
-}
-
-/// A message to publish at QoS 0.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Send {
-    /// On what.
-    pub topic: String,
-    /// Mostly text; sometimes junk on purpose.
-    pub payload: Vec<u8>,
-}
-
-/// What whoever runs the exam wants to know.
-#[derive(Clone, Debug, PartialEq)]
-pub enum News {
-    /// The robot is about to be driven; it waits for [`Exam::go`].
-    Ready {
-        /// Which.
-        robot: RobotId,
-        /// Where it stands, stage metres; `None`: it does not know, and nothing will be driven.
-        at: Option<Vec2>,
-        /// Where the floor must be free for it up to 0.5 m, stage metres.
-        towards: Option<Vec2>,
-    },
-    /// What is tried now.
-    Doing(&'static str),
-    /// A question about the light; it waits for [`Exam::answer`].
-    Look(Question),
-}
-
-/// How an exam ends.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Ending {
-    /// Everything was tried, or nothing more could be: see the findings.
-    Done,
-    /// No robot speaks on this broker, or not the one that was named.
-    Nobody,
-    /// Several robots speak; which is meant was not said.
-    Several(Vec<RobotId>),
-}
+use crate::session::Session;
 
 /// One exam of one robot.
 pub struct Exam {
-    desk: Rc<Desk>,
+    session: Rc<Session>,
     script: Option<Pin<Box<dyn Future<Output = Ending>>>>,
     ending: Option<Ending>,
 }
 
 impl Exam {
-    /// An exam that begins once it is [`connected`](Self::connected).
+    /// An exam that begins with [`connected`](Self::connected).
     pub fn new(options: Options) -> Self {
-        let desk = Rc::new(Desk::new(options));
-        let script = Box::pin(script::run(desk.clone()));
-        Self { desk, script: Some(script), ending: None }
+        let session = Rc::new(Session::new(options));
+        let script = Box::pin(script::run(session.clone()));
+        Self { session, script: Some(script), ending: None }
     }
 
-    /// The broker is there and everything under `T/LightBot/` that robots publish is subscribed.
+    /// The broker is connected, and all topics of robots below `T/LightBot/` are subscribed.
     pub fn connected(&mut self, now: Instant) {
         self.poll(now);
     }
 
-    /// A message came in.
+    /// A message arrived.
     pub fn message(&mut self, now: Instant, topic: &str, payload: &[u8]) {
-        self.desk.hear(now, topic, payload);
+        self.session.receive(now, topic, payload);
         self.poll(now);
     }
 
     /// The robot may be driven.
     pub fn go(&mut self, now: Instant) {
-        self.desk.go();
+        self.session.permit();
         self.poll(now);
     }
 
-    /// The answer to [`News::Look`]; `None`: nobody could tell.
+    /// The answer to [`ExamEvent::Look`]; `None`: the person could not tell.
     pub fn answer(&mut self, now: Instant, yes: Option<bool>) {
-        self.desk.answer(yes);
+        self.session.answer(yes);
         self.poll(now);
     }
 
@@ -110,44 +55,44 @@ impl Exam {
         self.poll(now);
     }
 
-    /// When to call [`wake`](Self::wake) at the latest; `None`: it waits for something else, or is over.
+    /// Latest moment for the next [`wake`](Self::wake); `None`: the exam waits for another input, or is over.
     pub fn wake_at(&self) -> Option<Instant> {
-        self.desk.alarm().filter(|_| self.script.is_some())
+        self.session.alarm().filter(|_| self.script.is_some())
     }
 
     /// The next message to publish.
-    pub fn next_send(&mut self) -> Option<Send> {
-        self.desk.next_send()
+    pub fn next_publish(&mut self) -> Option<Publish> {
+        self.session.next_publish()
     }
 
-    /// The next thing to tell.
-    pub fn next_news(&mut self) -> Option<News> {
-        self.desk.next_news()
+    /// The next event.
+    pub fn next_event(&mut self) -> Option<ExamEvent> {
+        self.session.next_event()
     }
 
-    /// Gives up: the robot is told to stand where it is. Drain the messages afterwards.
+    /// Aborts the exam and commands the robot to stand. Drain the messages afterwards.
     pub fn give_up(&mut self) {
         self.script = None;
-        self.desk.leave();
+        self.session.make_stand();
     }
 
-    /// How it ended; `None` while it goes on.
+    /// How the exam ended; `None` while it runs.
     pub fn ending(&self) -> Option<&Ending> {
         self.ending.as_ref()
     }
 
-    /// Which robot is examined, once that is known.
+    /// The examined robot; `None` until it is chosen.
     pub fn robot(&self) -> Option<RobotId> {
-        self.desk.subject()
+        self.session.subject()
     }
 
-    /// What has been found so far, one finding a rule in the order of the rules.
+    /// The findings until now: one per rule, in the order of the rules.
     pub fn findings(&self) -> Vec<Finding> {
-        self.desk.findings()
+        self.session.findings()
     }
 
     fn poll(&mut self, now: Instant) {
-        self.desk.set_now(now);
+        self.session.set_now(now);
         let Some(script) = self.script.as_mut() else { return };
         let mut context = Context::from_waker(Waker::noop());
         if let std::task::Poll::Ready(ending) = script.as_mut().poll(&mut context) {

@@ -1,22 +1,22 @@
-//! What was found about a rule.
+//! Findings of an exam.
 
 /// Whether a robot keeps a rule.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Verdict {
-    /// Everything that was tried went as the rule says.
+    /// All attempts were as the rule demands.
     Keeps,
-    /// Something went otherwise.
+    /// An attempt was not as the rule demands.
     Breaks,
-    /// It does not have the ability the rule is about, and need not.
+    /// The robot lacks the optional ability that the rule is about.
     DoesNotKnow,
-    /// It could have been tried, but something before it failed or the light was not looked at.
+    /// The rule was not tried, because an earlier rule is broken or the light was not watched.
     NotTried,
-    /// No message shows it.
+    /// No message shows whether the rule is kept.
     NotFromOutside,
 }
 
 impl Verdict {
-    /// The verdict in a word, for programs.
+    /// Code of the verdict, for programs.
     pub fn word(self) -> &'static str {
         match self {
             Self::Keeps => "keeps",
@@ -28,30 +28,30 @@ impl Verdict {
     }
 }
 
-/// What was found about one rule.
+/// Finding for one rule.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Finding {
-    /// Its number in `docs/protocol.md`: 7 is R7.
+    /// Number of the rule in `docs/protocol.md`: 7 is R7.
     pub rule: u8,
-    /// What the rule is about, in a few words.
+    /// Subject of the rule in a few words.
     pub title: &'static str,
-    /// Whether the robot keeps it.
+    /// Whether the robot keeps the rule.
     pub verdict: Verdict,
-    /// What was tried, in order; of a broken rule the first thing that went wrong. Empty where nothing was.
-    pub tried: Vec<Trial>,
-    /// Why it was not tried, cannot be tried, or what the robot misses.
+    /// Attempts in order; for a broken rule only the first failed one. May be empty.
+    pub tried: Vec<Attempt>,
+    /// Reason of a verdict without attempts: what was missing.
     pub why: String,
 }
 
-/// One thing that was tried.
+/// One attempt to see whether a rule is kept.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Trial {
-    /// What was sent to the robot, and what happened around it.
+pub struct Attempt {
+    /// What was sent to the robot, and under which conditions.
     pub sent: String,
-    /// What the rule asks for.
+    /// What the rule demands.
     pub expected: String,
-    /// What came.
+    /// What was received.
     pub came: String,
-    /// Whether that fits.
+    /// Whether `came` is as `expected`.
     pub fits: bool,
 }

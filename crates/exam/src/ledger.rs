@@ -1,62 +1,62 @@
-//! What was found about each rule so far.
+//! Attempts and verdicts for each rule.
 
-use crate::finding::{Finding, Trial, Verdict};
+use crate::finding::{Attempt, Finding, Verdict};
 use crate::rules::{RULES, Scope};
 
-/// Trials of a rule that are kept; a broken rule's first failure always is.
-const TRIALS: usize = 6;
+/// Most successful attempts that are stored per rule, to keep reports short. The first failed attempt is always stored.
+const ATTEMPTS_MAX: usize = 6;
 
 #[derive(Clone, Debug, Default)]
 struct Entry {
-    tried: Vec<Trial>,
-    broken: Option<Trial>,
+    tried: Vec<Attempt>,
+    broken: Option<Attempt>,
     missing: Option<String>,
     excused: Option<String>,
 }
 
-/// One entry a rule.
+/// One entry per rule, in order.
 #[derive(Debug)]
 pub(crate) struct Ledger(Vec<Entry>);
 
 impl Ledger {
-    /// Nothing is known.
+    /// Entries without attempts.
     pub fn new() -> Self {
         Self(vec![Entry::default(); RULES.len()])
     }
 
-    /// Notes something that was tried.
-    pub fn note(&mut self, rule: u8, trial: Trial) {
+    /// Adds an attempt.
+    pub fn note(&mut self, rule: u8, attempt: Attempt) {
         let entry = &mut self.0[usize::from(rule) - 1];
-        if !trial.fits && entry.broken.is_none() {
-            entry.broken = Some(trial);
-        } else if trial.fits && entry.tried.len() < TRIALS {
-            entry.tried.push(trial);
+        if !attempt.fits && entry.broken.is_none() {
+            entry.broken = Some(attempt);
+        } else if attempt.fits && entry.tried.len() < ATTEMPTS_MAX {
+            entry.tried.push(attempt);
         }
     }
 
-    /// The robot lacks what a rule is about.
-    pub fn lacks(&mut self, rule: u8, what: &str) {
+    /// Notes that the robot lacks the ability `what` of a rule.
+    pub fn mark_unsupported(&mut self, rule: u8, what: &str) {
         self.0[usize::from(rule) - 1].missing = Some(what.to_owned());
     }
 
-    /// A rule could not be tried.
-    pub fn excuse(&mut self, rule: u8, why: &str) {
+    /// Notes why a rule cannot be tried; the first reason counts.
+    pub fn mark_untried(&mut self, rule: u8, why: &str) {
         self.0[usize::from(rule) - 1].excused.get_or_insert_with(|| why.to_owned());
     }
 
-    /// Whether a rule was found broken.
+    /// Whether an attempt of this rule has failed.
     pub fn is_broken(&self, rule: u8) -> bool {
         self.0[usize::from(rule) - 1].broken.is_some()
     }
 
-    /// One finding a rule, in order. `stopped`: why the script ended early.
+    /// One finding per rule, in order. `stopped`: why the script ended early.
     pub fn findings(&self, stopped: Option<&str>) -> Vec<Finding> {
         RULES
             .iter()
             .zip(&self.0)
             .map(|(rule, entry)| {
                 let (verdict, why) = entry.verdict(rule.scope, stopped);
-                let tried = entry.broken.clone().map_or_else(|| entry.tried.clone(), |trial| vec![trial]);
+                let tried = entry.broken.clone().map_or_else(|| entry.tried.clone(), |attempt| vec![attempt]);
                 Finding { rule: rule.number, title: rule.title, verdict, tried, why }
             })
             .collect()

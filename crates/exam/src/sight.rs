@@ -1,31 +1,31 @@
-//! What only eyes can tell.
+//! Questions that only a person or a camera can answer.
 
 use lightbots_base::{Instant, Rgb};
 
-/// A question about the light, for whoever sees the robot.
+/// A question about the light, for the person who watches the robot.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Question {
-    /// What to ask people, to be answered with yes or no.
+    /// Question with the answers yes and no.
     pub text: String,
-    /// The same for a program that has watched the light.
+    /// The same question for a program that has recorded the light: yes if all of these hold.
     pub sights: Vec<Sight>,
 }
 
-/// What the light shows if the rule is kept. Moments are those of the exam's own clock.
+/// What the light shows if the rule is kept. Moments are on the exam's clock.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Sight {
     /// This colour at that moment.
     Colour {
-        /// When.
+        /// Moment.
         at: Instant,
-        /// What.
+        /// Colour.
         colour: Rgb,
     },
     /// White and black in turn, 125 ms each.
     Flashing {
-        /// From when.
+        /// Beginning.
         from: Instant,
-        /// Until when.
+        /// End.
         to: Instant,
     },
 }

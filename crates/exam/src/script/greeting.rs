@@ -1,4 +1,4 @@
-//! Who is there, how it introduces itself, and where there is room: R3, R5, R9, R10, R13.
+//! Choice of the robot, its first reports, and free floor around it: R3, R5, R9, R10, R13.
 
 use std::collections::BTreeSet;
 
@@ -6,127 +6,136 @@ use lightbots_base::{Instant, RobotId, Span, Vec2};
 use lightbots_wire::{RobotState, Topic};
 
 use super::pilot::{ANSWER, ONCE, Pilot, WAY_M};
-use super::{Halt, Step};
-use crate::desk::{Desk, Other, To};
-use crate::exam::{Ending, News};
-use crate::heard::Heard;
+use super::step::{Halt, Step};
+use crate::interface::{Ending, ExamEvent};
+use crate::received::Received;
+use crate::session::{Addressee, OtherRobot, Session};
 
-/// Long enough for the status reports that come every two seconds.
+/// Time to wait for reports: status reports come every two seconds (R41).
 const LISTEN: Span = Span::from_millis(2_500);
-/// How often it is asked who is there: somebody may be connecting just now.
+/// Number of calls for robots, because a robot may just be connecting. Fewer: a robot that reconnects is missed.
 const CALLS: u32 = 4;
-/// A robot that was just switched on gets so long to find its place.
+/// Time that a robot has to find its position after power-on: ten times the limit of R14.
 const FIRST_FIX: Span = Span::from_millis(5_000);
 
-/// Chooses the robot; everybody else's names.
-pub(super) async fn choose(desk: &Desk) -> Result<BTreeSet<String>, Ending> {
-    let mut found = Err(Ending::Nobody);
+/// Chooses the robot; returns the names of all robots.
+pub(super) async fn choose(session: &Session) -> Result<BTreeSet<String>, Ending> {
+    let mut found = Err(Ending::NoRobot);
     for _ in 0..CALLS {
-        desk.say(To::All, "|UUID|");
-        desk.pause(LISTEN).await;
-        found = only_one(desk);
-        if !matches!(found, Err(Ending::Nobody)) {
+        session.send(Addressee::AllRobots, "|UUID|");
+        session.pause(LISTEN).await;
+        found = only_one(session);
+        if !matches!(found, Err(Ending::NoRobot)) {
             break;
         }
     }
     let subject = found?;
-    let names = desk.others().into_keys().collect();
-    desk.set_subject(subject);
-    desk.judge(3, true, "|UUID|", "a name of 1 to 36 bytes of printable ASCII", subject.as_str());
+    let names = session.others().into_keys().collect();
+    session.set_subject(subject);
+    session.record(3, true, "|UUID|", "a name of 1 to 36 bytes of printable ASCII", subject.as_str());
     Ok(names)
 }
 
-/// The robot that was named, or the only one there is.
-fn only_one(desk: &Desk) -> Result<RobotId, Ending> {
-    let ids: Vec<RobotId> = desk.others().keys().filter_map(|name| RobotId::new(name)).collect();
-    match (desk.options.robot, ids.as_slice()) {
+/// The requested robot, or the only one on the broker.
+fn only_one(session: &Session) -> Result<RobotId, Ending> {
+    let ids: Vec<RobotId> = session.others().keys().filter_map(|name| RobotId::new(name)).collect();
+    match (session.options.robot, ids.as_slice()) {
         (Some(named), _) if ids.contains(&named) => Ok(named),
-        (Some(_), _) | (None, []) => Err(Ending::Nobody),
+        (Some(_), _) | (None, []) => Err(Ending::NoRobot),
         (None, [only]) => Ok(*only),
         (None, _) => Err(Ending::Several(ids)),
     }
 }
 
-/// How it answers `UUID`, on both topics and on no other.
+/// Tests that the robot answers `UUID` on both its topics and on no other.
 pub(super) async fn introduce(pilot: &mut Pilot) -> Step {
-    pilot.blame.set(13);
-    for (to, sent) in [(To::Robot, "|UUID| on its own topic"), (To::All, "|UUID| on Broadcast")] {
+    pilot.rule_if_silent.set(13);
+    for (to, sent) in
+        [(Addressee::Robot, "|UUID| on its own topic"), (Addressee::AllRobots, "|UUID| on Broadcast")]
+    {
         answer_once(pilot, to, sent).await;
     }
     not_for_it(pilot).await;
-    let mut heard = pilot.ask().await?;
-    let until = pilot.desk.now() + FIRST_FIX;
-    while heard.place().is_none() && pilot.desk.now() < until {
-        pilot.desk.pause(Span::from_millis(500)).await;
-        heard = pilot.ask().await?;
+    let mut received = pilot.ask().await?;
+    let until = pilot.session.now() + FIRST_FIX;
+    while received.place().is_none() && pilot.session.now() < until {
+        pilot.session.pause(Span::from_millis(500)).await;
+        received = pilot.ask().await?;
     }
-    read_report(pilot, &heard);
-    match heard.place() {
-        None => pilot.desk.excuse(&DRIVING, "it does not know where it is"),
+    read_report(pilot, &received);
+    match received.place() {
+        None => pilot.session.mark_untried(&DRIVING, "it does not know where it is"),
         Some(at) => on_the_floor(pilot, at)?,
     }
     Ok(())
 }
 
-/// Rules that take a robot that knows its place.
+/// Rules whose tests need a robot that knows its position.
 const DRIVING: [u8; 24] =
     [8, 12, 16, 17, 18, 19, 20, 27, 31, 32, 33, 34, 35, 36, 37, 38, 39, 40, 41, 42, 43, 45, 29, 30];
 
-async fn answer_once(pilot: &Pilot, to: To, sent: &str) {
-    let desk = &pilot.desk;
-    let mark = desk.mark();
-    desk.say(to, "|UUID|");
-    let on_uuid = |heard: &Heard| (heard.topic == Topic::Uuid && heard.report.is_some()).then_some(());
-    let came = desk.wait_for(mark, ANSWER, on_uuid).await.is_some();
+async fn answer_once(pilot: &Pilot, to: Addressee, sent: &str) {
+    let session = &pilot.session;
+    let mark = session.mark();
+    session.send(to, "|UUID|");
+    let on_uuid =
+        |received: &Received| (received.topic == Topic::Uuid && received.report.is_some()).then_some(());
+    let came = session.wait_for(mark, ANSWER, on_uuid).await.is_some();
     if !came {
-        let elsewhere = desk.since(mark, |heard| {
-            heard.iter().find(|heard| heard.topic != Topic::Time).map(|heard| heard.topic.write().to_string())
+        let elsewhere = session.since(mark, |received| {
+            received
+                .iter()
+                .find(|received| received.topic != Topic::Time)
+                .map(|received| received.topic.write().to_string())
         });
         let came = elsewhere.map_or_else(|| "silence".into(), |topic| format!("a report on {topic}"));
-        // Silence on one topic only is a missing subscription.
-        let rule = if to == To::All && !desk.is_broken(13) { 5 } else { 13 };
-        return desk.judge(rule, false, sent, "a report on T/LightBot/UUID at once", came);
+        // A robot that is silent on one topic only has not subscribed to it.
+        let rule = if to == Addressee::AllRobots && !session.is_broken(13) { 5 } else { 13 };
+        return session.record(rule, false, sent, "a report on T/LightBot/UUID at once", came);
     }
-    desk.pause(ONCE).await;
-    let count = desk.since(mark, |heard| heard.iter().filter(|heard| heard.topic == Topic::Uuid).count());
-    desk.judge(13, count == 1, sent, "one report on T/LightBot/UUID", format!("{count}"));
-    desk.judge(5, true, sent, "a report", "a report");
+    session.pause(ONCE).await;
+    let count = session
+        .since(mark, |received| received.iter().filter(|received| received.topic == Topic::Uuid).count());
+    session.record(13, count == 1, sent, "one report on T/LightBot/UUID", format!("{count}"));
+    session.record(5, true, sent, "a report", "a report");
 }
 
-/// Commands to a robot next to it are not for it.
+/// Tests that the robot ignores commands on another robot's topic.
 async fn not_for_it(pilot: &Pilot) {
-    let mark = pilot.desk.mark();
-    pilot.desk.say(To::Neighbour, "|UUID|");
-    pilot.desk.pause(ONCE).await;
-    let count =
-        pilot.desk.since(mark, |heard| heard.iter().filter(|heard| heard.topic == Topic::Uuid).count());
+    let mark = pilot.session.mark();
+    pilot.session.send(Addressee::AbsentRobot, "|UUID|");
+    pilot.session.pause(ONCE).await;
+    let count = pilot
+        .session
+        .since(mark, |received| received.iter().filter(|received| received.topic == Topic::Uuid).count());
     let came = if count == 0 { "nothing".into() } else { format!("{count} reports of this robot") };
-    pilot.desk.judge(5, count == 0, "|UUID| on another robot's topic", "nothing", came);
+    pilot.session.record(5, count == 0, "|UUID| on another robot's topic", "nothing", came);
 }
 
-/// The form of a report.
-fn read_report(pilot: &mut Pilot, heard: &Heard) {
-    let fields: Vec<&str> = heard.text.split_ascii_whitespace().collect();
+/// Tests the form of a report.
+fn read_report(pilot: &mut Pilot, received: &Received) {
+    let fields: Vec<&str> = received.text.split_ascii_whitespace().collect();
     let is_java = |text: &str| text == "NaN" || (text.parse::<f64>().is_ok() && text.contains('.'));
     let fits = fields.len() >= 3 && fields[1..3].iter().all(|field| is_java(field));
-    pilot.desk.judge(
+    pilot.session.record(
         9,
         fits,
         "|UUID|",
         "<name> <x> <y>, numbers like 1.3, 1.0E-4 or NaN",
-        heard.text.clone(),
+        received.text.clone(),
     );
-    let details = heard.report.as_ref().and_then(|report| report.details.as_ref());
+    let details = received.report.as_ref().and_then(|report| report.details.as_ref());
     pilot.has_details = details.is_some() || fields.len() > 3;
     pilot.can = details.map(|details| details.abilities).unwrap_or_default();
     if pilot.has_details {
         let wrong = fields.iter().skip(3).find(|field| !is_sensible(field));
-        let came = wrong.map_or_else(|| heard.text.clone(), |field| format!("{field} in: {}", heard.text));
-        pilot.desk.judge(10, wrong.is_none(), "|UUID|", "fields key=value that make sense", came);
+        let came =
+            wrong.map_or_else(|| received.text.clone(), |field| format!("{field} in: {}", received.text));
+        pilot.session.record(10, wrong.is_none(), "|UUID|", "fields key=value that make sense", came);
     }
 }
 
-/// Whether a further field of a report is as R10 says.
+/// Whether a field of a report is valid (R10).
 fn is_sensible(field: &str) -> bool {
     let Some((key, value)) = field.split_once('=') else { return false };
     let number = value.parse::<f64>().ok();
@@ -141,12 +150,12 @@ fn is_sensible(field: &str) -> bool {
     }
 }
 
-/// A place that no floor has shows a wrong unit.
+/// Tests that the reported position is on the floor; otherwise its unit is wrong.
 fn on_the_floor(pilot: &mut Pilot, at: Vec2) -> Step {
-    let (width_m, depth_m) = pilot.desk.options.floor;
+    let (width_m, depth_m) = pilot.session.options.floor;
     let fits = at.x.abs() <= width_m / 2.0 + 0.1 && at.y.abs() <= depth_m / 2.0 + 0.1;
     let expected = format!("metres on a floor of {width_m} x {depth_m}");
-    pilot.desk.judge(9, fits, "|UUID|", &expected, format!("x {}, y {}", at.x, at.y));
+    pilot.session.record(9, fits, "|UUID|", &expected, format!("x {}, y {}", at.x, at.y));
     if !fits {
         return Err(Halt("its places are not on the floor: another unit, or another --floor".into()));
     }
@@ -155,10 +164,11 @@ fn on_the_floor(pilot: &mut Pilot, at: Vec2) -> Step {
     Ok(())
 }
 
-/// Where there is most room: away from the edge and from others.
+/// Direction with the largest distance to the edge and to other robots.
 fn direction(pilot: &Pilot, home: Vec2) -> Vec2 {
-    let (width_m, depth_m) = pilot.desk.options.floor;
-    let others: Vec<Vec2> = pilot.desk.others().values().filter_map(|other: &Other| other.at).collect();
+    let (width_m, depth_m) = pilot.session.options.floor;
+    let others: Vec<Vec2> =
+        pilot.session.others().values().filter_map(|other: &OtherRobot| other.at).collect();
     let room = |way: Vec2| {
         let end = home + way * (WAY_M + 0.1);
         let edge = (width_m / 2.0 - end.x.abs()).min(depth_m / 2.0 - end.y.abs());
@@ -178,15 +188,15 @@ fn direction(pilot: &Pilot, home: Vec2) -> Vec2 {
     best
 }
 
-/// Says where it will drive and waits to be allowed.
+/// Announces where the robot will drive, and waits for permission.
 pub(super) async fn ask_for_room(pilot: &Pilot) {
-    let Some(robot) = pilot.desk.subject() else { return };
+    let Some(robot) = pilot.session.subject() else { return };
     let towards = pilot.is_placed().then_some(pilot.away);
-    pilot.desk.tell(News::Ready { robot, at: towards.map(|_| pilot.home), towards });
-    pilot.desk.wait_to_go().await;
+    pilot.session.emit(ExamEvent::Ready { robot, at: towards.map(|_| pilot.home), towards });
+    pilot.session.wait_for_permission().await;
 }
 
-/// A moment in seconds, for people.
+/// Time between two moments, seconds.
 pub(super) fn seconds(from: Instant, to: Instant) -> f64 {
     (to - from).as_secs()
 }

@@ -1,23 +1,23 @@
-//! What nobody should send: R4, R15, R48.
+//! Invalid payloads: R4, R15, R48.
 
 use lightbots_base::Span;
 use lightbots_wire::Topic;
 
-use super::Step;
 use super::pilot::{ONCE, Pilot};
-use crate::desk::To;
+use super::step::Step;
+use crate::session::Addressee;
 
-/// One byte more than a robot reads.
+/// One byte more than a robot reads (R4).
 const TOO_LONG: usize = 16 * 1024 + 1;
 
 pub(super) async fn run(pilot: &Pilot) -> Step {
-    pilot.blame.set(48);
+    pilot.rule_if_silent.set(48);
     let alive = "a report when asked for one afterwards";
     for (what, payload) in payloads() {
-        pilot.desk.say_bytes(To::Robot, payload);
-        pilot.desk.pause(Span::from_millis(200)).await;
+        pilot.session.send_bytes(Addressee::Robot, payload);
+        pilot.session.pause(Span::from_millis(200)).await;
         pilot.ask().await?;
-        pilot.desk.judge(48, true, what, alive, "a report");
+        pilot.session.record(48, true, what, alive, "a report");
     }
     if pilot.can.route {
         dropped(pilot, "|UUID| and bytes that are no UTF-8", b"|UUID|\xff\xfe|".to_vec()).await;
@@ -25,8 +25,8 @@ pub(super) async fn run(pilot: &Pilot) -> Step {
         long.resize(TOO_LONG, b' ');
         dropped(pilot, "|UUID| in 16,385 bytes", long).await;
     }
-    let heard = pilot.ask().await?;
-    pilot.desk.judge(15, true, "|UUID| in the end", "the name it had at first", heard.name());
+    let received = pilot.ask().await?;
+    pilot.session.record(15, true, "|UUID| in the end", "the name it had at first", received.name());
     Ok(())
 }
 
@@ -45,11 +45,12 @@ fn payloads() -> Vec<(&'static str, Vec<u8>)> {
     ]
 }
 
-/// A payload that is to be dropped whole, although it holds a good command.
+/// Tests that the robot drops a whole payload that holds a valid command.
 async fn dropped(pilot: &Pilot, what: &str, payload: Vec<u8>) {
-    let mark = pilot.desk.mark();
-    pilot.desk.say_bytes(To::Robot, payload);
-    let answer = pilot.desk.wait_for(mark, ONCE, |heard| (heard.topic == Topic::Uuid).then_some(())).await;
-    let came = if answer.is_some() { "it obeyed UUID" } else { "nothing" };
-    pilot.desk.judge(4, answer.is_none(), what, "nothing: it is dropped whole", came);
+    let mark = pilot.session.mark();
+    pilot.session.send_bytes(Addressee::Robot, payload);
+    let answer =
+        pilot.session.wait_for(mark, ONCE, |received| (received.topic == Topic::Uuid).then_some(())).await;
+    let came = if answer.is_some() { "it executed UUID" } else { "nothing" };
+    pilot.session.record(4, answer.is_none(), what, "nothing: it is dropped whole", came);
 }

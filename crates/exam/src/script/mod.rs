@@ -1,6 +1,5 @@
-//! What is done with a robot, in order. One file a subject; each tries some rules and leaves the robot at rest.
+//! The script of an exam: one file per subject. Each tries some rules and leaves the robot at rest.
 
-mod course;
 mod greeting;
 mod junk;
 mod light;
@@ -8,42 +7,39 @@ mod parsing;
 mod pilot;
 mod routes;
 mod silence;
+mod step;
 mod stopping;
 mod targets;
 mod time;
+mod timed_route;
 
 use std::rc::Rc;
 
-use crate::desk::Desk;
-use crate::exam::{Ending, News};
+use crate::interface::{Ending, ExamEvent};
 use crate::rules::{RULES, Scope};
+use crate::session::Session;
 use pilot::Pilot;
-
-/// Why the script cannot go on, for people.
-pub(crate) struct Halt(String);
-
-/// A part of the script that may have to end early.
-pub(crate) type Step<T = ()> = Result<T, Halt>;
+use step::{Halt, Step};
 
 /// The whole script.
-pub(crate) async fn run(desk: Rc<Desk>) -> Ending {
-    let known = match greeting::choose(&desk).await {
+pub(crate) async fn run(session: Rc<Session>) -> Ending {
+    let known = match greeting::choose(&session).await {
         Ok(known) => known,
         Err(ending) => return ending,
     };
-    let mut pilot = Pilot::new(desk.clone(), known);
+    let mut pilot = Pilot::new(session.clone(), known);
     if let Err(Halt(why)) = examine(&mut pilot).await {
-        desk.set_stopped(&why);
-        desk.leave();
+        session.set_stopped(&why);
+        session.make_stand();
     }
     Ending::Done
 }
 
 async fn examine(pilot: &mut Pilot) -> Step {
-    doing(pilot, "how it introduces itself");
+    doing(pilot, "first reports");
     greeting::introduce(pilot).await?;
     note_abilities(pilot);
-    doing(pilot, "how it reads payloads");
+    doing(pilot, "payloads");
     parsing::run(pilot).await?;
     if pilot.is_placed() {
         greeting::ask_for_room(pilot).await;
@@ -52,7 +48,7 @@ async fn examine(pilot: &mut Pilot) -> Step {
     }
     light::colours(pilot).await;
     if pilot.can.route {
-        doing(pilot, "its clock");
+        doing(pilot, "clock");
         let has_time = time::run(pilot).await?;
         if has_time {
             light::fades(pilot).await;
@@ -62,40 +58,43 @@ async fn examine(pilot: &mut Pilot) -> Step {
         }
     }
     light::blink(pilot).await;
-    doing(pilot, "senseless payloads");
+    doing(pilot, "invalid payloads");
     junk::run(pilot).await
 }
 
 async fn drive_routes(pilot: &mut Pilot) -> Step {
     doing(pilot, "routes");
     routes::run(pilot).await?;
-    if pilot.desk.is_broken(32) {
-        pilot.desk.excuse(&[27, 31, 33, 34, 35, 36, 37, 38, 39, 40, 41, 42, 43, 45], "it keeps no routes");
+    if pilot.session.is_broken(32) {
+        pilot.session.mark_untried(
+            &[27, 31, 33, 34, 35, 36, 37, 38, 39, 40, 41, 42, 43, 45],
+            "it does not keep routes",
+        );
         return Ok(());
     }
-    doing(pilot, "holding, stopping and giving up");
+    doing(pilot, "holding, stopping and aborting");
     stopping::run(pilot).await?;
     doing(pilot, "silence");
     silence::run(pilot).await
 }
 
 fn doing(pilot: &Pilot, what: &'static str) {
-    pilot.desk.tell(News::Doing(what));
+    pilot.session.emit(ExamEvent::Doing(what));
 }
 
-/// What it does not know it need not keep.
+/// Marks the rules of abilities that the robot lacks.
 fn note_abilities(pilot: &Pilot) {
     let can = pilot.can;
     for rule in &RULES {
-        let lacks = match rule.scope {
+        let mark_unsupported = match rule.scope {
             Scope::Route if !can.route => Some("it does not say can=route"),
             Scope::Fade if !can.fade => Some("it does not say can=fade"),
             Scope::Blink if !can.blink => Some("it does not say can=blink"),
             Scope::Details if !pilot.has_details => Some("it reports name and place only"),
             _ => None,
         };
-        if let Some(what) = lacks {
-            pilot.desk.lacks(rule.number, what);
+        if let Some(what) = mark_unsupported {
+            pilot.session.mark_unsupported(rule.number, what);
         }
     }
 }

@@ -1,4 +1,4 @@
-//! What every part of the script does with the robot: ask where it is, send it somewhere, watch it.
+//! Common actions of the script: ask the robot for its position, send it somewhere, watch it.
 
 use std::cell::Cell;
 use std::collections::BTreeSet;
@@ -7,55 +7,57 @@ use std::rc::Rc;
 use lightbots_base::{Instant, Span, Vec2};
 use lightbots_wire::{Abilities, Topic};
 
-use super::{Halt, Step};
-use crate::desk::{Desk, To};
-use crate::heard::Heard;
+use super::step::{Halt, Step};
+use crate::received::Received;
+use crate::session::{Addressee, Session};
 
-/// An answer that does not come within this is none; generous, for slow networks.
+/// Longest time to an answer. An Elisa-3 answers within one step of 16 ms; the rest is for slow networks.
 pub(super) const ANSWER: Span = Span::from_millis(2_000);
-/// Within this after an answer no second one may come.
+/// Time after an answer in which a second answer counts as a duplicate.
 pub(super) const ONCE: Span = Span::from_millis(1_000);
-/// How far it is sent, metres.
+/// Length of a drive, metres: it takes 1.1 s at the largest speed of R20, so that commands can arrive on the way.
 pub(super) const WAY_M: f64 = 0.3;
-/// Further from where it began it must not get, metres.
-const LEASH_M: f64 = 0.55;
-/// A place that differs by no more than this is the same, metres: fixes are noisy.
+/// Largest distance from the first position, metres: `WAY_M` and 0.25 m more. Beyond it the robot is stopped, because people
+/// leave 0.5 m free.
+const RANGE_M: f64 = 0.55;
+/// Largest difference of two positions of a standing robot, metres: 7 sigma of the 2 mm noise in docs/simulator.md.
 pub(super) const STILL_M: f64 = 0.015;
-/// The arrival test is 0.02 m; a fix between test and report may differ by this more.
+/// Largest distance from a reached target, metres: 0.02 m of R17 and 5 mm for a fix between test and report.
 pub(super) const THERE_M: f64 = 0.025;
-/// How often a moving robot is asked where it is.
+/// Interval of questions to a moving robot. Longer: its speed is measured less precisely (`fastest_mps`).
 const LOOK: Span = Span::from_millis(150);
 
-/// The robot under test and what is known of it.
+/// The robot under test.
 pub(super) struct Pilot {
-    pub desk: Rc<Desk>,
-    /// Robots that were there before.
+    pub session: Rc<Session>,
+    /// Names of all robots before the exam.
     known: BTreeSet<String>,
     pub can: Abilities,
     pub has_details: bool,
-    /// Where it stood at first, and where it is sent to; stage metres.
+    /// Position at the beginning, stage metres.
     pub home: Vec2,
+    /// Target of drives, stage metres.
     pub away: Vec2,
     placed: Cell<bool>,
-    /// The shortest way from a command to its answer.
+    /// Shortest time from a command to its answer.
     round_trip: Cell<Span>,
-    /// The rule that is broken if the robot falls silent now.
-    pub blame: Cell<u8>,
+    /// Rule that is broken if the robot falls silent now.
+    pub rule_if_silent: Cell<u8>,
     pub seq: Cell<u32>,
 }
 
-/// What was seen of a drive.
+/// Observations of a drive.
 pub(super) struct Trip {
-    /// When and where, in order.
+    /// Moments (exam's clock) and positions, sorted by time.
     pub places: Vec<(Instant, Vec2)>,
-    /// Whether it stands at its goal.
+    /// Whether the robot stands at its goal.
     pub reached: bool,
 }
 
 impl Pilot {
-    pub fn new(desk: Rc<Desk>, known: BTreeSet<String>) -> Self {
+    pub fn new(session: Rc<Session>, known: BTreeSet<String>) -> Self {
         Self {
-            desk,
+            session,
             known,
             can: Abilities::default(),
             has_details: false,
@@ -63,91 +65,91 @@ impl Pilot {
             away: Vec2::ZERO,
             placed: Cell::new(false),
             round_trip: Cell::new(Span::from_millis(500)),
-            blame: Cell::new(13),
+            rule_if_silent: Cell::new(13),
             seq: Cell::new(0),
         }
     }
 
-    /// Whether it knows where it is.
+    /// Whether the robot knows its position.
     pub fn is_placed(&self) -> bool {
         self.placed.get()
     }
 
-    /// It stands there and knows it.
+    /// Sets the position at the beginning.
     pub fn set_home(&mut self, home: Vec2) {
         self.home = home;
         self.placed.set(true);
     }
 
-    /// Half the shortest way from a command to its answer: about how old a report is.
+    /// Half the shortest time from a command to its answer: about the age of a report.
     pub fn delay(&self) -> Span {
         Span(self.round_trip.get().0 / 2)
     }
 
-    /// Says something to the robot; the mark behind which its answers stand.
-    pub fn say(&self, text: impl Into<String>) -> usize {
-        let mark = self.desk.mark();
-        self.desk.say(To::Robot, text);
+    /// Sends a payload to the robot; returns the mark after which its answers are.
+    pub fn send(&self, text: impl Into<String>) -> usize {
+        let mark = self.session.mark();
+        self.session.send(Addressee::Robot, text);
         mark
     }
 
-    /// Asks for a report on `UUID`. A robot that does not answer three times has fallen silent.
-    pub async fn ask(&self) -> Step<Heard> {
+    /// Asks for a report on `UUID`, up to three times; then the robot counts as silent.
+    pub async fn ask(&self) -> Step<Received> {
         for _ in 0..3 {
-            let asked = self.desk.now();
-            let mark = self.say("|UUID|");
-            // One that answers on the wrong topic was told so; it is examined all the same.
-            let anywhere = self.desk.is_broken(13);
-            let answers = |heard: &Heard| {
-                let fits = heard.topic == Topic::Uuid || anywhere;
-                (fits && heard.report.is_some()).then(|| heard.clone())
+            let asked = self.session.now();
+            let mark = self.send("|UUID|");
+            // A robot that answers on the wrong topic breaks R13 and is examined all the same.
+            let anywhere = self.session.is_broken(13);
+            let answers = |received: &Received| {
+                let fits = received.topic == Topic::Uuid || anywhere;
+                (fits && received.report.is_some()).then(|| received.clone())
             };
-            if let Some(heard) = self.desk.wait_for(mark, ANSWER, answers).await {
-                if self.desk.is_broken(13) {
-                    // Answers that come twice must not be taken for the next one.
-                    self.desk.pause(Span::from_millis(300)).await;
+            if let Some(received) = self.session.wait_for(mark, ANSWER, answers).await {
+                if self.session.is_broken(13) {
+                    // A duplicate answer must not count as the next answer.
+                    self.session.pause(Span::from_millis(300)).await;
                 }
-                let round = heard.at - asked;
+                let round = received.at - asked;
                 self.round_trip.set(self.round_trip.get().min(round));
-                return Ok(heard);
+                return Ok(received);
             }
         }
         Err(self.fell_silent().await)
     }
 
-    /// Where it says it is, asked now.
+    /// Asks for the position, stage metres.
     pub async fn place(&self) -> Step<Vec2> {
-        let heard = self.ask().await?;
-        match heard.place() {
+        let received = self.ask().await?;
+        match received.place() {
             Some(at) => Ok(at),
-            None => Err(Halt("it does not know any more where it is".into())),
+            None => Err(Halt("it no longer knows its position".into())),
         }
     }
 
-    /// Looks where it is again and again until it stands at `goal` or `most` has passed.
+    /// Asks for positions until the robot stands at `goal` or `most` has passed.
     pub async fn watch(&self, goal: Vec2, most: Span) -> Step<Trip> {
-        let until = self.desk.now() + most;
+        let until = self.session.now() + most;
         let mut trip = Trip { places: Vec::new(), reached: false };
         loop {
             let at = self.place().await?;
-            trip.places.push((self.desk.now(), at));
-            self.keep_on_leash(at)?;
+            trip.places.push((self.session.now(), at));
+            self.check_range(at)?;
             trip.reached = within(at, goal, THERE_M) && trip.rests();
-            if trip.reached || self.desk.now() >= until {
+            if trip.reached || self.session.now() >= until {
                 return Ok(trip);
             }
-            self.desk.pause(LOOK).await;
+            self.session.pause(LOOK).await;
         }
     }
 
-    /// Whether it stands: no two places within `span` differ.
+    /// Whether the robot stands: its positions within `span` are equal.
     pub async fn stands(&self, span: Span) -> Step<bool> {
         let first = self.place().await?;
-        let until = self.desk.now() + span;
-        while self.desk.now() < until {
-            self.desk.pause(LOOK).await;
+        let until = self.session.now() + span;
+        while self.session.now() < until {
+            self.session.pause(LOOK).await;
             let at = self.place().await?;
-            self.keep_on_leash(at)?;
+            self.check_range(at)?;
             if at.distance(first) > STILL_M {
                 return Ok(false);
             }
@@ -155,54 +157,54 @@ impl Pilot {
         Ok(true)
     }
 
-    /// Sends it to a target with points for decimals and waits until it is there.
-    pub async fn bring(&self, goal: Vec2) -> Step<Trip> {
-        self.say(target(goal));
+    /// Sends the robot to a target, with decimal points, and waits until it is there.
+    pub async fn drive_to(&self, goal: Vec2) -> Step<Trip> {
+        self.send(target(goal));
         self.watch(goal, Span::from_millis(15_000)).await
     }
 
-    fn keep_on_leash(&self, at: Vec2) -> Step {
+    fn check_range(&self, at: Vec2) -> Step {
         let gone = at.distance(self.home);
-        if gone <= LEASH_M {
+        if gone <= RANGE_M {
             return Ok(());
         }
-        let expected = format!("it stays within {LEASH_M} m of where it began");
-        self.desk.judge(
+        let expected = format!("it stays within {RANGE_M} m of its first position");
+        self.session.record(
             17,
             false,
             "commands for places within 0.3 m",
             &expected,
             format!("it is {gone:.2} m away"),
         );
-        Err(Halt("it drove where nobody sent it, and was stopped".into()))
+        Err(Halt("it drove too far away and was stopped".into()))
     }
 
-    /// It does not answer: a new name, or nothing at all?
+    /// Records silence, or a change of the robot's name.
     async fn fell_silent(&self) -> Halt {
-        let asked = self.desk.now();
-        self.desk.say(To::All, "|UUID|");
-        self.desk.pause(ANSWER).await;
-        let others = self.desk.others();
+        let asked = self.session.now();
+        self.session.send(Addressee::AllRobots, "|UUID|");
+        self.session.pause(ANSWER).await;
+        let others = self.session.others();
         let fresh = others.iter().find(|(name, other)| !self.known.contains(*name) && other.last > asked);
         if let Some((name, _)) = fresh {
             let came = format!("silence, but now '{name}' answers");
-            self.desk.judge(15, false, "|UUID|", "a report under the name it had", came);
-            return Halt("it has another name now".into());
+            self.session.record(15, false, "|UUID|", "a report under the name it had", came);
+            return Halt("it changed its name".into());
         }
-        let rule = self.blame.get();
-        self.desk.judge(rule, false, "|UUID|, three times", "a report on T/LightBot/UUID", "silence");
+        let rule = self.rule_if_silent.get();
+        self.session.record(rule, false, "|UUID|, three times", "a report on T/LightBot/UUID", "silence");
         Halt("it fell silent".into())
     }
 }
 
 impl Trip {
-    /// Whether the last three places are one.
+    /// Whether the last three positions are equal.
     fn rests(&self) -> bool {
         let [.., (_, a), (_, b), (_, c)] = self.places[..] else { return false };
         a.distance(c) <= 0.008 && b.distance(c) <= 0.008
     }
 
-    /// The highest mean speed over four tenths of a second and more, m/s, less what noise and network explain.
+    /// Highest mean speed over at least 0.4 s, m/s, minus the part that noise and network explain.
     pub fn fastest_mps(&self) -> f64 {
         let mut fastest = 0.0_f64;
         for (index, (from_at, from)) in self.places.iter().enumerate() {
@@ -216,7 +218,7 @@ impl Trip {
     }
 }
 
-/// The original's arrival test with another bound.
+/// The original's arrival test (R17) with another bound.
 pub(super) fn within(at: Vec2, goal: Vec2, bound_m: f64) -> bool {
     (at.x - goal.x).abs() <= bound_m && (at.y - goal.y).abs() <= bound_m
 }
@@ -226,7 +228,7 @@ pub(super) fn target(goal: Vec2) -> String {
     format!("|TARGET {:.6} {:.6}|", goal.x, goal.y)
 }
 
-/// A place for people.
+/// A place as text for people.
 pub(super) fn shown(at: Vec2) -> String {
     format!("({:.3}, {:.3})", at.x, at.y)
 }

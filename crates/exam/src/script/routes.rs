@@ -3,131 +3,133 @@
 use lightbots_base::{Instant, Span, Vec2};
 use lightbots_wire::{Route, Topic};
 
-use super::Step;
-use super::course::{Course, bow, rest, straight, text};
 use super::pilot::{ANSWER, ONCE, Pilot, STILL_M, THERE_M, shown, within};
+use super::step::Step;
 use super::targets::arrivals;
-use crate::desk::To;
-use crate::heard::Heard;
+use super::timed_route::{TimedRoute, curve, rest, straight, text};
+use crate::received::Received;
+use crate::session::Addressee;
 
-/// Cruising speed of the routes, m/s: a place off by 5 mm is then 25 ms.
+/// Cruising speed of the routes, m/s: three quarters of the limit of R20. An error of 5 mm is then one of 25 ms.
 pub(super) const SPEED_MPS: f64 = 0.2;
-/// How far beside its route a robot may be, metres; 5 mm are typical.
+/// Largest distance from the route, metres: four times the typical 5 mm of R35.
 const BESIDE_M: f64 = 0.02;
-/// How much later or earlier than its route, less what the network may hide.
+/// Largest delay along the route: ten times the 5 ms of R27, minus the age of reports that the network hides.
 const LATE: Span = Span::from_millis(50);
-/// From a START to its moment.
+/// Time from a `START` to its moment: several round trips of slow networks.
 pub(super) const LEAD: Span = Span::from_millis(1_500);
 
 pub(super) async fn run(pilot: &Pilot) -> Step {
-    pilot.blame.set(31);
-    pilot.bring(pilot.home).await?;
+    pilot.rule_if_silent.set(31);
+    pilot.drive_to(pilot.home).await?;
     number_them(pilot).await?;
     forth(pilot).await?;
-    if pilot.desk.is_broken(32) {
-        pilot.say("|STOP|");
-        pilot.bring(pilot.home).await?;
+    if pilot.session.is_broken(32) {
+        pilot.send("|STOP|");
+        pilot.drive_to(pilot.home).await?;
         return Ok(());
     }
-    back_in_a_bow(pilot).await?;
+    back_on_a_curve(pilot).await?;
     chained(pilot).await?;
     one_report(pilot).await
 }
 
-/// Numbers far from those it knows.
+/// Chooses route numbers far from the reported one, so that no route counts as old (R32).
 async fn number_them(pilot: &Pilot) -> Step {
     let known = pilot.ask().await?.whole("route").unwrap_or(0) as u32;
     pilot.seq.set(known.wrapping_add(1000).max(1000));
     Ok(())
 }
 
-/// The next route's number.
+/// Number of the next route.
 pub(super) fn next_seq(pilot: &Pilot) -> u32 {
     pilot.seq.set(pilot.seq.get().wrapping_add(1).max(1));
     pilot.seq.get()
 }
 
-fn status(heard: &Heard) -> Option<Heard> {
-    (heard.topic == Topic::Status).then(|| heard.clone())
+fn status(received: &Received) -> Option<Received> {
+    (received.topic == Topic::Status).then(|| received.clone())
 }
 
-/// Gives it a route; whether it says that it keeps it.
+/// Sends a route; returns whether the robot reports that it keeps it.
 pub(super) async fn keep(pilot: &Pilot, route: &Route) -> bool {
     let sent = text(route);
     let wanted = u64::from(route.seq);
     let mut last = "nothing on T/LightBot/Status".to_owned();
-    // Once more, in case it was lost.
+    // Twice, because one message may be lost.
     for _ in 0..2 {
-        let mark = pilot.say(&sent);
-        let kept = |heard: &Heard| {
-            (heard.topic == Topic::Status && heard.whole("route") == Some(wanted)).then_some(())
+        let mark = pilot.send(&sent);
+        let kept = |received: &Received| {
+            (received.topic == Topic::Status && received.whole("route") == Some(wanted)).then_some(())
         };
-        if pilot.desk.wait_for(mark, ANSWER, kept).await.is_some() {
-            pilot.desk.judge(32, true, &sent, &format!("route={wanted} on T/LightBot/Status"), "it");
+        if pilot.session.wait_for(mark, ANSWER, kept).await.is_some() {
+            pilot.session.record(32, true, &sent, &format!("route={wanted} on T/LightBot/Status"), "it");
             return true;
         }
         last = pilot
-            .desk
-            .since(mark, |heard| heard.iter().rev().find_map(status))
-            .map_or(last, |heard| heard.text);
+            .session
+            .since(mark, |received| received.iter().rev().find_map(status))
+            .map_or(last, |received| received.text);
     }
     let kinds = ["R ", "L ", "C "].iter().filter(|kind| sent.contains(*kind)).count();
-    // A rest alone is kept by whoever keeps anything.
-    let rule = if kinds > 1 && pilot.desk.is_broken(31) { 31 } else { 32 };
-    pilot.desk.judge(rule, false, &sent, &format!("route={wanted} on T/LightBot/Status at once"), last);
+    // A robot that keeps routes at all keeps one that only rests.
+    let rule = if kinds > 1 && pilot.session.is_broken(31) { 31 } else { 32 };
+    pilot.session.record(rule, false, &sent, &format!("route={wanted} on T/LightBot/Status at once"), last);
     false
 }
 
-/// Lets the kept route begin at `at`; the moment it says it begins, if it says one.
-pub(super) async fn start(pilot: &Pilot, to: To, seq: u32, at: Instant) -> Option<u64> {
-    let mark = pilot.desk.mark();
-    pilot.desk.say(to, format!("|START {seq} {}|", at.0));
-    let said = |heard: &Heard| (heard.topic == Topic::Status).then(|| heard.whole("starts")).flatten();
-    pilot.desk.wait_for(mark, ONCE, said).await
+/// Sends `START`; returns the reported start moment, microseconds.
+pub(super) async fn start(pilot: &Pilot, to: Addressee, seq: u32, at: Instant) -> Option<u64> {
+    let mark = pilot.session.mark();
+    pilot.session.send(to, format!("|START {seq} {}|", at.0));
+    let said =
+        |received: &Received| (received.topic == Topic::Status).then(|| received.whole("starts")).flatten();
+    pilot.session.wait_for(mark, ONCE, said).await
 }
 
-/// There straight, with everything that may come before: R31 to R33, R35, R36, R12, R27.
+/// A straight route to `away`, with the tests before it: R31 to R33, R35, R36, R12, R27.
 async fn forth(pilot: &Pilot) -> Step {
     let route = straight(next_seq(pilot), pilot.home, pilot.away, SPEED_MPS);
-    // An original target would end the route: none is under way.
+    // A target would end the route, so none is under way.
     if !keep(pilot, &route).await {
         return Ok(());
     }
     waits(pilot, &route).await?;
-    if pilot.desk.is_broken(32) {
+    if pilot.session.is_broken(32) {
         return Ok(());
     }
     refuses(pilot, &route).await;
-    let course = Course::new(route, moved_start(pilot).await);
-    towards_the_way(pilot, course.route.start, pilot.away).await?;
-    not_before(pilot, &course).await?;
-    let mark = follow(pilot, &course).await?;
-    judge_fit(pilot, &course, mark, true);
-    arrives(pilot, &course, mark).await;
-    let driving =
-        pilot.desk.since(mark, |heard| heard.iter().any(|heard| heard.field("state") == Some("driving")));
+    let timed_route = TimedRoute::new(route, moved_start(pilot).await);
+    towards_the_way(pilot, timed_route.route.start, pilot.away).await?;
+    not_before(pilot, &timed_route).await?;
+    let mark = follow(pilot, &timed_route).await?;
+    judge_fit(pilot, &timed_route, mark, true);
+    arrives(pilot, &timed_route, mark).await;
+    let driving = pilot
+        .session
+        .since(mark, |received| received.iter().any(|received| received.field("state") == Some("driving")));
     let came = if driving { "state=driving" } else { "other states only" };
-    pilot.desk.judge(12, driving, "STATUS on its route", "state=driving", came);
+    pilot.session.record(12, driving, "STATUS on its route", "state=driving", came);
     Ok(())
 }
 
-/// It keeps the route and stays.
+/// Tests that the robot keeps the route and stays.
 async fn waits(pilot: &Pilot, route: &Route) -> Step {
-    // A robot looks at itself once a step.
-    pilot.desk.pause(Span::from_millis(200)).await;
+    // A robot updates its state once per step.
+    pilot.session.pause(Span::from_millis(200)).await;
     let state = pilot.ask().await?.field("state").map(str::to_owned).unwrap_or_default();
-    pilot.desk.pause(Span::from_millis(1_500)).await;
+    pilot.session.pause(Span::from_millis(1_500)).await;
     let at = pilot.place().await?;
     let came = format!("it is {:.3} m from there", at.distance(route.start));
-    pilot.desk.judge(
+    pilot.session.record(
         32,
         at.distance(route.start) <= STILL_M,
         "a PATH without START",
         "it stays where the route starts",
         came,
     );
-    if !pilot.desk.is_broken(32) {
-        pilot.desk.judge(
+    if !pilot.session.is_broken(32) {
+        pilot.session.record(
             12,
             state == "ready",
             "a PATH without START",
@@ -138,7 +140,7 @@ async fn waits(pilot: &Pilot, route: &Route) -> Step {
     Ok(())
 }
 
-/// Senseless and old routes change nothing.
+/// Tests that invalid and old routes change nothing.
 async fn refuses(pilot: &Pilot, route: &Route) {
     let seq = route.seq;
     for (rule, sent) in [
@@ -146,12 +148,13 @@ async fn refuses(pilot: &Pilot, route: &Route) {
         (31, format!("|PATH {} 0 0 Q 5 1 1||STATUS|", seq.wrapping_add(1))),
         (32, format!("|PATH {} 0 0 R 1000000|", seq.wrapping_sub(5))),
     ] {
-        let mark = pilot.say(&sent);
-        let got = pilot.desk.wait_for(mark, ANSWER, status).await;
-        let named = got.as_ref().and_then(|heard| heard.whole("route"));
-        let came =
-            got.as_ref().map_or_else(|| "no report on T/LightBot/Status".into(), |heard| heard.text.clone());
-        pilot.desk.judge(
+        let mark = pilot.send(&sent);
+        let got = pilot.session.wait_for(mark, ANSWER, status).await;
+        let named = got.as_ref().and_then(|received| received.whole("route"));
+        let came = got
+            .as_ref()
+            .map_or_else(|| "no report on T/LightBot/Status".into(), |received| received.text.clone());
+        pilot.session.record(
             rule,
             named == Some(u64::from(seq)),
             &sent,
@@ -161,24 +164,24 @@ async fn refuses(pilot: &Pilot, route: &Route) {
     }
 }
 
-/// A START, a later one, an earlier one, and one for another route; the moment the robot goes by.
+/// Sends a `START`, a later one, an earlier one, and one for another route; returns the moment that counts.
 async fn moved_start(pilot: &Pilot) -> Instant {
     let seq = pilot.seq.get();
-    let first = pilot.desk.show() + LEAD;
+    let first = pilot.session.show() + LEAD;
     let later = first + LEAD;
     let mut goes_by = first.0;
     for (to, number, at, wanted, what) in [
-        (To::All, seq, first, first, "START on Broadcast"),
-        (To::All, seq, later, later, "START with a later moment"),
-        (To::Robot, seq, first, later, "START with an earlier moment"),
-        (To::Robot, seq.wrapping_add(7), first + LEAD + LEAD, later, "START of another route"),
+        (Addressee::AllRobots, seq, first, first, "START on Broadcast"),
+        (Addressee::AllRobots, seq, later, later, "START with a later moment"),
+        (Addressee::Robot, seq, first, later, "START with an earlier moment"),
+        (Addressee::Robot, seq.wrapping_add(7), first + LEAD + LEAD, later, "START of another route"),
     ] {
         let said = start(pilot, to, number, at).await;
         goes_by = said.unwrap_or(goes_by);
         let came = said.map_or_else(|| "no starts= on T/LightBot/Status".into(), |at| format!("starts={at}"));
         let expected = format!("starts={}", wanted.0);
         let fits = said == Some(wanted.0);
-        pilot.desk.judge(33, fits, &format!("{what}: |START {number} {}|", at.0), &expected, came);
+        pilot.session.record(33, fits, &format!("{what}: |START {number} {}|", at.0), &expected, came);
         if !fits {
             break;
         }
@@ -186,44 +189,57 @@ async fn moved_start(pilot: &Pilot) -> Instant {
     Instant(goes_by)
 }
 
-/// Before it leaves it turns towards its way, or away from it.
+/// Tests that the robot turns towards its path, or away from it, before it leaves.
 async fn towards_the_way(pilot: &Pilot, from: Vec2, to: Vec2) -> Step {
     let heading = pilot.ask().await?.field("h").and_then(|text| text.parse::<f64>().ok());
     if let Some(heading) = heading {
         let across = Vec2::unit(heading).cross((to - from).normalized().unwrap_or_default()).abs();
         let came = format!("h={heading:.2}, {:.0} degrees off", across.min(1.0).asin().to_degrees());
-        pilot.desk.judge(35, across < 0.4, "a PATH, then seconds of rest", "it turns along its way", came);
+        pilot.session.record(
+            35,
+            across < 0.4,
+            "a PATH, then seconds of rest",
+            "it turns along its way",
+            came,
+        );
     }
     Ok(())
 }
 
-/// It does not leave before its moment.
-async fn not_before(pilot: &Pilot, course: &Course) -> Step {
-    let left = course.starts - pilot.desk.show();
-    pilot.desk.pause(Span((left.0 - 250_000).max(0))).await;
-    let gone_m = pilot.place().await?.distance(course.route.start);
+/// Tests that the robot does not leave before its moment.
+async fn not_before(pilot: &Pilot, timed_route: &TimedRoute) -> Step {
+    let left = timed_route.starts - pilot.session.show();
+    pilot.session.pause(Span((left.0 - 250_000).max(0))).await;
+    let gone_m = pilot.place().await?.distance(timed_route.route.start);
     let came = format!("it is {gone_m:.3} m from the start of the route");
-    pilot.desk.judge(33, gone_m <= STILL_M, "START with a later moment", "it waits for that moment", came);
+    pilot.session.record(
+        33,
+        gone_m <= STILL_M,
+        "START with a later moment",
+        "it waits for that moment",
+        came,
+    );
     Ok(())
 }
 
-/// Asks for status all along the route; the mark behind which the drive stands.
-pub(super) async fn follow(pilot: &Pilot, course: &Course) -> Step<usize> {
-    let mark = pilot.desk.mark();
-    let until = course.over() + Span::from_millis(700);
-    while pilot.desk.show() < until {
-        pilot.say("|STATUS|");
-        pilot.desk.pause(Span::from_millis(100)).await;
+/// Asks for status all along the route; returns the mark before its reports.
+pub(super) async fn follow(pilot: &Pilot, timed_route: &TimedRoute) -> Step<usize> {
+    let mark = pilot.session.mark();
+    let until = timed_route.over() + Span::from_millis(700);
+    while pilot.session.show() < until {
+        pilot.send("|STATUS|");
+        pilot.session.pause(Span::from_millis(100)).await;
     }
     Ok(mark)
 }
 
-/// R35 beside the path, R27 along it; `rule_of_time` says whether lateness is the clock's.
-pub(super) fn judge_fit(pilot: &Pilot, course: &Course, mark: usize, judges_time: bool) {
-    let fit = pilot.desk.since(mark, |heard| course.fit(heard, pilot.desk.shift(), pilot.delay()));
-    let sent = format!("route {} with STATUS each 0.1 s", course.route.seq);
+/// Records the distance from the path (R35) and the delay along it (R27); see `rule_of_time`.
+pub(super) fn judge_fit(pilot: &Pilot, timed_route: &TimedRoute, mark: usize, judges_time: bool) {
+    let fit =
+        pilot.session.since(mark, |received| timed_route.fit(received, pilot.session.shift(), pilot.delay()));
+    let sent = format!("route {} with STATUS each 0.1 s", timed_route.route.seq);
     if fit.reports == 0 {
-        return pilot.desk.judge(
+        return pilot.session.record(
             41,
             false,
             &sent,
@@ -232,13 +248,19 @@ pub(super) fn judge_fit(pilot: &Pilot, course: &Course, mark: usize, judges_time
         );
     }
     let came = format!("up to {:.0} mm beside it in {} reports", fit.beside_m * 1e3, fit.reports);
-    pilot.desk.judge(35, fit.beside_m <= BESIDE_M, &sent, "within 20 mm of the path (5 are typical)", came);
+    pilot.session.record(
+        35,
+        fit.beside_m <= BESIDE_M,
+        &sent,
+        "within 20 mm of the path (5 are typical)",
+        came,
+    );
     if judges_time {
         judge_time(pilot, fit.late_s, 27, &sent);
     }
 }
 
-/// Whether it is where the show clock says, along its path.
+/// Records whether the robot is where the show clock says, along its path.
 pub(super) fn judge_time(pilot: &Pilot, late_s: Option<f64>, rule: u8, sent: &str) {
     let bound_s = (LATE + pilot.delay()).as_secs();
     let expected = format!("along the path within {:.0} ms of the show clock", bound_s * 1e3);
@@ -246,17 +268,17 @@ pub(super) fn judge_time(pilot: &Pilot, late_s: Option<f64>, rule: u8, sent: &st
         || "no report from the middle of the path".into(),
         |late_s| format!("{:.0} ms {}", late_s.abs() * 1e3, if late_s < 0.0 { "early" } else { "late" }),
     );
-    pilot.desk.judge(rule, late_s.is_some_and(|late_s| late_s.abs() <= bound_s), sent, &expected, came);
+    pilot.session.record(rule, late_s.is_some_and(|late_s| late_s.abs() <= bound_s), sent, &expected, came);
 }
 
-/// One arrival, at the end, with the number of the route.
-pub(super) async fn arrives(pilot: &Pilot, course: &Course, mark: usize) {
-    let seq = u64::from(course.route.seq);
-    let end = course.path().end();
-    let left = (course.over() - pilot.desk.show()).0.max(0);
-    let named = |heard: &Heard| (heard.topic == Topic::Arrival).then_some(());
-    pilot.desk.wait_for(mark, Span(left + 3_000_000), named).await;
-    pilot.desk.pause(ONCE).await;
+/// Tests for one arrival, at the end, with the number of the route.
+pub(super) async fn arrives(pilot: &Pilot, timed_route: &TimedRoute, mark: usize) {
+    let seq = u64::from(timed_route.route.seq);
+    let end = timed_route.path().end();
+    let left = (timed_route.over() - pilot.session.show()).0.max(0);
+    let named = |received: &Received| (received.topic == Topic::Arrival).then_some(());
+    pilot.session.wait_for(mark, Span(left + 3_000_000), named).await;
+    pilot.session.pause(ONCE).await;
     let came = arrivals(pilot, mark);
     let sent = format!("the end of route {seq}");
     let expected = format!("one Arrival with route={seq} at {}", shown(end));
@@ -266,66 +288,68 @@ pub(super) async fn arrives(pilot: &Pilot, course: &Course, mark: usize) {
         more => format!("{} of them", more.len()),
     };
     let [arrival] = came.as_slice() else {
-        return pilot.desk.judge(36, false, &sent, &expected, words);
+        return pilot.session.record(36, false, &sent, &expected, words);
     };
     let there =
         arrival.place().is_some_and(|at| within(at, end, THERE_M)) && arrival.whole("route") == Some(seq);
-    let early_s = (course.over() - (arrival.at + pilot.desk.shift())).as_secs();
-    let in_time =
-        early_s < (LATE + pilot.delay()).as_secs() || pilot.desk.is_broken(27) || course.hold.is_some();
+    let early_s = (timed_route.over() - (arrival.at + pilot.session.shift())).as_secs();
+    let in_time = early_s < (LATE + pilot.delay()).as_secs()
+        || pilot.session.is_broken(27)
+        || timed_route.hold.is_some();
     let words = if in_time { words } else { format!("{words}, {early_s:.2} s before the route was over") };
-    pilot.desk.judge(36, there && in_time, &sent, &expected, words);
+    pilot.session.record(36, there && in_time, &sent, &expected, words);
 }
 
-/// A curve back.
-async fn back_in_a_bow(pilot: &Pilot) -> Step {
-    pilot.bring(pilot.away).await?;
-    let route = bow(next_seq(pilot), pilot.away, pilot.home, Span::from_millis(5_000));
+/// Tests a curve back to `home`.
+async fn back_on_a_curve(pilot: &Pilot) -> Step {
+    pilot.drive_to(pilot.away).await?;
+    let route = curve(next_seq(pilot), pilot.away, pilot.home, Span::from_millis(5_000));
     if !keep(pilot, &route).await {
         return Ok(());
     }
-    let at = pilot.desk.show() + LEAD;
-    start(pilot, To::All, route.seq, at).await;
-    let course = Course::new(route, at);
-    let mark = follow(pilot, &course).await?;
-    let fit = pilot.desk.since(mark, |heard| course.fit(heard, pilot.desk.shift(), pilot.delay()));
-    let sent = format!("route {} with two C pieces", course.route.seq);
+    let at = pilot.session.show() + LEAD;
+    start(pilot, Addressee::AllRobots, route.seq, at).await;
+    let timed_route = TimedRoute::new(route, at);
+    let mark = follow(pilot, &timed_route).await?;
+    let fit =
+        pilot.session.since(mark, |received| timed_route.fit(received, pilot.session.shift(), pilot.delay()));
+    let sent = format!("route {} with two C pieces", timed_route.route.seq);
     let came = format!("up to {:.0} mm beside it in {} reports", fit.beside_m * 1e3, fit.reports);
-    pilot.desk.judge(
+    pilot.session.record(
         31,
         fit.reports > 0 && fit.beside_m <= BESIDE_M,
         &sent,
         "within 20 mm of the curve",
         came,
     );
-    pilot.desk.pause(ONCE).await;
+    pilot.session.pause(ONCE).await;
     Ok(())
 }
 
-/// A route that takes over from one under way, without asking for status: R34, R41.
+/// Tests a route that replaces another one under way, without asking for status: R34, R41.
 async fn chained(pilot: &Pilot) -> Step {
-    pilot.bring(pilot.home).await?;
+    pilot.drive_to(pilot.home).await?;
     let resting = rest(next_seq(pilot), pilot.home, Span::from_millis(60_000));
-    let at = pilot.desk.show() + Span::from_millis(500);
+    let at = pilot.session.show() + Span::from_millis(500);
     if !keep(pilot, &resting).await {
         return Ok(());
     }
-    start(pilot, To::Robot, resting.seq, at).await;
-    pilot.desk.pause(ONCE).await;
+    start(pilot, Addressee::Robot, resting.seq, at).await;
+    pilot.session.pause(ONCE).await;
     let route = straight(next_seq(pilot), pilot.home, pilot.away, SPEED_MPS / 2.0);
     if !keep(pilot, &route).await {
         return Ok(());
     }
-    let course = Course::new(route, pilot.desk.show() + LEAD);
-    let mark = pilot.desk.mark();
-    start(pilot, To::Robot, course.route.seq, course.starts).await;
-    let left = course.over() - pilot.desk.show();
-    pilot.desk.pause(left + Span::from_millis(500)).await;
-    statuses(pilot, mark, &course);
+    let timed_route = TimedRoute::new(route, pilot.session.show() + LEAD);
+    let mark = pilot.session.mark();
+    start(pilot, Addressee::Robot, timed_route.route.seq, timed_route.starts).await;
+    let left = timed_route.over() - pilot.session.show();
+    pilot.session.pause(left + Span::from_millis(500)).await;
+    statuses(pilot, mark, &timed_route);
     let at = pilot.place().await?;
     let taken = within(at, pilot.away, 2.0 * THERE_M);
     let came = format!("it is at {}", shown(at));
-    pilot.desk.judge(
+    pilot.session.record(
         34,
         taken,
         "START of a route while another is under way",
@@ -333,23 +357,26 @@ async fn chained(pilot: &Pilot) -> Step {
         came,
     );
     if !taken {
-        pilot.say("|STOP|");
+        pilot.send("|STOP|");
     }
     Ok(())
 }
 
-/// Reports while it drives come each half second.
-fn statuses(pilot: &Pilot, mark: usize, course: &Course) {
-    let shift = pilot.desk.shift();
-    let moments: Vec<Instant> = pilot.desk.since(mark, |heard| {
-        let all = heard.iter().filter(|heard| heard.topic == Topic::Status).map(|heard| heard.at + shift);
-        all.filter(|at| (course.starts..=course.over()).contains(at)).collect()
+/// Tests that reports come every 0.5 s while the robot drives.
+fn statuses(pilot: &Pilot, mark: usize, timed_route: &TimedRoute) {
+    let shift = pilot.session.shift();
+    let moments: Vec<Instant> = pilot.session.since(mark, |received| {
+        let all = received
+            .iter()
+            .filter(|received| received.topic == Topic::Status)
+            .map(|received| received.at + shift);
+        all.filter(|at| (timed_route.starts..=timed_route.over()).contains(at)).collect()
     });
-    let ends = [course.starts, course.over()];
+    let ends = [timed_route.starts, timed_route.over()];
     let all: Vec<Instant> = ends[..1].iter().chain(&moments).chain(&ends[1..]).copied().collect();
     let longest = all.windows(2).map(|pair| (pair[1] - pair[0]).as_secs()).fold(0.0, f64::max);
     let came = format!("{} reports, {longest:.2} s between two at most", moments.len());
-    pilot.desk.judge(
+    pilot.session.record(
         41,
         longest <= 1.0,
         "a route, and no commands on the way",
@@ -358,14 +385,27 @@ fn statuses(pilot: &Pilot, mark: usize, course: &Course) {
     );
 }
 
-/// Many questions at once have one answer.
+/// Tests that many questions at once have one answer.
 async fn one_report(pilot: &Pilot) -> Step {
-    let mark = pilot.say("|STATUS||STATUS||STATUS||STATUS||STATUS||STATUS|");
-    pilot.desk.pause(ONCE).await;
-    let count =
-        pilot.desk.since(mark, |heard| heard.iter().filter(|heard| heard.topic == Topic::Status).count());
-    pilot.desk.judge(41, count > 0, "|STATUS|", "a report on T/LightBot/Status at once", format!("{count}"));
-    // One of its own accord may come in between.
-    pilot.desk.judge(42, count <= 3, "|STATUS| six times in one payload", "one report", format!("{count}"));
+    let mark = pilot.send("|STATUS||STATUS||STATUS||STATUS||STATUS||STATUS|");
+    pilot.session.pause(ONCE).await;
+    let count = pilot
+        .session
+        .since(mark, |received| received.iter().filter(|received| received.topic == Topic::Status).count());
+    pilot.session.record(
+        41,
+        count > 0,
+        "|STATUS|",
+        "a report on T/LightBot/Status at once",
+        format!("{count}"),
+    );
+    // One periodic report may come in between.
+    pilot.session.record(
+        42,
+        count <= 3,
+        "|STATUS| six times in one payload",
+        "one report",
+        format!("{count}"),
+    );
     Ok(())
 }

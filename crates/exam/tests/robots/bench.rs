@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use lightbots_base::{Instant, Rgb, RobotId, Span, Vec2};
-use lightbots_exam::{Ending, Exam, Finding, News, Options, Question, Sight, Verdict};
+use lightbots_exam::{Ending, Exam, ExamEvent, Finding, Options, Question, Sight, Verdict};
 use lightbots_show::Stage;
 use lightbots_sim::{Conditions, Fleet, FleetConfig};
 
@@ -126,7 +126,7 @@ impl Bench {
     }
 
     fn drain(&mut self) {
-        while let Some(send) = self.exam.next_send() {
+        while let Some(send) = self.exam.next_publish() {
             self.post(true, (send.topic, send.payload));
         }
         while let Some(message) = self.fleet.next_message() {
@@ -138,15 +138,15 @@ impl Bench {
             };
             says.into_iter().for_each(|message| self.post(false, message));
         }
-        while let Some(news) = self.exam.next_news() {
+        while let Some(event) = self.exam.next_event() {
             let now = self.now + EXAM_AHEAD;
-            match news {
-                News::Ready { .. } => self.exam.go(now),
-                News::Look(question) => {
+            match event {
+                ExamEvent::Ready { .. } => self.exam.go(now),
+                ExamEvent::Look(question) => {
                     let yes = self.saw(&question);
                     self.exam.answer(now, Some(yes));
                 }
-                News::Doing(_) => {}
+                ExamEvent::Doing(_) => {}
             }
         }
     }

@@ -37,8 +37,8 @@ fn one_of_several_is_examined_by_its_name() {
 
 #[test]
 fn nobody_and_an_unknown_name_are_said() {
-    assert_eq!(Bench::new(0, Right, Options::default()).run().ending, Some(Ending::Nobody));
+    assert_eq!(Bench::new(0, Right, Options::default()).run().ending, Some(Ending::NoRobot));
     let robot = lightbots_base::RobotId::new("somebody-else");
     let outcome = Bench::new(1, Right, Options { robot, ..Options::default() }).run();
-    assert_eq!(outcome.ending, Some(Ending::Nobody));
+    assert_eq!(outcome.ending, Some(Ending::NoRobot));
 }

@@ -5,7 +5,7 @@ mod verdicts;
 use std::io::{BufRead, IsTerminal};
 use std::time::Duration;
 
-use lightbots_exam::{Ending, Exam, News, Options, Question};
+use lightbots_exam::{Ending, Exam, ExamEvent, Options, Question};
 use lightbots_link::{BrokerUrl, Link, LinkEvent};
 use tokio::sync::oneshot;
 
@@ -117,13 +117,13 @@ impl Examination {
     /// Sends what the exam has to say, and tells people what it wants them to know.
     fn drain(&mut self) {
         let sender = self.link.sender();
-        while let Some(send) = self.exam.next_send() {
+        while let Some(send) = self.exam.next_publish() {
             sender.send(&send.topic, send.payload);
         }
-        while let Some(news) = self.exam.next_news() {
-            match news {
-                News::Doing(what) => say::note(&format!("... {what}")),
-                News::Ready { robot, at: Some(at), towards: Some(towards) } => {
+        while let Some(event) = self.exam.next_event() {
+            match event {
+                ExamEvent::Doing(what) => say::note(&format!("... {what}")),
+                ExamEvent::Ready { robot, at: Some(at), towards: Some(towards) } => {
                     say::note(&format!(
                         "{robot} stands at ({:.2}, {:.2}) and will drive towards ({:.2}, {:.2}) and back, for up to two \
                          minutes. Leave 0.5 m around it free; no other controller may speak meanwhile.",
@@ -131,8 +131,8 @@ impl Examination {
                     ));
                     self.ask_to_go();
                 }
-                News::Ready { .. } => self.go(),
-                News::Look(question) => self.ask_to_look(&question),
+                ExamEvent::Ready { .. } => self.go(),
+                ExamEvent::Look(question) => self.ask_to_look(&question),
             }
         }
     }
@@ -185,7 +185,7 @@ fn named(exam: Exam) -> Result<Exam, Failure> {
                 list.join(", ")
             )))
         }
-        Some(Ending::Nobody) => Err(Failure::problem(
+        Some(Ending::NoRobot) => Err(Failure::problem(
             "no such robot speaks on this broker: is it switched on, and subscribed to T/LightBot/Broadcast?",
         )),
         _ => Ok(exam),

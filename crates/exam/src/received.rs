@@ -1,30 +1,31 @@
-//! Everything the robot said, in order.
+//! Messages from the robot, in order.
 
 use lightbots_base::{Instant, RobotId, Vec2};
 use lightbots_wire::{Report, TimeQuestion, Topic};
 
-/// More than this is not kept: a robot that floods cannot fill the memory.
-const MOST: usize = 20_000;
+/// Most messages that are stored, so that a flooding robot cannot fill the memory. At the 2 reports a second of R41
+/// this is more than two hours.
+const MESSAGES_MAX: usize = 20_000;
 
 /// One message of a robot.
 #[derive(Clone, Debug)]
-pub(crate) struct Heard {
-    /// When it came in, the exam's clock.
+pub(crate) struct Received {
+    /// Arrival, exam's clock.
     pub at: Instant,
     /// `Uuid`, `Arrival`, `Status` or `Time`.
     pub topic: Topic,
-    /// Its payload; bytes that are no UTF-8 are replaced.
+    /// Payload as text; invalid UTF-8 is replaced.
     pub text: String,
-    /// Whether it was UTF-8 of at most 1,024 bytes.
+    /// Whether the payload is UTF-8 of at most 1,024 bytes (R4).
     pub is_proper: bool,
-    /// The report it holds.
+    /// The report in it, if there is one.
     pub report: Option<Report>,
-    /// The question it holds.
+    /// The time question in it, if there is one.
     pub question: Option<TimeQuestion>,
 }
 
-impl Heard {
-    /// A message as it came; `None` where it is on no robot's topic.
+impl Received {
+    /// A message as received; `None` if robots do not publish on the topic.
     pub fn new(at: Instant, topic: &str, payload: &[u8]) -> Option<Self> {
         let topic = Topic::parse(topic)?;
         if matches!(topic, Topic::Broadcast | Topic::Robot(_)) {
@@ -44,17 +45,17 @@ impl Heard {
         })
     }
 
-    /// The first word: the name of who says it, whatever follows.
+    /// The first word: the name of the sender, also in an invalid message.
     pub fn name(&self) -> &str {
         self.text.split_ascii_whitespace().next().unwrap_or("")
     }
 
-    /// The name, where it is one.
+    /// The name, if it is valid.
     pub fn id(&self) -> Option<RobotId> {
         RobotId::new(self.name())
     }
 
-    /// The value of a further field `key=value`.
+    /// Value of the field `key=value`.
     pub fn field(&self, key: &str) -> Option<&str> {
         self.text
             .split_ascii_whitespace()
@@ -62,36 +63,36 @@ impl Heard {
             .find_map(|field| field.split_once('=').filter(|(name, _)| *name == key).map(|(_, value)| value))
     }
 
-    /// The value of a further field as a whole number.
+    /// Value of the field `key=value` as a whole number.
     pub fn whole(&self, key: &str) -> Option<u64> {
         self.field(key)?.parse().ok()
     }
 
-    /// Where it says it is.
+    /// Reported position, stage metres.
     pub fn place(&self) -> Option<Vec2> {
         self.report.as_ref()?.at
     }
 }
 
-/// What the robot under test said.
+/// Messages of the robot under test.
 #[derive(Debug, Default)]
-pub(crate) struct Log(Vec<Heard>);
+pub(crate) struct ReceivedLog(Vec<Received>);
 
-impl Log {
-    /// Keeps a message.
-    pub fn push(&mut self, heard: Heard) {
-        if self.0.len() < MOST {
-            self.0.push(heard);
+impl ReceivedLog {
+    /// Stores a message; drops it beyond `MESSAGES_MAX`.
+    pub fn push(&mut self, received: Received) {
+        if self.0.len() < MESSAGES_MAX {
+            self.0.push(received);
         }
     }
 
-    /// How many there are: what comes later stands behind this.
+    /// Number of stored messages.
     pub fn len(&self) -> usize {
         self.0.len()
     }
 
     /// Messages from `mark` on.
-    pub fn since(&self, mark: usize) -> &[Heard] {
+    pub fn since(&self, mark: usize) -> &[Received] {
         self.0.get(mark..).unwrap_or(&[])
     }
 }

@@ -1,35 +1,36 @@
-//! Routes to try a robot with, and how well it keeps to them.
+//! Routes for the exam, and how well a robot follows them.
 
 use lightbots_base::{Instant, PathRef, Piece, Span, Vec2};
 use lightbots_wire::{Command, Pieces, Route, encode};
 
-use crate::heard::Heard;
+use crate::received::Received;
 
-/// Rest before a route moves: a quarter turn and more.
+/// Rest at the beginning of a route: an Elisa-3 at 4.5 rad/s turns by 180° within it (docs/simulator.md).
 pub(super) const REST: Span = Span::from_millis(700);
+/// Acceleration of the routes: half the limit of the Elisa-3 (docs/simulator.md), so that robots of others can follow.
 const RAMP_MPS2: f64 = 0.5;
-/// Where on a path a robot is, is looked for at so many places a second.
-const FINE: Span = Span::from_millis(10);
+/// Interval of the samples of a path among which the place of a report is found: 2 mm at the cruising speed of the routes.
+const SAMPLE: Span = Span::from_millis(10);
 
-/// A route with its number and its moment.
-pub(super) struct Course {
+/// A route with its start moment and a hold.
+pub(super) struct TimedRoute {
     pub route: Route,
     pub starts: Instant,
     /// Hold and resume, show clock.
     pub hold: Option<(Instant, Instant)>,
 }
 
-/// How a robot kept to a course.
+/// How well reports match a timed route.
 pub(super) struct Fit {
-    /// The furthest it was beside its path, metres.
+    /// Largest distance from the path, metres.
     pub beside_m: f64,
-    /// How much later than the path it was in the middle, seconds; `None`: nothing to go by.
+    /// Median delay along the path, seconds; `None`: no usable report.
     pub late_s: Option<f64>,
-    /// How many reports there were.
+    /// Number of reports.
     pub reports: usize,
 }
 
-/// Straight with ramps, after a rest.
+/// A straight route with ramps, after a rest.
 pub(super) fn straight(seq: u32, start: Vec2, end: Vec2, speed_mps: f64) -> Route {
     let way = end - start;
     let direction = way.normalized().unwrap_or_default();
@@ -46,13 +47,13 @@ pub(super) fn straight(seq: u32, start: Vec2, end: Vec2, speed_mps: f64) -> Rout
     route(seq, start, &pieces)
 }
 
-/// A bow to the left of the straight way, slow at both ends.
-pub(super) fn bow(seq: u32, start: Vec2, end: Vec2, over: Span) -> Route {
+/// A curve to the left of the straight line, slow at both ends.
+pub(super) fn curve(seq: u32, start: Vec2, end: Vec2, over: Span) -> Route {
     let way = end - start;
     let aside = way.left() * 0.33;
     let top = start.lerp(end, 0.5) + aside;
     let half = Span(over.0 / 2);
-    // Faster than the mean, so that the bow bulges and no straight line is near to it.
+    // Faster than the mean, so that the curve stays away from the straight line.
     let top_velocity = way * (1.2 / half.as_secs());
     let pieces = [
         Piece::rest(start, REST),
@@ -62,7 +63,7 @@ pub(super) fn bow(seq: u32, start: Vec2, end: Vec2, over: Span) -> Route {
     route(seq, start, &pieces)
 }
 
-/// Standing for a while.
+/// A rest of this duration.
 pub(super) fn rest(seq: u32, at: Vec2, over: Span) -> Route {
     route(seq, at, &[Piece::rest(at, over)])
 }
@@ -80,13 +81,13 @@ fn route(seq: u32, start: Vec2, pieces: &[Piece]) -> Route {
 /// `|PATH …|`.
 pub(super) fn text(route: &Route) -> String {
     let mut text = String::new();
-    // A string takes everything.
+    // Writing into a string cannot fail.
     let _ = encode(&Command::Route(route.clone()), &mut text);
     text
 }
 
-impl Course {
-    /// A course without holds.
+impl TimedRoute {
+    /// A route that begins at `starts`, without holds.
     pub fn new(route: Route, starts: Instant) -> Self {
         Self { route, starts, hold: None }
     }
@@ -95,18 +96,18 @@ impl Course {
         PathRef::new(self.route.start, &self.route.pieces)
     }
 
-    /// When it is over, show clock.
+    /// End, show clock.
     pub fn over(&self) -> Instant {
         let held = self.hold.map_or(Span::ZERO, |(hold, resume)| resume - hold);
         self.starts + self.path().duration() + held
     }
 
-    /// Path time at a moment of the show clock: R35 and R38.
+    /// Path time at a moment of the show clock (R35, R38).
     fn path_time_s(&self, show: Instant) -> f64 {
         let free = (show - self.starts).as_secs();
         let Some((hold, resume)) = self.hold else { return free };
         let ease = Route::EASE.as_secs();
-        // Way of a rate that falls from 1 to 0 within the ease, and of one that rises.
+        // Integral of a rate that falls from 1 to 0 within the ease, and of one that rises.
         let falling =
             |since: f64| if since < ease { since - since * since / (2.0 * ease) } else { ease / 2.0 };
         let rising =
@@ -117,14 +118,14 @@ impl Course {
         free.min(until) + falling(held) + rising(resumed)
     }
 
-    /// How the reports fit. `shift` is the show clock less the exam's; `delay` is how old a report is when it comes.
-    pub fn fit(&self, heard: &[Heard], shift: Span, delay: Span) -> Fit {
+    /// Compares reports with the route. `shift`: show clock minus exam's clock. `delay`: age of a report at its arrival.
+    pub fn fit(&self, received: &[Received], shift: Span, delay: Span) -> Fit {
         let mut fit = Fit { beside_m: 0.0, late_s: None, reports: 0 };
         let mut late = Vec::new();
         let samples = self.samples();
-        for heard in heard {
-            let show = heard.at + shift + Span(-delay.0);
-            let (Some(at), true) = (heard.place(), (self.starts..=self.over()).contains(&show)) else {
+        for received in received {
+            let show = received.at + shift + Span(-delay.0);
+            let (Some(at), true) = (received.place(), (self.starts..=self.over()).contains(&show)) else {
                 continue;
             };
             let Some(nearest) = samples.iter().min_by(|a, b| a.1.distance(at).total_cmp(&b.1.distance(at)))
@@ -142,11 +143,11 @@ impl Course {
         fit
     }
 
-    /// Path time in seconds, place, and whether it is fast there: all along the path.
+    /// Samples of the path: path time in seconds, place, and whether the path is fast there.
     fn samples(&self) -> Vec<(f64, Vec2, bool)> {
         let path = self.path();
-        let count = path.duration().0 / FINE.0;
-        let motions: Vec<_> = (0..=count).map(|step| (FINE * step, path.at(FINE * step))).collect();
+        let count = path.duration().0 / SAMPLE.0;
+        let motions: Vec<_> = (0..=count).map(|step| (SAMPLE * step, path.at(SAMPLE * step))).collect();
         let top = motions.iter().map(|(_, motion)| motion.velocity.length()).fold(0.0, f64::max);
         motions
             .into_iter()
@@ -163,27 +164,27 @@ mod tests {
     fn path_time_is_that_of_the_documents_worked_hold() {
         let route = straight(1, Vec2::ZERO, Vec2::new(0.3, 0.0), 0.2);
         let hold = Some((Instant(2_000_000), Instant(4_000_000)));
-        let course = Course { route, starts: Instant(1_000_000), hold };
+        let timed_route = TimedRoute { route, starts: Instant(1_000_000), hold };
         for (show, path_time_s) in
             [(2_000_000, 1.0), (2_150_000, 1.1125), (2_300_000, 1.15), (4_000_000, 1.15), (5_000_000, 2.0)]
         {
-            assert!((course.path_time_s(Instant(show)) - path_time_s).abs() < 1e-9, "{show}");
+            assert!((timed_route.path_time_s(Instant(show)) - path_time_s).abs() < 1e-9, "{show}");
         }
     }
 
     #[test]
     fn a_robot_that_is_late_by_a_tenth_of_a_second_is_measured() {
-        let course = Course::new(straight(1, Vec2::ZERO, Vec2::new(0.3, 0.0), 0.2), Instant(0));
-        let heard: Vec<Heard> = (0..20)
+        let timed_route = TimedRoute::new(straight(1, Vec2::ZERO, Vec2::new(0.3, 0.0), 0.2), Instant(0));
+        let received: Vec<Received> = (0..20)
             .filter_map(|tenth| {
                 let at = Instant(tenth * 100_000);
                 let then = Instant((tenth * 100_000).saturating_sub(100_000));
-                let place = course.path().at(then - Instant(0)).position;
+                let place = timed_route.path().at(then - Instant(0)).position;
                 let text = format!("r1 {:?} {:?} state=driving", place.x, place.y);
-                Heard::new(at, "T/LightBot/Status", text.as_bytes())
+                Received::new(at, "T/LightBot/Status", text.as_bytes())
             })
             .collect();
-        let fit = course.fit(&heard, Span::ZERO, Span::ZERO);
+        let fit = timed_route.fit(&received, Span::ZERO, Span::ZERO);
         assert!((fit.late_s.unwrap() - 0.1).abs() < 0.011, "{:?}", fit.late_s);
         assert!(fit.beside_m < 0.002 && fit.reports == 20);
     }
