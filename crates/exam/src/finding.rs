@@ -38,14 +38,14 @@ pub struct Finding {
     /// Whether the robot keeps the rule.
     pub verdict: Verdict,
     /// Attempts in order; for a broken rule only the first failed one. May be empty.
-    pub tried: Vec<Attempt>,
+    pub tried: Vec<RuleTest>,
     /// Reason of a verdict without attempts: what was missing.
     pub why: String,
 }
 
 /// One attempt to see whether a rule is kept.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Attempt {
+pub struct RuleTest {
     /// What was sent to the robot, and under which conditions.
     pub sent: String,
     /// What the rule demands.

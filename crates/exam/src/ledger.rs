@@ -1,6 +1,6 @@
 //! Attempts and verdicts for each rule.
 
-use crate::finding::{Attempt, Finding, Verdict};
+use crate::finding::{Finding, RuleTest, Verdict};
 use crate::rules::{RULES, Scope};
 
 /// Most successful attempts that are stored per rule, to keep reports short. The first failed attempt is always stored.
@@ -8,8 +8,8 @@ const ATTEMPTS_MAX: usize = 6;
 
 #[derive(Clone, Debug, Default)]
 struct Entry {
-    tried: Vec<Attempt>,
-    broken: Option<Attempt>,
+    tried: Vec<RuleTest>,
+    broken: Option<RuleTest>,
     missing: Option<String>,
     excused: Option<String>,
 }
@@ -25,7 +25,7 @@ impl Ledger {
     }
 
     /// Adds an attempt.
-    pub fn note(&mut self, rule: u8, attempt: Attempt) {
+    pub fn note(&mut self, rule: u8, attempt: RuleTest) {
         let entry = &mut self.0[usize::from(rule) - 1];
         if !attempt.fits && entry.broken.is_none() {
             entry.broken = Some(attempt);

@@ -30,7 +30,7 @@ mod session;
 mod sight;
 
 pub use exam::Exam;
-pub use finding::{Attempt, Finding, Verdict};
+pub use finding::{Finding, RuleTest, Verdict};
 pub use interface::{Ending, ExamEvent, Options, Publish};
 pub use rules::{RULES, Rule, Scope};
 pub use sight::{Question, Sight};

@@ -10,7 +10,7 @@ use std::task::Poll;
 use lightbots_base::{Instant, RobotId, Span, Vec2};
 use lightbots_wire::Topic;
 
-use crate::finding::{Attempt, Finding};
+use crate::finding::{Finding, RuleTest};
 use crate::interface::{ExamEvent, Options, Publish};
 use crate::ledger::Ledger;
 use crate::received::{Received, ReceivedLog};
@@ -224,7 +224,7 @@ impl Session {
 
     /// Records an attempt for a rule.
     pub fn record(&self, rule: u8, fits: bool, sent: &str, expected: &str, came: impl Into<String>) {
-        let attempt = Attempt { sent: sent.into(), expected: expected.into(), came: came.into(), fits };
+        let attempt = RuleTest { sent: sent.into(), expected: expected.into(), came: came.into(), fits };
         self.state.borrow_mut().ledger.note(rule, attempt);
     }
 

@@ -1,8 +1,8 @@
 //! `N clearance knots…` after a route: the planned neighbours in sight, with places and times.
 //!
 //! A neighbour is a clearance in tenths of a millimetre, a number of knots, and the knots. A knot has a path time in
-//! milliseconds, a place in tenths of a millimetre, and a velocity in millimetres per second. Between two knots the neighbour
-//! moves on the cubic with both places and both velocities (a cubic Hermite spline).
+//! milliseconds, a place in tenths of a millimetre, and a velocity in millimetres per second. Between two knots the
+//! neighbour moves on the cubic with both places and both velocities (a cubic Hermite spline).
 
 use core::fmt::{self, Write};
 

@@ -8,7 +8,7 @@ use crate::text_buffer::TextBuffer;
 
 /// Longest text read as a number, bytes (R8). `Double.toString` needs at most 24.
 const MAX_NUMBER: usize = 32;
-/// Largest mantissa that an `f64` holds exactly (IEEE 754, 53 bits), so that one division by a power of ten rounds correctly.
+/// Largest mantissa that an `f64` holds exactly (IEEE 754, 53 bits). One division by a power of ten then rounds correctly.
 const EXACT_MAX: u64 = 1 << 53;
 /// Powers of ten by exponent. All are exact in an `f64` (IEEE 754), as is each up to 10²².
 const POWERS_OF_TEN: [f64; 16] =

@@ -13,7 +13,8 @@ use crate::{Abilities, Blocked, Details, Firmware, Report, RobotState, TimeQuest
 const MAX_REPORT: usize = 1024;
 
 impl Report {
-    /// Reads a report: a name and two numbers at least; `None` for all other payloads. Invalid fields after them are skipped.
+    /// Reads a report: a name and two numbers at least; `None` for all other payloads. Invalid fields after them are
+    /// skipped.
     pub fn decode(payload: &[u8]) -> Option<Self> {
         let mut fields = Fields::new(text(payload)?);
         let id = RobotId::new(fields.next()?)?;
