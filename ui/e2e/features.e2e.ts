@@ -55,7 +55,7 @@ test('the checklist says what is missing, Stop all is above it, and one can go o
   const dialog = page.getByRole('dialog', { name: 'Not quite ready' });
   await dialog.getByText(/6 of 8 ready; 2 never seen/).waitFor();
   expect(await dialog.locator('[data-verdict=good]').count()).toBeGreaterThanOrEqual(3);
-  await page.locator('.stop-all').click();
+  await page.getByTestId('stop-all').click();
   await dialog.getByRole('button', { name: 'Play with 6 robots' }).click();
   await page.getByText(/Playing frame 2 of 2/).waitFor();
   await page.keyboard.press('Escape');
@@ -74,7 +74,7 @@ test('the library: pictures, save as, rename, download, delete and undo', async 
       ((await (await fetch('/api/shows')).json()) as { name: string }[]).map((e) => e.name),
     );
   await page.getByTestId('open-library').click();
-  await page.locator('.entry-picture canvas').first().waitFor();
+  await page.getByTestId('entry-picture').locator('canvas').first().waitFor();
   await menu('kept', 'Save as…');
   await page.getByRole('dialog').last().getByLabel('Name', { exact: true }).fill('second');
   await button(page, 'Save').click();
@@ -96,7 +96,7 @@ test('the library: pictures, save as, rename, download, delete and undo', async 
 test('several frames are chosen, moved, timed, copied and deleted together, and renamed in place', async () => {
   const page = await bed.open('edit');
   await uploadText(page, 'strip.json', smallShow(6));
-  const cards = page.getByRole('list', { name: 'Frames' }).locator('.card');
+  const cards = page.getByRole('list', { name: 'Frames' }).locator('li > *');
   const names = async () => {
     await saved(page);
     return (await stored(page, 'strip')).frames.map((f) => f.name);

@@ -48,7 +48,7 @@ test('Space does what its tip says after a click, and presses a button that was 
   await page.keyboard.press('Home');
   await page.keyboard.press('Space');
   await phaseIs(page, 'playing');
-  await page.locator('.stop-all').hover();
+  await page.getByTestId('stop-all').hover();
   await page.getByRole('tooltip', { name: /^Every robot stops/ }).waitFor();
   await page.keyboard.press('Shift+Escape');
   await phaseIs(page, 'ready');

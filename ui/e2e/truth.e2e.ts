@@ -52,7 +52,7 @@ test('Stop all is there whole, on every page and above every dialog, at every si
   for (const view of ['live', 'edit'] as const)
     for (const [width, height] of SIZES) {
       const page = await bed.open(view, { viewport: { width, height } });
-      const stop = page.locator('.stop-all');
+      const stop = page.getByTestId('stop-all');
       const isReached = () =>
         stop.evaluate((button) => {
           const box = button.getBoundingClientRect();

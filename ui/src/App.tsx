@@ -12,16 +12,21 @@ import { OfferDialog } from './shell/OfferDialog';
 import { OpenBanner } from './shell/OpenBanner';
 import { createSession, SessionContext } from './session/session';
 import { useView } from './session/useHash';
-import { theme } from './theme';
+import { mantineVariables, theme } from './theme';
+import styles from './App.module.css';
 
 export function App() {
   const [session] = useState(createSession);
   const view = useView();
   return (
-    <MantineProvider theme={theme} defaultColorScheme="dark">
+    <MantineProvider
+      theme={theme}
+      cssVariablesResolver={mantineVariables}
+      defaultColorScheme="dark"
+    >
       <SessionContext value={session}>
         <Notifications className="notices" position="bottom-left" limit={4} />
-        <div className="app">
+        <div className={styles.app}>
           <div>
             <Header view={view} />
             <OpenBanner />

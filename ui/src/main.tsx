@@ -1,6 +1,7 @@
 import '@mantine/core/styles.css';
-import './styles.css';
-import './narrow.css';
+import './style/tokens.css';
+import './style/base.css';
+import './style/mantine.css';
 import { createRoot } from 'react-dom/client';
 import { App } from './App';
 import { followFocus } from './parts/focusOrigin';

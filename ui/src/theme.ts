@@ -1,83 +1,154 @@
-import { createTheme, type MantineColorsTuple } from '@mantine/core';
+import { createTheme, type CSSVariablesResolver, type MantineColorsTuple } from '@mantine/core';
 
-/** Night: blue-grey, so dark that a light on the floor is the brightest thing on screen. */
-const night: MantineColorsTuple = [
-  '#d5dbe6',
-  '#b9c2d1',
-  '#9aa5b8',
-  '#808ca1',
-  '#2d3543',
-  '#232a36',
-  '#1a202a',
-  '#10141b',
-  '#0c0f15',
-  '#080a0e',
-];
+/** Ten shades for Mantine, from light to dark; values are tokens, which know dark and light by themselves. */
+const shades = (...tokens: string[]) =>
+  tokens.map((token) => `var(--${token})`) as unknown as MantineColorsTuple;
+const one = (token: string) => shades(...Array<string>(10).fill(token));
 
-/** Lamp: warm amber, for what is chosen and for the one thing to do next. */
-const lamp: MantineColorsTuple = [
-  '#fff6e5',
-  '#fde8c4',
-  '#fad69a',
-  '#f5c26b',
-  '#edb256',
-  '#e3a03a',
-  '#cc8620',
-  '#a86a12',
-  '#85520c',
-  '#603a07',
-];
+/** The surfaces and texts of Mantine's components in the dark scheme. */
+const dark = shades(
+  'ink',
+  'ink',
+  'ink-2',
+  'ink-3',
+  'line',
+  'over',
+  'raised',
+  'panel',
+  'ground',
+  'ground',
+);
+/** The same in the light scheme. */
+const gray = shades(
+  'over',
+  'ground',
+  'line',
+  'line',
+  'edge',
+  'ink-3',
+  'ink-2',
+  'ink-2',
+  'ink',
+  'ink',
+);
 
-/** Stop: the only red. */
-const stop: MantineColorsTuple = [
-  '#ffecec',
-  '#fbd0d0',
-  '#f4aaaa',
-  '#ee8484',
-  '#e36666',
-  '#d64f50',
-  '#bf3b3e',
-  '#a83034',
-  '#8c2529',
-  '#6c1a1e',
-];
+/** What Mantine's variants of a colour are made of. */
+interface Tone {
+  fill: string;
+  hover: string;
+  wash: string;
+  ink: string;
+}
 
-const onLamp = (name: string, props: { variant?: string; color?: string }) =>
-  (props.variant ?? 'filled') === 'filled' && props.color === undefined
-    ? { [name]: 'var(--on-lamp)' }
-    : {};
+const TONES: Record<string, Tone> = {
+  lamp: { fill: '--lamp', hover: '--lamp-hover', wash: '--lamp-wash', ink: '--lamp-ink' },
+  gray: { fill: '--ink-2', hover: '--ink', wash: '--over', ink: '--ink' },
+  good: { fill: '--good', hover: '--good', wash: '--over', ink: '--good' },
+  care: { fill: '--care', hover: '--care', wash: '--care-wash', ink: '--care' },
+  bad: { fill: '--bad', hover: '--bad', wash: '--over', ink: '--bad' },
+  stop: { fill: '--stop', hover: '--stop-hover', wash: '--over', ink: '--bad' },
+};
+
+function variantsOf([name, { fill, hover, wash, ink }]: [string, Tone]): [string, string][] {
+  const color = `--mantine-color-${name}`;
+  return [
+    [`${color}-filled`, `var(${fill})`],
+    [`${color}-filled-hover`, `var(${hover})`],
+    [`${color}-light`, `var(${wash})`],
+    [`${color}-light-hover`, `var(${wash})`],
+    [`${color}-light-color`, `var(${ink})`],
+    [`${color}-outline`, `var(${ink})`],
+    [`${color}-outline-hover`, `var(${wash})`],
+    [`${color}-text`, `var(${ink})`],
+  ];
+}
+
+const SURFACES = {
+  '--mantine-color-body': 'var(--panel)',
+  '--mantine-color-text': 'var(--ink)',
+  '--mantine-color-bright': 'var(--ink)',
+  '--mantine-color-dimmed': 'var(--ink-2)',
+  '--mantine-color-placeholder': 'var(--ink-3)',
+  '--mantine-color-error': 'var(--bad)',
+  '--mantine-color-anchor': 'var(--ink)',
+  '--mantine-color-default': 'var(--raised)',
+  '--mantine-color-default-hover': 'var(--over)',
+  '--mantine-color-default-color': 'var(--ink)',
+  '--mantine-color-default-border': 'var(--edge)',
+  '--mantine-color-disabled': 'var(--over)',
+  '--mantine-color-disabled-color': 'var(--ink-3)',
+  '--mantine-color-disabled-border': 'var(--line)',
+};
+
+/** Mantine's variables of both schemes, made of the tokens. */
+export const mantineVariables: CSSVariablesResolver = () => {
+  const colours = { ...SURFACES, ...Object.fromEntries(Object.entries(TONES).flatMap(variantsOf)) };
+  return { variables: {}, dark: colours, light: colours };
+};
+
+interface Filled {
+  variant?: string;
+  color?: string;
+}
+
+/** Text and border on a filled lamp: dark on bright amber in both schemes. Text on other fills: the panel's colour. */
+const onFill =
+  (part: 'button' | 'badge') =>
+  (_: unknown, { variant = 'filled', color = 'lamp' }: Filled) => {
+    const text = { lamp: 'var(--on-lamp)', stop: 'var(--on-stop)' }[color] ?? 'var(--panel)';
+    const border = color === 'lamp' ? { [`--${part}-bd`]: '1px solid var(--lamp-edge)' } : {};
+    return { root: variant === 'filled' ? { [`--${part}-color`]: text, ...border } : {} };
+  };
 
 export const theme = createTheme({
-  colors: { dark: night, lamp, red: stop },
+  colors: {
+    dark,
+    gray,
+    lamp: one('lamp'),
+    good: one('good'),
+    care: one('care'),
+    bad: one('bad'),
+    stop: one('stop'),
+  },
   primaryColor: 'lamp',
-  primaryShade: { light: 8, dark: 4 },
-  autoContrast: true,
-  luminanceThreshold: 0.32,
   defaultRadius: 'md',
   cursorType: 'pointer',
-  fontFamily: 'Inter, system-ui, -apple-system, "Segoe UI", Roboto, "DejaVu Sans", sans-serif',
-  fontFamilyMonospace: 'ui-monospace, "SF Mono", Menlo, Consolas, "DejaVu Sans Mono", monospace',
-  fontSizes: { xs: '0.75rem', sm: '0.8125rem', md: '0.875rem', lg: '1rem', xl: '1.25rem' },
-  headings: { fontWeight: '600' },
+  fontFamily: 'var(--font)',
+  fontFamilyMonospace: 'var(--mono)',
+  fontSizes: {
+    xs: 'var(--t1)',
+    sm: 'var(--t2)',
+    md: 'var(--t3)',
+    lg: 'var(--t4)',
+    xl: 'var(--t5)',
+  },
+  radius: {
+    xs: 'var(--r1)',
+    sm: 'var(--r1)',
+    md: 'var(--r2)',
+    lg: 'var(--r3)',
+    xl: 'var(--r4)',
+  },
+  headings: { fontWeight: 'var(--w-title)' },
+  focusRing: 'never',
   respectReducedMotion: true,
   components: {
-    // What is written on the lamp's amber: dark on bright amber at night, white on deep amber by day.
-    Button: {
-      vars: (_: unknown, props: { variant?: string; color?: string }) => ({
-        root: onLamp('--button-color', props),
+    Button: { vars: onFill('button') },
+    Badge: { vars: onFill('badge') },
+    Slider: { defaultProps: { color: 'gray' } },
+    Checkbox: { defaultProps: { color: 'var(--ink)', iconColor: 'var(--panel)' } },
+    Tooltip: {
+      defaultProps: { openDelay: 450, withArrow: false, fz: 'xs' },
+      vars: () => ({
+        tooltip: { '--tooltip-bg': 'var(--ink)', '--tooltip-color': 'var(--panel)' },
       }),
     },
-    Badge: {
-      vars: (_: unknown, props: { variant?: string; color?: string }) => ({
-        root: onLamp('--badge-color', props),
-      }),
-    },
-    Tooltip: { defaultProps: { openDelay: 450, withArrow: false, fz: 'xs' } },
     Modal: {
       defaultProps: {
+        radius: 'xl',
         closeButtonProps: { 'aria-label': 'Close' },
         centered: true,
-        overlayProps: { backgroundOpacity: 0.6, blur: 2 },
+        overlayProps: { color: 'var(--veil)', backgroundOpacity: 1, blur: 2 },
       },
     },
   },

@@ -16,6 +16,8 @@ import { goTo } from '../session/useHash';
 import { useEditing, useEditor } from './context';
 import { ExportMenu } from './ExportMenu';
 import { SaveMark } from './SaveMark';
+import page from '../parts/page.module.css';
+import styles from './EditBar.module.css';
 
 /** Undo, watching without robots, scrubbing, and whether all is safe. */
 export function EditBar() {
@@ -46,7 +48,7 @@ export function EditBar() {
     </IconButton>
   );
   return (
-    <div className="transport" role="toolbar" aria-label="Editing">
+    <div className={page.bar} role="toolbar" aria-label="Editing">
       {step('Undo (Ctrl Z)', canUndo, () => void editor.undo(), <IconArrowBackUp size={19} />)}
       {step(
         'Redo (Ctrl Shift Z)',
@@ -61,7 +63,7 @@ export function EditBar() {
         running ? <IconPlayerPauseFilled size={18} /> : <IconPlayerPlayFilled size={18} />,
       )}
       <Slider
-        className="progress"
+        className={page.progress}
         size="sm"
         label={(value) => clockText(value)}
         thumbLabel="Moment of the show"
@@ -71,7 +73,7 @@ export function EditBar() {
         value={at}
         onChange={(to_s) => preview.scrub(timeline, to_s)}
       />
-      <span className="quiet time">
+      <span className={`quiet ${styles.time}`}>
         {clockText(at)} / {clockText(total)}
       </span>
       <SaveMark />

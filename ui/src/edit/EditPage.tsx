@@ -13,6 +13,7 @@ import { EditStage } from './EditStage';
 import { EditStrip } from './EditStrip';
 import { Inspector } from './Inspector';
 import { Tour } from './Tour';
+import styles from '../parts/page.module.css';
 
 /** What this page edits; kept while the page lives, so that undo survives a look at the live view. */
 let kept: Editing | null = null;
@@ -37,7 +38,7 @@ export function EditPage() {
   }, [session, opened, restoring]);
   if (!editing)
     return (
-      <main className="empty">
+      <main className={styles.empty}>
         <Title order={1} size="lg">
           Nothing to draw on yet
         </Title>
@@ -49,7 +50,7 @@ export function EditPage() {
     );
   return (
     <EditingContext value={editing}>
-      <main className="page" key={editing.keeper.id}>
+      <main className={styles.page} key={editing.keeper.id}>
         <EditStage />
         <Bottom label="Frames and time">
           <EditBar />

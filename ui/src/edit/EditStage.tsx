@@ -12,6 +12,7 @@ import { usePreview } from './usePreview';
 import { useHand } from './useHand';
 import { unitStore } from '../session/preferences';
 import { useKeys } from '../parts/useKeys';
+import styles from '../stage/stage.module.css';
 
 /** The same scene as long as nothing it is made of changed. */
 function rememberScene(editing: Editing): () => Scene {
@@ -55,7 +56,7 @@ export function EditStage() {
     ],
   ]);
   return (
-    <section className="stage" aria-label="The floor" data-tool={tool} data-testid="stage">
+    <section className={styles.stage} aria-label="The floor" data-tool={tool} data-testid="stage">
       <StageCanvas view={editing.view} sceneAt={sceneAt} dragPans={false} hand={hand} />
       <StageTools />
       <StageHint />

@@ -8,6 +8,8 @@ import * as acts from './acts';
 import { useEditing, useEditor } from './context';
 import { FrameCard } from './FrameCard';
 import { listenToHold } from './holdDrag';
+import strip from '../parts/strip.module.css';
+import styles from './EditStrip.module.css';
 
 /** Seconds of the drive to a frame. */
 function driveOf(plan: Plan | null, index: number): string {
@@ -73,8 +75,8 @@ export function EditStrip() {
     </IconButton>
   );
   return (
-    <div className="strip-row">
-      <div className="strip-buttons">
+    <div className={styles.row}>
+      <div className={styles.buttons}>
         {button('Add a frame (Ctrl Enter)', () => acts.addFrame(editing), <IconPlus size={18} />)}
         {button('Duplicate (Ctrl D)', () => acts.duplicateFrames(editing), <IconCopy size={17} />)}
         {button(
@@ -84,7 +86,7 @@ export function EditStrip() {
           show.frames.length <= chosen.size,
         )}
       </div>
-      <ul className="strip" ref={list} aria-label="Frames">
+      <ul className={`${strip.strip} ${styles.frames}`} ref={list} aria-label="Frames">
         {show.frames.map((frame, i) => (
           <li
             key={frame.key}

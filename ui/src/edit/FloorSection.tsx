@@ -5,6 +5,7 @@ import { addObstacle, removeObstacle, setObstacle } from '../model/obstacles';
 import { setStage } from '../model/commands';
 import { LengthInput } from '../parts/LengthInput';
 import { useEditing, useEditor } from './context';
+import styles from './FloorSection.module.css';
 
 /** Areas that are listed with their numbers; the rest is on the floor. */
 const LISTED_MAX = 20;
@@ -78,9 +79,9 @@ function Area({ index, area }: { index: number; area: Obstacle }) {
           ['Back', area.maxY, (maxY) => set({ ...area, maxY })],
         ];
   return (
-    <fieldset className="area">
+    <fieldset className={styles.area}>
       <legend>{area.kind === 'disc' ? `Round area ${index + 1}` : `Area ${index + 1}`}</legend>
-      <div className="area-fields">
+      <div className={styles.fields}>
         {fields.map(([label, value, onChange, min]) => (
           <LengthInput key={label} label={label} value={value} min={min} onChange={onChange} />
         ))}

@@ -2,6 +2,8 @@ import { IconBulb, IconRoute } from '@tabler/icons-react';
 import { memo, useRef, type MouseEvent } from 'react';
 import type { Frame, Stage } from '../model/show';
 import { Thumbnail } from '../stage/Thumbnail';
+import strip from '../parts/strip.module.css';
+import styles from './FrameCard.module.css';
 
 interface Props {
   frame: Frame;
@@ -28,7 +30,7 @@ export const FrameCard = memo(function FrameCard(props: Props) {
   const { frame, index } = props;
   if (props.naming)
     return (
-      <div className="card" data-chosen>
+      <div className={strip.card} data-chosen>
         <Thumbnail frame={frame} stage={props.stage} />
         <NameField name={frame.name} onName={props.onName} />
       </div>
@@ -36,7 +38,7 @@ export const FrameCard = memo(function FrameCard(props: Props) {
   return (
     <button
       type="button"
-      className="card"
+      className={strip.card}
       draggable
       aria-current={props.current}
       data-chosen={props.chosen || undefined}
@@ -52,14 +54,14 @@ export const FrameCard = memo(function FrameCard(props: Props) {
       title={`${frame.name}: drive there ${props.drive ? `${props.drive} s` : 'not planned yet'}, shown for ${frame.airTime_s} s. Double click: rename`}
     >
       <Thumbnail frame={frame} stage={props.stage} />
-      <span className="label">
+      <span className={strip.label}>
         <b>
           {index + 1}
           {props.wrong ? ' !' : ''}
         </b>
         <span>{frame.name}</span>
       </span>
-      <span className="times">
+      <span className={styles.times}>
         {props.drive ? (
           <span>
             <IconRoute size={11} aria-hidden />
@@ -87,7 +89,7 @@ function NameField({ name, onName }: { name: string; onName: (name: string | nul
   };
   return (
     <input
-      className="card-name"
+      className={styles.name}
       aria-label="Name of the frame"
       autoFocus
       maxLength={80}

@@ -10,6 +10,7 @@ import { FrameSection } from './FrameSection';
 import { PlaceSection } from './PlaceSection';
 import { RobotsSection } from './RobotsSection';
 import { ShowSection } from './ShowSection';
+import styles from '../parts/page.module.css';
 
 /** What can be said about the chosen pixels, the frame and the show. */
 export function Inspector() {
@@ -17,7 +18,7 @@ export function Inspector() {
   const { live } = useSession();
   const issues = useStore(live.plan, (plan) => plan?.issues) ?? [];
   return (
-    <aside className="side" aria-label="Properties">
+    <aside className={styles.side} aria-label="Properties">
       <Tabs defaultValue="pixels">
         <Tabs.List grow>
           <Tabs.Tab value="pixels">Pixels</Tabs.Tab>
@@ -26,15 +27,15 @@ export function Inspector() {
             Show{issues.some((i) => i.severity !== 'note') ? ' •' : ''}
           </Tabs.Tab>
         </Tabs.List>
-        <Tabs.Panel value="pixels" className="sections">
+        <Tabs.Panel value="pixels" className={styles.sections}>
           <PlaceSection />
           <ArrangeSection />
           <ColourSection />
         </Tabs.Panel>
-        <Tabs.Panel value="frame" className="sections">
+        <Tabs.Panel value="frame" className={styles.sections}>
           <FrameSection />
         </Tabs.Panel>
-        <Tabs.Panel value="show" className="sections">
+        <Tabs.Panel value="show" className={styles.sections}>
           <ShowSection />
           <IssueList issues={issues} onFrame={(index) => editor.goToFrame(index)} />
           <RobotsSection />

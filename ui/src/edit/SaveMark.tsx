@@ -1,6 +1,7 @@
 import { Tooltip } from '@mantine/core';
 import { useStore } from '../base/store';
 import { useEditing } from './context';
+import styles from '../parts/Pill.module.css';
 
 const WORDS = {
   saved: 'Saved',
@@ -31,7 +32,7 @@ export function SaveMark() {
   return (
     <Tooltip label={hint} multiline maw={300}>
       <span
-        className="pill"
+        className={styles.pill}
         role="status"
         data-tone={tone}
         data-testid="save"

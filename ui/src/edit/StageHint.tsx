@@ -1,5 +1,6 @@
 import { useEditorNow } from './context';
 import { marksNow } from './overlay';
+import styles from '../stage/stage.module.css';
 
 /** One line under the floor: what a drag measures, or what is wrong and how to mend it. */
 export function StageHint() {
@@ -11,13 +12,13 @@ export function StageHint() {
   ].filter(Boolean);
   if (state.overlay.hint)
     return (
-      <div className="stage-note" aria-hidden>
+      <div className={styles.note} aria-hidden>
         {state.overlay.hint}
       </div>
     );
   if (wrong.length === 0) return null;
   return (
-    <div className="stage-note wrong" role="status">
+    <div className={styles.note} data-wrong role="status">
       {wrong.join('; ')}. Move them, or use Spread apart.
     </div>
   );

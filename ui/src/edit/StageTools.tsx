@@ -12,6 +12,7 @@ import { useStore } from '../base/store';
 import { StageTool, ZoomTools } from '../stage/ViewTools';
 import { useEditing } from './context';
 import type { Looks } from './editing';
+import styles from '../stage/stage.module.css';
 
 const TOOLS = [
   ['arrow', 'Choose and move (V)', IconPointer],
@@ -34,7 +35,7 @@ export function StageTools() {
   const looks = useStore(editing.looks);
   return (
     <>
-      <div className="stage-tools left" role="toolbar" aria-label="Tools">
+      <div className={styles.tools} data-side="left" role="toolbar" aria-label="Tools">
         {TOOLS.map(([name, label, Icon]) => (
           <StageTool
             key={name}
@@ -46,7 +47,7 @@ export function StageTools() {
           </StageTool>
         ))}
       </div>
-      <div className="stage-tools" role="toolbar" aria-label="What the floor shows">
+      <div className={styles.tools} role="toolbar" aria-label="What the floor shows">
         {LOOKS.map(([name, label, Icon]) => (
           <StageTool
             key={name}

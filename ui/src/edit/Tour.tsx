@@ -1,5 +1,6 @@
 import { Button, Group, Text } from '@mantine/core';
 import { useState } from 'react';
+import styles from './Tour.module.css';
 
 const KEY = 'lightbots-tour';
 const STEPS = [
@@ -44,7 +45,7 @@ export function Tour() {
   };
   const last = step === STEPS.length - 1;
   return (
-    <div className="tour" role="region" aria-label="First steps">
+    <div className={styles.tour} role="region" aria-label="First steps">
       <Text fw={600} mb={4}>
         {now[0]}
       </Text>

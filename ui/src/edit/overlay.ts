@@ -7,10 +7,8 @@ import { createSprites } from '../stage/sprites';
 import type { Handle } from '../model/transformTool';
 import { paintPins } from '../stage/pinMark';
 import type { Looks } from './editing';
+import { FLOOR } from '../stage/palette';
 
-const CHOSEN = '#ffffff';
-const WRONG = '#ff8d86';
-const GUIDE = '#7fd3ff';
 /** Distance of the handles from the pixels they hold, CSS pixels. */
 const HANDLE_GAP_PX = 16;
 const HANDLE_REACH_PX = 11;
@@ -79,8 +77,8 @@ export function paintOverlay(
   const { tooClose, offFloor } = marksNow(state);
   const density = context.getTransform().a;
   const [line_px, chosen_px, close_px] = [1.75, radius + 3, radius + 6.5].map((px) => px * density);
-  const chosen = sprites.ring(CHOSEN, chosen_px ?? 0, line_px ?? 0);
-  const close = sprites.ring(WRONG, close_px ?? 0, line_px ?? 0, true);
+  const chosen = sprites.ring(FLOOR.chosen, chosen_px ?? 0, line_px ?? 0);
+  const close = sprites.ring(FLOOR.care, close_px ?? 0, line_px ?? 0, true);
   for (const p of state.show.frames[state.frame]?.pixels ?? []) {
     const at = canvasFromStage(camera, p);
     if (state.selection.has(p.id)) stamp(context, chosen, at, density);
@@ -100,7 +98,7 @@ function stamp(c: CanvasRenderingContext2D, sprite: ImageBitmap, at: Point, dens
 }
 
 function cross(c: CanvasRenderingContext2D, at: Point, r: number) {
-  c.strokeStyle = WRONG;
+  c.strokeStyle = FLOOR.care;
   c.lineWidth = 2;
   c.beginPath();
   for (const s of [-1, 1]) {
@@ -114,10 +112,10 @@ function label(c: CanvasRenderingContext2D, text: string, at: Point) {
   c.font = '11px system-ui, sans-serif';
   c.textAlign = 'center';
   c.textBaseline = 'middle';
-  c.strokeStyle = '#0a0c11';
+  c.strokeStyle = FLOOR.plate;
   c.lineWidth = 3;
   c.strokeText(text, at.x, at.y);
-  c.fillStyle = '#e6ebf3';
+  c.fillStyle = FLOOR.ink;
   c.fillText(text, at.x, at.y);
 }
 
@@ -125,7 +123,7 @@ function paintHandles(c: CanvasRenderingContext2D, camera: Camera, state: Editor
   const handles = handlesOf(state, camera);
   const [turn, topLeft, , bottomRight] = handles;
   if (!turn || !topLeft || !bottomRight) return;
-  c.strokeStyle = 'rgba(255,255,255,0.35)';
+  c.strokeStyle = FLOOR.box;
   c.lineWidth = 1;
   const { x, y } = topLeft.at;
   c.strokeRect(x, y, bottomRight.at.x - x, bottomRight.at.y - y);
@@ -137,16 +135,16 @@ function paintHandles(c: CanvasRenderingContext2D, camera: Camera, state: Editor
     c.beginPath();
     if (handle.kind === 'turn') c.arc(at.x, at.y, 5.5, 0, 2 * Math.PI);
     else c.rect(at.x - 4, at.y - 4, 8, 8);
-    c.fillStyle = '#0a0c11';
+    c.fillStyle = FLOOR.plate;
     c.fill();
-    c.strokeStyle = CHOSEN;
+    c.strokeStyle = FLOOR.chosen;
     c.lineWidth = 1.5;
     c.stroke();
   }
 }
 
 function paintGesture(c: CanvasRenderingContext2D, camera: Camera, { overlay, show }: EditorState) {
-  c.strokeStyle = GUIDE;
+  c.strokeStyle = FLOOR.guide;
   c.lineWidth = 1;
   const [w, d] = [show.stage.width_m / 2, show.stage.depth_m / 2];
   for (const guide of overlay.guides) {
@@ -175,7 +173,7 @@ function paintGesture(c: CanvasRenderingContext2D, camera: Camera, { overlay, sh
       c.lineTo(at.x, at.y);
     }
     c.closePath();
-    c.fillStyle = 'rgba(127,211,255,0.1)';
+    c.fillStyle = FLOOR.guideWash;
     c.fill();
     c.stroke();
   }

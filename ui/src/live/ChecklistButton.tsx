@@ -16,7 +16,7 @@ export function ChecklistButton() {
   const label = missing ? 'Checklist: something is missing (C)' : 'Checklist: all is ready (C)';
   return (
     <Tooltip label={label}>
-      <Indicator disabled={!missing} size={9} offset={5} color="orange">
+      <Indicator disabled={!missing} size={9} offset={5} color="care">
         <ActionIcon
           variant="subtle"
           color="gray"

@@ -1,5 +1,7 @@
 import { useStore } from '../base/store';
 import { useSession } from '../session/session';
+import page from '../parts/page.module.css';
+import styles from './DriveProgress.module.css';
 
 /** How much of the drive to the frame is done: the one thing here that changes with every snapshot. */
 export function DriveProgress() {
@@ -7,7 +9,7 @@ export function DriveProgress() {
   const done = useStore(live.playback, (p) => p.progress);
   return (
     <div
-      className="progress drive"
+      className={`${page.progress} ${styles.drive}`}
       role="progressbar"
       aria-label="Drive to the frame"
       aria-valuemin={0}

@@ -2,6 +2,7 @@ import { Button } from '@mantine/core';
 import { IconAlertTriangle } from '@tabler/icons-react';
 import { useStore } from '../base/store';
 import { useSession } from '../session/session';
+import styles from './FailureNote.module.css';
 
 /** Where and why the last run failed, above Play, until the operator has read it or starts again. */
 export function FailureNote() {
@@ -9,7 +10,7 @@ export function FailureNote() {
   const failure = useStore(live.playback, (p) => p.failure);
   if (failure === null) return null;
   return (
-    <div className="failure" role="alert">
+    <div className={styles.failure} role="alert">
       <IconAlertTriangle size={20} aria-hidden />
       <strong>{failure}</strong>
       <Button

@@ -5,6 +5,7 @@ import { IconButton } from '../parts/IconButton';
 import type { Session } from '../session/session';
 import { canDrive, CHARGE_LOW } from '../session/checklist';
 import * as words from '../session/robotWords';
+import styles from './FleetTable.module.css';
 
 interface Props {
   row: FleetRow;
@@ -48,8 +49,8 @@ function Line({ row, wide, pinned, ask, choose }: Props) {
         {pinned ? <IconPinFilled size={12} role="img" aria-label="pinned" /> : null}
       </td>
       <td className="mono">{name}</td>
-      <td className={canDrive(row) ? undefined : 'low'}>{words.stateText(row)}</td>
-      <td className={low ? 'low' : undefined}>
+      <td data-low={!canDrive(row) || undefined}>{words.stateText(row)}</td>
+      <td data-low={low || undefined}>
         {words.chargeText(row)}
         {low ? <span className="hidden-text"> low</span> : null}
       </td>
@@ -61,7 +62,7 @@ function Line({ row, wide, pinned, ask, choose }: Props) {
           <td>{words.clockText(row)}</td>
         </>
       ) : null}
-      <td className="row-actions">
+      <td className={styles.actions}>
         <IconButton
           label="Let it blink"
           name={`Let robot ${name} blink`}

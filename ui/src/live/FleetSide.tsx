@@ -5,6 +5,7 @@ import { useSession } from '../session/session';
 import { FleetTable } from './FleetTable';
 import { LogList } from './LogList';
 import { ShowFacts } from './ShowFacts';
+import styles from '../parts/page.module.css';
 
 /** Robots, show and log beside the floor. */
 export function FleetSide() {
@@ -18,7 +19,7 @@ export function FleetSide() {
   );
   return (
     <aside
-      className="side"
+      className={styles.side}
       aria-label="Fleet, show and log"
       data-wide={(wide && tab === 'robots') || undefined}
     >
@@ -31,7 +32,7 @@ export function FleetSide() {
             value="show"
             rightSection={
               issues > 0 ? (
-                <Badge size="xs" circle>
+                <Badge size="xs" circle color="care">
                   {issues}
                   <span className="hidden-text"> problems</span>
                 </Badge>

@@ -6,6 +6,7 @@ import { pinsOf } from '../model/commands';
 import { useSession } from '../session/session';
 import { FleetLine } from './FleetLine';
 import { RobotDialog } from './RobotDialog';
+import styles from './FleetTable.module.css';
 
 /** Rows shown; beyond it nobody reads a table. */
 const ROWS_MAX = 300;
@@ -46,7 +47,7 @@ export function FleetTable(props: { wide: boolean; onWide: (wide: boolean) => vo
           {wide ? 'Fewer columns' : 'All columns'}
         </Button>
       </Group>
-      <table className="fleet-table">
+      <table className={styles.table}>
         <thead>
           <tr>
             {[...COLUMNS, ...(wide ? MORE_COLUMNS : [])].map((title) => (

@@ -3,6 +3,7 @@ import { useStore } from '../base/store';
 import { useSession } from '../session/session';
 import { Thumbnail } from '../stage/Thumbnail';
 import { isRunning } from './scene';
+import styles from '../parts/strip.module.css';
 
 /** The frames in playing order: choose where to begin, see where the show is. */
 export function FrameStrip() {
@@ -25,19 +26,19 @@ export function FrameStrip() {
       </p>
     );
   return (
-    <ul className="strip" ref={list} aria-label="Frames">
+    <ul className={styles.strip} ref={list} aria-label="Frames">
       {show.frames.map((f, i) => (
         <li key={f.key}>
           <button
             type="button"
-            className="card"
+            className={styles.card}
             aria-current={i === chosen}
             data-playing={i === playing}
             onClick={() => frame.set(i)}
             title={f.name}
           >
             <Thumbnail frame={f} stage={show.stage} />
-            <span className="label">
+            <span className={styles.label}>
               <b>{i + 1}</b>
               <span>{f.name}</span>
             </span>

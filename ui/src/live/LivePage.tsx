@@ -5,11 +5,12 @@ import { FrameStrip } from './FrameStrip';
 import { LiveStage } from './LiveStage';
 import { StartDialog } from './StartDialog';
 import { Transport } from './Transport';
+import styles from '../parts/page.module.css';
 
 /** Watching and playing. */
 export function LivePage() {
   return (
-    <main className="page">
+    <main className={styles.page}>
       <LiveStage />
       <Bottom label="Playing">
         <FailureNote />

@@ -11,6 +11,7 @@ import { createCloseWatch } from './closeWatch';
 import { createFullPlan } from '../session/fullPlan';
 import { RobotTwin } from './RobotTwin';
 import { liveScene, wrongIn } from './scene';
+import styles from '../stage/stage.module.css';
 
 /** The floor as it is now. */
 export function LiveStage() {
@@ -45,20 +46,20 @@ export function LiveStage() {
     [live, show, chosen, targets, paths, wrong, close],
   );
   return (
-    <section className="stage" aria-label="The floor">
+    <section className={styles.stage} aria-label="The floor">
       <StageCanvas view={view} sceneAt={sceneAt} dragPans />
-      <div className="stage-legend" aria-hidden>
+      <div className={styles.legend} aria-hidden>
         <span>
           <i /> measured
         </span>
         <span>
-          <i className="hollow" /> planned
+          <i data-look="hollow" /> planned
         </span>
         <span>
-          <i className="faded" /> silent
+          <i data-look="faded" /> silent
         </span>
       </div>
-      <div className="stage-tools" role="toolbar" aria-label="What the floor shows">
+      <div className={styles.tools} role="toolbar" aria-label="What the floor shows">
         <StageTool label="Planned places (T)" active={targets} onClick={() => setTargets(!targets)}>
           <IconTarget size={17} />
         </StageTool>
@@ -68,7 +69,7 @@ export function LiveStage() {
         <ZoomTools view={view} />
       </div>
       {linked && empty ? (
-        <div className="stage-hint" role="status">
+        <div className={styles.hint} role="status">
           <strong>No robots yet</strong>
           <br />
           Switch them on, or start

@@ -4,6 +4,7 @@ import { useStorePaced } from '../base/store';
 import type { LogLine } from '../api/types.gen';
 import { useSession } from '../session/session';
 import { shortId, shortNames } from '../session/robotWords';
+import styles from './LogList.module.css';
 
 const WORDS = { debug: '', info: '', warn: 'Warning: ', error: 'Error: ' } as const;
 
@@ -45,7 +46,7 @@ function Lines({ only }: { only: string }) {
       : only === 'debug' || line.level === 'warn' || line.level === 'error',
   );
   return (
-    <ol className="log" aria-label="Log" tabIndex={0}>
+    <ol className={styles.log} aria-label="Log" tabIndex={0}>
       {shown.map((line) => (
         <li key={line.id} data-level={line.level}>
           <time dateTime={new Date(line.time_ms).toISOString()}>

@@ -3,6 +3,7 @@ import { useStore } from '../base/store';
 import { clockText } from '../base/time';
 import { useSession } from '../session/session';
 import { phaseText } from './actions';
+import styles from './PlayState.module.css';
 
 /** Frame x of y, who is still on the way, time left. */
 export function PlayState() {
@@ -22,7 +23,7 @@ export function PlayState() {
     return pixel === null || pixel === undefined ? id.slice(0, 8) : `pixel ${pixel}`;
   });
   return (
-    <div className="play-state">
+    <div className={styles.state}>
       <span role="status" data-testid="phase" data-phase={phase} data-failed={failed || undefined}>
         {isWaiting ? 'Begins when the plan is made' : text}
       </span>
@@ -64,7 +65,7 @@ function SlowTime({ percent }: { percent: number }) {
       w={260}
       label={`The computer of the server cannot simulate so many robots in real time. They and the show go at ${percent} % of their speed instead; nothing is lost.`}
     >
-      <span className="quiet slow-time" tabIndex={0} data-testid="pace">
+      <span className={styles.slow} tabIndex={0} data-testid="pace">
         at {percent} % speed
       </span>
     </Tooltip>

@@ -6,6 +6,7 @@ import { fleetSize, pinPixel, pinsOf } from '../model/commands';
 import { changeShow } from '../session/changeShow';
 import { useSession } from '../session/session';
 import * as words from '../session/robotWords';
+import styles from './facts.module.css';
 
 /** Everything about one robot, and what can be done with it. */
 export function RobotDialog({ row, onClose }: { row: FleetRow | null; onClose: () => void }) {
@@ -35,7 +36,7 @@ function Details({ row, onClose }: { row: FleetRow; onClose: () => void }) {
   ];
   return (
     <Stack>
-      <dl className="facts">
+      <dl className={styles.facts}>
         {facts.map(([name, value]) => [
           <dt key={name}>{name}</dt>,
           <dd key={`${name} value`}>{value}</dd>,

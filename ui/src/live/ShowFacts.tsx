@@ -6,6 +6,7 @@ import { sizeText } from '../base/units';
 import { useUnit } from '../session/preferences';
 import { useSession } from '../session/session';
 import { IssueList } from '../parts/IssueList';
+import styles from './facts.module.css';
 
 /** The open show in numbers, and what is wrong with it. */
 export function ShowFacts() {
@@ -26,7 +27,7 @@ export function ShowFacts() {
       <Title order={2} size="md">
         {opened.show.name || opened.name}
       </Title>
-      <dl className="facts">
+      <dl className={styles.facts}>
         <dt>Frames</dt>
         <dd>{opened.show.frames.length}</dd>
         <dt>Robots</dt>

@@ -9,6 +9,7 @@ import { useStore } from '../base/store';
 import { useSession } from '../session/session';
 import { canDrive, canGoOn, isReady, type Check } from '../session/checklist';
 import { checkNow, whenPlanned } from '../session/start';
+import styles from './StartDialog.module.css';
 
 const MARKS = {
   good: [IconCircleCheck, 'Fine'],
@@ -23,8 +24,8 @@ export function StartDialog() {
   const opened = useStore(session.checking);
   const close = () => session.checking.set(false);
   return (
-    <Modal.Root opened={opened} onClose={close} centered size="lg">
-      <Modal.Overlay backgroundOpacity={0.6} blur={2} />
+    <Modal.Root opened={opened} onClose={close} centered size="lg" radius="xl">
+      <Modal.Overlay color="var(--veil)" backgroundOpacity={1} blur={2} />
       <Modal.Content>{opened ? <Checklist close={close} /> : null}</Modal.Content>
     </Modal.Root>
   );
@@ -55,7 +56,7 @@ function Checklist({ close }: { close: () => void }) {
         <Modal.CloseButton aria-label="Close" />
       </Modal.Header>
       <Modal.Body>
-        <ul className="checklist" aria-label="Checklist">
+        <ul className={styles.checklist} aria-label="Checklist">
           {checks.map((check) => (
             <Line key={check.name} check={check} />
           ))}

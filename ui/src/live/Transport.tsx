@@ -20,6 +20,7 @@ import { fleetKind } from '../session/fleetKind';
 import { PlayState } from './PlayState';
 import { followPlan, startPlay, whenPlanned } from '../session/start';
 import { useTransportKeys } from './useTransportKeys';
+import styles from '../parts/page.module.css';
 
 const ICONS = {
   play: <IconPlayerPlayFilled size={16} />,
@@ -69,7 +70,7 @@ export function Transport() {
     </IconButton>
   );
   return (
-    <div className="transport" role="toolbar" aria-label="Playing">
+    <div className={styles.bar} role="toolbar" aria-label="Playing">
       <Button
         w={116}
         leftSection={ICONS[actions.main]}

@@ -1,10 +1,10 @@
 import type { Point } from '../base/geometry';
 import { crowded } from '../model/marks';
 import { canvasFromStage, type Camera } from '../stage/camera';
+import { FLOOR } from '../stage/palette';
 
 /** Looked for this often, milliseconds: among thousands it takes a while. */
 const EVERY_MS = 200;
-const WRONG = '#ff8d86';
 
 /** Finds robots that are drawn so close that their rims touch. */
 export interface CloseWatch {
@@ -38,7 +38,7 @@ export function paintClose(
   if (at.length === 0) return;
   const radius = Math.max(3, radius_m * camera.scale) + 6.5;
   c.setLineDash([3, 2.5]);
-  c.strokeStyle = WRONG;
+  c.strokeStyle = FLOOR.care;
   c.lineWidth = 1.75;
   c.beginPath();
   for (const place of at) {

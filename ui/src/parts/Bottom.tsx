@@ -1,4 +1,5 @@
 import { useLayoutEffect, useRef, type ReactNode } from 'react';
+import styles from './page.module.css';
 
 /** What lies under the floor. Notices keep above it: it says how high it is. */
 export function Bottom({ label, children }: { label: string; children: ReactNode }) {
@@ -17,7 +18,7 @@ export function Bottom({ label, children }: { label: string; children: ReactNode
     };
   }, []);
   return (
-    <section className="bottom" aria-label={label} ref={section}>
+    <section className={styles.bottom} aria-label={label} ref={section}>
       {children}
     </section>
   );

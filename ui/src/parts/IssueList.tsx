@@ -1,5 +1,6 @@
 import { Button, Stack } from '@mantine/core';
 import type { Issue } from '../api/types.gen';
+import styles from './IssueList.module.css';
 
 /** Issues shown; the first ones are mended first. */
 const SHOWN_MAX = 30;
@@ -13,7 +14,7 @@ export function IssueList(props: { issues: readonly Issue[]; onFrame: (index: nu
   return (
     <Stack gap={6} role="list" aria-label="Issues">
       {issues.slice(0, SHOWN_MAX).map((issue, i) => (
-        <div key={i} className="issue" data-severity={issue.severity} role="listitem">
+        <div key={i} className={styles.issue} data-severity={issue.severity} role="listitem">
           <b>{WORDS[issue.severity]}:</b> {issue.message}{' '}
           {issue.frame === null ? null : (
             <Button

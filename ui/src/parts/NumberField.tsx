@@ -2,6 +2,7 @@ import { TextInput, UnstyledButton } from '@mantine/core';
 import { IconChevronDown, IconChevronUp } from '@tabler/icons-react';
 import { useState, type KeyboardEvent } from 'react';
 import { readNumber, stepped, type NumberRule } from '../base/numbers';
+import styles from './NumberField.module.css';
 
 interface Props extends NumberRule {
   label: string;
@@ -48,7 +49,7 @@ export function NumberField(props: Props) {
   const kept = shown === '' ? '' : ` It is still ${shown}${props.unit ?? ''}.`;
   return (
     <TextInput
-      className="number-field"
+      className={styles.field}
       style={{ flex: 1 }}
       label={label}
       description={description}
@@ -82,7 +83,7 @@ function Steps({ onStep }: { onStep: (up: boolean) => void }) {
     </UnstyledButton>
   );
   return (
-    <span className="number-steps">
+    <span className={styles.steps}>
       {arrow(true)}
       {arrow(false)}
     </span>

@@ -6,11 +6,11 @@ const LONG_MS = 12_000;
 
 /** Colour, and how long it is left. */
 const TONES = {
-  good: ['teal', SHORT_MS],
+  good: ['good', SHORT_MS],
   info: ['gray', SHORT_MS],
   /** To be read to its end: something went another way than people expect. */
   kept: ['gray', LONG_MS],
-  error: ['red', LONG_MS],
+  error: ['bad', LONG_MS],
 } as const;
 
 /** Says something in the corner, and takes it back by itself. */

@@ -68,7 +68,7 @@ export function BrokerSection() {
           {brokerText(broker)}
         </Text>
         {refused ? (
-          <Text size="sm" c="var(--bad)" role="alert">
+          <Text size="sm" c="bad" role="alert">
             {refused}
           </Text>
         ) : null}

@@ -1,6 +1,7 @@
 import { useEffect, useState } from 'react';
 import { useSession } from '../session/session';
 import { uploadShow } from '../session/upload';
+import styles from './DropFile.module.css';
 
 /** Takes a show file dropped anywhere on the page. */
 export function DropFile() {
@@ -36,5 +37,5 @@ export function DropFile() {
         window.removeEventListener(name, listener as EventListener);
     };
   }, [session]);
-  return over ? <div className="drop-veil">Drop the show to open it</div> : null;
+  return over ? <div className={styles.veil}>Drop the show to open it</div> : null;
 }

@@ -18,6 +18,7 @@ import { FleetPill, KindPill, LinkPill } from './Pills';
 import { useSession } from '../session/session';
 import { SettingsDialog } from './SettingsDialog';
 import { goTo, type View } from '../session/useHash';
+import styles from './Header.module.css';
 
 type Dialog = 'library' | 'keys' | 'settings' | null;
 
@@ -36,12 +37,13 @@ export function Header({ view }: { view: View }) {
     ['g', () => goTo(view === 'live' ? 'edit' : 'live')],
   ]);
   return (
-    <header className="header">
-      <span className="wordmark">
+    <header className={styles.header}>
+      <span className={styles.wordmark}>
         <i aria-hidden />
         <span>LightBots</span>
       </span>
       <SegmentedControl
+        className={styles.views}
         size="xs"
         aria-label="View"
         value={view}
@@ -53,6 +55,7 @@ export function Header({ view }: { view: View }) {
       />
       <Tooltip label="Open a show (Ctrl O)">
         <Button
+          className={styles.show}
           variant="subtle"
           color="gray"
           size="compact-sm"
@@ -60,7 +63,7 @@ export function Header({ view }: { view: View }) {
           onClick={() => setDialog('library')}
           data-testid="open-library"
         >
-          <span className="show-name">{title ?? 'Open a show'}</span>
+          <span className={styles.showName}>{title ?? 'Open a show'}</span>
         </Button>
       </Tooltip>
       <Tooltip label="Begin a new show">
@@ -75,7 +78,7 @@ export function Header({ view }: { view: View }) {
           New
         </Button>
       </Tooltip>
-      <span className="push" />
+      <span className={styles.push} />
       <KindPill />
       <LinkPill />
       <FleetPill />
@@ -92,8 +95,9 @@ export function Header({ view }: { view: View }) {
       </IconButton>
       <Tooltip label="Every robot stops at once (Shift Esc)">
         <Button
-          className="stop-all"
-          color="red.7"
+          className={styles.stopAll}
+          data-testid="stop-all"
+          color="stop"
           size="sm"
           leftSection={<IconHandStop size={18} />}
           onClick={stopAll}

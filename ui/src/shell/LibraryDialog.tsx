@@ -11,6 +11,7 @@ import { NameDialog } from './NameDialog';
 import { useSession } from '../session/session';
 import { uploadShow } from '../session/upload';
 import { goTo } from '../session/useHash';
+import styles from './Library.module.css';
 
 /** Every show on the server: open one, add one, begin one. */
 export function LibraryDialog({ opened, onClose }: { opened: boolean; onClose: () => void }) {
@@ -71,7 +72,7 @@ export function LibraryDialog({ opened, onClose }: { opened: boolean; onClose: (
           New show
         </Button>
       </Group>
-      <ul className="library-list" aria-label="Shows in the library">
+      <ul className={styles.list} aria-label="Shows in the library">
         {shown.map((entry) => (
           <LibraryEntry
             key={entry.name}

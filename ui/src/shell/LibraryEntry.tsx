@@ -4,6 +4,7 @@ import type { ShowEntry } from '../api/types.gen';
 import { downloadShow } from '../session/download';
 import { attempt, deleteWithUndo } from '../session/libraryActs';
 import { ShowThumbnail } from './ShowThumbnail';
+import styles from './Library.module.css';
 
 interface Props {
   entry: ShowEntry;
@@ -28,9 +29,9 @@ export function LibraryEntry({ entry, open, onOpen, onName, onChanged }: Props) 
       : ORIGINS[entry.origin];
   return (
     <li>
-      <button type="button" className="entry" aria-current={open} onClick={onOpen}>
+      <button type="button" className={styles.entry} aria-current={open} onClick={onOpen}>
         <ShowThumbnail entry={entry} />
-        <span className="entry-name">
+        <span className={styles.name}>
           {name}
           <span className="quiet">{subtitle}</span>
         </span>
@@ -60,7 +61,7 @@ export function LibraryEntry({ entry, open, onOpen, onName, onChanged }: Props) 
             <>
               <Menu.Divider />
               <Menu.Item
-                color="red"
+                color="bad"
                 disabled={open}
                 onClick={() => void attempt(() => deleteWithUndo(name, onChanged))}
               >

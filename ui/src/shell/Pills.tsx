@@ -3,13 +3,15 @@ import type { ReactNode } from 'react';
 import { useStore } from '../base/store';
 import { fleetKind, KIND_WORDS, kindHint } from '../session/fleetKind';
 import { useSession } from '../session/session';
+import pill from '../parts/Pill.module.css';
+import styles from './Pills.module.css';
 
 type Tone = 'good' | 'warn' | 'bad' | 'quiet';
 
 function Pill(props: { tone: Tone; hint: string; children: ReactNode; label: string }) {
   return (
     <Tooltip label={props.hint}>
-      <span className="pill" data-tone={props.tone} role="status" aria-label={props.label}>
+      <span className={pill.pill} data-tone={props.tone} role="status" aria-label={props.label}>
         <i aria-hidden />
         {props.children}
       </span>
@@ -54,7 +56,7 @@ export function KindPill() {
   if (kind === null) return null;
   return (
     <Tooltip label={kindHint(rows)}>
-      <span className="kind" data-kind={kind} data-testid="kind" role="status">
+      <span className={styles.kind} data-kind={kind} data-testid="kind" role="status">
         {KIND_WORDS[kind]}
       </span>
     </Tooltip>

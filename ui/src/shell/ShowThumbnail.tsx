@@ -4,6 +4,7 @@ import type { ShowEntry } from '../api/types.gen';
 import { readShow } from '../model/json';
 import type { Frame, Stage } from '../model/show';
 import { Thumbnail } from '../stage/Thumbnail';
+import styles from './Library.module.css';
 
 interface Picture {
   frame: Frame;
@@ -50,7 +51,7 @@ export function ShowThumbnail({ entry }: { entry: ShowEntry }) {
     };
   }, [key, entry.name]);
   return (
-    <span className="entry-picture" ref={place}>
+    <span className={styles.picture} data-testid="entry-picture" ref={place}>
       {picture ? <Thumbnail frame={picture.frame} stage={picture.stage} /> : null}
     </span>
   );

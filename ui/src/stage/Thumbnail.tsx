@@ -3,6 +3,7 @@ import type { Frame, Stage } from '../model/show';
 import { fit } from './camera';
 import { createCrowd, CROWD } from './crowd';
 import { createSprites } from './sprites';
+import { FLOOR } from './palette';
 
 const sprites = createSprites();
 const crowd = createCrowd();
@@ -24,7 +25,7 @@ function paint(context: CanvasRenderingContext2D, frame: Frame, stage: Stage) {
   const camera = fit(stage.width_m, stage.depth_m, { width_px: SIDE, height_px: SIDE }, 5);
   context.globalCompositeOperation = 'source-over';
   context.globalAlpha = 1;
-  context.fillStyle = '#0a0c11';
+  context.fillStyle = FLOOR.plate;
   context.fillRect(0, 0, SIDE, SIDE);
   const radius = Math.max(1.5, stage.radius_m * 1.25 * camera.scale);
   if (frame.pixels.length >= CROWD) {
@@ -34,7 +35,7 @@ function paint(context: CanvasRenderingContext2D, frame: Frame, stage: Stage) {
     context.putImageData(picture, 0, 0);
     return;
   }
-  context.fillStyle = '#2d3543';
+  context.fillStyle = FLOOR.edge;
   for (const pixel of frame.pixels) {
     const [x, y] = [SIDE / 2 + pixel.x * camera.scale, SIDE / 2 - pixel.y * camera.scale];
     const glow = sprites.glow(pixel.color, radius);

@@ -4,6 +4,7 @@ import type { ReactNode } from 'react';
 import type { Store } from '../base/store';
 import { zoomAt } from './camera';
 import type { View } from './view';
+import styles from './stage.module.css';
 
 export const fitView = (view: Store<View>) => view.update((now) => ({ ...now, fitted: true }));
 
@@ -25,7 +26,7 @@ export function StageTool(props: {
   return (
     <Tooltip label={props.label} position="bottom">
       <ActionIcon
-        className="stage-tool"
+        className={styles.tool}
         variant="transparent"
         aria-label={props.label}
         aria-pressed={props.active}

@@ -5,6 +5,7 @@ import type { Scene } from './scene';
 import { createCrowd, CROWD } from './crowd';
 import { addLines } from './lines';
 import { createSprites, isOff } from './sprites';
+import { FLOOR } from './palette';
 
 /** Draws scenes. Canvas2D is the only one there is; another (WebGL) would stand behind the same two calls. */
 export interface StageRenderer {
@@ -94,7 +95,7 @@ export function createCanvas2d(element: HTMLCanvasElement): StageRenderer {
 
 function drawErrors(context: CanvasRenderingContext2D, scene: Scene, camera: Camera) {
   if (scene.errors.length === 0) return;
-  context.strokeStyle = 'rgba(255,255,255,0.5)';
+  context.strokeStyle = FLOOR.box;
   context.lineWidth = 1;
   context.setLineDash([3, 3]);
   context.beginPath();

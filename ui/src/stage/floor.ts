@@ -2,12 +2,7 @@ import { toHex } from '../base/colour';
 import { UNITS } from '../base/units';
 import { canvasFromStage, gridStep, type Camera, type Size } from './camera';
 import type { Scene } from './scene';
-
-const FLOOR = '#0a0c11';
-const FLOOR_EDGE = '#2b3342';
-const GRID = 'rgba(148,163,190,0.075)';
-const AXIS = 'rgba(148,163,190,0.17)';
-const RULER = '#7d889c';
+import { FLOOR } from './palette';
 
 /** Floor, grid, rulers and obstacles, CSS pixels. */
 export function drawFloor(
@@ -16,15 +11,15 @@ export function drawFloor(
   camera: Camera,
   size: Size,
 ) {
-  context.fillStyle = '#06070a';
+  context.fillStyle = FLOOR.floor;
   context.fillRect(0, 0, size.width_px, size.height_px);
   const min = canvasFromStage(camera, { x: -scene.width_m / 2, y: scene.depth_m / 2 });
   const [w, h] = [scene.width_m * camera.scale, scene.depth_m * camera.scale];
-  context.fillStyle = FLOOR;
+  context.fillStyle = FLOOR.plate;
   context.fillRect(min.x, min.y, w, h);
   if (scene.grid) drawGrid(context, scene, camera);
-  context.fillStyle = 'rgba(120,134,160,0.16)';
-  context.strokeStyle = '#59637a';
+  context.fillStyle = FLOOR.obstacle;
+  context.strokeStyle = FLOOR.rim;
   context.lineWidth = 1;
   for (const o of scene.obstacles) {
     context.beginPath();
@@ -38,7 +33,7 @@ export function drawFloor(
     context.fill();
     context.stroke();
   }
-  context.strokeStyle = FLOOR_EDGE;
+  context.strokeStyle = FLOOR.edge;
   context.lineWidth = 1.5;
   context.strokeRect(min.x, min.y, w, h);
 }
@@ -57,7 +52,7 @@ function drawGrid(context: CanvasRenderingContext2D, scene: Scene, camera: Camer
   const line = (ax: number, ay: number, bx: number, by: number, strong: boolean) => {
     const a = canvasFromStage(camera, { x: ax, y: ay });
     const b = canvasFromStage(camera, { x: bx, y: by });
-    context.strokeStyle = strong ? AXIS : GRID;
+    context.strokeStyle = strong ? FLOOR.axis : FLOOR.grid;
     context.beginPath();
     context.moveTo(Math.round(a.x) + 0.5, Math.round(a.y) + 0.5);
     context.lineTo(Math.round(b.x) + 0.5, Math.round(b.y) + 0.5);
@@ -65,7 +60,7 @@ function drawGrid(context: CanvasRenderingContext2D, scene: Scene, camera: Camer
   };
   context.lineWidth = 1;
   context.font = `${rulerSize_px()}px system-ui, sans-serif`;
-  context.fillStyle = RULER;
+  context.fillStyle = FLOOR.ink2;
   context.textBaseline = 'top';
   context.textAlign = 'center';
   for (let k = Math.ceil(-halfW / step); k * step <= halfW + 1e-9; k++) {
@@ -90,7 +85,7 @@ export function drawPaths(context: CanvasRenderingContext2D, scene: Scene, camer
   context.lineWidth = 1.25;
   context.globalAlpha = 0.5;
   for (const path of scene.paths) {
-    context.strokeStyle = path.color === 0 ? '#59637a' : toHex(path.color);
+    context.strokeStyle = path.color === 0 ? FLOOR.rim : toHex(path.color);
     context.beginPath();
     path.points.forEach((p, i) => {
       const at = canvasFromStage(camera, p);

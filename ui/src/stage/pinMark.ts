@@ -1,13 +1,12 @@
 import type { Point } from '../base/geometry';
 import { canvasFromStage, type Camera } from './camera';
-
-const PIN = '#edb256';
+import { FLOOR } from './palette';
 
 /** Marks pixels that one robot must show: a pin stuck into each from the upper right. */
 export function paintPins(c: CanvasRenderingContext2D, camera: Camera, r_m: number, at: Point[]) {
   const radius = Math.max(3, r_m * camera.scale) * 0.75;
-  c.strokeStyle = '#e6ebf3';
-  c.fillStyle = PIN;
+  c.strokeStyle = FLOOR.ink;
+  c.fillStyle = FLOOR.pin;
   c.lineWidth = 1.5;
   for (const place of at) {
     const { x, y } = canvasFromStage(camera, place);

@@ -1,5 +1,6 @@
 import { blue, green, luma, red, type Rgb } from '../base/colour';
 import { CORE_ALPHA, CORE_RADII, GLOW_RADII, GLOW_STOPS } from './glow';
+import { FLOOR } from './palette';
 
 /** Colours are rounded to this many steps a component, so that fades do not fill the cache. */
 const STEP = 8;
@@ -96,10 +97,10 @@ function paintBody(radius_px: number): ImageBitmap {
   const half = element.width / 2;
   context.beginPath();
   context.arc(half, half, Math.max(1, radius_px - 0.5), 0, 2 * Math.PI);
-  context.fillStyle = '#1b2029';
+  context.fillStyle = FLOOR.body;
   context.fill();
   context.lineWidth = Math.max(1, radius_px * 0.12);
-  context.strokeStyle = '#59637a';
+  context.strokeStyle = FLOOR.rim;
   context.stroke();
   return element.transferToImageBitmap();
 }

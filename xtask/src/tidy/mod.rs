@@ -6,6 +6,7 @@ mod names;
 mod screen;
 mod sizes;
 mod sources;
+mod styles;
 mod width;
 
 use crate::shell::{self, Outcome};
@@ -24,6 +25,7 @@ pub fn run() -> Outcome {
         circles::findings(&parsed),
         names::findings(&parsed),
         screen::findings(&root),
+        styles::findings(&root),
     ]
     .into_iter()
     .flatten()

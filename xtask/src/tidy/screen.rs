@@ -71,8 +71,8 @@ fn relative_imports(text: &str) -> impl Iterator<Item = &str> {
     })
 }
 
-/// The imported path without `.` and `..`, relative to `ui/src`.
-fn resolved(importer: &Path, import: &str) -> PathBuf {
+/// The imported path without `.` and `..`, relative to what the importing path is relative to.
+pub fn resolved(importer: &Path, import: &str) -> PathBuf {
     let mut path = importer.parent().unwrap_or(Path::new("")).to_path_buf();
     for component in Path::new(import).components() {
         match component {
