@@ -6,6 +6,7 @@
 #![allow(clippy::print_stdout, clippy::print_stderr)]
 
 #[path = "../arguments/mod.rs"]
+#[allow(dead_code)]
 mod arguments;
 #[path = "../../../plan/examples/bench/scenes.rs"]
 #[allow(dead_code)]
@@ -15,7 +16,6 @@ mod dice;
 #[path = "../pairs/scene.rs"]
 mod pairs;
 #[path = "../crowds/scenes.rs"]
-#[allow(dead_code)]
 mod scenes;
 
 use std::path::Path;
