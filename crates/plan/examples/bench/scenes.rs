@@ -23,7 +23,7 @@ impl Scene {
 }
 
 /// All kinds.
-pub const ALL: [Scene; 18] = [
+pub const ALL: [Scene; 19] = [
     Scene::new("random S", |robots| random(robots, 30.0 / 9.0)),
     Scene::new("random D", |robots| random(robots, 500.0 / 9.0)),
     Scene::new("disc slides", disc_slides),
@@ -32,6 +32,7 @@ pub const ALL: [Scene; 18] = [
     Scene::new("rings inside out", rings_inside_out),
     Scene::new("mirrored", mirrored),
     Scene::new("rows to random", rows_to_random),
+    Scene::new("rows to middle", rows_to_middle),
     Scene::up_to("close pairs S", 1_000, |robots| pairs(robots, 30.0 / 9.0)),
     Scene::up_to("close D", 1_000, |robots| random_apart(robots, 500.0 / 9.0, CLOSE_M)),
     Scene::up_to("fixed S", 1_000, |robots| fixed(random(robots, 30.0 / 9.0))),
@@ -231,4 +232,23 @@ fn rows_to_random(robots: usize) -> TransitionProblem {
         )
     });
     problem(starts.collect(), goals)
+}
+
+/// From rows along the front edge to random places in a square in the middle of a floor three times as wide: as a show
+/// begins in a hall.
+fn rows_to_middle(robots: usize) -> TransitionProblem {
+    /// Robots per m² in the square: 1,000 in 4 × 4 m.
+    const DENSITY: f64 = 62.5;
+    let goals = scatter(&mut Dice::new(0, 6), robots, DENSITY, APART_M);
+    let half = 1.5 * (robots as f64 / DENSITY).sqrt();
+    let a_row = ((2.0 * half - 0.1) / 0.1) as usize + 1;
+    let starts = (0..robots).map(|i| {
+        let in_row = (robots - i / a_row * a_row).min(a_row);
+        Vec2::new(
+            (i % a_row) as f64 * 0.1 - (in_row - 1) as f64 * 0.05,
+            -half + 0.05 + (i / a_row) as f64 * 0.1,
+        )
+    });
+    let starts = starts.collect();
+    TransitionProblem { starts, goals, ..TransitionProblem::on_floor(Vec2::new(half, half), Limits::ELISA_3) }
 }
