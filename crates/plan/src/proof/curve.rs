@@ -9,44 +9,59 @@ pub(super) type Cubic = [Vec2; 4];
 const TOLERANCE_M: f64 = 1e-7;
 /// Parts that are divided: some dozens for any curve on a floor. What is left then counts as its hull, which is nearer.
 const MOST_PARTS: usize = 100_000;
+/// Divisions of a part of the curve at most: parts are shorter than `SHORTEST` before that.
+const DEEPEST: usize = 62;
 /// Stretches of the parameter shorter than this are not divided any more.
 const SHORTEST: f64 = 1e-7;
 
 /// The curve's least distance from the origin and its parameter there, if it is less than `enough`.
 pub(super) fn nearest(curve: &Cubic, enough: f64) -> Option<(f64, f64)> {
-    let (mut best, mut at) = (enough, None);
-    let mut offer = |distance: f64, u: f64, best: &mut f64| {
-        if distance < *best {
-            *best = distance;
-            at = Some(u);
+    let mut search = Search { best: enough, at: None, parts: 0 };
+    search.offer(curve[0].length(), 0.0);
+    search.offer(curve[3].length(), 1.0);
+    search.divide(curve, (0.0, 1.0), 0);
+    search.at.map(|u| (search.best, u))
+}
+
+/// Branch and bound over parts of a curve.
+struct Search {
+    /// The least distance so far, metres, or what it must be less than.
+    best: f64,
+    /// Parameter of the point at that distance.
+    at: Option<f64>,
+    parts: usize,
+}
+
+impl Search {
+    fn offer(&mut self, distance: f64, u: f64) {
+        if distance < self.best {
+            (self.best, self.at) = (distance, Some(u));
         }
-    };
-    offer(curve[0].length(), 0.0, &mut best);
-    offer(curve[3].length(), 1.0, &mut best);
-    // Each step replaces one entry by two; halves shrink below SHORTEST before 64 are open.
-    let mut open = [(*curve, 0.0, 1.0); 64];
-    let (mut count, mut parts) = (1, 0);
-    while count > 0 {
-        parts += 1;
-        count -= 1;
-        let (part, from, to) = open[count];
-        let lower = distance_of_hull(&part);
-        if lower >= best - TOLERANCE_M {
-            continue;
-        }
-        if to - from < SHORTEST || count + 2 > open.len() || parts > MOST_PARTS {
-            offer(lower, from, &mut best);
-            continue;
-        }
-        let share = foot(&part).clamp(0.02, 0.98);
-        let (left, right) = split(&part, share);
-        let middle = from + (to - from) * share;
-        offer(left[3].length(), middle, &mut best);
-        open[count] = (left, from, middle);
-        open[count + 1] = (right, middle, to);
-        count += 2;
     }
-    at.map(|u| (best, u))
+
+    /// Looks at the part `between` two parameters, which is the result of `depth` divisions.
+    fn divide(&mut self, part: &Cubic, between: (f64, f64), depth: usize) {
+        self.parts += 1;
+        let lower = distance_of_hull(part);
+        if lower >= self.best - TOLERANCE_M {
+            return;
+        }
+        let (from, to) = between;
+        if to - from < SHORTEST || depth > DEEPEST || self.parts > MOST_PARTS {
+            self.offer(lower, from);
+            return;
+        }
+        let share = foot(part).clamp(0.02, 0.98);
+        let (left, right) = split(part, share);
+        let middle = from + (to - from) * share;
+        self.offer(left[3].length(), middle);
+        // A straight part is done here: its nearest point is as near as its hull.
+        if lower >= self.best - TOLERANCE_M {
+            return;
+        }
+        self.divide(&right, (middle, to), depth + 1);
+        self.divide(&left, (from, middle), depth + 1);
+    }
 }
 
 /// No point of the curve is nearer to the origin than this.
