@@ -7,8 +7,6 @@
 use lightbots_base::{Instant, Span};
 use lightbots_wire::TimeAnswer;
 
-use crate::processor::Processor;
-
 /// Answers before the clock counts as synchronised, …
 const ENOUGH: u32 = 4;
 /// … once it is off by no more than this (1 sigma, microseconds), or as good as many answers make it.
@@ -38,18 +36,23 @@ const LEAK: f64 = 1e-5;
 /// The show clock has been set anew if an answer is further from belief than its own round trip allows, and this.
 const SET_ANEW_US: f64 = 500_000.0;
 
-/// What a robot knows of the show clock.
+/// The show clock as a line over the own clock, and when to ask for it again: all that a step reads of it.
 #[derive(Debug)]
-#[repr(C)] // See `Robot`.
-pub(crate) struct Clock {
-    /// Offset = `base_us` + `offset_us` at `at` of the own clock; the whole part apart keeps small numbers exact.
+pub(crate) struct ShowClock {
+    /// Offset = `base_us` + `offset_us` at `at` of the own clock. Keeping the whole part apart keeps small numbers exact.
     base_us: i64,
     offset_us: f64,
+    /// Change of the offset, microseconds per microsecond.
     drift: f64,
     at: Instant,
     next_question: Instant,
     synchronised: bool,
-    // No step looks at what follows.
+}
+
+/// The Kalman filter that fits the line to the answers of the controller.
+#[derive(Debug)]
+pub(crate) struct ClockFilter {
+    /// The line was discarded, so moments stated before are void.
     was_reset: bool,
     unanswered: u8,
     answers: u32,
@@ -57,34 +60,21 @@ pub(crate) struct Clock {
     variance: [f64; 3],
     shortest_us: f64,
     mean_us: f64,
+    /// Questions answered lately, a ring.
     answered: [Instant; ANSWERED],
 }
 
-impl Clock {
-    /// A clock that knows nothing and asks from `first` on.
+impl ShowClock {
+    /// An unknown clock; the first question is due at `first`.
     pub(crate) fn new(first: Instant) -> Self {
         Self {
-            answers: 0,
-            answered: [Instant::FAR; ANSWERED],
             base_us: 0,
             offset_us: 0.0,
             drift: 0.0,
             at: Instant::ZERO,
-            variance: [0.0; 3],
-            shortest_us: f64::INFINITY,
-            mean_us: 0.0,
             next_question: first,
-            unanswered: 0,
-            was_reset: false,
             synchronised: false,
         }
-    }
-
-    /// Names something in each cache line that every step looks at: see `Robot::fetch`.
-    #[inline]
-    pub(crate) fn fetch(&self, processor: &impl Processor) {
-        processor.fetch(&self.base_us);
-        processor.fetch(&self.synchronised);
     }
 
     /// The show time at `now` of the own clock; `None` until synchronised.
@@ -92,20 +82,41 @@ impl Clock {
         self.synchronised.then(|| now + Span(self.base_us.saturating_add(self.offset_at(now) as i64)))
     }
 
-    /// How far the clock may be off (2 sigma), microseconds; `None` until synchronised.
-    pub(crate) fn error_us(&self, now: Instant) -> Option<u32> {
-        let age = (now - self.at).0 as f64;
-        let [offset, both, drift] = self.variance;
-        let variance = offset + age * (2.0 * both + age * drift);
-        self.synchronised.then(|| (2.0 * libm::sqrt(variance.max(0.0))) as u32)
-    }
-
     fn offset_at(&self, now: Instant) -> f64 {
         self.offset_us + self.drift * (now - self.at).0 as f64
     }
 
+    /// Whether a question is due.
+    #[inline]
+    pub(crate) fn is_question_due(&self, now: Instant) -> bool {
+        now >= self.next_question
+    }
+}
+
+impl ClockFilter {
+    /// A filter without answers.
+    pub(crate) fn new() -> Self {
+        Self {
+            answers: 0,
+            answered: [Instant::FAR; ANSWERED],
+            variance: [0.0; 3],
+            shortest_us: f64::INFINITY,
+            mean_us: 0.0,
+            unanswered: 0,
+            was_reset: false,
+        }
+    }
+
+    /// How far the clock may be off (2 sigma), microseconds; `None` until synchronised.
+    pub(crate) fn error_us(&self, clock: &ShowClock, now: Instant) -> Option<u32> {
+        let age = (now - clock.at).0 as f64;
+        let [offset, both, drift] = self.variance;
+        let variance = offset + age * (2.0 * both + age * drift);
+        clock.synchronised.then(|| (2.0 * libm::sqrt(variance.max(0.0))) as u32)
+    }
+
     /// Takes an answer that came in at `now`. Late, doubled and impossible ones are dropped.
-    pub(crate) fn answer(&mut self, now: Instant, answer: &TimeAnswer) {
+    pub(crate) fn answer(&mut self, clock: &mut ShowClock, now: Instant, answer: &TimeAnswer) {
         let late = !(Span::ZERO..=LATEST).contains(&(now - answer.asked));
         if late || self.answered.contains(&answer.asked) || answer.sent < answer.received {
             return;
@@ -115,42 +126,42 @@ impl Clock {
         let back = (now - answer.sent).0;
         let round_us = there.saturating_add(back).max(0) as f64;
         if self.answers > 0 {
-            self.predict(now);
-            self.keep_possible(there, back, round_us);
+            self.predict(clock, now);
+            self.keep_possible(clock, there, back, round_us);
         }
         if self.answers == 0 {
-            self.begin(now, there, round_us);
+            self.begin(clock, now, there, round_us);
         }
         self.answered[self.answers as usize % ANSWERED] = answer.asked;
-        let half_us = ((there - self.base_us) as f64 - back.saturating_add(self.base_us) as f64) * 0.5;
+        let half_us = ((there - clock.base_us) as f64 - back.saturating_add(clock.base_us) as f64) * 0.5;
         self.answers = self.answers.saturating_add(1);
-        self.learn(half_us, round_us);
+        self.learn(clock, half_us, round_us);
     }
 
-    fn begin(&mut self, now: Instant, there: i64, round_us: f64) {
-        self.base_us = there;
-        self.at = now;
-        self.offset_us = -0.5 * round_us;
+    fn begin(&mut self, clock: &mut ShowClock, now: Instant, there: i64, round_us: f64) {
+        clock.base_us = there;
+        clock.at = now;
+        clock.offset_us = -0.5 * round_us;
         self.mean_us = round_us;
         self.shortest_us = round_us;
         let unknown_drift = WORST_DRIFT / 3.0;
         self.variance = [round_us * round_us, 0.0, unknown_drift * unknown_drift];
     }
 
-    fn predict(&mut self, now: Instant) {
-        let elapsed = (now - self.at).0 as f64;
+    fn predict(&mut self, clock: &mut ShowClock, now: Instant) {
+        let elapsed = (now - clock.at).0 as f64;
         let [offset, both, drift] = self.variance;
-        self.offset_us += self.drift * elapsed;
+        clock.offset_us += clock.drift * elapsed;
         self.variance = [
             offset + elapsed * (2.0 * both + elapsed * drift),
             both + elapsed * drift,
             drift + WANDER * elapsed.max(0.0) * 1e-6,
         ];
-        self.at = now;
+        clock.at = now;
     }
 
     /// One measurement of the offset, trusted as its round trip deserves.
-    fn learn(&mut self, measured_us: f64, round_us: f64) {
+    fn learn(&mut self, clock: &mut ShowClock, measured_us: f64, round_us: f64) {
         self.shortest_us = (self.shortest_us + LEAK * self.shortest_us).min(round_us);
         self.mean_us += (round_us - self.mean_us) / f64::from(self.answers.min(32));
         // While few answers are known, even the shortest may be long: by what they vary, or by half of itself.
@@ -160,47 +171,44 @@ impl Clock {
         let [offset, both, drift] = self.variance;
         let sum = offset + noise;
         let (gain, drift_gain) = (offset / sum, both / sum);
-        let off = measured_us - self.offset_us;
-        self.offset_us += gain * off;
-        self.drift = (self.drift + drift_gain * off).clamp(-WORST_DRIFT, WORST_DRIFT);
+        let off = measured_us - clock.offset_us;
+        clock.offset_us += gain * off;
+        clock.drift = (clock.drift + drift_gain * off).clamp(-WORST_DRIFT, WORST_DRIFT);
         self.variance = [offset * (1.0 - gain), both * (1.0 - gain), drift - drift_gain * both];
         let good = self.answers >= QUICK || self.variance[0] <= GOOD_US * GOOD_US;
-        self.synchronised |= self.answers >= ENOUGH && good;
+        clock.synchronised |= self.answers >= ENOUGH && good;
     }
 
     /// An answer proves that the offset is at most `there` and at least `-back`. A belief outside was too sure of
     /// itself and is pulled in; one far outside is about another clock: the controller began anew.
-    fn keep_possible(&mut self, there: i64, back: i64, round_us: f64) {
-        let most = there.saturating_sub(self.base_us) as f64;
-        let least = -(back.saturating_add(self.base_us) as f64);
-        let outside = (self.offset_us - most).max(least - self.offset_us);
+    fn keep_possible(&mut self, clock: &mut ShowClock, there: i64, back: i64, round_us: f64) {
+        let most = there.saturating_sub(clock.base_us) as f64;
+        let least = -(back.saturating_add(clock.base_us) as f64);
+        let outside = (clock.offset_us - most).max(least - clock.offset_us);
         if outside > SET_ANEW_US {
-            *self = Self { was_reset: true, drift: self.drift, ..Self::new(self.next_question) };
+            *self = Self { was_reset: true, ..Self::new() };
+            *clock = ShowClock { drift: clock.drift, ..ShowClock::new(clock.next_question) };
         } else if outside > 0.0 {
-            self.offset_us = self.offset_us.clamp(least.min(most), most);
+            clock.offset_us = clock.offset_us.clamp(least.min(most), most);
             self.variance[0] = self.variance[0].max(round_us * round_us / 12.0);
         }
     }
 
-    /// Whether it is time to ask; then the next question is due later.
-    pub(crate) fn take_question(&mut self, now: Instant) -> bool {
-        if now < self.next_question {
-            return false;
-        }
+    /// A question is sent: the next one is due a pace later.
+    pub(crate) fn ask(&mut self, clock: &mut ShowClock, now: Instant) {
         let pace = match self.answers {
             _ if self.unanswered >= DEAF => OLD_PACE,
             0..QUICK => QUICK_PACE,
             QUICK..SETTLED => YOUNG_PACE,
             _ => OLD_PACE,
         };
-        self.next_question = now + pace;
+        clock.next_question = now + pace;
         self.unanswered = self.unanswered.saturating_add(1);
-        true
     }
 
     /// Asks again at once, because a link came up.
-    pub(crate) fn hurry(&mut self, now: Instant) {
-        self.next_question = self.next_question.min(now);
+    pub(crate) fn hurry(&mut self, clock: &mut ShowClock, now: Instant) {
+        clock.next_question = clock.next_question.min(now);
         self.unanswered = 0;
     }
 
@@ -213,6 +221,33 @@ impl Clock {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    struct Clock {
+        line: ShowClock,
+        filter: ClockFilter,
+    }
+
+    impl Clock {
+        fn new(first: Instant) -> Self {
+            Self { line: ShowClock::new(first), filter: ClockFilter::new() }
+        }
+
+        fn answer(&mut self, now: Instant, answer: &TimeAnswer) {
+            self.filter.answer(&mut self.line, now, answer);
+        }
+
+        fn show_time(&self, now: Instant) -> Option<Instant> {
+            self.line.show_time(now)
+        }
+
+        fn take_question(&mut self, now: Instant) -> bool {
+            let is_due = self.line.is_question_due(now);
+            if is_due {
+                self.filter.ask(&mut self.line, now);
+            }
+            is_due
+        }
+    }
 
     /// Plays `seconds` of questions over a link of 5 to 20 ms each way; gives the worst error after the first
     /// `settled_s` seconds, microseconds.
@@ -271,11 +306,11 @@ mod tests {
             clock.answer(Instant(n * 100_000 + 2000), &exact(n * 100_000, 50_000_000));
         }
         assert_eq!(clock.show_time(Instant(1_000_000)), Some(Instant(51_000_000)));
-        assert!(!clock.take_reset());
+        assert!(!clock.filter.take_reset());
         for n in 20..24 {
             clock.answer(Instant(n * 100_000 + 2000), &exact(n * 100_000, 0));
         }
-        assert!(clock.take_reset());
+        assert!(clock.filter.take_reset());
         assert_eq!(clock.show_time(Instant(3_000_000)), Some(Instant(3_000_000)));
     }
 

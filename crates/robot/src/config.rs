@@ -5,7 +5,6 @@ use lightbots_wire::{Abilities, Firmware};
 
 /// What a robot is and has, fixed at power-on.
 #[derive(Clone, Debug)]
-#[repr(C)] // See `Robot`.
 pub struct Config {
     /// Its name.
     pub id: RobotId,

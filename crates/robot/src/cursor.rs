@@ -3,11 +3,8 @@
 use lightbots_base::{Motion, Span, Vec2};
 use lightbots_wire::Route;
 
-use crate::processor::Processor;
-
 /// The piece under way, as a cubic in its share of time.
 #[derive(Debug)]
-#[repr(C)] // See `Robot`.
 pub(crate) struct Cursor {
     /// Index of the piece; the number of pieces at the end of the route.
     index: usize,
@@ -32,14 +29,6 @@ impl Cursor {
         };
         cursor.enter(route, 0, Span::ZERO);
         cursor
-    }
-
-    /// Names something in each cache line that every step looks at: see `Robot::fetch`.
-    #[inline]
-    pub(crate) fn fetch(&self, processor: &impl Processor) {
-        processor.fetch(&self.index);
-        processor.fetch(&self.cubic[1]);
-        processor.fetch(&self.rests);
     }
 
     /// Moves to a path time, forwards or backwards.

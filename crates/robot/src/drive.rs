@@ -30,14 +30,14 @@ pub(crate) struct Setpoint {
 
 /// Where the body is and which way it faces: a unit vector.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Body {
+pub(crate) struct BodyPose {
     pub at: Vec2,
     pub facing: Vec2,
 }
 
 /// The drive base: what it was told last.
 #[derive(Debug, Default)]
-pub(crate) struct Drive {
+pub(crate) struct DriveBase {
     told: Setpoint,
     /// It braked at once, and has not got its speed back.
     braked: bool,
@@ -45,12 +45,12 @@ pub(crate) struct Drive {
     pub gently: bool,
 }
 
-impl Drive {
+impl DriveBase {
     /// Where the body will be in `dt` seconds, when what is said now takes effect: motors answer one step late.
-    pub(crate) fn foresee(&self, body: Body, dt: f64) -> Body {
+    pub(crate) fn foresee(&self, body: BodyPose, dt: f64) -> BodyPose {
         let facing = turned(body.facing, (self.told.turn_radps * dt).clamp(-0.1, 0.1));
         let way = self.told.speed_mps * dt;
-        Body { at: body.at + (body.facing + facing) * (0.5 * way), facing }
+        BodyPose { at: body.at + (body.facing + facing) * (0.5 * way), facing }
     }
 
     /// Goes towards a setpoint within the ramps; wheel rates left and right, rad/s, of wheels that lose these shares of
@@ -131,7 +131,7 @@ mod tests {
 
     #[test]
     fn wheels_follow_the_ramp_and_the_measured_numbers() {
-        let mut drive = Drive::default();
+        let mut drive = DriveBase::default();
         let want = Setpoint { speed_mps: 0.27, turn_radps: 0.0 };
         let first = drive.step(want, [0.0; 2], 0.016, &Limits::ELISA_3);
         assert!((first[0] - 0.02 / 0.0045).abs() < 1e-9);
@@ -145,9 +145,9 @@ mod tests {
 
     #[test]
     fn speed_lost_by_braking_comes_back_faster_than_by_the_ramp_but_a_start_does_not() {
-        let mut drive = Drive::default();
+        let mut drive = DriveBase::default();
         let want = Setpoint { speed_mps: 0.27, turn_radps: 0.0 };
-        let steps_to_speed = |drive: &mut Drive| {
+        let steps_to_speed = |drive: &mut DriveBase| {
             (1..60).find(|_| {
                 drive.step(want, [0.0; 2], 0.016, &Limits::ELISA_3);
                 drive.speed_mps() >= 0.27
@@ -163,7 +163,7 @@ mod tests {
 
     #[test]
     fn it_knows_how_far_it_goes_on_when_it_stops() {
-        let mut drive = Drive::default();
+        let mut drive = DriveBase::default();
         for _ in 0..40 {
             drive.step(Setpoint { speed_mps: 0.2, turn_radps: 0.0 }, [0.0; 2], 0.016, &Limits::ELISA_3);
         }
@@ -176,7 +176,7 @@ mod tests {
 
     #[test]
     fn turning_on_the_spot_stays_below_twenty_at_the_wheels() {
-        let mut drive = Drive::default();
+        let mut drive = DriveBase::default();
         let spin = Setpoint { speed_mps: 0.0, turn_radps: 99.0 };
         let wheels = (0..20).map(|_| drive.step(spin, [0.0; 2], 0.016, &Limits::ELISA_3)).last().unwrap();
         assert!(wheels[1] > 20.0 && wheels[1] < 20.2 && wheels[0] == -wheels[1]);
@@ -185,7 +185,7 @@ mod tests {
     #[test]
     fn a_wheel_at_its_limit_keeps_the_curve() {
         let limits = Limits { wheel_radps: 30.0, ..Limits::ELISA_3 };
-        let mut drive = Drive::default();
+        let mut drive = DriveBase::default();
         let want = Setpoint { speed_mps: 0.27, turn_radps: 2.0 };
         let wheels = (0..40).map(|_| drive.step(want, [0.0; 2], 0.016, &limits)).last().unwrap();
         assert!((wheels[1] - 30.0).abs() < 1e-9);

@@ -5,16 +5,25 @@ use lightbots_base::{Instant, Pose, Span, Vec2, wrap};
 
 use crate::config::{Config, Fix};
 use crate::filter::{Filter, turned};
-use crate::processor::Processor;
-use crate::trail::Trail;
+use crate::history::OdometryHistory;
 
 /// Lost with an error estimate above this, metres, or without a fix for so long.
 const LOST_M: f64 = 0.02;
 const LOST_AFTER: Span = Span::from_millis(3000);
 
+/// Whether a robot knows its pose well enough, as of one step.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct PoseQuality {
+    /// The pose is too uncertain to drive.
+    pub lost: bool,
+    /// The last fix is too old even for a robot that is held.
+    pub lost_for_good: bool,
+    /// Fixes are overdue.
+    pub blind: bool,
+}
+
 /// The estimated pose and how sure it is.
 #[derive(Debug)]
-#[repr(C)] // See `Robot`.
 pub(crate) struct Estimate {
     delay: Span,
     filter: Filter,
@@ -36,49 +45,49 @@ impl Estimate {
         }
     }
 
-    /// Carries the pose over one step by wheel turns, radians. `trail` is its own, which lies elsewhere.
+    /// Carries the pose over one step by wheel turns, radians. `history` is its own, which lies elsewhere.
     #[inline]
-    pub(crate) fn advance(&mut self, now: Instant, turns_rad: [f64; 2], trail: &mut Trail) {
+    pub(crate) fn advance(&mut self, now: Instant, turns_rad: [f64; 2], history: &mut OdometryHistory) {
         if !self.is_ahead() {
             self.filter.advance(turns_rad);
         } else {
-            if let Some(turns) = trail.add(now, turns_rad) {
+            if let Some(turns) = history.add(now, turns_rad) {
                 self.filter.advance(turns);
             }
-            while let Some(turns) = trail.take_until(now - self.delay) {
+            while let Some(turns) = history.take_until(now - self.delay) {
                 self.filter.advance(turns);
             }
         }
-        self.come_to_now(trail);
+        self.come_to_now(history);
     }
 
     /// Pulls the pose towards a fix. What is not a number is no fix.
     #[inline]
-    pub(crate) fn correct(&mut self, now: Instant, fix: &Fix, trail: &Trail) {
+    pub(crate) fn correct(&mut self, now: Instant, fix: &Fix, history: &OdometryHistory) {
         if !self.is_ahead() {
             self.filter.correct(now, fix);
         } else {
             // The fix speaks of a moment within the step that follows on the filter's.
-            let (way, turn) = self.filter.motion(trail.begun_by(now - self.delay));
+            let (way, turn) = self.filter.motion(history.begun_by(now - self.delay));
             let moved = self.filter.facing() * way;
             let fix = Fix { at: fix.at - moved, heading: fix.heading.map(|heading| heading - turn) };
             self.filter.correct(now, &fix);
         }
-        self.come_to_now(trail);
+        self.come_to_now(history);
     }
 
     #[inline]
-    fn come_to_now(&mut self, trail: &Trail) {
+    fn come_to_now(&mut self, history: &OdometryHistory) {
         if self.is_ahead() {
             (self.at, self.heading, self.facing) =
                 (self.filter.at(), self.filter.heading(), self.filter.facing());
-            self.follow_trail(trail);
+            self.follow_trail(history);
         }
     }
 
-    fn follow_trail(&mut self, trail: &Trail) {
+    fn follow_trail(&mut self, history: &OdometryHistory) {
         let mut turned_by = 0.0;
-        for turns in trail.turns() {
+        for turns in history.turns() {
             let (way, turn) = self.filter.motion(turns);
             let before = self.facing;
             self.facing = turned(before, turn.clamp(-0.3, 0.3));
@@ -86,13 +95,6 @@ impl Estimate {
             turned_by += turn;
         }
         self.heading = wrap(self.heading + turned_by);
-    }
-
-    /// Names something in each cache line that every step looks at: see `Robot::fetch`.
-    #[inline]
-    pub(crate) fn fetch(&self, processor: &impl Processor) {
-        processor.fetch(&self.delay);
-        self.filter.fetch(processor);
     }
 
     /// The place as far as it is known.
@@ -145,19 +147,29 @@ impl Estimate {
         self.error_m() + self.filter.strays_m(way_m + self.at().distance(self.filter.at()))
     }
 
-    /// Whether no fix came for so long.
-    pub(crate) fn blind(&self, now: Instant, span: Span) -> bool {
+    /// How well the pose is known at `now`; fixes are overdue after `blind_after` without one.
+    #[inline]
+    pub(crate) fn quality(&self, now: Instant, blind_after: Span) -> PoseQuality {
+        let age = self.filter.last_fix().map(|fix| now - fix);
+        let is_older = |span: Span| age.is_none_or(|age| age > span);
+        let lost_for_good = is_older(LOST_AFTER);
+        let lost = self.filter.variance() > LOST_M * LOST_M || lost_for_good;
+        PoseQuality { lost, lost_for_good, blind: is_older(blind_after) }
+    }
+
+    /// Whether no fix came for longer than a span.
+    pub(crate) fn is_blind(&self, now: Instant, span: Span) -> bool {
         self.filter.last_fix().is_none_or(|fix| now - fix > span)
     }
 
-    /// Whether it knows too little to drive.
+    /// Whether the pose is too uncertain to drive.
     pub(crate) fn lost(&self, now: Instant) -> bool {
         self.filter.variance() > LOST_M * LOST_M || self.lost_for_good(now)
     }
 
-    /// Whether it had no fix for so long that none is to be expected, or never had one.
+    /// Whether the last fix is so old that none is to be expected, or no fix ever came.
     pub(crate) fn lost_for_good(&self, now: Instant) -> bool {
-        self.blind(now, LOST_AFTER)
+        self.is_blind(now, LOST_AFTER)
     }
 
     /// Whether fixes and wheels have contradicted each other for longer than a shove explains. Asking clears it.
@@ -181,16 +193,16 @@ mod tests {
 
     #[test]
     fn dead_reckoning_ends_in_being_lost() {
-        let mut trail = Trail::new();
+        let mut history = OdometryHistory::new();
         let mut one = Estimate::new(&config());
         assert!(one.lost(Instant(0)));
-        one.correct(Instant(0), &fix(0.0, 0.0), &trail);
+        one.correct(Instant(0), &fix(0.0, 0.0), &history);
         assert!(!one.lost(Instant(2_900_000)));
         assert!(one.lost(Instant(3_100_000)));
         let mut steps = 0;
         while !one.lost(Instant(0)) {
             steps += 1;
-            one.advance(Instant(steps * 16_000), [0.96, 0.96], &mut trail);
+            one.advance(Instant(steps * 16_000), [0.96, 0.96], &mut history);
         }
         assert!((20..120).contains(&steps), "{steps}");
         assert!(one.error_m() > LOST_M);
@@ -199,14 +211,18 @@ mod tests {
     #[test]
     fn what_is_not_a_number_is_no_fix() {
         let mut one = Estimate::new(&config());
-        let trail = Trail::new();
-        one.correct(Instant(0), &Fix { at: Vec2::new(f64::NAN, 0.0), heading: Some(f64::INFINITY) }, &trail);
+        let history = OdometryHistory::new();
+        one.correct(
+            Instant(0),
+            &Fix { at: Vec2::new(f64::NAN, 0.0), heading: Some(f64::INFINITY) },
+            &history,
+        );
         assert!(one.lost(Instant(0)) && !one.aligned());
     }
 
     #[test]
     fn late_fixes_between_two_steps_leave_no_lag() {
-        let mut trail = Trail::new();
+        let mut history = OdometryHistory::new();
         let mut one = Estimate::new(&Config { fix_delay: Span::from_millis(40), ..config() });
         let (speed, turn) = (0.2, 0.5);
         let truth = |at_s: f64| {
@@ -217,9 +233,9 @@ mod tests {
         for step in 1..200u64 {
             let now = Instant(step * 16_000);
             let turns = if step > 50 { [wheel(-1.0), wheel(1.0)] } else { [0.0; 2] };
-            one.advance(now, turns, &mut trail);
+            one.advance(now, turns, &mut history);
             let (at, heading) = truth((step as f64 * 0.016 - 0.8 - 0.04).max(0.0));
-            one.correct(now, &Fix { at, heading: Some(heading) }, &trail);
+            one.correct(now, &Fix { at, heading: Some(heading) }, &history);
             let (at, heading) = truth((step as f64 * 0.016 - 0.8).max(0.0));
             assert!(one.at().distance(at) < 1e-4, "step {step}: {:?} {at:?}", one.at());
             assert!((one.facing() - Vec2::unit(heading)).length() < 1e-3, "step {step}");

@@ -3,7 +3,7 @@
 //!
 //! An extended Kalman filter over place, heading and the slip of both wheels; wild fixes are left alone.
 
-mod judge;
+mod gate;
 #[cfg(test)]
 mod tests;
 
@@ -11,11 +11,10 @@ use lightbots_base::{Instant, Limits, Span, Vec2, difference, wrap};
 
 use crate::bearing::Bearing;
 use crate::config::{Config, Fix};
-use crate::doubt::{Doubt, Gain, Noise, Stretch};
-use crate::processor::Processor;
+use crate::covariance::{Gain, Noise, PoseCovariance, Stretch};
+use crate::noise::NoiseEstimate;
 use crate::slip::Slip;
-use crate::trust::Trust;
-use judge::{Judge, Verdict};
+use gate::{OutlierGate, Verdict};
 
 /// Steps after which the covariance is carried on, …
 const STRETCH: u32 = 4;
@@ -32,7 +31,6 @@ const BEARING_OFF_RAD: f64 = 0.2;
 
 /// The pose, the slip, and how sure both are.
 #[derive(Debug)]
-#[repr(C)] // See `Robot`.
 pub(crate) struct Filter {
     at: Vec2,
     /// Unit vector of `heading`, turned along step by step: far cheaper than a sine and a cosine each time.
@@ -48,35 +46,36 @@ pub(crate) struct Filter {
     stretch: Stretch,
     fixes: [u32; 2],
     slip: Slip,
-    judge: Judge,
-    place_trust: Trust,
-    heading_trust: Trust,
+    gate: OutlierGate,
+    place_noise: NoiseEstimate,
+    heading_noise: NoiseEstimate,
     /// What the fix before was off by, where it was no outlier.
     off: Option<(Vec2, f64)>,
     gains: [Gain; 3],
-    doubt: Doubt,
+    covariance: PoseCovariance,
     bearing: Bearing,
 }
 
 impl Filter {
     pub(crate) fn new(config: &Config) -> Self {
         let Limits { wheel_radius_m, track_m, .. } = config.limits;
-        let trust =
-            |sigma: f64, best: f64| Trust::new(if sigma > best { sigma * sigma } else { best * best });
+        let trust = |sigma: f64, best: f64| {
+            NoiseEstimate::new(if sigma > best { sigma * sigma } else { best * best })
+        };
         Self {
             at: Vec2::ZERO,
             heading: 0.0,
             facing: Vec2::new(1.0, 0.0),
             slip: Slip::new(config.slip),
-            doubt: Doubt::new(config.slip),
+            covariance: PoseCovariance::new(config.slip),
             gains: [Gain::default(); 3],
             stretch: Stretch::default(),
             fixes: [0; 2],
             teaching: TEACHING,
-            place_trust: trust(config.fix_sigma_m, BEST_FIX_M),
-            heading_trust: trust(config.heading_sigma_rad, BEST_HEADING_RAD),
+            place_noise: trust(config.fix_sigma_m, BEST_FIX_M),
+            heading_noise: trust(config.heading_sigma_rad, BEST_HEADING_RAD),
             off: None,
-            judge: Judge::default(),
+            gate: OutlierGate::default(),
             aligned: false,
             way: Vec2::ZERO,
             bearing: Bearing::default(),
@@ -120,11 +119,11 @@ impl Filter {
     pub(crate) fn correct(&mut self, now: Instant, fix: &Fix) {
         let mut off = (Vec2::ZERO, 0.0);
         if fix.at.x.abs() < 1e3 && fix.at.y.abs() < 1e3 {
-            off.0 = self.judge_place(now, fix.at - self.at);
+            off.0 = self.gate_place(now, fix.at - self.at);
             self.learn_heading(now, fix.at);
         }
         if let Some(heading) = fix.heading.filter(|heading| heading.is_finite()) {
-            off.1 = self.judge_heading(now, difference(heading, self.heading));
+            off.1 = self.gate_heading(now, difference(heading, self.heading));
         }
         self.pull(off);
     }
@@ -136,8 +135,8 @@ impl Filter {
             return;
         }
         if let Some(before) = self.off.replace(off) {
-            self.place_trust.learn(0.5 * (off.0 - before.0).length_squared());
-            self.heading_trust.learn((off.1 - before.1) * (off.1 - before.1));
+            self.place_noise.learn(0.5 * (off.0 - before.0).length_squared());
+            self.heading_noise.learn((off.1 - before.1) * (off.1 - before.1));
         }
         if self.teaching > 0 || self.stretch.steps >= STRETCH {
             self.teaching = self.teaching.saturating_sub(1);
@@ -159,29 +158,29 @@ impl Filter {
             self.teaching = TEACHING;
             self.off = None;
         }
-        self.doubt.carry(&stretch, self.facing, self.track_m, self.slip.drift(stretch.steps));
-        let (place, heading) = (self.place_trust.variance(), self.heading_trust.variance());
+        self.covariance.carry(&stretch, self.facing, self.track_m, self.slip.drift(stretch.steps));
+        let (place, heading) = (self.place_noise.variance(), self.heading_noise.variance());
         let share =
             |variance: f64, count: u32| if count > 0 { variance / f64::from(count) } else { f64::INFINITY };
-        self.doubt.learn(Noise { place: share(place, places), heading: share(heading, headings) });
-        self.gains = self.doubt.gains(place, heading);
+        self.covariance.learn(Noise { place: share(place, places), heading: share(heading, headings) });
+        self.gains = self.covariance.gains(place, heading);
         if stretch.driven > 0 {
-            self.slip.learn(stretch.moved.length(), self.doubt.slip());
+            self.slip.learn(stretch.moved.length(), self.covariance.slip());
         }
     }
 
     /// How far the place is off by a fix that counts; nothing by one that does not.
-    fn judge_place(&mut self, now: Instant, off: Vec2) -> Vec2 {
-        let noise = self.place_trust.variance();
-        match self.judge.place(now, off, self.doubt.place(), noise) {
+    fn gate_place(&mut self, now: Instant, off: Vec2) -> Vec2 {
+        let noise = self.place_noise.variance();
+        match self.gate.place(now, off, self.covariance.place(), noise) {
             Verdict::Outlier => Vec2::ZERO,
-            Verdict::Counts => {
+            Verdict::Inlier => {
                 self.fixes[0] += 1;
                 off
             }
-            Verdict::Truth => {
+            Verdict::Jump => {
                 self.at += off;
-                self.doubt.set_place(noise);
+                self.covariance.set_place(noise);
                 self.teaching = TEACHING;
                 self.bearing.clear();
                 Vec2::ZERO
@@ -190,18 +189,18 @@ impl Filter {
     }
 
     /// How far the heading is off by a fix that counts; nothing by one that does not.
-    fn judge_heading(&mut self, now: Instant, off: f64) -> f64 {
-        let noise = self.heading_trust.variance();
-        match self.judge.heading(now, off, self.doubt.heading() + noise, !self.aligned) {
+    fn gate_heading(&mut self, now: Instant, off: f64) -> f64 {
+        let noise = self.heading_noise.variance();
+        match self.gate.heading(now, off, self.covariance.heading() + noise, !self.aligned) {
             Verdict::Outlier => 0.0,
-            Verdict::Counts => {
+            Verdict::Inlier => {
                 self.fixes[1] += 1;
                 off
             }
-            Verdict::Truth => {
+            Verdict::Jump => {
                 self.aligned = true;
                 self.turn_by(off);
-                self.doubt.set_heading(noise);
+                self.covariance.set_heading(noise);
                 self.teaching = TEACHING;
                 0.0
             }
@@ -210,14 +209,14 @@ impl Filter {
 
     /// Without a compass: reads the heading from the way until the filter can follow it.
     fn learn_heading(&mut self, now: Instant, by_fix: Vec2) {
-        if self.judge.last_heading().is_some_and(|seen| now - seen < NO_COMPASS) {
+        if self.gate.last_heading().is_some_and(|seen| now - seen < NO_COMPASS) {
             return;
         }
         if let Some(turn) = self.bearing.add(self.way, by_fix)
             && (!self.aligned || turn.abs() > BEARING_OFF_RAD)
         {
             self.turn_by(turn);
-            self.doubt.set_heading(BEARING_RAD * BEARING_RAD);
+            self.covariance.set_heading(BEARING_RAD * BEARING_RAD);
             self.aligned = true;
         }
     }
@@ -225,20 +224,6 @@ impl Filter {
     fn turn_by(&mut self, turn: f64) {
         self.heading = wrap(self.heading + turn);
         self.facing = if turn.abs() < 0.1 { turned(self.facing, turn) } else { Vec2::unit(self.heading) };
-    }
-
-    /// Names something in each cache line that every step looks at: see `Robot::fetch`.
-    #[inline]
-    pub(crate) fn fetch(&self, processor: &impl Processor) {
-        processor.fetch(&self.at);
-        processor.fetch(&self.track_m);
-        processor.fetch(&self.stretch.turn);
-        processor.fetch(&self.slip);
-        processor.fetch(&self.judge);
-        processor.fetch(&self.place_trust);
-        processor.fetch(&self.off);
-        processor.fetch(&self.gains);
-        self.doubt.fetch(processor);
     }
 
     /// What of their turning the wheels lose, left and right.
@@ -268,30 +253,30 @@ impl Filter {
 
     /// When the last fix came that counted.
     pub(crate) fn last_fix(&self) -> Option<Instant> {
-        self.judge.last_place()
+        self.gate.last_place()
     }
 
     /// Variance of the place in each coordinate.
     pub(crate) fn variance(&self) -> f64 {
-        self.doubt.place()
+        self.covariance.place()
     }
 
     /// How far so much way without a fix leads aside, metres, 1 sigma: by the heading, and by slip that bends it.
     pub(crate) fn strays_m(&self, way_m: f64) -> f64 {
         let bend = way_m / self.track_m * core::f64::consts::FRAC_1_SQRT_2;
-        way_m * (libm::sqrt(self.doubt.heading()) + bend * libm::sqrt(self.doubt.slip()))
+        way_m * (libm::sqrt(self.covariance.heading()) + bend * libm::sqrt(self.covariance.slip()))
     }
 
     /// What so much way without a fix adds to the variance of the place: the heading leads it astray, and slip that
     /// nobody sees bends the way further.
     pub(crate) fn drift(&self, way_m: f64) -> f64 {
         let bend_m = way_m / self.track_m * way_m;
-        way_m * way_m * self.doubt.heading() + 0.5 * bend_m * bend_m * self.doubt.slip()
+        way_m * way_m * self.covariance.heading() + 0.5 * bend_m * bend_m * self.covariance.slip()
     }
 
     /// Whether fixes and wheels have contradicted each other for longer than a shove explains. Asking clears it.
     pub(crate) fn take_senseless(&mut self) -> bool {
-        self.judge.take_senseless()
+        self.gate.take_senseless()
     }
 }
 

@@ -3,8 +3,8 @@
 
 use lightbots_base::{Motion, Vec2};
 
-use crate::drive::{Body, Setpoint};
-use crate::outlook::Ahead;
+use crate::drive::{BodyPose, Setpoint};
+use crate::look_ahead::Ahead;
 
 /// Speed per error along, 1/s.
 const ALONG: f64 = 9.0;
@@ -54,7 +54,7 @@ impl Follow {
     /// What to do next: `motion` is where the route is and how it moves when this takes effect, by show time; `ahead`
     /// is which way it goes on where it rests or is slow.
     #[inline]
-    pub(crate) fn step(&mut self, motion: &Motion, ahead: Option<Ahead>, body: Body) -> Setpoint {
+    pub(crate) fn step(&mut self, motion: &Motion, ahead: Option<Ahead>, body: BodyPose) -> Setpoint {
         let speed = motion.velocity.length();
         if let Some(ahead) = ahead {
             self.travel = ahead.towards;
@@ -78,7 +78,7 @@ impl Follow {
     }
 
     /// Turns towards the way ahead without a route under way.
-    pub(crate) fn prepare(&mut self, ahead: Vec2, body: Body) -> Setpoint {
+    pub(crate) fn prepare(&mut self, ahead: Vec2, body: BodyPose) -> Setpoint {
         self.travel = ahead;
         self.choose_sense(body.facing);
         Setpoint { speed_mps: 0.0, turn_radps: self.turn_on_the_spot(body.facing) }
@@ -92,7 +92,7 @@ impl Follow {
         }
     }
 
-    fn drive(&self, motion: &Motion, speed: f64, body: Body) -> Setpoint {
+    fn drive(&self, motion: &Motion, speed: f64, body: BodyPose) -> Setpoint {
         let error = motion.position - body.at;
         let (along, across) = (body.facing.dot(error), body.facing.cross(error));
         let cos = body.facing.dot(self.travel) * self.sense;
@@ -106,7 +106,7 @@ impl Follow {
     }
 
     /// On the slow part of a route it turns to the way ahead in time, and keeps up with the route as far as it can.
-    fn swing(&self, motion: &Motion, within_s: f64, body: Body) -> Setpoint {
+    fn swing(&self, motion: &Motion, within_s: f64, body: BodyPose) -> Setpoint {
         let along = body.facing.dot(motion.position - body.at);
         let hurry = (SWING / within_s.max(1e-3)).min(SPOT);
         Setpoint {
@@ -115,7 +115,7 @@ impl Follow {
         }
     }
 
-    fn rest(&self, motion: &Motion, turns: bool, body: Body) -> Setpoint {
+    fn rest(&self, motion: &Motion, turns: bool, body: BodyPose) -> Setpoint {
         let turn_radps = if turns { self.turn_on_the_spot(body.facing) } else { 0.0 };
         let along = body.facing.dot(motion.position - body.at);
         let calm = along.abs() < CALM_M || turn_radps.abs() > 1.0;
@@ -152,8 +152,8 @@ mod tests {
         Motion { position: Vec2::new(x, y), velocity: Vec2::new(0.2, 0.0), acceleration: Vec2::ZERO }
     }
 
-    fn body(heading: f64) -> Body {
-        Body { at: Vec2::ZERO, facing: Vec2::unit(heading) }
+    fn body(heading: f64) -> BodyPose {
+        BodyPose { at: Vec2::ZERO, facing: Vec2::unit(heading) }
     }
 
     fn ahead(x: f64, y: f64) -> Option<Ahead> {

@@ -3,8 +3,6 @@
 use lightbots_base::{Instant, Rgb, Span};
 use lightbots_wire::Fade;
 
-use crate::processor::Processor;
-
 /// Fades that wait for their moment; one more replaces the latest.
 const WAITING: usize = 4;
 /// Half a period of blinking.
@@ -16,10 +14,9 @@ const RED: Rgb = Rgb::new(255, 0, 0);
 
 /// What the light shows and will show.
 #[derive(Debug, Default)]
-#[repr(C)] // See `Robot`.
 pub(crate) struct Light {
     shown: Rgb,
-    /// There is more to it than `shown`: else no step looks at what follows.
+    /// A fade, blinking or flashes change it. Otherwise it stays at `shown`.
     busy: bool,
     /// The colour a running fade came from, and the fade.
     running: Option<(Rgb, Fade)>,
@@ -32,12 +29,6 @@ pub(crate) struct Light {
 }
 
 impl Light {
-    /// Names something in each cache line that every step looks at: see `Robot::fetch`.
-    #[inline]
-    pub(crate) fn fetch(&self, processor: &impl Processor) {
-        processor.fetch(&self.busy);
-    }
-
     /// Shows a colour at once and for good: what was under way is forgotten.
     pub(crate) fn set(&mut self, colour: Rgb) {
         self.shown = colour;
@@ -67,7 +58,7 @@ impl Light {
     }
 
     /// What is wrong at `now`, own clock, in red flashes; 0: nothing.
-    pub(crate) fn say(&mut self, now: Instant, flashes: u8) {
+    pub(crate) fn report(&mut self, now: Instant, flashes: u8) {
         if flashes == 0 && !self.busy {
             return;
         }
@@ -75,6 +66,11 @@ impl Light {
             self.busy = true;
             self.trouble = (flashes > 0).then_some((now + SETTLED, flashes));
         }
+    }
+
+    /// Whether the light may change by itself.
+    pub(crate) fn is_busy(&self) -> bool {
+        self.busy
     }
 
     /// Forgets the fades that have not begun.
@@ -183,16 +179,16 @@ mod tests {
     fn trouble_shows_in_red_flashes_and_goes_with_its_reason() {
         let mut light = Light::default();
         light.set(Rgb::new(9, 9, 9));
-        light.say(Instant(0), 2);
+        light.report(Instant(0), 2);
         let mut at = |millis: u64| light.step(Instant(millis * 1000), None);
         let seen = [400, 500, 625, 750, 875, 1000, 2400, 2500, 2750, 3000].map(&mut at);
         let (own, dark) = (Rgb::new(9, 9, 9), Rgb::BLACK);
         assert_eq!(seen, [own, RED, dark, RED, dark, own, own, RED, RED, own]);
         light.blink(Instant(4_500_000), Span(250_000));
         assert_eq!(light.step(Instant(4_500_000), None), WHITE, "who looks for it finds it");
-        light.say(Instant(6_400_000), 2);
+        light.report(Instant(6_400_000), 2);
         assert_eq!(light.step(Instant(6_500_000), None), RED);
-        light.say(Instant(6_510_000), 0);
+        light.report(Instant(6_510_000), 0);
         assert_eq!(light.step(Instant(6_520_000), None), own);
     }
 

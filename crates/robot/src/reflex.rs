@@ -57,7 +57,6 @@ pub(crate) struct Block {
 
 /// The safety layer of a robot.
 #[derive(Debug)]
-#[repr(C)] // See `Robot`.
 pub(crate) struct Reflex {
     safety: Safety,
     own: OwnMotion,
@@ -80,12 +79,6 @@ impl Reflex {
             model: config.neighbours,
             policy: config.policy,
         }
-    }
-
-    /// Whether there is anything in such readings.
-    #[inline]
-    pub(crate) fn notices(&self, gaps_m: &[f32; SENSORS]) -> bool {
-        self.sensors.notice(gaps_m)
     }
 
     /// Takes the readings of a step of `dt` seconds in which the robot drove `way_m` forwards and turned `turn_rad`

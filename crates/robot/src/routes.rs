@@ -4,13 +4,12 @@ use lightbots_base::{Instant, Limits, Motion, PathRef, Span, Vec2};
 use lightbots_wire::Route;
 
 use crate::cursor::Cursor;
-use crate::drive::{Body, Setpoint};
+use crate::drive::{BodyPose, Setpoint};
 use crate::follow::{Follow, RESTING_MPS};
-use crate::outlook::{Ahead, Outlook, SLOW_MPS};
-use crate::processor::Processor;
+use crate::look_ahead::{Ahead, LookAhead, SLOW_MPS};
 use crate::reflex::{Expectation, Point};
 use crate::seek::{Seek, within_arrival};
-use crate::shelf::{Place, Shelf};
+use crate::storage::{RouteStorage, Slot};
 use crate::timeline::Timeline;
 
 /// A START that comes later than this after its moment is too late.
@@ -32,9 +31,8 @@ pub(crate) type InSight = heapless::Vec<Expectation, MAX_IN_SIGHT>;
 
 /// A route that waits for its START.
 #[derive(Debug)]
-#[repr(C)] // See `Robot`.
 struct Kept {
-    place: Place,
+    slot: Slot,
     seq: u32,
     follow: Follow,
     ahead: Option<Vec2>,
@@ -43,17 +41,16 @@ struct Kept {
 
 /// A route that has begun.
 #[derive(Debug)]
-#[repr(C)] // See `Robot`.
 struct Running {
     starts: Instant,
     /// Where the route ends.
     end: Vec2,
-    outlook: Outlook,
+    look_ahead: LookAhead,
     /// Once the route is over and the robot is not there yet.
     seek: Option<Seek>,
     /// While the route is held and the robot goes back to where it should be. Each step looks at this and at what follows.
     back: Option<Seek>,
-    place: Place,
+    slot: Slot,
     /// Held by when the wheels have answered.
     rests: bool,
     room_mm: Option<u16>,
@@ -69,9 +66,8 @@ struct Running {
     follow: Follow,
 }
 
-/// The routes of a robot, which lie on its shelf.
+/// The routes of a robot, which lie on its storage.
 #[derive(Debug)]
-#[repr(C)] // See `Robot`.
 pub(crate) struct Routes {
     running: Option<Running>,
     timeline: Timeline,
@@ -86,16 +82,16 @@ impl Routes {
     }
 
     /// Keeps a route for its START. The one under way, the one just finished and late old messages change nothing.
-    pub(crate) fn keep(&mut self, route: &Route, shelf: &mut Shelf) {
+    pub(crate) fn keep(&mut self, route: &Route, storage: &mut RouteStorage) {
         let newest = self.named();
         let age = newest.wrapping_sub(route.seq);
         if newest != 0 && age < OLD_NUMBERS {
             return;
         }
-        let ahead = Outlook::default().look(route, (0, Span::ZERO), Span::ZERO).map(|ahead| ahead.towards);
-        let place = self.running.as_ref().map_or(Place::First, |running| running.place.other());
-        self.kept = Some(Kept { place, seq: route.seq, starts: None, follow: Follow::new(), ahead });
-        shelf.put(place, route);
+        let ahead = LookAhead::default().look(route, (0, Span::ZERO), Span::ZERO).map(|ahead| ahead.towards);
+        let slot = self.running.as_ref().map_or(Slot::First, |running| running.slot.other());
+        self.kept = Some(Kept { slot, seq: route.seq, starts: None, follow: Follow::new(), ahead });
+        storage.put(slot, route);
     }
 
     /// States when the kept route begins; anew, as long as it has not begun, but only to a later moment: an earlier
@@ -118,9 +114,15 @@ impl Routes {
 
     /// The neighbours that the plan of the route under way has within `sight_m` of the body now, as the latest step foresaw
     /// it; at most [`MAX_IN_SIGHT`]. The plan says no more when one that rests gets out of sight.
-    pub(crate) fn expect(&self, body: Body, sight_m: f64, shelf: &Shelf, expected: &mut InSight) {
+    pub(crate) fn expect(
+        &self,
+        body: BodyPose,
+        sight_m: f64,
+        storage: &RouteStorage,
+        expected: &mut InSight,
+    ) {
         let Some(running) = &self.running else { return };
-        let neighbours = &shelf.at(running.place).neighbours;
+        let neighbours = &storage.at(running.slot).neighbours;
         let back = Vec2::new(body.facing.x, -body.facing.y);
         let into_body = |vector: Vec2| {
             let turned = turned_by(vector, back);
@@ -145,8 +147,8 @@ impl Routes {
     }
 
     /// Whether the route under way names its neighbours.
-    pub(crate) fn names_neighbours(&self, shelf: &Shelf) -> bool {
-        self.running.as_ref().is_some_and(|running| !shelf.at(running.place).neighbours.list.is_empty())
+    pub(crate) fn names_neighbours(&self, storage: &RouteStorage) -> bool {
+        self.running.as_ref().is_some_and(|running| !storage.at(running.slot).neighbours.list.is_empty())
     }
 
     /// Takes a hold or a resume.
@@ -157,23 +159,23 @@ impl Routes {
     /// Lets the kept route take over when its moment has come, or forgets a moment that was missed because the clock
     /// was not known. Tells whether it took over.
     #[inline]
-    pub(crate) fn begin_due(&mut self, show: Instant, shelf: &Shelf) -> bool {
-        self.kept.is_some() && self.begin_kept(show, shelf)
+    pub(crate) fn begin_due(&mut self, show: Instant, storage: &RouteStorage) -> bool {
+        self.kept.is_some() && self.begin_kept(show, storage)
     }
 
-    fn begin_kept(&mut self, show: Instant, shelf: &Shelf) -> bool {
+    fn begin_kept(&mut self, show: Instant, storage: &RouteStorage) -> bool {
         if let Some(kept) = self.kept.as_mut() {
             kept.starts = kept.starts.filter(|&at| show - at <= TOO_LATE);
         }
         let due = |kept: &mut Kept| kept.starts.is_some_and(|at| at <= show);
-        let Some(Kept { place, seq, starts: Some(starts), follow, .. }) = self.kept.take_if(due) else {
+        let Some(Kept { slot, seq, starts: Some(starts), follow, .. }) = self.kept.take_if(due) else {
             return false;
         };
         self.timeline.begin(starts);
-        let route = shelf.at(place);
+        let route = storage.at(slot);
         let path = PathRef::new(route.start, &route.pieces);
         self.running = Some(Running {
-            place,
+            slot,
             seq,
             room_mm: route.room_mm,
             starts,
@@ -181,7 +183,7 @@ impl Routes {
             end: path.end(),
             cursor: Cursor::new(route),
             follow,
-            outlook: Outlook::default(),
+            look_ahead: LookAhead::default(),
             seek: None,
             back: None,
             off_m: 0.0,
@@ -198,13 +200,13 @@ impl Routes {
     pub(crate) fn step(
         &mut self,
         takes_effect: Instant,
-        body: Body,
+        body: BodyPose,
         aside: Vec2,
         limits: &Limits,
-        shelf: &Shelf,
+        storage: &RouteStorage,
     ) -> Option<Setpoint> {
         let running = self.running.as_mut()?;
-        let route = shelf.at(running.place);
+        let route = storage.at(running.slot);
         let progress = self.timeline.at(takes_effect);
         running.cursor.seek(route, progress.time);
         let by_path_time = running.cursor.motion(progress.time);
@@ -231,19 +233,19 @@ impl Routes {
         }
         let speed = by_path_time.velocity.length();
         let ahead = if speed < SLOW_MPS {
-            running.outlook.look(route, running.cursor.piece(), progress.time)
+            running.look_ahead.look(route, running.cursor.piece(), progress.time)
         } else if motion.velocity.length() < RESTING_MPS {
             // Held on its way, it keeps to the tangent there.
             Some(Ahead { towards: by_path_time.velocity / speed, within_s: 0.0 })
         } else {
             None
         };
-        let body = if progress.rate == 0.0 { body } else { Body { at: body.at - aside, ..body } };
+        let body = if progress.rate == 0.0 { body } else { BodyPose { at: body.at - aside, ..body } };
         Some(running.follow.step(&motion, ahead, body))
     }
 
     /// Turns towards the beginning of the kept route while nothing else is to do.
-    pub(crate) fn prepare(&mut self, body: Body) -> Option<Setpoint> {
+    pub(crate) fn prepare(&mut self, body: BodyPose) -> Option<Setpoint> {
         let kept = self.kept.as_mut()?;
         Some(kept.follow.prepare(kept.ahead?, body))
     }
@@ -278,25 +280,6 @@ impl Routes {
         if let Some(kept) = self.kept.as_mut() {
             kept.starts = None;
         }
-    }
-
-    /// Where it says whether a route is under way: `fetch` has to know.
-    #[inline]
-    pub(crate) fn fetch_first(&self, processor: &impl Processor) {
-        processor.fetch(&self.running);
-    }
-
-    /// Names something in each cache line that every step looks at: see `Robot::fetch`.
-    #[inline]
-    pub(crate) fn fetch(&self, processor: &impl Processor) {
-        if let Some(Running { back, due, cursor, follow, .. }) = &self.running {
-            processor.fetch(back);
-            processor.fetch(due);
-            cursor.fetch(processor);
-            processor.fetch(follow);
-        }
-        self.timeline.fetch(processor);
-        processor.fetch(&self.kept);
     }
 
     /// Whether a route is under way.
@@ -344,9 +327,9 @@ impl Routes {
     }
 
     /// How far the route under way leads from where it is within so much path time, metres.
-    pub(crate) fn way_ahead_m(&self, within: Span, shelf: &Shelf) -> f64 {
+    pub(crate) fn way_ahead_m(&self, within: Span, storage: &RouteStorage) -> f64 {
         let Some(running) = &self.running else { return 0.0 };
-        let route = shelf.at(running.place);
+        let route = storage.at(running.slot);
         let path = PathRef::new(route.start, &route.pieces);
         path.at(running.time + within).position.distance(running.due)
     }

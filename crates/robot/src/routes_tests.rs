@@ -13,63 +13,63 @@ fn route(seq: u32) -> Route {
     }
 }
 
-const BODY: Body = Body { at: Vec2::ZERO, facing: Vec2::new(1.0, 0.0) };
+const BODY: BodyPose = BodyPose { at: Vec2::ZERO, facing: Vec2::new(1.0, 0.0) };
 
 #[test]
 fn a_start_may_be_moved_until_the_route_has_begun() {
-    let (mut routes, mut shelf) = (Routes::new(), Shelf::new());
-    routes.keep(&route(7), &mut shelf);
+    let (mut routes, mut storage) = (Routes::new(), RouteStorage::new());
+    routes.keep(&route(7), &mut storage);
     assert!(!routes.start(8, Instant(5), None));
     assert!(routes.start(7, Instant(1_000_000), Some(Instant(0))));
     assert!(!routes.start(7, Instant(1_000_000), Some(Instant(0))));
     assert!(routes.start(7, Instant(2_000_000), Some(Instant(0))));
     assert!(!routes.start(7, Instant(1_500_000), Some(Instant(0))), "overtaken by the one before");
-    assert!(!routes.begin_due(Instant(1_999_999), &shelf));
-    assert!(routes.begin_due(Instant(2_000_000), &shelf));
+    assert!(!routes.begin_due(Instant(1_999_999), &storage));
+    assert!(routes.begin_due(Instant(2_000_000), &storage));
     assert!(!routes.start(7, Instant(3_000_000), Some(Instant(2_000_000))));
     assert_eq!(routes.starts(), Some(Instant(2_000_000)));
 }
 
 #[test]
 fn a_start_long_past_is_refused() {
-    let (mut routes, mut shelf) = (Routes::new(), Shelf::new());
-    routes.keep(&route(7), &mut shelf);
+    let (mut routes, mut storage) = (Routes::new(), RouteStorage::new());
+    routes.keep(&route(7), &mut storage);
     assert!(!routes.start(7, Instant(0), Some(Instant(600_000))));
     assert_eq!(routes.starts(), None);
 }
 
 #[test]
 fn a_moment_missed_without_a_clock_is_forgotten() {
-    let (mut routes, mut shelf) = (Routes::new(), Shelf::new());
-    routes.keep(&route(7), &mut shelf);
+    let (mut routes, mut storage) = (Routes::new(), RouteStorage::new());
+    routes.keep(&route(7), &mut storage);
     assert!(routes.start(7, Instant(0), None));
-    assert!(!routes.begin_due(Instant(600_000), &shelf));
+    assert!(!routes.begin_due(Instant(600_000), &storage));
     assert!(routes.keeps_one() && !routes.in_a_run());
 }
 
 #[test]
 fn old_and_doubled_paths_change_nothing() {
-    let (mut routes, mut shelf) = (Routes::new(), Shelf::new());
-    routes.keep(&route(100), &mut shelf);
+    let (mut routes, mut storage) = (Routes::new(), RouteStorage::new());
+    routes.keep(&route(100), &mut storage);
     routes.start(100, Instant(5), Some(Instant(0)));
-    routes.keep(&route(100), &mut shelf);
-    routes.keep(&route(99), &mut shelf);
+    routes.keep(&route(100), &mut storage);
+    routes.keep(&route(99), &mut storage);
     assert_eq!((routes.named(), routes.starts()), (100, Some(Instant(5))));
-    routes.keep(&route(3), &mut shelf);
+    routes.keep(&route(3), &mut storage);
     assert_eq!((routes.named(), routes.starts()), (3, None));
-    routes.keep(&route(4_000_000_000), &mut shelf);
+    routes.keep(&route(4_000_000_000), &mut storage);
     assert_eq!(routes.named(), 4_000_000_000);
 }
 
 #[test]
 fn the_next_route_is_kept_while_one_is_under_way_and_takes_over() {
-    let (mut routes, mut shelf) = (Routes::new(), Shelf::new());
-    routes.keep(&route(1), &mut shelf);
+    let (mut routes, mut storage) = (Routes::new(), RouteStorage::new());
+    routes.keep(&route(1), &mut storage);
     routes.start(1, Instant(0), Some(Instant(0)));
-    routes.begin_due(Instant(0), &shelf);
-    routes.keep(&route(2), &mut shelf);
+    routes.begin_due(Instant(0), &storage);
+    routes.keep(&route(2), &mut storage);
     assert_eq!(routes.named(), 2);
-    assert!(routes.step(Instant(500_000), BODY, Vec2::ZERO, &Limits::ELISA_3, &shelf).is_some());
+    assert!(routes.step(Instant(500_000), BODY, Vec2::ZERO, &Limits::ELISA_3, &storage).is_some());
     assert!((routes.off_m().unwrap() - 0.05).abs() < 1e-9);
     assert_eq!(routes.finish(Instant(1_000_000), Vec2::new(0.05, 0.0)), None);
     assert_eq!(routes.finish(Instant(1_000_000), Vec2::new(0.09, 0.01)), None);
@@ -79,17 +79,17 @@ fn the_next_route_is_kept_while_one_is_under_way_and_takes_over() {
 
 #[test]
 fn neighbours_that_rested_by_the_way_do_not_crowd_out_who_is_near() {
-    let (mut routes, mut shelf) = (Routes::new(), Shelf::new());
+    let (mut routes, mut storage) = (Routes::new(), RouteStorage::new());
     let mut named = route(1);
     let knot = |x_tenths: i32| [Knot { at_ms: 0, place_tenths: [x_tenths, 700], velocity_mmps: [0; 2] }];
     for number in 0..30 {
         named.neighbours.push(100, &knot(-1_200 - 600 * number));
     }
     named.neighbours.push(120, &knot(200));
-    routes.keep(&named, &mut shelf);
+    routes.keep(&named, &mut storage);
     routes.start(1, Instant(0), Some(Instant(0)));
-    routes.begin_due(Instant(0), &shelf);
+    routes.begin_due(Instant(0), &storage);
     let mut expected = InSight::new();
-    routes.expect(BODY, 0.11, &shelf, &mut expected);
+    routes.expect(BODY, 0.11, &storage, &mut expected);
     assert_eq!((expected.len(), expected[0].index), (1, 30));
 }

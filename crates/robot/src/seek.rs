@@ -2,7 +2,7 @@
 
 use lightbots_base::{Limits, Vec2};
 
-use crate::drive::{Body, Setpoint};
+use crate::drive::{BodyPose, Setpoint};
 
 /// The original's arrival test: both coordinates within this, metres.
 const ARRIVED_M: f64 = 0.02;
@@ -44,7 +44,7 @@ impl Seek {
     }
 
     /// What to do next.
-    pub(crate) fn step(&mut self, body: Body, limits: &Limits) -> Setpoint {
+    pub(crate) fn step(&mut self, body: BodyPose, limits: &Limits) -> Setpoint {
         let to_goal = self.goal - body.at;
         let distance = to_goal.length();
         if distance < STOP_M {
@@ -76,8 +76,8 @@ pub(crate) fn within_arrival(at: Vec2, goal: Vec2) -> bool {
 mod tests {
     use super::*;
 
-    fn body(heading: f64) -> Body {
-        Body { at: Vec2::ZERO, facing: Vec2::unit(heading) }
+    fn body(heading: f64) -> BodyPose {
+        BodyPose { at: Vec2::ZERO, facing: Vec2::unit(heading) }
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! How much of their turning the wheels lose: each has a mean of its own, learned over metres, and wanders about it.
 
-use crate::doubt::Drift;
+use crate::covariance::Drift;
 
 /// What a deviation from the mean loses in a step: it is forgotten in about a second, also of wheels that stand, as nothing
 /// tells how they will hold when they turn again.
@@ -18,7 +18,6 @@ const BOUND: f64 = 0.4;
 
 /// Slip of the left and the right wheel, shares of their turning.
 #[derive(Debug)]
-#[repr(C)] // See `Robot`.
 pub(crate) struct Slip {
     now: [f64; 2],
     mean: [f64; 2],

@@ -49,7 +49,7 @@ impl Supervisor {
     }
 
     /// A message came in.
-    pub(crate) fn hear(&mut self, now: Instant) {
+    pub(crate) fn receive(&mut self, now: Instant) {
         self.heard = now;
         self.down_since = None;
         self.cut = false;
@@ -59,7 +59,7 @@ impl Supervisor {
     pub(crate) fn link(&mut self, now: Instant, up: bool) {
         if up {
             self.untold |= self.cut;
-            self.hear(now);
+            self.receive(now);
         } else if self.down_since.is_none() {
             self.down_since = Some(now);
         }
@@ -136,13 +136,13 @@ mod tests {
     #[test]
     fn silence_cuts_off_a_route_and_a_message_ends_it() {
         let mut supervisor = Supervisor::new(Span(2_000_000));
-        supervisor.hear(Instant(SECOND));
+        supervisor.receive(Instant(SECOND));
         assert!(!supervisor.check_link(Instant(3 * SECOND), Drives::Route));
         assert!(!supervisor.check_link(Instant(9 * SECOND), Drives::Target));
         assert!(supervisor.check_link(Instant(3 * SECOND + 1), Drives::Route));
         assert!(!supervisor.check_link(Instant(3 * SECOND + 2), Drives::Route));
         assert!(supervisor.is_cut());
-        supervisor.hear(Instant(4 * SECOND));
+        supervisor.receive(Instant(4 * SECOND));
         assert!(!supervisor.is_cut());
     }
 
@@ -160,7 +160,7 @@ mod tests {
     #[test]
     fn silence_is_broken_before_it_cuts() {
         let mut supervisor = Supervisor::new(Span(2_000_000));
-        supervisor.hear(Instant(SECOND));
+        supervisor.receive(Instant(SECOND));
         let asked = (0..125u64)
             .filter(|n| supervisor.take_question(Instant(SECOND + n * 16_000), Drives::Soon))
             .count();

@@ -3,8 +3,6 @@
 use lightbots_base::{Instant, Span};
 use lightbots_wire::Route;
 
-use crate::processor::Processor;
-
 /// Holds and resumes remembered; older ones are folded into where the route had got to.
 const EVENTS: usize = 8;
 
@@ -35,7 +33,6 @@ struct Point {
 /// The path time of the running route, as a function of show time alone: whoever has the same holds is at the same
 /// path time, however late the messages came.
 #[derive(Debug)]
-#[repr(C)] // See `Robot`.
 pub(crate) struct Timeline {
     base: Point,
     /// In order of time, not before `base`.
@@ -70,13 +67,6 @@ impl Timeline {
         let place = self.events.iter().position(|event| event.at > at).unwrap_or(self.events.len());
         // Fits: room was made above.
         let _ = self.events.insert(place, Event { at, hold });
-    }
-
-    /// Names something in each cache line that every step looks at: see `Robot::fetch`.
-    #[inline]
-    pub(crate) fn fetch(&self, processor: &impl Processor) {
-        processor.fetch(&self.base);
-        processor.fetch(&self.events);
     }
 
     /// Whether no resume is known of that comes after this moment.

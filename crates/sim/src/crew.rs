@@ -1,7 +1,7 @@
 //! Robots: the real firmware core in simulated bodies, each with its own clock.
 
 use lightbots_base::{Instant, Pose, Rgb, RobotId, Span, Vec2};
-use lightbots_robot::{Config, Fix, Inputs, Message, Processor, Robot, Shelf};
+use lightbots_robot::{Config, Fix, Inputs, Message, Robot, RouteStorage};
 use lightbots_show::Stage;
 use lightbots_wire::{RobotState, Topic};
 
@@ -9,8 +9,8 @@ use crate::brakes::{BrakeCounts, Brakes};
 use crate::conditions::Conditions;
 use crate::dice::{Dice, Purpose};
 use crate::errors::Errors;
-use crate::memory::ThisProcessor;
 use crate::original::{Deeds, Original};
+use crate::prefetch::prefetch;
 use crate::proximity::Proximity;
 use crate::said::Said;
 use crate::sensors::Sensors;
@@ -22,9 +22,9 @@ const CLOCK_BEGIN_US: u64 = 3_600_000_000;
 const STEPS_PER_PERCENT: u64 = 11_250;
 /// Up to so many robots it does not pay to fetch them ahead: the processor still has them at hand from the step before.
 const CACHED: usize = 1_500;
-/// So many turns ahead of a robot's own it is fetched: first what says whether it is ours, then what says whether it has a
-/// route under way, then what its step looks at. To look at any of that earlier would be to wait for it.
-const AHEAD: [usize; 3] = [6, 4, 2];
+/// How many turns ahead a robot is prefetched: first its begin, which tells whether it runs our firmware, then the state of
+/// its step. To read the begin any earlier would be to wait for memory.
+const AHEAD: [usize; 2] = [5, 2];
 
 /// N robots on a floor.
 pub(crate) struct Crew {
@@ -42,7 +42,7 @@ pub(crate) struct Crew {
     said: Said,
 }
 
-/// As declared, so that what each step looks at lies together, and in the same cache lines of each.
+/// As declared: the first cache line has what says what it is.
 #[repr(C, align(64))]
 struct Member {
     id: RobotId,
@@ -58,7 +58,7 @@ struct Member {
 
 /// Our firmware with its routes apart: a step reads next to nothing of them, and what it reads of ten thousand robots
 /// should lie together.
-pub(crate) type Ours = Robot<Box<Shelf>>;
+pub(crate) type Ours = Robot<Box<RouteStorage>>;
 
 /// Who decides what a body does.
 #[expect(clippy::large_enum_variant, reason = "nearly all robots are ours, and looked at in order")]
@@ -159,33 +159,28 @@ impl Crew {
         }
     }
 
-    /// Fetches a robot from memory before it hears something, where the processor does not have it at hand.
+    /// Prefetches a robot that is about to receive a message, where the processor does not have it at hand.
     #[inline]
-    pub fn fetch_listener(&self, robot: usize) {
+    pub fn prefetch_receiver(&self, robot: usize) {
         if self.members.len() > self.cached {
-            self.fetch(robot);
+            self.prefetch_state(robot);
         }
     }
 
-    /// Fetches a robot from memory before it is needed.
     #[inline]
-    fn fetch(&self, robot: usize) {
-        if let Some(Member { clock, mind: Mind::Ours(robot), .. }) = self.members.get(robot) {
-            ThisProcessor.fetch(clock);
-            robot.fetch(&ThisProcessor);
+    fn prefetch_state(&self, robot: usize) {
+        if let Some(Member { mind: Mind::Ours(robot), .. }) = self.members.get(robot) {
+            prefetch(robot.hot());
         }
     }
 
-    /// Fetches those whose turns come, each a little further.
+    /// Prefetches the robots whose turns come.
     #[inline]
-    fn fetch_next(&self, [new, known, near]: [usize; 3]) {
-        if let Some(member) = self.members.get(new) {
-            ThisProcessor.fetch(&member.mind);
+    fn prefetch_next(&self, [later, soon]: [usize; 2]) {
+        if let Some(member) = self.members.get(later) {
+            prefetch(&member.id);
         }
-        if let Some(Member { mind: Mind::Ours(robot), .. }) = self.members.get(known) {
-            robot.fetch_first(&ThisProcessor);
-        }
-        self.fetch(near);
+        self.prefetch_state(soon);
     }
 
     /// Says what a robot has to say now.
@@ -247,14 +242,14 @@ impl Crew {
         } else if self.steps.is_multiple_of(2) && self.sensors.in_any_order() {
             let mut said = core::mem::take(&mut self.said);
             for index in (0..count).rev() {
-                self.fetch_next(AHEAD.map(|turns| index.wrapping_sub(turns)));
+                self.prefetch_next(AHEAD.map(|turns| index.wrapping_sub(turns)));
                 self.turn(now, index, &mut |robot, topic, text| said.push(robot, topic, text));
             }
             said.drain(hear);
             self.said = said;
         } else {
             for index in 0..count {
-                self.fetch_next(AHEAD.map(|turns| index + turns));
+                self.prefetch_next(AHEAD.map(|turns| index + turns));
                 self.turn(now, index, hear);
             }
         }
@@ -336,7 +331,7 @@ impl Member {
         let mind = if original {
             Mind::Original(Original::new(id))
         } else {
-            Mind::Ours(Ours::with_shelf(config, Box::default()))
+            Mind::Ours(Ours::with_storage(config, Box::default()))
         };
         Self { mind, id, clock, battery, light: Rgb::BLACK, stuck: false, blind: false }
     }

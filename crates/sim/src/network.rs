@@ -5,12 +5,11 @@ use std::collections::BinaryHeap;
 use std::rc::Rc;
 
 use lightbots_base::{Instant, Span};
-use lightbots_robot::Processor;
 use lightbots_wire::Topic;
 
 use crate::conditions::LinkConditions;
 use crate::dice::{Dice, Purpose};
-use crate::memory::ThisProcessor;
+use crate::prefetch::prefetch;
 
 /// The most messages that are under way, for each robot and for all together on top; more are lost.
 const UNDER_WAY_PER_ROBOT: usize = 64;
@@ -108,7 +107,7 @@ impl Network {
         let Reverse((at, _, slot, _)) = self.queue.pop()?;
         self.free.push(slot);
         if let Some(&Reverse((_, _, next, _))) = self.queue.peek() {
-            ThisProcessor.fetch(&self.slots[next as usize]);
+            prefetch(&self.slots[next as usize]);
         }
         Some((at, self.slots[slot as usize].take()?))
     }
@@ -143,7 +142,7 @@ impl Network {
         });
         self.slots[slot as usize] = Some(message);
         if let Some(&next) = self.free.last() {
-            ThisProcessor.fetch(&self.slots[next as usize]);
+            prefetch(&self.slots[next as usize]);
         }
         self.said += 1;
         let listener = if direction == 0 { robot as u32 } else { CONTROLLER };

@@ -131,7 +131,7 @@ impl Play {
                 let Some((at, message)) = self.network.next_until(until) else { return };
                 self.now = at.max(self.now);
                 if let Some(robot) = self.network.next_listener() {
-                    self.crew.fetch_listener(robot);
+                    self.crew.prefetch_receiver(robot);
                 }
                 match message.way {
                     Way::ToRobot(robot) if self.breakdowns.is_deaf(robot) => {}

@@ -48,11 +48,6 @@ impl Sensors {
         2.0 * self.radius_m
     }
 
-    /// Whether anything is in sight.
-    pub fn notice(&self, gaps_m: &[f32; SENSORS]) -> bool {
-        gaps_m.iter().any(|&gap_m| gap_m < self.range_m)
-    }
-
     /// What a sensor would read of a disc centred at `at`.
     pub fn expected(&self, sensor: usize, at: Point) -> Expected {
         let axis = self.axes[sensor];

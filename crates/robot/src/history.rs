@@ -10,7 +10,7 @@ type Turns = [f64; 2];
 
 /// The wheel turns of the last steps, oldest first.
 #[derive(Debug)]
-pub(crate) struct Trail {
+pub(crate) struct OdometryHistory {
     /// `(end of the step, turns)`, a ring.
     steps: [(Instant, Turns); STEPS],
     oldest: usize,
@@ -19,7 +19,7 @@ pub(crate) struct Trail {
     taken: Instant,
 }
 
-impl Trail {
+impl OdometryHistory {
     pub(crate) const fn new() -> Self {
         Self { steps: [(Instant::ZERO, [0.0; 2]); STEPS], oldest: 0, count: 0, taken: Instant::ZERO }
     }
@@ -68,23 +68,23 @@ mod tests {
 
     #[test]
     fn steps_come_out_in_order_when_they_are_old_enough() {
-        let mut trail = Trail::new();
+        let mut history = OdometryHistory::new();
         for step in 1..=5u32 {
-            assert_eq!(trail.add(Instant(u64::from(step) * 16_000), [f64::from(step); 2]), None);
+            assert_eq!(history.add(Instant(u64::from(step) * 16_000), [f64::from(step); 2]), None);
         }
-        assert_eq!(trail.take_until(Instant(15_999)), None);
-        assert_eq!(trail.take_until(Instant(40_000)), Some([1.0; 2]));
-        assert_eq!(trail.take_until(Instant(40_000)), Some([2.0; 2]));
-        assert_eq!(trail.take_until(Instant(40_000)), None);
-        assert_eq!(trail.begun_by(Instant(40_000)), [1.5; 2]);
-        assert_eq!(trail.turns().map(|turns| turns[0]).sum::<f64>(), 12.0);
+        assert_eq!(history.take_until(Instant(15_999)), None);
+        assert_eq!(history.take_until(Instant(40_000)), Some([1.0; 2]));
+        assert_eq!(history.take_until(Instant(40_000)), Some([2.0; 2]));
+        assert_eq!(history.take_until(Instant(40_000)), None);
+        assert_eq!(history.begun_by(Instant(40_000)), [1.5; 2]);
+        assert_eq!(history.turns().map(|turns| turns[0]).sum::<f64>(), 12.0);
     }
 
     #[test]
     fn what_is_longer_ago_than_remembered_is_pushed_out() {
-        let mut trail = Trail::new();
-        let out = (0..100u32).filter_map(|step| trail.add(Instant(u64::from(step)), [f64::from(step); 2]));
+        let mut history = OdometryHistory::new();
+        let out = (0..100u32).filter_map(|step| history.add(Instant(u64::from(step)), [f64::from(step); 2]));
         assert_eq!(out.count(), 68);
-        assert_eq!(trail.turns().next(), Some([68.0; 2]));
+        assert_eq!(history.turns().next(), Some([68.0; 2]));
     }
 }

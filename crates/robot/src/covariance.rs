@@ -5,8 +5,6 @@
 
 use lightbots_base::Vec2;
 
-use crate::processor::Processor;
-
 /// Stage x and y, heading, slip of the left wheel; that of the right wheel lies apart.
 const X: usize = 0;
 const Y: usize = 1;
@@ -65,7 +63,7 @@ pub(crate) struct Gain {
 
 impl Gain {
     /// What x, y and heading off by so much correct together.
-    #[inline(never)] // As `Doubt::learn_one`.
+    #[inline(never)] // As `PoseCovariance::learn_one`.
     pub(crate) fn sum(gains: &[Self; 3], off: [f32; 3]) -> Self {
         let mut sum = Self::default();
         for (gain, off) in gains.iter().zip(off) {
@@ -78,8 +76,7 @@ impl Gain {
 
 /// The covariance.
 #[derive(Debug)]
-#[repr(C)] // See `Robot`.
-pub(crate) struct Doubt {
+pub(crate) struct PoseCovariance {
     /// What is asked for at every step, of the covariance as it is.
     place: f64,
     heading: f64,
@@ -89,7 +86,7 @@ pub(crate) struct Doubt {
     right_own: f32,
 }
 
-impl Doubt {
+impl PoseCovariance {
     /// Nothing is known of the pose, and slip up to this (1 sigma).
     pub(crate) fn new(slip: f64) -> Self {
         let mut rows = [[0.0; 4]; 4];
@@ -208,14 +205,6 @@ impl Doubt {
         self.place
     }
 
-    /// Names something in each cache line that every step looks at: see `Robot::fetch`.
-    #[inline]
-    pub(crate) fn fetch(&self, processor: &impl Processor) {
-        processor.fetch(&self.place);
-        processor.fetch(&self.rows[2]);
-        processor.fetch(&self.right_own);
-    }
-
     /// Variance of the heading.
     pub(crate) fn heading(&self) -> f64 {
         self.heading
@@ -233,7 +222,7 @@ fn add(row: &mut Row, share: f32, other: &Row) {
     row.iter_mut().zip(other).for_each(|(value, with)| *value += share * with);
 }
 
-/// Adds what x, y and heading take from the columns of heading and slip. On its own, as `Doubt::learn_one`.
+/// Adds what x, y and heading take from the columns of heading and slip. On its own, as `PoseCovariance::learn_one`.
 #[inline(never)]
 fn add_columns(row: &mut Row, with_right: f32, by: &[Row; 3]) {
     let (turn, left) = (row[HEADING], row[LEFT]);

@@ -10,12 +10,12 @@ const CLIP: f64 = 9.0;
 
 /// The noise of one sensor.
 #[derive(Debug)]
-pub(crate) struct Trust {
+pub(crate) struct NoiseEstimate {
     described: f64,
     seen: f64,
 }
 
-impl Trust {
+impl NoiseEstimate {
     /// As its type is described: variance.
     pub(crate) fn new(described: f64) -> Self {
         Self { described, seen: described }
@@ -40,7 +40,7 @@ mod tests {
 
     #[test]
     fn a_sensor_worse_than_described_is_trusted_less_and_a_better_one_as_described() {
-        let mut trust = Trust::new(4.0);
+        let mut trust = NoiseEstimate::new(4.0);
         for _ in 0..1000 {
             trust.learn(2.0 * 25.0);
         }

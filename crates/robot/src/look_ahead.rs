@@ -25,14 +25,14 @@ pub(crate) struct Ahead {
 
 /// What was last seen ahead.
 #[derive(Debug, Default)]
-pub(crate) struct Outlook {
+pub(crate) struct LookAhead {
     /// From which path time it was seen, and until which it need not be looked for anew.
     from: Span,
     until: Span,
     towards: Option<Vec2>,
 }
 
-impl Outlook {
+impl LookAhead {
     /// Where the route goes on from a path time within piece `index`, which begins at `begin`. `None` where it comes to
     /// its end, or goes on as it goes now.
     pub(crate) fn look(&mut self, route: &Route, (index, begin): (usize, Span), time: Span) -> Option<Ahead> {
@@ -100,7 +100,7 @@ mod tests {
     }
 
     fn look(route: &Route, index: usize, begin: i64, time: i64) -> Option<(Vec2, f64)> {
-        let ahead = Outlook::default().look(route, (index, Span(begin)), Span(time))?;
+        let ahead = LookAhead::default().look(route, (index, Span(begin)), Span(time))?;
         Some((ahead.towards, ahead.within_s))
     }
 
@@ -142,9 +142,9 @@ mod tests {
     fn what_was_seen_is_kept_until_it_comes() {
         let piece =
             Piece { duration: SECOND, c1: Vec2::ZERO, c2: Vec2::new(0.0, 0.2), end: Vec2::new(0.2, 0.2) };
-        let (route, mut outlook) = (route(&[piece]), Outlook::default());
-        let first = outlook.look(&route, (0, Span::ZERO), Span::ZERO).unwrap();
-        let then = outlook.look(&route, (0, Span::ZERO), Span(10_000)).unwrap();
+        let (route, mut look_ahead) = (route(&[piece]), LookAhead::default());
+        let first = look_ahead.look(&route, (0, Span::ZERO), Span::ZERO).unwrap();
+        let then = look_ahead.look(&route, (0, Span::ZERO), Span(10_000)).unwrap();
         assert_eq!(first.towards, then.towards);
         assert!((first.within_s - then.within_s - 0.01).abs() < 1e-9);
     }

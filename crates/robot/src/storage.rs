@@ -3,28 +3,28 @@
 use lightbots_base::Vec2;
 use lightbots_wire::{Neighbours, Pieces, Route};
 
-use crate::trail::Trail;
+use crate::history::OdometryHistory;
 
-/// Room for the route under way, for the one kept for later and for the trail: 20 KB, of which a step reads next to
+/// Room for the route under way, for the one kept for later and for the history: 20 KB, of which a step reads next to
 /// nothing.
 ///
 /// A [`crate::Robot`] holds it in itself, or is given one that lies elsewhere: where thousands of robots take turns,
 /// what each step needs of them then lies together.
 #[derive(Debug)]
-pub struct Shelf {
-    places: [Route; 2],
-    pub(crate) trail: Trail,
+pub struct RouteStorage {
+    slots: [Route; 2],
+    pub(crate) history: OdometryHistory,
 }
 
-/// One of the two places.
+/// one of the two slots.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Place {
+pub(crate) enum Slot {
     First,
     Second,
 }
 
-impl Shelf {
-    /// A shelf with nothing on it.
+impl RouteStorage {
+    /// A storage with nothing on it.
     pub const fn new() -> Self {
         const NOTHING: Route = Route {
             seq: 0,
@@ -33,12 +33,12 @@ impl Shelf {
             room_mm: None,
             neighbours: Neighbours::new(),
         };
-        Self { places: [NOTHING; 2], trail: Trail::new() }
+        Self { slots: [NOTHING; 2], history: OdometryHistory::new() }
     }
 
-    pub(crate) fn put(&mut self, place: Place, route: &Route) {
+    pub(crate) fn put(&mut self, slot: Slot, route: &Route) {
         let Route { seq, start, pieces, room_mm, neighbours } = route;
-        let free = &mut self.places[place as usize];
+        let free = &mut self.slots[slot as usize];
         (free.seq, free.start, free.room_mm) = (*seq, *start, *room_mm);
         free.pieces.clear();
         // Fits: both are as large. A copy of the whole would copy all the room that is not used.
@@ -49,18 +49,18 @@ impl Shelf {
         let _ = free.neighbours.knots.extend_from_slice(&neighbours.knots);
     }
 
-    pub(crate) fn at(&self, place: Place) -> &Route {
-        &self.places[place as usize]
+    pub(crate) fn at(&self, slot: Slot) -> &Route {
+        &self.slots[slot as usize]
     }
 }
 
-impl Default for Shelf {
+impl Default for RouteStorage {
     fn default() -> Self {
         Self::new()
     }
 }
 
-impl Place {
+impl Slot {
     pub(crate) fn other(self) -> Self {
         match self {
             Self::First => Self::Second,

@@ -18,15 +18,14 @@ pub(super) enum Verdict {
     /// It is left alone.
     Outlier,
     /// It says how far the filter is off.
-    Counts,
+    Inlier,
     /// It is the truth, whatever was believed.
-    Truth,
+    Jump,
 }
 
 /// What was odd lately, and when fixes came that were not.
 #[derive(Debug, Default)]
-#[repr(C)] // See `Robot`.
-pub(super) struct Judge {
+pub(super) struct OutlierGate {
     odd_off: Vec2,
     last_jump: Option<Instant>,
     /// When the last fix of the place and of the heading came that counted.
@@ -37,7 +36,7 @@ pub(super) struct Judge {
     senseless: bool,
 }
 
-impl Judge {
+impl OutlierGate {
     /// A place is so far off; by how much it may be is the variance of what is believed and of the fix's noise.
     #[inline]
     pub(super) fn place(&mut self, now: Instant, off: Vec2, believed: f64, noise: f64) -> Verdict {
@@ -60,7 +59,7 @@ impl Judge {
         }
         self.odd_places = 0;
         self.last_place = Some(now);
-        if odd || first { Verdict::Truth } else { Verdict::Counts }
+        if odd || first { Verdict::Jump } else { Verdict::Inlier }
     }
 
     /// A heading is so far off, likewise; the first is the truth.
@@ -75,7 +74,7 @@ impl Judge {
         }
         self.odd_headings = 0;
         self.last_heading = Some(now);
-        if odd || first { Verdict::Truth } else { Verdict::Counts }
+        if odd || first { Verdict::Jump } else { Verdict::Inlier }
     }
 
     /// When the last fix of the place came that counted.
@@ -102,27 +101,27 @@ mod tests {
 
     #[test]
     fn what_is_far_off_ten_times_in_a_row_is_the_truth() {
-        let mut judge = Judge::default();
+        let mut judge = OutlierGate::default();
         let mut place = |ms: u64, x: f64| judge.place(Instant(ms * 1000), Vec2::new(x, 0.0), 0.0, NOISE);
-        assert_eq!(place(0, 3.0), Verdict::Truth);
-        assert_eq!(place(1, 0.004), Verdict::Counts);
+        assert_eq!(place(0, 3.0), Verdict::Jump);
+        assert_eq!(place(1, 0.004), Verdict::Inlier);
         assert!((2..11).all(|ms| place(ms, 0.5) == Verdict::Outlier));
-        assert_eq!(place(11, 0.5), Verdict::Truth);
-        assert_eq!(place(12, 0.004), Verdict::Counts);
+        assert_eq!(place(11, 0.5), Verdict::Jump);
+        assert_eq!(place(12, 0.004), Verdict::Inlier);
         assert!(!judge.take_senseless());
         let again = |ms: u64| judge.place(Instant(ms * 1000), Vec2::new(0.5, 0.0), 0.0, NOISE);
-        assert_eq!((20..30).map(again).last(), Some(Verdict::Truth));
+        assert_eq!((20..30).map(again).last(), Some(Verdict::Jump));
         assert!(judge.take_senseless() && !judge.take_senseless());
     }
 
     #[test]
     fn headings_are_judged_likewise() {
-        let mut judge = Judge::default();
-        assert_eq!(judge.heading(Instant(1), 2.0, NOISE, true), Verdict::Truth);
-        assert_eq!(judge.heading(Instant(2), 0.05, NOISE, false), Verdict::Counts);
+        let mut judge = OutlierGate::default();
+        assert_eq!(judge.heading(Instant(1), 2.0, NOISE, true), Verdict::Jump);
+        assert_eq!(judge.heading(Instant(2), 0.05, NOISE, false), Verdict::Inlier);
         assert_eq!(judge.heading(Instant(3), 0.2, NOISE, false), Verdict::Outlier);
         assert_eq!(judge.last_heading(), Some(Instant(2)));
         let last = (0..9).map(|n| judge.heading(Instant(4 + n), 0.2, NOISE, false)).last();
-        assert_eq!(last, Some(Verdict::Truth));
+        assert_eq!(last, Some(Verdict::Jump));
     }
 }

@@ -1,0 +1,120 @@
+//! The second part of a step: what the wheels do.
+
+use core::borrow::BorrowMut;
+
+use lightbots_base::{Instant, Span, Vec2};
+
+use super::Robot;
+use crate::drive::{BodyPose, Setpoint};
+use crate::reflex::Wish;
+use crate::storage::RouteStorage;
+
+/// A robot without fixes does not report that it is there if the error of its place exceeds this, metres, 1 sigma. Below,
+/// a robot that loses its fixes at the end of a route never arrives. Above, it reports places it does not stand at.
+const SURE_M: f64 = 0.003;
+/// Without fixes a robot stands before the error of its place exceeds this, metres, 1 sigma. It is less than what makes it
+/// lost (20 mm). Below, it pauses for short outages. Above, it is lost and abandons its route.
+const PAUSE_M: f64 = 0.016;
+/// Without a compass a robot learns its heading by driving straight on at this speed, m/s. Below, the fixes' noise hides
+/// the direction for longer. Above, it leaves its place before it knows its heading.
+const CREEP_MPS: f64 = 0.08;
+
+impl<S: BorrowMut<RouteStorage>> Robot<S> {
+    /// Wheel rates until the next step, left and right, rad/s.
+    pub(super) fn act(&mut self, now: Instant, route_time: Option<Instant>, took: Span) -> [f64; 2] {
+        if self.hot.supervisor.faulty(now) || self.hot.supervisor.is_cut() {
+            return self.hot.drive.halt();
+        }
+        let wanted = if self.is_lost_now() { None } else { self.want(route_time, took) };
+        let wanted = if self.pauses() { Setpoint::default() } else { wanted.unwrap_or_default() };
+        let dt = took.as_secs();
+        let wheels = if self.hot.is_wary {
+            self.drive_warily(wanted, dt)
+        } else {
+            let hot = &mut self.hot;
+            hot.drive.gently = false;
+            hot.drive.step(wanted, hot.estimate.slip(), dt, &hot.limits)
+        };
+        self.arrive(route_time);
+        wheels
+    }
+
+    /// Drives as the safety layer allows.
+    fn drive_warily(&mut self, wanted: Setpoint, dt: f64) -> [f64; 2] {
+        let hot = &mut self.hot;
+        let most_mps = if hot.routes.under_way() {
+            let [speed_mps, told_mps] = [wanted.speed_mps, hot.drive.speed_mps()].map(|mps| mps as f32);
+            let wish = Wish { speed_mps, told_mps, dt: dt as f32 };
+            let named = hot.routes.names_neighbours(self.storage.borrow());
+            self.reflex.limit(wish, hot.routes.room_mm().filter(|_| !named))
+        } else {
+            self.reflex.forget();
+            None
+        };
+        hot.drive.gently = self.reflex.sees_strays();
+        let slip = hot.estimate.slip();
+        match (self.reflex.blocked_mps(), most_mps) {
+            // Held, it may turn on the spot for what comes.
+            (Some(0.0), _) if !hot.routes.rests_held() => hot.drive.halt(),
+            (Some(speed_mps), _) if !hot.routes.rests_held() => {
+                hot.drive.step(Setpoint { speed_mps, turn_radps: 0.0 }, slip, dt, &hot.limits)
+            }
+            (_, Some(most_mps)) => hot.drive.step_within(wanted, most_mps, slip, dt, &hot.limits),
+            (_, None) => hot.drive.step(wanted, slip, dt, &hot.limits),
+        }
+    }
+
+    /// Whether it had better stand until fixes come again, because it would be lost if it drove on.
+    fn pauses(&mut self) -> bool {
+        let hot = &mut self.hot;
+        hot.pauses = hot.quality.blind
+            && (hot.pauses || hot.estimate.error_at_worst_m(hot.drive.braking_m(&hot.limits)) > PAUSE_M);
+        hot.pauses
+    }
+
+    /// What it wants to do: the route under way, else the target, else turn towards what comes.
+    fn want(&mut self, route_time: Option<Instant>, took: Span) -> Option<Setpoint> {
+        let hot = &mut self.hot;
+        if !hot.routes.under_way() && hot.seek.is_none() && !hot.routes.keeps_one() {
+            return None;
+        }
+        if !hot.estimate.aligned() {
+            let drives = hot.routes.under_way() || hot.seek.is_some();
+            return drives.then_some(Setpoint { speed_mps: CREEP_MPS, turn_radps: 0.0 });
+        }
+        let body = BodyPose { at: hot.estimate.at(), facing: hot.estimate.facing() };
+        let soon = hot.drive.foresee(body, took.as_secs());
+        if let Some(time) = route_time.filter(|_| hot.routes.under_way()) {
+            let aside = if hot.is_wary {
+                let away = self.reflex.give_way(hot.routes.room_mm());
+                soon.facing * away.x + soon.facing.left() * away.y
+            } else {
+                Vec2::ZERO
+            };
+            return hot.routes.step(time + took, soon, aside, &hot.limits, self.storage.borrow());
+        }
+        match hot.seek.as_mut() {
+            Some(seek) => Some(seek.step(soon, &hot.limits)),
+            None => hot.routes.prepare(soon),
+        }
+    }
+
+    /// Reports once that it is there, when it stands there.
+    fn arrive(&mut self, route_time: Option<Instant>) {
+        let is_lost = self.is_lost_now();
+        let hot = &mut self.hot;
+        if !hot.drive.stands() || is_lost {
+            return;
+        }
+        if hot.quality.blind && hot.estimate.error_m() > SURE_M {
+            return;
+        }
+        let at = hot.estimate.at();
+        if let Some(route) = route_time.and_then(|time| hot.routes.finish(time, at)) {
+            hot.outbox.arrived(route);
+        }
+        if hot.seek.take_if(|seek| seek.reached(at)).is_some() {
+            hot.outbox.arrived(0);
+        }
+    }
+}

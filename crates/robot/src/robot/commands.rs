@@ -1,0 +1,86 @@
+//! What each command changes.
+
+use core::borrow::BorrowMut;
+
+use lightbots_base::{Instant, Vec2};
+use lightbots_wire::Command;
+
+use super::Robot;
+use crate::seek::Seek;
+use crate::storage::RouteStorage;
+
+/// Largest valid coordinate of a target, metres. It only has to exclude numbers that no floor reaches.
+const FAR_M: f64 = 1000.0;
+
+impl<S: BorrowMut<RouteStorage>> Robot<S> {
+    /// Whether it was built to understand a command.
+    pub(super) fn can(&self, command: &Command) -> bool {
+        let abilities = self.config.abilities;
+        match command {
+            Command::Target(_) | Command::Color(_) | Command::Uuid => true,
+            Command::Fade(_) => abilities.fade,
+            Command::Blink(_) => abilities.blink,
+            _ => abilities.route,
+        }
+    }
+
+    /// Handles a command. `personal`: it came on the robot's own topic.
+    pub(super) fn handle(&mut self, now: Instant, personal: bool, command: &Command) {
+        match *command {
+            Command::Target(goal) => self.take_target(goal),
+            Command::Color(colour) => {
+                self.light.set(colour);
+                self.hot.light_changes = true;
+            }
+            Command::Uuid => self.hot.outbox.introduce(),
+            Command::Route(ref route) => {
+                self.hot.routes.keep(route, self.storage.borrow_mut());
+                self.hot.outbox.report_status();
+            }
+            Command::Start { seq, at } => {
+                if self.hot.routes.start(seq, at, self.route_time(now)) || personal {
+                    self.hot.outbox.report_status();
+                }
+            }
+            Command::Hold { at } => self.hot.routes.note(at, true),
+            Command::Resume { at } => self.hot.routes.note(at, false),
+            Command::Stop => {
+                self.stop();
+                self.light.forget_waiting();
+            }
+            Command::Time(answer) => {
+                self.clock_filter.answer(&mut self.hot.clock, now, &answer);
+                if self.clock_filter.take_reset() {
+                    self.hot.routes.forget_moments();
+                }
+            }
+            Command::Fade(fade) => {
+                self.light.fade(self.hot.clock.show_time(now), fade);
+                self.hot.light_changes = true;
+            }
+            Command::Blink(blink) => {
+                self.light.blink(now, blink.over);
+                self.hot.light_changes = true;
+            }
+            Command::Status => self.hot.outbox.report_status(),
+        }
+    }
+
+    /// A target replaces the route and the target before. One beyond [`FAR_M`] is invalid: the robot stands.
+    fn take_target(&mut self, goal: Vec2) {
+        self.hot.routes.clear();
+        let makes_sense = goal.x.abs() <= FAR_M && goal.y.abs() <= FAR_M;
+        self.hot.seek = makes_sense.then(|| Seek::new(goal));
+        if !makes_sense {
+            self.unknown = self.unknown.saturating_add(1);
+            self.hot.drive.halt();
+        }
+    }
+
+    fn stop(&mut self) {
+        self.hot.routes.clear();
+        self.hot.seek = None;
+        self.hot.drive.halt();
+        self.hot.outbox.report_status();
+    }
+}

@@ -1,0 +1,86 @@
+//! Messages that the robot sends, and when there is something to report.
+
+use core::borrow::BorrowMut;
+
+use lightbots_base::{Instant, wrap};
+use lightbots_wire::{Blocked, Details, Report, RobotState, TimeQuestion, Topic};
+
+use super::{Message, Robot};
+use crate::outbox::Fact;
+use crate::reflex::Block;
+use crate::storage::RouteStorage;
+
+impl<S: BorrowMut<RouteStorage>> Robot<S> {
+    /// Writes the next message to send; `None`, and an empty message, when there is none.
+    #[inline]
+    pub fn outgoing(&mut self, out: &mut Message) -> Option<Topic> {
+        out.clear();
+        if self.hot.outbox.is_empty() { None } else { self.write_next(out) }
+    }
+
+    fn write_next(&mut self, out: &mut Message) -> Option<Topic> {
+        let at = self.place();
+        let fact = self.hot.outbox.take(at.is_some(), self.hot.takes_routes)?;
+        let (topic, route) = match fact {
+            Fact::Introduction => (Topic::Uuid, self.hot.routes.named()),
+            Fact::Arrival(route) => (Topic::Arrival, route),
+            Fact::Status => (Topic::Status, self.hot.routes.named()),
+            Fact::Question => {
+                let question = TimeQuestion { id: self.config.id, asked: self.hot.now };
+                return question.encode(out).ok().map(|()| Topic::Time);
+            }
+        };
+        let speaks_ours = self.config.abilities != Default::default();
+        // While it was cut, no report got out: the first one over the new link says it.
+        let was_cut = fact == Fact::Introduction && self.hot.supervisor.take_untold();
+        let state = if was_cut { RobotState::Cut } else { self.hot.state };
+        let details = speaks_ours.then(|| Details { route, state, ..self.details() });
+        Report { id: self.config.id, at, details }.encode(out).ok()?;
+        Some(topic)
+    }
+
+    /// What stands in its way.
+    pub(super) fn block(&self) -> Option<Block> {
+        if self.hot.is_wary { self.reflex.block() } else { None }
+    }
+
+    /// What stands in its way: gap, and direction in the stage.
+    pub(super) fn blocked(&self) -> Option<Blocked> {
+        let (block, pose) = (self.block()?, self.pose()?);
+        Some(Blocked { gap_m: block.gap_m, towards: wrap(pose.heading + block.towards) })
+    }
+
+    /// Notes what there is to report after a step.
+    pub(super) fn notice(&mut self, now: Instant) {
+        let hot = &mut self.hot;
+        if hot.takes_routes && hot.supervisor.is_up() && hot.clock.is_question_due(now) {
+            self.clock_filter.ask(&mut hot.clock, now);
+            hot.outbox.ask_time();
+        }
+        let knows_place = hot.state != RobotState::Lost && !self.is_lost_now();
+        let is_blind = self.hot.routes.under_way() && self.hot.quality.blind;
+        let err_m = is_blind.then(|| self.err_m());
+        let off_m = self.hot.routes.off_m();
+        self.hot.outbox.notice(now, self.hot.state, off_m, err_m, knows_place);
+        let towards = if self.hot.is_wary { self.blocked().map(|blocked| blocked.towards) } else { None };
+        self.hot.outbox.notice_block(towards);
+    }
+
+    fn details(&self) -> Details {
+        Details {
+            heading: self.pose().map(|pose| pose.heading),
+            battery: self.battery,
+            state: self.hot.state,
+            route: self.hot.routes.named(),
+            starts: self.hot.routes.starts().filter(|_| self.hot.clock.show_time(self.hot.now).is_some()),
+            off_m: self.hot.routes.off_m(),
+            err_m: self.place().map(|_| self.err_m()),
+            clock_us: self.clock_filter.error_us(&self.hot.clock, self.hot.now),
+            firmware: self.config.firmware.clone(),
+            abilities: self.config.abilities,
+            unknown: self.unknown,
+            blocked: self.blocked(),
+            simulated: self.config.simulated,
+        }
+    }
+}

@@ -1,0 +1,64 @@
+//! The first part of a step: what the sensors say.
+
+use core::borrow::BorrowMut;
+
+use lightbots_base::Instant;
+
+use super::{LONGEST_STEP, Robot};
+use crate::config::{Inputs, SENSORS};
+use crate::drive::BodyPose;
+use crate::routes::InSight;
+use crate::storage::RouteStorage;
+
+/// Neighbours this much beyond the range of the sensors may be in sight all the same, metres, because both are off their
+/// places. Below, the safety layer takes a planned neighbour for a stranger. Above, it compares more neighbours than it need.
+const OFF_PLAN_M: f64 = 0.025;
+/// Wheel turns count up to this multiple of what the motors can turn in the longest step. Beyond, the sensor is broken.
+const WHEEL_TURN_RESERVE: f64 = 2.0;
+
+impl<S: BorrowMut<RouteStorage>> Robot<S> {
+    pub(super) fn sense(&mut self, world: Instant, inputs: &Inputs, dt: f64) {
+        let hot = &mut self.hot;
+        let most = hot.limits.wheel_radps * LONGEST_STEP.as_secs() * WHEEL_TURN_RESERVE;
+        if inputs.wheel_turns_rad.iter().all(|turn| turn.abs() <= most) {
+            hot.estimate.advance(world, inputs.wheel_turns_rad, &mut self.storage.borrow_mut().history);
+            let sees = inputs.proximity_m.as_ref().filter(|gaps_m| is_any_within(gaps_m, hot.range_m));
+            if hot.is_wary || sees.is_some() {
+                self.sense_neighbours(inputs.wheel_turns_rad, sees, dt);
+            }
+            if self.hot.stall.sample(inputs.wheel_turns_rad, dt) {
+                self.hot.supervisor.fault(self.hot.now);
+            }
+        } else {
+            hot.supervisor.fault(hot.now);
+        }
+        if let Some(fix) = &inputs.fix {
+            self.hot.estimate.correct(world, fix, &self.storage.borrow().history);
+            if self.hot.estimate.take_senseless() {
+                self.hot.supervisor.fault(self.hot.now);
+            }
+        }
+        if let Some(percent) = inputs.battery {
+            self.battery = Some(percent.min(100));
+        }
+    }
+
+    /// Gives the safety layer the readings of the step, and the neighbours that the plan has in sight.
+    fn sense_neighbours(&mut self, [left, right]: [f64; 2], gaps_m: Option<&[f32; SENSORS]>, dt: f64) {
+        let hot = &mut self.hot;
+        let way_m = 0.5 * (left + right) * hot.limits.wheel_radius_m;
+        let turn_rad = (right - left) * hot.limits.wheel_radius_m / hot.limits.track_m;
+        let mut expected = InSight::new();
+        let body = BodyPose { at: hot.estimate.at(), facing: hot.estimate.facing() };
+        let sight_m = hot.limits.contact_m() + f64::from(hot.range_m) + OFF_PLAN_M;
+        hot.routes.expect(body, sight_m, self.storage.borrow(), &mut expected);
+        self.reflex.look(gaps_m, (way_m, turn_rad), dt, &expected, hot.estimate.error_m());
+        hot.is_wary = true;
+    }
+}
+
+/// Whether any reading is nearer than a distance. Compares all of them, because that is quicker than to stop at the first.
+#[inline]
+fn is_any_within(gaps_m: &[f32; SENSORS], range_m: f32) -> bool {
+    gaps_m.iter().fold(false, |any, &gap_m| any | (gap_m < range_m))
+}

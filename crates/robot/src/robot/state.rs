@@ -1,0 +1,125 @@
+//! What a robot reports of itself: place, certainty, activity and faults.
+
+use super::Robot;
+use crate::storage::RouteStorage;
+use core::borrow::BorrowMut;
+use lightbots_base::{Instant, Pose, RobotId, Span, Vec2};
+use lightbots_wire::RobotState;
+
+/// A robot whose fixes stay away reports how sure it will be of its place this much later. It is the time that a HOLD takes
+/// to reach all robots. Below, the others cannot stop before it is lost. Above, all robots wait for short outages.
+const FORESIGHT: Span = Span::from_millis(500);
+
+impl<S: BorrowMut<RouteStorage>> Robot<S> {
+    /// The estimated pose; `None` while place or heading are unknown.
+    pub fn pose(&self) -> Option<Pose> {
+        self.place().and_then(|_| self.hot.estimate.pose())
+    }
+
+    pub(super) fn place(&self) -> Option<Vec2> {
+        (!self.is_lost(self.hot.now - self.hot.lag)).then(|| self.hot.estimate.at())
+    }
+
+    /// The direction in body space of the neighbour for which the safety layer slows the robot in this step, radians; `None`:
+    /// the robot is free.
+    pub fn braking_towards(&self) -> Option<f64> {
+        if self.hot.is_wary { self.reflex.braking_towards() } else { None }
+    }
+
+    /// What the robot is doing.
+    pub fn state(&self) -> RobotState {
+        self.hot.state
+    }
+
+    /// The show clock at `now` of its own clock; `None` until it is synchronised.
+    pub fn show_time(&self, now: Instant) -> Option<Instant> {
+        self.hot.clock.show_time(now)
+    }
+
+    /// The show clock by which routes go on: that of the world the wheels are in.
+    pub(super) fn route_time(&self, now: Instant) -> Option<Instant> {
+        self.hot.clock.show_time(now).map(|show| show - self.hot.lag)
+    }
+
+    /// Distance from the place that the route says, metres; `None` without a route under way.
+    pub fn off_m(&self) -> Option<f64> {
+        self.hot.routes.off_m()
+    }
+
+    /// The route's place one step after the latest, stage metres; `None` without a route under way.
+    pub fn route_place(&self) -> Option<Vec2> {
+        self.hot.routes.due()
+    }
+
+    /// Expected error of the estimated place, 1 sigma in each coordinate, metres.
+    pub fn place_error_m(&self) -> f64 {
+        self.hot.estimate.error_m()
+    }
+
+    /// Expected error of the place, metres: [`FORESIGHT`] from now where fixes stay away, otherwise now.
+    pub(super) fn err_m(&self) -> f64 {
+        let way_m =
+            if self.is_blind() { self.hot.routes.way_ahead_m(FORESIGHT, self.storage.borrow()) } else { 0.0 };
+        let err_m = self.hot.estimate.error_after_m(way_m);
+        libm::round(err_m * 1e4) / 1e4
+    }
+
+    /// Whether the pose is too uncertain to drive. A robot that is held needs to know it less well.
+    pub(super) fn is_lost(&self, now: Instant) -> bool {
+        if self.hot.routes.rests_held() {
+            self.hot.estimate.lost_for_good(now)
+        } else {
+            self.hot.estimate.lost(now)
+        }
+    }
+
+    /// [`Self::is_lost`] as of the step under way.
+    pub(super) fn is_lost_now(&self) -> bool {
+        if self.hot.routes.rests_held() { self.hot.quality.lost_for_good } else { self.hot.quality.lost }
+    }
+
+    /// Whether fixes that should have come stay away.
+    pub(super) fn is_blind(&self) -> bool {
+        self.hot.estimate.is_blind(self.hot.now - self.hot.lag, self.hot.blind_after)
+    }
+
+    /// The robot's name.
+    pub fn id(&self) -> RobotId {
+        self.config.id
+    }
+
+    /// Unknown and invalid commands since power-on.
+    pub fn unknown(&self) -> u32 {
+        self.unknown
+    }
+
+    pub(super) fn current_state(&self, route_time: Option<Instant>) -> RobotState {
+        if self.hot.supervisor.is_faulty() {
+            RobotState::Faulty
+        } else if self.hot.supervisor.is_cut() {
+            RobotState::Cut
+        } else if self.is_lost_now() {
+            RobotState::Lost
+        } else if self.hot.routes.held(route_time) {
+            RobotState::Held
+        } else if self.hot.routes.under_way() || self.hot.seek.is_some() {
+            RobotState::Driving
+        } else if self.hot.routes.keeps_one() {
+            RobotState::Ready
+        } else {
+            RobotState::Idle
+        }
+    }
+
+    /// What is wrong, in flashes of the light; 0: nothing. An original robot never flashes.
+    pub(super) fn trouble(&self, now: Instant) -> u8 {
+        match self.hot.state {
+            _ if !self.hot.shows_trouble => 0,
+            RobotState::Faulty => 3,
+            RobotState::Cut => 2,
+            RobotState::Lost => 1,
+            _ if self.hot.supervisor.is_down(now) => 2,
+            _ => 0,
+        }
+    }
+}
