@@ -23,6 +23,7 @@
 pub mod assignment;
 mod bindings;
 mod cancel;
+mod explain;
 mod instance;
 mod mapf;
 mod margins;
@@ -42,6 +43,7 @@ pub mod unsynchronised;
 
 pub use bindings::{BindingIssue, Bindings, BoundFrame, Claims};
 pub use cancel::Cancelled;
+pub use explain::{ExplainedRow, Explanation, RowOutcome};
 pub use motion::turn_time;
 pub use problem::{Closest, Infeasible, Meeting, Path, Repaired, Transition, TransitionProblem};
 pub use raise::{raise, raise_unless};

@@ -61,7 +61,7 @@ pub(crate) struct Approach {
 }
 
 /// How far all shall stay apart.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 pub(crate) struct Clearances {
     /// Centres of robots, metres.
     pub robots_m: f64,

@@ -8,7 +8,7 @@ use crate::cancel::{Cancel, Cancelled, unless};
 use crate::proof::stop_safe::{StopSafety, UnsafeMoment};
 use crate::raise::raised;
 use crate::transition::attempt;
-use crate::{Bindings, Closest, Transition, TransitionProblem};
+use crate::{Bindings, Closest, Explanation, Transition, TransitionProblem};
 use lightbots_base::{Span, Vec2};
 use lightbots_show::{Frame, Identity, Issue, Issues, Show, validate};
 use std::collections::BTreeMap;
@@ -44,6 +44,8 @@ pub struct ShowPlan {
     pub closest: Option<ShowClosest>,
     /// `stop_safety[k]`: at which moments of transition k robots may stop dead.
     pub stop_safety: Vec<StopSafety>,
+    /// `explanations[k]`: the solvers that ran for transition k, and why its plan was chosen.
+    pub explanations: Vec<Explanation>,
 }
 
 /// The closest two centres of a show.
@@ -123,6 +125,7 @@ fn chained(show: &Show, starts: &[Vec2], options: &ShowOptions, cancel: Cancel<'
             Some(_) => StopSafety::default(),
         };
         plan.stop_safety.push(safety);
+        plan.explanations.push(attempt.explanation);
         if let Some(infeasible) = attempt.infeasible
             && !plan.issues[found_before..].iter().any(Issue::is_error)
         {

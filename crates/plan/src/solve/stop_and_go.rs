@@ -8,42 +8,39 @@ use crate::instance::Instance;
 use crate::mapf::lacam::search;
 use crate::mapf::roadmap_pibt::RoadmapPibt;
 use crate::mapf::shortening::shorten;
-use crate::margins::EDGE_M;
 use crate::motion::stop_and_go::timed_paths;
 use crate::roads::lattice::NONE;
 use crate::roads::roadmap::Roadmap;
 use crate::roads::visibility::VisibilityGraph;
 
-/// Distance of lattice nodes, metres: coarse first; and how far they are off the floor's edge if they can.
-const PITCHES_M: [(f64, f64); 3] = [(0.072, EDGE_M), (0.05, EDGE_M), (0.036, 0.0)];
-/// Looks at pairs of moves in all: some seconds for crowds that nobody gets through.
-const MOST_LOOKS: usize = 120_000_000;
+/// Most pairs of moves to look at in all rows: some seconds for a fleet without a solution.
+pub(super) const MOST_LOOKS: usize = 120_000_000;
 
-/// Paths with stops; `None` where nothing was found.
-pub(crate) fn stop_and_go(
+/// Stop-and-go trajectories over a roadmap, given by its pitch and its distance from the floor's edge, metres; `None` where
+/// none were found. Uses up `looks`.
+pub(super) fn stop_and_go(
     instance: &Instance,
     visibility: &VisibilityGraph,
-    wished: Option<Span>,
+    (pitch_m, off_edge_m): (f64, f64),
+    asked: Option<Span>,
+    looks: &mut usize,
 ) -> Option<Repaired> {
-    let mut looks = MOST_LOOKS;
-    PITCHES_M.iter().find_map(|&(pitch_m, off_edge_m)| {
-        let roads = Roadmap::new(instance, visibility, pitch_m, off_edge_m.min(instance.off_edge_m))?;
-        let goals: Vec<u32> = roads.ends.iter().map(|end| end.unwrap_or(NONE)).collect();
-        let mut pibt = RoadmapPibt::new(instance, &roads, looks);
-        let steps = search(&mut pibt, &roads.starts, &goals);
-        looks = pibt.looks_left();
-        let steps = steps?;
-        let steps = shorten(&pibt, &roads, steps);
-        let place = |node: &u32| roads.places[*node as usize];
-        let waypoints: Vec<Vec<Vec2>> = steps.iter().map(|step| step.iter().map(place).collect()).collect();
-        timed_paths(instance, &waypoints, wished)
-    })
+    let roads = Roadmap::new(instance, visibility, pitch_m, off_edge_m.min(instance.off_edge_m))?;
+    let goals: Vec<u32> = roads.ends.iter().map(|end| end.unwrap_or(NONE)).collect();
+    let mut pibt = RoadmapPibt::new(instance, &roads, *looks);
+    let steps = search(&mut pibt, &roads.starts, &goals);
+    *looks = pibt.looks_left();
+    let steps = shorten(&pibt, &roads, steps?);
+    let place = |node: &u32| roads.places[*node as usize];
+    let waypoints: Vec<Vec<Vec2>> = steps.iter().map(|step| step.iter().map(place).collect()).collect();
+    timed_paths(instance, &waypoints, asked)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::TransitionProblem;
+    use crate::margins::EDGE_M;
     use crate::motion::quarter_turn;
     use crate::proof::prove;
     use crate::seeded::Seeded;
@@ -63,6 +60,14 @@ mod tests {
         }
     }
 
+    /// The first pitch that leads to trajectories.
+    fn any_pitch(instance: &Instance, asked: Option<Span>) -> Option<Repaired> {
+        let (visibility, mut looks) = (VisibilityGraph::new(instance), MOST_LOOKS);
+        [(0.072, EDGE_M), (0.05, EDGE_M), (0.036, 0.0)]
+            .into_iter()
+            .find_map(|roadmap| stop_and_go(instance, &visibility, roadmap, asked, &mut looks))
+    }
+
     fn scene_of(problem: &TransitionProblem) -> Instance<'static> {
         Instance::new(problem, &(0..problem.starts.len()).map(Some).collect::<Vec<_>>()).unwrap()
     }
@@ -72,7 +77,7 @@ mod tests {
         for (side, apart_m) in [(3, 0.08), (5, 0.1), (6, 0.09)] {
             let problem = shuffled(side, apart_m);
             let instance = scene_of(&problem);
-            let found = stop_and_go(&instance, &VisibilityGraph::new(&instance), None).expect("a way");
+            let found = any_pitch(&instance, None).expect("a way");
             let proof = prove(&problem.to_prove(&found.paths));
             assert!(proof.holds(), "{side}: {:?} {:?}", proof.conflicts, proof.faults);
             for (path, goal) in found.paths.iter().zip(&problem.goals) {
@@ -85,10 +90,9 @@ mod tests {
     fn stops_are_as_slow_as_is_wished_for() {
         let problem = shuffled(2, 0.1);
         let instance = scene_of(&problem);
-        let visibility = VisibilityGraph::new(&instance);
-        let quick = stop_and_go(&instance, &visibility, None).unwrap();
-        assert_eq!(stop_and_go(&instance, &visibility, Some(quick.least)).unwrap(), quick);
-        let slow = stop_and_go(&instance, &visibility, Some(quick.least + quick.least)).unwrap();
+        let quick = any_pitch(&instance, None).unwrap();
+        assert_eq!(any_pitch(&instance, Some(quick.least)).unwrap(), quick);
+        let slow = any_pitch(&instance, Some(quick.least + quick.least)).unwrap();
         let late = slow.paths[0].as_ref().duration() - quick.least - quick.least;
         assert!(late >= Span::ZERO && late < quarter_turn(&instance.limits) / 100, "{late:?}");
         assert!(slow.least == quick.least && prove(&problem.to_prove(&slow.paths)).holds());
@@ -100,6 +104,6 @@ mod tests {
         let (a, b) = (Vec2::new(-0.2, 0.0), Vec2::new(0.2, 0.0));
         let floor = TransitionProblem::on_floor(Vec2::new(0.3, 0.05), Limits::ELISA_3);
         let instance = scene_of(&TransitionProblem { starts: vec![a, b], goals: vec![b, a], ..floor });
-        assert_eq!(stop_and_go(&instance, &VisibilityGraph::new(&instance), None), None);
+        assert_eq!(any_pitch(&instance, None), None);
     }
 }

@@ -1,9 +1,10 @@
 //! Whole repairs, judged by the proof.
 
 use super::*;
+use crate::motion::quarter_turn;
 use crate::proof::prove;
 use crate::seeded::Seeded;
-use lightbots_base::{Limits, Vec2};
+use lightbots_base::{Limits, Span, Vec2};
 use lightbots_show::Obstacle;
 
 /// `count` places at least `apart` metres from each other on a floor of 2 · `half` a side.

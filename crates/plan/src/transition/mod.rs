@@ -16,9 +16,9 @@ pub(crate) use spares::distance_to;
 
 use crate::assignment::Choice;
 use crate::cancel::{Cancel, Cancelled, unless};
-use crate::proof::{Proof, prove_unless};
-use crate::solve::repair_unless;
-use crate::{Infeasible, Repaired, Transition, TransitionProblem};
+use crate::proof::prove_unless;
+use crate::solve::{self, Outcome};
+use crate::{Explanation, Infeasible, Meeting, Repaired, Transition, TransitionProblem};
 use candidate::Candidate;
 use reachability::Walls;
 use straight::straight_lines;
@@ -43,9 +43,16 @@ pub(crate) struct Attempt {
     pub transition: Transition,
     /// Why it must not be driven.
     pub infeasible: Option<Infeasible>,
+    /// The solvers that ran.
+    pub explanation: Explanation,
 }
 
 impl Attempt {
+    /// A drawing that must not be driven.
+    fn infeasible(transition: Transition, why: Infeasible) -> Self {
+        Self { transition, infeasible: Some(why), explanation: Explanation::default() }
+    }
+
     fn into_result(self) -> Result<Transition, Infeasible> {
         match self.infeasible {
             None => Ok(self.transition),
@@ -57,12 +64,12 @@ impl Attempt {
 /// The best transition that can be found, proven or not.
 pub(crate) fn attempt(problem: &TransitionProblem, cancel: Cancel<'_>) -> Attempt {
     if let Err(infeasible) = feasibility::measurable(problem) {
-        return Attempt { transition: candidate::unmoved(problem), infeasible: Some(infeasible) };
+        return Attempt::infeasible(candidate::unmoved(problem), infeasible);
     }
     let impossible = feasibility::possible(problem).err();
     let Some(choice) = Choice::unless(cancel, &problem.starts, &problem.goals, &problem.pinned) else {
         let infeasible = impossible.unwrap_or_else(|| feasibility::pins(problem));
-        return Attempt { transition: candidate::standing_still(problem), infeasible: Some(infeasible) };
+        return Attempt::infeasible(candidate::standing_still(problem), infeasible);
     };
     let lower_bound_s = choice.bottleneck_m() / problem.limits.speed_mps.max(1e-3);
     let mut attempt = match reachability::look(problem, cancel) {
@@ -77,7 +84,7 @@ pub(crate) fn attempt(problem: &TransitionProblem, cancel: Cancel<'_>) -> Attemp
                 || candidate::standing_still(problem),
                 |start_of| Candidate::straight(problem, &start_of, cancel).transition,
             );
-            Attempt { transition, infeasible: Some(infeasible) }
+            Attempt::infeasible(transition, infeasible)
         }
     };
     // Where spare robots wait is nobody's goal.
@@ -89,60 +96,64 @@ pub(crate) fn attempt(problem: &TransitionProblem, cancel: Cancel<'_>) -> Attemp
     attempt
 }
 
-/// The best transition between places that ways lead between.
+/// The best transition between places in one region of the floor.
 fn solve(problem: &TransitionProblem, choice: &Choice, cancel: Cancel<'_>) -> Attempt {
-    if choice.spares() == 0 {
-        return settle(problem, choice, cancel);
-    }
-    with_spares(problem, choice, cancel).unwrap_or_else(|| Attempt {
-        transition: candidate::standing_still(problem),
-        infeasible: Some(feasibility::pins(problem)),
+    let found = if choice.spares() == 0 {
+        settle(problem, choice, cancel)
+    } else {
+        with_spares(problem, choice, cancel)
+    };
+    found.unwrap_or_else(|| {
+        Attempt::infeasible(candidate::standing_still(problem), feasibility::pins(problem))
     })
 }
 
-/// With more robots than goals: gives the spare ones places to wait first.
+/// With more robots than goals: the spare robots get places to wait first.
 fn with_spares(problem: &TransitionProblem, choice: &Choice, cancel: Cancel<'_>) -> Option<Attempt> {
     let start_of = choice.least_squares().solve(0.0)?;
     let (whole, start_of) = spares::with_spares(problem, start_of, cancel);
     let choice = Choice::containing(cancel, &whole.starts, &whole.goals, &whole.pinned, &start_of)?;
-    Some(settle(&whole, &choice, cancel))
+    settle(&whole, &choice, cancel)
 }
 
-/// Straight lines if the proof can be made to hold, else what repair makes of them. Every robot has a goal here.
-fn settle(problem: &TransitionProblem, choice: &Choice, cancel: Cancel<'_>) -> Attempt {
-    match straight_lines(problem, choice, cancel) {
-        Some(candidate) if candidate.holds() => {
-            Attempt { transition: candidate.transition, infeasible: None }
-        }
-        Some(candidate) if feasibility::possible(problem).is_ok() => mend(problem, candidate, cancel),
-        Some(Candidate { transition, proof, .. }) => {
-            let infeasible = Some(conflict::infeasible(problem, &transition, &proof, Vec::new()));
-            Attempt { transition, infeasible }
-        }
-        None => Attempt {
-            transition: candidate::standing_still(problem),
-            infeasible: Some(feasibility::pins(problem)),
-        },
+/// Straight lines if the proof holds for them, else what the schedule of solvers makes of them. Every robot has a goal
+/// here. `None` where there is no assignment.
+fn settle(problem: &TransitionProblem, choice: &Choice, cancel: Cancel<'_>) -> Option<Attempt> {
+    let mut explanation = Explanation::default();
+    let candidate = straight_lines(problem, choice, cancel, &mut explanation)?;
+    if candidate.holds() {
+        return Some(Attempt { transition: candidate.transition, infeasible: None, explanation });
     }
-}
-
-/// What repair makes of straight lines that conflict.
-fn mend(problem: &TransitionProblem, conflicting: Candidate, cancel: Cancel<'_>) -> Attempt {
-    let goal_of = &conflicting.transition.goal_of;
-    let repaired = repair_unless(problem, goal_of, cancel).and_then(|Repaired { paths, least }| {
-        let proof = Some(prove_unless(&problem.to_prove(&paths), cancel))
-            .filter(Proof::holds)
-            .ok_or_else(Vec::new)?;
-        let duration = paths.iter().map(|path| path.as_ref().duration()).max().unwrap_or(least);
-        let (goal_of, closest) = (goal_of.clone(), proof.closest);
-        Ok(Transition { goal_of, paths, duration, least, lower_bound_s: 0.0, closest })
-    });
-    match repaired {
-        Ok(transition) => Attempt { transition, infeasible: None },
+    let result = if feasibility::possible(problem).is_ok() {
+        let Outcome { result, explanation: rows } =
+            solve::solve(problem, &candidate.transition.goal_of, cancel);
+        explanation.append(rows);
+        result.and_then(|found| proven(problem, &candidate.transition, found, cancel))
+    } else {
+        Err(Vec::new())
+    };
+    Some(match result {
+        Ok(transition) => Attempt { transition, infeasible: None, explanation },
         Err(left) => {
-            let infeasible =
-                Some(conflict::infeasible(problem, &conflicting.transition, &conflicting.proof, left));
-            Attempt { transition: conflicting.transition, infeasible }
+            let Candidate { transition, proof, .. } = candidate;
+            let infeasible = Some(conflict::infeasible(problem, &transition, &proof, left));
+            Attempt { transition, infeasible, explanation }
         }
+    })
+}
+
+/// The transition of solved paths, if the proof holds.
+fn proven(
+    problem: &TransitionProblem,
+    straight: &Transition,
+    Repaired { paths, least }: Repaired,
+    cancel: Cancel<'_>,
+) -> Result<Transition, Vec<Meeting>> {
+    let proof = prove_unless(&problem.to_prove(&paths), cancel);
+    if !proof.holds() {
+        return Err(Vec::new());
     }
+    let duration = paths.iter().map(|path| path.as_ref().duration()).max().unwrap_or(least);
+    let (goal_of, closest) = (straight.goal_of.clone(), proof.closest);
+    Ok(Transition { goal_of, paths, duration, least, lower_bound_s: 0.0, closest })
 }

@@ -5,6 +5,7 @@ use super::deform::deform;
 use crate::TransitionProblem;
 use crate::assignment::Choice;
 use crate::cancel::Cancel;
+use crate::explain::{Explanation, RowOutcome};
 
 /// Shares by which the longest way may exceed the bottleneck, tried in turn.
 const SLACKS: [f64; 7] = [0.0, 0.01, 0.02, 0.04, 0.07, 0.1, 0.15];
@@ -17,6 +18,7 @@ pub(super) fn straight_lines(
     problem: &TransitionProblem,
     choice: &Choice,
     cancel: Cancel<'_>,
+    explanation: &mut Explanation,
 ) -> Option<Candidate> {
     let mut minimiser = choice.least_squares();
     let mut best: Option<Candidate> = None;
@@ -34,6 +36,10 @@ pub(super) fn straight_lines(
         let is_fine = straight.is_comfortable();
         let candidate = if is_fine { straight } else { deform(problem, &start_of, straight, rounds, cancel) };
         before = Some(start_of);
+        explanation.add(format!("straight lines, slack {:.0} %", slack * 1e2), outcome(&candidate));
+        if candidate.holds() {
+            explanation.choose("straight lines without contacts");
+        }
         if candidate.holds() || choice.is_settled() {
             return Some(candidate);
         }
@@ -42,4 +48,11 @@ pub(super) fn straight_lines(
         }
     }
     best
+}
+
+fn outcome(candidate: &Candidate) -> RowOutcome {
+    match candidate.wrong {
+        0 => RowOutcome::Solved { duration: candidate.transition.least, stop_safe_percent: None },
+        contacts => RowOutcome::Rejected { contacts },
+    }
 }

@@ -1,0 +1,82 @@
+//! Why a transition has the plan it has: the rows of the schedule that ran, and the reason for the choice.
+
+use core::fmt;
+
+use lightbots_base::Span;
+
+/// What the planner tried for one transition.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Explanation {
+    /// Solvers in the order in which they ran.
+    pub rows: Vec<ExplainedRow>,
+    /// The row whose plan was chosen; `None`: no plan.
+    pub chosen: Option<usize>,
+    /// Why that row, one line.
+    pub reason: String,
+}
+
+/// One row of the schedule that ran.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ExplainedRow {
+    /// Solver and parameters, a few words.
+    pub solver: String,
+    /// What it came to.
+    pub outcome: RowOutcome,
+}
+
+/// What a row of the schedule came to.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum RowOutcome {
+    /// Its condition does not hold; the text says which.
+    Skipped(&'static str),
+    /// It has no first guess: a search found no path, or there are no nodes.
+    NoGuess,
+    /// It left contacts or illegal motion of this many robots and pairs.
+    Rejected {
+        /// Number of contacts and faults; 0 where only the proof's verdict is known.
+        contacts: usize,
+    },
+    /// A plan that the proof accepts.
+    Solved {
+        /// How long it takes at full speed.
+        duration: Span,
+        /// Its stop-safe share in percent; `None` where no other candidate was left to compare it with.
+        stop_safe_percent: Option<u8>,
+    },
+}
+
+impl Explanation {
+    /// Adds a row.
+    pub(crate) fn add(&mut self, solver: String, outcome: RowOutcome) {
+        self.rows.push(ExplainedRow { solver, outcome });
+    }
+
+    /// The last row is the choice.
+    pub(crate) fn choose(&mut self, reason: &str) {
+        (self.chosen, self.reason) = (self.rows.len().checked_sub(1), reason.into());
+    }
+
+    /// Adds the rows of another attempt at the same transition; its choice counts.
+    pub(crate) fn append(&mut self, later: Self) {
+        let before = self.rows.len();
+        self.rows.extend(later.rows);
+        self.chosen = later.chosen.map(|row| before + row);
+        self.reason = later.reason;
+    }
+}
+
+impl fmt::Display for RowOutcome {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Skipped(why) => write!(f, "skipped: {why}"),
+            Self::NoGuess => f.write_str("no first guess"),
+            Self::Rejected { contacts: 0 } => f.write_str("rejected by the proof"),
+            Self::Rejected { contacts: 1 } => f.write_str("1 contact or fault left"),
+            Self::Rejected { contacts } => write!(f, "{contacts} contacts or faults left"),
+            Self::Solved { duration, stop_safe_percent } => {
+                write!(f, "solved in {:.2} s", duration.as_secs())?;
+                stop_safe_percent.map_or(Ok(()), |percent| write!(f, ", {percent} % stop-safe"))
+            }
+        }
+    }
+}

@@ -1,0 +1,473 @@
+//! Runs the schedule until a plan is good enough or the budget is spent.
+
+use std::cell::OnceCell;
+
+use lightbots_base::Span;
+
+use super::from_lattice::from_lattice;
+use super::guess::{Guess, Manner};
+use super::path_set::PathSet;
+use super::schedule::{
+    Budget, Group, MOST_STRETCH, MOST_TRIES, MOST_WORK, PITCH_M, Pick, ROOMY, Row, SCHEDULE, Solver, WIDE,
+};
+use super::stop_and_go::{MOST_LOOKS, stop_and_go};
+use super::verify::{Rejected, least_span, span_of, verified};
+use crate::explain::{ExplainedRow, Explanation, RowOutcome};
+use crate::instance::Instance;
+use crate::motion::progress::ProgressLaw;
+use crate::motion::quarter_turn;
+use crate::optimise::contacts::Clearances;
+use crate::optimise::relaxation::{Effort, Relaxation, relax};
+use crate::proof::prove_unless;
+use crate::roads::lattice::Lattice;
+use crate::roads::shortest::shortest_paths;
+use crate::roads::visibility::{MOST_WALLS, VisibilityGraph};
+use crate::spline::set::SplineSet;
+use crate::{Meeting, Repaired, TransitionProblem};
+
+/// Length of a span that first guesses aim at, seconds: the smallest curve at full speed takes as long.
+const SPAN_S: f64 = 0.25;
+/// The same for large fleets, seconds: fewer spans are less work.
+const LONG_SPAN_S: f64 = 0.33;
+/// An acceptable solution takes at most this many times the least, …
+const ACCEPTABLE: f64 = 4.0;
+/// … and this much more, seconds.
+const ACCEPTABLE_MORE_S: f64 = 4.0;
+/// A slow solution takes more than this many times the least, …
+const SLOW: f64 = 1.8;
+/// … and this much more, seconds. An order from a lattice may then be faster.
+const SLOW_MORE_S: f64 = 1.5;
+/// Meetings for each robot above which slack does not help.
+const HOPELESS: usize = 3;
+/// Above this number of robots the first acceptable solution is taken.
+const MOST_TO_COMPARE: usize = 600;
+/// Above this number of robots the same holds where the best guess needs more than [`LITTLE_PROMISED`] of the least.
+const MANY: usize = 350;
+/// Time scale of the best guess above which it promises little.
+const LITTLE_PROMISED: f64 = 1.16;
+/// Guesses that take part in the first round of successive halving.
+const RACERS: usize = 2;
+/// Sweeps of the first round.
+const FIRST_SWEEPS: usize = 7;
+/// Contacts for each robot below which the first round ends early.
+const PROMISING: usize = 6;
+/// Share of its contacts that counts for the guess that was ranked first.
+const HEAD_START: f64 = 0.9;
+/// Penalty of a manner that differs from a better one in its bow only, beside [`Guess::badness`].
+const ALIKE: f64 = 0.06;
+/// Rounds in which robots with illegal motion are smoothed and the contacts that follow are resolved.
+const AMENDMENTS: usize = 4;
+/// Sweeps of each of those rounds.
+const AMENDING_SWEEPS: usize = 72;
+/// Penalty on the duration of a solution between walls with less than [`WIDE`] clearance: one robot that brakes there
+/// blocks others.
+const CLOSE: f64 = 1.25;
+
+/// What the schedule's conditions look at.
+pub(super) struct Facts {
+    pub is_large: bool,
+    pub promises_little: bool,
+    pub has_walls: bool,
+    pub is_hopeless: bool,
+    pub is_solved: bool,
+    /// Whether the best solution has less than the usual clearance between walls.
+    pub is_close: bool,
+    /// Duration of the best solution with its penalty, seconds; infinite where there is none.
+    pub lasts_s: f64,
+    /// Duration of the longest path at full speed, seconds.
+    pub least_s: f64,
+    /// Work that is left.
+    pub work: usize,
+    /// Rows of the group that have run.
+    pub tries: usize,
+    /// Whether a row of the group made the best solution faster.
+    pub is_faster: bool,
+    /// The same of all rows but the last.
+    pub was_faster: bool,
+}
+
+impl Facts {
+    pub fn is_acceptable(&self) -> bool {
+        self.lasts_s < self.least_s * ACCEPTABLE + ACCEPTABLE_MORE_S
+    }
+
+    pub fn is_slow(&self) -> bool {
+        self.lasts_s > self.least_s * SLOW + SLOW_MORE_S
+    }
+}
+
+/// A solution that the proof accepts.
+struct Candidate {
+    row: usize,
+    solution: Solution,
+    /// Duration with its penalty, seconds.
+    lasts_s: f64,
+    is_close: bool,
+}
+
+enum Solution {
+    Splines(SplineSet),
+    StopAndGo(Repaired),
+}
+
+/// Paths and first guesses; there are none where a robot has no path.
+struct Guesses<'a> {
+    path_set: &'a PathSet<'a>,
+    /// The most promising first.
+    ranked: Vec<Guess<'a>>,
+    least_s: f64,
+}
+
+/// What a run of the schedule came to.
+pub(crate) struct Outcome {
+    /// The chosen paths, or the meetings of the row that left fewest; empty where it failed for another reason.
+    pub result: Result<Repaired, Vec<Meeting>>,
+    pub explanation: Explanation,
+}
+
+/// Runs the schedule for one instance of a problem.
+pub(super) fn run(problem: &TransitionProblem, instance: &Instance) -> Outcome {
+    let visibility = OnceCell::new();
+    let paths = Lattice::new(instance, PITCH_M)
+        .and_then(|lattice| shortest_paths(instance, &lattice, &visibility))
+        .unwrap_or_default();
+    let path_set = PathSet::new(instance, &paths);
+    let guesses = (paths.len() == instance.robots()).then(|| Guesses::new(problem, instance, &path_set));
+    let mut run = Run {
+        problem,
+        instance,
+        visibility: &visibility,
+        guesses: guesses.as_ref(),
+        work: MOST_WORK,
+        looks: MOST_LOOKS,
+        candidates: Vec::new(),
+        left_over: Vec::new(),
+        rows: Vec::new(),
+    };
+    for group in &SCHEDULE {
+        run.group(group);
+    }
+    run.outcome()
+}
+
+impl<'a> Guesses<'a> {
+    fn new(problem: &TransitionProblem, instance: &Instance, path_set: &'a PathSet<'a>) -> Self {
+        let easing = problem.easing;
+        let mut ranked: Vec<Guess> = Manner::all()
+            .take_while(|_| !instance.cancel.is_wanted())
+            .map(|manner| Guess::new(path_set, easing, manner, ROOMY.robots_m))
+            .collect();
+        ranked.sort_by(|a, b| a.badness.total_cmp(&b.badness));
+        let least_s = ProgressLaw::new(path_set.longest_m, &instance.limits, easing, 1.0).drive_s;
+        Self { path_set, ranked, least_s }
+    }
+
+    /// The guess of a row in minimum time; `None` where another row has it already.
+    fn pick(&self, pick: Pick) -> Option<&Guess<'a>> {
+        let best = self.ranked.first()?;
+        match pick {
+            Pick::Best => Some(best),
+            Pick::Plain if best.manner == Manner::default() => None,
+            Pick::Plain => self.ranked.iter().find(|guess| guess.manner == Manner::default()),
+            Pick::Ranked(rank) => self.ranked.get(rank),
+        }
+    }
+
+    /// The guesses in another order: where one fails, those that differ from it only in their bow mostly fail too. Of
+    /// several with equal paths there is one.
+    fn diverse(&self) -> Vec<&Guess<'a>> {
+        let all = &self.ranked;
+        let straight = |at: usize| Manner { bow: 0.0, ..all[at].manner };
+        let is_alike = |at: usize| (0..at).any(|before| straight(before) == straight(at));
+        let weigh = |at: usize| all[at].badness + if is_alike(at) { ALIKE } else { 0.0 };
+        let is_same = |at: usize| (0..at).any(|before| all[before].is_like(&all[at]));
+        let different = (0..all.len()).filter(|&at| !is_same(at));
+        let mut order: Vec<(f64, usize)> = different.map(|at| (weigh(at), at)).collect();
+        order.sort_by(|a, b| a.0.total_cmp(&b.0));
+        order.into_iter().map(|(_, at)| &all[at]).collect()
+    }
+}
+
+struct Run<'a> {
+    problem: &'a TransitionProblem,
+    instance: &'a Instance<'a>,
+    visibility: &'a OnceCell<VisibilityGraph>,
+    guesses: Option<&'a Guesses<'a>>,
+    /// Work that is left.
+    work: usize,
+    /// Pairs of moves that stop-and-go may still look at.
+    looks: usize,
+    candidates: Vec<Candidate>,
+    /// Meetings of the row that left fewest.
+    left_over: Vec<Meeting>,
+    rows: Vec<ExplainedRow>,
+}
+
+impl Run<'_> {
+    fn facts(&self) -> Facts {
+        let best = self.best();
+        let stretch = self.guesses.and_then(|guesses| guesses.ranked.first()).map_or(1.0, Guess::stretch);
+        let robots = self.instance.robots();
+        Facts {
+            is_large: self.is_large(),
+            promises_little: robots > MANY && stretch > LITTLE_PROMISED,
+            has_walls: self.has_walls(),
+            is_hopeless: best.is_none() && self.left_over.len() > robots * HOPELESS,
+            is_solved: best.is_some(),
+            is_close: best.is_some_and(|best| best.is_close),
+            lasts_s: best.map_or(f64::INFINITY, |best| best.lasts_s),
+            least_s: self.guesses.map_or(0.0, |guesses| guesses.least_s),
+            work: self.work,
+            tries: 0,
+            is_faster: false,
+            was_faster: false,
+        }
+    }
+
+    fn is_large(&self) -> bool {
+        self.instance.robots() > MOST_TO_COMPARE
+    }
+
+    /// Whether there are walls, and few enough for a visibility graph.
+    fn has_walls(&self) -> bool {
+        (1..=MOST_WALLS).contains(&self.instance.walls.len())
+    }
+
+    fn best(&self) -> Option<&Candidate> {
+        let faster = |best: &'_ Candidate, next: &'_ Candidate| next.lasts_s < best.lasts_s;
+        self.candidates.iter().reduce(|best, next| if faster(best, next) { next } else { best })
+    }
+
+    fn is_cancelled(&self) -> bool {
+        self.instance.cancel.is_wanted()
+    }
+
+    /// Runs the rows of a group until its target is reached.
+    fn group(&mut self, group: &Group) {
+        let facts = self.facts();
+        let needs_guesses = !matches!(group.rows[0].solver, Solver::StopAndGo { .. });
+        if self.is_cancelled() || (needs_guesses && self.guesses.is_none()) || !group.when.holds(&facts) {
+            self.report(group.name.into(), RowOutcome::Skipped(group.when.why_not()));
+            return;
+        }
+        self.work = match group.budget {
+            Budget::Left => self.work,
+            Budget::AtMost(work) => self.work.min(work),
+            Budget::AtLeast(work) => self.work.max(work),
+            Budget::Of(work) => work,
+        };
+        let before_s = facts.lasts_s;
+        let (mut tries, mut is_faster) = (0, false);
+        for row in group.rows {
+            if tries == MOST_TRIES {
+                break;
+            }
+            tries += usize::from(self.row(row, tries));
+            let was_faster = is_faster;
+            let facts = self.facts();
+            is_faster |= facts.lasts_s < before_s;
+            if group.until.is_reached(&Facts { tries, is_faster, was_faster, ..facts }) {
+                break;
+            }
+        }
+    }
+
+    /// Runs a row; whether it counts as a try.
+    fn row(&mut self, row: &Row, tries: usize) -> bool {
+        let (wide, is_large) = (WIDE.robots_m, self.is_large());
+        let Row { solver, clearances, stretch, sweeps } = *row;
+        let effort = |stretch: f64, hurry: bool| Effort { sweeps, stretch, hurry, clearances };
+        match (solver, self.guesses) {
+            (Solver::StopAndGo { pitch_m, off_edge_m }, _) => self.stop_and_go(pitch_m, off_edge_m),
+            (Solver::SuccessiveHalving, Some(guesses)) => self.successive_halving(guesses, row),
+            (Solver::MinimumTime(pick), Some(guesses)) => {
+                let Some(guess) = guesses.pick(pick) else { return false };
+                let slower = if tries >= MOST_TRIES / 2 { guess.stretch() } else { 1.0 };
+                let effort = effort((stretch / slower).max(1.8), false);
+                let name = format!("minimum time, {}", named(guess.manner, clearances));
+                self.relax(name, guess.splines(slower, SPAN_S), effort);
+            }
+            (Solver::WithSlack { manner, times, least_s }, Some(guesses)) => {
+                let guess = Guess::new(guesses.path_set, self.problem.easing, manner, wide);
+                let lasts_s = guess.least_s().max(least_s) * times;
+                let name = format!("with slack × {times}, {}", named(manner, clearances));
+                self.relax(name, guess.splines_lasting(lasts_s, SPAN_S), effort(stretch, is_large));
+            }
+            (Solver::FromLattice { pitch_m }, _) => {
+                let lattice = Lattice::new(self.instance, pitch_m);
+                self.lattice("from lattice", lattice, pitch_m, effort(stretch, true));
+            }
+            (Solver::ThroughGaps { pitch_m }, _) => {
+                let instance = self.instance;
+                let visibility = self.visibility.get_or_init(|| VisibilityGraph::new(instance));
+                let lattice = visibility.lattice(instance, pitch_m);
+                self.lattice("through gaps", lattice, pitch_m, effort(stretch, true));
+            }
+            (_, None) => return false,
+        }
+        true
+    }
+
+    fn lattice(&mut self, what: &str, lattice: Option<Lattice>, pitch_m: f64, effort: Effort) {
+        let clearance_mm = effort.clearances.walls_m * 1e3;
+        let name = format!("{what}, pitch {:.1} mm, {clearance_mm:.1} mm off walls", pitch_m * 1e3);
+        match lattice.and_then(|lattice| from_lattice(self.instance, &lattice)) {
+            Some(splines) => self.relax(name, splines, effort),
+            None => self.report(name, RowOutcome::NoGuess),
+        }
+    }
+
+    /// A few sweeps for some guesses; the one with the fewest contacts goes on first, then the others.
+    fn successive_halving(&mut self, guesses: &Guesses<'_>, row: &Row) {
+        let (instance, clearances) = (self.instance, row.clearances);
+        let diverse = guesses.diverse();
+        // The even and early manner has mostly won.
+        let is_favourite = diverse.first().is_some_and(|first| first.manner.level && first.manner.early);
+        let mut starts = diverse.into_iter().take(MOST_TRIES).map(|guess| {
+            let slower = guess.stretch();
+            let stretch = (MOST_STRETCH / slower).max(1.8);
+            let effort = Effort { sweeps: row.sweeps, stretch, hurry: true, clearances };
+            (guess.manner, guess.splines(slower, LONG_SPAN_S), effort)
+        });
+        let mut racers = Vec::new();
+        for (manner, splines, effort) in starts.by_ref().take(RACERS) {
+            let mut racer = Relaxation::new(instance, splines, effort);
+            racer.go_on(FIRST_SWEEPS, &mut self.work);
+            let resolved = racer.resolved();
+            let head_start = if racers.is_empty() { HEAD_START } else { 1.0 };
+            racers.push((resolved as f64 * head_start, manner, racer, effort));
+            let is_enough = is_favourite || resolved < instance.robots() * PROMISING;
+            if is_enough || self.is_cancelled() {
+                break;
+            }
+        }
+        racers.sort_by(|(one, ..), (other, ..)| one.total_cmp(other));
+        let racers = racers.into_iter().map(|(_, manner, racer, effort)| (manner, racer, effort));
+        let late = starts
+            .map(|(manner, splines, effort)| (manner, Relaxation::new(instance, splines, effort), effort));
+        for (manner, racer, effort) in racers.chain(late) {
+            self.finish(format!("successive halving, {}", named(manner, clearances)), racer, effort);
+            // The first guess of a large fleet takes long, also where no work is left to deform it.
+            if self.facts().is_acceptable() || self.is_cancelled() {
+                break;
+            }
+        }
+    }
+
+    fn stop_and_go(&mut self, pitch_m: f64, off_edge_m: f64) {
+        let name = format!("stop-and-go, pitch {:.0} mm", pitch_m * 1e3);
+        let instance = self.instance;
+        let visibility = self.visibility.get_or_init(|| VisibilityGraph::new(instance));
+        let roadmap = (pitch_m, off_edge_m);
+        let found = stop_and_go(instance, visibility, roadmap, self.problem.duration, &mut self.looks);
+        let Some(found) = found else { return self.report(name, RowOutcome::NoGuess) };
+        if !prove_unless(&self.problem.to_prove(&found.paths), instance.cancel).holds() {
+            return self.report(name, RowOutcome::Rejected { contacts: 0 });
+        }
+        let lasts_s = found.least.as_secs();
+        self.keep(name, Solution::StopAndGo(found), lasts_s, false);
+    }
+
+    /// Deforms a first guess.
+    fn relax(&mut self, name: String, splines: SplineSet, effort: Effort) {
+        self.finish(name, Relaxation::new(self.instance, splines, effort), effort);
+    }
+
+    /// The same with a deformation that may have begun.
+    fn finish(&mut self, name: String, mut relaxation: Relaxation, effort: Effort) {
+        relaxation.go_on(effort.sweeps, &mut self.work);
+        match relaxation.outcome().and_then(|splines| self.amended(splines, effort)) {
+            Ok(splines) => {
+                let is_close = self.has_walls() && effort.clearances.robots_m < WIDE.robots_m;
+                let lasts_s = splines.least_span_s(&self.instance.limits) * splines.spans as f64;
+                let penalty = if is_close { CLOSE } else { 1.0 };
+                self.keep(name, Solution::Splines(splines), lasts_s * penalty, is_close);
+            }
+            Err(left) => {
+                self.report(name, RowOutcome::Rejected { contacts: left.len() });
+                if self.left_over.is_empty() || (1..self.left_over.len()).contains(&left.len()) {
+                    self.left_over = left;
+                }
+            }
+        }
+    }
+
+    /// The splines once the proof holds: robots with illegal motion get a smoother spline, and contacts that follow are
+    /// resolved.
+    fn amended(&mut self, mut splines: SplineSet, effort: Effort) -> Result<SplineSet, Vec<Meeting>> {
+        let effort = Effort { sweeps: AMENDING_SWEEPS, stretch: 1.2, ..effort };
+        for _ in 0..AMENDMENTS {
+            let Rejected { splines: mut rejected, faulty_spans } =
+                match verified(self.problem, self.instance, splines) {
+                    Ok(splines) => return Ok(splines),
+                    Err(rejected) => rejected,
+                };
+            if faulty_spans.is_empty() {
+                return Err(Vec::new());
+            }
+            faulty_spans.into_iter().for_each(|(robot, span)| rejected.smooth(robot, span));
+            splines = relax(self.instance, rejected, effort, &mut self.work)?;
+        }
+        verified(self.problem, self.instance, splines).map_err(|_| Vec::new())
+    }
+
+    fn keep(&mut self, name: String, solution: Solution, lasts_s: f64, is_close: bool) {
+        let duration = self.least_of(&solution);
+        self.candidates.push(Candidate { row: self.rows.len(), solution, lasts_s, is_close });
+        self.report(name, RowOutcome::Solved { duration, stop_safe_percent: None });
+    }
+
+    fn report(&mut self, solver: String, outcome: RowOutcome) {
+        self.rows.push(ExplainedRow { solver, outcome });
+    }
+
+    /// The duration of a solution at full speed.
+    fn least_of(&self, solution: &Solution) -> Span {
+        match solution {
+            Solution::StopAndGo(found) => found.least,
+            Solution::Splines(splines) => {
+                let span = least_span(self.instance, splines);
+                quarter_turn(&self.instance.limits) + Span(span.0 * splines.spans as i64)
+            }
+        }
+    }
+
+    /// The paths of a solution in the asked duration.
+    fn repaired(&self, solution: &Solution) -> Repaired {
+        match solution {
+            Solution::StopAndGo(found) => found.clone(),
+            Solution::Splines(splines) => {
+                let least = least_span(self.instance, splines);
+                let span = span_of(self.problem, self.instance, splines, least);
+                let paths = splines.paths(quarter_turn(&self.instance.limits), span);
+                Repaired { paths, least: self.least_of(solution) }
+            }
+        }
+    }
+
+    fn outcome(self) -> Outcome {
+        let chosen = self.best().map(|best| best.row);
+        let result = match self.best() {
+            Some(best) => Ok(self.repaired(&best.solution)),
+            None => Err(self.left_over),
+        };
+        let reason = if result.is_ok() { "the shortest plan" } else { "no row was solved" };
+        let explanation = Explanation { rows: self.rows, chosen, reason: reason.into() };
+        Outcome { result, explanation }
+    }
+}
+
+/// A manner and clearances in a few words.
+fn named(manner: Manner, clearances: Clearances) -> String {
+    let Manner { bow, early, level, spread, staged } = manner;
+    let flags = [(early, "early"), (level, "level"), (spread, "spread"), (staged, "staged")];
+    let mut words: Vec<String> =
+        flags.iter().filter(|(is, _)| *is).map(|(_, name)| (*name).to_string()).collect();
+    if bow != 0.0 {
+        words.push(format!("bow {bow}"));
+    }
+    if words.is_empty() {
+        words.push("together".into());
+    }
+    format!("{}, {:.1} mm between centres", words.join(", "), clearances.robots_m * 1e3)
+}
