@@ -1,5 +1,5 @@
-//! Who must show which pixel of a frame: pins, names and identity. Whom nothing binds, [`crate::transition()`] sends
-//! where it is nearest. Both who plans a show and who plays it go by this.
+//! Bindings of pixels to robots: pins, names and identity. Unbound pixels are assigned by distance in
+//! [`crate::transition()`]. Planning of a show and of a run use the same bindings.
 
 use crate::assignment::Choice;
 use lightbots_base::Vec2;
@@ -7,48 +7,48 @@ use lightbots_show::{Identity, Pixel};
 use std::cmp::Reverse;
 use std::collections::BTreeMap;
 
-/// Who showed each pixel id last. `R` tells robots apart.
+/// The robot that showed each pixel id last. `R` identifies a robot.
 #[derive(Clone, Debug)]
 pub struct Claims<R> {
-    /// The robot, and how many were told of before it.
+    /// The robot, and the number of claims before this one.
     of: BTreeMap<u32, (R, u64)>,
     told: u64,
 }
 
-/// What binds pixels to robots, from frame to frame. A robot is its place in a list.
+/// Bindings of pixels to robots, from frame to frame. A robot is its index in a list.
 #[derive(Clone, Debug, Default)]
 pub struct Bindings {
-    /// The robots that names mean.
+    /// Robots by name.
     pub by_name: BTreeMap<String, usize>,
-    /// Whether nobody bears a name that is not in `by_name`; else it is that of any robot without one.
+    /// Whether `by_name` is complete. Otherwise another name means any robot without one.
     pub names_known: bool,
-    /// Pixel ids that were bound to robots for all frames; `None`: to one that is not here.
+    /// Pixel ids pinned to robots for all frames; `None`: to a robot that is not here.
     pub pins: BTreeMap<u32, Option<usize>>,
-    /// Who showed what, of the robots that are here.
+    /// The robots that showed pixels, of those that are here.
     pub claims: Claims<usize>,
 }
 
-/// The pixels of a frame that will be shown, and who must show them.
+/// The pixels of a frame that are shown, and their bindings.
 #[derive(Clone, Debug, Default)]
 pub struct BoundFrame<'a> {
-    /// Those that are shown.
+    /// Pixels that are shown.
     pub pixels: Vec<&'a Pixel>,
-    /// `[pixel]`: the robot bound to it; `None`: whoever is near.
+    /// `[pixel]`: the robot bound to it; `None`: any robot.
     pub pinned: Vec<Option<usize>>,
     /// Ids of the pixels that stay dark.
     pub dark: Vec<u32>,
-    /// What people may not expect, and with which pixel.
+    /// Unexpected results, with the pixel.
     pub issues: Vec<(u32, BindingIssue)>,
 }
 
-/// What people may not expect of a cast.
+/// An unexpected result of a binding.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum BindingIssue {
-    /// The robot that the pixel asks for must show another pixel: it stays dark.
+    /// Two pixels ask for one robot: this one stays dark.
     BoundTwice,
-    /// The robot that the pixel asks for is not here: it stays dark.
+    /// The pixel asks for a robot that is not here: it stays dark.
     Unknown,
-    /// The robot that showed the pixel before must show another one: it gets another robot, though identity is fixed.
+    /// Identity is fixed, but the robot that showed the pixel must show another: the pixel gets another robot.
     Lost,
 }
 
@@ -65,28 +65,27 @@ impl<R: Copy + PartialEq> Claims<R> {
         self.told += 1;
     }
 
-    /// Pixel ids with their robots; who showed its pixel longest ago comes first.
+    /// Pixel ids with their robots, the oldest claim first.
     pub fn oldest_first(&self) -> Vec<(u32, R)> {
         let mut all: Vec<_> = self.of.iter().map(|(&id, &(robot, told))| (told, id, robot)).collect();
         all.sort_unstable_by_key(|&(told, ..)| told);
         all.into_iter().map(|(_, id, robot)| (id, robot)).collect()
     }
 
-    /// Nobody showed anything.
+    /// Forgets all claims.
     pub fn clear(&mut self) {
         self.of.clear();
     }
 
-    /// A robot is gone for good.
+    /// Forgets a robot.
     pub fn forget(&mut self, robot: R) {
         self.of.retain(|_, (of, _)| *of != robot);
     }
 }
 
 impl Bindings {
-    /// Casts a frame for robots that stand at `places`, stage metres. A pixel is shown by the robot it asks for, or is
-    /// pinned to; where identity is fixed, by who showed it last. Pixels that must stay dark, and those no robot is
-    /// left for, are not shown.
+    /// Binds a frame for robots at `places`, stage metres. A pixel gets the robot it asks for or is pinned to; with
+    /// fixed identity, the robot that showed it last. Pixels that stay dark, and those without a robot, are not shown.
     pub fn bind<'a>(
         &self,
         frame: &'a [Pixel],
@@ -119,7 +118,7 @@ impl Bindings {
         binder.done()
     }
 
-    /// Keeps who shows what; `goal_of[robot]` is an index into the cast's pixels.
+    /// Remembers who shows what; `goal_of[robot]` is an index into the frame's pixels.
     pub fn remember(&mut self, bound: &BoundFrame<'_>, goal_of: &[Option<usize>]) {
         for (robot, goal) in goal_of.iter().enumerate() {
             let Some(pixel) = goal.and_then(|goal| bound.pixels.get(goal)) else { continue };
@@ -131,7 +130,7 @@ impl Bindings {
     }
 }
 
-/// A pixel of a frame that is being cast.
+/// A pixel of a frame while it is bound.
 struct Role<'a> {
     pixel: &'a Pixel,
     is_dark: bool,
@@ -144,18 +143,18 @@ impl Role<'_> {
     }
 }
 
-/// A frame that is being cast.
+/// A frame while it is bound.
 struct Binder<'a, 'b> {
     bindings: &'b Bindings,
     places: &'b [Vec2],
     roles: Vec<Role<'a>>,
-    /// `[robot]`.
+    /// `[robot]`: whether it has a pixel.
     taken: Vec<bool>,
     issues: Vec<(u32, BindingIssue)>,
 }
 
 impl<'a> Binder<'a, '_> {
-    /// Gives a pixel to a robot unless that has one.
+    /// Gives a pixel to a robot, unless the robot has one.
     fn give(&mut self, role: usize, robot: usize) -> bool {
         let free = self.taken.get(robot) == Some(&false);
         if free {
@@ -170,7 +169,7 @@ impl<'a> Binder<'a, '_> {
         self.issues.push((self.roles[role].pixel.id, why));
     }
 
-    /// Pixels that ask for robots by name, then those that were pinned to one.
+    /// Binds pixels that ask for robots by name, then pinned pixels.
     fn bind(&mut self) {
         for is_name in [true, false] {
             for role in 0..self.roles.len() {
@@ -203,20 +202,20 @@ impl<'a> Binder<'a, '_> {
         self.bindings.claims.of.get(&self.roles[role].pixel.id).map(|&(robot, _)| robot)
     }
 
-    /// Pixels that ask for a name nobody bears yet.
+    /// Pixels that ask for a name without a robot.
     fn nameless(&self) -> Vec<usize> {
         let asks = |&role: &usize| self.roles[role].is_open() && self.roles[role].pixel.robot.is_some();
         (0..self.roles.len()).filter(asks).collect()
     }
 
-    /// `[robot]`: whether it bears a name.
+    /// `[robot]`: whether it has a name.
     fn named(&self) -> Vec<bool> {
         let mut named = vec![false; self.taken.len()];
         self.bindings.by_name.values().for_each(|&robot| named[robot] = true);
         named
     }
 
-    /// Who showed a pixel last bears the name it asks for, if it has none.
+    /// Gives a name to the robot that showed its pixel last, if that has none.
     fn name_owners(&mut self) {
         let named = self.named();
         for role in self.nameless() {
@@ -226,7 +225,7 @@ impl<'a> Binder<'a, '_> {
         }
     }
 
-    /// Gives names that nobody bears yet to robots without one: two names are two robots. Where nobody bears one yet,
+    /// Gives names without a robot to robots without a name: two names are two robots. Where no robot has a name yet,
     /// any robots will do. Robots that keep their pixel come last.
     fn name_others(&mut self, identity: Identity) {
         let nameless = self.nameless();
@@ -257,7 +256,7 @@ impl<'a> Binder<'a, '_> {
         self.place(fit, self.nameless());
     }
 
-    /// Pixels stay with who showed them last. Where that robot showed another of them later, it keeps that.
+    /// Pixels stay with the robots that showed them last. A robot that showed another of them later keeps that one.
     fn keep_owners(&mut self) {
         let told = |role: usize| {
             let pixel = self.roles[role].pixel;
@@ -282,7 +281,7 @@ impl<'a> Binder<'a, '_> {
         let open = self.roles.iter().filter(|role| role.is_open()).count();
         let free = self.taken.iter().filter(|&&taken| !taken).count();
         let mut surplus = open.saturating_sub(free);
-        // Who asks for a robot goes before those that do not.
+        // Pixels that ask for a robot come before those that do not.
         for asks in [false, true] {
             for role in self.roles.iter_mut().rev() {
                 if surplus > 0 && role.is_open() && role.pixel.robot.is_some() == asks {
@@ -293,7 +292,7 @@ impl<'a> Binder<'a, '_> {
         }
     }
 
-    /// Gives ids that have nobody to robots that have shown nothing yet, where there are enough of those.
+    /// Gives new ids to robots that have shown nothing yet, where there are enough.
     fn place_newcomers(&mut self) {
         let mut fresh = vec![true; self.taken.len()];
         self.bindings.claims.of.values().for_each(|&(robot, _)| fresh[robot] = false);
@@ -305,7 +304,7 @@ impl<'a> Binder<'a, '_> {
         }
     }
 
-    /// Gives pixels to robots, of which there are enough, as near as may be.
+    /// Assigns pixels to enough robots by least squared distance.
     fn place(&mut self, robots: Vec<usize>, roles: Vec<usize>) {
         let from: Vec<Vec2> = robots.iter().map(|&robot| self.places[robot]).collect();
         let to: Vec<Vec2> = roles.iter().map(|&role| self.roles[role].pixel.at).collect();

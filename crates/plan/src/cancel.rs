@@ -1,13 +1,13 @@
-//! A plan that is not wanted any more, or takes too long, is given up.
+//! Cancellation of a plan that is not wanted any more, or takes too long.
 
 use core::fmt;
 
-/// The planner was told to give up. There is no plan, not even a part of one.
+/// The planner was cancelled. There is no plan, not even a part of one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Cancelled;
 
-/// Asked in every long loop of the planner. Once it says yes it goes on saying yes: a loop that ends early leaves values
-/// behind that mean nothing, and the entry points of this crate ask again before they hand any of them out.
+/// Polled in every long loop of the planner. Once it says yes it goes on saying yes. A loop that ends early leaves
+/// meaningless values; the entry points of this crate poll again before they return any.
 #[derive(Clone, Copy)]
 pub(crate) struct Cancel<'a>(&'a dyn Fn() -> bool);
 
@@ -15,7 +15,7 @@ impl<'a> Cancel<'a> {
     /// Never cancelled.
     pub const NEVER: Cancel<'static> = Cancel(&|| false);
 
-    /// Cancelled once `is_wanted` says so, which must go on saying so.
+    /// Cancelled once `is_wanted` says so; it must go on saying so.
     pub fn when(is_wanted: &'a dyn Fn() -> bool) -> Self {
         Self(is_wanted)
     }
@@ -32,7 +32,7 @@ impl fmt::Debug for Cancel<'_> {
     }
 }
 
-/// Works until it is done or `is_wanted` says yes, however briefly.
+/// Works until it is done, or `is_wanted` has said yes once.
 pub(crate) fn unless<T>(
     is_wanted: &dyn Fn() -> bool,
     work: impl FnOnce(Cancel<'_>) -> T,

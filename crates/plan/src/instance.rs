@@ -1,4 +1,4 @@
-//! What the repair must respect: ends of ways, the floor, what stands on it.
+//! One transition with a given assignment, as solvers see it: ends, floor and walls.
 
 use lightbots_base::{Limits, Vec2};
 use lightbots_show::Obstacle;
@@ -7,26 +7,26 @@ use crate::TransitionProblem;
 use crate::cancel::Cancel;
 use crate::margins::{EDGE_M, SPLINE_M};
 
-/// A transition whose assignment is settled.
+/// A transition with a given assignment.
 pub(crate) struct Instance<'a> {
     /// When to give up.
     pub cancel: Cancel<'a>,
-    /// Where each robot starts, stage metres.
+    /// `[robot]`: its start, stage metres.
     pub starts: Vec<Vec2>,
-    /// Where each robot ends; `None`: it is spare and may end anywhere.
+    /// `[robot]`: its end, stage metres; `None`: a spare robot that may end anywhere.
     pub ends: Vec<Option<Vec2>>,
-    /// What does not move: obstacles and standing robots.
+    /// Obstacles and standing robots.
     pub walls: Vec<Obstacle>,
     /// Half the extents of the rectangle that centres stay in, metres.
     pub inner: Vec2,
-    /// How far rims stay off the floor's edge where their ends and what stands beside it leave them a choice, metres.
+    /// Distance of rims from the floor's edge, metres, where ends and walls leave it.
     pub off_edge_m: f64,
-    /// What the robots can do.
+    /// Limits of the robots.
     pub limits: Limits,
 }
 
 impl Instance<'_> {
-    /// The instance of a problem; `None` where the assignment does not fit it or something is not a number.
+    /// The instance of a problem; `None` where the assignment does not fit, or a number is not finite.
     pub fn new(problem: &TransitionProblem, goal_of: &[Option<usize>]) -> Option<Self> {
         if goal_of.len() != problem.starts.len() {
             return None;
@@ -56,12 +56,12 @@ impl Instance<'_> {
             .then_some(instance)
     }
 
-    /// How many robots.
+    /// Number of robots.
     pub fn robots(&self) -> usize {
         self.starts.len()
     }
 
-    /// How far two robots' ends let them stay apart all the way, metres.
+    /// The smaller of the distances between two starts and two ends, metres.
     pub fn ends_apart(&self, a: usize, b: usize) -> f64 {
         let before = self.starts[a].distance(self.starts[b]);
         match (self.ends[a], self.ends[b]) {
@@ -70,37 +70,37 @@ impl Instance<'_> {
         }
     }
 
-    /// The centre distance two robots must keep, metres.
+    /// Least distance of two centres, metres.
     pub fn least_gap(&self, a: usize, b: usize) -> f64 {
         self.widest_gap_m().min(self.ends_apart(a, b) - 1e-6)
     }
 
-    /// The most of any two's, metres: who is farther apart keeps it whoever they are.
+    /// The greatest of all least distances, metres: pairs that are farther apart need no closer look.
     pub fn widest_gap_m(&self) -> f64 {
         self.limits.contact_m() + SPLINE_M
     }
 
-    /// How far a robot's ends let it stay off a wall, at most `wish`, metres.
+    /// Distance of a robot's rim from a wall, at most `wish`, that its ends allow, metres.
     pub fn wall_gap(&self, robot: usize, wall: usize, wish: f64) -> f64 {
         let at = |place| self.off_wall(wall, place).0;
         let end = self.ends[robot].map_or(wish, at);
         wish.min(at(self.starts[robot])).min(end)
     }
 
-    /// The gap between a robot's rim at `place` and a wall, and the direction away from it.
+    /// Gap between a robot's rim at `place` and a wall, and the direction away from it.
     pub fn off_wall(&self, wall: usize, place: Vec2) -> (f64, Vec2) {
         let (gap, away) = off_shape(&self.walls[wall], place);
         (gap - self.limits.radius_m, away)
     }
 
-    /// Whether a robot at `place` is on the floor and `margin_m` off every wall.
+    /// Whether a robot at `place` is on the floor and `margin_m` from every wall.
     pub fn is_free(&self, place: Vec2, margin_m: f64) -> bool {
         let on_floor = place.x.abs() <= self.inner.x && place.y.abs() <= self.inner.y;
         on_floor && (0..self.walls.len()).all(|wall| self.off_wall(wall, place).0 >= margin_m)
     }
 
-    /// Whether a robot may drive straight from one place to another, `margin_m` off every wall except where an end
-    /// itself is closer.
+    /// Whether a robot may drive straight from one place to another, `margin_m` from every wall. Ends that are closer
+    /// keep their own distance.
     pub fn is_way_free(&self, from: Vec2, to: Vec2, margin_m: f64) -> bool {
         let samples = (from.distance(to) / 0.01).min(4000.0) as usize + 1;
         (0..self.walls.len()).all(|wall| {
@@ -110,8 +110,8 @@ impl Instance<'_> {
         })
     }
 
-    /// How far rims can stay off the floor's edge so that a robot gets through every gap to it still, and two past each
-    /// other on a narrow floor.
+    /// Distance of rims from the floor's edge that leaves gaps to the edge open, and lets two robots pass on a narrow
+    /// floor.
     fn room_at_edge_m(&self) -> f64 {
         let least_m = 2.0 * self.limits.radius_m + SPLINE_M;
         let gaps = self.walls.iter().flat_map(|wall| self.off_edges(wall)).map(|gap_m| gap_m - least_m);
@@ -120,7 +120,7 @@ impl Instance<'_> {
         to_spare.filter(|&room_m| room_m >= 0.0).fold(EDGE_M, f64::min)
     }
 
-    /// From a shape to the four sides of the floor, metres.
+    /// Distances of a shape from the four edges of the floor, metres.
     fn off_edges(&self, shape: &Obstacle) -> [f64; 4] {
         let (min, max) = match *shape {
             Obstacle::Disc { at, radius_m } => {
@@ -132,7 +132,7 @@ impl Instance<'_> {
         [min.x + half.x, half.x - max.x, min.y + half.y, half.y - max.y]
     }
 
-    /// The nearest place for a robot that is so far off the floor's edge, or as far out as its own ends are.
+    /// The nearest place for a robot `off_edge_m` from the floor's edge, or as far out as its own ends.
     pub fn on_floor(&self, robot: usize, place: Vec2, off_edge_m: f64) -> Vec2 {
         let room = self.inner - Vec2::new(off_edge_m, off_edge_m);
         if place.x.abs() <= room.x && place.y.abs() <= room.y {
@@ -146,7 +146,7 @@ impl Instance<'_> {
     }
 }
 
-/// Distance from a place to a shape's rim, negative inside, and the unit vector away from it.
+/// Distance of a place from a shape's rim, negative inside, and the unit vector away from it.
 fn off_shape(shape: &Obstacle, place: Vec2) -> (f64, Vec2) {
     match *shape {
         Obstacle::Disc { at, radius_m } => {
@@ -183,7 +183,7 @@ mod tests {
         assert!((off_shape(&shape, Vec2::new(4.0, 6.0)).0 - 5.0).abs() < 1e-12);
     }
 
-    /// A robot from one place to another on a floor of 1 m by 1 m.
+    /// A robot from one place to another on a floor of this half size.
     fn instance(
         start: (f64, f64),
         end: (f64, f64),

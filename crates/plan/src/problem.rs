@@ -1,4 +1,4 @@
-//! One transition: what is asked and what is answered.
+//! One transition: problem and solution.
 
 use lightbots_base::{Limits, PathRef, Piece, Span, Vec2};
 use lightbots_show::{Easing, Obstacle};
@@ -9,29 +9,29 @@ use crate::proof::ProofInput;
 /// A drive from one set of places to another.
 #[derive(Clone, Debug)]
 pub struct TransitionProblem {
-    /// Where the robots stand, stage metres; one entry a robot.
+    /// Start of each robot, stage metres.
     pub starts: Vec<Vec2>,
-    /// Where they shall stand, stage metres. At most as many as `starts`: robots left over are spare and may stay
-    /// where they are or step aside.
+    /// Places to reach, stage metres. At most as many as `starts`: the other robots are spare, and may stay or step
+    /// aside.
     pub goals: Vec<Vec2>,
-    /// `pinned[goal]`: the start that must go there; shorter than `goals` means none for the rest.
+    /// `pinned[goal]`: the start that must go there; goals beyond its end are not pinned.
     pub pinned: Vec<Option<usize>>,
-    /// Discs on the floor that do not move: dead robots and those that do not take part. Stage metres.
+    /// Discs that do not move: dead robots and robots that do not take part. Stage metres.
     pub standing: Vec<Vec2>,
-    /// Things on the floor.
+    /// No-go areas.
     pub obstacles: Vec<Obstacle>,
     /// Half the floor's width and depth, metres; centres stay a radius inside.
     pub half_floor: Vec2,
-    /// What the robots can do.
+    /// Limits of the robots.
     pub limits: Limits,
-    /// How long it shall take; `None` or less than is legal: as fast as legal.
+    /// Asked duration; `None`, or less than is legal: as fast as legal.
     pub duration: Option<Span>,
-    /// How speed changes.
+    /// Shape of the speed over time.
     pub easing: Easing,
 }
 
 impl TransitionProblem {
-    /// A problem without robots on an empty floor: what most problems begin with.
+    /// A problem without robots on an empty floor, to be filled in.
     pub fn on_floor(half_floor: Vec2, limits: Limits) -> Self {
         Self {
             starts: Vec::new(),
@@ -46,7 +46,7 @@ impl TransitionProblem {
         }
     }
 
-    /// What the proof is asked of paths that solve it: the least distances that may be driven.
+    /// The proof's input for paths of this problem.
     pub fn to_prove<'a>(&'a self, paths: &'a [Path]) -> ProofInput<'a> {
         ProofInput {
             paths,
@@ -63,15 +63,15 @@ impl TransitionProblem {
 /// A solved and proven transition.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Transition {
-    /// `goal_of[start]`: the goal that robot shows; `None`: it is spare.
+    /// `goal_of[start]`: the goal of that robot; `None`: it is spare.
     pub goal_of: Vec<Option<usize>>,
     /// `paths[start]`: all last exactly `duration`, and begin with the rest in which robots turn.
     pub paths: Vec<Path>,
-    /// How long it takes.
+    /// Duration.
     pub duration: Span,
-    /// The least duration the limits allow.
+    /// Least duration within the limits.
     pub least: Span,
-    /// Bottleneck distance (longest way where identity is fixed) over the speed limit, seconds.
+    /// Bottleneck distance over the speed limit, seconds; the longest straight line where identity is fixed.
     pub lower_bound_s: f64,
     /// The two centres that come closest; `None` with fewer than two robots.
     pub closest: Option<Closest>,
@@ -80,11 +80,11 @@ pub struct Transition {
 /// The closest two centres of a transition.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Closest {
-    /// How far apart, metres.
+    /// Their distance, metres.
     pub distance_m: f64,
-    /// When, after the transition's start.
+    /// When, after the start of the transition.
     pub at: Span,
-    /// Which two: indices into `starts`, or into `standing` counted on from there.
+    /// Indices into `starts`, or into `standing` counted on from there.
     pub pair: (usize, usize),
     /// Half way between the two, stage metres.
     pub place: Vec2,
@@ -93,28 +93,28 @@ pub struct Closest {
 /// Why there is no plan.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Infeasible {
-    /// Goals (indices) that stand in each other's way; may be empty.
+    /// Goals (indices) in each other's way; may be empty.
     pub goals: Vec<usize>,
-    /// Starts (indices) that stand in each other's way; may be empty.
+    /// Starts (indices) in each other's way; may be empty.
     pub starts: Vec<usize>,
-    /// One line for people: who, and what distance would do.
+    /// One line for people: the reason, and a distance that would do.
     pub message: String,
 }
 
-/// A repaired transition.
+/// Solved paths of a given assignment.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Repaired {
-    /// `paths[start]` all last equally long, at least the problem's duration, and begin with the rest in which robots
+    /// `paths[start]`: all last equally long, at least the asked duration, and begin with the rest in which robots
     /// turn.
     pub paths: Vec<Path>,
-    /// The least they may last.
+    /// Least duration within the limits.
     pub least: Span,
 }
 
 /// Two robots that do not get past each other.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Meeting {
-    /// Which two: indices into `starts`.
+    /// Indices into `starts`.
     pub pair: (usize, usize),
     /// Half way between the two, stage metres.
     pub place: Vec2,
@@ -123,17 +123,17 @@ pub struct Meeting {
 /// A path that owns its pieces.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Path {
-    /// Where it starts, stage metres.
+    /// Its start, stage metres.
     pub start: Vec2,
     /// Its pieces in order.
     pub pieces: Vec<Piece>,
 }
 
 impl Path {
-    /// The most pieces of a path: what a robot can keep.
+    /// Most pieces of a path: the storage of a robot.
     pub(crate) const MOST_PIECES: usize = 128;
 
-    /// The path as others read it.
+    /// The path as a borrowed value.
     pub fn as_ref(&self) -> PathRef<'_> {
         PathRef::new(self.start, &self.pieces)
     }

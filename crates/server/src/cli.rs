@@ -167,6 +167,9 @@ pub struct CheckArguments {
     pub show: PathBuf,
     #[command(flatten)]
     pub reading: ShowArguments,
+    /// Print for each transition which solvers ran and why its plan was chosen
+    #[arg(long)]
+    pub explain: bool,
     /// One JSON object on stdout
     #[arg(long)]
     pub json: bool,

@@ -1,47 +1,48 @@
-//! The way of everybody over the lattice: lazy constraints search (LaCAM; Okumura 2023). Depth first from one
-//! configuration to the next that a [`Generator`] offers; where that leads back, single robots are ordered
-//! elsewhere, one order more each time. Complete on the nodes, were it not for the bound on work.
+//! Lazy constraints addition search over configurations of all robots (LaCAM; Okumura 2023). It goes depth first from
+//! one configuration to the next that a [`Generator`] makes. Where that is known already, constraints send single
+//! robots to other nodes, one constraint more each time. Without its bound on work, the search is complete on the
+//! nodes.
 
 use std::collections::BTreeMap;
 use std::collections::VecDeque;
 
 use crate::roads::lattice::NONE;
 
-/// Robot-steps planned before giving up.
+/// Steps of robots before the search gives up.
 const MOST_WORK: usize = 1_500_000;
 
-/// A robot that must go to a node in a step.
+/// A low-level constraint: the robot must go to the node in this step.
 pub(crate) type Constraint = (usize, u32);
 
-/// Nodes, the ways between them, and who may go at the same time.
+/// Makes the next configuration of all robots on a graph.
 pub(crate) trait Generator {
-    /// Nodes a robot may go to from another, beside staying.
+    /// Nodes that a robot may go to from a node, without the node itself.
     fn around(&self, robot: usize, node: u32) -> impl Iterator<Item = u32>;
 
-    /// How far a robot still has to go from a node; infinite where there is no way, 0 for those without goal.
+    /// Cost of a robot from a node to its goal; infinite where there is no path, 0 without a goal.
     fn far(&self, robot: usize, node: u32) -> f64;
 
-    /// Where everybody stands after one step from `now`: robots earlier in `ranks` choose first, `constraints` are
-    /// followed. `None` where the constraints cannot be.
+    /// The configuration after one step from `now`, in which robots earlier in `ranks` choose first and `constraints`
+    /// are kept; `None` where they cannot be kept.
     fn step(&mut self, now: &[u32], ranks: &[usize], constraints: &[Constraint]) -> Option<Vec<u32>>;
 
-    /// Whether more work than was granted has been done, or it is given up.
+    /// Whether the granted work is used up, or the planner is cancelled.
     fn is_spent(&self) -> bool;
 }
 
-/// One configuration that has been reached.
+/// A configuration that has been reached.
 struct SearchNode {
     nodes: Vec<u32>,
     from: usize,
     /// Robots by urgency, the most urgent first.
     ranks: Vec<usize>,
-    /// Urgency of each: steps since it was last at its goal, and a share for how far it had to go.
+    /// Priority of each robot: steps since it was last at its goal, and a share for its first cost.
     urgency: Vec<f64>,
-    /// Orders not tried yet, breadth first.
+    /// Constraints not tried yet, breadth first.
     constraints: VecDeque<Vec<Constraint>>,
 }
 
-/// `[step][robot]`: nodes from `starts` until everybody with a goal is there; `None` where not found.
+/// `[step][robot]`: nodes from `starts` until all robots with a goal are there; `None` where none were found.
 pub(crate) fn search(generator: &mut impl Generator, starts: &[u32], goals: &[u32]) -> Option<Vec<Vec<u32>>> {
     let far: Vec<f64> = (0..starts.len()).map(|robot| generator.far(robot, starts[robot])).collect();
     if far.contains(&f64::INFINITY) {
@@ -89,7 +90,7 @@ impl SearchNode {
         Self { nodes, from, ranks, urgency, constraints: VecDeque::from([Vec::new()]) }
     }
 
-    /// Adds every order for the next robot by urgency to those that `constraints` already holds.
+    /// Adds each constraint on the next robot by priority to the constraints given.
     fn branch(&mut self, generator: &impl Generator, constraints: &[Constraint]) {
         let Some(&robot) = self.ranks.get(constraints.len()) else { return };
         let here = self.nodes[robot];
@@ -135,7 +136,7 @@ mod tests {
         Lattice::new(&Instance::new(&problem, &[]).unwrap(), 0.072).unwrap()
     }
 
-    /// Nobody shares a node, swaps, or follows around a sharp corner.
+    /// No two robots share a node, swap, or follow around a sharp corner.
     fn assert_legal(lattice: &Lattice, steps: &[Vec<u32>]) {
         for pair in steps.windows(2) {
             for (a, (&a0, &a1)) in pair[0].iter().zip(&pair[1]).enumerate() {

@@ -1,6 +1,6 @@
-//! One step of everybody on the lattice: priority inheritance with backtracking (PIBT; Okumura et al. 2022), with one
-//! rule more. On a hexagonal lattice a robot may follow another into its node only where the two directions differ by
-//! at most 60°: then the discs stay 0.86 pitches apart on the way, otherwise half a pitch.
+//! One step of all robots on the lattice: priority inheritance with backtracking (PIBT; Okumura et al. 2022), with one
+//! more conflict rule. On a hexagonal lattice a robot may follow another into its node only where the two directions
+//! differ by at most 60°. Then centres stay 0.86 pitches apart on the way, otherwise half a pitch.
 
 use lightbots_base::Vec2;
 
@@ -9,20 +9,20 @@ use crate::mapf::lacam::{Constraint, Generator};
 use crate::roads::lattice::{Lattice, NONE};
 
 const NO_ROBOT: u32 = u32::MAX;
-/// The direction of one who stays.
+/// Direction of a robot that stays.
 const STAYS: u8 = 6;
-/// A robot may push a row of this many.
+/// Longest row of robots that one may push.
 const MOST_PUSHED: usize = 500;
-/// Robots times nodes whose steps to goals are kept, two bytes each: a gigabyte.
+/// Most robots × nodes whose steps to goals are kept, two bytes each: a gigabyte.
 const MOST_STEPS: usize = 1 << 29;
 
-/// What a step is planned with; kept between steps to save memory.
+/// Memory of a step; kept between steps.
 pub(crate) struct LatticePibt<'a> {
     cancel: Cancel<'a>,
     lattice: &'a Lattice,
-    /// Where each robot heads for; [`NONE`]: it only makes way.
+    /// `[robot]`: its goal; [`NONE`]: it only makes way.
     goals: &'a [u32],
-    /// `[robot]`: steps from each node to its goal; empty for those without.
+    /// `[robot][node]`: steps to its goal; empty without a goal.
     steps: Vec<Vec<u16>>,
     now: Vec<u32>,
     next: Vec<u32>,
@@ -32,13 +32,13 @@ pub(crate) struct LatticePibt<'a> {
 }
 
 impl<'a> LatticePibt<'a> {
-    /// For robots that head for these goals; `None` where they and the nodes are too many.
+    /// For robots with these goals; `None` where robots × nodes are too many.
     pub fn new(lattice: &'a Lattice, goals: &'a [u32], cancel: Cancel<'a>) -> Option<Self> {
         let nodes = lattice.places.len();
         if nodes.saturating_mul(goals.len()) > MOST_STEPS {
             return None;
         }
-        // A step that is given up is not asked for.
+        // The steps of a cancelled search are not used.
         let to = |&goal: &u32| {
             if goal == NONE || cancel.is_wanted() { Vec::new() } else { lattice.steps_to(goal) }
         };
@@ -112,7 +112,7 @@ impl LatticePibt<'_> {
         self.holder_next[node as usize] = robot as u32;
     }
 
-    /// Whether a robot may enter a node beside what has been decided.
+    /// Whether a robot may enter a node beside what is decided.
     fn may_enter(&self, robot: usize, node: u32, direction: u8) -> bool {
         if self.holder_next[node as usize] != NO_ROBOT {
             return false;
@@ -128,7 +128,7 @@ impl LatticePibt<'_> {
         follows && (behind == NO_ROBOT || may_follow(self.direction[behind as usize], direction))
     }
 
-    /// Lets a robot choose, and whoever is in its way after it; whether it could move on or stay by its own choice.
+    /// Lets a robot choose, and then the robots in its way. Returns whether it moved or stayed by its own choice.
     fn choose(&mut self, robot: usize, depth: usize) -> bool {
         let here = self.now[robot];
         let mut choices = [(0u64, NONE, STAYS); 7];
@@ -160,7 +160,7 @@ impl LatticePibt<'_> {
         if holder == NO_ROBOT || holder == robot as u32 {
             self.reserve(robot, here, STAYS);
         } else {
-            // Whoever wanted this node finds it taken and chooses again.
+            // The robot that wanted this node finds it taken and chooses again.
             self.next[robot] = here;
             self.direction[robot] = STAYS;
             self.holder_next[here as usize] = robot as u32;
@@ -168,7 +168,8 @@ impl LatticePibt<'_> {
         false
     }
 
-    /// What a node costs a robot: steps left, then whether somebody stands there, then the bee-line to its goal.
+    /// Cost of a node for a robot: steps left, then whether a robot stands there, then the straight distance to its
+    /// goal.
     fn reluctance(&self, robot: usize, here: u32, node: u32) -> u64 {
         let taken = u64::from(node != here && self.holder_now[node as usize] != NO_ROBOT);
         let goal = self.goals[robot];
@@ -180,7 +181,7 @@ impl LatticePibt<'_> {
         (steps << 40) + (taken << 32) + ((far.length() * 1e5) as u64).min(u64::from(u32::MAX))
     }
 
-    /// The rules once more, for all at once.
+    /// Checks all rules once more, for all robots.
     fn is_legal(&mut self, now: &[u32], next: &[u32]) -> bool {
         for (robot, &node) in now.iter().enumerate() {
             self.holder_now[node as usize] = robot as u32;
@@ -204,7 +205,7 @@ impl LatticePibt<'_> {
     }
 }
 
-/// Whether one may enter a node in direction `mine` while another leaves it in direction `theirs`.
+/// Whether a robot may enter a node in direction `mine` while another leaves it in direction `theirs`.
 fn may_follow(mine: u8, theirs: u8) -> bool {
     if theirs >= STAYS || mine >= STAYS {
         return false;

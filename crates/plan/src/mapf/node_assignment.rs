@@ -1,4 +1,4 @@
-//! Which robot takes which node of the lattice: an auction (Bertsekas 1988) over the nodes near each robot's place.
+//! Assigns a lattice node to each place: an auction (Bertsekas 1988) over the nodes near it.
 
 use lightbots_base::Vec2;
 
@@ -6,14 +6,14 @@ use crate::cancel::Cancel;
 use crate::instance::Instance;
 use crate::roads::lattice::Lattice;
 
-/// How far from its place a robot looks for a node, in pitches, and at how many; wider where the crowd is too thick.
+/// Search radius of a place in pitches, and its most nodes; wider where the fleet is too dense.
 const REACHES: [(f64, usize); 3] = [(1.7, 8), (3.5, 40), (9.0, 250)];
-/// Bids rise by at least this, square metres: what an assignment may cost more than the best, each.
+/// Least increment of a bid, square metres: bounds the excess cost of an assignment, for each robot.
 const LEAST_BID: f64 = 2e-5;
-/// Bids for each robot on average, after which the reach is too small.
+/// Average number of bids of a robot, after which the radius counts as too small.
 const MOST_BIDS: usize = 400;
 
-/// A node of its own for each place, near it by squares of distance; `None` where there are not enough.
+/// A node of its own for each place, with a small sum of squared distances; `None` where there are not enough nodes.
 pub(crate) fn assign_nodes(instance: &Instance, lattice: &Lattice, places: &[Vec2]) -> Option<Vec<u32>> {
     REACHES.iter().find_map(|&(reach, most)| {
         let choices: Option<Vec<Vec<(u32, f64)>>> = places
@@ -36,8 +36,8 @@ pub(crate) fn assign_nodes(instance: &Instance, lattice: &Lattice, places: &[Vec
     })
 }
 
-/// An object for each bidder so that the sum of costs is within a least bid each of the least; `None` where the bids
-/// did not suffice.
+/// An object for each bidder. The sum of costs exceeds the least by at most [`LEAST_BID`] for each. `None` where
+/// [`MOST_BIDS`] were not enough.
 fn auction(objects: usize, choices: &[Vec<(u32, f64)>], cancel: Cancel<'_>) -> Option<Vec<u32>> {
     let mut prices = vec![0.0_f64; objects];
     let mut owner = vec![usize::MAX; objects];

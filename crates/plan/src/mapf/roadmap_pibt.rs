@@ -1,6 +1,6 @@
-//! One step of everybody on a roadmap: priority inheritance with backtracking (PIBT; Okumura et al. 2022) where who is in
-//! whose way is told by distances. All who move in a step leave, drive and arrive together, so two of them are closest
-//! where the straight line from how they stood apart to how they will is closest to nothing: that is exact.
+//! One step of all robots on a roadmap: priority inheritance with backtracking (PIBT; Okumura et al. 2022), with exact
+//! distances as its conflict rule. All robots of a step leave, drive and arrive together, so their relative motion is
+//! a straight line, and its least distance from the origin is exact.
 
 use crate::instance::Instance;
 use crate::mapf::lacam::{Constraint, Generator};
@@ -8,36 +8,36 @@ use crate::roads::roadmap::{Roadmap, nearest};
 
 /// Not decided yet.
 const OPEN: u32 = u32::MAX;
-/// Moves tried for one robot and all that it pushes, and robots pushed in a row.
+/// Most moves tried for one robot and all that it pushes. [`MOST_PUSHED`] bounds a row of pushed robots.
 const MOST_TRIES: usize = 600;
 const MOST_PUSHED: usize = 200;
-/// What the way from one node to a robot's end costs, in looks.
+/// Cost of one node in the search for all distances, in looks at pairs.
 const LOOKS_A_NODE: usize = 10;
-/// What pushing somebody costs, metres.
+/// Cost of pushing a robot, metres.
 const PUSH_M: f64 = 0.02;
 
-/// Plans steps; keeps its memory.
+/// Memory of a step; kept between steps.
 pub(crate) struct RoadmapPibt<'a> {
     instance: &'a Instance<'a>,
     roads: &'a Roadmap,
-    /// `[robot][node]`: what is left to its end.
+    /// `[robot][node]`: cost to its end.
     far_m: Vec<Vec<f64>>,
     now: Vec<u32>,
     next: Vec<u32>,
-    /// Who has been decided, in order.
+    /// Decided robots, in order.
     decided: Vec<usize>,
-    /// `[robot]`: who may be in its way in this step.
+    /// `[robot]`: robots that may be in its way in this step.
     near: Vec<Vec<usize>>,
     tries: usize,
-    /// Pairs that may still be looked at in all.
+    /// Pairs that may still be looked at.
     looks: usize,
 }
 
 impl<'a> RoadmapPibt<'a> {
-    /// For all robots of a instance, and so many looks at pairs.
+    /// For all robots of an instance, and this many looks at pairs.
     pub fn new(instance: &'a Instance<'a>, roads: &'a Roadmap, looks: usize) -> Self {
         let robots = instance.robots();
-        // Finding out how far everybody has to go costs about as much as a few looks for each node.
+        // The search for all distances costs about as much as a few looks for each node.
         let looks = looks.saturating_sub(robots * roads.places.len() * LOOKS_A_NODE);
         let far_m = |robot: usize| match instance.cancel.is_wanted() {
             true => vec![f64::INFINITY; roads.places.len()],
@@ -56,22 +56,22 @@ impl<'a> RoadmapPibt<'a> {
         }
     }
 
-    /// Whether to give up.
+    /// Whether the planner is cancelled.
     pub fn is_given_up(&self) -> bool {
         self.instance.cancel.is_wanted()
     }
 
-    /// How many looks are left.
+    /// Looks that are left.
     pub fn looks_left(&self) -> usize {
         self.looks
     }
 
-    /// What a robot still has to go from a node.
+    /// Cost of a robot from a node to its end.
     pub fn far_m(&self, robot: usize, node: u32) -> f64 {
         self.far_m[robot][node as usize]
     }
 
-    /// Whether two moves, each from a node to another or the same, may be made at once.
+    /// Whether two moves `(robot, from, to)` keep their distance at the same time.
     pub fn are_apart(&self, a: (usize, u32, u32), b: (usize, u32, u32)) -> bool {
         let place = |node: u32| self.roads.places[node as usize];
         let closest = nearest(place(a.1) - place(b.1), place(a.2) - place(b.2)).length_squared();
@@ -97,7 +97,7 @@ impl<'a> RoadmapPibt<'a> {
         }
     }
 
-    /// Who must make way for a move; `None` where it cannot be made beside what has been decided.
+    /// Robots that must make way for a move; `None` where it conflicts with what is decided.
     fn pushed_by(&self, robot: usize, node: u32) -> Option<Vec<usize>> {
         let mine = (robot, self.now[robot], node);
         let mut pushed = Vec::new();
@@ -125,7 +125,7 @@ impl<'a> RoadmapPibt<'a> {
         }
     }
 
-    /// Decides a move and those of all who must make way for it, or nothing.
+    /// Decides a move and those of all robots that must make way for it, or nothing.
     fn goes(&mut self, robot: usize, node: u32, depth: usize) -> bool {
         self.looks = self.looks.saturating_sub(self.near[robot].len() + 1);
         let Some(pushed) = self.pushed_by(robot, node) else { return false };
@@ -142,7 +142,7 @@ impl<'a> RoadmapPibt<'a> {
         all
     }
 
-    /// Lets a robot choose, and whoever is in its way after it; whether there was a choice.
+    /// Lets a robot choose, and then the robots in its way. Returns whether there was a choice.
     fn choose(&mut self, robot: usize, depth: usize) -> bool {
         let here = self.now[robot];
         let place = |node: u32| self.roads.places[node as usize];
@@ -175,8 +175,8 @@ impl Generator for RoadmapPibt<'_> {
         self.now.extend_from_slice(now);
         self.undo(0);
         self.look_around();
-        // Orders first, and only then whoever is in their way: with an order for everybody any step that may be made
-        // is made.
+        // Constraints first, and then the robots in their way: with a constraint for each robot, every legal step is
+        // made.
         let mut pushed = Vec::new();
         for &(robot, node) in constraints {
             pushed.extend(self.pushed_by(robot, node)?);
@@ -191,7 +191,7 @@ impl Generator for RoadmapPibt<'_> {
         for &robot in ranks {
             self.tries = MOST_TRIES;
             if self.next[robot] == OPEN && !self.choose(robot, 0) {
-                // Nobody who has been decided comes near one who stays.
+                // No decided robot comes near one that stays.
                 self.decide(robot, now[robot]);
             }
         }
@@ -229,7 +229,7 @@ mod tests {
 
     #[test]
     fn a_step_that_is_ordered_whole_is_made_as_ordered_or_not_at_all() {
-        // Three in a ring of places so close that they can only go on together.
+        // Three robots so close in a ring that they can only move together.
         let place = |third: i32| Vec2::unit(f64::from(third) * std::f64::consts::TAU / 3.0) * 0.068;
         let instance = instance((0..3).map(place).collect(), (1..4).map(place).collect());
         let roads = Roadmap::new(&instance, &VisibilityGraph::new(&instance), 0.072, 0.0).unwrap();

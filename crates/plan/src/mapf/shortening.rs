@@ -1,20 +1,20 @@
-//! Makes steps found by a depth-first search fewer: one robot after the other looks for its best path through space and
-//! steps while all others do as they did, and steps in which nobody moves are left out. Nothing gets worse by that.
+//! Shortens a solution of the depth-first search. One robot after the other searches its cheapest path through space
+//! and time while all others keep theirs; steps without a move are removed. The solution never gets worse.
 
 use crate::mapf::lacam::Generator;
 use crate::mapf::roadmap_pibt::RoadmapPibt;
 use crate::roads::roadmap::Roadmap;
 
-/// Rounds over all robots, and pairs of moves looked at in all.
+/// Rounds over all robots. [`MOST_LOOKS`] bounds the pairs of moves in all.
 const ROUNDS: usize = 4;
 const MOST_LOOKS: usize = 30_000_000;
-/// What a step costs: to stand where it need not end, to move, and for every metre.
+/// Costs of a step: of standing away from the end, of a move, and of each metre.
 const WAIT: f64 = 1.0;
 const MOVE: f64 = 1.5;
 const METRE: f64 = 4.0;
 const NOWHERE: u32 = u32::MAX;
 
-/// The same from the first to the last, in fewer steps and moves where that is found.
+/// A solution with the same first and last configuration, in at most as many steps.
 pub(crate) fn shorten(pibt: &RoadmapPibt, roads: &Roadmap, mut steps: Vec<Vec<u32>>) -> Vec<Vec<u32>> {
     let mut looks = MOST_LOOKS;
     for _ in 0..ROUNDS {
@@ -35,7 +35,7 @@ pub(crate) fn shorten(pibt: &RoadmapPibt, roads: &Roadmap, mut steps: Vec<Vec<u3
     steps
 }
 
-/// One robot's path among those of all others.
+/// The search of one robot among the paths of all others.
 struct SingleRobotSearch<'a> {
     pibt: &'a RoadmapPibt<'a>,
     roads: &'a Roadmap,
@@ -45,7 +45,7 @@ struct SingleRobotSearch<'a> {
 }
 
 impl SingleRobotSearch<'_> {
-    /// `[step]`: the node of the cheapest path; `None` where the looks did not suffice.
+    /// `[step]`: the node of the cheapest path; `None` where `looks` are used up.
     fn best(&mut self) -> Option<Vec<u32>> {
         let nodes = self.roads.places.len();
         let last = self.steps.len() - 1;
@@ -69,7 +69,7 @@ impl SingleRobotSearch<'_> {
         (!path.contains(&NOWHERE)).then_some(path)
     }
 
-    /// What it costs to be at each node after a step, and from where.
+    /// Cost of being at each node after a step, and the node before.
     fn spread(&mut self, step: usize, costs: &[f64]) -> Option<(Vec<f64>, Vec<u32>)> {
         let mut after = vec![f64::INFINITY; costs.len()];
         let mut from = vec![NOWHERE; costs.len()];
@@ -119,7 +119,7 @@ mod tests {
             Instance::new(&TransitionProblem { starts, goals, ..floor }, &[Some(0), Some(1)]).unwrap();
         let roads = Roadmap::new(&instance, &VisibilityGraph::new(&instance), 0.072, 0.0).unwrap();
         let pibt = RoadmapPibt::new(&instance, &roads, usize::MAX);
-        // The first drives far around the second, there and back and there again.
+        // The first robot drives far around the second, there and back and there again.
         let mut path = vec![roads.starts[0]];
         let far_m = pibt.far_m(0, path[0]);
         let node = |x: f64, y: f64| {

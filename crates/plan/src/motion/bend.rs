@@ -1,22 +1,22 @@
-//! Bends a path aside for a while without changing when it is where along its way.
+//! Displaces a path to the side for some time, without changing its progress along the line.
 
 use crate::Path;
 use lightbots_base::{Piece, Span, Vec2};
 
-/// Least time between two knots, and between a knot and the drive's ends, microseconds.
+/// Least time between two knots, and between a knot and the ends of the drive, microseconds.
 const APART_US: i64 = 200_000;
 
-/// Where a path is pushed to the side: offsets at moments, swelling and ebbing smoothly between them.
+/// Displacements of a path at some moments, with a smooth transition between them.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Displacements {
-    /// Moment after the path's start in microseconds and offset in stage metres, sorted by time.
+    /// Moment after the start of the path, microseconds, and displacement, stage metres; sorted by time.
     knots: Vec<(i64, Vec2)>,
 }
 
 impl Displacements {
-    /// Pushes by `offset` more at a moment; moments close to each other are one.
+    /// Adds `offset` at a moment; near moments share a knot.
     pub(crate) fn push(&mut self, at: Span, offset: Vec2) {
-        // Whole milliseconds travel on the wire without loss.
+        // The wire carries whole milliseconds without loss.
         let at_us = at.0 / 1000 * 1000;
         let rank = self.knots.partition_point(|knot| knot.0 < at_us);
         let near = |rank: usize| self.knots.get(rank).is_some_and(|knot| (knot.0 - at_us).abs() < APART_US);
@@ -29,7 +29,7 @@ impl Displacements {
         }
     }
 
-    /// `path`, pushed aside. It rests at its beginning and ends where it did.
+    /// `path` with these displacements. It keeps its rest, its end and its duration.
     pub(crate) fn applied_to(&self, path: &Path) -> Path {
         let rest = path
             .pieces
@@ -67,7 +67,7 @@ impl Displacements {
     }
 }
 
-/// The stretch `from_us..to_us` of a cubic that lasts `begin_us..end_us`.
+/// The part `from_us..to_us` of a cubic that lasts `begin_us..end_us`.
 fn part(curve: [Vec2; 4], begin_us: i64, end_us: i64, from_us: i64, to_us: i64) -> [Vec2; 4] {
     let (mut curve, length) = (curve, (end_us - begin_us) as f64);
     if to_us < end_us {

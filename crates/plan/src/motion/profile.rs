@@ -1,20 +1,20 @@
-//! One progress for all: a scalar from 0 to 1 over time, which each robot's straight way is multiplied by.
+//! Progress of all robots: a scalar from 0 to 1 over time that scales each straight line.
 
 use super::{turn_time, whole_millis};
 use crate::Path;
 use lightbots_base::{Limits, Piece, Span, Vec2};
 use lightbots_show::Easing;
 
-/// A rest in which robots turn, then progress from 0 to 1 in beats.
+/// A rest in which robots turn, then progress from 0 to 1.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Profile {
-    /// How long everybody stands and turns first.
+    /// Duration of the rest.
     rest: Span,
-    /// What follows, in order of time; empty where nobody moves.
+    /// Parts of the progress, in order; empty where no robot moves.
     beats: Vec<Beat>,
 }
 
-/// A stretch of progress: a cubic Bézier over time from where the beat before it ended.
+/// A part of the progress: a cubic Bézier over time from the end of the part before.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Beat {
     duration: Span,
@@ -24,7 +24,7 @@ struct Beat {
 }
 
 impl Profile {
-    /// The quickest legal profile when the longest way is `length_m` metres.
+    /// The fastest legal profile where the longest line has `length_m` metres.
     pub(crate) fn quickest(length_m: f64, easing: Easing, limits: &Limits) -> Self {
         if length_m < 1e-9 {
             return Self { rest: Span::ZERO, beats: Vec::new() };
@@ -38,18 +38,17 @@ impl Profile {
         Self { rest, beats }
     }
 
-    /// The same progress without the rest before it.
+    /// The same progress without the rest.
     pub(crate) fn without_rest(self) -> Self {
         Self { rest: Span::ZERO, ..self }
     }
 
-    /// How long it takes, the turn_rate included.
+    /// Duration with the rest.
     pub(crate) fn duration(&self) -> Span {
         self.beats.iter().fold(self.rest, |sum, beat| sum + beat.duration)
     }
 
-    /// The same profile, slowed down to take `total`; unchanged where it takes that long already. The rest for
-    /// turn_rate stays as it is.
+    /// The same profile slowed down to `total`; unchanged where it takes that long already. The rest keeps its length.
     pub(crate) fn stretched(&self, total: Span) -> Self {
         let before = self.duration();
         if total <= before {
@@ -70,7 +69,7 @@ impl Profile {
         Self { rest: self.rest, beats }
     }
 
-    /// The way from `from` to `to` with this progress.
+    /// The line from `from` to `to` with this progress.
     pub(crate) fn path(&self, from: Vec2, to: Vec2) -> Path {
         let total = self.duration();
         if from == to {
@@ -96,12 +95,12 @@ fn along(from: Vec2, to: Vec2, share: f64) -> Vec2 {
     if share >= 1.0 { to } else { from.lerp(to, share) }
 }
 
-/// A trapezoid of speed: two ramps of equal length and a cruise between them, which short ways do without.
+/// A trapezoid of speed: two ramps of equal length and a cruise, which short lines do without.
 fn swift(length_m: f64, speed: f64, accel: f64) -> Vec<Beat> {
     let short = length_m * accel < speed * speed;
     let ramp = whole_millis(if short { (length_m / accel).sqrt() } else { speed / accel });
     let cruise = if short { Span::ZERO } else { whole_millis(length_m / speed - ramp.as_secs()) };
-    // Progress in a ramp is half of what cruising as long would give.
+    // Progress in a ramp is half of that of a cruise as long.
     let unit = (ramp + cruise).as_secs();
     let (ramp_gain, cruise_gain) = (0.5 * ramp.as_secs() / unit, cruise.as_secs() / unit);
     let brake = ramp_gain + cruise_gain;
@@ -115,7 +114,7 @@ fn swift(length_m: f64, speed: f64, accel: f64) -> Vec<Beat> {
     beats
 }
 
-/// One cubic 3u² − 2u³: no step in speed anywhere, its peak 1.5 times the mean.
+/// One cubic 3u² − 2u³: speed has no step, and its peak is 1.5 times the mean.
 fn gentle(length_m: f64, speed: f64, accel: f64) -> Vec<Beat> {
     let seconds = (1.5 * length_m / speed).max((6.0 * length_m / accel).sqrt());
     vec![Beat { duration: whole_millis(seconds), c1: 0.0, c2: 1.0, end: 1.0 }]

@@ -1,17 +1,17 @@
-//! One progress for all, for a longest way.
+//! The progress of all robots on paths of different lengths.
 
 use lightbots_base::Limits;
 use lightbots_show::Easing;
 
-/// How far everybody is at each moment, for a longest way.
+/// Share of the path that lies behind a robot at each moment.
 pub(crate) struct ProgressLaw {
-    /// From start to end, seconds.
+    /// Duration, seconds.
     pub drive_s: f64,
     ramp_s: f64,
 }
 
 impl ProgressLaw {
-    /// The swiftest, or gentlest, for a longest way, stretched by `stretch`.
+    /// The fastest legal progress on the longest path, slowed down by `stretch`.
     pub fn new(longest_m: f64, limits: &Limits, easing: Easing, stretch: f64) -> Self {
         let (speed, accel) = (limits.speed_mps, limits.accel_mps2);
         let halves = 2.0 * (longest_m / accel).sqrt();
@@ -28,7 +28,7 @@ impl ProgressLaw {
         Self { drive_s, ramp_s }
     }
 
-    /// The share of the way done after `t` seconds.
+    /// Share of the path after `t` seconds.
     pub fn share(&self, t: f64) -> f64 {
         let top = 1.0 / (self.drive_s - self.ramp_s);
         let ramp = |t: f64| top * t * t / (2.0 * self.ramp_s);

@@ -1,5 +1,5 @@
-//! Timed paths of those who drive from stop to stop: in every step all who move leave and arrive together, after a rest
-//! in which they turn. Progress is one for all, so everybody is on the straight line that was looked at.
+//! Timed stop-and-go paths. In each step all robots that move leave and arrive together, after a rest in which they
+//! turn. They share one progress, so each is on the straight line that the search has looked at.
 
 use lightbots_base::{Piece, Span, Vec2};
 use lightbots_show::Easing;
@@ -8,21 +8,21 @@ use super::{Profile, quarter_turn};
 use crate::instance::Instance;
 use crate::{Path, Repaired};
 
-/// How much more time than limits ask for.
+/// Factor on the time that the limits ask for.
 const EASE: f64 = 1.002;
 
-/// A robot turns the slower the nearer it is to its new direction: the last of a turn of so much or more takes it so
-/// much longer, seconds. Who drives off before that leaves its line by 7 mm.
+/// A controller slows down near its new direction. A turn of this much or more takes [`SETTLING_S`] longer; a robot
+/// that leaves earlier is 7 mm off its line.
 const SETTLING_RAD: f64 = 0.2;
 const SETTLING_S: f64 = 0.18;
 
-/// The paths through `waypoints[step][robot]`, as slow as is wished for; `None` where a path has too many pieces.
+/// The paths through `waypoints[step][robot]` in the asked duration or more; `None` where a path has too many pieces.
 pub(crate) fn timed_paths(
     instance: &Instance,
     waypoints: &[Vec<Vec2>],
     wished: Option<Span>,
 ) -> Option<Repaired> {
-    // Ramps and a cruise are swifter than one cubic, and take more pieces.
+    // Ramps and a cruise are faster than one cubic, but take more pieces.
     [Easing::Swift, Easing::Gentle].into_iter().find_map(|easing| eased(instance, waypoints, wished, easing))
 }
 
@@ -44,7 +44,7 @@ fn eased(
     is_short.then_some(Repaired { paths, least: first + Span(whole) })
 }
 
-/// How long everybody rests, and how they drive then.
+/// Rest and drive of one step.
 struct Step {
     rest: Span,
     drive: Profile,
@@ -57,7 +57,7 @@ impl Step {
     }
 }
 
-/// The least time for each step.
+/// The least time of each step.
 fn timed(instance: &Instance, waypoints: &[Vec<Vec2>], easing: Easing) -> Vec<Step> {
     let limits = &instance.limits;
     let mut headings: Vec<Option<Vec2>> = vec![None; instance.robots()];
@@ -85,7 +85,7 @@ fn timed(instance: &Instance, waypoints: &[Vec<Vec2>], easing: Easing) -> Vec<St
     waypoints.windows(2).map(one).collect()
 }
 
-/// A robot's way, which begins with a rest for the first turn.
+/// A robot's path, which begins with a rest for the first turn.
 fn path(robot: usize, waypoints: &[Vec<Vec2>], first: Span, steps: &[Step]) -> Path {
     let start = waypoints[0][robot];
     let mut pieces = Vec::new();

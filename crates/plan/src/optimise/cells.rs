@@ -1,11 +1,11 @@
-//! Pairs of discs that are near, found by square cells.
+//! Pairs of near discs, found by a grid of square cells.
 
 use lightbots_base::Vec2;
 
 /// Most cells along an axis.
 const MOST_CELLS: f64 = 256.0;
 
-/// A disc in which somebody is for a while.
+/// A disc that contains a robot for some time.
 #[derive(Clone, Copy)]
 pub(crate) struct Disc {
     pub at: Vec2,
@@ -18,7 +18,7 @@ pub(crate) struct Disc {
 pub(crate) struct Cells {
     sorted: Vec<Disc>,
     cell_of: Vec<u32>,
-    /// Where each cell's discs begin, row after row; one more than there are cells.
+    /// Index of each cell's first disc, row after row; one more than cells.
     begins: Vec<u32>,
 }
 
@@ -33,7 +33,7 @@ impl Cells {
         for row in 0..rows {
             for column in 0..columns {
                 let cell = row * columns + column;
-                // The rest of this cell and the next, then the three around the one behind.
+                // The rest of this cell and the next one, then the three cells in the row behind.
                 let (left, right) = (column.saturating_sub(1), (column + 2).min(columns));
                 let beside = self.begins[row * columns + right] as usize;
                 let behind = if row + 1 < rows {
@@ -55,7 +55,7 @@ impl Cells {
         }
     }
 
-    /// Sorts by cells so wide that who is near is in the same cell or beside it; how many are in a row.
+    /// Sorts discs into cells at least as wide as the largest distance of a pair. Returns the number of columns.
     fn sort(&mut self, discs: &[Disc], apart: f64) -> usize {
         let (mut least, mut most, mut reach) = (discs[0].at, discs[0].at, 0.0_f64);
         for disc in discs {
@@ -82,13 +82,13 @@ impl Cells {
         }
         self.sorted.clear();
         self.sorted.resize(discs.len(), discs[0]);
-        // From the last to the first, so that who comes first stays first in a cell.
+        // From the last to the first, so that discs keep their order within a cell.
         for (disc, &cell) in discs.iter().zip(&self.cell_of).rev() {
             let end = &mut self.begins[cell as usize + 1];
             *end -= 1;
             self.sorted[*end as usize] = *disc;
         }
-        // Each cell's entry now says where the cell before it begins.
+        // Each entry is now the begin of the cell before it.
         self.begins.remove(0);
         self.begins.push(discs.len() as u32);
         columns

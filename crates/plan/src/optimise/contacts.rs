@@ -1,4 +1,4 @@
-//! Which spans come too close to what, and how deep.
+//! Detects spans that come too close to each other or to walls, and how deep.
 
 use lightbots_base::Vec2;
 
@@ -8,34 +8,34 @@ use crate::optimise::displacement::Displacement;
 use crate::optimise::neighbours::{MovedNeighbours, Places, STRETCHES, come_near, reach};
 use crate::spline::set::{SplineSet, basis, blend};
 
-/// Pairs farther apart than their clearances by this much are not watched until the next look-out, metres.
+/// Pairs this much farther apart than wanted are not looked at until the next detection, metres.
 const SKIN_M: f64 = 0.012;
-/// How often the closest moment to a wall is looked for at half the distance from the best so far.
+/// Bisections of the closest moment to a wall.
 const NEARING: usize = 3;
-/// Straight stretches cut corners by less than this, metres.
+/// Largest distance of a span from its straight stretches, metres.
 const CUT_M: f64 = 0.003;
 
-/// Two robots, or a robot and a wall, that are or may come too close within a span.
+/// Two robots, or a robot and a wall, that may come too close within a span.
 #[derive(Clone, Copy)]
 pub(crate) struct Contact {
-    /// Which span of the splines.
+    /// Span of the splines.
     pub span: usize,
     /// The robot.
     pub a: usize,
     /// The other robot, or the wall.
     pub b: Other,
-    /// How far they shall stay apart: centres of robots, or rim and wall; metres.
+    /// Distance to reach, metres: between centres of robots, or between rim and wall.
     pub wanted: f64,
-    /// How far will do, metres.
+    /// Distance that is sufficient, metres.
     pub least: f64,
-    /// Nobody need look again before both have moved so far in all, metres.
+    /// Sum of both displacements up to which the pair is surely clear, metres.
     pub clear_until: f64,
-    /// Whether it was too close when last looked at.
+    /// Whether it was too close at the last look.
     pub is_close: bool,
 }
 
 impl Contact {
-    /// Of two robots that will do with their clearances.
+    /// A contact of two robots.
     fn of_robots(span: usize, a: usize, b: usize, wanted: f64) -> Self {
         Self { span, a, b: Other::Robot(b), wanted, least: wanted, clear_until: 0.0, is_close: false }
     }
@@ -52,7 +52,7 @@ pub(crate) enum Other {
 
 /// The closest moment of a contact.
 pub(crate) struct Approach {
-    /// How far apart, as in [`Contact::wanted`].
+    /// Distance as in [`Contact::wanted`].
     pub apart: f64,
     /// Unit vector from the other to `a`.
     pub away: Vec2,
@@ -60,33 +60,33 @@ pub(crate) struct Approach {
     pub weights: [f64; 4],
 }
 
-/// How far all shall stay apart.
+/// Distances to reach.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Clearances {
-    /// Centres of robots, metres.
+    /// Between centres of robots, metres.
     pub robots_m: f64,
-    /// A robot's rim off walls, metres.
+    /// Between a robot's rim and a wall, metres.
     pub walls_m: f64,
-    /// A robot's rim off the floor's edge, at most as far as its instance says; metres.
+    /// Between a robot's rim and the floor's edge, metres; at most [`Instance::off_edge_m`].
     pub edge_m: f64,
-    /// How much less will do, metres: who is left alone within it settles sooner.
+    /// Amount by which a distance may fall short, metres: with more, the optimisation ends sooner.
     pub slack_m: f64,
 }
 
-/// Looks at spans in straight stretches.
+/// Looks at each span as some straight stretches.
 pub(crate) struct ContactDetector {
     bases: [[f64; 4]; STRETCHES + 1],
     middle: [f64; 4],
 }
 
 impl ContactDetector {
-    /// One that is ready.
+    /// With tables of weights.
     pub fn new() -> Self {
         Self { bases: std::array::from_fn(|i| basis(i as f64 / STRETCHES as f64)), middle: basis(0.5) }
     }
 
-    /// All that is closer than wished or soon may be, in order of spans; `known` is what there was at the look-out
-    /// before.
+    /// All contacts in order of spans: pairs that are too close or soon may be. `known` is the result of the last
+    /// detection.
     pub fn detect(
         &self,
         instance: &Instance,
@@ -189,7 +189,7 @@ impl ContactDetector {
         }
     }
 
-    /// The ends of a span's straight stretches.
+    /// Ends of the straight stretches of a span.
     fn places(&self, four: &[Vec2]) -> Places {
         std::array::from_fn(|i| blend(four, &self.bases[i]))
     }
@@ -209,7 +209,7 @@ impl ContactDetector {
         }
     }
 
-    /// The best of the moments that are looked at, then of those half as far from it, and so on.
+    /// The best of the sampled moments, then of two at half the distance from it, and again.
     fn closest_to_wall(&self, instance: &Instance, wall: usize, four: &[Vec2]) -> Approach {
         let at = |u: f64| {
             let weights = basis(u);
@@ -256,14 +256,14 @@ impl ContactDetector {
         let weights = basis(u);
         let nearest = blend(apart, &weights);
         let length = nearest.length();
-        // Those who meet head-on pass each other on the right.
+        // Robots that meet head-on pass each other on the right.
         let aside = || (apart[0] - apart[3]).left().normalized().unwrap_or(Vec2::new(1.0, 0.0));
         let away = if length > 1e-6 { nearest / length } else { aside() };
         Approach { apart: length, away, weights }
     }
 }
 
-/// How far those in a contact have moved in all, metres.
+/// Sum of the displacements of a contact's robots, metres.
 pub(crate) fn displacement_m(displacement: &Displacement, contact: &Contact) -> f64 {
     let other = match contact.b {
         Other::Robot(b) => displacement.of(b, contact.span),

@@ -1,4 +1,4 @@
-//! Whether a look-out that knows the one before finds as many.
+//! Whether a detection that knows the last one finds as many contacts.
 
 use super::*;
 use crate::TransitionProblem;
@@ -9,7 +9,7 @@ use lightbots_base::Limits;
 const WISH: Clearances = Clearances { robots_m: 0.06, walls_m: 0.006, edge_m: 0.0, slack_m: 0.002 };
 const ROBOTS: usize = 60;
 
-/// Every pair and span that is nearer than a contact need be, by `less_m`.
+/// Every pair and span nearer than the contact wants, less `less_m`.
 fn near(detector: &ContactDetector, instance: &Instance, splines: &SplineSet, less_m: f64) -> Vec<Contact> {
     let pairs = (0..ROBOTS).flat_map(|a| (a + 1..ROBOTS).map(move |b| (a, b)));
     let all = pairs
@@ -36,7 +36,7 @@ fn who_comes_near_is_found_though_most_have_hardly_moved() {
     let (mut displacement, mut known) = (Displacement::new(ROBOTS, 15), Vec::new());
     let mut stayed = 0;
     for round in 0..60 {
-        // Now and then all find_moved, else a few do much and some hardly.
+        // Now and then all robots move, else a few move far and some hardly.
         for robot in 0..ROBOTS {
             let far_m = [0.0, 0.0004, 0.02][if round % 20 == 0 { 2 } else { seeded.below(20) / 9 }];
             let shift = Vec2::new(seeded.between(-far_m, far_m), seeded.between(-far_m, far_m));

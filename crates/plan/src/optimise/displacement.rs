@@ -1,26 +1,26 @@
-//! How far control points have moved in all: who was clear of somebody by more than both have moved since then is not
-//! looked at again until the next look-out.
+//! Displacement of control points. A pair that was clear by more than both robots have moved since is not looked at
+//! again until the next detection.
 
 use lightbots_base::Vec2;
 
-/// The sum of each control point's moves.
+/// Sum of the moves of each control point.
 pub(crate) struct Displacement {
-    /// Control points of a way.
+    /// Control points of a spline.
     width: usize,
-    /// `[robot][point]`, metres; at least as far as it really was.
+    /// `[robot][point]`, metres; an upper bound.
     moved_m: Vec<f64>,
-    /// The same when it was marked; before everything where it never was.
+    /// The same at the last mark; minus infinity where there was none.
     marked_m: Vec<f64>,
 }
 
 impl Displacement {
-    /// Of ways that have not moved yet.
+    /// No point has moved.
     pub fn new(robots: usize, width: usize) -> Self {
         let points = robots * width;
         Self { width, moved_m: vec![0.0; points], marked_m: vec![f64::NEG_INFINITY; points] }
     }
 
-    /// From now on [`Self::since_mark`] counts anew for points that have moved farther than this since then, metres.
+    /// Points that moved farther than `far_m` since their mark get a new mark.
     pub fn mark(&mut self, far_m: f64) {
         for (marked_m, moved_m) in self.marked_m.iter_mut().zip(&self.moved_m) {
             if moved_m - *marked_m > far_m {
@@ -29,21 +29,21 @@ impl Displacement {
         }
     }
 
-    /// How far the control point of a span has moved that moved most since it was marked, metres.
+    /// Largest displacement of a span's control points since their mark, metres.
     pub fn since_mark_m(&self, robot: usize, span: usize) -> f64 {
         let at = robot * self.width + span;
         let since = |point: usize| self.moved_m[point] - self.marked_m[point];
         since(at).max(since(at + 1)).max(since(at + 2).max(since(at + 3)))
     }
 
-    /// No place has moved farther than this since the mark, metres.
+    /// Largest displacement of all points since their mark, metres.
     pub fn since_mark(&self) -> f64 {
         let since = self.moved_m.iter().zip(&self.marked_m).map(|(now, then)| now - then);
         since.fold(0.0, f64::max)
     }
 
-    /// How far the control point of a robot's span has moved that moved most, metres. From one moment to another a place
-    /// may move farther than this grows, where one point catches up with another: the next look-out sees to that.
+    /// Largest displacement of a span's control points, metres. A place may move farther than this grows, where one
+    /// point catches up with another; the next detection finds such contacts.
     pub fn of(&self, robot: usize, span: usize) -> f64 {
         let at = robot * self.width + span;
         let four = &self.moved_m[at..at + 4];
@@ -62,7 +62,7 @@ impl Displacement {
         }
     }
 
-    /// A way moved from `before` to `after`.
+    /// A spline moved from `before` to `after`.
     pub fn follow(&mut self, robot: usize, before: &[Vec2], after: &[Vec2]) {
         let own = &mut self.moved_m[robot * self.width..(robot + 1) * self.width];
         for ((moved_m, before), after) in own.iter_mut().zip(before).zip(after) {
@@ -79,7 +79,7 @@ impl Displacement {
     }
 }
 
-/// At least as far as a shift goes, and hardly dearer than its parts.
+/// Upper bound of the length of a shift that needs no square root.
 fn far(shift: Vec2) -> f64 {
     shift.x.abs() + shift.y.abs()
 }
@@ -108,7 +108,7 @@ mod tests {
         })
     }
 
-    /// No place on any span is farther from where it was than `said` of robot and span, metres.
+    /// No place on any span moved farther than `said(robot, span)`, metres.
     fn assert_bounds(was: &SplineSet, is: &SplineSet, said: impl Fn(usize, usize) -> f64) {
         for robot in 0..2 {
             for span in 0..SPANS {

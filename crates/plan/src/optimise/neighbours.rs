@@ -1,5 +1,4 @@
-//! Who is near whom on a span, of those who have moved: pairs that have hardly done so since they were compared are not
-//! compared again.
+//! Near pairs on a span among robots that have moved; pairs of robots that have not are not compared again.
 
 use lightbots_base::Vec2;
 
@@ -7,32 +6,33 @@ use crate::optimise::cells::{Cells, Disc};
 use crate::optimise::contacts::{Contact, Other};
 use crate::optimise::displacement::Displacement;
 
-/// Straight stretches a span is looked at in.
+/// Straight stretches of a span.
 pub(crate) const STRETCHES: usize = 4;
-/// Who has not moved farther than this is as near to others like that as at the look-out before, metres.
+/// A robot that moved less than this since the last detection counts as still, metres. It is part of
+/// [`SKIN_M`](super::contacts).
 pub(crate) const MOVED_M: f64 = 0.002;
-/// Where fewer than one robot in so many have moved farther, each of them is compared with all.
+/// With fewer than one moved robot in this many, each of them is compared with all.
 const FEW: usize = 40;
 
-/// What a look-out needs for each span; kept to save memory.
+/// Memory of the detection on one span.
 #[derive(Default)]
 pub(crate) struct MovedNeighbours {
     cells: Cells,
-    /// `[robot]`: where it is during the span.
+    /// `[robot]`: the disc that contains it during the span.
     pub discs: Vec<Disc>,
-    /// `[robot]`: the ends of the straight stretches of its way on the span.
+    /// `[robot]`: ends of the straight stretches on the span.
     pub places: Vec<Places>,
-    /// `[robot]`: how far it has moved since it was last compared with all, metres.
+    /// `[robot]`: displacement since it was last compared with all, metres.
     moved_m: Vec<f64>,
-    /// Who has moved.
+    /// Robots that have moved.
     pub moved: Vec<usize>,
 }
 
-/// The ends of a span's straight stretches.
+/// Ends of the straight stretches of a span.
 pub(crate) type Places = [Vec2; STRETCHES + 1];
 
 impl MovedNeighbours {
-    /// Looks who has moved on a span.
+    /// Finds the robots that have moved on a span.
     pub fn find_moved(&mut self, robots: usize, span: usize, displacement: &Displacement) {
         self.moved_m.clear();
         self.moved_m.extend((0..robots).map(|robot| displacement.since_mark_m(robot, span)));
@@ -40,7 +40,7 @@ impl MovedNeighbours {
         self.moved.extend((0..robots).filter(|&robot| self.moved_m[robot] > MOVED_M));
     }
 
-    /// A contact as it was known; `None` where somebody in it has moved.
+    /// A known contact; `None` where one of its robots has moved.
     pub fn still(&self, contact: &Contact) -> Option<Contact> {
         let moved_m = match contact.b {
             Other::Robot(b) => self.moved_m[contact.a].max(self.moved_m[b]),
@@ -50,7 +50,7 @@ impl MovedNeighbours {
         (moved_m <= MOVED_M).then_some(Contact { clear_until, ..*contact })
     }
 
-    /// Calls `near` for every two whose discs are less than `apart` from each other and of whom one has moved.
+    /// Calls `near` for every two robots whose discs are less than `apart` from each other and of which one has moved.
     pub fn pairs(&mut self, apart: f64, mut near: impl FnMut(usize, usize)) {
         let (discs, has_moved) = (&self.discs, |robot: usize| self.moved_m[robot] > MOVED_M);
         if self.moved.len() * FEW > discs.len() {
@@ -74,16 +74,16 @@ impl MovedNeighbours {
     }
 }
 
-/// How far from its middle a span's ends are.
+/// Distance of a span's ends from its middle.
 pub(crate) fn reach(places: &Places) -> f64 {
     let middle = places[STRETCHES / 2];
     let (first, last) = (places[0] - middle, places[STRETCHES] - middle);
     first.length_squared().max(last.length_squared()).sqrt()
 }
 
-/// Whether straight stretches from place to place come nearer to the origin than `near`.
+/// Whether the stretches between places come nearer to the origin than `near`.
 pub(crate) fn come_near(places: &Places, near: f64) -> bool {
-    // Who drive alike do not come nearer to each other.
+    // Pairs with a similar motion hardly come nearer to each other than their middle is.
     let far = near + reach(places);
     let square = near * near;
     let comes_near = |pair: &[Vec2]| {

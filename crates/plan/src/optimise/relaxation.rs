@@ -1,5 +1,5 @@
-//! Relaxation in space and time: whoever comes too close is resolved aside a little, then speed, acceleration and turn_rate
-//! are pulled back under their limits, again and again until neither is needed.
+//! The deformation of first guesses in space and time: pairs that are too close are displaced, then splines are
+//! projected onto their limits, until neither is needed.
 
 use lightbots_base::Vec2;
 
@@ -14,53 +14,51 @@ use crate::spline::retime::{moments, smoothed, time_scaled};
 use crate::spline::set::{MOST_SPANS, SplineSet, blend};
 use crate::spline::turn_rate::DirtySpans;
 
-/// Where fewer than one robot in so many are left in each other's way they are sent elsewhere.
+/// With fewer contacts than one in this many robots, the last pairs are perturbed.
 const A_FEW: usize = 30;
-/// How far, metres, in directions this much apart, radians.
+/// Length of a perturbation, metres. Directions are [`PERTURBATION_TURN`] radians apart.
 const PERTURBATION_M: f64 = 0.06;
 const PERTURBATION_TURN: f64 = 2.4;
-/// How much of that control points around the moment take part in.
+/// Weights of the control points around the moment.
 const PERTURBATION: [f64; 8] = [0.25, 0.6, 0.9, 1.0, 1.0, 0.9, 0.6, 0.25];
-/// Sweeps between two dirty-outs at least, and how far somebody must have moved, metres.
+/// Least number of sweeps between two detections, and the displacement that one needs, metres.
 const DETECTION_EVERY: usize = 6;
 const DETECTION_MOVED_M: f64 = 0.006;
-/// More time goes where contacts are, and to the spans beside them by as many passes; no span becomes longer than so many
-/// times at once.
+/// Passes in which congestion is smoothed. No span becomes [`MOST_TIME_SCALED`] times as long at once.
 const SMOOTHING: usize = 3;
 const MOST_TIME_SCALED: f64 = 1.5;
-/// Rather than longer than this spans become more, seconds: long ones cannot be resolved where two contacts are near each
-/// other.
+/// Longest span, seconds; beyond it there are more spans. Two contacts on one long span cannot be resolved.
 const LONGEST_SPAN_S: f64 = 0.36;
-/// Bending aims beyond the clearances by this, metres: otherwise it would only be neared for ever.
+/// Displacements aim beyond the wanted distance by this, metres, because they converge towards it.
 const BEYOND_M: f64 = 0.0002;
-/// Control points that hardly move a place must not be moved far for it.
+/// Lower bound of the sum of squared influences: control points with little influence do not move far.
 const LEAST_INFLUENCE: f64 = 0.18;
-/// Bending goes this much farther than needed at once.
+/// Overshoot of a displacement.
 const OVERSHOOT: f64 = 1.15;
-/// Robots slowdown than this all count as equally agile, m/s.
+/// Robots slower than this all count as equally agile, m/s.
 const CLUMSY_MPS: f64 = 0.1;
-/// Passes over a way against fast turns, once most contacts are resolved.
+/// Passes against fast turns, once most contacts are resolved.
 const SMOOTHING_PASSES: usize = 8;
-/// Haste that is worth no further sweeps.
+/// A time scale that needs no further sweeps.
 const GOOD_TIME_SCALE: f64 = 1.03;
 
-/// Contacts between two questions whether to give up.
+/// Contacts between two polls of the cancellation.
 const POLLED: usize = 1024;
 
-/// How hard to try.
+/// Effort of a deformation.
 #[derive(Clone, Copy)]
 pub(crate) struct Effort {
-    /// How many sweeps at most.
+    /// Most sweeps.
     pub sweeps: usize,
-    /// How much longer than at first it may take.
+    /// Largest duration, over that of the first guess.
     pub stretch: f64,
-    /// Whether to give more time at once where many are in each other's way.
+    /// Whether congestion gets more time at once.
     pub hurry: bool,
-    /// How far all shall stay apart.
+    /// Distances to reach.
     pub clearances: Clearances,
 }
 
-/// Splines without contacts, or the contacts of the sweep that left fewest. The time scale of the result says by which
+/// Splines without contacts, or the meetings of the sweep that left fewest. The time scale of the result says by which
 /// factor it must still be slowed down.
 pub(crate) fn relax(
     instance: &Instance,
@@ -73,26 +71,26 @@ pub(crate) fn relax(
     relaxation.outcome()
 }
 
-/// A relaxation that can be left and gone on with.
+/// A deformation that can be paused.
 pub(crate) struct Relaxation<'a> {
     state: State<'a>,
     effort: Effort,
-    /// It may not take longer, seconds.
+    /// Largest duration, seconds.
     longest_s: f64,
     stagnation: Stagnation,
     sweep: usize,
     perturbations: usize,
     is_over: bool,
-    /// How many contacts were resolved in the last sweep.
+    /// Contacts of the last sweep.
     resolved: usize,
-    /// The swiftest splines without contacts, and how long it takes, seconds.
+    /// The fastest splines without contacts, and their duration, seconds.
     best: Option<(f64, SplineSet)>,
     fewest: usize,
     left_over: Vec<Meeting>,
 }
 
 impl<'a> Relaxation<'a> {
-    /// One that has not begun.
+    /// A deformation that has not begun.
     pub fn new(instance: &'a Instance<'a>, splines: SplineSet, effort: Effort) -> Self {
         Self {
             longest_s: splines.lasts_s() * effort.stretch,
@@ -109,7 +107,7 @@ impl<'a> Relaxation<'a> {
         }
     }
 
-    /// Sweeps so often at most, in as much time as there is for all.
+    /// At most `sweeps` sweeps, until `work` is used up.
     pub fn go_on(&mut self, sweeps: usize, work: &mut usize) {
         for _ in 0..sweeps {
             let cost = self.state.splines.robots() * self.state.splines.spans;
@@ -124,17 +122,17 @@ impl<'a> Relaxation<'a> {
         }
     }
 
-    /// How many were in each other's way in the last sweep.
+    /// Contacts of the last sweep.
     pub fn resolved(&self) -> usize {
         self.resolved
     }
 
-    /// What it has come to.
+    /// The result.
     pub fn outcome(self) -> Result<SplineSet, Vec<Meeting>> {
         self.best.map(|(_, splines)| splines).ok_or(self.left_over)
     }
 
-    /// Bends all once; whether another time may help.
+    /// One sweep; whether another one may help.
     fn sweep(&mut self) -> bool {
         let anew = self.state.is_detection_due(self.sweep);
         self.sweep += 1;
@@ -182,15 +180,15 @@ struct State<'a> {
     clearances: Clearances,
     detector: ContactDetector,
     contacts: Vec<Contact>,
-    /// The sweep in which contacts were last looked out for, since the splines's spans are what they are.
+    /// The sweep of the last detection, since the number of spans last changed.
     detected_at: Option<usize>,
     displacement: Displacement,
-    /// `[robot]`: where it may be beyond its limits; `None`: nowhere.
+    /// `[robot]`: spans that may break limits; `None`: no span.
     dirty: Vec<Option<DirtySpans>>,
     /// `[robot]`: whether `time_scale` is out of date.
     stale: Vec<bool>,
     time_scale: Vec<f64>,
-    /// A way before it changes; kept to save memory.
+    /// A spline before it changes; kept to save memory.
     before: Vec<Vec2>,
 }
 
@@ -212,7 +210,7 @@ impl<'a> State<'a> {
         }
     }
 
-    /// Lets the whole take so many times as long, and what of it is in the way of others.
+    /// Multiplies the duration by a factor; the time goes to spans with contacts.
     fn give_time(&mut self, factor: f64) {
         let mut congestion = vec![0.0; self.splines.spans];
         for contact in self.contacts.iter().filter(|contact| contact.is_close) {
@@ -227,7 +225,7 @@ impl<'a> State<'a> {
         self.stale.fill(true);
     }
 
-    /// Lets each span take so many times as long.
+    /// Multiplies the time of each span.
     fn scale_spans(&mut self, times: &[f64]) {
         let (spans, lasts_s) = (times.len(), self.splines.span_s * times.iter().sum::<f64>());
         let wanted = (lasts_s / LONGEST_SPAN_S).ceil() as usize;
@@ -240,7 +238,7 @@ impl<'a> State<'a> {
         self.detected_at = None;
     }
 
-    /// Sends one of each two that do not come past each other elsewhere, in turn and in another direction every time.
+    /// Displaces one robot of each pair in contact, in turn and in another direction every time.
     fn perturb(&mut self, number: usize) {
         let aside = Vec2::unit(number as f64 * PERTURBATION_TURN) * PERTURBATION_M;
         let mut perturbed = vec![false; self.splines.robots()];
@@ -275,7 +273,7 @@ impl<'a> State<'a> {
         self.before.extend_from_slice(self.splines.spline(robot));
     }
 
-    /// Pulls every robot that changed towards its limits.
+    /// Projects every changed robot onto its limits.
     fn project_limits(&mut self, easings: usize) {
         let off_edge_m = self.instance.off_edge_m.min(self.clearances.edge_m);
         let limits = LimitProjector::new(self.instance, &self.splines, off_edge_m, easings);
@@ -292,7 +290,7 @@ impl<'a> State<'a> {
         }
     }
 
-    /// The greatest time_scale, and how many have too much.
+    /// The greatest time scale, and the number of robots above [`GOOD_TIME_SCALE`].
     fn time_scale(&mut self) -> (f64, usize) {
         for robot in 0..self.time_scale.len() {
             if std::mem::take(&mut self.stale[robot]) {
@@ -303,7 +301,7 @@ impl<'a> State<'a> {
         (greatest, self.time_scale.iter().filter(|&&time_scale| time_scale > GOOD_TIME_SCALE).count())
     }
 
-    /// Whether others than those watched may be too close by now.
+    /// Whether pairs without a contact may be too close by now.
     fn is_detection_due(&mut self, sweep: usize) -> bool {
         let is_due = self.detected_at.is_none_or(|last| {
             sweep >= last + DETECTION_EVERY && self.displacement.since_mark() > DETECTION_MOVED_M
@@ -314,7 +312,7 @@ impl<'a> State<'a> {
         is_due
     }
 
-    /// Bends whoever is too close, after a new dirty-out if `anew`, and says how many contacts that were.
+    /// Displaces all pairs that are too close, after a detection if `anew`. Returns the number of contacts.
     fn resolve_all(&mut self, anew: bool) -> usize {
         if anew {
             self.contacts = self.detector.detect(
@@ -340,7 +338,7 @@ impl<'a> State<'a> {
         resolved
     }
 
-    /// Who was too close, each two once, and where they meet.
+    /// Pairs in contact, each once, and their places.
     fn meetings(&self) -> Vec<Meeting> {
         let close = self.contacts.iter().filter(|contact| contact.is_close).enumerate();
         let close = close.take_while(|(number, _)| number % POLLED != 0 || !self.instance.cancel.is_wanted());
@@ -356,7 +354,8 @@ impl<'a> State<'a> {
         meetings
     }
 
-    /// Bends two robots apart, or one off a wall, if they are too close; else notes for how long they are clear.
+    /// Displaces two robots, or one from a wall, if they are too close. Otherwise it notes for which displacement they
+    /// are clear.
     fn resolve(&mut self, contact: &mut Contact) -> bool {
         let closest = self.detector.closest(self.instance, &self.splines, contact);
         if closest.apart >= contact.least {
@@ -389,7 +388,7 @@ impl<'a> State<'a> {
         self.dirty[robot].get_or_insert(DirtySpans::NOTHING).add(span);
     }
 
-    /// How easily a robot bends aside: the quicker it is, the less it must turn for that.
+    /// A fast robot needs less turn to be displaced.
     fn agility(&self, robot: usize, span: usize) -> f64 {
         let four = self.splines.span(robot, span);
         let (step, clumsy) = (four[2] - four[1], CLUMSY_MPS * self.splines.span_s);

@@ -1,41 +1,43 @@
-//! When a relaxation is given more time, and how much.
+//! When a deformation gets more time, and how much.
 
-/// Sweeps after which no more than a share of what was wrong may be left, or there is more time; and in a hurry.
+/// Sweeps of a stage, and the share of its contacts that may be left at its end. [`HURRIED_STAGE`] is for large
+/// fleets.
 const STAGE: (usize, f64) = (12, 0.5);
 const HURRIED_STAGE: (usize, f64) = (10, 0.7);
-/// Sweeps for the last few, which cost little and go in circles for a while.
+/// Sweeps of a stage with few contacts: they are cheap, and oscillate for some time.
 const LAST_SWEEPS: usize = 24;
-/// How much more time, for the last few, and how much more still for every contact of a robot, up to so many.
+/// Factor on the duration after a stage in vain; [`LAST_GROWTH`] where few contacts are left. Each contact of a robot
+/// adds [`GROWTH_A_CONTACT`], up to [`MOST_CONTACTS`].
 const GROWTH: f64 = 1.03;
 const LAST_GROWTH: f64 = 1.02;
 const GROWTH_A_CONTACT: f64 = 0.014;
 const MOST_CONTACTS: f64 = 12.0;
 
-/// How many times as much time there is after a stagnation that was in vain.
+/// Factor on the duration after a stage in vain.
 pub(crate) fn growth(hurry: bool, resolved: usize, few: usize, robots: usize) -> f64 {
     let crowding = if hurry { resolved as f64 / robots.max(1) as f64 } else { 0.0 };
     let least = if resolved <= few { LAST_GROWTH } else { GROWTH };
     least + GROWTH_A_CONTACT * crowding.min(MOST_CONTACTS)
 }
 
-/// Sweeps that are to bring something.
+/// Counts the sweeps of a stage.
 pub(crate) struct Stagnation {
-    /// How many there may be, and what share of what was wrong may be left then.
+    /// Sweeps of a stage, and the share of contacts that may be left.
     patience: (usize, f64),
-    /// How many there have been.
+    /// Sweeps of this stage.
     sweeps: usize,
-    /// How much may be wrong after them.
+    /// Contacts that may be left at the end of this stage.
     hoped: usize,
 }
 
 impl Stagnation {
-    /// The first; in a `hurry` more time is given sooner.
+    /// The first stage; `hurry` gives more time sooner.
     pub fn new(hurry: bool) -> Self {
         let patience = if hurry { HURRIED_STAGE } else { STAGE };
         Self { patience, sweeps: 0, hoped: usize::MAX }
     }
 
-    /// Counts a sweep that left so much wrong; whether it ended a stagnation that did not bring enough.
+    /// Counts a sweep that left `wrong` contacts; whether it ended a stage in vain.
     pub fn is_stagnant(&mut self, wrong: usize, only_few: bool) -> bool {
         self.sweeps += 1;
         let (sweeps, share) = self.patience;

@@ -1,4 +1,4 @@
-//! A hexagonal lattice over the floor: six directions, and as many places as discs can use.
+//! A hexagonal lattice over the floor: six directions, and the densest packing of discs.
 
 use std::collections::VecDeque;
 
@@ -9,14 +9,14 @@ use crate::margins::MARGIN_M;
 
 /// No node there.
 pub(crate) const NONE: u32 = u32::MAX;
-/// Neighbours a node that is added is tried with.
+/// Neighbours to which an added node may be connected.
 const MOST_BESIDE: usize = 24;
-/// Lattices larger than this are not laid out.
+/// Larger lattices are not made.
 const MOST_NODES: usize = 200_000;
 
 /// Free places on the floor and their neighbours.
 pub(crate) struct Lattice {
-    /// Where each node is, stage metres.
+    /// Place of each node, stage metres.
     pub places: Vec<Vec2>,
     /// `[node][direction]`: direction k points to k · 60°; [`NONE`] where there is no edge.
     pub neighbours: Vec<[u32; 6]>,
@@ -25,14 +25,14 @@ pub(crate) struct Lattice {
     columns: i64,
     rows: i64,
     corner: Vec2,
-    /// `[row][column]`: the node there, or [`NONE`].
+    /// `[row][column]`: its node, or [`NONE`].
     nodes: Vec<u32>,
     /// Nodes before this one lie in rows and columns, the others anywhere.
     in_rows: usize,
 }
 
 impl Lattice {
-    /// The lattice of a instance's floor; `None` where it would be far too large.
+    /// The lattice of an instance's floor; `None` where it would be too large.
     pub fn new(instance: &Instance, pitch_m: f64) -> Option<Self> {
         Self::around_places(instance, pitch_m, &[], 0.0)
     }
@@ -102,7 +102,7 @@ impl Lattice {
         }
     }
 
-    /// Adds a node anywhere and edges to those that `is_beside` it, nearest first: one in each direction, roughly.
+    /// Adds a node anywhere, with edges to those that `is_beside` it, nearest first: about one in each direction.
     pub fn add(&mut self, place: Vec2, reach_m: f64, is_beside: impl Fn(Vec2) -> bool) {
         let node = self.places.len() as u32;
         let near = self.around(place, reach_m, MOST_BESIDE);
@@ -155,7 +155,7 @@ impl Lattice {
         found.into_iter().map(|(_, node)| node).collect()
     }
 
-    /// Steps from every node to `goal`; `u16::MAX` where there is no edge.
+    /// Steps from every node to `goal`; `u16::MAX` where there is no path.
     pub fn steps_to(&self, goal: u32) -> Vec<u16> {
         let mut steps = vec![u16::MAX; self.places.len()];
         let mut queue = VecDeque::from([goal]);

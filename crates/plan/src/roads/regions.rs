@@ -1,5 +1,5 @@
-//! Which parts of the floor robots can drive between: obstacles that leave too narrow a gap make one wall. Everything
-//! here is exact but for where a wall runs: gaps are measured between shapes, the floor is filled in small squares.
+//! Regions of the floor that no gap connects: obstacles with too narrow a gap between them are one wall. Gaps are
+//! measured exactly between shapes; only the run of a wall is rounded to squares.
 
 use lightbots_base::Vec2;
 use lightbots_show::Obstacle;
@@ -8,27 +8,27 @@ use crate::TransitionProblem;
 use crate::cancel::Cancel;
 use crate::margins::REGION_M;
 
-/// Squares of the floor are a robot's radius over this wide.
+/// Squares for each radius of a robot.
 const SQUARES_A_RADIUS: f64 = 3.0;
-/// Floors of more squares are taken as one part.
+/// Larger floors count as one region.
 const MOST_SQUARES: f64 = 4e6;
-/// Centres stay off obstacles by a radius and more, so that this share of it belongs to a wall without any doubt, and is
-/// wider than a square.
+/// Share of a radius around an obstacle that belongs to its wall. It is wider than a square, and no centre can be
+/// there.
 const WALL_SHARE: f64 = 0.5;
-/// Closed gaps are walls so thick, in squares on either side: nothing leaks through.
+/// Thickness of a closed gap's wall on either side, in squares: enough that no fill leaks through.
 const GAP_SQUARES: f64 = 0.75;
-/// How far from a place the part it belongs to is looked for, squares.
+/// Search radius for the region of a place, in squares.
 const MOST_RINGS: i64 = 4;
-/// Not filled yet, or in a wall.
+/// Not filled yet. [`WALL`] marks squares of a wall.
 const NONE: u32 = u32::MAX;
 const WALL: u32 = u32::MAX - 1;
 
-/// What does not move.
+/// Something that does not move.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Thing {
     /// An obstacle, by its index.
     Obstacle(usize),
-    /// A robot that stands, by its index.
+    /// A standing robot, by its index.
     Standing(usize),
     /// The floor's edge.
     Edge,
@@ -37,30 +37,30 @@ pub(crate) enum Thing {
 /// A gap that is too narrow to drive through.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Gap {
-    /// What it is between.
+    /// The two things beside it.
     pub between: (Thing, Thing),
-    /// From rim to rim, metres; 0 or less where the two touch.
+    /// Width from rim to rim, metres; 0 or less where the two touch.
     pub wide_m: f64,
-    /// Its ends, stage metres.
+    /// Ends of its narrowest line, stage metres.
     pub ends: (Vec2, Vec2),
 }
 
-/// The parts of the floor.
+/// Regions of the floor.
 pub(crate) struct Regions {
     half: Vec2,
     square_m: f64,
     columns: i64,
     rows: i64,
-    /// `[square]`: the part it belongs to.
+    /// `[square]`: its region.
     part_of: Vec<u32>,
-    /// How many parts there are.
+    /// Number of regions.
     pub parts: usize,
     /// Gaps that are too narrow.
     pub gaps: Vec<Gap>,
     shapes: Vec<(Thing, Shape)>,
 }
 
-/// A rectangle with round corners: a disc is a place with much of that.
+/// A rectangle with round corners: a disc is a point with round corners.
 #[derive(Clone, Copy, Debug)]
 struct Shape {
     min: Vec2,
@@ -76,21 +76,21 @@ impl Shape {
         }
     }
 
-    /// The place nearest to `from` in its rectangle.
+    /// The nearest place in its rectangle.
     fn core(&self, from: Vec2) -> Vec2 {
         Vec2::new(from.x.max(self.min.x).min(self.max.x), from.y.max(self.min.y).min(self.max.y))
     }
 
-    /// From a place to its rim, metres; negative for discs around it.
+    /// Distance of a place from the rim, metres; negative within the round corners.
     fn off_m(&self, place: Vec2) -> f64 {
         self.core(place).distance(place) - self.round_m
     }
 
-    /// The narrowest line between the cores of two.
+    /// The narrowest line between the rectangles of two shapes.
     fn line_to(&self, other: &Self) -> (Vec2, Vec2) {
         let middle = |a_min: f64, a_max: f64, b_min: f64, b_max: f64| {
             let (low, high) = (a_min.max(b_min), a_max.min(b_max));
-            // Where the two lie side by side the line is in the middle of what they share.
+            // Where the two overlap along an axis, the line is in the middle of the overlap.
             if low <= high {
                 ((low + high) / 2.0, (low + high) / 2.0)
             } else if a_max < b_min {
@@ -105,14 +105,14 @@ impl Shape {
     }
 }
 
-/// How wide a gap between two things must be, metres.
+/// Least width of a gap between two things, metres.
 pub(crate) fn enough_m(problem: &TransitionProblem, (_, other): (Thing, Thing)) -> f64 {
     let margins = if other == Thing::Edge { 1.0 } else { 2.0 };
     problem.limits.contact_m() + margins * REGION_M
 }
 
 impl Regions {
-    /// The parts of a problem's floor; `None` where nothing stands on it, or it is too large to be looked at.
+    /// Regions of a problem's floor; `None` without obstacles, or where the floor is too large.
     pub fn new(problem: &TransitionProblem, cancel: Cancel<'_>) -> Option<Self> {
         let half = problem.half_floor;
         let square_m = problem.limits.radius_m / SQUARES_A_RADIUS;
@@ -191,7 +191,7 @@ impl Regions {
         }
     }
 
-    /// Makes a wall of the squares around a rectangle whose middle is in it.
+    /// Marks squares around a rectangle whose middle `is_in` the wall.
     fn wall(&mut self, min: Vec2, max: Vec2, around_m: f64, is_in: impl Fn(Vec2) -> bool) {
         let around = Vec2::new(around_m, around_m);
         let ((left, low), (right, high)) = (self.square(min - around), self.square(max + around));
@@ -241,7 +241,7 @@ impl Regions {
         }
     }
 
-    /// The part a place is in; `None` where it is in a wall or off the floor.
+    /// Region of a place; `None` in a wall or off the floor.
     pub fn part(&self, place: Vec2) -> Option<u32> {
         let (column, row) = self.square(place);
         (0..=MOST_RINGS).find_map(|ring| {
@@ -257,7 +257,7 @@ impl Regions {
         })
     }
 
-    /// Whether a gap leads out of a part.
+    /// Whether a gap leads out of a region.
     fn leads_out(&self, gap: &Gap, part: u32, off_m: f64) -> bool {
         let (from, to) = gap.ends;
         let Some(along) = (to - from).normalized() else { return false };
@@ -268,14 +268,14 @@ impl Regions {
         }
     }
 
-    /// The widest of the gaps that lead out of a part, though nobody fits through.
+    /// The widest of the too narrow gaps that lead out of a region.
     pub fn way_out(&self, part: u32) -> Option<Gap> {
         let off_m = self.square_m * (MOST_RINGS as f64 - 1.0);
         let out = self.gaps.iter().filter(|gap| gap.wide_m > 0.0 && self.leads_out(gap, part, off_m));
         out.copied().max_by(|a, b| a.wide_m.total_cmp(&b.wide_m))
     }
 
-    /// What a part is surrounded by.
+    /// The things that bound a region.
     pub fn around(&self, part: u32) -> Vec<Thing> {
         let is_of = |&(_, shape): &&(Thing, Shape)| {
             let reach = shape.round_m + self.square_m * (SQUARES_A_RADIUS * WALL_SHARE + 2.0);
@@ -291,7 +291,7 @@ impl Regions {
     }
 }
 
-/// From a place to a line from one end to the other, metres.
+/// Distance of a place from a line, metres.
 fn off_line(place: Vec2, from: Vec2, to: Vec2) -> f64 {
     let along = to - from;
     let share = (place - from).dot(along) / along.length_squared().max(1e-12);

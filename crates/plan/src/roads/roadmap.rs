@@ -1,5 +1,5 @@
-//! Ways for those who drive from stop to stop: everybody's ends, places beside corners and in gaps, and a lattice, as
-//! fine as asked for; between them every straight line that is free and short.
+//! The graph for stop-and-go: all ends, places beside corners and in gaps, and a lattice. Edges are all short lines
+//! that are free.
 
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
@@ -11,34 +11,34 @@ use crate::instance::Instance;
 use crate::margins::ROADMAP_M;
 use crate::roads::visibility::VisibilityGraph;
 
-/// Ways are this long at most, in pitches, and at least up to this, metres.
+/// Length of the longest edge, in pitches; at least [`LEAST_REACH_M`].
 const REACH: f64 = 1.5;
 const LEAST_REACH_M: f64 = 0.075;
-/// Places keep this much off those there are, in pitches; those of a row beside a corner.
+/// Least distance of a node from others, in pitches.
 const APART: f64 = 0.5;
-/// Places in a row, and halvings of the last step to where it ends.
+/// Most nodes in a row beside a corner. [`HALVINGS`] bisections find its last node.
 const MOST_IN_ROW: usize = 40;
 const HALVINGS: usize = 12;
-/// Larger ones are not made.
+/// Larger roadmaps are not made.
 const MOST_NODES: usize = 5_000;
-/// What every stop costs beside the line, metres: about what could be driven meanwhile.
+/// Cost of a stop beside the length, metres: about what a robot drives in that time.
 const STOP_M: f64 = 0.05;
 
 /// Places and the edges between them.
 pub(crate) struct Roadmap {
-    /// Where each node is, stage metres.
+    /// Place of each node, stage metres.
     pub places: Vec<Vec2>,
-    /// `[node]`: nodes there is a line to, nearest first.
+    /// `[node]`: nodes with a free line to it, nearest first.
     pub edges: Vec<Vec<u32>>,
-    /// `[node]`: whether it is so near to a wall that only those may be there who start or end there.
+    /// `[node]`: whether only robots that start or end there may use it, because it is too near to a wall.
     is_private: Vec<bool>,
-    /// `[robot]`: where it starts.
+    /// `[robot]`: its start.
     pub starts: Vec<u32>,
-    /// `[robot]`: where it ends; `None`: anywhere.
+    /// `[robot]`: its end; `None`: anywhere.
     pub ends: Vec<Option<u32>>,
-    /// The longest line, metres.
+    /// Length of the longest edge, metres.
     pub reach_m: f64,
-    /// Half the extents of the rectangle that places but for ends are in, metres.
+    /// Half the extents of the rectangle of all nodes but ends, metres.
     inner: Vec2,
 }
 
@@ -106,7 +106,7 @@ impl Roadmap {
         }
     }
 
-    /// Places in a row beside a place as far as it is free, the last one where that ends.
+    /// Nodes in a row beside a place as far as lines are free; the last node is where that ends.
     fn add_row(&mut self, instance: &Instance, from: Vec2, step: Vec2, apart_m: f64) {
         let mut at = from;
         for _ in 0..MOST_IN_ROW {
@@ -150,8 +150,7 @@ impl Roadmap {
         !self.is_private[node as usize] || self.starts[robot] == node || self.ends[robot] == Some(node)
     }
 
-    /// What it takes a robot from every node to where it ends: metres, and some for every stop; infinite where there
-    /// is no line.
+    /// `[node]`: cost of a robot to its end, with the cost of stops; infinite where there is no path.
     pub fn far_m(&self, robot: usize) -> Vec<f64> {
         let mut far = vec![f64::INFINITY; self.places.len()];
         let Some(end) = self.ends[robot] else { return vec![0.0; self.places.len()] };
@@ -174,7 +173,7 @@ impl Roadmap {
     }
 }
 
-/// A node that has been reached; the nearest is the greatest.
+/// A reached node; the nearest is the greatest, for a heap.
 #[derive(PartialEq)]
 struct Reached {
     far_m: f64,
@@ -195,8 +194,8 @@ impl Ord for Reached {
     }
 }
 
-/// Whether a robot may drive straight from one place on the floor to another: off every wall by the margin, or by as
-/// much as its ends are.
+/// Whether a robot may drive straight from one place to another: [`ROADMAP_M`] from every wall, or as far as its ends
+/// are.
 fn is_clear(instance: &Instance, from: Vec2, to: Vec2) -> bool {
     let on_floor = |at: Vec2| at.x.abs() <= instance.inner.x + 1e-6 && at.y.abs() <= instance.inner.y + 1e-6;
     on_floor(from)
@@ -208,7 +207,7 @@ fn is_clear(instance: &Instance, from: Vec2, to: Vec2) -> bool {
         })
 }
 
-/// The least distance of a line from a shape, metres; 0 where it goes through.
+/// Distance of a line from a shape, metres; 0 where it goes through.
 fn off_shape(shape: &Obstacle, from: Vec2, to: Vec2) -> f64 {
     let to_line = |place: Vec2| nearest(from - place, to - place).length();
     match *shape {
@@ -242,7 +241,7 @@ fn meets(min: Vec2, max: Vec2, from: Vec2, to: Vec2) -> bool {
     enters <= leaves
 }
 
-/// The place on a line that is nearest to the origin.
+/// The place of a line nearest to the origin.
 pub(crate) fn nearest(from: Vec2, to: Vec2) -> Vec2 {
     let line = to - from;
     let share = (-from.dot(line) / line.length_squared().max(1e-18)).clamp(0.0, 1.0);

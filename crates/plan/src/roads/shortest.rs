@@ -10,10 +10,10 @@ use crate::margins::COMFORT_M;
 use crate::roads::lattice::{Lattice, NONE};
 use crate::roads::visibility::VisibilityGraph;
 
-/// How far from its ends a path may reach the lattice, in pitches.
+/// Radius in which a path enters the lattice, in pitches.
 const REACH: f64 = 3.0;
 
-/// VisibilityGraph of each robot's path from its start to its end; `None` where somebody is walled in.
+/// Corners of each robot's path from its start to its end; `None` where a robot is walled in.
 pub(crate) fn shortest_paths(
     instance: &Instance,
     lattice: &Lattice,
@@ -57,7 +57,7 @@ fn shortest_path(instance: &Instance, lattice: &Lattice, start: Vec2, end: Vec2)
     Some(without_detours(instance, &path))
 }
 
-/// The path without the corners it does not need.
+/// The path without needless corners.
 fn without_detours(instance: &Instance, path: &[Vec2]) -> Vec<Vec2> {
     let mut without_detours = vec![path[0]];
     let mut at = 0;

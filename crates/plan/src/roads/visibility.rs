@@ -1,5 +1,5 @@
-//! Ways past the corners of walls, for gaps that a lattice does not fit through: the shortest path leads from corner to
-//! corner along lines that are free (a visibility graph; Lozano-Pérez and Wesley 1979).
+//! Shortest paths through gaps that a lattice does not fit through: from corner to corner along free lines (a
+//! visibility graph; Lozano-Pérez and Wesley 1979).
 
 use lightbots_base::Vec2;
 use lightbots_show::Obstacle;
@@ -8,29 +8,29 @@ use crate::instance::Instance;
 use crate::margins::VISIBILITY_M;
 use crate::roads::lattice::Lattice;
 
-/// Scenes with more walls are not looked at: their corners see each other in too many pairs.
+/// With more walls there is no graph, because too many pairs of corners see each other.
 pub(crate) const MOST_WALLS: usize = 24;
-/// Nodes that are added to a lattice keep this off others, and have ways to those so near, in pitches.
+/// Least distance of an added node from others, in pitches; its edges have at most [`MOST_PITCH`].
 const LEAST_PITCH: f64 = 0.83;
 const MOST_PITCH: f64 = 1.45;
-/// Gaps so much wider than a robot or less are narrow, metres: two do not pass each other there.
+/// Gaps at most this much wider than a robot are narrow, metres: two robots do not pass each other there.
 const NARROW_M: f64 = 0.04;
-/// Lines are divided into stretches so much longer than nodes must be apart: ends of other lines are beside theirs.
+/// Factor on the node distance when a line is divided evenly, so that nodes of crossing lines fit beside it.
 const EVEN: f64 = 1.08;
-/// Distance of places at which one is tried, metres.
+/// Step of the places at which a node is tried, metres.
 const FILL_STEP_M: f64 = 0.01;
-/// VisibilityGraph of the line that leads around a disc.
+/// Corners of the line around a disc.
 const DISC_CORNERS: u32 = 8;
 
-/// Places beside the walls' corners, and who sees whom.
+/// Places beside the corners of walls, and their free lines.
 pub(crate) struct VisibilityGraph {
     places: Vec<Vec2>,
-    /// `[place]`: places that can be driven to straight.
+    /// `[place]`: places with a free line to it.
     sees: Vec<Vec<usize>>,
 }
 
 impl VisibilityGraph {
-    /// Those of a instance; none where there are too many.
+    /// The graph of an instance; empty with too many walls.
     pub fn new(instance: &Instance) -> Self {
         let off_m = instance.limits.radius_m + VISIBILITY_M;
         let walls = if instance.walls.len() > MOST_WALLS { &[][..] } else { &instance.walls[..] };
@@ -41,13 +41,13 @@ impl VisibilityGraph {
         Self { places, sees }
     }
 
-    /// All of them, stage metres.
+    /// All places, stage metres.
     pub fn places(&self) -> &[Vec2] {
         &self.places
     }
 
-    /// A lattice that reaches through gaps and into corners that rows of nodes pass by: first come nodes in narrow
-    /// gaps, then rows where these leave room, then more wherever one fits. `None` as for any lattice.
+    /// A lattice that reaches through gaps: first nodes in narrow gaps, then rows, then more nodes wherever one fits.
+    /// `None` as for any lattice.
     pub fn lattice(&self, instance: &Instance, pitch_m: f64) -> Option<Lattice> {
         let (apart_m, reach_m) = (pitch_m * LEAST_PITCH, pitch_m * MOST_PITCH);
         let gaps = self.in_gaps(instance, apart_m);
@@ -73,8 +73,8 @@ impl VisibilityGraph {
         Some(lattice)
     }
 
-    /// Places on lines from corner to corner, at least `apart_m` from each other, where robots can only drive one after
-    /// the other: those that divide a line evenly, so that its ends are among them, then any.
+    /// Places in narrow gaps on lines from corner to corner, at least `apart_m` from each other. Places that divide a
+    /// line evenly come first, so that its ends are among them.
     fn in_gaps(&self, instance: &Instance, apart_m: f64) -> Vec<Vec2> {
         let mut gaps: Vec<Vec2> = Vec::new();
         for step_m in [apart_m * EVEN, FILL_STEP_M] {
@@ -101,7 +101,7 @@ impl VisibilityGraph {
         gaps
     }
 
-    /// VisibilityGraph of the shortest path from one place to another; `None` where there is none.
+    /// Corners of the shortest path from one place to another; `None` where there is none.
     pub fn path(&self, instance: &Instance, start: Vec2, end: Vec2) -> Option<Vec<Vec2>> {
         let from_end = seen(instance, &self.places, end);
         let mut far_m = vec![f64::INFINITY; self.places.len()];
@@ -110,7 +110,7 @@ impl VisibilityGraph {
             far_m[at] = start.distance(self.places[at]);
         }
         let mut is_settled = vec![false; self.places.len()];
-        // Dijkstra; so few places that the nearest is found by looking at all.
+        // Dijkstra; the nearest of the few places is found by looking at all.
         while let Some(at) = (0..self.places.len())
             .filter(|&at| !is_settled[at] && far_m[at] < f64::INFINITY)
             .min_by(|&a, &b| far_m[a].total_cmp(&far_m[b]))
@@ -139,7 +139,7 @@ impl VisibilityGraph {
     }
 }
 
-/// Whether the two nearest walls, the floor's edges among them, leave a robot little room.
+/// Whether the two nearest walls or edges leave a robot less than [`NARROW_M`].
 fn is_narrow(instance: &Instance, place: Vec2) -> bool {
     let edges = [instance.inner.x - place.x.abs(), instance.inner.y - place.y.abs()];
     let off_walls = (0..instance.walls.len()).map(|wall| instance.off_wall(wall, place).0);
@@ -153,7 +153,7 @@ fn seen(instance: &Instance, places: &[Vec2], from: Vec2) -> Vec<usize> {
     (0..places.len()).filter(|&at| instance.is_way_free(from, places[at], VISIBILITY_M - 1e-5)).collect()
 }
 
-/// VisibilityGraph of a line that keeps `off_m` off a wall.
+/// Corners of a line that keeps `off_m` from a wall.
 fn around(wall: &Obstacle, off_m: f64) -> Vec<Vec2> {
     match *wall {
         Obstacle::Disc { at, radius_m } => {

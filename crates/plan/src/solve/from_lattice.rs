@@ -1,4 +1,4 @@
-//! A first guess for crowds: over the lattice, where nobody meets anybody.
+//! First guess from a solution over the lattice, in which no two robots meet.
 
 use lightbots_base::Vec2;
 
@@ -9,7 +9,8 @@ use crate::mapf::node_assignment::assign_nodes;
 use crate::roads::lattice::{Lattice, NONE};
 use crate::spline::set::{MOST_SPANS, SplineSet};
 
-/// A splines of steps over the lattice, at a pace in which its corners are about legal; `None` where no order was found.
+/// Splines of the steps over the lattice, at a speed at which corners are about legal; `None` where the search found
+/// none.
 pub(crate) fn from_lattice(instance: &Instance, lattice: &Lattice) -> Option<SplineSet> {
     let starts = assign_nodes(instance, lattice, &instance.starts)?;
     let bound: Vec<usize> = (0..instance.robots()).filter(|&robot| instance.ends[robot].is_some()).collect();

@@ -1,4 +1,4 @@
-//! First guesses: everybody drives their shortest way, through each other if need be, in one manner or another.
+//! First guesses: all robots follow their shortest paths in one manner, and may overlap.
 
 use lightbots_base::Vec2;
 use lightbots_show::Easing;
@@ -9,46 +9,46 @@ use crate::solve::path_set::{PathSet, crowding, point_along};
 use crate::spline::retime::{moments, time_scaled};
 use crate::spline::set::{MOST_SPANS, SplineSet};
 
-/// By how much guesses bow.
+/// Bows of guesses, as a share of the length.
 const BOWS: [f64; 5] = [0.0, 0.12, 0.25, 0.5, -0.12];
-/// Share of the time in which a tight crowd becomes loose, and tight again at the end.
+/// Share of the time in which a dense fleet spreads, and gathers again at the end.
 const LOOSENED: f64 = 0.3;
-/// The top speed of who loosens and tightens, over the mean.
+/// Top speed of spreading over its mean.
 const GENTLE: f64 = 1.5;
-/// Moments at which a guess is looked at.
+/// Moments at which congestion is measured.
 const SAMPLES: usize = 16;
-/// What being too fast weighs beside being too close.
+/// Weight of excess speed beside congestion.
 const RUSH: f64 = 0.03;
-/// What every manner but driving straight together weighs.
+/// Penalty of each deviation from straight lines together.
 const ODD: f64 = 0.005;
-/// Badness up to here needs no more time.
+/// Badness that needs no additional time.
 const EASY: f64 = 0.1;
-/// How much more time more badness is given at first, and the most of it: less than crowds of 1,000 mostly come to, as
-/// the relaxation knows better where they need it.
+/// Additional time for each unit of badness, up to [`MOST_STRETCH`]. That is less than fleets of 1,000 mostly need,
+/// because the deformation finds better moments for it.
 const STRETCH: f64 = 4.0;
 const MOST_STRETCH: f64 = 0.4;
-/// Parts of the time between two of those moments that each take as long as they need.
+/// Parts of the time between two moments, for retiming.
 const PARTS: usize = 16;
 
-/// How everybody gets along their path.
+/// How robots follow their paths.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Manner {
-    /// Straight paths bow to the right by this share of their length, to the left where it is negative, so that
-    /// crowds that meet head-on pass each other.
+    /// Straight lines bow to the right by this share of their length, to the left if negative, so that robots that
+    /// meet head-on pass each other.
     pub bow: f64,
-    /// Whether all drive equally fast and who has a short way arrives early, instead of all arriving together: so who
-    /// crosses a line meets there only a few at a time.
+    /// Whether all robots drive equally fast and those with short paths arrive early. Then only a few meet at a time
+    /// where paths cross.
     pub early: bool,
-    /// Whether the crowd is kept from gathering in the middle.
+    /// Whether robots are kept from gathering in the middle.
     pub level: bool,
-    /// Whether a tight crowd loosens on its way.
+    /// Whether a dense fleet spreads on its way.
     pub spread: bool,
-    /// Whether it loosens before anybody goes anywhere, and is tight again only when all have got there.
+    /// Whether it spreads before any robot drives to its goal, and gathers only when all are there.
     pub staged: bool,
 }
 
 impl Manner {
-    /// All that are worth a look.
+    /// All manners of guesses in minimum time.
     pub fn all() -> impl Iterator<Item = Self> {
         let flags = [false, true];
         let loose = flags.into_iter().flat_map(move |spread| flags.map(|level| (spread, level)));
@@ -59,21 +59,21 @@ impl Manner {
     }
 }
 
-/// A crowd's ways in a manner.
+/// Paths in one manner.
 pub(crate) struct Guess<'a> {
     path_set: &'a PathSet<'a>,
     pub manner: Manner,
     progress: ProgressLaw,
-    /// How little it promises: how much of others is in everybody's way, how much too fast they are, and how odd it is.
+    /// Rank of the guess: congestion, excess speed and the penalty of its manner; less is better.
     pub badness: f64,
-    /// The same but for how odd it is.
+    /// The same without the penalty.
     plain_badness: f64,
-    /// How much the crowd is in its own way at each moment that was looked at.
+    /// Congestion at each measured moment.
     congestion: [f64; SAMPLES + 1],
 }
 
 impl<'a> Guess<'a> {
-    /// The guess of a manner, judged by who comes closer than `near_m`.
+    /// The guess of a manner. Pairs closer than `near_m` are congestion.
     pub fn new(path_set: &'a PathSet<'a>, easing: Easing, manner: Manner, near_m: f64) -> Self {
         let longer = 1.0 + 2.0 * manner.bow * manner.bow;
         let progress = ProgressLaw::new(path_set.longest_m, &path_set.instance.limits, easing, longer);
@@ -86,14 +86,14 @@ impl<'a> Guess<'a> {
         guess
     }
 
-    /// Whether all ways are the same as in another guess for all that its manner differs in who is early.
+    /// Whether all places are the same as in another guess whose manner differs in `early` only.
     pub fn is_like(&self, other: &Self) -> bool {
         let timed = |guess: &Self| Manner { early: true, ..guess.manner };
         timed(self) == timed(other) && (self.plain_badness - other.plain_badness).abs() < 1e-6
     }
 
-    /// The guess as a splines, `stretch` times as slow as at full speed, with spans of about `span_s` seconds. It is slow
-    /// where the crowd is in its own way, and only there.
+    /// The guess as splines of about `span_s` seconds each, `stretch` times as long as at full speed. The time goes
+    /// where congestion is.
     pub fn splines(&self, stretch: f64, span_s: f64) -> SplineSet {
         let parts = SAMPLES * PARTS;
         let congestion = (0..parts).map(|part| {
@@ -106,13 +106,13 @@ impl<'a> Guess<'a> {
         })
     }
 
-    /// The guess as a splines that takes `drive_s` seconds, with spans of about `span_s`.
+    /// The guess as splines that take `drive_s` seconds, with spans of about `span_s`.
     pub fn splines_lasting(&self, drive_s: f64, span_s: f64) -> SplineSet {
         let evenly = |spans: usize| (0..=spans).map(|step| step as f64 / spans as f64).collect();
         self.splines_through(drive_s, span_s, evenly)
     }
 
-    /// The same, through where everybody is at some shares of the time, one more than there are spans.
+    /// The same, through the places at some shares of the time, one more than spans.
     fn splines_through(&self, drive_s: f64, span_s: f64, moments: impl Fn(usize) -> Vec<f64>) -> SplineSet {
         let spans = ((drive_s / span_s).ceil() as usize).clamp(6, MOST_SPANS);
         let places: Vec<Vec<Vec2>> =
@@ -122,12 +122,12 @@ impl<'a> Guess<'a> {
         })
     }
 
-    /// How many times as long as at full speed it should take for the crowd to give way.
+    /// Time scale that the congestion should need.
     pub fn stretch(&self) -> f64 {
         1.0 + ((self.badness - EASY) * STRETCH).clamp(0.0, MOST_STRETCH)
     }
 
-    /// Seconds in which everybody gets to the end at full speed, as far as this manner goes.
+    /// Least duration in this manner, seconds.
     pub fn least_s(&self) -> f64 {
         if self.manner.staged {
             let out_s = GENTLE * self.path_set.farthest_loosened() / self.path_set.instance.limits.speed_mps;
@@ -137,14 +137,14 @@ impl<'a> Guess<'a> {
         }
     }
 
-    /// The share of its way that the longest has gone after a share of the time.
+    /// Share of the longest path after a share of the time.
     fn share(&self, moment: f64) -> f64 {
         let within = (moment - LOOSENED) / (1.0 - 2.0 * LOOSENED);
         let moment = if self.manner.staged { within.clamp(0.0, 1.0) } else { moment };
         self.progress.share(moment * self.progress.drive_s)
     }
 
-    /// Where everybody is after a share of the time.
+    /// Places of all robots after a share of the time.
     fn places(&self, moment: f64) -> Vec<Vec2> {
         let share = self.share(moment);
         let mut places: Vec<Vec2> =
@@ -159,7 +159,7 @@ impl<'a> Guess<'a> {
         places
     }
 
-    /// The same, where nobody is moved from their way onto what stands there.
+    /// The same, without moving a robot from its path into a wall.
     fn free_places(&self, moment: f64) -> Vec<Vec2> {
         let mut places = self.places(moment);
         if !self.path_set.instance.walls.is_empty() {
@@ -174,7 +174,7 @@ impl<'a> Guess<'a> {
         places
     }
 
-    /// How much of its way a robot has gone when the longest way has been gone by a share.
+    /// Share of a robot's path when the longest path is done by `share`.
     fn share_of(&self, robot: usize, share: f64) -> f64 {
         let length = self.path_set.lengths[robot];
         if self.manner.early && length > 0.0 {
@@ -199,7 +199,7 @@ impl<'a> Guess<'a> {
         }
     }
 
-    /// How little it promises but for how odd it is, and how much the crowd is in its own way at each moment.
+    /// Badness without the penalty, and congestion at each moment.
     fn judged(&self, near_m: f64) -> (f64, [f64; SAMPLES + 1]) {
         let robots = self.path_set.paths.len().max(1) as f64;
         let step_m = self.path_set.instance.limits.speed_mps * self.progress.drive_s / SAMPLES as f64;

@@ -25,7 +25,7 @@ use crate::explain::Explanation;
 use crate::instance::Instance;
 use crate::proof::prove_unless;
 use crate::{Meeting, Repaired, TransitionProblem};
-pub(crate) use run::Outcome;
+pub(crate) use run::Solution;
 use scale::Scale;
 
 /// Collision-free timed paths for a given assignment: `goal_of[start]` is the goal of that robot, `None` a spare robot
@@ -37,27 +37,27 @@ pub fn repair(problem: &TransitionProblem, goal_of: &[Option<usize>]) -> Result<
 }
 
 /// [`repair`] with an explanation. The result means nothing where the planner is cancelled.
-pub(crate) fn solve(problem: &TransitionProblem, goal_of: &[Option<usize>], cancel: Cancel<'_>) -> Outcome {
+pub(crate) fn solve(problem: &TransitionProblem, goal_of: &[Option<usize>], cancel: Cancel<'_>) -> Solution {
     let mut explanation = Explanation::default();
     for scale in Scale::of(&problem.limits) {
-        let Outcome { result, explanation: rows } = unscaled(&scale.problem(problem), goal_of, cancel);
+        let Solution { result, explanation: rows } = unscaled(&scale.problem(problem), goal_of, cancel);
         explanation.append(rows);
         let Ok(found) = result else { continue };
         let found = scale.repaired(problem, goal_of, found);
         // The speed below which robots may turn freely does not scale with them.
         if prove_unless(&problem.to_prove(&found.paths), cancel).holds() {
-            return Outcome { result: Ok(found), explanation };
+            return Solution { result: Ok(found), explanation };
         }
     }
-    let Outcome { result, explanation: rows } = unscaled(problem, goal_of, cancel);
+    let Solution { result, explanation: rows } = unscaled(problem, goal_of, cancel);
     explanation.append(rows);
-    Outcome { result, explanation }
+    Solution { result, explanation }
 }
 
 /// The same for robots of the Elisa-3's size.
-fn unscaled(problem: &TransitionProblem, goal_of: &[Option<usize>], cancel: Cancel<'_>) -> Outcome {
+fn unscaled(problem: &TransitionProblem, goal_of: &[Option<usize>], cancel: Cancel<'_>) -> Solution {
     match Instance::new(problem, goal_of) {
         Some(instance) => run::run(problem, &Instance { cancel, ..instance }),
-        None => Outcome { result: Err(Vec::new()), explanation: Explanation::default() },
+        None => Solution { result: Err(Vec::new()), explanation: Explanation::default() },
     }
 }

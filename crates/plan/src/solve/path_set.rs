@@ -1,34 +1,34 @@
-//! A crowd on its way: how it is kept from gathering in the middle, and how much it is in its own way.
+//! The shortest paths of all robots, and how a dense fleet is kept from gathering or spread out on them.
 
 use lightbots_base::Vec2;
 
 use crate::instance::Instance;
 use crate::optimise::cells::{Cells, Disc};
 
-/// How much of the way to an even spread a crowd is taken.
+/// Share of the way to an even spread.
 const LEVELLED: f64 = 0.6;
-/// How far apart robots of a loose crowd are, metres.
+/// Distance of robots in a spread fleet, metres.
 const LOOSE_M: f64 = 0.14;
 
-/// Everybody's shortest way, and what it tells of all.
+/// The shortest paths of all robots.
 pub(crate) struct PathSet<'a> {
     pub instance: &'a Instance<'a>,
-    /// VisibilityGraph of each robot's way.
+    /// Corners of each path.
     pub paths: &'a [Vec<Vec2>],
-    /// How long each is, metres.
+    /// Length of each path, metres.
     pub lengths: Vec<f64>,
-    /// The longest of them, metres.
+    /// Length of the longest path, metres.
     pub longest_m: f64,
     /// Coordinates of starts and of ends along each axis, sorted.
     spreads: [(Vec<f64>, Vec<f64>); 2],
-    /// The middle of all ends, stage metres.
+    /// The middle of all starts and ends, stage metres.
     middle: Vec2,
-    /// How many times as wide along each axis it becomes when it is loose.
+    /// Factor by which the fleet gets wider along each axis when it spreads.
     wider: Vec2,
 }
 
 impl<'a> PathSet<'a> {
-    /// The crowd that has these ways to go.
+    /// The set of these paths.
     pub fn new(instance: &'a Instance<'a>, paths: &'a [Vec<Vec2>]) -> Self {
         let lengths: Vec<f64> = paths.iter().map(|path| length(path)).collect();
         let longest_m = lengths.iter().copied().fold(0.0, f64::max);
@@ -46,8 +46,8 @@ impl<'a> PathSet<'a> {
         Self { instance, paths, lengths, longest_m, spreads, middle, wider }
     }
 
-    /// Spreads places along both axes, most of the way to how starts and ends are spread: by rank, from where the one
-    /// of that rank starts to where the one of that rank ends.
+    /// Moves places along both axes towards the spread of starts and ends. The place of rank k moves towards the line
+    /// from the k-th start to the k-th end.
     pub fn level(&self, places: &mut [Vec2], share: f64) {
         for (axis, (starts, ends)) in self.spreads.iter().enumerate() {
             let of = |place: &Vec2| if axis == 0 { place.x } else { place.y };
@@ -61,7 +61,7 @@ impl<'a> PathSet<'a> {
         }
     }
 
-    /// How far the one that moves most is moved when the crowd becomes loose where it starts, metres.
+    /// The largest displacement when the fleet spreads where it starts, metres.
     pub fn farthest_loosened(&self) -> f64 {
         let starts: Vec<Vec2> = self.paths.iter().map(|path| path[0]).collect();
         let mut loose = starts.clone();
@@ -69,7 +69,7 @@ impl<'a> PathSet<'a> {
         starts.iter().zip(&loose).map(|(from, to)| from.distance(*to)).fold(0.0, f64::max)
     }
 
-    /// Moves places outwards by a share of what makes the crowd loose.
+    /// Moves places outwards by a share of the full spread.
     pub fn loosen(&self, places: &mut [Vec2], share: f64) {
         for (robot, place) in places.iter_mut().enumerate() {
             let out = *place - self.middle;
@@ -79,7 +79,7 @@ impl<'a> PathSet<'a> {
     }
 }
 
-/// The middle of all ends, and how much wider along each axis a crowd can become on its floor until it is loose.
+/// The middle of all starts and ends, and the factor along each axis by which the fleet can spread on its floor.
 fn room(instance: &Instance, spreads: &[(Vec<f64>, Vec<f64>); 2]) -> (Vec2, Vec2) {
     let extent = |(starts, ends): &(Vec<f64>, Vec<f64>)| {
         let (Some(first), Some(last)) = (starts.first(), starts.last()) else { return (0.0, 0.0) };
@@ -97,7 +97,7 @@ fn room(instance: &Instance, spreads: &[(Vec<f64>, Vec<f64>); 2]) -> (Vec2, Vec2
     (middle, Vec2::new(wider(left, right, instance.inner.x), wider(front, back, instance.inner.y)))
 }
 
-/// Pairs closer than `near_m`, each by how close.
+/// Sum over pairs closer than `near_m`, each by how close.
 pub(crate) fn crowding(cells: &mut Cells, places: &[Vec2], near_m: f64) -> f64 {
     let disc = |(robot, &at): (usize, &Vec2)| Disc { at, radius: 0.0, owner: robot as u32 };
     let discs: Vec<Disc> = places.iter().enumerate().map(disc).collect();
@@ -106,12 +106,12 @@ pub(crate) fn crowding(cells: &mut Cells, places: &[Vec2], near_m: f64) -> f64 {
     sum
 }
 
-/// The length of a line through corners, metres.
+/// Length of a line through corners, metres.
 pub(crate) fn length(path: &[Vec2]) -> f64 {
     path.windows(2).map(|segment| segment[0].distance(segment[1])).sum()
 }
 
-/// The place `length_m` along a line through corners; a path has at least one.
+/// The place `length_m` along a line through corners. A path has at least one corner.
 pub(crate) fn point_along(path: &[Vec2], mut length_m: f64) -> Vec2 {
     for segment in path.windows(2) {
         let length = segment[0].distance(segment[1]);

@@ -99,13 +99,13 @@ impl Facts {
 /// A solution that the proof accepts.
 struct Candidate {
     row: usize,
-    solution: Solution,
+    solution: Trajectories,
     /// Duration with its penalty, seconds.
     lasts_s: f64,
     is_close: bool,
 }
 
-enum Solution {
+enum Trajectories {
     Splines(SplineSet),
     StopAndGo(Repaired),
 }
@@ -119,14 +119,14 @@ struct Guesses<'a> {
 }
 
 /// What a run of the schedule came to.
-pub(crate) struct Outcome {
+pub(crate) struct Solution {
     /// The chosen paths, or the meetings of the row that left fewest; empty where it failed for another reason.
     pub result: Result<Repaired, Vec<Meeting>>,
     pub explanation: Explanation,
 }
 
 /// Runs the schedule for one instance of a problem.
-pub(super) fn run(problem: &TransitionProblem, instance: &Instance) -> Outcome {
+pub(super) fn run(problem: &TransitionProblem, instance: &Instance) -> Solution {
     let visibility = OnceCell::new();
     let paths = Lattice::new(instance, PITCH_M)
         .and_then(|lattice| shortest_paths(instance, &lattice, &visibility))
@@ -365,7 +365,7 @@ impl Run<'_> {
             return self.report(name, RowOutcome::Rejected { contacts: 0 });
         }
         let lasts_s = found.least.as_secs();
-        self.keep(name, Solution::StopAndGo(found), lasts_s, false);
+        self.keep(name, Trajectories::StopAndGo(found), lasts_s, false);
     }
 
     /// Deforms a first guess.
@@ -381,7 +381,7 @@ impl Run<'_> {
                 let is_close = self.has_walls() && effort.clearances.robots_m < WIDE.robots_m;
                 let lasts_s = splines.least_span_s(&self.instance.limits) * splines.spans as f64;
                 let penalty = if is_close { CLOSE } else { 1.0 };
-                self.keep(name, Solution::Splines(splines), lasts_s * penalty, is_close);
+                self.keep(name, Trajectories::Splines(splines), lasts_s * penalty, is_close);
             }
             Err(left) => {
                 self.report(name, RowOutcome::Rejected { contacts: left.len() });
@@ -411,7 +411,7 @@ impl Run<'_> {
         verified(self.problem, self.instance, splines).map_err(|_| Vec::new())
     }
 
-    fn keep(&mut self, name: String, solution: Solution, lasts_s: f64, is_close: bool) {
+    fn keep(&mut self, name: String, solution: Trajectories, lasts_s: f64, is_close: bool) {
         let duration = self.least_of(&solution);
         self.candidates.push(Candidate { row: self.rows.len(), solution, lasts_s, is_close });
         self.report(name, RowOutcome::Solved { duration, stop_safe_percent: None });
@@ -422,10 +422,10 @@ impl Run<'_> {
     }
 
     /// The duration of a solution at full speed.
-    fn least_of(&self, solution: &Solution) -> Span {
+    fn least_of(&self, solution: &Trajectories) -> Span {
         match solution {
-            Solution::StopAndGo(found) => found.least,
-            Solution::Splines(splines) => {
+            Trajectories::StopAndGo(found) => found.least,
+            Trajectories::Splines(splines) => {
                 let span = least_span(self.instance, splines);
                 quarter_turn(&self.instance.limits) + Span(span.0 * splines.spans as i64)
             }
@@ -433,10 +433,10 @@ impl Run<'_> {
     }
 
     /// The paths of a solution in the asked duration.
-    fn repaired(&self, solution: &Solution) -> Repaired {
+    fn repaired(&self, solution: &Trajectories) -> Repaired {
         match solution {
-            Solution::StopAndGo(found) => found.clone(),
-            Solution::Splines(splines) => {
+            Trajectories::StopAndGo(found) => found.clone(),
+            Trajectories::Splines(splines) => {
                 let least = least_span(self.instance, splines);
                 let span = span_of(self.problem, self.instance, splines, least);
                 let paths = splines.paths(quarter_turn(&self.instance.limits), span);
@@ -445,7 +445,7 @@ impl Run<'_> {
         }
     }
 
-    fn outcome(self) -> Outcome {
+    fn outcome(self) -> Solution {
         let chosen = self.best().map(|best| best.row);
         let result = match self.best() {
             Some(best) => Ok(self.repaired(&best.solution)),
@@ -453,7 +453,7 @@ impl Run<'_> {
         };
         let reason = if result.is_ok() { "the shortest plan" } else { "no row was solved" };
         let explanation = Explanation { rows: self.rows, chosen, reason: reason.into() };
-        Outcome { result, explanation }
+        Solution { result, explanation }
     }
 }
 

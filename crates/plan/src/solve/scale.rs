@@ -1,5 +1,4 @@
-//! Robots of other sizes: their transition is repaired as if they were the robots that all distances here were measured
-//! with, on a floor that is as much smaller or larger.
+//! Scales robots of other sizes to the Elisa-3, for which all distances were measured, on a floor of the scaled size.
 
 use lightbots_base::{Limits, Piece, Vec2};
 use lightbots_show::Obstacle;
@@ -8,16 +7,16 @@ use crate::Repaired;
 use crate::margins::{MARGIN_M, ROOMY_M};
 use crate::{Path, TransitionProblem};
 
-/// Scales nearer to 1 than this are none.
+/// Scales this near to 1 are left out.
 const ALIKE: f64 = 1e-9;
 
-/// How lengths become those of the usual robots: metres of theirs for one here.
+/// Factor from lengths of the problem to lengths of the Elisa-3.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Scale(f64);
 
 impl Scale {
-    /// The scales to try for robots of some limits; none for the usual ones. Margins do not grow with robots: first they
-    /// are as comfortable as the usual robots' at least, then as wide as must be proven between pairs and at walls.
+    /// Scales to try for robots of these limits; none for the Elisa-3's size. Margins do not scale: the first scale
+    /// leaves the clearance of [`ROOMY_M`], the second what must be proven.
     pub fn of(limits: &Limits) -> Vec<Self> {
         let usual = Limits::ELISA_3;
         let pairs = |margin_m: f64| (usual.contact_m() + margin_m) / (limits.contact_m() + margin_m);
@@ -29,7 +28,7 @@ impl Scale {
         scales.into_iter().map(Self).collect()
     }
 
-    /// The same transition of the usual robots.
+    /// The same transition of robots of the Elisa-3's size.
     pub fn problem(self, problem: &TransitionProblem) -> TransitionProblem {
         let places = |places: &[Vec2]| places.iter().map(|&place| place * self.0).collect();
         let radius_m = Limits::ELISA_3.radius_m;
@@ -65,7 +64,7 @@ impl Scale {
         }
     }
 
-    /// What was found for the usual robots, for those of `problem`: `goal_of[start]` as it was settled.
+    /// Solved paths, scaled back to the robots of `problem` with the assignment `goal_of[start]`.
     pub fn repaired(
         self,
         problem: &TransitionProblem,
@@ -78,7 +77,7 @@ impl Scale {
         Repaired { paths, least: found.least }
     }
 
-    /// Begins and ends exactly where it shall.
+    /// It begins and ends exactly at the given places.
     fn path(self, start: Vec2, end: Option<Vec2>, path: &Path) -> Path {
         let last = path.as_ref().end();
         let place = |at: Vec2| match end {
@@ -101,7 +100,7 @@ mod tests {
     use super::*;
     use crate::solve::repair;
 
-    /// `count` robots on a ring who all drive to the opposite side.
+    /// `count` robots on a ring that drive to the opposite side.
     fn ring(count: usize, radius_m: f64, half: f64, limits: Limits) -> TransitionProblem {
         let place = |i: usize| Vec2::unit(i as f64 / count as f64 * core::f64::consts::TAU) * radius_m;
         TransitionProblem {
@@ -111,7 +110,7 @@ mod tests {
         }
     }
 
-    /// How many times as long as everybody needs alone.
+    /// Duration over that of a robot alone.
     fn ratio(problem: &TransitionProblem) -> f64 {
         let goal_of: Vec<Option<usize>> = (0..problem.starts.len()).map(Some).collect();
         let found = repair(problem, &goal_of).expect("a way");

@@ -1,5 +1,5 @@
-//! The last resort: everybody drives from stop to stop over a roadmap. Who may go at the same time is told exactly, the
-//! search leaves nothing out but for its bounded work, and what it finds can be driven as it is.
+//! The last resort: stop-and-go over a roadmap. Distances of moves are exact, the search is complete on the nodes but
+//! for its bounded work, and its result needs no deformation.
 
 use lightbots_base::{Span, Vec2};
 
@@ -46,7 +46,7 @@ mod tests {
     use crate::seeded::Seeded;
     use lightbots_base::Limits;
 
-    /// Everybody in a square grid gets another's place; half as wide again is the floor.
+    /// A square grid in which every robot gets another place; the floor is half as wide again.
     fn shuffled(side: usize, apart_m: f64) -> TransitionProblem {
         let at = |i: usize| (i as f64 - (side as f64 - 1.0) / 2.0) * apart_m;
         let starts: Vec<Vec2> = (0..side * side).map(|i| Vec2::new(at(i % side), at(i / side))).collect();
@@ -100,7 +100,7 @@ mod tests {
 
     #[test]
     fn what_there_is_no_room_for_is_not_found() {
-        // Two in a corridor one robot wide, whatever they do.
+        // Two robots in a corridor one robot wide.
         let (a, b) = (Vec2::new(-0.2, 0.0), Vec2::new(0.2, 0.0));
         let floor = TransitionProblem::on_floor(Vec2::new(0.3, 0.05), Limits::ELISA_3);
         let instance = scene_of(&TransitionProblem { starts: vec![a, b], goals: vec![b, a], ..floor });

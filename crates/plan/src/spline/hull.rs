@@ -1,6 +1,6 @@
-//! How fast a span is and how fast it swings, as polynomials by their Bernstein coefficients: a polynomial stays between
-//! the least and the greatest of them. Velocity and acceleration are for span length 1; a span is given by the three steps
-//! between its control points.
+//! Bernstein coefficients of a span's speed and turn: a polynomial stays between its least and its greatest
+//! coefficient. Velocity and acceleration are for span length 1; a span is given by the three steps between its
+//! control points.
 
 use lightbots_base::Vec2;
 
@@ -11,7 +11,7 @@ pub(crate) fn squares(steps: &[Vec2; 3]) -> [f64; 5] {
     [first.length_squared(), first.dot(middle), inner, middle.dot(last), last.length_squared()]
 }
 
-/// The same of its velocity across its acceleration, raised to the same degree.
+/// Bernstein coefficients of a span's velocity × acceleration, raised to degree 4.
 pub(crate) fn crosses(steps: &[Vec2; 3]) -> [f64; 5] {
     let (first, last) = (steps[0].cross(steps[1]), steps[1].cross(steps[2]));
     let middle = (first + steps[0].cross(steps[2]) + last) / 4.0;

@@ -1,4 +1,4 @@
-//! Pulls splines back under their limits: step by step speed, acceleration and turn_rate.
+//! Projects splines onto the limits of speed, acceleration and turn rate, one after the other.
 
 use lightbots_base::Vec2;
 
@@ -9,16 +9,16 @@ use crate::spline::turn_rate::{DirtySpans, TurnRate};
 /// Passes over a spline in one sweep.
 const PASSES: usize = 2;
 
-/// The limits of a instance, in lengths of a span.
+/// The limits of an instance for spans of one length.
 pub(crate) struct LimitProjector<'a> {
     instance: &'a Instance<'a>,
     turn_rate: TurnRate,
     smoothing_passes: usize,
-    /// How far rims stay off the floor's edge, metres.
+    /// Least distance of rims from the floor's edge, metres.
     off_edge_m: f64,
-    /// The longest step between control points, metres.
+    /// Longest step between control points, metres.
     step_m: f64,
-    /// The longest second difference of control points, metres.
+    /// Longest second difference of control points, metres.
     bow_m: f64,
 }
 
@@ -41,8 +41,8 @@ impl<'a> LimitProjector<'a> {
         }
     }
 
-    /// Pulls a robot's spline towards its limits where `dirty` says that it changed; where to dirty again, `None` where it
-    /// keeps them all.
+    /// Projects a robot's spline onto its limits in the spans of `dirty`. Returns the spans that are left; `None`
+    /// where it keeps all limits.
     pub fn project(
         &self,
         splines: &mut SplineSet,
@@ -71,14 +71,14 @@ impl<'a> LimitProjector<'a> {
     }
 }
 
-/// One pass over a spline: control points at most `step` apart, with second differences at most `bow`. Adds to `dirty`
-/// where it changed.
+/// One pass over a spline: control points at most `step` apart, with second differences at most `bow`. Adds changed
+/// spans to `dirty`.
 fn project_once(splines: &mut SplineSet, robot: usize, step: f64, bow: f64, dirty: &mut DirtySpans) -> bool {
     let (start, end) = splines.ends(robot);
     let last = splines.spans;
     let spline = splines.spline_mut(robot);
     let mut moved = |point: usize| dirty.add_point(point);
-    // At the ends acceleration is three times the first point's offset.
+    // At the ends, acceleration is three times the offset of the first free point.
     let mut changed = tether(&mut spline[2], start, bow / 3.0, || moved(2));
     if let Some(end) = end {
         changed |= tether(&mut spline[last], end, bow / 3.0, || moved(last));

@@ -1,7 +1,8 @@
-//! All robots' splines as uniform cubic B-splines in time: smooth without stops, and easy to displace.
+//! The paths of all robots as uniform cubic B-splines in time: smooth without stops, and local, because a control
+//! point moves four spans only (de Boor, A Practical Guide to Splines).
 //!
-//! A spline of `spans` spans has `spans + 3` control points; span `i` is ruled by points `i..i + 4`. Points 2 to `spans`
-//! are free. The two at either end follow from them so that the spline starts and ends at rest exactly at its ends; a
+//! A spline of `spans` spans has `spans + 3` control points; points `i..i + 4` rule span `i`. Points 2 to `spans` are
+//! free. The two points at either end follow from them, so that the spline starts and ends at rest at its ends. A
 //! spare robot comes to rest at its last free point.
 
 use lightbots_base::{Limits, Piece, Span, Vec2};
@@ -12,24 +13,24 @@ use crate::spline::turn_rate::{DirtySpans, TurnRate};
 
 /// Most spans of a spline: a path holds 128 pieces, and the rests at both ends need some.
 pub(crate) const MOST_SPANS: usize = 124;
-/// Passes in which a spline is smoothed.
+/// Smoothing passes at a span with illegal motion.
 const SMOOTHING: usize = 4;
 
-/// What the splines of all robots are, sharing one clock.
+/// The splines of all robots, on one clock.
 #[derive(Clone)]
 pub(crate) struct SplineSet {
-    /// How many spans each spline has; at least 4.
+    /// Number of spans of each spline; at least 4.
     pub spans: usize,
-    /// How long a span takes, seconds.
+    /// Duration of a span, seconds.
     pub span_s: f64,
-    /// How many times as slowly as limits ask for it is driven.
+    /// Factor by which the splines are driven more slowly than the limits ask for.
     pub slowdown: f64,
     ends: Vec<(Vec2, Option<Vec2>)>,
-    /// `[robot][spans + 3]`.
+    /// Control points, `[robot][spans + 3]`.
     points: Vec<Vec2>,
 }
 
-/// The weights of a span's four control points at share `u` of it.
+/// Weights of a span's four control points at its share `u`.
 pub(crate) fn basis(u: f64) -> [f64; 4] {
     let w = 1.0 - u;
     let (u2, u3) = (u * u, u * u * u);
@@ -41,14 +42,14 @@ pub(crate) fn basis(u: f64) -> [f64; 4] {
     ]
 }
 
-/// The weighted sum of a span's control points.
+/// Weighted sum of a span's control points.
 #[inline]
 pub(crate) fn blend(points: &[Vec2], weights: &[f64; 4]) -> Vec2 {
     points[0] * weights[0] + points[1] * weights[1] + points[2] * weights[2] + points[3] * weights[3]
 }
 
-/// Weights of a span's control points, with those of points that follow others added to these: only points 2 to
-/// `last` of a spline are free.
+/// Weights of a span's control points in which points that follow others are added to those: only points 2 to `last`
+/// are free.
 pub(crate) fn fold(weights: &[f64; 4], span: usize, last: usize, spare: bool) -> [f64; 4] {
     if span >= 2 && span + 3 <= last {
         return *weights;
@@ -68,8 +69,8 @@ pub(crate) fn fold(weights: &[f64; 4], span: usize, last: usize, spare: bool) ->
     folded
 }
 
-/// The free control points of a spline that passes these places between its spans: each place is a sixth of one, two thirds
-/// of the next and a sixth of the one after, which is solved from the first to the last and back.
+/// The free control points of a spline through these places between its spans. Each place is a sixth of one point, two
+/// thirds of the next and a sixth of the one after (a tridiagonal system, solved by the Thomas algorithm).
 fn through(places: impl ExactSizeIterator<Item = Vec2>, start: Vec2, end: Option<Vec2>) -> Vec<Vec2> {
     let last = places.len() - 1;
     let (mut points, mut shares) = (Vec::with_capacity(last + 1), Vec::with_capacity(last + 1));
@@ -96,7 +97,7 @@ fn through(places: impl ExactSizeIterator<Item = Vec2>, start: Vec2, end: Option
 }
 
 impl SplineSet {
-    /// Ways through `place(robot, step)` for steps 0..=spans, which serve as control points: corners are rounded.
+    /// Splines with `place(robot, step)` for steps 0..=spans as control points: corners become round.
     pub fn new(instance: &Instance, spans: usize, span_s: f64, place: impl Fn(usize, usize) -> Vec2) -> Self {
         let spans = spans.max(4);
         let ends = instance.starts.iter().copied().zip(instance.ends.iter().copied()).collect::<Vec<_>>();
@@ -109,30 +110,30 @@ impl SplineSet {
         splines
     }
 
-    /// How many robots.
+    /// Number of robots.
     pub fn robots(&self) -> usize {
         self.ends.len()
     }
 
-    /// How long it takes, seconds.
+    /// Duration of all spans, seconds.
     pub fn lasts_s(&self) -> f64 {
         self.span_s * self.spans as f64
     }
 
-    /// A robot's control points.
+    /// Control points of a robot.
     pub fn spline(&self, robot: usize) -> &[Vec2] {
         let width = self.spans + 3;
         &self.points[robot * width..(robot + 1) * width]
     }
 
-    /// The same, to change; call [`Self::tie_ends`] after.
+    /// Control points of a robot, to change; call [`Self::tie_ends`] afterwards.
     pub fn spline_mut(&mut self, robot: usize) -> &mut [Vec2] {
         let width = self.spans + 3;
         &mut self.points[robot * width..(robot + 1) * width]
     }
 
-    /// Bends a robot's spline until it turns no faster than it may where `dirty` says, in at most `passes`; what is left to
-    /// be looked at, and whether anything changed.
+    /// Deforms a robot's spline until it keeps the turn rate in the spans of `dirty`, in at most `passes`. Returns the
+    /// spans that are left, and whether anything changed.
     pub fn smooth_turns(
         &mut self,
         robot: usize,
@@ -156,7 +157,7 @@ impl SplineSet {
         &self.spline(robot)[span..span + 4]
     }
 
-    /// The fixed ends of a robot's spline.
+    /// Start and end of a robot's spline; no end for a spare robot.
     pub fn ends(&self, robot: usize) -> (Vec2, Option<Vec2>) {
         self.ends[robot]
     }
@@ -172,8 +173,8 @@ impl SplineSet {
         spline[last + 1] = end.map_or(spline[last], |end| end * 1.5 - spline[last] * 0.5);
     }
 
-    /// Moves everybody through the same places at other times, in one span less than `was` has moments: span `k` then
-    /// ends where they were `was[k + 1]` of the spans before from the beginning.
+    /// Moves all robots through the same places at other times. The new spline has one span less than `was` has
+    /// moments; its span `k` ends where the old one was after `was[k + 1]` spans.
     pub fn retime(&mut self, was: &[f64]) {
         let (before, last) = (self.spans, was.len() - 1);
         let at = |&was: &f64| {
@@ -192,7 +193,7 @@ impl SplineSet {
         (0..self.robots()).for_each(|robot| self.tie_ends(robot));
     }
 
-    /// Smooths a robot's spline around a span, where it turns too sharply.
+    /// Smooths a robot's spline around a span.
     pub fn smooth(&mut self, robot: usize, span: usize) {
         let last = self.spans;
         for _ in 0..SMOOTHING {
@@ -205,7 +206,7 @@ impl SplineSet {
         }
     }
 
-    /// How a place on a span follows its four control points, where only free ones move.
+    /// Weights by which a place on a span follows its four control points, where only free ones move.
     pub fn influence(&self, robot: usize, span: usize, weights: &[f64; 4]) -> [f64; 4] {
         fold(weights, span, self.spans, self.ends[robot].1.is_none())
     }
@@ -222,7 +223,7 @@ impl SplineSet {
         }
     }
 
-    /// By how much a robot's spline, driven in this time, is too fast: 1 is just legal.
+    /// Factor by which a robot's spline is too fast; 1 is just legal.
     pub fn time_scale(&self, robot: usize, limits: &Limits) -> f64 {
         let spline = self.spline(robot);
         let (mut speed, mut accel) = (0.0_f64, 0.0_f64);
@@ -238,17 +239,17 @@ impl SplineSet {
         speed.max(accel.sqrt()).max(TurnRate::new(self.span_s, limits).time_scale(spline))
     }
 
-    /// The greatest time_scale of all.
+    /// The greatest time scale of all robots.
     pub fn greatest_time_scale(&self, limits: &Limits) -> f64 {
         (0..self.robots()).map(|robot| self.time_scale(robot, limits)).fold(0.0, f64::max)
     }
 
-    /// How long a span must take at least, seconds.
+    /// Least duration of a span within the limits, seconds.
     pub fn least_span_s(&self, limits: &Limits) -> f64 {
         self.span_s * self.greatest_time_scale(limits) * 1.002 * self.slowdown
     }
 
-    /// The splines as timed paths: a rest of `turn`, then the spans, each taking `span` exactly.
+    /// The splines as timed paths: a rest of `turn`, then the spans, `span` each.
     pub fn paths(&self, turn: Span, span: Span) -> Vec<Path> {
         (0..self.robots()).map(|robot| self.path(robot, turn, span)).collect()
     }
@@ -264,7 +265,7 @@ impl SplineSet {
                 c2: (four[1] + four[2] * 2.0) / 3.0,
                 end: blend(four, &basis(1.0)),
             };
-            // Who arrives early rests exactly where it shall be.
+            // A robot that arrives early rests exactly at its end.
             if let Some(end) = end.filter(|end| i + 1 == self.spans || end.distance(piece.end) < 1e-9) {
                 piece.end = end;
             }

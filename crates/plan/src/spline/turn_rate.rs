@@ -1,34 +1,33 @@
-//! Ways that a differential drive can follow: it turns only so fast, so the direction must not swing where a robot is
-//! slow. Driving back the spline it came is no turn, so what nearly is a reversal becomes one.
+//! The turn rate of a differential drive: a slow robot must not change its direction fast. Driving back along the same
+//! line is no turn, so a near reversal becomes an exact one.
 
 use lightbots_base::{Limits, Vec2};
 
 use crate::spline::hull::{crosses, halves, squares};
 use crate::spline::set::{blend, fold};
 
-/// Slower than this the direction does not matter, m/s.
+/// Below this speed the direction does not matter, m/s. The proof has the same rule.
 const CREEP_MPS: f64 = 0.008;
-/// Moments of a span that are looked at.
+/// Sampled moments of a span.
 const MOMENTS: usize = 16;
-/// Share of the limit that is used: between two moments a robot may turn a little faster than at them.
+/// Share of the limit that is used, because a robot may turn faster between two sampled moments.
 const BETWEEN_MOMENTS: f64 = 0.96;
-/// Below this share of the speed that a turn needs, a reversal is nearer than a bend.
+/// Below this share of the speed that a turn needs, the span becomes a reversal instead of a curve.
 const REVERSAL: f64 = 0.5;
-/// Steps shorter than this many creeping ones are wiggles.
+/// Spans whose steps are all shorter than this many `creep_m` are smoothed instead of turned.
 const WIGGLE: f64 = 3.0;
-/// Slower than this many creeping speeds a robot may turn for as long as it is slow.
+/// Below this many creep speeds a robot may turn for as long as it is slow.
 const SLOW: f64 = 2.6;
-/// Between two moments speed is less than at them by more than 2 % only where its square is less than this times that of
-/// the acceleration.
+/// Speed between two moments is over 2 % below that at the moments only where v² is below this times a².
 const NARROW_SWING: f64 = 0.25;
-/// Share of the limit that a reversal may turn beside its stop.
+/// Share of the limit for the turn beside the stop of a reversal.
 const REVERSAL_UNDERCUT: f64 = 0.6;
 /// Weights of a span's control points for its third derivative.
 const JERK: [f64; 4] = [-1.0, 3.0, -3.0, 1.0];
-/// What the limit is undercut by, so that corrections end.
+/// Share of the limit that a correction aims at, so that corrections end.
 const UNDERCUT: f64 = 0.97;
 
-/// A span's motion, for span length 1: velocity is a parabola of the share of the span that has passed.
+/// Motion on a span of length 1: velocity is a parabola.
 struct SpanMotion {
     velocity: Vec2,
     acceleration: Vec2,
@@ -50,7 +49,7 @@ impl SpanMotion {
         self.acceleration + self.jerk * u
     }
 
-    /// A bit for each of the moments that are looked at: whether it is slowdown then than `speed_m`.
+    /// One bit for each sampled moment: whether its speed is below `speed_m`.
     fn slow_moments(&self, speed_m: f64) -> u32 {
         let squares: [f64; MOMENTS] =
             std::array::from_fn(|index| self.velocity(moment(index)).length_squared());
@@ -59,7 +58,7 @@ impl SpanMotion {
         bits.fold(0, |all, bit| all | bit)
     }
 
-    /// The slowest moment near `u`: Newton's steps on v².
+    /// The slowest moment near `u`, by Newton's method on v².
     fn slowest(&self, mut u: f64) -> f64 {
         for _ in 0..4 {
             let (v, a) = (self.velocity(u), self.acceleration(u));
@@ -73,14 +72,14 @@ impl SpanMotion {
     }
 }
 
-/// Weights of a span's control points for its velocity and its acceleration at a share of it.
+/// Weights of a span's control points for velocity and acceleration at its share `u`.
 fn slopes(u: f64) -> ([f64; 4], [f64; 4]) {
     let w = 1.0 - u;
     let inner = [(3.0 * u * u - 4.0 * u) / 2.0, (-3.0 * u * u + 2.0 * u + 1.0) / 2.0];
     ([-w * w / 2.0, inner[0], inner[1], u * u / 2.0], [w, 3.0 * u - 2.0, 1.0 - 3.0 * u, u])
 }
 
-/// The middle of each part of a span that is looked at.
+/// The sampled moments: the middle of each part of a span.
 fn moments() -> impl Iterator<Item = f64> {
     (0..MOMENTS).map(moment)
 }
@@ -89,42 +88,42 @@ fn moment(index: usize) -> f64 {
     (index as f64 + 0.5) / MOMENTS as f64
 }
 
-/// What of a spline is to be looked at.
+/// Spans of a spline that may break the turn rate.
 #[derive(Clone, Copy)]
 pub(crate) struct DirtySpans {
-    /// A bit for each span.
+    /// One bit for each span.
     spans: u128,
-    /// Whether robots may turn too far while they are slow.
+    /// Whether a slow robot may turn too far.
     slow_turns: bool,
 }
 
 impl DirtySpans {
-    /// Everything.
+    /// All spans.
     pub const ALL: Self = Self { spans: u128::MAX, slow_turns: true };
-    /// Nothing.
+    /// No spans.
     pub const NOTHING: Self = Self { spans: 0, slow_turns: false };
 
-    /// Whether nothing is left.
+    /// Whether no span is left.
     pub fn is_over(self) -> bool {
         self.spans == 0
     }
 
-    /// Adds a span whose control points have moved, and those that share some with it.
+    /// Adds a span whose control points moved, and all spans that share points with it.
     pub fn add(&mut self, span: usize) {
         self.spans |= (0x7f_u128 << span) >> 3;
         self.slow_turns = true;
     }
 
-    /// Adds the spans that a moved control point rules.
+    /// Adds the spans that a control point rules.
     pub fn add_point(&mut self, point: usize) {
         self.spans |= (0xf_u128 << point) >> 3;
         self.slow_turns = true;
     }
 }
 
-/// TurnRate limits of one splines, for span length 1.
+/// The turn rate limit for spans of one length.
 pub(crate) struct TurnRate {
-    /// Most turn within a span, radians.
+    /// Largest turn within a span, radians.
     turn: f64,
     /// Shortest step within a span whose direction matters, metres.
     creep_m: f64,
@@ -136,8 +135,8 @@ impl TurnRate {
         Self { turn: limits.turn_radps * span_s * BETWEEN_MOMENTS, creep_m: CREEP_MPS * span_s }
     }
 
-    /// Bends a spline once where it turns too fast, looking only at spans of `dirty`; what is to be looked at again after
-    /// that. `spare` as in [`fold`].
+    /// Deforms a spline once where it turns too fast in the spans of `dirty`. Returns the spans that changed. `spare`
+    /// as in [`fold`].
     pub fn smooth_turns(&self, spline: &mut [Vec2], spare: bool, dirty: DirtySpans) -> DirtySpans {
         let mut again = DirtySpans::NOTHING;
         let spans = spline.len() - 3;
@@ -162,7 +161,7 @@ impl TurnRate {
         again
     }
 
-    /// How a span's control points move so that it turns less fast.
+    /// Displacements of a span's control points that lower its turn rate.
     fn corrected(
         &self,
         four: &[Vec2],
@@ -183,7 +182,7 @@ impl TurnRate {
         })
     }
 
-    /// The fastest turn of a spline over the limit.
+    /// The greatest turn rate of a spline over the limit.
     pub fn time_scale(&self, spline: &[Vec2]) -> f64 {
         let fastest = spline.windows(4).fold(0.0_f64, |most, four| {
             let faster = if self.stays_within(four, most) { None } else { self.fastest(four) };
@@ -192,8 +191,8 @@ impl TurnRate {
         (fastest / self.turn).max(self.slow_turn(spline).map_or(0.0, |(_, time_scale)| time_scale))
     }
 
-    /// The worst turn of a robot while it is slow, over what the time it is slow for allows, and the span in which it
-    /// is fast again; `None` where all are legal.
+    /// The worst turn of a slow robot over what its slow time allows, and the span in which it is fast again; `None`
+    /// where all turns are legal.
     fn slow_turn(&self, spline: &[Vec2]) -> Option<(usize, f64)> {
         let slow_m = SLOW * self.creep_m;
         let (mut heading, mut slow, mut worst) = (None::<Vec2>, 0.0, None::<(usize, f64)>);
@@ -235,7 +234,7 @@ impl TurnRate {
         worst
     }
 
-    /// The fastest turn of a span and the moment it is at; `None` where none can be too fast.
+    /// The greatest turn rate of a span and its moment; `None` where none can break the limit.
     fn fastest(&self, four: &[Vec2]) -> Option<(f64, f64)> {
         if self.is_easy(four) {
             return None;
@@ -256,7 +255,7 @@ impl TurnRate {
                 worst = (swings[index] / here, u);
             }
             if here <= before && here <= after && here < hardest[index] * NARROW_SWING {
-                // The narrowest swings fall between two moments.
+                // The fastest turns fall between two moments.
                 let u = motion.slowest(u);
                 let (v, a) = (motion.velocity(u), motion.acceleration(u));
                 let turn = v.cross(a).abs() / v.length_squared().max(creep);
@@ -266,12 +265,12 @@ impl TurnRate {
         Some(worst)
     }
 
-    /// Whether nothing in a span is worth a reversal.
+    /// Whether a span is too short for a reversal.
     fn only_wiggles(&self, four: &[Vec2]) -> bool {
         four.windows(2).all(|step| step[0].distance(step[1]) < WIGGLE * self.creep_m)
     }
 
-    /// Whether a span cannot turn too fast, by the hull of its velocity.
+    /// Whether a span keeps the limit by the convex hull of its velocity.
     fn is_easy(&self, four: &[Vec2]) -> bool {
         let steps = [four[1] - four[0], four[2] - four[1], four[3] - four[2]];
         let along = steps[1];
@@ -282,8 +281,8 @@ impl TurnRate {
         (slowest > 0.0 && swing * square <= may * may) || self.stays_below(&steps, self.creep_m)
     }
 
-    /// Whether a span surely turns no more than `turn`, or not too fast at all: what it may turn less what it does is a
-    /// polynomial, which stays above its least Bernstein coefficient, and above those of its halves more closely.
+    /// Whether a span surely turns less than `turn` or within the limit. The difference is a polynomial, which stays
+    /// above its least Bernstein coefficient, and above those of its halves more closely.
     fn stays_within(&self, four: &[Vec2], turn: f64) -> bool {
         if self.is_easy(four) {
             return true;
@@ -297,12 +296,13 @@ impl TurnRate {
                 .all(|side| halves(std::array::from_fn(|i| may[i] - does[i] * side)).iter().all(is_positive))
     }
 
-    /// Whether a span's velocity stays below a speed, by the hull of its steps.
+    /// Whether a span's speed stays below a limit, by the convex hull of its steps.
     fn stays_below(&self, steps: &[Vec2; 3], speed_m: f64) -> bool {
         steps.iter().all(|step| step.length_squared() < speed_m * speed_m)
     }
 
-    /// How control points move so that |v × a| ≤ turn · v², to first order; each of `v` and `a` with its weights.
+    /// Displacements of control points after which |v × a| ≤ turn · v², to first order. `v` and `a` come with their
+    /// weights.
     fn widened(&self, v: ([f64; 4], Vec2), a: ([f64; 4], Vec2)) -> Option<[Vec2; 4]> {
         let ((v_weights, v), (a_weights, a)) = (v, a);
         let cross = v.cross(a);
@@ -316,14 +316,14 @@ impl TurnRate {
         if excess <= 0.0 || steep < 1e-12 {
             return None;
         }
-        // First order does not reach beyond about the speed itself.
+        // The first-order estimate does not reach beyond about the speed itself.
         let far = (excess / steep).min(v.length() * 0.5 + self.creep_m);
         Some(slope.map(|s| s * (-far / steep)))
     }
 
-    /// How control points move so that nothing is left of `v` across `a`, and so little of the jerk that the spline back
-    /// leaves along the spline there: near a stop the turn is half of jerk across `a` over `a`. Of all such moves the
-    /// least, by the normal equations of the two. `None`: it is a reversal already.
+    /// Least displacements of control points that make a near stop a reversal: `v` has no part across `a`, and the
+    /// jerk is small enough that the path back follows the path there. Near a stop the turn is half the jerk across
+    /// `a`, over `a`. `None`: it is a reversal already.
     fn reversed(&self, four: &[Vec2], v: ([f64; 4], Vec2), jerk: ([f64; 4], Vec2)) -> Option<[Vec2; 4]> {
         let ((v_weights, v), (j_weights, a)) = (v, jerk);
         let across = a.normalized()?.left();
@@ -342,7 +342,7 @@ impl TurnRate {
     }
 }
 
-/// The numbers of the bits that are set, the least first.
+/// Numbers of the set bits, the least first.
 fn ones(mut bits: u128) -> impl Iterator<Item = usize> {
     std::iter::from_fn(move || {
         let least = bits.trailing_zeros();
@@ -351,7 +351,7 @@ fn ones(mut bits: u128) -> impl Iterator<Item = usize> {
     })
 }
 
-/// How a span's free control points move towards the middle of their neighbours.
+/// Displacements of a span's free control points towards the middle of their neighbours.
 fn smoothed(four: &[Vec2], span: usize, last: usize) -> [Vec2; 4] {
     std::array::from_fn(|i| {
         let inner = (1..3).contains(&i) && (2..=last).contains(&(span + i));

@@ -1,4 +1,4 @@
-//! Paths for a settled assignment, with what the proof says of them.
+//! Paths of an assignment, with the proof's verdict.
 
 use super::following;
 use crate::cancel::Cancel;
@@ -8,33 +8,33 @@ use crate::proof::{Proof, ProofInput, prove_unless};
 use crate::{Closest, Path, Transition, TransitionProblem};
 use lightbots_base::{Limits, Span};
 
-/// Among more robots than this nobody looks for room to stop behind others: it would take too long.
+/// Above this number of robots no following distance is looked for, because that takes too long.
 const ROOM_MOST: usize = 1000;
 
-/// What ways are deformed for.
+/// Aim of a deformation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Aim {
-    /// Nobody passes nearer than is comfortable.
+    /// Comfortable clearance between all pairs.
     Comfort,
-    /// Who drives behind another could stop if that died, as well.
+    /// Room to stop behind a robot ahead, as well.
     Room,
 }
 
-/// A transition that may turn out not to hold.
+/// Paths that may have contacts.
 pub(super) struct Candidate {
     pub transition: Transition,
-    /// What the proof says when asked for comfortable distances; where room was asked for, for that.
+    /// The proof's verdict on the comfortable clearance, or on the following distance where that is the aim.
     pub proof: Proof,
-    /// How many of its conflicts are closer than comfortable, and not only too near to who is ahead.
+    /// Number of conflicts below the comfortable clearance.
     uncomfortable: usize,
-    /// Least distance of centres that is comfortable, metres.
+    /// Comfortable distance of centres, metres.
     comfort_m: f64,
-    /// How much of that must not be: single robots' faults, and pairs closer than the least margin.
+    /// Contacts and faults: pairs closer than the least margin, and robots with illegal motion.
     pub wrong: usize,
 }
 
 impl Candidate {
-    /// Straight synchronised lines; `start_of[goal]`. Robots without a goal stay.
+    /// Straight lines with one progress; `start_of[goal]`. Robots without a goal stay.
     pub fn straight(problem: &TransitionProblem, start_of: &[usize], cancel: Cancel<'_>) -> Self {
         let mut ends = problem.starts.clone();
         let mut goal_of = vec![None; ends.len()];
@@ -53,8 +53,8 @@ impl Candidate {
         candidate
     }
 
-    /// Any paths, all equally long, on which everybody drives this many times as slowly as they could: they are judged as
-    /// if they did, so that the least time does not depend on the time that was asked for.
+    /// Paths of one duration, driven `slower` times as slowly as possible. They are judged as if driven at full speed,
+    /// so that the least duration does not depend on the asked duration.
     pub fn of_paths(
         problem: &TransitionProblem,
         paths: Vec<Path>,
@@ -91,12 +91,12 @@ impl Candidate {
         Self { transition, proof, uncomfortable, comfort_m, wrong }
     }
 
-    /// Whether it may be driven.
+    /// Whether it is free of contacts and faults.
     pub fn holds(&self) -> bool {
         self.wrong == 0
     }
 
-    /// Pairs for which ways are to be deformed; none where they are too many.
+    /// Pairs to displace; none where there are too many.
     pub fn worth_deforming(&self, aim: Aim) -> Vec<Closest> {
         let is_asked = |found: &&Closest| aim == Aim::Room || found.distance_m < self.comfort_m;
         let robots = self.transition.paths.len();
@@ -110,30 +110,31 @@ impl Candidate {
         if asked.len() > most { Vec::new() } else { asked }
     }
 
-    /// Whether it leaves room for robots that do not follow exactly.
+    /// Whether it has the comfortable clearance, and the following distance where that is the aim.
     pub fn is_comfortable(&self) -> bool {
         self.proof.holds()
     }
 
-    /// Fewer things wrong, then fewer pairs that are close, then fewer that are too near to who is ahead.
-    pub fn is_better_than(&self, other: &Self) -> bool {
+    /// The objective of the deformation: fewer contacts and faults, then fewer close pairs, then fewer pairs without the
+    /// following distance.
+    pub fn improves_on(&self, other: &Self) -> bool {
         self.wrong < other.wrong || (self.wrong == other.wrong && self.is_roomier_than(other))
     }
 
-    /// The same, whatever else is wrong.
+    /// The same without contacts and faults.
     pub fn is_roomier_than(&self, other: &Self) -> bool {
         let rank = |of: &Self| (of.uncomfortable, of.proof.conflicts.len());
         rank(self) < rank(other)
     }
 }
 
-/// How many times as slow a drive is that takes one time, rest for turning included, instead of a least time.
+/// Factor by which a drive of `duration` is slower than one of `least`; the rest for turning does not count.
 pub(super) fn slower_than(least: Span, duration: Span, limits: &Limits) -> f64 {
     let rest = turn_time(core::f64::consts::FRAC_PI_2, limits);
     (duration - rest).as_secs() / (least - rest).as_secs().max(1e-6)
 }
 
-/// No path at all for anybody: nothing is looked at, as nothing can be counted on.
+/// Empty paths: nothing else is tried with numbers that are not finite.
 pub(super) fn unmoved(problem: &TransitionProblem) -> Transition {
     Transition {
         goal_of: vec![None; problem.starts.len()],
@@ -145,7 +146,7 @@ pub(super) fn unmoved(problem: &TransitionProblem) -> Transition {
     }
 }
 
-/// Everybody stays where they are, as long as the problem asks for.
+/// All robots stay for the asked duration.
 pub(super) fn standing_still(problem: &TransitionProblem) -> Transition {
     let mut transition =
         Candidate::straight(&TransitionProblem { goals: Vec::new(), ..problem.clone() }, &[], Cancel::NEVER)

@@ -1,4 +1,4 @@
-//! Who stands in each other's way where no way was found, and what would do, in words.
+//! Messages about robots that do not get past each other, with a remedy.
 
 use lightbots_base::Vec2;
 
@@ -10,14 +10,14 @@ use crate::{Infeasible, Transition, TransitionProblem};
 
 /// Pairs named in a message.
 const MOST_NAMED: usize = 4;
-/// Pixels so many diameters apart leave room where any robot may show any pixel: then straight lines of the least sum
-/// of squares keep clear of each other.
+/// Distance of pixels, in diameters, at which any robot may show any pixel: straight lines with the least sum of
+/// squares then keep clear of each other (Turpin et al. 2014).
 const FREE_DIAMETERS: f64 = core::f64::consts::SQRT_2;
-/// The same where robots are bound to pixels: measured with shuffled grids that fill the floor, up to 1,000 robots.
+/// The same for fixed identity: measured with shuffled grids that fill the floor, up to 1,000 robots.
 const BOUND_DIAMETERS: f64 = 2.25;
 
-/// Nobody found a way. `left` did not get past each other; where it is empty, the straight lines tell who is in whose
-/// way.
+/// The message of a problem without a plan. `left` are pairs that did not get past each other; where it is empty,
+/// conflicts of the straight lines are named.
 pub(super) fn infeasible(
     problem: &TransitionProblem,
     transition: &Transition,
@@ -33,7 +33,7 @@ pub(super) fn infeasible(
         let (a, b) = meeting.pair;
         let new = [a, b].map(|robot| is_named.get_mut(robot).is_some_and(|is| !std::mem::replace(is, true)));
         starts.extend([a, b].into_iter().zip(new).filter(|(_, new)| *new).map(|(robot, _)| robot));
-        // Pairs that share nobody tell most.
+        // Pairs without a common robot say most.
         apart.extend((new == [true, true]).then_some(meeting));
     }
     starts.retain(|&robot| robot < problem.starts.len());
@@ -53,7 +53,7 @@ pub(super) fn infeasible(
     Infeasible { goals, starts, message }
 }
 
-/// Who comes too close on straight lines, the closest first.
+/// Conflicts of the straight lines, the closest first.
 fn on_straight_lines(problem: &TransitionProblem, proof: &Proof) -> Vec<Meeting> {
     let least_m = problem.limits.contact_m() + MARGIN_M;
     let mut close: Vec<_> = proof.conflicts.iter().filter(|found| found.distance_m < least_m).collect();
@@ -61,7 +61,7 @@ fn on_straight_lines(problem: &TransitionProblem, proof: &Proof) -> Vec<Meeting>
     close.into_iter().map(|found| Meeting { pair: found.pair, place: found.place }).collect()
 }
 
-/// A pair by where its robots are to go, and where they meet.
+/// A pair by the goals of its robots and the place where they meet.
 fn named(problem: &TransitionProblem, transition: &Transition, meeting: &Meeting) -> String {
     let at = |place: Vec2| format!("({:.2}, {:.2})", place.x, place.y);
     let name = |robot: usize| {
@@ -75,7 +75,7 @@ fn named(problem: &TransitionProblem, transition: &Transition, meeting: &Meeting
     format!("{} and {} near {} m", name(meeting.pair.0), name(meeting.pair.1), at(meeting.place))
 }
 
-/// What would do.
+/// A change of the show that makes room.
 fn remedy(problem: &TransitionProblem) -> String {
     let is_bound = problem.pinned.iter().any(Option::is_some);
     let diameters = if is_bound { BOUND_DIAMETERS } else { FREE_DIAMETERS };

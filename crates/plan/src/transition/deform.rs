@@ -1,4 +1,4 @@
-//! Bends the paths of those who pass too close a few millimetres aside, without any time lost.
+//! Displaces the paths of close pairs by a few millimetres, without loss of time.
 
 use super::candidate::{Aim, Candidate, slower_than};
 use super::following;
@@ -9,13 +9,13 @@ use crate::{Closest, Path, Transition, TransitionProblem};
 use lightbots_base::{Piece, Span, Vec2};
 use std::collections::BTreeMap;
 
-/// Conflicts between two questions whether to give up.
+/// Conflicts between two polls of the cancellation.
 const POLLED: usize = 1024;
-/// Rounds of bending and proving.
+/// Most rounds of deformation and proof.
 const ROUNDS: usize = 6;
-/// Robots times rounds that are spent on room to stop behind others.
+/// Most robots × rounds for the following distance.
 const ROOM_WORK: usize = 2_000;
-/// Bends that need everybody to be slower than this many times are not worth it.
+/// Largest time scale that a deformation may need.
 const fn slowest(aim: Aim) -> f64 {
     match aim {
         Aim::Comfort => 1.06,
@@ -23,11 +23,10 @@ const fn slowest(aim: Aim) -> f64 {
     }
 }
 
-/// Pushed a little farther than asked for, because a displacement has ebbed a little where the pair is closest then.
+/// Factor on a displacement: at the closest moment it has ebbed a little.
 const EXTRA: f64 = 1.15;
 
-/// The best of the straight candidate for `start_of[goal]` and what bending makes of it. Only where few are in
-/// conflict.
+/// The better of the straight candidate for `start_of[goal]` and its deformation; only where few pairs conflict.
 pub(super) fn deform(
     problem: &TransitionProblem,
     start_of: &[usize],
@@ -39,10 +38,10 @@ pub(super) fn deform(
     if wished <= straight.transition.least {
         return deformed(problem, straight, rounds, cancel);
     }
-    // Ways deformed at full speed tell the least time, and may be driven as slowly as wished.
+    // A deformation at full speed has the least duration, and may be driven as slowly as asked.
     let hurried = TransitionProblem { duration: None, ..problem.clone() };
     let mut quick = deformed(&hurried, Candidate::straight(&hurried, start_of, cancel), rounds, cancel);
-    if !quick.is_better_than(&straight) {
+    if !quick.improves_on(&straight) {
         return straight;
     }
     let Transition { paths, goal_of, least, .. } = &mut quick.transition;
@@ -57,8 +56,7 @@ pub(super) fn deform(
     candidate
 }
 
-/// The best of the candidate, which is as quick as may be, and what bending makes of it: comfortable first, then with room
-/// to stop behind others.
+/// The best deformation of a candidate at full speed: first for clearance, then for the following distance.
 fn deformed(
     problem: &TransitionProblem,
     straight: Candidate,
@@ -93,7 +91,7 @@ fn deformed(
             if !deformed.proof.faults.is_empty() && deformed.is_roomier_than(&best) {
                 deformed = time_scaled(problem, deformed, aim, cancel);
             }
-            if deformed.is_better_than(&best) {
+            if deformed.improves_on(&best) {
                 best = deformed;
             }
         }
@@ -101,7 +99,7 @@ fn deformed(
     best
 }
 
-/// The same ways as much slower as limits ask for: who drives at the limit already has nothing left for a displacement.
+/// The same paths slowed down to their limits: a robot at full speed has nothing left for a displacement.
 fn time_scaled(problem: &TransitionProblem, deformed: Candidate, aim: Aim, cancel: Cancel<'_>) -> Candidate {
     let too_fast = deformed
         .proof
@@ -116,7 +114,7 @@ fn time_scaled(problem: &TransitionProblem, deformed: Candidate, aim: Aim, cance
     Candidate::of_paths(problem, paths, deformed.transition.goal_of, 1.0, cancel)
 }
 
-/// How many times as slow a path must be to keep speed and acceleration, by its control points.
+/// Factor by which a path must be slowed down to keep speed and acceleration, by its control points.
 fn time_scale(path: &Path, problem: &TransitionProblem) -> f64 {
     let (speed, accel) = (problem.limits.speed_mps.max(1e-3), problem.limits.accel_mps2.max(1e-3));
     path.as_ref().timed().fold(1.0, |most, (from, _, piece)| {
@@ -129,7 +127,7 @@ fn time_scale(path: &Path, problem: &TransitionProblem) -> f64 {
     })
 }
 
-/// Every moment of the path after `rest` comes `factor` times as late, to the millisecond, for all paths alike.
+/// The path with each moment after `rest` delayed by `factor`, to the millisecond, equally for all paths.
 fn slower(path: &Path, rest: Span, factor: f64) -> Path {
     let late = |at: Span| at.min(rest) + whole_millis((at - rest).as_secs() * factor);
     let pieces = path.as_ref().timed().map(|(_, begin, piece)| {
@@ -139,7 +137,7 @@ fn slower(path: &Path, rest: Span, factor: f64) -> Path {
     Path { start: path.start, pieces: pieces.collect() }
 }
 
-/// Pushes a pair apart where it is closest; who has the longer way gives way more.
+/// Displaces a pair at its closest moment; the robot with the longer path moves more.
 fn part(
     problem: &TransitionProblem,
     lines: &[Path],
@@ -159,7 +157,7 @@ fn part(
         Aim::Comfort => problem.limits.contact_m() + COMFORT_M,
         Aim::Room => following::wanted_m(lines, found, &problem.limits, 1.0),
     };
-    // What ends closer than comfortable need not be pushed farther than that.
+    // A pair that starts or ends closer than asked keeps that distance.
     let ends_m = |at_end: bool| {
         let end = |disc: usize| match lines.get(disc) {
             Some(line) if at_end => line.as_ref().end(),

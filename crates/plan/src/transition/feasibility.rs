@@ -1,18 +1,18 @@
-//! What cannot be solved by anybody, said in words.
+//! Problems without any solution, and their messages.
 
 use super::spares::distance_to;
 use crate::{Infeasible, TransitionProblem};
 use lightbots_base::Vec2;
 use lightbots_show::Obstacle;
 
-/// Places farther out than this are on no floor, metres: far beyond the largest, and still exact to a micrometre.
+/// Places farther out are on no floor, metres. Up to here numbers are exact to a micrometre.
 const FARTHEST_M: f64 = 10_000.0;
-/// Numbers of robots and floors outside this range are mistakes, whatever their unit is.
+/// Limits and floors outside this range are mistakes in any unit.
 const SANE: core::ops::RangeInclusive<f64> = 1e-4..=1e5;
 
-/// Whether all numbers are such that the planner can count on them; nothing else must be tried with what is not.
+/// Whether all numbers are finite and sensible; no other check may run with a problem that is not.
 pub(super) fn measurable(problem: &TransitionProblem) -> Result<(), Infeasible> {
-    // Comparisons are false for what is no number.
+    // Comparisons with NaN are false.
     let is_place = |at: &Vec2| at.x.abs() <= FARTHEST_M && at.y.abs() <= FARTHEST_M;
     let no_place = |who: &str, at: Vec2| {
         let message =
@@ -67,7 +67,7 @@ pub(super) fn possible(problem: &TransitionProblem) -> Result<(), Infeasible> {
     Ok(())
 }
 
-/// Whether floor and robots are such that somebody could drive.
+/// Whether a robot could drive on this floor.
 fn is_sane(problem: &TransitionProblem) -> bool {
     let (limits, half) = (&problem.limits, problem.half_floor);
     let of_robots = [limits.radius_m, limits.speed_mps, limits.accel_mps2, limits.turn_radps];
@@ -107,7 +107,7 @@ fn blocked(problem: &TransitionProblem, goal: usize, place: Vec2) -> Result<(), 
     Ok(())
 }
 
-/// Two places nearer to each other than `reach_m`, the first by index, and how near.
+/// Two places nearer to each other than `reach_m`: the first by index, and their distance.
 pub(crate) fn touching(places: &[Vec2], reach_m: f64) -> Option<(usize, usize, f64)> {
     let mut order: Vec<usize> = (0..places.len()).collect();
     order.sort_by(|&a, &b| places[a].x.total_cmp(&places[b].x).then(a.cmp(&b)));
@@ -125,7 +125,7 @@ pub(crate) fn touching(places: &[Vec2], reach_m: f64) -> Option<(usize, usize, f
     None
 }
 
-/// Pins that contradict each other.
+/// The message about pins that contradict each other.
 pub(super) fn pins(problem: &TransitionProblem) -> Infeasible {
     let goals =
         (0..problem.goals.len().min(problem.pinned.len())).filter(|&goal| problem.pinned[goal].is_some());

@@ -1,4 +1,4 @@
-//! One transition from question to proven answer.
+//! One transition: assignment, straight lines, and the schedule of solvers where these conflict.
 
 mod candidate;
 mod conflict;
@@ -17,18 +17,18 @@ pub(crate) use spares::distance_to;
 use crate::assignment::Choice;
 use crate::cancel::{Cancel, Cancelled, unless};
 use crate::proof::prove_unless;
-use crate::solve::{self, Outcome};
+use crate::solve::{self, Solution};
 use crate::{Explanation, Infeasible, Meeting, Repaired, Transition, TransitionProblem};
 use candidate::Candidate;
 use reachability::Walls;
 use straight::straight_lines;
 
-/// The quickest proven transition that can be found, or why there is none.
+/// The proven transition that the order on candidate plans prefers, or why there is none.
 pub fn transition(problem: &TransitionProblem) -> Result<Transition, Infeasible> {
     attempt(problem, Cancel::NEVER).into_result()
 }
 
-/// The same, given up as soon as `is_wanted` says so: it is asked at least every tenth of a second or so, from this
+/// [`transition`], cancelled as soon as `is_wanted` says so. It is asked about every tenth of a second from this
 /// thread, and must be cheap.
 pub fn transition_unless(
     problem: &TransitionProblem,
@@ -39,7 +39,7 @@ pub fn transition_unless(
 
 /// A transition that can be drawn even where it must not be driven.
 pub(crate) struct Attempt {
-    /// The best there is; straight lines that conflict if `infeasible` says so.
+    /// The best transition; straight lines with conflicts if `infeasible` is set.
     pub transition: Transition,
     /// Why it must not be driven.
     pub infeasible: Option<Infeasible>,
@@ -61,7 +61,7 @@ impl Attempt {
     }
 }
 
-/// The best transition that can be found, proven or not.
+/// The best transition, proven or not.
 pub(crate) fn attempt(problem: &TransitionProblem, cancel: Cancel<'_>) -> Attempt {
     if let Err(infeasible) = feasibility::measurable(problem) {
         return Attempt::infeasible(candidate::unmoved(problem), infeasible);
@@ -87,7 +87,7 @@ pub(crate) fn attempt(problem: &TransitionProblem, cancel: Cancel<'_>) -> Attemp
             Attempt::infeasible(transition, infeasible)
         }
     };
-    // Where spare robots wait is nobody's goal.
+    // The waiting place of a spare robot is no goal of the problem.
     for goal in &mut attempt.transition.goal_of {
         *goal = goal.filter(|&goal| goal < problem.goals.len());
     }
@@ -125,7 +125,7 @@ fn settle(problem: &TransitionProblem, choice: &Choice, cancel: Cancel<'_>) -> O
         return Some(Attempt { transition: candidate.transition, infeasible: None, explanation });
     }
     let result = if feasibility::possible(problem).is_ok() {
-        let Outcome { result, explanation: rows } =
+        let Solution { result, explanation: rows } =
             solve::solve(problem, &candidate.transition.goal_of, cancel);
         explanation.append(rows);
         result.and_then(|found| proven(problem, &candidate.transition, found, cancel))

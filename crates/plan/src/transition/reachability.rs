@@ -1,5 +1,4 @@
-//! Robots and pixels on parts of the floor that no way leads between: who goes where within each part, and what to say
-//! where that cannot be.
+//! Robots and pixels in regions of the floor that no gap connects: an assignment within each region, or a message.
 
 use lightbots_base::Vec2;
 
@@ -8,22 +7,22 @@ use crate::cancel::Cancel;
 use crate::roads::regions::{Gap, Regions, Thing, enough_m};
 use crate::{Infeasible, TransitionProblem};
 
-/// Things named in a message.
+/// Most things in a message.
 const MOST_NAMED: usize = 4;
-/// Gaps less wide than this are named as none, metres.
+/// Gaps narrower than this are not named, metres.
 const LEAST_GAP_M: f64 = 0.001;
 
-/// What walls do to a transition.
+/// What walls mean for a transition.
 pub(super) enum Walls {
-    /// Nothing: everybody can drive to wherever they are sent.
+    /// All robots can drive to all goals.
     Open,
-    /// Robots must be sent elsewhere: `[goal]` is the start that goes there.
+    /// Each robot must stay in its region: `[goal]` is its start.
     Apart(Vec<Option<usize>>),
-    /// There is somebody or something that no way leads to.
+    /// A robot or a pixel is cut off.
     Closed(Infeasible),
 }
 
-/// Looks at a transition.
+/// Finds the regions of a transition's floor.
 pub(super) fn look(problem: &TransitionProblem, cancel: Cancel<'_>) -> Walls {
     let Some(regions) = Regions::new(problem, cancel).filter(|regions| regions.parts > 1) else {
         return Walls::Open;
@@ -43,13 +42,13 @@ pub(super) fn look(problem: &TransitionProblem, cancel: Cancel<'_>) -> Walls {
     }
 }
 
-/// A transition and the part of the floor everybody is in.
+/// A transition and the regions of its starts and goals.
 struct Partition<'a> {
     problem: &'a TransitionProblem,
     regions: Regions,
-    /// `[start]`.
+    /// `[start]`: its region.
     starts: Vec<u32>,
-    /// `[goal]`.
+    /// `[goal]`: its region.
     goals: Vec<u32>,
 }
 
@@ -58,7 +57,7 @@ impl Partition<'_> {
         self.problem.pinned.get(goal).copied().flatten()
     }
 
-    /// Who cannot get where they must.
+    /// The message about robots or pixels that are cut off.
     fn closed(&self) -> Option<Infeasible> {
         let pinned = (0..self.goals.len()).filter_map(|goal| self.pin(goal).map(|start| (goal, start)));
         if let Some((goal, start)) =
@@ -79,7 +78,7 @@ impl Partition<'_> {
         parts.dedup();
         let lacking =
             parts.iter().copied().find(|&part| count(&self.goals, part) > count(&self.starts, part))?;
-        // Either pixels that robots do not get to, or robots that do not get out: whichever are fewer.
+        // Either pixels without robots, or robots that are walled in: whichever are fewer.
         let walled: Vec<usize> =
             (0..self.starts.len()).filter(|&start| self.starts[start] != lacking).collect();
         let goals: Vec<usize> = (0..self.goals.len()).filter(|&goal| self.goals[goal] == lacking).collect();
@@ -95,7 +94,7 @@ impl Partition<'_> {
         Some(self.infeasible(who, part, Vec::new(), walled))
     }
 
-    /// More pixels in one part than robots.
+    /// The message about a region with more pixels than robots.
     fn pixels_cut_off(&self, goals: Vec<usize>, robots: usize) -> Infeasible {
         let at = place(self.problem.goals[goals[0]]);
         let what = match goals.len() {
@@ -110,7 +109,7 @@ impl Partition<'_> {
         self.infeasible(who, self.goals[goals[0]], goals, Vec::new())
     }
 
-    /// Of two parts the one with fewer robots and pixels.
+    /// The region of two with fewer robots and pixels.
     fn smaller(&self, a: u32, b: u32) -> u32 {
         let count = |part: u32| self.starts.iter().chain(&self.goals).filter(|&&other| other == part).count();
         if count(a) < count(b) { a } else { b }
@@ -142,7 +141,7 @@ impl Partition<'_> {
         )
     }
 
-    /// The start that goes to each goal, within each part.
+    /// `[goal]`: its start, within each region.
     fn sent(&self, cancel: Cancel<'_>) -> Option<Vec<Option<usize>>> {
         let mut start_of = vec![None; self.goals.len()];
         for part in 0..self.regions.parts as u32 {
@@ -171,7 +170,7 @@ impl Partition<'_> {
     }
 }
 
-/// Whole millimetres that are enough.
+/// Whole millimetres, rounded up.
 fn whole_mm(metres: f64) -> f64 {
     (metres * 1e3 - 1e-6).ceil()
 }
@@ -180,7 +179,7 @@ fn place(at: Vec2) -> String {
     format!("({:.2}, {:.2}) m", at.x + 0.0, at.y + 0.0)
 }
 
-/// Things as text: no-go areas counted from 1, as they are listed in the show.
+/// Things as text: no-go areas count from 1, in the order of the show.
 fn named(things: &[Thing]) -> String {
     let numbers: Vec<String> = things
         .iter()
@@ -294,7 +293,7 @@ mod tests {
 
     #[test]
     fn robots_are_sent_only_where_ways_lead() {
-        // Straight lines would send the one in the box to the pixel below it, and another into the box.
+        // Straight lines would send the robot in the box to the pixel below it, and another robot into the box.
         let starts = [(-0.5, 1.3), (0.5, 1.3), (0.0, 0.0)];
         let goals = [(0.0, -0.9), (0.0, 0.1), (0.5, 0.9)];
         let plan = transition(&problem(&starts, &goals, boxed(0.0))).unwrap();

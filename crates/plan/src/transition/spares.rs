@@ -1,4 +1,4 @@
-//! Where robots wait that have nothing to show.
+//! Places where spare robots wait.
 
 use crate::TransitionProblem;
 use crate::cancel::Cancel;
@@ -6,12 +6,12 @@ use lightbots_base::Vec2;
 use lightbots_show::Obstacle;
 use std::collections::BTreeMap;
 
-/// Rings of places tried around a spare robot that stands in the way.
+/// Rings of places tried around a spare robot.
 const RINGS: i32 = 400;
 
-/// The problem with a goal for everybody, and an assignment for it: after the real goals follow the places where spare
-/// robots wait. They wait where they stand if nobody's goal is too near, else at the nearest free place.
-/// `start_of[goal]` is an assignment of the real goals.
+/// The problem with a goal for each robot, and an assignment for it. Waiting places of spare robots follow the real
+/// goals: where a robot stands if no goal is near, else the nearest free place. `start_of[goal]` is an assignment of
+/// the real goals.
 pub(super) fn with_spares(
     problem: &TransitionProblem,
     mut start_of: Vec<usize>,
@@ -24,7 +24,7 @@ pub(super) fn with_spares(
     }
     let spares: Vec<usize> = (0..problem.starts.len()).filter(|&start| !shows[start]).collect();
     let mut taken = Taken::new(problem);
-    // Who may stay does so first; who must go looks for a place among all of those.
+    // Robots that may stay come first; the others then look for places among them.
     let (stay, go): (Vec<usize>, Vec<usize>) =
         spares.into_iter().partition(|&spare| taken.is_clear(problem.starts[spare]));
     for &spare in &stay {
@@ -41,9 +41,9 @@ pub(super) fn with_spares(
     (whole, start_of)
 }
 
-/// Places that others keep clear of, in square cells as wide as the distance to keep.
+/// Places to keep clear of, in square cells as wide as the distance to keep.
 struct Taken {
-    /// Enough for others to pass between (Turpin et al. 2014), metres.
+    /// Distance that lets other robots pass between (Turpin et al. 2014), metres.
     spacing_m: f64,
     cells: BTreeMap<(i64, i64), Vec<Vec2>>,
 }
@@ -74,7 +74,7 @@ impl Taken {
     }
 }
 
-/// The nearest place on rings around `from` that is on the floor and clear of everything.
+/// The nearest free place on rings around `from`.
 fn free_place(problem: &TransitionProblem, taken: &Taken, from: Vec2, cancel: Cancel<'_>) -> Option<Vec2> {
     let (half, radius) = (problem.half_floor, problem.limits.radius_m);
     let step = radius.max(1e-3);
@@ -95,7 +95,7 @@ fn free_place(problem: &TransitionProblem, taken: &Taken, from: Vec2, cancel: Ca
     })
 }
 
-/// From a place to a thing's rim, metres; 0 within it.
+/// Distance of a place from a thing's rim, metres; 0 within it.
 pub(crate) fn distance_to(thing: &Obstacle, place: Vec2) -> f64 {
     match *thing {
         Obstacle::Disc { at, radius_m } => (at.distance(place) - radius_m).max(0.0),

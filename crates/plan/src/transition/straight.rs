@@ -43,7 +43,7 @@ pub(super) fn straight_lines(
         if candidate.holds() || choice.is_settled() {
             return Some(candidate);
         }
-        if best.as_ref().is_none_or(|best| candidate.is_better_than(best)) {
+        if best.as_ref().is_none_or(|best| candidate.improves_on(best)) {
             best = Some(candidate);
         }
     }

@@ -85,7 +85,7 @@ fn a_spare_robot_stays_or_steps_aside() {
     assert!(plan.paths[1].as_ref().end().distance(Vec2::new(0.01, 0.0)) >= 0.057);
 }
 
-/// Two who drive 1.5 m together, 81 mm apart where they start and end; on straight lines they come within 64 mm half way.
+/// Two robots that drive 1.5 m together, 81 mm apart at starts and ends. On straight lines they come within 64 mm.
 fn pair_that_turns(apart_at_start: Vec2, apart_at_end: Vec2) -> TransitionProblem {
     let ends = [Vec2::new(-0.75, 0.0), Vec2::new(0.75, 0.0)];
     let starts = vec![ends[0], ends[0] + apart_at_start];
@@ -139,7 +139,7 @@ fn a_repaired_way_knows_its_least_time_whatever_was_asked_for() {
 
 #[test]
 fn a_bent_way_knows_its_least_time_whatever_was_asked_for() {
-    // On straight lines they would come within 56.6 mm of each other, and both drive as fast as they may.
+    // On straight lines they come within 56.6 mm of each other, at full speed.
     let starts = vec![Vec2::new(-0.5, 0.0), Vec2::new(0.08, -0.5)];
     let goals = vec![Vec2::new(0.5, 0.0), Vec2::new(0.08, 0.5)];
     for easing in [Easing::Swift, Easing::Gentle] {
@@ -197,7 +197,7 @@ fn robots_that_must_cross_are_led_around_each_other() {
     }
 }
 
-/// A square grid that fills its floor, in which everybody is bound to another's place.
+/// A square grid that fills its floor, with fixed identity.
 fn shuffled(side: usize, apart: f64) -> TransitionProblem {
     let at = |i: usize| (i as f64 - (side as f64 - 1.0) / 2.0) * apart;
     let starts: Vec<Vec2> = (0..side * side).map(|i| Vec2::new(at(i % side), at(i / side))).collect();

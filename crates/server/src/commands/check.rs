@@ -1,5 +1,6 @@
 //! `check`: validate, plan, prove.
 
+mod explain;
 mod stop_safe;
 
 use lightbots_api as api;
@@ -12,6 +13,7 @@ use crate::cli::CheckArguments;
 use crate::failure::Outcome;
 use crate::numbers::rounded;
 use crate::{plan_document, say, show_file};
+use explain::Explained;
 use stop_safe::StopSafe;
 
 /// The JSON of `check`.
@@ -28,6 +30,9 @@ pub(super) struct Summary<'a> {
     plan_ms: f64,
     issues: &'a [api::Issue],
     transitions: Vec<Drive>,
+    /// With `--explain`: which solvers ran for each transition.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    explanations: Option<Vec<Explained>>,
 }
 
 /// The two robots whose centres come closest in the whole show.
@@ -60,7 +65,8 @@ struct Drive {
 pub fn run(arguments: &CheckArguments) -> Outcome {
     let opened = show_file::open(&arguments.show, &arguments.reading)?;
     let (made, plan) = plan_document::plan(&opened.show, &opened.issues);
-    let summary = Summary::new(&opened.show, &made, &plan);
+    let mut summary = Summary::new(&opened.show, &made, &plan);
+    summary.explanations = arguments.explain.then(|| Explained::all(&made));
     if arguments.json {
         print_json(&summary)?;
     } else {
@@ -92,6 +98,7 @@ impl<'a> Summary<'a> {
             plan_ms: plan.plan_ms,
             issues: &plan.issues,
             transitions: plan.transitions.iter().map(drive).collect(),
+            explanations: None,
         }
     }
 
@@ -110,6 +117,8 @@ impl<'a> Summary<'a> {
             say::line(&pair.line(show));
         }
         self.stop_safe.lines(show).iter().for_each(|line| say::line(line));
+        let explained = self.explanations.iter().flatten();
+        explained.flat_map(|one| one.lines(show)).for_each(|line| say::line(&line));
     }
 }
 

@@ -66,6 +66,23 @@ fn check_says_who_comes_closest_when_and_where() {
 }
 
 #[test]
+fn check_explains_which_solvers_ran() {
+    let file = shows::example("countdown.json");
+    let report = json(&run(&["check", &file, "--json", "--explain"]).1);
+    let explanations = report["explanations"].as_array().unwrap();
+    assert_eq!(explanations.len(), report["transitions"].as_array().unwrap().len());
+    has(&explanations[0], &["to", "chosen", "reason", "rows"]);
+    let chosen = explanations[0]["chosen"].as_u64().unwrap() as usize;
+    let row = &explanations[0]["rows"][chosen];
+    has(row, &["solver", "outcome", "duration_s", "stop_safe_percent", "contacts"]);
+    assert!(row["outcome"].as_str().unwrap().starts_with("solved in"), "{row}");
+    let (code, text, _) = run(&["check", &file, "--explain"]);
+    assert_eq!(code, 0);
+    assert!(text.lines().any(|line| line.starts_with("  * straight lines, slack")), "{text}");
+    assert_eq!(json(&run(&["check", &file, "--json"]).1)["explanations"], Value::Null);
+}
+
+#[test]
 fn check_says_where_no_robot_may_stop_dead() {
     // Two that drive 6 mm apart, one behind the other; the frame says how long that takes.
     let show = r##"{"lightbots":1,"identity":"fixed","starts":[[-1,0],[-1.06,0]],"frames":[
