@@ -13,7 +13,7 @@ async function exported(page: Page): Promise<OriginalFrame[]> {
   await page.getByRole('button', { name: 'Download or copy the show' }).click();
   const [download] = await Promise.all([
     page.waitForEvent('download'),
-    page.getByRole('menuitem', { name: /original’s format/ }).click(),
+    page.getByRole('menuitem', { name: /original LightBots/ }).click(),
   ]);
   return JSON.parse(await readFile(await download.path(), 'utf8')) as OriginalFrame[];
 }

@@ -1,6 +1,6 @@
 //! The same types in TypeScript.
 
-use lightbots_exchange::{FORMATS, Format, Part};
+use lightbots_exchange::{FORMATS, Format, MAX_BYTES, Part};
 use ts_rs::{Config, TS};
 
 use crate::{
@@ -79,7 +79,9 @@ fn formats() -> String {
         "\n/** Every format of show files; the first is our own. A written file gets the first of `endings`. */\n\
          export const FORMATS = [\n{}] as const;\n\
          \n/** Name of a format, as in `/api/convert?to=`. */\n\
-         export type FormatName = (typeof FORMATS)[number]['name'];\n",
+         export type FormatName = (typeof FORMATS)[number]['name'];\n\
+         \n/** Longest file that the server reads, bytes. */\n\
+         export const FILE_BYTES_MAX = {MAX_BYTES};\n",
         rows.concat()
     )
 }

@@ -1,4 +1,4 @@
-import type { BrokerSettings, Plan, ShowEntry } from './types.gen';
+import type { BrokerSettings, FormatName, Plan, ShowEntry } from './types.gen';
 
 /** Something the server refused, in its words. */
 export class Refused extends Error {
@@ -38,7 +38,7 @@ export async function getShow(name: string): Promise<{ document: unknown; etag: 
   return { document: await response.json(), etag: response.headers.get('etag') };
 }
 
-/** Saves text in either format. `etag`: the version it replaces; `'new'`: only if there is none of that name. */
+/** Saves a file of any format. `etag`: the version it replaces; `'new'`: only if there is none of that name. */
 export async function putShow(
   name: string,
   body: BodyInit,
@@ -65,6 +65,6 @@ export const getBroker = async () =>
 /** The plan of the open show, with paths. */
 export const getPlan = async () => (await (await request('/api/plan')).json()) as Plan;
 
-/** A document in another format. */
-export const convertShow = async (body: BodyInit, to: 'lightbots' | 'original') =>
-  (await request(`/api/convert?to=${to}`, { method: 'POST', body })).text();
+/** A show as a file of a format. `body` is a file of any format. */
+export const convertShow = async (body: BodyInit, to: FormatName) =>
+  (await request(`/api/convert?to=${to}`, { method: 'POST', body })).blob();

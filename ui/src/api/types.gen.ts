@@ -670,3 +670,6 @@ export const FORMATS = [
 
 /** Name of a format, as in `/api/convert?to=`. */
 export type FormatName = (typeof FORMATS)[number]['name'];
+
+/** Longest file that the server reads, bytes. */
+export const FILE_BYTES_MAX = 67108864;

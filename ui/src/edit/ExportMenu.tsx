@@ -1,29 +1,30 @@
 import { ActionIcon, Menu } from '@mantine/core';
 import { IconDownload } from '@tabler/icons-react';
-import { convertShow, listShows, putShow } from '../api/http';
+import type { Format } from '../api/formats';
+import { listShows, putShow } from '../api/http';
 import { writeShow } from '../model/json';
-import { download } from '../session/download';
+import { ExportItems } from '../parts/ExportItems';
+import { downloadShow } from '../session/download';
 import { tell } from '../session/notices';
 import { useSession } from '../session/session';
 import { freeName } from '../session/upload';
 import { useEditing } from './context';
 
-/** The show as a file: ours, or the original's. */
+/** Saves the show as a file, or as a copy in the library. */
 export function ExportMenu() {
   const session = useSession();
   const editing = useEditing();
   const { editor } = editing;
-  const text = () => JSON.stringify(writeShow(editor.state.get().show), null, 1);
+  const show = () => writeShow(editor.state.get().show);
   const run = (act: () => Promise<void>) =>
     void act().catch((e: unknown) => tell('error', e instanceof Error ? e.message : String(e)));
-  const original = async () =>
-    download(await convertShow(text(), 'original'), `${editing.name}.json`);
+  const save = (format: Format) => run(() => downloadShow(show(), editing.name, format));
   const saveAs = async () => {
     const copy = freeName(
       `${editing.name} copy`,
       (await listShows()).map((entry) => entry.name),
     );
-    await putShow(copy, text(), 'new');
+    await putShow(copy, JSON.stringify(show()), 'new');
     if ((await session.ask({ do: 'open', name: copy })).ok) tell('good', `This is now ${copy}.`);
   };
   return (
@@ -34,10 +35,7 @@ export function ExportMenu() {
         </ActionIcon>
       </Menu.Target>
       <Menu.Dropdown>
-        <Menu.Item onClick={() => download(text(), `${editing.name}.lightbots.json`)}>
-          Download
-        </Menu.Item>
-        <Menu.Item onClick={() => run(original)}>Download in the original’s format</Menu.Item>
+        <ExportItems onExport={save} />
         <Menu.Divider />
         <Menu.Item onClick={() => run(saveAs)}>Save as a copy</Menu.Item>
       </Menu.Dropdown>

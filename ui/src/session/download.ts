@@ -1,18 +1,27 @@
+import { OWN_FORMAT, type Format } from '../api/formats';
 import { convertShow, getShow } from '../api/http';
 
 /** Gives the browser a file to save. */
-export function download(text: string, file: string) {
-  const address = URL.createObjectURL(new Blob([text], { type: 'application/json' }));
+function download(file: Blob, name: string) {
+  const address = URL.createObjectURL(file);
   const link = document.createElement('a');
   link.href = address;
-  link.download = file;
+  link.download = name;
   link.click();
   setTimeout(() => URL.revokeObjectURL(address), 10_000);
 }
 
-/** Saves a show of the library as a file, ours or the original's. */
-export async function downloadShow(name: string, format: 'lightbots' | 'original') {
-  const { document } = await getShow(name);
-  if (format === 'lightbots') download(JSON.stringify(document, null, 1), `${name}.lightbots.json`);
-  else download(await convertShow(JSON.stringify(document), 'original'), `${name}.json`);
+/** Saves a show as a file of a format. `show` is the document as our own format holds it. */
+export async function downloadShow(show: unknown, name: string, format: Format) {
+  const text = JSON.stringify(show, null, 1);
+  const file =
+    format.name === OWN_FORMAT.name
+      ? new Blob([text], { type: format.mediaType })
+      : await convertShow(text, format.name);
+  download(file, `${name}${format.endings[0]}`);
+}
+
+/** Saves a show of the library as a file of a format. */
+export async function downloadFromLibrary(name: string, format: Format) {
+  await downloadShow((await getShow(name)).document, name, format);
 }

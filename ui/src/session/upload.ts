@@ -1,14 +1,12 @@
+import { stem } from '../api/formats';
 import { listShows, putShow, Refused } from '../api/http';
+import { FILE_BYTES_MAX } from '../api/types.gen';
 import { tell } from './notices';
 import type { Session } from './session';
 
-/** A show larger than this is none, bytes. */
-const UPLOAD_MAX = 64 * 1024 * 1024;
-
 /** A name for the library from a file's name. */
 export const nameFromFile = (file: string) =>
-  file
-    .replace(/(\.lightbots)?\.json$/i, '')
+  stem(file)
     .replace(/[^\p{L}\p{N} _.-]+/gu, ' ')
     .trim()
     .slice(0, 60) || 'Show';
@@ -22,7 +20,7 @@ export function freeName(base: string, taken: readonly string[]): string {
 
 /** Puts a file into the library under a free name and opens it on every screen. */
 export async function uploadShow(session: Session, file: File) {
-  if (file.size > UPLOAD_MAX) {
+  if (file.size > FILE_BYTES_MAX) {
     tell('error', `${file.name} is too large to be a show.`);
     return;
   }

@@ -1,6 +1,7 @@
 import { Button, FileButton, Group, Modal, Text, TextInput } from '@mantine/core';
 import { IconPlus, IconUpload } from '@tabler/icons-react';
 import { useCallback, useEffect, useState } from 'react';
+import { ACCEPTED, ENDINGS_IN_WORDS } from '../api/formats';
 import { listShows } from '../api/http';
 import type { ShowEntry } from '../api/types.gen';
 import { useStore } from '../base/store';
@@ -57,7 +58,7 @@ export function LibraryDialog({ opened, onClose }: { opened: boolean; onClose: (
           data-autofocus
         />
         <FileButton
-          accept=".json,application/json"
+          accept={ACCEPTED}
           onChange={(file) => {
             if (file) void uploadShow(session, file).then(onClose);
           }}
@@ -87,7 +88,7 @@ export function LibraryDialog({ opened, onClose }: { opened: boolean; onClose: (
       <Text c="dimmed" size="xs" mt="md">
         {entries.length > 0 && shown.length === 0
           ? 'No show has that in its name.'
-          : 'A file can also be dropped anywhere on the page: ours, or the original’s JSON.'}
+          : `You can also drop a file anywhere on the page (${ENDINGS_IN_WORDS}).`}
       </Text>
       {naming ? (
         <NameDialog

@@ -1,7 +1,8 @@
 import { ActionIcon, Menu } from '@mantine/core';
 import { IconDots } from '@tabler/icons-react';
 import type { ShowEntry } from '../api/types.gen';
-import { downloadShow } from '../session/download';
+import { ExportItems } from '../parts/ExportItems';
+import { downloadFromLibrary } from '../session/download';
 import { attempt, deleteWithUndo } from '../session/libraryActs';
 import { ShowThumbnail } from './ShowThumbnail';
 import styles from './Library.module.css';
@@ -51,12 +52,9 @@ export function LibraryEntry({ entry, open, onOpen, onName, onChanged }: Props) 
             <Menu.Item onClick={() => onName('rename')}>Rename…</Menu.Item>
           )}
           <Menu.Divider />
-          <Menu.Item onClick={() => void attempt(() => downloadShow(name, 'lightbots'))}>
-            Download
-          </Menu.Item>
-          <Menu.Item onClick={() => void attempt(() => downloadShow(name, 'original'))}>
-            Download in the original’s format
-          </Menu.Item>
+          <ExportItems
+            onExport={(format) => void attempt(() => downloadFromLibrary(name, format))}
+          />
           {entry.origin !== 'saved' ? null : (
             <>
               <Menu.Divider />

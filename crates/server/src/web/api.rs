@@ -22,8 +22,8 @@ use crate::plan_document;
 /// An answer, or why there is none.
 type Answer<T> = Result<T, Refused>;
 
-/// The largest body that is read, bytes: ten thousand pixels in a hundred frames.
-pub const BODY_MAX: usize = 64 << 20;
+/// Largest body that is read, bytes. The longest show file fits.
+pub const BODY_MAX: usize = lightbots_exchange::MAX_BYTES;
 
 /// A problem, with one line for people.
 #[derive(Debug)]

@@ -1,0 +1,18 @@
+import { expect, test } from 'vitest';
+import { ACCEPTED, exportLabel, stem } from './formats';
+import { FORMATS } from './types.gen';
+
+test('the longest ending of a format is cut off', () => {
+  expect(stem('3210.JSON')).toBe('3210');
+  expect(stem('My stars.lightbots.json')).toBe('My stars');
+  expect(stem('notes.txt')).toBe('notes.txt');
+  expect(stem('')).toBe('');
+});
+
+test('file dialogs and menus follow the table of formats', () => {
+  expect(ACCEPTED).toBe('.json,.lightbots,application/json');
+  expect(FORMATS.map(exportLabel)).toEqual([
+    'Download',
+    'Export for the original LightBots (.json)',
+  ]);
+});
