@@ -1,6 +1,6 @@
-//! `cargo xtask bench`: measures, prints tables and keeps them in docs/benchmarks.md with machine and date.
+//! `cargo xtask bench`: measures, prints tables and writes them to docs/benchmarks.md with machine and date.
 //!
-//! A part is a program that prints one JSON object a row; its keys, in order, are the columns.
+//! A part is a program that prints one JSON object per row; its keys, in order, are the columns.
 
 use crate::shell::{self, Outcome};
 use crate::{demo, tools};
@@ -8,6 +8,7 @@ use serde_json::{Map, Value};
 use std::fmt::Write as _;
 use std::process::Command;
 
+/// The page with all results.
 const FILE: &str = "docs/benchmarks.md";
 
 struct Part {
@@ -17,14 +18,15 @@ struct Part {
     about: &'static str,
 }
 
-/// What prints the rows.
+/// Program that prints the rows of a part.
 enum Source {
     /// An example of a package.
     Example(&'static str, &'static str),
-    /// A browser on the built program.
+    /// A browser with the built program.
     Browser,
 }
 
+/// All parts, in the order of the page.
 const PARTS: [Part; 8] = [
     Part {
         name: "plan",
@@ -33,9 +35,8 @@ const PARTS: [Part; 8] = [
         about: "One transition, assignment and proof included, one thread. A ratio is a duration over T_min = \
                 bottleneck / 0.27 m/s + 0.62 s; conflicts are pairs that come closer than 57 mm on the way. `capt`: \
                 least squared distances, straight synchronised lines, and the proof. `dense`: the assignment alone \
-                by the dense solver of the crate `lsap`, judged in the same way; it is not asked at ten \
-                thousand robots. Where everybody is bound to a pixel there is nothing \
-                to assign.",
+                by the dense solver of the crate `lsap`, judged in the same way; it is not run with ten \
+                thousand robots. If all robots are bound to pixels, there is nothing to assign.",
     },
     Part {
         name: "stop-safe",
@@ -43,8 +44,9 @@ const PARTS: [Part; 8] = [
         source: Source::Example("lightbots-plan", "stop_safe"),
         about: "The share of all moments of a drive, every 50 ms and for each robot, at which that robot may stop dead \
                 without a contact, as planned and after robots were delayed for it; one thread. `longer`: the duration \
-                after over before. `missing`: how much room to stop somebody is short of at the worst moment. [Where fixed D of 30 is not stop-safe](stop-safe.svg): all paths, and a \
-                dot where a robot must not stop dead, darker the more room is missing.",
+                after over before. `missing`: distance that a robot behind lacks to stop, at the worst moment. [Places where \
+                fixed D of 30 is not stop-safe](stop-safe.svg): all paths, and a dot where a robot must not stop \
+                dead, darker for a larger missing distance.",
     },
     Part {
         name: "rehearsal",
@@ -57,44 +59,44 @@ const PARTS: [Part; 8] = [
         name: "noise",
         title: "Noise",
         source: Source::Example("lightbots-sim", "noise"),
-        about: "How far robots on their way were from where they believed to be (estimate) and from where their routes \
-                were (tracking), and at their pixels, in millimetres: the worst of three seeds of shows/hello.json. \
-                Each trouble is added to the standard conditions or replaces one of them. The last rows are of other shows \
-                under standard conditions: places where robots have 3 mm to what does not move.",
+        about: "Distance of driving robots from their own estimates (estimate) and from their routes (tracking), and of \
+                standing robots from their pixels, in millimetres: the worst of three seeds of shows/hello.json. \
+                Each trouble is added to the standard conditions or replaces one of them. The last rows are other \
+                shows under standard conditions, with 3 mm between robots and fixed obstacles.",
     },
     Part {
         name: "round",
         title: "A frame's round",
         source: Source::Example("lightbots-server", "round"),
-        about: "From the first command of a frame leaving to the last robot's answer arriving, over loopback TCP: the \
-                embedded broker, and Mosquitto in the same run.",
+        about: "From the departure of a frame's first command to the arrival of the last robot's answer, over loopback \
+                TCP: the embedded broker, and Mosquitto in the same run.",
     },
     Part {
         name: "light",
         title: "Lights change together",
         source: Source::Example("lightbots-server", "light"),
-        about: "From the first robot's light to the last one's, when all are told to change at one moment: robot cores \
-                with clocks of their own (up to 50 ppm off), each on its own connection to the embedded broker over \
-                loopback TCP, asked for their light each millisecond, all in one pass: less than that cannot be seen. `by steps`: the same seen only at their steps of \
-                16 ms, which are out of phase.",
+        about: "From the first robot's light to the last one's, when all change at one moment: robot cores with clocks of \
+                their own (up to 50 ppm off), each on its own connection to the embedded broker over loopback TCP. \
+                Their lights are sampled every millisecond, all in one pass, so that smaller differences are not \
+                visible. `by steps`: the same, sampled only at the robots' steps of 16 ms, which are out of phase.",
     },
     Part {
         name: "siege",
         title: "A show under attack",
         source: Source::Example("lightbots-server", "siege"),
-        about: "`lightbots run` plays shows/hello.json with thirty simulated robots again and again while its broker and \
-                its web server are attacked: packets with changed bytes, topics of ten thousand levels, twenty clients \
-                that do not read 10 MB a second, 800 connections that never log in, 200 messages and 20 uploads \
-                that never end, uploads of 60 MB of nonsense, plans of 3,000 robots. `quiet s`: the show before the \
-                attacks; `peak mb`: program and broker together.",
+        about: "`lightbots run` plays shows/hello.json with thirty simulated robots repeatedly while its broker and its \
+                web server are attacked: packets with changed bytes, topics of ten thousand levels, twenty clients \
+                that do not read 10 MB a second, 800 connections without login, 200 messages and 20 uploads that \
+                never end, invalid uploads of 60 MB, plans of 3,000 robots. `quiet s`: the show before the attacks; \
+                `peak mb`: program and broker together.",
     },
     Part {
         name: "fps",
         title: "Frames a second",
         source: Source::Browser,
         about: "The built screen in headless Chromium, 1440 × 900, drawn in software, with server, broker and \
-                simulated robots on the same cores. Counted are frames in which the stage was drawn: while all \
-                pixels are dragged in the editor, and while a show is watched that keeps everybody driving.",
+                simulated robots on the same cores. Counted are frames in which the stage was drawn, while all pixels \
+                are dragged in the editor, and while a show in which all robots drive is watched.",
     },
 ];
 
@@ -116,7 +118,7 @@ pub fn run(names: &[String]) -> Outcome {
     if failures.is_empty() { Ok(()) } else { Err(failures.join("; ")) }
 }
 
-/// What a part printed, and what went wrong before or after.
+/// The printed rows of a part, and its failure, if there was one.
 struct Measured {
     rows: Vec<Map<String, Value>>,
     failure: Option<String>,
@@ -136,7 +138,7 @@ fn rows(printed: &str) -> Vec<Map<String, Value>> {
     printed.lines().filter_map(|line| serde_json::from_str(line).ok()).collect()
 }
 
-/// The part's section of the page; none where nothing was measured, so that what was there before stays.
+/// The part's section of the page; none if nothing was measured, so that the old section stays.
 fn section(part: &Part, measured: &Measured) -> Outcome<Option<String>> {
     if measured.rows.is_empty() {
         return match &measured.failure {
@@ -177,7 +179,7 @@ fn build_server() -> Outcome {
     shell::cargo(&["build", "--quiet", "--release", "--package", "lightbots-server"])
 }
 
-/// A Markdown table with a column for every key of the first row.
+/// A Markdown table with one column per key of the first row.
 fn table(rows: &[Map<String, Value>]) -> String {
     let columns: Vec<&String> = rows.first().into_iter().flat_map(Map::keys).collect();
     let line = |cells: Vec<String>| format!("| {} |\n", cells.join(" | "));
@@ -243,7 +245,7 @@ fn date(unix_seconds: u64) -> String {
     format!("{year}-{month:02}-{day:02}")
 }
 
-/// Puts the section in its place in the file and leaves the others.
+/// Replaces the section in the file and leaves the others.
 fn keep(part: &Part, section: &str) -> Outcome {
     let path = shell::root().join(FILE);
     let old = std::fs::read_to_string(&path).unwrap_or_default();

@@ -2,12 +2,13 @@
 
 use crate::shell::{self, Outcome};
 
+/// Show of the demo.
 const SHOW: &str = "shows/countdown.json";
 
-/// What npm is called.
+/// Name of npm on this system.
 pub const NPM: &str = if cfg!(windows) { "npm.cmd" } else { "npm" };
 
-/// Builds the screen and the program, then runs it. `arguments` go to `lightbots run`.
+/// Builds the screen and the program, and runs `lightbots run` with these arguments.
 pub fn run(arguments: &[String]) -> Outcome {
     build_screen()?;
     shell::cargo(&["build", "--release", "--package", "lightbots-server"])?;
@@ -20,13 +21,13 @@ pub fn run(arguments: &[String]) -> Outcome {
     shell::run(&mut command)
 }
 
-/// Installs what the screen is built from and builds it.
+/// Installs the screen's packages and builds the screen.
 pub fn build_screen() -> Outcome {
     install_packages()?;
     npm(&["run", "--silent", "build"])
 }
 
-/// Installs the screen's packages, if they are not there yet.
+/// Installs the screen's packages, unless they are up to date.
 pub fn install_packages() -> Outcome {
     let ui = shell::root().join("ui");
     let modified = |file: &str| std::fs::metadata(ui.join(file)).and_then(|data| data.modified()).ok();

@@ -1,9 +1,9 @@
-//! Running other programs from the root of the workspace.
+//! Other programs, run from the root of the workspace.
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
-/// What went wrong, in one line.
+/// Result of a task; the error is one line for people.
 pub type Outcome<T = ()> = Result<T, String>;
 
 /// The root of the workspace.
@@ -19,7 +19,7 @@ pub fn command(folder: &str, program: &str, arguments: &[&str]) -> Command {
     command
 }
 
-/// Runs it and shows what it prints.
+/// Runs a command; its output goes to the terminal.
 pub fn run(command: &mut Command) -> Outcome {
     let shown = shown(command);
     eprintln!("$ {shown}");
@@ -27,7 +27,7 @@ pub fn run(command: &mut Command) -> Outcome {
     if status.success() { Ok(()) } else { Err(format!("`{shown}` failed: {status}")) }
 }
 
-/// Runs it and shows what it printed when it has ended, for commands that run beside others.
+/// Runs a command and prints its output afterwards, for commands that run beside others.
 pub fn captured(command: &mut Command) -> Outcome {
     let shown = shown(command);
     let output = command.output().map_err(|error| format!("cannot start `{shown}`: {error}"))?;
@@ -37,7 +37,7 @@ pub fn captured(command: &mut Command) -> Outcome {
     if output.status.success() { Ok(()) } else { Err(format!("`{shown}` failed: {}", output.status)) }
 }
 
-/// Runs it quietly and returns what it prints to stdout.
+/// Runs a command and returns its stdout.
 pub fn output(command: &mut Command) -> Outcome<String> {
     match printed(command)? {
         (printed, None) => Ok(printed),
@@ -45,7 +45,7 @@ pub fn output(command: &mut Command) -> Outcome<String> {
     }
 }
 
-/// Runs it quietly and returns what it prints to stdout, and how it failed if it did so in the end.
+/// Runs a command and returns its stdout, and the failure if it ended with one.
 pub fn printed(command: &mut Command) -> Outcome<(String, Option<String>)> {
     let shown = shown(command);
     let output = command
@@ -61,17 +61,17 @@ pub fn cargo(arguments: &[&str]) -> Outcome {
     run(&mut command(".", &cargo_program(), arguments))
 }
 
-/// The same with more of an environment.
+/// Runs cargo from the root with additional environment variables.
 pub fn cargo_with(arguments: &[&str], environment: &[(&str, &str)]) -> Outcome {
     run(command(".", &cargo_program(), arguments).envs(environment.iter().copied()))
 }
 
-/// The cargo that runs us.
+/// The cargo that started this program.
 pub fn cargo_program() -> String {
     std::env::var("CARGO").unwrap_or_else(|_| "cargo".into())
 }
 
-/// Where cargo puts what it builds.
+/// Folder of cargo's build outputs.
 pub fn target() -> PathBuf {
     std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| root().join("target"), |dir| root().join(dir))
 }

@@ -1,4 +1,4 @@
-//! `cargo xtask test`: every test there is, part by part. A part that fails does not hide the next.
+//! `cargo xtask test`: all tests, part by part. After a failed part the next one runs.
 
 use crate::shell::{self, Outcome};
 use crate::{demo, tidy, tools};
@@ -7,10 +7,13 @@ use std::path::Path;
 use std::process::Command;
 use std::time::Instant;
 
+/// Compiler target of the firmware: a Cortex-M4 with floating point.
 const FIRMWARE_TARGET: &str = "thumbv7em-none-eabihf";
 
+/// Name and function of a part.
 type Part = (&'static str, fn() -> Outcome);
 
+/// All parts, in order.
 const PARTS: [Part; 7] = [
     ("tidy", tidy::run),
     ("ui", ui),
@@ -60,10 +63,10 @@ fn lint() -> Outcome {
     shell::cargo(&["clippy", "--quiet", "--workspace", "--all-targets", "--", "-D", "warnings"])
 }
 
-/// Tests in real time, with real processes and sockets: they wait most of the time, so that the others run beside them.
+/// Integration test with real processes and sockets. It waits most of the time, so the other tests run beside it.
 const REAL_TIME: &str = "program";
 
-/// One build of the whole workspace. Examples are only linted: to link each of them takes minutes.
+/// Tests of the workspace in one build. Examples are only linted, because linking all of them takes minutes.
 fn rust() -> Outcome {
     let mosquitto = tools::MOSQUITTO.provide()?;
     if let Err(message) = tools::RABBITMQ.provide() {
@@ -82,7 +85,7 @@ fn rust() -> Outcome {
     tests.and(docs).and(real_time)
 }
 
-/// The names of all integration tests: files in `crates/*/tests`, and folders with a `main.rs` there.
+/// Names of all integration tests: files in `crates/*/tests`, and folders with a `main.rs` there.
 fn test_programs() -> Outcome<BTreeSet<String>> {
     let list =
         |folder: &Path| std::fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path());
@@ -96,13 +99,13 @@ fn test_programs() -> Outcome<BTreeSet<String>> {
     if names.contains(REAL_TIME) { Ok(names) } else { Err(format!("{} has no tests", crates.display())) }
 }
 
-/// `cargo test` of the whole workspace. All parts build with it: a build of single packages would choose other features for
-/// what they depend on, and build that again.
+/// `cargo test` of the whole workspace. All parts use it, because a build of single packages chooses other features for
+/// dependencies and builds these again.
 fn cargo_test(arguments: &[&str]) -> Command {
     let arguments = [&["test", "--workspace"], arguments].concat();
     let mut command = shell::command(".", &shell::cargo_program(), &arguments);
     if std::env::var_os("CI").is_some() {
-        // Nothing is built twice there.
+        // A CI machine builds only once.
         command.env("CARGO_INCREMENTAL", "0");
     }
     command

@@ -1,4 +1,4 @@
-//! Programs that tests need and cargo does not bring: found, installed where that is allowed, or missed loudly.
+//! Programs that tests need and cargo does not install: found, installed with apt-get, or reported as missing.
 
 use crate::shell::{self, Outcome};
 use std::path::PathBuf;
@@ -6,22 +6,22 @@ use std::process::{Command, Stdio};
 
 /// A program of the system.
 pub struct Tool {
-    /// What it is called on the path; the first that is there is taken.
+    /// Names on the path; the first existing one is used.
     pub programs: &'static [&'static str],
-    /// Debian's package that brings it.
+    /// Debian package that contains it.
     pub package: &'static str,
 }
 
 /// The browser of the end-to-end tests.
 pub const CHROMIUM: Tool =
     Tool { programs: &["chromium", "chromium-browser", "google-chrome"], package: "chromium" };
-/// The broker that others use.
+/// An external broker.
 pub const MOSQUITTO: Tool = Tool { programs: &["mosquitto"], package: "mosquitto" };
-/// The broker that makes a cluster.
+/// A broker that can form a cluster.
 pub const RABBITMQ: Tool = Tool { programs: &["rabbitmq-server"], package: "rabbitmq-server" };
 
 impl Tool {
-    /// Where it is, after installing it if need be.
+    /// Path of the program, after installing it if necessary.
     pub fn provide(&self) -> Outcome<PathBuf> {
         if let Some(found) = self.find() {
             return Ok(found);
@@ -55,7 +55,7 @@ impl Tool {
                 eprintln!("xtask: {message}");
             }
         }
-        // Debian starts a broker of its own on the usual port: ours must be free to take it.
+        // Stops the broker that Debian starts on the usual port, because tests need that port.
         if [MOSQUITTO.package, RABBITMQ.package].contains(&self.package) {
             let _ = as_root("service")
                 .args([self.package, "stop"])

@@ -1,38 +1,38 @@
-//! What a command line says about a broker.
+//! Options of the command line for a broker.
 
 use std::fmt;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use crate::{BrokerUrl, Trust};
+use crate::{BrokerUrl, TlsTrust};
 
-/// User, where neither address nor option names one.
+/// Environment variable with the user, if neither address nor option states one.
 const USER: &str = "LIGHTBOTS_BROKER_USER";
-/// Password, where neither address nor option names one.
+/// Environment variable with the password, if neither address nor option states one.
 const PASSWORD: &str = "LIGHTBOTS_BROKER_PASSWORD";
 
-/// How to get in there, and whom to believe.
+/// Login and certificates for a broker.
 #[derive(Clone, Debug, Default, Args)]
 pub struct BrokerArguments {
-    /// User at the broker, where its URL names none [default: $LIGHTBOTS_BROKER_USER]
+    /// User at the broker, if its URL states none [default: $LIGHTBOTS_BROKER_USER]
     #[arg(long, value_name = "NAME", requires = "broker")]
     pub broker_user: Option<String>,
     /// File whose first line is the password [default: $LIGHTBOTS_BROKER_PASSWORD]
     #[arg(long, value_name = "FILE", requires = "broker")]
     pub broker_password_file: Option<PathBuf>,
-    /// Certificate of the authority to trust for mqtts:// instead of the system's, PEM
+    /// Certificate of the trusted authority for mqtts://, PEM; replaces those of the system
     #[arg(long, value_name = "FILE", requires = "broker")]
     pub ca: Option<PathBuf>,
-    /// Certificate to show a broker that asks for one, PEM
+    /// Client certificate, for a broker that asks for one, PEM
     #[arg(long, value_name = "FILE", requires = "client_key")]
     pub client_cert: Option<PathBuf>,
-    /// Key of that certificate, PEM
+    /// Key of the client certificate, PEM
     #[arg(long, value_name = "FILE", requires = "client_cert")]
     pub client_key: Option<PathBuf>,
 }
 
-/// Why arguments name no broker that could be tried: one line for people.
+/// Why the options describe no usable broker: one line for people.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ArgumentsError(String);
 
@@ -50,14 +50,14 @@ fn wrong(option: &str, why: &dyn fmt::Display) -> ArgumentsError {
 }
 
 impl BrokerArguments {
-    /// The broker at all of `addresses`, with login and trust. They are read here and not by the command line's
-    /// parser, which would repeat a password in its complaint.
+    /// The broker at all of `addresses`, with login and certificates. The addresses are parsed here and not by the command
+    /// line's parser, because its error messages would repeat a password.
     pub fn broker(&self, addresses: &[String]) -> Result<BrokerUrl, ArgumentsError> {
         let set = |name| std::env::var(name).ok().filter(|value: &String| !value.is_empty());
         self.broker_given(addresses, set(USER), set(PASSWORD))
     }
 
-    /// The same with what the environment says.
+    /// As `broker`, with the values of the environment variables.
     fn broker_given(
         &self,
         addresses: &[String],
@@ -68,7 +68,7 @@ impl BrokerArguments {
         let mut all = addresses.iter().map(|address| BrokerUrl::parse(address).map_err(stated));
         let first = all
             .next()
-            .ok_or_else(|| ArgumentsError("--broker is missing: say --broker mqtt://HOST".into()))?;
+            .ok_or_else(|| ArgumentsError("--broker is missing: state --broker mqtt://HOST".into()))?;
         let mut broker = all.try_fold(first?, |broker, more| broker.and(more?).map_err(stated))?;
         broker.user = broker.user.or_else(|| self.broker_user.clone()).or(user);
         if broker.password.is_none() {
@@ -76,23 +76,23 @@ impl BrokerArguments {
             broker.password = kept.or(password);
         }
         if broker.user.is_none() && self.broker_password_file.is_some() {
-            let why = "whose password is it? Say --broker-user, or mqtt://USER@HOST";
+            let why = "the user is missing: state --broker-user, or mqtt://USER@HOST";
             return Err(wrong("--broker-password-file", &why));
         }
         Ok(broker.with_trust(self.trust()?))
     }
 
-    fn trust(&self) -> Result<Option<Trust>, ArgumentsError> {
+    fn trust(&self) -> Result<Option<TlsTrust>, ArgumentsError> {
         let client = self.client_cert.as_deref().zip(self.client_key.as_deref());
         if self.ca.is_none() && client.is_none() {
             return Ok(None);
         }
-        let read = Trust::read(self.ca.as_deref(), client);
+        let read = TlsTrust::read(self.ca.as_deref(), client);
         read.map(Some).map_err(|error| ArgumentsError(error.to_string()))
     }
 }
 
-/// The first line of a file.
+/// The first line of a password file.
 fn read_password(path: &Path) -> Result<String, ArgumentsError> {
     let text = std::fs::read_to_string(path).map_err(|error| {
         ArgumentsError(format!("the password in {} cannot be read: {error}", path.display()))

@@ -1,28 +1,31 @@
-//! How long to wait before the next attempt.
+//! Waiting times between attempts to connect.
 
 use std::time::Duration;
 
-/// Waiting times that double from 100 ms to 2 s, each shortened at random by up to a half, so that a fleet that lost
-/// its broker does not come back all at once.
+/// Waiting times that double from `FIRST` to `LONGEST`. Each is shortened at random by up to a half, so that the robots of a
+/// fleet do not reconnect at once.
 #[derive(Debug)]
 pub(crate) struct Backoff {
     next: Duration,
 }
 
 impl Backoff {
+    /// First waiting time. Shorter: a dead broker is tried too often. Longer: a restarted broker is found later than the 2 s
+    /// after which robots stop (R43).
     const FIRST: Duration = Duration::from_millis(100);
+    /// Longest waiting time: a broker that is back is found within the 2 s of R43.
     const LONGEST: Duration = Duration::from_secs(2);
 
     pub(crate) fn new() -> Self {
         Self { next: Self::FIRST }
     }
 
-    /// The attempt succeeded.
+    /// Begins again with `FIRST`, after a successful attempt.
     pub(crate) fn reset(&mut self) {
         self.next = Self::FIRST;
     }
 
-    /// How long to wait now; `jitter` is any random number.
+    /// Time until the next attempt; `jitter` is a random number.
     pub(crate) fn wait(&mut self, jitter: u32) -> Duration {
         let full = self.next;
         self.next = (full * 2).min(Self::LONGEST);

@@ -1,11 +1,11 @@
-//! Client ids as the original's programs choose them, and the randomness behind them.
+//! Client ids in the form of the original's programs, and random numbers for them.
 
 use lightbots_base::RobotId;
 
-/// A fresh random UUID.
+/// A new random UUID.
 pub fn random_id() -> RobotId {
     let mut bytes = [0; 16];
-    // Without randomness of the system ids would collide on the broker: better to stop here.
+    // Without random numbers, ids would collide on the broker, so the program stops here.
     getrandom::fill(&mut bytes).expect("the system gives no random numbers");
     RobotId::from_random(u128::from_le_bytes(bytes))
 }

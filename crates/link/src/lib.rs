@@ -1,11 +1,12 @@
-//! A connection to an MQTT broker that mends itself.
+//! A connection to an MQTT broker that reconnects by itself.
 //!
-//! It carries topics and payloads and knows nothing of what they mean. [`BrokerUrl`] says where the broker is, at one
-//! address or several, and [`Trust`] whom to believe over TLS; [`BrokerArguments`] reads both from a command line.
-//! [`Link`] stays connected to it: it reconnects with
-//! back-off and jitter, to the next address where there are several, subscribes again on every fresh session,
-//! never blocks its user, and drops rather than queues what cannot be sent now: a command that is late is worse than
-//! one that is lost, because the protocol repeats what matters.
+//! The crate carries topics and payloads and does not know their meaning. In reading order: [`BrokerUrl`] holds the
+//! addresses and the login of a broker, [`TlsTrust`] the certificates for TLS, and [`BrokerArguments`] reads both from a
+//! command line. [`Link`] is the connection.
+//!
+//! A link reconnects with back-off and jitter, to the next address if there are several, and subscribes again in each new
+//! session. It never blocks its user. It drops messages that cannot be sent now, because a late command is worse than a lost
+//! one: the protocol repeats important messages.
 //!
 //! ```
 //! use lightbots_link::BrokerUrl;
@@ -13,20 +14,22 @@
 //! assert_eq!(broker.to_string(), "mqtt://floor.local:1883");
 //! ```
 
+mod address;
 mod arguments;
 mod backoff;
 mod client_id;
+mod connection;
+mod detached_writer;
+mod interface;
 mod link;
-mod place;
-mod pump;
 mod reason;
-mod stream;
-mod trust;
+mod tls_trust;
 mod url;
 
+pub use address::BrokerAddress;
 pub use arguments::{ArgumentsError, BrokerArguments};
 pub use client_id::{controller_client_id, crowd_client_id, random_id, robot_client_id};
-pub use link::{Link, LinkConfig, LinkEvent, Sender};
-pub use place::Place;
-pub use trust::{Pem, Trust, TrustError};
+pub use interface::{LinkConfig, LinkEvent};
+pub use link::{Link, Sender};
+pub use tls_trust::{Pem, TlsTrust, TlsTrustError};
 pub use url::{BrokerUrl, UrlError};

@@ -1,46 +1,15 @@
-//! The user's side of a connection.
+//! The link as its user sees it.
 
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
+use std::sync::atomic::Ordering;
 
 use rumqttc::{AsyncClient, PublishOptions};
-use tokio::sync::{Notify, mpsc, oneshot};
+use tokio::sync::{mpsc, oneshot};
 
-use crate::{BrokerUrl, pump::Pump};
+use crate::connection::ConnectionTask;
+use crate::interface::{LinkConfig, LinkEvent, LinkStatus};
 
-/// What a link needs to know.
-#[derive(Clone, Debug)]
-pub struct LinkConfig {
-    /// Where the broker is. Its addresses are tried in turn, and the next one where one dies.
-    pub broker: BrokerUrl,
-    /// How this program calls itself there.
-    pub client_id: String,
-    /// Topic filters to subscribe to, all at QoS 0.
-    pub filters: Vec<String>,
-    /// How many messages each direction holds at most. A message that comes in or goes out beyond it is dropped.
-    pub queue: usize,
-}
-
-/// What happens on a link.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum LinkEvent {
-    /// Connected, and subscribed to everything.
-    Connected,
-    /// Not connected, or not any more; said again when the reason changes. The link keeps trying.
-    Disconnected {
-        /// One line for people.
-        reason: String,
-    },
-    /// A message came in.
-    Message {
-        /// Its topic.
-        topic: String,
-        /// Its bytes.
-        payload: Vec<u8>,
-    },
-}
-
-/// A connection that mends itself. Dropping it closes the connection.
+/// A connection that reconnects by itself. Dropping the link closes the connection.
 #[derive(Debug)]
 pub struct Link {
     sender: Sender,
@@ -53,28 +22,16 @@ pub struct Link {
 #[derive(Clone, Debug)]
 pub struct Sender {
     client: AsyncClient,
-    shared: Arc<Shared>,
-}
-
-/// What both halves and the pump know.
-#[derive(Debug, Default)]
-pub(crate) struct Shared {
-    pub(crate) connected: AtomicBool,
-    /// Index of the address in use, or used last.
-    pub(crate) at: AtomicUsize,
-    /// Messages dropped in either direction because a queue was full.
-    pub(crate) dropped: AtomicU64,
-    /// Somebody wants another connection.
-    pub(crate) renew: Notify,
+    status: Arc<LinkStatus>,
 }
 
 impl Link {
-    /// Begins to connect, and keeps trying until the link is closed. Must be called in a tokio runtime.
+    /// Begins to connect and keeps trying until the link is closed. Must be called in a tokio runtime.
     pub fn open(config: LinkConfig) -> Self {
-        let shared = Arc::new(Shared::default());
-        let (client, pump, events, stop) = Pump::new(config, shared.clone());
-        let task = tokio::spawn(pump.run());
-        Self { sender: Sender { client, shared }, events, stop: Some(stop), task: Some(task) }
+        let status = Arc::new(LinkStatus::default());
+        let (client, connection, events, stop) = ConnectionTask::new(config, status.clone());
+        let task = tokio::spawn(connection.run());
+        Self { sender: Sender { client, status }, events, stop: Some(stop), task: Some(task) }
     }
 
     /// The sending half.
@@ -82,59 +39,59 @@ impl Link {
         self.sender.clone()
     }
 
-    /// The next event; waits for it. `None` once the link is closed. Cancel-safe.
+    /// Waits for the next event; `None` once the link is closed. Cancel-safe.
     pub async fn next(&mut self) -> Option<LinkEvent> {
         self.events.recv().await
     }
 
-    /// The next event, if there is one already.
+    /// The next event, if one is waiting.
     pub fn try_next(&mut self) -> Option<LinkEvent> {
         self.events.try_recv().ok()
     }
 
-    /// The connection stands but is of no use: gives it up for one to the next address. What is queued is lost.
+    /// Replaces a connection that does not deliver messages by one to the next address. Queued messages are lost.
     pub fn renew(&self) {
         if self.sender.is_connected() {
-            self.sender.shared.renew.notify_one();
+            self.sender.status.renew.notify_one();
         }
     }
 
-    /// Says goodbye to the broker and waits, for half a second at most, until what was sent before is out.
+    /// Disconnects, after at most half a second for messages that are still queued.
     pub async fn close(mut self) {
         drop(self.stop.take());
         if let Some(task) = self.task.take() {
-            // A task that failed has closed the connection as well.
+            // A failed task has closed the connection as well.
             let _ = task.await;
         }
     }
 }
 
 impl Sender {
-    /// Publishes at QoS 0. Never blocks; `false` where there is no connection or the queue is full, and the message is
-    /// then dropped.
+    /// Publishes at QoS 0 and never blocks. `false`: the message was dropped, because there is no connection or the queue is
+    /// full.
     pub fn send(&self, topic: &str, payload: Vec<u8>) -> bool {
         if !self.is_connected() {
             return false;
         }
         let sent = self.client.try_publish(topic, payload, PublishOptions::at_most_once()).is_ok();
         if !sent {
-            self.shared.dropped.fetch_add(1, Ordering::Relaxed);
+            self.status.dropped.fetch_add(1, Ordering::Relaxed);
         }
         sent
     }
 
-    /// Whether messages can go out now.
+    /// Whether messages can be sent now.
     pub fn is_connected(&self) -> bool {
-        self.shared.connected.load(Ordering::Acquire)
+        self.status.connected.load(Ordering::Acquire)
     }
 
-    /// Which of the broker's addresses is in use, or was last, counted from 0.
-    pub fn place(&self) -> usize {
-        self.shared.at.load(Ordering::Acquire)
+    /// Index of the broker's address that is in use or was used last.
+    pub fn address(&self) -> usize {
+        self.status.at.load(Ordering::Acquire)
     }
 
-    /// How many messages were dropped in either direction because a queue was full.
+    /// Number of messages dropped in both directions because a queue was full.
     pub fn dropped(&self) -> u64 {
-        self.shared.dropped.load(Ordering::Relaxed)
+        self.status.dropped.load(Ordering::Relaxed)
     }
 }

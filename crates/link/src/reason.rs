@@ -1,86 +1,88 @@
-//! Errors of the MQTT client in people's words.
+//! Errors of the MQTT client as messages for people.
 
 use std::io::{self, ErrorKind};
 
 use rumqttc::{ConnectReturnCode, ConnectionError, Error as MqttError, StateError, TlsError};
 use tokio_rustls::rustls::{self, AlertDescription, CertificateError};
 
-use crate::Place;
+use crate::BrokerAddress;
 
-/// One line that says why there is no connection to `place`, and what to do. `greeted`: the broker had let us in.
-pub(crate) fn reason(error: &ConnectionError, place: &Place, greeted: bool) -> String {
+/// One line with the reason of a missing connection and its remedy. `accepted`: the broker had accepted the login.
+pub(crate) fn reason(error: &ConnectionError, address: &BrokerAddress, accepted: bool) -> String {
     if let Some(error) = rustls_error(error) {
-        return tls_reason(error, place);
+        return tls_reason(error, address);
     }
     if let Some(io) = io_error(error) {
-        return io_reason(io, place, greeted);
+        return io_reason(io, address, accepted);
     }
     match error {
-        ConnectionError::MqttState(StateError::ConnectionAborted) => hung_up(place, greeted),
+        ConnectionError::MqttState(StateError::ConnectionAborted) => closed_reason(address, accepted),
         ConnectionError::MqttState(StateError::Deserialization(_)) | ConnectionError::NotConnAck(_)
-            if !greeted =>
+            if !accepted =>
         {
-            format!("what answers at {place} is no MQTT broker: {}", other_port(place))
+            format!("what answers at {address} is no MQTT broker: {}", other_port(address))
         }
         ConnectionError::ConnectionRefused(
             ConnectReturnCode::BadUserNamePassword | ConnectReturnCode::NotAuthorized,
-        ) => format!("the broker at {place} refuses this user and password: check both"),
+        ) => format!("the broker at {address} refuses this user and password: check both"),
         ConnectionError::ConnectionRefused(ConnectReturnCode::BadClientId) => {
-            format!("the broker at {place} refuses our client id: allow LightBot/… and BotControl/… there")
+            format!("the broker at {address} refuses our client id: allow LightBot/… and BotControl/… there")
         }
-        ConnectionError::ConnectionRefused(code) => format!("the broker at {place} refuses us: {code:?}"),
+        ConnectionError::ConnectionRefused(code) => format!("the broker at {address} refuses us: {code:?}"),
         ConnectionError::NetworkTimeout | ConnectionError::FlushTimeout => {
-            format!("the broker at {place} does not answer in time: check the address and the network")
+            format!("the broker at {address} does not answer in time: check the address and the network")
         }
         ConnectionError::MqttState(StateError::AwaitPingResp) => {
-            format!("the broker at {place} has fallen silent")
+            format!("the broker at {address} has fallen silent")
         }
         ConnectionError::Tls(TlsError::DNSName(_)) => {
-            format!("{place} cannot be used with TLS: its host is no name and no address")
+            format!("{address} cannot be used with TLS: its host is no name and no address")
         }
         ConnectionError::Tls(TlsError::NoValidCertInChain) => {
             format!(
-                "{place} cannot be used: this system trusts no authority; name the broker's own with --ca FILE"
+                "{address} cannot be used: this system trusts no authority; name the broker's own with --ca FILE"
             )
         }
-        other => format!("the connection to {place} broke: {other}"),
+        other => format!("the connection to {address} broke: {other}"),
     }
 }
 
-/// One line for a subscription that is not granted.
-pub(crate) fn not_granted(filter: &str, place: &Place) -> String {
-    format!("the broker at {place} refuses the subscription to {filter}: give this user the right to read it")
+/// One line for a refused subscription.
+pub(crate) fn not_granted(filter: &str, address: &BrokerAddress) -> String {
+    format!(
+        "the broker at {address} refuses the subscription to {filter}: give this user the right to read it"
+    )
 }
 
-fn io_reason(error: &io::Error, place: &Place, greeted: bool) -> String {
+fn io_reason(error: &io::Error, address: &BrokerAddress, accepted: bool) -> String {
     match error.kind() {
         ErrorKind::ConnectionRefused => {
-            format!("no broker answers at {place}: start one there, or check the address")
+            format!("no broker answers at {address}: start one there, or check the address")
         }
         ErrorKind::ConnectionReset
         | ErrorKind::ConnectionAborted
         | ErrorKind::UnexpectedEof
-        | ErrorKind::BrokenPipe => hung_up(place, greeted),
-        _ => format!("the broker at {place} cannot be reached: {error}; check the address and the network"),
+        | ErrorKind::BrokenPipe => closed_reason(address, accepted),
+        _ => format!("the broker at {address} cannot be reached: {error}; check the address and the network"),
     }
 }
 
-fn hung_up(place: &Place, greeted: bool) -> String {
-    if greeted {
-        return format!("the broker at {place} closed the connection");
+fn closed_reason(address: &BrokerAddress, accepted: bool) -> String {
+    if accepted {
+        return format!("the broker at {address} closed the connection");
     }
-    format!("the broker at {place} hung up before it answered: {}", other_port(place))
+    format!("the broker at {address} hung up before it answered: {}", other_port(address))
 }
 
-fn other_port(place: &Place) -> &'static str {
-    if place.tls {
+fn other_port(address: &BrokerAddress) -> &'static str {
+    if address.tls {
         "is this its port for TLS (mqtt:// is the one without), and does it want a certificate of ours?"
     } else {
         "say mqtts:// where this is its port for TLS"
     }
 }
 
-/// What the system says, however deep it lies.
+/// The error of the operating system inside `error`, at any depth.
 fn io_error(error: &ConnectionError) -> Option<&io::Error> {
     match error {
         ConnectionError::Io(io)
@@ -90,7 +92,7 @@ fn io_error(error: &ConnectionError) -> Option<&io::Error> {
     }
 }
 
-/// What rustls says, however deep it lies.
+/// The error of rustls inside `error`, at any depth.
 fn rustls_error(error: &ConnectionError) -> Option<&rustls::Error> {
     if let ConnectionError::Tls(TlsError::TLS(error)) = error {
         return Some(error);
@@ -98,19 +100,19 @@ fn rustls_error(error: &ConnectionError) -> Option<&rustls::Error> {
     io_error(error)?.get_ref()?.downcast_ref()
 }
 
-fn tls_reason(error: &rustls::Error, place: &Place) -> String {
+fn tls_reason(error: &rustls::Error, address: &BrokerAddress) -> String {
     match error {
-        rustls::Error::InvalidCertificate(why) => certificate_reason(why, place),
-        rustls::Error::AlertReceived(alert) => alert_reason(*alert, place),
+        rustls::Error::InvalidCertificate(why) => certificate_reason(why, address),
+        rustls::Error::AlertReceived(alert) => alert_reason(*alert, address),
         rustls::Error::InvalidMessage(_) => {
-            format!("what answers at {place} does not speak TLS: {}", other_port(place))
+            format!("what answers at {address} does not speak TLS: {}", other_port(address))
         }
-        other => format!("TLS with the broker at {place} failed: {other}"),
+        other => format!("TLS with the broker at {address} failed: {other}"),
     }
 }
 
-fn certificate_reason(why: &CertificateError, place: &Place) -> String {
-    let broker = format!("the certificate of the broker at {place}");
+fn certificate_reason(why: &CertificateError, address: &BrokerAddress) -> String {
+    let broker = format!("the certificate of the broker at {address}");
     match why {
         CertificateError::UnknownIssuer | CertificateError::BadSignature => {
             format!("{broker} comes from no authority we trust: name its own with --ca FILE")
@@ -122,30 +124,30 @@ fn certificate_reason(why: &CertificateError, place: &Place) -> String {
             format!("{broker} is not valid yet: check the clocks of both machines")
         }
         CertificateError::NotValidForName => {
-            format!("{broker} is made for other names than {}: use one of them", place.host)
+            format!("{broker} is made for other names than {}: use one of them", address.host)
         }
         CertificateError::NotValidForNameContext { presented, .. } => {
             let names: Vec<&str> = presented.iter().take(5).map(|name| bare_name(name)).collect();
             let names = if names.is_empty() { "no name".into() } else { names.join(", ") };
             format!(
                 "{broker} is made for {names}, not for {}: use one of its names, or a certificate for this one",
-                place.host
+                address.host
             )
         }
         other => format!("{broker} cannot be trusted: {other}"),
     }
 }
 
-/// `DnsName("a")` as rustls presents it, without its kind.
+/// The name in `DnsName("a")`, as rustls formats it.
 fn bare_name(name: &str) -> &str {
     name.split_once('(').map_or(name, |(_, rest)| rest.trim_end_matches(')').trim_matches('"'))
 }
 
-fn alert_reason(alert: AlertDescription, place: &Place) -> String {
+fn alert_reason(alert: AlertDescription, address: &BrokerAddress) -> String {
     match alert {
         AlertDescription::CertificateRequired => {
             format!(
-                "the broker at {place} wants to see a certificate of ours: name it with --client-cert and --client-key"
+                "the broker at {address} wants to see a certificate of ours: name it with --client-cert and --client-key"
             )
         }
         AlertDescription::UnknownCA
@@ -156,8 +158,8 @@ fn alert_reason(alert: AlertDescription, place: &Place) -> String {
         | AlertDescription::UnsupportedCertificate
         | AlertDescription::AccessDenied
         | AlertDescription::DecryptError => format!(
-            "the broker at {place} refuses our client certificate ({alert:?}): use one that its authority has signed"
+            "the broker at {address} refuses our client certificate ({alert:?}): use one that its authority has signed"
         ),
-        other => format!("the broker at {place} refuses TLS with us: {other:?}"),
+        other => format!("the broker at {address} refuses TLS with us: {other:?}"),
     }
 }

@@ -1,39 +1,39 @@
-//! Where a broker is, and how to get in.
+//! Addresses and login of a broker.
 
 use std::fmt;
 
-use crate::{Place, Trust};
+use crate::{BrokerAddress, TlsTrust};
 
-/// The addresses of a broker, tried in turn, and how to log in:
-/// `[mqtt[s]://][user[:password]@]host[:port]`, more of them after commas.
+/// The addresses of a broker, tried in turn, and the login: `[mqtt[s]://][user[:password]@]host[:port]`, with more addresses
+/// after commas.
 #[derive(Clone, PartialEq, Eq)]
 pub struct BrokerUrl {
-    /// Where it answers, in the order of trying; never empty.
-    pub places: Vec<Place>,
-    /// User name; `None`: log in without.
+    /// Addresses in the order of attempts; never empty.
+    pub addresses: Vec<BrokerAddress>,
+    /// User name; `None`: no login.
     pub user: Option<String>,
     /// Password; only with a user.
     pub password: Option<String>,
-    /// Whom to believe over TLS; `None`: the authorities of the system.
-    pub trust: Option<Trust>,
+    /// Certificates for TLS; `None`: the authorities of the system.
+    pub trust: Option<TlsTrust>,
 }
 
-/// Why a text is no broker's address: one line for people.
+/// Why a text is not an address of a broker: one line for people.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct UrlError(String);
 
-/// A login as it stands in an address.
+/// The login in an address.
 type Login = (Option<String>, Option<String>);
 
 impl BrokerUrl {
     /// A plain broker without login.
     pub fn new(host: impl Into<String>, port: u16) -> Self {
-        let places = vec![Place { host: host.into(), port, tls: false }];
-        Self { places, user: None, password: None, trust: None }
+        let addresses = vec![BrokerAddress { host: host.into(), port, tls: false }];
+        Self { addresses, user: None, password: None, trust: None }
     }
 
-    /// Reads addresses. The port is 1883, with TLS 8883, unless stated. An address after a comma may leave out what it
-    /// has in common with the first. `tcp://` and `ssl://` are understood too.
+    /// Reads addresses. The default port is 1883, with TLS 8883. An address after a comma takes missing parts from the first
+    /// address. `tcp://` and `ssl://` are accepted as well.
     pub fn parse(text: &str) -> Result<Self, UrlError> {
         let mut parts = text.split(',').map(str::trim);
         let mut broker = Self::parse_one(parts.next().unwrap_or_default(), None)?;
@@ -45,8 +45,8 @@ impl BrokerUrl {
     }
 
     fn parse_one(text: &str, tls_by_default: Option<bool>) -> Result<Self, UrlError> {
-        // The text may hold a password.
-        let shown = text.rsplit_once('@').map_or(text, |(_, place)| place);
+        // Not printed, because the text may hold a password.
+        let shown = text.rsplit_once('@').map_or(text, |(_, address)| address);
         let fail =
             |why: &str| UrlError(format!("'{shown}' is no broker address: {why}; say mqtt://HOST:1883"));
         let (scheme, rest) = match text.split_once("://") {
@@ -60,19 +60,19 @@ impl BrokerUrl {
             Some(_) => return Err(fail("it starts with neither mqtt:// nor mqtts://")),
         };
         let rest = rest.strip_suffix('/').unwrap_or(rest);
-        let (login, place) =
-            rest.rsplit_once('@').map_or((None, rest), |(login, place)| (Some(login), place));
-        let place = Place::parse(place, tls).map_err(fail)?;
+        let (login, address) =
+            rest.rsplit_once('@').map_or((None, rest), |(login, address)| (Some(login), address));
+        let address = BrokerAddress::parse(address, tls).map_err(fail)?;
         let (user, password) = match login {
             None => (None, None),
             Some(login) => {
                 read_login(login).ok_or_else(|| fail("its user or password is not percent-encoded text"))?
             }
         };
-        Ok(Self { places: vec![place], user, password, trust: None })
+        Ok(Self { addresses: vec![address], user, password, trust: None })
     }
 
-    /// The same broker with more addresses. There is one login: that of the first that states one.
+    /// The same broker with more addresses. The first stated login counts for all.
     pub fn and(mut self, more: Self) -> Result<Self, UrlError> {
         if self.user.is_none() {
             (self.user, self.password) = (more.user, more.password);
@@ -80,12 +80,12 @@ impl BrokerUrl {
             let why = "state user and password once, they go to every address";
             return Err(UrlError(format!("'{self}' has several logins: {why}")));
         }
-        self.places.extend(more.places);
+        self.addresses.extend(more.addresses);
         self.trust = self.trust.or(more.trust);
         Ok(self)
     }
 
-    /// The same broker with this login, where one is given.
+    /// The same broker with this login; `None` changes nothing.
     pub fn with_login(self, user: Option<String>, password: Option<String>) -> Self {
         if user.is_none() {
             return self;
@@ -93,21 +93,21 @@ impl BrokerUrl {
         Self { user, password, ..self }
     }
 
-    /// The same broker, believed for these reasons.
-    pub fn with_trust(self, trust: Option<Trust>) -> Self {
+    /// The same broker with these certificates.
+    pub fn with_trust(self, trust: Option<TlsTrust>) -> Self {
         Self { trust, ..self }
     }
 
-    /// The same broker, first tried at its address number `first`, counted around.
+    /// The same broker with its addresses rotated, so that number `first` is tried first.
     pub fn starting_at(mut self, first: usize) -> Self {
-        let places = self.places.len().max(1);
-        self.places.rotate_left(first % places);
+        let addresses = self.addresses.len().max(1);
+        self.addresses.rotate_left(first % addresses);
         self
     }
 
-    /// Whether any of its addresses speaks TLS.
+    /// Whether any address uses TLS.
     pub fn has_tls(&self) -> bool {
-        self.places.iter().any(|place| place.tls)
+        self.addresses.iter().any(|address| address.tls)
     }
 }
 
@@ -119,7 +119,7 @@ fn read_login(login: &str) -> Option<Login> {
     Some((Some(decode(user)?), password))
 }
 
-/// Percent-decodes; `None` where that is impossible.
+/// Percent-decodes; `None` if the text is invalid.
 fn decode(text: &str) -> Option<String> {
     let mut bytes = Vec::with_capacity(text.len());
     let mut rest = text.as_bytes();
@@ -137,11 +137,11 @@ fn decode(text: &str) -> Option<String> {
 }
 
 impl fmt::Display for BrokerUrl {
-    /// The addresses without login, fit for logs and screens.
+    /// The addresses without login, for logs and screens.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        for (index, place) in self.places.iter().enumerate() {
+        for (index, address) in self.addresses.iter().enumerate() {
             let comma = if index == 0 { "" } else { "," };
-            write!(f, "{comma}{place}")?;
+            write!(f, "{comma}{address}")?;
         }
         Ok(())
     }

@@ -26,7 +26,7 @@ fn open(granted: [u8; 2], brokers: usize) -> (Link, Vec<String>) {
         std::thread::spawn(move || serve(&listener, granted));
     }
     let mut broker = BrokerUrl::new("127.0.0.1", ports[0]);
-    broker.places = ports.iter().flat_map(|&port| BrokerUrl::new("127.0.0.1", port).places).collect();
+    broker.addresses = ports.iter().flat_map(|&port| BrokerUrl::new("127.0.0.1", port).addresses).collect();
     let link = Link::open(LinkConfig {
         broker,
         client_id: "LightBot/r7".into(),
@@ -38,14 +38,14 @@ fn open(granted: [u8; 2], brokers: usize) -> (Link, Vec<String>) {
 
 #[tokio::test]
 async fn a_connection_of_no_use_is_left_for_the_next_address() {
-    let (mut link, places) = open([0, 0], 2);
+    let (mut link, addresses) = open([0, 0], 2);
     assert_eq!(link.next().await, Some(LinkEvent::Connected));
-    assert_eq!(link.sender().place(), 0);
+    assert_eq!(link.sender().address(), 0);
     link.renew();
     let Some(LinkEvent::Disconnected { reason }) = link.next().await else { panic!("it stays") };
-    assert!(reason.starts_with(&places[0]) && reason.contains("passes on nothing"), "{reason}");
+    assert!(reason.starts_with(&addresses[0]) && reason.contains("passes on nothing"), "{reason}");
     assert_eq!(link.next().await, Some(LinkEvent::Connected));
-    assert_eq!(link.sender().place(), 1);
+    assert_eq!(link.sender().address(), 1);
     link.close().await;
 }
 
@@ -94,10 +94,10 @@ async fn who_comes_back_subscribes_again_in_a_while() {
 
 #[tokio::test]
 async fn a_refused_subscription_is_named_and_is_no_connection() {
-    let (mut link, places) = open([0, 0x80], 1);
+    let (mut link, addresses) = open([0, 0x80], 1);
     let Some(LinkEvent::Disconnected { reason }) = link.next().await else { panic!("it is connected") };
     assert!(
-        reason.contains("refuses the subscription to T/LightBot/r8") && reason.contains(&places[0]),
+        reason.contains("refuses the subscription to T/LightBot/r8") && reason.contains(&addresses[0]),
         "{reason}"
     );
     assert!(!link.sender().is_connected());

@@ -4,7 +4,7 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use lightbots_api::BrokerSettings;
-use lightbots_link::{BrokerArguments, BrokerUrl, Pem, Trust};
+use lightbots_link::{BrokerArguments, BrokerUrl, Pem, TlsTrust};
 use serde::{Deserialize, Serialize};
 
 use crate::failure::Failure;
@@ -76,7 +76,7 @@ impl Settings {
         Ok(broker.with_login(self.user.clone(), self.password.clone()).with_trust(trust))
     }
 
-    fn trust(&self) -> Result<Option<Trust>, String> {
+    fn trust(&self) -> Result<Option<TlsTrust>, String> {
         let client = match (&self.client_cert, &self.client_key) {
             (None, None) => None,
             (Some(certificate), Some(key)) => {
@@ -89,7 +89,7 @@ impl Settings {
             return Ok(None);
         }
         let client = client.as_ref().map(|(certificate, key)| (certificate.pem(), key.pem()));
-        Trust::new(ca.as_ref().map(Text::pem), client).map(Some).map_err(|error| error.to_string())
+        TlsTrust::new(ca.as_ref().map(Text::pem), client).map(Some).map_err(|error| error.to_string())
     }
 
     /// What a screen may know of them.

@@ -1,11 +1,11 @@
-//! The devices of the one robot that a process is.
+//! Devices of the robot of this process.
 
 use crate::proximity::RAYS;
 
-/// A device's tag as Webots has it: small numbers from 1.
+/// Tag of a device, as in Webots: a small number from 1.
 pub type Tag = u16;
 
-/// Names by tag, from 1.
+/// Names of the devices; the index plus 1 is the tag.
 const NAMES: [&[u8]; 17] = [
     b"gps",
     b"compass",
@@ -25,27 +25,31 @@ const NAMES: [&[u8]; 17] = [
     b"ps8",
     b"ps9",
 ];
-/// How many tags there are, with that of no device.
+/// Number of tags, including tag 0 for no device.
 pub(crate) const TAGS: usize = NAMES.len() + 1;
 
+/// Tag of the GPS in `NAMES`.
 pub(crate) const GPS: Tag = 1;
+/// Tag of the compass in `NAMES`.
 pub(crate) const COMPASS: Tag = 2;
+/// Tags of the left and right motor in `NAMES`.
 pub(crate) const MOTORS: [Tag; 2] = [4, 5];
+/// Tags of the left and right wheel sensor in `NAMES`.
 pub(crate) const SENSORS: [Tag; 2] = [6, 7];
-/// The first of the proximity sensors.
+/// Tag of the first proximity sensor in `NAMES`.
 const PROXIMITY: Tag = 8;
 
-/// The tag of a name; 0: there is none.
+/// Tag of a name; 0: no such device.
 pub(crate) fn tag(name: &[u8]) -> Tag {
     NAMES.iter().position(|known| *known == name).map_or(0, |index| index as Tag + 1)
 }
 
-/// Which wheel a tag of `tags` belongs to: 0 left, 1 right.
+/// Wheel of a tag in `tags`: 0 left, 1 right.
 pub(crate) fn side(tags: [Tag; 2], tag: Tag) -> Option<usize> {
     tags.iter().position(|known| *known == tag)
 }
 
-/// Which proximity sensor a tag is, clockwise from the front.
+/// Index of a proximity sensor by its tag, clockwise from the front.
 pub(crate) fn proximity(tag: Tag) -> Option<usize> {
     tag.checked_sub(PROXIMITY).map(usize::from).filter(|sensor| *sensor < RAYS)
 }

@@ -1,32 +1,32 @@
-//! A motor as Webots has it: it turns at its rate, or towards a position.
+//! A motor as in Webots: it turns at a rate, or towards a position.
 //!
-//! Source: the reference manual of R2025a, `Motor`, and `WbMotor::computeCurrentDynamicVelocity`: with a position it turns
-//! at `P` times what is missing, no faster than its rate, whose sign then counts for nothing. What was said last stays in
-//! force when the controller is gone.
+//! Source: reference manual of R2025a, `Motor`, and `WbMotor::computeCurrentDynamicVelocity`. Towards a position, a motor turns at
+//! `P` times the remaining angle, but no faster than its rate; the sign of the rate is ignored. The last command stays in
+//! force when the controller ends.
 
-/// `controlPID` of a motor that has no other: rad/s for each radian that is missing.
+/// Default `controlPID` of a motor, rad/s per radian of error (stated in Webots' reference manual, `Motor`).
 const P: f64 = 10.0;
-/// `maxVelocity` of the LightBot's motors, rad/s.
+/// `maxVelocity` of the LightBot's motors, rad/s (stated in `webots/protos/LightBot.proto`).
 pub const RATE_MAX_RADPS: f64 = 133.33;
 
-/// What a motor was told.
+/// Last command of a motor.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Motor {
-    /// Where it turns to, as its sensor reads, radians; infinite: on and on.
+    /// Target position as its sensor reads it, radians; infinite: without end.
     pub target_rad: f64,
-    /// How fast, rad/s.
+    /// Rate, rad/s.
     pub radps: f64,
 }
 
 impl Default for Motor {
-    /// Webots' motors begin with their highest rate towards the position they have.
+    /// Webots' motors begin with their highest rate towards their present position.
     fn default() -> Self {
         Self { target_rad: 0.0, radps: RATE_MAX_RADPS }
     }
 }
 
 impl Motor {
-    /// How fast it turns while its sensor reads this, rad/s.
+    /// Rate at this reading of its sensor, rad/s.
     #[must_use]
     pub fn rate_radps(&self, read_rad: f64) -> f64 {
         if self.target_rad.is_infinite() {

@@ -1,8 +1,9 @@
-//! The proximity sensors: rows of distance, value and noise as in `webots/protos/LightBot.proto`.
+//! The proximity sensors: the table of `webots/protos/LightBot.proto`.
 
-/// Sensors of one ray each, in even steps.
+/// Number of sensors, one ray each, at equal angles (stated in `webots/protos/LightBot.proto`).
 pub const RAYS: usize = 10;
-/// Distance in metres, the value that stands for it, and its noise as a share of it; by distance.
+/// Distance in metres, value, and noise as a share of the value; sorted by distance (stated in
+/// `webots/protos/LightBot.proto`).
 pub const TABLE: [[f64; 3]; 5] = [
     [0.0, 1000.0, 0.0075],
     [0.013, 675.0, 0.03],
@@ -11,19 +12,19 @@ pub const TABLE: [[f64; 3]; 5] = [
     [0.04, 0.0, 0.0],
 ];
 
-/// The value at a distance: straight between the rows, and that of the last beyond them.
+/// Value at a distance: linear between the rows, and that of the last row beyond them.
 pub(crate) fn value(distance_m: f64) -> f64 {
     between(distance_m, 1)
 }
 
-/// The noise of a distance, 1 sigma, metres.
+/// Noise of a distance, 1 sigma, metres.
 #[must_use]
 pub fn sigma_m(distance_m: f64) -> f64 {
     let per_m = (TABLE[0][1] - TABLE[4][1]) / TABLE[4][0];
     between(distance_m, 1) * between(distance_m, 2) / per_m
 }
 
-/// A column at a distance.
+/// A column of the table at a distance.
 fn between(distance_m: f64, column: usize) -> f64 {
     let pair = TABLE.windows(2).find(|pair| distance_m < pair[1][0]);
     pair.map_or(TABLE[TABLE.len() - 1][column], |pair| {

@@ -1,7 +1,7 @@
-//! What goes over the socket between a process and the floor it stands on, little-endian.
+//! Messages on the socket between the process of a robot and the simulated floor, little-endian.
 //!
-//! A process sends its name (one length byte, then that many bytes), then a [`Told`] for every step; the floor answers
-//! each with a [`Seen`] once every process has spoken. The address of the Unix socket is in [`ADDRESS`].
+//! A process sends its name (one length byte, then the bytes), and a [`StepCommand`] for every step. The floor answers each with a
+//! [`StepReply`] when it has the commands of all processes. The environment variable [`ADDRESS`] holds the socket's path.
 
 use std::io::{self, Read, Write};
 
@@ -11,39 +11,41 @@ use crate::proximity::RAYS;
 /// The environment variable with the socket's path.
 pub const ADDRESS: &str = "LIGHTBOTS_STANDIN";
 
-/// What a robot's process says at the end of a step.
+/// Commands of a robot at the end of a step.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Told {
-    /// Its motors, left and right.
+pub struct StepCommand {
+    /// Motors, left and right.
     pub motors: [Motor; 2],
-    /// Its light, R·65536 + G·256 + B.
+    /// Colour of the light, R·65536 + G·256 + B.
     pub colour: u32,
 }
 
-/// What the floor answers.
+/// Answer of the floor.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Seen {
-    /// The simulation ends.
+pub struct StepReply {
+    /// Whether the simulation ends.
     pub ends: bool,
     /// Simulated seconds.
     pub time_s: f64,
-    /// What the wheels' sensors read, left and right, radians.
+    /// Readings of the wheels' sensors, left and right, radians.
     pub wheels_rad: [f64; 2],
     /// Place, metres.
     pub at: [f64; 2],
     /// Heading, radians.
     pub heading: f64,
-    /// How far away its proximity sensors see something, clockwise from the front, metres; infinite: nothing.
+    /// Distances of the proximity sensors, clockwise from the front, metres; infinite: nothing in sight.
     pub near_m: [f64; RAYS],
 }
 
-const TOLD_BYTES: usize = 36;
-const SEEN_BYTES: usize = 1 + 8 * (6 + RAYS);
+/// Bytes of a [`StepCommand`]: four `f64` and one `u32`, by definition.
+const COMMAND_BYTES: usize = 36;
+/// Bytes of a [`StepReply`]: one byte, then six `f64` and the proximity sensors.
+const REPLY_BYTES: usize = 1 + 8 * (6 + RAYS);
 
-impl Told {
-    /// Writes it.
+impl StepCommand {
+    /// Writes the message.
     pub fn write(&self, out: &mut impl Write) -> io::Result<()> {
-        let mut bytes = [0; TOLD_BYTES];
+        let mut bytes = [0; COMMAND_BYTES];
         let [left, right] = self.motors;
         let numbers = [left.target_rad, left.radps, right.target_rad, right.radps];
         for (place, number) in bytes.chunks_exact_mut(8).zip(numbers) {
@@ -53,9 +55,9 @@ impl Told {
         out.write_all(&bytes)
     }
 
-    /// Reads one.
+    /// Reads a message.
     pub fn read(from: &mut impl Read) -> io::Result<Self> {
-        let mut bytes = [0; TOLD_BYTES];
+        let mut bytes = [0; COMMAND_BYTES];
         from.read_exact(&mut bytes)?;
         let colour = u32::from_le_bytes([bytes[32], bytes[33], bytes[34], bytes[35]]);
         let motor = |at| Motor { target_rad: number(&bytes, at), radps: number(&bytes, at + 8) };
@@ -63,10 +65,10 @@ impl Told {
     }
 }
 
-impl Seen {
-    /// Writes it.
+impl StepReply {
+    /// Writes the message.
     pub fn write(&self, out: &mut impl Write) -> io::Result<()> {
-        let mut bytes = [0; SEEN_BYTES];
+        let mut bytes = [0; REPLY_BYTES];
         bytes[0] = u8::from(self.ends);
         let pose =
             [self.time_s, self.wheels_rad[0], self.wheels_rad[1], self.at[0], self.at[1], self.heading];
@@ -76,9 +78,9 @@ impl Seen {
         out.write_all(&bytes)
     }
 
-    /// Reads one.
+    /// Reads a message.
     pub fn read(from: &mut impl Read) -> io::Result<Self> {
-        let mut bytes = [0; SEEN_BYTES];
+        let mut bytes = [0; REPLY_BYTES];
         from.read_exact(&mut bytes)?;
         Ok(Self {
             ends: bytes[0] != 0,
@@ -91,14 +93,14 @@ impl Seen {
     }
 }
 
-/// Writes the name that opens a conversation; names above 255 bytes are cut.
+/// Writes the name that begins a connection; names above 255 bytes are cut.
 pub fn write_name(name: &str, out: &mut impl Write) -> io::Result<()> {
     let bytes = &name.as_bytes()[..name.len().min(255)];
     out.write_all(&[bytes.len() as u8])?;
     out.write_all(bytes)
 }
 
-/// Reads the name that opens a conversation.
+/// Reads the name that begins a connection.
 pub fn read_name(from: &mut impl Read) -> io::Result<String> {
     let mut length = [0];
     from.read_exact(&mut length)?;
@@ -121,17 +123,17 @@ mod tests {
     fn both_ways_survive_the_socket() {
         let motors =
             [Motor { target_rad: 7.0, radps: 1.5 }, Motor { target_rad: f64::INFINITY, radps: -2.5 }];
-        let told = Told { motors, colour: 0xff_a500 };
+        let command = StepCommand { motors, colour: 0xff_a500 };
         let near_m = [0.01, 0.02, 0.03, f64::INFINITY, 0.05, 0.06, 0.07, 0.08, 0.09, 0.1];
         let (wheels_rad, at) = ([1.0, 2.0], [-0.5, 1.3]);
-        let seen = Seen { ends: true, time_s: 0.016, wheels_rad, at, heading: 1.57, near_m };
+        let reply = StepReply { ends: true, time_s: 0.016, wheels_rad, at, heading: 1.57, near_m };
         let mut bytes = Vec::new();
-        told.write(&mut bytes).unwrap();
-        seen.write(&mut bytes).unwrap();
+        command.write(&mut bytes).unwrap();
+        reply.write(&mut bytes).unwrap();
         write_name("LightBot 7", &mut bytes).unwrap();
         let mut from = bytes.as_slice();
-        assert_eq!(Told::read(&mut from).unwrap(), told);
-        assert_eq!(Seen::read(&mut from).unwrap(), seen);
+        assert_eq!(StepCommand::read(&mut from).unwrap(), command);
+        assert_eq!(StepReply::read(&mut from).unwrap(), reply);
         assert_eq!(read_name(&mut from).unwrap(), "LightBot 7");
     }
 }

@@ -1,4 +1,4 @@
-//! The one robot that a process is.
+//! State of the robot of this process.
 #![allow(clippy::print_stderr)]
 
 use std::ffi::CString;
@@ -8,14 +8,15 @@ use std::sync::{Mutex, PoisonError};
 use crate::devices::{COMPASS, GPS, MOTORS, SENSORS, TAGS, Tag, proximity, side};
 use crate::motor::RATE_MAX_RADPS;
 use crate::proximity::value;
-use crate::socket::{self, Seen, Told};
+use crate::socket::{self, StepCommand, StepReply};
 
+/// Step of the simulated floor, milliseconds, as in `webots/worlds` (docs/webots.md).
 const STEP_MS: i32 = 16;
 
-pub(crate) struct Robot {
+pub(crate) struct RobotProcess {
     pub(crate) name: CString,
-    pub(crate) told: Told,
-    pub(crate) seen: Seen,
+    pub(crate) command: StepCommand,
+    pub(crate) reply: StepReply,
     socket: Option<UnixStream>,
     enabled: [bool; TAGS],
     steps: u64,
@@ -23,10 +24,10 @@ pub(crate) struct Robot {
     compass: [f64; 3],
 }
 
-static ROBOT: Mutex<Option<Box<Robot>>> = Mutex::new(None);
+static ROBOT: Mutex<Option<Box<RobotProcess>>> = Mutex::new(None);
 
 /// Runs `action` on the robot, which must be connected.
-pub(crate) fn with<T>(action: impl FnOnce(&mut Robot) -> T) -> T {
+pub(crate) fn with<T>(action: impl FnOnce(&mut RobotProcess) -> T) -> T {
     let mut guard = ROBOT.lock().unwrap_or_else(PoisonError::into_inner);
     match guard.as_mut() {
         Some(robot) => action(robot),
@@ -42,10 +43,10 @@ pub(crate) fn connect() {
     if let Err(error) = socket::write_name(&name, &mut stream) {
         fail(&format!("the floor is gone: {error}"));
     }
-    let robot = Robot {
+    let robot = RobotProcess {
         name: CString::new(name).unwrap_or_default(),
-        told: Told::default(),
-        seen: Seen::default(),
+        command: StepCommand::default(),
+        reply: StepReply::default(),
         socket: Some(stream),
         enabled: [false; TAGS],
         steps: 0,
@@ -55,10 +56,10 @@ pub(crate) fn connect() {
     *ROBOT.lock().unwrap_or_else(PoisonError::into_inner) = Some(Box::new(robot));
 }
 
-impl Robot {
+impl RobotProcess {
     pub(crate) fn step(&mut self, millis: i32) -> i32 {
-        if self.seen.ends {
-            // After the end was said, Webots' library ends the process in whatever is called next.
+        if self.reply.ends {
+            // After the last step, Webots' library ends the process in the next call.
             std::process::exit(0);
         }
         if millis <= 0 || millis % STEP_MS != 0 {
@@ -66,7 +67,7 @@ impl Robot {
         }
         for _ in 0..millis / STEP_MS {
             self.step_once();
-            if self.seen.ends {
+            if self.reply.ends {
                 return -1;
             }
         }
@@ -75,27 +76,27 @@ impl Robot {
 
     fn step_once(&mut self) {
         let Some(socket) = &mut self.socket else { fail("the floor is gone") };
-        let answer = self.told.write(socket).and_then(|()| Seen::read(socket));
-        self.seen = answer.unwrap_or_else(|error| fail(&format!("the floor is gone: {error}")));
+        let answer = self.command.write(socket).and_then(|()| StepReply::read(socket));
+        self.reply = answer.unwrap_or_else(|error| fail(&format!("the floor is gone: {error}")));
         self.steps += 1;
     }
 
     pub(crate) fn cleanup(&mut self) {
         self.socket = None;
-        if self.seen.ends {
+        if self.reply.ends {
             std::process::exit(0);
         }
     }
 
     pub(crate) fn aim_motor(&mut self, tag: Tag, position: f64) {
         if let Some(wheel) = side(MOTORS, tag) {
-            self.told.motors[wheel].target_rad = position;
+            self.command.motors[wheel].target_rad = position;
         }
     }
 
     pub(crate) fn turn_motor(&mut self, tag: Tag, radps: f64) {
         let Some(wheel) = side(MOTORS, tag) else { return };
-        let motor = &mut self.told.motors[wheel];
+        let motor = &mut self.command.motors[wheel];
         if motor.target_rad.is_finite() && radps < 0.0 {
             eprintln!("Error: negative velocity before wb_motor_set_position(INFINITY)");
             return;
@@ -111,28 +112,28 @@ impl Robot {
 
     pub(crate) fn wheel_sensor(&self, tag: Tag) -> f64 {
         match side(SENSORS, tag) {
-            Some(wheel) if self.samples(tag) => self.seen.wheels_rad[wheel],
+            Some(wheel) if self.samples(tag) => self.reply.wheels_rad[wheel],
             _ => f64::NAN,
         }
     }
 
     pub(crate) fn gps(&mut self) -> &[f64; 3] {
         if self.samples(GPS) {
-            self.gps = [self.seen.at[0], self.seen.at[1], 0.0];
+            self.gps = [self.reply.at[0], self.reply.at[1], 0.0];
         }
         &self.gps
     }
 
     pub(crate) fn compass(&mut self) -> &[f64; 3] {
         if self.samples(COMPASS) {
-            self.compass = [self.seen.heading.sin(), self.seen.heading.cos(), 0.0];
+            self.compass = [self.reply.heading.sin(), self.reply.heading.cos(), 0.0];
         }
         &self.compass
     }
 
     pub(crate) fn proximity(&self, tag: Tag) -> f64 {
         match proximity(tag) {
-            Some(sensor) if self.samples(tag) => value(self.seen.near_m[sensor]),
+            Some(sensor) if self.samples(tag) => value(self.reply.near_m[sensor]),
             _ => f64::NAN,
         }
     }
@@ -142,7 +143,7 @@ impl Robot {
     }
 }
 
-/// Says why and ends the process, as Webots' library does.
+/// Prints the reason and ends the process, as Webots' library does.
 fn fail(why: &str) -> ! {
     eprintln!("Error: {why}");
     std::process::exit(1)

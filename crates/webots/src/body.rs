@@ -1,14 +1,14 @@
-//! The robot's body in Webots: two wheels, GPS, compass, a light, and eyes for what is near.
+//! The robot's body in Webots: two wheels, GPS, compass, light and proximity sensors.
 
 use std::fmt;
 
 use lightbots_base::{Limits, Rgb};
 
-use crate::library::{Library, Tag};
+use crate::distance_sensors::DistanceSensors;
+use crate::library::{DeviceTag, LibController};
 use crate::odometry::wheel_turn_rad;
-use crate::proximity::Proximity;
 
-/// A device that the robot must have and has not.
+/// A required device that the robot lacks.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct MissingDevice(&'static str);
 
@@ -19,31 +19,31 @@ impl fmt::Display for MissingDevice {
 }
 
 /// Motors, sensors and light of this process's robot, with the sensors switched on.
-pub struct Body<'a> {
-    library: &'a Library,
-    motors: [Tag; 2],
-    sensors: [Tag; 2],
-    gps: Tag,
-    compass: Tag,
-    light: Tag,
-    proximity: Option<Proximity>,
+pub struct WebotsBody<'a> {
+    library: &'a LibController,
+    motors: [DeviceTag; 2],
+    sensors: [DeviceTag; 2],
+    gps: DeviceTag,
+    compass: DeviceTag,
+    light: DeviceTag,
+    proximity: Option<DistanceSensors>,
     last_read_rad: [f64; 2],
     last_rates: [f64; 2],
     last_light: Option<Rgb>,
     steps_since_light: u32,
 }
 
-/// Webots takes a moment for every change of a light; a fade at this pace still looks even.
-const STEPS_BETWEEN_LIGHTS: u32 = 6;
-/// How far ahead of a wheel the position is that it turns to, seconds at its rate. Webots' motors turn at 10 rad/s for each
-/// radian that is missing (`controlPID`), so 0.1 s keep them at their rate; two steps more until the next command acts, and
-/// one to spare. A robot whose driver is gone rolls on for that: 40 mm at 0.27 m/s.
+/// Steps between two changes of the light: about 100 ms. Fewer: Webots slows down, because each change costs time. More: fades
+/// look uneven. A choice, not measured.
+const LIGHT_INTERVAL_STEPS: u32 = 6;
+/// Lead of a wheel's target position, seconds at the wheel's rate. Webots' motors turn at 10 rad/s per radian of error
+/// (`controlPID`, reference manual), so 0.1 s keep them at their rate. Two steps pass until the next command acts; one is
+/// spare. Below: wheels slow down. Above: a robot without its driver rolls farther than 40 mm at 0.27 m/s.
 const AHEAD_S: f64 = 0.1 + 3.0 * 0.016;
 
-impl<'a> Body<'a> {
-    /// Finds the devices and switches the sensors on, to be sampled every `step_ms`; not those for what is near where it
-    /// is to be `blind`. The wheels stand.
-    pub fn new(library: &'a Library, step_ms: i32, blind: bool) -> Result<Self, MissingDevice> {
+impl<'a> WebotsBody<'a> {
+    /// Finds the devices and enables the sensors every `step_ms`, without the proximity sensors if `blind`. The wheels stand.
+    pub fn new(library: &'a LibController, step_ms: i32, blind: bool) -> Result<Self, MissingDevice> {
         let find = |name: &'static str| library.device(name).ok_or(MissingDevice(name));
         let motors = [find("left wheel motor")?, find("right wheel motor")?];
         let sensors = [find("left wheel sensor")?, find("right wheel sensor")?];
@@ -64,15 +64,15 @@ impl<'a> Body<'a> {
             gps,
             compass,
             light,
-            proximity: if blind { None } else { Proximity::find(library, step_ms) },
+            proximity: if blind { None } else { DistanceSensors::find(library, step_ms) },
             last_read_rad: [f64::NAN; 2],
             last_rates: [0.0; 2],
             last_light: None,
-            steps_since_light: STEPS_BETWEEN_LIGHTS,
+            steps_since_light: LIGHT_INTERVAL_STEPS,
         })
     }
 
-    /// How far the wheels turned since the last call, left and right, radians; zero before two samples are there.
+    /// Turns of the wheels since the last call, left and right, radians; zero before the second sample.
     pub fn wheel_turns_rad(&mut self) -> [f64; 2] {
         let read = self.sensors.map(|sensor| self.library.sensor_value(sensor));
         let turned = [0, 1].map(|side| wheel_turn_rad(read[side] - self.last_read_rad[side]));
@@ -88,14 +88,13 @@ impl<'a> Body<'a> {
         ([x, y], north[0].atan2(north[1]))
     }
 
-    /// Gaps to what is near, metres, counter-clockwise from the front; `None`: it has no sensors for that.
+    /// Gaps to near obstacles, metres, counter-clockwise from the front; `None`: no proximity sensors.
     pub fn gaps_m(&self) -> Option<[f32; 8]> {
         self.proximity.as_ref().map(|proximity| proximity.gaps_m(self.library))
     }
 
-    /// Sets both wheels, rad/s, for the next steps: towards a position a little ahead of where the latest
-    /// [`wheel_turns_rad`](Self::wheel_turns_rad) found them, because Webots' motors do what they were told last when
-    /// this process is gone.
+    /// Sets the rates of both wheels, rad/s. The wheels turn towards a position a little ahead of the last reading of
+    /// [`wheel_turns_rad`](Self::wheel_turns_rad), because Webots' motors keep their last command when this process ends.
     pub fn set_wheels(&mut self, radps: [f64; 2]) {
         for side in [0, 1] {
             let (motor, read_rad) = (self.motors[side], self.last_read_rad[side]);
@@ -112,7 +111,7 @@ impl<'a> Body<'a> {
     /// Shows a colour, at most ten times a second.
     pub fn set_light(&mut self, colour: Rgb) {
         self.steps_since_light = self.steps_since_light.saturating_add(1);
-        if self.last_light != Some(colour) && self.steps_since_light >= STEPS_BETWEEN_LIGHTS {
+        if self.last_light != Some(colour) && self.steps_since_light >= LIGHT_INTERVAL_STEPS {
             self.library.led_set(self.light, colour.number());
             self.last_light = Some(colour);
             self.steps_since_light = 0;

@@ -1,24 +1,24 @@
-//! The Webots driver of the robot core: one process a robot, as Webots starts its controllers.
+//! The Webots driver of the robot core: one process per robot, as Webots starts its controllers.
 //!
-//! libController is loaded when the program starts, so nothing of Webots is needed to build it. Its main types, in
-//! reading order: [`Library`] finds and loads it, [`Body`] is the robot's motors, sensors and light, [`drive`] is the
-//! loop that connects them with the core and the broker.
+//! libController is loaded when the program starts, so that the build needs no part of Webots. In reading order:
+//! [`LibController`] finds and loads it, [`WebotsBody`] holds the robot's motors, sensors and light, and [`drive`] is the loop
+//! that connects them with the robot core and the broker.
 
 mod body;
+mod distance_sensors;
+mod drive;
 mod library;
-mod looping;
+mod library_paths;
 mod odometry;
-mod pace;
-mod places;
-mod proximity;
 pub mod rays;
+mod world_clock;
 
-pub use body::{Body, MissingDevice};
-pub use library::{Library, LoadError};
-pub use looping::{Settings, drive};
+pub use body::{MissingDevice, WebotsBody};
+pub use drive::{DriverSettings, drive};
+pub use library::{LibController, LoadError};
 
-/// Says what is wrong where Webots shows it: in its console.
+/// Prints a problem on stderr, which Webots shows in its console.
 #[allow(clippy::print_stderr)]
-pub fn complain(message: &str) {
+pub fn print_problem(message: &str) {
     eprintln!("LightBotFirmware: {message}");
 }

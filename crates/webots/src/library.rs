@@ -1,41 +1,41 @@
 //! The functions of libController that a robot needs, bound when the program starts.
 //!
-//! Source: Webots R2025a, `include/controller/c/webots/*.h`; the same symbols stand in R2023b.
+//! Source: Webots R2025a, `include/controller/c/webots/*.h`; R2023b has the same symbols.
 #![allow(unsafe_code)]
 
 use std::ffi::{CString, c_char, c_double, c_int};
 use std::fmt;
 use std::path::Path;
 
-use crate::places;
+use crate::library_paths;
 
 /// A device of the robot; 0 is none.
-pub type Tag = u16;
+pub type DeviceTag = u16;
 
 /// libController, loaded and bound. All calls come from one thread: the library holds one lock during a step.
-pub struct Library {
+pub struct LibController {
     init: extern "C" fn() -> c_int,
     step: extern "C" fn(c_int) -> c_int,
     cleanup: extern "C" fn(),
     name: extern "C" fn() -> *const c_char,
     time: extern "C" fn() -> c_double,
     basic_time_step: extern "C" fn() -> c_double,
-    device: extern "C" fn(*const c_char) -> Tag,
-    motor_position: extern "C" fn(Tag, c_double),
-    motor_velocity: extern "C" fn(Tag, c_double),
-    sensor_enable: extern "C" fn(Tag, c_int),
-    sensor_value: extern "C" fn(Tag) -> c_double,
-    gps_enable: extern "C" fn(Tag, c_int),
-    gps_values: extern "C" fn(Tag) -> *const c_double,
-    compass_enable: extern "C" fn(Tag, c_int),
-    compass_values: extern "C" fn(Tag) -> *const c_double,
-    led_set: extern "C" fn(Tag, c_int),
-    distance_enable: extern "C" fn(Tag, c_int),
-    distance_value: extern "C" fn(Tag) -> c_double,
-    distance_type: extern "C" fn(Tag) -> c_int,
-    distance_table_size: extern "C" fn(Tag) -> c_int,
-    distance_table: extern "C" fn(Tag) -> *const c_double,
-    // The functions above live as long as the library is loaded.
+    device: extern "C" fn(*const c_char) -> DeviceTag,
+    motor_position: extern "C" fn(DeviceTag, c_double),
+    motor_velocity: extern "C" fn(DeviceTag, c_double),
+    sensor_enable: extern "C" fn(DeviceTag, c_int),
+    sensor_value: extern "C" fn(DeviceTag) -> c_double,
+    gps_enable: extern "C" fn(DeviceTag, c_int),
+    gps_values: extern "C" fn(DeviceTag) -> *const c_double,
+    compass_enable: extern "C" fn(DeviceTag, c_int),
+    compass_values: extern "C" fn(DeviceTag) -> *const c_double,
+    led_set: extern "C" fn(DeviceTag, c_int),
+    distance_enable: extern "C" fn(DeviceTag, c_int),
+    distance_value: extern "C" fn(DeviceTag) -> c_double,
+    distance_type: extern "C" fn(DeviceTag) -> c_int,
+    distance_table_size: extern "C" fn(DeviceTag) -> c_int,
+    distance_table: extern "C" fn(DeviceTag) -> *const c_double,
+    // Keeps the library loaded for the functions above.
     _library: libloading::Library,
 }
 
@@ -60,11 +60,11 @@ macro_rules! bind {
     }};
 }
 
-impl Library {
+impl LibController {
     /// Finds libController as Webots' own controllers do and binds it. `home` is the value of `WEBOTS_HOME`.
     pub fn load(home: Option<&Path>) -> Result<Self, LoadError> {
         let mut tried = Vec::new();
-        for place in places::candidates(home) {
+        for place in library_paths::candidates(home) {
             // SAFETY: loading Webots' own library runs its initialisers, which only set up its globals.
             match unsafe { libloading::Library::new(&place) } {
                 Ok(library) => return Self::bind(library),
@@ -104,17 +104,17 @@ impl Library {
         })
     }
 
-    /// Connects to the simulation; waits for it, up to about 50 s, and ends the process where there is none.
+    /// Connects to the simulation; waits up to about 50 s, and ends the process if there is none.
     pub fn init(&self) {
         (self.init)();
     }
 
-    /// Lets the simulation go on by `millis`, a multiple of the basic step; `false`: it is ending.
+    /// Advances the simulation by `millis`, a multiple of the basic step; `false`: the simulation ends.
     pub fn step(&self, millis: i32) -> bool {
         (self.step)(millis) != -1
     }
 
-    /// Says goodbye. Where the simulation is ending this ends the process: do everything else before.
+    /// Disconnects from the simulation. If the simulation ends, this call ends the process, so it must be the last.
     pub fn cleanup(&self) {
         (self.cleanup)();
     }
@@ -139,81 +139,80 @@ impl Library {
         (self.basic_time_step)()
     }
 
-    /// A device by its name; `None` where the robot has none of that name.
-    pub fn device(&self, name: &str) -> Option<Tag> {
+    /// A device by its name; `None` if the robot lacks it.
+    pub fn device(&self, name: &str) -> Option<DeviceTag> {
         let name = CString::new(name).ok()?;
         Some((self.device)(name.as_ptr())).filter(|tag| *tag != 0)
     }
 
-    /// Where a motor turns to, as its sensor reads, radians; infinite: on and on.
-    pub fn motor_position(&self, motor: Tag, radians: f64) {
+    /// Sets a motor's target as its sensor reads it, radians; infinite: without end.
+    pub fn motor_position(&self, motor: DeviceTag, radians: f64) {
         (self.motor_position)(motor, radians);
     }
 
-    /// Sets a motor's rate, rad/s. Negative only where it turns on and on: towards a position, the sign is that of the way
-    /// there.
-    pub fn motor_velocity(&self, motor: Tag, radps: f64) {
+    /// Sets a motor's rate, rad/s. Negative only without a target position: towards a position, Webots chooses the sign.
+    pub fn motor_velocity(&self, motor: DeviceTag, radps: f64) {
         (self.motor_velocity)(motor, radps);
     }
 
     /// Samples a position sensor every `millis`.
-    pub fn sensor_enable(&self, sensor: Tag, millis: i32) {
+    pub fn sensor_enable(&self, sensor: DeviceTag, millis: i32) {
         (self.sensor_enable)(sensor, millis);
     }
 
-    /// What a position sensor reads, radians; NaN before its first sample.
-    pub fn sensor_value(&self, sensor: Tag) -> f64 {
+    /// Value of a position sensor, radians; NaN before its first sample.
+    pub fn sensor_value(&self, sensor: DeviceTag) -> f64 {
         (self.sensor_value)(sensor)
     }
 
     /// Samples a GPS every `millis`.
-    pub fn gps_enable(&self, gps: Tag, millis: i32) {
+    pub fn gps_enable(&self, gps: DeviceTag, millis: i32) {
         (self.gps_enable)(gps, millis);
     }
 
     /// World x, y, z of a GPS, metres; NaN before its first sample.
-    pub fn gps_values(&self, gps: Tag) -> [f64; 3] {
+    pub fn gps_values(&self, gps: DeviceTag) -> [f64; 3] {
         three((self.gps_values)(gps))
     }
 
     /// Samples a compass every `millis`.
-    pub fn compass_enable(&self, compass: Tag, millis: i32) {
+    pub fn compass_enable(&self, compass: DeviceTag, millis: i32) {
         (self.compass_enable)(compass, millis);
     }
 
     /// The direction of north in the body of the robot; NaN before the first sample.
-    pub fn compass_values(&self, compass: Tag) -> [f64; 3] {
+    pub fn compass_values(&self, compass: DeviceTag) -> [f64; 3] {
         three((self.compass_values)(compass))
     }
 
     /// Sets a light, R·65536 + G·256 + B.
-    pub fn led_set(&self, led: Tag, colour: u32) {
+    pub fn led_set(&self, led: DeviceTag, colour: u32) {
         (self.led_set)(led, colour as c_int);
     }
 
     /// Samples a distance sensor every `millis`.
-    pub fn distance_enable(&self, sensor: Tag, millis: i32) {
+    pub fn distance_enable(&self, sensor: DeviceTag, millis: i32) {
         (self.distance_enable)(sensor, millis);
     }
 
-    /// What a distance sensor reads, in the units of its table; NaN before its first sample.
-    pub fn distance_value(&self, sensor: Tag) -> f64 {
+    /// Value of a distance sensor, in the units of its table; NaN before its first sample.
+    pub fn distance_value(&self, sensor: DeviceTag) -> f64 {
         (self.distance_value)(sensor)
     }
 
-    /// Whether a distance sensor sees colours (`WB_DISTANCE_SENSOR_INFRA_RED`).
-    pub fn distance_is_infra_red(&self, sensor: Tag) -> bool {
+    /// Whether a distance sensor depends on colours (`WB_DISTANCE_SENSOR_INFRA_RED`).
+    pub fn distance_is_infra_red(&self, sensor: DeviceTag) -> bool {
         (self.distance_type)(sensor) == 1
     }
 
-    /// The table of a distance sensor: distance in metres, value, noise as a share of it; by distance.
-    pub fn distance_table(&self, sensor: Tag) -> Vec<[f64; 3]> {
+    /// Table of a distance sensor: distance in metres, value, noise as a share of the value; sorted by distance.
+    pub fn distance_table(&self, sensor: DeviceTag) -> Vec<[f64; 3]> {
         let rows = usize::try_from((self.distance_table_size)(sensor)).unwrap_or(0);
         let table = (self.distance_table)(sensor);
         if table.is_null() {
             return Vec::new();
         }
-        // SAFETY: the library returns three doubles a row, which stay until the simulation says otherwise.
+        // SAFETY: the library returns three doubles per row, which are valid until the simulation changes the table.
         (0..rows).map(|row| unsafe { *table.add(3 * row).cast::<[f64; 3]>() }).collect()
     }
 }
@@ -222,6 +221,6 @@ fn three(values: *const c_double) -> [f64; 3] {
     if values.is_null() {
         return [f64::NAN; 3];
     }
-    // SAFETY: GPS and compass return three doubles that stay until the next step.
+    // SAFETY: GPS and compass return three doubles that are valid until the next step.
     unsafe { [*values, *values.add(1), *values.add(2)] }
 }

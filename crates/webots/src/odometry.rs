@@ -1,7 +1,7 @@
 //! Wheel turns from Webots' position sensors.
 
-/// How far a wheel really turned in a step of `step_s`, when the sensor says `read_rad`: the sensors under-read by
-/// rate = (2/dt)·atan(w·dt/2), measured in Webots R2023b (60 rad/s reads 55.9 at 16 ms). NaN stays NaN.
+/// True turn of a wheel in a step of `step_s` for the sensor reading `read_rad`, radians. Webots' sensors read
+/// (2/dt)·atan(w·dt/2) instead of the rate w (measured in R2023b: 60 rad/s reads 55.9 at 16 ms). NaN gives NaN.
 pub(crate) fn wheel_turn_rad(read_rad: f64) -> f64 {
     2.0 * (read_rad / 2.0).tan()
 }

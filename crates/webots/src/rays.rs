@@ -1,25 +1,27 @@
-//! From what rays met to the gaps that the core knows.
+//! Converts distances along rays to the gaps of the core's sensors.
 //!
-//! A ray tells how far away something is along it, not beside it. The core's sensors see the nearest point of what is
-//! around their direction. What is near is taken to be robots: one that two rays next to each other meet lies where a disc
-//! has both points on its rim; one that a single ray meets lies straight ahead of that, and a little nearer.
+//! A ray measures the distance along its line only. A sensor of the core measures the nearest point around its direction. Each
+//! obstacle is assumed to be a robot. If two neighbouring rays meet it, it is the disc with both points on its rim. If a single
+//! ray meets it, it lies straight ahead of that ray, and `BESIDE_M` nearer.
 
 use std::f64::consts::{FRAC_PI_4, TAU};
 
 use lightbots_base::{Limits, Vec2};
 
-/// Sensors of the core, 45° apart.
+/// Number of the core's sensors, 45° apart (docs/simulator.md).
 const SENSORS: usize = 8;
-/// A sensor of the core sees what lies within 50° of its direction.
+/// Cosine of the half cone of a sensor of the core: 50° (docs/simulator.md).
 const CONE_COS: f64 = 0.642_787_609_686_539_3;
-/// What a single ray meets is taken to be this much nearer, metres: beside its middle it is, by up to 1.8 mm at 10 mm. With
-/// less, robots touch what stands 9 to 12 mm beside their way; with 3 mm they believe it stands elsewhere (test `rays`).
+/// Correction for a robot that a single ray meets, metres. A ray beside the centre reads up to 1.8 mm too far at 10 mm (measured
+/// by test `rays`). Below: robots touch others that stand 9 to 12 mm beside their path. Above, at 3 mm: the estimated position
+/// is wrong.
 const BESIDE_M: f64 = 0.002;
+/// Radius of a robot, metres.
 const RADIUS_M: f64 = Limits::ELISA_3.radius_m;
 
-/// Gaps as the core's sensors see them, counter-clockwise from the front, metres, from `along_m`: how far from the robot's
-/// rim each ray met something, metres, infinite where it met nothing. The rays leave the robot's middle in even steps,
-/// counter-clockwise from the front.
+/// Gaps of the core's sensors, metres, counter-clockwise from the front. `along_m`: distance along each ray from the robot's
+/// rim, metres, infinite if the ray meets nothing. The rays leave the robot's centre at equal angles, counter-clockwise from the
+/// front.
 pub fn gaps_m(along_m: &[f64]) -> [f32; SENSORS] {
     let rays = along_m.len();
     let met = |ray: usize| {
@@ -39,8 +41,8 @@ pub fn gaps_m(along_m: &[f64]) -> [f32; SENSORS] {
     gaps_m.map(|gap_m| gap_m.max(0.0) as f32)
 }
 
-/// The centre, in body space, of the robot whose rim two points lie on, `left` counter-clockwise of `right`; `None`: too
-/// far apart for one robot.
+/// Centre, in body space, of the robot with two points on its rim; `left` is counter-clockwise of `right`. `None`: the points are
+/// too far apart for one robot.
 fn disc_through(right: Vec2, left: Vec2) -> Option<Vec2> {
     let (middle, half) = ((right + left) * 0.5, (left - right) * 0.5);
     let beyond_m2 = RADIUS_M * RADIUS_M - half.length_squared();
@@ -48,7 +50,7 @@ fn disc_through(right: Vec2, left: Vec2) -> Option<Vec2> {
     (beyond_m2 > 0.0).then(|| middle + away * beyond_m2.sqrt())
 }
 
-/// A robot around `centre` is seen by the sensors it lies before.
+/// Enters a robot around `centre` into the gaps of the sensors that see it.
 fn see(gaps_m: &mut [f64; SENSORS], centre: Vec2) {
     for (sensor, gap_m) in gaps_m.iter_mut().enumerate() {
         let looks = Vec2::unit(sensor as f64 * FRAC_PI_4);
@@ -66,7 +68,7 @@ mod tests {
 
     const RAYS: usize = 10;
 
-    /// What the rays tell of a robot in this direction of the body, degrees, at this gap.
+    /// Distances along the rays for a robot in this direction (body, degrees) at this gap.
     fn along_m(degrees: f64, gap_m: f64) -> [f64; RAYS] {
         let centre = Vec2::unit(degrees.to_radians()) * (2.0 * RADIUS_M + gap_m);
         std::array::from_fn(|ray| {
@@ -78,7 +80,7 @@ mod tests {
         })
     }
 
-    /// What the core's sensors would see of it.
+    /// Gaps of ideal sensors for the same robot.
     fn ideal_m(degrees: f64, gap_m: f64) -> [f32; SENSORS] {
         let mut gaps_m = [f64::INFINITY; SENSORS];
         see(&mut gaps_m, Vec2::unit(degrees.to_radians()) * (2.0 * RADIUS_M + gap_m));

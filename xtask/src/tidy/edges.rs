@@ -1,9 +1,9 @@
-//! Dependencies point one way.
+//! Allowed dependencies between crates.
 
 use super::{files, shown};
 use std::path::Path;
 
-/// What each crate may use of ours. Tests may use more.
+/// Crates of this workspace that each crate may use. Tests may use more.
 const EDGES: [(&str, &[&str]); 14] = [
     ("base", &[]),
     ("wire", &["base"]),
@@ -24,7 +24,7 @@ const EDGES: [(&str, &[&str]); 14] = [
     ),
 ];
 
-/// Every edge that is not allowed.
+/// All forbidden dependencies.
 pub fn findings(root: &Path) -> Vec<String> {
     let manifests = files(&root.join("crates"), &["toml"]);
     manifests

@@ -1,10 +1,13 @@
-//! What must not stand in a core: clocks, sockets, files, threads, chance.
+//! Cores use no clocks, sockets, files, threads or random sources.
 
 use super::{files, shown};
 use std::path::Path;
 
+/// Crates without IO.
 const CORES: [&str; 7] = ["base", "wire", "show", "plan", "robot", "control", "sim"];
+/// Crates for microcontrollers.
 const NO_STD: [&str; 3] = ["base", "wire", "robot"];
+/// Names that must not appear in a core.
 const ABSENT: [&str; 8] = [
     "std::time::",
     "std::net",
@@ -16,7 +19,7 @@ const ABSENT: [&str; 8] = [
     "RandomState",
 ];
 
-/// Every line of a core that reaches outside.
+/// All lines of cores that use something forbidden.
 pub fn findings(root: &Path) -> Vec<String> {
     let mut found = Vec::new();
     for core in CORES {

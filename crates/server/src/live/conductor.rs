@@ -245,7 +245,7 @@ impl Conductor {
                 self.leave().await;
                 self.state.address = broker.to_string();
                 self.pace.controls(Some(broker.to_string()));
-                self.nodes = broker.places.iter().map(ToString::to_string).collect();
+                self.nodes = broker.addresses.iter().map(ToString::to_string).collect();
                 let mut config = controller_link(broker);
                 self.rivals = Rivals::new(config.client_id.clone());
                 config.filters.extend([rivals::NAMES, rivals::COMMANDS].map(str::to_owned));

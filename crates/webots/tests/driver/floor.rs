@@ -10,7 +10,7 @@ use std::time::{Duration, Instant};
 
 use Controller::motor::Motor;
 use Controller::proximity::RAYS;
-use Controller::socket::{Seen, Told, read_name};
+use Controller::socket::{StepCommand, StepReply, read_name};
 use lightbots_base::{Pose, Vec2};
 use lightbots_show::Stage;
 use lightbots_sim::{STEP, World};
@@ -87,7 +87,7 @@ impl Floor {
 struct Body {
     /// Gone once the process is: Webots goes on without it.
     process: Option<UnixStream>,
-    told: Told,
+    command: StepCommand,
     /// What its wheels' sensors read: less than how far the wheels turned.
     read_rad: [f64; 2],
     track: Vec<(Instant, Vec2)>,
@@ -97,19 +97,19 @@ impl Body {
     /// Waits for its process, which the whole world does in every step.
     fn listen(&mut self) {
         if let Some(process) = &mut self.process {
-            match Told::read(process) {
-                Ok(told) => self.told = told,
+            match StepCommand::read(process) {
+                Ok(command) => self.command = command,
                 Err(_) => self.process = None,
             }
         }
     }
 
     fn wheels_radps(&self) -> [f64; 2] {
-        [0, 1].map(|side| Motor::rate_radps(&self.told.motors[side], self.read_rad[side]))
+        [0, 1].map(|side| Motor::rate_radps(&self.command.motors[side], self.read_rad[side]))
     }
 
-    fn answer(&mut self, seen: Seen) {
-        if self.process.as_mut().is_some_and(|process| seen.write(process).is_err()) {
+    fn answer(&mut self, reply: StepReply) {
+        if self.process.as_mut().is_some_and(|process| reply.write(process).is_err()) {
             self.process = None;
         }
     }
@@ -124,7 +124,7 @@ fn run(
 ) -> Account {
     let body = |process| Body {
         process: Some(process),
-        told: Told::default(),
+        command: StepCommand::default(),
         read_rad: [0.0; 2],
         track: Vec::new(),
     };
@@ -155,7 +155,14 @@ fn run(
             }
             let near_m = if body.process.is_some() { eyes.near_m(pose, &places) } else { [0.0; RAYS] };
             let at = [pose.at.x, pose.at.y];
-            body.answer(Seen { ends, time_s, wheels_rad: body.read_rad, at, heading: pose.heading, near_m });
+            body.answer(StepReply {
+                ends,
+                time_s,
+                wheels_rad: body.read_rad,
+                at,
+                heading: pose.heading,
+                near_m,
+            });
         }
         if ends {
             break;
@@ -165,7 +172,7 @@ fn run(
     Account {
         contacts: contacts.count(),
         closest_m: contacts.closest_m(),
-        colours: bodies.iter().map(|body| body.told.colour).collect(),
+        colours: bodies.iter().map(|body| body.command.colour).collect(),
         places: world.places().to_vec(),
         rate: f64::from(steps.load(Ordering::Acquire)) * STEP.as_secs() / began.elapsed().as_secs_f64(),
         tracks: bodies.into_iter().map(|body| body.track).collect(),

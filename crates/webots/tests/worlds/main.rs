@@ -161,7 +161,8 @@ fn robots_have_every_device_the_driver_asks_for_once() {
     };
     let mut asked = quoted(include_str!("../../src/body.rs"), "find(\"");
     assert!(asked.len() >= 7, "{asked:?}");
-    let names = include_str!("../../src/proximity.rs").lines().find(|line| line.starts_with("const NAMES"));
+    let names =
+        include_str!("../../src/distance_sensors.rs").lines().find(|line| line.starts_with("const NAMES"));
     asked.extend(names.expect("it names its sensors").split('"').skip(1).step_by(2));
     assert_eq!(asked.last(), Some(&"ps9"));
     for (path, file) in files("protos", "proto") {

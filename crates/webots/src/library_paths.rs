@@ -1,8 +1,8 @@
-//! Where libController may lie.
+//! Paths of libController.
 
 use std::path::{Path, PathBuf};
 
-/// What the library is called on this system.
+/// File name of the library on this system.
 const NAME: &str = if cfg!(windows) {
     "Controller.dll"
 } else if cfg!(target_os = "macos") {
@@ -11,7 +11,7 @@ const NAME: &str = if cfg!(windows) {
     "libController.so"
 };
 
-/// Default installations of Webots.
+/// Folders of default installations of Webots.
 const INSTALLATIONS: [&str; 4] = [
     "/usr/local/webots",
     "/snap/webots/current/usr/share/webots",
@@ -19,8 +19,8 @@ const INSTALLATIONS: [&str; 4] = [
     "C:\\Program Files\\Webots",
 ];
 
-/// Every place to try, in order: by name alone (Webots sets the library path of the controllers it starts), below
-/// `home` (the value of `WEBOTS_HOME`), then the default installations.
+/// All paths to try, in order: the bare name, because Webots sets the library path of its controllers; below `home`, the value
+/// of `WEBOTS_HOME`; the default installations.
 pub(crate) fn candidates(home: Option<&Path>) -> Vec<PathBuf> {
     let homes = home.into_iter().chain(INSTALLATIONS.iter().map(Path::new));
     std::iter::once(PathBuf::from(NAME)).chain(homes.map(inside)).collect()

@@ -1,35 +1,35 @@
-//! The loop: sense, think, act, talk; once per step of the simulation.
+//! The control loop, once per step of the simulation: receive, sense, calculate, act, send.
 
 use lightbots_base::{Instant, Limits, RobotId, Vec2};
 use lightbots_link::{BrokerUrl, Link, LinkConfig, LinkEvent, Sender, robot_client_id};
 use lightbots_robot::{Config, Fix, Inputs, Robot};
 use lightbots_wire::Topic;
 
-use crate::pace::{Pace, Tick};
-use crate::{Body, Library, MissingDevice, complain};
+use crate::world_clock::{Tick, WorldClock};
+use crate::{LibController, MissingDevice, WebotsBody, print_problem};
 
-/// What a robot of this program needs to know.
+/// Settings of the driver.
 #[derive(Clone, Debug)]
-pub struct Settings {
-    /// What it calls itself.
+pub struct DriverSettings {
+    /// Name of the robot.
     pub id: RobotId,
-    /// The broker it speaks through.
+    /// Broker.
     pub broker: BrokerUrl,
-    /// Leave its proximity sensors off.
+    /// Whether the proximity sensors stay disabled.
     pub blind: bool,
 }
 
-/// The core is made for steps of about this length.
+/// Step of the robot core, milliseconds, as in the simulator (docs/simulator.md). With 32 ms, curves deviate (docs/webots.md).
 const STEP_MS: f64 = 16.0;
-/// Messages in each direction that wait at most.
+/// Most queued messages in each direction: four times `MESSAGES_PER_STEP`, more than a robot receives in a second.
 const QUEUE: usize = 256;
-/// Messages handled in one step; the rest waits for the next, so that talk never delays the wheels.
-const MESSAGES_A_STEP: usize = 64;
+/// Most messages handled in one step. The others wait for the next step, so that messages never delay the wheels.
+const MESSAGES_PER_STEP: usize = 64;
 
-/// Drives the robot until the simulation ends. Must be called in a tokio runtime, after [`Library::init`].
-pub fn drive(library: &Library, settings: &Settings) -> Result<(), MissingDevice> {
+/// Drives the robot until the simulation ends. Must be called in a tokio runtime, after [`LibController::init`].
+pub fn drive(library: &LibController, settings: &DriverSettings) -> Result<(), MissingDevice> {
     let step_ms = step_ms(library.basic_time_step_ms());
-    let mut body = Body::new(library, step_ms, settings.blind)?;
+    let mut body = WebotsBody::new(library, step_ms, settings.blind)?;
     let mut robot = Robot::new(config(settings));
     let mut link = Link::open(LinkConfig {
         broker: settings.broker.clone(),
@@ -38,15 +38,15 @@ pub fn drive(library: &Library, settings: &Settings) -> Result<(), MissingDevice
         queue: QUEUE,
     });
     let sender = link.sender();
-    let (mut pace, began) = (Pace::default(), std::time::Instant::now());
+    let (mut clock, began) = (WorldClock::default(), std::time::Instant::now());
     while library.step(step_ms) {
-        // Read first: what a pause of the simulation left in the queue is old news by then.
-        listen(&mut robot, &mut link, own(began.elapsed()));
-        let Tick { now, lag, rate } = pace.tick(library.time_s(), began.elapsed(), robot.off_m().is_some());
+        // Received first, because messages that waited during a pause of the simulation must not act late.
+        receive(&mut robot, &mut link, own(began.elapsed()));
+        let Tick { now, lag, rate } = clock.tick(library.time_s(), began.elapsed(), robot.off_m().is_some());
         let outputs = robot.step(now, &Inputs { lag, ..inputs(&mut body) });
         body.set_wheels(outputs.wheels_radps.map(|radps| radps * rate));
         body.set_light(outputs.light);
-        speak(&mut robot, &sender);
+        send(&mut robot, &sender);
     }
     Ok(())
 }
@@ -56,15 +56,15 @@ fn own(passed: std::time::Duration) -> Instant {
     Instant::from_secs(passed.as_secs_f64())
 }
 
-/// The smallest multiple of the world's step that is not below the core's.
+/// The smallest multiple of the world's step that is not below `STEP_MS`.
 fn step_ms(basic_ms: f64) -> i32 {
     let basic_ms = basic_ms.max(1.0);
     ((STEP_MS / basic_ms).ceil().max(1.0) * basic_ms) as i32
 }
 
-/// Webots' GPS and compass tell the truth without delay (measured in R2023b): a little noise is assumed all the same, so
-/// that turning wheels count for something.
-fn config(settings: &Settings) -> Config {
+/// Configuration of the robot core. Webots' GPS and compass are exact and without delay (measured in R2023b). A small noise is
+/// assumed all the same, so that the filter also uses the wheels.
+fn config(settings: &DriverSettings) -> Config {
     let seed = settings
         .id
         .as_str()
@@ -80,19 +80,19 @@ fn config(settings: &Settings) -> Config {
     }
 }
 
-fn inputs(body: &mut Body<'_>) -> Inputs {
+fn inputs(body: &mut WebotsBody<'_>) -> Inputs {
     let ([x, y], heading) = body.fix();
     let fix = (x.is_finite() && y.is_finite())
         .then(|| Fix { at: Vec2::new(x, y), heading: heading.is_finite().then_some(heading) });
     Inputs { wheel_turns_rad: body.wheel_turns_rad(), fix, proximity_m: body.gaps_m(), ..Inputs::default() }
 }
 
-fn listen(robot: &mut Robot, link: &mut Link, now: Instant) {
-    for _ in 0..MESSAGES_A_STEP {
+fn receive(robot: &mut Robot, link: &mut Link, now: Instant) {
+    for _ in 0..MESSAGES_PER_STEP {
         match link.try_next() {
             Some(LinkEvent::Connected) => robot.link(now, true),
             Some(LinkEvent::Disconnected { reason }) => {
-                complain(&reason);
+                print_problem(&reason);
                 robot.link(now, false);
             }
             Some(LinkEvent::Message { topic, payload }) => {
@@ -105,7 +105,7 @@ fn listen(robot: &mut Robot, link: &mut Link, now: Instant) {
     }
 }
 
-fn speak(robot: &mut Robot, sender: &Sender) {
+fn send(robot: &mut Robot, sender: &Sender) {
     let mut payload = Default::default();
     while let Some(topic) = robot.outgoing(&mut payload) {
         sender.send(&topic.write(), payload.as_bytes().to_vec());

@@ -1,61 +1,61 @@
-//! How the time of the simulation and that of the show clock go together.
+//! Two clocks that connect the time of the simulation with the show clock.
 //!
-//! Two clocks. The *own clock* is this machine's: it tells moments to the controller and is compared with the show clock,
-//! so nothing may bend it. The *world's clock* goes by the steps of the simulation, a little faster or slower, so that it
-//! follows the own clock. Routes go by the world's clock. All robots of a simulation take its steps together and read
-//! the same machine's clock, so their world clocks agree, whatever the simulation does: it may be slower than real time
-//! or stand for a while, and the robots stay where the plan has them with respect to each other.
+//! The *own clock* is this machine's clock. It is synchronised with the show clock, so it must not be adjusted. The *world
+//! clock* counts the steps of the simulation, slightly faster or slower, so that it follows the own clock. Routes use the
+//! world clock. All robots of a simulation take its steps together and read the same machine's clock, so their world clocks
+//! agree. In a simulation that is slower than real time or pauses, the robots therefore keep their planned distances.
 
 use std::time::Duration;
 
 use lightbots_base::{Instant, Span};
 
-/// Share of the lag that is worked off in a step: of robots that drive, and of robots that have no route. What a busy
-/// machine reads too late by a few milliseconds must not move a robot, so less is smoother; a simulation at 0.967 of
-/// real time lags by 0.034 of a step over this share: 11 ms, which are 3 mm.
+/// Share of the lag that a driving robot recovers in a step. Above: a late reading of the clock on a busy machine moves the
+/// robot. Below: the lag grows; a simulation at 0.967 of real time lags by 0.034 of a step divided by this share, which is
+/// 11 ms or 3 mm (docs/webots.md: Webots runs at 0.97).
 const DRIVING_SHARE: f64 = 0.05;
+/// As `DRIVING_SHARE`, for a robot without a route: larger, because it does not move.
 const RESTING_SHARE: f64 = 0.3;
-/// Seconds of the world's clock in a second of the simulation, at most: of robots that drive, because accelerations grow
-/// with its square and an Elisa-3 stumbles somewhere between 1 and 2 m/s² (docs/simulator.md); and of robots that have
-/// no route: fast enough for one that arrives last to be where the others are before the next START, 0.3 s later.
+/// Largest rate of the world clock, world seconds per simulated second, for a driving robot. Above: accelerations grow with its
+/// square, and an Elisa-3 stumbles between 1 and 2 m/s² (docs/simulator.md).
 const DRIVING_RATE: f64 = 1.1;
+/// As `DRIVING_RATE`, for a robot without a route: fast enough that the last robot to arrive recovers a lag of 4 s before the
+/// next `START`, at least 0.3 s later. Below: that robot begins late.
 const RESTING_RATE: f64 = 14.0;
-/// A step that takes longer than this is a pause, seconds.
+/// A step of the simulation longer than this is a pause, seconds: three steps of 16 ms.
 const PAUSE_S: f64 = 0.05;
-/// The world's clock goes on by at least this in every step, seconds.
+/// Least advance of the world clock in a step, seconds, so that the robot core never sees the same moment twice.
 const LEAST_S: f64 = 0.000_5;
 
-/// The moment of a step.
+/// The time of one step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Tick {
-    /// By the own clock.
+    /// Own clock.
     pub now: Instant,
-    /// How far the world's clock is behind it; negative: ahead.
+    /// Own clock minus world clock; negative if the world clock is ahead.
     pub lag: Span,
-    /// Seconds of the world's clock in a second of the simulation: wheels must turn faster by this for speeds to be as
-    /// the robot means them.
+    /// Rate of the world clock, world seconds per simulated second. Wheel rates are multiplied by it, so that speeds per world
+    /// time are those of the robot core.
     pub rate: f64,
 }
 
 /// The two clocks of a robot.
 #[derive(Debug, Default)]
-pub(crate) struct Pace {
-    /// What the simulation showed at the latest step, and the world's clock then, seconds.
+pub(crate) struct WorldClock {
+    /// Simulated time and world clock at the latest step, seconds.
     last: Option<(f64, f64)>,
-    /// This machine's clock then, seconds.
+    /// Own clock at the latest step, seconds.
     last_real_s: f64,
 }
 
-impl Pace {
-    /// The moment it is when the simulation shows `simulated_s` and `real` time has passed since some start;
-    /// `drives`: a route is under way.
+impl WorldClock {
+    /// The time of the step at `simulated_s` of the simulation and `real` of the own clock. `drives`: a route is under way.
     pub(crate) fn tick(&mut self, simulated_s: f64, passed: Duration, drives: bool) -> Tick {
         let real_s = passed.as_secs_f64();
-        // The first step after a pause is one like the others: the robot takes it for as long as this machine did.
+        // The first step after a pause counts as one usual step.
         let paused = real_s - std::mem::replace(&mut self.last_real_s, real_s) > PAUSE_S;
         let (share, rate_max) =
             if drives || paused { (DRIVING_SHARE, DRIVING_RATE) } else { (RESTING_SHARE, RESTING_RATE) };
-        // Both begin together: what stood on the simulation's clock before is of no interest.
+        // Both clocks begin together, at any time of the simulation.
         let (last_simulated_s, last_world_s) = self.last.unwrap_or((simulated_s, real_s));
         let step_s = (simulated_s - last_simulated_s).max(0.0);
         let missing_s = (real_s - (last_world_s + step_s)) * share;
@@ -73,10 +73,9 @@ mod tests {
 
     const STEP_S: f64 = 0.016;
 
-    /// A simulation and the clocks of some of its robots, each of which reads this machine's clock too late by its own
-    /// amount, up to 4 ms, at each step.
+    /// A simulation with the clocks of some robots. Each robot reads the own clock late, by up to 4 ms.
     struct World {
-        robots: Vec<(Pace, u64)>,
+        robots: Vec<(WorldClock, u64)>,
         simulated_s: f64,
         real_s: f64,
         ticks: Vec<Tick>,
@@ -84,28 +83,28 @@ mod tests {
 
     impl World {
         fn new(robots: u64) -> Self {
-            let robots = (1..=robots).map(|seed| (Pace::default(), seed * 7_919)).collect();
+            let robots = (1..=robots).map(|seed| (WorldClock::default(), seed * 7_919)).collect();
             Self { robots, simulated_s: 0.0, real_s: 0.0, ticks: Vec::new() }
         }
 
-        /// `steps` steps, each of which takes this much real time.
+        /// `steps` steps of this real duration each.
         fn run(&mut self, steps: usize, real_step_s: f64, drives: bool) {
             for _ in 0..steps {
                 self.simulated_s += STEP_S;
                 self.real_s += real_step_s;
                 let (simulated_s, real_s) = (self.simulated_s, self.real_s);
                 self.ticks.clear();
-                for (pace, seed) in &mut self.robots {
+                for (clock, seed) in &mut self.robots {
                     *seed =
                         seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
                     let late_s = (*seed >> 40) as f64 / (1_u64 << 24) as f64 * 0.004;
                     let passed = Duration::from_secs_f64(real_s + late_s);
-                    self.ticks.push(pace.tick(simulated_s, passed, drives));
+                    self.ticks.push(clock.tick(simulated_s, passed, drives));
                 }
             }
         }
 
-        /// How far the robots' world clocks are apart, and how far the first is behind, seconds.
+        /// Largest difference of the robots' world clocks, and lag of the first one, seconds.
         fn apart_and_behind_s(&self) -> (f64, f64) {
             let world = self.ticks.iter().map(|tick| (tick.now - tick.lag).as_secs());
             let (least, most) =
@@ -126,7 +125,7 @@ mod tests {
 
     #[test]
     fn pauses_leave_robots_together_and_are_worked_off() {
-        // 0.25 s was where half of a fleet used to jump.
+        // Near 0.25 s, the readings of the robots differ in what they take for a pause.
         for pause_s in [0.2, 0.25, 0.4, 0.9, 2.5] {
             let mut world = World::new(30);
             world.run(500, STEP_S / 0.97, true);

@@ -2,19 +2,19 @@
 
 use std::fmt;
 
-/// Where a broker answers: `[mqtt[s]://]host[:port]`.
+/// An address of a broker: `[mqtt[s]://]host[:port]`.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Place {
-    /// Name or address of the machine; IPv6 without brackets.
+pub struct BrokerAddress {
+    /// Name or IP address of the machine; IPv6 without brackets.
     pub host: String,
-    /// Its TCP port.
+    /// TCP port.
     pub port: u16,
-    /// Whether to speak TLS.
+    /// Whether to use TLS.
     pub tls: bool,
 }
 
-impl Place {
-    /// Reads `host`, `host:port`, `[v6]`, `[v6]:port` or a bare IPv6 address; the error says why it is none.
+impl BrokerAddress {
+    /// Reads `host`, `host:port`, `[v6]`, `[v6]:port` or a bare IPv6 address; the error states the reason.
     pub(crate) fn parse(text: &str, tls: bool) -> Result<Self, &'static str> {
         let (host, port) = split_port(text).ok_or("its port is no number from 1 to 65535")?;
         if host.is_empty() || host.contains(['/', ' ', '?', '#', '@']) {
@@ -24,18 +24,18 @@ impl Place {
     }
 }
 
-/// Host and port; `None` where the port is no port.
-fn split_port(place: &str) -> Option<(&str, Option<u16>)> {
-    if let Some(rest) = place.strip_prefix('[') {
+/// Host and port; `None` if the port is invalid.
+fn split_port(address: &str) -> Option<(&str, Option<u16>)> {
+    if let Some(rest) = address.strip_prefix('[') {
         let (host, after) = rest.split_once(']')?;
         return match after.strip_prefix(':') {
             Some(port) => Some((host, Some(read_port(port)?))),
             None => after.is_empty().then_some((host, None)),
         };
     }
-    match place.split_once(':') {
+    match address.split_once(':') {
         Some((host, port)) if !port.contains(':') => Some((host, Some(read_port(port)?))),
-        _ => Some((place, None)),
+        _ => Some((address, None)),
     }
 }
 
@@ -43,7 +43,7 @@ fn read_port(text: &str) -> Option<u16> {
     text.parse().ok().filter(|port| *port != 0)
 }
 
-impl fmt::Display for Place {
+impl fmt::Display for BrokerAddress {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let scheme = if self.tls { "mqtts" } else { "mqtt" };
         let (host, port) = (&self.host, self.port);

@@ -1,4 +1,4 @@
-//! Whom to believe over TLS, and how to show who we are.
+//! Trusted authorities and our own certificate for TLS.
 
 use std::fmt;
 use std::path::Path;
@@ -9,34 +9,34 @@ use tokio_rustls::rustls::pki_types::pem::{Error as PemError, PemObject};
 use tokio_rustls::rustls::pki_types::{CertificateDer, PrivateKeyDer};
 use tokio_rustls::rustls::{ClientConfig, RootCertStore};
 
-/// Authorities that may vouch for a broker, and a certificate of our own for brokers that ask for one. Clones share
-/// it; two are equal where they are the same.
+/// Trusted authorities, and a client certificate for brokers that ask for one. Clones share the content; two values are equal
+/// if they share it.
 #[derive(Clone)]
-pub struct Trust(Arc<ClientConfig>);
+pub struct TlsTrust(Arc<ClientConfig>);
 
 /// Why certificates cannot be used: one line for people.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct TrustError(String);
+pub struct TlsTrustError(String);
 
-/// A PEM text and what to call it, such as its file.
+/// A PEM text with a name, such as its file.
 #[derive(Clone, Copy, Debug)]
 pub struct Pem<'a> {
-    /// For error lines.
+    /// Name in error messages.
     pub name: &'a str,
-    /// The text.
+    /// Content.
     pub bytes: &'a [u8],
 }
 
-impl Trust {
-    /// `ca`: the authorities to believe instead of the system's. `client`: our certificate with its chain, and its key.
-    pub fn new(ca: Option<Pem<'_>>, client: Option<(Pem<'_>, Pem<'_>)>) -> Result<Self, TrustError> {
+impl TlsTrust {
+    /// `ca`: trusted authorities instead of the system's. `client`: our certificate with its chain, and its key.
+    pub fn new(ca: Option<Pem<'_>>, client: Option<(Pem<'_>, Pem<'_>)>) -> Result<Self, TlsTrustError> {
         let roots = match ca {
             Some(pem) => roots_from(pem)?,
             None => system_roots()?,
         };
         let builder = ClientConfig::builder_with_provider(Arc::new(ring::default_provider()))
             .with_safe_default_protocol_versions()
-            .map_err(|error| TrustError(format!("TLS cannot be set up: {error}")))?
+            .map_err(|error| TlsTrustError(format!("TLS cannot be set up: {error}")))?
             .with_root_certificates(roots);
         let config = match client {
             None => builder.with_no_client_auth(),
@@ -45,14 +45,14 @@ impl Trust {
                 .map_err(|error| {
                     let names =
                         format!("the client certificate {} and the key {}", certificate.name, key.name);
-                    TrustError(format!("{names} do not fit together: {error}"))
+                    TlsTrustError(format!("{names} do not fit together: {error}"))
                 })?,
         };
         Ok(Self(Arc::new(config)))
     }
 
-    /// The same from files; certificate and key come together.
-    pub fn read(ca: Option<&Path>, client: Option<(&Path, &Path)>) -> Result<Self, TrustError> {
+    /// As `new`, from files.
+    pub fn read(ca: Option<&Path>, client: Option<(&Path, &Path)>) -> Result<Self, TlsTrustError> {
         let ca = ca.map(PemFile::read).transpose()?;
         let client = match client {
             Some((certificate, key)) => Some((PemFile::read(certificate)?, PemFile::read(key)?)),
@@ -63,8 +63,8 @@ impl Trust {
     }
 
     /// The authorities of the system, read once.
-    pub(crate) fn of_system() -> Result<Self, TrustError> {
-        static SYSTEM: OnceLock<Result<Trust, TrustError>> = OnceLock::new();
+    pub(crate) fn of_system() -> Result<Self, TlsTrustError> {
+        static SYSTEM: OnceLock<Result<TlsTrust, TlsTrustError>> = OnceLock::new();
         SYSTEM.get_or_init(|| Self::new(None, None)).clone()
     }
 
@@ -79,11 +79,11 @@ struct PemFile {
 }
 
 impl PemFile {
-    fn read(path: &Path) -> Result<Self, TrustError> {
+    fn read(path: &Path) -> Result<Self, TlsTrustError> {
         let name = path.display().to_string();
         match std::fs::read(path) {
             Ok(bytes) => Ok(Self { name, bytes }),
-            Err(error) => Err(TrustError(format!("{name} cannot be read: {error}"))),
+            Err(error) => Err(TlsTrustError(format!("{name} cannot be read: {error}"))),
         }
     }
 
@@ -92,66 +92,66 @@ impl PemFile {
     }
 }
 
-fn roots_from(pem: Pem<'_>) -> Result<RootCertStore, TrustError> {
+fn roots_from(pem: Pem<'_>) -> Result<RootCertStore, TlsTrustError> {
     let mut roots = RootCertStore::empty();
     for certificate in certificates(pem)? {
         roots.add(certificate).map_err(|error| {
-            TrustError(format!("{} holds a certificate nobody can read: {error}", pem.name))
+            TlsTrustError(format!("{} holds a certificate nobody can read: {error}", pem.name))
         })?;
     }
     Ok(roots)
 }
 
-fn system_roots() -> Result<RootCertStore, TrustError> {
+fn system_roots() -> Result<RootCertStore, TlsTrustError> {
     let found = rustls_native_certs::load_native_certs();
     let mut roots = RootCertStore::empty();
     roots.add_parsable_certificates(found.certs);
     if roots.is_empty() {
         let line = "this system has no certificate authorities: name the broker's own";
-        return Err(TrustError(line.into()));
+        return Err(TlsTrustError(line.into()));
     }
     Ok(roots)
 }
 
-fn certificates(pem: Pem<'_>) -> Result<Vec<CertificateDer<'static>>, TrustError> {
+fn certificates(pem: Pem<'_>) -> Result<Vec<CertificateDer<'static>>, TlsTrustError> {
     let found = CertificateDer::pem_slice_iter(pem.bytes).collect::<Result<Vec<_>, _>>();
     match found {
         Ok(found) if !found.is_empty() => Ok(found),
-        Ok(_) => Err(TrustError(format!("{} holds no certificate (BEGIN CERTIFICATE)", pem.name))),
-        Err(error) => Err(TrustError(format!("{} is no PEM text: {error}", pem.name))),
+        Ok(_) => Err(TlsTrustError(format!("{} holds no certificate (BEGIN CERTIFICATE)", pem.name))),
+        Err(error) => Err(TlsTrustError(format!("{} is no PEM text: {error}", pem.name))),
     }
 }
 
-fn private_key(pem: Pem<'_>) -> Result<PrivateKeyDer<'static>, TrustError> {
+fn private_key(pem: Pem<'_>) -> Result<PrivateKeyDer<'static>, TlsTrustError> {
     PrivateKeyDer::from_pem_slice(pem.bytes).map_err(|error| match error {
         PemError::NoItemsFound => {
-            TrustError(format!("{} holds no private key (BEGIN PRIVATE KEY)", pem.name))
+            TlsTrustError(format!("{} holds no private key (BEGIN PRIVATE KEY)", pem.name))
         }
-        error => TrustError(format!("{} is no PEM text: {error}", pem.name)),
+        error => TlsTrustError(format!("{} is no PEM text: {error}", pem.name)),
     })
 }
 
-impl PartialEq for Trust {
+impl PartialEq for TlsTrust {
     fn eq(&self, other: &Self) -> bool {
         Arc::ptr_eq(&self.0, &other.0)
     }
 }
 
-impl Eq for Trust {}
+impl Eq for TlsTrust {}
 
-impl fmt::Debug for Trust {
+impl fmt::Debug for TlsTrust {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str("Trust")
     }
 }
 
-impl fmt::Display for TrustError {
+impl fmt::Display for TlsTrustError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(&self.0)
     }
 }
 
-impl std::error::Error for TrustError {}
+impl std::error::Error for TlsTrustError {}
 
 #[cfg(test)]
 mod tests {
@@ -164,10 +164,10 @@ mod tests {
             (b"-----BEGIN CERTIFICATE-----\n!!\n-----END CERTIFICATE-----\n", "no PEM text"),
             (b"-----BEGIN CERTIFICATE-----\nAAAA\n-----END CERTIFICATE-----\n", "nobody can read"),
         ] {
-            let error = Trust::new(Some(Pem { name: "ca.pem", bytes }), None).unwrap_err().to_string();
+            let error = TlsTrust::new(Some(Pem { name: "ca.pem", bytes }), None).unwrap_err().to_string();
             assert!(error.contains("ca.pem") && error.contains(why) && !error.contains('\n'), "{error}");
         }
-        let missing = Trust::read(Some(Path::new("no-such-file.pem")), None).unwrap_err().to_string();
+        let missing = TlsTrust::read(Some(Path::new("no-such-file.pem")), None).unwrap_err().to_string();
         assert!(missing.contains("no-such-file.pem cannot be read"), "{missing}");
     }
 }

@@ -1,0 +1,48 @@
+//! A TCP connection that keeps reading while its writes are blocked.
+//!
+//! The MQTT client reads nothing until all its output is written, and a broker may do the same. If thousands of robots answer
+//! while thousands of commands are sent, both sides would wait for each other. Here output goes to a buffer at once, and a task
+//! of its own writes it.
+
+use std::sync::{Arc, Mutex, PoisonError};
+
+use tokio::io::{AsyncRead, AsyncWrite, AsyncWriteExt, BufReader};
+use tokio::net::TcpStream;
+use tokio::task::JoinHandle;
+
+/// Bytes of output that may wait: 1,600 for each of ten thousand robots. Beyond it, the client blocks.
+const WAITING_BYTES_MAX: usize = 16 << 20;
+/// Largest single write, bytes. Smaller: more system calls. A usual size of socket buffers, not measured.
+const WRITE_BYTES_MAX: usize = 64 << 10;
+
+/// The writing task of the present connection. It ends when all output is written or the connection fails.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct DetachedWriter(Arc<Mutex<Option<JoinHandle<()>>>>);
+
+impl DetachedWriter {
+    /// Wraps a socket so that a task of this writer writes its output.
+    pub(crate) fn attach(
+        &self,
+        socket: TcpStream,
+    ) -> impl AsyncRead + AsyncWrite + Send + Sync + Unpin + use<> {
+        let (input, mut out) = socket.into_split();
+        let (reported, waiting) = tokio::io::duplex(WAITING_BYTES_MAX);
+        let task = tokio::spawn(async move {
+            let mut waiting = BufReader::with_capacity(WRITE_BYTES_MAX, waiting);
+            // The reading side reports a broken connection.
+            let _ = tokio::io::copy_buf(&mut waiting, &mut out).await;
+            let _ = out.shutdown().await;
+        });
+        *self.0.lock().unwrap_or_else(PoisonError::into_inner) = Some(task);
+        tokio::io::join(input, reported)
+    }
+
+    /// Waits until the output of a dropped connection is written.
+    pub(crate) async fn finish(&self) {
+        let task = self.0.lock().unwrap_or_else(PoisonError::into_inner).take();
+        if let Some(task) = task {
+            // A failed task has no more output.
+            let _ = task.await;
+        }
+    }
+}
