@@ -12,6 +12,7 @@ mod webots;
 
 use std::process::ExitCode;
 
+/// Text of `--help`.
 const HELP: &str = "\
 cargo xtask <command>
 

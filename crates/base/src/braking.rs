@@ -27,8 +27,8 @@ pub const fn stopping_m(speed_mps: f64) -> f64 {
     speed_mps.abs() * REACTION_S + braking_m(speed_mps)
 }
 
-/// The highest speed in m/s from which a robot stands within `distance_m` if its wheels begin to brake after `delay_s`:
-/// the inverse of `speed · delay_s + braking_m(speed)`. Zero where no distance is left.
+/// The highest speed in m/s from which a robot stands within `distance_m` if its wheels begin to brake after
+/// `delay_s`. This is the inverse of `speed · delay_s + braking_m(speed)`. Zero if no distance is left.
 pub fn speed_within_mps(distance_m: f64, delay_s: f64) -> f64 {
     if distance_m.is_nan() || distance_m <= 0.0 {
         return 0.0;

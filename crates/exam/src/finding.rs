@@ -2,7 +2,7 @@
 
 /// Whether a robot keeps a rule.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Verdict {
+pub enum RuleVerdict {
     /// All attempts were as the rule demands.
     Keeps,
     /// An attempt was not as the rule demands.
@@ -15,7 +15,7 @@ pub enum Verdict {
     NotFromOutside,
 }
 
-impl Verdict {
+impl RuleVerdict {
     /// Code of the verdict, for programs.
     pub fn word(self) -> &'static str {
         match self {
@@ -36,7 +36,7 @@ pub struct Finding {
     /// Subject of the rule in a few words.
     pub title: &'static str,
     /// Whether the robot keeps the rule.
-    pub verdict: Verdict,
+    pub verdict: RuleVerdict,
     /// Attempts in order; for a broken rule only the first failed one. May be empty.
     pub tried: Vec<RuleTest>,
     /// Reason of a verdict without attempts: what was missing.

@@ -1,6 +1,6 @@
 //! Attempts and verdicts for each rule.
 
-use crate::finding::{Finding, RuleTest, Verdict};
+use crate::finding::{Finding, RuleTest, RuleVerdict};
 use crate::rules::{RULES, Scope};
 
 /// Most successful attempts that are stored per rule, to keep reports short. The first failed attempt is always stored.
@@ -64,21 +64,21 @@ impl Ledger {
 }
 
 impl Entry {
-    fn verdict(&self, scope: Scope, stopped: Option<&str>) -> (Verdict, String) {
+    fn verdict(&self, scope: Scope, stopped: Option<&str>) -> (RuleVerdict, String) {
         let why = |text: &Option<String>| text.clone().unwrap_or_default();
         if let Scope::Hidden(reason) = scope {
-            return (Verdict::NotFromOutside, reason.to_owned());
+            return (RuleVerdict::NotFromOutside, reason.to_owned());
         }
         if self.broken.is_some() {
-            return (Verdict::Breaks, String::new());
+            return (RuleVerdict::Breaks, String::new());
         }
         if self.missing.is_some() {
-            return (Verdict::DoesNotKnow, why(&self.missing));
+            return (RuleVerdict::DoesNotKnow, why(&self.missing));
         }
         if self.tried.is_empty() {
             let why = self.excused.as_deref().or(stopped).unwrap_or("nothing showed it");
-            return (Verdict::NotTried, why.to_owned());
+            return (RuleVerdict::NotTried, why.to_owned());
         }
-        (Verdict::Keeps, String::new())
+        (RuleVerdict::Keeps, String::new())
     }
 }

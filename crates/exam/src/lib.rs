@@ -5,7 +5,7 @@
 //! input. There is no runtime, thread or clock behind it, and equal inputs give equal findings. The crate knows nothing of
 //! brokers, terminals or our own robot, and shares only the wire format with the controller.
 //!
-//! In reading order: [`Exam`], [`Options`], [`ExamEvent`], [`Finding`] with its [`Verdict`], [`RULES`].
+//! In reading order: [`Exam`], [`Options`], [`ExamEvent`], [`Finding`] with its [`RuleVerdict`], [`RULES`].
 //!
 //! ```
 //! use lightbots_base::{Instant, Span};
@@ -30,7 +30,7 @@ mod session;
 mod sight;
 
 pub use exam::Exam;
-pub use finding::{Finding, RuleTest, Verdict};
+pub use finding::{Finding, RuleTest, RuleVerdict};
 pub use interface::{Ending, ExamEvent, Options, Publish};
 pub use rules::{RULES, Rule, Scope};
 pub use sight::{Question, Sight};

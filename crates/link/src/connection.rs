@@ -27,7 +27,8 @@ const DISCONNECT_MAX: Duration = Duration::from_millis(500);
 /// subscriptions of that node's clients late (RabbitMQ 3.10, docs/brokers.md).
 const RESUBSCRIBE_AFTER: [Duration; 3] =
     [Duration::from_millis(1_000), Duration::from_millis(2_000), Duration::from_millis(6_000)];
-/// Longest random wait before the next address is tried, so that the robots of a fleet do not connect at once.
+/// Longest random wait before the next address is tried, so that the robots of a fleet do not connect at once. Longer:
+/// robots may reach the 2 s after which they stop (R43).
 const NEXT_ADDRESS_MAX: Duration = Duration::from_millis(100);
 
 pub(crate) struct ConnectionTask {

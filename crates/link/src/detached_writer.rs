@@ -1,8 +1,8 @@
 //! A TCP connection that keeps reading while its writes are blocked.
 //!
-//! The MQTT client reads nothing until all its output is written, and a broker may do the same. If thousands of robots answer
-//! while thousands of commands are sent, both sides would wait for each other. Here output goes to a buffer at once, and a task
-//! of its own writes it.
+//! The MQTT client reads nothing until all its output is written, and a broker may do the same. If thousands of robots
+//! answer while thousands of commands are sent, both sides would wait for each other. Here output goes to a buffer at
+//! once, and a task of its own writes it.
 
 use std::sync::{Arc, Mutex, PoisonError};
 

@@ -1,7 +1,7 @@
 //! A connection to an MQTT broker that reconnects by itself.
 //!
 //! The crate carries topics and payloads and does not know their meaning. In reading order: [`BrokerUrl`] holds the
-//! addresses and the login of a broker, [`TlsTrust`] the certificates for TLS, and [`BrokerArguments`] reads both from a
+//! addresses and the login of a broker, and [`TlsTrust`] the certificates for TLS. [`BrokerArguments`] reads both from a
 //! command line. [`Link`] is the connection.
 //!
 //! A link reconnects with back-off and jitter, to the next address if there are several, and subscribes again in each new

@@ -9,8 +9,8 @@ use tokio_rustls::rustls::pki_types::pem::{Error as PemError, PemObject};
 use tokio_rustls::rustls::pki_types::{CertificateDer, PrivateKeyDer};
 use tokio_rustls::rustls::{ClientConfig, RootCertStore};
 
-/// Trusted authorities, and a client certificate for brokers that ask for one. Clones share the content; two values are equal
-/// if they share it.
+/// Trusted authorities, and a client certificate for brokers that ask for one. Clones share the content; two values
+/// are equal if they share it.
 #[derive(Clone)]
 pub struct TlsTrust(Arc<ClientConfig>);
 

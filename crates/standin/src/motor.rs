@@ -1,8 +1,8 @@
 //! A motor as in Webots: it turns at a rate, or towards a position.
 //!
-//! Source: reference manual of R2025a, `Motor`, and `WbMotor::computeCurrentDynamicVelocity`. Towards a position, a motor turns at
-//! `P` times the remaining angle, but no faster than its rate; the sign of the rate is ignored. The last command stays in
-//! force when the controller ends.
+//! Source: reference manual of R2025a, `Motor`, and `WbMotor::computeCurrentDynamicVelocity`. Towards a position, a
+//! motor turns at `P` times the remaining angle, but no faster than its rate; the sign of the rate is ignored. The
+//! last command stays in force when the controller ends.
 
 /// Default `controlPID` of a motor, rad/s per radian of error (stated in Webots' reference manual, `Motor`).
 const P: f64 = 10.0;

@@ -1,7 +1,8 @@
 //! Messages on the socket between the process of a robot and the simulated floor, little-endian.
 //!
-//! A process sends its name (one length byte, then the bytes), and a [`StepCommand`] for every step. The floor answers each with a
-//! [`StepReply`] when it has the commands of all processes. The environment variable [`ADDRESS`] holds the socket's path.
+//! A process sends its name (one length byte, then the bytes), and a [`StepCommand`] for every step. The floor answers
+//! each with a [`StepReply`] when it has the commands of all processes. The environment variable [`ADDRESS`] holds the
+//! socket's path.
 
 use std::io::{self, Read, Write};
 

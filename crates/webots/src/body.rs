@@ -33,8 +33,8 @@ pub struct WebotsBody<'a> {
     steps_since_light: u32,
 }
 
-/// Steps between two changes of the light: about 100 ms. Fewer: Webots slows down, because each change costs time. More: fades
-/// look uneven. A choice, not measured.
+/// Steps between two changes of the light: about 100 ms. Fewer: Webots slows down, because each change costs time.
+/// More: fades look uneven. A choice, not measured.
 const LIGHT_INTERVAL_STEPS: u32 = 6;
 /// Lead of a wheel's target position, seconds at the wheel's rate. Webots' motors turn at 10 rad/s per radian of error
 /// (`controlPID`, reference manual), so 0.1 s keep them at their rate. Two steps pass until the next command acts; one is
@@ -42,7 +42,8 @@ const LIGHT_INTERVAL_STEPS: u32 = 6;
 const AHEAD_S: f64 = 0.1 + 3.0 * 0.016;
 
 impl<'a> WebotsBody<'a> {
-    /// Finds the devices and enables the sensors every `step_ms`, without the proximity sensors if `blind`. The wheels stand.
+    /// Finds the devices and enables the sensors every `step_ms`, without the proximity sensors if `blind`. The wheels
+    /// stand.
     pub fn new(library: &'a LibController, step_ms: i32, blind: bool) -> Result<Self, MissingDevice> {
         let find = |name: &'static str| library.device(name).ok_or(MissingDevice(name));
         let motors = [find("left wheel motor")?, find("right wheel motor")?];
@@ -93,8 +94,9 @@ impl<'a> WebotsBody<'a> {
         self.proximity.as_ref().map(|proximity| proximity.gaps_m(self.library))
     }
 
-    /// Sets the rates of both wheels, rad/s. The wheels turn towards a position a little ahead of the last reading of
-    /// [`wheel_turns_rad`](Self::wheel_turns_rad), because Webots' motors keep their last command when this process ends.
+    /// Sets the rates of both wheels, rad/s. Webots' motors keep their last command when this process ends. The wheels
+    /// therefore turn towards a position a little ahead of the last reading of
+    /// [`wheel_turns_rad`](Self::wheel_turns_rad).
     pub fn set_wheels(&mut self, radps: [f64; 2]) {
         for side in [0, 1] {
             let (motor, read_rad) = (self.motors[side], self.last_read_rad[side]);

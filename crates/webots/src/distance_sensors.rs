@@ -1,8 +1,8 @@
 //! Gaps to near obstacles, from Webots' distance sensors.
 //!
-//! The sensors are called `ps0`, `ps1` … as on the Elisa-3. `ps0` looks ahead, and the others follow clockwise at equal angles.
-//! The Elisa-3 has eight sensors, our PROTO ten. Webots provides the table from distances to sensor values, so that a PROTO may
-//! have any table.
+//! The sensors are called `ps0`, `ps1` … as on the Elisa-3. `ps0` looks ahead, and the others follow clockwise at
+//! equal angles. The Elisa-3 has eight sensors, our PROTO ten. Webots provides the table from distances to sensor
+//! values, so that a PROTO may have any table.
 
 use lightbots_base::Limits;
 
@@ -15,8 +15,8 @@ const NAMES: [&str; 10] = ["ps0", "ps1", "ps2", "ps3", "ps4", "ps5", "ps6", "ps7
 const LEAST: usize = 8;
 /// Distance from the robot's centre to a sensor, metres (stated in `webots/protos/LightBot.proto`).
 const SENSOR_M: f64 = 0.024;
-/// Radius of the Elisa-3's visible shape at the height of its sensors, metres: a white ring in its PROTO. Infra-red sensors see
-/// shapes and not bounding objects (stated in Webots' reference manual, `DistanceSensor`).
+/// Radius of the Elisa-3's visible shape at the height of its sensors, metres: a white ring in its PROTO. Infra-red
+/// sensors see shapes and not bounding objects (stated in Webots' reference manual, `DistanceSensor`).
 const SHAPE_M: f64 = 0.021;
 /// Factor between true and measured distance for that ring: 0.2 + 0.8 · 1 · (1 − 0.5 · 0.4) (equation in Webots' reference
 /// manual, `DistanceSensor`).
@@ -59,8 +59,8 @@ impl DistanceSensors {
         Some(Self { sensors })
     }
 
-    /// Gaps from rim to rim, metres, counter-clockwise from the front, in the directions of the robot core. Infinite if nothing
-    /// is in sight, and before the first sample.
+    /// Gaps from rim to rim, metres, counter-clockwise from the front, in the directions of the robot core. Infinite
+    /// if nothing is in sight, and before the first sample.
     pub(crate) fn gaps_m(&self, library: &LibController) -> [f32; 8] {
         let along_m = self.sensors.iter().map(|Sensor { tag, kind, table }| {
             along_m(*kind, table.distance_m(library.distance_value(*tag)))

@@ -19,7 +19,8 @@ pub struct DriverSettings {
     pub blind: bool,
 }
 
-/// Step of the robot core, milliseconds, as in the simulator (docs/simulator.md). With 32 ms, curves deviate (docs/webots.md).
+/// Step of the robot core, milliseconds, as in the simulator (docs/simulator.md). With 32 ms, curves deviate
+/// (docs/webots.md).
 const STEP_MS: f64 = 16.0;
 /// Most queued messages in each direction: four times `MESSAGES_PER_STEP`, more than a robot receives in a second.
 const QUEUE: usize = 256;
@@ -62,8 +63,8 @@ fn step_ms(basic_ms: f64) -> i32 {
     ((STEP_MS / basic_ms).ceil().max(1.0) * basic_ms) as i32
 }
 
-/// Configuration of the robot core. Webots' GPS and compass are exact and without delay (measured in R2023b). A small noise is
-/// assumed all the same, so that the filter also uses the wheels.
+/// Configuration of the robot core. Webots' GPS and compass are exact and without delay (measured in R2023b). A small
+/// noise is assumed all the same, so that the filter also uses the wheels.
 fn config(settings: &DriverSettings) -> Config {
     let seed = settings
         .id

@@ -10,18 +10,19 @@ use std::time::Duration;
 use lightbots_base::{Instant, Span};
 
 /// Share of the lag that a driving robot recovers in a step. Above: a late reading of the clock on a busy machine moves the
-/// robot. Below: the lag grows; a simulation at 0.967 of real time lags by 0.034 of a step divided by this share, which is
-/// 11 ms or 3 mm (docs/webots.md: Webots runs at 0.97).
+/// robot. Below: the lag grows. A simulation at 0.967 of real time (docs/webots.md) lags by 0.034 of a step divided by this
+/// share, which is 11 ms or 3 mm.
 const DRIVING_SHARE: f64 = 0.05;
 /// As `DRIVING_SHARE`, for a robot without a route: larger, because it does not move.
 const RESTING_SHARE: f64 = 0.3;
-/// Largest rate of the world clock, world seconds per simulated second, for a driving robot. Above: accelerations grow with its
-/// square, and an Elisa-3 stumbles between 1 and 2 m/s² (docs/simulator.md).
+/// Largest rate of the world clock, world seconds per simulated second, for a driving robot. Above: accelerations grow
+/// with its square, and an Elisa-3 stumbles between 1 and 2 m/s² (docs/simulator.md).
 const DRIVING_RATE: f64 = 1.1;
-/// As `DRIVING_RATE`, for a robot without a route: fast enough that the last robot to arrive recovers a lag of 4 s before the
-/// next `START`, at least 0.3 s later. Below: that robot begins late.
+/// As `DRIVING_RATE`, for a robot without a route. The last robot to arrive has at least 0.3 s until the next `START`, in
+/// which it recovers a lag of 4 s. Below: that robot begins late.
 const RESTING_RATE: f64 = 14.0;
-/// A step of the simulation longer than this is a pause, seconds: three steps of 16 ms.
+/// Real time of a step above which it counts as a pause, seconds: about three steps of 16 ms. Below: jitter of a busy
+/// machine counts as pauses. Above: short pauses move robots. A choice, not measured.
 const PAUSE_S: f64 = 0.05;
 /// Least advance of the world clock in a step, seconds, so that the robot core never sees the same moment twice.
 const LEAST_S: f64 = 0.000_5;
@@ -33,8 +34,8 @@ pub(crate) struct Tick {
     pub now: Instant,
     /// Own clock minus world clock; negative if the world clock is ahead.
     pub lag: Span,
-    /// Rate of the world clock, world seconds per simulated second. Wheel rates are multiplied by it, so that speeds per world
-    /// time are those of the robot core.
+    /// Rate of the world clock, world seconds per simulated second. Wheel rates are multiplied by it, so that speeds
+    /// per world time are those of the robot core.
     pub rate: f64,
 }
 

@@ -1,6 +1,7 @@
 //! Constants: whether each has a doc of its own, and whether that says where its value comes from.
 
 use super::tree::string;
+use proc_macro2::{TokenStream, TokenTree};
 use quote::ToTokens;
 use syn::visit::{self, Visit};
 use syn::{Attribute, Expr, Ident, Type};
@@ -13,7 +14,7 @@ pub struct Constant {
     pub line: usize,
     /// Its doc, empty where it has none.
     pub doc: String,
-    /// Whether its value is a number or holds numbers. Texts and tables of texts have no source.
+    /// Whether its value holds a number other than 0. Texts and empty values have no source.
     pub numeric: bool,
     /// Whether its value is calculated from other constants.
     pub derived: bool,
@@ -45,7 +46,8 @@ impl Found {
             name: name.to_string(),
             line: name.span().start().line,
             doc: doc(attributes),
-            numeric: !["str", "char", "bool"].iter().any(|text| kind.contains(text)),
+            numeric: !["str", "char", "bool"].iter().any(|text| kind.contains(text))
+                && holds_number(value.to_token_stream()),
             derived: words(&value.to_token_stream().to_string()).any(is_constant_name),
         });
     }
@@ -61,6 +63,19 @@ impl<'ast> Visit<'ast> for Found {
         self.add(&item.ident, &item.attrs, &item.ty, &item.expr);
         visit::visit_impl_item_const(self, item);
     }
+}
+
+/// Whether these tokens hold a number literal other than 0.
+fn holds_number(tokens: TokenStream) -> bool {
+    tokens.into_iter().any(|token| match token {
+        TokenTree::Group(group) => holds_number(group.stream()),
+        TokenTree::Literal(literal) => {
+            let text = literal.to_string();
+            text.starts_with(|first: char| first.is_ascii_digit())
+                && text.contains(|digit| ('1'..='9').contains(&digit))
+        }
+        _ => false,
+    })
 }
 
 fn doc(attributes: &[Attribute]) -> String {
@@ -150,7 +165,8 @@ mod tests {
 
     #[test]
     fn texts_are_not_numeric_and_assertions_are_no_constants() {
-        assert!(!one("const HELP: &str = \"help\";").numeric);
+        assert!(!one("const HELP: &str = \"help 1\";").numeric);
+        assert!(!one("const ZERO: Self = Self(0);").numeric);
         assert!(one("const TABLE: [(f64, f64); 1] = [(1.0, 2.0)];").numeric);
         assert!(constants(&syn::parse_file("const _: () = assert!(true);").expect("Rust")).is_empty());
     }

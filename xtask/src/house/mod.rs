@@ -14,13 +14,14 @@ use measure::Measure;
 use std::path::PathBuf;
 use tree::Source;
 
-/// Words in a sentence of a doc comment, at most: a native speaker reads it once.
+/// Most words in a sentence of a doc comment, because a reader should need to read it only once.
 const SENTENCE_WORDS_MAX: usize = 25;
-/// Lines of a function that fits on one screen.
+/// Most lines of a function that fits on one screen.
 const SCREEN_LINES: usize = 40;
-/// Lines of a function, at most; `tidy` holds this.
+/// Most lines of a function; `tidy` reports longer ones.
 pub const FUNCTION_LINES_MAX: usize = 70;
 
+/// Text of `--help`.
 const HELP: &str = "\
 cargo xtask house [--json] [--tree DIR] [--list KEY]
 
@@ -114,7 +115,7 @@ fn constant_measures(sources: &[Source]) -> Vec<Measure> {
         Measure::of("constants", "constants", places(&|_| true)),
         Measure::of(
             "constants_numeric",
-            "constants that are or hold numbers",
+            "constants that hold a number other than 0",
             places(&|constant| constant.numeric),
         ),
         Measure::of(

@@ -1,8 +1,8 @@
 //! Which file of a crate uses which other, and circles among them.
 //!
-//! A file uses another if a path in its code leads to an item of that file, or if a method calls `self.name()` and the
-//! other file holds that method of the same type. A path is followed through imports to the item's own file. A re-export
-//! alone is no use, nor is the declaration of a module.
+//! A file uses another file if a path in its code leads to an item there. It also uses a file that holds a method of the
+//! same type, if it calls that method on `self`. Paths are followed through imports to the item's own file. Neither a
+//! re-export alone nor the declaration of a module is a use.
 
 use super::modules_scope::{Scope, Scopes, import_paths};
 use super::tree::Source;

@@ -52,7 +52,7 @@ impl Scopes {
         &self.by_module[&self.by_file[path]]
     }
 
-    /// The file of the item that this path leads to from a module; none for a module, a name from outside the crate or
+    /// The file of the item that this path leads to from a module. `None` for a module, a name from outside the crate, or
     /// a variable.
     pub fn item_file(&self, from: &Scope, path: &[String]) -> Option<String> {
         match self.resolve(from, path, DEPTH_MAX)? {

@@ -4,9 +4,8 @@ use crate::house::names::doubled;
 use crate::house::tree::Source;
 
 /// Names that may stand in more than one place, and in how many at most.
-const EXCEPTIONS: [(&str, usize); 43] = [
+const EXCEPTIONS: [(&str, usize); 33] = [
     ("Abilities", 2),
-    ("Body", 2),
     ("Broker", 2),
     ("Choice", 2),
     ("Clock", 2),
@@ -18,35 +17,26 @@ const EXCEPTIONS: [(&str, usize); 43] = [
     ("Drive", 3),
     ("Fleet", 3),
     ("Issue", 2),
-    ("Kind", 2),
-    ("Library", 2),
     ("Log", 3),
     ("Message", 2),
     ("Operation", 2),
     ("Order", 2),
     ("Outbox", 2),
     ("Outcome", 2),
-    ("Pace", 2),
     ("Path", 2),
     ("Phase", 2),
-    ("Place", 3),
+    ("Place", 2),
     ("Progress", 2),
-    ("Proximity", 2),
     ("Purpose", 2),
     ("Request", 2),
-    ("Robot", 3),
+    ("Robot", 2),
     ("Sensors", 2),
-    ("Settings", 2),
     ("Severity", 2),
-    ("Shared", 2),
     ("Slip", 2),
     ("State", 2),
     ("Stretch", 2),
-    ("Tag", 2),
     ("Thing", 2),
     ("Transition", 2),
-    ("Trust", 2),
-    ("Verdict", 2),
     ("Watch", 2),
 ];
 

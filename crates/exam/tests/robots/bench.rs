@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use lightbots_base::{Instant, Rgb, RobotId, Span, Vec2};
-use lightbots_exam::{Ending, Exam, ExamEvent, Finding, Options, Question, Sight, Verdict};
+use lightbots_exam::{Ending, Exam, ExamEvent, Finding, Options, Question, RuleVerdict, Sight};
 use lightbots_show::Stage;
 use lightbots_sim::{Conditions, Fleet, FleetConfig};
 
@@ -181,7 +181,7 @@ fn near(a: Rgb, b: Rgb) -> bool {
 
 impl Outcome {
     /// Rules with this verdict.
-    pub fn with(&self, verdict: Verdict) -> Vec<u8> {
+    pub fn with(&self, verdict: RuleVerdict) -> Vec<u8> {
         self.findings
             .iter()
             .filter(|finding| finding.verdict == verdict)
@@ -191,13 +191,13 @@ impl Outcome {
 
     /// Fails with everything that was found unless exactly these rules are broken.
     pub fn assert_broken(&self, rules: &[u8]) {
-        if self.with(Verdict::Breaks) != rules {
+        if self.with(RuleVerdict::Breaks) != rules {
             let wrong = self
                 .findings
                 .iter()
-                .filter(|finding| finding.verdict == Verdict::Breaks || rules.contains(&finding.rule));
+                .filter(|finding| finding.verdict == RuleVerdict::Breaks || rules.contains(&finding.rule));
             wrong.for_each(|finding| eprintln!("{finding:?}"));
-            panic!("broken are R{:?}, not R{rules:?}", self.with(Verdict::Breaks));
+            panic!("broken are R{:?}, not R{rules:?}", self.with(RuleVerdict::Breaks));
         }
     }
 }

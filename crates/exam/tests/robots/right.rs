@@ -1,6 +1,6 @@
 //! Robots that keep the protocol, or what they know of it.
 
-use lightbots_exam::{Ending, Options, Verdict};
+use lightbots_exam::{Ending, Options, RuleVerdict};
 
 use crate::bench::Bench;
 use crate::flaws::{Original, Right};
@@ -10,9 +10,9 @@ fn our_robot_keeps_every_rule_that_shows() {
     let outcome = Bench::new(1, Right, Options::default()).run();
     outcome.assert_broken(&[]);
     assert_eq!(outcome.ending, Some(Ending::Done));
-    assert_eq!(outcome.with(Verdict::NotTried), []);
-    assert_eq!(outcome.with(Verdict::DoesNotKnow), []);
-    assert_eq!(outcome.with(Verdict::NotFromOutside), [1, 2, 11, 14, 26, 44, 46, 47, 49, 50, 51, 52]);
+    assert_eq!(outcome.with(RuleVerdict::NotTried), []);
+    assert_eq!(outcome.with(RuleVerdict::DoesNotKnow), []);
+    assert_eq!(outcome.with(RuleVerdict::NotFromOutside), [1, 2, 11, 14, 26, 44, 46, 47, 49, 50, 51, 52]);
     assert!(outcome.took.as_secs() < 240.0, "{} s", outcome.took.as_secs());
 }
 
@@ -20,9 +20,9 @@ fn our_robot_keeps_every_rule_that_shows() {
 fn an_original_robot_is_told_what_it_misses() {
     let outcome = Bench::new(1, Original, Options::default()).run();
     outcome.assert_broken(&[]);
-    assert_eq!(outcome.with(Verdict::Keeps), [3, 4, 5, 6, 7, 8, 9, 13, 15, 16, 17, 18, 20, 21, 48]);
-    assert_eq!(outcome.with(Verdict::NotTried), []);
-    assert!(outcome.with(Verdict::DoesNotKnow).starts_with(&[10, 12, 19, 22, 23, 24, 25]));
+    assert_eq!(outcome.with(RuleVerdict::Keeps), [3, 4, 5, 6, 7, 8, 9, 13, 15, 16, 17, 18, 20, 21, 48]);
+    assert_eq!(outcome.with(RuleVerdict::NotTried), []);
+    assert!(outcome.with(RuleVerdict::DoesNotKnow).starts_with(&[10, 12, 19, 22, 23, 24, 25]));
 }
 
 #[test]

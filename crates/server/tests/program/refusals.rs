@@ -158,7 +158,7 @@ fn what_cannot_be_right_is_said_at_once() {
             "do not fit together",
         ),
         (robots(&["--broker", "mqtt://u:secret@a,mqtt://v:secret@b"]), "several logins"),
-        (robots(&["--broker", "a", "--broker-password-file", &ca]), "whose password"),
+        (robots(&["--broker", "a", "--broker-password-file", &ca]), "the user is missing"),
         (run_(&["--cert", &cert]), "--key"),
         (run_(&["--cert", &cert, "--key", &key]), "do not fit together"),
         (run_(&["--cert", "no-such.pem", "--key", &key]), "no-such.pem cannot be used"),

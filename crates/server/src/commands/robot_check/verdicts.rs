@@ -1,6 +1,6 @@
 //! What was found, for people and for programs.
 
-use lightbots_exam::{Exam, Finding, RULES, Scope, Verdict};
+use lightbots_exam::{Exam, Finding, RULES, RuleVerdict, Scope};
 use lightbots_link::BrokerUrl;
 use serde::Serialize;
 
@@ -65,9 +65,9 @@ fn is_fine(finding: &Finding) -> bool {
     let scope = RULES.iter().find(|rule| rule.number == finding.rule).map(|rule| rule.scope);
     let is_light = matches!(scope, Some(Scope::Light | Scope::Fade | Scope::Blink));
     match finding.verdict {
-        Verdict::Keeps | Verdict::DoesNotKnow | Verdict::NotFromOutside => true,
-        Verdict::NotTried => is_light,
-        Verdict::Breaks => false,
+        RuleVerdict::Keeps | RuleVerdict::DoesNotKnow | RuleVerdict::NotFromOutside => true,
+        RuleVerdict::NotTried => is_light,
+        RuleVerdict::Breaks => false,
     }
 }
 
@@ -92,15 +92,15 @@ fn rule_answer(finding: &Finding) -> RuleAnswer {
 /// One line a rule; three more where it is broken.
 fn print_finding(finding: &Finding) {
     let word = match finding.verdict {
-        Verdict::Keeps => "keeps",
-        Verdict::Breaks => "BREAKS",
-        Verdict::DoesNotKnow => "does not know",
-        Verdict::NotTried => "not tried",
-        Verdict::NotFromOutside => "not testable from outside",
+        RuleVerdict::Keeps => "keeps",
+        RuleVerdict::Breaks => "BREAKS",
+        RuleVerdict::DoesNotKnow => "does not know",
+        RuleVerdict::NotTried => "not tried",
+        RuleVerdict::NotFromOutside => "not testable from outside",
     };
     let why = if finding.why.is_empty() { String::new() } else { format!(" ({})", finding.why) };
     say::line(&format!("{:<4} {word}: {}{why}", format!("R{}", finding.rule), finding.title));
-    if finding.verdict == Verdict::Breaks {
+    if finding.verdict == RuleVerdict::Breaks {
         for trial in &finding.tried {
             say::line(&format!("       sent: {}", trial.sent));
             say::line(&format!("       expected: {}", trial.expected));
@@ -113,10 +113,10 @@ fn summary(robot: &str, findings: &[Finding]) -> String {
     let count = |verdict| findings.iter().filter(|finding| finding.verdict == verdict).count();
     format!(
         "{robot}: {} rules kept, {} broken, {} not known to it, {} not tried, {} not testable from outside",
-        count(Verdict::Keeps),
-        count(Verdict::Breaks),
-        count(Verdict::DoesNotKnow),
-        count(Verdict::NotTried),
-        count(Verdict::NotFromOutside)
+        count(RuleVerdict::Keeps),
+        count(RuleVerdict::Breaks),
+        count(RuleVerdict::DoesNotKnow),
+        count(RuleVerdict::NotTried),
+        count(RuleVerdict::NotFromOutside)
     )
 }
