@@ -86,7 +86,7 @@ impl Sender {
     }
 
     /// Index of the broker's address that is in use or was used last.
-    pub fn address(&self) -> usize {
+    pub fn address_index(&self) -> usize {
         self.status.at.load(Ordering::Acquire)
     }
 

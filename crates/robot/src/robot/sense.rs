@@ -10,8 +10,9 @@ use crate::drive::BodyPose;
 use crate::routes::InSight;
 use crate::storage::RouteStorage;
 
-/// Neighbours this much beyond the range of the sensors may be in sight all the same, metres, because both are off their
-/// places. Below, the safety layer takes a planned neighbour for a stranger. Above, it compares more neighbours than it need.
+/// Neighbours this much beyond the range of the sensors may be in sight all the same, metres, because both are off
+/// their places. Below, the safety layer takes a planned neighbour for a stranger. Above, it compares more neighbours
+/// than it need.
 const OFF_PLAN_M: f64 = 0.025;
 /// Wheel turns count up to this multiple of what the motors can turn in the longest step. Beyond, the sensor is broken.
 const WHEEL_TURN_RESERVE: f64 = 2.0;

@@ -20,8 +20,8 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
         (!self.is_lost(self.hot.now - self.hot.lag)).then(|| self.hot.estimate.at())
     }
 
-    /// The direction in body space of the neighbour for which the safety layer slows the robot in this step, radians; `None`:
-    /// the robot is free.
+    /// The direction in body space of the neighbour for which the safety layer slows the robot in this step, radians;
+    /// `None`: the robot is free.
     pub fn braking_towards(&self) -> Option<f64> {
         if self.hot.is_wary { self.reflex.braking_towards() } else { None }
     }

@@ -319,8 +319,11 @@ impl Conductor {
     }
 
     fn tell_link(&mut self, phase: LinkPhase, reason: Option<String>) {
-        let place =
-            self.link.as_ref().filter(|_| phase == LinkPhase::Connected).map(|link| link.sender().place());
+        let place = self
+            .link
+            .as_ref()
+            .filter(|_| phase == LinkPhase::Connected)
+            .map(|link| link.sender().address_index());
         let node = place.and_then(|place| self.nodes.get(place).cloned());
         self.state = LinkState { address: std::mem::take(&mut self.state.address), phase, node, reason };
         let _ = self.news.send(News::Link(self.state.clone()));
