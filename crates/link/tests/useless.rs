@@ -40,12 +40,12 @@ fn open(granted: [u8; 2], brokers: usize) -> (Link, Vec<String>) {
 async fn a_connection_of_no_use_is_left_for_the_next_address() {
     let (mut link, addresses) = open([0, 0], 2);
     assert_eq!(link.next().await, Some(LinkEvent::Connected));
-    assert_eq!(link.sender().address(), 0);
+    assert_eq!(link.sender().address_index(), 0);
     link.renew();
     let Some(LinkEvent::Disconnected { reason }) = link.next().await else { panic!("it stays") };
     assert!(reason.starts_with(&addresses[0]) && reason.contains("passes on nothing"), "{reason}");
     assert_eq!(link.next().await, Some(LinkEvent::Connected));
-    assert_eq!(link.sender().address(), 1);
+    assert_eq!(link.sender().address_index(), 1);
     link.close().await;
 }
 
