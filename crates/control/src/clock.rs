@@ -4,8 +4,8 @@ use crate::outbox::Outbox;
 use lightbots_base::Instant;
 use lightbots_wire::{Command, TimeAnswer, TimeQuestion, Topic};
 
-/// Answers a robot's question. Anyone may ask: an answer harms nobody and costs one message.
+/// Answers a robot's question. Any client may ask: an answer does no harm and costs one message.
 pub(crate) fn answer(now: Instant, question: TimeQuestion, outbox: &mut Outbox) {
     let answer = TimeAnswer { asked: question.asked, received: now, sent: now };
-    outbox.say(Topic::Robot(question.id), &[Command::Time(answer)]);
+    outbox.send(Topic::Robot(question.id), &[Command::Time(answer)]);
 }

@@ -8,32 +8,46 @@ pub struct Config {
     /// Routes are numbered from here on. A restarted controller must not reuse numbers: derive it from the time of
     /// day at the start (seconds since 1970 times 8 will do).
     pub seq_base: u32,
-    /// How far from its goal, along x and along y, a robot may be that says it has arrived, metres.
+    /// How far from its goal, along x and along y, a robot may be that reports its arrival, metres.
     pub arrival_tolerance_m: f64,
     /// The most robots that are remembered; further names are counted and dropped.
     pub robots_max: usize,
-    /// A robot not heard for longer is stale: it takes no part in a new run, but is driven around.
-    pub stale_after: Span,
-    /// A robot not heard for longer is gone: it is not driven around any more.
-    pub gone_after: Span,
+    /// When robots that do not report age.
+    pub ageing: Ageing,
     /// How long before its moment a START is stated; grows by 20 µs a robot.
     pub start_lead: Span,
-    /// A route not acknowledged for this long is sent again.
-    pub resend_after: Span,
-    /// How often a route is sent before its robot is given up.
-    pub tries: u32,
-    /// The most routes under way without an acknowledgement.
-    pub window: usize,
-    /// A robot that should report and did not for this long is given up.
+    /// How routes are sent.
+    pub upload: UploadLimits,
+    /// A robot that should report and did not for this long drops out.
     pub silence: Span,
-    /// A robot this far off its path makes everybody wait, metres; more where the plan leaves more room.
+    /// A robot this far off its path makes all robots wait, metres; more where the plan leaves more room.
     pub late_m: f64,
-    /// How long everybody waits for a late robot before the rest is replanned around it.
+    /// How long all robots wait for a late one before the rest is planned again around it.
     pub late_bound: Span,
     /// How long a plan may take before the run is given up.
     pub plan_bound: Span,
     /// How long a run outlives the broker.
     pub offline_bound: Span,
+}
+
+/// When robots that do not report age.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ageing {
+    /// A robot that has not reported for longer is stale: it takes no part in a new run, but is driven around.
+    pub stale_after: Span,
+    /// A robot that has not reported for longer is gone: it is not driven around any more.
+    pub gone_after: Span,
+}
+
+/// How routes are sent.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct UploadLimits {
+    /// A route that was not acknowledged for this long is sent again.
+    pub resend_after: Span,
+    /// How often a route is sent before its robot drops out.
+    pub tries: u32,
+    /// Most routes that are sent and not acknowledged.
+    pub window: usize,
 }
 
 impl Default for Config {
@@ -42,12 +56,9 @@ impl Default for Config {
             seq_base: 1,
             arrival_tolerance_m: 0.02,
             robots_max: 20_000,
-            stale_after: Span::from_millis(6_000),
-            gone_after: Span::from_millis(30_000),
+            ageing: Ageing { stale_after: Span::from_millis(6_000), gone_after: Span::from_millis(30_000) },
             start_lead: Span::from_millis(240),
-            resend_after: Span::from_millis(250),
-            tries: 12,
-            window: 1_024,
+            upload: UploadLimits { resend_after: Span::from_millis(250), tries: 12, window: 1_024 },
             silence: Span::from_millis(1_500),
             late_m: 0.012,
             late_bound: Span::from_millis(4_000),

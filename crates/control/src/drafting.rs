@@ -1,6 +1,6 @@
 //! Planning, as a job that any thread may run.
 
-use crate::leg::{Errand, Kind, Leg, Move};
+use crate::leg::{Leg, LegKind, RobotLeg, Task};
 use crate::mapping::{Mapping, Roles};
 use crate::separation;
 use crate::surroundings::{Surroundings, surroundings};
@@ -15,8 +15,8 @@ use std::sync::Arc;
 
 /// A goal closer than this to a disc that does not move cannot be reached, metres more than contact.
 const BLOCKED_MARGIN_M: f64 = 0.001;
-/// The same for discs whose places are guessed, metres: what others see of a dead robot is off by 5 mm.
-const GUESSED_MARGIN_M: f64 = 0.008;
+/// The same for discs whose places are inferred, metres: what others see of a dead robot is off by 5 mm.
+const INFERRED_MARGIN_M: f64 = 0.008;
 /// How often conflicting pixels are left out before a frame is given up.
 const LENIENT_TRIES: usize = 8;
 
@@ -28,24 +28,24 @@ const FEW: usize = 100;
 
 /// A plan to be made. Pure: the same job gives the same answer, wherever it runs.
 #[derive(Clone, Debug)]
-pub struct Job {
+pub struct PlanRequest {
     pub(crate) number: u64,
-    pub(crate) request: Request,
+    pub(crate) problem: PlanProblem,
 }
 
 /// What is to be planned.
 #[derive(Clone, Debug)]
-pub(crate) struct Request {
+pub(crate) struct PlanProblem {
     pub show: Arc<Show>,
     /// Frames in the order they are played, each with the round it belongs to.
     pub frames: Vec<(usize, u32)>,
-    pub riders: Vec<Rider>,
+    pub robots: Vec<PlannedRobot>,
     /// How many seats there are, taken or not.
-    pub seats: usize,
+    pub participants: usize,
     /// Discs that do not move, stage metres.
     pub standing: Vec<Vec2>,
     /// Those of them whose places nobody reported: of silent robots, and of what blocked others.
-    pub guessed: Vec<Vec2>,
+    pub inferred: Vec<Vec2>,
     pub mapping: Mapping,
     /// Pixels in each other's way are left out rather than the frame given up.
     pub lenient: bool,
@@ -55,8 +55,8 @@ pub(crate) struct Request {
 
 /// A robot that takes part.
 #[derive(Clone, Debug)]
-pub(crate) struct Rider {
-    pub seat: usize,
+pub(crate) struct PlannedRobot {
+    pub participant: usize,
     pub id: RobotId,
     /// Where it starts, stage metres.
     pub at: Vec2,
@@ -65,7 +65,7 @@ pub(crate) struct Rider {
 
 /// A plan that was made; give it to [`crate::Controller::planned`].
 #[derive(Clone, Debug)]
-pub struct Done {
+pub struct PlanResult {
     pub(crate) number: u64,
     pub(crate) legs: Vec<Leg>,
     /// It begins where robots were stopped on their way.
@@ -79,34 +79,34 @@ pub struct Done {
     pub(crate) mapping: Mapping,
 }
 
-impl Job {
+impl PlanRequest {
     /// How long it may take while robots wait for it; `None`: they do not. The caller measures that, as there is no clock
     /// in here, and gives the job up with [`run_unless`](Self::run_unless).
     pub fn budget(&self) -> Option<Span> {
-        let more = self.request.riders.len().saturating_sub(FEW);
-        self.request.stopped.then_some(BUDGET + BUDGET_PER_ROBOT * more as i64)
+        let more = self.problem.robots.len().saturating_sub(FEW);
+        self.problem.stopped.then_some(BUDGET + BUDGET_PER_ROBOT * more as i64)
     }
 
     /// Makes the plan, however long that takes: milliseconds for small fleets, seconds for the largest; never panics.
-    pub fn run(self) -> Done {
+    pub fn run(self) -> PlanResult {
         self.run_unless(&|| false)
     }
 
     /// The same, given up as soon as `is_over` says so: it is asked at least every tenth of a second or so, and must go on
     /// saying so. What is planned until then counts.
-    pub fn run_unless(self, is_over: &dyn Fn() -> bool) -> Done {
-        let mut draft = Draft::new(&self.request, is_over);
+    pub fn run_unless(self, is_over: &dyn Fn() -> bool) -> PlanResult {
+        let mut draft = Draft::new(&self.problem, is_over);
         let mut failed = None;
-        for &(frame, round) in &self.request.frames {
+        for &(frame, round) in &self.problem.frames {
             if let Err(why) = draft.frame(frame, round) {
                 failed = Some((frame, why));
                 break;
             }
         }
-        Done {
+        PlanResult {
             number: self.number,
             legs: draft.legs,
-            stopped: self.request.stopped,
+            stopped: self.problem.stopped,
             frames: draft.frames,
             dark: draft.dark,
             failed,
@@ -117,7 +117,7 @@ impl Job {
 
 /// A plan being made.
 struct Draft<'a> {
-    request: &'a Request,
+    problem: &'a PlanProblem,
     is_over: &'a dyn Fn() -> bool,
     places: Vec<Vec2>,
     roles: Roles,
@@ -127,13 +127,13 @@ struct Draft<'a> {
 }
 
 impl<'a> Draft<'a> {
-    fn new(request: &'a Request, is_over: &'a dyn Fn() -> bool) -> Self {
-        let names = request.riders.iter().map(|rider| rider.id).collect();
+    fn new(problem: &'a PlanProblem, is_over: &'a dyn Fn() -> bool) -> Self {
+        let names = problem.robots.iter().map(|rider| rider.id).collect();
         Self {
-            request,
+            problem,
             is_over,
-            places: request.riders.iter().map(|rider| rider.at).collect(),
-            roles: Roles::new(names, request.mapping.clone()),
+            places: problem.robots.iter().map(|rider| rider.at).collect(),
+            roles: Roles::new(names, problem.mapping.clone()),
             legs: Vec::new(),
             frames: 0,
             dark: Vec::new(),
@@ -142,22 +142,23 @@ impl<'a> Draft<'a> {
 
     /// Adds the legs to one frame.
     fn frame(&mut self, index: usize, round: u32) -> Result<(), String> {
-        let show = &self.request.show;
+        let show = &self.problem.show;
         let frame = show.frames.get(index).ok_or_else(|| "there is no such frame".to_string())?;
         let identity = frame.identity.unwrap_or(show.identity);
         let contact_m = show.stage.limits.contact_m();
         let near = |discs: &[Vec2], pixel: &Pixel, margin_m: f64| {
             discs.iter().any(|at| at.distance(pixel.at) < contact_m + margin_m)
         };
-        let Request { standing, guessed, .. } = self.request;
-        let blocked =
-            |pixel: &Pixel| near(standing, pixel, BLOCKED_MARGIN_M) || near(guessed, pixel, GUESSED_MARGIN_M);
+        let PlanProblem { standing, inferred, .. } = self.problem;
+        let blocked = |pixel: &Pixel| {
+            near(standing, pixel, BLOCKED_MARGIN_M) || near(inferred, pixel, INFERRED_MARGIN_M)
+        };
         let apart = self.separate();
         let mut cast = self.roles.cast(frame, identity, &self.places, blocked);
         let plan = self.solve(frame, &mut cast)?;
         self.roles.remember(&cast, identity, &plan.goal_of);
         let rests = self.rests(&cast, &plan);
-        let legs = if self.request.riders.iter().any(|rider| rider.original) {
+        let legs = if self.problem.robots.iter().any(|rider| rider.original) {
             self.staged(frame, &rests)?
         } else {
             let room_m = room(&plan, show.stage.limits.contact_m());
@@ -173,7 +174,7 @@ impl<'a> Draft<'a> {
         }
         let last = legs.len() - 1;
         for (number, leg) in legs.into_iter().enumerate() {
-            self.legs.push(Leg { frame: index, round, airs: number == last, ..leg });
+            self.legs.push(Leg { frame: index, round, reaches_frame: number == last, ..leg });
         }
         self.places = rests.iter().map(|rest| rest.goal).collect();
         self.frames += 1;
@@ -183,7 +184,7 @@ impl<'a> Draft<'a> {
     /// A drive that moves robots apart that were stopped too close to each other, if there are any. The frame is then
     /// planned from its end.
     fn separate(&mut self) -> Option<Transition> {
-        let Request { riders, standing, stopped, .. } = self.request;
+        let PlanProblem { robots: riders, standing, stopped, .. } = self.problem;
         let problem = self.empty_problem();
         if !stopped || !self.legs.is_empty() || riders.iter().any(|rider| rider.original) {
             return None;
@@ -217,7 +218,7 @@ impl<'a> Draft<'a> {
                 starts: self.places.clone(),
                 goals: cast.pixels.iter().map(|pixel| pixel.at).collect(),
                 pinned: cast.pinned.clone(),
-                standing: self.request.standing.clone(),
+                standing: self.problem.standing.clone(),
                 duration: frame.transition_s.map(Span::from_secs),
                 easing: frame.easing,
                 ..self.empty_problem()
@@ -231,7 +232,7 @@ impl<'a> Draft<'a> {
                 Err(stuck) => stuck,
             };
             tries -= 1;
-            if !self.request.lenient || tries == 0 || stuck.goals.is_empty() {
+            if !self.problem.lenient || tries == 0 || stuck.goals.is_empty() {
                 return Err(stuck.message);
             }
             // Every second one of those in each other's way: the others may then do.
@@ -249,7 +250,7 @@ impl<'a> Draft<'a> {
     }
 
     fn empty_problem(&self) -> TransitionProblem {
-        let stage = &self.request.show.stage;
+        let stage = &self.problem.show.stage;
         let half_floor = Vec2::new(stage.width_m / 2.0, stage.depth_m / 2.0);
         TransitionProblem {
             obstacles: stage.obstacles.clone(),
@@ -258,22 +259,29 @@ impl<'a> Draft<'a> {
     }
 
     /// `[rider]`: where each stands when the frame is reached, and its light.
-    fn rests(&self, cast: &BoundFrame<'_>, plan: &Transition) -> Vec<Move> {
+    fn rests(&self, cast: &BoundFrame<'_>, plan: &Transition) -> Vec<RobotLeg> {
         let rest = |rider: usize| match plan.goal_of.get(rider).copied().flatten() {
             Some(goal) => {
                 let pixel = cast.pixels[goal];
-                Move { goal: pixel.at, pixel: Some(pixel.id), color: pixel.color, ..Move::stay(pixel.at) }
+                RobotLeg {
+                    goal: pixel.at,
+                    pixel: Some(pixel.id),
+                    color: pixel.color,
+                    ..RobotLeg::stay(pixel.at)
+                }
             }
-            None => Move::stay(plan.paths.get(rider).map_or(self.places[rider], |path| path.as_ref().end())),
+            None => {
+                RobotLeg::stay(plan.paths.get(rider).map_or(self.places[rider], |path| path.as_ref().end()))
+            }
         };
         (0..self.places.len()).map(rest).collect()
     }
 
     /// The legs of a frame in which original robots take part.
-    fn staged(&self, frame: &Frame, rests: &[Move]) -> Result<Vec<Leg>, String> {
-        let stage = &self.request.show.stage;
+    fn staged(&self, frame: &Frame, rests: &[RobotLeg]) -> Result<Vec<Leg>, String> {
+        let stage = &self.problem.show.stage;
         let goals: Vec<Vec2> = rests.iter().map(|rest| rest.goal).collect();
-        let original: Vec<bool> = self.request.riders.iter().map(|rider| rider.original).collect();
+        let original: Vec<bool> = self.problem.robots.iter().map(|rider| rider.original).collect();
         let half_floor = Vec2::new(stage.width_m / 2.0, stage.depth_m / 2.0);
         let space = FreeSpace::new(half_floor, &stage.obstacles, &stage.limits);
         let starts = &self.places;
@@ -282,7 +290,7 @@ impl<'a> Draft<'a> {
             starts,
             goals: &goals,
             unsynchronised: &original,
-            standing: &self.request.standing,
+            standing: &self.problem.standing,
         };
         let drivers: Vec<usize> = (0..starts.len()).filter(|&rider| !original[rider]).collect();
         let drive = |standing: &[Vec2]| self.drive(frame, &drivers, &goals, standing);
@@ -298,10 +306,10 @@ impl<'a> Draft<'a> {
                     self.routes(paths, rests, duration, 0.0)?
                 }
             };
-            for (rider, place) in self.request.riders.iter().zip(&mut places) {
-                let step = &mut leg.moves[rider.seat];
-                match step.errand {
-                    Errand::Stay => (step.settles, step.goal) = (step.goal == *place, *place),
+            for (rider, place) in self.problem.robots.iter().zip(&mut places) {
+                let step = &mut leg.robots[rider.participant];
+                match step.task {
+                    Task::Stay => (step.settles, step.goal) = (step.goal == *place, *place),
                     _ => *place = step.goal,
                 }
             }
@@ -337,54 +345,54 @@ impl<'a> Draft<'a> {
     fn routes(
         &self,
         paths: Vec<(usize, Path)>,
-        rests: &[Move],
+        rests: &[RobotLeg],
         duration: Span,
         room_m: f64,
     ) -> Result<Leg, String> {
         if paths.iter().any(|(_, path)| path.pieces.len() > MAX_PIECES) {
             return Err(format!("a path has more than the {MAX_PIECES} pieces a robot can keep"));
         }
-        let mut leg = self.leg(Kind::Routes, rests, paths.len(), duration, room_m);
-        let contact_m = self.request.show.stage.limits.contact_m();
-        let around = surroundings(&paths, &self.request.standing, room_m, contact_m);
+        let mut leg = self.leg(LegKind::Routes, rests, paths.len(), duration, room_m);
+        let contact_m = self.problem.show.stage.limits.contact_m();
+        let around = surroundings(&paths, &self.problem.standing, room_m, contact_m);
         for ((rider, path), Surroundings { room_m, neighbours }) in paths.into_iter().zip(around) {
             let goal = path.as_ref().end();
-            let step = &mut leg.moves[self.request.riders[rider].seat];
+            let step = &mut leg.robots[self.problem.robots[rider].participant];
             let settles = goal == step.goal;
-            *step = Move { errand: Errand::Path(path), room_m, neighbours, goal, settles, ..step.clone() };
+            *step = RobotLeg { task: Task::Path(path), room_m, neighbours, goal, settles, ..step.clone() };
         }
         Ok(leg)
     }
 
-    fn targets(&self, mut hops: Vec<StraightDrive>, rests: &[Move]) -> Leg {
+    fn targets(&self, mut hops: Vec<StraightDrive>, rests: &[RobotLeg]) -> Leg {
         let mut leg =
-            self.leg(Kind::Targets, rests, 0, Span::from_secs(unsynchronised::expected_s(&hops)), 0.0);
+            self.leg(LegKind::Targets, rests, 0, Span::from_secs(unsynchronised::expected_s(&hops)), 0.0);
         for hop in &mut hops {
             let settles = rests[hop.robot].goal == hop.to;
-            hop.robot = self.request.riders[hop.robot].seat;
-            let step = &mut leg.moves[hop.robot];
-            leg.movers += usize::from(matches!(step.errand, Errand::Stay));
-            *step = Move { errand: Errand::Hops, goal: hop.to, settles, ..step.clone() };
+            hop.robot = self.problem.robots[hop.robot].participant;
+            let step = &mut leg.robots[hop.robot];
+            leg.drivers += usize::from(matches!(step.task, Task::Stay));
+            *step = RobotLeg { task: Task::Drives, goal: hop.to, settles, ..step.clone() };
         }
-        Leg { hops, ..leg }
+        Leg { drives: hops, ..leg }
     }
 
     /// A leg in which nobody moves yet.
-    fn leg(&self, kind: Kind, rests: &[Move], movers: usize, duration: Span, room_m: f64) -> Leg {
-        let mut moves = vec![Move::stay(Vec2::ZERO); self.request.seats];
-        for (rider, rest) in self.request.riders.iter().zip(rests) {
-            moves[rider.seat] = rest.clone();
+    fn leg(&self, kind: LegKind, rests: &[RobotLeg], drivers: usize, duration: Span, room_m: f64) -> Leg {
+        let mut robots = vec![RobotLeg::stay(Vec2::ZERO); self.problem.participants];
+        for (rider, rest) in self.problem.robots.iter().zip(rests) {
+            robots[rider.participant] = rest.clone();
         }
         Leg {
             frame: 0,
             round: 0,
             seq: 0,
             kind,
-            moves,
-            hops: Vec::new(),
-            movers,
+            robots,
+            drives: Vec::new(),
+            drivers,
             duration,
-            airs: false,
+            reaches_frame: false,
             room_m,
         }
     }

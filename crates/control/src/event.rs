@@ -1,4 +1,4 @@
-//! What the controller tells people and programs: one value a fact, with a line of text.
+//! Events for people and programs: one value for each fact, with a line of text.
 
 use crate::operation::State;
 use core::fmt;
@@ -21,25 +21,25 @@ pub enum EventKind {
     Connected,
     /// The broker is lost.
     Disconnected,
-    /// The controller does something else now.
+    /// The state of the controller changed.
     StateChanged(State),
-    /// A robot was heard of for the first time.
+    /// A robot reported for the first time.
     RobotFound(RobotId),
     /// A robot introduced itself again after a restart.
     RobotRestarted(RobotId),
-    /// A robot was not heard for a while.
+    /// A robot has not reported for a while.
     RobotStale(RobotId),
-    /// A robot was not heard for long.
+    /// A robot has not reported for long.
     RobotGone(RobotId),
-    /// A stale or gone robot is heard again.
+    /// A stale or gone robot reports again.
     RobotBack(RobotId),
-    /// There are more robots than can be remembered; said once.
+    /// There are more robots than can be remembered; recorded once.
     FleetFull,
-    /// A show is on the desk.
+    /// A show was opened.
     ShowOpened {
         /// Its name.
         name: String,
-        /// How many frames it has.
+        /// Number of its frames.
         frames: usize,
     },
     /// A run begins to be prepared.
@@ -49,16 +49,16 @@ pub enum EventKind {
         /// Robots that take part, spares included.
         robots: usize,
     },
-    /// A plan is there.
+    /// A plan was made.
     Planned {
-        /// Frames it leads to.
+        /// Frames that it leads to.
         frames: usize,
     },
     /// There is no plan to a frame.
     PlanFailed {
         /// Counted from 0.
         frame: usize,
-        /// What stands in the way.
+        /// Why.
         message: String,
     },
     /// Pixels of a frame stay dark.
@@ -67,7 +67,7 @@ pub enum EventKind {
         frame: usize,
         /// Ids of the pixels, at most 16.
         pixels: Vec<u32>,
-        /// How many there are.
+        /// Number of them.
         count: usize,
     },
     /// Robots leave for a frame.
@@ -83,46 +83,46 @@ pub enum EventKind {
     FrameReached {
         /// Counted from 0.
         frame: usize,
-        /// Between the first and the last arrival at a place in this frame, whatever stages it took.
+        /// Between the first and the last arrival at a place in this frame, over all its legs.
         spread: Span,
         /// From the planned end to the last arrival.
         wait: Span,
     },
-    /// Everybody waits for a robot.
+    /// All robots wait for one.
     Waiting {
-        /// For whom.
+        /// The robot they wait for.
         robot: RobotId,
         /// Why.
         why: Trouble,
     },
-    /// Robots are heard, and none acknowledges anything: the way to them is broken.
+    /// Robots report, and none acknowledges its route: the link to them is broken.
     NobodyHears,
-    /// On again.
+    /// The drive goes on after a hold.
     Resumed,
     /// A robot takes no part any more; the rest goes on without it.
     Dropout {
-        /// Which.
+        /// The robot.
         robot: RobotId,
         /// Why.
         why: Trouble,
     },
     /// A robot takes part again, or a new one takes a dark pixel.
     Rejoined(RobotId),
-    /// The rest of the run is planned again from where robots are.
+    /// The rest of the run is planned again, from where robots are.
     Replanning {
         /// The frame they were heading for, counted from 0.
         frame: usize,
     },
-    /// A robot says it arrived, but not where it should be.
+    /// A robot reports its arrival, but not where it should be.
     Misaligned {
-        /// Which.
+        /// The robot.
         robot: RobotId,
         /// How far off, metres.
         off_m: f64,
     },
-    /// A robot says it arrived and nobody sent it anywhere, or nobody knows it.
+    /// A robot reports its arrival that was sent nowhere, or that was not known.
     UnexpectedArrival(RobotId),
-    /// So many events of one kind were not said, because there were too many.
+    /// This number of events was not recorded, because there were too many.
     Suppressed(u64),
     /// Every robot was told to stop.
     StoppedAll,
@@ -144,11 +144,11 @@ pub enum Trouble {
     Late,
     /// It does not report.
     Silent,
-    /// It did not acknowledge its route or the start.
+    /// It did not acknowledge its route or its START.
     Deaf,
     /// It does not know where it is.
     Lost,
-    /// It knows where it is too little to pass others.
+    /// It is not sure enough of its place to pass others.
     Unsure,
     /// It reports a fault.
     Faulty,
@@ -156,7 +156,7 @@ pub enum Trouble {
     Cut,
     /// It did not reach its goal in time.
     Missed,
-    /// Something stands in its way.
+    /// An obstacle is in its path.
     Blocked,
 }
 
@@ -167,12 +167,12 @@ pub enum Outcome {
     Finished,
     /// The operator ended it.
     Aborted,
-    /// It could not go on: where it stopped and why, for people, without a full stop.
+    /// It could not go on: where and why, for people, without a full stop.
     Failed(String),
 }
 
 impl EventKind {
-    /// How much it matters.
+    /// Its severity.
     pub fn severity(&self) -> Severity {
         use EventKind::*;
         match self {
@@ -204,11 +204,11 @@ impl fmt::Display for Trouble {
             Self::Silent => "does not report",
             Self::Deaf => "does not acknowledge",
             Self::Lost => "does not know where it is",
-            Self::Unsure => "is not sure enough where it is",
+            Self::Unsure => "is not sure enough of its place",
             Self::Faulty => "reports a fault",
             Self::Cut => "was cut off or restarted",
             Self::Missed => "did not reach its goal",
-            Self::Blocked => "finds something in its way",
+            Self::Blocked => "is blocked",
         })
     }
 }
@@ -223,7 +223,7 @@ impl fmt::Display for Outcome {
     }
 }
 
-/// So many of something.
+/// A number and a noun.
 struct Count<'a>(usize, &'a str);
 
 impl fmt::Display for Count<'_> {
@@ -241,7 +241,7 @@ impl fmt::Display for EventKind {
             StateChanged(state) => write!(f, "Now {state}."),
             RobotFound(id) => write!(f, "Robot {id} is here."),
             RobotRestarted(id) => write!(f, "Robot {id} has restarted."),
-            RobotStale(id) => write!(f, "Robot {id} has not been heard lately."),
+            RobotStale(id) => write!(f, "Robot {id} has not reported lately."),
             RobotGone(id) => write!(f, "Robot {id} is gone."),
             RobotBack(id) => write!(f, "Robot {id} is back."),
             FleetFull => write!(f, "Too many robots: further names are not remembered."),
@@ -254,8 +254,8 @@ impl fmt::Display for EventKind {
             RunBegun { from, robots } => {
                 write!(f, "Run with {} from frame {}.", Count(*robots, "robot"), from + 1)
             }
-            Planned { frames } => write!(f, "Planned the way to {}.", Count(*frames, "frame")),
-            PlanFailed { frame, message } => write!(f, "No way to frame {}: {message}", frame + 1),
+            Planned { frames } => write!(f, "Planned the drive to {}.", Count(*frames, "frame")),
+            PlanFailed { frame, message } => write!(f, "No plan for frame {}: {message}", frame + 1),
             LeftOut { frame, pixels, count } => {
                 let more = if *count > pixels.len() { " and more" } else { "" };
                 let dark =
@@ -268,12 +268,12 @@ impl fmt::Display for EventKind {
             FrameReached { frame, spread, .. } => {
                 write!(f, "Frame {} stands; arrivals within {:.2} s.", frame + 1, spread.as_secs())
             }
-            Waiting { robot, why } => write!(f, "Everybody waits for robot {robot}: it {why}."),
+            Waiting { robot, why } => write!(f, "Waiting for robot {robot}: it {why}."),
             NobodyHears => write!(
                 f,
-                "No robot acknowledges its path, though all are heard: the broker does not pass on what is said to them."
+                "No robot acknowledges its path, though robots report: the broker does not deliver messages to them."
             ),
-            Resumed => write!(f, "On again."),
+            Resumed => write!(f, "Resumed."),
             Dropout { robot, why } => write!(f, "Robot {robot} drops out: it {why}."),
             Rejoined(id) => write!(f, "Robot {id} takes part from the next frame on."),
             Replanning { frame } => write!(f, "Planning the way to frame {} again.", frame + 1),
@@ -298,11 +298,11 @@ mod tests {
     use super::*;
 
     #[test]
-    fn lines_count_in_words_people_use() {
+    fn lines_count_with_the_right_noun() {
         let opened = |name: &str, frames| EventKind::ShowOpened { name: name.into(), frames }.to_string();
         assert_eq!(opened("Heart", 1), "Show \"Heart\" with 1 frame is open.");
         assert_eq!(opened(" ", 2), "A show without a name, with 2 frames, is open.");
-        assert_eq!(EventKind::Planned { frames: 1 }.to_string(), "Planned the way to 1 frame.");
+        assert_eq!(EventKind::Planned { frames: 1 }.to_string(), "Planned the drive to 1 frame.");
         assert_eq!(EventKind::RunBegun { from: 0, robots: 1 }.to_string(), "Run with 1 robot from frame 1.");
         let dark = |count| EventKind::LeftOut { frame: 1, pixels: vec![7], count }.to_string();
         assert_eq!(dark(1), "Frame 2: 1 pixel stays dark: [7].");

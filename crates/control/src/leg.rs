@@ -1,4 +1,4 @@
-//! One leg of a run: everybody's errand between two moments at which all stand.
+//! One leg of a run: what each robot drives between two moments at which all stand.
 
 use lightbots_base::{Rgb, Span, Vec2};
 use lightbots_plan::Path;
@@ -6,52 +6,55 @@ use lightbots_plan::unsynchronised::StraightDrive;
 use lightbots_wire::Neighbours;
 use std::sync::Arc;
 
-/// What everybody does between two moments at which all stand. A frame takes one leg, or several where original
-/// robots and others have to go one after the other.
+/// What all robots do between two moments at which all stand. A frame takes one leg, or several where robots that know
+/// TARGET only and others have to go one after the other.
 #[derive(Clone, Debug)]
 pub(crate) struct Leg {
     /// The frame it leads to, counted from 0.
     pub frame: usize,
-    /// Which time round, where the show loops.
+    /// How many times the show started again before that frame.
     pub round: u32,
     /// Number of its routes; 0 until it is queued.
     pub seq: u32,
-    pub kind: Kind,
-    /// `[seat]`; seats taken later have none.
-    pub moves: Vec<Move>,
-    /// The straight drives of original robots, by seat; see [`StraightDrive`].
-    pub hops: Vec<StraightDrive>,
-    /// How many moves are no rests.
-    pub movers: usize,
+    /// How robots are told to go.
+    pub kind: LegKind,
+    /// `[participant]`; participants that join later have none.
+    pub robots: Vec<RobotLeg>,
+    /// The straight drives of robots that know TARGET only, in the order in which each is valid; see [`StraightDrive`].
+    pub drives: Vec<StraightDrive>,
+    /// Number of robots that have to arrive.
+    pub drivers: usize,
+    /// From the START to the planned end.
     pub duration: Span,
-    /// The frame stands at its end.
-    pub airs: bool,
-    /// How far the closest two rims stay apart by plan, metres.
+    /// The frame is reached at its end.
+    pub reaches_frame: bool,
+    /// Clearance of the closest two robots by plan, metres.
     pub room_m: f64,
 }
 
 /// How robots are told to go.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Kind {
+pub(crate) enum LegKind {
     /// Timed paths and a common START.
     Routes,
-    /// TARGETs, said by and by so that nobody is in anybody's way at any speed.
+    /// TARGETs, sent one after the other so that no robot is in another's way at any speed.
     Targets,
 }
 
 /// One robot's part in a leg.
 #[derive(Clone, Debug)]
-pub(crate) struct Move {
-    pub errand: Errand,
-    /// How far others stay from its rim by plan, metres; infinite where that is far.
+pub(crate) struct RobotLeg {
+    /// What the robot is told.
+    pub task: Task,
+    /// Clearance of the robot by plan, metres; infinite where that is far.
     pub room_m: f64,
-    /// Which neighbours come into sight on its path.
+    /// The neighbours that come into sight on its path.
     pub neighbours: Option<Arc<Neighbours>>,
-    /// Where it stands afterwards, stage metres.
+    /// Where the robot stands afterwards, stage metres.
     pub goal: Vec2,
-    /// It stands there in the frame too.
+    /// The robot stands there in the frame too.
     pub settles: bool,
-    /// The pixel it shows in the leg's frame.
+    /// The pixel that the robot shows in the leg's frame.
     pub pixel: Option<u32>,
     /// The light of that pixel; black for spares.
     pub color: Rgb,
@@ -59,20 +62,20 @@ pub(crate) struct Move {
 
 /// What a robot is told.
 #[derive(Clone, Debug)]
-pub(crate) enum Errand {
-    /// Nothing: it stands.
+pub(crate) enum Task {
+    /// Nothing: the robot stands.
     Stay,
     /// A timed path.
     Path(Path),
-    /// Hops of its leg.
-    Hops,
+    /// The straight drives of its leg.
+    Drives,
 }
 
-impl Move {
-    /// Standing at a place, dark.
+impl RobotLeg {
+    /// A robot that stands at a place, dark.
     pub fn stay(at: Vec2) -> Self {
         Self {
-            errand: Errand::Stay,
+            task: Task::Stay,
             room_m: f64::INFINITY,
             neighbours: None,
             goal: at,
@@ -84,16 +87,21 @@ impl Move {
 }
 
 impl Leg {
-    /// The path of a seat, if it drives one.
-    pub fn path(&self, seat: usize) -> Option<&Path> {
-        match self.moves.get(seat).map(|m| &m.errand) {
-            Some(Errand::Path(path)) => Some(path),
+    /// The path of a participant, if it drives one.
+    pub fn path(&self, participant: usize) -> Option<&Path> {
+        match self.robots.get(participant).map(|robot| &robot.task) {
+            Some(Task::Path(path)) => Some(path),
             _ => None,
         }
     }
 
-    /// Whether a seat has to arrive.
-    pub fn moves(&self, seat: usize) -> bool {
-        self.moves.get(seat).is_some_and(|m| !matches!(m.errand, Errand::Stay))
+    /// Whether a participant has to arrive.
+    pub fn is_driven_by(&self, participant: usize) -> bool {
+        self.robots.get(participant).is_some_and(|robot| !matches!(robot.task, Task::Stay))
+    }
+
+    /// Where a participant stands at the end; `None` where it joined later.
+    pub fn goal(&self, participant: usize) -> Option<Vec2> {
+        self.robots.get(participant).map(|robot| robot.goal)
     }
 }

@@ -11,7 +11,7 @@ const FREQUENT_MAX: u32 = 10;
 /// Over which the frequent kinds are counted.
 const PERIOD: Span = Span::from_millis(1_000);
 
-/// The queue of what the controller tells.
+/// The queue of events.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Log {
     waiting: VecDeque<Event>,
@@ -21,8 +21,8 @@ pub(crate) struct Log {
 }
 
 impl Log {
-    /// An event that is always told, unless nobody reads.
-    pub fn tell(&mut self, at: Instant, kind: EventKind) {
+    /// An event that is always queued, unless the queue is full because it is not read.
+    pub fn record(&mut self, at: Instant, kind: EventKind) {
         if self.waiting.len() < WAITING_MAX {
             self.waiting.push_back(Event { at, kind });
         } else {
@@ -31,17 +31,17 @@ impl Log {
     }
 
     /// An event any robot can cause at any rate.
-    pub fn tell_limited(&mut self, at: Instant, kind: EventKind) {
+    pub fn record_limited(&mut self, at: Instant, kind: EventKind) {
         self.tick(at);
         if self.said < FREQUENT_MAX {
             self.said += 1;
-            self.tell(at, kind);
+            self.record(at, kind);
         } else {
             self.suppressed += 1;
         }
     }
 
-    /// Says how many events were suppressed, once their period is over.
+    /// Records how many events were suppressed, once their period is over.
     pub fn tick(&mut self, now: Instant) {
         if now - self.period_began < PERIOD {
             return;
@@ -50,7 +50,7 @@ impl Log {
         self.said = 0;
         if self.suppressed > 0 && self.waiting.len() < WAITING_MAX {
             let count = std::mem::take(&mut self.suppressed);
-            self.tell(now, EventKind::Suppressed(count));
+            self.record(now, EventKind::Suppressed(count));
         }
     }
 
@@ -70,7 +70,7 @@ mod tests {
         let mut log = Log::default();
         let id = RobotId::new("a").unwrap();
         for _ in 0..1_000 {
-            log.tell_limited(Instant(2_000_000), EventKind::UnexpectedArrival(id));
+            log.record_limited(Instant(2_000_000), EventKind::UnexpectedArrival(id));
         }
         log.tick(Instant(3_000_000));
         let told: Vec<_> = std::iter::from_fn(|| log.next()).collect();

@@ -1,9 +1,9 @@
-//! What the operator's wishes do.
+//! What operations of the operator do.
 
 use crate::controller::Controller;
-use crate::event::{EventKind, Outcome};
+use crate::event::EventKind;
 use crate::operation::{MissingPolicy, Operation, Refusal, State};
-use crate::run::{Phase, Purpose, Run};
+use crate::run::{FrameCursor, PlayedShow, Run, RunPurpose};
 use crate::stopping::Stopping;
 use lightbots_base::{Instant, RobotId, Span};
 use lightbots_show::{Issue, Show, validate};
@@ -16,13 +16,13 @@ const BLINK: Span = Span::from_millis(5_000);
 const LISTED: usize = 16;
 
 impl Controller {
-    /// The operator wants something.
+    /// Does an operation, or says why not.
     pub fn operate(&mut self, now: Instant, operation: Operation) -> Result<(), Refusal> {
         let done = match operation {
             Operation::Open(show) => self.open(now, show),
-            Operation::Play { from, missing } => self.begin(now, Purpose::Play, from, missing),
-            Operation::Preview { frame, missing } => self.begin(now, Purpose::Preview, frame, missing),
-            Operation::Pause => self.with_run(|run| run.pause = true),
+            Operation::Play { from, missing } => self.begin(now, RunPurpose::Play, from, missing),
+            Operation::Preview { frame, missing } => self.begin(now, RunPurpose::Preview, frame, missing),
+            Operation::Pause => self.pause(),
             Operation::Resume => self.resume(now, false),
             Operation::Step => self.resume(now, true),
             Operation::Abort => self.abort(now),
@@ -37,14 +37,14 @@ impl Controller {
             Operation::Loop(looping) => {
                 self.looping = looping;
                 if let Some(run) = &mut self.run {
-                    run.set_looping(looping);
+                    run.set_looping(&mut self.context, now, looping);
                 }
                 Ok(())
             }
             Operation::Pin { pixel, robot } => {
                 match robot {
-                    Some(robot) => self.desk.mapping.pins.insert(pixel, robot),
-                    None => self.desk.mapping.pins.remove(&pixel),
+                    Some(robot) => self.context.mapping.pins.insert(pixel, robot),
+                    None => self.context.mapping.pins.remove(&pixel),
                 };
                 Ok(())
             }
@@ -52,14 +52,14 @@ impl Controller {
         if done.is_ok()
             && let Some(run) = &mut self.run
         {
-            run.tick(&mut self.desk, now);
+            run.on_tick(&mut self.context, now);
         }
         self.conclude(now);
         done
     }
 
     fn linked(&self) -> Result<(), Refusal> {
-        if self.desk.outbox.linked() { Ok(()) } else { Err(Refusal::NotConnected) }
+        if self.context.outbox.linked() { Ok(()) } else { Err(Refusal::NotConnected) }
     }
 
     fn idle(&self) -> Result<(), Refusal> {
@@ -73,7 +73,9 @@ impl Controller {
         if self.run.is_some() {
             return Err(Refusal::Busy(self.state()));
         }
-        self.desk.log.tell(now, EventKind::ShowOpened { name: show.name.clone(), frames: show.frames.len() });
+        self.context
+            .log
+            .record(now, EventKind::ShowOpened { name: show.name.clone(), frames: show.frames.len() });
         self.show = Some(show);
         Ok(())
     }
@@ -81,7 +83,7 @@ impl Controller {
     fn begin(
         &mut self,
         now: Instant,
-        purpose: Purpose,
+        purpose: RunPurpose,
         frame: usize,
         missing: MissingPolicy,
     ) -> Result<(), Refusal> {
@@ -92,13 +94,22 @@ impl Controller {
         if frame >= frames {
             return Err(Refusal::NoSuchFrame { frame, frames });
         }
-        let last = if purpose == Purpose::Preview { frame } else { frames - 1 };
+        let last = if purpose == RunPurpose::Preview { frame } else { frames - 1 };
         self.enough(&show, frame..=last, missing)?;
         if let Some(issue) = validate(&show).into_iter().find(Issue::is_error) {
             return Err(Refusal::Unfit { issue: issue.message });
         }
         self.failure = None;
-        self.run = Some(Run::begin(&mut self.desk, now, show, purpose, frame, missing, self.looping));
+        let playback = PlayedShow {
+            show,
+            purpose,
+            missing,
+            looping: self.looping,
+            next: FrameCursor { frame, round: 0 },
+            paused: false,
+            stepping: false,
+        };
+        self.run = Some(Run::begin(&mut self.context, now, playback));
         Ok(())
     }
 
@@ -109,11 +120,11 @@ impl Controller {
         frames: std::ops::RangeInclusive<usize>,
         missing: MissingPolicy,
     ) -> Result<(), Refusal> {
-        let fleet = self.desk.fleet.robots();
+        let fleet = self.context.fleet.robots();
         let pixels = show.frames[frames.clone()].iter().map(|frame| frame.pixels.len()).max().unwrap_or(0);
         let robots = fleet.iter().filter(|robot| robot.can_take_part()).count();
         if robots == 0 || robots < pixels && missing == MissingPolicy::Refuse {
-            let without_place = fleet.iter().filter(|r| r.is_heard() && r.at.is_none()).count();
+            let without_place = fleet.iter().filter(|r| r.is_heard() && r.reported.at.is_none()).count();
             let unfit = fleet.len() - robots - without_place;
             return Err(Refusal::TooFewRobots { pixels, robots, without_place, unfit });
         }
@@ -121,12 +132,12 @@ impl Controller {
             return Ok(());
         }
         let present =
-            |id: RobotId| self.desk.fleet.find(id).is_some_and(|index| fleet[index].can_take_part());
+            |id: RobotId| self.context.fleet.find(id).is_some_and(|index| fleet[index].can_take_part());
         let bound = show.frames[frames].iter().flat_map(|frame| &frame.pixels);
         let mut away: Vec<u32> = bound
             .filter(|pixel| match &pixel.robot {
                 Some(name) => !RobotId::new(name).is_some_and(present),
-                None => self.desk.mapping.pins.get(&pixel.id).is_some_and(|&id| !present(id)),
+                None => self.context.mapping.pins.get(&pixel.id).is_some_and(|&id| !present(id)),
             })
             .map(|pixel| pixel.id)
             .collect();
@@ -136,35 +147,19 @@ impl Controller {
         if away.is_empty() { Ok(()) } else { Err(Refusal::PinnedMissing { pixels: away }) }
     }
 
-    fn with_run(&mut self, act: impl FnOnce(&mut Run)) -> Result<(), Refusal> {
+    fn pause(&mut self) -> Result<(), Refusal> {
         self.linked()?;
-        self.run.as_mut().map(act).ok_or(Refusal::NoRun)
+        self.run.as_mut().ok_or(Refusal::NoRun)?.playback.paused = true;
+        Ok(())
     }
 
     fn resume(&mut self, now: Instant, step: bool) -> Result<(), Refusal> {
         self.linked()?;
         let run = self.run.as_mut().ok_or(Refusal::NoRun)?;
-        if !run.pause {
+        if !run.playback.paused {
             return Err(Refusal::NotPaused);
         }
-        run.pause = false;
-        run.step = step;
-        match &mut run.phase {
-            Phase::Standing(standing) if step => {
-                standing.paused = None;
-                standing.until = now;
-            }
-            Phase::Driving(drive) => {
-                let late = drive.late > 0;
-                if let Some(hold) = &mut drive.hold {
-                    hold.by_operator = false;
-                }
-                if !late {
-                    run.release(&mut self.desk, now);
-                }
-            }
-            _ => {}
-        }
+        run.resume(&mut self.context, now, step);
         Ok(())
     }
 
@@ -172,7 +167,7 @@ impl Controller {
         if self.state() == State::Aborting {
             return Ok(());
         }
-        self.run.as_mut().ok_or(Refusal::NoRun)?.over = Some(Outcome::Aborted);
+        self.run.as_mut().ok_or(Refusal::NoRun)?.abort(&mut self.context, now);
         self.halt(now);
         Ok(())
     }
@@ -180,40 +175,40 @@ impl Controller {
     fn stop_all(&mut self, now: Instant) -> Result<(), Refusal> {
         self.linked()?;
         if let Some(run) = &mut self.run {
-            run.over = Some(Outcome::Aborted);
+            run.abort(&mut self.context, now);
         }
         self.halt(now);
-        self.desk.log.tell(now, EventKind::StoppedAll);
+        self.context.log.record(now, EventKind::StoppedAll);
         Ok(())
     }
 
     fn halt(&mut self, now: Instant) {
-        if self.desk.outbox.linked() {
-            self.stopping = Some(Stopping::begin(&mut self.desk, now));
+        if self.context.outbox.linked() {
+            self.stopping = Some(Stopping::begin(&mut self.context, now));
         }
     }
 
     fn identify(&mut self, id: RobotId) -> Result<(), Refusal> {
         self.linked()?;
-        let index = self.desk.fleet.find(id).ok_or(Refusal::UnknownRobot(id))?;
-        let robot = self.desk.fleet.robot(index);
-        let commands = if robot.abilities.blink {
+        let index = self.context.fleet.find(id).ok_or(Refusal::UnknownRobot(id))?;
+        let robot = self.context.fleet.robot(index);
+        let commands = if robot.reported.abilities.blink {
             vec![Command::Blink(Blink { over: BLINK })]
         } else {
             vec![Command::Uuid]
         };
-        self.desk.outbox.say(Topic::Robot(id), &commands);
+        self.context.outbox.send(Topic::Robot(id), &commands);
         Ok(())
     }
 
     fn forget(&mut self, id: RobotId) -> Result<(), Refusal> {
-        let index = self.desk.fleet.find(id).ok_or(Refusal::UnknownRobot(id))?;
+        let index = self.context.fleet.find(id).ok_or(Refusal::UnknownRobot(id))?;
         if self.run.is_some() {
             return Err(Refusal::TakesPart(id));
         }
         self.stopping = None;
-        self.desk.fleet.forget(index);
-        self.desk.mapping.forget(id);
+        self.context.fleet.forget(index);
+        self.context.mapping.forget(id);
         Ok(())
     }
 }

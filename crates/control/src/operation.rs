@@ -1,46 +1,46 @@
-//! What the operator can ask for, and why it may be refused.
+//! Operations of the operator, and why they may be refused.
 
 use core::fmt;
 use lightbots_base::RobotId;
 use lightbots_show::Show;
 use std::sync::Arc;
 
-/// One wish of the operator.
+/// One operation of the operator.
 #[derive(Clone, Debug)]
 pub enum Operation {
-    /// This show is on the desk now. Refused during a run.
+    /// Open a show. Refused during a run.
     Open(Arc<Show>),
-    /// Play from a frame (counted from 0) to the end, starting with the drive there from wherever robots are.
+    /// Play from a frame (counted from 0) to the end. It begins with the drive to that frame from where robots are.
     Play {
         /// The first frame played.
         from: usize,
         /// What happens to pixels no robot can show.
         missing: MissingPolicy,
     },
-    /// Drive to one frame (counted from 0) and stay.
+    /// Drive to one frame (counted from 0), and stay there.
     Preview {
-        /// Which frame.
+        /// The frame.
         frame: usize,
         /// What happens to pixels no robot can show.
         missing: MissingPolicy,
     },
-    /// Everybody slows down together and stands; in a picture: its air time stops.
+    /// All robots slow down together and stand; while a frame stands, its air time stops.
     Pause,
-    /// On from where Pause left off.
+    /// Go on from where Pause stopped.
     Resume,
-    /// From a pause to the next picture, and pause there.
+    /// From a pause to the next frame, and pause there.
     Step,
     /// The run ends and all wheels stop at once.
     Abort,
-    /// Every robot stops at once, whoever set it going. Always possible while there is a broker.
+    /// Every robot stops at once, also one that this controller did not start. Possible whenever there is a broker.
     StopAll,
     /// The operator has read why the last run failed.
     DismissFailure,
-    /// Ask who is out there.
+    /// Ask all robots to report.
     Refresh,
     /// This robot flashes for five seconds.
     Identify(RobotId),
-    /// Forget a robot that is not there any more. Refused while it takes part in a run.
+    /// Forget a robot. Refused during a run.
     Forget(RobotId),
     /// Whether a played show starts again after its last frame.
     Loop(bool),
@@ -116,7 +116,7 @@ pub enum Refusal {
         robots: usize,
         /// Robots that are here but do not know where they are.
         without_place: usize,
-        /// Robots that have not been heard of lately or report a fault.
+        /// Robots that have not reported lately or report a fault.
         unfit: usize,
     },
     /// Pixels are bound to robots that are not here.

@@ -1,4 +1,4 @@
-//! Messages waiting to be sent, and broadcasts said several times because links lose some.
+//! Messages waiting to be sent, and broadcasts that are sent several times because links lose some.
 
 use lightbots_base::{Instant, Span};
 use lightbots_wire::{Command, Topic, encode};
@@ -18,7 +18,7 @@ pub struct Send {
     pub payload: Vec<u8>,
 }
 
-/// A broadcast said again and again.
+/// A broadcast that is sent again.
 #[derive(Clone, Debug)]
 struct Repeat {
     command: Command,
@@ -27,7 +27,7 @@ struct Repeat {
     left: u32,
 }
 
-/// The queue of what the controller says.
+/// The queue of messages.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Outbox {
     waiting: VecDeque<Send>,
@@ -57,7 +57,7 @@ impl Outbox {
     }
 
     /// Commands in one payload to one topic.
-    pub fn say(&mut self, topic: Topic, commands: &[Command]) {
+    pub fn send(&mut self, topic: Topic, commands: &[Command]) {
         if !self.linked || self.waiting.len() >= WAITING_MAX {
             self.unsent += 1;
             return;
@@ -74,18 +74,18 @@ impl Outbox {
 
     /// A broadcast now, and again `times − 1` times.
     pub fn broadcast(&mut self, now: Instant, command: Command, times: u32, every: Span) {
-        self.say(Topic::Broadcast, std::slice::from_ref(&command));
+        self.send(Topic::Broadcast, std::slice::from_ref(&command));
         if times > 1 && self.linked && self.repeats.len() < REPEATS_MAX {
             self.repeats.push(Repeat { command, next: now + every, every, left: times - 1 });
         }
     }
 
     /// Nothing is repeated any more.
-    pub fn cease(&mut self) {
+    pub fn stop_repeating(&mut self) {
         self.repeats.clear();
     }
 
-    /// Says what is due again.
+    /// Sends what is due again.
     pub fn tick(&mut self, now: Instant) {
         if self.repeats.is_empty() {
             return;
@@ -93,7 +93,7 @@ impl Outbox {
         let mut repeats = std::mem::take(&mut self.repeats);
         for repeat in &mut repeats {
             if now >= repeat.next {
-                self.say(Topic::Broadcast, std::slice::from_ref(&repeat.command));
+                self.send(Topic::Broadcast, std::slice::from_ref(&repeat.command));
                 repeat.next = now + repeat.every;
                 repeat.left -= 1;
             }
@@ -138,7 +138,7 @@ mod tests {
     #[test]
     fn without_a_broker_nothing_waits() {
         let mut outbox = Outbox::default();
-        outbox.say(Topic::Broadcast, &[Command::Uuid]);
+        outbox.send(Topic::Broadcast, &[Command::Uuid]);
         outbox.link(true);
         outbox.broadcast(Instant::ZERO, Command::Stop, 3, Span(10));
         outbox.link(false);

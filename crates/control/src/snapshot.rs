@@ -2,7 +2,7 @@
 
 use crate::operation::State;
 use lightbots_base::{Instant, Rgb, RobotId, Vec2};
-use lightbots_wire::{Abilities, Firmware, RobotState};
+use lightbots_wire::{Abilities, Blocked, Firmware, RobotState};
 
 /// Everything a screen shows, at one moment. What happened is told by [`crate::Event`]s.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -34,15 +34,16 @@ pub struct Snapshot {
 pub struct RunView {
     /// The frame that is driven to or stands, counted from 0.
     pub frame: usize,
-    /// What it is doing, for people: `planning`, `handing out routes`, `driving`, `holding`, `showing`, …
+    /// What it is doing, for people: `planning`, `uploading routes`, `driving`, `holding`, `showing`, …
     pub doing: &'static str,
-    /// Share of the drive or of the air time that is over, 0 to 1; of all ways, where robots drive by TARGET.
+    /// Share of the drive or of the air time that is over, 0 to 1; where robots drive by TARGET, of the length of their
+    /// paths.
     pub progress: f64,
     /// How long the drive is planned to take, seconds.
     pub drive_s: f64,
     /// When the drive began, show clock; `None` before.
     pub began: Option<Instant>,
-    /// Robots of the run that others wait for because they do not get on or are not heard, at most 8.
+    /// Robots of the run that others wait for, because they make no progress or are silent; at most 8.
     pub waiting_for: Vec<RobotId>,
     /// Frames reached so far.
     pub frames_played: usize,
@@ -55,10 +56,10 @@ pub struct RunView {
 pub struct RobotView {
     /// Its name.
     pub id: RobotId,
-    /// Where it said it is, stage metres.
-    pub at: Option<Vec2>,
-    /// Heading it said, radians in the stage.
-    pub heading: Option<f64>,
+    /// What its last report said.
+    pub reported: Reported,
+    /// When it reported, and how fresh that is.
+    pub contact: LastContact,
     /// Where its path says it is now; only while it drives one.
     pub planned: Option<Vec2>,
     /// Where it goes or stands in the run.
@@ -67,31 +68,49 @@ pub struct RobotView {
     pub pixel: Option<u32>,
     /// The light it was told to show.
     pub light: Rgb,
-    /// How fresh all this is.
-    pub age: Age,
-    /// When it was heard last, show clock.
-    pub heard: Instant,
-    /// When it was found, show clock.
-    pub found: Instant,
-    /// Percent.
-    pub battery: Option<u8>,
-    /// What it says it does; `None`: an original robot.
-    pub state: Option<RobotState>,
-    /// How far it says it is off its path, metres.
-    pub off_m: Option<f64>,
-    /// How far its clock may be off, microseconds; `None`: not synchronised.
-    pub clock_us: Option<u32>,
-    /// Its firmware; may be empty.
-    pub firmware: Firmware,
-    /// What it can do.
-    pub abilities: Abilities,
-    /// Whether its last report said that it is simulated. Every other robot is real.
-    pub simulated: bool,
     /// Whether it takes part in the run.
     pub takes_part: bool,
 }
 
-/// How lately a robot was heard.
+/// What a robot's last report said.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Reported {
+    /// Its place, stage metres.
+    pub at: Option<Vec2>,
+    /// Its heading, radians in the stage.
+    pub heading: Option<f64>,
+    /// Its battery, percent.
+    pub battery: Option<u8>,
+    /// What it does; `None`: the original firmware, which does not say.
+    pub state: Option<RobotState>,
+    /// How far it is off its path, metres.
+    pub off_m: Option<f64>,
+    /// What stands in its path.
+    pub blocked: Option<Blocked>,
+    /// How far its clock may be off, microseconds; `None`: not synchronised.
+    pub clock_us: Option<u32>,
+    /// Number of the route it keeps; 0: none.
+    pub route: u32,
+    /// Its firmware; may be empty.
+    pub firmware: Firmware,
+    /// What it can do.
+    pub abilities: Abilities,
+    /// Whether it is simulated. Every other robot is real.
+    pub simulated: bool,
+}
+
+/// When a robot reported.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LastContact {
+    /// When it was found, show clock.
+    pub found: Instant,
+    /// When it reported last, show clock.
+    pub heard: Instant,
+    /// How fresh that is.
+    pub age: Age,
+}
+
+/// How lately a robot reported.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Age {
     /// Lately.
@@ -108,7 +127,7 @@ pub enum Age {
 pub struct Counters {
     /// Messages that came in.
     pub received: u64,
-    /// Of them, those that made no sense.
+    /// Of them, those that could not be read.
     pub junk: u64,
     /// Messages that went out.
     pub sent: u64,
@@ -116,8 +135,8 @@ pub struct Counters {
     pub resent: u64,
     /// Messages not sent because the queue was full or there was no broker.
     pub unsent: u64,
-    /// Reports of robots that were too many to remember.
+    /// Reports of robots beyond the most that are remembered.
     pub overflow: u64,
-    /// Arrivals nobody expected.
+    /// Arrivals of robots that were sent nowhere.
     pub unexpected: u64,
 }

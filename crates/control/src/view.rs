@@ -1,60 +1,60 @@
-//! The snapshot's making.
+//! How a run looks from outside: what the controller is doing, and views of the run and its robots.
 
-use crate::desk::Desk;
-use crate::driving::Drive;
-use crate::leg::Kind;
+use crate::context::Context;
+use crate::leg::LegKind;
 use crate::operation::State;
-use crate::run::{Phase, Purpose, Run};
+use crate::run::{Run, RunPhase, RunPurpose};
 use crate::snapshot::{RobotView, RunView};
 use lightbots_base::{Instant, RobotId, Span};
 
-/// The most robots a view says everybody waits for.
+/// Most robots that a view names others wait for.
 const WAITING_MAX: usize = 8;
 
 impl Run {
     /// What the controller is doing, as people see it.
     pub fn state(&self) -> State {
         match self.phase {
-            Phase::Offline(_) => State::Idle,
-            _ if self.pause => State::Paused,
-            Phase::Gathering(_) if self.current.is_none() => State::Preparing,
-            Phase::Standing(_) | Phase::Starting(_) if self.current.is_none() => State::Preparing,
-            _ if self.purpose == Purpose::Preview => State::Preview,
+            RunPhase::Offline(_) => State::Idle,
+            _ if self.playback.paused => State::Paused,
+            RunPhase::Gathering(_) | RunPhase::Standing(_) | RunPhase::Starting(_)
+                if self.pipeline.driven.is_none() =>
+            {
+                State::Preparing
+            }
+            _ if self.playback.purpose == RunPurpose::Preview => State::Preview,
             _ => State::Playing,
         }
     }
 
     /// The run at `now`.
-    pub fn view(&self, desk: &Desk, now: Instant) -> RunView {
-        let last = self.show.frames.len().saturating_sub(1);
-        let current = self.current.as_ref().map(|leg| leg.frame);
-        let (frame, began) = match &self.phase {
-            Phase::Driving(drive) => (current.unwrap_or(0), Some(drive.began)),
-            Phase::Starting(_) => (self.next.frame.min(last), None),
-            _ => (current.unwrap_or(self.next.frame.min(last)), None),
+    pub fn view(&self, context: &Context, now: Instant) -> RunView {
+        let began = match &self.phase {
+            RunPhase::Driving(drive) => Some(drive.clock.began),
+            _ => None,
         };
         RunView {
-            frame,
+            frame: self.frame(),
             doing: self.doing(),
             progress: self.progress(now),
-            drive_s: self.current.as_ref().map_or(0.0, |leg| leg.duration.as_secs()),
+            drive_s: self.pipeline.leg().map_or(0.0, |leg| leg.duration.as_secs()),
             began,
-            waiting_for: self.waiting_for(desk, now),
-            frames_played: self.frames_played,
-            dropouts: self.dropouts,
+            waiting_for: self.waiting_for(context, now),
+            frames_played: self.tally.frames_played,
+            dropouts: self.tally.dropouts,
         }
     }
 
     fn doing(&self) -> &'static str {
         match &self.phase {
-            Phase::Offline(_) => "waiting for the broker",
-            Phase::Gathering(_) => "asking where everybody stands",
-            Phase::Starting(_) => "about to leave",
-            Phase::Driving(drive) if drive.hold.is_some() => "holding",
-            Phase::Driving(_) => "driving",
-            Phase::Standing(_) if self.current.as_ref().is_some_and(|leg| leg.airs) => "showing",
-            Phase::Standing(_) if self.drafting.is_some() => "planning",
-            Phase::Standing(_) => "handing out routes",
+            RunPhase::Offline(_) => "waiting for the broker",
+            RunPhase::Gathering(_) => "asking robots where they are",
+            RunPhase::Starting(_) => "starting",
+            RunPhase::Driving(drive) if drive.clock.hold.is_some() => "holding",
+            RunPhase::Driving(_) => "driving",
+            RunPhase::Standing(_) if self.pipeline.leg().is_some_and(|leg| leg.reaches_frame) => "showing",
+            RunPhase::Standing(_) if self.pipeline.planning.pending.is_some() => "planning",
+            RunPhase::Standing(_) => "uploading routes",
+            RunPhase::Over(..) => "over",
         }
     }
 
@@ -62,49 +62,44 @@ impl Run {
         let share = |past: Span, whole: Span| {
             if whole.0 > 0 { (past.as_secs() / whole.as_secs()).clamp(0.0, 1.0) } else { 1.0 }
         };
-        match &self.phase {
-            Phase::Driving(_) if self.current.as_ref().is_some_and(|leg| leg.kind == Kind::Targets) => {
-                self.hops_passed()
-            }
-            Phase::Driving(drive) => {
-                share(drive.path_time(now), self.current.as_ref().map_or(Span::ZERO, |leg| leg.duration))
-            }
-            Phase::Standing(standing) if standing.paused.is_none() => {
-                share(now - standing.since, standing.until - standing.since)
+        match (&self.phase, &self.pipeline.driven) {
+            (RunPhase::Driving(drive), Some(driven)) => match driven.leg.kind {
+                LegKind::Targets => driven.targets.share(&driven.leg),
+                LegKind::Routes => share(drive.clock.path_time(now), driven.leg.duration),
+            },
+            (RunPhase::Standing(standing), _) if standing.air.left.is_none() => {
+                share(now - standing.air.since, standing.air.until - standing.air.since)
             }
             _ => 0.0,
         }
     }
 
-    fn waiting_for(&self, desk: &Desk, now: Instant) -> Vec<RobotId> {
-        let Phase::Driving(drive) = &self.phase else { return Vec::new() };
-        let follows_path = self.current.as_ref().is_some_and(|leg| leg.kind == Kind::Routes);
-        let overdue = now > drive.ends && follows_path;
-        let held_up = |seat: &usize| {
-            let known = &self.seats[*seat];
-            known.late.is_some()
-                || self.is_stuck(*seat) && !known.out
-                || overdue && !known.arrived && self.is_awaited(*seat)
+    fn waiting_for(&self, context: &Context, now: Instant) -> Vec<RobotId> {
+        let (RunPhase::Driving(drive), Some(driven)) = (&self.phase, &self.pipeline.driven) else {
+            return Vec::new();
         };
-        let late = (0..self.seats.len()).filter(held_up).take(WAITING_MAX);
-        late.map(|seat| desk.fleet.robot(self.seats[seat].robot).id).collect()
+        let is_overdue = now > drive.clock.ends && driven.leg.kind == LegKind::Routes;
+        let holds_up = |&(participant, _): &(usize, _)| {
+            let progress = &drive.progress[participant];
+            progress.late_since.is_some()
+                || driven.targets.is_stalled(participant)
+                || is_overdue && !progress.arrived && driven.leg.is_driven_by(participant)
+        };
+        let late = self.roster.active().filter(holds_up).take(WAITING_MAX);
+        late.map(|(_, known)| context.fleet.robot(known.robot).id).collect()
     }
 
     /// Adds to a robot's view what the run knows of it.
-    pub fn complete(&self, view: &mut RobotView, seat: usize, now: Instant) {
-        let Some(known) = self.seats.get(seat) else { return };
-        view.takes_part = !known.out;
-        let Some(leg) = &self.current else { return };
-        let Some(step) = leg.moves.get(seat).filter(|_| !known.out) else { return };
+    pub fn complete(&self, view: &mut RobotView, participant: usize, now: Instant) {
+        let Some(known) = self.roster.participants.get(participant) else { return };
+        view.takes_part = !known.is_excluded();
+        let Some(leg) = self.pipeline.leg() else { return };
+        let Some(step) = leg.robots.get(participant).filter(|_| !known.is_excluded()) else { return };
         view.pixel = step.pixel;
         view.goal = Some(step.goal);
-        if let (Phase::Driving(drive), Kind::Routes) = (&self.phase, leg.kind) {
-            view.planned = self.planned_place(drive, seat, now);
+        if let (RunPhase::Driving(drive), LegKind::Routes) = (&self.phase, leg.kind) {
+            let place = |path: &lightbots_plan::Path| path.as_ref().at(drive.clock.path_time(now)).position;
+            view.planned = leg.path(participant).map(place);
         }
-    }
-
-    fn planned_place(&self, drive: &Drive, seat: usize, now: Instant) -> Option<lightbots_base::Vec2> {
-        let path = self.current.as_ref()?.path(seat)?;
-        Some(path.as_ref().at(drive.path_time(now)).position)
     }
 }

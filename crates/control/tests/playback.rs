@@ -203,7 +203,7 @@ fn a_robot_is_simulated_only_while_its_last_report_says_so() {
     let mut world = World::new(0, 0);
     let mut said = |report: &str| {
         world.controller.message(world.now, "T/LightBot/UUID", report.as_bytes());
-        world.controller.snapshot(world.now).robots[0].simulated
+        world.controller.snapshot(world.now).robots[0].reported.simulated
     };
     assert!(said("r7 0.1 0.2 state=idle sim=1"));
     assert!(!said("r7 0.1 0.2 state=idle"));

@@ -71,7 +71,8 @@ impl RunReport {
                 let robots = places.filter(stands).into_iter().flat_map(|snapshot| &snapshot.robots);
                 let taking_part = robots.filter(|robot| robot.takes_part && robot.pixel.is_some());
                 let error = |(at, goal): (lightbots_base::Vec2, _)| at.distance(goal);
-                self.errors_m.extend(taking_part.filter_map(|robot| robot.at.zip(robot.goal)).map(error));
+                self.errors_m
+                    .extend(taking_part.filter_map(|robot| robot.reported.at.zip(robot.goal)).map(error));
             }
             EventKind::Dropout { .. } => self.dropouts += 1,
             EventKind::Rejoined(_) => self.rejoined += 1,

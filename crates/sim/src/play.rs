@@ -160,8 +160,10 @@ impl Play {
         }
         let robots = self.controller.snapshot(self.now).robots;
         // An original robot says neither what it does nor what its clock does.
-        let is_ready =
-            |robot: &&RobotView| robot.at.is_some() && (robot.clock_us.is_some() || robot.state.is_none());
+        let is_ready = |robot: &&RobotView| {
+            robot.reported.at.is_some()
+                && (robot.reported.clock_us.is_some() || robot.reported.state.is_none())
+        };
         let ready = robots.iter().filter(is_ready).count();
         let late = self.now > Instant::ZERO + GATHERING;
         if ready < self.crew.len() && !late {
@@ -192,7 +194,7 @@ impl Play {
 
     /// Makes the plans the controller asks for. That takes no virtual time: how long it takes depends on the machine.
     fn plan(&mut self, progress: &mut dyn FnMut(Progress<'_>)) {
-        while let Some(job) = self.controller.next_job() {
+        while let Some(job) = self.controller.next_plan_request() {
             progress(Progress::Planning);
             self.controller.planned(self.now, job.run());
             self.drain_controller();

@@ -127,7 +127,7 @@ impl World {
     }
 
     fn drain(&mut self) {
-        while let Some(job) = self.controller.next_job() {
+        while let Some(job) = self.controller.next_plan_request() {
             self.budgets.push(job.budget());
             let is_over = job.budget().is_some() && self.slow_plans > 0;
             self.slow_plans -= usize::from(is_over);

@@ -140,8 +140,8 @@ async fn gather(
 
 /// Whether a robot can take part.
 fn is_ready(robot: &RobotView) -> bool {
-    let fit = !matches!(robot.state, Some(RobotState::Lost | RobotState::Faulty));
-    robot.age == Age::Active && robot.at.is_some() && fit
+    let fit = !matches!(robot.reported.state, Some(RobotState::Lost | RobotState::Faulty));
+    robot.contact.age == Age::Active && robot.reported.at.is_some() && fit
 }
 
 /// One line for a wait that ended with too few.
@@ -155,7 +155,7 @@ fn nobody(arguments: &PlayArguments, snapshot: &Snapshot, ready: usize, wanted: 
             "no broker answers at {broker} within {patience} s: is the address right?"
         ));
     }
-    let lost = snapshot.robots.iter().filter(|robot| robot.at.is_none()).count();
+    let lost = snapshot.robots.iter().filter(|robot| robot.reported.at.is_none()).count();
     let unknown = if lost > 0 { format!("; {lost} more do not know where they are") } else { String::new() };
     if ready == 0 {
         return Failure::problem(format!(

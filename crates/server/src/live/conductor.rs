@@ -4,7 +4,9 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
-use lightbots_control::{Config, Controller, Done, Event, Job, Operation, Refusal, Snapshot, State};
+use lightbots_control::{
+    Config, Controller, Event, Operation, PlanRequest, PlanResult, Refusal, Snapshot, State,
+};
 use lightbots_link::{BrokerUrl, Link, LinkEvent};
 use lightbots_wire::Topic;
 use tokio::sync::{broadcast, mpsc, oneshot};
@@ -160,7 +162,7 @@ struct Conductor {
     /// A plan is being made, and is given up once this is true.
     planning: Option<Arc<AtomicBool>>,
     /// The newest plan that is wanted: one is made after the other, and those that are not wanted any more never.
-    next_job: Option<Job>,
+    next_job: Option<PlanRequest>,
     link: Option<Link>,
     /// The broker's addresses, one by one.
     nodes: Vec<String>,
@@ -168,8 +170,8 @@ struct Conductor {
     rivals: Rivals,
     inbox: mpsc::Receiver<Order>,
     news: broadcast::Sender<News>,
-    done: mpsc::Receiver<Option<Done>>,
-    done_sender: mpsc::Sender<Option<Done>>,
+    done: mpsc::Receiver<Option<PlanResult>>,
+    done_sender: mpsc::Sender<Option<PlanResult>>,
 }
 
 impl Conductor {
@@ -294,7 +296,7 @@ impl Conductor {
 
     /// Has the newest plan made that is wanted, once the one before is done.
     fn plan(&mut self) {
-        while let Some(job) = self.controller.next_job() {
+        while let Some(job) = self.controller.next_plan_request() {
             self.next_job = Some(job);
             // The plan under way is not wanted any more, and robots may wait for the new one.
             if let Some(old) = &self.planning {

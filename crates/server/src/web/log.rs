@@ -198,8 +198,8 @@ mod tests {
         let on = News::Event(Event { at: Instant::ZERO, kind: EventKind::Resumed });
         let lines = lines_of(vec![wait(1), on.clone(), wait(2), wait(3), on]).await;
         let texts: Vec<&str> = lines.iter().map(|line| line.text.as_str()).collect();
-        let first = "Everybody waits for robot r1: it is behind its path.";
-        let then = "Everybody waits for 2 robots. Of each: it is behind its path.";
-        assert_eq!(texts, [first, "On again.", then, "On again."]);
+        let first = "Waiting for robot r1: it is behind its path.";
+        let then = "Waiting for 2 robots. Of each: it is behind its path.";
+        assert_eq!(texts, [first, "Resumed.", then, "Resumed."]);
     }
 }

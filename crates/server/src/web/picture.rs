@@ -235,8 +235,8 @@ fn robots(snapshot: &Snapshot) -> api::Robots {
     };
     let (x, y) = (|at: Vec2| at.x, |at: Vec2| at.y);
     api::Robots {
-        x: along(|robot| robot.at, x),
-        y: along(|robot| robot.at, y),
+        x: along(|robot| robot.reported.at, x),
+        y: along(|robot| robot.reported.at, y),
         planned_x: along(|robot| robot.planned, x),
         planned_y: along(|robot| robot.planned, y),
         goal_x: along(|robot| robot.goal, x),
@@ -252,31 +252,31 @@ fn colour(robot: &RobotView) -> u32 {
 }
 
 fn row(robot: &RobotView, snapshot: &Snapshot) -> api::FleetRow {
-    let firmware = robot.firmware.as_str();
+    let firmware = robot.reported.firmware.as_str();
     api::FleetRow {
         id: robot.id.to_string(),
         status: status(robot),
-        presence: match robot.age {
+        presence: match robot.contact.age {
             Age::Active => api::Presence::Active,
             Age::Stale => api::Presence::Stale,
             Age::Gone => api::Presence::Gone,
         },
-        age_s: rounded((snapshot.at - robot.heard).as_secs(), 1),
-        battery: robot.battery,
+        age_s: rounded((snapshot.at - robot.contact.heard).as_secs(), 1),
+        battery: robot.reported.battery,
         pixel: robot.pixel,
         firmware: (!firmware.is_empty()).then(|| firmware.to_owned()),
         abilities: api::Abilities {
-            route: robot.abilities.route,
-            fade: robot.abilities.fade,
-            blink: robot.abilities.blink,
+            route: robot.reported.abilities.route,
+            fade: robot.reported.abilities.fade,
+            blink: robot.reported.abilities.blink,
         },
-        clock_us: robot.clock_us,
-        simulated: robot.simulated,
+        clock_us: robot.reported.clock_us,
+        simulated: robot.reported.simulated,
     }
 }
 
 fn status(robot: &RobotView) -> api::RobotStatus {
-    match robot.state {
+    match robot.reported.state {
         // An original robot does not say what it does.
         None | Some(RobotState::Idle) => api::RobotStatus::Idle,
         Some(RobotState::Ready) => api::RobotStatus::Ready,

@@ -93,11 +93,11 @@ impl Sum {
         match &self.first {
             EventKind::RobotFound(_) => format!("{count} robots are here."),
             EventKind::RobotRestarted(_) => format!("{count} robots have restarted."),
-            EventKind::RobotStale(_) => format!("{count} robots have not been heard lately."),
+            EventKind::RobotStale(_) => format!("{count} robots have not reported lately."),
             EventKind::RobotGone(_) => format!("{count} robots are gone."),
             EventKind::RobotBack(_) => format!("{count} robots are back."),
             EventKind::Waiting { why, .. } => {
-                format!("Everybody waits for {count} robots. Of each: it {why}.")
+                format!("Waiting for {count} robots. Of each: it {why}.")
             }
             EventKind::Dropout { why, .. } => format!("{count} robots drop out. Of each: it {why}."),
             EventKind::Rejoined(_) => format!("{count} robots take part from the next frame on."),

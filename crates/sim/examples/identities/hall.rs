@@ -126,7 +126,7 @@ impl Hall {
                 quiet = false;
                 self.fleet.receive(self.now, &send.topic.write(), &send.payload);
             }
-            while let Some(job) = self.controller.next_job() {
+            while let Some(job) = self.controller.next_plan_request() {
                 quiet = false;
                 self.controller.planned(self.now, job.run());
             }

@@ -1,0 +1,73 @@
+//! What every run works with, and what outlives a run.
+
+use crate::config::Config;
+use crate::drafting::PlanRequest;
+use crate::event::EventKind;
+use crate::fleet::Fleet;
+use crate::log::Log;
+use crate::mapping::Mapping;
+use crate::outbox::Outbox;
+use lightbots_base::{Instant, Rgb};
+use lightbots_wire::Report;
+
+/// What every run works with, and what outlives a run.
+#[derive(Clone, Debug)]
+pub(crate) struct Context {
+    /// Bounds and tolerances.
+    pub config: Config,
+    /// All known robots.
+    pub fleet: Fleet,
+    /// Messages to be sent.
+    pub outbox: Outbox,
+    /// Events to be read.
+    pub log: Log,
+    /// Which robot shows which pixel.
+    pub mapping: Mapping,
+    /// A plan to be made; a newer one replaces an older one.
+    pub plan_request: Option<PlanRequest>,
+    /// Number of the last plan request.
+    pub plan_number: u64,
+    /// Number of the next route.
+    next_route: u32,
+    /// Arrivals of robots that were sent nowhere.
+    pub unexpected: u64,
+    /// Routes sent more than once.
+    pub resent: u64,
+}
+
+impl Context {
+    /// An empty fleet.
+    pub fn new(config: Config) -> Self {
+        Self {
+            next_route: config.seq_base.max(1),
+            config,
+            fleet: Fleet::default(),
+            outbox: Outbox::default(),
+            log: Log::default(),
+            mapping: Mapping::default(),
+            plan_request: None,
+            plan_number: 0,
+            unexpected: 0,
+            resent: 0,
+        }
+    }
+
+    /// A route number that was not used before; never 0.
+    pub fn number_route(&mut self) -> u32 {
+        let number = self.next_route;
+        self.next_route = number.checked_add(1).unwrap_or(1);
+        number
+    }
+
+    /// Sets the light that a robot is told to show from now on; whether it is another one.
+    pub fn set_light(&mut self, robot: usize, color: Rgb) -> bool {
+        let robot = self.fleet.robot_mut(robot);
+        std::mem::replace(&mut robot.light, color) != color
+    }
+
+    /// An arrival of a robot that was sent nowhere is counted, and reported at a bounded rate.
+    pub fn report_unexpected(&mut self, now: Instant, report: &Report) {
+        self.unexpected += 1;
+        self.log.record_limited(now, EventKind::UnexpectedArrival(report.id));
+    }
+}

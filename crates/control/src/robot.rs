@@ -1,0 +1,162 @@
+//! One robot, as the controller knows it.
+
+use crate::snapshot::{Age, LastContact, Reported, RobotView};
+use lightbots_base::{Instant, Rgb, RobotId, Vec2};
+use lightbots_wire::{Details, Report, RobotState};
+
+/// Places nearer to each other than this are the same for a robot whose fixes are noisy, metres.
+const SAME_PLACE_M: f64 = 0.012;
+
+/// How far before its target a robot with the original firmware comes to rest.
+struct StopsShort {
+    /// Until it is measured, metres.
+    first_m: f64,
+    /// At most, metres: its tolerance.
+    most_m: f64,
+    /// How far it rolls on after it reported that it arrived, metres.
+    rolls_on_m: f64,
+    /// Share by which each arrival corrects the estimate.
+    gain: f64,
+}
+
+const STOPS_SHORT: StopsShort = StopsShort { first_m: 0.012, most_m: 0.02, rolls_on_m: 0.006, gain: 0.5 };
+
+const _: () = assert!(STOPS_SHORT.first_m <= STOPS_SHORT.most_m && STOPS_SHORT.gain < 1.0);
+
+/// What is known of a robot.
+#[derive(Clone, Debug)]
+pub(crate) struct Robot {
+    /// Its name.
+    pub id: RobotId,
+    /// What its last report said.
+    pub reported: Reported,
+    /// When it reported.
+    pub contact: LastContact,
+    /// Since when it reports the same place.
+    pub standstill: Standstill,
+    /// When a robot that knows TARGET only was asked for a report.
+    pub asked: Instant,
+    /// How far before its target such a robot comes to rest, metres.
+    pub short_m: f64,
+    /// The light it was told to show.
+    pub light: Rgb,
+    /// Its number in the run.
+    pub participant: Option<u32>,
+    /// The pixel it showed when the last run ended.
+    pub pixel: Option<u32>,
+    /// Where it stood then, stage metres.
+    pub goal: Option<Vec2>,
+}
+
+/// How long a robot has reported the same place.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Standstill {
+    /// Since then.
+    pub since: Instant,
+    /// Where that began, stage metres.
+    at: Option<Vec2>,
+}
+
+impl Robot {
+    /// A robot that is found now.
+    pub fn new(id: RobotId, now: Instant) -> Self {
+        Self {
+            id,
+            reported: Reported::default(),
+            contact: LastContact { found: now, heard: now, age: Age::Active },
+            standstill: Standstill { since: now, at: None },
+            asked: now,
+            short_m: STOPS_SHORT.first_m,
+            light: Rgb::BLACK,
+            participant: None,
+            pixel: None,
+            goal: None,
+        }
+    }
+
+    /// Whether it knows TARGET and COLOR only: the original firmware.
+    pub fn is_original(&self) -> bool {
+        !self.reported.abilities.route
+    }
+
+    /// Whether it reported lately, and neither a fault nor that it is lost.
+    pub fn is_fit(&self) -> bool {
+        self.contact.age == Age::Active
+            && !matches!(self.reported.state, Some(RobotState::Faulty | RobotState::Lost))
+    }
+
+    /// Whether it reported lately.
+    pub fn is_heard(&self) -> bool {
+        self.contact.age == Age::Active
+    }
+
+    /// What a screen shows of it outside a run.
+    pub fn view(&self) -> RobotView {
+        RobotView {
+            id: self.id,
+            reported: self.reported.clone(),
+            contact: self.contact,
+            planned: None,
+            goal: self.goal,
+            pixel: self.pixel,
+            light: self.light,
+            takes_part: false,
+        }
+    }
+
+    /// Whether it could take part in a run now.
+    pub fn can_take_part(&self) -> bool {
+        self.is_fit() && self.reported.at.is_some()
+    }
+
+    /// Whether its last report says that its wheels may turn.
+    pub fn may_move(&self) -> bool {
+        matches!(self.reported.state, Some(RobotState::Driving))
+    }
+
+    /// A robot that knows TARGET only arrived at `at`, sent from `from` to `target`: it may be sent a little farther next
+    /// time.
+    pub fn learn_short(&mut self, from: Vec2, target: Vec2, at: Vec2) {
+        let Some(towards) = (target - from).normalized() else { return };
+        let StopsShort { most_m, rolls_on_m, gain, .. } = STOPS_SHORT;
+        let short_m = ((target - at).dot(towards) - rolls_on_m).clamp(0.0, most_m);
+        self.short_m += (short_m - self.short_m) * gain;
+    }
+
+    /// A report with this place came; whether it says that the robot was restarted.
+    pub fn receive(&mut self, now: Instant, report: &Report, place: Option<Vec2>) -> bool {
+        self.contact.heard = now;
+        let same = |(at, place): (Vec2, Vec2)| at.distance(place) < SAME_PLACE_M;
+        if !place.zip(self.standstill.at).is_some_and(same) {
+            self.standstill = Standstill { since: now, at: place };
+        }
+        if place.is_some() || report.details.is_some() {
+            self.reported.at = place;
+        }
+        // The original firmware does not say: such a robot is real, even where a simulated one had its name.
+        self.reported.simulated = report.details.as_ref().is_some_and(|details| details.simulated);
+        let restarted = report.details.as_ref().is_some_and(|details| self.take_over(details));
+        if restarted {
+            self.light = Rgb::BLACK;
+        }
+        restarted
+    }
+
+    /// Takes over details; whether they say that the robot was restarted.
+    fn take_over(&mut self, details: &Details) -> bool {
+        let known = &mut self.reported;
+        let restarted = known.clock_us.is_some() && details.clock_us.is_none() && details.route == 0;
+        known.heading = details.heading;
+        known.battery = details.battery;
+        known.state = Some(details.state);
+        known.off_m = details.off_m;
+        known.blocked = details.blocked;
+        known.clock_us = details.clock_us;
+        known.route = details.route;
+        known.abilities = details.abilities;
+        if known.firmware != details.firmware {
+            known.firmware = details.firmware.clone();
+        }
+        restarted
+    }
+}

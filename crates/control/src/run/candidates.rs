@@ -1,0 +1,47 @@
+//! Robots that want to take part: new ones, and participants that dropped out and report again.
+
+use crate::event::EventKind;
+use crate::run::playback::RunPurpose;
+use crate::run::probation;
+use crate::run::readiness::is_ready;
+use crate::run::run_context::RunContext;
+
+/// A robot of the fleet reports that takes no part, or is excluded: it may take part from the next frame on.
+/// `is_stopping`: all are being told to stop.
+pub(crate) fn consider(cx: &mut RunContext, robot: usize, is_stopping: bool) {
+    let participant = cx.io.fleet.robot(robot).participant.map(|participant| participant as usize);
+    let is_welcome = match participant {
+        Some(participant) => cx.participant(participant).membership.may_return(),
+        None => cx.pipeline.planning.is_dark,
+    };
+    let plays = cx.playback.purpose == RunPurpose::Play;
+    if !is_welcome || !plays || !is_ready(cx.io, robot) || cx.roster.candidates.contains(&robot) {
+        return;
+    }
+    if participant.is_none_or(|participant| probation::passes(cx, participant, is_stopping)) {
+        cx.roster.candidates.push(robot);
+    }
+}
+
+/// Robots that want to take part do, while all stand; whether any does now that did not before.
+pub(crate) fn admit(cx: &mut RunContext) -> bool {
+    if cx.roster.candidates.is_empty() || cx.playback.is_ended() {
+        return false;
+    }
+    let mut is_any_admitted = false;
+    for robot in std::mem::take(&mut cx.roster.candidates) {
+        if !is_ready(cx.io, robot) {
+            continue;
+        }
+        let known =
+            cx.io.fleet.robot(robot).participant.map(|participant| cx.participant(participant as usize));
+        if known.is_some_and(|known| known.membership.eligible_from_frame > cx.tally.frames_played) {
+            cx.roster.candidates.push(robot);
+            continue;
+        }
+        cx.roster.admit(cx.io, robot);
+        is_any_admitted = true;
+        cx.io.log.record(cx.now, EventKind::Rejoined(cx.io.fleet.robot(robot).id));
+    }
+    is_any_admitted
+}

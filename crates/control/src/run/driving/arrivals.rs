@@ -1,0 +1,114 @@
+//! Arrivals, and the end of a leg.
+
+use crate::event::EventKind;
+use crate::leg::LegKind;
+use crate::run::driving::drive::Driving;
+use crate::run::next::{AirTime, Next};
+use crate::run::run_context::RunContext;
+use lightbots_base::{Instant, Span, Vec2};
+use lightbots_wire::RobotState;
+
+/// An arrival that is reported within this of the planned end is in time: the frame stands since the planned end.
+const IN_TIME: Span = Span::from_millis(250);
+/// A robot that stands farther from its goal than this has missed it, metres: a robot's diameter is 54 mm, so that it
+/// would stand in another's place.
+pub(crate) const MISSED_M: f64 = 0.06;
+
+impl Driving {
+    /// A robot that follows paths says that it arrived.
+    pub fn on_arrival(&mut self, cx: &mut RunContext, participant: usize, at: Option<Vec2>) -> Next {
+        let (Some(at), Some(goal)) = (at, cx.goal(participant)) else { return Next::Stay };
+        if !self.is_under_way(cx, participant) {
+            return Next::Stay;
+        }
+        let (begun, is_held) = (cx.now >= self.clock.began, self.clock.hold.is_some());
+        let off_m = at.distance(goal);
+        if begun && is_there(at, goal, cx.io.config.arrival_tolerance_m) {
+            self.arrive(cx, participant)
+        } else if cx.now + IN_TIME >= self.clock.ends && !is_held && off_m <= MISSED_M {
+            // The robot believes to be there and will not say so again.
+            self.accept_misaligned(cx, participant, off_m)
+        } else {
+            Next::Stay
+        }
+    }
+
+    /// Robots that had ended the leg's route before it was under way here will not say so again.
+    pub fn arrive_before_start(&mut self, cx: &mut RunContext) -> Next {
+        let Some(leg) = cx.pipeline.leg().filter(|leg| leg.kind == LegKind::Routes) else {
+            return Next::Stay;
+        };
+        let is_there = |participant: &usize| {
+            let reported = &cx.robot(*participant).reported;
+            let ended = reported.state == Some(RobotState::Idle) && reported.route == leg.seq;
+            let goal = leg.robots[*participant].goal;
+            let near = |at: Vec2| is_there(at, goal, cx.io.config.arrival_tolerance_m);
+            cx.is_awaited(*participant) && ended && reported.at.is_some_and(near)
+        };
+        let there: Vec<usize> = (0..leg.robots.len()).filter(is_there).collect();
+        there.into_iter().fold(Next::Stay, |next, participant| next.or_else(|| self.arrive(cx, participant)))
+    }
+
+    /// Counts an arrival; the last one ends the leg.
+    pub fn arrive(&mut self, cx: &mut RunContext, participant: usize) -> Next {
+        if std::mem::replace(&mut self.progress[participant].arrived, true) {
+            return Next::Stay;
+        }
+        self.arrivals += 1;
+        self.last_arrival = self.last_arrival.max(cx.now);
+        let leg = cx.pipeline.leg();
+        if leg.and_then(|leg| leg.robots.get(participant)).is_some_and(|step| step.settles) {
+            let first = cx.tally.arrivals.map_or(cx.now, |(first, _)| first);
+            cx.tally.arrivals = Some((first, cx.now));
+        }
+        self.clear_late(participant);
+        self.end_leg(cx)
+    }
+
+    /// A robot that stands off its goal for good counts as arrived, and the rest is planned from where it is.
+    pub fn accept_misaligned(&mut self, cx: &mut RunContext, participant: usize, off_m: f64) -> Next {
+        let robot = cx.robot(participant).id;
+        cx.io.log.record_limited(cx.now, EventKind::Misaligned { robot, off_m });
+        cx.pipeline.planning.is_outdated = true;
+        self.arrive(cx, participant)
+    }
+
+    /// Ends the leg if all have arrived.
+    pub fn end_leg(&mut self, cx: &mut RunContext) -> Next {
+        let Some(leg) = cx.pipeline.leg() else { return Next::Stay };
+        let (now, clock) = (cx.now, self.clock);
+        if self.arrivals < leg.drivers || now < clock.began {
+            return Next::Stay;
+        }
+        assert!(self.arrivals == leg.drivers, "a participant arrived twice");
+        let (reaches_frame, frame) = (leg.reaches_frame, leg.frame);
+        let in_time = leg.kind == LegKind::Routes && self.last_arrival - clock.ends <= IN_TIME;
+        let stands_since = if in_time { clock.ends.min(now) } else { now };
+        cx.playback.paused |= clock.open_hold().is_some_and(|hold| hold.by_operator);
+        let mut air = Span::ZERO;
+        if reaches_frame {
+            air = cx.playback.standing_time(frame);
+            reach_frame(cx, frame, clock.ends);
+        }
+        let left = cx.playback.paused.then_some(air);
+        Next::Stand(AirTime { since: now, until: stands_since + air, left })
+    }
+}
+
+/// The frame stands; it was to stand by plan at `ends`.
+fn reach_frame(cx: &mut RunContext, frame: usize, ends: Instant) {
+    let spread = cx.tally.arrivals.take().map_or(Span::ZERO, |(first, last)| last - first);
+    let wait = (cx.now - ends).max(Span::ZERO);
+    cx.io.log.record(cx.now, EventKind::FrameReached { frame, spread, wait });
+    cx.tally.frames_played += 1;
+    cx.tally.recovery.reached(cx.now);
+    cx.link.fade();
+    cx.playback.paused |= std::mem::take(&mut cx.playback.stepping);
+    cx.pipeline.obstacles = Default::default();
+    cx.playback.advance();
+}
+
+/// Whether a place is the goal, as the original firmware tests it: along x and along y.
+pub(crate) fn is_there(at: Vec2, goal: Vec2, tolerance_m: f64) -> bool {
+    (at.x - goal.x).abs() <= tolerance_m + 1e-9 && (at.y - goal.y).abs() <= tolerance_m + 1e-9
+}

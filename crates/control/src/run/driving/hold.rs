@@ -1,0 +1,96 @@
+//! HOLD and RESUME: all robots slow down and pick up together, so that they keep to the proven plan.
+
+use crate::event::{EventKind, Trouble};
+use crate::run::driving::drive::{ASK_AFTER_END, Driving};
+use crate::run::path_clock::Hold;
+use crate::run::run_context::RunContext;
+use crate::run::target_commands;
+use lightbots_base::Span;
+use lightbots_wire::{Command, Route};
+
+/// How often HOLD and RESUME are sent, and how far apart: with one message in ten lost, one robot of 100,000 misses all.
+const COPIES: (u32, Span) = (5, Span::from_millis(30));
+/// Least time that is left of a drive for a hold to be worth it: robots take [`Route::EASE`] to stop and to pick up.
+const WORTH: Span = Span::from_millis(400);
+/// How long after all should stand it is looked at whether they do: time for a report of each.
+const CHECK_AFTER: Span = Span::from_millis(400);
+
+impl Driving {
+    /// All robots slow down together.
+    pub fn hold(&mut self, cx: &mut RunContext, by_operator: bool) {
+        let (now, clock) = (cx.now, &mut self.clock);
+        if let Some(hold) = &mut clock.hold
+            && hold.until.is_none()
+        {
+            hold.by_operator |= by_operator;
+            hold.release_at = None;
+            return;
+        }
+        if !by_operator && now + WORTH > clock.ends {
+            return;
+        }
+        let mut at = now + cx.link.hold_lead();
+        if let Some(Hold { at: before, until: Some(until), .. }) = clock.hold {
+            // All are still picking up again: they stop once they have.
+            at = at.max(until + Route::EASE);
+            clock.lost += until - before;
+        }
+        let check_at = at + Route::EASE + CHECK_AFTER;
+        clock.hold = Some(Hold { at, by_operator, until: None, release_at: None, check_at });
+        if cx.is_target_leg() {
+            target_commands::halt_all(cx);
+        } else {
+            cx.io.outbox.broadcast(now, Command::Hold { at }, COPIES.0, COPIES.1);
+        }
+    }
+
+    /// All robots pick up again together, once all stand. RESUME is stated as late as it can be: stated earlier, one hold
+    /// after the other would be postponed until long after its reason.
+    pub fn release(&mut self, cx: &mut RunContext) {
+        let (now, lead) = (cx.now, cx.link.hold_lead());
+        let Some(hold) = self.clock.hold.as_mut().filter(|hold| hold.until.is_none()) else { return };
+        let statable = hold.at + Route::EASE - lead;
+        if now < statable {
+            (hold.release_at, hold.by_operator) = (Some(statable), false);
+            return;
+        }
+        let until = (now + lead).max(hold.at + Route::EASE);
+        (hold.until, hold.release_at) = (Some(until), None);
+        self.clock.ends += until - hold.at;
+        self.ask_at = self.clock.ends + ASK_AFTER_END;
+        cx.io.log.record(now, EventKind::Resumed);
+        if cx.is_target_leg() {
+            target_commands::resume_all(cx);
+        } else {
+            cx.io.outbox.broadcast(now, Command::Resume { at: until }, COPIES.0, COPIES.1);
+        }
+    }
+
+    /// The operator goes on.
+    pub fn resume(&mut self, cx: &mut RunContext) {
+        if let Some(hold) = &mut self.clock.hold {
+            hold.by_operator = false;
+        }
+        if self.late == 0 {
+            self.release(cx);
+        }
+    }
+
+    /// A participant is late: all wait for it.
+    pub fn mark_late(&mut self, cx: &mut RunContext, participant: usize, why: Trouble) {
+        self.late += 1;
+        self.progress[participant].late_since = Some(cx.now);
+        self.progress[participant].is_unsure = why == Trouble::Unsure;
+        cx.report_waiting(participant, why);
+        self.hold(cx, false);
+    }
+
+    /// A participant is late no more, if it was; whether it was.
+    pub fn clear_late(&mut self, participant: usize) -> bool {
+        let was_late = self.progress[participant].late_since.take().is_some();
+        if was_late {
+            self.late = self.late.saturating_sub(1);
+        }
+        was_late
+    }
+}

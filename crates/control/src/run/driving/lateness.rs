@@ -1,0 +1,109 @@
+//! Robots off their paths, and robots that are not sure of their place: all wait for them, within bounds.
+
+use crate::event::Trouble;
+use crate::run::driving::drive::Driving;
+use crate::run::run_context::RunContext;
+use lightbots_base::{Span, Vec2};
+use lightbots_wire::Details;
+
+/// Largest distance off its path at which no robot waits for a robot, metres, however much room the plan leaves.
+pub(crate) const LATE_MAX_M: f64 = 0.03;
+/// Share of the bound for late robots below which a robot is back on its path: hysteresis.
+const BACK: f64 = 0.6;
+
+/// Standard errors of a robot's place (1 sigma) that count.
+struct Uncertainty {
+    /// A robot with a smaller error makes no robot wait, metres.
+    sure_m: f64,
+    /// A robot with a larger error makes all wait, before it is `lost` at 20 mm (R46), metres.
+    unsure_m: f64,
+    /// Between them all wait where another robot comes nearer than this many sigma …
+    sigmas: f64,
+    /// … and this for errors of the other robot, metres …
+    others_m: f64,
+    /// … within this time …
+    ahead: Span,
+    /// … in steps of this.
+    step: Span,
+}
+
+const UNCERTAINTY: Uncertainty = Uncertainty {
+    sure_m: 0.004,
+    unsure_m: 0.010,
+    sigmas: 2.5,
+    others_m: 0.003,
+    ahead: Span::from_millis(1_000),
+    step: Span::from_millis(50),
+};
+
+const _: () = assert!(UNCERTAINTY.sure_m < UNCERTAINTY.unsure_m && UNCERTAINTY.others_m < UNCERTAINTY.sure_m);
+
+/// How long all wait for robots that are unsure of their place. In a large fleet some robot is unsure all the time.
+struct Patience {
+    /// In fleets of up to `robots`; in larger ones less, in proportion.
+    longest: Span,
+    robots: f64,
+    /// In the largest fleets.
+    shortest: Span,
+}
+
+const PATIENCE: Patience =
+    Patience { longest: Span::from_millis(3_500), robots: 40.0, shortest: Span::from_millis(700) };
+
+impl Driving {
+    /// A driving robot says how far it is off its path, and how sure it is of its place.
+    pub fn on_progress(&mut self, cx: &mut RunContext, participant: usize, details: &Details) {
+        let room_m = cx.pipeline.leg().map_or(0.0, |leg| leg.room_m);
+        let late_m = cx.io.config.late_m.max((room_m / 2.0).min(LATE_MAX_M));
+        let off_m = details.off_m.unwrap_or(0.0);
+        let is_unsure = details.err_m.is_some_and(|err_m| self.is_too_unsure(cx, participant, err_m));
+        if (off_m > late_m || is_unsure) && self.progress[participant].late_since.is_none() {
+            self.mark_late(cx, participant, if is_unsure { Trouble::Unsure } else { Trouble::Late });
+            return;
+        }
+        let is_back = off_m < late_m * BACK && !is_unsure && self.clear_late(participant);
+        if is_back && self.late == 0 && self.clock.hold.is_some_and(|hold| !hold.by_operator) {
+            self.release(cx);
+        }
+    }
+
+    /// Whether a robot may touch another before all could stand, if its place is off by as much as it may be.
+    fn is_too_unsure(&self, cx: &RunContext, participant: usize, err_m: f64) -> bool {
+        let Uncertainty { sure_m, unsure_m, sigmas, others_m, ahead, step } = UNCERTAINTY;
+        let Some(leg) = cx.pipeline.leg() else { return false };
+        if !(sure_m..unsure_m).contains(&err_m) {
+            return err_m >= unsure_m;
+        }
+        let needed_m = cx.playback.contact_m() + sigmas * err_m + others_m;
+        let from = self.clock.path_time(cx.now).max(Span::ZERO);
+        let place = |one: usize, time: Span| match leg.path(one) {
+            Some(path) => path.as_ref().at(time).position,
+            None => leg.goal(one).unwrap_or(Vec2::ZERO),
+        };
+        let far_m = needed_m + 2.0 * cx.playback.show.stage.limits.speed_mps * ahead.as_secs();
+        let here = place(participant, from);
+        let near = |other: &usize| *other != participant && place(*other, from).distance(here) < far_m;
+        let near: Vec<usize> = (0..leg.robots.len()).filter(near).collect();
+        (0..=ahead.0 / step.0).any(|number| {
+            let time = from + step * number;
+            let at = place(participant, time);
+            near.iter().any(|&other| place(other, time).distance(at) < needed_m)
+        })
+    }
+
+    /// Where a robot is unsure all the time, waiting until all are sure would never end: after a while all go on, and
+    /// hold again for robots that still are. The more robots, the sooner.
+    pub fn lose_patience(&mut self, cx: &mut RunContext) {
+        let share = PATIENCE.robots / (cx.roster.len().max(1) as f64);
+        let longest_s = PATIENCE.longest.as_secs();
+        let patience = Span::from_secs((longest_s * share).min(longest_s)).max(PATIENCE.shortest);
+        let hold = self.clock.open_hold().filter(|hold| !hold.by_operator);
+        let waits_long = hold.is_some_and(|hold| cx.now - hold.at > patience);
+        let only_unsure = self.progress.iter().all(|known| known.late_since.is_none() || known.is_unsure);
+        if waits_long && only_unsure {
+            self.progress.iter_mut().for_each(|known| known.late_since = None);
+            self.late = 0;
+            self.release(cx);
+        }
+    }
+}

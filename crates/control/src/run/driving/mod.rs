@@ -1,0 +1,178 @@
+//! Robots drive. All state of a drive lives and dies here; read [`drive`] first, then the files in the order of the list.
+
+mod arrivals;
+mod drive;
+mod hold;
+mod lateness;
+mod obstruction;
+mod sightings;
+mod targets;
+mod watch;
+
+pub(crate) use arrivals::is_there;
+pub(crate) use drive::Driving;
+
+use crate::event::{EventKind, Trouble};
+use crate::leg::LegKind;
+use crate::run::lights;
+use crate::run::next::Next;
+use crate::run::path_clock::PathClock;
+use crate::run::pipeline::{DrivenLeg, Pipeline};
+use crate::run::roster::Whereabouts;
+use crate::run::run_context::RunContext;
+use crate::run::silence::{self, StopTimes};
+use crate::run::target_commands;
+use crate::run::target_progress::TargetProgress;
+use lightbots_base::{Instant, Span};
+use lightbots_wire::{Command, Details, Report, RobotState, Topic};
+
+/// START of the drive under way is repeated this often, so that robots know that the link works (R43: 2 s).
+const HEARTBEAT: Span = Span::from_millis(500);
+/// Routes of the next leg wait this long after the drive began. A robot whose clock or step is a little behind has not
+/// begun it yet, and would take the next route in its place.
+const BEGUN: Span = drive::WATCH_EVERY;
+/// Reports older than this at the begin of a drive may be from before it.
+const OLD_REPORTS: Span = Span::from_millis(800);
+/// A robot whose clock is ahead may end its route this much before the planned end.
+const EARLY: Span = Span::from_millis(100);
+
+impl Driving {
+    /// The first leg of the queue is under way since `began`.
+    pub fn begin(cx: &mut RunContext, began: Instant) -> (Self, Next) {
+        let leg = cx.pipeline.queue.pop_front().expect("a drive begins with a planned leg");
+        let clock = PathClock::new(began, leg.duration);
+        let heartbeat_at = if leg.kind == LegKind::Routes { cx.now + HEARTBEAT } else { Instant::FAR };
+        let mut drive = Self::new(clock, cx.now, heartbeat_at, cx.roster.len());
+        let (frame, duration) = (leg.frame, leg.duration);
+        cx.io.log.record(cx.now, EventKind::TransitionStarted { frame, starts: began, duration });
+        let targets = TargetProgress::new(&leg);
+        cx.pipeline.driven = Some(DrivenLeg { leg, targets });
+        cx.pipeline.upload = None;
+        cx.pipeline.upload_from = began + BEGUN;
+        drive.begin_leg(cx);
+        let next = cx.pump();
+        let next = next.or_else(|| drive.arrive_before_start(cx)).or_else(|| drive.end_leg(cx));
+        (drive, next)
+    }
+
+    /// Robots learn their lights; those that know TARGET only also where to go.
+    fn begin_leg(&mut self, cx: &mut RunContext) {
+        let Pipeline { driven: Some(driven), queue, lights, .. } = &mut *cx.pipeline else { return };
+        lights.forget(cx.roster.len());
+        match driven.leg.kind {
+            LegKind::Routes => {
+                let times = (cx.now, self.clock.began, self.clock.ends);
+                lights.begin_drive(cx.io, cx.roster, times, (&driven.leg, queue.front()));
+            }
+            LegKind::Targets => {
+                lights::color_target_robots(cx.io, cx.roster, &driven.leg);
+                target_commands::begin(cx);
+            }
+        }
+    }
+
+    /// A participant reports.
+    pub fn on_report(
+        &mut self,
+        cx: &mut RunContext,
+        participant: usize,
+        topic: Topic,
+        report: &Report,
+    ) -> Next {
+        let arrived = topic == Topic::Arrival;
+        let Some(details) = &report.details else {
+            let at = report.at.filter(|_| cx.is_target_leg());
+            return match at {
+                Some(at) => self.on_target_report(cx, participant, at, arrived),
+                None if arrived => self.on_arrival(cx, participant, report.at),
+                None => Next::Stay,
+            };
+        };
+        match (arrived, cx.is_target_leg()) {
+            (true, true) => {
+                let drives = cx.pipeline.leg().is_some_and(|leg| leg.seq == details.route);
+                match report.at.filter(|_| drives) {
+                    Some(at) => self.on_target_report(cx, participant, at, true),
+                    None => Next::Stay,
+                }
+            }
+            (true, false) if cx.pipeline.leg().is_some_and(|leg| leg.seq == details.route) => {
+                self.on_arrival(cx, participant, report.at)
+            }
+            (true, false) | (false, true) => Next::Stay,
+            (false, false) => self.on_status(cx, participant, details),
+        }
+    }
+
+    /// A robot that follows a path says how it is.
+    fn on_status(&mut self, cx: &mut RunContext, participant: usize, details: &Details) -> Next {
+        if !self.is_under_way(cx, participant) {
+            return Next::Stay;
+        }
+        match details.state {
+            RobotState::Lost => Next::drop(participant, Trouble::Lost),
+            RobotState::Faulty => Next::drop(participant, Trouble::Faulty),
+            RobotState::Cut => self.replan_with(cx, participant),
+            RobotState::Driving | RobotState::Held => {
+                self.on_obstruction(cx, participant, details.blocked);
+                self.on_progress(cx, participant, details);
+                Next::Stay
+            }
+            RobotState::Idle | RobotState::Ready => self.on_rest(cx, participant, details),
+        }
+    }
+
+    /// A robot that should drive says that it stands: it arrived, or it lost its route.
+    fn on_rest(&mut self, cx: &mut RunContext, participant: usize, details: &Details) -> Next {
+        let Some(leg) = cx.pipeline.leg() else { return Next::Stay };
+        let has_route = details.route == leg.seq;
+        let goal = leg.robots[participant].goal;
+        // Whether a robot that only had to rest began too early makes no difference.
+        let rested = has_route && leg.path(participant).is_some_and(|path| path.as_ref().rests());
+        let at = cx.robot(participant).reported.at;
+        let there = at.is_some_and(|at| is_there(at, goal, cx.io.config.arrival_tolerance_m));
+        let waits = details.state == RobotState::Ready && has_route;
+        if there && (cx.now + EARLY >= self.clock.ends || rested) && !waits {
+            self.arrive(cx, participant)
+        } else if cx.now + EARLY < self.clock.ends && cx.now > self.clock.began + OLD_REPORTS {
+            self.replan_with(cx, participant)
+        } else {
+            Next::Stay
+        }
+    }
+
+    /// A robot lost its route but can go on: all stop and are planned again, with it.
+    fn replan_with(&mut self, cx: &mut RunContext, participant: usize) -> Next {
+        cx.report_waiting(participant, Trouble::Cut);
+        Next::Regather
+    }
+
+    /// Time passes.
+    pub fn on_tick(&mut self, cx: &mut RunContext) -> Next {
+        if cx.playback.paused && self.clock.hold.is_none() {
+            self.hold(cx, true);
+        }
+        if self.clock.hold.and_then(|hold| hold.release_at).is_some_and(|at| cx.now >= at) {
+            self.release(cx);
+        }
+        self.clock.end_hold(cx.now);
+        if cx.now >= self.heartbeat_at {
+            self.heartbeat_at = cx.now + HEARTBEAT;
+            let (seq, at) = (cx.pipeline.leg().map_or(0, |leg| leg.seq), self.clock.began);
+            cx.io.outbox.send(Topic::Broadcast, &[Command::Start { seq, at }]);
+        }
+        cx.pump_lights();
+        cx.pump().or_else(|| self.watch(cx)).or_else(|| self.end_leg(cx))
+    }
+
+    /// Where a participant may stand that fell silent, by what other robots see.
+    pub fn whereabouts(&self, cx: &RunContext, participant: usize) -> Whereabouts {
+        let Some(DrivenLeg { leg, targets }) = &cx.pipeline.driven else { return Whereabouts::default() };
+        let stop = StopTimes { began: cx.now, stood: cx.now };
+        let heard = cx.robot(participant).contact.heard;
+        let mut places = silence::whereabouts((leg, targets), &self.clock, stop, participant, heard);
+        self.narrow(cx, &mut places.possible);
+        self.narrow(cx, &mut places.likely);
+        places
+    }
+}

@@ -1,0 +1,165 @@
+//! An obstacle in a robot's path: all hold, robots nearby are asked for a report, and the obstacle is driven around.
+
+use crate::event::Trouble;
+use crate::run::driving::drive::{Driving, RobotProgress};
+use crate::run::driving::sightings::{SAME_M, Sighting, located, seen_by};
+use crate::run::next::Next;
+use crate::run::run_context::RunContext;
+use lightbots_base::{Instant, Span, Vec2};
+use lightbots_wire::{Blocked, Command};
+
+/// Robots nearer than this to an obstructed one are asked for a report, metres: one of them may be dead in its path.
+const NEAR_M: f64 = 0.5;
+/// A robot that was asked and does not answer within this, link times on top, is silent.
+const ANSWER: Span = Span::from_millis(800);
+/// Robots that were asked are asked again this often.
+const ASK: Span = Span::from_millis(90);
+/// An obstacle that obstructs a robot for longer is there to stay.
+const STAYS: Span = Span::from_millis(1_500);
+/// Time that is left for a late or silent robot to be dropped first, as it may be the obstacle.
+const SUSPECT: Span = Span::from_millis(500);
+/// How often obstacles in a robot's path lead to a new plan; then the robot itself drops out.
+const REPLANS_MAX: u8 = 3;
+/// Most obstacles that are remembered; more would leave no path.
+const FOUND_MAX: usize = 32;
+/// A robot that brakes for something falls behind at most this long before it reports an obstacle.
+const BRAKES: Span = Span::from_millis(150);
+
+impl RobotProgress {
+    /// Whether the robot fell behind its path without an obstacle.
+    fn lags(&self) -> bool {
+        let is_unobstructed = |late: Instant| {
+            self.obstructed_since.is_none_or(|since| late + BRAKES < since)
+                && self.obstructed_at.is_none_or(|at| at < late)
+        };
+        self.late_since.is_some_and(is_unobstructed)
+    }
+}
+
+impl Driving {
+    /// A robot reports what stands in its path, or that nothing does.
+    pub fn on_obstruction(&mut self, cx: &mut RunContext, participant: usize, blocked: Option<Blocked>) {
+        let progress = &mut self.progress[participant];
+        if blocked.is_none() {
+            progress.obstructed_since = None;
+            return;
+        }
+        if progress.obstructed_since.is_some() {
+            return;
+        }
+        progress.obstructed_since = Some(cx.now);
+        if progress.late_since.is_none_or(|late| cx.now <= late + BRAKES) {
+            progress.obstructed_at = Some(cx.now);
+        }
+        if progress.late_since.is_none() {
+            self.mark_late(cx, participant, Trouble::Blocked);
+        }
+        self.probe_around(cx, participant);
+    }
+
+    /// Asks robots near an obstructed one for a report.
+    fn probe_around(&mut self, cx: &mut RunContext, participant: usize) {
+        let Some(at) = cx.robot(participant).reported.at else { return };
+        for other in 0..cx.roster.len() {
+            let robot = cx.robot(other);
+            let near = robot.reported.at.is_some_and(|place| place.distance(at) < NEAR_M);
+            let asked = self.is_under_way(cx, other) && !robot.is_original();
+            if near && asked && other != participant && self.progress[other].probed_since.is_none() {
+                cx.send(other, &[Command::Status]);
+                self.progress[other].probed_since = Some(cx.now);
+                self.progress[other].asked_at = cx.now;
+            }
+        }
+    }
+
+    /// Watches a robot that was asked for a report; `None`: it owes none.
+    pub fn watch_probed(&mut self, cx: &mut RunContext, participant: usize) -> Option<Next> {
+        let since = self.progress[participant].probed_since?;
+        if cx.robot(participant).contact.heard > since {
+            self.progress[participant].probed_since = None;
+        } else if cx.now - since > ANSWER + cx.link.round_trip * 2 {
+            return Some(Next::drop(participant, Trouble::Silent));
+        } else if cx.now - self.progress[participant].asked_at >= ASK {
+            cx.send(participant, &[Command::Status]);
+            self.progress[participant].asked_at = cx.now;
+        }
+        None
+    }
+
+    /// Watches a robot that is obstructed since then: all is planned again around an obstacle that stays.
+    pub fn watch_obstructed(&mut self, cx: &mut RunContext, participant: usize, since: Instant) -> Next {
+        if cx.now - since > STAYS
+            && let Some(culprit) = self.late_robot_seen_by(cx, participant)
+        {
+            return Next::drop(culprit, Trouble::Late);
+        }
+        let may_be_cause = |known: &RobotProgress| known.probed_since.is_some() || known.lags();
+        let is_suspected = cx
+            .roster
+            .active()
+            .any(|(one, _)| !self.progress[one].arrived && may_be_cause(&self.progress[one]));
+        let bound = if is_suspected { cx.io.config.late_bound + SUSPECT } else { STAYS };
+        if cx.now - since <= bound {
+            return Next::Stay;
+        }
+        let known = &mut cx.roster.participants[participant];
+        known.replans = known.replans.saturating_add(1);
+        if known.replans > REPLANS_MAX {
+            return Next::drop(participant, Trouble::Blocked);
+        }
+        let seen = seen_by(cx.robot(participant), cx.playback.contact_m());
+        let found = &mut cx.pipeline.obstacles.found;
+        found.extend(seen.filter(|_| found.len() < FOUND_MAX));
+        self.locate_silent(cx);
+        cx.tally.recovery.begins(self.clock.ends);
+        Next::Regather
+    }
+
+    /// A late robot where an obstructed one sees something, that was late before it was obstructed: a robot that stands
+    /// sees those coming that drive on. A robot that waits for its fixes is no culprit.
+    fn late_robot_seen_by(&self, cx: &RunContext, participant: usize) -> Option<usize> {
+        let there = seen_by(cx.robot(participant), cx.playback.contact_m())?;
+        let is_there = |one: usize| cx.robot(one).reported.at.is_some_and(|at| at.distance(there) < SAME_M);
+        let is_late = |one: usize| self.progress[one].lags() && !self.progress[one].is_unsure;
+        cx.roster.active().map(|(one, _)| one).find(|&one| is_late(one) && is_there(one))
+    }
+
+    /// Of the places where a silent robot may stand, keeps those where other robots see something, if they see any.
+    pub fn narrow(&self, cx: &RunContext, places: &mut Vec<Vec2>) {
+        let seen = located(places, &self.sightings(cx));
+        if !seen.is_empty() {
+            *places = seen;
+        }
+    }
+
+    /// Narrows where silent robots stand, by what other robots see since.
+    fn locate_silent(&self, cx: &mut RunContext) {
+        for participant in 0..cx.roster.len() {
+            let mut possible = std::mem::take(&mut cx.roster.participants[participant].last_seen.possible);
+            let is_silent = cx.roster.is_excluded(participant) && !possible.is_empty();
+            if is_silent {
+                self.narrow(cx, &mut possible);
+            }
+            let last_seen = &mut cx.roster.participants[participant].last_seen;
+            if is_silent {
+                last_seen.likely.clone_from(&possible);
+            }
+            last_seen.possible = possible;
+        }
+    }
+
+    /// What obstructed robots see that is no robot whose place is known.
+    fn sightings(&self, cx: &RunContext) -> Vec<Sighting> {
+        let contact_m = cx.playback.contact_m();
+        let known: Vec<Vec2> = cx.roster.active().filter_map(|(one, _)| cx.robot(one).reported.at).collect();
+        let is_obstructed = |one: &usize| self.progress[*one].obstructed_since.is_some();
+        let sighting = |one: usize| {
+            let robot = cx.robot(one);
+            let (from, there) = (robot.reported.at?, seen_by(robot, contact_m)?);
+            Some(Sighting { from, there })
+        };
+        let is_strange = |seen: &Sighting| !known.iter().any(|at| seen.is_of(*at));
+        let obstructed = cx.roster.active().map(|(one, _)| one).filter(is_obstructed);
+        obstructed.filter_map(sighting).filter(is_strange).collect()
+    }
+}

@@ -1,0 +1,196 @@
+//! Robots that know TARGET only, on their straight drives: what their reports mean, and which of them need help.
+
+use crate::event::Trouble;
+use crate::run::driving::arrivals::{MISSED_M, is_there};
+use crate::run::driving::drive::Driving;
+use crate::run::next::Next;
+use crate::run::pipeline::DrivenLeg;
+use crate::run::run_context::RunContext;
+use crate::run::target_commands::{ASK, PASSED_ERROR_M, beyond, grant_farther, send_target};
+use lightbots_base::{Span, Vec2};
+use lightbots_wire::Command;
+
+/// Least progress by which a robot counts as moving, metres: below it is the noise of its fixes.
+const MOVED_M: f64 = 0.005;
+/// How often such robots are asked where they are while others wait for them, and how much less often for each robot.
+const ASK_AWAITED: Span = Span::from_millis(90);
+const ASK_PER_ROBOT: Span = Span::from_millis(1);
+/// A robot that arrived farther from its goal than this is told again, metres: it stopped where it was told before, or
+/// earlier than known. The planner leaves room for a little more than this.
+const OFF_M: f64 = 0.015;
+/// How often a robot is told again because it stands beside its goal.
+const CORRECTIONS: u8 = 2;
+
+/// What happens to a robot that stands although it was told to go on.
+struct Standstill {
+    /// At its goal without saying so: it is told again, because its arrival or its target was lost.
+    told_again_after: Span,
+    /// Beside its goal, though it said that it arrived: it is taken to be there.
+    accepted_after: Span,
+    /// At its goal without saying so: it is taken to be there.
+    believed_after: Span,
+    /// Elsewhere: an event names it.
+    named_after: Span,
+    /// Elsewhere: it drops out after this many times the bound for late robots.
+    dropped_after_bounds: i64,
+}
+
+const STANDSTILL: Standstill = Standstill {
+    told_again_after: Span::from_millis(250),
+    accepted_after: Span::from_millis(1_000),
+    believed_after: Span::from_millis(2_000),
+    named_after: Span::from_millis(2_000),
+    dropped_after_bounds: 2,
+};
+
+/// A robot that knows TARGET only drops out when it is silent for this many times the bound for others: it reports only
+/// when it is asked, so that a question and its answer must both be delivered.
+const SILENCE_BOUNDS: i64 = 4;
+
+impl Driving {
+    /// A robot that knows TARGET only says where it is; `arrived`: that it is where it was told to go.
+    pub fn on_target_report(
+        &mut self,
+        cx: &mut RunContext,
+        participant: usize,
+        at: Vec2,
+        arrived: bool,
+    ) -> Next {
+        let Some(DrivenLeg { leg, targets }) = &mut cx.pipeline.driven else { return Next::Stay };
+        let Some(place) = targets.under_way(participant) else { return Next::Stay };
+        let is_held = self.clock.is_held();
+        let (drive, state) = (&leg.drives[place], &mut targets.states[place]);
+        let length_m = drive.length_m();
+        let passed = drive.share_at(at) - PASSED_ERROR_M / length_m;
+        if (passed - state.passed) * length_m > MOVED_M {
+            (state.passed, state.moved_at) = (passed.min(1.0), cx.now);
+        }
+        if state.granted >= 1.0 && (arrived || !is_held) {
+            let (ended, next) = self.settle_target(cx, place, at, arrived);
+            if ended {
+                return next;
+            }
+        }
+        self.let_follow(cx, place);
+        Next::Stay
+    }
+
+    /// A robot that was told its goal says where it is: whether that ends its straight drive, and what follows.
+    fn settle_target(&mut self, cx: &mut RunContext, place: usize, at: Vec2, arrived: bool) -> (bool, Next) {
+        let Some(DrivenLeg { leg, targets }) = &cx.pipeline.driven else { return (false, Next::Stay) };
+        let (drive, state) = (leg.drives[place].clone(), targets.states[place]);
+        let (off_m, stood) = (at.distance(drive.to), cx.now - state.moved_at);
+        let there = is_there(at, drive.to, cx.io.config.arrival_tolerance_m);
+        let index = cx.participant(drive.robot).robot;
+        if there && arrived {
+            let target = beyond(cx, &drive, cx.robot(drive.robot).short_m);
+            cx.io.fleet.robot_mut(index).learn_short(drive.from, target, at);
+        }
+        if there && arrived && off_m > OFF_M && state.corrections < CORRECTIONS {
+            self.correct(cx, place);
+        } else if there && (arrived || stood > STANDSTILL.believed_after) {
+            return (true, self.end_straight_drive(cx, place, None));
+        } else if there && cx.now - state.sent_at.max(state.moved_at) > STANDSTILL.told_again_after {
+            // The robot may also never have received this target, and still be as far off as its tolerance.
+            send_target(cx, place);
+        } else if arrived && stood > STANDSTILL.accepted_after && off_m <= MISSED_M {
+            return (true, self.end_straight_drive(cx, place, Some(off_m)));
+        }
+        (false, Next::Stay)
+    }
+
+    fn correct(&mut self, cx: &mut RunContext, place: usize) {
+        if let Some(driven) = &mut cx.pipeline.driven {
+            driven.targets.states[place].corrections += 1;
+        }
+        send_target(cx, place);
+    }
+
+    /// Robots that yield to a straight drive go farther, if they may by now.
+    fn let_follow(&self, cx: &mut RunContext, place: usize) {
+        let follower = |cx: &RunContext, number: usize| {
+            let driven = cx.pipeline.driven.as_ref()?;
+            driven.targets.followers[place].get(number).copied()
+        };
+        let mut number = 0;
+        while let Some(follower) = follower(cx, number) {
+            grant_farther(cx, self.clock.is_held(), Some(follower));
+            number += 1;
+        }
+    }
+
+    /// A straight drive is over, `off_m` from where it should end if that is too much.
+    fn end_straight_drive(&mut self, cx: &mut RunContext, place: usize, off_m: Option<f64>) -> Next {
+        let Some(DrivenLeg { leg, targets }) = &mut cx.pipeline.driven else { return Next::Stay };
+        let participant = leg.drives[place].robot;
+        let next = (place + 1..leg.drives.len()).find(|&next| leg.drives[next].robot == participant);
+        targets.states[place].done = true;
+        targets.present[participant] = next;
+        self.let_follow(cx, place);
+        match (next, off_m) {
+            (Some(_), _) => {
+                grant_farther(cx, self.clock.is_held(), next);
+                Next::Stay
+            }
+            (None, Some(off_m)) => self.accept_misaligned(cx, participant, off_m),
+            (None, None) => self.arrive(cx, participant),
+        }
+    }
+
+    /// Watches a robot that knows TARGET only, on its way or waiting for others to pass.
+    pub fn watch_target_robot(&mut self, cx: &mut RunContext, participant: usize) -> Next {
+        let silent = cx.now - cx.robot(participant).contact.heard.max(self.clock.began);
+        if silent > cx.io.config.silence * SILENCE_BOUNDS {
+            return Next::drop(participant, Trouble::Silent);
+        }
+        if self
+            .standing_drive(cx, participant, cx.io.config.late_bound * STANDSTILL.dropped_after_bounds)
+            .is_some()
+        {
+            return Next::drop(participant, Trouble::Missed);
+        }
+        self.name_stalled(cx, participant, silent);
+        self.ask_target_robot(cx, participant);
+        Next::Stay
+    }
+
+    /// The straight drive of a participant, if it has stood on it for longer than `bound` and nothing is held.
+    fn standing_drive(&self, cx: &RunContext, participant: usize, bound: Span) -> Option<usize> {
+        let DrivenLeg { leg, targets } = cx.pipeline.driven.as_ref()?;
+        let place = targets.under_way(participant).filter(|_| !self.clock.is_held())?;
+        targets.stands(place, &leg.drives[place], cx.now, bound).then_some(place)
+    }
+
+    /// An event names a robot that makes no progress or is silent, once.
+    fn name_stalled(&self, cx: &mut RunContext, participant: usize, silent: Span) {
+        let unheard = silent > cx.io.config.silence + cx.link.round_trip;
+        let is_stalled = unheard || self.standing_drive(cx, participant, STANDSTILL.named_after).is_some();
+        let Some(driven) = &mut cx.pipeline.driven else { return };
+        let Some(present) = driven.targets.present[participant] else { return };
+        let was_stalled = std::mem::replace(&mut driven.targets.states[present].is_stalled, is_stalled);
+        if is_stalled && !was_stalled {
+            cx.report_waiting(participant, if unheard { Trouble::Silent } else { Trouble::Late });
+        }
+    }
+
+    /// Asks a robot where it is, and repeats its target where it makes no progress.
+    fn ask_target_robot(&mut self, cx: &mut RunContext, participant: usize) {
+        let Some(DrivenLeg { targets, .. }) = &cx.pipeline.driven else { return };
+        let place = targets.under_way(participant);
+        let awaited = place.is_some_and(|place| targets.is_awaited(place));
+        let often = (ASK_PER_ROBOT * cx.roster.len() as i64).clamp(ASK_AWAITED, ASK);
+        if cx.now - self.progress[participant].asked_at < if awaited { often } else { ASK } {
+            return;
+        }
+        self.progress[participant].asked_at = cx.now;
+        let is_due = |place: &usize| {
+            let state = &targets.states[*place];
+            !self.clock.is_held() && cx.now - state.sent_at.max(state.moved_at) >= ASK
+        };
+        // The target itself may have been lost: to repeat it changes nothing else.
+        if let Some(place) = place.filter(is_due) {
+            send_target(cx, place);
+        }
+        cx.send(participant, &[Command::Uuid]);
+    }
+}

@@ -1,0 +1,210 @@
+//! The watch over a drive: robots that are silent, late or overdue, and whether a hold holds.
+
+use crate::event::Trouble;
+use crate::leg::LegKind;
+use crate::run::driving::arrivals::MISSED_M;
+use crate::run::driving::drive::{Driving, WATCH_EVERY};
+use crate::run::driving::lateness::LATE_MAX_M;
+use crate::run::next::Next;
+use crate::run::run_context::RunContext;
+use crate::run::silence::LINK_LOSS;
+use lightbots_base::{Instant, Span};
+use lightbots_wire::{Command, RobotState, Route};
+
+/// Number of robots that are watched in one turn; an eighth of all more. A silent robot is asked each time: with one
+/// message in ten lost, robots that were asked four times before they dropped out did so in one of ten runs of 200.
+const SLICE: usize = 512;
+
+/// Silence of a driving robot; link times come on top.
+struct Silence {
+    /// The robot is asked for a report: it missed one that is due every 500 ms (R41).
+    asked_after: Span,
+    /// It is asked this often at most.
+    asked_every: Span,
+    /// All wait for it.
+    held_after: Span,
+}
+
+const SILENCE: Silence = Silence {
+    asked_after: Span::from_millis(560),
+    asked_every: Span::from_millis(90),
+    held_after: Span::from_millis(800),
+};
+
+const _: () = assert!(SILENCE.asked_after.0 + SILENCE.asked_every.0 < SILENCE.held_after.0);
+
+/// Robots that have not arrived this long after the planned end are judged by where they stand.
+const OVERDUE: Span = Span::from_millis(3_000);
+/// Longest time that the fleet waits after the planned end for a robot that drives on its route. Such a robot is in a
+/// world that is slower than the plan: a simulation on a busy machine. Without a bound, a robot that reports nonsense
+/// would stop the show for good.
+const SLOW: Span = Span::from_millis(60_000);
+/// A robot farther from its goal than it is off its route, by this, is still on its way, metres.
+const END_M: f64 = 0.01;
+/// A robot has made progress once it is nearer to its goal by this, metres: more than its fixes are off.
+const NEARER_M: f64 = 0.005;
+/// How long a hold has to be kept by all before all are stopped, after robots should stand.
+const HOLD_BOUND: Span = Span::from_millis(1_200);
+/// How soon a hold is looked at again that all keep.
+const HOLD_CHECK_EVERY: Span = Span::from_millis(1_000);
+
+impl Driving {
+    /// Watches the next slice of participants, and the hold.
+    pub fn watch(&mut self, cx: &mut RunContext) -> Next {
+        if cx.now < self.watch_at {
+            return Next::Stay;
+        }
+        self.watch_at = cx.now + WATCH_EVERY;
+        let next = self.check_hold(cx);
+        if !next.stays() {
+            return next;
+        }
+        let (is_held, ends) = (self.clock.is_held(), self.clock.ends);
+        self.lose_patience(cx);
+        let count = cx.roster.len();
+        let first = if self.watched < count { self.watched } else { 0 };
+        self.watched = (first + SLICE + count / 8).min(count);
+        let kind = cx.pipeline.leg().map(|leg| leg.kind);
+        for participant in first..self.watched {
+            if !self.is_under_way(cx, participant) {
+                continue;
+            }
+            let next = match kind {
+                Some(LegKind::Routes) => self.watch_path_robot(cx, participant, is_held, ends),
+                _ => self.watch_target_robot(cx, participant),
+            };
+            if !next.stays() {
+                return next;
+            }
+        }
+        Next::Stay
+    }
+
+    /// Watches a robot that follows a path. `is_held` and `ends` are of the begin of the turn: a hold that begins in
+    /// this turn is not stated yet.
+    fn watch_path_robot(
+        &mut self,
+        cx: &mut RunContext,
+        participant: usize,
+        is_held: bool,
+        ends: Instant,
+    ) -> Next {
+        if let Some(next) = self.watch_probed(cx, participant) {
+            return next;
+        }
+        let silent = cx.now - cx.robot(participant).contact.heard.max(self.clock.began);
+        if let Some(next) = self.watch_silent(cx, participant, silent) {
+            return next;
+        }
+        if let Some(since) = self.progress[participant].obstructed_since {
+            return self.watch_obstructed(cx, participant, since);
+        }
+        let progressed = self.last_progress(cx, participant);
+        let bound = cx.io.config.late_bound;
+        let waited = |since: Instant| cx.now - since.max(progressed) > bound || cx.now - since > SLOW;
+        if self.progress[participant].late_since.is_some_and(waited) && is_held {
+            return Next::drop(participant, Trouble::Late);
+        }
+        if cx.now <= ends + SLOW {
+            let on_route_at = if is_on_its_way(cx, participant) { cx.now } else { progressed };
+            let known = &mut self.progress[participant];
+            known.on_route_at = on_route_at.max(known.on_route_at);
+        }
+        if !is_held && cx.now > ends.max(self.progress[participant].on_route_at) + OVERDUE {
+            return self.settle_overdue(cx, participant);
+        }
+        let is_overdue = !is_held && cx.now >= self.ask_at;
+        if is_overdue || silent > SILENCE.asked_after + cx.link.round_trip {
+            self.ask(cx, participant);
+        }
+        Next::Stay
+    }
+
+    /// A driving robot was not heard for that long: what follows if all wait for it by now or it drops out.
+    fn watch_silent(&mut self, cx: &mut RunContext, participant: usize, silent: Span) -> Option<Next> {
+        let bound = cx.io.config.silence + cx.link.round_trip * 2;
+        if silent > bound && self.all_stand(cx, silent) {
+            return Some(Next::drop(participant, Trouble::Silent));
+        }
+        let is_late = self.progress[participant].late_since.is_some();
+        if self.clock.is_held() || silent <= SILENCE.held_after + cx.link.round_trip || is_late {
+            return None;
+        }
+        self.mark_late(cx, participant, Trouble::Silent);
+        Some(Next::Stay)
+    }
+
+    /// Whether all robots stand that drove, or as good as. Stopped earlier, they would not stop together with a robot
+    /// that does not receive that.
+    fn all_stand(&self, cx: &RunContext, silent: Span) -> bool {
+        let bound = LINK_LOSS.stands_after() + Route::EASE + cx.link.hold_lead() * 2;
+        let stand_at = self.clock.open_hold().map_or(self.clock.ends, |hold| hold.at + Route::EASE);
+        silent > bound || cx.now >= stand_at
+    }
+
+    /// When a robot last said that it came nearer to its goal: it is waited for while it does.
+    fn last_progress(&mut self, cx: &RunContext, participant: usize) -> Instant {
+        let nearest = &mut self.progress[participant].nearest;
+        if let (Some(at), Some(goal)) = (cx.robot(participant).reported.at, cx.goal(participant))
+            && at.distance(goal) < nearest.0 - NEARER_M
+        {
+            *nearest = (at.distance(goal), cx.now);
+        }
+        nearest.1
+    }
+
+    /// Asks a robot for a report, at a bounded rate.
+    fn ask(&mut self, cx: &mut RunContext, participant: usize) {
+        if cx.now - self.progress[participant].asked_at >= SILENCE.asked_every {
+            self.progress[participant].asked_at = cx.now;
+            cx.send(participant, &[Command::Status]);
+        }
+    }
+
+    /// A robot that should have arrived long ago.
+    fn settle_overdue(&mut self, cx: &mut RunContext, participant: usize) -> Next {
+        let robot = cx.robot(participant);
+        let goal = cx.goal(participant).unwrap_or_default();
+        let off_m = robot.reported.at.map_or(f64::INFINITY, |at| at.distance(goal));
+        if robot.may_move() || off_m > MISSED_M {
+            return Next::drop(participant, Trouble::Missed);
+        }
+        self.accept_misaligned(cx, participant, off_m)
+    }
+
+    /// Whether all stand that were told to hold. Robots that do not are told by name; then all are stopped.
+    fn check_hold(&mut self, cx: &mut RunContext) -> Next {
+        let Some(hold) = self.clock.open_hold().copied().filter(|hold| cx.now >= hold.check_at) else {
+            return Next::Stay;
+        };
+        if cx.pipeline.leg().is_none_or(|leg| leg.kind == LegKind::Targets) {
+            return Next::Stay;
+        }
+        let moves = |&one: &usize| {
+            self.is_under_way(cx, one) && cx.robot(one).reported.state == Some(RobotState::Driving)
+        };
+        let moving: Vec<usize> = (0..cx.roster.len()).filter(moves).collect();
+        if moving.is_empty() {
+            let check_at = cx.now + HOLD_CHECK_EVERY;
+            self.clock.hold = Some(crate::run::path_clock::Hold { check_at, ..hold });
+            return Next::Stay;
+        }
+        if cx.now - hold.at > HOLD_BOUND + Route::EASE {
+            return Next::Regather;
+        }
+        for participant in moving {
+            cx.send(participant, &[Command::Hold { at: hold.at }, Command::Status]);
+        }
+        Next::Stay
+    }
+}
+
+/// Whether a robot said that it is on its route and not near its end: nearer to where it should be by now.
+fn is_on_its_way(cx: &RunContext, participant: usize) -> bool {
+    let robot = cx.robot(participant);
+    let (Some(at), Some(goal), Some(off_m)) = (robot.reported.at, cx.goal(participant), robot.reported.off_m)
+    else {
+        return false;
+    };
+    robot.may_move() && off_m <= LATE_MAX_M && at.distance(goal) > off_m + END_M
+}

@@ -1,0 +1,225 @@
+//! All stop and say where they stand; robots that do not answer drop out.
+
+use crate::event::Trouble;
+use crate::leg::LegKind;
+use crate::operation::MissingPolicy;
+use crate::run::next::{AirTime, Next};
+use crate::run::path_clock::{Hold, PathClock};
+use crate::run::pipeline::DrivenLeg;
+use crate::run::readiness::missing;
+use crate::run::roster::Whereabouts;
+use crate::run::run_context::RunContext;
+use crate::run::silence::{self, StopTimes};
+use crate::run::target_commands;
+use lightbots_base::{Instant, Span};
+use lightbots_wire::{Command, Route};
+
+/// How often HOLD and STOP are sent, and how far apart.
+const COPIES: (u32, Span) = (4, Span::from_millis(40));
+/// Reports count this long after STOP was sent: all copies have arrived and robots stand.
+const SETTLE: Span = Span::from_millis(200);
+/// Robots that have not answered are asked again this often.
+const ASK: Span = Span::from_millis(300);
+/// How often the phase is looked at.
+const CHECK_EVERY: Span = Span::from_millis(50);
+
+/// How long robots have that are not ready.
+struct Bounds {
+    /// To answer, beyond the silence after which a robot drops out. A robot that knows TARGET only has three times as
+    /// long: it reports only when it is asked, so that a question and its answer must both be delivered.
+    answer: Span,
+    /// To stop, for a robot that knows TARGET only and does not receive that it should: it drives on to its target.
+    stop: Span,
+    /// To set its clock: ten answers to time questions.
+    clock: Span,
+}
+
+const BOUNDS: Bounds = Bounds {
+    answer: Span::from_millis(1_500),
+    stop: Span::from_millis(20_000),
+    clock: Span::from_millis(8_000),
+};
+
+/// All are asked where they stand.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Gathering {
+    /// Robots that drove begin to stop then …
+    stopping: Instant,
+    /// … and stand then.
+    since: Instant,
+    /// Reports count from then on.
+    fresh_from: Instant,
+    /// When robots that have not answered are asked again.
+    ask_at: Instant,
+    /// When STOP is sent, if progress is held first.
+    stop_at: Option<Instant>,
+    /// Nothing was driven yet: too few robots are a reason not to begin.
+    is_first: bool,
+    /// The drive that was broken off: a silent robot may stand anywhere along it.
+    broken_off: Option<PathClock>,
+    /// The frame that stood before: its air time goes on.
+    stood: Option<AirTime>,
+}
+
+impl Gathering {
+    /// All robots are known and nothing has to stop.
+    pub fn at_begin(now: Instant) -> Self {
+        Self {
+            stopping: now,
+            since: now,
+            fresh_from: Instant::ZERO,
+            ask_at: now,
+            stop_at: None,
+            is_first: true,
+            broken_off: None,
+            stood: None,
+        }
+    }
+
+    /// All stop; a drive is broken off, or a frame stood before.
+    pub fn begin(cx: &mut RunContext, broken_off: Option<PathClock>, stood: Option<AirTime>) -> Self {
+        cx.io.outbox.stop_repeating();
+        let held_from = broken_off.and_then(|clock| hold_before_stop(cx, &clock));
+        let first_command = held_from.map_or(Command::Stop, |at| Command::Hold { at });
+        cx.io.outbox.broadcast(cx.now, first_command, COPIES.0, COPIES.1);
+        target_commands::halt_all(cx);
+        let stop_at = held_from.map(|at| at + Route::EASE);
+        let since = stop_at.unwrap_or(cx.now);
+        let fresh_from = since + SETTLE + cx.link.round_trip;
+        Self {
+            stopping: held_from.unwrap_or(cx.now),
+            since,
+            fresh_from,
+            ask_at: fresh_from,
+            stop_at,
+            is_first: cx.pipeline.driven.is_none() && cx.tally.frames_played == 0,
+            broken_off,
+            stood,
+        }
+    }
+
+    /// The frame that stood before.
+    pub fn stood(&self) -> Option<AirTime> {
+        self.stood
+    }
+
+    /// When something is due.
+    pub fn due(&self, now: Instant) -> Instant {
+        now + CHECK_EVERY
+    }
+
+    /// Time passes.
+    pub fn on_tick(&mut self, cx: &mut RunContext) -> Next {
+        if let Some(stop_at) = self.stop_at {
+            if cx.now >= stop_at {
+                cx.io.outbox.broadcast(cx.now, Command::Stop, COPIES.0, COPIES.1);
+                self.stop_at = None;
+            }
+            return Next::Stay;
+        }
+        if let Some(why) = cx.tally.recovery.exceeded(cx.now) {
+            return Next::failed(why);
+        }
+        let unready: Vec<(usize, Trouble)> = cx
+            .roster
+            .active()
+            .filter_map(|(one, known)| Some((one, missing(cx.io, known.robot, self.fresh_from)?)))
+            .collect();
+        let is_overdue = |&(one, why): &(usize, Trouble)| cx.now - self.since > self.bound(cx, one, why);
+        let overdue: Vec<(usize, Trouble)> = unready.iter().copied().filter(is_overdue).collect();
+        if !overdue.is_empty() {
+            return Next::Drop(overdue);
+        }
+        if unready.is_empty() {
+            return self.end(cx);
+        }
+        if cx.now >= self.ask_at {
+            self.ask_at = cx.now + ASK;
+            ask(cx, &unready);
+        }
+        Next::Stay
+    }
+
+    /// How long a robot has that lacks something.
+    fn bound(&self, cx: &RunContext, participant: usize, why: Trouble) -> Span {
+        let is_original = cx.robot(participant).is_original();
+        let bound = match why {
+            Trouble::Cut => BOUNDS.clock,
+            Trouble::Deaf if is_original => BOUNDS.stop,
+            _ => {
+                let answers = BOUNDS.answer * if is_original { 3 } else { 1 };
+                cx.io.config.silence + answers + cx.link.round_trip * 2
+            }
+        };
+        let reports = matches!(why, Trouble::Cut | Trouble::Deaf);
+        if reports { bound.max(cx.link.patience(self.since)) } else { bound }
+    }
+
+    /// All stand and their places are known.
+    fn end(&self, cx: &RunContext) -> Next {
+        let active = cx.roster.active().count();
+        let frame = cx.playback.show.frames.get(cx.playback.next.frame);
+        let pixels = frame.map_or(0, |frame| frame.pixels.len());
+        let must_be_complete = self.is_first && cx.playback.missing == MissingPolicy::Refuse;
+        if active == 0 || must_be_complete && active < pixels {
+            return Next::failed(self.shortage(cx, active, pixels));
+        }
+        let (until, left) = self.stood.map_or((cx.now, None), |stood| (stood.until, stood.left));
+        Next::Stand(AirTime { since: cx.now, until: until.max(cx.now), left })
+    }
+
+    /// Why `active` robots are too few for the `pixels` of the next frame, for people.
+    fn shortage(&self, cx: &RunContext, active: usize, pixels: usize) -> String {
+        if active > 0 {
+            return format!("only {active} of the {pixels} robots it needs can take part");
+        }
+        let is_silent = |robot: usize| missing(cx.io, robot, self.fresh_from) == Some(Trouble::Silent);
+        let all_silent = cx.roster.participants.iter().all(|known| is_silent(known.robot));
+        let what = if all_silent { "lost contact" } else { "dropped out" };
+        match cx.roster.len() {
+            1 => format!("the only robot {what}"),
+            robots => format!("all {robots} robots {what}"),
+        }
+    }
+
+    /// Where a participant may stand that fell silent on the drive that was broken off.
+    pub fn whereabouts(&self, cx: &RunContext, participant: usize) -> Whereabouts {
+        let (Some(clock), Some(DrivenLeg { leg, targets })) = (&self.broken_off, &cx.pipeline.driven) else {
+            return Whereabouts::default();
+        };
+        let stop = StopTimes { began: self.stopping, stood: self.since };
+        let heard = cx.robot(participant).contact.heard;
+        silence::whereabouts((leg, targets), clock, stop, participant, heard)
+    }
+}
+
+/// When a drive is held before STOP. A lost STOP reaches its robot 40 ms later than the others, which is 11 mm at full
+/// speed and more than plans leave. `None` where robots stand, or stand before that.
+fn hold_before_stop(cx: &RunContext, clock: &PathClock) -> Option<Instant> {
+    if cx.pipeline.leg().is_none_or(|leg| leg.kind == LegKind::Targets) {
+        return None;
+    }
+    let soonest = cx.now + cx.link.hold_lead();
+    let at = match clock.hold {
+        Some(Hold { at, until: None, .. }) => at,
+        // All are still picking up again: they slow down once they have.
+        Some(Hold { until: Some(until), .. }) => soonest.max(until + Route::EASE),
+        None => soonest,
+    };
+    (cx.now < at + Route::EASE && at < clock.ends).then_some(at)
+}
+
+/// Asks robots for what they lack.
+fn ask(cx: &mut RunContext, unready: &[(usize, Trouble)]) {
+    for &(participant, why) in unready {
+        if why == Trouble::Deaf {
+            target_commands::halt(cx, participant);
+        }
+        let command = match why {
+            _ if cx.robot(participant).is_original() => Command::Uuid,
+            Trouble::Deaf => Command::Stop,
+            _ => Command::Status,
+        };
+        cx.send(participant, &[command]);
+    }
+}

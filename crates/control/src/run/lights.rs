@@ -1,0 +1,189 @@
+//! Changes of light: colours change over the last part of a drive, by the show clock.
+//!
+//! A change outlives its drive: it goes along with the next route until that is acknowledged.
+
+use crate::context::Context;
+use crate::leg::Leg;
+use crate::run::roster::Roster;
+use crate::run::upload::Upload;
+use lightbots_base::{Instant, Span};
+use lightbots_wire::{Command, Fade, Topic};
+
+/// Longest time that a colour takes to change; longer fades look like a fault of the light.
+const FADE_MAX: Span = Span::from_millis(1_000);
+
+/// How changes of light are sent again that no robot acknowledges.
+struct Repeats {
+    /// Time between two of them. Two copies that are closer are lost by the same burst.
+    every: Span,
+    /// Number of them in fleets of up to `few` robots, and in larger ones, whose link is busy with routes.
+    times: (u32, u32),
+    few: usize,
+}
+
+/// With 5 % of messages lost, five copies leave one robot of 3 million in the wrong light.
+const REPEATS: Repeats = Repeats { every: Span::from_millis(300), times: (4, 1), few: 200 };
+
+/// Changes of light, by participant.
+#[derive(Clone, Debug)]
+pub(crate) struct Lights {
+    /// `[participant]`: a change that the robot may not know yet. Participants that joined later have none.
+    pending: Vec<Option<Fade>>,
+    /// The pending changes that are sent again.
+    repeats: Option<Upload>,
+    /// When that is done next, for all at once, and how often it is still done.
+    repeat_at: Instant,
+    repeats_left: u32,
+    /// When robots that cannot fade change their light.
+    colors_at: Instant,
+}
+
+impl Default for Lights {
+    fn default() -> Self {
+        Self {
+            pending: Vec::new(),
+            repeats: None,
+            repeat_at: Instant::FAR,
+            repeats_left: 0,
+            colors_at: Instant::FAR,
+        }
+    }
+}
+
+impl Lights {
+    /// A drive begins from `began` to `ends`: robots are told when and how their lights change. Where a next route
+    /// follows, the change goes along with it, which is acknowledged; otherwise it is sent at once and again.
+    pub fn begin_drive(
+        &mut self,
+        context: &mut Context,
+        roster: &Roster,
+        (now, began, ends): (Instant, Instant, Instant),
+        (leg, next): (&Leg, Option<&Leg>),
+    ) {
+        let over = FADE_MAX.min((ends - began) / 2).max(Span::ZERO);
+        let at = ends - over;
+        let mut is_any_sent = false;
+        for (participant, step) in leg.robots.iter().enumerate() {
+            let known = &roster.participants[participant];
+            let robot = context.fleet.robot(known.robot);
+            let changes = leg.reaches_frame || leg.path(participant).is_some();
+            if known.is_excluded() || !changes || robot.is_original() || robot.light == step.color {
+                continue;
+            }
+            if !robot.reported.abilities.fade {
+                self.colors_at = at + over / 2;
+                continue;
+            }
+            let fade = Fade { to: step.color, at, over };
+            let topic = Topic::Robot(robot.id);
+            context.set_light(known.robot, step.color);
+            self.pending[participant] = Some(fade);
+            if next.is_none_or(|next| next.path(participant).is_none()) {
+                context.outbox.send(topic, &[Command::Fade(fade)]);
+                is_any_sent = true;
+            }
+        }
+        if is_any_sent {
+            self.begin_repeats(now);
+        }
+    }
+
+    fn begin_repeats(&mut self, now: Instant) {
+        let (few, many) = REPEATS.times;
+        self.repeats_left = if self.pending.len() <= REPEATS.few { few } else { many };
+        self.repeat_at = now + REPEATS.every;
+        let mut repeats = Upload::new(0, now, self.pending.len());
+        for participant in (0..self.pending.len()).filter(|&one| self.pending[one].is_some()) {
+            repeats.record_sent(now, participant, self.repeat_at);
+        }
+        self.repeats = Some(repeats);
+    }
+
+    /// The changes of the drive before are forgotten.
+    pub fn forget(&mut self, participants: usize) {
+        *self = Self { pending: vec![None; participants], ..Self::default() };
+    }
+
+    /// The drive is over: what is pending goes along with the next routes.
+    pub fn end_drive(&mut self) {
+        let pending = std::mem::take(&mut self.pending);
+        *self = Self { pending, ..Self::default() };
+    }
+
+    /// Sends what is due.
+    pub fn pump(&mut self, context: &mut Context, roster: &Roster, now: Instant, leg: &Leg) {
+        self.repeat(context, roster, now);
+        if now >= self.colors_at {
+            self.colors_at = Instant::FAR;
+            set_colors(context, roster, leg);
+        }
+    }
+
+    fn repeat(&mut self, context: &mut Context, roster: &Roster, now: Instant) {
+        if now < self.repeat_at {
+            return;
+        }
+        self.repeats_left = self.repeats_left.saturating_sub(1);
+        self.repeat_at = if self.repeats_left > 0 { now + REPEATS.every } else { Instant::FAR };
+        let Some(repeats) = &mut self.repeats else { return };
+        let needs_none = |one: usize| roster.is_excluded(one) || self.pending[one].is_none();
+        while let Some(one) = repeats.next_overdue(now, needs_none) {
+            if let Some(fade) = self.pending[one] {
+                let topic = Topic::Robot(roster.robot(context, one).id);
+                context.outbox.send(topic, &[Command::Fade(fade)]);
+                repeats.record_sent(now, one, self.repeat_at);
+            }
+        }
+    }
+
+    /// When something is due.
+    pub fn due(&self) -> Instant {
+        self.repeat_at.min(self.colors_at)
+    }
+
+    /// A change that goes along with the next route of a participant.
+    pub fn pending(&self, participant: usize) -> Option<Fade> {
+        self.pending.get(participant).copied().flatten()
+    }
+
+    /// A participant acknowledged the route with which its change went along, or dropped out.
+    pub fn settle(&mut self, participant: usize) {
+        if let Some(pending) = self.pending.get_mut(participant) {
+            *pending = None;
+        }
+    }
+}
+
+/// Robots that follow paths and cannot fade change their light.
+fn set_colors(context: &mut Context, roster: &Roster, leg: &Leg) {
+    for (participant, step) in leg.robots.iter().enumerate() {
+        let known = &roster.participants[participant];
+        let fades = context.fleet.robot(known.robot).reported.abilities.fade;
+        let drives = !known.is_excluded() && !fades && leg.path(participant).is_some();
+        if drives && context.set_light(known.robot, step.color) {
+            let topic = Topic::Robot(context.fleet.robot(known.robot).id);
+            context.outbox.send(topic, &[Command::Color(step.color)]);
+        }
+    }
+}
+
+/// Robots that know TARGET only learn their lights, all at once as they leave.
+pub(crate) fn color_target_robots(context: &mut Context, roster: &Roster, leg: &Leg) {
+    for (participant, step) in leg.robots.iter().enumerate() {
+        let known = &roster.participants[participant];
+        let lit = leg.is_driven_by(participant) || leg.reaches_frame && step.pixel.is_some();
+        if lit && !known.is_excluded() && context.set_light(known.robot, step.color) {
+            let topic = Topic::Robot(context.fleet.robot(known.robot).id);
+            context.outbox.send(topic, &[Command::Color(step.color)]);
+        }
+    }
+}
+
+/// A robot that was switched off and on shows its pixel again.
+pub(crate) fn relight(context: &mut Context, roster: &Roster, leg: &Leg, participant: usize) {
+    let Some(step) = leg.robots.get(participant) else { return };
+    let robot = roster.participants[participant].robot;
+    context.set_light(robot, step.color);
+    let topic = Topic::Robot(context.fleet.robot(robot).id);
+    context.outbox.send(topic, &[Command::Color(step.color)]);
+}

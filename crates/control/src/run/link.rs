@@ -1,0 +1,112 @@
+//! What is known of the link to the robots: how slow it is, how many messages it loses, when it came back.
+//!
+//! The estimate is a largest round trip that fades, in the manner of RFC 6298 without its variance: a START has to wait
+//! for the slowest robot, not for the usual one.
+
+use crate::config::Config;
+use lightbots_base::{Instant, Span};
+
+/// START is repeated this often until its moment.
+///
+/// Below 15 ms a link of 1,000 robots is busy with STARTs; above 100 ms a lost START reaches its robot too late.
+pub(crate) const REPEAT: Span = Span::from_millis(40);
+/// Robots that did not confirm a START are asked again after this time, or after a round trip where that is longer.
+///
+/// An answer passes a lossy link twice. With one message in ten lost, two questions left one START in two of 200 robots
+/// unconfirmed, so that it was postponed.
+pub(crate) const ASK_AGAIN: Span = Span::from_millis(50);
+/// Shortest time by which HOLD and RESUME are stated ahead: four copies, 30 ms apart, and the way of the last one.
+const HOLD_LEAD: Span = Span::from_millis(150);
+/// Shortest time before a START at which its confirmations are counted: enough to state a later one to all.
+const CHECK_AHEAD: Span = Span::from_millis(80);
+/// Time that each robot adds to the lead of a START, because their reports share one link: 20 ms for 1,000 robots.
+const LEAD_PER_ROBOT: Span = Span(20);
+/// Largest estimate of a round trip; slower links are not waited for.
+const ROUND_TRIP_MAX: Span = Span::from_millis(1_500);
+/// Largest time added to the lead for lost messages: nine questions by name.
+const LOSS_MARGIN_MAX: Span = Span::from_millis(450);
+/// After a reconnect, a broker cluster may need this long to restore subscriptions. Until then a robot that reports but
+/// does not acknowledge is kept. Measured on a RabbitMQ cluster of three nodes, one of which was stopped.
+const RESTORES: Span = Span::from_millis(15_000);
+
+/// What is known of the link to the robots.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct LinkEstimate {
+    /// The longest time until a message was acknowledged, both ways included; it fades by a tenth each frame.
+    pub round_trip: Span,
+    /// Time added to the lead of a START, because answers were lost.
+    pub loss_margin: Span,
+    /// When the broker came back last.
+    pub reconnected: Option<Instant>,
+}
+
+impl LinkEstimate {
+    /// How long ahead a START is stated: time for all robots to receive and confirm it, and to be postponed.
+    pub fn start_lead(&self, config: &Config, participants: usize) -> Span {
+        let slow = self.round_trip * 2 + REPEAT;
+        config.start_lead.max(slow) + self.loss_margin + LEAD_PER_ROBOT * participants as i64
+    }
+
+    /// How long ahead HOLD and RESUME are stated.
+    pub fn hold_lead(&self) -> Span {
+        self.round_trip.max(HOLD_LEAD)
+    }
+
+    /// How long before a START its confirmations are counted.
+    pub fn check_ahead(&self) -> Span {
+        CHECK_AHEAD.max(self.round_trip * 3 / 4)
+    }
+
+    /// How long from `since` on a robot that reports may not answer, because the broker came back only now.
+    pub fn patience(&self, since: Instant) -> Span {
+        self.reconnected.map_or(Span::ZERO, |at| (at + RESTORES - since).max(Span::ZERO))
+    }
+
+    /// A message took this long to be acknowledged.
+    pub fn measure(&mut self, round_trip: Span) {
+        self.round_trip = self.round_trip.max(round_trip);
+    }
+
+    /// Many robots did not confirm in time: the link is slower than estimated.
+    pub fn widen(&mut self) {
+        self.round_trip = (self.round_trip * 3 / 2).min(ROUND_TRIP_MAX);
+    }
+
+    /// A few robots did not confirm in time while the others did: messages are lost.
+    pub fn add_loss_margin(&mut self) {
+        self.loss_margin = (self.loss_margin + ASK_AGAIN * 3).min(LOSS_MARGIN_MAX);
+    }
+
+    /// A frame was reached: old evidence fades.
+    pub fn fade(&mut self) {
+        self.round_trip = self.round_trip * 9 / 10;
+        self.loss_margin = self.loss_margin * 9 / 10;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn evidence_of_a_slow_or_lossy_link_is_bounded_and_fades() {
+        let mut link = LinkEstimate::default();
+        link.measure(Span::from_millis(200));
+        (0..20).for_each(|_| {
+            link.widen();
+            link.add_loss_margin();
+        });
+        assert_eq!((link.round_trip, link.loss_margin), (ROUND_TRIP_MAX, LOSS_MARGIN_MAX));
+        (0..60).for_each(|_| link.fade());
+        assert!(link.round_trip < Span::from_millis(5) && link.loss_margin < Span::from_millis(5));
+    }
+
+    #[test]
+    fn a_broker_that_came_back_has_time_to_restore_subscriptions() {
+        let mut link = LinkEstimate::default();
+        assert_eq!(link.patience(Instant(0)), Span::ZERO);
+        link.reconnected = Some(Instant(2_000_000));
+        assert_eq!(link.patience(Instant(1_000_000)), Span::from_millis(16_000));
+        assert_eq!(link.patience(Instant(30_000_000)), Span::ZERO);
+    }
+}

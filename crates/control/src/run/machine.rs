@@ -1,0 +1,248 @@
+//! The changes of phase of a run; nothing else changes a phase.
+
+use crate::context::Context;
+use crate::event::{EventKind, Outcome, Trouble};
+use crate::leg::LegKind;
+use crate::run::candidates;
+use crate::run::driving::Driving;
+use crate::run::gathering::Gathering;
+use crate::run::link::LinkEstimate;
+use crate::run::membership::Probation;
+use crate::run::next::{AirTime, Dropout, Next};
+use crate::run::offline::Offline;
+use crate::run::path_clock::PathClock;
+use crate::run::pipeline::Pipeline;
+use crate::run::playback::PlayedShow;
+use crate::run::roster::Roster;
+use crate::run::run_context::RunContext;
+use crate::run::standing::Standing;
+use crate::run::starting::Starting;
+use crate::run::tally::Tally;
+use lightbots_base::{Instant, RobotId, Span};
+use lightbots_plan::Claims;
+
+/// Where a run is.
+#[derive(Clone, Debug)]
+pub(crate) enum RunPhase {
+    /// All are asked where they stand.
+    Gathering(Gathering),
+    /// All stand, in a frame or before the first; the next leg is planned and uploaded meanwhile.
+    Standing(Standing),
+    /// The START of the next leg is stated.
+    Starting(Starting),
+    /// Robots drive.
+    Driving(Driving),
+    /// The broker is lost.
+    Offline(Offline),
+    /// The run is over: how it ended, and at which frame. There is no way out of this phase.
+    Over(Outcome, usize),
+}
+
+/// Everything about one run.
+#[derive(Clone, Debug)]
+pub(crate) struct Run {
+    /// What is played.
+    pub playback: PlayedShow,
+    /// Who takes part.
+    pub roster: Roster,
+    /// What is planned, uploaded and driven.
+    pub pipeline: Pipeline,
+    /// How slow and lossy the link is.
+    pub link: LinkEstimate,
+    /// Where the run is.
+    pub phase: RunPhase,
+    /// What is counted.
+    pub tally: Tally,
+}
+
+impl Run {
+    pub fn split<'a>(&'a mut self, io: &'a mut Context, now: Instant) -> (&'a mut RunPhase, RunContext<'a>) {
+        let Self { playback, roster, pipeline, link, phase, tally } = self;
+        (phase, RunContext { now, io, playback, roster, pipeline, link, tally })
+    }
+
+    pub fn apply(&mut self, io: &mut Context, now: Instant, mut next: Next) {
+        while !next.stays() {
+            next = self.change(io, now, next);
+        }
+    }
+
+    pub fn next_at_tick(&mut self, io: &mut Context, now: Instant) -> Next {
+        if matches!(self.phase, RunPhase::Standing(_)) {
+            self.update_roster(io, now);
+        }
+        let (phase, mut cx) = self.split(io, now);
+        match phase {
+            RunPhase::Gathering(gathering) => gathering.on_tick(&mut cx),
+            RunPhase::Standing(standing) => standing.on_tick(&mut cx),
+            RunPhase::Starting(starting) => starting.on_tick(&mut cx),
+            RunPhase::Driving(drive) => drive.on_tick(&mut cx),
+            RunPhase::Offline(offline) => offline.on_tick(&mut cx),
+            RunPhase::Over(..) => Next::Stay,
+        }
+    }
+
+    fn update_roster(&mut self, io: &mut Context, now: Instant) {
+        let (_, mut cx) = self.split(io, now);
+        if candidates::admit(&mut cx) || cx.pipeline.planning.is_outdated {
+            self.regather(io, now);
+        }
+    }
+
+    fn change(&mut self, io: &mut Context, now: Instant, next: Next) -> Next {
+        match next {
+            Next::Stay => Next::Stay,
+            Next::Stand(air) => self.stand(io, now, air),
+            Next::Start(earliest) => {
+                assert!(matches!(self.phase, RunPhase::Standing(_)), "only robots that stand can start");
+                let starting = Starting::begin(&mut self.split(io, now).1, earliest);
+                self.enter(RunPhase::Starting(starting));
+                Next::Stay
+            }
+            Next::Drive(began) => self.drive(io, now, began),
+            Next::Regather => {
+                self.regather(io, now);
+                Next::Stay
+            }
+            Next::Drop(dropped) => self.drop(io, now, dropped),
+            Next::Over(outcome) => {
+                let frame = self.frame();
+                self.enter(RunPhase::Over(outcome, frame));
+                Next::Stay
+            }
+        }
+    }
+
+    fn stand(&mut self, io: &mut Context, now: Instant, air: AirTime) -> Next {
+        let may_stand = matches!(self.phase, RunPhase::Gathering(_) | RunPhase::Driving(_));
+        assert!(may_stand, "robots stand after they drove or were gathered");
+        self.enter(RunPhase::Standing(Standing { air }));
+        self.next_at_tick(io, now)
+    }
+
+    fn drive(&mut self, io: &mut Context, now: Instant, began: Instant) -> Next {
+        let kind = self.pipeline.queue.front().map(|leg| leg.kind);
+        match self.phase {
+            RunPhase::Starting(_) => assert!(kind == Some(LegKind::Routes), "a START begins routes"),
+            RunPhase::Standing(_) => assert!(kind == Some(LegKind::Targets), "routes begin with a START"),
+            _ => panic!("only robots that stand or start can drive"),
+        }
+        let (drive, next) = Driving::begin(&mut self.split(io, now).1, began);
+        self.enter_drive(drive);
+        next
+    }
+
+    fn drop(&mut self, io: &mut Context, now: Instant, dropped: Vec<Dropout>) -> Next {
+        assert!(!dropped.is_empty(), "a drop has participants");
+        let was_gathering = matches!(self.phase, RunPhase::Gathering(_));
+        for (participant, why) in dropped {
+            self.drop_out(io, now, participant, why);
+        }
+        // The others may be ready.
+        if was_gathering { self.next_at_tick(io, now) } else { Next::Stay }
+    }
+
+    fn drop_out(&mut self, io: &mut Context, now: Instant, participant: usize, why: Trouble) {
+        if self.roster.is_excluded(participant) {
+            return;
+        }
+        let known = &mut self.roster.participants[participant];
+        known.membership.exclude(why, self.tally.frames_played);
+        known.probation = Probation::after(why);
+        self.pipeline.lights.settle(participant);
+        self.tally.dropouts += 1;
+        if why == Trouble::Silent {
+            let (phase, cx) = self.split(io, now);
+            let whereabouts = match phase {
+                RunPhase::Driving(drive) => drive.whereabouts(&cx, participant),
+                RunPhase::Gathering(gathering) => gathering.whereabouts(&cx, participant),
+                _ => Default::default(),
+            };
+            self.roster.participants[participant].last_seen = whereabouts;
+        }
+        let robot = self.roster.robot(io, participant).id;
+        io.log.record(now, EventKind::Dropout { robot, why });
+        self.tally.recovery.dropped_out(robot, why);
+        self.tally.recovery.begins(self.reached_by(now));
+        self.regather(io, now);
+    }
+
+    fn reached_by(&self, now: Instant) -> Instant {
+        let takes = self.pipeline.queue.front().map_or(Span::ZERO, |leg| leg.duration);
+        match &self.phase {
+            RunPhase::Driving(drive) => drive.clock.ends,
+            RunPhase::Starting(starting) => starting.at + takes,
+            _ => now + takes,
+        }
+    }
+
+    pub fn regather(&mut self, io: &mut Context, now: Instant) {
+        let next = (!self.playback.is_ended()).then_some(self.playback.next);
+        self.pipeline.clear(next);
+        io.plan_request = None;
+        io.mapping.shown = self.shown(io);
+        self.tally.arrivals = None;
+        let (broken_off, stood) = match &self.phase {
+            RunPhase::Offline(_) | RunPhase::Gathering(_) | RunPhase::Over(..) => return,
+            // What robots that know TARGET only said last may be old: they report only when they are asked.
+            RunPhase::Standing(_) if !self.roster.has_target_robots(io) => {
+                return self.report_replanning(io, now);
+            }
+            RunPhase::Standing(standing) => (None, Some(standing.air)),
+            RunPhase::Starting(_) => (None, None),
+            RunPhase::Driving(drive) => (Some(drive.clock), None),
+        };
+        self.report_replanning(io, now);
+        self.gather(io, now, broken_off, stood);
+    }
+
+    pub fn gather(
+        &mut self,
+        io: &mut Context,
+        now: Instant,
+        broken_off: Option<PathClock>,
+        stood: Option<AirTime>,
+    ) {
+        let gathering = Gathering::begin(&mut self.split(io, now).1, broken_off, stood);
+        self.enter(RunPhase::Gathering(gathering));
+    }
+
+    pub fn enter(&mut self, phase: RunPhase) {
+        assert!(!matches!(self.phase, RunPhase::Over(..)), "a run that is over goes on");
+        self.pipeline.upload_from = Instant::ZERO;
+        self.pipeline.lights.end_drive();
+        self.phase = phase;
+    }
+
+    fn enter_drive(&mut self, drive: Driving) {
+        assert!(drive.progress.len() == self.roster.len(), "a participant has no progress");
+        self.phase = RunPhase::Driving(drive);
+    }
+
+    fn shown(&self, io: &Context) -> Claims<RobotId> {
+        let robots = self.pipeline.leg().map_or(&[][..], |leg| &leg.robots);
+        let mut shown = Claims::default();
+        for (participant, known) in self.roster.active() {
+            if let Some(pixel) = robots.get(participant).and_then(|step| step.pixel) {
+                shown.show(pixel, io.fleet.robot(known.robot).id);
+            }
+        }
+        shown
+    }
+
+    pub fn report_replanning(&self, io: &mut Context, now: Instant) {
+        if let Some(next) = self.pipeline.planning.next {
+            io.log.record_limited(now, EventKind::Replanning { frame: next.frame });
+        }
+    }
+
+    /// The frame that is driven to or stands, counted from 0.
+    pub fn frame(&self) -> usize {
+        let reached = self.pipeline.leg().map(|leg| leg.frame);
+        match &self.phase {
+            RunPhase::Over(_, frame) => *frame,
+            RunPhase::Starting(_) => self.playback.shown_frame(),
+            _ => reached.unwrap_or(self.playback.shown_frame()),
+        }
+    }
+}

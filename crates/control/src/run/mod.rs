@@ -1,0 +1,264 @@
+//! A run: phases that own their data, and what outlives a phase.
+//!
+//! This file has the inputs of a run. Each goes to the present phase, which returns [`Next`]; `machine` then changes the
+//! phase. A phase sees the rest of the run as a [`RunContext`]; it never sees [`Run`].
+
+mod candidates;
+mod driving;
+mod gathering;
+mod lights;
+mod link;
+mod machine;
+mod membership;
+mod next;
+mod obstacles;
+mod offline;
+mod path_clock;
+mod pipeline;
+mod playback;
+mod probation;
+mod readiness;
+mod recovery_bound;
+mod requests;
+mod roster;
+mod run_context;
+mod silence;
+mod standing;
+mod starting;
+mod tally;
+mod target_commands;
+mod target_progress;
+mod upload;
+
+pub(crate) use machine::{Run, RunPhase};
+pub(crate) use playback::{FrameCursor, PlayedShow, RunPurpose};
+
+use crate::context::Context;
+use crate::drafting::PlanResult;
+use crate::event::{EventKind, Outcome};
+use crate::fleet::FleetUpdate;
+use crate::leg::{Leg, LegKind};
+use gathering::Gathering;
+use lightbots_base::Instant;
+use lightbots_wire::{Report, RobotState, Topic};
+use link::LinkEstimate;
+use next::Next;
+use offline::Offline;
+use pipeline::Pipeline;
+use roster::Roster;
+#[cfg(doc)]
+use run_context::RunContext;
+use std::ops::ControlFlow;
+use tally::Tally;
+
+impl Run {
+    /// All robots take part that can; then they are asked where they stand, unless that is known.
+    pub fn begin(context: &mut Context, now: Instant, playback: PlayedShow) -> Self {
+        context.mapping.shown.clear();
+        let roster = Roster::of_fleet(context, now);
+        let from = playback.next.frame;
+        context.log.record(now, EventKind::RunBegun { from, robots: roster.len() });
+        // Robots that know TARGET only do not say whether they drive: their places count once they stay the same.
+        let may_drive = (0..roster.len()).any(|participant| {
+            let robot = roster.robot(context, participant);
+            robot.is_original() || robot.reported.state != Some(RobotState::Idle)
+        });
+        let mut run = Self {
+            pipeline: Pipeline::new(playback.next),
+            playback,
+            roster,
+            link: LinkEstimate::default(),
+            phase: RunPhase::Gathering(Gathering::at_begin(now)),
+            tally: Tally::default(),
+        };
+        if may_drive {
+            run.gather(context, now, None, None);
+        }
+        run
+    }
+
+    /// The run is over: robots keep what they show.
+    pub fn leave(&mut self, context: &mut Context) {
+        for (participant, known) in self.roster.participants.iter().enumerate() {
+            let step = self.pipeline.leg().and_then(|leg| leg.robots.get(participant));
+            let step = step.filter(|_| !known.is_excluded());
+            let robot = context.fleet.robot_mut(known.robot);
+            robot.participant = None;
+            robot.pixel = step.and_then(|step| step.pixel);
+            robot.goal = step.map(|step| step.goal);
+        }
+    }
+
+    /// A robot of the fleet reported; the fleet table knows already.
+    pub fn on_report(
+        &mut self,
+        io: &mut Context,
+        now: Instant,
+        received: FleetUpdate,
+        topic: Topic,
+        report: &Report,
+    ) {
+        let participant = io.fleet.robot(received.index).participant.map(|participant| participant as usize);
+        let Some(participant) = participant.filter(|&one| !self.roster.is_excluded(one)) else {
+            if topic == Topic::Arrival {
+                io.report_unexpected(now, report);
+            }
+            let is_stopping = matches!(self.phase, RunPhase::Gathering(_));
+            let (_, mut cx) = self.split(io, now);
+            return candidates::consider(&mut cx, received.index, is_stopping);
+        };
+        if topic == Topic::Arrival || report.details.is_none() {
+            let next = self.on_place(io, now, participant, topic, report);
+            return self.apply(io, now, next);
+        }
+        self.on_status(io, now, participant, received.restarted, report);
+    }
+
+    fn on_place(
+        &mut self,
+        io: &mut Context,
+        now: Instant,
+        participant: usize,
+        topic: Topic,
+        report: &Report,
+    ) -> Next {
+        let (phase, mut cx) = self.split(io, now);
+        match (phase, &report.details) {
+            (RunPhase::Driving(drive), _) => drive.on_report(&mut cx, participant, topic, report),
+            (RunPhase::Starting(starting), Some(details)) => {
+                starting.on_arrival(&mut cx, participant, details)
+            }
+            (RunPhase::Standing(_), _) if topic == Topic::Arrival => {
+                standing::check_place(&mut cx, participant, report.at);
+                Next::Stay
+            }
+            _ => Next::Stay,
+        }
+    }
+
+    fn on_status(
+        &mut self,
+        io: &mut Context,
+        now: Instant,
+        participant: usize,
+        restarted: bool,
+        report: &Report,
+    ) {
+        let Some(details) = &report.details else { return };
+        let (_, mut cx) = self.split(io, now);
+        let may_send = cx.pipeline.acknowledge(cx.link, now, participant, details.route);
+        let next = if may_send { cx.pump() } else { Next::Stay };
+        self.apply(io, now, next);
+        let (phase, mut cx) = self.split(io, now);
+        let next = match phase {
+            RunPhase::Driving(drive) => drive.on_report(&mut cx, participant, Topic::Status, report),
+            RunPhase::Standing(standing) => standing.on_report(&mut cx, participant, details, restarted),
+            RunPhase::Starting(starting) => starting.on_report(&mut cx, participant, details, restarted),
+            RunPhase::Gathering(_) | RunPhase::Offline(_) | RunPhase::Over(..) => Next::Stay,
+        };
+        self.apply(io, now, next);
+        if let Some(driven) = self.pipeline.driven.as_ref().filter(|_| restarted) {
+            lights::relight(io, &self.roster, &driven.leg, participant);
+        }
+        if matches!(self.phase, RunPhase::Standing(_)) && self.pipeline.is_uploaded() {
+            self.tick_phase(io, now);
+        }
+    }
+
+    /// Time passes.
+    pub fn on_tick(&mut self, io: &mut Context, now: Instant) {
+        self.tally.recovery.pause(now, self.playback.paused);
+        self.tick_phase(io, now);
+    }
+
+    fn tick_phase(&mut self, io: &mut Context, now: Instant) {
+        let next = self.next_at_tick(io, now);
+        self.apply(io, now, next);
+    }
+
+    /// When time has to pass next.
+    pub fn due(&self, io: &Context, now: Instant) -> Instant {
+        match &self.phase {
+            RunPhase::Gathering(gathering) => gathering.due(now),
+            RunPhase::Standing(standing) => {
+                let start_lead = self.link.start_lead(&io.config, self.roster.len());
+                standing.due(&self.pipeline, start_lead, now, self.playback.paused)
+            }
+            RunPhase::Starting(starting) => starting.due().min(self.pipeline.due()),
+            RunPhase::Driving(drive) => drive.due().min(self.pipeline.lights.due()).min(self.pipeline.due()),
+            RunPhase::Offline(offline) => offline.due(now),
+            RunPhase::Over(..) => Instant::FAR,
+        }
+    }
+
+    /// A plan is there.
+    pub fn on_plan(&mut self, io: &mut Context, now: Instant, result: PlanResult) {
+        let is_standing = matches!(self.phase, RunPhase::Standing(_));
+        let (_, mut cx) = self.split(io, now);
+        let next = match requests::accept(&mut cx, result, is_standing) {
+            ControlFlow::Break(next) => return self.apply(io, now, next),
+            ControlFlow::Continue(next) => next,
+        };
+        self.apply(io, now, next);
+        match self.phase {
+            RunPhase::Standing(_) => self.tick_phase(io, now),
+            RunPhase::Driving(_) => {
+                let next = self.split(io, now).1.pump();
+                self.apply(io, now, next);
+            }
+            _ => {}
+        }
+    }
+
+    /// The operator goes on; `step`: to the next frame, where the run pauses again.
+    pub fn resume(&mut self, io: &mut Context, now: Instant, step: bool) {
+        (self.playback.paused, self.playback.stepping) = (false, step);
+        let (phase, mut cx) = self.split(io, now);
+        match phase {
+            RunPhase::Standing(standing) => standing.resume(now, step),
+            RunPhase::Driving(drive) => drive.resume(&mut cx),
+            _ => {}
+        }
+    }
+
+    /// The show starts again after its last frame, or does not.
+    pub fn set_looping(&mut self, io: &mut Context, now: Instant, looping: bool) {
+        let is_starting = matches!(self.phase, RunPhase::Starting(_));
+        requests::set_looping(&mut self.split(io, now).1, looping, is_starting);
+    }
+
+    /// The operator ends the run.
+    pub fn abort(&mut self, io: &mut Context, now: Instant) {
+        self.apply(io, now, Next::Over(Outcome::Aborted));
+    }
+
+    /// The broker is lost: robots stop by themselves.
+    pub fn on_disconnect(&mut self, io: &mut Context, now: Instant) {
+        let stood = match &self.phase {
+            RunPhase::Standing(standing) => Some(standing.air),
+            RunPhase::Gathering(gathering) => gathering.stood(),
+            _ => None,
+        };
+        self.regather(io, now);
+        self.enter(RunPhase::Offline(Offline { since: now, stood }));
+    }
+
+    /// The broker is back: all are asked where they stand.
+    pub fn on_reconnect(&mut self, io: &mut Context, now: Instant) {
+        let RunPhase::Offline(Offline { since, stood }) = self.phase else { return };
+        self.tally.recovery.put_off(now - since);
+        self.link.reconnected = Some(now);
+        self.report_replanning(io, now);
+        self.gather(io, now, None, stood);
+    }
+
+    /// The leg whose paths are driven or about to be, and when they begin.
+    pub fn driven_paths(&self) -> Option<(&Leg, Instant)> {
+        let (leg, began) = match &self.phase {
+            RunPhase::Starting(starting) => (self.pipeline.queue.front(), starting.at),
+            RunPhase::Driving(drive) => (self.pipeline.leg(), drive.clock.began),
+            _ => return None,
+        };
+        leg.filter(|leg| leg.kind == LegKind::Routes).map(|leg| (leg, began))
+    }
+}

@@ -1,0 +1,117 @@
+//! What plans drive around: robots that take no part, places of silent ones, and what robots met in their paths.
+
+use crate::robot::Robot;
+use crate::run::roster::Whereabouts;
+use crate::run::run_context::RunContext;
+use crate::snapshot::Age;
+use lightbots_base::Vec2;
+
+/// Two robots cannot stand closer than this share of contact: one of the reports is out of date.
+const SAME_PLACE: f64 = 0.9;
+
+/// How an inferred disc is moved out of robots whose places are known.
+struct Displacement {
+    /// Farthest that a disc is moved, metres: inferred places are off by 20 mm.
+    most_m: f64,
+    /// Clearance that it is then given, metres: less than the planner can start with.
+    clearance_m: f64,
+    /// Sweeps over the robots around it: it lies between three at most.
+    sweeps: usize,
+}
+
+const DISPLACEMENT: Displacement = Displacement { most_m: 0.03, clearance_m: 0.001, sweeps: 10 };
+
+/// Discs that do not move during a drive, stage metres.
+pub(crate) struct Discs {
+    /// Robots that reported their places.
+    pub reported: Vec<Vec2>,
+    /// Places that no robot reported.
+    pub inferred: Vec<Vec2>,
+}
+
+/// Everything on the floor that takes no part in the next plan. A disc inside a robot that does is out of date.
+pub(crate) fn standing_discs(cx: &RunContext) -> Discs {
+    let contact_m = cx.playback.contact_m();
+    let near_m = contact_m * SAME_PLACE;
+    let from = &cx.pipeline.planning.from;
+    let starts: Vec<Vec2> = cx.roster.active().map(|(one, _)| from[one]).collect();
+    let is_free = |at: &Vec2| starts.iter().all(|start| start.distance(*at) >= near_m);
+    let silent = cx.roster.participants.iter().filter(|known| known.is_excluded());
+    let places = silent.flat_map(|known| known.last_seen.possible.iter());
+    let inferred = places.chain(&cx.pipeline.obstacles.found).map(|at| displaced(*at, &starts, contact_m));
+    let robots = cx.io.fleet.robots().iter().filter(|robot| is_obstacle(cx, robot));
+    Discs {
+        reported: robots.filter_map(|robot| robot.reported.at).filter(is_free).collect(),
+        inferred: inferred.filter(is_free).collect(),
+    }
+}
+
+/// Whether a robot takes no part and stands where it reported.
+fn is_obstacle(cx: &RunContext, robot: &Robot) -> bool {
+    let known = robot.participant.map(|participant| cx.participant(participant as usize));
+    let is_ignored = cx.pipeline.obstacles.ignores_strangers && cx.roster.is_stranger(robot);
+    match known {
+        // Where a silent robot may be by now is known better than by its last report.
+        Some(known) => known.is_excluded() && known.last_seen.possible.is_empty(),
+        None => robot.contact.age != Age::Gone && !is_ignored,
+    }
+}
+
+/// There is no plan to the next frame from where robots stand. Tries without robots that came during the run and take no
+/// part, because any client can claim to be a robot anywhere; or only around the likely places of silent robots; or
+/// around none of them; or else to the frame after it. Whether there is anything left to try.
+pub(crate) fn relax(cx: &mut RunContext) -> bool {
+    let participants = &cx.roster.participants;
+    let is_any_silent = participants.iter().any(|known| !known.last_seen.possible.is_empty());
+    let is_any_inferred = !cx.pipeline.obstacles.found.is_empty() || is_any_silent;
+    let is_unlikely = |places: &Whereabouts| places.possible.len() > places.likely.len();
+    let has_unlikely = participants.iter().any(|known| is_unlikely(&known.last_seen));
+    let has_strangers = cx.io.fleet.robots().iter().any(|robot| cx.roster.is_stranger(robot));
+    let participants = &mut cx.roster.participants;
+    if has_strangers && !std::mem::replace(&mut cx.pipeline.obstacles.ignores_strangers, true) {
+        return true;
+    }
+    if has_unlikely {
+        let keep_likely = |places: &mut Whereabouts| places.possible.clone_from(&places.likely);
+        participants.iter_mut().for_each(|known| keep_likely(&mut known.last_seen));
+    } else if is_any_inferred {
+        cx.pipeline.obstacles.found.clear();
+        participants.iter_mut().for_each(|known| known.last_seen = Whereabouts::default());
+    } else {
+        let after = cx.playback.after(cx.playback.next);
+        let Some(next) = after.filter(|next| next.round == cx.playback.next.round) else { return false };
+        cx.playback.next = next;
+    }
+    true
+}
+
+/// An inferred place of a disc, moved until it touches none of the robots that are known to stand there. A disc that
+/// would be moved too far stays inside one, and is dropped.
+fn displaced(place: Vec2, starts: &[Vec2], contact_m: f64) -> Vec2 {
+    let near: Vec<Vec2> =
+        starts.iter().copied().filter(|start| start.distance(place) < 2.0 * contact_m).collect();
+    let mut at = place;
+    for _ in 0..DISPLACEMENT.sweeps {
+        for start in &near {
+            let missing_m = contact_m + DISPLACEMENT.clearance_m - start.distance(at);
+            if missing_m > 0.0 {
+                at += (at - *start).normalized().unwrap_or(Vec2::new(1.0, 0.0)) * missing_m;
+            }
+        }
+    }
+    if at.distance(place) <= DISPLACEMENT.most_m { at } else { place }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_disc_is_moved_out_of_a_robot_only_where_that_is_near() {
+        let robot = [Vec2::ZERO];
+        let moved = displaced(Vec2::new(0.04, 0.0), &robot, 0.054);
+        assert!((moved.x - 0.055).abs() < 1e-9, "{moved:?}");
+        let inside = Vec2::new(0.01, 0.0);
+        assert_eq!(displaced(inside, &robot, 0.054), inside);
+    }
+}

@@ -1,0 +1,100 @@
+//! How far along their paths robots are by plan: show time minus what holds cost.
+
+use lightbots_base::{Instant, Span};
+use lightbots_wire::Route;
+
+/// RobotProgress along the paths is held.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Hold {
+    /// RobotProgress begins to fall to zero at this moment.
+    pub at: Instant,
+    /// The operator wants it.
+    pub by_operator: bool,
+    /// When progress picks up again, once that is stated.
+    pub until: Option<Instant>,
+    /// When that is to be stated: shortly before it must be, so that a new trouble can still prolong the hold.
+    pub release_at: Option<Instant>,
+    /// When it is looked at whether all robots stand.
+    pub check_at: Instant,
+}
+
+/// The time base of a drive.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct PathClock {
+    /// When the drive began, show clock.
+    pub began: Instant,
+    /// When the drive ends by plan, holds included.
+    pub ends: Instant,
+    /// The last hold, until progress has picked up again.
+    pub hold: Option<Hold>,
+    /// Time lost by holds that are over.
+    pub lost: Span,
+}
+
+impl PathClock {
+    /// A drive that was not held yet.
+    pub fn new(began: Instant, duration: Span) -> Self {
+        Self { began, ends: began + duration, hold: None, lost: Span::ZERO }
+    }
+
+    /// The hold whose end is not stated yet.
+    pub fn open_hold(&self) -> Option<&Hold> {
+        self.hold.as_ref().filter(|hold| hold.until.is_none())
+    }
+
+    /// Whether progress is held and the end of that is not stated yet.
+    pub fn is_held(&self) -> bool {
+        self.open_hold().is_some()
+    }
+
+    /// A hold that is over counts as lost time.
+    pub fn end_hold(&mut self, now: Instant) {
+        if let Some(Hold { at, until: Some(until), .. }) = self.hold
+            && now >= until + Route::EASE
+        {
+            self.lost += until - at;
+            self.hold = None;
+        }
+    }
+
+    /// How far along their paths robots are by plan. RobotProgress falls and rises linearly over [`Route::EASE`].
+    pub fn path_time(&self, now: Instant) -> Span {
+        let free = now - self.began - self.lost;
+        let Some(hold) = self.hold.filter(|hold| now > hold.at) else { return free };
+        let held = (now - hold.at).0 as f64;
+        let ease = Route::EASE.0 as f64;
+        let slowing = held.min(ease);
+        let rolled = slowing - slowing * slowing / (2.0 * ease);
+        let picked = hold.until.filter(|until| now > *until).map_or(0.0, |until| {
+            let since = (now - until).0 as f64;
+            if since < ease { since * since / (2.0 * ease) } else { since - ease / 2.0 }
+        });
+        hold.at - self.began - self.lost + Span((rolled + picked) as i64)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_hold_costs_the_time_from_its_begin_to_its_end() {
+        let mut clock = PathClock::new(Instant(1_000_000), Span::from_millis(5_000));
+        let hold = Hold {
+            at: Instant(2_000_000),
+            by_operator: false,
+            until: Some(Instant(4_000_000)),
+            release_at: None,
+            check_at: Instant(2_000_000),
+        };
+        clock.hold = Some(hold);
+        assert_eq!(clock.path_time(Instant(2_000_000)), Span::from_millis(1_000));
+        let stands = Span::from_millis(1_000) + Route::EASE / 2;
+        assert_eq!(clock.path_time(Instant(3_500_000)), stands, "robots stand");
+        let later = Instant(6_000_000);
+        assert_eq!(clock.path_time(later), Span::from_millis(3_000));
+        clock.end_hold(later);
+        assert!(clock.hold.is_none());
+        assert_eq!(clock.path_time(later), Span::from_millis(3_000), "the hold is over");
+    }
+}

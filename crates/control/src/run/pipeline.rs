@@ -1,0 +1,245 @@
+//! From a plan to wheels: legs that are planned, uploaded, and driven, and changes of light beside them.
+
+use crate::context::Context;
+use crate::event::{EventKind, Trouble};
+use crate::leg::Leg;
+use crate::run::lights::Lights;
+use crate::run::link::LinkEstimate;
+use crate::run::next::Next;
+use crate::run::playback::FrameCursor;
+use crate::run::roster::Roster;
+use crate::run::target_progress::TargetProgress;
+use crate::run::upload::Upload;
+use lightbots_base::{Instant, Vec2};
+use lightbots_wire::{Command, Pieces, Route, Topic};
+use std::collections::VecDeque;
+
+/// Largest clearance that a route states, millimetres: farther than proximity sensors see.
+const ROOM_MAX_MM: f64 = 40.0;
+
+/// The leg that is driven or was driven last, and how far robots that know TARGET only are on it.
+#[derive(Clone, Debug)]
+pub(crate) struct DrivenLeg {
+    pub leg: Leg,
+    pub targets: TargetProgress,
+}
+
+/// What is planned, and from where.
+#[derive(Clone, Debug)]
+pub(crate) struct Planning {
+    /// The frame that is planned next.
+    pub next: Option<FrameCursor>,
+    /// The last frame that is planned or being planned.
+    pub last: FrameCursor,
+    /// `[participant]`: where all stand when that frame is driven to, stage metres.
+    pub from: Vec<Vec2>,
+    /// Number of the plan request that is out, and since when.
+    pub pending: Option<(u64, Instant)>,
+    /// Robots wait for the plan: only one frame is planned.
+    pub is_urgent: bool,
+    /// Robots stand too far from where the next leg begins.
+    pub is_outdated: bool,
+    /// Pixels of the last plan stay dark.
+    pub is_dark: bool,
+    /// Why there is no plan beyond the queue.
+    pub failure: Option<String>,
+}
+
+/// What stands on the floor, takes no part and is driven around, besides the robots of the fleet.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Obstacles {
+    /// Where robots met something that no robot of the fleet explains; stage metres.
+    pub found: Vec<Vec2>,
+    /// There was no path with robots that came during the run and take no part: they are not driven around until the
+    /// next frame is reached.
+    pub ignores_strangers: bool,
+}
+
+/// Legs on their way from a plan to wheels.
+#[derive(Clone, Debug)]
+pub(crate) struct Pipeline {
+    pub planning: Planning,
+    pub obstacles: Obstacles,
+    /// Legs that are planned; the first is uploaded.
+    pub queue: VecDeque<Leg>,
+    /// Routes of the next leg are sent from this moment on.
+    pub upload_from: Instant,
+    /// The upload of the first leg of the queue.
+    pub upload: Option<Upload>,
+    pub lights: Lights,
+    /// The leg that is driven, or has brought all where they stand.
+    pub driven: Option<DrivenLeg>,
+}
+
+/// A robot does not acknowledge although its route was sent as often as is tolerated.
+enum Unacknowledged {
+    /// The robot is deaf.
+    Deaf,
+    /// The link does not deliver: the robot is sent to again.
+    LinkFails,
+    /// The link does not deliver, and did not for too long.
+    LinkFailed,
+}
+
+impl Pipeline {
+    /// Nothing is planned; `first` is the first frame.
+    pub fn new(first: FrameCursor) -> Self {
+        let planning = Planning {
+            next: Some(first),
+            last: first,
+            from: Vec::new(),
+            pending: None,
+            is_urgent: false,
+            is_outdated: false,
+            is_dark: false,
+            failure: None,
+        };
+        Self {
+            planning,
+            obstacles: Obstacles::default(),
+            queue: VecDeque::new(),
+            upload_from: Instant::ZERO,
+            upload: None,
+            lights: Lights::default(),
+            driven: None,
+        }
+    }
+
+    /// Legs and requests are dropped; `next` is planned again from where robots are.
+    pub fn clear(&mut self, next: Option<FrameCursor>) {
+        self.upload = None;
+        self.queue.clear();
+        self.planning.pending = None;
+        self.planning.is_outdated = false;
+        self.planning.is_urgent = true;
+        self.planning.next = next;
+        self.planning.from.clear();
+    }
+
+    /// The leg that is driven, or has brought all where they stand.
+    pub fn leg(&self) -> Option<&Leg> {
+        self.driven.as_ref().map(|driven| &driven.leg)
+    }
+
+    /// Whether all that take part in the next leg have its route.
+    pub fn is_uploaded(&self) -> bool {
+        match (&self.upload, self.queue.front()) {
+            (Some(upload), Some(leg)) => upload.number == leg.seq && upload.is_done(),
+            _ => false,
+        }
+    }
+
+    /// When something of the upload is due.
+    pub fn due(&self) -> Instant {
+        self.upload.as_ref().and_then(Upload::due).unwrap_or(Instant::FAR)
+    }
+
+    /// Sends what may be sent now: first routes that were not acknowledged, then those that were not sent yet.
+    pub fn pump(
+        &mut self,
+        context: &mut Context,
+        roster: &Roster,
+        link: &LinkEstimate,
+        now: Instant,
+    ) -> Next {
+        if now < self.upload_from {
+            return Next::Stay;
+        }
+        let Some(leg) = self.queue.front() else {
+            self.upload = None;
+            return Next::Stay;
+        };
+        if self.upload.as_ref().is_none_or(|upload| upload.number != leg.seq) {
+            self.upload = Some(Upload::new(leg.seq, now, leg.robots.len()));
+        }
+        let Self { upload: Some(upload), lights, .. } = self else { return Next::Stay };
+        let again_after = context.config.upload.resend_after.max(link.round_trip * 5 / 4);
+        while let Some(participant) = upload.next_overdue(now, |one| roster.is_excluded(one)) {
+            if upload.tries(participant) >= context.config.upload.tries {
+                match judge(context, roster, link, upload, (now, participant)) {
+                    Unacknowledged::Deaf => return Next::drop(participant, Trouble::Deaf),
+                    Unacknowledged::LinkFailed => return Next::failed("no robot acknowledges its path"),
+                    Unacknowledged::LinkFails => {}
+                }
+            }
+            context.resent += 1;
+            send_route(context, roster, lights, leg, participant);
+            upload.record_sent(now, participant, now + again_after);
+        }
+        let window = context.config.upload.window;
+        let needs_none = |one: usize| roster.is_excluded(one) || leg.path(one).is_none();
+        while let Some(participant) = upload.next_unserved(window, needs_none) {
+            send_route(context, roster, lights, leg, participant);
+            upload.record_sent(now, participant, now + again_after);
+        }
+        Next::Stay
+    }
+
+    /// A report names the route that its robot keeps; whether more can be sent now.
+    pub fn acknowledge(
+        &mut self,
+        link: &mut LinkEstimate,
+        now: Instant,
+        participant: usize,
+        route: u32,
+    ) -> bool {
+        let Some(upload) = self.upload.as_mut().filter(|upload| upload.number == route) else { return false };
+        if !upload.acknowledge(now, participant) {
+            return false;
+        }
+        self.lights.settle(participant);
+        if upload.is_done() {
+            link.measure(upload.slowest());
+        }
+        upload.has_unserved()
+    }
+
+    /// A robot lost the route that it acknowledged, or never had it: the route is sent again.
+    pub fn upload_again(&mut self, now: Instant, participant: usize) {
+        if let Some(upload) = &mut self.upload {
+            upload.reopen(now, participant);
+        }
+    }
+}
+
+/// What it means that a robot does not acknowledge. Where it is one of many, all of which report, or where the broker
+/// came back only now, messages to it may not be delivered, and dropping the robot would be wrong. That has the bound
+/// that a broker has that is gone.
+fn judge(
+    context: &mut Context,
+    roster: &Roster,
+    link: &LinkEstimate,
+    upload: &mut Upload,
+    (now, participant): (Instant, usize),
+) -> Unacknowledged {
+    let restores = now - upload.began < link.patience(upload.began);
+    let reports = roster.robot(context, participant).contact.heard > upload.began;
+    if !reports || !(upload.is_unanswered() || restores) {
+        return Unacknowledged::Deaf;
+    }
+    if upload.is_unanswered() && !std::mem::replace(&mut upload.is_announced, true) {
+        context.log.record(now, EventKind::NobodyHears);
+    }
+    upload.restart_clock(now, participant);
+    if now - upload.began > context.config.offline_bound {
+        return Unacknowledged::LinkFailed;
+    }
+    Unacknowledged::LinkFails
+}
+
+/// Sends a participant its route of a leg, with the change of light that its robot may not know yet.
+fn send_route(context: &mut Context, roster: &Roster, lights: &Lights, leg: &Leg, participant: usize) {
+    let Some(path) = leg.path(participant) else { return };
+    let Ok(pieces) = Pieces::from_slice(&path.pieces) else { return };
+    let robot = roster.robot(context, participant);
+    let (topic, abilities) = (Topic::Robot(robot.id), robot.reported.abilities);
+    let step = &leg.robots[participant];
+    // The cast rounds down, and less than nothing to nothing.
+    let room_mm = abilities.room.then(|| (step.room_m * 1e3).min(ROOM_MAX_MM) as u16);
+    let neighbours = step.neighbours.as_deref().filter(|_| abilities.neighbours).cloned().unwrap_or_default();
+    let route = Command::Route(Route { seq: leg.seq, start: path.start, pieces, room_mm, neighbours });
+    match lights.pending(participant) {
+        Some(fade) => context.outbox.send(topic, &[route, Command::Fade(fade)]),
+        None => context.outbox.send(topic, &[route]),
+    }
+}

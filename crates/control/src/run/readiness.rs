@@ -1,0 +1,34 @@
+//! What a robot lacks to be planned for.
+
+use crate::context::Context;
+use crate::event::Trouble;
+use crate::snapshot::Age;
+use lightbots_base::{Instant, Span};
+use lightbots_wire::RobotState;
+
+/// A robot that knows TARGET only stands if it reported the same place for this long: it may turn on the spot before it
+/// drives, for up to 1 s.
+const STILL: Span = Span::from_millis(1_200);
+
+/// What a robot of the fleet lacks to be planned for; `None`: nothing. Reports from before `fresh_from` do not count.
+pub(crate) fn missing(context: &Context, robot: usize, fresh_from: Instant) -> Option<Trouble> {
+    let robot = context.fleet.robot(robot);
+    let (reported, heard) = (&robot.reported, robot.contact.heard);
+    if heard < fresh_from {
+        return Some(Trouble::Silent);
+    }
+    match reported.state {
+        Some(RobotState::Faulty) => Some(Trouble::Faulty),
+        Some(RobotState::Lost) => Some(Trouble::Lost),
+        Some(RobotState::Driving | RobotState::Held) => Some(Trouble::Deaf),
+        _ if reported.at.is_none() => Some(Trouble::Lost),
+        _ if robot.is_original() && heard - robot.standstill.since < STILL => Some(Trouble::Deaf),
+        _ if !robot.is_original() && reported.clock_us.is_none() => Some(Trouble::Cut),
+        _ => None,
+    }
+}
+
+/// Whether a robot of the fleet could be planned for now.
+pub(crate) fn is_ready(context: &Context, robot: usize) -> bool {
+    context.fleet.robot(robot).contact.age == Age::Active && missing(context, robot, Instant::ZERO).is_none()
+}

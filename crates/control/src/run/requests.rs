@@ -1,0 +1,194 @@
+//! Plan requests, and what becomes of their results.
+
+use crate::drafting::{PlanProblem, PlanRequest, PlanResult, PlannedRobot};
+use crate::event::EventKind;
+use crate::operation::MissingPolicy;
+use crate::run::next::Next;
+use crate::run::obstacles;
+use crate::run::playback::FrameCursor;
+use crate::run::run_context::RunContext;
+use lightbots_base::Span;
+use std::ops::ControlFlow;
+
+/// Most routes that one request plans: a frame of 10,000 robots has 10,000. More would keep a change of the show waiting.
+const ROUTES_A_REQUEST: usize = 400_000;
+/// While fewer frames than this are planned ahead, more are planned.
+const FRAMES_AHEAD: usize = 3;
+/// Most pixels that an event lists.
+const LISTED: usize = 16;
+
+/// Gives out the next plan request, if one is due.
+pub(crate) fn plan_ahead(cx: &mut RunContext) {
+    let ahead = cx.pipeline.queue.iter().filter(|leg| leg.reaches_frame).count();
+    let planning = &cx.pipeline.planning;
+    let (Some(first), None, true) = (planning.next, planning.pending, ahead < FRAMES_AHEAD) else { return };
+    if planning.from.len() != cx.roster.len() {
+        cx.pipeline.planning.from = (0..cx.roster.len()).map(|participant| cx.place(participant)).collect();
+    }
+    let stopped = std::mem::take(&mut cx.pipeline.planning.is_urgent);
+    let lenient = cx.playback.missing == MissingPolicy::LeaveOut || cx.pipeline.driven.is_some() || stopped;
+    let most = if stopped { 1 } else { ROUTES_A_REQUEST / cx.roster.len().max(1) };
+    let frames = take_frames(cx, first, most);
+    let obstacles::Discs { reported, inferred } = obstacles::standing_discs(cx);
+    let problem = PlanProblem {
+        show: cx.playback.show.clone(),
+        frames,
+        robots: planned_robots(cx),
+        participants: cx.roster.len(),
+        standing: [&reported[..], &inferred[..]].concat(),
+        inferred,
+        mapping: cx.io.mapping.clone(),
+        lenient,
+        stopped,
+    };
+    cx.io.plan_number += 1;
+    cx.io.plan_request = Some(PlanRequest { number: cx.io.plan_number, problem });
+    cx.pipeline.planning.pending = Some((cx.io.plan_number, cx.now));
+}
+
+/// At most `most` frames of one round from `first` on; they count as planned.
+fn take_frames(cx: &mut RunContext, first: FrameCursor, most: usize) -> Vec<(usize, u32)> {
+    let planning = &mut cx.pipeline.planning;
+    let mut frames = vec![(first.frame, first.round)];
+    planning.last = first;
+    planning.next = cx.playback.after(first);
+    while let Some(next) = planning.next.filter(|next| frames.len() < most && next.round == first.round) {
+        frames.push((next.frame, next.round));
+        planning.last = next;
+        planning.next = cx.playback.after(next);
+    }
+    frames
+}
+
+fn planned_robots(cx: &RunContext) -> Vec<PlannedRobot> {
+    let robot = |participant: usize| {
+        let robot = cx.robot(participant);
+        let at = cx.pipeline.planning.from[participant];
+        PlannedRobot { participant, id: robot.id, at, original: robot.is_original() }
+    };
+    cx.roster.active().map(|(participant, _)| robot(participant)).collect()
+}
+
+/// A plan is there. `Break`: it is of no use, and the phase goes on as before; `Continue`: its legs are queued, as far as
+/// there are any. `is_standing`: robots wait for it.
+pub(crate) fn accept(cx: &mut RunContext, result: PlanResult, is_standing: bool) -> ControlFlow<Next, Next> {
+    if cx.pipeline.planning.pending.is_none_or(|(number, _)| number != result.number) {
+        return ControlFlow::Break(Next::Stay);
+    }
+    cx.pipeline.planning.pending = None;
+    if result.stopped && result.failed.is_none() {
+        if let Some(next) = refuse_if_too_late(cx, &result) {
+            return ControlFlow::Break(next);
+        }
+        cx.tally.recovery.replanned();
+    }
+    (cx.io.mapping.owners, cx.io.mapping.shown) =
+        (result.mapping.owners.clone(), result.mapping.shown.clone());
+    remember_ends(cx, &result);
+    report_dark(cx, &result);
+    let (failed, frames) = (result.failed.clone(), result.frames);
+    queue_legs(cx, result);
+    cx.io.log.record(cx.now, EventKind::Planned { frames });
+    match failed {
+        Some(failed) => on_failure(cx, failed, is_standing),
+        None if cx.pipeline.driven.is_none()
+            && cx.pipeline.planning.is_dark
+            && cx.playback.missing == MissingPolicy::Refuse =>
+        {
+            let why = "some pixels have no robot, or one that takes no part stands on them";
+            ControlFlow::Break(Next::failed(why))
+        }
+        None => ControlFlow::Continue(Next::Stay),
+    }
+}
+
+/// Where all stand at the end of the last leg: more is planned from there.
+fn remember_ends(cx: &mut RunContext, result: &PlanResult) {
+    let Some(last) = result.legs.last() else { return };
+    cx.pipeline.planning.from = last.robots.iter().map(|robot| robot.goal).collect();
+    for participant in (0..cx.roster.len()).filter(|&one| cx.roster.is_excluded(one)) {
+        cx.pipeline.planning.from[participant] = cx.place(participant);
+    }
+}
+
+fn report_dark(cx: &mut RunContext, result: &PlanResult) {
+    cx.pipeline.planning.is_dark = !result.dark.is_empty();
+    for (frame, pixels) in &result.dark {
+        let (frame, count) = (*frame, pixels.len());
+        let pixels = pixels.iter().copied().take(LISTED).collect();
+        cx.io.log.record(cx.now, EventKind::LeftOut { frame, pixels, count });
+    }
+}
+
+fn queue_legs(cx: &mut RunContext, result: PlanResult) {
+    let mut takes = Span::ZERO;
+    for mut leg in result.legs {
+        leg.seq = cx.io.number_route();
+        takes += leg.duration;
+        if leg.reaches_frame {
+            let air = cx.playback.air_time(leg.frame);
+            cx.tally.recovery.planned(leg.frame, std::mem::take(&mut takes) + air);
+        }
+        cx.pipeline.queue.push_back(leg);
+    }
+}
+
+/// There is no plan to a frame.
+fn on_failure(
+    cx: &mut RunContext,
+    (frame, message): (usize, String),
+    is_standing: bool,
+) -> ControlFlow<Next, Next> {
+    cx.io.log.record(cx.now, EventKind::PlanFailed { frame, message: message.clone() });
+    let why = format!("no plan for frame {}: {message}", frame + 1);
+    cx.pipeline.planning.next = None;
+    if cx.pipeline.driven.is_none() && cx.tally.frames_played == 0 {
+        return ControlFlow::Break(Next::failed(why));
+    }
+    if cx.pipeline.queue.is_empty() && is_standing && obstacles::relax(cx) {
+        return ControlFlow::Continue(Next::Regather);
+    }
+    cx.pipeline.planning.failure = Some(why);
+    ControlFlow::Continue(Next::Stay)
+}
+
+/// Whether recovery has cost too much, or would with this plan: then another is made, or the run ends.
+fn refuse_if_too_late(cx: &mut RunContext, result: &PlanResult) -> Option<Next> {
+    let takes = result.legs.iter().fold(Span::ZERO, |sum, leg| sum + leg.duration);
+    let why = cx.tally.recovery.exceeded(cx.now + takes)?;
+    let frame = cx.playback.next.frame;
+    let message = format!("the drive around what stands there would take {:.0} s", takes.as_secs());
+    cx.io.log.record(cx.now, EventKind::PlanFailed { frame, message });
+    let is_hopeless = cx.tally.recovery.exceeded(cx.now).is_some() || !obstacles::relax(cx);
+    Some(if is_hopeless { Next::failed(why) } else { Next::Regather })
+}
+
+/// The show starts again after its last frame, or does not. `is_starting`: the first leg of the queue is about to begin.
+pub(crate) fn set_looping(cx: &mut RunContext, looping: bool, is_starting: bool) {
+    let (playback, pipeline) = (&mut *cx.playback, &mut *cx.pipeline);
+    let planning = &mut pipeline.planning;
+    playback.looping = looping;
+    if looping {
+        if playback.is_ended() {
+            playback.next = FrameCursor { frame: 0, round: playback.next.round + 1 };
+        }
+        if planning.next.is_none() && planning.failure.is_none() {
+            planning.next = playback.after(planning.last);
+        }
+        return;
+    }
+    let driven = pipeline.driven.as_ref().map(|driven| &driven.leg);
+    let present = driven.filter(|_| !is_starting).map_or(playback.next.round, |leg| leg.round);
+    pipeline.queue.retain(|leg| leg.round <= present);
+    if planning.last.round > present {
+        planning.pending = None;
+        planning.last = FrameCursor { frame: playback.show.frames.len().saturating_sub(1), round: present };
+        if let Some(last) = pipeline.queue.back().or(driven) {
+            planning.from = last.robots.iter().map(|robot| robot.goal).collect();
+        }
+    }
+    planning.next = planning.next.filter(|next| next.round <= present);
+    if playback.next.round > present {
+        playback.next = FrameCursor { frame: usize::MAX, round: present };
+    }
+}

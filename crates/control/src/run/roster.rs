@@ -1,0 +1,119 @@
+//! Who takes part in a run, and what is known of each robot from drive to drive.
+
+use crate::context::Context;
+use crate::robot::Robot;
+use crate::run::membership::{Membership, Probation};
+use lightbots_base::{Instant, Vec2};
+
+/// Where a robot may stand that fell silent on its way, stage metres.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Whereabouts {
+    /// All possible places.
+    pub possible: Vec<Vec2>,
+    /// The likely ones of them.
+    pub likely: Vec<Vec2>,
+}
+
+/// A robot's part in a run; it outlives a drive.
+#[derive(Clone, Debug)]
+pub(crate) struct Participant {
+    /// Index into the fleet.
+    pub robot: usize,
+    /// Whether the robot takes part now.
+    pub membership: Membership,
+    /// Whether the robot has to show that it drives before it comes back.
+    pub probation: Probation,
+    /// Where the robot may stand, if it fell silent.
+    pub last_seen: Whereabouts,
+    /// How often an obstacle in the robot's path led to a new plan.
+    pub replans: u8,
+}
+
+/// Everybody who takes part in a run: participants are numbered in the order in which they joined.
+#[derive(Clone, Debug)]
+pub(crate) struct Roster {
+    /// All who take part or took part; they are never removed, so that their numbers stay valid.
+    pub participants: Vec<Participant>,
+    /// Robots (indices into the fleet) that want to take part from the next frame on.
+    pub candidates: Vec<usize>,
+    /// When the run began.
+    pub begun: Instant,
+}
+
+impl Participant {
+    /// A robot of the fleet that takes part from now on.
+    pub fn new(robot: usize) -> Self {
+        Self {
+            robot,
+            membership: Membership::default(),
+            probation: Probation::None,
+            last_seen: Whereabouts::default(),
+            replans: 0,
+        }
+    }
+
+    /// Whether the robot dropped out.
+    pub fn is_excluded(&self) -> bool {
+        self.membership.excluded
+    }
+}
+
+impl Roster {
+    /// All robots take part that can.
+    pub fn of_fleet(context: &mut Context, now: Instant) -> Self {
+        let mut participants = Vec::new();
+        for index in 0..context.fleet.robots().len() {
+            let robot = context.fleet.robot_mut(index);
+            robot.participant = robot.can_take_part().then_some(participants.len() as u32);
+            if robot.participant.is_some() {
+                participants.push(Participant::new(index));
+            }
+        }
+        Self { participants, candidates: Vec::new(), begun: now }
+    }
+
+    /// Number of participants, with those that dropped out.
+    pub fn len(&self) -> usize {
+        self.participants.len()
+    }
+
+    /// Those that did not drop out, with their numbers.
+    pub fn active(&self) -> impl Iterator<Item = (usize, &Participant)> {
+        self.participants.iter().enumerate().filter(|(_, known)| !known.is_excluded())
+    }
+
+    /// Whether a participant dropped out.
+    pub fn is_excluded(&self, participant: usize) -> bool {
+        self.participants[participant].is_excluded()
+    }
+
+    /// The robot of a participant.
+    pub fn robot<'a>(&self, context: &'a Context, participant: usize) -> &'a Robot {
+        context.fleet.robot(self.participants[participant].robot)
+    }
+
+    /// Whether any robot that takes part knows TARGET only.
+    pub fn has_target_robots(&self, context: &Context) -> bool {
+        self.active().any(|(_, known)| context.fleet.robot(known.robot).is_original())
+    }
+
+    /// Whether a robot takes no part and was found after the run began.
+    pub fn is_stranger(&self, robot: &Robot) -> bool {
+        robot.participant.is_none() && robot.contact.found > self.begun
+    }
+
+    /// The robot of the fleet takes part, for the first time or again.
+    pub fn admit(&mut self, context: &mut Context, robot: usize) {
+        match context.fleet.robot(robot).participant {
+            Some(participant) => {
+                let known = &mut self.participants[participant as usize];
+                known.membership.excluded = false;
+                known.last_seen = Whereabouts::default();
+            }
+            None => {
+                context.fleet.robot_mut(robot).participant = Some(self.participants.len() as u32);
+                self.participants.push(Participant::new(robot));
+            }
+        }
+    }
+}

@@ -1,0 +1,88 @@
+//! What a phase works with: the moment, the controller's context, and the parts of the run that outlive a phase.
+
+use crate::context::Context;
+use crate::event::{EventKind, Trouble};
+use crate::leg::LegKind;
+use crate::robot::Robot;
+use crate::run::link::LinkEstimate;
+use crate::run::next::Next;
+use crate::run::pipeline::Pipeline;
+use crate::run::playback::PlayedShow;
+use crate::run::roster::{Participant, Roster};
+use crate::run::tally::Tally;
+use lightbots_base::{Instant, Span, Vec2};
+use lightbots_wire::{Command, Topic};
+
+/// What a phase works with.
+pub(crate) struct RunContext<'a> {
+    pub now: Instant,
+    /// Fleet, messages and events.
+    pub io: &'a mut Context,
+    pub playback: &'a mut PlayedShow,
+    pub roster: &'a mut Roster,
+    pub pipeline: &'a mut Pipeline,
+    pub link: &'a mut LinkEstimate,
+    pub tally: &'a mut Tally,
+}
+
+impl RunContext<'_> {
+    /// The participant of that number.
+    pub fn participant(&self, participant: usize) -> &Participant {
+        &self.roster.participants[participant]
+    }
+
+    /// What the fleet knows of a participant.
+    pub fn robot(&self, participant: usize) -> &Robot {
+        self.roster.robot(self.io, participant)
+    }
+
+    /// Sends commands to a participant.
+    pub fn send(&mut self, participant: usize, commands: &[Command]) {
+        let topic = Topic::Robot(self.robot(participant).id);
+        self.io.outbox.send(topic, commands);
+    }
+
+    /// Whether a participant has to arrive for the present leg to end.
+    pub fn is_awaited(&self, participant: usize) -> bool {
+        let drives = self.pipeline.leg().is_some_and(|leg| leg.is_driven_by(participant));
+        !self.roster.is_excluded(participant) && drives
+    }
+
+    /// Where a participant stands at the end of the present leg.
+    pub fn goal(&self, participant: usize) -> Option<Vec2> {
+        self.pipeline.leg().and_then(|leg| leg.goal(participant))
+    }
+
+    /// Where a participant's robot said it is; its goal where it never said.
+    pub fn place(&self, participant: usize) -> Vec2 {
+        let said = self.robot(participant).reported.at;
+        said.or_else(|| self.goal(participant)).unwrap_or(Vec2::ZERO)
+    }
+
+    /// Whether the present leg is driven by TARGETs.
+    pub fn is_target_leg(&self) -> bool {
+        self.pipeline.leg().is_some_and(|leg| leg.kind == LegKind::Targets)
+    }
+
+    /// How long ahead a START is stated now.
+    pub fn start_lead(&self) -> Span {
+        self.link.start_lead(&self.io.config, self.roster.len())
+    }
+
+    /// Sends routes of the next leg that may be sent now.
+    pub fn pump(&mut self) -> Next {
+        self.pipeline.pump(self.io, self.roster, self.link, self.now)
+    }
+
+    /// Sends changes of light that are due.
+    pub fn pump_lights(&mut self) {
+        let Pipeline { lights, driven: Some(driven), .. } = &mut *self.pipeline else { return };
+        lights.pump(self.io, self.roster, self.now, &driven.leg);
+    }
+
+    /// An event says that all wait for a participant.
+    pub fn report_waiting(&mut self, participant: usize, why: Trouble) {
+        let robot = self.robot(participant).id;
+        self.io.log.record_limited(self.now, EventKind::Waiting { robot, why });
+    }
+}

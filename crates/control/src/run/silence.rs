@@ -1,0 +1,97 @@
+//! Where a robot may stand that fell silent on its way.
+//!
+//! It may have died, or the controller does not receive its reports and it holds with the others, or its link broke and
+//! it drives on along its path until it stops by itself.
+
+use crate::leg::Leg;
+use crate::run::path_clock::PathClock;
+use crate::run::roster::Whereabouts;
+use crate::run::target_progress::TargetProgress;
+use lightbots_base::{Instant, Span, Vec2};
+
+/// A robot that fell silent died at most this long after its last report: driving robots report every 500 ms (R41).
+const UNREPORTED: Span = Span::from_millis(600);
+
+/// How long a robot drives on whose link broke, by R43 of docs/protocol.md: until 2 s after the last message to it.
+pub(crate) struct LinkLoss {
+    /// Least time that it drives on after its last report.
+    pub drives_on: Span,
+    /// How much longer it may drive on.
+    pub at_most_longer: Span,
+}
+
+impl LinkLoss {
+    /// Longest time after the last report until the robot stands.
+    pub const fn stands_after(&self) -> Span {
+        Span(self.drives_on.0 + self.at_most_longer.0)
+    }
+}
+
+/// The last message to a robot is at most 500 ms older or newer than its last report.
+pub(crate) const LINK_LOSS: LinkLoss =
+    LinkLoss { drives_on: Span::from_millis(1_500), at_most_longer: Span::from_millis(1_000) };
+
+/// Time between two places of a path: 14 mm at full speed.
+const PATH_STEP: Span = Span::from_millis(50);
+/// Number of these steps that may pass until a robot stops that still receives STOP.
+const STEPS_UNTIL_STOP: i64 = 2;
+/// Distance between two places of a straight drive, metres.
+const STRAIGHT_STEP_M: f64 = 0.03;
+/// Places nearer to each other than this are one, metres: a disc that is left out must not stick out of those that are
+/// kept, because other robots pass them as near as the planner allows.
+const SAME_PLACE_M: f64 = 0.002;
+
+/// A drive that was stopped.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct StopTimes {
+    /// Robots began to stop then …
+    pub began: Instant,
+    /// … and stood then.
+    pub stood: Instant,
+}
+
+/// Where a robot may stand that was heard last at `heard`. Likely are the places along its path from there, as it died,
+/// and where its path was as all stopped, as only its reports are lost. Possible is also where it gives its route up by
+/// itself, as it does not receive either.
+pub(crate) fn whereabouts(
+    (leg, targets): (&Leg, &TargetProgress),
+    clock: &PathClock,
+    stop: StopTimes,
+    participant: usize,
+    heard: Instant,
+) -> Whereabouts {
+    let Some(path) = leg.path(participant) else {
+        let places = targets.whereabouts(leg, participant, STRAIGHT_STEP_M);
+        return Whereabouts { possible: places.clone(), likely: places };
+    };
+    let since = clock.path_time(heard);
+    let died = (0..=UNREPORTED.0 / PATH_STEP.0).map(|step| since + PATH_STEP * step);
+    let until = (stop.stood - stop.began).0 / PATH_STEP.0 + STEPS_UNTIL_STOP;
+    let stopped = (0..=until).map(|step| clock.path_time(stop.began + PATH_STEP * step));
+    let cut = (0..=LINK_LOSS.at_most_longer.0 / PATH_STEP.0)
+        .map(|step| since + LINK_LOSS.drives_on + PATH_STEP * step);
+    let place = |time: Span| path.as_ref().at(time).position;
+    let likely = thinned(died.chain(stopped).map(place));
+    let possible = thinned(cut.map(place)).into_iter().chain(likely.iter().copied()).collect();
+    Whereabouts { possible, likely }
+}
+
+/// Places without those that are as good as the one before.
+fn thinned(places: impl Iterator<Item = Vec2>) -> Vec<Vec2> {
+    let mut places: Vec<Vec2> = places.collect();
+    places.dedup_by(|a, b| a.distance(*b) < SAME_PLACE_M);
+    places
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_place_of_a_silent_robot_is_far_from_one_that_is_driven_around() {
+        let braking = || (0..30).map(|step| Vec2::new(0.0135 * f64::from(step) * 0.9f64.powi(step), 0.0));
+        let kept = thinned(braking());
+        assert!(braking().all(|place| kept.iter().any(|disc| disc.distance(place) < 0.002)), "{kept:?}");
+        assert_eq!(thinned([Vec2::ZERO; 9].into_iter()).len(), 1);
+    }
+}

@@ -1,0 +1,128 @@
+//! All stand: the air time runs, what comes is planned and uploaded, and the next drive starts in time.
+
+use crate::event::{EventKind, Outcome, Trouble};
+use crate::leg::LegKind;
+use crate::run::driving::is_there;
+use crate::run::next::{AirTime, Next};
+use crate::run::obstacles;
+use crate::run::pipeline::Pipeline;
+use crate::run::requests;
+use crate::run::run_context::RunContext;
+use lightbots_base::{Instant, Span, Vec2};
+use lightbots_wire::{Details, RobotState};
+
+/// START is stated this much earlier than it must be: the shell wakes the controller up to 16 ms late.
+const EARLY: Span = Span::from_millis(20);
+/// How often the phase is looked at while nothing is due.
+const CHECK_EVERY: Span = Span::from_millis(1_000);
+
+/// All stand, in a frame or before the first.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Standing {
+    /// When the frame may be left.
+    pub air: AirTime,
+}
+
+impl Standing {
+    /// When something is due; START is stated `start_lead` ahead.
+    pub fn due(&self, pipeline: &Pipeline, start_lead: Span, now: Instant, paused: bool) -> Instant {
+        let start = match pipeline.queue.front().map(|leg| leg.kind) {
+            _ if paused => Instant::FAR,
+            Some(LegKind::Routes) if pipeline.is_uploaded() => self.air.until - start_lead - EARLY,
+            Some(LegKind::Routes) => Instant::FAR,
+            _ => self.air.until,
+        };
+        pipeline.due().min(start).min(now + CHECK_EVERY)
+    }
+
+    /// The operator goes on; `step`: to the next frame, at once.
+    pub fn resume(&mut self, now: Instant, step: bool) {
+        if step {
+            (self.air.left, self.air.until) = (None, now);
+        }
+    }
+
+    /// A participant that is to stand reports its state.
+    pub fn on_report(
+        &mut self,
+        cx: &mut RunContext,
+        participant: usize,
+        details: &Details,
+        restarted: bool,
+    ) -> Next {
+        let next = drop_if_unfit(participant, details);
+        if next.stays() && restarted {
+            cx.pipeline.upload_again(cx.now, participant);
+            return cx.pump();
+        }
+        next
+    }
+
+    /// Time passes.
+    pub fn on_tick(&mut self, cx: &mut RunContext) -> Next {
+        requests::plan_ahead(cx);
+        let next = cx.pump();
+        if !next.stays() {
+            return next;
+        }
+        if cx.playback.paused {
+            self.air.left.get_or_insert((self.air.until - cx.now).max(Span::ZERO));
+            return Next::Stay;
+        }
+        if let Some(left) = self.air.left.take() {
+            self.air.until = cx.now + left;
+        }
+        let pending = cx.pipeline.planning.pending;
+        if pending.is_some_and(|(_, since)| cx.now - since > cx.io.config.plan_bound) {
+            return Next::failed("planning took too long");
+        }
+        self.leave(cx)
+    }
+
+    /// Leaves the frame, if its air time is over and there is a next leg.
+    fn leave(&self, cx: &mut RunContext) -> Next {
+        let until = self.air.until;
+        let planning = &cx.pipeline.planning;
+        match cx.pipeline.queue.front().map(|leg| leg.kind) {
+            Some(LegKind::Targets) if cx.now >= until => Next::Drive(cx.now),
+            Some(LegKind::Routes)
+                if cx.pipeline.is_uploaded() && cx.now + cx.start_lead() + EARLY >= until =>
+            {
+                Next::Start(until)
+            }
+            None if planning.pending.is_none() && planning.next.is_none() && cx.now >= until => end(cx),
+            _ => Next::Stay,
+        }
+    }
+}
+
+/// Nothing is planned any more: the run is over, unless something is left to try.
+fn end(cx: &mut RunContext) -> Next {
+    match cx.pipeline.planning.failure.take() {
+        None => Next::Over(Outcome::Finished),
+        // What stood in the way when that was planned ahead may have gone.
+        Some(_) if obstacles::relax(cx) => Next::Regather,
+        Some(why) => Next::failed(why),
+    }
+}
+
+/// A robot that is to stand drops out where it cannot drive.
+pub(crate) fn drop_if_unfit(participant: usize, details: &Details) -> Next {
+    match details.state {
+        RobotState::Faulty => Next::drop(participant, Trouble::Faulty),
+        RobotState::Lost => Next::drop(participant, Trouble::Lost),
+        _ => Next::Stay,
+    }
+}
+
+/// An arrival while all stand: an old report, or a robot that went somewhere on its own.
+pub(crate) fn check_place(cx: &mut RunContext, participant: usize, at: Option<Vec2>) {
+    let (Some(at), Some(goal)) = (at, cx.goal(participant)) else { return };
+    if is_there(at, goal, cx.io.config.arrival_tolerance_m) {
+        return;
+    }
+    let robot = cx.robot(participant).id;
+    cx.io.unexpected += 1;
+    cx.io.log.record_limited(cx.now, EventKind::Misaligned { robot, off_m: at.distance(goal) });
+    cx.pipeline.planning.is_outdated = true;
+}

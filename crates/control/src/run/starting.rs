@@ -1,0 +1,246 @@
+//! START: stated ahead for all robots at once, repeated, confirmed by reports, and postponed while some do not confirm.
+
+use crate::event::Trouble;
+use crate::run::link::{ASK_AGAIN, REPEAT};
+use crate::run::next::Next;
+use crate::run::run_context::RunContext;
+use crate::run::silence::LINK_LOSS;
+use crate::run::standing::drop_if_unfit;
+use lightbots_base::{Instant, Span};
+use lightbots_wire::{Command, Details, RobotState, Topic};
+
+/// When robots that did not confirm are first asked by name, in percent of the lead: time for the confirmations that the
+/// broadcast leads to.
+const ASK_FIRST_PERCENT: i64 = 27;
+/// Most robots that are asked by name, and the same as a share of the fleet: more are asked by the broadcast.
+const ASKED_MAX: usize = 64;
+/// Up to this many robots that did not confirm, messages are lost; where there are more, the link is slow.
+const LOST_MAX: usize = 2;
+/// A larger share of the fleet counts as many for both bounds: one robot in this many.
+const MANY: usize = 8;
+/// A START that was postponed is repeated this often: a robot that misses it leaves alone.
+const REPEAT_POSTPONED: Span = Span::from_millis(15);
+/// How often a START is postponed before robots that did not confirm drop out.
+const POSTPONED_MAX: u32 = 12;
+/// How often a START is postponed before an event names the robots that did not confirm.
+const POSTPONED_NAMED: u32 = 4;
+
+/// A stated START.
+#[derive(Clone, Debug)]
+pub(crate) struct Starting {
+    /// The moment, show clock.
+    pub at: Instant,
+    /// Number of the routes that begin.
+    seq: u32,
+    /// When it is looked at whether all have confirmed: early enough to postpone the START for all.
+    check_at: Instant,
+    repeat_at: Instant,
+    /// When robots that did not confirm are asked by name.
+    ask_at: Instant,
+    /// When its first moment was stated, and the estimate of the round trip then.
+    first: (Instant, Span),
+    postponed: u32,
+    /// All had confirmed when it was looked at.
+    is_confirmed: bool,
+    /// `[participant]`: the moment that the robot confirmed last.
+    confirmed: Vec<Option<Instant>>,
+}
+
+impl Starting {
+    /// States the START of the first leg of the queue, as soon as possible but not before `earliest`.
+    pub fn begin(cx: &mut RunContext, earliest: Instant) -> Self {
+        let seq = cx.pipeline.queue.front().map_or(0, |leg| leg.seq);
+        assert!(seq != 0, "a START needs a queued leg");
+        let lead = cx.start_lead();
+        let at = earliest.max(cx.now + lead);
+        cx.io.outbox.send(Topic::Broadcast, &[Command::Start { seq, at }]);
+        Self {
+            at,
+            seq,
+            check_at: at - cx.link.check_ahead(),
+            repeat_at: cx.now + REPEAT,
+            ask_at: cx.now + lead * ASK_FIRST_PERCENT / 100,
+            first: (cx.now, cx.link.round_trip),
+            postponed: 0,
+            is_confirmed: false,
+            confirmed: vec![None; cx.roster.len()],
+        }
+    }
+
+    /// When something is due.
+    pub fn due(&self) -> Instant {
+        let moment = if self.is_confirmed { self.at } else { self.check_at };
+        moment.min(self.repeat_at).min(self.ask_at)
+    }
+
+    fn command(&self) -> Command {
+        Command::Start { seq: self.seq, at: self.at }
+    }
+
+    /// A participant that is to start reports its state.
+    pub fn on_report(
+        &mut self,
+        cx: &mut RunContext,
+        participant: usize,
+        details: &Details,
+        restarted: bool,
+    ) -> Next {
+        if details.route == self.seq && details.starts == Some(self.at) {
+            self.confirmed[participant] = details.starts;
+        }
+        let mut next = drop_if_unfit(participant, details);
+        if next.stays() && self.began_alone(cx, participant, details) {
+            next = replan_with(cx, participant);
+        } else if next.stays() && restarted {
+            cx.pipeline.upload_again(cx.now, participant);
+            next = cx.pump();
+        }
+        if restarted {
+            self.confirmed[participant] = None;
+        }
+        next
+    }
+
+    /// A participant says that it arrived though it has not started: it began alone.
+    pub fn on_arrival(&mut self, cx: &mut RunContext, participant: usize, details: &Details) -> Next {
+        if self.began_alone(cx, participant, details) { replan_with(cx, participant) } else { Next::Stay }
+    }
+
+    /// Whether a robot has begun at a moment that was postponed, and may have ended its route since: it did not receive
+    /// the later moment in time. Where its route leads nowhere that makes no difference.
+    fn began_alone(&self, cx: &RunContext, participant: usize, details: &Details) -> bool {
+        let elsewhen = match details.state {
+            RobotState::Driving | RobotState::Held => details.starts != Some(self.at),
+            RobotState::Idle => self.confirmed[participant] != Some(self.at),
+            _ => false,
+        };
+        let path = cx.pipeline.queue.front().and_then(|leg| leg.path(participant));
+        elsewhen && details.route == self.seq && path.is_some_and(|path| !path.as_ref().rests())
+    }
+
+    /// Time passes.
+    pub fn on_tick(&mut self, cx: &mut RunContext) -> Next {
+        let next = cx.pump();
+        if !next.stays() {
+            return next;
+        }
+        if cx.now >= self.ask_at {
+            self.ask_at = cx.now + ASK_AGAIN.max(self.first.1);
+            if !self.is_confirmed {
+                self.ask_unconfirmed(cx);
+            }
+        }
+        if cx.now >= self.check_at && !self.is_confirmed {
+            let unconfirmed = self.unconfirmed(cx);
+            self.is_confirmed = unconfirmed.is_empty();
+            if !self.is_confirmed {
+                let next = self.postpone(cx, &unconfirmed);
+                if !next.stays() {
+                    return next;
+                }
+            }
+        }
+        if cx.now >= self.at {
+            return Next::Drive(self.at);
+        }
+        if cx.now >= self.repeat_at {
+            cx.io.outbox.send(Topic::Broadcast, &[self.command()]);
+            self.repeat_at = cx.now + if self.postponed > 0 { REPEAT_POSTPONED } else { REPEAT };
+        }
+        Next::Stay
+    }
+
+    /// Participants that did not confirm the stated moment. A robot whose route leads nowhere has confirmed as soon as it
+    /// reports that it has begun or ended it: its clock was ahead of a moment that was postponed, and no later START
+    /// changes anything for it.
+    fn unconfirmed(&self, cx: &RunContext) -> Vec<usize> {
+        let Some(leg) = cx.pipeline.queue.front() else { return Vec::new() };
+        let owes = |&participant: &usize| {
+            let Some(path) = leg.path(participant) else { return false };
+            let reported = &cx.robot(participant).reported;
+            let begun =
+                matches!(reported.state, Some(RobotState::Driving | RobotState::Held | RobotState::Idle));
+            let rests_already = begun && reported.route == self.seq && path.as_ref().rests();
+            self.confirmed[participant] != Some(self.at) && !rests_already
+        };
+        cx.roster.active().map(|(one, _)| one).filter(owes).collect()
+    }
+
+    /// Asks the few robots by name whose confirmation may be lost.
+    fn ask_unconfirmed(&self, cx: &mut RunContext) {
+        let unconfirmed = self.unconfirmed(cx);
+        if unconfirmed.len() > ASKED_MAX.max(starters(cx) / MANY) {
+            return;
+        }
+        for participant in unconfirmed {
+            cx.send(participant, &[self.command(), Command::Status]);
+        }
+    }
+
+    /// Robots that were asked again and again since START was stated first and do not report at all have died. The others
+    /// do not wait as long for them as for a robot that reports over a slow link.
+    fn silent(&self, cx: &RunContext, unconfirmed: &[usize]) -> Vec<usize> {
+        let (first, round_trip) = self.first;
+        // A robot whose link broke after it received START stands by then.
+        let bound = cx.io.config.silence + LINK_LOSS.stands_after() + round_trip * 2;
+        if cx.link.patience(first) > cx.now - first {
+            return Vec::new();
+        }
+        let is_silent = |one: &usize| cx.now - cx.robot(*one).contact.heard.max(first) > bound;
+        unconfirmed.iter().copied().filter(is_silent).collect()
+    }
+
+    /// States a later moment for all. Robots that did not confirm are told by name, or get the route again.
+    fn postpone(&mut self, cx: &mut RunContext, unconfirmed: &[usize]) -> Next {
+        self.postponed += 1;
+        let silent = self.silent(cx, unconfirmed);
+        if !silent.is_empty() {
+            // The link is as fast as before: only dead robots did not answer.
+            cx.link.round_trip = self.first.1;
+            return drop_all(&silent, Trouble::Silent);
+        }
+        if self.postponed > POSTPONED_MAX {
+            return drop_all(unconfirmed, Trouble::Deaf);
+        }
+        if self.postponed == POSTPONED_NAMED {
+            unconfirmed.iter().for_each(|&participant| cx.report_waiting(participant, Trouble::Deaf));
+        }
+        if unconfirmed.len() > LOST_MAX.max(starters(cx) / MANY) {
+            cx.link.widen();
+        } else {
+            cx.link.add_loss_margin();
+        }
+        self.restate(cx);
+        for &participant in unconfirmed {
+            if cx.robot(participant).reported.route != self.seq {
+                cx.pipeline.upload_again(cx.now, participant);
+            }
+            cx.send(participant, &[self.command()]);
+        }
+        cx.pump()
+    }
+
+    fn restate(&mut self, cx: &mut RunContext) {
+        let lead = cx.start_lead();
+        self.at = cx.now + lead;
+        self.check_at = self.at - cx.link.check_ahead();
+        self.repeat_at = cx.now + REPEAT_POSTPONED;
+        self.ask_at = cx.now + lead * ASK_FIRST_PERCENT / 100;
+        cx.io.outbox.send(Topic::Broadcast, &[self.command()]);
+    }
+}
+
+/// Number of robots that are to start.
+fn starters(cx: &RunContext) -> usize {
+    cx.pipeline.queue.front().map_or(0, |leg| leg.drivers)
+}
+
+/// A robot begins without the others: all stop and are planned again, with it.
+fn replan_with(cx: &mut RunContext, participant: usize) -> Next {
+    cx.report_waiting(participant, Trouble::Cut);
+    Next::Regather
+}
+
+fn drop_all(participants: &[usize], why: Trouble) -> Next {
+    Next::Drop(participants.iter().map(|&participant| (participant, why)).collect())
+}

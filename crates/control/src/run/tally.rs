@@ -1,0 +1,17 @@
+//! What a run counts: frames, dropouts, arrivals, and what recovery has cost.
+
+use crate::run::recovery_bound::RecoveryBound;
+use lightbots_base::Instant;
+
+/// What a run counts.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Tally {
+    /// Frames reached.
+    pub frames_played: usize,
+    /// Robots that dropped out; a robot that dropped out twice counts twice.
+    pub dropouts: usize,
+    /// What recovery may still cost.
+    pub recovery: RecoveryBound,
+    /// The first and the last arrival at a place in the next frame, whichever legs lead there.
+    pub arrivals: Option<(Instant, Instant)>,
+}

@@ -1,0 +1,116 @@
+//! Commands to robots that know TARGET only: each is told how far it may go, farther and farther as the robots that it
+//! yields to make progress.
+
+use crate::run::pipeline::{DrivenLeg, Pipeline};
+use crate::run::run_context::RunContext;
+use lightbots_base::{Span, Vec2};
+use lightbots_plan::unsynchronised::StraightDrive;
+use lightbots_wire::Command;
+
+/// Least distance by which a robot is told to go farther, metres: it would not move for less than its tolerance of 20 mm.
+const STEP_M: f64 = 0.025;
+/// What a report says lies behind a robot may be off by this, metres.
+pub(crate) const PASSED_ERROR_M: f64 = 0.01;
+/// Robots that know TARGET only are asked where they are this often, and told again where they make no progress.
+pub(crate) const ASK: Span = Span::from_millis(500);
+
+/// How a robot that knows TARGET only comes to rest: it stops ahead of where it is, without turning round.
+struct Stopping {
+    /// Highest speed of the robot, m/s.
+    speed_mps: f64,
+    /// Time from a message to the robot's reaction.
+    reaction: Span,
+}
+
+/// Measured on robots with the original firmware.
+const STOPPING: Stopping = Stopping { speed_mps: 0.3, reaction: Span::from_millis(150) };
+
+/// Tells a robot to go farther on a straight drive, if it may by now.
+pub(crate) fn grant_farther(cx: &mut RunContext, is_held: bool, place: Option<usize>) {
+    let Pipeline { driven: Some(DrivenLeg { leg, targets }), .. } = &mut *cx.pipeline else { return };
+    let Some(place) = place else { return };
+    let drive = &leg.drives[place];
+    let state = targets.states[place];
+    let is_present = targets.present[drive.robot] == Some(place);
+    if is_held || state.granted >= 1.0 || !is_present || cx.roster.is_excluded(drive.robot) {
+        return;
+    }
+    let may = drive.yields.iter().fold(1.0, |share: f64, yields| match &targets.states[yields.to] {
+        first if first.done => share,
+        first => share.min(drive.clear_share(&leg.drives[yields.to], first.passed, yields.gap_m)),
+    });
+    if may < 1.0 && (may - state.granted) * drive.length_m() < STEP_M {
+        return;
+    }
+    let state = &mut targets.states[place];
+    (state.granted, state.moved_at) = (may, cx.now);
+    send_target(cx, place);
+}
+
+/// Tells a robot how far it may go.
+pub(crate) fn send_target(cx: &mut RunContext, place: usize) {
+    if let Some(driven) = &mut cx.pipeline.driven {
+        driven.targets.states[place].sent_at = cx.now;
+    }
+    let Some(DrivenLeg { leg, targets }) = &cx.pipeline.driven else { return };
+    let (drive, granted) = (&leg.drives[place], targets.states[place].granted);
+    let (participant, color) = (drive.robot, leg.robots[drive.robot].color);
+    let beyond = || beyond(cx, drive, cx.robot(participant).short_m);
+    let target = if granted < 1.0 { drive.at(granted) } else { beyond() };
+    cx.send(participant, &[Command::Target(target), Command::Color(color)]);
+}
+
+/// Where a robot is sent that stops `short_m` before its targets, to stand where its straight drive ends.
+pub(crate) fn beyond(cx: &RunContext, drive: &StraightDrive, short_m: f64) -> Vec2 {
+    let stage = &cx.playback.show.stage;
+    let inset = Vec2::new(stage.limits.radius_m, stage.limits.radius_m);
+    let most = Vec2::new(stage.width_m, stage.depth_m) / 2.0 - inset;
+    let target = drive.to + (drive.to - drive.from).normalized().unwrap_or(Vec2::ZERO) * short_m;
+    let inside = |value: f64, to: f64, most: f64| value.clamp(-most.max(to.abs()), most.max(to.abs()));
+    Vec2::new(inside(target.x, drive.to.x, most.x), inside(target.y, drive.to.y, most.y))
+}
+
+/// All robots that know TARGET only go as far as no robot is in their way.
+pub(crate) fn begin(cx: &mut RunContext) {
+    let participants = cx.pipeline.driven.as_ref().map_or(0, |driven| driven.targets.present.len());
+    for participant in 0..participants {
+        let present = cx.pipeline.driven.as_ref().and_then(|driven| driven.targets.present[participant]);
+        grant_farther(cx, false, present);
+    }
+}
+
+/// Robots on a straight drive stop a little ahead of where they last said they are, and say where that is.
+pub(crate) fn halt_all(cx: &mut RunContext) {
+    for participant in 0..cx.roster.len() {
+        halt(cx, participant);
+    }
+}
+
+/// The same for one robot, if it is on a straight drive.
+pub(crate) fn halt(cx: &mut RunContext, participant: usize) {
+    let Some(DrivenLeg { leg, targets }) = &cx.pipeline.driven else { return };
+    let Some(place) = targets.under_way(participant) else { return };
+    if cx.roster.is_excluded(participant) {
+        return;
+    }
+    let (drive, state) = (&leg.drives[place], &targets.states[place]);
+    let silent = (cx.now - cx.robot(participant).contact.heard).min(ASK);
+    let ahead_m = PASSED_ERROR_M + STOPPING.speed_mps * (silent + STOPPING.reaction).as_secs();
+    let target = drive.at((state.passed + ahead_m / drive.length_m()).min(state.granted));
+    cx.send(participant, &[Command::Target(target), Command::Uuid]);
+}
+
+/// Robots that were halted go on.
+pub(crate) fn resume_all(cx: &mut RunContext) {
+    let participants = cx.pipeline.driven.as_ref().map_or(0, |driven| driven.targets.present.len());
+    for participant in 0..participants {
+        let Some(driven) = &mut cx.pipeline.driven else { return };
+        let under_way = driven.targets.under_way(participant);
+        if let Some(place) = under_way.filter(|_| !cx.roster.is_excluded(participant)) {
+            driven.targets.states[place].moved_at = cx.now;
+            send_target(cx, place);
+        }
+        let present = cx.pipeline.driven.as_ref().and_then(|driven| driven.targets.present[participant]);
+        grant_farther(cx, false, present);
+    }
+}

@@ -1,0 +1,210 @@
+//! Messages on their way to participants: sent within a window, acknowledged by reports, sent again until they are.
+//!
+//! MQTT's quality of service 1 would do this between each client and the broker. It says nothing of whether the robot
+//! took the message, and a broker that restarts forgets it; so the acknowledgement is end to end.
+
+use lightbots_base::{Instant, Span};
+use std::collections::VecDeque;
+
+/// One message for each participant, and who acknowledged it.
+#[derive(Clone, Debug)]
+pub(crate) struct Upload {
+    /// What is uploaded: number of the routes, or 0.
+    pub number: u32,
+    /// When the upload began.
+    pub began: Instant,
+    /// An event said that no robot acknowledges.
+    pub is_announced: bool,
+    /// `[participant]`.
+    deliveries: Vec<Delivery>,
+    /// The next participant that is served for the first time.
+    unserved: usize,
+    /// Sent and perhaps not acknowledged: when that is looked at again, and the participant. In order of time.
+    sent: VecDeque<(Instant, usize)>,
+    /// Participants that were sent to and did not acknowledge.
+    open: usize,
+    /// Acknowledgements of messages that were sent once.
+    once: Answers,
+    /// Acknowledgements of messages that were sent more often.
+    again: Answers,
+}
+
+/// The message to one participant.
+#[derive(Clone, Copy, Debug, Default)]
+struct Delivery {
+    tries: u32,
+    first_sent: Instant,
+    acknowledged: bool,
+}
+
+/// How many acknowledged, and the slowest of them since the first sending.
+#[derive(Clone, Copy, Debug, Default)]
+struct Answers {
+    count: usize,
+    slowest: Span,
+}
+
+impl Upload {
+    /// Nothing is sent yet.
+    pub fn new(number: u32, now: Instant, participants: usize) -> Self {
+        Self {
+            number,
+            began: now,
+            is_announced: false,
+            deliveries: vec![Delivery::default(); participants],
+            unserved: 0,
+            sent: VecDeque::new(),
+            open: 0,
+            once: Answers::default(),
+            again: Answers::default(),
+        }
+    }
+
+    /// When the next message is due again.
+    pub fn due(&self) -> Option<Instant> {
+        self.sent.front().map(|(due, _)| *due)
+    }
+
+    /// Whether all were served and all acknowledged.
+    pub fn is_done(&self) -> bool {
+        self.open == 0 && self.unserved >= self.deliveries.len()
+    }
+
+    /// Whether participants are left that were not served yet.
+    pub fn has_unserved(&self) -> bool {
+        self.unserved < self.deliveries.len()
+    }
+
+    /// Whether several were sent to, and none acknowledged.
+    pub fn is_unanswered(&self) -> bool {
+        self.open > 1 && self.once.count + self.again.count == 0
+    }
+
+    /// How often the message to a participant was sent.
+    pub fn tries(&self, participant: usize) -> u32 {
+        self.deliveries[participant].tries
+    }
+
+    /// The participant whose acknowledgement is overdue; it leaves the queue, as all do that need no message.
+    pub fn next_overdue(&mut self, now: Instant, needs_none: impl Fn(usize) -> bool) -> Option<usize> {
+        while let Some(&(due, participant)) = self.sent.front() {
+            let settled = needs_none(participant) || self.deliveries[participant].acknowledged;
+            if !settled && due > now {
+                return None;
+            }
+            self.sent.pop_front();
+            if !settled {
+                return Some(participant);
+            }
+        }
+        None
+    }
+
+    /// The next participant that is served for the first time, while fewer than `window` are open.
+    pub fn next_unserved(&mut self, window: usize, needs_none: impl Fn(usize) -> bool) -> Option<usize> {
+        while self.has_unserved() && self.open < window {
+            let participant = self.unserved;
+            self.unserved += 1;
+            if !needs_none(participant) {
+                self.open += 1;
+                return Some(participant);
+            }
+        }
+        None
+    }
+
+    /// The message to a participant was sent; it is due again then.
+    pub fn record_sent(&mut self, now: Instant, participant: usize, due: Instant) {
+        let delivery = &mut self.deliveries[participant];
+        if delivery.tries == 0 {
+            delivery.first_sent = now;
+        }
+        delivery.tries += 1;
+        self.sent.push_back((due, participant));
+    }
+
+    /// Waiting begins anew for a participant: how long its answer takes says nothing of the link.
+    pub fn restart_clock(&mut self, now: Instant, participant: usize) {
+        self.deliveries[participant].first_sent = now;
+    }
+
+    /// A participant acknowledges; whether that is news.
+    pub fn acknowledge(&mut self, now: Instant, participant: usize) -> bool {
+        let Some(delivery) = self.deliveries.get_mut(participant) else { return false };
+        if delivery.acknowledged || delivery.tries == 0 {
+            return false;
+        }
+        delivery.acknowledged = true;
+        let answers = if delivery.tries == 1 { &mut self.once } else { &mut self.again };
+        answers.count += 1;
+        answers.slowest = answers.slowest.max(now - delivery.first_sent);
+        self.open = self.open.saturating_sub(1);
+        true
+    }
+
+    /// A participant lost what it acknowledged: it is sent again at once.
+    pub fn reopen(&mut self, now: Instant, participant: usize) {
+        let Some(delivery) = self.deliveries.get_mut(participant) else { return };
+        if std::mem::take(&mut delivery.acknowledged) {
+            self.open += 1;
+            self.sent.push_front((now, participant));
+        }
+    }
+
+    /// The slowest round trip: where most messages were sent again, the link is slow rather than lossy (Karn's rule
+    /// counts only messages that were sent once, but then a slow link would never be measured).
+    pub fn slowest(&self) -> Span {
+        if self.again.count > self.once.count { self.again.slowest } else { self.once.slowest }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const AFTER: Span = Span(100);
+
+    /// Serves all that may be served at `now`.
+    fn serve(upload: &mut Upload, now: Instant, window: usize) -> Vec<usize> {
+        let mut served = Vec::new();
+        while let Some(participant) = upload.next_unserved(window, |_| false) {
+            upload.record_sent(now, participant, now + AFTER);
+            served.push(participant);
+        }
+        served
+    }
+
+    #[test]
+    fn no_more_are_open_than_the_window_holds() {
+        let mut upload = Upload::new(7, Instant(0), 3);
+        assert_eq!(serve(&mut upload, Instant(0), 2), [0, 1]);
+        assert!(upload.acknowledge(Instant(10), 0) && !upload.acknowledge(Instant(11), 0));
+        assert_eq!(serve(&mut upload, Instant(20), 2), [2]);
+        assert!(upload.acknowledge(Instant(30), 1) && upload.acknowledge(Instant(40), 2));
+        assert!(upload.is_done() && upload.slowest() == Span(30));
+    }
+
+    #[test]
+    fn what_is_not_acknowledged_is_sent_again() {
+        let mut upload = Upload::new(7, Instant(0), 2);
+        serve(&mut upload, Instant(0), 9);
+        assert!(upload.is_unanswered());
+        assert_eq!(upload.next_overdue(Instant(99), |_| false), None);
+        assert_eq!(upload.next_overdue(Instant(100), |_| false), Some(0));
+        upload.record_sent(Instant(100), 0, Instant(200));
+        assert_eq!((upload.tries(0), upload.next_overdue(Instant(100), |one| one == 1)), (2, None));
+        assert_eq!(upload.due(), Some(Instant(200)), "the second needs none");
+    }
+
+    #[test]
+    fn a_robot_that_restarted_is_sent_to_at_once() {
+        let mut upload = Upload::new(7, Instant(0), 1);
+        serve(&mut upload, Instant(0), 9);
+        upload.acknowledge(Instant(10), 0);
+        upload.reopen(Instant(50), 0);
+        assert!(!upload.is_done());
+        upload.next_overdue(Instant(50), |_| false);
+        upload.record_sent(Instant(50), 0, Instant(150));
+        assert!(upload.acknowledge(Instant(60), 0) && upload.is_done());
+    }
+}
