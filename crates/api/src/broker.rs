@@ -4,26 +4,26 @@
 //! |---|---|
 //! | `GET /api/broker` | the `BrokerSettings` |
 //!
-//! They are changed by the operation `connect` on the WebSocket.
+//! The operation `connect` on the WebSocket changes the settings.
 
 use serde::{Deserialize, Serialize};
 use ts_rs::TS;
 
-/// What a form for the broker begins with. Passwords and keys never leave the server.
+/// The kept broker settings, for a form. Passwords and keys never leave the server.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize, TS)]
 pub struct BrokerSettings {
-    /// The broker that is used, or was last: addresses without login, with commas between them, or `embedded`.
+    /// Addresses of the broker in use or used last, without login, separated by commas; or `embedded`.
     pub address: String,
-    /// User name; null: none.
+    /// User name; null: the broker asks for none.
     pub user: Option<String>,
-    /// Whether a password is kept for it.
+    /// Whether the server keeps a password for that user.
     pub has_password: bool,
-    /// The authority to trust, as it was stated: PEM text, or a file on the server's machine; null: the system's.
+    /// Certificate authority to trust: PEM text or the path of a file on the server; null: those of the system.
     pub ca: Option<String>,
-    /// Our own certificate, as it was stated; null: none.
+    /// Client certificate for the broker: PEM text or the path of a file on the server; null: none.
     pub client_cert: Option<String>,
-    /// Whether its key is kept.
+    /// Whether the server keeps the key of the client certificate.
     pub has_client_key: bool,
-    /// Address of the server's own broker; null: it runs none, and `embedded` is refused.
+    /// Address of the server's own broker; null: the server runs none and refuses `embedded`.
     pub embedded: Option<String>,
 }

@@ -1,87 +1,87 @@
-//! The fleet table: everything about robots that does not change twenty times a second.
+//! The fleet table: facts about robots that change rarely. `Robots` has the places, which change 20 times a second.
 
 use serde::{Deserialize, Serialize};
 use ts_rs::TS;
 
-/// Every robot the controller knows, sent when something in it changed.
+/// The fleet table, sent after each change.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, TS)]
 pub struct Fleet {
-    /// Counts up whenever robots are added or removed; a `State` with the same number lists robots in this order.
+    /// Number of the table, increased when a robot is added or removed. `State.fleet` names the table of a snapshot.
     pub revision: u32,
-    /// One row a robot, in the order of `State`.
+    /// One row per robot, in the order of `Robots`.
     pub rows: Vec<FleetRow>,
 }
 
-/// One robot.
+/// A row of the fleet table.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS)]
 pub struct FleetRow {
-    /// Its name on the wire, usually a UUID.
+    /// Name of the robot in messages, usually a UUID.
     pub id: String,
-    /// What it says it is doing.
+    /// The status of the robot's last report.
     pub status: RobotStatus,
-    /// Whether it can be counted on.
+    /// How recent the last report is.
     pub presence: Presence,
-    /// How long ago it was last heard, seconds.
+    /// Age of the last message from the robot, seconds.
     pub age_s: f64,
-    /// Charge, percent; null: it does not say.
+    /// Battery charge, percent; null: not reported.
     pub battery: Option<u8>,
-    /// Id of the pixel it shows, or shall show next; null: it stands by.
+    /// Id of the pixel that the robot shows or drives to; null: the robot stands by.
     pub pixel: Option<u32>,
-    /// Name and version of its firmware; null: it does not say, as original robots do not.
+    /// Name and version of the firmware; null: not reported. Original robots report none.
     pub firmware: Option<String>,
-    /// What it can do beyond the original protocol.
+    /// Abilities beyond the original protocol.
     pub abilities: Abilities,
-    /// How far its clock may be off, microseconds; null: not synchronised.
+    /// Bound on the error of the robot's clock, microseconds; null: not synchronised.
     pub clock_us: Option<u32>,
-    /// Whether it says that it is simulated. Every other robot is real, and a fleet with one such robot is a real fleet.
+    /// Whether the robot reports that it is simulated. A robot that does not report it counts as real.
     pub simulated: bool,
 }
 
-/// What a robot is doing. In `State` it is the index in this order, from 0.
+/// What a robot does. `Robots.status` holds the index in this order, from 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, TS)]
 #[serde(rename_all = "snake_case")]
 pub enum RobotStatus {
-    /// It stands and waits.
+    /// The robot stands and has no route.
     Idle,
-    /// It keeps a route that has not begun.
+    /// The robot has a route that has not begun.
     Ready,
-    /// It drives.
+    /// The robot drives.
     Driving,
-    /// Its route is held.
+    /// The robot stands on a route that is held.
     Held,
-    /// It does not know where it is.
+    /// The robot does not know its place.
     Lost,
-    /// It lost the link during a run.
+    /// The robot lost its link during a run.
     Cut,
-    /// Its sensors or motors make no sense.
+    /// Sensors or motors of the robot give impossible values.
     Faulty,
 }
 
-/// How long a robot has been silent.
+/// How recent the last report of a robot is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, TS)]
 #[serde(rename_all = "snake_case")]
 pub enum Presence {
-    /// Heard of lately.
+    /// The robot reports in time.
     Active,
-    /// Silent for longer than it should be: drawn faded.
+    /// A report is overdue. The screen draws the robot faded.
     Stale,
-    /// Not counted on any more.
+    /// The controller has given up the robot.
     Gone,
 }
 
-/// What a robot can do beyond TARGET, COLOR and UUID.
+/// Abilities of a robot beyond TARGET, COLOR and UUID.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, TS)]
 pub struct Abilities {
-    /// It follows timed paths.
+    /// The robot follows timed paths.
     pub route: bool,
-    /// It fades its light.
+    /// The robot fades its light.
     pub fade: bool,
-    /// It blinks to be found.
+    /// The robot blinks on request, so that people find it.
     pub blink: bool,
 }
 
 impl RobotStatus {
-    /// Every status, in the order `State` counts them.
+    /// Every status, in the order of `Robots.status`.
     pub const ALL: [Self; 7] =
         [Self::Idle, Self::Ready, Self::Driving, Self::Held, Self::Lost, Self::Cut, Self::Faulty];
 }

@@ -1,14 +1,13 @@
-//! What the screen and the server say to each other, over `/ws` and `/api`; the TypeScript types are made from it.
+//! Messages between screen and server on `/ws` and `/api`, and the TypeScript types of these messages.
 //!
-//! It knows nothing of sockets, controllers or plans: only the shape of what is said. [`ToScreen`] is everything a server
-//! says on the WebSocket but [`Robots`], which is no JSON, [`FromScreen`] everything a screen says there; [`ShowEntry`],
-//! [`BrokerSettings`], [`Problem`] and [`Plan`] are the bodies of HTTP answers. After a change run
-//! `cargo run -p lightbots-api --example types`.
+//! The crate holds types only: no sockets, no controller, no planner. [`ToScreen`] and [`FromScreen`] are the JSON
+//! messages on the WebSocket, [`Robots`] is the binary message there. [`ShowEntry`], [`BrokerSettings`], [`Problem`] and
+//! [`Plan`] are bodies of HTTP answers. After a change run `cargo run -p lightbots-api --example types`.
 //!
 //! ```
 //! use lightbots_api::{FromScreen, Operation};
-//! let said = r#"{"type":"operate","id":7,"operation":{"do":"preview","frame":2}}"#;
-//! let FromScreen::Operate(request) = serde_json::from_str(said).unwrap() else { panic!("it is a wish") };
+//! let message = r#"{"type":"operate","id":7,"operation":{"do":"preview","frame":2}}"#;
+//! let FromScreen::Operate(request) = serde_json::from_str(message).unwrap() else { panic!("an operation") };
 //! assert!(matches!(request.operation, Operation::Preview { frame: 2, .. }));
 //! ```
 

@@ -4,13 +4,13 @@
 //! |---|---|
 //! | `GET /api/shows` | `ShowEntry[]`, by name |
 //! | `GET /api/shows/{name}` | the document (our format) with its `ETag` |
-//! | `PUT /api/shows/{name}` | body: a document in either format. `If-Match: <etag>` to replace, `If-None-Match: *`
-//! to create only; 412 and a `Problem` where another client saved first. Answers the `ShowEntry`: for a read-only
-//! show that of a copy, with a name of its own and `copy_of` |
+//! | `PUT /api/shows/{name}` | body: a file of any format. `If-Match: <etag>` replaces that version, `If-None-Match: *`
+//! creates only; 412 and a `Problem` if another client saved first. Answers the `ShowEntry`. A read-only show is
+//! saved as a copy, whose entry has a new name and `copy_of` |
 //! | `DELETE /api/shows/{name}` | 204; honours `If-Match`; 403 and a `Problem` for a read-only show |
-//! | `POST /api/check` | body: a document; answers a `Plan` with paths |
-//! | `POST /api/convert?to=lightbots\|original` | body: a document; answers it in that format |
-//! | `GET /api/plan` | the `Plan` with paths of the show that is open |
+//! | `POST /api/check` | body: a file of any format; answers a `Plan` with paths |
+//! | `POST /api/convert?to=FORMAT` | body: a file of any format; answers a file of that format of `FORMATS` |
+//! | `GET /api/plan` | the `Plan` of the open show, with paths |
 
 use serde::{Deserialize, Serialize};
 use ts_rs::TS;
@@ -18,39 +18,39 @@ use ts_rs::TS;
 /// A show in the library.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS)]
 pub struct ShowEntry {
-    /// Its name in the library: what `open` and `/api/shows/{name}` take.
+    /// Name in the library, for `open` and `/api/shows/{name}`.
     pub name: String,
-    /// What its author called it; may be empty.
+    /// Name that the author gave the show; may be empty.
     pub title: String,
-    /// How many frames it has.
+    /// Number of frames.
     pub frames: usize,
-    /// How many pixels its fullest frame has.
+    /// Number of pixels of the largest frame.
     pub pixels: usize,
-    /// When it was last saved, milliseconds since 1970.
+    /// Time of the last save, milliseconds since 1970; 0 for a read-only show.
     pub modified_ms: u64,
-    /// Its version, as `If-Match` takes it, with its quotes.
+    /// Version of the document with its quotes, for `If-Match`.
     pub etag: String,
-    /// Where it comes from.
+    /// Where the show comes from.
     pub origin: ShowOrigin,
-    /// Only in the answer to a save of a read-only show: what this entry, which is new, is a copy of.
+    /// Origin of the read-only show that this new entry is a copy of. Only in the answer to a save of such a show.
     pub copy_of: Option<ShowOrigin>,
 }
 
-/// Where a show of the library comes from. All but saved shows are read-only.
+/// Where a show of the library comes from. Only saved shows can be changed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, TS)]
 #[serde(rename_all = "snake_case")]
 pub enum ShowOrigin {
-    /// It is a file of the library's folder.
+    /// The show is a file in the library's folder.
     Saved,
-    /// It comes with the program.
+    /// The show is part of the program.
     Example,
-    /// It is the file the program was started with.
+    /// The show is the file on the command line of the program.
     StartFile,
 }
 
-/// The body of every HTTP answer that is not a success.
+/// The body of an HTTP answer that refuses a request.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS)]
 pub struct Problem {
-    /// One line for people: what is wrong, and what to do.
+    /// One line for people: cause and remedy.
     pub error: String,
 }

@@ -1,145 +1,145 @@
-//! What a screen asks for, and what it is answered.
+//! Requests of a screen, and their answers.
 
 use serde::{Deserialize, Serialize};
 use ts_rs::TS;
 
-/// Everything a screen says on the WebSocket.
+/// A message from a screen on the WebSocket.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS)]
 #[serde(tag = "type", rename_all = "snake_case")]
 pub enum FromScreen {
-    /// Do something.
+    /// Carry out an operation.
     Operate(Request),
-    /// The oldest `state` it has got has been dealt with.
+    /// The screen has drawn the oldest `state` that it had not acknowledged.
     Took,
 }
 
-/// A numbered wish.
+/// A numbered request.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS)]
 pub struct Request {
-    /// Chosen by the screen; the answer repeats it.
+    /// Number of the request, chosen by the screen. The answer repeats it.
     pub id: u32,
-    /// What to do.
+    /// The operation.
     pub operation: Operation,
 }
 
-/// What can be done with show and fleet. Frames are counted from 0.
+/// An operation on show, fleet or broker. Frames are counted from 0.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS)]
 #[serde(tag = "do", rename_all = "snake_case")]
 pub enum Operation {
     /// Play the open show.
     Play {
-        /// The first frame to show.
+        /// The first frame that is shown.
         from: usize,
-        /// What to do where robots are missing.
+        /// What happens if robots are missing.
         missing: Missing,
     },
     /// Drive to one frame and stay there.
     Preview {
-        /// Which.
+        /// The frame.
         frame: usize,
-        /// What to do where robots are missing.
+        /// What happens if robots are missing.
         #[serde(default)]
         #[ts(as = "Option<Missing>", optional)]
         missing: Missing,
     },
-    /// Hold everything where it is on its way.
+    /// Hold all robots at their places on their paths.
     Pause,
-    /// Go on after a pause.
+    /// Continue after a pause.
     Resume,
     /// Show the next frame, then pause.
     Step,
-    /// Begin again after the last frame, or not.
+    /// Switch on or off that the show begins again after the last frame.
     Loop {
-        /// Whether to.
+        /// Whether it begins again.
         on: bool,
     },
-    /// Stop playing; robots stop where they are.
+    /// End the run. Robots stop at their places.
     Abort,
-    /// Every robot's wheels stop at once, whatever is going on.
+    /// Stop the wheels of every robot at once, in any phase.
     StopAll,
-    /// The operator has read `Playback.failure`: it goes from every screen.
+    /// Clear `Playback.failure` on every screen, because the operator has read it.
     DismissFailure,
-    /// Ask all robots to introduce themselves.
+    /// Ask all robots for a report.
     Refresh,
-    /// Let a robot blink.
+    /// Make a robot blink.
     Identify {
-        /// Its name.
+        /// Name of the robot.
         robot: String,
     },
-    /// Strike a robot from the fleet until it reports again.
+    /// Remove a robot from the fleet until it reports again.
     Forget {
-        /// Its name.
+        /// Name of the robot.
         robot: String,
     },
-    /// Bind a pixel to a robot in all frames for as long as this show is open, or free it.
+    /// Bind a pixel to a robot in all frames while this show is open, or free the pixel.
     Pin {
-        /// The pixel's id.
+        /// Id of the pixel.
         pixel: u32,
-        /// The only robot that may show it; null: any.
+        /// Name of the only robot that may show the pixel; null: any robot may.
         robot: Option<String>,
     },
     /// Open a show of the library on every screen.
     Open {
-        /// Its name there.
+        /// Name of the show in the library.
         name: String,
     },
-    /// Use this broker from now on, and after a restart of the server: the settings are kept. Refused, with what is
-    /// wrong, where they cannot be right; whether the broker then answers is said by `State.broker`.
+    /// Connect to a broker and keep its settings for later starts of the server. Impossible settings are refused with
+    /// their fault. `State.broker` tells whether the broker answers.
     Connect {
-        /// `mqtt://host:1883` or `mqtts://…`, several with commas between them; or `embedded`.
+        /// `mqtt://host:1883` or `mqtts://…`, several separated by commas; or `embedded`.
         address: String,
-        /// User name; null: that of the address, or none.
+        /// User name; null: the user in the address, if there is one.
         #[ts(optional = nullable)]
         user: Option<String>,
-        /// Password; null: that of the address, else the kept one where address and user are the kept ones.
+        /// Password; null: the password in the address, else the kept one if address and user are the kept ones.
         #[ts(optional = nullable)]
         password: Option<String>,
-        /// The authority to trust for `mqtts://`: PEM text, or a file on the server's machine; null: the system's.
+        /// Certificate authority to trust: PEM text or the path of a file on the server; null: those of the system.
         #[serde(default)]
         #[ts(optional = nullable)]
         ca: Option<String>,
-        /// A certificate of our own for a broker that asks for one: PEM text, or a file on the server's machine.
+        /// Client certificate for a broker that asks for one: PEM text or the path of a file on the server.
         #[serde(default)]
         #[ts(optional = nullable)]
         client_cert: Option<String>,
-        /// Its key: PEM text, or a file on the server's machine; null: the kept one where the certificate is.
+        /// Key of the client certificate, stated like it; null: the kept key if the certificate is the kept one.
         #[serde(default)]
         #[ts(optional = nullable)]
         client_key: Option<String>,
     },
-    /// Leave the broker; the settings are kept for the next `Connect`.
+    /// Disconnect from the broker. Its settings are kept.
     Disconnect,
 }
 
-/// What to do where there are fewer ready robots than pixels.
+/// What happens if there are fewer ready robots than pixels.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, TS)]
 #[serde(rename_all = "snake_case")]
 pub enum Missing {
-    /// Do not start; the answer offers to go on without.
+    /// The operation is refused. The answer offers to play with the pixels dark.
     #[default]
     Refuse,
-    /// Leave pixels dark.
+    /// Pixels without a robot stay dark.
     LeaveOut,
 }
 
 /// The answer to a [`Request`].
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS)]
 pub struct Answer {
-    /// The request's number.
+    /// Number of the request.
     pub id: u32,
-    /// Whether it was done.
+    /// Whether the operation was carried out.
     pub ok: bool,
-    /// Why not: one line for people, with a remedy.
+    /// Why it was refused: one line for people with cause and remedy; null if `ok`.
     pub error: Option<String>,
-    /// A way to go on all the same.
+    /// Another operation that would be carried out; null: none.
     pub choice: Option<Choice>,
 }
 
-/// A way to go on after a refusal.
+/// An operation that the server offers after a refusal.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS)]
 pub struct Choice {
-    /// What a button for it should say.
+    /// Label of a button for the operation.
     pub label: String,
-    /// What to ask for instead.
+    /// The operation.
     pub operation: Operation,
 }

@@ -1,90 +1,90 @@
-//! The plan of a show, and what is wrong with it.
+//! The plan of a show with its issues.
 
 use serde::{Deserialize, Serialize};
 use ts_rs::TS;
 
-/// Who shows which pixel, how they get there, and what is in the way.
+/// The plan of a show: assignment of pixels, paths, durations and issues.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, TS)]
 pub struct Plan {
-    /// Revision of the open show it was made for; 0 for a check of another document.
+    /// Revision of the open show that was planned; 0 for a check of another document.
     pub revision: u32,
-    /// Whether the server is still planning that revision; what follows is then empty.
+    /// Whether the server is still planning that revision. If it is, the fields below are empty.
     pub planning: bool,
     /// Whether the show can be played.
     pub ok: bool,
-    /// The whole show's running time, seconds: drives and air times.
+    /// Duration of the show, seconds: transitions and air times.
     pub duration_s: f64,
-    /// No show with these frames is shorter, seconds.
+    /// Lower bound on the duration of any show with these frames, seconds.
     pub lower_bound_s: f64,
-    /// The least distance of two centres, metres; null with fewer than two robots.
+    /// Smallest distance between two centres, metres; null with fewer than two robots.
     pub closest_m: Option<f64>,
-    /// The share of all moments at which any one robot may stop dead without a contact, 0 to 1.
+    /// Share of all moments, 0 to 1, at which any single robot could stop dead without a contact.
     pub stop_safe: f64,
-    /// How long planning took, milliseconds.
+    /// Duration of planning, milliseconds.
     pub plan_ms: f64,
-    /// What is wrong or worth knowing, in the order of frames.
+    /// Issues in the order of frames.
     pub issues: Vec<Issue>,
-    /// One entry a frame: `transitions[k]` is the drive to frame `k`. Shorter where planning failed.
+    /// `transitions[k]` leads to frame `k`. Shorter than the list of frames if planning failed.
     pub transitions: Vec<Transition>,
 }
 
-/// The drive to one frame.
+/// The transition to one frame.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, TS)]
 pub struct Transition {
-    /// The frame before, counted from 0; null for the drive from the starting places.
+    /// The frame before, counted from 0; null: the transition begins at the starting places.
     pub from: Option<usize>,
-    /// The frame it leads to, counted from 0.
+    /// The frame that the transition leads to, counted from 0.
     pub to: usize,
-    /// How long it takes, seconds.
+    /// Duration, seconds.
     pub duration_s: f64,
-    /// The least duration that is legal, seconds.
+    /// Shortest duration that the robots' limits allow on these paths, seconds.
     pub least_s: f64,
-    /// Bottleneck distance over top speed, seconds.
+    /// Lower bound on the duration, seconds: bottleneck distance divided by top speed.
     pub lower_bound_s: f64,
-    /// The least distance of two centres, metres.
+    /// Smallest distance between two centres, metres; null with fewer than two robots.
     pub closest_m: Option<f64>,
-    /// The share of its moments at which any one robot may stop dead without a contact, 0 to 1.
+    /// Share of the transition's moments, 0 to 1, at which any single robot could stop dead without a contact.
     pub stop_safe: f64,
-    /// `pixels[robot]`: the pixel a robot shows afterwards; null: it stands by. Empty in the `plan` message of the
-    /// WebSocket, full over HTTP.
+    /// `pixels[robot]` is the id of the pixel that the robot shows afterwards; null: the robot stands by. Empty on the
+    /// WebSocket; HTTP has it.
     pub pixels: Vec<Option<u32>>,
-    /// `paths[robot]`, each lasting `duration_s`. Empty in the `plan` message of the WebSocket, full over HTTP.
+    /// `paths[robot]`, each lasting `duration_s`. Empty on the WebSocket; HTTP has it.
     pub paths: Vec<Path>,
 }
 
 /// A timed path: cubic Bézier pieces whose parameter is proportional to time.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, TS)]
 pub struct Path {
-    /// Where it starts: x and y, stage metres.
+    /// Start: x and y, stage metres.
     pub start: [f64; 2],
     /// `[seconds, c1x, c1y, c2x, c2y, end x, end y]`: duration, two control points and end, stage metres. A piece
-    /// starts where the one before ends.
+    /// starts at the end of the piece before.
     pub pieces: Vec<[f64; 7]>,
 }
 
-/// One thing that is wrong or worth knowing.
+/// A fault or a note about a show or its plan.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS)]
 pub struct Issue {
-    /// What it is, for programs, such as `pixel-off-floor`.
+    /// Kind of issue for programs, such as `pixel-off-floor`.
     pub code: String,
-    /// How bad it is.
+    /// Severity.
     pub severity: Severity,
-    /// Which frame, counted from 0.
+    /// Index of the frame, counted from 0; null: the issue concerns the whole show.
     pub frame: Option<usize>,
-    /// Ids of the pixels it is about; may be empty.
+    /// Ids of the pixels concerned; may be empty.
     pub pixels: Vec<u32>,
-    /// One line for people; frames are named and counted from 1.
+    /// One line for people with place, cause and remedy. Frames are counted from 1 there.
     pub message: String,
 }
 
-/// How bad an issue is.
+/// Severity of an issue.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, TS)]
 #[serde(rename_all = "lowercase")]
 pub enum Severity {
-    /// Good to know.
+    /// The show plays well; the note is for information.
     Note,
-    /// The show plays, but not as well as it could.
+    /// The show plays, but could play better.
     Warning,
-    /// The show must not be played like this.
+    /// The show must not be played.
     Error,
 }

@@ -1,35 +1,35 @@
-//! Where every robot is: the one message that is not JSON, because it comes twenty times a second for ten thousand.
+//! Places of all robots in a binary message, because JSON of 10,000 robots 20 times a second would be too slow.
 //!
-//! A binary message: how many robots there are, as a `u32`, then each list of [`Robots`] in turn, as long as that. All
-//! numbers are little-endian; what is not known is NaN.
+//! The message is the number of robots as `u32`, then each list of [`Robots`] in turn, with one entry per robot. Numbers
+//! are little-endian. NaN stands for unknown values.
 
 use ts_rs::TS;
 
-/// The robots, one entry each in every list, in the order of the fleet table.
+/// Places, lights and statuses: every list has one entry per robot, in the order of the fleet table.
 #[derive(Clone, Debug, Default, PartialEq, TS)]
 pub struct Robots {
-    /// Measured place along x, stage metres, to 0.1 mm; NaN: unknown.
+    /// Measured x, stage metres, rounded to 0.1 mm; NaN: unknown.
     #[ts(type = "Float32Array")]
     pub x: Vec<f32>,
-    /// Measured place along y, stage metres, to 0.1 mm; NaN: unknown.
+    /// Measured y, stage metres, rounded to 0.1 mm; NaN: unknown.
     #[ts(type = "Float32Array")]
     pub y: Vec<f32>,
-    /// Where its path says it is now along x, stage metres; NaN: it drives no path. Never draw it as if measured.
+    /// Planned x now, stage metres; NaN: the robot has no path. A planned place is never drawn as a measured one.
     #[ts(type = "Float32Array")]
     pub planned_x: Vec<f32>,
-    /// Where its path says it is now along y, stage metres.
+    /// Planned y now, stage metres; NaN: the robot has no path.
     #[ts(type = "Float32Array")]
     pub planned_y: Vec<f32>,
-    /// Where its pixel is along x, stage metres; NaN: it stands by.
+    /// x of the robot's pixel, stage metres; NaN: the robot stands by.
     #[ts(type = "Float32Array")]
     pub goal_x: Vec<f32>,
-    /// Where its pixel is along y, stage metres; NaN: it stands by.
+    /// y of the robot's pixel, stage metres; NaN: the robot stands by.
     #[ts(type = "Float32Array")]
     pub goal_y: Vec<f32>,
     /// Colour of the light: R·65536 + G·256 + B.
     #[ts(type = "Uint32Array")]
     pub colour: Vec<u32>,
-    /// What it is doing: index into `RobotStatus` in its order, from 0.
+    /// Index of the robot's `RobotStatus`, from 0.
     #[ts(type = "Uint8Array")]
     pub status: Vec<u8>,
 }
@@ -42,8 +42,8 @@ enum Column<'a> {
 }
 
 impl Robots {
-    /// The lists in the order of the message, with their names. Those of four bytes a number come first: a screen
-    /// reads them where they lie.
+    /// The lists in the order of the message, with their names. Lists of four-byte numbers come first, so that they are
+    /// aligned and a screen reads them without copying.
     fn columns(&self) -> [(&'static str, Column<'_>); 8] {
         [
             ("x", Column::Metres(&self.x)),
@@ -57,10 +57,10 @@ impl Robots {
         ]
     }
 
-    /// The message.
+    /// The bytes of the message.
     ///
     /// # Panics
-    /// Panics if the lists are not of one length.
+    /// If the lists differ in length.
     pub fn to_bytes(&self) -> Vec<u8> {
         let count = self.x.len();
         let size = self.columns().iter().map(|(_, column)| column.width()).sum::<usize>();
@@ -73,7 +73,7 @@ impl Robots {
         bytes
     }
 
-    /// Reads a message; `None` where it is none.
+    /// Reads a message. `None` if the bytes are not exactly one message.
     pub fn from_bytes(bytes: &[u8]) -> Option<Self> {
         let (count, mut rest) = bytes.split_first_chunk()?;
         let count = u32::from_le_bytes(*count) as usize;
@@ -92,7 +92,7 @@ impl Robots {
         is_whole.then_some(Self { x, y, planned_x, planned_y, goal_x, goal_y, colour, status })
     }
 
-    /// The lists as TypeScript reads them: name and kind of array, in the order of the message.
+    /// The lists in TypeScript: name and kind of array, in the order of the message.
     pub(crate) fn typescript_columns() -> String {
         let columns = Self::default();
         let columns = columns.columns().map(|(name, column)| format!("[\"{name}\", {}]", column.array()));
@@ -101,7 +101,7 @@ impl Robots {
 }
 
 impl Column<'_> {
-    /// Bytes a number.
+    /// Bytes per entry.
     const fn width(&self) -> usize {
         match self {
             Self::Metres(_) | Self::Colours(_) => 4,
@@ -109,7 +109,7 @@ impl Column<'_> {
         }
     }
 
-    /// Writes it; answers how many numbers there are.
+    /// Appends the list to the message. Returns the number of entries.
     fn append(&self, bytes: &mut Vec<u8>) -> usize {
         match self {
             Self::Metres(list) => {

@@ -1,57 +1,57 @@
-//! Everything a server says on the WebSocket.
+//! Messages from the server to a screen on the WebSocket.
 
 use serde::{Deserialize, Serialize};
 use ts_rs::TS;
 
 use crate::{Answer, Fleet, Plan, State};
 
-/// A message to a screen. After `hello` come `show`, `plan`, `fleet` and the last lines of the log, then each of them
-/// again when it changes, and `state` twenty times a second, if the screen keeps up: it says `took` after each, and one
-/// that has several before it gets no more. Before each `state` comes a binary message, the robots.
+/// A message to a screen. After `hello` come `show`, `plan`, `fleet` and the last lines of the log; each is sent again
+/// after a change. `state` comes 20 times a second, each after the binary message `Robots`. A screen acknowledges each
+/// `state` with `took`. A screen with several unacknowledged ones gets no more until it catches up.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS)]
 #[serde(tag = "type", rename_all = "snake_case")]
-// They are made, written and dropped, one at a time.
+// A message is made, sent and dropped at once, so that its size does not matter.
 #[allow(clippy::large_enum_variant)]
 pub enum ToScreen {
     /// The first message.
     Hello(Hello),
-    /// The show that is open has changed, or another one was opened.
+    /// The open show after a change, or another show that was opened.
     Show(OpenShow),
-    /// The plan of the open show, without paths: those are at `GET /api/plan`.
+    /// The plan of the open show without paths. `GET /api/plan` has the paths.
     Plan(Plan),
     /// The fleet table.
     Fleet(Fleet),
-    /// How everything is now.
+    /// A snapshot of connection and run.
     State(State),
-    /// Something happened.
+    /// A line of the log.
     Log(LogLine),
     /// The answer to a request of this screen.
     Answer(Answer),
 }
 
-/// Who the server is.
+/// What a screen must know about the server.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS)]
 pub struct Hello {
     /// Version of the program.
     pub version: String,
-    /// Number of this screen among all that ever connected.
+    /// Number of this screen: screens are counted in the order of their connections.
     pub screen: u32,
-    /// How many simulated robots this server runs.
+    /// Number of simulated robots that this server runs.
     pub simulated: usize,
-    /// Whether anyone on the network can reach this server, and drive the robots: there is no sign-in.
+    /// Whether the server can be reached from the network. There is no sign-in, so each visitor can drive the robots.
     pub open_to_network: bool,
 }
 
 /// The show that is open on every screen.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS)]
 pub struct OpenShow {
-    /// Counts up with every change.
+    /// Number of the document's state, increased with every change.
     pub revision: u32,
-    /// Its name in the library; null: nothing is open.
+    /// Name of the show in the library; null: no show is open.
     pub name: Option<String>,
-    /// Its version in the library, for `If-Match`.
+    /// Version of the show in the library, for `If-Match`.
     pub etag: Option<String>,
-    /// The document as a `.lightbots.json` file holds it; null: nothing is open.
+    /// The document in our own format (`FORMATS[0]`); null: no show is open.
     #[ts(type = "unknown")]
     pub document: serde_json::Value,
 }
@@ -59,30 +59,30 @@ pub struct OpenShow {
 /// A line of the log.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS)]
 pub struct LogLine {
-    /// Its number. A line with a number that was there before takes that line's place: it has grown.
+    /// Number of the line. A line with the number of an earlier line replaces that line.
     pub id: u32,
-    /// When, milliseconds since 1970; of the first where it sums up many events.
+    /// Time of the event, milliseconds since 1970; of the first event if the line sums up several.
     pub time_ms: u64,
-    /// How grave.
+    /// Severity.
     pub level: Level,
-    /// One line for people.
+    /// Text for people, one line.
     pub text: String,
-    /// How many robots it is about, where it sums up what happened to several; else 0.
+    /// Number of robots if the line sums up events of several robots, else 0.
     pub count: usize,
-    /// Names of the first of them.
+    /// Names of the first of these robots.
     pub robots: Vec<String>,
 }
 
-/// How grave a line of the log is.
+/// Severity of a line of the log.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, TS)]
 #[serde(rename_all = "snake_case")]
 pub enum Level {
-    /// For those who look closely.
+    /// A detail for troubleshooting.
     Debug,
-    /// What happens.
+    /// A normal event.
     Info,
-    /// Something is not as it should be.
+    /// A fault that the run survives.
     Warn,
-    /// Something failed.
+    /// A failure.
     Error,
 }

@@ -1,16 +1,16 @@
-//! Where everything is, twenty times a second.
+//! A snapshot of connection and run, 20 times a second.
 
 use serde::{Deserialize, Serialize};
 use ts_rs::TS;
 
-/// A snapshot of the run. Where the robots are is said just before, in a message of its own: `Robots`.
+/// A snapshot of the run. The binary message before it, `Robots`, has the places of the robots.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS)]
 pub struct State {
     /// The show clock, milliseconds.
     pub at_ms: f64,
-    /// How fast it goes: 1 is real time, less where this machine is too slow for its simulated robots.
+    /// Rate of the show clock: 1 is real time. Less if the machine is too slow for its simulated robots.
     pub pace: f64,
-    /// Which `Fleet` names the robots of the message before.
+    /// `Fleet.revision` of the table that names the robots of the binary message before.
     pub fleet: u32,
     /// The broker.
     pub broker: Broker,
@@ -21,72 +21,72 @@ pub struct State {
 /// The connection to the broker.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize, TS)]
 pub struct Broker {
-    /// Its addresses, with commas between them, without user and password; empty: none is wanted.
+    /// Addresses of the broker without user and password, separated by commas; empty: no broker is wanted.
     pub address: String,
-    /// How far it is.
+    /// Phase of the connection.
     pub phase: BrokerPhase,
-    /// Whether it answers: `phase` is `connected`.
+    /// Whether the broker answers: `phase` is `connected`.
     pub connected: bool,
-    /// Which of its addresses is in use; null: none.
+    /// The address in use; null: none.
     pub node: Option<String>,
-    /// Why not, one line for people: what, where, and what to do.
+    /// Why the broker does not answer: one line for people with cause, place and remedy; null: it answers.
     pub reason: Option<String>,
 }
 
-/// How far the connection to the broker is.
+/// Phase of the connection to the broker.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, TS)]
 #[serde(rename_all = "snake_case")]
 pub enum BrokerPhase {
-    /// None is wanted: Connect brings it.
+    /// No connection is wanted.
     #[default]
     Off,
     /// The first attempt is under way.
     Connecting,
-    /// It answers.
+    /// The broker answers.
     Connected,
-    /// It does not answer, or does not any more: `reason` says why. It is tried again all the time.
+    /// The broker does not answer; `reason` says why. The server keeps trying.
     Retrying,
 }
 
-/// What is being played.
+/// The run: what is played, and how far it is.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS)]
 pub struct Playback {
-    /// What is going on.
+    /// Phase of the run.
     pub phase: Phase,
-    /// What the run is doing, for people, such as `driving`; null: there is no run.
+    /// What the run does, for people, such as `driving`; null: there is no run.
     pub doing: Option<String>,
-    /// The frame that is shown or driven to, counted from 0; null: none.
+    /// Index of the frame that is shown or driven to, counted from 0; null: none.
     pub frame: Option<usize>,
-    /// How many frames the open show has.
+    /// Number of frames of the open show.
     pub frames: usize,
-    /// How much of the drive to `frame` is done, 0 to 1; 1 during its air time.
+    /// Progress of the transition to `frame`, 0 to 1; 1 during the air time.
     pub progress: f64,
-    /// Time left to the end of the show, seconds, as far as it is known.
+    /// Time to the end of the show, seconds; null: unknown.
     pub left_s: Option<f64>,
-    /// Where and why the last run failed, a sentence for people; until it is dismissed or robots are started again.
+    /// Why and where the last run failed, a sentence for people; null: no failure since the last start, or dismissed.
     pub failure: Option<String>,
-    /// Whether it begins again after the last frame.
+    /// Whether the show begins again after the last frame.
     pub looping: bool,
-    /// Names of the robots everybody is waiting for; at most twenty.
+    /// Names of late robots that the fleet waits for; at most 20.
     pub late: Vec<String>,
 }
 
-/// What is going on.
+/// Phase of the run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, TS)]
 #[serde(rename_all = "snake_case")]
 pub enum Phase {
-    /// No broker.
+    /// The server has no broker.
     Idle,
-    /// Nothing is played.
+    /// There is no run.
     Ready,
-    /// Robots are being sent their paths.
+    /// Robots receive their paths.
     Preparing,
-    /// The show is on.
+    /// The show plays.
     Playing,
-    /// It is held.
+    /// The show is held.
     Paused,
-    /// One frame is driven to.
+    /// Robots drive to one frame, or show it.
     Preview,
-    /// Robots are coming to rest after an abort.
+    /// Robots stop after an abort.
     Aborting,
 }

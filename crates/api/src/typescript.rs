@@ -1,4 +1,4 @@
-//! The same types in TypeScript.
+//! The messages as TypeScript types.
 
 use lightbots_exchange::{FORMATS, Format, MAX_BYTES, Part};
 use ts_rs::{Config, TS};
@@ -59,9 +59,9 @@ pub fn typescript() -> String {
         ShowOrigin,
         Problem,
     );
-    text.push_str("\n/** The lists of `Robots` in the order of its binary message. */\n");
+    text.push_str("\n/** The lists of `Robots` in the order of the binary message. */\n");
     text.push_str(&format!("export const ROBOT_COLUMNS = {} as const;\n", Robots::typescript_columns()));
-    text.push_str("\n/** Every status, in the order `Robots.status` counts them. */\n");
+    text.push_str("\n/** Every status, at the index that `Robots.status` holds. */\n");
     let names: Vec<String> =
         RobotStatus::ALL.iter().map(|status| snake_case(&format!("{status:?}"))).collect();
     text.push_str(&format!(

@@ -1,4 +1,4 @@
-//! The TypeScript file is current, and the JSON is what it says.
+//! The TypeScript file is current, and JSON messages fit its types.
 
 use lightbots_api::{Answer, FromScreen, Missing, Operation, Request, RobotStatus, ToScreen, typescript};
 

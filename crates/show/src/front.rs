@@ -1,44 +1,56 @@
-//! Where robots wait before a show that does not say where.
+//! Starting places for shows without `starts`.
 
 use lightbots_base::{Limits, Vec2};
 
 use crate::{Obstacle, Stage};
 
-/// How far apart robots wait if the floor has room, metres.
-const STEP_M: f64 = 0.1;
-/// From the front edge of the floor to the first row, metres.
+/// Spacings of robots and rows for an Elisa-3, metres: the first at which all rows are on the floor is taken. 0.1 m is
+/// the spacing of the original's robots. 0.06 m leaves 6 mm between rims, twice `PROVABLE_GAP_M`.
+const STEPS_M: [f64; 3] = [0.1, 0.08, 0.06];
+/// Distance from the front edge of the floor to the first row, metres. From the original: y = 1.3 m on a 3 m floor.
 const FIRST_ROW_M: f64 = 0.2;
-/// From the side edges to the first and last robot of a row, metres.
+/// Distance from a side edge to the nearest robot of a row, metres. From the original: x = -1.45 m on a 3 m floor.
 const SIDE_M: f64 = 0.05;
-/// Spots times obstacles that are looked at: far more than shows need whose robots fit on their floor.
-const MOST_LOOKS: usize = 200_000_000;
+/// Longest row, metres: five times the widest floor. Bounds the number of columns for hostile widths.
+const USABLE_MAX_M: f64 = 1e3;
+/// Largest ratio of a robot's radius to that of an Elisa-3. Robots of 1 m, the largest that validation allows, have 37.
+const SIZE_MAX: f64 = 100.0;
+/// Clearance between a waiting robot and a no-go area, metres. More than `PROVABLE_GAP_M`, so that plans can leave.
+const OBSTACLE_GAP_M: f64 = 0.01;
+/// Most rows without a free place. After them, places are put in one column without a check. The largest floor, 200 m,
+/// has 3,333 rows, so that sound shows stay below it.
+const FULL_ROWS_MAX: usize = 10_000;
+/// Most comparisons of a place with a no-go area: ten times what `MAX_PIXELS` places and `MAX_OBSTACLES` areas need. After
+/// them, places are put in one column without a check, so that hostile shows end.
+const COMPARISONS_MAX: usize = 200_000_000;
 
-/// Where `count` robots wait before a show: in rows along the front edge, that is the one with the largest y, 0.1 m
-/// apart, the first row 0.2 m from the edge, further rows behind it, each from left to right and the last one centred.
-/// On the original's floor of 3 m by 3 m the first thirty stand on y = 1.3 m from x = −1.45 m. Places on obstacles
-/// are left out.
+/// Starting places of `count` robots: rows along the front edge, which has the largest y. Rows are 0.1 m apart, as are
+/// robots in a row, and the first row is 0.2 m from the edge. A row runs from left to right; the last one is centred.
+/// On the original's floor of 3 m by 3 m the first thirty places are on y = 1.3 m, from x = −1.45 m on. Places on
+/// no-go areas are left out.
 ///
-/// Robots larger than an Elisa-3 get as much more room. Always `count` places: rows get closer, down to 60 mm for an
-/// Elisa-3, where the floor is small, and where that is not enough they
-/// go on beyond its edge, which [`validate`](crate::validate) reports.
+/// All distances grow with the radius of the robot. If the floor is too small, rows move closer, down to 60 mm for an
+/// Elisa-3. If that is not enough, they go on beyond the edge, which [`validate`](crate::validate) reports. The list
+/// always has `count` places.
 pub fn front_rows(stage: &Stage, count: usize) -> Vec<Vec2> {
-    let size = (stage.limits.radius_m / Limits::ELISA_3.radius_m).clamp(1.0, 100.0);
-    for step_m in [STEP_M, 0.08] {
+    let size = (stage.limits.radius_m / Limits::ELISA_3.radius_m).clamp(1.0, SIZE_MAX);
+    let [wide_m, medium_m, narrow_m] = STEPS_M;
+    let far_edge_m = -stage.depth_m / 2.0 + stage.limits.radius_m;
+    for step_m in [wide_m, medium_m] {
         let places = rows(stage, count, step_m, size);
-        let far_edge_m = -stage.depth_m / 2.0 + stage.limits.radius_m;
         if places.iter().all(|place| place.y >= far_edge_m) {
             return places;
         }
     }
-    rows(stage, count, 0.06, size)
+    rows(stage, count, narrow_m, size)
 }
 
-/// Rows for robots that are `size` times as large as an Elisa-3, for which `step_m` is stated.
+/// Rows for robots `size` times as large as an Elisa-3. `step_m` is the spacing for an Elisa-3.
 fn rows(stage: &Stage, count: usize, step_m: f64, size: f64) -> Vec<Vec2> {
     let (step_m, side_m, first_row_m) = (step_m * size, SIDE_M * size, FIRST_ROW_M * size);
-    // A floor that is no floor gets a single file, so that there are places to complain about.
+    // A floor without a finite width gets a single column, so that validation can report the places.
     let usable_m =
-        if stage.width_m.is_finite() { (stage.width_m - 2.0 * side_m).clamp(0.0, 1e3) } else { 0.0 };
+        if stage.width_m.is_finite() { (stage.width_m - 2.0 * side_m).clamp(0.0, USABLE_MAX_M) } else { 0.0 };
     let columns = (usable_m / step_m + 1e-9) as usize + 1;
     let first_y = if stage.depth_m.is_finite() {
         stage.depth_m / 2.0 - first_row_m.min(stage.depth_m / 4.0)
@@ -47,7 +59,7 @@ fn rows(stage: &Stage, count: usize, step_m: f64, size: f64) -> Vec<Vec2> {
     };
     let mut places = Vec::with_capacity(count);
     let mut row = 0;
-    let (mut left_out, mut looks) = (0, MOST_LOOKS);
+    let (mut full_rows, mut comparisons_left) = (0, COMPARISONS_MAX);
     while places.len() < count {
         let y = first_y - row as f64 * step_m;
         let in_row = columns.min(count - places.len());
@@ -55,11 +67,11 @@ fn rows(stage: &Stage, count: usize, step_m: f64, size: f64) -> Vec<Vec2> {
         let spots = (0..in_row).map(|column| Vec2::new(tidy(left + column as f64 * step_m), tidy(y)));
         let before = places.len();
         places.extend(spots.filter(|spot| is_free(stage, *spot)));
-        // Rows full of obstacles are passed over, but not without end.
-        left_out += usize::from(places.len() == before);
+        // Rows full of obstacles are passed over, up to a bound.
+        full_rows += usize::from(places.len() == before);
         row += 1;
-        looks = looks.saturating_sub(in_row * stage.obstacles.len());
-        if left_out > 10_000 || looks == 0 {
+        comparisons_left = comparisons_left.saturating_sub(in_row * stage.obstacles.len());
+        if full_rows > FULL_ROWS_MAX || comparisons_left == 0 {
             let at = places.len();
             places.extend((at..count).map(|nth| Vec2::new(0.0, first_y - (row + nth) as f64 * step_m)));
         }
@@ -68,17 +80,17 @@ fn rows(stage: &Stage, count: usize, step_m: f64, size: f64) -> Vec<Vec2> {
 }
 
 fn is_free(stage: &Stage, spot: Vec2) -> bool {
-    let reach_m = stage.limits.radius_m + 0.01;
+    let reach_m = stage.limits.radius_m + OBSTACLE_GAP_M;
     stage.obstacles.iter().all(|obstacle| obstacle.gap_m(spot) >= reach_m)
 }
 
-/// Tenths of millimetres, so that places read well in files.
+/// Rounded to tenths of a millimetre, so that places read well in files.
 fn tidy(metres: f64) -> f64 {
     (metres * 1e4).round() / 1e4 + 0.0
 }
 
 impl Obstacle {
-    /// From a place to the nearest point of the obstacle, metres; 0 or less on it.
+    /// Distance from a place to the nearest point of the obstacle, metres; 0 or less on the obstacle.
     pub fn gap_m(&self, from: Vec2) -> f64 {
         match *self {
             Self::Disc { at, radius_m } => at.distance(from) - radius_m,

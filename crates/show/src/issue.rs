@@ -1,34 +1,34 @@
-//! What is wrong with a show, said so that people can mend it and screens can draw it.
+//! Issues of a show, for people to mend and for screens to draw.
 
 use serde::{Deserialize, Serialize};
 
-/// One thing that is wrong or worth knowing.
+/// A fault or a note about a show.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Issue {
-    /// What it is, for programs: lower case words with hyphens, such as `pixel-off-floor`.
+    /// Kind of issue for programs: lower case words with hyphens, such as `pixel-off-floor`.
     pub code: String,
-    /// How bad it is.
+    /// Severity.
     pub severity: Severity,
-    /// Which frame, counted from 0 in playing order.
+    /// Index of the frame, counted from 0; `None`: the issue concerns the whole show.
     pub frame: Option<usize>,
-    /// Ids of the pixels it is about; may be empty.
+    /// Ids of the pixels concerned; may be empty.
     pub pixels: Vec<u32>,
-    /// One line for people: what is wrong where, and what to do. Frames are named and counted from 1.
+    /// One line for people with place, cause and remedy. Frames are counted from 1 there.
     pub message: String,
 }
 
-/// A list of issues in the order they were found.
+/// Issues in the order of their discovery.
 pub type Issues = Vec<Issue>;
 
-/// How bad an issue is.
+/// Severity of an issue.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Severity {
-    /// Good to know.
+    /// The show plays well; the note is for information.
     Note,
-    /// The show plays, but not as well as it could.
+    /// The show plays, but could play better.
     Warning,
-    /// The show must not be played like this.
+    /// The show must not be played.
     Error,
 }
 
@@ -49,17 +49,17 @@ impl Issue {
         Self { severity: Severity::Warning, ..Self::error(code, message) }
     }
 
-    /// The same, in a frame (counted from 0).
+    /// The issue with the index of its frame, counted from 0.
     pub fn in_frame(self, frame: usize) -> Self {
         Self { frame: Some(frame), ..self }
     }
 
-    /// The same, about pixels.
+    /// The issue with the ids of its pixels.
     pub fn with_pixels(self, pixels: impl IntoIterator<Item = u32>) -> Self {
         Self { pixels: pixels.into_iter().collect(), ..self }
     }
 
-    /// Whether the show must not be played with it.
+    /// Whether the issue forbids playing the show.
     pub fn is_error(&self) -> bool {
         self.severity == Severity::Error
     }

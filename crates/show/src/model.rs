@@ -1,21 +1,21 @@
-//! The document in memory.
+//! The show document in memory.
 
 use lightbots_base::{Limits, Rgb, Vec2};
 
 /// A show: frames in playing order, and the stage they play on.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Show {
-    /// Its name for people; may be empty.
+    /// Name for people; may be empty.
     pub name: String,
-    /// Where it plays, and with what robots.
+    /// Floor and robots.
     pub stage: Stage,
-    /// Whether robots are interchangeable, for frames that do not say.
+    /// Whether pixels are bound to robots, for frames without an identity of their own.
     pub identity: Identity,
-    /// Where robots stand before the first frame; `None`: in rows along the front edge.
+    /// Places of the robots before the first frame, stage metres; `None`: rows along the front edge.
     pub starts: Option<Vec<Vec2>>,
-    /// File name of the music; played by the screen.
+    /// File name of the music, which the screen plays.
     pub music: Option<String>,
-    /// The pictures in playing order.
+    /// Frames in playing order.
     pub frames: Vec<Frame>,
 }
 
@@ -26,23 +26,23 @@ pub struct Stage {
     pub width_m: f64,
     /// Extent along y, metres.
     pub depth_m: f64,
-    /// What robots must drive around.
+    /// No-go areas, numbered from 1 in this order.
     pub obstacles: Vec<Obstacle>,
-    /// What a robot of this fleet is and can do.
+    /// Size and dynamic limits of each robot of the fleet.
     pub limits: Limits,
 }
 
-/// Something on the floor that robots must not touch.
+/// A no-go area: robots drive around it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Obstacle {
-    /// A round one.
+    /// A disc.
     Disc {
-        /// Its centre, stage metres.
+        /// Centre, stage metres.
         at: Vec2,
-        /// Its radius, metres.
+        /// Radius, metres.
         radius_m: f64,
     },
-    /// One with sides along the axes.
+    /// A rectangle with sides along the axes.
     Rect {
         /// Corner with the smaller x and y, stage metres.
         min: Vec2,
@@ -61,43 +61,43 @@ pub enum Identity {
     Fixed,
 }
 
-/// A picture.
+/// A picture of the show.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Frame {
-    /// Its name for people; may be empty.
+    /// Name for people; may be empty.
     pub name: String,
-    /// How long it stays, seconds.
+    /// Air time, seconds: how long the frame stays.
     pub air_time_s: f64,
-    /// How long the drive to it takes, seconds; `None`: as fast as legal.
+    /// Wanted duration of the transition to the frame, seconds; `None`: the shortest that the limits allow.
     pub transition_s: Option<f64>,
-    /// How the drive to it speeds up and slows down.
+    /// Speed profile of the transition to the frame.
     pub easing: Easing,
-    /// Overrides the show's.
+    /// Identity in this frame; `None`: that of the show.
     pub identity: Option<Identity>,
-    /// Its pixels, sorted by id, ids unique.
+    /// Pixels, sorted by id; ids are unique.
     pub pixels: Vec<Pixel>,
 }
 
-/// How speed changes over a transition.
+/// Speed profile of a transition.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Easing {
-    /// Speeds up, cruises and slows down as quickly as limits allow.
+    /// Trapezoidal: accelerates, cruises and brakes at the limits.
     #[default]
     Swift,
-    /// Speeds up over the first half and slows down over the second.
+    /// Accelerates over the first half and brakes over the second.
     Gentle,
 }
 
-/// One light of a picture.
+/// A light of a picture, shown by one robot.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Pixel {
-    /// Its number, unique in its frame.
+    /// Id, unique in its frame.
     pub id: u32,
-    /// Where, stage metres.
+    /// Place, stage metres.
     pub at: Vec2,
-    /// Its colour.
+    /// Colour.
     pub color: Rgb,
-    /// The only robot that may show it.
+    /// Name of the only robot that may show the pixel; `None`: any robot may.
     pub robot: Option<String>,
 }
 
@@ -107,7 +107,7 @@ impl Default for Stage {
     }
 }
 
-/// The show on a floor of `width_m` by `depth_m` metres; obstacles and robots stay. For shows that carry no stage.
+/// The show on a floor of `width_m` by `depth_m` metres, for files without a stage. Obstacles and robots stay.
 pub fn with_floor(mut show: Show, width_m: f64, depth_m: f64) -> Show {
     show.stage.width_m = width_m;
     show.stage.depth_m = depth_m;

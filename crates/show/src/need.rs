@@ -1,21 +1,21 @@
-//! How many robots a show needs.
+//! Number of robots that a show needs.
 
 use std::collections::BTreeSet;
 
 use crate::Show;
 
-/// How many different robots pixels ask for by name.
+/// Number of different robots that pixels name.
 pub fn robots_asked_for(show: &Show) -> usize {
     let pixels = show.frames.iter().flat_map(|frame| &frame.pixels);
     pixels.filter_map(|pixel| pixel.robot.as_deref()).collect::<BTreeSet<_>>().len()
 }
 
-/// How many pixels the largest frame of a show has.
+/// Number of pixels of the largest frame.
 pub fn most_pixels(show: &Show) -> usize {
     show.frames.iter().map(|frame| frame.pixels.len()).max().unwrap_or(0)
 }
 
-/// How many robots a show needs: one for each pixel of its largest frame, and everybody a pixel asks for by name.
+/// Number of robots that a show needs: one per pixel of the largest frame, and at least the robots that pixels name.
 pub fn robots_needed(show: &Show) -> usize {
     most_pixels(show).max(robots_asked_for(show))
 }
@@ -27,7 +27,7 @@ mod tests {
     use lightbots_base::{Rgb, Vec2};
 
     #[test]
-    fn who_is_asked_for_by_name_is_needed_even_where_no_frame_has_so_many_pixels() {
+    fn named_robots_are_needed_even_if_no_frame_has_as_many_pixels() {
         let frame = |names: &[Option<&str>]| Frame {
             name: String::new(),
             air_time_s: 1.0,

@@ -1,25 +1,25 @@
-//! Which places of a picture are too close together, by a grid, so that big pictures cost no more than small ones.
+//! Pairs of close places, found with a grid, so that the time grows with the number of places and not of pairs.
 
 use lightbots_base::Vec2;
 
-/// Two places that are close together.
+/// Two places that are close to each other.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CloseApproach {
-    /// Index of the one that comes first.
+    /// Index of the earlier place.
     pub first: usize,
-    /// Index of the other.
+    /// Index of the later place.
     pub second: usize,
-    /// From centre to centre, metres.
+    /// Distance between the places, metres.
     pub gap_m: f64,
 }
 
-/// All pairs of places closer than `reach_m` (positive), ordered by their indices. Stops after about `most` pairs.
-/// Places that are not finite or farther than 1 km from the origin are left out.
+/// All pairs of places closer than `reach_m` (positive), ordered by their indices. The search ends after the place that
+/// completes `most` pairs. Places that are not finite or farther than `FARTHEST_M` from the origin are left out.
 pub fn close_pairs(places: &[Vec2], reach_m: f64, most: usize) -> Vec<CloseApproach> {
     let cells = sorted_cells(places, reach_m);
     let mut pairs = Vec::new();
-    // Cells are sorted by row, then column: a place meets the rest of its cell, the cell to the right, and the three
-    // above, which begin at `above`.
+    // Cells are sorted by row, then column. A place is compared with the rest of its cell, the cell to the right, and
+    // the three cells above, which begin at `above`.
     let mut above = 0;
     for (nth, &(row, column, index)) in cells.iter().enumerate() {
         let beside = cells[nth + 1..].iter().take_while(|cell| cell.0 == row && cell.1 <= column + 1);
@@ -41,9 +41,11 @@ pub fn close_pairs(places: &[Vec2], reach_m: f64, most: usize) -> Vec<CloseAppro
     pairs
 }
 
+/// Largest coordinate of a place, metres: five times the largest floor. Far beyond it row numbers would overflow.
+const FARTHEST_M: f64 = 1e3;
+
 /// Row, column and index of every place, sorted.
 fn sorted_cells(places: &[Vec2], reach_m: f64) -> Vec<(i64, i64, usize)> {
-    const FARTHEST_M: f64 = 1e3;
     let cell = |metres: f64| (metres / reach_m).floor() as i64;
     let near = |place: &Vec2| place.x.abs() <= FARTHEST_M && place.y.abs() <= FARTHEST_M;
     let mut cells: Vec<_> = (places.iter().enumerate())
@@ -58,7 +60,7 @@ fn sorted_cells(places: &[Vec2], reach_m: f64) -> Vec<(i64, i64, usize)> {
 mod tests {
     use super::*;
 
-    /// A fixed sequence of numbers in 0..1 that look random.
+    /// Pseudo-random places in a square of 1 m, the same at every run.
     fn scattered(count: usize) -> Vec<Vec2> {
         let mut state = 7u64;
         let mut next = move || {
@@ -86,13 +88,13 @@ mod tests {
     }
 
     #[test]
-    fn a_heap_is_left_early() {
+    fn a_search_ends_early_where_all_places_are_the_same() {
         let pairs = close_pairs(&[Vec2::ZERO; 20_000], 0.057, 100);
         assert!((100..40_000).contains(&pairs.len()));
     }
 
     #[test]
-    fn places_that_are_no_places_are_left_out() {
+    fn places_that_are_not_finite_or_too_far_are_left_out() {
         let places = [Vec2::new(f64::NAN, 0.0), Vec2::new(1e300, 1e300), Vec2::new(1e300, 1e300)];
         assert_eq!(close_pairs(&places, 0.057, 10), []);
     }

@@ -1,19 +1,19 @@
 // Made from crates/api by `cargo run -p lightbots-api --example types`. Change it there.
 
 /**
- * A message to a screen. After `hello` come `show`, `plan`, `fleet` and the last lines of the log, then each of them
- * again when it changes, and `state` twenty times a second, if the screen keeps up: it says `took` after each, and one
- * that has several before it gets no more. Before each `state` comes a binary message, the robots.
+ * A message to a screen. After `hello` come `show`, `plan`, `fleet` and the last lines of the log; each is sent again
+ * after a change. `state` comes 20 times a second, each after the binary message `Robots`. A screen acknowledges each
+ * `state` with `took`. A screen with several unacknowledged ones gets no more until it catches up.
  */
 export type ToScreen = { "type": "hello" } & Hello | { "type": "show" } & OpenShow | { "type": "plan" } & Plan | { "type": "fleet" } & Fleet | { "type": "state" } & State | { "type": "log" } & LogLine | { "type": "answer" } & Answer;
 
 /**
- * Everything a screen says on the WebSocket.
+ * A message from a screen on the WebSocket.
  */
 export type FromScreen = { "type": "operate" } & Request | { "type": "took" };
 
 /**
- * Who the server is.
+ * What a screen must know about the server.
  */
 export type Hello = { 
 /**
@@ -21,15 +21,15 @@ export type Hello = {
  */
 version: string, 
 /**
- * Number of this screen among all that ever connected.
+ * Number of this screen: screens are counted in the order of their connections.
  */
 screen: number, 
 /**
- * How many simulated robots this server runs.
+ * Number of simulated robots that this server runs.
  */
 simulated: number, 
 /**
- * Whether anyone on the network can reach this server, and drive the robots: there is no sign-in.
+ * Whether the server can be reached from the network. There is no sign-in, so each visitor can drive the robots.
  */
 open_to_network: boolean, };
 
@@ -38,32 +38,32 @@ open_to_network: boolean, };
  */
 export type OpenShow = { 
 /**
- * Counts up with every change.
+ * Number of the document's state, increased with every change.
  */
 revision: number, 
 /**
- * Its name in the library; null: nothing is open.
+ * Name of the show in the library; null: no show is open.
  */
 name: string | null, 
 /**
- * Its version in the library, for `If-Match`.
+ * Version of the show in the library, for `If-Match`.
  */
 etag: string | null, 
 /**
- * The document as a `.lightbots.json` file holds it; null: nothing is open.
+ * The document in our own format (`FORMATS[0]`); null: no show is open.
  */
 document: unknown, };
 
 /**
- * Who shows which pixel, how they get there, and what is in the way.
+ * The plan of a show: assignment of pixels, paths, durations and issues.
  */
 export type Plan = { 
 /**
- * Revision of the open show it was made for; 0 for a check of another document.
+ * Revision of the open show that was planned; 0 for a check of another document.
  */
 revision: number, 
 /**
- * Whether the server is still planning that revision; what follows is then empty.
+ * Whether the server is still planning that revision. If it is, the fields below are empty.
  */
 planning: boolean, 
 /**
@@ -71,73 +71,73 @@ planning: boolean,
  */
 ok: boolean, 
 /**
- * The whole show's running time, seconds: drives and air times.
+ * Duration of the show, seconds: transitions and air times.
  */
 duration_s: number, 
 /**
- * No show with these frames is shorter, seconds.
+ * Lower bound on the duration of any show with these frames, seconds.
  */
 lower_bound_s: number, 
 /**
- * The least distance of two centres, metres; null with fewer than two robots.
+ * Smallest distance between two centres, metres; null with fewer than two robots.
  */
 closest_m: number | null, 
 /**
- * The share of all moments at which any one robot may stop dead without a contact, 0 to 1.
+ * Share of all moments, 0 to 1, at which any single robot could stop dead without a contact.
  */
 stop_safe: number, 
 /**
- * How long planning took, milliseconds.
+ * Duration of planning, milliseconds.
  */
 plan_ms: number, 
 /**
- * What is wrong or worth knowing, in the order of frames.
+ * Issues in the order of frames.
  */
 issues: Array<Issue>, 
 /**
- * One entry a frame: `transitions[k]` is the drive to frame `k`. Shorter where planning failed.
+ * `transitions[k]` leads to frame `k`. Shorter than the list of frames if planning failed.
  */
 transitions: Array<Transition>, };
 
 /**
- * The drive to one frame.
+ * The transition to one frame.
  */
 export type Transition = { 
 /**
- * The frame before, counted from 0; null for the drive from the starting places.
+ * The frame before, counted from 0; null: the transition begins at the starting places.
  */
 from: number | null, 
 /**
- * The frame it leads to, counted from 0.
+ * The frame that the transition leads to, counted from 0.
  */
 to: number, 
 /**
- * How long it takes, seconds.
+ * Duration, seconds.
  */
 duration_s: number, 
 /**
- * The least duration that is legal, seconds.
+ * Shortest duration that the robots' limits allow on these paths, seconds.
  */
 least_s: number, 
 /**
- * Bottleneck distance over top speed, seconds.
+ * Lower bound on the duration, seconds: bottleneck distance divided by top speed.
  */
 lower_bound_s: number, 
 /**
- * The least distance of two centres, metres.
+ * Smallest distance between two centres, metres; null with fewer than two robots.
  */
 closest_m: number | null, 
 /**
- * The share of its moments at which any one robot may stop dead without a contact, 0 to 1.
+ * Share of the transition's moments, 0 to 1, at which any single robot could stop dead without a contact.
  */
 stop_safe: number, 
 /**
- * `pixels[robot]`: the pixel a robot shows afterwards; null: it stands by. Empty in the `plan` message of the
- * WebSocket, full over HTTP.
+ * `pixels[robot]` is the id of the pixel that the robot shows afterwards; null: the robot stands by. Empty on the
+ * WebSocket; HTTP has it.
  */
 pixels: Array<number | null>, 
 /**
- * `paths[robot]`, each lasting `duration_s`. Empty in the `plan` message of the WebSocket, full over HTTP.
+ * `paths[robot]`, each lasting `duration_s`. Empty on the WebSocket; HTTP has it.
  */
 paths: Array<Path>, };
 
@@ -146,132 +146,132 @@ paths: Array<Path>, };
  */
 export type Path = { 
 /**
- * Where it starts: x and y, stage metres.
+ * Start: x and y, stage metres.
  */
 start: [number, number], 
 /**
  * `[seconds, c1x, c1y, c2x, c2y, end x, end y]`: duration, two control points and end, stage metres. A piece
- * starts where the one before ends.
+ * starts at the end of the piece before.
  */
 pieces: Array<[number, number, number, number, number, number, number]>, };
 
 /**
- * One thing that is wrong or worth knowing.
+ * A fault or a note about a show or its plan.
  */
 export type Issue = { 
 /**
- * What it is, for programs, such as `pixel-off-floor`.
+ * Kind of issue for programs, such as `pixel-off-floor`.
  */
 code: string, 
 /**
- * How bad it is.
+ * Severity.
  */
 severity: Severity, 
 /**
- * Which frame, counted from 0.
+ * Index of the frame, counted from 0; null: the issue concerns the whole show.
  */
 frame: number | null, 
 /**
- * Ids of the pixels it is about; may be empty.
+ * Ids of the pixels concerned; may be empty.
  */
 pixels: Array<number>, 
 /**
- * One line for people; frames are named and counted from 1.
+ * One line for people with place, cause and remedy. Frames are counted from 1 there.
  */
 message: string, };
 
 /**
- * How bad an issue is.
+ * Severity of an issue.
  */
 export type Severity = "note" | "warning" | "error";
 
 /**
- * Every robot the controller knows, sent when something in it changed.
+ * The fleet table, sent after each change.
  */
 export type Fleet = { 
 /**
- * Counts up whenever robots are added or removed; a `State` with the same number lists robots in this order.
+ * Number of the table, increased when a robot is added or removed. `State.fleet` names the table of a snapshot.
  */
 revision: number, 
 /**
- * One row a robot, in the order of `State`.
+ * One row per robot, in the order of `Robots`.
  */
 rows: Array<FleetRow>, };
 
 /**
- * One robot.
+ * A row of the fleet table.
  */
 export type FleetRow = { 
 /**
- * Its name on the wire, usually a UUID.
+ * Name of the robot in messages, usually a UUID.
  */
 id: string, 
 /**
- * What it says it is doing.
+ * The status of the robot's last report.
  */
 status: RobotStatus, 
 /**
- * Whether it can be counted on.
+ * How recent the last report is.
  */
 presence: Presence, 
 /**
- * How long ago it was last heard, seconds.
+ * Age of the last message from the robot, seconds.
  */
 age_s: number, 
 /**
- * Charge, percent; null: it does not say.
+ * Battery charge, percent; null: not reported.
  */
 battery: number | null, 
 /**
- * Id of the pixel it shows, or shall show next; null: it stands by.
+ * Id of the pixel that the robot shows or drives to; null: the robot stands by.
  */
 pixel: number | null, 
 /**
- * Name and version of its firmware; null: it does not say, as original robots do not.
+ * Name and version of the firmware; null: not reported. Original robots report none.
  */
 firmware: string | null, 
 /**
- * What it can do beyond the original protocol.
+ * Abilities beyond the original protocol.
  */
 abilities: Abilities, 
 /**
- * How far its clock may be off, microseconds; null: not synchronised.
+ * Bound on the error of the robot's clock, microseconds; null: not synchronised.
  */
 clock_us: number | null, 
 /**
- * Whether it says that it is simulated. Every other robot is real, and a fleet with one such robot is a real fleet.
+ * Whether the robot reports that it is simulated. A robot that does not report it counts as real.
  */
 simulated: boolean, };
 
 /**
- * What a robot is doing. In `State` it is the index in this order, from 0.
+ * What a robot does. `Robots.status` holds the index in this order, from 0.
  */
 export type RobotStatus = "idle" | "ready" | "driving" | "held" | "lost" | "cut" | "faulty";
 
 /**
- * How long a robot has been silent.
+ * How recent the last report of a robot is.
  */
 export type Presence = "active" | "stale" | "gone";
 
 /**
- * What a robot can do beyond TARGET, COLOR and UUID.
+ * Abilities of a robot beyond TARGET, COLOR and UUID.
  */
 export type Abilities = { 
 /**
- * It follows timed paths.
+ * The robot follows timed paths.
  */
 route: boolean, 
 /**
- * It fades its light.
+ * The robot fades its light.
  */
 fade: boolean, 
 /**
- * It blinks to be found.
+ * The robot blinks on request, so that people find it.
  */
 blink: boolean, };
 
 /**
- * A snapshot of the run. Where the robots are is said just before, in a message of its own: `Robots`.
+ * A snapshot of the run. The binary message before it, `Robots`, has the places of the robots.
  */
 export type State = { 
 /**
@@ -279,11 +279,11 @@ export type State = {
  */
 at_ms: number, 
 /**
- * How fast it goes: 1 is real time, less where this machine is too slow for its simulated robots.
+ * Rate of the show clock: 1 is real time. Less if the machine is too slow for its simulated robots.
  */
 pace: number, 
 /**
- * Which `Fleet` names the robots of the message before.
+ * `Fleet.revision` of the table that names the robots of the binary message before.
  */
 fleet: number, 
 /**
@@ -300,136 +300,136 @@ playback: Playback, };
  */
 export type Broker = { 
 /**
- * Its addresses, with commas between them, without user and password; empty: none is wanted.
+ * Addresses of the broker without user and password, separated by commas; empty: no broker is wanted.
  */
 address: string, 
 /**
- * How far it is.
+ * Phase of the connection.
  */
 phase: BrokerPhase, 
 /**
- * Whether it answers: `phase` is `connected`.
+ * Whether the broker answers: `phase` is `connected`.
  */
 connected: boolean, 
 /**
- * Which of its addresses is in use; null: none.
+ * The address in use; null: none.
  */
 node: string | null, 
 /**
- * Why not, one line for people: what, where, and what to do.
+ * Why the broker does not answer: one line for people with cause, place and remedy; null: it answers.
  */
 reason: string | null, };
 
 /**
- * How far the connection to the broker is.
+ * Phase of the connection to the broker.
  */
 export type BrokerPhase = "off" | "connecting" | "connected" | "retrying";
 
 /**
- * What a form for the broker begins with. Passwords and keys never leave the server.
+ * The kept broker settings, for a form. Passwords and keys never leave the server.
  */
 export type BrokerSettings = { 
 /**
- * The broker that is used, or was last: addresses without login, with commas between them, or `embedded`.
+ * Addresses of the broker in use or used last, without login, separated by commas; or `embedded`.
  */
 address: string, 
 /**
- * User name; null: none.
+ * User name; null: the broker asks for none.
  */
 user: string | null, 
 /**
- * Whether a password is kept for it.
+ * Whether the server keeps a password for that user.
  */
 has_password: boolean, 
 /**
- * The authority to trust, as it was stated: PEM text, or a file on the server's machine; null: the system's.
+ * Certificate authority to trust: PEM text or the path of a file on the server; null: those of the system.
  */
 ca: string | null, 
 /**
- * Our own certificate, as it was stated; null: none.
+ * Client certificate for the broker: PEM text or the path of a file on the server; null: none.
  */
 client_cert: string | null, 
 /**
- * Whether its key is kept.
+ * Whether the server keeps the key of the client certificate.
  */
 has_client_key: boolean, 
 /**
- * Address of the server's own broker; null: it runs none, and `embedded` is refused.
+ * Address of the server's own broker; null: the server runs none and refuses `embedded`.
  */
 embedded: string | null, };
 
 /**
- * What is being played.
+ * The run: what is played, and how far it is.
  */
 export type Playback = { 
 /**
- * What is going on.
+ * Phase of the run.
  */
 phase: Phase, 
 /**
- * What the run is doing, for people, such as `driving`; null: there is no run.
+ * What the run does, for people, such as `driving`; null: there is no run.
  */
 doing: string | null, 
 /**
- * The frame that is shown or driven to, counted from 0; null: none.
+ * Index of the frame that is shown or driven to, counted from 0; null: none.
  */
 frame: number | null, 
 /**
- * How many frames the open show has.
+ * Number of frames of the open show.
  */
 frames: number, 
 /**
- * How much of the drive to `frame` is done, 0 to 1; 1 during its air time.
+ * Progress of the transition to `frame`, 0 to 1; 1 during the air time.
  */
 progress: number, 
 /**
- * Time left to the end of the show, seconds, as far as it is known.
+ * Time to the end of the show, seconds; null: unknown.
  */
 left_s: number | null, 
 /**
- * Where and why the last run failed, a sentence for people; until it is dismissed or robots are started again.
+ * Why and where the last run failed, a sentence for people; null: no failure since the last start, or dismissed.
  */
 failure: string | null, 
 /**
- * Whether it begins again after the last frame.
+ * Whether the show begins again after the last frame.
  */
 looping: boolean, 
 /**
- * Names of the robots everybody is waiting for; at most twenty.
+ * Names of late robots that the fleet waits for; at most 20.
  */
 late: Array<string>, };
 
 /**
- * What is going on.
+ * Phase of the run.
  */
 export type Phase = "idle" | "ready" | "preparing" | "playing" | "paused" | "preview" | "aborting";
 
 /**
- * The robots, one entry each in every list, in the order of the fleet table.
+ * Places, lights and statuses: every list has one entry per robot, in the order of the fleet table.
  */
 export type Robots = { 
 /**
- * Measured place along x, stage metres, to 0.1 mm; NaN: unknown.
+ * Measured x, stage metres, rounded to 0.1 mm; NaN: unknown.
  */
 x: Float32Array, 
 /**
- * Measured place along y, stage metres, to 0.1 mm; NaN: unknown.
+ * Measured y, stage metres, rounded to 0.1 mm; NaN: unknown.
  */
 y: Float32Array, 
 /**
- * Where its path says it is now along x, stage metres; NaN: it drives no path. Never draw it as if measured.
+ * Planned x now, stage metres; NaN: the robot has no path. A planned place is never drawn as a measured one.
  */
 planned_x: Float32Array, 
 /**
- * Where its path says it is now along y, stage metres.
+ * Planned y now, stage metres; NaN: the robot has no path.
  */
 planned_y: Float32Array, 
 /**
- * Where its pixel is along x, stage metres; NaN: it stands by.
+ * x of the robot's pixel, stage metres; NaN: the robot stands by.
  */
 goal_x: Float32Array, 
 /**
- * Where its pixel is along y, stage metres; NaN: it stands by.
+ * y of the robot's pixel, stage metres; NaN: the robot stands by.
  */
 goal_y: Float32Array, 
 /**
@@ -437,7 +437,7 @@ goal_y: Float32Array,
  */
 colour: Uint32Array, 
 /**
- * What it is doing: index into `RobotStatus` in its order, from 0.
+ * Index of the robot's `RobotStatus`, from 0.
  */
 status: Uint8Array, };
 
@@ -446,119 +446,119 @@ status: Uint8Array, };
  */
 export type LogLine = { 
 /**
- * Its number. A line with a number that was there before takes that line's place: it has grown.
+ * Number of the line. A line with the number of an earlier line replaces that line.
  */
 id: number, 
 /**
- * When, milliseconds since 1970; of the first where it sums up many events.
+ * Time of the event, milliseconds since 1970; of the first event if the line sums up several.
  */
 time_ms: number, 
 /**
- * How grave.
+ * Severity.
  */
 level: Level, 
 /**
- * One line for people.
+ * Text for people, one line.
  */
 text: string, 
 /**
- * How many robots it is about, where it sums up what happened to several; else 0.
+ * Number of robots if the line sums up events of several robots, else 0.
  */
 count: number, 
 /**
- * Names of the first of them.
+ * Names of the first of these robots.
  */
 robots: Array<string>, };
 
 /**
- * How grave a line of the log is.
+ * Severity of a line of the log.
  */
 export type Level = "debug" | "info" | "warn" | "error";
 
 /**
- * A numbered wish.
+ * A numbered request.
  */
 export type Request = { 
 /**
- * Chosen by the screen; the answer repeats it.
+ * Number of the request, chosen by the screen. The answer repeats it.
  */
 id: number, 
 /**
- * What to do.
+ * The operation.
  */
 operation: Operation, };
 
 /**
- * What can be done with show and fleet. Frames are counted from 0.
+ * An operation on show, fleet or broker. Frames are counted from 0.
  */
 export type Operation = { "do": "play", 
 /**
- * The first frame to show.
+ * The first frame that is shown.
  */
 from: number, 
 /**
- * What to do where robots are missing.
+ * What happens if robots are missing.
  */
 missing: Missing, } | { "do": "preview", 
 /**
- * Which.
+ * The frame.
  */
 frame: number, 
 /**
- * What to do where robots are missing.
+ * What happens if robots are missing.
  */
 missing?: Missing, } | { "do": "pause" } | { "do": "resume" } | { "do": "step" } | { "do": "loop", 
 /**
- * Whether to.
+ * Whether it begins again.
  */
 on: boolean, } | { "do": "abort" } | { "do": "stop_all" } | { "do": "dismiss_failure" } | { "do": "refresh" } | { "do": "identify", 
 /**
- * Its name.
+ * Name of the robot.
  */
 robot: string, } | { "do": "forget", 
 /**
- * Its name.
+ * Name of the robot.
  */
 robot: string, } | { "do": "pin", 
 /**
- * The pixel's id.
+ * Id of the pixel.
  */
 pixel: number, 
 /**
- * The only robot that may show it; null: any.
+ * Name of the only robot that may show the pixel; null: any robot may.
  */
 robot: string | null, } | { "do": "open", 
 /**
- * Its name there.
+ * Name of the show in the library.
  */
 name: string, } | { "do": "connect", 
 /**
- * `mqtt://host:1883` or `mqtts://…`, several with commas between them; or `embedded`.
+ * `mqtt://host:1883` or `mqtts://…`, several separated by commas; or `embedded`.
  */
 address: string, 
 /**
- * User name; null: that of the address, or none.
+ * User name; null: the user in the address, if there is one.
  */
 user?: string | null, 
 /**
- * Password; null: that of the address, else the kept one where address and user are the kept ones.
+ * Password; null: the password in the address, else the kept one if address and user are the kept ones.
  */
 password?: string | null, 
 /**
- * The authority to trust for `mqtts://`: PEM text, or a file on the server's machine; null: the system's.
+ * Certificate authority to trust: PEM text or the path of a file on the server; null: those of the system.
  */
 ca?: string | null, 
 /**
- * A certificate of our own for a broker that asks for one: PEM text, or a file on the server's machine.
+ * Client certificate for a broker that asks for one: PEM text or the path of a file on the server.
  */
 client_cert?: string | null, 
 /**
- * Its key: PEM text, or a file on the server's machine; null: the kept one where the certificate is.
+ * Key of the client certificate, stated like it; null: the kept key if the certificate is the kept one.
  */
 client_key?: string | null, } | { "do": "disconnect" };
 
 /**
- * What to do where there are fewer ready robots than pixels.
+ * What happens if there are fewer ready robots than pixels.
  */
 export type Missing = "refuse" | "leave_out";
 
@@ -567,32 +567,32 @@ export type Missing = "refuse" | "leave_out";
  */
 export type Answer = { 
 /**
- * The request's number.
+ * Number of the request.
  */
 id: number, 
 /**
- * Whether it was done.
+ * Whether the operation was carried out.
  */
 ok: boolean, 
 /**
- * Why not: one line for people, with a remedy.
+ * Why it was refused: one line for people with cause and remedy; null if `ok`.
  */
 error: string | null, 
 /**
- * A way to go on all the same.
+ * Another operation that would be carried out; null: none.
  */
 choice: Choice | null, };
 
 /**
- * A way to go on after a refusal.
+ * An operation that the server offers after a refusal.
  */
 export type Choice = { 
 /**
- * What a button for it should say.
+ * Label of a button for the operation.
  */
 label: string, 
 /**
- * What to ask for instead.
+ * The operation.
  */
 operation: Operation, };
 
@@ -601,53 +601,53 @@ operation: Operation, };
  */
 export type ShowEntry = { 
 /**
- * Its name in the library: what `open` and `/api/shows/{name}` take.
+ * Name in the library, for `open` and `/api/shows/{name}`.
  */
 name: string, 
 /**
- * What its author called it; may be empty.
+ * Name that the author gave the show; may be empty.
  */
 title: string, 
 /**
- * How many frames it has.
+ * Number of frames.
  */
 frames: number, 
 /**
- * How many pixels its fullest frame has.
+ * Number of pixels of the largest frame.
  */
 pixels: number, 
 /**
- * When it was last saved, milliseconds since 1970.
+ * Time of the last save, milliseconds since 1970; 0 for a read-only show.
  */
 modified_ms: number, 
 /**
- * Its version, as `If-Match` takes it, with its quotes.
+ * Version of the document with its quotes, for `If-Match`.
  */
 etag: string, 
 /**
- * Where it comes from.
+ * Where the show comes from.
  */
 origin: ShowOrigin, 
 /**
- * Only in the answer to a save of a read-only show: what this entry, which is new, is a copy of.
+ * Origin of the read-only show that this new entry is a copy of. Only in the answer to a save of such a show.
  */
 copy_of: ShowOrigin | null, };
 
 /**
- * Where a show of the library comes from. All but saved shows are read-only.
+ * Where a show of the library comes from. Only saved shows can be changed.
  */
 export type ShowOrigin = "saved" | "example" | "start_file";
 
 /**
- * The body of every HTTP answer that is not a success.
+ * The body of an HTTP answer that refuses a request.
  */
 export type Problem = { 
 /**
- * One line for people: what is wrong, and what to do.
+ * One line for people: cause and remedy.
  */
 error: string, };
 
-/** The lists of `Robots` in the order of its binary message. */
+/** The lists of `Robots` in the order of the binary message. */
 export const ROBOT_COLUMNS = [
   ["x", Float32Array],
   ["y", Float32Array],
@@ -659,7 +659,7 @@ export const ROBOT_COLUMNS = [
   ["status", Uint8Array],
 ] as const;
 
-/** Every status, in the order `Robots.status` counts them. */
+/** Every status, at the index that `Robots.status` holds. */
 export const ROBOT_STATUSES: readonly RobotStatus[] = ["idle", "ready", "driving", "held", "lost", "cut", "faulty"];
 
 /** Every format of show files; the first is our own. A written file gets the first of `endings`. */

@@ -1,11 +1,16 @@
-//! What concerns all frames together: how many robots a show needs, which, and where they start.
+//! Validation of all frames together: numbers and ids of pixels, starting places and music.
 
 use std::collections::BTreeMap;
 
 use lightbots_base::Vec2;
 
-use super::{Findings, MAX_FRAMES, MAX_PIXELS, PROVABLE_GAP_M, millimetres, place};
+use super::findings::Findings;
+use super::limits::{MAX_FRAMES, MAX_PIXELS, PROVABLE_GAP_M, ROUNDING_M};
+use super::words::{millimetres, place};
 use crate::{Frame, Identity, Issue, Show, close_pairs, front_rows, robots_asked_for};
+
+/// Most pairs of close starting places that are searched for. Bounds the list for starts in a heap.
+const CLOSE_STARTS_MAX: usize = 100;
 
 pub(super) fn check(show: &Show, is_stage_sound: bool, findings: &mut Findings) {
     if show.frames.is_empty() {
@@ -29,7 +34,7 @@ pub(super) fn check(show: &Show, is_stage_sound: bool, findings: &mut Findings) 
     }
 }
 
-/// How many pixels most frames have; of equally usual numbers the one that comes first.
+/// The most frequent number of pixels of a frame. Of equally frequent numbers the one that occurs first.
 fn usual_count(frames: &[Frame]) -> usize {
     let mut times: BTreeMap<usize, usize> = BTreeMap::new();
     for frame in frames {
@@ -54,7 +59,7 @@ fn counts(show: &Show, usual: usize, findings: &mut Findings) {
     }
 }
 
-/// Where pixels are bound to robots, every frame must have the same ids.
+/// Checks that frames with a fixed identity have the same ids.
 fn same_ids(show: &Show, usual: usize, findings: &mut Findings) {
     let ids = |frame: &Frame| frame.pixels.iter().map(|pixel| pixel.id).collect::<Vec<_>>();
     let Some(model) = show.frames.iter().position(|frame| frame.pixels.len() == usual) else { return };
@@ -74,13 +79,13 @@ fn same_ids(show: &Show, usual: usize, findings: &mut Findings) {
     }
 }
 
-/// `usual` pixels are shown by `needed` robots.
+/// Checks the starting places: `usual` pixels per frame, `needed` robots.
 fn starts(show: &Show, usual: usize, needed: usize, findings: &mut Findings) {
     let stage = &show.stage;
     let radius_m = stage.limits.radius_m;
     let is_off = |at: &Vec2| {
         let (most_x, most_y) = (stage.width_m / 2.0 - radius_m, stage.depth_m / 2.0 - radius_m);
-        !(at.x.abs() <= most_x + 1e-4 && at.y.abs() <= most_y + 1e-4)
+        !(at.x.abs() <= most_x + ROUNDING_M && at.y.abs() <= most_y + ROUNDING_M)
     };
     let Some(starts) = &show.starts else {
         if front_rows(stage, needed).iter().any(is_off) {
@@ -104,7 +109,7 @@ fn starts(show: &Show, usual: usize, needed: usize, findings: &mut Findings) {
         findings.show("too-many-starts", what);
         return;
     }
-    let reach_m = radius_m + PROVABLE_GAP_M - 1e-4;
+    let reach_m = radius_m + PROVABLE_GAP_M - ROUNDING_M;
     for (nth, at) in starts.iter().enumerate() {
         if is_off(at) {
             findings.show(
@@ -118,7 +123,8 @@ fn starts(show: &Show, usual: usize, needed: usize, findings: &mut Findings) {
             );
         }
     }
-    for pair in close_pairs(starts, stage.limits.contact_m() + PROVABLE_GAP_M - 1e-4, 100) {
+    for pair in close_pairs(starts, stage.limits.contact_m() + PROVABLE_GAP_M - ROUNDING_M, CLOSE_STARTS_MAX)
+    {
         let (a, b) = (pair.first + 1, pair.second + 1);
         let what = format!("starts {a} and {b}: they are {} apart; move one away", millimetres(pair.gap_m));
         findings.show("starts-too-close", what);

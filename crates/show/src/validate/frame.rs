@@ -1,17 +1,18 @@
-//! One frame: its times, its pixels' places, ids and pins.
+//! Validation of one frame: times, ids, pins and places of pixels.
 
 use std::collections::BTreeMap;
 
 use lightbots_base::{RobotId, Vec2};
 
-use super::{Findings, MAX_PIXELS, PROVABLE_GAP_M, millimetres, number, place};
+use super::findings::Findings;
+use super::limits::{MAX_PIXELS, PROVABLE_GAP_M, ROUNDING_M};
+use super::words::{millimetres, number, place};
 use crate::{Frame, Show, Stage, close_pairs, excerpt};
 
-/// Longest air time or transition, seconds.
+/// Longest air time or transition, seconds: one day. A longer time is a mistake. `MAX_FRAMES` of
+/// them in microseconds stay below 2^53, so that their sum is exact.
 const MOST_S: f64 = 86_400.0;
-/// How far beyond its limit a place may be before it counts, metres: files keep tenths of millimetres.
-const ROUNDING_M: f64 = 1e-4;
-/// Pairs of one frame that are looked for.
+/// Most close pairs that are searched for in one frame. Bounds the time for pixels in a heap.
 const MOST_PAIRS: usize = 1_000;
 
 pub(super) fn check(show: &Show, index: usize, is_stage_sound: bool, findings: &mut Findings) {
@@ -63,7 +64,7 @@ fn duplicate_ids(frame: &Frame) -> Vec<(Vec<u32>, String)> {
     .collect()
 }
 
-/// Pins to what is no robot's name, or to a robot that is pinned twice.
+/// Pins with an invalid robot name, and robots that are pinned twice.
 fn bad_pins(frame: &Frame) -> Vec<(Vec<u32>, String)> {
     let mut found = Vec::new();
     let mut pinned = BTreeMap::new();

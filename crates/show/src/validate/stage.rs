@@ -1,16 +1,23 @@
-//! The floor, its obstacles and the robots' limits.
+//! Validation of the floor, its no-go areas and the robots' limits.
 
 use lightbots_base::Limits;
 
-use super::{Findings, MAX_OBSTACLES, number};
+use super::findings::Findings;
+use super::limits::MAX_OBSTACLES;
+use super::words::number;
 use crate::{Obstacle, Stage};
 
-/// Shortest side of a floor, metres.
+/// Shortest side of a floor, metres: three robots side by side. A smaller floor has no room for a
+/// transition.
 const LEAST_SIDE_M: f64 = 0.2;
-/// Longest side of a floor, metres.
+/// Longest side of a floor, metres: `MAX_PIXELS` robots 1.4 m apart. The planner's grids grow with
+/// the area of the floor.
 const MOST_SIDE_M: f64 = 200.0;
 
-/// Says what is wrong; `true` where the floor is one that pixels can be on or off.
+/// Largest coordinate and radius of a no-go area, metres: five times the longest floor. Distances stay finite.
+const REACH_MAX_M: f64 = 1e3;
+
+/// Adds the issues of the stage. Returns whether there are none, so that pixels can be compared with the floor.
 pub(super) fn check(stage: &Stage, findings: &mut Findings) -> bool {
     let before = findings.issues.len();
     for (name, side_m) in [("width", stage.width_m), ("depth", stage.depth_m)] {
@@ -67,17 +74,18 @@ fn limits(limits: &Limits, findings: &mut Findings) {
 }
 
 fn problem_of(obstacle: &Obstacle) -> Option<&'static str> {
-    const MOST_M: f64 = 1e3;
     match *obstacle {
         Obstacle::Disc { at, radius_m } => {
-            let is_sound =
-                at.x.abs() <= MOST_M && at.y.abs() <= MOST_M && radius_m > 0.0 && radius_m <= MOST_M;
+            let is_sound = at.x.abs() <= REACH_MAX_M
+                && at.y.abs() <= REACH_MAX_M
+                && radius_m > 0.0
+                && radius_m <= REACH_MAX_M;
             (!is_sound).then_some("its place and radius make no disc; the radius must be more than 0 m")
         }
         Obstacle::Rect { min, max } => {
             let is_sound = min.x < max.x
                 && min.y < max.y
-                && [min.x, min.y, max.x, max.y].iter().all(|m| m.abs() <= MOST_M);
+                && [min.x, min.y, max.x, max.y].iter().all(|m| m.abs() <= REACH_MAX_M);
             (!is_sound).then_some("its corners make no rectangle; min must be less than max in x and in y")
         }
     }

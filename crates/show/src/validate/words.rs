@@ -1,0 +1,23 @@
+//! Values of a show in messages.
+
+use lightbots_base::Vec2;
+
+/// Magnitudes from the first to below the second are written in full. Larger and smaller ones get an exponent, so that
+/// lines stay short: no show needs them.
+const IN_FULL: std::ops::Range<f64> = 1e-4..1e7;
+
+/// A number in messages.
+pub(super) fn number(value: f64) -> String {
+    if value == 0.0 || IN_FULL.contains(&value.abs()) { format!("{value}") } else { format!("{value:e}") }
+}
+
+/// A place in messages, metres.
+pub(super) fn place(at: Vec2) -> String {
+    let metres = |value: f64| if value.abs() < IN_FULL.end { format!("{value:.3}") } else { number(value) };
+    format!("{}, {}", metres(at.x), metres(at.y))
+}
+
+/// A distance in messages: millimetres with one decimal.
+pub(super) fn millimetres(metres: f64) -> String {
+    format!("{:.1} mm", metres * 1e3)
+}
