@@ -1,4 +1,4 @@
-//! `broker`: only the embedded broker.
+//! `broker`: the embedded broker alone.
 
 use crate::cli::{BrokerOnlyArguments, MqttArguments};
 use crate::failure::{Failure, Outcome};
@@ -7,7 +7,8 @@ use crate::stop::Stop;
 use crate::{open_files, say};
 
 pub async fn run(arguments: BrokerOnlyArguments, stop: Stop) -> Outcome {
-    // A child ends with its parent's pipe: a Ctrl-C at the terminal goes to both, and robots must still hear STOP.
+    // Ctrl-C at the terminal goes to parent and child. The child ends with its parent's pipe instead, so that robots still
+    // receive STOP.
     stop.take_over();
     open_files::raise_limit();
     open_files::limit_memory();
@@ -19,14 +20,14 @@ pub async fn run(arguments: BrokerOnlyArguments, stop: Stop) -> Outcome {
     if let Some(tls) = engine.tls_address() {
         say::line(&format!("Broker with TLS mqtts://{tls}"));
     }
-    // Each of them is logged as well.
+    // Each line is logged too.
     let notices = engine.notices();
     stop.wait().await;
     drop(notices);
     Ok(true)
 }
 
-/// What the command line says of the embedded broker.
+/// The settings of the embedded broker on the command line.
 pub fn options(arguments: &MqttArguments, robots: usize) -> Result<BrokerOptions, Failure> {
     let users = Users::read(&arguments.mqtt_user, arguments.mqtt_users.as_deref())?;
     Ok(BrokerOptions { listen: arguments.mqtt_listen, tls: tls_options(arguments), users, robots })

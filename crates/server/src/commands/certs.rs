@@ -1,4 +1,4 @@
-//! `certs`: an authority of one's own, and certificates from it.
+//! `certs`: a certificate authority, and certificates that it signs.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -21,12 +21,12 @@ use crate::failure::{Failure, Outcome};
 use crate::say;
 
 const DAY: Duration = Duration::from_secs(86_400);
-/// The authority outlives what it signs.
+/// Validity of the authority, days: ten years, so that it outlives the certificates that it signs.
 const AUTHORITY_DAYS: u32 = 3650;
-/// Every server certificate holds these.
+/// Names of the own machine, in every server certificate.
 const OWN_NAMES: [&str; 3] = ["localhost", "127.0.0.1", "::1"];
 
-/// Someone whose signature counts.
+/// A certificate authority that signs.
 type Authority = Issuer<'static, KeyPair>;
 
 pub fn run(arguments: &CertsArguments) -> Outcome {
@@ -51,11 +51,11 @@ pub fn run(arguments: &CertsArguments) -> Outcome {
         "Robots and controllers: --ca {} with mqtts:// and one of these names",
         show("ca.pem")
     ));
-    say::line(&format!("Keep {} to yourself: whoever has it can be anybody", show("ca.key")));
+    say::line(&format!("Keep {} secret: with it, anyone can sign certificates for any name", show("ca.key")));
     Ok(true)
 }
 
-/// The authority in that folder, or a new one.
+/// The authority in the folder `out`, or a new one that is saved there.
 fn authority(out: &Path) -> Result<Authority, Failure> {
     let (certificate, key) = (out.join("ca.pem"), out.join("ca.key"));
     let mut params = params(&[], "LightBots authority", AUTHORITY_DAYS)?;
@@ -73,8 +73,8 @@ fn authority(out: &Path) -> Result<Authority, Failure> {
     Ok(Issuer::new(params, pair))
 }
 
-/// Whether the authority in the folder vouches for the server, as clients will ask: one that was made by another
-/// program has another name than what is signed here says.
+/// Checks the server certificate against the authority in the folder as a client does. An authority of another program
+/// fails, because its name differs from the issuer that is written here.
 fn check(out: &Path) -> Result<(), Failure> {
     let wrong = |error: &dyn std::fmt::Display| unusable(out, &error.to_string());
     let read = |name: &str| CertificateDer::from_pem_file(out.join(name)).map_err(|error| wrong(&error));
@@ -116,13 +116,13 @@ fn params(names: &[String], common: &str, days: u32) -> Result<CertificateParams
         .map_err(|error| Failure::input(format!("a name that certificates cannot hold: {error}")))?;
     params.distinguished_name.remove(DnType::CommonName);
     params.distinguished_name.push(DnType::CommonName, common);
-    // Clocks differ: a certificate made now is good everywhere since yesterday.
+    // Valid since yesterday, because clocks of other machines may be behind.
     params.not_before = (SystemTime::now() - DAY).into();
     params.not_after = (SystemTime::now() + DAY * days).into();
     Ok(params)
 }
 
-/// A client's name as part of a file name.
+/// The name of a client for file names.
 fn file_name(client: &str) -> Result<&str, Failure> {
     let fits = |letter: char| letter.is_ascii_alphanumeric() || matches!(letter, '-' | '_' | '.');
     if (1..=64).contains(&client.len()) && client.chars().all(fits) && !client.starts_with('.') {

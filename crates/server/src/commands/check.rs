@@ -39,14 +39,14 @@ pub(super) struct Summary<'a> {
 #[derive(Debug, Serialize)]
 struct Pair {
     distance_m: f64,
-    /// The frame they drive to, counted from 0.
+    /// The frame of the transition's end, counted from 0.
     to: usize,
-    /// When, after the drive began, and after the show began, seconds.
+    /// Time after the start of the transition, and after the start of the show, seconds.
     at_s: f64,
     show_at_s: f64,
-    /// The pixels they drive to; null: a robot that has none.
+    /// Ids of the robots' pixels; null: the robot has none.
     pixels: [Option<u32>; 2],
-    /// Half way between the two, stage metres.
+    /// Midpoint between the robots, stage metres.
     place: [f64; 2],
 }
 
@@ -127,7 +127,7 @@ fn pixel(made: &ShowPlan, transition: usize, robot: usize) -> Option<u32> {
     made.mapping.get(transition)?.get(robot).copied().flatten()
 }
 
-/// When a transition begins, seconds after the show does.
+/// Start of a transition, seconds after the start of the show.
 fn began_s(show: &Show, made: &ShowPlan, transition: usize) -> f64 {
     let before = made.transitions.iter().zip(&show.frames).take(transition);
     before.map(|(way, frame)| way.duration.as_secs() + frame.air_time_s).sum()

@@ -1,4 +1,4 @@
-//! One file a command.
+//! Commands of the program, one file each.
 
 pub mod broker;
 pub mod certs;

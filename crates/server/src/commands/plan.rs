@@ -1,4 +1,4 @@
-//! `plan`: the timed paths, in a file.
+//! `plan`: writes the timed paths of a show to a file.
 
 use super::check::Summary;
 use super::print_json;

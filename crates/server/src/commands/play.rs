@@ -1,4 +1,4 @@
-//! `play`: once, on a live fleet, without a screen.
+//! `play`: plays a show once on a live fleet, without a screen.
 
 use std::time::{Duration, Instant};
 
@@ -15,9 +15,11 @@ use crate::run_report::{RunReport, print};
 use crate::stop::Stop;
 use crate::{open_files, say, show_file};
 
-/// Without `--wait` it starts with fewer robots than pixels once no more have come for so long.
+/// Without `--wait`: if no further robot becomes ready for this time, the show starts with fewer robots than pixels. A
+/// shorter time would leave out robots that start slowly.
 const SETTLED: Duration = Duration::from_secs(10);
-/// Nothing at all happens for so long: something is broken that nobody noticed.
+/// A run without any event for this time is given up, because a fault must have gone unnoticed. Longer than any usual
+/// air time.
 const NOTHING: Duration = Duration::from_secs(900);
 
 pub async fn run(arguments: PlayArguments, stop: Stop) -> Outcome {
@@ -42,14 +44,13 @@ pub async fn run(arguments: PlayArguments, stop: Stop) -> Outcome {
     report.add_issues(&opened.issues);
     finish(&handle, &stop, task).await;
     if stop.is_wanted() {
-        // The run ended as the conductor stopped the robots: when is told behind what was not read yet.
+        // The conductor ended the run when it stopped the robots. That event is behind the unread ones.
         catch_up(&mut report, &mut news);
     }
     tell(report, arguments.json, played)
 }
 
-/// The report, also of a run that ended early: programs read one object whatever happened, people one line where
-/// nothing was played.
+/// Prints the report. Programs get one JSON object in every case; people get one line if nothing was played.
 fn tell(mut report: RunReport, json: bool, played: Result<(), Failure>) -> Outcome {
     if let Err(failure) = &played {
         if json {
@@ -63,15 +64,15 @@ fn tell(mut report: RunReport, json: bool, played: Result<(), Failure>) -> Outco
     played.map(|()| ok)
 }
 
-/// Leaves the broker, or waits until the conductor has.
+/// Disconnects from the broker, or waits until the conductor has disconnected.
 async fn finish(handle: &Handle, stop: &Stop, task: tokio::task::JoinHandle<()>) {
     if stop.is_wanted() {
-        // It stops the robots and says goodbye; a broker that hangs is not waited for.
+        // The conductor stops the robots and disconnects. A broker that hangs is not waited for.
         let _ = tokio::time::timeout(Duration::from_secs(2), task).await;
         return;
     }
     handle.disconnect().await;
-    // Answered only after the connection was closed.
+    // The answer comes after the connection is closed.
     let _ = handle.look().await;
 }
 
@@ -90,7 +91,7 @@ async fn play(
     loop {
         match handle.operate(Operation::Play { from: 0, missing }).await {
             Ok(()) => break,
-            // One that was there a moment ago may be heard again at once.
+            // A robot that was ready a moment ago may report again at once.
             Err(Refusal::TooFewRobots { .. } | Refusal::NotConnected) if Instant::now() < until => {
                 tokio::time::sleep(LOOK).await;
             }
@@ -132,7 +133,7 @@ async fn gather(
             return Ok(MissingPolicy::LeaveOut);
         }
         if Instant::now() >= until {
-            return Err(reason.map_or_else(|| nobody(arguments, &snapshot, ready, wanted), Failure::problem));
+            return Err(reason.map_or_else(|| too_few(arguments, &snapshot, ready, wanted), Failure::problem));
         }
         tokio::time::sleep(LOOK).await;
     }
@@ -144,19 +145,19 @@ fn is_ready(robot: &RobotView) -> bool {
     robot.contact.age == Age::Active && robot.reported.at.is_some() && fit
 }
 
-/// One line for a wait that ended with too few.
-fn nobody(arguments: &PlayArguments, snapshot: &Snapshot, ready: usize, wanted: usize) -> Failure {
-    // It was read before, and is shown without its login.
+/// The failure of a wait that ended with too few robots.
+fn too_few(arguments: &PlayArguments, snapshot: &Snapshot, ready: usize, wanted: usize) -> Failure {
+    // The address was valid before. It is shown without its login.
     let broker =
         arguments.login.broker(&arguments.broker).map(|broker| broker.to_string()).unwrap_or_default();
     let patience = arguments.patience;
     if !snapshot.connected {
         return Failure::problem(format!(
-            "no broker answers at {broker} within {patience} s: is the address right?"
+            "no broker answers at {broker} within {patience} s: check the address"
         ));
     }
     let lost = snapshot.robots.iter().filter(|robot| robot.reported.at.is_none()).count();
-    let unknown = if lost > 0 { format!("; {lost} more do not know where they are") } else { String::new() };
+    let unknown = if lost > 0 { format!("; {lost} more do not know their places") } else { String::new() };
     if ready == 0 {
         return Failure::problem(format!(
             "no robot is ready on {broker} after {patience} s{unknown}: switch some on"
@@ -183,7 +184,11 @@ async fn follow(
             }
             Ok(Ok(News::Link(_)) | Err(broadcast::error::RecvError::Lagged(_))) => continue,
             Ok(Err(broadcast::error::RecvError::Closed)) => return Err(Failure::problem("stopped")),
-            Err(_) => return Err(Failure::problem("nothing has happened for 15 minutes: given up")),
+            Err(_) => {
+                return Err(Failure::problem(
+                    "no event for 15 minutes: the run was given up; run again with --log debug",
+                ));
+            }
         };
         let places = if RunReport::wants_places(&event) { handle.look().await } else { None };
         report.add(&event, places.as_ref());
@@ -194,7 +199,7 @@ async fn follow(
     }
 }
 
-/// Takes in what was said up to now.
+/// Adds the unread news to the report.
 fn catch_up(report: &mut RunReport, news: &mut broadcast::Receiver<News>) {
     loop {
         match news.try_recv() {

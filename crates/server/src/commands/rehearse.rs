@@ -1,4 +1,4 @@
-//! `rehearse`: the whole show in virtual time.
+//! `rehearse`: plays the whole show in virtual time.
 
 use std::path::Path;
 use std::time::Instant;
@@ -51,13 +51,13 @@ pub fn run(arguments: &RehearseArguments) -> Outcome {
     Ok(report.ok)
 }
 
-/// The show's name; the original's shows have none but their file's.
+/// The name of the show, or of its file: shows of the original have no name.
 fn title(name: &str, file: &Path) -> String {
     let stem = file.file_stem().map(|stem| stem.to_string_lossy().into_owned());
     if name.is_empty() { stem.unwrap_or_default() } else { name.to_owned() }
 }
 
-/// The report with numbers rounded as those of `check` are.
+/// The report with numbers rounded like those of `check`.
 fn readable(mut report: RehearsalReport) -> RehearsalReport {
     for seconds in [&mut report.duration_s, &mut report.lower_bound_s] {
         *seconds = rounded(*seconds, 3);
@@ -65,7 +65,7 @@ fn readable(mut report: RehearsalReport) -> RehearsalReport {
     report.closest_m = report.closest_m.map(|metres| rounded(metres, 5));
     report.wall_pressed_m = rounded(report.wall_pressed_m, 5);
     report.arrival_spread_s = rounded_spread(report.arrival_spread_s, 3);
-    // Clocks are microseconds apart.
+    // Clock errors are microseconds, so they keep more digits.
     report.clock_spread_s = rounded_spread(report.clock_spread_s, 6);
     for errors_m in [&mut report.position_error_m, &mut report.estimate_error_m, &mut report.tracking_error_m]
     {

@@ -1,4 +1,4 @@
-//! `robot-check`: does a robot on this broker keep the protocol?
+//! `robot-check`: examines whether a robot on a broker keeps the protocol.
 
 mod verdicts;
 
@@ -16,7 +16,7 @@ use crate::live::controller_link;
 use crate::say;
 use crate::stop::Stop;
 
-/// Where nobody can be asked, so long is left to read the notice and to press Ctrl-C.
+/// Without a terminal for questions: time to read the notice and press Ctrl-C before the robot drives.
 const COUNTDOWN: Duration = Duration::from_secs(5);
 
 pub async fn run(arguments: RobotCheckArguments, stop: Stop) -> Outcome {
@@ -47,8 +47,8 @@ async fn connect(link: &mut Link, broker: &BrokerUrl, patience_s: u32) -> Result
                 None => return Err(Failure::problem("the connection was closed")),
             },
             () = &mut patience => {
-                let nobody = || format!("no broker answers at {broker} within {patience_s} s: is the address right?");
-                return Err(Failure::problem(reason.unwrap_or_else(nobody)));
+                let no_answer = || format!("no broker answers at {broker} within {patience_s} s: check the address");
+                return Err(Failure::problem(reason.unwrap_or_else(no_answer)));
             }
         }
     }
@@ -60,11 +60,11 @@ struct Examination {
     link: Link,
     clock: Clock,
     yes: bool,
-    /// An answer that is awaited from whoever sees the robot.
+    /// The awaited answer of the person at the robot.
     answer: Option<oneshot::Receiver<String>>,
-    /// Whether the answer is about the light, not about driving.
+    /// Whether the answer is about the light and not about driving.
     is_look: bool,
-    /// When it goes on without an answer.
+    /// Time at which the exam goes on without an answer.
     go_at: Option<tokio::time::Instant>,
 }
 
@@ -82,7 +82,7 @@ impl Examination {
         }
     }
 
-    /// Takes the robot through all of it.
+    /// Takes the robot through the whole exam.
     async fn run(mut self, stop: &Stop) -> Result<Exam, Failure> {
         self.exam.connected(self.clock.now());
         let ended = loop {
@@ -114,7 +114,7 @@ impl Examination {
         ended.and_then(|()| named(self.exam))
     }
 
-    /// Sends what the exam has to say, and tells people what it wants them to know.
+    /// Sends the exam's messages and prints its notices.
     fn drain(&mut self) {
         let sender = self.link.sender();
         while let Some(send) = self.exam.next_publish() {
@@ -173,7 +173,7 @@ impl Examination {
     }
 }
 
-/// The exam, where there was one robot to examine.
+/// The finished exam, if there was exactly one robot to examine.
 fn named(exam: Exam) -> Result<Exam, Failure> {
     match exam.ending() {
         Some(Ending::Several(names)) => {
@@ -192,20 +192,20 @@ fn named(exam: Exam) -> Result<Exam, Failure> {
     }
 }
 
-/// A line of the terminal, read on a thread of its own: the exam goes on meanwhile.
+/// A line of the terminal, read on a thread of its own so that the exam goes on.
 fn read_line() -> oneshot::Receiver<String> {
     let (sender, line) = oneshot::channel();
     std::thread::spawn(move || {
         let mut line = String::new();
         if std::io::stdin().lock().read_line(&mut line).is_ok_and(|bytes| bytes > 0) {
-            // Whoever asked may have gone.
+            // The receiver may be gone.
             let _ = sender.send(line);
         }
     });
     line
 }
 
-/// The answer; `None` where the input has ended.
+/// The answer; `None` if the input has ended.
 async fn answer(awaited: &mut Option<oneshot::Receiver<String>>) -> Option<String> {
     match awaited {
         Some(line) => line.await.ok(),

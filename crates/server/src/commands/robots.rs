@@ -1,4 +1,4 @@
-//! `robots`: simulated robots only.
+//! `robots`: simulated robots alone.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -47,7 +47,7 @@ pub async fn run(arguments: RobotsArguments, stop: Stop) -> Outcome {
     Ok(true)
 }
 
-/// Where robots stand at first, one place each.
+/// Starting places, one per robot.
 fn starts(said: &[String], stage: &Stage, robots: usize) -> Result<Vec<Vec2>, Failure> {
     let words: Vec<&str> = said.iter().flat_map(|text| text.split_whitespace()).collect();
     match (said, words.as_slice()) {
@@ -83,16 +83,16 @@ fn enough(mut places: Vec<Vec2>, robots: usize, whence: &str) -> Result<Vec<Vec2
     Ok(places)
 }
 
-/// What simulated robots suffer.
+/// Faults of simulated robots.
 pub(super) fn conditions(ideal: bool) -> Conditions {
     if ideal { Conditions::ideal() } else { Conditions::default() }
 }
 
-/// The seed asked for, or any.
+/// The wanted seed, or a random one.
 pub(super) fn seed(asked: Option<u64>) -> u64 {
     asked.unwrap_or_else(|| {
         let mut bytes = [0; 8];
-        // Without randomness of the system the process id tells fleets apart.
+        // Without random numbers of the system, process ids still make fleets differ.
         if getrandom::fill(&mut bytes).is_err() {
             return u64::from(std::process::id());
         }

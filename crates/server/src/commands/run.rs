@@ -23,16 +23,16 @@ use crate::stop::Stop;
 use crate::web::{self, BrokerDesk, Exposure, Log, Planner, Shared};
 use crate::{open_files, say, show_file};
 
-/// The example that is opened when no show is named.
+/// The example that is opened if no show is given.
 const FIRST: &str = "countdown";
-/// The seed of simulated robots, where no other is asked for.
+/// Seed of simulated robots without `--seed`. Fixed, so that robots keep their names between starts.
 const USUAL_SEED: u64 = 1;
-/// So many faults of the show are said at the start; the screen lists them all.
+/// Issues of the show that are printed at the start. The screen lists all of them.
 const ISSUES_SHOWN: usize = 5;
-/// Robots and broker get so long to say goodbye.
+/// Longest time for robots and conductor to disconnect at the end. After it their connections are cut off.
 const GOODBYE: Duration = Duration::from_secs(2);
 
-/// What was started, in the order it is to be stopped.
+/// Tasks and broker that were started, in the order of their stop.
 #[derive(Default)]
 struct Started {
     tasks: Vec<JoinHandle<()>>,
@@ -47,7 +47,7 @@ pub async fn run(arguments: RunArguments, stop: Stop) -> Outcome {
         () = stop.wait() => Ok(true),
         outcome = serve(&arguments, &stop, &mut started) => outcome,
     };
-    // Conductor and robots end by themselves once stop is wanted; after a failure there is nothing worth waiting for.
+    // Conductor and robots end by themselves if a stop is wanted. After a failure nothing is waited for.
     if stop.is_wanted() {
         let ends = async {
             for task in started.tasks {
@@ -112,8 +112,8 @@ async fn serve(arguments: &RunArguments, stop: &Stop, started: &mut Started) -> 
     Ok(false)
 }
 
-/// On our own broker robots have the same names each time, so that a show's pins still fit; on that of others somebody
-/// else's may have them.
+/// The seed of robot names. On our own broker it is fixed, so that pins of a show still fit. On another broker it is
+/// random, because other robots may have these names.
 fn robots_seed(asked: Option<u64>, is_own_broker: bool) -> u64 {
     if is_own_broker { asked.unwrap_or(USUAL_SEED) } else { robots::seed(asked) }
 }
@@ -122,7 +122,7 @@ fn exposure(arguments: &RunArguments) -> Result<Exposure, Failure> {
     Exposure::new(arguments.listen, arguments.open_to_network, arguments.host_name.clone())
 }
 
-/// Puts what the broker refuses, and how it fares, on the screens.
+/// Puts the warnings of the embedded broker on the screens.
 async fn relay(mut lines: mpsc::Receiver<String>, log: Log, stop: Stop) {
     loop {
         let line = tokio::select! {
@@ -134,8 +134,8 @@ async fn relay(mut lines: mpsc::Receiver<String>, log: Log, stop: Stop) {
     }
 }
 
-/// What the screen's form begins with, and the broker the controller uses: the one on the command line, the one that was
-/// chosen on the screen before, or our own.
+/// The settings for the screen's form, and the broker for the controller: that of the command line, that chosen on the
+/// screen before, or our own.
 fn chosen(
     arguments: &RunArguments,
     other: Option<BrokerUrl>,
@@ -161,12 +161,12 @@ fn chosen(
     }
 }
 
-/// The show to begin with, and its name in the library.
+/// The first show and its name in the library.
 fn first_show(arguments: &RunArguments, library: &Library) -> Result<(Option<String>, Show), Failure> {
     if let Some(file) = &arguments.show {
         let opened = show_file::open(file, &arguments.reading)?;
         for issue in opened.issues.iter().filter(|issue| issue.code == show_file::FLOOR_IGNORED) {
-            // The screen knows nothing of this command line; what else is wrong it shows.
+            // The screen shows all other issues; it does not know this command line.
             tracing::warn!("{}", issue.message);
         }
         let name = library.give(&name_of_file(file), ShowOrigin::StartFile, &opened.show);

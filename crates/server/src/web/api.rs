@@ -19,13 +19,13 @@ use super::planner::CutOff;
 use crate::library::{Condition, LibraryError};
 use crate::plan_document;
 
-/// An answer, or why there is none.
+/// An answer, or the refusal of the request.
 type Answer<T> = Result<T, Refused>;
 
 /// Largest body that is read, bytes. The longest show file fits.
 pub const BODY_MAX: usize = lightbots_exchange::MAX_BYTES;
 
-/// A problem, with one line for people.
+/// A refusal: HTTP status and one line for people.
 #[derive(Debug)]
 pub struct Refused(StatusCode, String);
 
@@ -35,16 +35,19 @@ impl IntoResponse for Refused {
     }
 }
 
-/// A problem as every answer states it.
+/// A refusal with a line for people.
 pub fn refuse(status: StatusCode, line: &str) -> Refused {
     Refused(status, line.to_owned())
 }
 
-/// Runs what takes the disk or the processor for a while beside the connections.
+/// Runs work that blocks on the disk or the processor on a thread of its own, so that connections go on.
 async fn beside<T: Send + 'static>(work: impl FnOnce() -> T + Send + 'static) -> Answer<T> {
     let done = tokio::task::spawn_blocking(work).await;
     done.map_err(|error| {
-        refuse(StatusCode::INTERNAL_SERVER_ERROR, &format!("the server failed at this: {error}"))
+        refuse(
+            StatusCode::INTERNAL_SERVER_ERROR,
+            &format!("the server failed: {error}; try again, and report its log"),
+        )
     })
 }
 
@@ -69,7 +72,8 @@ fn body(body: Result<Bytes, BytesRejection>) -> Answer<Bytes> {
 
 /// The refusal of a body over [`BODY_MAX`].
 pub fn too_long() -> Refused {
-    let line = format!("this is too long for a show: it may have {} MB", BODY_MAX / 1_000_000);
+    let line =
+        format!("this is too long for a show: at most {} MB; split it into several", BODY_MAX / 1_000_000);
     refuse(StatusCode::PAYLOAD_TOO_LARGE, &line)
 }
 
@@ -101,7 +105,8 @@ pub async fn get(State(shared): State<Arc<Shared>>, Path(name): Path<String>) ->
     Ok((about, kept.bytes).into_response())
 }
 
-/// `PUT /api/shows/{name}`. A copy of a read-only show is not opened on screens: the client that saved it may go on with it.
+/// `PUT /api/shows/{name}`. Screens that show this show get the new version. A copy of a read-only show is not opened
+/// on screens, because its author may not want that.
 pub async fn put(
     State(shared): State<Arc<Shared>>,
     Path(name): Path<String>,
@@ -133,7 +138,7 @@ pub async fn delete(
     Ok(StatusCode::NO_CONTENT)
 }
 
-/// `POST /api/check`: of each client one at a time, the newest.
+/// `POST /api/check`. Each client has one plan at a time: a newer request cancels the older one.
 pub async fn check(
     State(shared): State<Arc<Shared>>,
     ConnectInfo(ends): ConnectInfo<Ends>,
@@ -159,9 +164,12 @@ pub async fn check(
         Ok(plan) => Ok(Json(plan)),
         Err(CutOff::TimeUp) => Ok(Json(plan_document::cut_off(&Vec::new(), budget))),
         Err(CutOff::Superseded) => {
-            Err(refuse(StatusCode::CONFLICT, "a newer request of this client took the place of this one"))
+            Err(refuse(StatusCode::CONFLICT, "a newer request of this client replaced this one"))
         }
-        Err(CutOff::Failed) => Err(refuse(StatusCode::INTERNAL_SERVER_ERROR, "the server failed at this")),
+        Err(CutOff::Failed) => Err(refuse(
+            StatusCode::INTERNAL_SERVER_ERROR,
+            "the server failed while planning: try again, and report its log",
+        )),
     }
 }
 
@@ -198,5 +206,5 @@ pub async fn plan(State(shared): State<Arc<Shared>>) -> Answer<Response> {
 
 /// Any other address below `/api`.
 pub async fn unknown() -> Refused {
-    refuse(StatusCode::NOT_FOUND, "there is no such address in the API")
+    refuse(StatusCode::NOT_FOUND, "the API has no such address")
 }

@@ -1,4 +1,4 @@
-//! The broker as screens see and choose it.
+//! The broker settings of the screens.
 
 use std::path::PathBuf;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -12,7 +12,7 @@ use super::Shared;
 use crate::broker_settings::Settings;
 use crate::live::conductor::Handle;
 
-/// The settings, and where they are kept.
+/// The broker settings and the file that keeps them.
 #[derive(Debug)]
 pub struct BrokerDesk {
     folder: PathBuf,
@@ -22,17 +22,17 @@ pub struct BrokerDesk {
 }
 
 impl BrokerDesk {
-    /// Settings that are in use, and the folder where changed ones are kept.
+    /// Takes the settings in use, and the folder that keeps changed ones.
     pub fn new(folder: PathBuf, settings: Settings, embedded: Option<BrokerUrl>) -> Self {
         Self { folder, settings: Mutex::new(settings), embedded }
     }
 
-    /// What a form begins with.
+    /// The settings for a form.
     pub fn shown(&self) -> BrokerSettings {
         self.lock().shown(self.embedded.as_ref())
     }
 
-    /// Uses other settings from now on and keeps them. One line where they cannot be right.
+    /// Connects with other settings and keeps them. The error is one line that says why they cannot be right.
     pub async fn connect(&self, wanted: Settings, handle: &Handle) -> Result<(), String> {
         let wanted = self.completed(wanted);
         let (settings, broker) = if wanted.is_embedded() {
@@ -43,7 +43,7 @@ impl BrokerDesk {
             )
         } else {
             let mut wanted = wanted;
-            // It may read files.
+            // Certificates may be files.
             let read = tokio::task::spawn_blocking(move || wanted.broker().map(|broker| (wanted, broker)));
             read.await.map_err(|error| error.to_string())??
         };
@@ -52,14 +52,14 @@ impl BrokerDesk {
         Ok(())
     }
 
-    /// Uses no broker from now on; the settings stay for the next time.
+    /// Disconnects. The settings are kept.
     pub async fn disconnect(&self, handle: &Handle) {
         let settings = Settings { connect: false, ..self.lock().clone() };
         self.keep(settings);
         handle.disconnect().await;
     }
 
-    /// A form never gets password and key: where it says nothing about them, those that are kept are meant.
+    /// Adds the kept password and key where a form leaves them out: forms never get them.
     fn completed(&self, mut wanted: Settings) -> Settings {
         let kept = self.lock();
         let address = BrokerUrl::parse(&wanted.address).map(|url| url.to_string()).unwrap_or_default();
@@ -83,7 +83,7 @@ impl BrokerDesk {
     }
 
     fn lock(&self) -> MutexGuard<'_, Settings> {
-        // They are replaced in one step: a panic elsewhere leaves whole ones behind.
+        // Settings are replaced in one step, so that a panic of another thread leaves no half-written ones.
         self.settings.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }

@@ -1,4 +1,4 @@
-//! Connections of browsers, with the address of this server that each came in on.
+//! Connections of browsers with the addresses of both ends.
 
 use std::io;
 use std::net::SocketAddr;
@@ -7,16 +7,16 @@ use axum::extract::connect_info::Connected;
 use axum::serve::{IncomingStream, Listener};
 use tokio::net::{TcpListener, TcpStream};
 
-/// Ends of a connection.
+/// Addresses of a connection.
 #[derive(Clone, Copy, Debug)]
 pub struct Ends {
-    /// Of the client.
+    /// Address of the client.
     pub remote: SocketAddr,
-    /// Of this server: which of its addresses the client reached.
+    /// Address of this server that the client reached.
     pub local: SocketAddr,
 }
 
-/// Takes connections and keeps their ends.
+/// Accepts connections and adds their addresses.
 pub struct Connections(pub TcpListener);
 
 impl Listener for Connections {
@@ -26,9 +26,9 @@ impl Listener for Connections {
     async fn accept(&mut self) -> (TcpStream, Ends) {
         loop {
             let (stream, remote) = Listener::accept(&mut self.0).await;
-            // Without it a snapshot may wait for the one before it to be acknowledged.
+            // Without it the kernel may hold a snapshot back until the one before is acknowledged.
             let _ = stream.set_nodelay(true);
-            // One that has gone already has no address any more.
+            // A closed connection has no address.
             if let Ok(local) = stream.local_addr() {
                 return (stream, Ends { remote, local });
             }

@@ -20,27 +20,27 @@ pub struct Desk {
     handle: Handle,
     shown: watch::Sender<Arc<Shown>>,
     plan: watch::Sender<Arc<api::Plan>>,
-    /// Gives up the plan that is being made, once it is replaced by another.
+    /// Cancels the running plan when it is replaced by the next one.
     planning: Arc<std::sync::Mutex<GiveUp>>,
-    /// Revision the controller has; held while it is changed.
+    /// Revision that the controller has. Locked while the controller gets another.
     given: Arc<Mutex<u32>>,
 }
 
-/// What lies on the desk.
+/// The open show with its messages.
 #[derive(Debug)]
 pub struct Shown {
-    /// Counts up with every change; 0: nothing was ever opened.
+    /// Number of the document's state, increased with every change; 0: no show was opened yet.
     pub revision: u32,
-    /// Its name in the library.
+    /// Name of the show in the library.
     pub name: Option<String>,
     /// The show.
     pub show: Arc<Show>,
-    /// The message that tells screens, ready to send.
+    /// The message to screens, ready to send.
     pub message: Utf8Bytes,
 }
 
 impl Desk {
-    /// An empty desk.
+    /// A desk without a show.
     pub fn new(handle: Handle) -> Self {
         let nothing = Shown::new(0, None, None, Arc::default(), serde_json::Value::Null);
         let (shown, _) = watch::channel(Arc::new(nothing));
@@ -48,7 +48,7 @@ impl Desk {
         Self { handle, shown, plan, planning: Arc::default(), given: Arc::default() }
     }
 
-    /// Puts a show on the desk, for the controller and for every screen, and begins to plan it.
+    /// Opens a show on every screen and in the controller, and begins to plan it.
     pub async fn open(&self, name: String, kept: Kept) {
         let document = serde_json::from_slice(&kept.bytes).unwrap_or_default();
         let show = Arc::new(kept.show);
@@ -59,11 +59,11 @@ impl Desk {
         });
         self.plan.send_replace(Arc::new(api::Plan { revision, planning: true, ..api::Plan::default() }));
         self.begin_plan(revision, show);
-        // In the middle of a run it stays where it is: the controller gets it when the run is over.
+        // During a run the controller keeps its show and gets this one when the run is over.
         let _ = self.hand_over().await;
     }
 
-    /// Gives the controller what is on the desk, if it has something else.
+    /// Gives the open show to the controller if the controller has another revision.
     pub async fn hand_over(&self) -> Result<(), Refusal> {
         let mut given = self.given.lock().await;
         let shown = self.shown();
@@ -74,12 +74,12 @@ impl Desk {
         Ok(())
     }
 
-    /// What lies on it.
+    /// The open show.
     pub fn shown(&self) -> Arc<Shown> {
         self.shown.borrow().clone()
     }
 
-    /// What lies on it, and changes of that.
+    /// The open show and its changes.
     pub fn watch(&self) -> watch::Receiver<Arc<Shown>> {
         self.shown.subscribe()
     }
@@ -94,12 +94,12 @@ impl Desk {
         self.plan.subscribe()
     }
 
-    /// Hands over what was opened during a run, once it is over.
+    /// Gives the controller a show that was opened during a run once the run is over. Ends with the conductor.
     pub async fn follow(self, mut news: broadcast::Receiver<News>) {
         loop {
             match news.recv().await {
                 Ok(News::Event(event)) if event.kind == EventKind::StateChanged(State::Ready) => {
-                    // Another run may have begun already; then this comes again.
+                    // If another run has begun already, its end brings this again.
                     let _ = self.hand_over().await;
                 }
                 Err(broadcast::error::RecvError::Closed) => return,
@@ -112,7 +112,7 @@ impl Desk {
         let sender = self.plan.clone();
         let give_up = GiveUp::default();
         let is_given_up = give_up.asked();
-        // The plan before it is not wanted any more.
+        // Nothing needs the plan of the show before.
         *self.planning.lock().unwrap_or_else(PoisonError::into_inner) = give_up;
         tokio::task::spawn_blocking(move || {
             let planned = plan_document::plan_unless(&show, &validate(&show), &|| is_given_up.get());
@@ -130,7 +130,7 @@ impl Desk {
 }
 
 impl Shown {
-    /// The show with a name: one that its author gave none is called as in the library.
+    /// The show with a name: without one from its author it gets its name in the library.
     fn named(&self) -> Arc<Show> {
         match &self.name {
             Some(name) if self.show.name.trim().is_empty() => {

@@ -1,4 +1,4 @@
-//! The log that screens show. What happens to many robots at once is one line that grows.
+//! The log that screens show. Equal events of many robots are one line, which is replaced while it grows.
 
 use std::collections::VecDeque;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -13,12 +13,13 @@ use super::sums::{Sum, Sums};
 use crate::live::clock::unix_ms;
 use crate::live::conductor::News;
 
-/// Lines a new screen is shown.
+/// Lines that a new screen gets: several screens full. Older lines are dropped, which bounds the memory.
 const KEPT: usize = 300;
-/// A line that grows is said this often at most.
+/// Shortest time between two versions of a growing line: five a second read like one change. Shorter times would send
+/// one message per robot of a large fleet.
 const GROWS: Duration = Duration::from_millis(200);
 
-/// The last lines, and those to come. Clones share it.
+/// The last lines, and a channel for later ones. Clones share the log.
 #[derive(Clone, Debug)]
 pub struct Log {
     kept: Arc<Mutex<Kept>>,
@@ -45,7 +46,7 @@ impl Log {
         self.add(&mut kept, line);
     }
 
-    /// Adds the line of a sum, or lets it grow.
+    /// Adds the line of a sum, or replaces its earlier version.
     fn sum(&self, sum: &mut Sum) {
         let mut kept = self.kept.lock().unwrap_or_else(PoisonError::into_inner);
         let known = sum.line.and_then(|id| kept.lines.iter().rposition(|line| line.id == id));
@@ -59,7 +60,7 @@ impl Log {
         match known {
             Some(index) => {
                 kept.lines[index] = line.clone();
-                // No screen is no error.
+                // Without a screen there is no receiver, which is not an error.
                 let _ = self.lines.send(line);
             }
             None => self.add(&mut kept, line),
@@ -71,17 +72,17 @@ impl Log {
             kept.lines.pop_front();
         }
         kept.lines.push_back(line.clone());
-        // No screen is no error.
+        // Without a screen there is no receiver, which is not an error.
         let _ = self.lines.send(line);
     }
 
-    /// The last lines, oldest first, and all that follow.
+    /// The last lines, oldest first, and a receiver of all later ones.
     pub fn read(&self) -> (Vec<LogLine>, broadcast::Receiver<LogLine>) {
         let kept = self.kept.lock().unwrap_or_else(PoisonError::into_inner);
         (kept.lines.iter().cloned().collect(), self.lines.subscribe())
     }
 
-    /// Writes down what happens, until the conductor ends.
+    /// Adds the conductor's events to the log until the conductor ends.
     pub async fn follow(self, mut news: broadcast::Receiver<News>) {
         let mut sums = Sums::default();
         let mut due: Option<Instant> = None;
@@ -99,7 +100,7 @@ impl Log {
                     due.get_or_insert(Instant::now() + GROWS);
                 }
                 Ok(news) => {
-                    // In the order in which it happened.
+                    // Sums first, because their events came before this one.
                     sums.each_grown(|sum| self.sum(sum));
                     sums.close_run();
                     self.write(news);

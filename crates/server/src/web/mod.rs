@@ -1,4 +1,4 @@
-//! The screen's server: pages, library and WebSocket. A slow or hostile screen never holds up the show.
+//! The web server of the screens: pages, library and WebSocket. A slow or hostile screen never delays the show.
 
 mod api;
 mod broker;
@@ -34,7 +34,7 @@ use crate::live::conductor::Handle;
 use connection::{Connections, Ends};
 use picture::Pictures;
 
-/// What every request may use.
+/// State that requests share.
 #[derive(Debug)]
 pub struct Shared {
     pub handle: Handle,
@@ -43,17 +43,17 @@ pub struct Shared {
     pub log: Log,
     pub pictures: Pictures,
     pub broker: BrokerDesk,
-    /// Plans on request.
+    /// The planner for requests of clients.
     pub planner: Planner,
-    /// Under which names it is served.
+    /// Names of this server.
     pub names: Names,
-    /// How many simulated robots there are.
+    /// Number of simulated robots.
     pub simulated: Arc<AtomicUsize>,
     pub screens: AtomicU32,
 }
 
 impl Shared {
-    /// Everything a screen's server needs; starts the tasks that watch the conductor.
+    /// The state, and the tasks that follow the conductor.
     pub fn new(
         handle: Handle,
         library: Library,
@@ -72,7 +72,7 @@ impl Shared {
     }
 }
 
-/// Takes the address; one line with what to do where it is taken.
+/// Binds the address. The failure is one line with a remedy.
 pub async fn listen(exposure: &Exposure) -> Result<(TcpListener, Names), Failure> {
     let address = exposure.listen();
     let listener = TcpListener::bind(address).await.map_err(|error| {

@@ -1,20 +1,20 @@
-//! Under which names the web app is served, and whether it may be served to the network.
+//! Names under which the web app is served, and whether the network may reach it.
 
 use std::net::{IpAddr, Ipv4Addr, Ipv6Addr, SocketAddr};
 
 use crate::failure::Failure;
 
-/// The port of a URL or `Host` header without one.
+/// Port of a URL or `Host` header without a port: that of HTTP, RFC 9110, section 4.2.1.
 const USUAL_PORT: u16 = 80;
 
-/// Where the web app is served: on this machine alone, or to the network because the user asked for that.
+/// Where the web app is served: on this machine only, or on the network because the user asked for it.
 #[derive(Clone, Debug)]
 pub struct Exposure {
     listen: SocketAddr,
     host_names: Vec<String>,
 }
 
-/// A host and a port, in one spelling.
+/// A host and a port in canonical spelling.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Authority {
     host: Host,
@@ -24,11 +24,11 @@ pub struct Authority {
 #[derive(Clone, Debug, PartialEq, Eq)]
 enum Host {
     Address(IpAddr),
-    /// In lower case.
+    /// A DNS name in lower case.
     Name(String),
 }
 
-/// The names under which requests are answered.
+/// Names under which requests are answered.
 #[derive(Clone, Debug)]
 pub struct Names {
     port: u16,
@@ -37,9 +37,9 @@ pub struct Names {
 }
 
 impl Exposure {
-    /// Serves on `listen`, which is an address of this machine alone unless `open_to_network`. `host_names` are further
-    /// names of this machine: names or IP addresses, with a port where it is not the one listened on. The failure is one
-    /// line, exit code 2.
+    /// Serves on `listen`. Without `open_to_network` it must be a loopback address. `host_names` are further names of this
+    /// machine: DNS names or IP addresses, with a port if it differs from that of `listen`. The failure is one line, exit
+    /// code 2.
     pub fn new(listen: SocketAddr, open_to_network: bool, host_names: Vec<String>) -> Result<Self, Failure> {
         if !listen.ip().to_canonical().is_loopback() && !open_to_network {
             return Err(Failure::input(format!(
@@ -52,7 +52,7 @@ impl Exposure {
         Ok(exposure)
     }
 
-    /// Where it listens; port 0: any.
+    /// Address that the server listens on; port 0: any.
     pub fn listen(&self) -> SocketAddr {
         self.listen
     }
@@ -71,13 +71,13 @@ impl Exposure {
 }
 
 impl Names {
-    /// Whether others than this machine can reach the web app.
+    /// Whether the network can reach the web app.
     pub fn is_open(&self) -> bool {
         self.is_open
     }
 
-    /// Whether this server is meant; `local` is the address the connection came in on. Only names that cannot be made to
-    /// point here by others count: of DNS names, those the user gave.
+    /// Whether a request to `host` is for this server; `local` is the server's end of the connection. A DNS name counts
+    /// only if the user gave it, because anyone can point other names at this address (DNS rebinding).
     pub fn hold(&self, authority: &Authority, local: IpAddr) -> bool {
         let is_own = match &authority.host {
             Host::Address(ip) => ip.is_loopback() || self.is_open && *ip == local.to_canonical(),
@@ -93,13 +93,13 @@ impl Authority {
         Self::read(text, USUAL_PORT)
     }
 
-    /// Reads the value of an `Origin` header; `None` also for pages that were not served by HTTP.
+    /// Reads the value of an `Origin` header. `None` also for pages that HTTP did not serve.
     pub fn of_origin(text: &str) -> Option<Self> {
         let (scheme, rest) = text.split_once("://")?;
         scheme.eq_ignore_ascii_case("http").then(|| Self::read(rest, USUAL_PORT))?
     }
 
-    /// Reads `HOST` or `HOST:PORT`; an IPv6 address stands in brackets.
+    /// Reads `HOST` or `HOST:PORT`. An IPv6 address is in brackets.
     fn read(text: &str, usual_port: u16) -> Option<Self> {
         let (host, port) = match text.strip_prefix('[') {
             Some(rest) => {
@@ -169,7 +169,7 @@ mod tests {
         let closed = names("127.0.0.1:8420", false, &["Stage.local", "tunnel.example:9000"]);
         let open = names("0.0.0.0:8420", true, &["stage.local"]);
         let own: IpAddr = "192.168.0.7".parse().unwrap();
-        // Host header, held on loopback, held on the network.
+        // Host header, accepted on loopback, accepted on the network.
         let cases = [
             ("127.0.0.1:8420", true, true),
             ("127.0.0.2:8420", true, true),
@@ -185,12 +185,12 @@ mod tests {
             ("STAGE.local:8420", true, true),
             ("tunnel.example:9000", true, false),
             ("tunnel.example:8420", false, false),
-            // Another port, or none, is another server.
+            // Another port means another server.
             ("127.0.0.1", false, false),
             ("localhost:80", false, false),
             ("localhost:8421", false, false),
             ("stage.local", false, false),
-            // Names that others may point here.
+            // Names that a stranger may point at this address.
             ("evil.example:8420", false, false),
             ("localhost.:8420", false, false),
             ("a.localhost:8420", false, false),

@@ -1,4 +1,4 @@
-//! What a screen asks for, done.
+//! Carries out the operations that screens ask for.
 
 use lightbots_api as api;
 use lightbots_base::RobotId;
@@ -7,10 +7,10 @@ use lightbots_control::{MissingPolicy, Operation, Refusal};
 use super::Shared;
 use crate::broker_settings::Settings;
 
-/// Why something was not done, and a way to go on.
+/// Why an operation was refused, and another that would be carried out.
 type Refused = (String, Option<api::Choice>);
 
-/// Does it; the answer for the screen.
+/// Carries out an operation and gives the answer for the screen.
 pub async fn operate(shared: &Shared, request: api::Request) -> api::Answer {
     let api::Request { id, operation } = request;
     match act(shared, operation).await {
@@ -59,7 +59,7 @@ async fn act(shared: &Shared, operation: api::Operation) -> Result<(), Refused> 
     shared.handle.operate(wish).await.map_err(|refusal| (refusal.to_string(), None))
 }
 
-/// Plays or previews, unless the plan is red.
+/// Plays or previews, unless the plan has errors.
 async fn play(shared: &Shared, operation: api::Operation) -> Result<(), Refused> {
     let plan = shared.desk.plan();
     let red = plan.issues.iter().find(|issue| issue.severity == api::Severity::Error);
@@ -81,7 +81,7 @@ async fn play(shared: &Shared, operation: api::Operation) -> Result<(), Refused>
     shared.handle.operate(wish).await.map_err(|refusal| (refusal.to_string(), choice(&refusal, operation)))
 }
 
-/// What can be asked for instead after a refusal.
+/// The operation that the server offers after a refusal.
 fn choice(refusal: &Refusal, operation: api::Operation) -> Option<api::Choice> {
     let missing = api::Missing::LeaveOut;
     let operation = match operation {

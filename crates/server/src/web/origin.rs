@@ -1,4 +1,4 @@
-//! Which requests are answered: those to a name of this server, from pages of this server, and none without end.
+//! Answers only requests to a name of this server and from pages of this server, within a bounded time.
 
 use std::net::IpAddr;
 use std::sync::Arc;
@@ -14,11 +14,12 @@ use super::api::{BODY_MAX, Refused, refuse, too_long};
 use super::connection::Ends;
 use super::names::{Authority, Names};
 
-/// A request that takes longer to come in and be answered is given up.
+/// Longest time for a request from its first byte to the end of its answer. The longest upload (94 s) and
+/// a plan of the default budget (30 s) fit. A longer time would keep hostile connections open.
 const PATIENCE: Duration = Duration::from_secs(300);
 
-/// Turns away requests to other names, which DNS may have been made to point here, and requests that pages of other
-/// servers send through a visitor's browser.
+/// Refuses requests to other names (DNS rebinding) and requests that pages of other servers send through a visitor's
+/// browser (cross-site request forgery).
 pub async fn guard(
     State(shared): State<Arc<Shared>>,
     ConnectInfo(ends): ConnectInfo<Ends>,
@@ -38,13 +39,13 @@ pub async fn guard(
     }
 }
 
-/// Whether a request on a connection to the address `local` is meant for this server and comes from a page of it.
-/// Programs that are no browser state no origin and may ask.
+/// Whether a request on a connection to the address `local` is for this server and from one of its pages. Programs other
+/// than browsers send no origin and are allowed.
 fn check(names: &Names, local: IpAddr, uri: &Uri, headers: &HeaderMap) -> Result<(), Refused> {
     let unclear = || refuse(StatusCode::BAD_REQUEST, "a request needs one Host header with host and port");
     let host = only(headers, header::HOST).ok_or_else(unclear)?;
     let host = host.and_then(Authority::of_host).ok_or_else(unclear)?;
-    // A request line may name the host as well.
+    // A request line may name the host too.
     if uri.authority().is_some_and(|named| Authority::of_host(named.as_str()).as_ref() != Some(&host)) {
         return Err(unclear());
     }
@@ -63,8 +64,7 @@ fn check(names: &Names, local: IpAddr, uri: &Uri, headers: &HeaderMap) -> Result
     }
 }
 
-/// The value of a header that is there once at most; `Some(None)`: it is not there, `None`: it is there twice or is no
-/// text.
+/// The value of a header that may occur once. `Some(None)`: it is missing. `None`: it occurs twice or is not text.
 fn only(headers: &HeaderMap, name: HeaderName) -> Option<Option<&str>> {
     let mut values = headers.get_all(name).iter();
     let Some(value) = values.next() else { return Some(None) };

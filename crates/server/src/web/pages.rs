@@ -1,29 +1,31 @@
-//! The browser app, as it was built into the program.
+//! The browser app that is built into the program.
 
 use axum::http::{HeaderMap, HeaderName, Method, StatusCode, Uri, header};
 use axum::response::{Html, IntoResponse, Response};
 
 /// A file of the built browser app.
 struct File {
-    /// Below the server's root, without a leading slash.
+    /// Path below the server's root, without a leading slash.
     path: &'static str,
     kind: &'static str,
     tag: &'static str,
-    /// Its bytes, gzipped: every browser takes them like that.
+    /// Bytes of the file, compressed with gzip, which every browser accepts.
     packed: &'static [u8],
 }
 
 include!(concat!(env!("OUT_DIR"), "/screen.rs"));
 
+/// Content security policy: scripts only from this server, so that text in a show or a robot's name runs nothing.
 const POLICY: &str = "default-src 'self'; style-src 'self' 'unsafe-inline'; img-src 'self' data: blob:; \
                       media-src 'self' blob: data:; connect-src 'self' ws: wss:; frame-ancestors 'none'";
 
+/// The page of a program that was built without the browser app.
 const UNBUILT: &str = "<!doctype html><meta charset=utf-8><title>LightBots</title>\
     <body style='font:16px/1.6 sans-serif;background:#111;color:#ddd;max-width:40em;margin:4em auto'>\
     <h1>LightBots is running</h1><p>This build has no browser app in it. Build it, then the program again:</p>\
     <pre style='background:#222;padding:1em'>cargo xtask demo</pre>";
 
-/// A file, or the app itself for any other address: it knows its own.
+/// A file of the app. Any other address gets the app's page, which handles addresses itself.
 pub async fn page(method: Method, uri: Uri, headers: HeaderMap) -> Response {
     if !matches!(method, Method::GET | Method::HEAD) {
         return StatusCode::METHOD_NOT_ALLOWED.into_response();
@@ -43,7 +45,7 @@ pub async fn page(method: Method, uri: Uri, headers: HeaderMap) -> Response {
 }
 
 fn send(file: &File, headers: &HeaderMap) -> Response {
-    // Built files carry a hash in their names and never change; the page that names them must always be fresh.
+    // Files in assets/ have a hash in their names and never change. The page that names them must always be fresh.
     let lasting = file.path.starts_with("assets/");
     let caching = if lasting { "public, max-age=31536000, immutable" } else { "no-cache" };
     let about: [(HeaderName, &str); 7] = [

@@ -1,4 +1,4 @@
-//! What screens see: made once for all of them, and only while somebody looks.
+//! Snapshots for screens: made once for all screens, and only while a screen is connected.
 
 use std::time::Duration;
 
@@ -16,59 +16,59 @@ use super::socket::text;
 use crate::live::conductor::{Handle, LinkPhase, LinkState, News};
 use crate::numbers::rounded;
 
-/// Twenty pictures a second.
+/// Time between two pictures: 20 a second, which screens interpolate. More cost bandwidth; fewer make dots lag.
 const EVERY: Duration = Duration::from_millis(50);
 
-/// The newest state and fleet table, ready to send. A screen that is slow skips some. Clones share it.
+/// The newest state and fleet table, ready to send. A slow screen skips some. Clones share them.
 #[derive(Clone, Debug)]
 pub struct Pictures {
     states: watch::Sender<Picture>,
     fleets: watch::Sender<Utf8Bytes>,
 }
 
-/// Two messages that belong together.
+/// A binary message and the state that belongs to it.
 #[derive(Clone, Debug, Default)]
 pub struct Picture {
-    /// [`api::Robots`].
+    /// The bytes of [`api::Robots`].
     pub robots: Bytes,
-    /// [`api::ToScreen::State`].
+    /// The JSON of [`api::ToScreen::State`].
     pub state: Utf8Bytes,
 }
 
-/// What the next picture is made from besides the snapshot.
+/// What a picture needs besides the snapshot.
 struct Painter {
     desk: Desk,
     link: LinkState,
     /// The robots of the last fleet table, in order.
     names: Vec<RobotId>,
     revision: u32,
-    /// Pictures since the last fleet table.
+    /// Number of pictures since the last fleet table.
     since_fleet: usize,
     looked: bool,
     pace: PaceMeter,
 }
 
-/// How fast the show clock goes, over the last seconds.
+/// Measures the rate of the show clock over the last seconds.
 #[derive(Debug, Default)]
 struct PaceMeter {
-    /// When it was looked at, and what it showed.
+    /// Real time and show time at the start of the measurement.
     before: Option<(std::time::Instant, lightbots_base::Instant)>,
     share: Option<f64>,
 }
 
 impl PaceMeter {
-    /// Over so long it is measured.
+    /// Time over which the rate is measured. Shorter times show jitter; longer ones hide pauses.
     const OVER: Duration = Duration::from_secs(2);
-    /// What differs less from real time is real time.
+    /// Largest deviation from real time that counts as real time. Covers the jitter of timers.
     const LEAST: f64 = 0.03;
 
-    /// Its share of real time, at most 1.
+    /// The rate of the show clock, at most 1 (real time).
     fn look(&mut self, real: std::time::Instant, show: lightbots_base::Instant) -> f64 {
         let (since, shown) = *self.before.get_or_insert((real, show));
         let passed = real - since;
         if passed >= Self::OVER {
             self.before = Some((real, show));
-            // After a while in which nobody looked, what comes next is looked at first.
+            // After a pause without screens the old measurement means nothing, so a new one is awaited.
             let lately = passed < Self::OVER * 2;
             self.share = lately.then(|| (show - shown).as_secs() / passed.as_secs_f64());
         }
@@ -78,21 +78,21 @@ impl PaceMeter {
 }
 
 impl Pictures {
-    /// No picture yet.
+    /// Without a picture.
     pub fn new() -> Self {
         Self { states: watch::channel(Picture::default()).0, fleets: watch::channel(Utf8Bytes::default()).0 }
     }
 
-    /// Pictures from now on.
+    /// A receiver of later pictures.
     pub fn states(&self) -> watch::Receiver<Picture> {
         self.states.subscribe()
     }
 
-    /// The fleet table that other screens have, if any is looking, and those from now on.
+    /// A receiver of fleet tables. It begins with the last one if another screen is connected.
     pub fn fleets(&self) -> watch::Receiver<Utf8Bytes> {
         let mut fleets = self.fleets.subscribe();
         if !fleets.borrow().is_empty() {
-            // The next one may be seconds away when there are thousands of robots.
+            // With thousands of robots the next table may be seconds away.
             fleets.mark_changed();
         }
         fleets
@@ -126,7 +126,7 @@ impl Pictures {
             }
             if self.states.receiver_count() == 0 {
                 painter.looked = false;
-                // What nobody looks at grows old.
+                // Without screens the table is not updated, so it must not be sent later.
                 self.fleets.send_replace(Utf8Bytes::default());
                 continue;
             }
@@ -143,7 +143,7 @@ impl Pictures {
             painter.revision += 1;
         }
         painter.since_fleet += 1;
-        // Twice a second for a few hundred robots, and less often for thousands.
+        // A table is due twice a second for a few robots, and less often for thousands.
         let due = painter.since_fleet >= 10 + snapshot.robots.len() / 100;
         if !same || due || !painter.looked {
             painter.since_fleet = 0;
@@ -192,7 +192,8 @@ impl Painter {
         }
     }
 
-    /// The rest of the drive or air time, and everything after it, as planned; none for a preview.
+    /// Planned time to the end of the show, seconds: the rest of the transition or air time, and all later ones. `None` for
+    /// a preview.
     fn left_s(&self, snapshot: &Snapshot, is_showing: bool) -> Option<f64> {
         let run = snapshot.run.as_ref().filter(|_| snapshot.state != State::Preview)?;
         let (shown, plan) = (self.desk.shown(), self.desk.plan());
@@ -277,7 +278,7 @@ fn row(robot: &RobotView, snapshot: &Snapshot) -> api::FleetRow {
 
 fn status(robot: &RobotView) -> api::RobotStatus {
     match robot.reported.state {
-        // An original robot does not say what it does.
+        // An original robot reports no state.
         None | Some(RobotState::Idle) => api::RobotStatus::Idle,
         Some(RobotState::Ready) => api::RobotStatus::Ready,
         Some(RobotState::Driving) => api::RobotStatus::Driving,
@@ -301,7 +302,7 @@ mod tests {
         };
         assert_eq!([look(0, 0), look(1000, 400), look(2000, 800)], [1.0, 1.0, 0.4]);
         assert_eq!([look(3000, 1800), look(4000, 2790)], [0.4, 1.0]);
-        assert_eq!(look(60_000, 3000), 1.0, "while nobody looked it may have stood or not");
+        assert_eq!(look(60_000, 3000), 1.0, "without screens the clock may have stood or not");
     }
 
     #[test]

@@ -1,7 +1,7 @@
-//! Plans that clients ask for: of each client the newest request alone, for a limited time, and only while it waits.
+//! Plans that clients ask for: one at a time for each client, for a bounded time, and only while the client waits.
 //!
-//! A newer request of the same client supersedes the older one, rather than wait behind it: what an editor asks about has
-//! changed by then, and no client can make others queue up. Clients are told apart by their IP addresses.
+//! A newer request of a client cancels the older one, because an editor's older document is of no use. No client can make
+//! others wait. A client is an IP address.
 
 use std::collections::BTreeMap;
 use std::net::IpAddr;
@@ -11,48 +11,48 @@ use std::time::Duration;
 
 use tokio::sync::watch;
 
-/// Why there is no answer.
+/// Why a request has no answer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CutOff {
-    /// It took longer than the budget.
+    /// The work took longer than the budget.
     TimeUp,
-    /// The same client asked again.
+    /// The client sent a newer request.
     Superseded,
-    /// It panicked.
+    /// The work panicked.
     Failed,
 }
 
-/// Tells work on another thread to give up, at the latest when this is dropped.
+/// Cancels work on another thread, at the latest when this is dropped.
 #[derive(Debug, Default)]
 pub struct GiveUp(Arc<AtomicBool>);
 
-/// What the other thread asks.
+/// The flag that the other thread reads.
 #[derive(Clone, Debug)]
 pub struct IsGivenUp(Arc<AtomicBool>);
 
-/// Gives clients their turns.
+/// Runs the requests of all clients.
 #[derive(Debug)]
 pub struct Planner {
     budget: Duration,
     clients: Mutex<BTreeMap<IpAddr, Arc<Client>>>,
 }
 
-/// The turns of one client.
+/// The requests of one client.
 #[derive(Debug, Default)]
 struct Client {
-    /// Number of its newest request.
+    /// Number of the client's newest request.
     newest: watch::Sender<u64>,
-    /// Held while one is worked on, by the thread that does.
+    /// Locked by the thread that works on a request of the client.
     slot: Arc<tokio::sync::Mutex<()>>,
 }
 
 impl GiveUp {
-    /// What the other thread asks.
+    /// A view of the flag for the other thread.
     pub fn asked(&self) -> IsGivenUp {
         IsGivenUp(self.0.clone())
     }
 
-    /// Gives up now.
+    /// Cancels the work now.
     pub fn now(&self) {
         self.0.store(true, Ordering::Relaxed);
     }
@@ -65,26 +65,26 @@ impl Drop for GiveUp {
 }
 
 impl IsGivenUp {
-    /// Whether to give up.
+    /// Whether the work is cancelled.
     pub fn get(&self) -> bool {
         self.0.load(Ordering::Relaxed)
     }
 }
 
 impl Planner {
-    /// Whatever is asked for takes no longer than this.
+    /// A planner that cancels each request after `budget`.
     pub fn new(budget: Duration) -> Self {
         Self { budget, clients: Mutex::default() }
     }
 
-    /// How long anything may take.
+    /// Longest time of a request.
     pub fn budget(&self) -> Duration {
         self.budget
     }
 
-    /// Works for a client on a thread of its own. `work` is to ask now and then whether it is given up, and to end soon
-    /// where it is: when time is up, when the same client asks again, or when this future is dropped because the client
-    /// has gone. The next request of the client begins once it has ended.
+    /// Runs `work` for a client on a thread of its own. `work` must ask often whether it is still wanted, and end soon if
+    /// it is not: the budget is used up, the client sent a newer request, or this future was dropped because the client
+    /// disconnected. The client's next request begins when `work` has ended.
     pub async fn work<T: Send + 'static>(
         &self,
         client: IpAddr,
@@ -98,7 +98,7 @@ impl Planner {
             number = *newest;
         });
         let is_superseded = async {
-            // The sender lives as long as the client.
+            // The sender lives as long as the client's entry.
             let _ = newest.wait_for(|newest| *newest != number).await;
         };
         let give_up = GiveUp::default();
@@ -118,9 +118,9 @@ impl Planner {
         }
     }
 
-    /// The client of an address; forgets clients without work.
+    /// The client of an address. Removes clients without work, which bounds the map.
     fn client(&self, address: IpAddr) -> Arc<Client> {
-        // Entries are whole ones: a panic elsewhere leaves none half made.
+        // Entries are inserted in one step, so that a panic of another thread leaves no half-made ones.
         let mut clients = self.clients.lock().unwrap_or_else(PoisonError::into_inner);
         clients.retain(|_, client| Arc::strong_count(client) > 1 || client.slot.try_lock().is_err());
         clients.entry(address).or_default().clone()

@@ -9,10 +9,10 @@ use super::*;
 
 const CLIENT: IpAddr = IpAddr::V4(Ipv4Addr::LOCALHOST);
 const OTHER: IpAddr = IpAddr::V4(Ipv4Addr::new(192, 0, 2, 1));
-/// Longer than any test.
+/// A budget that no test uses up.
 const LONG: Duration = Duration::from_secs(3_600);
 
-/// Works until it is given up, and says when it begins and ends.
+/// Work that runs until it is cancelled, and reports its begin and end.
 fn endless(tell: UnboundedSender<&'static str>) -> impl FnOnce(&dyn Fn() -> bool) + Send + 'static {
     move |is_given_up| {
         tell.send("begins").unwrap();
@@ -66,7 +66,7 @@ async fn what_panics_does_not_keep_the_next_from_its_turn() {
     assert_eq!(planner.work(CLIENT, |_| panic!("on purpose")).await, Err::<(), _>(CutOff::Failed));
     assert_eq!(planner.work(CLIENT, |_| 7).await, Ok(7));
     assert_eq!(planner.work(OTHER, |_| 7).await, Ok(7));
-    assert_eq!(planner.clients.lock().unwrap().len(), 1, "who waits for nothing is forgotten");
+    assert_eq!(planner.clients.lock().unwrap().len(), 1, "a client without work is removed");
 }
 
 #[tokio::test]

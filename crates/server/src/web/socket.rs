@@ -1,4 +1,4 @@
-//! One screen's WebSocket.
+//! The WebSocket of one screen.
 
 use std::sync::Arc;
 use std::sync::atomic::Ordering;
@@ -14,35 +14,36 @@ use super::picture::Picture;
 use super::{Shared, operate};
 use crate::plan_document;
 
-/// A screen that does not take a message for so long is dropped: it will come back.
+/// Longest time to send one message. A screen that takes longer is disconnected, and connects again by itself.
 const PATIENCE: Duration = Duration::from_secs(20);
-/// A screen that has so many pictures before it gets no more: one is on its way while it deals with another.
+/// Pictures that a screen may have without acknowledging them: one on its way while the screen draws another. With 1 it
+/// would idle for a round trip; with more a slow screen would lag behind.
 const AHEAD: usize = 2;
-/// The longest message of a screen.
+/// Longest message of a screen, bytes: certificates of `connect` fit. Bounds memory for hostile screens.
 const LONGEST: usize = 64 << 10;
 
 /// `/ws`
 pub async fn open(State(shared): State<Arc<Shared>>, upgrade: WebSocketUpgrade) -> Response {
     upgrade.max_message_size(LONGEST).max_frame_size(LONGEST).on_upgrade(move |socket| async move {
         let mut screen = Screen { socket, shared, ahead: 0 };
-        // A screen that left is nothing to report.
+        // A screen that disconnects is a normal event.
         let _ = screen.serve().await;
     })
 }
 
 /// A message as JSON.
 pub fn text(message: &ToScreen) -> Utf8Bytes {
-    // These types hold nothing that JSON cannot.
+    // The message types have only values that JSON can hold.
     serde_json::to_string(message).unwrap_or_default().into()
 }
 
-/// The screen has gone, or is too slow.
+/// The screen disconnected or is too slow.
 struct Gone;
 
 struct Screen {
     socket: WebSocket,
     shared: Arc<Shared>,
-    /// Pictures it has got and not dealt with.
+    /// Number of pictures that the screen has not acknowledged.
     ahead: usize,
 }
 
@@ -63,7 +64,7 @@ impl Screen {
         loop {
             tokio::select! {
                 biased;
-                received = self.socket.recv() => self.obey(received).await?,
+                received = self.socket.recv() => self.handle(received).await?,
                 Ok(()) = shown.changed() => {
                     let message = shown.borrow_and_update().message.clone();
                     self.send(message).await?;
@@ -97,15 +98,15 @@ impl Screen {
         self.send(text(&ToScreen::Hello(Hello { version, screen, simulated, open_to_network }))).await
     }
 
-    /// Does what a message asks for. What is no message of ours is answered by hanging up.
-    async fn obey(&mut self, received: Option<Result<Message, axum::Error>>) -> Result<(), Gone> {
+    /// Carries out the request of a message. A message that cannot be read ends the connection.
+    async fn handle(&mut self, received: Option<Result<Message, axum::Error>>) -> Result<(), Gone> {
         let message = match received {
             Some(Ok(Message::Text(text))) => text,
             Some(Ok(Message::Ping(_) | Message::Pong(_))) => return Ok(()),
             _ => return Err(Gone),
         };
         let wish = serde_json::from_str(&message).map_err(|error| {
-            tracing::debug!("a screen sent what is no message: {error}");
+            tracing::debug!("a message of a screen cannot be read: {error}");
             Gone
         })?;
         match wish {

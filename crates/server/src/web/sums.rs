@@ -1,4 +1,4 @@
-//! What happens to many robots at once, summed up: bounded, however many they are.
+//! Sums of equal events of many robots, so that a fleet of any size fills a bounded number of lines.
 
 use std::mem::{Discriminant, discriminant};
 use std::time::{Duration, Instant};
@@ -7,17 +7,18 @@ use lightbots_base::RobotId;
 use lightbots_control::{EventKind, Trouble};
 use lightbots_show::Severity;
 
-/// Names that are kept of each sum.
+/// Robot names that a sum keeps. Bounds the message; the line counts all robots.
 const NAMED: usize = 200;
-/// A sum to which nothing was added for so long is closed, …
+/// A sum without a new event for this time is closed, and a later event begins a new line. Robots of one fleet are
+/// switched on within seconds of each other.
 const QUIET: Duration = Duration::from_secs(4);
-/// … and in any case after this.
+/// A sum is closed after this time even if events go on, so that lines stay near the time of their events.
 const LONGEST: Duration = Duration::from_secs(60);
 
-/// One thing that happened to robots, and to which.
+/// One kind of event, and the robots it concerns.
 #[derive(Debug)]
 pub struct Sum {
-    /// Its line in the log, once it has one.
+    /// Number of the sum's line in the log; `None`: not yet written.
     pub line: Option<u32>,
     first: EventKind,
     robots: Vec<RobotId>,
@@ -27,12 +28,12 @@ pub struct Sum {
     last: Instant,
 }
 
-/// The sums to which may be added.
+/// The open sums.
 #[derive(Debug, Default)]
 pub struct Sums(Vec<Sum>);
 
 impl Sums {
-    /// Adds what happened to a robot; `false`: it is nothing to be summed up.
+    /// Adds the event of a robot. `false`: events of this kind are not summed up.
     pub fn take(&mut self, now: Instant, kind: &EventKind) -> bool {
         let Some(robot) = robot_of(kind) else { return false };
         self.0.retain(|sum| sum.grown || now - sum.last < QUIET && now - sum.began < LONGEST);
@@ -53,7 +54,7 @@ impl Sums {
         true
     }
 
-    /// Those that have grown since this was asked.
+    /// Calls `tell` with each sum that has grown since the last call.
     pub fn each_grown(&mut self, mut tell: impl FnMut(&mut Sum)) {
         for sum in self.0.iter_mut().filter(|sum| sum.grown) {
             sum.grown = false;
@@ -61,24 +62,24 @@ impl Sums {
         }
     }
 
-    /// Something else happened in the run: what comes to pass with its robots now is another matter.
+    /// Closes the sums of the run, because another event of the run came between.
     pub fn close_run(&mut self) {
         self.0.retain(|sum| is_presence(&sum.first));
     }
 }
 
 impl Sum {
-    /// How much it matters.
+    /// Severity of the event.
     pub fn severity(&self) -> Severity {
         self.first.severity()
     }
 
-    /// How many robots, 0 for a single one: its line says which.
+    /// Number of robots, or 0 for a single robot, which the line names.
     pub fn count(&self) -> usize {
         if self.count > 1 { self.count } else { 0 }
     }
 
-    /// Names of the first of several.
+    /// Names of the first robots, if there are several.
     pub fn names(&self) -> Vec<String> {
         let named = if self.count > 1 { self.robots.as_slice() } else { &[] };
         named.iter().map(ToString::to_string).collect()
@@ -108,7 +109,7 @@ impl Sum {
     }
 }
 
-/// Whom it happened to, where it may happen to many at once.
+/// The robot of an event that many robots may have at once.
 fn robot_of(kind: &EventKind) -> Option<RobotId> {
     use EventKind::*;
     match kind {
@@ -119,7 +120,7 @@ fn robot_of(kind: &EventKind) -> Option<RobotId> {
     }
 }
 
-/// What is summed up together.
+/// Events with equal keys share a sum.
 fn key(kind: &EventKind) -> (Discriminant<EventKind>, Option<Trouble>) {
     let why = match kind {
         EventKind::Waiting { why, .. } | EventKind::Dropout { why, .. } => Some(*why),
@@ -128,7 +129,7 @@ fn key(kind: &EventKind) -> (Discriminant<EventKind>, Option<Trouble>) {
     (discriminant(kind), why)
 }
 
-/// Whether it says who is there, rather than how a run goes.
+/// Whether the event is about a robot's presence and not about a run.
 fn is_presence(kind: &EventKind) -> bool {
     use EventKind::*;
     matches!(kind, RobotFound(_) | RobotRestarted(_) | RobotStale(_) | RobotGone(_) | RobotBack(_))

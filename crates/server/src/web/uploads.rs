@@ -1,5 +1,5 @@
-//! Bounds what uploads cost: a body is read whole before anything is done with it, within a bounded time, and while a
-//! bounded number of bytes of other bodies is held.
+//! Bounds the cost of uploads: each body is read whole, within a bounded time, and all bodies together hold a bounded
+//! number of bytes.
 
 use std::sync::Arc;
 use std::time::Duration;
@@ -13,22 +13,24 @@ use tokio::sync::Semaphore;
 
 use super::api::{BODY_MAX, refuse, too_long};
 
-/// A body up to this is short: the shows that people save. Long ones cannot keep them waiting.
+/// Longest short body, bytes: a usual show (1,000 robots in 16 frames). Long bodies cannot make short ones wait.
 const SHORT: usize = 1 << 20;
-/// Bytes of short bodies that are held at once.
+/// Most bytes of short bodies at once: 32 of the longest.
 const SHORT_AT_ONCE: usize = 32 << 20;
-/// Bytes of long bodies that are held at once: one of the longest.
+/// Most bytes of long bodies at once: one of the longest.
 const LONG_AT_ONCE: usize = BODY_MAX;
-/// Bytes that one permit stands for: a semaphore counts in 32 bits.
+/// Bytes per permit of a semaphore, which counts in 32 bits.
 const PERMIT_BYTES: usize = 1 << 10;
-/// How long a request waits for the ones before it.
+/// Longest time that a request waits for earlier ones. Longer than a short body may take, so that one slow
+/// body ahead does not lead to a refusal.
 const TURN_WITHIN: Duration = Duration::from_secs(20);
-/// How long a body may take to arrive; a longer body gets [`BODY_WITHIN_MORE`] for each [`SHORT`] of it, because a poor
-/// radio link carries 1 MB/s.
+/// Longest time for a body to arrive. A long body also gets [`BODY_WITHIN_MORE`] for each [`SHORT`], because a poor radio
+/// link carries 1 MB/s.
 const BODY_WITHIN: Duration = Duration::from_secs(10);
+/// Further time for each [`SHORT`] of a long body.
 const BODY_WITHIN_MORE: Duration = Duration::from_secs(1);
 
-/// Bytes that may still be held.
+/// Bytes that further bodies may take.
 #[derive(Clone, Debug)]
 pub struct Uploads {
     short: Arc<Semaphore>,
@@ -36,7 +38,7 @@ pub struct Uploads {
 }
 
 impl Uploads {
-    /// All of it.
+    /// The whole budget.
     pub fn new() -> Self {
         let room = |bytes| Arc::new(Semaphore::new(bytes / PERMIT_BYTES));
         Self { short: room(SHORT_AT_ONCE), long: room(LONG_AT_ONCE) }
@@ -47,7 +49,7 @@ impl Uploads {
     }
 }
 
-/// Reads the body, within the bounds, and hands the request on. The bytes count until the answer is made.
+/// Reads the body within the bounds, then handles the request. The bytes count until the answer is made.
 pub async fn bound(State(uploads): State<Uploads>, request: Request, next: Next) -> Response {
     if request.body().is_end_stream() {
         return next.run(request).await;
@@ -56,7 +58,7 @@ pub async fn bound(State(uploads): State<Uploads>, request: Request, next: Next)
     if hint.lower() > BODY_MAX as u64 {
         return too_long().into_response();
     }
-    // A body that does not say how long it is may be as long as any.
+    // A body without a stated length may have the greatest length.
     let bytes = hint.exact().map_or(BODY_MAX, |bytes| bytes as usize);
     let turn = uploads.room(bytes).acquire_many_owned(bytes.div_ceil(PERMIT_BYTES) as u32);
     let Ok(Ok(_turn)) = tokio::time::timeout(TURN_WITHIN, turn).await else {
@@ -73,7 +75,7 @@ pub async fn bound(State(uploads): State<Uploads>, request: Request, next: Next)
     }
 }
 
-/// Whether a body was cut off because it is longer than it may be.
+/// Whether a body was refused because it is too long.
 fn is_too_long(error: &axum::Error) -> bool {
     std::error::Error::source(error).is_some_and(|cause| cause.to_string().contains("length limit"))
 }

@@ -1,4 +1,4 @@
-//! What `check` says about robots that stop dead.
+//! The stop-safety part of `check`: what happens if a robot stops dead.
 
 use lightbots_api as api;
 use lightbots_plan::ShowPlan;
@@ -8,35 +8,35 @@ use serde::Serialize;
 use super::{began_s, pixel};
 use crate::numbers::rounded;
 
-/// At which moments robots may stop dead.
+/// Moments at which a robot may stop dead without a contact.
 #[derive(Debug, Serialize)]
 pub(super) struct StopSafe {
-    /// The share of all moments of robots that drive, 0 to 1; null where the plan must not be played.
+    /// Share of all moments of driving robots, 0 to 1; null: the plan must not be played.
     share: Option<f64>,
-    /// The moment at which most room is missing; null where the share is 1.
+    /// The moment with the largest missing clearance; null: the share is 1.
     worst: Option<Worst>,
-    /// `(transition, share)` of those with less than all.
+    /// `(transition, share)` of transitions with a share below 1.
     #[serde(skip)]
     less: Vec<(usize, f64)>,
 }
 
-/// A robot that must not stop dead at a moment.
+/// A robot and a moment at which a dead stop leads to a contact.
 #[derive(Debug, Serialize)]
 struct Worst {
     robot: usize,
-    /// The pixel it drives to; null: it has none.
+    /// Id of the robot's pixel; null: the robot has none.
     pixel: Option<u32>,
-    /// Who would touch it, and the pixel that one drives to.
+    /// The robot that would touch it, and that robot's pixel.
     by: usize,
     by_pixel: Option<u32>,
-    /// The frame they drive to, counted from 0.
+    /// The frame of the transition's end, counted from 0.
     frame: usize,
-    /// When, seconds after the drive began, and after the show began.
+    /// Seconds after the start of the transition, and after the start of the show.
     moment: f64,
     show_moment: f64,
-    /// Where it is then, stage metres.
+    /// Place of the robot at that moment, stage metres.
     place: [f64; 2],
-    /// How much room the other is short of, metres.
+    /// Missing clearance to the other robot, metres.
     missing_m: f64,
 }
 
@@ -58,14 +58,14 @@ impl StopSafe {
         Self { share: plan.ok.then_some(plan.stop_safe), worst, less }
     }
 
-    /// For people: how much, where least, and which pictures are too tight.
+    /// The lines for people: the share, the worst moment, and the frames that are too tight.
     pub fn lines(&self, show: &Show) -> Vec<String> {
         let Some(share) = self.share else { return Vec::new() };
         let Some(worst) = &self.worst else {
             return vec!["stop-safe: any one robot may stop dead at any moment".into()];
         };
         let name = |frame: usize| frame_label(frame, show.frames.get(frame).map_or("", |frame| &frame.name));
-        let who = |pixel: Option<u32>| {
+        let robot = |pixel: Option<u32>| {
             pixel.map_or("a spare robot".into(), |id| format!("the robot for pixel {id}"))
         };
         let [x, y] = worst.place;
@@ -73,10 +73,10 @@ impl StopSafe {
             "stop-safe: at {} of all moments any one robot may stop dead; worst: if {} does {:.2} s into the show, on the way \
              to {}, at ({x:.2}, {y:.2}) m, {} is {:.1} mm short of room to stop",
             percent(share),
-            who(worst.pixel),
+            robot(worst.pixel),
             worst.show_moment,
             name(worst.frame),
-            who(worst.by_pixel),
+            robot(worst.by_pixel),
             worst.missing_m * 1e3
         )];
         let less = self.less.iter().map(|(frame, share)| format!("{} {}", name(*frame), percent(*share)));

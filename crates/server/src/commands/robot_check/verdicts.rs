@@ -1,4 +1,4 @@
-//! What was found, for people and for programs.
+//! The findings of an exam, for people and for programs.
 
 use lightbots_exam::{Exam, Finding, RULES, RuleVerdict, Scope};
 use lightbots_link::BrokerUrl;
@@ -8,7 +8,7 @@ use crate::commands::print_json;
 use crate::failure::{Failure, Outcome};
 use crate::say;
 
-/// The whole answer as JSON.
+/// The findings as JSON.
 #[derive(Serialize)]
 struct Answer {
     ok: bool,
@@ -38,7 +38,7 @@ struct Tried {
     fits: bool,
 }
 
-/// Prints the findings, or why there are none.
+/// Prints the findings, or why no robot was examined.
 pub fn tell(examined: Result<Exam, Failure>, broker: &BrokerUrl, json: bool) -> Outcome {
     let (exam, failure) = match examined {
         Ok(exam) => (Some(exam), None),
@@ -60,7 +60,7 @@ pub fn tell(examined: Result<Exam, Failure>, broker: &BrokerUrl, json: bool) -> 
     failure.map_or(Ok(ok), Err)
 }
 
-/// Whether a finding is none to worry about: what its light shows need not be looked at.
+/// Whether a finding is good enough: rules about the light need not be tried.
 fn is_fine(finding: &Finding) -> bool {
     let scope = RULES.iter().find(|rule| rule.number == finding.rule).map(|rule| rule.scope);
     let is_light = matches!(scope, Some(Scope::Light | Scope::Fade | Scope::Blink));
@@ -89,7 +89,7 @@ fn rule_answer(finding: &Finding) -> RuleAnswer {
     }
 }
 
-/// One line a rule; three more where it is broken.
+/// One line per rule, and three more for a broken rule.
 fn print_finding(finding: &Finding) {
     let word = match finding.verdict {
         RuleVerdict::Keeps => "keeps",
