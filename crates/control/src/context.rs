@@ -3,10 +3,10 @@
 use crate::config::Config;
 use crate::drafting::PlanRequest;
 use crate::event::EventKind;
-use crate::fleet::Fleet;
-use crate::log::Log;
+use crate::fleet::KnownRobots;
+use crate::log::EventQueue;
 use crate::mapping::Mapping;
-use crate::outbox::Outbox;
+use crate::outbox::SendQueue;
 use lightbots_base::{Instant, Rgb};
 use lightbots_wire::Report;
 
@@ -16,11 +16,11 @@ pub(crate) struct Context {
     /// Bounds and tolerances.
     pub config: Config,
     /// All known robots.
-    pub fleet: Fleet,
+    pub fleet: KnownRobots,
     /// Messages to be sent.
-    pub outbox: Outbox,
+    pub outbox: SendQueue,
     /// Events to be read.
-    pub log: Log,
+    pub log: EventQueue,
     /// Which robot shows which pixel.
     pub mapping: Mapping,
     /// A plan to be made; a newer one replaces an older one.
@@ -41,9 +41,9 @@ impl Context {
         Self {
             next_route: config.seq_base.max(1),
             config,
-            fleet: Fleet::default(),
-            outbox: Outbox::default(),
-            log: Log::default(),
+            fleet: KnownRobots::default(),
+            outbox: SendQueue::default(),
+            log: EventQueue::default(),
             mapping: Mapping::default(),
             plan_request: None,
             plan_number: 0,

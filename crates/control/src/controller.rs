@@ -16,12 +16,14 @@ use lightbots_show::Show;
 use lightbots_wire::{Command, Report, TimeQuestion, Topic};
 use std::sync::Arc;
 
-/// Robots age this often; all of them within [`ROUNDS`] turns.
+/// A slice of the fleet ages this often.
 const PATROL: Span = Span::from_millis(250);
+/// Number of slices: each robot ages every 2 s.
 const ROUNDS: usize = 8;
-/// Between runs all robots are asked to report this often, where some know TARGET only; less often in large fleets. Such a
-/// robot that was not heard when it was switched on would be driven into.
+/// Between runs all robots are asked to report this often, where some know TARGET only. Such a robot
+/// that was not heard when it was switched on would be driven into.
 const ASK_ALL: Span = Span::from_millis(600);
+/// Added to that for each robot, because their answers share one link.
 const ASK_ALL_PER_ROBOT: Span = Span::from_millis(1);
 /// Robots that know TARGET only are asked to report after this share of the time until they are stale.
 const ASK_AFTER: i64 = 2;
@@ -308,7 +310,7 @@ impl Controller {
     }
 
     fn robot_views(&self, now: Instant) -> Vec<RobotView> {
-        let view = |robot: &crate::robot::Robot| {
+        let view = |robot: &crate::robot::KnownRobot| {
             let mut view = robot.view();
             if let (Some(run), Some(participant)) = (&self.run, robot.participant) {
                 run.complete(&mut view, participant as usize, now);

@@ -92,8 +92,8 @@ impl PlanRequest {
         self.run_unless(&|| false)
     }
 
-    /// The same, given up as soon as `is_over` says so: it is asked at least every tenth of a second or so, and must go on
-    /// saying so. What is planned until then counts.
+    /// The same, given up as soon as `is_over` says so: it is asked at least every tenth of a second or so, and must go
+    /// on saying so. What is planned until then counts.
     pub fn run_unless(self, is_over: &dyn Fn() -> bool) -> PlanResult {
         let mut draft = Draft::new(&self.problem, is_over);
         let mut failed = None;

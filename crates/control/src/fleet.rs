@@ -2,8 +2,8 @@
 
 use crate::config::Config;
 use crate::event::EventKind;
-use crate::log::Log;
-use crate::robot::Robot;
+use crate::log::EventQueue;
+use crate::robot::KnownRobot;
 use crate::snapshot::Age;
 use lightbots_base::{Instant, RobotId, Span};
 use lightbots_wire::Report;
@@ -16,7 +16,7 @@ const PLACE_MAX_M: f64 = 1_000.0;
 /// What a report changed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct FleetUpdate {
-    /// The robot that reported: index into [`Fleet::robots`].
+    /// The robot that reported: index into [`KnownRobots::robots`].
     pub index: usize,
     /// The robot was not known before.
     pub found: bool,
@@ -26,8 +26,8 @@ pub(crate) struct FleetUpdate {
 
 /// All known robots. Indices are stable until a robot is forgotten, which is refused during a run.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Fleet {
-    robots: Vec<Robot>,
+pub(crate) struct KnownRobots {
+    robots: Vec<KnownRobot>,
     /// Never iterated; the hasher has fixed keys, so that it is the same everywhere.
     index_of: HashMap<RobotId, u32, BuildHasherDefault<DefaultHasher>>,
     /// Where the patrol goes on.
@@ -36,19 +36,19 @@ pub(crate) struct Fleet {
     pub overflow: u64,
 }
 
-impl Fleet {
+impl KnownRobots {
     /// Every known robot, in the order they were found.
-    pub fn robots(&self) -> &[Robot] {
+    pub fn robots(&self) -> &[KnownRobot] {
         &self.robots
     }
 
     /// One robot.
-    pub fn robot(&self, index: usize) -> &Robot {
+    pub fn robot(&self, index: usize) -> &KnownRobot {
         &self.robots[index]
     }
 
     /// One robot, to be changed.
-    pub fn robot_mut(&mut self, index: usize) -> &mut Robot {
+    pub fn robot_mut(&mut self, index: usize) -> &mut KnownRobot {
         &mut self.robots[index]
     }
 
@@ -63,7 +63,7 @@ impl Fleet {
         now: Instant,
         report: &Report,
         config: &Config,
-        log: &mut Log,
+        log: &mut EventQueue,
     ) -> Option<FleetUpdate> {
         let (index, found) = match self.find(report.id) {
             Some(index) => (index, false),
@@ -82,7 +82,7 @@ impl Fleet {
         Some(FleetUpdate { index, found, restarted })
     }
 
-    fn add(&mut self, id: RobotId, now: Instant, config: &Config, log: &mut Log) -> Option<usize> {
+    fn add(&mut self, id: RobotId, now: Instant, config: &Config, log: &mut EventQueue) -> Option<usize> {
         let index = self.robots.len();
         if index >= config.robots_max {
             if self.overflow == 0 {
@@ -91,7 +91,7 @@ impl Fleet {
             self.overflow += 1;
             return None;
         }
-        self.robots.push(Robot::new(id, now));
+        self.robots.push(KnownRobot::new(id, now));
         self.index_of.insert(id, index as u32);
         log.record(now, EventKind::RobotFound(id));
         Some(index)
@@ -112,7 +112,7 @@ impl Fleet {
         now: Instant,
         rounds: usize,
         config: &Config,
-        log: &mut Log,
+        log: &mut EventQueue,
     ) -> std::ops::Range<usize> {
         let count = self.robots.len();
         if self.patrolled >= count {

@@ -13,14 +13,14 @@ const PERIOD: Span = Span::from_millis(1_000);
 
 /// The queue of events.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Log {
+pub(crate) struct EventQueue {
     waiting: VecDeque<Event>,
     period_began: Instant,
     said: u32,
     suppressed: u64,
 }
 
-impl Log {
+impl EventQueue {
     /// An event that is always queued, unless the queue is full because it is not read.
     pub fn record(&mut self, at: Instant, kind: EventKind) {
         if self.waiting.len() < WAITING_MAX {
@@ -67,7 +67,7 @@ mod tests {
 
     #[test]
     fn frequent_events_are_limited_and_counted() {
-        let mut log = Log::default();
+        let mut log = EventQueue::default();
         let id = RobotId::new("a").unwrap();
         for _ in 0..1_000 {
             log.record_limited(Instant(2_000_000), EventKind::UnexpectedArrival(id));

@@ -10,10 +10,10 @@ use std::collections::BTreeMap;
 pub(crate) struct Mapping {
     /// What the operator bound.
     pub pins: BTreeMap<u32, RobotId>,
-    /// Who showed a pixel in frames with fixed identity: it stays so.
+    /// Which robot showed a pixel in frames with fixed identity: it stays so.
     pub owners: Claims<RobotId>,
-    /// Who shows a pixel last in the frames of this run that are planned, whatever their identity: a frame with fixed
-    /// identity goes by that.
+    /// Which robot shows a pixel last in the planned frames of this run, whatever their identity. A frame with fixed
+    /// identity keeps to that.
     pub shown: Claims<RobotId>,
 }
 
@@ -65,7 +65,7 @@ impl Roles {
         self.bindings.bind(&frame.pixels, identity, places, blocked)
     }
 
-    /// Keeps who shows what; `goal_of[robot]` is an index into the cast's pixels.
+    /// Keeps which robot shows which pixel; `goal_of[robot]` is an index into the cast's pixels.
     pub fn remember(&mut self, cast: &BoundFrame<'_>, identity: Identity, goal_of: &[Option<usize>]) {
         self.bindings.remember(cast, goal_of);
         for (&name, goal) in self.names.iter().zip(goal_of) {
@@ -134,7 +134,7 @@ mod tests {
         roles.remember(&any, Identity::Any, &[Some(0), Some(1), Some(2)]);
         let again = roles.cast(&frame, Identity::Fixed, &PLACES, |_| false);
         assert_eq!(again.pinned, [Some(0), Some(1), Some(2)]);
-        // Whose robot is gone gets whoever is left.
+        // A pixel that lost its robot gets one that is left.
         let without = Roles::new(vec![id("d"), id("b"), id("c")], roles.mapping);
         let cast = without.cast(&frame, Identity::Fixed, &PLACES, |_| false);
         assert_eq!(cast.pinned, [None, Some(1), Some(2)]);

@@ -29,7 +29,7 @@ struct Repeat {
 
 /// The queue of messages.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Outbox {
+pub(crate) struct SendQueue {
     waiting: VecDeque<Send>,
     repeats: Vec<Repeat>,
     text: String,
@@ -40,7 +40,7 @@ pub(crate) struct Outbox {
     pub unsent: u64,
 }
 
-impl Outbox {
+impl SendQueue {
     /// The broker is there or lost. What waits for a lost one is dropped: it would come too late.
     pub fn link(&mut self, up: bool) {
         self.linked = up;
@@ -119,13 +119,13 @@ impl Outbox {
 mod tests {
     use super::*;
 
-    fn payloads(outbox: &mut Outbox) -> Vec<String> {
+    fn payloads(outbox: &mut SendQueue) -> Vec<String> {
         std::iter::from_fn(|| outbox.next()).map(|send| String::from_utf8(send.payload).unwrap()).collect()
     }
 
     #[test]
     fn a_broadcast_is_repeated_as_often_as_asked() {
-        let mut outbox = Outbox::default();
+        let mut outbox = SendQueue::default();
         outbox.link(true);
         outbox.broadcast(Instant::ZERO, Command::Stop, 3, Span(10));
         for us in [5, 10, 15, 20, 30] {
@@ -137,7 +137,7 @@ mod tests {
 
     #[test]
     fn without_a_broker_nothing_waits() {
-        let mut outbox = Outbox::default();
+        let mut outbox = SendQueue::default();
         outbox.send(Topic::Broadcast, &[Command::Uuid]);
         outbox.link(true);
         outbox.broadcast(Instant::ZERO, Command::Stop, 3, Span(10));

@@ -19,13 +19,14 @@ struct StopsShort {
     gain: f64,
 }
 
+/// A larger first estimate sends a robot past its goal; a larger gain follows the noise of its fixes.
 const STOPS_SHORT: StopsShort = StopsShort { first_m: 0.012, most_m: 0.02, rolls_on_m: 0.006, gain: 0.5 };
 
 const _: () = assert!(STOPS_SHORT.first_m <= STOPS_SHORT.most_m && STOPS_SHORT.gain < 1.0);
 
 /// What is known of a robot.
 #[derive(Clone, Debug)]
-pub(crate) struct Robot {
+pub(crate) struct KnownRobot {
     /// Its name.
     pub id: RobotId,
     /// What its last report said.
@@ -57,7 +58,7 @@ pub(crate) struct Standstill {
     at: Option<Vec2>,
 }
 
-impl Robot {
+impl KnownRobot {
     /// A robot that is found now.
     pub fn new(id: RobotId, now: Instant) -> Self {
         Self {

@@ -1,19 +1,19 @@
 //! Robots that stand too close to plan for are moved apart first, each by no more than it takes.
 //!
-//! Two robots that begin a drive close to each other may stay that close all the way: the proof asks no more of a pair
-//! than its start leaves. After a death in a queue whole rows stand rim to rim, and would touch again and again.
+//! Two robots that begin a drive close to each other may stay that close all the way, because the proof asks no more of a
+//! pair than its start leaves. After a death in a queue whole rows stand rim to rim, and would touch again and again.
 
 use std::collections::BTreeMap;
 
 use lightbots_base::Vec2;
 use lightbots_show::Obstacle;
 
-/// Clearance that is made between any two robots, metres: what the planner keeps where there is space (8 mm), and the
-/// error of two position fixes on top. With less the drive that follows is planned tighter than it need be; with more,
+/// Clearance that is made between any two robots, metres: the 8 mm that the planner keeps where there is space, and the
+/// error of two fixes. With less the drive that follows is planned tighter than it need be; with more,
 /// robots are moved in crowds that need it not.
 pub(crate) const CLEARANCE_M: f64 = 0.010;
-/// A robot closer to another than this makes it worth a drive of its own, metres: what the planner keeps at least, 3 mm,
-/// and the errors of two fixes.
+/// Two robots closer than this are worth a drive of their own, metres: the 3 mm that the planner keeps at least, and the
+/// errors of two fixes.
 const TOO_CLOSE_M: f64 = 0.006;
 /// Sweeps over all pairs at most; a row of twenty that stand rim to rim takes a hundred.
 const SWEEPS: usize = 400;
@@ -34,8 +34,8 @@ pub(crate) struct Place<'a> {
 }
 
 impl Place<'_> {
-    /// Places near `robots`, in the same order, that leave [`CLEARANCE_M`] between them; `None` where no robot is too
-    /// close to another, or no such places were found.
+    /// Places near `robots`, in the same order, that leave [`CLEARANCE_M`] between them. `None`: no two robots are too
+    /// close, or no such places were found.
     pub fn separated(&self, robots: &[Vec2]) -> Option<Vec<Vec2>> {
         if !self.has_pair_within(robots, self.contact_m + TOO_CLOSE_M) {
             return None;

@@ -36,8 +36,8 @@ pub struct RunView {
     pub frame: usize,
     /// What it is doing, for people: `planning`, `uploading routes`, `driving`, `holding`, `showing`, …
     pub doing: &'static str,
-    /// Share of the drive or of the air time that is over, 0 to 1; where robots drive by TARGET, of the length of their
-    /// paths.
+    /// Share of the drive or of the air time that is over, 0 to 1. Where robots drive by TARGET it is the share of their
+    /// paths' length.
     pub progress: f64,
     /// How long the drive is planned to take, seconds.
     pub drive_s: f64,
@@ -45,9 +45,9 @@ pub struct RunView {
     pub began: Option<Instant>,
     /// Robots of the run that others wait for, because they make no progress or are silent; at most 8.
     pub waiting_for: Vec<RobotId>,
-    /// Frames reached so far.
+    /// Number of frames reached.
     pub frames_played: usize,
-    /// Robots lost so far.
+    /// Number of dropouts.
     pub dropouts: usize,
 }
 

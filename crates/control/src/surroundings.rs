@@ -15,7 +15,7 @@ const MOST_STEPS: i64 = 30_000;
 const AMPLE_M: f64 = 0.04;
 /// Neighbours farther away than this are not in sight, metres.
 const SIGHT_M: f64 = 0.034;
-/// Among more robots than this everybody is told the least room of all: looking at each would hold the show up.
+/// Among more robots than this, each is told the least clearance of all, because looking at each would take too long.
 const MOST: usize = 1000;
 /// A neighbour out of sight for no longer than this many steps stays the same sighting.
 const PAUSE_STEPS: i64 = 3;
@@ -29,7 +29,7 @@ const KNOT_EVERY: Span = Span::from_millis(60);
 pub(crate) struct Surroundings {
     /// How far its rim stays from those of all others by plan, metres; infinite where that is more than 40 mm.
     pub room_m: f64,
-    /// Which neighbours come into sight; `None` where nobody looked.
+    /// The neighbours that come into sight; `None` where that was not computed.
     pub neighbours: Option<Arc<Neighbours>>,
 }
 
@@ -44,7 +44,7 @@ struct Sighting {
 }
 
 /// `[path]`: what is around each. `standing` are discs that do not move meanwhile, `least_m` what the plan leaves to the
-/// closest two of all; 0: nobody knows.
+/// closest two of all; 0: not known.
 pub(crate) fn surroundings(
     paths: &[(usize, Path)],
     standing: &[Vec2],
@@ -76,7 +76,7 @@ pub(crate) fn surroundings(
     sightings.into_iter().map(of_one).collect()
 }
 
-/// `[path]`: who comes near it, and when.
+/// `[path]`: which robots come near it, and when.
 fn sight(
     paths: &[(usize, Path)],
     standing: &[Vec2],

@@ -26,7 +26,7 @@ const CHECK_EVERY: Span = Span::from_millis(50);
 /// How long robots have that are not ready.
 struct Bounds {
     /// To answer, beyond the silence after which a robot drops out. A robot that knows TARGET only has three times as
-    /// long: it reports only when it is asked, so that a question and its answer must both be delivered.
+    /// long, because a question and its answer must both be delivered.
     answer: Span,
     /// To stop, for a robot that knows TARGET only and does not receive that it should: it drives on to its target.
     stop: Span,
@@ -34,6 +34,7 @@ struct Bounds {
     clock: Span,
 }
 
+/// A shorter time drops robots on a lossy link; a longer one keeps all waiting for a dead robot.
 const BOUNDS: Bounds = Bounds {
     answer: Span::from_millis(1_500),
     stop: Span::from_millis(20_000),

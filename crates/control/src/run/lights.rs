@@ -16,8 +16,9 @@ const FADE_MAX: Span = Span::from_millis(1_000);
 struct Repeats {
     /// Time between two of them. Two copies that are closer are lost by the same burst.
     every: Span,
-    /// Number of them in fleets of up to `few` robots, and in larger ones, whose link is busy with routes.
+    /// Number of them in small fleets, and in larger ones: there the link is busy with routes.
     times: (u32, u32),
+    /// Most robots of a small fleet.
     few: usize,
 }
 

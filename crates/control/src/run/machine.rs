@@ -43,7 +43,7 @@ pub(crate) enum RunPhase {
 pub(crate) struct Run {
     /// What is played.
     pub playback: PlayedShow,
-    /// Who takes part.
+    /// The robots that take part.
     pub roster: Roster,
     /// What is planned, uploaded and driven.
     pub pipeline: Pipeline,

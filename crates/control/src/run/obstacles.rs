@@ -1,6 +1,6 @@
 //! What plans drive around: robots that take no part, places of silent ones, and what robots met in their paths.
 
-use crate::robot::Robot;
+use crate::robot::KnownRobot;
 use crate::run::roster::Whereabouts;
 use crate::run::run_context::RunContext;
 use crate::snapshot::Age;
@@ -9,7 +9,7 @@ use lightbots_base::Vec2;
 /// Two robots cannot stand closer than this share of contact: one of the reports is out of date.
 const SAME_PLACE: f64 = 0.9;
 
-/// How an inferred disc is moved out of robots whose places are known.
+/// How an inferred disc is moved out of robots that reported their places.
 struct Displacement {
     /// Farthest that a disc is moved, metres: inferred places are off by 20 mm.
     most_m: f64,
@@ -19,6 +19,7 @@ struct Displacement {
     sweeps: usize,
 }
 
+/// A disc that is not moved makes the plan infeasible; one that is moved farther hides a dead robot.
 const DISPLACEMENT: Displacement = Displacement { most_m: 0.03, clearance_m: 0.001, sweeps: 10 };
 
 /// Discs that do not move during a drive, stage metres.
@@ -47,7 +48,7 @@ pub(crate) fn standing_discs(cx: &RunContext) -> Discs {
 }
 
 /// Whether a robot takes no part and stands where it reported.
-fn is_obstacle(cx: &RunContext, robot: &Robot) -> bool {
+fn is_obstacle(cx: &RunContext, robot: &KnownRobot) -> bool {
     let known = robot.participant.map(|participant| cx.participant(participant as usize));
     let is_ignored = cx.pipeline.obstacles.ignores_strangers && cx.roster.is_stranger(robot);
     match known {
@@ -57,9 +58,9 @@ fn is_obstacle(cx: &RunContext, robot: &Robot) -> bool {
     }
 }
 
-/// There is no plan to the next frame from where robots stand. Tries without robots that came during the run and take no
-/// part, because any client can claim to be a robot anywhere; or only around the likely places of silent robots; or
-/// around none of them; or else to the frame after it. Whether there is anything left to try.
+/// There is no plan to the next frame from where robots stand: gives up what is driven around, in this order. Robots
+/// that came during the run and take no part, because any client can claim to be a robot. The unlikely places of silent
+/// robots. All inferred places. At last the frame itself. Whether there was anything left to give up.
 pub(crate) fn relax(cx: &mut RunContext) -> bool {
     let participants = &cx.roster.participants;
     let is_any_silent = participants.iter().any(|known| !known.last_seen.possible.is_empty());

@@ -50,8 +50,8 @@ pub(crate) struct Planning {
 pub(crate) struct Obstacles {
     /// Where robots met something that no robot of the fleet explains; stage metres.
     pub found: Vec<Vec2>,
-    /// There was no path with robots that came during the run and take no part: they are not driven around until the
-    /// next frame is reached.
+    /// Robots that came during the run and take no part are not driven around until the next frame is reached, because
+    /// there was no path with them.
     pub ignores_strangers: bool,
 }
 
@@ -202,9 +202,8 @@ impl Pipeline {
     }
 }
 
-/// What it means that a robot does not acknowledge. Where it is one of many, all of which report, or where the broker
-/// came back only now, messages to it may not be delivered, and dropping the robot would be wrong. That has the bound
-/// that a broker has that is gone.
+/// What it means that a robot does not acknowledge. Messages may not be delivered: no robot acknowledges though all
+/// report, or the broker came back only now. Then the robot is kept, for as long as a run outlives its broker.
 fn judge(
     context: &mut Context,
     roster: &Roster,

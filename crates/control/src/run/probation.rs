@@ -2,7 +2,7 @@
 //! if it left its place, and it would stand in their way once more.
 //!
 //! The robot is sent a route that is never started. While it waits for the START it turns on the spot towards the begin
-//! of the route, which needs no room, whatever the others do meanwhile.
+//! of the route. That needs no room, whatever other robots do meanwhile.
 
 use crate::run::membership::Probation;
 use crate::run::run_context::RunContext;
@@ -15,7 +15,7 @@ struct Test {
     turn: f64,
     /// Having turned by this, radians, it can drive: more than its heading is off.
     turned: f64,
-    /// How long one try may take: a turn by 1.2 takes 0.6 s.
+    /// How long one try may take: several times as long as the turn.
     bound: Span,
     /// Number of tries, because all may be stopped meanwhile; then the robot stays excluded.
     tries: u8,
@@ -24,6 +24,7 @@ struct Test {
     route: Span,
 }
 
+/// A smaller turn could be an error of the heading; more tries would keep the next frame waiting.
 const TEST: Test = Test {
     turn: 1.2,
     turned: 0.6,

@@ -6,8 +6,8 @@ use crate::snapshot::Age;
 use lightbots_base::{Instant, Span};
 use lightbots_wire::RobotState;
 
-/// A robot that knows TARGET only stands if it reported the same place for this long: it may turn on the spot before it
-/// drives, for up to 1 s.
+/// A robot that knows TARGET only stands if it reported the same place for this long. A shorter time may be a turn on the
+/// spot before it drives.
 const STILL: Span = Span::from_millis(1_200);
 
 /// What a robot of the fleet lacks to be planned for; `None`: nothing. Reports from before `fresh_from` do not count.

@@ -6,14 +6,14 @@ use lightbots_base::{Instant, RobotId, Span};
 
 use crate::event::Trouble;
 
-/// Replans for each robot that dropped out. Two do where a dead robot was run into and stands beside its path; a robot
-/// that is still in the way after three is not where others see it.
+/// Replans for each robot that dropped out. Two are enough where a dead robot was pushed beside its path. A robot that
+/// still obstructs others after three is not where others see it.
 const REPLANS: usize = 3;
-/// Recovery may take this long even in a show that is shorter: a robot that falls silent, a drive that is broken off and
-/// one around it, that may be long and slow, take 10 s.
+/// Recovery may take this long even in a show that is shorter. A robot that falls silent, a drive that is broken off and
+/// a slow one around it take 10 s.
 const LEAST: Span = Span::from_millis(10_000);
 
-/// Replans and time that robots that dropped out have cost so far.
+/// Replans and time that dropouts have cost until now.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct RecoveryBound {
     /// Robots that dropped out, and the last one of them.

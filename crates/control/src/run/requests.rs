@@ -10,7 +10,7 @@ use crate::run::run_context::RunContext;
 use lightbots_base::Span;
 use std::ops::ControlFlow;
 
-/// Most routes that one request plans: a frame of 10,000 robots has 10,000. More would keep a change of the show waiting.
+/// Most routes that one request plans, so that it ends in bounded time: 40 frames of 10,000 robots.
 const ROUTES_A_REQUEST: usize = 400_000;
 /// While fewer frames than this are planned ahead, more are planned.
 const FRAMES_AHEAD: usize = 3;

@@ -1,7 +1,7 @@
-//! Who takes part in a run, and what is known of each robot from drive to drive.
+//! The robots that take part in a run, and what is known of each from drive to drive.
 
 use crate::context::Context;
-use crate::robot::Robot;
+use crate::robot::KnownRobot;
 use crate::run::membership::{Membership, Probation};
 use lightbots_base::{Instant, Vec2};
 
@@ -29,10 +29,10 @@ pub(crate) struct Participant {
     pub replans: u8,
 }
 
-/// Everybody who takes part in a run: participants are numbered in the order in which they joined.
+/// All robots that take part in a run. Participants are numbered in the order in which they joined.
 #[derive(Clone, Debug)]
 pub(crate) struct Roster {
-    /// All who take part or took part; they are never removed, so that their numbers stay valid.
+    /// All that take part or took part; they are never removed, so that their numbers stay valid.
     pub participants: Vec<Participant>,
     /// Robots (indices into the fleet) that want to take part from the next frame on.
     pub candidates: Vec<usize>,
@@ -88,7 +88,7 @@ impl Roster {
     }
 
     /// The robot of a participant.
-    pub fn robot<'a>(&self, context: &'a Context, participant: usize) -> &'a Robot {
+    pub fn robot<'a>(&self, context: &'a Context, participant: usize) -> &'a KnownRobot {
         context.fleet.robot(self.participants[participant].robot)
     }
 
@@ -98,7 +98,7 @@ impl Roster {
     }
 
     /// Whether a robot takes no part and was found after the run began.
-    pub fn is_stranger(&self, robot: &Robot) -> bool {
+    pub fn is_stranger(&self, robot: &KnownRobot) -> bool {
         robot.participant.is_none() && robot.contact.found > self.begun
     }
 

@@ -3,7 +3,7 @@
 use crate::context::Context;
 use crate::event::{EventKind, Trouble};
 use crate::leg::LegKind;
-use crate::robot::Robot;
+use crate::robot::KnownRobot;
 use crate::run::link::LinkEstimate;
 use crate::run::next::Next;
 use crate::run::pipeline::Pipeline;
@@ -32,7 +32,7 @@ impl RunContext<'_> {
     }
 
     /// What the fleet knows of a participant.
-    pub fn robot(&self, participant: usize) -> &Robot {
+    pub fn robot(&self, participant: usize) -> &KnownRobot {
         self.roster.robot(self.io, participant)
     }
 

@@ -1,7 +1,7 @@
 //! Where a robot may stand that fell silent on its way.
 //!
-//! It may have died, or the controller does not receive its reports and it holds with the others, or its link broke and
-//! it drives on along its path until it stops by itself.
+//! The robot may have died. Or its reports are lost, and it holds with the others. Or its link broke, and it drives on
+//! along its path until it stops by itself.
 
 use crate::leg::Leg;
 use crate::run::path_clock::PathClock;
@@ -37,8 +37,8 @@ const PATH_STEP: Span = Span::from_millis(50);
 const STEPS_UNTIL_STOP: i64 = 2;
 /// Distance between two places of a straight drive, metres.
 const STRAIGHT_STEP_M: f64 = 0.03;
-/// Places nearer to each other than this are one, metres: a disc that is left out must not stick out of those that are
-/// kept, because other robots pass them as near as the planner allows.
+/// Places nearer to each other than this are one, metres. A disc that is left out must not stick out of those that are
+/// kept, because other robots pass these as near as the planner allows.
 const SAME_PLACE_M: f64 = 0.002;
 
 /// A drive that was stopped.
@@ -50,9 +50,9 @@ pub(crate) struct StopTimes {
     pub stood: Instant,
 }
 
-/// Where a robot may stand that was heard last at `heard`. Likely are the places along its path from there, as it died,
-/// and where its path was as all stopped, as only its reports are lost. Possible is also where it gives its route up by
-/// itself, as it does not receive either.
+/// Where a robot may stand that was heard last at `heard`. Likely are places along its path from there, if it died, and
+/// where its path was when all stopped, if only its reports are lost. Possible is also where it gives its route up by
+/// itself, if it receives nothing either.
 pub(crate) fn whereabouts(
     (leg, targets): (&Leg, &TargetProgress),
     clock: &PathClock,

@@ -11,7 +11,7 @@ use crate::run::run_context::RunContext;
 use lightbots_base::{Instant, Span, Vec2};
 use lightbots_wire::{Details, RobotState};
 
-/// START is stated this much earlier than it must be: the shell wakes the controller up to 16 ms late.
+/// START is stated this much earlier than it must be, because the shell may wake the controller late.
 const EARLY: Span = Span::from_millis(20);
 /// How often the phase is looked at while nothing is due.
 const CHECK_EVERY: Span = Span::from_millis(1_000);

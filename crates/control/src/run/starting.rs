@@ -106,8 +106,8 @@ impl Starting {
         if self.began_alone(cx, participant, details) { replan_with(cx, participant) } else { Next::Stay }
     }
 
-    /// Whether a robot has begun at a moment that was postponed, and may have ended its route since: it did not receive
-    /// the later moment in time. Where its route leads nowhere that makes no difference.
+    /// Whether a robot has begun at a moment that was postponed, because it did not receive the later moment in time.
+    /// It may have ended its route since. A route that leads nowhere does not count.
     fn began_alone(&self, cx: &RunContext, participant: usize, details: &Details) -> bool {
         let elsewhen = match details.state {
             RobotState::Driving | RobotState::Held => details.starts != Some(self.at),
@@ -150,9 +150,9 @@ impl Starting {
         Next::Stay
     }
 
-    /// Participants that did not confirm the stated moment. A robot whose route leads nowhere has confirmed as soon as it
-    /// reports that it has begun or ended it: its clock was ahead of a moment that was postponed, and no later START
-    /// changes anything for it.
+    /// Participants that did not confirm the stated moment. A robot whose route leads nowhere may have begun it, as its
+    /// clock was ahead of a moment that was postponed. No later START changes that (R33): its report is the
+    /// confirmation.
     fn unconfirmed(&self, cx: &RunContext) -> Vec<usize> {
         let Some(leg) = cx.pipeline.queue.front() else { return Vec::new() };
         let owes = |&participant: &usize| {

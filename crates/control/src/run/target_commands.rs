@@ -1,5 +1,5 @@
-//! Commands to robots that know TARGET only: each is told how far it may go, farther and farther as the robots that it
-//! yields to make progress.
+//! Commands to robots that know TARGET only. Each is told how far it may go, and farther as the robots that it yields to
+//! make progress.
 
 use crate::run::pipeline::{DrivenLeg, Pipeline};
 use crate::run::run_context::RunContext;
@@ -22,7 +22,7 @@ struct Stopping {
     reaction: Span,
 }
 
-/// Measured on robots with the original firmware.
+/// A lower speed or a shorter reaction would send a robot back to a place that it has passed.
 const STOPPING: Stopping = Stopping { speed_mps: 0.3, reaction: Span::from_millis(150) };
 
 /// Tells a robot to go farther on a straight drive, if it may by now.

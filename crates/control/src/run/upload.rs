@@ -6,7 +6,7 @@
 use lightbots_base::{Instant, Span};
 use std::collections::VecDeque;
 
-/// One message for each participant, and who acknowledged it.
+/// One message for each participant, and which of them acknowledged it.
 #[derive(Clone, Debug)]
 pub(crate) struct Upload {
     /// What is uploaded: number of the routes, or 0.
@@ -151,8 +151,8 @@ impl Upload {
         }
     }
 
-    /// The slowest round trip: where most messages were sent again, the link is slow rather than lossy (Karn's rule
-    /// counts only messages that were sent once, but then a slow link would never be measured).
+    /// The slowest round trip. Karn's rule counts only messages that were sent once. Where most were sent again the
+    /// link is slow rather than lossy, and those count: otherwise a slow link would never be measured.
     pub fn slowest(&self) -> Span {
         if self.again.count > self.once.count { self.again.slowest } else { self.once.slowest }
     }

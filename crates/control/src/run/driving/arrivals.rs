@@ -10,8 +10,7 @@ use lightbots_wire::RobotState;
 
 /// An arrival that is reported within this of the planned end is in time: the frame stands since the planned end.
 const IN_TIME: Span = Span::from_millis(250);
-/// A robot that stands farther from its goal than this has missed it, metres: a robot's diameter is 54 mm, so that it
-/// would stand in another's place.
+/// A robot that stands farther from its goal than this has missed it, metres: more than a robot's diameter of 54 mm.
 pub(crate) const MISSED_M: f64 = 0.06;
 
 impl Driving {

@@ -27,6 +27,7 @@ struct Uncertainty {
     step: Span,
 }
 
+/// Smaller bounds hold the fleet for noise; larger ones let robots touch whose fixes stay away.
 const UNCERTAINTY: Uncertainty = Uncertainty {
     sure_m: 0.004,
     unsure_m: 0.010,
@@ -47,6 +48,7 @@ struct Patience {
     shortest: Span,
 }
 
+/// Half as long in fleets of 80 robots, a fifth from 200 on.
 const PATIENCE: Patience =
     Patience { longest: Span::from_millis(3_500), robots: 40.0, shortest: Span::from_millis(700) };
 
@@ -91,8 +93,8 @@ impl Driving {
         })
     }
 
-    /// Where a robot is unsure all the time, waiting until all are sure would never end: after a while all go on, and
-    /// hold again for robots that still are. The more robots, the sooner.
+    /// All go on after a while though robots are unsure, and hold again for those that still are. The more robots, the
+    /// sooner: in a large fleet some robot is unsure all the time, and waiting would never end.
     pub fn lose_patience(&mut self, cx: &mut RunContext) {
         let share = PATIENCE.robots / (cx.roster.len().max(1) as f64);
         let longest_s = PATIENCE.longest.as_secs();

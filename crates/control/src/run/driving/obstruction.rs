@@ -115,8 +115,8 @@ impl Driving {
         Next::Regather
     }
 
-    /// A late robot where an obstructed one sees something, that was late before it was obstructed: a robot that stands
-    /// sees those coming that drive on. A robot that waits for its fixes is no culprit.
+    /// The late robot that an obstructed one sees. It was late before it reported an obstacle itself, because a robot
+    /// that stands sees others come near. A robot that waits for its fixes is no culprit.
     fn late_robot_seen_by(&self, cx: &RunContext, participant: usize) -> Option<usize> {
         let there = seen_by(cx.robot(participant), cx.playback.contact_m())?;
         let is_there = |one: usize| cx.robot(one).reported.at.is_some_and(|at| at.distance(there) < SAME_M);
@@ -148,7 +148,7 @@ impl Driving {
         }
     }
 
-    /// What obstructed robots see that is no robot whose place is known.
+    /// What obstructed robots see, without robots that reported their places.
     fn sightings(&self, cx: &RunContext) -> Vec<Sighting> {
         let contact_m = cx.playback.contact_m();
         let known: Vec<Vec2> = cx.roster.active().filter_map(|(one, _)| cx.robot(one).reported.at).collect();

@@ -1,6 +1,6 @@
 //! Where robots stand that other robots see in their path.
 
-use crate::robot::Robot;
+use crate::robot::KnownRobot;
 use lightbots_base::{Vec2, wrap};
 
 /// A place this near to where a robot sees something may be what it sees, metres.
@@ -23,11 +23,12 @@ struct Sigma {
     pushed_m: f64,
 }
 
+/// 1 sigma each.
 const SIGMA: Sigma = Sigma { range_m: 0.002, bearing_m: 0.018, path_m: 0.002, pushed_m: 0.008 };
 
 /// Largest distance by which robots push a dead one off its path, metres: 40 mm were measured in a fleet of 200.
 const PUSHED_M: f64 = 0.1;
-/// Largest difference in range at which a robot whose place is known explains a sighting, metres: 4 sigma.
+/// Largest difference in range at which a robot that reported its place explains a sighting, metres: 4 sigma.
 const KNOWN_RANGE_M: f64 = 0.008;
 /// Largest difference in bearing at which it does, radians: half the angle between two sensors.
 const KNOWN_BEARING: f64 = 0.4;
@@ -39,7 +40,7 @@ const SEARCH_STEPS: i32 = 25;
 const GAP_MIN_M: f64 = 0.0015;
 
 /// Where the centre is of what a robot sees in its path, if that is a robot; stage metres.
-pub(crate) fn seen_by(robot: &Robot, contact_m: f64) -> Option<Vec2> {
+pub(crate) fn seen_by(robot: &KnownRobot, contact_m: f64) -> Option<Vec2> {
     let (at, blocked) = (robot.reported.at?, robot.reported.blocked?);
     Some(at + Vec2::unit(blocked.towards) * (contact_m + blocked.gap_m.max(GAP_MIN_M)))
 }

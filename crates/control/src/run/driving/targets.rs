@@ -12,8 +12,9 @@ use lightbots_wire::Command;
 
 /// Least progress by which a robot counts as moving, metres: below it is the noise of its fixes.
 const MOVED_M: f64 = 0.005;
-/// How often such robots are asked where they are while others wait for them, and how much less often for each robot.
+/// Such a robot is asked this often where it is while others wait for it.
 const ASK_AWAITED: Span = Span::from_millis(90);
+/// Added to that for each robot, because their answers share one link.
 const ASK_PER_ROBOT: Span = Span::from_millis(1);
 /// A robot that arrived farther from its goal than this is told again, metres: it stopped where it was told before, or
 /// earlier than known. The planner leaves room for a little more than this.
@@ -35,6 +36,7 @@ struct Standstill {
     dropped_after_bounds: i64,
 }
 
+/// Shorter times repeat targets to robots that are only slow; longer ones keep all waiting.
 const STANDSTILL: Standstill = Standstill {
     told_again_after: Span::from_millis(250),
     accepted_after: Span::from_millis(1_000),
@@ -43,8 +45,8 @@ const STANDSTILL: Standstill = Standstill {
     dropped_after_bounds: 2,
 };
 
-/// A robot that knows TARGET only drops out when it is silent for this many times the bound for others: it reports only
-/// when it is asked, so that a question and its answer must both be delivered.
+/// A robot that knows TARGET only drops out when it is silent for this many times the bound for others. It reports only
+/// when it is asked: a question and its answer must both be delivered.
 const SILENCE_BOUNDS: i64 = 4;
 
 impl Driving {

@@ -11,8 +11,8 @@ use crate::run::silence::LINK_LOSS;
 use lightbots_base::{Instant, Span};
 use lightbots_wire::{Command, RobotState, Route};
 
-/// Number of robots that are watched in one turn; an eighth of all more. A silent robot is asked each time: with one
-/// message in ten lost, robots that were asked four times before they dropped out did so in one of ten runs of 200.
+/// Number of robots that are watched in one turn; an eighth of all more. A silent robot is asked each turn. With one
+/// message in ten lost, asking four times let live robots drop out in one of ten runs of 200.
 const SLICE: usize = 512;
 
 /// Silence of a driving robot; link times come on top.
@@ -25,6 +25,7 @@ struct Silence {
     held_after: Span,
 }
 
+/// An earlier hold would stop the fleet for two lost reports; a later one lets it run into a dead robot.
 const SILENCE: Silence = Silence {
     asked_after: Span::from_millis(560),
     asked_every: Span::from_millis(90),
