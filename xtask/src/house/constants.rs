@@ -48,7 +48,7 @@ impl Found {
             doc: doc(attributes),
             numeric: !["str", "char", "bool"].iter().any(|text| kind.contains(text))
                 && holds_number(value.to_token_stream()),
-            derived: words(&value.to_token_stream().to_string()).any(is_constant_name),
+            derived: words(&value.to_token_stream().to_string()).any(is_capital),
         });
     }
 }
@@ -88,7 +88,7 @@ fn doc(attributes: &[Attribute]) -> String {
 }
 
 /// Phrases that name a source: a paper, an equation, a data sheet, a standard, a measurement or a tuning run.
-const SOURCES: [&str; 21] = [
+const SOURCES: [&str; 22] = [
     " et al",
     "equation",
     " eq. ",
@@ -101,6 +101,7 @@ const SOURCES: [&str; 21] = [
     "ieee",
     "mqtt 3",
     "data sheet",
+    "reference manual",
     "datasheet",
     "measured",
     "measurement",
@@ -114,7 +115,7 @@ const SOURCES: [&str; 21] = [
 
 /// Whether a doc names a paper, data sheet, measurement, tuning, rule of the protocol, page, or other constants.
 fn names_source(doc: &str) -> bool {
-    let lower = doc.to_lowercase();
+    let lower = doc.to_lowercase().replace("not measured", "").replace("no measurement", "");
     SOURCES.iter().any(|phrase| lower.contains(phrase))
         || words(doc).any(|word| is_rule(word) || is_constant_name(word) || is_year(word))
 }
@@ -123,13 +124,17 @@ fn words(text: &str) -> impl Iterator<Item = &str> {
     text.split(|letter: char| !letter.is_alphanumeric() && letter != '_')
 }
 
-/// A name such as `GAP_M`: at least three letters, all upper-case, and an underscore unless it is long.
+/// A name such as `GAP_M` in a doc: upper-case, with an underscore or at least five letters, and no word of the protocol.
 fn is_constant_name(word: &str) -> bool {
-    let capital = |letter: char| letter.is_ascii_uppercase() || letter.is_ascii_digit() || letter == '_';
-    word.starts_with(|first: char| first.is_ascii_uppercase())
-        && word.chars().all(capital)
+    is_capital(word)
         && (word.contains('_') || word.len() > 4)
         && !["PROTO", "MQTT", "TARGET", "COLOR", "START", "RESUME", "STATUS", "BLINK"].contains(&word)
+}
+
+/// At least two upper-case letters, digits and underscores: the name of a constant, in code.
+fn is_capital(word: &str) -> bool {
+    let capital = |letter: char| letter.is_ascii_uppercase() || letter.is_ascii_digit() || letter == '_';
+    word.len() > 1 && word.starts_with(|first: char| first.is_ascii_uppercase()) && word.chars().all(capital)
 }
 
 /// A rule of docs/protocol.md, such as `R49`.
@@ -158,6 +163,7 @@ mod tests {
                 .has_source()
         );
         assert!(one("/// Metres, measured on 2026-11-20.\nconst A_M: f64 = 1.0;").has_source());
+        assert!(!one("/// Metres. A choice, not measured.\nconst A_M: f64 = 1.0;").has_source());
         assert!(one("/// Seconds of silence (R43).\nconst A_S: f64 = 2.0;").has_source());
         assert!(one("/// Half of `STEP_US`.\nconst A_US: u64 = 8;").has_source());
         assert!(one("const A_US: u64 = STEP_US / 2;").has_source());
