@@ -4,17 +4,13 @@ use crate::house::names::doubled;
 use crate::house::tree::Source;
 
 /// Names that may stand in more than one place, and in how many at most.
-const EXCEPTIONS: [(&str, usize); 33] = [
+const EXCEPTIONS: [(&str, usize); 25] = [
     ("Abilities", 2),
     ("Broker", 2),
     ("Choice", 2),
-    ("Clock", 2),
     ("Command", 2),
     ("Config", 2),
     ("Connections", 2),
-    ("Cursor", 2),
-    ("Desk", 2),
-    ("Drive", 3),
     ("Fleet", 3),
     ("Issue", 2),
     ("Log", 3),
@@ -24,11 +20,7 @@ const EXCEPTIONS: [(&str, usize); 33] = [
     ("Outbox", 2),
     ("Outcome", 2),
     ("Path", 2),
-    ("Phase", 2),
-    ("Place", 2),
     ("Progress", 2),
-    ("Purpose", 2),
-    ("Request", 2),
     ("Robot", 2),
     ("Sensors", 2),
     ("Severity", 2),
