@@ -1,4 +1,4 @@
-//! Brokers that are slow to hear: because they speak meanwhile, as ours does, or because there is much to hear.
+//! Brokers that read slowly, because they write meanwhile or because there is much to read.
 
 use std::io::{Read, Write};
 use std::net::{TcpListener, TcpStream};
@@ -9,7 +9,7 @@ use lightbots_link::{BrokerUrl, Link, LinkConfig, LinkEvent};
 const MESSAGES: usize = 6000;
 const PAYLOAD: usize = 2048;
 
-/// Lets a client in, says a great deal, and only then hears what the client says.
+/// Accepts a client, writes many messages, and only then reads.
 fn serve(listener: &TcpListener) {
     let (mut stream, _) = listener.accept().unwrap();
     let mut bytes = [0; 512];
@@ -73,7 +73,7 @@ async fn a_flood_in_both_directions_breaks_no_connection() {
     broker.join().unwrap();
 }
 
-/// Messages in a farewell: more than a socket takes at once.
+/// Messages before a disconnect: more than a socket takes at once.
 const LAST_WORDS: usize = 6000;
 
 #[tokio::test]

@@ -1,11 +1,11 @@
-//! Brokers that let us in and are of no use all the same.
+//! Brokers that accept the login but cannot be used.
 
 use std::io::{Read, Write};
 use std::net::{TcpListener, TcpStream};
 
 use lightbots_link::{BrokerUrl, Link, LinkConfig, LinkEvent};
 
-/// Just enough of a broker: it accepts every login, and answers a subscription of two filters with these codes.
+/// A minimal broker: accepts every login, and answers a subscription of two filters with these codes.
 fn serve(listener: &TcpListener, granted: [u8; 2]) {
     while let Ok((mut stream, _)) = listener.accept() {
         let mut bytes = [0; 512];
@@ -18,7 +18,7 @@ fn serve(listener: &TcpListener, granted: [u8; 2]) {
     }
 }
 
-/// A link for two filters to brokers that answer them so, and the brokers' addresses.
+/// A link with two filters to brokers with these answers, and the brokers' addresses.
 fn open(granted: [u8; 2], brokers: usize) -> (Link, Vec<String>) {
     let listeners: Vec<_> = (0..brokers).map(|_| TcpListener::bind("127.0.0.1:0").unwrap()).collect();
     let ports: Vec<u16> = listeners.iter().map(|listener| listener.local_addr().unwrap().port()).collect();
@@ -49,7 +49,7 @@ async fn a_connection_of_no_use_is_left_for_the_next_address() {
     link.close().await;
 }
 
-/// Lets a client in and answers its subscription.
+/// Accepts a client and answers its subscription.
 fn let_in(listener: &TcpListener) -> TcpStream {
     let (mut stream, _) = listener.accept().unwrap();
     let mut bytes = [0; 512];
@@ -59,7 +59,7 @@ fn let_in(listener: &TcpListener) -> TcpStream {
     stream
 }
 
-/// Whether it is a subscription that comes next.
+/// Whether the next packet is a subscription.
 fn answer_subscription(stream: &mut TcpStream) -> bool {
     let mut bytes = [0; 512];
     let subscribes = matches!(stream.read(&mut bytes), Ok(1..)) && bytes[0] == 0x82;

@@ -9,15 +9,15 @@ use lightbots_sim::{Conditions, Fleet, FleetConfig};
 
 use crate::flaws::Flaw;
 
-/// The exam's clock is not the robots'.
+/// Difference between the exam's clock and the robots' clocks.
 const EXAM_AHEAD: Span = Span::from_millis(7_000_000);
-/// No exam takes longer.
+/// End of the longest exam.
 const LONGEST: Instant = Instant(900_000_000);
 
-/// A message on its way: topic, payload.
+/// A message: topic and payload.
 pub type Message = (String, Vec<u8>);
 
-/// What came out.
+/// Result of an exam.
 pub struct Outcome {
     pub ending: Option<Ending>,
     pub findings: Vec<Finding>,
@@ -30,16 +30,16 @@ pub struct Bench {
     exam: Exam,
     flaw: Box<dyn Flaw>,
     now: Instant,
-    /// When, in which order, whether to the robots, and what.
+    /// Messages under way, by arrival and order; `true`: to the robots.
     wires: BTreeMap<(Instant, u64), (bool, Message)>,
     said: u64,
     dice: u64,
-    /// What the first robot's light showed from when on.
+    /// Colours of the first robot's light, with the moment of each change.
     shown: Vec<(Instant, Rgb)>,
 }
 
 impl Bench {
-    /// One robot in the middle of the front edge; with more, others beside it.
+    /// One robot in the middle of the front edge; further robots beside it.
     pub fn new(robots: usize, flaw: impl Flaw + 'static, options: Options) -> Self {
         let starts = (0..robots).map(|index| Vec2::new(0.1 * index as f64, 1.3)).collect();
         let config =
@@ -62,7 +62,7 @@ impl Bench {
         self.fleet.ids()
     }
 
-    /// Robots drive at most so fast.
+    /// Limits the robots' speed.
     pub fn at_speed(mut self, speed_mps: f64) -> Self {
         let mut stage = Stage::default();
         stage.limits.speed_mps = speed_mps;
@@ -71,7 +71,7 @@ impl Bench {
         self
     }
 
-    /// Plays it to the end.
+    /// Runs the exam to its end.
     pub fn run(mut self) -> Outcome {
         self.fleet.link(Instant::ZERO, true);
         self.exam.connected(Instant::ZERO + EXAM_AHEAD);
@@ -189,7 +189,7 @@ impl Outcome {
             .collect()
     }
 
-    /// Fails with everything that was found unless exactly these rules are broken.
+    /// Fails, with all findings, unless exactly these rules are broken.
     pub fn assert_broken(&self, rules: &[u8]) {
         if self.with(RuleVerdict::Breaks) != rules {
             let wrong = self

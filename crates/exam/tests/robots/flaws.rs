@@ -1,29 +1,30 @@
-//! What can be wrong with a robot: between its core and the network.
+//! Faulty robots: changes to messages between the robot core and the network.
 
 use lightbots_base::Instant;
 
 use crate::bench::Message;
 
-/// What a robot makes of what it hears and says.
+/// A change to received and sent messages.
 pub trait Flaw {
-    /// A message comes in at a moment of the exam's clock: what the core hears instead, and what is said at once.
+    /// A received message, at `now` of the exam's clock: returns what the core receives instead. `says` takes messages that
+    /// are sent at once.
     fn hear(&mut self, now: Instant, message: Message, says: &mut Vec<Message>) -> Vec<Message> {
         let _ = (now, says);
         vec![message]
     }
 
-    /// The core says something: what goes out instead.
+    /// A message from the core: returns what is sent instead.
     fn say(&mut self, message: Message) -> Vec<Message> {
         vec![message]
     }
 }
 
-/// Nothing is wrong.
+/// A robot without a fault.
 pub struct Right;
 
 impl Flaw for Right {}
 
-/// A robot that speaks only the original protocol.
+/// A robot that knows only the original protocol.
 pub struct Original;
 
 impl Flaw for Original {
@@ -43,7 +44,7 @@ impl Flaw for Original {
     }
 }
 
-/// Changes what it hears.
+/// Changes received messages.
 pub struct Hears<F>(pub F);
 
 impl<F: FnMut(Instant, Message, &mut Vec<Message>) -> Vec<Message>> Flaw for Hears<F> {
@@ -52,7 +53,7 @@ impl<F: FnMut(Instant, Message, &mut Vec<Message>) -> Vec<Message>> Flaw for Hea
     }
 }
 
-/// Changes what it says.
+/// Changes sent messages.
 pub struct Says<F>(pub F);
 
 impl<F: FnMut(Message) -> Vec<Message>> Flaw for Says<F> {
@@ -61,7 +62,7 @@ impl<F: FnMut(Message) -> Vec<Message>> Flaw for Says<F> {
     }
 }
 
-/// Changes both.
+/// Changes received and sent messages.
 pub struct Both<F, G>(pub F, pub G);
 
 impl<F: FnMut(Message) -> Vec<Message>, G: FnMut(Message) -> Vec<Message>> Flaw for Both<F, G> {
@@ -84,7 +85,7 @@ pub fn on(message: &Message, name: &str) -> bool {
     message.0 == format!("T/LightBot/{name}")
 }
 
-/// Rewrites each command of a payload, given its word and its text; nothing: it is left out.
+/// Rewrites each command of a payload by its word and its text; an empty text deletes it.
 pub fn edit(message: Message, mut change: impl FnMut(&str, &str) -> String) -> Message {
     let Ok(text) = String::from_utf8(message.1.clone()) else { return message };
     if text.len() > 16 * 1024 {
@@ -100,7 +101,7 @@ pub fn edit(message: Message, mut change: impl FnMut(&str, &str) -> String) -> M
     (message.0, edited.into_bytes())
 }
 
-/// A robot that never hears commands of this kind.
+/// A robot that never receives commands with this word.
 pub fn deaf_to(word: &'static str) -> impl Flaw {
     Hears(move |_, message: Message, _: &mut Vec<Message>| {
         vec![edit(message, |found, command| if found == word { String::new() } else { command.to_owned() })]

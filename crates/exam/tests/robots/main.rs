@@ -1,5 +1,5 @@
-//! Right and wrong robots under examination, in virtual time: our own core on simulated wheels behind a network that is
-//! 5 to 20 ms late, with something in between that makes it wrong.
+//! Exams of correct and faulty robots in virtual time. Each robot is our own core on simulated wheels, behind a network with
+//! delays of 5 to 20 ms. A flaw between core and network makes it faulty.
 
 // What was found is shown when a test fails.
 #![allow(clippy::print_stderr)]

@@ -1,4 +1,4 @@
-//! Robots that keep the protocol, or what they know of it.
+//! Robots that keep the rules of the protocol that they know.
 
 use lightbots_exam::{Ending, Options, RuleVerdict};
 

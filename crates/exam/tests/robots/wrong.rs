@@ -1,4 +1,4 @@
-//! Each wrong robot breaks the rule that names what is wrong with it, and no other.
+//! Each faulty robot breaks exactly the rule that its fault concerns.
 
 use lightbots_base::Instant;
 use lightbots_exam::Options;
@@ -10,7 +10,7 @@ fn examined(flaw: impl Flaw + 'static) -> Outcome {
     Bench::new(1, flaw, Options::default()).run()
 }
 
-/// A robot that hears this instead of each command.
+/// A robot that receives the result of `change` instead of each command.
 fn hears(mut change: impl FnMut(&str, &str) -> String + 'static) -> impl Flaw {
     Hears(move |_, message: Message, _: &mut Vec<Message>| vec![edit(message, &mut change)])
 }

@@ -47,8 +47,8 @@ pub struct Floor {
 }
 
 impl Floor {
-    /// Listens at `address` and begins once so many processes have come; robot `LightBot n` stands at start n−1. Where
-    /// there are more starts, a robot without power stands there.
+    /// Listens at `address` and begins when `count` processes are connected. Robot `LightBot n` stands at start n−1. On
+    /// further starts stand robots without power.
     pub fn open(
         address: &Path,
         stage: &Stage,

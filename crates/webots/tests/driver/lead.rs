@@ -8,7 +8,7 @@ use lightbots_wire::{Command, Pieces, Report, Route, TimeAnswer, TimeQuestion, T
 
 /// What its route leaves a robot to others, metres.
 pub const ROOM_M: f64 = 0.04;
-/// Nobody waits so long unless something is broken.
+/// Longest wait of a test; reached only on failure.
 const PATIENCE: Duration = Duration::from_secs(60);
 
 /// Sends a robot that faces the way straight there; back with the report in which it says that something stands there.

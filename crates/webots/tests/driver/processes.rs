@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
-/// Long enough for a busy machine; nobody waits for it unless something is broken.
+/// Longest wait of a test on a busy machine; reached only on failure.
 pub const PATIENCE: Duration = Duration::from_secs(60);
 
 /// A process that does not outlive its test.

@@ -11,7 +11,7 @@ use lightbots_wire::{Command, Report, Route, TimeAnswer, Topic, commands};
 
 /// Messages that may wait; a show of thirty robots has a few hundred a second.
 const QUEUE: usize = 1 << 16;
-/// Nobody waits so long unless something is broken.
+/// Longest wait of a test; reached only on failure.
 const PATIENCE: std::time::Duration = std::time::Duration::from_secs(60);
 
 /// A listener on a broker.

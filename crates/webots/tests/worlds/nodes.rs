@@ -7,9 +7,9 @@ use crate::vrml::{Node, Value};
 /// What a field holds.
 #[derive(Clone, Copy, Debug)]
 pub enum Holds {
-    /// So many numbers.
+    /// This many numbers.
     Numbers(usize),
-    /// Numbers in groups of so many, any count of groups.
+    /// Any number of groups with this many numbers each.
     Lists(usize),
     Text,
     Texts,
