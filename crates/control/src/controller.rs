@@ -4,8 +4,8 @@ use crate::clock;
 use crate::config::Config;
 use crate::context::Context;
 use crate::drafting::{PlanRequest, PlanResult};
-use crate::event::{Event, EventKind, Outcome};
-use crate::operation::State;
+use crate::event::{Event, EventKind, RunOutcome};
+use crate::operation::ControllerState;
 use crate::outbox::Send;
 use crate::run::{Run, RunPhase};
 use crate::snapshot::{Age, Counters, RobotView, Snapshot};
@@ -42,7 +42,7 @@ pub struct Controller {
     pub(crate) stopping: Option<Stopping>,
     /// Where and why the last run failed, for people; until the operator dismisses it or begins another run.
     pub(crate) failure: Option<String>,
-    said: State,
+    said: ControllerState,
     patrol_at: Instant,
     ask_all_at: Instant,
     woken: Instant,
@@ -73,7 +73,7 @@ impl Controller {
             run: None,
             stopping: None,
             failure: None,
-            said: State::Idle,
+            said: ControllerState::Idle,
             patrol_at: Instant::ZERO,
             ask_all_at: Instant::ZERO,
             woken: Instant::ZERO,
@@ -216,15 +216,15 @@ impl Controller {
     }
 
     /// Ends a run that is over at a frame.
-    fn end(&mut self, now: Instant, outcome: Outcome, frame: usize) {
+    fn end(&mut self, now: Instant, outcome: RunOutcome, frame: usize) {
         let Some(mut run) = self.run.take() else { return };
         run.leave(&mut self.context);
         self.context.plan_request = None;
         let outcome = match outcome {
-            Outcome::Failed(why) => {
+            RunOutcome::Failed(why) => {
                 let line = format!("Show stopped in frame {}: {why}", frame + 1);
                 self.failure = Some(format!("{line}."));
-                Outcome::Failed(line)
+                RunOutcome::Failed(line)
             }
             other => other,
         };
@@ -233,12 +233,12 @@ impl Controller {
     }
 
     /// What the controller is doing.
-    pub fn state(&self) -> State {
+    pub fn state(&self) -> ControllerState {
         match &self.run {
-            _ if !self.context.outbox.linked() => State::Idle,
-            _ if self.stopping.is_some() => State::Aborting,
+            _ if !self.context.outbox.linked() => ControllerState::Idle,
+            _ if self.stopping.is_some() => ControllerState::Aborting,
             Some(run) => run.state(),
-            None => State::Ready,
+            None => ControllerState::Ready,
         }
     }
 

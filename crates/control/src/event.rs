@@ -1,6 +1,6 @@
 //! Events for people and programs: one value for each fact, with a line of text.
 
-use crate::operation::State;
+use crate::operation::ControllerState;
 use core::fmt;
 use lightbots_base::{Instant, RobotId, Span};
 use lightbots_show::Severity;
@@ -22,7 +22,7 @@ pub enum EventKind {
     /// The broker is lost.
     Disconnected,
     /// The state of the controller changed.
-    StateChanged(State),
+    StateChanged(ControllerState),
     /// A robot reported for the first time.
     RobotFound(RobotId),
     /// A robot introduced itself again after a restart.
@@ -129,7 +129,7 @@ pub enum EventKind {
     /// A run is over.
     RunEnded {
         /// How.
-        outcome: Outcome,
+        outcome: RunOutcome,
         /// Frames reached.
         frames_played: usize,
         /// Robots lost on the way.
@@ -162,7 +162,7 @@ pub enum Trouble {
 
 /// How a run ended.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Outcome {
+pub enum RunOutcome {
     /// All frames were played.
     Finished,
     /// The operator ended it.
@@ -176,7 +176,7 @@ impl EventKind {
     pub fn severity(&self) -> Severity {
         use EventKind::*;
         match self {
-            PlanFailed { .. } | Dropout { .. } | RunEnded { outcome: Outcome::Failed(_), .. } => {
+            PlanFailed { .. } | Dropout { .. } | RunEnded { outcome: RunOutcome::Failed(_), .. } => {
                 Severity::Error
             }
             Disconnected
@@ -213,7 +213,7 @@ impl fmt::Display for Trouble {
     }
 }
 
-impl fmt::Display for Outcome {
+impl fmt::Display for RunOutcome {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Finished => f.write_str("finished"),
@@ -284,7 +284,7 @@ impl fmt::Display for EventKind {
             Suppressed(1) => write!(f, "One more event was not listed."),
             Suppressed(count) => write!(f, "{count} more events were not listed."),
             StoppedAll => write!(f, "All robots were told to stop."),
-            RunEnded { outcome: Outcome::Failed(line), .. } => write!(f, "{line}."),
+            RunEnded { outcome: RunOutcome::Failed(line), .. } => write!(f, "{line}."),
             RunEnded { outcome, frames_played, dropouts } => {
                 let (frames, dropouts) = (Count(*frames_played, "frame"), Count(*dropouts, "dropout"));
                 write!(f, "Run {outcome}; {frames}, {dropouts}.")
@@ -307,7 +307,7 @@ mod tests {
         let dark = |count| EventKind::LeftOut { frame: 1, pixels: vec![7], count }.to_string();
         assert_eq!(dark(1), "Frame 2: 1 pixel stays dark: [7].");
         assert_eq!(dark(2), "Frame 2: 2 pixels stay dark: [7] and more.");
-        let ended = EventKind::RunEnded { outcome: Outcome::Finished, frames_played: 1, dropouts: 0 };
+        let ended = EventKind::RunEnded { outcome: RunOutcome::Finished, frames_played: 1, dropouts: 0 };
         assert_eq!(ended.to_string(), "Run finished; 1 frame, 0 dropouts.");
     }
 }

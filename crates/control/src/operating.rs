@@ -2,7 +2,7 @@
 
 use crate::controller::Controller;
 use crate::event::EventKind;
-use crate::operation::{MissingPolicy, Operation, Refusal, State};
+use crate::operation::{ControllerState, MissingPolicy, Operation, Refusal};
 use crate::run::{FrameCursor, PlayedShow, Run, RunPurpose};
 use crate::stopping::Stopping;
 use lightbots_base::{Instant, RobotId, Span};
@@ -164,7 +164,7 @@ impl Controller {
     }
 
     fn abort(&mut self, now: Instant) -> Result<(), Refusal> {
-        if self.state() == State::Aborting {
+        if self.state() == ControllerState::Aborting {
             return Ok(());
         }
         self.run.as_mut().ok_or(Refusal::NoRun)?.abort(&mut self.context, now);

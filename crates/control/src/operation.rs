@@ -65,7 +65,7 @@ pub enum MissingPolicy {
 
 /// What the controller is doing.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum State {
+pub enum ControllerState {
     /// There is no broker.
     #[default]
     Idle,
@@ -103,7 +103,7 @@ pub enum Refusal {
         frames: usize,
     },
     /// Not while the controller is in this state.
-    Busy(State),
+    Busy(ControllerState),
     /// There is no run to pause, resume or abort.
     NoRun,
     /// The run is not paused.
@@ -130,7 +130,7 @@ pub enum Refusal {
     TakesPart(RobotId),
 }
 
-impl fmt::Display for State {
+impl fmt::Display for ControllerState {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Self::Idle => "not connected",

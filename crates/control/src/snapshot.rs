@@ -1,6 +1,6 @@
 //! The controller's state as plain data, for screens and reports.
 
-use crate::operation::State;
+use crate::operation::ControllerState;
 use lightbots_base::{Instant, Rgb, RobotId, Vec2};
 use lightbots_wire::{Abilities, Blocked, Firmware, RobotState};
 
@@ -10,7 +10,7 @@ pub struct Snapshot {
     /// When, show clock.
     pub at: Instant,
     /// What the controller is doing.
-    pub state: State,
+    pub state: ControllerState,
     /// Whether there is a broker.
     pub connected: bool,
     /// Name of the open show.

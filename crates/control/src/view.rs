@@ -2,7 +2,7 @@
 
 use crate::context::Context;
 use crate::leg::LegKind;
-use crate::operation::State;
+use crate::operation::ControllerState;
 use crate::run::{Run, RunPhase, RunPurpose};
 use crate::snapshot::{RobotView, RunView};
 use lightbots_base::{Instant, RobotId, Span};
@@ -12,17 +12,17 @@ const WAITING_MAX: usize = 8;
 
 impl Run {
     /// What the controller is doing, as people see it.
-    pub fn state(&self) -> State {
+    pub fn state(&self) -> ControllerState {
         match self.phase {
-            RunPhase::Offline(_) => State::Idle,
-            _ if self.playback.paused => State::Paused,
+            RunPhase::Offline(_) => ControllerState::Idle,
+            _ if self.playback.paused => ControllerState::Paused,
             RunPhase::Gathering(_) | RunPhase::Standing(_) | RunPhase::Starting(_)
                 if self.pipeline.driven.is_none() =>
             {
-                State::Preparing
+                ControllerState::Preparing
             }
-            _ if self.playback.purpose == RunPurpose::Preview => State::Preview,
-            _ => State::Playing,
+            _ if self.playback.purpose == RunPurpose::Preview => ControllerState::Preview,
+            _ => ControllerState::Playing,
         }
     }
 

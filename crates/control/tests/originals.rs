@@ -4,7 +4,7 @@ mod fleet;
 
 use fleet::{World, show};
 use lightbots_base::Vec2;
-use lightbots_control::{EventKind, MissingPolicy, Operation, Outcome};
+use lightbots_control::{EventKind, MissingPolicy, Operation, RunOutcome};
 
 const CONTACT_M: f64 = 0.054;
 
@@ -13,7 +13,7 @@ fn originals_play_a_show_without_touching() {
     let show = show(3, 9, 0.1);
     let mut world = World::ready(9, 9, show.clone());
     world.play();
-    assert_eq!(world.run_to_end(300.0), (Outcome::Finished, 3, 0), "{}", world.story());
+    assert_eq!(world.run_to_end(300.0), (RunOutcome::Finished, 3, 0), "{}", world.story());
     assert_eq!(world.lit(&show.frames[2]), 9);
     assert!(world.closest_m >= CONTACT_M, "{}", world.closest_m);
 }
@@ -23,7 +23,7 @@ fn a_mixed_fleet_plays_a_show_without_touching() {
     let show = show(3, 12, 0.1);
     let mut world = World::ready(12, 4, show.clone());
     world.play();
-    assert_eq!(world.run_to_end(300.0), (Outcome::Finished, 3, 0), "{}", world.story());
+    assert_eq!(world.run_to_end(300.0), (RunOutcome::Finished, 3, 0), "{}", world.story());
     assert_eq!(world.lit(&show.frames[2]), 12);
     assert!(world.closest_m >= CONTACT_M, "{}", world.closest_m);
 }
@@ -34,7 +34,7 @@ fn lost_targets_are_said_again() {
     let mut world = World::ready(6, 6, show.clone());
     world.loss = 20;
     world.play();
-    assert_eq!(world.run_to_end(300.0), (Outcome::Finished, 2, 0), "{}", world.story());
+    assert_eq!(world.run_to_end(300.0), (RunOutcome::Finished, 2, 0), "{}", world.story());
 }
 
 /// An original robot in the first of two pictures whose target in the second, so far from there, gets lost. It stays deaf
@@ -59,7 +59,7 @@ fn who_is_near_its_goal_is_not_there_before_it_says_so() {
     let at = world.robots[0].at;
     world.inject("T/LightBot/UUID", format!("robot-0 {} {}", at.x, at.y).as_bytes());
     world.deaf.clear();
-    assert_eq!(world.run_to_end(60.0), (Outcome::Finished, 2, 0), "{}", world.story());
+    assert_eq!(world.run_to_end(60.0), (RunOutcome::Finished, 2, 0), "{}", world.story());
     assert!(world.robots[0].at.distance(goal) < 0.01, "{:?} for {goal:?}", world.robots[0].at);
 }
 
@@ -70,7 +70,7 @@ fn who_says_it_arrived_far_from_its_goal_is_told_again() {
     let said = goal - Vec2::new(0.018, 0.018);
     world.inject("T/LightBot/Arrival", format!("robot-0 {} {}", said.x, said.y).as_bytes());
     world.deaf.clear();
-    assert_eq!(world.run_to_end(60.0), (Outcome::Finished, 2, 0), "{}", world.story());
+    assert_eq!(world.run_to_end(60.0), (RunOutcome::Finished, 2, 0), "{}", world.story());
     assert!(world.robots[0].at.distance(goal) < 0.015, "{:?} for {goal:?}", world.robots[0].at);
 }
 
@@ -96,7 +96,7 @@ fn a_dead_original_is_gone_round() {
     let driving = world.robots.iter().position(|robot| robot.target.is_some()).unwrap();
     world.robots[driving].dead = true;
     let (outcome, frames, dropouts) = world.run_to_end(300.0);
-    assert_eq!((outcome, frames, dropouts), (Outcome::Finished, 2, 1), "{}", world.story());
+    assert_eq!((outcome, frames, dropouts), (RunOutcome::Finished, 2, 1), "{}", world.story());
     assert!(world.closest_m >= CONTACT_M, "{}", world.closest_m);
 }
 
@@ -109,7 +109,7 @@ fn pause_and_resume_work_with_originals() {
     world.operate(Operation::Pause).unwrap();
     world.run_for(20.0);
     world.operate(Operation::Resume).unwrap();
-    assert_eq!(world.run_to_end(200.0), (Outcome::Finished, 2, 0), "{}", world.story());
+    assert_eq!(world.run_to_end(200.0), (RunOutcome::Finished, 2, 0), "{}", world.story());
 }
 
 #[test]
@@ -150,7 +150,7 @@ fn pins_hold_for_originals_and_ours_alike() {
         world.operate(Operation::Pin { pixel, robot }).unwrap();
     }
     world.play();
-    assert_eq!(world.run_to_end(100.0), (Outcome::Finished, 2, 0), "{}", world.story());
+    assert_eq!(world.run_to_end(100.0), (RunOutcome::Finished, 2, 0), "{}", world.story());
     assert!(world.closest_m >= CONTACT_M, "{}", world.closest_m);
     assert_eq!(world.lit(&show.frames[1]), 8);
     for (pixel, robot) in [(0, 7), (3, 1), (6, 4)] {
@@ -172,7 +172,7 @@ fn a_pause_keeps_originals_where_they_are() {
     world.run_for(10.0);
     assert_eq!(places(&world), before);
     world.operate(Operation::Resume).unwrap();
-    assert_eq!(world.run_to_end(100.0), (Outcome::Finished, 1, 0), "{}", world.story());
+    assert_eq!(world.run_to_end(100.0), (RunOutcome::Finished, 1, 0), "{}", world.story());
 }
 
 #[test]
@@ -185,6 +185,6 @@ fn a_picture_stays_as_long_as_it_should_though_everybody_is_asked_anew_meanwhile
     assert_eq!(world.count(|kind| matches!(kind, EventKind::Misaligned { .. })), 1);
     let leaves = world.run_until(60.0, |kind| matches!(kind, EventKind::TransitionStarted { .. })).at;
     assert!((leaves - stands).as_secs() > 19.9, "{}", world.story());
-    assert_eq!(world.run_to_end(100.0), (Outcome::Finished, 2, 0), "{}", world.story());
+    assert_eq!(world.run_to_end(100.0), (RunOutcome::Finished, 2, 0), "{}", world.story());
     assert!(world.closest_m >= CONTACT_M, "{}", world.closest_m);
 }

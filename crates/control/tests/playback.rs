@@ -4,7 +4,7 @@ mod fleet;
 
 use fleet::{World, show};
 use lightbots_base::{Instant, RobotId, Span, Vec2};
-use lightbots_control::{EventKind, MissingPolicy, Operation, Outcome, Refusal, State};
+use lightbots_control::{ControllerState, EventKind, MissingPolicy, Operation, Refusal, RunOutcome};
 use lightbots_show::Identity;
 
 const CONTACT_M: f64 = 0.054;
@@ -14,10 +14,10 @@ fn a_show_plays_to_its_end() {
     let show = show(5, 12, 0.5);
     let mut world = World::ready(12, 0, show.clone());
     world.play();
-    assert_eq!(world.run_to_end(60.0), (Outcome::Finished, 5, 0), "{}", world.story());
+    assert_eq!(world.run_to_end(60.0), (RunOutcome::Finished, 5, 0), "{}", world.story());
     assert_eq!(world.lit(&show.frames[4]), 12);
     assert!(world.closest_m >= CONTACT_M, "{}", world.closest_m);
-    assert_eq!(world.controller.state(), State::Ready);
+    assert_eq!(world.controller.state(), ControllerState::Ready);
     let snapshot = world.controller.snapshot(world.now);
     assert!(snapshot.robots.iter().all(|robot| robot.pixel.is_some()));
 }
@@ -50,11 +50,11 @@ fn it_plays_from_a_frame_and_previews_one() {
     let mut world = World::ready(9, 0, show.clone());
     world.operate(Operation::Preview { frame: 1, missing: MissingPolicy::Refuse }).unwrap();
     world.run_for(2.0);
-    assert_eq!(world.controller.state(), State::Preview);
-    assert_eq!(world.run_to_end(30.0), (Outcome::Finished, 1, 0));
+    assert_eq!(world.controller.state(), ControllerState::Preview);
+    assert_eq!(world.run_to_end(30.0), (RunOutcome::Finished, 1, 0));
     assert_eq!(world.lit(&show.frames[1]), 9);
     world.operate(Operation::Play { from: 2, missing: MissingPolicy::Refuse }).unwrap();
-    assert_eq!(world.run_to_end(30.0), (Outcome::Finished, 2, 0));
+    assert_eq!(world.run_to_end(30.0), (RunOutcome::Finished, 2, 0));
     assert_eq!(world.lit(&show.frames[3]), 9);
 }
 
@@ -68,7 +68,7 @@ fn a_loop_goes_round_until_it_is_told_not_to() {
     }
     world.operate(Operation::Loop(false)).unwrap();
     let (outcome, frames, _) = world.run_to_end(30.0);
-    assert_eq!(outcome, Outcome::Finished);
+    assert_eq!(outcome, RunOutcome::Finished);
     assert_eq!(frames % 2, 0, "it ends with the last frame");
 }
 
@@ -79,17 +79,17 @@ fn pause_holds_a_drive_and_resume_finishes_it() {
     world.run_until(10.0, |kind| matches!(kind, EventKind::TransitionStarted { .. }));
     world.run_for(1.5);
     world.operate(Operation::Pause).unwrap();
-    assert_eq!(world.controller.state(), State::Paused);
+    assert_eq!(world.controller.state(), ControllerState::Paused);
     world.run_for(1.0);
     let stood: Vec<Vec2> = world.robots.iter().map(|robot| robot.at).collect();
     world.run_for(20.0);
     assert!(world.robots.iter().zip(&stood).all(|(robot, at)| robot.at == *at));
     assert_eq!(
         world.controller.operate(world.now, Operation::Play { from: 0, missing: MissingPolicy::Refuse }),
-        Err(Refusal::Busy(State::Paused))
+        Err(Refusal::Busy(ControllerState::Paused))
     );
     world.operate(Operation::Resume).unwrap();
-    assert_eq!(world.run_to_end(30.0), (Outcome::Finished, 2, 0), "{}", world.story());
+    assert_eq!(world.run_to_end(30.0), (RunOutcome::Finished, 2, 0), "{}", world.story());
 }
 
 #[test]
@@ -105,9 +105,9 @@ fn pause_stops_the_air_time_and_step_goes_one_picture_on() {
     world.operate(Operation::Step).unwrap();
     world.run_until(20.0, reached(1));
     world.run_for(5.0);
-    assert_eq!((starts(&world), world.controller.state()), (2, State::Paused));
+    assert_eq!((starts(&world), world.controller.state()), (2, ControllerState::Paused));
     world.operate(Operation::Resume).unwrap();
-    assert_eq!(world.run_to_end(30.0), (Outcome::Finished, 4, 0));
+    assert_eq!(world.run_to_end(30.0), (RunOutcome::Finished, 4, 0));
 }
 
 #[test]
@@ -117,15 +117,15 @@ fn abort_stops_everybody_at_once() {
     world.run_until(10.0, |kind| matches!(kind, EventKind::TransitionStarted { .. }));
     world.run_for(1.0);
     world.operate(Operation::Abort).unwrap();
-    assert_eq!(world.controller.state(), State::Aborting);
+    assert_eq!(world.controller.state(), ControllerState::Aborting);
     world.run_for(0.3);
     let stood: Vec<Vec2> = world.robots.iter().map(|robot| robot.at).collect();
     world.run_for(4.0);
     let most = world.robots.iter().zip(&stood).map(|(robot, at)| robot.at.distance(*at)).fold(0.0, f64::max);
     assert!(most < 0.2, "an original may return to where it said it was: {most}");
-    assert_eq!(world.controller.state(), State::Ready);
+    assert_eq!(world.controller.state(), ControllerState::Ready);
     world.play();
-    assert_eq!(world.run_to_end(90.0).0, Outcome::Finished, "{}", world.story());
+    assert_eq!(world.run_to_end(90.0).0, RunOutcome::Finished, "{}", world.story());
 }
 
 #[test]
@@ -135,7 +135,7 @@ fn too_few_robots_is_a_choice() {
     let refusal = world.operate(Operation::Play { from: 0, missing: MissingPolicy::Refuse }).unwrap_err();
     assert_eq!(refusal, Refusal::TooFewRobots { pixels: 9, robots: 7, without_place: 0, unfit: 0 });
     world.operate(Operation::Play { from: 0, missing: MissingPolicy::LeaveOut }).unwrap();
-    assert_eq!(world.run_to_end(30.0), (Outcome::Finished, 2, 0));
+    assert_eq!(world.run_to_end(30.0), (RunOutcome::Finished, 2, 0));
     assert_eq!(world.lit(&show.frames[1]), 7);
     assert_eq!(world.count(|kind| matches!(kind, EventKind::LeftOut { count: 2, .. })), 2);
 }
@@ -154,7 +154,7 @@ fn spare_robots_stand_by_dark() {
     let show = show(3, 6, 0.1);
     let mut world = World::ready(10, 0, show.clone());
     world.play();
-    assert_eq!(world.run_to_end(40.0), (Outcome::Finished, 3, 0));
+    assert_eq!(world.run_to_end(40.0), (RunOutcome::Finished, 3, 0));
     assert_eq!(world.lit(&show.frames[2]), 6);
     assert!(world.closest_m >= CONTACT_M);
 }
@@ -179,7 +179,7 @@ fn with_fixed_identity_a_pixel_is_always_the_same_robot() {
                 assert!(robot.at.distance(pixel.at) < 0.001, "frame {frame}, pixel {}", pixel.id);
             }
         }
-        assert_eq!(world.run_to_end(60.0), (Outcome::Finished, 3, 0), "{}", world.story());
+        assert_eq!(world.run_to_end(60.0), (RunOutcome::Finished, 3, 0), "{}", world.story());
     }
 }
 
@@ -190,7 +190,7 @@ fn a_pin_binds_a_pixel_to_a_robot() {
     let robot = Some(world.robots[4].id);
     world.operate(Operation::Pin { pixel: 0, robot }).unwrap();
     world.play();
-    assert_eq!(world.run_to_end(40.0).0, Outcome::Finished);
+    assert_eq!(world.run_to_end(40.0).0, RunOutcome::Finished);
     assert!(world.robots[4].at.distance(show.frames[1].pixels[0].at) < 0.001);
     let away = RobotId::new("away");
     world.operate(Operation::Pin { pixel: 1, robot: away }).unwrap();

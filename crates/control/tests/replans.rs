@@ -5,10 +5,10 @@ mod fleet;
 
 use fleet::{World, show};
 use lightbots_base::Span;
-use lightbots_control::{EventKind, Outcome};
+use lightbots_control::{EventKind, RunOutcome};
 
 /// A run of two frames in which a robot dies on the way to the second; `slow_plans` of the plans after that take too long.
-fn run_with_a_death(robots: usize, slow_plans: usize) -> (World, Outcome, usize) {
+fn run_with_a_death(robots: usize, slow_plans: usize) -> (World, RunOutcome, usize) {
     let mut world = World::ready(robots, 0, show(2, robots, 0.3));
     world.play();
     world.run_until(60.0, |kind| matches!(kind, EventKind::TransitionStarted { frame: 1, .. }));
@@ -22,7 +22,7 @@ fn run_with_a_death(robots: usize, slow_plans: usize) -> (World, Outcome, usize)
 #[test]
 fn a_replan_may_take_a_second_and_the_first_plan_as_long_as_it_needs() {
     let (world, outcome, dropouts) = run_with_a_death(8, 0);
-    assert_eq!((outcome, dropouts), (Outcome::Finished, 1), "{}", world.story());
+    assert_eq!((outcome, dropouts), (RunOutcome::Finished, 1), "{}", world.story());
     let (first, replans) = world.budgets.split_first().unwrap();
     assert_eq!(*first, None);
     assert!(replans.contains(&Some(Span::from_millis(1_000))), "{:?}", world.budgets);
@@ -32,11 +32,15 @@ fn a_replan_may_take_a_second_and_the_first_plan_as_long_as_it_needs() {
 #[test]
 fn a_replan_that_takes_too_long_is_followed_by_another_or_by_a_named_end() {
     let (world, outcome, _) = run_with_a_death(8, 1);
-    assert!(matches!(outcome, Outcome::Finished | Outcome::Failed(_)), "{outcome:?}: {}", world.story());
+    assert!(
+        matches!(outcome, RunOutcome::Finished | RunOutcome::Failed(_)),
+        "{outcome:?}: {}",
+        world.story()
+    );
     let given_up = |kind: &EventKind| matches!(kind, EventKind::PlanFailed { .. });
     assert!(world.events.iter().any(|event| given_up(&event.kind)), "{}", world.story());
     let (world, outcome, _) = run_with_a_death(8, usize::MAX);
-    let Outcome::Failed(why) = outcome else { panic!("{outcome:?}: {}", world.story()) };
+    let RunOutcome::Failed(why) = outcome else { panic!("{outcome:?}: {}", world.story()) };
     assert!(why.contains("Show stopped in frame 2"), "{why}");
     let replans = world.budgets.iter().filter(|budget| budget.is_some()).count();
     assert!((1..=4).contains(&replans), "{replans} replans: {}", world.story());

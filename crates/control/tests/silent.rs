@@ -4,7 +4,7 @@ mod fleet;
 
 use fleet::{World, show};
 use lightbots_base::Vec2;
-use lightbots_control::{EventKind, Outcome};
+use lightbots_control::{EventKind, RunOutcome};
 use lightbots_show::{Identity, Obstacle, Show};
 
 const CONTACT_M: f64 = 0.054;
@@ -46,7 +46,7 @@ fn where_there_is_no_way_around_all_places_of_a_silent_robot_the_likely_ones_are
     let why = world.run_until(30.0, failed).kind.to_string();
     assert!(why.contains("walled in"), "{why}");
     let (outcome, frames, dropouts) = world.run_to_end(90.0);
-    assert_eq!((outcome, frames, dropouts), (Outcome::Finished, 3, 1), "{}", world.story());
+    assert_eq!((outcome, frames, dropouts), (RunOutcome::Finished, 3, 1), "{}", world.story());
     assert!(world.closest_m >= CONTACT_M, "{} m: {}", world.closest_m, world.story());
     assert_eq!(world.lit(&past_a_bay().frames[2]), 3, "{}", world.story());
 }

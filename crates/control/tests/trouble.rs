@@ -4,7 +4,7 @@ mod fleet;
 
 use fleet::{Dice, World, show};
 use lightbots_base::{Span, Vec2};
-use lightbots_control::{EventKind, MissingPolicy, Operation, Outcome, Refusal, State, Trouble};
+use lightbots_control::{ControllerState, EventKind, MissingPolicy, Operation, Refusal, RunOutcome, Trouble};
 use lightbots_show::Identity;
 use lightbots_wire::Blocked;
 use std::sync::Arc;
@@ -56,7 +56,7 @@ fn put_off_while_some_are_early(movers: usize, early: std::ops::Range<usize>) ->
 fn robots_that_have_ended_an_empty_route_do_not_keep_the_others_from_starting() {
     let mut world = put_off_while_some_are_early(1, 1..8);
     let started = world.run_until(5.0, started);
-    assert_eq!(world.run_to_end(20.0), (Outcome::Finished, 2, 0), "{}", world.story());
+    assert_eq!(world.run_to_end(20.0), (RunOutcome::Finished, 2, 0), "{}", world.story());
     assert_eq!(world.count(|kind| matches!(kind, EventKind::Waiting { .. })), 0, "{}", world.story());
     assert!(matches!(started.kind, EventKind::TransitionStarted { frame: 1, .. }));
 }
@@ -66,7 +66,7 @@ fn a_robot_that_drove_its_route_alone_is_planned_for_anew() {
     let mut world = put_off_while_some_are_early(2, 1..2);
     let waits = |kind: &EventKind| matches!(kind, EventKind::Waiting { why: Trouble::Cut, .. });
     assert!(world.count(waits) > 0, "{}", world.story());
-    assert_eq!(world.run_to_end(20.0), (Outcome::Finished, 2, 0), "{}", world.story());
+    assert_eq!(world.run_to_end(20.0), (RunOutcome::Finished, 2, 0), "{}", world.story());
 }
 
 /// As in a simulation on a busy machine: all are late together, and on their routes.
@@ -75,7 +75,7 @@ fn robots_of_a_slow_world_are_waited_for() {
     let mut world = World::ready(8, 0, show(3, 8, 0.3));
     world.robots.iter_mut().for_each(|robot| robot.pace = 0.4);
     world.play();
-    assert_eq!(world.run_to_end(120.0), (Outcome::Finished, 3, 0), "{}", world.story());
+    assert_eq!(world.run_to_end(120.0), (RunOutcome::Finished, 3, 0), "{}", world.story());
     assert!(world.closest_m >= CONTACT_M, "{}", world.closest_m);
 }
 
@@ -87,7 +87,7 @@ fn lossy_and_slow_links_lose_no_robot() {
         (world.loss, world.delay_ms) = (loss, delay_ms);
         world.play();
         let ended = world.run_to_end(120.0);
-        assert_eq!(ended, (Outcome::Finished, 4, 0), "loss {loss} %:\n{}", world.story());
+        assert_eq!(ended, (RunOutcome::Finished, 4, 0), "loss {loss} %:\n{}", world.story());
         assert_eq!(world.lit(&show.frames[3]), 12, "loss {loss} %");
     }
 }
@@ -100,7 +100,7 @@ fn a_broker_that_passes_nothing_on_costs_no_robot() {
     world.run_for(20.0);
     world.mute = false;
     let ended = world.run_to_end(60.0);
-    assert_eq!(ended, (Outcome::Finished, 3, 0), "{}", world.story());
+    assert_eq!(ended, (RunOutcome::Finished, 3, 0), "{}", world.story());
 }
 
 /// A cluster of brokers that lost a node may drop subscriptions of those who came from there.
@@ -114,7 +114,7 @@ fn robots_that_hear_late_after_the_broker_came_back_are_waited_for() {
     world.run_for(11.0);
     world.deaf.clear();
     let ended = world.run_to_end(60.0);
-    assert_eq!(ended, (Outcome::Finished, 3, 0), "{}", world.story());
+    assert_eq!(ended, (RunOutcome::Finished, 3, 0), "{}", world.story());
 }
 
 #[test]
@@ -122,7 +122,7 @@ fn one_that_stays_so_ends_the_run_in_bounded_time() {
     let mut world = a_second_under_way();
     world.mute = true;
     let (outcome, _, dropouts) = world.run_to_end(330.0);
-    assert!(matches!(&outcome, Outcome::Failed(why) if why.contains("acknowledges")), "{outcome:?}");
+    assert!(matches!(&outcome, RunOutcome::Failed(why) if why.contains("acknowledges")), "{outcome:?}");
     assert_eq!(dropouts, 0, "{}", world.story());
 }
 
@@ -134,7 +134,7 @@ fn a_robot_that_dies_while_driving_is_planned_around() {
     world.run_for(1.5);
     world.robots[5].dead = true;
     let (outcome, frames, dropouts) = world.run_to_end(90.0);
-    assert_eq!((outcome, frames, dropouts), (Outcome::Finished, 3, 1), "{}", world.story());
+    assert_eq!((outcome, frames, dropouts), (RunOutcome::Finished, 3, 1), "{}", world.story());
 }
 
 #[test]
@@ -149,7 +149,7 @@ fn who_dies_while_all_are_stopped_for_another_is_planned_around_too() {
         world.run_for(0.3);
         world.robots[other].dead = true;
         let ended = world.run_to_end(90.0);
-        assert_eq!(ended, (Outcome::Finished, 4, 2), "{}", world.story());
+        assert_eq!(ended, (RunOutcome::Finished, 4, 2), "{}", world.story());
         assert!(world.closest_m >= CONTACT_M, "{other}: {}", world.closest_m);
     }
 }
@@ -167,7 +167,7 @@ fn a_robot_that_finds_something_in_its_way_leads_to_the_one_that_died_there() {
     assert!((world.now - began).as_secs() < 1.6, "{}", world.story());
     (world.robots[3].stuck, world.robots[3].blocked) = (false, None);
     let ended = world.run_to_end(90.0);
-    assert_eq!(ended, (Outcome::Finished, 3, 1), "{}", world.story());
+    assert_eq!(ended, (RunOutcome::Finished, 3, 1), "{}", world.story());
 }
 
 #[test]
@@ -176,7 +176,7 @@ fn what_nobody_knows_is_driven_around_and_the_run_ends_in_bounded_time() {
     world.robots[3].stuck = true;
     world.robots[3].blocked = Some(Blocked { gap_m: 0.002, towards: 0.3 });
     let (outcome, frames, dropouts) = world.run_to_end(120.0);
-    assert_eq!((outcome, frames), (Outcome::Finished, 3), "{}", world.story());
+    assert_eq!((outcome, frames), (RunOutcome::Finished, 3), "{}", world.story());
     assert!((1..=2).contains(&dropouts) && world.now.as_secs() < 60.0, "{}", world.story());
 }
 
@@ -193,7 +193,7 @@ fn everybody_waits_for_a_blocked_robot_then_goes_on_without_it() {
     world.run_until(10.0, |kind| matches!(kind, EventKind::Dropout { .. }));
     world.robots[3].stuck = false;
     let (outcome, frames, _) = world.run_to_end(90.0);
-    assert_eq!((outcome, frames), (Outcome::Finished, 2), "{}", world.story());
+    assert_eq!((outcome, frames), (RunOutcome::Finished, 2), "{}", world.story());
     assert_eq!(world.count(|kind| matches!(kind, EventKind::Rejoined(_))), 1, "{}", world.story());
 }
 
@@ -205,7 +205,7 @@ fn a_robot_that_never_drives_again_does_not_come_back() {
     world.run_for(1.0);
     world.robots[3].stuck = true;
     let ended = world.run_to_end(120.0);
-    assert_eq!(ended, (Outcome::Finished, 6, 1), "{}", world.story());
+    assert_eq!(ended, (RunOutcome::Finished, 6, 1), "{}", world.story());
     assert_eq!(world.count(|kind| matches!(kind, EventKind::Rejoined(_))), 0, "{}", world.story());
     assert_eq!(world.robots[3].kept, None);
 }
@@ -227,7 +227,7 @@ fn of_two_that_see_each_other_the_one_that_was_late_before_is_left_out() {
     world.robots[3].blocked = None;
     let left_out = EventKind::Dropout { robot: world.robots[4].id, why: Trouble::Late };
     assert_eq!(world.count(|kind| *kind == left_out), 1, "{}", world.story());
-    assert_eq!(world.run_to_end(90.0), (Outcome::Finished, 3, 1), "{}", world.story());
+    assert_eq!(world.run_to_end(90.0), (RunOutcome::Finished, 3, 1), "{}", world.story());
 }
 
 #[test]
@@ -240,7 +240,7 @@ fn a_robot_that_was_late_is_waited_for() {
     world.run_until(3.0, |kind| matches!(kind, EventKind::Waiting { .. }));
     world.run_for(1.0);
     world.robots[3].stuck = false;
-    assert_eq!(world.run_to_end(60.0), (Outcome::Finished, 2, 0), "{}", world.story());
+    assert_eq!(world.run_to_end(60.0), (RunOutcome::Finished, 2, 0), "{}", world.story());
 }
 
 #[test]
@@ -253,7 +253,7 @@ fn an_unsure_robot_is_waited_for_until_it_is_sure() {
     assert_eq!(world.controller.snapshot(world.now).run.unwrap().waiting_for, [world.robots[3].id]);
     world.robots[3].unsure = false;
     world.robots[3].introduce();
-    assert_eq!(world.run_to_end(60.0), (Outcome::Finished, 3, 0), "{}", world.story());
+    assert_eq!(world.run_to_end(60.0), (RunOutcome::Finished, 3, 0), "{}", world.story());
     assert_eq!(world.count(|kind| matches!(kind, EventKind::Resumed)), 1, "{}", world.story());
 }
 
@@ -261,7 +261,7 @@ fn an_unsure_robot_is_waited_for_until_it_is_sure() {
 fn who_is_never_sure_does_not_stop_the_show() {
     let mut world = a_second_under_way();
     world.robots[3].unsure = true;
-    assert_eq!(world.run_to_end(240.0), (Outcome::Finished, 3, 0), "{}", world.story());
+    assert_eq!(world.run_to_end(240.0), (RunOutcome::Finished, 3, 0), "{}", world.story());
     assert!(world.count(|kind| matches!(kind, EventKind::Resumed)) > 1, "{}", world.story());
 }
 
@@ -274,7 +274,7 @@ fn a_robot_restarted_in_the_middle_is_taken_back() {
     world.run_for(1.5);
     world.robots[2].restart();
     let (outcome, frames, _) = world.run_to_end(90.0);
-    assert_eq!((outcome, frames), (Outcome::Finished, 3), "{}", world.story());
+    assert_eq!((outcome, frames), (RunOutcome::Finished, 3), "{}", world.story());
     assert_eq!(world.lit(&show.frames[2]), 8);
     assert!(world.closest_m >= CONTACT_M, "{}", world.closest_m);
 }
@@ -289,7 +289,7 @@ fn a_robot_restarted_in_a_picture_shows_it_again() {
     world.robots[2].restart();
     world.run_for(0.5);
     assert_eq!(world.lit(&show.frames[0]), 8);
-    assert_eq!(world.run_to_end(90.0), (Outcome::Finished, 3, 0), "{}", world.story());
+    assert_eq!(world.run_to_end(90.0), (RunOutcome::Finished, 3, 0), "{}", world.story());
 }
 
 #[test]
@@ -298,9 +298,9 @@ fn a_broker_lost_in_the_middle_of_a_run_only_costs_time() {
         let mut world = a_second_under_way();
         world.link(false);
         world.run_for(gap_s);
-        assert_eq!(world.controller.state(), State::Idle);
+        assert_eq!(world.controller.state(), ControllerState::Idle);
         world.link(true);
-        assert_eq!(world.run_to_end(90.0), (Outcome::Finished, 3, 0), "{}", world.story());
+        assert_eq!(world.run_to_end(90.0), (RunOutcome::Finished, 3, 0), "{}", world.story());
     }
 }
 
@@ -316,7 +316,7 @@ fn a_broker_lost_while_a_picture_stands_does_not_cut_its_air_time_short() {
         world.link(true);
         let left = world.run_until(20.0, started).at - stood;
         assert!((wait_s - 0.5..wait_s + 1.5).contains(&left.as_secs()), "{left:?}\n{}", world.story());
-        assert_eq!(world.run_to_end(90.0), (Outcome::Finished, 2, 0), "{}", world.story());
+        assert_eq!(world.run_to_end(90.0), (RunOutcome::Finished, 2, 0), "{}", world.story());
     }
 }
 
@@ -335,7 +335,7 @@ fn reports_of_robots_that_take_no_part_do_not_end_a_run() {
         world.run_for(0.25);
     }
     let (outcome, frames, _) = world.run_to_end(240.0);
-    assert_eq!((outcome, frames), (Outcome::Finished, 3), "{}", world.story());
+    assert_eq!((outcome, frames), (RunOutcome::Finished, 3), "{}", world.story());
 }
 
 #[test]
@@ -345,7 +345,7 @@ fn a_controller_restarted_in_the_middle_of_a_run_can_play_again() {
     world.run_for(0.5);
     world.operate(Operation::Open(Arc::new(show(2, 8, 0.1)))).unwrap();
     world.play();
-    assert_eq!(world.run_to_end(60.0), (Outcome::Finished, 2, 0), "{}", world.story());
+    assert_eq!(world.run_to_end(60.0), (RunOutcome::Finished, 2, 0), "{}", world.story());
 }
 
 #[test]
@@ -371,7 +371,7 @@ fn a_new_robot_takes_the_place_of_a_dead_one() {
     fresh.introduce();
     world.robots.push(fresh);
     let (outcome, frames, dropouts) = world.run_to_end(90.0);
-    assert_eq!((outcome, frames, dropouts), (Outcome::Finished, 4, 1), "{}", world.story());
+    assert_eq!((outcome, frames, dropouts), (RunOutcome::Finished, 4, 1), "{}", world.story());
     assert!(world.lit(&show.frames[3]) >= 7, "{}", world.story());
     assert_eq!(world.count(|kind| matches!(kind, EventKind::Rejoined(_))), 1, "{}", world.story());
 }
@@ -384,9 +384,9 @@ fn when_all_robots_die_the_run_ends() {
     world.robots.iter_mut().for_each(|robot| robot.dead = true);
     let (outcome, _, dropouts) = world.run_to_end(30.0);
     let why = "Show stopped in frame 1: all 4 robots lost contact";
-    assert_eq!((outcome, dropouts), (Outcome::Failed(why.into()), 4), "{}", world.story());
+    assert_eq!((outcome, dropouts), (RunOutcome::Failed(why.into()), 4), "{}", world.story());
     assert_eq!(world.controller.snapshot(world.now).failure, Some(format!("{why}.")));
-    assert_eq!(world.controller.snapshot(world.now).state, State::Ready);
+    assert_eq!(world.controller.snapshot(world.now).state, ControllerState::Ready);
     world.operate(Operation::DismissFailure).unwrap();
     assert_eq!(world.controller.snapshot(world.now).failure, None);
 }
@@ -465,7 +465,7 @@ fn junk_changes_nothing() {
             world.step();
         }
     }
-    assert_eq!(world.run_to_end(60.0), (Outcome::Finished, 3, 0), "{}", world.story());
+    assert_eq!(world.run_to_end(60.0), (RunOutcome::Finished, 3, 0), "{}", world.story());
     assert!(world.controller.counters().junk > 500);
 }
 

@@ -1,7 +1,7 @@
 //! What a run on live robots was like.
 
 use lightbots_base::Instant;
-use lightbots_control::{Event, EventKind, Outcome, Snapshot};
+use lightbots_control::{Event, EventKind, RunOutcome, Snapshot};
 use lightbots_show::{Issue, Issues, Severity, Show};
 use lightbots_sim::Spread;
 use serde::Serialize;
@@ -26,7 +26,7 @@ pub struct RunReport {
     errors_m: Vec<f64>,
     dropouts: usize,
     rejoined: usize,
-    outcome: Option<Outcome>,
+    outcome: Option<RunOutcome>,
     issues: Issues,
 }
 
@@ -111,7 +111,7 @@ impl RunReport {
 
     /// Whether the whole show was played, and nobody was lost for good.
     pub fn ok(&self) -> bool {
-        self.outcome == Some(Outcome::Finished)
+        self.outcome == Some(RunOutcome::Finished)
             && self.frames_played >= self.frames
             && self.dropouts <= self.rejoined
     }
@@ -130,8 +130,8 @@ fn issue(kind: &EventKind) -> Option<Issue> {
         EventKind::LeftOut { frame, .. } => ("left-out", Some(*frame)),
         EventKind::Dropout { .. } => ("dropout", None),
         EventKind::Misaligned { .. } => ("misaligned", None),
-        EventKind::RunEnded { outcome: Outcome::Failed(_), .. } => ("run-failed", None),
-        EventKind::RunEnded { outcome: Outcome::Aborted, .. } => ("aborted", None),
+        EventKind::RunEnded { outcome: RunOutcome::Failed(_), .. } => ("run-failed", None),
+        EventKind::RunEnded { outcome: RunOutcome::Aborted, .. } => ("aborted", None),
         _ => return None,
     };
     // One that drops out may come back: whether it did is told by `ok`.
@@ -195,7 +195,7 @@ mod tests {
         let reached = EventKind::FrameReached { frame: 0, spread: Span::from_millis(80), wait: Span::ZERO };
         report.add(&event(3000, reached), None);
         assert!(!report.is_over() && !report.ok());
-        let ended = EventKind::RunEnded { outcome: Outcome::Finished, frames_played: 1, dropouts: 0 };
+        let ended = EventKind::RunEnded { outcome: RunOutcome::Finished, frames_played: 1, dropouts: 0 };
         report.add(&event(4000, ended), None);
         assert!(report.is_over() && report.ok());
         assert_eq!((report.robots, report.duration_s, report.spreads_s.as_slice()), (3, 3.0, &[0.08][..]));
@@ -212,7 +212,7 @@ mod tests {
     #[test]
     fn an_aborted_run_is_not_fine() {
         let mut report = RunReport { frames: 2, ..RunReport::default() };
-        let ended = EventKind::RunEnded { outcome: Outcome::Aborted, frames_played: 1, dropouts: 0 };
+        let ended = EventKind::RunEnded { outcome: RunOutcome::Aborted, frames_played: 1, dropouts: 0 };
         report.add(&event(1, ended), None);
         assert!(report.is_over() && !report.ok());
         assert_eq!(report.issues[0].code, "aborted");

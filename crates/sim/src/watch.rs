@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use lightbots_base::{Instant, RobotId, Span, Vec2};
-use lightbots_control::{Controller, Event, EventKind, Outcome, RobotView};
+use lightbots_control::{Controller, Event, EventKind, RobotView, RunOutcome};
 use lightbots_show::{Issue, Issues, Show};
 
 use crate::breakdowns::{Breakdowns, Fate};
@@ -36,7 +36,7 @@ pub(crate) struct Watch {
     frames: Vec<FrameRecord>,
     /// Robots that dropped out, each once.
     dropouts: BTreeSet<RobotId>,
-    outcome: Option<Outcome>,
+    outcome: Option<RunOutcome>,
     ended: Instant,
     issues: Issues,
     unlisted: usize,
@@ -86,7 +86,7 @@ impl Watch {
 
     /// The controller would not play.
     pub fn refused(&mut self, why: &str) {
-        self.outcome = Some(Outcome::Failed(why.into()));
+        self.outcome = Some(RunOutcome::Failed(why.into()));
         self.add(Issue::error("play-refused", why));
     }
 
@@ -179,7 +179,7 @@ impl Watch {
             EventKind::PlanFailed { .. } => self.note("plan-failed", event),
             EventKind::RunEnded { outcome, .. } => {
                 self.ended = event.at;
-                if let Outcome::Failed(_) = outcome {
+                if let RunOutcome::Failed(_) = outcome {
                     self.note("run-failed", event);
                 }
                 self.outcome = Some(outcome.clone());
@@ -190,7 +190,7 @@ impl Watch {
 
     /// The report, without what only the world and the network know.
     pub fn report(mut self, now: Instant, breakdowns: &Breakdowns) -> RehearsalReport {
-        let finished = self.outcome == Some(Outcome::Finished);
+        let finished = self.outcome == Some(RunOutcome::Finished);
         if self.outcome.is_none() {
             let message = format!("The show did not end within {:.0} s: given up.", now.as_secs());
             self.issues.push(Issue::error("no-end", message));

@@ -4,7 +4,7 @@ use crate::house::names::doubled;
 use crate::house::tree::Source;
 
 /// Names that may stand in more than one place, and in how many at most.
-const EXCEPTIONS: [(&str, usize); 25] = [
+const EXCEPTIONS: [(&str, usize); 23] = [
     ("Abilities", 2),
     ("Broker", 2),
     ("Choice", 2),
@@ -18,14 +18,12 @@ const EXCEPTIONS: [(&str, usize); 25] = [
     ("Operation", 2),
     ("Order", 2),
     ("Outbox", 2),
-    ("Outcome", 2),
     ("Path", 2),
     ("Progress", 2),
     ("Robot", 2),
     ("Sensors", 2),
     ("Severity", 2),
     ("Slip", 2),
-    ("State", 2),
     ("Stretch", 2),
     ("Thing", 2),
     ("Transition", 2),

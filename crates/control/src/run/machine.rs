@@ -1,7 +1,7 @@
 //! The changes of phase of a run; nothing else changes a phase.
 
 use crate::context::Context;
-use crate::event::{EventKind, Outcome, Trouble};
+use crate::event::{EventKind, RunOutcome, Trouble};
 use crate::leg::LegKind;
 use crate::run::candidates;
 use crate::run::driving::Driving;
@@ -35,7 +35,7 @@ pub(crate) enum RunPhase {
     /// The broker is lost.
     Offline(Offline),
     /// The run is over: how it ended, and at which frame. There is no way out of this phase.
-    Over(Outcome, usize),
+    Over(RunOutcome, usize),
 }
 
 /// Everything about one run.

@@ -35,7 +35,7 @@ pub(crate) use playback::{FrameCursor, PlayedShow, RunPurpose};
 
 use crate::context::Context;
 use crate::drafting::PlanResult;
-use crate::event::{EventKind, Outcome};
+use crate::event::{EventKind, RunOutcome};
 use crate::fleet::FleetUpdate;
 use crate::leg::{Leg, LegKind};
 use gathering::Gathering;
@@ -229,7 +229,7 @@ impl Run {
 
     /// The operator ends the run.
     pub fn abort(&mut self, io: &mut Context, now: Instant) {
-        self.apply(io, now, Next::Over(Outcome::Aborted));
+        self.apply(io, now, Next::Over(RunOutcome::Aborted));
     }
 
     /// The broker is lost: robots stop by themselves.

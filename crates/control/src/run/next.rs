@@ -1,6 +1,6 @@
 //! What a phase wants to come next. A phase never changes the phase of its run: it returns one of these.
 
-use crate::event::{Outcome, Trouble};
+use crate::event::{RunOutcome, Trouble};
 use lightbots_base::{Instant, Span};
 
 /// When the frame that stands may be left.
@@ -33,13 +33,13 @@ pub(crate) enum Next {
     /// These participants drop out; the others are planned again without them. Never empty.
     Drop(Vec<Dropout>),
     /// The run is over.
-    Over(Outcome),
+    Over(RunOutcome),
 }
 
 impl Next {
     /// The run cannot go on; `why` is for people, without a full stop.
     pub fn failed(why: impl Into<String>) -> Self {
-        Self::Over(Outcome::Failed(why.into()))
+        Self::Over(RunOutcome::Failed(why.into()))
     }
 
     /// One participant drops out.

@@ -1,6 +1,6 @@
 //! All stand: the air time runs, what comes is planned and uploaded, and the next drive starts in time.
 
-use crate::event::{EventKind, Outcome, Trouble};
+use crate::event::{EventKind, RunOutcome, Trouble};
 use crate::leg::LegKind;
 use crate::run::driving::is_there;
 use crate::run::next::{AirTime, Next};
@@ -99,7 +99,7 @@ impl Standing {
 /// Nothing is planned any more: the run is over, unless something is left to try.
 fn end(cx: &mut RunContext) -> Next {
     match cx.pipeline.planning.failure.take() {
-        None => Next::Over(Outcome::Finished),
+        None => Next::Over(RunOutcome::Finished),
         // What stood in the way when that was planned ahead may have gone.
         Some(_) if obstacles::relax(cx) => Next::Regather,
         Some(why) => Next::failed(why),

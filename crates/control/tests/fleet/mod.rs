@@ -4,7 +4,9 @@
 pub mod robot;
 
 use lightbots_base::{Instant, Rgb, Span, Vec2};
-use lightbots_control::{Config, Controller, Event, EventKind, MissingPolicy, Operation, Outcome, Refusal};
+use lightbots_control::{
+    Config, Controller, Event, EventKind, MissingPolicy, Operation, Refusal, RunOutcome,
+};
 use lightbots_show::{Frame, Identity, Pixel, Show, Stage};
 use lightbots_wire::Topic;
 use robot::Robot;
@@ -216,7 +218,7 @@ impl World {
     }
 
     /// Steps until the run is over, and says how it ended.
-    pub fn run_to_end(&mut self, seconds: f64) -> (Outcome, usize, usize) {
+    pub fn run_to_end(&mut self, seconds: f64) -> (RunOutcome, usize, usize) {
         match self.run_until(seconds, |kind| matches!(kind, EventKind::RunEnded { .. })).kind {
             EventKind::RunEnded { outcome, frames_played, dropouts } => (outcome, frames_played, dropouts),
             _ => unreachable!(),

@@ -4,7 +4,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Duration;
 
-use lightbots_control::{Operation, State};
+use lightbots_control::{ControllerState, Operation};
 use lightbots_link::BrokerUrl;
 use lightbots_show::{Show, Stage, front_rows, robots_needed};
 use lightbots_sim::{Conditions, FleetConfig};
@@ -103,7 +103,7 @@ impl Cast {
                 tokio::time::sleep(SETTLED).await;
                 let settled = !shown.has_changed().unwrap_or(false);
                 let state = handle.look().await.map(|snapshot| snapshot.state);
-                if settled && matches!(state, Some(State::Ready | State::Idle)) {
+                if settled && matches!(state, Some(ControllerState::Ready | ControllerState::Idle)) {
                     return;
                 }
             }

@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 use lightbots_control::{
-    Config, Controller, Event, Operation, PlanRequest, PlanResult, Refusal, Snapshot, State,
+    Config, Controller, ControllerState, Event, Operation, PlanRequest, PlanResult, Refusal, Snapshot,
 };
 use lightbots_link::{BrokerUrl, Link, LinkEvent};
 use lightbots_wire::Topic;
@@ -343,7 +343,7 @@ impl Conductor {
     /// No robot is left driving by a controller that goes.
     async fn end(&mut self) {
         let state = self.controller.snapshot(self.clock.now()).state;
-        if !matches!(state, State::Idle | State::Ready) {
+        if !matches!(state, ControllerState::Idle | ControllerState::Ready) {
             let stopped = self.controller.operate(self.clock.now(), Operation::StopAll);
             if let Err(refusal) = stopped {
                 tracing::warn!("the robots could not be stopped: {refusal}");

@@ -4,7 +4,7 @@ use std::sync::{Arc, PoisonError};
 
 use axum::extract::ws::Utf8Bytes;
 use lightbots_api as api;
-use lightbots_control::{EventKind, Operation, Refusal, State};
+use lightbots_control::{ControllerState, EventKind, Operation, Refusal};
 use lightbots_show::{Show, validate};
 use tokio::sync::{Mutex, broadcast, watch};
 
@@ -98,7 +98,7 @@ impl Desk {
     pub async fn follow(self, mut news: broadcast::Receiver<News>) {
         loop {
             match news.recv().await {
-                Ok(News::Event(event)) if event.kind == EventKind::StateChanged(State::Ready) => {
+                Ok(News::Event(event)) if event.kind == EventKind::StateChanged(ControllerState::Ready) => {
                     // If another run has begun already, its end brings this again.
                     let _ = self.hand_over().await;
                 }

@@ -6,7 +6,7 @@ use axum::body::Bytes;
 use axum::extract::ws::Utf8Bytes;
 use lightbots_api as api;
 use lightbots_base::{RobotId, Vec2};
-use lightbots_control::{Age, RobotView, Snapshot, State};
+use lightbots_control::{Age, ControllerState, RobotView, Snapshot};
 use lightbots_wire::RobotState;
 use tokio::sync::{broadcast, watch};
 use tokio::time::MissedTickBehavior;
@@ -195,7 +195,7 @@ impl Painter {
     /// Planned time to the end of the show, seconds: the rest of the transition or air time, and all later ones. `None` for
     /// a preview.
     fn left_s(&self, snapshot: &Snapshot, is_showing: bool) -> Option<f64> {
-        let run = snapshot.run.as_ref().filter(|_| snapshot.state != State::Preview)?;
+        let run = snapshot.run.as_ref().filter(|_| snapshot.state != ControllerState::Preview)?;
         let (shown, plan) = (self.desk.shown(), self.desk.plan());
         let frames = &shown.show.frames;
         let air_s = frames.get(run.frame)?.air_time_s;
@@ -216,15 +216,15 @@ fn broker_phase(phase: LinkPhase) -> api::BrokerPhase {
     }
 }
 
-fn phase(state: State) -> api::Phase {
+fn phase(state: ControllerState) -> api::Phase {
     match state {
-        State::Idle => api::Phase::Idle,
-        State::Ready => api::Phase::Ready,
-        State::Preparing => api::Phase::Preparing,
-        State::Playing => api::Phase::Playing,
-        State::Paused => api::Phase::Paused,
-        State::Preview => api::Phase::Preview,
-        State::Aborting => api::Phase::Aborting,
+        ControllerState::Idle => api::Phase::Idle,
+        ControllerState::Ready => api::Phase::Ready,
+        ControllerState::Preparing => api::Phase::Preparing,
+        ControllerState::Playing => api::Phase::Playing,
+        ControllerState::Paused => api::Phase::Paused,
+        ControllerState::Preview => api::Phase::Preview,
+        ControllerState::Aborting => api::Phase::Aborting,
     }
 }
 

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use lightbots_base::{Instant, Rgb, RobotId, Span, Vec2};
-use lightbots_control::{Config, Controller, EventKind, MissingPolicy, Operation, Outcome};
+use lightbots_control::{Config, Controller, EventKind, MissingPolicy, Operation, RunOutcome};
 use lightbots_show::Show;
 use lightbots_sim::{Conditions, Fleet, FleetConfig, STEP};
 
@@ -26,7 +26,7 @@ pub struct Played {
     pub pictures: Vec<Picture>,
     /// From the first departure to the end of the last air time.
     pub duration: Span,
-    pub outcome: Option<Outcome>,
+    pub outcome: Option<RunOutcome>,
     pub contacts: u64,
     pub dropouts: usize,
 }
@@ -68,7 +68,7 @@ impl Hall {
             Played { pictures: Vec::new(), duration: Span::ZERO, outcome: None, contacts: 0, dropouts: 0 };
         let missing = MissingPolicy::LeaveOut;
         if let Err(refusal) = self.controller.operate(self.now, Operation::Play { from: 0, missing }) {
-            played.outcome = Some(Outcome::Failed(refusal.to_string()));
+            played.outcome = Some(RunOutcome::Failed(refusal.to_string()));
         }
         let (mut began, mut look) = (None, None);
         while played.outcome.is_none() && self.now < Instant::ZERO + LIMIT {

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use lightbots_base::Rgb;
-use lightbots_control::Outcome;
+use lightbots_control::RunOutcome;
 use lightbots_plan::{ShowOptions, ShowPlan};
 use lightbots_show::{Frame, Identity, Show, most_pixels};
 use lightbots_sim::{Conditions, RehearsalOptions, rehearse};
@@ -65,7 +65,7 @@ fn live(number: u64, scene: &Scene, conditions: &Conditions) -> Vec<String> {
     // Among ways that are nearly as long, noise decides.
     let is_exact = *conditions == Conditions::ideal();
     let mut faults = Vec::new();
-    if played.outcome != Some(Outcome::Finished) || played.contacts + played.dropouts as u64 > 0 {
+    if played.outcome != Some(RunOutcome::Finished) || played.contacts + played.dropouts as u64 > 0 {
         let Played { outcome, contacts, dropouts, .. } = &played;
         faults.push(format!("{outcome:?}, {contacts} contacts, {dropouts} dropouts"));
     }
