@@ -28,9 +28,13 @@ impl Instant {
 
     /// Time from `earlier` to this instant; negative if `earlier` is later. Saturates at the longest [`Span`].
     pub const fn since(self, earlier: Self) -> Span {
-        let apart = self.0.abs_diff(earlier.0);
-        let apart = if apart > i64::MAX as u64 { i64::MAX } else { apart as i64 };
-        Span(if self.0 < earlier.0 { -apart } else { apart })
+        let (apart, is_ahead) = self.0.overflowing_sub(earlier.0);
+        let apart = apart as i64;
+        // The difference fits where its sign agrees with the order. Both are the usual case and cost one comparison.
+        if (apart < 0) == is_ahead {
+            return Span(apart);
+        }
+        Span(if is_ahead { -i64::MAX } else { i64::MAX })
     }
 }
 

@@ -20,7 +20,7 @@ const TURN: f64 = 0.03;
 
 /// Covariances with x, y, heading and the slip of the left wheel. Single precision is far finer than what is known of
 /// any of them, and half the work.
-type Row = [f32; 4];
+pub(crate) type Row = [f32; 4];
 
 /// What the wheels did since the covariance was last carried on.
 #[derive(Clone, Copy, Debug, Default)]
@@ -52,26 +52,30 @@ pub(crate) struct Noise {
     pub heading: f64,
 }
 
-/// What a place off by one along x or y, or a heading off by one, corrects.
+/// Kalman gain of one measured coordinate: the correction of each state per unit of innovation.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Gain {
     /// Stage x and y, heading, slip of the left wheel.
-    pub by: [f32; 4],
+    pub by: Row,
     /// Slip of the right wheel.
     pub right: f32,
 }
 
-impl Gain {
-    /// What x, y and heading off by so much correct together.
-    #[inline(never)] // As `PoseCovariance::learn_one`.
-    pub(crate) fn sum(gains: &[Self; 3], off: [f32; 3]) -> Self {
-        let mut sum = Self::default();
-        for (gain, off) in gains.iter().zip(off) {
-            add(&mut sum.by, off, &gain.by);
-            sum.right += gain.right * off;
-        }
-        sum
+/// Correction of x, y, heading and the left wheel's slip by the innovations of x, y and heading.
+// On its own, as `PoseCovariance::learn_one`.
+#[inline(never)]
+pub(crate) fn correction(gains: &[Gain; 3], innovation: [f32; 3]) -> Row {
+    let mut sum = [0.0; 4];
+    for (gain, off) in gains.iter().zip(innovation) {
+        add(&mut sum, off, &gain.by);
     }
+    sum
+}
+
+/// Correction of the right wheel's slip by the innovations of x, y and heading.
+#[inline]
+pub(crate) fn right_correction(gains: &[Gain; 3], innovation: [f32; 3]) -> f32 {
+    gains.iter().zip(innovation).fold(0.0, |sum, (gain, off)| sum + gain.right * off)
 }
 
 /// The covariance.

@@ -11,7 +11,7 @@ use lightbots_base::{Instant, Limits, Span, Vec2, difference, wrap};
 
 use crate::bearing::Bearing;
 use crate::config::{Config, Fix};
-use crate::covariance::{Gain, Noise, PoseCovariance, Stretch};
+use crate::covariance::{Gain, Noise, PoseCovariance, Stretch, correction, right_correction};
 use crate::noise::NoiseEstimate;
 use crate::slip::Slip;
 use gate::{OutlierGate, Verdict};
@@ -143,10 +143,11 @@ impl Filter {
             self.carry();
         }
         let (place, angle) = off;
-        let sum = Gain::sum(&self.gains, [place.x, place.y, angle].map(|off| off as f32));
-        let [x, y, turn, left] = sum.by;
+        let innovation = [place.x, place.y, angle].map(|off| off as f32);
+        let [x, y, turn, left] = correction(&self.gains, innovation);
+        let right = right_correction(&self.gains, innovation);
         self.at += Vec2::new(f64::from(x), f64::from(y));
-        self.slip.correct([f64::from(left), f64::from(sum.right)]);
+        self.slip.correct([f64::from(left), f64::from(right)]);
         self.turn_by(f64::from(turn));
     }
 

@@ -122,9 +122,10 @@ impl World {
         let (mut moved, mut outdated) = (false, false);
         self.bumps.begin_step();
         for robot in 0..self.bodies.len() {
-            if self.move_body(robot) {
+            // The place comes back by value, because the processor waits where it reads both halves just after writing each.
+            if let Some(place) = self.move_body(robot) {
                 moved = true;
-                outdated |= self.near.outdated_by(robot, self.places[robot]);
+                outdated |= self.near.outdated_by(robot, place);
             }
         }
         if !moved && self.contacts.none_touching() {
@@ -146,15 +147,15 @@ impl World {
         }
     }
 
-    /// Whether it moved.
+    /// Where a robot is after the step; `None` if it did not move.
     #[inline]
-    fn move_body(&mut self, robot: usize) -> bool {
+    fn move_body(&mut self, robot: usize) -> Option<Vec2> {
         let body = &mut self.bodies[robot];
         let shaft = &mut self.shafts[robot];
         let stance = &mut self.stances[robot];
         if shaft.told == [0.0; 2] && body.drive.rests() {
             stance.stands = true;
-            return false;
+            return None;
         }
         let grip = body.slip.grip(self.slip, &mut self.dice);
         let twist = body.drive.step(shaft.told, grip);
@@ -164,13 +165,13 @@ impl World {
         let middle = turned(stance.forward, half_turn);
         stance.forward = turned(middle, half_turn);
         shaft.heading = wrap(shaft.heading + 2.0 * half_turn);
-        let place = &mut self.places[robot];
-        *place += middle * (STEP_S * twist.speed_mps);
-        let out_of = self.floor.keep_out(place);
+        let mut place = self.places[robot] + middle * (STEP_S * twist.speed_mps);
+        let out_of = self.floor.keep_out(&mut place);
         if out_of.is_some() || body.against.is_some() {
-            body.against = self.bumps.look(robot, body.against, out_of, &self.floor, *place);
+            body.against = self.bumps.look(robot, body.against, out_of, &self.floor, place);
         }
-        true
+        self.places[robot] = place;
+        Some(place)
     }
 }
 

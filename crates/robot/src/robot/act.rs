@@ -40,6 +40,7 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
     }
 
     /// Drives as the safety layer allows.
+    #[inline(never)]
     fn drive_warily(&mut self, wanted: Setpoint, dt: f64) -> [f64; 2] {
         let hot = &mut self.hot;
         let most_mps = if hot.routes.under_way() {

@@ -45,6 +45,7 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
     }
 
     /// Gives the safety layer the readings of the step, and the neighbours that the plan has in sight.
+    #[inline(never)]
     fn sense_neighbours(&mut self, [left, right]: [f64; 2], gaps_m: Option<&[f32; SENSORS]>, dt: f64) {
         let hot = &mut self.hot;
         let way_m = 0.5 * (left + right) * hot.limits.wheel_radius_m;
