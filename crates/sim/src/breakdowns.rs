@@ -29,7 +29,7 @@ pub(crate) enum Fate {
 pub(crate) struct Breakdowns {
     /// After the show began, sorted, latest first.
     coming: Vec<(Span, usize, Fate)>,
-    struck: Vec<usize>,
+    broke_down: Vec<usize>,
     mute: Vec<bool>,
     cut: Vec<bool>,
 }
@@ -57,7 +57,7 @@ impl Breakdowns {
         }
         coming.retain(|&(_, robot, _)| robot < robots);
         coming.sort_by_key(|&(at, robot, _)| core::cmp::Reverse((at, robot)));
-        Self { coming, struck: Vec::new(), mute: vec![false; robots], cut: vec![false; robots] }
+        Self { coming, broke_down: Vec::new(), mute: vec![false; robots], cut: vec![false; robots] }
     }
 
     /// The next robot that breaks down until then, counted from the show's beginning.
@@ -71,8 +71,8 @@ impl Breakdowns {
             Fate::Cut | Fate::Linked => self.cut[robot] = fate == Fate::Cut,
             _ => {}
         }
-        if !self.struck.contains(&robot) {
-            self.struck.push(robot);
+        if !self.broke_down.contains(&robot) {
+            self.broke_down.push(robot);
         }
         Some((robot, fate))
     }
@@ -91,7 +91,7 @@ impl Breakdowns {
 
     /// How many robots broke down so far.
     pub fn count(&self) -> usize {
-        self.struck.len()
+        self.broke_down.len()
     }
 }
 

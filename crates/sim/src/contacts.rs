@@ -14,7 +14,7 @@ const ROUNDS: usize = 4;
 
 /// What a robot sets against being pushed.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Stance {
+pub(crate) struct ContactState {
     /// Unit vector of its front.
     pub forward: Vec2,
     /// Whether its wheels stand.
@@ -23,7 +23,7 @@ pub(crate) struct Stance {
     pub slack_m: f64,
 }
 
-impl Stance {
+impl ContactState {
     /// A robot nobody pushes.
     pub fn new(forward: Vec2) -> Self {
         Self { forward, stands: true, slack_m: SLACK_M }
@@ -100,7 +100,12 @@ impl Contacts {
     }
 
     /// Looks at the near pairs after a step, counts new contacts and moves those that touch apart.
-    pub(crate) fn resolve(&mut self, pairs: &[(u32, u32)], places: &mut [Vec2], stances: &mut [Stance]) {
+    pub(crate) fn resolve(
+        &mut self,
+        pairs: &[(u32, u32)],
+        places: &mut [Vec2],
+        contact_states: &mut [ContactState],
+    ) {
         let contact_squared = self.contact_m * self.contact_m - 1e-12;
         self.now.clear();
         self.fresh.clear();
@@ -123,21 +128,21 @@ impl Contacts {
         if self.now.is_empty() && self.touching.is_empty() {
             return;
         }
-        self.count_new(places, stances);
+        self.count_new(places, contact_states);
         for _ in 0..ROUNDS {
-            if !self.part(pairs, places, stances, contact_squared) {
+            if !self.part(pairs, places, contact_states, contact_squared) {
                 break;
             }
         }
     }
 
-    fn count_new(&mut self, places: &[Vec2], stances: &mut [Stance]) {
+    fn count_new(&mut self, places: &[Vec2], contact_states: &mut [ContactState]) {
         let parted = (self.contact_m + PARTED_M) * (self.contact_m + PARTED_M);
         self.touching.retain(|&(a, b)| {
             let touches = (places[b as usize] - places[a as usize]).length_squared() < parted;
             if !touches {
-                stances[a as usize].slack_m = SLACK_M;
-                stances[b as usize].slack_m = SLACK_M;
+                contact_states[a as usize].slack_m = SLACK_M;
+                contact_states[b as usize].slack_m = SLACK_M;
             }
             touches
         });
@@ -155,7 +160,7 @@ impl Contacts {
         &self,
         pairs: &[(u32, u32)],
         places: &mut [Vec2],
-        stances: &mut [Stance],
+        contact_states: &mut [ContactState],
         contact_squared: f64,
     ) -> bool {
         let mut overlapped = false;
@@ -164,26 +169,33 @@ impl Contacts {
             let gap = places[b] - places[a];
             if gap.length_squared() < contact_squared {
                 overlapped = true;
-                self.push_apart(a, b, gap, places, stances);
+                self.push_apart(a, b, gap, places, contact_states);
             }
         }
         overlapped
     }
 
-    fn push_apart(&self, a: usize, b: usize, gap: Vec2, places: &mut [Vec2], stances: &mut [Stance]) {
+    fn push_apart(
+        &self,
+        a: usize,
+        b: usize,
+        gap: Vec2,
+        places: &mut [Vec2],
+        contact_states: &mut [ContactState],
+    ) {
         // Two on one spot part along x: any direction will do, as long as it is always the same.
         let (distance, normal) = match gap.normalized() {
             Some(normal) => (gap.length(), normal),
             None => (0.0, Vec2::new(1.0, 0.0)),
         };
         let overlap = self.contact_m - distance;
-        let (move_a, move_b) = match (stances[a].stands, stances[b].stands) {
+        let (move_a, move_b) = match (contact_states[a].stands, contact_states[b].stands) {
             (false, true) => {
-                let given = stances[b].give_way(normal, overlap);
+                let given = contact_states[b].give_way(normal, overlap);
                 (overlap - given, given)
             }
             (true, false) => {
-                let given = stances[a].give_way(-normal, overlap);
+                let given = contact_states[a].give_way(-normal, overlap);
                 (given, overlap - given)
             }
             _ => (0.5 * overlap, 0.5 * overlap),

@@ -8,7 +8,7 @@ use lightbots_show::Stage;
 use lightbots_wire::Topic;
 
 use crate::conditions::Conditions;
-use crate::crew::Crew;
+use crate::robot_set::RobotSet;
 use crate::world::STEP;
 
 /// The most steps that are caught up on at once: half a second. What a machine too slow falls behind further is left
@@ -27,7 +27,7 @@ pub struct FleetConfig {
     pub starts: Vec<Vec2>,
     /// Names, clocks, slip and noise follow from it. A robot's name is the same however many there are.
     pub seed: u64,
-    /// Slip, sensors and clocks. Links and breakdowns are left to the real network.
+    /// WheelSlip, sensors and clocks. Links and breakdowns are left to the real network.
     pub conditions: Conditions,
 }
 
@@ -46,7 +46,7 @@ pub struct FleetMessage {
 /// [`receive`](Self::receive), [`advance`](Self::advance). After each of them drain
 /// [`next_message`](Self::next_message).
 pub struct Fleet {
-    crew: Crew,
+    robots: RobotSet,
     by_id: BTreeMap<RobotId, usize>,
     /// Until when the world has run.
     world_at: Instant,
@@ -64,15 +64,15 @@ struct Waiting {
 impl Fleet {
     /// Robots that were just switched on and have no link yet.
     pub fn new(config: &FleetConfig) -> Self {
-        let crew = Crew::new(&config.stage, &config.starts, &[], &config.conditions, config.seed, true);
-        let by_id = (0..crew.len()).map(|robot| (crew.id(robot), robot)).collect();
+        let robots = RobotSet::new(&config.stage, &config.starts, &[], &config.conditions, config.seed, true);
+        let by_id = (0..robots.len()).map(|robot| (robots.id(robot), robot)).collect();
         Self {
             waiting: Waiting {
                 messages: VecDeque::new(),
-                most: WAITING + WAITING_PER_ROBOT * crew.len(),
+                most: WAITING + WAITING_PER_ROBOT * robots.len(),
                 dropped: 0,
             },
-            crew,
+            robots,
             by_id,
             world_at: Instant::ZERO,
             left_out: 0,
@@ -81,22 +81,22 @@ impl Fleet {
 
     /// The robots' names, in starting order.
     pub fn ids(&self) -> Vec<RobotId> {
-        (0..self.crew.len()).map(|robot| self.crew.id(robot)).collect()
+        (0..self.robots.len()).map(|robot| self.robots.id(robot)).collect()
     }
 
     /// Where robots really are, in starting order.
     pub fn poses(&self) -> Vec<Pose> {
-        (0..self.crew.len()).map(|robot| self.crew.world.pose(robot)).collect()
+        (0..self.robots.len()).map(|robot| self.robots.world.pose(robot)).collect()
     }
 
     /// What lights show, in starting order.
     pub fn lights(&self) -> Vec<Rgb> {
-        (0..self.crew.len()).map(|robot| self.crew.light(robot)).collect()
+        (0..self.robots.len()).map(|robot| self.robots.light(robot)).collect()
     }
 
     /// How often two robots came to touch so far.
     pub fn contacts(&self) -> u64 {
-        self.crew.world.contacts().count()
+        self.robots.world.contacts().count()
     }
 
     /// How many steps were left out because `advance` came too late.
@@ -106,36 +106,36 @@ impl Fleet {
 
     /// Everybody's link comes up or breaks.
     pub fn link(&mut self, now: Instant, up: bool) {
-        for robot in 0..self.crew.len() {
+        for robot in 0..self.robots.len() {
             self.link_of(now, robot, up);
         }
     }
 
     /// One robot's link comes up or breaks, where each has a connection of its own.
     pub fn link_of(&mut self, now: Instant, robot: usize, up: bool) {
-        if robot < self.crew.len() {
-            self.crew.link(now, robot, up);
-            self.crew.listen(robot, &mut |robot, topic, text| self.waiting.push(robot, topic, text));
+        if robot < self.robots.len() {
+            self.robots.link(now, robot, up);
+            self.robots.listen(robot, &mut |robot, topic, text| self.waiting.push(robot, topic, text));
         }
     }
 
     /// A message was published: whom its topic names hears it, and everybody a broadcast. Whether it was for anybody.
     pub fn receive(&mut self, now: Instant, topic: &str, payload: &[u8]) -> bool {
-        self.receive_on(now, 0..self.crew.len(), topic, payload)
+        self.receive_on(now, 0..self.robots.len(), topic, payload)
     }
 
     /// A message came on the connection that `sharing` have in common: a broadcast is heard by these robots.
     pub fn receive_on(&mut self, now: Instant, sharing: Range<usize>, topic: &str, payload: &[u8]) -> bool {
         let Some(topic) = Topic::parse(topic) else { return false };
         let robots = match topic {
-            Topic::Broadcast => sharing.start.min(self.crew.len())..sharing.end.min(self.crew.len()),
+            Topic::Broadcast => sharing.start.min(self.robots.len())..sharing.end.min(self.robots.len()),
             Topic::Robot(id) => self.by_id.get(&id).map_or(0..0, |&robot| robot..robot + 1),
             _ => 0..0,
         };
         let heard = !robots.is_empty();
         for robot in robots {
-            self.crew.receive(now, robot, topic, payload);
-            self.crew.listen(robot, &mut |robot, topic, text| self.waiting.push(robot, topic, text));
+            self.robots.receive(now, robot, topic, payload);
+            self.robots.listen(robot, &mut |robot, topic, text| self.waiting.push(robot, topic, text));
         }
         heard
     }
@@ -148,7 +148,7 @@ impl Fleet {
         self.left_out += (due - run) as u64;
         for _ in 0..run {
             self.world_at += STEP;
-            self.crew.step(self.world_at, &mut |robot, topic, text| self.waiting.push(robot, topic, text));
+            self.robots.step(self.world_at, &mut |robot, topic, text| self.waiting.push(robot, topic, text));
         }
         run as u64
     }

@@ -125,7 +125,7 @@ fn chart(page: &mut String, title: &str, frames: &[FrameRecord], value: impl Fn(
 
 fn frame_table(page: &mut String, frames: &[FrameRecord]) {
     page.push_str(
-        "<h2>Frames</h2><table><tr><th>Frame</th><th>Stands at</th><th>Drive</th><th>Arrivals within</th>\
+        "<h2>Frames</h2><table><tr><th>Frame</th><th>Stands at</th><th>DriveTrain</th><th>Arrivals within</th>\
          <th>Position error (median, max)</th></tr>",
     );
     for frame in frames {

@@ -43,7 +43,7 @@ pub(crate) struct Message {
 /// How many messages were said, for each receiver, and how many of them never arrived.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize)]
 pub struct MessageCounts {
-    /// Said.
+    /// MessageLog.
     pub sent: u64,
     /// Lost on the way.
     pub lost: u64,

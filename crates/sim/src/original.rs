@@ -36,7 +36,7 @@ pub(crate) struct Original {
 
 /// What it does to its wheels and light.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Deeds {
+pub(crate) struct OriginalOutputs {
     /// Left and right, rad/s.
     pub wheels_radps: [f64; 2],
     pub light: Rgb,
@@ -81,10 +81,10 @@ impl Original {
     }
 
     /// One step; `fix`: where it is told it is.
-    pub fn step(&mut self, fix: Option<Pose>) -> Deeds {
+    pub fn step(&mut self, fix: Option<Pose>) -> OriginalOutputs {
         self.at = fix.map(|fix| fix.at).or(self.at);
         let wheels_radps = fix.filter(|_| !self.ended).map_or([0.0; 2], |pose| self.drive(pose));
-        Deeds { wheels_radps, light: self.light }
+        OriginalOutputs { wheels_radps, light: self.light }
     }
 
     fn drive(&mut self, pose: Pose) -> [f64; 2] {
@@ -138,7 +138,7 @@ mod tests {
         let payload_of = |robot: &mut Original, text: &str| robot.receive(text.as_bytes());
         payload_of(&mut robot, "|TARGET 1.0 0,0||COLOR 255||DANCE|");
         let away = robot.step(Some(Pose::new(Vec2::ZERO, 2.0)));
-        assert_eq!(away, Deeds { wheels_radps: [20.0, -20.0], light: Rgb::new(0, 0, 255) });
+        assert_eq!(away, OriginalOutputs { wheels_radps: [20.0, -20.0], light: Rgb::new(0, 0, 255) });
         assert_eq!(robot.step(Some(Pose::new(Vec2::ZERO, 0.0))).wheels_radps, [60.0, 60.0]);
         assert_ne!(robot.step(Some(Pose::new(Vec2::new(0.98, 0.021), 0.0))).wheels_radps, [0.0; 2]);
         let near = Pose::new(Vec2::new(0.981, 0.019), 0.0);

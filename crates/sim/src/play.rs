@@ -9,11 +9,11 @@ use lightbots_show::{Issue, Show};
 use lightbots_wire::Topic;
 
 use crate::breakdowns::{Breakdowns, Fate};
-use crate::crew::Crew;
 use crate::hash::StateHash;
 use crate::network::{Network, Way};
 use crate::rehearsal::{Progress, RehearsalOptions, time_limit};
 use crate::report::RehearsalReport;
+use crate::robot_set::RobotSet;
 use crate::watch::Watch;
 use crate::world::STEP;
 
@@ -30,7 +30,7 @@ pub(crate) struct Play {
     seed: u64,
     planned_s: f64,
     controller: Controller,
-    crew: Crew,
+    robots: RobotSet,
     network: Network,
     breakdowns: Breakdowns,
     watch: Watch,
@@ -51,8 +51,8 @@ impl Play {
         planned_s: f64,
     ) -> Self {
         let RehearsalOptions { seed, conditions, .. } = options;
-        let crew = Crew::new(&show.stage, starts, names, conditions, *seed, false);
-        let mut by_id: Vec<_> = (0..crew.len()).map(|robot| (crew.id(robot), robot)).collect();
+        let robots = RobotSet::new(&show.stage, starts, names, conditions, *seed, false);
+        let mut by_id: Vec<_> = (0..robots.len()).map(|robot| (robots.id(robot), robot)).collect();
         by_id.sort_unstable();
         Self {
             seed: *seed,
@@ -62,7 +62,7 @@ impl Play {
             breakdowns: Breakdowns::new(conditions, starts.len(), planned_s, *seed),
             watch: Watch::new(starts.len()),
             hash: StateHash::new(),
-            crew,
+            robots,
             by_id,
             show,
             now: Instant::ZERO,
@@ -75,8 +75,8 @@ impl Play {
         self.controller.connected(self.now);
         // Opening is refused only during a run.
         let _ = self.controller.operate(self.now, Operation::Open(self.show.clone()));
-        for robot in 0..self.crew.len() {
-            self.crew.link(self.now, robot, true);
+        for robot in 0..self.robots.len() {
+            self.robots.link(self.now, robot, true);
         }
         self.drain_controller();
         let limit = time_limit(self.planned_s);
@@ -84,12 +84,12 @@ impl Play {
         while !self.watch.is_over() && self.now < limit {
             self.step();
             self.plan(progress);
-            self.tell_departure(progress);
+            self.report_departure(progress);
             step += 1;
             if step.is_multiple_of(HASH_EVERY) {
-                self.crew.world.imprint(&mut self.hash);
+                self.robots.world.imprint(&mut self.hash);
                 if self.watch.began_at().is_some() {
-                    self.crew.compare_clocks(self.now);
+                    self.robots.compare_clocks(self.now);
                 }
                 progress(self.progress());
             }
@@ -102,12 +102,12 @@ impl Play {
         let next = self.now + STEP;
         self.pass_time(next);
         self.now = next;
-        self.strike();
-        let Self { crew, network, watch, breakdowns, .. } = self;
-        crew.step(next, &mut |robot, topic, text| {
+        self.break_robots();
+        let Self { robots, network, watch, breakdowns, .. } = self;
+        robots.step(next, &mut |robot, topic, text| {
             heard(network, watch, breakdowns, next, (robot, topic, text))
         });
-        self.watch.contacts(next, &self.crew.world);
+        self.watch.contacts(next, &self.robots.world);
         if !self.began {
             self.begin();
         }
@@ -131,14 +131,14 @@ impl Play {
                 let Some((at, message)) = self.network.next_until(until) else { return };
                 self.now = at.max(self.now);
                 if let Some(robot) = self.network.next_listener() {
-                    self.crew.prefetch_receiver(robot);
+                    self.robots.prefetch_receiver(robot);
                 }
                 match message.way {
                     Way::ToRobot(robot) if self.breakdowns.is_deaf(robot) => {}
                     Way::ToRobot(robot) => {
-                        self.crew.receive(self.now, robot, message.topic, &message.payload);
-                        let Self { crew, network, watch, breakdowns, now, .. } = self;
-                        crew.listen(robot, &mut |robot, topic, text| {
+                        self.robots.receive(self.now, robot, message.topic, &message.payload);
+                        let Self { robots, network, watch, breakdowns, now, .. } = self;
+                        robots.listen(robot, &mut |robot, topic, text| {
                             heard(network, watch, breakdowns, *now, (robot, topic, text));
                         });
                     }
@@ -166,7 +166,7 @@ impl Play {
         };
         let ready = robots.iter().filter(is_ready).count();
         let late = self.now > Instant::ZERO + GATHERING;
-        if ready < self.crew.len() && !late {
+        if ready < self.robots.len() && !late {
             return;
         }
         self.began = true;
@@ -178,17 +178,17 @@ impl Play {
     }
 
     /// Lets robots break down whose time has come.
-    fn strike(&mut self) {
+    fn break_robots(&mut self) {
         let Some(first_departure) = self.watch.began_at() else { return };
         while let Some((robot, fate)) = self.breakdowns.next_until(self.now - first_departure) {
             match fate {
-                Fate::Killed => self.crew.kill(robot),
-                Fate::Stuck => self.crew.block_wheels(robot),
+                Fate::Killed => self.robots.kill(robot),
+                Fate::Stuck => self.robots.block_wheels(robot),
                 Fate::Muted => {}
-                Fate::Cut | Fate::Linked => self.crew.link(self.now, robot, fate == Fate::Linked),
-                Fate::Blinded | Fate::Seeing => self.crew.blind(robot, fate == Fate::Blinded),
+                Fate::Cut | Fate::Linked => self.robots.link(self.now, robot, fate == Fate::Linked),
+                Fate::Blinded | Fate::Seeing => self.robots.blind(robot, fate == Fate::Blinded),
             }
-            self.watch.struck(robot, self.crew.id(robot), fate, self.now);
+            self.watch.broke_down(robot, self.robots.id(robot), fate, self.now);
         }
     }
 
@@ -203,7 +203,7 @@ impl Play {
     }
 
     /// Says which paths are driven once a drive has begun.
-    fn tell_departure(&mut self, progress: &mut dyn FnMut(Progress<'_>)) {
+    fn report_departure(&mut self, progress: &mut dyn FnMut(Progress<'_>)) {
         if !self.watch.take_departure() {
             return;
         }
@@ -232,33 +232,33 @@ impl Play {
                     }
                 }
                 topic => {
-                    for robot in 0..self.crew.len() {
+                    for robot in 0..self.robots.len() {
                         self.network.send(self.now, Way::ToRobot(robot), topic, payload.clone());
                     }
                 }
             }
         }
         while let Some(event) = self.controller.next_event() {
-            self.watch.event(&event, &self.controller, &self.crew, &self.by_id, &self.show);
+            self.watch.event(&event, &self.controller, &self.robots, &self.by_id, &self.show);
         }
     }
 
     fn report(mut self) -> RehearsalReport {
-        self.crew.world.imprint(&mut self.hash);
+        self.robots.world.imprint(&mut self.hash);
         self.hash.word(self.now.0);
-        let world = &self.crew.world;
+        let world = &self.robots.world;
         let bumps = world.bumps();
         let mut report = self.watch.report(self.now, &self.breakdowns);
         report.contacts = world.contacts().count() + bumps.obstacles + bumps.over;
         report.wall_contacts = bumps.edges;
         report.wall_pressed_m = bumps.edge_most_m;
-        report.brakes = self.crew.brakes();
+        report.brakes = self.robots.brakes();
         report.closest_m = world.contacts().closest_m();
-        report.estimate_error_m = self.crew.errors().estimate_m();
-        report.tracking_error_m = self.crew.errors().tracking_m();
-        report.clock_spread_s = self.crew.errors().clocks_s();
+        report.estimate_error_m = self.robots.errors().estimate_m();
+        report.tracking_error_m = self.robots.errors().tracking_m();
+        report.clock_spread_s = self.robots.errors().clocks_s();
         report.planned_s = self.planned_s;
-        report.robots = self.crew.len();
+        report.robots = self.robots.len();
         report.frames = self.show.frames.len();
         report.messages = self.network.counts();
         report.seed = self.seed;
@@ -306,7 +306,7 @@ mod tests {
             let options = RehearsalOptions { seed: 3, conditions, robots: None };
             let play = |cached| {
                 let mut play = Play::new(show.clone(), &starts, &[], &options, 30.0);
-                play.crew.cached = cached;
+                play.robots.cached = cached;
                 play.run(&mut |_| {})
             };
             let (there, back) = (play(starts.len()), play(0));

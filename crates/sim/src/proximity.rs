@@ -2,7 +2,7 @@
 
 use lightbots_base::Vec2;
 
-use crate::contacts::Stance;
+use crate::contacts::ContactState;
 use crate::dice::{Dice, Purpose};
 
 /// How far a sensor sees, from its place on the rim, metres. The Elisa-3's tell something up to 60 mm.
@@ -39,7 +39,7 @@ pub(crate) struct Proximity {
 }
 
 impl Proximity {
-    /// Sensors of so many discs.
+    /// FixSensors of so many discs.
     pub fn new(robots: usize, radius_m: f64, seed: u64) -> Self {
         let dice = Dice::new(seed, Purpose::Proximity);
         Self { radius_m, gaps_m: vec![NOTHING; robots], seeing: Vec::new(), dice }
@@ -57,7 +57,7 @@ impl Proximity {
     }
 
     /// Looks anew: `near` are the pairs within sight.
-    pub fn look(&mut self, near: &[(u32, u32)], places: &[Vec2], stances: &[Stance]) {
+    pub fn look(&mut self, near: &[(u32, u32)], places: &[Vec2], contact_states: &[ContactState]) {
         for robot in self.seeing.drain(..) {
             self.gaps_m[robot as usize] = NOTHING;
         }
@@ -65,8 +65,8 @@ impl Proximity {
             let way = places[b as usize] - places[a as usize];
             // Each sensor has noise of its own.
             let [first, second, third, fourth] = self.dice.normal4();
-            self.see(a, stances[a as usize].forward, way, [first, second]);
-            self.see(b, stances[b as usize].forward, -way, [third, fourth]);
+            self.see(a, contact_states[a as usize].forward, way, [first, second]);
+            self.see(b, contact_states[b as usize].forward, -way, [third, fourth]);
         }
     }
 
@@ -128,23 +128,25 @@ mod tests {
     #[test]
     fn both_see_each_other_and_nothing_when_they_have_parted() {
         let mut proximity = Proximity::new(2, 0.027, 1);
-        let stances = [Stance::new(Vec2::new(1.0, 0.0)), Stance::new(Vec2::new(0.0, 1.0))];
+        let contact_states = [ContactState::new(Vec2::new(1.0, 0.0)), ContactState::new(Vec2::new(0.0, 1.0))];
         let places = [Vec2::ZERO, Vec2::new(0.064, 0.0)];
-        proximity.look(&[(0, 1)], &places, &stances);
+        proximity.look(&[(0, 1)], &places, &contact_states);
         let (front, left) = (proximity.gaps_m(0)[0], proximity.gaps_m(1)[2]);
         assert!((front - 0.01).abs() < 0.004 && (left - 0.01).abs() < 0.004);
         assert_eq!(proximity.gaps_m(0).iter().filter(|gap| gap.is_finite()).count(), 1);
-        proximity.look(&[], &places, &stances);
+        proximity.look(&[], &places, &contact_states);
         assert_eq!((proximity.gaps_m(0), proximity.gaps_m(1)), (NOTHING, NOTHING));
     }
 
     #[test]
     fn between_two_sensors_both_see_a_little_farther_each_with_noise_of_its_own() {
         let mut proximity = Proximity::new(2, 0.027, 1);
-        let stances =
-            [Stance::new(Vec2::unit(core::f64::consts::FRAC_PI_8)), Stance::new(Vec2::new(1.0, 0.0))];
+        let contact_states = [
+            ContactState::new(Vec2::unit(core::f64::consts::FRAC_PI_8)),
+            ContactState::new(Vec2::new(1.0, 0.0)),
+        ];
         let mut looks = (0..1000).map(|_| {
-            proximity.look(&[(0, 1)], &[Vec2::ZERO, Vec2::new(0.06, 0.0)], &stances);
+            proximity.look(&[(0, 1)], &[Vec2::ZERO, Vec2::new(0.06, 0.0)], &contact_states);
             let [ahead, .., right] = proximity.gaps_m(0);
             [ahead, right]
         });

@@ -8,9 +8,9 @@ use lightbots_show::{Issue, Issues, Show};
 
 use crate::breakdowns::{Breakdowns, Fate};
 use crate::bumps::{Bump, EDGE_SLACK_M};
-use crate::crew::Crew;
 use crate::floor::Thing;
 use crate::report::{FrameRecord, RehearsalReport};
+use crate::robot_set::RobotSet;
 use crate::statistics::Spread;
 use crate::world::World;
 
@@ -103,7 +103,7 @@ impl Watch {
     }
 
     /// A robot was made to break down.
-    pub fn struck(&mut self, robot: usize, id: RobotId, fate: Fate, now: Instant) {
+    pub fn broke_down(&mut self, robot: usize, id: RobotId, fate: Fate, now: Instant) {
         let (code, what) = match fate {
             Fate::Killed => ("robot-killed", "lost its power, as asked for"),
             Fate::Muted => ("robot-muted", "fell silent, as asked for"),
@@ -145,7 +145,7 @@ impl Watch {
         &mut self,
         event: &Event,
         controller: &Controller,
-        crew: &Crew,
+        robots: &RobotSet,
         by_id: &[(RobotId, usize)],
         show: &Show,
     ) {
@@ -165,7 +165,7 @@ impl Watch {
                 self.replans += usize::from(self.began.is_some());
             }
             EventKind::FrameReached { frame, .. } => {
-                self.frame_stands(*frame, show, event.at, controller, crew, by_id);
+                self.frame_stands(*frame, show, event.at, controller, robots, by_id);
                 self.stood = true;
             }
             EventKind::Dropout { robot, .. } => {
@@ -238,11 +238,11 @@ impl Watch {
         show: &Show,
         at: Instant,
         controller: &Controller,
-        crew: &Crew,
+        robots: &RobotSet,
         by_id: &[(RobotId, usize)],
     ) {
-        let places = crew.world.places();
-        let mut errors_m = Vec::with_capacity(crew.len());
+        let places = robots.world.places();
+        let mut errors_m = Vec::with_capacity(robots.len());
         let snapshot = controller.snapshot(at);
         // Without air time original robots may be on their way to the next frame already.
         let stands = snapshot.run.as_ref().is_none_or(|run| run.frame == frame);

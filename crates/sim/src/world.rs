@@ -4,14 +4,14 @@ use lightbots_base::{Pose, Span, Vec2, wrap};
 use lightbots_show::Stage;
 
 use crate::bumps::{Against, Bumps};
-use crate::contacts::{Contacts, Stance};
+use crate::contacts::{ContactState, Contacts};
 use crate::dice::{Dice, Purpose};
-use crate::drive::Drive;
+use crate::drive_train::DriveTrain;
 use crate::floor::Floor;
 use crate::hash::StateHash;
-use crate::near::Near;
+use crate::neighbour_list::NeighbourList;
 use crate::proximity::Proximity;
-use crate::slip::Slip;
+use crate::wheel_slip::WheelSlip;
 
 /// The length of a step of the world: that of the Webots world and of a robot's control loop.
 pub const STEP: Span = Span::from_millis(16);
@@ -23,11 +23,11 @@ pub(crate) const STEP_S: f64 = 0.016;
 #[derive(Clone, Debug)]
 pub struct World {
     places: Vec<Vec2>,
-    stances: Vec<Stance>,
-    shafts: Vec<Shaft>,
+    contact_states: Vec<ContactState>,
+    axles: Vec<Axle>,
     bodies: Vec<Body>,
     floor: Floor,
-    near: Near,
+    near: NeighbourList,
     contacts: Contacts,
     proximity: Proximity,
     slip: f64,
@@ -35,9 +35,9 @@ pub struct World {
     bumps: Bumps,
 }
 
-/// Between a robot's mind and its body.
+/// Between a robot's firmware and its body.
 #[derive(Clone, Debug)]
-struct Shaft {
+struct Axle {
     /// What its wheels are told, and how fast they turned in the last step, left and right, rad/s.
     told: [f64; 2],
     wheels: [f64; 2],
@@ -46,8 +46,8 @@ struct Shaft {
 
 #[derive(Clone, Debug)]
 struct Body {
-    drive: Drive,
-    slip: Slip,
+    drive: DriveTrain,
+    slip: WheelSlip,
     /// What it stands against.
     against: Option<Against>,
 }
@@ -57,20 +57,23 @@ impl World {
     pub fn new(stage: &Stage, starts: &[Pose], slip: f64, seed: u64) -> Self {
         let mut dice = Dice::new(seed, Purpose::Slip);
         let places: Vec<Vec2> = starts.iter().map(|start| start.at).collect();
-        let body =
-            |_: &Pose| Body { drive: Drive::default(), slip: Slip::new(slip, &mut dice), against: None };
-        let shaft = |start: &Pose| Shaft { told: [0.0; 2], wheels: [0.0; 2], heading: wrap(start.heading) };
+        let body = |_: &Pose| Body {
+            drive: DriveTrain::default(),
+            slip: WheelSlip::new(slip, &mut dice),
+            against: None,
+        };
+        let axle = |start: &Pose| Axle { told: [0.0; 2], wheels: [0.0; 2], heading: wrap(start.heading) };
         let contact_m = stage.limits.contact_m();
         let bodies = starts.iter().map(body).collect();
         Self {
-            stances: starts.iter().map(|start| Stance::new(Vec2::unit(start.heading))).collect(),
+            contact_states: starts.iter().map(|start| ContactState::new(Vec2::unit(start.heading))).collect(),
             floor: Floor::new(stage, &places),
-            near: Near::new(contact_m),
+            near: NeighbourList::new(contact_m),
             contacts: Contacts::new(contact_m, Proximity::sight_m(stage.limits.radius_m)),
             proximity: Proximity::new(starts.len(), stage.limits.radius_m, seed),
             bumps: Bumps::default(),
             places,
-            shafts: starts.iter().map(shaft).collect(),
+            axles: starts.iter().map(axle).collect(),
             bodies,
             slip,
             dice,
@@ -80,13 +83,13 @@ impl World {
     /// Tells a robot's wheels their rates, left and right, rad/s. They act from the step after the next on.
     #[inline]
     pub fn tell(&mut self, robot: usize, wheels_radps: [f64; 2]) {
-        self.shafts[robot].told = wheels_radps;
+        self.axles[robot].told = wheels_radps;
     }
 
     /// How far a robot's wheels turned in the last step, left and right, radians.
     #[inline]
     pub fn wheel_turns(&self, robot: usize) -> [f64; 2] {
-        let [left, right] = self.shafts[robot].wheels;
+        let [left, right] = self.axles[robot].wheels;
         [left * STEP_S, right * STEP_S]
     }
 
@@ -99,7 +102,7 @@ impl World {
     /// Where a robot really is.
     #[inline]
     pub fn pose(&self, robot: usize) -> Pose {
-        Pose { at: self.places[robot], heading: self.shafts[robot].heading }
+        Pose { at: self.places[robot], heading: self.axles[robot].heading }
     }
 
     /// Where everybody's centre really is, stage metres.
@@ -134,16 +137,16 @@ impl World {
         if outdated {
             self.near.rebuild(&self.places);
         }
-        self.contacts.resolve(self.near.pairs(), &mut self.places, &mut self.stances);
-        self.proximity.look(self.contacts.in_sight(), &self.places, &self.stances);
+        self.contacts.resolve(self.near.pairs(), &mut self.places, &mut self.contact_states);
+        self.proximity.look(self.contacts.in_sight(), &self.places, &self.contact_states);
     }
 
     /// Takes all that will decide how things go on into a fingerprint.
     pub fn imprint(&self, hash: &mut StateHash) {
-        for (place, shaft) in self.places.iter().zip(&self.shafts) {
+        for (place, axle) in self.places.iter().zip(&self.axles) {
             hash.number(place.x);
             hash.number(place.y);
-            hash.number(shaft.heading);
+            hash.number(axle.heading);
         }
     }
 
@@ -151,20 +154,20 @@ impl World {
     #[inline]
     fn move_body(&mut self, robot: usize) -> Option<Vec2> {
         let body = &mut self.bodies[robot];
-        let shaft = &mut self.shafts[robot];
-        let stance = &mut self.stances[robot];
-        if shaft.told == [0.0; 2] && body.drive.rests() {
-            stance.stands = true;
+        let axle = &mut self.axles[robot];
+        let contact_state = &mut self.contact_states[robot];
+        if axle.told == [0.0; 2] && body.drive.rests() {
+            contact_state.stands = true;
             return None;
         }
         let grip = body.slip.grip(self.slip, &mut self.dice);
-        let twist = body.drive.step(shaft.told, grip);
-        shaft.wheels = body.drive.wheels();
-        stance.stands = twist.speed_mps == 0.0 && twist.turn_radps == 0.0;
+        let twist = body.drive.step(axle.told, grip);
+        axle.wheels = body.drive.wheels();
+        contact_state.stands = twist.speed_mps == 0.0 && twist.turn_radps == 0.0;
         let half_turn = 0.5 * STEP_S * twist.turn_radps;
-        let middle = turned(stance.forward, half_turn);
-        stance.forward = turned(middle, half_turn);
-        shaft.heading = wrap(shaft.heading + 2.0 * half_turn);
+        let middle = turned(contact_state.forward, half_turn);
+        contact_state.forward = turned(middle, half_turn);
+        axle.heading = wrap(axle.heading + 2.0 * half_turn);
         let mut place = self.places[robot] + middle * (STEP_S * twist.speed_mps);
         let out_of = self.floor.keep_out(&mut place);
         if out_of.is_some() || body.against.is_some() {

@@ -33,7 +33,7 @@ fn a_circle_closes_on_itself_and_heading_agrees_with_its_vector() {
     world.tell(0, [20.0, 40.0]);
     run(&mut world, 20_000);
     let heading = world.pose(0).heading;
-    assert!((Vec2::unit(heading) - world.stances[0].forward).length() < 1e-9);
+    assert!((Vec2::unit(heading) - world.contact_states[0].forward).length() < 1e-9);
     // v = 0.135 m/s: a circle of v / ω stays within its diameter.
     assert!(world.pose(0).at.length() < 2.0 * 0.135 / 2.1);
 }

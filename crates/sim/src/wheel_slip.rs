@@ -7,7 +7,7 @@ const STRIDE: u32 = 32;
 
 /// The slip of one robot's two wheels, left and right.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Slip {
+pub(crate) struct WheelSlip {
     /// Each wheel's own mean, share of its turning.
     mean: [f64; 2],
     now: [f64; 2],
@@ -16,7 +16,7 @@ pub(crate) struct Slip {
     steps_left: u32,
 }
 
-impl Slip {
+impl WheelSlip {
     /// Wheels that slip by `level` (a share, 0.03 is 3 %) in the mean of all robots: a wheel's own mean lies evenly
     /// between half of that and one and a half, and it wanders by up to half of `level` about it.
     pub fn new(level: f64, dice: &mut Dice) -> Self {
@@ -53,7 +53,7 @@ mod tests {
         let mut dice = Dice::new(5, Purpose::Slip);
         let (mut sum, mut low, mut high) = (0.0, 1f64, 0f64);
         for _ in 0..200 {
-            let mut slip = Slip::new(0.03, &mut dice);
+            let mut slip = WheelSlip::new(0.03, &mut dice);
             for _ in 0..500 {
                 for grip in slip.grip(0.03, &mut dice) {
                     sum += 1.0 - grip;
@@ -69,6 +69,6 @@ mod tests {
     #[test]
     fn without_slip_every_turn_counts() {
         let mut dice = Dice::new(5, Purpose::Slip);
-        assert_eq!(Slip::new(0.0, &mut dice).grip(0.0, &mut dice), [1.0, 1.0]);
+        assert_eq!(WheelSlip::new(0.0, &mut dice).grip(0.0, &mut dice), [1.0, 1.0]);
     }
 }

@@ -6,13 +6,13 @@ use lightbots_wire::Topic;
 
 /// Messages of one step.
 #[derive(Default)]
-pub(crate) struct Said {
+pub(crate) struct MessageLog {
     /// Robot, topic, and where its text lies in `texts`.
     messages: Vec<(usize, Topic, Range<usize>)>,
     texts: Vec<u8>,
 }
 
-impl Said {
+impl MessageLog {
     /// A robot says something.
     pub fn push(&mut self, robot: usize, topic: Topic, text: &[u8]) {
         let begin = self.texts.len();
@@ -37,7 +37,7 @@ mod tests {
 
     #[test]
     fn robots_are_heard_in_their_order_and_each_in_its_own() {
-        let mut said = Said::default();
+        let mut said = MessageLog::default();
         for _ in 0..2 {
             for (robot, text) in [(7, "a"), (7, "bc"), (3, ""), (0, "d"), (0, "e")] {
                 said.push(robot, Topic::Status, text.as_bytes());

@@ -8,7 +8,7 @@ const MARGIN_M: f64 = 0.08;
 
 /// The list of near pairs.
 #[derive(Clone, Debug)]
-pub(crate) struct Near {
+pub(crate) struct NeighbourList {
     reach_m: f64,
     /// Where everybody was when the list was made.
     then: Vec<Vec2>,
@@ -20,7 +20,7 @@ pub(crate) struct Near {
     cell_of: Vec<u32>,
 }
 
-impl Near {
+impl NeighbourList {
     /// An empty list for discs that touch at `contact_m`.
     pub fn new(contact_m: f64) -> Self {
         let reach_m = contact_m + MARGIN_M;
@@ -159,7 +159,7 @@ mod tests {
         let places: Vec<Vec2> = (0..count)
             .map(|_| Vec2::new(dice.between(-half_m, half_m), dice.between(-half_m, half_m)))
             .collect();
-        let mut near = Near::new(0.054);
+        let mut near = NeighbourList::new(0.054);
         near.rebuild(&places);
         let mut expected = Vec::new();
         for a in 0..count {
@@ -182,7 +182,7 @@ mod tests {
 
     #[test]
     fn a_list_holds_until_somebody_moved_half_the_margin() {
-        let mut near = Near::new(0.054);
+        let mut near = NeighbourList::new(0.054);
         assert!(near.outdated_by(0, Vec2::ZERO));
         near.rebuild(&[Vec2::ZERO]);
         assert!(!near.outdated_by(0, Vec2::new(0.039, 0.0)));

@@ -23,7 +23,7 @@ const REBOUND: f64 = 0.199;
 
 /// The moving state of one robot's drive train.
 #[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Drive {
+pub(crate) struct DriveTrain {
     /// Rates told but not yet acting: one step of dead time. Left and right, rad/s.
     told: [f64; 2],
     /// Rates the wheels turn at, rad/s.
@@ -49,7 +49,7 @@ pub(crate) struct Twist {
     pub turn_radps: f64,
 }
 
-impl Drive {
+impl DriveTrain {
     /// The rates the wheels turned at in the last step, rad/s.
     #[inline]
     pub fn wheels(&self) -> [f64; 2] {
@@ -137,7 +137,7 @@ mod tests {
 
     /// Speeds and turning rates of the steps in which new rates act, after 50 steps of the old ones.
     fn after(old: [f64; 2], new: [f64; 2], steps: usize) -> Vec<Twist> {
-        let mut drive = Drive::default();
+        let mut drive = DriveTrain::default();
         for _ in 0..50 {
             drive.step(old, [1.0; 2]);
         }
@@ -155,7 +155,7 @@ mod tests {
 
     #[test]
     fn wheels_act_one_step_late() {
-        let mut drive = Drive::default();
+        let mut drive = DriveTrain::default();
         assert_eq!(drive.step([4.0, 4.0], [1.0; 2]).speed_mps, 0.0);
         assert_eq!(drive.step([4.0, 4.0], [1.0; 2]).speed_mps, 4.0 * WHEEL_RADIUS_M);
     }
@@ -194,7 +194,7 @@ mod tests {
     #[test]
     fn gentle_ramps_are_followed_and_hard_ones_stumble() {
         let worst = |accel: f64| {
-            let mut drive = Drive::default();
+            let mut drive = DriveTrain::default();
             let rate = |step: i32| (accel * STEP_S * f64::from(step)).min(0.27) / WHEEL_RADIUS_M;
             (0..60).fold(0.0, |worst: f64, step| {
                 let twist = drive.step([rate(step); 2], [1.0; 2]);
@@ -208,7 +208,7 @@ mod tests {
 
     #[test]
     fn a_body_comes_to_rest() {
-        let mut drive = Drive::default();
+        let mut drive = DriveTrain::default();
         for wheels in [[60.0, 60.0], [-60.0, 60.0], [133.0, -20.0]] {
             for _ in 0..7 {
                 drive.step(wheels, [0.97, 0.99]);

@@ -13,7 +13,7 @@ const OUTLIER_M: f64 = 1.0;
 
 /// The position sensors of all robots.
 #[derive(Clone, Debug)]
-pub(crate) struct Sensors {
+pub(crate) struct FixSensors {
     conditions: FixConditions,
     dice: Dice,
     bias: Vec<Vec2>,
@@ -28,8 +28,8 @@ pub(crate) struct Sensors {
     throws: Vec<u64>,
 }
 
-impl Sensors {
-    /// Sensors of robots that stand at these poses.
+impl FixSensors {
+    /// FixSensors of robots that stand at these poses.
     pub fn new(conditions: &FixConditions, starts: &[Pose], seed: u64) -> Self {
         let mut dice = Dice::new(seed, Purpose::Sensors);
         let delay_steps = (conditions.delay.0.max(0) + STEP.0 / 2) / STEP.0;
@@ -129,7 +129,7 @@ mod tests {
 
     fn errors_of(faults: &Faults) -> Vec<Option<(f64, f64)>> {
         let conditions = faults.added_to(Conditions::ideal()).fixes;
-        let mut sensors = Sensors::new(&conditions, &[Pose::default()], 4);
+        let mut sensors = FixSensors::new(&conditions, &[Pose::default()], 4);
         (1..=5000)
             .map(|step| {
                 let truth = Pose::new(Vec2::new(f64::from(step) * 0.001, 0.0), 0.5);
@@ -152,7 +152,7 @@ mod tests {
     #[test]
     fn fixes_are_the_same_in_whatever_order_they_are_asked_for() {
         let fixes = |order: [usize; 2]| {
-            let mut sensors = Sensors::new(&Conditions::default().fixes, &[Pose::default(); 3], 4);
+            let mut sensors = FixSensors::new(&Conditions::default().fixes, &[Pose::default(); 3], 4);
             assert!(sensors.in_any_order());
             sensors.next_step(&[true, false, true]);
             let mut fixes = order.map(|robot| (robot, sensors.fix(robot, Pose::default())));

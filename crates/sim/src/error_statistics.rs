@@ -2,7 +2,7 @@
 
 use lightbots_base::Instant;
 
-use crate::crew::Ours;
+use crate::robot_set::Ours;
 use crate::statistics::Spread;
 use crate::world::World;
 
@@ -15,7 +15,7 @@ const BINS: usize = 1_000;
 
 /// What is known so far. Only robots with a route under way count.
 #[derive(Debug, Default)]
-pub(crate) struct Errors {
+pub(crate) struct ErrorStatistics {
     estimate: Tally,
     tracking: Tally,
     /// Of the clocks of all robots at once, seconds, one a sampling.
@@ -30,7 +30,7 @@ struct Tally {
     max_m: f64,
 }
 
-impl Errors {
+impl ErrorStatistics {
     /// Looks at a robot after the world moved and before it thinks: where its last step wanted it to be by now.
     #[inline]
     pub fn look(&mut self, step: u64, index: usize, robot: &Ours, world: &World) {
@@ -130,7 +130,7 @@ mod tests {
 
     #[test]
     fn clocks_are_apart_as_far_as_the_first_and_the_last() {
-        let mut errors = Errors::default();
+        let mut errors = ErrorStatistics::default();
         errors.clocks([Instant(5_000), Instant(2_000), Instant(3_000)].into_iter());
         errors.clocks(std::iter::empty());
         assert_eq!(errors.clocks_s(), Spread { median: 0.003, p99: 0.003, max: 0.003 });

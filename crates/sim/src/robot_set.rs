@@ -8,12 +8,12 @@ use lightbots_wire::{RobotState, Topic};
 use crate::brakes::{BrakeCounts, Brakes};
 use crate::conditions::Conditions;
 use crate::dice::{Dice, Purpose};
-use crate::errors::Errors;
-use crate::original::{Deeds, Original};
+use crate::error_statistics::ErrorStatistics;
+use crate::fix_sensors::FixSensors;
+use crate::message_log::MessageLog;
+use crate::original::{Original, OriginalOutputs};
 use crate::prefetch::prefetch;
 use crate::proximity::Proximity;
-use crate::said::Said;
-use crate::sensors::Sensors;
 use crate::world::{STEP, World};
 
 /// Robots' own clocks begin anywhere within this, microseconds.
@@ -27,24 +27,24 @@ const CACHED: usize = 1_500;
 const AHEAD: [usize; 2] = [5, 2];
 
 /// N robots on a floor.
-pub(crate) struct Crew {
+pub(crate) struct RobotSet {
     pub world: World,
-    sensors: Sensors,
-    members: Vec<Member>,
+    sensors: FixSensors,
+    members: Vec<SimulatedRobot>,
     /// Up to so many of them the processor has at hand.
     pub cached: usize,
     /// Whether they have power.
     alive: Vec<bool>,
     steps: u64,
-    errors: Errors,
+    errors: ErrorStatistics,
     brakes: Brakes,
     payload: Message,
-    said: Said,
+    said: MessageLog,
 }
 
 /// As declared: the first cache line has what says what it is.
 #[repr(C, align(64))]
-struct Member {
+struct SimulatedRobot {
     id: RobotId,
     /// Its wheels do not turn.
     stuck: bool,
@@ -53,7 +53,7 @@ struct Member {
     light: Rgb,
     battery: u8,
     clock: Clock,
-    mind: Mind,
+    firmware: RobotFirmware,
 }
 
 /// Our firmware with its routes apart: a step reads next to nothing of them, and what it reads of ten thousand robots
@@ -63,7 +63,7 @@ pub(crate) type Ours = Robot<Box<RouteStorage>>;
 /// Who decides what a body does.
 #[expect(clippy::large_enum_variant, reason = "nearly all robots are ours, and looked at in order")]
 #[repr(u8)]
-enum Mind {
+enum RobotFirmware {
     /// Our firmware.
     Ours(Ours),
     /// A robot that knows only TARGET and COLOR.
@@ -86,7 +86,7 @@ impl Clock {
     }
 }
 
-impl Crew {
+impl RobotSet {
     /// Robots at rest on a stage, that were just switched on and have no link. `names[robot]` where one is stated.
     /// `says_simulated`: robots of ours report `sim=1`. Rehearsals leave it out: their messages are as long as those of
     /// real robots, and their robots are never taken for real.
@@ -105,20 +105,20 @@ impl Crew {
         let first_original = starts.len().saturating_sub(conditions.originals);
         let member = |robot| {
             let name = names.get(robot).copied().flatten();
-            Member::new(stage, conditions, robot >= first_original, name, says_simulated, &mut dice)
+            SimulatedRobot::new(stage, conditions, robot >= first_original, name, says_simulated, &mut dice)
         };
         let members = (0..starts.len()).map(member).collect();
         Self {
             world: World::new(stage, &poses, conditions.slip, seed),
-            sensors: Sensors::new(&conditions.fixes, &poses, seed),
+            sensors: FixSensors::new(&conditions.fixes, &poses, seed),
             members,
             cached: CACHED,
             alive: vec![true; starts.len()],
             steps: 0,
-            errors: Errors::default(),
+            errors: ErrorStatistics::default(),
             brakes: Brakes::new(starts.len(), Proximity::sight_m(stage.limits.radius_m)),
             payload: Message::new(),
-            said: Said::default(),
+            said: MessageLog::default(),
         }
     }
 
@@ -141,9 +141,9 @@ impl Crew {
     pub fn link(&mut self, now: Instant, robot: usize, up: bool) {
         if self.alive[robot] {
             let member = &mut self.members[robot];
-            match &mut member.mind {
-                Mind::Ours(robot) => robot.link(member.clock.own(now), up),
-                Mind::Original(robot) => robot.link(up),
+            match &mut member.firmware {
+                RobotFirmware::Ours(robot) => robot.link(member.clock.own(now), up),
+                RobotFirmware::Original(robot) => robot.link(up),
             }
         }
     }
@@ -152,9 +152,9 @@ impl Crew {
     pub fn receive(&mut self, now: Instant, robot: usize, topic: Topic, payload: &[u8]) {
         if self.alive[robot] {
             let member = &mut self.members[robot];
-            match &mut member.mind {
-                Mind::Ours(robot) => robot.receive(member.clock.own(now), topic, payload),
-                Mind::Original(robot) => robot.receive(payload),
+            match &mut member.firmware {
+                RobotFirmware::Ours(robot) => robot.receive(member.clock.own(now), topic, payload),
+                RobotFirmware::Original(robot) => robot.receive(payload),
             }
         }
     }
@@ -169,7 +169,7 @@ impl Crew {
 
     #[inline]
     fn prefetch_state(&self, robot: usize) {
-        if let Some(Member { mind: Mind::Ours(robot), .. }) = self.members.get(robot) {
+        if let Some(SimulatedRobot { firmware: RobotFirmware::Ours(robot), .. }) = self.members.get(robot) {
             prefetch(robot.hot());
         }
     }
@@ -191,7 +191,7 @@ impl Crew {
     }
 
     /// How far off robots and their clocks were so far.
-    pub fn errors(&self) -> &Errors {
+    pub fn errors(&self) -> &ErrorStatistics {
         &self.errors
     }
 
@@ -203,9 +203,9 @@ impl Crew {
     /// Compares the clocks of all robots that have one.
     pub fn compare_clocks(&mut self, now: Instant) {
         let shown = self.members.iter().zip(&self.alive).filter(|(_, alive)| **alive);
-        self.errors.clocks(shown.filter_map(|(member, _)| match &member.mind {
-            Mind::Ours(robot) => robot.show_time(member.clock.own(now)),
-            Mind::Original(_) => None,
+        self.errors.clocks(shown.filter_map(|(member, _)| match &member.firmware {
+            RobotFirmware::Ours(robot) => robot.show_time(member.clock.own(now)),
+            RobotFirmware::Original(_) => None,
         }));
     }
 
@@ -233,7 +233,7 @@ impl Crew {
     /// that were the last in the step before. What they say is heard in their order all the same.
     pub fn step(&mut self, now: Instant, hear: &mut impl FnMut(usize, Topic, &[u8])) {
         self.world.step();
-        self.judge_brakes();
+        self.count_brakes();
         self.sensors.next_step(&self.alive);
         self.steps += 1;
         let count = self.members.len();
@@ -257,7 +257,7 @@ impl Crew {
 
     /// Counts the brakes that began in the step before.
     #[inline]
-    fn judge_brakes(&mut self) {
+    fn count_brakes(&mut self) {
         let Self { world, members, alive, brakes, .. } = self;
         let places = world.places();
         brakes.judge(places, |robot, off_m| !alive[robot] || members[robot].is_amiss(places[robot], off_m));
@@ -272,10 +272,10 @@ impl Crew {
         }
         let (member, steps) = (&mut members[index], *steps);
         let fix = sensors.fix(index, world.pose(index)).filter(|_| !member.blind);
-        let robot = match &mut member.mind {
-            Mind::Ours(robot) => robot,
-            Mind::Original(robot) => {
-                let Deeds { wheels_radps, light } = robot.step(fix);
+        let robot = match &mut member.firmware {
+            RobotFirmware::Ours(robot) => robot,
+            RobotFirmware::Original(robot) => {
+                let OriginalOutputs { wheels_radps, light } = robot.step(fix);
                 member.light = light;
                 world.tell(index, if member.stuck { [0.0; 2] } else { wheels_radps });
                 member.speak(index, payload, hear);
@@ -302,7 +302,7 @@ impl Crew {
     }
 }
 
-impl Member {
+impl SimulatedRobot {
     fn new(
         stage: &Stage,
         conditions: &Conditions,
@@ -328,18 +328,18 @@ impl Member {
             ..Config::new(id)
         };
         let battery = 80 + dice.below(21) as u8;
-        let mind = if original {
-            Mind::Original(Original::new(id))
+        let firmware = if original {
+            RobotFirmware::Original(Original::new(id))
         } else {
-            Mind::Ours(Ours::with_storage(config, Box::default()))
+            RobotFirmware::Ours(Ours::with_storage(config, Box::default()))
         };
-        Self { mind, id, clock, battery, light: Rgb::BLACK, stuck: false, blind: false }
+        Self { firmware, id, clock, battery, light: Rgb::BLACK, stuck: false, blind: false }
     }
 
     /// Whether a robot at a place is faulty, or farther than `off_m` from where its route wants it. A mute robot drives on
     /// its route: it is not faulty here. An original robot has no route.
     fn is_amiss(&self, place: Vec2, off_m: f64) -> bool {
-        let Mind::Ours(robot) = &self.mind else { return self.stuck || self.blind };
+        let RobotFirmware::Ours(robot) = &self.firmware else { return self.stuck || self.blind };
         let is_off = robot.route_place().is_some_and(|due| due.distance(place) > off_m);
         let failed = matches!(robot.state(), RobotState::Faulty | RobotState::Cut | RobotState::Lost);
         self.stuck || self.blind || failed || is_off
@@ -347,13 +347,13 @@ impl Member {
 
     #[inline]
     fn speak(&mut self, index: usize, payload: &mut Message, hear: &mut impl FnMut(usize, Topic, &[u8])) {
-        while let Some(topic) = self.mind.outgoing(payload) {
+        while let Some(topic) = self.firmware.outgoing(payload) {
             hear(index, topic, payload.as_bytes());
         }
     }
 }
 
-impl Mind {
+impl RobotFirmware {
     #[inline]
     fn outgoing(&mut self, payload: &mut Message) -> Option<Topic> {
         match self {
