@@ -1,40 +1,47 @@
 //! The show clock, from the robot's own clock and two-way time transfer.
 //!
-//! A Kalman filter over offset and drift. Half the difference of both ways is off by at most half of what the round trip
-//! took longer than the shortest one known, so that excess is each answer's own measure of trust: over a jittery link
-//! the few quick answers count, and none is thrown away.
+//! A Kalman filter over offset and drift. An answer measures the offset as half the difference of both directions. Its
+//! error is at most half of the excess of its round trip over the shortest one known, so the excess sets the noise of the
+//! measurement. Over a jittery link the few quick answers therefore count, and none is discarded (the clock filter of NTP,
+//! RFC 5905 section 10, discards all but the quickest).
 
 use lightbots_base::{Instant, Span};
 use lightbots_wire::TimeAnswer;
 
-/// Answers before the clock counts as synchronised, …
+/// Least number of answers of a synchronised clock. Below, one delayed answer decides the offset. Above, robots join later.
 const ENOUGH: u32 = 4;
-/// … once it is off by no more than this (1 sigma, microseconds), or as good as many answers make it.
+/// Largest error of a synchronised clock, microseconds, 1 sigma, unless it has [`QUICK`] answers. Below, robots on jittery
+/// links join later. Above, robots depart at visibly different times.
 const GOOD_US: f64 = 3_000.0;
-/// Answers it asks for quickly at first.
+/// Answers until which questions are sent at [`QUICK_PACE`]. Tuned on the tests below: 2 ms after 3 s.
 const QUICK: u32 = 16;
-/// Answers after which it asks seldom.
+/// Answers after which questions are sent at [`OLD_PACE`]. Below, drift is too uncertain for that pace.
 const SETTLED: u32 = 60;
-/// Pace of questions: at first, until settled, later and while nobody answers.
+/// Time between the first questions. Below, a fleet that is switched on floods its broker.
 const QUICK_PACE: Span = Span::from_millis(200);
+/// Time between questions until the clock is settled.
 const YOUNG_PACE: Span = Span::from_millis(1000);
+/// Time between questions of a settled clock, or of one that gets no answers. Above, drift adds up between answers.
 const OLD_PACE: Span = Span::from_millis(3000);
-/// So many questions without an answer: there is no such controller.
+/// Unanswered questions after which the robot asks at [`OLD_PACE`]: this controller does not answer.
 const DEAF: u8 = 8;
-/// An answer later than this is none.
+/// Answers later than this are dropped: their round trip says nothing.
 const LATEST: Span = Span::from_millis(3000);
-/// Questions remembered as answered, so that a doubled answer counts once.
+/// Number of answered questions remembered, so that a duplicate of an answer counts once.
 const ANSWERED: usize = 8;
-/// No crystal drifts more; drift is unknown by a third of it at first.
+/// Bound of the drift, as a share: three times the 100 ppm of a poor crystal. A third of it is the first 1 sigma.
 const WORST_DRIFT: f64 = 300e-6;
-/// Drift wanders with temperature, by this in one second (variance per second, as a share squared).
+/// Random walk of the drift with temperature: variance per second, as a share squared.
 const WANDER: f64 = 0.3e-6 * 0.3e-6;
-/// Even the quickest answer is no better than this, microseconds.
+/// Noise of the quickest answer, microseconds, 1 sigma. Below, the filter becomes surer than scheduling of a board allows.
 const BEST_US: f64 = 100.0;
-/// The shortest round trip known is forgotten at this rate, because routes through a network change.
+/// Growth of the shortest known round trip per answer, as a share, because routes through a network change.
 const LEAK: f64 = 1e-5;
-/// The show clock has been set anew if an answer is further from belief than its own round trip allows, and this.
+/// An answer that contradicts the offset by more than this, microseconds, comes from a controller that began anew.
 const SET_ANEW_US: f64 = 500_000.0;
+
+const _: () = assert!(ENOUGH < QUICK && QUICK < SETTLED);
+const _: () = assert!(QUICK_PACE.0 < YOUNG_PACE.0 && YOUNG_PACE.0 < OLD_PACE.0);
 
 /// The show clock as a line over the own clock, and when to ask for it again: all that a step reads of it.
 #[derive(Debug)]
@@ -115,7 +122,7 @@ impl ClockFilter {
         clock.synchronised.then(|| (2.0 * libm::sqrt(variance.max(0.0))) as u32)
     }
 
-    /// Takes an answer that came in at `now`. Late, doubled and impossible ones are dropped.
+    /// Takes an answer that came in at `now`. Late, duplicate and impossible answers are dropped.
     pub(crate) fn answer(&mut self, clock: &mut ShowClock, now: Instant, answer: &TimeAnswer) {
         let late = !(Span::ZERO..=LATEST).contains(&(now - answer.asked));
         if late || self.answered.contains(&answer.asked) || answer.sent < answer.received {
@@ -127,7 +134,7 @@ impl ClockFilter {
         let round_us = there.saturating_add(back).max(0) as f64;
         if self.answers > 0 {
             self.predict(clock, now);
-            self.keep_possible(clock, there, back, round_us);
+            self.keep_within_bounds(clock, there, back, round_us);
         }
         if self.answers == 0 {
             self.begin(clock, now, there, round_us);
@@ -160,14 +167,15 @@ impl ClockFilter {
         clock.at = now;
     }
 
-    /// One measurement of the offset, trusted as its round trip deserves.
+    /// Corrects the line by one measurement of the offset. The excess of its round trip is its noise.
     fn learn(&mut self, clock: &mut ShowClock, measured_us: f64, round_us: f64) {
         self.shortest_us = (self.shortest_us + LEAK * self.shortest_us).min(round_us);
         self.mean_us += (round_us - self.mean_us) / f64::from(self.answers.min(32));
-        // While few answers are known, even the shortest may be long: by what they vary, or by half of itself.
-        let doubt = (self.mean_us - 0.5 * self.shortest_us) / libm::sqrt(f64::from(self.answers.min(200)));
-        let excess = round_us - self.shortest_us + doubt;
-        let noise = BEST_US * BEST_US + excess * excess / 12.0 + doubt * doubt / 4.0;
+        // While few answers are known, even the shortest round trip may be long: by what they vary, or by half of itself.
+        let unknown_us =
+            (self.mean_us - 0.5 * self.shortest_us) / libm::sqrt(f64::from(self.answers.min(200)));
+        let excess = round_us - self.shortest_us + unknown_us;
+        let noise = BEST_US * BEST_US + excess * excess / 12.0 + unknown_us * unknown_us / 4.0;
         let [offset, both, drift] = self.variance;
         let sum = offset + noise;
         let (gain, drift_gain) = (offset / sum, both / sum);
@@ -179,9 +187,9 @@ impl ClockFilter {
         clock.synchronised |= self.answers >= ENOUGH && good;
     }
 
-    /// An answer proves that the offset is at most `there` and at least `-back`. A belief outside was too sure of
-    /// itself and is pulled in; one far outside is about another clock: the controller began anew.
-    fn keep_possible(&mut self, clock: &mut ShowClock, there: i64, back: i64, round_us: f64) {
+    /// Bounds the offset by an answer, which proves that it is at most `there` and at least `-back`. An estimate outside was
+    /// too sure and moves to the bound. One outside by [`SET_ANEW_US`] belongs to a controller that began anew.
+    fn keep_within_bounds(&mut self, clock: &mut ShowClock, there: i64, back: i64, round_us: f64) {
         let most = there.saturating_sub(clock.base_us) as f64;
         let least = -(back.saturating_add(clock.base_us) as f64);
         let outside = (clock.offset_us - most).max(least - clock.offset_us);
@@ -206,13 +214,13 @@ impl ClockFilter {
         self.unanswered = self.unanswered.saturating_add(1);
     }
 
-    /// Asks again at once, because a link came up.
+    /// Makes a question due at once, because a link came up.
     pub(crate) fn hurry(&mut self, clock: &mut ShowClock, now: Instant) {
         clock.next_question = clock.next_question.min(now);
         self.unanswered = 0;
     }
 
-    /// Whether the show clock was set anew, so that earlier moments mean nothing any more. Asking clears it.
+    /// Whether the show clock was set anew, so that earlier moments are void. The call clears it.
     pub(crate) fn take_reset(&mut self) -> bool {
         core::mem::take(&mut self.was_reset)
     }
@@ -326,7 +334,7 @@ mod tests {
     }
 
     #[test]
-    fn nobody_there_is_not_asked_often() {
+    fn a_controller_that_does_not_answer_is_asked_seldom() {
         let mut clock = Clock::new(Instant::ZERO);
         let asked = (0..60_000u64 / 16).filter(|step| clock.take_question(Instant(step * 16_000))).count();
         assert!((15..30).contains(&asked), "{asked}");

@@ -1,51 +1,59 @@
-//! How sure the pose is: the covariance of an extended Kalman filter over place, heading and the slip of both wheels.
+//! Covariance of the extended Kalman filter over place, heading and the slip of both wheels (Thrun, Burgard and Fox,
+//! "Probabilistic Robotics", 2005, section 3.3).
 //!
-//! What a fix corrects changes slowly, so the covariance is carried over several steps at once and its gains are used
-//! in between: the filter then costs a few multiplications a step.
+//! The Kalman gains change slowly, so the covariance is propagated over several steps at once, and the gains are used in
+//! between. The filter then costs a few multiplications a step.
 
 use lightbots_base::Vec2;
 
-/// Stage x and y, heading, slip of the left wheel; that of the right wheel lies apart.
+/// Index of stage x. The slip of the right wheel is stored apart, so that a row fits a vector register.
 const X: usize = 0;
+/// Index of stage y.
 const Y: usize = 1;
+/// Index of the heading.
 const HEADING: usize = 2;
+/// Index of the left wheel's slip.
 const LEFT: usize = 3;
 
-/// Growth of the error of a robot that stands, for who is pushed, metres and radians a step.
+/// Process noise of the place of a robot that stands, metres a step, 1 sigma. Below, a robot that was pushed rejects its
+/// fixes. Above, noise of the fixes moves a robot that stands.
 const STANDING_M: f64 = 1e-5;
+/// Process noise of the heading of a robot that stands, radians a step, 1 sigma. See [`STANDING_M`].
 const STANDING_RAD: f64 = 5e-5;
-/// Growth with the way and the turn beside slip, as shares: wheels are not quite round, nor at one distance.
+/// Process noise of the place as a share of the distance driven, beside slip, because wheels are not quite round.
 const WAY: f64 = 0.01;
+/// Process noise of the heading as a share of the rotation, because the effective track varies: see docs/simulator.md.
 const TURN: f64 = 0.03;
 
-/// Covariances with x, y, heading and the slip of the left wheel. Single precision is far finer than what is known of
-/// any of them, and half the work.
+/// Covariances of one state with x, y, heading and the slip of the left wheel. Single precision is far finer than any of
+/// them is known, and half the work.
 pub(crate) type Row = [f32; 4];
 
-/// What the wheels did since the covariance was last carried on.
+/// Motion since the covariance was last propagated.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Stretch {
-    /// Way in the stage, metres.
+    /// Displacement in the stage, metres.
     pub moved: Vec2,
-    /// How far the left and the right wheel would have gone without slip, metres.
+    /// Distance that the left and the right wheel would have covered without slip, metres.
     pub ways_m: [f64; 2],
-    /// Turn, radians.
+    /// Rotation, radians.
     pub turn: f64,
-    /// Steps it took, and those of them in which the wheels turned.
+    /// Number of steps.
     pub steps: u32,
+    /// Number of those steps in which a wheel turned.
     pub driven: u32,
 }
 
-/// Slip as it is expected to change.
+/// Expected change of the slip: a first-order Gauss-Markov process.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Drift {
-    /// What is left of a deviation from its mean after the stretch, 0 to 1.
+    /// Share of a deviation from the mean that remains after the stretch, 0 to 1.
     pub left: f64,
     /// Variance of the deviation in the long run.
     pub variance: f64,
 }
 
-/// Noise of what was measured during a stretch: its variance, over the number of measurements; infinite for none.
+/// Variance of the mean of the measurements in a stretch; infinite without measurements.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Noise {
     pub place: f64,
@@ -62,7 +70,7 @@ pub(crate) struct Gain {
 }
 
 /// Correction of x, y, heading and the left wheel's slip by the innovations of x, y and heading.
-// On its own, as `PoseCovariance::learn_one`.
+// Not inlined, see `PoseCovariance::update_one`.
 #[inline(never)]
 pub(crate) fn correction(gains: &[Gain; 3], innovation: [f32; 3]) -> Row {
     let mut sum = [0.0; 4];
@@ -81,17 +89,18 @@ pub(crate) fn right_correction(gains: &[Gain; 3], innovation: [f32; 3]) -> f32 {
 /// The covariance.
 #[derive(Debug)]
 pub(crate) struct PoseCovariance {
-    /// What is asked for at every step, of the covariance as it is.
+    /// Variances that every step reads, taken from `rows`.
     place: f64,
     heading: f64,
     rows: [Row; 4],
-    /// Slip of the right wheel with the others, and its own variance.
+    /// Covariances of the right wheel's slip with the other states.
     right: Row,
+    /// Variance of the right wheel's slip.
     right_own: f32,
 }
 
 impl PoseCovariance {
-    /// Nothing is known of the pose, and slip up to this (1 sigma).
+    /// An unknown pose, and slip with this 1 sigma.
     pub(crate) fn new(slip: f64) -> Self {
         let mut rows = [[0.0; 4]; 4];
         let slip = (slip * slip) as f32;
@@ -99,9 +108,9 @@ impl PoseCovariance {
         for (state, variance) in [1.0, 1.0, turn, slip].into_iter().enumerate() {
             rows[state][state] = variance;
         }
-        let mut doubt = Self { place: 0.0, heading: 0.0, rows, right: [0.0; 4], right_own: slip };
-        doubt.sum_up();
-        doubt
+        let mut covariance = Self { place: 0.0, heading: 0.0, rows, right: [0.0; 4], right_own: slip };
+        covariance.sum_up();
+        covariance
     }
 
     fn sum_up(&mut self) {
@@ -109,11 +118,11 @@ impl PoseCovariance {
         self.heading = f64::from(self.rows[HEADING][HEADING]);
     }
 
-    /// Carries it over a stretch that ended facing this way.
-    pub(crate) fn carry(&mut self, stretch: &Stretch, facing: Vec2, track_m: f64, drift: Drift) {
+    /// Propagates the covariance over a stretch that ended with this heading.
+    pub(crate) fn propagate(&mut self, stretch: &Stretch, facing: Vec2, track_m: f64, drift: Drift) {
         let [left, right] = stretch.ways_m;
         let (half_left, half_right, by) = (-0.5 * left, -0.5 * right, 1.0 / track_m);
-        // What an error of the heading or of a wheel's slip adds to x, y and heading.
+        // Jacobian: change of x, y and heading with the heading and with each wheel's slip.
         let by_heading = [-stretch.moved.y, stretch.moved.x, 0.0, 0.0].map(|share| share as f32);
         let by_left = [facing.x * half_left, facing.y * half_left, left * by, 0.0].map(|share| share as f32);
         let by_right =
@@ -155,19 +164,19 @@ impl PoseCovariance {
         self.right_own = self.right_own * left * left + fresh;
     }
 
-    /// Takes in measurements of this noise.
-    pub(crate) fn learn(&mut self, noise: Noise) {
+    /// Updates the covariance by measurements of this noise.
+    pub(crate) fn update(&mut self, noise: Noise) {
         for (state, variance) in [(X, noise.place), (Y, noise.place), (HEADING, noise.heading)] {
             if variance.is_finite() {
-                self.learn_one(state, variance as f32);
+                self.update_one(state, variance as f32);
             }
         }
         self.sum_up();
     }
 
-    /// Takes in one measurement. On its own: the compiler does worse where it sees three at once.
+    /// Updates the covariance by one measurement. Not inlined, because three copies in one function compile to slower code.
     #[inline(never)]
-    fn learn_one(&mut self, state: usize, variance: f32) {
+    fn update_one(&mut self, state: usize, variance: f32) {
         let (seen, seen_right) = (self.rows[state], self.right[state]);
         let share = -1.0 / (seen[state] + variance);
         for (row, with) in self.rows.iter_mut().zip(seen) {
@@ -177,7 +186,7 @@ impl PoseCovariance {
         self.right_own += seen_right * share * seen_right;
     }
 
-    /// What one measurement of x, y and heading corrects, each by its variance.
+    /// Kalman gains of x, y and heading for measurements of these variances.
     pub(crate) fn gains(&self, place: f64, heading: f64) -> [Gain; 3] {
         [(X, place), (Y, place), (HEADING, heading)].map(|(state, variance)| {
             let by = (1.0 / variance) as f32;
@@ -185,13 +194,13 @@ impl PoseCovariance {
         })
     }
 
-    /// A new place, as sure as this variance, that has nothing to do with what was believed.
+    /// Resets the place to a variance, uncorrelated with the other states.
     pub(crate) fn set_place(&mut self, variance: f64) {
         self.set(X, variance);
         self.set(Y, variance);
     }
 
-    /// A new heading, likewise.
+    /// Resets the heading to a variance, uncorrelated with the other states.
     pub(crate) fn set_heading(&mut self, variance: f64) {
         self.set(HEADING, variance);
     }
@@ -204,7 +213,7 @@ impl PoseCovariance {
         self.sum_up();
     }
 
-    /// Variance of the place, the greater of both coordinates.
+    /// Variance of the place: the greater of both coordinates.
     pub(crate) fn place(&self) -> f64 {
         self.place
     }
@@ -214,19 +223,19 @@ impl PoseCovariance {
         self.heading
     }
 
-    /// Variance of the wheels' slip, in the mean of both.
+    /// Variance of the slip: the mean of both wheels.
     pub(crate) fn slip(&self) -> f64 {
         0.5 * f64::from(self.rows[LEFT][LEFT] + self.right_own)
     }
 }
 
-/// Adds so much of another row.
+/// Adds `share` times another row.
 #[inline]
 fn add(row: &mut Row, share: f32, other: &Row) {
     row.iter_mut().zip(other).for_each(|(value, with)| *value += share * with);
 }
 
-/// Adds what x, y and heading take from the columns of heading and slip. On its own, as `PoseCovariance::learn_one`.
+/// Multiplies one row by the transposed Jacobian. Not inlined, see [`PoseCovariance::update_one`].
 #[inline(never)]
 fn add_columns(row: &mut Row, with_right: f32, by: &[Row; 3]) {
     let (turn, left) = (row[HEADING], row[LEFT]);

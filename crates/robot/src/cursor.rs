@@ -1,12 +1,12 @@
-//! A place on a route that moves with path time and only looks at the piece it is on.
+//! Evaluation of a route at a path time that advances. It keeps the current piece as a polynomial.
 
 use lightbots_base::{Motion, Span, Vec2};
 use lightbots_wire::Route;
 
-/// The piece under way, as a cubic in its share of time.
+/// The current piece of a route, as a cubic polynomial in the share of the piece's duration.
 #[derive(Debug)]
 pub(crate) struct Cursor {
-    /// Index of the piece; the number of pieces at the end of the route.
+    /// Index of the piece; at the end of the route, the number of pieces.
     index: usize,
     begin: Span,
     end: Span,

@@ -1,25 +1,28 @@
-//! From speed and turning rate to wheels: ramps, limits, and what to do when a wheel cannot.
+//! The drive base: from speed and turning rate to wheel rates, with ramps and saturation.
 
 use lightbots_base::{Limits, Vec2};
 
 use crate::filter::turned;
 
-/// Feedback may ask for a little more than plans do.
+/// Acceleration that feedback may use, as a multiple of what plans use. Below, a robot cannot catch up with its route. Above,
+/// it stumbles.
 const ACCEL_RESERVE: f64 = 1.25;
+/// Speed that feedback may use, as a multiple of what plans use. See [`ACCEL_RESERVE`].
 const SPEED_RESERVE: f64 = 1.25;
-/// Speed that it lost by braking at once comes back so many times as fast as its ramp would give it: about as fast as tyres
-/// grip. An Elisa-3 stumbles at that, which costs it 4 mm at most; by the ramp it would lose two centimetres, and those
-/// close behind it would have to brake in turn, each a little more than the one before.
-const RECOVERS: f64 = 9.0;
-/// Turning rate changes by at most this, rad/s²: 2 m/s² at the wheels.
+/// Acceleration after braking without a ramp, as a multiple of the ramp: about the grip of tyres. An Elisa-3 stumbles at it
+/// and loses 4 mm at most. Below, it loses 20 mm, and the robots close behind brake in turn, each more than the one before.
+const RECOVERY: f64 = 9.0;
+/// Largest change of the turning rate, rad/s²: 2 m/s² at the wheels.
 const TURN_ACCEL: f64 = 100.0;
-/// Motors answer so late, and what is told is told until the next step, seconds.
+/// Time for which a robot drives on as commanded before, seconds: one step until the motors answer, and one step of holding
+/// the command.
 const DEAD_S: f64 = 0.032;
-/// Slower than this counts as standing.
+/// A commanded speed below this is standing, m/s.
 const STANDING_MPS: f64 = 0.01;
+/// A commanded turning rate below this is standing, rad/s.
 const STANDING_RADPS: f64 = 0.2;
 
-/// What the body is to do.
+/// Commanded motion of the body.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Setpoint {
     /// Along the body's front, m/s; negative is backwards.
@@ -28,49 +31,49 @@ pub(crate) struct Setpoint {
     pub turn_radps: f64,
 }
 
-/// Where the body is and which way it faces: a unit vector.
+/// Place of the body, and the unit vector of its heading.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct BodyPose {
     pub at: Vec2,
     pub facing: Vec2,
 }
 
-/// The drive base: what it was told last.
+/// The drive base, with its latest command.
 #[derive(Debug, Default)]
 pub(crate) struct DriveBase {
-    told: Setpoint,
-    /// It braked at once, and has not got its speed back.
+    commanded: Setpoint,
+    /// It braked without a ramp, and has not regained its speed.
     braked: bool,
-    /// It does not get that back at once.
+    /// It regains its speed by the ramp.
     pub gently: bool,
 }
 
 impl DriveBase {
-    /// Where the body will be in `dt` seconds, when what is said now takes effect: motors answer one step late.
+    /// Predicted pose in `dt` seconds, when the next command takes effect, because motors answer one step late.
     pub(crate) fn foresee(&self, body: BodyPose, dt: f64) -> BodyPose {
-        let facing = turned(body.facing, within(self.told.turn_radps * dt, 0.1));
-        let way = self.told.speed_mps * dt;
+        let facing = turned(body.facing, within(self.commanded.turn_radps * dt, 0.1));
+        let way = self.commanded.speed_mps * dt;
         BodyPose { at: body.at + (body.facing + facing) * (0.5 * way), facing }
     }
 
-    /// Goes towards a setpoint within the ramps; wheel rates left and right, rad/s, of wheels that lose these shares of
-    /// their turning.
+    /// Wheel rates towards a setpoint within the ramps, left and right, rad/s. `slip`: share of their turning that the wheels
+    /// lose.
     pub(crate) fn step(&mut self, want: Setpoint, slip: [f64; 2], dt: f64, limits: &Limits) -> [f64; 2] {
         let speed_max = limits.speed_mps * SPEED_RESERVE;
         let speed = within(want.speed_mps, speed_max);
         let turn = within(want.turn_radps, limits.turn_radps);
         let (ramp_step, turn_step) = (limits.accel_mps2 * ACCEL_RESERVE * dt, TURN_ACCEL * dt);
-        let missing = speed - self.told.speed_mps;
-        self.braked &= missing * self.told.speed_mps >= 0.0 && missing.abs() > ramp_step;
-        let speed_step = if self.braked && !self.gently { RECOVERS * ramp_step } else { ramp_step };
-        self.told = Setpoint {
-            speed_mps: self.told.speed_mps + within(missing, speed_step),
-            turn_radps: self.told.turn_radps + within(turn - self.told.turn_radps, turn_step),
+        let missing = speed - self.commanded.speed_mps;
+        self.braked &= missing * self.commanded.speed_mps >= 0.0 && missing.abs() > ramp_step;
+        let speed_step = if self.braked && !self.gently { RECOVERY * ramp_step } else { ramp_step };
+        self.commanded = Setpoint {
+            speed_mps: self.commanded.speed_mps + within(missing, speed_step),
+            turn_radps: self.commanded.turn_radps + within(turn - self.commanded.turn_radps, turn_step),
         };
         self.wheels(slip, limits)
     }
 
-    /// Goes towards a setpoint within the ramps, but along its front no faster than `most_mps`, at once.
+    /// [`Self::step`] with a speed of at most `most_mps`, to which it brakes without a ramp.
     pub(crate) fn step_within(
         &mut self,
         want: Setpoint,
@@ -80,38 +83,38 @@ impl DriveBase {
         limits: &Limits,
     ) -> [f64; 2] {
         self.step(want, slip, dt, limits);
-        if self.told.speed_mps.abs() > most_mps {
-            self.told.speed_mps = within(self.told.speed_mps, most_mps);
+        if self.commanded.speed_mps.abs() > most_mps {
+            self.commanded.speed_mps = within(self.commanded.speed_mps, most_mps);
             self.braked = true;
         }
         self.wheels(slip, limits)
     }
 
-    /// How far it goes on when it stops by its ramp, metres.
+    /// Distance to a stop by the ramp, metres.
     pub(crate) fn braking_m(&self, limits: &Limits) -> f64 {
-        let speed_mps = self.told.speed_mps.abs();
+        let speed_mps = self.commanded.speed_mps.abs();
         speed_mps * (speed_mps / (2.0 * ACCEL_RESERVE * limits.accel_mps2) + DEAD_S)
     }
 
-    /// What it was told last along its front, m/s.
+    /// Commanded speed along the front, m/s.
     pub(crate) fn speed_mps(&self) -> f64 {
-        self.told.speed_mps
+        self.commanded.speed_mps
     }
 
-    /// Stops at once, without a ramp: an Elisa-3 stands after 32 ms and 1.3 mm.
+    /// Stops without a ramp: an Elisa-3 stands after 32 ms and 1.3 mm (Webots R2023b, 2026-11-21).
     pub(crate) fn halt(&mut self) -> [f64; 2] {
         *self = Self::default();
         [0.0; 2]
     }
 
-    /// Whether it was told to stand, or as good as.
+    /// Whether the command is to stand, or nearly so.
     pub(crate) fn stands(&self) -> bool {
-        self.told.speed_mps.abs() < STANDING_MPS && self.told.turn_radps.abs() < STANDING_RADPS
+        self.commanded.speed_mps.abs() < STANDING_MPS && self.commanded.turn_radps.abs() < STANDING_RADPS
     }
 
-    /// Where a wheel would have to turn too fast, both turn slower in proportion: the curve stays, the speed gives.
+    /// Wheel rates of the command. Where one exceeds the motor's limit, both are scaled, so that the curve stays.
     fn wheels(&self, slip: [f64; 2], limits: &Limits) -> [f64; 2] {
-        let Setpoint { speed_mps, turn_radps } = self.told;
+        let Setpoint { speed_mps, turn_radps } = self.commanded;
         let half = turn_radps * limits.track_m * 0.5;
         let rates = [
             (speed_mps - half) / (limits.wheel_radius_m * (1.0 - slip[0])),
@@ -125,7 +128,7 @@ impl DriveBase {
     }
 }
 
-/// `value`, at most `most` in size. `f64::clamp` also checks its bounds, at some cost in every step.
+/// `value`, limited to ±`most`. `f64::clamp` also checks its bounds, at some cost in every step.
 #[inline]
 fn within(value: f64, most: f64) -> f64 {
     let value = if value < -most { -most } else { value };
@@ -151,7 +154,7 @@ mod tests {
     }
 
     #[test]
-    fn speed_lost_by_braking_comes_back_faster_than_by_the_ramp_but_a_start_does_not() {
+    fn speed_lost_by_braking_is_regained_faster_than_by_the_ramp() {
         let mut drive = DriveBase::default();
         let want = Setpoint { speed_mps: 0.27, turn_radps: 0.0 };
         let steps_to_speed = |drive: &mut DriveBase| {
@@ -174,11 +177,11 @@ mod tests {
         for _ in 0..40 {
             drive.step(Setpoint { speed_mps: 0.2, turn_radps: 0.0 }, [0.0; 2], 0.016, &Limits::ELISA_3);
         }
-        let (told, mut way_m) = (drive.braking_m(&Limits::ELISA_3), 0.2 * 0.032);
+        let (expected_m, mut way_m) = (drive.braking_m(&Limits::ELISA_3), 0.2 * 0.032);
         while !drive.stands() {
             way_m += drive.step(Setpoint::default(), [0.0; 2], 0.016, &Limits::ELISA_3)[0] * 0.0045 * 0.016;
         }
-        assert!((told - way_m).abs() < 0.002, "{told} {way_m}");
+        assert!((expected_m - way_m).abs() < 0.002, "{expected_m} {way_m}");
     }
 
     #[test]

@@ -1,5 +1,5 @@
-//! Where the robot is now. The filter lives in the past that fixes speak of, which is now where they come at once; from
-//! there wheel turns lead to the present.
+//! Estimate of the present pose. The filter holds the pose at the moment of the latest fixes. Where these come late,
+//! odometry leads from there to the present.
 
 use lightbots_base::{Instant, Pose, Span, Vec2, wrap};
 
@@ -7,8 +7,10 @@ use crate::config::{Config, Fix};
 use crate::filter::{Filter, turned};
 use crate::history::OdometryHistory;
 
-/// Lost with an error estimate above this, metres, or without a fix for so long.
+/// A robot is lost with an error of its place above this, metres, 1 sigma. Below, robots abandon routes in short outages.
+/// Above, they drive where they may touch their neighbours.
 const LOST_M: f64 = 0.02;
+/// A robot is lost without a fix for longer than this, whatever the covariance says.
 const LOST_AFTER: Span = Span::from_millis(3000);
 
 /// Whether a robot knows its pose well enough, as of one step.
@@ -22,12 +24,12 @@ pub(crate) struct PoseQuality {
     pub blind: bool,
 }
 
-/// The estimated pose and how sure it is.
+/// The estimated present pose.
 #[derive(Debug)]
 pub(crate) struct Estimate {
     delay: Span,
     filter: Filter,
-    /// Where fixes come late: where it is by now; else nobody looks at this and at what follows.
+    /// The present place where fixes come late; otherwise unused, as the two fields below.
     at: Vec2,
     /// Unit vector of `heading`.
     facing: Vec2,
@@ -45,7 +47,7 @@ impl Estimate {
         }
     }
 
-    /// Carries the pose over one step by wheel turns, radians. `history` is its own, which lies elsewhere.
+    /// Predicts the pose over one step by wheel turns, radians. `history` holds the turns that the filter has not taken yet.
     #[inline]
     pub(crate) fn advance(&mut self, now: Instant, turns_rad: [f64; 2], history: &mut OdometryHistory) {
         if !self.is_ahead() {
@@ -58,34 +60,34 @@ impl Estimate {
                 self.filter.advance(turns);
             }
         }
-        self.come_to_now(history);
+        self.predict_present(history);
     }
 
-    /// Pulls the pose towards a fix. What is not a number is no fix.
+    /// Corrects the pose by a fix. NaN is ignored.
     #[inline]
     pub(crate) fn correct(&mut self, now: Instant, fix: &Fix, history: &OdometryHistory) {
         if !self.is_ahead() {
             self.filter.correct(now, fix);
         } else {
-            // The fix speaks of a moment within the step that follows on the filter's.
+            // The fix was made at a moment within the step after the filter's.
             let (way, turn) = self.filter.motion(history.begun_by(now - self.delay));
             let moved = self.filter.facing() * way;
             let fix = Fix { at: fix.at - moved, heading: fix.heading.map(|heading| heading - turn) };
             self.filter.correct(now, &fix);
         }
-        self.come_to_now(history);
+        self.predict_present(history);
     }
 
     #[inline]
-    fn come_to_now(&mut self, history: &OdometryHistory) {
+    fn predict_present(&mut self, history: &OdometryHistory) {
         if self.is_ahead() {
             (self.at, self.heading, self.facing) =
                 (self.filter.at(), self.filter.heading(), self.filter.facing());
-            self.follow_trail(history);
+            self.follow_history(history);
         }
     }
 
-    fn follow_trail(&mut self, history: &OdometryHistory) {
+    fn follow_history(&mut self, history: &OdometryHistory) {
         let mut turned_by = 0.0;
         for turns in history.turns() {
             let (way, turn) = self.filter.motion(turns);
@@ -97,7 +99,7 @@ impl Estimate {
         self.heading = wrap(self.heading + turned_by);
     }
 
-    /// The place as far as it is known.
+    /// The estimated place, stage metres.
     pub(crate) fn at(&self) -> Vec2 {
         if self.is_ahead() { self.at } else { self.filter.at() }
     }
@@ -111,7 +113,7 @@ impl Estimate {
         if self.is_ahead() { self.heading } else { self.filter.heading() }
     }
 
-    /// Whether now is later than what fixes speak of.
+    /// Whether fixes come late, so that the present is ahead of the filter.
     fn is_ahead(&self) -> bool {
         self.delay > Span::ZERO
     }
@@ -121,12 +123,12 @@ impl Estimate {
         self.filter.aligned()
     }
 
-    /// What of their turning the wheels lose, left and right.
+    /// Share of their turning that the wheels lose, left and right.
     pub(crate) fn slip(&self) -> [f64; 2] {
         self.filter.slip()
     }
 
-    /// The pose, as far as it is known; nothing where the heading is not known yet.
+    /// The estimated pose; `None` while the heading is unknown.
     pub(crate) fn pose(&self) -> Option<Pose> {
         self.aligned().then_some(Pose::new(self.at(), self.heading()))
     }
@@ -136,14 +138,14 @@ impl Estimate {
         libm::sqrt(self.filter.variance())
     }
 
-    /// The same after so much more way without a fix.
+    /// [`Self::error_m`] after `way_m` more of driving without a fix.
     pub(crate) fn error_after_m(&self, way_m: f64) -> f64 {
         libm::sqrt(self.filter.variance() + self.filter.drift(way_m))
     }
 
-    /// What it comes to after so much more way without a fix, if all that leads it astray now goes on the same way.
+    /// Error of the place after `way_m` more of driving without a fix, if heading error and slip stay as they are, metres.
     pub(crate) fn error_at_worst_m(&self, way_m: f64) -> f64 {
-        // The filter is as sure as it was when fixes were made that come in now.
+        // The filter's covariance is that of the moment at which the fixes were made.
         self.error_m() + self.filter.strays_m(way_m + self.at().distance(self.filter.at()))
     }
 
@@ -172,7 +174,7 @@ impl Estimate {
         self.is_blind(now, LOST_AFTER)
     }
 
-    /// Whether fixes and wheels have contradicted each other for longer than a shove explains. Asking clears it.
+    /// Whether fixes and wheels contradict each other for longer than a shove explains. The call clears it.
     pub(crate) fn take_senseless(&mut self) -> bool {
         self.filter.take_senseless()
     }

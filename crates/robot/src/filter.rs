@@ -1,7 +1,8 @@
-//! The pose that wheel turns carry from step to step and fixes pull back, and how much the wheels slip, which both teach:
-//! so it finds its way while fixes stay away.
+//! An extended Kalman filter over place, heading and the slip of both wheels (Thrun, Burgard and Fox, "Probabilistic
+//! Robotics", 2005, section 3.3).
 //!
-//! An extended Kalman filter over place, heading and the slip of both wheels; wild fixes are left alone.
+//! Odometry predicts, fixes correct, and an outlier gate rejects wild fixes. Because the slip is a state, dead reckoning
+//! stays good while fixes stay away.
 
 mod gate;
 #[cfg(test)]
@@ -13,43 +14,47 @@ use crate::bearing::Bearing;
 use crate::config::{Config, Fix};
 use crate::covariance::{Gain, Noise, PoseCovariance, Stretch, correction, right_correction};
 use crate::noise::NoiseEstimate;
-use crate::slip::Slip;
+use crate::slip::SlipEstimate;
 use gate::{OutlierGate, Verdict};
 
-/// Steps after which the covariance is carried on, …
+/// Steps between two propagations of the covariance. Below, the filter costs more. Above, gains are used that are too old.
 const STRETCH: u32 = 4;
-/// … but at once for so many fixes after a gap, as each of them teaches much.
+/// Fixes after a gap for which the covariance is propagated at every step, because each of them changes the gains a lot.
 const TEACHING: u8 = 8;
-/// Fixes count as no better than this, because no positioning system is.
+/// Least noise of a place, metres, 1 sigma. Below, a builder's optimistic figure makes the filter reject good fixes.
 const BEST_FIX_M: f64 = 0.000_3;
+/// Least noise of a heading, radians, 1 sigma. See [`BEST_FIX_M`].
 const BEST_HEADING_RAD: f64 = 0.002;
-/// Without a heading fix for so long, heading comes from motion.
+/// Without a heading fix for longer than this, the heading comes from motion.
 const NO_COMPASS: Span = Span::from_millis(500);
-/// A heading read from the way is as good as this, and only one further off than that is news to the filter, radians.
+/// Error of a heading that comes from motion, radians, 1 sigma: 2 mm of noise over 60 mm.
 const BEARING_RAD: f64 = 0.03;
+/// A heading from motion is used where it contradicts the estimate by more than this, radians. Below, its noise turns a
+/// robot that knows its heading.
 const BEARING_OFF_RAD: f64 = 0.2;
 
-/// The pose, the slip, and how sure both are.
+/// Pose and slip with their covariance.
 #[derive(Debug)]
 pub(crate) struct Filter {
     at: Vec2,
-    /// Unit vector of `heading`, turned along step by step: far cheaper than a sine and a cosine each time.
+    /// Unit vector of `heading`. Rotating it step by step is far cheaper than a sine and a cosine.
     facing: Vec2,
     heading: f64,
     aligned: bool,
     teaching: u8,
     wheel_radius_m: f64,
     track_m: f64,
-    /// All the way by wheels, stage metres.
+    /// Displacement by odometry since power-on, stage metres.
     way: Vec2,
-    /// Since the covariance was carried on, and the fixes within: of places and of headings.
+    /// Motion since the covariance was propagated.
     stretch: Stretch,
+    /// Fixes since then, of places and of headings.
     fixes: [u32; 2],
-    slip: Slip,
+    slip: SlipEstimate,
     gate: OutlierGate,
     place_noise: NoiseEstimate,
     heading_noise: NoiseEstimate,
-    /// What the fix before was off by, where it was no outlier.
+    /// Innovation of the fix before, where it was no outlier.
     off: Option<(Vec2, f64)>,
     gains: [Gain; 3],
     covariance: PoseCovariance,
@@ -59,21 +64,21 @@ pub(crate) struct Filter {
 impl Filter {
     pub(crate) fn new(config: &Config) -> Self {
         let Limits { wheel_radius_m, track_m, .. } = config.limits;
-        let trust = |sigma: f64, best: f64| {
+        let noise = |sigma: f64, best: f64| {
             NoiseEstimate::new(if sigma > best { sigma * sigma } else { best * best })
         };
         Self {
             at: Vec2::ZERO,
             heading: 0.0,
             facing: Vec2::new(1.0, 0.0),
-            slip: Slip::new(config.slip),
+            slip: SlipEstimate::new(config.slip),
             covariance: PoseCovariance::new(config.slip),
             gains: [Gain::default(); 3],
             stretch: Stretch::default(),
             fixes: [0; 2],
             teaching: TEACHING,
-            place_noise: trust(config.fix_sigma_m, BEST_FIX_M),
-            heading_noise: trust(config.heading_sigma_rad, BEST_HEADING_RAD),
+            place_noise: noise(config.fix_sigma_m, BEST_FIX_M),
+            heading_noise: noise(config.heading_sigma_rad, BEST_HEADING_RAD),
             off: None,
             gate: OutlierGate::default(),
             aligned: false,
@@ -84,13 +89,13 @@ impl Filter {
         }
     }
 
-    /// Carries the pose over one step by wheel turns, radians.
+    /// Predicts the pose over one step by wheel turns, radians.
     pub(crate) fn advance(&mut self, turns_rad: [f64; 2]) {
         if self.stretch.steps >= STRETCH {
-            self.carry();
+            self.propagate();
         }
         self.stretch.steps += 1;
-        self.slip.pass();
+        self.slip.predict();
         if turns_rad == [0.0; 2] {
             return;
         }
@@ -109,13 +114,13 @@ impl Filter {
         self.stretch.driven += 1;
     }
 
-    /// Way (metres) and turn (radians) by wheel turns, with what is known of slip.
+    /// Distance (metres) and rotation (radians) by wheel turns, less the estimated slip.
     pub(crate) fn motion(&self, turns_rad: [f64; 2]) -> (f64, f64) {
-        let [left, right] = self.slip.ground(turns_rad.map(|turn| turn * self.wheel_radius_m));
+        let [left, right] = self.slip.ground_m(turns_rad.map(|turn| turn * self.wheel_radius_m));
         ((left + right) * 0.5, (right - left) / self.track_m)
     }
 
-    /// Pulls the pose towards a fix. What is not a number is no fix.
+    /// Corrects the state by a fix. NaN and places beyond 1 km are ignored.
     pub(crate) fn correct(&mut self, now: Instant, fix: &Fix) {
         let mut off = (Vec2::ZERO, 0.0);
         if fix.at.x.abs() < 1e3 && fix.at.y.abs() < 1e3 {
@@ -125,22 +130,22 @@ impl Filter {
         if let Some(heading) = fix.heading.filter(|heading| heading.is_finite()) {
             off.1 = self.gate_heading(now, difference(heading, self.heading));
         }
-        self.pull(off);
+        self.apply(off);
     }
 
-    /// Corrects all that a fix says something about by how far it is off.
-    fn pull(&mut self, off: (Vec2, f64)) {
+    /// Corrects pose and slip by the innovations of place and heading.
+    fn apply(&mut self, off: (Vec2, f64)) {
         let [places, headings] = self.fixes;
         if places + headings == 0 {
             return;
         }
         if let Some(before) = self.off.replace(off) {
-            self.place_noise.learn(0.5 * (off.0 - before.0).length_squared());
-            self.heading_noise.learn((off.1 - before.1) * (off.1 - before.1));
+            self.place_noise.update(0.5 * (off.0 - before.0).length_squared());
+            self.heading_noise.update((off.1 - before.1) * (off.1 - before.1));
         }
         if self.teaching > 0 || self.stretch.steps >= STRETCH {
             self.teaching = self.teaching.saturating_sub(1);
-            self.carry();
+            self.propagate();
         }
         let (place, angle) = off;
         let innovation = [place.x, place.y, angle].map(|off| off as f32);
@@ -151,26 +156,26 @@ impl Filter {
         self.turn_by(f64::from(turn));
     }
 
-    /// Carries the covariance over the stretch behind and takes in what was measured on it.
-    fn carry(&mut self) {
+    /// Propagates the covariance over the stretch behind and updates it by the measurements within.
+    fn propagate(&mut self) {
         let stretch = core::mem::take(&mut self.stretch);
         let [places, headings] = core::mem::take(&mut self.fixes);
         if places + headings == 0 {
             self.teaching = TEACHING;
             self.off = None;
         }
-        self.covariance.carry(&stretch, self.facing, self.track_m, self.slip.drift(stretch.steps));
+        self.covariance.propagate(&stretch, self.facing, self.track_m, self.slip.drift(stretch.steps));
         let (place, heading) = (self.place_noise.variance(), self.heading_noise.variance());
         let share =
             |variance: f64, count: u32| if count > 0 { variance / f64::from(count) } else { f64::INFINITY };
-        self.covariance.learn(Noise { place: share(place, places), heading: share(heading, headings) });
+        self.covariance.update(Noise { place: share(place, places), heading: share(heading, headings) });
         self.gains = self.covariance.gains(place, heading);
         if stretch.driven > 0 {
             self.slip.learn(stretch.moved.length(), self.covariance.slip());
         }
     }
 
-    /// How far the place is off by a fix that counts; nothing by one that does not.
+    /// Innovation of the place; zero for an outlier.
     fn gate_place(&mut self, now: Instant, off: Vec2) -> Vec2 {
         let noise = self.place_noise.variance();
         match self.gate.place(now, off, self.covariance.place(), noise) {
@@ -189,7 +194,7 @@ impl Filter {
         }
     }
 
-    /// How far the heading is off by a fix that counts; nothing by one that does not.
+    /// Innovation of the heading; zero for an outlier.
     fn gate_heading(&mut self, now: Instant, off: f64) -> f64 {
         let noise = self.heading_noise.variance();
         match self.gate.heading(now, off, self.covariance.heading() + noise, !self.aligned) {
@@ -208,7 +213,7 @@ impl Filter {
         }
     }
 
-    /// Without a compass: reads the heading from the way until the filter can follow it.
+    /// Without a compass, reads the heading from motion until the filter can follow it.
     fn learn_heading(&mut self, now: Instant, by_fix: Vec2) {
         if self.gate.last_heading().is_some_and(|seen| now - seen < NO_COMPASS) {
             return;
@@ -227,7 +232,7 @@ impl Filter {
         self.facing = if turn.abs() < 0.1 { turned(self.facing, turn) } else { Vec2::unit(self.heading) };
     }
 
-    /// What of their turning the wheels lose, left and right.
+    /// Share of their turning that the wheels lose, left and right.
     pub(crate) fn slip(&self) -> [f64; 2] {
         self.slip.now()
     }
@@ -252,7 +257,7 @@ impl Filter {
         self.aligned
     }
 
-    /// When the last fix came that counted.
+    /// When the last place came that was no outlier.
     pub(crate) fn last_fix(&self) -> Option<Instant> {
         self.gate.last_place()
     }
@@ -262,26 +267,25 @@ impl Filter {
         self.covariance.place()
     }
 
-    /// How far so much way without a fix leads aside, metres, 1 sigma: by the heading, and by slip that bends it.
+    /// Error that `way_m` of driving without a fix adds, metres, 1 sigma, if heading error and slip stay as they are.
     pub(crate) fn strays_m(&self, way_m: f64) -> f64 {
         let bend = way_m / self.track_m * core::f64::consts::FRAC_1_SQRT_2;
         way_m * (libm::sqrt(self.covariance.heading()) + bend * libm::sqrt(self.covariance.slip()))
     }
 
-    /// What so much way without a fix adds to the variance of the place: the heading leads it astray, and slip that
-    /// nobody sees bends the way further.
+    /// Variance of the place that `way_m` of driving without a fix adds, by the heading error and by unknown slip.
     pub(crate) fn drift(&self, way_m: f64) -> f64 {
         let bend_m = way_m / self.track_m * way_m;
         way_m * way_m * self.covariance.heading() + 0.5 * bend_m * bend_m * self.covariance.slip()
     }
 
-    /// Whether fixes and wheels have contradicted each other for longer than a shove explains. Asking clears it.
+    /// Whether fixes and wheels contradict each other for longer than a shove explains. The call clears it.
     pub(crate) fn take_senseless(&mut self) -> bool {
         self.gate.take_senseless()
     }
 }
 
-/// `facing` turned by a small angle: series to the fifth order, right to 1e-9 below 0.1 rad, brought back to length 1.
+/// `facing` rotated by a small angle: a Taylor series, exact to 1e-9 below 0.1 rad, scaled back to length 1.
 pub(crate) fn turned(facing: Vec2, turn: f64) -> Vec2 {
     let square = turn * turn;
     let sin = turn * (1.0 - square * (1.0 / 6.0 - square * (1.0 / 120.0)));

@@ -1,8 +1,8 @@
-//! What the wheels turned since the moment fixes speak of, so that a late fix is laid beside the past it belongs to.
+//! Odometry since the moment of the latest fixes, so that a late fix corrects the pose of its own moment.
 
 use lightbots_base::{Instant, Span};
 
-/// Steps remembered: 0.5 s of 16 ms.
+/// Steps remembered: 0.5 s of 16 ms, more than the largest delay of a fix (0.45 s).
 const STEPS: usize = 32;
 
 /// Turns of the left and the right wheel in a step, radians.
@@ -24,7 +24,7 @@ impl OdometryHistory {
         Self { steps: [(Instant::ZERO, [0.0; 2]); STEPS], oldest: 0, count: 0, taken: Instant::ZERO }
     }
 
-    /// Adds one step that ended at `now`; gives back the oldest where there is no room.
+    /// Adds one step that ended at `now`; returns the oldest where there is no room.
     pub(crate) fn add(&mut self, now: Instant, turns: Turns) -> Option<Turns> {
         let pushed_out = if self.count == STEPS { self.take_until(Instant::FAR) } else { None };
         self.steps[(self.oldest + self.count) % STEPS] = (now, turns);
@@ -32,7 +32,7 @@ impl OdometryHistory {
         pushed_out
     }
 
-    /// Takes out the oldest step, if it had ended by then.
+    /// Takes out the oldest step if it ended by `then`.
     pub(crate) fn take_until(&mut self, then: Instant) -> Option<Turns> {
         let (ended, turns) = *self.all().next()?;
         if ended > then {
@@ -44,7 +44,7 @@ impl OdometryHistory {
         Some(turns)
     }
 
-    /// What the wheels had turned by then of the step that is the oldest now, evenly.
+    /// Wheel turns of the oldest step until `then`, interpolated.
     pub(crate) fn begun_by(&self, then: Instant) -> Turns {
         let Some((ended, turns)) = self.all().next() else { return [0.0; 2] };
         let (whole, past) = (*ended - self.taken, then - self.taken);

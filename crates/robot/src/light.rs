@@ -1,18 +1,19 @@
-//! The light: a colour, fades by the show clock, blinking to be found, and flashes that say what is wrong.
+//! The light: a colour, fades by the show clock, blinking to be found, and red flashes for faults.
 
 use lightbots_base::{Instant, Rgb, Span};
 use lightbots_wire::Fade;
 
-/// Fades that wait for their moment; one more replaces the latest.
+/// Capacity for fades that wait for their moment. One more replaces the latest.
 const WAITING: usize = 4;
-/// Half a period of blinking.
+/// Half a period of blinking: 4 Hz.
 const FLASH: Span = Span::from_millis(125);
-/// Trouble shows once it has lasted for so long, and again each time so much has passed.
+/// How long a fault lasts before the light shows it. Below, every restart of the link flashes.
 const SETTLED: Span = Span::from_millis(500);
+/// Time between two groups of flashes.
 const TROUBLE: Span = Span::from_millis(2000);
 const RED: Rgb = Rgb::new(255, 0, 0);
 
-/// What the light shows and will show.
+/// The present colour, and what will change it.
 #[derive(Debug, Default)]
 pub(crate) struct Light {
     shown: Rgb,
@@ -24,19 +25,19 @@ pub(crate) struct Light {
     waiting: heapless::Vec<Fade, WAITING>,
     /// From when until when it blinks, own clock.
     blink: Option<(Instant, Instant)>,
-    /// Since when it has something to say about itself, own clock, and in how many flashes.
+    /// From when on a fault is shown, own clock, and its number of flashes.
     trouble: Option<(Instant, u8)>,
 }
 
 impl Light {
-    /// Shows a colour at once and for good: what was under way is forgotten.
+    /// Shows a colour at once and cancels all fades.
     pub(crate) fn set(&mut self, colour: Rgb) {
         self.shown = colour;
         self.running = None;
         self.waiting.clear();
     }
 
-    /// Takes a fade; it begins at its moment, or at once where that is past or the show time is not known.
+    /// Takes a fade. It begins at its moment, or at once where that is past or the show time is unknown.
     pub(crate) fn fade(&mut self, show: Option<Instant>, fade: Fade) {
         let Some(show) = show else {
             return self.set(fade.to);
@@ -57,7 +58,7 @@ impl Light {
         self.busy = true;
     }
 
-    /// What is wrong at `now`, own clock, in red flashes; 0: nothing.
+    /// Reports a fault at `now` of the own clock, as a number of red flashes; 0: none.
     pub(crate) fn report(&mut self, now: Instant, flashes: u8) {
         if flashes == 0 && !self.busy {
             return;
@@ -73,7 +74,7 @@ impl Light {
         self.busy
     }
 
-    /// Forgets the fades that have not begun.
+    /// Cancels the fades that have not begun.
     pub(crate) fn forget_waiting(&mut self) {
         self.waiting.clear();
     }

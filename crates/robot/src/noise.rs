@@ -1,34 +1,37 @@
-//! How noisy a sensor really is, beside what its type is described as.
+//! Estimation of a sensor's noise from its readings (an adaptive Kalman filter).
 //!
-//! Half the mean square of the difference of two readings in a row is the variance of its noise, whatever else is
-//! wrong with what they are compared with.
+//! Half the mean square of the difference of two consecutive innovations is the variance of the noise. A constant error of
+//! the prediction cancels out.
 
-/// Readings over which the noise is averaged.
+/// Time constant of the average, readings: 2 s. Below, the estimate itself is noisy. Above, a sensor that becomes worse is
+/// trusted for longer.
 const READINGS: f64 = 128.0;
-/// A difference counts as no greater than so many times what is expected (squared).
+/// Largest squared difference that counts, as a multiple of the variance, because outliers are no noise: 3 sigma.
 const CLIP: f64 = 9.0;
 
-/// The noise of one sensor.
+/// The noise variance of one sensor.
 #[derive(Debug)]
 pub(crate) struct NoiseEstimate {
+    /// As stated by the builder.
     described: f64,
+    /// As estimated.
     seen: f64,
 }
 
 impl NoiseEstimate {
-    /// As its type is described: variance.
+    /// Begins with the variance that the sensor is described with.
     pub(crate) fn new(described: f64) -> Self {
         Self { described, seen: described }
     }
 
-    /// The variance to reckon with: never better than described.
+    /// The variance to use: never less than described.
     pub(crate) fn variance(&self) -> f64 {
-        // Not `max`, which minds NaN at some cost, and this is asked for at every step.
+        // Not `max`, because that handles NaN at some cost in every step.
         if self.seen > self.described { self.seen } else { self.described }
     }
 
-    /// Two readings in a row differed by this beyond what the robot did: mean square of one coordinate.
-    pub(crate) fn learn(&mut self, square: f64) {
+    /// Updates the estimate by the squared difference of two consecutive innovations, per coordinate.
+    pub(crate) fn update(&mut self, square: f64) {
         let (read, most) = (0.5 * square, CLIP * self.variance());
         self.seen += (if read < most { read } else { most } - self.seen) * (1.0 / READINGS);
     }
@@ -39,17 +42,17 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_sensor_worse_than_described_is_trusted_less_and_a_better_one_as_described() {
-        let mut trust = NoiseEstimate::new(4.0);
+    fn a_sensor_worse_than_described_gets_its_own_noise_and_a_better_one_the_described() {
+        let mut noise = NoiseEstimate::new(4.0);
         for _ in 0..1000 {
-            trust.learn(2.0 * 25.0);
+            noise.update(2.0 * 25.0);
         }
-        assert!((trust.variance() - 25.0).abs() < 0.5);
+        assert!((noise.variance() - 25.0).abs() < 0.5);
         for _ in 0..1000 {
-            trust.learn(0.1);
+            noise.update(0.1);
         }
-        assert_eq!(trust.variance(), 4.0);
-        trust.learn(f64::MAX);
-        assert!(trust.variance() < 5.0);
+        assert_eq!(noise.variance(), 4.0);
+        noise.update(f64::MAX);
+        assert!(noise.variance() < 5.0);
     }
 }

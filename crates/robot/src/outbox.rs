@@ -1,27 +1,34 @@
-//! What the robot has to say, and when it says it unasked. Facts, not texts: a report is written when it is sent.
+//! The outbox: which messages wait, and when the robot sends one unasked. It holds kinds, not texts, because a report is
+//! written when it is sent.
 
 use lightbots_base::{Instant, Span, wrap};
 use lightbots_wire::RobotState;
 
-/// Pace of status reports while something goes on, and while nothing does.
+/// Time between status reports while the robot drives. Below, 1,000 robots flood the broker. Above, the screen lags.
 const BUSY: Span = Span::from_millis(500);
+/// Time between status reports while it stands.
 const CALM: Span = Span::from_millis(2000);
-/// Further off its route than this is news; nearer than that, it is over.
+/// A robot farther than this from its route reports that, metres. Below, ordinary tracking errors are reported.
 const OFF_M: f64 = 0.008;
+/// A robot nearer than this is back on its route, metres. The gap to [`OFF_M`] is hysteresis.
 const BACK_M: f64 = 0.006;
-/// So many times as far off as it last said is news again, beyond what braking for a neighbour costs: it may stand.
+/// Ratio to the last reported distance from the route at which it is reported again: more than braking for a neighbour
+/// costs, so the robot may be standing.
 const FARTHER: f64 = 4.0;
-/// Without fixes, being so many times as unsure as it last said, and this many metres more, is news.
+/// Without fixes, ratio to the last reported error of the place at which it is reported again.
 const MORE: f64 = 1.25;
+/// The same as a difference, metres, added to the ratio.
 const MORE_M: f64 = 0.0005;
-/// What stands in its way is news again so far, radians, from where it last said.
+/// An obstacle is reported again when its direction changes by more than this, radians.
 const ELSEWHERE: f64 = 0.08;
-/// A robot that has just been switched on waits so long for its first fix before it introduces itself without.
+/// A robot that was just switched on waits this long for its first fix before it introduces itself without a place.
 const POWER_ON: Span = Span::from_millis(500);
 
-/// One thing to say.
+const _: () = assert!(BACK_M < OFF_M && BUSY.0 < CALM.0);
+
+/// A kind of message.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Fact {
+pub(crate) enum MessageKind {
     /// On `UUID`.
     Introduction,
     /// On `Arrival`: the number of the route that ended, 0 for a target.
@@ -32,25 +39,25 @@ pub(crate) enum Fact {
     Question,
 }
 
-/// Bounded by its shape: at most one of each fact waits, the latest.
+/// The messages that wait: at most one of each kind, the latest.
 #[derive(Debug)]
 pub(crate) struct Outbox {
     introduction: bool,
-    /// Since when it waits to introduce itself of its own accord.
+    /// Since when it waits to introduce itself unasked.
     newcomer: Option<Instant>,
-    /// It said that it did not know where it was.
-    said_nowhere: bool,
+    /// Its last introduction was without a place.
+    introduced_without_place: bool,
     arrival: Option<u32>,
     status: bool,
     question: bool,
     next_status: Instant,
     state: RobotState,
-    /// How far off its route it last said to be, metres; 0: not worth saying.
-    said_off_m: f64,
-    /// How unsure of its place it last said to be for want of fixes, metres.
-    said_err_m: Option<f64>,
-    /// In which direction of the stage it last said that something stands in its way, radians.
-    said_towards: Option<f64>,
+    /// The last reported distance from the route, metres; 0: on the route.
+    reported_off_m: f64,
+    /// The last reported error of the place while fixes stay away, metres.
+    reported_err_m: Option<f64>,
+    /// The last reported direction of an obstacle, radians in the stage.
+    reported_towards: Option<f64>,
 }
 
 impl Outbox {
@@ -59,15 +66,15 @@ impl Outbox {
         Self {
             introduction: false,
             newcomer: None,
-            said_nowhere: false,
+            introduced_without_place: false,
             arrival: None,
             status: false,
             question: false,
             next_status: Instant::ZERO + CALM + phase,
             state: RobotState::Lost,
-            said_off_m: 0.0,
-            said_err_m: None,
-            said_towards: None,
+            reported_off_m: 0.0,
+            reported_err_m: None,
+            reported_towards: None,
         }
     }
 
@@ -75,7 +82,7 @@ impl Outbox {
         self.introduction = true;
     }
 
-    /// It was switched on, or the link is new: it introduces itself as soon as it knows where it is.
+    /// The robot was switched on, or its link is new: it introduces itself once it knows its place.
     pub(crate) fn arrive_new(&mut self, now: Instant) {
         self.newcomer = Some(now);
     }
@@ -92,7 +99,7 @@ impl Outbox {
         self.question = true;
     }
 
-    /// Notes what is news of itself; `err_m`: how unsure it is of its place, where fixes stay away.
+    /// Notes what there is to report. `off_m`: distance from the route. `err_m`: error of the place where fixes stay away.
     pub(crate) fn notice(
         &mut self,
         now: Instant,
@@ -105,18 +112,18 @@ impl Outbox {
             self.newcomer = None;
             self.introduction = true;
         }
-        if self.said_nowhere && knows_place {
+        if self.introduced_without_place && knows_place {
             self.introduction = true;
         }
         let off_m = off_m.unwrap_or(0.0);
-        let (was_off, farther_m) = (self.said_off_m > 0.0, self.said_off_m * FARTHER);
+        let (was_off, farther_m) = (self.reported_off_m > 0.0, self.reported_off_m * FARTHER);
         let is_off = off_m > if was_off { BACK_M } else { OFF_M };
-        let unsure = match (err_m, self.said_err_m) {
-            (Some(err_m), Some(said_m)) => err_m > said_m * MORE + MORE_M,
-            (err_m, said_m) => err_m.is_some() || said_m.is_some(),
+        let unsure = match (err_m, self.reported_err_m) {
+            (Some(err_m), Some(reported_m)) => err_m > reported_m * MORE + MORE_M,
+            (err_m, reported_m) => err_m.is_some() || reported_m.is_some(),
         };
         if unsure {
-            self.said_err_m = err_m;
+            self.reported_err_m = err_m;
         }
         let strays = is_off != was_off || is_off && off_m > farther_m;
         if unsure || state != self.state || strays || now >= self.next_status {
@@ -124,44 +131,44 @@ impl Outbox {
             self.state = state;
         }
         if self.status {
-            self.said_off_m = if is_off { off_m } else { 0.0 };
+            self.reported_off_m = if is_off { off_m } else { 0.0 };
             let busy = matches!(state, RobotState::Driving | RobotState::Held);
             self.next_status = now + if busy { BUSY } else { CALM };
         }
     }
 
-    /// Something came to stand in its way, turns out to be in another direction of the stage, radians, or has gone.
+    /// Notes the direction of an obstacle, radians in the stage; `None`: there is none.
     #[inline]
     pub(crate) fn notice_block(&mut self, towards: Option<f64>) {
-        let news = match (towards, self.said_towards) {
-            (Some(towards), Some(said)) => wrap(towards - said).abs() > ELSEWHERE,
-            (towards, said) => towards.is_some() != said.is_some(),
+        let news = match (towards, self.reported_towards) {
+            (Some(towards), Some(reported)) => wrap(towards - reported).abs() > ELSEWHERE,
+            (towards, reported) => towards.is_some() != reported.is_some(),
         };
         if news {
             self.status = true;
-            self.said_towards = towards;
+            self.reported_towards = towards;
         }
     }
 
-    /// Whether there is nothing to say.
+    /// Whether no message waits.
     #[inline]
     pub(crate) fn is_empty(&self) -> bool {
         !(self.introduction || self.arrival.is_some() || self.question || self.status)
     }
 
-    /// The next thing to say. `speaks_ours` is false for a robot that only knows the original protocol.
-    pub(crate) fn take(&mut self, knows_place: bool, speaks_ours: bool) -> Option<Fact> {
+    /// The kind of the next message. `speaks_ours` is false for a robot that only knows the original protocol.
+    pub(crate) fn take(&mut self, knows_place: bool, speaks_ours: bool) -> Option<MessageKind> {
         if core::mem::take(&mut self.introduction) {
-            self.said_nowhere = !knows_place;
-            return Some(Fact::Introduction);
+            self.introduced_without_place = !knows_place;
+            return Some(MessageKind::Introduction);
         }
         if let Some(route) = self.arrival.take() {
-            return Some(Fact::Arrival(route));
+            return Some(MessageKind::Arrival(route));
         }
         if core::mem::take(&mut self.question) && speaks_ours {
-            return Some(Fact::Question);
+            return Some(MessageKind::Question);
         }
-        (core::mem::take(&mut self.status) && speaks_ours).then_some(Fact::Status)
+        (core::mem::take(&mut self.status) && speaks_ours).then_some(MessageKind::Status)
     }
 }
 
@@ -173,7 +180,7 @@ mod tests {
         let mut count = 0;
         for step in 0..seconds * 1000 / 16 {
             outbox.notice(Instant(step * 16_000), state, None, None, true);
-            count += usize::from(outbox.take(true, true) == Some(Fact::Status));
+            count += usize::from(outbox.take(true, true) == Some(MessageKind::Status));
         }
         count
     }
@@ -218,12 +225,12 @@ mod tests {
     }
 
     #[test]
-    fn a_robot_that_said_nowhere_says_where_as_soon_as_it_knows() {
+    fn a_robot_that_introduced_without_place_says_where_as_soon_as_it_knows() {
         let mut outbox = Outbox::new(Span::ZERO);
         outbox.arrive_new(Instant(0));
         let mut introduced = |at, knows| {
             outbox.notice(Instant(at), RobotState::Lost, None, None, knows);
-            core::iter::from_fn(|| outbox.take(knows, false)).any(|fact| fact == Fact::Introduction)
+            core::iter::from_fn(|| outbox.take(knows, false)).any(|fact| fact == MessageKind::Introduction)
         };
         assert!(!introduced(100_000, false));
         assert!(introduced(600_000, false));

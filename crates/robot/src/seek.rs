@@ -1,30 +1,31 @@
-//! TARGET: turn, drive, curve smoothly, backwards where that is shorter, stand within 20 mm.
+//! Driving to a TARGET: turn, drive, curve smoothly, backwards where that is shorter, stand within 20 mm.
 
 use lightbots_base::{Limits, Vec2};
 
 use crate::drive::{BodyPose, Setpoint};
 
-/// The original's arrival test: both coordinates within this, metres.
+/// Arrival test of the original robots: both coordinates within this, metres.
 const ARRIVED_M: f64 = 0.02;
-/// Near enough to stop, metres; and near enough where the target lies abeam.
+/// Distance to the target at which the robot stops, metres. Below, it turns on the spot for the noise of its place.
 const STOP_M: f64 = 0.003;
+/// Distance at which it stops where the target lies to its side, metres. Below, it turns back and forth at the target.
 const ABEAM_M: f64 = 0.012;
-/// Braking it plans with, m/s²: less than the ramps allow.
+/// Braking with which it approaches, m/s². It is less than the ramps of the drive base allow, so that it does not overshoot.
 const BRAKING_MPS2: f64 = 0.8;
-/// Turning rate per sine of the heading error, rad/s.
+/// Turning rate per sine of the heading error, rad/s. Above, the dead time of the motors makes it swing.
 const TURN_GAIN: f64 = 8.0;
-/// Below this cosine of the heading error it turns on the spot; above, it curves.
+/// Below this cosine of the heading error (45°) it turns on the spot. Above, it drives a curve.
 const CURVE_COS: f64 = 0.7;
-/// The target must lie this far behind (cosine) before front and back change places.
+/// Cosine of the direction to the target below which front and back swap. Near zero, noise would swap them again and again.
 const BEHIND_COS: f64 = -0.15;
 
-/// A drive to a place.
+/// A drive to a target.
 #[derive(Debug)]
 pub(crate) struct Seek {
     goal: Vec2,
     /// 1 forwards, −1 backwards.
     sense: f64,
-    /// Nearer than this it stands where the target lies abeam, metres.
+    /// Distance at which it stops where the target lies to its side, metres.
     abeam_m: f64,
 }
 
@@ -33,7 +34,7 @@ impl Seek {
         Self { goal, sense: 0.0, abeam_m: ABEAM_M }
     }
 
-    /// A drive to a place as near as it can be reached, whatever turns that takes.
+    /// A drive to a target as near as the robot can come, whatever turns that takes.
     pub(crate) fn closely(goal: Vec2) -> Self {
         Self { abeam_m: STOP_M, ..Self::new(goal) }
     }
@@ -43,7 +44,7 @@ impl Seek {
         within_arrival(at, self.goal)
     }
 
-    /// What to do next.
+    /// The next setpoint.
     pub(crate) fn step(&mut self, body: BodyPose, limits: &Limits) -> Setpoint {
         let to_goal = self.goal - body.at;
         let distance = to_goal.length();
@@ -66,11 +67,13 @@ impl Seek {
     }
 }
 
-/// The original's arrival test.
+/// Arrival test of the original robots.
 pub(crate) fn within_arrival(at: Vec2, goal: Vec2) -> bool {
     let off = at - goal;
     off.x.abs() <= ARRIVED_M && off.y.abs() <= ARRIVED_M
 }
+
+const _: () = assert!(STOP_M < ABEAM_M && ABEAM_M < ARRIVED_M);
 
 #[cfg(test)]
 mod tests {

@@ -1,37 +1,43 @@
-//! How much of their turning the wheels lose: each has a mean of its own, learned over metres, and wanders about it.
+//! Estimate of wheel slip: each wheel has a mean, learned over metres, and a deviation from it that changes within a second.
 
 use crate::covariance::Drift;
 
-/// What a deviation from the mean loses in a step: it is forgotten in about a second, also of wheels that stand, as nothing
-/// tells how they will hold when they turn again.
+/// Share of the deviation from the mean that is lost in a step: a time constant of 1 s. Wheels that stand lose it too,
+/// because nothing tells how they will grip when they turn again.
 const FORGETTING: f64 = 0.015;
-/// After so much way the mean is learned as fast as it is first believed, and never slower than after so much more.
+/// Distance over which the mean is first learned, metres. Below, the noise of the first fixes becomes slip.
 const FIRST_M: f64 = 0.1;
+/// Distance over which the mean is averaged in the long run, metres. Below, the mean follows single bumps. Above, it does
+/// not follow worn tyres or another floor within a show.
 const LAST_M: f64 = 2.0;
-/// The wander is taken for this share of the slip expected, until more is known; …
+/// First estimate of the deviation, as a share of the expected slip.
 const WANDER: f64 = 0.3;
-/// … never for less than this share of that, nor for more than this.
+/// Lower bound of the deviation, as a share of its first estimate. Below, a steady stretch makes the filter ignore slip.
 const LEAST: f64 = 0.25;
+/// Upper bound of the deviation, as a share of the turning.
 const MOST: f64 = 0.1;
-/// Slip beyond this is no slip.
+/// Bound of slip, as a share of the turning. Beyond it a wheel is lifted or stuck.
 const BOUND: f64 = 0.4;
+
+const _: () = assert!(FIRST_M < LAST_M && MOST < BOUND);
 
 /// Slip of the left and the right wheel, shares of their turning.
 #[derive(Debug)]
-pub(crate) struct Slip {
+pub(crate) struct SlipEstimate {
     now: [f64; 2],
     mean: [f64; 2],
-    /// Variance of the wander about the mean, and its bounds.
+    /// Variance of the deviation from the mean.
     wander: f64,
+    /// Lower and upper bound of `wander`.
     bounds: [f64; 2],
     /// Variance of the mean before anything was learned.
     unknown: f64,
-    /// Way from which the mean was learned, metres.
+    /// Distance over which the mean was learned, at most [`LAST_M`], metres.
     learned_m: f64,
 }
 
-impl Slip {
-    /// Wheels that are expected to slip by up to this share.
+impl SlipEstimate {
+    /// Wheels that are expected to slip by up to this share, 1 sigma.
     pub(crate) fn new(expected: f64) -> Self {
         let wander = WANDER * expected.clamp(0.002, BOUND);
         Self {
@@ -44,29 +50,29 @@ impl Slip {
         }
     }
 
-    /// What of a way by the wheels' turning is made good, left and right.
-    pub(crate) fn ground(&self, ways: [f64; 2]) -> [f64; 2] {
+    /// Distances over the ground for distances by the wheels' turning, left and right.
+    pub(crate) fn ground_m(&self, ways: [f64; 2]) -> [f64; 2] {
         [ways[0] * (1.0 - self.now[0]), ways[1] * (1.0 - self.now[1])]
     }
 
-    /// Slip as it is now.
+    /// The present slip, left and right.
     pub(crate) fn now(&self) -> [f64; 2] {
         self.now
     }
 
-    /// A step went by.
-    pub(crate) fn pass(&mut self) {
+    /// Predicts the slip over one step.
+    pub(crate) fn predict(&mut self) {
         self.now[0] += (self.mean[0] - self.now[0]) * FORGETTING;
         self.now[1] += (self.mean[1] - self.now[1]) * FORGETTING;
     }
 
-    /// It turned out to be so much more, or less.
+    /// Corrects the slip by the filter's correction, left and right.
     pub(crate) fn correct(&mut self, by: [f64; 2]) {
         self.now[0] = (self.now[0] + by[0]).clamp(-BOUND, BOUND);
         self.now[1] = (self.now[1] + by[1]).clamp(-BOUND, BOUND);
     }
 
-    /// Learns mean and wander from a way of so many metres, with slip as uncertain as this variance.
+    /// Updates mean and deviation from a drive of `way_m`. `uncertain`: variance of the slip.
     pub(crate) fn learn(&mut self, way_m: f64, uncertain: f64) {
         self.learned_m = (self.learned_m + way_m).min(LAST_M);
         let share = way_m / (self.learned_m + FIRST_M);
@@ -80,7 +86,7 @@ impl Slip {
         self.wander = self.wander.clamp(self.bounds[0], self.bounds[1]);
     }
 
-    /// How it is expected to change in so many steps.
+    /// Expected change in a number of steps.
     pub(crate) fn drift(&self, steps: u32) -> Drift {
         let share = FIRST_M / (FIRST_M + self.learned_m);
         let mean = self.unknown * share * share;

@@ -1,35 +1,37 @@
-//! Wheels that do not turn although they are told to: a robot that stands in everybody's way and says so at once.
+//! Detection of wheels that do not turn although they are commanded to. A robot with such a wheel reports a fault at once,
+//! because it stands in the way of others.
 
-/// Told less than this, rad/s, a wheel may stand: 22 mm/s of an Elisa-3.
-const TOLD_RADPS: f64 = 5.0;
-/// A wheel that turns less than this share of what it is told does not turn.
+/// Least commanded rate at which a wheel must turn, rad/s: 22 mm/s of an Elisa-3. Below, friction is taken for a stall.
+const LEAST_RADPS: f64 = 5.0;
+/// A wheel that turns less than this share of its command does not turn.
 const SHARE: f64 = 0.2;
-/// So many steps in a row; wheels answer a step or two late.
+/// Steps in a row without turning that are a stall. Below three, the dead time of the motors is one. Above, a robot that is
+/// stuck is reported later.
 const STEPS: u8 = 6;
 
-/// Compares what wheels are told with what they do.
+/// Compares commanded with measured wheel rates.
 #[derive(Debug, Default)]
 pub(crate) struct StallDetector {
-    told_radps: [f64; 2],
+    commanded_radps: [f64; 2],
     /// `[wheel]`: steps in a row in which it did not turn.
     steps: [u8; 2],
-    /// A wheel has turned since power-on: what says how far wheels turn works.
+    /// A wheel has turned since power-on, so the encoders work.
     turned: bool,
 }
 
 impl StallDetector {
-    /// What the wheels are told from now on, rad/s.
+    /// The commanded wheel rates from now on, rad/s.
     #[inline]
     pub(crate) fn command(&mut self, wheels_radps: [f64; 2]) {
-        self.told_radps = wheels_radps;
+        self.commanded_radps = wheels_radps;
     }
 
-    /// Takes how far the wheels turned in a step of `dt` seconds. Whether one of them is stuck.
+    /// Takes the wheel turns of a step of `dt` seconds. Whether a wheel is stuck.
     #[inline]
     pub(crate) fn sample(&mut self, turns_rad: [f64; 2], dt: f64) -> bool {
         self.turned |= turns_rad != [0.0; 2];
-        for ((told, turn), steps) in self.told_radps.iter().zip(turns_rad).zip(&mut self.steps) {
-            let stands = told.abs() > TOLD_RADPS && turn.abs() < SHARE * told.abs() * dt;
+        for ((commanded, turn), steps) in self.commanded_radps.iter().zip(turns_rad).zip(&mut self.steps) {
+            let stands = commanded.abs() > LEAST_RADPS && turn.abs() < SHARE * commanded.abs() * dt;
             *steps = if stands { steps.saturating_add(1) } else { 0 };
         }
         let stuck = self.turned && self.steps.iter().any(|&steps| steps >= STEPS);
@@ -47,7 +49,7 @@ mod tests {
     const DT: f64 = 0.016;
 
     #[test]
-    fn a_wheel_that_stands_although_it_was_told_to_turn_is_stuck() {
+    fn a_wheel_that_stands_against_its_command_is_stuck() {
         let mut stall = StallDetector::default();
         stall.command([40.0, 40.0]);
         assert!(!stall.sample([40.0 * DT; 2], DT));
@@ -57,7 +59,7 @@ mod tests {
     }
 
     #[test]
-    fn wheels_may_answer_late_creep_or_stand_as_told() {
+    fn wheels_may_answer_late_creep_or_stand_as_commanded() {
         let mut stall = StallDetector::default();
         stall.sample([1.0; 2], DT);
         for told in [0.0, 4.0, -4.0] {

@@ -1,15 +1,15 @@
-//! Where a robot keeps what is large and seldom looked at: its routes, and what its wheels did while fixes come late.
+//! Storage of a robot's large and seldom used data: its routes, and its odometry where fixes come late.
 
 use lightbots_base::Vec2;
 use lightbots_wire::{Neighbours, Pieces, Route};
 
 use crate::history::OdometryHistory;
 
-/// Room for the route under way, for the one kept for later and for the history: 20 KB, of which a step reads next to
-/// nothing.
+/// Storage of the route under way, of the one kept for later and of the odometry history: 24 KB, of which a step reads next
+/// to nothing.
 ///
-/// A [`crate::Robot`] holds it in itself, or is given one that lies elsewhere: where thousands of robots take turns,
-/// what each step needs of them then lies together.
+/// A [`crate::Robot`] contains it or is given one that lies elsewhere. Where thousands of robots take turns, the state of
+/// their steps then lies close together.
 #[derive(Debug)]
 pub struct RouteStorage {
     slots: [Route; 2],
@@ -24,7 +24,7 @@ pub(crate) enum Slot {
 }
 
 impl RouteStorage {
-    /// A storage with nothing on it.
+    /// An empty storage.
     pub const fn new() -> Self {
         const NOTHING: Route = Route {
             seq: 0,
@@ -41,7 +41,7 @@ impl RouteStorage {
         let free = &mut self.slots[slot as usize];
         (free.seq, free.start, free.room_mm) = (*seq, *start, *room_mm);
         free.pieces.clear();
-        // Fits: both are as large. A copy of the whole would copy all the room that is not used.
+        // Fits: both have the same capacity. A copy of the whole would copy the unused capacity.
         let _ = free.pieces.extend_from_slice(pieces);
         free.neighbours.list.clear();
         free.neighbours.knots.clear();

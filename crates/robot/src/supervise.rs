@@ -1,19 +1,23 @@
-//! Reasons to stand still that override every wish to drive: a silent link, and sensors or motors without sense.
+//! Supervision: a silent link and faults of sensors or motors stop the robot, whatever it was to do.
 
 use lightbots_base::{Instant, Span};
 
-/// How long it stands after something made no sense.
+/// How long a robot stands after a fault. Below, it drives on and off where a sensor fails again and again.
 const FAULT: Span = Span::from_millis(1000);
-/// During a run, silence of this length is broken by a question, again and again.
+/// Silence of the controller during a run after which the robot asks for the time. It must be shorter than the robot's
+/// patience with the link (2 s). Above, a question that is lost cannot be repeated in time.
 const QUIET: Span = Span::from_millis(1000);
+/// Time between two such questions.
 const ASK_AGAIN: Span = Span::from_millis(150);
 
-/// What the robot is doing, as far as the link matters.
+const _: () = assert!(ASK_AGAIN.0 < QUIET.0);
+
+/// What the robot is doing, as far as the link matters to it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Drives {
-    /// It stands and will not drive by itself.
+    /// It stands and will not drive without a message.
     Not,
-    /// To a target: its controller may be an original one, which says nothing on the way.
+    /// To a target. Its controller may be an original one, which sends nothing meanwhile.
     Target,
     /// A route that will begin by itself.
     Soon,
@@ -21,14 +25,14 @@ pub(crate) enum Drives {
     Route,
 }
 
-/// Watches over link and sensors.
+/// Supervises link and sensors.
 #[derive(Debug)]
 pub(crate) struct Supervisor {
     silence: Span,
     heard: Instant,
     down_since: Option<Instant>,
     cut: bool,
-    /// It was cut until the link came back, and has not said so.
+    /// It was cut until the link came back, and has not reported that.
     untold: bool,
     faulty_until: Option<Instant>,
     asked: Instant,
@@ -65,17 +69,17 @@ impl Supervisor {
         }
     }
 
-    /// Whether the link is up as far as it knows.
+    /// Whether the link is up.
     pub(crate) fn is_up(&self) -> bool {
         self.down_since.is_none()
     }
 
-    /// Whether the link has been down for longer than it waits for one.
+    /// Whether the link has been down for longer than the robot's patience.
     pub(crate) fn is_down(&self, now: Instant) -> bool {
         self.down_since.is_some_and(|since| now - since > self.silence)
     }
 
-    /// Cuts the robot off where the link has been silent too long for what it does. Tells whether it did just now.
+    /// Cuts the robot off where the link is silent for too long for what the robot does. Whether it did so just now.
     pub(crate) fn check_link(&mut self, now: Instant, drives: Drives) -> bool {
         let down = self.is_down(now);
         let silent = now - self.heard > self.silence;
@@ -89,7 +93,7 @@ impl Supervisor {
         news
     }
 
-    /// Whether to break the silence with a question.
+    /// Whether to ask the controller because it is silent. The call notes the question.
     pub(crate) fn take_question(&mut self, now: Instant, drives: Drives) -> bool {
         let asks = matches!(drives, Drives::Soon | Drives::Route)
             && now - self.heard > QUIET
@@ -100,12 +104,12 @@ impl Supervisor {
         asks
     }
 
-    /// Something made no sense.
+    /// A fault begins.
     pub(crate) fn fault(&mut self, now: Instant) {
         self.faulty_until = Some(now + FAULT);
     }
 
-    /// Whether it stands because something made no sense.
+    /// Whether the robot stands because of a fault.
     pub(crate) fn faulty(&mut self, now: Instant) -> bool {
         self.faulty_until.take_if(|until| now >= *until);
         self.faulty_until.is_some()

@@ -1,43 +1,49 @@
-//! Which fixes count: one far from what wheels and fixes before it say is an outlier, until so many agree with each other
-//! that they must be the truth.
+//! Outlier gate: a fix far from the prediction is rejected, until [`OUTLIERS`] in a row agree with each other.
 
 use lightbots_base::{Instant, Span, Vec2};
 
-/// A fix further off than so many standard deviations, and than these floors, is an outlier.
+/// Largest innovation of an inlier, standard deviations. Below, good fixes of a robot that was pushed are rejected. Above,
+/// outliers near the robot pull it off its place.
 const GATE: f64 = 5.0;
+/// Innovations below this are inliers whatever the covariance says, metres: three sigma of the default noise of fixes.
 const GATE_FLOOR_M: f64 = 0.006;
+/// The same for headings, radians.
 const GATE_FLOOR_RAD: f64 = 0.1;
-/// So many outliers in a row that agree are the truth: the pose jumps to it.
+/// Outliers in a row that agree after which the pose jumps to them: 0.16 s of fixes. Below, a burst of reflections moves the
+/// robot. Above, a robot that was carried away stands for longer.
 const OUTLIERS: u8 = 10;
-/// Two jumps within this time make no sense.
+/// Two jumps within this time are a fault: no shove moves a robot twice as quickly.
 const JUMPS_APART: Span = Span::from_millis(1000);
 
-/// What to make of a fix.
+/// What a fix is.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Verdict {
-    /// It is left alone.
+    /// It is rejected.
     Outlier,
-    /// It says how far the filter is off.
+    /// Its innovation corrects the filter.
     Inlier,
-    /// It is the truth, whatever was believed.
+    /// It replaces the estimate.
     Jump,
 }
 
-/// What was odd lately, and when fixes came that were not.
+/// Recent outliers, and the times of the last inliers.
 #[derive(Debug, Default)]
 pub(super) struct OutlierGate {
+    /// Innovation of the latest outlier.
     odd_off: Vec2,
     last_jump: Option<Instant>,
-    /// When the last fix of the place and of the heading came that counted.
+    /// When the last place came that was no outlier.
     last_place: Option<Instant>,
+    /// When the last heading came that was no outlier.
     last_heading: Option<Instant>,
     odd_places: u8,
     odd_headings: u8,
+    /// Two jumps came within [`JUMPS_APART`].
     senseless: bool,
 }
 
 impl OutlierGate {
-    /// A place is so far off; by how much it may be is the variance of what is believed and of the fix's noise.
+    /// Tests the innovation of a place against the variance of the estimate (`believed`) and of the fix (`noise`).
     #[inline]
     pub(super) fn place(&mut self, now: Instant, off: Vec2, believed: f64, noise: f64) -> Verdict {
         let square = off.length_squared();
@@ -45,7 +51,7 @@ impl OutlierGate {
         let first = self.last_place.is_none();
         if odd && !first {
             let agrees = (off - self.odd_off).length_squared() < GATE * GATE * 2.0 * noise;
-            // Those that agree with none count against those that agree with each other.
+            // An outlier that agrees with no other counts against those that agree with each other.
             self.odd_places = if agrees { self.odd_places + 1 } else { self.odd_places.saturating_sub(1) };
             if agrees || self.odd_places == 0 {
                 self.odd_off = off;
@@ -62,7 +68,7 @@ impl OutlierGate {
         if odd || first { Verdict::Jump } else { Verdict::Inlier }
     }
 
-    /// A heading is so far off, likewise; the first is the truth.
+    /// Tests the innovation of a heading. The first heading replaces the estimate.
     #[inline]
     pub(super) fn heading(&mut self, now: Instant, off: f64, variance: f64, first: bool) -> Verdict {
         let odd = off * off > GATE * GATE * variance && off * off > GATE_FLOOR_RAD * GATE_FLOOR_RAD;
@@ -77,17 +83,17 @@ impl OutlierGate {
         if odd || first { Verdict::Jump } else { Verdict::Inlier }
     }
 
-    /// When the last fix of the place came that counted.
+    /// When the last place came that was no outlier.
     pub(super) fn last_place(&self) -> Option<Instant> {
         self.last_place
     }
 
-    /// When the last fix of the heading came that counted.
+    /// When the last heading came that was no outlier.
     pub(super) fn last_heading(&self) -> Option<Instant> {
         self.last_heading
     }
 
-    /// Whether fixes and wheels have contradicted each other for longer than a shove explains. Asking clears it.
+    /// Whether fixes and wheels contradict each other for longer than a shove explains. The call clears it.
     pub(super) fn take_senseless(&mut self) -> bool {
         core::mem::take(&mut self.senseless)
     }
@@ -100,28 +106,28 @@ mod tests {
     const NOISE: f64 = 1e-6;
 
     #[test]
-    fn what_is_far_off_ten_times_in_a_row_is_the_truth() {
-        let mut judge = OutlierGate::default();
-        let mut place = |ms: u64, x: f64| judge.place(Instant(ms * 1000), Vec2::new(x, 0.0), 0.0, NOISE);
+    fn ten_outliers_in_a_row_that_agree_replace_the_estimate() {
+        let mut gate = OutlierGate::default();
+        let mut place = |ms: u64, x: f64| gate.place(Instant(ms * 1000), Vec2::new(x, 0.0), 0.0, NOISE);
         assert_eq!(place(0, 3.0), Verdict::Jump);
         assert_eq!(place(1, 0.004), Verdict::Inlier);
         assert!((2..11).all(|ms| place(ms, 0.5) == Verdict::Outlier));
         assert_eq!(place(11, 0.5), Verdict::Jump);
         assert_eq!(place(12, 0.004), Verdict::Inlier);
-        assert!(!judge.take_senseless());
-        let again = |ms: u64| judge.place(Instant(ms * 1000), Vec2::new(0.5, 0.0), 0.0, NOISE);
+        assert!(!gate.take_senseless());
+        let again = |ms: u64| gate.place(Instant(ms * 1000), Vec2::new(0.5, 0.0), 0.0, NOISE);
         assert_eq!((20..30).map(again).last(), Some(Verdict::Jump));
-        assert!(judge.take_senseless() && !judge.take_senseless());
+        assert!(gate.take_senseless() && !gate.take_senseless());
     }
 
     #[test]
-    fn headings_are_judged_likewise() {
-        let mut judge = OutlierGate::default();
-        assert_eq!(judge.heading(Instant(1), 2.0, NOISE, true), Verdict::Jump);
-        assert_eq!(judge.heading(Instant(2), 0.05, NOISE, false), Verdict::Inlier);
-        assert_eq!(judge.heading(Instant(3), 0.2, NOISE, false), Verdict::Outlier);
-        assert_eq!(judge.last_heading(), Some(Instant(2)));
-        let last = (0..9).map(|n| judge.heading(Instant(4 + n), 0.2, NOISE, false)).last();
+    fn headings_are_gated_likewise() {
+        let mut gate = OutlierGate::default();
+        assert_eq!(gate.heading(Instant(1), 2.0, NOISE, true), Verdict::Jump);
+        assert_eq!(gate.heading(Instant(2), 0.05, NOISE, false), Verdict::Inlier);
+        assert_eq!(gate.heading(Instant(3), 0.2, NOISE, false), Verdict::Outlier);
+        assert_eq!(gate.last_heading(), Some(Instant(2)));
+        let last = (0..9).map(|n| gate.heading(Instant(4 + n), 0.2, NOISE, false)).last();
         assert_eq!(last, Some(Verdict::Jump));
     }
 }

@@ -6,7 +6,7 @@ use lightbots_base::{Instant, wrap};
 use lightbots_wire::{Blocked, Details, Report, RobotState, TimeQuestion, Topic};
 
 use super::{Message, Robot};
-use crate::outbox::Fact;
+use crate::outbox::MessageKind;
 use crate::reflex::Block;
 use crate::storage::RouteStorage;
 
@@ -20,19 +20,19 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
 
     fn write_next(&mut self, out: &mut Message) -> Option<Topic> {
         let at = self.place();
-        let fact = self.hot.outbox.take(at.is_some(), self.hot.takes_routes)?;
-        let (topic, route) = match fact {
-            Fact::Introduction => (Topic::Uuid, self.hot.routes.named()),
-            Fact::Arrival(route) => (Topic::Arrival, route),
-            Fact::Status => (Topic::Status, self.hot.routes.named()),
-            Fact::Question => {
+        let kind = self.hot.outbox.take(at.is_some(), self.hot.takes_routes)?;
+        let (topic, route) = match kind {
+            MessageKind::Introduction => (Topic::Uuid, self.hot.routes.named()),
+            MessageKind::Arrival(route) => (Topic::Arrival, route),
+            MessageKind::Status => (Topic::Status, self.hot.routes.named()),
+            MessageKind::Question => {
                 let question = TimeQuestion { id: self.config.id, asked: self.hot.now };
                 return question.encode(out).ok().map(|()| Topic::Time);
             }
         };
         let speaks_ours = self.config.abilities != Default::default();
         // While it was cut, no report got out: the first one over the new link says it.
-        let was_cut = fact == Fact::Introduction && self.hot.supervisor.take_untold();
+        let was_cut = kind == MessageKind::Introduction && self.hot.supervisor.take_untold();
         let state = if was_cut { RobotState::Cut } else { self.hot.state };
         let details = speaks_ours.then(|| Details { route, state, ..self.details() });
         Report { id: self.config.id, at, details }.encode(out).ok()?;
