@@ -1,12 +1,12 @@
-//! What a robot is given: once at power-on, and at every step.
+//! Configuration at power-on, and inputs and outputs of a step.
 
 use lightbots_base::{Limits, Rgb, RobotId, Span, Vec2};
 use lightbots_wire::{Abilities, Firmware};
 
-/// What a robot is and has, fixed at power-on.
+/// Configuration of a robot, fixed at power-on.
 #[derive(Clone, Debug)]
 pub struct Config {
-    /// Its name.
+    /// The robot's name.
     pub id: RobotId,
     /// Name and version it reports.
     pub firmware: Firmware,
@@ -18,24 +18,24 @@ pub struct Config {
     pub fix_sigma_m: f64,
     /// Noise of a heading fix, 1 sigma, radians.
     pub heading_sigma_rad: f64,
-    /// What share of their turning its wheels lose at most, usually: it learns the rest.
+    /// Share of their turning that the wheels lose, 1 sigma. The filter estimates the actual share.
     pub slip: f64,
-    /// With nothing heard for so long while it drives a route, or with the link down for so long while it drives at
-    /// all, it stops and is cut off.
+    /// Patience with the link: the robot stops and is cut off when the controller is silent for longer during a route, or the
+    /// link is down for longer during any drive.
     pub silence: Span,
-    /// How often position fixes come.
+    /// Time between position fixes.
     pub fix_pace: Span,
-    /// What it can do beyond the original protocol. With none of it, it behaves and reports like an original robot.
+    /// Abilities beyond the original protocol. Without any, it behaves and reports like an original robot.
     pub abilities: Abilities,
-    /// Its body.
+    /// Measures of its body.
     pub limits: Limits,
-    /// Whether it says in its reports that it is simulated. Firmware of real robots never sets this.
+    /// Whether its reports say that it is simulated. Firmware of real robots never sets this.
     pub simulated: bool,
-    /// What its proximity sensors are.
+    /// Its proximity sensors.
     pub proximity: ProximitySensors,
-    /// What its estimator of neighbours assumes.
+    /// Assumptions of its estimator of neighbours.
     pub neighbours: NeighbourModel,
-    /// How careful its safety layer is.
+    /// Parameters of its safety layer.
     pub policy: SafetyPolicy,
 }
 
@@ -194,18 +194,18 @@ impl Config {
     }
 }
 
-/// What the sensors say at a step.
+/// Readings of the sensors at a step.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Inputs {
-    /// How far the left and the right wheel have turned since the step before, radians, forwards positive.
+    /// Turns of the left and the right wheel since the step before, radians, forwards positive.
     pub wheel_turns_rad: [f64; 2],
     /// A position fix, where one came in since the step before.
     pub fix: Option<Fix>,
     /// Charge of the battery, percent.
     pub battery: Option<u8>,
-    /// How far the world that its wheels are in lags behind its own clock; negative: runs ahead. Zero on a board. A
-    /// simulation that is slower than real time lags: routes go by the world's time then, so that the robots of one
-    /// simulation are at the same path time; the show clock, the link and the light go by the own clock.
+    /// Lag of the wheels' world behind the own clock; negative: it runs ahead. Zero on a board. A simulation that is slower
+    /// than real time lags. Routes go by the world's time, so that all robots of one simulation are at the same path time. The
+    /// show clock, the link and the light go by the own clock.
     pub lag: Span,
     /// Gaps between its rim and what is nearest, metres, as eight proximity sensors 45° apart see them,
     /// counter-clockwise from the front; infinite where nothing is in sight. `None`: it has none.
@@ -215,9 +215,9 @@ pub struct Inputs {
 /// Where a positioning system saw the robot [`Config::fix_delay`] ago.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Fix {
-    /// Its place, stage metres; NaN: the system did not see it.
+    /// The place, stage metres; NaN: the system did not see the robot.
     pub at: Vec2,
-    /// Its heading, radians in the stage, where the system or a compass tells; NaN counts as `None`.
+    /// The heading, radians in the stage, where the system or a compass measures it; NaN counts as `None`.
     pub heading: Option<f64>,
 }
 

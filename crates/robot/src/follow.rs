@@ -1,4 +1,4 @@
-//! Being where the route says when it says: its motion as feed-forward, errors along, across and in heading as feedback
+//! Trajectory tracking: the motion of the route is feed-forward; errors along, across and in heading are feedback
 //! (Kanayama et al., "A stable tracking control method for an autonomous mobile robot", 1990).
 
 use lightbots_base::{Motion, Vec2};
@@ -6,38 +6,43 @@ use lightbots_base::{Motion, Vec2};
 use crate::drive::{BodyPose, Setpoint};
 use crate::look_ahead::Ahead;
 
-/// Speed per error along, 1/s.
+/// Gain of the error along, 1/s (Kanayama's Kx). Above, the dead time of two steps makes the speed swing.
 const ALONG: f64 = 9.0;
-/// Far behind or ahead it closes in no faster than it can brake on top of what the route does, m/s².
+/// Deceleration with which a large error along is closed, m/s². It adds to that of the route, so above it a robot that
+/// caught up cannot brake in time and drives on beyond its route.
 const CLOSING_MPS2: f64 = 0.4;
-/// From so far on that is slower than the rule above, metres: where both agree.
+/// Error along from which [`CLOSING_MPS2`] limits the speed, metres: there it equals the linear gain.
 const FAR_M: f64 = 2.0 * CLOSING_MPS2 / (ALONG * ALONG);
-/// Turning rate per error across and speed, rad/m²: together with the next, nearly critically damped in 6 cm.
+/// Gain of the error across per speed, rad/m² (Kanayama's Ky). With [`TURN`] it is nearly critically damped within 60 mm.
 const ACROSS: f64 = 600.0;
-/// Turning rate per sine of the heading error, rad/s.
+/// Gain of the sine of the heading error, rad/s (Kanayama's Kθ, times the speed). See [`ACROSS`].
 const TURN: f64 = 11.0;
-/// On the spot, rad/s per radian.
+/// Gain of the heading error on the spot, 1/s. Above, the dead time of two steps makes the robot swing.
 const SPOT: f64 = 12.0;
-/// Turning rate per angle left and time left for it: it starts faster than evenly, to be there in time.
+/// Turning rate towards the look-ahead direction, as a multiple of angle per remaining time. At 1 the turn would end exactly
+/// in time, without reserve for the ramp.
 const SWING: f64 = 1.8;
-/// The same errors across steer as at this speed where it drives slower, m/s.
-const SLOW_MPS: f64 = 0.05;
-/// Slower than this the route says no direction, m/s.
+/// Least speed by which an error across steers, m/s. Below, a robot that creeps does not return to its route.
+const STEERING_MPS: f64 = 0.05;
+/// Speed of the route below which its tangent is no direction, m/s.
 pub(crate) const RESTING_MPS: f64 = 0.002;
-/// While it rests, errors below these are noise: metres along, and sine of the heading error.
+/// Errors along below this are noise while the route rests, metres. Below, robots jitter at their places.
 const CALM_M: f64 = 0.0015;
+/// Sines of the heading error below this are noise while the route rests. See [`CALM_M`].
 const CALM_SIN: f64 = 0.012;
-/// A robot so far from where a creeping route is turns towards it, metres. Where the route rests, turning would not
-/// pay: its sensors may be as wrong, and it would arrive later.
+/// Distance from a creeping route at which a robot turns towards it, metres. Where the route rests, turning does not pay:
+/// the place may be as wrong, and the robot would arrive later.
 const STRAY_M: f64 = 0.004;
-/// Slower than this a route rests, m/s.
+/// Speed below which a route rests and does not creep, m/s. It only has to exclude rounding.
 const CREEPING_MPS: f64 = 1e-5;
-/// Fastest correction while the route rests, m/s.
+/// Largest speed of a correction while the route rests, m/s.
 const CORRECTION_MPS: f64 = 0.1;
-/// The direction must lie this far behind (cosine) before front and back change places.
+/// Cosine of the direction of travel below which front and back swap. Near zero, noise would swap them again and again.
 const BEHIND_COS: f64 = -0.1;
 
-/// How a robot follows its route.
+const _: () = assert!(CREEPING_MPS < RESTING_MPS && RESTING_MPS < STEERING_MPS);
+
+/// The tracking controller of a robot.
 #[derive(Debug)]
 pub(crate) struct Follow {
     /// Unit vector of travel.
@@ -51,8 +56,8 @@ impl Follow {
         Self { travel: Vec2::ZERO, sense: 0.0 }
     }
 
-    /// What to do next: `motion` is where the route is and how it moves when this takes effect, by show time; `ahead`
-    /// is which way it goes on where it rests or is slow.
+    /// The next setpoint. `motion`: the route's, by show time, at the moment when the setpoint takes effect. `ahead`: the
+    /// look-ahead direction, where the route rests or is slow.
     #[inline]
     pub(crate) fn step(&mut self, motion: &Motion, ahead: Option<Ahead>, body: BodyPose) -> Setpoint {
         let speed = motion.velocity.length();
@@ -70,21 +75,21 @@ impl Follow {
         let error = motion.position - body.at;
         let stray = ahead.is_none() && speed > CREEPING_MPS && error.length() > STRAY_M;
         if let Some(towards) = error.normalized().filter(|_| stray) {
-            // A route that creeps says no direction, and yet leads away to the side in time.
+            // A route that creeps has no direction, and yet leads away to the side in time.
             self.travel = towards;
             self.choose_sense(body.facing);
         }
         self.rest(motion, stray || ahead.is_some(), body)
     }
 
-    /// Turns towards the way ahead without a route under way.
+    /// Turns towards the look-ahead direction of a route that has not begun.
     pub(crate) fn prepare(&mut self, ahead: Vec2, body: BodyPose) -> Setpoint {
         self.travel = ahead;
         self.choose_sense(body.facing);
         Setpoint { speed_mps: 0.0, turn_radps: self.turn_on_the_spot(body.facing) }
     }
 
-    /// Front or back first, whichever is the shorter turn; not changed for small differences.
+    /// Chooses front or back first, whichever is the shorter turn, with hysteresis.
     fn choose_sense(&mut self, facing: Vec2) {
         let cos = facing.dot(self.travel);
         if self.sense == 0.0 || cos * self.sense < BEHIND_COS {
@@ -98,14 +103,14 @@ impl Follow {
         let cos = body.facing.dot(self.travel) * self.sense;
         let sin = body.facing.cross(self.travel) * self.sense;
         let curve = motion.velocity.cross(motion.acceleration) / (speed * speed);
-        let steered = self.sense * speed.max(SLOW_MPS);
+        let steered = self.sense * speed.max(STEERING_MPS);
         Setpoint {
             speed_mps: self.sense * speed * cos.max(0.0) + closing_mps(along),
             turn_radps: curve + ACROSS * steered * across + TURN * sin,
         }
     }
 
-    /// On the slow part of a route it turns to the way ahead in time, and keeps up with the route as far as it can.
+    /// On a slow stretch, turns to the look-ahead direction in time and keeps up with the route as far as it can.
     fn swing(&self, motion: &Motion, within_s: f64, body: BodyPose) -> Setpoint {
         let along = body.facing.dot(motion.position - body.at);
         let hurry = (SWING / within_s.max(1e-3)).min(SPOT);
@@ -136,7 +141,7 @@ impl Follow {
     }
 }
 
-/// How fast it makes good what it is off along its front, m/s.
+/// Speed that closes an error along the front, m/s.
 fn closing_mps(along_m: f64) -> f64 {
     if along_m.abs() <= FAR_M {
         return ALONG * along_m;
@@ -161,7 +166,7 @@ mod tests {
     }
 
     #[test]
-    fn on_the_route_it_does_what_the_route_does() {
+    fn without_errors_the_setpoint_is_the_motion_of_the_route() {
         let setpoint = Follow::new().step(&moving(0.0, 0.0), None, body(0.0));
         assert_eq!(setpoint, Setpoint { speed_mps: 0.2, turn_radps: 0.0 });
         let curve = Motion { acceleration: Vec2::new(0.0, 0.1), ..moving(0.0, 0.0) };
@@ -169,8 +174,8 @@ mod tests {
     }
 
     #[test]
-    fn far_behind_it_closes_in_no_faster_than_it_can_brake() {
-        // Ten times behind by as much as it may be, it once drove on 14 mm beyond its route.
+    fn a_large_error_is_closed_no_faster_than_the_robot_can_brake() {
+        // With the linear gain alone, a robot 40 mm behind drives on 14 mm beyond its route.
         let mut behind_m = 0.04;
         let mut faster_mps: f64 = 0.0;
         while behind_m > 0.001 {

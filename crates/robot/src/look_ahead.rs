@@ -1,20 +1,21 @@
-//! Where a slow route goes on. Near a stop its tangent swings faster than a robot turns, or back the way it came; what
-//! counts is the direction in which it drives off.
+//! Look-ahead on slow stretches of a route. Near a stop, the tangent swings faster than a robot turns, or back the way it
+//! came. What counts is the direction in which the route drives off.
 
 use lightbots_base::{Span, Vec2};
 use lightbots_wire::Route;
 
 use crate::cursor::from;
 
-/// Slower than this a route is slow, m/s: what the proof of a plan takes for slow too.
+/// Speed below which a route is slow, m/s. The proof of a plan uses the same bound.
 pub(crate) const SLOW_MPS: f64 = 0.02;
-/// How far it looks ahead of where the route moves, and in what steps.
+/// How far ahead it looks. Below, a robot begins its turn too late. Above, it turns away while the route still moves.
 const HORIZON: Span = Span::from_millis(480);
+/// Steps in which it looks: that of the control loop.
 const STEP: Span = Span::from_millis(16);
-/// Where nothing within the horizon is fast, the fastest counts if it is so many times as fast as now.
+/// Where the horizon has no fast moment, the fastest counts if its speed is this multiple of the present one.
 const MUCH_FASTER: f64 = 2.0;
 
-/// Where a route goes on.
+/// The look-ahead direction.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Ahead {
     /// Unit vector of travel.
@@ -23,18 +24,19 @@ pub(crate) struct Ahead {
     pub within_s: f64,
 }
 
-/// What was last seen ahead.
+/// The latest look-ahead, kept until it is outdated.
 #[derive(Debug, Default)]
 pub(crate) struct LookAhead {
-    /// From which path time it was seen, and until which it need not be looked for anew.
+    /// Path time from which it holds.
     from: Span,
+    /// Path time until which it holds.
     until: Span,
     towards: Option<Vec2>,
 }
 
 impl LookAhead {
-    /// Where the route goes on from a path time within piece `index`, which begins at `begin`. `None` where it comes to
-    /// its end, or goes on as it goes now.
+    /// The look-ahead direction at a path time within piece `index`, which begins at `begin`. `None` where the route ends, or
+    /// goes on as it goes now.
     pub(crate) fn look(&mut self, route: &Route, (index, begin): (usize, Span), time: Span) -> Option<Ahead> {
         if time < self.from || time >= self.until {
             (self.from, self.until, self.towards) = (time, time + HORIZON / 2, None);
@@ -47,7 +49,7 @@ impl LookAhead {
     }
 }
 
-/// When and in which direction a route drives off.
+/// Path time and direction with which a route drives off.
 fn drives_off(route: &Route, (index, begin): (usize, Span), time: Span) -> Option<(Span, Vec2)> {
     let mut start = from(route, index);
     let (mut begin, mut now, mut horizon) = (begin, time.max(begin), time + HORIZON);
@@ -55,7 +57,7 @@ fn drives_off(route: &Route, (index, begin): (usize, Span), time: Span) -> Optio
     for piece in route.pieces.get(index..)? {
         let end = begin + piece.duration;
         if piece.is_rest(start) {
-            // Before a rest the way there counts, and only from the rest on the way from there.
+            // Before a rest the direction into it counts, and from the rest on the direction out of it.
             if first.is_some() {
                 break;
             }

@@ -12,19 +12,25 @@ use crate::seek::{Seek, within_arrival};
 use crate::storage::{RouteStorage, Slot};
 use crate::timeline::Timeline;
 
-/// A START that comes later than this after its moment is too late.
+/// A START that comes this much after its moment is refused. Above, a robot would jump onto a route far under way.
 const TOO_LATE: Span = Span::from_millis(500);
-/// At the end of a route a robot comes as near as this, metres, …
+/// Distance to the end at which a robot has arrived, metres. Below, robots with noisy fixes arrive late. Above, pictures
+/// blur.
 const NEAR_M: f64 = 0.0125;
-/// … or after so long as near as it must.
+/// Time after the end of a route from which the arrival test of the original robots (20 mm) suffices.
 const TRYING: Span = Span::from_millis(1500);
-/// Held further off than this it goes back, until it is as near as that or cannot come nearer, metres.
+/// A robot that is held farther than this from its route drives back to it, metres. Below, it turns on the spot for noise.
+/// Above, the robots near it have less room than the plan left them.
 const STRAYED_M: f64 = 0.0055;
+/// Distance at which it is back, metres. The gap to [`STRAYED_M`] is hysteresis.
 const BACK_M: f64 = 0.004;
-/// A route whose number lies so little below the one kept is an old message that came late.
+/// A route whose number is at most this much below the newest is an old message that came late. Beyond, the controller began
+/// anew.
 const OLD_NUMBERS: u32 = 64;
 
-/// Most neighbours in sight at once that are expected: no more discs of a robot's size have their centres within 0.11 m.
+const _: () = assert!(BACK_M < STRAYED_M && STRAYED_M < NEAR_M);
+
+/// Most neighbours expected in sight at once: no more discs of a robot's size have their centres within 0.11 m.
 pub(crate) const MAX_IN_SIGHT: usize = 12;
 /// The neighbours expected in sight.
 pub(crate) type InSight = heapless::Vec<Expectation, MAX_IN_SIGHT>;
@@ -39,34 +45,35 @@ struct Kept {
     starts: Option<Instant>,
 }
 
-/// A route that has begun.
+/// The route under way.
 #[derive(Debug)]
 struct Running {
     starts: Instant,
     /// Where the route ends.
     end: Vec2,
     look_ahead: LookAhead,
-    /// Once the route is over and the robot is not there yet.
+    /// The drive to the end, once the route is over and the robot has not arrived.
     seek: Option<Seek>,
-    /// While the route is held and the robot goes back to where it should be. Each step looks at this and at what follows.
+    /// The drive back to the route, while that is held.
     back: Option<Seek>,
     slot: Slot,
-    /// Held by when the wheels have answered.
+    /// It is held by the time the wheels have answered.
     rests: bool,
     room_mm: Option<u16>,
     seq: u32,
     duration: Span,
-    /// Path time when the wheels have answered, and how fast it runs then, 0 to 1.
+    /// Path time by the time the wheels have answered.
     time: Span,
+    /// Path time per show time then, 0 to 1.
     rate: f64,
-    /// Where it should be then.
+    /// Place of the route then.
     due: Vec2,
     off_m: f64,
     cursor: Cursor,
     follow: Follow,
 }
 
-/// The routes of a robot, which lie on its storage.
+/// The routes of a robot. Their pieces lie in its storage.
 #[derive(Debug)]
 pub(crate) struct Routes {
     running: Option<Running>,
@@ -81,7 +88,7 @@ impl Routes {
         Self { running: None, kept: None, timeline: Timeline::new(), finished: 0 }
     }
 
-    /// Keeps a route for its START. The one under way, the one just finished and late old messages change nothing.
+    /// Keeps a route for its START. Copies of the one under way or just finished, and old messages, change nothing.
     pub(crate) fn keep(&mut self, route: &Route, storage: &mut RouteStorage) {
         let newest = self.named();
         let age = newest.wrapping_sub(route.seq);
@@ -94,8 +101,8 @@ impl Routes {
         storage.put(slot, route);
     }
 
-    /// States when the kept route begins; anew, as long as it has not begun, but only to a later moment: an earlier
-    /// one is an old message that was overtaken. Tells whether that changed anything.
+    /// Sets when the kept route begins. A second START counts if it is later, because an earlier one is an old message that was
+    /// overtaken. Whether that changed anything.
     pub(crate) fn start(&mut self, seq: u32, at: Instant, show: Option<Instant>) -> bool {
         let Some(kept) = self.kept.as_mut().filter(|kept| kept.seq == seq) else {
             return false;
@@ -107,13 +114,13 @@ impl Routes {
         true
     }
 
-    /// How far others stay away by plan on the route under way, millimetres.
+    /// Planned clearance of the route under way, millimetres.
     pub(crate) fn room_mm(&self) -> Option<u16> {
         self.running.as_ref()?.room_mm
     }
 
-    /// The neighbours that the plan of the route under way has within `sight_m` of the body now, as the latest step foresaw
-    /// it; at most [`MAX_IN_SIGHT`]. The plan says no more when one that rests gets out of sight.
+    /// Appends the planned neighbours within `sight_m` of the body at the moment that the latest step predicted, at most
+    /// [`MAX_IN_SIGHT`].
     pub(crate) fn expect(
         &self,
         body: BodyPose,
@@ -151,13 +158,13 @@ impl Routes {
         self.running.as_ref().is_some_and(|running| !storage.at(running.slot).neighbours.list.is_empty())
     }
 
-    /// Takes a hold or a resume.
+    /// Notes a HOLD or a RESUME.
     pub(crate) fn note(&mut self, at: Instant, hold: bool) {
         self.timeline.note(at, hold);
     }
 
-    /// Lets the kept route take over when its moment has come, or forgets a moment that was missed because the clock
-    /// was not known. Tells whether it took over.
+    /// Begins the kept route when its moment has come, or discards a moment that was missed because the clock was unknown.
+    /// Whether the route began.
     #[inline]
     pub(crate) fn begin_due(&mut self, show: Instant, storage: &RouteStorage) -> bool {
         self.kept.is_some() && self.begin_kept(show, storage)
@@ -195,8 +202,8 @@ impl Routes {
         true
     }
 
-    /// What to do next along the route under way; `takes_effect` is the show time when the wheels will answer, `aside`
-    /// how far beside its route it is to drive, stage metres.
+    /// The next setpoint along the route under way. `takes_effect`: show time when the wheels answer. `aside`: offset from the
+    /// route at which to drive, stage metres.
     pub(crate) fn step(
         &mut self,
         takes_effect: Instant,
@@ -221,8 +228,8 @@ impl Routes {
         }
         let waits = progress.rate == 0.0 && self.timeline.stays_held(takes_effect);
         if waits && (running.back.is_some() || running.off_m > STRAYED_M) {
-            // All wait: a robot that was led astray goes back to where it should be. Once it knows when all go on it
-            // turns to its way instead.
+            // All wait: a robot that left its route drives back to it. Once it knows when all go on, it turns to its route
+            // instead.
             let back = running.back.get_or_insert_with(|| Seek::closely(motion.position));
             if running.off_m > BACK_M {
                 return Some(back.step(body, limits));
@@ -235,7 +242,7 @@ impl Routes {
         let ahead = if speed < SLOW_MPS {
             running.look_ahead.look(route, running.cursor.piece(), progress.time)
         } else if motion.velocity.length() < RESTING_MPS {
-            // Held on its way, it keeps to the tangent there.
+            // Held in motion, it keeps to the tangent there.
             Some(Ahead { towards: by_path_time.velocity / speed, within_s: 0.0 })
         } else {
             None
@@ -244,13 +251,13 @@ impl Routes {
         Some(running.follow.step(&motion, ahead, body))
     }
 
-    /// Turns towards the beginning of the kept route while nothing else is to do.
+    /// Turns towards the first direction of the kept route while no other motion is due.
     pub(crate) fn prepare(&mut self, body: BodyPose) -> Option<Setpoint> {
         let kept = self.kept.as_mut()?;
         Some(kept.follow.prepare(kept.ahead?, body))
     }
 
-    /// Ends the route under way where it is over and the robot stands at its end; gives its number.
+    /// Ends the route under way where it is over and the robot stands at its end. Returns its number.
     pub(crate) fn finish(&mut self, show: Instant, at: Vec2) -> Option<u32> {
         let over = |running: &mut Running| {
             let time = self.timeline.at(show).time;
@@ -261,19 +268,19 @@ impl Routes {
         Some(self.finished)
     }
 
-    /// Forgets the route under way.
+    /// Abandons the route under way.
     pub(crate) fn abandon(&mut self) {
         self.running = None;
     }
 
-    /// Forgets everything.
+    /// Discards all routes.
     pub(crate) fn clear(&mut self) {
         self.running = None;
         self.kept = None;
         self.finished = 0;
     }
 
-    /// The show clock was set anew: moments stated before mean nothing.
+    /// The show clock was set anew: moments stated before are void.
     pub(crate) fn forget_moments(&mut self) {
         self.running = None;
         self.timeline = Timeline::new();
@@ -292,7 +299,7 @@ impl Routes {
         self.kept.is_some()
     }
 
-    /// Whether a route is under way or will begin at a moment it knows.
+    /// Whether a route is under way or will begin at a known moment.
     pub(crate) fn in_a_run(&self) -> bool {
         self.running.is_some() || self.kept.as_ref().is_some_and(|kept| kept.starts.is_some())
     }
@@ -302,18 +309,18 @@ impl Routes {
         self.running.is_some() && show.is_some_and(|show| self.timeline.held(show))
     }
 
-    /// Whether the route under way is held and the robot was to stand by its latest step.
+    /// Whether the route under way is held and stood still by the latest step.
     pub(crate) fn rests_held(&self) -> bool {
         self.running.as_ref().is_some_and(|running| running.rests)
     }
 
-    /// The route it speaks of: the one kept, else the one under way, else the one finished last; 0: none.
+    /// Number of the route that reports name: the one kept, else the one under way, else the one finished last; 0: none.
     pub(crate) fn named(&self) -> u32 {
         let running = self.running.as_ref().map(|running| running.seq);
         self.kept.as_ref().map(|kept| kept.seq).or(running).unwrap_or(self.finished)
     }
 
-    /// When the route it speaks of begins or began.
+    /// When the route that reports name begins or began.
     pub(crate) fn starts(&self) -> Option<Instant> {
         match &self.kept {
             Some(kept) => kept.starts,
@@ -321,12 +328,12 @@ impl Routes {
         }
     }
 
-    /// Where the route under way wants the robot to be once the wheels have answered, stage metres.
+    /// Place of the route under way once the wheels have answered, stage metres.
     pub(crate) fn due(&self) -> Option<Vec2> {
         self.running.as_ref().map(|running| running.due)
     }
 
-    /// How far the route under way leads from where it is within so much path time, metres.
+    /// Distance from the present place of the route to that after `within` more of path time, metres.
     pub(crate) fn way_ahead_m(&self, within: Span, storage: &RouteStorage) -> f64 {
         let Some(running) = &self.running else { return 0.0 };
         let route = storage.at(running.slot);
@@ -334,14 +341,14 @@ impl Routes {
         path.at(running.time + within).position.distance(running.due)
     }
 
-    /// How far the robot is from where the route under way says, metres.
+    /// Distance of the robot from the place of the route under way, metres.
     pub(crate) fn off_m(&self) -> Option<f64> {
         self.running.as_ref().map(|running| running.off_m)
     }
 }
 
 impl Running {
-    /// Whether it is near enough to the end; for a while it tries to come nearer than it must.
+    /// Whether the robot is near enough to the end. For [`TRYING`] it tries to come nearer than it must.
     fn is_there(&self, time: Span, at: Vec2, end: Vec2) -> bool {
         at.distance(end) <= NEAR_M || time >= self.duration + TRYING && within_arrival(at, end)
     }
@@ -352,7 +359,7 @@ fn turned_by(vector: Vec2, by: Vec2) -> Vec2 {
     Vec2::new(vector.x * by.x - vector.y * by.y, vector.x * by.y + vector.y * by.x)
 }
 
-/// Motion per path time → motion per show time; the ease of holds itself is too gentle to matter as acceleration.
+/// Motion per show time from motion per path time. The ease of holds is too gentle to matter as acceleration.
 fn by_show_time(motion: Motion, rate: f64) -> Motion {
     if rate == 1.0 {
         return motion;

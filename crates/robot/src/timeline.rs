@@ -1,12 +1,12 @@
-//! Path time: show time since the route's start, less what holds have eaten.
+//! Path time: show time since the route's start, less the time spent in holds.
 
 use lightbots_base::{Instant, Span};
 use lightbots_wire::Route;
 
-/// Holds and resumes remembered; older ones are folded into where the route had got to.
+/// Holds and resumes remembered. Older ones are folded into the base point.
 const EVENTS: usize = 8;
 
-/// How far along its time a route is.
+/// Progress of a route.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Progress {
     /// Path time.
@@ -23,15 +23,15 @@ struct Event {
     hold: bool,
 }
 
-/// Where progress was at a moment.
+/// Progress at a moment.
 #[derive(Clone, Copy, Debug)]
 struct Point {
     at: Instant,
     progress: Progress,
 }
 
-/// The path time of the running route, as a function of show time alone: whoever has the same holds is at the same
-/// path time, however late the messages came.
+/// The path time of the route under way as a function of show time alone. Robots with the same holds are at the same path
+/// time, however late the messages came.
 #[derive(Debug)]
 pub(crate) struct Timeline {
     base: Point,
@@ -44,13 +44,13 @@ impl Timeline {
         Self { base: Point { at: Instant::ZERO, progress: Progress::START }, events: heapless::Vec::new() }
     }
 
-    /// A route begins at `at`. Holds and resumes of before are not for it.
+    /// A route begins at `at`. Earlier holds and resumes do not apply to it.
     pub(crate) fn begin(&mut self, at: Instant) {
         self.base = Point { at, progress: Progress::START };
         self.events.retain(|event| event.at >= at);
     }
 
-    /// Takes a hold or resume, in whatever order they come. Doubles, and those from before the route, are dropped.
+    /// Notes a hold or resume. Their order of arrival does not matter. Duplicates, and those from before the route, are dropped.
     pub(crate) fn note(&mut self, at: Instant, hold: bool) {
         let folded = at < self.base.at || at == self.base.at && hold == self.base.progress.held;
         if folded || self.events.iter().any(|event| event.at == at && event.hold == hold) {
@@ -69,7 +69,7 @@ impl Timeline {
         let _ = self.events.insert(place, Event { at, hold });
     }
 
-    /// Whether no resume is known of that comes after this moment.
+    /// Whether no resume after this moment is known.
     pub(crate) fn stays_held(&self, show: Instant) -> bool {
         self.events.iter().all(|event| event.hold || event.at <= show)
     }
@@ -96,7 +96,7 @@ impl Progress {
 }
 
 impl Point {
-    /// Progress goes on to `at`: first the rate changes evenly to 0 or 1, then it stays.
+    /// Progress at `at`: the rate first changes linearly to 0 or 1, then it stays.
     fn until(self, at: Instant) -> Self {
         let Progress { time, rate, held } = self.progress;
         let elapsed = at - self.at;
@@ -189,8 +189,7 @@ mod tests {
 
     #[test]
     fn copies_of_what_is_folded_in_change_nothing() {
-        // A hundred robots were thrown 0.28 m back on their routes: the copy of an event that had just been folded in
-        // pushed out another, unseen.
+        // A copy of an event that was just folded in must not push out another: robots would jump back on their routes.
         let events = |n: u64| [(n * 2000, true), (n * 2000 + 1000, false)];
         let mut once = running();
         let mut thrice = running();
