@@ -6,10 +6,10 @@ use serde::Serialize;
 /// A brake after at least this many steps (0.16 s) without one begins a new episode. Fewer would count one brake of a
 /// noisy sensor several times, more would join brakes for different robots.
 const FREE_STEPS: u64 = 10;
-/// A robot farther than this from where its route wants it is off its route, metres. Planned clearances are about as wide.
+/// A robot farther than this from the place of its route is off its route, metres. Planned clearances are about as wide.
 const OFF_ROUTE_M: f64 = 0.01;
 /// Robots this much beyond the range of the proximity sensors still count as ahead, metres: both move by at most 9 mm
-/// between the reading and the judgement.
+/// between the reading and the classification.
 const BEYOND_SIGHT_M: f64 = 0.01;
 
 /// Episodes of braking in a rehearsal.
@@ -22,14 +22,14 @@ pub struct BrakeCounts {
     pub unfounded: u64,
 }
 
-/// Counts brakes. An episode is judged one step after it began: by then the world has moved to the moment for which
-/// routes state where robots are due.
+/// Counts brakes. An episode is classified one step after it began, because the world has then reached the moment for which
+/// routes state their places.
 #[derive(Debug)]
 pub(crate) struct Brakes {
     counts: BrakeCounts,
     /// `[robot]`: the first step in which a brake begins a new episode.
     new_from: Vec<u64>,
-    /// Episodes that wait for their judgement.
+    /// Episodes to be classified.
     begun: Vec<Brake>,
     sight_m: f64,
 }
@@ -38,12 +38,12 @@ pub(crate) struct Brakes {
 #[derive(Clone, Copy, Debug)]
 struct Brake {
     robot: usize,
-    /// Towards what, a unit vector in stage space.
+    /// Direction of the cause, a unit vector in the stage.
     towards: Vec2,
 }
 
 impl Brakes {
-    /// No brakes of this many robots, whose proximity sensors see others whose centres are at most `sight_m` away.
+    /// A counter for a number of robots whose proximity sensors see centres at most `sight_m` away.
     pub fn new(robots: usize, sight_m: f64) -> Self {
         Self {
             counts: BrakeCounts::default(),
@@ -53,7 +53,7 @@ impl Brakes {
         }
     }
 
-    /// Notes that a robot brakes in a step, for what lies in a direction of the stage.
+    /// Notes that a robot brakes in a step for a neighbour in this direction of the stage.
     pub fn note(&mut self, step: u64, robot: usize, towards: Vec2) {
         if step >= self.new_from[robot] {
             self.begun.push(Brake { robot, towards });
@@ -61,10 +61,10 @@ impl Brakes {
         self.new_from[robot] = step + FREE_STEPS + 1;
     }
 
-    /// Counts the episodes that began in the step before. `is_amiss` tells of a robot whether it is faulty, or farther off
-    /// its route than a distance in metres.
+    /// Classifies the episodes that began in the step before. `is_amiss(robot, off_m)`: the robot is faulty, or farther than
+    /// `off_m` from its route.
     #[inline]
-    pub fn judge(&mut self, places: &[Vec2], is_amiss: impl Fn(usize, f64) -> bool) {
+    pub fn classify(&mut self, places: &[Vec2], is_amiss: impl Fn(usize, f64) -> bool) {
         for Brake { robot, towards } in self.begun.drain(..) {
             let is_ahead = |other: usize| {
                 let to_other = places[other] - places[robot];
@@ -76,7 +76,7 @@ impl Brakes {
         }
     }
 
-    /// Episodes judged until now.
+    /// Episodes classified until now.
     pub fn counts(&self) -> BrakeCounts {
         self.counts
     }
@@ -94,7 +94,7 @@ mod tests {
         for step in [1, 2, 3, 13, 24, 25] {
             brakes.note(step, 0, AHEAD);
         }
-        brakes.judge(&[Vec2::ZERO], |_, _| false);
+        brakes.classify(&[Vec2::ZERO], |_, _| false);
         // Nine free steps between 3 and 13 are too few, ten between 13 and 24 are enough.
         assert_eq!(brakes.counts(), BrakeCounts { all: 2, unfounded: 2 });
     }
@@ -104,7 +104,7 @@ mod tests {
         let unfounded = |other: Vec2, amiss: bool| {
             let mut brakes = Brakes::new(2, 0.084);
             brakes.note(1, 0, AHEAD);
-            brakes.judge(&[Vec2::ZERO, other], |robot, _| amiss && robot == 1);
+            brakes.classify(&[Vec2::ZERO, other], |robot, _| amiss && robot == 1);
             assert_eq!(brakes.counts().all, 1);
             brakes.counts().unfounded == 1
         };

@@ -1,4 +1,4 @@
-//! Who breaks down, and when.
+//! Breakdowns: which robot breaks down, how and when.
 
 use lightbots_base::Span;
 
@@ -10,13 +10,13 @@ use crate::dice::{Dice, Purpose};
 pub(crate) enum Fate {
     /// Its power fails.
     Killed,
-    /// Nothing is heard of it any more.
+    /// Its messages are lost from now on.
     Muted,
-    /// Its wheels do not turn any more.
+    /// Its wheels stop turning.
     Stuck,
     /// Its link breaks.
     Cut,
-    /// Its link is there again.
+    /// Its link is restored.
     Linked,
     /// Its fixes stay away.
     Blinded,
@@ -35,8 +35,8 @@ pub(crate) struct Breakdowns {
 }
 
 impl Breakdowns {
-    /// What conditions ask for; what they leave to chance happens between a tenth and eight tenths of the planned
-    /// duration. Robots that do not exist do not break down.
+    /// The breakdowns of the conditions. Random ones happen between a tenth and eight tenths of the planned duration. Entries
+    /// for robots beyond the last are dropped.
     pub fn new(conditions: &Conditions, robots: usize, planned_s: f64, seed: u64) -> Self {
         let mut dice = Dice::new(seed, Purpose::Breakdowns);
         let mut fate_of = |breakdown: &Breakdown, fate| {
@@ -60,7 +60,7 @@ impl Breakdowns {
         Self { coming, broke_down: Vec::new(), mute: vec![false; robots], cut: vec![false; robots] }
     }
 
-    /// The next robot that breaks down until then, counted from the show's beginning.
+    /// The next robot that breaks down until a time after the first departure.
     pub fn next_until(&mut self, since_begin: Span) -> Option<(usize, Fate)> {
         if self.coming.last()?.0 > since_begin {
             return None;
@@ -77,19 +77,19 @@ impl Breakdowns {
         Some((robot, fate))
     }
 
-    /// Whether nothing is heard of a robot any more.
+    /// Whether the messages of a robot are lost.
     #[inline]
     pub fn is_mute(&self, robot: usize) -> bool {
         self.mute[robot] || self.cut[robot]
     }
 
-    /// Whether a robot hears nothing.
+    /// Whether messages to a robot are lost.
     #[inline]
     pub fn is_deaf(&self, robot: usize) -> bool {
         self.cut[robot]
     }
 
-    /// How many robots broke down so far.
+    /// Number of robots that have broken down.
     pub fn count(&self) -> usize {
         self.broke_down.len()
     }

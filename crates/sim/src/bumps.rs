@@ -1,32 +1,32 @@
-//! Robots against what does not move: how often they touch it, and how hard they press on.
+//! Contacts of robots with walls and no-go areas: how often they touch, and how far they press on.
 
 use lightbots_base::Vec2;
 
 use crate::contacts::PARTED_M;
 use crate::floor::{Floor, Thing};
 
-/// So far over the floor's edge, metres, is a contact. Pixels may lie right at the edge, and a robot has arrived that is
-/// 12.5 mm off its pixel; those that drive along the edge with standard noise come 5 mm over it.
+/// A robot farther than this over the floor's edge counts as a contact, metres. Pixels may lie at the edge, and robots that
+/// drive along it come 5 mm over it with standard noise. Above, robots that leave the floor are overlooked.
 pub const EDGE_SLACK_M: f64 = 0.01;
 
-/// How often robots ran into things that do not move. One that parted and touches again counts again.
+/// Number of contacts with walls and no-go areas. A robot that parted and touches again counts again.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Bumps {
     /// Touches of the floor's edge.
     pub edges: u64,
-    /// How many of them pressed on by more than [`EDGE_SLACK_M`].
+    /// Touches of the edge that pressed on by more than [`EDGE_SLACK_M`].
     pub over: u64,
     /// Touches of no-go areas.
     pub obstacles: u64,
-    /// How far robots would have come over the floor's edge at most, metres.
+    /// Largest distance by which a robot would have come over the floor's edge, metres.
     pub edge_most_m: f64,
     fresh: Vec<Bump>,
 }
 
-/// Something that happened between a robot and what does not move.
+/// A contact of a robot with a wall or a no-go area.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bump {
-    /// Which robot.
+    /// Index of the robot.
     pub robot: usize,
     /// What it touches.
     pub thing: Thing,
@@ -34,27 +34,27 @@ pub struct Bump {
     pub over: bool,
 }
 
-/// What a robot stands against.
+/// What a robot is pressed against.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Against {
     thing: Thing,
-    /// How far it would have gone on since, metres.
+    /// Distance by which it would have gone on since, metres.
     pressed_m: f64,
 }
 
 impl Bumps {
-    /// What happened in the last step.
+    /// The contacts that began in the last step.
     pub fn fresh(&self) -> &[Bump] {
         &self.fresh
     }
 
-    /// Forgets the step before.
+    /// Discards the contacts of the step before.
     pub(crate) fn begin_step(&mut self) {
         self.fresh.clear();
     }
 
-    /// Takes in that a robot at a place was moved out of a thing it had gone into so far, or of none.
-    pub(crate) fn look(
+    /// Updates the contact of a robot at `place` that was moved out of a thing, by a distance in metres, or out of none.
+    pub(crate) fn update(
         &mut self,
         robot: usize,
         against: Option<Against>,
@@ -93,7 +93,7 @@ mod tests {
 
     const AREA: Thing = Thing::Obstacle(0);
 
-    /// A robot pressed so deep into things, metres, one step after the other, each time so far off them afterwards.
+    /// Contacts of a robot that is pressed into things by these depths, metres, and then stands off them by these distances.
     fn pressed(steps: &[(Option<(Thing, f64)>, f64)]) -> (Bumps, Vec<Bump>) {
         let obstacles = vec![Obstacle::Disc { at: Vec2::ZERO, radius_m: 0.1 }];
         let floor = Floor::new(&Stage { obstacles, ..Stage::default() }, &[]);
@@ -104,7 +104,7 @@ mod tests {
                 _ => Vec2::new(0.0, 1.473 - off_m),
             };
             bumps.begin_step();
-            against = bumps.look(7, against, out_of, &floor, place);
+            against = bumps.update(7, against, out_of, &floor, place);
             all.extend_from_slice(bumps.fresh());
         }
         (bumps, all)

@@ -1,86 +1,86 @@
-//! What a rehearsal makes robots and networks suffer.
+//! Conditions of a rehearsal: faults of robots, sensors and networks.
 
 use lightbots_base::Span;
 
-/// All conditions of a rehearsal. The default is the standard one of every rehearsal.
+/// All conditions of a rehearsal. The default is the standard.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Conditions {
     /// Share of a wheel's turning that does not move the body, in the mean; 0 to 0.5.
     pub slip: f64,
-    /// How far robots' clocks run fast or slow at most, parts per million.
+    /// Largest drift of the robots' clocks, parts per million.
     pub clock_ppm: f64,
     /// Position fixes.
     pub fixes: FixConditions,
     /// The network between the controller and each robot.
     pub link: LinkConditions,
-    /// So many of the robots, the last ones, are original ones: they speak only `TARGET` and `COLOR`.
+    /// Number of original robots, which know only `TARGET` and `COLOR`. They are the last in order.
     pub originals: usize,
-    /// Robots whose power fails: they stand where they are and say no more.
+    /// Robots whose power fails: they stand and send nothing.
     pub killed: Vec<Breakdown>,
-    /// Robots of which nothing is heard any more; they still hear and drive.
+    /// Robots whose messages are lost. They still receive and drive.
     pub muted: Vec<Breakdown>,
-    /// Robots whose wheels do not turn any more; they still hear and speak.
+    /// Robots whose wheels stop turning. They still receive and send.
     pub stuck: Vec<Breakdown>,
-    /// Robots whose link breaks, and for how long.
+    /// Robots whose link breaks, with the duration.
     pub cut: Vec<(Breakdown, Span)>,
-    /// Robots whose fixes stay away, and for how long.
+    /// Robots whose fixes stay away, with the duration.
     pub blind: Vec<(Breakdown, Span)>,
 }
 
-/// What position fixes are like.
+/// Properties of position fixes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FixConditions {
     /// Noise of each coordinate, metres (1 sigma).
     pub place_sigma_m: f64,
     /// Noise of the heading, radians (1 sigma).
     pub heading_sigma_rad: f64,
-    /// A constant error of each robot's place, metres, at most.
+    /// Largest constant error of a robot's place, metres.
     pub bias_m: f64,
-    /// A fix comes every so many steps of 16 ms; at least 1.
+    /// Steps of 16 ms from one fix to the next; at least 1.
     pub every: u32,
-    /// How old a fix is when it comes; at most 1 s.
+    /// Age of a fix when it comes; at most 1 s.
     pub delay: Span,
-    /// How long fixes stay away when they drop out, about every 20 s for each robot; zero: never.
+    /// Duration of a drop-out of fixes, about every 20 s for each robot; zero: no drop-outs.
     pub dropout: Span,
     /// Probability that a fix is anywhere within a metre.
     pub outliers: f64,
 }
 
-/// What a network does to messages, each way.
+/// Properties of a link, in each direction.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LinkConditions {
-    /// A message is at least this late.
+    /// Least delay of a message.
     pub delay_min: Span,
-    /// A message is at most this late, jitter aside.
+    /// Largest delay of a message without jitter.
     pub delay_max: Span,
-    /// One message in ten is late by up to this on top, and holds up those behind it.
+    /// Largest additional delay of one message in ten. It holds up those behind it.
     pub jitter: Span,
     /// Probability that a message is lost.
     pub loss: f64,
-    /// Probability that a message comes twice.
+    /// Probability that a message is duplicated.
     pub double: f64,
     /// Probability that a message is overtaken by those behind it. Without it a link keeps their order, as TCP does.
     pub reorder: f64,
 }
 
-/// One robot that breaks down.
+/// A breakdown of one robot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Breakdown {
-    /// Which, counted from 0 in starting order; `None`: chance decides.
+    /// Index of the robot in starting order; `None`: random.
     pub robot: Option<usize>,
-    /// How long after the show began; `None`: chance decides, while the show plays.
+    /// Time after the first departure; `None`: random, while the show plays.
     pub at: Option<Span>,
 }
 
 impl Conditions {
-    /// The most wheels may slip.
+    /// Largest valid slip.
     pub const SLIP_MAX: f64 = 0.5;
-    /// The most a fix or a message may be late.
+    /// Largest valid delay of a message.
     pub const DELAY_MAX: Span = Span::from_millis(5_000);
-    /// The oldest a fix may be.
+    /// Largest valid age of a fix.
     pub const FIX_DELAY_MAX: Span = Span::from_millis(1_000);
 
-    /// No noise, no slip, no delay, nothing lost, clocks that agree in rate.
+    /// Ideal conditions: no noise, slip, delay or loss, and clocks without drift.
     pub fn ideal() -> Self {
         let fixes = FixConditions { place_sigma_m: 0.0, heading_sigma_rad: 0.0, ..FixConditions::default() };
         let link =

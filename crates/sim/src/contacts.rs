@@ -1,35 +1,36 @@
-//! What happens when discs touch: they are moved apart, each as far as its wheels let it.
+//! Contact resolution: discs that overlap are moved apart, each as far as its wheels allow.
 
 use lightbots_base::Vec2;
 
-/// How far a standing robot can be pushed along its wheels' direction before it stands like a wall, metres. Measured
-/// in Webots: 1 cm.
+/// Distance by which a standing robot can be pushed along its wheels' direction before it stands like a wall, metres.
+/// Measured in Webots R2023b on 2026-11-21.
 const SLACK_M: f64 = 0.01;
-/// How far a standing robot moves sideways in a step when pushed, metres. Measured in Webots: 0.06 m/s.
+/// Distance that a standing robot moves sideways in a step when it is pushed, metres: 0.06 m/s, measured in Webots R2023b on
+/// 2026-11-21.
 const SIDEWAYS_M: f64 = 0.06 * 0.016;
-/// Two that touched have parted when their rims are this far apart, metres.
+/// Robots that touched have parted when their rims are this far apart, metres. Below, one contact counts several times.
 pub(crate) const PARTED_M: f64 = 0.0005;
-/// How often a step goes over the list to pull chains of robots apart.
+/// Rounds over the list in a step. Each moves a push one robot further along a chain.
 const ROUNDS: usize = 4;
 
-/// What a robot sets against being pushed.
+/// How a robot resists a push.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct ContactState {
     /// Unit vector of its front.
     pub forward: Vec2,
     /// Whether its wheels stand.
     pub stands: bool,
-    /// How far it can still be pushed along its wheels' direction, metres.
+    /// Distance by which it can still be pushed along its wheels' direction, metres.
     pub slack_m: f64,
 }
 
 impl ContactState {
-    /// A robot nobody pushes.
+    /// A robot that is not pushed.
     pub fn new(forward: Vec2) -> Self {
         Self { forward, stands: true, slack_m: SLACK_M }
     }
 
-    /// How far it gives way in direction `push` (a unit vector) in one step, at most `wanted_m`; takes it from its slack.
+    /// Distance by which it yields in direction `push` (a unit vector) in one step, at most `wanted_m`. Reduces its slack.
     fn give_way(&mut self, push: Vec2, wanted_m: f64) -> f64 {
         let along = self.forward.dot(push);
         let along_share = along * along;
@@ -40,7 +41,7 @@ impl ContactState {
     }
 }
 
-/// Who touches whom, how often it happened, and how near centres came.
+/// Contacts between robots: which pairs touch, how many came to touch, and the least distance of two centres.
 #[derive(Clone, Debug)]
 pub struct Contacts {
     contact_m: f64,
@@ -74,7 +75,7 @@ impl Contacts {
         }
     }
 
-    /// How many pairs came to touch so far; a pair that parted and touches again counts again.
+    /// Number of contacts. A pair that parted and touches again counts again.
     pub fn count(&self) -> u64 {
         self.count
     }
@@ -84,7 +85,7 @@ impl Contacts {
         &self.fresh
     }
 
-    /// The least distance of two centres so far, metres; `None` where nobody came near anybody.
+    /// The least distance of two centres, metres; `None` if no two robots came near each other.
     pub fn closest_m(&self) -> Option<f64> {
         (self.closest_squared < f64::MAX).then(|| libm::sqrt(self.closest_squared))
     }
@@ -94,12 +95,12 @@ impl Contacts {
         &self.in_sight
     }
 
-    /// Whether nobody touches anybody.
+    /// Whether no robots touch.
     pub fn none_touching(&self) -> bool {
         self.touching.is_empty() && self.fresh.is_empty()
     }
 
-    /// Looks at the near pairs after a step, counts new contacts and moves those that touch apart.
+    /// Finds the pairs that touch after a step, counts new contacts and moves the robots apart.
     pub(crate) fn resolve(
         &mut self,
         pairs: &[(u32, u32)],
@@ -155,7 +156,7 @@ impl Contacts {
         }
     }
 
-    /// One round over the list; whether anybody still overlapped.
+    /// One round over the list. Whether any robots overlapped.
     fn part(
         &self,
         pairs: &[(u32, u32)],
@@ -183,7 +184,7 @@ impl Contacts {
         places: &mut [Vec2],
         contact_states: &mut [ContactState],
     ) {
-        // Two on one spot part along x: any direction will do, as long as it is always the same.
+        // Robots at the same place part along x. Any direction will do, as long as it is always the same.
         let (distance, normal) = match gap.normalized() {
             Some(normal) => (gap.length(), normal),
             None => (0.0, Vec2::new(1.0, 0.0)),

@@ -1,9 +1,9 @@
-//! Seeded chance: the same seed gives the same throws on every machine.
+//! Random numbers: the same seed gives the same stream on every machine.
 
 use std::sync::LazyLock;
 
-/// What chance is needed for. Every purpose has its own stream, so that more throws for one thing (a noisier sensor)
-/// do not change another (which message is lost).
+/// Purpose of a stream. Each has its own, so that more numbers for one purpose (a noisier sensor) do not change another
+/// (which message is lost).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Purpose {
     /// Names, clocks and batteries of robots.
@@ -12,17 +12,17 @@ pub enum Purpose {
     Slip = 2,
     /// Noise of position fixes.
     Sensors = 3,
-    /// What networks do to messages.
+    /// Delay, loss and order of messages.
     Links = 4,
-    /// Who breaks down, and when.
+    /// Random breakdowns.
     Breakdowns = 5,
-    /// Made-up shows to rehearse.
+    /// Generated shows.
     Scene = 6,
     /// Noise of proximity sensors.
     Proximity = 7,
 }
 
-/// A stream of random numbers (xoshiro256++ by Blackman and Vigna, seeded through SplitMix64).
+/// A stream of random numbers: xoshiro256++ (Blackman and Vigna, 2019), seeded through SplitMix64.
 #[derive(Clone, Debug)]
 pub struct Dice {
     state: [u64; 4],
@@ -30,6 +30,7 @@ pub struct Dice {
 
 /// Quantiles of the normal distribution at (i + ½) / 4096, scaled to a standard deviation of exactly 1.
 static NORMAL: LazyLock<Box<[f32; NORMAL_LEN]>> = LazyLock::new(normal_table);
+/// Length of the table: 12 bits of a draw, and 16 KB, half of a first-level cache.
 const NORMAL_LEN: usize = 4096;
 
 impl Dice {
@@ -54,13 +55,13 @@ impl Dice {
         result
     }
 
-    /// Evenly in 0..1.
+    /// Uniform in 0..1.
     #[inline]
     pub fn unit(&mut self) -> f64 {
         (self.bits() >> 11) as f64 * (1.0 / (1u64 << 53) as f64)
     }
 
-    /// Evenly in `low..high`.
+    /// Uniform in `low..high`.
     pub fn between(&mut self, low: f64, high: f64) -> f64 {
         low + (high - low) * self.unit()
     }
@@ -70,33 +71,33 @@ impl Dice {
         ((u128::from(self.bits()) * u128::from(end)) >> 64) as u64
     }
 
-    /// True with this probability. Throws nothing where it is 0.
+    /// True with this probability. Draws nothing where it is 0.
     #[inline]
     pub fn chance(&mut self, probability: f64) -> bool {
         probability > 0.0 && self.unit() < probability
     }
 
-    /// The same with four numbers.
+    /// Four independent normal numbers of deviation 1, cut off at 3.7, from one draw.
     #[inline]
     pub fn normal4(&mut self) -> [f64; 4] {
         normal_of(self.bits(), [52, 40, 28, 16])
     }
 
-    /// Three independent normal numbers of deviation 1, cut off at 3.7: one throw and three look-ups in a table, as
-    /// they are needed for every robot at every step.
+    /// Three independent normal numbers of deviation 1, cut off at 3.7, from one draw and three look-ups, because every robot
+    /// needs them at every step.
     #[inline]
     pub fn normal3(&mut self) -> [f64; 3] {
         normal3_of(self.bits())
     }
 }
 
-/// The normal numbers that one throw stands for.
+/// The three normal numbers of one draw.
 #[inline]
 pub(crate) fn normal3_of(bits: u64) -> [f64; 3] {
     normal_of(bits, [52, 40, 28])
 }
 
-/// The same from the bits above these places.
+/// Normal numbers from the 12 bits of a draw above each of these positions.
 #[inline]
 fn normal_of<const COUNT: usize>(bits: u64, shifts: [u32; COUNT]) -> [f64; COUNT] {
     let table: &[f32; NORMAL_LEN] = &NORMAL;
@@ -122,8 +123,7 @@ fn normal_table() -> Box<[f32; NORMAL_LEN]> {
     Box::new(raw.map(|z| (z / deviation) as f32))
 }
 
-/// The value below which a normal number falls with probability `p`, by Newton's way from a value near it. It needs no
-/// remembered coefficients and is only done for the table.
+/// Quantile of the normal distribution at probability `p`, by Newton's method from a value near it.
 fn quantile(p: f64, mut near: f64) -> f64 {
     for _ in 0..50 {
         let density = libm::exp(-0.5 * near * near) / libm::sqrt(core::f64::consts::TAU);
@@ -157,7 +157,7 @@ mod tests {
     fn the_table_holds_quantiles() {
         let table: &[f32; NORMAL_LEN] = &NORMAL;
         let p = |place: usize| (place as f64 + 0.5) / NORMAL_LEN as f64;
-        // Known of every table of the normal distribution; cutting off its ends widens the rest a little.
+        // The 2.5 % quantile is in any table of the distribution. Scaling makes up for the ends that are cut off.
         assert!((quantile(0.025, -1.0) + 1.959_963_985).abs() < 1e-9);
         let widened = f64::from(table[100]) / quantile(p(100), -1.0);
         assert!((1.0..1.001).contains(&widened), "{widened}");

@@ -1,32 +1,32 @@
-//! The drive train of an Elisa-3: what its body does when its wheels are told a rate. Fitted to the measurements in
-//! Webots R2023b of 2026-11-21; docs/simulator.md has both side by side.
+//! The drive train of an Elisa-3: motion of the body by commanded wheel rates. Fitted to measurements in Webots R2023b of
+//! 2026-11-21; docs/simulator.md has both side by side. Every constant below comes from these measurements.
 
 use lightbots_base::braking::GRIP_MPS2;
 
 use crate::track::{WHEEL_RADIUS_M, turn_radps};
 
-/// The most a body's speed changes in a step of 16 ms, m/s: the grip of its tyres.
+/// Largest change of the speed in a step of 16 ms, m/s: the grip of the tyres.
 const SPEED_CHANGE_MPS: f64 = GRIP_MPS2 * 0.016;
-/// The same in the third and fourth step of a braking too hard for that grip, in which the body hops.
+/// Largest change of the speed in the third and fourth step of a braking beyond the grip, m/s: the body hops.
 const HOP_CHANGE_MPS: [f64; 2] = [0.129, 0.076];
-/// The most a body's turning rate changes in a step, rad/s.
+/// Largest change of the turning rate in a step, rad/s.
 const TURN_CHANGE_RADPS: f64 = 3.12;
-/// A change of the turning rate that is this much larger than the most is still made at once.
+/// A change of the turning rate up to this multiple of the largest is still made in one step.
 const TURN_SNAP: f64 = 1.2;
-/// Gaining more than this in a step tips the body over its wheels, and it stumbles when it falls back: m/s. A ramp of
-/// 1 m/s² gains 0.016.
+/// Speed gained in a step above which the body tips over its wheels, m/s. It stumbles when it falls back. A ramp of 1 m/s²
+/// gains 0.016 m/s.
 const TIPPING_MPS: f64 = 0.0205;
-/// Speed lost in the stumble, for each m/s gained beyond that in the two steps before.
+/// Speed lost in the stumble, per speed gained beyond [`TIPPING_MPS`] in the two steps before.
 const STUMBLE: f64 = 1.053;
-/// Share of the loss that the step after the stumble gives back on top.
+/// Share of that loss by which the step after the stumble exceeds the goal.
 const REBOUND: f64 = 0.199;
 
-/// The moving state of one robot's drive train.
+/// The state of one robot's drive train.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct DriveTrain {
-    /// Rates told but not yet acting: one step of dead time. Left and right, rad/s.
-    told: [f64; 2],
-    /// Rates the wheels turn at, rad/s.
+    /// Commanded rates that do not act yet, because the dead time is one step. Left and right, rad/s.
+    commanded: [f64; 2],
+    /// Present rates of the wheels, rad/s.
     wheels: [f64; 2],
     /// Speed along the body's front without stumbling, m/s.
     speed_mps: f64,
@@ -40,7 +40,7 @@ pub(crate) struct DriveTrain {
     sliding: u8,
 }
 
-/// What a body does during one step.
+/// Motion of a body during one step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Twist {
     /// Along its front, m/s.
@@ -50,28 +50,28 @@ pub(crate) struct Twist {
 }
 
 impl DriveTrain {
-    /// The rates the wheels turned at in the last step, rad/s.
+    /// Rates of the wheels in the last step, rad/s.
     #[inline]
     pub fn wheels(&self) -> [f64; 2] {
         self.wheels
     }
 
-    /// Whether nothing moves and nothing is told to.
+    /// Whether the drive train rests and is commanded to rest.
     #[inline]
     pub fn rests(&self) -> bool {
-        self.told == [0.0; 2]
+        self.commanded == [0.0; 2]
             && self.wheels == [0.0; 2]
             && self.speed_mps == 0.0
             && self.turn_radps == 0.0
             && self.tipped == 0
     }
 
-    /// One step of 16 ms. `told_next`: the wheels' rates from the next step on, left and right, rad/s; `grip`: the share
-    /// of each wheel's turning that moves the body.
+    /// One step of 16 ms. `command`: rates from the next step on, left and right, rad/s. `grip`: share of each wheel's turning
+    /// that moves the body.
     #[inline]
-    pub fn step(&mut self, told_next: [f64; 2], grip: [f64; 2]) -> Twist {
-        self.wheels = self.told;
-        self.told = told_next;
+    pub fn step(&mut self, command: [f64; 2], grip: [f64; 2]) -> Twist {
+        self.wheels = self.commanded;
+        self.commanded = command;
         let (left, right) = (self.wheels[0] * grip[0], self.wheels[1] * grip[1]);
         let turn_change = turn_radps(left, right) - self.turn_radps;
         self.turn_radps += if turn_change.abs() <= TURN_CHANGE_RADPS * TURN_SNAP {
@@ -84,7 +84,7 @@ impl DriveTrain {
         Twist { speed_mps: self.speed_mps + kick, turn_radps: self.turn_radps }
     }
 
-    /// Brings the speed towards its goal and returns what stumbling adds to it in this step, m/s.
+    /// Changes the speed towards its goal. Returns what stumbling adds to it in this step, m/s.
     #[inline]
     fn change_speed(&mut self, goal_mps: f64) -> f64 {
         let before = self.speed_mps;

@@ -1,4 +1,4 @@
-//! How far robots are from where they believe to be and from where their routes are, and their clocks from each other.
+//! Statistics of errors: of estimated places, of tracking, and between the robots' clocks.
 
 use lightbots_base::Instant;
 
@@ -6,23 +6,23 @@ use crate::robot_set::Ours;
 use crate::statistics::Spread;
 use crate::world::World;
 
-/// A robot is looked at every so many steps, each at another one.
+/// Steps between two samples of a robot. Robots take turns, so that each step samples an eighth of them.
 const EVERY: u64 = 8;
 /// Width of a bin, metres.
 const BIN_M: f64 = 0.0001;
-/// Bins; what is further off counts in the last, its greatest apart.
+/// Number of bins. Larger errors count in the last one; the largest is kept apart.
 const BINS: usize = 1_000;
 
-/// What is known so far. Only robots with a route under way count.
+/// The errors sampled until now, of robots with a route under way.
 #[derive(Debug, Default)]
 pub(crate) struct ErrorStatistics {
     estimate: Tally,
     tracking: Tally,
-    /// Of the clocks of all robots at once, seconds, one a sampling.
+    /// Largest difference of two clocks, seconds, one value a sample.
     clocks_s: Vec<f64>,
 }
 
-/// Distances counted in bins: a rehearsal has millions.
+/// A histogram of distances, because a rehearsal has millions.
 #[derive(Debug)]
 struct Tally {
     bins: Vec<u32>,
@@ -31,9 +31,9 @@ struct Tally {
 }
 
 impl ErrorStatistics {
-    /// Looks at a robot after the world moved and before it thinks: where its last step wanted it to be by now.
+    /// Samples the tracking error of a robot after the world moved and before the robot's step.
     #[inline]
-    pub fn look(&mut self, step: u64, index: usize, robot: &Ours, world: &World) {
+    pub fn sample_tracking(&mut self, step: u64, index: usize, robot: &Ours, world: &World) {
         if !(step + index as u64).is_multiple_of(EVERY) {
             return;
         }
@@ -42,9 +42,9 @@ impl ErrorStatistics {
         }
     }
 
-    /// Looks at a robot after it took in what its sensors said.
+    /// Samples the error of the estimated place of a robot after its step.
     #[inline]
-    pub fn look_again(&mut self, step: u64, index: usize, robot: &Ours, world: &World) {
+    pub fn sample_estimate(&mut self, step: u64, index: usize, robot: &Ours, world: &World) {
         if !(step + index as u64).is_multiple_of(EVERY) || robot.route_place().is_none() {
             return;
         }
@@ -53,8 +53,8 @@ impl ErrorStatistics {
         }
     }
 
-    /// Takes what robots believe the show clock says at one moment.
-    pub fn clocks(&mut self, shown: impl Iterator<Item = Instant>) {
+    /// Samples the show clocks of all robots at one moment.
+    pub fn sample_clocks(&mut self, shown: impl Iterator<Item = Instant>) {
         let (first, last, count) = shown
             .fold((Instant::FAR, Instant::ZERO, 0), |(first, last, count), at| {
                 (at.min(first), at.max(last), count + 1)
@@ -64,17 +64,17 @@ impl ErrorStatistics {
         }
     }
 
-    /// Between where robots believe to be and where they are, metres.
+    /// Distance of the estimated from the true place, metres.
     pub fn estimate_m(&self) -> Spread {
         self.estimate.spread()
     }
 
-    /// Between where robots should be by their routes and where they are, metres.
+    /// Distance of the true place from that of the route, metres.
     pub fn tracking_m(&self) -> Spread {
         self.tracking.spread()
     }
 
-    /// Between the clocks that are furthest apart, seconds.
+    /// Largest difference of two robots' clocks, seconds.
     pub fn clocks_s(&self) -> Spread {
         Spread::of(&self.clocks_s)
     }
@@ -131,8 +131,8 @@ mod tests {
     #[test]
     fn clocks_are_apart_as_far_as_the_first_and_the_last() {
         let mut errors = ErrorStatistics::default();
-        errors.clocks([Instant(5_000), Instant(2_000), Instant(3_000)].into_iter());
-        errors.clocks(std::iter::empty());
+        errors.sample_clocks([Instant(5_000), Instant(2_000), Instant(3_000)].into_iter());
+        errors.sample_clocks(std::iter::empty());
         assert_eq!(errors.clocks_s(), Spread { median: 0.003, p99: 0.003, max: 0.003 });
     }
 }

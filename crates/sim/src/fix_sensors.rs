@@ -1,4 +1,4 @@
-//! What robots see of where they are: fixes with noise, bias, delay, drop-outs and outliers.
+//! The positioning system: fixes with noise, bias, delay, drop-outs and outliers.
 
 use lightbots_base::{Pose, Span, Vec2, wrap};
 
@@ -6,9 +6,9 @@ use crate::conditions::FixConditions;
 use crate::dice::{Dice, Purpose, normal3_of};
 use crate::world::{STEP, STEP_S};
 
-/// How often a robot's fixes drop out, where they do: once in this time in the mean, seconds.
+/// Mean time between two drop-outs of a robot's fixes, seconds.
 const DROPOUT_EVERY_S: f64 = 20.0;
-/// How far off an outlier is at most, metres along each axis.
+/// Largest error of an outlier along each axis, metres.
 const OUTLIER_M: f64 = 1.0;
 
 /// The position sensors of all robots.
@@ -22,14 +22,14 @@ pub(crate) struct FixSensors {
     /// The step until which a robot gets no fix; empty without drop-outs.
     dark_until: Vec<u64>,
     step: u64,
-    /// Whether nothing but noise was asked for.
+    /// Whether fixes have noise only.
     plain: bool,
-    /// `[robot]`: what was thrown for this step, where noise is all there is.
-    throws: Vec<u64>,
+    /// `[robot]`: random bits for this step, where fixes have noise only.
+    draws: Vec<u64>,
 }
 
 impl FixSensors {
-    /// FixSensors of robots that stand at these poses.
+    /// Fixes of robots that stand at these poses.
     pub fn new(conditions: &FixConditions, starts: &[Pose], seed: u64) -> Self {
         let mut dice = Dice::new(seed, Purpose::Sensors);
         let delay_steps = (conditions.delay.0.max(0) + STEP.0 / 2) / STEP.0;
@@ -49,37 +49,37 @@ impl FixSensors {
             dark_until: vec![0; dark],
             step: 0,
             plain,
-            throws: vec![0; if plain { starts.len() } else { 0 }],
+            draws: vec![0; if plain { starts.len() } else { 0 }],
             dice,
         }
     }
 
-    /// Begins the next step: call once before the robots' senses are asked for.
+    /// Begins the next step. Call it once before the robots' fixes.
     pub fn next_step(&mut self, alive: &[bool]) {
         self.step += 1;
-        for (throw, _) in self.throws.iter_mut().zip(alive).filter(|&(_, &alive)| alive) {
-            *throw = self.dice.bits();
+        for (draw, _) in self.draws.iter_mut().zip(alive).filter(|&(_, &alive)| alive) {
+            *draw = self.dice.bits();
         }
     }
 
-    /// Whether robots may ask for their fixes in any order; else only in their own.
+    /// Whether fixes may be taken in any order of the robots; otherwise in ascending order.
     pub fn in_any_order(&self) -> bool {
         self.plain
     }
 
-    /// What a robot that really is at `pose` is told about it in this step; call once a step for each robot that is alive.
+    /// The fix of a robot with this true pose. Call it once a step for each robot that is alive.
     #[inline]
     pub fn fix(&mut self, robot: usize, pose: Pose) -> Option<Pose> {
         if self.plain {
-            return Some(self.noisy(pose, self.throws[robot]));
+            return Some(self.noisy(pose, self.draws[robot]));
         }
         let pose = self.delayed(robot, pose);
         let staggered = self.step + robot as u64;
         if !staggered.is_multiple_of(u64::from(self.conditions.every.max(1))) || self.is_dark(robot) {
             return None;
         }
-        let throw = self.dice.bits();
-        let mut fix = self.noisy(Pose { at: pose.at + self.bias[robot], ..pose }, throw);
+        let draw = self.dice.bits();
+        let mut fix = self.noisy(Pose { at: pose.at + self.bias[robot], ..pose }, draw);
         if self.dice.chance(self.conditions.outliers) {
             let mut off = || self.dice.between(-OUTLIER_M, OUTLIER_M);
             fix.at += Vec2::new(off(), off());
@@ -88,8 +88,8 @@ impl FixSensors {
     }
 
     #[inline]
-    fn noisy(&self, pose: Pose, throw: u64) -> Pose {
-        let [x, y, turn] = normal3_of(throw);
+    fn noisy(&self, pose: Pose, draw: u64) -> Pose {
+        let [x, y, turn] = normal3_of(draw);
         let sigma = self.conditions.place_sigma_m;
         Pose {
             at: pose.at + Vec2::new(x * sigma, y * sigma),

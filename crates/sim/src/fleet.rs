@@ -1,4 +1,4 @@
-//! Simulated robots in real time: whoever has a clock and a network drives them.
+//! Simulated robots in real time. The caller has the clock and the network.
 
 use std::collections::{BTreeMap, VecDeque};
 use std::ops::Range;
@@ -11,44 +11,44 @@ use crate::conditions::Conditions;
 use crate::robot_set::RobotSet;
 use crate::world::STEP;
 
-/// The most steps that are caught up on at once: half a second. What a machine too slow falls behind further is left
-/// out: bodies stand for that time while all clocks go on, so that robots are late together and do not disagree.
+/// Most steps made up in one call: half a second. A slower machine omits the rest: bodies stand while all clocks go on, so
+/// that robots are late together and do not disagree.
 const CATCH_UP_STEPS: i64 = 32;
-/// The most messages that wait to be taken, for each robot and for all together on top; more are dropped.
+/// Most messages that wait to be taken, per robot. Beyond this and [`WAITING`], messages are dropped.
 const WAITING_PER_ROBOT: usize = 64;
+/// Most messages that wait to be taken besides, for all robots together.
 const WAITING: usize = 1024;
 
-/// What a fleet is made of.
+/// Configuration of a fleet.
 #[derive(Clone, Debug)]
 pub struct FleetConfig {
-    /// The floor, and what a robot is.
+    /// The floor, and the measures of a robot.
     pub stage: Stage,
-    /// Where robots stand at power-on, stage metres; one each.
+    /// Places at power-on, stage metres, one for each robot.
     pub starts: Vec<Vec2>,
-    /// Names, clocks, slip and noise follow from it. A robot's name is the same however many there are.
+    /// Seed of names, clocks, slip and noise. A robot's name does not depend on the number of robots.
     pub seed: u64,
-    /// WheelSlip, sensors and clocks. Links and breakdowns are left to the real network.
+    /// Slip, sensors and clocks. Links and breakdowns come from the real network.
     pub conditions: Conditions,
 }
 
-/// Something a robot says.
+/// A message that a robot sends.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct FleetMessage {
-    /// Which robot, counted from 0 in starting order.
+    /// Index of the robot in starting order.
     pub robot: usize,
-    /// What to publish it on.
+    /// Topic to publish it on.
     pub topic: Topic,
     /// UTF-8 text.
     pub payload: Vec<u8>,
 }
 
-/// Simulated robots. Ways in, each with `now`, the microseconds since the fleet was made: [`link`](Self::link),
-/// [`receive`](Self::receive), [`advance`](Self::advance). After each of them drain
-/// [`next_message`](Self::next_message).
+/// Simulated robots in real time. Inputs, each with `now`, the microseconds since the fleet was made: [`link`](Self::link),
+/// [`receive`](Self::receive), [`advance`](Self::advance). Drain [`next_message`](Self::next_message) after each of them.
 pub struct Fleet {
     robots: RobotSet,
     by_id: BTreeMap<RobotId, usize>,
-    /// Until when the world has run.
+    /// End of the last step of the world.
     world_at: Instant,
     left_out: u64,
     waiting: Waiting,
@@ -84,47 +84,48 @@ impl Fleet {
         (0..self.robots.len()).map(|robot| self.robots.id(robot)).collect()
     }
 
-    /// Where robots really are, in starting order.
+    /// True poses, in starting order.
     pub fn poses(&self) -> Vec<Pose> {
         (0..self.robots.len()).map(|robot| self.robots.world.pose(robot)).collect()
     }
 
-    /// What lights show, in starting order.
+    /// Colours of the lights, in starting order.
     pub fn lights(&self) -> Vec<Rgb> {
         (0..self.robots.len()).map(|robot| self.robots.light(robot)).collect()
     }
 
-    /// How often two robots came to touch so far.
+    /// Number of contacts between robots.
     pub fn contacts(&self) -> u64 {
         self.robots.world.contacts().count()
     }
 
-    /// How many steps were left out because `advance` came too late.
+    /// Number of steps omitted because `advance` came too late.
     pub fn steps_left_out(&self) -> u64 {
         self.left_out
     }
 
-    /// Everybody's link comes up or breaks.
+    /// The links of all robots come up or break.
     pub fn link(&mut self, now: Instant, up: bool) {
         for robot in 0..self.robots.len() {
             self.link_of(now, robot, up);
         }
     }
 
-    /// One robot's link comes up or breaks, where each has a connection of its own.
+    /// The link of one robot comes up or breaks, where each has its own connection.
     pub fn link_of(&mut self, now: Instant, robot: usize, up: bool) {
         if robot < self.robots.len() {
             self.robots.link(now, robot, up);
-            self.robots.listen(robot, &mut |robot, topic, text| self.waiting.push(robot, topic, text));
+            self.robots
+                .drain_messages(robot, &mut |robot, topic, text| self.waiting.push(robot, topic, text));
         }
     }
 
-    /// A message was published: whom its topic names hears it, and everybody a broadcast. Whether it was for anybody.
+    /// Delivers a published message to the robot of its topic, or to all robots if it is a broadcast. Whether it was for any.
     pub fn receive(&mut self, now: Instant, topic: &str, payload: &[u8]) -> bool {
         self.receive_on(now, 0..self.robots.len(), topic, payload)
     }
 
-    /// A message came on the connection that `sharing` have in common: a broadcast is heard by these robots.
+    /// Delivers a message from the connection that the robots `sharing` have in common. A broadcast reaches these robots.
     pub fn receive_on(&mut self, now: Instant, sharing: Range<usize>, topic: &str, payload: &[u8]) -> bool {
         let Some(topic) = Topic::parse(topic) else { return false };
         let robots = match topic {
@@ -132,15 +133,16 @@ impl Fleet {
             Topic::Robot(id) => self.by_id.get(&id).map_or(0..0, |&robot| robot..robot + 1),
             _ => 0..0,
         };
-        let heard = !robots.is_empty();
+        let is_received = !robots.is_empty();
         for robot in robots {
             self.robots.receive(now, robot, topic, payload);
-            self.robots.listen(robot, &mut |robot, topic, text| self.waiting.push(robot, topic, text));
+            self.robots
+                .drain_messages(robot, &mut |robot, topic, text| self.waiting.push(robot, topic, text));
         }
-        heard
+        is_received
     }
 
-    /// Runs the world up to `to` in whole steps of 16 ms. How many steps it ran.
+    /// Runs the world up to `to` in whole steps of 16 ms. Returns their number.
     pub fn advance(&mut self, to: Instant) -> u64 {
         let due = ((to - self.world_at).0 / STEP.0).max(0);
         let run = due.min(CATCH_UP_STEPS);
@@ -158,12 +160,12 @@ impl Fleet {
         self.world_at + STEP
     }
 
-    /// The next thing a robot says.
+    /// The next message of a robot.
     pub fn next_message(&mut self) -> Option<FleetMessage> {
         self.waiting.messages.pop_front()
     }
 
-    /// How many messages were dropped because nobody took them.
+    /// Number of messages dropped because they were not taken.
     pub fn messages_dropped(&self) -> u64 {
         self.waiting.dropped
     }

@@ -1,4 +1,4 @@
-//! What stands around the robots: walls and obstacles.
+//! The floor: its edge, which is a wall, and no-go areas.
 
 use lightbots_base::Vec2;
 use lightbots_show::{Obstacle, Stage};
@@ -6,13 +6,13 @@ use lightbots_show::{Obstacle, Stage};
 /// The floor's edge and the things on it, for discs of one radius.
 #[derive(Clone, Debug)]
 pub(crate) struct Floor {
-    /// Where a centre can be: half the floor less the radius, metres.
+    /// Largest coordinates of a centre: half the floor less the radius, metres.
     half: Vec2,
     radius_m: f64,
     obstacles: Vec<Obstacle>,
 }
 
-/// What a disc ran into.
+/// What a disc touches.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Thing {
     /// The wall around the floor: its edge.
@@ -22,7 +22,7 @@ pub enum Thing {
 }
 
 impl Floor {
-    /// The floor of a stage. A robot that starts outside of it widens it, so that it is not thrown inside.
+    /// The floor of a stage. A robot that starts outside widens it, so that the robot is not moved inside.
     pub fn new(stage: &Stage, starts: &[Vec2]) -> Self {
         let radius_m = stage.limits.radius_m;
         let half = Vec2::new(0.5 * stage.width_m - radius_m, 0.5 * stage.depth_m - radius_m);
@@ -33,7 +33,7 @@ impl Floor {
         Self { half, radius_m, obstacles: stage.obstacles.clone() }
     }
 
-    /// Moves a disc out of walls and obstacles; what it ran into, the obstacle where both, and how far it was in it, metres.
+    /// Moves a disc out of walls and no-go areas. Returns what it was in, and how deep, metres. Of several, the last one.
     #[inline]
     pub fn keep_out(&self, place: &mut Vec2) -> Option<(Thing, f64)> {
         let inside = self.inside(*place);
@@ -54,7 +54,7 @@ impl Floor {
         Vec2::new(place.x.clamp(-self.half.x, self.half.x), place.y.clamp(-self.half.y, self.half.y))
     }
 
-    /// From a disc's rim to what it may have touched, metres; 0 or less where it touches it.
+    /// Gap from a disc's rim to a thing, metres; 0 or less where they touch.
     pub fn off_m(&self, place: Vec2, thing: Thing) -> f64 {
         match thing {
             Thing::Edge => (self.half.x - place.x.abs()).min(self.half.y - place.y.abs()),
@@ -125,7 +125,7 @@ mod tests {
     }
 
     #[test]
-    fn who_starts_outside_may_stay_there() {
+    fn a_robot_that_starts_outside_may_stay_there() {
         let floor = Floor::new(&Stage::default(), &[Vec2::new(1.49, 0.0)]);
         assert_eq!(kept_out(&floor, 1.49, 0.0).1, None);
     }

@@ -1,30 +1,29 @@
-//! A fingerprint of everything a rehearsal computed: two runs are the same exactly if their fingerprints are.
+//! The state hash: two rehearsals are the same to the bit exactly if their hashes are.
 
-/// Takes in words one after the other; the order counts. Multiply-xor over 64 bits, in the manner of FNV-1a but a word
-/// at a time, and mixed at the end.
+/// A 64-bit hash of a sequence of words: multiply and xor as in FNV-1a, but a word at a time, and mixed at the end.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct StateHash(u64);
 
 impl StateHash {
-    /// Nothing taken in yet.
+    /// The hash of an empty sequence.
     pub const fn new() -> Self {
         Self(0xcbf2_9ce4_8422_2325)
     }
 
-    /// Takes in 64 bits.
+    /// Appends 64 bits.
     #[inline]
     pub fn word(&mut self, word: u64) {
         self.0 = (self.0 ^ word).wrapping_mul(0x9fb2_1c65_1e98_df25);
         self.0 ^= self.0 >> 32;
     }
 
-    /// Takes in every bit of a number.
+    /// Appends all bits of a number.
     #[inline]
     pub fn number(&mut self, number: f64) {
         self.word(number.to_bits());
     }
 
-    /// Takes in text or bytes and their length.
+    /// Appends bytes and their number.
     pub fn bytes(&mut self, bytes: &[u8]) {
         self.word(bytes.len() as u64);
         for chunk in bytes.chunks(8) {
@@ -34,7 +33,7 @@ impl StateHash {
         }
     }
 
-    /// The fingerprint of all that was taken in.
+    /// The hash of the sequence.
     pub const fn finish(self) -> u64 {
         let mut z = self.0;
         z = (z ^ (z >> 29)).wrapping_mul(0xbf58_476d_1ce4_e5b9);

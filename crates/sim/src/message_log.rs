@@ -1,4 +1,4 @@
-//! What robots said that did not take turns in their order, to be heard in it.
+//! Log of the messages of one step, for robots that do not take turns in ascending order but must be received in it.
 
 use core::ops::Range;
 
@@ -7,25 +7,25 @@ use lightbots_wire::Topic;
 /// Messages of one step.
 #[derive(Default)]
 pub(crate) struct MessageLog {
-    /// Robot, topic, and where its text lies in `texts`.
+    /// Robot, topic, and range of its text in `texts`.
     messages: Vec<(usize, Topic, Range<usize>)>,
     texts: Vec<u8>,
 }
 
 impl MessageLog {
-    /// A robot says something.
+    /// Appends a message of a robot.
     pub fn push(&mut self, robot: usize, topic: Topic, text: &[u8]) {
         let begin = self.texts.len();
         self.texts.extend_from_slice(text);
         self.messages.push((robot, topic, begin..self.texts.len()));
     }
 
-    /// Lets all of it be heard, robot by robot, and forgets it.
-    pub fn drain(&mut self, hear: &mut impl FnMut(usize, Topic, &[u8])) {
-        // Stable: what one robot says keeps its order.
+    /// Passes all messages on in ascending order of robots, and empties the log.
+    pub fn drain(&mut self, receive: &mut impl FnMut(usize, Topic, &[u8])) {
+        // A stable sort keeps the order of each robot's messages.
         self.messages.sort_by_key(|message| message.0);
         for (robot, topic, text) in self.messages.drain(..) {
-            hear(robot, topic, &self.texts[text]);
+            receive(robot, topic, &self.texts[text]);
         }
         self.texts.clear();
     }
@@ -36,16 +36,16 @@ mod tests {
     use super::*;
 
     #[test]
-    fn robots_are_heard_in_their_order_and_each_in_its_own() {
-        let mut said = MessageLog::default();
+    fn messages_come_in_order_of_robots_and_of_each_robot() {
+        let mut log = MessageLog::default();
         for _ in 0..2 {
             for (robot, text) in [(7, "a"), (7, "bc"), (3, ""), (0, "d"), (0, "e")] {
-                said.push(robot, Topic::Status, text.as_bytes());
+                log.push(robot, Topic::Status, text.as_bytes());
             }
-            let mut heard = Vec::new();
-            said.drain(&mut |robot, _, text| heard.push((robot, text.to_vec())));
+            let mut received = Vec::new();
+            log.drain(&mut |robot, _, text| received.push((robot, text.to_vec())));
             let expected = [(0, "d"), (0, "e"), (3, ""), (7, "a"), (7, "bc")];
-            assert_eq!(heard, expected.map(|(robot, text)| (robot, text.as_bytes().to_vec())));
+            assert_eq!(received, expected.map(|(robot, text)| (robot, text.as_bytes().to_vec())));
         }
     }
 }

@@ -1,22 +1,24 @@
-//! Who may touch whom: pairs of discs near each other, found again only when somebody has moved far enough to matter.
+//! Neighbour list (Verlet, 1967): pairs of discs that may touch, found anew only when a disc has moved far enough to matter.
 
 use lightbots_base::Vec2;
 
-/// How much further apart than touching two discs may be and still be on the list, metres. The list holds until a
-/// disc has moved half of that.
+/// Gap up to which a pair is on the list, metres. The list holds until a disc has moved half of it. Below, the list is made
+/// more often. Above, it has more pairs to compare in every step.
 const MARGIN_M: f64 = 0.08;
 
 /// The list of near pairs.
 #[derive(Clone, Debug)]
 pub(crate) struct NeighbourList {
     reach_m: f64,
-    /// Where everybody was when the list was made.
+    /// `[disc]`: place when the list was made.
     then: Vec<Vec2>,
     /// Pairs (smaller index first), sorted.
     pairs: Vec<(u32, u32)>,
-    /// Scratch space for the grid: start of each cell in `order`, and discs ordered by cell.
+    /// Scratch space of the grid: start of each cell in `order`.
     cells: Vec<u32>,
+    /// Discs ordered by cell.
     order: Vec<u32>,
+    /// `[disc]`: its cell.
     cell_of: Vec<u32>,
 }
 
@@ -28,12 +30,12 @@ impl NeighbourList {
         Self { reach_m, then, pairs, cells: Vec::new(), order: Vec::new(), cell_of: Vec::new() }
     }
 
-    /// Pairs that may touch now; every pair closer than contact is among them.
+    /// Pairs that may touch. Every pair that does is among them.
     pub fn pairs(&self) -> &[(u32, u32)] {
         &self.pairs
     }
 
-    /// How far the disc `index`, now at `place`, may be from where it was when the list was made.
+    /// Whether the list is outdated by the disc `index` being at `place`.
     #[inline]
     pub fn outdated_by(&self, index: usize, place: Vec2) -> bool {
         self.then
@@ -181,7 +183,7 @@ mod tests {
     }
 
     #[test]
-    fn a_list_holds_until_somebody_moved_half_the_margin() {
+    fn a_list_holds_until_a_disc_moved_half_the_margin() {
         let mut near = NeighbourList::new(0.054);
         assert!(near.outdated_by(0, Vec2::ZERO));
         near.rebuild(&[Vec2::ZERO]);

@@ -11,16 +11,17 @@ use crate::conditions::LinkConditions;
 use crate::dice::{Dice, Purpose};
 use crate::prefetch::prefetch;
 
-/// The most messages that are under way, for each robot and for all together on top; more are lost.
+/// Most messages under way, per robot. Beyond this and [`UNDER_WAY`], messages are lost.
 const UNDER_WAY_PER_ROBOT: usize = 64;
+/// Most messages under way besides, for all robots together.
 const UNDER_WAY: usize = 1024;
-/// Share of messages that jitter makes late.
+/// Share of messages that jitter delays.
 const JITTERED: f64 = 0.1;
 
-/// Who hears a message that no robot hears.
+/// The receiver of messages to the controller, in place of a robot's index.
 const CONTROLLER: u32 = u32::MAX;
 
-/// Which way a message goes.
+/// Direction of a message.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Way {
     /// To a robot, by its index.
@@ -32,18 +33,18 @@ pub(crate) enum Way {
 /// A message that arrives.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Message {
-    /// Which way it went.
+    /// Its direction.
     pub way: Way,
-    /// What it was published on.
+    /// Its topic.
     pub topic: Topic,
     /// Its bytes, shared by all copies of a broadcast.
     pub payload: Rc<[u8]>,
 }
 
-/// How many messages were said, for each receiver, and how many of them never arrived.
+/// Number of messages sent and lost; each receiver counts.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize)]
 pub struct MessageCounts {
-    /// MessageLog.
+    /// Sent.
     pub sent: u64,
     /// Lost on the way.
     pub lost: u64,
@@ -65,7 +66,7 @@ pub(crate) struct Network {
 }
 
 impl Network {
-    /// Links to so many robots.
+    /// Links to a number of robots.
     pub fn new(conditions: &LinkConditions, robots: usize, seed: u64) -> Self {
         Self {
             conditions: conditions.clone(),
@@ -79,7 +80,7 @@ impl Network {
         }
     }
 
-    /// Somebody says something.
+    /// Sends a message.
     pub fn send(&mut self, now: Instant, way: Way, topic: Topic, payload: Rc<[u8]>) {
         self.counts.sent += 1;
         let full = self.queue.len() >= UNDER_WAY + UNDER_WAY_PER_ROBOT * self.last.len();
@@ -99,7 +100,7 @@ impl Network {
         self.queue.peek().map(|&Reverse((at, ..))| at)
     }
 
-    /// The next message that arrives at `until` or before, and when it does.
+    /// The next message that arrives until `until`, with its time.
     pub fn next_until(&mut self, until: Instant) -> Option<(Instant, Message)> {
         if self.next_at()? > until {
             return None;
@@ -112,13 +113,13 @@ impl Network {
         Some((at, self.slots[slot as usize].take()?))
     }
 
-    /// The robot that hears the next message, if a robot does.
-    pub fn next_listener(&self) -> Option<usize> {
+    /// The robot that receives the next message; `None`: the controller does.
+    pub fn next_receiver(&self) -> Option<usize> {
         let &Reverse((.., robot)) = self.queue.peek()?;
         (robot != CONTROLLER).then_some(robot as usize)
     }
 
-    /// How many messages were said and lost.
+    /// Number of messages sent and lost.
     pub fn counts(&self) -> MessageCounts {
         self.counts
     }
@@ -145,8 +146,8 @@ impl Network {
             prefetch(&self.slots[next as usize]);
         }
         self.said += 1;
-        let listener = if direction == 0 { robot as u32 } else { CONTROLLER };
-        self.queue.push(Reverse((at, self.said, slot, listener)));
+        let receiver = if direction == 0 { robot as u32 } else { CONTROLLER };
+        self.queue.push(Reverse((at, self.said, slot, receiver)));
     }
 
     fn delay(&mut self) -> Span {
@@ -165,7 +166,7 @@ mod tests {
     use crate::conditions::Conditions;
     use crate::faults::Faults;
 
-    /// Says `count` messages a millisecond apart over one link; numbers and delays (ms) in order of arrival.
+    /// Sends `count` messages a millisecond apart over one link. Returns numbers and delays (ms) in order of arrival.
     fn arrivals(faults: &str, count: u32) -> (Vec<(u32, f64)>, MessageCounts) {
         arrivals_over(&Faults::parse(faults).unwrap().added_to(Conditions::default()).link, count)
     }

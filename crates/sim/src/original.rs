@@ -5,19 +5,19 @@ use lightbots_base::{Pose, Rgb, RobotId, Vec2, wrap};
 use lightbots_robot::Message;
 use lightbots_wire::{Command, Report, Topic, commands};
 
-/// The arrival test, metres along each axis.
+/// Arrival test: both coordinates within this, metres.
 const ARRIVED_M: f64 = 0.02;
-/// Wheels of a straight drive, rad/s.
+/// Wheel rate of a straight drive, rad/s.
 const CRUISE_RADPS: f64 = 60.0;
-/// Wheels of a turn on the spot, rad/s.
+/// Wheel rate of a turn on the spot, rad/s.
 const SPIN_RADPS: f64 = 20.0;
-/// Farther off its direction than this it turns on the spot, …
+/// Heading error above which it turns on the spot, radians.
 const SPIN_FROM_RAD: f64 = 0.35;
-/// … until it is no more than this off, radians.
+/// Heading error at which it ends that turn, radians.
 const SPIN_TO_RAD: f64 = 0.1;
-/// While it curves, the inner wheel is slower by this for each radian off, rad/s.
+/// Difference of the inner wheel's rate per heading error in a curve, 1/s.
 const CURVE_RADPS: f64 = 100.0;
-/// The most answers that wait to be taken; more are dropped.
+/// Most answers that wait to be taken. More are dropped.
 const WAITING: usize = 16;
 
 /// One robot, which knows only TARGET, COLOR and UUID.
@@ -28,13 +28,13 @@ pub(crate) struct Original {
     spins: bool,
     light: Rgb,
     at: Option<Vec2>,
-    /// It ended itself when it lost the broker.
+    /// Its program ended when it lost the broker.
     ended: bool,
     introduces: usize,
     arrived: bool,
 }
 
-/// What it does to its wheels and light.
+/// Outputs of a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct OriginalOutputs {
     /// Left and right, rad/s.
@@ -57,7 +57,7 @@ impl Original {
         }
     }
 
-    /// Its link comes up, or breaks: then it exits.
+    /// Its link comes up or breaks. When it breaks, its program ends.
     pub fn link(&mut self, up: bool) {
         self.ended |= !up;
         self.introduces = usize::from(up && !self.ended);
@@ -80,7 +80,7 @@ impl Original {
         }
     }
 
-    /// One step; `fix`: where it is told it is.
+    /// One step with a fix of its pose.
     pub fn step(&mut self, fix: Option<Pose>) -> OriginalOutputs {
         self.at = fix.map(|fix| fix.at).or(self.at);
         let wheels_radps = fix.filter(|_| !self.ended).map_or([0.0; 2], |pose| self.drive(pose));
@@ -108,7 +108,7 @@ impl Original {
         }
     }
 
-    /// The next thing it says.
+    /// Writes its next message.
     pub fn outgoing(&mut self, payload: &mut Message) -> Option<Topic> {
         let topic = if std::mem::take(&mut self.arrived) {
             Topic::Arrival

@@ -17,11 +17,11 @@ use crate::robot_set::RobotSet;
 use crate::watch::Watch;
 use crate::world::STEP;
 
-/// How long robots have to find the controller and its clock before the show begins without those that did not.
+/// Time that robots have to find the controller and its clock. The show then begins without the others.
 const GATHERING: Span = Span::from_millis(8_000);
-/// How often the world's state is taken into the fingerprint, steps: about once a second.
+/// Steps between two times that the world's state enters the hash: about a second.
 const HASH_EVERY: u64 = 64;
-/// How often one instant is looked at again because something at it led to something else at it.
+/// Most messages and wake-ups between two steps. Only a controller that wakes itself without end reaches it.
 const ROUNDS_PER_STEP: usize = 1_000_000;
 
 /// A show being rehearsed.
@@ -42,7 +42,7 @@ pub(crate) struct Play {
 }
 
 impl Play {
-    /// Robots at `starts`, switched on, some with names that are stated; a controller that has just found its broker.
+    /// Robots at `starts`, switched on, some with given names, and a controller that has just found its broker.
     pub fn new(
         show: Arc<Show>,
         starts: &[Vec2],
@@ -70,7 +70,7 @@ impl Play {
         }
     }
 
-    /// Plays to the end, or until it is clear that there is none.
+    /// Plays to the end, or to the time limit.
     pub fn run(mut self, progress: &mut dyn FnMut(Progress<'_>)) -> RehearsalReport {
         self.controller.connected(self.now);
         // Opening is refused only during a run.
@@ -105,7 +105,7 @@ impl Play {
         self.break_robots();
         let Self { robots, network, watch, breakdowns, .. } = self;
         robots.step(next, &mut |robot, topic, text| {
-            heard(network, watch, breakdowns, next, (robot, topic, text))
+            send(network, watch, breakdowns, next, (robot, topic, text))
         });
         self.watch.contacts(next, &self.robots.world);
         if !self.began {
@@ -113,7 +113,7 @@ impl Play {
         }
     }
 
-    /// Messages and waking times up to `until`, in order.
+    /// Handles messages and wake-ups until `until`, in order.
     fn pass_time(&mut self, until: Instant) {
         for _ in 0..ROUNDS_PER_STEP {
             let wake = self.controller.wake_at().map(|at| at.max(self.now));
@@ -130,7 +130,7 @@ impl Play {
             } else {
                 let Some((at, message)) = self.network.next_until(until) else { return };
                 self.now = at.max(self.now);
-                if let Some(robot) = self.network.next_listener() {
+                if let Some(robot) = self.network.next_receiver() {
                     self.robots.prefetch_receiver(robot);
                 }
                 match message.way {
@@ -138,8 +138,8 @@ impl Play {
                     Way::ToRobot(robot) => {
                         self.robots.receive(self.now, robot, message.topic, &message.payload);
                         let Self { robots, network, watch, breakdowns, now, .. } = self;
-                        robots.listen(robot, &mut |robot, topic, text| {
-                            heard(network, watch, breakdowns, *now, (robot, topic, text));
+                        robots.drain_messages(robot, &mut |robot, topic, text| {
+                            send(network, watch, breakdowns, *now, (robot, topic, text));
                         });
                     }
                     Way::ToController(robot) => {
@@ -153,13 +153,13 @@ impl Play {
         }
     }
 
-    /// Plays as soon as everybody is there and knows the show clock, or when that takes too long.
+    /// Begins the show once all robots are present and know the show clock, or after [`GATHERING`].
     fn begin(&mut self) {
         if !(self.now.0 / STEP.0 as u64).is_multiple_of(8) {
             return;
         }
         let robots = self.controller.snapshot(self.now).robots;
-        // An original robot says neither what it does nor what its clock does.
+        // An original robot reports neither its state nor its clock.
         let is_ready = |robot: &&RobotView| {
             robot.reported.at.is_some()
                 && (robot.reported.clock_us.is_some() || robot.reported.state.is_none())
@@ -177,7 +177,7 @@ impl Play {
         self.drain_controller();
     }
 
-    /// Lets robots break down whose time has come.
+    /// Applies the breakdowns that are due.
     fn break_robots(&mut self) {
         let Some(first_departure) = self.watch.began_at() else { return };
         while let Some((robot, fate)) = self.breakdowns.next_until(self.now - first_departure) {
@@ -192,7 +192,7 @@ impl Play {
         }
     }
 
-    /// Makes the plans the controller asks for. That takes no virtual time: how long it takes depends on the machine.
+    /// Makes the plans that the controller asks for. Planning takes no virtual time, because its time depends on the machine.
     fn plan(&mut self, progress: &mut dyn FnMut(Progress<'_>)) {
         while let Some(job) = self.controller.next_plan_request() {
             progress(Progress::Planning);
@@ -202,7 +202,7 @@ impl Play {
         }
     }
 
-    /// Says which paths are driven once a drive has begun.
+    /// Reports the paths of a drive that has just begun.
     fn report_departure(&mut self, progress: &mut dyn FnMut(Progress<'_>)) {
         if !self.watch.take_departure() {
             return;
@@ -272,8 +272,8 @@ impl Play {
     }
 }
 
-/// A robot says something: it goes on its way to the controller, unless the robot is mute.
-fn heard(
+/// Sends a message of a robot to the controller, unless the robot is mute.
+fn send(
     network: &mut Network,
     watch: &mut Watch,
     breakdowns: &Breakdowns,

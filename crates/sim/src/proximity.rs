@@ -1,18 +1,22 @@
-//! Proximity sensors: eight around each robot's rim, which see the robots near them.
+//! Proximity sensors: eight around each robot's rim, which measure the gaps to the robots near them.
 
 use lightbots_base::Vec2;
 
 use crate::contacts::ContactState;
 use crate::dice::{Dice, Purpose};
 
-/// How far a sensor sees, from its place on the rim, metres. The Elisa-3's tell something up to 60 mm.
+/// Range of a sensor from its place on the rim, metres. The Elisa-3's read up to 60 mm, with less and less certainty.
 const RANGE_M: f64 = 0.03;
-/// Noise of a reading, 1 sigma: metres, and share of the gap. That of the Elisa-3 in Webots: 0.5 mm at 5 mm, 0.8 at 10.
+/// Constant part of a reading's noise, metres, 1 sigma. With [`NOISE_SHARE`] it fits the Elisa-3 in Webots R2023b, measured
+/// on 2026-11-21: 0.5 mm at 5 mm, 0.8 mm at 10 mm.
 const NOISE_M: f64 = 0.0003;
+/// Part of a reading's noise that grows with the gap, as a share of it, 1 sigma.
 const NOISE_SHARE: f64 = 0.05;
-/// A sensor sees what lies within 50° of its direction.
+/// Cosine of half the angle of a sensor's cone: 50°.
 const CONE_COS: f64 = 0.642_787_609_686_539_3;
+/// Tangent of 22.5°, half the angle between two sensors.
 const TAN_22_5: f64 = 0.414_213_562_373_095_03;
+/// Sine and cosine of 45°.
 const HALF: f64 = core::f64::consts::FRAC_1_SQRT_2;
 /// Directions of the sensors in body space, counter-clockwise from the front.
 const SENSORS: [Vec2; 8] = [
@@ -25,39 +29,40 @@ const SENSORS: [Vec2; 8] = [
     Vec2::new(0.0, -1.0),
     Vec2::new(HALF, -HALF),
 ];
+/// Readings with nothing in range.
 const NOTHING: [f32; 8] = [f32::INFINITY; 8];
 
-/// What everybody's sensors see.
+/// The readings of all robots' sensors.
 #[derive(Clone, Debug)]
 pub(crate) struct Proximity {
     radius_m: f64,
     /// `[robot][sensor]`: metres.
     gaps_m: Vec<[f32; 8]>,
-    /// Robots that see anything.
+    /// Robots with a reading in range.
     seeing: Vec<u32>,
     dice: Dice,
 }
 
 impl Proximity {
-    /// FixSensors of so many discs.
+    /// The sensors of a number of discs.
     pub fn new(robots: usize, radius_m: f64, seed: u64) -> Self {
         let dice = Dice::new(seed, Purpose::Proximity);
         Self { radius_m, gaps_m: vec![NOTHING; robots], seeing: Vec::new(), dice }
     }
 
-    /// Centres farther apart than this do not see each other, metres.
+    /// Distance of two centres from which they are out of each other's range, metres.
     pub fn sight_m(radius_m: f64) -> f64 {
         2.0 * radius_m + RANGE_M
     }
 
-    /// What a robot sees: gaps as its eight sensors tell, counter-clockwise from the front, metres.
+    /// Readings of a robot's eight sensors, counter-clockwise from the front, metres.
     #[inline]
     pub fn gaps_m(&self, robot: usize) -> [f32; 8] {
         self.gaps_m[robot]
     }
 
-    /// Looks anew: `near` are the pairs within sight.
-    pub fn look(&mut self, near: &[(u32, u32)], places: &[Vec2], contact_states: &[ContactState]) {
+    /// Takes new readings. `near`: the pairs within [`Self::sight_m`].
+    pub fn sample(&mut self, near: &[(u32, u32)], places: &[Vec2], contact_states: &[ContactState]) {
         for robot in self.seeing.drain(..) {
             self.gaps_m[robot as usize] = NOTHING;
         }
@@ -70,7 +75,7 @@ impl Proximity {
         }
     }
 
-    /// A robot that faces `forward` sees another whose centre is `way` from its own.
+    /// Takes the readings by which a robot with front `forward` sees another at the offset `way`.
     #[inline]
     fn see(&mut self, robot: u32, forward: Vec2, way: Vec2, noise: [f64; 2]) {
         let other_in_body = Vec2::new(forward.dot(way), forward.cross(way));
@@ -93,7 +98,7 @@ impl Proximity {
     }
 }
 
-/// The sensor that looks most nearly into a direction of body space.
+/// The sensor whose axis is nearest to a direction in body space.
 #[inline]
 fn nearest_sensor(towards: Vec2) -> usize {
     let (x, y) = (towards.x.abs(), towards.y.abs());
@@ -130,11 +135,11 @@ mod tests {
         let mut proximity = Proximity::new(2, 0.027, 1);
         let contact_states = [ContactState::new(Vec2::new(1.0, 0.0)), ContactState::new(Vec2::new(0.0, 1.0))];
         let places = [Vec2::ZERO, Vec2::new(0.064, 0.0)];
-        proximity.look(&[(0, 1)], &places, &contact_states);
+        proximity.sample(&[(0, 1)], &places, &contact_states);
         let (front, left) = (proximity.gaps_m(0)[0], proximity.gaps_m(1)[2]);
         assert!((front - 0.01).abs() < 0.004 && (left - 0.01).abs() < 0.004);
         assert_eq!(proximity.gaps_m(0).iter().filter(|gap| gap.is_finite()).count(), 1);
-        proximity.look(&[], &places, &contact_states);
+        proximity.sample(&[], &places, &contact_states);
         assert_eq!((proximity.gaps_m(0), proximity.gaps_m(1)), (NOTHING, NOTHING));
     }
 
@@ -146,7 +151,7 @@ mod tests {
             ContactState::new(Vec2::new(1.0, 0.0)),
         ];
         let mut looks = (0..1000).map(|_| {
-            proximity.look(&[(0, 1)], &[Vec2::ZERO, Vec2::new(0.06, 0.0)], &contact_states);
+            proximity.sample(&[(0, 1)], &[Vec2::ZERO, Vec2::new(0.06, 0.0)], &contact_states);
             let [ahead, .., right] = proximity.gaps_m(0);
             [ahead, right]
         });

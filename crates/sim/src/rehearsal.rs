@@ -11,44 +11,43 @@ use crate::play::Play;
 use crate::report::RehearsalReport;
 use crate::statistics::Spread;
 
-/// How a show is rehearsed.
+/// Options of a rehearsal.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RehearsalOptions {
-    /// The seed of everything that chance decides.
+    /// Seed of all random numbers.
     pub seed: u64,
-    /// What robots and networks suffer.
+    /// Faults of robots and networks.
     pub conditions: Conditions,
-    /// How many robots there are; `None`: as many as the show needs, or as it has starts.
+    /// Number of robots; `None`: as many as the show needs, or as it has starts.
     pub robots: Option<usize>,
 }
 
-/// How far a rehearsal is.
+/// Progress of a rehearsal.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Progress<'a> {
-    /// The show is being planned, or planned again after something went wrong.
+    /// The show is planned, or planned anew after a fault.
     Planning,
-    /// It plays, again after planning too: so that callers can time the two apart.
+    /// It plays. Sent after planning too, so that callers can time both.
     Playing {
         /// Virtual time since robots were switched on, seconds.
         at_s: f64,
-        /// How long the show is planned to take, seconds.
+        /// Planned duration of the show, seconds.
         planned_s: f64,
-        /// Frames that stood so far.
+        /// Number of frames that stood.
         frames: usize,
     },
     /// Robots are about to leave, or have just left.
     Departing {
-        /// The frame they drive to, counted from 0.
+        /// Index of the frame they drive to.
         frame: usize,
-        /// When they leave, seconds after the first departure of the show; holds delay what follows.
+        /// Departure, seconds after the first departure of the show. Holds delay what follows.
         begins_s: f64,
-        /// `(robot, its path)`, of the robots that drive paths. The plan of a rehearsal begins where robots report to be,
-        /// so that it differs from seed to seed.
+        /// `(robot, path)` of the robots that drive paths. A plan begins at the reported places, so it differs from seed to seed.
         paths: &'a [(usize, &'a Path)],
     },
 }
 
-/// The most robots a rehearsal has.
+/// Most robots of a rehearsal.
 pub const ROBOTS_MAX: usize = 20_000;
 
 impl Default for RehearsalOptions {
@@ -58,8 +57,8 @@ impl Default for RehearsalOptions {
     }
 }
 
-/// Plays a whole show in virtual time and says how it went. The same show, options and version give the same report to
-/// the bit. `progress` is told about every second of virtual time; it must not change anything.
+/// Plays a whole show in virtual time and reports the result. The same show, options and version give the same report to the
+/// bit. `progress` is called about every second of virtual time.
 pub fn rehearse(
     show: &Show,
     options: &RehearsalOptions,
@@ -92,12 +91,12 @@ pub fn rehearse(
     report
 }
 
-/// As many as the show needs; where it says where more robots start, those are there as well.
+/// Number of robots that the show needs, or of its starts if it has more.
 fn usual_robots(show: &Show) -> usize {
     robots_needed(show).max(show.starts.as_ref().map_or(0, Vec::len))
 }
 
-/// `[robot]`: the name by which pixels ask for it, so that who is bound to a pixel takes part.
+/// `[robot]`: the name by which a pixel is bound to it, so that bound robots take part.
 fn names(plan: &ShowPlan, robots: usize) -> Vec<Option<RobotId>> {
     let mut names = vec![None; robots];
     for (name, &robot) in &plan.names {
@@ -106,7 +105,7 @@ fn names(plan: &ShowPlan, robots: usize) -> Vec<Option<RobotId>> {
     names
 }
 
-/// Where the show says robots start, in rows along the front edge where it does not or says too few.
+/// The starts of the show, or rows along the front edge where it has too few.
 fn starts(show: &Show, robots: usize) -> Vec<Vec2> {
     match &show.starts {
         Some(starts) if starts.len() >= robots => starts[..robots].to_vec(),
@@ -114,7 +113,7 @@ fn starts(show: &Show, robots: usize) -> Vec<Vec2> {
     }
 }
 
-/// Adds what the plan found and the show's own check did not.
+/// Appends the issues of the plan that the check of the show did not find.
 fn add_new(issues: &mut Vec<Issue>, plan: &ShowPlan) {
     for issue in &plan.issues {
         if !issues.contains(issue) {
@@ -155,7 +154,7 @@ fn unplayed(show: &Show, options: &RehearsalOptions, robots: usize, issues: Vec<
     }
 }
 
-/// How long a rehearsal may take at most, of virtual time: many times the plan, as recovery takes time.
+/// Largest virtual duration of a rehearsal: many times the plan, because recovery takes time.
 pub(crate) fn time_limit(planned_s: f64) -> Instant {
     Instant::ZERO + Span::from_secs(60.0 + 5.0 * planned_s.clamp(0.0, 1e6))
 }

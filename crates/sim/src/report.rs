@@ -1,4 +1,4 @@
-//! What a rehearsal found out.
+//! The result of a rehearsal.
 
 use lightbots_show::Issues;
 use serde::Serialize;
@@ -10,64 +10,64 @@ use crate::statistics::Spread;
 /// The report of a rehearsal. Its JSON has these keys.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct RehearsalReport {
-    /// Every frame was played, nobody touched anybody, and nobody dropped out but those who were made to.
+    /// All frames were played without a contact, and no robot dropped out but those with a breakdown in the conditions.
     pub ok: bool,
-    /// How many robots took part.
+    /// Number of robots.
     pub robots: usize,
-    /// How many frames stood.
+    /// Number of frames that stood.
     pub frames_played: usize,
-    /// How many frames the show has.
+    /// Number of frames of the show.
     pub frames: usize,
     /// From the first departure to the end of the last air time, seconds.
     pub duration_s: f64,
-    /// How long the show is planned to take, seconds.
+    /// Planned duration of the show, seconds.
     pub planned_s: f64,
-    /// What no plan can be shorter than, seconds; see the plan.
+    /// Lower bound of the duration of any plan, seconds.
     pub lower_bound_s: f64,
-    /// How often two robots came to touch, or one an obstacle, or one went over the floor's edge by more than robots may
-    /// be off their routes, [`EDGE_SLACK_M`](crate::EDGE_SLACK_M).
+    /// Number of contacts: of two robots, of a robot with a no-go area, or of a robot with the floor's edge if it goes over it by
+    /// more than [`EDGE_SLACK_M`](crate::EDGE_SLACK_M).
     pub contacts: u64,
-    /// Contacts of two robots after the first replan began: recovery caused them.
+    /// Contacts of two robots after the first replan began, which recovery caused.
     pub contacts_after_replan: u64,
-    /// How often the run was planned anew from where robots stood.
+    /// Number of replans.
     pub replans: usize,
-    /// How often a robot touched the edge of the floor, however lightly.
+    /// Number of touches of the floor's edge, however light.
     pub wall_contacts: u64,
-    /// How far a robot would have come over the edge of the floor at most, metres.
+    /// Largest distance by which a robot would have come over the floor's edge, metres.
     pub wall_pressed_m: f64,
-    /// How often safety layers slowed robots, and how often nothing faulty or off its route was ahead of them.
+    /// Brakes of the safety layers, and those with no faulty and no off-route robot ahead.
     pub brakes: BrakeCounts,
-    /// The least distance of two centres, metres; `None` where nobody came near anybody.
+    /// The least distance of two centres, metres; `None` if no two robots came near each other.
     pub closest_m: Option<f64>,
-    /// Between the first and the last robot that comes to stay at its place in a frame, one value a frame, seconds.
+    /// Time between the first and the last arrival in a frame, one value a frame, seconds.
     pub arrival_spread_s: Spread,
-    /// How far robots really were from their pixels when their frame stood, one value a robot and frame, metres.
+    /// True distance of robots from their pixels when their frame stood, one value a robot and frame, metres.
     pub position_error_m: Spread,
-    /// How far robots on their way were from where they believed to be, metres.
+    /// Distance of the estimated from the true place of driving robots, metres.
     pub estimate_error_m: Spread,
-    /// How far robots on their way were from where their routes were, metres.
+    /// Distance of the true place of driving robots from that of their routes, metres.
     pub tracking_error_m: Spread,
-    /// Between the robots' clocks that are furthest apart, one value a second, seconds: so much apart are departures
-    /// and changes of light that are meant for one moment.
+    /// Largest difference of two robots' clocks, one value a second, seconds. Departures and lights that are meant for one moment
+    /// differ by as much.
     pub clock_spread_s: Spread,
-    /// What was said, each receiver counted, and what was lost on the way.
+    /// Messages sent and lost; each receiver counts.
     pub messages: MessageCounts,
     /// Robots that were lost.
     pub dropouts: usize,
     /// The seed: the same show, conditions and seed give the same run.
     pub seed: u64,
-    /// Fingerprint of the whole run, 16 hexadecimal digits.
+    /// Hash of the whole run, 16 hexadecimal digits.
     pub state_hash: String,
-    /// How many times faster than real time it went. Filled in by the caller, as there is no clock in here.
+    /// Speed as a multiple of real time. The caller fills it in, because this crate reads no clock.
     pub real_time_factor: Option<f64>,
-    /// What is wrong or worth knowing.
+    /// Faults and remarks.
     pub issues: Issues,
     /// The frames that stood, in the order played.
     pub per_frame: Vec<FrameRecord>,
 }
 
 impl RehearsalReport {
-    /// How often the floor's edge was touched, in words.
+    /// Touches of the floor's edge, as text.
     pub fn edge_touches(&self) -> String {
         match self.wall_contacts {
             0 => "0".into(),
@@ -79,16 +79,16 @@ impl RehearsalReport {
 /// One frame that stood.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct FrameRecord {
-    /// Which, counted from 0.
+    /// Its index.
     pub frame: usize,
     /// Its name.
     pub name: String,
-    /// When it stood, seconds after the first departure.
+    /// Time at which it stood, seconds after the first departure.
     pub at_s: f64,
-    /// How long the drive to it took, seconds.
+    /// Duration of the drive to it, seconds.
     pub drive_s: f64,
-    /// Between the first and the last arrival, seconds.
+    /// Time between the first and the last arrival, seconds.
     pub arrival_spread_s: f64,
-    /// How far robots were from their pixels, metres.
+    /// Distance of robots from their pixels, metres.
     pub position_error_m: Spread,
 }

@@ -1,4 +1,4 @@
-//! Robots: the real firmware core in simulated bodies, each with its own clock.
+//! The robot set: real firmware cores in simulated bodies, each with its own clock.
 
 use lightbots_base::{Instant, Pose, Rgb, RobotId, Span, Vec2};
 use lightbots_robot::{Config, Fix, Inputs, Message, Robot, RouteStorage};
@@ -16,33 +16,34 @@ use crate::prefetch::prefetch;
 use crate::proximity::Proximity;
 use crate::world::{STEP, World};
 
-/// Robots' own clocks begin anywhere within this, microseconds.
+/// Range of the robots' own clocks at the begin, microseconds: an hour, so that no clock agrees with another.
 const CLOCK_BEGIN_US: u64 = 3_600_000_000;
 /// Steps in which a battery loses one percent: three minutes.
 const STEPS_PER_PERCENT: u64 = 11_250;
-/// Up to so many robots it does not pay to fetch them ahead: the processor still has them at hand from the step before.
+/// Number of robots up to which prefetching does not pay, because the cache still has them from the step before. Tuned on
+/// `--example speed`.
 const CACHED: usize = 1_500;
-/// How many turns ahead a robot is prefetched: first its begin, which tells whether it runs our firmware, then the state of
-/// its step. To read the begin any earlier would be to wait for memory.
+/// Turns ahead at which a robot is prefetched: first its begin, which tells whether it runs our firmware, then the state of
+/// its step. Nearer, memory is still on its way at the turn. Farther, it is out of the cache again.
 const AHEAD: [usize; 2] = [5, 2];
 
-/// N robots on a floor.
+/// All robots of a rehearsal or a fleet, and their world.
 pub(crate) struct RobotSet {
     pub world: World,
     sensors: FixSensors,
-    members: Vec<SimulatedRobot>,
-    /// Up to so many of them the processor has at hand.
+    robots: Vec<SimulatedRobot>,
+    /// Number of robots up to which none is prefetched.
     pub cached: usize,
-    /// Whether they have power.
+    /// `[robot]`: it has power.
     alive: Vec<bool>,
     steps: u64,
     errors: ErrorStatistics,
     brakes: Brakes,
     payload: Message,
-    said: MessageLog,
+    log: MessageLog,
 }
 
-/// As declared: the first cache line has what says what it is.
+/// A simulated robot. Its fields keep their order, so that the first cache line says what firmware it runs.
 #[repr(C, align(64))]
 struct SimulatedRobot {
     id: RobotId,
@@ -56,11 +57,11 @@ struct SimulatedRobot {
     firmware: RobotFirmware,
 }
 
-/// Our firmware with its routes apart: a step reads next to nothing of them, and what it reads of ten thousand robots
-/// should lie together.
+/// Our firmware with its routes in a box. A step reads next to nothing of them, and the rest of all robots then lies close
+/// together.
 pub(crate) type Ours = Robot<Box<RouteStorage>>;
 
-/// Who decides what a body does.
+/// The firmware of a robot.
 #[expect(clippy::large_enum_variant, reason = "nearly all robots are ours, and looked at in order")]
 #[repr(u8)]
 enum RobotFirmware {
@@ -70,11 +71,11 @@ enum RobotFirmware {
     Original(Original),
 }
 
-/// A robot's own clock.
+/// The own clock of a robot.
 #[derive(Clone, Copy, Debug)]
 struct Clock {
     begin_us: u64,
-    /// Parts per thousand million.
+    /// Drift, parts per thousand million.
     drift_ppb: i64,
 }
 
@@ -87,9 +88,9 @@ impl Clock {
 }
 
 impl RobotSet {
-    /// Robots at rest on a stage, that were just switched on and have no link. `names[robot]` where one is stated.
-    /// `says_simulated`: robots of ours report `sim=1`. Rehearsals leave it out: their messages are as long as those of
-    /// real robots, and their robots are never taken for real.
+    /// Robots at rest on a stage, just switched on and without a link. `names[robot]`: its name, if one is given.
+    /// `says_simulated`: robots with our firmware report `sim=1`. Rehearsals omit it, because their messages are to be as long
+    /// as those of real robots.
     pub fn new(
         stage: &Stage,
         starts: &[Vec2],
@@ -103,57 +104,57 @@ impl RobotSet {
             starts.iter().map(|&start| Pose::new(start, core::f64::consts::FRAC_PI_2)).collect();
         let mut dice = Dice::new(seed, Purpose::Robots);
         let first_original = starts.len().saturating_sub(conditions.originals);
-        let member = |robot| {
+        let simulated = |robot| {
             let name = names.get(robot).copied().flatten();
             SimulatedRobot::new(stage, conditions, robot >= first_original, name, says_simulated, &mut dice)
         };
-        let members = (0..starts.len()).map(member).collect();
+        let robots = (0..starts.len()).map(simulated).collect();
         Self {
             world: World::new(stage, &poses, conditions.slip, seed),
             sensors: FixSensors::new(&conditions.fixes, &poses, seed),
-            members,
+            robots,
             cached: CACHED,
             alive: vec![true; starts.len()],
             steps: 0,
             errors: ErrorStatistics::default(),
             brakes: Brakes::new(starts.len(), Proximity::sight_m(stage.limits.radius_m)),
             payload: Message::new(),
-            said: MessageLog::default(),
+            log: MessageLog::default(),
         }
     }
 
-    /// How many there are.
+    /// Number of robots.
     pub fn len(&self) -> usize {
-        self.members.len()
+        self.robots.len()
     }
 
     /// A robot's name.
     pub fn id(&self, robot: usize) -> RobotId {
-        self.members[robot].id
+        self.robots[robot].id
     }
 
     /// The light a robot shows.
     pub fn light(&self, robot: usize) -> Rgb {
-        self.members[robot].light
+        self.robots[robot].light
     }
 
     /// A robot's link comes up or breaks.
     pub fn link(&mut self, now: Instant, robot: usize, up: bool) {
         if self.alive[robot] {
-            let member = &mut self.members[robot];
-            match &mut member.firmware {
-                RobotFirmware::Ours(robot) => robot.link(member.clock.own(now), up),
+            let simulated = &mut self.robots[robot];
+            match &mut simulated.firmware {
+                RobotFirmware::Ours(robot) => robot.link(simulated.clock.own(now), up),
                 RobotFirmware::Original(robot) => robot.link(up),
             }
         }
     }
 
-    /// A message reaches a robot.
+    /// A robot receives a message.
     pub fn receive(&mut self, now: Instant, robot: usize, topic: Topic, payload: &[u8]) {
         if self.alive[robot] {
-            let member = &mut self.members[robot];
-            match &mut member.firmware {
-                RobotFirmware::Ours(robot) => robot.receive(member.clock.own(now), topic, payload),
+            let simulated = &mut self.robots[robot];
+            match &mut simulated.firmware {
+                RobotFirmware::Ours(robot) => robot.receive(simulated.clock.own(now), topic, payload),
                 RobotFirmware::Original(robot) => robot.receive(payload),
             }
         }
@@ -162,14 +163,14 @@ impl RobotSet {
     /// Prefetches a robot that is about to receive a message, where the processor does not have it at hand.
     #[inline]
     pub fn prefetch_receiver(&self, robot: usize) {
-        if self.members.len() > self.cached {
+        if self.robots.len() > self.cached {
             self.prefetch_state(robot);
         }
     }
 
     #[inline]
     fn prefetch_state(&self, robot: usize) {
-        if let Some(SimulatedRobot { firmware: RobotFirmware::Ours(robot), .. }) = self.members.get(robot) {
+        if let Some(SimulatedRobot { firmware: RobotFirmware::Ours(robot), .. }) = self.robots.get(robot) {
             prefetch(robot.hot());
         }
     }
@@ -177,34 +178,34 @@ impl RobotSet {
     /// Prefetches the robots whose turns come.
     #[inline]
     fn prefetch_next(&self, [later, soon]: [usize; 2]) {
-        if let Some(member) = self.members.get(later) {
-            prefetch(&member.id);
+        if let Some(simulated) = self.robots.get(later) {
+            prefetch(&simulated.id);
         }
         self.prefetch_state(soon);
     }
 
-    /// Says what a robot has to say now.
-    pub fn listen(&mut self, robot: usize, hear: &mut impl FnMut(usize, Topic, &[u8])) {
+    /// Takes the messages that a robot sends now.
+    pub fn drain_messages(&mut self, robot: usize, receive: &mut impl FnMut(usize, Topic, &[u8])) {
         if self.alive[robot] {
-            self.members[robot].speak(robot, &mut self.payload, hear);
+            self.robots[robot].send_messages(robot, &mut self.payload, receive);
         }
     }
 
-    /// How far off robots and their clocks were so far.
+    /// Errors of places, tracking and clocks.
     pub fn errors(&self) -> &ErrorStatistics {
         &self.errors
     }
 
-    /// How often robots braked so far.
+    /// Number of brakes.
     pub fn brakes(&self) -> BrakeCounts {
         self.brakes.counts()
     }
 
     /// Compares the clocks of all robots that have one.
     pub fn compare_clocks(&mut self, now: Instant) {
-        let shown = self.members.iter().zip(&self.alive).filter(|(_, alive)| **alive);
-        self.errors.clocks(shown.filter_map(|(member, _)| match &member.firmware {
-            RobotFirmware::Ours(robot) => robot.show_time(member.clock.own(now)),
+        let shown = self.robots.iter().zip(&self.alive).filter(|(_, alive)| **alive);
+        self.errors.sample_clocks(shown.filter_map(|(simulated, _)| match &simulated.firmware {
+            RobotFirmware::Ours(robot) => robot.show_time(simulated.clock.own(now)),
             RobotFirmware::Original(_) => None,
         }));
     }
@@ -212,45 +213,45 @@ impl RobotSet {
     /// A robot's power fails.
     pub fn kill(&mut self, robot: usize) {
         self.alive[robot] = false;
-        self.members[robot].light = Rgb::BLACK;
-        self.world.tell(robot, [0.0; 2]);
+        self.robots[robot].light = Rgb::BLACK;
+        self.world.command(robot, [0.0; 2]);
     }
 
     /// A robot's wheels block.
     pub fn block_wheels(&mut self, robot: usize) {
-        self.members[robot].stuck = true;
-        self.world.tell(robot, [0.0; 2]);
+        self.robots[robot].stuck = true;
+        self.world.command(robot, [0.0; 2]);
     }
 
     /// A robot's fixes stay away, or come again.
     pub fn blind(&mut self, robot: usize, blind: bool) {
-        self.members[robot].blind = blind;
+        self.robots[robot].blind = blind;
     }
 
-    /// One step of 16 ms that ends at `now`: bodies move, then robots sense, think and speak, one after the other.
+    /// One step of 16 ms that ends at `now`: all bodies move, then the robots take their steps one after the other.
     ///
-    /// Thousands take turns forwards in one step and backwards in the next, so that the processor still has those at hand
-    /// that were the last in the step before. What they say is heard in their order all the same.
-    pub fn step(&mut self, now: Instant, hear: &mut impl FnMut(usize, Topic, &[u8])) {
+    /// More than `cached` robots take turns in ascending order in one step and in descending order in the next, because the
+    /// cache still has the last of the step before. Their messages are received in ascending order all the same.
+    pub fn step(&mut self, now: Instant, receive: &mut impl FnMut(usize, Topic, &[u8])) {
         self.world.step();
         self.count_brakes();
         self.sensors.next_step(&self.alive);
         self.steps += 1;
-        let count = self.members.len();
+        let count = self.robots.len();
         if count <= self.cached {
-            (0..count).for_each(|index| self.turn(now, index, hear));
+            (0..count).for_each(|index| self.turn(now, index, receive));
         } else if self.steps.is_multiple_of(2) && self.sensors.in_any_order() {
-            let mut said = core::mem::take(&mut self.said);
+            let mut log = core::mem::take(&mut self.log);
             for index in (0..count).rev() {
                 self.prefetch_next(AHEAD.map(|turns| index.wrapping_sub(turns)));
-                self.turn(now, index, &mut |robot, topic, text| said.push(robot, topic, text));
+                self.turn(now, index, &mut |robot, topic, text| log.push(robot, topic, text));
             }
-            said.drain(hear);
-            self.said = said;
+            log.drain(receive);
+            self.log = log;
         } else {
             for index in 0..count {
                 self.prefetch_next(AHEAD.map(|turns| index + turns));
-                self.turn(now, index, hear);
+                self.turn(now, index, receive);
             }
         }
     }
@@ -258,47 +259,47 @@ impl RobotSet {
     /// Counts the brakes that began in the step before.
     #[inline]
     fn count_brakes(&mut self) {
-        let Self { world, members, alive, brakes, .. } = self;
+        let Self { world, robots, alive, brakes, .. } = self;
         let places = world.places();
-        brakes.judge(places, |robot, off_m| !alive[robot] || members[robot].is_amiss(places[robot], off_m));
+        brakes.classify(places, |robot, off_m| !alive[robot] || robots[robot].is_amiss(places[robot], off_m));
     }
 
     /// One robot's turn within a step.
     #[inline]
-    fn turn(&mut self, now: Instant, index: usize, hear: &mut impl FnMut(usize, Topic, &[u8])) {
-        let Self { world, sensors, members, alive, errors, brakes, payload, steps, .. } = self;
+    fn turn(&mut self, now: Instant, index: usize, receive: &mut impl FnMut(usize, Topic, &[u8])) {
+        let Self { world, sensors, robots, alive, errors, brakes, payload, steps, .. } = self;
         if !alive[index] {
             return;
         }
-        let (member, steps) = (&mut members[index], *steps);
-        let fix = sensors.fix(index, world.pose(index)).filter(|_| !member.blind);
-        let robot = match &mut member.firmware {
+        let (simulated, steps) = (&mut robots[index], *steps);
+        let fix = sensors.fix(index, world.pose(index)).filter(|_| !simulated.blind);
+        let robot = match &mut simulated.firmware {
             RobotFirmware::Ours(robot) => robot,
             RobotFirmware::Original(robot) => {
                 let OriginalOutputs { wheels_radps, light } = robot.step(fix);
-                member.light = light;
-                world.tell(index, if member.stuck { [0.0; 2] } else { wheels_radps });
-                member.speak(index, payload, hear);
+                simulated.light = light;
+                world.command(index, if simulated.stuck { [0.0; 2] } else { wheels_radps });
+                simulated.send_messages(index, payload, receive);
                 return;
             }
         };
-        errors.look(steps, index, robot, world);
+        errors.sample_tracking(steps, index, robot, world);
         let drained = (steps / STEPS_PER_PERCENT).min(100) as u8;
         let inputs = Inputs {
             wheel_turns_rad: world.wheel_turns(index),
             fix: fix.map(|fix| Fix { at: fix.at, heading: Some(fix.heading) }),
-            battery: Some(member.battery.saturating_sub(drained)),
+            battery: Some(simulated.battery.saturating_sub(drained)),
             proximity_m: Some(world.proximity_m(index)),
             lag: Span::ZERO,
         };
-        let outputs = robot.step(member.clock.own(now), &inputs);
-        errors.look_again(steps, index, robot, world);
+        let outputs = robot.step(simulated.clock.own(now), &inputs);
+        errors.sample_estimate(steps, index, robot, world);
         if let Some(towards) = robot.braking_towards() {
             brakes.note(steps, index, Vec2::unit(world.pose(index).heading + towards));
         }
-        member.light = outputs.light;
-        world.tell(index, if member.stuck { [0.0; 2] } else { outputs.wheels_radps });
-        member.speak(index, payload, hear);
+        simulated.light = outputs.light;
+        world.command(index, if simulated.stuck { [0.0; 2] } else { outputs.wheels_radps });
+        simulated.send_messages(index, payload, receive);
     }
 }
 
@@ -321,7 +322,7 @@ impl SimulatedRobot {
             fix_delay: STEP * delay_steps,
             fix_pace: STEP * i64::from(conditions.fixes.every.max(1)),
             seed: dice.bits() as u32,
-            // What a builder states for a robot's sensors: as they are, but never nothing.
+            // As a builder states them: the true noise, but never none.
             fix_sigma_m: conditions.fixes.place_sigma_m.max(0.0005),
             heading_sigma_rad: conditions.fixes.heading_sigma_rad.max(0.002),
             simulated: says_simulated,
@@ -336,8 +337,8 @@ impl SimulatedRobot {
         Self { firmware, id, clock, battery, light: Rgb::BLACK, stuck: false, blind: false }
     }
 
-    /// Whether a robot at a place is faulty, or farther than `off_m` from where its route wants it. A mute robot drives on
-    /// its route: it is not faulty here. An original robot has no route.
+    /// Whether a robot at a place is faulty, or farther than `off_m` from the place of its route. A mute robot drives on its
+    /// route, so it is not faulty here. An original robot has no route.
     fn is_amiss(&self, place: Vec2, off_m: f64) -> bool {
         let RobotFirmware::Ours(robot) = &self.firmware else { return self.stuck || self.blind };
         let is_off = robot.route_place().is_some_and(|due| due.distance(place) > off_m);
@@ -346,9 +347,14 @@ impl SimulatedRobot {
     }
 
     #[inline]
-    fn speak(&mut self, index: usize, payload: &mut Message, hear: &mut impl FnMut(usize, Topic, &[u8])) {
+    fn send_messages(
+        &mut self,
+        index: usize,
+        payload: &mut Message,
+        receive: &mut impl FnMut(usize, Topic, &[u8]),
+    ) {
         while let Some(topic) = self.firmware.outgoing(payload) {
-            hear(index, topic, payload.as_bytes());
+            receive(index, topic, payload.as_bytes());
         }
     }
 }

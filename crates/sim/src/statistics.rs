@@ -1,8 +1,8 @@
-//! Many numbers in three.
+//! Summary of many numbers in three.
 
 use serde::Serialize;
 
-/// Median, 99th percentile (nearest rank) and greatest of some numbers; all 0 where there are none.
+/// Median, 99th percentile (nearest rank) and maximum of numbers; all 0 without numbers.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Spread {
     /// Half of the numbers are at most this.

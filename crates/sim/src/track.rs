@@ -1,11 +1,11 @@
-//! How quickly a turning Elisa-3 turns: its effective track, as measured.
+//! The effective track of an Elisa-3: how quickly it turns at given wheel rates.
 
-/// Metres of rim a wheel lays down per radian: its radius.
+/// Radius of a wheel, metres.
 pub(crate) const WHEEL_RADIUS_M: f64 = 0.0045;
 
-/// Half the difference of the wheels' rates (rad/s), effective track when turning on the spot (m), and what driving at
-/// 50 rad/s and more adds to it (m). Derived from the turning rates measured in Webots R2023b: see docs/simulator.md.
-/// Between the rows it is linear; outside, as at the ends.
+/// Rows of: half the difference of the wheel rates (rad/s), effective track on the spot (m), and its growth in a drive of
+/// [`DRIVING_RADPS`] and more (m). Linear between the rows and constant outside. From turning rates measured in Webots R2023b
+/// on 2026-11-21: see docs/simulator.md.
 const MEASURED: [(f64, f64, f64); 6] = [
     (1.0, 0.0400, 0.0),
     (5.0, 0.040_036, 0.000_54),
@@ -15,15 +15,15 @@ const MEASURED: [(f64, f64, f64); 6] = [
     (60.0, 0.041_38, 0.0006),
 ];
 
-/// Mean rate of the wheels at which driving has its whole effect on the track, rad/s.
+/// Mean wheel rate from which driving has its whole effect on the track, rad/s.
 const DRIVING_RADPS: f64 = 50.0;
 
-/// Rows of the look-up table, one for each rad/s of half the difference; wheels cannot differ by more.
+/// Rows of the look-up table, one for each rad/s of half the difference. The motors cannot differ by more.
 const ROWS: usize = 142;
 
 static ROWS_BY_RATE: [(f64, f64); ROWS] = rows_by_rate();
 
-/// The turning rate (rad/s, counter-clockwise) that wheels turning at these rates (rad/s) settle at.
+/// Turning rate of the body at constant wheel rates: rad/s, counter-clockwise.
 #[inline]
 pub(crate) fn turn_radps(left: f64, right: f64) -> f64 {
     let half = 0.5 * (right - left);
@@ -31,7 +31,7 @@ pub(crate) fn turn_radps(left: f64, right: f64) -> f64 {
         return 0.0;
     }
     let rate = half.abs().min((ROWS - 2) as f64);
-    // A whole number of 32 bits: the processor has an instruction for that.
+    // 32 bits, because the processor has an instruction for that conversion.
     let row = rate as i32;
     let share = rate - f64::from(row);
     let (low, high) = (ROWS_BY_RATE[row as usize], ROWS_BY_RATE[row as usize + 1]);

@@ -1,4 +1,4 @@
-//! Watching a rehearsal: what happened, when, and how well.
+//! Record of a rehearsal: events, their times, and quality of the frames.
 
 use std::collections::BTreeSet;
 
@@ -14,20 +14,20 @@ use crate::robot_set::RobotSet;
 use crate::statistics::Spread;
 use crate::world::World;
 
-/// Of one kind so many issues are listed; the rest is counted.
+/// Most issues listed of one kind. The rest is counted.
 const OF_A_KIND_MAX: usize = 20;
 
-/// What is known of a rehearsal so far.
+/// The record until now.
 pub(crate) struct Watch {
     began: Option<Instant>,
     /// When the current transition started.
     started: Instant,
-    /// A drive has begun since that was asked last.
+    /// A drive has begun since the last call of `take_departure`.
     departed: bool,
     /// `[robot]`: its last arrival on the way to the current frame.
     arrivals: Vec<Option<Instant>>,
     heading_for: usize,
-    /// It stood, or is driven to anew.
+    /// The current frame stood, or is driven to anew.
     stood: bool,
     /// How often the run was planned anew, and how many robots have touched since the first time.
     replans: usize,
@@ -43,7 +43,7 @@ pub(crate) struct Watch {
 }
 
 impl Watch {
-    /// Nothing happened yet.
+    /// An empty record.
     pub fn new(robots: usize) -> Self {
         Self {
             began: None,
@@ -69,40 +69,40 @@ impl Watch {
         self.outcome.is_some()
     }
 
-    /// When robots first left.
+    /// Time of the first departure.
     pub fn began_at(&self) -> Option<Instant> {
         self.began
     }
 
-    /// Whether a drive has begun since this was asked last.
+    /// Whether a drive has begun since the last call.
     pub fn take_departure(&mut self) -> bool {
         std::mem::take(&mut self.departed)
     }
 
-    /// How many frames stood.
+    /// Number of frames that stood.
     pub fn frames_played(&self) -> usize {
         self.frames.len()
     }
 
-    /// The controller would not play.
+    /// The controller refused to play.
     pub fn refused(&mut self, why: &str) {
         self.outcome = Some(RunOutcome::Failed(why.into()));
         self.add(Issue::error("play-refused", why));
     }
 
-    /// A robot says that it has arrived.
+    /// A robot reports its arrival.
     pub fn arrived(&mut self, robot: usize, now: Instant) {
         self.arrivals[robot] = Some(now);
     }
 
-    /// Between the first and the last robot that stays where it is.
+    /// Time between the first and the last arrival that lasts.
     fn arrival_spread(&self) -> Span {
         let first = self.arrivals.iter().flatten().min();
         let last = self.arrivals.iter().flatten().max();
         first.zip(last).map_or(Span::ZERO, |(first, last)| *last - *first)
     }
 
-    /// A robot was made to break down.
+    /// A robot breaks down by the conditions.
     pub fn broke_down(&mut self, robot: usize, id: RobotId, fate: Fate, now: Instant) {
         let (code, what) = match fate {
             Fate::Killed => ("robot-killed", "lost its power, as asked for"),
@@ -119,7 +119,7 @@ impl Watch {
         self.add(issue.in_frame(self.heading_for));
     }
 
-    /// Looks for new contacts after a step.
+    /// Records new contacts after a step.
     pub fn contacts(&mut self, now: Instant, world: &World) {
         let (touches, bumps) = (world.contacts().fresh(), world.bumps().fresh());
         if touches.is_empty() && bumps.is_empty() {
@@ -140,7 +140,7 @@ impl Watch {
         }
     }
 
-    /// Something happened in the controller.
+    /// Records an event of the controller.
     pub fn event(
         &mut self,
         event: &Event,
@@ -188,7 +188,7 @@ impl Watch {
         }
     }
 
-    /// The report, without what only the world and the network know.
+    /// The report without the figures of world and network.
     pub fn report(mut self, now: Instant, breakdowns: &Breakdowns) -> RehearsalReport {
         let finished = self.outcome == Some(RunOutcome::Finished);
         if self.outcome.is_none() {
@@ -254,7 +254,7 @@ impl Watch {
             }
         }
         let picture = show.frames.get(frame);
-        // After a last frame without air time nobody takes part any more: lights are looked for at their pixels.
+        // After a last frame without air time no robot takes part any more, so lights are matched to pixels by place.
         if errors_m.is_empty() {
             let nearest_m = |goal: Vec2| places.iter().map(|at| at.distance(goal)).reduce(f64::min);
             let pixels = picture.map_or(&[][..], |frame| &frame.pixels);
@@ -283,7 +283,7 @@ impl Watch {
     }
 
     fn add(&mut self, issue: Issue) {
-        // Of each kind some: a hundred waits would hide the one robot that dropped out.
+        // A bound per kind: a hundred waits would hide the one robot that dropped out.
         if self.issues.iter().filter(|known| known.code == issue.code).count() < OF_A_KIND_MAX {
             self.issues.push(issue);
         } else {
@@ -296,7 +296,7 @@ impl Watch {
     }
 }
 
-/// What happened between a robot, centred at a place, and what does not move.
+/// Text of a contact of a robot at a place with a wall or a no-go area.
 fn bumped(bump: &Bump, place: Vec2, when: &str) -> Issue {
     let (robot, place) = (bump.robot, at(place));
     match bump.thing {

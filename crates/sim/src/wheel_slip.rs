@@ -1,14 +1,14 @@
-//! Wheels that slip: each moves the body a little less than it turns, by a share that wanders slowly.
+//! Wheel slip: each wheel moves the body less than it turns, by a share that changes slowly.
 
 use crate::dice::Dice;
 
-/// Steps between the points at which a wheel's slip finds a new goal: about half a second.
+/// Steps after which a wheel's slip gets a new goal: half a second.
 const STRIDE: u32 = 32;
 
 /// The slip of one robot's two wheels, left and right.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct WheelSlip {
-    /// Each wheel's own mean, share of its turning.
+    /// Mean of each wheel, as a share of its turning.
     mean: [f64; 2],
     now: [f64; 2],
     /// Change per step until the next goal.
@@ -17,8 +17,8 @@ pub(crate) struct WheelSlip {
 }
 
 impl WheelSlip {
-    /// Wheels that slip by `level` (a share, 0.03 is 3 %) in the mean of all robots: a wheel's own mean lies evenly
-    /// between half of that and one and a half, and it wanders by up to half of `level` about it.
+    /// Wheels that slip by `level` (a share, 0.03 is 3 %) in the mean of all robots. The mean of a wheel is uniform between a
+    /// half and one and a half of `level`. The slip deviates from it by up to half of `level`.
     pub fn new(level: f64, dice: &mut Dice) -> Self {
         let mean = std::array::from_fn(|_| if level > 0.0 { level * dice.between(0.5, 1.5) } else { 0.0 });
         Self { mean, now: mean, slope: [0.0; 2], steps_left: dice.below(u64::from(STRIDE)) as u32 }

@@ -16,10 +16,10 @@ use crate::wheel_slip::WheelSlip;
 /// The length of a step of the world: that of the Webots world and of a robot's control loop.
 pub const STEP: Span = Span::from_millis(16);
 
+/// [`STEP`] in seconds.
 pub(crate) const STEP_S: f64 = 0.016;
 
-/// N robots' bodies on a floor. Places are kept apart from the rest, as contacts look at nothing else, and so is what robots
-/// look at.
+/// The bodies of N robots on a floor. Places are stored apart, because contacts read only them. So is what robots read.
 #[derive(Clone, Debug)]
 pub struct World {
     places: Vec<Vec2>,
@@ -35,11 +35,12 @@ pub struct World {
     bumps: Bumps,
 }
 
-/// Between a robot's firmware and its body.
+/// What firmware and body exchange.
 #[derive(Clone, Debug)]
 struct Axle {
-    /// What its wheels are told, and how fast they turned in the last step, left and right, rad/s.
-    told: [f64; 2],
+    /// Commanded wheel rates, left and right, rad/s.
+    commanded: [f64; 2],
+    /// Wheel rates in the last step, left and right, rad/s.
     wheels: [f64; 2],
     heading: f64,
 }
@@ -48,12 +49,12 @@ struct Axle {
 struct Body {
     drive: DriveTrain,
     slip: WheelSlip,
-    /// What it stands against.
+    /// What it is pressed against.
     against: Option<Against>,
 }
 
 impl World {
-    /// Robots at rest at these poses; wheels slip by this share in the mean.
+    /// Robots at rest at these poses, whose wheels slip by this share in the mean.
     pub fn new(stage: &Stage, starts: &[Pose], slip: f64, seed: u64) -> Self {
         let mut dice = Dice::new(seed, Purpose::Slip);
         let places: Vec<Vec2> = starts.iter().map(|start| start.at).collect();
@@ -62,7 +63,8 @@ impl World {
             slip: WheelSlip::new(slip, &mut dice),
             against: None,
         };
-        let axle = |start: &Pose| Axle { told: [0.0; 2], wheels: [0.0; 2], heading: wrap(start.heading) };
+        let axle =
+            |start: &Pose| Axle { commanded: [0.0; 2], wheels: [0.0; 2], heading: wrap(start.heading) };
         let contact_m = stage.limits.contact_m();
         let bodies = starts.iter().map(body).collect();
         Self {
@@ -80,32 +82,32 @@ impl World {
         }
     }
 
-    /// Tells a robot's wheels their rates, left and right, rad/s. They act from the step after the next on.
+    /// Commands the wheel rates of a robot, left and right, rad/s. They act from the step after the next.
     #[inline]
-    pub fn tell(&mut self, robot: usize, wheels_radps: [f64; 2]) {
-        self.axles[robot].told = wheels_radps;
+    pub fn command(&mut self, robot: usize, wheels_radps: [f64; 2]) {
+        self.axles[robot].commanded = wheels_radps;
     }
 
-    /// How far a robot's wheels turned in the last step, left and right, radians.
+    /// Wheel turns of a robot in the last step, left and right, radians.
     #[inline]
     pub fn wheel_turns(&self, robot: usize) -> [f64; 2] {
         let [left, right] = self.axles[robot].wheels;
         [left * STEP_S, right * STEP_S]
     }
 
-    /// What a robot's proximity sensors see: gaps, counter-clockwise from the front, metres; infinite: nothing.
+    /// Readings of a robot's proximity sensors, counter-clockwise from the front, metres; infinite: nothing in range.
     #[inline]
     pub fn proximity_m(&self, robot: usize) -> [f32; 8] {
         self.proximity.gaps_m(robot)
     }
 
-    /// Where a robot really is.
+    /// True pose of a robot.
     #[inline]
     pub fn pose(&self, robot: usize) -> Pose {
         Pose { at: self.places[robot], heading: self.axles[robot].heading }
     }
 
-    /// Where everybody's centre really is, stage metres.
+    /// True places of all robots, stage metres.
     pub fn places(&self) -> &[Vec2] {
         &self.places
     }
@@ -115,17 +117,17 @@ impl World {
         &self.contacts
     }
 
-    /// Contacts with what does not move.
+    /// Contacts with walls and no-go areas.
     pub fn bumps(&self) -> &Bumps {
         &self.bumps
     }
 
-    /// Moves everybody by one step of 16 ms.
+    /// Moves all bodies by one step of 16 ms.
     pub fn step(&mut self) {
         let (mut moved, mut outdated) = (false, false);
         self.bumps.begin_step();
         for robot in 0..self.bodies.len() {
-            // The place comes back by value, because the processor waits where it reads both halves just after writing each.
+            // The place is returned by value: reading it back as a whole just after its halves were written would stall.
             if let Some(place) = self.move_body(robot) {
                 moved = true;
                 outdated |= self.near.outdated_by(robot, place);
@@ -138,10 +140,10 @@ impl World {
             self.near.rebuild(&self.places);
         }
         self.contacts.resolve(self.near.pairs(), &mut self.places, &mut self.contact_states);
-        self.proximity.look(self.contacts.in_sight(), &self.places, &self.contact_states);
+        self.proximity.sample(self.contacts.in_sight(), &self.places, &self.contact_states);
     }
 
-    /// Takes all that will decide how things go on into a fingerprint.
+    /// Adds the state of the world to a hash.
     pub fn imprint(&self, hash: &mut StateHash) {
         for (place, axle) in self.places.iter().zip(&self.axles) {
             hash.number(place.x);
@@ -150,18 +152,18 @@ impl World {
         }
     }
 
-    /// Where a robot is after the step; `None` if it did not move.
+    /// Place of a robot after its step; `None` if it did not move.
     #[inline]
     fn move_body(&mut self, robot: usize) -> Option<Vec2> {
         let body = &mut self.bodies[robot];
         let axle = &mut self.axles[robot];
         let contact_state = &mut self.contact_states[robot];
-        if axle.told == [0.0; 2] && body.drive.rests() {
+        if axle.commanded == [0.0; 2] && body.drive.rests() {
             contact_state.stands = true;
             return None;
         }
         let grip = body.slip.grip(self.slip, &mut self.dice);
-        let twist = body.drive.step(axle.told, grip);
+        let twist = body.drive.step(axle.commanded, grip);
         axle.wheels = body.drive.wheels();
         contact_state.stands = twist.speed_mps == 0.0 && twist.turn_radps == 0.0;
         let half_turn = 0.5 * STEP_S * twist.turn_radps;
@@ -171,15 +173,15 @@ impl World {
         let mut place = self.places[robot] + middle * (STEP_S * twist.speed_mps);
         let out_of = self.floor.keep_out(&mut place);
         if out_of.is_some() || body.against.is_some() {
-            body.against = self.bumps.look(robot, body.against, out_of, &self.floor, place);
+            body.against = self.bumps.update(robot, body.against, out_of, &self.floor, place);
         }
         self.places[robot] = place;
         Some(place)
     }
 }
 
-/// A unit vector turned by a small angle (below 0.3): series instead of sine and cosine, and its length mended, so that
-/// the hot loop needs neither and errors do not add up.
+/// A unit vector rotated by a small angle (below 0.3 rad): a Taylor series instead of sine and cosine, scaled back to length 1
+/// so that errors do not add up.
 #[inline]
 fn turned(unit: Vec2, angle: f64) -> Vec2 {
     if angle == 0.0 {

@@ -17,7 +17,7 @@ fn pose(x: f64, y: f64, heading: f64) -> Pose {
 #[test]
 fn a_straight_drive_is_straight_and_as_fast_as_measured() {
     let mut world = world(&[pose(-1.0, 0.0, 0.0)]);
-    world.tell(0, [60.0; 2]);
+    world.command(0, [60.0; 2]);
     run(&mut world, 10);
     let begin = world.pose(0).at.x;
     run(&mut world, 400);
@@ -30,7 +30,7 @@ fn a_straight_drive_is_straight_and_as_fast_as_measured() {
 #[test]
 fn a_circle_closes_on_itself_and_heading_agrees_with_its_vector() {
     let mut world = world(&[FRONT]);
-    world.tell(0, [20.0, 40.0]);
+    world.command(0, [20.0, 40.0]);
     run(&mut world, 20_000);
     let heading = world.pose(0).heading;
     assert!((Vec2::unit(heading) - world.contact_states[0].forward).length() < 1e-9);
@@ -41,8 +41,8 @@ fn a_circle_closes_on_itself_and_heading_agrees_with_its_vector() {
 #[test]
 fn head_on_both_stop_dead() {
     let mut world = world(&[pose(-0.2, 0.0, 0.0), pose(0.2, 0.0, std::f64::consts::PI)]);
-    world.tell(0, [60.0; 2]);
-    world.tell(1, [60.0; 2]);
+    world.command(0, [60.0; 2]);
+    world.command(1, [60.0; 2]);
     run(&mut world, 100);
     let (a, b) = (world.pose(0).at, world.pose(1).at);
     assert!((a.distance(b) - 0.054).abs() < 1e-6, "{a:?} {b:?}");
@@ -54,7 +54,7 @@ fn head_on_both_stop_dead() {
 #[test]
 fn a_standing_robot_is_pushed_a_centimetre_along_its_wheels() {
     let mut world = world(&[pose(-0.2, 0.0, 0.0), FRONT]);
-    world.tell(0, [60.0; 2]);
+    world.command(0, [60.0; 2]);
     run(&mut world, 200);
     let pushed = world.pose(1).at.x;
     assert!((pushed / 0.01 - 1.0).abs() < 0.02, "{pushed}");
@@ -64,7 +64,7 @@ fn a_standing_robot_is_pushed_a_centimetre_along_its_wheels() {
 #[test]
 fn a_standing_robot_is_pushed_slowly_from_its_side() {
     let mut world = world(&[pose(-0.2, 0.0, 0.0), pose(0.0, 0.0, std::f64::consts::FRAC_PI_2)]);
-    world.tell(0, [60.0; 2]);
+    world.command(0, [60.0; 2]);
     run(&mut world, 100);
     let before = world.pose(1).at.x;
     run(&mut world, 100);
@@ -75,7 +75,7 @@ fn a_standing_robot_is_pushed_slowly_from_its_side() {
 #[test]
 fn a_wall_holds_at_a_radius_and_counts_once() {
     let mut world = world(&[pose(1.3, 0.0, 0.0)]);
-    world.tell(0, [60.0; 2]);
+    world.command(0, [60.0; 2]);
     run(&mut world, 200);
     assert!((1.5 - world.pose(0).at.x - 0.027).abs() < 1e-9);
     assert_eq!((world.bumps().edges, world.bumps().obstacles, world.bumps().over), (1, 0, 1));
@@ -90,7 +90,7 @@ fn a_crowd_pushed_together_never_overlaps_for_long() {
         })
         .collect();
     let mut world = world(&starts);
-    (0..12).for_each(|robot| world.tell(robot, [60.0; 2]));
+    (0..12).for_each(|robot| world.command(robot, [60.0; 2]));
     run(&mut world, 400);
     for a in 0..12 {
         for b in a + 1..12 {
@@ -103,7 +103,7 @@ fn a_crowd_pushed_together_never_overlaps_for_long() {
 fn slip_shortens_the_way_and_a_seed_repeats_it() {
     let drive = |seed| {
         let mut world = World::new(&Stage::default(), &[pose(-1.4, 0.0, 0.0)], 0.03, seed);
-        world.tell(0, [60.0; 2]);
+        world.command(0, [60.0; 2]);
         run(&mut world, 300);
         let mut hash = StateHash::new();
         world.imprint(&mut hash);

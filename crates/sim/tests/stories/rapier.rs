@@ -43,7 +43,7 @@ impl Pair {
             let disc = ColliderBuilder::ball(RADIUS_M as f32).friction(0.0).density(17.0);
             theirs.colliders.insert_with_parent(disc, handle, &mut theirs.bodies);
             discs.push((handle, Vec2::unit(start.heading) * SPEED_MPS));
-            ours.tell(robot, [WHEELS_RADPS; 2]);
+            ours.command(robot, [WHEELS_RADPS; 2]);
         }
         // Ours take five steps until they drive evenly: theirs start when ours are steady, where ours then are.
         for _ in 0..8 {
