@@ -31,7 +31,7 @@ pub(crate) type Row = [f32; 4];
 
 /// Motion since the covariance was last propagated.
 #[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Stretch {
+pub(crate) struct MotionSegment {
     /// Displacement in the stage, metres.
     pub moved: Vec2,
     /// Distance that the left and the right wheel would have covered without slip, metres.
@@ -119,7 +119,7 @@ impl PoseCovariance {
     }
 
     /// Propagates the covariance over a stretch that ended with this heading.
-    pub(crate) fn propagate(&mut self, stretch: &Stretch, facing: Vec2, track_m: f64, drift: Drift) {
+    pub(crate) fn propagate(&mut self, stretch: &MotionSegment, facing: Vec2, track_m: f64, drift: Drift) {
         let [left, right] = stretch.ways_m;
         let (half_left, half_right, by) = (-0.5 * left, -0.5 * right, 1.0 / track_m);
         // Jacobian: change of x, y and heading with the heading and with each wheel's slip.

@@ -5,7 +5,7 @@ use lightbots_wire::Route;
 
 /// The current piece of a route, as a cubic polynomial in the share of the piece's duration.
 #[derive(Debug)]
-pub(crate) struct Cursor {
+pub(crate) struct RouteCursor {
     /// Index of the piece; at the end of the route, the number of pieces.
     index: usize,
     begin: Span,
@@ -16,7 +16,7 @@ pub(crate) struct Cursor {
     rests: bool,
 }
 
-impl Cursor {
+impl RouteCursor {
     /// A cursor at the beginning of a route.
     pub(crate) fn new(route: &Route) -> Self {
         let mut cursor = Self {
@@ -110,7 +110,7 @@ mod tests {
     fn it_agrees_with_the_path_at_every_time_in_any_order() {
         let route = route();
         let path = PathRef::new(route.start, &route.pieces);
-        let mut cursor = Cursor::new(&route);
+        let mut cursor = RouteCursor::new(&route);
         for n in 0..2000i64 {
             let time = Span((n * 7919) % 3_200_000);
             cursor.seek(&route, time);
@@ -130,7 +130,7 @@ mod tests {
             room_mm: None,
             neighbours: Default::default(),
         };
-        let mut cursor = Cursor::new(&route);
+        let mut cursor = RouteCursor::new(&route);
         cursor.seek(&route, Span(5));
         assert_eq!(cursor.motion(Span(5)).position, route.start);
     }

@@ -12,10 +12,10 @@ use lightbots_base::{Instant, Limits, Span, Vec2, difference, wrap};
 
 use crate::bearing::Bearing;
 use crate::config::{Config, Fix};
-use crate::covariance::{Gain, Noise, PoseCovariance, Stretch, correction, right_correction};
+use crate::covariance::{Gain, MotionSegment, Noise, PoseCovariance, correction, right_correction};
 use crate::noise::NoiseEstimate;
 use crate::slip::SlipEstimate;
-use gate::{OutlierGate, Verdict};
+use gate::{GateResult, OutlierGate};
 
 /// Steps between two propagations of the covariance. Below, the filter costs more. Above, gains are used that are too old.
 const STRETCH: u32 = 4;
@@ -47,7 +47,7 @@ pub(crate) struct Filter {
     /// Displacement by odometry since power-on, stage metres.
     way: Vec2,
     /// Motion since the covariance was propagated.
-    stretch: Stretch,
+    stretch: MotionSegment,
     /// Fixes since then, of places and of headings.
     fixes: [u32; 2],
     slip: SlipEstimate,
@@ -74,7 +74,7 @@ impl Filter {
             slip: SlipEstimate::new(config.slip),
             covariance: PoseCovariance::new(config.slip),
             gains: [Gain::default(); 3],
-            stretch: Stretch::default(),
+            stretch: MotionSegment::default(),
             fixes: [0; 2],
             teaching: TEACHING,
             place_noise: noise(config.fix_sigma_m, BEST_FIX_M),
@@ -179,12 +179,12 @@ impl Filter {
     fn gate_place(&mut self, now: Instant, off: Vec2) -> Vec2 {
         let noise = self.place_noise.variance();
         match self.gate.place(now, off, self.covariance.place(), noise) {
-            Verdict::Outlier => Vec2::ZERO,
-            Verdict::Inlier => {
+            GateResult::Outlier => Vec2::ZERO,
+            GateResult::Inlier => {
                 self.fixes[0] += 1;
                 off
             }
-            Verdict::Jump => {
+            GateResult::Jump => {
                 self.at += off;
                 self.covariance.set_place(noise);
                 self.teaching = TEACHING;
@@ -198,12 +198,12 @@ impl Filter {
     fn gate_heading(&mut self, now: Instant, off: f64) -> f64 {
         let noise = self.heading_noise.variance();
         match self.gate.heading(now, off, self.covariance.heading() + noise, !self.aligned) {
-            Verdict::Outlier => 0.0,
-            Verdict::Inlier => {
+            GateResult::Outlier => 0.0,
+            GateResult::Inlier => {
                 self.fixes[1] += 1;
                 off
             }
-            Verdict::Jump => {
+            GateResult::Jump => {
                 self.aligned = true;
                 self.turn_by(off);
                 self.covariance.set_heading(noise);

@@ -186,7 +186,7 @@ mod tests {
         let (own, dark) = (Rgb::new(9, 9, 9), Rgb::BLACK);
         assert_eq!(seen, [own, RED, dark, RED, dark, own, own, RED, RED, own]);
         light.blink(Instant(4_500_000), Span(250_000));
-        assert_eq!(light.step(Instant(4_500_000), None), WHITE, "who looks for it finds it");
+        assert_eq!(light.step(Instant(4_500_000), None), WHITE, "a robot that is looked for is found");
         light.report(Instant(6_400_000), 2);
         assert_eq!(light.step(Instant(6_500_000), None), RED);
         light.report(Instant(6_510_000), 0);

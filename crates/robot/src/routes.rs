@@ -3,7 +3,7 @@
 use lightbots_base::{Instant, Limits, Motion, PathRef, Span, Vec2};
 use lightbots_wire::Route;
 
-use crate::cursor::Cursor;
+use crate::cursor::RouteCursor;
 use crate::drive::{BodyPose, Setpoint};
 use crate::follow::{Follow, RESTING_MPS};
 use crate::look_ahead::{Ahead, LookAhead, SLOW_MPS};
@@ -69,7 +69,7 @@ struct Running {
     /// Place of the route then.
     due: Vec2,
     off_m: f64,
-    cursor: Cursor,
+    cursor: RouteCursor,
     follow: Follow,
 }
 
@@ -188,7 +188,7 @@ impl Routes {
             starts,
             duration: path.duration(),
             end: path.end(),
-            cursor: Cursor::new(route),
+            cursor: RouteCursor::new(route),
             follow,
             look_ahead: LookAhead::default(),
             seek: None,

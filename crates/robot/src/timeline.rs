@@ -6,9 +6,9 @@ use lightbots_wire::Route;
 /// Holds and resumes remembered. Older ones are folded into the base point.
 const EVENTS: usize = 8;
 
-/// Progress of a route.
+/// RouteProgress of a route.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Progress {
+pub(crate) struct RouteProgress {
     /// Path time.
     pub time: Span,
     /// Path time per show time, 0 to 1.
@@ -23,11 +23,11 @@ struct Event {
     hold: bool,
 }
 
-/// Progress at a moment.
+/// RouteProgress at a moment.
 #[derive(Clone, Copy, Debug)]
 struct Point {
     at: Instant,
-    progress: Progress,
+    progress: RouteProgress,
 }
 
 /// The path time of the route under way as a function of show time alone. Robots with the same holds are at the same path
@@ -41,12 +41,15 @@ pub(crate) struct Timeline {
 
 impl Timeline {
     pub(crate) fn new() -> Self {
-        Self { base: Point { at: Instant::ZERO, progress: Progress::START }, events: heapless::Vec::new() }
+        Self {
+            base: Point { at: Instant::ZERO, progress: RouteProgress::START },
+            events: heapless::Vec::new(),
+        }
     }
 
     /// A route begins at `at`. Earlier holds and resumes do not apply to it.
     pub(crate) fn begin(&mut self, at: Instant) {
-        self.base = Point { at, progress: Progress::START };
+        self.base = Point { at, progress: RouteProgress::START };
         self.events.retain(|event| event.at >= at);
     }
 
@@ -80,9 +83,9 @@ impl Timeline {
         last.map_or(self.base.progress.held, |event| event.hold)
     }
 
-    /// Progress at a moment of the show clock; before the route's start, its path time is negative.
+    /// RouteProgress at a moment of the show clock; before the route's start, its path time is negative.
     #[inline]
-    pub(crate) fn at(&self, show: Instant) -> Progress {
+    pub(crate) fn at(&self, show: Instant) -> RouteProgress {
         let mut point = self.base;
         for event in self.events.iter().take_while(|event| event.at <= show) {
             point = point.until(event.at).switched(event.hold);
@@ -91,19 +94,19 @@ impl Timeline {
     }
 }
 
-impl Progress {
+impl RouteProgress {
     const START: Self = Self { time: Span::ZERO, rate: 1.0, held: false };
 }
 
 impl Point {
-    /// Progress at `at`: the rate first changes linearly to 0 or 1, then it stays.
+    /// RouteProgress at `at`: the rate first changes linearly to 0 or 1, then it stays.
     fn until(self, at: Instant) -> Self {
-        let Progress { time, rate, held } = self.progress;
+        let RouteProgress { time, rate, held } = self.progress;
         let elapsed = at - self.at;
         let end_rate = if held { 0.0 } else { 1.0 };
         if rate == end_rate {
             let time = if held { time } else { time + elapsed };
-            return Self { at, progress: Progress { time, ..self.progress } };
+            return Self { at, progress: RouteProgress { time, ..self.progress } };
         }
         let ease = Route::EASE.as_secs();
         let slope = (end_rate - rate).signum() / ease;
@@ -113,7 +116,7 @@ impl Point {
             if seconds < changing { (seconds, 0.0) } else { (changing, seconds - changing) };
         let gained = within * (rate + 0.5 * slope * within) + end_rate * after;
         let rate = if after > 0.0 { end_rate } else { rate + slope * within };
-        Self { at, progress: Progress { time: time + Span::from_secs(gained), rate, held } }
+        Self { at, progress: RouteProgress { time: time + Span::from_secs(gained), rate, held } }
     }
 
     fn switched(mut self, held: bool) -> Self {
@@ -141,7 +144,7 @@ mod tests {
         assert_eq!(running().at(ms(900)).time, Span::from_millis(-100));
         assert_eq!(
             running().at(ms(3500)),
-            Progress { time: Span::from_millis(2500), rate: 1.0, held: false }
+            RouteProgress { time: Span::from_millis(2500), rate: 1.0, held: false }
         );
     }
 
@@ -153,8 +156,8 @@ mod tests {
         // Easing from 1 to 0 within 300 ms goes on for 150 ms of path time, and back as well.
         assert!((timeline.at(ms(2150)).rate - 0.5).abs() < 1e-9);
         assert_eq!(timeline.at(ms(2150)).time, Span(1_000_000 + 112_500));
-        assert_eq!(timeline.at(ms(3000)), Progress { time: Span(1_150_000), rate: 0.0, held: true });
-        assert_eq!(timeline.at(ms(5000)), Progress { time: Span(2_000_000), rate: 1.0, held: false });
+        assert_eq!(timeline.at(ms(3000)), RouteProgress { time: Span(1_150_000), rate: 0.0, held: true });
+        assert_eq!(timeline.at(ms(5000)), RouteProgress { time: Span(2_000_000), rate: 1.0, held: false });
         for at in [1000, 1999, 2000, 3000, 3999, 4000, 5000] {
             assert_eq!(timeline.held(ms(at)), timeline.at(ms(at)).held, "{at}");
         }

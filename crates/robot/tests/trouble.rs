@@ -20,7 +20,7 @@ fn ready(flaws: Flaws) -> Plant {
     plant
 }
 
-/// Sends a route that starts so many milliseconds from now.
+/// Sends a route that starts a number of milliseconds from now.
 fn send(plant: &mut Plant, seq: u32, to: Vec2, in_ms: i64) {
     let at = plant.show() + Span::from_millis(in_ms);
     plant.tell(&Command::Route(straight(seq, plant.at, to)));

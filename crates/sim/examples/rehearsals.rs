@@ -34,7 +34,7 @@ fn run(args: &[String]) -> Result<bool, String> {
     Ok(failed == 0)
 }
 
-/// Rehearses once and says how it went, in one line and one for each issue.
+/// Rehearses once and prints the result in one line, and one for each issue.
 fn line(show: &Show, options: &RehearsalOptions) -> bool {
     let begin = Instant::now();
     let report = rehearse(show, options, &mut |_| {});

@@ -87,7 +87,7 @@ impl Faults {
 }
 
 impl Change {
-    /// Whether both say the same thing of the same conditions, so that the later would silently win.
+    /// Whether both set the same condition, so that the later one would silently win.
     fn excludes(self, other: Self) -> bool {
         !matches!(self, Self::Kill(_) | Self::Mute(_) | Self::Stuck(_) | Self::Cut(..) | Self::Blind(..))
             && core::mem::discriminant(&self) == core::mem::discriminant(&other)

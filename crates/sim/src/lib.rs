@@ -5,8 +5,8 @@
 //! screens.
 //!
 //! In reading order: [`rehearse`] plays a whole show in virtual time under [`Conditions`] (with [`Faults`] as people
-//! write them) and gives a [`RehearsalReport`]; [`Fleet`] runs simulated robots in real time for whoever has a clock
-//! and a network; [`World`] is the bodies on the floor.
+//! write them) and gives a [`RehearsalReport`]; [`Fleet`] runs simulated robots in real time for a caller with a clock and a
+//! network; [`World`] is the bodies on the floor.
 //!
 //! ```
 //! use lightbots_sim::{Conditions, Faults, RehearsalOptions, rehearse};
@@ -38,12 +38,13 @@ mod original;
 mod play;
 mod prefetch;
 mod proximity;
+mod record;
 mod rehearsal;
 mod report;
 mod robot_set;
 mod statistics;
 mod track;
-mod watch;
+
 mod wheel_slip;
 mod world;
 

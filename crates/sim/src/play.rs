@@ -11,10 +11,10 @@ use lightbots_wire::Topic;
 use crate::breakdowns::{Breakdowns, Fate};
 use crate::hash::StateHash;
 use crate::network::{Network, Way};
+use crate::record::RehearsalRecord;
 use crate::rehearsal::{Progress, RehearsalOptions, time_limit};
 use crate::report::RehearsalReport;
 use crate::robot_set::RobotSet;
-use crate::watch::Watch;
 use crate::world::STEP;
 
 /// Time that robots have to find the controller and its clock. The show then begins without the others.
@@ -33,7 +33,7 @@ pub(crate) struct Play {
     robots: RobotSet,
     network: Network,
     breakdowns: Breakdowns,
-    watch: Watch,
+    record: RehearsalRecord,
     hash: StateHash,
     /// `(name, robot)`, sorted by name.
     by_id: Vec<(RobotId, usize)>,
@@ -60,7 +60,7 @@ impl Play {
             controller: Controller::new(Config::default()),
             network: Network::new(&conditions.link, starts.len(), *seed),
             breakdowns: Breakdowns::new(conditions, starts.len(), planned_s, *seed),
-            watch: Watch::new(starts.len()),
+            record: RehearsalRecord::new(starts.len()),
             hash: StateHash::new(),
             robots,
             by_id,
@@ -81,14 +81,14 @@ impl Play {
         self.drain_controller();
         let limit = time_limit(self.planned_s);
         let mut step = 0u64;
-        while !self.watch.is_over() && self.now < limit {
+        while !self.record.is_over() && self.now < limit {
             self.step();
             self.plan(progress);
             self.report_departure(progress);
             step += 1;
             if step.is_multiple_of(HASH_EVERY) {
                 self.robots.world.imprint(&mut self.hash);
-                if self.watch.began_at().is_some() {
+                if self.record.began_at().is_some() {
                     self.robots.compare_clocks(self.now);
                 }
                 progress(self.progress());
@@ -103,11 +103,11 @@ impl Play {
         self.pass_time(next);
         self.now = next;
         self.break_robots();
-        let Self { robots, network, watch, breakdowns, .. } = self;
+        let Self { robots, network, record, breakdowns, .. } = self;
         robots.step(next, &mut |robot, topic, text| {
-            send(network, watch, breakdowns, next, (robot, topic, text))
+            send(network, record, breakdowns, next, (robot, topic, text))
         });
-        self.watch.contacts(next, &self.robots.world);
+        self.record.contacts(next, &self.robots.world);
         if !self.began {
             self.begin();
         }
@@ -137,9 +137,9 @@ impl Play {
                     Way::ToRobot(robot) if self.breakdowns.is_deaf(robot) => {}
                     Way::ToRobot(robot) => {
                         self.robots.receive(self.now, robot, message.topic, &message.payload);
-                        let Self { robots, network, watch, breakdowns, now, .. } = self;
+                        let Self { robots, network, record, breakdowns, now, .. } = self;
                         robots.drain_messages(robot, &mut |robot, topic, text| {
-                            send(network, watch, breakdowns, *now, (robot, topic, text));
+                            send(network, record, breakdowns, *now, (robot, topic, text));
                         });
                     }
                     Way::ToController(robot) => {
@@ -172,14 +172,14 @@ impl Play {
         self.began = true;
         let missing = if late { MissingPolicy::LeaveOut } else { MissingPolicy::Refuse };
         if let Err(refusal) = self.controller.operate(self.now, Operation::Play { from: 0, missing }) {
-            self.watch.refused(&refusal.to_string());
+            self.record.refused(&refusal.to_string());
         }
         self.drain_controller();
     }
 
     /// Applies the breakdowns that are due.
     fn break_robots(&mut self) {
-        let Some(first_departure) = self.watch.began_at() else { return };
+        let Some(first_departure) = self.record.began_at() else { return };
         while let Some((robot, fate)) = self.breakdowns.next_until(self.now - first_departure) {
             match fate {
                 Fate::Killed => self.robots.kill(robot),
@@ -188,7 +188,7 @@ impl Play {
                 Fate::Cut | Fate::Linked => self.robots.link(self.now, robot, fate == Fate::Linked),
                 Fate::Blinded | Fate::Seeing => self.robots.blind(robot, fate == Fate::Blinded),
             }
-            self.watch.broke_down(robot, self.robots.id(robot), fate, self.now);
+            self.record.broke_down(robot, self.robots.id(robot), fate, self.now);
         }
     }
 
@@ -204,10 +204,10 @@ impl Play {
 
     /// Reports the paths of a drive that has just begun.
     fn report_departure(&mut self, progress: &mut dyn FnMut(Progress<'_>)) {
-        if !self.watch.take_departure() {
+        if !self.record.take_departure() {
             return;
         }
-        let (Some(view), Some(first)) = (self.controller.paths(), self.watch.began_at()) else { return };
+        let (Some(view), Some(first)) = (self.controller.paths(), self.record.began_at()) else { return };
         let number = |id: RobotId| self.by_id.binary_search_by_key(&id, |entry| entry.0);
         let number_of = |id| number(id).ok().map(|place| self.by_id[place].1);
         let paths: Vec<_> =
@@ -217,7 +217,7 @@ impl Play {
     }
 
     fn progress(&self) -> Progress<'static> {
-        let frames = self.watch.frames_played();
+        let frames = self.record.frames_played();
         Progress::Playing { at_s: self.now.as_secs(), planned_s: self.planned_s, frames }
     }
 
@@ -239,7 +239,7 @@ impl Play {
             }
         }
         while let Some(event) = self.controller.next_event() {
-            self.watch.event(&event, &self.controller, &self.robots, &self.by_id, &self.show);
+            self.record.event(&event, &self.controller, &self.robots, &self.by_id, &self.show);
         }
     }
 
@@ -248,7 +248,7 @@ impl Play {
         self.hash.word(self.now.0);
         let world = &self.robots.world;
         let bumps = world.bumps();
-        let mut report = self.watch.report(self.now, &self.breakdowns);
+        let mut report = self.record.report(self.now, &self.breakdowns);
         report.contacts = world.contacts().count() + bumps.obstacles + bumps.over;
         report.wall_contacts = bumps.edges;
         report.wall_pressed_m = bumps.edge_most_m;
@@ -275,13 +275,13 @@ impl Play {
 /// Sends a message of a robot to the controller, unless the robot is mute.
 fn send(
     network: &mut Network,
-    watch: &mut Watch,
+    record: &mut RehearsalRecord,
     breakdowns: &Breakdowns,
     now: Instant,
     (robot, topic, text): (usize, Topic, &[u8]),
 ) {
     if topic == Topic::Arrival {
-        watch.arrived(robot, now);
+        record.arrived(robot, now);
     }
     if !breakdowns.is_mute(robot) {
         network.send(now, Way::ToController(robot), topic, text.into());

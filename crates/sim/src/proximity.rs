@@ -34,7 +34,7 @@ const NOTHING: [f32; 8] = [f32::INFINITY; 8];
 
 /// The readings of all robots' sensors.
 #[derive(Clone, Debug)]
-pub(crate) struct Proximity {
+pub(crate) struct ProximityReadings {
     radius_m: f64,
     /// `[robot][sensor]`: metres.
     gaps_m: Vec<[f32; 8]>,
@@ -43,7 +43,7 @@ pub(crate) struct Proximity {
     dice: Dice,
 }
 
-impl Proximity {
+impl ProximityReadings {
     /// The sensors of a number of discs.
     pub fn new(robots: usize, radius_m: f64, seed: u64) -> Self {
         let dice = Dice::new(seed, Purpose::Proximity);
@@ -132,7 +132,7 @@ mod tests {
 
     #[test]
     fn both_see_each_other_and_nothing_when_they_have_parted() {
-        let mut proximity = Proximity::new(2, 0.027, 1);
+        let mut proximity = ProximityReadings::new(2, 0.027, 1);
         let contact_states = [ContactState::new(Vec2::new(1.0, 0.0)), ContactState::new(Vec2::new(0.0, 1.0))];
         let places = [Vec2::ZERO, Vec2::new(0.064, 0.0)];
         proximity.sample(&[(0, 1)], &places, &contact_states);
@@ -145,7 +145,7 @@ mod tests {
 
     #[test]
     fn between_two_sensors_both_see_a_little_farther_each_with_noise_of_its_own() {
-        let mut proximity = Proximity::new(2, 0.027, 1);
+        let mut proximity = ProximityReadings::new(2, 0.027, 1);
         let contact_states = [
             ContactState::new(Vec2::unit(core::f64::consts::FRAC_PI_8)),
             ContactState::new(Vec2::new(1.0, 0.0)),

@@ -13,7 +13,7 @@ use crate::fix_sensors::FixSensors;
 use crate::message_log::MessageLog;
 use crate::original::{Original, OriginalOutputs};
 use crate::prefetch::prefetch;
-use crate::proximity::Proximity;
+use crate::proximity::ProximityReadings;
 use crate::world::{STEP, World};
 
 /// Range of the robots' own clocks at the begin, microseconds: an hour, so that no clock agrees with another.
@@ -53,7 +53,7 @@ struct SimulatedRobot {
     blind: bool,
     light: Rgb,
     battery: u8,
-    clock: Clock,
+    clock: LocalClock,
     firmware: RobotFirmware,
 }
 
@@ -73,13 +73,13 @@ enum RobotFirmware {
 
 /// The own clock of a robot.
 #[derive(Clone, Copy, Debug)]
-struct Clock {
+struct LocalClock {
     begin_us: u64,
     /// Drift, parts per thousand million.
     drift_ppb: i64,
 }
 
-impl Clock {
+impl LocalClock {
     #[inline]
     fn own(self, now: Instant) -> Instant {
         let drift = (now.0 as i64).wrapping_mul(self.drift_ppb) / 1_000_000_000;
@@ -117,7 +117,7 @@ impl RobotSet {
             alive: vec![true; starts.len()],
             steps: 0,
             errors: ErrorStatistics::default(),
-            brakes: Brakes::new(starts.len(), Proximity::sight_m(stage.limits.radius_m)),
+            brakes: Brakes::new(starts.len(), ProximityReadings::sight_m(stage.limits.radius_m)),
             payload: Message::new(),
             log: MessageLog::default(),
         }
@@ -315,7 +315,7 @@ impl SimulatedRobot {
         let random = RobotId::from_random(u128::from(dice.bits()) << 64 | u128::from(dice.bits()));
         let id = name.unwrap_or(random);
         let ppm = dice.between(-conditions.clock_ppm, conditions.clock_ppm);
-        let clock = Clock { begin_us: dice.below(CLOCK_BEGIN_US), drift_ppb: (ppm * 1000.0) as i64 };
+        let clock = LocalClock { begin_us: dice.below(CLOCK_BEGIN_US), drift_ppb: (ppm * 1000.0) as i64 };
         let delay_steps = (conditions.fixes.delay.0.max(0) + STEP.0 / 2) / STEP.0;
         let config = Config {
             limits: stage.limits,

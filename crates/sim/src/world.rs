@@ -10,7 +10,7 @@ use crate::drive_train::DriveTrain;
 use crate::floor::Floor;
 use crate::hash::StateHash;
 use crate::neighbour_list::NeighbourList;
-use crate::proximity::Proximity;
+use crate::proximity::ProximityReadings;
 use crate::wheel_slip::WheelSlip;
 
 /// The length of a step of the world: that of the Webots world and of a robot's control loop.
@@ -29,7 +29,7 @@ pub struct World {
     floor: Floor,
     near: NeighbourList,
     contacts: Contacts,
-    proximity: Proximity,
+    proximity: ProximityReadings,
     slip: f64,
     dice: Dice,
     bumps: Bumps,
@@ -71,8 +71,8 @@ impl World {
             contact_states: starts.iter().map(|start| ContactState::new(Vec2::unit(start.heading))).collect(),
             floor: Floor::new(stage, &places),
             near: NeighbourList::new(contact_m),
-            contacts: Contacts::new(contact_m, Proximity::sight_m(stage.limits.radius_m)),
-            proximity: Proximity::new(starts.len(), stage.limits.radius_m, seed),
+            contacts: Contacts::new(contact_m, ProximityReadings::sight_m(stage.limits.radius_m)),
+            proximity: ProximityReadings::new(starts.len(), stage.limits.radius_m, seed),
             bumps: Bumps::default(),
             places,
             axles: starts.iter().map(axle).collect(),

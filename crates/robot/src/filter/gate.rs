@@ -17,7 +17,7 @@ const JUMPS_APART: Span = Span::from_millis(1000);
 
 /// What a fix is.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Verdict {
+pub(super) enum GateResult {
     /// It is rejected.
     Outlier,
     /// Its innovation corrects the filter.
@@ -45,7 +45,7 @@ pub(super) struct OutlierGate {
 impl OutlierGate {
     /// Tests the innovation of a place against the variance of the estimate (`believed`) and of the fix (`noise`).
     #[inline]
-    pub(super) fn place(&mut self, now: Instant, off: Vec2, believed: f64, noise: f64) -> Verdict {
+    pub(super) fn place(&mut self, now: Instant, off: Vec2, believed: f64, noise: f64) -> GateResult {
         let square = off.length_squared();
         let odd = square > GATE * GATE * (believed + noise) && square > GATE_FLOOR_M * GATE_FLOOR_M;
         let first = self.last_place.is_none();
@@ -58,29 +58,29 @@ impl OutlierGate {
                 self.odd_places = self.odd_places.max(1);
             }
             if self.odd_places < OUTLIERS {
-                return Verdict::Outlier;
+                return GateResult::Outlier;
             }
             self.senseless = self.last_jump.is_some_and(|jump| now - jump < JUMPS_APART);
             self.last_jump = Some(now);
         }
         self.odd_places = 0;
         self.last_place = Some(now);
-        if odd || first { Verdict::Jump } else { Verdict::Inlier }
+        if odd || first { GateResult::Jump } else { GateResult::Inlier }
     }
 
     /// Tests the innovation of a heading. The first heading replaces the estimate.
     #[inline]
-    pub(super) fn heading(&mut self, now: Instant, off: f64, variance: f64, first: bool) -> Verdict {
+    pub(super) fn heading(&mut self, now: Instant, off: f64, variance: f64, first: bool) -> GateResult {
         let odd = off * off > GATE * GATE * variance && off * off > GATE_FLOOR_RAD * GATE_FLOOR_RAD;
         if odd && !first {
             self.odd_headings += 1;
             if self.odd_headings < OUTLIERS {
-                return Verdict::Outlier;
+                return GateResult::Outlier;
             }
         }
         self.odd_headings = 0;
         self.last_heading = Some(now);
-        if odd || first { Verdict::Jump } else { Verdict::Inlier }
+        if odd || first { GateResult::Jump } else { GateResult::Inlier }
     }
 
     /// When the last place came that was no outlier.
@@ -109,25 +109,25 @@ mod tests {
     fn ten_outliers_in_a_row_that_agree_replace_the_estimate() {
         let mut gate = OutlierGate::default();
         let mut place = |ms: u64, x: f64| gate.place(Instant(ms * 1000), Vec2::new(x, 0.0), 0.0, NOISE);
-        assert_eq!(place(0, 3.0), Verdict::Jump);
-        assert_eq!(place(1, 0.004), Verdict::Inlier);
-        assert!((2..11).all(|ms| place(ms, 0.5) == Verdict::Outlier));
-        assert_eq!(place(11, 0.5), Verdict::Jump);
-        assert_eq!(place(12, 0.004), Verdict::Inlier);
+        assert_eq!(place(0, 3.0), GateResult::Jump);
+        assert_eq!(place(1, 0.004), GateResult::Inlier);
+        assert!((2..11).all(|ms| place(ms, 0.5) == GateResult::Outlier));
+        assert_eq!(place(11, 0.5), GateResult::Jump);
+        assert_eq!(place(12, 0.004), GateResult::Inlier);
         assert!(!gate.take_senseless());
         let again = |ms: u64| gate.place(Instant(ms * 1000), Vec2::new(0.5, 0.0), 0.0, NOISE);
-        assert_eq!((20..30).map(again).last(), Some(Verdict::Jump));
+        assert_eq!((20..30).map(again).last(), Some(GateResult::Jump));
         assert!(gate.take_senseless() && !gate.take_senseless());
     }
 
     #[test]
     fn headings_are_gated_likewise() {
         let mut gate = OutlierGate::default();
-        assert_eq!(gate.heading(Instant(1), 2.0, NOISE, true), Verdict::Jump);
-        assert_eq!(gate.heading(Instant(2), 0.05, NOISE, false), Verdict::Inlier);
-        assert_eq!(gate.heading(Instant(3), 0.2, NOISE, false), Verdict::Outlier);
+        assert_eq!(gate.heading(Instant(1), 2.0, NOISE, true), GateResult::Jump);
+        assert_eq!(gate.heading(Instant(2), 0.05, NOISE, false), GateResult::Inlier);
+        assert_eq!(gate.heading(Instant(3), 0.2, NOISE, false), GateResult::Outlier);
         assert_eq!(gate.last_heading(), Some(Instant(2)));
         let last = (0..9).map(|n| gate.heading(Instant(4 + n), 0.2, NOISE, false)).last();
-        assert_eq!(last, Some(Verdict::Jump));
+        assert_eq!(last, Some(GateResult::Jump));
     }
 }

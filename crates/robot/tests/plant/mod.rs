@@ -148,7 +148,7 @@ impl Plant {
         }
     }
 
-    /// Reports on a topic so far.
+    /// Reports on a topic until now.
     pub fn heard(&self, topic: Topic) -> Vec<&Report> {
         self.said.iter().filter(|(on, _)| *on == topic).map(|(_, report)| report).collect()
     }

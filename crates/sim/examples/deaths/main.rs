@@ -2,7 +2,7 @@
 //! `cargo run --release -p lightbots-sim --example deaths SCENE ROBOTS [SAFE [UNSAFE [FAULTS [SEED]]]]`.
 //!
 //! The scenes are those of the example `crowds`. SAFE and UNSAFE moments are drawn at random among all moments of the
-//! drive; each is a rehearsal of its own. The last lines say what labels under other assumptions would have been worth.
+//! drive; each is a rehearsal of its own. The last lines rate labels under other assumptions.
 #![allow(clippy::print_stdout, clippy::print_stderr)]
 
 #[path = "../arguments/mod.rs"]
@@ -160,7 +160,7 @@ impl<'a> Trial<'a> {
         self.drives.iter().map(|drive| drive.labels[assumed].share()).sum::<f64>() / self.drives.len() as f64
     }
 
-    /// Deaths at random moments of both kinds, so many of each; fewer where there are hardly any of a kind.
+    /// Deaths at random moments of both kinds, the same number of each, or fewer where a kind is rare.
     fn deaths(&self, safe: usize, unsafe_: usize, seed: u64) -> Vec<Death> {
         let mut dice = dice::Dice::new(seed, 7);
         let (mut left, mut deaths) = ([unsafe_, safe], Vec::new());

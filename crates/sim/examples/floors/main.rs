@@ -1,7 +1,7 @@
 //! Random floors with things on them and gaps between, planned, proven and rehearsed with noise and slip:
 //! `cargo run --release -p lightbots-sim --example floors [COUNT [FIRST [FAULTS [DIR]]]]`, 500 unless told otherwise.
 //!
-//! A line for each floor where somebody touches or gets lost, and for each that is refused, with the planner's reason;
+//! A line for each floor where a robot touches or gets lost, and for each that is refused, with the planner's reason;
 //! where DIR is named their shows are kept there. All numbers at the end; exit code 1 if anything was touched.
 #![allow(clippy::print_stdout, clippy::print_stderr)]
 
@@ -33,7 +33,7 @@ struct Tally {
     other: u64,
 }
 
-/// Whether nothing was touched and everybody arrived.
+/// Whether nothing was touched and all robots arrived.
 fn run(args: &[String]) -> Result<bool, String> {
     let number = |index: usize, usual: u64| arguments::number(args, index, usual, USAGE);
     let (count, first) = (number(0, 500)?, number(1, 0)?);

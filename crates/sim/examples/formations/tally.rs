@@ -1,4 +1,4 @@
-//! What rehearsals under the same conditions showed together.
+//! Figures of all rehearsals under the same conditions.
 
 use lightbots_sim::RehearsalReport;
 

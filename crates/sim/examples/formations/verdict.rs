@@ -1,4 +1,4 @@
-//! What a rehearsal of a formation must show.
+//! Requirements on a rehearsal of a formation.
 
 use lightbots_sim::{Conditions, RehearsalOptions, RehearsalReport, rehearse};
 

@@ -1,4 +1,4 @@
-//! The controller core and a fleet in one room, where messages arrive at once: what really stands on the floor.
+//! The controller core and a fleet in one room, where messages arrive at once: the picture that stands on the floor.
 
 use std::sync::Arc;
 
@@ -9,7 +9,7 @@ use lightbots_sim::{Conditions, Fleet, FleetConfig, STEP};
 
 /// How long robots get to find the controller and its clock.
 const GATHERING: Span = Span::from_millis(3_000);
-/// When a picture is looked at, after it stood: lights have changed by then.
+/// Time from a frame standing to the check of its picture. Lights have changed by then.
 const LOOK: Span = Span::from_millis(400);
 /// No scene takes longer.
 const LIMIT: Span = Span::from_millis(400_000);
@@ -17,7 +17,7 @@ const LIMIT: Span = Span::from_millis(400_000);
 /// What stood on the floor in a frame.
 pub struct Picture {
     pub frame: usize,
-    /// `[robot]`: where it really is, stage metres, its light, and the pixel the controller says it shows.
+    /// `[robot]`: true place in stage metres, light, and pixel by the controller.
     pub robots: Vec<(Vec2, Rgb, Option<u32>)>,
 }
 
@@ -114,7 +114,7 @@ impl Hall {
         self.talk();
     }
 
-    /// Messages and plans until nobody has anything to say.
+    /// Passes messages and plans on until none is left.
     fn talk(&mut self) {
         loop {
             let mut quiet = true;

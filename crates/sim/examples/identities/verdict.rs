@@ -1,4 +1,4 @@
-//! Whether what was played is what was asked for, and what was checked.
+//! Comparison of the picture that was played with the show and with the plan.
 
 use std::collections::BTreeMap;
 
@@ -13,9 +13,9 @@ use super::scene::{Scene, name};
 
 /// Robots are this near to their pixels, metres.
 const NEAR_M: f64 = 0.012;
-/// A run takes so much longer than its plan: robots arrive a moment after their paths end, in each frame.
+/// Time by which a run exceeds its plan, per frame: robots arrive a moment after their paths end.
 const LATE_S: f64 = 0.25;
-/// Planned from where noise says that robots are, a drive may be so much shorter, as a share of it.
+/// Share by which a drive may be shorter when it is planned from places with noise.
 const SHORTER: f64 = 0.02;
 
 /// Everything that is wrong with how a scene is played.
@@ -86,7 +86,7 @@ fn live(number: u64, scene: &Scene, conditions: &Conditions) -> Vec<String> {
     faults
 }
 
-/// The picture is the frame, shown by whom the plan says, where it is known to say the same.
+/// The picture is the frame, shown by the robots of the plan, where the plan is known to be the same.
 fn pictured(frame: &Frame, picture: &Picture, planned: Option<&[Option<u32>]>) -> Vec<String> {
     let mut faults = Vec::new();
     let shown: Vec<Option<u32>> = picture.robots.iter().map(|(_, _, pixel)| *pixel).collect();
@@ -111,7 +111,7 @@ fn pictured(frame: &Frame, picture: &Picture, planned: Option<&[Option<u32>]>) -
     faults
 }
 
-/// Pins hold, and where identity is fixed a pixel keeps its robot unless a pin takes it; `before`: who showed each pixel
+/// Pins hold, and where identity is fixed a pixel keeps its robot unless a pin takes it; `before`: the robot that showed each pixel
 /// last, and when.
 fn kept(
     show: &Show,

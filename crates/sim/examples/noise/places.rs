@@ -1,4 +1,4 @@
-//! Shows in which robots drive close to what does not move.
+//! Shows in which robots drive close to walls and no-go areas.
 
 use lightbots_base::{Rgb, Vec2};
 use lightbots_show::{Easing, Frame, Identity, Obstacle, Pixel, Show, Stage};
@@ -8,7 +8,7 @@ pub fn gap(wide_m: f64) -> Show {
     queue(8, 0.5, wide_m)
 }
 
-/// The same with so many robots, to a ring so far around the middle.
+/// [`gap`] with a number of robots and the radius of their ring, metres.
 pub fn queue(robots: u32, radius_m: f64, wide_m: f64) -> Show {
     let half_m = wide_m / 2.0;
     let walls = vec![rect((-1.5, 0.85), (-half_m, 0.95)), rect((half_m, 0.85), (1.5, 0.95))];
@@ -35,7 +35,7 @@ pub fn bay() -> Show {
     }
 }
 
-/// Two rows of robots, so far off two edges of a small floor, that move on along them.
+/// Two rows of robots at a distance from two edges of a small floor that move along them.
 pub fn along_edge(off_m: f64) -> Show {
     let stage = Stage { width_m: 0.8, depth_m: 0.8, ..Stage::default() };
     let far_m = 0.4 - stage.limits.radius_m - off_m;

@@ -1,4 +1,4 @@
-//! A robot stops dead at a random moment: nobody touches it, and the show goes on without it.
+//! A robot stops dead at a random moment: no robot touches it, and the show goes on without it.
 
 use lightbots_base::{Rgb, Vec2};
 use lightbots_show::{Easing, Frame, Identity, Pixel, Show, Stage};

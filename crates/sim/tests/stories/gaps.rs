@@ -1,5 +1,5 @@
 //! Gaps between things on the floor hardly wider than a robot, and the floor's edge: what is planned there is driven
-//! without touching anything, and who touches the edge all the same is told of.
+//! without touching anything, and a robot that touches the edge all the same is reported.
 
 #[path = "../../examples/noise/places.rs"]
 mod places;
@@ -27,8 +27,7 @@ fn eight_robots_pass_a_gap_half_a_millimetre_wider_than_it_must_be() {
     assert!(report.tracking_error_m.p99 < 0.003, "{:?}", report.tracking_error_m);
 }
 
-/// Planned 3.5 mm apart in front of the gap, and 4 in front of the wider one, those who waited there were in the way of who
-/// came by.
+/// Robots that wait in front of a gap must leave room for those that pass by.
 #[test]
 fn twenty_queue_at_a_gap_without_touching_each_other() {
     for (wide_m, seed) in [(0.063, 23), (0.08, 12)] {

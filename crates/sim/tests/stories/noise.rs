@@ -11,7 +11,7 @@ const WORST: &str = "slip=10%,gps=5mm,heading=2deg,fix-delay=100ms,fix-dropout=1
 /// A hundred robots: with fixes that drop out, some are unsure of their places all the time.
 const FIREWORKS: &[u8] = include_bytes!("../../../../shows/fireworks.lightbots.json");
 
-/// Pairs that start and end so far apart and on the way turn about each other, down to three quarters of it.
+/// Pairs that start and end this far apart and turn about each other on the way, down to three quarters of it.
 fn turning_pairs(apart_m: f64) -> Show {
     let pixels = |y: f64, towards: f64| {
         let apart = Vec2::unit(towards.to_radians()) * (apart_m / 2.0);
@@ -61,7 +61,7 @@ fn neighbours_whose_sensors_are_poor_give_way_to_each_other() {
 #[test]
 fn who_gets_no_fixes_for_a_second_waits_for_them_and_goes_on() {
     // Robots that were unsure of their places by centimetres drove on, and touched others with seed 7. With 6, 9 and 35
-    // they took their wheels to hold as they did before everybody stood, and themselves for sure.
+    // they took their slip for what it was before all robots stood, and their places for certain.
     for seed in [5, 6, 7, 8, 9, 35] {
         play(&turning_pairs(0.1), WORST, seed);
     }

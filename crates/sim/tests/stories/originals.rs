@@ -1,4 +1,4 @@
-//! Robots that speak only TARGET and COLOR play whole shows: side by side where nobody can meet, one after the other where
+//! Robots that speak only TARGET and COLOR play whole shows: side by side where no two can meet, one after the other where
 //! not.
 
 use lightbots_base::{Rgb, Vec2};

@@ -1,4 +1,4 @@
-//! A robot that is cut off or lost for some seconds: nobody is touched, it takes part again when it is back, and the
+//! A robot that is cut off or lost for some seconds: no robot is touched, it takes part again when it is back, and the
 //! show is played to its end.
 
 use lightbots_base::{Rgb, Vec2};
@@ -47,7 +47,7 @@ fn column() -> Show {
     show
 }
 
-/// Plays with this robot in trouble; everybody must play the last frame.
+/// Plays with this robot in trouble. All robots must play the last frame.
 fn play(faults: &str, seed: u64) -> RehearsalReport {
     play_show(&show(), faults, seed)
 }
@@ -98,7 +98,7 @@ fn who_is_cut_off_and_drives_on_runs_into_nobody() {
 fn cut_off_or_lost_beyond_the_air_time_it_is_waited_for_by_name_and_comes_back() {
     let at_s = play("", 1).per_frame[1].at_s + 0.3;
     let cut = play(&format!("cut=3@{at_s:.2}s+4s"), 1);
-    // It may have died: nobody sets out without knowing that it has heard when.
+    // It may have died: no robot departs before this one has acknowledged the moment.
     assert!(has(&cut, "waiting") && cut.dropouts == 0, "{:#?}", cut.issues);
     // After 4 s the others go on, and it comes back later.
     let long = play(&format!("cut=3@{at_s:.2}s+7s"), 1);

@@ -16,7 +16,7 @@ fn random_pairs_of_frames_are_solved_proven_and_driven_without_contact() {
         let report = rehearse(&show, &options, &mut |_| {});
         assert!(report.ok, "pair {number}: {:?}", report.issues);
         assert_eq!((report.contacts, report.frames_played), (0, report.frames), "pair {number}");
-        // Noise and slip are on: nobody is exactly where it should be.
+        // Noise and slip are on: no robot is exactly at its place.
         assert!(report.position_error_m.max > 1e-4, "pair {number}: {report:?}");
     }
     assert_eq!(fixed, 30);
@@ -70,10 +70,10 @@ fn who_brakes_for_one_that_died_beside_its_way_does_not_go_on() {
     }
 }
 
-/// A robot braked for a moment for what its sensors made of noise, fell behind, and found another in its way when it
-/// wanted to catch up with those who held: it was given up, though it only needed a plan of its own.
+/// A robot that brakes for noise falls behind, and another that is held stands in its way. It needs a plan of its own and must
+/// not be given up.
 #[test]
-fn who_fell_behind_because_something_was_in_its_way_is_planned_anew_and_not_given_up() {
+fn a_blocked_robot_that_fell_behind_is_planned_anew_and_not_given_up() {
     let report = run(73, "slip=10%,gps=5mm,heading=2deg,fix-delay=100ms,fix-dropout=1s");
     assert!(report.ok, "{:?}", report.issues);
     assert_eq!((report.contacts, report.dropouts), (0, 0));

@@ -8,7 +8,7 @@ use rapier2d::prelude::{ColliderBuilder, PhysicsWorld, RigidBodyBuilder, RigidBo
 
 const RADIUS_M: f64 = 0.027;
 const CONTACT_M: f64 = 2.0 * RADIUS_M;
-/// The engine lets discs that graze slide past each other with so much room.
+/// Gap with which the engine lets grazing discs slide past each other, metres.
 const HAIR_M: f64 = 0.001;
 const WHEELS_RADPS: f64 = 60.0;
 const SPEED_MPS: f64 = 0.27;

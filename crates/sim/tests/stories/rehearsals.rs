@@ -247,6 +247,6 @@ fn a_frame_with_fixed_identity_among_others_keeps_who_showed_its_pixels() {
     let ring = show.frames[1].clone();
     let pixels = ring.pixels.iter().map(mirrored).collect();
     show.frames[2] = Frame { identity: Some(Identity::Fixed), pixels, ..ring };
-    // Everybody crosses the ring: were anybody else allowed to show a pixel, nobody would move.
+    // All robots cross the ring. If any robot could show any pixel, none would move.
     assert_fine(&play(&show, "", 1));
 }

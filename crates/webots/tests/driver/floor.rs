@@ -136,7 +136,7 @@ fn run(
         let ends = stop.load(Ordering::Acquire);
         for (robot, body) in bodies.iter_mut().enumerate() {
             body.listen();
-            world.tell(robot, body.wheels_radps());
+            world.command(robot, body.wheels_radps());
         }
         world.step();
         steps.store(step, Ordering::Release);

@@ -60,7 +60,7 @@ impl Meeting {
             ..Inputs::default()
         };
         let outputs = self.robot.step(self.now, &inputs);
-        self.world.tell(0, outputs.wheels_radps);
+        self.world.command(0, outputs.wheels_radps);
         let (mut message, mut blocked) = (Message::new(), false);
         while let Some(topic) = self.robot.outgoing(&mut message) {
             if topic == Topic::Time {

@@ -18,7 +18,7 @@ use crate::world::World;
 const OF_A_KIND_MAX: usize = 20;
 
 /// The record until now.
-pub(crate) struct Watch {
+pub(crate) struct RehearsalRecord {
     began: Option<Instant>,
     /// When the current transition started.
     started: Instant,
@@ -42,7 +42,7 @@ pub(crate) struct Watch {
     unlisted: usize,
 }
 
-impl Watch {
+impl RehearsalRecord {
     /// An empty record.
     pub fn new(robots: usize) -> Self {
         Self {
