@@ -2,8 +2,8 @@
 //!
 //! A Kalman filter over offset and drift. An answer measures the offset as half the difference of both directions. Its
 //! error is at most half of the excess of its round trip over the shortest one known, so the excess sets the noise of the
-//! measurement. Over a jittery link the few quick answers therefore count, and none is discarded (the clock filter of NTP,
-//! RFC 5905 section 10, discards all but the quickest).
+//! measurement. Over a jittery link the few quick answers therefore count, and none is discarded. The clock filter of NTP
+//! (RFC 5905 section 10) discards all but the quickest.
 
 use lightbots_base::{Instant, Span};
 use lightbots_wire::TimeAnswer;

@@ -20,8 +20,8 @@ pub struct Config {
     pub heading_sigma_rad: f64,
     /// Share of their turning that the wheels lose, 1 sigma. The filter estimates the actual share.
     pub slip: f64,
-    /// Patience with the link: the robot stops and is cut off when the controller is silent for longer during a route, or the
-    /// link is down for longer during any drive.
+    /// Patience with the link. The robot stops and is cut off when the controller is silent for longer during a route. The same
+    /// happens when the link is down for longer during any drive.
     pub silence: Span,
     /// Time between position fixes.
     pub fix_pace: Span,

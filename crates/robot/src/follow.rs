@@ -1,5 +1,5 @@
-//! Trajectory tracking: the motion of the route is feed-forward; errors along, across and in heading are feedback
-//! (Kanayama et al., "A stable tracking control method for an autonomous mobile robot", 1990).
+//! Trajectory tracking. The motion of the route is feed-forward; errors along, across and in heading are feedback.
+//! Source: Kanayama et al., "A stable tracking control method for an autonomous mobile robot", 1990.
 
 use lightbots_base::{Motion, Vec2};
 

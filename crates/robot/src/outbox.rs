@@ -12,8 +12,8 @@ const CALM: Span = Span::from_millis(2000);
 const OFF_M: f64 = 0.008;
 /// A robot nearer than this is back on its route, metres. The gap to [`OFF_M`] is hysteresis.
 const BACK_M: f64 = 0.006;
-/// Ratio to the last reported distance from the route at which it is reported again: more than braking for a neighbour
-/// costs, so the robot may be standing.
+/// Ratio to the last reported distance from the route at which it is reported again. Braking for a neighbour costs less, so
+/// the robot may be standing.
 const FARTHER: f64 = 4.0;
 /// Without fixes, ratio to the last reported error of the place at which it is reported again.
 const MORE: f64 = 1.25;

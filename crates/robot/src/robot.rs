@@ -134,7 +134,7 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
     }
 
     /// The light at `now` of the own clock, between steps. A shell whose light can change at any time asks each
-    /// millisecond or so, because the lights of a fleet then change together and not each at its next step.
+    /// millisecond or so. The lights of a fleet then change together and not each at its next step.
     pub fn light(&mut self, now: Instant) -> Rgb {
         self.advance_light(now, self.hot.clock.show_time(now));
         self.hot.shown

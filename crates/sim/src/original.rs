@@ -1,5 +1,5 @@
-//! A robot of the first LightBots as far as its program is known: it turns towards its target on the spot, drives at full
-//! speed, curves where it is a little off, and cuts its wheels where both coordinates are within 20 mm.
+//! A robot of the first LightBots, as far as its program is known. It turns towards its target on the spot, drives at full
+//! speed and corrects small heading errors in a curve. Where both coordinates are within 20 mm it stops its wheels.
 
 use lightbots_base::{Pose, Rgb, RobotId, Vec2, wrap};
 use lightbots_robot::Message;

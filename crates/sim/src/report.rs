@@ -24,8 +24,8 @@ pub struct RehearsalReport {
     pub planned_s: f64,
     /// Lower bound of the duration of any plan, seconds.
     pub lower_bound_s: f64,
-    /// Number of contacts: of two robots, of a robot with a no-go area, or of a robot with the floor's edge if it goes over it by
-    /// more than [`EDGE_SLACK_M`](crate::EDGE_SLACK_M).
+    /// Number of contacts of two robots, or of a robot with a no-go area. Going over the floor's edge by more than
+    /// [`EDGE_SLACK_M`](crate::EDGE_SLACK_M) is a contact too.
     pub contacts: u64,
     /// Contacts of two robots after the first replan began, which recovery caused.
     pub contacts_after_replan: u64,

@@ -230,8 +230,8 @@ impl RobotSet {
 
     /// One step of 16 ms that ends at `now`: all bodies move, then the robots take their steps one after the other.
     ///
-    /// More than `cached` robots take turns in ascending order in one step and in descending order in the next, because the
-    /// cache still has the last of the step before. Their messages are received in ascending order all the same.
+    /// More than `cached` robots take turns in ascending order in one step and in descending order in the next. The cache then
+    /// still has the last robots of the step before. Their messages are received in ascending order all the same.
     pub fn step(&mut self, now: Instant, receive: &mut impl FnMut(usize, Topic, &[u8])) {
         self.world.step();
         self.count_brakes();

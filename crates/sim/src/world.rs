@@ -180,8 +180,8 @@ impl World {
     }
 }
 
-/// A unit vector rotated by a small angle (below 0.3 rad): a Taylor series instead of sine and cosine, scaled back to length 1
-/// so that errors do not add up.
+/// A unit vector rotated by a small angle (below 0.3 rad): a Taylor series instead of sine and cosine. It is scaled back to
+/// length 1, because errors would add up.
 #[inline]
 fn turned(unit: Vec2, angle: f64) -> Vec2 {
     if angle == 0.0 {
