@@ -1,4 +1,5 @@
-//! Heading from motion, for robots without a compass: the rotation that maps the track of the wheels onto that of the fixes.
+//! Heading from motion, for robots without a compass: the rotation that maps the track of the wheels onto that of the
+//! fixes.
 
 use lightbots_base::{Vec2, wrap};
 

@@ -187,8 +187,9 @@ impl ClockFilter {
         clock.synchronised |= self.answers >= ENOUGH && good;
     }
 
-    /// Bounds the offset by an answer, which proves that it is at most `there` and at least `-back`. An estimate outside was
-    /// too sure and moves to the bound. One outside by [`SET_ANEW_US`] belongs to a controller that began anew.
+    /// Bounds the offset by an answer, which proves that it is at most `there` and at least `-back`. An estimate
+    /// outside was too sure and moves to the bound. One outside by [`SET_ANEW_US`] belongs to a controller that began
+    /// anew.
     fn keep_within_bounds(&mut self, clock: &mut ShowClock, there: i64, back: i64, round_us: f64) {
         let most = there.saturating_sub(clock.base_us) as f64;
         let least = -(back.saturating_add(clock.base_us) as f64);

@@ -20,8 +20,8 @@ pub struct Config {
     pub heading_sigma_rad: f64,
     /// Share of their turning that the wheels lose, 1 sigma. The filter estimates the actual share.
     pub slip: f64,
-    /// Patience with the link. The robot stops and is cut off when the controller is silent for longer during a route. The same
-    /// happens when the link is down for longer during any drive.
+    /// Patience with the link. The robot stops and is cut off when the controller is silent for longer during a route.
+    /// The same happens when the link is down for longer during any drive.
     pub silence: Span,
     /// Time between position fixes.
     pub fix_pace: Span,
@@ -203,9 +203,9 @@ pub struct Inputs {
     pub fix: Option<Fix>,
     /// Charge of the battery, percent.
     pub battery: Option<u8>,
-    /// Lag of the wheels' world behind the own clock; negative: it runs ahead. Zero on a board. A simulation that is slower
-    /// than real time lags. Routes go by the world's time, so that all robots of one simulation are at the same path time. The
-    /// show clock, the link and the light go by the own clock.
+    /// Lag of the wheels' world behind the own clock; negative: it runs ahead. Zero on a board. A simulation that is
+    /// slower than real time lags. Routes go by the world's time, so that all robots of one simulation are at the same
+    /// path time. The show clock, the link and the light go by the own clock.
     pub lag: Span,
     /// Gaps between its rim and what is nearest, metres, as eight proximity sensors 45° apart see them,
     /// counter-clockwise from the front; infinite where nothing is in sight. `None`: it has none.

@@ -4,8 +4,8 @@ use lightbots_base::{Limits, Vec2};
 
 use crate::filter::turned;
 
-/// Acceleration that feedback may use, as a multiple of what plans use. Below, a robot cannot catch up with its route. Above,
-/// it stumbles.
+/// Acceleration that feedback may use, as a multiple of what plans use. Below, a robot cannot catch up with its route.
+/// Above, it stumbles.
 const ACCEL_RESERVE: f64 = 1.25;
 /// Speed that feedback may use, as a multiple of what plans use. See [`ACCEL_RESERVE`].
 const SPEED_RESERVE: f64 = 1.25;
@@ -56,8 +56,8 @@ impl DriveBase {
         BodyPose { at: body.at + (body.facing + facing) * (0.5 * way), facing }
     }
 
-    /// Wheel rates towards a setpoint within the ramps, left and right, rad/s. `slip`: share of their turning that the wheels
-    /// lose.
+    /// Wheel rates towards a setpoint within the ramps, left and right, rad/s. `slip`: share of their turning that the
+    /// wheels lose.
     pub(crate) fn step(&mut self, want: Setpoint, slip: [f64; 2], dt: f64, limits: &Limits) -> [f64; 2] {
         let speed_max = limits.speed_mps * SPEED_RESERVE;
         let speed = within(want.speed_mps, speed_max);

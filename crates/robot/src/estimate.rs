@@ -47,7 +47,8 @@ impl Estimate {
         }
     }
 
-    /// Predicts the pose over one step by wheel turns, radians. `history` holds the turns that the filter has not taken yet.
+    /// Predicts the pose over one step by wheel turns, radians. `history` holds the turns that the filter has not taken
+    /// yet.
     #[inline]
     pub(crate) fn advance(&mut self, now: Instant, turns_rad: [f64; 2], history: &mut OdometryHistory) {
         if !self.is_ahead() {

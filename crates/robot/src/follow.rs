@@ -19,8 +19,8 @@ const ACROSS: f64 = 600.0;
 const TURN: f64 = 11.0;
 /// Gain of the heading error on the spot, 1/s. Above, the dead time of two steps makes the robot swing.
 const SPOT: f64 = 12.0;
-/// Turning rate towards the look-ahead direction, as a multiple of angle per remaining time. At 1 the turn would end exactly
-/// in time, without reserve for the ramp.
+/// Turning rate towards the look-ahead direction, as a multiple of angle per remaining time. At 1 the turn would end
+/// exactly in time, without reserve for the ramp.
 const SWING: f64 = 1.8;
 /// Least speed by which an error across steers, m/s. Below, a robot that creeps does not return to its route.
 const STEERING_MPS: f64 = 0.05;

@@ -35,8 +35,8 @@ pub(crate) struct LookAhead {
 }
 
 impl LookAhead {
-    /// The look-ahead direction at a path time within piece `index`, which begins at `begin`. `None` where the route ends, or
-    /// goes on as it goes now.
+    /// The look-ahead direction at a path time within piece `index`, which begins at `begin`. `None` where the route
+    /// ends, or goes on as it goes now.
     pub(crate) fn look(&mut self, route: &Route, (index, begin): (usize, Span), time: Span) -> Option<Ahead> {
         if time < self.from || time >= self.until {
             (self.from, self.until, self.towards) = (time, time + HORIZON / 2, None);

@@ -24,8 +24,8 @@ const TRYING: Span = Span::from_millis(1500);
 const STRAYED_M: f64 = 0.0055;
 /// Distance at which it is back, metres. The gap to [`STRAYED_M`] is hysteresis.
 const BACK_M: f64 = 0.004;
-/// A route whose number is at most this much below the newest is an old message that came late. Beyond, the controller began
-/// anew.
+/// A route whose number is at most this much below the newest is an old message that came late. Beyond, the controller
+/// began anew.
 const OLD_NUMBERS: u32 = 64;
 
 const _: () = assert!(BACK_M < STRAYED_M && STRAYED_M < NEAR_M);
@@ -101,8 +101,8 @@ impl Routes {
         storage.put(slot, route);
     }
 
-    /// Sets when the kept route begins. A second START counts if it is later, because an earlier one is an old message that was
-    /// overtaken. Whether that changed anything.
+    /// Sets when the kept route begins. A second START counts if it is later, because an earlier one is an old message
+    /// that was overtaken. Whether that changed anything.
     pub(crate) fn start(&mut self, seq: u32, at: Instant, show: Option<Instant>) -> bool {
         let Some(kept) = self.kept.as_mut().filter(|kept| kept.seq == seq) else {
             return false;
@@ -202,8 +202,8 @@ impl Routes {
         true
     }
 
-    /// The next setpoint along the route under way. `takes_effect`: show time when the wheels answer. `aside`: offset from the
-    /// route at which to drive, stage metres.
+    /// The next setpoint along the route under way. `takes_effect`: show time when the wheels answer. `aside`: offset
+    /// from the route at which to drive, stage metres.
     pub(crate) fn step(
         &mut self,
         takes_effect: Instant,

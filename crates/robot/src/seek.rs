@@ -10,7 +10,8 @@ const ARRIVED_M: f64 = 0.02;
 const STOP_M: f64 = 0.003;
 /// Distance at which it stops where the target lies to its side, metres. Below, it turns back and forth at the target.
 const ABEAM_M: f64 = 0.012;
-/// Braking with which it approaches, m/s². It is less than the ramps of the drive base allow, so that it does not overshoot.
+/// Braking with which it approaches, m/s². It is less than the ramps of the drive base allow, so that it does not
+/// overshoot.
 const BRAKING_MPS2: f64 = 0.8;
 /// Turning rate per sine of the heading error, rad/s. Above, the dead time of the motors makes it swing.
 const TURN_GAIN: f64 = 8.0;

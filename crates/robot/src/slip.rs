@@ -1,4 +1,5 @@
-//! Estimate of wheel slip: each wheel has a mean, learned over metres, and a deviation from it that changes within a second.
+//! Estimate of wheel slip: each wheel has a mean, learned over metres, and a deviation from it that changes within a
+//! second.
 
 use crate::covariance::Drift;
 

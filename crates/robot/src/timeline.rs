@@ -53,7 +53,8 @@ impl Timeline {
         self.events.retain(|event| event.at >= at);
     }
 
-    /// Notes a hold or resume. Their order of arrival does not matter. Duplicates, and those from before the route, are dropped.
+    /// Notes a hold or resume. Their order of arrival does not matter. Duplicates, and those from before the route, are
+    /// dropped.
     pub(crate) fn note(&mut self, at: Instant, hold: bool) {
         let folded = at < self.base.at || at == self.base.at && hold == self.base.progress.held;
         if folded || self.events.iter().any(|event| event.at == at && event.hold == hold) {

@@ -61,8 +61,8 @@ impl Brakes {
         self.new_from[robot] = step + FREE_STEPS + 1;
     }
 
-    /// Classifies the episodes that began in the step before. `is_amiss(robot, off_m)`: the robot is faulty, or farther than
-    /// `off_m` from its route.
+    /// Classifies the episodes that began in the step before. `is_amiss(robot, off_m)`: the robot is faulty, or farther
+    /// than `off_m` from its route.
     #[inline]
     pub fn classify(&mut self, places: &[Vec2], is_amiss: impl Fn(usize, f64) -> bool) {
         for Brake { robot, towards } in self.begun.drain(..) {

@@ -35,8 +35,8 @@ pub(crate) struct Breakdowns {
 }
 
 impl Breakdowns {
-    /// The breakdowns of the conditions. Random ones happen between a tenth and eight tenths of the planned duration. Entries
-    /// for robots beyond the last are dropped.
+    /// The breakdowns of the conditions. Random ones happen between a tenth and eight tenths of the planned duration.
+    /// Entries for robots beyond the last are dropped.
     pub fn new(conditions: &Conditions, robots: usize, planned_s: f64, seed: u64) -> Self {
         let mut dice = Dice::new(seed, Purpose::Breakdowns);
         let mut fate_of = |breakdown: &Breakdown, fate| {

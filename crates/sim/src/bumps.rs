@@ -93,7 +93,8 @@ mod tests {
 
     const AREA: Thing = Thing::Obstacle(0);
 
-    /// Contacts of a robot that is pressed into things by these depths, metres, and then stands off them by these distances.
+    /// Contacts of a robot that is pressed into things by these depths, metres, and then stands off them by these
+    /// distances.
     fn pressed(steps: &[(Option<(Thing, f64)>, f64)]) -> (Bumps, Vec<Bump>) {
         let obstacles = vec![Obstacle::Disc { at: Vec2::ZERO, radius_m: 0.1 }];
         let floor = Floor::new(&Stage { obstacles, ..Stage::default() }, &[]);

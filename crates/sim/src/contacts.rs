@@ -5,8 +5,8 @@ use lightbots_base::Vec2;
 /// Distance by which a standing robot can be pushed along its wheels' direction before it stands like a wall, metres.
 /// Measured in Webots R2023b on 2026-11-21.
 const SLACK_M: f64 = 0.01;
-/// Distance that a standing robot moves sideways in a step when it is pushed, metres: 0.06 m/s, measured in Webots R2023b on
-/// 2026-11-21.
+/// Distance that a standing robot moves sideways in a step when it is pushed, metres: 0.06 m/s, measured in Webots
+/// R2023b on 2026-11-21.
 const SIDEWAYS_M: f64 = 0.06 * 0.016;
 /// Robots that touched have parted when their rims are this far apart, metres. Below, one contact counts several times.
 pub(crate) const PARTED_M: f64 = 0.0005;

@@ -83,8 +83,8 @@ impl Dice {
         normal_of(self.bits(), [52, 40, 28, 16])
     }
 
-    /// Three independent normal numbers of deviation 1, cut off at 3.7, from one draw and three look-ups, because every robot
-    /// needs them at every step.
+    /// Three independent normal numbers of deviation 1, cut off at 3.7, from one draw and three look-ups, because every
+    /// robot needs them at every step.
     #[inline]
     pub fn normal3(&mut self) -> [f64; 3] {
         normal3_of(self.bits())

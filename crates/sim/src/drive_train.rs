@@ -66,8 +66,8 @@ impl DriveTrain {
             && self.tipped == 0
     }
 
-    /// One step of 16 ms. `command`: rates from the next step on, left and right, rad/s. `grip`: share of each wheel's turning
-    /// that moves the body.
+    /// One step of 16 ms. `command`: rates from the next step on, left and right, rad/s. `grip`: share of each wheel's
+    /// turning that moves the body.
     #[inline]
     pub fn step(&mut self, command: [f64; 2], grip: [f64; 2]) -> Twist {
         self.wheels = self.commanded;

@@ -120,7 +120,8 @@ impl Fleet {
         }
     }
 
-    /// Delivers a published message to the robot of its topic, or to all robots if it is a broadcast. Whether it was for any.
+    /// Delivers a published message to the robot of its topic, or to all robots if it is a broadcast. Whether it was
+    /// for any.
     pub fn receive(&mut self, now: Instant, topic: &str, payload: &[u8]) -> bool {
         self.receive_on(now, 0..self.robots.len(), topic, payload)
     }

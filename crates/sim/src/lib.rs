@@ -5,8 +5,8 @@
 //! screens.
 //!
 //! In reading order: [`rehearse`] plays a whole show in virtual time under [`Conditions`] (with [`Faults`] as people
-//! write them) and gives a [`RehearsalReport`]; [`Fleet`] runs simulated robots in real time for a caller with a clock and a
-//! network; [`World`] is the bodies on the floor.
+//! write them) and gives a [`RehearsalReport`]; [`Fleet`] runs simulated robots in real time for a caller with a clock
+//! and a network; [`World`] is the bodies on the floor.
 //!
 //! ```
 //! use lightbots_sim::{Conditions, Faults, RehearsalOptions, rehearse};

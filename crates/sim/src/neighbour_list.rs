@@ -1,4 +1,5 @@
-//! Neighbour list (Verlet, 1967): pairs of discs that may touch, found anew only when a disc has moved far enough to matter.
+//! Neighbour list (Verlet, 1967): pairs of discs that may touch, found anew only when a disc has moved far enough to
+//! matter.
 
 use lightbots_base::Vec2;
 

@@ -192,7 +192,8 @@ impl Play {
         }
     }
 
-    /// Makes the plans that the controller asks for. Planning takes no virtual time, because its time depends on the machine.
+    /// Makes the plans that the controller asks for. Planning takes no virtual time, because its time depends on the
+    /// machine.
     fn plan(&mut self, progress: &mut dyn FnMut(Progress<'_>)) {
         while let Some(job) = self.controller.next_plan_request() {
             progress(Progress::Planning);

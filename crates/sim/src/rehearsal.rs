@@ -42,7 +42,8 @@ pub enum Progress<'a> {
         frame: usize,
         /// Departure, seconds after the first departure of the show. Holds delay what follows.
         begins_s: f64,
-        /// `(robot, path)` of the robots that drive paths. A plan begins at the reported places, so it differs from seed to seed.
+        /// `(robot, path)` of the robots that drive paths. A plan begins at the reported places, so it differs from
+        /// seed to seed.
         paths: &'a [(usize, &'a Path)],
     },
 }
@@ -57,8 +58,8 @@ impl Default for RehearsalOptions {
     }
 }
 
-/// Plays a whole show in virtual time and reports the result. The same show, options and version give the same report to the
-/// bit. `progress` is called about every second of virtual time.
+/// Plays a whole show in virtual time and reports the result. The same show, options and version give the same report
+/// to the bit. `progress` is called about every second of virtual time.
 pub fn rehearse(
     show: &Show,
     options: &RehearsalOptions,

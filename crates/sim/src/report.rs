@@ -47,8 +47,8 @@ pub struct RehearsalReport {
     pub estimate_error_m: Spread,
     /// Distance of the true place of driving robots from that of their routes, metres.
     pub tracking_error_m: Spread,
-    /// Largest difference of two robots' clocks, one value a second, seconds. Departures and lights that are meant for one moment
-    /// differ by as much.
+    /// Largest difference of two robots' clocks, one value a second, seconds. Departures and lights that are meant for
+    /// one moment differ by as much.
     pub clock_spread_s: Spread,
     /// Messages sent and lost; each receiver counts.
     pub messages: MessageCounts,

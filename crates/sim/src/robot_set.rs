@@ -89,8 +89,8 @@ impl LocalClock {
 
 impl RobotSet {
     /// Robots at rest on a stage, just switched on and without a link. `names[robot]`: its name, if one is given.
-    /// `says_simulated`: robots with our firmware report `sim=1`. Rehearsals omit it, because their messages are to be as long
-    /// as those of real robots.
+    /// `says_simulated`: robots with our firmware report `sim=1`. Rehearsals omit it, because their messages are to be
+    /// as long as those of real robots.
     pub fn new(
         stage: &Stage,
         starts: &[Vec2],
@@ -230,8 +230,9 @@ impl RobotSet {
 
     /// One step of 16 ms that ends at `now`: all bodies move, then the robots take their steps one after the other.
     ///
-    /// More than `cached` robots take turns in ascending order in one step and in descending order in the next. The cache then
-    /// still has the last robots of the step before. Their messages are received in ascending order all the same.
+    /// More than `cached` robots take turns in ascending order in one step and in descending order in the next. The
+    /// cache then still has the last robots of the step before. Their messages are received in ascending order all the
+    /// same.
     pub fn step(&mut self, now: Instant, receive: &mut impl FnMut(usize, Topic, &[u8])) {
         self.world.step();
         self.count_brakes();
@@ -337,8 +338,8 @@ impl SimulatedRobot {
         Self { firmware, id, clock, battery, light: Rgb::BLACK, stuck: false, blind: false }
     }
 
-    /// Whether a robot at a place is faulty, or farther than `off_m` from the place of its route. A mute robot drives on its
-    /// route, so it is not faulty here. An original robot has no route.
+    /// Whether a robot at a place is faulty, or farther than `off_m` from the place of its route. A mute robot drives
+    /// on its route, so it is not faulty here. An original robot has no route.
     fn is_amiss(&self, place: Vec2, off_m: f64) -> bool {
         let RobotFirmware::Ours(robot) = &self.firmware else { return self.stuck || self.blind };
         let is_off = robot.route_place().is_some_and(|due| due.distance(place) > off_m);

@@ -3,9 +3,9 @@
 /// Radius of a wheel, metres.
 pub(crate) const WHEEL_RADIUS_M: f64 = 0.0045;
 
-/// Rows of: half the difference of the wheel rates (rad/s), effective track on the spot (m), and its growth in a drive of
-/// [`DRIVING_RADPS`] and more (m). Linear between the rows and constant outside. From turning rates measured in Webots R2023b
-/// on 2026-11-21: see docs/simulator.md.
+/// Rows of: half the difference of the wheel rates (rad/s), effective track on the spot (m), and its growth in a drive
+/// of [`DRIVING_RADPS`] and more (m). Linear between the rows and constant outside. From turning rates measured in
+/// Webots R2023b on 2026-11-21: see docs/simulator.md.
 const MEASURED: [(f64, f64, f64); 6] = [
     (1.0, 0.0400, 0.0),
     (5.0, 0.040_036, 0.000_54),

@@ -17,8 +17,8 @@ pub(crate) struct WheelSlip {
 }
 
 impl WheelSlip {
-    /// Wheels that slip by `level` (a share, 0.03 is 3 %) in the mean of all robots. The mean of a wheel is uniform between a
-    /// half and one and a half of `level`. The slip deviates from it by up to half of `level`.
+    /// Wheels that slip by `level` (a share, 0.03 is 3 %) in the mean of all robots. The mean of a wheel is uniform
+    /// between a half and one and a half of `level`. The slip deviates from it by up to half of `level`.
     pub fn new(level: f64, dice: &mut Dice) -> Self {
         let mean = std::array::from_fn(|_| if level > 0.0 { level * dice.between(0.5, 1.5) } else { 0.0 });
         Self { mean, now: mean, slope: [0.0; 2], steps_left: dice.below(u64::from(STRIDE)) as u32 }

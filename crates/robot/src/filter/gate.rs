@@ -9,8 +9,8 @@ const GATE: f64 = 5.0;
 const GATE_FLOOR_M: f64 = 0.006;
 /// The same for headings, radians.
 const GATE_FLOOR_RAD: f64 = 0.1;
-/// Outliers in a row that agree after which the pose jumps to them: 0.16 s of fixes. Below, a burst of reflections moves the
-/// robot. Above, a robot that was carried away stands for longer.
+/// Outliers in a row that agree after which the pose jumps to them: 0.16 s of fixes. Below, a burst of reflections
+/// moves the robot. Above, a robot that was carried away stands for longer.
 const OUTLIERS: u8 = 10;
 /// Two jumps within this time are a fault: no shove moves a robot twice as quickly.
 const JUMPS_APART: Span = Span::from_millis(1000);

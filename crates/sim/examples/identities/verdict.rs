@@ -111,8 +111,8 @@ fn pictured(frame: &Frame, picture: &Picture, planned: Option<&[Option<u32>]>) -
     faults
 }
 
-/// Pins hold, and where identity is fixed a pixel keeps its robot unless a pin takes it; `before`: the robot that showed each pixel
-/// last, and when.
+/// Pins hold, and where identity is fixed a pixel keeps its robot unless a pin takes it; `before`: the robot that
+/// showed each pixel last, and when.
 fn kept(
     show: &Show,
     index: usize,

@@ -70,8 +70,8 @@ fn who_brakes_for_one_that_died_beside_its_way_does_not_go_on() {
     }
 }
 
-/// A robot that brakes for noise falls behind, and another that is held stands in its way. It needs a plan of its own and must
-/// not be given up.
+/// A robot that brakes for noise falls behind, and another that is held stands in its way. It needs a plan of its own
+/// and must not be given up.
 #[test]
 fn a_blocked_robot_that_fell_behind_is_planned_anew_and_not_given_up() {
     let report = run(73, "slip=10%,gps=5mm,heading=2deg,fix-delay=100ms,fix-dropout=1s");
