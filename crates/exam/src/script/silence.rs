@@ -34,40 +34,36 @@ pub(super) async fn run(pilot: &Pilot) -> Step {
     let first = pilot.place().await?;
     pilot.session.pause(Span::from_millis(800)).await;
     let second = pilot.ask().await?;
-    // At 0.04 m/s it would have driven 32 mm meanwhile.
+    // A driving robot would have moved 32 mm meanwhile.
     let stands = second.place().is_some_and(|at| at.distance(first) <= STILL_M);
-    let came = match cut {
-        Some(at) => format!("state=cut after {:.1} s", (at - began).as_secs()),
-        None => "no state=cut within 3.5 s".into(),
-    };
-    let in_time = cut.is_some_and(|at| (1.0..=3.2).contains(&(at - began).as_secs()));
-    let came = format!("{came}; {}", if stands { "it stands" } else { "it drives on" });
-    pilot.session.record(
-        43,
-        in_time && stands,
-        "a route, then nothing for 3.5 s",
-        "state=cut after 2 s, and it stands",
-        came,
-    );
+    record_cut(pilot, cut.map(|at| at - began), stands);
     let state = second.field("state").unwrap_or("").to_owned();
     pilot.send("|STOP|");
     pilot.rule_if_silent.set(45);
     let trip = pilot.drive_to(pilot.home).await?;
     if cut.is_some() {
-        let free = state != "cut" && trip.reached;
-        let came = format!(
-            "state={state}, {}",
-            if trip.reached { "and it drives" } else { "and it does not drive" }
-        );
-        pilot.session.record(
-            45,
-            free,
-            "a message after the silence, then TARGET",
-            "it is free and drives",
-            came,
-        );
+        record_free(pilot, &state, trip.reached);
     }
     Ok(())
+}
+
+/// Records R43: `cut_after` is the time from the beginning of the silence to `state=cut`.
+fn record_cut(pilot: &Pilot, cut_after: Option<Span>, stands: bool) {
+    let in_time = cut_after.is_some_and(|after| (1.0..=3.2).contains(&after.as_secs()));
+    let cut = cut_after.map_or_else(
+        || "no state=cut within 3.5 s".into(),
+        |after| format!("state=cut after {:.1} s", after.as_secs()),
+    );
+    let came = format!("{cut}; {}", if stands { "it stands" } else { "it drives on" });
+    let sent = "a route, then nothing for 3.5 s";
+    pilot.session.record(43, in_time && stands, sent, "state=cut after 2 s, and it stands", came);
+}
+
+/// Records R45: `state` is the state after the first message, `drives` whether the robot reached a target.
+fn record_free(pilot: &Pilot, state: &str, drives: bool) {
+    let came = format!("state={state}, and it {}", if drives { "drives" } else { "does not drive" });
+    let sent = "a message after the silence, then TARGET";
+    pilot.session.record(45, state != "cut" && drives, sent, "it is free and drives", came);
 }
 
 fn is_cut(received: &Received) -> bool {
