@@ -31,7 +31,7 @@ pub(crate) enum Scalar<'a> {
 }
 
 /// Deepest nesting of lists and objects in a skipped value. Shows of both formats nest at most 5 deep. The reader is
-/// recursive, so a much larger bound would let a hostile file overflow the stack.
+/// recursive (RFC 8259, section 9, allows a bound): a much larger one would let a hostile file overflow the stack.
 const DEPTH_MAX: usize = 32;
 
 type Read<T> = Result<T, ReadError>;

@@ -4,8 +4,8 @@
 //! contents of formats from it. A further format is a module beside `lightbots` and `original`, and a row of the table.
 //!
 //! The crate does no IO and does not judge a show: [`lightbots_show::validate`] does. In reading order: [`Format`] is a
-//! row of the table, [`read()`] takes a file of any format and gives [`Loaded`], [`Format::write`] gives [`Written`],
-//! [`ReadError`] says why bytes are not a show.
+//! row of the table. [`read()`] takes a file of any format and gives [`Loaded`] or a [`ReadError`]. [`Format::write`] gives
+//! [`Written`].
 //!
 //! ```
 //! use lightbots_exchange::{ORIGINAL, read, sniff};

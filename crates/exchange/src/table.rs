@@ -4,8 +4,8 @@ use crate::format::Format;
 use crate::part::Part;
 use crate::{lightbots, original};
 
-/// Every format. The first whose `sniff` accepts the bytes of a file reads it, so a format that looks at fewer bytes
-/// stands behind one that looks at more.
+/// Every format. The first whose `sniff` accepts the bytes of a file reads it. So a format that looks at fewer
+/// bytes stands behind one that looks at more.
 pub static FORMATS: [&Format; 2] = [&LIGHTBOTS, &ORIGINAL];
 
 /// Our own format. It keeps every part of a show.

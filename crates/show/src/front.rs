@@ -7,11 +7,14 @@ use crate::{Obstacle, Stage};
 /// Spacings of robots and rows for an Elisa-3, metres: the first at which all rows are on the floor is taken. 0.1 m is
 /// the spacing of the original's robots. 0.06 m leaves 6 mm between rims, twice `PROVABLE_GAP_M`.
 const STEPS_M: [f64; 3] = [0.1, 0.08, 0.06];
-/// Distance from the front edge of the floor to the first row, metres. From the original: y = 1.3 m on a 3 m floor.
+/// Distance from the front edge of the floor to the first row, metres. The original's value: y = 1.3 m on a
+/// 3 m floor.
 const FIRST_ROW_M: f64 = 0.2;
-/// Distance from a side edge to the nearest robot of a row, metres. From the original: x = -1.45 m on a 3 m floor.
+/// Distance from a side edge to the nearest robot of a row, metres. The original's value: x = -1.45 m
+/// on a 3 m floor.
 const SIDE_M: f64 = 0.05;
-/// Longest row, metres: five times the widest floor. Bounds the number of columns for hostile widths.
+/// Longest row, metres: five times the widest floor, which is 200 m (`MOST_SIDE_M`). Bounds the number
+/// of columns for hostile widths.
 const USABLE_MAX_M: f64 = 1e3;
 /// Largest ratio of a robot's radius to that of an Elisa-3. Robots of 1 m, the largest that validation allows, have 37.
 const SIZE_MAX: f64 = 100.0;

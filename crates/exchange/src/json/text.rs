@@ -1,6 +1,6 @@
 //! JSON text for files: laid out so that differences between versions read well.
 
-/// Decimals that a written number keeps: a place to a tenth of a millimetre, as the original's files have it. Fewer
+/// Scale of the four decimals that a written number keeps: tenths of a millimetre, as in the original's files. Fewer
 /// would move pixels by more than sensors notice; more would only lengthen files.
 const DECIMALS_SCALE: f64 = 1e4;
 /// Above this magnitude a double has no such decimals: 2^53 / `DECIMALS_SCALE`, rounded down.

@@ -2,9 +2,10 @@
 
 use lightbots_base::Vec2;
 
-/// Side of the square canvas, canvas pixels. From the original's files: the range of `pixelLocation`.
+/// Side of the square canvas, canvas pixels. The original's value: the range of `pixelLocation` in its files.
 pub(super) const CANVAS_PX: f64 = 720.0;
-/// Side of the original's square floor, metres. From its files: `physicalLocation` at the edges of the canvas.
+/// Side of the original's square floor, metres. The original's value: the range of
+/// `physicalLocation` in its files.
 const FLOOR_M: f64 = 3.0;
 
 /// Metres from canvas pixels.

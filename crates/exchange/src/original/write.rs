@@ -9,7 +9,8 @@ use super::canvas::{CANVAS_PX, canvas_from_stage};
 use crate::format::Written;
 use crate::json::text::{lines, number, quoted};
 
-/// Side of a picture in the original's row of frames, canvas pixels. From its files: `pixelTimelineLocation`.
+/// Side of a picture in the original's row of frames, canvas pixels. The original's
+/// value: the range of `pixelTimelineLocation` in its files.
 const TIMELINE_PX: f64 = 100.0;
 /// Robots of the original's fleet: its controller gives pixels to robots only once 30 robots have reported.
 const ROBOTS: usize = 30;

@@ -20,6 +20,7 @@ use crate::cli::CertsArguments;
 use crate::failure::{Failure, Outcome};
 use crate::say;
 
+/// A day of certificates, by definition 86,400 s.
 const DAY: Duration = Duration::from_secs(86_400);
 /// Validity of the authority, days: ten years, so that it outlives the certificates that it signs.
 const AUTHORITY_DAYS: u32 = 3650;

@@ -134,8 +134,8 @@ async fn relay(mut lines: mpsc::Receiver<String>, log: Log, stop: Stop) {
     }
 }
 
-/// The settings for the screen's form, and the broker for the controller: that of the command line, that chosen on the
-/// screen before, or our own.
+/// The settings for the screen's form, and the broker for the controller. It is the broker of the command line, else the
+/// one that was chosen on the screen, else our own.
 fn chosen(
     arguments: &RunArguments,
     other: Option<BrokerUrl>,

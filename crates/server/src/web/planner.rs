@@ -83,8 +83,8 @@ impl Planner {
     }
 
     /// Runs `work` for a client on a thread of its own. `work` must ask often whether it is still wanted, and end soon if
-    /// it is not: the budget is used up, the client sent a newer request, or this future was dropped because the client
-    /// disconnected. The client's next request begins when `work` has ended.
+    /// it is not. That is so when the budget is used up or the client sent a newer request. It is so too when this
+    /// future is dropped because the client disconnected. The client's next request begins when `work` has ended.
     pub async fn work<T: Send + 'static>(
         &self,
         client: IpAddr,
