@@ -42,8 +42,8 @@ pub struct Config {
 /// How many proximity sensors a robot can have.
 pub const SENSORS: usize = 8;
 
-/// What the proximity sensors of a robot are. Each sits on the rim and reads the distance to the nearest point of any rim
-/// in its cone.
+/// What the proximity sensors of a robot are. Each sits on the rim and reads the distance to the nearest point of any
+/// rim in its cone.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ProximitySensors {
     /// Directions in which they look, radians counter-clockwise from the front; those next to each other look next to
@@ -60,8 +60,8 @@ pub struct ProximitySensors {
 }
 
 impl ProximitySensors {
-    /// Those of an Elisa-3: eight, 45° apart. Noise as measured in Webots R2023b on 2026-11-21: 0.5 mm at 5 mm, 0.8 mm
-    /// at 10 mm.
+    /// Those of an Elisa-3: eight, 45° apart. Noise as measured in Webots R2023b on 2026-11-21: 0.5 mm at 5 mm, 0.8
+    /// mm at 10 mm.
     pub const ELISA_3: Self = Self {
         bearings_rad: {
             const STEP: f32 = core::f32::consts::FRAC_PI_4;
@@ -89,8 +89,8 @@ pub struct SafetyPolicy {
     pub steps_to_block: u8,
     /// It is free again when what blocked it was missing from its place for this many steps.
     pub steps_to_free: u8,
-    /// What blocked it is missing when it is this much farther away, metres. A blocked robot backs away until there is this
-    /// much room, …
+    /// What blocked it is missing when it is this much farther away, metres. A blocked robot backs away until there
+    /// is this much room, …
     pub clear_m: f32,
     /// … this fast, m/s, …
     pub retreat_mps: f32,
@@ -119,8 +119,8 @@ impl SafetyPolicy {
     };
 }
 
-/// What the estimator of neighbours assumes of their motion and of the plan's errors; docs/reflex.md says what breaks above
-/// and below each value.
+/// What the estimator of neighbours assumes of their motion and of the plan's errors; docs/reflex.md says what breaks
+/// above and below each value.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NeighbourModel {
     /// How far neighbours are off their plan beside what they and this robot mistake their places by, 1 sigma in each
@@ -128,7 +128,8 @@ pub struct NeighbourModel {
     pub planned_sigma_m: f32,
     /// The same for velocity, m/s.
     pub planned_sigma_mps: f32,
-    /// Share of its offset from the plan that a neighbour makes good in a second: the inverse of the correlation time, 1/s.
+    /// Share of its offset from the plan that a neighbour makes good in a second: the inverse of the correlation
+    /// time, 1/s.
     pub offset_share: f32,
     /// Unforeseen acceleration of planned neighbours, 1 sigma in each axis, m/s².
     pub accel_sigma_mps2: f32,
@@ -138,8 +139,8 @@ pub struct NeighbourModel {
     pub unknown_sigma_mps: f32,
     /// Error of the distance that the own wheels drive, 1 sigma, as a share of it.
     pub odometry_share: f32,
-    /// A planned neighbour has stopped when its readings are more likely by this factor than those of one that drives by
-    /// plan, natural logarithm.
+    /// A planned neighbour has stopped when its readings are more likely by this factor than those of one that drives
+    /// by plan, natural logarithm.
     pub stop_log_ratio: f32,
     /// It has left its plan when its readings are off it by this many sigma.
     pub stray_sigmas: f32,
@@ -147,13 +148,35 @@ pub struct NeighbourModel {
     pub stop_sigma_m: f32,
     /// The same of its velocity, m/s.
     pub stop_sigma_mps: f32,
+    /// How much the place of what stands changes in a step, 1 sigma: metres, …
+    pub standing_sigma_m: f32,
+    /// … and the direction of an edge, radians.
+    pub standing_sigma_rad: f32,
+    /// Velocity of what stands, 1 sigma in each axis, m/s.
+    pub standing_sigma_mps: f32,
+    /// Something stands when its readings are more likely by this factor than those of neighbours that move, natural
+    /// logarithm.
+    pub standing_log_ratio: f32,
+    /// Share of the logarithm of a likelihood that remains after a step, of what stands.
+    pub standing_remembered: f32,
+    /// Probability that a sensor does not see what stands in its cone.
+    pub unseen_share: f32,
+    /// Likelihood of an end at one of the places tried, over that of an edge without end, when something comes into
+    /// sight, natural logarithm.
+    pub end_log_prior: f32,
+    /// The same of a robot that stands.
+    pub disc_log_prior: f32,
+    /// Likelihood that an edge that was seen ends where it is not seen any more, natural logarithm.
+    pub new_end_log_prior: f32,
+    /// Hypotheses whose places differ by less than this are one, metres.
+    pub alike_m: f32,
 }
 
 impl NeighbourModel {
     /// `planned_sigma_m` and `offset_share` were measured in rehearsals with standard conditions on 2026-11-24.
-    /// `accel_sigma_mps2` makes the covariances of planned neighbours honest (reflex/planned_scene_tests.rs). The
-    /// others were
-    /// tuned on formations, random pairs and deaths, 2026-11-23 and 2026-11-24.
+    /// `accel_sigma_mps2` makes the covariances of planned neighbours honest (reflex/planned_scene_tests.rs), those of
+    /// what stands the covariances of walls (reflex/wall_scene_tests.rs, 2026-11-24). The others were tuned on
+    /// formations, random pairs and deaths, 2026-11-23 and 2026-11-24.
     pub const DEFAULT: Self = Self {
         planned_sigma_m: 0.0006,
         planned_sigma_mps: 0.015,
@@ -166,6 +189,16 @@ impl NeighbourModel {
         stray_sigmas: 5.5,
         stop_sigma_m: 0.003,
         stop_sigma_mps: 0.04,
+        standing_sigma_m: 0.00025,
+        standing_sigma_rad: 0.002,
+        standing_sigma_mps: 0.002,
+        standing_log_ratio: 1.0,
+        standing_remembered: 0.85,
+        unseen_share: 0.2,
+        end_log_prior: -0.9,
+        disc_log_prior: -2.5,
+        new_end_log_prior: -2.0,
+        alike_m: 0.001,
     };
 }
 

@@ -1,9 +1,14 @@
-//! The reflex: a robot sees its neighbours with its proximity sensors, estimates where they are and how they move, and
-//! drives no faster than it can stop for them, sooner than any message could tell it. See docs/reflex.md.
+//! The reflex: a robot sees its neighbours with its proximity sensors, estimates where they are and how they move,
+//! and drives no faster than it can stop for them, sooner than any message could tell it. See docs/reflex.md.
 
 mod birth;
 mod covariance;
 mod departure;
+mod likelihood;
+mod motion;
+mod obstacle;
+mod obstacles;
+mod outline;
 mod point;
 mod policy;
 mod scan;
@@ -11,16 +16,18 @@ mod sensors;
 mod separation;
 mod track;
 mod tracks;
+mod view;
 
 use lightbots_base::Vec2;
 
 use crate::config::{Config, NeighbourModel, SENSORS, SafetyPolicy};
+use motion::OwnMotion;
 pub(crate) use point::Point;
 pub(crate) use policy::Wish;
 pub(crate) use scan::Expectation;
 use scan::Scan;
 use sensors::Sensors;
-use track::{OwnMotion, Track};
+use track::Track;
 use tracks::Tracks;
 
 /// A wish slower than this, m/s, is no drive: nothing blocks it.
@@ -33,8 +40,8 @@ const SLOWS_MPS: f32 = 0.001;
 pub(crate) enum Safety {
     /// The robot drives as it likes.
     Free,
-    /// It drives slower than it would like for what is at `block`; for this many `steps` in a row it hardly drove. `alarm`:
-    /// the plan does not know what that is.
+    /// It drives slower than it would like for what is at `block`; for this many `steps` in a row it hardly drove.
+    /// `alarm`: the plan does not know what that is.
     Braking { block: Block, steps: u8, alarm: bool },
     /// It stands because something stands in its way; that was not there in the last `gone` steps.
     Blocked { block: Block, gone: u8 },
@@ -114,12 +121,14 @@ impl Reflex {
         self.tracks.step(&scan);
     }
 
-    /// Whether it sees something or does something about what it saw: else there is nothing to ask it until it looks again.
+    /// Whether it sees something or does something about what it saw: else there is nothing to ask it until it looks
+    /// again.
     pub(crate) fn is_wary(&self) -> bool {
         !self.tracks.is_empty() || self.safety != Safety::Free
     }
 
-    /// How fast the robot may drive, m/s, at least 0; `None`: as it likes. `room_mm`: what the plan leaves it at least.
+    /// How fast the robot may drive, m/s, at least 0; `None`: as it likes. `room_mm`: what the plan leaves it at
+    /// least.
     pub(crate) fn limit(&mut self, wish: Wish, room_mm: Option<u16>) -> Option<f64> {
         let slowest = self.slowest(&wish, room_mm);
         self.safety = match self.safety {
@@ -165,12 +174,12 @@ impl Reflex {
             let mps = policy::allowed_mps(track, wish, clearance_m, &self.sensors, &self.policy)?;
             Some((mps, Cause { at: track.at, unplanned: track.planned.is_none() }))
         };
-        self.tracks.iter().filter_map(allowed).min_by(|one, other| one.0.total_cmp(&other.0))
+        self.tracks.iter(&self.sensors).filter_map(allowed).min_by(|one, other| one.0.total_cmp(&other.0))
     }
 
     /// Whether anything is in sight that the plan does not know.
     pub(crate) fn sees_strays(&self) -> bool {
-        self.tracks.iter().any(Track::strays)
+        self.tracks.iter(&self.sensors).any(Track::strays)
     }
 
     /// What the plan leaves the robot and this neighbour, metres.
@@ -189,7 +198,11 @@ impl Reflex {
         let moved = block.at.minus(Point::new(self.own.way_m, 0.0));
         let near = |track: &&Track| track.at.minus(moved).length() < 2.0 * self.sensors.radius_m;
         let off_m = |track: &Track| track.at.minus(moved).length();
-        let track = self.tracks.iter().filter(near).min_by(|one, other| off_m(one).total_cmp(&off_m(other)));
+        let track = self
+            .tracks
+            .iter(&self.sensors)
+            .filter(near)
+            .min_by(|one, other| off_m(one).total_cmp(&off_m(other)));
         let (block, gone) = match track {
             Some(track) if track.gap_m(&self.sensors) <= block.stood_m + self.policy.clear_m => {
                 (block_at(track.at, track.gap_m(&self.sensors), block.stood_m), 0)
@@ -200,12 +213,13 @@ impl Reflex {
         if retreat_m == 0.0 { Safety::Blocked { block, gone } } else { self.retreats(block, gone, retreat_m) }
     }
 
-    /// It goes on backing away from what it nearly touches, so that there is a path past that: the way it came, unless a
-    /// neighbour follows.
+    /// It goes on backing away from what it nearly touches, so that there is a path past that: the way it came,
+    /// unless a neighbour follows.
     fn retreats(&self, block: Block, gone: u8, retreat_m: f32) -> Safety {
         let left_m = retreat_m.abs() - self.own.way_m.abs();
         let is_near = |track: &Track| track.gap_m(&self.sensors) < self.policy.followed_m;
-        let followed = self.tracks.iter().any(|track| track.at.x * retreat_m < 0.0 && is_near(track));
+        let followed =
+            self.tracks.iter(&self.sensors).any(|track| track.at.x * retreat_m < 0.0 && is_near(track));
         if left_m <= 0.0 || followed || block.gap_m > f64::from(self.policy.clear_m) {
             return Safety::Blocked { block, gone };
         }
@@ -224,17 +238,17 @@ impl Reflex {
         }
     }
 
-    /// How far, and where to in body space, it gives way to neighbours; metres, zero where nobody is too near.
+    /// How far, and where to in body space, it gives way to neighbours; metres, zero where no neighbour is too near.
     /// `room_mm`: how far others stay away by plan.
     pub(crate) fn give_way(&self, room_mm: Option<u16>) -> Vec2 {
         let own_mps = self.own.way_m / self.own.dt;
-        self.tracks.iter().fold(Vec2::ZERO, |sum, track| {
+        self.tracks.iter(&self.sensors).fold(Vec2::ZERO, |sum, track| {
             let clearance_m = self.clearance_m(track, room_mm, false);
             sum + separation::give_way(track, own_mps, clearance_m, &self.sensors, &self.policy)
         })
     }
 
-    /// A route begins: the plan tells from the next step on who is around.
+    /// A route begins: from the next step on the plan tells which neighbours are in sight.
     pub(crate) fn begin_route(&mut self) {
         self.tracks.clear();
         self.safety = Safety::Free;
@@ -292,8 +306,14 @@ mod planned_scene_tests;
 #[path = "reflex/policy_tests.rs"]
 mod policy_tests;
 #[cfg(test)]
+#[path = "reflex/side_by_side_tests.rs"]
+mod side_by_side_tests;
+#[cfg(test)]
 #[path = "reflex/stray_tests.rs"]
 mod stray_tests;
+#[cfg(test)]
+#[path = "reflex/wall_drive_tests.rs"]
+mod wall_drive_tests;
 #[cfg(test)]
 #[path = "reflex/wall_scene_tests.rs"]
 mod wall_scene_tests;

@@ -8,20 +8,20 @@ use super::track::Track;
 use super::tracks::BESIDE_M;
 use crate::config::SENSORS;
 
-/// Uncertainty across of a place known from one sensor alone, as a share of its distance: ±19°, evenly spread. That is
-/// where a disc 10 mm away is in the cone of one sensor and of no other.
+/// Uncertainty across of a place known from one sensor alone, as a share of its distance: ±19°, evenly spread. That
+/// is where a disc 10 mm away is in the cone of one sensor and of no other.
 pub(super) const BEARING_SIGMA: f32 = 0.19;
-/// Readings of two sensors side by side that differ by less than this, metres, may be of one disc: at 20 mm, a disc at
-/// the edge of a cone reads that much farther there.
+/// Readings of two sensors side by side that differ by less than this, metres, may be of one disc: at 20 mm, a disc
+/// at the edge of a cone reads that much farther there.
 const SHARED_M: f32 = 0.015;
-/// A disc between two sensors is this much nearer than either reads, metres, and readings of one sensor alone are this
-/// uncertain on top of their noise.
+/// A disc between two sensors is this much nearer than either reads, metres, and readings of one sensor alone are
+/// this uncertain on top of their noise.
 const BETWEEN_M: f32 = 0.002;
 /// A planned neighbour explains readings within this many sigma.
 const EXPLAINS_SIGMAS: f32 = 4.5;
 
-/// The planned neighbour that explains a reading best, if none of `tracks` follows it yet, and none is it that has left
-/// its plan: where the plan has that one it is not.
+/// The planned neighbour that explains a reading best, if none of `tracks` follows it yet, and none is it that has
+/// left its plan: where the plan has that one it is not.
 pub(super) fn expected_there(sensor: usize, tracks: &[Track], scan: &Scan<'_>) -> Option<Track> {
     let read_m = scan.reads_m(sensor)?;
     let place_m2 = scan.planned_sigma_m * scan.planned_sigma_m;
@@ -45,8 +45,8 @@ pub(super) fn explained_off_m(one: &Expectation, sensor: usize, read_m: f32, sca
     (explains && expected.inside_m > -BESIDE_M).then_some(off_m)
 }
 
-/// A disc of which nothing is known but a reading: straight ahead of the sensor, or between two that see it. `is_free`:
-/// whether a sensor's reading belongs to nobody.
+/// A disc of which nothing is known but a reading: straight ahead of the sensor, or between two that see it.
+/// `is_free`: whether a sensor's reading belongs to no track yet.
 pub(super) fn unknown(sensor: usize, is_free: &dyn Fn(usize) -> bool, scan: &Scan<'_>) -> Track {
     let read_m = scan.gaps_m[sensor];
     let shares = |beside: &usize| {
@@ -78,5 +78,6 @@ fn begun(at: Point, velocity: Point, covariance: Covariance, scan: &Scan<'_>) ->
         departure: Departure::new(scan.planned_sigma_m),
         left: None,
         age: 0,
+        is_flat: false,
     }
 }

@@ -35,6 +35,13 @@ impl Symmetric {
     }
 }
 
+/// One independent error that moves place (metres) and velocity (m/s) together, 1 sigma.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct CommonError {
+    pub place: Point,
+    pub velocity: Point,
+}
+
 /// Covariance of place (metres) and velocity (m/s) in body space.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Covariance {
@@ -87,6 +94,34 @@ impl Covariance {
         self.both[0].x += variance * ago_s;
         self.both[1].y += variance * ago_s;
         self.add_place(variance * ago_s * ago_s);
+    }
+
+    /// Place and velocity have another independent error.
+    pub fn add(&mut self, by: &CommonError) {
+        self.place.minus_outer(by.place, -1.0);
+        self.velocity.minus_outer(by.velocity, -1.0);
+        self.both[0] = self.both[0].plus(by.velocity.times(by.place.x));
+        self.both[1] = self.both[1].plus(by.velocity.times(by.place.y));
+    }
+
+    /// Adds a share of another covariance.
+    pub fn mix(&mut self, other: &Self, share: f32) {
+        for (to, from) in [(&mut self.place, &other.place), (&mut self.velocity, &other.velocity)] {
+            to.xx += share * from.xx;
+            to.xy += share * from.xy;
+            to.yy += share * from.yy;
+        }
+        self.both = [0, 1].map(|row| self.both[row].plus(other.both[row].times(share)));
+    }
+
+    /// The covariance of places that are stretched by a factor along a unit vector.
+    pub fn stretched(mut self, along: Point, factor: f32) -> Self {
+        let stretch = |point: Point| point.plus(along.times((factor - 1.0) * point.dot(along)));
+        let rows = [Point::new(1.0, 0.0), Point::new(0.0, 1.0)].map(stretch);
+        let [x, y] = rows.map(|row| self.place.times(row));
+        self.place = Symmetric { xx: x.dot(rows[0]), xy: x.dot(rows[1]), yy: y.dot(rows[1]) };
+        self.both = rows.map(|row| self.both[0].times(row.x).plus(self.both[1].times(row.y)));
+        self
     }
 
     /// The place is less sure by this variance in all directions, square metres.

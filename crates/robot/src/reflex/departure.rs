@@ -6,9 +6,9 @@
 //! last places of its path. Each hypothesis has an offset filter of its own and gathers the logarithm of its likelihood
 //! ratio, so that readings of several steps count together.
 
+use super::motion::OwnMotion;
 use super::point::Point;
 use super::scan::{Expectation, Scan};
-use super::track::OwnMotion;
 
 /// Places at which a neighbour may have stopped that are followed at once. Fewer: a robot that drives slowly leaves all of
 /// them before readings can tell.

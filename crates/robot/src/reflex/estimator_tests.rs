@@ -1,5 +1,5 @@
-//! How good the estimates of strangers are, neighbours that the plan does not know, and how honest their covariances: three
-//! scenes, ten thousand steps each. Planned neighbours: planned_scene_tests.rs; walls: wall_scene_tests.rs.
+//! How good the estimates of strangers are, neighbours that the plan does not know, and how honest their covariances:
+//! three scenes, ten thousand steps each. Planned neighbours: planned_scene_tests.rs; walls: wall_scene_tests.rs.
 
 extern crate std;
 
@@ -7,10 +7,12 @@ use core::f32::consts::PI;
 use std::vec;
 use std::vec::Vec;
 
+use super::motion::OwnMotion;
+use super::outline::NearestPoint;
 use super::point::Point;
 use super::scan::Scan;
 use super::sensors::Sensors;
-use super::track::{OwnMotion, Track};
+use super::track::Track;
 use super::tracks::Tracks;
 use crate::config::{NeighbourModel, ProximitySensors, SENSORS};
 
@@ -77,23 +79,28 @@ pub(super) struct Tally {
 }
 
 impl Tally {
-    fn add(&mut self, track: Option<&Track>, disc: &Disc) {
-        let Some(track) = track else { return self.lost += 1 };
+    fn add(&mut self, estimate: Option<&NearestPoint>, disc: &Disc) {
+        let Some(track) = estimate else { return self.lost += 1 };
         let (place, velocity) = (track.at.minus(disc.at), track.velocity.minus(disc.velocity));
         self.places_m.push(place.length());
         self.speeds_mps.push(velocity.length());
         self.inside += usize::from(track.covariance.mahalanobis2(place, velocity) < CHI2_95);
     }
 
-    /// Adds the errors of the track nearest to a disc.
-    pub fn add_nearest(&mut self, tracks: &Tracks, disc: &Disc) {
-        let off = |track: &&Track| track.at.minus(disc.at).length();
-        let nearest = tracks.iter().min_by(|a, b| off(a).total_cmp(&off(b)));
-        self.add(nearest.filter(|track| off(track) < 0.03), disc);
+    /// Adds the errors of the estimate nearest to a disc.
+    pub fn add_nearest(&mut self, estimates: impl Iterator<Item = NearestPoint>, disc: &Disc) {
+        let off = |one: &NearestPoint| one.at.minus(disc.at).length();
+        let nearest = estimates.min_by(|a, b| off(a).total_cmp(&off(b)));
+        self.add(nearest.filter(|one| off(one) < 0.03).as_ref(), disc);
     }
 
-    /// Median errors of place, metres, and velocity, m/s; share of errors within the 95 % ellipse; share of steps in which
-    /// the disc was followed.
+    /// The same of the nearest track.
+    pub fn add_nearest_track(&mut self, tracks: &Tracks, disc: &Disc) {
+        self.add_nearest(tracks.list().iter().map(Track::estimate), disc);
+    }
+
+    /// Median errors of place, metres, and velocity, m/s; share of errors within the 95 % ellipse; share of steps in
+    /// which the disc was followed.
     pub fn figures(&mut self) -> [f32; 4] {
         let median = |values: &mut Vec<f32>| {
             values.sort_by(f32::total_cmp);
@@ -107,7 +114,7 @@ impl Tally {
 }
 
 /// Both move on for a step: discs by their velocity with random accelerations, the robot by `own`.
-fn advance(discs: &mut [Disc], own: &OwnMotion, accel_mps2: f32, dice: &mut Dice) {
+pub(super) fn advance(discs: &mut [Disc], own: &OwnMotion, accel_mps2: f32, dice: &mut Dice) {
     let turn = Point::unit(-own.turn_rad);
     let half = Point::unit(0.5 * own.turn_rad);
     for disc in discs {
@@ -148,7 +155,7 @@ fn scene(
             };
             tracks.step(&scan);
             if step >= warm && in_sight {
-                discs[..count].iter().for_each(|disc| tally.add_nearest(&tracks, disc));
+                discs[..count].iter().for_each(|disc| tally.add_nearest_track(&tracks, disc));
                 steps += 1;
             }
         }

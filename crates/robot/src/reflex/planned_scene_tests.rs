@@ -7,15 +7,15 @@ use std::vec;
 use std::vec::Vec;
 
 use super::estimator_tests::{DT, Dice, Disc, RADIUS_M, Tally, along, any, expect, polar, readings, reads_m};
+use super::motion::OwnMotion;
 use super::point::Point;
 use super::scan::{Expectation, Scan};
 use super::sensors::Sensors;
-use super::track::OwnMotion;
 use super::tracks::Tracks;
 use crate::config::{NeighbourModel, ProximitySensors, SENSORS};
 
-/// How far a neighbour is off its plan as this robot sees it, 1 sigma in each axis, metres: measured in rehearsals with
-/// standard conditions on 2026-11-24.
+/// How far a neighbour is off its plan as this robot sees it, 1 sigma in each axis, metres: measured in rehearsals
+/// with standard conditions on 2026-11-24.
 const OFFSET_M: f32 = 0.00075;
 /// Correlation time of the offset, seconds: measured with `OFFSET_M`.
 const OFFSET_S: f32 = 0.3;
@@ -109,8 +109,8 @@ fn look(tracks: &mut Tracks, neighbours: &[Neighbour], own: &OwnMotion, sensors:
     });
 }
 
-/// Episodes of at most `episode` steps until something touches. Steps from `warm` on count in which at least `cones` sensors
-/// have all neighbours in their cones.
+/// Episodes of at most `episode` steps until something touches. Steps from `warm` on count in which at least `cones`
+/// sensors have all neighbours in their cones.
 fn scene(
     (warm, episode): (usize, usize),
     cones: usize,
@@ -130,7 +130,7 @@ fn scene(
             look(&mut tracks, &neighbours, &own, &sensors, &mut dice);
             let is_in_scene = (0..SENSORS).filter(|&sensor| all_in_cone(sensor, &discs)).count() >= cones;
             if step >= warm && is_in_scene {
-                discs.iter().for_each(|disc| tally.add_nearest(&tracks, disc));
+                discs.iter().for_each(|disc| tally.add_nearest_track(&tracks, disc));
                 steps += 1;
             }
         }
@@ -138,8 +138,8 @@ fn scene(
     tally.figures()
 }
 
-/// Median errors of place, metres, and velocity, m/s, that are allowed. An offset that changes by 15 mm/s in each axis from
-/// step to step has a median speed of 18 mm/s by itself: no estimate is better.
+/// Median errors of place, metres, and velocity, m/s, that are allowed. An offset that changes by 15 mm/s in each
+/// axis from step to step has a median speed of 18 mm/s by itself: no estimate is better.
 const MEDIANS: [f32; 2] = [0.002, 0.020];
 
 #[test]

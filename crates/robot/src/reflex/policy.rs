@@ -49,12 +49,13 @@ pub(crate) fn allowed_mps(
     // A neighbour that the plan does not know may stop at any moment: that it drives off is not counted on.
     let away = track.at.times(track.velocity.dot(track.at).max(0.0) / track.at.dot(track.at).max(1e-6));
     let velocity = if clearance_m.is_some() { track.velocity } else { track.velocity.minus(away) };
-    let stop = Stop { at: track.at, velocity, wish, sense };
+    let velocity = if track.is_flat { Point::ZERO } else { velocity };
+    let stop = Stop { at: track.at, velocity, is_flat: track.is_flat, wish, sense };
     let wanted_mps = wish.speed_mps * sense;
     let (at_wanted, direction, after_s) = stop.nearest(wanted_mps);
     let sigma_m = libm::sqrtf(track.covariance.place_after(direction, after_s).max(0.0));
     let grown_m = of.spare_m + of.sigmas * sigma_m;
-    // Whom the plan names is believed to keep to it unless it is nearer for sure.
+    // A neighbour that the plan names is believed to keep to it unless it is nearer for sure.
     let planned_m = |clearance_m: f32| (of.planned_share * clearance_m - sigma_m).max(0.0);
     let grown_m = clearance_m.map_or(grown_m, |clearance_m| grown_m.min(planned_m(clearance_m)));
     let least_m = sensors.contact_m() + grown_m;
@@ -82,12 +83,15 @@ struct Stop<'a> {
     at: Point,
     /// Over the floor along the axes of body space, m/s.
     velocity: Point,
+    /// Whether it stands for a straight edge, which has a nearest point wherever the robot drives along it.
+    is_flat: bool,
     wish: &'a Wish,
     sense: f32,
 }
 
 impl Stop<'_> {
-    /// How near the two centres come until the robot stands, metres, in which direction the neighbour is then, and when.
+    /// How near the two centres come until the robot stands, metres, in which direction the neighbour is then, and
+    /// when.
     fn nearest(&self, speed_mps: f32) -> (f32, Point, f32) {
         let (reaction_s, grip) = (ACTUATION_S as f32, GRIP_MPS2 as f32);
         let told_mps = self.wish.told_mps * self.sense;
@@ -95,6 +99,8 @@ impl Stop<'_> {
         let over_s = reaction_s + self.wish.dt + speed_mps / grip;
         let start = self.at;
         let step = self.velocity.times(over_s).minus(Point::new(self.sense * way_m, 0.0));
+        let across = start.times(start.dot(step) / start.dot(start).max(1e-6));
+        let step = if self.is_flat { across } else { step };
         let length2 = step.dot(step).max(1e-12);
         let share = (-start.dot(step) / length2).clamp(0.0, 1.0);
         let nearest = start.plus(step.times(share));

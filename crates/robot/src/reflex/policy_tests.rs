@@ -1,4 +1,4 @@
-//! For whom the plan names the robot brakes when it is nearer for sure.
+//! The robot brakes for a neighbour that the plan names when that neighbour is nearer for sure.
 
 use super::Point;
 use super::covariance::Covariance;
@@ -8,8 +8,8 @@ use super::sensors::Sensors;
 use super::track::Track;
 use crate::config::{ProximitySensors, SafetyPolicy};
 
-/// The speed allowed for a robot that comes the other way and will pass 55 mm from centre to centre, known to so many
-/// metres (1 sigma), where the plan leaves so much.
+/// The speed allowed for a robot that comes the other way and will pass 55 mm from centre to centre. Its place is known to
+/// `sigma_m`; the plan leaves the two `clearance_m`.
 fn allowed(sigma_m: f32, clearance_m: Option<f32>) -> Option<f32> {
     let of = SafetyPolicy::DEFAULT;
     let covariance = Covariance::new(Point::new(1.0, 0.0), sigma_m * sigma_m, sigma_m * sigma_m, 1e-6);
@@ -23,6 +23,7 @@ fn allowed(sigma_m: f32, clearance_m: Option<f32>) -> Option<f32> {
         departure: Departure::new(0.001),
         left: None,
         age: 4,
+        is_flat: false,
     };
     let wish = Wish { speed_mps: 0.24, told_mps: 0.24, dt: 0.016 };
     allowed_mps(&track, &wish, clearance_m, &Sensors::new(&ProximitySensors::ELISA_3, 0.027), &of)

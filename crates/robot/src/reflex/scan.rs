@@ -1,8 +1,8 @@
 //! What one step knows: readings, own motion, and the neighbours that the plan has in sight.
 
+use super::motion::OwnMotion;
 use super::point::Point;
 use super::sensors::Sensors;
-use super::track::OwnMotion;
 use crate::config::{NeighbourModel, SENSORS};
 
 /// A neighbour that the plan expects in sight.

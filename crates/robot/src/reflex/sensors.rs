@@ -8,12 +8,14 @@ use crate::config::{ProximitySensors, SENSORS};
 pub(crate) struct Sensors {
     /// Unit vectors of the directions in which they look, body space.
     pub axes: [Point; SENSORS],
-    /// Cosine of the half angle of their cones.
-    cone_cos: f32,
+    /// Unit vector of the half angle of their cones.
+    pub cone: Point,
     /// Farthest gap of interest, metres.
     pub range_m: f32,
     noise_m: f32,
     noise_share: f32,
+    /// Logarithm of the density of a reading of something new: it may be anywhere within the range.
+    pub new_log: f32,
     /// Radius of the robot, and of every disc it sees, metres.
     pub radius_m: f32,
 }
@@ -35,10 +37,11 @@ impl Sensors {
     pub fn new(of: &ProximitySensors, radius_m: f64) -> Self {
         Self {
             axes: of.bearings_rad.map(Point::unit),
-            cone_cos: libm::cosf(of.half_cone_rad),
+            cone: Point::unit(of.half_cone_rad),
             range_m: of.range_m,
             noise_m: of.noise_m,
             noise_share: of.noise_share,
+            new_log: -libm::logf(of.range_m),
             radius_m: radius_m as f32,
         }
     }
@@ -54,13 +57,13 @@ impl Sensors {
         let ray = at.minus(axis.times(self.radius_m));
         let far_m = ray.length().max(1e-3);
         let towards = ray.times(1.0 / far_m);
-        let inside_m = ray.dot(axis) - self.cone_cos * far_m;
+        let inside_m = ray.dot(axis) - self.cone.x * far_m;
         Expected { gap_m: far_m - self.radius_m, far_m, towards, inside_m }
     }
 
     /// How `Expected::inside_m` changes with the disc's place.
     pub fn inside_gradient(&self, sensor: usize, expected: &Expected) -> Point {
-        self.axes[sensor].minus(expected.towards.times(self.cone_cos))
+        self.axes[sensor].minus(expected.towards.times(self.cone.x))
     }
 
     /// Variance of a reading of this gap, square metres.

@@ -1,9 +1,9 @@
 //! A neighbour that has left its plan is in one place only.
 
 use super::birth::expected_there;
+use super::motion::OwnMotion;
 use super::scan::{Expectation, Scan};
 use super::sensors::Sensors;
-use super::track::OwnMotion;
 use super::{Point, Track};
 use crate::config::{NeighbourModel, ProximitySensors, SENSORS};
 

@@ -1,13 +1,16 @@
 //! One neighbour that the sensors see: an extended Kalman filter of its place and velocity (Bar-Shalom, Li and
-//! Kirubarajan, *Estimation with Applications to Tracking and Navigation*, 2001: the nearly constant velocity model of
-//! section 6.3, the second-order measurement of 10.3, the manoeuvre detection of 11.2).
+//! Kirubarajan, *Estimation with Applications to Tracking and Navigation*, 2001: the nearly constant velocity model
+//! of section 6.3, the second-order measurement of 10.3, the manoeuvre detection of 11.2).
 //!
-//! The state is relative in place and absolute in velocity: the centre of the neighbour in body space, and its velocity
-//! over the floor along the axes of body space. A standing neighbour is the special case of velocity zero.
+//! The state is relative in place and absolute in velocity: the centre of the neighbour in body space, and its
+//! velocity over the floor along the axes of body space. A standing neighbour is the special case of velocity zero.
 
 use super::covariance::Covariance;
 use super::departure::Departure;
+use super::motion::OwnMotion;
+use super::outline::NearestPoint;
 use super::point::Point;
+use super::scan::Scan;
 use super::sensors::{Expected, Sensors};
 use crate::config::{NeighbourModel, SENSORS};
 
@@ -19,26 +22,6 @@ const RECOGNISED_SIGMAS: f32 = 4.5;
 
 /// Robots are off their plan by much the same for this many steps.
 const CORRELATED_STEPS: f32 = 10.0;
-
-/// How a robot moved in a step, in its own body space.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct OwnMotion {
-    /// Forward, metres.
-    pub way_m: f32,
-    /// Counter-clockwise, radians.
-    pub turn_rad: f32,
-    /// Length of the step, seconds.
-    pub dt: f32,
-}
-
-impl OwnMotion {
-    /// Where a place that does not move is in body space after the step.
-    pub fn carry(&self, at: Point) -> Point {
-        // The own path bends by half the turn.
-        let moved = Point::of_small_angle(0.5 * self.turn_rad).times(self.way_m);
-        at.minus(moved).rotated(Point::of_small_angle(-self.turn_rad))
-    }
-}
 
 /// A neighbour in sight.
 #[derive(Clone, Debug)]
@@ -60,9 +43,40 @@ pub(crate) struct Track {
     pub left: Option<u8>,
     /// Steps since it came into sight, at most 255.
     pub age: u8,
+    /// Whether it stands for a straight edge: only what drives towards it comes nearer to it.
+    pub is_flat: bool,
 }
 
 impl Track {
+    /// The disc that stands for an obstacle, touching it where it is nearest.
+    pub fn standing(estimate: &NearestPoint, seen_by: u8, is_flat: bool, scan: &Scan<'_>) -> Self {
+        let NearestPoint { at, velocity, covariance } = *estimate;
+        let departure = Departure::new(scan.planned_sigma_m);
+        Self {
+            at,
+            velocity,
+            covariance,
+            planned: None,
+            missed: 0,
+            seen_by,
+            departure,
+            left: None,
+            age: u8::MAX,
+            is_flat,
+        }
+    }
+
+    /// Its centre, velocity and covariance.
+    #[cfg(test)]
+    pub fn estimate(&self) -> NearestPoint {
+        NearestPoint { at: self.at, velocity: self.velocity, covariance: self.covariance }
+    }
+
+    /// Whether it is a neighbour that the plan names, or was until it left its plan.
+    pub fn is_known(&self) -> bool {
+        self.planned.is_some() || self.left.is_some()
+    }
+
     /// Whether it is a neighbour that has left its plan.
     pub fn strays(&self) -> bool {
         self.left.is_some() && self.planned.is_none()
@@ -84,11 +98,12 @@ impl Track {
         (0..SENSORS).filter(move |sensor| seen_by >> sensor & 1 == 1)
     }
 
-    /// Takes a reading.
-    pub fn take(&mut self, sensor: usize, read_m: f32, sensors: &Sensors) {
+    /// Takes a reading; its innovation, metres, and the variance of that, square metres.
+    pub fn take(&mut self, sensor: usize, read_m: f32, sensors: &Sensors) -> (f32, f32) {
         let expected = sensors.expected(sensor, self.at);
         let (off_m, variance) = self.innovation(&expected, read_m, sensors);
         self.correct(expected.towards, off_m, variance);
+        (off_m, variance)
     }
 
     /// Distance from rim to rim, metres.
@@ -136,8 +151,8 @@ impl Track {
         self.velocity = self.velocity.plus(velocity);
     }
 
-    /// Something else than the readings bounds the place along a unit vector: it is at `at` within `sigma_m`. Taken only
-    /// as far as the place is less sure than that, so that saying it at every step makes nothing surer.
+    /// Something else than the readings bounds the place along a unit vector: it is at `at` within `sigma_m`. Taken
+    /// only as far as the place is less sure than that, so that saying it at every step makes nothing surer.
     pub fn bound_place(&mut self, unit: Point, at: Point, sigma_m: f32) {
         let (known, bound) = (self.covariance.place_along(unit), sigma_m * sigma_m);
         if known > bound {
@@ -174,8 +189,8 @@ impl Track {
             })
     }
 
-    /// The estimate is on the wrong side of the edge of a cone: it moves to the edge, and is no surer for that, as the
-    /// next steps will say the same again.
+    /// The estimate is on the wrong side of the edge of a cone: it moves to the edge, and is no surer for that, as
+    /// the next steps will say the same again.
     pub fn stay_within(&mut self, across: Point, gradient: Point, inside_m: f32) {
         let slope = gradient.dot(across);
         let known = self.covariance.place_along(across);

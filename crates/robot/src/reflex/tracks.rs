@@ -1,7 +1,10 @@
-//! All neighbours in sight: which of them a step corrects, who has come and who has gone.
+//! All neighbours in sight: which of them a step corrects, which have come and which have gone.
 
 use super::birth::{expected_there, explained_off_m, unknown};
 use super::departure::{Departure, Left};
+use super::likelihood::log_density;
+use super::obstacle::Readings;
+use super::obstacles::Obstacles;
 use super::point::Point;
 use super::scan::{Expectation, Scan};
 use super::sensors::Sensors;
@@ -16,7 +19,8 @@ pub(super) const TRACKS: usize = 6;
 const ASSIGN_M: f32 = 0.014;
 /// The same in sigma of the innovation, where that is more.
 pub(super) const ASSIGN_SIGMAS: f32 = 4.0;
-/// A neighbour this far outside a sensor's cone, metres, may still be what the sensor sees: its place is not that sure.
+/// A neighbour this far outside a sensor's cone, metres, may still be what the sensor sees: its place is not that
+/// sure.
 pub(super) const BESIDE_M: f32 = 0.012;
 /// A neighbour this far inside a sensor's cone, metres, is seen for sure, …
 const SURELY_INSIDE_M: f32 = 0.008;
@@ -27,26 +31,54 @@ const MISSED_MOST: u8 = 3;
 /// Centres of two tracks nearer than this, metres, are of one disc.
 const SAME_M: f32 = 0.03;
 
-/// Whose reading each sensor's is: index of a track.
+/// Index of the track that each sensor's reading belongs to.
 type Owners = [Option<usize>; SENSORS];
 
 /// The neighbours in sight.
 #[derive(Debug, Default)]
 pub(crate) struct Tracks {
     list: heapless::Vec<Track, TRACKS>,
+    obstacles: Obstacles,
 }
 
 impl Tracks {
     pub fn is_empty(&self) -> bool {
-        self.list.is_empty()
+        self.list.is_empty() && self.obstacles.is_empty()
     }
 
-    pub fn iter(&self) -> impl Iterator<Item = &Track> {
-        self.list.iter()
+    /// What the policy heeds: edges that are sure, and neighbours that move. What else stands may be a robot, and that may
+    /// drive off at any moment.
+    pub fn iter<'a>(&'a self, sensors: &Sensors) -> impl Iterator<Item = &'a Track> + use<'a> {
+        self.explained_by(sensors, |face| face.is_flat)
+    }
+
+    /// The likeliest explanation of all readings: what stands, and neighbours that move.
+    #[cfg(test)]
+    pub fn likeliest<'a>(&'a self, sensors: &Sensors) -> impl Iterator<Item = &'a Track> + use<'a> {
+        self.explained_by(sensors, |_| true)
+    }
+
+    /// Obstacles that are `meant`, and neighbours that move and are not the same readings.
+    fn explained_by<'a>(
+        &'a self,
+        sensors: &Sensors,
+        meant: fn(&Track) -> bool,
+    ) -> impl Iterator<Item = &'a Track> + use<'a> {
+        let contact_m = sensors.contact_m();
+        let faces = self.obstacles.faces().filter(move |face| meant(face));
+        let hidden = move |track: &Track| self.obstacles.hide(track, contact_m, meant);
+        self.list.iter().filter(move |track| !hidden(track)).chain(faces)
+    }
+
+    /// Tracks of neighbours that move, those hidden by what stands included.
+    #[cfg(test)]
+    pub fn list(&self) -> &[Track] {
+        &self.list
     }
 
     pub fn clear(&mut self) {
         self.list.clear();
+        self.obstacles.clear();
     }
 
     /// Takes the readings of a step.
@@ -58,20 +90,32 @@ impl Tracks {
             }
         }
         let owners: Owners = core::array::from_fn(|sensor| self.owner(sensor, scan));
+        let mut logs = [scan.sensors.new_log; SENSORS];
         for index in 0..self.list.len() {
             let seen_by =
                 (0..SENSORS).fold(0, |seen, sensor| seen | u8::from(owners[sensor] == Some(index)) << sensor);
-            correct(&mut self.list[index], seen_by, scan);
+            correct(&mut self.list[index], seen_by, scan, &mut logs);
         }
-        self.welcome(owners, scan);
+        self.welcome(owners, scan, &mut logs);
         self.list.retain(|track| track.missed < MISSED_MOST);
         self.merge();
         self.recognise(scan);
         self.explain(scan);
+        self.look_for_obstacles(&logs, scan);
     }
 
-    /// Whose reading a sensor's most likely is; nobody's where a planned neighbour that is not followed yet explains it
-    /// better.
+    /// What no known neighbour explains may stand. `logs`: see `Readings`.
+    fn look_for_obstacles(&mut self, logs: &[f32; SENSORS], scan: &Scan<'_>) {
+        let known = self.list.iter().filter(|track| track.is_known());
+        let open = !known.fold(0, |seen_by, track| seen_by | track.seen_by);
+        let is_free = |sensor: usize| open >> sensor & 1 == 1 && scan.reads_m(sensor).is_some();
+        if !self.obstacles.is_empty() || (0..SENSORS).any(is_free) {
+            self.obstacles.step(&Readings { open, logs }, scan);
+        }
+    }
+
+    /// The track that a sensor's reading most likely belongs to; none where a planned neighbour that is not followed
+    /// yet explains it better.
     fn owner(&self, sensor: usize, scan: &Scan<'_>) -> Option<usize> {
         let read_m = scan.reads_m(sensor)?;
         let mut best: Option<(f32, usize)> = None;
@@ -95,8 +139,9 @@ impl Tracks {
         (!expected_there(sensor, &self.list, scan).is_some_and(explains_better)).then_some(index)
     }
 
-    /// Begins to follow what readings show that belong to nobody yet, the nearest first.
-    fn welcome(&mut self, mut owners: Owners, scan: &Scan<'_>) {
+    /// Begins to follow what readings show that belong to no neighbour yet, the nearest first. `logs`: see
+    /// `Readings`.
+    fn welcome(&mut self, mut owners: Owners, scan: &Scan<'_>, logs: &mut [f32; SENSORS]) {
         // Each round gives one sensor at least an owner.
         for _ in 0..SENSORS {
             let free = (0..SENSORS).filter(|&sensor| owners[sensor].is_none());
@@ -115,6 +160,9 @@ impl Tracks {
                     owners[one] = Some(index);
                     track.seen_by |= 1 << one;
                     track.take(one, read_m, scan.sensors);
+                    if one != sensor && !track.is_known() {
+                        logs[one] = log_density(off_m, variance);
+                    }
                 }
             }
             if self.list.push(track).is_err() {
@@ -187,8 +235,8 @@ impl Tracks {
     }
 }
 
-/// Whether a neighbour is where the plan has it: the estimate agrees, and so do the readings, as an estimate that is hardly
-/// known agrees with anything.
+/// Whether a neighbour is where the plan has it: the estimate agrees, and so do the readings, as an estimate that is
+/// hardly known agrees with anything.
 fn keeps_to(track: &Track, one: &Expectation, scan: &Scan<'_>) -> bool {
     let explains = |sensor: usize| {
         scan.reads_m(sensor).is_none_or(|read_m| explained_off_m(one, sensor, read_m, scan).is_some())
@@ -196,14 +244,17 @@ fn keeps_to(track: &Track, one: &Expectation, scan: &Scan<'_>) -> bool {
     track.keeps_to(one.at, one.velocity, scan.planned_sigma_m, scan.of) && track.sensors().all(explains)
 }
 
-/// Corrects a track by the readings that are its own, and by what did not see it.
-fn correct(track: &mut Track, seen_by: u8, scan: &Scan<'_>) {
+/// Corrects a track by the readings that are its own, and by what did not see it. `logs`: see `Readings`.
+fn correct(track: &mut Track, seen_by: u8, scan: &Scan<'_>, logs: &mut [f32; SENSORS]) {
     track.age = track.age.saturating_add(1);
     track.seen_by = seen_by;
     watch(track, scan);
-    for sensor in 0..SENSORS {
+    for (sensor, log) in logs.iter_mut().enumerate() {
         if let Some(read_m) = scan.reads_m(sensor).filter(|_| track.is_seen_by(sensor)) {
-            track.take(sensor, read_m, scan.sensors);
+            let (off_m, variance) = track.take(sensor, read_m, scan.sensors);
+            if !track.is_known() {
+                *log = log_density(off_m, variance);
+            }
         }
     }
     bound_bearing(track, scan.sensors);

@@ -1,0 +1,146 @@
+//! What a sensor reads of an outline.
+
+use super::outline::{Form, Outline};
+use super::point::Point;
+use super::sensors::Sensors;
+
+/// An edge that meets the edge of a cone at a smaller angle than this (sine) is not in it: it would be read from
+/// afar.
+const LEAST_SLOPE: f32 = 0.2;
+/// Farther along an edge than any sensor sees, metres.
+const FAR_M: f32 = 10.0;
+
+/// What a sensor reads of an outline, and how that changes with the outline's state: distance, direction, end.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct View {
+    /// Metres.
+    pub gap_m: f32,
+    pub gradient: [f32; 3],
+    /// The reading is quadratic in what changes with the state as this says, …
+    pub across: [f32; 3],
+    /// … with this second derivative.
+    pub bend: f32,
+}
+
+/// A sensor and an outline, in the axes of the outline: along its normal, and to the left of that.
+struct Sight<'a> {
+    of: &'a Outline,
+    radius_m: f32,
+    /// Direction of the sensor.
+    cos: f32,
+    sin: f32,
+    /// From the sensor straight to the edge, metres.
+    height_m: f32,
+}
+
+impl Outline {
+    /// What a sensor reads of it; `None`: it is not in its cone.
+    pub fn view(&self, sensor: usize, sensors: &Sensors) -> Option<View> {
+        let sight = self.sight(sensor, sensors);
+        if self.form == Form::Disc {
+            return sight.disc(sensors.cone.x);
+        }
+        let rays = self.edges_of_cone(sensor, sensors);
+        let [mut right_m, mut left_m] = rays.map(|ray| sight.meets_m(ray));
+        let end_m = self.along_m - sight.radius_m * sight.sin;
+        let (cone_right_m, cone_left_m) = (right_m, left_m);
+        match self.form {
+            Form::EdgeToLeft => right_m = right_m.max(end_m),
+            Form::EdgeToRight => left_m = left_m.min(end_m),
+            Form::Edge | Form::Disc => {}
+        }
+        if right_m >= left_m || sight.cos < -0.5 {
+            return None;
+        }
+        if right_m <= 0.0 && left_m >= 0.0 {
+            return Some(sight.foot());
+        }
+        let (nearest_m, cone_m, ray) =
+            if right_m > 0.0 { (right_m, cone_right_m, rays[0]) } else { (left_m, cone_left_m, rays[1]) };
+        if nearest_m != cone_m {
+            return Some(sight.point(nearest_m));
+        }
+        (nearest_m.abs() < FAR_M).then(|| sight.edge_of_cone(ray))
+    }
+
+    /// Innovation of a reading, metres, and its variance, square metres.
+    pub fn innovation(&self, view: &View, read_m: f32, sensors: &Sensors) -> (f32, f32) {
+        // The reading bends with the direction of the edge, or with the place of a point across: second-order mean
+        // and variance.
+        let bend_m = 0.5 * view.bend * self.variance_of(view.across);
+        let variance =
+            self.variance_of(view.gradient) + 2.0 * bend_m * bend_m + sensors.variance_m2(view.gap_m);
+        (read_m - view.gap_m - bend_m, variance)
+    }
+
+    /// From where to where along the edge a sensor sees it within its range, metres; `None`: nowhere.
+    pub fn stretch(&self, sensor: usize, sensors: &Sensors) -> Option<[f32; 2]> {
+        let sight = self.sight(sensor, sensors);
+        let far_m2 = sensors.range_m * sensors.range_m - sight.height_m * sight.height_m;
+        if far_m2 <= 0.0 || sight.height_m < 0.0 {
+            return None;
+        }
+        let far_m = libm::sqrtf(far_m2);
+        let foot_m = sight.radius_m * sight.sin;
+        let [right_m, left_m] =
+            self.edges_of_cone(sensor, sensors).map(|ray| foot_m + sight.meets_m(ray).clamp(-far_m, far_m));
+        (right_m < left_m).then_some([right_m, left_m])
+    }
+
+    fn sight(&self, sensor: usize, sensors: &Sensors) -> Sight<'_> {
+        let axis = sensors.axes[sensor];
+        let (cos, sin) = (axis.dot(self.normal), axis.dot(self.normal.left()));
+        let height_m = self.distance_m - sensors.radius_m * cos;
+        Sight { of: self, radius_m: sensors.radius_m, cos, sin, height_m }
+    }
+
+    /// Directions of the edges of a sensor's cone, the right one first: their shares along the normal and to its
+    /// left.
+    fn edges_of_cone(&self, sensor: usize, sensors: &Sensors) -> [Point; 2] {
+        let axis = sensors.axes[sensor];
+        let in_axes = Point::new(axis.dot(self.normal), axis.dot(self.normal.left()));
+        [-1.0, 1.0].map(|side| in_axes.rotated(Point::new(sensors.cone.x, side * sensors.cone.y)))
+    }
+}
+
+impl Sight<'_> {
+    /// Where a ray meets the edge, to the left of the point that is straight ahead, metres.
+    fn meets_m(&self, ray: Point) -> f32 {
+        if ray.x < LEAST_SLOPE { FAR_M.copysign(ray.y) } else { self.height_m * ray.y / ray.x }
+    }
+
+    /// The edge is nearest straight ahead of the sensor.
+    fn foot(&self) -> View {
+        let gradient = [1.0, -self.radius_m * self.sin, 0.0];
+        View { gap_m: self.height_m, gradient, across: [0.0, 1.0, 0.0], bend: self.radius_m * self.cos }
+    }
+
+    /// It is nearest where the edge of the cone meets it.
+    fn edge_of_cone(&self, ray: Point) -> View {
+        let gap_m = self.height_m / ray.x;
+        let gradient = [1.0 / ray.x, (-self.radius_m * self.sin - gap_m * ray.y) / ray.x, 0.0];
+        View { gap_m, gradient, across: [0.0, 1.0, 0.0], bend: self.radius_m * self.cos / ray.x }
+    }
+
+    /// A point of the edge is nearest: its end.
+    fn point(&self, aside_m: f32) -> View {
+        let (height_m, of) = (self.height_m, self.of);
+        let far_m = libm::sqrtf(height_m * height_m + aside_m * aside_m).max(1e-3);
+        let turning_m = aside_m * of.distance_m - height_m * of.along_m;
+        let turned_m = aside_m * of.along_m + height_m * of.distance_m;
+        View {
+            gap_m: far_m,
+            gradient: [height_m, turning_m, aside_m].map(|part| part / far_m),
+            across: [-aside_m, turned_m, height_m].map(|part| part / far_m),
+            bend: 1.0 / far_m,
+        }
+    }
+
+    /// The rim of a disc, if its centre is in the cone.
+    fn disc(&self, cone_cos: f32) -> Option<View> {
+        let aside_m = self.of.along_m - self.radius_m * self.sin;
+        let centre = self.point(aside_m);
+        let is_inside = self.height_m * self.cos + aside_m * self.sin > cone_cos * centre.gap_m;
+        is_inside.then_some(View { gap_m: centre.gap_m - self.radius_m, ..centre })
+    }
+}
