@@ -39,8 +39,8 @@ describe('the editor', () => {
     await button(page, /^Add a frame/).click();
     await button(page, 'Circle').click();
     await button(page, /^Add a frame/).click();
-    await page.getByLabel('Word to write with pixels').fill('HI');
-    await button(page, 'Write').click();
+    await page.getByLabel('Text', { exact: true }).fill('HI');
+    await button(page, 'Apply').first().click();
     await page.keyboard.press('Escape');
     await button(page, 'All').click();
     await button(page, 'Colour pink #ff2f92').click();
@@ -48,7 +48,7 @@ describe('the editor', () => {
     const document = await stored(page, name);
     expect(document.frames).toHaveLength(3);
     expect(document.frames[2]?.pixels.every((p) => p.color === '#ff2f92')).toBe(true);
-    await button(page, 'Play with robots').click();
+    await button(page, 'Run on robots').click();
     await page.getByText(/frame 2 of 3/).waitFor();
     await page.keyboard.press('Escape');
     await phaseIs(page, 'ready');

@@ -22,12 +22,12 @@ test('a robot is pinned to a pixel from both views, shows it, and is freed again
     (await stored(page, 'pins')).frames.map((f) => f.pixels.map((p) => p.robot ?? null));
   await page.getByText('6 robots', { exact: true }).waitFor();
   await page
-    .getByRole('button', { name: /^More about robot/ })
+    .getByRole('button', { name: /^Details of robot/ })
     .last()
     .click();
   const dialog = page.getByRole('dialog', { name: /^Robot / });
   const name = await dialog.locator('dd').first().textContent();
-  await dialog.getByLabel('Always shows').first().click();
+  await dialog.getByLabel('Pinned to pixel (all frames)').first().click();
   await page.getByRole('option', { name: 'Pixel 0' }).click();
   await eventually(robots, (all) => all.every((frame) => frame[0] === name), 'it is pinned');
   await page.keyboard.press('Escape');
@@ -42,8 +42,8 @@ test('a robot is pinned to a pixel from both views, shows it, and is freed again
   await pixelsAre(page, 6);
   await page.keyboard.press(']');
   expect((await pixels(page))[0]?.text).toContain('pinned');
-  await page.getByLabel('Robot that always shows it').first().click();
-  await page.getByRole('option', { name: 'Any robot' }).click();
+  await page.getByLabel('Pinned robot').first().click();
+  await page.getByRole('option', { name: 'None' }).click();
   await saved(page);
   expect((await robots()).flat().every((robot) => robot === null)).toBe(true);
 });
@@ -52,8 +52,8 @@ test('the checklist says what is missing, Stop all is above it, and one can go o
   const page = await bed.open();
   await uploadText(page, 'eight.json', smallShow(8));
   await button(page, 'Play').click();
-  const dialog = page.getByRole('dialog', { name: 'Not quite ready' });
-  await dialog.getByText(/6 of 8 ready; 2 never seen/).waitFor();
+  const dialog = page.getByRole('dialog', { name: 'Before you start' });
+  await dialog.getByText(/6 of 8 ready: 2 missing/).waitFor();
   expect(await dialog.locator('[data-verdict=good]').count()).toBeGreaterThanOrEqual(3);
   await page.getByTestId('stop-all').click();
   await dialog.getByRole('button', { name: 'Play with 6 robots' }).click();
@@ -117,7 +117,7 @@ test('several frames are chosen, moved, timed, copied and deleted together, and 
   await saved(page);
   const { frames } = await stored(page, 'strip');
   expect(frames.map((f) => f.air_time_s)).toEqual([7, 7, 0.3]);
-  await page.getByText('Same as before', { exact: true }).click();
+  await page.getByText('Keep from previous frame', { exact: true }).click();
   await saved(page);
   const identities = (await stored(page, 'strip')).frames.map((f) => f.identity ?? null);
   expect(identities).toEqual(['fixed', 'fixed', null]);
@@ -143,13 +143,13 @@ test('settings: unit of lengths, floor, no-go area, robot limits, and the broker
     await page.getByRole('dialog').getByTestId('broker').waitFor();
   };
   await settings();
-  await page.getByLabel('Lengths on this screen').first().click();
+  await page.getByLabel('Units').first().click();
   await page.getByRole('option', { name: 'centimetres' }).click();
   await page
     .getByTestId('broker')
     .getByText(/^Connected to/)
     .waitFor();
-  await page.getByText('Another one', { exact: true }).click();
+  await page.getByText('External', { exact: true }).click();
   await page.getByLabel('Address').fill('no address');
   await button(page, 'Connect').click();
   // Where it is mended, and over nothing.
@@ -164,14 +164,14 @@ test('settings: unit of lengths, floor, no-go area, robot limits, and the broker
   expect(await page.getByTestId('broker').textContent()).toMatch(/trying again\. \S+/);
   await page.getByRole('button', { name: 'Disconnect' }).click();
   await page.locator('[data-testid=broker][data-phase=off]').waitFor();
-  await page.getByText('The server’s own').click();
+  await page.getByText('Built-in', { exact: true }).click();
   await button(page, 'Connect').click();
   await page.locator('[data-testid=broker][data-phase=connected]').waitFor();
   await page.keyboard.press('Escape');
   await page.getByRole('tab', { name: /^Show/ }).click();
   await page.getByLabel('Width, centimetres').fill('400');
   const before = await pixels(page);
-  const many = page.getByLabel('How many');
+  const many = page.getByLabel('Number of robots');
   await many.fill('');
   await many.pressSequentially('10');
   expect(await pixels(page), 'half a number counts for nothing').toEqual(before);
@@ -184,15 +184,15 @@ test('settings: unit of lengths, floor, no-go area, robot limits, and the broker
   await many.fill('6');
   await many.press('Tab');
   await pixelsAre(page, 6);
-  await page.getByRole('button', { name: /^Draw one/ }).click();
+  await page.getByRole('button', { name: /^Rectangle/ }).click();
   const stage = await page.getByTestId('stage').boundingBox();
   if (!stage) throw new Error('There is no stage.');
   await page.mouse.move(stage.x + stage.width / 2, stage.y + stage.height * 0.7);
   await page.mouse.down();
   await page.mouse.move(stage.x + stage.width / 2 + 40, stage.y + stage.height * 0.8, { steps: 4 });
   await page.mouse.up();
-  await page.getByText('Area 1', { exact: true }).waitFor();
-  await page.getByText('What they can do').click();
+  await page.getByText('Rectangle 1', { exact: true }).waitFor();
+  await page.getByText('Robot size and speed').click();
   await page.getByLabel(/^Speed/).fill('0.2');
   await page.keyboard.press('Enter');
   await saved(page);

@@ -85,7 +85,7 @@ test('numbers: a comma is a point, and what cannot be is refused at the field', 
   await air.press('Escape');
   expect(await air.inputValue()).toBe('0.5');
   await page.getByRole('tab', { name: /^Show/ }).click();
-  const many = page.getByLabel('How many');
+  const many = page.getByLabel('Number of robots');
   await many.fill('99999');
   await many.press('Tab');
   await page.getByRole('alert').getByText('At most 2000. It is still 6.').waitFor();

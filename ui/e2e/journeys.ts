@@ -35,7 +35,7 @@ export async function uploadText(
   await page.dispatchEvent('body', 'drop', { dataTransfer: data });
   if (good)
     await page
-      .getByText(/is in the library and open/)
+      .getByText(/^Imported and opened/)
       .first()
       .waitFor();
 }

@@ -51,7 +51,7 @@ describe('the live view', () => {
     const page = await bed.open();
     await uploadText(page, 'crowd.json', smallShow(14));
     await button(page, 'Play').click();
-    const dialog = page.getByRole('dialog', { name: 'Not quite ready' });
+    const dialog = page.getByRole('dialog', { name: 'Before you start' });
     await dialog.waitFor();
     await dialog.getByRole('button').last().click();
     await phaseIs(page, 'playing');
@@ -65,7 +65,7 @@ describe('the live view', () => {
     await uploadText(page, 'broken.json', '{"lightbots": 1, "frames": [', false);
     await page
       .getByRole('alert')
-      .getByText(/broken\.json was not taken/)
+      .getByText(/Can't import broken\.json/)
       .waitFor();
     await page.getByTestId('open-library').getByText('hello').waitFor();
   });
@@ -73,7 +73,7 @@ describe('the live view', () => {
   test('it comes back by itself when the server does', async () => {
     const page = await bed.open();
     await bed.server.kill();
-    await page.getByText('Server away').waitFor();
+    await page.getByText('Server offline').waitFor();
     await bed.server.restart();
     await page.getByText('Connected', { exact: true }).waitFor();
     await page.getByText('12 robots', { exact: true }).waitFor();

@@ -16,15 +16,15 @@ test('somebody who never saw it makes a heart and a word with thirty robots, and
     await target.click();
   };
   await page.getByText('30 robots', { exact: true }).waitFor();
-  await click(button(page, 'Begin a new show'));
+  await click(button(page, 'New'));
   await pixelsAre(page, 30);
   await click(button(page, 'Heart'));
   await click(button(page, /^Add a frame/));
-  await click(page.getByLabel('Word to write with pixels'));
+  await click(page.getByLabel('Text', { exact: true }));
   await page.keyboard.type('HI');
   await page.keyboard.press('Enter');
   await saved(page);
-  await click(button(page, 'Play with robots'));
+  await click(button(page, 'Run on robots'));
   await phaseIs(page, 'playing');
   expect(clicks).toBeLessThanOrEqual(CLICKS_MAX);
   // From the beginning, though the last frame was the one being drawn.
@@ -46,7 +46,7 @@ test('by keyboard only: a new show, its pixels and colours, a second frame, and 
   await tabTo(page, 'tab', 'Pixels');
   await press('ArrowRight');
   await press('ArrowRight');
-  await tabTo(page, 'textbox', 'How many');
+  await tabTo(page, 'textbox', 'Number of robots');
   await press('Control+a');
   await page.keyboard.type('9');
   await press('Enter');

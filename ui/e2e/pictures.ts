@@ -54,7 +54,7 @@ async function walk(
 }
 
 test('the pictures of the README', async () => {
-  const page = await openPage(browser, server, 'live', still);
+  const page = await openPage(browser, server, 'live', { ...still, scheme: 'dark' });
   await walk(page, server, VIEWS, (view) =>
     README[view] ? `${docs}${README[view]}.png` : undefined,
   );

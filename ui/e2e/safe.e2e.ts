@@ -36,11 +36,11 @@ test('two browsers change one show at once: nobody overwrites the other silently
   }
   await saved(page);
   await second.context().setOffline(false);
-  const dialog = second.getByRole('dialog', { name: /Somebody else saved/ });
+  const dialog = second.getByRole('dialog', { name: /changed on another screen/ });
   await dialog.getByRole('button', { name: /Keep both/ }).click();
-  await second.getByTestId('open-library').getByText('shared mine').waitFor();
+  await second.getByTestId('open-library').getByText('shared (copy)').waitFor();
   const color = async (name: string) => (await stored(page, name)).frames[0]?.pixels[0]?.color;
   expect(await color('shared')).toBe('#ff2f92');
-  expect(await color('shared mine')).toBe('#00e0c8');
+  expect(await color('shared (copy)')).toBe('#00e0c8');
   await openShow(page, 'countdown');
 });

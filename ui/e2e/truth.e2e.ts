@@ -13,7 +13,7 @@ test('the screen says whether robots are real, and real ones are driven only aft
   const kind = page.getByTestId('kind');
   await kind.getByText('Simulated robots').waitFor();
   await page
-    .getByRole('button', { name: /^More about robot/ })
+    .getByRole('button', { name: /^Details of robot/ })
     .first()
     .click();
   await page.getByRole('dialog').getByText('simulated', { exact: true }).waitFor();

@@ -78,7 +78,7 @@ const liveViews: View[] = [
   dialog('checklist', (page) => page.keyboard.press('c')),
   dialog('robot', (page) =>
     page
-      .getByRole('button', { name: /^More about robot/ })
+      .getByRole('button', { name: /^Details of robot/ })
       .first()
       .click(),
   ),
@@ -91,7 +91,7 @@ const liveViews: View[] = [
   dialog('settings', (page) => button(page, 'Settings').click()),
   dialog('settings-broker', async (page) => {
     await button(page, 'Settings').click();
-    await page.getByText('Another one', { exact: true }).click();
+    await page.getByText('External', { exact: true }).click();
   }),
   dialog('keyboard', (page) => page.keyboard.press('Shift+?')),
   {
@@ -132,7 +132,7 @@ const deadRobots: View = {
     for (let left = 2; left > 0; left--) {
       await silent
         .first()
-        .getByRole('button', { name: /^More about/ })
+        .getByRole('button', { name: /^Details of/ })
         .click();
       await page.getByRole('dialog').getByRole('button', { name: 'Forget' }).click();
       await countIs(silent, left - 1);
@@ -150,7 +150,7 @@ const missing: View = {
     await page.keyboard.press('c');
     await page
       .getByRole('dialog')
-      .getByText(/never seen/)
+      .getByText(/missing/)
       .waitFor();
   },
   async leave(page) {
@@ -158,7 +158,7 @@ const missing: View = {
     await page.getByRole('dialog').waitFor({ state: 'hidden' });
     // The notice of the upload covers a corner of the views that follow.
     await page
-      .getByText(/is in the library and open/)
+      .getByText(/^Imported and opened/)
       .first()
       .waitFor({ state: 'detached' });
   },
@@ -178,11 +178,11 @@ const conflict: View = {
     );
     await button(page, 'All').click();
     await button(page, 'Colour pink #ff2f92').click();
-    await page.getByRole('dialog', { name: /Somebody else saved/ }).waitFor();
+    await page.getByRole('dialog', { name: /changed on another screen/ }).waitFor();
   },
   async leave(page) {
     await page.unroute('**/api/shows/*');
-    await page.getByRole('button', { name: /^Take theirs/ }).click();
+    await page.getByRole('button', { name: /^Use theirs/ }).click();
     await page.getByRole('dialog').waitFor({ state: 'hidden' });
   },
 };
@@ -248,7 +248,7 @@ export const FIRST_VIEWS: readonly View[] = [
   {
     name: 'edit-tour',
     async show(page) {
-      await button(page, 'Begin a new show').click();
+      await button(page, 'New').click();
       await page.getByRole('region', { name: 'First steps' }).waitFor();
     },
   },

@@ -22,7 +22,7 @@ export function App() {
     <MantineProvider
       theme={theme}
       cssVariablesResolver={mantineVariables}
-      defaultColorScheme="dark"
+      defaultColorScheme="auto"
     >
       <SessionContext value={session}>
         <Notifications className="notices" position="bottom-left" limit={4} />

@@ -1,6 +1,6 @@
 import { ROBOT_COLUMNS, type Robots } from './types.gen';
 
-/** Reads the binary message that says where robots are; `null` where it is something else. Nothing is copied. */
+/** Reads the binary message with the robots' poses without copying it; `null` for any other message. */
 export function readRobots(data: ArrayBuffer): Robots | null {
   if (data.byteLength < 4) return null;
   const count = new DataView(data).getUint32(0, true);

@@ -57,9 +57,9 @@ export function createLink(options: LinkOptions): Link {
     timer = setTimeout(connect, backoff_ms(tries++, random()));
   };
 
-  const say = (message: FromScreen) => socket?.send(JSON.stringify(message));
+  const send = (message: FromScreen) => socket?.send(JSON.stringify(message));
 
-  const hear = (data: unknown) => {
+  const receive = (data: unknown) => {
     if (data instanceof ArrayBuffer) {
       const robots = readRobots(data);
       if (robots) options.onRobots(robots);
@@ -70,7 +70,7 @@ export function createLink(options: LinkOptions): Link {
       waiting.get(message.id)?.(message);
       waiting.delete(message.id);
     } else if (message) options.onMessage(message);
-    if (message?.type === 'state') say({ type: 'took' });
+    if (message?.type === 'state') send({ type: 'took' });
   };
 
   function connect() {
@@ -88,7 +88,7 @@ export function createLink(options: LinkOptions): Link {
       if (socket === mine) lost();
     };
     mine.onmessage = (event) => {
-      if (socket === mine) hear(event.data);
+      if (socket === mine) receive(event.data);
     };
   }
 
@@ -100,7 +100,7 @@ export function createLink(options: LinkOptions): Link {
       return new Promise((resolve) => {
         waiting.set(id, resolve);
         if (!up || !socket) return refuse(id, 'There is no connection to the server right now.');
-        say({ type: 'operate', id, operation });
+        send({ type: 'operate', id, operation });
         setTimeout(() => refuse(id, 'The server did not answer.'), ANSWER_MAX_MS);
       });
     },

@@ -28,7 +28,7 @@ export function fromText(text: string): Rgb | undefined {
   return Math.max(r, g, b) > 255 ? undefined : rgb(r, g, b);
 }
 
-/** Straight mixture of two colours; `t` in 0..1. */
+/** Linear interpolation between two colours; `t` in 0..1. */
 export const mix = (a: Rgb, b: Rgb, t: number): Rgb =>
   rgb(
     red(a) + (red(b) - red(a)) * t,
@@ -36,13 +36,16 @@ export const mix = (a: Rgb, b: Rgb, t: number): Rgb =>
     blue(a) + (blue(b) - blue(a)) * t,
   );
 
-/** How bright it looks, 0..1. */
+/** Perceived brightness, 0 to 1. */
 export const luma = (c: Rgb) => (0.2126 * red(c) + 0.7152 * green(c) + 0.0722 * blue(c)) / 255;
 
 const NAMES: [string, Rgb][] = [
   ['off', 0x000000],
   ['white', 0xffffff],
   ['grey', 0x808080],
+  ['dim grey', 0x303030],
+  ['brown', 0x804000],
+  ['sky blue', 0x18a0ff],
   ['red', 0xff0000],
   ['orange', 0xff8c00],
   ['yellow', 0xffff00],
@@ -53,7 +56,7 @@ const NAMES: [string, Rgb][] = [
   ['pink', 0xff40a0],
 ];
 
-/** The nearest everyday name, so that no meaning hangs on seeing the colour. */
+/** The nearest common colour name, because colour must not be the only sign. */
 export function colourName(c: Rgb): string {
   let best = NAMES[0] as [string, Rgb];
   let bestDistance = Infinity;

@@ -30,7 +30,7 @@ export interface Box {
   maxY: number;
 }
 
-/** The least box around points; of none: nothing at the origin. */
+/** The bounding box of points; without points an empty box at the origin. */
 export function boxOf(points: readonly Point[]): Box {
   if (points.length === 0) return { minX: 0, minY: 0, maxX: 0, maxY: 0 };
   const box = { minX: Infinity, minY: Infinity, maxX: -Infinity, maxY: -Infinity };

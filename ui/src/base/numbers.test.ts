@@ -1,5 +1,5 @@
 import { expect, test } from 'vitest';
-import { readNumber, stepped } from './numbers';
+import { countText, readNumber, stepped } from './numbers';
 
 const SECONDS = { min: 0, max: 3600, unit: ' s' };
 const ROBOTS = { min: 1, max: 2000, whole: true };
@@ -34,4 +34,8 @@ test('steps go to the next multiple and stop at the limits', () => {
   expect(stepped(0.3, 0.1, true, SECONDS)).toBe(0.4);
   expect(stepped(0.3, 0.5, false, SECONDS)).toBe(0);
   expect(stepped(2000, 1, true, ROBOTS)).toBe(2000);
+});
+
+test('a count says one or many', () => {
+  expect([countText(1, 'frame'), countText(0, 'robot')]).toEqual(['1 frame', '0 robots']);
 });

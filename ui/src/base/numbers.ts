@@ -1,20 +1,20 @@
-/** What a field for a number takes. */
+/** The numbers that a field accepts. */
 export interface NumberRule {
   min: number;
   max: number;
   /** Only whole numbers. */
   whole?: boolean;
-  /** Said after a limit, such as ` s`. */
+  /** The unit after a limit, such as ` s`. */
   unit?: string;
 }
 
-/** A number, or what is wrong with what was typed, in words for people. */
+/** The typed number, or a message about the mistake in the typed text. */
 export type Typed = { ok: true; value: number } | { ok: false; problem: string };
 
 const NUMBER = /^[+-]?(\d+([.,]\d*)?|[.,]\d+)$/;
 const refuse = (problem: string): Typed => ({ ok: false, problem });
 
-/** Reads what people type: with a point or a comma before the decimals, and nothing between thousands. */
+/** Reads a typed number: decimals after a point or a comma, no separators between thousands. */
 export function readNumber(text: string, { min, max, whole, unit = '' }: NumberRule): Typed {
   const plain = text.trim().replace(/^\u2212/, '-');
   if (plain === '') return refuse('Type a number');
@@ -37,3 +37,7 @@ export function stepped(
   const steps = up ? Math.floor(value / step + 1e-9) + 1 : Math.ceil(value / step - 1e-9) - 1;
   return Math.min(max, Math.max(min, Number((steps * step).toFixed(6))));
 }
+
+/** `1 frame`, `2 frames`. */
+export const countText = (count: number, noun: string) =>
+  `${count} ${noun}${count === 1 ? '' : 's'}`;

@@ -7,7 +7,7 @@ export interface Readable<T> {
   subscribe(listener: () => void): () => void;
 }
 
-/** A value that tells its listeners when it changes. Knows nothing of React; `useStore` is the bridge. */
+/** A value that calls its listeners after every change. It does not know React; `useStore` connects the two. */
 export interface Store<T> extends Readable<T> {
   /** Replaces the value; listeners run only when it is another one (`Object.is`). */
   set(next: T): void;
@@ -42,7 +42,7 @@ export function useStore<T, S = T>(
   return useSyncExternalStore(store.subscribe, look, look);
 }
 
-/** The value, looked at again this often at most, milliseconds: for what changes a thousand times at once. */
+/** The value, read at most once per `every_ms`: for values that change a thousand times at once. */
 export function useStorePaced<T>(store: Readable<T>, every_ms: number): T {
   const [value, setValue] = useState(store.get);
   useEffect(() => {

@@ -8,7 +8,7 @@ export function clockText(seconds: number | null | undefined): string {
 /** `3.4 s`. */
 export const secondsText = (seconds: number) => `${seconds.toFixed(1)} s`;
 
-/** Age for people: `now`, `4 s`, `3 min`. */
+/** An age as text: `now`, `4 s`, `3 min`. */
 export function ageText(seconds: number): string {
   if (seconds < 1.5) return 'now';
   if (seconds < 100) return `${Math.round(seconds)} s`;

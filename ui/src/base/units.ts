@@ -1,4 +1,4 @@
-/** How lengths are written on screen. Inside everything is metres. */
+/** Units of lengths on screen; the program uses metres. */
 export type Unit = 'm' | 'cm' | 'mm' | 'ft' | 'in';
 
 interface UnitWords {
@@ -27,9 +27,9 @@ export const inUnit = (metres: number, unit: Unit): number =>
 
 export const fromUnit = (value: number, unit: Unit): number => value * UNITS[unit].metres;
 
-/** `1.25 m`, `125 cm`: with as many decimals as show a millimetre. */
+/** `1.25 m`, `125 cm`: with decimals down to a millimetre. */
 export const lengthText = (metres: number, unit: Unit): string =>
   `${(metres / UNITS[unit].metres).toFixed(Math.max(0, UNITS[unit].digits - 1))} ${unit}`;
 
-/** The same without decimals that say nothing: `3 m`, `250 cm`. */
+/** A length without trailing zeros: `3 m`, `250 cm`. */
 export const sizeText = (metres: number, unit: Unit): string => `${inUnit(metres, unit)} ${unit}`;

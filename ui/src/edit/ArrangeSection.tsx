@@ -42,14 +42,14 @@ const ALIGN: Act[] = [
   ['Align left', IconLayoutAlignLeft, (e) => acts.align(e, 'left')],
   ['Align centres', IconLayoutAlignCenter, (e) => acts.align(e, 'centre')],
   ['Align right', IconLayoutAlignRight, (e) => acts.align(e, 'right')],
-  ['Distribute across', IconLayoutDistributeVertical, (e) => acts.distribute(e, 'x')],
+  ['Distribute horizontally', IconLayoutDistributeVertical, (e) => acts.distribute(e, 'x')],
   ['Align top', IconLayoutAlignTop, (e) => acts.align(e, 'top')],
   ['Align middles', IconLayoutAlignMiddle, (e) => acts.align(e, 'middle')],
   ['Align bottom', IconLayoutAlignBottom, (e) => acts.align(e, 'bottom')],
-  ['Distribute upwards', IconLayoutDistributeHorizontal, (e) => acts.distribute(e, 'y')],
+  ['Distribute vertically', IconLayoutDistributeHorizontal, (e) => acts.distribute(e, 'y')],
 ];
 
-/** Puts the chosen pixels, or all if none is chosen, in order. */
+/** Arranges the chosen pixels, or all when none is chosen. */
 export function ArrangeSection() {
   const editing = useEditing();
   const buttons = (list: Act[], cols: number) => (

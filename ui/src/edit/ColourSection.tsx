@@ -11,7 +11,7 @@ const PALETTE: Rgb[] = [
   0x2ee55c, 0xd8f000, 0xffe000, 0x804000, 0x303030, 0x000000,
 ];
 
-/** Gives the chosen pixels, or all if none is chosen, their light. */
+/** Sets the colour of the chosen pixels, or of all when none is chosen. */
 export function ColourSection() {
   const editing = useEditing();
   const color = useStore(editing.color);
@@ -58,7 +58,7 @@ export function ColourSection() {
       />
       <ColorInput
         size="xs"
-        label="Hex, or red, green, blue"
+        label="Hex or RGB"
         value={toHex(color)}
         withPicker={false}
         withEyeDropper={false}
@@ -70,7 +70,7 @@ export function ColourSection() {
       <Group gap="xs" align="end" wrap="nowrap">
         <ColorInput
           size="xs"
-          label="Gradient from this colour to"
+          label="Gradient to"
           style={{ flex: 1 }}
           withEyeDropper={false}
           value={toHex(to)}

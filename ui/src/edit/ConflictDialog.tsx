@@ -2,19 +2,19 @@ import { Button, Modal, Stack, Text } from '@mantine/core';
 import { getShow, listShows, putShow, Refused } from '../api/http';
 import { useStore } from '../base/store';
 import { readShow, writeShow } from '../model/json';
-import { tell } from '../session/notices';
+import { notify } from '../session/notices';
 import { useSession } from '../session/session';
 import { freeName } from '../session/upload';
 import { useEditing } from './context';
 
-/** Somebody else saved this show meanwhile: people choose, nothing is overwritten silently. */
+/** Another screen saved this show after this screen read it: the user chooses which one to keep. */
 export function ConflictDialog() {
   const session = useSession();
   const editing = useEditing();
   const { editor, saver } = editing;
   const conflict = useStore(saver.state, (s) => s.name === 'conflict');
   const run = (act: () => Promise<void>) =>
-    void act().catch((e: unknown) => tell('error', e instanceof Error ? e.message : String(e)));
+    void act().catch((e: unknown) => notify('error', e instanceof Error ? e.message : String(e)));
   const takeTheirs = async () => {
     const { document, etag } = await getShow(editing.name);
     editor.adopt(readShow(document));
@@ -25,13 +25,13 @@ export function ConflictDialog() {
       saver.rebase((await getShow(editing.name)).etag);
     } catch (error) {
       if (!(error instanceof Refused) || error.status !== 404) throw error;
-      // They deleted it: mine is a new one of that name.
+      // The other screen deleted the show: this screen's version becomes a new show of that name.
       saver.rebase(null);
     }
   };
   const keepBoth = async () => {
     const copy = freeName(
-      `${editing.name} mine`,
+      `${editing.name} (copy)`,
       (await listShows()).map((entry) => entry.name),
     );
     await putShow(copy, JSON.stringify(writeShow(editor.state.get().show)), 'new');
@@ -44,19 +44,18 @@ export function ConflictDialog() {
       onClose={() => undefined}
       withCloseButton={false}
       closeOnEscape={false}
-      title="Somebody else saved this show meanwhile"
+      title="This show changed on another screen"
     >
       <Text mb="md">
-        Your last changes are only on this screen. Nothing has been overwritten: choose what to
-        keep.
+        Your last changes are only on this screen. Nothing is overwritten until you choose.
       </Text>
       <Stack gap="xs">
         <Button onClick={() => run(keepBoth)}>Keep both: save mine as a copy</Button>
         <Button variant="default" onClick={() => run(takeTheirs)}>
-          Take theirs, drop mine
+          Use theirs
         </Button>
         <Button variant="default" onClick={() => run(keepMine)}>
-          Keep mine, replace theirs
+          Use mine
         </Button>
       </Stack>
     </Modal>

@@ -19,7 +19,7 @@ import { SaveMark } from './SaveMark';
 import page from '../parts/page.module.css';
 import styles from './EditBar.module.css';
 
-/** Undo, watching without robots, scrubbing, and whether all is safe. */
+/** Undo, preview, scrubbing, and the state of saving. */
 export function EditBar() {
   const session = useSession();
   const editing = useEditing();
@@ -35,7 +35,7 @@ export function EditBar() {
   const timeline = useMemo(() => timelineOf(show, plan), [show, plan]);
   const total = totalOf(timeline);
   const at = time_s ?? timeline[frame]?.shownFrom_s ?? 0;
-  /** The whole show, whichever frame was drawn last; what is missing is shown there. */
+  /** Runs the whole show from its first frame; the live view shows what is missing. */
   const playWithRobots = () => {
     session.frame.set(0);
     goTo('live');
@@ -79,7 +79,7 @@ export function EditBar() {
       <SaveMark />
       <ExportMenu />
       <Button size="xs" onClick={playWithRobots} leftSection={<IconPlayerPlayFilled size={14} />}>
-        Play with robots
+        Run on robots
       </Button>
     </div>
   );

@@ -2,8 +2,8 @@ import { useKeys } from '../parts/useKeys';
 import { fitView, zoomView } from '../stage/ViewTools';
 import * as acts from './acts';
 import { useEditing } from './context';
-import type { Looks } from './editing';
-import { tell } from '../session/notices';
+import type { StageOptions } from './editing';
+import { notify } from '../session/notices';
 
 /** Metres an arrow key moves: alone, with Shift, with Alt. */
 const STEPS = [
@@ -23,9 +23,10 @@ export function EditKeys() {
   const editing = useEditing();
   const { editor } = editing;
   const frame = () => editor.state.get().frame;
-  const toggle = (name: keyof Looks) => editing.looks.update((l) => ({ ...l, [name]: !l[name] }));
-  const said = (what: string | null, label: string) => {
-    if (what) tell('info', `${label}: ${what}`);
+  const toggle = (name: keyof StageOptions) =>
+    editing.options.update((l) => ({ ...l, [name]: !l[name] }));
+  const notifyDone = (what: string | null, label: string) => {
+    if (what) notify('info', `${label}: ${what}`);
   };
   const moves = STEPS.flatMap(([prefix, step]) =>
     ARROWS.map(
@@ -34,9 +35,9 @@ export function EditKeys() {
   );
   useKeys([
     ...moves,
-    ['mod+z', () => said(editor.undo(), 'Undone')],
-    ['mod+shift+z', () => said(editor.redo(), 'Redone')],
-    ['mod+y', () => said(editor.redo(), 'Redone')],
+    ['mod+z', () => notifyDone(editor.undo(), 'Undone')],
+    ['mod+shift+z', () => notifyDone(editor.redo(), 'Redone')],
+    ['mod+y', () => notifyDone(editor.redo(), 'Redone')],
     ['mod+a', () => acts.selectAll(editing)],
     ['mod+i', () => acts.invertSelection(editing)],
     ['mod+c', () => void editor.copy()],
@@ -58,7 +59,7 @@ export function EditKeys() {
     ['m', () => toggle('snap')],
     ['n', () => toggle('ids')],
     ['h', () => toggle('ghosts')],
-    ['w', () => toggle('ways')],
+    ['w', () => toggle('routes')],
     ['space', () => editing.preview.toggle()],
     ['0', () => fitView(editing.view)],
     ['+', () => zoomView(editing.view, 1.4)],

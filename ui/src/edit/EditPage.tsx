@@ -15,10 +15,10 @@ import { Inspector } from './Inspector';
 import { Tour } from './Tour';
 import styles from '../parts/page.module.css';
 
-/** What this page edits; kept while the page lives, so that undo survives a look at the live view. */
+/** The editing of this page; kept while the page is open, so that undo survives a visit to the live view. */
 let kept: Editing | null = null;
 
-/** Drawing. */
+/** The page of the editor. */
 export function EditPage() {
   const session = useSession();
   const opened = useStore(session.live.opened);
@@ -42,7 +42,7 @@ export function EditPage() {
         <Title order={1} size="lg">
           Nothing to draw on yet
         </Title>
-        <Text c="dimmed">Begin a show of your own, open one above, or drop a file anywhere.</Text>
+        <Text c="dimmed">Create a show, open one above, or drop a file anywhere.</Text>
         <Group>
           <Button onClick={() => void createShowInLibrary(session)}>New show</Button>
         </Group>

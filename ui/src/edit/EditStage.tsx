@@ -14,35 +14,35 @@ import { unitStore } from '../session/preferences';
 import { useKeys } from '../parts/useKeys';
 import styles from '../stage/stage.module.css';
 
-/** The same scene as long as nothing it is made of changed. */
+/** Returns the same scene until one of its inputs changes. */
 function rememberScene(editing: Editing): () => Scene {
   let inputs: unknown[] = [];
   let scene: Scene | null = null;
   return () => {
     const state = editing.editor.state.get();
-    const [looks, plan, time_s] = [
-      editing.looks.get(),
+    const [options, plan, time_s] = [
+      editing.options.get(),
       editing.full.plan.get(),
       editing.preview.time_s.get(),
     ];
-    const now = [state, looks, plan, time_s, unitStore.get()];
+    const now = [state, options, plan, time_s, unitStore.get()];
     if (!scene || now.some((input, i) => input !== inputs[i])) {
       inputs = now;
-      scene = editScene(state, looks, plan, time_s);
+      scene = editScene(state, options, plan, time_s);
     }
     return scene;
   };
 }
 
-/** The floor one draws on. */
+/** The floor of the editor. */
 export function EditStage() {
   const editing = useEditing();
   const { hand, giveUp } = useHand(editing);
   const sceneAt = useMemo(() => rememberScene(editing), [editing]);
   const tool = useStore(editing.tool);
-  const ways = useStore(editing.looks, (looks) => looks.ways);
+  const routes = useStore(editing.options, (options) => options.routes);
   const { full } = editing;
-  useEffect(() => (ways ? full.follow() : undefined), [ways, full]);
+  useEffect(() => (routes ? full.follow() : undefined), [routes, full]);
   usePreview(editing);
   useKeys([
     [

@@ -11,7 +11,7 @@ import { listenToHold } from './holdDrag';
 import strip from '../parts/strip.module.css';
 import styles from './EditStrip.module.css';
 
-/** Seconds of the drive to a frame. */
+/** Travel time to a frame, seconds, as text. */
 function driveOf(plan: Plan | null, index: number): string {
   const drive_s = plan?.transitions[index]?.duration_s;
   return drive_s === undefined ? '' : drive_s.toFixed(1);

@@ -5,7 +5,7 @@ import { listShows, putShow } from '../api/http';
 import { writeShow } from '../model/json';
 import { ExportItems } from '../parts/ExportItems';
 import { downloadShow } from '../session/download';
-import { tell } from '../session/notices';
+import { notify } from '../session/notices';
 import { useSession } from '../session/session';
 import { freeName } from '../session/upload';
 import { useEditing } from './context';
@@ -17,7 +17,7 @@ export function ExportMenu() {
   const { editor } = editing;
   const show = () => writeShow(editor.state.get().show);
   const run = (act: () => Promise<void>) =>
-    void act().catch((e: unknown) => tell('error', e instanceof Error ? e.message : String(e)));
+    void act().catch((e: unknown) => notify('error', e instanceof Error ? e.message : String(e)));
   const save = (format: Format) => run(() => downloadShow(show(), editing.name, format));
   const saveAs = async () => {
     const copy = freeName(
@@ -25,7 +25,7 @@ export function ExportMenu() {
       (await listShows()).map((entry) => entry.name),
     );
     await putShow(copy, JSON.stringify(show()), 'new');
-    if ((await session.ask({ do: 'open', name: copy })).ok) tell('good', `This is now ${copy}.`);
+    if ((await session.ask({ do: 'open', name: copy })).ok) notify('good', `This is now ${copy}.`);
   };
   return (
     <Menu position="top-end">

@@ -7,13 +7,13 @@ import { LengthInput } from '../parts/LengthInput';
 import { useEditing, useEditor } from './context';
 import styles from './FloorSection.module.css';
 
-/** Areas that are listed with their numbers; the rest is on the floor. */
+/** Most areas in the list; the floor shows the rest. */
 const LISTED_MAX = 20;
 
 /** The smallest round area, metres. */
 const RADIUS_MIN_M = 0.001;
 
-/** Size of the floor, and where robots must not be. */
+/** Size of the floor, and its no-go areas. */
 export function FloorSection() {
   const { editor, tool } = useEditing();
   const stage = useEditor((s) => s.show.stage);
@@ -47,14 +47,14 @@ export function FloorSection() {
       ) : null}
       <Group gap="xs">
         <Button size="xs" variant="default" onClick={() => tool.set('area')}>
-          Draw one (O)
+          Rectangle (O)
         </Button>
         <Button
           size="xs"
           variant="default"
           onClick={() => editor.change('No-go area', (show) => addObstacle(show, disc))}
         >
-          Round one
+          Circle
         </Button>
       </Group>
     </Stack>
@@ -80,7 +80,7 @@ function Area({ index, area }: { index: number; area: Obstacle }) {
         ];
   return (
     <fieldset className={styles.area}>
-      <legend>{area.kind === 'disc' ? `Round area ${index + 1}` : `Area ${index + 1}`}</legend>
+      <legend>{area.kind === 'disc' ? `Circle ${index + 1}` : `Rectangle ${index + 1}`}</legend>
       <div className={styles.fields}>
         {fields.map(([label, value, onChange, min]) => (
           <LengthInput key={label} label={label} value={value} min={min} onChange={onChange} />

@@ -11,14 +11,14 @@ interface Props {
   stage: Stage;
   current: boolean;
   chosen: boolean;
-  /** How long the drive to it takes, seconds, for people; empty while that is not known. */
+  /** Travel time to the frame, seconds, as text; empty while it is not planned. */
   drive: string;
-  /** Whether it cannot be played as it is. */
+  /** Whether the plan has an error in this frame. */
   wrong: boolean;
   onChoose: (event: MouseEvent) => void;
-  /** Whether its name is being typed. */
+  /** Whether the frame is being renamed. */
   naming: boolean;
-  /** The name that was typed; `null`: given up. */
+  /** The typed name; `null`: cancelled. */
   onName: (name: string | null) => void;
   onRename: () => void;
   onDragStart: () => void;
@@ -80,7 +80,7 @@ export const FrameCard = memo(function FrameCard(props: Props) {
 });
 
 function NameField({ name, onName }: { name: string; onName: (name: string | null) => void }) {
-  // Escape takes the focus away too, and must not save what it gave up.
+  // Escape also removes the focus, and must not save the cancelled name.
   const left = useRef(false);
   const leave = (typed: string | null) => {
     if (left.current) return;

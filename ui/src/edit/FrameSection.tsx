@@ -52,7 +52,7 @@ export function FrameSection() {
         onChange={(airTime_s) => acts.setFrames(editing, { airTime_s })}
       />
       <Checkbox
-        label="Drive as fast as legal"
+        label="As fast as is safe"
         size="sm"
         checked={fast}
         onChange={(event) =>
@@ -73,31 +73,29 @@ export function FrameSection() {
         value={frame.transition_s ?? plan?.duration_s ?? null}
         onChange={(transition_s) => acts.setFrames(editing, { transition_s })}
       />
-      <Text size="xs">
-        Speeding up and slowing down: swift is as quick as it may be, gentle all along the way
-      </Text>
+      <Text size="xs">Motion</Text>
       <SegmentedControl
-        aria-label="How the drive speeds up"
+        aria-label="Motion"
         size="xs"
         value={frame.easing}
         onChange={(value) => acts.setFrames(editing, { easing: value as 'swift' | 'gentle' })}
         data={[
-          { value: 'swift', label: 'Swift' },
-          { value: 'gentle', label: 'Gentle' },
+          { value: 'swift', label: 'Fast' },
+          { value: 'gentle', label: 'Smooth' },
         ]}
       />
-      <Text size="xs">Which robot shows which pixel of this frame</Text>
+      <Text size="xs">Robot assignment</Text>
       <SegmentedControl
-        aria-label="Which robot shows which pixel of this frame"
+        aria-label="Robot assignment"
         size="xs"
         value={frame.identity ?? 'show'}
         onChange={(value) =>
           acts.setFrames(editing, { identity: value === 'any' || value === 'fixed' ? value : null })
         }
         data={[
-          { value: 'show', label: 'As the show' },
+          { value: 'show', label: 'Show default' },
           { value: 'any', label: 'Nearest' },
-          { value: 'fixed', label: 'Same as before' },
+          { value: 'fixed', label: 'Keep from previous frame' },
         ]}
       />
     </Stack>

@@ -12,7 +12,7 @@ import { RobotsSection } from './RobotsSection';
 import { ShowSection } from './ShowSection';
 import styles from '../parts/page.module.css';
 
-/** What can be said about the chosen pixels, the frame and the show. */
+/** Properties of the chosen pixels, the frame and the show. */
 export function Inspector() {
   const { editor } = useEditing();
   const { live } = useSession();

@@ -8,7 +8,7 @@ import type { Pixel } from '../model/show';
 import { useSession } from '../session/session';
 import { useEditing } from './context';
 
-/** Which robot must show a pixel, in every frame. */
+/** The robot that is pinned to a pixel in all frames. */
 export function PinField({ pixel }: { pixel: Pixel }) {
   const { editor } = useEditing();
   const { live, ask } = useSession();
@@ -29,19 +29,19 @@ export function PinField({ pixel }: { pixel: Pixel }) {
       <Select
         size="xs"
         style={{ flex: 1 }}
-        label="Robot that always shows it"
-        nothingFoundMessage="No robot is here"
+        label="Pinned robot"
+        nothingFoundMessage="No robot found"
         searchable
         allowDeselect={false}
         limit={200}
-        data={[{ value: '', label: 'Any robot' }, ...away, ...here]}
+        data={[{ value: '', label: 'None' }, ...away, ...here]}
         value={pixel.robot ?? ''}
         onChange={(robot) =>
           editor.change('Pin', (show) => pinPixel(show, pixel.id, robot || null))
         }
       />
       <IconButton
-        label="Let that robot blink"
+        label="Identify robot"
         variant="default"
         size={30}
         disabled={!blinks}

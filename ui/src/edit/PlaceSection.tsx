@@ -6,7 +6,7 @@ import * as acts from './acts';
 import { useEditing, useEditor } from './context';
 import { PinField } from './PinField';
 
-/** How many are chosen, and exactly where they are. */
+/** Number and exact position of the chosen pixels. */
 export function PlaceSection() {
   const editing = useEditing();
   const state = useEditor((s) => s);
@@ -35,7 +35,7 @@ export function PlaceSection() {
         {only
           ? `Pixel ${only.id}`
           : chosen.length === 0
-            ? 'No pixel chosen: what you do is for all'
+            ? 'Nothing selected – changes apply to the whole frame'
             : `${chosen.length} pixels`}
       </Text>
       <Group gap={0}>

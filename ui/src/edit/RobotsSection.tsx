@@ -7,7 +7,7 @@ import { NumberField } from '../parts/NumberField';
 import { useSession } from '../session/session';
 import { useEditing, useEditor } from './context';
 
-/** The most pixels a frame is given here; larger shows come from files. */
+/** Most pixels per frame in the editor; larger shows come from files. */
 const FLEET_MAX = 2000;
 
 const NUMBERS: [LimitName, string, number, number, number][] = [
@@ -16,7 +16,7 @@ const NUMBERS: [LimitName, string, number, number, number][] = [
   ['turn_radps', 'Turn rate (rad/s)', 0.1, 100, 0.1],
 ];
 
-/** How many robots the show has, and what they can do. */
+/** Number, size and limits of the show's robots. */
 export function RobotsSection() {
   const { editor, color } = useEditing();
   const { live } = useSession();
@@ -34,7 +34,7 @@ export function RobotsSection() {
       </Text>
       <Group align="end" gap="xs" wrap="nowrap">
         <NumberField
-          label="How many"
+          label="Number of robots"
           whole
           min={1}
           max={FLEET_MAX}
@@ -43,27 +43,27 @@ export function RobotsSection() {
         />
         {here > 0 && here !== size && here <= FLEET_MAX ? (
           <Button size="xs" variant="default" onClick={() => resize(here)}>
-            As many as are here: {here}
+            Use the {here} here
           </Button>
         ) : null}
       </Group>
       <Stack gap={4}>
-        <Text size="xs">Which robot shows which pixel</Text>
+        <Text size="xs">Robot assignment</Text>
         <SegmentedControl
-          aria-label="Which robot shows which pixel"
+          aria-label="Robot assignment"
           size="xs"
           value={show.identity}
           onChange={(value) =>
             editor.change('Identity', (now) => setShow(now, { identity: value as 'any' | 'fixed' }))
           }
           data={[
-            { value: 'any', label: 'Whoever is nearest' },
-            { value: 'fixed', label: 'Always the same' },
+            { value: 'any', label: 'Nearest robot' },
+            { value: 'fixed', label: 'Fixed robot per pixel' },
           ]}
         />
       </Stack>
       <details>
-        <summary>What they can do</summary>
+        <summary>Robot size and speed</summary>
         <Stack gap="xs" pt="xs">
           <LengthInput
             label="Radius"

@@ -5,7 +5,7 @@ import { setShow } from '../model/commands';
 import { useSession } from '../session/session';
 import { useEditing, useEditor } from './context';
 
-/** Title and verdict. */
+/** Title of the show, and the verdict of the plan. */
 export function ShowSection() {
   const { editor } = useEditing();
   const { live } = useSession();
@@ -26,9 +26,7 @@ export function ShowSection() {
       />
       {plan && !plan.planning ? (
         <Text size="sm" role="status">
-          {plan.ok
-            ? `Planned and proven: ${clockText(plan.duration_s)}.`
-            : 'It cannot be played as it is:'}
+          {plan.ok ? `Collision-free · ${clockText(plan.duration_s)}` : 'Fix before playing:'}
         </Text>
       ) : null}
     </Stack>

@@ -2,13 +2,15 @@ import { useEditorNow } from './context';
 import { marksNow } from './overlay';
 import styles from '../stage/stage.module.css';
 
-/** One line under the floor: what a drag measures, or what is wrong and how to mend it. */
+/** One line at the floor's edge: the distance of a drag, or the pixels that are wrong and how to fix them. */
 export function StageHint() {
   const state = useEditorNow((s) => s);
   const { tooClose, offFloor } = marksNow(state);
   const wrong = [
     tooClose.size > 0 ? `${tooClose.size} pixels are too close to each other (dashed rings)` : '',
-    offFloor.size > 0 ? `${offFloor.size} are not on the free floor (crosses)` : '',
+    offFloor.size > 0
+      ? `${offFloor.size} pixels are off the floor or in a no-go area (crosses)`
+      : '',
   ].filter(Boolean);
   if (state.overlay.hint)
     return (

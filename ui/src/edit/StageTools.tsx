@@ -11,28 +11,28 @@ import {
 import { useStore } from '../base/store';
 import { StageTool, ZoomTools } from '../stage/ViewTools';
 import { useEditing } from './context';
-import type { Looks } from './editing';
+import type { StageOptions } from './editing';
 import styles from '../stage/stage.module.css';
 
 const TOOLS = [
-  ['arrow', 'Choose and move (V)', IconPointer],
+  ['arrow', 'Select (V)', IconPointer],
   ['lasso', 'Lasso (Q)', IconLasso],
   ['eyedropper', 'Eyedropper (I)', IconColorPicker],
-  ['area', 'No-go areas: drag to draw or move one, Alt for a round one (O)', IconBarrierBlock],
+  ['area', 'No-go area (O): drag to draw or move, Alt for a circle', IconBarrierBlock],
 ] as const;
 
-const LOOKS: [keyof Looks, string, typeof IconMagnet][] = [
+const OPTIONS: [keyof StageOptions, string, typeof IconMagnet][] = [
   ['snap', 'Snap to grid and neighbours (M)', IconMagnet],
   ['ids', 'Show ids (N)', IconNumber123],
-  ['ghosts', 'Frame before and after (H)', IconGhost2],
-  ['ways', 'Planned ways (W)', IconRoute],
+  ['ghosts', 'Onion skin (H)', IconGhost2],
+  ['routes', 'Show routes (W)', IconRoute],
 ];
 
-/** Tools and looks of the editor's stage. */
+/** Tools and view options of the editor's stage. */
 export function StageTools() {
   const editing = useEditing();
   const tool = useStore(editing.tool);
-  const looks = useStore(editing.looks);
+  const options = useStore(editing.options);
   return (
     <>
       <div className={styles.tools} data-side="left" role="toolbar" aria-label="Tools">
@@ -48,12 +48,12 @@ export function StageTools() {
         ))}
       </div>
       <div className={styles.tools} role="toolbar" aria-label="What the floor shows">
-        {LOOKS.map(([name, label, Icon]) => (
+        {OPTIONS.map(([name, label, Icon]) => (
           <StageTool
             key={name}
             label={label}
-            active={looks[name]}
-            onClick={() => editing.looks.set({ ...looks, [name]: !looks[name] })}
+            active={options[name]}
+            onClick={() => editing.options.set({ ...options, [name]: !options[name] })}
           >
             <Icon size={17} />
           </StageTool>

@@ -3,7 +3,7 @@ import { useState } from 'react';
 import * as acts from './acts';
 import { useEditing } from './context';
 
-/** Writes a word with the chosen pixels, or with all. */
+/** Arranges the chosen pixels, or all, as text. */
 export function TextShape() {
   const editing = useEditing();
   const [word, setWord] = useState('');
@@ -17,15 +17,15 @@ export function TextShape() {
       <Group gap="xs" wrap="nowrap">
         <TextInput
           size="xs"
-          aria-label="Word to write with pixels"
-          placeholder="Write a word, such as HI"
+          aria-label="Text"
+          placeholder="Text…"
           maxLength={12}
           value={word}
           onChange={(event) => setWord(event.currentTarget.value)}
           style={{ flex: 1 }}
         />
         <Button size="xs" variant="default" type="submit" disabled={word.trim() === ''}>
-          Write
+          Apply
         </Button>
       </Group>
     </form>

@@ -10,15 +10,15 @@ const STEPS = [
   ],
   [
     'Give them light',
-    'Pick a colour on the right: it is for the pixels you chose, or for all. Everything can be undone with Ctrl Z.',
+    'Pick a colour on the right: it applies to the selected pixels, or to all. Everything can be undone with Ctrl Z.',
   ],
   [
     'Add the next picture',
-    'The + beside the strip adds a frame. How the robots get there is planned for you, so that nobody touches.',
+    'The + beside the strip adds a frame. How the robots get there is planned for you, without collisions.',
   ],
   [
-    'Watch it, then play it',
-    'The arrow under the floor shows it here. Play with robots saves it, leads to the real floor, and lets them drive.',
+    'Preview it, then run it',
+    'The arrow under the floor previews it here. Run on robots saves it, opens the live view, and starts the show.',
   ],
 ] as const;
 
@@ -30,7 +30,7 @@ const seen = () => {
   }
 };
 
-/** What a newcomer should know, once. */
+/** The first steps, shown once per browser. */
 export function Tour() {
   const [step, setStep] = useState(() => (seen() ? STEPS.length : 0));
   const now = STEPS[step];
@@ -39,7 +39,7 @@ export function Tour() {
     try {
       localStorage.setItem(KEY, 'done');
     } catch {
-      // Without storage the tour is shown again; that is all.
+      // Without storage the tour is shown again.
     }
     setStep(STEPS.length);
   };

@@ -6,10 +6,10 @@ import { letterPoints } from '../model/letters';
 import { tooClose_m, type Pixel, type Show, type Stage } from '../model/show';
 import { keepColour, type Editing } from './editing';
 
-/** Robots this far apart are easy to plan: arrangements keep it where they can, metres. */
+/** Distance of pixels that makes planning easy; arrangements keep it where there is room, metres. */
 const easyGap_m = (stage: Stage) => Math.max(0.08, tooClose_m(stage) + 0.016);
 
-/** Pixels an act is about: the chosen ones, or all when none is chosen. */
+/** Pixels that an action changes: the selection, or all pixels when nothing is selected. */
 function subject(editing: Editing): readonly Pixel[] {
   const chosen = editing.editor.chosenPixels();
   return chosen.length > 0 ? chosen : (editing.editor.current()?.pixels ?? []);
@@ -44,7 +44,7 @@ export const spread = (e: Editing) =>
     keepOnFloor(arrange.spread(p, easyGap_m(show.stage)), show.stage),
   );
 
-/** A shape in the middle of the chosen pixels; where those are in a heap or a row, in the middle of the floor. */
+/** Arranges pixels as a shape in the box of the selection; if the box is flat, in the middle of the floor. */
 export const shape = (e: Editing, kind: arrange.Shape) =>
   place(e, 'Shape', (places, show) => {
     const { stage } = show;
@@ -60,7 +60,7 @@ function middleOf(stage: Stage): Box {
   return { minX: -half, minY: -half, maxX: half, maxY: half };
 }
 
-/** Shifts places back onto the floor as a whole, and shrinks nothing. */
+/** Shifts positions onto the floor as a whole, without scaling. */
 function keepOnFloor(places: Point[], stage: Stage): Point[] {
   const margin = stage.radius_m + 0.01;
   const floor = {
@@ -85,14 +85,14 @@ export const nudge = (e: Editing, dx: number, dy: number) => {
   place(e, 'Nudge', (places) => places.map((p) => ({ x: p.x + dx, y: p.y + dy })));
 };
 
-/** Moves the middle of what is chosen to an exact place along one axis, metres. */
+/** Moves the centre of the selection to an exact coordinate, metres. */
 export const moveTo = (e: Editing, axis: 'x' | 'y', value: number) =>
   place(e, 'Place', (places) => {
     const by = value - centreOf(boxOf(places))[axis];
     return places.map((p) => ({ ...p, [axis]: p[axis] + by }));
   });
 
-/** Colours what is chosen, or all; keeps the colour at hand. */
+/** Colours the selection, or all pixels; the colour becomes the current one. */
 export function paint(e: Editing, color: Rgb) {
   keepColour(e, color);
   const colors = new Map(subject(e).map((p) => [p.id, color]));
@@ -124,7 +124,7 @@ export function deleteFrames(e: Editing) {
   e.editor.goToFrame(Math.min(frames[0] ?? 0, e.editor.state.get().show.frames.length - 1));
 }
 
-/** Moves frames together before the one at `before`; they stay chosen. */
+/** Moves frames together before the frame at `before`; they stay chosen. */
 export function moveFrames(e: Editing, indices: readonly number[], before: number) {
   const keys = indices.map((i) => e.editor.state.get().show.frames[i]?.key);
   e.editor.change('Move frame', (show) => commands.moveFrames(show, indices, before));
@@ -139,7 +139,7 @@ export function shiftFrames(e: Editing, by: -1 | 1) {
   moveFrames(e, frames, by < 0 ? first - 1 : last + 2);
 }
 
-/** Drops the dragged frame, or all chosen ones if it is one of them, where the one at `to` is. */
+/** Moves the dragged frame, or all chosen frames if it is one of them, to the place of the frame at `to`. */
 export function dropFrames(e: Editing, dragged: number, to: number) {
   const { frames } = e.editor.state.get();
   const moved = frames.has(dragged) ? chosenFrames(e) : [dragged];
@@ -152,7 +152,7 @@ export const renameFrame = (e: Editing, index: number, name: string) =>
 export const setFrames = (e: Editing, fields: commands.FrameFields) =>
   e.editor.change('Frame', (show) => commands.setFrames(show, chosenFrames(e), fields));
 
-/** Chooses the pixels whose colour is that of one of the chosen. */
+/** Chooses all pixels that have the colour of a chosen pixel. */
 export function selectSameColour(e: Editing) {
   const colors = new Set(e.editor.chosenPixels().map((p) => p.color));
   const pixels = e.editor.current()?.pixels ?? [];
@@ -178,7 +178,7 @@ export function selectNext(e: Editing, by: 1 | -1) {
   if (next !== undefined) e.editor.select([next]);
 }
 
-/** Writes a word over the middle of the floor, as large as it takes for robots to have room. */
+/** Arranges pixels as a word in the middle of the floor, large enough for the robots' distances. */
 export const write = (e: Editing, word: string) =>
   place(e, 'Write', (places, { stage }) => {
     const points = letterPoints(word.trim(), places.length);
@@ -195,7 +195,7 @@ export const write = (e: Editing, word: string) =>
     return arrange.nearest(places, targets);
   });
 
-/** Metres a grid unit so that no two are closer than `gap_m`. */
+/** Least size of a grid unit at which no two points are closer than `gap_m`, metres. */
 function leastScale(points: readonly Point[], gap_m: number): number {
   let least = Infinity;
   points.forEach((a, i) => {

@@ -16,6 +16,6 @@ export function useEditing(): Editing {
 export const useEditor = <S>(select: (state: EditorState) => S): S =>
   useStore(settledOf(useEditing().editor), select);
 
-/** The same in the middle of gestures too: for the little that follows a drag. */
+/** Part of the editor's state also during gestures: for components that follow a drag. */
 export const useEditorNow = <S>(select: (state: EditorState) => S): S =>
   useStore(useEditing().editor.state, select);

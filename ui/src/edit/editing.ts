@@ -14,17 +14,17 @@ import { watchLeaving } from './watchLeaving';
 
 export type ToolName = 'arrow' | 'lasso' | 'eyedropper' | 'area';
 
-/** What the stage shows and snaps to; this screen's own. */
-export interface Looks {
+/** View options of this screen: what the stage shows and snaps to. */
+export interface StageOptions {
   snap: boolean;
   ids: boolean;
   ghosts: boolean;
-  ways: boolean;
+  routes: boolean;
 }
 
-/** A show being edited on this screen. It lives as long as the page, so that undo survives a look at the live view. */
+/** A show that this screen edits. It is kept while the page is open, so that undo survives a visit to the live view. */
 export interface Editing {
-  /** Its name in the library. Changes once: when a read-only show was saved as a copy and that copy is open. */
+  /** Name in the library. Changes once, when a read-only show was saved as a copy and the copy is open. */
   name: string;
   editor: Editor;
   saver: Saver;
@@ -32,21 +32,21 @@ export interface Editing {
   full: FullPlan;
   view: Store<View>;
   tool: Store<ToolName>;
-  looks: Store<Looks>;
-  /** The last colours that were given, newest first. */
+  options: Store<StageOptions>;
+  /** The last applied colours, newest first. */
   recent: Store<readonly Rgb[]>;
   /** Colour of the picker. */
   color: Store<Rgb>;
   preview: Preview;
-  /** The frame whose name is being typed in the strip; null: none. */
+  /** The frame that is being renamed in the strip; null: none. */
   renaming: Store<number | null>;
-  /** Another show takes its place: it still saves what is unsaved, and follows nobody. */
+  /** Saves unsaved changes and stops following the server, because another show is edited from now on. */
   retire(): void;
 }
 
 const RECENT_MAX = 10;
 
-/** `wantedDraft`: which of the drafts that were left it begins with; otherwise the newest, if there is any. */
+/** `wantedDraft`: the draft of a closed page to restore; null: the newest, if there is one. */
 export function createEditing(
   session: Session,
   name: string,
@@ -67,7 +67,7 @@ export function createEditing(
     session.frame.set(now.frame);
     if (now.selection === selection) return;
     selection = now.selection;
-    // The picker shows the colour of what is chosen.
+    // The picker shows the colour of the selection.
     const [first] = editor.chosenPixels();
     if (first) color.set(first.color);
   });
@@ -80,7 +80,7 @@ export function createEditing(
     full: createFullPlan(session.live),
     view: createView(),
     tool: createStore<ToolName>('arrow'),
-    looks: createStore<Looks>({ snap: true, ids: false, ghosts: true, ways: false }),
+    options: createStore<StageOptions>({ snap: true, ids: false, ghosts: true, routes: false }),
     recent: createStore<readonly Rgb[]>([]),
     color,
     preview: createPreview(editor),
@@ -102,7 +102,7 @@ export function createEditing(
   return editing;
 }
 
-/** Goes on as the copy of a read-only show once that is open, and opens it again where the link broke meanwhile. */
+/** Switches to the copy of a read-only show when the copy is open; opens the copy again after a broken connection. */
 function moveToCopy(session: Session, editing: Editing, saving: Saving): () => void {
   const { live } = session;
   const stops = [
@@ -118,7 +118,7 @@ function moveToCopy(session: Session, editing: Editing, saving: Saving): () => v
   return () => stops.forEach((stop) => stop());
 }
 
-/** Takes in what other screens save, unless this one has something unsaved: then saving finds the conflict. */
+/** Adopts versions that other screens save, unless this screen has unsaved changes: then saving finds the conflict. */
 function followServer(session: Session, editing: Editing): () => void {
   const { editor, saver } = editing;
   const known = new Set([saver.etag(), session.live.opened.get().etag]);
@@ -140,7 +140,7 @@ function followServer(session: Session, editing: Editing): () => void {
   return () => stops.forEach((stop) => stop());
 }
 
-/** Remembers a colour that was given. */
+/** Makes a colour the current one, and adds it to the recent colours. */
 export const keepColour = (editing: Editing, color: Rgb) => {
   editing.color.set(color);
   editing.recent.update((now) => [color, ...now.filter((c) => c !== color)].slice(0, RECENT_MAX));

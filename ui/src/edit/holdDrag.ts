@@ -1,22 +1,22 @@
 import { LONG_MS, STILL_PX } from '../stage/pointer';
 
-/** Where a finger that drags something of a list is, by the number of what is under it. */
+/** Called while a finger drags an item of a list; arguments are indices of items. */
 export interface HoldDrag {
   begin(index: number): void;
   over(index: number): void;
-  /** It was let go there. */
+  /** The finger was lifted over this item. */
   drop(index: number): void;
   giveUp(): void;
 }
 
-/** A finger so near an end of the list scrolls it, CSS pixels, and so far each time. */
+/** A finger within `EDGE_PX` of an end of the list scrolls the list by `SCROLL_PX` every `SCROLL_EVERY_MS`. */
 const EDGE_PX = 48;
 const SCROLL_PX = 12;
 const SCROLL_EVERY_MS = 30;
 
 /**
- * A finger held still on something of a list takes hold of it, and drags it until it is let go; one that moves at once
- * scrolls the list, as everywhere. Returns how to stop.
+ * A finger held still on an item of a list drags the item; a finger that moves at once scrolls the list. Returns a
+ * function that ends this.
  */
 export function listenToHold(list: HTMLElement, drag: HoldDrag): () => void {
   const stop = new AbortController();
@@ -77,7 +77,7 @@ export function listenToHold(list: HTMLElement, drag: HoldDrag): () => void {
       if (waiting && Math.hypot(touch.clientX - waiting.x, touch.clientY - waiting.y) > STILL_PX)
         forget();
       if (!held) return;
-      // It is the frame that moves now, not the list.
+      // The item moves now, not the list.
       event.preventDefault();
       x = touch.clientX;
       const over = indexOf(itemAt(touch.clientX, touch.clientY));
@@ -90,7 +90,7 @@ export function listenToHold(list: HTMLElement, drag: HoldDrag): () => void {
     (event) => {
       forget();
       if (!held) return;
-      // What was dragged is not chosen as well.
+      // A dragged item is not also clicked.
       event.preventDefault();
       letGo();
       const [touch] = event.changedTouches;

@@ -6,7 +6,7 @@ import type { Frame } from '../model/show';
 import { createSprites } from '../stage/sprites';
 import type { Handle } from '../model/transformTool';
 import { paintPins } from '../stage/pinMark';
-import type { Looks } from './editing';
+import type { StageOptions } from './editing';
 import { FLOOR } from '../stage/palette';
 
 /** Distance of the handles from the pixels they hold, CSS pixels. */
@@ -66,12 +66,12 @@ export function marksNow(state: EditorState): Marks {
 
 const sprites = createSprites();
 
-/** Draws what is chosen, wrong or in hand on top of the lights. */
+/** Draws selection, wrong pixels and the current gesture over the lights. */
 export function paintOverlay(
   context: CanvasRenderingContext2D,
   camera: Camera,
   state: EditorState,
-  looks: Looks,
+  options: StageOptions,
 ) {
   const radius = Math.max(3, state.show.stage.radius_m * camera.scale);
   const { tooClose, offFloor } = marksNow(state);
@@ -84,7 +84,7 @@ export function paintOverlay(
     if (state.selection.has(p.id)) stamp(context, chosen, at, density);
     if (tooClose.has(p.id)) stamp(context, close, at, density);
     if (offFloor.has(p.id)) cross(context, at, radius + 5);
-    if (looks.ids) label(context, String(p.id), { x: at.x, y: at.y - radius - 9 });
+    if (options.ids) label(context, String(p.id), { x: at.x, y: at.y - radius - 9 });
   }
   const pinned = state.show.frames[state.frame]?.pixels.filter((p) => p.robot !== null) ?? [];
   paintPins(context, camera, state.show.stage.radius_m, pinned);

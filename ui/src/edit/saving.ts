@@ -11,10 +11,10 @@ import type { Editor } from '../model/editor';
 import { readShow, writeShow } from '../model/json';
 import { createSaver, type Saved, type Saver } from '../model/saver';
 import type { Show } from '../model/show';
-import { tell } from '../session/notices';
+import { notify } from '../session/notices';
 import type { Session } from '../session/session';
 
-/** Where the changes of a show go: soon to this browser's storage, and to the server. */
+/** Saves the changes of a show to this browser's storage and to the server. */
 export interface Saving {
   saver: Saver;
   keeper: Keeper;
@@ -23,7 +23,7 @@ export interface Saving {
 }
 
 const textOf = (show: Show) => JSON.stringify(writeShow(show));
-/** The same text for the same show, whoever wrote the document. */
+/** The same text for the same show, whatever the order of keys in the document. */
 const normal = (document: unknown) => textOf(readShow(document));
 
 /**
@@ -76,7 +76,7 @@ interface Target {
 }
 
 function createPut(target: Target, editor: Editor) {
-  /** What was sent and not answered: the server may have it all the same. */
+  /** The body of a request without an answer: the server may have saved it. */
   let sent: string | null = null;
   const mine = async () => {
     const theirs = await getShow(target.name());
@@ -90,7 +90,7 @@ function createPut(target: Target, editor: Editor) {
   return async (base: string | null): Promise<Saved> => {
     const body = textOf(editor.state.get().show);
     try {
-      // What is based on nothing replaces nothing.
+      // A show without a version in the library must not replace one.
       const saved = await save(body, base ?? 'new');
       sent = null;
       return saved;
@@ -100,7 +100,7 @@ function createPut(target: Target, editor: Editor) {
       if (!conflict) sent = normal(writeShow(editor.state.get().show));
       const etag = conflict ? await mine().catch(() => null) : null;
       if (etag === null) return { ok: false, conflict, reason };
-      // The lost answer was a yes: what came since then follows.
+      // The request without an answer was saved: save the changes since then on top of it.
       return save(body, etag).catch((again: unknown) => ({
         ok: false,
         conflict: again instanceof Refused && again.status === 412,
@@ -110,7 +110,7 @@ function createPut(target: Target, editor: Editor) {
   };
 }
 
-/** What an earlier page of this show could not save: the `wanted` one, or the newest; `null` if there is none. */
+/** The draft of a closed page with unsaved changes of this show: the `wanted` one, or the newest; `null`: none. */
 export function draftOf(
   session: Session,
   name: string,
@@ -125,12 +125,12 @@ export function draftOf(
   return unsaved.find((draft) => draft.id === wanted) ?? unsaved[0] ?? null;
 }
 
-/** Puts a draft back as a change. If somebody saved since it was made, saving finds the conflict. */
+/** Restores a draft as a change. If another screen saved a newer version, saving finds the conflict. */
 export function restoreDraft(session: Session, { editor, keeper }: Restored, draft: LeftDraft) {
   editor.change('Restored changes', () => readShow(draft.document));
   keeper.flush();
   session.orphans.set(session.drafts.left());
-  tell('good', `Your last changes of ${draft.name} were kept in this browser and are back.`);
+  notify('good', `Your last changes of ${draft.name} were kept in this browser and are back.`);
 }
 
 interface Restored {

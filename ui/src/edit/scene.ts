@@ -7,7 +7,7 @@ import { unitStore } from '../session/preferences';
 import type { Frame } from '../model/show';
 import { dotsAt, timelineOf } from '../model/timeline';
 import { floorOf, type Scene } from '../stage/scene';
-import type { Looks } from './editing';
+import type { StageOptions } from './editing';
 import { paintOverlay } from './overlay';
 
 const NOTHING: readonly never[] = [];
@@ -28,7 +28,7 @@ function ghostsOf({ show, frame }: EditorState): readonly Dot[] {
 /** What the editor's stage shows: the frame on it, or the plan at a moment of the show. */
 export function editScene(
   state: EditorState,
-  looks: Looks,
+  options: StageOptions,
   plan: Plan | null,
   time_s: number | null,
 ): Scene {
@@ -36,15 +36,20 @@ export function editScene(
   const base = { ...floorOf(show.stage, unitStore.get()), errors: NOTHING };
   if (time_s !== null && plan) {
     const filled = dotsAt(show, plan, timelineOf(show, plan), time_s);
-    const hollow = looks.ghosts ? hollowOf(show.frames[frame]) : NOTHING;
-    return { ...base, filled, hollow, paths: looks.ways ? pathsTo(plan, show, frame) : NOTHING };
+    const hollow = options.ghosts ? hollowOf(show.frames[frame]) : NOTHING;
+    return {
+      ...base,
+      filled,
+      hollow,
+      paths: options.routes ? pathsTo(plan, show, frame) : NOTHING,
+    };
   }
   const pixels = show.frames[frame]?.pixels ?? [];
   return {
     ...base,
     filled: pixels.map((p) => ({ x: p.x, y: p.y, color: p.color, alpha: 1 })),
-    hollow: looks.ghosts ? ghostsOf(state) : NOTHING,
-    paths: looks.ways ? pathsTo(plan, show, frame) : NOTHING,
-    overlay: (context, camera) => paintOverlay(context, camera, state, looks),
+    hollow: options.ghosts ? ghostsOf(state) : NOTHING,
+    paths: options.routes ? pathsTo(plan, show, frame) : NOTHING,
+    overlay: (context, camera) => paintOverlay(context, camera, state, options),
   };
 }

@@ -38,14 +38,14 @@ function createTool(editing: Editing): Tool {
       return createObstacleTool((m) => lengthText(m, unitStore.get()));
     case 'arrow':
       return createArrowTool({
-        grid_m: () => (editing.looks.get().snap ? snapStep(editing.view.get().camera.scale) : 0),
-        neighbours: () => editing.looks.get().snap,
+        grid_m: () => (editing.options.get().snap ? snapStep(editing.view.get().camera.scale) : 0),
+        neighbours: () => editing.options.get().snap,
         lengthText: (m) => lengthText(m, unitStore.get()),
       });
   }
 }
 
-/** Leads pointers to the chosen tool, or to the handle under them; Escape gives up what is under way. */
+/** Sends pointer events to the chosen tool, or to the handle under the pointer; Escape cancels the gesture. */
 export function useHand(editing: Editing): { hand: Hand; giveUp: () => boolean } {
   const name = useStore(editing.tool);
   const led = useMemo(() => {

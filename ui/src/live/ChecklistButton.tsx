@@ -5,7 +5,7 @@ import { useSession } from '../session/session';
 import { isReady } from '../session/checklist';
 import { checkNow } from '../session/start';
 
-/** Opens the checklist; says before Play is pressed whether something is missing. */
+/** Opens the checklist; a mark on it shows that something is missing. */
 export function ChecklistButton() {
   const session = useSession();
   const { live } = session;

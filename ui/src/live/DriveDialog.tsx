@@ -12,7 +12,7 @@ interface Props {
   onClose: () => void;
 }
 
-/** Asks before real robots leave for a frame. */
+/** Asks before real robots drive to a frame. */
 export function DriveDialog({ opened, frame, rows, onDrive, onClose }: Props) {
   return (
     <Modal opened={opened} onClose={onClose} title={driveQuestion(rows, frame)}>

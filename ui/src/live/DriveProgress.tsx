@@ -3,7 +3,7 @@ import { useSession } from '../session/session';
 import page from '../parts/page.module.css';
 import styles from './DriveProgress.module.css';
 
-/** How much of the drive to the frame is done: the one thing here that changes with every snapshot. */
+/** Progress of the drive to the frame: the only part of the bar that changes with every snapshot. */
 export function DriveProgress() {
   const { live } = useSession();
   const done = useStore(live.playback, (p) => p.progress);

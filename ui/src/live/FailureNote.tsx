@@ -4,7 +4,7 @@ import { useStore } from '../base/store';
 import { useSession } from '../session/session';
 import styles from './FailureNote.module.css';
 
-/** Where and why the last run failed, above Play, until the operator has read it or starts again. */
+/** Place and reason of the last failure, above Play, until the operator dismisses it or starts again. */
 export function FailureNote() {
   const { live, ask } = useSession();
   const failure = useStore(live.playback, (p) => p.failure);

@@ -12,17 +12,17 @@ interface Props {
   wide: boolean;
   pinned: boolean;
   ask: Session['ask'];
-  /** Shows everything about it. */
+  /** Opens the details of the robot. */
   choose: (id: string) => void;
 }
 
-/** Everything of a row that is shown. The table comes twice a second, and hardly a row of it says anything new. */
+/** The shown values of a row as one text. The table arrives twice a second, and few of its rows change. */
 const shownOf = ({ row, wide, pinned }: Props) =>
   [
     row.pixel,
     words.stateText(row),
     row.battery,
-    wide && [words.heardText(row), words.clockText(row)],
+    wide && [words.lastSeenText(row), words.clockText(row)],
     wide && [words.firmwareText(row), words.abilitiesText(row)],
     row.abilities.blink,
     row.presence,
@@ -56,7 +56,7 @@ function Line({ row, wide, pinned, ask, choose }: Props) {
       </td>
       {wide ? (
         <>
-          <td>{words.heardText(row)}</td>
+          <td>{words.lastSeenText(row)}</td>
           <td>{words.firmwareText(row)}</td>
           <td>{words.abilitiesText(row)}</td>
           <td>{words.clockText(row)}</td>
@@ -64,8 +64,8 @@ function Line({ row, wide, pinned, ask, choose }: Props) {
       ) : null}
       <td className={styles.actions}>
         <IconButton
-          label="Let it blink"
-          name={`Let robot ${name} blink`}
+          label="Identify"
+          name={`Identify robot ${name}`}
           size="sm"
           disabled={!row.abilities.blink || row.presence !== 'active'}
           onClick={() => void ask({ do: 'identify', robot: row.id })}
@@ -73,8 +73,8 @@ function Line({ row, wide, pinned, ask, choose }: Props) {
           <IconBulb size={15} />
         </IconButton>
         <IconButton
-          label="All about it: pin, forget…"
-          name={`More about robot ${name}`}
+          label="Robot details"
+          name={`Details of robot ${name}`}
           size="sm"
           onClick={() => choose(row.id)}
         >

@@ -8,17 +8,17 @@ import { FleetLine } from './FleetLine';
 import { RobotDialog } from './RobotDialog';
 import styles from './FleetTable.module.css';
 
-/** Rows shown; beyond it nobody reads a table. */
+/** Most rows that the table shows; longer tables are not read. */
 const ROWS_MAX = 300;
 
-/** By pixel, those who stand by last. */
+/** By pixel; spare robots last. */
 const byPixel = (a: FleetRow, b: FleetRow) =>
   (a.pixel ?? Infinity) - (b.pixel ?? Infinity) || a.id.localeCompare(b.id);
 
 const COLUMNS = ['Pixel', 'Robot', 'State', 'Charge'] as const;
-const MORE_COLUMNS = ['Heard', 'Firmware', 'Can', 'Clock'] as const;
+const MORE_COLUMNS = ['Last seen', 'Firmware', 'Supports', 'Clock'] as const;
 
-/** Which robot shows which pixel, and how it is. */
+/** The fleet: pixel and state of each robot. */
 export function FleetTable(props: { wide: boolean; onWide: (wide: boolean) => void }) {
   const { wide } = props;
   const { live, ask } = useSession();

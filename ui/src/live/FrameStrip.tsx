@@ -5,7 +5,7 @@ import { Thumbnail } from '../stage/Thumbnail';
 import { isRunning } from './scene';
 import styles from '../parts/strip.module.css';
 
-/** The frames in playing order: choose where to begin, see where the show is. */
+/** The frames in playing order: choose the first one, see the current one. */
 export function FrameStrip() {
   const { live, frame } = useSession();
   const show = useStore(live.opened, (o) => o.show);

@@ -7,7 +7,7 @@ import { StartDialog } from './StartDialog';
 import { Transport } from './Transport';
 import styles from '../parts/page.module.css';
 
-/** Watching and playing. */
+/** The page of the live view. */
 export function LivePage() {
   return (
     <main className={styles.page}>

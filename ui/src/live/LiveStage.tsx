@@ -13,14 +13,14 @@ import { RobotTwin } from './RobotTwin';
 import { liveScene, wrongIn } from './scene';
 import styles from '../stage/stage.module.css';
 
-/** The floor as it is now. */
+/** The floor with the measured positions of the robots. */
 export function LiveStage() {
   const { live, frame } = useSession();
   const [view] = useState(createView);
   const [full] = useState(() => createFullPlan(live));
   const [close] = useState(createCloseWatch);
   const [targets, setTargets] = useState(true);
-  const [ways, setWays] = useState(false);
+  const [routes, setRoutes] = useState(false);
   const show = useStore(live.opened, (o) => o.show);
   const chosen = useStore(frame);
   const playing = useStore(live.playback, (p) => p.frame);
@@ -29,17 +29,17 @@ export function LiveStage() {
   const wrong = useMemo(() => wrongIn(found, chosen), [found, chosen]);
   const empty = useStore(live.fleet, (fleet) => fleet.rows.length === 0);
   const linked = useStore(live.link) === 'open';
-  useEffect(() => (ways ? full.follow() : undefined), [ways, full]);
+  useEffect(() => (routes ? full.follow() : undefined), [routes, full]);
   useKeys([
     ['0', () => fitView(view)],
     ['+', () => zoomView(view, 1.4)],
     ['-', () => zoomView(view, 1 / 1.4)],
     ['t', () => setTargets((on) => !on)],
-    ['w', () => setWays((on) => !on)],
+    ['w', () => setRoutes((on) => !on)],
   ]);
   const paths = useMemo(
-    () => (ways ? pathsTo(plan, show, playing ?? chosen) : []),
-    [ways, plan, show, playing, chosen],
+    () => (routes ? pathsTo(plan, show, playing ?? chosen) : []),
+    [routes, plan, show, playing, chosen],
   );
   const sceneAt = useCallback(
     (now_ms: number) => liveScene(live, { show, chosen, targets, paths, wrong, close }, now_ms),
@@ -63,7 +63,7 @@ export function LiveStage() {
         <StageTool label="Planned places (T)" active={targets} onClick={() => setTargets(!targets)}>
           <IconTarget size={17} />
         </StageTool>
-        <StageTool label="Planned ways (W)" active={ways} onClick={() => setWays(!ways)}>
+        <StageTool label="Planned routes (W)" active={routes} onClick={() => setRoutes(!routes)}>
           <IconRoute size={17} />
         </StageTool>
         <ZoomTools view={view} />

@@ -8,10 +8,10 @@ import styles from './LogList.module.css';
 
 const WORDS = { debug: '', info: '', warn: 'Warning: ', error: 'Error: ' } as const;
 
-/** Lines may come one upon the other. */
+/** Least time between two renderings, milliseconds, because many lines may arrive at once. */
 const EVERY_MS = 100;
 
-/** What happened, newest at the end; nothing is done for it while nobody looks. */
+/** The log, newest line last; it is not rendered while its tab is hidden. */
 export function LogList({ seen }: { seen: boolean }) {
   const [only, setOnly] = useState('all');
   return (
@@ -23,9 +23,9 @@ export function LogList({ seen }: { seen: boolean }) {
         value={only}
         onChange={setOnly}
         data={[
-          { value: 'all', label: 'Events' },
+          { value: 'all', label: 'Activity' },
           { value: 'problems', label: 'Problems' },
-          { value: 'debug', label: 'Everything' },
+          { value: 'debug', label: 'Debug' },
         ]}
       />
       {seen ? <Lines only={only} /> : null}
@@ -64,7 +64,7 @@ function Lines({ only }: { only: string }) {
   );
 }
 
-/** Whom a line is about that sums up several robots; the names are there only while somebody wants to see them. */
+/** The robots that a summarising line is about; their names are in the page only while the list is open. */
 function Names({ line: { robots, count } }: { line: LogLine }) {
   const [open, setOpen] = useState(false);
   const more = count - robots.length;

@@ -5,12 +5,12 @@ import { useSession } from '../session/session';
 import { phaseText } from './actions';
 import styles from './PlayState.module.css';
 
-/** Frame x of y, who is still on the way, time left. */
+/** Frame x of y, the robots that have not arrived, time left. */
 export function PlayState() {
   const { live, frame, waiting } = useSession();
-  const isWaiting = useStore(waiting, (wish) => wish !== null);
+  const isWaiting = useStore(waiting, (pending) => pending !== null);
   const from = useStore(frame);
-  // Texts, not the snapshot: what says the same is not rendered again twenty times a second.
+  // Texts, not the snapshot, because equal texts are not rendered again twenty times a second.
   const phase = useStore(live.playback, (p) => p.phase);
   const text = useStore(live.playback, phaseText);
   const failed = useStore(live.playback, (p) => p.phase === 'ready' && p.failure !== null);
@@ -57,7 +57,7 @@ export function PlayState() {
   );
 }
 
-/** The machine that simulates the robots is too slow for them. */
+/** Shows that the server simulates the robots slower than real time. */
 function SlowTime({ percent }: { percent: number }) {
   return (
     <Tooltip

@@ -8,7 +8,7 @@ import { useSession } from '../session/session';
 import * as words from '../session/robotWords';
 import styles from './facts.module.css';
 
-/** Everything about one robot, and what can be done with it. */
+/** Details of one robot, and its actions. */
 export function RobotDialog({ row, onClose }: { row: FleetRow | null; onClose: () => void }) {
   return (
     <Modal
@@ -27,11 +27,11 @@ function Details({ row, onClose }: { row: FleetRow; onClose: () => void }) {
     ['Name', row.id],
     ['Kind', row.simulated ? 'simulated' : 'real'],
     ['State', words.stateText(row)],
-    ['Heard', words.heardText(row)],
+    ['Last seen', words.lastSeenText(row)],
     ['Charge', words.chargeText(row)],
-    ['Shows', row.pixel === null ? 'nothing, it stands by' : `pixel ${row.pixel}`],
+    ['Shows', row.pixel === null ? 'no pixel (spare)' : `pixel ${row.pixel}`],
     ['Firmware', words.firmwareText(row)],
-    ['Can', words.abilitiesText(row)],
+    ['Supports', words.abilitiesText(row)],
     ['Clock', words.clockText(row)],
   ];
   return (
@@ -58,14 +58,14 @@ function Details({ row, onClose }: { row: FleetRow; onClose: () => void }) {
           disabled={!row.abilities.blink || row.presence !== 'active'}
           onClick={() => void ask({ do: 'identify', robot: row.id })}
         >
-          Let it blink
+          Identify
         </Button>
       </Group>
     </Stack>
   );
 }
 
-/** Which pixel this robot must show; kept in the show. */
+/** The pixel that is pinned to this robot; saved in the show. */
 function PinChoice({ row }: { row: FleetRow }) {
   const session = useSession();
   const show = useStore(session.live.opened, (o) => o.show);
@@ -88,12 +88,11 @@ function PinChoice({ row }: { row: FleetRow }) {
   };
   return (
     <Select
-      label="Always shows"
-      description="In this show, in every frame."
+      label="Pinned to pixel (all frames)"
       searchable
       allowDeselect={false}
       limit={200}
-      data={[{ value: '', label: 'Any pixel' }, ...options]}
+      data={[{ value: '', label: 'None' }, ...options]}
       value={mine === undefined ? '' : String(mine)}
       onChange={pin}
     />

@@ -8,7 +8,7 @@ import { useSession } from '../session/session';
 import { IssueList } from '../parts/IssueList';
 import styles from './facts.module.css';
 
-/** The open show in numbers, and what is wrong with it. */
+/** Figures of the open show, and its issues. */
 export function ShowFacts() {
   const { live, frame } = useSession();
   const opened = useStore(live.opened);
@@ -69,7 +69,7 @@ function PlanFacts({ plan }: { plan: Plan }) {
   );
 }
 
-/** At how many moments any one robot may stop dead, and on the way to which pictures at not all of them. */
+/** Share of moments at which any robot may stop dead, and the frames whose transitions have unsafe moments. */
 function stopSafeText(plan: Plan): string {
   if (!plan.ok || plan.transitions.length === 0) return '–';
   if (plan.stop_safe >= 1) return 'any one robot may stop dead at any moment';

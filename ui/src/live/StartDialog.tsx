@@ -10,6 +10,7 @@ import { useSession } from '../session/session';
 import { canDrive, canGoOn, isReady, type Check } from '../session/checklist';
 import { checkNow, whenPlanned } from '../session/start';
 import styles from './StartDialog.module.css';
+import { countText } from '../base/numbers';
 
 const MARKS = {
   good: [IconCircleCheck, 'Fine'],
@@ -18,7 +19,7 @@ const MARKS = {
   bad: [IconCircleX, 'Missing'],
 } as const;
 
-/** What to be sure of before robots move, as it is now; and a way to go on without what is missing. */
+/** The checklist before a start, kept up to date, with a button that starts the show without the missing robots. */
 export function StartDialog() {
   const session = useSession();
   const opened = useStore(session.checking);
@@ -34,7 +35,7 @@ export function StartDialog() {
 function Checklist({ close }: { close: () => void }) {
   const session = useSession();
   const { live } = session;
-  // The fleet table comes at least twice a second, so that the list is never old.
+  // The fleet table arrives at least twice a second and keeps the list up to date.
   const rows = useStore(live.fleet, (fleet) => fleet.rows);
   useStore(live.plan);
   useStore(live.opened);
@@ -52,7 +53,7 @@ function Checklist({ close }: { close: () => void }) {
   return (
     <>
       <Modal.Header>
-        <Modal.Title>{ready ? 'Ready to play' : 'Not quite ready'}</Modal.Title>
+        <Modal.Title>Before you start</Modal.Title>
         <Modal.CloseButton aria-label="Close" />
       </Modal.Header>
       <Modal.Body>
@@ -73,7 +74,7 @@ function Checklist({ close }: { close: () => void }) {
             disabled={!idle || !canGoOn(checks) || drivers === 0}
             onClick={() => play(ready ? 'refuse' : 'leave_out')}
           >
-            {ready ? 'Play' : `Play with ${drivers} robots`}
+            {ready || drivers === 0 ? 'Play' : `Play with ${countText(drivers, 'robot')}`}
           </Button>
         </Group>
       </Modal.Body>

@@ -28,7 +28,7 @@ const ICONS = {
   resume: <IconPlayerPlayFilled size={16} />,
 };
 
-/** The buttons that make robots move and stop. What is offered follows the server's state. */
+/** The buttons that start, pause and stop robots; the server's state enables them. */
 export function Transport() {
   const session = useSession();
   const { live, ask, frame } = session;
@@ -37,7 +37,7 @@ export function Transport() {
   const chosen = useStore(frame);
   const linked = useStore(live.link) === 'open';
   const hasShow = useStore(live.opened, (o) => o.show !== null);
-  const isWaiting = useStore(session.waiting, (wish) => wish !== null);
+  const isWaiting = useStore(session.waiting, (pending) => pending !== null);
   const [asking, setAsking] = useState({ opened: false, frame: 0 });
   useEffect(() => followPlan(session), [session]);
   const actions = actionsOf(phase, linked, hasShow);
@@ -48,7 +48,7 @@ export function Transport() {
     if (!actions.enabled.has(action)) return;
     if (action === 'play') return startPlay(session);
     if (action === 'preview') {
-      // Nothing real moves unasked.
+      // Real robots drive only after a confirmation.
       if (fleetKind(live.fleet.get().rows) === 'real') setAsking({ opened: true, frame: chosen });
       else drive(chosen);
       return;

@@ -3,7 +3,7 @@ import type { Phase, Playback } from '../api/types.gen';
 export type Action =
   'play' | 'pause' | 'resume' | 'abort' | 'step' | 'preview' | 'loop' | 'refresh';
 
-/** What can be done now, and what the large button does. */
+/** The enabled actions, and the action of the large button. */
 export interface Actions {
   main: 'play' | 'pause' | 'resume';
   enabled: ReadonlySet<Action>;
@@ -23,7 +23,7 @@ export function actionsOf(phase: Phase, linked: boolean, hasShow: boolean): Acti
   return { main, enabled };
 }
 
-/** What is going on, in a few words. */
+/** The state of the show in a few words. */
 export function phaseText(
   playback: Pick<Playback, 'phase' | 'frame' | 'frames' | 'failure'>,
 ): string {

@@ -3,12 +3,12 @@ import { crowded } from '../model/marks';
 import { canvasFromStage, type Camera } from '../stage/camera';
 import { FLOOR } from '../stage/palette';
 
-/** Looked for this often, milliseconds: among thousands it takes a while. */
+/** Period of the search, milliseconds, because it takes long with thousands of robots. */
 const EVERY_MS = 200;
 
-/** Finds robots that are drawn so close that their rims touch. */
+/** Finds robots whose rims touch in the picture. */
 export interface CloseWatch {
-  /** Which of the places are closer to another than `gap_m`; looked for anew a few times a second. */
+  /** Indices of the places closer than `gap_m` to another place; computed a few times a second. */
   find(places: readonly Point[], gap_m: number, now_ms: number): readonly number[];
 }
 
@@ -28,7 +28,7 @@ export function createCloseWatch(): CloseWatch {
   };
 }
 
-/** Dashed rings around those that touch, as in the editor. */
+/** Draws dashed rings around positions, as the editor does. */
 export function paintClose(
   c: CanvasRenderingContext2D,
   camera: Camera,

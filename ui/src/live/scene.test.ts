@@ -4,7 +4,7 @@ import { newShow } from '../model/show';
 import { createCloseWatch } from './closeWatch';
 import { fade, liveScene, wrongIn } from './scene';
 import { robotsOf } from '../session/robots.testing';
-import { createLive, hear } from '../session/live';
+import { createLive, receive } from '../session/live';
 
 const row = (presence: Presence): FleetRow => ({
   id: presence,
@@ -52,7 +52,7 @@ test('pixels that errors of the plan are about are wrong in their frame', () => 
 
 test('planned is hollow, measured is filled, and neither becomes the other', () => {
   const live = createLive();
-  const wish = {
+  const inputs = {
     show: newShow('x', 2),
     chosen: 0,
     targets: true,
@@ -60,7 +60,7 @@ test('planned is hollow, measured is filled, and neither becomes the other', () 
     wrong: new Set<number>(),
     close: createCloseWatch(),
   };
-  expect(liveScene(live, wish, 0)).toMatchObject({ filled: [], hollow: [{}, {}] });
+  expect(liveScene(live, inputs, 0)).toMatchObject({ filled: [], hollow: [{}, {}] });
   const playback = { ...live.playback.get(), phase: 'playing' as const };
   const robots = robotsOf({
     x: [0.1],
@@ -80,8 +80,8 @@ test('planned is hollow, measured is filled, and neither becomes the other', () 
     reason: null,
   };
   live.track.push(robots, 0);
-  hear(live, { type: 'state', at_ms: 0, pace: 1, fleet: 1, broker, playback });
-  const scene = liveScene(live, wish, 1000);
+  receive(live, { type: 'state', at_ms: 0, pace: 1, fleet: 1, broker, playback });
+  const scene = liveScene(live, inputs, 1000);
   expect(scene.filled).toMatchObject([{ x: Math.fround(0.1), y: Math.fround(0.2), color: 255 }]);
   expect(scene.hollow).toMatchObject([{ x: 0.5, y: Math.fround(0.2) }]);
   expect(scene.errors).toHaveLength(1);

@@ -10,7 +10,7 @@ import type { Live } from '../session/live';
 const ALPHAS = { active: 1, stale: 0.4, gone: 0.15 } as const;
 const fades = new WeakMap<Fleet, (robot: number) => number>();
 
-/** How strongly a robot is drawn: silent ones faded. */
+/** Opacity of each robot: silent robots are faded. */
 export function fade(fleet: Fleet): (robot: number) => number {
   let faded = fades.get(fleet);
   if (!faded) {
@@ -21,22 +21,22 @@ export function fade(fleet: Fleet): (robot: number) => number {
   return faded;
 }
 
-/** Whether robots are on their way, so that their goals are what is planned. */
+/** Whether robots drive, so that their goals are the targets to draw. */
 export const isRunning = (phase: Phase) => phase !== 'idle' && phase !== 'ready';
 
 const NOTHING: readonly never[] = [];
-export interface SceneWish {
+export interface LiveSceneInputs {
   show: Show | null;
   /** The frame chosen in the strip. */
   chosen: number;
   targets: boolean;
   paths: Scene['paths'];
-  /** Ids of the pixels of the chosen frame that the plan finds wrong. */
+  /** Ids of the chosen frame's pixels in errors of the plan. */
   wrong: ReadonlySet<number>;
   close: CloseWatch;
 }
 
-/** Ids of the pixels of a frame that errors of the plan are about: too close, in the way, or out of reach. */
+/** Ids of the pixels of a frame in errors of the plan: too close, in a no-go area, or out of reach. */
 export const wrongIn = (plan: Plan | null, frame: number): ReadonlySet<number> =>
   new Set(
     plan?.issues
@@ -44,24 +44,24 @@ export const wrongIn = (plan: Plan | null, frame: number): ReadonlySet<number> =
       .flatMap((issue) => issue.pixels),
   );
 
-/** What the live stage shows now. */
-export function liveScene(live: Live, wish: SceneWish, now_ms: number): Scene {
+/** The scene of the live stage. */
+export function liveScene(live: Live, inputs: LiveSceneInputs, now_ms: number): Scene {
   const sample = live.track.sample(now_ms, fade(live.fleet.get()));
   const running = isRunning(live.playback.get().phase);
-  const stage = wish.show?.stage ?? EMPTY_STAGE;
-  const hollow = running ? sample.hollow : hollowOf(wish.show?.frames[wish.chosen]);
-  const pinned = wish.show?.frames[wish.chosen]?.pixels.filter((p) => p.robot !== null) ?? [];
+  const stage = inputs.show?.stage ?? EMPTY_STAGE;
+  const hollow = running ? sample.hollow : hollowOf(inputs.show?.frames[inputs.chosen]);
+  const pinned = inputs.show?.frames[inputs.chosen]?.pixels.filter((p) => p.robot !== null) ?? [];
   const wrong =
-    wish.show?.frames[wish.chosen]?.pixels.filter((p) => wish.wrong.has(p.id)) ?? NOTHING;
-  const close = wish.close.find(sample.filled, contact_m(stage), now_ms);
+    inputs.show?.frames[inputs.chosen]?.pixels.filter((p) => inputs.wrong.has(p.id)) ?? NOTHING;
+  const close = inputs.close.find(sample.filled, contact_m(stage), now_ms);
   return {
     ...floorOf(stage, unitStore.get()),
     filled: sample.filled,
-    hollow: wish.targets ? hollow : NOTHING,
-    errors: wish.targets && running ? sample.errors : NOTHING,
-    paths: wish.paths,
+    hollow: inputs.targets ? hollow : NOTHING,
+    errors: inputs.targets && running ? sample.errors : NOTHING,
+    paths: inputs.paths,
     overlay: (context, camera) => {
-      if (wish.targets && !running) {
+      if (inputs.targets && !running) {
         paintPins(context, camera, stage.radius_m, pinned);
         paintClose(context, camera, stage.radius_m, wrong);
       }

@@ -1,6 +1,6 @@
 import { type Box, type Point, along, boxOf, centreOf } from '../base/geometry';
 
-/** Places of the chosen pixels, in the order of their ids; each arrangement gives as many back. */
+/** Arrangements map positions in the order of the pixels' ids to as many new positions. */
 export type Places = readonly Point[];
 
 export type Edge = 'left' | 'centre' | 'right' | 'top' | 'middle' | 'bottom';
@@ -35,7 +35,7 @@ export function distribute(places: Places, axis: 'x' | 'y'): Point[] {
 
 const at = (places: Places, i: number): Point => places[i] ?? { x: 0, y: 0 };
 
-/** On a straight line between the two that are farthest apart along the longer side. */
+/** A straight line between the two pixels that are farthest apart along the longer side. */
 export function line(places: Places): Point[] {
   const box = boxOf(places);
   const axis = box.maxX - box.minX >= box.maxY - box.minY ? 'x' : 'y';
@@ -54,7 +54,7 @@ function give(places: Places, order: readonly number[], targets: readonly Point[
   return result;
 }
 
-/** The angle order about the centre, so that closed shapes cross as little as may be. */
+/** Order by angle about the centre, so that paths to a closed shape cross little. */
 function around(places: Places): number[] {
   const c = centreOf(boxOf(places));
   const angle = (i: number) => Math.atan2(at(places, i).x - c.x, at(places, i).y - c.y);
@@ -92,7 +92,7 @@ function outline(shape: Shape): Point[] {
   }
 }
 
-/** Along the outline of a shape that fills a box; at least `gap_m` apart, so the box may be outgrown. */
+/** Positions along the outline of a shape in a box, at least `gap_m` apart: the shape may outgrow the box. */
 export function shape(places: Places, kind: Shape, box: Box, gap_m: number): Point[] {
   const c = centreOf(box);
   let r = Math.max(Math.min(box.maxX - box.minX, box.maxY - box.minY) / 2, 0.01);
@@ -149,10 +149,10 @@ export function mirror(places: Places, axis: 'x' | 'y'): Point[] {
   );
 }
 
-/** Rounds of pushing; a crowd that is not apart by then has no room. */
+/** Rounds of pushing; pixels that are still too close then have no room. */
 const ROUNDS_MAX = 200;
 
-/** Pushes those closer than `gap_m` apart, as little as it takes. */
+/** Pushes pixels closer than `gap_m` apart by the least distance. */
 export function spread(places: Places, gap_m: number): Point[] {
   const result = places.map((p) => ({ ...p }));
   for (let round = 0; round < ROUNDS_MAX; round++) if (!push(result, gap_m, round)) break;
@@ -168,7 +168,7 @@ function push(points: Point[], gap_m: number, round: number): boolean {
       const d = Math.hypot(dx, dy);
       if (d >= gap_m - 1e-6) continue;
       moved = true;
-      // Those on one place part along a direction of their own.
+      // Pixels at the same position part along a direction that depends on their index.
       const angle = (i * 2.4 + j + round) % (2 * Math.PI);
       const [ux, uy] = d > 1e-9 ? [dx / d, dy / d] : [Math.cos(angle), Math.sin(angle)];
       const half = (gap_m - d) / 2 + 1e-7;
@@ -180,7 +180,7 @@ function push(points: Point[], gap_m: number, round: number): boolean {
   return moved;
 }
 
-/** Gives every pixel one of the targets, left to right, so that neither jumps far without need. */
+/** Assigns pixels to targets from left to right, so that no pixel jumps farther than needed. */
 export function nearest(places: Places, targets: readonly Point[]): Point[] {
   const byX = [...targets].sort((a, b) => a.x - b.x || a.y - b.y);
   return give(places, sorted(places, 'x'), byX);

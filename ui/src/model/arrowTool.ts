@@ -9,7 +9,7 @@ export interface ArrowOptions {
   /** Grid step to snap to, metres; 0: none. */
   grid_m(): number;
   neighbours(): boolean;
-  /** A length for people. */
+  /** A length with its unit. */
   lengthText(metres: number): string;
 }
 
@@ -26,7 +26,7 @@ type Phase =
     }
   | { name: 'marquee'; from: Point; before: ReadonlySet<number> };
 
-/** Chooses by click and marquee, and drags what is chosen. */
+/** Selects by click and marquee, and drags the selection. */
 export function createArrowTool(options: ArrowOptions): Tool {
   let phase: Phase = { name: 'idle' };
 
@@ -124,7 +124,7 @@ export function createArrowTool(options: ArrowOptions): Tool {
   };
 }
 
-/** How far it went, and how far the nearest other pixel is. */
+/** Distance of the drag, and distance to the nearest other pixel. */
 function dragHint(
   now: { lead: Point; places: ReadonlyMap<number, Point> },
   by: { dx: number; dy: number },

@@ -2,7 +2,7 @@ import type { Point } from '../base/geometry';
 import { mix, type Rgb } from '../base/colour';
 import { frontRows, newFrame, newKey, type Frame, type Pixel, type Show, type Stage } from './show';
 
-/** Every change of a show: pure, and the same show when there is nothing to do. */
+/** Changes of a show: pure functions that return the same show when nothing changes. */
 
 const withFrame = (show: Show, index: number, change: (frame: Frame) => Frame): Show => {
   const frame = show.frames[index];
@@ -49,7 +49,7 @@ export function pinPixel(show: Show, id: number, robot: string | null): Show {
   return show.frames.reduce((now, _, i) => mapPixels(now, i, pinned), show);
 }
 
-/** Which robot each pinned pixel is bound to: of several that frames name, the first. */
+/** The robot of each pinned pixel; if frames name several robots, the first. */
 export function pinsOf(show: Show): Map<number, string> {
   const pins = new Map<number, string>();
   for (const frame of show.frames)
@@ -65,7 +65,7 @@ const insertFrames = (show: Show, index: number, frames: readonly Frame[]): Show
 
 const copyFrame = (frame: Frame, name: string): Frame => ({ ...frame, key: newKey(), name });
 
-/** A new frame begins as the one before it, because robots are there. */
+/** Adds a frame with the pixels of the frame before it, because robots stand there. */
 export function addFrame(show: Show, after: number): Show {
   const before = show.frames[after];
   const frame = newFrame(`Frame ${show.frames.length + 1}`, before?.pixels ?? []);
@@ -123,10 +123,10 @@ export const setShow = (show: Show, fields: Partial<Pick<Show, 'name' | 'identit
   ...fields,
 });
 
-/** How many pixels the fullest frame has. */
+/** Number of pixels of the frame with the most pixels. */
 export const fleetSize = (show: Show) => Math.max(0, ...show.frames.map((f) => f.pixels.length));
 
-/** Gives every frame `count` pixels: the highest ids go, new ones stand in rows at the front. */
+/** Gives every frame `count` pixels: removes the highest ids, adds new pixels in rows at the front edge. */
 export function setFleetSize(show: Show, count: number, color: Rgb): Show {
   const rows = frontRows(show.stage, count, color);
   const frames = show.frames.map((frame) => {

@@ -1,11 +1,11 @@
 import { afterEach, beforeEach, expect, test, vi } from 'vitest';
-import { createDrafts, createKeeper, type Shelf } from './drafts';
+import { createDrafts, createKeeper, type DraftStorage } from './drafts';
 
 beforeEach(() => void vi.useFakeTimers());
 afterEach(() => void vi.useRealTimers());
 
 /** A shelf with room for so many characters in one thing. */
-function shelf(room = Infinity): Shelf & { things: Map<string, string> } {
+function shelf(room = Infinity): DraftStorage & { things: Map<string, string> } {
   const things = new Map<string, string>();
   return {
     things,
@@ -23,7 +23,7 @@ function shelf(room = Infinity): Shelf & { things: Map<string, string> } {
 }
 
 /** The drafts of a page; pages of one tab come one after another. */
-const drafts = (on: Shelf | null, tab = 'me', page = 'first', now_ms = 1000) =>
+const drafts = (on: DraftStorage | null, tab = 'me', page = 'first', now_ms = 1000) =>
   createDrafts(on, { tab, page, now_ms: () => now_ms });
 const NOTHING = { etag: null, document: {} };
 
@@ -80,7 +80,7 @@ test('who begins with a draft that was left takes it over once it is kept again,
   drafts(common, 'a', 'page 1')
     .place()
     .keep('A', { etag: null, document: { long: 'changes' } }, true);
-  const begin = (on: Shelf) => {
+  const begin = (on: DraftStorage) => {
     const heir = drafts(on, 'a', 'page 2');
     const [found] = heir.left();
     const keeper = createKeeper(

@@ -1,18 +1,18 @@
-/** What of a browser's storage is used, so that tests can stand in for it. */
-export type Shelf = Pick<Storage, 'getItem' | 'setItem' | 'removeItem' | 'key' | 'length'>;
+/** The part of a browser's storage that drafts use, so that tests can replace it. */
+export type DraftStorage = Pick<Storage, 'getItem' | 'setItem' | 'removeItem' | 'key' | 'length'>;
 
-/** A show as it is on this screen and not yet on the server. */
+/** A show with changes that the server does not have yet. */
 export interface Draft {
-  /** The version in the library it is based on. */
+  /** The version in the library that the draft is based on. */
   etag: string | null;
   document: unknown;
 }
 
-/** A draft whose page is gone. */
+/** A draft of a page that was closed. */
 export interface LeftDraft extends Draft {
-  /** What `drop` takes. */
+  /** The argument of `drop`. */
   id: string;
-  /** Of which show. */
+  /** Name of the show. */
   name: string;
   /** When it was last written, milliseconds since 1970. */
   at_ms: number;
@@ -24,15 +24,15 @@ export interface LeftDraft extends Draft {
  */
 export interface Drafts {
   place(): Place;
-  /** What pages that are gone left behind, newest first. */
+  /** Drafts of closed pages, newest first. */
   left(): LeftDraft[];
   drop(id: string): void;
 }
 
-/** Where the draft of one editor lies. */
+/** The place of one editor's draft. */
 export interface Place {
   id: string;
-  /** Whether there was room for the draft of that show. `isLeft`: its page is going, others may have it. */
+  /** Whether the draft fitted into the storage. `isLeft`: its page closes, and other pages may restore it. */
   keep(name: string, draft: Draft, isLeft?: boolean): boolean;
   drop(): void;
 }
@@ -43,14 +43,14 @@ const PREFIX = 'lightbots-draft:';
  * hidden page do something once a minute.
  */
 const ALIVE_MS = 80_000;
-/** What is unsaved is written again this often, so that others see that its page lives, milliseconds. */
+/** Period of writing an unsaved draft again, so that other pages see that its page is open, milliseconds. */
 const BEAT_MS = 15_000;
 
-/** Who writes drafts, and when. */
+/** The page that writes drafts, and its clock. */
 export interface Writer {
-  /** Tells the tabs of a browser apart, and stays the same when one is loaded again. */
+  /** Identifies the browser tab; stays the same when the tab is loaded again. */
   tab: string;
-  /** Tells pages apart: never the same again. */
+  /** Identifies the page; never used twice. */
   page: string;
   /** Milliseconds since 1970. */
   now_ms(): number;
@@ -58,21 +58,21 @@ export interface Writer {
 
 type Written = Draft & { name: string; tab: string; at_ms: number; isLeft: boolean };
 
-/** Drafts on a shelf; without one nothing is kept. A full or forbidden shelf is no error. */
-export function createDrafts(shelf: Shelf | null, { tab, page, now_ms }: Writer): Drafts {
-  const attempt = <T>(act: (shelf: Shelf) => T, otherwise: T): T => {
+/** Drafts in the browser's storage; null keeps nothing. A full or forbidden storage is no error. */
+export function createDrafts(storage: DraftStorage | null, { tab, page, now_ms }: Writer): Drafts {
+  const attempt = <T>(act: (storage: DraftStorage) => T, otherwise: T): T => {
     try {
-      return shelf ? act(shelf) : otherwise;
+      return storage ? act(storage) : otherwise;
     } catch {
       return otherwise;
     }
   };
-  /** Places of this page whose editor still has its draft in hand. */
+  /** Places of this page whose editor is open. */
   const held = new Set<string>();
   let places = 0;
   const isGone = (id: string, draft: Written) =>
     !held.has(id) && (draft.isLeft || draft.tab === tab || now_ms() - draft.at_ms > ALIVE_MS);
-  const read = (s: Shelf, id: string): LeftDraft[] => {
+  const read = (s: DraftStorage, id: string): LeftDraft[] => {
     const draft = JSON.parse(s.getItem(PREFIX + id) ?? 'null') as Written | null;
     if (typeof draft?.document !== 'object' || !isGone(id, draft)) return [];
     const { name, etag, document, at_ms } = draft;
@@ -108,27 +108,27 @@ export function createDrafts(shelf: Shelf | null, { tab, page, now_ms }: Writer)
   };
 }
 
-/** Writes a draft soon after each change, and as often as this at most, milliseconds. */
+/** Least time between two writes of a draft, milliseconds. */
 const EVERY_MS = 250;
 
-/** Keeps what is unsaved: a draft follows every change, and goes once the server has it. */
+/** Writes a draft after every change, and removes the draft when the server has the change. */
 export interface Keeper {
-  /** Tells editors of this page apart. */
+  /** Identifies the editor within the browser. */
   id: string;
-  /** Whether that key of the shelf is its draft's. */
+  /** Whether this key of the storage belongs to the editor's draft. */
   isKeptAs(key: string): boolean;
   touch(): void;
-  /** Writes now what would be written soon. */
+  /** Writes pending changes at once. */
   flush(): void;
-  /** The show has another name from now on. */
+  /** The show gets another name. */
   rename(name: string): void;
-  /** The editor goes: its draft is for whoever comes next. */
+  /** The editor closes: the next page may restore its draft. */
   leave(): void;
-  /** The page came back, or somebody took the draft away: what is unsaved is written again. */
+  /** The page came back, or the draft was removed: unsaved changes are written again. */
   hold(): void;
-  /** The server has everything. */
+  /** The server has all changes. */
   saved(): void;
-  /** Whether a change is unsaved that the shelf had no room for. */
+  /** Whether an unsaved change did not fit into the storage. */
   isEndangered(): boolean;
 }
 

@@ -1,5 +1,11 @@
 import { afterEach, beforeEach, expect, test, vi } from 'vitest';
-import { createDrafts, createKeeper, type Drafts, type LeftDraft, type Shelf } from './drafts';
+import {
+  createDrafts,
+  createKeeper,
+  type Drafts,
+  type LeftDraft,
+  type DraftStorage,
+} from './drafts';
 import { createSaver, type Saved } from './saver';
 
 /*
@@ -108,7 +114,7 @@ class World {
   }
 
   /** One storage for all pages; each hears when another takes something away. */
-  shelfOf(page: Page): Shelf {
+  shelfOf(page: Page): DraftStorage {
     const { things, pages } = this;
     return {
       getItem: (key) => things.get(key) ?? null,

@@ -16,7 +16,7 @@ import {
 import { stepBack, stepForth } from './history';
 import type { Frame, Pixel, Show } from './show';
 
-/** The editor without a screen: a show, what is chosen in it, and what can be undone. */
+/** The editor without a screen: a show, the selection, and the history. */
 export interface Editor extends Gestures, Choice, CopyPaste {
   state: Store<EditorState>;
   current(): Frame | undefined;

@@ -1,11 +1,11 @@
 /** Marks that can be undone; the oldest fall off. */
 const MARKS_MAX = 500;
 
-/** A state worth coming back to, and where its change happened. */
+/** A change that can be undone: the state before and after it, and its frame. */
 export interface Mark<T> {
   before: T;
   after: T;
-  /** What was done, for people. */
+  /** Name of the change, shown with Undo. */
   label: string;
   /** Index of the frame that changed. */
   frame: number;

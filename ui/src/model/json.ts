@@ -15,12 +15,12 @@ const pair = (value: unknown): [number, number] => {
   return [number(numbers[0], 0), number(numbers[1], 0)];
 };
 
-/** What is left of an object without the fields that are known. */
+/** The fields of an object that the screen does not know. */
 function without(json: Json, known: readonly string[]): Json {
   return Object.fromEntries(Object.entries(json).filter(([key]) => !known.includes(key)));
 }
 
-/** Reads a document the server has checked; what is missing gets its default. */
+/** Reads a document that the server has checked; missing fields get their default. */
 export function readShow(document: unknown): Show {
   const json = object(document);
   return {

@@ -2,10 +2,10 @@ import { NO_OVERLAY } from './editorState';
 import { type Point, inPolygon } from '../base/geometry';
 import { pixelAt, type Tool } from './tool';
 
-/** Corners of a lasso; beyond it the last one moves. */
+/** Most corners of a lasso; after that the last corner follows the pointer. */
 const CORNERS_MAX = 2000;
 
-/** Chooses what is inside a line drawn by hand. Shift adds. */
+/** Selects the pixels inside a freehand line. Shift adds to the selection. */
 export function createLassoTool(): Tool {
   let line: Point[] | null = null;
   let before: ReadonlySet<number> = new Set();

@@ -1,6 +1,6 @@
 import { type Point, along } from '../base/geometry';
 
-/** Strokes of each letter on a grid 2 wide and 4 high: places as pairs of digits x y, strokes parted by spaces. */
+/** Strokes of each letter on a grid 2 wide and 4 high: points as pairs of digits x y, strokes separated by spaces. */
 const STROKES: Record<string, string> = {
   A: '0003142320 0222',
   B: '000414231202 12211000',
@@ -48,7 +48,7 @@ const STROKES: Record<string, string> = {
 /** From one letter to the next, grid units. */
 const ADVANCE = 3.2;
 
-/** The lines of a word; what has no strokes is a gap. */
+/** The strokes of a word; a character without strokes is a gap. */
 export function strokesOf(word: string): Point[][] {
   return [...word.toUpperCase()].flatMap((letter, index) =>
     (STROKES[letter] ?? '')
@@ -68,7 +68,7 @@ const distance = (a: Point, b: Point) => Math.hypot(a.x - b.x, a.y - b.y);
 const lengthOf = (line: readonly Point[]) =>
   line.slice(1).reduce((sum, p, i) => sum + distance(p, line[i] as Point), 0);
 
-/** Points along all strokes about `gap` apart; where strokes meet there is one, not two. */
+/** Points along all strokes about `gap` apart; one point where strokes meet. */
 function sample(strokes: readonly Point[][], gap: number): Point[] {
   const points: Point[] = [];
   for (const stroke of strokes) {
@@ -95,7 +95,7 @@ export function letterPoints(word: string, count: number): Point[] {
   return points;
 }
 
-/** Which of `candidates` is farthest from all of `points`. */
+/** The candidate that is farthest from all points. */
 function farthest(candidates: readonly Point[], points: readonly Point[]): Point {
   let [best, reach] = [candidates[0] ?? { x: 0, y: 0 }, -1];
   for (const c of candidates) {

@@ -1,7 +1,7 @@
 import { setStage } from './commands';
 import type { Show, Stage } from './show';
 
-/** What a robot of the fleet is and can do; what a show does not say is that of the Elisa-3. */
+/** Size and limits of the fleet's robots; the Elisa-3's where a show does not name them. */
 export type LimitName = 'radius_m' | 'speed_mps' | 'accel_mps2' | 'turn_radps';
 
 export const LIMITS_USUAL: Readonly<Record<LimitName, number>> = {

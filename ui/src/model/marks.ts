@@ -1,13 +1,13 @@
 import type { Pixel, Stage } from './show';
 import { tooClose_m } from './show';
 
-/** What is wrong with places, by pixel id. */
+/** Ids of pixels at invalid positions. */
 export interface Marks {
   tooClose: ReadonlySet<number>;
   offFloor: ReadonlySet<number>;
 }
 
-/** Which pixels are too close to another, or not wholly on the floor and clear of obstacles. */
+/** Pixels that are too close to another pixel, and pixels whose robot would leave the floor or touch an obstacle. */
 export function marksOf(pixels: readonly Pixel[], stage: Stage): Marks {
   const offFloor = new Set(pixels.filter((p) => !onFloor(p, stage)).map((p) => p.id));
   return { tooClose: crowded(pixels, tooClose_m(stage)), offFloor };
@@ -30,7 +30,7 @@ function onFloor(p: { x: number; y: number }, stage: Stage): boolean {
   });
 }
 
-/** Whoever has a neighbour closer than `gap_m`: looked for in squares of that size, so that thousands are quick. */
+/** Ids of pixels with a neighbour closer than `gap_m`. A grid of squares of that size keeps thousands of pixels fast. */
 export function crowded(
   pixels: readonly Pick<Pixel, 'id' | 'x' | 'y'>[],
   gap_m: number,

@@ -8,7 +8,7 @@ type Held =
   | { name: 'drawing'; from: Point; before: Show }
   | { name: 'moving'; from: Point; index: number; was: Obstacle };
 
-/** Draws areas where robots must not be, or moves the one that is touched. Alt: a round one from its middle. */
+/** Draws a no-go area, or moves the area under the pointer. Alt: a disc from its centre. */
 export function createObstacleTool(lengthText: (metres: number) => string): Tool {
   let held: Held | null = null;
   return {

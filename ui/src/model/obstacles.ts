@@ -2,9 +2,9 @@ import { type Obstacle, type Point, boxBetween } from '../base/geometry';
 import { setStage } from './commands';
 import type { Show } from './show';
 
-/** The most a document may have. */
+/** Most no-go areas of a document. */
 const OBSTACLES_MAX = 1000;
-/** A smaller one is a click that slipped, metres. */
+/** Least size of a drawn area, metres; a smaller drag counts as a click. */
 const SIDE_MIN = 0.01;
 
 const withObstacles = (show: Show, obstacles: readonly Obstacle[]) => setStage(show, { obstacles });
@@ -28,7 +28,7 @@ export const setObstacle = (show: Show, index: number, obstacle: Obstacle): Show
     show.stage.obstacles.map((o, i) => (i === index ? obstacle : o)),
   );
 
-/** A rectangle between two corners, or with `round` the disc from its centre; `null` if there is nothing of it. */
+/** The rectangle between two corners, or with `round` the disc from its centre; `null` if it is too small. */
 export function obstacleBetween(a: Point, b: Point, round: boolean): Obstacle | null {
   const box = boxBetween(a, b);
   if (round) {

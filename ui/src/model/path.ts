@@ -1,7 +1,7 @@
 import type { Point } from '../base/geometry';
 import type { Path } from '../api/types.gen';
 
-/** Where a path is `t` seconds after its start. Before it rests at its start, afterwards at its end. */
+/** Position on a path `t` seconds after its start; the start before that time, the end after the path. */
 export function pathAt(path: Path, t: number): Point {
   let [x, y] = path.start;
   let left = Math.max(0, t);
@@ -24,7 +24,7 @@ function cubic(a: number, b: number, c: number, d: number, u: number): number {
   return a * w * w * w + 3 * b * w * w * u + 3 * c * w * u * u + d * u * u * u;
 }
 
-/** Points along a path for drawing; pieces that are straight give their end only. */
+/** Points along a path for drawing; a straight piece adds its end only. */
 export function polyline(path: Path): Point[] {
   let [x, y] = path.start;
   const points: Point[] = [{ x, y }];

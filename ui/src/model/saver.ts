@@ -1,13 +1,13 @@
 import { createStore, type Store } from '../base/store';
 
-/** Whether what is on screen is safe. */
+/** Whether the server has the changes of this screen. */
 export type SaveState =
   | { name: 'saved' }
   | { name: 'waiting' }
   | { name: 'saving' }
-  /** Somebody else saved meanwhile: nothing is overwritten until people choose. */
+  /** Another screen saved a newer version: nothing is overwritten until the user chooses. */
   | { name: 'conflict' }
-  /** It did not work; tried again by itself. */
+  /** Saving failed; the next attempt is automatic. */
   | { name: 'failed'; reason: string };
 
 export type Saved = { ok: true; etag: string } | { ok: false; conflict: boolean; reason: string };
@@ -16,20 +16,22 @@ export interface Saver {
   state: Store<SaveState>;
   /** The version in the library that this screen's show is based on. */
   etag(): string | null;
-  /** Something changed: saved soon, never twice at once. */
+  /** The show changed: saves soon, one save at a time. */
   touch(): void;
-  /** Saves now what is waiting. */
+  /** Saves pending changes at once. */
   flush(): void;
-  /** Continues from another version; what is unsaved replaces it. */
+  /** Continues from another version, which the unsaved changes replace. */
   rebase(etag: string | null): void;
-  /** Continues from another version that is on screen now: nothing is unsaved any more. */
+  /** Continues from another version that the screen shows: no change is unsaved. */
   settle(etag: string | null): void;
   stop(): void;
 }
 
-/** A pause this long, or this long since the first unsaved change, saves; milliseconds. */
+/** Time without a change after which the show is saved, milliseconds. */
 const PAUSE_MS = 300;
+/** Longest time between the first unsaved change and the save, milliseconds. */
 const LATEST_MS = 800;
+/** Time between a failed save and the next attempt, milliseconds. */
 const AGAIN_MS = 2000;
 
 export function createSaver(

@@ -8,7 +8,7 @@ export interface Show {
   identity: Identity;
   music: string | null;
   frames: readonly Frame[];
-  /** Everything of the document the screen does not know, kept as it was. */
+  /** Fields of the document that the screen does not know, kept unchanged. */
   rest: Readonly<Record<string, unknown>>;
 }
 
@@ -27,17 +27,17 @@ export interface Stage {
 export type Identity = 'any' | 'fixed';
 export type Easing = 'swift' | 'gentle';
 
-/** A picture: one pixel per robot, how long it stays and how the drive to it goes. */
+/** A picture: one pixel per robot, its air time, and the drive to it. */
 export interface Frame {
-  /** Tells frames apart on screen; not saved. */
+  /** Identifies the frame on this screen; not saved. */
   key: number;
   name: string;
-  /** How long it stays, seconds. */
+  /** How long the picture stays, seconds. */
   airTime_s: number;
-  /** How long the drive to it takes, seconds; null: as fast as legal. */
+  /** Travel time to the frame, seconds; null: as fast as is safe. */
   transition_s: number | null;
   easing: Easing;
-  /** Overrides the show's; null: as the show. */
+  /** Overrides the show's assignment; null: the show's. */
   identity: Identity | null;
   /** Sorted by id, ids unique. */
   pixels: readonly Pixel[];
@@ -50,18 +50,18 @@ export interface Pixel {
   x: number;
   y: number;
   color: Rgb;
-  /** The only robot that may show it. */
+  /** The robot that is pinned to the pixel; null: any robot. */
   robot: string | null;
 }
 
 let lastKey = 0;
-/** A key no frame has had. */
+/** A key that no frame has had. */
 export const newKey = () => ++lastKey;
 
-/** Two centres closer than this touch, metres. */
+/** Distance of centres at which two robots touch, metres. */
 export const contact_m = (stage: Stage) => 2 * stage.radius_m;
 
-/** Two pixels closer than this cannot be planned well, metres. */
+/** Least distance of pixels that the planner handles well, metres. */
 export const tooClose_m = (stage: Stage) => 2 * stage.radius_m + 0.006;
 
 export const EMPTY_STAGE: Stage = {
@@ -98,7 +98,7 @@ export function newFrame(name: string, pixels: readonly Pixel[]): Frame {
   };
 }
 
-/** A show to begin with: one frame, all robots where they stand at the start, warm white. */
+/** A new show: one frame with all robots at the front edge, warm white. */
 export function newShow(name: string, count: number, stage: Stage = EMPTY_STAGE): Show {
   const frames = [newFrame('Start', frontRows(stage, count, 0xffc878))];
   return { name, stage, identity: 'any', music: null, frames, rest: {} };

@@ -15,9 +15,9 @@ export interface Snapped {
 export interface SnapOptions {
   /** Grid step, metres; 0: none. */
   grid_m: number;
-  /** Closer than this snaps, metres. */
+  /** Largest distance that snaps, metres. */
   reach_m: number;
-  /** What the dragged are lined up with. */
+  /** Positions that the dragged pixels align with. */
   neighbours: readonly Point[];
 }
 

@@ -4,7 +4,7 @@ import { mix } from '../base/colour';
 import { pathAt } from './path';
 import type { Show } from './show';
 
-/** When a frame is driven to and shown, seconds from the start of the show. */
+/** Times of the drive to a frame and of its picture, seconds from the start of the show. */
 export interface Segment {
   frame: number;
   driveFrom_s: number;
@@ -12,7 +12,7 @@ export interface Segment {
   until_s: number;
 }
 
-/** The show in time, as planned; drives without a plan take no time. */
+/** The planned times of a show; a drive without a plan takes no time. */
 export function timelineOf(show: Show, plan: Plan | null): Segment[] {
   let clock = 0;
   return show.frames.map((frame, index) => {
@@ -43,7 +43,7 @@ export function previewFrom(
   return isEdge ? 0 : (timeline[frame]?.shownFrom_s ?? 0);
 }
 
-/** Where the lights are planned to be at a moment. */
+/** Planned positions and colours of the lights at a moment. */
 export function dotsAt(
   show: Show,
   plan: Plan,

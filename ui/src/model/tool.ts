@@ -4,19 +4,19 @@ import type { Editor } from './editor';
 /** A pointer on the stage, stage metres. */
 export interface Touch {
   at: Point;
-  /** How far a hand may miss, metres: depends on zoom. */
+  /** Distance by which a click may miss, metres; depends on the zoom. */
   reach_m: number;
   shift: boolean;
   alt: boolean;
   ctrl: boolean;
 }
 
-/** A tool is a small state machine: it snapshots when it is entered and recomputes from the snapshot. */
+/** A small state machine: it takes a snapshot when a gesture begins, and recomputes from the snapshot. */
 export interface Tool {
   down(editor: Editor, touch: Touch): void;
   move(editor: Editor, touch: Touch): void;
   up(editor: Editor, touch: Touch): void;
-  /** Gives up and restores what was; whether there was anything to give up. */
+  /** Cancels the gesture and restores the snapshot; answers whether there was a gesture. */
   cancel(editor: Editor): boolean;
 }
 

@@ -4,13 +4,13 @@ import { placePixels } from './commands';
 import { type Editor } from './editor';
 import type { Tool } from './tool';
 
-/** Which handle of the box around the selection: a corner or side, or the knob that turns. */
+/** A handle of the box around the selection: a corner, a side, or the knob that turns the box. */
 export type Handle = { kind: 'turn' } | { kind: 'scale'; sx: -1 | 0 | 1; sy: -1 | 0 | 1 };
 
 /** A smaller box is not scaled along that side, metres. */
 const SIDE_MIN = 1e-4;
 
-/** Turns or scales what is chosen. Shift: steps of 15°, or both sides alike; Alt: about the centre. */
+/** Turns or scales the selection. Shift: steps of 15°, or the same scale on both axes; Alt: about the centre. */
 export function createTransformTool(handle: Handle): Tool {
   let from: { at: Point; box: Box; places: ReadonlyMap<number, Point> } | null = null;
 

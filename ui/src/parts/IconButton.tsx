@@ -2,16 +2,16 @@ import { ActionIcon, Tooltip, type ActionIconProps, type TooltipProps } from '@m
 import type { ReactNode } from 'react';
 
 interface Props extends ActionIconProps {
-  /** What it does, shown beside the pointer. */
+  /** The action, shown as a tooltip. */
   label: string;
-  /** Its name for those who hear the page, where that is another. */
+  /** Its name for screen readers, if it differs from the label. */
   name?: string;
   position?: TooltipProps['position'];
   onClick: () => void;
   children: ReactNode;
 }
 
-/** A button that is only a picture: it says in words what it does. */
+/** A button with an icon only; its tooltip names the action. */
 export function IconButton({ label, name = label, position, ...more }: Props) {
   return (
     <Tooltip label={label} position={position}>

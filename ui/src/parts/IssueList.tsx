@@ -2,12 +2,12 @@ import { Button, Stack } from '@mantine/core';
 import type { Issue } from '../api/types.gen';
 import styles from './IssueList.module.css';
 
-/** Issues shown; the first ones are mended first. */
+/** Most issues in the list; the first ones are fixed first. */
 const SHOWN_MAX = 30;
 
 const WORDS = { note: 'Note', warning: 'Warning', error: 'Error' } as const;
 
-/** What is wrong with a show, each with the way to its frame. */
+/** The issues of a show, each with a button that shows its frame. */
 export function IssueList(props: { issues: readonly Issue[]; onFrame: (index: number) => void }) {
   const { issues, onFrame } = props;
   if (issues.length === 0) return null;

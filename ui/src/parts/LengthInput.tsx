@@ -3,9 +3,9 @@ import { NumberField } from './NumberField';
 import { useUnit } from '../session/preferences';
 
 interface Props {
-  /** Without the unit: that is added. */
+  /** Label without the unit, which is added. */
   label: string;
-  /** Metres; null: nothing stands there. */
+  /** Metres; null: an empty field. */
   value: number | null;
   onChange: (metres: number) => void;
   /** Metres; no place is farther from the floor's centre than the usual limit. */
@@ -14,7 +14,7 @@ interface Props {
   disabled?: boolean;
 }
 
-/** As far from the origin as the protocol can say, metres. */
+/** Largest coordinate of the protocol, metres. */
 const FAR_M = 1000;
 
 /** A length in the unit of this screen. */

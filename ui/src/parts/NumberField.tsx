@@ -7,25 +7,25 @@ import styles from './NumberField.module.css';
 interface Props extends NumberRule {
   label: string;
   description?: string;
-  /** null: nothing stands there. */
+  /** null: an empty field. */
   value: number | null;
-  /** Decimals that are shown at most. */
+  /** Most decimals shown. */
   digits?: number;
-  /** What the arrows add. */
+  /** Step of the arrows. */
   step?: number;
   disabled?: boolean;
   onChange: (value: number) => void;
 }
 
 /**
- * A number to type. It counts once it is typed to its end: with Enter, with an arrow key, or when the field is left.
+ * A field for a number. The value changes with Enter, with an arrow key, or when the field loses the focus.
  * What cannot be taken stays in the field with the reason, and the value stays what it was; Escape brings it back.
  */
 export function NumberField(props: Props) {
   const { label, description, value, digits = 0, step = 1, disabled, onChange } = props;
   const shown = value === null ? '' : String(Number(value.toFixed(digits)));
   const [typed, setTyped] = useState<{ text: string; over: string } | null>(null);
-  // A value that changes under the field, such as that of another pixel, takes the place of what was typed.
+  // A value that changes from outside, such as for another pixel, replaces the typed text.
   const text = typed?.over === shown ? typed.text : null;
   const read = text === null || text === shown ? null : readNumber(text, props);
   const take = () => {
@@ -69,13 +69,13 @@ export function NumberField(props: Props) {
   );
 }
 
-/** Arrows for the pointer; keys have their own. */
+/** Arrows for the pointer; the keyboard has its own keys. */
 function Steps({ onStep }: { onStep: (up: boolean) => void }) {
   const arrow = (up: boolean) => (
     <UnstyledButton
       tabIndex={-1}
       aria-hidden
-      // The field keeps the focus: what was typed is the start of the step.
+      // The field keeps the focus, because the step starts from the typed number.
       onMouseDown={(event) => event.preventDefault()}
       onClick={() => onStep(up)}
     >

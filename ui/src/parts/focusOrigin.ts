@@ -6,7 +6,7 @@ let [isKeyLast, isByKeyboard] = [false, false];
 
 export const isFocusByKeyboard = () => isByKeyboard;
 
-/** Follows how the focus moves; the page's `data-focus` says it to the style sheet, which draws the ring. */
+/** Records in the page's `data-focus` how the focus moves; the style sheet draws the focus ring by it. */
 export function followFocus(page: Document) {
   const say = (byKeyboard: boolean) => {
     isByKeyboard = byKeyboard;

@@ -8,8 +8,8 @@ import { useEffect } from 'react';
 export function useEscape(key: 'Escape' | 'shift+Escape', act?: (event: KeyboardEvent) => void) {
   useEffect(() => {
     if (!act) return;
-    const hear = getHotkeyHandler([[key, act as () => void, { preventDefault: false }]]);
-    window.addEventListener('keydown', hear, { capture: true });
-    return () => window.removeEventListener('keydown', hear, { capture: true });
+    const receive = getHotkeyHandler([[key, act as () => void, { preventDefault: false }]]);
+    window.addEventListener('keydown', receive, { capture: true });
+    return () => window.removeEventListener('keydown', receive, { capture: true });
   }, [key, act]);
 }

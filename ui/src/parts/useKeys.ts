@@ -2,12 +2,12 @@ import { useHotkeys } from '@mantine/hooks';
 import { isFocusByKeyboard } from './focusOrigin';
 import { useEscape } from './useEscape';
 
-/** Inputs that nobody types into. */
+/** Inputs without text. */
 const WORDLESS = ['radio', 'checkbox', 'button', 'submit', 'file'];
-/** What Space works on, if the focus came there by keyboard. */
+/** Elements that Space presses when the focus came by keyboard. */
 const PRESSED = 'button, summary, input, [role="tab"], [role="option"], [role="button"]';
 
-/** What of an element with the focus is looked at, so that tests can stand in for it. */
+/** The properties of the focused element that matter, so that tests can replace the element. */
 export type Focused = Pick<HTMLElement, 'tagName' | 'isContentEditable' | 'closest'> & {
   type?: string;
 };
@@ -28,18 +28,18 @@ export function isTaken(target: Focused | null, key: string, byKeyboard: boolean
   return moves && (input !== null || target.closest('[role="slider"], [role="tab"]') !== null);
 }
 
-/** Browsers press a button when Space is let go: not where the view has taken the key. */
+/** Browsers press a button when Space is released; this stops them where the view handled the key. */
 function keepFromButton(event: KeyboardEvent) {
   event.target?.addEventListener('keyup', (up) => up.preventDefault(), { once: true });
 }
 
 type Key = readonly [string, (event: KeyboardEvent) => void];
 
-/** What a key does in a view, unless something else has it. */
+/** Keys of a view with their actions. */
 const ruled = (act: Key[1]) => (event: KeyboardEvent) => {
   if (isTaken(event.target as HTMLElement | null, event.key, isFocusByKeyboard())) return;
   const isOpen = document.querySelector('[role="dialog"]') !== null;
-  // What has the focus in a dialog gets its keys; the browser's own shortcuts stay out all the same.
+  // In a dialog the focused element gets the keys; browser shortcuts are still blocked.
   if (isOpen && !event.ctrlKey && !event.metaKey) return;
   event.preventDefault();
   if (isOpen) return;

@@ -2,10 +2,10 @@ import { getShow, putShow } from '../api/http';
 import { readShow, writeShow } from '../model/json';
 import type { Show } from '../model/show';
 import { followCopy } from './copies';
-import { tell } from './notices';
+import { notify } from './notices';
 import type { Session } from './session';
 
-/** Changes the open show from anywhere: through this screen's editor if it has it, else in the library. */
+/** Changes the open show: in this screen's editor if it edits the show, else in the library. */
 export async function changeShow(session: Session, label: string, change: (show: Show) => Show) {
   const { name } = session.live.opened.get();
   const editing = session.editing.get();
@@ -22,6 +22,6 @@ export async function changeShow(session: Session, label: string, change: (show:
     const entry = await putShow(name, JSON.stringify(writeShow(next)), etag);
     if (entry.name !== name) followCopy(session, name, entry);
   } catch (error) {
-    tell('error', error instanceof Error ? error.message : String(error));
+    notify('error', error instanceof Error ? error.message : String(error));
   }
 }

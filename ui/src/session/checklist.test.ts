@@ -54,7 +54,7 @@ test('all is well', () => {
 
 test('what is missing is said, and whether one can go on without', () => {
   const silent = checklistOf(all({ rows: [row('a'), row('b', { presence: 'gone' })] }));
-  expect(of(silent, 'robots')?.detail).toMatch(/1 of 2 ready; 1 silent/);
+  expect(of(silent, 'robots')?.detail).toMatch(/1 of 2 ready: 1 silent/);
   expect([isReady(silent), canGoOn(silent)]).toEqual([false, true]);
   const lost = checklistOf(all({ robots: { x: new Float32Array([0, NaN]) } }));
   expect(of(lost, 'places')?.detail).toMatch(/Unknown for b/);

@@ -2,15 +2,15 @@ import type { Broker, FleetRow, Plan, Robots } from '../api/types.gen';
 import { fleetSize, pinsOf } from '../model/commands';
 import type { Show } from '../model/show';
 
-/** `good`: fine; `wait`: not known yet; `warn`: it plays, but look; `bad`: the show or part of it cannot be played. */
+/** `good`: fine; `wait`: not known yet; `warn`: playable with a risk; `bad`: the show or part of it cannot be played. */
 export type Verdict = 'good' | 'wait' | 'warn' | 'bad';
 
-/** One thing to be sure of before robots move. */
+/** One check before robots move. */
 export interface Check {
   name: 'broker' | 'plan' | 'robots' | 'places' | 'pins' | 'batteries';
   title: string;
   verdict: Verdict;
-  /** How it is, and where it is not good, what to do. */
+  /** The state, and what to do where it is not good. */
   detail: string;
 }
 
@@ -23,7 +23,7 @@ export interface Situation {
   robots: Pick<Robots, 'x'> | null;
 }
 
-/** Less charge than this may not last for a show, percent. */
+/** Charge below which a battery may not last for a show, percent. */
 export const CHARGE_LOW = 20;
 
 /** Robots in these states do not drive. */
@@ -31,7 +31,7 @@ const UNFIT = ['cut', 'faulty'];
 
 export const canDrive = (row: FleetRow) => row.presence === 'active' && !UNFIT.includes(row.status);
 
-/** Everything to be sure of before a start, in the order in which it is mended. */
+/** All checks before a start, in the order in which problems are fixed. */
 export function checklistOf(s: Situation): Check[] {
   if (!s.show) return [check('plan', 'Show', 'bad', 'No show is open: open one first.')];
   return [
@@ -44,11 +44,11 @@ export function checklistOf(s: Situation): Check[] {
   ];
 }
 
-/** Whether nobody need be asked; a plan that is still being made is waited for. */
+/** Whether the show can start without a question. A plan that is still being made is no obstacle: the start waits for it. */
 export const isReady = (checks: readonly Check[]) =>
   checks.every(({ verdict }) => verdict === 'good' || verdict === 'wait');
 
-/** Whether the show can be played as far as it goes: only its plan and the broker can forbid that. */
+/** Whether the show can start without the missing robots: only plan and broker prevent that. */
 export const canGoOn = (checks: readonly Check[]) =>
   checks.every(
     (c) => c.verdict !== 'bad' || c.name === 'robots' || c.name === 'places' || c.name === 'pins',
@@ -63,24 +63,24 @@ const check = (name: Check['name'], title: string, verdict: Verdict, detail: str
 
 function brokerCheck(broker: Broker): Check {
   const off = broker.phase === 'off';
-  const lost = off
-    ? 'It is switched off: press Connect in Settings.'
-    : (broker.reason ?? 'It is being connected…');
+  const lost = off ? 'Off: press Connect in Settings.' : (broker.reason ?? 'Connecting…');
   return broker.connected
     ? check('broker', 'Broker connected', 'good', broker.node ?? broker.address)
     : check('broker', 'Broker', 'bad', lost);
 }
 
 function planCheck(plan: Plan | null): Check {
-  if (!plan || plan.planning) return check('plan', 'Plan', 'wait', 'It is being made and proven…');
+  if (!plan || plan.planning) return check('plan', 'Plan', 'wait', 'Planning…');
   const wrong = plan.issues.filter((i) => i.severity === 'error');
   const first = wrong[0]?.message ?? 'See the issues in the tab Show.';
   const more = wrong.length > 1 ? ` And ${wrong.length - 1} more, in the tab Show.` : '';
   if (!plan.ok || wrong.length > 0)
-    return check('plan', 'Plan', 'bad', `It cannot be played as it is: ${first}${more}`);
+    return check('plan', 'Plan', 'bad', `Fix before playing: ${first}${more}`);
   const closest =
-    plan.closest_m === null ? '' : `, closest ${(plan.closest_m * 1000).toFixed(0)} mm`;
-  return check('plan', 'Plan proven', 'good', `Nobody touches${closest}.`);
+    plan.closest_m === null
+      ? 'No two robots pass each other.'
+      : `Closest approach ${(plan.closest_m * 1000).toFixed(0)} mm.`;
+  return check('plan', 'Collision-free', 'good', closest);
 }
 
 function robotsCheck(show: Show, rows: readonly FleetRow[]): Check {
@@ -92,11 +92,11 @@ function robotsCheck(show: Show, rows: readonly FleetRow[]): Check {
   const unfit = rows.length - ready - silent;
   const why = [
     silent > 0 ? `${silent} silent` : '',
-    unfit > 0 ? `${unfit} in trouble` : '',
-    needed > rows.length ? `${needed - rows.length} never seen` : '',
+    unfit > 0 ? `${unfit} faulty` : '',
+    needed > rows.length ? `${needed - rows.length} missing` : '',
   ].filter(Boolean);
-  const advice = 'Switch more on and press Refresh, or play without their pixels.';
-  return check('robots', 'Robots', 'bad', `${count} ready; ${why.join(', ')}. ${advice}`);
+  const advice = 'Turn them on and press Refresh, or play without their pixels.';
+  return check('robots', 'Robots', 'bad', `${count} ready: ${why.join(', ')}. ${advice}`);
 }
 
 function placesCheck(show: Show, { rows, robots }: Situation): Check {
@@ -104,11 +104,11 @@ function placesCheck(show: Show, { rows, robots }: Situation): Check {
     (row, i) => canDrive(row) && (row.status === 'lost' || Number.isNaN(robots?.x[i] ?? NaN)),
   );
   if (lost.length === 0)
-    return check('places', 'Positions known', 'good', 'Everyone knows its place.');
+    return check('places', 'Positions known', 'good', 'All robots know their position.');
   const spare = rows.filter(canDrive).length - lost.length >= fleetSize(show);
   const names = lost.slice(0, 3).map((row) => row.id.slice(0, 8));
   const more = lost.length > 3 ? ` and ${lost.length - 3} more` : '';
-  const advice = 'Put it where it is seen, or play without it.';
+  const advice = 'Move it into sight of the positioning system, or play without it.';
   return check(
     'places',
     'Positions',
@@ -127,15 +127,14 @@ function pinsCheck(show: Show, rows: readonly FleetRow[]): Check[] {
     return [check('pins', 'Pinned robots here', 'good', `All ${pins.length}.`)];
   const [pixel, robot] = missing[0] ?? [0, ''];
   const more = missing.length > 1 ? ` and ${missing.length - 1} more` : '';
-  const detail = `Pixel ${pixel} is pinned to ${robot.slice(0, 8)}${more}, which is not here. Free it, or play without it.`;
+  const detail = `Pixel ${pixel} is pinned to ${robot.slice(0, 8)}${more}, which is not here. Remove the pin, or play without it.`;
   return [check('pins', 'Pinned robots', 'bad', detail)];
 }
 
 function batteryCheck(rows: readonly FleetRow[]): Check {
   const known = rows.filter((row) => canDrive(row) && row.battery !== null);
   const low = known.filter((row) => (row.battery ?? 100) < CHARGE_LOW);
-  if (known.length === 0)
-    return check('batteries', 'Batteries', 'good', 'These robots do not say; look at them.');
+  if (known.length === 0) return check('batteries', 'Batteries', 'good', 'No battery information.');
   const least = Math.min(...known.map((row) => row.battery ?? 100));
   if (low.length === 0) return check('batteries', 'Batteries', 'good', `At least ${least} %.`);
   const names = low.slice(0, 3).map((row) => `${row.id.slice(0, 8)} has ${row.battery} %`);

@@ -1,5 +1,5 @@
 import type { ShowEntry } from '../api/types.gen';
-import { tell } from './notices';
+import { notify } from './notices';
 import type { Session } from './session';
 
 const WHY = {
@@ -8,17 +8,17 @@ const WHY = {
   start_file: 'LightBots does not change the file it was started with. ',
 } as const;
 
-/** What people are told when a save became a copy. */
+/** The notice after a save that became a copy. */
 export const copyText = ({ name, copy_of }: Pick<ShowEntry, 'name' | 'copy_of'>) =>
   `${WHY[copy_of ?? 'saved']}Saved as "${name}".`;
 
-/** A read-only show was saved as a copy: says so, and every screen that shows it goes on with the copy. */
-export function followCopy({ live, waiting, ask }: Desk, from: string, copy: ShowEntry) {
-  tell('kept', copyText(copy));
-  waiting.update((wish) =>
-    wish?.names.includes(from) ? { ...wish, names: [...wish.names, copy.name] } : wish,
+/** Shows that a read-only show was saved as a copy, and opens the copy on every screen that shows the original. */
+export function followCopy({ live, waiting, ask }: Context, from: string, copy: ShowEntry) {
+  notify('kept', copyText(copy));
+  waiting.update((pending) =>
+    pending?.names.includes(from) ? { ...pending, names: [...pending.names, copy.name] } : pending,
   );
   if (live.opened.get().name === from) void ask({ do: 'open', name: copy.name });
 }
 
-type Desk = Pick<Session, 'live' | 'waiting' | 'ask'>;
+type Context = Pick<Session, 'live' | 'waiting' | 'ask'>;

@@ -5,7 +5,7 @@ export type FleetKind = 'simulated' | 'real';
 
 type Row = Pick<FleetRow, 'simulated'>;
 
-/** What kind of fleet it is; null: no robot is known. */
+/** Kind of the fleet; null: no robot is known. */
 export function fleetKind(rows: readonly Row[]): FleetKind | null {
   if (rows.length === 0) return null;
   return rows.every((row) => row.simulated) ? 'simulated' : 'real';
@@ -13,7 +13,7 @@ export function fleetKind(rows: readonly Row[]): FleetKind | null {
 
 export const KIND_WORDS = { simulated: 'Simulated robots', real: 'Real robots' } as const;
 
-/** What the kind means: the text of the badge's tooltip. */
+/** Explains the kind, for the badge's tooltip. */
 export function kindHint(rows: readonly Row[]): string {
   const real = rows.filter((row) => !row.simulated).length;
   if (real === 0) return 'All robots are simulated: nothing moves but on this screen.';
@@ -22,7 +22,7 @@ export function kindHint(rows: readonly Row[]): string {
   return `${real} of ${rows.length} robots ${real === 1 ? 'is' : 'are'} real, the others are simulated.`;
 }
 
-/** What is asked before real robots leave for a frame, counted from 0. */
+/** The question before real robots drive to a frame, counted from 0. */
 export function driveQuestion(rows: readonly Row[], frame: number): string {
   const [all, real] = [rows.length, rows.filter((row) => !row.simulated).length];
   const robots = `${all} ${all === 1 ? 'robot' : 'robots'}`;

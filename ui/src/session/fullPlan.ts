@@ -3,10 +3,10 @@ import type { Plan } from '../api/types.gen';
 import { createStore, type Store } from '../base/store';
 import type { Live } from './live';
 
-/** The plan of the open show with its paths, fetched when somebody wants to see them. */
+/** The plan of the open show with its paths, fetched only while a component shows the paths. */
 export interface FullPlan {
   plan: Store<Plan | null>;
-  /** Fetches as long as it is wanted; returns how to stop. */
+  /** Keeps the plan up to date until the returned function is called. */
   follow(): () => void;
 }
 
@@ -19,7 +19,7 @@ export function createFullPlan(live: Live): FullPlan {
     if (plan.get()?.revision === brief.revision) return;
     getPlan().then(
       (full) => {
-        // One that is still being made is announced again when it is there.
+        // A plan that is still being made is announced again when it is finished.
         if (!full.planning) plan.set(full);
       },
       () => plan.set(null),

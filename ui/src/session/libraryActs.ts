@@ -1,19 +1,19 @@
 import { deleteShow, getShow, listShows, putShow } from '../api/http';
 import type { Session } from './session';
-import { tell, tellWithUndo } from './notices';
+import { notify, notifyWithUndo } from './notices';
 import { freeName } from './upload';
 
-/** Runs what may be refused; the refusal is told in the server's words. */
+/** Runs a request, and shows the server's message if it refuses. */
 export const attempt = (act: () => Promise<unknown>) =>
   act().then(
     () => true,
     (error: unknown) => {
-      tell('error', error instanceof Error ? error.message : String(error));
+      notify('error', error instanceof Error ? error.message : String(error));
       return false;
     },
   );
 
-/** Copies a show under a name nobody has; answers that name. */
+/** Copies a show under a name that is free; answers that name. */
 export async function copyShow(from: string, wanted: string): Promise<string> {
   const { document } = await getShow(from);
   const taken = (await listShows()).map((entry) => entry.name);
@@ -22,7 +22,7 @@ export async function copyShow(from: string, wanted: string): Promise<string> {
   return name;
 }
 
-/** Gives a show another name; where it is open, it stays open. */
+/** Renames a show; an open show stays open. */
 export async function renameShow(session: Session, from: string, to: string) {
   const { document, etag } = await getShow(from);
   await putShow(to, JSON.stringify(document), 'new');
@@ -30,12 +30,12 @@ export async function renameShow(session: Session, from: string, to: string) {
   await deleteShow(from, etag);
 }
 
-/** Deletes a show, and offers to bring it back. */
+/** Deletes a show, and offers to restore it. */
 export async function deleteWithUndo(name: string, changed: () => void) {
   const { document, etag } = await getShow(name);
   await deleteShow(name, etag);
   changed();
-  tellWithUndo(`${name} is deleted.`, () =>
+  notifyWithUndo(`${name} is deleted.`, () =>
     attempt(() => putShow(name, JSON.stringify(document), 'new')).then(changed),
   );
 }

@@ -13,18 +13,18 @@ export interface Opened {
   show: Show | null;
 }
 
-/** Everything the server said, as it said it: this screen adds nothing of its own. */
+/** The state that the server sent, unchanged: this screen adds nothing of its own. */
 export interface Live {
   link: Store<LinkState>;
   hello: Store<Hello | null>;
   opened: Store<Opened>;
   plan: Store<Plan | null>;
-  /** The last plan that was finished for this show: what to show while the next one is being made. */
+  /** The last finished plan of this show, shown while the next one is being made. */
   settled: Store<Plan | null>;
   fleet: Store<Fleet>;
   broker: Store<Broker>;
   playback: Store<Playback>;
-  /** How fast the show clock goes; 1: as real time does. */
+  /** Speed of the show clock; 1: real time. */
   pace: Store<number>;
   log: Store<readonly LogLine[]>;
   track: Track;
@@ -67,8 +67,8 @@ export function createLive(): Live {
   };
 }
 
-/** Takes in one message of the server. */
-export function hear(live: Live, message: ToScreen) {
+/** Handles one message of the server. */
+export function receive(live: Live, message: ToScreen) {
   switch (message.type) {
     case 'hello':
       live.hello.set(message);
@@ -103,13 +103,13 @@ export function hear(live: Live, message: ToScreen) {
   }
 }
 
-/** A line that has grown takes the place of what it was before. */
+/** The log with a new line, or with a line that replaces its earlier version. */
 function withLine(lines: readonly LogLine[], line: LogLine): readonly LogLine[] {
   const before = lines.findLastIndex(({ id }) => id === line.id);
   return before >= 0 ? lines.with(before, line) : [...lines.slice(-LOG_MAX + 1), line];
 }
 
-/** Sets a value unless it says the same as the one before. */
+/** Sets a value unless it equals the value before. */
 function keep<T>(store: Store<T>, next: T) {
   if (JSON.stringify(store.get()) !== JSON.stringify(next)) store.set(next);
 }
@@ -119,7 +119,7 @@ export function connect(live: Live): Link {
   const address = `${location.protocol === 'https:' ? 'wss' : 'ws'}://${location.host}/ws`;
   return createLink({
     open: () => new WebSocket(address) as never,
-    onMessage: (message) => hear(live, message),
+    onMessage: (message) => receive(live, message),
     onRobots: (robots) => live.track.push(robots, performance.now()),
     onLink: (state) => {
       live.link.set(state);

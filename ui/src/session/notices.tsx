@@ -4,17 +4,17 @@ import { notifications } from '@mantine/notifications';
 const SHORT_MS = 4000;
 const LONG_MS = 12_000;
 
-/** Colour, and how long it is left. */
+/** Colour, and the time until the notice closes. */
 const TONES = {
   good: ['good', SHORT_MS],
   info: ['gray', SHORT_MS],
-  /** To be read to its end: something went another way than people expect. */
+  /** Shown longer, because the outcome differs from what the user expects. */
   kept: ['gray', LONG_MS],
   error: ['bad', LONG_MS],
 } as const;
 
-/** Says something in the corner, and takes it back by itself. */
-export function tell(tone: keyof typeof TONES, message: string) {
+/** Shows a notice in the corner for a few seconds. */
+export function notify(tone: keyof typeof TONES, message: string) {
   const [color, autoClose] = TONES[tone];
   notifications.show({
     message,
@@ -26,11 +26,11 @@ export function tell(tone: keyof typeof TONES, message: string) {
   });
 }
 
-/** How long something that was done can be undone from the corner, milliseconds. */
+/** Time that a notice offers to undo an action, milliseconds. */
 const UNDO_MS = 15_000;
 
-/** Says what was done, with a button that undoes it. */
-export function tellWithUndo(message: string, undo: () => void) {
+/** Shows a notice with a button that undoes the action. */
+export function notifyWithUndo(message: string, undo: () => void) {
   const id = notifications.show({
     message: (
       <Group justify="space-between" wrap="nowrap">

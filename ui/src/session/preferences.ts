@@ -20,7 +20,7 @@ export function setUnit(unit: Unit) {
   try {
     localStorage.setItem(KEY, unit);
   } catch {
-    // Without storage it holds for as long as the page does.
+    // Without storage the unit lasts as long as the page.
   }
 }
 

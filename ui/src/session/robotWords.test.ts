@@ -29,5 +29,5 @@ test('an original robot is described too', () => {
   expect([words.chargeText(row), words.firmwareText(row), words.clockText(row)]).toEqual(
     ['–', 'original', 'not set'], // prettier-ignore
   );
-  expect(words.heardText({ ...row, age_s: 0 })).toBe('now');
+  expect(words.lastSeenText({ ...row, age_s: 0 })).toBe('just now');
 });

@@ -1,31 +1,32 @@
 import type { FleetRow } from '../api/types.gen';
 import { ageText } from '../base/time';
 
-/** The part of a robot's name that tells it apart on screen. */
+/** The part of a robot's id that identifies the robot on screen. */
 export const shortId = (id: string) => (id.length > 12 ? id.slice(0, 8) : id);
 
 const UUID = /\b([0-9a-f]{8})-[0-9a-f]{4}-[0-9a-f]{4}-[0-9a-f]{4}-[0-9a-f]{12}\b/gi;
 
-/** A line with the names in it shortened as everywhere on screen. */
+/** A text with the robots' ids shortened. */
 export const shortNames = (text: string) => text.replace(UUID, '$1');
 
-/** `now`, `4 s ago`. */
-export const heardText = (row: FleetRow) => (row.age_s < 1.5 ? 'now' : `${ageText(row.age_s)} ago`);
+/** `just now`, `4 s ago`: the time since the last report. */
+export const lastSeenText = (row: FleetRow) =>
+  row.age_s < 1.5 ? 'just now' : `${ageText(row.age_s)} ago`;
 
-/** What a robot says it is doing, or for how long it has been silent. */
+/** The state that a robot reports, or the time since its last report. */
 export const stateText = (row: FleetRow) =>
   row.presence === 'active' ? row.status : `${presenceText(row)}, ${ageText(row.age_s)}`;
 
 const PRESENCES = { active: 'here', stale: 'silent', gone: 'gone' } as const;
 
-/** Whether it is here, as everywhere on screen. */
+/** The word for a robot's presence. */
 export const presenceText = (row: Pick<FleetRow, 'presence'>) => PRESENCES[row.presence];
 
 export const chargeText = (row: FleetRow) => (row.battery === null ? '–' : `${row.battery} %`);
 
 export const firmwareText = (row: FleetRow) => row.firmware ?? 'original';
 
-/** What it can do beyond the original protocol. */
+/** Abilities of a robot beyond the original protocol. */
 export function abilitiesText({ abilities }: FleetRow): string {
   const words = [
     abilities.route ? 'paths' : '',

@@ -6,33 +6,33 @@ import { createDrafts, type Drafts, type LeftDraft } from '../model/drafts';
 import { connect, createLive, type Live } from './live';
 import type { Editor } from '../model/editor';
 import type { Saver } from '../model/saver';
-import { tell } from './notices';
+import { notify } from './notices';
 
-/** What every part of the page shares. */
+/** The state that all parts of the page share. */
 export interface Session {
   live: Live;
   link: Link;
-  /** Asks the server; what it refuses is told to the user, with its way to go on if there is one. */
+  /** Sends an operation to the server. A refusal is shown to the user, with the operation that the server offers instead. */
   ask(operation: Operation): Promise<Answer>;
-  /** A refusal that offers a way to go on. */
+  /** A refusal with the operation that the server offers instead. */
   offer: Store<{ reason: string; choice: Choice } | null>;
-  /** The frame chosen in the strip: where Play starts, where robots are driven to. */
+  /** The frame chosen in the strip: Play starts there, and robots are driven there. */
   frame: Store<number>;
-  /** The editor of this screen; null: it has edited nothing. */
+  /** The editor of this screen; null before the first edit. */
   editing: Store<{ name: string; editor: Editor; saver: Saver } | null>;
-  /** What is done when the plan of the show of one of these names has been made; null: nothing waits for it. */
+  /** The action that waits for the plan of a show with one of these names; null: no action waits. */
   waiting: Store<{ names: readonly (string | null)[]; act: () => void } | null>;
   /** Whether the checklist is shown. */
   checking: Store<boolean>;
-  /** What is not on the server yet. */
+  /** Changes that are not on the server yet. */
   drafts: Drafts;
-  /** Drafts of pages that are gone, that have not been put back. */
+  /** Drafts of closed pages that were not restored. */
   orphans: Store<readonly LeftDraft[]>;
-  /** The one of them that the editor shall begin anew with. */
+  /** The draft of `orphans` that the editor restores next. */
   restoring: Store<LeftDraft | null>;
 }
 
-function shelf(): Storage | null {
+function browserStorage(): Storage | null {
   try {
     return window.localStorage;
   } catch {
@@ -42,10 +42,10 @@ function shelf(): Storage | null {
 
 const randomName = () => Math.random().toString(36).slice(2);
 
-/** What other pages left is looked for this often, milliseconds. */
+/** Period of the search for drafts of closed pages, milliseconds. */
 const LOOK_MS = 15_000;
 
-/** A name of this tab, the same when the page is loaded again. */
+/** The name of this tab, which stays the same when the page is loaded again. */
 function tabName(): string {
   const fresh = randomName();
   try {
@@ -61,7 +61,11 @@ export function createSession(): Session {
   const live = createLive();
   const link = connect(live);
   const offer = createStore<{ reason: string; choice: Choice } | null>(null);
-  const drafts = createDrafts(shelf(), { tab: tabName(), page: randomName(), now_ms: Date.now });
+  const drafts = createDrafts(browserStorage(), {
+    tab: tabName(),
+    page: randomName(),
+    now_ms: Date.now,
+  });
   const waiting: Session['waiting'] = createStore<ReturnType<Session['waiting']['get']>>(null);
   const orphans = createStore<readonly LeftDraft[]>(drafts.left());
   setInterval(() => orphans.set(drafts.left()), LOOK_MS);
@@ -82,7 +86,9 @@ export function createSession(): Session {
       if (answer.ok) return answer;
       const reason = answer.error ?? 'The server refused without saying why.';
       if (answer.choice) offer.set({ reason, choice: answer.choice });
-      else tell('error', reason);
+      else if (operation.do === 'stop_all' && live.link.get() !== 'open')
+        notify('error', 'STOP NOT SENT – no connection. Use the power switch.');
+      else notify('error', reason);
       return answer;
     },
   };

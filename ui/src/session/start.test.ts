@@ -7,7 +7,7 @@ import { createSaver, type Saved } from '../model/saver';
 import type { ShowEntry } from '../api/types.gen';
 import { copyText, followCopy } from './copies';
 import { followPlan, whenPlanned } from './start';
-import { createLive, hear } from './live';
+import { createLive, receive } from './live';
 
 const PLAN = {
   ok: true,
@@ -30,25 +30,25 @@ function setup() {
   const stop = followPlan(session);
   live.link.set('open');
   const open = (revision: number, name = 'A') =>
-    hear(live, { type: 'show', revision, name, etag: '"1"', document: {} });
+    receive(live, { type: 'show', revision, name, etag: '"1"', document: {} });
   const plan = (revision: number, planning = false) =>
-    hear(live, { type: 'plan', ...PLAN, revision, planning });
+    receive(live, { type: 'plan', ...PLAN, revision, planning });
   const act = vi.fn();
   open(1);
-  return { ...session, open, plan, stop, act, wish: () => whenPlanned(session, act) };
+  return { ...session, open, plan, stop, act, pending: () => whenPlanned(session, act) };
 }
 
 test('what is planned is played at once', () => {
-  const { plan, wish, act } = setup();
+  const { plan, pending, act } = setup();
   plan(1);
-  wish();
+  pending();
   expect(act).toHaveBeenCalledTimes(1);
 });
 
 test('while the plan is being made it waits, and does it once', () => {
-  const { plan, open, wish, act, waiting } = setup();
+  const { plan, open, pending, act, waiting } = setup();
   plan(1, true);
-  wish();
+  pending();
   // Changed again meanwhile: a plan of what was is none of what is.
   open(2);
   plan(1);
@@ -59,28 +59,28 @@ test('while the plan is being made it waits, and does it once', () => {
 });
 
 test('a plan of the show as it was is waited out too', () => {
-  const { plan, open, wish, act } = setup();
+  const { plan, open, pending, act } = setup();
   plan(1);
   open(2);
-  wish();
+  pending();
   expect(act).not.toHaveBeenCalled();
   plan(2);
   expect(act).toHaveBeenCalledTimes(1);
 });
 
 test('what was edited a moment ago is saved and planned before it is played', async () => {
-  const { plan, editing, live, wish, act } = setup();
+  const { plan, editing, live, pending, act } = setup();
   let answer: (saved: Saved) => void = () => {};
   const saver = createSaver('"1"', () => new Promise((resolve) => (answer = resolve)));
   editing.set({ name: 'A', editor: createEditor(readShow({}), 0), saver });
   plan(1);
   saver.touch();
-  wish();
+  pending();
   saver.flush();
   answer({ ok: true, etag: '"2"' });
   await vi.waitFor(() => expect(saver.state.get().name).toBe('saved'));
   expect(act, 'the server has not said so yet').not.toHaveBeenCalled();
-  hear(live, { type: 'show', revision: 2, name: 'A', etag: '"2"', document: {} });
+  receive(live, { type: 'show', revision: 2, name: 'A', etag: '"2"', document: {} });
   expect(act, 'there is no plan of it yet').not.toHaveBeenCalled();
   plan(2);
   expect(act).toHaveBeenCalledTimes(1);
@@ -94,7 +94,7 @@ test.each<[string, (world: ReturnType<typeof setup>) => void]>([
 ])('nothing plays by itself after %s', (_, happen) => {
   const world = setup();
   world.plan(1, true);
-  world.wish();
+  world.pending();
   happen(world);
   world.live.link.set('open');
   world.plan(2);
@@ -103,12 +103,12 @@ test.each<[string, (world: ReturnType<typeof setup>) => void]>([
 
 test('what waits for an example goes on with the copy that its save made', () => {
   const world = setup();
-  const { plan, wish, act, editing, live } = world;
+  const { plan, pending, act, editing, live } = world;
   const saver = createSaver('"1"', () => Promise.resolve({ ok: true, etag: '"2"' }));
   const edited = { name: 'A', editor: createEditor(readShow({}), 0), saver };
   editing.set(edited);
   plan(1, true);
-  wish();
+  pending();
   const asked = vi.fn(() => Promise.resolve({ id: 1, ok: true, error: null, choice: null }));
   saver.settle('"2"');
   followCopy({ ...world, ask: asked }, 'A', { name: 'A 2', copy_of: 'example' } as ShowEntry);
@@ -116,7 +116,7 @@ test('what waits for an example goes on with the copy that its save made', () =>
   plan(1);
   expect(act, 'the plan of the example is none of what was edited').not.toHaveBeenCalled();
   edited.name = 'A 2';
-  hear(live, { type: 'show', revision: 2, name: 'A 2', etag: '"2"', document: {} });
+  receive(live, { type: 'show', revision: 2, name: 'A 2', etag: '"2"', document: {} });
   plan(2);
   expect(act).toHaveBeenCalledTimes(1);
 });

@@ -2,7 +2,7 @@ import type { Session } from './session';
 import { checklistOf, isReady, type Check } from './checklist';
 import type { Opened } from './live';
 
-type Desk = Pick<Session, 'live' | 'waiting' | 'editing'>;
+type Context = Pick<Session, 'live' | 'waiting' | 'editing'>;
 
 /** The checklist as things are now. */
 export const checkNow = ({ live }: Pick<Session, 'live'>): Check[] =>
@@ -14,7 +14,7 @@ export const checkNow = ({ live }: Pick<Session, 'live'>): Check[] =>
     robots: live.track.latest(),
   });
 
-/** Plays from the chosen frame if all is well; otherwise shows what is missing first. */
+/** Plays from the chosen frame if all checks pass; otherwise opens the checklist. */
 export const startPlay = (session: Session) =>
   whenPlanned(session, () => {
     if (isReady(checkNow(session)))
@@ -22,22 +22,22 @@ export const startPlay = (session: Session) =>
     else session.checking.set(true);
   });
 
-/** Does it once the show as it is on this screen is saved and planned: at once, or when that has come about. */
-export function whenPlanned(desk: Desk, act: () => void) {
+/** Calls `act` when the server has saved and planned the show of this screen: at once, or later. */
+export function whenPlanned(desk: Context, act: () => void) {
   if (isPlanned(desk)) act();
   else desk.waiting.set({ names: [desk.live.opened.get().name], act });
 }
 
-/** Does what waits for the plan when it comes; gives it up with the link or the show. Returns how to stop. */
-export function followPlan(desk: Desk): () => void {
+/** Calls the waiting action when the plan arrives; drops it when link or show is lost. Returns a function that ends this. */
+export function followPlan(desk: Context): () => void {
   const { live, waiting } = desk;
   const look = () => {
-    const wish = waiting.get();
-    if (!wish) return;
-    const isGivenUp = live.link.get() !== 'open' || !wish.names.includes(live.opened.get().name);
+    const pending = waiting.get();
+    if (!pending) return;
+    const isGivenUp = live.link.get() !== 'open' || !pending.names.includes(live.opened.get().name);
     if (!isGivenUp && !isPlanned(desk)) return;
     waiting.set(null);
-    if (!isGivenUp) wish.act();
+    if (!isGivenUp) pending.act();
   };
   const stops = [live.plan, live.opened, live.link].map((store) => store.subscribe(look));
   const saver = desk.editing.get()?.saver;
@@ -49,13 +49,13 @@ export function followPlan(desk: Desk): () => void {
   };
 }
 
-function isPlanned({ live, editing }: Desk): boolean {
+function isPlanned({ live, editing }: Context): boolean {
   const [plan, opened] = [live.plan.get(), live.opened.get()];
   if (isUnsaved(editing.get(), opened)) return false;
   return plan !== null && !plan.planning && plan.revision === opened.revision;
 }
 
-/** Whether this screen has edited the open show, and the server has not told everybody yet. */
+/** Whether this screen has edited the open show, and the server has not announced that version yet. */
 function isUnsaved(
   editing: ReturnType<Session['editing']['get']>,
   { name, etag }: Pick<Opened, 'name' | 'etag'>,

@@ -12,7 +12,7 @@ export interface Track {
   latest(): Robots | null;
 }
 
-/** Filled in anew by the next `sample`; `hollow` is another list only when a goal changed. */
+/** Overwritten by the next `sample`; `hollow` is a new list only when a goal changed. */
 export interface Sample {
   filled: Dot[];
   hollow: readonly Dot[];
@@ -25,9 +25,9 @@ interface Legs {
   from: Places;
   to: Places;
   changed_ms: Float64Array;
-  /** How long the way between the two is drawn. */
+  /** Duration of the drawn motion between the two reports. */
   lasts_ms: Float64Array;
-  /** From where it was measured to where it was meant to be at that moment. */
+  /** From the measured to the planned position at that moment. */
   off: Places;
 }
 
@@ -36,13 +36,13 @@ interface Places {
   y: Float64Array;
 }
 
-/** A robot that jumps farther than this was carried, not driven, metres. */
+/** A jump above this distance means that the robot was carried, metres. */
 const JUMP_M = 0.6;
 /** Errors below this are not worth a line, metres: a snapshot's worth of driving and half as much again. */
 const ERROR_MIN_M = 0.02;
 /** Reports come at least this often from a robot that drives, milliseconds. */
 const REPORT_MS = 700;
-/** What happens at once is drawn in this time, milliseconds. */
+/** Least duration of a drawn motion, milliseconds. */
 const LEAST_MS = 50;
 
 export function createTrack(): Track {
@@ -128,7 +128,7 @@ function goalsOf({ goal_x, goal_y, colour }: Robots): Dot[] {
   return dots;
 }
 
-/** Puts where a robot is drawn into `place`. */
+/** Writes the drawn position of a robot into `place`. */
 function placeOn(
   { from, to, changed_ms, lasts_ms }: Legs,
   i: number,
@@ -140,7 +140,7 @@ function placeOn(
   place.y = at(from.y, i) + (at(to.y, i) - at(from.y, i)) * t;
 }
 
-/** Where a robot is drawn, for a moment. */
+/** The drawn position of a robot at a moment. */
 const here: Point = { x: 0, y: 0 };
 
 function advance(legs: Legs, robots: Robots, i: number, now_ms: number) {
@@ -152,7 +152,7 @@ function advance(legs: Legs, robots: Robots, i: number, now_ms: number) {
     return;
   }
   const away_m = Math.hypot(x - at(to.x, i), y - at(to.y, i));
-  // Unknown until now, unknown from now on, or carried: it is there at once.
+  // A position that was unknown, becomes unknown, or jumps is drawn at once.
   const jumps = !(away_m <= JUMP_M);
   if (jumps) [here.x, here.y] = [x, y];
   else placeOn(legs, i, now_ms, here);
@@ -163,7 +163,7 @@ function advance(legs: Legs, robots: Robots, i: number, now_ms: number) {
   noteError(legs, robots, i);
 }
 
-/** How far it is from where its path, or else its pixel, wants it. */
+/** Distance from the planned position on the path, or without a path from the pixel. */
 function noteError({ off }: Legs, robots: Robots, i: number) {
   const onPath = !Number.isNaN(robots.planned_x[i]);
   const meantX = at(onPath ? robots.planned_x : robots.goal_x, i);

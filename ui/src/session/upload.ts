@@ -1,7 +1,7 @@
 import { stem } from '../api/formats';
 import { listShows, putShow, Refused } from '../api/http';
 import { FILE_BYTES_MAX } from '../api/types.gen';
-import { tell } from './notices';
+import { notify } from './notices';
 import type { Session } from './session';
 
 /** A name for the library from a file's name. */
@@ -11,7 +11,7 @@ export const nameFromFile = (file: string) =>
     .trim()
     .slice(0, 60) || 'Show';
 
-/** `base`, or `base 2`, `base 3`… whichever is not taken. */
+/** The first free name of `base`, `base 2`, `base 3`… */
 export function freeName(base: string, taken: readonly string[]): string {
   const all = new Set(taken.map((name) => name.toLowerCase()));
   if (!all.has(base.toLowerCase())) return base;
@@ -21,7 +21,7 @@ export function freeName(base: string, taken: readonly string[]): string {
 /** Puts a file into the library under a free name and opens it on every screen. */
 export async function uploadShow(session: Session, file: File) {
   if (file.size > FILE_BYTES_MAX) {
-    tell('error', `${file.name} is too large to be a show.`);
+    notify('error', `Can't import ${file.name}: it is larger than ${FILE_BYTES_MAX / 2 ** 20} MB.`);
     return;
   }
   try {
@@ -29,9 +29,9 @@ export async function uploadShow(session: Session, file: File) {
     const name = freeName(nameFromFile(file.name), taken);
     const entry = await putShow(name, await file.arrayBuffer(), 'new');
     const answer = await session.ask({ do: 'open', name: entry.name });
-    if (answer.ok) tell('good', `${entry.name} is in the library and open.`);
+    if (answer.ok) notify('good', `Imported and opened "${entry.name}".`);
   } catch (error) {
     const reason = error instanceof Refused ? error.message : String(error);
-    tell('error', `${file.name} was not taken: ${reason}`);
+    notify('error', `Can't import ${file.name}: ${reason}`);
   }
 }

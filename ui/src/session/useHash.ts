@@ -7,7 +7,7 @@ const subscribe = (listener: () => void) => {
   return () => window.removeEventListener('hashchange', listener);
 };
 
-/** Which view the address asks for. */
+/** The view in the address. */
 export const useView = (): View =>
   useSyncExternalStore(subscribe, () => (location.hash.startsWith('#/edit') ? 'edit' : 'live'));
 

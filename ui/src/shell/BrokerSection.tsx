@@ -33,13 +33,13 @@ export function BrokerSection() {
   }, []);
   if (!settings || !fields) return null;
   const set = (change: Partial<BrokerFields>) => setFields({ ...fields, ...change });
-  const wish = connectOf(fields);
+  const operation = connectOf(fields);
   return (
     <form
       aria-label="Broker"
       onSubmit={(event) => {
         event.preventDefault();
-        if (wish) void link.operate(wish).then(({ error }) => setRefused(error));
+        if (operation) void link.operate(operation).then(({ error }) => setRefused(error));
       }}
     >
       <Stack gap="xs">
@@ -52,14 +52,14 @@ export function BrokerSection() {
             value={fields.own ? 'own' : 'other'}
             onChange={(value) => set({ own: value === 'own' })}
             data={[
-              { value: 'own', label: 'The server’s own' },
-              { value: 'other', label: 'Another one' },
+              { value: 'own', label: 'Built-in' },
+              { value: 'other', label: 'External' },
             ]}
           />
         )}
         {fields.own ? (
           <Text size="sm" c="dimmed">
-            Robots find it at {settings.embedded}.
+            Robots connect to {settings.embedded}.
           </Text>
         ) : (
           <OtherBroker settings={settings} fields={fields} set={set} />
@@ -80,7 +80,7 @@ export function BrokerSection() {
           >
             Disconnect
           </Button>
-          <Button type="submit" disabled={wish === null}>
+          <Button type="submit" disabled={operation === null}>
             Connect
           </Button>
         </Group>

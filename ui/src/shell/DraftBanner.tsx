@@ -6,7 +6,7 @@ import { attempt } from '../session/libraryActs';
 import { useSession } from '../session/session';
 import { goTo } from '../session/useHash';
 
-/** Says that an earlier page left changes the server never got, and where they are. */
+/** Tells that a closed page left unsaved changes, and offers to restore them. */
 export function DraftBanner() {
   const session = useSession();
   const draft = useStore(session.orphans)[0];

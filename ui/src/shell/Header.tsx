@@ -22,7 +22,7 @@ import styles from './Header.module.css';
 
 type Dialog = 'library' | 'keys' | 'settings' | null;
 
-/** What every view has at its top; Stop all is never out of reach. */
+/** The header of every view; Stop all is always in reach. */
 export function Header({ view }: { view: View }) {
   const session = useSession();
   const { live, ask } = session;
@@ -66,12 +66,11 @@ export function Header({ view }: { view: View }) {
           <span className={styles.showName}>{title ?? 'Open a show'}</span>
         </Button>
       </Tooltip>
-      <Tooltip label="Begin a new show">
+      <Tooltip label="New show">
         <Button
           variant="subtle"
           color="gray"
           size="compact-sm"
-          aria-label="Begin a new show"
           leftSection={<IconPlus size={16} />}
           onClick={() => void createShowInLibrary(session).then((done) => done && goTo('edit'))}
         >

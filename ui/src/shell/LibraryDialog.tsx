@@ -65,7 +65,7 @@ export function LibraryDialog({ opened, onClose }: { opened: boolean; onClose: (
         >
           {(props) => (
             <Button {...props} variant="default" leftSection={<IconUpload size={16} />}>
-              From a file
+              Import…
             </Button>
           )}
         </FileButton>

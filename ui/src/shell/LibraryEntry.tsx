@@ -1,6 +1,7 @@
 import { ActionIcon, Menu } from '@mantine/core';
 import { IconDots } from '@tabler/icons-react';
 import type { ShowEntry } from '../api/types.gen';
+import { countText } from '../base/numbers';
 import { ExportItems } from '../parts/ExportItems';
 import { downloadFromLibrary } from '../session/download';
 import { attempt, deleteWithUndo } from '../session/libraryActs';
@@ -37,7 +38,7 @@ export function LibraryEntry({ entry, open, onOpen, onName, onChanged }: Props) 
           <span className="quiet">{subtitle}</span>
         </span>
         <span className="quiet">
-          {entry.frames} frames · {entry.pixels} robots · {saved}
+          {countText(entry.frames, 'frame')} · {countText(entry.pixels, 'robot')} · {saved}
         </span>
       </button>
       <Menu position="bottom-end" withinPortal>

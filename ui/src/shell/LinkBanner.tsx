@@ -2,7 +2,7 @@ import { Button } from '@mantine/core';
 import { useStore } from '../base/store';
 import { useSession } from '../session/session';
 
-/** Says that the server is away. The page tries again by itself; the button is for the impatient. */
+/** Tells that the connection to server or broker is lost. The page reconnects by itself; the button does it at once. */
 export function LinkBanner() {
   const { live, link } = useSession();
   const state = useStore(live.link);
@@ -10,7 +10,7 @@ export function LinkBanner() {
   if (state === 'lost')
     return (
       <div className="banner" role="alert">
-        The server does not answer. Trying again by itself; robots go on without this page.{' '}
+        Connection lost – reconnecting. Robots may still be moving.{' '}
         <Button size="compact-xs" variant="default" onClick={() => link.retry()}>
           Try now
         </Button>

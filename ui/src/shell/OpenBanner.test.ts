@@ -1,7 +1,7 @@
 import { createElement } from 'react';
 import { renderToStaticMarkup } from 'react-dom/server';
 import { expect, test } from 'vitest';
-import { createLive, hear } from '../session/live';
+import { createLive, receive } from '../session/live';
 import { OpenBanner } from './OpenBanner';
 import { SessionContext, type Session } from '../session/session';
 
@@ -11,7 +11,7 @@ test('a server that is open to the network says so until it is not', () => {
   const shown = () =>
     renderToStaticMarkup(createElement(SessionContext, { value }, createElement(OpenBanner)));
   const greet = (open_to_network: boolean) =>
-    hear(live, { type: 'hello', version: '1', screen: 1, simulated: 0, open_to_network });
+    receive(live, { type: 'hello', version: '1', screen: 1, simulated: 0, open_to_network });
   expect(shown()).toBe('');
   greet(true);
   expect(shown()).toContain('anyone on this network can drive the robots');

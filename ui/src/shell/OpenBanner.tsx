@@ -1,7 +1,7 @@
 import { useStore } from '../base/store';
 import { useSession } from '../session/session';
 
-/** Says that the server is open to the network, as long as it is. */
+/** Warns while the server is open to the network. */
 export function OpenBanner() {
   const { live } = useSession();
   const isOpen = useStore(live.hello, (hello) => hello?.open_to_network);

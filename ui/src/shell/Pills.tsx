@@ -19,13 +19,13 @@ function Pill(props: { tone: Tone; hint: string; children: ReactNode; label: str
   );
 }
 
-/** Server and broker in one word. */
+/** State of the connections to server and broker, in one word. */
 export function LinkPill() {
   const { live } = useSession();
   const link = useStore(live.link);
   const broker = useStore(live.broker);
   if (link !== 'open') {
-    const text = link === 'lost' ? 'Server away' : 'Connecting';
+    const text = link === 'lost' ? 'Server offline' : 'Connecting';
     return (
       <Pill
         tone={link === 'lost' ? 'bad' : 'warn'}
@@ -48,7 +48,7 @@ export function LinkPill() {
   );
 }
 
-/** Whether robots move anything real. */
+/** Whether the robots are simulated or real. */
 export function KindPill() {
   const { live } = useSession();
   const rows = useStore(live.fleet, (fleet) => fleet.rows);
@@ -63,7 +63,7 @@ export function KindPill() {
   );
 }
 
-/** How many robots can be counted on. */
+/** Number of robots that report. */
 export function FleetPill() {
   const { live } = useSession();
   const rows = useStore(live.fleet, (fleet) => fleet.rows);

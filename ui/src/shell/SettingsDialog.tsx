@@ -29,7 +29,7 @@ export function SettingsDialog({ opened, onClose, onKeys }: Props) {
   return (
     <Modal opened={opened} onClose={onClose} title="Settings">
       <Stack>
-        <LooksAndUnits />
+        <AppearanceAndUnits />
         <BrokerSection />
         <Group justify="space-between">
           <Button size="compact-sm" variant="subtle" color="gray" onClick={onKeys}>
@@ -44,7 +44,7 @@ export function SettingsDialog({ opened, onClose, onKeys }: Props) {
               goTo('edit');
             }}
           >
-            Floor and robots: in the editor, tab Show
+            Edit floor and robots…
           </Button>
         </Group>
         <Text size="xs" c="dimmed">
@@ -55,28 +55,28 @@ export function SettingsDialog({ opened, onClose, onKeys }: Props) {
   );
 }
 
-function LooksAndUnits() {
+function AppearanceAndUnits() {
   const { colorScheme, setColorScheme } = useMantineColorScheme();
   const unit = useUnit();
   return (
     <>
       <Stack gap={4}>
         <Text size="sm" fw={500}>
-          Looks
+          Appearance
         </Text>
         <SegmentedControl
-          aria-label="Looks"
+          aria-label="Appearance"
           value={colorScheme}
           onChange={(value) => setColorScheme(value as 'dark' | 'light' | 'auto')}
           data={[
             { value: 'dark', label: 'Dark' },
             { value: 'light', label: 'Light' },
-            { value: 'auto', label: 'As the system' },
+            { value: 'auto', label: 'System' },
           ]}
         />
       </Stack>
       <Select
-        label="Lengths on this screen"
+        label="Units"
         allowDeselect={false}
         data={(Object.keys(UNITS) as Unit[]).map((u) => ({ value: u, label: UNITS[u].name }))}
         value={unit}

@@ -11,18 +11,18 @@ interface Picture {
   stage: Stage;
 }
 
-/** Pictures by name and version; a few hundred bytes a pixel, so not for ever. */
+/** Pictures by name and version; bounded, because a picture takes a few hundred bytes per pixel. */
 const pictures = new Map<string, Picture>();
 const PICTURES_MAX = 100;
 
-/** The frame that says most about a show: the middle one, for many begin and end in rows. */
+/** The frame that represents a show: the middle one, because many shows begin and end in rows. */
 async function pictureOf(name: string): Promise<Picture | null> {
   const show = readShow((await getShow(name)).document);
   const frame = show.frames[Math.floor(show.frames.length / 2)];
   return frame ? { frame, stage: show.stage } : null;
 }
 
-/** A show in small, fetched when it comes into sight. */
+/** Picture of a show, fetched when it scrolls into view. */
 export function ShowThumbnail({ entry }: { entry: ShowEntry }) {
   const key = `${entry.name} ${entry.etag}`;
   const [picture, setPicture] = useState(pictures.get(key) ?? null);

@@ -1,8 +1,8 @@
 import type { BrokerSettings, Operation } from '../api/types.gen';
 
-/** What stands in the form for the broker. Passwords and keys that are kept stay on the server. */
+/** Fields of the broker form. Saved passwords and keys stay on the server. */
 export interface BrokerFields {
-  /** Whether it is the server's own. */
+  /** Whether it is the built-in broker. */
   own: boolean;
   address: string;
   user: string;
@@ -25,7 +25,7 @@ export function fieldsOf(settings: BrokerSettings): BrokerFields {
   };
 }
 
-/** What the form asks for; `null` while it lacks an address. */
+/** The operation that the form requests; `null` without an address. */
 export function connectOf(fields: BrokerFields): (Operation & { do: 'connect' }) | null {
   if (fields.own) return { do: 'connect', address: 'embedded', user: null, password: null };
   const address = fields.address.trim();

@@ -1,6 +1,6 @@
 import type { Broker } from '../api/types.gen';
 
-/** How far the connection to the broker is, for people. */
+/** State of the connection to the broker, as text. */
 export function brokerText(broker: Broker): string {
   switch (broker.phase) {
     case 'off':

@@ -1,4 +1,4 @@
-/** The keyboard map as it is shown; the bindings are where the commands are. */
+/** The keyboard map; the bindings stand beside their commands. */
 export const KEYS: { title: string; keys: [string[], string][] }[] = [
   {
     title: 'Everywhere',

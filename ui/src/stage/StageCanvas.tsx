@@ -14,9 +14,9 @@ interface Props {
   view: Store<View>;
   /** The scene at a moment; the same object when nothing changed, so that nothing is drawn. */
   sceneAt: (now_ms: number) => Scene;
-  /** Whether dragging with the first button pans, as where nothing can be chosen. */
+  /** Whether dragging with the first button pans: true where nothing can be selected. */
   dragPans: boolean;
-  /** What a pointer does that does not pan. */
+  /** Handles pointers that do not pan. */
   hand?: Hand;
 }
 

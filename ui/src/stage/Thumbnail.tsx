@@ -1,16 +1,16 @@
 import { memo, useEffect, useRef } from 'react';
 import type { Frame, Stage } from '../model/show';
 import { fit } from './camera';
-import { createCrowd, CROWD } from './crowd';
+import { createRasteriser, RASTERISED_MIN } from './rasteriser';
 import { createSprites } from './sprites';
 import { FLOOR } from './palette';
 
 const sprites = createSprites();
-const crowd = createCrowd();
+const rasteriser = createRasteriser();
 /** Side of a thumbnail, device pixels: twice what it is shown at. */
 const SIDE = 176;
 
-/** A frame in small, as it will look. */
+/** A small picture of a frame. */
 export const Thumbnail = memo(function Thumbnail({ frame, stage }: { frame: Frame; stage: Stage }) {
   const element = useRef<HTMLCanvasElement>(null);
   useEffect(() => {
@@ -28,10 +28,10 @@ function paint(context: CanvasRenderingContext2D, frame: Frame, stage: Stage) {
   context.fillStyle = FLOOR.plate;
   context.fillRect(0, 0, SIDE, SIDE);
   const radius = Math.max(1.5, stage.radius_m * 1.25 * camera.scale);
-  if (frame.pixels.length >= CROWD) {
+  if (frame.pixels.length >= RASTERISED_MIN) {
     const picture = context.getImageData(0, 0, SIDE, SIDE);
     const dots = frame.pixels.map((pixel) => ({ ...pixel, alpha: 1 }));
-    crowd.addLights(picture, dots, radius, camera, 1);
+    rasteriser.addLights(picture, dots, radius, camera, 1);
     context.putImageData(picture, 0, 0);
     return;
   }

@@ -8,7 +8,7 @@ import styles from './stage.module.css';
 
 export const fitView = (view: Store<View>) => view.update((now) => ({ ...now, fitted: true }));
 
-/** Zooms about the middle. */
+/** Zooms about the middle of the stage. */
 export const zoomView = (view: Store<View>, factor: number) =>
   view.update((now) => ({
     ...now,

@@ -1,8 +1,8 @@
 import type { Point } from '../base/geometry';
 
-/** Where on the canvas a place of the stage is. The only conversion between metres and CSS pixels. */
+/** Maps the stage to the canvas: the only conversion between metres and CSS pixels. */
 export interface Camera {
-  /** CSS pixels a metre. */
+  /** CSS pixels per metre. */
   scale: number;
   /** CSS pixel of the stage's origin. */
   originX_px: number;

@@ -2,12 +2,12 @@ import type { Dot } from '../base/geometry';
 import { canvasFromStage, type Camera } from './camera';
 import { createFloorLayer, type FloorPicture } from './floorLayer';
 import type { Scene } from './scene';
-import { createCrowd, CROWD } from './crowd';
+import { createRasteriser, RASTERISED_MIN } from './rasteriser';
 import { addLines } from './lines';
 import { createSprites, isOff } from './sprites';
 import { FLOOR } from './palette';
 
-/** Draws scenes. Canvas2D is the only one there is; another (WebGL) would stand behind the same two calls. */
+/** Draws scenes. Another renderer than Canvas2D would have the same two calls. */
 export interface StageRenderer {
   resize(width_px: number, height_px: number, density: number): void;
   draw(scene: Scene, camera: Camera): void;
@@ -17,12 +17,12 @@ export function createCanvas2d(element: HTMLCanvasElement): StageRenderer {
   const context = element.getContext('2d', { alpha: false });
   if (!context) throw new Error('This browser cannot draw: it gives no 2D canvas.');
   const sprites = createSprites();
-  const crowd = createCrowd();
-  const floor = createFloorLayer(crowd);
+  const rasteriser = createRasteriser();
+  const floor = createFloorLayer(rasteriser);
   let frame: ImageData | null = null;
   let density = 1;
 
-  /** Copies one sprite a dot; those that have none are left out. */
+  /** Copies one sprite per dot; a dot without a sprite is left out. */
   const copy = (
     dots: readonly Dot[],
     camera: Camera,
@@ -65,8 +65,8 @@ export function createCanvas2d(element: HTMLCanvasElement): StageRenderer {
     if (frame?.width !== width || frame.height !== height) frame = new ImageData(width, height);
     frame.data.set(pixels.data);
     const dark = scene.filled.filter((dot) => isOff(dot.color));
-    crowd.layBodies(frame, dark, radius_px, camera, density);
-    crowd.addLights(frame, scene.filled, radius_px, camera, density);
+    rasteriser.layBodies(frame, dark, radius_px, camera, density);
+    rasteriser.addLights(frame, scene.filled, radius_px, camera, density);
     addLines(frame, scene.errors, camera, density);
     context.putImageData(frame, 0, 0);
   };
@@ -81,13 +81,13 @@ export function createCanvas2d(element: HTMLCanvasElement): StageRenderer {
       context.setTransform(1, 0, 0, 1, 0, 0);
       const picture = floor.of(scene, camera, element, density);
       const radius_px = Math.max(1.2, scene.radius_m * camera.scale) * density;
-      if (scene.filled.length >= CROWD) drawMany(scene, radius_px, camera, picture);
+      if (scene.filled.length >= RASTERISED_MIN) drawMany(scene, radius_px, camera, picture);
       else {
         context.drawImage(picture.canvas(), 0, 0);
         drawFew(scene.filled, radius_px, camera);
       }
       context.setTransform(density, 0, 0, density, 0, 0);
-      if (scene.filled.length < CROWD) drawErrors(context, scene, camera);
+      if (scene.filled.length < RASTERISED_MIN) drawErrors(context, scene, camera);
       scene.overlay?.(context, camera);
     },
   };

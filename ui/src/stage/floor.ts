@@ -38,7 +38,7 @@ export function drawFloor(
   context.strokeRect(min.x, min.y, w, h);
 }
 
-/** Rulers grow with the page's letters, which are larger on a wall. */
+/** Font size of the rulers; grows with the page's font size. */
 const rulerSize_px = () =>
   Math.round(11 * (parseFloat(getComputedStyle(document.documentElement).fontSize) / 16));
 
@@ -80,7 +80,7 @@ function drawGrid(context: CanvasRenderingContext2D, scene: Scene, camera: Camer
   context.fillText(unit, corner.x + 6, corner.y);
 }
 
-/** Planned ways, CSS pixels. */
+/** Planned paths, CSS pixels. */
 export function drawPaths(context: CanvasRenderingContext2D, scene: Scene, camera: Camera) {
   context.lineWidth = 1.25;
   context.globalAlpha = 0.5;

@@ -1,11 +1,11 @@
 import type { Camera, Size } from './camera';
-import type { Crowd } from './crowd';
+import type { Rasteriser } from './rasteriser';
 import { drawFloor, drawPaths } from './floor';
 import type { Scene } from './scene';
 
-/** What lies still under the lights: floor, planned ways and planned places, painted once and then copied. */
+/** The layer under the lights: floor, planned paths and targets, painted once and then copied. */
 export interface FloorLayer {
-  /** A picture as large as `size`, device pixels; painted anew only where something on it changed. */
+  /** A picture of `size`, device pixels; repainted only when one of its inputs changed. */
   of(
     scene: Scene,
     camera: Camera,
@@ -19,7 +19,7 @@ export interface FloorPicture {
   pixels: ImageData;
 }
 
-export function createFloorLayer(crowd: Crowd): FloorLayer {
+export function createFloorLayer(rasteriser: Rasteriser): FloorLayer {
   const layer = document.createElement('canvas');
   const context = layer.getContext('2d', { alpha: false, willReadFrequently: true });
   if (!context) throw new Error('This browser cannot draw: it gives no 2D canvas.');
@@ -36,7 +36,7 @@ export function createFloorLayer(crowd: Crowd): FloorLayer {
     },
   };
 
-  /** Floor and planned ways. */
+  /** Floor and planned paths. */
   const paintFloor = (scene: Scene, camera: Camera, size: Size, density: number) => {
     context.setTransform(density, 0, 0, density, 0, 0);
     drawFloor(context, scene, camera, size);
@@ -65,7 +65,7 @@ export function createFloorLayer(crowd: Crowd): FloorLayer {
       if (isNewPicture([bare, hollow, radius_m])) {
         picture.pixels.data.set(bare.data);
         const radius_px = Math.max(2, radius_m * camera.scale) * density;
-        crowd.layRings(picture.pixels, hollow, radius_px, camera, density);
+        rasteriser.layRings(picture.pixels, hollow, radius_px, camera, density);
         isOnCanvas = false;
       }
       return picture;
@@ -73,7 +73,7 @@ export function createFloorLayer(crowd: Crowd): FloorLayer {
   };
 }
 
-/** Says whether a list of inputs is another than the last time. */
+/** Tells whether a list of inputs differs from the list of the last call. */
 function createChangeWatch() {
   let last: readonly unknown[] = [];
   return (inputs: readonly unknown[]): boolean => {

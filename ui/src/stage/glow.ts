@@ -1,7 +1,7 @@
-/** How far a light's glow reaches, in radii of its robot. */
+/** Radius of a light's glow in radii of the robot. */
 export const GLOW_RADII = 3.4;
 
-/** How much of the colour there is so many radii from the middle: bright to the rim, then a soft fall. */
+/** Share of the colour by the distance from the middle in radii: bright to the rim, then a soft falloff. */
 export const GLOW_STOPS: readonly (readonly [radii: number, alpha: number])[] = [
   [0, 1],
   [0.78, 0.92],
@@ -11,11 +11,11 @@ export const GLOW_STOPS: readonly (readonly [radii: number, alpha: number])[] = 
   [GLOW_RADII, 0],
 ];
 
-/** The white in the middle of a light: how far it reaches, in radii, and how strong it is. */
+/** The white core of a light: its radius in radii of the robot, and its strength. */
 export const CORE_RADII = 0.7;
 export const CORE_ALPHA = 0.55;
 
-/** Share of the colour so many radii away, 0 to 1. */
+/** Share of the colour at a distance in radii, 0 to 1. */
 export function glowAlpha(radii: number): number {
   let [fromRadii, from] = [0, 1];
   for (const [toRadii, to] of GLOW_STOPS) {

@@ -4,10 +4,10 @@ import type { Pixels } from './stamps';
 
 /** How much white a line adds, 0 to 255. */
 const WHITE = 110;
-/** So many pixels of a line are drawn and then as many left out, CSS pixels. */
+/** Length of the dashes and of the gaps of a line, CSS pixels. */
 const DASH_PX = 3;
 
-/** Draws thin dashed lines in plain numbers: a path of thousands of dashes takes a canvas a tenth of a second. */
+/** Rasterises thin dashed lines, because a canvas needs a tenth of a second for thousands of dashes. */
 export function addLines(
   pixels: Pixels,
   lines: readonly (readonly [Point, Point])[],
@@ -25,7 +25,7 @@ export function addLines(
 }
 
 function addLine({ data, width, height }: Pixels, from: Point, way: Point, dash: number) {
-  // What is longer than the picture leaves it.
+  // A longer line leaves the picture.
   const steps = Math.min(width + height, Math.ceil(Math.max(Math.abs(way.x), Math.abs(way.y))));
   const longest = Math.max(Math.abs(way.x), Math.abs(way.y), 1);
   const [stepX, stepY] = [way.x / longest, way.y / longest];

@@ -11,12 +11,12 @@ export interface Hand {
   lost(): void;
 }
 
-/** A finger held still for so long means Shift, milliseconds. */
+/** A finger held still for this time acts as Shift, milliseconds. */
 export const LONG_MS = 450;
 /** A finger that stays within this is held still, CSS pixels. */
 export const STILL_PX = 8;
 
-/** Where on the canvas a pointer is, CSS pixels. */
+/** Position of a pointer on the canvas, CSS pixels. */
 function placeOn(canvas: HTMLCanvasElement, event: PointerEvent): Point {
   const box = canvas.getBoundingClientRect();
   return { x: event.clientX - box.left, y: event.clientY - box.top };

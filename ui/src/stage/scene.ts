@@ -3,20 +3,20 @@ import type { Unit } from '../base/units';
 import type { Stage } from '../model/show';
 import type { Camera } from './camera';
 
-/** Everything a renderer draws. Measured places are filled, planned ones hollow; neither is drawn as the other. */
+/** Input of a renderer. Measured positions are filled and planned positions hollow; never the other way round. */
 export interface Scene {
   width_m: number;
   depth_m: number;
   radius_m: number;
   obstacles: readonly Obstacle[];
   grid: boolean;
-  /** Unit of the rulers; metres if nothing is said. */
+  /** Unit of the rulers; metres by default. */
   unit?: Unit;
-  /** Filled: where lights are. */
+  /** Filled dots: measured lights. */
   filled: readonly Dot[];
-  /** Hollow: where they are meant to be. */
+  /** Hollow dots: targets. */
   hollow: readonly Dot[];
-  /** From measured to planned: the error. Pairs of ends. */
+  /** Position errors: pairs of measured and planned position. */
   errors: readonly [Point, Point][];
   /** Planned paths. */
   paths: readonly Polyline[];

@@ -4,12 +4,12 @@ import { FLOOR } from './palette';
 
 /** Colours are rounded to this many steps a component, so that fades do not fill the cache. */
 const STEP = 8;
-/** Sprites kept; all are thrown away beyond it, which takes one frame to mend. */
+/** Most sprites in the cache; above that all are dropped and drawn again within one frame. */
 const KEPT_MAX = 1500;
 
 /** Lights drawn once for each colour and size, then copied. */
 export interface Sprites {
-  /** The glowing light, to be drawn with `lighter`; `null` for one that is off. */
+  /** The glow of a light, to be drawn with `lighter`; `null` for a light that is off. */
   glow(color: Rgb, radius_px: number): ImageBitmap | null;
   /** The body of a robot under its light. */
   body(radius_px: number): ImageBitmap;
@@ -17,7 +17,7 @@ export interface Sprites {
   ring(color: string, radius_px: number, line_px: number, dashed?: boolean): ImageBitmap;
 }
 
-/** Whether a light cannot be seen. */
+/** Whether a light is too dark to be seen. */
 export const isOff = (color: Rgb) => luma(color) < 0.004;
 
 export function createSprites(): Sprites {

@@ -11,37 +11,37 @@ export interface Pixels {
   height: number;
 }
 
-/** Something round in numbers: how much of it each pixel around its middle gets, 0 to 255. */
+/** A round shape as coverage of the pixels around its middle, 0 to 255. */
 interface Stamp {
   side: number;
-  /** What is laid on in the ink's colour, rows from the top. */
+  /** Coverage in the ink's colour, rows from the top. */
   body: Uint8Array;
-  /** What is added in white. */
+  /** Coverage in white. */
   shine: Uint8Array;
-  /** First column of every row in which there is anything, and the one after its last. */
+  /** First covered column of every row, and the column after its last. */
   from: Uint16Array;
   until: Uint16Array;
 }
 
-/** What is round: how much body and shine it has so many pixels from its middle, 0 to 1; nothing beyond its reach. */
+/** A round shape: coverage and brightness by the distance from its middle in pixels, 0 to 1; zero beyond `reach_px`. */
 export interface Round {
   reach_px: number;
   bodyAt(away_px: number): number;
   shineAt(away_px: number): number;
 }
 
-/** How a stamp is pressed: numbers a component for a whole share. */
+/** Colour of a stamp: the value added per component at full coverage. */
 export interface Ink {
   r: number;
   g: number;
   b: number;
   /** Added by the shine. */
   white: number;
-  /** How much of what is below the body covers, 0 (it is added as light is) to 1. */
+  /** Share of the background that the body hides: 0 adds light only, 1 replaces the background. */
   covers: number;
 }
 
-/** Presses a stamp at every dot, in the ink that each has. */
+/** Paints a stamp at every dot, in the dot's ink. */
 export interface Stamps {
   press(pixels: Pixels, dots: readonly Dot[], camera: Camera, density: number): void;
 }
@@ -85,7 +85,7 @@ function makeStamp({ reach_px, bodyAt, shineAt }: Round, offX: number, offY: num
   return { side, body, shine, from, until };
 }
 
-/** The innermost loop of all. */
+/** Paints one stamp: the innermost loop of the rasteriser. */
 function pressOne({ data, width, height }: Pixels, stamp: Stamp, x: number, y: number, ink: Ink) {
   const { side, body, shine, from, until } = stamp;
   const reach = (side - 1) / 2;
@@ -100,7 +100,7 @@ function pressOne({ data, width, height }: Pixels, stamp: Stamp, x: number, y: n
       const share = body[k] as number;
       const added = (shine[k] as number) * white;
       const kept = 1 - share * covers;
-      // The array itself keeps sums below 256.
+      // The clamped array keeps sums below 256.
       data[at] = (data[at] as number) * kept + share * r + added;
       data[at + 1] = (data[at + 1] as number) * kept + share * g + added;
       data[at + 2] = (data[at + 2] as number) * kept + share * b + added;

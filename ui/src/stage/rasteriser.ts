@@ -4,13 +4,13 @@ import type { Camera } from './camera';
 import { CORE_ALPHA, CORE_RADII, GLOW_RADII, glowAlpha } from './glow';
 import { createStamps, type Ink, type Pixels, type Round, type Stamps } from './stamps';
 
-/** From so many lights on they are added up in numbers: sprites of many colours cost more. */
-export const CROWD = 400;
+/** At least this many lights are rasterised in software, because sprites of many colours cost more. */
+export const RASTERISED_MIN = 400;
 
-/** A line of a ring is so thick, of its radius; between one and two CSS pixels. */
+/** Width of a ring's line as a share of its radius; between one and two CSS pixels. */
 const LINE_RADII = 0.16;
 
-/** Presses something at every dot of a picture. */
+/** Paints one shape at every dot. */
 type Painter = (
   pixels: Pixels,
   dots: readonly Dot[],
@@ -20,16 +20,16 @@ type Painter = (
 ) => void;
 
 /**
- * Lights, the robots under those that are off, and rings, in plain numbers. For crowds: no sprite for each of a thousand
- * colours that fade, and as quick without a graphics card as with one.
+ * Paints lights, bodies of dark robots, and rings into an array of pixels. With a thousand fading colours this is faster
+ * than one sprite per colour, and as fast without a graphics card as with one.
  */
-export interface Crowd {
+export interface Rasteriser {
   addLights: Painter;
   layBodies: Painter;
   layRings: Painter;
 }
 
-export function createCrowd(): Crowd {
+export function createRasteriser(): Rasteriser {
   return {
     addLights: painter((radius_px) => createStamps(lightOf(radius_px), lightInk)),
     layBodies: painter((radius_px) => createStamps(bodyOf(radius_px), bodyInk)),
@@ -88,7 +88,7 @@ function bodyInk({ alpha }: Dot, ink: Ink) {
   ink.white = RIM * ink.covers;
 }
 
-/** Colour of a robot whose light is off, and how much brighter its rim is. */
+/** Colour of a robot without light, and the added brightness of its rim. */
 const BODY = 0x1b2029;
 const RIM = 70;
 
@@ -108,5 +108,5 @@ function ringInk(dot: Dot, ink: Ink) {
 }
 
 const RING_ALPHA = 0.7;
-/** Colour of a ring whose light is off. */
+/** Colour of a ring for a pixel without light. */
 const OFF = 0x7d889c;

@@ -1,12 +1,12 @@
 import type { Dot } from '../base/geometry';
 import { expect, test } from 'vitest';
-import { createCrowd } from './crowd';
+import { createRasteriser } from './rasteriser';
 import { addLines } from './lines';
 
 const camera = { scale: 10, originX_px: 20, originY_px: 20 };
 const draw = (dots: Dot[], side = 40) => {
   const pixels = { data: new Uint8ClampedArray(side * side * 4), width: side, height: side };
-  createCrowd().addLights(pixels, dots, 4, camera, 1);
+  createRasteriser().addLights(pixels, dots, 4, camera, 1);
   return (x: number, y: number) => [
     ...pixels.data.subarray((y * side + x) * 4, (y * side + x) * 4 + 3),
   ];
@@ -42,7 +42,7 @@ test('what moves a quarter of a pixel is drawn elsewhere; what leaves the pictur
 const rings = (dots: Dot[], floor: number, radius_px = 8) => {
   const side = 40;
   const data = new Uint8ClampedArray(side * side * 4).fill(floor);
-  createCrowd().layRings({ data, width: side, height: side }, dots, radius_px, camera, 1);
+  createRasteriser().layRings({ data, width: side, height: side }, dots, radius_px, camera, 1);
   return (x: number, y: number) => [...data.subarray((y * side + x) * 4, (y * side + x) * 4 + 3)];
 };
 
@@ -99,7 +99,7 @@ test('a line is dashed from one end to the other, and what leaves the picture is
 test('a robot whose light is off is a dark disc with a rim, over what is below', () => {
   const side = 40;
   const data = new Uint8ClampedArray(side * side * 4).fill(255);
-  createCrowd().layBodies({ data, width: side, height: side }, [dot(0, 0, 0)], 8, camera, 1);
+  createRasteriser().layBodies({ data, width: side, height: side }, [dot(0, 0, 0)], 8, camera, 1);
   const at = (x: number) => data[(20 * side + x) * 4] ?? 0;
   const [middle, rim, outside] = [at(20), at(27), at(31)];
   expect(middle).toBe(0x1b);
