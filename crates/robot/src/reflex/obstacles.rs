@@ -13,13 +13,13 @@ const MISSED_MOST: u8 = 3;
 
 /// All obstacles in sight.
 #[derive(Debug, Default)]
-pub(crate) struct Obstacles {
+pub(crate) struct StandingObjects {
     list: heapless::Vec<StandingObject, OBSTACLES>,
     /// Those that are likely, each as a disc of a robot's size that touches it where it is nearest.
     faces: heapless::Vec<Track, OBSTACLES>,
 }
 
-impl Obstacles {
+impl StandingObjects {
     pub fn is_empty(&self) -> bool {
         self.list.is_empty()
     }

@@ -4,7 +4,7 @@ use super::birth::{expected_there, explained_off_m, unknown};
 use super::departure::{Departure, Left};
 use super::likelihood::log_density;
 use super::obstacle::Readings;
-use super::obstacles::Obstacles;
+use super::obstacles::StandingObjects;
 use super::point::Point;
 use super::scan::{Expectation, Scan};
 use super::sensors::Sensors;
@@ -38,7 +38,7 @@ type Owners = [Option<usize>; SENSORS];
 #[derive(Debug, Default)]
 pub(crate) struct Tracks {
     list: heapless::Vec<Track, TRACKS>,
-    obstacles: Obstacles,
+    obstacles: StandingObjects,
 }
 
 impl Tracks {
