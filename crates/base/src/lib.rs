@@ -17,6 +17,8 @@ mod colour;
 mod id;
 mod limits;
 mod path;
+pub mod random;
+pub mod shape;
 mod time;
 mod vec2;
 

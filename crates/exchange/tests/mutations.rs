@@ -1,5 +1,6 @@
 //! Seeded mutations of good files: each is read, or refused with one line, and never panics.
 
+use lightbots_base::random::split_mix;
 use lightbots_base::{Rgb, Vec2};
 use lightbots_exchange::{FORMATS, read};
 use lightbots_show::{Easing, Frame, Identity, Obstacle, Pixel, Show, Stage, front_rows, validate};
@@ -9,11 +10,7 @@ struct Dice(u64);
 
 impl Dice {
     fn roll(&mut self, sides: usize) -> usize {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut mixed = self.0;
-        mixed = (mixed ^ mixed >> 30).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        mixed = (mixed ^ mixed >> 27).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((mixed ^ mixed >> 31) % sides.max(1) as u64) as usize
+        (split_mix(&mut self.0) % sides.max(1) as u64) as usize
     }
 }
 

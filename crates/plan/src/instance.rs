@@ -1,5 +1,6 @@
 //! One transition with a given assignment, as solvers see it: ends, floor and walls.
 
+use lightbots_base::shape::nearest_in_rect;
 use lightbots_base::{Limits, Vec2};
 use lightbots_show::Obstacle;
 
@@ -39,6 +40,7 @@ impl Instance<'_> {
                 None => None,
             });
         }
+        assert_eq!(ends.len(), problem.starts.len(), "each robot has an end or is spare");
         let standing = problem.standing.iter().map(|&at| Obstacle::Disc { at, radius_m: limits.radius_m });
         let mut instance = Self {
             cancel: Cancel::NEVER,
@@ -154,7 +156,7 @@ fn off_shape(shape: &Obstacle, place: Vec2) -> (f64, Vec2) {
             (out.length() - radius_m, out.normalized().unwrap_or(Vec2::new(1.0, 0.0)))
         }
         Obstacle::Rect { min, max } => {
-            let nearest = Vec2::new(place.x.max(min.x).min(max.x), place.y.max(min.y).min(max.y));
+            let nearest = nearest_in_rect(place, min, max);
             if let Some(away) = (place - nearest).normalized() {
                 return (place.distance(nearest), away);
             }

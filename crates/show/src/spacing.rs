@@ -63,10 +63,8 @@ mod tests {
     /// Pseudo-random places in a square of 1 m, the same at every run.
     fn scattered(count: usize) -> Vec<Vec2> {
         let mut state = 7u64;
-        let mut next = move || {
-            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-            (state >> 11) as f64 / (1u64 << 53) as f64
-        };
+        let mut next =
+            move || (lightbots_base::random::congruential(&mut state) >> 11) as f64 / (1u64 << 53) as f64;
         (0..count).map(|_| Vec2::new(next() - 0.5, next() - 0.5)).collect()
     }
 

@@ -2,6 +2,8 @@
 
 use std::sync::LazyLock;
 
+use lightbots_base::random::split_mix;
+
 /// Purpose of a stream. Each has its own, so that more numbers for one purpose (a noisier sensor) do not change another
 /// (which message is lost).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -102,14 +104,6 @@ pub(crate) fn normal3_of(bits: u64) -> [f64; 3] {
 fn normal_of<const COUNT: usize>(bits: u64, shifts: [u32; COUNT]) -> [f64; COUNT] {
     let table: &[f32; NORMAL_LEN] = &NORMAL;
     shifts.map(|shift| f64::from(table[(bits >> shift) as usize % NORMAL_LEN]))
-}
-
-fn split_mix(state: &mut u64) -> u64 {
-    *state = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
-    let mut z = *state;
-    z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-    z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-    z ^ (z >> 31)
 }
 
 fn normal_table() -> Box<[f32; NORMAL_LEN]> {

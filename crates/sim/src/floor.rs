@@ -1,6 +1,7 @@
 //! The floor: its edge, which is a wall, and no-go areas.
 
 use lightbots_base::Vec2;
+use lightbots_base::shape::nearest_in_rect;
 use lightbots_show::{Obstacle, Stage};
 
 /// The floor's edge and the things on it, for discs of one radius.
@@ -66,10 +67,7 @@ impl Floor {
     fn out_of(&self, obstacle: &Obstacle, place: Vec2) -> Option<Vec2> {
         let (nearest, reach) = match *obstacle {
             Obstacle::Disc { at, radius_m } => (at, radius_m + self.radius_m),
-            Obstacle::Rect { min, max } => {
-                let nearest = Vec2::new(place.x.max(min.x).min(max.x), place.y.max(min.y).min(max.y));
-                (nearest, self.radius_m)
-            }
+            Obstacle::Rect { min, max } => (nearest_in_rect(place, min, max), self.radius_m),
         };
         let gap = place - nearest;
         if gap.length_squared() >= reach * reach {

@@ -3,6 +3,7 @@
 #![allow(dead_code)]
 
 use lightbots_base::Vec2;
+use lightbots_base::random::split_mix;
 
 /// A small generator (SplitMix64).
 pub struct Dice(u64);
@@ -15,11 +16,7 @@ impl Dice {
 
     /// From 0 to 1.
     pub fn share(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
+        (split_mix(&mut self.0) >> 11) as f64 / (1_u64 << 53) as f64
     }
 
     /// From `low` to `high`.

@@ -6,7 +6,7 @@ use super::dice::Dice;
 use lightbots_base::{Limits, Vec2};
 use lightbots_plan::TransitionProblem;
 
-/// Who goes to which goal.
+/// Binding of robots to goals.
 #[derive(Clone, Copy, PartialEq)]
 pub enum Bound {
     /// Any robot to any goal.

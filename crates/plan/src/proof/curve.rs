@@ -1,17 +1,17 @@
-//! How close a cubic Bézier curve comes to the origin, proven by its convex hull.
+//! Least distance of a cubic Bézier curve from the origin, proven by its convex hull.
 
 use lightbots_base::Vec2;
 
 /// The control points of a cubic.
 pub(super) type Cubic = [Vec2; 4];
 
-/// Distances are exact to this, metres.
+/// Error of distances, metres.
 const TOLERANCE_M: f64 = 1e-7;
-/// Parts that are divided: some dozens for any curve on a floor. What is left then counts as its hull, which is nearer.
+/// Most parts that are divided; curves on a floor need some dozens. The rest counts as its hull, which is nearer.
 const MOST_PARTS: usize = 100_000;
-/// Divisions of a part of the curve at most: parts are shorter than `SHORTEST` before that.
+/// Most divisions of a part; parts are shorter than [`SHORTEST`] before that.
 const DEEPEST: usize = 62;
-/// Stretches of the parameter shorter than this are not divided any more.
+/// Stretches of the parameter below this are not divided any more.
 const SHORTEST: f64 = 1e-7;
 
 /// The curve's least distance from the origin and its parameter there, if it is less than `enough`.
@@ -25,7 +25,7 @@ pub(super) fn nearest(curve: &Cubic, enough: f64) -> Option<(f64, f64)> {
 
 /// Branch and bound over parts of a curve.
 struct Search {
-    /// The least distance so far, metres, or what it must be less than.
+    /// The least distance up to now, metres, or the bound it must be below.
     best: f64,
     /// Parameter of the point at that distance.
     at: Option<f64>,
@@ -127,8 +127,7 @@ mod tests {
 
     /// A repeatable number in −1..1.
     fn number(state: &mut u64) -> f64 {
-        *state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (*state >> 11) as f64 / (1u64 << 52) as f64 - 1.0
+        (lightbots_base::random::congruential(state) >> 11) as f64 / (1u64 << 52) as f64 - 1.0
     }
 
     #[test]

@@ -2,6 +2,7 @@
 //! measured exactly between shapes; only the run of a wall is rounded to squares.
 
 use lightbots_base::Vec2;
+use lightbots_base::shape::nearest_in_rect;
 use lightbots_show::Obstacle;
 
 use crate::TransitionProblem;
@@ -19,8 +20,9 @@ const WALL_SHARE: f64 = 0.5;
 const GAP_SQUARES: f64 = 0.75;
 /// Search radius for the region of a place, in squares.
 const MOST_RINGS: i64 = 4;
-/// Not filled yet. [`WALL`] marks squares of a wall.
+/// Marks a square that is not filled yet.
 const NONE: u32 = u32::MAX;
+/// Marks a square of a wall.
 const WALL: u32 = u32::MAX - 1;
 
 /// Something that does not move.
@@ -78,7 +80,7 @@ impl Shape {
 
     /// The nearest place in its rectangle.
     fn core(&self, from: Vec2) -> Vec2 {
-        Vec2::new(from.x.max(self.min.x).min(self.max.x), from.y.max(self.min.y).min(self.max.y))
+        nearest_in_rect(from, self.min, self.max)
     }
 
     /// Distance of a place from the rim, metres; negative within the round corners.

@@ -5,19 +5,22 @@ use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
 use lightbots_base::Vec2;
+use lightbots_base::shape::nearest_in_rect;
 use lightbots_show::Obstacle;
 
 use crate::instance::Instance;
 use crate::margins::ROADMAP_M;
 use crate::roads::visibility::VisibilityGraph;
 
-/// Length of the longest edge, in pitches; at least [`LEAST_REACH_M`].
+/// Length of the longest edge, in pitches.
 const REACH: f64 = 1.5;
+/// Lower bound of that length, metres.
 const LEAST_REACH_M: f64 = 0.075;
 /// Least distance of a node from others, in pitches.
 const APART: f64 = 0.5;
-/// Most nodes in a row beside a corner. [`HALVINGS`] bisections find its last node.
+/// Most nodes in a row beside a corner.
 const MOST_IN_ROW: usize = 40;
+/// Bisections that find the last node of a row.
 const HALVINGS: usize = 12;
 /// Larger roadmaps are not made.
 const MOST_NODES: usize = 5_000;
@@ -217,8 +220,7 @@ fn off_shape(shape: &Obstacle, from: Vec2, to: Vec2) -> f64 {
                 return 0.0;
             }
             let corners = [min, Vec2::new(min.x, max.y), max, Vec2::new(max.x, min.y)].map(to_line);
-            let ends = [from, to]
-                .map(|at| at.distance(Vec2::new(at.x.max(min.x).min(max.x), at.y.max(min.y).min(max.y))));
+            let ends = [from, to].map(|at| at.distance(nearest_in_rect(at, min, max)));
             corners.into_iter().chain(ends).fold(f64::INFINITY, f64::min)
         }
     }

@@ -10,8 +10,9 @@ use crate::roads::lattice::Lattice;
 
 /// With more walls there is no graph, because too many pairs of corners see each other.
 pub(crate) const MOST_WALLS: usize = 24;
-/// Least distance of an added node from others, in pitches; its edges have at most [`MOST_PITCH`].
+/// Least distance of an added node from others, in pitches.
 const LEAST_PITCH: f64 = 0.83;
+/// Longest edge of an added node, in pitches.
 const MOST_PITCH: f64 = 1.45;
 /// Gaps at most this much wider than a robot are narrow, metres: two robots do not pass each other there.
 const NARROW_M: f64 = 0.04;

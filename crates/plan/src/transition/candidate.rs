@@ -39,6 +39,7 @@ impl Candidate {
         let mut ends = problem.starts.clone();
         let mut goal_of = vec![None; ends.len()];
         for (goal, &start) in start_of.iter().enumerate() {
+            assert_eq!(goal_of[start], None, "robot {start} has one goal at most");
             ends[start] = problem.goals[goal];
             goal_of[start] = Some(goal);
         }

@@ -1,6 +1,5 @@
 //! Problems without any solution, and their messages.
 
-use super::spares::distance_to;
 use crate::{Infeasible, TransitionProblem};
 use lightbots_base::Vec2;
 use lightbots_show::Obstacle;
@@ -95,7 +94,7 @@ fn off_floor(problem: &TransitionProblem, goal: usize, place: Vec2) -> Result<()
 
 fn blocked(problem: &TransitionProblem, goal: usize, place: Vec2) -> Result<(), Infeasible> {
     let radius = problem.limits.radius_m;
-    if problem.obstacles.iter().any(|thing| distance_to(thing, place) < radius) {
+    if problem.obstacles.iter().any(|thing| thing.gap_m(place) < radius) {
         let message = format!("a pixel is nearer than {:.0} mm to a no-go area", radius * 1e3);
         return Err(infeasible(vec![goal], message));
     }

@@ -12,7 +12,6 @@ mod straight;
 mod tests;
 
 pub(crate) use feasibility::touching;
-pub(crate) use spares::distance_to;
 
 use crate::assignment::Choice;
 use crate::cancel::{Cancel, Cancelled, unless};
@@ -149,6 +148,7 @@ fn proven(
     Repaired { paths, least }: Repaired,
     cancel: Cancel<'_>,
 ) -> Result<Transition, Vec<Meeting>> {
+    assert_eq!(paths.len(), problem.starts.len(), "each robot has a path");
     let proof = prove_unless(&problem.to_prove(&paths), cancel);
     if !proof.holds() {
         return Err(Vec::new());

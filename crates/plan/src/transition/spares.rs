@@ -3,7 +3,6 @@
 use crate::TransitionProblem;
 use crate::cancel::Cancel;
 use lightbots_base::Vec2;
-use lightbots_show::Obstacle;
 use std::collections::BTreeMap;
 
 /// Rings of places tried around a spare robot.
@@ -81,7 +80,7 @@ fn free_place(problem: &TransitionProblem, taken: &Taken, from: Vec2, cancel: Ca
     let is_free = |place: Vec2| {
         place.x.abs() <= half.x - radius
             && place.y.abs() <= half.y - radius
-            && problem.obstacles.iter().all(|thing| distance_to(thing, place) >= 2.0 * radius)
+            && problem.obstacles.iter().all(|thing| thing.gap_m(place) >= 2.0 * radius)
             && taken.is_clear(place)
     };
     let mut rings = (1..RINGS).take_while(|_| !cancel.is_wanted());
@@ -93,15 +92,4 @@ fn free_place(problem: &TransitionProblem, taken: &Taken, from: Vec2, cancel: Ca
         };
         (0..count).map(place).find(|&place| is_free(place))
     })
-}
-
-/// Distance of a place from a thing's rim, metres; 0 within it.
-pub(crate) fn distance_to(thing: &Obstacle, place: Vec2) -> f64 {
-    match *thing {
-        Obstacle::Disc { at, radius_m } => (at.distance(place) - radius_m).max(0.0),
-        Obstacle::Rect { min, max } => {
-            let nearest = Vec2::new(place.x.max(min.x).min(max.x), place.y.max(min.y).min(max.y));
-            nearest.distance(place)
-        }
-    }
 }

@@ -2,6 +2,7 @@
 //! any speed.
 
 use super::MARGIN_M;
+use lightbots_base::shape::{point_to_segment, segment_to_segment};
 use lightbots_base::{Limits, Vec2};
 use lightbots_show::Obstacle;
 use std::collections::VecDeque;
@@ -28,32 +29,6 @@ pub struct FreeSpace<'a> {
     pub cell_m: f64,
 }
 
-/// Distance of `p` from the segment `a`–`b`.
-pub(super) fn segment_to_point(a: Vec2, b: Vec2, p: Vec2) -> f64 {
-    squared_to_point(a, b, p).sqrt()
-}
-
-fn squared_to_point(a: Vec2, b: Vec2, p: Vec2) -> f64 {
-    let along = b - a;
-    let length = along.length_squared();
-    let share = if length > 0.0 { ((p - a).dot(along) / length).clamp(0.0, 1.0) } else { 0.0 };
-    (a + along * share - p).length_squared()
-}
-
-/// Distance of two segments.
-pub(super) fn segment_to_segment(a: (Vec2, Vec2), b: (Vec2, Vec2)) -> f64 {
-    let side = |s: (Vec2, Vec2), p: Vec2| (s.1 - s.0).cross(p - s.0);
-    let crosses = side(a, b.0) * side(a, b.1) < 0.0 && side(b, a.0) * side(b, a.1) < 0.0;
-    if crosses {
-        return 0.0;
-    }
-    squared_to_point(a.0, a.1, b.0)
-        .min(squared_to_point(a.0, a.1, b.1))
-        .min(squared_to_point(b.0, b.1, a.0))
-        .min(squared_to_point(b.0, b.1, a.1))
-        .sqrt()
-}
-
 impl<'a> FreeSpace<'a> {
     /// The floor of robots that drive straight lines without a common clock.
     pub fn new(half_floor: Vec2, obstacles: &'a [Obstacle], limits: &Limits) -> Self {
@@ -64,13 +39,13 @@ impl<'a> FreeSpace<'a> {
     /// Whether the line `a`–`b` keeps the gap to a disc at `p`. Ends that are closer only keep their own distance.
     pub fn clears_disc(&self, a: Vec2, b: Vec2, p: Vec2) -> bool {
         let needed = self.gap_m.min(a.distance(p)).min(b.distance(p));
-        segment_to_point(a, b, p) >= needed - 1e-9 && b.distance(p) >= 2.0 * self.radius_m
+        point_to_segment(p, a, b) >= needed - 1e-9 && b.distance(p) >= 2.0 * self.radius_m
     }
 
     /// Whether the line `a`–`b` is clear of the obstacles.
     pub fn clears_obstacles(&self, a: Vec2, b: Vec2) -> bool {
         self.obstacles.iter().all(|obstacle| match *obstacle {
-            Obstacle::Disc { at, radius_m } => segment_to_point(a, b, at) >= radius_m + self.radius_m,
+            Obstacle::Disc { at, radius_m } => point_to_segment(at, a, b) >= radius_m + self.radius_m,
             Obstacle::Rect { min, max } => {
                 let corners = [min, Vec2::new(max.x, min.y), max, Vec2::new(min.x, max.y)];
                 let inside = |p: Vec2| p.x > min.x && p.x < max.x && p.y > min.y && p.y < max.y;

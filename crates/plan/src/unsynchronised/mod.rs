@@ -86,6 +86,7 @@ pub fn stages(
 mod tests {
     use super::free_space::CELL_M;
     use super::*;
+    use lightbots_base::random::congruential;
 
     fn problem<'a>(
         starts: &'a [Vec2],
@@ -106,10 +107,7 @@ mod tests {
     /// none comes nearer to another than `gap_m`.
     fn drive_anyhow(places: &mut [Vec2], drives: &[StraightDrive], gap_m: f64, seed: u64) {
         let mut dice = seed;
-        let mut chance = |bound: u64| {
-            dice = dice.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-            (dice >> 33) % bound
-        };
+        let mut chance = |bound: u64| (congruential(&mut dice) >> 33) % bound;
         let (mut at, mut said) = (vec![0.0; drives.len()], vec![0.0; drives.len()]);
         let eager: Vec<u64> = drives.iter().map(|_| 4 + chance(16)).collect();
         for _ in 0..20_000 {
@@ -190,10 +188,7 @@ mod tests {
     fn crowds_that_change_places_come_through() {
         for seed in 1..7u64 {
             let mut dice = seed;
-            let mut below = |bound: usize| {
-                dice = dice.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
-                (dice >> 33) as usize % bound
-            };
+            let mut below = |bound: usize| (congruential(&mut dice) >> 33) as usize % bound;
             let grid = |i: usize, pitch: f64| Vec2::new((i % 4) as f64 * pitch, (i / 4) as f64 * pitch);
             let starts: Vec<Vec2> = (0..12).map(|i| grid(i, 0.09)).collect();
             let mut goals: Vec<Vec2> = (0..12).map(|i| grid(i, 0.076) + Vec2::new(0.05, -0.04)).collect();

@@ -1,7 +1,7 @@
 //! Straight drives of robots without a common clock, and how far each may go while others are on theirs.
 
-use super::free_space::{segment_to_point, segment_to_segment};
 use lightbots_base::Vec2;
+use lightbots_base::shape::{point_to_segment, segment_to_segment};
 use std::collections::BTreeMap;
 
 /// Bisections of a drive in the search for its clear part: 14 leave an error of 1 mm on a floor of 16 m.
@@ -90,7 +90,7 @@ pub(super) fn add_yields(drives: &mut [StraightDrive], gap_m: f64) {
         let mut yields = Vec::new();
         for (place, before) in drives[..later].iter().enumerate().filter(|(_, h)| h.robot != drive.robot) {
             let stays = next[place] > later;
-            let stands_m = segment_to_point(drive.from, drive.to, before.to);
+            let stands_m = point_to_segment(before.to, drive.from, drive.to);
             let gap_m = if stays { gap_m.min(stands_m) } else { gap_m };
             if segment_to_segment((drive.from, drive.to), (before.from, before.to)) < gap_m - ROUNDING_M {
                 yields.push(Yield { to: place, gap_m });

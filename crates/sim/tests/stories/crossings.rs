@@ -1,5 +1,6 @@
 //! Shows as the original saves them, where pixel 7 is the same robot in every frame and straight lines would collide.
 
+use lightbots_base::random::congruential;
 use lightbots_base::{Rgb, Vec2};
 use lightbots_exchange::{ORIGINAL, read};
 use lightbots_show::{Easing, Frame, Identity, Pixel, Show};
@@ -61,10 +62,7 @@ fn shows() -> Vec<Show> {
     let shuffled: Vec<Vec2> = (0..36).map(|i| grid[(i * 7 + 5) % 36]).collect();
     let scattered = |seed: u64| {
         let mut state = seed;
-        let mut random = || {
-            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-            (state >> 33) as f64 / (1u64 << 31) as f64 * 2.8 - 1.4
-        };
+        let mut random = || (congruential(&mut state) >> 33) as f64 / (1u64 << 31) as f64 * 2.8 - 1.4;
         let mut places: Vec<Vec2> = Vec::new();
         while places.len() < 30 {
             let at = Vec2::new(random(), random());

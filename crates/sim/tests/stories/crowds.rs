@@ -1,5 +1,6 @@
 //! Dancers with places of their own: crowds whose paths must bend around each other, driven with standard faults.
 
+use lightbots_base::random::congruential;
 use lightbots_base::{Rgb, Vec2};
 use lightbots_show::{Easing, Frame, Identity, Pixel, Show, Stage};
 use lightbots_sim::{Conditions, Faults, RehearsalOptions, RehearsalReport, rehearse};
@@ -25,10 +26,7 @@ fn assert_fine(show: &Show, faults: &str, seed: u64) -> RehearsalReport {
 /// Two frames in which every robot has a random place.
 fn crowd(number: u64) -> Show {
     let mut state = number;
-    let mut random = || {
-        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (state >> 33) as f64 / (1u64 << 31) as f64 * 2.8 - 1.4
-    };
+    let mut random = || (congruential(&mut state) >> 33) as f64 / (1u64 << 31) as f64 * 2.8 - 1.4;
     let mut places = || {
         let mut places: Vec<Vec2> = Vec::new();
         while places.len() < ROBOTS as usize {
