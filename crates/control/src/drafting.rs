@@ -7,7 +7,7 @@ use crate::surroundings::{Surroundings, surroundings};
 use lightbots_base::{RobotId, Span, Vec2};
 use lightbots_plan::unsynchronised::{self, DriveStage, FreeSpace, StraightDrive, UnsynchronisedProblem};
 use lightbots_plan::{
-    BoundFrame, Cancelled, Path, Transition, TransitionProblem, raise_unless, transition_unless,
+    BoundFrame, Cancelled, Path, Transition, TransitionProblem, planned_unless, transition_unless,
 };
 use lightbots_show::{Frame, Pixel, Show};
 use lightbots_wire::MAX_PIECES;
@@ -214,21 +214,13 @@ impl<'a> Draft<'a> {
     fn solve(&self, frame: &Frame, cast: &mut BoundFrame<'_>) -> Result<Transition, String> {
         let mut tries = LENIENT_TRIES;
         loop {
+            let stage = &self.problem.show.stage;
             let problem = TransitionProblem {
-                starts: self.places.clone(),
-                goals: cast.pixels.iter().map(|pixel| pixel.at).collect(),
-                pinned: cast.pinned.clone(),
                 standing: self.problem.standing.clone(),
-                duration: frame.transition_s.map(Span::from_secs),
-                easing: frame.easing,
-                ..self.empty_problem()
+                ..TransitionProblem::of_frame(stage, frame, self.places.clone(), cast)
             };
-            let stuck = match transition_unless(&problem, self.is_over).map_err(given_up)? {
-                Ok(mut plan) => {
-                    // Given up it leaves a plan that is proven.
-                    let _ = raise_unless(&problem, &mut plan, self.is_over);
-                    return Ok(plan);
-                }
+            let stuck = match planned_unless(&problem, self.is_over).map_err(given_up)? {
+                Ok(plan) => return Ok(plan),
                 Err(stuck) => stuck,
             };
             tries -= 1;

@@ -3,7 +3,7 @@
 //! `cargo run --release -p lightbots-plan --example stop_safe -- [--json] [--robots N] [--scene NAME] [--svg FILE]`
 //!
 //! With `--svg` the last row is drawn too: all paths, and a dot where a robot must not stop dead, darker the more room
-//! somebody is short of.
+//! another robot lacks.
 #![allow(clippy::print_stdout, missing_docs)]
 
 #[path = "common/cpu.rs"]

@@ -118,7 +118,7 @@ impl Bindings {
         binder.done()
     }
 
-    /// Remembers who shows what; `goal_of[robot]` is an index into the frame's pixels.
+    /// Remembers the robot of each pixel; `goal_of[robot]` is an index into the frame's pixels.
     pub fn remember(&mut self, bound: &BoundFrame<'_>, goal_of: &[Option<usize>]) {
         for (robot, goal) in goal_of.iter().enumerate() {
             let Some(pixel) = goal.and_then(|goal| bound.pixels.get(goal)) else { continue };

@@ -20,7 +20,7 @@ fn bind<'a>(bindings: &Bindings, frame: &'a [Pixel], identity: Identity, robots:
     bindings.bind(frame, identity, &row(robots), |_| false)
 }
 
-/// Robots with names, of whom `shown` showed pixels, oldest first.
+/// Robots with names; those in `shown` showed pixels, oldest first.
 fn bindings(names: &[&str], shown: &[(u32, usize)]) -> Bindings {
     let mut claims = Claims::default();
     shown.iter().for_each(|&(id, robot)| claims.show(id, robot));

@@ -1,11 +1,11 @@
-//! Who goes where, and how: a show becomes an assignment and timed paths, with a proof that nobody touches.
+//! The planner: a show becomes an assignment and timed paths, with a proof that no two robots touch.
 //!
-//! Pure: same input, same bits out. It knows nothing of messages, clocks or files.
+//! Pure: the same input gives the same bits. It knows nothing of messages, clocks or files.
 //!
-//! In reading order: [`TransitionProblem`] is what is asked, [`assignment`] decides who goes where, `motion` makes
-//! timed paths of it, [`proof`] judges them without trusting either, [`transition()`] puts the three together and
-//! relaxes or repairs until the proof holds, [`Bindings`] say who must show which pixel of a frame, and [`show()`] chains
-//! transitions through all frames.
+//! In reading order: [`TransitionProblem`] is one drive; [`Bindings`] bind pixels to robots; [`assignment`] assigns
+//! goals; `motion` makes straight lines with one progress; `solve` runs the table of solvers where these conflict;
+//! [`proof`] judges the paths without trusting any of them; [`transition()`] puts these together; [`show()`] chains
+//! transitions through all frames. docs/planner.md explains the methods.
 //!
 //! ```
 //! use lightbots_base::{Limits, Vec2};
@@ -46,7 +46,7 @@ pub use cancel::Cancelled;
 pub use explain::{ExplainedRow, Explanation, RowOutcome};
 pub use motion::turn_time;
 pub use problem::{Closest, Infeasible, Meeting, Path, Repaired, Transition, TransitionProblem};
-pub use raise::{raise, raise_unless};
+pub use raise::{planned_unless, raise, raise_unless};
 pub use show::{ShowClosest, ShowOptions, ShowPlan, show, show_unless};
 pub use solve::repair;
 pub use transition::{transition, transition_unless};

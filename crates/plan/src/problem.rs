@@ -1,8 +1,9 @@
 //! One transition: problem and solution.
 
 use lightbots_base::{Limits, PathRef, Piece, Span, Vec2};
-use lightbots_show::{Easing, Obstacle};
+use lightbots_show::{Easing, Frame, Obstacle, Stage};
 
+use crate::BoundFrame;
 use crate::margins::MARGIN_M;
 use crate::proof::ProofInput;
 
@@ -43,6 +44,21 @@ impl TransitionProblem {
             limits,
             duration: None,
             easing: Easing::Swift,
+        }
+    }
+
+    /// The drive to a frame of a show: the one place that reads a stage and a frame for the planner.
+    pub fn of_frame(stage: &Stage, frame: &Frame, starts: Vec<Vec2>, bound: &BoundFrame<'_>) -> Self {
+        assert_eq!(bound.pixels.len(), bound.pinned.len(), "each pixel of a bound frame has a binding");
+        let half_floor = Vec2::new(stage.width_m, stage.depth_m) / 2.0;
+        Self {
+            starts,
+            goals: bound.pixels.iter().map(|pixel| pixel.at).collect(),
+            pinned: bound.pinned.clone(),
+            obstacles: stage.obstacles.clone(),
+            duration: frame.transition_s.filter(|seconds| seconds.is_finite()).map(Span::from_secs),
+            easing: frame.easing,
+            ..Self::on_floor(half_floor, stage.limits)
         }
     }
 

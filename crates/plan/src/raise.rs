@@ -1,5 +1,5 @@
-//! Raises the stop-safety of a transition by a little more time: robots leave a little later than planned, so that who
-//! drives close behind another falls back, and who crosses a way just behind another crosses it later.
+//! Raises the stop-safety of a transition by delays: a robot that follows closely falls back, and one that crosses
+//! just behind another crosses later.
 
 mod delays;
 #[cfg(test)]
@@ -8,25 +8,39 @@ mod tests;
 use crate::cancel::{Cancel, Cancelled, unless};
 use crate::proof::stop_safe::{STEP, StopAssumptions, StopSafety, measured};
 use crate::proof::{Proof, prove_unless};
-use crate::{Path, Transition, TransitionProblem};
+use crate::{Infeasible, Path, Transition, TransitionProblem, transition_unless};
 use lightbots_base::{Piece, Span};
 
-/// At most this share of the planned duration is spent.
+/// Largest share of the planned duration that delays may cost.
 const SHARE: f64 = 0.05;
 
-/// Measures a transition's stop-safety, and raises it where that costs at most 5 % of its duration and `problem` asks for
-/// no duration of its own. The transition stays proven, and none gets less safe.
+/// Measures the stop-safety of a transition, and raises it for at most 5 % of its duration, unless `problem` asks for
+/// a duration. The order on candidate plans decides. The transition stays proven.
 pub fn raise(problem: &TransitionProblem, transition: &mut Transition) -> StopSafety {
     raised(problem, transition, Cancel::NEVER)
 }
 
-/// The same, given up as soon as `is_wanted` says so, which leaves the transition proven.
+/// [`raise`], cancelled as soon as `is_wanted` says so; the transition stays proven.
 pub fn raise_unless(
     problem: &TransitionProblem,
     transition: &mut Transition,
     is_wanted: &dyn Fn() -> bool,
 ) -> Result<StopSafety, Cancelled> {
     unless(is_wanted, |cancel| raised(problem, transition, cancel))
+}
+
+/// The transition of a problem with its stop-safety raised: one link of the chain that plans shows and runs. A plan that
+/// is cancelled while it is raised is returned as it was proven.
+pub fn planned_unless(
+    problem: &TransitionProblem,
+    is_wanted: &dyn Fn() -> bool,
+) -> Result<Result<Transition, Infeasible>, Cancelled> {
+    let mut found = transition_unless(problem, is_wanted)?;
+    if let Ok(transition) = &mut found {
+        // The transition stays proven also where the planner is cancelled.
+        let _ = raise_unless(problem, transition, is_wanted);
+    }
+    Ok(found)
 }
 
 pub(crate) fn raised(
@@ -61,7 +75,7 @@ pub(crate) fn raised(
     after
 }
 
-/// The paths begun later by such delays; all end together.
+/// The paths begun later by these delays; all end together.
 fn delayed(paths: &[Path], delays: &[Span]) -> Vec<Path> {
     let driving = paths.iter().zip(delays).filter(|(path, _)| !path.as_ref().rests());
     let latest = driving.map(|(path, delay)| ends(path) + *delay);
@@ -82,7 +96,7 @@ fn delayed(paths: &[Path], delays: &[Span]) -> Vec<Path> {
     paths.iter().zip(delays).map(later).collect()
 }
 
-/// When a path stops moving.
+/// Moment after which a path rests.
 fn ends(path: &Path) -> Span {
     let moving = path.as_ref().timed().filter(|(from, _, piece)| !piece.is_rest(*from));
     moving.map(|(_, begin, piece)| begin + piece.duration).last().unwrap_or(Span::ZERO)
@@ -105,7 +119,7 @@ fn add_rest(path: &mut Path, duration: Span) {
     }
 }
 
-/// Takes so much off the rest at its end.
+/// Shortens the rest at the end of a path.
 fn shorten(path: &mut Path, by: Span) {
     if let Some(last) = path.pieces.last_mut() {
         last.duration -= by;

@@ -18,7 +18,7 @@ pub struct Row {
     /// What ours took where no plan was found, milliseconds.
     plan_ms: f64,
     closest_mm: f64,
-    /// `None` where everybody is bound to a pixel: there is nothing to assign.
+    /// `None` where all robots are bound to pixels: there is nothing to assign.
     capt: Option<Way>,
     /// `None` also where there are too many robots.
     dense: Option<Way>,

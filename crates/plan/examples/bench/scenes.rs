@@ -104,7 +104,7 @@ fn pairs(robots: usize, density: f64) -> TransitionProblem {
     problem(places(), places())
 }
 
-/// The same with everybody bound to the pixel of the same number.
+/// The same with each robot bound to the pixel of its number.
 fn fixed(problem: TransitionProblem) -> TransitionProblem {
     let pinned = (0..problem.goals.len()).map(Some).collect();
     TransitionProblem { pinned, ..problem }
@@ -170,7 +170,7 @@ fn grid_turns(robots: usize) -> TransitionProblem {
     problem(places.clone(), turned.collect())
 }
 
-/// Everybody in a grid at 80 mm gets another's place on a floor half as wide again.
+/// A grid at 80 mm in which each robot gets another place; the floor is half as wide again.
 fn grid_shuffled(robots: usize) -> TransitionProblem {
     let starts = grid(robots, 0.08);
     let mut goals = starts.clone();

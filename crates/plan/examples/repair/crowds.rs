@@ -1,4 +1,4 @@
-//! Crowds in which everybody has a place of their own to go to.
+//! Fleets with fixed identity: each robot has its own goal.
 
 use super::dice::Dice;
 use super::places::{Bound, problem as bound, square};
@@ -106,7 +106,7 @@ fn turned_half(robots: usize, seed: u64) -> TransitionProblem {
     turned_by(robots, std::f64::consts::PI - 0.04 * (seed - 1) as f64)
 }
 
-/// Everybody in a grid at 80 mm gets another's place; half as wide again is the floor.
+/// A grid at 80 mm in which each robot gets another place; the floor is half as wide again.
 fn shuffled(robots: usize, seed: u64) -> TransitionProblem {
     let starts = square(robots, 0.08);
     let half = starts.iter().map(|at| at.x.abs()).fold(0.0, f64::max) * 1.5 + 0.05;
@@ -120,7 +120,7 @@ fn full(robots: usize, seed: u64) -> TransitionProblem {
     shuffled_on(starts, half, seed)
 }
 
-/// The same so close that nobody gets past anybody: what giving up costs.
+/// The same so close that no robot gets past another: the cost of a problem without a plan.
 fn hopeless(robots: usize, seed: u64) -> TransitionProblem {
     let starts = square(robots, 0.06);
     let half = starts.iter().map(|at| at.x.abs()).fold(0.0, f64::max) + 0.03;

@@ -156,7 +156,7 @@ fn square_shuffled(case: u64) -> TransitionProblem {
     around(starts, goals, (half.x - reach - 0.027).max(0.13))
 }
 
-/// Everybody along the floor's edges, shuffled.
+/// Robots along the floor's edges, shuffled.
 fn edge(case: u64) -> TransitionProblem {
     let mut dice = Dice::new(17, case);
     let (count, pitch_m) = (dice.whole(2, 25), dice.between(0.06, 0.076));

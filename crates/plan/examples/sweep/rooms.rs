@@ -26,7 +26,7 @@ const NARROWEST_M: f64 = 0.061;
 /// Half the length of a corridor, metres.
 const HALF_LENGTH_M: f64 = 0.25;
 
-/// Who goes through a corridor.
+/// Robots that go through a corridor.
 enum Traffic {
     OneWay,
     BothWays,
@@ -99,7 +99,7 @@ fn standing(case: u64, bound: Bound) -> TransitionProblem {
     TransitionProblem { standing: standing.clone(), ..problem(starts, goals, half, bound) }
 }
 
-/// A goal within a ring of dead robots that has one gap, one robot wide or a little more; whoever stands in there goes
+/// A goal within a ring of dead robots that has one gap, one robot wide or a little more; the robot in there goes
 /// out.
 fn behind_standing(case: u64) -> TransitionProblem {
     let mut dice = Dice::new(24, case);

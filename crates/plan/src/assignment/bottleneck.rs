@@ -15,7 +15,7 @@ use lightbots_base::Vec2;
 /// Squared distances this close are one: they differ by rounding only.
 const SAME: f64 = 1.0 - 1e-12;
 
-/// Rows between two questions whether to give up.
+/// Rows between two polls of the cancellation.
 const POLLED: usize = 256;
 
 /// A matching of all rows with the least longest edge.
@@ -35,7 +35,7 @@ pub(super) fn bottleneck(rows: &[Vec2], columns: &[Vec2], known: &[u32], cancel:
         return best;
     }
     let mut matcher = Matcher::new(rows, columns, best.reach_squared, cancel);
-    // What the last search that failed had matched: all within any reach that is tried after it.
+    // The matching of the last search that failed: it is within any reach that is tried after it.
     let mut partial = vec![NONE; rows.len()];
     while low < best.reach_squared * SAME && !cancel.is_wanted() {
         let middle = (low.sqrt() + best.reach_squared.sqrt()) / 2.0;
@@ -56,8 +56,7 @@ pub(super) fn bottleneck(rows: &[Vec2], columns: &[Vec2], known: &[u32], cancel:
     best
 }
 
-/// Nobody's longest way can be shorter: every row needs some column, and each column a row if there are no more columns
-/// than rows.
+/// A lower bound: every row needs some column, and every column a row if there are no more columns than rows.
 fn least_thinkable(rows: &[Vec2], columns: &[Vec2]) -> f64 {
     let farthest = |from: &[Vec2], to: &[Vec2]| {
         let tree = KdTree::new(to);
@@ -139,7 +138,7 @@ impl<'a> Matcher<'a> {
         let length = |row: u32| self.squared(row as usize, before[row as usize]);
         open.sort_by(|&a, &b| length(b).total_cmp(&length(a)));
         while let Some(&hardest) = open.first().filter(|_| !self.cancel.is_wanted()) {
-            // Where there is no matching, who had the longest way most likely has no path: that settles it.
+            // Where there is no matching, the row with the longest edge most likely has no path: that decides.
             if self.phase(&[hardest], reach_squared) == 0 {
                 return Err(self.needed());
             }

@@ -5,14 +5,14 @@ use lightbots_base::Vec2;
 /// Leaves hold this many places at most.
 const LEAF: usize = 6;
 
-/// How many places are asked for, and how cheap they must be.
+/// Number of places to find, and their highest cost.
 #[derive(Clone, Copy)]
 pub(super) struct Most {
     pub count: usize,
     pub below: f64,
 }
 
-/// What is taken off squared distances.
+/// Weights that are subtracted from squared distances.
 #[derive(Clone, Copy)]
 pub(super) struct Weights<'a> {
     /// `of[id]`.

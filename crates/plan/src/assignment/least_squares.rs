@@ -21,7 +21,7 @@ const ROUNDS: usize = 200;
 /// Reduced costs above minus this are not improvements, square metres.
 const EPSILON: f64 = 1e-11;
 
-/// Rows and columns in the space where edges have their costs, and column duals to begin with.
+/// Rows and columns in the space of the costs, and first column duals.
 #[derive(Clone, Debug)]
 pub(super) struct Costs<'a> {
     cancel: Cancel<'a>,
@@ -121,8 +121,8 @@ impl<'a> Costs<'a> {
         }
     }
 
-    /// Adds edges that would improve the sum; the rows that got some. Only rows are looked at whose dual rose above what
-    /// is known to be listed.
+    /// Adds edges that would improve the sum, and returns their rows. Only rows whose dual rose above the known bound
+    /// are looked at.
     fn price(&self, search: &mut Search, allowed: &impl Fn(usize, u32) -> bool) -> Vec<u32> {
         let mut improved = Vec::new();
         let mut found = Vec::new();

@@ -1,7 +1,8 @@
-//! Who goes where: the least possible longest way first, then the least sum of squared ways among those no longer.
+//! Assignment of goals: the shortest longest line first, then the least sum of squares among assignments with no
+//! longer line.
 //!
-//! Both are exact and sparse: ten thousand robots have a hundred million edges, of which a few per robot are looked
-//! at. The same places give the same assignment, bit for bit; ties go to whoever comes first in the k-d tree.
+//! Both are exact and sparse: ten thousand robots have a hundred million edges, of which a few for each robot are
+//! looked at. The same places give the same assignment, bit for bit; of equal ones the first in the k-d tree wins.
 
 mod bottleneck;
 mod kdtree;
@@ -21,40 +22,40 @@ use search::Search;
 
 /// No partner yet.
 const NONE: u32 = u32::MAX;
-/// Squared ways this much longer than the reach are as long: places on a grid differ by rounding only.
+/// Squared lengths up to this factor above the reach count as equal: places on a grid differ by rounding.
 const ROUNDING: f64 = 1.0 + 1e-11;
 
-/// Goals, and who may go there.
+/// Goals, and the starts that may be assigned to them.
 #[derive(Clone, Debug)]
 pub struct Choice<'a> {
     starts: usize,
     goals: usize,
-    /// Pairs of goal and start that are settled.
+    /// Assigned pairs of goal and start.
     pinned: Vec<(usize, usize)>,
-    /// The goals and starts that are not pinned, and where they are.
+    /// Goals that are not pinned.
     open_goals: Vec<usize>,
     open_starts: Vec<usize>,
     goal_places: Vec<Vec2>,
     start_places: Vec<Vec2>,
-    /// What ways between the open ones cost.
+    /// Costs of edges between open goals and starts.
     costs: Costs<'a>,
-    /// The assignment of the open ones with the least sum, however long its longest way.
+    /// The open assignment with the least sum, without a bound on its longest line.
     shortest: Search,
-    /// A matching of the open ones with no way longer than the reach.
+    /// An assignment of open goals with no line beyond the reach.
     feasible: Vec<u32>,
-    /// Square of the longest way anybody needs, square metres.
+    /// Square of the bottleneck distance, square metres.
     reach_squared: f64,
 }
 
 impl<'a> Choice<'a> {
-    /// Finds the least longest way. `pinned[goal]` names the start that must go there; shorter than `goals`: no pins
-    /// for the rest. `None` where there are fewer starts than goals, a place is not finite, or a pin names a start
-    /// that does not exist or is taken.
+    /// Finds the bottleneck distance. `pinned[goal]` is the start that must go there; goals beyond its end are not
+    /// pinned. `None` where starts are fewer than goals, a place is not finite, or a pin names a missing or taken
+    /// start.
     pub fn new(starts: &[Vec2], goals: &[Vec2], pinned: &[Option<usize>]) -> Option<Self> {
         Choice::unless(Cancel::NEVER, starts, goals, pinned)
     }
 
-    /// The same; `None` also where it is given up.
+    /// [`Choice::new`] with a cancellation, after which it is `None`.
     pub(crate) fn unless(
         cancel: Cancel<'a>,
         starts: &[Vec2],
@@ -69,7 +70,7 @@ impl<'a> Choice<'a> {
         Some(choice)
     }
 
-    /// The choice that contains a known assignment, `start_of[goal]`: no way needs to be longer than its longest.
+    /// The choice that contains a known assignment `start_of[goal]`: no line needs to be longer than its longest.
     pub(crate) fn containing(
         cancel: Cancel<'a>,
         starts: &[Vec2],
@@ -110,7 +111,7 @@ impl<'a> Choice<'a> {
         let start_places: Vec<Vec2> = open_starts.iter().map(|&start| starts[start]).collect();
         let costs = Costs::new(&goal_places, &start_places, cancel);
         let shortest = costs.solve();
-        // What was given up has rows without a column.
+        // A cancelled search has rows without a column.
         if cancel.is_wanted() {
             return None;
         }
@@ -129,7 +130,7 @@ impl<'a> Choice<'a> {
         })
     }
 
-    /// The least longest way, metres: no assignment that keeps the pins does with less.
+    /// The bottleneck distance, metres: every assignment that keeps the pins has a line at least this long.
     pub fn bottleneck_m(&self) -> f64 {
         self.reach_squared.sqrt()
     }
@@ -139,18 +140,18 @@ impl<'a> Choice<'a> {
         self.open_goals.is_empty()
     }
 
-    /// How many starts are left over.
+    /// Number of spare starts.
     pub fn spares(&self) -> usize {
         self.starts - self.goals
     }
 
-    /// Ready to minimise.
+    /// A minimiser of the squares.
     pub fn least_squares(&self) -> Minimiser<'_> {
         Minimiser::new(self)
     }
 }
 
-/// Finds assignments with the least sum of squared ways, for greater and greater reach.
+/// Finds assignments with the least sum of squares, for growing reach.
 pub struct Minimiser<'a> {
     choice: &'a Choice<'a>,
     solver: LeastSquares<'a>,
@@ -165,9 +166,9 @@ impl<'a> Minimiser<'a> {
         Self { choice, solver }
     }
 
-    /// `start_of[goal]` with the least sum of squared ways among assignments without a way longer than
-    /// `(1 + slack)` times the bottleneck. `slack` must not shrink from call to call. `None` where no
-    /// assignment was found, which `Choice::new` rules out.
+    /// `start_of[goal]` with the least sum of squares among assignments without a line longer than `(1 + slack)` × the
+    /// bottleneck. `slack` must not shrink from call to call. `None` where none was found, which `Choice::new` rules
+    /// out.
     pub fn solve(&mut self, slack: f64) -> Option<Vec<usize>> {
         let choice = self.choice;
         let column_of = self.solver.solve(choice.reach_squared * (1.0 + slack) * (1.0 + slack) * ROUNDING)?;

@@ -186,8 +186,8 @@ impl Search {
         self.bid(&open)
     }
 
-    /// Every open row takes its cheapest column and lowers that column's dual until its second cheapest is as good;
-    /// who loses a column goes on in its place (augmenting row reduction). The rows left open.
+    /// Every open row takes its cheapest column and lowers that column's dual until its second cheapest is as good. A
+    /// row that loses its column goes on in its place (augmenting row reduction). Returns the rows left open.
     fn bid(&mut self, open: &[u32]) -> Vec<u32> {
         let mut left = Vec::new();
         let mut bids_left = open.len() * 8;

@@ -25,7 +25,7 @@ impl<'a> Within<'a> {
         }
     }
 
-    /// Starts again: who has no row is free, the others are not seen yet.
+    /// Starts again: columns without a row are free, the others not seen yet.
     pub fn reset(&mut self, row_of: &[u32]) {
         match self {
             Self::Listed(listed) => {
@@ -94,7 +94,7 @@ impl<'a> Within<'a> {
     }
 }
 
-/// What has become of a column.
+/// State of a column.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum State {
     Free,
@@ -104,7 +104,7 @@ enum State {
 
 pub(super) struct Listed {
     near: Near,
-    /// Of each column.
+    /// `[column]`.
     states: Vec<State>,
 }
 

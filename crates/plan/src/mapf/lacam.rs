@@ -44,6 +44,7 @@ struct SearchNode {
 
 /// `[step][robot]`: nodes from `starts` until all robots with a goal are there; `None` where none were found.
 pub(crate) fn search(generator: &mut impl Generator, starts: &[u32], goals: &[u32]) -> Option<Vec<Vec<u32>>> {
+    assert_eq!(starts.len(), goals.len(), "each robot has a goal or NONE");
     let far: Vec<f64> = (0..starts.len()).map(|robot| generator.far(robot, starts[robot])).collect();
     if far.contains(&f64::INFINITY) {
         return None;

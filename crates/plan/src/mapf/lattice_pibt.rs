@@ -8,6 +8,7 @@ use crate::cancel::Cancel;
 use crate::mapf::lacam::{Constraint, Generator};
 use crate::roads::lattice::{Lattice, NONE};
 
+/// Marks a node without a robot.
 const NO_ROBOT: u32 = u32::MAX;
 /// Direction of a robot that stays.
 const STAYS: u8 = 6;

@@ -8,8 +8,9 @@ use crate::roads::roadmap::{Roadmap, nearest};
 
 /// Not decided yet.
 const OPEN: u32 = u32::MAX;
-/// Most moves tried for one robot and all that it pushes. [`MOST_PUSHED`] bounds a row of pushed robots.
+/// Most moves tried for one robot and all that it pushes.
 const MOST_TRIES: usize = 600;
+/// Longest row of robots that one may push.
 const MOST_PUSHED: usize = 200;
 /// Cost of one node in the search for all distances, in looks at pairs.
 const LOOKS_A_NODE: usize = 10;

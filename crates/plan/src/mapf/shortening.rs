@@ -5,13 +5,17 @@ use crate::mapf::lacam::Generator;
 use crate::mapf::roadmap_pibt::RoadmapPibt;
 use crate::roads::roadmap::Roadmap;
 
-/// Rounds over all robots. [`MOST_LOOKS`] bounds the pairs of moves in all.
+/// Rounds over all robots.
 const ROUNDS: usize = 4;
+/// Pairs of moves that are looked at in all rounds.
 const MOST_LOOKS: usize = 30_000_000;
-/// Costs of a step: of standing away from the end, of a move, and of each metre.
+/// Cost of a step of standing away from the end.
 const WAIT: f64 = 1.0;
+/// Cost of a move: above [`WAIT`], so that robots do not move in vain.
 const MOVE: f64 = 1.5;
+/// Cost of each metre of a move.
 const METRE: f64 = 4.0;
+/// Marks a node that was not reached.
 const NOWHERE: u32 = u32::MAX;
 
 /// A solution with the same first and last configuration, in at most as many steps.

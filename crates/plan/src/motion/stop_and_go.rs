@@ -11,9 +11,10 @@ use crate::{Path, Repaired};
 /// Factor on the time that the limits ask for.
 const EASE: f64 = 1.002;
 
-/// A controller slows down near its new direction. A turn of this much or more takes [`SETTLING_S`] longer; a robot
-/// that leaves earlier is 7 mm off its line.
+/// A turn of this much or more needs the whole [`SETTLING_S`], because a controller slows down near its new
+/// direction.
 const SETTLING_RAD: f64 = 0.2;
+/// Time that a turn takes longer, seconds: a robot that leaves earlier is 7 mm off its line.
 const SETTLING_S: f64 = 0.18;
 
 /// The paths through `waypoints[step][robot]` in the asked duration or more; `None` where a path has too many pieces.

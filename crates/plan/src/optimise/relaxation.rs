@@ -16,16 +16,19 @@ use crate::spline::turn_rate::DirtySpans;
 
 /// With fewer contacts than one in this many robots, the last pairs are perturbed.
 const A_FEW: usize = 30;
-/// Length of a perturbation, metres. Directions are [`PERTURBATION_TURN`] radians apart.
+/// Length of a perturbation, metres: about a diameter.
 const PERTURBATION_M: f64 = 0.06;
+/// Angle between two perturbations, radians: not a fraction of a turn, so that directions do not repeat.
 const PERTURBATION_TURN: f64 = 2.4;
 /// Weights of the control points around the moment.
 const PERTURBATION: [f64; 8] = [0.25, 0.6, 0.9, 1.0, 1.0, 0.9, 0.6, 0.25];
-/// Least number of sweeps between two detections, and the displacement that one needs, metres.
+/// Least number of sweeps between two detections.
 const DETECTION_EVERY: usize = 6;
+/// Largest displacement without a new detection, metres: half of the 12 mm beyond which pairs are not looked at.
 const DETECTION_MOVED_M: f64 = 0.006;
-/// Passes in which congestion is smoothed. No span becomes [`MOST_TIME_SCALED`] times as long at once.
+/// Passes in which congestion is smoothed.
 const SMOOTHING: usize = 3;
+/// Largest time scale of a span in one step.
 const MOST_TIME_SCALED: f64 = 1.5;
 /// Longest span, seconds; beyond it there are more spans. Two contacts on one long span cannot be resolved.
 const LONGEST_SPAN_S: f64 = 0.36;

@@ -1,16 +1,18 @@
 //! When a deformation gets more time, and how much.
 
-/// Sweeps of a stage, and the share of its contacts that may be left at its end. [`HURRIED_STAGE`] is for large
-/// fleets.
+/// Sweeps of a stage, and the share of its contacts that may be left at its end.
 const STAGE: (usize, f64) = (12, 0.5);
+/// The same for large fleets, which get more time sooner.
 const HURRIED_STAGE: (usize, f64) = (10, 0.7);
 /// Sweeps of a stage with few contacts: they are cheap, and oscillate for some time.
 const LAST_SWEEPS: usize = 24;
-/// Factor on the duration after a stage in vain; [`LAST_GROWTH`] where few contacts are left. Each contact of a robot
-/// adds [`GROWTH_A_CONTACT`], up to [`MOST_CONTACTS`].
+/// Factor on the duration after a stage in vain.
 const GROWTH: f64 = 1.03;
+/// Factor on the duration where few contacts are left.
 const LAST_GROWTH: f64 = 1.02;
+/// Addition to the factor for each contact of a robot, in large fleets.
 const GROWTH_A_CONTACT: f64 = 0.014;
+/// Contacts of a robot that count at most.
 const MOST_CONTACTS: f64 = 12.0;
 
 /// Factor on the duration after a stage in vain.

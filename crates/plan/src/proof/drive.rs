@@ -1,25 +1,25 @@
-//! Whether one robot can drive its path: speed, acceleration, wheels, turning, and no jumps.
+//! Whether one robot can drive its path: speed, acceleration, wheels, turns, and no steps.
 
 use super::FaultKind;
 use super::facing::Facing;
 use crate::Path;
 use lightbots_base::{Limits, Span, Vec2};
 
-/// Limits may be exceeded by this share: what whole microseconds cost.
+/// Share by which limits may be exceeded: rounding to whole microseconds.
 const SHARE: f64 = 1e-3;
-/// A step in velocity this small is none, m/s.
+/// A smaller step in velocity is none, m/s.
 const STEP_MPS: f64 = 1e-3;
-/// Slower than this which way a robot faces hardly matters, m/s: in the third of a second that a quarter turn takes it
-/// gets 3 mm off its path at most.
+/// Below this speed the direction of a robot hardly matters, m/s: during a quarter turn of 0.35 s it gets at most 3 mm
+/// off its path.
 pub(super) const CREEP_MPS: f64 = 20e-3;
 /// Velocity times turning rate below which a piece is straight, m/s · rad/s · m/s.
 const STRAIGHT: f64 = 1e-12;
-/// Places farther out than this are on no floor, and their squares not exact, metres.
+/// Places farther out are on no floor, metres; their squares are not exact.
 const FARTHEST_M: f64 = 1e6;
-/// Halvings before a stretch that is still undecided is judged by its middle.
+/// Bisections after which an undecided stretch is judged by its middle.
 const HALVINGS: u32 = 8;
 
-/// Reports what the robot cannot do; the first of each kind.
+/// Reports illegal motion of a robot; the first of each kind.
 pub(super) fn judge(path: &Path, horizon: Span, limits: &Limits, mut fault: impl FnMut(FaultKind, Span)) {
     if !is_well_formed(path, horizon) {
         return fault(FaultKind::Malformed, Span::ZERO);
@@ -55,7 +55,7 @@ pub(super) fn judge(path: &Path, horizon: Span, limits: &Limits, mut fault: impl
 }
 
 fn is_well_formed(path: &Path, horizon: Span) -> bool {
-    // Comparisons are false for what is no number.
+    // Comparisons with NaN are false.
     let is_place = |at: &Vec2| at.x.abs() <= FARTHEST_M && at.y.abs() <= FARTHEST_M;
     let are_places = path
         .pieces

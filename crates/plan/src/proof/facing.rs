@@ -1,26 +1,25 @@
-//! Whether a robot has the time to turn where its path does: it has as long as it is too slow for that to matter.
+//! Whether a robot has the time to turn where its path does: as long as it is too slow for its direction to matter.
 
 use super::drive::{CREEP_MPS, Course};
 use lightbots_base::{Limits, Vec2};
 
-/// What a robot may lack when it has to turn while it is slow, seconds: it makes up for that while it drives off.
+/// Time that a robot may lack for a turn while it is slow, seconds: it catches up while it drives off.
 const GRACE_S: f64 = 0.05;
-/// From this share of the creeping speed on a robot may be called fast, so that speeds between are either.
+/// From this share of the creep speed on a robot may count as fast, so that speeds between count as either.
 const FAST_SHARE: f64 = 0.9;
-/// Stretches of one piece that are looked at. Paths that are driven need some dozens; what is still undecided after so
-/// many is refused.
+/// Most stretches of one piece; driven paths need some dozens. An undecided rest is rejected.
 const MOST_STRETCHES: usize = 10_000;
 /// Shorter stretches that are neither slow nor fast give no time for turning, seconds.
 const SHORTEST_S: f64 = 1e-3;
 
-/// How a robot stands while its path goes by.
+/// Direction of a robot along its path.
 pub(super) struct Facing<'a> {
     limits: &'a Limits,
-    /// The line it drove along when it last was fast; `None` before the first drive.
+    /// The line of its last fast motion; `None` before the first drive.
     heading: Option<Vec2>,
-    /// For how long it has been slow since then, seconds.
+    /// Time for which it has been slow since then, seconds.
     slow_s: f64,
-    /// What it still lacks of earlier turns, seconds.
+    /// Time that it lacks for earlier turns, seconds.
     behind_s: f64,
 }
 
@@ -29,8 +28,8 @@ impl<'a> Facing<'a> {
         Self { limits, heading: None, slow_s: 0.0, behind_s: 0.0 }
     }
 
-    /// Goes on along a piece that takes `seconds`; whether there is time enough for all turns at its beginning and
-    /// where it is slow. Turns while it is fast are not asked for.
+    /// Follows a piece that takes `seconds`. Returns whether there is time for all turns at its begin and where it is
+    /// slow.
     pub fn follow(&mut self, course: &Course, seconds: f64) -> bool {
         let mut left = MOST_STRETCHES;
         self.go_on(course, seconds, &mut left) && left > 0
@@ -68,7 +67,7 @@ impl<'a> Facing<'a> {
         self.behind_s <= GRACE_S
     }
 
-    /// How long turning towards a line takes, forwards or backwards, whichever is nearer.
+    /// Time of a turn towards a line, forwards or backwards, whichever is nearer.
     fn needed_s(&self, towards: Vec2) -> f64 {
         let angle = match self.heading {
             Some(heading) => Vec2::new(heading.dot(towards).abs(), heading.cross(towards).abs()).angle(),

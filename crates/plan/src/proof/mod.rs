@@ -1,8 +1,8 @@
-//! The proof: whether timed paths keep everybody apart and legal, at every moment of continuous time.
+//! The proof: whether timed paths keep all robots apart and within their limits, at every moment of continuous time.
 //!
-//! **Invariant:** it shares nothing with the planner but the type of a path. It trusts no assignment, no profile and
-//! no repair: only the pieces count. Distances and speeds are bounded by convex hulls of Bézier control points and
-//! divided until the bound decides; nothing is sampled.
+//! **Invariant:** it shares nothing with the planner but the type of a path, because a mistake of the planner must not
+//! repeat in its proof. Only the pieces count. Distances and speeds are bounded by convex hulls of Bézier control
+//! points and divided until the bound decides; nothing is sampled.
 
 mod curve;
 mod drive;
@@ -24,7 +24,7 @@ use crate::{Closest, Path};
 use lightbots_base::{Limits, Span, Vec2};
 use lightbots_show::Obstacle;
 
-/// What is to be judged.
+/// Paths to be judged.
 #[derive(Clone, Copy, Debug)]
 pub struct ProofInput<'a> {
     /// The path of each robot.
@@ -35,56 +35,57 @@ pub struct ProofInput<'a> {
     pub obstacles: &'a [Obstacle],
     /// Half the floor's width and depth, metres.
     pub half_floor: Vec2,
-    /// What the robots can do.
+    /// Limits of the robots.
     pub limits: &'a Limits,
-    /// The least distance wanted between two centres, metres. A pair that begins or ends closer than that must only
-    /// keep the smaller of those two distances.
+    /// Least distance of two centres, metres. A pair that begins or ends closer must only keep the smaller of those
+    /// two distances.
     pub gap_m: f64,
-    /// The least distance wanted between a robot's rim and an obstacle, metres; less for who begins or ends closer.
+    /// Least distance between a robot's rim and an obstacle, metres. A robot that begins or ends closer must only keep
+    /// that distance.
     pub obstacle_gap_m: f64,
 }
 
 /// The verdict.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Proof {
-    /// Pairs that come closer than wanted, sorted by their indices (robots, then standing discs counted on), each at
-    /// its closest.
+    /// Pairs that come closer than asked, each at its closest; sorted by indices (robots, then standing discs counted
+    /// on).
     pub conflicts: Vec<Closest>,
-    /// What single robots do that they must not, sorted by robot.
+    /// Illegal motion of single robots, sorted by robot.
     pub faults: Vec<Fault>,
     /// The closest pair of all; `None` with fewer than two discs.
     pub closest: Option<Closest>,
 }
 
-/// Something a robot must not do.
+/// Illegal motion of a robot.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fault {
     /// Which robot.
     pub robot: usize,
-    /// What it does.
+    /// Its kind.
     pub kind: FaultKind,
-    /// When the piece in question begins, after the transition's start.
+    /// Begin of the piece, after the start of the transition.
     pub at: Span,
 }
 
-/// Kinds of things robots must not do.
+/// Kinds of illegal motion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum FaultKind {
-    /// Its path is not made of numbers and positive durations, or ends at another time than the others'.
+    /// A number is not finite, a duration not positive, or the path ends at another time than the others.
     Malformed,
-    /// Drives too fast.
+    /// Faster than its limit.
     Speed,
-    /// Speeds up, slows down or swings around too hard.
+    /// More acceleration than its limit.
     Acceleration,
-    /// Jumps to another speed, or does not begin and end at rest.
+    /// A step in velocity, or no rest at the begin or the end.
     Jump,
-    /// Turns faster than it can, while driving or between two drives.
+    /// A turn faster than its limit, while driving or between two drives.
     Turn,
-    /// Needs a wheel to turn faster than it can.
+    /// A wheel faster than its limit.
     Wheel,
-    /// Leaves the floor.
+    /// Off the floor.
     Floor,
-    /// Comes too near to an obstacle.
+    /// Too near to an obstacle.
     Obstacle,
 }
 
@@ -95,7 +96,7 @@ impl Proof {
     }
 }
 
-/// Distances may fall short by this, metres: what rounding costs.
+/// Rounding error that a distance may have, metres.
 const SLACK_M: f64 = 1e-6;
 
 /// Judges paths.
@@ -103,7 +104,7 @@ pub fn prove(input: &ProofInput<'_>) -> Proof {
     prove_unless(input, Cancel::NEVER)
 }
 
-/// The same; means nothing where it is given up.
+/// [`prove`] with a cancellation; the result of a cancelled proof means nothing.
 pub(crate) fn prove_unless(input: &ProofInput<'_>, cancel: Cancel<'_>) -> Proof {
     let mut proof = Proof { faults: faults(input, cancel), ..Proof::default() };
     if !proof.faults.iter().any(|fault| fault.kind == FaultKind::Malformed) {
@@ -112,7 +113,7 @@ pub(crate) fn prove_unless(input: &ProofInput<'_>, cancel: Cancel<'_>) -> Proof 
     proof
 }
 
-/// The proof's faults alone: what single robots do that they must not.
+/// The faults alone.
 pub(crate) fn faults(input: &ProofInput<'_>, cancel: Cancel<'_>) -> Vec<Fault> {
     let (horizon, mut faults) = (horizon(input), Vec::<Fault>::new());
     for (robot, path) in input.paths.iter().enumerate() {
@@ -129,7 +130,7 @@ pub(crate) fn faults(input: &ProofInput<'_>, cancel: Cancel<'_>) -> Vec<Fault> {
     faults
 }
 
-/// When the last path ends.
+/// End of the last path.
 fn horizon(input: &ProofInput<'_>) -> Span {
     input.paths.iter().map(|path| path.as_ref().duration()).max().unwrap_or(Span::ZERO)
 }

@@ -1,4 +1,4 @@
-//! How close every pair of discs comes.
+//! Least distance of every pair of discs.
 
 use super::grid::{Bounds, near_pairs};
 use super::timeline::{self, Stretch};
@@ -8,9 +8,9 @@ use crate::cancel::Cancel;
 use lightbots_base::{Span, Vec2};
 use std::collections::BTreeMap;
 
-/// Pairs between two questions whether to give up.
+/// Pairs between two polls of the cancellation.
 const POLLED: usize = 4096;
-/// Slices of time at most.
+/// Most slices of time.
 const MOST_SLICES: f64 = 2000.0;
 
 /// All pairs that come closer than they must, and the closest pair of all.
@@ -69,7 +69,7 @@ impl Discs {
         Self { stretches, first, horizon_us, longest_m, closest_at_start_m }
     }
 
-    /// How far anybody should go in a slice: half of what is usual between neighbours, so that few boxes overlap.
+    /// Longest motion of a robot in a slice, metres: half the usual distance of neighbours, so that few boxes overlap.
     fn step_m(&self, input: &ProofInput<'_>) -> f64 {
         let area = 4.0 * input.half_floor.x.abs() * input.half_floor.y.abs();
         let usual = (area / self.first.len() as f64).sqrt() / 2.0;

@@ -21,23 +21,24 @@ use std::collections::VecDeque;
 
 /// Time between two sampled moments.
 pub(crate) const STEP: Span = Span::from_millis(50);
-/// Moments sampled at most: of drives that take longer not every one is.
+/// Most sampled moments; longer drives are sampled more coarsely.
 const MOST_MOMENTS: usize = 10_000;
 
-/// What is assumed of a fleet of which one robot stops dead.
+/// Assumptions about a fleet of which one robot stops dead.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StopAssumptions {
-    /// From the death until the wheels of a robot that comes near begin to brake, seconds.
+    /// From the stop until the wheels of a near robot begin to brake, seconds.
     pub reaction_s: f64,
-    /// Path time from the death until the fleet rests on a HOLD if no robot sees the dead one, seconds.
+    /// Path time from the stop until the fleet rests on a HOLD if no robot sees the dead one, seconds.
     pub silence_s: f64,
-    /// The same from the moment at which a robot begins to brake for something that the plan does not know, seconds.
+    /// Path time until the fleet rests, from the moment at which a robot brakes for something that is not in its plan,
+    /// seconds.
     pub alarm_s: f64,
     /// Clearance that counts as a contact, metres.
     pub spare_m: f64,
-    /// A robot may brake for another that stands this near to its path, rim to rim, metres.
+    /// A robot may brake for another this near to its path, rim to rim, metres.
     pub wary_m: f64,
-    /// It does not brake for one that is farther away than this, rim to rim, metres.
+    /// A robot does not brake for another beyond this, rim to rim, metres.
     pub sight_m: f64,
 }
 
@@ -63,7 +64,7 @@ impl Default for StopAssumptions {
 pub struct StopSafety {
     /// Pairs of a robot that drives in this transition and a sampled moment of it.
     pub moments: usize,
-    /// Those of them at which a contact may follow, by moment, then by robot.
+    /// Moments at which a contact may follow, by moment, then by robot.
     pub unsafe_moments: Vec<UnsafeMoment>,
     /// Time between two sampled moments: 50 ms but for drives of more than 500 s.
     pub pace: Span,
@@ -78,14 +79,15 @@ pub struct UnsafeMoment {
     pub at: Span,
     /// Where it is then, stage metres.
     pub place: Vec2,
-    /// Who touches it; where `missing_m` is 0: who can stop for it, but has somebody behind that cannot stop in turn.
+    /// The robot that touches it. Where `missing_m` is 0: a robot that can stop for it, but has another behind that
+    /// cannot stop in turn.
     pub by: usize,
-    /// How much room `by` is short of, metres.
+    /// Room that `by` lacks, metres.
     pub missing_m: f64,
 }
 
 impl StopSafety {
-    /// The share of moments at which robots may stop dead, 0 to 1; 1 where nobody drives.
+    /// Share of moments at which robots may stop dead, 0 to 1; 1 where no robot drives.
     pub fn share(&self) -> f64 {
         1.0 - self.unsafe_moments.len() as f64 / self.moments.max(1) as f64
     }
@@ -111,7 +113,8 @@ pub fn stop_safety(paths: &[Path], limits: &Limits) -> StopSafety {
     measured(paths, limits, &StopAssumptions::default(), Cancel::NEVER)
 }
 
-/// The same under other assumptions, given up as soon as `is_wanted` says so: it is asked once for each moment.
+/// [`stop_safety`] under other assumptions, cancelled as soon as `is_wanted` says so; it is asked once for each
+/// moment.
 pub fn stop_safety_unless(
     paths: &[Path],
     limits: &Limits,
@@ -156,7 +159,7 @@ struct Sweep {
     found: Vec<UnsafeMoment>,
 }
 
-/// What becomes of a robot because another stands at a place.
+/// The effect on a robot of another that stands at a place.
 struct Meeting {
     robot: usize,
     by: usize,
@@ -178,7 +181,7 @@ impl Sweep {
         cannot_brake.resize(drives.len(), false);
         let alarm = self.law.steps(self.law.of.alarm_s);
         for group in meetings.chunk_by(|a, b| a.robot == b.robot) {
-            // The first robot that brakes says so, and the fleet rests soon after.
+            // The first robot that brakes reports it, and the fleet rests soon after.
             let rests = group.first().map_or(0, |first| usize::from(first.braking.last) + alarm);
             let (robot, mut worst) = (group[0].robot, None::<&Meeting>);
             for one in group.iter().filter(|one| one.braking.is_contact() || one.chained) {
@@ -227,12 +230,12 @@ impl Sweep {
 /// How a robot brakes for another that stands in its way.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Braking {
-    /// The first and the last step ahead in which it may begin to brake; 0 where it cannot stop in time.
+    /// First and last step ahead in which it may begin to brake; 0 where it cannot stop in time.
     pub first: u8,
     pub last: u8,
     /// The step in which it would come near if it did not brake.
     pub touched: u8,
-    /// How much room it is short of, metres.
+    /// Room that it lacks, metres.
     pub missing_m: f32,
 }
 
@@ -263,7 +266,7 @@ impl Law {
         Self { contact_m, wary_m, sight_m, step_m, of }
     }
 
-    /// How many steps ahead a robot must be looked at.
+    /// Number of steps ahead that matter.
     fn ahead(&self) -> usize {
         self.steps(self.of.silence_s.max(self.of.alarm_s)).clamp(2, 100)
     }
@@ -273,7 +276,7 @@ impl Law {
         (seconds / STEP.as_secs() - 1e-9).ceil().max(0.0) as usize
     }
 
-    /// How a robot that is `at(steps ahead)` brakes if another stops dead at a place; `None`: it does not come near.
+    /// Braking of a robot that is `at(steps ahead)` if another stops dead at a place; `None`: it does not come near.
     pub fn judge(&self, place: Vec2, at: &impl Fn(usize) -> Vec2) -> Option<Braking> {
         let apart_m = place.distance(at(0));
         let need_m = self.contact_m.min(apart_m) - 1e-6;
@@ -308,7 +311,7 @@ impl Law {
         None
     }
 
-    /// How near a robot comes to a place if its wheels begin to brake after `delay_s`, metres.
+    /// Least distance of a robot from a place if its wheels begin to brake after `delay_s`, metres.
     fn stopped_m(&self, place: Vec2, at: &impl Fn(usize) -> Vec2, delay_s: f64) -> f64 {
         let steps = 0..self.step_of(delay_s);
         let before = steps.map(|step| distance_m(place, at(step), at(step + 1)));

@@ -7,13 +7,13 @@ use crate::Path;
 use lightbots_base::{Span, Vec2};
 use lightbots_show::Obstacle;
 
-/// Halvings before a curve that is still undecided is called a fault: by then it is a hair from one.
+/// Bisections after which an undecided curve is a fault.
 const HALVINGS: u32 = 24;
 
-/// Reports where a path leaves the floor or touches things; each kind once.
+/// Reports where a path leaves the floor or touches obstacles; each kind once.
 pub(super) fn judge(path: &Path, input: &ProofInput<'_>, mut fault: impl FnMut(FaultKind, Span)) {
     let (start, end) = (path.start, path.as_ref().end());
-    // Who stands outside already must only come in.
+    // A robot that stands outside must only come in.
     let radius = input.limits.radius_m;
     let room = |half: f64, a: f64, b: f64| (half - radius).max(a.abs()).max(b.abs()) + SLACK_M;
     let limit = Vec2::new(room(input.half_floor.x, start.x, end.x), room(input.half_floor.y, start.y, end.y));
@@ -39,7 +39,7 @@ pub(super) fn judge(path: &Path, input: &ProofInput<'_>, mut fault: impl FnMut(F
     }
 }
 
-/// From a place to a thing's rim, metres; 0 within it.
+/// Distance of a place from an obstacle's rim, metres; 0 within it.
 fn distance(thing: &Obstacle, place: Vec2) -> f64 {
     match *thing {
         Obstacle::Disc { at, radius_m } => (at.distance(place) - radius_m).max(0.0),
@@ -49,7 +49,7 @@ fn distance(thing: &Obstacle, place: Vec2) -> f64 {
     }
 }
 
-/// Whether a curve comes nearer to a thing than `need`.
+/// Whether a curve comes nearer to an obstacle than `need`.
 fn touches(thing: &Obstacle, curve: &Cubic, need: f64) -> bool {
     match *thing {
         Obstacle::Disc { at, radius_m } => {

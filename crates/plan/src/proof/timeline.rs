@@ -32,7 +32,7 @@ impl Stretch {
     }
 }
 
-/// The stretches of one path, without gap from 0 to `horizon_us`: what ends earlier rests at its end.
+/// The stretches of one path, without gap from 0 to `horizon_us`: a path that ends earlier rests at its end.
 pub(super) fn stretches(path: &Path, horizon_us: i64, into: &mut Vec<Stretch>) {
     let (mut start, mut begin_us) = (path.start, 0i64);
     for piece in &path.pieces {

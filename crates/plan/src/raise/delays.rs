@@ -1,8 +1,8 @@
-//! Who leaves how much later so that more moments are stop-safe.
+//! Delays of single robots that make more moments stop-safe.
 //!
-//! For each moment at which `by` would touch `robot`, `by` is put back behind it, or `robot` is put behind `by`; whoever
-//! that brings too near to somebody else puts that one back in turn, as far as the time lasts. A chain of delays counts
-//! only if no pair in it gets worse.
+//! For each moment at which `by` would touch `robot`, `by` is delayed behind it, or `robot` behind `by`. A robot that
+//! comes too near to another because of that delays the other in turn, as far as the time lasts. A chain of delays
+//! counts only if no pair in it gets worse.
 
 mod pair;
 
@@ -15,18 +15,18 @@ use std::collections::BTreeMap;
 
 /// Delays are whole multiples of this.
 pub(super) const LEVEL: Span = Span(STEP.0 / 2);
-/// Nobody is delayed by more than this: pairs that come near each other only after longer delays are not looked at.
+/// Longest delay of a robot: pairs that come near only after longer delays are not looked at.
 const MOST: Span = Span::from_millis(400);
-/// Moments of pairs that are looked at, for each robot of the transition, …
+/// Moments of pairs that are looked at, for each robot of the transition.
 const MOST_LOOKS: usize = 1_500;
-/// … and in all: half a second or so on one core.
+/// Moments of pairs that are looked at in all.
 const MOST_LOOKS_IN_ALL: usize = 3_000_000;
-/// Moments between two looks for who comes near.
+/// Moments between two searches for near robots.
 const STRIDE: usize = 4;
-/// Delayed robots in one chain at most.
+/// Most delayed robots in one chain.
 const MOST_CHAIN: usize = 64;
 
-/// `[robot]`: by how much later each begins. `most`: how much later the last may arrive.
+/// `[robot]`: its delay. `most`: how much later the last robot may arrive.
 pub(super) fn delays(
     paths: &[Path],
     before: &StopSafety,
@@ -43,7 +43,7 @@ pub(super) fn delays(
         .collect();
     pairs.sort_unstable();
     pairs.dedup();
-    // The second time some chains fit that did not fit before.
+    // In the second round some chains fit that did not fit before.
     for (robot, by) in pairs.iter().chain(&pairs).copied() {
         if search.looks == 0 || cancel.is_wanted() {
             break;
@@ -55,7 +55,7 @@ pub(super) fn delays(
     search.levels.iter().map(|level| LEVEL * i64::from(*level)).collect()
 }
 
-/// Somebody who may come near, and the moments in which that may be.
+/// A robot that may come near, and the moments of that.
 #[derive(Clone, Copy)]
 struct Near {
     other: usize,
@@ -65,13 +65,13 @@ struct Near {
 
 struct Search<'a> {
     law: PairLaw<'a>,
-    /// `[robot][moment]`: where each is if nobody is delayed, stage metres.
+    /// `[robot][moment]`: its place without delays, stage metres.
     tracks: Vec<Vec<Vec2>>,
     levels: Vec<u8>,
-    /// `[robot]`: the most levels each may be delayed by.
+    /// `[robot]`: its largest delay, in levels.
     most: Vec<u8>,
     near: BTreeMap<usize, Vec<Near>>,
-    /// How many moments of pairs may still be looked at.
+    /// Moments of pairs that may still be looked at.
     looks: usize,
 }
 
@@ -96,8 +96,8 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Delays `later` until it does not touch `sooner` any more if that stops dead, and others as they need; `None`: that
-    /// cannot be done, and nothing has changed.
+    /// Delays `later` until it does not touch `sooner` if that stops dead, and others as they need; `None`: that is
+    /// not possible, and nothing has changed.
     fn put_behind(&mut self, sooner: usize, later: usize) -> Option<()> {
         let pair = self.near(later).iter().find(|near| near.other == sooner).copied()?;
         if self.cost(later, &pair)? == 0 {
@@ -135,7 +135,7 @@ impl<'a> Search<'a> {
         Some(())
     }
 
-    /// Delays a robot as little as brings the cost of a pair down to `allowed`.
+    /// The smallest delay of a robot that brings the cost of a pair down to `allowed`.
     fn delay(&mut self, robot: usize, pair: &Near, allowed: u32) -> Option<()> {
         for level in self.levels[robot] + 1..=self.most[robot] {
             if self.cost_at(robot, pair, (level, self.levels[pair.other]))? <= allowed {
@@ -150,15 +150,15 @@ impl<'a> Search<'a> {
         self.cost_at(robot, pair, (self.levels[robot], self.levels[pair.other]))
     }
 
-    /// At how many moments one of a pair would touch the other if that stopped dead, with such levels; `None`: no more
-    /// may be asked.
+    /// Number of moments at which one of a pair would touch the other if that stopped dead; `None`: the looks are used
+    /// up.
     fn cost_at(&mut self, robot: usize, pair: &Near, levels: (u8, u8)) -> Option<u32> {
         self.looks = self.looks.checked_sub(pair.last - pair.first + 1)?;
         let tracks = (&self.tracks[robot][..], &self.tracks[pair.other][..]);
         Some(self.law.cost(tracks, levels, (pair.first, pair.last)))
     }
 
-    /// Everybody who may come near to a robot.
+    /// All robots that may come near to a robot.
     fn near(&mut self, robot: usize) -> Vec<Near> {
         if let Some(known) = self.near.get(&robot) {
             return known.clone();
@@ -176,7 +176,7 @@ impl<'a> Search<'a> {
         };
         let found: Vec<Near> =
             (0..self.tracks.len()).filter(|other| *other != robot).filter_map(near).collect();
-        // One such look costs a tenth of one at what would follow a death.
+        // This search costs a tenth of a look at what follows a stop.
         self.looks = self.looks.saturating_sub(self.tracks.len() * own.len() / (10 * STRIDE));
         self.near.insert(robot, found.clone());
         found

@@ -1,12 +1,12 @@
-//! What is wrong with frames, seen from the floor.
+//! Issues of frames on the floor.
 
 use crate::margins::MARGIN_M;
-use crate::transition::{distance_to, touching};
+use crate::transition::touching;
 use crate::{BindingIssue, Bindings, BoundFrame, Infeasible};
 use lightbots_base::Vec2;
 use lightbots_show::{Issue, Issues, Pixel, Show, frame_label, robots_asked_for};
 
-/// What no plan can mend in a frame: too few robots, pixels that touch, lie outside the floor or in obstacles.
+/// Issues that no plan can solve: too few robots, pixels that touch, or that are off the floor or in obstacles.
 pub(super) fn of_frame(show: &Show, index: usize, robots: usize, dark: &[u32], issues: &mut Issues) {
     let frame = &show.frames[index];
     let name = name_of(show, index);
@@ -40,11 +40,11 @@ pub(super) fn of_frame(show: &Show, index: usize, robots: usize, dark: &[u32], i
     };
     let what = format!("robots need {:.0} mm to the floor's edge", radius * 1e3);
     list("off-floor", &what, ids(&off), issues);
-    let blocked = |at: Vec2| show.stage.obstacles.iter().any(|thing| distance_to(thing, at) < radius);
+    let blocked = |at: Vec2| show.stage.obstacles.iter().any(|thing| thing.gap_m(at) < radius);
     list("in-obstacle", &format!("robots need {:.0} mm to no-go areas", radius * 1e3), ids(&blocked), issues);
 }
 
-/// A frame nobody can get to.
+/// The issue of a frame without a plan.
 pub(super) fn no_plan(show: &Show, index: usize, pixels: &[&Pixel], infeasible: &Infeasible) -> Issue {
     let ids: Vec<u32> =
         infeasible.goals.iter().filter_map(|&goal| pixels.get(goal)).map(|pixel| pixel.id).collect();
@@ -57,7 +57,7 @@ pub(super) fn no_plan(show: &Show, index: usize, pixels: &[&Pixel], infeasible: 
     Issue::error("no-plan", message).in_frame(index).with_pixels(ids)
 }
 
-/// A drive that cannot be as quick as the frame asks for.
+/// The issue of a drive that takes longer than the frame asks for.
 pub(super) fn takes_longer(show: &Show, index: usize, asked_s: f64, takes_s: f64) -> Issue {
     let name = name_of(show, index);
     let message = format!(
@@ -66,7 +66,7 @@ pub(super) fn takes_longer(show: &Show, index: usize, asked_s: f64, takes_s: f64
     Issue::warning("takes-longer", message).in_frame(index)
 }
 
-/// More names than robots.
+/// The issue of more names than robots.
 pub(super) fn of_names(show: &Show, robots: usize, bindings: &Bindings, issues: &mut Issues) {
     let names = robots_asked_for(show);
     if !bindings.names_known && names > robots {
@@ -75,7 +75,7 @@ pub(super) fn of_names(show: &Show, robots: usize, bindings: &Bindings, issues: 
     }
 }
 
-/// Pixels whose robot is not the one people may expect.
+/// Issues of unexpected bindings.
 pub(super) fn of_bound_frame(show: &Show, frame: usize, bound: &BoundFrame<'_>, issues: &mut Issues) {
     for &(id, issue) in &bound.issues {
         let pixel = show.frames[frame].pixels.iter().find(|pixel| pixel.id == id);

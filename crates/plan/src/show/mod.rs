@@ -1,4 +1,4 @@
-//! A whole show: transition 0 from where the robots stand, then frame after frame.
+//! Plans a whole show: transition 0 from the places of the robots, then frame after frame.
 
 mod issues;
 #[cfg(test)]
@@ -9,32 +9,31 @@ use crate::proof::stop_safe::{StopSafety, UnsafeMoment};
 use crate::raise::raised;
 use crate::transition::attempt;
 use crate::{Bindings, Closest, Explanation, Transition, TransitionProblem};
-use lightbots_base::{Span, Vec2};
+use lightbots_base::Vec2;
 use lightbots_show::{Frame, Identity, Issue, Issues, Show, validate};
 use std::collections::BTreeMap;
 
-/// What the planner is told besides the show.
+/// Options of a plan beside the show.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ShowOptions {
-    /// Overrides what show and frames say about identity.
+    /// Overrides the identity of the show and its frames.
     pub identity: Option<Identity>,
-    /// `robots[start]`: the name of the robot that stands there, for pixels that ask for one by name. Empty where
-    /// names are not known yet: then each name means some robot, the same one in every frame.
+    /// `robots[start]`: name of the robot there, for pixels that ask for a robot by name. Empty where names are not
+    /// known yet: then each name means some robot, the same in every frame.
     pub robots: Vec<String>,
 }
 
 /// The plan of a show.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ShowPlan {
-    /// `transitions[k]` leads to frame k: as many as frames, none where the show is not fit to be planned. Where
-    /// `issues` has an error it is the best that could be
-    /// drawn, not proven.
+    /// `transitions[k]` leads to frame k; empty where the show has errors. With an error among `issues` they are
+    /// drawings, not proven.
     pub transitions: Vec<Transition>,
     /// `mapping[k][robot]`: id of the pixel that robot shows in frame k; `None`: it is spare.
     pub mapping: Vec<Vec<Option<u32>>>,
-    /// The robot each name means that pixels ask for.
+    /// The robot that each name means.
     pub names: BTreeMap<String, usize>,
-    /// What is wrong. With an error among them the plan must not be played.
+    /// Issues. With an error among them the plan must not be played.
     pub issues: Issues,
     /// Transitions and air times, seconds.
     pub duration_s: f64,
@@ -51,9 +50,9 @@ pub struct ShowPlan {
 /// The closest two centres of a show.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ShowClosest {
-    /// In which transition.
+    /// Index of the transition.
     pub transition: usize,
-    /// Which two, where and when.
+    /// The two robots, place and moment.
     pub closest: Closest,
 }
 
@@ -69,7 +68,7 @@ impl ShowPlan {
         1.0 - sum(|safety| safety.unsafe_moments.len()) as f64 / sum(|safety| safety.moments).max(1) as f64
     }
 
-    /// The transition and the moment of it at which a robot that stops dead leaves somebody least room to stop.
+    /// The transition and moment at which a dead robot leaves another least room to stop.
     pub fn least_stop_safe(&self) -> Option<(usize, &UnsafeMoment)> {
         let worst = self.stop_safety.iter().enumerate();
         let worst = worst.filter_map(|(transition, safety)| Some((transition, safety.worst()?)));
@@ -77,14 +76,14 @@ impl ShowPlan {
     }
 }
 
-/// Plans a show for robots that stand at `starts` (stage metres). Never fails: what cannot be planned is an issue. A show
-/// in which [`validate`] finds errors is not planned at all; its errors are the issues.
+/// Plans a show for robots at `starts` (stage metres). It never fails: an impossible frame is an issue. A show in
+/// which [`validate`] finds errors is not planned; its errors are the issues.
 pub fn show(show: &Show, starts: &[Vec2], options: &ShowOptions) -> ShowPlan {
     planned(show, starts, options, Cancel::NEVER)
 }
 
-/// The same, given up as soon as `is_wanted` says so: it is asked at least every tenth of a second or so, from this
-/// thread, and must be cheap.
+/// [`show`], cancelled as soon as `is_wanted` says so. It is asked about every tenth of a second from this thread, and
+/// must be cheap.
 pub fn show_unless(
     show: &Show,
     starts: &[Vec2],
@@ -102,7 +101,7 @@ fn planned(show: &Show, starts: &[Vec2], options: &ShowOptions, cancel: Cancel<'
     chained(show, starts, options, cancel)
 }
 
-/// The plan of a show that is fit to be planned.
+/// The plan of a show without errors.
 fn chained(show: &Show, starts: &[Vec2], options: &ShowOptions, cancel: Cancel<'_>) -> ShowPlan {
     let mut plan = ShowPlan::default();
     let mut places = starts.to_vec();
@@ -117,8 +116,7 @@ fn chained(show: &Show, starts: &[Vec2], options: &ShowOptions, cancel: Cancel<'
         let bound = bindings.bind(&frame.pixels, identity, &places, |_| false);
         issues::of_frame(show, index, starts.len(), &bound.dark, &mut plan.issues);
         issues::of_bound_frame(show, index, &bound, &mut plan.issues);
-        let goals: Vec<Vec2> = bound.pixels.iter().map(|pixel| pixel.at).collect();
-        let problem = problem(show, frame, places, goals, bound.pinned.clone());
+        let problem = TransitionProblem::of_frame(&show.stage, frame, places, &bound);
         let mut attempt = attempt(&problem, cancel);
         let safety = match attempt.infeasible {
             None => raised(&problem, &mut attempt.transition, cancel),
@@ -169,26 +167,5 @@ impl ShowPlan {
         }
         self.transitions.push(transition);
         self.mapping.push(shown);
-    }
-}
-
-fn problem(
-    show: &Show,
-    frame: &Frame,
-    starts: Vec<Vec2>,
-    goals: Vec<Vec2>,
-    pinned: Vec<Option<usize>>,
-) -> TransitionProblem {
-    TransitionProblem {
-        starts,
-        goals,
-        pinned,
-        obstacles: show.stage.obstacles.clone(),
-        duration: frame.transition_s.filter(|seconds| seconds.is_finite()).map(Span::from_secs),
-        easing: frame.easing,
-        ..TransitionProblem::on_floor(
-            Vec2::new(show.stage.width_m, show.stage.depth_m) / 2.0,
-            show.stage.limits,
-        )
     }
 }

@@ -1,4 +1,5 @@
 use super::*;
+use lightbots_base::Span;
 use crate::seeded::Seeded;
 use lightbots_base::Rgb;
 use lightbots_show::{Easing, Obstacle, Pixel, Stage};

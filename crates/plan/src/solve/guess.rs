@@ -23,9 +23,10 @@ const RUSH: f64 = 0.03;
 const ODD: f64 = 0.005;
 /// Badness that needs no additional time.
 const EASY: f64 = 0.1;
-/// Additional time for each unit of badness, up to [`MOST_STRETCH`]. That is less than fleets of 1,000 mostly need,
-/// because the deformation finds better moments for it.
+/// Additional time for each unit of badness, over the least.
 const STRETCH: f64 = 4.0;
+/// Most additional time of a guess, over the least. Fleets of 1,000 mostly need more, but the deformation finds
+/// better moments for it.
 const MOST_STRETCH: f64 = 0.4;
 /// Parts of the time between two moments, for retiming.
 const PARTS: usize = 16;

@@ -194,8 +194,11 @@ const fn in_gap(walls_m: f64, slack_m: f64) -> Clearances {
     Clearances { robots_m: 0.065, walls_m, slack_m, ..TIGHT_OFF_EDGE }
 }
 
+/// Straight lines, all together.
 const TOGETHER: Manner = Manner { bow: 0.0, early: false, level: false, spread: false, staged: false };
+/// The same, spread out on the way.
 const LOOSE: Manner = Manner { spread: true, ..TOGETHER };
+/// The same, spread out before the drive.
 const STAGED: Manner = Manner { staged: true, ..LOOSE };
 
 /// Largest time scale of a solution in minimum time, over the least.
@@ -221,6 +224,7 @@ const fn stop_and_go(pitch_m: f64, off_edge_m: f64) -> Row {
     Row { solver: Solver::StopAndGo { pitch_m, off_edge_m }, clearances: TIGHT, stretch: 1.0, sweeps: 0 }
 }
 
+/// Rows of both groups from a lattice.
 const LATTICES: &[Row] = &[from_lattice(PITCH_M), from_lattice(LOOSE_PITCH_M)];
 
 /// All groups, in the order in which they run.

@@ -100,6 +100,7 @@ impl SplineSet {
     /// Splines with `place(robot, step)` for steps 0..=spans as control points: corners become round.
     pub fn new(instance: &Instance, spans: usize, span_s: f64, place: impl Fn(usize, usize) -> Vec2) -> Self {
         let spans = spans.max(4);
+        assert!(spans <= MOST_SPANS, "a path holds at most {MOST_SPANS} spans, not {spans}");
         let ends = instance.starts.iter().copied().zip(instance.ends.iter().copied()).collect::<Vec<_>>();
         let mut points = Vec::with_capacity(ends.len() * (spans + 3));
         for robot in 0..ends.len() {

@@ -1,4 +1,4 @@
-//! Where all robots are at some moments in a row.
+//! Places of all robots at consecutive moments.
 
 use super::STEP;
 use crate::Path;
@@ -23,7 +23,7 @@ struct Cursor<'a> {
 }
 
 impl<'a> Rows<'a> {
-    /// The places at a moment of paths that have ended by then, or end within a step, and in so many steps after it.
+    /// Places at a moment at which all paths have ended, or end within a step, and at `ahead` steps after it.
     pub fn new(paths: &'a [Path], ahead: usize, first: Span) -> Self {
         let cursor =
             |path: &'a Path| Cursor { path, piece: path.pieces.len(), begin: path.as_ref().duration() };

@@ -1,11 +1,11 @@
-//! What two robots do to each other that leave later by some levels.
+//! Effect of two delayed robots on each other.
 
 use super::LEVEL;
 use crate::margins::COMFORT_M;
 use crate::proof::stop_safe::{Law, STEP, StopAssumptions, distance_m};
 use lightbots_base::{Limits, Span, Vec2};
 
-/// More than any number of moments: who comes too close to another.
+/// Cost of a contact: above any number of moments.
 const CONTACT: u32 = 1 << 20;
 
 pub(super) struct PairLaw<'a> {
@@ -20,13 +20,13 @@ impl<'a> PairLaw<'a> {
         Self { limits, stop: Law::new(limits, assumed), rest: Span::from_secs(assumed.alarm_s) }
     }
 
-    /// Robots farther apart than this, metres, do not matter to each other within this time and until they rest.
+    /// Beyond this distance, robots do not affect each other within this time and until they rest, metres.
     pub fn reach_m(&self, within: Span) -> f64 {
         self.limits.contact_m() + COMFORT_M + 2.0 * self.limits.speed_mps * (within + self.rest).as_secs()
     }
 
-    /// At how many moments of `between` one would touch the other if that stopped dead; more than any number where they
-    /// come closer than they do without delays and than is comfortable.
+    /// Number of moments of `between` at which one would touch the other if that stopped dead; [`CONTACT`] where they
+    /// come closer than without delays and than is comfortable.
     pub fn cost(&self, tracks: (&[Vec2], &[Vec2]), levels: (u8, u8), between: (usize, usize)) -> u32 {
         let (one, other) = (Delayed::new(tracks.0, levels.0), Delayed::new(tracks.1, levels.1));
         let undelayed = (Delayed::new(tracks.0, 0), Delayed::new(tracks.1, 0));
@@ -58,7 +58,7 @@ impl<'a> PairLaw<'a> {
     }
 }
 
-/// Where somebody is that leaves later.
+/// Places of a delayed robot.
 struct Delayed<'a> {
     track: &'a [Vec2],
     /// Half moments.
