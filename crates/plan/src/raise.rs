@@ -15,7 +15,7 @@ use lightbots_base::{Piece, Span};
 const SHARE: f64 = 0.05;
 
 /// Measures the stop-safety of a transition, and raises it for at most 5 % of its duration, unless `problem` asks for
-/// a duration. The order on candidate plans decides. The transition stays proven.
+/// a duration. The transition stays proven, and none gets less safe.
 pub fn raise(problem: &TransitionProblem, transition: &mut Transition) -> StopSafety {
     raised(problem, transition, Cancel::NEVER)
 }

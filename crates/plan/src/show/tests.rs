@@ -1,7 +1,7 @@
 use super::*;
-use lightbots_base::Span;
 use crate::seeded::Seeded;
 use lightbots_base::Rgb;
+use lightbots_base::Span;
 use lightbots_show::{Easing, Obstacle, Pixel, Stage};
 
 fn frame(places: &[(u32, f64, f64)]) -> Frame {
