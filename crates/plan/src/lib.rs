@@ -29,6 +29,7 @@ mod mapf;
 mod margins;
 mod motion;
 mod optimise;
+mod order;
 mod problem;
 pub mod proof;
 mod raise;

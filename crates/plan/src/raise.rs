@@ -6,6 +6,7 @@ mod delays;
 mod tests;
 
 use crate::cancel::{Cancel, Cancelled, unless};
+use crate::order::{PlanQuality, choose, percent};
 use crate::proof::stop_safe::{STEP, StopAssumptions, StopSafety, measured};
 use crate::proof::{Proof, prove_unless};
 use crate::{Infeasible, Path, Transition, TransitionProblem, transition_unless};
@@ -15,7 +16,7 @@ use lightbots_base::{Piece, Span};
 const SHARE: f64 = 0.05;
 
 /// Measures the stop-safety of a transition, and raises it for at most 5 % of its duration, unless `problem` asks for
-/// a duration. The transition stays proven, and none gets less safe.
+/// a duration. The order on candidate plans decides. The transition stays proven.
 pub fn raise(problem: &TransitionProblem, transition: &mut Transition) -> StopSafety {
     raised(problem, transition, Cancel::NEVER)
 }
@@ -64,7 +65,13 @@ pub(crate) fn raised(
         return before;
     }
     let after = measure(&paths);
-    if after.share() <= before.share() {
+    let quality = |paths: &[Path]| PlanQuality {
+        contacts: 0,
+        duration: paths.iter().map(|path| path.as_ref().duration()).max().unwrap_or(Span::ZERO),
+    };
+    let shares = [before.share(), after.share()];
+    let chosen = choose(&[quality(&transition.paths), quality(&paths)], |index| percent(shares[index]));
+    if chosen.is_none_or(|chosen| chosen.index == 0) {
         return before;
     }
     let proof = Some(prove_unless(&problem.to_prove(&paths), cancel)).filter(Proof::holds);

@@ -18,12 +18,14 @@ use crate::motion::progress::ProgressLaw;
 use crate::motion::quarter_turn;
 use crate::optimise::contacts::Clearances;
 use crate::optimise::relaxation::{Effort, Relaxation, relax};
+use crate::order::{Chosen, PlanQuality, choose, percent};
 use crate::proof::prove_unless;
+use crate::proof::stop_safe::{StopAssumptions, measured};
 use crate::roads::lattice::Lattice;
 use crate::roads::shortest::shortest_paths;
 use crate::roads::visibility::{MOST_WALLS, VisibilityGraph};
 use crate::spline::set::SplineSet;
-use crate::{Meeting, Repaired, TransitionProblem};
+use crate::{Meeting, Path, Repaired, TransitionProblem};
 
 /// Length of a span that first guesses aim at, seconds: the smallest curve at full speed takes as long.
 const SPAN_S: f64 = 0.25;
@@ -205,7 +207,7 @@ struct Run<'a> {
 
 impl Run<'_> {
     fn facts(&self) -> Facts {
-        let best = self.best();
+        let best = self.fastest();
         let stretch = self.guesses.and_then(|guesses| guesses.ranked.first()).map_or(1.0, Guess::stretch);
         let robots = self.instance.robots();
         Facts {
@@ -233,9 +235,9 @@ impl Run<'_> {
         (1..=MOST_WALLS).contains(&self.instance.walls.len())
     }
 
-    fn best(&self) -> Option<&Candidate> {
-        let faster = |best: &'_ Candidate, next: &'_ Candidate| next.lasts_s < best.lasts_s;
-        self.candidates.iter().reduce(|best, next| if faster(best, next) { next } else { best })
+    /// The fastest solution, which the schedule's conditions look at; the choice is made at the end.
+    fn fastest(&self) -> Option<&Candidate> {
+        self.candidates.iter().min_by(|one, other| one.lasts_s.total_cmp(&other.lasts_s))
     }
 
     fn is_cancelled(&self) -> bool {
@@ -445,16 +447,36 @@ impl Run<'_> {
         }
     }
 
-    fn outcome(self) -> Solution {
-        let chosen = self.best().map(|best| best.row);
-        let result = match self.best() {
-            Some(best) => Ok(self.repaired(&best.solution)),
-            None => Err(self.left_over),
+    /// The choice among all solutions, by the order on candidate plans.
+    fn outcome(mut self) -> Solution {
+        let mut plans: Vec<Repaired> =
+            self.candidates.iter().map(|candidate| self.repaired(&candidate.solution)).collect();
+        let quality = |plan: &Repaired| PlanQuality { contacts: 0, duration: duration(&plan.paths) };
+        let qualities: Vec<PlanQuality> = plans.iter().map(quality).collect();
+        let (limits, cancel) = (&self.problem.limits, self.instance.cancel);
+        let stop_safe_percent = |index: usize| {
+            let paths = &plans[index].paths;
+            percent(measured(paths, limits, &StopAssumptions::default(), cancel).share())
         };
-        let reason = if result.is_ok() { "the shortest plan" } else { "no row was solved" };
+        let Some(Chosen { index, reason, stop_safe_percents }) = choose(&qualities, stop_safe_percent) else {
+            let explanation =
+                Explanation { rows: self.rows, chosen: None, reason: "no row was solved".into() };
+            return Solution { result: Err(self.left_over), explanation };
+        };
+        for (index, measured) in stop_safe_percents {
+            let row = &mut self.rows[self.candidates[index].row];
+            if let RowOutcome::Solved { stop_safe_percent, .. } = &mut row.outcome {
+                *stop_safe_percent = Some(measured);
+            }
+        }
+        let chosen = Some(self.candidates[index].row);
         let explanation = Explanation { rows: self.rows, chosen, reason: reason.into() };
-        Solution { result, explanation }
+        Solution { result: Ok(plans.swap_remove(index)), explanation }
     }
+}
+
+fn duration(paths: &[Path]) -> Span {
+    paths.iter().map(|path| path.as_ref().duration()).max().unwrap_or(Span::ZERO)
 }
 
 /// A manner and clearances in a few words.

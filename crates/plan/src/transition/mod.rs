@@ -22,7 +22,7 @@ use candidate::Candidate;
 use reachability::Walls;
 use straight::straight_lines;
 
-/// The fastest proven transition that was found, or why there is none.
+/// The proven transition that the order on candidate plans prefers, or why there is none.
 pub fn transition(problem: &TransitionProblem) -> Result<Transition, Infeasible> {
     attempt(problem, Cancel::NEVER).into_result()
 }

@@ -1,4 +1,4 @@
-//! Makes straight lines hold: small bends for those who pass too close, then longer ways for all.
+//! Straight lines without contacts: pairs that pass too close are displaced a little, then all paths may get longer.
 
 use super::candidate::Candidate;
 use super::deform::deform;
@@ -6,14 +6,15 @@ use crate::TransitionProblem;
 use crate::assignment::Choice;
 use crate::cancel::Cancel;
 use crate::explain::{Explanation, RowOutcome};
+use crate::order::{PlanQuality, choose};
 
-/// Shares by which the longest way may exceed the bottleneck, tried in turn.
+/// Shares by which the longest path may exceed the bottleneck distance, in the order in which they are tried.
 const SLACKS: [f64; 7] = [0.0, 0.01, 0.02, 0.04, 0.07, 0.1, 0.15];
-/// Robots times rounds of bending that are spent on comfort where distances are legal already.
+/// Robots × rounds of deformation that are spent on clearance where distances are legal already.
 const COMFORT_WORK: usize = 30_000;
 
-/// The best lines: comfortable ones if they can be had, else legal ones, else those with the fewest conflicts. `None`
-/// where there is no assignment at all.
+/// The first contact-free lines, else those that the order on candidate plans prefers. `None` where there is no
+/// assignment.
 pub(super) fn straight_lines(
     problem: &TransitionProblem,
     choice: &Choice,
@@ -21,7 +22,7 @@ pub(super) fn straight_lines(
     explanation: &mut Explanation,
 ) -> Option<Candidate> {
     let mut minimiser = choice.least_squares();
-    let mut best: Option<Candidate> = None;
+    let mut candidates = Vec::new();
     let mut before = None;
     for slack in SLACKS {
         if cancel.is_wanted() {
@@ -43,11 +44,16 @@ pub(super) fn straight_lines(
         if candidate.holds() || choice.is_settled() {
             return Some(candidate);
         }
-        if best.as_ref().is_none_or(|best| candidate.improves_on(best)) {
-            best = Some(candidate);
-        }
+        candidates.push(candidate);
     }
-    best
+    let quality = |candidate: &Candidate| PlanQuality {
+        contacts: candidate.wrong,
+        duration: candidate.transition.duration,
+    };
+    let qualities: Vec<PlanQuality> = candidates.iter().map(quality).collect();
+    // None of them is contact-free, so that stop-safety does not count.
+    let chosen = choose(&qualities, |_| 0)?;
+    Some(candidates.swap_remove(chosen.index))
 }
 
 fn outcome(candidate: &Candidate) -> RowOutcome {
