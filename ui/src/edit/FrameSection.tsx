@@ -88,6 +88,7 @@ export function FrameSection() {
       <SegmentedControl
         aria-label="Robot assignment"
         size="xs"
+        orientation="vertical"
         value={frame.identity ?? 'show'}
         onChange={(value) =>
           acts.setFrames(editing, { identity: value === 'any' || value === 'fixed' ? value : null })
