@@ -3,6 +3,7 @@
 mod candidate;
 mod conflict;
 mod deform;
+mod exchange;
 mod feasibility;
 mod following;
 mod reachability;
