@@ -82,7 +82,7 @@ impl Controller {
         }
     }
 
-    /// The broker is there and the topics are subscribed (`T/LightBot/UUID`, `Arrival`, `Status`, `Time`).
+    /// The broker is connected and the topics are subscribed (`T/LightBot/UUID`, `Arrival`, `Status`, `Time`).
     pub fn connected(&mut self, now: Instant) {
         if self.context.outbox.linked() {
             return;
@@ -96,7 +96,7 @@ impl Controller {
         self.conclude(now);
     }
 
-    /// The broker is lost.
+    /// The connection to the broker is lost.
     pub fn disconnected(&mut self, now: Instant) {
         if !self.context.outbox.linked() {
             return;

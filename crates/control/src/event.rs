@@ -120,7 +120,7 @@ pub enum EventKind {
         /// How far off, metres.
         off_m: f64,
     },
-    /// A robot reports its arrival that was sent nowhere, or that was not known.
+    /// A robot that was sent nowhere, or that is unknown, reports an arrival.
     UnexpectedArrival(RobotId),
     /// This number of events was not recorded, because there were too many.
     Suppressed(u64),

@@ -85,7 +85,7 @@ impl SendQueue {
         self.repeats.clear();
     }
 
-    /// Sends what is due again.
+    /// Sends each repeated message that is due.
     pub fn tick(&mut self, now: Instant) {
         if self.repeats.is_empty() {
             return;

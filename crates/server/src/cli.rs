@@ -135,10 +135,10 @@ pub struct MqttArguments {
     /// The certificate's key, PEM
     #[arg(long, value_name = "FILE", requires = "mqtt_tls_listen")]
     pub key: Option<PathBuf>,
-    /// Over TLS let in only who shows a certificate of this authority, PEM
+    /// Over TLS, accept only clients with a certificate of this authority, PEM
     #[arg(long, value_name = "FILE", requires = "mqtt_tls_listen")]
     pub client_ca: Option<PathBuf>,
-    /// A user of the embedded broker; with any, nobody else gets in. ROLE is robot (the one with the user's name),
+    /// A user of the embedded broker; if any is given, other users are refused. ROLE is robot (it has the user's name),
     /// any-robot, controller, or left out: a robot where the client id is LightBot/<name>; may be repeated
     #[arg(long, value_name = "USER:PASSWORD[:ROLE]")]
     pub mqtt_user: Vec<String>,

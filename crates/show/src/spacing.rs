@@ -5,9 +5,9 @@ use lightbots_base::Vec2;
 /// Two places that are close to each other.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CloseApproach {
-    /// Index of the earlier place.
+    /// The smaller index.
     pub first: usize,
-    /// Index of the later place.
+    /// The greater index.
     pub second: usize,
     /// Distance between the places, metres.
     pub gap_m: f64,

@@ -10,7 +10,7 @@ use crate::dice::{Dice, Purpose};
 pub(crate) enum Fate {
     /// Its power fails.
     Killed,
-    /// Its messages are lost from now on.
+    /// Its messages are lost from now on; it still receives.
     Muted,
     /// Its wheels stop turning.
     Stuck,

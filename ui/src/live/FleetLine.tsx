@@ -16,7 +16,8 @@ interface Props {
   choose: (id: string) => void;
 }
 
-/** The shown values of a row as one text. The table arrives twice a second, and few of its rows change. */
+/** The shown values of a row as one text. The table arrives twice a second, and few of its rows change:
+ * a column that is missing here is drawn once and never again. */
 const shownOf = ({ row, wide, pinned }: Props) =>
   [
     row.pixel,

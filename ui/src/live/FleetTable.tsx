@@ -15,6 +15,7 @@ const ROWS_MAX = 300;
 const byPixel = (a: FleetRow, b: FleetRow) =>
   (a.pixel ?? Infinity) - (b.pixel ?? Infinity) || a.id.localeCompare(b.id);
 
+/** Titles; the cells are in FleetLine. */
 const COLUMNS = ['Pixel', 'Robot', 'State', 'Charge'] as const;
 const MORE_COLUMNS = ['Last seen', 'Firmware', 'Supports', 'Clock'] as const;
 

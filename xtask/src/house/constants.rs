@@ -142,7 +142,7 @@ fn is_rule(word: &str) -> bool {
     word.strip_prefix('R').is_some_and(|number| number.len() < 3 && number.parse::<u8>().is_ok())
 }
 
-/// The year of a publication or measurement.
+/// Whether a word is a year from 1950 to 2049, as of a publication or measurement.
 fn is_year(word: &str) -> bool {
     word.len() == 4 && word.parse::<u16>().is_ok_and(|year| (1950..2050).contains(&year))
 }

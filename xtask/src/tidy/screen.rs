@@ -61,7 +61,7 @@ fn imports_of(sources: &BTreeMap<PathBuf, String>) -> Imports {
         .collect()
 }
 
-/// What stands between quotes after `from`, `import` or `import(`, if it begins with a dot.
+/// The relative paths that a text imports: in quotes after `from`, `import` or `import(`, beginning with a dot.
 fn relative_imports(text: &str) -> impl Iterator<Item = &str> {
     ["from '.", "import '.", "import('."].into_iter().flat_map(move |start| {
         text.match_indices(start).filter_map(move |(at, _)| {

@@ -106,7 +106,7 @@ fn end(cx: &mut RunContext) -> Next {
     }
 }
 
-/// A robot that is to stand drops out where it cannot drive.
+/// Drops a standing participant that is faulty or does not know its place.
 pub(crate) fn drop_if_unfit(participant: usize, details: &Details) -> Next {
     match details.state {
         RobotState::Faulty => Next::drop(participant, Trouble::Faulty),

@@ -10,7 +10,7 @@ pub(crate) struct Tally {
     pub frames_played: usize,
     /// Robots that dropped out; a robot that dropped out twice counts twice.
     pub dropouts: usize,
-    /// What recovery may still cost.
+    /// Bound on the replans and the time of recovery.
     pub recovery: RecoveryBound,
     /// The first and the last arrival at a place in the next frame, whichever legs lead there.
     pub arrivals: Option<(Instant, Instant)>,

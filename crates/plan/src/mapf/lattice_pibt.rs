@@ -33,7 +33,7 @@ pub(crate) struct LatticePibt<'a> {
 }
 
 impl<'a> LatticePibt<'a> {
-    /// For robots with these goals; `None` where robots × nodes are too many.
+    /// A step generator for robots with these goals. `None`: robots × nodes exceed `MOST_STEPS`.
     pub fn new(lattice: &'a Lattice, goals: &'a [u32], cancel: Cancel<'a>) -> Option<Self> {
         let nodes = lattice.places.len();
         if nodes.saturating_mul(goals.len()) > MOST_STEPS {

@@ -45,7 +45,7 @@ struct Discs {
     horizon_us: i64,
     /// The longest control polygon.
     longest_m: f64,
-    /// No pair's least distance over time is greater than this: the closest two at the start are this close.
+    /// Distance at the start of the closest pair with a robot, metres. No least distance over all pairs is greater.
     closest_at_start_m: f64,
 }
 

@@ -2,7 +2,8 @@
 //!
 //! [`super::run`] goes through the groups in order. A group is skipped where its condition does not hold, and left as
 //! soon as its target is reached. To add a solver, add a variant to [`Solver`], a row here, and its first guess in
-//! `run.rs`.
+//! `Run::row` (`run.rs`). All rows of a group need guesses, or none does. At most [`MOST_TRIES`] rows of a group run: a row
+//! at the end of a longer group may never do.
 
 use super::guess::Manner;
 use super::run::Facts;
@@ -318,7 +319,7 @@ pub(super) const SCHEDULE: [Group; 8] = [
     },
 ];
 
-/// Guesses in minimum time that are tried at most.
+/// Rows of a group that are tried at most.
 pub(super) const MOST_TRIES: usize = 8;
 
 #[cfg(test)]

@@ -45,7 +45,8 @@ pub(super) fn explained_off_m(one: &Expectation, sensor: usize, read_m: f32, sca
     (explains && expected.inside_m > -BESIDE_M).then_some(off_m)
 }
 
-/// A disc of which nothing is known but a reading: straight ahead of the sensor, or between two that see it.
+/// Begins a track of an unknown disc from one reading. The disc is assumed straight ahead of the sensor, or midway between
+/// two adjacent sensors with similar readings.
 /// `is_free`: whether a sensor's reading belongs to no track yet.
 pub(super) fn unknown(sensor: usize, is_free: &dyn Fn(usize) -> bool, scan: &Scan<'_>) -> Track {
     let read_m = scan.gaps_m[sensor];

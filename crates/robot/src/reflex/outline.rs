@@ -13,7 +13,7 @@ use crate::config::NeighbourModel;
 /// Uncertainty of where a sensor begins to see an edge, metres: what the robot drives in half a step.
 const SEEN_SIGMA_M: f32 = 0.002;
 
-/// What stands.
+/// Kind of standing object.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Form {
     /// A straight edge without an end in sight.
@@ -26,7 +26,7 @@ pub(crate) enum Form {
     Disc,
 }
 
-/// An outline in body space.
+/// Estimated outline of a standing object, in body space.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Outline {
     pub form: Form,

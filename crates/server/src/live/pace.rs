@@ -7,9 +7,9 @@
 use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 
-/// So many messages may be under way in a direction without holding time up, …
+/// Number of messages that may be under way in one direction without holding time up, …
 const UNDER_WAY: u64 = 1024;
-/// … and one for so many robots.
+/// … plus one message for each `ROBOTS_A_MESSAGE` robots.
 const ROBOTS_A_MESSAGE: u64 = 8;
 
 /// Shared by the task of the controller and that of the simulated robots.
@@ -19,13 +19,13 @@ pub struct Pace {
     may_slow: AtomicBool,
     known: AtomicUsize,
     simulated: AtomicUsize,
-    /// What robots say.
+    /// Messages of robots.
     pub reports: Flow,
-    /// What is said to single robots.
+    /// Messages to single robots.
     pub commands: Flow,
 }
 
-/// Who is where.
+/// The broker that each party uses.
 #[derive(Debug, Default)]
 struct Parties {
     /// Broker of the simulated robots.
@@ -42,47 +42,47 @@ pub struct Flow {
 }
 
 impl Flow {
-    /// So many were said.
+    /// Counts messages sent.
     pub fn say(&self, messages: u64) {
         self.said.fetch_add(messages, Ordering::Relaxed);
     }
 
-    /// So many came in.
+    /// Counts messages received.
     pub fn hear(&self, messages: u64) {
         self.heard.fetch_add(messages, Ordering::Relaxed);
     }
 
-    /// How many came in so far.
+    /// Number of messages received, or given up as lost by [`forget`](Self::forget).
     pub fn heard(&self) -> u64 {
         self.heard.load(Ordering::Relaxed)
     }
 
-    /// How many are under way.
+    /// Number of messages under way.
     fn under_way(&self) -> u64 {
         self.said.load(Ordering::Relaxed).saturating_sub(self.heard())
     }
 
-    /// What is under way will not come any more.
+    /// Counts all messages under way as lost.
     pub fn forget(&self) {
         self.heard.fetch_max(self.said.load(Ordering::Relaxed), Ordering::Relaxed);
     }
 }
 
 impl Pace {
-    /// So many robots are simulated, on this broker.
+    /// Sets the number of simulated robots and their broker.
     pub fn simulates(&self, robots: usize, broker: Option<String>) {
         self.simulated.store(robots, Ordering::Relaxed);
         self.parties.lock().unwrap_or_else(PoisonError::into_inner).robots_at = broker;
         self.settle();
     }
 
-    /// The controller uses this broker.
+    /// Sets the controller's broker.
     pub fn controls(&self, broker: Option<String>) {
         self.parties.lock().unwrap_or_else(PoisonError::into_inner).controller_at = broker;
         self.settle();
     }
 
-    /// The controller knows so many robots.
+    /// Sets the number of robots that the controller knows.
     pub fn knows(&self, robots: usize) {
         if self.known.swap(robots, Ordering::Relaxed) != robots {
             self.settle();

@@ -26,7 +26,7 @@ pub enum CutOff {
 #[derive(Debug, Default)]
 pub struct GiveUp(Arc<AtomicBool>);
 
-/// The flag that the other thread reads.
+/// Tells the working thread whether [`GiveUp`] has cancelled its work.
 #[derive(Clone, Debug)]
 pub struct IsGivenUp(Arc<AtomicBool>);
 
