@@ -9,8 +9,10 @@
 //! All distances are those of the Elisa-3; robots of other sizes are scaled to it first ([`scale`]). Every loop is bounded,
 //! nothing is random, and the proof decides ([`verify`]).
 
+mod facts;
 mod from_lattice;
 mod guess;
+mod guesses;
 mod path_set;
 mod run;
 mod scale;

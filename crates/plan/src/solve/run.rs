@@ -4,19 +4,19 @@ use std::cell::OnceCell;
 
 use lightbots_base::Span;
 
+use super::facts::Facts;
 use super::from_lattice::from_lattice;
-use super::guess::{Guess, Manner};
+use super::guess::Guess;
+use super::guesses::{Guesses, named};
 use super::path_set::PathSet;
 use super::schedule::{
-    Budget, Group, MOST_STRETCH, MOST_TRIES, MOST_WORK, PITCH_M, Pick, ROOMY, Row, SCHEDULE, Solver, WIDE,
+    Budget, Group, MOST_STRETCH, MOST_TRIES, MOST_WORK, PITCH_M, Row, SCHEDULE, Solver, WIDE,
 };
 use super::stop_and_go::{MOST_LOOKS, stop_and_go};
 use super::verify::{Rejected, least_span, span_of, verified};
 use crate::explain::{ExplainedRow, Explanation, RowOutcome};
 use crate::instance::Instance;
-use crate::motion::progress::ProgressLaw;
 use crate::motion::quarter_turn;
-use crate::optimise::contacts::Clearances;
 use crate::optimise::relaxation::{Effort, Relaxation, relax};
 use crate::order::{Chosen, PlanQuality, choose, percent};
 use crate::proof::prove_unless;
@@ -31,14 +31,6 @@ use crate::{Meeting, Path, Repaired, TransitionProblem};
 const SPAN_S: f64 = 0.25;
 /// The same for large fleets, seconds: fewer spans are less work.
 const LONG_SPAN_S: f64 = 0.33;
-/// An acceptable solution takes at most this many times the least, …
-const ACCEPTABLE: f64 = 4.0;
-/// … and this much more, seconds.
-const ACCEPTABLE_MORE_S: f64 = 4.0;
-/// A slow solution takes more than this many times the least, …
-const SLOW: f64 = 1.8;
-/// … and this much more, seconds. An order from a lattice may then be faster.
-const SLOW_MORE_S: f64 = 1.5;
 /// Meetings for each robot above which slack does not help.
 const HOPELESS: usize = 3;
 /// Above this number of robots the first acceptable solution is taken.
@@ -55,8 +47,6 @@ const FIRST_SWEEPS: usize = 7;
 const PROMISING: usize = 6;
 /// Share of its contacts that counts for the guess that was ranked first.
 const HEAD_START: f64 = 0.9;
-/// Penalty of a manner that differs from a better one in its bow only, beside [`Guess::badness`].
-const ALIKE: f64 = 0.06;
 /// Rounds in which robots with illegal motion are smoothed and the contacts that follow are resolved.
 const AMENDMENTS: usize = 4;
 /// Sweeps of each of those rounds.
@@ -64,39 +54,6 @@ const AMENDING_SWEEPS: usize = 72;
 /// Penalty on the duration of a solution between walls with less than [`WIDE`] clearance: one robot that brakes there
 /// blocks others.
 const CLOSE: f64 = 1.25;
-
-/// What the schedule's conditions look at.
-pub(super) struct Facts {
-    pub is_large: bool,
-    pub promises_little: bool,
-    pub has_walls: bool,
-    pub is_hopeless: bool,
-    pub is_solved: bool,
-    /// Whether the best solution has less than the usual clearance between walls.
-    pub is_close: bool,
-    /// Duration of the best solution with its penalty, seconds; infinite where there is none.
-    pub lasts_s: f64,
-    /// Duration of the longest path at full speed, seconds.
-    pub least_s: f64,
-    /// Work that is left.
-    pub work: usize,
-    /// Rows of the group that have run.
-    pub tries: usize,
-    /// Whether a row of the group made the best solution faster.
-    pub is_faster: bool,
-    /// The same of all rows but the last.
-    pub was_faster: bool,
-}
-
-impl Facts {
-    pub fn is_acceptable(&self) -> bool {
-        self.lasts_s < self.least_s * ACCEPTABLE + ACCEPTABLE_MORE_S
-    }
-
-    pub fn is_slow(&self) -> bool {
-        self.lasts_s > self.least_s * SLOW + SLOW_MORE_S
-    }
-}
 
 /// A solution that the proof accepts.
 struct Candidate {
@@ -110,14 +67,6 @@ struct Candidate {
 enum Trajectories {
     Splines(SplineSet),
     StopAndGo(Repaired),
-}
-
-/// Paths and first guesses; there are none where a robot has no path.
-struct Guesses<'a> {
-    path_set: &'a PathSet<'a>,
-    /// The most promising first.
-    ranked: Vec<Guess<'a>>,
-    least_s: f64,
 }
 
 /// What a run of the schedule came to.
@@ -150,44 +99,6 @@ pub(super) fn run(problem: &TransitionProblem, instance: &Instance) -> Solution 
         run.group(group);
     }
     run.outcome()
-}
-
-impl<'a> Guesses<'a> {
-    fn new(problem: &TransitionProblem, instance: &Instance, path_set: &'a PathSet<'a>) -> Self {
-        let easing = problem.easing;
-        let mut ranked: Vec<Guess> = Manner::all()
-            .take_while(|_| !instance.cancel.is_wanted())
-            .map(|manner| Guess::new(path_set, easing, manner, ROOMY.robots_m))
-            .collect();
-        ranked.sort_by(|a, b| a.badness.total_cmp(&b.badness));
-        let least_s = ProgressLaw::new(path_set.longest_m, &instance.limits, easing, 1.0).drive_s;
-        Self { path_set, ranked, least_s }
-    }
-
-    /// The guess of a row in minimum time; `None` where another row has it already.
-    fn pick(&self, pick: Pick) -> Option<&Guess<'a>> {
-        let best = self.ranked.first()?;
-        match pick {
-            Pick::Best => Some(best),
-            Pick::Plain if best.manner == Manner::default() => None,
-            Pick::Plain => self.ranked.iter().find(|guess| guess.manner == Manner::default()),
-            Pick::Ranked(rank) => self.ranked.get(rank),
-        }
-    }
-
-    /// The guesses in another order: where one fails, those that differ from it only in their bow mostly fail too. Of
-    /// several with equal paths there is one.
-    fn diverse(&self) -> Vec<&Guess<'a>> {
-        let all = &self.ranked;
-        let straight = |at: usize| Manner { bow: 0.0, ..all[at].manner };
-        let is_alike = |at: usize| (0..at).any(|before| straight(before) == straight(at));
-        let weigh = |at: usize| all[at].badness + if is_alike(at) { ALIKE } else { 0.0 };
-        let is_same = |at: usize| (0..at).any(|before| all[before].is_like(&all[at]));
-        let different = (0..all.len()).filter(|&at| !is_same(at));
-        let mut order: Vec<(f64, usize)> = different.map(|at| (weigh(at), at)).collect();
-        order.sort_by(|a, b| a.0.total_cmp(&b.0));
-        order.into_iter().map(|(_, at)| &all[at]).collect()
-    }
 }
 
 struct Run<'a> {
@@ -477,19 +388,4 @@ impl Run<'_> {
 
 fn duration(paths: &[Path]) -> Span {
     paths.iter().map(|path| path.as_ref().duration()).max().unwrap_or(Span::ZERO)
-}
-
-/// A manner and clearances in a few words.
-fn named(manner: Manner, clearances: Clearances) -> String {
-    let Manner { bow, early, level, spread, staged } = manner;
-    let flags = [(early, "early"), (level, "level"), (spread, "spread"), (staged, "staged")];
-    let mut words: Vec<String> =
-        flags.iter().filter(|(is, _)| *is).map(|(_, name)| (*name).to_string()).collect();
-    if bow != 0.0 {
-        words.push(format!("bow {bow}"));
-    }
-    if words.is_empty() {
-        words.push("together".into());
-    }
-    format!("{}, {:.1} mm between centres", words.join(", "), clearances.robots_m * 1e3)
 }

@@ -5,8 +5,9 @@
 //! `Run::row` (`run.rs`). All rows of a group need guesses, or none does. At most [`MOST_TRIES`] rows of a group run: a row
 //! at the end of a longer group may never do.
 
+use super::facts::Facts;
 use super::guess::Manner;
-use super::run::Facts;
+
 use crate::margins::EDGE_M;
 use crate::optimise::contacts::Clearances;
 

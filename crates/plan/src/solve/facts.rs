@@ -1,0 +1,43 @@
+//! What decides which groups and rows of the schedule run.
+
+/// An acceptable solution takes at most this many times the least, …
+const ACCEPTABLE: f64 = 4.0;
+/// … and this much more, seconds.
+const ACCEPTABLE_MORE_S: f64 = 4.0;
+/// A slow solution takes more than this many times the least, …
+const SLOW: f64 = 1.8;
+/// … and this much more, seconds. An order from a lattice may then be faster.
+const SLOW_MORE_S: f64 = 1.5;
+
+/// What the schedule's conditions look at.
+pub(super) struct Facts {
+    pub is_large: bool,
+    pub promises_little: bool,
+    pub has_walls: bool,
+    pub is_hopeless: bool,
+    pub is_solved: bool,
+    /// Whether the best solution has less than the usual clearance between walls.
+    pub is_close: bool,
+    /// Duration of the best solution with its penalty, seconds; infinite where there is none.
+    pub lasts_s: f64,
+    /// Duration of the longest path at full speed, seconds.
+    pub least_s: f64,
+    /// Work that is left.
+    pub work: usize,
+    /// Rows of the group that have run.
+    pub tries: usize,
+    /// Whether a row of the group made the best solution faster.
+    pub is_faster: bool,
+    /// The same of all rows but the last.
+    pub was_faster: bool,
+}
+
+impl Facts {
+    pub fn is_acceptable(&self) -> bool {
+        self.lasts_s < self.least_s * ACCEPTABLE + ACCEPTABLE_MORE_S
+    }
+
+    pub fn is_slow(&self) -> bool {
+        self.lasts_s > self.least_s * SLOW + SLOW_MORE_S
+    }
+}

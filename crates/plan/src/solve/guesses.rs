@@ -1,0 +1,74 @@
+//! First guesses of one problem, ranked by what they promise.
+
+use super::guess::{Guess, Manner};
+use super::path_set::PathSet;
+use super::schedule::{Pick, ROOMY};
+use crate::TransitionProblem;
+use crate::instance::Instance;
+use crate::motion::progress::ProgressLaw;
+use crate::optimise::contacts::Clearances;
+
+/// Penalty of a manner that differs from a better one in its bow only, beside [`Guess::badness`].
+const ALIKE: f64 = 0.06;
+
+/// Paths and first guesses; there are none where a robot has no path.
+pub(super) struct Guesses<'a> {
+    pub path_set: &'a PathSet<'a>,
+    /// The most promising first.
+    pub ranked: Vec<Guess<'a>>,
+    /// Duration of the longest path at full speed, seconds.
+    pub least_s: f64,
+}
+
+impl<'a> Guesses<'a> {
+    pub fn new(problem: &TransitionProblem, instance: &Instance, path_set: &'a PathSet<'a>) -> Self {
+        let easing = problem.easing;
+        let mut ranked: Vec<Guess> = Manner::all()
+            .take_while(|_| !instance.cancel.is_wanted())
+            .map(|manner| Guess::new(path_set, easing, manner, ROOMY.robots_m))
+            .collect();
+        ranked.sort_by(|a, b| a.badness.total_cmp(&b.badness));
+        let least_s = ProgressLaw::new(path_set.longest_m, &instance.limits, easing, 1.0).drive_s;
+        Self { path_set, ranked, least_s }
+    }
+
+    /// The guess of a row in minimum time; `None` where another row has it already.
+    pub fn pick(&self, pick: Pick) -> Option<&Guess<'a>> {
+        let best = self.ranked.first()?;
+        match pick {
+            Pick::Best => Some(best),
+            Pick::Plain if best.manner == Manner::default() => None,
+            Pick::Plain => self.ranked.iter().find(|guess| guess.manner == Manner::default()),
+            Pick::Ranked(rank) => self.ranked.get(rank),
+        }
+    }
+
+    /// The guesses in another order: where one fails, those that differ from it only in their bow mostly fail too. Of
+    /// several with equal paths there is one.
+    pub fn diverse(&self) -> Vec<&Guess<'a>> {
+        let all = &self.ranked;
+        let straight = |at: usize| Manner { bow: 0.0, ..all[at].manner };
+        let is_alike = |at: usize| (0..at).any(|before| straight(before) == straight(at));
+        let weigh = |at: usize| all[at].badness + if is_alike(at) { ALIKE } else { 0.0 };
+        let is_same = |at: usize| (0..at).any(|before| all[before].is_like(&all[at]));
+        let different = (0..all.len()).filter(|&at| !is_same(at));
+        let mut order: Vec<(f64, usize)> = different.map(|at| (weigh(at), at)).collect();
+        order.sort_by(|a, b| a.0.total_cmp(&b.0));
+        order.into_iter().map(|(_, at)| &all[at]).collect()
+    }
+}
+
+/// A manner and clearances in a few words.
+pub(super) fn named(manner: Manner, clearances: Clearances) -> String {
+    let Manner { bow, early, level, spread, staged } = manner;
+    let flags = [(early, "early"), (level, "level"), (spread, "spread"), (staged, "staged")];
+    let mut words: Vec<String> =
+        flags.iter().filter(|(is, _)| *is).map(|(_, name)| (*name).to_string()).collect();
+    if bow != 0.0 {
+        words.push(format!("bow {bow}"));
+    }
+    if words.is_empty() {
+        words.push("together".into());
+    }
+    format!("{}, {:.1} mm between centres", words.join(", "), clearances.robots_m * 1e3)
+}
