@@ -3,7 +3,7 @@
 use lightbots_base::Vec2;
 
 use crate::contacts::PARTED_M;
-use crate::floor::{Floor, Thing};
+use crate::floor::{Floor, FloorObject};
 
 /// A robot farther than this over the floor's edge counts as a contact, metres. Pixels may lie at the edge, and robots that
 /// drive along it come 5 mm over it with standard noise. Above, robots that leave the floor are overlooked.
@@ -29,7 +29,7 @@ pub struct Bump {
     /// Index of the robot.
     pub robot: usize,
     /// What it touches.
-    pub thing: Thing,
+    pub thing: FloorObject,
     /// It has touched the floor's edge for a while, and would be over it by more than [`EDGE_SLACK_M`] now.
     pub over: bool,
 }
@@ -37,7 +37,7 @@ pub struct Bump {
 /// What a robot is pressed against.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Against {
-    thing: Thing,
+    thing: FloorObject,
     /// Distance by which it would have gone on since, metres.
     pressed_m: f64,
 }
@@ -58,7 +58,7 @@ impl Bumps {
         &mut self,
         robot: usize,
         against: Option<Against>,
-        out_of: Option<(Thing, f64)>,
+        out_of: Option<(FloorObject, f64)>,
         floor: &Floor,
         place: Vec2,
     ) -> Option<Against> {
@@ -70,12 +70,12 @@ impl Bumps {
         let pressed_m = was_m + deep_m;
         if before.is_none() {
             match thing {
-                Thing::Edge => self.edges += 1,
-                Thing::Obstacle(_) => self.obstacles += 1,
+                FloorObject::Edge => self.edges += 1,
+                FloorObject::Obstacle(_) => self.obstacles += 1,
             }
             self.fresh.push(Bump { robot, thing, over: false });
         }
-        if thing == Thing::Edge {
+        if thing == FloorObject::Edge {
             self.edge_most_m = self.edge_most_m.max(pressed_m);
             if was_m <= EDGE_SLACK_M && pressed_m > EDGE_SLACK_M {
                 self.over += 1;
@@ -91,17 +91,17 @@ mod tests {
     use super::*;
     use lightbots_show::{Obstacle, Stage};
 
-    const AREA: Thing = Thing::Obstacle(0);
+    const AREA: FloorObject = FloorObject::Obstacle(0);
 
     /// Contacts of a robot that is pressed into things by these depths, metres, and then stands off them by these
     /// distances.
-    fn pressed(steps: &[(Option<(Thing, f64)>, f64)]) -> (Bumps, Vec<Bump>) {
+    fn pressed(steps: &[(Option<(FloorObject, f64)>, f64)]) -> (Bumps, Vec<Bump>) {
         let obstacles = vec![Obstacle::Disc { at: Vec2::ZERO, radius_m: 0.1 }];
         let floor = Floor::new(&Stage { obstacles, ..Stage::default() }, &[]);
         let (mut bumps, mut against, mut all) = (Bumps::default(), None, Vec::new());
         for &(out_of, off_m) in steps {
             let place = match against {
-                Some(Against { thing: Thing::Obstacle(_), .. }) => Vec2::new(0.127 + off_m, 0.0),
+                Some(Against { thing: FloorObject::Obstacle(_), .. }) => Vec2::new(0.127 + off_m, 0.0),
                 _ => Vec2::new(0.0, 1.473 - off_m),
             };
             bumps.begin_step();
@@ -113,16 +113,16 @@ mod tests {
 
     #[test]
     fn one_touch_lasts_until_they_have_parted() {
-        let edge = Some((Thing::Edge, 0.001));
+        let edge = Some((FloorObject::Edge, 0.001));
         let (bumps, all) = pressed(&[(edge, 0.0), (None, 0.0004), (edge, 0.0), (None, 0.0006), (edge, 0.0)]);
-        let bump = Bump { robot: 7, thing: Thing::Edge, over: false };
+        let bump = Bump { robot: 7, thing: FloorObject::Edge, over: false };
         assert_eq!((bumps.edges, bumps.over, bumps.obstacles, all), (2, 0, 0, vec![bump, bump]));
         assert!((bumps.edge_most_m - 0.002).abs() < 1e-12);
     }
 
     #[test]
     fn who_presses_on_goes_over_the_edge_once() {
-        let (bumps, all) = pressed(&[(Some((Thing::Edge, 0.004)), 0.0); 5]);
+        let (bumps, all) = pressed(&[(Some((FloorObject::Edge, 0.004)), 0.0); 5]);
         assert_eq!((bumps.edges, bumps.over), (1, 1));
         assert_eq!(all.iter().map(|bump| bump.over).collect::<Vec<_>>(), [false, true]);
         assert!((bumps.edge_most_m - 0.02).abs() < 1e-12);

@@ -15,7 +15,7 @@ pub(crate) struct Floor {
 
 /// What a disc touches.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Thing {
+pub enum FloorObject {
     /// The wall around the floor: its edge.
     Edge,
     /// A no-go area, by its index.
@@ -36,13 +36,13 @@ impl Floor {
 
     /// Moves a disc out of walls and no-go areas. Returns what it was in, and how deep, metres. Of several, the last one.
     #[inline]
-    pub fn keep_out(&self, place: &mut Vec2) -> Option<(Thing, f64)> {
+    pub fn keep_out(&self, place: &mut Vec2) -> Option<(FloorObject, f64)> {
         let inside = self.inside(*place);
-        let mut bump = (inside != *place).then(|| (Thing::Edge, inside.distance(*place)));
+        let mut bump = (inside != *place).then(|| (FloorObject::Edge, inside.distance(*place)));
         *place = inside;
         for (index, obstacle) in self.obstacles.iter().enumerate() {
             if let Some(out) = self.out_of(obstacle, *place) {
-                bump = Some((Thing::Obstacle(index), out.distance(*place)));
+                bump = Some((FloorObject::Obstacle(index), out.distance(*place)));
                 *place = out;
             }
         }
@@ -56,10 +56,10 @@ impl Floor {
     }
 
     /// Gap from a disc's rim to a thing, metres; 0 or less where they touch.
-    pub fn off_m(&self, place: Vec2, thing: Thing) -> f64 {
+    pub fn off_m(&self, place: Vec2, thing: FloorObject) -> f64 {
         match thing {
-            Thing::Edge => (self.half.x - place.x.abs()).min(self.half.y - place.y.abs()),
-            Thing::Obstacle(index) => self.obstacles[index].gap_m(place) - self.radius_m,
+            FloorObject::Edge => (self.half.x - place.x.abs()).min(self.half.y - place.y.abs()),
+            FloorObject::Obstacle(index) => self.obstacles[index].gap_m(place) - self.radius_m,
         }
     }
 
@@ -100,7 +100,7 @@ mod tests {
         Floor::new(&Stage { obstacles, ..Stage::default() }, &[])
     }
 
-    fn kept_out(floor: &Floor, x: f64, y: f64) -> (Vec2, Option<Thing>) {
+    fn kept_out(floor: &Floor, x: f64, y: f64) -> (Vec2, Option<FloorObject>) {
         let mut place = Vec2::new(x, y);
         let bump = floor.keep_out(&mut place);
         (place, bump.map(|bump| bump.0))
@@ -108,7 +108,7 @@ mod tests {
 
     #[test]
     fn a_robot_stands_a_radius_from_the_wall() {
-        assert_eq!(kept_out(&floor(vec![]), 1.6, 0.0), (Vec2::new(1.473, 0.0), Some(Thing::Edge)));
+        assert_eq!(kept_out(&floor(vec![]), 1.6, 0.0), (Vec2::new(1.473, 0.0), Some(FloorObject::Edge)));
         assert_eq!(kept_out(&floor(vec![]), 1.4, -0.3), (Vec2::new(1.4, -0.3), None));
     }
 
@@ -116,7 +116,7 @@ mod tests {
     fn obstacles_push_out_by_the_shortest_way() {
         let disc = floor(vec![Obstacle::Disc { at: Vec2::ZERO, radius_m: 0.1 }]);
         let (place, bump) = kept_out(&disc, 0.0, 0.12);
-        assert!((place - Vec2::new(0.0, 0.127)).length() < 1e-12 && bump == Some(Thing::Obstacle(0)));
+        assert!((place - Vec2::new(0.0, 0.127)).length() < 1e-12 && bump == Some(FloorObject::Obstacle(0)));
         let rect = floor(vec![Obstacle::Rect { min: Vec2::ZERO, max: Vec2::new(1.0, 0.5) }]);
         assert_eq!(kept_out(&rect, 0.5, 0.45).0, Vec2::new(0.5, 0.527));
         assert_eq!(kept_out(&rect, 0.5, 0.6), (Vec2::new(0.5, 0.6), None));

@@ -55,7 +55,7 @@ pub use contacts::Contacts;
 pub use dice::{Dice, Purpose};
 pub use faults::{Faults, FaultsError};
 pub use fleet::{Fleet, FleetConfig, FleetMessage};
-pub use floor::Thing;
+pub use floor::FloorObject;
 pub use hash::StateHash;
 pub use network::MessageCounts;
 pub use rehearsal::{Progress, ROBOTS_MAX, RehearsalOptions, rehearse};

@@ -32,7 +32,7 @@ pub(crate) enum Way {
 
 /// A message that arrives.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(crate) struct Message {
+pub(crate) struct NetworkMessage {
     /// Its direction.
     pub way: Way,
     /// Its topic.
@@ -57,7 +57,7 @@ pub(crate) struct Network {
     dice: Dice,
     /// When, in which order, where in `slots`, and to which robot, or `CONTROLLER`.
     queue: BinaryHeap<Reverse<(Instant, u64, u32, u32)>>,
-    slots: Vec<Option<Message>>,
+    slots: Vec<Option<NetworkMessage>>,
     free: Vec<u32>,
     /// When the last message of each link arrives: `[robot]`, to it and from it.
     last: Vec<[Instant; 2]>,
@@ -88,7 +88,7 @@ impl Network {
             self.counts.lost += 1;
             return;
         }
-        let message = Message { way, topic, payload };
+        let message = NetworkMessage { way, topic, payload };
         if self.dice.chance(self.conditions.double) {
             self.post(now, message.clone());
         }
@@ -101,7 +101,7 @@ impl Network {
     }
 
     /// The next message that arrives until `until`, with its time.
-    pub fn next_until(&mut self, until: Instant) -> Option<(Instant, Message)> {
+    pub fn next_until(&mut self, until: Instant) -> Option<(Instant, NetworkMessage)> {
         if self.next_at()? > until {
             return None;
         }
@@ -124,7 +124,7 @@ impl Network {
         self.counts
     }
 
-    fn post(&mut self, now: Instant, message: Message) {
+    fn post(&mut self, now: Instant, message: NetworkMessage) {
         let mut at = now + self.delay();
         let (robot, direction) = match message.way {
             Way::ToRobot(robot) => (robot, 0),

@@ -8,7 +8,7 @@ use lightbots_show::{Issue, Issues, Show};
 
 use crate::breakdowns::{Breakdowns, Fate};
 use crate::bumps::{Bump, EDGE_SLACK_M};
-use crate::floor::Thing;
+use crate::floor::FloorObject;
 use crate::report::{FrameRecord, RehearsalReport};
 use crate::robot_set::RobotSet;
 use crate::statistics::Spread;
@@ -300,18 +300,18 @@ impl RehearsalRecord {
 fn bumped(bump: &Bump, place: Vec2, when: &str) -> Issue {
     let (robot, place) = (bump.robot, at(place));
     match bump.thing {
-        Thing::Obstacle(index) => {
+        FloorObject::Obstacle(index) => {
             let message = format!("Robot {robot} touched area {} at {place}, {when}.", index + 1);
             Issue::error("contact-obstacle", message)
         }
-        Thing::Edge if bump.over => {
+        FloorObject::Edge if bump.over => {
             let over_mm = EDGE_SLACK_M * 1e3;
             let message = format!(
                 "Robot {robot} went over the floor's edge by more than {over_mm:.0} mm at {place}, {when}."
             );
             Issue::error("contact-edge", message)
         }
-        Thing::Edge => {
+        FloorObject::Edge => {
             let message = format!("Robot {robot} touched the floor's edge at {place}, {when}.");
             Issue::warning("edge-touched", message)
         }
@@ -334,11 +334,11 @@ mod tests {
             (issue.is_error(), issue.message)
         };
         let area = "Robot 7 touched area 3 at (0.500, -0.250) m, 3.20 s into the show, about frame 2.";
-        assert_eq!(say(Thing::Obstacle(2), false), (true, area.into()));
+        assert_eq!(say(FloorObject::Obstacle(2), false), (true, area.into()));
         let edge =
             "Robot 7 touched the floor's edge at (0.500, -0.250) m, 3.20 s into the show, about frame 2.";
-        assert_eq!(say(Thing::Edge, false), (false, edge.into()));
+        assert_eq!(say(FloorObject::Edge, false), (false, edge.into()));
         let over = "Robot 7 went over the floor's edge by more than 10 mm at (0.500, -0.250) m, 3.20 s into the show, about frame 2.";
-        assert_eq!(say(Thing::Edge, true), (true, over.into()));
+        assert_eq!(say(FloorObject::Edge, true), (true, over.into()));
     }
 }

@@ -4,23 +4,16 @@ use crate::house::names::doubled;
 use crate::house::tree::Source;
 
 /// Names that may stand in more than one place, and in how many at most.
-const EXCEPTIONS: [(&str, usize); 17] = [
+const EXCEPTIONS: [(&str, usize); 10] = [
     ("Abilities", 2),
-    ("Broker", 2),
     ("Choice", 2),
     ("Command", 2),
     ("Config", 2),
-    ("Connections", 2),
     ("Fleet", 2),
     ("Issue", 2),
-    ("Log", 2),
-    ("Message", 2),
     ("Operation", 2),
-    ("Order", 2),
     ("Path", 2),
-    ("Row", 2),
     ("Severity", 2),
-    ("Thing", 2),
     ("Transition", 2),
 ];
 

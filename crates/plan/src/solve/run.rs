@@ -10,7 +10,7 @@ use super::guess::Guess;
 use super::guesses::{Guesses, named};
 use super::path_set::PathSet;
 use super::schedule::{
-    Budget, Group, MOST_STRETCH, MOST_TRIES, MOST_WORK, PITCH_M, Row, SCHEDULE, Solver, WIDE,
+    Budget, Group, MOST_STRETCH, MOST_TRIES, MOST_WORK, PITCH_M, SCHEDULE, Solver, SolverRow, WIDE,
 };
 use super::stop_and_go::{MOST_LOOKS, stop_and_go};
 use super::verify::{Rejected, least_span, span_of, verified};
@@ -186,9 +186,9 @@ impl Run<'_> {
     }
 
     /// Runs a row; whether it counts as a try.
-    fn row(&mut self, row: &Row, tries: usize) -> bool {
+    fn row(&mut self, row: &SolverRow, tries: usize) -> bool {
         let (wide, is_large) = (WIDE.robots_m, self.is_large());
-        let Row { solver, clearances, stretch, sweeps } = *row;
+        let SolverRow { solver, clearances, stretch, sweeps } = *row;
         let effort = |stretch: f64, hurry: bool| Effort { sweeps, stretch, hurry, clearances };
         match (solver, self.guesses) {
             (Solver::StopAndGo { pitch_m, off_edge_m }, _) => self.stop_and_go(pitch_m, off_edge_m),
@@ -231,7 +231,7 @@ impl Run<'_> {
     }
 
     /// A few sweeps for some guesses; the one with the fewest contacts goes on first, then the others.
-    fn successive_halving(&mut self, guesses: &Guesses<'_>, row: &Row) {
+    fn successive_halving(&mut self, guesses: &Guesses<'_>, row: &SolverRow) {
         let (instance, clearances) = (self.instance, row.clearances);
         let diverse = guesses.diverse();
         // The even and early manner has mostly won.

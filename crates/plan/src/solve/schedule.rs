@@ -41,7 +41,7 @@ pub(super) enum Pick {
 
 /// One row: one first guess and how it is deformed.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Row {
+pub(super) struct SolverRow {
     pub solver: Solver,
     /// Distances that the deformation aims at.
     pub clearances: Clearances,
@@ -57,7 +57,7 @@ pub(super) struct Group {
     pub when: When,
     pub budget: Budget,
     pub until: Until,
-    pub rows: &'static [Row],
+    pub rows: &'static [SolverRow],
 }
 
 /// How much work a group may do. Unit: robots × spans × sweeps, and one for each contact that is resolved.
@@ -206,28 +206,33 @@ const STAGED: Manner = Manner { staged: true, ..LOOSE };
 /// Largest time scale of a solution in minimum time, over the least.
 pub(super) const MOST_STRETCH: f64 = 2.4;
 
-const fn minimum_time(pick: Pick, clearances: Clearances) -> Row {
-    Row { solver: Solver::MinimumTime(pick), clearances, stretch: MOST_STRETCH, sweeps: 300 }
+const fn minimum_time(pick: Pick, clearances: Clearances) -> SolverRow {
+    SolverRow { solver: Solver::MinimumTime(pick), clearances, stretch: MOST_STRETCH, sweeps: 300 }
 }
 
-const fn with_slack(manner: Manner, times: f64, least_s: f64, clearances: Clearances) -> Row {
-    Row { solver: Solver::WithSlack { manner, times, least_s }, clearances, stretch: 1.8, sweeps: 300 }
+const fn with_slack(manner: Manner, times: f64, least_s: f64, clearances: Clearances) -> SolverRow {
+    SolverRow { solver: Solver::WithSlack { manner, times, least_s }, clearances, stretch: 1.8, sweeps: 300 }
 }
 
-const fn from_lattice(pitch_m: f64) -> Row {
-    Row { solver: Solver::FromLattice { pitch_m }, clearances: NARROW, stretch: 2.5, sweeps: 300 }
+const fn from_lattice(pitch_m: f64) -> SolverRow {
+    SolverRow { solver: Solver::FromLattice { pitch_m }, clearances: NARROW, stretch: 2.5, sweeps: 300 }
 }
 
-const fn through_gaps(pitch_m: f64, clearances: Clearances) -> Row {
-    Row { solver: Solver::ThroughGaps { pitch_m }, clearances, stretch: 4.0, sweeps: 600 }
+const fn through_gaps(pitch_m: f64, clearances: Clearances) -> SolverRow {
+    SolverRow { solver: Solver::ThroughGaps { pitch_m }, clearances, stretch: 4.0, sweeps: 600 }
 }
 
-const fn stop_and_go(pitch_m: f64, off_edge_m: f64) -> Row {
-    Row { solver: Solver::StopAndGo { pitch_m, off_edge_m }, clearances: TIGHT, stretch: 1.0, sweeps: 0 }
+const fn stop_and_go(pitch_m: f64, off_edge_m: f64) -> SolverRow {
+    SolverRow {
+        solver: Solver::StopAndGo { pitch_m, off_edge_m },
+        clearances: TIGHT,
+        stretch: 1.0,
+        sweeps: 0,
+    }
 }
 
 /// Rows of both groups from a lattice.
-const LATTICES: &[Row] = &[from_lattice(PITCH_M), from_lattice(LOOSE_PITCH_M)];
+const LATTICES: &[SolverRow] = &[from_lattice(PITCH_M), from_lattice(LOOSE_PITCH_M)];
 
 /// All groups, in the order in which they run.
 pub(super) const SCHEDULE: [Group; 8] = [
@@ -236,7 +241,7 @@ pub(super) const SCHEDULE: [Group; 8] = [
         when: When::Large,
         budget: Budget::Left,
         until: Until::Acceptable,
-        rows: &[Row {
+        rows: &[SolverRow {
             solver: Solver::SuccessiveHalving,
             clearances: WIDE,
             stretch: MOST_STRETCH,
@@ -329,7 +334,7 @@ mod tests {
 
     #[test]
     fn only_the_last_group_works_without_splines() {
-        let is_stop_and_go = |row: &Row| matches!(row.solver, Solver::StopAndGo { .. });
+        let is_stop_and_go = |row: &SolverRow| matches!(row.solver, Solver::StopAndGo { .. });
         let (last, groups) = SCHEDULE.split_last().unwrap();
         assert!(last.rows.iter().all(is_stop_and_go));
         assert!(!groups.iter().flat_map(|group| group.rows).any(is_stop_and_go));

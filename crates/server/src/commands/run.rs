@@ -16,11 +16,11 @@ use crate::broker_settings::{Settings, other_broker};
 use crate::cli::RunArguments;
 use crate::failure::{Failure, Outcome};
 use crate::library::{Library, name_of_file};
-use crate::live::broker::Broker;
+use crate::live::broker::EmbeddedBroker;
 use crate::live::cast::Cast;
 use crate::live::conductor::Handle;
 use crate::stop::Stop;
-use crate::web::{self, BrokerDesk, Exposure, Log, Planner, Shared};
+use crate::web::{self, BrokerDesk, Exposure, Planner, ScreenLog, Shared};
 use crate::{open_files, say, show_file};
 
 /// The example that is opened if no show is given.
@@ -36,7 +36,7 @@ const GOODBYE: Duration = Duration::from_secs(2);
 #[derive(Default)]
 struct Started {
     tasks: Vec<JoinHandle<()>>,
-    broker: Option<Broker>,
+    broker: Option<EmbeddedBroker>,
 }
 
 pub async fn run(arguments: RunArguments, stop: Stop) -> Outcome {
@@ -78,7 +78,7 @@ async fn serve(arguments: &RunArguments, stop: &Stop, started: &mut Started) -> 
     let robots = Cast::robots(count, &show);
     let embedded = if other.is_none() {
         options.robots = robots;
-        let broker = Broker::start(options).await?;
+        let broker = EmbeddedBroker::start(options).await?;
         Some(started.broker.insert(broker).url())
     } else {
         None
@@ -101,10 +101,10 @@ async fn serve(arguments: &RunArguments, stop: &Stop, started: &mut Started) -> 
         simulated: shared.simulated.clone(),
     };
     started.tasks.push(tokio::spawn(cast.run(handle, shared.desk.watch(), stop.clone())));
-    if let Some(lines) = started.broker.as_mut().and_then(Broker::notices) {
+    if let Some(lines) = started.broker.as_mut().and_then(EmbeddedBroker::notices) {
         started.tasks.push(tokio::spawn(relay(lines, shared.log.clone(), stop.clone())));
     }
-    greet(address, &broker, robots, started.broker.as_ref().and_then(Broker::tls_address));
+    greet(address, &broker, robots, started.broker.as_ref().and_then(EmbeddedBroker::tls_address));
     if shared.names.is_open() {
         say::line("Open to the network: anyone who can reach this address can drive the robots");
     }
@@ -123,7 +123,7 @@ fn exposure(arguments: &RunArguments) -> Result<Exposure, Failure> {
 }
 
 /// Puts the warnings of the embedded broker on the screens.
-async fn relay(mut lines: mpsc::Receiver<String>, log: Log, stop: Stop) {
+async fn relay(mut lines: mpsc::Receiver<String>, log: ScreenLog, stop: Stop) {
     loop {
         let line = tokio::select! {
             () = stop.wait() => return,

@@ -77,8 +77,8 @@ impl Crowd {
     }
 
     /// Its connections.
-    pub fn connections(&self) -> Connections {
-        Connections(self.senders.clone())
+    pub fn connections(&self) -> FleetConnections {
+        FleetConnections(self.senders.clone())
     }
 
     /// Drives the robots until `stop` is wanted; then they leave the broker. What went missing meanwhile.
@@ -250,9 +250,9 @@ impl LeftOut {
 }
 
 /// The connections of a crowd.
-pub struct Connections(Vec<Sender>);
+pub struct FleetConnections(Vec<Sender>);
 
-impl Connections {
+impl FleetConnections {
     /// Whether all of them stand.
     pub fn all(&self) -> bool {
         self.0.iter().all(Sender::is_connected)

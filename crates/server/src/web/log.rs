@@ -21,7 +21,7 @@ const GROWS: Duration = Duration::from_millis(200);
 
 /// The last lines, and a channel for later ones. Clones share the log.
 #[derive(Clone, Debug)]
-pub struct Log {
+pub struct ScreenLog {
     kept: Arc<Mutex<Kept>>,
     lines: broadcast::Sender<LogLine>,
 }
@@ -32,7 +32,7 @@ struct Kept {
     last_id: u32,
 }
 
-impl Log {
+impl ScreenLog {
     /// An empty log.
     pub fn new() -> Self {
         Self { kept: Arc::default(), lines: broadcast::channel(1024).0 }
@@ -174,7 +174,7 @@ mod tests {
             teller.send(news).unwrap();
         }
         drop(teller);
-        let log = Log::new();
+        let log = ScreenLog::new();
         log.clone().follow(told).await;
         log.read().0
     }

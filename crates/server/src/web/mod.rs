@@ -24,7 +24,7 @@ use tokio::net::TcpListener;
 
 pub use broker::BrokerDesk;
 pub use desk::{Desk, Shown};
-pub use log::Log;
+pub use log::ScreenLog;
 pub use names::{Exposure, Names};
 pub use planner::Planner;
 
@@ -40,7 +40,7 @@ pub struct Shared {
     pub handle: Handle,
     pub library: Library,
     pub desk: Desk,
-    pub log: Log,
+    pub log: ScreenLog,
     pub pictures: Pictures,
     pub broker: BrokerDesk,
     /// The planner for requests of clients.
@@ -61,7 +61,7 @@ impl Shared {
         names: Names,
         planner: Planner,
     ) -> Arc<Self> {
-        let log = Log::new();
+        let log = ScreenLog::new();
         tokio::spawn(log.clone().follow(handle.news()));
         let desk = Desk::new(handle.clone());
         tokio::spawn(desk.clone().follow(handle.news()));

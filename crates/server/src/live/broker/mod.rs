@@ -24,7 +24,7 @@ use serde::{Deserialize, Serialize};
 pub use engine::Engine;
 pub use gate::TlsOptions;
 pub use limits::PROCESS_BYTES;
-pub use process::{Broker, child};
+pub use process::{EmbeddedBroker, child};
 pub use users::Users;
 
 use crate::failure::Failure;

@@ -1,8 +1,8 @@
 //! The embedded broker as a child process: started, watched, and started again when it dies.
 //!
-//! The parent writes one line of JSON, an [`Order`], to the child's stdin and keeps that open: when the parent ends, however
-//! it ends, the child's stdin ends, and so does the child. The child writes a [`Word`] per line to stdout. Passwords
-//! never stand on a command line, where every user of the machine could read them.
+//! The parent writes one line of JSON, [`ChildSettings`], to the child's stdin and keeps that open: when the parent ends,
+//! however it ends, the child's stdin ends, and so does the child. The child writes a [`ChildMessage`] per line to stdout.
+//! Passwords never stand on a command line, where every user of the machine could read them.
 
 use std::net::{IpAddr, SocketAddr};
 use std::path::PathBuf;
@@ -34,11 +34,11 @@ const COMMAND: [&str; 2] = ["broker", "--child"];
 
 /// What the parent tells the child.
 #[derive(Debug, Serialize, Deserialize)]
-pub struct Order(pub BrokerOptions);
+pub struct ChildSettings(pub BrokerOptions);
 
 /// What the child tells the parent.
 #[derive(Debug, Serialize, Deserialize)]
-pub enum Word {
+pub enum ChildMessage {
     /// It takes connections.
     Listening { plain: SocketAddr, tls: Option<SocketAddr> },
     /// It cannot start.
@@ -49,7 +49,7 @@ pub enum Word {
 
 /// A broker in a child process, for as long as the value lives.
 #[derive(Debug)]
-pub struct Broker {
+pub struct EmbeddedBroker {
     address: SocketAddr,
     tls_address: Option<SocketAddr>,
     /// How this program itself logs in; `None`: it need not.
@@ -58,7 +58,7 @@ pub struct Broker {
     watch: tokio::task::JoinHandle<()>,
 }
 
-impl Broker {
+impl EmbeddedBroker {
     /// Starts the child and waits until it listens.
     pub async fn start(options: BrokerOptions) -> Result<Self, Failure> {
         let (users, login) = with_this_program(options.users);
@@ -96,7 +96,7 @@ impl Broker {
     }
 }
 
-impl Drop for Broker {
+impl Drop for EmbeddedBroker {
     fn drop(&mut self) {
         // The task holds the child, which is killed with it.
         self.watch.abort();
@@ -161,14 +161,14 @@ impl Running {
             return Err(failed("it has no pipes".into()));
         };
         let mut line =
-            serde_json::to_vec(&Order(options.clone())).map_err(|error| failed(error.to_string()))?;
+            serde_json::to_vec(&ChildSettings(options.clone())).map_err(|error| failed(error.to_string()))?;
         line.push(b'\n');
         order.write_all(&line).await.map_err(|error| failed(error.to_string()))?;
         let mut running = Self { child, words: BufReader::new(out).lines(), _order: order };
         match tokio::time::timeout(START_WITHIN, running.word()).await {
-            Ok(Some(Word::Listening { plain, tls })) => Ok((running, plain, tls)),
-            Ok(Some(Word::Failed { line, code })) => Err(Failure { line, code }),
-            Ok(Some(Word::Notice(line))) => Err(failed(line)),
+            Ok(Some(ChildMessage::Listening { plain, tls })) => Ok((running, plain, tls)),
+            Ok(Some(ChildMessage::Failed { line, code })) => Err(Failure { line, code }),
+            Ok(Some(ChildMessage::Notice(line))) => Err(failed(line)),
             Ok(None) => Err(failed(running.end().await)),
             Err(_) => Err(failed(format!("it says nothing for {} s", START_WITHIN.as_secs()))),
         }
@@ -177,7 +177,7 @@ impl Running {
     /// Passes on notices until the child dies; how it did.
     async fn relay(&mut self, notices: &mpsc::Sender<String>) -> String {
         while let Some(word) = self.word().await {
-            if let Word::Notice(line) = word {
+            if let ChildMessage::Notice(line) = word {
                 // Without a reader the line is dropped.
                 let _ = notices.try_send(line);
             }
@@ -185,7 +185,7 @@ impl Running {
         self.end().await
     }
 
-    async fn word(&mut self) -> Option<Word> {
+    async fn word(&mut self) -> Option<ChildMessage> {
         loop {
             let line = self.words.next_line().await.ok()??;
             match serde_json::from_str(&line) {
@@ -223,22 +223,22 @@ fn program() -> PathBuf {
 pub async fn child() -> Outcome {
     let mut orders = BufReader::new(tokio::io::stdin()).lines();
     let order = orders.next_line().await.ok().flatten().unwrap_or_default();
-    let Order(options) = serde_json::from_str(&order).map_err(|error| {
+    let ChildSettings(options) = serde_json::from_str(&order).map_err(|error| {
         Failure::input(format!("--child takes its order from a running lightbots: {error}"))
     })?;
     let mut engine = match Engine::start(options) {
         Ok(engine) => engine,
         Err(Failure { line, code }) => {
-            tell(&Word::Failed { line, code });
+            tell(&ChildMessage::Failed { line, code });
             return Ok(false);
         }
     };
-    tell(&Word::Listening { plain: engine.address(), tls: engine.tls_address() });
+    tell(&ChildMessage::Listening { plain: engine.address(), tls: engine.tls_address() });
     let notices = engine.notices();
     let relay = async {
         if let Some(mut notices) = notices {
             while let Some(line) = notices.recv().await {
-                tell(&Word::Notice(line));
+                tell(&ChildMessage::Notice(line));
             }
         }
         std::future::pending::<()>().await;
@@ -250,7 +250,7 @@ pub async fn child() -> Outcome {
     Ok(true)
 }
 
-fn tell(word: &Word) {
+fn tell(word: &ChildMessage) {
     if let Ok(line) = serde_json::to_string(word) {
         crate::say::line(&line);
     }
