@@ -41,6 +41,7 @@ mod solve;
 mod spline;
 mod transition;
 pub mod unsynchronised;
+mod workers;
 
 pub use bindings::{BindingIssue, Bindings, BoundFrame, Claims};
 pub use cancel::Cancelled;
@@ -48,6 +49,7 @@ pub use explain::{ExplainedRow, Explanation, RowOutcome};
 pub use motion::turn_time;
 pub use problem::{Closest, Infeasible, Meeting, Path, Repaired, Transition, TransitionProblem};
 pub use raise::{planned_unless, raise, raise_unless};
-pub use show::{ShowClosest, ShowOptions, ShowPlan, show, show_unless};
+pub use show::{ShowClosest, ShowOptions, ShowPlan, show, show_unless, show_with};
 pub use solve::repair;
 pub use transition::{transition, transition_unless};
+pub use workers::{OneThread, Task, Workers};

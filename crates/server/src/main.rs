@@ -20,6 +20,7 @@ mod run_report;
 mod say;
 mod show_file;
 mod stop;
+mod threads;
 mod web;
 
 use clap::Parser;

@@ -8,6 +8,7 @@ use lightbots_plan::{Cancelled, ShowOptions, ShowPlan, Transition};
 use lightbots_show::{Issue, Issues, Severity, Show, front_rows, robots_needed};
 
 use crate::numbers::rounded;
+use crate::threads::Threads;
 
 /// Plans a show from its starting places. `found` is what reading and validating it showed.
 pub fn plan(show: &Show, found: &Issues) -> (ShowPlan, api::Plan) {
@@ -23,7 +24,7 @@ pub fn plan_unless(
 ) -> Result<(ShowPlan, api::Plan), Cancelled> {
     let began = Instant::now();
     let starts = starts(show);
-    let plan = lightbots_plan::show_unless(show, &starts, &ShowOptions::default(), is_wanted)?;
+    let plan = lightbots_plan::show_with(&Threads, show, &starts, &ShowOptions::default(), is_wanted)?;
     let plan_ms = began.elapsed().as_secs_f64() * 1e3;
     let document = document(&plan, merge(found, &plan.issues), plan_ms);
     Ok((plan, document))

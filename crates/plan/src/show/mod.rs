@@ -8,10 +8,12 @@ use crate::cancel::{Cancel, Cancelled, unless};
 use crate::proof::stop_safe::{StopSafety, UnsafeMoment};
 use crate::raise::raised;
 use crate::transition::attempt;
+use crate::workers::{OneThread, Workers};
 use crate::{Bindings, Closest, Explanation, Transition, TransitionProblem};
 use lightbots_base::Vec2;
 use lightbots_show::{Frame, Identity, Issue, Issues, Show, validate};
 use std::collections::BTreeMap;
+use std::sync::{Mutex, PoisonError};
 
 /// Options of a plan beside the show.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -79,7 +81,7 @@ impl ShowPlan {
 /// Plans a show for robots at `starts` (stage metres). It never fails: an impossible frame is an issue. A show in
 /// which [`validate`] finds errors is not planned; its errors are the issues.
 pub fn show(show: &Show, starts: &[Vec2], options: &ShowOptions) -> ShowPlan {
-    planned(show, starts, options, Cancel::NEVER)
+    planned(show, starts, options, &OneThread, Cancel::NEVER)
 }
 
 /// [`show`], cancelled as soon as `is_wanted` says so. It is asked about every tenth of a second from this thread, and
@@ -90,20 +92,89 @@ pub fn show_unless(
     options: &ShowOptions,
     is_wanted: &dyn Fn() -> bool,
 ) -> Result<ShowPlan, Cancelled> {
-    unless(is_wanted, |cancel| planned(show, starts, options, cancel))
+    show_with(&OneThread, show, starts, options, is_wanted)
 }
 
-fn planned(show: &Show, starts: &[Vec2], options: &ShowOptions, cancel: Cancel<'_>) -> ShowPlan {
+/// [`show_unless`] with several threads. The plan is the same, bit for bit, with any number of them.
+pub fn show_with(
+    workers: &dyn Workers,
+    show: &Show,
+    starts: &[Vec2],
+    options: &ShowOptions,
+    is_wanted: &dyn Fn() -> bool,
+) -> Result<ShowPlan, Cancelled> {
+    unless(is_wanted, |cancel| planned(show, starts, options, workers, cancel))
+}
+
+fn planned(
+    show: &Show,
+    starts: &[Vec2],
+    options: &ShowOptions,
+    workers: &dyn Workers,
+    cancel: Cancel<'_>,
+) -> ShowPlan {
     let issues: Issues = validate(show).into_iter().filter(Issue::is_error).collect();
     if !issues.is_empty() {
         return ShowPlan { issues, ..ShowPlan::default() };
     }
-    chained(show, starts, options, cancel)
+    whole(show, starts, options, workers, cancel)
 }
 
 /// The plan of a show without errors.
-fn chained(show: &Show, starts: &[Vec2], options: &ShowOptions, cancel: Cancel<'_>) -> ShowPlan {
+fn whole(
+    show: &Show,
+    starts: &[Vec2],
+    options: &ShowOptions,
+    workers: &dyn Workers,
+    cancel: Cancel<'_>,
+) -> ShowPlan {
+    let (mut plan, drives) = chained(show, starts, options, cancel);
+    let raised = all_raised(drives, workers, cancel);
+    for (frame, (shown, transition, safety)) in show.frames.iter().zip(raised) {
+        plan.take(transition, shown, frame);
+        plan.stop_safety.push(safety);
+    }
+    plan
+}
+
+/// A drive before its stop-safety is raised.
+struct Drive {
+    problem: TransitionProblem,
+    transition: Transition,
+    is_infeasible: bool,
+    /// `[robot]`: id of the pixel that it shows.
+    shown: Vec<Option<u32>>,
+}
+
+/// Raises the stop-safety of all drives. That moves no end of a path, so each drive is a task of its own.
+fn all_raised(
+    drives: Vec<Drive>,
+    workers: &dyn Workers,
+    cancel: Cancel<'_>,
+) -> Vec<(Vec<Option<u32>>, Transition, StopSafety)> {
+    let slots: Vec<Mutex<(Drive, StopSafety)>> =
+        drives.into_iter().map(|drive| Mutex::new((drive, StopSafety::default()))).collect();
+    workers.each(slots.len(), &|| cancel.is_wanted(), &|index, is_wanted| {
+        // Each slot belongs to one task, so a lock is never poisoned by another.
+        let mut slot = slots[index].lock().unwrap_or_else(PoisonError::into_inner);
+        let (drive, safety) = &mut *slot;
+        if !drive.is_infeasible {
+            *safety = raised(&drive.problem, &mut drive.transition, Cancel::when(is_wanted));
+        }
+    });
+    let done = slots.into_iter().map(|slot| slot.into_inner().unwrap_or_else(PoisonError::into_inner));
+    done.map(|(drive, safety)| (drive.shown, drive.transition, safety)).collect()
+}
+
+/// The plan of a show without errors but for its drives, whose stop-safety is not raised yet.
+fn chained(
+    show: &Show,
+    starts: &[Vec2],
+    options: &ShowOptions,
+    cancel: Cancel<'_>,
+) -> (ShowPlan, Vec<Drive>) {
     let mut plan = ShowPlan::default();
+    let mut drives = Vec::with_capacity(show.frames.len());
     let mut places = starts.to_vec();
     let mut bindings = bindings(starts.len(), options);
     issues::of_names(show, starts.len(), &bindings, &mut plan.issues);
@@ -117,12 +188,8 @@ fn chained(show: &Show, starts: &[Vec2], options: &ShowOptions, cancel: Cancel<'
         issues::of_frame(show, index, starts.len(), &bound.dark, &mut plan.issues);
         issues::of_bound_frame(show, index, &bound, &mut plan.issues);
         let problem = TransitionProblem::of_frame(&show.stage, frame, places, &bound);
-        let mut attempt = attempt(&problem, cancel);
-        let safety = match attempt.infeasible {
-            None => raised(&problem, &mut attempt.transition, cancel),
-            Some(_) => StopSafety::default(),
-        };
-        plan.stop_safety.push(safety);
+        let attempt = attempt(&problem, cancel);
+        let is_infeasible = attempt.infeasible.is_some();
         plan.explanations.push(attempt.explanation);
         if let Some(infeasible) = attempt.infeasible
             && !plan.issues[found_before..].iter().any(Issue::is_error)
@@ -140,10 +207,10 @@ fn chained(show: &Show, starts: &[Vec2], options: &ShowOptions, cancel: Cancel<'
             transition.goal_of.iter().map(|goal| goal.map(|goal| bound.pixels[goal].id)).collect();
         bindings.remember(&bound, &transition.goal_of);
         places = transition.paths.iter().map(|path| path.as_ref().end()).collect();
-        plan.take(transition, shown, frame);
+        drives.push(Drive { problem, transition, is_infeasible, shown });
     }
     plan.names = bindings.by_name;
-    plan
+    (plan, drives)
 }
 
 fn bindings(robots: usize, options: &ShowOptions) -> Bindings {

@@ -30,7 +30,7 @@ fn of(frames: Vec<Frame>) -> Show {
 
 /// The plan of a show whatever validation says of it.
 fn show(show: &Show, starts: &[Vec2], options: &ShowOptions) -> ShowPlan {
-    chained(show, starts, options, Cancel::NEVER)
+    whole(show, starts, options, &OneThread, Cancel::NEVER)
 }
 
 const STARTS: [Vec2; 3] = [Vec2::new(-0.5, 1.3), Vec2::new(0.0, 1.3), Vec2::new(0.5, 1.3)];
