@@ -97,13 +97,11 @@ impl Candidate {
         self.wrong == 0
     }
 
-    /// Pairs to displace; none where there are too many. In a drive from rows into a hall, no deformation resolves more than
-    /// one wrong pair in forty robots.
+    /// Pairs to displace; none where there are too many.
     pub fn worth_deforming(&self, aim: Aim) -> Vec<Closest> {
         let is_asked = |found: &&Closest| aim == Aim::Room || found.distance_m < self.comfort_m;
         let robots = self.transition.paths.len();
         let most = match aim {
-            Aim::Comfort if self.wrong > robots / 40 + 8 => 0,
             Aim::Comfort => robots / 8 + 4,
             // Rows that turn have as many pairs in line as robots.
             Aim::Room => robots,

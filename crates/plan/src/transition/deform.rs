@@ -13,8 +13,6 @@ use std::collections::BTreeMap;
 const POLLED: usize = 1024;
 /// Most rounds of deformation and proof.
 const ROUNDS: usize = 6;
-/// Most rounds in a row without an improvement. With all six, a drive from rows into a hall takes three times as long.
-const IDLE: usize = 2;
 /// Most robots × rounds for the following distance.
 const ROOM_WORK: usize = 2_000;
 /// Largest time scale that a deformation may need.
@@ -70,14 +68,10 @@ fn deformed(
     let least = straight.transition.least;
     let mut best = straight;
     for aim in [Aim::Comfort, Aim::Room] {
-        if aim == Aim::Room && !best.holds() {
-            break;
-        }
         let mut conflicts = best.worth_deforming(aim);
         let most = if aim == Aim::Room { ROOM_WORK / lines.len().max(1) } else { ROUNDS };
-        let mut idle = 0;
         for _ in 0..rounds.min(ROUNDS).min(most) {
-            if conflicts.is_empty() || idle == IDLE || cancel.is_wanted() {
+            if conflicts.is_empty() || cancel.is_wanted() {
                 break;
             }
             let mut paths = lines.clone();
@@ -97,9 +91,8 @@ fn deformed(
             if !deformed.proof.faults.is_empty() && deformed.is_roomier_than(&best) {
                 deformed = time_scaled(problem, deformed, aim, cancel);
             }
-            idle += 1;
             if deformed.improves_on(&best) {
-                (best, idle) = (deformed, 0);
+                best = deformed;
             }
         }
     }
