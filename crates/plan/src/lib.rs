@@ -52,4 +52,4 @@ pub use raise::{planned_unless, raise, raise_unless};
 pub use show::{ShowClosest, ShowOptions, ShowPlan, show, show_unless, show_with};
 pub use solve::repair;
 pub use transition::{transition, transition_unless};
-pub use workers::{OneThread, Task, Workers};
+pub use workers::{OneThread, WorkerTask, Workers};

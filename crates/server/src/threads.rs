@@ -3,7 +3,7 @@
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::time::Duration;
 
-use lightbots_plan::{Task, Workers};
+use lightbots_plan::{WorkerTask, Workers};
 
 /// How often the calling thread asks for a cancellation while it waits for the others. A cancelled plan thus ends as soon
 /// as one of the planner's own loops would end it.
@@ -16,13 +16,13 @@ const MOST: usize = 16;
 pub struct Threads;
 
 impl Workers for Threads {
-    fn each(&self, count: usize, is_cancelled: &dyn Fn() -> bool, task: Task<'_>) {
+    fn each(&self, count: usize, is_cancelled: &dyn Fn() -> bool, task: WorkerTask<'_>) {
         let cores = std::thread::available_parallelism().map_or(1, usize::from);
         on_threads(cores.min(MOST).min(count), count, is_cancelled, task);
     }
 }
 
-fn on_threads(threads: usize, count: usize, is_cancelled: &dyn Fn() -> bool, task: Task<'_>) {
+fn on_threads(threads: usize, count: usize, is_cancelled: &dyn Fn() -> bool, task: WorkerTask<'_>) {
     let (next, cancelled) = (AtomicUsize::new(0), AtomicBool::new(false));
     let work = |is_wanted: &dyn Fn() -> bool| {
         while let Some(index) = Some(next.fetch_add(1, Ordering::Relaxed)).filter(|&index| index < count) {
@@ -78,7 +78,7 @@ mod tests {
     struct Many(usize);
 
     impl Workers for Many {
-        fn each(&self, count: usize, is_cancelled: &dyn Fn() -> bool, task: Task<'_>) {
+        fn each(&self, count: usize, is_cancelled: &dyn Fn() -> bool, task: WorkerTask<'_>) {
             on_threads(self.0, count, is_cancelled, task);
         }
     }
