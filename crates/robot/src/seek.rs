@@ -6,9 +6,11 @@ use crate::drive::{BodyPose, Setpoint};
 
 /// Arrival test of the original robots: both coordinates within this, metres.
 const ARRIVED_M: f64 = 0.02;
-/// Distance to the target at which the robot stops, metres. Below, it turns on the spot for the noise of its place.
+/// Distance to the target at which the robot stops, metres. If it were
+/// smaller, noise of the place would make the robot turn on the spot.
 const STOP_M: f64 = 0.003;
-/// Distance at which it stops where the target lies to its side, metres. Below, it turns back and forth at the target.
+/// Distance at which it stops where the target lies to its side, metres. If
+/// it were smaller, the robot would turn back and forth at the target.
 const ABEAM_M: f64 = 0.012;
 /// Braking with which it approaches, m/s². It is less than the ramps of the drive base allow, so that it does not
 /// overshoot.

@@ -295,7 +295,7 @@ pub struct RobotCheckArguments {
     /// Which robot, by its name; needed where several are on the broker
     #[arg(long, value_name = "ID", value_parser = robot)]
     pub robot: Option<RobotId>,
-    /// Floor in metres: the robot is not sent off it, and places off it are wrong
+    /// Floor in metres: the robot is not sent off it, and a reported place off it breaks the rule
     #[arg(long, value_name = "WxH", allow_hyphen_values = true, value_parser = floor, default_value = "3x3")]
     pub floor: (f64, f64),
     /// Drive without asking first

@@ -13,7 +13,7 @@ const SAME_PLACE: f64 = 0.9;
 struct Displacement {
     /// Farthest that a disc is moved, metres: inferred places are off by 20 mm.
     most_m: f64,
-    /// Clearance that it is then given, metres: less than the planner can start with.
+    /// Clearance that it has after the move, metres. The planner can start with it.
     clearance_m: f64,
     /// Sweeps over the robots around it: it lies between three at most.
     sweeps: usize,

@@ -3,10 +3,10 @@
 use lightbots_base::{Instant, Span};
 use lightbots_wire::Route;
 
-/// RobotProgress along the paths is held.
+/// Progress along the paths is held.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Hold {
-    /// RobotProgress begins to fall to zero at this moment.
+    /// Progress begins to fall to zero at this moment.
     pub at: Instant,
     /// The operator wants it.
     pub by_operator: bool,
@@ -57,7 +57,7 @@ impl PathClock {
         }
     }
 
-    /// How far along their paths robots are by plan. RobotProgress falls and rises linearly over [`Route::EASE`].
+    /// How far along their paths robots are by plan. Progress falls and rises linearly over [`Route::EASE`].
     pub fn path_time(&self, now: Instant) -> Span {
         let free = now - self.began - self.lost;
         let Some(hold) = self.hold.filter(|hold| now > hold.at) else { return free };

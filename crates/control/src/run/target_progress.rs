@@ -66,7 +66,7 @@ impl TargetProgress {
         (state.granted > 0.0 && !state.done).then_some(place)
     }
 
-    /// Whether other robots wait for a straight drive to make progress.
+    /// Whether a robot that yields to this straight drive may not drive to its end yet.
     pub fn is_awaited(&self, place: usize) -> bool {
         self.followers[place].iter().any(|&follower| self.states[follower].granted < 1.0)
     }

@@ -43,7 +43,7 @@ struct Discs {
     /// `first[disc]..first[disc + 1]` are a disc's stretches.
     first: Vec<usize>,
     horizon_us: i64,
-    /// The longest control polygon.
+    /// Length of the longest path by its control polygons, metres.
     longest_m: f64,
     /// Distance at the start of the closest pair with a robot, metres. No least distance over all pairs is greater.
     closest_at_start_m: f64,

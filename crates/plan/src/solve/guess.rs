@@ -87,7 +87,8 @@ impl<'a> Guess<'a> {
         guess
     }
 
-    /// Whether all places are the same as in another guess whose manner differs in `early` only.
+    /// Whether another guess has the same paths: its manner differs at most in `early`, and its badness without penalty is
+    /// equal.
     pub fn is_like(&self, other: &Self) -> bool {
         let timed = |guess: &Self| Manner { early: true, ..guess.manner };
         timed(self) == timed(other) && (self.plain_badness - other.plain_badness).abs() < 1e-6

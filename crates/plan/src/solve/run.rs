@@ -43,7 +43,7 @@ const LITTLE_PROMISED: f64 = 1.16;
 const RACERS: usize = 2;
 /// Sweeps of the first round.
 const FIRST_SWEEPS: usize = 7;
-/// Contacts for each robot below which the first round ends early.
+/// A guess with fewer resolved contacts for each robot than this ends the first round: no other guess is tried.
 const PROMISING: usize = 6;
 /// Share of its contacts that counts for the guess that was ranked first.
 const HEAD_START: f64 = 0.9;
