@@ -143,8 +143,7 @@ fn who_dies_while_all_are_stopped_for_another_is_planned_around_too() {
         let mut world = World::ready(12, 0, show(4, 12, 0.3));
         world.play();
         world.run_until(10.0, started);
-        // These robots have no sensors: the first dies where no other passes before its silence is noticed.
-        world.run_for(0.6);
+        world.run_for(1.2);
         world.robots[5].dead = true;
         world.run_until(3.0, |kind| matches!(kind, EventKind::Waiting { why: Trouble::Silent, .. }));
         world.run_for(0.3);

@@ -3,7 +3,6 @@
 mod candidate;
 mod conflict;
 mod deform;
-mod exchange;
 mod feasibility;
 mod following;
 mod reachability;

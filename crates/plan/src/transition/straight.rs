@@ -2,7 +2,6 @@
 
 use super::candidate::Candidate;
 use super::deform::deform;
-use super::exchange::exchanged;
 use crate::TransitionProblem;
 use crate::assignment::Choice;
 use crate::cancel::Cancel;
@@ -33,11 +32,11 @@ pub(super) fn straight_lines(
         if before.as_ref() == Some(&start_of) {
             continue;
         }
-        before = Some(start_of.clone());
-        let (start_of, straight) = kept_apart(problem, choice, (start_of, slack), cancel);
+        let straight = Candidate::straight(problem, &start_of, cancel);
         let rounds = if straight.holds() { COMFORT_WORK / problem.starts.len().max(1) } else { usize::MAX };
         let is_fine = straight.is_comfortable();
         let candidate = if is_fine { straight } else { deform(problem, &start_of, straight, rounds, cancel) };
+        before = Some(start_of);
         explanation.add(format!("straight lines, slack {:.0} %", slack * 1e2), outcome(&candidate));
         if candidate.holds() {
             explanation.choose("straight lines without contacts");
@@ -62,24 +61,4 @@ fn outcome(candidate: &Candidate) -> RowOutcome {
         0 => RowOutcome::Solved { duration: candidate.transition.least, stop_safe_percent: None },
         contacts => RowOutcome::Rejected { contacts },
     }
-}
-
-/// Straight lines for an assignment, and where they conflict, for one in which robots exchanged goals.
-fn kept_apart(
-    problem: &TransitionProblem,
-    choice: &Choice,
-    (start_of, slack): (Vec<usize>, f64),
-    cancel: Cancel<'_>,
-) -> (Vec<usize>, Candidate) {
-    let straight = Candidate::straight(problem, &start_of, cancel);
-    if straight.holds() || choice.is_settled() {
-        return (start_of, straight);
-    }
-    let longest_m = choice.bottleneck_m() * (1.0 + slack);
-    let conflicts = &straight.proof.conflicts;
-    let Some(other) = exchanged(problem, &start_of, conflicts, longest_m, cancel) else {
-        return (start_of, straight);
-    };
-    let apart = Candidate::straight(problem, &other, cancel);
-    if apart.improves_on(&straight) { (other, apart) } else { (start_of, straight) }
 }
