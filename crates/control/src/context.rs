@@ -1,12 +1,12 @@
 //! What every run works with, and what outlives a run.
 
 use crate::config::Config;
-use crate::drafting::PlanRequest;
 use crate::event::EventKind;
 use crate::fleet::KnownRobots;
 use crate::log::EventQueue;
 use crate::mapping::Mapping;
 use crate::outbox::SendQueue;
+use crate::plan_request::PlanRequest;
 use lightbots_base::{Instant, Rgb};
 use lightbots_wire::Report;
 

@@ -3,10 +3,10 @@
 use crate::clock;
 use crate::config::Config;
 use crate::context::Context;
-use crate::drafting::{PlanRequest, PlanResult};
 use crate::event::{Event, EventKind, RunOutcome};
 use crate::operation::ControllerState;
 use crate::outbox::Send;
+use crate::plan_request::{PlanRequest, PlanResult};
 use crate::run::{Run, RunPhase};
 use crate::snapshot::{Age, Counters, RobotView, Snapshot};
 use crate::stopping::Stopping;

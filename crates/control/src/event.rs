@@ -96,7 +96,7 @@ pub enum EventKind {
         why: Trouble,
     },
     /// Robots report, and none acknowledges its route: the link to them is broken.
-    NobodyHears,
+    Undelivered,
     /// The drive goes on after a hold.
     Resumed,
     /// A robot takes no part any more; the rest goes on without it.
@@ -185,7 +185,7 @@ impl EventKind {
             | FleetFull
             | LeftOut { .. }
             | Waiting { .. }
-            | NobodyHears
+            | Undelivered
             | Replanning { .. }
             | Misaligned { .. }
             | UnexpectedArrival(_)
@@ -269,7 +269,7 @@ impl fmt::Display for EventKind {
                 write!(f, "Frame {} stands; arrivals within {:.2} s.", frame + 1, spread.as_secs())
             }
             Waiting { robot, why } => write!(f, "Waiting for robot {robot}: it {why}."),
-            NobodyHears => write!(
+            Undelivered => write!(
                 f,
                 "No robot acknowledges its path, though robots report: the broker does not deliver messages to them."
             ),

@@ -54,8 +54,8 @@ impl Roles {
         Self { names, mapping, bindings }
     }
 
-    /// Casts a frame for robots that stand at `places`, stage metres. Pixels for which `blocked` holds stay dark.
-    pub fn cast<'a>(
+    /// Binds the pixels of a frame to robots that stand at `places`, stage metres. Pixels for which `blocked` holds stay dark.
+    pub fn bind<'a>(
         &self,
         frame: &'a Frame,
         identity: Identity,
@@ -65,11 +65,11 @@ impl Roles {
         self.bindings.bind(&frame.pixels, identity, places, blocked)
     }
 
-    /// Keeps which robot shows which pixel; `goal_of[robot]` is an index into the cast's pixels.
-    pub fn remember(&mut self, cast: &BoundFrame<'_>, identity: Identity, goal_of: &[Option<usize>]) {
-        self.bindings.remember(cast, goal_of);
+    /// Keeps which robot shows which pixel; `goal_of[robot]` is an index into the bound pixels.
+    pub fn remember(&mut self, bound: &BoundFrame<'_>, identity: Identity, goal_of: &[Option<usize>]) {
+        self.bindings.remember(bound, goal_of);
         for (&name, goal) in self.names.iter().zip(goal_of) {
-            let Some(pixel) = goal.and_then(|goal| cast.pixels.get(goal)) else { continue };
+            let Some(pixel) = goal.and_then(|goal| bound.pixels.get(goal)) else { continue };
             self.mapping.shown.show(pixel.id, name);
             if identity == Identity::Fixed {
                 self.mapping.owners.show(pixel.id, name);
@@ -109,36 +109,36 @@ mod tests {
     fn with_fixed_identity_a_pixel_stays_with_who_showed_it_in_later_runs_too() {
         let mut roles = roles(Mapping::default());
         let frame = frame(&[0, 1, 2]);
-        let cast = roles.cast(&frame, Identity::Fixed, &PLACES, |_| false);
-        assert_eq!(cast.pinned, [None; 3], "who is nearest shows it");
-        roles.remember(&cast, Identity::Fixed, &[Some(2), Some(0), Some(1)]);
+        let bound = roles.bind(&frame, Identity::Fixed, &PLACES, |_| false);
+        assert_eq!(bound.pinned, [None; 3], "the nearest robot shows it");
+        roles.remember(&bound, Identity::Fixed, &[Some(2), Some(0), Some(1)]);
         let mut mapping = roles.mapping.clone();
         mapping.shown.clear();
-        let again = self::roles(mapping).cast(&frame, Identity::Fixed, &PLACES, |_| false).pinned;
+        let again = self::roles(mapping).bind(&frame, Identity::Fixed, &PLACES, |_| false).pinned;
         assert_eq!(again, [Some(1), Some(2), Some(0)]);
         roles.mapping.forget(id("c"));
         let without = Roles::new(vec![id("b"), id("a")], roles.mapping);
-        let cast = without.cast(&frame, Identity::Fixed, &PLACES[..2], |_| false);
-        assert_eq!((cast.pinned, cast.dark), (vec![Some(0), Some(1)], vec![1]));
+        let bound = without.bind(&frame, Identity::Fixed, &PLACES[..2], |_| false);
+        assert_eq!((bound.pinned, bound.dark), (vec![Some(0), Some(1)], vec![1]));
     }
 
     #[test]
     fn a_fixed_frame_among_others_keeps_who_showed_its_pixels() {
         let mut roles = roles(Mapping::default());
         let frame = frame(&[0, 1, 2]);
-        let any = roles.cast(&frame, Identity::Any, &PLACES, |_| false);
+        let any = roles.bind(&frame, Identity::Any, &PLACES, |_| false);
         assert_eq!(any.pinned, [None; 3]);
         roles.remember(&any, Identity::Any, &[Some(2), Some(0), Some(1)]);
-        let fixed = roles.cast(&frame, Identity::Fixed, &PLACES, |_| false);
+        let fixed = roles.bind(&frame, Identity::Fixed, &PLACES, |_| false);
         assert_eq!(fixed.pinned, [Some(1), Some(2), Some(0)]);
         roles.remember(&any, Identity::Any, &[Some(0), Some(1), Some(2)]);
-        let again = roles.cast(&frame, Identity::Fixed, &PLACES, |_| false);
+        let again = roles.bind(&frame, Identity::Fixed, &PLACES, |_| false);
         assert_eq!(again.pinned, [Some(0), Some(1), Some(2)]);
         // A pixel that lost its robot gets one that is left.
         let without = Roles::new(vec![id("d"), id("b"), id("c")], roles.mapping);
-        let cast = without.cast(&frame, Identity::Fixed, &PLACES, |_| false);
-        assert_eq!(cast.pinned, [None, Some(1), Some(2)]);
-        assert_eq!(cast.dark, []);
+        let bound = without.bind(&frame, Identity::Fixed, &PLACES, |_| false);
+        assert_eq!(bound.pinned, [None, Some(1), Some(2)]);
+        assert_eq!(bound.dark, []);
     }
 
     #[test]
@@ -148,8 +148,8 @@ mod tests {
         let frame = frame(&[0, 1]);
         for identity in [Identity::Any, Identity::Fixed] {
             let roles = roles(mapping.clone());
-            let cast = roles.cast(&frame, identity, &PLACES, |_| false);
-            assert_eq!((cast.pixels.len(), cast.dark), (1, vec![1]));
+            let bound = roles.bind(&frame, identity, &PLACES, |_| false);
+            assert_eq!((bound.pixels.len(), bound.dark), (1, vec![1]));
         }
     }
 
@@ -160,9 +160,9 @@ mod tests {
         let frame = frame(&[0, 1, 2, 3, 4]);
         for identity in [Identity::Any, Identity::Fixed] {
             let roles = roles(mapping.clone());
-            let cast = roles.cast(&frame, identity, &PLACES, |_| false);
-            assert_eq!(cast.dark, [2, 3]);
-            assert_eq!(cast.pinned, [None, None, Some(1)]);
+            let bound = roles.bind(&frame, identity, &PLACES, |_| false);
+            assert_eq!(bound.dark, [2, 3]);
+            assert_eq!(bound.pinned, [None, None, Some(1)]);
         }
     }
 }

@@ -96,7 +96,7 @@ fn lossy_and_slow_links_lose_no_robot() {
 fn a_broker_that_passes_nothing_on_costs_no_robot() {
     let mut world = a_second_under_way();
     world.mute = true;
-    world.run_until(30.0, |kind| *kind == EventKind::NobodyHears);
+    world.run_until(30.0, |kind| *kind == EventKind::Undelivered);
     world.run_for(20.0);
     world.mute = false;
     let ended = world.run_to_end(60.0);

@@ -47,18 +47,29 @@ impl TransitionProblem {
         }
     }
 
+    /// A problem without robots on a stage, to be filled in.
+    pub fn on_stage(stage: &Stage) -> Self {
+        let half_floor = Vec2::new(stage.width_m, stage.depth_m) / 2.0;
+        Self { obstacles: stage.obstacles.clone(), ..Self::on_floor(half_floor, stage.limits) }
+    }
+
+    /// The same, driven as a frame asks for.
+    pub fn timed_as(stage: &Stage, frame: &Frame) -> Self {
+        Self {
+            duration: frame.transition_s.filter(|seconds| seconds.is_finite()).map(Span::from_secs),
+            easing: frame.easing,
+            ..Self::on_stage(stage)
+        }
+    }
+
     /// The drive to a frame of a show: the one place that reads a stage and a frame for the planner.
     pub fn of_frame(stage: &Stage, frame: &Frame, starts: Vec<Vec2>, bound: &BoundFrame<'_>) -> Self {
         assert_eq!(bound.pixels.len(), bound.pinned.len(), "each pixel of a bound frame has a binding");
-        let half_floor = Vec2::new(stage.width_m, stage.depth_m) / 2.0;
         Self {
             starts,
             goals: bound.pixels.iter().map(|pixel| pixel.at).collect(),
             pinned: bound.pinned.clone(),
-            obstacles: stage.obstacles.clone(),
-            duration: frame.transition_s.filter(|seconds| seconds.is_finite()).map(Span::from_secs),
-            easing: frame.easing,
-            ..Self::on_floor(half_floor, stage.limits)
+            ..Self::timed_as(stage, frame)
         }
     }
 

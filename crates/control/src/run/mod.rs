@@ -34,10 +34,10 @@ pub(crate) use machine::{Run, RunPhase};
 pub(crate) use playback::{FrameCursor, PlayedShow, RunPurpose};
 
 use crate::context::Context;
-use crate::drafting::PlanResult;
 use crate::event::{EventKind, RunOutcome};
 use crate::fleet::FleetUpdate;
 use crate::leg::{Leg, LegKind};
+use crate::plan_request::PlanResult;
 use gathering::Gathering;
 use lightbots_base::Instant;
 use lightbots_wire::{Report, RobotState, Topic};

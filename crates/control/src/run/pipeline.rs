@@ -217,7 +217,7 @@ fn judge(
         return Unacknowledged::Deaf;
     }
     if upload.is_unanswered() && !std::mem::replace(&mut upload.is_announced, true) {
-        context.log.record(now, EventKind::NobodyHears);
+        context.log.record(now, EventKind::Undelivered);
     }
     upload.restart_clock(now, participant);
     if now - upload.began > context.config.offline_bound {

@@ -1,8 +1,8 @@
 //! Plan requests, and what becomes of their results.
 
-use crate::drafting::{PlanProblem, PlanRequest, PlanResult, PlannedRobot};
 use crate::event::EventKind;
 use crate::operation::MissingPolicy;
+use crate::plan_request::{PlanProblem, PlanRequest, PlanResult, PlannedRobot};
 use crate::run::next::Next;
 use crate::run::obstacles;
 use crate::run::playback::FrameCursor;

@@ -74,6 +74,12 @@ impl RunContext<'_> {
         self.pipeline.pump(self.io, self.roster, self.link, self.now)
     }
 
+    /// Sends the route of the next leg again to a participant that lost it.
+    pub fn upload_again(&mut self, participant: usize) -> Next {
+        self.pipeline.upload_again(self.now, participant);
+        self.pump()
+    }
+
     /// Sends changes of light that are due.
     pub fn pump_lights(&mut self) {
         let Pipeline { lights, driven: Some(driven), .. } = &mut *self.pipeline else { return };

@@ -52,8 +52,7 @@ impl Standing {
     ) -> Next {
         let next = drop_if_unfit(participant, details);
         if next.stays() && restarted {
-            cx.pipeline.upload_again(cx.now, participant);
-            return cx.pump();
+            return cx.upload_again(participant);
         }
         next
     }

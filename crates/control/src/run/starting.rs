@@ -92,8 +92,7 @@ impl Starting {
         if next.stays() && self.began_alone(cx, participant, details) {
             next = replan_with(cx, participant);
         } else if next.stays() && restarted {
-            cx.pipeline.upload_again(cx.now, participant);
-            next = cx.pump();
+            next = cx.upload_again(participant);
         }
         if restarted {
             self.confirmed[participant] = None;

@@ -1,0 +1,292 @@
+//! Builds a plan: legs of timed paths, and straight drives of robots that know TARGET only.
+
+use crate::leg::{Leg, LegKind, RobotLeg, Task};
+use crate::mapping::Roles;
+use crate::plan_request::PlanProblem;
+use crate::separation;
+use crate::surroundings::{Surroundings, surroundings};
+use lightbots_base::{Span, Vec2};
+use lightbots_plan::unsynchronised::{self, DriveStage, FreeSpace, StraightDrive, UnsynchronisedProblem};
+use lightbots_plan::{
+    BoundFrame, Cancelled, Path, Transition, TransitionProblem, planned_unless, transition_unless,
+};
+use lightbots_show::{Frame, Pixel};
+use lightbots_wire::MAX_PIECES;
+
+/// A goal closer than this to a disc that does not move cannot be reached, metres more than contact.
+const BLOCKED_MARGIN_M: f64 = 0.001;
+/// The same for discs whose places are inferred, metres: what others see of a dead robot is off by 5 mm.
+const INFERRED_MARGIN_M: f64 = 0.008;
+/// How often conflicting pixels are left out before a frame is given up.
+const LENIENT_TRIES: usize = 8;
+
+/// Builds the legs of a plan, frame after frame.
+pub(crate) struct PlanBuilder<'a> {
+    problem: &'a PlanProblem,
+    is_over: &'a dyn Fn() -> bool,
+    places: Vec<Vec2>,
+    pub roles: Roles,
+    pub legs: Vec<Leg>,
+    pub frames: usize,
+    pub dark: Vec<(usize, Vec<u32>)>,
+}
+
+impl<'a> PlanBuilder<'a> {
+    pub fn new(problem: &'a PlanProblem, is_over: &'a dyn Fn() -> bool) -> Self {
+        let names = problem.robots.iter().map(|robot| robot.id).collect();
+        Self {
+            problem,
+            is_over,
+            places: problem.robots.iter().map(|robot| robot.at).collect(),
+            roles: Roles::new(names, problem.mapping.clone()),
+            legs: Vec::new(),
+            frames: 0,
+            dark: Vec::new(),
+        }
+    }
+
+    /// Adds the legs to one frame.
+    pub fn frame(&mut self, index: usize, round: u32) -> Result<(), String> {
+        let show = &self.problem.show;
+        let frame = show.frames.get(index).ok_or_else(|| "there is no such frame".to_string())?;
+        let identity = frame.identity.unwrap_or(show.identity);
+        let contact_m = show.stage.limits.contact_m();
+        let near = |discs: &[Vec2], pixel: &Pixel, margin_m: f64| {
+            discs.iter().any(|at| at.distance(pixel.at) < contact_m + margin_m)
+        };
+        let PlanProblem { standing, inferred, .. } = self.problem;
+        let blocked = |pixel: &Pixel| {
+            near(standing, pixel, BLOCKED_MARGIN_M) || near(inferred, pixel, INFERRED_MARGIN_M)
+        };
+        let apart = self.separate();
+        let mut bound = self.roles.bind(frame, identity, &self.places, blocked);
+        let plan = self.solve(frame, &mut bound)?;
+        self.roles.remember(&bound, identity, &plan.goal_of);
+        let rests = self.rests(&bound, &plan);
+        let legs = if self.problem.has_originals() {
+            self.staged(frame, &rests)?
+        } else {
+            let last = self.synchronised(plan, &rests)?;
+            let first = apart.map(|apart| self.synchronised(apart, &rests));
+            first.transpose()?.into_iter().chain([last]).collect()
+        };
+        if !bound.dark.is_empty() {
+            self.dark.push((index, bound.dark));
+        }
+        let last = legs.len() - 1;
+        for (number, leg) in legs.into_iter().enumerate() {
+            self.legs.push(Leg { frame: index, round, reaches_frame: number == last, ..leg });
+        }
+        self.places = rests.iter().map(|rest| rest.goal).collect();
+        self.frames += 1;
+        Ok(())
+    }
+
+    /// A drive that moves robots apart that were stopped too close to each other, if there are any. The frame is then
+    /// planned from its end.
+    fn separate(&mut self) -> Option<Transition> {
+        let PlanProblem { standing, stopped, .. } = self.problem;
+        let problem = TransitionProblem::on_stage(&self.problem.show.stage);
+        if !stopped || !self.legs.is_empty() || self.problem.has_originals() {
+            return None;
+        }
+        let place = separation::Place {
+            half_floor: problem.half_floor,
+            obstacles: &problem.obstacles,
+            standing,
+            radius_m: problem.limits.radius_m,
+            contact_m: problem.limits.contact_m(),
+        };
+        let goals = place.separated(&self.places)?;
+        let problem = TransitionProblem {
+            starts: self.places.clone(),
+            goals: goals.clone(),
+            pinned: (0..goals.len()).map(Some).collect(),
+            standing: standing.clone(),
+            ..problem
+        };
+        let apart = transition_unless(&problem, self.is_over).ok()?;
+        let apart = apart.ok()?;
+        self.places = goals;
+        Some(apart)
+    }
+
+    /// The transition, without the pixels that make it impossible where that is allowed.
+    fn solve(&self, frame: &Frame, bound: &mut BoundFrame<'_>) -> Result<Transition, String> {
+        let mut tries = LENIENT_TRIES;
+        loop {
+            let stage = &self.problem.show.stage;
+            let problem = TransitionProblem {
+                standing: self.problem.standing.clone(),
+                ..TransitionProblem::of_frame(stage, frame, self.places.clone(), bound)
+            };
+            let infeasible = match planned_unless(&problem, self.is_over).map_err(given_up)? {
+                Ok(plan) => return Ok(plan),
+                Err(infeasible) => infeasible,
+            };
+            tries -= 1;
+            if !self.problem.lenient || tries == 0 || infeasible.goals.is_empty() {
+                return Err(infeasible.message);
+            }
+            // Every second one of those in each other's way: the others may then do.
+            let mut out: Vec<usize> = infeasible.goals.iter().copied().skip(1).step_by(2).collect();
+            if out.is_empty() {
+                out = infeasible.goals;
+            }
+            out.sort_unstable();
+            out.dedup();
+            for goal in out.into_iter().rev().filter(|&goal| goal < problem.goals.len()) {
+                bound.dark.push(bound.pixels.remove(goal).id);
+                bound.pinned.remove(goal);
+            }
+        }
+    }
+
+    /// `[robot]`: where each stands when the frame is reached, and its light.
+    fn rests(&self, bound: &BoundFrame<'_>, plan: &Transition) -> Vec<RobotLeg> {
+        let rest = |robot: usize| match plan.goal_of.get(robot).copied().flatten() {
+            Some(goal) => {
+                let pixel = bound.pixels[goal];
+                RobotLeg {
+                    goal: pixel.at,
+                    pixel: Some(pixel.id),
+                    color: pixel.color,
+                    ..RobotLeg::stay(pixel.at)
+                }
+            }
+            None => {
+                RobotLeg::stay(plan.paths.get(robot).map_or(self.places[robot], |path| path.as_ref().end()))
+            }
+        };
+        (0..self.places.len()).map(rest).collect()
+    }
+
+    /// The legs of a frame in which original robots take part.
+    fn staged(&self, frame: &Frame, rests: &[RobotLeg]) -> Result<Vec<Leg>, String> {
+        let stage = &self.problem.show.stage;
+        let goals: Vec<Vec2> = rests.iter().map(|rest| rest.goal).collect();
+        let original: Vec<bool> = self.problem.robots.iter().map(|robot| robot.original).collect();
+        let space =
+            FreeSpace::new(Vec2::new(stage.width_m, stage.depth_m) / 2.0, &stage.obstacles, &stage.limits);
+        let starts = &self.places;
+        let problem = UnsynchronisedProblem {
+            space,
+            starts,
+            goals: &goals,
+            unsynchronised: &original,
+            standing: &self.problem.standing,
+        };
+        let drivers: Vec<usize> = (0..starts.len()).filter(|&robot| !original[robot]).collect();
+        let drive = |standing: &[Vec2]| self.drive(frame, &drivers, &goals, standing);
+        let stages = unsynchronised::stages(&problem, drive)
+            .ok_or("robots that only know TARGET cannot be brought there one after the other")?;
+        let mut legs = Vec::new();
+        let mut places = starts.clone();
+        for stage in stages {
+            let mut leg = match stage {
+                DriveStage::Targets(drives) => self.targets(drives, rests),
+                DriveStage::Routes(paths) => {
+                    let duration = paths.first().map_or(Span::ZERO, |(_, path)| path.as_ref().duration());
+                    self.routes(paths, rests, duration, 0.0)?
+                }
+            };
+            for (robot, place) in self.problem.robots.iter().zip(&mut places) {
+                let step = &mut leg.robots[robot.participant];
+                match step.task {
+                    Task::Stay => (step.settles, step.goal) = (step.goal == *place, *place),
+                    _ => *place = step.goal,
+                }
+            }
+            legs.push(leg);
+        }
+        if legs.is_empty() {
+            legs.push(self.targets(Vec::new(), rests));
+        }
+        Ok(legs)
+    }
+
+    /// Paths of the robots that follow paths, while the originals stand.
+    fn drive(
+        &self,
+        frame: &Frame,
+        drivers: &[usize],
+        goals: &[Vec2],
+        standing: &[Vec2],
+    ) -> Option<Vec<(usize, Path)>> {
+        let problem = TransitionProblem {
+            starts: drivers.iter().map(|&robot| self.places[robot]).collect(),
+            goals: drivers.iter().map(|&robot| goals[robot]).collect(),
+            pinned: (0..drivers.len()).map(Some).collect(),
+            standing: standing.to_vec(),
+            ..TransitionProblem::timed_as(&self.problem.show.stage, frame)
+        };
+        let plan = transition_unless(&problem, self.is_over).ok()?.ok()?;
+        Some(drivers.iter().copied().zip(plan.paths).collect())
+    }
+
+    /// The leg of a transition in which all robots follow paths.
+    fn synchronised(&self, plan: Transition, rests: &[RobotLeg]) -> Result<Leg, String> {
+        let closest_m = plan.closest.map_or(f64::INFINITY, |closest| closest.distance_m);
+        let room_m = closest_m - self.problem.show.stage.limits.contact_m();
+        self.routes(plan.paths.into_iter().enumerate().collect(), rests, plan.duration, room_m)
+    }
+
+    fn routes(
+        &self,
+        paths: Vec<(usize, Path)>,
+        rests: &[RobotLeg],
+        duration: Span,
+        room_m: f64,
+    ) -> Result<Leg, String> {
+        if paths.iter().any(|(_, path)| path.pieces.len() > MAX_PIECES) {
+            return Err(format!("a path has more than the {MAX_PIECES} pieces a robot can keep"));
+        }
+        let mut leg = self.leg(LegKind::Routes, rests, paths.len(), duration, room_m);
+        let contact_m = self.problem.show.stage.limits.contact_m();
+        let around = surroundings(&paths, &self.problem.standing, room_m, contact_m);
+        for ((robot, path), Surroundings { room_m, neighbours }) in paths.into_iter().zip(around) {
+            let goal = path.as_ref().end();
+            let step = &mut leg.robots[self.problem.robots[robot].participant];
+            let settles = goal == step.goal;
+            *step = RobotLeg { task: Task::Path(path), room_m, neighbours, goal, settles, ..step.clone() };
+        }
+        Ok(leg)
+    }
+
+    fn targets(&self, mut drives: Vec<StraightDrive>, rests: &[RobotLeg]) -> Leg {
+        let mut leg =
+            self.leg(LegKind::Targets, rests, 0, Span::from_secs(unsynchronised::expected_s(&drives)), 0.0);
+        for drive in &mut drives {
+            let settles = rests[drive.robot].goal == drive.to;
+            drive.robot = self.problem.robots[drive.robot].participant;
+            let step = &mut leg.robots[drive.robot];
+            leg.drivers += usize::from(matches!(step.task, Task::Stay));
+            *step = RobotLeg { task: Task::Drives, goal: drive.to, settles, ..step.clone() };
+        }
+        Leg { drives: drives, ..leg }
+    }
+
+    /// A leg in which no robot moves yet.
+    fn leg(&self, kind: LegKind, rests: &[RobotLeg], drivers: usize, duration: Span, room_m: f64) -> Leg {
+        let mut robots = vec![RobotLeg::stay(Vec2::ZERO); self.problem.participants];
+        for (robot, rest) in self.problem.robots.iter().zip(rests) {
+            robots[robot.participant] = rest.clone();
+        }
+        Leg {
+            frame: 0,
+            round: 0,
+            seq: 0,
+            kind,
+            robots,
+            drives: Vec::new(),
+            drivers,
+            duration,
+            reaches_frame: false,
+            room_m,
+        }
+    }
+}
+
+fn given_up(_: Cancelled) -> String {
+    "planning took longer than robots may wait".into()
+}

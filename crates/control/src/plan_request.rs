@@ -1,0 +1,112 @@
+//! A request for a plan and its result. Any thread may make the plan.
+
+use crate::leg::Leg;
+use crate::mapping::Mapping;
+use crate::plan_builder::PlanBuilder;
+use lightbots_base::{RobotId, Span, Vec2};
+use lightbots_show::Show;
+use std::sync::Arc;
+
+/// Longest duration of a replan of up to [`FEW`] robots, by the promise of 1 s for 100 robots.
+const BUDGET: Span = Span::from_millis(1_000);
+/// Additional duration for each robot above [`FEW`]: 5 s for 1,000 robots.
+const BUDGET_PER_ROBOT: Span = Span(4_445);
+/// Number of robots up to which [`BUDGET`] is enough.
+const FEW: usize = 100;
+
+/// A request for a plan. Pure: equal requests give equal results on any thread.
+#[derive(Clone, Debug)]
+pub struct PlanRequest {
+    pub(crate) number: u64,
+    pub(crate) problem: PlanProblem,
+}
+
+/// What is to be planned.
+#[derive(Clone, Debug)]
+pub(crate) struct PlanProblem {
+    pub show: Arc<Show>,
+    /// Frames in the order they are played, each with the round it belongs to.
+    pub frames: Vec<(usize, u32)>,
+    pub robots: Vec<PlannedRobot>,
+    /// Number of participants, planned or not.
+    pub participants: usize,
+    /// Discs that do not move, stage metres.
+    pub standing: Vec<Vec2>,
+    /// The discs of `standing` whose places no robot reported: of silent robots, and of what blocked others.
+    pub inferred: Vec<Vec2>,
+    pub mapping: Mapping,
+    /// Whether conflicting pixels are left out, so that the frame is not given up.
+    pub lenient: bool,
+    /// Whether robots were stopped on their paths, perhaps closer to each other than is ever planned.
+    pub stopped: bool,
+}
+
+impl PlanProblem {
+    /// Whether robots take part that know TARGET only.
+    pub fn has_originals(&self) -> bool {
+        self.robots.iter().any(|robot| robot.original)
+    }
+}
+
+/// A robot that takes part in a plan.
+#[derive(Clone, Debug)]
+pub(crate) struct PlannedRobot {
+    pub participant: usize,
+    pub id: RobotId,
+    /// Where it starts, stage metres.
+    pub at: Vec2,
+    pub original: bool,
+}
+
+/// The result of a request; give it to [`crate::Controller::planned`].
+#[derive(Clone, Debug)]
+pub struct PlanResult {
+    pub(crate) number: u64,
+    pub(crate) legs: Vec<Leg>,
+    /// Whether it begins where robots were stopped on their paths.
+    pub(crate) stopped: bool,
+    /// Number of planned frames.
+    pub(crate) frames: usize,
+    /// Pixels that stay dark, by frame.
+    pub(crate) dark: Vec<(usize, Vec<u32>)>,
+    /// The first frame without a plan, and why.
+    pub(crate) failed: Option<(usize, String)>,
+    pub(crate) mapping: Mapping,
+}
+
+impl PlanRequest {
+    /// Longest duration while robots wait for the plan; `None`: they do not wait. The caller measures it, because a core
+    /// reads no clock, and cancels the request by [`run_unless`](Self::run_unless).
+    pub fn budget(&self) -> Option<Span> {
+        let more = self.problem.robots.len().saturating_sub(FEW);
+        self.problem.stopped.then_some(BUDGET + BUDGET_PER_ROBOT * more as i64)
+    }
+
+    /// Makes the plan without a bound on its duration: milliseconds for small fleets, seconds for the largest. It never
+    /// panics.
+    pub fn run(self) -> PlanResult {
+        self.run_unless(&|| false)
+    }
+
+    /// [`run`](Self::run), cancelled once `is_over` says so, which must go on saying so. It is asked about every tenth of a
+    /// second. Frames planned until then count.
+    pub fn run_unless(self, is_over: &dyn Fn() -> bool) -> PlanResult {
+        let mut builder = PlanBuilder::new(&self.problem, is_over);
+        let mut failed = None;
+        for &(frame, round) in &self.problem.frames {
+            if let Err(why) = builder.frame(frame, round) {
+                failed = Some((frame, why));
+                break;
+            }
+        }
+        PlanResult {
+            number: self.number,
+            legs: builder.legs,
+            stopped: self.problem.stopped,
+            frames: builder.frames,
+            dark: builder.dark,
+            failed,
+            mapping: builder.roles.mapping,
+        }
+    }
+}
