@@ -1,8 +1,10 @@
 //! Broken and hostile files: each gives one line with place, cause and remedy.
 
-use lightbots_base::{Rgb, Vec2};
+#[path = "../../show/tests/rows/mod.rs"]
+mod rows;
+
 use lightbots_exchange::{LIGHTBOTS, read};
-use lightbots_show::{Frame, Pixel, Show};
+use rows::{row, show};
 
 /// What reading says; panics if it is read.
 fn refusal(text: &str) -> String {
@@ -17,24 +19,6 @@ fn ours(pixels: &str) -> String {
 /// A show of the original's with one frame "A", from the fields of its only pixel.
 fn original(pixel: &str) -> String {
     format!("[{{\"name\": \"A\", \"airTime\": 0, \"pixels\": [{{{pixel}, \"pixelId\": 7}}]}}]")
-}
-
-/// `count` pixels on a line, 0.1 m apart.
-fn row(count: u32) -> Vec<Pixel> {
-    let place = |id: u32| Vec2::new(f64::from(id) * 0.1 - 1.4, 0.0);
-    (0..count).map(|id| Pixel { id, at: place(id), color: Rgb::new(255, 165, 0), robot: None }).collect()
-}
-
-fn show(frames: Vec<Vec<Pixel>>) -> Show {
-    let frame = |pixels| Frame {
-        name: "Row".into(),
-        air_time_s: 1.0,
-        transition_s: None,
-        easing: lightbots_show::Easing::Swift,
-        identity: None,
-        pixels,
-    };
-    Show { frames: frames.into_iter().map(frame).collect(), ..Show::default() }
 }
 
 #[test]

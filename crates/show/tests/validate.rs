@@ -1,25 +1,10 @@
 //! Shows that must not be played: each fault gives one line with place, cause and remedy.
 
-use lightbots_base::{Rgb, Vec2};
-use lightbots_show::{Frame, Pixel, Show, Stage, validate};
+mod rows;
 
-/// `count` pixels on a line, 0.1 m apart.
-fn row(count: u32) -> Vec<Pixel> {
-    let place = |id: u32| Vec2::new(f64::from(id) * 0.1 - 1.4, 0.0);
-    (0..count).map(|id| Pixel { id, at: place(id), color: Rgb::new(255, 165, 0), robot: None }).collect()
-}
-
-fn show(frames: Vec<Vec<Pixel>>) -> Show {
-    let frame = |pixels| Frame {
-        name: "Row".into(),
-        air_time_s: 1.0,
-        transition_s: None,
-        easing: lightbots_show::Easing::Swift,
-        identity: None,
-        pixels,
-    };
-    Show { frames: frames.into_iter().map(frame).collect(), ..Show::default() }
-}
+use lightbots_base::Vec2;
+use lightbots_show::{Pixel, Show, Stage, validate};
+use rows::{row, show};
 
 /// The messages for a show, one a line, with their codes.
 fn messages(show: &Show) -> String {

@@ -5,6 +5,7 @@ mod junk;
 mod light;
 mod parsing;
 mod pilot;
+mod route_checks;
 mod routes;
 mod silence;
 mod step;

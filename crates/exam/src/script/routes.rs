@@ -4,18 +4,14 @@ use lightbots_base::{Instant, Span, Vec2};
 use lightbots_wire::{Route, Topic};
 
 use super::pilot::{ANSWER, ONCE, Pilot, STILL_M, THERE_M, shown, within};
+use super::route_checks::{arrives, judge_fit, record_beside, statuses};
 use super::step::Step;
-use super::targets::arrivals;
 use super::timed_route::{TimedRoute, curve, rest, straight, text};
 use crate::received::Received;
 use crate::session::Addressee;
 
 /// Cruising speed of the routes, m/s: three quarters of the limit of R20. An error of 5 mm is then one of 25 ms.
 pub(super) const SPEED_MPS: f64 = 0.2;
-/// Largest distance from the route, metres: four times the typical 5 mm of R35.
-const BESIDE_M: f64 = 0.02;
-/// Largest delay along the route: ten times the 5 ms of R27, minus the age of reports that the network hides.
-const LATE: Span = Span::from_millis(50);
 /// Time from a `START` to its moment: several round trips of slow networks.
 pub(super) const LEAD: Span = Span::from_millis(1_500);
 
@@ -103,7 +99,7 @@ async fn forth(pilot: &Pilot) -> Step {
     towards_the_way(pilot, timed_route.route.start, pilot.away).await?;
     not_before(pilot, &timed_route).await?;
     let mark = follow(pilot, &timed_route).await?;
-    judge_fit(pilot, &timed_route, mark, true);
+    judge_fit(pilot, &timed_route, mark);
     arrives(pilot, &timed_route, mark).await;
     let driving = pilot
         .session
@@ -233,73 +229,6 @@ pub(super) async fn follow(pilot: &Pilot, timed_route: &TimedRoute) -> Step<usiz
     Ok(mark)
 }
 
-/// Records the distance from the path (R35) and the delay along it (R27); see `rule_of_time`.
-pub(super) fn judge_fit(pilot: &Pilot, timed_route: &TimedRoute, mark: usize, judges_time: bool) {
-    let fit =
-        pilot.session.since(mark, |received| timed_route.fit(received, pilot.session.shift(), pilot.delay()));
-    let sent = format!("route {} with STATUS each 0.1 s", timed_route.route.seq);
-    if fit.reports == 0 {
-        return pilot.session.record(
-            41,
-            false,
-            &sent,
-            "a report on T/LightBot/Status for each",
-            "none with a place",
-        );
-    }
-    let came = format!("up to {:.0} mm beside it in {} reports", fit.beside_m * 1e3, fit.reports);
-    pilot.session.record(
-        35,
-        fit.beside_m <= BESIDE_M,
-        &sent,
-        "within 20 mm of the path (5 are typical)",
-        came,
-    );
-    if judges_time {
-        judge_time(pilot, fit.late_s, 27, &sent);
-    }
-}
-
-/// Records whether the robot is where the show clock says, along its path.
-pub(super) fn judge_time(pilot: &Pilot, late_s: Option<f64>, rule: u8, sent: &str) {
-    let bound_s = (LATE + pilot.delay()).as_secs();
-    let expected = format!("along the path within {:.0} ms of the show clock", bound_s * 1e3);
-    let came = late_s.map_or_else(
-        || "no report from the middle of the path".into(),
-        |late_s| format!("{:.0} ms {}", late_s.abs() * 1e3, if late_s < 0.0 { "early" } else { "late" }),
-    );
-    pilot.session.record(rule, late_s.is_some_and(|late_s| late_s.abs() <= bound_s), sent, &expected, came);
-}
-
-/// Tests for one arrival, at the end, with the number of the route.
-pub(super) async fn arrives(pilot: &Pilot, timed_route: &TimedRoute, mark: usize) {
-    let seq = u64::from(timed_route.route.seq);
-    let end = timed_route.path().end();
-    let left = (timed_route.over() - pilot.session.show()).0.max(0);
-    let named = |received: &Received| (received.topic == Topic::Arrival).then_some(());
-    pilot.session.wait_for(mark, Span(left + 3_000_000), named).await;
-    pilot.session.pause(ONCE).await;
-    let came = arrivals(pilot, mark);
-    let sent = format!("the end of route {seq}");
-    let expected = format!("one Arrival with route={seq} at {}", shown(end));
-    let words = match came.as_slice() {
-        [] => "none".to_owned(),
-        [one] => one.text.clone(),
-        more => format!("{} of them", more.len()),
-    };
-    let [arrival] = came.as_slice() else {
-        return pilot.session.record(36, false, &sent, &expected, words);
-    };
-    let there =
-        arrival.place().is_some_and(|at| within(at, end, THERE_M)) && arrival.whole("route") == Some(seq);
-    let early_s = (timed_route.over() - (arrival.at + pilot.session.shift())).as_secs();
-    let in_time = early_s < (LATE + pilot.delay()).as_secs()
-        || pilot.session.is_broken(27)
-        || timed_route.hold.is_some();
-    let words = if in_time { words } else { format!("{words}, {early_s:.2} s before the route was over") };
-    pilot.session.record(36, there && in_time, &sent, &expected, words);
-}
-
 /// Tests a curve back to `home`.
 async fn back_on_a_curve(pilot: &Pilot) -> Step {
     pilot.drive_to(pilot.away).await?;
@@ -314,14 +243,7 @@ async fn back_on_a_curve(pilot: &Pilot) -> Step {
     let fit =
         pilot.session.since(mark, |received| timed_route.fit(received, pilot.session.shift(), pilot.delay()));
     let sent = format!("route {} with two C pieces", timed_route.route.seq);
-    let came = format!("up to {:.0} mm beside it in {} reports", fit.beside_m * 1e3, fit.reports);
-    pilot.session.record(
-        31,
-        fit.reports > 0 && fit.beside_m <= BESIDE_M,
-        &sent,
-        "within 20 mm of the curve",
-        came,
-    );
+    record_beside(pilot, 31, &fit, &sent, "within 20 mm of the curve");
     pilot.session.pause(ONCE).await;
     Ok(())
 }
@@ -360,29 +282,6 @@ async fn chained(pilot: &Pilot) -> Step {
         pilot.send("|STOP|");
     }
     Ok(())
-}
-
-/// Tests that reports come every 0.5 s while the robot drives.
-fn statuses(pilot: &Pilot, mark: usize, timed_route: &TimedRoute) {
-    let shift = pilot.session.shift();
-    let moments: Vec<Instant> = pilot.session.since(mark, |received| {
-        let all = received
-            .iter()
-            .filter(|received| received.topic == Topic::Status)
-            .map(|received| received.at + shift);
-        all.filter(|at| (timed_route.starts..=timed_route.over()).contains(at)).collect()
-    });
-    let ends = [timed_route.starts, timed_route.over()];
-    let all: Vec<Instant> = ends[..1].iter().chain(&moments).chain(&ends[1..]).copied().collect();
-    let longest = all.windows(2).map(|pair| (pair[1] - pair[0]).as_secs()).fold(0.0, f64::max);
-    let came = format!("{} reports, {longest:.2} s between two at most", moments.len());
-    pilot.session.record(
-        41,
-        longest <= 1.0,
-        "a route, and no commands on the way",
-        "a report on Status each 0.5 s",
-        came,
-    );
 }
 
 /// Tests that many questions at once have one answer.

@@ -4,7 +4,8 @@ use lightbots_base::Span;
 use lightbots_wire::{Route, Topic};
 
 use super::pilot::{ANSWER, Pilot, STILL_M, shown};
-use super::routes::{LEAD, SPEED_MPS, follow, judge_time, keep, next_seq, start};
+use super::route_checks::judge_time;
+use super::routes::{LEAD, SPEED_MPS, follow, keep, next_seq, start};
 use super::step::Step;
 use super::timed_route::{REST, TimedRoute, rest, straight};
 use crate::session::Addressee;
