@@ -54,7 +54,7 @@ impl Roles {
         Self { names, mapping, bindings }
     }
 
-    /// Binds the pixels of a frame to robots that stand at `places`, stage metres. Pixels for which `blocked` holds stay dark.
+    /// Binds the pixels of a frame to robots at `places`, stage metres. Pixels for which `blocked` holds stay dark.
     pub fn bind<'a>(
         &self,
         frame: &'a Frame,

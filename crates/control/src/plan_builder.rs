@@ -2,7 +2,7 @@
 
 use crate::leg::{Leg, LegKind, RobotLeg, Task};
 use crate::mapping::Roles;
-use crate::plan_request::PlanProblem;
+use crate::plan_request::{PlanProblem, PlanRequest, PlanResult};
 use crate::separation;
 use crate::surroundings::{Surroundings, surroundings};
 use lightbots_base::{Span, Vec2};
@@ -20,19 +20,49 @@ const INFERRED_MARGIN_M: f64 = 0.008;
 /// How often conflicting pixels are left out before a frame is given up.
 const LENIENT_TRIES: usize = 8;
 
+impl PlanRequest {
+    /// Makes the plan without a bound on its duration: milliseconds for small fleets, seconds for the largest. It never
+    /// panics.
+    pub fn run(self) -> PlanResult {
+        self.run_unless(&|| false)
+    }
+
+    /// [`run`](Self::run), cancelled once `is_over` says so, which must go on saying so. It is asked about every tenth of a
+    /// second. Frames planned until then count.
+    pub fn run_unless(self, is_over: &dyn Fn() -> bool) -> PlanResult {
+        let mut builder = PlanBuilder::new(&self.problem, is_over);
+        let mut failed = None;
+        for &(frame, round) in &self.problem.frames {
+            if let Err(why) = builder.frame(frame, round) {
+                failed = Some((frame, why));
+                break;
+            }
+        }
+        PlanResult {
+            number: self.number,
+            legs: builder.legs,
+            stopped: self.problem.stopped,
+            frames: builder.frames,
+            dark: builder.dark,
+            failed,
+            mapping: builder.roles.mapping,
+        }
+    }
+}
+
 /// Builds the legs of a plan, frame after frame.
-pub(crate) struct PlanBuilder<'a> {
+struct PlanBuilder<'a> {
     problem: &'a PlanProblem,
     is_over: &'a dyn Fn() -> bool,
     places: Vec<Vec2>,
-    pub roles: Roles,
-    pub legs: Vec<Leg>,
-    pub frames: usize,
-    pub dark: Vec<(usize, Vec<u32>)>,
+    roles: Roles,
+    legs: Vec<Leg>,
+    frames: usize,
+    dark: Vec<(usize, Vec<u32>)>,
 }
 
 impl<'a> PlanBuilder<'a> {
-    pub fn new(problem: &'a PlanProblem, is_over: &'a dyn Fn() -> bool) -> Self {
+    fn new(problem: &'a PlanProblem, is_over: &'a dyn Fn() -> bool) -> Self {
         let names = problem.robots.iter().map(|robot| robot.id).collect();
         Self {
             problem,
@@ -46,7 +76,7 @@ impl<'a> PlanBuilder<'a> {
     }
 
     /// Adds the legs to one frame.
-    pub fn frame(&mut self, index: usize, round: u32) -> Result<(), String> {
+    fn frame(&mut self, index: usize, round: u32) -> Result<(), String> {
         let show = &self.problem.show;
         let frame = show.frames.get(index).ok_or_else(|| "there is no such frame".to_string())?;
         let identity = frame.identity.unwrap_or(show.identity);

@@ -2,7 +2,6 @@
 
 use crate::leg::Leg;
 use crate::mapping::Mapping;
-use crate::plan_builder::PlanBuilder;
 use lightbots_base::{RobotId, Span, Vec2};
 use lightbots_show::Show;
 use std::sync::Arc;
@@ -80,33 +79,5 @@ impl PlanRequest {
     pub fn budget(&self) -> Option<Span> {
         let more = self.problem.robots.len().saturating_sub(FEW);
         self.problem.stopped.then_some(BUDGET + BUDGET_PER_ROBOT * more as i64)
-    }
-
-    /// Makes the plan without a bound on its duration: milliseconds for small fleets, seconds for the largest. It never
-    /// panics.
-    pub fn run(self) -> PlanResult {
-        self.run_unless(&|| false)
-    }
-
-    /// [`run`](Self::run), cancelled once `is_over` says so, which must go on saying so. It is asked about every tenth of a
-    /// second. Frames planned until then count.
-    pub fn run_unless(self, is_over: &dyn Fn() -> bool) -> PlanResult {
-        let mut builder = PlanBuilder::new(&self.problem, is_over);
-        let mut failed = None;
-        for &(frame, round) in &self.problem.frames {
-            if let Err(why) = builder.frame(frame, round) {
-                failed = Some((frame, why));
-                break;
-            }
-        }
-        PlanResult {
-            number: self.number,
-            legs: builder.legs,
-            stopped: self.problem.stopped,
-            frames: builder.frames,
-            dark: builder.dark,
-            failed,
-            mapping: builder.roles.mapping,
-        }
     }
 }

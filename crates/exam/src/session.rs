@@ -290,7 +290,7 @@ impl Session {
         self.until(Instant::FAR, || self.state.borrow().is_permitted.then_some(())).await;
     }
 
-    /// Asks the person who watches the robot; `None`: no answer.
+    /// Asks the observer of the robot; `None`: no answer.
     pub async fn ask_person(&self, question: Question) -> Option<bool> {
         self.state.borrow_mut().answer = None;
         self.emit(ExamEvent::Look(question));

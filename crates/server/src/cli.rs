@@ -225,7 +225,7 @@ pub struct PlayArguments {
     #[command(flatten)]
     pub login: BrokerArguments,
     /// Robots that must be there before it starts; with fewer than pixels, some pixels stay dark [default: as many as
-    /// pixels, or whoever is there once no more have come for ten seconds]
+    /// pixels, or the robots that are there once no more have come for ten seconds]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     pub wait: Option<u32>,
     /// How long to wait for broker and robots at most, seconds

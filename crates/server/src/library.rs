@@ -63,7 +63,7 @@ pub enum LibraryError {
     BadName(String),
     /// There is no such show.
     Missing(String),
-    /// Somebody else saved it first.
+    /// It was saved elsewhere first.
     Conflict(String),
     /// It is given with the program, and stays as it is.
     ReadOnly(String),

@@ -16,7 +16,7 @@ pub enum Log {
     Warn,
     /// What happens.
     Info,
-    /// Everything, for those who look for a mistake.
+    /// All events, to look for a mistake.
     Debug,
 }
 

@@ -109,7 +109,7 @@ impl RunReport {
         self.outcome.is_some()
     }
 
-    /// Whether the whole show was played, and nobody was lost for good.
+    /// Whether the whole show was played, and no robot was lost for good.
     pub fn ok(&self) -> bool {
         self.outcome == Some(RunOutcome::Finished)
             && self.frames_played >= self.frames

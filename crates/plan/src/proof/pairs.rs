@@ -165,7 +165,7 @@ impl Slice {
     }
 }
 
-/// What has been found so far.
+/// The closest pair and the conflicts found until now.
 struct Verdict<'a> {
     input: &'a ProofInput<'a>,
     closest: Option<Closest>,

@@ -24,7 +24,7 @@ pub(super) enum Solver {
     FromLattice { pitch_m: f64 },
     /// The same over a lattice with nodes in the gaps between walls.
     ThroughGaps { pitch_m: f64 },
-    /// Stop-and-go trajectories over a roadmap of this pitch, whose nodes are so far off the floor's edge.
+    /// Stop-and-go trajectories over a roadmap of this pitch, with nodes `off_edge_m` off the floor's edge.
     StopAndGo { pitch_m: f64, off_edge_m: f64 },
 }
 

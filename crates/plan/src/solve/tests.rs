@@ -49,7 +49,7 @@ fn ratio(problem: &TransitionProblem) -> f64 {
     paths[0].as_ref().duration().as_secs() / (longest / 0.27 + 0.62)
 }
 
-/// So many in a row, 0.1 m apart.
+/// Places in a row, 0.1 m apart.
 fn row(count: usize, y: f64) -> Vec<Vec2> {
     let x = |index: usize| (index as f64 - (count as f64 - 1.0) / 2.0) * 0.1;
     (0..count).map(|index| Vec2::new(x(index), y)).collect()

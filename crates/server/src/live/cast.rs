@@ -19,7 +19,7 @@ use crate::web::Shown;
 const USUAL: usize = 30;
 /// The most that are simulated because a show asks for them.
 const MOST: usize = 5_000;
-/// A show that is being edited is left alone for so long before the robots are changed.
+/// The robots follow a show once it has not been edited for `SETTLED`.
 const SETTLED: Duration = Duration::from_millis(500);
 
 /// What robots to simulate.

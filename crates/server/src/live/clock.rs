@@ -8,7 +8,7 @@ use lightbots_base::Instant;
 
 /// Microseconds since 1970 at the program's start, from then on counted by the monotonic clock: it never goes back,
 /// and a controller that is started again goes on close to where the one before it was. It may be made to stand for a
-/// while, for all who share it: clones do.
+/// while, together with all its clones.
 #[derive(Clone, Debug)]
 pub struct Clock {
     began: std::time::Instant,

@@ -17,7 +17,7 @@ use super::pace::Pace;
 use super::rivals::{self, Rivals};
 use crate::stop::Stop;
 
-/// Orders that wait at most; more make the one who gives them wait.
+/// Orders that wait at most; the sender of more orders waits.
 const ORDERS: usize = 256;
 /// Events a slow listener may be behind before it misses some: one of each of many robots.
 const EVENTS: usize = 16_384;
@@ -373,5 +373,5 @@ pub fn open(show: lightbots_show::Show) -> Operation {
     Operation::Open(Arc::new(show))
 }
 
-/// How often somebody who waits looks again.
+/// Time between two polls of a waiting task.
 pub const LOOK: Duration = Duration::from_millis(50);

@@ -20,11 +20,11 @@ pub const TOGETHER: usize = 50;
 const BATCH: usize = 4096;
 /// A step of the robots.
 const STEP: Span = Span::from_millis(16);
-/// Time waits, where it may, for robots that are so many steps behind.
+/// Time waits, where it may, for robots that are `BEHIND` steps behind.
 const BEHIND: i64 = 2;
 /// Whether messages that hold time up have come through is looked at this often, …
 const LOOK_AGAIN: Duration = Duration::from_millis(2);
-/// … and if none of them comes for so long, they are lost.
+/// … and if none of them comes for `LOST`, they are lost.
 const LOST: Duration = Duration::from_millis(1_000);
 
 /// Something on one of the connections.

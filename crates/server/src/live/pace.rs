@@ -97,12 +97,12 @@ impl Pace {
         self.may_slow.store(together && only_ours, Ordering::Relaxed);
     }
 
-    /// Whether time may wait for the simulated robots: nobody else lives by it.
+    /// Whether time may wait for the simulated robots, because no other robots use it.
     pub fn may_slow(&self) -> bool {
         self.may_slow.load(Ordering::Relaxed)
     }
 
-    /// Whether so many messages are under way that time should wait for them.
+    /// Whether more messages are under way than `UNDER_WAY` allows, so that time should wait for them.
     pub fn is_clogged(&self) -> bool {
         let bound = UNDER_WAY + self.simulated.load(Ordering::Relaxed) as u64 / ROBOTS_A_MESSAGE;
         self.reports.under_way() > bound || self.commands.under_way() > bound

@@ -12,11 +12,11 @@ pub const NAMES: &str = "T/LightBot/Controller/Here";
 pub const COMMANDS: &str = "T/LightBot/Broadcast";
 /// How often a controller says that it is there.
 const EVERY: Span = Span::from_millis(2_000);
-/// A broker that brought its name back before and did not so many times running is mute, …
+/// A broker that returned this controller's name before, and then `MUTE` times running did not, is mute, …
 const MUTE: u32 = 4;
-/// … later so many more each time a new connection did not help either, up to this. …
+/// … with more times after each new connection that did not help, up to `MUTE_MOST` times, …
 const MUTE_MOST: u32 = 32;
-/// … One more for so many robots: its name may wait behind what they say, or be lost where that is too much at once.
+/// … and one more time for each `MUTE_PER` robots, whose messages may delay the name or crowd it out.
 const MUTE_PER: usize = 250;
 /// How long the broker may take to bring back what this controller said.
 const ECHO: Span = Span::from_millis(60_000);

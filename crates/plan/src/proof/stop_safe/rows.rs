@@ -41,7 +41,7 @@ impl<'a> Rows<'a> {
         self.first
     }
 
-    /// Where a robot is so many steps after the first moment, stage metres.
+    /// Place of a robot `ahead` steps after the first moment, stage metres.
     pub fn at(&self, ahead: usize, robot: usize) -> Vec2 {
         self.rows[ahead][robot]
     }
@@ -53,7 +53,7 @@ impl<'a> Rows<'a> {
         bounds
     }
 
-    /// So many steps back.
+    /// Goes back by `by` steps.
     pub fn go_back(&mut self, by: usize) {
         let read = self.rows.len();
         self.first -= STEP * by as i64;

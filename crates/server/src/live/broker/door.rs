@@ -1,4 +1,4 @@
-//! The embedded broker's hooks: who comes in, who may say what, who may hear what.
+//! The embedded broker's hooks: which clients may connect, publish and subscribe.
 
 use std::net::SocketAddr;
 use std::sync::Arc;
@@ -19,7 +19,7 @@ use super::users::{Role, Users};
 /// Judges everything clients ask for.
 #[derive(Clone)]
 pub struct Door {
-    /// With none, everybody may come in.
+    /// Known users; without any, all clients may connect.
     pub users: Arc<Users>,
     pub notices: Arc<Notices>,
     /// Connections that came through the TLS gate, and where that hands them over.
@@ -92,7 +92,7 @@ impl Door {
         self.who(id)?.may_publish(topic, payload)
     }
 
-    /// One line about a refusal: who, what, why.
+    /// Says in one line which client was refused what, and why.
     fn refuse(&self, id: &Id, what: &str, why: &str) {
         let client: String = id.client_id.chars().take(80).collect();
         let user = id.username.as_deref().unwrap_or("(none)");
@@ -107,7 +107,7 @@ impl Door {
     }
 }
 
-/// Why somebody does not come in.
+/// Why a client may not connect.
 enum Refused {
     Password,
     Rights(String),

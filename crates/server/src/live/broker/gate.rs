@@ -1,5 +1,5 @@
 //! TLS before the embedded broker: takes connections, opens them, and hands them over to a listener on loopback that
-//! nobody else may use.
+//! refuses all other clients.
 //!
 //! The broker's own TLS would bring a second set of cryptography that is built from C for minutes, and says less about
 //! why a client was refused.
@@ -25,9 +25,9 @@ use tokio_rustls::rustls::{self, RootCertStore, ServerConfig};
 use super::notices::Notices;
 use crate::failure::Failure;
 
-/// A client that has not finished its handshake after so long is dropped.
+/// A client that has not finished its handshake after `PATIENCE` is dropped.
 const PATIENCE: Duration = Duration::from_secs(10);
-/// A client that was refused is heard out for so long.
+/// A refused client may go on sending for `LINGER`, so that it receives the reason.
 const LINGER: Duration = Duration::from_secs(1);
 /// Connections at once; more wait.
 const CONNECTIONS: usize = 20_000;

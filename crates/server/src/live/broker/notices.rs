@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 
 use tokio::sync::mpsc;
 
-/// A client that goes on is named again after so long.
+/// A client that goes on is named again after `EVERY`.
 const EVERY: Duration = Duration::from_secs(5);
 /// Clients remembered at most; of more of them nothing is said until the first are forgotten.
 const CLIENTS: usize = 1000;

@@ -1,4 +1,4 @@
-//! Who may say and hear what. A robot speaks for itself and hears what is for it; nothing else.
+//! The topics that a client may publish and subscribe. A robot publishes its own messages and receives those for it.
 
 use lightbots_base::RobotId;
 use lightbots_wire::Topic;
@@ -8,7 +8,7 @@ use super::users::Role;
 /// What stands before a robot's name in its client id.
 const ROBOT: &str = "LightBot/";
 
-/// Who is behind a connection.
+/// The client of a connection.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Who {
     /// One robot.
@@ -18,7 +18,7 @@ pub enum Who {
 }
 
 impl Who {
-    /// Whom role, user and client id make; the reason where they do not fit together.
+    /// The client that role, user and client id name, or why they contradict each other.
     pub fn of(role: Role, user: &str, client_id: &str) -> Result<Self, String> {
         let named = client_id.strip_prefix(ROBOT);
         let robot = named.and_then(RobotId::new);

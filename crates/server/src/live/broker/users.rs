@@ -1,4 +1,4 @@
-//! Who may use the embedded broker.
+//! Users of the embedded broker.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::failure::Failure;
 
-/// Users by name; with none, everybody on this machine may come in.
+/// Users by name; without any, all clients on this machine may connect.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Users(BTreeMap<String, User>);
 
@@ -80,7 +80,7 @@ impl Users {
         is_same(user.password.as_bytes(), password).then_some(user.role)
     }
 
-    /// What a user may be who is logged in.
+    /// The role of a user that has logged in.
     pub fn role(&self, name: &str) -> Role {
         self.0.get(name).map_or(Role::default(), |user| user.role)
     }
