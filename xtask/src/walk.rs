@@ -28,3 +28,10 @@ pub fn files(folder: &Path, endings: &[&str]) -> Vec<PathBuf> {
 pub fn shown<'a>(root: &Path, path: &'a Path) -> std::path::Display<'a> {
     path.strip_prefix(root).unwrap_or(path).display()
 }
+
+/// The files of the browser app with these endings and their texts, without those of tests.
+pub fn untested(folder: &Path, endings: &[&str]) -> Vec<(PathBuf, String)> {
+    let paths = files(folder, endings).into_iter();
+    let paths = paths.filter(|path| !path.to_string_lossy().contains(".test."));
+    paths.filter_map(|path| std::fs::read_to_string(&path).ok().map(|text| (path, text))).collect()
+}

@@ -3,10 +3,10 @@
 use std::fmt;
 
 use lightbots_plan::ShowPlan;
-use lightbots_show::{Issues, Show};
+use lightbots_show::{Issue, Issues, Show};
 
 use crate::error::ReadError;
-use crate::part::{Part, losses};
+use crate::part::{Part, uses};
 
 /// A file format: its names, its contents, and functions that read and write it.
 pub struct Format {
@@ -53,10 +53,20 @@ pub struct Written {
 impl Format {
     /// The bytes of a file with the show and, where the format keeps it, the plan. The same bytes for the same show.
     pub fn write(&self, show: &Show, plan: Option<&ShowPlan>) -> Written {
-        let mut issues = losses(self.program, self.carries, show, plan);
+        let mut issues = self.losses(show, plan);
         let written = (self.encode)(show, plan);
         issues.extend(written.issues);
         Written { bytes: written.bytes, issues }
+    }
+
+    /// A warning for each part that the show uses and a file does not keep, in the order of [`Part::ALL`].
+    fn losses(&self, show: &Show, plan: Option<&ShowPlan>) -> Issues {
+        let lost = Part::ALL.into_iter().filter(|part| !self.keeps(*part) && uses(*part, show, plan));
+        let warning = |part: Part| {
+            let message = format!("a file for {} does not keep {}", self.program, part.words());
+            Issue::warning("lost-in-format", message)
+        };
+        lost.map(warning).collect()
     }
 
     /// The ending that a written file gets.

@@ -2,7 +2,7 @@
 
 use lightbots_base::Limits;
 use lightbots_plan::ShowPlan;
-use lightbots_show::{Easing, Identity, Issue, Issues, Pixel, Show, Stage};
+use lightbots_show::{Easing, Identity, Pixel, Show, Stage};
 
 /// A part of a file that only some formats keep.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -82,18 +82,8 @@ impl Part {
     }
 }
 
-/// A warning for each part that the show uses and the format does not carry, in the order of [`Part::ALL`].
-pub(crate) fn losses(program: &str, carries: &[Part], show: &Show, plan: Option<&ShowPlan>) -> Issues {
-    let lost = Part::ALL.into_iter().filter(|part| !carries.contains(part) && uses(*part, show, plan));
-    lost.map(|part| {
-        let what = format!("a file for {program} does not keep {}", part.words());
-        Issue::warning("lost-in-format", what)
-    })
-    .collect()
-}
-
 /// Whether a part differs from what a reader takes where a file does not have it.
-fn uses(part: Part, show: &Show, plan: Option<&ShowPlan>) -> bool {
+pub(crate) fn uses(part: Part, show: &Show, plan: Option<&ShowPlan>) -> bool {
     let (stage, usual) = (&show.stage, Stage::default());
     let mut pixels = show.frames.iter().flat_map(|frame| &frame.pixels);
     match part {

@@ -2,7 +2,7 @@ import { Button, Modal, Stack, Text } from '@mantine/core';
 import { getShow, listShows, putShow, Refused } from '../api/http';
 import { useStore } from '../base/store';
 import { readShow, writeShow } from '../model/json';
-import { notify } from '../session/notices';
+import { attempt } from '../session/notices';
 import { useSession } from '../session/session';
 import { freeName } from '../session/upload';
 import { useEditing } from './context';
@@ -13,8 +13,6 @@ export function ConflictDialog() {
   const editing = useEditing();
   const { editor, saver } = editing;
   const conflict = useStore(saver.state, (s) => s.name === 'conflict');
-  const run = (act: () => Promise<void>) =>
-    void act().catch((e: unknown) => notify('error', e instanceof Error ? e.message : String(e)));
   const takeTheirs = async () => {
     const { document, etag } = await getShow(editing.name);
     editor.adopt(readShow(document));
@@ -50,11 +48,11 @@ export function ConflictDialog() {
         Your last changes are only on this screen. Nothing is overwritten until you choose.
       </Text>
       <Stack gap="xs">
-        <Button onClick={() => run(keepBoth)}>Keep both: save mine as a copy</Button>
-        <Button variant="default" onClick={() => run(takeTheirs)}>
+        <Button onClick={() => attempt(keepBoth)}>Keep both: save mine as a copy</Button>
+        <Button variant="default" onClick={() => attempt(takeTheirs)}>
           Use theirs
         </Button>
-        <Button variant="default" onClick={() => run(keepMine)}>
+        <Button variant="default" onClick={() => attempt(keepMine)}>
           Use mine
         </Button>
       </Stack>

@@ -5,7 +5,7 @@ import { listShows, putShow } from '../api/http';
 import { writeShow } from '../model/json';
 import { ExportItems } from '../parts/ExportItems';
 import { downloadShow } from '../session/download';
-import { notify } from '../session/notices';
+import { attempt, notify } from '../session/notices';
 import { useSession } from '../session/session';
 import { freeName } from '../session/upload';
 import { useEditing } from './context';
@@ -16,9 +16,7 @@ export function ExportMenu() {
   const editing = useEditing();
   const { editor } = editing;
   const show = () => writeShow(editor.state.get().show);
-  const run = (act: () => Promise<void>) =>
-    void act().catch((e: unknown) => notify('error', e instanceof Error ? e.message : String(e)));
-  const save = (format: Format) => run(() => downloadShow(show(), editing.name, format));
+  const save = (format: Format) => attempt(() => downloadShow(show(), editing.name, format));
   const saveAs = async () => {
     const copy = freeName(
       `${editing.name} copy`,
@@ -37,7 +35,7 @@ export function ExportMenu() {
       <Menu.Dropdown>
         <ExportItems onExport={save} />
         <Menu.Divider />
-        <Menu.Item onClick={() => run(saveAs)}>Save as a copy</Menu.Item>
+        <Menu.Item onClick={() => attempt(saveAs)}>Save as a copy</Menu.Item>
       </Menu.Dropdown>
     </Menu>
   );

@@ -13,9 +13,10 @@ export interface FullPlan {
 export function createFullPlan(live: Live): FullPlan {
   const plan = createStore<Plan | null>(null);
   let followers = 0;
+  let stop = () => {};
   const load = () => {
     const brief = live.plan.get();
-    if (followers === 0 || !brief || brief.planning) return;
+    if (!brief || brief.planning) return;
     if (plan.get()?.revision === brief.revision) return;
     getPlan().then(
       (full) => {
@@ -25,14 +26,13 @@ export function createFullPlan(live: Live): FullPlan {
       () => plan.set(null),
     );
   };
-  live.plan.subscribe(load);
   return {
     plan,
     follow() {
-      followers++;
+      if (followers++ === 0) stop = live.plan.subscribe(load);
       load();
       return () => {
-        followers--;
+        if (--followers === 0) stop();
       };
     },
   };

@@ -26,6 +26,11 @@ export function notify(tone: keyof typeof TONES, message: string) {
   });
 }
 
+/** Runs an action; if it fails, a notice says why. */
+export function attempt(act: () => Promise<void>) {
+  void act().catch((e: unknown) => notify('error', e instanceof Error ? e.message : String(e)));
+}
+
 /** Time that a notice offers to undo an action, milliseconds. */
 const UNDO_MS = 15_000;
 

@@ -10,7 +10,7 @@ mod styles;
 mod width;
 
 use crate::shell::{self, Outcome};
-use crate::walk::{files, shown};
+use crate::walk::{files, shown, untested};
 
 /// Runs all checks and prints every finding.
 pub fn run() -> Outcome {

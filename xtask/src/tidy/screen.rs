@@ -1,6 +1,6 @@
 //! Imports between the files of the browser app: between folders they point one way, and files form no circle.
 
-use super::{files, shown};
+use super::{shown, untested};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Component, Path, PathBuf};
 
@@ -18,21 +18,15 @@ const EDGES: [(&str, &[&str]); 9] = [
     ("edit", &["base", "api", "model", "stage", "session", "parts"]),
 ];
 
-/// Imports that may close a circle: the importing file, the imported file, and the reason.
-const CIRCLE_EXCEPTIONS: [(&str, &str, &str); 0] = [];
-
 /// The imports of each file, both relative to `ui/src`.
 type Imports = BTreeMap<PathBuf, BTreeSet<PathBuf>>;
 
 /// Every import against the direction of the folders, and every circle of files.
 pub fn findings(root: &Path) -> Vec<String> {
     let source = root.join("ui/src");
-    let sources: BTreeMap<PathBuf, String> = files(&source, &["ts", "tsx"])
-        .iter()
-        .filter(|path| !path.to_string_lossy().contains(".test."))
-        .filter_map(|path| {
-            Some((path.strip_prefix(&source).ok()?.to_path_buf(), std::fs::read_to_string(path).ok()?))
-        })
+    let sources: BTreeMap<PathBuf, String> = untested(&source, &["ts", "tsx"])
+        .into_iter()
+        .filter_map(|(path, text)| Some((path.strip_prefix(&source).ok()?.to_path_buf(), text)))
         .collect();
     let imports = imports_of(&sources);
     let place = shown(root, &source).to_string();
@@ -107,7 +101,7 @@ fn may_import(importer: Option<&str>, target: Option<&str>) -> bool {
     target.is_some_and(|target| target == importer || allowed.contains(&target))
 }
 
-/// One line for each file that imports itself through other files, with the shortest such chain of files.
+/// One line for each circle of files, with the shortest chain of imports from its first file to itself.
 fn circles(imports: &Imports) -> Vec<String> {
     imports
         .keys()
@@ -131,9 +125,6 @@ fn way_back(imports: &Imports, file: &PathBuf) -> Option<Vec<PathBuf>> {
         let mut next = Vec::new();
         for importer in frontier {
             for target in imports.get(importer).into_iter().flatten() {
-                if is_exception(importer, target) {
-                    continue;
-                }
                 if target == file {
                     return Some(chain_to(&reached, file, importer));
                 }
@@ -157,10 +148,6 @@ fn chain_to(reached: &BTreeMap<&PathBuf, &PathBuf>, start: &PathBuf, end: &PathB
     }
     chain.reverse();
     chain
-}
-
-fn is_exception(importer: &Path, target: &Path) -> bool {
-    CIRCLE_EXCEPTIONS.iter().any(|(from, to, _)| importer == Path::new(from) && target == Path::new(to))
 }
 
 #[cfg(test)]

@@ -1,6 +1,6 @@
 //! Styles of the browser app: colours stand in one place, and components use exactly the classes beside them.
 
-use super::{files, shown};
+use super::{shown, untested};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
@@ -12,14 +12,7 @@ const MODULE: &str = ".module.css";
 /// Every colour outside the tokens, and every class that is only used or only defined.
 pub fn findings(root: &Path) -> Vec<String> {
     let source = root.join("ui/src");
-    let texts: Vec<(PathBuf, String)> = files(&source, &["css", "ts", "tsx"])
-        .into_iter()
-        .filter(|path| !path.to_string_lossy().contains(".test."))
-        .filter_map(|path| {
-            let text = std::fs::read_to_string(&path).ok()?;
-            Some((path, text))
-        })
-        .collect();
+    let texts = untested(&source, &["css", "ts", "tsx"]);
     let colours = texts
         .iter()
         .filter(|(path, _)| !WITH_COLOURS.iter().any(|file| path.ends_with(file)))

@@ -1,11 +1,12 @@
 //! `check`: validate, plan, prove.
 
 mod explain;
+mod show_places;
 mod stop_safe;
 
 use lightbots_api as api;
 use lightbots_plan::{ShowClosest, ShowPlan};
-use lightbots_show::{Show, frame_label, most_pixels};
+use lightbots_show::{Show, most_pixels};
 use serde::Serialize;
 
 use super::{count, print_issues, print_json};
@@ -14,6 +15,7 @@ use crate::failure::Outcome;
 use crate::numbers::rounded;
 use crate::{plan_document, say, show_file};
 use explain::Explained;
+use show_places::{began_s, frame_name, pixel};
 use stop_safe::StopSafe;
 
 /// The JSON of `check`.
@@ -122,17 +124,6 @@ impl<'a> Summary<'a> {
     }
 }
 
-/// The pixel that a robot drives to in a transition.
-fn pixel(made: &ShowPlan, transition: usize, robot: usize) -> Option<u32> {
-    made.mapping.get(transition)?.get(robot).copied().flatten()
-}
-
-/// Start of a transition, seconds after the start of the show.
-fn began_s(show: &Show, made: &ShowPlan, transition: usize) -> f64 {
-    let before = made.transitions.iter().zip(&show.frames).take(transition);
-    before.map(|(way, frame)| way.duration.as_secs() + frame.air_time_s).sum()
-}
-
 impl Pair {
     fn of(show: &Show, made: &ShowPlan) -> Option<Self> {
         let ShowClosest { transition, closest } = made.closest?;
@@ -157,13 +148,12 @@ impl Pair {
             [Some(one), None] | [None, Some(one)] => format!("the robot for pixel {one} and a spare one"),
             [None, None] => "two spare robots".into(),
         };
-        let name = show.frames.get(self.to).map_or("", |frame| &frame.name);
         let [x, y] = self.place;
         format!(
             "closest: {who}, {:.1} mm between their centres at ({x:.2}, {y:.2}) m, {:.2} s into the show, on the way to {}",
             self.distance_m * 1e3,
             self.show_at_s,
-            frame_label(self.to, name)
+            frame_name(show, self.to)
         )
     }
 }

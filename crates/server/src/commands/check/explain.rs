@@ -1,9 +1,10 @@
 //! Which solvers ran for each transition and why its plan was chosen, for `check --explain`.
 
 use lightbots_plan::{ExplainedRow, RowOutcome, ShowPlan};
-use lightbots_show::{Show, frame_label};
+use lightbots_show::Show;
 use serde::Serialize;
 
+use super::show_places::frame_name;
 use crate::numbers::rounded;
 
 /// One transition.
@@ -42,8 +43,7 @@ impl Explained {
 
     /// One line for the transition and one for each solver.
     pub fn lines(&self, show: &Show) -> Vec<String> {
-        let name = show.frames.get(self.to).map_or("", |frame| &frame.name);
-        let head = format!("to {}: {}", frame_label(self.to, name), self.reason);
+        let head = format!("to {}: {}", frame_name(show, self.to), self.reason);
         let line = |(index, row): (usize, &Row)| {
             let mark = if self.chosen == Some(index) { '*' } else { ' ' };
             format!("  {mark} {}: {}", row.solver, row.outcome)

@@ -2,10 +2,10 @@
 
 use lightbots_api as api;
 use lightbots_plan::ShowPlan;
-use lightbots_show::{Show, frame_label};
+use lightbots_show::Show;
 use serde::Serialize;
 
-use super::{began_s, pixel};
+use super::show_places::{began_s, frame_name, pixel};
 use crate::numbers::rounded;
 
 /// Moments at which a robot may stop dead without a contact.
@@ -64,7 +64,7 @@ impl StopSafe {
         let Some(worst) = &self.worst else {
             return vec!["stop-safe: any one robot may stop dead at any moment".into()];
         };
-        let name = |frame: usize| frame_label(frame, show.frames.get(frame).map_or("", |frame| &frame.name));
+        let name = |frame: usize| frame_name(show, frame);
         let robot = |pixel: Option<u32>| {
             pixel.map_or("a spare robot".into(), |id| format!("the robot for pixel {id}"))
         };
