@@ -8,7 +8,7 @@ use crate::mapping::Mapping;
 use crate::outbox::SendQueue;
 use crate::plan_request::PlanRequest;
 use lightbots_base::{Instant, Rgb};
-use lightbots_wire::Report;
+use lightbots_wire::{Command, Report, Topic};
 
 /// What every run works with, and what outlives a run.
 #[derive(Clone, Debug)]
@@ -57,6 +57,11 @@ impl Context {
         let number = self.next_route;
         self.next_route = number.checked_add(1).unwrap_or(1);
         number
+    }
+
+    /// Sends commands to a robot of the fleet.
+    pub fn send(&mut self, robot: usize, commands: &[Command]) {
+        self.outbox.send(Topic::Robot(self.fleet.robot(robot).id), commands);
     }
 
     /// Sets the light that a robot is told to show from now on; whether it is another one.

@@ -55,8 +55,6 @@ pub struct Controller {
 pub struct PathsView<'a> {
     /// The frame they lead to, counted from 0.
     pub frame: usize,
-    /// A number that differs from drive to drive.
-    pub seq: u32,
     /// When they begin, show clock; holds come on top.
     pub began: Instant,
     /// The robots that drive, and their paths.
@@ -184,8 +182,7 @@ impl Controller {
             let due = now - robot.contact.heard >= patience && now - robot.asked >= patience;
             if robot.is_original() && due && now - robot.contact.heard < context.config.ageing.gone_after {
                 robot.asked = now;
-                let topic = Topic::Robot(robot.id);
-                context.outbox.send(topic, &[Command::Uuid]);
+                context.send(index, &[Command::Uuid]);
             }
         }
         if has_originals && self.run.is_none() && now >= self.ask_all_at {
@@ -270,11 +267,6 @@ impl Controller {
         self.show.as_ref()
     }
 
-    /// What the controller was given at its start.
-    pub fn config(&self) -> &Config {
-        &self.context.config
-    }
-
     /// How many robots it remembers.
     pub fn robots(&self) -> usize {
         self.context.fleet.robots().len()
@@ -326,6 +318,6 @@ impl Controller {
         let (leg, began) = run.driven_paths()?;
         let name = |participant: usize| run.roster.robot(&self.context, participant).id;
         let paths = (0..leg.robots.len()).filter_map(|one| Some((name(one), leg.path(one)?))).collect();
-        Some(PathsView { frame: leg.frame, seq: leg.seq, began, paths })
+        Some(PathsView { frame: leg.frame, began, paths })
     }
 }

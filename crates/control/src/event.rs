@@ -140,7 +140,7 @@ pub enum EventKind {
 /// What is wrong with a robot in a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Trouble {
-    /// It is behind its path, or blocked.
+    /// It is behind its path.
     Late,
     /// It does not report.
     Silent,

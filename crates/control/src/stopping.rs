@@ -2,7 +2,7 @@
 
 use crate::context::Context;
 use lightbots_base::{Instant, Span, Vec2};
-use lightbots_wire::{Command, Topic};
+use lightbots_wire::Command;
 use std::collections::BTreeMap;
 
 /// How often STOP is sent, and how far apart.
@@ -49,7 +49,7 @@ impl Stopping {
             return;
         }
         self.halted.insert(index, at);
-        context.outbox.send(Topic::Robot(robot.id), &[Command::Target(at), Command::Uuid]);
+        context.send(index, &[Command::Target(at), Command::Uuid]);
     }
 
     /// When something is due.
@@ -71,7 +71,7 @@ impl Stopping {
             return true;
         }
         for index in moving {
-            context.outbox.send(Topic::Robot(context.fleet.robot(index).id), &[Command::Stop]);
+            context.send(index, &[Command::Stop]);
         }
         false
     }

@@ -162,8 +162,7 @@ fn set_colors(context: &mut Context, roster: &Roster, leg: &Leg) {
         let fades = context.fleet.robot(known.robot).reported.abilities.fade;
         let drives = !known.is_excluded() && !fades && leg.path(participant).is_some();
         if drives && context.set_light(known.robot, step.color) {
-            let topic = Topic::Robot(context.fleet.robot(known.robot).id);
-            context.outbox.send(topic, &[Command::Color(step.color)]);
+            context.send(known.robot, &[Command::Color(step.color)]);
         }
     }
 }
@@ -174,8 +173,7 @@ pub(crate) fn color_target_robots(context: &mut Context, roster: &Roster, leg: &
         let known = &roster.participants[participant];
         let lit = leg.is_driven_by(participant) || leg.reaches_frame && step.pixel.is_some();
         if lit && !known.is_excluded() && context.set_light(known.robot, step.color) {
-            let topic = Topic::Robot(context.fleet.robot(known.robot).id);
-            context.outbox.send(topic, &[Command::Color(step.color)]);
+            context.send(known.robot, &[Command::Color(step.color)]);
         }
     }
 }
@@ -185,6 +183,5 @@ pub(crate) fn relight(context: &mut Context, roster: &Roster, leg: &Leg, partici
     let Some(step) = leg.robots.get(participant) else { return };
     let robot = roster.participants[participant].robot;
     context.set_light(robot, step.color);
-    let topic = Topic::Robot(context.fleet.robot(robot).id);
-    context.outbox.send(topic, &[Command::Color(step.color)]);
+    context.send(robot, &[Command::Color(step.color)]);
 }

@@ -1,6 +1,7 @@
 //! Plan requests, and what becomes of their results.
 
 use crate::event::EventKind;
+use crate::leg::Leg;
 use crate::operation::MissingPolicy;
 use crate::plan_request::{PlanProblem, PlanRequest, PlanResult, PlannedRobot};
 use crate::run::next::Next;
@@ -82,12 +83,11 @@ pub(crate) fn accept(cx: &mut RunContext, result: PlanResult, is_standing: bool)
         }
         cx.tally.recovery.replanned();
     }
-    (cx.io.mapping.owners, cx.io.mapping.shown) =
-        (result.mapping.owners.clone(), result.mapping.shown.clone());
-    remember_ends(cx, &result);
-    report_dark(cx, &result);
-    let (failed, frames) = (result.failed.clone(), result.frames);
-    queue_legs(cx, result);
+    let PlanResult { legs, frames, dark, failed, mapping, .. } = result;
+    (cx.io.mapping.owners, cx.io.mapping.shown) = (mapping.owners, mapping.shown);
+    remember_ends(cx, &legs);
+    report_dark(cx, &dark);
+    queue_legs(cx, legs);
     cx.io.log.record(cx.now, EventKind::Planned { frames });
     match failed {
         Some(failed) => on_failure(cx, failed, is_standing),
@@ -103,26 +103,26 @@ pub(crate) fn accept(cx: &mut RunContext, result: PlanResult, is_standing: bool)
 }
 
 /// Where all stand at the end of the last leg: more is planned from there.
-fn remember_ends(cx: &mut RunContext, result: &PlanResult) {
-    let Some(last) = result.legs.last() else { return };
+fn remember_ends(cx: &mut RunContext, legs: &[Leg]) {
+    let Some(last) = legs.last() else { return };
     cx.pipeline.planning.from = last.robots.iter().map(|robot| robot.goal).collect();
     for participant in (0..cx.roster.len()).filter(|&one| cx.roster.is_excluded(one)) {
         cx.pipeline.planning.from[participant] = cx.place(participant);
     }
 }
 
-fn report_dark(cx: &mut RunContext, result: &PlanResult) {
-    cx.pipeline.planning.is_dark = !result.dark.is_empty();
-    for (frame, pixels) in &result.dark {
+fn report_dark(cx: &mut RunContext, dark: &[(usize, Vec<u32>)]) {
+    cx.pipeline.planning.is_dark = !dark.is_empty();
+    for (frame, pixels) in dark {
         let (frame, count) = (*frame, pixels.len());
         let pixels = pixels.iter().copied().take(LISTED).collect();
         cx.io.log.record(cx.now, EventKind::LeftOut { frame, pixels, count });
     }
 }
 
-fn queue_legs(cx: &mut RunContext, result: PlanResult) {
+fn queue_legs(cx: &mut RunContext, legs: Vec<Leg>) {
     let mut takes = Span::ZERO;
-    for mut leg in result.legs {
+    for mut leg in legs {
         leg.seq = cx.io.number_route();
         takes += leg.duration;
         if leg.reaches_frame {

@@ -11,7 +11,7 @@ use crate::run::playback::PlayedShow;
 use crate::run::roster::{Participant, Roster};
 use crate::run::tally::Tally;
 use lightbots_base::{Instant, Span, Vec2};
-use lightbots_wire::{Command, Topic};
+use lightbots_wire::Command;
 
 /// What a phase works with.
 pub(crate) struct RunContext<'a> {
@@ -38,8 +38,7 @@ impl RunContext<'_> {
 
     /// Sends commands to a participant.
     pub fn send(&mut self, participant: usize, commands: &[Command]) {
-        let topic = Topic::Robot(self.robot(participant).id);
-        self.io.outbox.send(topic, commands);
+        self.io.send(self.participant(participant).robot, commands);
     }
 
     /// Whether a participant has to arrive for the present leg to end.
@@ -78,6 +77,12 @@ impl RunContext<'_> {
     pub fn upload_again(&mut self, participant: usize) -> Next {
         self.pipeline.upload_again(self.now, participant);
         self.pump()
+    }
+
+    /// A participant lost its route or began alone, but can go on: all stop and are planned again, with it.
+    pub fn replan_with(&mut self, participant: usize) -> Next {
+        self.report_waiting(participant, Trouble::Cut);
+        Next::Regather
     }
 
     /// Sends changes of light that are due.

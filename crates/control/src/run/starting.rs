@@ -90,7 +90,7 @@ impl Starting {
         }
         let mut next = drop_if_unfit(participant, details);
         if next.stays() && self.began_alone(cx, participant, details) {
-            next = replan_with(cx, participant);
+            next = cx.replan_with(participant);
         } else if next.stays() && restarted {
             next = cx.upload_again(participant);
         }
@@ -102,7 +102,7 @@ impl Starting {
 
     /// A participant says that it arrived though it has not started: it began alone.
     pub fn on_arrival(&mut self, cx: &mut RunContext, participant: usize, details: &Details) -> Next {
-        if self.began_alone(cx, participant, details) { replan_with(cx, participant) } else { Next::Stay }
+        if self.began_alone(cx, participant, details) { cx.replan_with(participant) } else { Next::Stay }
     }
 
     /// Whether a robot has begun at a moment that was postponed, because it did not receive the later moment in time.
@@ -232,12 +232,6 @@ impl Starting {
 /// Number of robots that are to start.
 fn starters(cx: &RunContext) -> usize {
     cx.pipeline.queue.front().map_or(0, |leg| leg.drivers)
-}
-
-/// A robot begins without the others: all stop and are planned again, with it.
-fn replan_with(cx: &mut RunContext, participant: usize) -> Next {
-    cx.report_waiting(participant, Trouble::Cut);
-    Next::Regather
 }
 
 fn drop_all(participants: &[usize], why: Trouble) -> Next {

@@ -3,11 +3,15 @@
 use crate::run::path_clock::PathClock;
 use crate::run::run_context::RunContext;
 use lightbots_base::{Instant, Span};
+use lightbots_wire::Command;
 
 /// Robots are watched this often.
 pub(crate) const WATCH_EVERY: Span = Span::from_millis(100);
 /// Robots that have not arrived are asked this long after the planned end: an arrival in time is reported by then.
 pub(crate) const ASK_AFTER_END: Span = Span::from_millis(300);
+
+/// A robot is asked for a report this often at most.
+pub(crate) const ASKED_EVERY: Span = Span::from_millis(90);
 
 /// A robot on its way.
 #[derive(Clone, Copy, Debug)]
@@ -55,6 +59,14 @@ pub(crate) struct Driving {
 }
 
 impl Driving {
+    /// Asks a robot for a report, at a bounded rate.
+    pub fn ask(&mut self, cx: &mut RunContext, participant: usize) {
+        if cx.now - self.progress[participant].asked_at >= ASKED_EVERY {
+            self.progress[participant].asked_at = cx.now;
+            cx.send(participant, &[Command::Status]);
+        }
+    }
+
     /// A drive that began now, of that many participants.
     pub fn new(clock: PathClock, now: Instant, heartbeat_at: Instant, participants: usize) -> Self {
         let progress = RobotProgress {

@@ -14,6 +14,7 @@ pub(crate) use drive::Driving;
 
 use crate::event::{EventKind, Trouble};
 use crate::leg::LegKind;
+use crate::run::driving::sightings::narrow;
 use crate::run::lights;
 use crate::run::next::Next;
 use crate::run::path_clock::PathClock;
@@ -112,7 +113,7 @@ impl Driving {
         match details.state {
             RobotState::Lost => Next::drop(participant, Trouble::Lost),
             RobotState::Faulty => Next::drop(participant, Trouble::Faulty),
-            RobotState::Cut => self.replan_with(cx, participant),
+            RobotState::Cut => cx.replan_with(participant),
             RobotState::Driving | RobotState::Held => {
                 self.on_obstruction(cx, participant, details.blocked);
                 self.on_progress(cx, participant, details);
@@ -135,16 +136,10 @@ impl Driving {
         if there && (cx.now + EARLY >= self.clock.ends || rested) && !waits {
             self.arrive(cx, participant)
         } else if cx.now + EARLY < self.clock.ends && cx.now > self.clock.began + OLD_REPORTS {
-            self.replan_with(cx, participant)
+            cx.replan_with(participant)
         } else {
             Next::Stay
         }
-    }
-
-    /// A robot lost its route but can go on: all stop and are planned again, with it.
-    fn replan_with(&mut self, cx: &mut RunContext, participant: usize) -> Next {
-        cx.report_waiting(participant, Trouble::Cut);
-        Next::Regather
     }
 
     /// Time passes.
@@ -171,8 +166,9 @@ impl Driving {
         let stop = StopTimes { began: cx.now, stood: cx.now };
         let heard = cx.robot(participant).contact.heard;
         let mut places = silence::whereabouts((leg, targets), &self.clock, stop, participant, heard);
-        self.narrow(cx, &mut places.possible);
-        self.narrow(cx, &mut places.likely);
+        let seen = self.sightings(cx);
+        narrow(&mut places.possible, &seen);
+        narrow(&mut places.likely, &seen);
         places
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::event::Trouble;
 use crate::run::driving::drive::{Driving, RobotProgress};
-use crate::run::driving::sightings::{SAME_M, Sighting, located, seen_by};
+use crate::run::driving::sightings::{SAME_M, Sighting, narrow, seen_by};
 use crate::run::next::Next;
 use crate::run::run_context::RunContext;
 use lightbots_base::{Instant, Span, Vec2};
@@ -12,8 +12,6 @@ use lightbots_wire::{Blocked, Command};
 const NEAR_M: f64 = 0.5;
 /// A robot that was asked and does not answer within this, link times on top, is silent.
 const ANSWER: Span = Span::from_millis(800);
-/// Robots that were asked are asked again this often.
-const ASK: Span = Span::from_millis(90);
 /// An obstacle that obstructs a robot for longer is there to stay.
 const STAYS: Span = Span::from_millis(1_500);
 /// Time that is left for a late or silent robot to be dropped first, as it may be the obstacle.
@@ -79,9 +77,8 @@ impl Driving {
             self.progress[participant].probed_since = None;
         } else if cx.now - since > ANSWER + cx.link.round_trip * 2 {
             return Some(Next::drop(participant, Trouble::Silent));
-        } else if cx.now - self.progress[participant].asked_at >= ASK {
-            cx.send(participant, &[Command::Status]);
-            self.progress[participant].asked_at = cx.now;
+        } else {
+            self.ask(cx, participant);
         }
         None
     }
@@ -124,32 +121,19 @@ impl Driving {
         cx.roster.active().map(|(one, _)| one).find(|&one| is_late(one) && is_there(one))
     }
 
-    /// Of the places where a silent robot may stand, keeps those where other robots see something, if they see any.
-    pub fn narrow(&self, cx: &RunContext, places: &mut Vec<Vec2>) {
-        let seen = located(places, &self.sightings(cx));
-        if !seen.is_empty() {
-            *places = seen;
-        }
-    }
-
     /// Narrows where silent robots stand, by what other robots see since.
     fn locate_silent(&self, cx: &mut RunContext) {
-        for participant in 0..cx.roster.len() {
-            let mut possible = std::mem::take(&mut cx.roster.participants[participant].last_seen.possible);
-            let is_silent = cx.roster.is_excluded(participant) && !possible.is_empty();
-            if is_silent {
-                self.narrow(cx, &mut possible);
+        let seen = self.sightings(cx);
+        for known in &mut cx.roster.participants {
+            if known.is_excluded() && !known.last_seen.possible.is_empty() {
+                narrow(&mut known.last_seen.possible, &seen);
+                known.last_seen.likely.clone_from(&known.last_seen.possible);
             }
-            let last_seen = &mut cx.roster.participants[participant].last_seen;
-            if is_silent {
-                last_seen.likely.clone_from(&possible);
-            }
-            last_seen.possible = possible;
         }
     }
 
     /// What obstructed robots see, without robots that reported their places.
-    fn sightings(&self, cx: &RunContext) -> Vec<Sighting> {
+    pub fn sightings(&self, cx: &RunContext) -> Vec<Sighting> {
         let contact_m = cx.playback.contact_m();
         let known: Vec<Vec2> = cx.roster.active().filter_map(|(one, _)| cx.robot(one).reported.at).collect();
         let is_obstructed = |one: &usize| self.progress[*one].obstructed_since.is_some();

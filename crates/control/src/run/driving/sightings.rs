@@ -72,7 +72,7 @@ impl Sighting {
 /// Where a robot stands that fell silent on its path, of which `places` are known: one place for each group of sightings
 /// near the path. A robot that was run into stands beside its path, and a sensor tells range much better than bearing.
 /// Where only one robot sees it, all places between what its path and what the sensor says are kept clear.
-pub(crate) fn located(places: &[Vec2], sightings: &[Sighting]) -> Vec<Vec2> {
+fn located(places: &[Vec2], sightings: &[Sighting]) -> Vec<Vec2> {
     let mut path: Vec<Vec2> = places.to_vec();
     path.extend(between(places));
     let near_path = |seen: &&Sighting| path.iter().any(|place| place.distance(seen.there) < PUSHED_M);
@@ -92,6 +92,14 @@ pub(crate) fn located(places: &[Vec2], sightings: &[Sighting]) -> Vec<Vec2> {
         }
     }
     found
+}
+
+/// Of the places where a silent robot may stand, keeps those where other robots see something, if they see any.
+pub(crate) fn narrow(places: &mut Vec<Vec2>, sightings: &[Sighting]) {
+    let seen = located(places, sightings);
+    if !seen.is_empty() {
+        *places = seen;
+    }
 }
 
 /// The most likely place by a group of sightings and a path: least squares, by steps of [`SEARCH_STEP_M`].

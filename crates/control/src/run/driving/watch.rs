@@ -3,7 +3,7 @@
 use crate::event::Trouble;
 use crate::leg::LegKind;
 use crate::run::driving::arrivals::MISSED_M;
-use crate::run::driving::drive::{Driving, WATCH_EVERY};
+use crate::run::driving::drive::{ASKED_EVERY, Driving, WATCH_EVERY};
 use crate::run::driving::lateness::LATE_MAX_M;
 use crate::run::next::Next;
 use crate::run::run_context::RunContext;
@@ -19,20 +19,14 @@ const SLICE: usize = 512;
 struct Silence {
     /// The robot is asked for a report: it missed one that is due every 500 ms (R41).
     asked_after: Span,
-    /// It is asked this often at most.
-    asked_every: Span,
     /// All wait for it.
     held_after: Span,
 }
 
 /// An earlier hold would stop the fleet for two lost reports; a later one lets it run into a dead robot.
-const SILENCE: Silence = Silence {
-    asked_after: Span::from_millis(560),
-    asked_every: Span::from_millis(90),
-    held_after: Span::from_millis(800),
-};
+const SILENCE: Silence = Silence { asked_after: Span::from_millis(560), held_after: Span::from_millis(800) };
 
-const _: () = assert!(SILENCE.asked_after.0 + SILENCE.asked_every.0 < SILENCE.held_after.0);
+const _: () = assert!(SILENCE.asked_after.0 + ASKED_EVERY.0 < SILENCE.held_after.0);
 
 /// Robots that have not arrived this long after the planned end are judged by where they stand.
 const OVERDUE: Span = Span::from_millis(3_000);
@@ -152,14 +146,6 @@ impl Driving {
             *nearest = (at.distance(goal), cx.now);
         }
         nearest.1
-    }
-
-    /// Asks a robot for a report, at a bounded rate.
-    fn ask(&mut self, cx: &mut RunContext, participant: usize) {
-        if cx.now - self.progress[participant].asked_at >= SILENCE.asked_every {
-            self.progress[participant].asked_at = cx.now;
-            cx.send(participant, &[Command::Status]);
-        }
     }
 
     /// A robot that should have arrived long ago.
