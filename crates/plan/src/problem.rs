@@ -160,6 +160,11 @@ impl Path {
     /// Most pieces of a path: the storage of a robot.
     pub(crate) const MOST_PIECES: usize = 128;
 
+    /// Duration of the longest of these paths; 0 where there are none.
+    pub(crate) fn longest(paths: &[Self]) -> Span {
+        paths.iter().map(|path| path.as_ref().duration()).max().unwrap_or(Span::ZERO)
+    }
+
     /// The path as a borrowed value.
     pub fn as_ref(&self) -> PathRef<'_> {
         PathRef::new(self.start, &self.pieces)

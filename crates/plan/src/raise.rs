@@ -65,10 +65,7 @@ pub(crate) fn raised(
         return before;
     }
     let after = measure(&paths);
-    let quality = |paths: &[Path]| PlanQuality {
-        contacts: 0,
-        duration: paths.iter().map(|path| path.as_ref().duration()).max().unwrap_or(Span::ZERO),
-    };
+    let quality = |paths: &[Path]| PlanQuality { contacts: 0, duration: Path::longest(paths) };
     let shares = [before.share(), after.share()];
     let chosen = choose(&[quality(&transition.paths), quality(&paths)], |index| percent(shares[index]));
     if chosen.is_none_or(|chosen| chosen.index == 0) {
@@ -86,7 +83,7 @@ pub(crate) fn raised(
 fn delayed(paths: &[Path], delays: &[Span]) -> Vec<Path> {
     let driving = paths.iter().zip(delays).filter(|(path, _)| !path.as_ref().rests());
     let latest = driving.map(|(path, delay)| ends(path) + *delay);
-    let before = paths.iter().map(|path| path.as_ref().duration()).max().unwrap_or(Span::ZERO);
+    let before = Path::longest(paths);
     let duration = latest.max().unwrap_or(Span::ZERO).max(before);
     let later = |(path, delay): (&Path, &Span)| {
         let mut later = Path { start: path.start, pieces: Vec::with_capacity(path.pieces.len() + 2) };

@@ -132,5 +132,5 @@ pub(crate) fn faults(input: &ProofInput<'_>, cancel: Cancel<'_>) -> Vec<Fault> {
 
 /// End of the last path.
 fn horizon(input: &ProofInput<'_>) -> Span {
-    input.paths.iter().map(|path| path.as_ref().duration()).max().unwrap_or(Span::ZERO)
+    Path::longest(input.paths)
 }

@@ -130,7 +130,7 @@ pub(crate) fn measured(
     assumptions: &StopAssumptions,
     cancel: Cancel<'_>,
 ) -> StopSafety {
-    let duration = paths.iter().map(|path| path.as_ref().duration()).max().unwrap_or(Span::ZERO);
+    let duration = Path::longest(paths);
     let drives: Vec<bool> = paths.iter().map(|path| !path.as_ref().rests()).collect();
     let steps = (duration.0.max(0) / STEP.0) as usize + 1;
     let stride = steps.div_ceil(MOST_MOMENTS);

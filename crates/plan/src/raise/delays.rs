@@ -77,7 +77,7 @@ struct Search<'a> {
 
 impl<'a> Search<'a> {
     fn new(paths: &[Path], limits: &'a Limits, most: Span) -> Self {
-        let duration = paths.iter().map(|path| path.as_ref().duration()).max().unwrap_or(Span::ZERO);
+        let duration = Path::longest(paths);
         let count = (duration.0 / STEP.0) as usize + 2;
         let track = |path: &Path| {
             (0..count).map(|moment| path.as_ref().at(STEP * moment as i64).position).collect::<Vec<_>>()

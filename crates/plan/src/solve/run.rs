@@ -362,7 +362,7 @@ impl Run<'_> {
     fn outcome(mut self) -> Solution {
         let mut plans: Vec<Repaired> =
             self.candidates.iter().map(|candidate| self.repaired(&candidate.solution)).collect();
-        let quality = |plan: &Repaired| PlanQuality { contacts: 0, duration: duration(&plan.paths) };
+        let quality = |plan: &Repaired| PlanQuality { contacts: 0, duration: Path::longest(&plan.paths) };
         let qualities: Vec<PlanQuality> = plans.iter().map(quality).collect();
         let (limits, cancel) = (&self.problem.limits, self.instance.cancel);
         let stop_safe_percent = |index: usize| {
@@ -384,8 +384,4 @@ impl Run<'_> {
         let explanation = Explanation { rows: self.rows, chosen, reason: reason.into() };
         Solution { result: Ok(plans.swap_remove(index)), explanation }
     }
-}
-
-fn duration(paths: &[Path]) -> Span {
-    paths.iter().map(|path| path.as_ref().duration()).max().unwrap_or(Span::ZERO)
 }

@@ -73,7 +73,7 @@ impl Candidate {
         let wanted_m = |found: &Closest| following::wanted_m(&paths, found, &problem.limits, slower);
         proof.conflicts.retain(|found| found.distance_m < wanted_m(found) - 1e-6);
         let uncomfortable = proof.conflicts.iter().filter(|found| found.distance_m < comfort_m).count();
-        let duration = paths.iter().map(|path| path.as_ref().duration()).max().unwrap_or(Span::ZERO);
+        let duration = Path::longest(&paths);
         let closest = proof.closest;
         let transition =
             Transition { goal_of, paths, duration, least: duration, lower_bound_s: 0.0, closest };
