@@ -293,7 +293,7 @@ impl<'a> PlanBuilder<'a> {
             leg.drivers += usize::from(matches!(step.task, Task::Stay));
             *step = RobotLeg { task: Task::Drives, goal: drive.to, settles, ..step.clone() };
         }
-        Leg { drives: drives, ..leg }
+        Leg { drives, ..leg }
     }
 
     /// A leg in which no robot moves yet.
