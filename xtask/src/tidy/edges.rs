@@ -4,10 +4,11 @@ use super::{files, shown};
 use std::path::Path;
 
 /// Crates of this workspace that each crate may use. Tests may use more.
-const EDGES: [(&str, &[&str]); 14] = [
+const EDGES: [(&str, &[&str]); 15] = [
     ("base", &[]),
     ("wire", &["base"]),
     ("show", &["base"]),
+    ("draw", &["base"]),
     ("plan", &["base", "show"]),
     ("exchange", &["base", "show", "plan"]),
     ("robot", &["base", "wire"]),
@@ -20,7 +21,10 @@ const EDGES: [(&str, &[&str]); 14] = [
     ("standin", &[]),
     (
         "server",
-        &["base", "wire", "show", "plan", "robot", "control", "sim", "exam", "exchange", "api", "link"],
+        &[
+            "base", "wire", "show", "plan", "robot", "control", "sim", "exam", "exchange", "draw", "api",
+            "link",
+        ],
     ),
 ];
 

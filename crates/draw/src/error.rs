@@ -1,0 +1,54 @@
+//! What could not be drawn, and why.
+
+use std::fmt;
+
+use crate::drawing::Drawing;
+
+/// A source that cannot be drawn at all.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct DrawError {
+    /// Stable name for programs, such as `picture-cut-off`.
+    pub code: &'static str,
+    /// For people: what is wrong, where, and what to do.
+    pub message: String,
+}
+
+/// Something that is missing from a drawing, such as a picture inside an SVG.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Note {
+    /// Stable name for programs, such as `svg-image`.
+    pub code: &'static str,
+    /// For people: what is missing, how often, and what to do.
+    pub message: String,
+}
+
+/// A drawing, and what is missing from it.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Made {
+    /// The drawing.
+    pub drawing: Drawing,
+    /// What is missing.
+    pub notes: Vec<Note>,
+}
+
+impl DrawError {
+    /// An error with a code for programs and a message for people.
+    pub fn new(code: &'static str, message: impl Into<String>) -> Self {
+        Self { code, message: message.into() }
+    }
+}
+
+impl Note {
+    /// A note with a code for programs and a message for people.
+    pub fn new(code: &'static str, message: impl Into<String>) -> Self {
+        Self { code, message: message.into() }
+    }
+}
+
+impl fmt::Display for DrawError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.message)
+    }
+}
+
+impl std::error::Error for DrawError {}
