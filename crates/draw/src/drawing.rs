@@ -6,12 +6,12 @@ use lightbots_base::{Rgb, Vec2};
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Drawing {
     /// Parts that get robots of their own: the letters of a word, or the whole of a picture.
-    pub groups: Vec<Group>,
+    pub groups: Vec<DrawingPart>,
 }
 
 /// A part of a drawing. Robots of one group are spread evenly over all of its lines and areas.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Group {
+pub struct DrawingPart {
     /// Name for people and for pins; unique in its drawing.
     pub name: String,
     /// The letter that the group is, for the measure of readability.
@@ -33,7 +33,7 @@ pub struct Area {
     /// Closed lines, without repetition of their first point.
     pub rings: Vec<Vec<Vec2>>,
     /// What is inside where rings overlap.
-    pub rule: Rule,
+    pub rule: FillRule,
     /// Colour of its lights.
     pub color: Rgb,
     /// How densely it is filled, relative to the others; positive.
@@ -42,7 +42,7 @@ pub struct Area {
 
 /// What is inside of rings that overlap, as in SVG.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Rule {
+pub enum FillRule {
     /// Where the rings wind around a point at all.
     #[default]
     NonZero,

@@ -3,8 +3,36 @@
 //! The crate does no IO: bytes and numbers in, places and colours out, with the same bits for the same input and seed. In
 //! reading order: a [`Drawing`] is lines and areas with colours.
 
+mod allot;
+mod apart;
+mod buckets;
+mod colour;
+mod coverage;
 mod drawing;
 mod error;
+mod fit;
+mod ground;
+mod layout;
+mod light_image;
+mod lines;
+mod measure;
+mod occupy;
+mod pins;
+mod place;
+#[cfg(test)]
+mod place_tests;
+mod readability;
+mod relax;
+mod seeds;
+mod settings;
+mod symmetry;
 
-pub use drawing::{Area, Drawing, Group, Raster, Rule, Stroke};
+pub use drawing::{Area, Drawing, DrawingPart, FillRule, Raster, Stroke};
 pub use error::{DrawError, Made, Note};
+pub use fit::{NoGo, PictureFloor};
+pub use ground::Quality;
+pub use layout::Style;
+pub use measure::{Figures, figures};
+pub use place::{Placed, place};
+pub use readability::{DOUBTFUL, READABLE, Readability};
+pub use settings::{MAX_ROBOTS, PlaceSettings, PlacedLight};

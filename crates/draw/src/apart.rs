@@ -1,0 +1,91 @@
+//! Pushes places apart that are nearer than wanted. The closest pair sets the size of a picture on the floor, because
+//! robots need their spacing there.
+
+use lightbots_base::Vec2;
+
+use crate::buckets::Buckets;
+use crate::lines::LineSet;
+use crate::symmetry::Pairing;
+
+/// Most rounds of moving close pairs.
+const ROUNDS: usize = 150;
+
+/// What holds a place.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Freedom {
+    /// Nothing: it may move within the drawing.
+    Free,
+    /// It may slide along the lines.
+    Line,
+    /// It stays: a corner, an end, a place that somebody chose.
+    Fixed,
+}
+
+/// Where places may go.
+pub(crate) struct Room<'a> {
+    /// Places inside of the drawing, close together.
+    pub inside: &'a Buckets<'a>,
+    /// The same as points.
+    pub points: &'a [Vec2],
+    /// Greatest distance of an inside place from the nearest point.
+    pub slack: f64,
+    /// Lines for places that slide.
+    pub track: &'a LineSet,
+    /// The points of the track.
+    pub on_track: &'a Buckets<'a>,
+    /// Which places mirror each other.
+    pub pairing: Option<&'a Pairing>,
+}
+
+/// Moves places until no pair is nearer than `distance`, or the rounds are over.
+pub(crate) fn push_apart(places: &mut [Vec2], holds: &[Freedom], distance: f64, room: &Room<'_>) {
+    for _ in 0..ROUNDS {
+        let mut pushes = vec![Vec2::ZERO; places.len()];
+        let mut close = false;
+        Buckets::new(places, distance).pairs(distance * 0.999, |a, b, length| {
+            close = true;
+            let (share_a, share_b) = shares(&holds[a], &holds[b]);
+            // Two places in one point part along a direction that depends on their numbers alone.
+            let way = (places[a] - places[b]).normalized().unwrap_or_else(|| Vec2::unit((a + 3 * b) as f64));
+            pushes[a] += way * ((distance - length) * share_a);
+            pushes[b] -= way * ((distance - length) * share_b);
+        });
+        if !close {
+            return;
+        }
+        for (index, push) in pushes.into_iter().enumerate() {
+            if push != Vec2::ZERO {
+                places[index] = room.nearest(places[index] + push, &holds[index]);
+            }
+        }
+        if let Some(pairing) = room.pairing {
+            pairing.apply(places);
+        }
+    }
+}
+
+/// How much of the missing distance each of two places moves.
+fn shares(a: &Freedom, b: &Freedom) -> (f64, f64) {
+    match (a, b) {
+        (Freedom::Fixed, Freedom::Fixed) => (0.0, 0.0),
+        (Freedom::Fixed, _) => (0.0, 1.0),
+        (_, Freedom::Fixed) => (1.0, 0.0),
+        (Freedom::Line, Freedom::Free) => (0.2, 0.8),
+        (Freedom::Free, Freedom::Line) => (0.8, 0.2),
+        _ => (0.5, 0.5),
+    }
+}
+
+impl Room<'_> {
+    /// The nearest place that a place may move to.
+    fn nearest(&self, at: Vec2, hold: &Freedom) -> Vec2 {
+        match hold {
+            Freedom::Fixed => at,
+            Freedom::Line => self.track.project(at, self.on_track),
+            Freedom::Free => match self.inside.nearest(at) {
+                Some((index, square)) if square > self.slack * self.slack => self.points[index],
+                _ => at,
+            },
+        }
+    }
+}

@@ -1,0 +1,226 @@
+//! The exact share of an area in each cell of a grid, as weighted samples for the relaxation.
+
+use lightbots_base::Vec2;
+
+use crate::drawing::{Area, DrawingPart, FillRule, Raster};
+
+/// Lines on which a cell's share is integrated. Along a line it is exact.
+const LINES: usize = 4;
+
+/// A cell of the grid where something is drawn.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Sample {
+    /// Centroid of what is drawn in the cell.
+    pub at: Vec2,
+    /// Area of what is drawn in the cell, times its weight.
+    pub mass: f64,
+}
+
+/// What is drawn in a cell: its share of the cell times its weight, and the first moments about the cell's corner.
+#[derive(Clone, Copy, Default)]
+struct Cell {
+    share: f64,
+    x: f64,
+    y: f64,
+}
+
+struct Grid {
+    min: Vec2,
+    pitch: f64,
+    columns: usize,
+    rows: usize,
+    cells: Vec<Cell>,
+}
+
+/// Samples of a part's areas, or of its picture if it has no areas, from cells of side `pitch`. Later areas cover
+/// earlier ones.
+pub(crate) fn samples(group: &DrawingPart, pitch: f64) -> Vec<Sample> {
+    if group.areas.is_empty() {
+        return group.raster.as_ref().map_or_else(Vec::new, |raster| of_raster(raster, pitch));
+    }
+    let points = || group.areas.iter().flat_map(|area| area.rings.iter().flatten());
+    let Some((min, max)) = bounds(points().copied()) else { return Vec::new() };
+    let mut grid = Grid::new(min, max, pitch);
+    for area in &group.areas {
+        grid.cover(area);
+    }
+    grid.samples()
+}
+
+fn bounds(points: impl Iterator<Item = Vec2>) -> Option<(Vec2, Vec2)> {
+    points.map(|point| (point, point)).reduce(|(low, high), (point, _)| {
+        let low = Vec2::new(low.x.min(point.x), low.y.min(point.y));
+        (low, Vec2::new(high.x.max(point.x), high.y.max(point.y)))
+    })
+}
+
+/// Point density grows with the square root of the mass in a centroidal tessellation (Gersho 1979), so the mass is the
+/// square of the weight that is asked for.
+fn of_raster(raster: &Raster, pitch: f64) -> Vec<Sample> {
+    let size = raster.max - raster.min;
+    let columns = (size.x / pitch).ceil().max(1.0) as usize;
+    let rows = (size.y / pitch).ceil().max(1.0) as usize;
+    let mut samples = Vec::new();
+    for row in 0..rows {
+        for column in 0..columns {
+            let share = Vec2::new((column as f64 + 0.5) / columns as f64, (row as f64 + 0.5) / rows as f64);
+            let at = Vec2::new(raster.min.x + size.x * share.x, raster.min.y + size.y * share.y);
+            let weight =
+                raster.cell(at).and_then(|cell| raster.weights.get(cell)).map_or(0.0, |w| f64::from(*w));
+            if weight > 0.0 {
+                samples.push(Sample { at, mass: weight * weight * pitch * pitch });
+            }
+        }
+    }
+    samples
+}
+
+impl Grid {
+    fn new(min: Vec2, max: Vec2, pitch: f64) -> Self {
+        let columns = ((max.x - min.x) / pitch) as usize + 1;
+        let rows = ((max.y - min.y) / pitch) as usize + 1;
+        Self { min, pitch, columns, rows, cells: vec![Cell::default(); columns * rows] }
+    }
+
+    /// Draws an area over what is there.
+    fn cover(&mut self, area: &Area) {
+        let mut shares = vec![Cell::default(); self.cells.len()];
+        for (line, crossings) in self.crossings(area).iter().enumerate() {
+            for (from, to) in inside(crossings, area.rule) {
+                self.add(&mut shares, line, from, to);
+            }
+        }
+        let mass = area.weight * area.weight;
+        for (cell, new) in self.cells.iter_mut().zip(shares) {
+            let rest = 1.0 - new.share.min(1.0);
+            cell.share = cell.share * rest + new.share * mass;
+            cell.x = cell.x * rest + new.x * mass;
+            cell.y = cell.y * rest + new.y * mass;
+        }
+    }
+
+    /// Where each line crosses the area's rings, in cells from the left, and which way the ring goes there.
+    fn crossings(&self, area: &Area) -> Vec<Vec<(f64, i32)>> {
+        let mut lines = vec![Vec::new(); self.rows * LINES];
+        let scaled = |point: Vec2| {
+            let at = point - self.min;
+            Vec2::new(at.x / self.pitch, at.y / self.pitch * LINES as f64 - 0.5)
+        };
+        for ring in &area.rings {
+            for (index, point) in ring.iter().enumerate() {
+                let (a, b) = (scaled(*point), scaled(ring[(index + 1) % ring.len()]));
+                let (low, high, way) = if a.y < b.y { (a, b, 1) } else { (b, a, -1) };
+                let first = low.y.ceil().max(0.0) as usize;
+                for (line, crossings) in lines.iter_mut().enumerate().skip(first) {
+                    if line as f64 >= high.y {
+                        break;
+                    }
+                    let share = (line as f64 - low.y) / (high.y - low.y);
+                    crossings.push((low.x + (high.x - low.x) * share, way));
+                }
+            }
+        }
+        lines
+    }
+
+    /// Adds a piece of a line to the cells under it.
+    fn add(&self, shares: &mut [Cell], line: usize, from: f64, to: f64) {
+        let row = line / LINES;
+        let y = ((line % LINES) as f64 + 0.5) / LINES as f64;
+        let (from, to) = (from.max(0.0), to.min(self.columns as f64));
+        let mut column = from as usize;
+        while column < self.columns && (column as f64) < to {
+            let (left, right) = (from.max(column as f64), to.min(column as f64 + 1.0));
+            let share = (right - left) / LINES as f64;
+            let cell = &mut shares[row * self.columns + column];
+            cell.share += share;
+            cell.x += share * ((left + right) / 2.0 - column as f64);
+            cell.y += share * y;
+            column += 1;
+        }
+    }
+
+    fn samples(&self) -> Vec<Sample> {
+        let drawn = self.cells.iter().enumerate().filter(|(_, cell)| cell.share > 1e-6);
+        drawn
+            .map(|(index, cell)| {
+                let corner = Vec2::new((index % self.columns) as f64, (index / self.columns) as f64);
+                let at = corner + Vec2::new(cell.x / cell.share, cell.y / cell.share);
+                Sample { at: self.min + at * self.pitch, mass: cell.share * self.pitch * self.pitch }
+            })
+            .collect()
+    }
+}
+
+/// Pieces of a line that lie inside.
+fn inside(crossings: &[(f64, i32)], rule: FillRule) -> Vec<(f64, f64)> {
+    let mut sorted = crossings.to_vec();
+    sorted.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let mut pieces = Vec::new();
+    let mut winding = 0;
+    for pair in sorted.windows(2) {
+        winding += pair[0].1;
+        let is_inside = match rule {
+            FillRule::NonZero => winding != 0,
+            FillRule::EvenOdd => winding % 2 != 0,
+        };
+        if is_inside && pair[1].0 > pair[0].0 {
+            pieces.push((pair[0].0, pair[1].0));
+        }
+    }
+    pieces
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use lightbots_base::Rgb;
+
+    fn square(at: f64, side: f64) -> Vec<Vec2> {
+        [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)]
+            .map(|(x, y)| Vec2::new(at + x * side, at + y * side))
+            .to_vec()
+    }
+
+    fn total(rings: Vec<Vec<Vec2>>, rule: FillRule) -> f64 {
+        let area = Area { rings, rule, color: Rgb::BLACK, weight: 1.0 };
+        samples(&DrawingPart { areas: vec![area], ..DrawingPart::default() }, 0.07)
+            .iter()
+            .map(|s| s.mass)
+            .sum()
+    }
+
+    #[test]
+    fn the_mass_of_a_square_is_its_area() {
+        assert!((total(vec![square(0.013, 1.0)], FillRule::NonZero) - 1.0).abs() < 0.02);
+    }
+
+    #[test]
+    fn a_hole_is_empty_by_the_even_odd_rule_only() {
+        let rings = || vec![square(0.0, 1.0), square(0.25, 0.5)];
+        assert!((total(rings(), FillRule::NonZero) - 1.0).abs() < 0.02);
+        assert!((total(rings(), FillRule::EvenOdd) - 0.75).abs() < 0.02);
+    }
+
+    #[test]
+    fn an_area_over_another_counts_once() {
+        let area = |at| Area {
+            rings: vec![square(at, 1.0)],
+            rule: FillRule::NonZero,
+            color: Rgb::BLACK,
+            weight: 1.0,
+        };
+        let group = DrawingPart { areas: vec![area(0.0), area(0.5)], ..DrawingPart::default() };
+        let mass: f64 = samples(&group, 0.05).iter().map(|sample| sample.mass).sum();
+        assert!((mass - 1.75).abs() < 0.03, "{mass}");
+    }
+
+    #[test]
+    fn a_sample_at_the_edge_is_the_centroid_of_the_part_inside() {
+        let area =
+            Area { rings: vec![square(0.0, 1.5)], rule: FillRule::NonZero, color: Rgb::BLACK, weight: 1.0 };
+        let samples = samples(&DrawingPart { areas: vec![area], ..DrawingPart::default() }, 1.0);
+        let corner = samples.last().unwrap();
+        assert!((corner.at.x - 1.25).abs() < 1e-9 && (corner.mass - 0.25).abs() < 1e-9, "{corner:?}");
+    }
+}

@@ -1,0 +1,195 @@
+//! Size and place of a picture on the floor.
+
+use lightbots_base::Vec2;
+use lightbots_base::shape::nearest_in_rect;
+
+use crate::drawing::{Drawing, DrawingPart, Stroke};
+use crate::error::DrawError;
+use crate::settings::PlaceSettings;
+
+/// Share of the floor that a picture takes where nothing else is asked for.
+const SHARE: f64 = 0.8;
+
+/// A spacing beyond which lights no longer look like one picture from the edge of the floor, in least spacings.
+const LOOSE: f64 = 4.0;
+
+/// Where lights may stand.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PictureFloor {
+    /// Corner with the smaller x and y where a robot may stand, stage metres.
+    pub min: Vec2,
+    /// Corner with the larger x and y where a robot may stand, stage metres.
+    pub max: Vec2,
+    /// Where no robot may stand.
+    pub no_go: Vec<NoGo>,
+}
+
+/// An area where no robot's centre may be.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum NoGo {
+    /// A disc.
+    Disc {
+        /// Centre, stage metres.
+        at: Vec2,
+        /// Radius, metres: that of the area and the robot's own.
+        radius_m: f64,
+    },
+    /// A rectangle with sides along the axes and rounded corners.
+    Rect {
+        /// Corner with the smaller x and y, stage metres.
+        min: Vec2,
+        /// Corner with the larger x and y, stage metres.
+        max: Vec2,
+        /// Distance that a robot's centre keeps, metres.
+        margin_m: f64,
+    },
+}
+
+/// The map from a drawing's units to the floor.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Placement {
+    middle: Vec2,
+    extent: Vec2,
+    scale: f64,
+    most: f64,
+    center: Vec2,
+    turn: f64,
+}
+
+impl PictureFloor {
+    /// A floor of this size with its origin in the middle; robots keep `margin_m` from its edges.
+    pub fn new(width_m: f64, depth_m: f64, margin_m: f64) -> Self {
+        let half = Vec2::new(width_m / 2.0 - margin_m, depth_m / 2.0 - margin_m);
+        Self { min: half * -1.0, max: half, no_go: Vec::new() }
+    }
+
+    /// Whether a robot may stand at a place.
+    pub fn allows(&self, at: Vec2) -> bool {
+        let inside = at.x >= self.min.x && at.y >= self.min.y && at.x <= self.max.x && at.y <= self.max.y;
+        inside && !self.no_go.iter().any(|area| area.holds(at))
+    }
+}
+
+impl NoGo {
+    fn holds(&self, at: Vec2) -> bool {
+        match *self {
+            Self::Disc { at: center, radius_m } => at.distance(center) < radius_m,
+            Self::Rect { min, max, margin_m } => {
+                let nearest = nearest_in_rect(at, min, max);
+                nearest.distance(at) < margin_m || nearest == at
+            }
+        }
+    }
+}
+
+impl Placement {
+    /// The size that was asked for, else one that suits floor and number of robots.
+    pub fn new(drawing: &Drawing, floor: &PictureFloor, settings: &PlaceSettings) -> Result<Self, DrawError> {
+        let (low, high) = drawing.bounds().ok_or_else(|| {
+            DrawError::new("nothing-to-draw", "there is nothing to draw; choose another source")
+        })?;
+        let extent = high - low;
+        if !(extent.is_finite() && extent.x.max(extent.y) > 1e-12) {
+            return Err(DrawError::new(
+                "nothing-to-draw",
+                "the drawing is a single point; choose another source",
+            ));
+        }
+        let mut placement = Self {
+            middle: low.lerp(high, 0.5),
+            extent,
+            scale: 1.0,
+            most: 0.0,
+            center: settings.center,
+            turn: settings.turn,
+        };
+        placement.most = placement.largest(floor);
+        if placement.most <= 0.0 {
+            return Err(DrawError::new("off-the-floor", "the picture's centre is not on the floor; move it"));
+        }
+        let larger = extent.x.max(extent.y);
+        let loose = LOOSE * settings.spacing_m * ((settings.robots as f64).sqrt() + 1.0);
+        placement.scale = match settings.size_m {
+            Some(size) => (size / larger).min(placement.most),
+            None => (SHARE * placement.most).min(loose / larger),
+        };
+        Ok(placement)
+    }
+
+    /// The largest scale with which the turned box stays on the floor.
+    fn largest(&self, floor: &PictureFloor) -> f64 {
+        let (cos, sin) = (libm::cos(self.turn).abs(), libm::sin(self.turn).abs());
+        let width = self.extent.x * cos + self.extent.y * sin;
+        let depth = self.extent.x * sin + self.extent.y * cos;
+        let room = |center: f64, min: f64, max: f64| 2.0 * (center - min).min(max - center);
+        let across = room(self.center.x, floor.min.x, floor.max.x) / width.max(1e-12);
+        across.min(room(self.center.y, floor.min.y, floor.max.y) / depth.max(1e-12))
+    }
+
+    /// Larger side of the picture, metres.
+    pub fn size_m(&self) -> f64 {
+        self.scale * self.extent.x.max(self.extent.y)
+    }
+
+    /// Whether the picture can grow by a factor.
+    pub fn has_room(&self, factor: f64) -> bool {
+        self.scale * factor * 1.002 <= self.most
+    }
+
+    /// Makes the picture larger by a factor and returns the factor that the floor allows, or says which number of robots
+    /// would fit.
+    pub fn enlarge(
+        &mut self,
+        factor: f64,
+        floor: &PictureFloor,
+        settings: &PlaceSettings,
+        robots: usize,
+        closest_m: f64,
+    ) -> Result<f64, DrawError> {
+        if self.scale >= self.most * 0.999 {
+            let share = closest_m / settings.spacing_m;
+            let fitting = ((robots as f64) * share * share * 0.95).floor().max(1.0);
+            let size = floor.max - floor.min;
+            let what = format!(
+                "{robots} robots at least {:.0} mm apart do not fit into this picture on {:.2} × {:.2} m of floor; about \
+                 {fitting} robots do, or a floor {:.1} times as wide and deep",
+                settings.spacing_m * 1_000.0,
+                size.x,
+                size.y,
+                1.02 / share
+            );
+            return Err(DrawError::new("too-many-robots", what));
+        }
+        let before = self.scale;
+        self.scale = (self.scale * factor * 1.002).min(self.most);
+        Ok(self.scale / before)
+    }
+
+    fn map(&self, at: Vec2) -> Vec2 {
+        let (cos, sin) = (libm::cos(self.turn), libm::sin(self.turn));
+        let point = (at - self.middle) * self.scale;
+        self.center + Vec2::new(point.x * cos - point.y * sin, point.x * sin + point.y * cos)
+    }
+
+    /// The drawing in stage metres.
+    pub fn apply(&self, drawing: &Drawing) -> Drawing {
+        Drawing { groups: drawing.groups.iter().map(|group| self.group(group)).collect() }
+    }
+
+    fn group(&self, group: &DrawingPart) -> DrawingPart {
+        let stroke = |stroke: &Stroke| Stroke {
+            points: stroke.points.iter().map(|at| self.map(*at)).collect(),
+            ..stroke.clone()
+        };
+        let mut mapped = group.clone();
+        for ring in mapped.areas.iter_mut().flat_map(|area| &mut area.rings) {
+            ring.iter_mut().for_each(|at| *at = self.map(*at));
+        }
+        mapped.strokes = group.strokes.iter().map(stroke).collect();
+        mapped.spine = group.spine.iter().map(stroke).collect();
+        if let Some(raster) = &mut mapped.raster {
+            (raster.min, raster.max) = (self.map(raster.min), self.map(raster.max));
+        }
+        mapped
+    }
+}

@@ -1,0 +1,162 @@
+//! A group made ready for places: samples of its areas, its lines, its mirror axis.
+
+use lightbots_base::Vec2;
+
+use crate::coverage::{Sample, samples};
+use crate::drawing::{DrawingPart, Stroke};
+use crate::lines::LineSet;
+use crate::symmetry::Mirror;
+
+/// Most samples of an area: a second of work for ten thousand places.
+const MOST_SAMPLES: f64 = 1_000_000.0;
+
+/// How much work goes into places.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Quality {
+    /// Fewer samples and rounds, for a preview while a setting is changed.
+    Quick,
+    /// The result that is saved.
+    #[default]
+    Full,
+}
+
+impl Quality {
+    /// Samples for each place. A cell of fewer than 30 samples has a coarse centroid (measured).
+    fn samples(self, count: usize) -> f64 {
+        match self {
+            Self::Quick => 30.0,
+            Self::Full if count <= 300 => 100.0,
+            Self::Full => 50.0,
+        }
+    }
+
+    /// Least samples of an area: with fewer, small parts of a letter are coarse.
+    fn least(self) -> f64 {
+        match self {
+            Self::Quick => 1_200.0,
+            Self::Full => 4_000.0,
+        }
+    }
+
+    /// Rounds of relaxation.
+    pub(crate) fn rounds(self) -> usize {
+        match self {
+            Self::Quick => 12,
+            Self::Full => 60,
+        }
+    }
+}
+
+/// A group with all that places depend on.
+pub(crate) struct Ground {
+    /// Samples of the areas or of the picture.
+    pub samples: Vec<Sample>,
+    /// The samples' places.
+    pub inside: Vec<Vec2>,
+    /// Distance between samples.
+    pub pitch: f64,
+    /// Sum of the samples' masses.
+    pub mass: f64,
+    /// Outlines of the areas.
+    pub outline: LineSet,
+    /// Strokes, or the lines that stand for the areas.
+    pub lines: LineSet,
+    /// Larger side of the box around the group.
+    pub size: f64,
+    /// Mirror axis of the areas, else of the lines.
+    pub mirror: Option<Mirror>,
+}
+
+impl Ground {
+    /// A group for `count` places, without the parts for which `allowed` is false.
+    pub fn new(group: &DrawingPart, count: usize, quality: Quality, allowed: &dyn Fn(Vec2) -> bool) -> Self {
+        let (low, high) = extent(group);
+        let size = (high.x - low.x).max(high.y - low.y);
+        let pitch = pitch(group, count, quality, size);
+        let mut samples = samples(group, pitch);
+        samples.retain(|sample| allowed(sample.at));
+        let spacing = spacing(samples.iter().map(|sample| sample.mass).sum(), count);
+        let step = (0.02 * size).min(if spacing > 0.0 { 0.2 * spacing } else { size }).max(0.001 * size);
+        let rings: Vec<Stroke> = group.areas.iter().flat_map(rings).collect();
+        let strokes = if group.strokes.is_empty() { &group.spine } else { &group.strokes };
+        let mut ground = Self {
+            inside: samples.iter().map(|sample| sample.at).collect(),
+            mass: samples.iter().map(|sample| sample.mass).sum(),
+            outline: LineSet::new(&clipped(&rings, step, allowed), step),
+            lines: LineSet::new(&clipped(strokes, step, allowed), step),
+            samples,
+            pitch,
+            size,
+            mirror: None,
+        };
+        ground.mirror = ground.axis(step);
+        ground
+    }
+
+    fn axis(&self, step: f64) -> Option<Mirror> {
+        if !self.samples.is_empty() {
+            return Mirror::of(&self.samples, self.pitch);
+        }
+        let points: Vec<Sample> =
+            self.lines.points().iter().map(|at| Sample { at: *at, mass: 1.0 }).collect();
+        Mirror::of(&points, step)
+    }
+
+    /// Ideal distance of `count` places that fill the areas.
+    pub fn spacing(&self, count: usize) -> f64 {
+        spacing(self.mass, count)
+    }
+
+    /// Mean width of the areas.
+    pub fn width(&self) -> f64 {
+        let length = self.outline.length();
+        if length > 0.0 { 2.0 * self.mass / length } else { 0.0 }
+    }
+}
+
+/// Ideal distance of `count` places in an area: that of a hexagonal grid.
+fn spacing(area: f64, count: usize) -> f64 {
+    (2.0 * area / (3.0_f64.sqrt() * count.max(1) as f64)).sqrt()
+}
+
+fn extent(group: &DrawingPart) -> (Vec2, Vec2) {
+    let drawing = crate::drawing::Drawing { groups: vec![group.clone()] };
+    drawing.bounds().unwrap_or_default()
+}
+
+/// Distance between samples: from the area's size, measured coarsely first.
+fn pitch(group: &DrawingPart, count: usize, quality: Quality, size: f64) -> f64 {
+    let coarse = (size / 100.0).max(1e-9);
+    let area = samples(group, coarse).len() as f64 * coarse * coarse;
+    let wanted = (count as f64 * quality.samples(count)).clamp(quality.least(), MOST_SAMPLES);
+    if area > 0.0 { (area / wanted).sqrt() } else { coarse }
+}
+
+fn rings(area: &crate::drawing::Area) -> impl Iterator<Item = Stroke> + '_ {
+    area.rings.iter().filter(|ring| ring.len() > 2).map(|ring| Stroke {
+        points: ring.clone(),
+        closed: true,
+        color: area.color,
+        weight: 1.0,
+    })
+}
+
+/// The parts of strokes that are allowed.
+fn clipped(strokes: &[Stroke], step: f64, allowed: &dyn Fn(Vec2) -> bool) -> Vec<Stroke> {
+    let mut parts = Vec::new();
+    for stroke in strokes {
+        if stroke.points.iter().all(|point| allowed(*point)) && pieces_allowed(stroke, step, allowed) {
+            parts.push(stroke.clone());
+            continue;
+        }
+        let Some(line) = LineSet::new(std::slice::from_ref(stroke), step).lines.pop() else { continue };
+        for run in line.points.split(|point| !allowed(*point)).filter(|run| run.len() > 1) {
+            parts.push(Stroke { points: run.to_vec(), closed: false, ..stroke.clone() });
+        }
+    }
+    parts
+}
+
+fn pieces_allowed(stroke: &Stroke, step: f64, allowed: &dyn Fn(Vec2) -> bool) -> bool {
+    LineSet::new(std::slice::from_ref(stroke), step).points().iter().all(|point| allowed(*point))
+}

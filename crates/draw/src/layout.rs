@@ -1,0 +1,310 @@
+//! Places for one group in one style.
+
+use lightbots_base::Vec2;
+
+use crate::apart::{Freedom, Room, push_apart};
+use crate::buckets::Buckets;
+use crate::coverage::Sample;
+use crate::ground::{Ground, Quality};
+use crate::lines::LineSet;
+use crate::occupy::{LinePlace, occupy};
+use crate::relax::{Lloyd, energy};
+use crate::seeds::seeds;
+use crate::symmetry::{Mirror, Pairing, symmetric_share};
+
+/// How areas are shown.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Style {
+    /// Chosen for each group by its size and number of robots.
+    #[default]
+    Auto,
+    /// Evenly filled.
+    Filled,
+    /// Along the edge of areas.
+    Outline,
+    /// Along the edge, and evenly filled inside.
+    Both,
+    /// Along the strokes, or along the middle of letters.
+    Lines,
+}
+
+/// Nearest distance that is aimed at, in ideal spacings. More would leave too little room to move.
+const APART: f64 = 0.88;
+
+/// A symmetric arrangement may be this much less even than the best other one.
+const SYMMETRY_WORTH: f64 = 1.25;
+
+/// Mean squared distance from the middle of a hexagon of area 1: 5 / (18 √3), the least of all cells that fill a plane.
+const HEXAGON: f64 = 0.160_375;
+
+/// Cells that are at most this much worse than hexagons are even: the drawing's edges alone cost that.
+const EVEN: f64 = 1.2;
+
+/// Nearest distance of places on an outline, in spacings. Nearer ones on both sides of a tip go inside.
+const EDGE_APART: f64 = 0.82;
+
+/// Up to this number of places all symmetric arrangements are tried.
+const FEW: usize = 60;
+
+/// Areas narrower than this number of spacings get a line in the middle, wider ones an edge and a filling. Between one and
+/// this number a filling zigzags.
+const WIDE: f64 = 2.3;
+
+/// Up to this number of places a filled letter is read better than its strokes (measured: draw figures in docs).
+const FEW_FOR_LINES: usize = 13;
+
+/// Places of one group, and what holds each.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Layout {
+    pub places: Vec<Vec2>,
+    pub holds: Vec<Freedom>,
+}
+
+/// One group that is to get places.
+pub(crate) struct LayoutTask<'a> {
+    pub ground: &'a Ground,
+    /// Places that stay and count first.
+    pub kept: &'a [Vec2],
+    /// All places, with the kept ones.
+    pub count: usize,
+    /// Places to begin with instead of new ones, such as those of the picture before; with the kept ones first.
+    pub start: &'a [Vec2],
+    pub quality: Quality,
+    pub seed: u64,
+}
+
+impl LayoutTask<'_> {
+    /// The style that shows the group best.
+    fn chosen(&self) -> Style {
+        let ground = self.ground;
+        if ground.samples.is_empty() {
+            return Style::Lines;
+        }
+        let width = ground.width();
+        if width == 0.0 {
+            return Style::Filled;
+        }
+        let ratio = width / ground.spacing(self.count);
+        let has_lines = !ground.lines.lines.is_empty();
+        if ratio > WIDE {
+            Style::Both
+        } else if has_lines && self.count > FEW_FOR_LINES {
+            Style::Lines
+        } else {
+            Style::Filled
+        }
+    }
+
+    /// Places in a style. Exactly `count`, unless the group is empty.
+    pub fn layout(&self, style: Style) -> Layout {
+        let style = if style == Style::Auto { self.chosen() } else { style };
+        let ground = self.ground;
+        let (has_areas, has_lines) = (!ground.samples.is_empty(), !ground.lines.lines.is_empty());
+        let has_outline = !ground.outline.lines.is_empty();
+        match style {
+            Style::Lines if has_lines => self.along(&ground.lines),
+            Style::Outline if has_outline => self.along(&ground.outline),
+            Style::Both if has_outline => self.both(),
+            _ if has_areas => self.filled(),
+            _ => self.along(&ground.lines),
+        }
+    }
+
+    fn along(&self, track: &LineSet) -> Layout {
+        let free = self.count.saturating_sub(self.kept.len());
+        let spacing = track.length() / self.count.max(1) as f64;
+        let mut layout = Layout::from_kept(self.kept);
+        for (at, hold) in occupy(track, free, self.ground.size, self.ground.mirror) {
+            layout.places.push(at);
+            layout.holds.push(hold);
+        }
+        self.part(&mut layout, APART * spacing, track, None);
+        layout
+    }
+
+    /// Outline and filling at one spacing.
+    fn both(&self) -> Layout {
+        let ground = self.ground;
+        let spacing = balanced_spacing(ground.outline.length(), ground.mass, self.count);
+        let mut layout = Layout::from_kept(self.kept);
+        for (at, hold) in self.edge(spacing) {
+            layout.places.push(at);
+            layout.holds.push(hold);
+        }
+        let inner = self.count.saturating_sub(layout.places.len());
+        let (places, pairing) = self.relaxed(&layout.places, inner, spacing);
+        layout.holds.extend(vec![Freedom::Free; places.len() - layout.places.len()]);
+        layout.places = places;
+        self.part(&mut layout, APART * spacing, &ground.outline, pairing.as_ref());
+        layout
+    }
+
+    /// Places on the outline: as many as the spacing asks for, or a few more or less where these are more symmetric.
+    fn edge(&self, spacing: f64) -> Vec<LinePlace> {
+        let ground = self.ground;
+        let usual = (ground.outline.length() / spacing).round() as usize;
+        let free = self.count.saturating_sub(self.kept.len());
+        let sparse = |count: usize| {
+            let places = occupy(&ground.outline, count.min(free), ground.size, ground.mirror);
+            sparse(places, EDGE_APART * spacing)
+        };
+        let Some(mirror) = ground.mirror else { return sparse(usual) };
+        let symmetry = |places: &Vec<LinePlace>| {
+            let places: Vec<Vec2> = places.iter().map(|(at, _)| *at).collect();
+            symmetric_share(mirror, &places, 0.1 * spacing)
+        };
+        let counts = [usual, usual + 1, usual.saturating_sub(1), usual + 2, usual.saturating_sub(2)];
+        let mut best = sparse(usual);
+        for places in counts.into_iter().skip(1).map(sparse) {
+            if symmetry(&best) > 0.99 {
+                break;
+            }
+            if symmetry(&places) > symmetry(&best) {
+                best = places;
+            }
+        }
+        best
+    }
+
+    fn filled(&self) -> Layout {
+        let spacing = self.ground.spacing(self.count);
+        let (places, pairing) = self.relaxed(self.kept, self.count.saturating_sub(self.kept.len()), spacing);
+        let mut layout = Layout::from_kept(self.kept);
+        layout.holds.extend(vec![Freedom::Free; places.len() - layout.places.len()]);
+        layout.places = places;
+        self.part(&mut layout, APART * spacing, &self.ground.lines, pairing.as_ref());
+        layout
+    }
+
+    fn part(&self, layout: &mut Layout, distance: f64, track: &LineSet, pairing: Option<&Pairing>) {
+        let inside = Buckets::new(&self.ground.inside, 2.0 * self.ground.pitch);
+        let room = Room {
+            inside: &inside,
+            points: &self.ground.inside,
+            slack: 0.75 * self.ground.pitch,
+            track,
+            on_track: &track.buckets(),
+            pairing,
+        };
+        push_apart(&mut layout.places, &layout.holds, distance, &room);
+    }
+
+    /// The fixed places and `count` more in the areas, relaxed; symmetric where the areas are.
+    fn relaxed(&self, fixed: &[Vec2], count: usize, spacing: f64) -> (Vec<Vec2>, Option<Pairing>) {
+        if count == 0 || self.ground.samples.is_empty() {
+            return (fixed.to_vec(), None);
+        }
+        if self.start.len() == fixed.len() + count {
+            let mut places = self.start.to_vec();
+            self.relaxation(fixed.len(), spacing, None).run(&mut places);
+            return (places, None);
+        }
+        let value = |places: &[Vec2]| energy(&self.ground.samples, places, spacing);
+        let free = || self.asymmetric(fixed, count, spacing);
+        let Some(mirror) = self.ground.mirror.filter(|_| self.kept.is_empty()) else { return (free(), None) };
+        let symmetric = singles(&self.ground.samples, mirror, count, spacing)
+            .into_iter()
+            .map(|single| self.symmetric(fixed, count, single, mirror, spacing))
+            .min_by(|a, b| value(&a.0).total_cmp(&value(&b.0)));
+        let Some((places, pairing)) = symmetric else { return (free(), None) };
+        let all = fixed.len() + count;
+        if all > FEW && value(&places) <= EVEN * HEXAGON * self.ground.mass / all as f64 {
+            return (places, Some(pairing));
+        }
+        let free = free();
+        if value(&places) <= SYMMETRY_WORTH * value(&free) { (places, Some(pairing)) } else { (free, None) }
+    }
+
+    fn relaxation<'b>(&'b self, kept: usize, spacing: f64, pairing: Option<&'b Pairing>) -> Lloyd<'b> {
+        Lloyd { samples: &self.ground.samples, kept, spacing, rounds: self.quality.rounds(), pairing }
+    }
+
+    fn asymmetric(&self, fixed: &[Vec2], count: usize, spacing: f64) -> Vec<Vec2> {
+        let mut places = fixed.to_vec();
+        places.extend(seeds(&self.ground.samples, fixed, count, spacing, self.seed));
+        self.relaxation(fixed.len(), spacing, None).run(&mut places);
+        places
+    }
+
+    /// `single` places on the axis and the others in pairs.
+    fn symmetric(
+        &self,
+        fixed: &[Vec2],
+        count: usize,
+        single: usize,
+        mirror: Mirror,
+        spacing: f64,
+    ) -> (Vec<Vec2>, Pairing) {
+        let margin = if single > 0 { 0.3 * spacing } else { 0.0 };
+        let right = |at: Vec2| mirror.side(at) > margin;
+        let side: Vec<Sample> =
+            self.ground.samples.iter().filter(|sample| right(sample.at)).copied().collect();
+        let kept: Vec<Vec2> = fixed.iter().filter(|at| right(**at)).copied().collect();
+        let halves = seeds(&side, &kept, (count - single) / 2, spacing, self.seed);
+        let axis = on_axis(&self.ground.samples, mirror, single, self.ground.pitch);
+        let (free, pairing) = Pairing::unfold(mirror, &halves, &axis);
+        let pairing = pairing.after(fixed.len());
+        let mut places = fixed.to_vec();
+        places.extend(free);
+        self.relaxation(fixed.len(), spacing, Some(&pairing)).run(&mut places);
+        (places, pairing)
+    }
+}
+
+/// Places on lines without those that slide and stand too near to another, as in a sharp tip: these go inside.
+fn sparse(places: Vec<LinePlace>, distance: f64) -> Vec<LinePlace> {
+    let mut far: Vec<LinePlace> = Vec::new();
+    let (fixed, sliding): (Vec<_>, Vec<_>) =
+        places.into_iter().partition(|(_, hold)| *hold == Freedom::Fixed);
+    for place in fixed.into_iter().chain(sliding) {
+        let is_far = far.iter().all(|(other, _)| other.distance(place.0) >= distance);
+        if is_far || place.1 == Freedom::Fixed {
+            far.push(place);
+        }
+    }
+    far
+}
+
+/// Numbers of places on the axis that are worth trying.
+fn singles(samples: &[Sample], mirror: Mirror, count: usize, spacing: f64) -> Vec<usize> {
+    let near: f64 =
+        samples.iter().filter(|s| mirror.side(s.at).abs() < spacing / 2.0).map(|s| s.mass).sum::<f64>();
+    let usual = (near / (spacing * spacing * 0.866)).round() as usize;
+    let reach = if count <= FEW { 3 } else { 1 };
+    let range = usual.saturating_sub(reach)..=(usual + reach).min(count);
+    let fitting = range.filter(|single| single % 2 == count % 2);
+    let mut options: Vec<usize> = fitting.collect();
+    if count > FEW {
+        options.truncate(1);
+    }
+    options
+}
+
+/// `count` places on the axis, as dense as what is drawn there.
+fn on_axis(samples: &[Sample], mirror: Mirror, count: usize, pitch: f64) -> Vec<Vec2> {
+    let mut near: Vec<Vec2> =
+        samples.iter().map(|s| s.at).filter(|at| mirror.side(*at).abs() < 1.5 * pitch).collect();
+    if near.is_empty() {
+        near = samples.iter().map(|sample| sample.at).collect();
+    }
+    near.sort_by(|a, b| (a.x + a.y).total_cmp(&(b.x + b.y)));
+    (0..count).map(|i| mirror.onto(near[(2 * i + 1) * near.len() / (2 * count)])).collect()
+}
+
+/// The spacing at which an outline of this length and a filling of this area together take `count` places:
+/// L / s + (A − L s / 2) / (0.866 s²) = N.
+fn balanced_spacing(length: f64, area: f64, count: usize) -> f64 {
+    let taken = |s: f64| length / s + (area - length * s / 2.0).max(0.0) / (3.0_f64.sqrt() / 2.0 * s * s);
+    let (mut low, mut high) = (1e-6 * length, length);
+    for _ in 0..80 {
+        let middle = (low * high).sqrt();
+        if taken(middle) > count as f64 { low = middle } else { high = middle }
+    }
+    high
+}
+
+impl Layout {
+    fn from_kept(kept: &[Vec2]) -> Self {
+        Self { places: kept.to_vec(), holds: vec![Freedom::Fixed; kept.len()] }
+    }
+}

@@ -1,0 +1,75 @@
+//! How well lights show a drawing: what a viewer sees of it from a distance.
+//!
+//! Every light is a Gaussian of fixed width, and the drawing is blurred alike. The width belongs to the drawing, not to the
+//! spacing: otherwise three lights would be an A, because their blur would fill the gaps.
+
+use lightbots_base::Vec2;
+
+use crate::coverage::{Sample, samples};
+use crate::drawing::{Drawing, DrawingPart};
+use crate::light_image::LightImage;
+use crate::lines::LineSet;
+use crate::settings::PlacedLight;
+use crate::symmetry::{Mirror, symmetric_share};
+
+/// Width of a light's Gaussian, in heights of a letter, or of another drawing's larger side: a letter is seen from
+/// the distance at which its strokes just stay apart (measured with templates of 36 signs).
+const SIGMA: f64 = 0.07;
+
+/// From this correlation on, guests read a picture without being told what it is.
+pub const READABLE: f64 = 0.90;
+
+/// Below this correlation a picture is not recognised.
+pub const DOUBTFUL: f64 = 0.85;
+
+/// How well lights show a drawing.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Readability {
+    /// Normalised cross-correlation between the blurred lights and the blurred drawing, 0 to 1: the worst group's.
+    pub correlation: f64,
+    /// Share of the lights that have a mirror image, where the drawing is mirror-symmetric; 1 for other drawings.
+    pub symmetry: f64,
+}
+
+/// How well lights show a drawing in the same space.
+pub(crate) fn readability(drawing: &Drawing, lights: &[PlacedLight]) -> Readability {
+    let mut worst = Readability { correlation: 1.0, symmetry: 1.0 };
+    for (index, group) in drawing.groups.iter().enumerate() {
+        let places: Vec<Vec2> =
+            lights.iter().filter(|light| light.group == index).map(|light| light.at).collect();
+        if let Some(one) = of_group(group, &places) {
+            worst.correlation = worst.correlation.min(one.correlation);
+            worst.symmetry = worst.symmetry.min(one.symmetry);
+        }
+    }
+    worst
+}
+
+/// How well places show one group; `None` for an empty group.
+pub(crate) fn of_group(group: &DrawingPart, places: &[Vec2]) -> Option<Readability> {
+    let alone = Drawing { groups: vec![group.clone()] };
+    let (low, high) = alone.bounds()?;
+    let size = high - low;
+    let sigma = SIGMA * if group.letter.is_some() { size.y } else { size.x.max(size.y) };
+    let pitch = sigma / 4.0;
+    let drawn = drawn(group, pitch);
+    if drawn.is_empty() || sigma <= 0.0 {
+        return None;
+    }
+    let image = |points: &mut dyn Iterator<Item = (Vec2, f64)>| LightImage::new(points, low, high, sigma);
+    let source = image(&mut drawn.iter().map(|sample| (sample.at, sample.mass)));
+    let lights = image(&mut places.iter().map(|at| (*at, 1.0)));
+    let spacing = size.x.max(size.y) / (places.len() as f64).sqrt().max(1.0);
+    let symmetry =
+        Mirror::of(&drawn, pitch).map_or(1.0, |mirror| symmetric_share(mirror, places, 0.15 * spacing));
+    Some(Readability { correlation: lights.correlation(&source), symmetry })
+}
+
+/// What is drawn: areas, else the picture's weights, and strokes.
+fn drawn(group: &DrawingPart, pitch: f64) -> Vec<Sample> {
+    let mut drawn = samples(group, pitch);
+    let track = LineSet::new(&group.strokes, pitch);
+    // A line counts as wide as a light.
+    drawn.extend(track.points().iter().map(|at| Sample { at: *at, mass: 4.0 * pitch * pitch }));
+    drawn
+}

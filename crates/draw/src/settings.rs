@@ -1,0 +1,87 @@
+//! What is wanted of a picture of lights.
+
+use lightbots_base::{Rgb, Vec2};
+
+use crate::error::DrawError;
+use crate::ground::Quality;
+use crate::layout::Style;
+
+/// Most robots of a drawing.
+pub const MAX_ROBOTS: usize = 10_000;
+
+/// What is wanted of a picture.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PlaceSettings {
+    /// Number of lights.
+    pub robots: usize,
+    /// Least distance between two lights, metres.
+    pub spacing_m: f64,
+    /// How areas are shown.
+    pub style: Style,
+    /// Larger side of the picture, metres; `None`: chosen by floor and number of robots.
+    pub size_m: Option<f64>,
+    /// Centre of the picture, stage metres.
+    pub center: Vec2,
+    /// Turn of the picture, radians counter-clockwise.
+    pub turn: f64,
+    /// Lights that stay where they are and count first.
+    pub kept: Vec<PlacedLight>,
+    /// Places to begin with, such as those of the picture before; empty: new ones.
+    pub start: Vec<Vec2>,
+    /// How much work is done.
+    pub quality: Quality,
+    /// Seed of all choices by chance.
+    pub seed: u64,
+}
+
+impl Default for PlaceSettings {
+    fn default() -> Self {
+        Self {
+            robots: 30,
+            spacing_m: 0.08,
+            style: Style::Auto,
+            size_m: None,
+            center: Vec2::ZERO,
+            turn: 0.0,
+            kept: Vec::new(),
+            start: Vec::new(),
+            quality: Quality::Full,
+            seed: 1,
+        }
+    }
+}
+
+/// A light on the floor.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PlacedLight {
+    /// Place, stage metres.
+    pub at: Vec2,
+    /// Colour.
+    pub color: Rgb,
+    /// Number of its group in the drawing.
+    pub group: usize,
+}
+
+impl PlaceSettings {
+    /// Whether the numbers are in range.
+    pub(crate) fn check(&self) -> Result<(), DrawError> {
+        let fail = |what: String| Err(DrawError::new("bad-setting", what));
+        if self.robots == 0 || self.robots > MAX_ROBOTS {
+            return fail(format!("{} robots; a picture takes 1 to {MAX_ROBOTS}", self.robots));
+        }
+        if !(0.02..=5.0).contains(&self.spacing_m) {
+            return fail(format!("a spacing of {} m; use 0.02 to 5 m", self.spacing_m));
+        }
+        if self.size_m.is_some_and(|size| !(0.01..=1_000.0).contains(&size)) {
+            return fail("the size of the picture must be from 0.01 to 1000 m".into());
+        }
+        if !self.center.is_finite() || !self.turn.is_finite() {
+            return fail("place and turn of the picture must be numbers".into());
+        }
+        if self.kept.len() > self.robots {
+            let moved = self.kept.len();
+            return fail(format!("{moved} lights were moved by hand, but there are {} robots", self.robots));
+        }
+        Ok(())
+    }
+}
