@@ -84,14 +84,14 @@ mod tests {
     use lightbots_base::Rgb;
 
     fn frame(ids: &[u32]) -> Frame {
-        let pixel = |&id| Pixel { id, at: Vec2::ZERO, color: Rgb::BLACK, robot: None };
+        let pixel = |&id| Pixel { id, at: Vec2::ZERO, color: Rgb::BLACK, ..Pixel::default() };
         Frame {
             name: String::new(),
             air_time_s: 0.0,
             transition_s: None,
             easing: Default::default(),
-            identity: None,
             pixels: ids.iter().map(pixel).collect(),
+            ..Frame::default()
         }
     }
 

@@ -37,6 +37,9 @@ pub struct Loaded {
     pub plan: Option<ShowPlan>,
     /// Whether the file says what stage it plays on. Without one the floor is 3 m by 3 m and may be replaced.
     pub has_stage: bool,
+    /// Why the file holds more than was read, such as fields of a newer version, in words after "because". A file of
+    /// which this is known must not be replaced by what was read. `None`: everything was read.
+    pub unread: Option<String>,
     /// Issues of reading, such as unknown fields. Without those that [`validate`](lightbots_show::validate) finds.
     pub issues: Issues,
 }
@@ -59,9 +62,9 @@ impl Format {
         Written { bytes: written.bytes, issues }
     }
 
-    /// A warning for each part that the show uses and a file does not keep, in the order of [`Part::ALL`].
+    /// A warning for each part that the show uses and a file does not keep, in the order of [`Part::all`].
     fn losses(&self, show: &Show, plan: Option<&ShowPlan>) -> Issues {
-        let lost = Part::ALL.into_iter().filter(|part| !self.keeps(*part) && uses(*part, show, plan));
+        let lost = Part::all().filter(|part| !self.keeps(*part) && uses(*part, show, plan));
         let warning = |part: Part| {
             let message = format!("a file for {} does not keep {}", self.program, part.words());
             Issue::warning("lost-in-format", message)

@@ -135,7 +135,7 @@ impl<'a> Json<'a> {
         }
         Err(before.fail(
             "not-a-whole-number",
-            format!("{name} is {number}; give it a whole number from 0 to 4294967295"),
+            format!("{name} is {}; give it a whole number from 0 to 4294967295", text::exact(number)),
         ))
     }
 
@@ -343,6 +343,7 @@ impl Scalar<'_> {
     /// The value in messages.
     fn kind(&self) -> String {
         match self {
+            Self::Number(number) if number.is_finite() => format!("the number {}", text::exact(*number)),
             Self::Number(number) => format!("the number {number}"),
             Self::Text(text) => format!("the text \"{}\"", excerpt(text)),
             Self::Bool(value) => value.to_string(),

@@ -1,6 +1,13 @@
-//! Our own format, version 1: a JSON object with the fields `lightbots`, `stage`, `frames` and more.
+//! Our own format, versions 1 and 2: a JSON object with the fields `lightbots`, `stage`, `frames` and more.
+//! `docs/show-format.md` describes every field.
 
+mod assets;
+mod fields;
 mod read;
+mod settings;
+mod sources;
+mod timeline;
+mod trajectories;
 mod write;
 
 pub(crate) use read::read;

@@ -27,13 +27,29 @@ pub enum Part {
     Easing,
     /// Which robot shows a pixel.
     ChosenRobots,
+    /// What frames were made from.
+    Sources,
+    /// Light over time.
+    Layers,
+    /// Moments at which frames must begin.
+    AbsoluteTimes,
+    /// Sections, markers and beats.
+    Marks,
+    /// Places where the show waits for GO.
+    Cues,
+    /// Timed paths that the show prescribes.
+    Trajectories,
+    /// Robots that wait beside the floor.
+    Spares,
+    /// Names and hashes of the files that belong to the show.
+    Assets,
     /// The timed path of each robot.
     Plan,
 }
 
 impl Part {
-    /// Every part.
-    pub const ALL: [Self; 11] = [
+    /// Every part of a show, without the plan.
+    pub const SHOW: [Self; 18] = [
         Self::Title,
         Self::FloorSize,
         Self::NoGoAreas,
@@ -44,8 +60,20 @@ impl Part {
         Self::Durations,
         Self::Easing,
         Self::ChosenRobots,
-        Self::Plan,
+        Self::Sources,
+        Self::Layers,
+        Self::AbsoluteTimes,
+        Self::Marks,
+        Self::Cues,
+        Self::Trajectories,
+        Self::Spares,
+        Self::Assets,
     ];
+
+    /// Every part.
+    pub fn all() -> impl Iterator<Item = Self> {
+        Self::SHOW.into_iter().chain([Self::Plan])
+    }
 
     /// The word that programs use for the part, such as `no_go_areas`.
     pub fn name(self) -> &'static str {
@@ -60,6 +88,14 @@ impl Part {
             Self::Durations => "durations",
             Self::Easing => "easing",
             Self::ChosenRobots => "chosen_robots",
+            Self::Sources => "sources",
+            Self::Layers => "layers",
+            Self::AbsoluteTimes => "absolute_times",
+            Self::Marks => "marks",
+            Self::Cues => "cues",
+            Self::Trajectories => "trajectories",
+            Self::Spares => "spares",
+            Self::Assets => "assets",
             Self::Plan => "plan",
         }
     }
@@ -77,6 +113,14 @@ impl Part {
             Self::Durations => "how long transitions take",
             Self::Easing => "how transitions speed up and slow down",
             Self::ChosenRobots => "which robot shows a pixel",
+            Self::Sources => "what frames were made from",
+            Self::Layers => "the layers of light",
+            Self::AbsoluteTimes => "the moments at which frames must begin",
+            Self::Marks => "sections, markers and beats",
+            Self::Cues => "the cues",
+            Self::Trajectories => "the prescribed trajectories",
+            Self::Spares => "the number of spare robots",
+            Self::Assets => "the list of files that belong to the show",
             Self::Plan => "the plan",
         }
     }
@@ -97,8 +141,37 @@ pub(crate) fn uses(part: Part, show: &Show, plan: Option<&ShowPlan>) -> bool {
         Part::Durations => show.frames.iter().any(|frame| frame.transition_s.is_some()),
         Part::Easing => show.frames.iter().any(|frame| frame.easing != Easing::default()),
         Part::ChosenRobots => pixels.any(|pixel: &Pixel| pixel.robot.is_some()),
+        Part::Sources => {
+            show.frames.iter().any(|frame| !frame.sources.is_empty())
+                || pixels.any(|pixel: &Pixel| pixel.part.is_some())
+        }
+        Part::Layers => !show.layers.is_empty(),
+        Part::AbsoluteTimes => show.frames.iter().any(|frame| frame.at_s.is_some()),
+        Part::Marks => show.beats.is_some() || !show.sections.is_empty() || !show.markers.is_empty(),
+        Part::Cues => !show.cues.is_empty(),
+        Part::Trajectories => !show.trajectories.is_empty(),
+        Part::Spares => show.spares > 0,
+        Part::Assets => !show.assets.is_empty(),
         Part::Plan => plan.is_some(),
     }
+}
+
+/// The parts that version 2 of our format added.
+const VERSION_2: [Part; 8] = [
+    Part::Sources,
+    Part::Layers,
+    Part::AbsoluteTimes,
+    Part::Marks,
+    Part::Cues,
+    Part::Trajectories,
+    Part::Spares,
+    Part::Assets,
+];
+
+/// Whether a show needs version 2 of our format.
+pub(crate) fn is_version_2(show: &Show) -> bool {
+    VERSION_2.into_iter().any(|part| uses(part, show, None))
+        || show.frames.iter().any(|frame| frame.id.is_some())
 }
 
 fn is_fixed(show: &Show) -> bool {

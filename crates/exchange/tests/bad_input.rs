@@ -113,7 +113,7 @@ fn what_is_missing_or_of_another_kind() {
         assert!(error.contains(part), "{error}");
     }
     assert!(refusal("{\"lightbots\": 1}").contains("the list \"frames\" is missing"));
-    assert!(refusal("{\"lightbots\": 2, \"frames\": []}").contains("format version 2"));
+    assert!(refusal("{\"lightbots\": 0, \"frames\": []}").contains("no format version 0"));
     let error =
         refusal("{\"lightbots\": 1, \"frames\": [{\"name\": \"A\", \"easing\": \"slow\", \"pixels\": []}]}");
     assert!(error.contains("easing is \"slow\"; it can be \"swift\" or \"gentle\""), "{error}");
@@ -138,7 +138,7 @@ fn unknown_fields_are_told_once() {
     assert_eq!(loaded.issues.len(), 1);
     assert_eq!(
         loaded.issues[0].message,
-        "line 2: the field \"glow\" of the pixel is not known; it is ignored and lost when the show is saved"
+        "line 2: the field \"glow\" of the pixel is not known; it is neither played nor converted"
     );
 }
 

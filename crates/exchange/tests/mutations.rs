@@ -1,18 +1,13 @@
 //! Seeded mutations of good files: each is read, or refused with one line, and never panics.
 
-use lightbots_base::random::split_mix;
+mod extras;
+mod numbers;
+
+use extras::with_every_part;
 use lightbots_base::{Rgb, Vec2};
 use lightbots_exchange::{FORMATS, read};
 use lightbots_show::{Easing, Frame, Identity, Obstacle, Pixel, Show, Stage, front_rows, validate};
-
-/// Numbers that look random, the same at every run (SplitMix64).
-struct Dice(u64);
-
-impl Dice {
-    fn roll(&mut self, sides: usize) -> usize {
-        (split_mix(&mut self.0) % sides.max(1) as u64) as usize
-    }
-}
+use numbers::Numbers;
 
 fn seed_show() -> Show {
     let pixel = |id: u32| Pixel {
@@ -20,6 +15,7 @@ fn seed_show() -> Show {
         at: Vec2::new(f64::from(id) * 0.1, 0.5),
         color: Rgb::new(255, 165, 0),
         robot: (id == 1).then(|| "r\u{e4}1".to_owned()),
+        ..Pixel::default()
     };
     let frame = Frame {
         name: "First \"ä\"\n".into(),
@@ -28,8 +24,9 @@ fn seed_show() -> Show {
         easing: Easing::Gentle,
         identity: Some(Identity::Fixed),
         pixels: (0..3).map(pixel).collect(),
+        ..Frame::default()
     };
-    Show {
+    with_every_part(Show {
         stage: Stage {
             obstacles: vec![Obstacle::Disc { at: Vec2::new(-1.0, 0.0), radius_m: 0.2 }],
             ..Stage::default()
@@ -37,10 +34,10 @@ fn seed_show() -> Show {
         starts: Some(vec![Vec2::new(0.1, 0.2); 2]),
         frames: vec![frame; 2],
         ..Show::default()
-    }
+    })
 }
 
-fn mutate(bytes: &mut Vec<u8>, dice: &mut Dice) {
+fn mutate(bytes: &mut Vec<u8>, numbers: &mut Numbers) {
     const WORDS: [&[u8]; 14] = [
         b"NaN",
         b"-Infinity",
@@ -57,21 +54,21 @@ fn mutate(bytes: &mut Vec<u8>, dice: &mut Dice) {
         b",",
         b"1e-320",
     ];
-    let at = dice.roll(bytes.len());
-    match dice.roll(6) {
-        0 => bytes[at] = dice.roll(256) as u8,
+    let at = numbers.below(bytes.len());
+    match numbers.below(6) {
+        0 => bytes[at] = numbers.below(256) as u8,
         1 => drop(bytes.remove(at)),
         2 => bytes.truncate(at.max(1)),
-        3 => drop(bytes.splice(at..at, WORDS[dice.roll(WORDS.len())].iter().copied())),
+        3 => drop(bytes.splice(at..at, WORDS[numbers.below(WORDS.len())].iter().copied())),
         4 => {
-            let end = (at + dice.roll(40)).min(bytes.len());
+            let end = (at + numbers.below(40)).min(bytes.len());
             let copy = bytes[at..end].to_vec();
             bytes.splice(at..at, copy);
         }
         _ => {
             // The likeliest to survive reading: another number in the place of one.
             let Some(number) = bytes[at..].iter().position(u8::is_ascii_digit) else { return };
-            let word = WORDS[dice.roll(5)];
+            let word = WORDS[numbers.below(5)];
             bytes.splice(at + number..=at + number, word.iter().copied());
         }
     }
@@ -82,14 +79,14 @@ fn mutate(bytes: &mut Vec<u8>, dice: &mut Dice) {
 
 #[test]
 fn no_mutation_breaks_reading_or_validating() {
-    let mut dice = Dice(2);
+    let mut numbers = Numbers(2);
     let (mut were_read, mut refused) = (0, 0);
     for format in FORMATS {
         let good = format.write(&seed_show(), None).bytes;
         for _ in 0..4_000 {
             let mut bytes = good.clone();
-            for _ in 0..=dice.roll(3) {
-                mutate(&mut bytes, &mut dice);
+            for _ in 0..=numbers.below(3) {
+                mutate(&mut bytes, &mut numbers);
             }
             match read(&bytes, Some("a.json")) {
                 Ok(loaded) => {

@@ -8,6 +8,7 @@ fn frame(pixels: &[(u32, Option<&str>)]) -> Vec<Pixel> {
         at: Vec2::new(nth as f64, 1.0),
         color: Rgb::BLACK,
         robot: name.map(str::to_owned),
+        ..Pixel::default()
     };
     pixels.iter().enumerate().map(pixel).collect()
 }

@@ -43,9 +43,10 @@ fn seed_show() -> Show {
                 id,
                 at: Vec2::new(((id as usize + shift) % 3) as f64 * 0.25 - 0.25, y),
                 color: Rgb::new(255, 165, 0),
-                robot: None,
+                ..Pixel::default()
             })
             .collect(),
+        ..Frame::default()
     };
     let obstacles = vec![
         Obstacle::Disc { at: Vec2::new(-1.1, 0.15), radius_m: 0.2 },

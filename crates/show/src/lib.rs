@@ -10,18 +10,33 @@
 //! assert_eq!(validate(&empty)[0].message, "frame 1: it has no pixels; add some or delete the frame");
 //! ```
 
+mod asset;
 mod front;
 mod issue;
 mod label;
 mod model;
 mod need;
+mod setting;
+mod source;
 mod spacing;
+mod timeline;
 mod validate;
 
+pub use asset::{Asset, AssetHash, Assets};
 pub use front::front_rows;
 pub use issue::{Issue, Issues, Severity};
 pub use label::{excerpt, frame_label};
 pub use model::{Easing, Frame, Identity, Obstacle, Pixel, Show, Stage, with_floor};
 pub use need::{most_pixels, robots_asked_for, robots_needed};
+pub use setting::{NamedSettings, Setting, setting};
+pub use source::{FloorBox, FrameSource, SourceKind, SourcePart};
 pub use spacing::{CloseApproach, close_pairs};
-pub use validate::{MAX_FRAMES, MAX_OBSTACLES, MAX_PIXELS, PROVABLE_GAP_M, validate};
+pub use timeline::{
+    BeatGrid, Beats, Cue, CuePlace, FramePhase, Layer, LayerSpan, Marker, Section, Trajectory,
+    TrajectoryPiece,
+};
+pub use validate::{
+    MAX_ASSETS, MAX_BEATS, MAX_FRAMES, MAX_LABEL_CHARS, MAX_LAYERS, MAX_MARKS, MAX_OBSTACLES, MAX_PIXELS,
+    MAX_SETTING_DEPTH, MAX_SETTING_VALUES, MAX_SETTINGS_OF_SHOW, MAX_SOURCES, MAX_SOURCES_OF_SHOW,
+    MAX_TRAJECTORIES, MAX_TRAJECTORY_PIECES, PROVABLE_GAP_M, validate,
+};

@@ -2,6 +2,10 @@
 
 use lightbots_base::{Limits, Rgb, Vec2};
 
+use crate::asset::Assets;
+use crate::source::{FrameSource, SourcePart};
+use crate::timeline::{Beats, Cue, Layer, Marker, Section, Trajectory};
+
 /// A show: frames in playing order, and the stage they play on.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Show {
@@ -15,6 +19,22 @@ pub struct Show {
     pub starts: Option<Vec<Vec2>>,
     /// File name of the music, which the screen plays.
     pub music: Option<String>,
+    /// Robots that wait beside the floor for others to fail.
+    pub spares: u32,
+    /// Files that belong to the show, by hash.
+    pub assets: Assets,
+    /// Beats of the music; `None`: not known.
+    pub beats: Option<Beats>,
+    /// Named stretches of the show.
+    pub sections: Vec<Section>,
+    /// Named moments of the show.
+    pub markers: Vec<Marker>,
+    /// Places where the show waits for GO.
+    pub cues: Vec<Cue>,
+    /// Light over time, lowest layer first.
+    pub layers: Vec<Layer>,
+    /// Timed paths that the show prescribes.
+    pub trajectories: Vec<Trajectory>,
     /// Frames in playing order.
     pub frames: Vec<Frame>,
 }
@@ -64,16 +84,22 @@ pub enum Identity {
 /// A picture of the show.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Frame {
+    /// Word by which layers, cues and trajectories name the frame; unique in its show. `None`: nothing names it.
+    pub id: Option<String>,
     /// Name for people; may be empty.
     pub name: String,
     /// Air time, seconds: how long the frame stays.
     pub air_time_s: f64,
+    /// Moment at which the air time begins, seconds; `None`: as soon as the transition is over.
+    pub at_s: Option<f64>,
     /// Wanted duration of the transition to the frame, seconds; `None`: the shortest that the limits allow.
     pub transition_s: Option<f64>,
     /// Speed profile of the transition to the frame.
     pub easing: Easing,
     /// Identity in this frame; `None`: that of the show.
     pub identity: Option<Identity>,
+    /// What the pixels were made from; empty: drawn by hand.
+    pub sources: Vec<FrameSource>,
     /// Pixels, sorted by id; ids are unique.
     pub pixels: Vec<Pixel>,
 }
@@ -89,7 +115,7 @@ pub enum Easing {
 }
 
 /// A light of a picture, shown by one robot.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Pixel {
     /// Id, unique in its frame.
     pub id: u32,
@@ -99,6 +125,8 @@ pub struct Pixel {
     pub color: Rgb,
     /// Name of the only robot that may show the pixel; `None`: any robot may.
     pub robot: Option<String>,
+    /// The part of a source that the pixel belongs to; `None`: it was drawn by hand.
+    pub part: Option<SourcePart>,
 }
 
 impl Default for Stage {

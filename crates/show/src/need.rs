@@ -33,14 +33,14 @@ mod tests {
             air_time_s: 1.0,
             transition_s: None,
             easing: Default::default(),
-            identity: None,
             pixels: (0..)
                 .zip(names)
                 .map(|(id, name)| {
                     let robot = name.map(str::to_owned);
-                    Pixel { id, at: Vec2::ZERO, color: Rgb::BLACK, robot }
+                    Pixel { id, at: Vec2::ZERO, color: Rgb::BLACK, robot, ..Pixel::default() }
                 })
                 .collect(),
+            ..Frame::default()
         };
         let of = |frames: Vec<Frame>| robots_needed(&Show { frames, ..Show::default() });
         assert_eq!(of(vec![frame(&[None, Some("a")]), frame(&[Some("b"), Some("c")])]), 3);

@@ -4,13 +4,18 @@ mod findings;
 mod fleet;
 mod frame;
 mod limits;
+mod parts;
 mod stage;
 mod words;
 
 use crate::{Issues, Show};
 use findings::Findings;
 
-pub use limits::{MAX_FRAMES, MAX_OBSTACLES, MAX_PIXELS, PROVABLE_GAP_M};
+pub use limits::{
+    MAX_ASSETS, MAX_BEATS, MAX_FRAMES, MAX_LABEL_CHARS, MAX_LAYERS, MAX_MARKS, MAX_OBSTACLES, MAX_PIXELS,
+    MAX_SETTING_DEPTH, MAX_SETTING_VALUES, MAX_SETTINGS_OF_SHOW, MAX_SOURCES, MAX_SOURCES_OF_SHOW,
+    MAX_TRAJECTORIES, MAX_TRAJECTORY_PIECES, PROVABLE_GAP_M,
+};
 
 /// The issues of a show in the order of its frames. Empty if the show can be planned. Accepts any show and always finds
 /// the same issues in the same show.
@@ -21,5 +26,6 @@ pub fn validate(show: &Show) -> Issues {
     for index in 0..show.frames.len().min(MAX_FRAMES) {
         frame::check(show, index, is_sound, &mut findings);
     }
+    parts::check(show, &mut findings);
     findings.issues
 }

@@ -7,7 +7,7 @@
 use std::time::Instant;
 
 use lightbots_base::{Rgb, Vec2};
-use lightbots_show::{Easing, Frame, Identity, Pixel, Show, Stage};
+use lightbots_show::{Easing, Frame, Pixel, Show, Stage};
 use lightbots_sim::{Dice, Progress, Purpose, RehearsalOptions, RehearsalReport, rehearse};
 
 const FRAMES: u64 = 4;
@@ -77,11 +77,11 @@ fn random_show(robots: usize) -> Show {
             air_time_s: 0.5,
             transition_s: None,
             easing: Easing::Swift,
-            identity: None,
             pixels: random_pixels(robots, 0.5 * side_m - 0.05, frame + 1),
+            ..Frame::default()
         })
         .collect();
-    Show { name: "speed".into(), stage, identity: Identity::Any, starts: None, music: None, frames }
+    Show { name: "speed".into(), stage, frames, ..Show::default() }
 }
 
 fn random_pixels(count: usize, half_m: f64, seed: u64) -> Vec<Pixel> {
@@ -99,7 +99,12 @@ fn random_pixels(count: usize, half_m: f64, seed: u64) -> Vec<Pixel> {
         });
         if free {
             taken[row * cells + column].push(at);
-            pixels.push(Pixel { id: pixels.len() as u32, at, color: Rgb::new(255, 120, 0), robot: None });
+            pixels.push(Pixel {
+                id: pixels.len() as u32,
+                at,
+                color: Rgb::new(255, 120, 0),
+                ..Pixel::default()
+            });
         }
     }
     pixels

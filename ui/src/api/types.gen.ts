@@ -664,7 +664,7 @@ export const ROBOT_STATUSES: readonly RobotStatus[] = ["idle", "ready", "driving
 
 /** Every format of show files; the first is our own. A written file gets the first of `endings`. */
 export const FORMATS = [
-  { name: "lightbots", program: "LightBots", endings: [".lightbots.json", ".lightbots"], mediaType: "application/json", carries: ["title", "floor_size", "no_go_areas", "robot_limits", "identity", "starts", "music", "durations", "easing", "chosen_robots"] },
+  { name: "lightbots", program: "LightBots", endings: [".lightbots.json", ".lightbots"], mediaType: "application/json", carries: ["title", "floor_size", "no_go_areas", "robot_limits", "identity", "starts", "music", "durations", "easing", "chosen_robots", "sources", "layers", "absolute_times", "marks", "cues", "trajectories", "spares", "assets"] },
   { name: "original", program: "the original LightBots", endings: [".json"], mediaType: "application/json", carries: [] },
 ] as const;
 

@@ -103,8 +103,8 @@ mod tests {
             air_time_s,
             transition_s: None,
             easing: Default::default(),
-            identity: None,
             pixels: Vec::new(),
+            ..Frame::default()
         };
         let show =
             Show { stage: Stage::default(), frames: vec![frame(1.0), frame(f64::NAN)], ..Show::default() };

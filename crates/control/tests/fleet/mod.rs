@@ -251,15 +251,20 @@ pub fn frame(number: usize, count: usize, air_time_s: f64) -> Frame {
         let x = (i % columns) as f64 - (columns - 1) as f64 / 2.0;
         let y = (i / columns) as f64 - (columns - 1) as f64 / 2.0;
         let at = (turn * x + turn.left() * y) * (0.16 + 0.02 * (number % 3) as f64);
-        Pixel { id: i as u32, at, color: Rgb::new(10 + i as u8, 100, (number * 20) as u8), robot: None }
+        Pixel {
+            id: i as u32,
+            at,
+            color: Rgb::new(10 + i as u8, 100, (number * 20) as u8),
+            ..Pixel::default()
+        }
     };
     Frame {
         name: format!("frame {number}"),
         air_time_s,
         transition_s: None,
         easing: Default::default(),
-        identity: None,
         pixels: (0..count).map(pixel).collect(),
+        ..Frame::default()
     }
 }
 
@@ -271,5 +276,6 @@ pub fn show(frames: usize, count: usize, air_time_s: f64) -> Show {
         starts: None,
         music: None,
         frames: (0..frames).map(|number| frame(number, count, air_time_s)).collect(),
+        ..Show::default()
     }
 }

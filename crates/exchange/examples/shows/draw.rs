@@ -8,14 +8,14 @@ pub type Dot = (Vec2, Rgb);
 
 /// A frame whose pixels are numbered as the dots come.
 pub fn frame(name: &str, air_time_s: f64, dots: impl IntoIterator<Item = Dot>) -> Frame {
-    let pixel = |(id, (at, color))| Pixel { id, at: tidy(at), color, robot: None };
+    let pixel = |(id, (at, color))| Pixel { id, at: tidy(at), color, ..Pixel::default() };
     Frame {
         name: name.into(),
         air_time_s,
         transition_s: None,
         easing: Easing::Swift,
-        identity: None,
         pixels: (0..).zip(dots).map(pixel).collect(),
+        ..Frame::default()
     }
 }
 

@@ -5,45 +5,82 @@ use lightbots_show::{Issue, Issues, MAX_FRAMES, MAX_PIXELS, Pixel, excerpt};
 use super::{Json, Scalar, text};
 use crate::error::{PixelName, ReadError};
 
-/// Reads a whole file with `content`, and gives the issues that were found on the way.
+/// Reads a whole file with `content`, and gives the notes that were taken on the way.
 pub(crate) fn document<T>(
     bytes: &[u8],
     content: impl FnOnce(&mut Json<'_>, &mut Notes) -> Result<T, ReadError>,
-) -> Result<(T, Issues), ReadError> {
+) -> Result<(T, Notes), ReadError> {
     let again = "; this file is damaged: save or copy it again";
     let text = text(bytes).map_err(|error| ReadError { what: error.what + again, ..error })?;
     let mut json = Json::new(text);
     let mut notes = Notes::default();
     let read = content(&mut json, &mut notes)?;
-    if json.is_at_end() { Ok((read, notes.issues)) } else { Err(json.unexpected("the end of the file")) }
+    if json.is_at_end() { Ok((read, notes)) } else { Err(json.unexpected("the end of the file")) }
 }
 
 /// Issues that reading finds.
 #[derive(Default)]
 pub(crate) struct Notes {
     pub issues: Issues,
+    /// Values of settings that were read, for the bound on all of them.
+    pub settings: usize,
+    /// Sources of frames that were read, for the bound on all of them.
+    pub sources: usize,
     /// Unknown fields that were reported: level, such as "pixel", and name.
     unknown: Vec<(&'static str, String)>,
+    /// Whether there are more unknown fields than those.
+    has_more_unknown: bool,
+    /// The file's version of the format, if it is newer than the reader.
+    newer_version: Option<u32>,
 }
 
 impl Notes {
-    /// Most unknown fields that are reported, each once. Bounds list and memory for hostile files; further unknown
-    /// fields are skipped without an issue.
+    /// Most unknown fields that are reported, each once. Bounds list and memory for hostile files; one more issue
+    /// stands for all others.
     const UNKNOWN_MAX: usize = 20;
+    /// Most unknown fields that [`Self::unread`] names: what fits on a line.
+    const NAMED_MAX: usize = 4;
 
     /// Skips the value of an unknown field, and reports each name once for each level.
     pub fn unknown(&mut self, json: &mut Json<'_>, level: &'static str, key: &str) -> Result<(), ReadError> {
         let known = self.unknown.iter().any(|(at, name)| *at == level && name == key);
         if !known && self.unknown.len() < Self::UNKNOWN_MAX {
             let what = format!(
-                "line {}: the field \"{}\" of the {level} is not known; it is ignored and lost when the show is saved",
+                "line {}: the field \"{}\" of the {level} is not known; it is neither played nor converted",
                 json.line(),
                 excerpt(key)
             );
             self.issues.push(Issue::warning("unknown-field", what));
             self.unknown.push((level, key.into()));
+        } else if !known && !self.has_more_unknown {
+            self.has_more_unknown = true;
+            let what = format!("line {}: further fields are not known; they are lost likewise", json.line());
+            self.issues.push(Issue::warning("unknown-field", what));
         }
         json.skip()
+    }
+
+    /// Reports that the file has a newer version of the format.
+    pub fn newer(&mut self, version: u32, newest: u32) {
+        let what = format!(
+            "the show has format version {version}, and this program knows up to {newest}: parts may be missing; \
+             update it"
+        );
+        self.issues.push(Issue::warning("newer-version", what));
+        self.newer_version = Some(version);
+    }
+
+    /// Why the file holds more than was read, in words after "because"; `None`: everything was read.
+    pub fn unread(&self) -> Option<String> {
+        let version = self.newer_version.map(|version| format!("it has format version {version}"));
+        let name = |(level, name): &(&str, String)| format!("\"{}\" of the {level}", excerpt(name));
+        let mut names: Vec<String> = self.unknown.iter().take(Self::NAMED_MAX).map(name).collect();
+        if self.unknown.len() > Self::NAMED_MAX {
+            names.push("more".into());
+        }
+        let fields = (!names.is_empty()).then(|| format!("it has unknown fields ({})", names.join(", ")));
+        let reasons: Vec<String> = version.into_iter().chain(fields).collect();
+        (!reasons.is_empty()).then(|| reasons.join(" and "))
     }
 }
 

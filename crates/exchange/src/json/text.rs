@@ -1,5 +1,7 @@
 //! JSON text for files: laid out so that differences between versions read well.
 
+use lightbots_base::Vec2;
+
 /// Scale of the four decimals that a written number keeps: tenths of a millimetre, as in the original's files. Fewer
 /// would move pixels by more than sensors notice; more would only lengthen files.
 const DECIMALS_SCALE: f64 = 1e4;
@@ -15,6 +17,28 @@ pub(crate) fn number(value: f64) -> String {
     // Adding 0 turns -0 into 0.
     let rounded = if is_small { (value * DECIMALS_SCALE).round() / DECIMALS_SCALE + 0.0 } else { value };
     rounded.to_string()
+}
+
+/// Below this magnitude, and from [`IN_FULL_BELOW`] on, a number is written with an exponent, so that it stays short.
+const IN_FULL_FROM: f64 = 1e-7;
+/// See [`IN_FULL_FROM`]. JavaScript has the same limits.
+const IN_FULL_BELOW: f64 = 1e21;
+
+/// A number with all its digits, so that it is read back the same. A number that is not finite becomes `null`, which
+/// readers refuse.
+pub(crate) fn exact(value: f64) -> String {
+    // Adding 0 turns -0 into 0.
+    let value = value + 0.0;
+    match value.abs() {
+        size if !size.is_finite() => "null".into(),
+        size if size == 0.0 || (IN_FULL_FROM..IN_FULL_BELOW).contains(&size) => value.to_string(),
+        _ => format!("{value:e}"),
+    }
+}
+
+/// A place `[x, y]` with all digits.
+pub(crate) fn place_text(at: Vec2) -> String {
+    format!("[{}, {}]", exact(at.x), exact(at.y))
 }
 
 /// A text in double quotes.

@@ -2,30 +2,46 @@
 
 use lightbots_base::{Limits, Rgb, Vec2};
 use lightbots_show::{
-    Easing, Frame, Identity, MAX_OBSTACLES, MAX_PIXELS, Obstacle, Pixel, Show, Stage, excerpt,
+    Easing, Frame, Identity, MAX_OBSTACLES, MAX_PIXELS, Obstacle, Pixel, Show, SourcePart, Stage, excerpt,
 };
 
+use super::fields::{label, one_of, place};
+use super::{assets, sources, timeline, trajectories};
 use crate::error::ReadError;
 use crate::format::Loaded;
-use crate::json::Json;
 use crate::json::frames::{Notes, document, frames, missing, pixels};
+use crate::json::{Json, Scalar};
 
-/// Version of the format, in the field `lightbots`. A file of another version is refused, because this reader would
-/// miss what it means.
-pub(super) const VERSION: u32 = 1;
+/// Newest version of the format that this reader knows, in the field `lightbots`. Fields of all versions are read
+/// whatever the number says.
+const NEWEST: u32 = 2;
 
 pub(crate) fn read(bytes: &[u8]) -> Result<Loaded, ReadError> {
-    let ((show, has_stage), issues) = document(bytes, show)?;
-    Ok(Loaded { show, plan: None, has_stage, issues })
+    let ((show, has_stage), notes) = document(bytes, show)?;
+    Ok(Loaded { show, plan: None, has_stage, unread: notes.unread(), issues: notes.issues })
 }
 
-/// The show, and whether the file has a stage.
+/// The show, and whether the file has a stage. An error in a file of a newer version names that version, because the
+/// file may be right.
 fn show(json: &mut Json<'_>, notes: &mut Notes) -> Result<(Show, bool), ReadError> {
+    let start = json.clone();
+    let read = known_parts(json, notes);
+    read.map_err(|error| match start.ahead("lightbots") {
+        Some(Scalar::Number(version)) if version > f64::from(NEWEST) && error.code != "cut-off" => {
+            let what =
+                format!("{}; or update this program, the show has format version {version}", error.what);
+            ReadError { what, ..error }
+        }
+        _ => error,
+    })
+}
+
+fn known_parts(json: &mut Json<'_>, notes: &mut Notes) -> Result<(Show, bool), ReadError> {
     let mut show = Show::default();
     let (mut has_version, mut has_stage, mut has_frames) = (false, false, false);
     json.object(|json, key| {
         match key {
-            "lightbots" => has_version = version(json)?,
+            "lightbots" => has_version = version(json, notes)?,
             "name" => show.name = json.text("name")?.into_owned(),
             "stage" => {
                 show.stage = stage(json, notes)?;
@@ -34,6 +50,14 @@ fn show(json: &mut Json<'_>, notes: &mut Notes) -> Result<(Show, bool), ReadErro
             "identity" => show.identity = identity(json)?,
             "starts" => show.starts = Some(starts(json)?),
             "music" => show.music = Some(json.text("music")?.into_owned()),
+            "spares" => show.spares = json.whole(key)?,
+            "assets" => show.assets = assets::read(json, notes)?,
+            "beats" => show.beats = Some(timeline::beats(json, notes)?),
+            "sections" => show.sections = timeline::sections(json, notes)?,
+            "markers" => show.markers = timeline::markers(json, notes)?,
+            "cues" => show.cues = timeline::cues(json, notes)?,
+            "layers" => show.layers = timeline::layers(json, notes)?,
+            "trajectories" => show.trajectories = trajectories::read(json, notes)?,
             "frames" => {
                 show.frames = frames(json, |json, _| frame(json, notes))?;
                 has_frames = true;
@@ -52,15 +76,18 @@ fn show(json: &mut Json<'_>, notes: &mut Notes) -> Result<(Show, bool), ReadErro
     Ok((show, has_stage))
 }
 
-fn version(json: &mut Json<'_>) -> Result<bool, ReadError> {
+/// Reads the version. A newer one is no error here: what is known of the file is read.
+fn version(json: &mut Json<'_>, notes: &mut Notes) -> Result<bool, ReadError> {
     json.peek()?;
     let before = json.clone();
-    let version = json.whole("lightbots")?;
-    if version == VERSION {
-        return Ok(true);
+    match json.whole("lightbots")? {
+        0 => Err(before.fail("unknown-version", "there is no format version 0; open another file")),
+        version if version > NEWEST => {
+            notes.newer(version, NEWEST);
+            Ok(true)
+        }
+        _ => Ok(true),
     }
-    let what = format!("the show has format version {version}, but this program reads {VERSION}; update it");
-    Err(before.fail("unknown-version", what))
 }
 
 fn stage(json: &mut Json<'_>, notes: &mut Notes) -> Result<Stage, ReadError> {
@@ -151,8 +178,8 @@ fn frame(json: &mut Json<'_>, notes: &mut Notes) -> Result<Frame, ReadError> {
         air_time_s: 0.0,
         transition_s: None,
         easing: Easing::Swift,
-        identity: None,
         pixels: Vec::new(),
+        ..Frame::default()
     };
     let mut has_pixels = false;
     json.object(|json, key| {
@@ -164,6 +191,9 @@ fn frame(json: &mut Json<'_>, notes: &mut Notes) -> Result<Frame, ReadError> {
                 frame.easing = one_of(json, key, &[("swift", Easing::Swift), ("gentle", Easing::Gentle)])?
             }
             "identity" => frame.identity = Some(identity(json)?),
+            "id" => frame.id = Some(label(json, key)?),
+            "at_s" => frame.at_s = Some(json.number(key)?),
+            "sources" => frame.sources = sources::read(json, notes)?,
             "pixels" => {
                 frame.pixels = pixels(json, "id", |json| pixel(json, notes))?;
                 has_pixels = true;
@@ -177,12 +207,15 @@ fn frame(json: &mut Json<'_>, notes: &mut Notes) -> Result<Frame, ReadError> {
 
 fn pixel(json: &mut Json<'_>, notes: &mut Notes) -> Result<Pixel, ReadError> {
     let (mut id, mut at, mut color, mut robot) = (None, None, None, None);
+    let (mut source, mut part) = (None, None);
     json.object(|json, key| {
         match key {
             "id" => id = Some(json.whole(key)?),
             "place" => at = Some(place(json, key)?),
             "color" => color = Some(rgb(json)?),
             "robot" => robot = Some(json.text(key)?.into_owned()),
+            "source" => source = Some(json.whole(key)?),
+            "part" => part = Some(label(json, key)?),
             _ => notes.unknown(json, "pixel", key)?,
         }
         Ok(())
@@ -192,28 +225,14 @@ fn pixel(json: &mut Json<'_>, notes: &mut Notes) -> Result<Pixel, ReadError> {
         at: at.ok_or_else(|| missing(json, "the place"))?,
         color: color.ok_or_else(|| missing(json, "the color"))?,
         robot,
+        part: source_part(source, part),
     })
 }
 
-/// `[x, y]` in stage metres.
-fn place(json: &mut Json<'_>, name: &str) -> Result<Vec2, ReadError> {
-    let mut at = [None; 2];
-    json.list(|json, index| {
-        let axis = if index == 0 { "x" } else { "y" };
-        let number = json.number(&format!("{axis} of the {name}"))?;
-        if let Some(slot) = at.get_mut(index) {
-            *slot = Some(number);
-            return Ok(());
-        }
-        Err(json
-            .fail("bad-place", format!("the {name} has more than two numbers; give it x and y in metres")))
-    })?;
-    match at {
-        [Some(x), Some(y)] => Ok(Vec2::new(x, y)),
-        _ => {
-            Err(json.fail("bad-place", format!("the {name} has too few numbers; give it x and y in metres")))
-        }
-    }
+/// The part of a source: a pixel that names either belongs to one. Without an index it is the first source.
+fn source_part(source: Option<u32>, name: Option<String>) -> Option<SourcePart> {
+    let is_from_source = source.is_some() || name.is_some();
+    is_from_source.then(|| SourcePart { source: source.unwrap_or(0), name: name.unwrap_or_default() })
 }
 
 fn rgb(json: &mut Json<'_>) -> Result<Rgb, ReadError> {
@@ -230,16 +249,4 @@ fn rgb(json: &mut Json<'_>) -> Result<Rgb, ReadError> {
 
 fn identity(json: &mut Json<'_>) -> Result<Identity, ReadError> {
     one_of(json, "identity", &[("any", Identity::Any), ("fixed", Identity::Fixed)])
-}
-
-/// The value of one of the words that a field may have.
-fn one_of<T: Copy>(json: &mut Json<'_>, name: &str, words: &[(&str, T)]) -> Result<T, ReadError> {
-    json.peek()?;
-    let before = json.clone();
-    let text = json.text(name)?;
-    words.iter().find(|(word, _)| *word == text).map(|(_, value)| *value).ok_or_else(|| {
-        let known: Vec<String> = words.iter().map(|(word, _)| format!("\"{word}\"")).collect();
-        let what = format!("{name} is \"{}\"; it can be {}", excerpt(&text), known.join(" or "));
-        before.fail("unknown-word", what)
-    })
 }

@@ -1,4 +1,5 @@
 //! From a show to a file of our format: one field per line, one pixel per line. Fields with default values are left out.
+//! A show without parts of version 2 is written as version 1, so that older programs read it.
 //! The stage is always there, because places of pixels mean nothing without their floor.
 
 use std::fmt::Write;
@@ -7,16 +8,18 @@ use lightbots_base::{Limits, Vec2};
 use lightbots_plan::ShowPlan;
 use lightbots_show::{Easing, Frame, Identity, Obstacle, Pixel, Show, Stage};
 
-use super::read::VERSION;
+use super::{assets, sources, timeline, trajectories};
 use crate::format::Written;
-use crate::json::text::{lines, number, quoted};
+use crate::json::text::{exact, lines, number, quoted};
+use crate::part::is_version_2;
 
 pub(crate) fn encode(show: &Show, _: Option<&ShowPlan>) -> Written {
     Written { bytes: text(show).into_bytes(), issues: Vec::new() }
 }
 
 fn text(show: &Show) -> String {
-    let mut fields = vec![format!("\"lightbots\": {VERSION}")];
+    let version = if is_version_2(show) { 2 } else { 1 };
+    let mut fields = vec![format!("\"lightbots\": {version}")];
     if !show.name.is_empty() {
         fields.push(format!("\"name\": {}", quoted(&show.name)));
     }
@@ -30,8 +33,34 @@ fn text(show: &Show) -> String {
     if let Some(music) = &show.music {
         fields.push(format!("\"music\": {}", quoted(music)));
     }
+    fields.extend(extras(show));
     fields.push(format!("\"frames\": {}", lines(show.frames.iter().map(frame), "  ")));
     format!("{{\n  {}\n}}\n", fields.join(",\n  "))
+}
+
+/// The fields of the show that version 2 added.
+fn extras(show: &Show) -> Vec<String> {
+    let mut fields = Vec::new();
+    if show.spares > 0 {
+        fields.push(format!("\"spares\": {}", show.spares));
+    }
+    if !show.assets.is_empty() {
+        fields.push(format!("\"assets\": {}", assets::text(&show.assets)));
+    }
+    if let Some(beats) = &show.beats {
+        fields.push(format!("\"beats\": {}", timeline::beats_text(beats)));
+    }
+    fields.extend(list("sections", &show.sections, timeline::section_text));
+    fields.extend(list("markers", &show.markers, timeline::marker_text));
+    fields.extend(list("cues", &show.cues, timeline::cue_text));
+    fields.extend(list("layers", &show.layers, timeline::layer_text));
+    fields.extend(list("trajectories", &show.trajectories, trajectories::text));
+    fields
+}
+
+/// A field with one item per line; `None` for an empty list.
+fn list<T>(name: &str, items: &[T], text: impl Fn(&T) -> String) -> Option<String> {
+    (!items.is_empty()).then(|| format!("\"{name}\": {}", lines(items.iter().map(text), "  ")))
 }
 
 fn stage(stage: &Stage) -> String {
@@ -78,7 +107,13 @@ fn frame(frame: &Frame) -> String {
     if !frame.name.is_empty() {
         fields.push(format!("\"name\": {}", quoted(&frame.name)));
     }
+    if let Some(id) = &frame.id {
+        fields.push(format!("\"id\": {}", quoted(id)));
+    }
     fields.push(format!("\"air_time_s\": {}", number(frame.air_time_s)));
+    if let Some(at_s) = frame.at_s {
+        fields.push(format!("\"at_s\": {}", exact(at_s)));
+    }
     if let Some(seconds) = frame.transition_s {
         fields.push(format!("\"transition_s\": {}", number(seconds)));
     }
@@ -87,6 +122,9 @@ fn frame(frame: &Frame) -> String {
     }
     if let Some(bound) = frame.identity {
         fields.push(format!("\"identity\": {}", identity(bound)));
+    }
+    if !frame.sources.is_empty() {
+        fields.push(format!("\"sources\": {}", sources::text(&frame.sources)));
     }
     fields.push(format!("\"pixels\": {}", lines(frame.pixels.iter().map(pixel), "      ")));
     format!("{{\n      {}\n    }}", fields.join(",\n      "))
@@ -102,6 +140,15 @@ fn pixel(pixel: &Pixel) -> String {
     if let Some(robot) = &pixel.robot {
         // Writing to a text cannot fail.
         let _ = write!(line, ", \"robot\": {}", quoted(robot));
+    }
+    if let Some(part) = &pixel.part {
+        // The first source goes without saying where the part has a name.
+        if part.source != 0 || part.name.is_empty() {
+            let _ = write!(line, ", \"source\": {}", part.source);
+        }
+        if !part.name.is_empty() {
+            let _ = write!(line, ", \"part\": {}", quoted(&part.name));
+        }
     }
     line + " }"
 }

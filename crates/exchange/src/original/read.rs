@@ -14,10 +14,10 @@ use crate::json::frames::{Notes, document, frames, missing, pixels};
 const COLOR_SLACK: f64 = 1e-6;
 
 pub(crate) fn read(bytes: &[u8]) -> Result<Loaded, ReadError> {
-    let (frames, issues) =
+    let (frames, notes) =
         document(bytes, |json, notes| frames(json, |json, index| frame(json, index, notes)))?;
     let show = Show { frames, ..Show::default() };
-    Ok(Loaded { show, plan: None, has_stage: false, issues })
+    Ok(Loaded { show, plan: None, has_stage: false, unread: notes.unread(), issues: notes.issues })
 }
 
 fn frame(json: &mut Json<'_>, index: usize, notes: &mut Notes) -> Result<Frame, ReadError> {
@@ -43,8 +43,8 @@ fn frame(json: &mut Json<'_>, index: usize, notes: &mut Notes) -> Result<Frame, 
         air_time_s: air_time_s.unwrap_or(0.0),
         transition_s: None,
         easing: Easing::Swift,
-        identity: None,
         pixels: found.ok_or_else(|| missing(json, "the list \"pixels\""))?,
+        ..Frame::default()
     })
 }
 
@@ -67,7 +67,7 @@ fn pixel(json: &mut Json<'_>, notes: &mut Notes) -> Result<Pixel, ReadError> {
         id: id.ok_or_else(|| missing(json, "pixelId"))?,
         at: at.or(canvas.map(stage_from_canvas)).ok_or_else(|| missing(json, "physicalLocation"))?,
         color: color.or(preview).ok_or_else(|| missing(json, "color"))?,
-        robot: None,
+        ..Pixel::default()
     })
 }
 

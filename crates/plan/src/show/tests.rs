@@ -5,15 +5,19 @@ use lightbots_base::Span;
 use lightbots_show::{Easing, Obstacle, Pixel, Stage};
 
 fn frame(places: &[(u32, f64, f64)]) -> Frame {
-    let pixel =
-        |&(id, x, y): &(u32, f64, f64)| Pixel { id, at: Vec2::new(x, y), color: Rgb::default(), robot: None };
+    let pixel = |&(id, x, y): &(u32, f64, f64)| Pixel {
+        id,
+        at: Vec2::new(x, y),
+        color: Rgb::default(),
+        ..Pixel::default()
+    };
     Frame {
         name: String::new(),
         air_time_s: 1.0,
         transition_s: None,
         easing: Easing::Swift,
-        identity: None,
         pixels: places.iter().map(pixel).collect(),
+        ..Frame::default()
     }
 }
 
@@ -25,6 +29,7 @@ fn of(frames: Vec<Frame>) -> Show {
         starts: None,
         music: None,
         frames,
+        ..Show::default()
     }
 }
 

@@ -6,7 +6,9 @@ use lightbots_show::{Easing, Frame, Pixel, Show};
 /// `count` pixels on a line, 0.1 m apart.
 pub fn row(count: u32) -> Vec<Pixel> {
     let place = |id: u32| Vec2::new(f64::from(id) * 0.1 - 1.4, 0.0);
-    (0..count).map(|id| Pixel { id, at: place(id), color: Rgb::new(255, 165, 0), robot: None }).collect()
+    (0..count)
+        .map(|id| Pixel { id, at: place(id), color: Rgb::new(255, 165, 0), ..Pixel::default() })
+        .collect()
 }
 
 /// A show of these frames.
@@ -16,8 +18,8 @@ pub fn show(frames: Vec<Vec<Pixel>>) -> Show {
         air_time_s: 1.0,
         transition_s: None,
         easing: Easing::Swift,
-        identity: None,
         pixels,
+        ..Frame::default()
     };
     Show { frames: frames.into_iter().map(frame).collect(), ..Show::default() }
 }

@@ -45,11 +45,11 @@ fn there_and_back(name: &str, (starts, goals, half_floor): Places) -> Show {
         air_time_s: AIR_S,
         transition_s: None,
         easing: Easing::Swift,
-        identity: None,
         pixels: (0..)
             .zip(places)
-            .map(|(id, &at)| Pixel { id, at, color: Rgb::new(90, 90, 255), robot: None })
+            .map(|(id, &at)| Pixel { id, at, color: Rgb::new(90, 90, 255), ..Pixel::default() })
             .collect(),
+        ..Frame::default()
     };
     let frames = vec![frame("from", &starts), frame("to", &goals), frame("back", &starts)];
     let stage = Stage { width_m: 2.0 * half_floor.x, depth_m: 2.0 * half_floor.y, ..Stage::default() };

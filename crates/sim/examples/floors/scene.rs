@@ -92,14 +92,14 @@ fn beside(dice: &mut Dice, things: &[Obstacle], otherwise: Vec2) -> Obstacle {
 
 fn frame(name: &str, places: &[Vec2]) -> Frame {
     let pixels =
-        (0..).zip(places).map(|(id, &at)| Pixel { id, at, color: Rgb::new(255, 160, 0), robot: None });
+        (0..).zip(places).map(|(id, &at)| Pixel { id, at, color: Rgb::new(255, 160, 0), ..Pixel::default() });
     Frame {
         name: name.into(),
         air_time_s: 0.0,
         transition_s: None,
         easing: Easing::Swift,
-        identity: None,
         pixels: pixels.collect(),
+        ..Frame::default()
     }
 }
 

@@ -76,15 +76,15 @@ impl Case {
             id,
             at: middle + place,
             color: Rgb::new(255, 160, 0),
-            robot: None,
+            ..Pixel::default()
         });
         let frame = Frame {
             name: self.to_string(),
             air_time_s: 0.3,
             transition_s: None,
             easing: Easing::Swift,
-            identity: None,
             pixels: pixels.collect(),
+            ..Frame::default()
         };
         Show { name: self.to_string(), stage, frames: vec![frame], ..Show::default() }
     }

@@ -72,7 +72,7 @@ fn frame(dice: &mut Dice, ids: &[u32], identity: Option<Identity>, (pinned, robo
         let robot = asks.then(|| name(free.swap_remove(dice.below(free.len() as u64) as usize)));
         let mut part = || 40 + dice.below(200) as u8;
         let color = Rgb::new(part(), part(), part());
-        Pixel { id, at, color: if dice.chance(0.1) { Rgb::BLACK } else { color }, robot }
+        Pixel { id, at, color: if dice.chance(0.1) { Rgb::BLACK } else { color }, robot, ..Pixel::default() }
     });
     Frame {
         name: String::new(),
@@ -81,6 +81,7 @@ fn frame(dice: &mut Dice, ids: &[u32], identity: Option<Identity>, (pinned, robo
         easing: Default::default(),
         identity,
         pixels: pixels.collect(),
+        ..Frame::default()
     }
 }
 

@@ -52,14 +52,14 @@ pub fn along_edge(off_m: f64) -> Show {
 
 fn frame(places: &[Vec2]) -> Frame {
     let pixels =
-        (0..).zip(places).map(|(id, &at)| Pixel { id, at, color: Rgb::new(255, 160, 0), robot: None });
+        (0..).zip(places).map(|(id, &at)| Pixel { id, at, color: Rgb::new(255, 160, 0), ..Pixel::default() });
     Frame {
         name: "there".into(),
         air_time_s: 0.3,
         transition_s: None,
         easing: Easing::Swift,
-        identity: None,
         pixels: pixels.collect(),
+        ..Frame::default()
     }
 }
 

@@ -19,15 +19,15 @@ pub fn pair(number: u64, most: u64) -> Show {
         id: id as u32,
         at: *at,
         color: Rgb::new(255, 160, 0),
-        robot: None,
+        ..Pixel::default()
     });
     let frame = Frame {
         name: format!("Pair {number}"),
         air_time_s: 0.0,
         transition_s: None,
         easing: Easing::Swift,
-        identity: None,
         pixels: pixels.collect(),
+        ..Frame::default()
     };
     // Identity binds robots from the first frame on: the starts are a frame of their own then, where all stay.
     let frames = if fixed { vec![standing(&starts[..count]), frame] } else { vec![frame] };
@@ -46,15 +46,15 @@ fn standing(starts: &[Vec2]) -> Frame {
         id: id as u32,
         at: *at,
         color: Rgb::new(40, 40, 80),
-        robot: None,
+        ..Pixel::default()
     });
     Frame {
         name: "Start".into(),
         air_time_s: 0.0,
         transition_s: None,
         easing: Easing::Swift,
-        identity: None,
         pixels: pixels.collect(),
+        ..Frame::default()
     }
 }
 

@@ -24,10 +24,10 @@ fn dense_show() -> Show {
         air_time_s: 0.2,
         transition_s: None,
         easing: Easing::Swift,
-        identity: None,
         pixels: (0..ROBOTS)
-            .map(|id| Pixel { id, at: place(id), color: Rgb::new(0, 80, id as u8), robot: None })
+            .map(|id| Pixel { id, at: place(id), color: Rgb::new(0, 80, id as u8), ..Pixel::default() })
             .collect(),
+        ..Frame::default()
     };
     Show {
         name: "dense".into(),
@@ -36,6 +36,7 @@ fn dense_show() -> Show {
         starts: None,
         music: None,
         frames: vec![frame("line", &line), frame("block", &block), frame("diagonal", &diagonal)],
+        ..Show::default()
     }
 }
 

@@ -13,11 +13,11 @@ fn show(name: &str, from: &[Vec2], to: &[Vec2]) -> Show {
         air_time_s: 0.3,
         transition_s: None,
         easing: Easing::Swift,
-        identity: None,
         pixels: (0..)
             .zip(places)
-            .map(|(id, &at)| Pixel { id, at, color: Rgb::new(255, 165, 0), robot: None })
+            .map(|(id, &at)| Pixel { id, at, color: Rgb::new(255, 165, 0), ..Pixel::default() })
             .collect(),
+        ..Frame::default()
     };
     let there = Show { frames: vec![frame("From", from), frame("To", to)], ..Show::default() };
     let bytes = ORIGINAL.write(&there, None).bytes;

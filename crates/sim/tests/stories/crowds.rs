@@ -42,11 +42,11 @@ fn crowd(number: u64) -> Show {
         air_time_s: 0.2,
         transition_s: None,
         easing: Easing::Swift,
-        identity: None,
         pixels: (0..)
             .zip(places())
-            .map(|(id, at)| Pixel { id, at, color: Rgb::new(90, 90, 255), robot: None })
+            .map(|(id, at)| Pixel { id, at, color: Rgb::new(90, 90, 255), ..Pixel::default() })
             .collect(),
+        ..Frame::default()
     };
     Show {
         name: format!("crowd {number}"),
@@ -55,6 +55,7 @@ fn crowd(number: u64) -> Show {
         starts: None,
         music: None,
         frames: vec![frame("one"), frame("other")],
+        ..Show::default()
     }
 }
 
@@ -85,11 +86,11 @@ fn a_tight_ring_turns_by_half() {
         air_time_s: 0.5,
         transition_s: None,
         easing: Easing::Swift,
-        identity: None,
         pixels: (0..60)
             .map(|id| (id, Vec2::unit(f64::from(id) * std::f64::consts::TAU / 60.0) * (0.62 * sign)))
-            .map(|(id, at)| Pixel { id, at, color: Rgb::new(90, 90, 255), robot: None })
+            .map(|(id, at)| Pixel { id, at, color: Rgb::new(90, 90, 255), ..Pixel::default() })
             .collect(),
+        ..Frame::default()
     };
     let frames = vec![ring("one", 1.0), ring("other", -1.0)];
     let show = Show { name: "ring".into(), identity: Identity::Fixed, frames, ..Show::default() };

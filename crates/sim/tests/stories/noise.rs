@@ -20,15 +20,17 @@ fn turning_pairs(apart_m: f64) -> Show {
             [middle + apart, middle - apart]
         };
         let at = (0..11).flat_map(pair);
-        at.zip(0..).map(|(at, id)| Pixel { id, at, color: Rgb::new(90, 200, 255), robot: None }).collect()
+        at.zip(0..)
+            .map(|(at, id)| Pixel { id, at, color: Rgb::new(90, 200, 255), ..Pixel::default() })
+            .collect()
     };
     let frame = |name: &str, y: f64, towards: f64| Frame {
         name: name.into(),
         air_time_s: 0.2,
         transition_s: None,
         easing: Easing::Swift,
-        identity: None,
         pixels: pixels(y, towards),
+        ..Frame::default()
     };
     let frames = vec![
         frame("near", -1.2, 0.0),

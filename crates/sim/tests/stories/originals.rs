@@ -19,10 +19,10 @@ fn show() -> Show {
         air_time_s: 0.2,
         transition_s: None,
         easing: Easing::Swift,
-        identity: None,
         pixels: (0..ROBOTS)
-            .map(|id| Pixel { id, at: place(id), color: Rgb::new(0, 80, id as u8), robot: None })
+            .map(|id| Pixel { id, at: place(id), color: Rgb::new(0, 80, id as u8), ..Pixel::default() })
             .collect(),
+        ..Frame::default()
     };
     let frames =
         vec![frame("row", &row), frame("lines", &lines), frame("block", &block), frame("ring", &ring)];

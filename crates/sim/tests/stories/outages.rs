@@ -15,14 +15,14 @@ fn show() -> Show {
         air_time_s: 2.0,
         transition_s: None,
         easing: Easing::Swift,
-        identity: None,
         pixels: (0..ROBOTS)
             .map(|id| {
                 let x = 0.15 * (f64::from(id) - 3.5);
                 let at = Vec2::new(x, if number.is_multiple_of(2) { 0.5 } else { 0.0 });
-                Pixel { id, at, color: Rgb::new(0, 80, id as u8), robot: None }
+                Pixel { id, at, color: Rgb::new(0, 80, id as u8), ..Pixel::default() }
             })
             .collect(),
+        ..Frame::default()
     };
     Show {
         name: "to and fro".into(),
@@ -31,6 +31,7 @@ fn show() -> Show {
         starts: None,
         music: None,
         frames: (0..FRAMES).map(frame).collect(),
+        ..Show::default()
     }
 }
 

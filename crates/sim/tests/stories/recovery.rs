@@ -20,11 +20,11 @@ fn swap() -> Show {
         air_time_s: 0.5,
         transition_s: None,
         easing: Easing::Swift,
-        identity: None,
         pixels: (0..)
             .zip(places)
-            .map(|(id, &at)| Pixel { id, at, color: Rgb::new(90, 90, 255), robot: None })
+            .map(|(id, &at)| Pixel { id, at, color: Rgb::new(90, 90, 255), ..Pixel::default() })
             .collect(),
+        ..Frame::default()
     };
     let frames = vec![frame("from", &starts), frame("to", &goals), frame("back", &starts)];
     let stage = Stage { width_m: 3.0, depth_m: 1.4, ..Stage::default() };

@@ -17,10 +17,10 @@ fn show(count: u32) -> Show {
         air_time_s: 0.3,
         transition_s: None,
         easing: Easing::Swift,
-        identity: None,
         pixels: (0..count)
-            .map(|id| Pixel { id, at: place(id), color: Rgb::new(255, 80, id as u8), robot: None })
+            .map(|id| Pixel { id, at: place(id), color: Rgb::new(255, 80, id as u8), ..Pixel::default() })
             .collect(),
+        ..Frame::default()
     };
     Show {
         name: "test".into(),
@@ -29,6 +29,7 @@ fn show(count: u32) -> Show {
         starts: None,
         music: None,
         frames: vec![frame("row", &row), frame("ring", &ring), frame("grid", &grid)],
+        ..Show::default()
     }
 }
 
@@ -112,7 +113,7 @@ fn who_crawls_while_another_drives_far_keeps_to_its_way() {
                 id,
                 at: Vec2::new(x[id as usize], f64::from(id)),
                 color: Rgb::BLACK,
-                robot: None,
+                ..Pixel::default()
             })
             .collect(),
         ..show(1).frames[0].clone()

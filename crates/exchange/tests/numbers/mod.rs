@@ -1,0 +1,13 @@
+//! Numbers for seeded tests.
+
+use lightbots_base::random::split_mix;
+
+/// Numbers that look random, the same at every run (SplitMix64).
+pub struct Numbers(pub u64);
+
+impl Numbers {
+    /// A whole number from 0 to below `sides`.
+    pub fn below(&mut self, sides: usize) -> usize {
+        (split_mix(&mut self.0) % sides.max(1) as u64) as usize
+    }
+}

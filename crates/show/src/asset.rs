@@ -1,0 +1,70 @@
+//! Files that belong to a show: pictures, fonts, music.
+
+use std::collections::BTreeMap;
+use std::fmt;
+use std::sync::Arc;
+
+/// SHA-256 of a file's bytes. `Display` gives the 64 hexadecimal digits that files use.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct AssetHash(pub [u8; 32]);
+
+/// A file that belongs to a show.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Asset {
+    /// Name of the file for people, such as `logo.svg`.
+    pub name: String,
+    /// Media type, such as `image/svg+xml`.
+    pub media_type: String,
+    /// Length of the file, bytes.
+    pub bytes: u64,
+    /// The file itself; `None`: only its hash is known, because the show's file does not hold it.
+    pub content: Option<Arc<[u8]>>,
+}
+
+/// Files of a show by their hash.
+pub type Assets = BTreeMap<AssetHash, Asset>;
+
+impl AssetHash {
+    /// The hash that 64 hexadecimal digits in lower case stand for.
+    pub fn from_hex(text: &str) -> Option<Self> {
+        let digit = |byte: u8| match byte {
+            b'0'..=b'9' => Some(byte - b'0'),
+            b'a'..=b'f' => Some(byte - b'a' + 10),
+            _ => None,
+        };
+        let mut hash = [0; 32];
+        if text.len() != 2 * hash.len() {
+            return None;
+        }
+        for (byte, pair) in hash.iter_mut().zip(text.as_bytes().chunks_exact(2)) {
+            *byte = digit(pair[0])? << 4 | digit(pair[1])?;
+        }
+        Some(Self(hash))
+    }
+}
+
+impl fmt::Display for AssetHash {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.0.iter().try_for_each(|byte| write!(f, "{byte:02x}"))
+    }
+}
+
+impl fmt::Debug for AssetHash {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        fmt::Display::fmt(self, f)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_hash_is_64_digits_in_lower_case() {
+        let text = "00ff".repeat(16);
+        assert_eq!(AssetHash::from_hex(&text).map(|hash| hash.to_string()), Some(text.clone()));
+        for bad in ["", &text[1..], &text.to_uppercase(), &text.replace('f', "g"), &"é".repeat(32)] {
+            assert_eq!(AssetHash::from_hex(bad), None, "{bad}");
+        }
+    }
+}
