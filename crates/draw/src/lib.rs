@@ -25,6 +25,7 @@ mod readability;
 mod relax;
 mod seeds;
 mod settings;
+pub mod svg;
 mod symmetry;
 
 pub use drawing::{Area, Drawing, DrawingPart, FillRule, Raster, Stroke};

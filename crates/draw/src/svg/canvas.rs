@@ -1,0 +1,272 @@
+//! A page that is painted from back to front: later areas hide what is below them.
+
+use lightbots_base::Rgb;
+
+use crate::svg::flatten::FlatLine;
+use crate::svg::region::{Region, bounds};
+
+/// Fainter paint is left out: it would only dim other lights.
+const FAINT: f64 = 0.1;
+/// Paint from this opacity on hides what is below it.
+const OPAQUE: f64 = 0.9;
+/// Difference of a channel, 0 to 255, that is not seen as another colour.
+const SHADE: i16 = 24;
+/// Share of the page that a background covers at least.
+const BACKGROUND: f64 = 0.98;
+/// Points of areas that are cut by others, at most, counted for each cut. Beyond, areas stay whole.
+const WORK_MAX: usize = 3_000_000;
+
+/// A visible area of one colour.
+#[derive(Clone, Debug)]
+pub struct Surface {
+    /// The visible part.
+    pub region: Region,
+    /// Its colour.
+    pub color: Rgb,
+    /// Whether it began as an area over the whole page.
+    pub background: bool,
+}
+
+/// A visible line.
+#[derive(Clone, Debug)]
+pub struct Line {
+    /// The visible part.
+    pub line: FlatLine,
+    /// Its colour.
+    pub color: Rgb,
+}
+
+/// What is painted.
+#[derive(Debug)]
+pub struct Canvas {
+    /// Areas that do not overlap.
+    pub surfaces: Vec<Surface>,
+    /// Lines that no area hides.
+    pub lines: Vec<Line>,
+    /// Areas and lines fainter than [`FAINT`].
+    pub faint: usize,
+    /// Areas and lines that are wholly hidden.
+    pub hidden: usize,
+    /// Points cut so far, see [`WORK_MAX`].
+    work: usize,
+    /// Square units of the page.
+    page_area: f64,
+    /// Thinnest area and shortest line, units of the page.
+    thinnest: f64,
+}
+
+impl Canvas {
+    /// An empty page.
+    pub fn new(page_area: f64, thinnest: f64) -> Self {
+        let (surfaces, lines) = (Vec::new(), Vec::new());
+        Self { surfaces, lines, faint: 0, hidden: 0, work: 0, page_area, thinnest }
+    }
+
+    /// An empty page of the same size, such as for a mask.
+    pub fn fresh(&self) -> Self {
+        Self { work: self.work, ..Self::new(self.page_area, self.thinnest) }
+    }
+
+    /// Takes over the work that went into another page.
+    pub fn spend(&mut self, other: &Self) {
+        self.work = other.work;
+    }
+
+    /// All areas at least as bright as a share of white.
+    pub fn bright(&mut self, least: f64) -> Option<Region> {
+        let surfaces = std::mem::take(&mut self.surfaces);
+        let bright = surfaces.into_iter().filter(|surface| f64::from(surface.color.g) >= least * 255.0);
+        let regions: Vec<Region> = bright.map(|surface| surface.region).collect();
+        Region::all(&regions, self.thinnest)
+    }
+
+    /// Whether there was too much to cut: areas may overlap.
+    pub fn is_overworked(&self) -> bool {
+        self.work > WORK_MAX
+    }
+
+    /// Counts a cut, and tells whether it may be made.
+    pub fn affords(&mut self, points: usize) -> bool {
+        self.work = self.work.saturating_add(points);
+        !self.is_overworked()
+    }
+
+    /// Paints an area.
+    pub fn fill(&mut self, region: Region, color: Rgb, opacity: f64) {
+        if opacity < FAINT {
+            self.faint += 1;
+            return;
+        }
+        if opacity >= OPAQUE {
+            self.hide_lines(&region);
+        }
+        let background = region.area() >= BACKGROUND * self.page_area;
+        if !self.surfaces.iter().any(|surface| surface.region.is_near(&region)) {
+            self.surfaces.push(Surface { region, color, background });
+            return;
+        }
+        let mut fresh = Some(Surface { region, color, background });
+        for surface in std::mem::take(&mut self.surfaces) {
+            match fresh.take() {
+                Some(upper) if surface.region.is_near(&upper.region) => {
+                    let points = surface.region.points() + upper.region.points();
+                    fresh = if self.affords(points) {
+                        self.cover(surface, upper, opacity)
+                    } else {
+                        self.surfaces.push(surface);
+                        Some(upper)
+                    };
+                }
+                upper => {
+                    self.surfaces.push(surface);
+                    fresh = upper;
+                }
+            }
+        }
+        self.surfaces.extend(fresh);
+    }
+
+    /// Keeps what an upper area leaves of a lower one, and returns what remains to be painted of the upper one.
+    fn cover(&mut self, mut lower: Surface, mut upper: Surface, opacity: f64) -> Option<Surface> {
+        let thinnest = self.thinnest;
+        let mixed = if opacity >= OPAQUE { upper.color } else { lower.color.mixed(upper.color, opacity) };
+        if lower.color == upper.color && opacity >= OPAQUE {
+            upper.region = upper.region.joined(&lower.region, thinnest).unwrap_or(upper.region);
+            upper.background |= lower.background;
+            return Some(upper);
+        }
+        if alike(mixed, lower.color) {
+            let rest = upper.region.minus(&lower.region, thinnest);
+            self.surfaces.push(lower);
+            return rest.map(|region| Surface { region, ..upper });
+        }
+        let both = if opacity < OPAQUE { lower.region.common(&upper.region, thinnest) } else { None };
+        let rest = match &both {
+            Some(_) => upper.region.minus(&lower.region, thinnest),
+            None => Some(upper.region.clone()),
+        };
+        match lower.region.minus(&upper.region, thinnest) {
+            Some(region) => {
+                lower.region = region;
+                self.surfaces.push(lower);
+            }
+            None => self.hidden += usize::from(both.is_none()),
+        }
+        let background = upper.background;
+        self.surfaces.extend(both.map(|region| Surface { region, color: mixed, background }));
+        rest.map(|region| Surface { region, ..upper })
+    }
+
+    /// Removes the parts of lines below an area.
+    fn hide_lines(&mut self, region: &Region) {
+        for line in std::mem::take(&mut self.lines) {
+            let (low, high) = region.bounds();
+            let near = bounds(&line.line.points).is_some_and(|(from, to)| {
+                (0..2).all(|axis| from[axis] <= high[axis] && low[axis] <= to[axis])
+            });
+            if !near || !self.affords(line.line.points.len() + region.points()) {
+                self.lines.push(line);
+                continue;
+            }
+            let parts = region.parts(&line.line, false, self.thinnest);
+            self.hidden += usize::from(parts.is_empty());
+            self.lines.extend(parts.into_iter().map(|part| Line { line: part, color: line.color }));
+        }
+    }
+
+    /// Paints a line. Areas of other colours recede from its `outline`.
+    pub fn stroke(&mut self, line: FlatLine, outline: Option<&Region>, color: Rgb, opacity: f64) {
+        if opacity < FAINT {
+            self.faint += 1;
+            return;
+        }
+        let recedes = |surface: &Surface| {
+            surface.color != color && outline.is_some_and(|outline| surface.region.is_near(outline))
+        };
+        self.lines.push(Line { line, color });
+        if !self.surfaces.iter().any(recedes) {
+            return;
+        }
+        for mut surface in std::mem::take(&mut self.surfaces) {
+            let cut = outline.filter(|_| recedes(&surface));
+            if let Some(outline) = cut.filter(|cut| self.affords(surface.region.points() + cut.points())) {
+                match surface.region.minus(outline, self.thinnest) {
+                    Some(region) => surface.region = region,
+                    None => continue,
+                }
+            }
+            self.surfaces.push(surface);
+        }
+    }
+}
+
+/// Whether two colours look the same.
+fn alike(a: Rgb, b: Rgb) -> bool {
+    let near = |x: u8, y: u8| (i16::from(x) - i16::from(y)).abs() < SHADE;
+    near(a.r, b.r) && near(a.g, b.g) && near(a.b, b.b)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const RED: Rgb = Rgb::new(255, 0, 0);
+    const BLUE: Rgb = Rgb::new(0, 0, 255);
+
+    fn square(x: f64, side: f64) -> Region {
+        Region::rectangle([x, 0.0], [x + side, side])
+    }
+
+    fn canvas() -> Canvas {
+        Canvas::new(10_000.0, 0.01)
+    }
+
+    fn areas(canvas: &Canvas) -> Vec<(u32, f64)> {
+        let area =
+            |surface: &Surface| (surface.color.number(), (surface.region.area() * 100.0).round() / 100.0);
+        canvas.surfaces.iter().map(area).collect()
+    }
+
+    #[test]
+    fn later_areas_hide_earlier_ones() {
+        let mut canvas = canvas();
+        canvas.fill(square(0.0, 10.0), RED, 1.0);
+        canvas.fill(square(5.0, 10.0), BLUE, 1.0);
+        assert_eq!(areas(&canvas), [(0xff0000, 50.0), (0x0000ff, 100.0)]);
+        canvas.fill(square(0.0, 20.0), RED, 1.0);
+        assert_eq!((areas(&canvas), canvas.hidden), (vec![(0xff0000, 400.0)], 1));
+    }
+
+    #[test]
+    fn translucent_areas_mix_and_faint_ones_vanish() {
+        let mut canvas = canvas();
+        canvas.fill(square(0.0, 10.0), RED, 1.0);
+        canvas.fill(square(5.0, 10.0), BLUE, 0.5);
+        assert_eq!(areas(&canvas), [(0xff0000, 50.0), (0x800080, 50.0), (0x0000ff, 50.0)]);
+        canvas.fill(square(0.0, 20.0), BLUE, 0.05);
+        assert_eq!((canvas.surfaces.len(), canvas.faint), (3, 1));
+    }
+
+    #[test]
+    fn areas_hide_lines_and_recede_from_later_ones() {
+        let line = || FlatLine { points: vec![[-5.0, 5.0], [15.0, 5.0]], closed: false };
+        let mut canvas = canvas();
+        canvas.stroke(line(), None, BLUE, 1.0);
+        canvas.fill(square(0.0, 10.0), RED, 1.0);
+        assert_eq!(canvas.lines.len(), 2);
+        let outline = Region::rectangle([-5.0, 4.0], [15.0, 6.0]);
+        canvas.stroke(line(), Some(&outline), BLUE, 1.0);
+        assert_eq!((canvas.lines.len(), areas(&canvas)), (3, vec![(0xff0000, 80.0)]));
+    }
+
+    #[test]
+    fn work_is_bounded() {
+        let mut canvas = canvas();
+        for n in 0..2_000 {
+            let shade = if n % 2 == 0 { RED } else { BLUE };
+            canvas.fill(square(f64::from(n) * 1e-3, 10.0), shade, 0.5);
+        }
+        assert!(canvas.work <= WORK_MAX || canvas.is_overworked());
+        assert!(canvas.surfaces.len() < 10_000);
+    }
+}

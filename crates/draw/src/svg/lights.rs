@@ -1,0 +1,80 @@
+//! Which colours of a page are lit: paper and black are not.
+
+use lightbots_base::Rgb;
+
+use crate::error::Note;
+use crate::svg::canvas::{Canvas, Line, Surface};
+
+/// A colour whose brightest channel is below this, 0 to 255, is a light that is off, such as the black of printers, #231f20.
+const DARK_BELOW: u8 = 40;
+/// A colour whose darkest channel is at least this is paper.
+const PAPER_FROM: u8 = 225;
+
+/// Removes the background and what looks like it, and lights black lines and areas white.
+pub fn light(canvas: &mut Canvas) -> Vec<Note> {
+    let background = remove_background(canvas);
+    let mut notes = Vec::new();
+    if let Some(color) = background {
+        let message = format!("The background, {}, is left out: it would need most robots.", name(color));
+        notes.push(Note::new("svg-background", message));
+    }
+    if !count(canvas, is_dark) {
+        return notes;
+    }
+    if background.is_some_and(is_dark) {
+        remove(canvas, is_dark);
+        return notes;
+    }
+    if count(canvas, is_paper) {
+        remove(canvas, is_paper);
+        let message = "White areas and lines are left dark, because black ones are lit.";
+        notes.push(Note::new("svg-white", message));
+    }
+    if count(canvas, |color| !is_dark(color)) {
+        let message = "Black areas and lines are lit white, because a black light is off.";
+        notes.push(Note::new("svg-black", message));
+    }
+    let lit = |color: &mut Rgb| *color = if is_dark(*color) { Rgb::new(255, 255, 255) } else { *color };
+    canvas.surfaces.iter_mut().for_each(|surface| lit(&mut surface.color));
+    canvas.lines.iter_mut().for_each(|line| lit(&mut line.color));
+    notes
+}
+
+/// Removes areas that covered the page, unless nothing else is there. Returns the colour of the largest.
+fn remove_background(canvas: &mut Canvas) -> Option<Rgb> {
+    let others = canvas.surfaces.iter().any(|surface| !surface.background) || !canvas.lines.is_empty();
+    if !others {
+        return None;
+    }
+    let behind = canvas.surfaces.iter().filter(|surface| surface.background);
+    let largest =
+        behind.max_by(|a, b| a.region.area().total_cmp(&b.region.area())).map(|surface| surface.color);
+    canvas.surfaces.retain(|surface| !surface.background);
+    largest
+}
+
+/// Whether something has such a colour.
+fn count(canvas: &Canvas, test: impl Fn(Rgb) -> bool) -> bool {
+    let areas = canvas.surfaces.iter().map(|surface| surface.color);
+    areas.chain(canvas.lines.iter().map(|line| line.color)).any(test)
+}
+
+/// Removes everything of such a colour, unless nothing else is there.
+fn remove(canvas: &mut Canvas, test: impl Fn(Rgb) -> bool) {
+    if count(canvas, |color| !test(color)) {
+        canvas.surfaces.retain(|surface: &Surface| !test(surface.color));
+        canvas.lines.retain(|line: &Line| !test(line.color));
+    }
+}
+
+fn is_dark(color: Rgb) -> bool {
+    color.r.max(color.g).max(color.b) < DARK_BELOW
+}
+
+fn is_paper(color: Rgb) -> bool {
+    color.r.min(color.g).min(color.b) >= PAPER_FROM
+}
+
+fn name(color: Rgb) -> String {
+    format!("#{:06x}", color.number())
+}

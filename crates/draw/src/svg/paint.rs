@@ -1,0 +1,90 @@
+//! The one colour of a fill or stroke.
+
+use lightbots_base::Rgb;
+use usvg::{BaseGradient, Group, Node, Paint};
+
+/// Levels of patterns inside of patterns that are looked into.
+const PATTERNS_MAX: usize = 4;
+
+/// A colour and its opacity, 0 to 1.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Tint {
+    /// The colour.
+    pub color: Rgb,
+    /// Its opacity.
+    pub opacity: f64,
+}
+
+/// The colour of a paint: of a gradient its mean, of a pattern the mean of the areas in it. `None`: an empty pattern.
+pub fn tint(paint: &Paint) -> Option<Tint> {
+    at_level(paint, 0)
+}
+
+fn at_level(paint: &Paint, level: usize) -> Option<Tint> {
+    match paint {
+        Paint::Color(color) => Some(Tint { color: rgb(*color), opacity: 1.0 }),
+        Paint::LinearGradient(gradient) => mean(stops(gradient)),
+        Paint::RadialGradient(gradient) => mean(stops(gradient)),
+        Paint::Pattern(_) if level == PATTERNS_MAX => None,
+        Paint::Pattern(pattern) => {
+            let mut found = Vec::new();
+            areas(pattern.root(), level, &mut found);
+            mean(found.into_iter())
+        }
+    }
+}
+
+fn rgb(color: usvg::Color) -> Rgb {
+    Rgb::new(color.red, color.green, color.blue)
+}
+
+/// The stops of a gradient, each with the share of the gradient that is nearest to it.
+fn stops(gradient: &BaseGradient) -> impl Iterator<Item = (Tint, f64)> + '_ {
+    let stops = gradient.stops();
+    let offset = |n: usize| stops.get(n).map(|stop| f64::from(stop.offset().get()));
+    stops.iter().enumerate().map(move |(n, stop)| {
+        let from =
+            n.checked_sub(1).and_then(offset).map_or(0.0, |before| (before + offset(n).unwrap_or(0.0)) / 2.0);
+        let to = offset(n + 1).map_or(1.0, |after| (after + offset(n).unwrap_or(1.0)) / 2.0);
+        let tint = Tint { color: rgb(stop.color()), opacity: f64::from(stop.opacity().get()) };
+        (tint, (to - from).max(0.0))
+    })
+}
+
+/// The fills in a pattern, each with the area of the box around it.
+fn areas(group: &Group, level: usize, found: &mut Vec<(Tint, f64)>) {
+    for node in group.children() {
+        match node {
+            Node::Group(inner) => areas(inner, level, found),
+            Node::Path(path) => {
+                let paint = path.fill().map(|fill| fill.paint());
+                let paint = paint.or(path.stroke().map(|stroke| stroke.paint()));
+                let area = f64::from(path.bounding_box().width() * path.bounding_box().height());
+                found.extend(
+                    paint.and_then(|paint| at_level(paint, level + 1)).map(|tint| (tint, area.max(1e-9))),
+                );
+            }
+            Node::Image(_) | Node::Text(_) => {}
+        }
+    }
+}
+
+/// The mean of colours by weight and opacity.
+fn mean(tints: impl Iterator<Item = (Tint, f64)>) -> Option<Tint> {
+    let mut sum = [0.0; 3];
+    let (mut light, mut weight) = (0.0, 0.0);
+    for (tint, share) in tints {
+        let visible = share * tint.opacity;
+        let channels = [tint.color.r, tint.color.g, tint.color.b];
+        sum.iter_mut().zip(channels).for_each(|(sum, channel)| *sum += visible * f64::from(channel));
+        light += visible;
+        weight += share;
+    }
+    if weight <= 0.0 || weight.is_nan() {
+        return None;
+    }
+    let channel = |sum: f64| (sum / light + 0.5) as u8;
+    let color =
+        if light > 0.0 { Rgb::new(channel(sum[0]), channel(sum[1]), channel(sum[2])) } else { Rgb::BLACK };
+    Some(Tint { color, opacity: light / weight })
+}

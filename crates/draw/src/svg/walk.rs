@@ -1,0 +1,270 @@
+//! The elements of an SVG are painted one after the other.
+
+use lightbots_base::Rgb;
+use usvg::tiny_skia_path::{Path as Outline, Transform};
+use usvg::{ClipPath, FillRule, Group, Mask, MaskType, Node, Path};
+
+use crate::drawing::FillRule as Rule;
+use crate::error::DrawError;
+use crate::svg::canvas::Canvas;
+use crate::svg::flatten::{FlatLine, Spot, polylines};
+use crate::svg::paint::{self, Tint, tint};
+use crate::svg::region::{Region, bounds};
+use crate::svg::scan::too_large;
+
+/// Largest coordinate, units of the page. Larger ones come from broken files.
+const COORDINATE_MAX: f32 = 1e6;
+/// Tolerance of chords, in sizes of the picture: finer than a tenth of the spacing of 10,000 robots.
+const TOLERANCE: f64 = 1.0 / 2_000.0;
+/// A stroke at least this wide, in sizes of the picture, becomes an area. Icons of 24 pixels have lines of 2.
+const WIDE: f64 = 0.15;
+/// Areas recede from a stroke at least this wide, in sizes of the picture.
+const VISIBLE: f64 = 0.015;
+/// Areas and lines, at most: more than robots could show.
+const PARTS_MAX: usize = 20_000;
+/// Points of areas and lines, at most.
+const POINTS_MAX: usize = 500_000;
+/// Brightness from which on a mask lets through what is below it, 0 to 1.
+const MASK_MIN: f64 = 0.5;
+
+/// A walk through the elements of an SVG.
+pub struct Walk {
+    /// What is painted.
+    pub canvas: Canvas,
+    /// Areas and lines with coordinates beyond [`COORDINATE_MAX`].
+    pub beyond: usize,
+    /// Longer side of the picture, units of the page.
+    size: f64,
+    parts: usize,
+    points: usize,
+}
+
+/// What holds for all elements of a group.
+#[derive(Clone)]
+struct Context {
+    /// From the group to the page.
+    transform: Transform,
+    /// What is outside of one of these is cut off.
+    clips: Vec<Region>,
+    opacity: f64,
+    /// How brightness of a mask is measured; `None`: this is no mask.
+    mask: Option<MaskType>,
+}
+
+impl Walk {
+    /// Paints a group on an empty page between two corners; `size` is the longer side of what is on it.
+    pub fn paint(root: &Group, page: (Spot, Spot), size: f64) -> Result<Self, DrawError> {
+        let edge = Region::rectangle(page.0, page.1);
+        let canvas = Canvas::new(edge.area(), size * TOLERANCE);
+        let mut walk = Self { canvas, beyond: 0, size, parts: 0, points: 0 };
+        let context =
+            Context { transform: Transform::identity(), clips: vec![edge], opacity: 1.0, mask: None };
+        walk.group(root, &context)?;
+        Ok(walk)
+    }
+
+    fn tolerance(&self) -> f64 {
+        self.size * TOLERANCE
+    }
+
+    fn group(&mut self, group: &Group, outer: &Context) -> Result<(), DrawError> {
+        let mut context = outer.clone();
+        context.transform = outer.transform.pre_concat(group.transform());
+        context.opacity *= f64::from(group.opacity().get());
+        let mut limits = Vec::new();
+        if let Some(clip) = group.clip_path() {
+            limits.push(self.clip(clip, context.transform)?);
+        }
+        if let Some(mask) = group.mask() {
+            limits.push(self.mask(mask, context.transform)?);
+        }
+        for limit in limits {
+            match limit {
+                Some(region) => context.clips.push(region),
+                None => {
+                    self.canvas.hidden += 1;
+                    return Ok(());
+                }
+            }
+        }
+        self.children(group, &context)
+    }
+
+    fn children(&mut self, group: &Group, context: &Context) -> Result<(), DrawError> {
+        for node in group.children() {
+            match node {
+                Node::Group(inner) => self.group(inner, context)?,
+                Node::Path(path) if path.is_visible() => self.path(path, context)?,
+                Node::Path(_) | Node::Image(_) | Node::Text(_) => {}
+            }
+        }
+        Ok(())
+    }
+
+    fn path(&mut self, path: &Path, context: &Context) -> Result<(), DrawError> {
+        let sides = path.bounding_box().transform(context.transform);
+        let sides = sides.map(|around| [around.left(), around.top(), around.right(), around.bottom()]);
+        if sides.is_none_or(|sides| sides.iter().any(|side| !side.is_finite() || side.abs() > COORDINATE_MAX))
+        {
+            self.beyond += 1;
+            return Ok(());
+        }
+        self.parts += 1;
+        if self.parts > PARTS_MAX {
+            return Err(too_large(format!("it has more than {PARTS_MAX} areas and lines")));
+        }
+        if let Some((fill, tint)) = path.fill().and_then(|fill| Some((fill, tint(fill.paint())?))) {
+            let opacity = context.opacity * tint.opacity * f64::from(fill.opacity().get());
+            let region = self.filled(path.data(), context, rule(fill.rule()))?;
+            self.fill(region, Tint { opacity, ..tint }, context);
+        }
+        match path.stroke().and_then(|stroke| Some((stroke, tint(stroke.paint())?))) {
+            Some((stroke, tint)) => self.stroke(path, stroke, tint, context),
+            None => Ok(()),
+        }
+    }
+
+    /// The area inside of a path.
+    fn filled(&mut self, data: &Outline, context: &Context, rule: Rule) -> Result<Option<Region>, DrawError> {
+        let lines = self.flattened(data, context)?;
+        let rings: Vec<Vec<Spot>> = lines.into_iter().map(|line| line.points).collect();
+        Ok(Region::new(&rings, rule, self.tolerance()))
+    }
+
+    fn flattened(&mut self, data: &Outline, context: &Context) -> Result<Vec<FlatLine>, DrawError> {
+        let lines = polylines(data, context.transform, self.tolerance());
+        self.points += lines.iter().map(|line| line.points.len()).sum::<usize>();
+        if self.points > POINTS_MAX {
+            return Err(too_large(format!("its lines have more than {POINTS_MAX} points")));
+        }
+        Ok(lines)
+    }
+
+    fn fill(&mut self, region: Option<Region>, tint: Tint, context: &Context) {
+        let thinnest = self.tolerance();
+        let clipped = context.clips.iter().fold(region, |region, clip| {
+            let region = region?;
+            let (low, high) = region.bounds();
+            if clip.frames(low, high) || !self.canvas.affords(region.points() + clip.points()) {
+                return Some(region);
+            }
+            region.common(clip, thinnest)
+        });
+        let tint = context.mask.map_or(tint, |kind| brightness(tint, kind));
+        match clipped {
+            Some(region) => self.canvas.fill(region, tint.color, tint.opacity),
+            None => self.canvas.hidden += 1,
+        }
+    }
+
+    fn stroke(
+        &mut self,
+        path: &Path,
+        stroke: &usvg::Stroke,
+        tint: Tint,
+        context: &Context,
+    ) -> Result<(), DrawError> {
+        let tint =
+            Tint { opacity: context.opacity * tint.opacity * f64::from(stroke.opacity().get()), ..tint };
+        let Transform { sx, kx, ky, sy, .. } = context.transform;
+        let scale = libm::sqrt(f64::from(sx * sy - kx * ky).abs());
+        let width = f64::from(stroke.width().get()) * scale / self.size;
+        let outline = if width >= VISIBLE { self.outline(path, stroke, context)? } else { None };
+        if width >= WIDE || context.mask.is_some() {
+            self.fill(outline, tint, context);
+            return Ok(());
+        }
+        let filled = path.fill().and_then(|fill| paint::tint(fill.paint()));
+        if filled.is_some_and(|filled| filled.color == tint.color) {
+            return Ok(());
+        }
+        for line in self.flattened(path.data(), context)? {
+            for part in self.clipped(line, context) {
+                self.canvas.stroke(part, outline.as_ref(), tint.color, tint.opacity);
+            }
+        }
+        Ok(())
+    }
+
+    /// The area that a stroke covers.
+    fn outline(
+        &mut self,
+        path: &Path,
+        stroke: &usvg::Stroke,
+        context: &Context,
+    ) -> Result<Option<Region>, DrawError> {
+        let mut solid = stroke.to_tiny_skia();
+        solid.dash = None;
+        let Some(data) = path.data().stroke(&solid, 1.0) else { return Ok(None) };
+        self.filled(&data, context, Rule::NonZero)
+    }
+
+    /// The parts of a line that are not cut off.
+    fn clipped(&mut self, line: FlatLine, context: &Context) -> Vec<FlatLine> {
+        let shortest = self.tolerance();
+        let count = |lines: &[FlatLine]| lines.iter().map(|line| line.points.len()).sum::<usize>();
+        context.clips.iter().fold(vec![line], |lines, clip| {
+            let Some((low, high)) = bounds(lines.iter().flat_map(|line| &line.points)) else { return lines };
+            if clip.frames(low, high) || !self.canvas.affords(count(&lines) + clip.points()) {
+                return lines;
+            }
+            lines.iter().flat_map(|line| clip.parts(line, true, shortest)).collect()
+        })
+    }
+
+    /// The area that a clip path leaves. `None`: none.
+    fn clip(&mut self, clip: &ClipPath, transform: Transform) -> Result<Option<Region>, DrawError> {
+        let inner = transform.pre_concat(clip.transform());
+        let own = self.bright(clip.root(), inner, MaskType::Alpha)?;
+        let Some(linked) = clip.clip_path() else { return Ok(own) };
+        let other = self.clip(linked, transform)?;
+        let thinnest = self.tolerance();
+        Ok(own.zip(other).and_then(|(own, other)| own.common(&other, thinnest)))
+    }
+
+    /// The area that a mask leaves. `None`: none.
+    fn mask(&mut self, mask: &Mask, transform: Transform) -> Result<Option<Region>, DrawError> {
+        let own = self.bright(mask.root(), transform, mask.kind())?;
+        let Some(linked) = mask.mask() else { return Ok(own) };
+        let other = self.mask(linked, transform)?;
+        let thinnest = self.tolerance();
+        Ok(own.zip(other).and_then(|(own, other)| own.common(&other, thinnest)))
+    }
+
+    /// The bright area of a mask, or the whole of a clip path.
+    fn bright(
+        &mut self,
+        root: &Group,
+        transform: Transform,
+        kind: MaskType,
+    ) -> Result<Option<Region>, DrawError> {
+        let fresh = self.canvas.fresh();
+        let outer = std::mem::replace(&mut self.canvas, fresh);
+        let context = Context { transform, clips: Vec::new(), opacity: 1.0, mask: Some(kind) };
+        let painted = self.group(root, &context);
+        let painted = painted.map(|()| self.canvas.bright(MASK_MIN));
+        let inner = std::mem::replace(&mut self.canvas, outer);
+        self.canvas.spend(&inner);
+        painted
+    }
+}
+
+/// A mask's paint as a shade of grey.
+fn brightness(tint: Tint, kind: MaskType) -> Tint {
+    let Rgb { r, g, b } = tint.color;
+    let light = match kind {
+        MaskType::Luminance => {
+            (0.2126 * f64::from(r) + 0.7152 * f64::from(g) + 0.0722 * f64::from(b)) * tint.opacity
+        }
+        MaskType::Alpha => 255.0 * tint.opacity,
+    };
+    let grey = (light + 0.5) as u8;
+    Tint { color: Rgb::new(grey, grey, grey), opacity: 1.0 }
+}
+
+fn rule(rule: FillRule) -> Rule {
+    match rule {
+        FillRule::NonZero => Rule::NonZero,
+        FillRule::EvenOdd => Rule::EvenOdd,
+    }
+}
