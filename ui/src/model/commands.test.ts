@@ -52,7 +52,14 @@ test('the fleet grows onto free places and shrinks from the highest ids', () => 
 
 test('marks: too close, off the floor, on an obstacle', () => {
   const { stage } = newShow('x', 1);
-  const pixel = (id: number, x: number, y: number) => ({ id, x, y, color: 0, robot: null });
+  const pixel = (id: number, x: number, y: number) => ({
+    id,
+    x,
+    y,
+    color: 0,
+    robot: null,
+    part: null,
+  });
   const pixels = [pixel(0, 0, 0), pixel(1, 0.05, 0), pixel(2, 1.49, 0), pixel(3, 0.5, 0.5)];
   const obstacles = [{ kind: 'rect' as const, minX: 0.4, minY: 0.4, maxX: 0.6, maxY: 0.6 }];
   const marks = marksOf(pixels, { ...stage, obstacles });

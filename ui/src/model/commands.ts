@@ -63,12 +63,20 @@ const insertFrames = (show: Show, index: number, frames: readonly Frame[]): Show
   frames: [...show.frames.slice(0, index + 1), ...frames, ...show.frames.slice(index + 1)],
 });
 
-const copyFrame = (frame: Frame, name: string): Frame => ({ ...frame, key: newKey(), name });
+/** A copy that stands at no absolute time, and that layers and cues do not name. */
+const copyFrame = (frame: Frame, name: string): Frame => ({
+  ...frame,
+  key: newKey(),
+  id: null,
+  at_s: null,
+  name,
+});
 
-/** Adds a frame with the pixels of the frame before it, because robots stand there. */
+/** Adds a frame with the pixels of the frame before it, because robots stand there. They are then drawn by hand. */
 export function addFrame(show: Show, after: number): Show {
   const before = show.frames[after];
-  const frame = newFrame(`Frame ${show.frames.length + 1}`, before?.pixels ?? []);
+  const pixels = (before?.pixels ?? []).map((p) => (p.part === null ? p : { ...p, part: null }));
+  const frame = newFrame(`Frame ${show.frames.length + 1}`, pixels);
   return insertFrames(show, after, [{ ...frame, airTime_s: before?.airTime_s ?? 1 }]);
 }
 
@@ -138,7 +146,7 @@ export function setFleetSize(show: Show, count: number, color: Rgb): Show {
     for (let id = 0; pixels.length < count; id++) {
       if (taken.has(id)) continue;
       const place = places[pixels.length - frame.pixels.length] ?? { x: 0, y: 0 };
-      pixels.push({ id, x: place.x, y: place.y, color, robot: null });
+      pixels.push({ id, x: place.x, y: place.y, color, robot: null, part: null });
     }
     return { ...frame, pixels: pixels.sort((a, b) => a.id - b.id) };
   });

@@ -1,24 +1,8 @@
 import type { Obstacle } from '../base/geometry';
 import { fromHex, toHex } from '../base/colour';
+import { list, number, object, pair, text, without } from './jsonFields';
+import { readPart, readSources, writePart, writeSource } from './jsonSources';
 import { EMPTY_STAGE, newKey, type Frame, type Pixel, type Show, type Stage } from './show';
-
-type Json = Record<string, unknown>;
-
-const object = (value: unknown): Json =>
-  typeof value === 'object' && value !== null && !Array.isArray(value) ? (value as Json) : {};
-const list = (value: unknown): unknown[] => (Array.isArray(value) ? value : []);
-const number = (value: unknown, otherwise: number) =>
-  typeof value === 'number' && Number.isFinite(value) ? value : otherwise;
-const text = (value: unknown) => (typeof value === 'string' ? value : '');
-const pair = (value: unknown): [number, number] => {
-  const numbers = list(value);
-  return [number(numbers[0], 0), number(numbers[1], 0)];
-};
-
-/** The fields of an object that the screen does not know. */
-function without(json: Json, known: readonly string[]): Json {
-  return Object.fromEntries(Object.entries(json).filter(([key]) => !known.includes(key)));
-}
 
 /** Reads a document that the server has checked; missing fields get their default. */
 export function readShow(document: unknown): Show {
@@ -54,17 +38,30 @@ function readObstacle(value: unknown): Obstacle {
   return { kind: 'rect', minX, minY, maxX, maxY };
 }
 
-const FRAME_FIELDS = ['name', 'air_time_s', 'transition_s', 'easing', 'identity', 'pixels'];
+const FRAME_FIELDS = [
+  'id',
+  'name',
+  'air_time_s',
+  'at_s',
+  'transition_s',
+  'easing',
+  'identity',
+  'sources',
+  'pixels',
+];
 
 function readFrame(value: unknown): Frame {
   const json = object(value);
   return {
     key: newKey(),
+    id: typeof json.id === 'string' ? json.id : null,
     name: text(json.name),
     airTime_s: number(json.air_time_s, 0),
+    at_s: typeof json.at_s === 'number' ? json.at_s : null,
     transition_s: typeof json.transition_s === 'number' ? json.transition_s : null,
     easing: json.easing === 'gentle' ? 'gentle' : 'swift',
     identity: json.identity === 'fixed' || json.identity === 'any' ? json.identity : null,
+    sources: readSources(json.sources),
     pixels: list(json.pixels)
       .map(readPixel)
       .sort((a, b) => a.id - b.id),
@@ -76,13 +73,37 @@ function readPixel(value: unknown): Pixel {
   const json = object(value);
   const [x, y] = pair(json.place);
   const robot = typeof json.robot === 'string' ? json.robot : null;
-  return { id: number(json.id, 0), x, y, color: fromHex(text(json.color)) ?? 0xffffff, robot };
+  const color = fromHex(text(json.color)) ?? 0xffffff;
+  return { id: number(json.id, 0), x, y, color, robot, part: readPart(json) };
 }
+
+/** Fields of the show that version 2 of the format added. */
+const FIELDS_2 = [
+  'spares',
+  'assets',
+  'beats',
+  'sections',
+  'markers',
+  'cues',
+  'layers',
+  'trajectories',
+];
+
+/** A show without parts of version 2 stays version 1, so that older programs read it. */
+const usesVersion2 = (show: Show) =>
+  FIELDS_2.some((field) => field in show.rest) ||
+  show.frames.some(
+    (f) =>
+      f.id !== null ||
+      f.at_s !== null ||
+      f.sources.length > 0 ||
+      f.pixels.some((p) => p.part !== null),
+  );
 
 /** The document as the server reads it; places to a tenth of a millimetre. */
 export function writeShow(show: Show): unknown {
   return {
-    lightbots: 1,
+    lightbots: usesVersion2(show) ? 2 : 1,
     name: show.name,
     stage: {
       width_m: show.stage.width_m,
@@ -104,17 +125,21 @@ function writeObstacle(o: Obstacle): unknown {
 
 function writeFrame(frame: Frame): unknown {
   return {
+    ...(frame.id === null ? {} : { id: frame.id }),
     name: frame.name,
     air_time_s: frame.airTime_s,
+    ...(frame.at_s === null ? {} : { at_s: frame.at_s }),
     ...(frame.transition_s === null ? {} : { transition_s: frame.transition_s }),
     easing: frame.easing,
     ...(frame.identity === null ? {} : { identity: frame.identity }),
+    ...(frame.sources.length === 0 ? {} : { sources: frame.sources.map(writeSource) }),
     ...frame.rest,
     pixels: frame.pixels.map((p) => ({
       id: p.id,
       place: [tenths(p.x), tenths(p.y)],
       color: toHex(p.color),
       ...(p.robot === null ? {} : { robot: p.robot }),
+      ...writePart(p.part),
     })),
   };
 }

@@ -10,6 +10,7 @@ test('whoever is too close is found, wherever the squares of the search lie', ()
     y: chance(2 * id + 2) * 2.8 - 1.4,
     color: 0,
     robot: null,
+    part: null,
   }));
   const gap_m = tooClose_m(EMPTY_STAGE);
   const wanted = pixels.filter((p) =>

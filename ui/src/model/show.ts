@@ -1,5 +1,6 @@
 import type { Obstacle } from '../base/geometry';
 import type { Rgb } from '../base/colour';
+import type { FrameSource, SourcePart } from './sources';
 
 /** A show: frames in playing order, and the stage they play on. Values are never changed in place. */
 export interface Show {
@@ -8,7 +9,7 @@ export interface Show {
   identity: Identity;
   music: string | null;
   frames: readonly Frame[];
-  /** Fields of the document that the screen does not know, kept unchanged. */
+  /** Fields of the document that the screen does not use, such as layers and assets, kept unchanged. */
   rest: Readonly<Record<string, unknown>>;
 }
 
@@ -31,14 +32,20 @@ export type Easing = 'swift' | 'gentle';
 export interface Frame {
   /** Identifies the frame on this screen; not saved. */
   key: number;
+  /** Word by which layers, cues and trajectories name the frame; null: nothing names it. */
+  id: string | null;
   name: string;
   /** How long the picture stays, seconds. */
   airTime_s: number;
+  /** Moment at which the picture must begin, seconds; null: as soon as the robots are there. */
+  at_s: number | null;
   /** Travel time to the frame, seconds; null: as fast as is safe. */
   transition_s: number | null;
   easing: Easing;
   /** Overrides the show's assignment; null: the show's. */
   identity: Identity | null;
+  /** What the pixels were made from; empty: drawn by hand. */
+  sources: readonly FrameSource[];
   /** Sorted by id, ids unique. */
   pixels: readonly Pixel[];
   rest: Readonly<Record<string, unknown>>;
@@ -52,6 +59,8 @@ export interface Pixel {
   color: Rgb;
   /** The robot that is pinned to the pixel; null: any robot. */
   robot: string | null;
+  /** The part of a source that the pixel belongs to; null: drawn by hand. */
+  part: SourcePart | null;
 }
 
 let lastKey = 0;
@@ -82,17 +91,21 @@ export function frontRows(stage: Stage, count: number, color: Rgb): Pixel[] {
     y: stage.depth_m / 2 - 0.2 - Math.floor(id / perRow) * step,
     color,
     robot: null,
+    part: null,
   }));
 }
 
 export function newFrame(name: string, pixels: readonly Pixel[]): Frame {
   return {
     key: newKey(),
+    id: null,
     name,
     airTime_s: 1,
+    at_s: null,
     transition_s: null,
     easing: 'swift',
     identity: null,
+    sources: [],
     pixels,
     rest: {},
   };
