@@ -30,7 +30,8 @@ pub(crate) fn seeds(samples: &[Sample], kept: &[Vec2], count: usize, spacing: f6
     let mut state = seed;
     let mut candidates = kept.to_vec();
     candidates.extend(drawn(samples, count * CANDIDATES, spacing, &mut state));
-    eliminate(&candidates, kept.len(), count, spacing)
+    let left = eliminate(&candidates, kept.len(), count, spacing);
+    left.into_iter().map(|index| candidates[index]).collect()
 }
 
 /// Random candidates, as dense as the samples' mass. They are spread within a small disc because samples form a grid.
@@ -72,8 +73,9 @@ impl PartialOrd for Crowded {
     }
 }
 
-/// Takes away the most crowded candidate until `count` are left. The first `kept` candidates stay and do not count.
-fn eliminate(candidates: &[Vec2], kept: usize, count: usize, spacing: f64) -> Vec<Vec2> {
+/// Takes away the most crowded candidate until `count` are left, and returns the numbers of these. The first `kept`
+/// candidates stay and do not count.
+pub(crate) fn eliminate(candidates: &[Vec2], kept: usize, count: usize, spacing: f64) -> Vec<usize> {
     let reach = 1.3 * spacing;
     let mut near: Vec<Vec<(u32, f64)>> = vec![Vec::new(); candidates.len()];
     let mut weights = vec![0.0; candidates.len()];
@@ -102,7 +104,7 @@ fn eliminate(candidates: &[Vec2], kept: usize, count: usize, spacing: f64) -> Ve
             weights[*other as usize] -= weight;
         }
     }
-    (kept..candidates.len()).filter(|index| alive[*index]).map(|index| candidates[index]).collect()
+    (kept..candidates.len()).filter(|index| alive[*index]).collect()
 }
 
 #[cfg(test)]

@@ -1,0 +1,234 @@
+//! The same picture with fewer or more lights, from the places of its lights alone.
+
+use lightbots_base::Vec2;
+use lightbots_base::shape::point_to_segment;
+
+use crate::buckets::{Buckets, nearest_distances};
+use crate::coverage::Sample;
+use crate::error::DrawError;
+use crate::fit::PictureFloor;
+use crate::relax::Lloyd;
+use crate::seeds::{eliminate, seeds};
+use crate::settings::{MAX_ROBOTS, PlacedLight};
+
+/// Rounds of relaxation: more move lights farther and make the picture little more even (measured).
+const ROUNDS: usize = 20;
+
+/// Lights up to this number of typical distances apart are joined by a line of the picture.
+const JOINED: f64 = 1.45;
+
+/// Half the width of such a line, in typical distances: twice as many lights still stand in one row.
+const HALF_WIDTH: f64 = 0.22;
+
+/// Samples along a typical distance.
+const FINENESS: f64 = 9.0;
+
+/// A light after a change of fleet.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RefitLight {
+    /// The light.
+    pub light: PlacedLight,
+    /// Index of the light that it was; `None`: it is new.
+    pub from: Option<usize>,
+}
+
+/// The picture of `lights` with `robots` lights at least `spacing_m` apart. Lights for which `pinned` is true are kept
+/// longest and do not move. Each light that stays keeps its colour; a new one takes that of the nearest light.
+///
+/// # Errors
+/// No lights to begin with, more than [`MAX_ROBOTS`], or more lights than find room on the floor.
+pub fn refit(
+    lights: &[PlacedLight],
+    pinned: &[bool],
+    robots: usize,
+    spacing_m: f64,
+    floor: &PictureFloor,
+) -> Result<Vec<RefitLight>, DrawError> {
+    if lights.is_empty() {
+        return Err(DrawError::new(
+            "nothing-to-draw",
+            "a frame without pixels cannot be fitted to a fleet; add a pixel",
+        ));
+    }
+    if robots == 0 || robots > MAX_ROBOTS {
+        let what = format!("{robots} robots; a picture takes 1 to {MAX_ROBOTS}");
+        return Err(DrawError::new("bad-setting", what));
+    }
+    let places: Vec<Vec2> = lights.iter().map(|light| light.at).collect();
+    let is_pinned = |index: usize| pinned.get(index).copied().unwrap_or(false);
+    let mut order: Vec<usize> = (0..lights.len()).collect();
+    order.sort_by_key(|index| !is_pinned(*index));
+    let typical = typical_distance(&places);
+    let samples: Vec<Sample> =
+        samples(&places, typical).into_iter().filter(|sample| floor.allows(sample.at)).collect();
+    let staying = staying(&places, &order, robots, is_pinned);
+    let mut now: Vec<Vec2> = staying.iter().map(|index| places[*index]).collect();
+    let mass: f64 = samples.iter().map(|sample| sample.mass).sum();
+    let spacing = (2.0 * mass / (3.0_f64.sqrt() * robots as f64)).sqrt();
+    now.extend(seeds(&samples, &now, robots - staying.len(), spacing, 1));
+    let kept = staying.iter().filter(|index| is_pinned(**index)).count();
+    if robots != lights.len() {
+        Lloyd { samples: &samples, kept, spacing, rounds: ROUNDS, pairing: None }.run(&mut now);
+    }
+    spread(&mut now, spacing_m, floor)?;
+    let nearest = Buckets::new(&places, typical.max(1e-6));
+    let refitted = now.iter().enumerate().map(|(index, at)| {
+        let from = staying.get(index).copied();
+        let source = from.or(nearest.nearest(*at).map(|(near, _)| near)).unwrap_or(0);
+        RefitLight { light: PlacedLight { at: *at, ..lights[source] }, from }
+    });
+    Ok(refitted.collect())
+}
+
+/// Lights that stay, the pinned ones first: of the others the most crowded go.
+fn staying(places: &[Vec2], order: &[usize], robots: usize, is_pinned: impl Fn(usize) -> bool) -> Vec<usize> {
+    if robots >= places.len() {
+        return order.to_vec();
+    }
+    let sorted: Vec<Vec2> = order.iter().map(|index| places[*index]).collect();
+    let pins = order.iter().filter(|index| is_pinned(**index)).count().min(robots);
+    let spacing = typical_distance(places) * (places.len() as f64 / robots as f64).sqrt();
+    let mut staying = order[..pins].to_vec();
+    staying.extend(eliminate(&sorted, pins, robots - pins, spacing).into_iter().map(|index| order[index]));
+    staying
+}
+
+/// The median distance to the nearest neighbour, metres; 0.3 m for a single light.
+fn typical_distance(places: &[Vec2]) -> f64 {
+    let mut distances = nearest_distances(places, 0.1);
+    distances.retain(|distance| distance.is_finite());
+    distances.sort_by(f64::total_cmp);
+    distances.get(distances.len() / 2).copied().unwrap_or(0.3).max(1e-3)
+}
+
+/// Samples of the picture that lights make: lines between neighbours, which close up to areas where lights fill one.
+fn samples(places: &[Vec2], typical: f64) -> Vec<Sample> {
+    let mut lines: Vec<(Vec2, Vec2)> = places.iter().map(|at| (*at, *at)).collect();
+    Buckets::new(places, typical).pairs(JOINED * typical, |a, b, _| lines.push((places[a], places[b])));
+    let pitch = typical / FINENESS;
+    let half = HALF_WIDTH * typical;
+    let mut cells: std::collections::BTreeSet<(i64, i64)> = std::collections::BTreeSet::new();
+    for (a, b) in lines {
+        let cell = |value: f64| (value / pitch).floor() as i64;
+        for x in cell(a.x.min(b.x) - half)..=cell(a.x.max(b.x) + half) {
+            for y in cell(a.y.min(b.y) - half)..=cell(a.y.max(b.y) + half) {
+                if point_to_segment(center(x, y, pitch), a, b) <= half {
+                    cells.insert((x, y));
+                }
+            }
+        }
+    }
+    cells.into_iter().map(|(x, y)| Sample { at: center(x, y, pitch), mass: pitch * pitch }).collect()
+}
+
+fn center(x: i64, y: i64, pitch: f64) -> Vec2 {
+    Vec2::new((x as f64 + 0.5) * pitch, (y as f64 + 0.5) * pitch)
+}
+
+/// Spreads places from their middle until the closest pair keeps its distance.
+fn spread(places: &mut [Vec2], spacing_m: f64, floor: &PictureFloor) -> Result<(), DrawError> {
+    let closest = nearest_distances(places, spacing_m).into_iter().fold(f64::INFINITY, f64::min);
+    if closest >= spacing_m {
+        return Ok(());
+    }
+    let middle = places.iter().fold(Vec2::ZERO, |sum, at| sum + *at) * (1.0 / places.len() as f64);
+    let factor = spacing_m / closest * 1.001;
+    let wider: Vec<Vec2> = places.iter().map(|at| middle + (*at - middle) * factor).collect();
+    if !wider.iter().all(|at| floor.allows(*at)) {
+        let fitting = ((places.len() as f64) / (factor * factor)).floor().max(1.0);
+        let what = format!(
+            "{} robots at least {:.0} mm apart do not find room in this picture; about {fitting} do, or a larger floor",
+            places.len(),
+            spacing_m * 1_000.0
+        );
+        return Err(DrawError::new("too-many-robots", what));
+    }
+    places.copy_from_slice(&wider);
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use lightbots_base::Rgb;
+
+    fn row(count: usize) -> Vec<PlacedLight> {
+        let light = |index| PlacedLight {
+            at: Vec2::new(index as f64 * 0.3 - 1.5, 0.0),
+            color: Rgb::new(index as u8, 0, 0),
+            group: 0,
+        };
+        (0..count).map(light).collect()
+    }
+
+    fn lattice() -> Vec<PlacedLight> {
+        let light = |index: i32| PlacedLight {
+            at: Vec2::new(f64::from(index % 10) * 0.2 - 0.9, f64::from(index / 10) * 0.2 - 0.9),
+            color: Rgb::BLACK,
+            group: 0,
+        };
+        (0..100).map(light).collect()
+    }
+
+    fn floor() -> PictureFloor {
+        PictureFloor::new(4.0, 4.0, 0.1)
+    }
+
+    #[test]
+    fn a_row_stays_a_row_with_twice_and_with_half_the_lights() {
+        for robots in [5, 8, 11, 15, 21] {
+            let lights = refit(&row(11), &[], robots, 0.08, &floor()).unwrap();
+            assert_eq!(lights.len(), robots);
+            assert!(lights.iter().all(|light| light.light.at.y.abs() < 0.03), "{robots}: {lights:?}");
+        }
+    }
+
+    #[test]
+    fn lights_that_stay_keep_their_colour_and_move_little() {
+        let before = lattice();
+        let after = refit(&before, &[], 90, 0.08, &floor()).unwrap();
+        let mut seen = std::collections::BTreeSet::new();
+        for light in after {
+            let from = light.from.unwrap();
+            assert!(seen.insert(from));
+            assert_eq!(light.light.color, before[from].color);
+            assert!(light.light.at.distance(before[from].at) < 0.2);
+        }
+    }
+
+    #[test]
+    fn new_lights_fill_the_area_at_its_spacing() {
+        let after = refit(&lattice(), &[], 200, 0.08, &floor()).unwrap();
+        assert_eq!(after.len(), 200);
+        assert_eq!(after.iter().filter(|light| light.from.is_none()).count(), 100);
+        let places: Vec<Vec2> = after.iter().map(|light| light.light.at).collect();
+        let closest = nearest_distances(&places, 0.1).into_iter().fold(f64::MAX, f64::min);
+        assert!(closest >= 0.08, "{closest}");
+    }
+
+    #[test]
+    fn pinned_lights_stay_longest_and_where_they_are() {
+        let before = lattice();
+        let mut pinned = vec![false; 100];
+        pinned[37] = true;
+        pinned[99] = true;
+        for robots in [2, 30, 99, 150] {
+            let after = refit(&before, &pinned, robots, 0.08, &floor()).unwrap();
+            for index in [37, 99] {
+                assert!(
+                    after.iter().any(|l| l.from == Some(index) && l.light.at == before[index].at),
+                    "{robots}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn the_same_number_changes_nothing_and_too_many_are_refused() {
+        let before = lattice();
+        let after = refit(&before, &[], 100, 0.08, &floor()).unwrap();
+        assert!(after.iter().zip(&before).all(|(after, before)| after.light == *before));
+        assert_eq!(refit(&before, &[], 9_000, 0.08, &floor()).unwrap_err().code, "too-many-robots");
+        assert_eq!(refit(&[], &[], 9, 0.08, &floor()).unwrap_err().code, "nothing-to-draw");
+    }
+}
