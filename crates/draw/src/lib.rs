@@ -27,6 +27,7 @@ mod refit;
 mod relax;
 mod seeds;
 mod settings;
+mod shape;
 pub mod svg;
 mod symmetry;
 
@@ -41,3 +42,4 @@ pub use place::{Placed, place};
 pub use readability::{DOUBTFUL, READABLE, Readability};
 pub use refit::{RefitLight, refit};
 pub use settings::{MAX_ROBOTS, PlaceSettings, PlacedLight};
+pub use shape::{MAX_SHAPE_POINTS, SHAPES, ShapeKind, ShapeSettings, draw_shape, exact_places, shape_named};
