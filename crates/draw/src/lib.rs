@@ -30,6 +30,7 @@ mod settings;
 mod shape;
 pub mod svg;
 mod symmetry;
+pub mod text;
 
 pub use drawing::{Area, Drawing, DrawingPart, FillRule, Raster, Stroke};
 pub use enough::enough_robots;

@@ -1,0 +1,200 @@
+//! Fonts: those inside, and the ones that people bring.
+
+use std::sync::OnceLock;
+
+use super::outline::Outlines;
+use super::strokes::StrokeFace;
+use crate::error::DrawError;
+
+/// Largest font file, in bytes. The largest common fonts, with all Chinese, Japanese and Korean signs, have about 20 MB.
+const FILE_MAX: usize = 32 << 20;
+
+/// A font: the outlines or the single strokes of its letters.
+#[derive(Clone)]
+pub struct Font {
+    face: Face,
+}
+
+/// How the letters of a font are drawn.
+#[derive(Clone)]
+pub(super) enum Face {
+    /// By areas.
+    Outlines(Outlines),
+    /// By lines.
+    Strokes(StrokeFace),
+}
+
+/// A font that LightBots brings along.
+#[derive(Clone, Copy, Debug)]
+pub struct FontInfo {
+    /// Name for programs and documents.
+    pub name: &'static str,
+    /// Name for people.
+    pub title: &'static str,
+    /// Licence, as an SPDX expression or in words. The full text is beside the font file.
+    pub licence: &'static str,
+    /// Whether people choose it. The other fonts stand in for signs that the chosen font lacks.
+    pub offered: bool,
+    file: File,
+}
+
+#[derive(Clone, Copy, Debug)]
+enum File {
+    Outlines(&'static [u8]),
+    Strokes(&'static str),
+}
+
+/// All fonts inside, in the order in which they are offered and stand in for each other.
+pub const FONTS: [FontInfo; 8] = [
+    outlines("lato", "Lato Bold", true, include_bytes!("../../fonts/Lato-Bold.ttf")),
+    outlines(
+        "league-spartan",
+        "League Spartan Bold",
+        true,
+        include_bytes!("../../fonts/LeagueSpartan-Bold.otf"),
+    ),
+    outlines("quicksand", "Quicksand Bold", true, include_bytes!("../../fonts/Quicksand-Bold.ttf")),
+    FontInfo {
+        name: "hershey-sans",
+        title: "Hershey Sans, single line",
+        licence: "Hershey fonts: any use, acknowledgements kept",
+        offered: true,
+        file: File::Strokes(include_str!("../../fonts/HersheySans1.svg")),
+    },
+    FontInfo {
+        name: "ems-readability",
+        title: "EMS Readability, single line",
+        licence: "OFL-1.1",
+        offered: true,
+        file: File::Strokes(include_str!("../../fonts/EMSReadability.svg")),
+    },
+    outlines(
+        "hebrew",
+        "Noto Sans Hebrew Bold, part",
+        false,
+        include_bytes!("../../fonts/NotoSansHebrew-Bold-part.ttf"),
+    ),
+    outlines(
+        "arabic",
+        "Noto Sans Arabic Bold, part",
+        false,
+        include_bytes!("../../fonts/NotoSansArabic-Bold-part.ttf"),
+    ),
+    outlines("emoji", "Noto Emoji Bold, part", false, include_bytes!("../../fonts/NotoEmoji-Bold-part.ttf")),
+];
+
+/// Fonts that stand in for signs that the chosen font lacks, best first.
+const STAND_INS: [&str; 4] = ["lato", "hebrew", "arabic", "emoji"];
+
+const fn outlines(name: &'static str, title: &'static str, offered: bool, bytes: &'static [u8]) -> FontInfo {
+    FontInfo { name, title, licence: "OFL-1.1", offered, file: File::Outlines(bytes) }
+}
+
+impl Font {
+    /// The font inside of that name; `None` for a name that is not in [`FONTS`].
+    pub fn built_in(name: &str) -> Option<Self> {
+        let info = FONTS.iter().find(|info| info.name == name)?;
+        let face = match info.file {
+            File::Outlines(bytes) => Face::Outlines(Outlines::read(bytes)?),
+            File::Strokes(svg) => Face::Strokes(StrokeFace::read(svg)?),
+        };
+        Some(Self { face })
+    }
+
+    /// A font from the bytes of a TTF, OTF or TTC file, of which the first font is taken.
+    ///
+    /// # Errors
+    /// `font-too-large`, `font-web` for WOFF files, `font-cut-off`, `font-unreadable`, and `font-empty` without any
+    /// letter that can be drawn.
+    pub fn read(bytes: &[u8]) -> Result<Self, DrawError> {
+        if bytes.len() > FILE_MAX {
+            let mb = bytes.len() >> 20;
+            let message = format!(
+                "The font file has {mb} MB; at most {} MB are read. Use a smaller font.",
+                FILE_MAX >> 20
+            );
+            return Err(DrawError::new("font-too-large", message));
+        }
+        if bytes.starts_with(b"wOF") {
+            let message =
+                "The file is a web font (WOFF). Convert it to TTF or OTF, or download that form of it.";
+            return Err(DrawError::new("font-web", message));
+        }
+        let unreadable = || {
+            let message =
+                "The file is no font that can be read, or it is cut off. Use a whole TTF, OTF or TTC file.";
+            DrawError::new("font-unreadable", message)
+        };
+        if is_cut_off(bytes) {
+            let message =
+                "The font file is cut off: its own list names parts beyond its end. Use a whole file.";
+            return Err(DrawError::new("font-cut-off", message));
+        }
+        let outlines = Outlines::read(bytes.to_vec()).ok_or_else(unreadable)?;
+        if !outlines.has_letters() {
+            let message =
+                "The font has no letters with outlines, only pictures or empty ones. Use another font.";
+            return Err(DrawError::new("font-empty", message));
+        }
+        Ok(Self { face: Face::Outlines(outlines) })
+    }
+
+    /// How its letters are drawn.
+    pub(super) fn face(&self) -> &Face {
+        &self.face
+    }
+
+    /// Whether the font has the character itself, without help by other fonts.
+    pub fn has(&self, character: char) -> bool {
+        self.face.has(character)
+    }
+
+    /// Whether its letters are lines and not areas.
+    pub fn is_single_line(&self) -> bool {
+        matches!(self.face, Face::Strokes(_))
+    }
+}
+
+impl Face {
+    /// Whether it has the character.
+    pub(super) fn has(&self, character: char) -> bool {
+        match self {
+            Self::Outlines(outlines) => outlines.has(character),
+            Self::Strokes(strokes) => strokes.has(character),
+        }
+    }
+}
+
+/// Whether the list of tables of a font names bytes beyond its end. Collections have no list at their beginning.
+fn is_cut_off(bytes: &[u8]) -> bool {
+    let collection = bytes.starts_with(b"ttcf");
+    let number = |at: usize| bytes.get(at..at + 4)?.try_into().ok().map(u32::from_be_bytes);
+    let tables = number(2).map_or(0, |number| number & 0xffff) as usize;
+    let kinds: [&[u8]; 3] = [b"\0\x01\0\0", b"OTTO", b"true"];
+    if collection || !kinds.iter().any(|kind| bytes.starts_with(kind)) {
+        return false;
+    }
+    let ends = (0..tables).map(|table| {
+        let record = 12 + 16 * table;
+        Some(u64::from(number(record + 8)?) + u64::from(number(record + 12)?))
+    });
+    ends.into_iter().any(|end| end.is_none_or(|end| end > bytes.len() as u64))
+}
+
+/// Fonts for signs that the chosen font lacks, read once.
+pub(super) fn stand_ins() -> &'static [Font] {
+    static READ: OnceLock<Vec<Font>> = OnceLock::new();
+    READ.get_or_init(|| STAND_INS.iter().filter_map(|name| Font::built_in(name)).collect())
+}
+
+/// Single-line faces that lend their strokes to the areas of other fonts, best first.
+pub(super) fn spines() -> &'static [StrokeFace] {
+    static READ: OnceLock<Vec<StrokeFace>> = OnceLock::new();
+    READ.get_or_init(|| {
+        let svgs = FONTS.iter().filter_map(|info| match info.file {
+            File::Strokes(svg) => StrokeFace::read(svg),
+            File::Outlines(_) => None,
+        });
+        svgs.collect()
+    })
+}

@@ -1,0 +1,63 @@
+//! Letters in their places.
+
+use lightbots_base::{Rgb, Vec2};
+
+use crate::drawing::{Area, DrawingPart, FillRule, Stroke};
+
+/// A letter in its place.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Letter {
+    /// What it shows: one character with its marks, or the characters of a ligature.
+    pub(super) text: String,
+    /// Its position in the text, in bytes.
+    pub(super) at: usize,
+    /// Rings of its area.
+    pub(super) rings: Vec<Vec<Vec2>>,
+    /// Its lines, in a single-line font.
+    pub(super) lines: Vec<Vec<Vec2>>,
+    /// Lines that stand for its area.
+    pub(super) spine: Vec<Vec<Vec2>>,
+}
+
+impl Letter {
+    /// The letter elsewhere.
+    pub(super) fn moved(mut self, by: Vec2) -> Self {
+        let lines = self.rings.iter_mut().chain(&mut self.lines).chain(&mut self.spine);
+        lines.flatten().for_each(|point| *point += by);
+        self
+    }
+
+    /// Points of what is seen, without the spine.
+    pub(super) fn ink(&self) -> impl Iterator<Item = &Vec2> {
+        self.rings.iter().chain(&self.lines).flatten()
+    }
+
+    /// The letter as a part of a drawing.
+    pub(super) fn group(&self, name: String, color: Rgb) -> DrawingPart {
+        let strokes = |lines: &[Vec<Vec2>]| {
+            let stroke = |line: &Vec<Vec2>| {
+                let closed = line.len() > 3 && line.first() == line.last();
+                let points = line[..line.len() - usize::from(closed)].to_vec();
+                Stroke { points, closed, color, weight: 1.0 }
+            };
+            lines.iter().map(stroke).collect()
+        };
+        let area = Area { rings: self.rings.clone(), rule: FillRule::NonZero, color, weight: 1.0 };
+        DrawingPart {
+            name,
+            letter: self.text.chars().next(),
+            areas: if self.rings.is_empty() { Vec::new() } else { vec![area] },
+            strokes: strokes(&self.lines),
+            spine: strokes(&self.spine),
+            raster: None,
+        }
+    }
+}
+
+/// The smallest rectangle around points: its corners with the smaller and the larger x and y.
+pub(super) fn bounds<'a>(points: impl Iterator<Item = &'a Vec2>) -> Option<(Vec2, Vec2)> {
+    points.map(|point| (*point, *point)).reduce(|(low, high), (point, _)| {
+        let low = Vec2::new(low.x.min(point.x), low.y.min(point.y));
+        (low, Vec2::new(high.x.max(point.x), high.y.max(point.y)))
+    })
+}

@@ -1,0 +1,98 @@
+//! One text as several drawings: word by word, or scrolling.
+
+use lightbots_base::Vec2;
+
+use super::clip::clipped;
+use super::layout::{check, draw, drawing, lay_out};
+use super::letter::{Letter, bounds};
+use super::lines::words;
+use super::settings::TextSettings;
+use crate::error::{DrawError, Made, Note};
+
+/// Most steps of a scrolling text: five minutes at ten steps per second, and more than any show plays.
+pub const STEPS_MAX: usize = 3_000;
+
+/// One drawing of several.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Page {
+    /// What it shows: the word, or the number of the step.
+    pub title: String,
+    /// The drawing, and what is missing from it.
+    pub made: Made,
+}
+
+/// One drawing for each word. Colours begin anew with each word. A word without any sign that can be drawn is left out,
+/// with a note in the first drawing.
+///
+/// # Errors
+/// As for [`draw`].
+pub fn per_word(settings: &TextSettings) -> Result<Vec<Page>, DrawError> {
+    check(settings)?;
+    let mut pages: Vec<Page> = Vec::new();
+    let mut left_out = Vec::new();
+    for (_, word) in words(settings.words) {
+        match draw(&TextSettings { words: word, wrap: None, ..settings.clone() }) {
+            Ok(made) => pages.push(Page { title: word.to_owned(), made }),
+            Err(error) if matches!(error.code, "text-no-glyphs" | "text-empty") => {
+                left_out.push(Note::new(
+                    "text-missing-word",
+                    format!("The word {word} is left out. {}", error.message),
+                ));
+            }
+            Err(error) => return Err(error),
+        }
+    }
+    match pages.first_mut() {
+        Some(first) => first.made.notes.append(&mut left_out),
+        None => return draw(settings).map(|made| vec![Page { title: settings.words.to_owned(), made }]),
+    }
+    Ok(pages)
+}
+
+/// A text on one line that moves to the left behind a window, in equal steps.
+///
+/// A text wider than the window begins with its first letters at the left edge, and ends with its last letters at the right
+/// edge. A narrower text moves from the right edge to the left edge. The window begins at x = 0 and has the given width in
+/// cap heights, from 0.5 to 1,000. Steps at which the window is empty are left out.
+///
+/// # Errors
+/// As for [`draw`], and `text-settings` for a window or a number of steps out of range.
+pub fn scrolling(settings: &TextSettings, window: f64, steps: usize) -> Result<Vec<Page>, DrawError> {
+    check(settings)?;
+    if !(0.5..=1_000.0).contains(&window) || !(1..=STEPS_MAX).contains(&steps) {
+        let message = format!(
+            "A window {window} cap heights wide with {steps} steps cannot scroll; choose a width from 0.5 to 1000 and from 1 to \
+             {STEPS_MAX} steps."
+        );
+        return Err(DrawError::new("text-settings", message));
+    }
+    let one_line = words(settings.words).map(|(_, word)| word).collect::<Vec<&str>>().join(" ");
+    let (letters, mut notes) = lay_out(&TextSettings { words: &one_line, wrap: None, ..settings.clone() })?;
+    let colored = drawing(&letters, &settings.colors);
+    let width = bounds(letters.iter().flat_map(Letter::ink)).map_or(0.0, |(_, high)| high.x);
+    let (start, end) = ((window - width).max(0.0), (window - width).min(0.0));
+    let mut pages = Vec::new();
+    for step in 0..steps {
+        let share = step as f64 / steps.saturating_sub(1).max(1) as f64;
+        let shift = start + (end - start) * share;
+        let mut cut = colored.clone();
+        cut.groups = letters
+            .iter()
+            .zip(&colored.groups)
+            .filter_map(|(letter, group)| {
+                let moved = clipped(&letter.clone().moved(Vec2::new(shift, 0.0)), 0.0, window);
+                let color = group
+                    .areas
+                    .first()
+                    .map(|area| area.color)
+                    .or(group.strokes.first().map(|stroke| stroke.color))?;
+                moved.ink().next().is_some().then(|| moved.group(group.name.clone(), color))
+            })
+            .collect();
+        if !cut.groups.is_empty() {
+            let made = Made { drawing: cut, notes: std::mem::take(&mut notes) };
+            pages.push(Page { title: format!("step {}", step + 1), made });
+        }
+    }
+    Ok(pages)
+}

@@ -1,0 +1,111 @@
+//! Questions to the area of a letter: what is inside, how thick it is, and where the middle is.
+
+use lightbots_base::Vec2;
+
+use super::letter::bounds;
+
+/// Rings of a letter that overlap by the rule of fonts: inside is where they wind around a point at all.
+pub(super) struct LetterArea<'a> {
+    rings: &'a [Vec<Vec2>],
+    /// Mean width of its strokes, in cap heights.
+    pub(super) stem: f64,
+    /// Corners of the smallest rectangle around it.
+    pub(super) extent: (Vec2, Vec2),
+}
+
+impl<'a> LetterArea<'a> {
+    /// The region of rings; `None` without any area.
+    pub(super) fn new(rings: &'a [Vec<Vec2>]) -> Option<Self> {
+        let extent = bounds(rings.iter().flatten())?;
+        let mut region = Self { rings, stem: 0.0, extent };
+        let area = region.edges().map(|(a, b)| a.cross(b)).sum::<f64>().abs() / 2.0;
+        let length: f64 = region.edges().map(|(a, b)| a.distance(b)).sum();
+        // A long stroke of width w and length l has the area w·l and the outline 2·l.
+        region.stem = 2.0 * area / length;
+        (region.stem > 0.0).then_some(region)
+    }
+
+    /// Number of its points.
+    pub(super) fn points(&self) -> usize {
+        self.rings.iter().map(Vec::len).sum()
+    }
+
+    /// Its edges.
+    pub(super) fn edges(&self) -> impl Iterator<Item = (Vec2, Vec2)> + '_ {
+        self.rings.iter().flat_map(|ring| {
+            let next = ring.iter().cycle().skip(1);
+            ring.iter().copied().zip(next.copied())
+        })
+    }
+
+    /// Whether a point is inside.
+    pub(super) fn contains(&self, point: Vec2) -> bool {
+        let winding: i32 = self.edges().map(|(a, b)| winding(a, b, point)).sum();
+        winding != 0
+    }
+
+    /// Distance of a point from the outline.
+    pub(super) fn distance(&self, point: Vec2) -> f64 {
+        self.edges().map(|(a, b)| distance(point, a, b)).fold(f64::INFINITY, f64::min)
+    }
+
+    /// Way along a direction to the middle of the nearest stroke; `None`: there is none within one stroke width.
+    pub(super) fn middle(&self, point: Vec2, direction: Vec2) -> Option<f64> {
+        let mut hits: Vec<f64> = self.edges().filter_map(|(a, b)| hit(point, direction, a, b)).collect();
+        hits.sort_by(f64::total_cmp);
+        let strokes = hits.windows(2).filter_map(|pair| match pair {
+            [low, high] if high - low <= STROKE_MAX * self.stem => Some((low + high) / 2.0),
+            _ => None,
+        });
+        let near =
+            strokes.filter(|middle| middle.abs() <= self.stem && self.contains(point + direction * *middle));
+        near.min_by(|a, b| a.abs().total_cmp(&b.abs()))
+    }
+}
+
+/// A cut longer than this many stroke widths runs along a stroke or through a joint, and its middle says nothing.
+const STROKE_MAX: f64 = 1.7;
+
+fn winding(a: Vec2, b: Vec2, point: Vec2) -> i32 {
+    let left = (b - a).cross(point - a);
+    match (a.y <= point.y, b.y <= point.y) {
+        (true, false) if left > 0.0 => 1,
+        (false, true) if left < 0.0 => -1,
+        _ => 0,
+    }
+}
+
+fn hit(point: Vec2, direction: Vec2, a: Vec2, b: Vec2) -> Option<f64> {
+    let (from, to) = (direction.cross(a - point), direction.cross(b - point));
+    if (from < 0.0) == (to < 0.0) {
+        return None;
+    }
+    Some(direction.dot(a.lerp(b, from / (from - to)) - point))
+}
+
+/// Distance of a point from the straight line between two others.
+pub(super) fn distance(point: Vec2, a: Vec2, b: Vec2) -> f64 {
+    let along = b - a;
+    let share = ((point - a).dot(along) / along.length_squared()).clamp(0.0, 1.0);
+    point.distance(if share.is_finite() { a.lerp(b, share) } else { a })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn bar() -> Vec<Vec<Vec2>> {
+        vec![[(0.0, 0.0), (0.2, 0.0), (0.2, 1.0), (0.0, 1.0)].map(|(x, y)| Vec2::new(x, y)).to_vec()]
+    }
+
+    #[test]
+    fn a_bar_knows_its_width_and_middle() {
+        let rings = bar();
+        let region = LetterArea::new(&rings).unwrap();
+        assert!((region.stem - 0.2 / 1.2).abs() < 1e-12);
+        assert!(region.contains(Vec2::new(0.1, 0.5)) && !region.contains(Vec2::new(0.3, 0.5)));
+        let to_middle = region.middle(Vec2::new(0.05, 0.5), Vec2::new(1.0, 0.0)).unwrap();
+        assert!((to_middle - 0.05).abs() < 1e-12);
+        assert_eq!(region.middle(Vec2::new(0.1, 0.5), Vec2::new(0.0, 1.0)), None);
+    }
+}

@@ -1,0 +1,108 @@
+//! Single-line fonts, as SVG fonts with straight lines: the centre line of each letter.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use lightbots_base::Vec2;
+use usvg::roxmltree::{Document, ParsingOptions};
+
+use super::letter::bounds;
+
+/// A closed line smaller than this share of the capitals is a dot, drawn by the makers as a small square.
+const DOT_SHARE: f64 = 0.16;
+
+/// Length of the line that a dot becomes, in cap heights: one robot, in a line that has a direction.
+const DOT_LENGTH: f64 = 0.02;
+
+/// A line of a letter, in cap heights.
+pub(super) type StrokeLine = Vec<Vec2>;
+
+/// Lines of one letter.
+#[derive(Clone, Debug)]
+pub(super) struct StrokeGlyph {
+    /// Where the next letter begins, in cap heights.
+    pub(super) advance: f64,
+    /// Its lines.
+    pub(super) lines: Vec<StrokeLine>,
+}
+
+/// A font of single lines.
+#[derive(Clone)]
+pub(super) struct StrokeFace {
+    glyphs: Arc<BTreeMap<char, StrokeGlyph>>,
+}
+
+impl StrokeFace {
+    /// The font of an SVG file with `glyph` elements; `None` if there is no H in it.
+    pub(super) fn read(svg: &str) -> Option<Self> {
+        let options = ParsingOptions { allow_dtd: true, ..Default::default() };
+        let document = Document::parse_with_options(svg, options).ok()?;
+        let mut raw = BTreeMap::new();
+        for node in document.descendants().filter(|node| node.has_tag_name("glyph")) {
+            let mut characters = node.attribute("unicode").unwrap_or_default().chars();
+            if let (Some(character), None) = (characters.next(), characters.next()) {
+                let advance = node.attribute("horiz-adv-x").and_then(|text| text.parse().ok()).unwrap_or(0.0);
+                raw.insert(
+                    character,
+                    StrokeGlyph { advance, lines: lines(node.attribute("d").unwrap_or_default()) },
+                );
+            }
+        }
+        // Some faces draw the middle of a stroke, which is above the baseline and below the top of capitals.
+        let (low, high) = bounds(raw.get(&'H')?.lines.iter().flatten())?;
+        let scale = 1.0 / (high.y - low.y);
+        if !(scale > 0.0 && scale.is_finite()) {
+            return None;
+        }
+        let glyphs = raw.into_iter().map(|(character, glyph)| (character, glyph.placed(low.y, scale)));
+        Some(Self { glyphs: Arc::new(glyphs.collect()) })
+    }
+
+    /// Whether the font has the character.
+    pub(super) fn has(&self, character: char) -> bool {
+        self.glyph(character).is_some()
+    }
+
+    /// The lines of a character.
+    pub(super) fn glyph(&self, character: char) -> Option<&StrokeGlyph> {
+        self.glyphs.get(&character)
+    }
+}
+
+impl StrokeGlyph {
+    /// The glyph in cap heights above the foot of the capitals.
+    fn placed(self, foot: f64, scale: f64) -> Self {
+        let placed = |line: StrokeLine| {
+            line.into_iter().map(|point| Vec2::new(point.x, point.y - foot) * scale).collect()
+        };
+        let lines = self.lines.into_iter().map(placed).map(dotted).collect();
+        Self { advance: self.advance * scale, lines }
+    }
+}
+
+/// Lines of a path of absolute `M` and `L` commands.
+fn lines(path: &str) -> Vec<StrokeLine> {
+    let parts = path.split('M').map(|part| {
+        let mut numbers =
+            part.split(|c: char| c.is_whitespace() || c == 'L').filter_map(|text| text.parse::<f64>().ok());
+        let mut line = StrokeLine::new();
+        while let (Some(x), Some(y)) = (numbers.next(), numbers.next()) {
+            line.push(Vec2::new(x, y));
+        }
+        line
+    });
+    parts.filter(|line| line.len() >= 2).collect()
+}
+
+/// A short line in place of a small closed one.
+fn dotted(line: StrokeLine) -> StrokeLine {
+    let Some((low, high)) = bounds(line.iter()) else { return line };
+    let closed = line.first() == line.last();
+    let size = high - low;
+    if !closed || size.x.max(size.y) > DOT_SHARE {
+        return line;
+    }
+    let centre = low.lerp(high, 0.5);
+    let half = Vec2::new(DOT_LENGTH / 2.0, 0.0);
+    vec![centre - half, centre + half]
+}
