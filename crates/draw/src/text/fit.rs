@@ -17,16 +17,17 @@ const ROUNDS: usize = 3;
 const STRAIGHT: f64 = 0.006;
 
 /// Least share of a spine inside of the area. Tuned on the three outline fonts inside, 2026-11-24.
-const INSIDE_MIN: f64 = 0.95;
+const INSIDE_MIN: f64 = 0.9;
 
 /// Least share of the outline that is near the spine.
-const COVERED_MIN: f64 = 0.93;
+const COVERED_MIN: f64 = 0.85;
 
-/// Stroke widths within which an outline counts as near the spine: half a width is ideal, corners have 0.71.
-const NEAR: f64 = 1.0;
+/// Stroke widths within which an outline counts as near the spine: half a width is ideal, corners
+/// have 0.71, and a round dot, whose mean width is its radius, has 1.
+const NEAR: f64 = 1.1;
 
 /// Lines of a letter without accents: those of the single-line font that fits best.
-pub(super) fn base(character: char, region: &LetterArea) -> Option<Vec<StrokeLine>> {
+pub(super) fn base(character: char, area: &LetterArea) -> Option<Vec<StrokeLine>> {
     let candidates = spines().iter().filter_map(|face| {
         let lines = match character {
             'ı' => face
@@ -38,8 +39,8 @@ pub(super) fn base(character: char, region: &LetterArea) -> Option<Vec<StrokeLin
                 .collect(),
             _ => face.glyph(character)?.lines.clone(),
         };
-        let fitted = fitted(lines, region);
-        quality(&fitted, region).map(|quality| (quality, fitted))
+        let fitted = fitted(lines, area);
+        quality(&fitted, area).map(|quality| (quality, fitted))
     });
     candidates.max_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, lines)| lines)
 }
@@ -49,15 +50,39 @@ fn is_dot(line: &StrokeLine) -> bool {
 }
 
 /// Lines stretched to the middle of the outermost strokes, then moved into the middle of all strokes.
-fn fitted(lines: Vec<StrokeLine>, region: &LetterArea) -> Vec<StrokeLine> {
-    let half = Vec2::new(region.stem, region.stem) / 2.0;
-    let (low, high) = region.extent;
-    let lines = stretched(lines, low + half, high - half);
+fn fitted(lines: Vec<StrokeLine>, area: &LetterArea) -> Vec<StrokeLine> {
+    let half = Vec2::new(area.stem, area.stem) / 2.0;
+    let (mut dots, mut lines): (Vec<StrokeLine>, Vec<StrokeLine>) = lines.into_iter().partition(is_dot);
+    let (blobs, rest) = area.blobs();
+    let mut extent = rest;
+    if dots.len() == blobs.len() {
+        dots.sort_by(|a, b| foot(a).total_cmp(&foot(b)));
+        let placed =
+            dots.into_iter().zip(&blobs).map(|(dot, (low, high))| moved_to(dot, low.lerp(*high, 0.5)));
+        dots = placed.collect();
+    } else {
+        lines.append(&mut dots);
+        extent = Some(area.extent);
+    }
+    if let Some((low, high)) = extent {
+        lines = stretched(lines, low + half, high - half);
+    }
     let mut lines: Vec<StrokeLine> = lines.iter().map(divided).collect();
     for _ in 0..ROUNDS {
-        lines = lines.into_iter().map(|line| centred(line, region)).collect();
+        lines = lines.into_iter().map(|line| centred(&line, area)).collect();
     }
-    lines.into_iter().map(|line| straightened(&line)).collect()
+    lines.into_iter().map(|line| straightened(trimmed(&line, area))).chain(dots).collect()
+}
+
+fn foot(line: &StrokeLine) -> f64 {
+    line.first().map_or(0.0, |point| point.y)
+}
+
+/// A dot with its middle elsewhere.
+fn moved_to(dot: StrokeLine, centre: Vec2) -> StrokeLine {
+    let Some((low, high)) = bounds(dot.iter()) else { return dot };
+    let by = centre - low.lerp(high, 0.5);
+    dot.into_iter().map(|point| point + by).collect()
 }
 
 /// Lines stretched into a rectangle; where either has no width, they are centred.
@@ -87,50 +112,110 @@ fn divided(line: &StrokeLine) -> StrokeLine {
     points
 }
 
-/// A line moved into the middle of the strokes that it lies on. Points at joints move like their neighbours.
-fn centred(line: StrokeLine, region: &LetterArea) -> StrokeLine {
-    let last = line.len().saturating_sub(1);
-    let closed = line.len() > 3 && line.first() == line.last();
-    let moves: Vec<Option<Vec2>> = (0..line.len())
-        .map(|at| {
-            let before = if at == 0 && closed { line[last - 1] } else { line[at.saturating_sub(1)] };
-            let after = if at == last && closed { line[1] } else { line[(at + 1).min(last)] };
-            let normal = (after - before).normalized()?.left();
-            region.middle(line[at], normal).map(|way| normal * way)
-        })
-        .collect();
-    let mut moves = filled(&moves);
-    for _ in 0..2 {
-        moves = smoothed(&moves, closed);
+/// A line without the points at its ends that lie outside: strokes of fonts end in different directions.
+fn trimmed<'a>(line: &'a [Vec2], area: &LetterArea) -> &'a [Vec2] {
+    let inside = |point: &Vec2| area.contains(*point);
+    match (line.iter().position(inside), line.iter().rposition(inside)) {
+        (Some(first), Some(last)) if last > first => &line[first..=last],
+        _ => line,
     }
-    line.into_iter().zip(moves).map(|(point, by)| point + by).collect()
+}
+
+/// Move of a point, and the direction across the line there.
+#[derive(Clone, Copy)]
+struct Move {
+    by: f64,
+    across: Vec2,
+}
+
+/// A line moved into the middle of the strokes that it lies on. Each piece between corners moves by itself.
+fn centred(line: &[Vec2], area: &LetterArea) -> StrokeLine {
+    let last = line.len().saturating_sub(1);
+    let mut corners = vec![0];
+    corners.extend((1..last).filter(|at| is_corner(line[at - 1], line[*at], line[at + 1])));
+    corners.push(last);
+    let pieces: Vec<Vec<Move>> =
+        corners.windows(2).map(|ends| moves(&line[ends[0]..=ends[1]], area)).collect();
+    let (Some(first), Some(end)) =
+        (pieces.first().and_then(|piece| piece.first()), pieces.last().and_then(|piece| piece.last()))
+    else {
+        return line.to_vec();
+    };
+    let closed = line.len() > 3 && line[0] == line[last];
+    let (from, to) = if closed { (met(*end, *first), met(*end, *first)) } else { (first.way(), end.way()) };
+    let mut ways = vec![from];
+    for (at, piece) in pieces.iter().enumerate() {
+        ways.extend(piece.iter().take(piece.len() - 1).skip(1).map(|step| step.way()));
+        let next = pieces.get(at + 1).and_then(|piece| piece.first());
+        ways.push(next.map_or(to, |next| met(piece[piece.len() - 1], *next)));
+    }
+    line.iter().zip(ways).map(|(point, way)| *point + way).collect()
+}
+
+impl Move {
+    fn way(&self) -> Vec2 {
+        self.across * self.by
+    }
+}
+
+/// Least cosine of a turn that is no corner: 35 degrees.
+const CORNER_COSINE: f64 = 0.82;
+
+/// Least sine between two pieces that meet in a point of their own; nearly parallel lines meet anywhere.
+const MEETING_SINE: f64 = 0.4;
+
+fn is_corner(a: Vec2, b: Vec2, c: Vec2) -> bool {
+    match ((b - a).normalized(), (c - b).normalized()) {
+        (Some(before), Some(after)) => before.dot(after) < CORNER_COSINE,
+        _ => false,
+    }
+}
+
+/// Way of a corner whose two pieces move: to where they meet.
+fn met(a: Move, b: Move) -> Vec2 {
+    let sine = a.across.cross(b.across);
+    if sine.abs() < MEETING_SINE {
+        return (a.way() + b.way()) / 2.0;
+    }
+    // The way d with d·across = by for both pieces.
+    Vec2::new(a.by * b.across.y - b.by * a.across.y, b.by * a.across.x - a.by * b.across.x) / sine
+}
+
+/// Moves of a piece without corners. Points at joints move like their neighbours.
+fn moves(piece: &[Vec2], area: &LetterArea) -> Vec<Move> {
+    let last = piece.len().saturating_sub(1);
+    let across =
+        |at: usize| (piece[(at + 1).min(last)] - piece[at.saturating_sub(1)]).normalized().map(Vec2::left);
+    let across: Vec<Vec2> = (0..piece.len()).map(|at| across(at).unwrap_or(Vec2::ZERO)).collect();
+    let known: Vec<Option<f64>> =
+        piece.iter().zip(&across).map(|(point, across)| area.middle(*point, *across)).collect();
+    let mut by = filled(&known);
+    for _ in 0..2 {
+        by = smoothed(&by);
+    }
+    by.into_iter().zip(across).map(|(by, across)| Move { by, across }).collect()
 }
 
 /// Moves that are not known lie between those before and after them.
-fn filled(moves: &[Option<Vec2>]) -> Vec<Vec2> {
-    let known: Vec<(usize, Vec2)> =
+fn filled(moves: &[Option<f64>]) -> Vec<f64> {
+    let known: Vec<(usize, f64)> =
         moves.iter().enumerate().filter_map(|(at, by)| by.map(|by| (at, by))).collect();
     (0..moves.len())
         .map(|at| {
             let after = known.partition_point(|(index, _)| *index < at);
             match (after.checked_sub(1).and_then(|before| known.get(before)), known.get(after)) {
-                (Some((low, a)), Some((high, b))) => a.lerp(*b, (at - low) as f64 / (high - low) as f64),
+                (Some((low, a)), Some((high, b))) => a + (b - a) * (at - low) as f64 / (high - low) as f64,
                 (Some((_, by)), None) | (None, Some((_, by))) => *by,
-                (None, None) => Vec2::ZERO,
+                (None, None) => 0.0,
             }
         })
         .collect()
 }
 
-fn smoothed(moves: &[Vec2], closed: bool) -> Vec<Vec2> {
+fn smoothed(moves: &[f64]) -> Vec<f64> {
     let last = moves.len().saturating_sub(1);
-    (0..moves.len())
-        .map(|at| {
-            let before = if at == 0 && closed { last - 1 } else { at.saturating_sub(1) };
-            let after = if at == last && closed { 1 } else { (at + 1).min(last) };
-            (moves[before] + moves[at] * 2.0 + moves[after]) / 4.0
-        })
-        .collect()
+    let near = |at: usize| moves[at.saturating_sub(1)] + moves[at] * 2.0 + moves[(at + 1).min(last)];
+    (0..moves.len()).map(|at| near(at) / 4.0).collect()
 }
 
 /// The line with the fewest points that stays within `STRAIGHT` (Douglas and Peucker 1973).
@@ -149,14 +234,14 @@ fn straightened(line: &[Vec2]) -> StrokeLine {
 }
 
 /// How well lines stand for an area: share of them inside plus share of the outline that is near. `None`: too badly.
-pub(super) fn quality(lines: &[StrokeLine], region: &LetterArea) -> Option<f64> {
+pub(super) fn quality(lines: &[StrokeLine], area: &LetterArea) -> Option<f64> {
     let points: Vec<Vec2> = lines.iter().flat_map(divided).collect();
-    let inside = points.iter().filter(|point| region.contains(**point)).count() as f64 / points.len() as f64;
-    if points.iter().any(|point| !region.contains(*point) && region.distance(*point) > region.stem / 4.0) {
+    let inside = points.iter().filter(|point| area.contains(**point)).count() as f64 / points.len() as f64;
+    if points.iter().any(|point| !area.contains(*point) && area.distance(*point) > area.stem / 4.0) {
         return None;
     }
-    let outline: Vec<Vec2> = region.edges().flat_map(|(a, b)| divided(&vec![a, b])).collect();
-    let near = |point: &&Vec2| to_lines(**point, lines) <= NEAR * region.stem;
+    let outline: Vec<Vec2> = area.edges().flat_map(|(a, b)| divided(&vec![a, b])).collect();
+    let near = |point: &&Vec2| to_lines(**point, lines) <= NEAR * area.stem;
     let covered = outline.iter().filter(near).count() as f64 / outline.len() as f64;
     (inside >= INSIDE_MIN && covered >= COVERED_MIN).then_some(inside + covered)
 }

@@ -45,7 +45,7 @@ enum File {
 }
 
 /// All fonts inside, in the order in which they are offered and stand in for each other.
-pub const FONTS: [FontInfo; 8] = [
+pub static FONTS: [FontInfo; 8] = [
     outlines("lato", "Lato Bold", true, include_bytes!("../../fonts/Lato-Bold.ttf")),
     outlines(
         "league-spartan",

@@ -7,10 +7,14 @@ use super::layout::{check, draw, drawing, lay_out};
 use super::letter::{Letter, bounds};
 use super::lines::words;
 use super::settings::TextSettings;
+use crate::drawing::{Drawing, DrawingPart};
 use crate::error::{DrawError, Made, Note};
 
 /// Most steps of a scrolling text: five minutes at ten steps per second, and more than any show plays.
 pub const STEPS_MAX: usize = 3_000;
+
+/// Most points of all steps together: about 100 MB of memory.
+const POINTS_MAX: usize = 4_000_000;
 
 /// One drawing of several.
 #[derive(Clone, Debug, PartialEq)]
@@ -72,27 +76,43 @@ pub fn scrolling(settings: &TextSettings, window: f64, steps: usize) -> Result<V
     let width = bounds(letters.iter().flat_map(Letter::ink)).map_or(0.0, |(_, high)| high.x);
     let (start, end) = ((window - width).max(0.0), (window - width).min(0.0));
     let mut pages = Vec::new();
+    let mut points = 0;
     for step in 0..steps {
         let share = step as f64 / steps.saturating_sub(1).max(1) as f64;
         let shift = start + (end - start) * share;
-        let mut cut = colored.clone();
-        cut.groups = letters
+        let groups = cut(&letters, &colored, shift, window);
+        points += groups
             .iter()
-            .zip(&colored.groups)
-            .filter_map(|(letter, group)| {
-                let moved = clipped(&letter.clone().moved(Vec2::new(shift, 0.0)), 0.0, window);
-                let color = group
-                    .areas
-                    .first()
-                    .map(|area| area.color)
-                    .or(group.strokes.first().map(|stroke| stroke.color))?;
-                moved.ink().next().is_some().then(|| moved.group(group.name.clone(), color))
-            })
-            .collect();
-        if !cut.groups.is_empty() {
-            let made = Made { drawing: cut, notes: std::mem::take(&mut notes) };
+            .flat_map(|group| &group.areas)
+            .flat_map(|area| &area.rings)
+            .map(Vec::len)
+            .sum::<usize>();
+        if points > POINTS_MAX {
+            let message = "All steps together have too many points. Scroll in fewer steps, or behind a narrower window.";
+            return Err(DrawError::new("text-too-detailed", message));
+        }
+        if !groups.is_empty() {
+            let made = Made { drawing: Drawing { groups }, notes: std::mem::take(&mut notes) };
             pages.push(Page { title: format!("step {}", step + 1), made });
         }
     }
     Ok(pages)
+}
+
+/// What is seen of letters behind a window.
+fn cut(letters: &[Letter], colored: &Drawing, shift: f64, window: f64) -> Vec<DrawingPart> {
+    let parts = letters.iter().zip(&colored.groups).filter_map(|(letter, group)| {
+        let (low, high) = bounds(letter.ink())?;
+        if high.x + shift <= 0.0 || low.x + shift >= window {
+            return None;
+        }
+        let color = group
+            .areas
+            .first()
+            .map(|area| area.color)
+            .or(group.strokes.first().map(|stroke| stroke.color))?;
+        let cut = clipped(&letter.clone().moved(Vec2::new(shift, 0.0)), 0.0, window);
+        cut.ink().next().is_some().then(|| cut.group(group.name.clone(), color))
+    });
+    parts.collect()
 }

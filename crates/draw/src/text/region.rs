@@ -4,13 +4,19 @@ use lightbots_base::Vec2;
 
 use super::letter::bounds;
 
+/// Corners of a rectangle with the smaller and the larger x and y.
+pub(super) type Extent = (Vec2, Vec2);
+
+/// Largest size of a dot, in cap heights.
+const BLOB_MAX: f64 = 0.4;
+
 /// Rings of a letter that overlap by the rule of fonts: inside is where they wind around a point at all.
 pub(super) struct LetterArea<'a> {
     rings: &'a [Vec<Vec2>],
     /// Mean width of its strokes, in cap heights.
     pub(super) stem: f64,
     /// Corners of the smallest rectangle around it.
-    pub(super) extent: (Vec2, Vec2),
+    pub(super) extent: Extent,
 }
 
 impl<'a> LetterArea<'a> {
@@ -23,6 +29,20 @@ impl<'a> LetterArea<'a> {
         // A long stroke of width w and length l has the area w·l and the outline 2·l.
         region.stem = 2.0 * area / length;
         (region.stem > 0.0).then_some(region)
+    }
+
+    /// Rectangles around separate small parts, from the lowest up, and around all the rest. Holes belong to the parts that
+    /// they are in.
+    pub(super) fn blobs(&self) -> (Vec<Extent>, Option<Extent>) {
+        let boxes: Vec<Extent> = self.rings.iter().filter_map(|ring| bounds(ring.iter())).collect();
+        let within = |a: &Extent, b: &Extent| {
+            a != b && a.0.x >= b.0.x && a.0.y >= b.0.y && a.1.x <= b.1.x && a.1.y <= b.1.y
+        };
+        let outer = boxes.iter().filter(|inner| !boxes.iter().any(|outer| within(inner, outer)));
+        let small = |extent: &Extent| (extent.1 - extent.0).x.max((extent.1 - extent.0).y) < BLOB_MAX;
+        let (mut blobs, rest): (Vec<Extent>, Vec<Extent>) = outer.copied().partition(small);
+        blobs.sort_by(|a, b| a.0.y.total_cmp(&b.0.y));
+        (blobs, bounds(rest.iter().flat_map(|(low, high)| [low, high])))
     }
 
     /// Number of its points.

@@ -11,8 +11,8 @@ use super::font::{Face, Font};
 use super::letter::Letter;
 use super::outline::Outlines;
 use super::runs::{FontRun, is_invisible, runs};
-use super::spine;
-use super::strokes::StrokeFace;
+use super::spine::spine;
+use super::strokes::{StrokeFace, StrokeLine};
 
 /// Width of a blank in a font that has none, in cap heights: about that of common sans faces.
 const BLANK: f64 = 0.35;
@@ -39,12 +39,27 @@ pub(super) struct Gathered {
     pub(super) missing: BTreeMap<char, usize>,
     /// Points of outlines that were taken.
     points: usize,
+    /// Letters with the areas that they had, and their spines: finding a spine takes longer than all else.
+    spines: BTreeMap<String, (Rings, Vec<StrokeLine>)>,
 }
+
+/// The area of a letter.
+type Rings = Vec<Vec<Vec2>>;
 
 impl Gathered {
     /// Whether the outlines have too many points.
     pub(super) fn is_full(&self) -> bool {
         self.points > POINTS_MAX
+    }
+
+    /// The spine of a letter, found once for the same area.
+    fn spine(&mut self, shown: &str, rings: &Rings, outlines: &Outlines) -> Vec<StrokeLine> {
+        if let Some((_, spine)) = self.spines.get(shown).filter(|(known, _)| known == rings) {
+            return spine.clone();
+        }
+        let spine = spine(shown, rings, outlines);
+        self.spines.insert(shown.to_owned(), (rings.clone(), spine.clone()));
+        spine
     }
 }
 
@@ -69,7 +84,7 @@ pub(super) fn shape(line: &str, from: usize, font: &Font, gap: f64, gathered: &m
 struct Cluster {
     start: usize,
     advance: f64,
-    rings: Vec<Vec<Vec2>>,
+    rings: Rings,
 }
 
 fn by_font(
@@ -88,7 +103,7 @@ fn by_font(
         let end = starts.iter().copied().find(|start| *start > cluster.start).unwrap_or(text.len());
         let characters = text.get(cluster.start..end).unwrap_or_default();
         let shown: String = characters.nfc().filter(|c| !is_invisible(*c)).collect();
-        let spine = spine::spine(&shown, &cluster.rings, outlines);
+        let spine = gathered.spine(&shown, &cluster.rings, outlines);
         let letter =
             Letter { text: shown, at: at + cluster.start, rings: cluster.rings, lines: Vec::new(), spine };
         let advance = cluster.advance + if is_joined(characters) { 0.0 } else { gap };

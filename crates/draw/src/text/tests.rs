@@ -3,6 +3,7 @@ use lightbots_base::random::split_mix;
 use lightbots_base::{Rgb, Vec2};
 
 use super::letter::bounds;
+use super::region::LetterArea;
 use super::*;
 use crate::drawing::DrawingPart;
 use crate::error::Made;
@@ -78,21 +79,18 @@ fn spines_lie_inside_of_their_letters() {
         let mut bare = Vec::new();
         for group in draw(&TextSettings::new(words, &font)).unwrap().drawing.groups {
             let Some(area) = group.areas.first() else { continue };
-            let region = region::LetterArea::new(&area.rings).unwrap();
+            let whole = LetterArea::new(&area.rings).unwrap();
             if group.spine.is_empty() {
                 bare.push(group.name.clone());
             }
             for point in group.spine.iter().flat_map(|stroke| &stroke.points) {
-                let near = region.contains(*point) || region.distance(*point) < region.stem / 4.0;
+                let near = whole.contains(*point) || whole.distance(*point) < whole.stem / 4.0;
                 assert!(near, "{} in {}: {point:?}", group.name, info.name);
             }
         }
-        assert!(bare.len() <= BARE_MAX, "{}: no strokes for {bare:?}", info.name);
+        assert!(bare.is_empty(), "{}: no strokes for {bare:?}", info.name);
     }
 }
-
-/// Most of the 62 letters and digits of a font that may lack strokes.
-const BARE_MAX: usize = 4;
 
 #[test]
 fn lines_stand_below_each_other_and_are_aligned() {
@@ -146,6 +144,18 @@ fn arabic_letters_are_joined() {
     let font = lato();
     let spaced = draw(&TextSettings { letter_gap: 1.0, ..TextSettings::new("ببب", &font) }).unwrap();
     assert_eq!(spaced.drawing, joined.drawing, "a gap would tear joined letters");
+}
+
+#[test]
+fn strokes_of_straight_letters_are_straight() {
+    let font = Font::built_in("quicksand").unwrap();
+    let made = draw(&TextSettings::new("HLE", &font)).unwrap();
+    for group in &made.drawing.groups {
+        for pair in group.spine.iter().flat_map(|stroke| stroke.points.windows(2)) {
+            let way = pair[1] - pair[0];
+            assert!(way.x.abs().min(way.y.abs()) < 0.01, "{}: {way:?}", group.name);
+        }
+    }
 }
 
 #[test]
