@@ -18,6 +18,7 @@ mod light_image;
 mod lines;
 mod measure;
 mod occupy;
+pub mod picture;
 mod pins;
 mod place;
 #[cfg(test)]

@@ -1,0 +1,115 @@
+//! Pictures become drawings: the silhouette of what they show, its outline, or its tones from dark to light.
+
+mod bitmap;
+mod contour;
+mod decode;
+mod lit;
+mod pieces;
+mod separate;
+
+use lightbots_base::{Rgb, Vec2};
+
+use crate::drawing::{Area, Drawing, DrawingPart, FillRule, Stroke};
+use crate::error::{DrawError, Made, Note};
+use crate::picture::bitmap::{BitMask, Bitmap};
+
+/// How a picture is shown.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum PictureWay {
+    /// The silhouette where a background is found, else the tones.
+    #[default]
+    Auto,
+    /// The area of the thing, in its colours, without the background.
+    Silhouette,
+    /// The border of the thing.
+    Outline,
+    /// All of the picture: robots stand densely where it is light.
+    Tones,
+}
+
+/// What is wanted of a picture.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct PictureSettings {
+    /// How it is shown.
+    pub way: PictureWay,
+    /// For a silhouette or outline: of the background. For tones: robots stand densely where it is dark.
+    pub inverted: bool,
+}
+
+/// Certainty that there is a background, 0 to 1, from which on a silhouette is chosen. On 2026-11-24 photographs of whole
+/// scenes reached 0.0 to 0.6, things before sky or paper 0.7 to 1.0; a brick wall was taken for a background, with 0.75.
+const CERTAIN: f32 = 0.65;
+/// Share of the picture that a thing covers at least and at most, for its silhouette to be chosen.
+const COVERS: [f64; 2] = [0.005, 0.95];
+
+/// The drawing of a picture in PNG, JPEG or WebP.
+pub fn draw(bytes: &[u8], settings: &PictureSettings) -> Result<Made, DrawError> {
+    shown(&decode::decode(bytes)?, settings)
+}
+
+/// The drawing of a bitmap.
+pub(crate) fn shown(bitmap: &Bitmap, settings: &PictureSettings) -> Result<Made, DrawError> {
+    let mut separation = separate::separate(bitmap);
+    let covers = separation.mask.count() as f64 / bitmap.pixels.len().max(1) as f64;
+    let clear = separation.certainty >= CERTAIN && (COVERS[0]..=COVERS[1]).contains(&covers);
+    match settings.way {
+        PictureWay::Tones => tones(bitmap, settings.inverted),
+        PictureWay::Auto if !clear => {
+            let mut made = tones(bitmap, settings.inverted)?;
+            let message = "No plain background was found: robots stand where the picture is light.";
+            made.notes.push(Note::new("picture-tones", message));
+            Ok(made)
+        }
+        way => {
+            if settings.inverted {
+                separation.mask.inside.iter_mut().for_each(|inside| *inside = !*inside);
+            }
+            silhouette(bitmap, separation.mask, way == PictureWay::Outline, clear)
+        }
+    }
+}
+
+fn tones(bitmap: &Bitmap, inverted: bool) -> Result<Made, DrawError> {
+    let raster = lit::tones(bitmap, inverted);
+    if raster.weights.iter().all(|weight| *weight <= 0.0) {
+        let message =
+            "The picture is evenly dark, so that no light would be on. Invert it, or choose another.";
+        return Err(DrawError::new("picture-empty", message));
+    }
+    let part = DrawingPart { name: "picture".to_owned(), raster: Some(raster), ..DrawingPart::default() };
+    Ok(Made { drawing: Drawing { groups: vec![part] }, notes: Vec::new() })
+}
+
+fn silhouette(bitmap: &Bitmap, mut mask: BitMask, outline: bool, clear: bool) -> Result<Made, DrawError> {
+    let removed = pieces::tidy(&mut mask);
+    let rings = contour::rings(&mask);
+    if rings.is_empty() {
+        let message = "Nothing in the picture differs from its edge. Choose tones, or a picture before a plain background.";
+        return Err(DrawError::new("picture-empty", message));
+    }
+    let raster = lit::painted(bitmap, &mask);
+    let color = raster.cell(rings[0].first().copied().unwrap_or(Vec2::ZERO));
+    let color = color.and_then(|cell| raster.colors.get(cell)).copied().unwrap_or(Rgb::new(255, 255, 255));
+    let stroke = |points: Vec<Vec2>| Stroke { points, closed: true, color, weight: 1.0 };
+    let (areas, strokes) = if outline {
+        (Vec::new(), rings.into_iter().map(stroke).collect())
+    } else {
+        (vec![Area { rings, rule: FillRule::NonZero, color, weight: 1.0 }], Vec::new())
+    };
+    let name = "picture".to_owned();
+    let part = DrawingPart { name, areas, strokes, raster: Some(raster), ..DrawingPart::default() };
+    let spots = (removed > 0).then(|| {
+        let what =
+            if removed == 1 { "A small spot is".to_owned() } else { format!("{removed} small spots are") };
+        Note::new("picture-spots", format!("{what} left out."))
+    });
+    let unsure = (!clear).then(|| {
+        let message = "The background is not plain, so that the silhouette may be wrong. Choose tones, or cut the thing out.";
+        Note::new("picture-background", message)
+    });
+    let notes = spots.into_iter().chain(unsure).collect();
+    Ok(Made { drawing: Drawing { groups: vec![part] }, notes })
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,220 @@
+//! The thing in a picture is separated from its background.
+
+use crate::picture::bitmap::{BitMask, Bitmap, Oklab, difference, neighbours, oklab};
+
+/// Opacity from which on a pixel belongs to the thing.
+const OPAQUE: u8 = 128;
+/// Share of transparent pixels from which on opacity decides alone.
+const TRANSPARENT: f32 = 0.005;
+/// Difference from the middle colour of the edge up to which a pixel of the edge is background.
+const EDGE_ALIKE: f32 = 0.15;
+/// Differences of thing and background between which Otsu's threshold is believed.
+const THRESHOLDS: [f32; 2] = [0.06, 0.35];
+/// Otsu's share of variance of values without two groups, and of two clear groups: measured on 25 pictures on 2026-11-24.
+const SEPARABLE: [f32; 2] = [0.6, 0.9];
+/// Bins of the histogram of differences, from 0 to 1.
+const BINS: usize = 200;
+
+/// A thing and how surely it was told from its background.
+#[derive(Clone, Debug)]
+pub struct Separation {
+    /// The thing.
+    pub mask: BitMask,
+    /// 0: no background was found, 1: thing and background do not mix.
+    pub certainty: f32,
+}
+
+/// The thing in a picture: what is opaque, or what differs from the colours along the edge.
+pub fn separate(bitmap: &Bitmap) -> Separation {
+    let clear = bitmap.pixels.iter().filter(|pixel| pixel[3] < OPAQUE).count();
+    if clear as f32 > TRANSPARENT * bitmap.pixels.len() as f32 {
+        let inside = bitmap.pixels.iter().map(|pixel| pixel[3] >= OPAQUE).collect();
+        return Separation { mask: BitMask { columns: bitmap.columns, inside }, certainty: 1.0 };
+    }
+    let lab = oklab(bitmap.colors());
+    let (background, share) = Background::of(bitmap, &lab);
+    let away: Vec<f32> = (0..lab.len()).map(|index| difference(lab[index], background.at(index))).collect();
+    let (best, separable) = otsu(&away);
+    let threshold = best.clamp(THRESHOLDS[0], THRESHOLDS[1]);
+    let apart = ((separable - SEPARABLE[0]) / (SEPARABLE[1] - SEPARABLE[0])).clamp(0.0, 1.0);
+    // Below the least threshold the picture has hardly any contrast.
+    let contrast = (best / threshold).min(1.0);
+    let inside = not_flooded(bitmap, &away, threshold);
+    let mask = BitMask { columns: bitmap.columns, inside };
+    let empty = mask.count() == 0 || mask.count() == mask.inside.len();
+    Separation { mask, certainty: if empty { 0.0 } else { share * apart * contrast } }
+}
+
+/// Colours of the background all over a picture, guessed from its edge.
+struct Background {
+    columns: usize,
+    rows: usize,
+    /// `[column]`, from the left.
+    top: Vec<Oklab>,
+    /// `[column]`, from the left.
+    bottom: Vec<Oklab>,
+    /// `[row]`, from above.
+    left: Vec<Oklab>,
+    /// `[row]`, from above.
+    right: Vec<Oklab>,
+}
+
+impl Background {
+    /// The background, and the share of the edge that shows it.
+    fn of(bitmap: &Bitmap, lab: &[Oklab]) -> (Self, f32) {
+        let (columns, rows) = (bitmap.columns, bitmap.rows);
+        let edge: Vec<Oklab> = bitmap.edge().filter_map(|index| lab.get(index).copied()).collect();
+        let middle = middle(&edge);
+        let alike = edge.iter().filter(|color| difference(**color, middle) < EDGE_ALIKE).count();
+        let share = alike as f32 / edge.len().max(1) as f32;
+        let side = |indices: &mut dyn Iterator<Item = usize>| {
+            let colors: Vec<Oklab> = indices.filter_map(|index| lab.get(index).copied()).collect();
+            smooth(&colors, middle)
+        };
+        let background = Self {
+            columns,
+            rows,
+            top: side(&mut (0..columns)),
+            bottom: side(&mut ((rows.saturating_sub(1)) * columns..rows * columns)),
+            left: side(&mut (0..rows).map(|row| row * columns)),
+            right: side(&mut (0..rows).map(|row| row * columns + columns.saturating_sub(1))),
+        };
+        (background, share)
+    }
+
+    /// The colour at a pixel: of the four sides, the nearer the more.
+    fn at(&self, index: usize) -> Oklab {
+        let (x, y) = (index % self.columns, index / self.columns);
+        let weight = |distance: usize| 1.0 / (1.0 + distance as f32);
+        let sides = [
+            (self.top.get(x), weight(y)),
+            (self.bottom.get(x), weight(self.rows - 1 - y)),
+            (self.left.get(y), weight(x)),
+            (self.right.get(y), weight(self.columns - 1 - x)),
+        ];
+        let mut sum = [0.0; 3];
+        let mut total = 0.0;
+        for (color, weight) in sides {
+            let color = color.copied().unwrap_or([0.0; 3]);
+            sum.iter_mut().zip(color).for_each(|(sum, channel)| *sum += channel * weight);
+            total += weight;
+        }
+        sum.map(|channel| channel / total)
+    }
+}
+
+/// The middle value of each channel.
+fn middle(colors: &[Oklab]) -> Oklab {
+    [0, 1, 2].map(|n| {
+        let mut values: Vec<f32> = colors.iter().map(|color| color[n]).collect();
+        values.sort_by(f32::total_cmp);
+        values.get(values.len() / 2).copied().unwrap_or(0.0)
+    })
+}
+
+/// Colours along a side as means over a sixteenth of it. Where the thing reaches the edge, the `middle` colour counts.
+fn smooth(colors: &[Oklab], middle: Oklab) -> Vec<Oklab> {
+    let alike = |color: &Oklab| if difference(*color, middle) < EDGE_ALIKE { *color } else { middle };
+    let colors: Vec<Oklab> = colors.iter().map(alike).collect();
+    let reach = colors.len() / 32 + 1;
+    let mean = |at: usize| {
+        let near = colors.get(at.saturating_sub(reach)..(at + reach + 1).min(colors.len())).unwrap_or(&[]);
+        [0, 1, 2].map(|n| near.iter().map(|color| color[n]).sum::<f32>() / near.len().max(1) as f32)
+    };
+    (0..colors.len()).map(mean).collect()
+}
+
+/// The threshold between small and large values with the largest variance between both (Otsu 1979), and the share of
+/// that in the whole variance.
+fn otsu(values: &[f32]) -> (f32, f32) {
+    let mut bins = [0.0f64; BINS];
+    for value in values {
+        let bin = ((value * BINS as f32) as usize).min(BINS - 1);
+        bins[bin] += 1.0;
+    }
+    let count: f64 = bins.iter().sum();
+    let moment = |power: i32| {
+        bins.iter()
+            .enumerate()
+            .map(|(n, bin)| bin * if power == 1 { n as f64 } else { (n * n) as f64 })
+            .sum::<f64>()
+    };
+    let (first, second) = (moment(1), moment(2));
+    let variance = second / count - (first / count) * (first / count);
+    let (mut below, mut sum, mut best) = (0.0, 0.0, (0.0, 0, 0));
+    for (n, bin) in bins.iter().enumerate() {
+        below += bin;
+        sum += bin * n as f64;
+        let above = count - below;
+        if below > 0.0 && above > 0.0 {
+            let apart = sum / below - (first - sum) / above;
+            let between = below * above * apart * apart / (count * count);
+            // Empty bins between both groups are equally good: the threshold is in their middle.
+            best = match between.total_cmp(&best.0) {
+                std::cmp::Ordering::Greater => (between, n + 1, n + 1),
+                std::cmp::Ordering::Equal => (between, best.1, n + 1),
+                std::cmp::Ordering::Less => best,
+            };
+        }
+    }
+    let separable = if variance > 0.0 { best.0 / variance } else { 0.0 };
+    ((best.1 + best.2) as f32 / (2 * BINS) as f32, separable as f32)
+}
+
+/// The pixels that a flood from the edge through background does not reach, without holes of the background's colour.
+fn not_flooded(bitmap: &Bitmap, away: &[f32], threshold: f32) -> Vec<bool> {
+    let mut inside = vec![true; away.len()];
+    let mut queue: Vec<usize> = bitmap.edge().filter(|index| away[*index] < threshold).collect();
+    queue.iter().for_each(|index| inside[*index] = false);
+    while let Some(index) = queue.pop() {
+        for next in neighbours(index, bitmap.columns, away.len()) {
+            if inside[next] && away[next] < threshold {
+                inside[next] = false;
+                queue.push(next);
+            }
+        }
+    }
+    // A hole shows the background itself; paler parts of the thing differ a little from it.
+    let hole = threshold * 0.5;
+    inside.iter_mut().zip(away).for_each(|(inside, away)| *inside &= *away >= hole);
+    inside
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A disc of 12 pixels radius with a hole of 4 in a picture of 48, over a background that grows lighter to the right.
+    fn ring(alpha: bool) -> Bitmap {
+        let pixel = |index: usize| {
+            let (x, y) = (index % 48, index / 48);
+            let away = ((x as f32 - 24.0).powi(2) + (y as f32 - 24.0).powi(2)).sqrt();
+            let grey = 180 + x as u8;
+            match (4.0..12.0).contains(&away) {
+                true => [200, 30, 30, 255],
+                false => [grey, grey, grey, if alpha { 0 } else { 255 }],
+            }
+        };
+        Bitmap { columns: 48, rows: 48, pixels: (0..48 * 48).map(pixel).collect() }
+    }
+
+    #[test]
+    fn a_thing_is_found_by_opacity_or_by_the_colours_of_the_edge() {
+        let by_alpha = separate(&ring(true));
+        let by_color = separate(&ring(false));
+        assert_eq!(by_alpha.mask.count(), ring(true).pixels.iter().filter(|pixel| pixel[1] == 30).count());
+        assert_eq!(by_alpha.mask, by_color.mask);
+        assert!(by_color.certainty > 0.8, "{}", by_color.certainty);
+    }
+
+    #[test]
+    fn noise_has_no_background() {
+        let mut state = 1;
+        let mut byte = || lightbots_base::random::split_mix(&mut state) as u8;
+        let pixels = (0..40 * 40).map(|_| [byte(), byte(), byte(), 255]).collect();
+        let certainty = separate(&Bitmap { columns: 40, rows: 40, pixels }).certainty;
+        assert!(certainty < 0.35, "{certainty}");
+        let plain = Bitmap { columns: 9, rows: 9, pixels: vec![[9, 9, 9, 255]; 81] };
+        assert_eq!(separate(&plain).certainty, 0.0);
+    }
+}
