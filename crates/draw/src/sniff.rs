@@ -1,0 +1,151 @@
+//! What a file is, told from its bytes: names of files are often wrong.
+
+use crate::error::DrawError;
+use crate::list;
+
+/// Kinds of files that become drawings.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SourceKind {
+    /// Areas and lines.
+    Svg,
+    /// A picture.
+    Png,
+    /// A picture.
+    Jpeg,
+    /// A picture or an animation.
+    Webp,
+    /// An animation.
+    Gif,
+    /// Places and colours.
+    Csv,
+}
+
+/// Bytes in which the first element of an SVG is looked for, after long comments and licences.
+const SVG_WITHIN: usize = 16_384;
+
+/// The kind of a file; `None`: it cannot be drawn, see [`unsupported`].
+pub fn sniff(bytes: &[u8]) -> Option<SourceKind> {
+    if bytes.starts_with(b"\x89PNG\r\n\x1a\n") {
+        Some(SourceKind::Png)
+    } else if bytes.starts_with(&[0xff, 0xd8, 0xff]) {
+        Some(SourceKind::Jpeg)
+    } else if bytes.starts_with(b"RIFF") && bytes.get(8..12) == Some(b"WEBP") {
+        Some(SourceKind::Webp)
+    } else if bytes.starts_with(b"GIF87a") || bytes.starts_with(b"GIF89a") {
+        Some(SourceKind::Gif)
+    } else if is_svg(bytes) {
+        Some(SourceKind::Svg)
+    } else {
+        let text = std::str::from_utf8(bytes).ok()?;
+        list::looks_like(text).then_some(SourceKind::Csv)
+    }
+}
+
+fn is_svg(bytes: &[u8]) -> bool {
+    let start = bytes.get(..SVG_WITHIN).unwrap_or(bytes);
+    let start = start.strip_prefix(b"\xef\xbb\xbf").unwrap_or(start).trim_ascii_start();
+    start.starts_with(b"<") && (find(start, b"<svg").is_some() || find(start, b":svg").is_some())
+}
+
+fn find(bytes: &[u8], wanted: &[u8]) -> Option<usize> {
+    bytes.windows(wanted.len()).position(|window| window == wanted)
+}
+
+/// A format that cannot be drawn, by bytes at an offset.
+struct Foreign {
+    at: usize,
+    bytes: &'static [u8],
+    name: &'static str,
+    remedy: &'static str,
+}
+
+const fn foreign(at: usize, bytes: &'static [u8], name: &'static str, remedy: &'static str) -> Foreign {
+    Foreign { at, bytes, name, remedy }
+}
+
+const AS_SVG: &str = "Save it as plain SVG.";
+const AS_PICTURE: &str = "Save it as PNG or JPEG.";
+const AS_VIDEO: &str = "Drop it into the browser app, or save it as GIF.";
+const AS_TEXT: &str = "Choose it as the font of a word.";
+
+/// Well-known formats that cannot be drawn. Those with a longer mark come first.
+const FOREIGN: [Foreign; 19] = [
+    foreign(0, &[0x1f, 0x8b], "a compressed file, such as svgz", AS_SVG),
+    foreign(0, b"%PDF", "a PDF", AS_SVG),
+    foreign(0, b"%!PS", "PostScript", AS_SVG),
+    foreign(0, b"BM", "a BMP picture", AS_PICTURE),
+    foreign(0, b"II*\0", "a TIFF picture", AS_PICTURE),
+    foreign(0, b"MM\0*", "a TIFF picture", AS_PICTURE),
+    foreign(0, b"8BPS", "a Photoshop picture", AS_PICTURE),
+    foreign(0, b"\0\0\x01\0", "an icon", AS_PICTURE),
+    foreign(4, b"ftypheic", "a HEIC picture", AS_PICTURE),
+    foreign(4, b"ftypmif1", "a HEIF picture", AS_PICTURE),
+    foreign(4, b"ftypavif", "an AVIF picture", AS_PICTURE),
+    foreign(4, b"ftyp", "a video", AS_VIDEO),
+    foreign(0, b"\x1a\x45\xdf\xa3", "a video", AS_VIDEO),
+    foreign(8, b"AVI ", "a video", AS_VIDEO),
+    foreign(
+        0,
+        b"PK\x03\x04",
+        "an archive or office file",
+        "Unpack it, or save a table as CSV and a drawing as SVG.",
+    ),
+    foreign(0, b"OTTO", "a font", AS_TEXT),
+    foreign(0, b"\0\x01\0\0", "a font", AS_TEXT),
+    foreign(0, b"wOFF", "a font", AS_TEXT),
+    foreign(0, b"wOF2", "a font", AS_TEXT),
+];
+
+/// Why a file of no known kind cannot be drawn, and what to do.
+pub fn unsupported(bytes: &[u8]) -> DrawError {
+    let known = FOREIGN
+        .iter()
+        .find(|format| bytes.get(format.at..).is_some_and(|rest| rest.starts_with(format.bytes)));
+    let message = match known {
+        Some(Foreign { name, remedy, .. }) => format!("The file is {name}, which cannot be drawn. {remedy}"),
+        None if bytes.is_empty() => "The file is empty. Choose another.".to_owned(),
+        None => "The file is of an unknown kind. Drawings are SVG, pictures PNG, JPEG or WebP, animations GIF or WebP, \
+                 lists CSV."
+            .to_owned(),
+    };
+    DrawError::new("unknown-kind", message)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn kinds_are_told_from_bytes() {
+        let webp = b"RIFF\0\0\0\0WEBPVP8 ";
+        let long = format!("<?xml version='1.0'?><!-- {} --><svg/>", "licence ".repeat(100));
+        let kinds = [
+            (b"\x89PNG\r\n\x1a\n".as_slice(), Some(SourceKind::Png)),
+            (&[0xff, 0xd8, 0xff, 0xe0], Some(SourceKind::Jpeg)),
+            (webp, Some(SourceKind::Webp)),
+            (b"GIF89a", Some(SourceKind::Gif)),
+            (b"\xef\xbb\xbf\n<svg xmlns='a'/>", Some(SourceKind::Svg)),
+            (b"<s:svg xmlns:s='a'/>", Some(SourceKind::Svg)),
+            (long.as_bytes(), Some(SourceKind::Svg)),
+            (b"x;y;colour\n", Some(SourceKind::Csv)),
+            (b"1,2,red", Some(SourceKind::Csv)),
+            (b"Dear reader, this is no list", None),
+            (b"<html/>", None),
+            (b"", None),
+        ];
+        for (bytes, kind) in kinds {
+            assert_eq!(sniff(bytes), kind, "{:?}", String::from_utf8_lossy(bytes));
+            assert!((0..bytes.len()).all(|end| sniff(&bytes[..end]).is_none_or(|part| Some(part) == kind)));
+        }
+    }
+
+    #[test]
+    fn foreign_kinds_get_a_remedy() {
+        let message = |bytes: &[u8]| unsupported(bytes).message;
+        assert!(message(&[0x1f, 0x8b, 8]).ends_with("Save it as plain SVG."));
+        assert!(message(b"\0\0\0\x18ftypheic").contains("HEIC"));
+        assert!(message(b"\0\0\0\x18ftypmp42").contains("a video"));
+        assert!(message(b"").contains("empty"));
+        assert!(message(b"?").contains("unknown kind"));
+    }
+}
