@@ -48,4 +48,4 @@ pub use readability::{DOUBTFUL, READABLE, Readability};
 pub use refit::{RefitLight, refit};
 pub use settings::{MAX_ROBOTS, PlaceSettings, PlacedLight};
 pub use shape::{MAX_SHAPE_POINTS, SHAPES, ShapeKind, ShapeSettings, draw_shape, exact_places, shape_named};
-pub use sniff::{SourceKind, sniff, unsupported};
+pub use sniff::{FileKind, sniff, unsupported};

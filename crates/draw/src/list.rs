@@ -23,9 +23,9 @@ const WHITE: Rgb = Rgb::new(255, 255, 255);
 /// What a line should look like, for messages.
 const EXAMPLE: &str = "Write a line for each light, such as 1.5, 2.0, #ff8800.";
 
-/// The lights in a list `x, y, colour`. The colour is `#rrggbb`, a name, or three columns of red, green and blue from 0 to
-/// 255; without a colour lights are white. Columns are parted by semicolons, tabs, commas or spaces; with semicolons and tabs
-/// numbers may have decimal commas. A first line with names may put the columns in another order.
+/// The lights in a list `x, y, colour`. The colour is `#rrggbb`, a name, or three columns of red, green and blue from 0
+/// to 255; without a colour lights are white. Columns are parted by semicolons, tabs, commas or spaces; with semicolons and
+/// tabs numbers may have decimal commas. A first line with names may put the columns in another order.
 pub fn read(bytes: &[u8]) -> Result<LightList, DrawError> {
     if bytes.len() > BYTES_MAX {
         return Err(too_long());

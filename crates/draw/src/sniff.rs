@@ -5,7 +5,7 @@ use crate::list;
 
 /// Kinds of files that become drawings.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum SourceKind {
+pub enum FileKind {
     /// Areas and lines.
     Svg,
     /// A picture.
@@ -24,20 +24,20 @@ pub enum SourceKind {
 const SVG_WITHIN: usize = 16_384;
 
 /// The kind of a file; `None`: it cannot be drawn, see [`unsupported`].
-pub fn sniff(bytes: &[u8]) -> Option<SourceKind> {
+pub fn sniff(bytes: &[u8]) -> Option<FileKind> {
     if bytes.starts_with(b"\x89PNG\r\n\x1a\n") {
-        Some(SourceKind::Png)
+        Some(FileKind::Png)
     } else if bytes.starts_with(&[0xff, 0xd8, 0xff]) {
-        Some(SourceKind::Jpeg)
+        Some(FileKind::Jpeg)
     } else if bytes.starts_with(b"RIFF") && bytes.get(8..12) == Some(b"WEBP") {
-        Some(SourceKind::Webp)
+        Some(FileKind::Webp)
     } else if bytes.starts_with(b"GIF87a") || bytes.starts_with(b"GIF89a") {
-        Some(SourceKind::Gif)
+        Some(FileKind::Gif)
     } else if is_svg(bytes) {
-        Some(SourceKind::Svg)
+        Some(FileKind::Svg)
     } else {
         let text = std::str::from_utf8(bytes).ok()?;
-        list::looks_like(text).then_some(SourceKind::Csv)
+        list::looks_like(text).then_some(FileKind::Csv)
     }
 }
 
@@ -120,15 +120,15 @@ mod tests {
         let webp = b"RIFF\0\0\0\0WEBPVP8 ";
         let long = format!("<?xml version='1.0'?><!-- {} --><svg/>", "licence ".repeat(100));
         let kinds = [
-            (b"\x89PNG\r\n\x1a\n".as_slice(), Some(SourceKind::Png)),
-            (&[0xff, 0xd8, 0xff, 0xe0], Some(SourceKind::Jpeg)),
-            (webp, Some(SourceKind::Webp)),
-            (b"GIF89a", Some(SourceKind::Gif)),
-            (b"\xef\xbb\xbf\n<svg xmlns='a'/>", Some(SourceKind::Svg)),
-            (b"<s:svg xmlns:s='a'/>", Some(SourceKind::Svg)),
-            (long.as_bytes(), Some(SourceKind::Svg)),
-            (b"x;y;colour\n", Some(SourceKind::Csv)),
-            (b"1,2,red", Some(SourceKind::Csv)),
+            (b"\x89PNG\r\n\x1a\n".as_slice(), Some(FileKind::Png)),
+            (&[0xff, 0xd8, 0xff, 0xe0], Some(FileKind::Jpeg)),
+            (webp, Some(FileKind::Webp)),
+            (b"GIF89a", Some(FileKind::Gif)),
+            (b"\xef\xbb\xbf\n<svg xmlns='a'/>", Some(FileKind::Svg)),
+            (b"<s:svg xmlns:s='a'/>", Some(FileKind::Svg)),
+            (long.as_bytes(), Some(FileKind::Svg)),
+            (b"x;y;colour\n", Some(FileKind::Csv)),
+            (b"1,2,red", Some(FileKind::Csv)),
             (b"Dear reader, this is no list", None),
             (b"<html/>", None),
             (b"", None),
