@@ -7,6 +7,13 @@ use super::letter::bounds;
 use super::region::{LetterArea, distance};
 use super::strokes::StrokeLine;
 
+/// Most points of a letter that gets a spine. The search is linear in them at every step; ornate letters have no strokes
+/// anyway.
+const POINTS_MAX: usize = 600;
+
+/// Largest width or height of a letter that gets a spine, in cap heights. The search divides it into small steps.
+const SIZE_MAX: f64 = 4.0;
+
 /// Largest distance between points while lines are moved, in cap heights.
 const STEP: f64 = 0.06;
 
@@ -26,8 +33,17 @@ const COVERED_MIN: f64 = 0.85;
 /// have 0.71, and a round dot, whose mean width is its radius, has 1.
 const NEAR: f64 = 1.1;
 
+/// Whether a letter is small and simple enough for a search.
+pub(super) fn is_common(area: &LetterArea) -> bool {
+    let size = area.extent.1 - area.extent.0;
+    area.points() <= POINTS_MAX && size.x.max(size.y) <= SIZE_MAX
+}
+
 /// Lines of a letter without accents: those of the single-line font that fits best.
 pub(super) fn base(character: char, area: &LetterArea) -> Option<Vec<StrokeLine>> {
+    if !is_common(area) {
+        return None;
+    }
     let candidates = spines().iter().filter_map(|face| {
         let lines = match character {
             'ı' => face

@@ -52,6 +52,12 @@ impl Gathered {
         self.points > POINTS_MAX
     }
 
+    fn miss(&mut self, characters: impl Iterator<Item = char>) {
+        for character in characters.filter(|c| !is_invisible(*c)) {
+            *self.missing.entry(character).or_default() += 1;
+        }
+    }
+
     /// The spine of a letter, found once for the same area.
     fn spine(&mut self, shown: &str, rings: &Rings, outlines: &Outlines) -> Vec<StrokeLine> {
         if let Some((_, spine)) = self.spines.get(shown).filter(|(known, _)| known == rings) {
@@ -72,9 +78,7 @@ pub(super) fn shape(line: &str, from: usize, font: &Font, gap: f64, gathered: &m
         match run.face {
             Some(Face::Outlines(outlines)) => by_font(text, at, outlines, &run, gap, gathered, &mut shaped),
             Some(Face::Strokes(strokes)) => by_lines(text, at, strokes, &run, gap, &mut shaped),
-            None => text.chars().filter(|c| !is_invisible(*c)).for_each(|c| {
-                *gathered.missing.entry(c).or_default() += 1;
-            }),
+            None => gathered.miss(text.chars()),
         }
     }
     shaped
@@ -85,6 +89,8 @@ struct Cluster {
     start: usize,
     advance: f64,
     rings: Rings,
+    /// Whether the font lacks one of its characters, such as a mark on a letter that it has.
+    lacking: bool,
 }
 
 fn by_font(
@@ -102,6 +108,9 @@ fn by_font(
     for cluster in clusters {
         let end = starts.iter().copied().find(|start| *start > cluster.start).unwrap_or(text.len());
         let characters = text.get(cluster.start..end).unwrap_or_default();
+        if cluster.lacking {
+            gathered.miss(characters.chars().filter(|c| !outlines.has(*c)));
+        }
         let shown: String = characters.nfc().filter(|c| !is_invisible(*c)).collect();
         let spine = gathered.spine(&shown, &cluster.rings, outlines);
         let letter =
@@ -140,13 +149,18 @@ fn clusters(text: &str, outlines: &Outlines, backwards: bool, gathered: &mut Gat
     for (info, position) in buffer.glyph_infos().iter().zip(buffer.glyph_positions()) {
         let start = info.cluster as usize;
         if clusters.last().is_none_or(|last| last.start != start) {
-            clusters.push(Cluster { start, advance: 0.0, rings: Vec::new() });
+            clusters.push(Cluster { start, advance: 0.0, rings: Vec::new(), lacking: false });
         }
         let Some(cluster) = clusters.last_mut() else { continue };
         let scaled = |units: i32| (f64::from(units) / outlines.unit).clamp(-ADVANCE_MAX, ADVANCE_MAX);
         let pen = Vec2::new(cluster.advance + scaled(position.x_offset), scaled(position.y_offset));
         cluster.advance += scaled(position.x_advance);
         if gathered.is_full() {
+            continue;
+        }
+        if info.glyph_id == 0 {
+            // The glyph of a missing character is a box.
+            cluster.lacking = true;
             continue;
         }
         for ring in outlines.rings(GlyphId::new(info.glyph_id)) {

@@ -177,6 +177,13 @@ fn a_sign_without_a_font_is_named() {
 }
 
 #[test]
+fn a_mark_without_a_font_is_named_and_its_letter_drawn() {
+    let marked = made("A\u{3099}");
+    assert!(marked.notes[0].message.contains("U+3099"), "{:?}", marked.notes);
+    assert_eq!(marked.drawing.groups[0].areas, made("A").drawing.groups[0].areas);
+}
+
+#[test]
 fn what_cannot_be_drawn_is_refused() {
     assert_eq!([code(""), code(" \n\t "), code("\u{200b}\u{200d}")], ["text-empty"; 3]);
     assert_eq!(code(&"A".repeat(2_001)), "text-too-long");
