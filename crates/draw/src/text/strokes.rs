@@ -7,12 +7,16 @@ use lightbots_base::Vec2;
 use usvg::roxmltree::{Document, ParsingOptions};
 
 use super::letter::bounds;
+use super::region::distance;
 
 /// A closed line smaller than this share of the capitals is a dot, drawn by the makers as a small square.
 const DOT_SHARE: f64 = 0.16;
 
 /// Length of the line that a dot becomes, in cap heights: one robot, in a line that has a direction.
 const DOT_LENGTH: f64 = 0.02;
+
+/// A piece of a line nearer to another piece than this runs along it, in cap heights.
+const SAME_PLACE: f64 = 0.015;
 
 /// A line of a letter, in cap heights.
 pub(super) type StrokeLine = Vec<Vec2>;
@@ -75,7 +79,8 @@ impl StrokeGlyph {
         let placed = |line: StrokeLine| {
             line.into_iter().map(|point| Vec2::new(point.x, point.y - foot) * scale).collect()
         };
-        let lines = self.lines.into_iter().map(placed).map(dotted).collect();
+        let lines: Vec<StrokeLine> = self.lines.into_iter().map(placed).map(dotted).collect();
+        let lines = without_retraces(&lines);
         Self { advance: self.advance * scale, lines }
     }
 }
@@ -105,4 +110,56 @@ fn dotted(line: StrokeLine) -> StrokeLine {
     let centre = low.lerp(high, 0.5);
     let half = Vec2::new(DOT_LENGTH / 2.0, 0.0);
     vec![centre - half, centre + half]
+}
+
+/// Lines without the pieces that run along another piece: pens go back on their lines, robots would stand there twice.
+fn without_retraces(lines: &[StrokeLine]) -> Vec<StrokeLine> {
+    let pieces: Vec<(Vec2, Vec2)> = lines.iter().flat_map(|line| pairs(line)).collect();
+    let long = |at: usize| pieces[at].0.distance(pieces[at].1);
+    let along = |at: usize, other: usize| {
+        let (a, b) = pieces[other];
+        let near = |point: Vec2| distance(point, a, b) < SAME_PLACE;
+        // Of two pieces of the same length the first stays.
+        let longer = long(other) > long(at) || (long(other) == long(at) && other < at);
+        at != other && longer && near(pieces[at].0) && near(pieces[at].1)
+    };
+    let retraces = |at: usize| long(at) > 3.0 * SAME_PLACE && (0..pieces.len()).any(|other| along(at, other));
+    let mut kept: Vec<StrokeLine> = Vec::new();
+    let mut piece = 0;
+    for line in lines {
+        let mut open = StrokeLine::new();
+        for (from, to) in pairs(line) {
+            if retraces(piece) {
+                kept.push(std::mem::take(&mut open));
+            } else {
+                if open.is_empty() {
+                    open.push(from);
+                }
+                open.push(to);
+            }
+            piece += 1;
+        }
+        kept.push(open);
+    }
+    kept.retain(|line| line.len() >= 2);
+    kept
+}
+
+fn pairs(line: &[Vec2]) -> impl Iterator<Item = (Vec2, Vec2)> + '_ {
+    line.iter().copied().zip(line.iter().copied().skip(1))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_pen_that_goes_back_draws_once() {
+        let at =
+            |points: &[(f64, f64)]| points.iter().map(|(x, y)| Vec2::new(*x, *y)).collect::<StrokeLine>();
+        let h = at(&[(0.0, 0.0), (0.0, 1.0), (0.0, 0.5), (0.7, 0.5), (0.7, 1.0), (0.7, 0.0)]);
+        let once =
+            [at(&[(0.0, 0.0), (0.0, 1.0)]), at(&[(0.0, 0.5), (0.7, 0.5)]), at(&[(0.7, 1.0), (0.7, 0.0)])];
+        assert_eq!(without_retraces(&[h]), once);
+    }
 }
