@@ -1,7 +1,8 @@
 //! File formats for shows and plans: from bytes to values and back.
 //!
 //! [`FORMATS`] is the only list of formats. The command line, the web API and the screen read names, endings and
-//! contents of formats from it. A further format is a module beside `lightbots` and `original`, and a row of the table.
+//! contents of formats from it. A further format is a module beside `lightbots`, `archive` and `original`, and a row of
+//! the table.
 //!
 //! The crate does no IO and does not judge a show: [`lightbots_show::validate`] does. In reading order: [`Format`] is a
 //! row of the table. [`read()`] takes a file of any format and gives [`Loaded`] or a [`ReadError`]. [`Format::write`] gives
@@ -19,17 +20,21 @@
 //! assert_eq!(sniff(&written.bytes), Some(&ORIGINAL));
 //! ```
 
+mod archive;
 mod error;
 mod format;
 mod json;
 mod lightbots;
+mod limits;
 mod original;
 mod part;
 mod read;
 mod table;
 
+pub use archive::hash_of;
 pub use error::{PixelName, ReadError};
 pub use format::{Format, Loaded, Written};
+pub use limits::MAX_BYTES;
 pub use part::Part;
-pub use read::{MAX_BYTES, read};
-pub use table::{FORMATS, LIGHTBOTS, ORIGINAL, for_file, formats_in_words, named, sniff, stem};
+pub use read::read;
+pub use table::{ARCHIVE, FORMATS, LIGHTBOTS, ORIGINAL, for_file, formats_in_words, named, sniff, stem};

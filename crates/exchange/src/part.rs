@@ -43,13 +43,15 @@ pub enum Part {
     Spares,
     /// Names and hashes of the files that belong to the show.
     Assets,
+    /// The files that belong to the show.
+    AssetFiles,
     /// The timed path of each robot.
     Plan,
 }
 
 impl Part {
-    /// Every part of a show, without the plan.
-    pub const SHOW: [Self; 18] = [
+    /// Every part of a show that a document has: without files and plan.
+    pub(crate) const DOCUMENT: [Self; 18] = [
         Self::Title,
         Self::FloorSize,
         Self::NoGoAreas,
@@ -69,6 +71,14 @@ impl Part {
         Self::Spares,
         Self::Assets,
     ];
+
+    /// Every part of a show, without the plan.
+    pub const SHOW: [Self; 19] = {
+        let mut parts = [Self::AssetFiles; 19];
+        let (documents, _) = parts.split_at_mut(Self::DOCUMENT.len());
+        documents.copy_from_slice(&Self::DOCUMENT);
+        parts
+    };
 
     /// Every part.
     pub fn all() -> impl Iterator<Item = Self> {
@@ -96,6 +106,7 @@ impl Part {
             Self::Trajectories => "trajectories",
             Self::Spares => "spares",
             Self::Assets => "assets",
+            Self::AssetFiles => "asset_files",
             Self::Plan => "plan",
         }
     }
@@ -121,6 +132,7 @@ impl Part {
             Self::Trajectories => "the prescribed trajectories",
             Self::Spares => "the number of spare robots",
             Self::Assets => "the list of files that belong to the show",
+            Self::AssetFiles => "the files that belong to the show, such as pictures and music",
             Self::Plan => "the plan",
         }
     }
@@ -152,6 +164,7 @@ pub(crate) fn uses(part: Part, show: &Show, plan: Option<&ShowPlan>) -> bool {
         Part::Trajectories => !show.trajectories.is_empty(),
         Part::Spares => show.spares > 0,
         Part::Assets => !show.assets.is_empty(),
+        Part::AssetFiles => show.assets.values().any(|asset| asset.content.is_some()),
         Part::Plan => plan.is_some(),
     }
 }

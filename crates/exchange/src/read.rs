@@ -5,11 +5,8 @@ use lightbots_show::excerpt;
 use crate::error::ReadError;
 use crate::format::Loaded;
 use crate::json::{self, Json};
+use crate::limits::MAX_BYTES;
 use crate::table::{for_file, formats_in_words, sniff};
-
-/// Longest file that is read, bytes: room for 10,000 robots in 100 frames, since a pixel takes about 60 bytes in our
-/// format. A longer file is refused before it is read, so that a wrong file does not fill the memory.
-pub const MAX_BYTES: usize = 64 << 20;
 
 /// Reads a file of any format. The content decides which format it is; `file` is the file's name and only makes
 /// messages clearer.

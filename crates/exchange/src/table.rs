@@ -2,22 +2,34 @@
 
 use crate::format::Format;
 use crate::part::Part;
-use crate::{lightbots, original};
+use crate::{archive, lightbots, original};
 
 /// Every format. The first whose `sniff` accepts the bytes of a file reads it. So a format that looks at fewer
 /// bytes stands behind one that looks at more.
-pub static FORMATS: [&Format; 2] = [&LIGHTBOTS, &ORIGINAL];
+pub static FORMATS: [&Format; 3] = [&LIGHTBOTS, &ARCHIVE, &ORIGINAL];
 
-/// Our own format. It keeps every part of a show.
+/// Our own format. It keeps every part of a show but the files that belong to it.
 pub static LIGHTBOTS: Format = Format {
     name: "lightbots",
     program: "LightBots",
     endings: &[".lightbots.json", ".lightbots"],
     media_type: "application/json",
-    carries: &Part::SHOW,
+    carries: &Part::DOCUMENT,
     sniff: lightbots::sniff,
     read: lightbots::read,
     encode: lightbots::encode,
+};
+
+/// Our own format with the files that belong to the show.
+pub static ARCHIVE: Format = Format {
+    name: "archive",
+    program: "LightBots, with its files",
+    endings: &[".lightbots.zip"],
+    media_type: "application/zip",
+    carries: &Part::SHOW,
+    sniff: archive::sniff,
+    read: archive::read,
+    encode: archive::encode,
 };
 
 /// The format of the original system, which is for thirty robots on a floor of 3 m by 3 m.

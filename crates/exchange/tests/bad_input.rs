@@ -148,7 +148,8 @@ fn bytes_of_no_format_name_the_endings_of_all() {
     assert_eq!(
         text,
         "line 1, column 1: this is not JSON; a .mp3 file is not read: \
-         open a show of LightBots (.lightbots.json) or of the original LightBots (.json)"
+         open a show of LightBots (.lightbots.json) or of LightBots, with its files (.lightbots.zip) \
+         or of the original LightBots (.json)"
     );
     let damaged = read(b"[{\"name\": \"\xff\"}]", Some("a.json")).unwrap_err().to_string();
     assert_eq!(

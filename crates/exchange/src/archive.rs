@@ -1,0 +1,40 @@
+//! `.lightbots.zip`: a show and the files that belong to it. The document lies in `show.lightbots.json`, each file in
+//! `assets/HASH`.
+
+mod read;
+mod write;
+
+pub(crate) use read::read;
+pub(crate) use write::encode;
+
+use lightbots_show::AssetHash;
+use sha2::{Digest, Sha256};
+
+/// Name of the document in an archive.
+const DOCUMENT: &str = "show.lightbots.json";
+/// Folder of the assets in an archive.
+const ASSETS: &str = "assets/";
+/// Most files of an archive: the document and the most assets of a show.
+const ENTRIES_MAX: usize = 1 + lightbots_show::MAX_ASSETS;
+
+/// Whether the bytes begin like an archive: `PK` and the kind of its first record, an entry or the end.
+pub(crate) fn sniff(bytes: &[u8]) -> bool {
+    bytes.starts_with(b"PK\x03\x04") || bytes.starts_with(b"PK\x05\x06")
+}
+
+/// The SHA-256 by which a show names a file.
+pub fn hash_of(content: &[u8]) -> AssetHash {
+    AssetHash(Sha256::digest(content).into())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_hash_is_that_of_the_standard() {
+        // FIPS 180-4, example of one block.
+        let expected = "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad";
+        assert_eq!(hash_of(b"abc").to_string(), expected);
+    }
+}
