@@ -4,12 +4,16 @@
 //! |---|---|
 //! | `GET /api/shows` | `ShowEntry[]`, by name |
 //! | `GET /api/shows/{name}` | the document (our format) with its `ETag` |
+//! | `GET /api/shows/{name}/file` | the file as the library keeps it: the document, or all of a file that is only partly
+//! understood |
 //! | `PUT /api/shows/{name}` | body: a file of any format. `If-Match: <etag>` replaces that version, `If-None-Match: *`
 //! creates only; 412 and a `Problem` if another client saved first. Answers the `ShowEntry`. A read-only show is
-//! saved as a copy, whose entry has a new name and `copy_of` |
+//! saved as a copy, whose entry has a new name and `copy_of`. A file with unknown fields is kept byte for byte; 403 and
+//! a `Problem` for a show whose file has such fields |
 //! | `DELETE /api/shows/{name}` | 204; honours `If-Match`; 403 and a `Problem` for a read-only show |
 //! | `POST /api/check` | body: a file of any format; answers a `Plan` with paths |
-//! | `POST /api/convert?to=FORMAT` | body: a file of any format; answers a file of that format of `FORMATS` |
+//! | `POST /api/convert?to=FORMAT` | body: a file of any format; answers a file of that format of `FORMATS`, with the files
+//! of the library that it names |
 //! | `GET /api/plan` | the `Plan` of the open show, with paths |
 
 use serde::{Deserialize, Serialize};
@@ -32,6 +36,9 @@ pub struct ShowEntry {
     pub etag: String,
     /// Where the show comes from.
     pub origin: ShowOrigin,
+    /// Why the show cannot be saved under its name, for people: its file holds more than this version knows. null: it
+    /// can, or it is a read-only show by its origin.
+    pub read_only: Option<String>,
     /// Origin of the read-only show that this new entry is a copy of. Only in the answer to a save of such a show.
     pub copy_of: Option<ShowOrigin>,
 }

@@ -43,7 +43,7 @@ pub struct Hello {
 }
 
 /// The show that is open on every screen.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, TS)]
 pub struct OpenShow {
     /// Number of the document's state, increased with every change.
     pub revision: u32,
@@ -51,6 +51,8 @@ pub struct OpenShow {
     pub name: Option<String>,
     /// Version of the show in the library, for `If-Match`.
     pub etag: Option<String>,
+    /// Why the show cannot be saved under its name, for people: its file holds more than the document. null: it can.
+    pub read_only: Option<String>,
     /// The document in our own format (`FORMATS[0]`); null: no show is open.
     #[ts(type = "unknown")]
     pub document: serde_json::Value,

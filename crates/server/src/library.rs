@@ -3,8 +3,16 @@
 //! Given shows are the examples, and the file `run` was started with. They are read-only and in no folder:
 //! - Saving one makes a copy in the folder under a free name of its own, such as "heart 2".
 //! - Deleting one is refused. Renaming is saving under another name and deleting, so that it is refused too.
+//! - A file of which only a part is understood (see `Loaded::unread`) is kept byte for byte. It is never replaced; it can
+//!   be deleted, and read with [`Library::file`].
+//! - Documents are kept as `NAME.lightbots.json`, the files that belong to them once in `assets`. A `NAME.lightbots.zip`
+//!   that lies in the folder is read too, and becomes a document when it is saved.
 //! - A file of the folder always keeps its name. Where it has the name of a given show, such as one that an older version
 //!   saved, the given show is listed under another: "heart (example)" or "my show (file)".
+
+mod asset_store;
+mod names;
+mod outcome;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::io::{ErrorKind, Write};
@@ -13,15 +21,17 @@ use std::sync::{Arc, Mutex, MutexGuard};
 use std::time::UNIX_EPOCH;
 
 use lightbots_api::{ShowEntry, ShowOrigin};
-use lightbots_exchange::{LIGHTBOTS, read, stem};
+use lightbots_exchange::{ARCHIVE, Format, LIGHTBOTS, Loaded, read, sniff};
 use lightbots_show::{Show, most_pixels};
 
 use crate::examples;
+use asset_store::AssetStore;
+pub use names::name_of_file;
+use names::tidy_name;
+pub use outcome::{Condition, Kept, LibraryError};
 
 /// The file that names the show that was open last.
 const OPEN: &str = ".open";
-/// The longest name, in characters.
-const NAME_MAX: usize = 80;
 /// The most shows that are listed and kept.
 const SHOWS_MAX: usize = 10_000;
 
@@ -33,6 +43,8 @@ pub struct Library {
     given: Arc<Mutex<BTreeMap<String, Given>>>,
     /// Held while a file is compared and replaced.
     writing: Arc<Mutex<()>>,
+    /// Files that belong to the shows.
+    assets: AssetStore,
 }
 
 /// A read-only show that is in no folder.
@@ -43,70 +55,19 @@ struct Given {
     origin: ShowOrigin,
     /// Its document in our format.
     bytes: Vec<u8>,
-}
-
-/// A show as the library keeps it.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Kept {
-    /// Its document in our format.
-    pub bytes: Vec<u8>,
-    /// The same in memory.
-    pub show: Show,
-    /// Its version, in quotes.
-    pub etag: String,
-}
-
-/// Why the library does not do as it is told.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum LibraryError {
-    /// The name cannot be one.
-    BadName(String),
-    /// There is no such show.
-    Missing(String),
-    /// It was saved elsewhere first.
-    Conflict(String),
-    /// It is given with the program, and stays as it is.
-    ReadOnly(String),
-    /// It is no show.
-    NoShow(String),
-    /// The disk does not want to.
-    Disk(String),
-}
-
-/// What must be so for a show to be replaced or deleted.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub enum Condition {
-    /// Nothing.
-    #[default]
-    Any,
-    /// It has this version.
-    Is(String),
-    /// There is none yet.
-    IsNew,
-}
-
-impl LibraryError {
-    /// One line for people.
-    pub fn line(&self) -> &str {
-        match self {
-            Self::BadName(line)
-            | Self::Missing(line)
-            | Self::Conflict(line)
-            | Self::ReadOnly(line)
-            | Self::NoShow(line)
-            | Self::Disk(line) => line,
-        }
-    }
+    /// Why its file holds more than the document.
+    unread: Option<String>,
 }
 
 impl Library {
     /// The library in a folder; the folder is made when the first show is saved.
     pub fn new(folder: PathBuf) -> Self {
-        let library = Self { folder, given: Arc::default(), writing: Arc::default() };
+        let assets = AssetStore::new(folder.join("assets"));
+        let library = Self { folder, given: Arc::default(), writing: Arc::default(), assets };
         for (name, bytes) in examples::all() {
             match read(bytes, None) {
                 Ok(loaded) => {
-                    library.give(name, ShowOrigin::Example, &loaded.show);
+                    library.give(name, ShowOrigin::Example, &loaded.show, None);
                 }
                 Err(error) => tracing::error!("the example {name} is no show: {error}"),
             }
@@ -129,6 +90,7 @@ impl Library {
         std::fs::create_dir_all(&self.folder)
             .and_then(|()| std::fs::write(&probe, b""))
             .and_then(|()| std::fs::remove_file(&probe))
+            .inspect(|()| self.sweep())
             .map_err(|error| {
                 format!(
                     "shows cannot be kept in {}: {error}; name another folder with --data DIR",
@@ -138,14 +100,16 @@ impl Library {
     }
 
     /// Adds a read-only show that is in no folder; answers the name it is listed under, as close to `name` as it may be.
-    /// The file of the command line takes its name from an example, which is then listed under another.
-    pub fn give(&self, name: &str, origin: ShowOrigin, show: &Show) -> String {
+    /// The file of the command line takes its name from an example, which is then listed under another. `unread`: why the
+    /// show's file holds more than the show.
+    pub fn give(&self, name: &str, origin: ShowOrigin, show: &Show, unread: Option<String>) -> String {
         let base = tidy_name(name);
         let bytes = LIGHTBOTS.write(show, None).bytes;
+        self.assets.give(show);
         let mut given = lock(&self.given);
         let displaces = given.get(&base).is_some_and(|other| other.origin < origin);
         let listed = if displaces { base.clone() } else { self.listed_name(&base, origin, &given) };
-        if let Some(moved) = given.insert(listed.clone(), Given { base, origin, bytes }) {
+        if let Some(moved) = given.insert(listed.clone(), Given { base, origin, bytes, unread }) {
             let elsewhere = self.listed_name(&moved.base, moved.origin, &given);
             given.insert(elsewhere, moved);
         }
@@ -178,42 +142,86 @@ impl Library {
     /// A show by its name: the file of that name, else the given show.
     pub fn get(&self, name: &str) -> Result<Kept, LibraryError> {
         let name = checked(name)?;
-        let bytes = match std::fs::read(self.path(name)) {
-            Ok(bytes) => bytes,
-            Err(error) if error.kind() == ErrorKind::NotFound => {
-                lock(&self.given).get(name).map(|given| given.bytes.clone()).ok_or_else(|| {
-                    LibraryError::Missing(format!("there is no show \"{name}\" in the library"))
-                })?
-            }
-            Err(error) => {
-                return Err(LibraryError::Disk(format!("the show \"{name}\" cannot be read: {error}")));
-            }
-        };
-        let show = read(&bytes, None)
-            .map_err(|error| LibraryError::NoShow(format!("\"{name}\" cannot be read: {error}")))?
-            .show;
-        Ok(Kept { etag: etag(&bytes), bytes, show })
+        let (bytes, mut unread) = self.stored(name)?;
+        let loaded = read(&bytes, None)
+            .map_err(|error| LibraryError::NoShow(format!("\"{name}\" cannot be read: {error}")))?;
+        let Loaded { mut show, unread: unread_fields, .. } = loaded;
+        // What an archive in the folder holds is needed when a screen saves its document.
+        if sniff(&bytes) == Some(&ARCHIVE)
+            && let Err(error) = self.assets.keep(&show)
+        {
+            tracing::warn!("files of \"{name}\" cannot be kept: {error}");
+        }
+        show.assets.values_mut().for_each(|asset| asset.content = None);
+        unread = unread.or(unread_fields);
+        let etag = etag(&bytes);
+        let is_document = sniff(&bytes) == Some(&LIGHTBOTS) && unread.is_none();
+        let bytes = if is_document { bytes } else { LIGHTBOTS.write(&show, None).bytes };
+        let read_only = unread.map(|reason| read_only_line(name, &reason));
+        Ok(Kept { etag, bytes, show, read_only })
     }
 
-    /// Saves a show in either format; what is kept is ours. A given show is not changed: unless a new show is wanted, a
-    /// copy of a free name is made, and the entry tells that name and `copy_of`.
+    /// The file of a show as it is kept, and its format. Of a given show, the document.
+    pub fn file(&self, name: &str) -> Result<(Vec<u8>, &'static Format), LibraryError> {
+        let (bytes, _) = self.stored(checked(name)?)?;
+        let format = sniff(&bytes).unwrap_or(&LIGHTBOTS);
+        Ok((bytes, format))
+    }
+
+    /// Gives a show the files that it names, as far as the library has them.
+    pub fn attach(&self, show: &mut Show) {
+        self.assets.attach(show);
+    }
+
+    /// The bytes of a show, and for a given show why its file holds more.
+    fn stored(&self, name: &str) -> Result<(Vec<u8>, Option<String>), LibraryError> {
+        match std::fs::read(self.present(name)) {
+            Ok(bytes) => Ok((bytes, None)),
+            Err(error) if error.kind() == ErrorKind::NotFound => {
+                let given = lock(&self.given);
+                let given = given.get(name).map(|given| (given.bytes.clone(), given.unread.clone()));
+                given.ok_or_else(|| {
+                    LibraryError::Missing(format!("there is no show \"{name}\" in the library"))
+                })
+            }
+            Err(error) => Err(LibraryError::Disk(format!("the show \"{name}\" cannot be read: {error}"))),
+        }
+    }
+
+    /// Saves a show of any format; what is kept is ours, or the file itself where it is not understood whole. A given show
+    /// is not changed: unless a new show is wanted, a copy of a free name is made, and the entry tells that name and
+    /// `copy_of`.
     pub fn put(&self, name: &str, bytes: &[u8], condition: &Condition) -> Result<ShowEntry, LibraryError> {
         let name = checked(name)?;
         let loaded = read(bytes, None).map_err(|error| LibraryError::NoShow(error.to_string()))?;
-        let document = LIGHTBOTS.write(&loaded.show, None).bytes;
         let _guard = lock(&self.writing);
         let given = self.given_show(name).filter(|_| *condition != Condition::IsNew);
-        let target = match &given {
-            Some(given) => self.copy_name(&given.base),
-            None => {
-                self.check(name, condition)?;
-                name.to_owned()
-            }
-        };
-        self.replace(&target, &document).map_err(|error| {
+        if given.is_none() {
+            self.check(name, condition)?;
+        }
+        // A copy of a given show would lose what was not understood, too.
+        if let Some(line) = self.get(name).ok().and_then(|kept| kept.read_only) {
+            return Err(LibraryError::ReadOnly(line));
+        }
+        let target = given.as_ref().map_or(name.to_owned(), |given| self.copy_name(&given.base));
+        self.store(&target, bytes, &loaded).map_err(|error| {
             LibraryError::Disk(format!("\"{target}\" cannot be saved in {}: {error}", self.folder.display()))
         })?;
         Ok(ShowEntry { copy_of: given.map(|given| given.origin), ..self.entry(&target)? })
+    }
+
+    fn store(&self, name: &str, bytes: &[u8], loaded: &Loaded) -> std::io::Result<()> {
+        let (document, archive) = (self.path(name, &LIGHTBOTS), self.path(name, &ARCHIVE));
+        if loaded.unread.is_some() {
+            let is_archive = sniff(bytes) == Some(&ARCHIVE);
+            let (new, old) = if is_archive { (archive, document) } else { (document, archive) };
+            self.replace(&new, name, bytes)?;
+            return remove(&old);
+        }
+        // First the files, so that there is never a document whose files are lost.
+        self.assets.keep(&loaded.show)?;
+        self.replace(&document, name, &LIGHTBOTS.write(&loaded.show, None).bytes)?;
+        remove(&archive)
     }
 
     /// Deletes a show of the folder. Given shows stay.
@@ -230,13 +238,22 @@ impl Library {
         }
         self.get(name)?;
         self.check(name, condition)?;
-        std::fs::remove_file(self.path(name))
-            .map_err(|error| LibraryError::Disk(format!("\"{name}\" cannot be deleted: {error}")))
+        let removed = remove(&self.path(name, &LIGHTBOTS)).and_then(|()| remove(&self.path(name, &ARCHIVE)));
+        removed.map_err(|error| LibraryError::Disk(format!("\"{name}\" cannot be deleted: {error}")))
+    }
+
+    /// Deletes files that no show of the folder names any more.
+    fn sweep(&self) {
+        let shows = self.saved().into_iter().take(SHOWS_MAX).map(|name| self.get(&name));
+        // A show that cannot be read may name any file.
+        if let Ok(shows) = shows.collect::<Result<Vec<_>, _>>() {
+            self.assets.sweep(&shows.iter().flat_map(|kept| kept.show.assets.keys().copied()).collect());
+        }
     }
 
     /// The given show of that name, unless a file has the name.
     fn given_show(&self, name: &str) -> Option<Given> {
-        lock(&self.given).get(name).filter(|_| !self.path(name).exists()).cloned()
+        lock(&self.given).get(name).filter(|_| !self.present(name).exists()).cloned()
     }
 
     /// `base`, or where that is taken `base (example)`, `base (example 2)`…, or `base (file)` and so on.
@@ -274,13 +291,13 @@ impl Library {
     }
 
     /// All or nothing: a crash leaves the old file or the new one.
-    fn replace(&self, name: &str, bytes: &[u8]) -> std::io::Result<()> {
+    fn replace(&self, path: &Path, name: &str, bytes: &[u8]) -> std::io::Result<()> {
         std::fs::create_dir_all(&self.folder)?;
         let draft = self.folder.join(format!(".{name}.saving"));
         let mut file = std::fs::File::create(&draft)?;
         file.write_all(bytes)?;
         file.sync_all()?;
-        std::fs::rename(&draft, self.path(name))
+        std::fs::rename(&draft, path)
     }
 
     fn entry(&self, name: &str) -> Result<ShowEntry, LibraryError> {
@@ -291,24 +308,57 @@ impl Library {
             title: kept.show.name.clone(),
             frames: kept.show.frames.len(),
             pixels: most_pixels(&kept.show),
-            modified_ms: if given.is_some() { 0 } else { modified_ms(&self.path(name)) },
+            modified_ms: if given.is_some() { 0 } else { modified_ms(&self.present(name)) },
             etag: kept.etag,
             origin: given.map_or(ShowOrigin::Saved, |given| given.origin),
+            read_only: kept.read_only,
             copy_of: None,
         })
     }
 
-    fn saved(&self) -> Vec<String> {
-        let Ok(files) = std::fs::read_dir(&self.folder) else { return Vec::new() };
+    /// Names of the shows in the folder, each once.
+    fn saved(&self) -> BTreeSet<String> {
+        let Ok(files) = std::fs::read_dir(&self.folder) else { return BTreeSet::new() };
         let name = |file: std::fs::DirEntry| {
-            file.file_name().to_str()?.strip_suffix(LIGHTBOTS.ending()).map(str::to_owned)
+            let file = file.file_name();
+            let file = file.to_str()?;
+            [&LIGHTBOTS, &ARCHIVE]
+                .iter()
+                .find_map(|format| file.strip_suffix(format.ending()))
+                .map(str::to_owned)
         };
         files.flatten().filter_map(name).filter(|name| checked(name).is_ok()).collect()
     }
 
-    fn path(&self, name: &str) -> PathBuf {
-        self.folder.join(format!("{name}{}", LIGHTBOTS.ending()))
+    /// The file of a show: its document, or the archive where there is no document.
+    fn present(&self, name: &str) -> PathBuf {
+        let (document, archive) = (self.path(name, &LIGHTBOTS), self.path(name, &ARCHIVE));
+        if !document.exists() && archive.exists() { archive } else { document }
     }
+
+    fn path(&self, name: &str, format: &Format) -> PathBuf {
+        self.folder.join(format!("{name}{}", format.ending()))
+    }
+}
+
+/// Why a show cannot be replaced, with the remedy.
+fn read_only_line(name: &str, reason: &str) -> String {
+    format!(
+        "\"{name}\" is read-only, because {reason}: update LightBots, or save a copy under another name, which will be \
+         without them"
+    )
+}
+
+/// Removes a file that may not be there.
+fn remove(path: &Path) -> std::io::Result<()> {
+    match std::fs::remove_file(path) {
+        Err(error) if error.kind() != ErrorKind::NotFound => Err(error),
+        _ => Ok(()),
+    }
+}
+
+fn checked(name: &str) -> Result<&str, LibraryError> {
+    names::checked(name).map_err(LibraryError::BadName)
 }
 
 /// The version of a document.
@@ -320,38 +370,6 @@ fn etag(bytes: &[u8]) -> String {
 fn modified_ms(path: &Path) -> u64 {
     let modified = std::fs::metadata(path).and_then(|about| about.modified()).ok();
     modified.and_then(|time| time.duration_since(UNIX_EPOCH).ok()).map_or(0, |since| since.as_millis() as u64)
-}
-
-fn may_hold(letter: char) -> bool {
-    letter.is_alphanumeric() || matches!(letter, ' ' | '-' | '_' | '.' | ',' | '(' | ')' | '!' | '\'' | '+')
-}
-
-/// The name, if it is one on every system.
-fn checked(name: &str) -> Result<&str, LibraryError> {
-    let fits = (1..=NAME_MAX).contains(&name.chars().count())
-        && name.len() <= 200
-        && name.chars().all(may_hold)
-        && !name.starts_with(['.', ' '])
-        && !name.ends_with(['.', ' ']);
-    if fits {
-        return Ok(name);
-    }
-    let line = format!("a show's name has 1 to {NAME_MAX} letters, digits, spaces and . , - _ ( ) ! ' +");
-    Err(LibraryError::BadName(line))
-}
-
-/// The closest name to a text that is one.
-fn tidy_name(text: &str) -> String {
-    let letters: String = text.chars().map(|letter| if may_hold(letter) { letter } else { '-' }).collect();
-    let short: String = letters.trim_matches(['.', ' ']).chars().take(40).collect();
-    let short = short.trim_end_matches(['.', ' ']);
-    if short.is_empty() { "show".into() } else { short.to_owned() }
-}
-
-/// The name a file's show gets in the library.
-pub fn name_of_file(path: &Path) -> String {
-    let name = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
-    tidy_name(stem(&name))
 }
 
 /// A panic elsewhere leaves whole values behind: each is replaced in one step.

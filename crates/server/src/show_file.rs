@@ -16,6 +16,8 @@ pub const FLOOR_IGNORED: &str = "floor-ignored";
 pub struct Opened {
     /// The show, with the floor and the identity the user asked for.
     pub show: Show,
+    /// Why the file holds more than the show; `None`: all of it was understood.
+    pub unread: Option<String>,
     /// What reading and validating it found.
     pub issues: Issues,
 }
@@ -60,7 +62,7 @@ fn loaded(bytes: &[u8], path: &Path) -> Result<Loaded, Failure> {
 }
 
 fn prepare(loaded: Loaded, arguments: &ShowArguments) -> Opened {
-    let Loaded { mut show, has_stage, mut issues, .. } = loaded;
+    let Loaded { mut show, has_stage, unread, mut issues, .. } = loaded;
     if let Some((width_m, depth_m)) = arguments.floor {
         if has_stage {
             issues.extend(floor_ignored(&show.stage, (width_m, depth_m)));
@@ -76,7 +78,7 @@ fn prepare(loaded: Loaded, arguments: &ShowArguments) -> Opened {
         }
     }
     issues.extend(validate(&show));
-    Opened { show, issues }
+    Opened { show, unread, issues }
 }
 
 /// Says that a show keeps the floor it has, where another was asked for.

@@ -10,9 +10,10 @@ test('the longest ending of a format is cut off', () => {
 });
 
 test('file dialogs and menus follow the table of formats', () => {
-  expect(ACCEPTED).toBe('.json,.lightbots,application/json');
+  expect(ACCEPTED).toBe('.json,.lightbots,.zip,application/json,application/zip');
   expect(FORMATS.map(exportLabel)).toEqual([
     'Download',
+    'Export for LightBots, with its files (.lightbots.zip)',
     'Export for the original LightBots (.json)',
   ]);
 });

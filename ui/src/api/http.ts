@@ -38,6 +38,9 @@ export async function getShow(name: string): Promise<{ document: unknown; etag: 
   return { document: await response.json(), etag: response.headers.get('etag') };
 }
 
+/** The file of a show as the library keeps it, with everything that the screen does not know. */
+export const getFile = async (name: string) => (await request(`${showPath(name)}/file`)).blob();
+
 /** Saves a file of any format. `etag`: the version it replaces; `'new'`: only if there is none of that name. */
 export async function putShow(
   name: string,

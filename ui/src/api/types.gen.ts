@@ -50,6 +50,10 @@ name: string | null,
  */
 etag: string | null, 
 /**
+ * Why the show cannot be saved under its name, for people: its file holds more than the document. null: it can.
+ */
+read_only: string | null, 
+/**
  * The document in our own format (`FORMATS[0]`); null: no show is open.
  */
 document: unknown, };
@@ -629,6 +633,11 @@ etag: string,
  */
 origin: ShowOrigin, 
 /**
+ * Why the show cannot be saved under its name, for people: its file holds more than this version knows. null: it
+ * can, or it is a read-only show by its origin.
+ */
+read_only: string | null, 
+/**
  * Origin of the read-only show that this new entry is a copy of. Only in the answer to a save of such a show.
  */
 copy_of: ShowOrigin | null, };
@@ -665,6 +674,7 @@ export const ROBOT_STATUSES: readonly RobotStatus[] = ["idle", "ready", "driving
 /** Every format of show files; the first is our own. A written file gets the first of `endings`. */
 export const FORMATS = [
   { name: "lightbots", program: "LightBots", endings: [".lightbots.json", ".lightbots"], mediaType: "application/json", carries: ["title", "floor_size", "no_go_areas", "robot_limits", "identity", "starts", "music", "durations", "easing", "chosen_robots", "sources", "layers", "absolute_times", "marks", "cues", "trajectories", "spares", "assets"] },
+  { name: "archive", program: "LightBots, with its files", endings: [".lightbots.zip"], mediaType: "application/zip", carries: ["title", "floor_size", "no_go_areas", "robot_limits", "identity", "starts", "music", "durations", "easing", "chosen_robots", "sources", "layers", "absolute_times", "marks", "cues", "trajectories", "spares", "assets", "asset_files"] },
   { name: "original", program: "the original LightBots", endings: [".json"], mediaType: "application/json", carries: [] },
 ] as const;
 

@@ -12,6 +12,7 @@ import { EditKeys } from './EditKeys';
 import { EditStage } from './EditStage';
 import { EditStrip } from './EditStrip';
 import { Inspector } from './Inspector';
+import { ReadOnlyPage } from './ReadOnlyPage';
 import { Tour } from './Tour';
 import styles from '../parts/page.module.css';
 
@@ -26,8 +27,8 @@ export function EditPage() {
   const [editing, setEditing] = useState(kept);
   const last = useRef(kept);
   useEffect(() => {
-    const { name, show, etag } = opened;
-    if (!show || name === null) return;
+    const { name, show, etag, readOnly } = opened;
+    if (!show || name === null || readOnly !== null) return;
     const wanted = restoring?.name === name ? restoring.id : null;
     if (last.current?.name === name && wanted === null) return;
     last.current?.retire();
@@ -36,6 +37,8 @@ export function EditPage() {
     session.editing.set(kept);
     setEditing(kept);
   }, [session, opened, restoring]);
+  if (opened.name !== null && opened.readOnly !== null)
+    return <ReadOnlyPage name={opened.name} reason={opened.readOnly} />;
   if (!editing)
     return (
       <main className={styles.empty}>

@@ -1,5 +1,6 @@
 import { OWN_FORMAT, type Format } from '../api/formats';
-import { convertShow, getShow } from '../api/http';
+import { convertShow, getFile, getShow } from '../api/http';
+import { FORMATS, type ShowEntry } from '../api/types.gen';
 
 /** Gives the browser a file to save. */
 function download(file: Blob, name: string) {
@@ -21,7 +22,13 @@ export async function downloadShow(show: unknown, name: string, format: Format) 
   download(file, `${name}${format.endings[0]}`);
 }
 
-/** Saves a show of the library as a file of a format. */
-export async function downloadFromLibrary(name: string, format: Format) {
+/** Saves a show of the library as a file of a format. A show that is only partly understood is downloaded whole. */
+export async function downloadFromLibrary({ name, read_only }: ShowEntry, format: Format) {
+  if (read_only !== null && format.name === OWN_FORMAT.name) {
+    const file = await getFile(name);
+    const kept = FORMATS.find((known) => known.mediaType === file.type) ?? OWN_FORMAT;
+    download(file, `${name}${kept.endings[0]}`);
+    return;
+  }
   await downloadShow((await getShow(name)).document, name, format);
 }

@@ -1,4 +1,4 @@
-import { deleteShow, getShow, listShows, putShow } from '../api/http';
+import { deleteShow, getFile, getShow, listShows, putShow } from '../api/http';
 import type { Session } from './session';
 import { notify, notifyWithUndo } from './notices';
 import { freeName } from './upload';
@@ -13,7 +13,7 @@ export const attempt = (act: () => Promise<unknown>) =>
     },
   );
 
-/** Copies a show under a name that is free; answers that name. */
+/** Copies what the screen knows of a show under a name that is free; answers that name. */
 export async function copyShow(from: string, wanted: string): Promise<string> {
   const { document } = await getShow(from);
   const taken = (await listShows()).map((entry) => entry.name);
@@ -22,20 +22,21 @@ export async function copyShow(from: string, wanted: string): Promise<string> {
   return name;
 }
 
-/** Renames a show; an open show stays open. */
+/** Renames a show with everything in its file; an open show stays open. */
 export async function renameShow(session: Session, from: string, to: string) {
-  const { document, etag } = await getShow(from);
-  await putShow(to, JSON.stringify(document), 'new');
+  const { etag } = await getShow(from);
+  await putShow(to, await getFile(from), 'new');
   if (session.live.opened.get().name === from) await session.ask({ do: 'open', name: to });
   await deleteShow(from, etag);
 }
 
 /** Deletes a show, and offers to restore it. */
 export async function deleteWithUndo(name: string, changed: () => void) {
-  const { document, etag } = await getShow(name);
+  const { etag } = await getShow(name);
+  const file = await getFile(name);
   await deleteShow(name, etag);
   changed();
   notifyWithUndo(`${name} is deleted.`, () =>
-    attempt(() => putShow(name, JSON.stringify(document), 'new')).then(changed),
+    attempt(() => putShow(name, file, 'new')).then(changed),
   );
 }

@@ -10,6 +10,8 @@ export interface Opened {
   revision: number;
   name: string | null;
   etag: string | null;
+  /** Why the show cannot be saved under its name: its file holds more than this version knows. null: it can. */
+  readOnly: string | null;
   show: Show | null;
 }
 
@@ -49,7 +51,13 @@ export function createLive(): Live {
   return {
     link: createStore<LinkState>('connecting'),
     hello: createStore<Hello | null>(null),
-    opened: createStore<Opened>({ revision: -1, name: null, etag: null, show: null }),
+    opened: createStore<Opened>({
+      revision: -1,
+      name: null,
+      etag: null,
+      readOnly: null,
+      show: null,
+    }),
     plan: createStore<Plan | null>(null),
     settled: createStore<Plan | null>(null),
     fleet: createStore<Fleet>({ revision: 0, rows: [] }),
@@ -80,6 +88,7 @@ export function receive(live: Live, message: ToScreen) {
         revision: message.revision,
         name: message.name,
         etag: message.etag,
+        readOnly: message.read_only,
         show: message.document === null ? null : readShow(message.document),
       });
       break;

@@ -30,7 +30,7 @@ function setup() {
   const stop = followPlan(session);
   live.link.set('open');
   const open = (revision: number, name = 'A') =>
-    receive(live, { type: 'show', revision, name, etag: '"1"', document: {} });
+    receive(live, { type: 'show', revision, name, etag: '"1"', read_only: null, document: {} });
   const plan = (revision: number, planning = false) =>
     receive(live, { type: 'plan', ...PLAN, revision, planning });
   const act = vi.fn();
@@ -80,7 +80,14 @@ test('what was edited a moment ago is saved and planned before it is played', as
   answer({ ok: true, etag: '"2"' });
   await vi.waitFor(() => expect(saver.state.get().name).toBe('saved'));
   expect(act, 'the server has not said so yet').not.toHaveBeenCalled();
-  receive(live, { type: 'show', revision: 2, name: 'A', etag: '"2"', document: {} });
+  receive(live, {
+    type: 'show',
+    revision: 2,
+    name: 'A',
+    etag: '"2"',
+    read_only: null,
+    document: {},
+  });
   expect(act, 'there is no plan of it yet').not.toHaveBeenCalled();
   plan(2);
   expect(act).toHaveBeenCalledTimes(1);
@@ -116,7 +123,14 @@ test('what waits for an example goes on with the copy that its save made', () =>
   plan(1);
   expect(act, 'the plan of the example is none of what was edited').not.toHaveBeenCalled();
   edited.name = 'A 2';
-  receive(live, { type: 'show', revision: 2, name: 'A 2', etag: '"2"', document: {} });
+  receive(live, {
+    type: 'show',
+    revision: 2,
+    name: 'A 2',
+    etag: '"2"',
+    read_only: null,
+    document: {},
+  });
   plan(2);
   expect(act).toHaveBeenCalledTimes(1);
 });

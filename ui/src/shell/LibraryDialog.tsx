@@ -94,6 +94,7 @@ export function LibraryDialog({ opened, onClose }: { opened: boolean; onClose: (
         <NameDialog
           title={naming.purpose === 'copy' ? `Save ${naming.entry.name} as` : 'Rename the show'}
           name={naming.purpose === 'copy' ? `${naming.entry.name} copy` : naming.entry.name}
+          note={naming.purpose === 'copy' ? naming.entry.read_only : null}
           onName={(to) => name(naming, to)}
           onClose={() => setNaming(undefined)}
         />

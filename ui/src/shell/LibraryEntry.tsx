@@ -39,6 +39,7 @@ export function LibraryEntry({ entry, open, onOpen, onName, onChanged }: Props) 
         </span>
         <span className="quiet">
           {countText(entry.frames, 'frame')} · {countText(entry.pixels, 'robot')} · {saved}
+          {entry.read_only === null ? '' : ' · read-only'}
         </span>
       </button>
       <Menu position="bottom-end" withinPortal>
@@ -54,7 +55,7 @@ export function LibraryEntry({ entry, open, onOpen, onName, onChanged }: Props) 
           )}
           <Menu.Divider />
           <ExportItems
-            onExport={(format) => void attempt(() => downloadFromLibrary(name, format))}
+            onExport={(format) => void attempt(() => downloadFromLibrary(entry, format))}
           />
           {entry.origin !== 'saved' ? null : (
             <>

@@ -1,17 +1,19 @@
-import { Button, Group, Modal, TextInput } from '@mantine/core';
+import { Button, Group, Modal, Text, TextInput } from '@mantine/core';
 import { useState } from 'react';
 
 interface Props {
   title: string;
   /** What stands there to begin with. */
   name: string;
+  /** What to know before a name is given. */
+  note?: string | null;
   /** Whether it worked: then the dialog has done its part. */
   onName: (name: string) => Promise<boolean>;
   onClose: () => void;
 }
 
 /** Asks for the name of a show. */
-export function NameDialog({ title, name, onName, onClose }: Props) {
+export function NameDialog({ title, name, note = null, onName, onClose }: Props) {
   const [text, setText] = useState(name);
   const wanted = text.trim();
   return (
@@ -25,6 +27,7 @@ export function NameDialog({ title, name, onName, onClose }: Props) {
             });
         }}
       >
+        {note === null ? null : <Text mb="sm">{note}</Text>}
         <TextInput
           label="Name"
           description="Letters, digits, spaces and . , - _ ( ) ! ' +"

@@ -13,6 +13,10 @@ pub fn run(arguments: &ConvertArguments) -> Outcome {
     let (input, output) = (&arguments.input, &arguments.output);
     let format = format_of(output)?;
     let loaded = show_file::load(input)?;
+    if loaded.unread.is_some() && is_same_file(input, output) {
+        let line = "it has parts that are not known, which would be lost; write to another file";
+        return Err(Failure::input(format!("{}: {line}", output.display())));
+    }
     let written = format.write(&loaded.show, loaded.plan.as_ref());
     let mut fine = true;
     for issue in loaded.issues.iter().chain(&validate(&loaded.show)).chain(&written.issues) {
@@ -23,6 +27,12 @@ pub fn run(arguments: &ConvertArguments) -> Outcome {
     std::fs::write(output, written.bytes)
         .map_err(|error| Failure::input(format!("{}: cannot be written: {error}", output.display())))?;
     Ok(fine)
+}
+
+/// Whether two paths lead to one file.
+fn is_same_file(input: &Path, output: &Path) -> bool {
+    let (input, output) = (input.canonicalize(), output.canonicalize());
+    matches!((input, output), (Ok(input), Ok(output)) if input == output)
 }
 
 /// The format that the ending of a file's name stands for.

@@ -169,7 +169,7 @@ fn first_show(arguments: &RunArguments, library: &Library) -> Result<(Option<Str
             // The screen shows all other issues; it does not know this command line.
             tracing::warn!("{}", issue.message);
         }
-        let name = library.give(&name_of_file(file), ShowOrigin::StartFile, &opened.show);
+        let name = library.give(&name_of_file(file), ShowOrigin::StartFile, &opened.show, opened.unread);
         return Ok((Some(name), opened.show));
     }
     let named = |name: String| library.get(&name).ok().map(|kept| (name, kept));

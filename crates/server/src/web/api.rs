@@ -105,6 +105,14 @@ pub async fn get(State(shared): State<Arc<Shared>>, Path(name): Path<String>) ->
     Ok((about, kept.bytes).into_response())
 }
 
+/// `GET /api/shows/{name}/file`
+pub async fn file(State(shared): State<Arc<Shared>>, Path(name): Path<String>) -> Answer<Response> {
+    let library = shared.library.clone();
+    let (bytes, format) = beside(move || library.file(&name)).await?.map_err(library_problem)?;
+    let about = [(header::CONTENT_TYPE, format.media_type), (header::CACHE_CONTROL, "no-cache")];
+    Ok((about, bytes).into_response())
+}
+
 /// `PUT /api/shows/{name}`. Screens that show this show get the new version. A copy of a read-only show is not opened
 /// on screens, because its author may not want that.
 pub async fn put(
@@ -180,15 +188,24 @@ pub struct To {
     to: String,
 }
 
-/// `POST /api/convert?to=FORMAT`: the show of the body as a file of a format of [`FORMATS`].
-pub async fn convert(Query(To { to }): Query<To>, bytes: Result<Bytes, BytesRejection>) -> Answer<Response> {
+/// `POST /api/convert?to=FORMAT`: the show of the body as a file of a format of [`FORMATS`], with the files of the library
+/// that it names.
+pub async fn convert(
+    State(shared): State<Arc<Shared>>,
+    Query(To { to }): Query<To>,
+    bytes: Result<Bytes, BytesRejection>,
+) -> Answer<Response> {
     let Some(format) = named(&to) else {
         let names = FORMATS.map(|format| format!("?to={}", format.name)).join(" or ");
         return Err(refuse(StatusCode::BAD_REQUEST, &format!("there is no such format: say {names}")));
     };
     let bytes = body(bytes)?;
+    let library = shared.library.clone();
     let converted = beside(move || {
-        read(&bytes, None).map(|loaded| format.write(&loaded.show, loaded.plan.as_ref()).bytes)
+        read(&bytes, None).map(|mut loaded| {
+            library.attach(&mut loaded.show);
+            format.write(&loaded.show, loaded.plan.as_ref()).bytes
+        })
     });
     let document =
         converted.await?.map_err(|error| refuse(StatusCode::UNPROCESSABLE_ENTITY, &error.to_string()))?;

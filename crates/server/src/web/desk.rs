@@ -42,7 +42,7 @@ pub struct Shown {
 impl Desk {
     /// A desk without a show.
     pub fn new(handle: Handle) -> Self {
-        let nothing = Shown::new(0, None, None, Arc::default(), serde_json::Value::Null);
+        let nothing = Shown::new(api::OpenShow::default(), Arc::default());
         let (shown, _) = watch::channel(Arc::new(nothing));
         let (plan, _) = watch::channel(Arc::default());
         Self { handle, shown, plan, planning: Arc::default(), given: Arc::default() }
@@ -50,12 +50,19 @@ impl Desk {
 
     /// Opens a show on every screen and in the controller, and begins to plan it.
     pub async fn open(&self, name: String, kept: Kept) {
-        let document = serde_json::from_slice(&kept.bytes).unwrap_or_default();
+        let mut message = api::OpenShow {
+            revision: 0,
+            name: Some(name),
+            etag: Some(kept.etag),
+            read_only: kept.read_only,
+            document: serde_json::from_slice(&kept.bytes).unwrap_or_default(),
+        };
         let show = Arc::new(kept.show);
         let mut revision = 0;
         self.shown.send_modify(|shown| {
             revision = shown.revision + 1;
-            *shown = Arc::new(Shown::new(revision, Some(name), Some(kept.etag), show.clone(), document));
+            message.revision = revision;
+            *shown = Arc::new(Shown::new(message, show.clone()));
         });
         self.plan.send_replace(Arc::new(api::Plan { revision, planning: true, ..api::Plan::default() }));
         self.begin_plan(revision, show);
@@ -140,15 +147,9 @@ impl Shown {
         }
     }
 
-    fn new(
-        revision: u32,
-        name: Option<String>,
-        etag: Option<String>,
-        show: Arc<Show>,
-        document: serde_json::Value,
-    ) -> Self {
-        let message = api::ToScreen::Show(api::OpenShow { revision, name: name.clone(), etag, document });
-        Self { revision, name, show, message: super::socket::text(&message) }
+    fn new(open: api::OpenShow, show: Arc<Show>) -> Self {
+        let (revision, name) = (open.revision, open.name.clone());
+        Self { revision, name, show, message: super::socket::text(&api::ToScreen::Show(open)) }
     }
 }
 
@@ -160,7 +161,8 @@ mod tests {
     fn a_show_without_a_name_is_called_as_in_the_library() {
         let shown = |title: &str| {
             let show = Show { name: title.into(), ..Show::default() };
-            Shown::new(1, Some("heart 2".into()), None, Arc::new(show), serde_json::Value::Null).named()
+            let open = api::OpenShow { name: Some("heart 2".into()), ..api::OpenShow::default() };
+            Shown::new(open, Arc::new(show)).named()
         };
         assert_eq!((&*shown("").name, &*shown("Heart").name), ("heart 2", "Heart"));
     }
@@ -169,7 +171,8 @@ mod tests {
     async fn the_plan_of_a_show_that_was_replaced_is_given_up() {
         let (handle, _conductor) = Handle::start(crate::stop::Stop::install());
         let desk = Desk::new(handle);
-        let kept = || Kept { bytes: b"{}".to_vec(), show: Show::default(), etag: String::new() };
+        let kept =
+            || Kept { bytes: b"{}".to_vec(), show: Show::default(), etag: String::new(), read_only: None };
         let is_given_up = || desk.planning.lock().unwrap().asked();
         desk.open("one".into(), kept()).await;
         let of_first = is_given_up();

@@ -224,6 +224,33 @@ fn shows_survive_the_way_through_the_original_format_and_back() {
 }
 
 #[test]
+fn convert_names_what_it_loses_and_does_not_replace_its_own_input_then() {
+    let future = shows::row(3, &[0.5]).replacen("{\"lightbots\":1", "{\"lightbots\":3,\"glow\":1", 1);
+    let file = shows::file("future.lightbots.json", &future);
+    let out = shows::file("out.lightbots.json", "");
+    let (code, _, notes) = run(&["convert", &file, &out]);
+    assert_eq!(code, 0, "{notes}");
+    assert!(notes.contains("[newer-version]") && notes.contains("\"glow\" of the show"), "{notes}");
+    let (code, _, notes) = run(&["convert", &file, &file]);
+    assert_eq!(code, 2);
+    assert!(notes.contains("which would be lost; write to another file"), "{notes}");
+    assert_eq!(std::fs::read_to_string(&file).unwrap(), future);
+}
+
+#[test]
+fn convert_writes_and_reads_archives() {
+    let (ours, archive) = (shows::row_file(3, &[0.5]), shows::file("a.lightbots.zip", ""));
+    let back = shows::file("back.lightbots.json", "");
+    assert_eq!(run(&["convert", &ours, &archive]).0, 0);
+    assert!(std::fs::read(&archive).unwrap().starts_with(b"PK"));
+    assert_eq!(run(&["check", &archive]).0, 0);
+    assert_eq!(run(&["convert", &archive, &back]).0, 0);
+    let again = shows::file("again.lightbots.json", "");
+    assert_eq!(run(&["convert", &ours, &again]).0, 0);
+    assert_eq!(std::fs::read(&back).unwrap(), std::fs::read(&again).unwrap());
+}
+
+#[test]
 fn a_plan_is_written_with_its_paths() {
     let out = shows::file("plan.json", "");
     assert_eq!(run(&["plan", &shows::row_file(3, &[0.5]), "--out", &out]).0, 0);

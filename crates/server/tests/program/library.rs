@@ -57,3 +57,29 @@ fn a_show_that_an_older_version_saved_under_the_name_of_an_example_is_found_and_
     assert_eq!(std::fs::read_to_string(&file).unwrap(), mine);
     assert_eq!(save(&address, "heart", "My heart again"), "heart");
 }
+
+#[test]
+fn a_show_with_unknown_fields_opens_read_only_and_stays_as_it_is() {
+    let _turn = alone();
+    let data = shows::folder().join("future");
+    std::fs::create_dir_all(&data).unwrap();
+    let file = data.join("future.lightbots.json");
+    let future = shows::row(2, &[1.0]).replacen("{\"lightbots\":1", "{\"lightbots\":3,\"glow\":1", 1);
+    std::fs::write(&file, &future).unwrap();
+    std::fs::write(data.join(".open"), "future").unwrap();
+    let (_server, address, _) = run::start(&["--robots", "0", "--data", data.to_str().unwrap()]);
+    let mut screen = Screen::open(&address);
+    screen.until("the reason", |screen| {
+        let reason = screen.get("show")["read_only"].as_str().map(str::to_owned);
+        reason.filter(|reason| reason.contains("\"glow\" of the show"))
+    });
+    let path = "/api/shows/future";
+    let shown = http::request(&address, "GET", path, &[], "");
+    let refused = http::request(&address, "PUT", path, &[("If-Match", &shown.header("ETag"))], &shown.body);
+    assert_eq!(refused.status, 403);
+    assert!(refused.json()["error"].as_str().unwrap().contains("save a copy under another name"));
+    assert_eq!(http::request(&address, "GET", "/api/shows/future/file", &[], "").body, future);
+    let copy = http::request(&address, "PUT", "/api/shows/copy", &[("If-None-Match", "*")], &shown.body);
+    assert_eq!((copy.status, &copy.json()["read_only"]), (200, &serde_json::Value::Null));
+    assert_eq!(std::fs::read_to_string(&file).unwrap(), future);
+}

@@ -1,0 +1,86 @@
+//! The files that belong to shows of the library: `assets/HASH` in its folder, one for all shows that name it.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::io::Write;
+use std::path::PathBuf;
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::{Duration, SystemTime};
+
+use lightbots_exchange::hash_of;
+use lightbots_show::{AssetHash, Show};
+
+/// A file that no show names is deleted at a start after this time. Until then it can come back with a show whose
+/// deletion is undone, or with a draft in a browser.
+const UNUSED_FOR: Duration = Duration::from_secs(30 * 24 * 3600);
+
+/// Files by hash. Clones share them.
+#[derive(Clone, Debug)]
+pub struct AssetStore {
+    folder: PathBuf,
+    /// Files of shows that are in no folder.
+    given: Arc<Mutex<BTreeMap<AssetHash, Arc<[u8]>>>>,
+}
+
+impl AssetStore {
+    /// The store in a folder; the folder is made with the first file.
+    pub fn new(folder: PathBuf) -> Self {
+        Self { folder, given: Arc::default() }
+    }
+
+    /// Remembers the files of a show that is in no folder.
+    pub fn give(&self, show: &Show) {
+        let mut given = self.given.lock().unwrap_or_else(PoisonError::into_inner);
+        let contents = show.assets.iter().filter_map(|(hash, asset)| Some((*hash, asset.content.clone()?)));
+        given.extend(contents);
+    }
+
+    /// Writes the files that a show holds and the store lacks, among them those of shows in no folder.
+    pub fn keep(&self, show: &Show) -> std::io::Result<()> {
+        for (hash, asset) in &show.assets {
+            let path = self.folder.join(hash.to_string());
+            let content = asset.content.clone().or_else(|| self.given_content(hash));
+            if let Some(content) = content.filter(|_| !path.exists()) {
+                std::fs::create_dir_all(&self.folder)?;
+                let draft = self.folder.join(format!(".{hash}.saving"));
+                let mut file = std::fs::File::create(&draft)?;
+                file.write_all(&content)?;
+                file.sync_all()?;
+                std::fs::rename(&draft, path)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Gives a show the files that it names and that are in the store. A damaged file counts as missing.
+    pub fn attach(&self, show: &mut Show) {
+        for (hash, asset) in show.assets.iter_mut().filter(|(_, asset)| asset.content.is_none()) {
+            let path = self.folder.join(hash.to_string());
+            let length = std::fs::metadata(&path).map(|about| about.len()).ok();
+            let read = || std::fs::read(&path).ok().filter(|bytes| hash_of(bytes) == *hash);
+            let kept = length.filter(|length| *length == asset.bytes).and_then(|_| read()).map(Arc::from);
+            asset.content = kept.or_else(|| self.given_content(hash));
+        }
+    }
+
+    /// Deletes files that no show names any more.
+    pub fn sweep(&self, named: &BTreeSet<AssetHash>) {
+        let Ok(files) = std::fs::read_dir(&self.folder) else { return };
+        let is_old = |file: &std::fs::DirEntry| {
+            let modified = file.metadata().and_then(|about| about.modified()).ok();
+            let age = modified.and_then(|time| SystemTime::now().duration_since(time).ok());
+            age.is_some_and(|age| age > UNUSED_FOR)
+        };
+        for file in files.flatten().filter(is_old) {
+            let hash = file.file_name().to_str().and_then(AssetHash::from_hex);
+            if hash.is_some_and(|hash| !named.contains(&hash))
+                && let Err(error) = std::fs::remove_file(file.path())
+            {
+                tracing::debug!("an unused file stays: {error}");
+            }
+        }
+    }
+
+    fn given_content(&self, hash: &AssetHash) -> Option<Arc<[u8]>> {
+        self.given.lock().unwrap_or_else(PoisonError::into_inner).get(hash).cloned()
+    }
+}

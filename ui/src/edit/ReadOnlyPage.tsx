@@ -1,0 +1,28 @@
+import { Button, Text, Title } from '@mantine/core';
+import styles from '../parts/page.module.css';
+import { attempt, copyShow } from '../session/libraryActs';
+import { useSession } from '../session/session';
+
+interface Props {
+  name: string;
+  /** Why the show cannot be saved, and what to do. */
+  reason: string;
+}
+
+/** In place of the editor: the show holds more than this version knows, so that saving it would lose that. */
+export function ReadOnlyPage({ name, reason }: Props) {
+  const session = useSession();
+  const saveCopy = async () => {
+    const copy = await copyShow(name, `${name} copy`);
+    await session.ask({ do: 'open', name: copy });
+  };
+  return (
+    <main className={styles.empty}>
+      <Title order={1} size="lg">
+        This show can be played, not changed
+      </Title>
+      <Text>{reason}</Text>
+      <Button onClick={() => void attempt(saveCopy)}>Save a copy of what is known</Button>
+    </main>
+  );
+}
