@@ -149,6 +149,11 @@ pub(crate) fn nearest_distances(points: &[Vec2], pitch: f64) -> Vec<f64> {
     distances
 }
 
+/// Distance of the closest pair of points; infinite for fewer than two.
+pub fn closest_distance(points: &[Vec2]) -> f64 {
+    nearest_distances(points, 0.1).into_iter().fold(f64::INFINITY, f64::min)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

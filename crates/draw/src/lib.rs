@@ -35,6 +35,7 @@ pub mod svg;
 mod symmetry;
 pub mod text;
 
+pub use buckets::closest_distance;
 pub use drawing::{Area, Drawing, DrawingPart, FillRule, Raster, Stroke};
 pub use enough::enough_robots;
 pub use error::{DrawError, Made, Note};

@@ -24,6 +24,9 @@ pub struct PlaceSettings {
     pub center: Vec2,
     /// Turn of the picture, radians counter-clockwise.
     pub turn: f64,
+    /// The part of the drawing that makes up the picture's box: corners with the smaller and the larger x and y, in the
+    /// drawing's units; `None`: the box around all of it. Pictures of a series keep one scale by it.
+    pub view: Option<(Vec2, Vec2)>,
     /// Lights that stay where they are and count first.
     pub kept: Vec<PlacedLight>,
     /// Places to begin with, such as those of the picture before; empty: new ones.
@@ -43,6 +46,7 @@ impl Default for PlaceSettings {
             size_m: None,
             center: Vec2::ZERO,
             turn: 0.0,
+            view: None,
             kept: Vec::new(),
             start: Vec::new(),
             quality: Quality::Full,

@@ -4,11 +4,12 @@ use super::{files, shown};
 use std::path::Path;
 
 /// Crates of this workspace that each crate may use. Tests may use more.
-const EDGES: [(&str, &[&str]); 15] = [
+const EDGES: [(&str, &[&str]); 16] = [
     ("base", &[]),
     ("wire", &["base"]),
     ("show", &["base"]),
     ("draw", &["base"]),
+    ("make", &["base", "show", "draw"]),
     ("plan", &["base", "show"]),
     ("exchange", &["base", "show", "plan"]),
     ("robot", &["base", "wire"]),
@@ -22,7 +23,7 @@ const EDGES: [(&str, &[&str]); 15] = [
     (
         "server",
         &[
-            "base", "wire", "show", "plan", "robot", "control", "sim", "exam", "exchange", "draw", "api",
+            "base", "wire", "show", "plan", "robot", "control", "sim", "exam", "exchange", "draw", "make", "api",
             "link",
         ],
     ),

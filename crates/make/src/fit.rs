@@ -1,0 +1,129 @@
+//! All frames of a show for another number of robots.
+
+use lightbots_base::Vec2;
+use lightbots_draw::{DrawError, Note, PictureFloor, PlacedLight, Quality, refit};
+use lightbots_show::{Frame, Pixel, Show, frame_label};
+
+use crate::floor::picture_floor;
+use crate::frame::make_frame;
+use crate::recipe::asset_of;
+
+/// Least distance of two lights of frames without a source, metres: below it, plans take longer (measured).
+const SPACING_M: f64 = 0.0764;
+
+/// Fits every frame of a show to a number of robots. Frames with one source are made anew from it; others keep their
+/// lights as far as possible. Returns what is different from what might be expected.
+///
+/// # Errors
+/// A frame in which as many robots find no room, or none, with the frame's name.
+pub fn fit_show(show: &mut Show, robots: usize) -> Result<Vec<Note>, DrawError> {
+    let floor = picture_floor(&show.stage);
+    let mut notes = Vec::new();
+    for index in 0..show.frames.len() {
+        let frame = &show.frames[index];
+        if frame.pixels.len() == robots {
+            continue;
+        }
+        let label = frame_label(index, &frame.name);
+        let named = |error: DrawError| DrawError::new(error.code, format!("{label}: {}", error.message));
+        let fitted = match made_anew(show, frame, &floor, robots) {
+            Some(Ok((frame, more))) => {
+                notes.extend(more.into_iter().map(|note| Note::new(note.code, format!("{label}: {}", note.message))));
+                frame
+            }
+            Some(Err(error)) if error.code == "too-many-robots" => return Err(named(error)),
+            _ => fitted(frame, &floor, robots).map_err(named)?,
+        };
+        show.frames[index] = fitted;
+    }
+    if let Some(starts) = show.starts.take_if(|starts| starts.len() != robots) {
+        let what = format!(
+            "the show said where {} robots start; {robots} robots start in rows at the front edge",
+            starts.len()
+        );
+        notes.push(Note::new("starts-dropped", what));
+    }
+    Ok(notes)
+}
+
+/// The frame made anew from its source; `None`: it has no single source.
+fn made_anew(
+    show: &Show,
+    frame: &Frame,
+    floor: &PictureFloor,
+    robots: usize,
+) -> Option<Result<(Frame, Vec<Note>), DrawError>> {
+    let [source] = frame.sources.as_slice() else { return None };
+    let start: Vec<Vec2> = Vec::new();
+    let made = make_frame(frame, asset_of(source, &show.assets), floor, robots, Quality::Full, &start);
+    Some(made.map(|made| (made.frame, made.notes)))
+}
+
+/// The frame with fewer or more of its lights; pins go last.
+fn fitted(frame: &Frame, floor: &PictureFloor, robots: usize) -> Result<Frame, DrawError> {
+    let lights: Vec<PlacedLight> =
+        frame.pixels.iter().map(|pixel| PlacedLight { at: pixel.at, color: pixel.color, group: 0 }).collect();
+    let pinned: Vec<bool> = frame.pixels.iter().map(|pixel| pixel.robot.is_some()).collect();
+    let closest = lightbots_draw::closest_distance(&lights.iter().map(|light| light.at).collect::<Vec<_>>());
+    let refitted = refit(&lights, &pinned, robots, SPACING_M.min(closest), floor)?;
+    let taken: std::collections::BTreeSet<u32> =
+        refitted.iter().filter_map(|light| light.from).map(|index| frame.pixels[index].id).collect();
+    let mut free = (0..).filter(|id| !taken.contains(id));
+    let mut pixels: Vec<Pixel> = refitted
+        .iter()
+        .map(|light| match light.from {
+            Some(index) => Pixel { at: light.light.at, ..frame.pixels[index].clone() },
+            None => Pixel {
+                id: free.next().unwrap_or(u32::MAX),
+                at: light.light.at,
+                color: light.light.color,
+                ..Pixel::default()
+            },
+        })
+        .collect();
+    pixels.sort_by_key(|pixel| pixel.id);
+    Ok(Frame { pixels, ..frame.clone() })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::recipe::{Content, Recipe, TextRecipe};
+    use lightbots_base::Rgb;
+    use lightbots_show::{Severity, validate};
+
+    fn show() -> Show {
+        let source = Recipe::new(Content::Text(TextRecipe::new("HI"))).source();
+        let empty = Frame { name: "Word".into(), air_time_s: 2.0, sources: vec![source], ..Frame::default() };
+        let stage = lightbots_show::Stage::default();
+        let word = make_frame(&empty, None, &picture_floor(&stage), 24, Quality::Full, &[]).unwrap().frame;
+        let dot = |id: u32| Pixel {
+            id,
+            at: Vec2::new(f64::from(id % 6), f64::from(id / 6)) * 0.2,
+            color: Rgb::new(200, 100, 0),
+            robot: (id == 5).then(|| "9".to_owned()),
+            part: None,
+        };
+        let drawn = Frame { name: "By hand".into(), air_time_s: 2.0, pixels: (0..24).map(dot).collect(), ..Frame::default() };
+        Show { stage, frames: vec![word, drawn], ..Show::default() }
+    }
+
+    #[test]
+    fn every_frame_has_the_robots_that_there_are_and_is_valid() {
+        for robots in [10, 24, 60] {
+            let mut fitted = show();
+            fit_show(&mut fitted, robots).unwrap();
+            assert!(fitted.frames.iter().all(|frame| frame.pixels.len() == robots), "{robots}");
+            assert!(validate(&fitted).iter().all(|issue| issue.severity != Severity::Error), "{robots}");
+            let pinned = fitted.frames[1].pixels.iter().filter(|pixel| pixel.robot.is_some());
+            assert_eq!(pinned.count(), 1);
+        }
+    }
+
+    #[test]
+    fn too_many_robots_name_the_frame() {
+        let error = fit_show(&mut show(), 9_000).unwrap_err();
+        assert_eq!(error.code, "too-many-robots");
+        assert!(error.message.contains("Word"), "{}", error.message);
+    }
+}

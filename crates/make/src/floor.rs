@@ -1,0 +1,28 @@
+//! Where the lights of a picture may stand.
+
+use lightbots_base::Vec2;
+use lightbots_draw::{NoGo, PictureFloor};
+use lightbots_show::{Obstacle, Stage};
+
+/// Room between a robot at rest and the edge of the floor or of a no-go area, metres: robots can turn and pass there.
+const ROOM_M: f64 = 0.02;
+
+/// The part of a stage where robots may stand.
+pub fn picture_floor(stage: &Stage) -> PictureFloor {
+    let margin_m = stage.limits.radius_m + ROOM_M;
+    let mut floor = PictureFloor::new(stage.width_m, stage.depth_m, margin_m);
+    floor.no_go = stage.obstacles.iter().map(|obstacle| no_go(obstacle, margin_m)).collect();
+    floor
+}
+
+fn no_go(obstacle: &Obstacle, margin_m: f64) -> NoGo {
+    match *obstacle {
+        Obstacle::Disc { at, radius_m } => NoGo::Disc { at, radius_m: radius_m + margin_m },
+        Obstacle::Rect { min, max } => NoGo::Rect { min, max, margin_m },
+    }
+}
+
+/// Middle and longer side of a box, metres.
+pub(crate) fn middle_and_side(min: Vec2, max: Vec2) -> (Vec2, f64) {
+    (min.lerp(max, 0.5), (max.x - min.x).max(max.y - min.y))
+}

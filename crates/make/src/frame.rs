@@ -1,0 +1,271 @@
+//! The pixels of a frame from its source, again and again: moved pixels and pins stay.
+
+use lightbots_base::{Rgb, Vec2};
+use lightbots_draw::{
+    DrawError, Drawing, Note, PictureFloor, PlaceSettings, PlacedLight, Quality, Readability, place,
+};
+use lightbots_show::{Frame, FrameSource, Pixel, SourcePart};
+
+use crate::recipe::{Recipe, draw, exact};
+
+/// How often an exact arrangement may be larger than asked for.
+const SLACK: f64 = 1.001;
+
+/// A frame made from its source.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MadeFrame {
+    /// The frame.
+    pub frame: Frame,
+    /// Longer side of the picture, metres.
+    pub size_m: f64,
+    /// Distance of the closest two lights, metres; infinite for one light.
+    pub closest_m: f64,
+    /// How well the lights show the source; `None`: it is an arrangement of lights by itself, such as a grid.
+    pub readability: Option<Readability>,
+    /// What is missing or different.
+    pub notes: Vec<Note>,
+}
+
+/// Makes a frame's pixels anew from its only source, for a number of robots. Name, times and source of the frame stay. So
+/// do pixels that were moved by hand, and pins go to the nearest pixel of the same part.
+///
+/// `asset` has the bytes of the source's file. `start` has places to begin with, such as those of the picture before; it is
+/// used where it has as many places as there are robots.
+///
+/// # Errors
+/// Sources that cannot be drawn or read, and more robots than find room; each message says what would do.
+pub fn make_frame(
+    before: &Frame,
+    asset: Option<&[u8]>,
+    floor: &PictureFloor,
+    robots: usize,
+    quality: Quality,
+    start: &[Vec2],
+) -> Result<MadeFrame, DrawError> {
+    let [source] = before.sources.as_slice() else {
+        let what = "a frame can be made anew from one source; this one has none or several";
+        return Err(DrawError::new("source-count", what));
+    };
+    let recipe = Recipe::read(source)?;
+    let made = match exact(&recipe, robots) {
+        Some((places, color)) => arranged(&places, color, &recipe, floor)?,
+        None => drawn(&recipe, asset, floor, &wanted(before, source, &recipe, robots, quality, start))?,
+    };
+    let mut frame = before.clone();
+    frame.pixels = pixels(before, source, &made.lights, &made.names);
+    Ok(MadeFrame {
+        frame,
+        size_m: made.size_m,
+        closest_m: made.closest_m,
+        readability: made.readability,
+        notes: made.notes,
+    })
+}
+
+/// Lights of a source with the names of its parts.
+struct Lights {
+    lights: Vec<PlacedLight>,
+    names: Vec<String>,
+    size_m: f64,
+    closest_m: f64,
+    readability: Option<Readability>,
+    notes: Vec<Note>,
+}
+
+fn wanted(
+    before: &Frame,
+    source: &FrameSource,
+    recipe: &Recipe,
+    robots: usize,
+    quality: Quality,
+    start: &[Vec2],
+) -> PlaceSettings {
+    let moved = before.pixels.iter().filter(|pixel| source.moved.binary_search(&pixel.id).is_ok());
+    let kept: Vec<PlacedLight> =
+        moved.map(|pixel| PlacedLight { at: pixel.at, color: pixel.color, group: 0 }).take(robots).collect();
+    PlaceSettings {
+        robots,
+        spacing_m: recipe.placing.spacing_m,
+        style: recipe.placing.style,
+        size_m: recipe.placing.size_m,
+        center: recipe.placing.center,
+        turn: recipe.placing.turn,
+        start: if kept.is_empty() && start.len() == robots { start.to_vec() } else { Vec::new() },
+        kept,
+        quality,
+        seed: u64::from(recipe.seed),
+        ..PlaceSettings::default()
+    }
+}
+
+fn drawn(
+    recipe: &Recipe,
+    asset: Option<&[u8]>,
+    floor: &PictureFloor,
+    wanted: &PlaceSettings,
+) -> Result<Lights, DrawError> {
+    let made = draw(recipe, asset)?;
+    let placed = place(&made.drawing, floor, wanted)?;
+    let mut notes = made.notes;
+    notes.extend(placed.notes);
+    Ok(Lights {
+        lights: placed.lights,
+        names: names(&made.drawing),
+        size_m: placed.size_m,
+        closest_m: placed.closest_m,
+        readability: Some(placed.readability),
+        notes,
+    })
+}
+
+fn names(drawing: &Drawing) -> Vec<String> {
+    drawing.groups.iter().map(|part| part.name.clone()).collect()
+}
+
+/// An exact arrangement, whose places are one unit apart, at its size on the floor.
+fn arranged(
+    places: &[Vec2],
+    color: Rgb,
+    recipe: &Recipe,
+    floor: &PictureFloor,
+) -> Result<Lights, DrawError> {
+    let placing = &recipe.placing;
+    let (low, high) = bounds(places);
+    let side = (high.x - low.x).max(high.y - low.y);
+    let unit = lightbots_draw::closest_distance(places).min(1e6);
+    let least = placing.spacing_m / unit * SLACK;
+    let scale = placing.size_m.filter(|_| side > 0.0).map_or(least, |size| (size / side).max(least));
+    let (sin, cos) = placing.turn.sin_cos();
+    let map = |at: &Vec2| {
+        let point = (*at - low.lerp(high, 0.5)) * scale;
+        placing.center + Vec2::new(point.x * cos - point.y * sin, point.x * sin + point.y * cos)
+    };
+    let lights: Vec<PlacedLight> =
+        places.iter().map(|at| PlacedLight { at: map(at), color, group: 0 }).collect();
+    if !lights.iter().all(|light| floor.allows(light.at)) {
+        let what = format!(
+            "this arrangement of {} robots is {:.2} m wide and does not fit on the floor; use fewer robots, another place, \
+             or a drawing, which flows around no-go areas",
+            places.len(),
+            side * scale
+        );
+        return Err(DrawError::new("too-many-robots", what));
+    }
+    Ok(Lights {
+        lights,
+        names: vec![String::new()],
+        size_m: side * scale,
+        closest_m: unit * scale,
+        readability: None,
+        notes: Vec::new(),
+    })
+}
+
+fn bounds(places: &[Vec2]) -> (Vec2, Vec2) {
+    let ends = places.iter().map(|at| (*at, *at)).reduce(|(low, high), (at, _)| {
+        let low = Vec2::new(low.x.min(at.x), low.y.min(at.y));
+        (low, Vec2::new(high.x.max(at.x), high.y.max(at.y)))
+    });
+    ends.unwrap_or_default()
+}
+
+/// Pixels for lights. The first lights are the moved pixels, which keep their ids; the others take the free ids in order.
+fn pixels(before: &Frame, source: &FrameSource, lights: &[PlacedLight], names: &[String]) -> Vec<Pixel> {
+    let moved: Vec<&Pixel> =
+        before.pixels.iter().filter(|pixel| source.moved.binary_search(&pixel.id).is_ok()).collect();
+    let mut free = (0..).filter(|id| source.moved.binary_search(id).is_err());
+    let mut pixels: Vec<Pixel> = Vec::with_capacity(lights.len());
+    for (index, light) in lights.iter().enumerate() {
+        if let Some(pixel) = moved.get(index) {
+            pixels.push((*pixel).clone());
+            continue;
+        }
+        let name = names.get(light.group).cloned().unwrap_or_default();
+        let part = Some(SourcePart { source: 0, name });
+        let id = free.next().unwrap_or(u32::MAX);
+        pixels.push(Pixel { id, at: light.at, color: light.color, robot: None, part });
+    }
+    pin(before, moved.len(), &mut pixels);
+    pixels.sort_by_key(|pixel| pixel.id);
+    pixels
+}
+
+/// Gives each pin to the nearest new pixel of the same part, else of any part.
+fn pin(before: &Frame, moved: usize, pixels: &mut [Pixel]) {
+    let kept: Vec<u32> = pixels.iter().take(moved).map(|pixel| pixel.id).collect();
+    for old in before.pixels.iter().filter(|pixel| pixel.robot.is_some() && !kept.contains(&pixel.id)) {
+        let same = |pixel: &Pixel| pixel.part == old.part;
+        let free = pixels.iter_mut().skip(moved).filter(|pixel| pixel.robot.is_none());
+        let nearest = free.min_by(|a, b| {
+            let distance = |pixel: &Pixel| pixel.at.distance(old.at);
+            same(b).cmp(&same(a)).then(distance(a).total_cmp(&distance(b)))
+        });
+        if let Some(pixel) = nearest {
+            pixel.robot.clone_from(&old.robot);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::recipe::{Content, TextRecipe};
+
+    fn floor() -> PictureFloor {
+        PictureFloor::new(4.0, 4.0, 0.05)
+    }
+
+    fn hi(robots: usize) -> Frame {
+        let source = Recipe::new(Content::Text(TextRecipe::new("HI"))).source();
+        let empty = Frame { name: "HI".into(), sources: vec![source], ..Frame::default() };
+        make_frame(&empty, None, &floor(), robots, Quality::Full, &[]).unwrap().frame
+    }
+
+    #[test]
+    fn a_word_becomes_pixels_with_the_names_of_their_letters() {
+        let frame = hi(20);
+        assert_eq!(frame.pixels.len(), 20);
+        assert_eq!(frame.name, "HI");
+        let letters: std::collections::BTreeSet<&str> =
+            frame.pixels.iter().filter_map(|pixel| pixel.part.as_ref()).map(|part| part.name.as_str()).collect();
+        assert_eq!(letters.len(), 2, "{letters:?}");
+        assert!(frame.pixels.windows(2).all(|pair| pair[0].id < pair[1].id));
+    }
+
+    #[test]
+    fn a_moved_pixel_stays_when_the_number_of_robots_changes() {
+        let mut frame = hi(20);
+        frame.pixels[4].at = Vec2::new(1.7, 1.7);
+        frame.sources[0].moved = vec![frame.pixels[4].id];
+        for robots in [12, 20, 33] {
+            let made = make_frame(&frame, None, &floor(), robots, Quality::Full, &[]).unwrap().frame;
+            assert_eq!(made.pixels.len(), robots);
+            assert!(made.pixels.contains(&frame.pixels[4]));
+        }
+    }
+
+    #[test]
+    fn a_pin_follows_to_the_nearest_pixel_of_its_letter() {
+        let mut frame = hi(20);
+        let of_i = |frame: &Frame, name: &str| {
+            let part = frame.pixels.iter().find(|pixel| pixel.robot.as_deref() == Some(name)).unwrap().part.clone();
+            part.unwrap().name
+        };
+        let right = (0..20).max_by(|a, b| frame.pixels[*a].at.x.total_cmp(&frame.pixels[*b].at.x)).unwrap();
+        frame.pixels[right].robot = Some("7".into());
+        let letter = of_i(&frame, "7");
+        let made = make_frame(&frame, None, &floor(), 31, Quality::Full, &[]).unwrap().frame;
+        assert_eq!(of_i(&made, "7"), letter);
+    }
+
+    #[test]
+    fn a_grid_is_exact() {
+        let settings = lightbots_draw::ShapeSettings::new(lightbots_draw::ShapeKind::Grid);
+        let source = Recipe::new(Content::Shape(settings)).source();
+        let empty = Frame { sources: vec![source], ..Frame::default() };
+        let made = make_frame(&empty, None, &floor(), 100, Quality::Full, &[]).unwrap();
+        assert!((made.closest_m - 0.08).abs() < 1e-3);
+        assert_eq!(made.readability, None);
+        assert_eq!(make_frame(&empty, None, &floor(), 9_000, Quality::Full, &[]).unwrap_err().code, "too-many-robots");
+    }
+}

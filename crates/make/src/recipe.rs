@@ -1,0 +1,276 @@
+//! What a frame is made from, with typed settings: read from and written to the sources of a show.
+
+use lightbots_base::{Rgb, Vec2};
+use lightbots_draw::text::{self, Align, Colors, Font, TextSettings};
+use lightbots_draw::{DrawError, Made, SHAPES, ShapeKind, ShapeSettings, Style, draw_shape, shape_named, svg};
+use lightbots_show::{Assets, FrameSource, SourceKind};
+
+use crate::floor::middle_and_side;
+use crate::settings::{Reader, Writer};
+
+/// The font of words where none is chosen.
+const USUAL_FONT: &str = "lato";
+
+/// Colour of words and shapes where none is chosen: that of a warm lamp.
+const USUAL_COLOR: Rgb = Rgb::new(255, 165, 0);
+
+const STYLES: [(&str, Style); 5] = [
+    ("auto", Style::Auto),
+    ("filled", Style::Filled),
+    ("outline", Style::Outline),
+    ("both", Style::Both),
+    ("lines", Style::Lines),
+];
+
+const ALIGNS: [(&str, Align); 3] = [("center", Align::Centre), ("left", Align::Left), ("right", Align::Right)];
+
+/// What a frame is made from.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Recipe {
+    /// The kind of source and its own settings.
+    pub content: Content,
+    /// How and where its lights are placed.
+    pub placing: Placing,
+    /// Seed of everything random in placing.
+    pub seed: u32,
+}
+
+/// The kind of a source and its own settings.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Content {
+    /// Words.
+    Text(TextRecipe),
+    /// A shape.
+    Shape(ShapeSettings),
+    /// The SVG file that is the source's asset.
+    Svg,
+}
+
+/// Words and how they are set.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TextRecipe {
+    /// The words; lines are separated by `\n`.
+    pub text: String,
+    /// Name of a font inside; the source's asset is the font where there is one.
+    pub font: String,
+    /// How lines stand to each other.
+    pub align: Align,
+    /// Wanted width over height of the whole, by which words are put on lines; `None`: lines as they are.
+    pub wrap: Option<f64>,
+    /// Additional gap between letters, cap heights.
+    pub letter_gap: f64,
+    /// Colours, letter by letter in turn.
+    pub colors: Vec<Rgb>,
+}
+
+/// How and where lights are placed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Placing {
+    /// How areas are shown.
+    pub style: Style,
+    /// Longer side of the picture, metres; `None`: chosen by floor and fleet.
+    pub size_m: Option<f64>,
+    /// Middle of the picture, stage metres.
+    pub center: Vec2,
+    /// Turn of the picture, radians counter-clockwise.
+    pub turn: f64,
+    /// Least distance of two lights, metres.
+    pub spacing_m: f64,
+}
+
+impl Default for Placing {
+    fn default() -> Self {
+        Self { style: Style::Auto, size_m: None, center: Vec2::ZERO, turn: 0.0, spacing_m: 0.08 }
+    }
+}
+
+impl TextRecipe {
+    /// Words with usual settings.
+    pub fn new(text: impl Into<String>) -> Self {
+        Self {
+            text: text.into(),
+            font: USUAL_FONT.into(),
+            align: Align::Centre,
+            wrap: None,
+            letter_gap: 0.0,
+            colors: Vec::new(),
+        }
+    }
+}
+
+impl Recipe {
+    /// A recipe with usual placing.
+    pub fn new(content: Content) -> Self {
+        Self { content, placing: Placing::default(), seed: 1 }
+    }
+
+    /// The recipe that a frame's source is.
+    ///
+    /// # Errors
+    /// A setting with a value of a wrong kind, and kinds of sources that are not made here.
+    pub fn read(source: &FrameSource) -> Result<Self, DrawError> {
+        let reader = Reader(&source.settings);
+        let content = match source.kind {
+            SourceKind::Text => Content::Text(TextRecipe {
+                text: reader.text("text", "")?,
+                font: reader.text("font", USUAL_FONT)?,
+                align: reader.word("align", &ALIGNS)?,
+                wrap: reader.number("wrap")?,
+                letter_gap: reader.number("letter_gap")?.unwrap_or(0.0),
+                colors: reader.colors("colors")?,
+            }),
+            SourceKind::Shape => Content::Shape(shape(&reader)?),
+            SourceKind::Svg => Content::Svg,
+            kind => {
+                let what = format!("a source of the kind {} cannot be made anew yet", kind.name());
+                return Err(DrawError::new("source-kind", what));
+            }
+        };
+        let boxed = source.floor_box.map(|place| middle_and_side(place.min, place.max));
+        let placing = Placing {
+            style: reader.word("style", &STYLES)?,
+            size_m: reader.number("size_m")?.or(boxed.map(|(_, side)| side)),
+            center: reader.points("center")?.first().copied().or(boxed.map(|(at, _)| at)).unwrap_or(Vec2::ZERO),
+            turn: reader.number("turn")?.unwrap_or(0.0),
+            spacing_m: reader.number("spacing_m")?.unwrap_or(Placing::default().spacing_m),
+        };
+        Ok(Self { content, placing, seed: source.seed })
+    }
+
+    /// The source of a show that says the same.
+    pub fn source(&self) -> FrameSource {
+        let mut writer = Writer::default();
+        let kind = match &self.content {
+            Content::Text(words) => {
+                words.write(&mut writer);
+                SourceKind::Text
+            }
+            Content::Shape(shape) => {
+                write_shape(shape, &mut writer);
+                SourceKind::Shape
+            }
+            Content::Svg => SourceKind::Svg,
+        };
+        let (placing, usual) = (&self.placing, Placing::default());
+        writer.word("style", &placing.style, &STYLES);
+        writer.number("size_m", placing.size_m.unwrap_or(0.0), 0.0);
+        if placing.center != usual.center {
+            writer.points("center", &[placing.center]);
+        }
+        writer.number("turn", placing.turn, usual.turn);
+        writer.number("spacing_m", placing.spacing_m, usual.spacing_m);
+        FrameSource { seed: self.seed, settings: writer.0, ..FrameSource::new(kind) }
+    }
+}
+
+impl TextRecipe {
+    fn write(&self, writer: &mut Writer) {
+        writer.text("text", &self.text, "");
+        writer.text("font", &self.font, USUAL_FONT);
+        writer.word("align", &self.align, &ALIGNS);
+        writer.number("wrap", self.wrap.unwrap_or(0.0), 0.0);
+        writer.number("letter_gap", self.letter_gap, 0.0);
+        writer.colors("colors", &self.colors);
+    }
+}
+
+fn shape(reader: &Reader<'_>) -> Result<ShapeSettings, DrawError> {
+    let name = reader.text("shape", "circle")?;
+    let kind = shape_named(&name).ok_or_else(|| unknown_shape(&name))?;
+    let usual = ShapeSettings::new(kind);
+    Ok(ShapeSettings {
+        kind,
+        aspect: reader.number("aspect")?.unwrap_or(usual.aspect),
+        count: reader.whole("count", usual.count)?,
+        turns: reader.number("turns")?.unwrap_or(usual.turns),
+        inner: reader.number("inner")?.unwrap_or(usual.inner),
+        span: reader.number("span")?.unwrap_or(usual.span),
+        points: reader.points("points")?,
+        closed: reader.flag("closed", usual.closed)?,
+        color: reader.colors("color")?.first().copied().unwrap_or(usual.color),
+    })
+}
+
+/// The error for a name that no shape has.
+pub(crate) fn unknown_shape(name: &str) -> DrawError {
+    let known: Vec<&str> = SHAPES.iter().map(|(_, name)| *name).collect();
+    let name: String = name.chars().take(40).collect();
+    DrawError::new("unknown-shape", format!("there is no shape \"{name}\"; use {}", known.join(", ")))
+}
+
+fn write_shape(shape: &ShapeSettings, writer: &mut Writer) {
+    let usual = ShapeSettings::new(shape.kind);
+    writer.text("shape", shape.kind.name(), "");
+    writer.number("aspect", shape.aspect, usual.aspect);
+    writer.number("count", shape.count as f64, usual.count as f64);
+    writer.number("turns", shape.turns, usual.turns);
+    writer.number("inner", shape.inner, usual.inner);
+    writer.number("span", shape.span, usual.span);
+    writer.points("points", &shape.points);
+    writer.flag("closed", shape.closed, usual.closed);
+    if shape.color != usual.color {
+        writer.colors("color", &[shape.color]);
+    }
+}
+
+/// The drawing of a source, and what is missing from it. `asset` has the bytes of its file.
+///
+/// # Errors
+/// Sources that cannot be drawn, and sources whose file is not there.
+pub fn draw(recipe: &Recipe, asset: Option<&[u8]>) -> Result<Made, DrawError> {
+    match &recipe.content {
+        Content::Text(words) => draw_text(words, asset),
+        Content::Shape(shape) => Ok(Made { drawing: draw_shape(shape)?, notes: Vec::new() }),
+        Content::Svg => svg::draw(asset.ok_or_else(missing)?),
+    }
+}
+
+fn missing() -> DrawError {
+    DrawError::new("asset-missing", "the file that this frame is made from is not in the show; add it again")
+}
+
+fn draw_text(words: &TextRecipe, asset: Option<&[u8]>) -> Result<Made, DrawError> {
+    let font = font(words, asset)?;
+    text::draw(&words.settings(&font))
+}
+
+fn font(words: &TextRecipe, asset: Option<&[u8]>) -> Result<Font, DrawError> {
+    if let Some(bytes) = asset {
+        return Font::read(bytes);
+    }
+    Font::built_in(&words.font).ok_or_else(|| {
+        let known: Vec<&str> = text::FONTS.iter().filter(|font| font.offered).map(|font| font.name).collect();
+        let name: String = words.font.chars().take(40).collect();
+        DrawError::new("unknown-font", format!("there is no font \"{name}\"; use {}", known.join(", ")))
+    })
+}
+
+impl TextRecipe {
+    fn settings<'a>(&'a self, font: &'a Font) -> TextSettings<'a> {
+        let colors = match self.colors.as_slice() {
+            [] => Colors::One(USUAL_COLOR),
+            [one] => Colors::One(*one),
+            several => Colors::Each(several.to_vec()),
+        };
+        TextSettings {
+            align: self.align,
+            wrap: self.wrap,
+            letter_gap: self.letter_gap,
+            colors,
+            ..TextSettings::new(&self.text, font)
+        }
+    }
+}
+
+/// The bytes of a source's file, if the show has them.
+pub(crate) fn asset_of<'a>(source: &FrameSource, assets: &'a Assets) -> Option<&'a [u8]> {
+    assets.get(source.asset.as_ref()?)?.content.as_deref()
+}
+
+/// Exact places of shapes that are no drawings, in units of their neighbours' distance.
+pub(crate) fn exact(recipe: &Recipe, robots: usize) -> Option<(Vec<Vec2>, Rgb)> {
+    let Content::Shape(shape) = &recipe.content else { return None };
+    let is_exact = matches!(shape.kind, ShapeKind::Grid | ShapeKind::Hexagons | ShapeKind::Random);
+    let places = is_exact.then(|| lightbots_draw::exact_places(shape, robots, u64::from(recipe.seed)))??;
+    Some((places, shape.color))
+}

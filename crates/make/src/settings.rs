@@ -1,0 +1,149 @@
+//! Typed values from and to the named settings of a source.
+
+use lightbots_base::{Rgb, Vec2};
+use lightbots_draw::DrawError;
+use lightbots_show::{NamedSettings, Setting, setting};
+
+/// Settings that are read by their names.
+pub(crate) struct Reader<'a>(pub &'a NamedSettings);
+
+impl Reader<'_> {
+    /// A text; `usual` where it is not given.
+    pub fn text(&self, name: &str, usual: &str) -> Result<String, DrawError> {
+        match setting(self.0, name) {
+            None | Some(Setting::Null) => Ok(usual.to_owned()),
+            Some(Setting::Text(text)) => Ok(text.clone()),
+            Some(_) => Err(wrong(name, "a text")),
+        }
+    }
+
+    /// A truth value; `usual` where it is not given.
+    pub fn flag(&self, name: &str, usual: bool) -> Result<bool, DrawError> {
+        match setting(self.0, name) {
+            None | Some(Setting::Null) => Ok(usual),
+            Some(Setting::Bool(flag)) => Ok(*flag),
+            Some(_) => Err(wrong(name, "true or false")),
+        }
+    }
+
+    /// A number; `None` where it is not given.
+    pub fn number(&self, name: &str) -> Result<Option<f64>, DrawError> {
+        match setting(self.0, name) {
+            None | Some(Setting::Null) => Ok(None),
+            Some(Setting::Number(number)) => Ok(Some(*number)),
+            Some(_) => Err(wrong(name, "a number")),
+        }
+    }
+
+    /// A whole number of at least 0; `usual` where it is not given.
+    pub fn whole(&self, name: &str, usual: usize) -> Result<usize, DrawError> {
+        match self.number(name)? {
+            None => Ok(usual),
+            Some(number) if number >= 0.0 && number <= 1e6 && number.fract() == 0.0 => Ok(number as usize),
+            Some(_) => Err(wrong(name, "a whole number from 0 to 1000000")),
+        }
+    }
+
+    /// Colours such as `#ffa500`; one colour or a list; empty where it is not given.
+    pub fn colors(&self, name: &str) -> Result<Vec<Rgb>, DrawError> {
+        let color = |value: &Setting| match value {
+            Setting::Text(text) => color_of(text).ok_or_else(|| wrong(name, "a colour such as #ffa500")),
+            _ => Err(wrong(name, "a colour such as #ffa500")),
+        };
+        match setting(self.0, name) {
+            None | Some(Setting::Null) => Ok(Vec::new()),
+            Some(Setting::List(list)) => list.iter().map(color).collect(),
+            Some(value) => Ok(vec![color(value)?]),
+        }
+    }
+
+    /// Points `[x, y]`; empty where they are not given.
+    pub fn points(&self, name: &str) -> Result<Vec<Vec2>, DrawError> {
+        let point = |value: &Setting| match value {
+            Setting::List(pair) => match pair.as_slice() {
+                [Setting::Number(x), Setting::Number(y)] => Ok(Vec2::new(*x, *y)),
+                _ => Err(wrong(name, "a list of points [x, y]")),
+            },
+            _ => Err(wrong(name, "a list of points [x, y]")),
+        };
+        match setting(self.0, name) {
+            None | Some(Setting::Null) => Ok(Vec::new()),
+            Some(Setting::List(list)) => list.iter().map(point).collect(),
+            Some(_) => Err(wrong(name, "a list of points [x, y]")),
+        }
+    }
+
+    /// One of several words; the first where it is not given.
+    pub fn word<T: Copy>(&self, name: &str, words: &[(&str, T)]) -> Result<T, DrawError> {
+        let usual = words.first().map_or("", |(word, _)| word);
+        let text = self.text(name, usual)?;
+        let found = words.iter().find(|(word, _)| *word == text).map(|(_, value)| *value);
+        let known: Vec<&str> = words.iter().map(|(word, _)| *word).collect();
+        found.ok_or_else(|| wrong(name, &known.join(" or ")))
+    }
+}
+
+/// Settings that are written where they differ from the usual ones.
+#[derive(Default)]
+pub(crate) struct Writer(pub NamedSettings);
+
+impl Writer {
+    /// A value that is always written.
+    pub fn put(&mut self, name: &str, value: Setting) {
+        self.0.push((name.to_owned(), value));
+    }
+
+    /// A text.
+    pub fn text(&mut self, name: &str, text: &str, usual: &str) {
+        if text != usual {
+            self.put(name, Setting::Text(text.to_owned()));
+        }
+    }
+
+    /// A truth value.
+    pub fn flag(&mut self, name: &str, flag: bool, usual: bool) {
+        if flag != usual {
+            self.put(name, Setting::Bool(flag));
+        }
+    }
+
+    /// A number.
+    pub fn number(&mut self, name: &str, number: f64, usual: f64) {
+        if number != usual {
+            self.put(name, Setting::Number(number));
+        }
+    }
+
+    /// Colours, if there are any.
+    pub fn colors(&mut self, name: &str, colors: &[Rgb]) {
+        if !colors.is_empty() {
+            let text = |color: &Rgb| Setting::Text(format!("#{:06x}", color.number()));
+            self.put(name, Setting::List(colors.iter().map(text).collect()));
+        }
+    }
+
+    /// Points, if there are any.
+    pub fn points(&mut self, name: &str, points: &[Vec2]) {
+        if !points.is_empty() {
+            let point = |at: &Vec2| Setting::List(vec![Setting::Number(at.x), Setting::Number(at.y)]);
+            self.put(name, Setting::List(points.iter().map(point).collect()));
+        }
+    }
+
+    /// One of several words; the first is usual and left out.
+    pub fn word<T: PartialEq>(&mut self, name: &str, value: &T, words: &[(&str, T)]) {
+        let found = words.iter().skip(1).find(|(_, known)| known == value);
+        if let Some((word, _)) = found {
+            self.put(name, Setting::Text((*word).to_owned()));
+        }
+    }
+}
+
+fn wrong(name: &str, wanted: &str) -> DrawError {
+    DrawError::new("bad-setting", format!("the setting \"{name}\" of a source must be {wanted}"))
+}
+
+fn color_of(text: &str) -> Option<Rgb> {
+    let digits = text.strip_prefix('#').filter(|digits| digits.len() == 6 && !digits.starts_with('+'))?;
+    Rgb::from_number(u32::from_str_radix(digits, 16).ok()?)
+}
