@@ -2,7 +2,6 @@
 
 use crate::ground::Ground;
 use crate::layout::Style;
-use crate::settings::PlaceSettings;
 
 /// What a group needs.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -13,16 +12,28 @@ pub(crate) struct Share {
     pub least: usize,
 }
 
-impl Share {
-    /// The demand of a group: its area where it is filled, its length where it is a line.
-    pub fn new(ground: &Ground, settings: &PlaceSettings, kept: usize) -> Self {
-        let demand = match settings.style {
-            Style::Lines if !ground.lines.lines.is_empty() => ground.lines.length(),
-            Style::Outline if !ground.outline.lines.is_empty() => ground.outline.length(),
-            _ if ground.samples.is_empty() => ground.lines.length(),
-            _ => ground.mass,
-        };
-        Self { demand, least: kept }
+/// Robots that each group takes at the spacing at which all of them together take `count`.
+pub(crate) fn demands(grounds: &[&Ground], style: Style, count: usize) -> Vec<f64> {
+    let at = |spacing: f64| grounds.iter().map(|ground| demand(ground, style, spacing)).collect::<Vec<f64>>();
+    let size = grounds.iter().map(|ground| ground.size).fold(0.0, f64::max);
+    let (mut low, mut high) = (1e-6 * size, 10.0 * size);
+    for _ in 0..60 {
+        let middle = (low * high).sqrt();
+        if at(middle).iter().sum::<f64>() > count as f64 { low = middle } else { high = middle }
+    }
+    at(high)
+}
+
+/// Robots that a group takes at a spacing.
+fn demand(ground: &Ground, style: Style, spacing: f64) -> f64 {
+    let filling = |area: f64| area.max(0.0) / (3.0_f64.sqrt() / 2.0 * spacing * spacing);
+    let (lines, edge) = (ground.lines.length(), ground.outline.length());
+    match style {
+        _ if ground.samples.is_empty() => lines / spacing,
+        Style::Lines if lines > 0.0 => lines / spacing,
+        Style::Outline if edge > 0.0 => edge / spacing,
+        Style::Both if edge > 0.0 => edge / spacing + filling(ground.mass - edge * spacing / 2.0),
+        _ => filling(ground.mass),
     }
 }
 

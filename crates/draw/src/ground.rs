@@ -6,6 +6,7 @@ use crate::coverage::{Sample, samples};
 use crate::drawing::{DrawingPart, Stroke};
 use crate::lines::LineSet;
 use crate::symmetry::Mirror;
+use crate::unique::unique;
 
 /// Most samples of an area: a second of work for ten thousand places.
 const MOST_SAMPLES: f64 = 1_000_000.0;
@@ -79,11 +80,12 @@ impl Ground {
         let step = (0.02 * size).min(if spacing > 0.0 { 0.2 * spacing } else { size }).max(0.001 * size);
         let rings: Vec<Stroke> = group.areas.iter().flat_map(rings).collect();
         let strokes = if group.strokes.is_empty() { &group.spine } else { &group.strokes };
+        let strokes = unique(strokes, size);
         let mut ground = Self {
             inside: samples.iter().map(|sample| sample.at).collect(),
             mass: samples.iter().map(|sample| sample.mass).sum(),
             outline: LineSet::new(&clipped(&rings, step, allowed), step),
-            lines: LineSet::new(&clipped(strokes, step, allowed), step),
+            lines: LineSet::new(&clipped(&strokes, step, allowed), step),
             samples,
             pitch,
             size,
@@ -105,12 +107,6 @@ impl Ground {
     /// Ideal distance of `count` places that fill the areas.
     pub fn spacing(&self, count: usize) -> f64 {
         spacing(self.mass, count)
-    }
-
-    /// Mean width of the areas.
-    pub fn width(&self) -> f64 {
-        let length = self.outline.length();
-        if length > 0.0 { 2.0 * self.mass / length } else { 0.0 }
     }
 }
 

@@ -43,15 +43,11 @@ const EVEN: f64 = 1.2;
 /// Nearest distance of places on an outline, in spacings. Nearer ones on both sides of a tip go inside.
 const EDGE_APART: f64 = 0.82;
 
+/// Nearest distance of places along lines, in spacings.
+const LINE_APART: f64 = 0.7;
+
 /// Up to this number of places all symmetric arrangements are tried.
 const FEW: usize = 60;
-
-/// Areas narrower than this number of spacings get a line in the middle, wider ones an edge and a filling. Between one and
-/// this number a filling zigzags.
-const WIDE: f64 = 2.3;
-
-/// Up to this number of places a filled letter is read better than its strokes (measured: draw figures in docs).
-const FEW_FOR_LINES: usize = 13;
 
 /// Places of one group, and what holds each.
 #[derive(Clone, Debug, Default)]
@@ -74,30 +70,8 @@ pub(crate) struct LayoutTask<'a> {
 }
 
 impl LayoutTask<'_> {
-    /// The style that shows the group best.
-    fn chosen(&self) -> Style {
-        let ground = self.ground;
-        if ground.samples.is_empty() {
-            return Style::Lines;
-        }
-        let width = ground.width();
-        if width == 0.0 {
-            return Style::Filled;
-        }
-        let ratio = width / ground.spacing(self.count);
-        let has_lines = !ground.lines.lines.is_empty();
-        if ratio > WIDE {
-            Style::Both
-        } else if has_lines && self.count > FEW_FOR_LINES {
-            Style::Lines
-        } else {
-            Style::Filled
-        }
-    }
-
     /// Places in a style. Exactly `count`, unless the group is empty.
     pub fn layout(&self, style: Style) -> Layout {
-        let style = if style == Style::Auto { self.chosen() } else { style };
         let ground = self.ground;
         let (has_areas, has_lines) = (!ground.samples.is_empty(), !ground.lines.lines.is_empty());
         let has_outline = !ground.outline.lines.is_empty();
@@ -114,12 +88,28 @@ impl LayoutTask<'_> {
         let free = self.count.saturating_sub(self.kept.len());
         let spacing = track.length() / self.count.max(1) as f64;
         let mut layout = Layout::from_kept(self.kept);
-        for (at, hold) in occupy(track, free, self.ground.size, self.ground.mirror) {
+        for (at, hold) in self.spread(track, free, spacing) {
             layout.places.push(at);
             layout.holds.push(hold);
         }
         self.part(&mut layout, APART * spacing, track, None);
         layout
+    }
+
+    /// `count` places along lines, none much nearer to another than the spacing: where lines meet at a small angle, some of
+    /// the places find room elsewhere.
+    fn spread(&self, track: &LineSet, count: usize, spacing: f64) -> Vec<LinePlace> {
+        let all = |count: usize| occupy(track, count, self.ground.size, self.ground.mirror);
+        for more in 0..=count / 4 {
+            let places = sparse(all(count + more), LINE_APART * spacing);
+            if places.len() == count {
+                return places;
+            }
+            if places.len() > count {
+                break;
+            }
+        }
+        all(count)
     }
 
     /// Outline and filling at one spacing.
@@ -251,18 +241,17 @@ impl LayoutTask<'_> {
     }
 }
 
-/// Places on lines without those that slide and stand too near to another, as in a sharp tip: these go inside.
+/// Places on lines without those that slide and stand too near to another, as on both sides of a sharp tip.
 fn sparse(places: Vec<LinePlace>, distance: f64) -> Vec<LinePlace> {
-    let mut far: Vec<LinePlace> = Vec::new();
-    let (fixed, sliding): (Vec<_>, Vec<_>) =
-        places.into_iter().partition(|(_, hold)| *hold == Freedom::Fixed);
-    for place in fixed.into_iter().chain(sliding) {
-        let is_far = far.iter().all(|(other, _)| other.distance(place.0) >= distance);
-        if is_far || place.1 == Freedom::Fixed {
-            far.push(place);
+    let at: Vec<Vec2> = places.iter().map(|(at, _)| *at).collect();
+    let mut stays = vec![true; places.len()];
+    Buckets::new(&at, distance).pairs(distance, |a, b, _| {
+        if stays[a] && stays[b] {
+            let gone = if places[b].1 == Freedom::Line { b } else { a };
+            stays[gone] = places[gone].1 == Freedom::Fixed;
         }
-    }
-    far
+    });
+    places.into_iter().zip(stays).filter(|(_, stays)| *stays).map(|(place, _)| place).collect()
 }
 
 /// Numbers of places on the axis that are worth trying.

@@ -5,6 +5,7 @@
 
 mod allot;
 mod apart;
+mod arrange;
 mod buckets;
 mod colour;
 mod coverage;
@@ -34,6 +35,7 @@ mod sniff;
 pub mod svg;
 mod symmetry;
 pub mod text;
+mod unique;
 
 pub use buckets::closest_distance;
 pub use drawing::{Area, Drawing, DrawingPart, FillRule, Raster, Stroke};

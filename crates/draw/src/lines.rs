@@ -57,6 +57,12 @@ impl Polyline {
         self.arcs.last().copied().unwrap_or(0.0)
     }
 
+    /// Distance along the line of two lengths along it, the shorter way round on a closed line.
+    pub fn apart(&self, a: f64, b: f64) -> f64 {
+        let direct = (a - b).abs();
+        if self.closed { direct.min(self.length() - direct) } else { direct }
+    }
+
     /// The place at a length along the line: its end beyond it, going round on a closed line.
     pub fn at(&self, arc: f64) -> Vec2 {
         let arc = if self.closed { arc.rem_euclid(self.length()) } else { arc.clamp(0.0, self.length()) };

@@ -12,6 +12,9 @@ use crate::symmetry::Mirror;
 /// A pin nearer than this share of the spacing to a better one is dropped: both would be one blob of light.
 const PIN_GAP: f64 = 0.6;
 
+/// A light of one line within this share of the spacing of another line is a light of both.
+const BESIDE: f64 = 0.45;
+
 /// Pins nearer than this share of the spacing are one light for several lines.
 const SAME: f64 = 0.08;
 
@@ -38,7 +41,7 @@ pub(crate) fn occupy(track: &LineSet, count: usize, height: f64, mirror: Option<
         return Vec::new();
     }
     let spacing = track.length() / count as f64;
-    let (nodes, cuts) = nodes(&pins::find(track, height), count, spacing);
+    let (nodes, cuts) = nodes(track, &pins::find(track, height), count, spacing);
     let mut edges = edges(track, &cuts, mirror);
     let orbits = orbits(track, &edges, mirror, spacing);
     fill(track, &mut edges, &orbits, count - nodes.len());
@@ -50,7 +53,12 @@ pub(crate) fn occupy(track: &LineSet, count: usize, height: f64, mirror: Option<
 }
 
 /// Places of lights at pins, at most `count`, and where each line is cut by one.
-fn nodes(pins: &[Pin], count: usize, spacing: f64) -> (Vec<Vec2>, BTreeMap<usize, Vec<f64>>) {
+fn nodes(
+    track: &LineSet,
+    pins: &[Pin],
+    count: usize,
+    spacing: f64,
+) -> (Vec<Vec2>, BTreeMap<usize, Vec<f64>>) {
     let mut nodes: Vec<Vec2> = Vec::new();
     let mut cuts: BTreeMap<usize, Vec<f64>> = BTreeMap::new();
     for pin in pins {
@@ -63,11 +71,32 @@ fn nodes(pins: &[Pin], count: usize, spacing: f64) -> (Vec<Vec2>, BTreeMap<usize
             cuts.entry(pin.line).or_default().push(pin.arc);
         }
     }
+    cut_by_others(track, &nodes, spacing, &mut cuts);
     for arcs in cuts.values_mut() {
         arcs.sort_by(f64::total_cmp);
         arcs.dedup_by(|a, b| (*a - *b).abs() < SAME * spacing);
     }
     (nodes, cuts)
+}
+
+/// Cuts lines where a light of another line stands on them or beside them: it is a light of theirs too.
+fn cut_by_others(track: &LineSet, nodes: &[Vec2], spacing: f64, cuts: &mut BTreeMap<usize, Vec<f64>>) {
+    for node in nodes {
+        for (line, polyline) in track.lines.iter().enumerate() {
+            let distance = |index: &usize| polyline.points[*index].distance(*node);
+            let Some(nearest) = (0..polyline.points.len()).min_by(|a, b| distance(a).total_cmp(&distance(b)))
+            else {
+                continue;
+            };
+            let arc = polyline.arcs[nearest];
+            let arcs = cuts.entry(line).or_default();
+            let is_cut = arcs.iter().any(|other| polyline.apart(arc, *other) < BESIDE * spacing);
+            if distance(&nearest) < BESIDE * spacing && !is_cut {
+                arcs.push(arc);
+            }
+        }
+    }
+    cuts.retain(|_, arcs| !arcs.is_empty());
 }
 
 /// Pieces of all lines between their cuts.
@@ -155,7 +184,9 @@ fn fill(track: &LineSet, edges: &mut [Edge], orbits: &[Vec<usize>], count: usize
     while left > 0 {
         let gap = |orbit: &&Vec<usize>| {
             let edge = &edges[orbit[0]];
-            edge.gap() * track.lines[edge.line].weight
+            let more = Edge { lights: edge.lights + 1, ..*edge };
+            // The geometric mean of the gaps before and after: no gap ends up wider than twice the narrowest.
+            (edge.gap() * more.gap()).sqrt() * track.lines[edge.line].weight
         };
         let fitting = orbits.iter().filter(|orbit| orbit.len() <= left);
         let widest = fitting.max_by(|a, b| gap(a).total_cmp(&gap(b)));

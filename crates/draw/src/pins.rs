@@ -56,11 +56,7 @@ fn corners(line: usize, polyline: &Polyline, window: f64) -> Vec<Pin> {
     sharp.sort_by(|a, b| b.1.total_cmp(&a.1).then(a.0.total_cmp(&b.0)));
     let mut corners: Vec<(f64, f64)> = Vec::new();
     for (arc, turn) in sharp {
-        let apart = |other: f64| {
-            let direct = (arc - other).abs();
-            if polyline.closed { direct.min(polyline.length() - direct) } else { direct }
-        };
-        if corners.iter().all(|(other, _)| apart(*other) > window) {
+        if corners.iter().all(|(other, _)| polyline.apart(arc, *other) > window) {
             corners.push((arc, turn));
         }
     }
@@ -106,10 +102,7 @@ fn are_separate(track: &LineSet, a: usize, b: usize, window: f64) -> bool {
     if line_a != line_b {
         return true;
     }
-    let line = &track.lines[line_a];
-    let direct = (arc_a - arc_b).abs();
-    let along = if line.closed { direct.min(line.length() - direct) } else { direct };
-    along > 3.0 * window
+    track.lines[line_a].apart(arc_a, arc_b) > 3.0 * window
 }
 
 /// Whether one of the pieces at the first point comes near one at the second.

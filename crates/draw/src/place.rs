@@ -2,14 +2,11 @@
 
 use lightbots_base::Vec2;
 
-use crate::allot::{Share, allot};
+use crate::arrange::arrange;
 use crate::buckets::nearest_distances;
-use crate::colour::Paint;
 use crate::drawing::Drawing;
 use crate::error::{DrawError, Note};
 use crate::fit::{PictureFloor, Placement};
-use crate::ground::Ground;
-use crate::layout::{Layout, LayoutTask};
 use crate::readability::{Readability, readability};
 use crate::settings::{PlaceSettings, PlacedLight};
 
@@ -89,63 +86,4 @@ fn enlarged(wanted: f64, size: f64, settings: &PlaceSettings) -> Note {
 fn closest(lights: &[PlacedLight], spacing: f64) -> f64 {
     let places: Vec<Vec2> = lights.iter().map(|light| light.at).collect();
     nearest_distances(&places, spacing).into_iter().fold(f64::INFINITY, f64::min)
-}
-
-/// Lights on a drawing that is in stage metres already.
-fn arrange(
-    drawing: &Drawing,
-    floor: &PictureFloor,
-    settings: &PlaceSettings,
-) -> Result<Vec<PlacedLight>, DrawError> {
-    let allowed = |at: Vec2| floor.allows(at);
-    let each = settings.robots / drawing.groups.len().max(1) + 1;
-    let grounds: Vec<Ground> =
-        drawing.groups.iter().map(|group| Ground::new(group, each, settings.quality, &allowed)).collect();
-    let kept = kept_by_group(&grounds, settings);
-    let shares: Vec<Share> =
-        grounds.iter().zip(&kept).map(|(ground, kept)| Share::new(ground, settings, kept.len())).collect();
-    let counts = allot(&shares, settings.robots);
-    if counts.iter().sum::<usize>() != settings.robots {
-        return Err(DrawError::new(
-            "no-room",
-            "nothing of the picture is on the floor and outside of no-go areas; move it",
-        ));
-    }
-    let mut lights = settings.kept.clone();
-    for (index, ground) in grounds.iter().enumerate() {
-        let paint = Paint::new(&drawing.groups[index]);
-        let layout = layout_of(ground, &kept[index], counts[index], settings);
-        let free = layout.places.into_iter().skip(kept[index].len());
-        lights.extend(free.map(|at| PlacedLight { at, color: paint.at(at), group: index }));
-    }
-    Ok(lights)
-}
-
-/// Kept places, by the group that each is nearest to.
-fn kept_by_group(grounds: &[Ground], settings: &PlaceSettings) -> Vec<Vec<Vec2>> {
-    let mut kept = vec![Vec::new(); grounds.len()];
-    for light in &settings.kept {
-        let distance = |ground: &Ground| {
-            let points = if ground.inside.is_empty() { ground.lines.points() } else { &ground.inside };
-            points.iter().map(|point| point.distance(light.at)).fold(f64::INFINITY, f64::min)
-        };
-        let nearest =
-            (0..grounds.len()).min_by(|a, b| distance(&grounds[*a]).total_cmp(&distance(&grounds[*b])));
-        if let Some(index) = nearest {
-            kept[index].push(light.at);
-        }
-    }
-    kept
-}
-
-fn layout_of(ground: &Ground, kept: &[Vec2], count: usize, settings: &PlaceSettings) -> Layout {
-    let task = LayoutTask {
-        ground,
-        kept,
-        count,
-        start: &settings.start,
-        quality: settings.quality,
-        seed: settings.seed,
-    };
-    task.layout(settings.style)
 }

@@ -5,6 +5,7 @@
 
 use lightbots_base::Vec2;
 
+use crate::buckets::nearest_distances;
 use crate::coverage::{Sample, samples};
 use crate::drawing::{Drawing, DrawingPart};
 use crate::light_image::LightImage;
@@ -59,9 +60,10 @@ pub(crate) fn of_group(group: &DrawingPart, places: &[Vec2]) -> Option<Readabili
     let image = |points: &mut dyn Iterator<Item = (Vec2, f64)>| LightImage::new(points, low, high, sigma);
     let source = image(&mut drawn.iter().map(|sample| (sample.at, sample.mass)));
     let lights = image(&mut places.iter().map(|at| (*at, 1.0)));
-    let spacing = size.x.max(size.y) / (places.len() as f64).sqrt().max(1.0);
-    let symmetry =
-        Mirror::of(&drawn, pitch).map_or(1.0, |mirror| symmetric_share(mirror, places, 0.15 * spacing));
+    let mut distances = nearest_distances(places, pitch);
+    distances.sort_by(f64::total_cmp);
+    let reach = 0.3 * distances.get(distances.len() / 2).copied().unwrap_or(0.0);
+    let symmetry = Mirror::of(&drawn, pitch).map_or(1.0, |mirror| symmetric_share(mirror, places, reach));
     Some(Readability { correlation: lights.correlation(&source), symmetry })
 }
 

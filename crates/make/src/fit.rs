@@ -28,7 +28,9 @@ pub fn fit_show(show: &mut Show, robots: usize) -> Result<Vec<Note>, DrawError> 
         let named = |error: DrawError| DrawError::new(error.code, format!("{label}: {}", error.message));
         let fitted = match made_anew(show, frame, &floor, robots) {
             Some(Ok((frame, more))) => {
-                notes.extend(more.into_iter().map(|note| Note::new(note.code, format!("{label}: {}", note.message))));
+                notes.extend(
+                    more.into_iter().map(|note| Note::new(note.code, format!("{label}: {}", note.message))),
+                );
                 frame
             }
             Some(Err(error)) if error.code == "too-many-robots" => return Err(named(error)),
@@ -104,7 +106,12 @@ mod tests {
             robot: (id == 5).then(|| "9".to_owned()),
             part: None,
         };
-        let drawn = Frame { name: "By hand".into(), air_time_s: 2.0, pixels: (0..24).map(dot).collect(), ..Frame::default() };
+        let drawn = Frame {
+            name: "By hand".into(),
+            air_time_s: 2.0,
+            pixels: (0..24).map(dot).collect(),
+            ..Frame::default()
+        };
         Show { stage, frames: vec![word, drawn], ..Show::default() }
     }
 

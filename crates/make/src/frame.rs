@@ -123,12 +123,7 @@ fn names(drawing: &Drawing) -> Vec<String> {
 }
 
 /// An exact arrangement, whose places are one unit apart, at its size on the floor.
-fn arranged(
-    places: &[Vec2],
-    color: Rgb,
-    recipe: &Recipe,
-    floor: &PictureFloor,
-) -> Result<Lights, DrawError> {
+fn arranged(places: &[Vec2], color: Rgb, recipe: &Recipe, floor: &PictureFloor) -> Result<Lights, DrawError> {
     let placing = &recipe.placing;
     let (low, high) = bounds(places);
     let side = (high.x - low.x).max(high.y - low.y);
@@ -226,8 +221,12 @@ mod tests {
         let frame = hi(20);
         assert_eq!(frame.pixels.len(), 20);
         assert_eq!(frame.name, "HI");
-        let letters: std::collections::BTreeSet<&str> =
-            frame.pixels.iter().filter_map(|pixel| pixel.part.as_ref()).map(|part| part.name.as_str()).collect();
+        let letters: std::collections::BTreeSet<&str> = frame
+            .pixels
+            .iter()
+            .filter_map(|pixel| pixel.part.as_ref())
+            .map(|part| part.name.as_str())
+            .collect();
         assert_eq!(letters.len(), 2, "{letters:?}");
         assert!(frame.pixels.windows(2).all(|pair| pair[0].id < pair[1].id));
     }
@@ -248,7 +247,8 @@ mod tests {
     fn a_pin_follows_to_the_nearest_pixel_of_its_letter() {
         let mut frame = hi(20);
         let of_i = |frame: &Frame, name: &str| {
-            let part = frame.pixels.iter().find(|pixel| pixel.robot.as_deref() == Some(name)).unwrap().part.clone();
+            let part =
+                frame.pixels.iter().find(|pixel| pixel.robot.as_deref() == Some(name)).unwrap().part.clone();
             part.unwrap().name
         };
         let right = (0..20).max_by(|a, b| frame.pixels[*a].at.x.total_cmp(&frame.pixels[*b].at.x)).unwrap();
@@ -266,6 +266,9 @@ mod tests {
         let made = make_frame(&empty, None, &floor(), 100, Quality::Full, &[]).unwrap();
         assert!((made.closest_m - 0.08).abs() < 1e-3);
         assert_eq!(made.readability, None);
-        assert_eq!(make_frame(&empty, None, &floor(), 9_000, Quality::Full, &[]).unwrap_err().code, "too-many-robots");
+        assert_eq!(
+            make_frame(&empty, None, &floor(), 9_000, Quality::Full, &[]).unwrap_err().code,
+            "too-many-robots"
+        );
     }
 }

@@ -2,7 +2,9 @@
 
 use lightbots_base::{Rgb, Vec2};
 use lightbots_draw::text::{self, Align, Colors, Font, TextSettings};
-use lightbots_draw::{DrawError, Made, SHAPES, ShapeKind, ShapeSettings, Style, draw_shape, shape_named, svg};
+use lightbots_draw::{
+    DrawError, Made, SHAPES, ShapeKind, ShapeSettings, Style, draw_shape, shape_named, svg,
+};
 use lightbots_show::{Assets, FrameSource, SourceKind};
 
 use crate::floor::middle_and_side;
@@ -22,7 +24,8 @@ const STYLES: [(&str, Style); 5] = [
     ("lines", Style::Lines),
 ];
 
-const ALIGNS: [(&str, Align); 3] = [("center", Align::Centre), ("left", Align::Left), ("right", Align::Right)];
+const ALIGNS: [(&str, Align); 3] =
+    [("center", Align::Centre), ("left", Align::Left), ("right", Align::Right)];
 
 /// What a frame is made from.
 #[derive(Clone, Debug, PartialEq)]
@@ -130,7 +133,12 @@ impl Recipe {
         let placing = Placing {
             style: reader.word("style", &STYLES)?,
             size_m: reader.number("size_m")?.or(boxed.map(|(_, side)| side)),
-            center: reader.points("center")?.first().copied().or(boxed.map(|(at, _)| at)).unwrap_or(Vec2::ZERO),
+            center: reader
+                .points("center")?
+                .first()
+                .copied()
+                .or(boxed.map(|(at, _)| at))
+                .unwrap_or(Vec2::ZERO),
             turn: reader.number("turn")?.unwrap_or(0.0),
             spacing_m: reader.number("spacing_m")?.unwrap_or(Placing::default().spacing_m),
         };

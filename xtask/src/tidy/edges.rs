@@ -23,8 +23,8 @@ const EDGES: [(&str, &[&str]); 16] = [
     (
         "server",
         &[
-            "base", "wire", "show", "plan", "robot", "control", "sim", "exam", "exchange", "draw", "make", "api",
-            "link",
+            "base", "wire", "show", "plan", "robot", "control", "sim", "exam", "exchange", "draw", "make",
+            "api", "link",
         ],
     ),
 ];
