@@ -4,6 +4,7 @@
 //! reading order: a [`Drawing`] is lines and areas with colours.
 
 mod allot;
+pub mod animation;
 mod apart;
 mod arrange;
 mod buckets;

@@ -11,7 +11,8 @@ use lightbots_base::{Rgb, Vec2};
 
 use crate::drawing::{Area, Drawing, DrawingPart, FillRule, Stroke};
 use crate::error::{DrawError, Made, Note};
-use crate::picture::bitmap::{BitMask, Bitmap};
+pub(crate) use crate::picture::bitmap::{BitMask, Bitmap};
+pub(crate) use crate::picture::separate::Separation;
 
 /// How a picture is shown.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -36,22 +37,35 @@ pub struct PictureSettings {
     pub inverted: bool,
 }
 
-/// Certainty that there is a background, 0 to 1, from which on a silhouette is chosen. On 2026-11-24 photographs of whole
-/// scenes reached 0.0 to 0.6, things before sky or paper 0.7 to 1.0; a brick wall was taken for a background, with 0.75.
-const CERTAIN: f32 = 0.65;
-/// Share of the picture that a thing covers at least and at most, for its silhouette to be chosen.
-const COVERS: [f64; 2] = [0.005, 0.95];
-
 /// The drawing of a picture in PNG, JPEG or WebP.
 pub fn draw(bytes: &[u8], settings: &PictureSettings) -> Result<Made, DrawError> {
-    shown(&decode::decode(bytes)?, settings)
+    let bitmap = decode::decode(bytes)?;
+    let separation = separated(&bitmap, settings);
+    let clear = separation.is_clear();
+    drawn(&bitmap, separation.mask, settings, clear)
 }
 
-/// The drawing of a bitmap.
-pub(crate) fn shown(bitmap: &Bitmap, settings: &PictureSettings) -> Result<Made, DrawError> {
+/// The small bitmap of a picture in PNG, JPEG or WebP.
+pub(crate) fn bitmap(bytes: &[u8]) -> Result<Bitmap, DrawError> {
+    decode::decode(bytes)
+}
+
+/// The thing in a bitmap, or its background if that is wanted.
+pub(crate) fn separated(bitmap: &Bitmap, settings: &PictureSettings) -> Separation {
     let mut separation = separate::separate(bitmap);
-    let covers = separation.mask.count() as f64 / bitmap.pixels.len().max(1) as f64;
-    let clear = separation.certainty >= CERTAIN && (COVERS[0]..=COVERS[1]).contains(&covers);
+    if settings.inverted {
+        separation.mask.inside.iter_mut().for_each(|inside| *inside = !*inside);
+    }
+    separation
+}
+
+/// The drawing of a bitmap with the thing in it; `clear`: its background is plain.
+pub(crate) fn drawn(
+    bitmap: &Bitmap,
+    mask: BitMask,
+    settings: &PictureSettings,
+    clear: bool,
+) -> Result<Made, DrawError> {
     match settings.way {
         PictureWay::Tones => tones(bitmap, settings.inverted),
         PictureWay::Auto if !clear => {
@@ -60,12 +74,7 @@ pub(crate) fn shown(bitmap: &Bitmap, settings: &PictureSettings) -> Result<Made,
             made.notes.push(Note::new("picture-tones", message));
             Ok(made)
         }
-        way => {
-            if settings.inverted {
-                separation.mask.inside.iter_mut().for_each(|inside| *inside = !*inside);
-            }
-            silhouette(bitmap, separation.mask, way == PictureWay::Outline, clear)
-        }
+        way => silhouette(bitmap, mask, way == PictureWay::Outline, clear),
     }
 }
 

@@ -1,0 +1,63 @@
+//! Small pictures with times.
+
+use crate::error::DrawError;
+use crate::picture::Bitmap;
+
+/// Longer side of the pictures of an animation, pixels: 300 of them with their masks and colours take 150 MB.
+pub const SIDE_MAX: usize = 192;
+/// Pictures of an animation, at most.
+pub const STILLS_MAX: usize = 300;
+/// Pixels of the file's pictures, at most, added up: 200 million take about 2 s.
+pub const PIXELS_MAX: u64 = 200_000_000;
+
+/// A picture of an animation.
+pub struct Still {
+    /// What it shows.
+    pub bitmap: Bitmap,
+    /// How long it is shown, seconds.
+    pub lasts_s: f64,
+}
+
+/// The pictures of an animation.
+#[derive(Default)]
+pub struct Stills {
+    /// In order of time.
+    pub stills: Vec<Still>,
+    /// Whether more pictures follow.
+    pub cut: bool,
+}
+
+/// Columns and rows of the small picture.
+pub fn small(width: usize, height: usize) -> (usize, usize) {
+    let longer = width.max(height).max(1);
+    if longer <= SIDE_MAX {
+        return (width.max(1), height.max(1));
+    }
+    let scaled = |side: usize| (side * SIDE_MAX / longer).max(1);
+    (scaled(width), scaled(height))
+}
+
+/// The pixel of a large side in the middle of a small pixel.
+pub fn sample(at: usize, small: usize, large: usize) -> usize {
+    ((2 * at + 1) * large / (2 * small.max(1))).min(large.saturating_sub(1))
+}
+
+/// Seconds that a picture is shown. Browsers show those of up to 10 ms for 100 ms.
+pub fn lasts_s(milliseconds: u32) -> f64 {
+    if milliseconds <= 10 { 0.1 } else { f64::from(milliseconds) / 1000.0 }
+}
+
+/// The refusal of an animation without pictures, or one that is cut off at once.
+pub fn damaged(reason: &str) -> DrawError {
+    let message = format!("The animation is damaged or cut off: {reason}. Copy or download the file again.");
+    DrawError::new("animation-cut-off", message)
+}
+
+/// The refusal of an animation whose pictures are too large.
+pub fn too_large(width: u32, height: u32, side_max: u32) -> DrawError {
+    let message = format!(
+        "The animation has {width} × {height} pixels, at most {side_max} × {side_max} are possible. Make it smaller; \
+         {SIDE_MAX} pixels are enough."
+    );
+    DrawError::new("animation-too-large", message)
+}
