@@ -2,14 +2,18 @@
 
 use lightbots_base::{Rgb, Vec2};
 use lightbots_draw::{
-    DrawError, Drawing, Note, PictureFloor, PlaceSettings, PlacedLight, Quality, Readability, place,
+    DrawError, Drawing, LightList, Made, Note, PictureFloor, PlaceSettings, PlacedLight, Quality,
+    Readability, closest_distance, place, refit,
 };
 use lightbots_show::{Frame, FrameSource, Pixel, SourcePart};
 
-use crate::recipe::{Recipe, draw, exact};
+use crate::recipe::{Material, Recipe, exact, material};
 
-/// How often an exact arrangement may be larger than asked for.
+/// Exact arrangements are larger by this factor: files round places.
 const SLACK: f64 = 1.001;
+
+/// Robots stand at least this far apart, metres, whatever a list says.
+const LEAST_M: f64 = 0.06;
 
 /// A frame made from its source.
 #[derive(Clone, Debug, PartialEq)]
@@ -42,14 +46,29 @@ pub fn make_frame(
     quality: Quality,
     start: &[Vec2],
 ) -> Result<MadeFrame, DrawError> {
-    let [source] = before.sources.as_slice() else {
-        let what = "a frame can be made anew from one source; this one has none or several";
-        return Err(DrawError::new("source-count", what));
-    };
+    let material = material(&Recipe::read(only_source(before)?)?, asset)?;
+    make_frame_from(before, material, floor, robots, quality, start)
+}
+
+/// The same from a source that has been drawn already.
+///
+/// # Errors
+/// As for [`make_frame`].
+pub fn make_frame_from(
+    before: &Frame,
+    material: Material,
+    floor: &PictureFloor,
+    robots: usize,
+    quality: Quality,
+    start: &[Vec2],
+) -> Result<MadeFrame, DrawError> {
+    let source = only_source(before)?;
     let recipe = Recipe::read(source)?;
-    let made = match exact(&recipe, robots) {
-        Some((places, color)) => arranged(&places, color, &recipe, floor)?,
-        None => drawn(&recipe, asset, floor, &wanted(before, source, &recipe, robots, quality, start))?,
+    let wanted = wanted(before, source, &recipe, robots, quality, start);
+    let made = match (exact(&recipe, robots), material) {
+        (Some(lights), _) => arranged(&lights, &recipe, floor, false)?,
+        (None, Material::Lights(lights)) => listed(&lights, &recipe, floor, robots)?,
+        (None, Material::Drawing(made)) => drawn(made, floor, &wanted)?,
     };
     let mut frame = before.clone();
     frame.pixels = pixels(before, source, &made.lights, &made.names);
@@ -60,6 +79,14 @@ pub fn make_frame(
         readability: made.readability,
         notes: made.notes,
     })
+}
+
+fn only_source(frame: &Frame) -> Result<&FrameSource, DrawError> {
+    let [source] = frame.sources.as_slice() else {
+        let what = "a frame can be made anew from one source; this one has none or several";
+        return Err(DrawError::new("source-count", what));
+    };
+    Ok(source)
 }
 
 /// Lights of a source with the names of its parts.
@@ -98,13 +125,7 @@ fn wanted(
     }
 }
 
-fn drawn(
-    recipe: &Recipe,
-    asset: Option<&[u8]>,
-    floor: &PictureFloor,
-    wanted: &PlaceSettings,
-) -> Result<Lights, DrawError> {
-    let made = draw(recipe, asset)?;
+fn drawn(made: Made, floor: &PictureFloor, wanted: &PlaceSettings) -> Result<Lights, DrawError> {
     let placed = place(&made.drawing, floor, wanted)?;
     let mut notes = made.notes;
     notes.extend(placed.notes);
@@ -122,21 +143,59 @@ fn names(drawing: &Drawing) -> Vec<String> {
     drawing.groups.iter().map(|part| part.name.clone()).collect()
 }
 
-/// An exact arrangement, whose places are one unit apart, at its size on the floor.
-fn arranged(places: &[Vec2], color: Rgb, recipe: &Recipe, floor: &PictureFloor) -> Result<Lights, DrawError> {
+/// A list of lights, with fewer or more of them where there are other numbers of robots.
+fn listed(
+    list: &LightList,
+    recipe: &Recipe,
+    floor: &PictureFloor,
+    robots: usize,
+) -> Result<Lights, DrawError> {
+    if list.places.len() == robots {
+        return arranged(list, recipe, floor, true);
+    }
+    let as_they_are = arranged(list, recipe, floor, true)?;
+    let spacing_m = recipe.placing.spacing_m;
+    let refitted = refit(&as_they_are.lights, &[], robots, spacing_m, floor)?;
+    let lights: Vec<PlacedLight> = refitted.iter().map(|light| light.light).collect();
+    let what = format!("the list has {} lights; {robots} robots show it", list.places.len());
+    let closest_m = closest_distance(&lights.iter().map(|light| light.at).collect::<Vec<_>>());
+    Ok(Lights { lights, closest_m, notes: vec![Note::new("list-fitted", what)], ..as_they_are })
+}
+
+/// An exact arrangement at its size on the floor. One `in_metres` stays where it is, if it can and nothing else is asked
+/// for; another has places one unit apart.
+fn arranged(
+    list: &LightList,
+    recipe: &Recipe,
+    floor: &PictureFloor,
+    in_metres: bool,
+) -> Result<Lights, DrawError> {
     let placing = &recipe.placing;
-    let (low, high) = bounds(places);
+    let places: Vec<Vec2> = list.places.iter().map(|(at, _)| *at).collect();
+    let (low, high) = bounds(&places);
     let side = (high.x - low.x).max(high.y - low.y);
-    let unit = lightbots_draw::closest_distance(places).min(1e6);
+    let unit = closest_distance(&places).min(1e6);
+    if unit <= 0.0 {
+        return Err(DrawError::new(
+            "same-place",
+            "two lights of the list are at one place; move one of them",
+        ));
+    }
+    let is_free = placing.size_m.is_none() && placing.center == Vec2::ZERO && placing.turn == 0.0;
+    let stays = in_metres && is_free && unit >= LEAST_M && places.iter().all(|at| floor.allows(*at));
     let least = placing.spacing_m / unit * SLACK;
     let scale = placing.size_m.filter(|_| side > 0.0).map_or(least, |size| (size / side).max(least));
-    let (sin, cos) = placing.turn.sin_cos();
-    let map = |at: &Vec2| {
-        let point = (*at - low.lerp(high, 0.5)) * scale;
+    let (sin, cos) = (libm::sin(placing.turn), libm::cos(placing.turn));
+    let map = |at: Vec2| {
+        let point = (at - low.lerp(high, 0.5)) * scale;
         placing.center + Vec2::new(point.x * cos - point.y * sin, point.x * sin + point.y * cos)
     };
-    let lights: Vec<PlacedLight> =
-        places.iter().map(|at| PlacedLight { at: map(at), color, group: 0 }).collect();
+    let light = |(at, color): &(Vec2, Rgb)| PlacedLight {
+        at: if stays { *at } else { map(*at) },
+        color: *color,
+        group: 0,
+    };
+    let lights: Vec<PlacedLight> = list.places.iter().map(light).collect();
     if !lights.iter().all(|light| floor.allows(light.at)) {
         let what = format!(
             "this arrangement of {} robots is {:.2} m wide and does not fit on the floor; use fewer robots, another place, \
@@ -146,6 +205,7 @@ fn arranged(places: &[Vec2], color: Rgb, recipe: &Recipe, floor: &PictureFloor) 
         );
         return Err(DrawError::new("too-many-robots", what));
     }
+    let scale = if stays { 1.0 } else { scale };
     Ok(Lights {
         lights,
         names: vec![String::new()],

@@ -1,7 +1,7 @@
 //! From what a frame is made of to the frame: the sources of a show, the drawings they stand for, and their lights.
 //!
 //! The command line and the browser make and change frames with this crate alone. It does no IO. In reading order:
-//! [`Recipe`] is the typed form of a source's settings, [`draw`] gives its drawing, [`make_frame`] its pixels,
+//! [`Recipe`] is the typed form of a source's settings, [`material`] gives its drawing, [`make_frame`] its pixels,
 //! [`fit_show`] fits all frames of a show to another fleet.
 
 mod fit;
@@ -12,5 +12,5 @@ mod settings;
 
 pub use fit::fit_show;
 pub use floor::picture_floor;
-pub use frame::{MadeFrame, make_frame};
-pub use recipe::{Content, Placing, Recipe, TextRecipe, draw};
+pub use frame::{MadeFrame, make_frame, make_frame_from};
+pub use recipe::{Content, Material, Placing, Recipe, TextRecipe, material};

@@ -1,9 +1,10 @@
 //! What a frame is made from, with typed settings: read from and written to the sources of a show.
 
 use lightbots_base::{Rgb, Vec2};
+use lightbots_draw::picture::{self, PictureSettings, PictureWay};
 use lightbots_draw::text::{self, Align, Colors, Font, TextSettings};
 use lightbots_draw::{
-    DrawError, Made, SHAPES, ShapeKind, ShapeSettings, Style, draw_shape, shape_named, svg,
+    DrawError, LightList, Made, SHAPES, ShapeKind, ShapeSettings, Style, draw_shape, list, shape_named, svg,
 };
 use lightbots_show::{Assets, FrameSource, SourceKind};
 
@@ -22,6 +23,13 @@ const STYLES: [(&str, Style); 5] = [
     ("outline", Style::Outline),
     ("both", Style::Both),
     ("lines", Style::Lines),
+];
+
+const WAYS: [(&str, PictureWay); 4] = [
+    ("auto", PictureWay::Auto),
+    ("silhouette", PictureWay::Silhouette),
+    ("outline", PictureWay::Outline),
+    ("tones", PictureWay::Tones),
 ];
 
 const ALIGNS: [(&str, Align); 3] =
@@ -47,6 +55,19 @@ pub enum Content {
     Shape(ShapeSettings),
     /// The SVG file that is the source's asset.
     Svg,
+    /// The picture that is the source's asset.
+    Picture(PictureSettings),
+    /// The list of lights that is the source's asset.
+    List,
+}
+
+/// What a recipe gives before there are robots.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Material {
+    /// A drawing, on which any number of robots is placed.
+    Drawing(Made),
+    /// Lights at places of their own, in metres.
+    Lights(LightList),
 }
 
 /// Words and how they are set.
@@ -124,6 +145,11 @@ impl Recipe {
             }),
             SourceKind::Shape => Content::Shape(shape(&reader)?),
             SourceKind::Svg => Content::Svg,
+            SourceKind::Picture => Content::Picture(PictureSettings {
+                way: reader.word("way", &WAYS)?,
+                inverted: reader.flag("inverted", false)?,
+            }),
+            SourceKind::List => Content::List,
             kind => {
                 let what = format!("a source of the kind {} cannot be made anew yet", kind.name());
                 return Err(DrawError::new("source-kind", what));
@@ -158,6 +184,12 @@ impl Recipe {
                 SourceKind::Shape
             }
             Content::Svg => SourceKind::Svg,
+            Content::Picture(picture) => {
+                writer.word("way", &picture.way, &WAYS);
+                writer.flag("inverted", picture.inverted, false);
+                SourceKind::Picture
+            }
+            Content::List => SourceKind::List,
         };
         let (placing, usual) = (&self.placing, Placing::default());
         writer.word("style", &placing.style, &STYLES);
@@ -221,16 +253,22 @@ fn write_shape(shape: &ShapeSettings, writer: &mut Writer) {
     }
 }
 
-/// The drawing of a source, and what is missing from it. `asset` has the bytes of its file.
+/// What a source gives before there are robots. `asset` has the bytes of its file.
 ///
 /// # Errors
 /// Sources that cannot be drawn, and sources whose file is not there.
-pub fn draw(recipe: &Recipe, asset: Option<&[u8]>) -> Result<Made, DrawError> {
-    match &recipe.content {
-        Content::Text(words) => draw_text(words, asset),
-        Content::Shape(shape) => Ok(Made { drawing: draw_shape(shape)?, notes: Vec::new() }),
-        Content::Svg => svg::draw(asset.ok_or_else(missing)?),
-    }
+pub fn material(recipe: &Recipe, asset: Option<&[u8]>) -> Result<Material, DrawError> {
+    let file = || asset.ok_or_else(missing);
+    let made = match &recipe.content {
+        Content::Text(words) => draw_text(words, asset)?,
+        // Its places depend on the number of robots.
+        Content::Shape(shape) if is_exact(shape) => Made::default(),
+        Content::Shape(shape) => Made { drawing: draw_shape(shape)?, notes: Vec::new() },
+        Content::Svg => svg::draw(file()?)?,
+        Content::Picture(settings) => picture::draw(file()?, settings)?,
+        Content::List => return Ok(Material::Lights(list::read(file()?)?)),
+    };
+    Ok(Material::Drawing(made))
 }
 
 fn missing() -> DrawError {
@@ -276,9 +314,12 @@ pub(crate) fn asset_of<'a>(source: &FrameSource, assets: &'a Assets) -> Option<&
 }
 
 /// Exact places of shapes that are no drawings, in units of their neighbours' distance.
-pub(crate) fn exact(recipe: &Recipe, robots: usize) -> Option<(Vec<Vec2>, Rgb)> {
+pub(crate) fn exact(recipe: &Recipe, robots: usize) -> Option<LightList> {
     let Content::Shape(shape) = &recipe.content else { return None };
-    let is_exact = matches!(shape.kind, ShapeKind::Grid | ShapeKind::Hexagons | ShapeKind::Random);
-    let places = is_exact.then(|| lightbots_draw::exact_places(shape, robots, u64::from(recipe.seed)))??;
-    Some((places, shape.color))
+    let places = lightbots_draw::exact_places(shape, robots, u64::from(recipe.seed))?;
+    Some(LightList { places: places.into_iter().map(|at| (at, shape.color)).collect() })
+}
+
+fn is_exact(shape: &ShapeSettings) -> bool {
+    matches!(shape.kind, ShapeKind::Grid | ShapeKind::Hexagons | ShapeKind::Random)
 }

@@ -39,7 +39,7 @@ impl Reader<'_> {
     pub fn whole(&self, name: &str, usual: usize) -> Result<usize, DrawError> {
         match self.number(name)? {
             None => Ok(usual),
-            Some(number) if number >= 0.0 && number <= 1e6 && number.fract() == 0.0 => Ok(number as usize),
+            Some(number) if (0.0..=1e6).contains(&number) && number.fract() == 0.0 => Ok(number as usize),
             Some(_) => Err(wrong(name, "a whole number from 0 to 1000000")),
         }
     }
