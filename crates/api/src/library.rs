@@ -11,6 +11,8 @@
 //! saved as a copy, whose entry has a new name and `copy_of`. A file with unknown fields is kept byte for byte; 403 and
 //! a `Problem` for a show whose file has such fields |
 //! | `DELETE /api/shows/{name}` | 204; honours `If-Match`; 403 and a `Problem` for a read-only show |
+//! | `GET /api/assets/{hash}` | a file that shows name by its SHA-256 |
+//! | `PUT /api/assets/{hash}` | body: the file; 204, or 422 and a `Problem` if it has another hash |
 //! | `POST /api/check` | body: a file of any format; answers a `Plan` with paths |
 //! | `POST /api/convert?to=FORMAT` | body: a file of any format; answers a file of that format of `FORMATS`, with the files
 //! of the library that it names |

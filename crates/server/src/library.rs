@@ -13,22 +13,23 @@
 mod asset_store;
 mod names;
 mod outcome;
+mod version;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::io::{ErrorKind, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard};
-use std::time::UNIX_EPOCH;
 
 use lightbots_api::{ShowEntry, ShowOrigin};
-use lightbots_exchange::{ARCHIVE, Format, LIGHTBOTS, Loaded, read, sniff};
-use lightbots_show::{Show, most_pixels};
+use lightbots_exchange::{ARCHIVE, Format, LIGHTBOTS, Loaded, hash_of, read, sniff};
+use lightbots_show::{AssetHash, Show, most_pixels};
 
 use crate::examples;
 use asset_store::AssetStore;
 pub use names::name_of_file;
 use names::tidy_name;
 pub use outcome::{Condition, Kept, LibraryError};
+use version::{etag, modified_ms};
 
 /// The file that names the show that was open last.
 const OPEN: &str = ".open";
@@ -171,6 +172,24 @@ impl Library {
     /// Gives a show the files that it names, as far as the library has them.
     pub fn attach(&self, show: &mut Show) {
         self.assets.attach(show);
+    }
+
+    /// A file that a show may name by its hash.
+    pub fn asset(&self, hash: &str) -> Result<Arc<[u8]>, LibraryError> {
+        let content = self.assets.get(asset_hash(hash)?);
+        content.ok_or_else(|| LibraryError::Missing(format!("there is no file {hash} in the library")))
+    }
+
+    /// Adds a file that shows can name by its hash.
+    pub fn put_asset(&self, hash: &str, content: &[u8]) -> Result<(), LibraryError> {
+        let stated = asset_hash(hash)?;
+        let found = hash_of(content);
+        if found != stated {
+            let line = format!("the file has the SHA-256 {found}: it was changed on its way; send it again");
+            return Err(LibraryError::NoShow(line));
+        }
+        let kept = self.assets.add(stated, content);
+        kept.map_err(|error| LibraryError::Disk(format!("the file {hash} cannot be saved: {error}")))
     }
 
     /// The bytes of a show, and for a given show why its file holds more.
@@ -357,19 +376,14 @@ fn remove(path: &Path) -> std::io::Result<()> {
     }
 }
 
+fn asset_hash(text: &str) -> Result<AssetHash, LibraryError> {
+    AssetHash::from_hex(text).ok_or_else(|| {
+        LibraryError::BadName("a file is named by its SHA-256: 64 digits from 0 to 9 and a to f".to_owned())
+    })
+}
+
 fn checked(name: &str) -> Result<&str, LibraryError> {
     names::checked(name).map_err(LibraryError::BadName)
-}
-
-/// The version of a document.
-fn etag(bytes: &[u8]) -> String {
-    let step = |hash: u64, byte: &u8| (hash ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3);
-    format!("\"{:016x}-{:x}\"", bytes.iter().fold(0xcbf2_9ce4_8422_2325, step), bytes.len())
-}
-
-fn modified_ms(path: &Path) -> u64 {
-    let modified = std::fs::metadata(path).and_then(|about| about.modified()).ok();
-    modified.and_then(|time| time.duration_since(UNIX_EPOCH).ok()).map_or(0, |since| since.as_millis() as u64)
 }
 
 /// A panic elsewhere leaves whole values behind: each is replaced in one step.

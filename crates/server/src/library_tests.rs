@@ -225,7 +225,7 @@ fn with_picture() -> Show {
         bytes: content.len() as u64,
         content: Some(content.clone()),
     };
-    Show { assets: [(lightbots_exchange::hash_of(&content), asset)].into(), ..titled("Picture") }
+    Show { assets: [(hash_of(&content), asset)].into(), ..titled("Picture") }
 }
 
 /// The bytes of the only file of a show of the library.
@@ -302,12 +302,39 @@ fn the_files_of_a_start_file_go_with_its_copy() {
 }
 
 #[test]
+fn a_file_is_added_once_under_its_own_hash_only() {
+    let temporary = Temporary::new("asset");
+    let library = &temporary.library;
+    let hash = hash_of(b"picture").to_string();
+    assert!(matches!(library.asset(&hash), Err(LibraryError::Missing(_))));
+    assert!(matches!(library.put_asset(&hash, b"other"), Err(LibraryError::NoShow(_))));
+    for name in ["../a", "", &hash.to_uppercase()] {
+        assert!(matches!(library.put_asset(name, b"picture"), Err(LibraryError::BadName(_))), "{name}");
+        assert!(matches!(library.asset(name), Err(LibraryError::BadName(_))), "{name}");
+    }
+    assert!(!temporary.folder.exists());
+    library.put_asset(&hash, b"picture").unwrap();
+    library.put_asset(&hash, b"picture").unwrap();
+    assert_eq!(&*library.asset(&hash).unwrap(), b"picture");
+    // A show that names the file, saved without it, has it.
+    let mut show = with_picture();
+    show.assets.values_mut().for_each(|asset| asset.content = None);
+    library.put("Picture", &LIGHTBOTS.write(&show, None).bytes, &Condition::IsNew).unwrap();
+    assert_eq!(picture(library, "Picture"), Some(b"picture".to_vec()));
+    // A damaged file is written again.
+    std::fs::write(temporary.folder.join("assets").join(&hash), b"pictUre").unwrap();
+    assert!(library.asset(&hash).is_err());
+    library.put_asset(&hash, b"picture").unwrap();
+    assert_eq!(&*library.asset(&hash).unwrap(), b"picture");
+}
+
+#[test]
 fn files_that_no_show_names_go_after_a_month() {
     let temporary = Temporary::new("sweep");
     let library = &temporary.library;
     library.put("Picture", &ARCHIVE.write(&with_picture(), None).bytes, &Condition::IsNew).unwrap();
     let assets = temporary.folder.join("assets");
-    let (used, old, new) = (lightbots_exchange::hash_of(b"picture"), "0a".repeat(32), "0b".repeat(32));
+    let (used, old, new) = (hash_of(b"picture"), "0a".repeat(32), "0b".repeat(32));
     std::fs::write(assets.join(&old), b"old").unwrap();
     std::fs::write(assets.join(&new), b"new").unwrap();
     let month_ago = std::time::SystemTime::now() - std::time::Duration::from_secs(31 * 24 * 3600);

@@ -21,7 +21,7 @@ export function ReadOnlyPage({ name, reason }: Props) {
       <Title order={1} size="lg">
         This show can be played, not changed
       </Title>
-      <Text>{reason}</Text>
+      <Text maw="40rem">{reason}</Text>
       <Button onClick={() => void attempt(saveCopy)}>Save a copy of what is known</Button>
     </main>
   );

@@ -37,29 +37,48 @@ impl AssetStore {
     /// Writes the files that a show holds and the store lacks, among them those of shows in no folder.
     pub fn keep(&self, show: &Show) -> std::io::Result<()> {
         for (hash, asset) in &show.assets {
-            let path = self.folder.join(hash.to_string());
-            let content = asset.content.clone().or_else(|| self.given_content(hash));
-            if let Some(content) = content.filter(|_| !path.exists()) {
-                std::fs::create_dir_all(&self.folder)?;
-                let draft = self.folder.join(format!(".{hash}.saving"));
-                let mut file = std::fs::File::create(&draft)?;
-                file.write_all(&content)?;
-                file.sync_all()?;
-                std::fs::rename(&draft, path)?;
+            if let Some(content) = asset.content.clone().or_else(|| self.given_content(hash)) {
+                self.add(*hash, &content)?;
             }
         }
         Ok(())
     }
 
+    /// Writes a file, unless the store has it. `hash` is that of its content.
+    pub fn add(&self, hash: AssetHash, content: &[u8]) -> std::io::Result<()> {
+        let path = self.folder.join(hash.to_string());
+        if self.content(hash, content.len() as u64).is_some() {
+            return Ok(());
+        }
+        std::fs::create_dir_all(&self.folder)?;
+        let draft = self.folder.join(format!(".{hash}.saving"));
+        let mut file = std::fs::File::create(&draft)?;
+        file.write_all(content)?;
+        file.sync_all()?;
+        std::fs::rename(&draft, path)
+    }
+
     /// Gives a show the files that it names and that are in the store. A damaged file counts as missing.
     pub fn attach(&self, show: &mut Show) {
         for (hash, asset) in show.assets.iter_mut().filter(|(_, asset)| asset.content.is_none()) {
-            let path = self.folder.join(hash.to_string());
-            let length = std::fs::metadata(&path).map(|about| about.len()).ok();
-            let read = || std::fs::read(&path).ok().filter(|bytes| hash_of(bytes) == *hash);
-            let kept = length.filter(|length| *length == asset.bytes).and_then(|_| read()).map(Arc::from);
-            asset.content = kept.or_else(|| self.given_content(hash));
+            asset.content = self.content(*hash, asset.bytes).or_else(|| self.given_content(hash));
         }
+    }
+
+    /// A file of that hash and length, bytes. A damaged file counts as missing.
+    fn content(&self, hash: AssetHash, length: u64) -> Option<Arc<[u8]>> {
+        let path = self.folder.join(hash.to_string());
+        let about = std::fs::metadata(&path).ok()?;
+        if about.len() != length {
+            return None;
+        }
+        std::fs::read(&path).ok().filter(|bytes| hash_of(bytes) == hash).map(Arc::from)
+    }
+
+    /// A file of that hash.
+    pub fn get(&self, hash: AssetHash) -> Option<Arc<[u8]>> {
+        let length = std::fs::metadata(self.folder.join(hash.to_string())).map(|about| about.len()).ok();
+        length.and_then(|length| self.content(hash, length)).or_else(|| self.given_content(&hash))
     }
 
     /// Deletes files that no show names any more.

@@ -26,7 +26,7 @@ pub enum LibraryError {
     Conflict(String),
     /// It is given with the program or only partly understood, and stays as it is.
     ReadOnly(String),
-    /// It is no show.
+    /// It is no show, or no file of its hash.
     NoShow(String),
     /// The disk does not want to.
     Disk(String),

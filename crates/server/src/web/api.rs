@@ -135,6 +135,29 @@ pub async fn put(
     Ok(([(header::ETAG, etag)], Json(entry)).into_response())
 }
 
+/// `GET /api/assets/{hash}`. The kind of file is not told, so that no browser runs what a drawing holds.
+pub async fn asset(State(shared): State<Arc<Shared>>, Path(hash): Path<String>) -> Answer<Response> {
+    let library = shared.library.clone();
+    let content = beside(move || library.asset(&hash)).await?.map_err(library_problem)?;
+    let about = [
+        (header::CONTENT_TYPE, "application/octet-stream"),
+        (header::X_CONTENT_TYPE_OPTIONS, "nosniff"),
+        (header::CACHE_CONTROL, "private, max-age=31536000, immutable"),
+    ];
+    Ok((about, content.to_vec()).into_response())
+}
+
+/// `PUT /api/assets/{hash}`
+pub async fn put_asset(
+    State(shared): State<Arc<Shared>>,
+    Path(hash): Path<String>,
+    bytes: Result<Bytes, BytesRejection>,
+) -> Answer<StatusCode> {
+    let (library, bytes) = (shared.library.clone(), body(bytes)?);
+    beside(move || library.put_asset(&hash, &bytes)).await?.map_err(library_problem)?;
+    Ok(StatusCode::NO_CONTENT)
+}
+
 /// `DELETE /api/shows/{name}`
 pub async fn delete(
     State(shared): State<Arc<Shared>>,

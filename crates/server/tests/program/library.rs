@@ -79,6 +79,11 @@ fn a_show_with_unknown_fields_opens_read_only_and_stays_as_it_is() {
     assert_eq!(refused.status, 403);
     assert!(refused.json()["error"].as_str().unwrap().contains("save a copy under another name"));
     assert_eq!(http::request(&address, "GET", "/api/shows/future/file", &[], "").body, future);
+    let hash = "/api/assets/ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad";
+    assert_eq!(http::request(&address, "PUT", hash, &[], "abd").status, 422);
+    assert_eq!(http::request(&address, "PUT", hash, &[], "abc").status, 204);
+    let asset = http::request(&address, "GET", hash, &[], "");
+    assert_eq!((asset.body.as_str(), asset.header("X-Content-Type-Options").as_str()), ("abc", "nosniff"));
     let copy = http::request(&address, "PUT", "/api/shows/copy", &[("If-None-Match", "*")], &shown.body);
     assert_eq!((copy.status, &copy.json()["read_only"]), (200, &serde_json::Value::Null));
     assert_eq!(std::fs::read_to_string(&file).unwrap(), future);
