@@ -7,6 +7,8 @@ use i_overlay::float::simplify::SimplifyShape;
 use i_overlay::float::single::SingleFloatOverlay;
 use i_overlay::string::clip::ClipRule;
 
+use lightbots_base::random::split_mix;
+
 use crate::drawing::FillRule as Rule;
 use crate::svg::flatten::{FlatLine, Spot, distance};
 
@@ -18,13 +20,25 @@ pub struct Region {
     high: Spot,
 }
 
+/// Crossings of lines, at most, for which areas are cut: each takes memory and time of its own.
+const CROSSINGS_MAX: f64 = 1e5;
+/// Lines below this number cannot cross each other more often.
+const LINES_FEW: usize = 440;
+/// Pairs of lines by which crossings are estimated, at least and at most.
+const SAMPLES: [f64; 2] = [100.0, 200_000.0];
+/// Crossings among these pairs if there are [`CROSSINGS_MAX`] in all.
+const HITS: f64 = 20.0;
+
 impl Region {
-    /// The area inside of rings. `None`: it is thinner than `thinnest`, in units of the page.
+    /// The area inside of rings. `None`: it is thinner than `thinnest`, in units of the page, or a tangle of lines.
     pub fn new(rings: &Vec<Vec<Spot>>, rule: Rule, thinnest: f64) -> Option<Self> {
         let rule = match rule {
             Rule::NonZero => FillRule::NonZero,
             Rule::EvenOdd => FillRule::EvenOdd,
         };
+        if is_tangled(rings, &[]) {
+            return None;
+        }
         Self::from_shapes(rings.simplify_shape(rule), thinnest)
     }
 
@@ -101,7 +115,11 @@ impl Region {
         Self::new(&rings, Rule::NonZero, thinnest)
     }
 
+    /// The area stays as it is where the lines of both are a tangle.
     fn overlaid(&self, other: &Self, rule: OverlayRule, thinnest: f64) -> Option<Self> {
+        if is_tangled(&self.rings, &other.rings) {
+            return Some(self.clone());
+        }
         Self::from_shapes(self.rings.overlay(&other.rings, rule, FillRule::NonZero), thinnest)
     }
 
@@ -111,9 +129,13 @@ impl Region {
         if line.closed {
             path.extend(line.points.first());
         }
-        let whole = length(&path);
+        let path = vec![path];
+        if is_tangled(&path, &self.rings) {
+            return vec![line.clone()];
+        }
+        let whole = path.iter().map(|path| length(path)).sum::<f64>();
         let rule = ClipRule { invert: !inside, boundary_included: inside };
-        let parts = vec![path].clip_by(&self.rings, FillRule::NonZero, rule);
+        let parts = path.clip_by(&self.rings, FillRule::NonZero, rule);
         let parts: Vec<Vec<Spot>> = parts.into_iter().filter(|part| part.len() >= 2).collect();
         let kept: f64 = parts.iter().map(|part| length(part)).sum();
         if kept > whole * 0.999 {
@@ -122,6 +144,34 @@ impl Region {
         let long = parts.into_iter().filter(|part| length(part) >= shortest);
         long.map(|points| FlatLine { points, closed: false }).collect()
     }
+}
+
+/// Whether lines cross each other too often, estimated by pairs taken by chance.
+fn is_tangled(first: &[Vec<Spot>], second: &[Vec<Spot>]) -> bool {
+    let count = first.iter().chain(second).map(Vec::len).sum::<usize>();
+    if count < LINES_FEW {
+        return false;
+    }
+    let ends = |ring: &Vec<Spot>| {
+        let next = ring.iter().cycle().skip(1).copied();
+        ring.iter().copied().zip(next).collect::<Vec<(Spot, Spot)>>()
+    };
+    let lines: Vec<(Spot, Spot)> = first.iter().chain(second).flat_map(ends).collect();
+    let pairs = count as f64 * count as f64 / 2.0;
+    let samples = (pairs / CROSSINGS_MAX * HITS).clamp(SAMPLES[0], SAMPLES[1]);
+    let mut state = count as u64;
+    let mut any = || lines[(split_mix(&mut state) % count as u64) as usize];
+    let crossing = (0..samples as usize).filter(|_| cross(any(), any())).count();
+    crossing as f64 / samples * pairs > CROSSINGS_MAX
+}
+
+/// Whether two lines cross between their ends.
+fn cross(a: (Spot, Spot), b: (Spot, Spot)) -> bool {
+    let side = |line: (Spot, Spot), point: Spot| {
+        let (from, to) = line;
+        (to[0] - from[0]) * (point[1] - from[1]) - (to[1] - from[1]) * (point[0] - from[0])
+    };
+    side(a, b.0) * side(a, b.1) < 0.0 && side(b, a.0) * side(b, a.1) < 0.0
 }
 
 /// The corners of the box around points.
@@ -184,6 +234,28 @@ mod tests {
         let ring = FlatLine { points: vec![[1.0, 1.0], [2.0, 1.0], [2.0, 2.0]], closed: true };
         assert_eq!(region.parts(&ring, true, 0.1), std::slice::from_ref(&ring));
         assert!(region.parts(&ring, false, 0.1).is_empty());
+    }
+
+    #[test]
+    fn tangles_are_not_cut() {
+        let scribble = |points: usize| {
+            let mut state = 25;
+            let mut unit = || split_mix(&mut state) as f64 / u64::MAX as f64;
+            vec![(0..points).map(|_| [unit(), unit()]).collect::<Vec<Spot>>()]
+        };
+        assert!(Region::new(&scribble(600), Rule::NonZero, 1e-4).is_some());
+        assert!(Region::new(&scribble(100_000), Rule::NonZero, 1e-4).is_none());
+        let comb = |swapped: bool| {
+            let tooth = |n: usize| {
+                let (low, high) = (n as f64, n as f64 + 0.5);
+                let point = |x: f64, y: f64| if swapped { [y, x] } else { [x, y] };
+                vec![point(low, 0.0), point(high, 0.0), point(high, 20_000.0), point(low, 20_000.0)]
+            };
+            let rings: Vec<Vec<Spot>> = (0..20_000).map(tooth).collect();
+            Region::new(&rings, Rule::EvenOdd, 1e-4).expect("its teeth do not cross")
+        };
+        let (first, second) = (comb(false), comb(true));
+        assert_eq!(first.minus(&second, 1e-4).map(|rest| rest.points()), Some(first.points()));
     }
 
     #[test]

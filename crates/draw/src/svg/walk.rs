@@ -128,7 +128,10 @@ impl Walk {
     fn filled(&mut self, data: &Outline, context: &Context, rule: Rule) -> Result<Option<Region>, DrawError> {
         let lines = self.flattened(data, context)?;
         let rings: Vec<Vec<Spot>> = lines.into_iter().map(|line| line.points).collect();
-        Ok(Region::new(&rings, rule, self.tolerance()))
+        let region = Region::new(&rings, rule, self.tolerance());
+        // Crossings of its own lines are points too.
+        self.points += region.as_ref().map_or(0, Region::points);
+        Ok(region)
     }
 
     fn flattened(&mut self, data: &Outline, context: &Context) -> Result<Vec<FlatLine>, DrawError> {
