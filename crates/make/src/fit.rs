@@ -6,7 +6,7 @@ use lightbots_show::{Frame, Pixel, Show, frame_label};
 
 use crate::floor::picture_floor;
 use crate::frame::make_frame;
-use crate::recipe::asset_of;
+use crate::material::asset_of;
 
 /// Least distance of two lights of frames without a source, metres: below it, plans take longer (measured).
 const SPACING_M: f64 = 0.0764;

@@ -7,7 +7,8 @@ use lightbots_draw::{
 };
 use lightbots_show::{Frame, FrameSource, Pixel, SourcePart};
 
-use crate::recipe::{Material, Recipe, exact, material};
+use crate::material::{Material, exact, material};
+use crate::recipe::Recipe;
 
 /// Exact arrangements are larger by this factor: files round places.
 const SLACK: f64 = 1.001;
@@ -68,7 +69,7 @@ pub fn make_frame_from(
     let made = match (exact(&recipe, robots), material) {
         (Some(lights), _) => arranged(&lights, &recipe, floor, false)?,
         (None, Material::Lights(lights)) => listed(&lights, &recipe, floor, robots)?,
-        (None, Material::Drawing(made)) => drawn(made, floor, &wanted)?,
+        (None, Material::Drawing { made, view }) => drawn(made, floor, &PlaceSettings { view, ..wanted })?,
     };
     let mut frame = before.clone();
     frame.pixels = pixels(before, source, &made.lights, &made.names);

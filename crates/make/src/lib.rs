@@ -7,10 +7,12 @@
 mod fit;
 mod floor;
 mod frame;
+mod material;
 mod recipe;
 mod settings;
 
 pub use fit::fit_show;
 pub use floor::picture_floor;
 pub use frame::{MadeFrame, make_frame, make_frame_from};
-pub use recipe::{Content, Material, Placing, Recipe, TextRecipe, material};
+pub use material::{Material, material, view_of};
+pub use recipe::{Content, Placing, Recipe, Scroll, TextRecipe};

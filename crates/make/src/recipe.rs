@@ -1,21 +1,16 @@
 //! What a frame is made from, with typed settings: read from and written to the sources of a show.
 
 use lightbots_base::{Rgb, Vec2};
-use lightbots_draw::picture::{self, PictureSettings, PictureWay};
-use lightbots_draw::text::{self, Align, Colors, Font, TextSettings};
-use lightbots_draw::{
-    DrawError, LightList, Made, SHAPES, ShapeKind, ShapeSettings, Style, draw_shape, list, shape_named, svg,
-};
-use lightbots_show::{Assets, FrameSource, SourceKind};
+use lightbots_draw::picture::{PictureSettings, PictureWay};
+use lightbots_draw::text::Align;
+use lightbots_draw::{DrawError, SHAPES, ShapeSettings, Style, shape_named};
+use lightbots_show::{FrameSource, SourceKind};
 
 use crate::floor::middle_and_side;
 use crate::settings::{Reader, Writer};
 
 /// The font of words where none is chosen.
 const USUAL_FONT: &str = "lato";
-
-/// Colour of words and shapes where none is chosen: that of a warm lamp.
-const USUAL_COLOR: Rgb = Rgb::new(255, 165, 0);
 
 const STYLES: [(&str, Style); 5] = [
     ("auto", Style::Auto),
@@ -59,15 +54,13 @@ pub enum Content {
     Picture(PictureSettings),
     /// The list of lights that is the source's asset.
     List,
-}
-
-/// What a recipe gives before there are robots.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Material {
-    /// A drawing, on which any number of robots is placed.
-    Drawing(Made),
-    /// Lights at places of their own, in metres.
-    Lights(LightList),
+    /// A moment of the animation that is the source's asset.
+    Animation {
+        /// How its pictures are shown.
+        picture: PictureSettings,
+        /// Seconds from its start.
+        moment_s: f64,
+    },
 }
 
 /// Words and how they are set.
@@ -85,6 +78,19 @@ pub struct TextRecipe {
     pub letter_gap: f64,
     /// Colours, letter by letter in turn.
     pub colors: Vec<Rgb>,
+    /// A step of a text that scrolls past; `None`: the text stands.
+    pub scroll: Option<Scroll>,
+}
+
+/// A step of a text that scrolls past behind a window.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Scroll {
+    /// Width of the window, cap heights.
+    pub window: f64,
+    /// Number of steps of the whole way.
+    pub steps: usize,
+    /// Number of this step, counted from 0.
+    pub step: usize,
 }
 
 /// How and where lights are placed.
@@ -118,6 +124,7 @@ impl TextRecipe {
             wrap: None,
             letter_gap: 0.0,
             colors: Vec::new(),
+            scroll: None,
         }
     }
 }
@@ -131,7 +138,7 @@ impl Recipe {
     /// The recipe that a frame's source is.
     ///
     /// # Errors
-    /// A setting with a value of a wrong kind, and kinds of sources that are not made here.
+    /// A setting with a value of a wrong kind.
     pub fn read(source: &FrameSource) -> Result<Self, DrawError> {
         let reader = Reader(&source.settings);
         let content = match source.kind {
@@ -142,18 +149,16 @@ impl Recipe {
                 wrap: reader.number("wrap")?,
                 letter_gap: reader.number("letter_gap")?.unwrap_or(0.0),
                 colors: reader.colors("colors")?,
+                scroll: scroll(&reader)?,
             }),
             SourceKind::Shape => Content::Shape(shape(&reader)?),
             SourceKind::Svg => Content::Svg,
-            SourceKind::Picture => Content::Picture(PictureSettings {
-                way: reader.word("way", &WAYS)?,
-                inverted: reader.flag("inverted", false)?,
-            }),
+            SourceKind::Picture => Content::Picture(picture_settings(&reader)?),
             SourceKind::List => Content::List,
-            kind => {
-                let what = format!("a source of the kind {} cannot be made anew yet", kind.name());
-                return Err(DrawError::new("source-kind", what));
-            }
+            SourceKind::Animation => Content::Animation {
+                picture: picture_settings(&reader)?,
+                moment_s: source.moment_s.unwrap_or(0.0),
+            },
         };
         let boxed = source.floor_box.map(|place| middle_and_side(place.min, place.max));
         let placing = Placing {
@@ -174,6 +179,7 @@ impl Recipe {
     /// The source of a show that says the same.
     pub fn source(&self) -> FrameSource {
         let mut writer = Writer::default();
+        let mut moment_s = None;
         let kind = match &self.content {
             Content::Text(words) => {
                 words.write(&mut writer);
@@ -185,11 +191,15 @@ impl Recipe {
             }
             Content::Svg => SourceKind::Svg,
             Content::Picture(picture) => {
-                writer.word("way", &picture.way, &WAYS);
-                writer.flag("inverted", picture.inverted, false);
+                write_picture(picture, &mut writer);
                 SourceKind::Picture
             }
             Content::List => SourceKind::List,
+            Content::Animation { picture, moment_s: at_s } => {
+                write_picture(picture, &mut writer);
+                moment_s = Some(*at_s);
+                SourceKind::Animation
+            }
         };
         let (placing, usual) = (&self.placing, Placing::default());
         writer.word("style", &placing.style, &STYLES);
@@ -199,7 +209,7 @@ impl Recipe {
         }
         writer.number("turn", placing.turn, usual.turn);
         writer.number("spacing_m", placing.spacing_m, usual.spacing_m);
-        FrameSource { seed: self.seed, settings: writer.0, ..FrameSource::new(kind) }
+        FrameSource { seed: self.seed, moment_s, settings: writer.0, ..FrameSource::new(kind) }
     }
 }
 
@@ -211,6 +221,11 @@ impl TextRecipe {
         writer.number("wrap", self.wrap.unwrap_or(0.0), 0.0);
         writer.number("letter_gap", self.letter_gap, 0.0);
         writer.colors("colors", &self.colors);
+        if let Some(scroll) = &self.scroll {
+            writer.number("window", scroll.window, 0.0);
+            writer.number("steps", scroll.steps as f64, -1.0);
+            writer.number("step", scroll.step as f64, -1.0);
+        }
     }
 }
 
@@ -253,73 +268,16 @@ fn write_shape(shape: &ShapeSettings, writer: &mut Writer) {
     }
 }
 
-/// What a source gives before there are robots. `asset` has the bytes of its file.
-///
-/// # Errors
-/// Sources that cannot be drawn, and sources whose file is not there.
-pub fn material(recipe: &Recipe, asset: Option<&[u8]>) -> Result<Material, DrawError> {
-    let file = || asset.ok_or_else(missing);
-    let made = match &recipe.content {
-        Content::Text(words) => draw_text(words, asset)?,
-        // Its places depend on the number of robots.
-        Content::Shape(shape) if is_exact(shape) => Made::default(),
-        Content::Shape(shape) => Made { drawing: draw_shape(shape)?, notes: Vec::new() },
-        Content::Svg => svg::draw(file()?)?,
-        Content::Picture(settings) => picture::draw(file()?, settings)?,
-        Content::List => return Ok(Material::Lights(list::read(file()?)?)),
-    };
-    Ok(Material::Drawing(made))
+fn picture_settings(reader: &Reader<'_>) -> Result<PictureSettings, DrawError> {
+    Ok(PictureSettings { way: reader.word("way", &WAYS)?, inverted: reader.flag("inverted", false)? })
 }
 
-fn missing() -> DrawError {
-    DrawError::new("asset-missing", "the file that this frame is made from is not in the show; add it again")
+fn write_picture(picture: &PictureSettings, writer: &mut Writer) {
+    writer.word("way", &picture.way, &WAYS);
+    writer.flag("inverted", picture.inverted, false);
 }
 
-fn draw_text(words: &TextRecipe, asset: Option<&[u8]>) -> Result<Made, DrawError> {
-    let font = font(words, asset)?;
-    text::draw(&words.settings(&font))
-}
-
-fn font(words: &TextRecipe, asset: Option<&[u8]>) -> Result<Font, DrawError> {
-    if let Some(bytes) = asset {
-        return Font::read(bytes);
-    }
-    Font::built_in(&words.font).ok_or_else(|| {
-        let known: Vec<&str> = text::FONTS.iter().filter(|font| font.offered).map(|font| font.name).collect();
-        let name: String = words.font.chars().take(40).collect();
-        DrawError::new("unknown-font", format!("there is no font \"{name}\"; use {}", known.join(", ")))
-    })
-}
-
-impl TextRecipe {
-    fn settings<'a>(&'a self, font: &'a Font) -> TextSettings<'a> {
-        let colors = match self.colors.as_slice() {
-            [] => Colors::One(USUAL_COLOR),
-            [one] => Colors::One(*one),
-            several => Colors::Each(several.to_vec()),
-        };
-        TextSettings {
-            align: self.align,
-            wrap: self.wrap,
-            letter_gap: self.letter_gap,
-            colors,
-            ..TextSettings::new(&self.text, font)
-        }
-    }
-}
-
-/// The bytes of a source's file, if the show has them.
-pub(crate) fn asset_of<'a>(source: &FrameSource, assets: &'a Assets) -> Option<&'a [u8]> {
-    assets.get(source.asset.as_ref()?)?.content.as_deref()
-}
-
-/// Exact places of shapes that are no drawings, in units of their neighbours' distance.
-pub(crate) fn exact(recipe: &Recipe, robots: usize) -> Option<LightList> {
-    let Content::Shape(shape) = &recipe.content else { return None };
-    let places = lightbots_draw::exact_places(shape, robots, u64::from(recipe.seed))?;
-    Some(LightList { places: places.into_iter().map(|at| (at, shape.color)).collect() })
-}
-
-fn is_exact(shape: &ShapeSettings) -> bool {
-    matches!(shape.kind, ShapeKind::Grid | ShapeKind::Hexagons | ShapeKind::Random)
+fn scroll(reader: &Reader<'_>) -> Result<Option<Scroll>, DrawError> {
+    let Some(window) = reader.number("window")? else { return Ok(None) };
+    Ok(Some(Scroll { window, steps: reader.whole("steps", 1)?, step: reader.whole("step", 0)? }))
 }

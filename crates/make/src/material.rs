@@ -1,0 +1,127 @@
+//! What a source gives before there are robots: a drawing, or lights at places of their own.
+
+use lightbots_base::{Rgb, Vec2};
+use lightbots_draw::animation::{self, Animation};
+use lightbots_draw::text::{self, Colors, Font, TextSettings};
+use lightbots_draw::{DrawError, LightList, Made, ShapeKind, ShapeSettings, draw_shape, list, picture, svg};
+use lightbots_show::{Assets, FrameSource};
+
+use crate::recipe::{Content, Recipe, TextRecipe};
+
+/// Colour of words where none is chosen: that of a warm lamp.
+const USUAL_COLOR: Rgb = Rgb::new(255, 165, 0);
+
+/// What a recipe gives before there are robots.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Material {
+    /// A drawing, on which any number of robots is placed.
+    Drawing {
+        /// The drawing, and what is missing from it.
+        made: Made,
+        /// The box that stands for the whole picture, corners in the drawing's units; `None`: the box around it.
+        view: Option<(Vec2, Vec2)>,
+    },
+    /// Lights at places of their own, in metres.
+    Lights(LightList),
+}
+
+/// What a source gives before there are robots. `asset` has the bytes of its file.
+///
+/// # Errors
+/// Sources that cannot be drawn, and sources whose file is not there.
+pub fn material(recipe: &Recipe, asset: Option<&[u8]>) -> Result<Material, DrawError> {
+    let file = || asset.ok_or_else(missing);
+    let made = match &recipe.content {
+        Content::Text(words) => draw_text(words, asset)?,
+        // Its places depend on the number of robots.
+        Content::Shape(shape) if is_exact(shape) => Made::default(),
+        Content::Shape(shape) => Made { drawing: draw_shape(shape)?, notes: Vec::new() },
+        Content::Svg => svg::draw(file()?)?,
+        Content::Picture(settings) => picture::draw(file()?, settings)?,
+        Content::List => return Ok(Material::Lights(list::read(file()?)?)),
+        Content::Animation { picture, moment_s } => {
+            return moment(&animation::read(file()?, picture)?, *moment_s);
+        }
+    };
+    let view = match &recipe.content {
+        Content::Text(words) => words.scroll.map(|scroll| (Vec2::ZERO, Vec2::new(scroll.window, 1.0))),
+        _ => None,
+    };
+    Ok(Material::Drawing { made, view })
+}
+
+/// The picture of an animation that is shown at a moment.
+fn moment(animation: &Animation, moment_s: f64) -> Result<Material, DrawError> {
+    let after = animation.frames.partition_point(|frame| frame.at_s <= moment_s + 1e-6);
+    let frame = animation.frames.get(after.saturating_sub(1));
+    let frame = frame.ok_or_else(|| DrawError::new("animation-empty", "the animation has no pictures"))?;
+    let made = Made { drawing: frame.drawing.clone(), notes: Vec::new() };
+    Ok(Material::Drawing { made, view: view_of(animation) })
+}
+
+/// The box around all pictures of an animation.
+pub fn view_of(animation: &Animation) -> Option<(Vec2, Vec2)> {
+    let boxes = animation.frames.iter().filter_map(|frame| frame.drawing.bounds());
+    boxes.reduce(|(low, high), (min, max)| {
+        let low = Vec2::new(low.x.min(min.x), low.y.min(min.y));
+        (low, Vec2::new(high.x.max(max.x), high.y.max(max.y)))
+    })
+}
+
+fn missing() -> DrawError {
+    DrawError::new("asset-missing", "the file that this frame is made from is not in the show; add it again")
+}
+
+fn draw_text(words: &TextRecipe, asset: Option<&[u8]>) -> Result<Made, DrawError> {
+    let font = font(words, asset)?;
+    let Some(scroll) = words.scroll else { return text::draw(&words.settings(&font)) };
+    let pages = text::scrolling(&words.settings(&font), scroll.window, scroll.steps)?;
+    let page = pages.into_iter().nth(scroll.step);
+    page.map(|page| page.made).ok_or_else(|| {
+        DrawError::new("text-settings", format!("the scrolling text has no step {}", scroll.step + 1))
+    })
+}
+
+fn font(words: &TextRecipe, asset: Option<&[u8]>) -> Result<Font, DrawError> {
+    if let Some(bytes) = asset {
+        return Font::read(bytes);
+    }
+    Font::built_in(&words.font).ok_or_else(|| {
+        let known: Vec<&str> = text::FONTS.iter().filter(|font| font.offered).map(|font| font.name).collect();
+        let name: String = words.font.chars().take(40).collect();
+        DrawError::new("unknown-font", format!("there is no font \"{name}\"; use {}", known.join(", ")))
+    })
+}
+
+impl TextRecipe {
+    fn settings<'a>(&'a self, font: &'a Font) -> TextSettings<'a> {
+        let colors = match self.colors.as_slice() {
+            [] => Colors::One(USUAL_COLOR),
+            [one] => Colors::One(*one),
+            several => Colors::Each(several.to_vec()),
+        };
+        TextSettings {
+            align: self.align,
+            wrap: self.wrap,
+            letter_gap: self.letter_gap,
+            colors,
+            ..TextSettings::new(&self.text, font)
+        }
+    }
+}
+
+/// The bytes of a source's file, if the show has them.
+pub(crate) fn asset_of<'a>(source: &FrameSource, assets: &'a Assets) -> Option<&'a [u8]> {
+    assets.get(source.asset.as_ref()?)?.content.as_deref()
+}
+
+/// Exact places of shapes that are no drawings, in units of their neighbours' distance.
+pub(crate) fn exact(recipe: &Recipe, robots: usize) -> Option<LightList> {
+    let Content::Shape(shape) = &recipe.content else { return None };
+    let places = lightbots_draw::exact_places(shape, robots, u64::from(recipe.seed))?;
+    Some(LightList { places: places.into_iter().map(|at| (at, shape.color)).collect() })
+}
+
+fn is_exact(shape: &ShapeSettings) -> bool {
+    matches!(shape.kind, ShapeKind::Grid | ShapeKind::Hexagons | ShapeKind::Random)
+}
