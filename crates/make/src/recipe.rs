@@ -247,7 +247,7 @@ fn shape(reader: &Reader<'_>) -> Result<ShapeSettings, DrawError> {
 }
 
 /// The error for a name that no shape has.
-pub(crate) fn unknown_shape(name: &str) -> DrawError {
+pub fn unknown_shape(name: &str) -> DrawError {
     let known: Vec<&str> = SHAPES.iter().map(|(_, name)| *name).collect();
     let name: String = name.chars().take(40).collect();
     DrawError::new("unknown-shape", format!("there is no shape \"{name}\"; use {}", known.join(", ")))

@@ -76,6 +76,7 @@ async fn run(cli: Cli, stop: Stop) -> i32 {
         Command::RobotCheck(arguments) => commands::robot_check::run(arguments, stop).await,
         Command::Broker(arguments) => commands::broker::run(arguments, stop).await,
         Command::Convert(arguments) => stop.at_once(|| commands::convert::run(&arguments)),
+        Command::Make(arguments) => stop.at_once(|| commands::make::run(&arguments)),
         Command::Certs(arguments) => stop.at_once(|| commands::certs::run(&arguments)),
     };
     match outcome {

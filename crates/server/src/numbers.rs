@@ -2,7 +2,7 @@
 
 use std::net::{SocketAddr, ToSocketAddrs};
 
-use lightbots_base::{RobotId, Vec2};
+use lightbots_base::{Rgb, RobotId, Vec2};
 use lightbots_sim::Spread;
 
 /// Reads `WxH` in metres, such as `3x3` or `4.5x2`.
@@ -29,6 +29,25 @@ pub fn place(text: &str) -> Option<Vec2> {
     let (x, y) = text.split_once(',')?;
     let read = |text: &str| text.trim().parse::<f64>().ok().filter(|metres| metres.abs() <= 1000.0);
     Some(Vec2::new(read(x)?, read(y)?))
+}
+
+/// A positive length, metres, or another positive number up to a thousand.
+pub fn metres(text: &str) -> Result<f64, String> {
+    let number = text.parse().ok().filter(|number: &f64| *number > 0.0 && *number <= 1_000.0);
+    number.ok_or_else(|| "write a number above 0 and up to 1000".into())
+}
+
+/// A time of up to a day, seconds.
+pub fn seconds(text: &str) -> Result<f64, String> {
+    let number = text.parse().ok().filter(|number: &f64| (0.0..=86_400.0).contains(number));
+    number.ok_or_else(|| "write a number of seconds from 0 to 86400".into())
+}
+
+/// `#ffa500` as a colour.
+pub fn color(text: &str) -> Result<Rgb, String> {
+    let digits = text.strip_prefix('#').filter(|digits| digits.len() == 6 && !digits.starts_with('+'));
+    let number = digits.and_then(|digits| u32::from_str_radix(digits, 16).ok());
+    number.and_then(Rgb::from_number).ok_or_else(|| "write a colour like #ffa500".into())
 }
 
 /// Reads where to listen: an IP address or a name of this machine, and a port, such as `127.0.0.1:8420`.

@@ -3,7 +3,8 @@
 use std::path::Path;
 
 use lightbots_exchange::{Format, for_file, formats_in_words};
-use lightbots_show::validate;
+use lightbots_make::fit_show;
+use lightbots_show::{Issue, Issues, Show, validate};
 
 use crate::cli::ConvertArguments;
 use crate::failure::{Failure, Outcome};
@@ -12,14 +13,15 @@ use crate::{say, show_file};
 pub fn run(arguments: &ConvertArguments) -> Outcome {
     let (input, output) = (&arguments.input, &arguments.output);
     let format = format_of(output)?;
-    let loaded = show_file::load(input)?;
+    let mut loaded = show_file::load(input)?;
+    let fitted = fitted(&mut loaded.show, arguments)?;
     if loaded.unread.is_some() && is_same_file(input, output) {
         let line = "it has parts that are not known, which would be lost; write to another file";
         return Err(Failure::input(format!("{}: {line}", output.display())));
     }
     let written = format.write(&loaded.show, loaded.plan.as_ref());
     let mut fine = true;
-    for issue in loaded.issues.iter().chain(&validate(&loaded.show)).chain(&written.issues) {
+    for issue in loaded.issues.iter().chain(&fitted).chain(&validate(&loaded.show)).chain(&written.issues) {
         fine &= !issue.is_error();
         let level = if issue.is_error() { "error" } else { "warning" };
         say::note(&format!("{level}: {} [{}]", issue.message, issue.code));
@@ -33,6 +35,15 @@ pub fn run(arguments: &ConvertArguments) -> Outcome {
 fn is_same_file(input: &Path, output: &Path) -> bool {
     let (input, output) = (input.canonicalize(), output.canonicalize());
     matches!((input, output), (Ok(input), Ok(output)) if input == output)
+}
+
+/// Fits the show to the robots that are asked for; what is different then.
+fn fitted(show: &mut Show, arguments: &ConvertArguments) -> Result<Issues, Failure> {
+    let Some(robots) = arguments.robots else { return Ok(Issues::new()) };
+    let notes = fit_show(show, robots as usize).map_err(|error| {
+        Failure::problem(format!("{}: {error} [{}]", arguments.input.display(), error.code))
+    })?;
+    Ok(notes.into_iter().map(|note| Issue::warning(note.code, note.message)).collect())
 }
 
 /// The format that the ending of a file's name stands for.

@@ -4,6 +4,7 @@ pub mod broker;
 pub mod certs;
 pub mod check;
 pub mod convert;
+pub mod make;
 pub mod plan;
 pub mod play;
 pub mod rehearse;

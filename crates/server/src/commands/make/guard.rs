@@ -1,0 +1,87 @@
+//! Files of others are read in a child process with limits on memory and time: a file of a few bytes can ask for gigabytes.
+
+use std::process::{Command, Stdio};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Duration;
+
+use crate::cli::MakeArguments;
+use crate::failure::{Failure, Outcome};
+use crate::say;
+
+/// Set for the child, so that it does not start another one.
+const CHILD: &str = "LIGHTBOTS_MAKE_CHILD";
+
+/// Most memory of the child, bytes.
+const MEMORY_MAX: u64 = 400 << 20;
+
+/// How long reading the sources may take.
+const READING_MAX: Duration = Duration::from_secs(10);
+
+/// Exit code of a child that took too long; other than all codes of commands.
+const TOO_LONG: i32 = 75;
+
+/// Whether sources are files and this process is not the child yet.
+pub fn is_needed(arguments: &MakeArguments) -> bool {
+    let has_files =
+        arguments.font.is_some() || arguments.sources.iter().any(|source| !super::sources::is_words(source));
+    has_files && std::env::var_os(CHILD).is_none()
+}
+
+/// Runs the same command in a child process and ends as it does.
+pub fn run_in_child() -> Outcome {
+    let program = std::env::current_exe()
+        .map_err(|error| Failure::problem(format!("this program's own file is not found: {error}")))?;
+    let status = Command::new(program)
+        .args(std::env::args_os().skip(1))
+        .env(CHILD, "1")
+        .stdin(Stdio::null())
+        .status()
+        .map_err(|error| Failure::problem(format!("no process can be started: {error}")))?;
+    match status.code() {
+        Some(0) => Ok(true),
+        Some(1) => Ok(false),
+        Some(TOO_LONG) => Err(Failure::input(format!(
+            "a source takes more than {} s to read; make its file simpler",
+            READING_MAX.as_secs()
+        ))),
+        // It has said why.
+        Some(code) => std::process::exit(code),
+        None => Err(Failure::input(format!(
+            "a source needs more than {} MB to read; make its file smaller",
+            MEMORY_MAX >> 20
+        ))),
+    }
+}
+
+/// Ends the child if reading takes too long.
+pub struct Watch(Arc<AtomicBool>);
+
+impl Watch {
+    /// Limits memory from now on and time until [`Watch::decoded`], if this process is the child.
+    pub fn start() -> Self {
+        let done = Arc::new(AtomicBool::new(false));
+        if std::env::var_os(CHILD).is_some() {
+            limit_memory();
+            let watched = Arc::clone(&done);
+            std::thread::spawn(move || {
+                std::thread::sleep(READING_MAX);
+                if !watched.load(Ordering::Acquire) {
+                    std::process::exit(TOO_LONG);
+                }
+            });
+        }
+        Self(done)
+    }
+
+    /// Everything foreign has been read.
+    pub fn decoded(&self) {
+        self.0.store(true, Ordering::Release);
+    }
+}
+
+fn limit_memory() {
+    if let Err(error) = rlimit::Resource::DATA.set(MEMORY_MAX, MEMORY_MAX) {
+        say::note(&format!("memory cannot be limited here: {error}"));
+    }
+}

@@ -1,0 +1,196 @@
+//! `make`: words, shapes, drawings, pictures and lists become frames of a show.
+
+mod films;
+mod guard;
+mod sources;
+
+use std::collections::BTreeMap;
+
+use lightbots_api as api;
+use lightbots_base::Vec2;
+use lightbots_draw::{DrawError, Quality, Readability};
+use lightbots_exchange::{Format, for_file, formats_in_words};
+use lightbots_make::{MadeFrame, make_frame_from, picture_floor};
+use lightbots_show::{Frame, Issue, Issues, Show, Stage, validate};
+use serde::Serialize;
+
+use super::{count, print_issues, print_json};
+use crate::cli::MakeArguments;
+use crate::failure::{Failure, Outcome};
+use crate::numbers::rounded;
+use crate::progress::Bar;
+use crate::{plan_document, say};
+use sources::Wanted;
+
+/// The JSON of `make`.
+#[derive(Debug, Serialize)]
+struct Summary {
+    ok: bool,
+    frames: usize,
+    pixels: usize,
+    pictures: Vec<Picture>,
+    issues: Vec<api::Issue>,
+    out: String,
+}
+
+/// How well a frame shows its source.
+#[derive(Debug, Serialize)]
+struct Picture {
+    name: String,
+    size_m: f64,
+    closest_m: Option<f64>,
+    correlation: Option<f64>,
+    symmetry: Option<f64>,
+    /// The number of robots that would do, where these are too few.
+    enough: Option<usize>,
+}
+
+pub fn run(arguments: &MakeArguments) -> Outcome {
+    let format = format_of(arguments)?;
+    if guard::is_needed(arguments) {
+        return guard::run_in_child();
+    }
+    let watch = guard::Watch::start();
+    let bar = Bar::new();
+    let mut wanted = sources::read(arguments, &bar)?;
+    watch.decoded();
+    let mut show = Show { name: title(arguments), stage: stage(arguments), ..Show::default() };
+    let (mut pictures, mut issues) = (Vec::new(), Issues::new());
+    let all = wanted.len();
+    for (index, one) in wanted.drain(..).enumerate() {
+        bar.set(index as f64 / all as f64, format!("placing {}", one.frame.name));
+        let name = one.frame.name.clone();
+        let placed = place(one, &mut show, arguments)
+            .map_err(|error| Failure::problem(format!("{name}: {error} [{}]", error.code)))?;
+        issues.extend(placed.1);
+        pictures.push(placed.0);
+    }
+    drop(bar);
+    issues.extend(validate(&show));
+    let written = format.write(&show, None);
+    issues.extend(written.issues);
+    let out = arguments.out.display().to_string();
+    std::fs::write(&arguments.out, written.bytes)
+        .map_err(|error| Failure::input(format!("{out}: cannot be written: {error}")))?;
+    let summary = Summary {
+        ok: !issues.iter().any(Issue::is_error),
+        frames: show.frames.len(),
+        pixels: show.frames.iter().map(|frame| frame.pixels.len()).max().unwrap_or(0),
+        pictures,
+        issues: issues.iter().map(plan_document::issue).collect(),
+        out,
+    };
+    if arguments.json {
+        print_json(&summary)?;
+    } else {
+        summary.print();
+    }
+    Ok(summary.ok)
+}
+
+fn format_of(arguments: &MakeArguments) -> Result<&'static Format, Failure> {
+    let name = arguments.out.file_name().map(|name| name.to_string_lossy()).unwrap_or_default();
+    for_file(&name).ok_or_else(|| {
+        let line = format!("no format has this ending; write a {}", formats_in_words());
+        Failure::input(format!("{}: {line}", arguments.out.display()))
+    })
+}
+
+fn title(arguments: &MakeArguments) -> String {
+    let name = arguments.out.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+    lightbots_exchange::stem(&name).to_owned()
+}
+
+fn stage(arguments: &MakeArguments) -> Stage {
+    let (width_m, depth_m) = arguments.floor.unwrap_or((3.0, 3.0));
+    Stage { width_m, depth_m, ..Stage::default() }
+}
+
+/// Adds a frame to the show.
+fn place(wanted: Wanted, show: &mut Show, arguments: &MakeArguments) -> Result<(Picture, Issues), DrawError> {
+    let floor = picture_floor(&show.stage);
+    let robots = arguments.robots as usize;
+    let drawing = wanted.drawing();
+    let recipe = lightbots_make::Recipe::read(&wanted.frame.sources[0])?;
+    let before = wanted.start.then(|| show.frames.last()).flatten();
+    let start: Vec<Vec2> = before.iter().flat_map(|frame| &frame.pixels).map(|pixel| pixel.at).collect();
+    let Wanted { mut frame, material, asset, .. } = wanted;
+    if let Some((hash, asset)) = asset {
+        frame.sources[0].asset = Some(hash);
+        show.assets.insert(hash, asset);
+    }
+    let made = make_frame_from(&frame, material, &floor, robots, Quality::Full, &start)?;
+    let enough =
+        made.readability.filter(|shown| shown.correlation < lightbots_draw::READABLE).and_then(|_| {
+            let settings = lightbots_draw::PlaceSettings {
+                style: recipe.placing.style,
+                seed: u64::from(recipe.seed),
+                ..lightbots_draw::PlaceSettings::default()
+            };
+            lightbots_draw::enough_robots(drawing.as_ref()?, &settings).filter(|enough| *enough > robots)
+        });
+    let issues = issues(&made, show.frames.len(), enough);
+    let picture = picture(&made, enough);
+    show.frames.push(made.frame);
+    Ok((picture, issues))
+}
+
+fn picture(made: &MadeFrame, enough: Option<usize>) -> Picture {
+    let figure =
+        |value: fn(&Readability) -> f64| made.readability.as_ref().map(|shown| rounded(value(shown), 3));
+    Picture {
+        name: made.frame.name.clone(),
+        size_m: rounded(made.size_m, 3),
+        closest_m: made.closest_m.is_finite().then(|| rounded(made.closest_m, 4)),
+        correlation: figure(|shown| shown.correlation),
+        symmetry: figure(|shown| shown.symmetry),
+        enough,
+    }
+}
+
+/// What is missing or different, as issues of a frame.
+fn issues(made: &MadeFrame, index: usize, enough: Option<usize>) -> Issues {
+    let label = lightbots_show::frame_label(index, &made.frame.name);
+    let mut said: BTreeMap<&str, String> = BTreeMap::new();
+    let mut issues: Issues = made
+        .notes
+        .iter()
+        .filter(|note| said.insert(note.code, note.message.clone()).as_ref() != Some(&note.message))
+        .map(|note| Issue::warning(note.code, format!("{label}: {}", note.message)))
+        .collect();
+    if made.readability.is_some_and(|shown| shown.correlation < lightbots_draw::READABLE) {
+        let remedy = enough.map_or_else(
+            || "a simpler picture or more robots would be".to_owned(),
+            |enough| format!("{enough} would do"),
+        );
+        let robots = made.frame.pixels.len();
+        let what = format!("{label}: hard to read with {}; {remedy}", count(robots, "robot"));
+        issues.push(Issue::warning("hard-to-read", what));
+    }
+    issues
+}
+
+impl Summary {
+    fn print(&self) {
+        say::line(&format!(
+            "{}: {} of {}",
+            self.out,
+            count(self.frames, "frame"),
+            count(self.pixels, "pixel")
+        ));
+        for picture in &self.pictures {
+            let reads =
+                picture.correlation.map_or(String::new(), |value| format!(", readability {value:.2}"));
+            say::line(&format!("  {}: {:.2} m wide{reads}", picture.name, picture.size_m));
+        }
+        print_issues(&self.issues);
+    }
+}
+
+/// Frames that share one name are told apart by a number.
+pub(super) fn numbered(frames: &mut [Frame]) {
+    let many = frames.len() > 1;
+    for (index, frame) in frames.iter_mut().enumerate().filter(|_| many) {
+        frame.name = format!("{} {}", frame.name, index + 1);
+    }
+}
