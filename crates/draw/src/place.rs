@@ -7,6 +7,7 @@ use crate::buckets::nearest_distances;
 use crate::drawing::Drawing;
 use crate::error::{DrawError, Note};
 use crate::fit::{PictureFloor, Placement};
+use crate::layout::Style;
 use crate::readability::{Readability, readability};
 use crate::settings::{PlaceSettings, PlacedLight};
 
@@ -28,49 +29,86 @@ pub struct Placed {
     pub notes: Vec<Note>,
 }
 
-/// Places lights on a floor.
+/// Why a picture was refused.
+struct Refusal {
+    error: DrawError,
+    /// Distance of the closest pair at the largest size, as a share of the spacing; 0: there is no such picture.
+    share: f64,
+}
+
+impl From<DrawError> for Refusal {
+    fn from(error: DrawError) -> Self {
+        Self { error, share: 0.0 }
+    }
+}
+
+/// Places lights on a floor. Where they do not fit in the automatic style, areas are filled; where they do not fit at the
+/// spacing, they come as close as they must, but not closer than the least spacing.
 ///
 /// # Errors
 /// A drawing of nothing, numbers out of range, or more robots than fit on the floor; each with the number that would do.
 pub fn place(drawing: &Drawing, floor: &PictureFloor, settings: &PlaceSettings) -> Result<Placed, DrawError> {
     settings.check()?;
+    let refused = match attempts(drawing, floor, settings) {
+        Ok(placed) => return Ok(placed),
+        Err(refused) => refused,
+    };
+    let spacing_m = (0.99 * refused.share * settings.spacing_m).max(settings.least_m);
+    if refused.share == 0.0 || spacing_m >= settings.spacing_m {
+        return Err(refused.error);
+    }
+    let mut placed = attempts(drawing, floor, &PlaceSettings { spacing_m, ..settings.clone() })
+        .map_err(|refused| refused.error)?;
+    let what = format!(
+        "the robots stand {:.0} mm apart instead of {:.0} mm, because more room is not on the floor",
+        placed.closest_m * 1_000.0,
+        settings.spacing_m * 1_000.0
+    );
+    placed.notes.push(Note::new("closer", what));
+    Ok(placed)
+}
+
+/// The wanted style, then a filling where the style is free.
+fn attempts(drawing: &Drawing, floor: &PictureFloor, settings: &PlaceSettings) -> Result<Placed, Refusal> {
+    let first = attempt(drawing, floor, settings);
+    let Err(refused) = first else { return first };
+    if settings.style != Style::Auto || refused.share == 0.0 {
+        return Err(refused);
+    }
+    let filled = attempt(drawing, floor, &PlaceSettings { style: Style::Filled, ..settings.clone() });
+    filled.map_err(|other| if other.share > refused.share { other } else { refused })
+}
+
+/// One style at one spacing.
+fn attempt(drawing: &Drawing, floor: &PictureFloor, settings: &PlaceSettings) -> Result<Placed, Refusal> {
     let mut placement = Placement::new(drawing, floor, settings)?;
-    let mut notes = Vec::new();
     for _ in 0..TRIES {
         let mut scaled = placement.apply(drawing);
         let mut made = arrange(&scaled, floor, settings)?;
-        let mut closest = closest(&made, settings.spacing_m);
-        let missing = settings.spacing_m / closest;
+        let mut closest_m = closest(&made, settings.spacing_m);
+        let missing = settings.spacing_m / closest_m;
         if missing > 1.0 && placement.has_room(missing) && floor.no_go.is_empty() && settings.kept.is_empty()
         {
-            let factor = placement.enlarge(missing, floor, settings, made.len(), closest)?;
-            made.iter_mut()
-                .for_each(|light| light.at = settings.center + (light.at - settings.center) * factor);
+            let factor = placement.enlarge(missing, floor, settings, made.len(), closest_m)?;
+            let spread = |at: Vec2| settings.center + (at - settings.center) * factor;
+            made.iter_mut().for_each(|light| light.at = spread(light.at));
             scaled = placement.apply(drawing);
-            closest *= factor;
+            closest_m *= factor;
         }
-        if closest >= settings.spacing_m * (1.0 - 1e-9) {
-            if let Some(wanted) = settings.size_m.filter(|wanted| placement.size_m() > 1.001 * wanted) {
-                notes.push(enlarged(wanted, placement.size_m(), settings));
-            }
+        if closest_m >= settings.spacing_m * (1.0 - 1e-9) {
+            let size_m = placement.size_m();
+            let wanted = settings.size_m.filter(|wanted| size_m > 1.001 * wanted);
+            let notes = wanted.map(|wanted| enlarged(wanted, size_m, settings)).into_iter().collect();
             let readability = readability(&scaled, &made);
-            return Ok(Placed {
-                lights: made,
-                size_m: placement.size_m(),
-                closest_m: closest,
-                readability,
-                notes,
-            });
+            return Ok(Placed { lights: made, size_m, closest_m, readability, notes });
         }
-        placement.enlarge(settings.spacing_m / closest.max(1e-6), floor, settings, made.len(), closest)?;
+        let share = closest_m / settings.spacing_m;
+        placement
+            .enlarge(1.0 / share.max(1e-6), floor, settings, made.len(), closest_m)
+            .map_err(|error| Refusal { error, share })?;
     }
-    Err(DrawError::new(
-        "too-many-robots",
-        format!(
-            "{} robots do not find room in this picture; use fewer robots or a larger floor",
-            settings.robots
-        ),
-    ))
+    let what = "these robots do not find room in this picture; use fewer robots or a larger floor";
+    Err(DrawError::new("too-many-robots", what).into())
 }
 
 fn enlarged(wanted: f64, size: f64, settings: &PlaceSettings) -> Note {

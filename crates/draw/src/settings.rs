@@ -16,6 +16,8 @@ pub struct PlaceSettings {
     pub robots: usize,
     /// Least distance between two lights, metres.
     pub spacing_m: f64,
+    /// Distance down to which lights may come where they find no room otherwise, metres.
+    pub least_m: f64,
     /// How areas are shown.
     pub style: Style,
     /// Larger side of the picture, metres; `None`: chosen by floor and number of robots.
@@ -42,6 +44,7 @@ impl Default for PlaceSettings {
         Self {
             robots: 30,
             spacing_m: 0.08,
+            least_m: 0.062,
             style: Style::Auto,
             size_m: None,
             center: Vec2::ZERO,

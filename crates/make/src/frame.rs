@@ -113,7 +113,8 @@ fn wanted(
         moved.map(|pixel| PlacedLight { at: pixel.at, color: pixel.color, group: 0 }).take(robots).collect();
     PlaceSettings {
         robots,
-        spacing_m: recipe.placing.spacing_m,
+        spacing_m: recipe.placing.spacing().0,
+        least_m: recipe.placing.spacing().1,
         style: recipe.placing.style,
         size_m: recipe.placing.size_m,
         center: recipe.placing.center,
@@ -155,7 +156,7 @@ fn listed(
         return arranged(list, recipe, floor, true);
     }
     let as_they_are = arranged(list, recipe, floor, true)?;
-    let spacing_m = recipe.placing.spacing_m;
+    let spacing_m = recipe.placing.spacing().1;
     let refitted = refit(&as_they_are.lights, &[], robots, spacing_m, floor)?;
     let lights: Vec<PlacedLight> = refitted.iter().map(|light| light.light).collect();
     let what = format!("the list has {} lights; {robots} robots show it", list.places.len());
@@ -184,7 +185,7 @@ fn arranged(
     }
     let is_free = placing.size_m.is_none() && placing.center == Vec2::ZERO && placing.turn == 0.0;
     let stays = in_metres && is_free && unit >= LEAST_M && places.iter().all(|at| floor.allows(*at));
-    let least = placing.spacing_m / unit * SLACK;
+    let least = placing.spacing().0 / unit * SLACK;
     let scale = placing.size_m.filter(|_| side > 0.0).map_or(least, |size| (size / side).max(least));
     let (sin, cos) = (libm::sin(placing.turn), libm::cos(placing.turn));
     let map = |at: Vec2| {

@@ -104,13 +104,21 @@ pub struct Placing {
     pub center: Vec2,
     /// Turn of the picture, radians counter-clockwise.
     pub turn: f64,
-    /// Least distance of two lights, metres.
-    pub spacing_m: f64,
+    /// Least distance of two lights, metres; `None`: as far apart as drives are easy, closer where there is no room.
+    pub spacing_m: Option<f64>,
 }
 
 impl Default for Placing {
     fn default() -> Self {
-        Self { style: Style::Auto, size_m: None, center: Vec2::ZERO, turn: 0.0, spacing_m: 0.08 }
+        Self { style: Style::Auto, size_m: None, center: Vec2::ZERO, turn: 0.0, spacing_m: None }
+    }
+}
+
+impl Placing {
+    /// Wanted and least distance of two lights, metres.
+    pub fn spacing(&self) -> (f64, f64) {
+        let usual = lightbots_draw::PlaceSettings::default();
+        self.spacing_m.map_or((usual.spacing_m, usual.least_m), |wanted| (wanted, wanted))
     }
 }
 
@@ -171,7 +179,7 @@ impl Recipe {
                 .or(boxed.map(|(at, _)| at))
                 .unwrap_or(Vec2::ZERO),
             turn: reader.number("turn")?.unwrap_or(0.0),
-            spacing_m: reader.number("spacing_m")?.unwrap_or(Placing::default().spacing_m),
+            spacing_m: reader.number("spacing_m")?,
         };
         Ok(Self { content, placing, seed: source.seed })
     }
@@ -208,7 +216,7 @@ impl Recipe {
             writer.points("center", &[placing.center]);
         }
         writer.number("turn", placing.turn, usual.turn);
-        writer.number("spacing_m", placing.spacing_m, usual.spacing_m);
+        writer.number("spacing_m", placing.spacing_m.unwrap_or(0.0), 0.0);
         FrameSource { seed: self.seed, moment_s, settings: writer.0, ..FrameSource::new(kind) }
     }
 }

@@ -292,7 +292,7 @@ pub struct MakeArguments {
     /// Floor in metres [default: 3x3]
     #[arg(long, value_name = "WxH", allow_hyphen_values = true, value_parser = floor)]
     pub floor: Option<(f64, f64)>,
-    /// Least distance of two robots, metres [default: 0.08]
+    /// Least distance of two robots, metres [default: 0.08, down to 0.062 where there is no room]
     #[arg(long, value_name = "M", value_parser = metres)]
     pub spacing: Option<f64>,
     /// Longer side of each picture, metres [default: chosen by floor and robots]

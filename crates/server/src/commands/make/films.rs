@@ -96,7 +96,8 @@ fn places(animation: &Animation, arguments: &MakeArguments) -> Result<Vec<Vec<Ve
     for frame in &animation.frames {
         let settings = PlaceSettings {
             robots: arguments.robots as usize,
-            spacing_m: recipe.placing.spacing_m,
+            spacing_m: recipe.placing.spacing().0,
+            least_m: recipe.placing.spacing().1,
             style: recipe.placing.style,
             size_m: recipe.placing.size_m,
             view: view_of(animation),

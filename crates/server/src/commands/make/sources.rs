@@ -218,7 +218,7 @@ pub fn recipe(content: Content, arguments: &MakeArguments) -> Recipe {
     let placing = Placing {
         style: arguments.style.map(Into::into).unwrap_or(usual_style),
         size_m: arguments.size,
-        spacing_m: arguments.spacing.unwrap_or(usual.spacing_m),
+        spacing_m: arguments.spacing,
         ..usual
     };
     Recipe { placing, seed: arguments.seed, ..Recipe::new(content) }
