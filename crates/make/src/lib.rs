@@ -4,6 +4,7 @@
 //! [`Recipe`] is the typed form of a source's settings, [`material`] gives its drawing, [`make_frame`] its pixels,
 //! [`fit_show`] fits all frames of a show to another fleet.
 
+mod enough;
 mod fit;
 mod floor;
 mod frame;
@@ -11,6 +12,7 @@ mod material;
 mod recipe;
 mod settings;
 
+pub use enough::enough_for;
 pub use fit::fit_show;
 pub use floor::picture_floor;
 pub use frame::{MadeFrame, make_frame, make_frame_from};

@@ -9,7 +9,7 @@ use lightbots_draw::{DrawError, Made, Note, PictureFloor, PlaceSettings, Quality
 use lightbots_make::{Content, Material, view_of};
 use lightbots_show::{Frame, Stage};
 
-use super::sources::{self, Wanted};
+use super::wanted::{Wanted, asset, recipe};
 use crate::cli::MakeArguments;
 
 /// Pictures that one move may leave out, at most.
@@ -41,14 +41,15 @@ pub fn frames(
     let moments = key_moments(&times_s, REACH, |a, b| animation.change(a, b), cost_s)
         .ok_or_else(|| DrawError::new("animation-empty", "the animation has no pictures"))?;
     let name = path.file_stem().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
-    let asset = sources::film_asset(path, bytes);
+    let media_type = if bytes.starts_with(b"GIF8") { "image/gif" } else { "image/webp" };
+    let asset = asset(path, bytes, media_type);
     let ends_s = animation.frames.last().map_or(0.0, |frame| frame.at_s + frame.lasts_s);
     let mut wanted = Vec::new();
     for (nth, moment) in moments.moments.iter().enumerate() {
         let frame = &animation.frames[*moment];
         let next = moments.moments.get(nth + 1);
         let content = Content::Animation { picture: *picture, moment_s: frame.at_s };
-        let mut source = sources::recipe(content, arguments).source();
+        let mut source = recipe(content, arguments).source();
         source.series = Some(name.clone());
         let until_s = next.map_or(ends_s, |next| animation.frames[*next].at_s);
         let drive_s = next.map_or(0.0, |next| cost_s(*moment, *next));
@@ -91,7 +92,7 @@ fn places(animation: &Animation, arguments: &MakeArguments) -> Result<Vec<Vec<Ve
     let stage = Stage { width_m, depth_m, ..Stage::default() };
     let floor: PictureFloor = lightbots_make::picture_floor(&stage);
     let content = Content::Animation { picture: PictureSettings::default(), moment_s: 0.0 };
-    let recipe = sources::recipe(content, arguments);
+    let recipe = recipe(content, arguments);
     let mut all: Vec<Vec<Vec2>> = Vec::new();
     for frame in &animation.frames {
         let settings = PlaceSettings {

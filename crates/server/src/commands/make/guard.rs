@@ -23,9 +23,13 @@ const TOO_LONG: i32 = 75;
 
 /// Whether sources are files and this process is not the child yet.
 pub fn is_needed(arguments: &MakeArguments) -> bool {
-    let has_files =
-        arguments.font.is_some() || arguments.sources.iter().any(|source| !super::sources::is_words(source));
+    let has_files = arguments.font.is_some() || arguments.sources.iter().any(|source| !is_words(source));
     has_files && std::env::var_os(CHILD).is_none()
+}
+
+/// Whether a source is words of the command line rather than a file.
+fn is_words(source: &str) -> bool {
+    source.starts_with("text:") || source.starts_with("shape:")
 }
 
 /// Runs the same command in a child process and ends as it does.
@@ -55,10 +59,10 @@ pub fn run_in_child() -> Outcome {
 }
 
 /// Ends the child if reading takes too long.
-pub struct Watch(Arc<AtomicBool>);
+pub struct ReadingTime(Arc<AtomicBool>);
 
-impl Watch {
-    /// Limits memory from now on and time until [`Watch::decoded`], if this process is the child.
+impl ReadingTime {
+    /// Limits memory from now on and time until [`ReadingTime::decoded`], if this process is the child.
     pub fn start() -> Self {
         let done = Arc::new(AtomicBool::new(false));
         if std::env::var_os(CHILD).is_some() {

@@ -3,6 +3,7 @@
 mod films;
 mod guard;
 mod sources;
+mod wanted;
 
 use std::collections::BTreeMap;
 
@@ -11,7 +12,7 @@ use lightbots_base::Vec2;
 use lightbots_draw::{DrawError, Quality, Readability};
 use lightbots_exchange::{Format, for_file, formats_in_words};
 use lightbots_make::{MadeFrame, make_frame_from, picture_floor};
-use lightbots_show::{Frame, Issue, Issues, Show, Stage, validate};
+use lightbots_show::{Issue, Issues, Show, Stage, validate};
 use serde::Serialize;
 
 use super::{count, print_issues, print_json};
@@ -20,7 +21,7 @@ use crate::failure::{Failure, Outcome};
 use crate::numbers::rounded;
 use crate::progress::Bar;
 use crate::{plan_document, say};
-use sources::Wanted;
+use wanted::Wanted;
 
 /// The JSON of `make`.
 #[derive(Debug, Serialize)]
@@ -50,7 +51,7 @@ pub fn run(arguments: &MakeArguments) -> Outcome {
     if guard::is_needed(arguments) {
         return guard::run_in_child();
     }
-    let watch = guard::Watch::start();
+    let watch = guard::ReadingTime::start();
     let bar = Bar::new();
     let mut wanted = sources::read(arguments, &bar)?;
     watch.decoded();
@@ -184,13 +185,5 @@ impl Summary {
             say::line(&format!("  {}: {:.2} m wide{reads}", picture.name, picture.size_m));
         }
         print_issues(&self.issues);
-    }
-}
-
-/// Frames that share one name are told apart by a number.
-pub(super) fn numbered(frames: &mut [Frame]) {
-    let many = frames.len() > 1;
-    for (index, frame) in frames.iter_mut().enumerate().filter(|_| many) {
-        frame.name = format!("{} {}", frame.name, index + 1);
     }
 }

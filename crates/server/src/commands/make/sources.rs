@@ -1,16 +1,15 @@
 //! From the words and files of the command line to frames that wait for their robots.
 
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 
 use lightbots_draw::picture::PictureSettings;
 use lightbots_draw::text::{self, FONTS};
-use lightbots_draw::{DrawError, Drawing, FileKind, ShapeSettings, Style, shape_named, sniff, unsupported};
-use lightbots_exchange::hash_of;
-use lightbots_make::{Content, Material, Placing, Recipe, Scroll, TextRecipe, material};
+use lightbots_draw::{DrawError, FileKind, ShapeSettings, shape_named, sniff, unsupported};
+use lightbots_make::{Content, Scroll, TextRecipe};
 use lightbots_show::{Asset, AssetHash, Frame};
 
-use super::{films, numbered};
+use super::films;
+use super::wanted::{Wanted, asset, one};
 use crate::cli::MakeArguments;
 use crate::failure::Failure;
 use crate::progress::Bar;
@@ -23,33 +22,6 @@ const STEPS_PER_CHARACTER: usize = 1;
 
 /// Width of the window of a scrolling text, cap heights.
 const WINDOW: f64 = 3.0;
-
-/// A frame that waits for its robots.
-pub struct Wanted {
-    /// Name, times and source.
-    pub frame: Frame,
-    /// What the source gives.
-    pub material: Material,
-    /// The source's file.
-    pub asset: Option<(AssetHash, Asset)>,
-    /// Whether it is a moment of the film whose moment before is the frame before.
-    pub start: bool,
-}
-
-/// Whether a source is words of the command line rather than a file.
-pub fn is_words(source: &str) -> bool {
-    source.starts_with("text:") || source.starts_with("shape:")
-}
-
-impl Wanted {
-    /// Its drawing, if it has one.
-    pub fn drawing(&self) -> Option<Drawing> {
-        match &self.material {
-            Material::Drawing { made, .. } => Some(made.drawing.clone()),
-            Material::Lights(_) => None,
-        }
-    }
-}
 
 /// All frames that are wanted.
 pub fn read(arguments: &MakeArguments, bar: &Bar) -> Result<Vec<Wanted>, Failure> {
@@ -104,17 +76,6 @@ fn bytes(path: &Path) -> Result<Vec<u8>, Failure> {
         return Err(unreadable(format!("the file is larger than {} MB; make it smaller", FILE_MAX >> 20)));
     }
     std::fs::read(path).map_err(|error| unreadable(format!("cannot be read: {error}")))
-}
-
-fn asset(path: &Path, bytes: &[u8], media_type: &str) -> (AssetHash, Asset) {
-    let name = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
-    let asset = Asset {
-        name,
-        media_type: media_type.into(),
-        bytes: bytes.len() as u64,
-        content: Some(Arc::from(bytes)),
-    };
-    (hash_of(bytes), asset)
 }
 
 fn of_text(words: &str, font: &ChosenFont, arguments: &MakeArguments) -> Result<Vec<Wanted>, DrawError> {
@@ -191,35 +152,10 @@ fn of_file(source: &str, bytes: &[u8], arguments: &MakeArguments) -> Result<Vec<
     Ok(vec![wanted])
 }
 
-/// A frame of one source.
-pub fn one(
-    name: String,
-    content: Content,
-    file: Option<&[u8]>,
-    arguments: &MakeArguments,
-) -> Result<Wanted, DrawError> {
-    let recipe = recipe(content, arguments);
-    let material = material(&recipe, file)?;
-    let frame = Frame { name, air_time_s: arguments.air, sources: vec![recipe.source()], ..Frame::default() };
-    Ok(Wanted { frame, material, asset: None, start: false })
-}
-
-/// The source's file as an asset of the show.
-pub fn film_asset(path: &Path, bytes: &[u8]) -> (AssetHash, Asset) {
-    let media_type = if bytes.starts_with(b"GIF8") { "image/gif" } else { "image/webp" };
-    asset(path, bytes, media_type)
-}
-
-/// The recipe of a source with what the command line says.
-pub fn recipe(content: Content, arguments: &MakeArguments) -> Recipe {
-    let usual = Placing::default();
-    // Robots of a film keep their numbers from picture to picture, which an edge of changing length would not let them.
-    let usual_style = if matches!(content, Content::Animation { .. }) { Style::Filled } else { usual.style };
-    let placing = Placing {
-        style: arguments.style.map(Into::into).unwrap_or(usual_style),
-        size_m: arguments.size,
-        spacing_m: arguments.spacing,
-        ..usual
-    };
-    Recipe { placing, seed: arguments.seed, ..Recipe::new(content) }
+/// Frames that share one name are told apart by a number.
+fn numbered(frames: &mut [Frame]) {
+    let many = frames.len() > 1;
+    for (index, frame) in frames.iter_mut().enumerate().filter(|_| many) {
+        frame.name = format!("{} {}", frame.name, index + 1);
+    }
 }

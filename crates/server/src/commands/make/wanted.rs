@@ -1,0 +1,72 @@
+//! A frame that waits for its robots, and what its source is made of.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use lightbots_draw::{DrawError, Drawing, Style};
+use lightbots_exchange::hash_of;
+use lightbots_make::{Content, Material, Placing, Recipe, material};
+use lightbots_show::{Asset, AssetHash, Frame};
+
+use crate::cli::MakeArguments;
+
+/// A frame that waits for its robots.
+pub struct Wanted {
+    /// Name, times and source.
+    pub frame: Frame,
+    /// What the source gives.
+    pub material: Material,
+    /// The source's file.
+    pub asset: Option<(AssetHash, Asset)>,
+    /// Whether it is a moment of the film whose moment before is the frame before.
+    pub start: bool,
+}
+
+impl Wanted {
+    /// Its drawing, if it has one.
+    pub fn drawing(&self) -> Option<Drawing> {
+        match &self.material {
+            Material::Drawing { made, .. } => Some(made.drawing.clone()),
+            Material::Lights(_) => None,
+        }
+    }
+}
+
+/// A file as an asset of the show, by its hash.
+pub fn asset(path: &Path, bytes: &[u8], media_type: &str) -> (AssetHash, Asset) {
+    let name = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+    let asset = Asset {
+        name,
+        media_type: media_type.into(),
+        bytes: bytes.len() as u64,
+        content: Some(Arc::from(bytes)),
+    };
+    (hash_of(bytes), asset)
+}
+
+/// A frame of one source.
+pub fn one(
+    name: String,
+    content: Content,
+    file: Option<&[u8]>,
+    arguments: &MakeArguments,
+) -> Result<Wanted, DrawError> {
+    let recipe = recipe(content, arguments);
+    let material = material(&recipe, file)?;
+    let frame = Frame { name, air_time_s: arguments.air, sources: vec![recipe.source()], ..Frame::default() };
+    Ok(Wanted { frame, material, asset: None, start: false })
+}
+
+/// The recipe of a source with what the command line says.
+pub fn recipe(content: Content, arguments: &MakeArguments) -> Recipe {
+    let usual = Placing::default();
+    // Robots of a film keep their numbers from picture to picture, which an edge of changing length would not let them.
+    let usual_style = if matches!(content, Content::Animation { .. }) { Style::Filled } else { usual.style };
+    let placing = Placing {
+        style: arguments.style.map(Into::into).unwrap_or(usual_style),
+        size_m: arguments.size,
+        spacing_m: arguments.spacing,
+        ..usual
+    };
+    Recipe { placing, seed: arguments.seed, ..Recipe::new(content) }
+}

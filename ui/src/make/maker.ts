@@ -1,0 +1,119 @@
+import type { MakeAnswer, MakeChoices, MakeFile, MakeRequest } from '../api/types.gen';
+import type { Ask, Reply } from './protocol';
+
+/** What a maker needs of a worker. */
+export interface WorkerLike {
+  postMessage(ask: Ask): void;
+  onmessage: ((event: MessageEvent<Reply>) => void) | null;
+  onerror: ((event: ErrorEvent) => void) | null;
+  terminate(): void;
+}
+
+/** Makes frames in a worker that is started with the first wish. */
+export interface Maker {
+  /**
+   * Makes a frame. One is made at a time, and of those that wait only the newest: `null` is the answer to a wish that a
+   * newer one replaced.
+   */
+  make(request: MakeRequest, asset: Uint8Array | null): Promise<MakeAnswer | null>;
+  /** What settings may name. */
+  list(): Promise<MakeChoices>;
+  /** What a file is. */
+  look(bytes: Uint8Array): Promise<MakeFile>;
+  /** Ends the worker; the next wish starts another. */
+  end(): void;
+}
+
+/** A frame that takes longer is given up, milliseconds: such a file is hostile, or far too fine for robots. */
+export const MAKE_MAX_MS = 10_000;
+
+/** A newer wish lets the frame in work finish for this long, milliseconds; starting a worker anew takes as long. */
+export const GRACE_MS = 300;
+
+interface Job {
+  ask: Ask;
+  done(reply: Reply | null): void;
+}
+
+const SLOW = 'This takes longer than ten seconds. Use a simpler drawing or fewer robots.';
+const BROKEN = 'This cannot be made. Undo the last change of its settings, or use another file.';
+
+export function createMaker(start: () => WorkerLike): Maker {
+  let worker: WorkerLike | null = null;
+  let running: Job | null = null;
+  let queue: Job[] = [];
+  let timer: ReturnType<typeof setTimeout> | undefined;
+
+  const end = () => {
+    clearTimeout(timer);
+    worker?.terminate();
+    worker = null;
+  };
+  const finish = (reply: Reply | null) => {
+    clearTimeout(timer);
+    const job = running;
+    running = null;
+    if (reply === null || reply.of === 'failure') end();
+    job?.done(reply);
+    next();
+  };
+  const giveUpIn = (ms: number, reply: Reply | null) => {
+    clearTimeout(timer);
+    timer = setTimeout(() => finish(reply), ms);
+  };
+  const fail = (message: string): Reply => ({ of: 'failure', message });
+  const next = () => {
+    running = queue.shift() ?? null;
+    if (!running) return;
+    if (!worker) {
+      worker = start();
+      worker.onmessage = ({ data }) => finish(data);
+      worker.onerror = () => finish(fail(BROKEN));
+    }
+    giveUpIn(MAKE_MAX_MS, fail(SLOW));
+    worker.postMessage(running.ask);
+  };
+  const add = (ask: Ask) =>
+    new Promise<Reply | null>((done) => {
+      if (ask.do === 'make') {
+        queue.filter((job) => job.ask.do === 'make').forEach((job) => job.done(null));
+        queue = queue.filter((job) => job.ask.do !== 'make');
+        if (running?.ask.do === 'make') giveUpIn(GRACE_MS, null);
+      }
+      queue.push({ ask, done });
+      if (!running) next();
+    });
+  const wanted = async <T extends Reply['of']>(ask: Ask, of: T) => {
+    const got = await add(ask);
+    if (got?.of === of) return got as Extract<Reply, { of: T }>;
+    throw new Error(got?.of === 'failure' ? got.message : BROKEN);
+  };
+  return {
+    async make(request, asset) {
+      const got = await add({ do: 'make', request, asset });
+      if (got === null) return null;
+      return got.of === 'make'
+        ? got.answer
+        : withoutPixels(got.of === 'failure' && got.message === SLOW ? 'too-slow' : 'broken');
+    },
+    list: async () => (await wanted({ do: 'list' }, 'list')).choices,
+    look: async (bytes) => (await wanted({ do: 'look', bytes }, 'look')).file,
+    end() {
+      queue.splice(0).forEach((job) => job.done(null));
+      const job = running;
+      running = null;
+      end();
+      job?.done(null);
+    },
+  };
+}
+
+const withoutPixels = (code: 'too-slow' | 'broken'): MakeAnswer => ({
+  pixels: [],
+  size_m: 0,
+  closest_m: null,
+  readability: null,
+  enough: null,
+  notes: [],
+  error: { code, message: code === 'too-slow' ? SLOW : BROKEN },
+});

@@ -1,0 +1,16 @@
+import load, { list, look, make } from '../generated/browser';
+import address from '../generated/browser_bg.wasm?url';
+import { reply, type Ask, type Reply } from './protocol';
+
+/** The module in a thread of its own, so that the page stays quick while frames are made. */
+const loaded = load({ module_or_path: address });
+const answer = (message: Reply) => self.postMessage(message);
+
+self.onmessage = async ({ data }: MessageEvent<Ask>) => {
+  try {
+    await loaded;
+    answer(reply({ make, list, look }, data));
+  } catch (error) {
+    answer({ of: 'failure', message: String(error) });
+  }
+};
