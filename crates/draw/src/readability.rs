@@ -7,7 +7,7 @@ use lightbots_base::Vec2;
 
 use crate::buckets::nearest_distances;
 use crate::coverage::{Sample, samples};
-use crate::drawing::{Drawing, DrawingPart};
+use crate::drawing::{Drawing, DrawingPart, Stroke};
 use crate::light_image::LightImage;
 use crate::lines::LineSet;
 use crate::settings::PlacedLight;
@@ -51,27 +51,40 @@ pub(crate) fn of_group(group: &DrawingPart, places: &[Vec2]) -> Option<Readabili
     let alone = Drawing { groups: vec![group.clone()] };
     let (low, high) = alone.bounds()?;
     let size = high - low;
-    let sigma = SIGMA * if group.letter.is_some() { size.y } else { size.x.max(size.y) };
+    // A dash is a letter without height.
+    let sigma = SIGMA * if group.letter.is_some() { size.y.max(0.5 * size.x) } else { size.x.max(size.y) };
+    if sigma <= 0.0 {
+        return None;
+    }
     let pitch = sigma / 4.0;
     let drawn = drawn(group, pitch);
-    if drawn.is_empty() || sigma <= 0.0 {
+    if drawn.is_empty() {
         return None;
     }
     let image = |points: &mut dyn Iterator<Item = (Vec2, f64)>| LightImage::new(points, low, high, sigma);
-    let source = image(&mut drawn.iter().map(|sample| (sample.at, sample.mass)));
     let lights = image(&mut places.iter().map(|at| (*at, 1.0)));
+    let likeness = |drawn: &[Sample]| {
+        lights.correlation(&image(&mut drawn.iter().map(|sample| (sample.at, sample.mass))))
+    };
+    // A letter of strokes is as readable as a bold one, and a star's edge as a filled star.
+    let spine = along(&group.spine, pitch);
+    let correlation = likeness(&drawn).max(if spine.is_empty() { 0.0 } else { likeness(&spine) });
     let mut distances = nearest_distances(places, pitch);
     distances.sort_by(f64::total_cmp);
     let reach = 0.3 * distances.get(distances.len() / 2).copied().unwrap_or(0.0);
     let symmetry = Mirror::of(&drawn, pitch).map_or(1.0, |mirror| symmetric_share(mirror, places, reach));
-    Some(Readability { correlation: lights.correlation(&source), symmetry })
+    Some(Readability { correlation, symmetry })
 }
 
 /// What is drawn: areas, else the picture's weights, and strokes.
 fn drawn(group: &DrawingPart, pitch: f64) -> Vec<Sample> {
     let mut drawn = samples(group, pitch);
-    let track = LineSet::new(&group.strokes, pitch);
-    // A line counts as wide as a light.
-    drawn.extend(track.points().iter().map(|at| Sample { at: *at, mass: 4.0 * pitch * pitch }));
+    drawn.extend(along(&group.strokes, pitch));
     drawn
+}
+
+/// Samples along lines. A line counts as wide as a light.
+fn along(strokes: &[Stroke], pitch: f64) -> Vec<Sample> {
+    let lines = LineSet::new(strokes, pitch);
+    lines.points().iter().map(|at| Sample { at: *at, mass: 4.0 * pitch * pitch }).collect()
 }

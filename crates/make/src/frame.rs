@@ -333,4 +333,13 @@ mod tests {
             "too-many-robots"
         );
     }
+
+    #[test]
+    fn a_dash_of_one_stroke_is_a_word() {
+        let words = TextRecipe { font: "hershey-sans".into(), ..TextRecipe::new("-") };
+        let frame = Frame { sources: vec![Recipe::new(Content::Text(words)).source()], ..Frame::default() };
+        let made = make_frame(&frame, None, &floor(), 9, Quality::Full, &[]).unwrap();
+        assert_eq!(made.frame.pixels.len(), 9);
+        assert!(made.readability.unwrap().correlation > 0.85);
+    }
 }

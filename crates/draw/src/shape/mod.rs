@@ -74,4 +74,12 @@ mod tests {
         assert!(refused(ShapeSettings { aspect: -1.0, ..star }));
         assert!(refused(ShapeSettings::new(ShapeKind::Polyline)));
     }
+
+    #[test]
+    fn a_star_of_thirty_lights_is_symmetric_and_readable() {
+        let star = draw_shape(&ShapeSettings::new(ShapeKind::Star)).unwrap();
+        let placed = place(&star, &PictureFloor::new(3.0, 3.0, 0.1), &PlaceSettings::default()).unwrap();
+        assert!(placed.readability.symmetry > 0.99, "{:?}", placed.readability);
+        assert!(placed.readability.correlation > crate::READABLE, "{:?}", placed.readability);
+    }
 }
