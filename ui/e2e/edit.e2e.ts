@@ -5,8 +5,6 @@ import {
   button,
   countIs,
   drag,
-  makeShape,
-  makeWords,
   onScreen,
   openShow,
   phaseIs,
@@ -37,11 +35,13 @@ describe('the editor', () => {
   test('three frames from nothing, saved, and played', async () => {
     const page = await bed.open('edit');
     const name = await begin(page);
-    await makeShape(page, 'Heart');
+    await button(page, 'Heart').click();
     await button(page, /^Add a frame/).click();
-    await makeShape(page, 'Circle');
+    await button(page, 'Circle').click();
     await button(page, /^Add a frame/).click();
-    await makeWords(page, 'HI');
+    await page.getByLabel('Text', { exact: true }).fill('HI');
+    await button(page, 'Apply').first().click();
+    await page.keyboard.press('Escape');
     await button(page, 'All').click();
     await button(page, 'Colour pink #ff2f92').click();
     await saved(page);

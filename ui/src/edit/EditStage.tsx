@@ -5,8 +5,7 @@ import { StageCanvas } from '../stage/StageCanvas';
 import { useEditing } from './context';
 import type { Editing } from './editing';
 import { PixelTwin } from './PixelTwin';
-import { editScene, withMade } from './scene';
-import { EmptyFrame } from './EmptyFrame';
+import { editScene } from './scene';
 import { StageHint } from './StageHint';
 import { StageTools } from './StageTools';
 import { usePreview } from './usePreview';
@@ -26,17 +25,10 @@ function rememberScene(editing: Editing): () => Scene {
       editing.full.plan.get(),
       editing.preview.time_s.get(),
     ];
-    const making = editing.making.get();
-    const shown = making?.made.get().shown;
-    const now = [state, shown, options, plan, time_s, unitStore.get()];
+    const now = [state, options, plan, time_s, unitStore.get()];
     if (!scene || now.some((input, i) => input !== inputs[i])) {
       inputs = now;
-      scene = editScene(
-        making ? withMade(state, making.frame, shown) : state,
-        options,
-        plan,
-        time_s,
-      );
+      scene = editScene(state, options, plan, time_s);
     }
     return scene;
   };
@@ -56,7 +48,7 @@ export function EditStage() {
     [
       'Escape',
       () => {
-        if (editing.making.get() || giveUp()) return;
+        if (giveUp()) return;
         if (editing.tool.get() !== 'arrow') editing.tool.set('arrow');
         else editing.editor.select([]);
         editing.preview.stop();
@@ -68,7 +60,6 @@ export function EditStage() {
       <StageCanvas view={editing.view} sceneAt={sceneAt} dragPans={false} hand={hand} />
       <StageTools />
       <StageHint />
-      <EmptyFrame />
       <PixelTwin />
     </section>
   );
