@@ -1,5 +1,7 @@
 //! Colours of a light.
 
+use core::fmt;
+
 /// Colour of a light: 8 bits per channel, sRGB, not premultiplied.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Rgb {
@@ -33,6 +35,12 @@ impl Rgb {
         (self.r as u32) << 16 | (self.g as u32) << 8 | self.b as u32
     }
 
+    /// From text such as `#ffa500`; `None` for any other text.
+    pub fn from_hex(text: &str) -> Option<Self> {
+        let digits = text.strip_prefix('#').filter(|digits| digits.len() == 6 && !digits.starts_with('+'))?;
+        Self::from_number(u32::from_str_radix(digits, 16).ok()?)
+    }
+
     /// The colour `share` of the way to `other`; `share` is clamped to 0..=1.
     pub fn mixed(self, other: Self, share: f64) -> Self {
         let share = if share > 0.0 { share.min(1.0) } else { 0.0 };
@@ -41,9 +49,29 @@ impl Rgb {
     }
 }
 
+/// Such as `#ffa500`.
+impl fmt::Display for Rgb {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "#{:06x}", self.number())
+    }
+}
+
 #[cfg(test)]
 mod tests {
+    extern crate std;
+
+    use std::string::ToString;
+
     use super::*;
+
+    #[test]
+    fn texts_and_colours_agree() {
+        assert_eq!(Rgb::from_hex("#ffa500"), Some(Rgb::new(255, 165, 0)));
+        assert_eq!(Rgb::new(0, 10, 255).to_string(), "#000aff");
+        for bad in ["", "#", "ffa500", "#ffa50", "#ffa5000", "#+fa500", "#gfa500", "#é1234"] {
+            assert_eq!(Rgb::from_hex(bad), None, "{bad}");
+        }
+    }
 
     #[test]
     fn numbers_and_channels_agree() {

@@ -1,5 +1,6 @@
 //! How many robots each group gets.
 
+use crate::geometry::hexagonal_count;
 use crate::ground::Ground;
 use crate::layout::Style;
 
@@ -26,7 +27,7 @@ pub(crate) fn demands(grounds: &[&Ground], style: Style, count: usize) -> Vec<f6
 
 /// Robots that a group takes at a spacing.
 fn demand(ground: &Ground, style: Style, spacing: f64) -> f64 {
-    let filling = |area: f64| area.max(0.0) / (3.0_f64.sqrt() / 2.0 * spacing * spacing);
+    let filling = |area: f64| hexagonal_count(area, spacing);
     let (lines, edge) = (ground.lines.length(), ground.outline.length());
     match style {
         _ if ground.samples.is_empty() => lines / spacing,

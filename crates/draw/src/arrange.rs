@@ -7,6 +7,7 @@ use crate::colour::Paint;
 use crate::drawing::{Drawing, DrawingPart};
 use crate::error::DrawError;
 use crate::fit::PictureFloor;
+use crate::geometry::hexagonal_spacing;
 use crate::ground::Ground;
 use crate::layout::{Layout, LayoutTask, Style};
 use crate::settings::{PlaceSettings, PlacedLight};
@@ -87,7 +88,7 @@ fn style(pieces: &[Piece], settings: &PlaceSettings) -> Style {
     if edge == 0.0 {
         return Style::Filled;
     }
-    let spacing = (2.0 * area / (3.0_f64.sqrt() * settings.robots as f64)).sqrt();
+    let spacing = hexagonal_spacing(area, settings.robots);
     let have_lines = filled.iter().all(|ground| !ground.lines.lines.is_empty());
     if 2.0 * area / edge > WIDE * spacing {
         Style::Both

@@ -3,6 +3,7 @@
 use lightbots_base::Vec2;
 
 use crate::drawing::{Area, DrawingPart, FillRule, Raster};
+use crate::geometry::bounds;
 
 /// Lines on which a cell's share is integrated. Along a line it is exact.
 const LINES: usize = 4;
@@ -38,20 +39,13 @@ pub(crate) fn samples(group: &DrawingPart, pitch: f64) -> Vec<Sample> {
     if group.areas.is_empty() {
         return group.raster.as_ref().map_or_else(Vec::new, |raster| of_raster(raster, pitch));
     }
-    let points = || group.areas.iter().flat_map(|area| area.rings.iter().flatten());
-    let Some((min, max)) = bounds(points().copied()) else { return Vec::new() };
+    let points = group.areas.iter().flat_map(|area| area.rings.iter().flatten());
+    let Some((min, max)) = bounds(points) else { return Vec::new() };
     let mut grid = Grid::new(min, max, pitch);
     for area in &group.areas {
         grid.cover(area);
     }
     grid.samples()
-}
-
-fn bounds(points: impl Iterator<Item = Vec2>) -> Option<(Vec2, Vec2)> {
-    points.map(|point| (point, point)).reduce(|(low, high), (point, _)| {
-        let low = Vec2::new(low.x.min(point.x), low.y.min(point.y));
-        (low, Vec2::new(high.x.max(point.x), high.y.max(point.y)))
-    })
 }
 
 /// Point density grows with the square root of the mass in a centroidal tessellation (Gersho 1979), so the mass is the

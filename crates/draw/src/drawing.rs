@@ -2,6 +2,10 @@
 
 use lightbots_base::{Rgb, Vec2};
 
+use crate::geometry::bounds;
+
+pub use crate::geometry::FillRule;
+
 /// A drawing in units of its own, x to the right and y up. Its size and place on the floor are chosen later.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Drawing {
@@ -38,16 +42,6 @@ pub struct Area {
     pub color: Rgb,
     /// How densely it is filled, relative to the others; positive.
     pub weight: f64,
-}
-
-/// What is inside of rings that overlap, as in SVG.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum FillRule {
-    /// Where the rings wind around a point at all.
-    #[default]
-    NonZero,
-    /// Where a ray from the point crosses the rings an odd number of times.
-    EvenOdd,
 }
 
 /// A line.
@@ -97,24 +91,24 @@ impl Raster {
     }
 }
 
+impl DrawingPart {
+    /// All points of its lines and areas, and the corners of its picture.
+    pub fn points(&self) -> impl Iterator<Item = &Vec2> {
+        let areas = self.areas.iter().flat_map(|area| area.rings.iter().flatten());
+        let strokes = self.strokes.iter().chain(&self.spine).flat_map(|stroke| &stroke.points);
+        let corners = self.raster.iter().flat_map(|raster| [&raster.min, &raster.max]);
+        areas.chain(strokes).chain(corners)
+    }
+}
+
 impl Drawing {
-    /// All points of all lines, areas and corners of pictures.
-    pub fn points(&self) -> impl Iterator<Item = Vec2> + '_ {
-        self.groups.iter().flat_map(|group| {
-            let areas = group.areas.iter().flat_map(|area| area.rings.iter().flatten());
-            let strokes = group.strokes.iter().chain(&group.spine).flat_map(|stroke| &stroke.points);
-            let corners = group.raster.iter().flat_map(|raster| [&raster.min, &raster.max]);
-            areas.chain(strokes).chain(corners).copied()
-        })
+    /// All points of all parts.
+    pub fn points(&self) -> impl Iterator<Item = &Vec2> {
+        self.groups.iter().flat_map(DrawingPart::points)
     }
 
     /// The smallest rectangle around everything: its corners with the smaller and the larger x and y. `None`: empty.
     pub fn bounds(&self) -> Option<(Vec2, Vec2)> {
-        self.points().map(|point| (point, point)).reduce(|(low, high), (point, _)| {
-            (
-                Vec2::new(low.x.min(point.x), low.y.min(point.y)),
-                Vec2::new(high.x.max(point.x), high.y.max(point.y)),
-            )
-        })
+        bounds(self.points())
     }
 }

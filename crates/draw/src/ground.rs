@@ -4,7 +4,8 @@ use lightbots_base::Vec2;
 
 use crate::coverage::{Sample, samples};
 use crate::drawing::{DrawingPart, Stroke};
-use crate::lines::LineSet;
+use crate::geometry::{bounds, hexagonal_spacing};
+use crate::lines::{LineSet, Polyline};
 use crate::symmetry::Mirror;
 use crate::unique::unique;
 
@@ -71,12 +72,12 @@ pub(crate) struct Ground {
 impl Ground {
     /// A group for `count` places, without the parts for which `allowed` is false.
     pub fn new(group: &DrawingPart, count: usize, quality: Quality, allowed: &dyn Fn(Vec2) -> bool) -> Self {
-        let (low, high) = extent(group);
+        let (low, high) = bounds(group.points()).unwrap_or_default();
         let size = (high.x - low.x).max(high.y - low.y);
         let pitch = pitch(group, count, quality, size);
         let mut samples = samples(group, pitch);
         samples.retain(|sample| allowed(sample.at));
-        let spacing = spacing(samples.iter().map(|sample| sample.mass).sum(), count);
+        let spacing = hexagonal_spacing(samples.iter().map(|sample| sample.mass).sum(), count);
         let step = (0.02 * size).min(if spacing > 0.0 { 0.2 * spacing } else { size }).max(0.001 * size);
         let rings: Vec<Stroke> = group.areas.iter().flat_map(rings).collect();
         let strokes = if group.strokes.is_empty() { &group.spine } else { &group.strokes };
@@ -106,18 +107,8 @@ impl Ground {
 
     /// Ideal distance of `count` places that fill the areas.
     pub fn spacing(&self, count: usize) -> f64 {
-        spacing(self.mass, count)
+        hexagonal_spacing(self.mass, count)
     }
-}
-
-/// Ideal distance of `count` places in an area: that of a hexagonal grid.
-fn spacing(area: f64, count: usize) -> f64 {
-    (2.0 * area / (3.0_f64.sqrt() * count.max(1) as f64)).sqrt()
-}
-
-fn extent(group: &DrawingPart) -> (Vec2, Vec2) {
-    let drawing = crate::drawing::Drawing { groups: vec![group.clone()] };
-    drawing.bounds().unwrap_or_default()
 }
 
 /// Distance between samples: from the area's size, measured coarsely first.
@@ -141,18 +132,14 @@ fn rings(area: &crate::drawing::Area) -> impl Iterator<Item = Stroke> + '_ {
 fn clipped(strokes: &[Stroke], step: f64, allowed: &dyn Fn(Vec2) -> bool) -> Vec<Stroke> {
     let mut parts = Vec::new();
     for stroke in strokes {
-        if stroke.points.iter().all(|point| allowed(*point)) && pieces_allowed(stroke, step, allowed) {
+        let Some(line) = Polyline::new(stroke, step) else { continue };
+        if line.points.iter().all(|point| allowed(*point)) {
             parts.push(stroke.clone());
             continue;
         }
-        let Some(line) = LineSet::new(std::slice::from_ref(stroke), step).lines.pop() else { continue };
         for run in line.points.split(|point| !allowed(*point)).filter(|run| run.len() > 1) {
             parts.push(Stroke { points: run.to_vec(), closed: false, ..stroke.clone() });
         }
     }
     parts
-}
-
-fn pieces_allowed(stroke: &Stroke, step: f64, allowed: &dyn Fn(Vec2) -> bool) -> bool {
-    LineSet::new(std::slice::from_ref(stroke), step).points().iter().all(|point| allowed(*point))
 }

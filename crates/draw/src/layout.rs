@@ -5,6 +5,7 @@ use lightbots_base::Vec2;
 use crate::apart::{Freedom, Room, push_apart};
 use crate::buckets::Buckets;
 use crate::coverage::Sample;
+use crate::geometry::hexagonal_count;
 use crate::ground::{Ground, Quality};
 use crate::lines::LineSet;
 use crate::occupy::{LinePlace, occupy};
@@ -284,7 +285,7 @@ fn on_axis(samples: &[Sample], mirror: Mirror, count: usize, pitch: f64) -> Vec<
 /// The spacing at which an outline of this length and a filling of this area together take `count` places:
 /// L / s + (A − L s / 2) / (0.866 s²) = N.
 fn balanced_spacing(length: f64, area: f64, count: usize) -> f64 {
-    let taken = |s: f64| length / s + (area - length * s / 2.0).max(0.0) / (3.0_f64.sqrt() / 2.0 * s * s);
+    let taken = |s: f64| length / s + hexagonal_count(area - length * s / 2.0, s);
     let (mut low, mut high) = (1e-6 * length, length);
     for _ in 0..80 {
         let middle = (low * high).sqrt();

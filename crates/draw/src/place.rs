@@ -3,7 +3,7 @@
 use lightbots_base::Vec2;
 
 use crate::arrange::arrange;
-use crate::buckets::nearest_distances;
+use crate::buckets::closest_distance;
 use crate::drawing::Drawing;
 use crate::error::{DrawError, Note};
 use crate::fit::{PictureFloor, Placement};
@@ -85,7 +85,7 @@ fn attempt(drawing: &Drawing, floor: &PictureFloor, settings: &PlaceSettings) ->
     for _ in 0..TRIES {
         let mut scaled = placement.apply(drawing);
         let mut made = arrange(&scaled, floor, settings)?;
-        let mut closest_m = closest(&made, settings.spacing_m);
+        let mut closest_m = closest_distance(&places_of(&made));
         let missing = settings.spacing_m / closest_m;
         if missing > 1.0 && placement.has_room(missing) && floor.no_go.is_empty() && settings.kept.is_empty()
         {
@@ -120,8 +120,6 @@ fn enlarged(wanted: f64, size: f64, settings: &PlaceSettings) -> Note {
     Note::new("enlarged", what)
 }
 
-/// Distance of the closest pair, metres; infinite for one light.
-fn closest(lights: &[PlacedLight], spacing: f64) -> f64 {
-    let places: Vec<Vec2> = lights.iter().map(|light| light.at).collect();
-    nearest_distances(&places, spacing).into_iter().fold(f64::INFINITY, f64::min)
+fn places_of(lights: &[PlacedLight]) -> Vec<Vec2> {
+    lights.iter().map(|light| light.at).collect()
 }

@@ -8,6 +8,7 @@ use lightbots_base::Vec2;
 use crate::buckets::nearest_distances;
 use crate::coverage::{Sample, samples};
 use crate::drawing::{Drawing, DrawingPart, Stroke};
+use crate::geometry::bounds;
 use crate::light_image::LightImage;
 use crate::lines::LineSet;
 use crate::settings::PlacedLight;
@@ -48,8 +49,7 @@ pub(crate) fn readability(drawing: &Drawing, lights: &[PlacedLight]) -> Readabil
 
 /// How well places show one group; `None` for an empty group.
 pub(crate) fn of_group(group: &DrawingPart, places: &[Vec2]) -> Option<Readability> {
-    let alone = Drawing { groups: vec![group.clone()] };
-    let (low, high) = alone.bounds()?;
+    let (low, high) = bounds(group.points())?;
     let size = high - low;
     // A dash is a letter without height.
     let sigma = SIGMA * if group.letter.is_some() { size.y.max(0.5 * size.x) } else { size.x.max(size.y) };

@@ -3,10 +3,11 @@
 use lightbots_base::Vec2;
 use lightbots_base::shape::point_to_segment;
 
-use crate::buckets::{Buckets, nearest_distances};
+use crate::buckets::{Buckets, closest_distance, nearest_distances};
 use crate::coverage::Sample;
 use crate::error::DrawError;
 use crate::fit::PictureFloor;
+use crate::geometry::hexagonal_spacing;
 use crate::relax::Lloyd;
 use crate::seeds::{eliminate, seeds};
 use crate::settings::{MAX_ROBOTS, PlacedLight};
@@ -64,7 +65,7 @@ pub fn refit(
     let staying = staying(&places, &order, robots, is_pinned);
     let mut now: Vec<Vec2> = staying.iter().map(|index| places[*index]).collect();
     let mass: f64 = samples.iter().map(|sample| sample.mass).sum();
-    let spacing = (2.0 * mass / (3.0_f64.sqrt() * robots as f64)).sqrt();
+    let spacing = hexagonal_spacing(mass, robots);
     now.extend(seeds(&samples, &now, robots - staying.len(), spacing, 1));
     let kept = staying.iter().filter(|index| is_pinned(**index)).count();
     if robots != lights.len() {
@@ -127,7 +128,7 @@ fn center(x: i64, y: i64, pitch: f64) -> Vec2 {
 
 /// Spreads places from their middle until the closest pair keeps its distance.
 fn spread(places: &mut [Vec2], spacing_m: f64, floor: &PictureFloor) -> Result<(), DrawError> {
-    let closest = nearest_distances(places, spacing_m).into_iter().fold(f64::INFINITY, f64::min);
+    let closest = closest_distance(places);
     if closest >= spacing_m {
         return Ok(());
     }

@@ -5,7 +5,7 @@ use lightbots_base::Vec2;
 
 use crate::buckets::Buckets;
 use crate::drawing::Stroke;
-use crate::lines::LineSet;
+use crate::lines::Polyline;
 
 /// Lines nearer than this share of the drawing's size are one line.
 const SAME: f64 = 0.015;
@@ -18,10 +18,7 @@ pub(crate) fn unique(strokes: &[Stroke], size: f64) -> Vec<Stroke> {
     let distance = SAME * size;
     let mut lines = Vec::new();
     for stroke in strokes {
-        // A set of one line keeps numbers of strokes and lines alike.
-        lines.extend(
-            LineSet::new(std::slice::from_ref(stroke), 0.5 * distance).lines.pop().map(|line| (stroke, line)),
-        );
+        lines.extend(Polyline::new(stroke, 0.5 * distance).map(|line| (stroke, line)));
     }
     let points: Vec<Vec2> = lines.iter().flat_map(|(_, line)| line.points.iter().copied()).collect();
     let owners: Vec<(usize, f64)> = lines
@@ -89,6 +86,7 @@ fn long_runs(covered: &[bool], shortest: usize) -> Vec<bool> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::lines::LineSet;
     use lightbots_base::Rgb;
 
     fn stroke(points: &[(f64, f64)], closed: bool) -> Stroke {

@@ -3,7 +3,7 @@
 use lightbots_base::{Rgb, Vec2};
 use lightbots_draw::{
     DrawError, Drawing, LightList, Made, Note, PictureFloor, PlaceSettings, PlacedLight, Quality,
-    Readability, closest_distance, place, refit,
+    Readability, bounds, closest_distance, place, refit,
 };
 use lightbots_show::{Frame, FrameSource, Pixel, SourcePart};
 
@@ -174,7 +174,7 @@ fn arranged(
 ) -> Result<Lights, DrawError> {
     let placing = &recipe.placing;
     let places: Vec<Vec2> = list.places.iter().map(|(at, _)| *at).collect();
-    let (low, high) = bounds(&places);
+    let (low, high) = bounds(&places).unwrap_or_default();
     let side = (high.x - low.x).max(high.y - low.y);
     let unit = closest_distance(&places).min(1e6);
     if unit <= 0.0 {
@@ -216,14 +216,6 @@ fn arranged(
         readability: None,
         notes: Vec::new(),
     })
-}
-
-fn bounds(places: &[Vec2]) -> (Vec2, Vec2) {
-    let ends = places.iter().map(|at| (*at, *at)).reduce(|(low, high), (at, _)| {
-        let low = Vec2::new(low.x.min(at.x), low.y.min(at.y));
-        (low, Vec2::new(high.x.max(at.x), high.y.max(at.y)))
-    });
-    ends.unwrap_or_default()
 }
 
 /// Pixels for lights. The first lights are the moved pixels, which keep their ids; the others take the free ids in order.

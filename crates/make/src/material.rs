@@ -3,7 +3,9 @@
 use lightbots_base::{Rgb, Vec2};
 use lightbots_draw::animation::{self, Animation};
 use lightbots_draw::text::{self, Colors, Font, TextSettings};
-use lightbots_draw::{DrawError, LightList, Made, ShapeKind, ShapeSettings, draw_shape, list, picture, svg};
+use lightbots_draw::{
+    DrawError, LightList, Made, ShapeKind, ShapeSettings, bounds, draw_shape, list, picture, svg,
+};
 use lightbots_show::{Assets, FrameSource};
 
 use crate::recipe::{Content, Recipe, TextRecipe};
@@ -61,11 +63,13 @@ fn moment(animation: &Animation, moment_s: f64) -> Result<Material, DrawError> {
 
 /// The box around all pictures of an animation.
 pub fn view_of(animation: &Animation) -> Option<(Vec2, Vec2)> {
-    let boxes = animation.frames.iter().filter_map(|frame| frame.drawing.bounds());
-    boxes.reduce(|(low, high), (min, max)| {
-        let low = Vec2::new(low.x.min(min.x), low.y.min(min.y));
-        (low, Vec2::new(high.x.max(max.x), high.y.max(max.y)))
-    })
+    let corners: Vec<Vec2> = animation
+        .frames
+        .iter()
+        .filter_map(|frame| frame.drawing.bounds())
+        .flat_map(|(low, high)| [low, high])
+        .collect();
+    bounds(&corners)
 }
 
 fn missing() -> DrawError {

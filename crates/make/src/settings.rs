@@ -47,7 +47,7 @@ impl Reader<'_> {
     /// Colours such as `#ffa500`; one colour or a list; empty where it is not given.
     pub fn colors(&self, name: &str) -> Result<Vec<Rgb>, DrawError> {
         let color = |value: &Setting| match value {
-            Setting::Text(text) => color_of(text).ok_or_else(|| wrong(name, "a colour such as #ffa500")),
+            Setting::Text(text) => Rgb::from_hex(text).ok_or_else(|| wrong(name, "a colour such as #ffa500")),
             _ => Err(wrong(name, "a colour such as #ffa500")),
         };
         match setting(self.0, name) {
@@ -117,7 +117,7 @@ impl Writer {
     /// Colours, if there are any.
     pub fn colors(&mut self, name: &str, colors: &[Rgb]) {
         if !colors.is_empty() {
-            let text = |color: &Rgb| Setting::Text(format!("#{:06x}", color.number()));
+            let text = |color: &Rgb| Setting::Text(color.to_string());
             self.put(name, Setting::List(colors.iter().map(text).collect()));
         }
     }
@@ -141,9 +141,4 @@ impl Writer {
 
 fn wrong(name: &str, wanted: &str) -> DrawError {
     DrawError::new("bad-setting", format!("the setting \"{name}\" of a source must be {wanted}"))
-}
-
-fn color_of(text: &str) -> Option<Rgb> {
-    let digits = text.strip_prefix('#').filter(|digits| digits.len() == 6 && !digits.starts_with('+'))?;
-    Rgb::from_number(u32::from_str_radix(digits, 16).ok()?)
 }

@@ -45,9 +45,7 @@ pub fn seconds(text: &str) -> Result<f64, String> {
 
 /// `#ffa500` as a colour.
 pub fn color(text: &str) -> Result<Rgb, String> {
-    let digits = text.strip_prefix('#').filter(|digits| digits.len() == 6 && !digits.starts_with('+'));
-    let number = digits.and_then(|digits| u32::from_str_radix(digits, 16).ok());
-    number.and_then(Rgb::from_number).ok_or_else(|| "write a colour like #ffa500".into())
+    Rgb::from_hex(text).ok_or_else(|| "write a colour like #ffa500".into())
 }
 
 /// Reads where to listen: an IP address or a name of this machine, and a port, such as `127.0.0.1:8420`.

@@ -6,6 +6,7 @@ use lightbots_base::Vec2;
 
 use super::closed::polygon;
 use super::kinds::{ShapeKind, ShapeSettings};
+use crate::geometry::bounds;
 
 /// Points of a full turn.
 const TURN: f64 = 96.0;
@@ -59,9 +60,7 @@ fn curve(points: &[Vec2], closed: bool) -> Vec<Vec2> {
 
 /// Every point that is far enough from the one before: a hand trembles at the distance of mouse events.
 fn thinned(points: &[Vec2]) -> Vec<Vec2> {
-    let low = points.iter().fold(Vec2::new(f64::MAX, f64::MAX), |m, p| Vec2::new(m.x.min(p.x), m.y.min(p.y)));
-    let high =
-        points.iter().fold(Vec2::new(f64::MIN, f64::MIN), |m, p| Vec2::new(m.x.max(p.x), m.y.max(p.y)));
+    let (low, high) = bounds(points).unwrap_or_default();
     let least = 0.02 * (high - low).length();
     let mut kept: Vec<Vec2> = Vec::new();
     for point in points {

@@ -15,7 +15,7 @@ pub fn light(canvas: &mut Canvas) -> Vec<Note> {
     let background = remove_background(canvas);
     let mut notes = Vec::new();
     if let Some(color) = background {
-        let message = format!("The background, {}, is left out: it would need most robots.", name(color));
+        let message = format!("The background, {color}, is left out: it would need most robots.");
         notes.push(Note::new("svg-background", message));
     }
     if !count(canvas, is_dark) {
@@ -73,8 +73,4 @@ fn is_dark(color: Rgb) -> bool {
 
 fn is_paper(color: Rgb) -> bool {
     color.r.min(color.g).min(color.b) >= PAPER_FROM
-}
-
-fn name(color: Rgb) -> String {
-    format!("#{:06x}", color.number())
 }

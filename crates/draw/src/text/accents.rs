@@ -4,10 +4,10 @@ use lightbots_base::Vec2;
 use unicode_normalization::UnicodeNormalization;
 
 use super::fit::{base, stretched};
-use super::letter::bounds;
 use super::outline::Outlines;
 use super::region::LetterArea;
 use super::strokes::StrokeLine;
+use crate::geometry::bounds;
 
 /// Height above or below the plain letter at which outlines belong to the accent, in cap heights: letters with accents may
 /// overshoot by a little.

@@ -3,9 +3,9 @@
 use lightbots_base::Vec2;
 
 use super::font::spines;
-use super::letter::bounds;
 use super::region::{LetterArea, distance};
 use super::strokes::StrokeLine;
+use crate::geometry::bounds;
 
 /// Most points of a letter that gets a spine. The search is linear in them at every step; ornate letters have no strokes
 /// anyway.

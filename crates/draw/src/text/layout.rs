@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use lightbots_base::{Rgb, Vec2};
 use unicode_normalization::UnicodeNormalization;
 
-use super::letter::{Letter, bounds};
+use super::letter::Letter;
 use super::lines::lines;
 use super::runs::is_invisible;
 use super::settings::{Align, CHARACTERS_MAX, Colors, TextSettings};
@@ -13,6 +13,7 @@ use super::shape::{Gathered, Shaped, shape};
 use super::wrap::wrap;
 use crate::drawing::Drawing;
 use crate::error::{DrawError, Made, Note};
+use crate::geometry::bounds;
 
 /// Most characters that a note lists by name.
 const NAMED_MAX: usize = 20;

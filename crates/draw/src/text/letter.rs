@@ -53,11 +53,3 @@ impl Letter {
         }
     }
 }
-
-/// The smallest rectangle around points: its corners with the smaller and the larger x and y.
-pub(super) fn bounds<'a>(points: impl Iterator<Item = &'a Vec2>) -> Option<(Vec2, Vec2)> {
-    points.map(|point| (*point, *point)).reduce(|(low, high), (point, _)| {
-        let low = Vec2::new(low.x.min(point.x), low.y.min(point.y));
-        (low, Vec2::new(high.x.max(point.x), high.y.max(point.y)))
-    })
-}

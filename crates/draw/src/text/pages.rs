@@ -4,11 +4,12 @@ use lightbots_base::Vec2;
 
 use super::clip::clipped;
 use super::layout::{check, draw, drawing, lay_out};
-use super::letter::{Letter, bounds};
+use super::letter::Letter;
 use super::lines::words;
 use super::settings::TextSettings;
 use crate::drawing::{Drawing, DrawingPart};
 use crate::error::{DrawError, Made, Note};
+use crate::geometry::bounds;
 
 /// Most steps of a scrolling text: five minutes at ten steps per second, and more than any show plays.
 pub const STEPS_MAX: usize = 3_000;

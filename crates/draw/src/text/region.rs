@@ -2,7 +2,8 @@
 
 use lightbots_base::Vec2;
 
-use super::letter::bounds;
+use crate::drawing::FillRule;
+use crate::geometry::{bounds, contains, edges};
 
 /// Corners of a rectangle with the smaller and the larger x and y.
 pub(super) type Extent = (Vec2, Vec2);
@@ -52,16 +53,12 @@ impl<'a> LetterArea<'a> {
 
     /// Its edges.
     pub(super) fn edges(&self) -> impl Iterator<Item = (Vec2, Vec2)> + '_ {
-        self.rings.iter().flat_map(|ring| {
-            let next = ring.iter().cycle().skip(1);
-            ring.iter().copied().zip(next.copied())
-        })
+        edges(self.rings)
     }
 
     /// Whether a point is inside.
     pub(super) fn contains(&self, point: Vec2) -> bool {
-        let winding: i32 = self.edges().map(|(a, b)| winding(a, b, point)).sum();
-        winding != 0
+        contains(self.rings, FillRule::NonZero, point)
     }
 
     /// Distance of a point from the outline.
@@ -85,15 +82,6 @@ impl<'a> LetterArea<'a> {
 
 /// A cut longer than this many stroke widths runs along a stroke or through a joint, and its middle says nothing.
 const STROKE_MAX: f64 = 1.7;
-
-fn winding(a: Vec2, b: Vec2, point: Vec2) -> i32 {
-    let left = (b - a).cross(point - a);
-    match (a.y <= point.y, b.y <= point.y) {
-        (true, false) if left > 0.0 => 1,
-        (false, true) if left < 0.0 => -1,
-        _ => 0,
-    }
-}
 
 fn hit(point: Vec2, direction: Vec2, a: Vec2, b: Vec2) -> Option<f64> {
     let (from, to) = (direction.cross(a - point), direction.cross(b - point));

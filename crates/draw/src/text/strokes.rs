@@ -6,8 +6,8 @@ use std::sync::Arc;
 use lightbots_base::Vec2;
 use usvg::roxmltree::{Document, ParsingOptions};
 
-use super::letter::bounds;
 use super::region::distance;
+use crate::geometry::bounds;
 
 /// A closed line smaller than this share of the capitals is a dot, drawn by the makers as a small square.
 const DOT_SHARE: f64 = 0.16;

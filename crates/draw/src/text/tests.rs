@@ -2,11 +2,11 @@ use lightbots_base::random::split_mix;
 
 use lightbots_base::{Rgb, Vec2};
 
-use super::letter::bounds;
 use super::region::LetterArea;
 use super::*;
 use crate::drawing::DrawingPart;
 use crate::error::Made;
+use crate::geometry::bounds;
 
 fn lato() -> Font {
     Font::built_in("lato").unwrap()

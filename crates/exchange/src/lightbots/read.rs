@@ -239,9 +239,7 @@ fn rgb(json: &mut Json<'_>) -> Result<Rgb, ReadError> {
     json.peek()?;
     let before = json.clone();
     let text = json.text("color")?;
-    let digits = text.strip_prefix('#').filter(|digits| digits.len() == 6 && !digits.starts_with('+'));
-    let number = digits.and_then(|digits| u32::from_str_radix(digits, 16).ok());
-    number.and_then(Rgb::from_number).ok_or_else(|| {
+    Rgb::from_hex(&text).ok_or_else(|| {
         let what = format!("\"{}\" is not a colour; write it like \"#ffa500\"", excerpt(&text));
         before.fail("bad-color", what)
     })

@@ -131,12 +131,8 @@ fn frame(frame: &Frame) -> String {
 }
 
 fn pixel(pixel: &Pixel) -> String {
-    let mut line = format!(
-        "{{ \"id\": {}, \"place\": {}, \"color\": \"#{:06x}\"",
-        pixel.id,
-        place(&pixel.at),
-        pixel.color.number()
-    );
+    let mut line =
+        format!("{{ \"id\": {}, \"place\": {}, \"color\": \"{}\"", pixel.id, place(&pixel.at), pixel.color);
     if let Some(robot) = &pixel.robot {
         // Writing to a text cannot fail.
         let _ = write!(line, ", \"robot\": {}", quoted(robot));

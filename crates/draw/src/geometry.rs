@@ -1,0 +1,78 @@
+//! Boxes, windings and hexagonal grids.
+
+use lightbots_base::Vec2;
+
+/// What is inside of rings that overlap, as in SVG.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum FillRule {
+    /// Where the rings wind around a point at all.
+    #[default]
+    NonZero,
+    /// Where a ray from the point crosses the rings an odd number of times.
+    EvenOdd,
+}
+
+/// The smallest rectangle around points: its corners with the smaller and the larger x and y. `None` without points.
+pub fn bounds<'a>(points: impl IntoIterator<Item = &'a Vec2>) -> Option<(Vec2, Vec2)> {
+    points.into_iter().map(|point| (*point, *point)).reduce(|(low, high), (point, _)| {
+        let low = Vec2::new(low.x.min(point.x), low.y.min(point.y));
+        (low, Vec2::new(high.x.max(point.x), high.y.max(point.y)))
+    })
+}
+
+/// Edges of closed rings.
+pub(crate) fn edges(rings: &[Vec<Vec2>]) -> impl Iterator<Item = (Vec2, Vec2)> + '_ {
+    rings.iter().flat_map(|ring| ring.iter().copied().zip(ring.iter().copied().cycle().skip(1)))
+}
+
+/// Whether a point is inside of rings that may overlap.
+pub(crate) fn contains(rings: &[Vec<Vec2>], rule: FillRule, point: Vec2) -> bool {
+    let winding: i32 = edges(rings).map(|(a, b)| winding(a, b, point)).sum();
+    match rule {
+        FillRule::NonZero => winding != 0,
+        FillRule::EvenOdd => winding % 2 != 0,
+    }
+}
+
+/// How an edge winds around a point: 1 where it passes upwards to the right of it, −1 downwards, else 0.
+fn winding(a: Vec2, b: Vec2, point: Vec2) -> i32 {
+    let left = (b - a).cross(point - a);
+    match (a.y <= point.y, b.y <= point.y) {
+        (true, false) if left > 0.0 => 1,
+        (false, true) if left < 0.0 => -1,
+        _ => 0,
+    }
+}
+
+/// Distance between neighbours of a hexagonal grid of `count` places in an area: the ideal of an even filling.
+pub(crate) fn hexagonal_spacing(area: f64, count: usize) -> f64 {
+    (2.0 * area / (3.0_f64.sqrt() * count.max(1) as f64)).sqrt()
+}
+
+/// Number of places of a hexagonal grid of this spacing in an area; 0 for a negative area.
+pub(crate) fn hexagonal_count(area: f64, spacing: f64) -> f64 {
+    area.max(0.0) / (3.0_f64.sqrt() / 2.0 * spacing * spacing)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_ring_in_a_ring_is_a_hole_by_the_even_odd_rule_only() {
+        let square = |low: f64, high: f64| {
+            [(low, low), (high, low), (high, high), (low, high)].map(|(x, y)| Vec2::new(x, y)).to_vec()
+        };
+        let rings = [square(0.0, 4.0), square(1.0, 3.0)];
+        let inside = |x: f64, rule| contains(&rings, rule, Vec2::new(x, 2.0));
+        assert!(inside(2.0, FillRule::NonZero) && !inside(2.0, FillRule::EvenOdd));
+        assert!(inside(0.5, FillRule::NonZero) && inside(0.5, FillRule::EvenOdd));
+        assert!(!inside(5.0, FillRule::NonZero) && !inside(-1.0, FillRule::EvenOdd));
+        assert_eq!(bounds(rings.iter().flatten()), Some((Vec2::ZERO, Vec2::new(4.0, 4.0))));
+    }
+
+    #[test]
+    fn spacing_and_count_of_a_hexagonal_grid_agree() {
+        assert!((hexagonal_count(3.0, hexagonal_spacing(3.0, 70)) - 70.0).abs() < 1e-9);
+    }
+}
