@@ -85,9 +85,10 @@ impl NoGo {
 impl Placement {
     /// The size that was asked for, else one that suits floor and number of robots.
     pub fn new(drawing: &Drawing, floor: &PictureFloor, settings: &PlaceSettings) -> Result<Self, DrawError> {
-        let (low, high) = drawing.bounds().ok_or_else(|| {
+        let drawn = drawing.bounds().ok_or_else(|| {
             DrawError::new("nothing-to-draw", "there is nothing to draw; choose another source")
         })?;
+        let (low, high) = settings.view.unwrap_or(drawn);
         let extent = high - low;
         if !(extent.is_finite() && extent.x.max(extent.y) > 1e-12) {
             return Err(DrawError::new(

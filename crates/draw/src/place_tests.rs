@@ -191,3 +191,17 @@ fn wrong_numbers_are_refused() {
     let nothing = place(&Drawing::default(), &floor(), &PlaceSettings::default()).unwrap_err();
     assert_eq!(nothing.code, "nothing-to-draw");
 }
+
+#[test]
+fn pictures_of_one_view_keep_its_scale_and_place() {
+    // A square in the right half of a view that is four times as wide as the square.
+    let view = Some((Vec2::new(-2.0, 0.0), Vec2::new(2.0, 1.0)));
+    let settings = PlaceSettings { robots: 30, size_m: Some(4.0), view, ..PlaceSettings::default() };
+    let placed = made(&square(), &floor(), &settings);
+    assert!((placed.size_m - 4.0).abs() < 1e-9);
+    assert!(
+        placed.lights.iter().all(|light| light.at.x >= -1e-9 && light.at.x <= 1.0),
+        "{:?}",
+        placed.lights
+    );
+}
