@@ -65,14 +65,24 @@ pub fn make_frame_from(
 ) -> Result<MadeFrame, DrawError> {
     let source = only_source(before)?;
     let recipe = Recipe::read(source)?;
-    let wanted = wanted(before, source, &recipe, robots, quality, start);
+    let moved: Vec<&Pixel> = before
+        .pixels
+        .iter()
+        .filter(|pixel| source.moved.binary_search(&pixel.id).is_ok())
+        .take(robots)
+        .collect();
+    let kept = moved.iter().map(|pixel| PlacedLight { at: pixel.at, color: pixel.color, group: 0 }).collect();
     let made = match (exact(&recipe, robots), material) {
-        (Some(lights), _) => arranged(&lights, &recipe, floor, false)?,
-        (None, Material::Lights(lights)) => listed(&lights, &recipe, floor, robots)?,
-        (None, Material::Drawing { made, view }) => drawn(made, floor, &PlaceSettings { view, ..wanted })?,
+        (Some(lights), _) => arranged(&lights, &recipe, floor, false)?.with(kept),
+        (None, Material::Lights(lights)) => listed(&lights, &recipe, floor, robots)?.with(kept),
+        (None, Material::Drawing { made, view }) => {
+            let start = if kept.is_empty() { start.to_vec() } else { Vec::new() };
+            let wanted = PlaceSettings { view, kept, start, quality, ..recipe.place_settings(robots) };
+            drawn(made, floor, &wanted)?
+        }
     };
     let mut frame = before.clone();
-    frame.pixels = pixels(before, source, &made.lights, &made.names);
+    frame.pixels = pixels(before, &moved, &made.lights, &made.names);
     Ok(MadeFrame {
         frame,
         size_m: made.size_m,
@@ -100,30 +110,18 @@ struct Lights {
     notes: Vec<Note>,
 }
 
-fn wanted(
-    before: &Frame,
-    source: &FrameSource,
-    recipe: &Recipe,
-    robots: usize,
-    quality: Quality,
-    start: &[Vec2],
-) -> PlaceSettings {
-    let moved = before.pixels.iter().filter(|pixel| source.moved.binary_search(&pixel.id).is_ok());
-    let kept: Vec<PlacedLight> =
-        moved.map(|pixel| PlacedLight { at: pixel.at, color: pixel.color, group: 0 }).take(robots).collect();
-    PlaceSettings {
-        robots,
-        spacing_m: recipe.placing.spacing().0,
-        least_m: recipe.placing.spacing().1,
-        style: recipe.placing.style,
-        size_m: recipe.placing.size_m,
-        center: recipe.placing.center,
-        turn: recipe.placing.turn,
-        start: if kept.is_empty() && start.len() == robots { start.to_vec() } else { Vec::new() },
-        kept,
-        quality,
-        seed: u64::from(recipe.seed),
-        ..PlaceSettings::default()
+impl Lights {
+    /// The same lights, but the nearest one for each kept light; the kept ones first.
+    fn with(mut self, kept: Vec<PlacedLight>) -> Self {
+        for light in &kept {
+            let distance = |index: &usize| self.lights[*index].at.distance(light.at);
+            let nearest = (0..self.lights.len()).min_by(|a, b| distance(a).total_cmp(&distance(b)));
+            if let Some(index) = nearest {
+                self.lights.remove(index);
+            }
+        }
+        self.lights.splice(0..0, kept);
+        self
     }
 }
 
@@ -219,10 +217,9 @@ fn arranged(
 }
 
 /// Pixels for lights. The first lights are the moved pixels, which keep their ids; the others take the free ids in order.
-fn pixels(before: &Frame, source: &FrameSource, lights: &[PlacedLight], names: &[String]) -> Vec<Pixel> {
-    let moved: Vec<&Pixel> =
-        before.pixels.iter().filter(|pixel| source.moved.binary_search(&pixel.id).is_ok()).collect();
-    let mut free = (0..).filter(|id| source.moved.binary_search(id).is_err());
+fn pixels(before: &Frame, moved: &[&Pixel], lights: &[PlacedLight], names: &[String]) -> Vec<Pixel> {
+    let taken: Vec<u32> = moved.iter().map(|pixel| pixel.id).collect();
+    let mut free = (0..).filter(|id| !taken.contains(id));
     let mut pixels: Vec<Pixel> = Vec::with_capacity(lights.len());
     for (index, light) in lights.iter().enumerate() {
         if let Some(pixel) = moved.get(index) {
@@ -234,17 +231,16 @@ fn pixels(before: &Frame, source: &FrameSource, lights: &[PlacedLight], names: &
         let id = free.next().unwrap_or(u32::MAX);
         pixels.push(Pixel { id, at: light.at, color: light.color, robot: None, part });
     }
-    pin(before, moved.len(), &mut pixels);
+    pin(before, &taken, &mut pixels);
     pixels.sort_by_key(|pixel| pixel.id);
     pixels
 }
 
-/// Gives each pin to the nearest new pixel of the same part, else of any part.
-fn pin(before: &Frame, moved: usize, pixels: &mut [Pixel]) {
-    let kept: Vec<u32> = pixels.iter().take(moved).map(|pixel| pixel.id).collect();
+/// Gives each pin to the nearest new pixel of the same part, else of any part. Pixels in `kept` have theirs.
+fn pin(before: &Frame, kept: &[u32], pixels: &mut [Pixel]) {
     for old in before.pixels.iter().filter(|pixel| pixel.robot.is_some() && !kept.contains(&pixel.id)) {
         let same = |pixel: &Pixel| pixel.part == old.part;
-        let free = pixels.iter_mut().skip(moved).filter(|pixel| pixel.robot.is_none());
+        let free = pixels.iter_mut().skip(kept.len()).filter(|pixel| pixel.robot.is_none());
         let nearest = free.min_by(|a, b| {
             let distance = |pixel: &Pixel| pixel.at.distance(old.at);
             same(b).cmp(&same(a)).then(distance(a).total_cmp(&distance(b)))
@@ -333,5 +329,21 @@ mod tests {
         let made = make_frame(&frame, None, &floor(), 9, Quality::Full, &[]).unwrap();
         assert_eq!(made.frame.pixels.len(), 9);
         assert!(made.readability.unwrap().correlation > 0.85);
+    }
+
+    #[test]
+    fn a_moved_pixel_of_a_grid_leaves_only_its_own_place() {
+        let settings = lightbots_draw::ShapeSettings::new(lightbots_draw::ShapeKind::Grid);
+        let source = Recipe::new(Content::Shape(settings)).source();
+        let empty = Frame { sources: vec![source], ..Frame::default() };
+        let mut frame = make_frame(&empty, None, &floor(), 16, Quality::Full, &[]).unwrap().frame;
+        let places = |frame: &Frame| -> Vec<Vec2> { frame.pixels.iter().map(|pixel| pixel.at).collect() };
+        let before = places(&frame);
+        frame.pixels[9].at = before[9] + Vec2::new(0.01, 0.01);
+        frame.sources[0].moved = vec![9];
+        let after = places(&make_frame(&frame, None, &floor(), 16, Quality::Full, &[]).unwrap().frame);
+        let stayed = before.iter().filter(|at| after.contains(at)).count();
+        assert_eq!((after.len(), stayed), (16, 15));
+        assert!(after.contains(&frame.pixels[9].at) && !after.contains(&before[9]));
     }
 }

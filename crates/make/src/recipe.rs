@@ -3,7 +3,7 @@
 use lightbots_base::{Rgb, Vec2};
 use lightbots_draw::picture::{PictureSettings, PictureWay};
 use lightbots_draw::text::Align;
-use lightbots_draw::{DrawError, SHAPES, ShapeSettings, Style, shape_named};
+use lightbots_draw::{DrawError, PlaceSettings, SHAPES, ShapeSettings, Style, shape_named};
 use lightbots_show::{FrameSource, SourceKind};
 
 use crate::floor::middle_and_side;
@@ -116,8 +116,8 @@ impl Default for Placing {
 
 impl Placing {
     /// Wanted and least distance of two lights, metres.
-    pub fn spacing(&self) -> (f64, f64) {
-        let usual = lightbots_draw::PlaceSettings::default();
+    pub(crate) fn spacing(&self) -> (f64, f64) {
+        let usual = PlaceSettings::default();
         self.spacing_m.map_or((usual.spacing_m, usual.least_m), |wanted| (wanted, wanted))
     }
 }
@@ -138,6 +138,24 @@ impl TextRecipe {
 }
 
 impl Recipe {
+    /// What the placing engine is asked for: all lights free, in full quality.
+    pub fn place_settings(&self, robots: usize) -> PlaceSettings {
+        let (spacing_m, least_m) = self.placing.spacing();
+        let Placing { style, size_m, center, turn, .. } = self.placing;
+        let seed = u64::from(self.seed);
+        PlaceSettings {
+            robots,
+            spacing_m,
+            least_m,
+            style,
+            size_m,
+            center,
+            turn,
+            seed,
+            ..PlaceSettings::default()
+        }
+    }
+
     /// A recipe with usual placing.
     pub fn new(content: Content) -> Self {
         Self { content, placing: Placing::default(), seed: 1 }

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use lightbots_exchange::{Loaded, MAX_BYTES, read};
+use lightbots_exchange::{Format, Loaded, MAX_BYTES, for_file, formats_in_words, read};
 use lightbots_show::{Identity, Issue, Issues, Show, Stage, validate, with_floor};
 
 use crate::cli::ShowArguments;
@@ -51,6 +51,21 @@ pub fn bytes(path: &Path) -> Result<Vec<u8>, Failure> {
     std::fs::read(path).map_err(|error| unreadable(format!("cannot be read: {error}")))
 }
 
+/// The format that the ending of a file's name stands for.
+pub fn format_of(path: &Path) -> Result<&'static Format, Failure> {
+    let name = path.file_name().map(|name| name.to_string_lossy()).unwrap_or_default();
+    for_file(&name).ok_or_else(|| {
+        let line = format!("no format has this ending; write a {}", formats_in_words());
+        Failure::input(format!("{}: {line}", path.display()))
+    })
+}
+
+/// Writes a file. A failure is one line with the file's name.
+pub fn write(path: &Path, bytes: Vec<u8>) -> Result<(), Failure> {
+    std::fs::write(path, bytes)
+        .map_err(|error| Failure::input(format!("{}: cannot be written: {error}", path.display())))
+}
+
 /// The show in a file's bytes.
 pub fn interpret(bytes: &[u8], path: &Path, arguments: &ShowArguments) -> Result<Opened, Failure> {
     Ok(prepare(loaded(bytes, path)?, arguments))
@@ -90,4 +105,16 @@ fn floor_ignored(stage: &Stage, (width_m, depth_m): (f64, f64)) -> Option<Issue>
         stage.width_m, stage.depth_m
     );
     (!same).then(|| Issue::warning(FLOOR_IGNORED, message))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_file_without_an_ending_of_a_format_is_refused_and_the_formats_in_words_are_named() {
+        assert!(format_of(Path::new("folder.json/show.lightbots.json")).is_ok());
+        let failure = format_of(Path::new("folder.json/show.txt")).unwrap_err();
+        assert!(format!("{failure:?}").contains(".lightbots.json"), "{failure:?}");
+    }
 }

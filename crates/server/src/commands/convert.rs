@@ -2,7 +2,6 @@
 
 use std::path::Path;
 
-use lightbots_exchange::{Format, for_file, formats_in_words};
 use lightbots_make::fit_show;
 use lightbots_show::{Issue, Issues, Show, validate};
 
@@ -12,7 +11,7 @@ use crate::{say, show_file};
 
 pub fn run(arguments: &ConvertArguments) -> Outcome {
     let (input, output) = (&arguments.input, &arguments.output);
-    let format = format_of(output)?;
+    let format = show_file::format_of(output)?;
     let mut loaded = show_file::load(input)?;
     let fitted = fitted(&mut loaded.show, arguments)?;
     if loaded.unread.is_some() && is_same_file(input, output) {
@@ -26,8 +25,7 @@ pub fn run(arguments: &ConvertArguments) -> Outcome {
         let level = if issue.is_error() { "error" } else { "warning" };
         say::note(&format!("{level}: {} [{}]", issue.message, issue.code));
     }
-    std::fs::write(output, written.bytes)
-        .map_err(|error| Failure::input(format!("{}: cannot be written: {error}", output.display())))?;
+    show_file::write(output, written.bytes)?;
     Ok(fine)
 }
 
@@ -44,25 +42,4 @@ fn fitted(show: &mut Show, arguments: &ConvertArguments) -> Result<Issues, Failu
         Failure::problem(format!("{}: {error} [{}]", arguments.input.display(), error.code))
     })?;
     Ok(notes.into_iter().map(|note| Issue::warning(note.code, note.message)).collect())
-}
-
-/// The format that the ending of a file's name stands for.
-fn format_of(path: &Path) -> Result<&'static Format, Failure> {
-    let name = path.file_name().map(|name| name.to_string_lossy()).unwrap_or_default();
-    for_file(&name).ok_or_else(|| {
-        let line = format!("no format has this ending; write a {}", formats_in_words());
-        Failure::input(format!("{}: {line}", path.display()))
-    })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_file_without_an_ending_of_a_format_is_refused_and_the_formats_in_words_are_named() {
-        assert!(format_of(Path::new("folder.json/show.lightbots.json")).is_ok());
-        let failure = format_of(Path::new("folder.json/show.txt")).unwrap_err();
-        assert!(format!("{failure:?}").contains(".lightbots.json"), "{failure:?}");
-    }
 }

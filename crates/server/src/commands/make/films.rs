@@ -2,21 +2,20 @@
 
 use std::path::Path;
 
-use lightbots_base::Vec2;
+use lightbots_base::{Limits, Vec2};
 use lightbots_draw::animation::{self, Animation, key_moments};
 use lightbots_draw::picture::PictureSettings;
-use lightbots_draw::{DrawError, Made, Note, PictureFloor, PlaceSettings, Quality, place};
-use lightbots_make::{Content, Material, view_of};
-use lightbots_show::{Frame, Stage};
+use lightbots_draw::{DrawError, Made, Note, PlaceSettings, Quality, place};
+use lightbots_make::{Content, Material, picture_floor, view_of};
+use lightbots_show::Frame;
 
-use super::wanted::{Wanted, asset, recipe};
+use super::wanted::{Wanted, asset, recipe, stage};
 use crate::cli::MakeArguments;
 
 /// Pictures that one move may leave out, at most.
 const REACH: usize = 60;
 
-/// Speed of a robot, m/s, and the time that every move takes besides, seconds: a quarter turn and a ramp.
-const SPEED_MPS: f64 = 0.27;
+/// Time that every move takes besides its way, seconds: a quarter turn and a ramp.
 const MOVE_S: f64 = 0.62;
 
 /// Whether a WebP file is an animation: its header says so in bit 1 of the flags.
@@ -32,10 +31,12 @@ pub fn frames(
     arguments: &MakeArguments,
 ) -> Result<Vec<Wanted>, DrawError> {
     let animation = animation::read(bytes, picture)?;
-    let places = places(&animation, arguments)?;
+    let view = view_of(&animation);
+    let places = places(&animation, view, arguments)?;
+    let speed_mps = Limits::default().speed_mps;
     let cost_s = |from: usize, to: usize| {
         let moves = places[from].iter().zip(&places[to]).map(|(a, b)| a.distance(*b));
-        moves.fold(0.0, f64::max) / SPEED_MPS + MOVE_S
+        moves.fold(0.0, f64::max) / speed_mps + MOVE_S
     };
     let times_s = animation.times_s();
     let moments = key_moments(&times_s, REACH, |a, b| animation.change(a, b), cost_s)
@@ -64,7 +65,7 @@ pub fn frames(
             },
             material: Material::Drawing {
                 made: Made { drawing: frame.drawing.clone(), notes: Vec::new() },
-                view: view_of(&animation),
+                view,
             },
             asset: Some(asset.clone()),
             start: nth > 0,
@@ -87,25 +88,18 @@ fn notes(animation: &Animation, slowdown: f64) -> Vec<Note> {
 }
 
 /// Places of the robots in each picture, each made from the one before it: the same number is the same robot.
-fn places(animation: &Animation, arguments: &MakeArguments) -> Result<Vec<Vec<Vec2>>, DrawError> {
-    let (width_m, depth_m) = arguments.floor.unwrap_or((3.0, 3.0));
-    let stage = Stage { width_m, depth_m, ..Stage::default() };
-    let floor: PictureFloor = lightbots_make::picture_floor(&stage);
+fn places(
+    animation: &Animation,
+    view: Option<(Vec2, Vec2)>,
+    arguments: &MakeArguments,
+) -> Result<Vec<Vec<Vec2>>, DrawError> {
+    let floor = picture_floor(&stage(arguments));
     let content = Content::Animation { picture: PictureSettings::default(), moment_s: 0.0 };
-    let recipe = recipe(content, arguments);
+    let usual = recipe(content, arguments).place_settings(arguments.robots as usize);
     let mut all: Vec<Vec<Vec2>> = Vec::new();
     for frame in &animation.frames {
-        let settings = PlaceSettings {
-            robots: arguments.robots as usize,
-            spacing_m: recipe.placing.spacing().0,
-            least_m: recipe.placing.spacing().1,
-            style: recipe.placing.style,
-            size_m: recipe.placing.size_m,
-            view: view_of(animation),
-            start: all.last().cloned().unwrap_or_default(),
-            quality: Quality::Quick,
-            ..PlaceSettings::default()
-        };
+        let start = all.last().cloned().unwrap_or_default();
+        let settings = PlaceSettings { view, start, quality: Quality::Quick, ..usual.clone() };
         let placed = place(&frame.drawing, &floor, &settings)?;
         all.push(placed.lights.iter().map(|light| light.at).collect());
     }

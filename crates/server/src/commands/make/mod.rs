@@ -5,14 +5,11 @@ mod guard;
 mod sources;
 mod wanted;
 
-use std::collections::BTreeMap;
-
 use lightbots_api as api;
 use lightbots_base::Vec2;
-use lightbots_draw::{DrawError, Quality, Readability};
-use lightbots_exchange::{Format, for_file, formats_in_words};
+use lightbots_draw::{DrawError, Note, Quality, READABLE, Readability, enough_robots};
 use lightbots_make::{MadeFrame, make_frame_from, picture_floor};
-use lightbots_show::{Issue, Issues, Show, Stage, validate};
+use lightbots_show::{Issue, Issues, Show, validate};
 use serde::Serialize;
 
 use super::{count, print_issues, print_json};
@@ -20,8 +17,8 @@ use crate::cli::MakeArguments;
 use crate::failure::{Failure, Outcome};
 use crate::numbers::rounded;
 use crate::progress::Bar;
-use crate::{plan_document, say};
-use wanted::Wanted;
+use crate::{plan_document, say, show_file};
+use wanted::{Wanted, stage};
 
 /// The JSON of `make`.
 #[derive(Debug, Serialize)]
@@ -47,7 +44,7 @@ struct Picture {
 }
 
 pub fn run(arguments: &MakeArguments) -> Outcome {
-    let format = format_of(arguments)?;
+    let format = show_file::format_of(&arguments.out)?;
     if guard::is_needed(arguments) {
         return guard::run_in_child();
     }
@@ -70,16 +67,14 @@ pub fn run(arguments: &MakeArguments) -> Outcome {
     issues.extend(validate(&show));
     let written = format.write(&show, None);
     issues.extend(written.issues);
-    let out = arguments.out.display().to_string();
-    std::fs::write(&arguments.out, written.bytes)
-        .map_err(|error| Failure::input(format!("{out}: cannot be written: {error}")))?;
+    show_file::write(&arguments.out, written.bytes)?;
     let summary = Summary {
         ok: !issues.iter().any(Issue::is_error),
         frames: show.frames.len(),
         pixels: show.frames.iter().map(|frame| frame.pixels.len()).max().unwrap_or(0),
         pictures,
         issues: issues.iter().map(plan_document::issue).collect(),
-        out,
+        out: arguments.out.display().to_string(),
     };
     if arguments.json {
         print_json(&summary)?;
@@ -89,22 +84,9 @@ pub fn run(arguments: &MakeArguments) -> Outcome {
     Ok(summary.ok)
 }
 
-fn format_of(arguments: &MakeArguments) -> Result<&'static Format, Failure> {
-    let name = arguments.out.file_name().map(|name| name.to_string_lossy()).unwrap_or_default();
-    for_file(&name).ok_or_else(|| {
-        let line = format!("no format has this ending; write a {}", formats_in_words());
-        Failure::input(format!("{}: {line}", arguments.out.display()))
-    })
-}
-
 fn title(arguments: &MakeArguments) -> String {
     let name = arguments.out.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
     lightbots_exchange::stem(&name).to_owned()
-}
-
-fn stage(arguments: &MakeArguments) -> Stage {
-    let (width_m, depth_m) = arguments.floor.unwrap_or((3.0, 3.0));
-    Stage { width_m, depth_m, ..Stage::default() }
 }
 
 /// Adds a frame to the show.
@@ -121,15 +103,9 @@ fn place(wanted: Wanted, show: &mut Show, arguments: &MakeArguments) -> Result<(
         show.assets.insert(hash, asset);
     }
     let made = make_frame_from(&frame, material, &floor, robots, Quality::Full, &start)?;
-    let enough =
-        made.readability.filter(|shown| shown.correlation < lightbots_draw::READABLE).and_then(|_| {
-            let settings = lightbots_draw::PlaceSettings {
-                style: recipe.placing.style,
-                seed: u64::from(recipe.seed),
-                ..lightbots_draw::PlaceSettings::default()
-            };
-            lightbots_draw::enough_robots(drawing.as_ref()?, &settings).filter(|enough| *enough > robots)
-        });
+    let enough = made.readability.filter(|shown| shown.correlation < READABLE).and_then(|_| {
+        enough_robots(drawing.as_ref()?, &recipe.place_settings(robots)).filter(|enough| *enough > robots)
+    });
     let issues = issues(&made, show.frames.len(), enough);
     let picture = picture(&made, enough);
     show.frames.push(made.frame);
@@ -152,14 +128,9 @@ fn picture(made: &MadeFrame, enough: Option<usize>) -> Picture {
 /// What is missing or different, as issues of a frame.
 fn issues(made: &MadeFrame, index: usize, enough: Option<usize>) -> Issues {
     let label = lightbots_show::frame_label(index, &made.frame.name);
-    let mut said: BTreeMap<&str, String> = BTreeMap::new();
-    let mut issues: Issues = made
-        .notes
-        .iter()
-        .filter(|note| said.insert(note.code, note.message.clone()).as_ref() != Some(&note.message))
-        .map(|note| Issue::warning(note.code, format!("{label}: {}", note.message)))
-        .collect();
-    if made.readability.is_some_and(|shown| shown.correlation < lightbots_draw::READABLE) {
+    let warning = |note: &Note| Issue::warning(note.code, format!("{label}: {}", note.message));
+    let mut issues: Issues = made.notes.iter().map(warning).collect();
+    if made.readability.is_some_and(|shown| shown.correlation < READABLE) {
         let remedy = enough.map_or_else(
             || "a simpler picture or more robots would be".to_owned(),
             |enough| format!("{enough} would do"),

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use lightbots_draw::{DrawError, Drawing, Style};
 use lightbots_exchange::hash_of;
 use lightbots_make::{Content, Material, Placing, Recipe, material};
-use lightbots_show::{Asset, AssetHash, Frame};
+use lightbots_show::{Asset, AssetHash, Frame, Stage};
 
 use crate::cli::MakeArguments;
 
@@ -69,4 +69,10 @@ pub fn recipe(content: Content, arguments: &MakeArguments) -> Recipe {
         ..usual
     };
     Recipe { placing, seed: arguments.seed, ..Recipe::new(content) }
+}
+
+/// The floor that the command line asks for.
+pub fn stage(arguments: &MakeArguments) -> Stage {
+    let (width_m, depth_m) = arguments.floor.unwrap_or((3.0, 3.0));
+    Stage { width_m, depth_m, ..Stage::default() }
 }
