@@ -19,6 +19,7 @@ mod hostile_clients;
 mod hostile_shows;
 mod http;
 mod library;
+mod make;
 mod mosquitto;
 mod original_controller;
 mod original_robot;
