@@ -5,7 +5,7 @@ use lightbots_base::Vec2;
 use crate::apart::{Freedom, Room, push_apart};
 use crate::buckets::Buckets;
 use crate::coverage::Sample;
-use crate::geometry::hexagonal_count;
+use crate::geometry::{bounds, hexagonal_count};
 use crate::ground::{Ground, Quality};
 use crate::lines::LineSet;
 use crate::occupy::{LinePlace, occupy};
@@ -187,7 +187,7 @@ impl LayoutTask<'_> {
             return (fixed.to_vec(), None);
         }
         if self.start.len() == fixed.len() + count {
-            let mut places = self.start.to_vec();
+            let mut places = self.aligned_start();
             self.relaxation(fixed.len(), spacing, None).run(&mut places);
             return (places, None);
         }
@@ -205,6 +205,13 @@ impl LayoutTask<'_> {
         }
         let free = free();
         if value(&places) <= SYMMETRY_WORTH * value(&free) { (places, Some(pairing)) } else { (free, None) }
+    }
+
+    /// The places to begin with, moved onto the drawing as a whole: what they show may have moved since.
+    fn aligned_start(&self) -> Vec<Vec2> {
+        let middle = |points: &[Vec2]| bounds(points).map_or(Vec2::ZERO, |(low, high)| low.lerp(high, 0.5));
+        let shift = middle(&self.ground.inside) - middle(self.start);
+        self.start.iter().map(|at| *at + shift).collect()
     }
 
     fn relaxation<'b>(&'b self, kept: usize, spacing: f64, pairing: Option<&'b Pairing>) -> Lloyd<'b> {

@@ -205,3 +205,23 @@ fn pictures_of_one_view_keep_its_scale_and_place() {
         placed.lights
     );
 }
+
+#[test]
+fn a_picture_begun_from_one_elsewhere_is_as_good_as_a_new_one() {
+    let fresh = made(
+        &square(),
+        &floor(),
+        &PlaceSettings { robots: 40, style: Style::Filled, ..PlaceSettings::default() },
+    );
+    let apart = fresh.lights.iter().map(|light| light.at * 0.2 + Vec2::new(2.0, 1.0)).collect();
+    let heap = vec![Vec2::new(0.5, 0.5); 40];
+    for start in [apart, heap] {
+        let settings = PlaceSettings { robots: 40, style: Style::Filled, start, ..PlaceSettings::default() };
+        let warm = made(&square(), &floor(), &settings);
+        assert!(
+            warm.readability.correlation > fresh.readability.correlation - 0.02,
+            "{:?}",
+            warm.readability
+        );
+    }
+}

@@ -41,6 +41,7 @@ impl Lloyd<'_> {
     /// One round; returns the longest move.
     fn round(&self, places: &mut [Vec2], over: f64) -> f64 {
         let centroids = self.centroids(places);
+        self.recall_strays(places, &centroids);
         let mut longest: f64 = 0.0;
         for (index, centroid) in centroids.into_iter().enumerate().skip(self.kept) {
             let Some(centroid) = centroid else { continue };
@@ -54,6 +55,17 @@ impl Lloyd<'_> {
             pairing.apply(places);
         }
         longest
+    }
+
+    /// Moves places without a cell, which are off the drawing or on one point with another, to where places are missing
+    /// most.
+    fn recall_strays(&self, places: &mut [Vec2], centroids: &[Option<Vec2>]) {
+        for index in (self.kept..places.len()).filter(|index| centroids[*index].is_none()) {
+            let buckets = Buckets::new(places, 0.8 * self.spacing);
+            let gap = |sample: &&Sample| buckets.nearest(sample.at).map_or(0.0, |(_, square)| square);
+            let lonely = self.samples.iter().max_by(|a, b| gap(a).total_cmp(&gap(b))).map(|sample| sample.at);
+            places[index] = lonely.unwrap_or(places[index]);
+        }
     }
 
     /// Centroid of each place's cell; `None` for an empty cell.

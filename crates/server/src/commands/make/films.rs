@@ -81,7 +81,8 @@ pub fn frames(
 fn notes(animation: &Animation, slowdown: f64) -> Vec<Note> {
     let mut notes = animation.notes.clone();
     if slowdown > 1.0 {
-        let what = format!("the animation plays {slowdown} times slower, so that robots have time to move");
+        let what =
+            format!("the animation plays {slowdown:.1} times slower, so that robots have time to move");
         notes.push(Note::new("animation-slower", what));
     }
     notes
