@@ -59,8 +59,8 @@ fn main() {
     let counts = [12, 30, 100, 500, 2000];
     for (row, (name, rings)) in shapes().into_iter().enumerate() {
         let area = Area { rings, rule: FillRule::EvenOdd, color: Rgb::new(255, 160, 0), weight: 1.0 };
-        let group = DrawingPart { name: name.into(), areas: vec![area], ..DrawingPart::default() };
-        let drawing = Drawing { groups: vec![group.clone()] };
+        let part = DrawingPart { name: name.into(), areas: vec![area], ..DrawingPart::default() };
+        let drawing = Drawing { parts: vec![part.clone()] };
         for (column, robots) in counts.into_iter().enumerate() {
             for (half, style) in [Style::Filled, Style::Both].into_iter().enumerate() {
                 let settings = PlaceSettings {
@@ -83,7 +83,7 @@ fn main() {
                 let scale = placed.size_m / (high.x - low.x).max(high.y - low.y);
                 let back: Vec<Vec2> =
                     places.iter().map(|at| *at * (1.0 / scale) + low.lerp(high, 0.5)).collect();
-                if let Some(f) = figures(&group, &back) {
+                if let Some(f) = figures(&part, &back) {
                     println!(
                         "{name:6} {robots:5} {style:?}: CV {:.3} dmin {:.2} Hd {:.2} out {:.2} cov {:.2} cor {:.2} ncc {:.3} sym {:.2} {took:.0} ms",
                         f.variation,

@@ -29,13 +29,13 @@ fn main() -> Result<(), Error> {
         "<svg xmlns='http://www.w3.org/2000/svg' width='{}' viewBox='{view}'>",
         (width * 120.0).min(1600.0)
     )?;
-    for group in &made.drawing.groups {
-        for area in &group.areas {
+    for part in &made.drawing.parts {
+        for area in &part.areas {
             let rings = area.rings.iter().map(|ring| path(ring, true)).collect::<String>();
             let color = area.color.number();
             writeln!(out, "<path d='{rings}' fill='#{color:06x}' fill-opacity='.5'/>")?;
         }
-        for stroke in group.strokes.iter().chain(&group.spine) {
+        for stroke in part.strokes.iter().chain(&part.spine) {
             let points = path(&stroke.points, stroke.closed);
             writeln!(out, "<path d='{points}' fill='none' stroke='#000' stroke-width='.03'/>")?;
             for point in &stroke.points {

@@ -1,10 +1,10 @@
-//! How many robots each group gets.
+//! How many robots each part gets.
 
 use crate::geometry::hexagonal_count;
 use crate::ground::Ground;
 use crate::layout::Style;
 
-/// What a group needs.
+/// What a part needs.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Share {
     /// Robots are shared in proportion to it.
@@ -13,7 +13,7 @@ pub(crate) struct Share {
     pub least: usize,
 }
 
-/// Robots that each group takes at the spacing at which all of them together take `count`.
+/// Robots that each part takes at the spacing at which all of them together take `count`.
 pub(crate) fn demands(grounds: &[&Ground], style: Style, count: usize) -> Vec<f64> {
     let at = |spacing: f64| grounds.iter().map(|ground| demand(ground, style, spacing)).collect::<Vec<f64>>();
     let size = grounds.iter().map(|ground| ground.size).fold(0.0, f64::max);
@@ -25,7 +25,7 @@ pub(crate) fn demands(grounds: &[&Ground], style: Style, count: usize) -> Vec<f6
     at(high)
 }
 
-/// Robots that a group takes at a spacing.
+/// Robots that a part takes at a spacing.
 fn demand(ground: &Ground, style: Style, spacing: f64) -> f64 {
     let filling = |area: f64| hexagonal_count(area, spacing);
     let (lines, edge) = (ground.lines.length(), ground.outline.length());
@@ -38,13 +38,13 @@ fn demand(ground: &Ground, style: Style, spacing: f64) -> f64 {
     }
 }
 
-/// Shares `count` robots in proportion to the demands, one by one to the group with the greatest demand for each robot that
-/// it has. Each group with a demand gets its first robot before others get a second one, the greatest demand first.
+/// Shares `count` robots in proportion to the demands, one by one to the part with the greatest demand for each robot that
+/// it has. Each part with a demand gets its first robot before others get a second one, the greatest demand first.
 pub(crate) fn allot(shares: &[Share], count: usize) -> Vec<usize> {
     let mut counts: Vec<usize> = shares.iter().map(|share| share.least).collect();
     let given: usize = counts.iter().sum();
     for _ in given..count {
-        // Between the rules of Adams (+ 0) and Webster (+ 0.5): neither small nor large groups are starved.
+        // Between the rules of Adams (+ 0) and Webster (+ 0.5): neither small nor large parts are starved.
         let value = |index: &usize| shares[*index].demand / (counts[*index] as f64 + 0.3);
         let order = |a: &usize, b: &usize| {
             (counts[*a] == 0).cmp(&(counts[*b] == 0)).then(value(a).total_cmp(&value(b))).then(b.cmp(a))

@@ -17,7 +17,7 @@ pub(crate) enum Freedom {
     Free,
     /// It may slide along the lines.
     Line,
-    /// It stays: a corner, an end, a place that somebody chose.
+    /// It stays: a corner, an end, a place that a user chose.
     Fixed,
 }
 

@@ -51,7 +51,7 @@ pub(crate) fn arrange(
         let paint = Paint::new(&piece.part);
         let layout = layout(&piece.ground, &kept[index], counts[index], style, settings);
         let free = layout.places.into_iter().skip(kept[index].len());
-        lights.extend(free.map(|at| PlacedLight { at, color: paint.at(at), group: piece.number }));
+        lights.extend(free.map(|at| PlacedLight { at, color: paint.at(at), part: piece.number }));
     }
     Ok(lights)
 }
@@ -59,9 +59,9 @@ pub(crate) fn arrange(
 /// The parts, with areas and strokes of one part apart.
 fn pieces(drawing: &Drawing, floor: &PictureFloor, settings: &PlaceSettings) -> Vec<Piece> {
     let allowed = |at: Vec2| floor.allows(at);
-    let each = settings.robots / drawing.groups.len().max(1) + 1;
+    let each = settings.robots / drawing.parts.len().max(1) + 1;
     let mut pieces = Vec::new();
-    for (number, part) in drawing.groups.iter().enumerate() {
+    for (number, part) in drawing.parts.iter().enumerate() {
         let mut add = |part: DrawingPart| {
             let ground = Ground::new(&part, each, settings.quality, &allowed);
             pieces.push(Piece { number, part, ground });

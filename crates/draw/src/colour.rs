@@ -6,20 +6,20 @@ use lightbots_base::{Rgb, Vec2};
 use crate::drawing::{Area, DrawingPart, Stroke};
 use crate::geometry::{contains, edges};
 
-/// Colours of a group.
+/// Colours of a part.
 pub(crate) struct Paint<'a> {
-    group: &'a DrawingPart,
-    /// The colour, where the group has only one.
+    part: &'a DrawingPart,
+    /// The colour, where the part has only one.
     single: Option<Rgb>,
 }
 
 impl<'a> Paint<'a> {
-    /// Colours of a group.
-    pub fn new(group: &'a DrawingPart) -> Self {
-        let mut colors = group.areas.iter().map(|a| a.color).chain(group.strokes.iter().map(|s| s.color));
+    /// Colours of a part.
+    pub fn new(part: &'a DrawingPart) -> Self {
+        let mut colors = part.areas.iter().map(|a| a.color).chain(part.strokes.iter().map(|s| s.color));
         let first = colors.next();
-        let single = first.filter(|first| group.raster.is_none() && colors.all(|color| color == *first));
-        Self { group, single }
+        let single = first.filter(|first| part.raster.is_none() && colors.all(|color| color == *first));
+        Self { part, single }
     }
 
     /// The colour at a place: of the picture, of the last area that covers it, else of what is nearest.
@@ -27,13 +27,13 @@ impl<'a> Paint<'a> {
         if let Some(color) = self.single {
             return color;
         }
-        let picture = self.group.raster.as_ref();
+        let picture = self.part.raster.as_ref();
         if let Some(color) = picture.and_then(|raster| raster.colors.get(raster.cell(at)?)) {
             return *color;
         }
-        let cover = self.group.areas.iter().rev().find(|area| contains(&area.rings, area.rule, at));
-        let areas = self.group.areas.iter().map(|area| (area.color, to_area(area, at)));
-        let strokes = self.group.strokes.iter().chain(&self.group.spine).map(|s| (s.color, to_stroke(s, at)));
+        let cover = self.part.areas.iter().rev().find(|area| contains(&area.rings, area.rule, at));
+        let areas = self.part.areas.iter().map(|area| (area.color, to_area(area, at)));
+        let strokes = self.part.strokes.iter().chain(&self.part.spine).map(|s| (s.color, to_stroke(s, at)));
         let nearest = areas.chain(strokes).min_by(|a, b| a.1.total_cmp(&b.1));
         cover.map(|area| area.color).or(nearest.map(|(color, _)| color)).unwrap_or(Rgb::new(255, 255, 255))
     }

@@ -35,14 +35,14 @@ struct Grid {
 
 /// Samples of a part's areas, or of its picture if it has no areas, from cells of side `pitch`. Later areas cover
 /// earlier ones.
-pub(crate) fn samples(group: &DrawingPart, pitch: f64) -> Vec<Sample> {
-    if group.areas.is_empty() {
-        return group.raster.as_ref().map_or_else(Vec::new, |raster| of_raster(raster, pitch));
+pub(crate) fn samples(part: &DrawingPart, pitch: f64) -> Vec<Sample> {
+    if part.areas.is_empty() {
+        return part.raster.as_ref().map_or_else(Vec::new, |raster| of_raster(raster, pitch));
     }
-    let points = group.areas.iter().flat_map(|area| area.rings.iter().flatten());
+    let points = part.areas.iter().flat_map(|area| area.rings.iter().flatten());
     let Some((min, max)) = bounds(points) else { return Vec::new() };
     let mut grid = Grid::new(min, max, pitch);
-    for area in &group.areas {
+    for area in &part.areas {
         grid.cover(area);
     }
     grid.samples()
@@ -204,8 +204,8 @@ mod tests {
             color: Rgb::BLACK,
             weight: 1.0,
         };
-        let group = DrawingPart { areas: vec![area(0.0), area(0.5)], ..DrawingPart::default() };
-        let mass: f64 = samples(&group, 0.05).iter().map(|sample| sample.mass).sum();
+        let part = DrawingPart { areas: vec![area(0.0), area(0.5)], ..DrawingPart::default() };
+        let mass: f64 = samples(&part, 0.05).iter().map(|sample| sample.mass).sum();
         assert!((mass - 1.75).abs() < 0.03, "{mass}");
     }
 

@@ -10,15 +10,15 @@ pub use crate::geometry::FillRule;
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Drawing {
     /// Parts that get robots of their own: the letters of a word, or the whole of a picture.
-    pub groups: Vec<DrawingPart>,
+    pub parts: Vec<DrawingPart>,
 }
 
-/// A part of a drawing. Robots of one group are spread evenly over all of its lines and areas.
+/// A part of a drawing. Robots of one part are spread evenly over all of its lines and areas.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct DrawingPart {
     /// Name for people and for pins; unique in its drawing.
     pub name: String,
-    /// The letter that the group is, for the measure of readability.
+    /// The letter that the part is, for the measure of readability.
     pub letter: Option<char>,
     /// Areas to be outlined or filled.
     pub areas: Vec<Area>,
@@ -104,7 +104,7 @@ impl DrawingPart {
 impl Drawing {
     /// All points of all parts.
     pub fn points(&self) -> impl Iterator<Item = &Vec2> {
-        self.groups.iter().flat_map(DrawingPart::points)
+        self.parts.iter().flat_map(DrawingPart::points)
     }
 
     /// The smallest rectangle around everything: its corners with the smaller and the larger x and y. `None`: empty.

@@ -26,7 +26,7 @@ pub fn enough_robots(drawing: &Drawing, settings: &PlaceSettings) -> Option<usiz
         };
         place(drawing, &floor, &settings).is_ok_and(|placed| placed.readability.correlation >= READABLE)
     };
-    let mut low = drawing.groups.len().max(1);
+    let mut low = drawing.parts.len().max(1);
     let mut high = low;
     while !reads(high) {
         low = high + 1;
@@ -49,7 +49,7 @@ mod tests {
         let ring = [(0.0, 0.0), (0.2, 0.0), (0.2, 1.0), (0.0, 1.0)].map(|(x, y)| Vec2::new(x, y)).to_vec();
         let area = Area { rings: vec![ring], rule: FillRule::NonZero, color: Rgb::BLACK, weight: 1.0 };
         let part = DrawingPart { areas: vec![area], letter: Some('I'), ..DrawingPart::default() };
-        let bar = Drawing { groups: vec![part] };
+        let bar = Drawing { parts: vec![part] };
         let enough = enough_robots(&bar, &PlaceSettings::default()).unwrap();
         assert!((3..=7).contains(&enough), "{enough}");
         assert_eq!(enough_robots(&Drawing::default(), &PlaceSettings::default()), None);

@@ -174,20 +174,20 @@ impl Placement {
 
     /// The drawing in stage metres.
     pub fn apply(&self, drawing: &Drawing) -> Drawing {
-        Drawing { groups: drawing.groups.iter().map(|group| self.group(group)).collect() }
+        Drawing { parts: drawing.parts.iter().map(|part| self.part(part)).collect() }
     }
 
-    fn group(&self, group: &DrawingPart) -> DrawingPart {
+    fn part(&self, part: &DrawingPart) -> DrawingPart {
         let stroke = |stroke: &Stroke| Stroke {
             points: stroke.points.iter().map(|at| self.map(*at)).collect(),
             ..stroke.clone()
         };
-        let mut mapped = group.clone();
+        let mut mapped = part.clone();
         for ring in mapped.areas.iter_mut().flat_map(|area| &mut area.rings) {
             ring.iter_mut().for_each(|at| *at = self.map(*at));
         }
-        mapped.strokes = group.strokes.iter().map(stroke).collect();
-        mapped.spine = group.spine.iter().map(stroke).collect();
+        mapped.strokes = part.strokes.iter().map(stroke).collect();
+        mapped.spine = part.spine.iter().map(stroke).collect();
         if let Some(raster) = &mut mapped.raster {
             (raster.min, raster.max) = (self.map(raster.min), self.map(raster.max));
         }

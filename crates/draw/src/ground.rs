@@ -1,4 +1,4 @@
-//! A group made ready for places: samples of its areas, its lines, its mirror axis.
+//! A part made ready for places: samples of its areas, its lines, its mirror axis.
 
 use lightbots_base::Vec2;
 
@@ -49,7 +49,7 @@ impl Quality {
     }
 }
 
-/// A group with all that places depend on.
+/// A part with all that places depend on.
 pub(crate) struct Ground {
     /// Samples of the areas or of the picture.
     pub samples: Vec<Sample>,
@@ -63,24 +63,24 @@ pub(crate) struct Ground {
     pub outline: LineSet,
     /// Strokes, or the lines that stand for the areas.
     pub lines: LineSet,
-    /// Larger side of the box around the group.
+    /// Larger side of the box around the part.
     pub size: f64,
     /// Mirror axis of the areas, else of the lines.
     pub mirror: Option<Mirror>,
 }
 
 impl Ground {
-    /// A group for `count` places, without the parts for which `allowed` is false.
-    pub fn new(group: &DrawingPart, count: usize, quality: Quality, allowed: &dyn Fn(Vec2) -> bool) -> Self {
-        let (low, high) = bounds(group.points()).unwrap_or_default();
+    /// A part for `count` places, without what lies where `allowed` is false.
+    pub fn new(part: &DrawingPart, count: usize, quality: Quality, allowed: &dyn Fn(Vec2) -> bool) -> Self {
+        let (low, high) = bounds(part.points()).unwrap_or_default();
         let size = (high.x - low.x).max(high.y - low.y);
-        let pitch = pitch(group, count, quality, size);
-        let mut samples = samples(group, pitch);
+        let pitch = pitch(part, count, quality, size);
+        let mut samples = samples(part, pitch);
         samples.retain(|sample| allowed(sample.at));
         let spacing = hexagonal_spacing(samples.iter().map(|sample| sample.mass).sum(), count);
         let step = (0.02 * size).min(if spacing > 0.0 { 0.2 * spacing } else { size }).max(0.001 * size);
-        let rings: Vec<Stroke> = group.areas.iter().flat_map(rings).collect();
-        let strokes = if group.strokes.is_empty() { &group.spine } else { &group.strokes };
+        let rings: Vec<Stroke> = part.areas.iter().flat_map(rings).collect();
+        let strokes = if part.strokes.is_empty() { &part.spine } else { &part.strokes };
         let strokes = unique(strokes, size);
         let mut ground = Self {
             inside: samples.iter().map(|sample| sample.at).collect(),
@@ -112,9 +112,9 @@ impl Ground {
 }
 
 /// Distance between samples: from the area's size, measured coarsely first.
-fn pitch(group: &DrawingPart, count: usize, quality: Quality, size: f64) -> f64 {
+fn pitch(part: &DrawingPart, count: usize, quality: Quality, size: f64) -> f64 {
     let coarse = (size / 100.0).max(1e-9);
-    let area = samples(group, coarse).len() as f64 * coarse * coarse;
+    let area = samples(part, coarse).len() as f64 * coarse * coarse;
     let wanted = (count as f64 * quality.samples(count)).clamp(quality.least(), MOST_SAMPLES);
     if area > 0.0 { (area / wanted).sqrt() } else { coarse }
 }

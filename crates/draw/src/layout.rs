@@ -1,4 +1,4 @@
-//! Places for one group in one style.
+//! Places for one part in one style.
 
 use lightbots_base::Vec2;
 
@@ -16,7 +16,7 @@ use crate::symmetry::{Mirror, Pairing, symmetric_share};
 /// How areas are shown.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Style {
-    /// Chosen for each group by its size and number of robots.
+    /// Chosen for each part by its size and number of robots.
     #[default]
     Auto,
     /// Evenly filled.
@@ -51,14 +51,14 @@ const LINE_APART: f64 = 0.6;
 /// Up to this number of places all symmetric arrangements are tried.
 const FEW: usize = 60;
 
-/// Places of one group, and what holds each.
+/// Places of one part, and what holds each.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Layout {
     pub places: Vec<Vec2>,
     pub holds: Vec<Freedom>,
 }
 
-/// One group that is to get places.
+/// One part that is to get places.
 pub(crate) struct LayoutTask<'a> {
     pub ground: &'a Ground,
     /// Places that stay and count first.
@@ -72,7 +72,7 @@ pub(crate) struct LayoutTask<'a> {
 }
 
 impl LayoutTask<'_> {
-    /// Places in a style. Exactly `count`, unless the group is empty.
+    /// Places in a style. Exactly `count`, unless the part is empty.
     pub fn layout(&self, style: Style) -> Layout {
         let ground = self.ground;
         let (has_areas, has_lines) = (!ground.samples.is_empty(), !ground.lines.lines.is_empty());

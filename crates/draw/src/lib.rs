@@ -1,7 +1,9 @@
 //! Words, drawings and pictures become places and colours for any number of robots.
 //!
-//! The crate does no IO: bytes and numbers in, places and colours out, with the same bits for the same input and seed. In
-//! reading order: a [`Drawing`] is lines and areas with colours.
+//! The crate does no IO: bytes and numbers in, places and colours out, with the same bits for the same input and seed.
+//! In reading order: [`text`], [`svg`], [`picture`], [`animation`], [`list`] and [`draw_shape`] make a [`Drawing`] of
+//! parts with areas, lines and colours. [`place`] puts lights on it, [`enough_robots`] says how many would do, and
+//! [`refit`] changes their number.
 
 mod allot;
 pub mod animation;

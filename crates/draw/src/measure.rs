@@ -7,7 +7,7 @@ use crate::drawing::DrawingPart;
 use crate::ground::{Ground, Quality};
 use crate::pins::{self, CORNER_RAD};
 
-/// Figures of places on a group. Distances are in ideal spacings: those of a hexagonal grid of as many places in the same
+/// Figures of places on a part. Distances are in ideal spacings: those of a hexagonal grid of as many places in the same
 /// area, or the length of the lines for each place.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Figures {
@@ -25,9 +25,9 @@ pub struct Figures {
     pub corners: f64,
 }
 
-/// Figures of places on a group; `None` without places or drawing.
-pub fn figures(group: &DrawingPart, places: &[Vec2]) -> Option<Figures> {
-    let ground = Ground::new(group, places.len(), Quality::Full, &|_| true);
+/// Figures of places on a part; `None` without places or drawing.
+pub fn figures(part: &DrawingPart, places: &[Vec2]) -> Option<Figures> {
+    let ground = Ground::new(part, places.len(), Quality::Full, &|_| true);
     let (drawn, spacing): (Vec<(Vec2, f64)>, f64) = if ground.samples.is_empty() {
         let points = ground.lines.points().iter().map(|at| (*at, 1.0)).collect();
         (points, ground.lines.length() / places.len().max(1) as f64)

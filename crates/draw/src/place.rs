@@ -17,7 +17,7 @@ const TRIES: usize = 5;
 /// A picture of lights.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Placed {
-    /// The lights: the kept ones first, then group by group.
+    /// The lights: the kept ones first, then part by part.
     pub lights: Vec<PlacedLight>,
     /// Larger side of the picture, metres.
     pub size_m: f64,

@@ -21,7 +21,7 @@ fn area(rings: Vec<Vec<Vec2>>) -> Area {
 
 fn square() -> Drawing {
     let ring = points(&[(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)]);
-    Drawing { groups: vec![DrawingPart { areas: vec![area(vec![ring])], ..DrawingPart::default() }] }
+    Drawing { parts: vec![DrawingPart { areas: vec![area(vec![ring])], ..DrawingPart::default() }] }
 }
 
 fn letter_h() -> Drawing {
@@ -40,7 +40,7 @@ fn letter_h() -> Drawing {
         (0.0, 1.0),
     ]);
     Drawing {
-        groups: vec![DrawingPart {
+        parts: vec![DrawingPart {
             areas: vec![area(vec![ring])],
             letter: Some('H'),
             ..DrawingPart::default()
@@ -52,7 +52,7 @@ fn cross() -> Drawing {
     let stroke =
         |ends: &[(f64, f64)]| Stroke { points: points(ends), closed: false, color: ORANGE, weight: 1.0 };
     let strokes = vec![stroke(&[(-1.0, 0.0), (1.0, 0.0)]), stroke(&[(0.0, -1.0), (0.0, 1.0)])];
-    Drawing { groups: vec![DrawingPart { strokes, ..DrawingPart::default() }] }
+    Drawing { parts: vec![DrawingPart { strokes, ..DrawingPart::default() }] }
 }
 
 fn made(drawing: &Drawing, floor: &PictureFloor, settings: &PlaceSettings) -> Placed {
@@ -139,7 +139,7 @@ fn no_light_stands_in_a_no_go_area() {
 
 #[test]
 fn lights_that_were_moved_stay_and_count_first() {
-    let kept = vec![PlacedLight { at: Vec2::new(0.3, 0.2), color: Rgb::new(0, 0, 255), group: 0 }];
+    let kept = vec![PlacedLight { at: Vec2::new(0.3, 0.2), color: Rgb::new(0, 0, 255), part: 0 }];
     for style in [Style::Filled, Style::Both, Style::Outline] {
         let settings = PlaceSettings { robots: 30, style, kept: kept.clone(), ..PlaceSettings::default() };
         let placed = made(&square(), &floor(), &settings);

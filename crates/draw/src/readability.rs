@@ -27,7 +27,7 @@ pub const DOUBTFUL: f64 = 0.85;
 /// How well lights show a drawing.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Readability {
-    /// Normalised cross-correlation between the blurred lights and the blurred drawing, 0 to 1: the worst group's.
+    /// Normalised cross-correlation between the blurred lights and the blurred drawing, 0 to 1: the worst part's.
     pub correlation: f64,
     /// Share of the lights that have a mirror image, where the drawing is mirror-symmetric; 1 for other drawings.
     pub symmetry: f64,
@@ -36,10 +36,10 @@ pub struct Readability {
 /// How well lights show a drawing in the same space.
 pub(crate) fn readability(drawing: &Drawing, lights: &[PlacedLight]) -> Readability {
     let mut worst = Readability { correlation: 1.0, symmetry: 1.0 };
-    for (index, group) in drawing.groups.iter().enumerate() {
+    for (index, part) in drawing.parts.iter().enumerate() {
         let places: Vec<Vec2> =
-            lights.iter().filter(|light| light.group == index).map(|light| light.at).collect();
-        if let Some(one) = of_group(group, &places) {
+            lights.iter().filter(|light| light.part == index).map(|light| light.at).collect();
+        if let Some(one) = of_group(part, &places) {
             worst.correlation = worst.correlation.min(one.correlation);
             worst.symmetry = worst.symmetry.min(one.symmetry);
         }
@@ -47,17 +47,17 @@ pub(crate) fn readability(drawing: &Drawing, lights: &[PlacedLight]) -> Readabil
     worst
 }
 
-/// How well places show one group; `None` for an empty group.
-pub(crate) fn of_group(group: &DrawingPart, places: &[Vec2]) -> Option<Readability> {
-    let (low, high) = bounds(group.points())?;
+/// How well places show one part; `None` for an empty part.
+pub(crate) fn of_group(part: &DrawingPart, places: &[Vec2]) -> Option<Readability> {
+    let (low, high) = bounds(part.points())?;
     let size = high - low;
     // A dash is a letter without height.
-    let sigma = SIGMA * if group.letter.is_some() { size.y.max(0.5 * size.x) } else { size.x.max(size.y) };
+    let sigma = SIGMA * if part.letter.is_some() { size.y.max(0.5 * size.x) } else { size.x.max(size.y) };
     if sigma <= 0.0 {
         return None;
     }
     let pitch = sigma / 4.0;
-    let drawn = drawn(group, pitch);
+    let drawn = drawn(part, pitch);
     if drawn.is_empty() {
         return None;
     }
@@ -67,7 +67,7 @@ pub(crate) fn of_group(group: &DrawingPart, places: &[Vec2]) -> Option<Readabili
         lights.correlation(&image(&mut drawn.iter().map(|sample| (sample.at, sample.mass))))
     };
     // A letter of strokes is as readable as a bold one, and a star's edge as a filled star.
-    let spine = along(&group.spine, pitch);
+    let spine = along(&part.spine, pitch);
     let correlation = likeness(&drawn).max(if spine.is_empty() { 0.0 } else { likeness(&spine) });
     let mut distances = nearest_distances(places, pitch);
     distances.sort_by(f64::total_cmp);
@@ -77,9 +77,9 @@ pub(crate) fn of_group(group: &DrawingPart, places: &[Vec2]) -> Option<Readabili
 }
 
 /// What is drawn: areas, else the picture's weights, and strokes.
-fn drawn(group: &DrawingPart, pitch: f64) -> Vec<Sample> {
-    let mut drawn = samples(group, pitch);
-    drawn.extend(along(&group.strokes, pitch));
+fn drawn(part: &DrawingPart, pitch: f64) -> Vec<Sample> {
+    let mut drawn = samples(part, pitch);
+    drawn.extend(along(&part.strokes, pitch));
     drawn
 }
 

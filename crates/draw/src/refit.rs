@@ -157,7 +157,7 @@ mod tests {
         let light = |index| PlacedLight {
             at: Vec2::new(index as f64 * 0.3 - 1.5, 0.0),
             color: Rgb::new(index as u8, 0, 0),
-            group: 0,
+            part: 0,
         };
         (0..count).map(light).collect()
     }
@@ -166,7 +166,7 @@ mod tests {
         let light = |index: i32| PlacedLight {
             at: Vec2::new(f64::from(index % 10) * 0.2 - 0.9, f64::from(index / 10) * 0.2 - 0.9),
             color: Rgb::BLACK,
-            group: 0,
+            part: 0,
         };
         (0..100).map(light).collect()
     }

@@ -65,8 +65,8 @@ pub struct PlacedLight {
     pub at: Vec2,
     /// Colour.
     pub color: Rgb,
-    /// Number of its group in the drawing.
-    pub group: usize,
+    /// Number of its part in the drawing.
+    pub part: usize,
 }
 
 impl PlaceSettings {

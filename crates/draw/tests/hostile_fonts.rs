@@ -102,7 +102,7 @@ fn outcome(bytes: &[u8], words: &str) -> Result<usize, &'static str> {
     let drawn = Font::read(bytes).and_then(|font| draw(&TextSettings::new(words, &font)));
     assert!(start.elapsed() < LONGEST, "{:?}", start.elapsed());
     let made = drawn.map_err(|error| error.code)?;
-    Ok(made.drawing.groups.iter().flat_map(|group| &group.areas).map(|area| area.rings.len()).sum())
+    Ok(made.drawing.parts.iter().flat_map(|part| &part.areas).map(|area| area.rings.len()).sum())
 }
 
 #[test]

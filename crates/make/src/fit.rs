@@ -64,7 +64,7 @@ fn made_anew(
 /// The frame with fewer or more of its lights; pins go last.
 fn fitted(frame: &Frame, floor: &PictureFloor, robots: usize) -> Result<Frame, DrawError> {
     let lights: Vec<PlacedLight> =
-        frame.pixels.iter().map(|pixel| PlacedLight { at: pixel.at, color: pixel.color, group: 0 }).collect();
+        frame.pixels.iter().map(|pixel| PlacedLight { at: pixel.at, color: pixel.color, part: 0 }).collect();
     let pinned: Vec<bool> = frame.pixels.iter().map(|pixel| pixel.robot.is_some()).collect();
     let closest = lightbots_draw::closest_distance(&lights.iter().map(|light| light.at).collect::<Vec<_>>());
     let refitted = refit(&lights, &pinned, robots, SPACING_M.min(closest), floor)?;

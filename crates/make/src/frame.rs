@@ -71,7 +71,7 @@ pub fn make_frame_from(
         .filter(|pixel| source.moved.binary_search(&pixel.id).is_ok())
         .take(robots)
         .collect();
-    let kept = moved.iter().map(|pixel| PlacedLight { at: pixel.at, color: pixel.color, group: 0 }).collect();
+    let kept = moved.iter().map(|pixel| PlacedLight { at: pixel.at, color: pixel.color, part: 0 }).collect();
     let made = match (exact(&recipe, robots), material) {
         (Some(lights), _) => arranged(&lights, &recipe, floor, false)?.with(kept),
         (None, Material::Lights(lights)) => listed(&lights, &recipe, floor, robots)?.with(kept),
@@ -140,7 +140,7 @@ fn drawn(made: Made, floor: &PictureFloor, wanted: &PlaceSettings) -> Result<Lig
 }
 
 fn names(drawing: &Drawing) -> Vec<String> {
-    drawing.groups.iter().map(|part| part.name.clone()).collect()
+    drawing.parts.iter().map(|part| part.name.clone()).collect()
 }
 
 /// A list of lights, with fewer or more of them where there are other numbers of robots.
@@ -193,7 +193,7 @@ fn arranged(
     let light = |(at, color): &(Vec2, Rgb)| PlacedLight {
         at: if stays { *at } else { map(*at) },
         color: *color,
-        group: 0,
+        part: 0,
     };
     let lights: Vec<PlacedLight> = list.places.iter().map(light).collect();
     if !lights.iter().all(|light| floor.allows(light.at)) {
@@ -226,7 +226,7 @@ fn pixels(before: &Frame, moved: &[&Pixel], lights: &[PlacedLight], names: &[Str
             pixels.push((*pixel).clone());
             continue;
         }
-        let name = names.get(light.group).cloned().unwrap_or_default();
+        let name = names.get(light.part).cloned().unwrap_or_default();
         let part = Some(SourcePart { source: 0, name });
         let id = free.next().unwrap_or(u32::MAX);
         pixels.push(Pixel { id, at: light.at, color: light.color, robot: None, part });

@@ -151,7 +151,7 @@ fn smoothed(masks: &[BitMask], at: usize) -> BitMask {
 
 /// Mean brightness in cells of a coarse grid: of what robots show, which is dark outside of the thing.
 fn shade(bitmap: &Bitmap, drawing: &Drawing) -> Vec<f32> {
-    let weights = drawing.groups.first().and_then(|part| part.raster.as_ref()).map(|raster| &raster.weights);
+    let weights = drawing.parts.first().and_then(|part| part.raster.as_ref()).map(|raster| &raster.weights);
     let mut sums = vec![(0.0f32, 0.0f32); GRID * GRID];
     for index in 0..bitmap.pixels.len() {
         let (x, y) = (index % bitmap.columns, index / bitmap.columns);

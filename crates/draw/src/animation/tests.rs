@@ -40,7 +40,7 @@ fn refusal(bytes: &[u8]) -> Option<&'static str> {
 
 fn middle(animation: &Animation, frame: usize) -> Vec2 {
     let (low, high) = animation.frames[frame].drawing.bounds().expect("it shows something");
-    let part = &animation.frames[frame].drawing.groups[0];
+    let part = &animation.frames[frame].drawing.parts[0];
     let points: Vec<Vec2> = part.areas.iter().flat_map(|area| area.rings.iter().flatten()).copied().collect();
     assert!(low.x <= high.x && !points.is_empty());
     points.iter().fold(Vec2::ZERO, |sum, at| sum + *at) / points.len() as f64
@@ -57,7 +57,7 @@ fn frames_have_silhouettes_and_times() {
     let first = middle(&animation, 0);
     assert!(first.distance(Vec2::new(15.0, 45.0)) < 1.5, "{first:?}");
     assert!(middle(&animation, 3).distance(Vec2::new(30.0, 30.0)) < 1.5);
-    assert!(animation.frames[0].drawing.groups[0].areas[0].color.r > 200);
+    assert!(animation.frames[0].drawing.parts[0].areas[0].color.r > 200);
     let [near, far] = [animation.change(0, 1), animation.change(0, 3)];
     assert!(animation.change(2, 2) < 1e-9 && 0.0 < near && near < far, "{near} {far}");
 }
@@ -78,7 +78,7 @@ fn frames_are_composed_by_their_disposal() {
         || Frame { width: 1, height: 1, transparent: Some(0), buffer: vec![0].into(), ..Frame::default() };
     let rings = |dispose| {
         let animation = animation(&gif(60, &[whole.clone(), small(dispose), nothing()]));
-        let count = |frame: usize| animation.frames[frame].drawing.groups[0].areas[0].rings.len();
+        let count = |frame: usize| animation.frames[frame].drawing.parts[0].areas[0].rings.len();
         (count(1), count(2))
     };
     assert_eq!(rings(DisposalMethod::Keep), (2, 2));

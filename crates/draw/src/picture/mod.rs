@@ -86,7 +86,7 @@ fn tones(bitmap: &Bitmap, inverted: bool) -> Result<Made, DrawError> {
         return Err(DrawError::new("picture-empty", message));
     }
     let part = DrawingPart { name: "picture".to_owned(), raster: Some(raster), ..DrawingPart::default() };
-    Ok(Made { drawing: Drawing { groups: vec![part] }, notes: Vec::new() })
+    Ok(Made { drawing: Drawing { parts: vec![part] }, notes: Vec::new() })
 }
 
 fn silhouette(bitmap: &Bitmap, mut mask: BitMask, outline: bool, clear: bool) -> Result<Made, DrawError> {
@@ -117,7 +117,7 @@ fn silhouette(bitmap: &Bitmap, mut mask: BitMask, outline: bool, clear: bool) ->
         Note::new("picture-background", message)
     });
     let notes = spots.into_iter().chain(unsure).collect();
-    Ok(Made { drawing: Drawing { groups: vec![part] }, notes })
+    Ok(Made { drawing: Drawing { parts: vec![part] }, notes })
 }
 
 #[cfg(test)]

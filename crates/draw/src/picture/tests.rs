@@ -26,7 +26,7 @@ fn file(picture: &DynamicImage, format: ImageFormat) -> Vec<u8> {
 
 fn part(bytes: &[u8], way: PictureWay) -> DrawingPart {
     let settings = PictureSettings { way, ..PictureSettings::default() };
-    draw(bytes, &settings).expect("it can be drawn").drawing.groups.remove(0)
+    draw(bytes, &settings).expect("it can be drawn").drawing.parts.remove(0)
 }
 
 fn refusal(bytes: &[u8]) -> Option<&'static str> {
@@ -71,7 +71,7 @@ fn scenes_without_a_background_become_tones() {
     let made =
         draw(&file(&scene.into(), ImageFormat::Png), &PictureSettings::default()).expect("it has tones");
     assert_eq!(made.notes.iter().map(|note| note.code).collect::<Vec<_>>(), ["picture-tones"]);
-    assert!(made.drawing.groups[0].areas.is_empty());
+    assert!(made.drawing.parts[0].areas.is_empty());
 }
 
 #[test]

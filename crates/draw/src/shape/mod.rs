@@ -34,7 +34,7 @@ pub fn draw_shape(settings: &ShapeSettings) -> Result<Drawing, DrawError> {
     if part.strokes.iter().any(|stroke| stroke.points.len() < 2) {
         return Err(DrawError::new("bad-shape", "a line needs at least two points; draw a longer one"));
     }
-    Ok(Drawing { groups: vec![part] })
+    Ok(Drawing { parts: vec![part] })
 }
 
 fn stroke(points: Vec<Vec2>, closed: bool, color: Rgb) -> Stroke {

@@ -47,7 +47,7 @@ pub struct Canvas {
     pub faint: usize,
     /// Areas and lines that are wholly hidden.
     pub hidden: usize,
-    /// Points cut so far, see [`WORK_MAX`].
+    /// Number of points that were cut already, see [`WORK_MAX`].
     work: usize,
     /// Square units of the page.
     page_area: f64,

@@ -129,14 +129,14 @@ fn drawing(canvas: &Canvas, height: f64) -> Drawing {
         let FlatLine { points, closed } = &found.line;
         Stroke { points: line(points), closed: *closed, color: found.color, weight: 1.0 }
     });
-    let group = DrawingPart {
+    let part = DrawingPart {
         name: "drawing".to_owned(),
         areas: areas.collect(),
         strokes: strokes.collect(),
         ..DrawingPart::default()
     };
-    let empty = group.areas.is_empty() && group.strokes.is_empty();
-    Drawing { groups: if empty { Vec::new() } else { vec![group] } }
+    let empty = part.areas.is_empty() && part.strokes.is_empty();
+    Drawing { parts: if empty { Vec::new() } else { vec![part] } }
 }
 
 #[cfg(test)]

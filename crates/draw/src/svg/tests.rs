@@ -17,8 +17,8 @@ fn made(inside: &str) -> Made {
     draw(page(inside).as_bytes()).expect("it can be drawn")
 }
 
-fn group(inside: &str) -> DrawingPart {
-    made(inside).drawing.groups.remove(0)
+fn part(inside: &str) -> DrawingPart {
+    made(inside).drawing.parts.remove(0)
 }
 
 /// Areas as colour and size, square units.
@@ -27,7 +27,7 @@ fn areas(inside: &str) -> Vec<(u32, f64)> {
         let next = ring.iter().cycle().skip(1);
         ring.iter().zip(next).map(|(a, b)| a.cross(*b)).sum::<f64>() / 2.0
     };
-    let areas = group(inside).areas;
+    let areas = part(inside).areas;
     let sizes = areas.iter().map(|area| {
         assert_eq!(area.rule, FillRule::NonZero);
         (area.color.number(), area.rings.iter().map(size).sum::<f64>().abs().round())
@@ -51,8 +51,8 @@ fn refusal(file: &[u8]) -> Option<&'static str> {
 fn fills_have_their_rules_colours_and_transforms() {
     let square = "<rect width='10' height='10' fill='tomato' transform='translate(5 5) scale(2)'/>";
     assert_eq!(areas(square), [(0xff6347, 400.0)]);
-    let group = group(square);
-    let corners = group.areas[0].rings[0].iter().map(|at| (at.x, at.y));
+    let part = part(square);
+    let corners = part.areas[0].rings[0].iter().map(|at| (at.x, at.y));
     let mut corners: Vec<(f64, f64)> = corners.map(|(x, y)| (x.round(), y.round())).collect();
     corners.sort_by(|a, b| a.partial_cmp(b).expect("they are numbers"));
     assert_eq!(corners, [(5.0, 75.0), (5.0, 95.0), (25.0, 75.0), (25.0, 95.0)]);
@@ -73,14 +73,14 @@ fn style_sheets_groups_and_uses_give_colours() {
 fn thin_strokes_are_lines_and_wide_ones_areas() {
     let line =
         |width: f64| format!("<path fill='none' stroke='red' stroke-width='{width}' d='M10 10H90V50z'/>");
-    let thin = group(&line(4.0));
+    let thin = part(&line(4.0));
     let strokes: Vec<(usize, bool, u32)> = thin
         .strokes
         .iter()
         .map(|stroke| (stroke.points.len(), stroke.closed, stroke.color.number()))
         .collect();
     assert_eq!((strokes, thin.areas.len()), (vec![(3, true, 0xff0000)], 0));
-    let wide = group(&line(20.0));
+    let wide = part(&line(20.0));
     assert_eq!((wide.strokes.len(), wide.areas.len()), (0, 1));
 }
 

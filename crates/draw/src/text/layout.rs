@@ -28,7 +28,7 @@ const RAINBOW: [Rgb; 6] = [
     Rgb::new(255, 0, 255),
 ];
 
-/// The words as one drawing: a group for each visible letter.
+/// The words as one drawing: a part for each visible letter.
 ///
 /// # Errors
 /// `text-empty` without any visible sign, `text-too-long`, `text-settings` for numbers out of range, `text-no-glyphs` if no
@@ -133,16 +133,16 @@ pub(super) fn pitch(boxes: &[Option<(Vec2, Vec2)>]) -> f64 {
     touching.fold(1.0, f64::max)
 }
 
-/// A drawing with one group for each letter, named by the letter and its number.
+/// A drawing with one part for each letter, named by the letter and its number.
 pub(super) fn drawing(letters: &[Letter], colors: &Colors) -> Drawing {
     let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
-    let groups = letters.iter().enumerate().map(|(at, letter)| {
+    let parts = letters.iter().enumerate().map(|(at, letter)| {
         let text = if letter.text.is_empty() { "?" } else { letter.text.as_str() };
         let count = counts.entry(text).or_default();
         *count += 1;
-        letter.group(format!("{text} {count}"), color(colors, at, letters.len()))
+        letter.part(format!("{text} {count}"), color(colors, at, letters.len()))
     });
-    Drawing { groups: groups.collect() }
+    Drawing { parts: parts.collect() }
 }
 
 /// Colour of a letter by its number.

@@ -33,7 +33,7 @@ impl Letter {
     }
 
     /// The letter as a part of a drawing.
-    pub(super) fn group(&self, name: String, color: Rgb) -> DrawingPart {
+    pub(super) fn part(&self, name: String, color: Rgb) -> DrawingPart {
         let strokes = |lines: &[Vec<Vec2>]| {
             let stroke = |line: &Vec<Vec2>| {
                 let closed = line.len() > 3 && line.first() == line.last();

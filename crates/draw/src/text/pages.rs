@@ -81,10 +81,10 @@ pub fn scrolling(settings: &TextSettings, window: f64, steps: usize) -> Result<V
     for step in 0..steps {
         let share = step as f64 / steps.saturating_sub(1).max(1) as f64;
         let shift = start + (end - start) * share;
-        let groups = cut(&letters, &colored, shift, window);
-        points += groups
+        let parts = cut(&letters, &colored, shift, window);
+        points += parts
             .iter()
-            .flat_map(|group| &group.areas)
+            .flat_map(|part| &part.areas)
             .flat_map(|area| &area.rings)
             .map(Vec::len)
             .sum::<usize>();
@@ -92,8 +92,8 @@ pub fn scrolling(settings: &TextSettings, window: f64, steps: usize) -> Result<V
             let message = "All steps together have too many points. Scroll in fewer steps, or behind a narrower window.";
             return Err(DrawError::new("text-too-detailed", message));
         }
-        if !groups.is_empty() {
-            let made = Made { drawing: Drawing { groups }, notes: std::mem::take(&mut notes) };
+        if !parts.is_empty() {
+            let made = Made { drawing: Drawing { parts }, notes: std::mem::take(&mut notes) };
             pages.push(Page { title: format!("step {}", step + 1), made });
         }
     }
@@ -102,18 +102,15 @@ pub fn scrolling(settings: &TextSettings, window: f64, steps: usize) -> Result<V
 
 /// What is seen of letters behind a window.
 fn cut(letters: &[Letter], colored: &Drawing, shift: f64, window: f64) -> Vec<DrawingPart> {
-    let parts = letters.iter().zip(&colored.groups).filter_map(|(letter, group)| {
+    let parts = letters.iter().zip(&colored.parts).filter_map(|(letter, part)| {
         let (low, high) = bounds(letter.ink())?;
         if high.x + shift <= 0.0 || low.x + shift >= window {
             return None;
         }
-        let color = group
-            .areas
-            .first()
-            .map(|area| area.color)
-            .or(group.strokes.first().map(|stroke| stroke.color))?;
+        let color =
+            part.areas.first().map(|area| area.color).or(part.strokes.first().map(|stroke| stroke.color))?;
         let cut = clipped(&letter.clone().moved(Vec2::new(shift, 0.0)), 0.0, window);
-        cut.ink().next().is_some().then(|| cut.group(group.name.clone(), color))
+        cut.ink().next().is_some().then(|| cut.part(part.name.clone(), color))
     });
     parts.collect()
 }

@@ -139,7 +139,7 @@ fn clusters(text: &str, outlines: &Outlines, backwards: bool, gathered: &mut Gat
     buffer.guess_segment_properties();
     buffer.set_direction(if backwards { Direction::RightToLeft } else { Direction::LeftToRight });
     buffer.set_flags(BufferFlags::REMOVE_DEFAULT_IGNORABLES);
-    // A ligature would be one group of several letters.
+    // A ligature would be one part of several letters.
     let single = [b"liga", b"clig", b"dlig"].map(|tag| Feature::new(Tag::new(tag), 0, ..));
     let shaper = ShaperFont::new(outlines.file());
     if harfrust::shape(&shaper, &mut buffer, ShapeOptions::new().features(&single)).is_err() {

@@ -17,11 +17,11 @@ fn made(words: &str) -> Made {
 }
 
 fn names(made: &Made) -> Vec<&str> {
-    made.drawing.groups.iter().map(|group| group.name.as_str()).collect()
+    made.drawing.parts.iter().map(|part| part.name.as_str()).collect()
 }
 
-fn extent(group: &DrawingPart) -> (Vec2, Vec2) {
-    bounds(group.areas.iter().flat_map(|area| area.rings.iter().flatten())).unwrap()
+fn extent(part: &DrawingPart) -> (Vec2, Vec2) {
+    bounds(part.areas.iter().flat_map(|area| area.rings.iter().flatten())).unwrap()
 }
 
 fn code(words: &str) -> &'static str {
@@ -35,7 +35,7 @@ fn every_font_inside_is_read_and_draws_capitals_one_high() {
         let made = draw(&TextSettings::new("H", &font)).unwrap();
         let (low, high) = made.drawing.bounds().unwrap();
         assert!((low.y.abs() < 0.02) && (high.y - 1.0).abs() < 0.02, "{}: {low:?} to {high:?}", info.name);
-        assert_eq!(font.is_single_line(), made.drawing.groups[0].areas.is_empty(), "{}", info.name);
+        assert_eq!(font.is_single_line(), made.drawing.parts[0].areas.is_empty(), "{}", info.name);
     }
     assert!(Font::built_in("times").is_none());
 }
@@ -44,7 +44,7 @@ fn every_font_inside_is_read_and_draws_capitals_one_high() {
 fn letters_are_groups_with_names_of_their_own() {
     let made = made("HAHA I");
     assert_eq!(names(&made), ["H 1", "A 1", "H 2", "A 2", "I 1"]);
-    assert_eq!(made.drawing.groups[1].letter, Some('A'));
+    assert_eq!(made.drawing.parts[1].letter, Some('A'));
     assert!(made.notes.is_empty());
 }
 
@@ -62,10 +62,10 @@ fn letters_follow_each_other_with_kerning() {
 fn accents_are_drawn_and_have_strokes() {
     for word in ["č", "ő", "ş", "İ", "ğ", "é", "Ż", "ü", "ł", "Ł"] {
         let made = made(word);
-        let group = &made.drawing.groups[0];
-        assert_eq!(group.letter, word.chars().next());
-        assert!(made.notes.is_empty() && !group.areas.is_empty(), "{word}");
-        assert!(group.spine.len() >= 2, "{word} has {} strokes", group.spine.len());
+        let part = &made.drawing.parts[0];
+        assert_eq!(part.letter, word.chars().next());
+        assert!(made.notes.is_empty() && !part.areas.is_empty(), "{word}");
+        assert!(part.spine.len() >= 2, "{word} has {} strokes", part.spine.len());
     }
     // The same letter as two characters.
     assert_eq!(made("e\u{301}").drawing, made("é").drawing);
@@ -77,15 +77,15 @@ fn spines_lie_inside_of_their_letters() {
     for info in FONTS.iter().filter(|info| info.offered) {
         let font = Font::built_in(info.name).unwrap();
         let mut bare = Vec::new();
-        for group in draw(&TextSettings::new(words, &font)).unwrap().drawing.groups {
-            let Some(area) = group.areas.first() else { continue };
+        for part in draw(&TextSettings::new(words, &font)).unwrap().drawing.parts {
+            let Some(area) = part.areas.first() else { continue };
             let whole = LetterArea::new(&area.rings).unwrap();
-            if group.spine.is_empty() {
-                bare.push(group.name.clone());
+            if part.spine.is_empty() {
+                bare.push(part.name.clone());
             }
-            for point in group.spine.iter().flat_map(|stroke| &stroke.points) {
+            for point in part.spine.iter().flat_map(|stroke| &stroke.points) {
                 let near = whole.contains(*point) || whole.distance(*point) < whole.stem / 4.0;
-                assert!(near, "{} in {}: {point:?}", group.name, info.name);
+                assert!(near, "{} in {}: {point:?}", part.name, info.name);
             }
         }
         assert!(bare.is_empty(), "{}: no strokes for {bare:?}", info.name);
@@ -97,7 +97,7 @@ fn lines_stand_below_each_other_and_are_aligned() {
     let font = lato();
     let boxes = |align| {
         let made = draw(&TextSettings { align, ..TextSettings::new("\nII\nI\r\nIII\n", &font) }).unwrap();
-        made.drawing.groups.iter().map(extent).collect::<Vec<(Vec2, Vec2)>>()
+        made.drawing.parts.iter().map(extent).collect::<Vec<(Vec2, Vec2)>>()
     };
     let (left, right, centre) = (boxes(Align::Left), boxes(Align::Right), boxes(Align::Centre));
     assert_eq!(left.len(), 6);
@@ -113,9 +113,9 @@ fn words_wrap_into_the_lines_that_fill_a_ratio() {
     let rows = |ratio| {
         let settings = TextSettings { wrap: Some(ratio), ..TextSettings::new("ONE TWO SIX TEN", &font) };
         let made = draw(&settings).unwrap();
-        assert_eq!(made.drawing.groups.len(), 12);
+        assert_eq!(made.drawing.parts.len(), 12);
         let mut feet: Vec<i64> =
-            made.drawing.groups.iter().map(|group| (extent(group).0.y * 5.0).round() as i64).collect();
+            made.drawing.parts.iter().map(|part| (extent(part).0.y * 5.0).round() as i64).collect();
         feet.sort_unstable();
         feet.dedup();
         feet.len()
@@ -127,7 +127,7 @@ fn words_wrap_into_the_lines_that_fill_a_ratio() {
 fn hebrew_is_read_from_the_right_and_latin_in_it_from_the_left() {
     let made = made("שלום AB 12");
     assert_eq!(names(&made), ["ש 1", "ל 1", "ו 1", "ם 1", "A 1", "B 1", "1 1", "2 1"]);
-    let at: Vec<f64> = made.drawing.groups.iter().map(|group| extent(group).0.x).collect();
+    let at: Vec<f64> = made.drawing.parts.iter().map(|part| extent(part).0.x).collect();
     let mut order: Vec<usize> = (0..at.len()).collect();
     order.sort_by(|a, b| at[*a].total_cmp(&at[*b]));
     // As seen from the left: AB 12 in their own order, then shalom from its last letter to its first.
@@ -138,7 +138,7 @@ fn hebrew_is_read_from_the_right_and_latin_in_it_from_the_left() {
 fn arabic_letters_are_joined() {
     let alone = made("ب").drawing.bounds().unwrap();
     let joined = made("ببب");
-    assert_eq!(joined.drawing.groups.len(), 3);
+    assert_eq!(joined.drawing.parts.len(), 3);
     let (low, high) = joined.drawing.bounds().unwrap();
     assert!(high.x - low.x < 2.5 * (alone.1.x - alone.0.x), "{} {}", high.x, alone.1.x);
     let font = lato();
@@ -150,10 +150,10 @@ fn arabic_letters_are_joined() {
 fn strokes_of_straight_letters_are_straight() {
     let font = Font::built_in("quicksand").unwrap();
     let made = draw(&TextSettings::new("HLE", &font)).unwrap();
-    for group in &made.drawing.groups {
-        for pair in group.spine.iter().flat_map(|stroke| stroke.points.windows(2)) {
+    for part in &made.drawing.parts {
+        for pair in part.spine.iter().flat_map(|stroke| stroke.points.windows(2)) {
             let way = pair[1] - pair[0];
-            assert!(way.x.abs().min(way.y.abs()) < 0.01, "{}: {way:?}", group.name);
+            assert!(way.x.abs().min(way.y.abs()) < 0.01, "{}: {way:?}", part.name);
         }
     }
 }
@@ -161,9 +161,9 @@ fn strokes_of_straight_letters_are_straight() {
 #[test]
 fn emoji_stand_on_the_line_beside_letters() {
     let made = made("HI 😀❤️");
-    assert_eq!(made.drawing.groups.len(), 4);
+    assert_eq!(made.drawing.parts.len(), 4);
     assert!(made.notes.is_empty(), "{:?}", made.notes);
-    let (low, high) = extent(&made.drawing.groups[2]);
+    let (low, high) = extent(&made.drawing.parts[2]);
     assert!((low.y + 0.05).abs() < 0.01 && (high.y - 1.05).abs() < 0.01, "{low:?} {high:?}");
 }
 
@@ -180,7 +180,7 @@ fn a_sign_without_a_font_is_named() {
 fn a_mark_without_a_font_is_named_and_its_letter_drawn() {
     let marked = made("A\u{3099}");
     assert!(marked.notes[0].message.contains("U+3099"), "{:?}", marked.notes);
-    assert_eq!(marked.drawing.groups[0].areas, made("A").drawing.groups[0].areas);
+    assert_eq!(marked.drawing.parts[0].areas, made("A").drawing.parts[0].areas);
 }
 
 #[test]
@@ -197,7 +197,7 @@ fn colours_follow_the_text() {
     let font = lato();
     let colors = |colors| {
         let made = draw(&TextSettings { colors, ..TextSettings::new("ABC", &font) }).unwrap();
-        made.drawing.groups.iter().map(|group| group.areas[0].color.number()).collect::<Vec<u32>>()
+        made.drawing.parts.iter().map(|part| part.areas[0].color.number()).collect::<Vec<u32>>()
     };
     // Half the way of the rainbow lies in the middle of green and cyan.
     assert_eq!(colors(Colors::Rainbow), [0xff_0000, 0x00_ff80, 0xff_00ff]);
@@ -227,7 +227,7 @@ fn a_text_scrolls_from_its_first_to_its_last_letters() {
         assert!(low.x >= -1e-9 && high.x <= 2.0 + 1e-9, "{}: {low:?} {high:?}", page.title);
     }
     let narrow = scrolling(&TextSettings::new("I", &font), 3.0, 2).unwrap();
-    let [first, last] = [0, 1].map(|at| extent(&narrow[at].made.drawing.groups[0]));
+    let [first, last] = [0, 1].map(|at| extent(&narrow[at].made.drawing.parts[0]));
     assert!((first.1.x - 3.0).abs() < 1e-9 && last.0.x.abs() < 1e-9);
     assert_eq!(scrolling(&TextSettings::new("I", &font), 3.0, 0).unwrap_err().code, "text-settings");
 }
@@ -279,5 +279,5 @@ fn noise_is_no_font() {
 fn a_text_of_the_greatest_length_is_drawn() {
     let words = "Żółw & jeż ".repeat(181);
     let made = draw(&TextSettings { wrap: Some(1.5), ..TextSettings::new(&words, &lato()) }).unwrap();
-    assert_eq!(made.drawing.groups.len(), 181 * 8);
+    assert_eq!(made.drawing.parts.len(), 181 * 8);
 }
