@@ -1,12 +1,14 @@
 //! All frames of a show for another number of robots.
 
-use lightbots_base::Vec2;
+use lightbots_draw::animation::{self, Animation};
+use lightbots_draw::picture::PictureSettings;
 use lightbots_draw::{DrawError, Note, PictureFloor, PlacedLight, Quality, refit};
-use lightbots_show::{Frame, Pixel, Show, frame_label};
+use lightbots_show::{AssetHash, Frame, FrameSource, Pixel, Show, frame_label};
 
 use crate::floor::picture_floor;
-use crate::frame::make_frame;
-use crate::material::asset_of;
+use crate::frame::make_frame_from;
+use crate::material::{Material, asset_of, material, moment};
+use crate::recipe::{Content, Recipe};
 
 /// Least distance of two lights of frames without a source, metres: below it, plans take longer (measured).
 const SPACING_M: f64 = 0.0764;
@@ -19,6 +21,7 @@ const SPACING_M: f64 = 0.0764;
 pub fn fit_show(show: &mut Show, robots: usize) -> Result<Vec<Note>, DrawError> {
     let floor = picture_floor(&show.stage);
     let mut notes = Vec::new();
+    let mut film = Film::None;
     for index in 0..show.frames.len() {
         let frame = &show.frames[index];
         if frame.pixels.len() == robots {
@@ -26,7 +29,7 @@ pub fn fit_show(show: &mut Show, robots: usize) -> Result<Vec<Note>, DrawError> 
         }
         let label = frame_label(index, &frame.name);
         let named = |error: DrawError| DrawError::new(error.code, format!("{label}: {}", error.message));
-        let fitted = match made_anew(show, frame, &floor, robots) {
+        let fitted = match made_anew(show, frame, &floor, robots, &mut film) {
             Some(Ok((frame, more))) => {
                 notes.extend(
                     more.into_iter().map(|note| Note::new(note.code, format!("{label}: {}", note.message))),
@@ -48,17 +51,35 @@ pub fn fit_show(show: &mut Show, robots: usize) -> Result<Vec<Note>, DrawError> 
     Ok(notes)
 }
 
+/// The film that was read last: its moments are frames one after the other, and each would read the whole file.
+type Film = Option<((AssetHash, PictureSettings), Animation)>;
+
 /// The frame made anew from its source; `None`: it has no single source.
 fn made_anew(
     show: &Show,
     frame: &Frame,
     floor: &PictureFloor,
     robots: usize,
+    film: &mut Film,
 ) -> Option<Result<(Frame, Vec<Note>), DrawError>> {
     let [source] = frame.sources.as_slice() else { return None };
-    let start: Vec<Vec2> = Vec::new();
-    let made = make_frame(frame, asset_of(source, &show.assets), floor, robots, Quality::Full, &start);
+    let made = material_of(show, source, film)
+        .and_then(|material| make_frame_from(frame, material, floor, robots, Quality::Full, &[]));
     Some(made.map(|made| (made.frame, made.notes)))
+}
+
+fn material_of(show: &Show, source: &FrameSource, film: &mut Film) -> Result<Material, DrawError> {
+    let recipe = Recipe::read(source)?;
+    let asset = asset_of(source, &show.assets);
+    let (Content::Animation { picture, moment_s }, Some(bytes), Some(hash)) =
+        (&recipe.content, asset, source.asset)
+    else {
+        return material(&recipe, asset);
+    };
+    if film.as_ref().is_none_or(|(key, _)| *key != (hash, *picture)) {
+        *film = Some(((hash, *picture), animation::read(bytes, picture)?));
+    }
+    film.as_ref().map_or_else(|| material(&recipe, asset), |(_, animation)| moment(animation, *moment_s))
 }
 
 /// The frame with fewer or more of its lights; pins go last.
@@ -90,8 +111,9 @@ fn fitted(frame: &Frame, floor: &PictureFloor, robots: usize) -> Result<Frame, D
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::recipe::{Content, Recipe, TextRecipe};
-    use lightbots_base::Rgb;
+    use crate::frame::make_frame;
+    use crate::recipe::TextRecipe;
+    use lightbots_base::{Rgb, Vec2};
     use lightbots_show::{Severity, validate};
 
     fn show() -> Show {

@@ -14,5 +14,5 @@ mod settings;
 pub use fit::fit_show;
 pub use floor::picture_floor;
 pub use frame::{MadeFrame, make_frame, make_frame_from};
-pub use material::{Material, material, view_of};
+pub use material::{Material, TextPages, material, text_pages, view_of};
 pub use recipe::{Content, Placing, Recipe, Scroll, TextRecipe, unknown_shape};

@@ -2,13 +2,13 @@
 
 use lightbots_base::{Rgb, Vec2};
 use lightbots_draw::animation::{self, Animation};
-use lightbots_draw::text::{self, Colors, Font, TextSettings};
+use lightbots_draw::text::{self, Colors, Font, Page, TextSettings};
 use lightbots_draw::{
     DrawError, LightList, Made, ShapeKind, ShapeSettings, bounds, draw_shape, list, picture, svg,
 };
 use lightbots_show::{Assets, FrameSource};
 
-use crate::recipe::{Content, Recipe, TextRecipe};
+use crate::recipe::{Content, Recipe, Scroll, TextRecipe};
 
 /// Colour of words where none is chosen: that of a warm lamp.
 const USUAL_COLOR: Rgb = Rgb::new(255, 165, 0);
@@ -46,14 +46,14 @@ pub fn material(recipe: &Recipe, asset: Option<&[u8]>) -> Result<Material, DrawE
         }
     };
     let view = match &recipe.content {
-        Content::Text(words) => words.scroll.map(|scroll| (Vec2::ZERO, Vec2::new(scroll.window, 1.0))),
+        Content::Text(words) => words.view(),
         _ => None,
     };
     Ok(Material::Drawing { made, view })
 }
 
 /// The picture of an animation that is shown at a moment.
-fn moment(animation: &Animation, moment_s: f64) -> Result<Material, DrawError> {
+pub(crate) fn moment(animation: &Animation, moment_s: f64) -> Result<Material, DrawError> {
     let after = animation.frames.partition_point(|frame| frame.at_s <= moment_s + 1e-6);
     let frame = animation.frames.get(after.saturating_sub(1));
     let frame = frame.ok_or_else(|| DrawError::new("animation-empty", "the animation has no pictures"))?;
@@ -86,6 +86,53 @@ fn draw_text(words: &TextRecipe, asset: Option<&[u8]>) -> Result<Made, DrawError
     })
 }
 
+/// How a text becomes frames.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum TextPages {
+    /// One frame.
+    Whole,
+    /// A frame for each word.
+    Words,
+    /// Steps of the text as it scrolls past.
+    Scroll {
+        /// Width of the window, cap heights.
+        window: f64,
+        /// Number of steps of the whole way. Steps at which the window is empty are left out.
+        steps: usize,
+    },
+}
+
+/// The recipe and the material of each frame of a text.
+///
+/// # Errors
+/// As for [`material`].
+pub fn text_pages(
+    words: &TextRecipe,
+    asset: Option<&[u8]>,
+    pages: TextPages,
+) -> Result<Vec<(TextRecipe, Material)>, DrawError> {
+    let font = font(words, asset)?;
+    let settings = words.settings(&font);
+    let recipes: Vec<(TextRecipe, Made)> = match pages {
+        TextPages::Whole => vec![(words.clone(), text::draw(&settings)?)],
+        TextPages::Words => {
+            let word = |page: Page| (TextRecipe { text: page.title, ..words.clone() }, page.made);
+            text::per_word(&settings)?.into_iter().map(word).collect()
+        }
+        TextPages::Scroll { window, steps } => {
+            let scrolled =
+                |step| TextRecipe { scroll: Some(Scroll { window, steps, step }), ..words.clone() };
+            let pages = text::scrolling(&settings, window, steps)?;
+            pages.into_iter().enumerate().map(|(step, page)| (scrolled(step), page.made)).collect()
+        }
+    };
+    let of = |(recipe, made): (TextRecipe, Made)| {
+        let view = recipe.view();
+        (recipe, Material::Drawing { made, view })
+    };
+    Ok(recipes.into_iter().map(of).collect())
+}
+
 fn font(words: &TextRecipe, asset: Option<&[u8]>) -> Result<Font, DrawError> {
     if let Some(bytes) = asset {
         return Font::read(bytes);
@@ -98,6 +145,11 @@ fn font(words: &TextRecipe, asset: Option<&[u8]>) -> Result<Font, DrawError> {
 }
 
 impl TextRecipe {
+    /// The window behind which the text scrolls past.
+    fn view(&self) -> Option<(Vec2, Vec2)> {
+        self.scroll.map(|scroll| (Vec2::ZERO, Vec2::new(scroll.window, 1.0)))
+    }
+
     fn settings<'a>(&'a self, font: &'a Font) -> TextSettings<'a> {
         let colors = match self.colors.as_slice() {
             [] => Colors::One(USUAL_COLOR),

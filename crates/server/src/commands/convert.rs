@@ -5,6 +5,7 @@ use std::path::Path;
 use lightbots_make::fit_show;
 use lightbots_show::{Issue, Issues, Show, validate};
 
+use super::guard;
 use crate::cli::ConvertArguments;
 use crate::failure::{Failure, Outcome};
 use crate::{say, show_file};
@@ -13,6 +14,11 @@ pub fn run(arguments: &ConvertArguments) -> Outcome {
     let (input, output) = (&arguments.input, &arguments.output);
     let format = show_file::format_of(output)?;
     let mut loaded = show_file::load(input)?;
+    // Fitting draws the files in the show.
+    let draws_files = arguments.robots.is_some() && !loaded.show.assets.is_empty();
+    if let Some(outcome) = guard::child_outcome(draws_files) {
+        return outcome;
+    }
     let fitted = fitted(&mut loaded.show, arguments)?;
     if loaded.unread.is_some() && is_same_file(input, output) {
         let line = "it has parts that are not known, which would be lost; write to another file";

@@ -50,6 +50,18 @@ fn a_made_show_is_fitted_to_another_fleet() {
 }
 
 #[test]
+fn a_show_with_its_drawing_is_drawn_anew_for_another_fleet() {
+    let svg = shows::file("face.svg", FACE);
+    let made = shows::file("face.lightbots.zip", "");
+    assert_eq!(run(&["make", &svg, "--robots", "40", "--out", &made]).0, 0);
+    let fitted = shows::file("fitted.lightbots.zip", "");
+    assert_eq!(run(&["convert", &made, &fitted, "--robots", "90",]).0, 0);
+    let direct = shows::file("face.lightbots.zip", "");
+    assert_eq!(run(&["make", &svg, "--robots", "90", "--out", &direct]).0, 0);
+    assert_eq!(std::fs::read(fitted).unwrap(), std::fs::read(direct).unwrap());
+}
+
+#[test]
 fn too_few_robots_are_said_with_the_number_that_would_do() {
     let out = shows::file("few.lightbots.json", "");
     let (code, text, _) = run(&["make", "text:HELLO", "--robots", "9", "--out", &out, "--json"]);

@@ -1,7 +1,6 @@
 //! `make`: words, shapes, drawings, pictures and lists become frames of a show.
 
 mod films;
-mod guard;
 mod sources;
 mod wanted;
 
@@ -12,7 +11,7 @@ use lightbots_make::{MadeFrame, make_frame_from, picture_floor};
 use lightbots_show::{Issue, Issues, Show, validate};
 use serde::Serialize;
 
-use super::{count, print_issues, print_json};
+use super::{count, guard, print_issues, print_json};
 use crate::cli::MakeArguments;
 use crate::failure::{Failure, Outcome};
 use crate::numbers::rounded;
@@ -45,8 +44,8 @@ struct Picture {
 
 pub fn run(arguments: &MakeArguments) -> Outcome {
     let format = show_file::format_of(&arguments.out)?;
-    if guard::is_needed(arguments) {
-        return guard::run_in_child();
+    if let Some(outcome) = guard::child_outcome(has_files(arguments)) {
+        return outcome;
     }
     let watch = guard::ReadingTime::start();
     let bar = Bar::new();
@@ -82,6 +81,12 @@ pub fn run(arguments: &MakeArguments) -> Outcome {
         summary.print();
     }
     Ok(summary.ok)
+}
+
+/// Whether a source or the font may be a file.
+fn has_files(arguments: &MakeArguments) -> bool {
+    let is_words = |source: &String| source.starts_with("text:") || source.starts_with("shape:");
+    arguments.font.is_some() || !arguments.sources.iter().all(is_words)
 }
 
 fn title(arguments: &MakeArguments) -> String {

@@ -5,11 +5,11 @@ use std::path::{Path, PathBuf};
 use lightbots_draw::picture::PictureSettings;
 use lightbots_draw::text::{self, FONTS};
 use lightbots_draw::{DrawError, FileKind, ShapeSettings, shape_named, sniff, unsupported};
-use lightbots_make::{Content, Scroll, TextRecipe};
-use lightbots_show::{Asset, AssetHash, Frame};
+use lightbots_make::{Content, TextPages, TextRecipe, text_pages};
+use lightbots_show::{Asset, AssetHash};
 
 use super::films;
-use super::wanted::{Wanted, asset, one};
+use super::wanted::{Wanted, asset, frame_of, one};
 use crate::cli::MakeArguments;
 use crate::failure::Failure;
 use crate::progress::Bar;
@@ -79,46 +79,31 @@ fn bytes(path: &Path) -> Result<Vec<u8>, Failure> {
 }
 
 fn of_text(words: &str, font: &ChosenFont, arguments: &MakeArguments) -> Result<Vec<Wanted>, DrawError> {
-    let content = |words: &str, scroll| {
-        Content::Text(TextRecipe {
-            font: font.name.clone(),
-            wrap: arguments.wrap,
-            colors: arguments.color.clone(),
-            scroll,
-            ..TextRecipe::new(words.replace("\\n", "\n"))
-        })
+    let recipe = TextRecipe {
+        font: font.name.clone(),
+        wrap: arguments.wrap,
+        colors: arguments.color.clone(),
+        ..TextRecipe::new(words.replace("\\n", "\n"))
+    };
+    let pages = if arguments.scroll {
+        let steps = (words.chars().count() * STEPS_PER_CHARACTER).clamp(2, text::STEPS_MAX);
+        TextPages::Scroll { window: WINDOW, steps }
+    } else if arguments.per_word {
+        TextPages::Words
+    } else {
+        TextPages::Whole
     };
     let file = font.file.as_ref().and_then(|(_, asset)| asset.content.clone());
-    let mut contents = Vec::new();
-    if arguments.scroll {
-        let steps = (words.chars().count() * STEPS_PER_CHARACTER).clamp(2, text::STEPS_MAX);
-        contents.extend((0..steps).map(|step| (words, Some(Scroll { window: WINDOW, steps, step }))));
-    } else if arguments.per_word {
-        contents.extend(words.split_whitespace().map(|word| (word, None)));
-    } else {
-        contents.push((words, None));
-    }
-    let series = (contents.len() > 1).then(|| words.to_owned());
+    let pages = text_pages(&recipe, file.as_deref(), pages)?;
+    let is_series = pages.len() > 1;
     let mut wanted = Vec::new();
-    for (words, scroll) in contents {
-        let name = words.replace("\\n", " ");
-        match one(name, content(words, scroll), file.as_deref(), arguments) {
-            Ok(mut one) => {
-                one.asset.clone_from(&font.file);
-                one.frame.sources[0].series.clone_from(&series);
-                wanted.push(one);
-            }
-            // Steps in which the window is empty are left out, at the end.
-            Err(error) if scroll.is_some_and(|scroll| scroll.step > 0) && error.code == "text-settings" => {
-                break;
-            }
-            Err(error) => return Err(error),
-        }
-    }
-    if arguments.scroll {
-        let mut frames: Vec<Frame> = wanted.iter().map(|one| one.frame.clone()).collect();
-        numbered(&mut frames);
-        wanted.iter_mut().zip(frames).for_each(|(one, frame)| one.frame = frame);
+    for (nth, (recipe, material)) in pages.into_iter().enumerate() {
+        let title = recipe.text.replace('\n', " ");
+        let name = if arguments.scroll { format!("{title} {}", nth + 1) } else { title };
+        let mut one = frame_of(name, Content::Text(recipe), material, arguments);
+        one.asset.clone_from(&font.file);
+        one.frame.sources[0].series = is_series.then(|| words.to_owned());
+        wanted.push(one);
     }
     Ok(wanted)
 }
@@ -150,12 +135,4 @@ fn of_file(source: &str, bytes: &[u8], arguments: &MakeArguments) -> Result<Vec<
     let mut wanted = one(name, content, Some(bytes), arguments)?;
     wanted.asset = Some(asset(path, bytes, media_type));
     Ok(vec![wanted])
-}
-
-/// Frames that share one name are told apart by a number.
-fn numbered(frames: &mut [Frame]) {
-    let many = frames.len() > 1;
-    for (index, frame) in frames.iter_mut().enumerate().filter(|_| many) {
-        frame.name = format!("{} {}", frame.name, index + 1);
-    }
 }

@@ -44,17 +44,22 @@ pub fn asset(path: &Path, bytes: &[u8], media_type: &str) -> (AssetHash, Asset) 
     (hash_of(bytes), asset)
 }
 
-/// A frame of one source.
+/// A frame of one source, whose file is given.
 pub fn one(
     name: String,
     content: Content,
     file: Option<&[u8]>,
     arguments: &MakeArguments,
 ) -> Result<Wanted, DrawError> {
-    let recipe = recipe(content, arguments);
-    let material = material(&recipe, file)?;
-    let frame = Frame { name, air_time_s: arguments.air, sources: vec![recipe.source()], ..Frame::default() };
-    Ok(Wanted { frame, material, asset: None, start: false })
+    let material = material(&recipe(content.clone(), arguments), file)?;
+    Ok(frame_of(name, content, material, arguments))
+}
+
+/// A frame of one source that has been read already.
+pub fn frame_of(name: String, content: Content, material: Material, arguments: &MakeArguments) -> Wanted {
+    let source = recipe(content, arguments).source();
+    let frame = Frame { name, air_time_s: arguments.air, sources: vec![source], ..Frame::default() };
+    Wanted { frame, material, asset: None, start: false }
 }
 
 /// The recipe of a source with what the command line says.

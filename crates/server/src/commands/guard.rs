@@ -5,12 +5,11 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
-use crate::cli::MakeArguments;
 use crate::failure::{Failure, Outcome};
 use crate::say;
 
 /// Set for the child, so that it does not start another one.
-const CHILD: &str = "LIGHTBOTS_MAKE_CHILD";
+const CHILD: &str = "LIGHTBOTS_READING_CHILD";
 
 /// Most memory of the child, bytes.
 const MEMORY_MAX: u64 = 400 << 20;
@@ -21,19 +20,23 @@ const READING_MAX: Duration = Duration::from_secs(10);
 /// Exit code of a child that took too long; other than all codes of commands.
 const TOO_LONG: i32 = 75;
 
-/// Whether sources are files and this process is not the child yet.
-pub fn is_needed(arguments: &MakeArguments) -> bool {
-    let has_files = arguments.font.is_some() || arguments.sources.iter().any(|source| !is_words(source));
-    has_files && std::env::var_os(CHILD).is_none()
+/// Whether this process is the child.
+fn is_child() -> bool {
+    std::env::var_os(CHILD).is_some()
 }
 
-/// Whether a source is words of the command line rather than a file.
-fn is_words(source: &str) -> bool {
-    source.starts_with("text:") || source.starts_with("shape:")
+/// Where files of others are to be read, the outcome of a child that runs the same command. `None`: there are none, or this
+/// process is the child; its memory is limited from now on.
+pub fn child_outcome(reads_foreign_files: bool) -> Option<Outcome> {
+    if is_child() {
+        limit_memory();
+        return None;
+    }
+    reads_foreign_files.then(run_in_child)
 }
 
 /// Runs the same command in a child process and ends as it does.
-pub fn run_in_child() -> Outcome {
+fn run_in_child() -> Outcome {
     let program = std::env::current_exe()
         .map_err(|error| Failure::problem(format!("this program's own file is not found: {error}")))?;
     let status = Command::new(program)
@@ -62,11 +65,10 @@ pub fn run_in_child() -> Outcome {
 pub struct ReadingTime(Arc<AtomicBool>);
 
 impl ReadingTime {
-    /// Limits memory from now on and time until [`ReadingTime::decoded`], if this process is the child.
+    /// Limits time until [`ReadingTime::decoded`], if this process is the child.
     pub fn start() -> Self {
         let done = Arc::new(AtomicBool::new(false));
-        if std::env::var_os(CHILD).is_some() {
-            limit_memory();
+        if is_child() {
             let watched = Arc::clone(&done);
             std::thread::spawn(move || {
                 std::thread::sleep(READING_MAX);
