@@ -13,10 +13,11 @@
 mod asset_store;
 mod names;
 mod outcome;
+mod replace;
 mod version;
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::io::{ErrorKind, Write};
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard};
 
@@ -29,6 +30,7 @@ use asset_store::AssetStore;
 pub use names::name_of_file;
 use names::tidy_name;
 pub use outcome::{Condition, Kept, LibraryError};
+use replace::replace_file;
 use version::{etag, modified_ms};
 
 /// The file that names the show that was open last.
@@ -215,11 +217,12 @@ impl Library {
         let loaded = read(bytes, None).map_err(|error| LibraryError::NoShow(error.to_string()))?;
         let _guard = lock(&self.writing);
         let given = self.given_show(name).filter(|_| *condition != Condition::IsNew);
+        let now = self.get(name);
         if given.is_none() {
-            self.check(name, condition)?;
+            check(name, condition, &now)?;
         }
         // A copy of a given show would lose what was not understood, too.
-        if let Some(line) = self.get(name).ok().and_then(|kept| kept.read_only) {
+        if let Some(line) = now.ok().and_then(|kept| kept.read_only) {
             return Err(LibraryError::ReadOnly(line));
         }
         let target = given.as_ref().map_or(name.to_owned(), |given| self.copy_name(&given.base));
@@ -234,12 +237,12 @@ impl Library {
         if loaded.unread.is_some() {
             let is_archive = sniff(bytes) == Some(&ARCHIVE);
             let (new, old) = if is_archive { (archive, document) } else { (document, archive) };
-            self.replace(&new, name, bytes)?;
+            replace_file(&new, bytes)?;
             return remove(&old);
         }
         // First the files, so that there is never a document whose files are lost.
         self.assets.keep(&loaded.show)?;
-        self.replace(&document, name, &LIGHTBOTS.write(&loaded.show, None).bytes)?;
+        replace_file(&document, &LIGHTBOTS.write(&loaded.show, None).bytes)?;
         remove(&archive)
     }
 
@@ -255,14 +258,17 @@ impl Library {
             let line = format!("\"{name}\" {what}, which cannot be deleted or renamed: save a copy instead");
             return Err(LibraryError::ReadOnly(line));
         }
-        self.get(name)?;
-        self.check(name, condition)?;
+        check(name, condition, &Ok(self.get(name)?))?;
         let removed = remove(&self.path(name, &LIGHTBOTS)).and_then(|()| remove(&self.path(name, &ARCHIVE)));
         removed.map_err(|error| LibraryError::Disk(format!("\"{name}\" cannot be deleted: {error}")))
     }
 
     /// Deletes files that no show of the folder names any more.
     fn sweep(&self) {
+        // Shows are many and large: they are read only where there is something to delete.
+        if !self.assets.has_old() {
+            return;
+        }
         let shows = self.saved().into_iter().take(SHOWS_MAX).map(|name| self.get(&name));
         // A show that cannot be read may name any file.
         if let Ok(shows) = shows.collect::<Result<Vec<_>, _>>() {
@@ -294,29 +300,6 @@ impl Library {
         let taken: BTreeSet<String> =
             saved.iter().chain(given.keys()).map(|name| name.to_lowercase()).collect();
         names.find(|name| !taken.contains(&name.to_lowercase())).unwrap_or_default()
-    }
-
-    fn check(&self, name: &str, condition: &Condition) -> Result<(), LibraryError> {
-        let now = self.get(name).map(|kept| kept.etag);
-        let conflict = |why: &str| Err(LibraryError::Conflict(format!("\"{name}\" {why}")));
-        match (condition, now) {
-            (Condition::Any, _) | (Condition::IsNew, Err(LibraryError::Missing(_))) => Ok(()),
-            (Condition::IsNew, _) => conflict("is there already: choose another name"),
-            (Condition::Is(wanted), Ok(now)) if *wanted == now => Ok(()),
-            (Condition::Is(_), _) => {
-                conflict("was changed by somebody else: look at their version, or save under another name")
-            }
-        }
-    }
-
-    /// All or nothing: a crash leaves the old file or the new one.
-    fn replace(&self, path: &Path, name: &str, bytes: &[u8]) -> std::io::Result<()> {
-        std::fs::create_dir_all(&self.folder)?;
-        let draft = self.folder.join(format!(".{name}.saving"));
-        let mut file = std::fs::File::create(&draft)?;
-        file.write_all(bytes)?;
-        file.sync_all()?;
-        std::fs::rename(&draft, path)
     }
 
     fn entry(&self, name: &str) -> Result<ShowEntry, LibraryError> {
@@ -357,6 +340,18 @@ impl Library {
 
     fn path(&self, name: &str, format: &Format) -> PathBuf {
         self.folder.join(format!("{name}{}", format.ending()))
+    }
+}
+
+fn check(name: &str, condition: &Condition, now: &Result<Kept, LibraryError>) -> Result<(), LibraryError> {
+    let conflict = |why: &str| Err(LibraryError::Conflict(format!("\"{name}\" {why}")));
+    match (condition, now) {
+        (Condition::Any, _) | (Condition::IsNew, Err(LibraryError::Missing(_))) => Ok(()),
+        (Condition::IsNew, _) => conflict("is there already: choose another name"),
+        (Condition::Is(wanted), Ok(now)) if *wanted == now.etag => Ok(()),
+        (Condition::Is(_), _) => {
+            conflict("was changed by somebody else: look at their version, or save under another name")
+        }
     }
 }
 

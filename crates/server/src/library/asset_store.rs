@@ -1,13 +1,14 @@
 //! The files that belong to shows of the library: `assets/HASH` in its folder, one for all shows that name it.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::io::Write;
 use std::path::PathBuf;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, SystemTime};
 
 use lightbots_exchange::hash_of;
 use lightbots_show::{AssetHash, Show};
+
+use super::replace::replace_file;
 
 /// A file that no show names is deleted at a start after this time. Until then it can come back with a show whose
 /// deletion is undone, or with a draft in a browser.
@@ -46,16 +47,10 @@ impl AssetStore {
 
     /// Writes a file, unless the store has it. `hash` is that of its content.
     pub fn add(&self, hash: AssetHash, content: &[u8]) -> std::io::Result<()> {
-        let path = self.folder.join(hash.to_string());
         if self.content(hash, content.len() as u64).is_some() {
             return Ok(());
         }
-        std::fs::create_dir_all(&self.folder)?;
-        let draft = self.folder.join(format!(".{hash}.saving"));
-        let mut file = std::fs::File::create(&draft)?;
-        file.write_all(content)?;
-        file.sync_all()?;
-        std::fs::rename(&draft, path)
+        replace_file(&self.folder.join(hash.to_string()), content)
     }
 
     /// Gives a show the files that it names and that are in the store. A damaged file counts as missing.
@@ -81,15 +76,14 @@ impl AssetStore {
         length.and_then(|length| self.content(hash, length)).or_else(|| self.given_content(&hash))
     }
 
-    /// Deletes files that no show names any more.
+    /// Whether there are files that are old enough to be deleted where no show names them.
+    pub fn has_old(&self) -> bool {
+        self.old().next().is_some()
+    }
+
+    /// Deletes old files that no show names any more.
     pub fn sweep(&self, named: &BTreeSet<AssetHash>) {
-        let Ok(files) = std::fs::read_dir(&self.folder) else { return };
-        let is_old = |file: &std::fs::DirEntry| {
-            let modified = file.metadata().and_then(|about| about.modified()).ok();
-            let age = modified.and_then(|time| SystemTime::now().duration_since(time).ok());
-            age.is_some_and(|age| age > UNUSED_FOR)
-        };
-        for file in files.flatten().filter(is_old) {
+        for file in self.old() {
             let hash = file.file_name().to_str().and_then(AssetHash::from_hex);
             if hash.is_some_and(|hash| !named.contains(&hash))
                 && let Err(error) = std::fs::remove_file(file.path())
@@ -97,6 +91,15 @@ impl AssetStore {
                 tracing::debug!("an unused file stays: {error}");
             }
         }
+    }
+
+    fn old(&self) -> impl Iterator<Item = std::fs::DirEntry> {
+        let is_old = |file: &std::fs::DirEntry| {
+            let modified = file.metadata().and_then(|about| about.modified()).ok();
+            let age = modified.and_then(|time| SystemTime::now().duration_since(time).ok());
+            age.is_some_and(|age| age > UNUSED_FOR)
+        };
+        std::fs::read_dir(&self.folder).into_iter().flatten().flatten().filter(is_old)
     }
 
     fn given_content(&self, hash: &AssetHash) -> Option<Arc<[u8]>> {
