@@ -3,7 +3,7 @@ import hooks from 'eslint-plugin-react-hooks';
 import ts from 'typescript-eslint';
 
 export default ts.config(
-  { ignores: ['dist', 'test-results', 'src/api/types.gen.ts'] },
+  { ignores: ['dist', 'test-results', 'src/generated', 'src/api/types.gen.ts'] },
   js.configs.recommended,
   ...ts.configs.strict,
   {

@@ -5,6 +5,8 @@ import {
   button,
   countIs,
   drag,
+  makeShape,
+  makeWords,
   onScreen,
   openShow,
   phaseIs,
@@ -35,13 +37,11 @@ describe('the editor', () => {
   test('three frames from nothing, saved, and played', async () => {
     const page = await bed.open('edit');
     const name = await begin(page);
-    await button(page, 'Heart').click();
+    await makeShape(page, 'Heart');
     await button(page, /^Add a frame/).click();
-    await button(page, 'Circle').click();
+    await makeShape(page, 'Circle');
     await button(page, /^Add a frame/).click();
-    await page.getByLabel('Text', { exact: true }).fill('HI');
-    await button(page, 'Apply').first().click();
-    await page.keyboard.press('Escape');
+    await makeWords(page, 'HI');
     await button(page, 'All').click();
     await button(page, 'Colour pink #ff2f92').click();
     await saved(page);

@@ -132,6 +132,9 @@ export async function openPage(
   const page = await browser.newPage({ viewport: { width: 1440, height: 900 }, ...context });
   page.setDefaultTimeout(PATIENCE_MS);
   page.on('pageerror', (error) => mistakes.push(String(error)));
+  page.on('console', (said) => {
+    if (said.text().includes('Content Security Policy')) mistakes.push(said.text());
+  });
   if (!tour)
     await page.addInitScript(() => {
       // A page that could not be loaded has no storage.
@@ -150,11 +153,17 @@ export async function openPage(
 
 async function serveScreen(page: Page, server: Server): Promise<void> {
   if (!screen) return;
+  // The files are other ones, the rules for them are the server's.
+  const policy = (await fetch(server.url)).headers.get('content-security-policy') ?? '';
+  const headers = { 'content-security-policy': policy };
   await page.route(
     (url) => url.origin === server.url && !/^\/(api|ws)\b/.test(url.pathname),
     (route) => {
       const { pathname } = new URL(route.request().url());
-      return route.fulfill({ path: join(screen, pathname === '/' ? 'index.html' : pathname) });
+      return route.fulfill({
+        path: join(screen, pathname === '/' ? 'index.html' : pathname),
+        headers,
+      });
     },
   );
 }

@@ -173,3 +173,24 @@ export async function tabTo(page: Page, role: string, name: string) {
   }
   throw new Error(`Tab never came to ${role} ${name}.`);
 }
+
+/** Makes the frame on the stage from a shape. */
+export async function makeShape(page: Page, shape: string): Promise<void> {
+  await button(page, 'Make…').click();
+  await page.getByText('Shape', { exact: true }).click();
+  await button(page, shape).click();
+  await useMade(page);
+}
+
+/** Makes the frame on the stage from words. */
+export async function makeWords(page: Page, words: string): Promise<void> {
+  await button(page, 'Make…').click();
+  await page.getByRole('textbox', { name: 'Words' }).fill(words);
+  await useMade(page);
+}
+
+/** Uses what the Make panel shows; the panel closes. */
+export async function useMade(page: Page): Promise<void> {
+  await button(page, 'Use').click();
+  await button(page, 'Change…').waitFor();
+}

@@ -202,6 +202,26 @@ const editViews: View[] = [
       await button(page, 'All').click();
     },
   },
+  {
+    name: 'edit-make-words',
+    async show(page) {
+      await page.keyboard.press('t');
+      await page.keyboard.type('HI');
+      await page.getByTestId('verdict').getByText('Readable').waitFor();
+    },
+  },
+  {
+    name: 'edit-make-shape',
+    async show(page) {
+      await page.getByText('Shape', { exact: true }).click();
+      await button(page, 'Star').click();
+      await page
+        .getByTestId('verdict')
+        .getByText(/^12 robots|^30 robots/)
+        .waitFor();
+    },
+    leave: (page) => button(page, 'Cancel').click(),
+  },
   { name: 'edit-frame', show: (page) => page.getByRole('tab', { name: 'Frame' }).click() },
   {
     name: 'edit-show',

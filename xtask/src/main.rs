@@ -1,6 +1,7 @@
 //! Build, try, test and measure LightBots: `cargo xtask <command>`.
 
 mod bench;
+mod browser;
 mod demo;
 mod house;
 mod shell;
@@ -18,6 +19,7 @@ cargo xtask <command>
 
   demo [ARGS]      build everything and start `lightbots run` on an example show; ARGS are passed on
   test [PART…]     run the tests, all of them or some: tidy ui lint rust firmware e2e licences
+  browser          build the module that the screen runs as WebAssembly; `npm run build` does this first
   bench [PART…]    measure and write docs/benchmarks.md: plan rehearsal noise round light fps
   pairs [COUNT [FIRST [FAULTS]]]   rehearse random pairs of frames, ten thousand unless told otherwise: for the night
   formations [OPTION VALUE]…       rehearse drives to grids, hexagons, discs, rings and rows of every spacing; see --help
@@ -33,6 +35,7 @@ fn main() -> ExitCode {
     let outcome = match arguments.first().map(String::as_str) {
         Some("demo") => demo::run(rest),
         Some("test") => test::run(rest),
+        Some("browser") => browser::build(),
         Some("bench") => bench::run(rest),
         Some("pairs") => shell::cargo(&example("pairs", rest)),
         Some("formations") => shell::cargo(&example("formations", rest)),

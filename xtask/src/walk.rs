@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 /// Folders with build outputs or history.
-const SKIPPED: [&str; 4] = ["target", "node_modules", "dist", ".git"];
+const SKIPPED: [&str; 5] = ["target", "node_modules", "dist", "generated", ".git"];
 
 /// Files under `folder` with one of these endings, sorted by path; build outputs are left out.
 pub fn files(folder: &Path, endings: &[&str]) -> Vec<PathBuf> {

@@ -2,7 +2,8 @@
 //!
 //! The crate holds types only: no sockets, no controller, no planner. [`ToScreen`] and [`FromScreen`] are the JSON
 //! messages on the WebSocket, [`Robots`] is the binary message there. [`ShowEntry`], [`BrokerSettings`], [`Problem`] and
-//! [`Plan`] are bodies of HTTP answers. After a change run `cargo run -p lightbots-api --example types`.
+//! [`Plan`] are bodies of HTTP answers. [`MakeRequest`] and [`MakeAnswer`] go to and from the module in the browser. After a
+//! change run `cargo run -p lightbots-api --example types`.
 //!
 //! ```
 //! use lightbots_api::{FromScreen, Operation};
@@ -14,6 +15,7 @@
 mod broker;
 mod fleet;
 mod library;
+mod make;
 mod operation;
 mod plan;
 mod robots;
@@ -24,6 +26,10 @@ mod typescript;
 pub use broker::BrokerSettings;
 pub use fleet::{Abilities, Fleet, FleetRow, Presence, RobotStatus};
 pub use library::{Problem, ShowEntry, ShowOrigin};
+pub use make::{
+    FitAnswer, MadePixel, MadeReadability, MakeAnswer, MakeChoices, MakeFile, MakeFont, MakeQuality,
+    MakeRemark, MakeRequest, MakeShape,
+};
 pub use operation::{Answer, Choice, FromScreen, Missing, Operation, Request};
 pub use plan::{Issue, Path, Plan, Severity, Transition};
 pub use robots::Robots;

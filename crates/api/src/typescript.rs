@@ -4,18 +4,22 @@ use lightbots_exchange::{FORMATS, Format, MAX_BYTES, Part};
 use ts_rs::{Config, TS};
 
 use crate::{
-    Abilities, Answer, Broker, BrokerPhase, BrokerSettings, Choice, Fleet, FleetRow, FromScreen, Hello,
-    Issue, Level, LogLine, Missing, OpenShow, Operation, Path, Phase, Plan, Playback, Presence, Problem,
-    Request, RobotStatus, Robots, Severity, ShowEntry, ShowOrigin, State, ToScreen, Transition,
+    Abilities, Answer, Broker, BrokerPhase, BrokerSettings, Choice, FitAnswer, Fleet, FleetRow, FromScreen,
+    Hello, Issue, Level, LogLine, MadePixel, MadeReadability, MakeAnswer, MakeChoices, MakeFile, MakeFont,
+    MakeQuality, MakeRemark, MakeRequest, MakeShape, Missing, OpenShow, Operation, Path, Phase, Plan,
+    Playback, Presence, Problem, Request, RobotStatus, Robots, Severity, ShowEntry, ShowOrigin, State,
+    ToScreen, Transition,
 };
+
+/// The first line of the generated file.
+const HEAD: &str =
+    "// Made from crates/api by `cargo run -p lightbots-api --example types`. Change it there.\n";
 
 /// The text of `ui/src/api/types.gen.ts`: every type of this crate with its documentation, the columns of the binary
 /// message, and the table of formats.
 pub fn typescript() -> String {
     let config = Config::new().with_large_int("number");
-    let mut text = String::from(
-        "// Made from crates/api by `cargo run -p lightbots-api --example types`. Change it there.\n",
-    );
+    let mut text = String::from(HEAD);
     let mut add = |docs: Option<String>, declaration: String| {
         text.push('\n');
         text.push_str(&docs.unwrap_or_default());
@@ -58,7 +62,26 @@ pub fn typescript() -> String {
         ShowEntry,
         ShowOrigin,
         Problem,
+        MakeRequest,
+        MakeQuality,
+        MakeAnswer,
+        MadePixel,
+        MadeReadability,
+        MakeRemark,
+        FitAnswer,
+        MakeChoices,
+        MakeFont,
+        MakeShape,
+        MakeFile,
     );
+    text.push_str(&robots());
+    text.push_str(&formats());
+    text
+}
+
+/// The columns of the binary message, and what its numbers for states stand for.
+fn robots() -> String {
+    let mut text = String::new();
     text.push_str("\n/** The lists of `Robots` in the order of the binary message. */\n");
     text.push_str(&format!("export const ROBOT_COLUMNS = {} as const;\n", Robots::typescript_columns()));
     text.push_str("\n/** Every status, at the index that `Robots.status` holds. */\n");
@@ -68,7 +91,6 @@ pub fn typescript() -> String {
         "export const ROBOT_STATUSES: readonly RobotStatus[] = [{}];\n",
         names.join(", ")
     ));
-    text.push_str(&formats());
     text
 }
 

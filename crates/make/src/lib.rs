@@ -1,9 +1,10 @@
 //! From what a frame is made of to the frame: the sources of a show, the drawings they stand for, and their lights.
 //!
-//! The command line makes and fits frames with this crate alone. It does no IO. In reading order:
+//! The command line and the browser make and change frames with this crate alone. It does no IO. In reading order:
 //! [`Recipe`] is the typed form of a source's settings, [`material`] gives its drawing, [`make_frame`] its pixels,
 //! [`fit_show`] fits all frames of a show to another fleet.
 
+mod enough;
 mod fit;
 mod floor;
 mod frame;
@@ -11,6 +12,7 @@ mod material;
 mod recipe;
 mod settings;
 
+pub use enough::enough_for;
 pub use fit::fit_show;
 pub use floor::picture_floor;
 pub use frame::{MadeFrame, make_frame, make_frame_from};

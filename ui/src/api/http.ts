@@ -71,3 +71,13 @@ export const getPlan = async () => (await (await request('/api/plan')).json()) a
 /** A show as a file of a format. `body` is a file of any format. */
 export const convertShow = async (body: BodyInit, to: FormatName) =>
   (await request(`/api/convert?to=${to}`, { method: 'POST', body })).blob();
+
+const assetPath = (hash: string) => `/api/assets/${hash}`;
+
+/** A file that shows name by its SHA-256. */
+export const getAsset = async (hash: string) =>
+  new Uint8Array(await (await request(assetPath(hash))).arrayBuffer());
+
+/** Keeps a file for the shows that name it. */
+export const putAsset = (hash: string, bytes: Uint8Array<ArrayBuffer>) =>
+  request(assetPath(hash), { method: 'PUT', body: bytes });

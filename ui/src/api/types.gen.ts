@@ -656,6 +656,207 @@ export type Problem = {
  */
 error: string, };
 
+/**
+ * A wish for a frame that is made from its source.
+ */
+export type MakeRequest = { 
+/**
+ * A show in our format of which only the stage and the first frame count. The frame has the source; its pixels that
+ * were moved by hand keep their places.
+ */
+show: unknown, 
+/**
+ * Number of robots.
+ */
+robots: number, 
+/**
+ * How much work is done.
+ */
+quality: MakeQuality, };
+
+/**
+ * How much work a made frame takes.
+ */
+export type MakeQuality = "quick" | "full";
+
+/**
+ * A made frame, or why there is none.
+ */
+export type MakeAnswer = { 
+/**
+ * The pixels by their ids; empty with an error.
+ */
+pixels: Array<MadePixel>, 
+/**
+ * Longer side of the picture, metres.
+ */
+size_m: number, 
+/**
+ * Distance of the closest two pixels, metres; null with fewer than two pixels.
+ */
+closest_m: number | null, 
+/**
+ * How well the lights show the source; null: the source is an arrangement of lights by itself, such as a grid.
+ */
+readability: MadeReadability | null, 
+/**
+ * Number of robots that would show the source readably, counted only for a full result that is not readable; null:
+ * the result is readable, or not even a thousand robots would do.
+ */
+enough: number | null, 
+/**
+ * What is missing from the picture, or different from the wish.
+ */
+notes: Array<MakeRemark>, 
+/**
+ * Why there is no picture; null: there is one.
+ */
+error: MakeRemark | null, };
+
+/**
+ * A pixel of a made frame.
+ */
+export type MadePixel = { 
+/**
+ * Id, unique in its frame.
+ */
+id: number, 
+/**
+ * x and y, stage metres.
+ */
+place: [number, number], 
+/**
+ * Colour as red, green and blue, such as `#ffa500`.
+ */
+color: string, 
+/**
+ * The robot that is pinned to the pixel; null: any robot.
+ */
+robot: string | null, 
+/**
+ * Name of the source's part, such as a letter; may be empty. null: the pixel belongs to no source.
+ */
+part: string | null, };
+
+/**
+ * How well lights show what they are made from.
+ */
+export type MadeReadability = { 
+/**
+ * Normalised cross-correlation of the blurred lights with the source, 0 to 1: the worst part's.
+ */
+correlation: number, 
+/**
+ * Share of the lights that have a mirror image, where the source is mirror-symmetric; 1 for others.
+ */
+symmetry: number, 
+/**
+ * Whether guests read the picture without being told what it is.
+ */
+readable: boolean, };
+
+/**
+ * A note or an error: a word for programs and a sentence for people.
+ */
+export type MakeRemark = { 
+/**
+ * Kind for programs, such as `too-many-robots`.
+ */
+code: string, 
+/**
+ * One line for people: what is wrong, where, and the remedy.
+ */
+message: string, };
+
+/**
+ * A show whose frames all have one number of robots, or why there is none.
+ */
+export type FitAnswer = { 
+/**
+ * The show in our format; null with an error.
+ */
+show: unknown, 
+/**
+ * What is different from what might be expected.
+ */
+notes: Array<MakeRemark>, 
+/**
+ * Why there is no show; null: there is one.
+ */
+error: MakeRemark | null, };
+
+/**
+ * What the settings of sources may name.
+ */
+export type MakeChoices = { 
+/**
+ * Fonts inside, in the order in which they are offered.
+ */
+fonts: Array<MakeFont>, 
+/**
+ * All shapes with their usual settings.
+ */
+shapes: Array<MakeShape>, };
+
+/**
+ * A font inside.
+ */
+export type MakeFont = { 
+/**
+ * Name in settings.
+ */
+name: string, 
+/**
+ * Name for people.
+ */
+title: string, };
+
+/**
+ * A shape with its usual settings; each shape uses some of them.
+ */
+export type MakeShape = { 
+/**
+ * Name in settings.
+ */
+name: string, 
+/**
+ * Width over height.
+ */
+aspect: number, 
+/**
+ * Corners, tips or circles.
+ */
+count: number, 
+/**
+ * Turns of a spiral, periods of a wave.
+ */
+turns: number, 
+/**
+ * Inner radius as a share of the outer one.
+ */
+inner: number, 
+/**
+ * Angle of an arc, radians.
+ */
+span: number, };
+
+/**
+ * A file that a frame may be made from.
+ */
+export type MakeFile = { 
+/**
+ * SHA-256 of its bytes as 64 hexadecimal digits.
+ */
+hash: string, 
+/**
+ * Kind of source: `svg`, `picture` or `list`; null: no frame is made from such a file.
+ */
+kind: string | null, 
+/**
+ * Why no frame is made from it; null: one is.
+ */
+error: MakeRemark | null, };
+
 /** The lists of `Robots` in the order of the binary message. */
 export const ROBOT_COLUMNS = [
   ["x", Float32Array],

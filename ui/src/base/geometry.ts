@@ -73,26 +73,3 @@ export const scaleAbout = (p: Point, about: Point, kx: number, ky: number): Poin
   x: about.x + (p.x - about.x) * kx,
   y: about.y + (p.y - about.y) * ky,
 });
-
-/** `count` points at equal distances along a line of points; closed ones do not repeat their start. */
-export function along(line: readonly Point[], count: number, closed: boolean): Point[] {
-  const first = line[0];
-  if (!first || count <= 0) return [];
-  const corners = closed ? [...line, first] : [...line];
-  const sums = [0];
-  for (let i = 1; i < corners.length; i++) {
-    const [a, b] = [corners[i - 1] as Point, corners[i] as Point];
-    sums.push((sums[i - 1] as number) + Math.hypot(b.x - a.x, b.y - a.y));
-  }
-  const total = sums[sums.length - 1] as number;
-  const gap = total / (closed ? count : Math.max(1, count - 1));
-  let i = 1;
-  return Array.from({ length: count }, (_, k) => {
-    const want = Math.min(total, k * gap);
-    while (i < sums.length - 1 && (sums[i] as number) < want) i++;
-    const [a, b] = [corners[i - 1] ?? first, corners[i] ?? first];
-    const span = (sums[i] ?? 0) - (sums[i - 1] ?? 0);
-    const u = span > 0 ? (want - (sums[i - 1] ?? 0)) / span : 0;
-    return { x: a.x + (b.x - a.x) * u, y: a.y + (b.y - a.y) * u };
-  });
-}

@@ -1,11 +1,8 @@
 import { SimpleGrid, Stack, Text } from '@mantine/core';
 import {
   IconArrowsSplit,
-  IconCircleDotted,
   IconFlipHorizontal,
   IconFlipVertical,
-  IconGridDots,
-  IconHeart,
   IconLayoutAlignBottom,
   IconLayoutAlignCenter,
   IconLayoutAlignLeft,
@@ -14,26 +11,16 @@ import {
   IconLayoutAlignTop,
   IconLayoutDistributeHorizontal,
   IconLayoutDistributeVertical,
-  IconLineDashed,
-  IconSquare,
-  IconStar,
   type Icon,
 } from '@tabler/icons-react';
 import { IconButton } from '../parts/IconButton';
 import * as acts from './acts';
 import { useEditing } from './context';
 import type { Editing } from './editing';
-import { TextShape } from './TextShape';
 
 type Act = [string, Icon, (e: Editing) => void];
 
-export const SHAPES: Act[] = [
-  ['Line', IconLineDashed, acts.line],
-  ['Circle', IconCircleDotted, (e) => acts.shape(e, 'circle')],
-  ['Heart', IconHeart, (e) => acts.shape(e, 'heart')],
-  ['Star', IconStar, (e) => acts.shape(e, 'star')],
-  ['Square', IconSquare, (e) => acts.shape(e, 'square')],
-  ['Grid', IconGridDots, acts.grid],
+export const MOVES: Act[] = [
   ['Spread apart', IconArrowsSplit, acts.spread],
   ['Mirror left and right', IconFlipHorizontal, (e) => acts.mirror(e, 'x')],
   ['Mirror top and bottom', IconFlipVertical, (e) => acts.mirror(e, 'y')],
@@ -73,8 +60,7 @@ export function ArrangeSection() {
       <Text size="sm" fw={600}>
         Arrange
       </Text>
-      <TextShape />
-      {buttons(SHAPES, 5)}
+      {buttons(MOVES, 3)}
       {buttons(ALIGN, 4)}
     </Stack>
   );

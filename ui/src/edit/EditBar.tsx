@@ -32,6 +32,7 @@ export function EditBar() {
   const time_s = useStore(preview.time_s);
   const plan = useStore(session.live.settled);
   const frame = useEditor((s) => s.frame);
+  const isMaking = useStore(editing.making, (making) => making !== null);
   const timeline = useMemo(() => timelineOf(show, plan), [show, plan]);
   const total = totalOf(timeline);
   const at = time_s ?? timeline[frame]?.shownFrom_s ?? 0;
@@ -78,7 +79,13 @@ export function EditBar() {
       </span>
       <SaveMark />
       <ExportMenu />
-      <Button size="xs" onClick={playWithRobots} leftSection={<IconPlayerPlayFilled size={14} />}>
+      <Button
+        size="xs"
+        // While a frame is made, Use is what comes next.
+        variant={isMaking ? 'default' : 'filled'}
+        onClick={playWithRobots}
+        leftSection={<IconPlayerPlayFilled size={14} />}
+      >
         Run on robots
       </Button>
     </div>

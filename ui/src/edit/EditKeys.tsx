@@ -4,6 +4,7 @@ import * as acts from './acts';
 import { useEditing } from './context';
 import type { StageOptions } from './editing';
 import { notify } from '../session/notices';
+import { openMaking } from './makes';
 
 /** Metres an arrow key moves: alone, with Shift, with Alt. */
 const STEPS = [
@@ -52,6 +53,8 @@ export function EditKeys() {
     ['alt+PageDown', () => acts.shiftFrames(editing, 1)],
     [']', () => acts.selectNext(editing, 1)],
     ['[', () => acts.selectNext(editing, -1)],
+    ['t', () => openMaking(editing, 'text')],
+    ['s', () => openMaking(editing, 'shape')],
     ['v', () => editing.tool.set('arrow')],
     ['q', () => editing.tool.set('lasso')],
     ['i', () => editing.tool.set('eyedropper')],

@@ -5,13 +5,14 @@ import { Bottom } from '../parts/Bottom';
 import { createShowInLibrary } from '../session/createShow';
 import { useSession } from '../session/session';
 import { ConflictDialog } from './ConflictDialog';
-import { EditingContext } from './context';
+import { EditingContext, useEditing } from './context';
 import { EditBar } from './EditBar';
 import { createEditing, type Editing } from './editing';
 import { EditKeys } from './EditKeys';
 import { EditStage } from './EditStage';
 import { EditStrip } from './EditStrip';
 import { Inspector } from './Inspector';
+import { MakePanel } from './MakePanel';
 import { ReadOnlyPage } from './ReadOnlyPage';
 import { Tour } from './Tour';
 import styles from '../parts/page.module.css';
@@ -59,11 +60,17 @@ export function EditPage() {
           <EditBar />
           <EditStrip />
         </Bottom>
-        <Inspector />
+        <Side />
         <EditKeys />
         <ConflictDialog />
         <Tour />
       </main>
     </EditingContext>
   );
+}
+
+/** Properties, or the Make panel while a frame is made. */
+function Side() {
+  const making = useStore(useEditing().making);
+  return making ? <MakePanel making={making} /> : <Inspector />;
 }

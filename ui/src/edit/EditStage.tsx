@@ -5,7 +5,8 @@ import { StageCanvas } from '../stage/StageCanvas';
 import { useEditing } from './context';
 import type { Editing } from './editing';
 import { PixelTwin } from './PixelTwin';
-import { editScene } from './scene';
+import { editScene, withMade } from './scene';
+import { EmptyFrame } from './EmptyFrame';
 import { StageHint } from './StageHint';
 import { StageTools } from './StageTools';
 import { usePreview } from './usePreview';
@@ -25,10 +26,17 @@ function rememberScene(editing: Editing): () => Scene {
       editing.full.plan.get(),
       editing.preview.time_s.get(),
     ];
-    const now = [state, options, plan, time_s, unitStore.get()];
+    const making = editing.making.get();
+    const shown = making?.made.get().shown;
+    const now = [state, shown, options, plan, time_s, unitStore.get()];
     if (!scene || now.some((input, i) => input !== inputs[i])) {
       inputs = now;
-      scene = editScene(state, options, plan, time_s);
+      scene = editScene(
+        making ? withMade(state, making.frame, shown) : state,
+        options,
+        plan,
+        time_s,
+      );
     }
     return scene;
   };
@@ -48,7 +56,7 @@ export function EditStage() {
     [
       'Escape',
       () => {
-        if (giveUp()) return;
+        if (editing.making.get() || giveUp()) return;
         if (editing.tool.get() !== 'arrow') editing.tool.set('arrow');
         else editing.editor.select([]);
         editing.preview.stop();
@@ -60,6 +68,7 @@ export function EditStage() {
       <StageCanvas view={editing.view} sceneAt={sceneAt} dragPans={false} hand={hand} />
       <StageTools />
       <StageHint />
+      <EmptyFrame />
       <PixelTwin />
     </section>
   );

@@ -7,6 +7,7 @@ import { ColourSection } from './ColourSection';
 import { useEditing } from './context';
 import { FloorSection } from './FloorSection';
 import { FrameSection } from './FrameSection';
+import { MadeFrom } from './MadeFrom';
 import { PlaceSection } from './PlaceSection';
 import { RobotsSection } from './RobotsSection';
 import { ShowSection } from './ShowSection';
@@ -19,6 +20,7 @@ export function Inspector() {
   const issues = useStore(live.plan, (plan) => plan?.issues) ?? [];
   return (
     <aside className={styles.side} aria-label="Properties">
+      <MadeFrom />
       <Tabs defaultValue="pixels">
         <Tabs.List grow>
           <Tabs.Tab value="pixels">Pixels</Tabs.Tab>

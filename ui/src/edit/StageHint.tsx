@@ -1,10 +1,12 @@
-import { useEditorNow } from './context';
+import { useStore } from '../base/store';
+import { useEditing, useEditorNow } from './context';
 import { marksNow } from './overlay';
 import styles from '../stage/stage.module.css';
 
 /** One line at the floor's edge: the distance of a drag, or the pixels that are wrong and how to fix them. */
 export function StageHint() {
   const state = useEditorNow((s) => s);
+  const isMaking = useStore(useEditing().making, (making) => making !== null);
   const { tooClose, offFloor } = marksNow(state);
   const wrong = [
     tooClose.size > 0 ? `${tooClose.size} pixels are too close to each other (dashed rings)` : '',
@@ -18,7 +20,7 @@ export function StageHint() {
         {state.overlay.hint}
       </div>
     );
-  if (wrong.length === 0) return null;
+  if (wrong.length === 0 || isMaking) return null;
   return (
     <div className={styles.note} data-wrong role="status">
       {wrong.join('; ')}. Move them, or use Spread apart.

@@ -6,7 +6,7 @@ const KEY = 'lightbots-tour';
 const STEPS = [
   [
     'Every dot is a robot',
-    'Click one or draw a box around some, then drag them where they should be. Or let Arrange, on the right, make a heart, a circle or a word of them.',
+    'Click one or draw a box around some, then drag them where they should be. Or press Make, on the right, for words, shapes and drawings.',
   ],
   [
     'Give them light',

@@ -1,8 +1,7 @@
-import { type Box, type Point, boxOf, centreOf, inBox } from '../base/geometry';
+import { type Point, boxOf, centreOf, inBox } from '../base/geometry';
 import type { Rgb } from '../base/colour';
 import * as arrange from '../model/arrange';
 import * as commands from '../model/commands';
-import { letterPoints } from '../model/letters';
 import { tooClose_m, type Pixel, type Show, type Stage } from '../model/show';
 import { keepColour, type Editing } from './editing';
 
@@ -36,29 +35,10 @@ export const distribute = (e: Editing, axis: 'x' | 'y') =>
   place(e, 'Distribute', (p) => arrange.distribute(p, axis));
 export const mirror = (e: Editing, axis: 'x' | 'y') =>
   place(e, 'Mirror', (p) => arrange.mirror(p, axis));
-export const line = (e: Editing) => place(e, 'Line', arrange.line);
-export const grid = (e: Editing) =>
-  place(e, 'Grid', (p, show) => keepOnFloor(arrange.grid(p, easyGap_m(show.stage)), show.stage));
 export const spread = (e: Editing) =>
   place(e, 'Spread apart', (p, show) =>
     keepOnFloor(arrange.spread(p, easyGap_m(show.stage)), show.stage),
   );
-
-/** Arranges pixels as a shape in the box of the selection; if the box is flat, in the middle of the floor. */
-export const shape = (e: Editing, kind: arrange.Shape) =>
-  place(e, 'Shape', (places, show) => {
-    const { stage } = show;
-    const box = boxOf(places);
-    const least = Math.min(stage.width_m, stage.depth_m) * 0.25;
-    const flat = Math.min(box.maxX - box.minX, box.maxY - box.minY) < least;
-    const into = flat ? middleOf(stage) : box;
-    return keepOnFloor(arrange.shape(places, kind, into, easyGap_m(stage)), stage);
-  });
-
-function middleOf(stage: Stage): Box {
-  const half = Math.min(stage.width_m, stage.depth_m) * 0.3;
-  return { minX: -half, minY: -half, maxX: half, maxY: half };
-}
 
 /** Shifts positions onto the floor as a whole, without scaling. */
 function keepOnFloor(places: Point[], stage: Stage): Point[] {
@@ -176,30 +156,4 @@ export function selectNext(e: Editing, by: 1 | -1) {
   const at = chosen.length === 0 ? (by > 0 ? -1 : 0) : ids.indexOf(chosen[chosen.length - 1] ?? -1);
   const next = ids[(at + by + ids.length) % Math.max(1, ids.length)];
   if (next !== undefined) e.editor.select([next]);
-}
-
-/** Arranges pixels as a word in the middle of the floor, large enough for the robots' distances. */
-export const write = (e: Editing, word: string) =>
-  place(e, 'Write', (places, { stage }) => {
-    const points = letterPoints(word.trim(), places.length);
-    if (points.length === 0) return places;
-    const box = boxOf(points);
-    const [w, h] = [Math.max(box.maxX - box.minX, 0.5), Math.max(box.maxY - box.minY, 0.5)];
-    const room = Math.min((stage.width_m * 0.86) / w, (stage.depth_m * 0.86) / h);
-    const k = Math.min(
-      room,
-      Math.max(leastScale(points, easyGap_m(stage)), (stage.depth_m * 0.4) / h),
-    );
-    const c = centreOf(box);
-    const targets = points.map((p) => ({ x: (p.x - c.x) * k, y: (p.y - c.y) * k }));
-    return arrange.nearest(places, targets);
-  });
-
-/** Least size of a grid unit at which no two points are closer than `gap_m`, metres. */
-function leastScale(points: readonly Point[], gap_m: number): number {
-  let least = Infinity;
-  points.forEach((a, i) => {
-    for (const b of points.slice(i + 1)) least = Math.min(least, Math.hypot(a.x - b.x, a.y - b.y));
-  });
-  return Number.isFinite(least) ? gap_m / Math.max(least, 1e-3) : 0;
 }

@@ -1,11 +1,11 @@
 import { createElement } from 'react';
 import { renderToStaticMarkup } from 'react-dom/server';
 import { expect, test } from 'vitest';
-import { SHAPES } from './ArrangeSection';
+import { MOVES } from './ArrangeSection';
 
 /** The straight line of an icon: the axis that its two halves mirror each other at. */
 const axisOf = (label: string) => {
-  const Glyph = SHAPES.find(([name]) => name === label)?.[1];
+  const Glyph = MOVES.find(([name]) => name === label)?.[1];
   if (!Glyph) throw new Error(`There is no ${label}.`);
   return / d="([^"]+)"/.exec(renderToStaticMarkup(createElement(Glyph)))?.[1];
 };

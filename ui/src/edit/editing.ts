@@ -1,5 +1,8 @@
 import type { Rgb } from '../base/colour';
 import { createStore, type Store } from '../base/store';
+import { startWorker } from '../make/browserWorker';
+import { createMaker, type Maker } from '../make/maker';
+import type { Making } from '../make/making';
 import { createFullPlan, type FullPlan } from '../session/fullPlan';
 import { createEditor, type Editor } from '../model/editor';
 import type { Keeper } from '../model/drafts';
@@ -11,6 +14,15 @@ import { createView, type View } from '../stage/view';
 import { followCopy } from '../session/copies';
 import { createSaving, draftOf, restoreDraft, type Saving } from './saving';
 import { watchLeaving } from './watchLeaving';
+
+/** A file that this screen took to make a frame from. */
+export interface TakenFile {
+  /** SHA-256, by which shows name it. */
+  hash: string;
+  name: string;
+  mediaType: string;
+  bytes: Uint8Array<ArrayBuffer>;
+}
 
 export type ToolName = 'arrow' | 'lasso' | 'eyedropper' | 'area';
 
@@ -38,6 +50,12 @@ export interface Editing {
   /** Colour of the picker. */
   color: Store<Rgb>;
   preview: Preview;
+  /** Makes frames from words, shapes and files; loads its module with the first of them. */
+  maker: Maker;
+  /** The frame that is being made in the Make panel; null: the panel is closed. */
+  making: Store<Making | null>;
+  /** Files that this screen took, by hash; they reach the server when a frame uses them. */
+  files: Map<string, TakenFile>;
   /** The frame that is being renamed in the strip; null: none. */
   renaming: Store<number | null>;
   /** Saves unsaved changes and stops following the server, because another show is edited from now on. */
@@ -61,6 +79,7 @@ export function createEditing(
   );
   const { saver, keeper } = saving;
   const color = createStore<Rgb>(0xffc878);
+  const maker = createMaker(startWorker);
   let { selection } = editor.state.get();
   const unfollow = editor.state.subscribe(() => {
     const now = editor.state.get();
@@ -84,9 +103,13 @@ export function createEditing(
     recent: createStore<readonly Rgb[]>([]),
     color,
     preview: createPreview(editor),
+    maker,
+    making: createStore<Making | null>(null),
+    files: new Map(),
     renaming: createStore<number | null>(null),
     retire() {
       saver.flush();
+      maker.end();
       unfollow();
       stop();
       keeper.leave();

@@ -1,9 +1,10 @@
 import type { EditorState } from '../model/editorState';
 import type { Dot } from '../base/geometry';
-import type { Plan } from '../api/types.gen';
 import { pathsTo } from '../model/plannedPaths';
 import { hollowOf } from '../model/dots';
 import { unitStore } from '../session/preferences';
+import { pixelsOf } from '../make/frame';
+import type { MakeAnswer, Plan } from '../api/types.gen';
 import type { Frame } from '../model/show';
 import { dotsAt, timelineOf } from '../model/timeline';
 import { floorOf, type Scene } from '../stage/scene';
@@ -24,6 +25,20 @@ function ghostsOf({ show, frame }: EditorState): readonly Dot[] {
     ghosts = { before, after, dots: [...ghost(before, 0.8), ...ghost(after, 0.45)] };
   return ghosts.dots;
 }
+
+/** The state with the pixels that a frame would get in place of its own. */
+export function withMade(
+  state: EditorState,
+  key: number,
+  answer: MakeAnswer | null | undefined,
+): EditorState {
+  if (!answer) return state;
+  const pixels = pixelsOf(answer);
+  const frames = state.show.frames.map((f) => (f.key === key ? { ...f, pixels } : f));
+  return { ...state, show: { ...state.show, frames }, selection: NO_SELECTION };
+}
+
+const NO_SELECTION: ReadonlySet<number> = new Set();
 
 /** What the editor's stage shows: the frame on it, or the plan at a moment of the show. */
 export function editScene(

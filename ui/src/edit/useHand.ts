@@ -90,6 +90,8 @@ function lead(editing: Editing): { hand: Hand; giveUp: () => boolean } {
     giveUp,
     hand: {
       down(at, event, adds) {
+        // The Make panel shows pixels that the frame does not have yet.
+        if (editing.making.get()) return;
         editing.preview.stop();
         const handle = editing.tool.get() === 'area' ? null : handleUnder(at, event);
         active = handle ? createTransformTool(handle) : chosen;

@@ -1,6 +1,6 @@
-import { type Point, along, boxOf, inPolygon, rotate } from '../base/geometry';
+import { type Point, inPolygon, rotate } from '../base/geometry';
 import { expect, test } from 'vitest';
-import { align, distribute, grid, line, mirror, shape, spread } from './arrange';
+import { align, distribute, mirror, spread } from './arrange';
 
 const at = (...pairs: [number, number][]): Point[] => pairs.map(([x, y]) => ({ x, y }));
 const least = (points: Point[]) =>
@@ -15,33 +15,6 @@ test('align', () => {
 
 test('distribute keeps the outermost two and the order', () => {
   expect(distribute(at([3, 9], [0, 7], [1, 5]), 'x')).toEqual(at([3, 9], [0, 7], [1.5, 5]));
-});
-
-test('line runs between the ends', () => {
-  expect(line(at([0, 0], [4, 2], [1, 7], [3, -3]))).toEqual(
-    line(at([0, 0], [4, 2], [1, 7], [3, -3])),
-  );
-  expect(line(at([0, 0], [4, 2], [1, 1]))).toEqual(at([0, 0], [4, 2], [2, 1]));
-});
-
-test.each(['circle', 'heart', 'star', 'square'] as const)('%s of 30 keeps its distance', (kind) => {
-  const places = Array.from({ length: 30 }, (_, i) => ({ x: i * 0.01, y: 0 }));
-  const box = { minX: -1, minY: -1, maxX: 1, maxY: 1 };
-  const points = shape(places, kind, box, 0.08);
-  expect(points).toHaveLength(30);
-  expect(least(points)).toBeGreaterThan(0.0799);
-});
-
-test('a circle that would be too small grows', () => {
-  const places = Array.from({ length: 30 }, () => ({ x: 0, y: 0 }));
-  const points = shape(places, 'circle', boxOf(places), 0.08);
-  expect(least(points)).toBeCloseTo(0.08, 3);
-});
-
-test('grid has rows and columns', () => {
-  const points = grid(at([0, 0], [1, 0], [0, 1], [1, 1.1]), 0.1);
-  expect(new Set(points.map((p) => p.x.toFixed(6))).size).toBe(2);
-  expect(new Set(points.map((p) => p.y.toFixed(6))).size).toBe(2);
 });
 
 test('spread parts even those on one place, and leaves the rest', () => {
@@ -59,5 +32,4 @@ test('geometry', () => {
   expect(inPolygon({ x: 0.5, y: 0.5 }, at([0, 0], [1, 0], [1, 1], [0, 1]))).toBe(true);
   expect(inPolygon({ x: 1.5, y: 0.5 }, at([0, 0], [1, 0], [1, 1], [0, 1]))).toBe(false);
   expect(rotate({ x: 1, y: 0 }, { x: 0, y: 0 }, Math.PI / 2).y).toBeCloseTo(1, 12);
-  expect(along(at([0, 0], [1, 0]), 3, false)).toEqual(at([0, 0], [0.5, 0], [1, 0]));
 });

@@ -84,3 +84,36 @@ test('a pin holds in every frame, a robot has one pixel, and freeing undoes it',
   expect(c.pinsOf(c.pinPixel(pinned, 1, null)).size).toBe(0);
   expect(c.pinPixel(pinned, 1, 'r')).toBe(pinned);
 });
+
+test('pixels of a made frame that are moved by hand are moved ones of their source', () => {
+  const show = newShow('x', 3);
+  const [frame] = show.frames;
+  const pixels = frame?.pixels.map((p) => ({ ...p, part: { source: 0, name: 'A' } })) ?? [];
+  const source = {
+    kind: 'text',
+    asset: null,
+    seed: 1,
+    box: null,
+    moved: [2],
+    series: null,
+    moment_s: null,
+    settings: { text: 'A' },
+  } as const;
+  const made = c.makeFrame(show, frame?.key ?? -1, { source, pixels }, {});
+  const place = new Map([[0, { x: 0.5, y: 0.5 }]]);
+  expect(c.placePixels(made, 0, place).frames[0]?.sources[0]?.moved).toEqual([0, 2]);
+  expect(c.recolour(made, 0, new Map([[1, 0xff]])).frames[0]?.sources[0]?.moved).toEqual([2]);
+  const same = new Map([[1, made.frames[0]?.pixels[1] ?? { x: 0, y: 0 }]]);
+  expect(c.placePixels(made, 0, same)).toBe(made);
+});
+
+test('a frame that is made from a file lists the file', () => {
+  const show = { ...newShow('x', 1), rest: { assets: { a: 1 } } };
+  const made = c.makeFrame(
+    show,
+    -1,
+    { source: null as never, pixels: [] },
+    { b: { name: 'logo.svg' } },
+  );
+  expect(made.rest.assets).toEqual({ a: 1, b: { name: 'logo.svg' } });
+});

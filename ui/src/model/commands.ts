@@ -1,5 +1,6 @@
 import type { Point } from '../base/geometry';
 import { mix, type Rgb } from '../base/colour';
+import type { FrameSource } from './sources';
 import { frontRows, newFrame, newKey, type Frame, type Pixel, type Show, type Stage } from './show';
 
 /** Changes of a show: pure functions that return the same show when nothing changes. */
@@ -19,11 +20,42 @@ const mapPixels = (show: Show, index: number, change: (pixel: Pixel) => Pixel): 
     return pixels.every((p, i) => p === frame.pixels[i]) ? frame : { ...frame, pixels };
   });
 
-export const placePixels = (show: Show, index: number, places: ReadonlyMap<number, Point>): Show =>
-  mapPixels(show, index, (p) => {
+/** Pixels that were made from a source count as moved by hand from then on. */
+export function placePixels(show: Show, index: number, places: ReadonlyMap<number, Point>): Show {
+  const before = show.frames[index];
+  const after = mapPixels(show, index, (p) => {
     const place = places.get(p.id);
     return place && (place.x !== p.x || place.y !== p.y) ? { ...p, x: place.x, y: place.y } : p;
   });
+  return before ? withFrame(after, index, (frame) => withMoved(before, frame)) : after;
+}
+
+/** The frame with the pixels that left their places since `before` among the moved ones of their sources. */
+function withMoved(before: Frame, frame: Frame): Frame {
+  const left = frame.pixels.filter((p, i) => p.part !== null && p !== before.pixels[i]);
+  if (left.length === 0) return frame;
+  const sources = frame.sources.map((source, i) => {
+    const ids = left.filter((p) => p.part?.source === i).map((p) => p.id);
+    const moved = [...new Set([...source.moved, ...ids])].sort((a, b) => a - b);
+    return moved.length === source.moved.length ? source : { ...source, moved };
+  });
+  return { ...frame, sources };
+}
+
+/** Gives a frame the pixels of one source. `assets`: files that the source needs, as the document lists them. */
+export function makeFrame(
+  show: Show,
+  key: number,
+  made: { source: FrameSource; pixels: readonly Pixel[] },
+  assets: Readonly<Record<string, unknown>>,
+): Show {
+  const frames = show.frames.map((frame) =>
+    frame.key === key ? { ...frame, sources: [made.source], pixels: made.pixels } : frame,
+  );
+  if (Object.keys(assets).length === 0) return { ...show, frames };
+  const known = show.rest.assets as Readonly<Record<string, unknown>> | undefined;
+  return { ...show, frames, rest: { ...show.rest, assets: { ...known, ...assets } } };
+}
 
 export const recolour = (show: Show, index: number, colors: ReadonlyMap<number, Rgb>): Show =>
   mapPixels(show, index, (p) => {

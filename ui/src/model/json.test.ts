@@ -85,10 +85,20 @@ test('every part of version 2 outlives edits', () => {
   editor.change('Floor', (show) => setStage(show, { width_m: 5 }));
   const frame = withEveryPart.frames[0] ?? expect.fail();
   const [first, ...others] = frame.pixels;
+  const [source, ...sources] = frame.sources;
+  // A pixel that is moved by hand stays when its source is made again.
+  const moved = { ...source, moved: [0] };
   expect(writeShow(editor.state.get().show)).toEqual({
     ...withEveryPart,
     stage: { ...document.stage, width_m: 5 },
-    frames: [{ ...frame, name: 'Two', pixels: [{ ...first, place: [0.3, 0.3] }, ...others] }],
+    frames: [
+      {
+        ...frame,
+        name: 'Two',
+        sources: [moved, ...sources],
+        pixels: [{ ...first, place: [0.3, 0.3] }, ...others],
+      },
+    ],
   });
 });
 

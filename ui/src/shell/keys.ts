@@ -32,6 +32,7 @@ export const KEYS: { title: string; keys: [string[], string][] }[] = [
       [['Ctrl', 'I'], 'Invert the choice'],
       [['Arrows'], 'Move 1 cm (Shift 10 cm, Alt 1 mm)'],
       [['Ctrl', 'C / V'], 'Copy, paste into any frame'],
+      [['T', 'S'], 'Make words, make a shape'],
       [['V', 'Q', 'I', 'O'], 'Arrow, lasso, eyedropper, no-go areas'],
       [['Esc'], 'Choose none; give up a drag'],
     ],

@@ -4,7 +4,7 @@ use super::{files, shown};
 use std::path::Path;
 
 /// Crates of this workspace that each crate may use. Tests may use more.
-const EDGES: [(&str, &[&str]); 16] = [
+const EDGES: [(&str, &[&str]); 17] = [
     ("base", &[]),
     ("wire", &["base"]),
     ("show", &["base"]),
@@ -17,6 +17,7 @@ const EDGES: [(&str, &[&str]); 16] = [
     ("sim", &["base", "wire", "show", "plan", "robot", "control"]),
     ("exam", &["base", "wire"]),
     ("api", &["exchange"]),
+    ("browser", &["show", "exchange", "draw", "make", "api"]),
     ("link", &["base", "wire"]),
     ("webots", &["base", "wire", "robot", "link"]),
     ("standin", &[]),

@@ -16,8 +16,9 @@ struct File {
 include!(concat!(env!("OUT_DIR"), "/screen.rs"));
 
 /// Content security policy: scripts only from this server, so that text in a show or a robot's name runs nothing.
-const POLICY: &str = "default-src 'self'; style-src 'self' 'unsafe-inline'; img-src 'self' data: blob:; \
-                      media-src 'self' blob: data:; connect-src 'self' ws: wss:; frame-ancestors 'none'";
+/// `wasm-unsafe-eval` lets the page compile WebAssembly of this server; it allows no JavaScript from text.
+const POLICY: &str = "default-src 'self'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self' 'unsafe-inline'; \
+                      img-src 'self' data: blob:; media-src 'self' blob: data:; connect-src 'self' ws: wss:; frame-ancestors 'none'";
 
 /// The page of a program that was built without the browser app.
 const UNBUILT: &str = "<!doctype html><meta charset=utf-8><title>LightBots</title>\

@@ -1,0 +1,27 @@
+//! Answers as JSON, and errors and notes as values.
+
+use lightbots_api::MakeRemark;
+use lightbots_draw::{DrawError, Note};
+use lightbots_exchange::ReadError;
+use serde::Serialize;
+
+/// The answer as JSON.
+pub(crate) fn text<T: Serialize>(answer: &T) -> String {
+    // Answers are plain lists, texts and finite or null numbers, which JSON always holds.
+    serde_json::to_string(answer).unwrap_or_default()
+}
+
+/// An error of drawing.
+pub(crate) fn drawing(error: DrawError) -> MakeRemark {
+    MakeRemark { code: error.code.to_owned(), message: error.message }
+}
+
+/// An error of reading a show.
+pub(crate) fn reading(error: &ReadError) -> MakeRemark {
+    MakeRemark { code: error.code.to_owned(), message: error.to_string() }
+}
+
+/// Notes for people and programs.
+pub(crate) fn notes(notes: Vec<Note>) -> Vec<MakeRemark> {
+    notes.into_iter().map(|note| MakeRemark { code: note.code.to_owned(), message: note.message }).collect()
+}

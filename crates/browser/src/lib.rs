@@ -1,0 +1,42 @@
+//! What the browser runs by itself as WebAssembly: frames from words, drawings and shapes, and shows for other fleets.
+//!
+//! JSON texts go in and out, in the types of `lightbots_api`, so that JavaScript needs no glue for each type. Errors are
+//! values in the answers. In reading order: [`make_answer`] makes a frame, [`fit_answer`] fits a show, [`choices`] lists
+//! what settings may name, [`file`] tells what a file is; the functions below them are the same for JavaScript.
+
+mod answer;
+mod choices;
+mod file;
+mod fit;
+mod make;
+
+use wasm_bindgen::prelude::wasm_bindgen;
+
+pub use choices::choices;
+pub use file::file;
+pub use fit::fit_answer;
+pub use make::make_answer;
+
+/// Makes a frame: a `MakeRequest` as JSON and the bytes of the source's file, empty without one; a `MakeAnswer` as JSON.
+#[wasm_bindgen]
+pub fn make(request: &str, asset: &[u8]) -> String {
+    answer::text(&make_answer(request, (!asset.is_empty()).then_some(asset)))
+}
+
+/// Fits a show to a number of robots: a show file of any format; a `FitAnswer` as JSON.
+#[wasm_bindgen]
+pub fn fit(show: &[u8], robots: usize) -> String {
+    answer::text(&fit_answer(show, robots))
+}
+
+/// What settings may name: `MakeChoices` as JSON.
+#[wasm_bindgen]
+pub fn list() -> String {
+    answer::text(&choices())
+}
+
+/// What a file is that a frame shall be made from: its bytes; a `MakeFile` as JSON.
+#[wasm_bindgen]
+pub fn look(bytes: &[u8]) -> String {
+    answer::text(&file(bytes))
+}

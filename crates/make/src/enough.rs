@@ -1,0 +1,43 @@
+//! The number of robots that would show a source readably.
+
+use lightbots_draw::{DrawError, PlaceSettings, enough_robots};
+use lightbots_show::FrameSource;
+
+use crate::material::{Material, exact, material};
+use crate::recipe::Recipe;
+
+/// The least number of robots that shows a source readably. `None`: any number does, because the source is an
+/// arrangement by itself, or not even a thousand robots do.
+///
+/// # Errors
+/// Sources that cannot be drawn or read.
+pub fn enough_for(source: &FrameSource, asset: Option<&[u8]>) -> Result<Option<usize>, DrawError> {
+    let recipe = Recipe::read(source)?;
+    let made = match (exact(&recipe, 1), material(&recipe, asset)?) {
+        (None, Material::Drawing { made, .. }) => made,
+        _ => return Ok(None),
+    };
+    let settings = PlaceSettings {
+        spacing_m: recipe.placing.spacing().0,
+        least_m: recipe.placing.spacing().1,
+        style: recipe.placing.style,
+        seed: u64::from(recipe.seed),
+        ..PlaceSettings::default()
+    };
+    Ok(enough_robots(&made.drawing, &settings))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::recipe::{Content, TextRecipe};
+    use lightbots_draw::{ShapeKind, ShapeSettings};
+
+    #[test]
+    fn a_word_needs_robots_for_each_letter_and_a_grid_none() {
+        let word = Recipe::new(Content::Text(TextRecipe::new("HI"))).source();
+        assert!((8..=30).contains(&enough_for(&word, None).unwrap().unwrap()));
+        let grid = Recipe::new(Content::Shape(ShapeSettings::new(ShapeKind::Grid))).source();
+        assert_eq!(enough_for(&grid, None), Ok(None));
+    }
+}

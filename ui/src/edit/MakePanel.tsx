@@ -1,0 +1,125 @@
+import { Button, CloseButton, Group, SegmentedControl, Title } from '@mantine/core';
+import { useEffect, useRef, useState } from 'react';
+import { useStore } from '../base/store';
+import type { MakeChoices } from '../api/types.gen';
+import type { Tab } from '../make/draft';
+import type { Making } from '../make/making';
+import { useKeys } from '../parts/useKeys';
+import { useEditing } from './context';
+import { FileFields } from './FileFields';
+import { closeMaking, takeMade } from './makes';
+import { MakeVerdict } from './MakeVerdict';
+import { PlacingFields } from './PlacingFields';
+import { ShapeFields } from './ShapeFields';
+import { WordFields } from './WordFields';
+import page from '../parts/page.module.css';
+import styles from './Make.module.css';
+
+const TABS: { value: Tab; label: string }[] = [
+  { value: 'text', label: 'Words' },
+  { value: 'shape', label: 'Shape' },
+  { value: 'file', label: 'File' },
+];
+
+/** Makes the frame on the stage from words, a shape or a file. The stage shows what the settings give. */
+export function MakePanel({ making }: { making: Making }) {
+  const editing = useEditing();
+  const { editor } = editing;
+  const tab = useStore(making.draft, (draft) => draft.tab);
+  const canUse = useStore(making.made, ({ answer }) => answer !== null && answer.error === null);
+  const choices = useChoices(making);
+  const close = () => closeMaking(editing);
+  const form = useFocus();
+  useKeys([['Escape', close]]);
+  // Another frame on the stage, or another state of this one, is what the user wants to see now.
+  useEffect(
+    () =>
+      editor.state.subscribe(() => {
+        if (editor.current()?.key !== making.frame) closeMaking(editing);
+      }),
+    [editing, editor, making],
+  );
+  return (
+    <aside className={page.side} aria-label="Make">
+      <form
+        ref={form}
+        className={styles.panel}
+        onSubmit={(event) => {
+          event.preventDefault();
+          void takeMade(editing, making);
+        }}
+        onKeyDown={(event) => {
+          // An open list takes the key for itself.
+          const isList = (event.target as HTMLElement).ariaExpanded === 'true';
+          if (event.key === 'Escape' && !isList) close();
+        }}
+      >
+        <div className={styles.head}>
+          <Title order={2} size="sm">
+            Make this frame
+          </Title>
+          <CloseButton aria-label="Close without a change" onClick={close} />
+        </div>
+        <div className={styles.fields}>
+          <SegmentedControl
+            aria-label="Made from"
+            size="xs"
+            value={tab}
+            onChange={(value) => making.change({ tab: value as Tab })}
+            data={TABS}
+          />
+          {tab === 'text' ? <WordFields making={making} fonts={choices?.fonts ?? []} /> : null}
+          {tab === 'shape' ? <ShapeFields making={making} shapes={choices?.shapes ?? []} /> : null}
+          {tab === 'file' ? <FileFields making={making} /> : null}
+          <PlacingFields making={making} />
+        </div>
+        <div className={styles.foot}>
+          <MakeVerdict making={making} />
+          <Group grow>
+            <Button variant="default" onClick={close}>
+              Cancel
+            </Button>
+            <Button type="submit" disabled={!canUse}>
+              Use
+            </Button>
+          </Group>
+        </div>
+      </form>
+    </aside>
+  );
+}
+
+/** What settings may name; null until the module is there. */
+function useChoices(making: Making): MakeChoices | null {
+  const { maker } = useEditing();
+  const [choices, setChoices] = useState<MakeChoices | null>(null);
+  useEffect(() => {
+    let isShown = true;
+    maker.list().then(
+      (list) => {
+        if (isShown) setChoices(list);
+      },
+      // The verdict says what is wrong with the module.
+      () => undefined,
+    );
+    return () => {
+      isShown = false;
+    };
+  }, [maker, making]);
+  return choices;
+}
+
+/** Gives the first field the focus when the panel opens, and the button that opens it when it closes. */
+function useFocus() {
+  const form = useRef<HTMLFormElement>(null);
+  useEffect(() => {
+    form.current?.querySelector<HTMLElement>('[data-first], [aria-pressed=true]')?.focus();
+    return () => {
+      setTimeout(() => {
+        if (document.activeElement === document.body)
+          document.querySelector<HTMLElement>('[data-opens-make]')?.focus();
+      });
+    };
+  }, []);
+  return form;
+}

@@ -1,0 +1,84 @@
+import { Button, Group, SegmentedControl, Stack, Text } from '@mantine/core';
+import { useStore } from '../base/store';
+import { lengthText } from '../base/units';
+import { STYLES, type Draft, type Style } from '../make/draft';
+import type { Making } from '../make/making';
+import { useUnit } from '../session/preferences';
+import { useEditor } from './context';
+import { SliderField } from './SliderField';
+
+const LABELS: Record<Style, string> = {
+  auto: 'Automatic',
+  filled: 'Filled',
+  outline: 'Outline',
+  both: 'Both',
+  lines: 'Lines',
+};
+
+/** Shapes that are lines or dots, which have no inside. */
+const WITHOUT_INSIDE = ['line', 'rings', 'spiral', 'arc', 'wave', 'grid', 'hexagons', 'random'];
+
+const hasInside = ({ tab, shape, file }: Draft) =>
+  tab === 'text' ||
+  (tab === 'shape' && !WITHOUT_INSIDE.includes(shape)) ||
+  (tab === 'file' && file?.kind === 'svg');
+
+/** Style, size and turn of what is made. */
+export function PlacingFields({ making }: { making: Making }) {
+  const draft = useStore(making.draft);
+  const made_m = useStore(making.made, (made) => made.shown?.size_m ?? null);
+  const moved = useStore(making.moved, (ids) => ids.length);
+  const side_m = useEditor((s) => Math.min(s.show.stage.width_m, s.show.stage.depth_m));
+  const unit = useUnit();
+  const degrees = Math.round((draft.turn * 180) / Math.PI);
+  const size_m = draft.size_m ?? made_m;
+  if (draft.tab === 'file' && !draft.file) return null;
+  return (
+    <Stack gap="sm">
+      {hasInside(draft) ? (
+        <div>
+          <Text size="xs" fw={600} mb={4}>
+            Style
+          </Text>
+          <SegmentedControl
+            aria-label="Style"
+            size="xs"
+            fullWidth
+            value={draft.style}
+            onChange={(style) => making.change({ style: style as Style })}
+            data={STYLES.map((value) => ({ value, label: LABELS[value] }))}
+          />
+        </div>
+      ) : null}
+      <SliderField
+        label="Size"
+        text={size_m === null ? '' : lengthText(size_m, unit)}
+        min={0.1}
+        max={side_m}
+        step={0.01}
+        value={size_m ?? side_m / 2}
+        onAuto={draft.size_m === null ? undefined : () => making.change({ size_m: null })}
+        onChange={(next) => making.change({ size_m: next })}
+      />
+      <SliderField
+        label="Turn"
+        text={`${degrees}°`}
+        min={-180}
+        max={180}
+        step={1}
+        value={degrees}
+        onChange={(next) => making.change({ turn: (next * Math.PI) / 180 })}
+      />
+      {moved > 0 ? (
+        <Group justify="space-between" wrap="nowrap">
+          <Text size="xs">
+            {moved === 1 ? '1 pixel was' : `${moved} pixels were`} moved by hand and will stay.
+          </Text>
+          <Button size="compact-xs" variant="default" onClick={making.forgetMoved}>
+            Place anew
+          </Button>
+        </Group>
+      ) : null}
+    </Stack>
+  );
+}

@@ -1,0 +1,149 @@
+import { fromHex, toHex, type Rgb } from '../base/colour';
+import type { FrameSource, SourceKind } from '../model/sources';
+
+/** What the Make panel shows: the settings of every kind of source, of which one kind is chosen. */
+export interface Draft {
+  tab: Tab;
+  text: string;
+  font: string;
+  shape: string;
+  /** Settings of shapes that are not the usual ones. */
+  shapeNumbers: Readonly<Partial<Record<ShapeNumber, number>>>;
+  file: DraftFile | null;
+  color: Rgb;
+  style: Style;
+  /** Longer side of the picture, metres; null: chosen by floor and fleet. */
+  size_m: number | null;
+  /** Radians counter-clockwise. */
+  turn: number;
+  seed: number;
+  /** Settings that the panel does not show; they stay. */
+  kept: Readonly<Record<string, unknown>>;
+}
+
+export type Tab = 'text' | 'shape' | 'file';
+
+export const STYLES = ['auto', 'filled', 'outline', 'both', 'lines'] as const;
+export type Style = (typeof STYLES)[number];
+
+export type ShapeNumber = 'aspect' | 'count' | 'turns' | 'inner' | 'span';
+
+/** A file that a frame is made from. */
+export interface DraftFile {
+  hash: string;
+  /** Name for people. */
+  name: string;
+  kind: FileSource;
+}
+
+export type FileSource = Extract<SourceKind, 'svg' | 'picture' | 'list'>;
+
+/** The colour of a warm lamp, as the module takes it where a source names none. */
+export const USUAL_COLOR: Rgb = 0xffa500;
+
+export const newDraft = (tab: Tab): Draft => ({
+  tab,
+  text: '',
+  font: 'lato',
+  shape: 'heart',
+  shapeNumbers: {},
+  file: null,
+  color: USUAL_COLOR,
+  style: 'auto',
+  size_m: null,
+  turn: 0,
+  seed: 1,
+  kept: {},
+});
+
+const SHOWN = ['text', 'font', 'colors', 'color', 'shape', 'style', 'size_m', 'turn'];
+const NUMBERS: readonly ShapeNumber[] = ['aspect', 'count', 'turns', 'inner', 'span'];
+
+const tabOf = (kind: SourceKind): Tab =>
+  kind === 'text' ? 'text' : kind === 'shape' ? 'shape' : 'file';
+
+/** Whether the panel can show and change a source. */
+export const isKnown = (source: FrameSource) => source.kind !== 'animation';
+
+/** The draft that a source is. `fileName`: the name of its file for people. */
+export function draftOf(source: FrameSource, fileName = 'File'): Draft {
+  const { settings } = source;
+  const text = (name: string, usual: string) =>
+    typeof settings[name] === 'string' ? (settings[name] as string) : usual;
+  const number = (name: string) =>
+    typeof settings[name] === 'number' ? (settings[name] as number) : null;
+  const usual = newDraft(tabOf(source.kind));
+  const box = source.box;
+  const side = box && Math.max(box.max[0] - box.min[0], box.max[1] - box.min[1]);
+  const style = STYLES.find((known) => known === settings.style);
+  const kind = source.kind as FileSource;
+  return {
+    ...usual,
+    text: text('text', ''),
+    font: text('font', usual.font),
+    shape: text('shape', usual.shape),
+    shapeNumbers: Object.fromEntries(
+      NUMBERS.flatMap((name) => (number(name) === null ? [] : [[name, number(name)]])),
+    ),
+    file:
+      usual.tab === 'file' && source.asset !== null
+        ? { hash: source.asset, name: fileName, kind }
+        : null,
+    color: colorOf(settings.colors ?? settings.color) ?? usual.color,
+    style: style ?? 'auto',
+    size_m: number('size_m') ?? side,
+    turn: number('turn') ?? 0,
+    seed: source.seed,
+    kept: {
+      ...(box ? { center: [[(box.min[0] + box.max[0]) / 2, (box.min[1] + box.max[1]) / 2]] } : {}),
+      ...Object.fromEntries(Object.entries(settings).filter(([name]) => !isShown(name))),
+    },
+  };
+}
+
+const isShown = (name: string) => SHOWN.includes(name) || NUMBERS.some((known) => known === name);
+
+const colorOf = (value: unknown): Rgb | undefined => {
+  const first: unknown = Array.isArray(value) ? value[0] : value;
+  return typeof first === 'string' ? fromHex(first) : undefined;
+};
+
+/** The source that a draft is; null: something is missing, such as the text. */
+export function sourceOf(draft: Draft): FrameSource | null {
+  if (draft.tab === 'text' && draft.text.trim() === '') return null;
+  if (draft.tab === 'file' && draft.file === null) return null;
+  const color = draft.color === USUAL_COLOR ? null : toHex(draft.color);
+  const own = {
+    text: { text: draft.text, font: draft.font, ...(color === null ? {} : { colors: [color] }) },
+    shape: {
+      shape: draft.shape,
+      ...draft.shapeNumbers,
+      ...(color === null ? {} : { color: [color] }),
+    },
+    file: {},
+  }[draft.tab];
+  return {
+    kind: draft.tab === 'file' ? (draft.file?.kind ?? 'svg') : draft.tab,
+    asset: draft.tab === 'file' ? (draft.file?.hash ?? null) : null,
+    seed: draft.seed,
+    box: null,
+    moved: [],
+    series: null,
+    moment_s: null,
+    settings: {
+      ...draft.kept,
+      ...own,
+      ...(draft.style === 'auto' ? {} : { style: draft.style }),
+      ...(draft.size_m === null ? {} : { size_m: draft.size_m }),
+      ...(draft.turn === 0 ? {} : { turn: draft.turn }),
+    },
+  };
+}
+
+/** A source in a few words, for people. */
+export function sourceWords(source: FrameSource, fileName: string | null): string {
+  const { text, shape } = source.settings;
+  if (source.kind === 'text') return `the words “${String(text ?? '').replaceAll('\n', ' ')}”`;
+  if (source.kind === 'shape') return `the shape ${String(shape ?? 'circle')}`;
+  return fileName === null ? 'a file' : `the file ${fileName}`;
+}

@@ -1,0 +1,126 @@
+import type { MakeAnswer, MakeChoices, MakeFile, MakeRequest } from '../api/types.gen';
+import type { Ask, Cause, Reply } from './protocol';
+
+/** What a maker needs of a worker. */
+export interface WorkerLike {
+  postMessage(ask: Ask): void;
+  onmessage: ((event: MessageEvent<Reply>) => void) | null;
+  onerror: ((event: ErrorEvent) => void) | null;
+  terminate(): void;
+}
+
+/** Makes frames in a worker that is started with the first wish. */
+export interface Maker {
+  /**
+   * Makes a frame. One is made at a time, and of those that wait only the newest: `null` is the answer to a wish that a
+   * newer one replaced.
+   */
+  make(request: MakeRequest, asset: Uint8Array | null): Promise<MakeAnswer | null>;
+  /** What settings may name. */
+  list(): Promise<MakeChoices>;
+  /** What a file is. */
+  look(bytes: Uint8Array): Promise<MakeFile>;
+  /** Ends the worker; the next wish starts another. */
+  end(): void;
+}
+
+/** A frame that takes longer is given up, milliseconds: such a file is hostile, or far too fine for robots. */
+export const MAKE_MAX_MS = 10_000;
+
+/** A newer wish lets the frame in work finish for this long, milliseconds; starting a worker anew takes as long. */
+export const GRACE_MS = 300;
+
+interface Job {
+  ask: Ask;
+  done(reply: Reply | null): void;
+}
+
+/** What people read about each cause. */
+const WORDS: Record<Cause, string> = {
+  unloaded:
+    'The part of the page that makes frames did not load. Reload the page, or use a newer browser.',
+  broken: 'This cannot be made. Undo the last change of its settings, or use another file.',
+  'too-slow': 'This takes longer than ten seconds. Use a simpler drawing or fewer robots.',
+};
+
+export function createMaker(start: () => WorkerLike): Maker {
+  let worker: WorkerLike | null = null;
+  let running: Job | null = null;
+  let queue: Job[] = [];
+  let timer: ReturnType<typeof setTimeout> | undefined;
+
+  const end = () => {
+    clearTimeout(timer);
+    worker?.terminate();
+    worker = null;
+  };
+  const finish = (reply: Reply | null) => {
+    clearTimeout(timer);
+    const job = running;
+    running = null;
+    if (reply === null || reply.of === 'failure') end();
+    job?.done(reply);
+    next();
+  };
+  const giveUpIn = (ms: number, reply: Reply | null) => {
+    clearTimeout(timer);
+    timer = setTimeout(() => finish(reply), ms);
+  };
+  const fail = (cause: Cause): Reply => ({ of: 'failure', cause });
+  const next = () => {
+    running = queue.shift() ?? null;
+    if (!running) return;
+    if (!worker) {
+      const mine = start();
+      worker = mine;
+      // A worker that was ended may have a message under way, which answers nothing any more.
+      mine.onmessage = ({ data }) => worker === mine && finish(data);
+      mine.onerror = () => worker === mine && finish(fail('broken'));
+    }
+    giveUpIn(MAKE_MAX_MS, fail('too-slow'));
+    worker.postMessage(running.ask);
+  };
+  const add = (ask: Ask) =>
+    new Promise<Reply | null>((done) => {
+      if (ask.do === 'make') {
+        queue.filter((job) => job.ask.do === 'make').forEach((job) => job.done(null));
+        queue = queue.filter((job) => job.ask.do !== 'make');
+        if (running?.ask.do === 'make') giveUpIn(GRACE_MS, null);
+      }
+      queue.push({ ask, done });
+      if (!running) next();
+    });
+  const wanted = async <T extends Reply['of']>(ask: Ask, of: T) => {
+    const got = await add(ask);
+    if (got?.of === of) return got as Extract<Reply, { of: T }>;
+    throw new Error(WORDS[causeOf(got)]);
+  };
+  return {
+    async make(request, asset) {
+      const got = await add({ do: 'make', request, asset });
+      if (got === null) return null;
+      return got.of === 'make' ? got.answer : withoutPixels(causeOf(got));
+    },
+    list: async () => (await wanted({ do: 'list' }, 'list')).choices,
+    look: async (bytes) => (await wanted({ do: 'look', bytes }, 'look')).file,
+    end() {
+      queue.splice(0).forEach((job) => job.done(null));
+      const job = running;
+      running = null;
+      end();
+      job?.done(null);
+    },
+  };
+}
+
+const causeOf = (got: Reply | null): Cause => (got?.of === 'failure' ? got.cause : 'broken');
+
+const withoutPixels = (code: Cause): MakeAnswer => ({
+  pixels: [],
+  size_m: 0,
+  closest_m: null,
+  readability: null,
+  enough: null,
+  notes: [],
+  error: { code, message: WORDS[code] },
+});

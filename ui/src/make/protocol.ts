@@ -1,0 +1,41 @@
+import type { MakeAnswer, MakeChoices, MakeFile, MakeRequest } from '../api/types.gen';
+
+/** A message to the worker; it answers each in order. */
+export type Ask =
+  | { do: 'make'; request: MakeRequest; asset: Uint8Array | null }
+  | { do: 'list' }
+  | { do: 'look'; bytes: Uint8Array };
+
+/** A message from the worker. */
+export type Reply =
+  | { of: 'make'; answer: MakeAnswer }
+  | { of: 'list'; choices: MakeChoices }
+  | { of: 'look'; file: MakeFile }
+  /** The worker is of no more use. */
+  | { of: 'failure'; cause: Cause };
+
+/** Why there is no answer: the module did not load, it broke at this wish, or it took too long. */
+export type Cause = 'unloaded' | 'broken' | 'too-slow';
+
+/** The functions of the module, as `wasm-bindgen` writes them. */
+export interface Module {
+  make(request: string, asset: Uint8Array): string;
+  list(): string;
+  look(bytes: Uint8Array): string;
+}
+
+const NO_FILE = new Uint8Array();
+
+/** What the module says to a message. */
+export function reply(module: Module, ask: Ask): Reply {
+  switch (ask.do) {
+    case 'make': {
+      const text = module.make(JSON.stringify(ask.request), ask.asset ?? NO_FILE);
+      return { of: 'make', answer: JSON.parse(text) as MakeAnswer };
+    }
+    case 'list':
+      return { of: 'list', choices: JSON.parse(module.list()) as MakeChoices };
+    case 'look':
+      return { of: 'look', file: JSON.parse(module.look(ask.bytes)) as MakeFile };
+  }
+}

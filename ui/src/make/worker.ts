@@ -1,0 +1,23 @@
+import load, { list, look, make } from '../generated/browser';
+import address from '../generated/browser_bg.wasm?url';
+import { reply, type Ask, type Reply } from './protocol';
+
+/** The module in a thread of its own, so that the page stays quick while frames are made. */
+const loaded = load({ module_or_path: address });
+const answer = (message: Reply) => self.postMessage(message);
+
+self.onmessage = async ({ data }: MessageEvent<Ask>) => {
+  try {
+    await loaded;
+  } catch (error) {
+    reportError(error);
+    answer({ of: 'failure', cause: 'unloaded' });
+    return;
+  }
+  try {
+    answer(reply({ make, list, look }, data));
+  } catch (error) {
+    reportError(error);
+    answer({ of: 'failure', cause: 'broken' });
+  }
+};
