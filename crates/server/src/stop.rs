@@ -1,4 +1,5 @@
-//! Ctrl-C and TERM: installed before anything else, so that there is no moment in which they kill.
+//! Ctrl-C, TERM and HUP, which a closed terminal sends: installed before anything else, so that there is no moment in
+//! which they kill, and robots would not receive STOP.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU8, Ordering};
@@ -95,15 +96,19 @@ async fn listen(mut signals: Signals, sender: watch::Sender<bool>, phase: Arc<At
 struct Signals {
     interrupt: Option<tokio::signal::unix::Signal>,
     terminate: Option<tokio::signal::unix::Signal>,
+    /// `None` where the program was started to outlive its terminal, as `nohup` does.
+    hang_up: Option<tokio::signal::unix::Signal>,
 }
 
 #[cfg(unix)]
 impl Signals {
     fn install() -> Self {
         use tokio::signal::unix::{SignalKind, signal};
+        let hang_up = if ignores_hang_up() { None } else { signal(SignalKind::hangup()).ok() };
         Self {
             interrupt: signal(SignalKind::interrupt()).ok(),
             terminate: signal(SignalKind::terminate()).ok(),
+            hang_up,
         }
     }
 
@@ -120,8 +125,18 @@ impl Signals {
         tokio::select! {
             () = of(&mut self.interrupt) => {}
             () = of(&mut self.terminate) => {}
+            () = of(&mut self.hang_up) => {}
         }
     }
+}
+
+/// Whether this process was started with the signal ignored. Only Linux tells without unsafe code.
+#[cfg(unix)]
+fn ignores_hang_up() -> bool {
+    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let mask = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
+    // Bit 0 is signal 1, HUP.
+    mask.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok()).is_some_and(|mask| mask & 1 == 1)
 }
 
 #[cfg(not(unix))]

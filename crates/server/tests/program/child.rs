@@ -26,7 +26,7 @@ impl Child {
     pub fn lightbots_with(arguments: &[&str], variables: &[(&str, &str)]) -> Self {
         let mut command = Command::new(env!("CARGO_BIN_EXE_lightbots"));
         // Nobody's library but the test's own.
-        command.args(arguments).env("XDG_DATA_HOME", crate::shows::folder().join("data"));
+        command.args(arguments).env("XDG_DATA_HOME", crate::shows::own_folder());
         command.envs(variables.iter().copied());
         Self::start(command, &arguments.join(" "))
     }
@@ -106,7 +106,13 @@ impl Child {
     /// Sends TERM, as a service manager does.
     #[cfg(unix)]
     pub fn terminate(&self) {
-        let sent = Command::new("kill").args(["-TERM", &self.process.id().to_string()]).status().unwrap();
+        self.signal("-TERM");
+    }
+
+    /// Sends a signal by its option of `kill`.
+    #[cfg(unix)]
+    pub fn signal(&self, signal: &str) {
+        let sent = Command::new("kill").args([signal, &self.process.id().to_string()]).status().unwrap();
         assert!(sent.success());
     }
 

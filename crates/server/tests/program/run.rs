@@ -9,7 +9,7 @@ use crate::{alone, http, shows};
 
 /// `run` on free ports: the process, the screen's address, the broker's.
 pub fn start(arguments: &[&str]) -> (Child, String, String) {
-    let data = shows::folder().join("library");
+    let data = shows::own_folder();
     let data = data.to_str().unwrap();
     let mut all = vec!["run", "--listen", "127.0.0.1:0", "--mqtt-listen", "127.0.0.1:0"];
     if !arguments.contains(&"--data") {
@@ -243,4 +243,45 @@ fn everything_stops_cleanly_when_told_to() {
     crate::wait_for("a first attempt", || robots.err().contains("connecting").then_some(()));
     robots.terminate();
     assert_eq!(robots.end(), 0);
+}
+
+/// `run` started by another program, which it takes the place of: the process, the screen's address, the broker's.
+#[cfg(target_os = "linux")]
+fn start_by(starter: &[&str], arguments: &[&str]) -> (Child, String, String) {
+    let data = shows::own_folder();
+    let mut command = std::process::Command::new(starter[0]);
+    command.args(&starter[1..]).arg(env!("CARGO_BIN_EXE_lightbots")).arg("run").args(arguments);
+    command.args(["--listen", "127.0.0.1:0", "--mqtt-listen", "127.0.0.1:0", "--data"]).arg(data);
+    let mut child = Child::start(command, starter[0]);
+    let (screen, broker) = (child.said("http://"), child.said("Broker mqtt://"));
+    (child, screen, broker)
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_closed_terminal_stops_the_robots_as_ctrl_c_does() {
+    let _turn = alone();
+    let show = shows::row_file(2, &[60.0]);
+    // The tests themselves may run under nohup.
+    let (mut server, address, broker) = start_by(&["env", "--default-signal=HUP"], &["--robots", "2", &show]);
+    let mut robots = crate::plain_mqtt::Mqtt::open(&broker, "listener", &["T/LightBot/Broadcast"]);
+    let mut screen = Screen::open(&address);
+    screen.wait_for_robots(2);
+    screen.must(json!({"do": "play", "from": 0, "missing": "refuse"}));
+    screen.until("the show", |screen| (screen.phase() == "playing").then_some(()));
+    server.signal("-HUP");
+    crate::wait_for("STOP", || {
+        std::iter::from_fn(|| robots.next()).find(|(_, payload)| payload.contains("STOP"))
+    });
+    assert_eq!(server.end(), 0);
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_program_that_outlives_its_terminal_does_so() {
+    let (mut server, address, _) = start_by(&["nohup"], &["--robots", "0"]);
+    server.signal("-HUP");
+    assert_eq!(http::request(&address, "GET", "/api/shows", &[], "").status, 200);
+    server.terminate();
+    assert_eq!(server.end(), 0);
 }

@@ -11,12 +11,17 @@ pub fn folder() -> PathBuf {
     folder
 }
 
-/// Writes a file; its path.
-pub fn file(name: &str, bytes: impl AsRef<[u8]>) -> String {
+/// A folder that no other part of the tests has.
+pub fn own_folder() -> PathBuf {
     static COUNT: AtomicUsize = AtomicUsize::new(0);
     let folder = folder().join(COUNT.fetch_add(1, Ordering::Relaxed).to_string());
     std::fs::create_dir_all(&folder).unwrap();
-    let path = folder.join(name);
+    folder
+}
+
+/// Writes a file; its path.
+pub fn file(name: &str, bytes: impl AsRef<[u8]>) -> String {
+    let path = own_folder().join(name);
     std::fs::write(&path, bytes).unwrap();
     path.to_str().unwrap().to_owned()
 }
