@@ -1,9 +1,9 @@
 //! Messages between screen and server on `/ws` and `/api`, and the TypeScript types of these messages.
 //!
 //! The crate holds types only: no sockets, no controller, no planner. [`ToScreen`] and [`FromScreen`] are the JSON
-//! messages on the WebSocket, [`Robots`] is the binary message there. [`ShowEntry`], [`BrokerSettings`], [`Problem`] and
-//! [`Plan`] are bodies of HTTP answers. [`MakeRequest`] and [`MakeAnswer`] go to and from the module in the browser. After a
-//! change run `cargo run -p lightbots-api --example types`.
+//! messages on the WebSocket, [`Robots`] is the binary message there. [`ShowEntry`], [`ShowState`], [`BrokerSettings`],
+//! [`Problem`] and [`Plan`] are bodies of HTTP answers. [`MakeRequest`] and [`MakeAnswer`] go to and from the module in the
+//! browser. After a change run `cargo run -p lightbots-api --example types`.
 //!
 //! ```
 //! use lightbots_api::{FromScreen, Operation};
@@ -25,7 +25,7 @@ mod typescript;
 
 pub use broker::BrokerSettings;
 pub use fleet::{Abilities, Fleet, FleetRow, Presence, RobotStatus};
-pub use library::{Problem, ShowEntry, ShowOrigin};
+pub use library::{Problem, ShowEntry, ShowOrigin, ShowState};
 pub use make::{
     FitAnswer, MadePixel, MadeReadability, MakeAnswer, MakeChoices, MakeFile, MakeFont, MakeQuality,
     MakeRemark, MakeRequest, MakeShape,

@@ -10,7 +10,11 @@
 //! creates only; 412 and a `Problem` if another client saved first. Answers the `ShowEntry`. A read-only show is
 //! saved as a copy, whose entry has a new name and `copy_of`. A file with unknown fields is kept byte for byte; 403 and
 //! a `Problem` for a show whose file has such fields |
-//! | `DELETE /api/shows/{name}` | 204; honours `If-Match`; 403 and a `Problem` for a read-only show |
+//! | `DELETE /api/shows/{name}?renamed_to=NAME` | 204; honours `If-Match`; 403 and a `Problem` for a read-only show. The
+//! query may be left out: it names the show that goes on under a new name and gets the earlier states |
+//! | `GET /api/shows/{name}/states` | `ShowState[]`, the newest first; the first is the show as it is |
+//! | `GET /api/shows/{name}/states/{number}` | the document of an earlier state; saving it with `PUT` restores it, and makes
+//! what it replaces an earlier state |
 //! | `GET /api/assets/{hash}` | a file that shows name by its SHA-256 |
 //! | `PUT /api/assets/{hash}` | body: the file; 204, or 422 and a `Problem` if it has another hash |
 //! | `POST /api/check` | body: a file of any format; answers a `Plan` with paths |
@@ -43,6 +47,23 @@ pub struct ShowEntry {
     pub read_only: Option<String>,
     /// Origin of the read-only show that this new entry is a copy of. Only in the answer to a save of such a show.
     pub copy_of: Option<ShowOrigin>,
+}
+
+/// A saved state of a show.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS)]
+pub struct ShowState {
+    /// Number for `/api/shows/{name}/states/{number}`; null: the show as it is.
+    pub number: Option<u32>,
+    /// Time of the save, milliseconds since 1970; 0 for a read-only show.
+    pub saved_ms: u64,
+    /// Name that the author gave the show; may be empty.
+    pub title: String,
+    /// Number of frames.
+    pub frames: usize,
+    /// Number of pixels of the largest frame.
+    pub pixels: usize,
+    /// Version of the file, with its quotes. Two states of one version hold the same.
+    pub etag: String,
 }
 
 /// Where a show of the library comes from. Only saved shows can be changed.

@@ -7,8 +7,8 @@ use crate::{
     Abilities, Answer, Broker, BrokerPhase, BrokerSettings, Choice, FitAnswer, Fleet, FleetRow, FromScreen,
     Hello, Issue, Level, LogLine, MadePixel, MadeReadability, MakeAnswer, MakeChoices, MakeFile, MakeFont,
     MakeQuality, MakeRemark, MakeRequest, MakeShape, Missing, OpenShow, Operation, Path, Phase, Plan,
-    Playback, Presence, Problem, Request, RobotStatus, Robots, Severity, ShowEntry, ShowOrigin, State,
-    ToScreen, Transition,
+    Playback, Presence, Problem, Request, RobotStatus, Robots, Severity, ShowEntry, ShowOrigin, ShowState,
+    State, ToScreen, Transition,
 };
 
 /// The first line of the generated file.
@@ -61,6 +61,7 @@ pub fn typescript() -> String {
         Choice,
         ShowEntry,
         ShowOrigin,
+        ShowState,
         Problem,
         MakeRequest,
         MakeQuality,

@@ -1,12 +1,12 @@
 //! The broker that was chosen on the screen, kept in a file that only its owner reads.
 
-use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use lightbots_api::BrokerSettings;
 use lightbots_link::{BrokerArguments, BrokerUrl, Pem, TlsTrust};
 use serde::{Deserialize, Serialize};
 
+use crate::disk::{self, Readers};
 use crate::failure::Failure;
 
 /// What stands for the server's own broker.
@@ -14,6 +14,10 @@ pub const EMBEDDED: &str = "embedded";
 const FILE: &str = "broker.json";
 /// The longest text of a setting, bytes: a chain of certificates.
 const LONGEST: usize = 32 << 10;
+/// The longest file of certificates, bytes: all authorities of a system (0.2 MB) fit.
+const PEM_MAX: u64 = 1 << 20;
+/// The longest file of settings, bytes: seven texts, each escaped twice as long.
+const FILE_MAX: u64 = 14 * LONGEST as u64;
 
 /// Address, login and certificates as they were stated.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -108,7 +112,7 @@ impl Settings {
     /// The settings kept in a folder of data; `None` where there are none, or none that can be read.
     pub fn load(folder: &Path) -> Option<Self> {
         let path = folder.join(FILE);
-        let bytes = std::fs::read(&path).ok()?;
+        let bytes = disk::read_regular(&path, FILE_MAX).ok()?;
         serde_json::from_slice(&bytes)
             .inspect_err(|error| tracing::warn!("{} is left aside: {error}", path.display()))
             .ok()
@@ -118,7 +122,7 @@ impl Settings {
     pub fn save(&self, folder: &Path) -> Result<(), String> {
         let path = folder.join(FILE);
         let text = serde_json::to_vec_pretty(self).map_err(|error| error.to_string())?;
-        write_private(&path, &text)
+        disk::replace(&path, &text, Readers::Owner)
             .map_err(|error| format!("the broker's settings cannot be kept in {}: {error}", path.display()))
     }
 }
@@ -147,7 +151,7 @@ impl Text {
             return Ok(Self { name: what.to_owned(), bytes: stated.as_bytes().to_vec() });
         }
         let name = stated.trim().to_owned();
-        let bytes = std::fs::read(&name)
+        let bytes = disk::read_regular(Path::new(&name), PEM_MAX)
             .map_err(|error| format!("{what}: {name} cannot be read on the server's machine: {error}"))?;
         Ok(Self { name, bytes })
     }
@@ -155,22 +159,6 @@ impl Text {
     fn pem(&self) -> Pem<'_> {
         Pem { name: &self.name, bytes: &self.bytes }
     }
-}
-
-/// Writes a file that only its owner may read; it is there whole, or as it was before.
-pub fn write_private(path: &Path, bytes: &[u8]) -> std::io::Result<()> {
-    let mut draft = PathBuf::from(path);
-    draft.as_mut_os_string().push(".saving");
-    // An older draft may have other rights.
-    let _ = std::fs::remove_file(&draft);
-    let mut options = std::fs::OpenOptions::new();
-    options.write(true).create_new(true);
-    #[cfg(unix)]
-    std::os::unix::fs::OpenOptionsExt::mode(&mut options, 0o600);
-    let mut file = options.open(&draft)?;
-    file.write_all(bytes)?;
-    file.sync_all()?;
-    std::fs::rename(&draft, path)
 }
 
 #[cfg(test)]

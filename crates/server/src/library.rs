@@ -7,66 +7,68 @@
 //!   be deleted, and read with [`Library::file`].
 //! - Documents are kept as `NAME.lightbots.json`, the files that belong to them once in `assets`. A `NAME.lightbots.zip`
 //!   that lies in the folder is read too, and becomes a document when it is saved.
+//! - Each save keeps the file that it replaces as an earlier state (`states`), so that any of the last saves can come back.
 //! - A file of the folder always keeps its name. Where it has the name of a given show, such as one that an older version
 //!   saved, the given show is listed under another: "heart (example)" or "my show (file)".
 
 mod asset_store;
+mod facts;
+mod given;
+mod lock;
 mod names;
 mod outcome;
-mod replace;
+mod show_files;
+mod states;
 mod version;
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 use std::io::ErrorKind;
-use std::path::{Path, PathBuf};
-use std::sync::{Arc, Mutex, MutexGuard};
+use std::path::PathBuf;
+use std::sync::{Arc, Mutex};
 
-use lightbots_api::{ShowEntry, ShowOrigin};
+use lightbots_api::{ShowEntry, ShowOrigin, ShowState};
 use lightbots_exchange::{ARCHIVE, Format, LIGHTBOTS, Loaded, hash_of, read, sniff};
-use lightbots_show::{AssetHash, Show, most_pixels};
+use lightbots_show::{AssetHash, Show};
 
-use crate::examples;
+use crate::{disk, examples};
 use asset_store::AssetStore;
+use facts::{FileFacts, ListFacts};
+use given::{Given, GivenShows};
+use lock::lock;
 pub use names::name_of_file;
 use names::tidy_name;
 pub use outcome::{Condition, Kept, LibraryError};
-use replace::replace_file;
+use show_files::ShowFiles;
+use states::States;
 use version::{etag, modified_ms};
 
 /// The file that names the show that was open last.
 const OPEN: &str = ".open";
+/// The most bytes of the file that names it: more than any name has.
+const NAME_BYTES_MAX: u64 = 1_000;
 /// The most shows that are listed and kept.
 const SHOWS_MAX: usize = 10_000;
 
 /// Shows by name. Clones share it.
 #[derive(Clone, Debug)]
 pub struct Library {
-    folder: PathBuf,
+    files: ShowFiles,
+    /// Earlier states of the files.
+    states: States,
+    /// What lists say of the files.
+    facts: FileFacts,
     /// Shows that are in no folder, by the name they are listed under.
-    given: Arc<Mutex<BTreeMap<String, Given>>>,
+    given: GivenShows,
     /// Held while a file is compared and replaced.
     writing: Arc<Mutex<()>>,
     /// Files that belong to the shows.
     assets: AssetStore,
 }
 
-/// A read-only show that is in no folder.
-#[derive(Clone, Debug)]
-struct Given {
-    /// What it is called where no file has that name, and what its copies are named after.
-    base: String,
-    origin: ShowOrigin,
-    /// Its document in our format.
-    bytes: Vec<u8>,
-    /// Why its file holds more than the document.
-    unread: Option<String>,
-}
-
 impl Library {
-    /// The library in a folder; the folder is made when the first show is saved.
+    /// The library in a folder, with the examples; the folder is made when the first show is saved.
     pub fn new(folder: PathBuf) -> Self {
-        let assets = AssetStore::new(folder.join("assets"));
-        let library = Self { folder, given: Arc::default(), writing: Arc::default(), assets };
+        let library = Self::without_examples(folder);
         for (name, bytes) in examples::all() {
             match read(bytes, None) {
                 Ok(loaded) => {
@@ -78,51 +80,40 @@ impl Library {
         library
     }
 
-    /// The folder the user's data belongs in on this system.
-    pub fn default_folder() -> PathBuf {
-        let set = |name: &str| std::env::var_os(name).filter(|value| !value.is_empty()).map(PathBuf::from);
-        let data = set("XDG_DATA_HOME")
-            .or_else(|| set("APPDATA"))
-            .or_else(|| set("HOME").map(|home| home.join(".local/share")));
-        data.map_or_else(|| PathBuf::from("lightbots-data"), |data| data.join("lightbots"))
+    fn without_examples(folder: PathBuf) -> Self {
+        Self {
+            states: States::new(folder.join("history")),
+            assets: AssetStore::new(folder.join("assets")),
+            files: ShowFiles::new(folder),
+            facts: FileFacts::default(),
+            given: GivenShows::default(),
+            writing: Arc::default(),
+        }
     }
 
-    /// Makes the folder, so that a disk that does not want to says so before anybody draws. The line says what to do.
-    pub fn prepare(&self) -> Result<(), String> {
-        let probe = self.folder.join(format!(".probe-{}", std::process::id()));
-        std::fs::create_dir_all(&self.folder)
-            .and_then(|()| std::fs::write(&probe, b""))
-            .and_then(|()| std::fs::remove_file(&probe))
-            .inspect(|()| self.sweep())
-            .map_err(|error| {
-                format!(
-                    "shows cannot be kept in {}: {error}; name another folder with --data DIR",
-                    self.folder.display()
-                )
-            })
+    /// Removes what a crash left behind, and what no show needs any more. No other program may use the folder.
+    pub fn tidy_up(&self) {
+        disk::remove_drafts(self.files.folder());
+        self.assets.remove_drafts();
+        for show in self.states.shows() {
+            self.states.remove_drafts(&show);
+        }
+        self.states.sweep(&self.files.names());
+        self.sweep();
     }
 
     /// Adds a read-only show that is in no folder; answers the name it is listed under, as close to `name` as it may be.
     /// The file of the command line takes its name from an example, which is then listed under another. `unread`: why the
     /// show's file holds more than the show.
     pub fn give(&self, name: &str, origin: ShowOrigin, show: &Show, unread: Option<String>) -> String {
-        let base = tidy_name(name);
-        let bytes = LIGHTBOTS.write(show, None).bytes;
         self.assets.give(show);
-        let mut given = lock(&self.given);
-        let displaces = given.get(&base).is_some_and(|other| other.origin < origin);
-        let listed = if displaces { base.clone() } else { self.listed_name(&base, origin, &given) };
-        if let Some(moved) = given.insert(listed.clone(), Given { base, origin, bytes, unread }) {
-            let elsewhere = self.listed_name(&moved.base, moved.origin, &given);
-            given.insert(elsewhere, moved);
-        }
-        listed
+        self.given.add(Given::new(tidy_name(name), origin, show, unread), &self.files.names())
     }
 
     /// Remembers which show is open, for the next start. A disk that does not want to is no reason to fail.
     pub fn remember(&self, name: &str) {
-        let kept = std::fs::create_dir_all(&self.folder)
-            .and_then(|()| std::fs::write(self.folder.join(OPEN), name.as_bytes()));
+        let folder = self.files.folder();
+        let kept = disk::create_folder(folder).and_then(|()| std::fs::write(folder.join(OPEN), name));
         if let Err(error) = kept {
             tracing::debug!("the open show is not remembered: {error}");
         }
@@ -130,14 +121,14 @@ impl Library {
 
     /// The show that was open last, if it is still there.
     pub fn remembered(&self) -> Option<String> {
-        let name = std::fs::read_to_string(self.folder.join(OPEN)).ok()?;
+        let name = disk::read_regular(&self.files.folder().join(OPEN), NAME_BYTES_MAX).ok()?;
+        let name = String::from_utf8(name).ok()?;
         self.get(&name).is_ok().then_some(name)
     }
 
     /// Every show, by name.
     pub fn list(&self) -> Vec<ShowEntry> {
-        let given: Vec<String> = lock(&self.given).keys().cloned().collect();
-        let names = self.saved().into_iter().take(SHOWS_MAX).chain(given);
+        let names = self.files.names().into_iter().take(SHOWS_MAX).chain(self.given.names());
         let entries = names.filter_map(|name| Some((name.clone(), self.entry(&name).ok()?)));
         entries.collect::<BTreeMap<_, _>>().into_values().collect()
     }
@@ -145,7 +136,12 @@ impl Library {
     /// A show by its name: the file of that name, else the given show.
     pub fn get(&self, name: &str) -> Result<Kept, LibraryError> {
         let name = checked(name)?;
-        let (bytes, mut unread) = self.stored(name)?;
+        let (bytes, unread) = self.stored(name)?;
+        self.kept(name, bytes, unread)
+    }
+
+    /// The show in a file's bytes. `unread`: why the file of a given show holds more.
+    fn kept(&self, name: &str, bytes: Vec<u8>, unread: Option<String>) -> Result<Kept, LibraryError> {
         let loaded = read(&bytes, None)
             .map_err(|error| LibraryError::NoShow(format!("\"{name}\" cannot be read: {error}")))?;
         let Loaded { mut show, unread: unread_fields, .. } = loaded;
@@ -156,12 +152,46 @@ impl Library {
             tracing::warn!("files of \"{name}\" cannot be kept: {error}");
         }
         show.assets.values_mut().for_each(|asset| asset.content = None);
-        unread = unread.or(unread_fields);
+        let unread = unread.or(unread_fields);
         let etag = etag(&bytes);
         let is_document = sniff(&bytes) == Some(&LIGHTBOTS) && unread.is_none();
         let bytes = if is_document { bytes } else { LIGHTBOTS.write(&show, None).bytes };
         let read_only = unread.map(|reason| read_only_line(name, &reason));
         Ok(Kept { etag, bytes, show, read_only })
+    }
+
+    /// The saved states of a show, the newest first: the present one, and earlier ones.
+    pub fn states(&self, name: &str) -> Result<Vec<ShowState>, LibraryError> {
+        let name = checked(name)?;
+        let now = self.entry(name)?;
+        let mut states = vec![ShowState {
+            number: None,
+            saved_ms: now.modified_ms,
+            title: now.title,
+            frames: now.frames,
+            pixels: now.pixels,
+            etag: now.etag,
+        }];
+        for (number, file) in self.states.of(name) {
+            let Ok(facts) = self.facts.get(&file) else { continue };
+            // A crash may leave a state twice.
+            if states.last().is_some_and(|newer| newer.etag == facts.etag) {
+                continue;
+            }
+            let ListFacts { title, frames, pixels, etag, .. } = facts;
+            let saved_ms = modified_ms(&file);
+            states.push(ShowState { number: Some(number), saved_ms, title, frames, pixels, etag });
+        }
+        Ok(states)
+    }
+
+    /// An earlier state of a show.
+    pub fn state(&self, name: &str, number: u32) -> Result<Kept, LibraryError> {
+        let name = checked(name)?;
+        let missing = || LibraryError::Missing(format!("\"{name}\" has no state {number} any more"));
+        let file = self.states.file(name, number).ok_or_else(missing)?;
+        let bytes = show_files::read(&file).map_err(|error| LibraryError::unreadable(name, &error))?;
+        self.kept(name, bytes, None)
     }
 
     /// The file of a show as it is kept, and its format. Of a given show, the document.
@@ -196,16 +226,13 @@ impl Library {
 
     /// The bytes of a show, and for a given show why its file holds more.
     fn stored(&self, name: &str) -> Result<(Vec<u8>, Option<String>), LibraryError> {
-        match std::fs::read(self.present(name)) {
+        match self.files.read(name) {
             Ok(bytes) => Ok((bytes, None)),
             Err(error) if error.kind() == ErrorKind::NotFound => {
-                let given = lock(&self.given);
-                let given = given.get(name).map(|given| (given.bytes.clone(), given.unread.clone()));
-                given.ok_or_else(|| {
-                    LibraryError::Missing(format!("there is no show \"{name}\" in the library"))
-                })
+                let given = self.given.get(name).ok_or_else(|| LibraryError::missing(name))?;
+                Ok((given.bytes, given.facts.unread))
             }
-            Err(error) => Err(LibraryError::Disk(format!("the show \"{name}\" cannot be read: {error}"))),
+            Err(error) => Err(LibraryError::unreadable(name, &error)),
         }
     }
 
@@ -225,30 +252,51 @@ impl Library {
         if let Some(line) = now.ok().and_then(|kept| kept.read_only) {
             return Err(LibraryError::ReadOnly(line));
         }
-        let target = given.as_ref().map_or(name.to_owned(), |given| self.copy_name(&given.base));
+        let target = given
+            .as_ref()
+            .map_or(name.to_owned(), |given| self.given.copy_name(&given.base, &self.files.names()));
         self.store(&target, bytes, &loaded).map_err(|error| {
-            LibraryError::Disk(format!("\"{target}\" cannot be saved in {}: {error}", self.folder.display()))
+            LibraryError::Disk(format!(
+                "\"{target}\" cannot be saved in {}: {error}",
+                self.files.folder().display()
+            ))
         })?;
         Ok(ShowEntry { copy_of: given.map(|given| given.origin), ..self.entry(&target)? })
     }
 
     fn store(&self, name: &str, bytes: &[u8], loaded: &Loaded) -> std::io::Result<()> {
-        let (document, archive) = (self.path(name, &LIGHTBOTS), self.path(name, &ARCHIVE));
         if loaded.unread.is_some() {
-            let is_archive = sniff(bytes) == Some(&ARCHIVE);
-            let (new, old) = if is_archive { (archive, document) } else { (document, archive) };
-            replace_file(&new, bytes)?;
-            return remove(&old);
+            let format = if sniff(bytes) == Some(&ARCHIVE) { &ARCHIVE } else { &LIGHTBOTS };
+            self.keep_state(name, bytes);
+            return self.files.replace(name, format, bytes);
         }
         // First the files, so that there is never a document whose files are lost.
         self.assets.keep(&loaded.show)?;
-        replace_file(&document, &LIGHTBOTS.write(&loaded.show, None).bytes)?;
-        remove(&archive)
+        let document = LIGHTBOTS.write(&loaded.show, None).bytes;
+        self.keep_state(name, &document);
+        self.files.replace(name, &LIGHTBOTS, &document)
     }
 
-    /// Deletes a show of the folder. Given shows stay.
-    pub fn delete(&self, name: &str, condition: &Condition) -> Result<(), LibraryError> {
+    /// Keeps the file of a show before `next` takes its place. A disk that cannot is no reason not to save.
+    fn keep_state(&self, name: &str, next: &[u8]) {
+        if self.files.read(name).is_ok_and(|now| now == next) {
+            return;
+        }
+        if let Err(error) = self.states.keep(name, &self.files.present(name)) {
+            tracing::warn!("an earlier state of \"{name}\" cannot be kept: {error}");
+        }
+    }
+
+    /// Deletes a show of the folder. Given shows stay. `renamed_to`: the show under its new name, which gets the earlier
+    /// states.
+    pub fn delete(
+        &self,
+        name: &str,
+        condition: &Condition,
+        renamed_to: Option<&str>,
+    ) -> Result<(), LibraryError> {
         let name = checked(name)?;
+        let renamed_to = renamed_to.map(checked).transpose()?;
         let _guard = lock(&self.writing);
         if let Some(given) = self.given_show(name) {
             let what = match given.origin {
@@ -259,7 +307,13 @@ impl Library {
             return Err(LibraryError::ReadOnly(line));
         }
         check(name, condition, &Ok(self.get(name)?))?;
-        let removed = remove(&self.path(name, &LIGHTBOTS)).and_then(|()| remove(&self.path(name, &ARCHIVE)));
+        self.keep_state(name, &[]);
+        if let Some(to) = renamed_to
+            && let Err(error) = self.states.hand_over(name, to)
+        {
+            tracing::warn!("earlier states of \"{name}\" cannot become those of \"{to}\": {error}");
+        }
+        let removed = self.files.remove(name);
         removed.map_err(|error| LibraryError::Disk(format!("\"{name}\" cannot be deleted: {error}")))
     }
 
@@ -269,77 +323,46 @@ impl Library {
         if !self.assets.has_old() {
             return;
         }
-        let shows = self.saved().into_iter().take(SHOWS_MAX).map(|name| self.get(&name));
+        let shows = self.files.names().into_iter().map(|name| self.files.present(&name));
+        let states = self.states.shows().into_iter().flat_map(|show| self.states.of(&show));
+        let files = shows.chain(states.map(|(_, file)| file));
+        let named = files.map(|file| {
+            let loaded = show_files::read(&file).ok().and_then(|bytes| read(&bytes, None).ok());
+            loaded.map(|loaded| loaded.show.assets.into_keys().collect::<Vec<_>>())
+        });
         // A show that cannot be read may name any file.
-        if let Ok(shows) = shows.collect::<Result<Vec<_>, _>>() {
-            self.assets.sweep(&shows.iter().flat_map(|kept| kept.show.assets.keys().copied()).collect());
+        if let Some(named) = named.collect::<Option<Vec<_>>>() {
+            self.assets.sweep(&named.into_iter().flatten().collect());
         }
     }
 
     /// The given show of that name, unless a file has the name.
     fn given_show(&self, name: &str) -> Option<Given> {
-        lock(&self.given).get(name).filter(|_| !self.present(name).exists()).cloned()
-    }
-
-    /// `base`, or where that is taken `base (example)`, `base (example 2)`…, or `base (file)` and so on.
-    fn listed_name(&self, base: &str, origin: ShowOrigin, given: &BTreeMap<String, Given>) -> String {
-        let word = if origin == ShowOrigin::StartFile { "file" } else { "example" };
-        let others = (2..).map(|number| format!("{base} ({word} {number})"));
-        let names = [base.to_owned(), format!("{base} ({word})")].into_iter().chain(others);
-        self.first_free(names, given)
-    }
-
-    /// `base 2`, `base 3`…, the first that is free.
-    fn copy_name(&self, base: &str) -> String {
-        self.first_free((2..).map(|number| format!("{base} {number}")), &lock(&self.given))
-    }
-
-    /// The first of endless `names` that no show has, whatever the case of its letters.
-    fn first_free(&self, mut names: impl Iterator<Item = String>, given: &BTreeMap<String, Given>) -> String {
-        let saved = self.saved();
-        let taken: BTreeSet<String> =
-            saved.iter().chain(given.keys()).map(|name| name.to_lowercase()).collect();
-        names.find(|name| !taken.contains(&name.to_lowercase())).unwrap_or_default()
+        self.given.get(name).filter(|_| !self.files.present(name).exists())
     }
 
     fn entry(&self, name: &str) -> Result<ShowEntry, LibraryError> {
-        let kept = self.get(name)?;
-        let given = self.given_show(name);
+        let file = self.files.present(name);
+        let (facts, origin, modified_ms) = if file.exists() {
+            let facts = self.facts.get(&file);
+            let facts =
+                facts.map_err(|why| LibraryError::NoShow(format!("\"{name}\" cannot be read: {why}")))?;
+            (facts, ShowOrigin::Saved, modified_ms(&file))
+        } else {
+            let given = self.given.get(name).ok_or_else(|| LibraryError::missing(name))?;
+            (given.facts, given.origin, 0)
+        };
         Ok(ShowEntry {
             name: name.to_owned(),
-            title: kept.show.name.clone(),
-            frames: kept.show.frames.len(),
-            pixels: most_pixels(&kept.show),
-            modified_ms: if given.is_some() { 0 } else { modified_ms(&self.present(name)) },
-            etag: kept.etag,
-            origin: given.map_or(ShowOrigin::Saved, |given| given.origin),
-            read_only: kept.read_only,
+            title: facts.title,
+            frames: facts.frames,
+            pixels: facts.pixels,
+            modified_ms,
+            etag: facts.etag,
+            origin,
+            read_only: facts.unread.map(|reason| read_only_line(name, &reason)),
             copy_of: None,
         })
-    }
-
-    /// Names of the shows in the folder, each once.
-    fn saved(&self) -> BTreeSet<String> {
-        let Ok(files) = std::fs::read_dir(&self.folder) else { return BTreeSet::new() };
-        let name = |file: std::fs::DirEntry| {
-            let file = file.file_name();
-            let file = file.to_str()?;
-            [&LIGHTBOTS, &ARCHIVE]
-                .iter()
-                .find_map(|format| file.strip_suffix(format.ending()))
-                .map(str::to_owned)
-        };
-        files.flatten().filter_map(name).filter(|name| checked(name).is_ok()).collect()
-    }
-
-    /// The file of a show: its document, or the archive where there is no document.
-    fn present(&self, name: &str) -> PathBuf {
-        let (document, archive) = (self.path(name, &LIGHTBOTS), self.path(name, &ARCHIVE));
-        if !document.exists() && archive.exists() { archive } else { document }
-    }
-
-    fn path(&self, name: &str, format: &Format) -> PathBuf {
-        self.folder.join(format!("{name}{}", format.ending()))
     }
 }
 
@@ -363,14 +386,6 @@ fn read_only_line(name: &str, reason: &str) -> String {
     )
 }
 
-/// Removes a file that may not be there.
-fn remove(path: &Path) -> std::io::Result<()> {
-    match std::fs::remove_file(path) {
-        Err(error) if error.kind() != ErrorKind::NotFound => Err(error),
-        _ => Ok(()),
-    }
-}
-
 fn asset_hash(text: &str) -> Result<AssetHash, LibraryError> {
     AssetHash::from_hex(text).ok_or_else(|| {
         LibraryError::BadName("a file is named by its SHA-256: 64 digits from 0 to 9 and a to f".to_owned())
@@ -379,11 +394,6 @@ fn asset_hash(text: &str) -> Result<AssetHash, LibraryError> {
 
 fn checked(name: &str) -> Result<&str, LibraryError> {
     names::checked(name).map_err(LibraryError::BadName)
-}
-
-/// A panic elsewhere leaves whole values behind: each is replaced in one step.
-fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
-    mutex.lock().unwrap_or_else(std::sync::PoisonError::into_inner)
 }
 
 #[cfg(test)]

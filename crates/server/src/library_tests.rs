@@ -1,4 +1,9 @@
+use std::path::Path;
+
 use super::*;
+
+#[path = "library/state_tests.rs"]
+mod state_tests;
 
 const DOT: &[u8] =
     br##"{"lightbots":1,"name":"Dot","frames":[{"pixels":[{"id":0,"place":[0,0],"color":"#ffffff"}]}]}"##;
@@ -12,9 +17,7 @@ struct Temporary {
 impl Temporary {
     fn new(name: &str) -> Self {
         let folder = std::env::temp_dir().join(format!("lightbots-library-{}-{name}", std::process::id()));
-        let assets = AssetStore::new(folder.join("assets"));
-        let library =
-            Library { folder: folder.clone(), given: Arc::default(), writing: Arc::default(), assets };
+        let library = Library::without_examples(folder.clone());
         Self { library, folder }
     }
 }
@@ -36,7 +39,7 @@ fn what_is_saved_is_there() {
     );
     assert_eq!(library.get("My dot").unwrap().etag, entry.etag);
     assert_eq!(library.list(), [entry]);
-    library.delete("My dot", &Condition::Any).unwrap();
+    library.delete("My dot", &Condition::Any, None).unwrap();
     assert!(matches!(library.get("My dot"), Err(LibraryError::Missing(_))));
 }
 
@@ -51,7 +54,7 @@ fn nobody_overwrites_anybody_silently() {
     let late = library.put("a", DOT, &Condition::Is(first.etag.clone()));
     assert!(matches!(late, Err(LibraryError::Conflict(_))));
     assert!(matches!(library.put("a", DOT, &Condition::IsNew), Err(LibraryError::Conflict(_))));
-    assert!(matches!(library.delete("a", &Condition::Is(first.etag)), Err(LibraryError::Conflict(_))));
+    assert!(matches!(library.delete("a", &Condition::Is(first.etag), None), Err(LibraryError::Conflict(_))));
     assert_eq!(library.get("a").unwrap().show.name, "Spot");
 }
 
@@ -94,7 +97,7 @@ fn a_given_show_stays_as_it_is_and_saving_it_makes_copies() {
     let again = library.put("heart 2", DOT, &Condition::Is(first.etag)).unwrap();
     assert_eq!((again.name.as_str(), again.copy_of), ("heart 2", None));
     assert!(matches!(library.put("heart", DOT, &Condition::IsNew), Err(LibraryError::Conflict(_))));
-    let kept = library.delete("heart", &Condition::Any).unwrap_err();
+    let kept = library.delete("heart", &Condition::Any, None).unwrap_err();
     assert!(matches!(&kept, LibraryError::ReadOnly(line) if line.contains("example")), "{kept:?}");
     assert_eq!(library.get("heart").unwrap().show.name, "Given");
 }
@@ -113,7 +116,7 @@ fn a_file_of_an_older_version_keeps_the_name_of_an_example() {
     assert_eq!(library.get("heart (example 2)").unwrap().show.name, "Given");
     assert_eq!(library.put("heart (example 2)", DOT, &Condition::Any).unwrap().name, "heart 2");
     assert_eq!(library.put("heart", DOT, &Condition::Any).unwrap().name, "heart");
-    library.delete("heart", &Condition::Any).unwrap();
+    library.delete("heart", &Condition::Any, None).unwrap();
 }
 
 #[test]
@@ -128,7 +131,7 @@ fn the_file_of_the_command_line_hides_nothing_and_is_not_hidden() {
     let copy = library.put("heart", DOT, &Condition::Any).unwrap();
     assert_eq!((copy.name.as_str(), copy.copy_of), ("heart 2", Some(ShowOrigin::StartFile)));
     // The next start with the same file.
-    let next = Library { given: Arc::default(), ..library.clone() };
+    let next = Library { given: GivenShows::default(), ..library.clone() };
     assert_eq!(next.give("heart", ShowOrigin::StartFile, &titled("File"), None), "heart");
     assert_eq!(next.get("heart 2").unwrap().show.name, "Dot");
     next.put("mine", DOT, &Condition::Any).unwrap();
@@ -166,7 +169,7 @@ fn the_show_that_was_open_is_remembered_while_it_is_there() {
     library.remember("Mine");
     assert_eq!(library.remembered().as_deref(), Some("Mine"));
     assert_eq!(library.list().len(), 1);
-    library.delete("Mine", &Condition::Any).unwrap();
+    library.delete("Mine", &Condition::Any, None).unwrap();
     assert_eq!(library.remembered(), None);
     library.remember("../../etc/passwd");
     assert_eq!(library.remembered(), None);
@@ -200,7 +203,7 @@ fn a_show_with_unknown_fields_is_kept_byte_for_byte_and_never_replaced() {
     // A copy has the known fields only; the file itself can have another name, and can be deleted.
     assert_eq!(library.put("Copy", &kept.bytes, &Condition::IsNew).unwrap().read_only, None);
     let renamed = library.put("Later", &library.file("Future").unwrap().0, &Condition::IsNew).unwrap();
-    library.delete("Future", &Condition::Is(entry.etag)).unwrap();
+    library.delete("Future", &Condition::Is(entry.etag), None).unwrap();
     assert!(renamed.read_only.is_some() && library.get("Future").is_err());
     assert_eq!(library.file("Later").unwrap().0, of_the_future());
 }
@@ -246,7 +249,7 @@ fn files_of_an_archive_are_kept_once_and_outlive_saves_of_the_document() {
     let kept = library.get("Picture").unwrap();
     library.put("Picture", &kept.bytes, &Condition::Is(kept.etag)).unwrap();
     library.put("Copy", &kept.bytes, &Condition::IsNew).unwrap();
-    library.delete("Picture", &Condition::Any).unwrap();
+    library.delete("Picture", &Condition::Any, None).unwrap();
     assert_eq!(picture(library, "Copy"), Some(b"picture".to_vec()));
     let assets = temporary.folder.join("assets");
     assert_eq!(std::fs::read_dir(&assets).unwrap().count(), 1);
@@ -269,7 +272,7 @@ fn an_archive_that_lies_in_the_folder_is_a_show() {
     library.put("Mine", &kept.bytes, &Condition::Is(kept.etag)).unwrap();
     assert_eq!((file.exists(), library.file("Mine").unwrap().1), (false, &LIGHTBOTS));
     assert_eq!((names(library).len(), picture(library, "Mine")), (1, Some(b"picture".to_vec())));
-    library.delete("Mine", &Condition::Any).unwrap();
+    library.delete("Mine", &Condition::Any, None).unwrap();
     assert!(library.list().is_empty());
 }
 
@@ -297,7 +300,7 @@ fn the_files_of_a_start_file_go_with_its_copy() {
     let copy = library.put("mine", &kept.bytes, &Condition::Any).unwrap();
     // The next start without that file.
     let assets = AssetStore::new(temporary.folder.join("assets"));
-    let later = Library { given: Arc::default(), assets, ..library.clone() };
+    let later = Library { given: GivenShows::default(), assets, ..library.clone() };
     assert_eq!(picture(&later, &copy.name), Some(b"picture".to_vec()));
 }
 
@@ -346,7 +349,7 @@ fn files_that_no_show_names_go_after_a_month() {
             .set_modified(month_ago)
             .unwrap();
     }
-    library.prepare().unwrap();
+    library.tidy_up();
     let is_there = [used.to_string(), old, new].map(|name| assets.join(name).exists());
     assert_eq!(is_there, [true, false, true]);
 }

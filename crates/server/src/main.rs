@@ -7,6 +7,8 @@
 mod broker_settings;
 mod cli;
 mod commands;
+mod data_folder;
+mod disk;
 mod examples;
 mod failure;
 mod library;

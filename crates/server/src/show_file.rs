@@ -6,6 +6,7 @@ use lightbots_exchange::{Format, Loaded, MAX_BYTES, for_file, formats_in_words, 
 use lightbots_show::{Identity, Issue, Issues, Show, Stage, validate, with_floor};
 
 use crate::cli::ShowArguments;
+use crate::disk::read_bounded;
 use crate::failure::Failure;
 
 /// The code of the issue that `--floor` was given for a show that has a floor of its own.
@@ -48,7 +49,8 @@ pub fn bytes(path: &Path) -> Result<Vec<u8>, Failure> {
             "the file has {size:.0} MB, a show at most {limit:.0} MB: is it a show?"
         )));
     }
-    std::fs::read(path).map_err(|error| unreadable(format!("cannot be read: {error}")))
+    // A pipe has no length before it is read.
+    read_bounded(path, MAX_BYTES as u64).map_err(|error| unreadable(format!("cannot be read: {error}")))
 }
 
 /// The format that the ending of a file's name stands for.

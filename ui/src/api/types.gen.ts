@@ -648,6 +648,35 @@ copy_of: ShowOrigin | null, };
 export type ShowOrigin = "saved" | "example" | "start_file";
 
 /**
+ * A saved state of a show.
+ */
+export type ShowState = { 
+/**
+ * Number for `/api/shows/{name}/states/{number}`; null: the show as it is.
+ */
+number: number | null, 
+/**
+ * Time of the save, milliseconds since 1970; 0 for a read-only show.
+ */
+saved_ms: number, 
+/**
+ * Name that the author gave the show; may be empty.
+ */
+title: string, 
+/**
+ * Number of frames.
+ */
+frames: number, 
+/**
+ * Number of pixels of the largest frame.
+ */
+pixels: number, 
+/**
+ * Version of the file, with its quotes. Two states of one version hold the same.
+ */
+etag: string, };
+
+/**
  * The body of an HTTP answer that refuses a request.
  */
 export type Problem = { 

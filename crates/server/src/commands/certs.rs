@@ -15,8 +15,8 @@ use tokio_rustls::rustls::crypto::ring;
 use tokio_rustls::rustls::pki_types::pem::PemObject;
 use tokio_rustls::rustls::pki_types::{CertificateDer, ServerName, UnixTime};
 
-use crate::broker_settings::write_private;
 use crate::cli::CertsArguments;
+use crate::disk::{self, Readers};
 use crate::failure::{Failure, Outcome};
 use crate::say;
 
@@ -133,7 +133,7 @@ fn file_name(client: &str) -> Result<&str, Failure> {
 }
 
 fn save(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
-    write_private(path, bytes).map_err(|error| cannot_write(path, &error))
+    disk::replace(path, bytes, Readers::Owner).map_err(|error| cannot_write(path, &error))
 }
 
 fn cannot_write(path: &Path, error: &std::io::Error) -> Failure {

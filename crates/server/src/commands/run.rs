@@ -14,6 +14,7 @@ use tokio::task::JoinHandle;
 use super::{broker, count, robots};
 use crate::broker_settings::{Settings, other_broker};
 use crate::cli::RunArguments;
+use crate::data_folder::DataFolder;
 use crate::failure::{Failure, Outcome};
 use crate::library::{Library, name_of_file};
 use crate::live::broker::EmbeddedBroker;
@@ -64,9 +65,10 @@ async fn serve(arguments: &RunArguments, stop: &Stop, started: &mut Started) -> 
     let exposure = exposure(arguments)?;
     let mut options = broker::options(&arguments.mqtt, 0)?;
     let other = other_broker(&arguments.broker, &arguments.login)?;
-    let data = arguments.data.clone().unwrap_or_else(Library::default_folder);
+    let data = arguments.data.clone().unwrap_or_else(DataFolder::usual);
+    let folder = DataFolder::take(&data)?;
     let library = Library::new(data.clone());
-    library.prepare().map_err(Failure::problem)?;
+    library.tidy_up();
     let (name, show) = first_show(arguments, &library)?;
     for issue in validate(&show).iter().filter(|issue| issue.is_error()).take(ISSUES_SHOWN) {
         say::error(&issue.message);
@@ -74,6 +76,7 @@ async fn serve(arguments: &RunArguments, stop: &Stop, started: &mut Started) -> 
     open_files::raise_limit();
     let (listener, names) = web::listen(&exposure).await?;
     let address = listener.local_addr().unwrap_or(arguments.listen);
+    folder.tell_address(address);
     let count = arguments.robots.map(|robots| robots as usize);
     let robots = Cast::robots(count, &show);
     let embedded = if other.is_none() {

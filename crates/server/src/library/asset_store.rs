@@ -8,7 +8,7 @@ use std::time::{Duration, SystemTime};
 use lightbots_exchange::hash_of;
 use lightbots_show::{AssetHash, Show};
 
-use super::replace::replace_file;
+use crate::disk::{self, Readers};
 
 /// A file that no show names is deleted at a start after this time. Until then it can come back with a show whose
 /// deletion is undone, or with a draft in a browser.
@@ -50,7 +50,7 @@ impl AssetStore {
         if self.content(hash, content.len() as u64).is_some() {
             return Ok(());
         }
-        replace_file(&self.folder.join(hash.to_string()), content)
+        disk::replace(&self.folder.join(hash.to_string()), content, Readers::All)
     }
 
     /// Gives a show the files that it names and that are in the store. A damaged file counts as missing.
@@ -67,13 +67,18 @@ impl AssetStore {
         if about.len() != length {
             return None;
         }
-        std::fs::read(&path).ok().filter(|bytes| hash_of(bytes) == hash).map(Arc::from)
+        disk::read_regular(&path, length).ok().filter(|bytes| hash_of(bytes) == hash).map(Arc::from)
     }
 
     /// A file of that hash.
     pub fn get(&self, hash: AssetHash) -> Option<Arc<[u8]>> {
         let length = std::fs::metadata(self.folder.join(hash.to_string())).map(|about| about.len()).ok();
         length.and_then(|length| self.content(hash, length)).or_else(|| self.given_content(&hash))
+    }
+
+    /// Removes the drafts that a crash left.
+    pub fn remove_drafts(&self) {
+        disk::remove_drafts(&self.folder);
     }
 
     /// Whether there are files that are old enough to be deleted where no show names them.

@@ -45,6 +45,16 @@ pub enum Condition {
 }
 
 impl LibraryError {
+    /// There is no show of that name.
+    pub(super) fn missing(name: &str) -> Self {
+        Self::Missing(format!("there is no show \"{name}\" in the library"))
+    }
+
+    /// The disk does not give the file of a show.
+    pub(super) fn unreadable(name: &str, error: &std::io::Error) -> Self {
+        Self::Disk(format!("the show \"{name}\" cannot be read: {error}"))
+    }
+
     /// One line for people.
     pub fn line(&self) -> &str {
         match self {

@@ -8,7 +8,7 @@ use axum::extract::rejection::BytesRejection;
 use axum::extract::{ConnectInfo, Path, Query, State};
 use axum::http::{HeaderMap, StatusCode, header};
 use axum::response::{IntoResponse, Response};
-use lightbots_api::{Plan, Problem, ShowEntry};
+use lightbots_api::{Plan, Problem, ShowEntry, ShowState};
 use lightbots_exchange::{FORMATS, named, read};
 use lightbots_plan::Cancelled;
 use lightbots_show::validate;
@@ -16,7 +16,7 @@ use lightbots_show::validate;
 use super::Shared;
 use super::connection::Ends;
 use super::planner::CutOff;
-use crate::library::{Condition, LibraryError};
+use crate::library::{Condition, Kept, LibraryError};
 use crate::plan_document;
 
 /// An answer, or the refusal of the request.
@@ -96,13 +96,35 @@ pub async fn list(State(shared): State<Arc<Shared>>) -> Answer<Json<Vec<ShowEntr
 /// `GET /api/shows/{name}`
 pub async fn get(State(shared): State<Arc<Shared>>, Path(name): Path<String>) -> Answer<Response> {
     let library = shared.library.clone();
-    let kept = beside(move || library.get(&name)).await?.map_err(library_problem)?;
+    Ok(document(beside(move || library.get(&name)).await?.map_err(library_problem)?))
+}
+
+/// A show's document and its version.
+fn document(kept: Kept) -> Response {
     let about = [
         (header::CONTENT_TYPE, "application/json"),
         (header::ETAG, &kept.etag),
         (header::CACHE_CONTROL, "no-cache"),
     ];
-    Ok((about, kept.bytes).into_response())
+    (about, kept.bytes).into_response()
+}
+
+/// `GET /api/shows/{name}/states`
+pub async fn states(
+    State(shared): State<Arc<Shared>>,
+    Path(name): Path<String>,
+) -> Answer<Json<Vec<ShowState>>> {
+    let library = shared.library.clone();
+    beside(move || library.states(&name)).await?.map(Json).map_err(library_problem)
+}
+
+/// `GET /api/shows/{name}/states/{number}`
+pub async fn state(
+    State(shared): State<Arc<Shared>>,
+    Path((name, number)): Path<(String, u32)>,
+) -> Answer<Response> {
+    let library = shared.library.clone();
+    Ok(document(beside(move || library.state(&name, number)).await?.map_err(library_problem)?))
 }
 
 /// `GET /api/shows/{name}/file`
@@ -158,14 +180,24 @@ pub async fn put_asset(
     Ok(StatusCode::NO_CONTENT)
 }
 
-/// `DELETE /api/shows/{name}`
+/// The query of `delete`.
+#[derive(Debug, serde::Deserialize)]
+pub struct Renamed {
+    /// The show under its new name.
+    renamed_to: Option<String>,
+}
+
+/// `DELETE /api/shows/{name}?renamed_to=NAME`
 pub async fn delete(
     State(shared): State<Arc<Shared>>,
     Path(name): Path<String>,
+    Query(Renamed { renamed_to }): Query<Renamed>,
     headers: HeaderMap,
 ) -> Answer<StatusCode> {
     let (library, condition) = (shared.library.clone(), condition(&headers)?);
-    beside(move || library.delete(&name, &condition)).await?.map_err(library_problem)?;
+    beside(move || library.delete(&name, &condition, renamed_to.as_deref()))
+        .await?
+        .map_err(library_problem)?;
     Ok(StatusCode::NO_CONTENT)
 }
 

@@ -93,6 +93,8 @@ pub async fn serve(listener: TcpListener, shared: Arc<Shared>) {
         .route("/api/shows", get(api::list))
         .route("/api/shows/{name}", get(api::get).put(api::put).delete(api::delete))
         .route("/api/shows/{name}/file", get(api::file))
+        .route("/api/shows/{name}/states", get(api::states))
+        .route("/api/shows/{name}/states/{number}", get(api::state))
         .route("/api/assets/{hash}", get(api::asset).put(api::put_asset))
         .route("/api/check", post(api::check))
         .route("/api/convert", post(api::convert))

@@ -1,7 +1,7 @@
 //! The library over restarts of the program.
 
 use crate::screen::Screen;
-use crate::{alone, http, run, shows};
+use crate::{alone, child, http, run, shows};
 
 fn title(address: &str, name: &str) -> String {
     let got = http::request(address, "GET", &format!("/api/shows/{name}"), &[], "");
@@ -87,4 +87,45 @@ fn a_show_with_unknown_fields_opens_read_only_and_stays_as_it_is() {
     let copy = http::request(&address, "PUT", "/api/shows/copy", &[("If-None-Match", "*")], &shown.body);
     assert_eq!((copy.status, &copy.json()["read_only"]), (200, &serde_json::Value::Null));
     assert_eq!(std::fs::read_to_string(&file).unwrap(), future);
+}
+
+#[test]
+fn a_second_program_on_the_same_data_says_which_process_has_it() {
+    let data = shows::own_folder();
+    let data = data.to_str().unwrap();
+    let (mut server, address, _) = run::start(&["--robots", "0", "--data", data]);
+    let second = ["run", "--listen", "127.0.0.1:0", "--mqtt-listen", "127.0.0.1:0", "--data", data];
+    let (code, out, err) = child::run(&second);
+    assert_eq!((code, out.as_str(), err.lines().count()), (1, "", 1), "{err}");
+    let who = format!("process {} (http://{address})", server.id());
+    assert!(err.contains(&who) && err.contains("--data DIR"), "{err}");
+    assert_eq!(http::request(&address, "GET", "/api/shows", &[], "").status, 200);
+    server.kill();
+    let (_third, _, _) = run::start(&["--robots", "0", "--data", data]);
+}
+
+#[test]
+fn earlier_saves_are_listed_looked_at_and_restored_over_http() {
+    let (_server, address, _) = run::start(&["--robots", "0"]);
+    let ask = |method: &str, path: &str| http::request(&address, method, path, &[], "");
+    let body = shows::row(2, &[1.0]).replace("Rows", "v1");
+    assert_eq!(http::request(&address, "PUT", "/api/shows/mine", &[], &body).status, 200);
+    assert_eq!(save(&address, "mine", "v2"), "mine");
+    let states = ask("GET", "/api/shows/mine/states").json();
+    let (now, before) = (&states[0], &states[1]);
+    assert_eq!((&now["title"], &now["number"]), (&"v2".into(), &serde_json::Value::Null));
+    assert_eq!(
+        (&before["title"], &before["frames"], &before["pixels"]),
+        (&"v1".into(), &1.into(), &2.into())
+    );
+    assert!(before["saved_ms"].as_u64().unwrap() > 1_700_000_000_000);
+    let old = ask("GET", &format!("/api/shows/mine/states/{}", before["number"]));
+    assert_eq!(old.json()["name"], "v1");
+    let etag = now["etag"].as_str().unwrap();
+    let restored = http::request(&address, "PUT", "/api/shows/mine", &[("If-Match", etag)], &old.body);
+    assert_eq!((restored.status, title(&address, "mine").as_str()), (200, "v1"));
+    assert_eq!(ask("DELETE", "/api/shows/mine?renamed_to=..%2Fa").status, 400);
+    for (path, status) in [("mine/states/99", 404), ("mine/states/x", 400), ("no/states", 404)] {
+        assert_eq!(ask("GET", &format!("/api/shows/{path}")).status, status, "{path}");
+    }
 }

@@ -1,0 +1,199 @@
+//! Files that survive a crash and a full disk: a file is replaced whole or not at all, and what a call has done is on the
+//! disk when it returns.
+
+use std::fs::{self, File, OpenOptions};
+use std::io::{self, ErrorKind, Read, Write};
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicU64, Ordering};
+
+/// The ending of drafts: files that take the place of others once they are complete.
+const DRAFT: &str = ".saving";
+
+/// Who may read a file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Readers {
+    /// Every user that the system's mask admits.
+    All,
+    /// The user that runs this program.
+    Owner,
+}
+
+/// Makes a folder with the folders above it; those that were missing are on the disk afterwards.
+pub fn create_folder(folder: &Path) -> io::Result<()> {
+    if folder.as_os_str().is_empty() || folder.is_dir() {
+        return Ok(());
+    }
+    create_folder(folder_of(folder))?;
+    match fs::create_dir(folder) {
+        Err(error) if error.kind() == ErrorKind::AlreadyExists && folder.is_dir() => Ok(()),
+        Err(error) => Err(error),
+        Ok(()) => sync_folder(folder_of(folder)),
+    }
+}
+
+/// Writes a file, all or nothing, and makes its folder where that is missing. After a crash there is the old file or the
+/// new one; after a failure the old one, and no draft.
+pub fn replace(path: &Path, bytes: &[u8], readers: Readers) -> io::Result<()> {
+    create_folder(folder_of(path))?;
+    let draft = Draft::beside(path);
+    draft.write(bytes, readers)?;
+    fs::rename(&draft.0, path)?;
+    sync_folder(folder_of(path))
+}
+
+/// Gives a file another name in the same file system. A file of that name is replaced.
+pub fn rename(from: &Path, to: &Path) -> io::Result<()> {
+    fs::rename(from, to)?;
+    sync_folder(folder_of(to))?;
+    if folder_of(from) == folder_of(to) { Ok(()) } else { sync_folder(folder_of(from)) }
+}
+
+/// Removes a file that may not be there.
+pub fn remove(path: &Path) -> io::Result<()> {
+    match fs::remove_file(path) {
+        Ok(()) => sync_folder(folder_of(path)),
+        Err(error) if error.kind() == ErrorKind::NotFound => Ok(()),
+        Err(error) => Err(error),
+    }
+}
+
+/// The bytes of a regular file of at most `most` bytes. A pipe or a device is refused before it is opened, because it may
+/// wait for ever or never end.
+pub fn read_regular(path: &Path, most: u64) -> io::Result<Vec<u8>> {
+    if !fs::metadata(path)?.is_file() {
+        return Err(io::Error::new(ErrorKind::InvalidInput, "it is not a regular file"));
+    }
+    read_bounded(path, most)
+}
+
+/// The bytes of a file of any kind, of at most `most` bytes.
+pub fn read_bounded(path: &Path, most: u64) -> io::Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    File::open(path)?.take(most.saturating_add(1)).read_to_end(&mut bytes)?;
+    if bytes.len() as u64 > most {
+        let line = format!("it is longer than {:.0} MB", most as f64 / 1e6);
+        return Err(io::Error::new(ErrorKind::FileTooLarge, line));
+    }
+    Ok(bytes)
+}
+
+/// Removes the drafts that a crash left in a folder. No other program may be saving there.
+pub fn remove_drafts(folder: &Path) {
+    let Ok(files) = fs::read_dir(folder) else { return };
+    let is_draft = |file: &fs::DirEntry| file.file_name().to_string_lossy().ends_with(DRAFT);
+    for file in files.flatten().filter(is_draft) {
+        if let Err(error) = fs::remove_file(file.path()) {
+            tracing::debug!("the draft {} stays: {error}", file.path().display());
+        }
+    }
+}
+
+/// A file that is not complete. Dropped, it is removed; after it was renamed there is none.
+struct Draft(PathBuf);
+
+impl Draft {
+    /// The draft of a file, under a name that no other save of this program uses.
+    fn beside(path: &Path) -> Self {
+        static NUMBER: AtomicU64 = AtomicU64::new(0);
+        let number = NUMBER.fetch_add(1, Ordering::Relaxed);
+        let name = path.file_name().unwrap_or_default().to_string_lossy();
+        Self(folder_of(path).join(format!(".{name}.{number}{DRAFT}")))
+    }
+
+    fn write(&self, bytes: &[u8], readers: Readers) -> io::Result<()> {
+        // A draft that a crash left may have other rights.
+        let _ = fs::remove_file(&self.0);
+        let mut options = OpenOptions::new();
+        options.write(true).create_new(true);
+        #[cfg(unix)]
+        if readers == Readers::Owner {
+            std::os::unix::fs::OpenOptionsExt::mode(&mut options, 0o600);
+        }
+        #[cfg(not(unix))]
+        let _ = readers;
+        let mut file = options.open(&self.0)?;
+        file.write_all(bytes)?;
+        file.sync_all()
+    }
+}
+
+impl Drop for Draft {
+    fn drop(&mut self) {
+        // It is usually gone: renamed.
+        let _ = fs::remove_file(&self.0);
+    }
+}
+
+fn folder_of(path: &Path) -> &Path {
+    path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
+}
+
+/// Brings the names in a folder to the disk. Without it a crash may undo a rename whose file is on the disk.
+fn sync_folder(folder: &Path) -> io::Result<()> {
+    #[cfg(unix)]
+    File::open(folder)?.sync_all()?;
+    #[cfg(not(unix))]
+    let _ = folder;
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn folder(name: &str) -> PathBuf {
+        let folder = std::env::temp_dir().join(format!("lightbots-disk-{}-{name}", std::process::id()));
+        let _ = fs::remove_dir_all(&folder);
+        folder
+    }
+
+    fn names(folder: &Path) -> Vec<String> {
+        let files = fs::read_dir(folder).unwrap().flatten();
+        let mut names: Vec<_> = files.map(|file| file.file_name().to_string_lossy().into_owned()).collect();
+        names.sort();
+        names
+    }
+
+    #[test]
+    fn a_file_is_replaced_and_no_draft_is_left_of_it_or_of_a_crash() {
+        let folder = folder("replace");
+        let file = folder.join("below/a");
+        replace(&file, b"one", Readers::All).unwrap();
+        replace(&file, b"two", Readers::All).unwrap();
+        assert_eq!(read_regular(&file, 3).unwrap(), b"two");
+        fs::write(file.with_file_name(".b.7.saving"), b"half").unwrap();
+        fs::write(file.with_file_name(".b.saving"), b"of an older version").unwrap();
+        remove_drafts(file.parent().unwrap());
+        assert_eq!(names(file.parent().unwrap()), ["a"]);
+        remove(&file).unwrap();
+        remove(&file).unwrap();
+        fs::remove_dir_all(folder).unwrap();
+    }
+
+    #[test]
+    fn a_failed_save_leaves_the_old_file_and_no_draft() {
+        let folder = folder("failed");
+        // A folder with something in it cannot be replaced by a file.
+        let taken = folder.join("taken");
+        replace(&taken.join("inside"), b"one", Readers::All).unwrap();
+        assert!(replace(&taken, b"two", Readers::All).is_err());
+        assert_eq!((names(&folder), names(&taken)), (vec!["taken".into()], vec!["inside".into()]));
+        fs::remove_dir_all(folder).unwrap();
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn only_regular_files_of_bounded_length_are_read() {
+        let folder = folder("regular");
+        create_folder(&folder).unwrap();
+        let pipe = folder.join("pipe");
+        assert!(std::process::Command::new("mkfifo").arg(&pipe).status().unwrap().success());
+        let endless = folder.join("endless");
+        std::os::unix::fs::symlink("/dev/zero", &endless).unwrap();
+        for path in [&pipe, &endless, &folder] {
+            assert_eq!(read_regular(path, 10).unwrap_err().kind(), ErrorKind::InvalidInput, "{path:?}");
+        }
+        assert_eq!(read_bounded(&endless, 10).unwrap_err().kind(), ErrorKind::FileTooLarge);
+        fs::remove_dir_all(folder).unwrap();
+    }
+}

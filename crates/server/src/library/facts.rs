@@ -1,0 +1,124 @@
+//! What a list of shows says of a show. Files are read once, and again after they have changed.
+
+use std::collections::BTreeMap;
+use std::fs::Metadata;
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex};
+use std::time::{Duration, SystemTime};
+
+use lightbots_exchange::read;
+use lightbots_show::{Show, most_pixels};
+
+use super::lock::lock;
+use super::show_files;
+use super::version::etag;
+
+/// The most files whose facts are remembered: all shows that a library lists, and the states of 400 shows.
+const FILES_MAX: usize = 30_000;
+/// A file that was written this recently is read again: a second change may leave its time of change as it is, because
+/// some file systems count in steps of two seconds.
+const SETTLED_AFTER: Duration = Duration::from_secs(3);
+
+/// What a list says of a show.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ListFacts {
+    /// Name that the author gave the show; may be empty.
+    pub title: String,
+    /// Number of frames.
+    pub frames: usize,
+    /// Number of pixels of the largest frame.
+    pub pixels: usize,
+    /// Version of the file, in quotes.
+    pub etag: String,
+    /// Why the file holds more than the show.
+    pub unread: Option<String>,
+}
+
+impl ListFacts {
+    /// The facts of a file of any format, or why it is no show.
+    pub fn of(bytes: &[u8]) -> Result<Self, String> {
+        let loaded = read(bytes, None).map_err(|error| error.to_string())?;
+        Ok(Self { etag: etag(bytes), ..Self::of_show(&loaded.show, loaded.unread) })
+    }
+
+    /// The facts of a show without a file, and thus without a version.
+    pub fn of_show(show: &Show, unread: Option<String>) -> Self {
+        let (frames, pixels) = (show.frames.len(), most_pixels(show));
+        Self { title: show.name.clone(), frames, pixels, etag: String::new(), unread }
+    }
+}
+
+/// What tells whether a file has changed.
+#[derive(Clone, Debug, PartialEq)]
+struct Stamp {
+    bytes: u64,
+    modified: SystemTime,
+    /// On Unix the file's number and the time of its last change of any kind, seconds and nanoseconds: they tell a
+    /// file that was put in the place of another with the time of that.
+    identity: (u64, i64, i64),
+}
+
+impl Stamp {
+    fn of(about: &Metadata) -> Option<Self> {
+        #[cfg(unix)]
+        let identity = {
+            use std::os::unix::fs::MetadataExt;
+            (about.ino(), about.ctime(), about.ctime_nsec())
+        };
+        #[cfg(not(unix))]
+        let identity = (0, 0, 0);
+        Some(Self { bytes: about.len(), modified: about.modified().ok()?, identity })
+    }
+
+    fn is_settled(&self) -> bool {
+        SystemTime::now().duration_since(self.modified).is_ok_and(|age| age > SETTLED_AFTER)
+    }
+}
+
+/// ListFacts of files by path. Clones share them.
+#[derive(Clone, Debug, Default)]
+pub struct FileFacts(Arc<Mutex<BTreeMap<PathBuf, (Stamp, ListFacts)>>>);
+
+impl FileFacts {
+    /// The facts of a file, or why it is no show.
+    pub fn get(&self, file: &Path) -> Result<ListFacts, String> {
+        let before = std::fs::metadata(file).ok().and_then(|about| Stamp::of(&about));
+        if let Some((stamp, facts)) = lock(&self.0).get(file)
+            && before.as_ref() == Some(stamp)
+        {
+            return Ok(facts.clone());
+        }
+        let bytes = show_files::read(file).map_err(|error| error.to_string())?;
+        let facts = ListFacts::of(&bytes)?;
+        if let Some(stamp) = before.filter(Stamp::is_settled) {
+            let mut known = lock(&self.0);
+            if known.len() >= FILES_MAX {
+                known.clear();
+            }
+            known.insert(file.to_owned(), (stamp, facts.clone()));
+        }
+        Ok(facts)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_file_is_read_again_only_after_it_has_changed() {
+        let file = std::env::temp_dir().join(format!("lightbots-facts-{}.json", std::process::id()));
+        std::fs::write(&file, br#"{"lightbots":1,"name":"Dot","frames":[]}"#).unwrap();
+        let files = FileFacts::default();
+        assert_eq!(files.get(&file).unwrap().title, "Dot");
+        assert!(lock(&files.0).is_empty(), "a file that was written a moment ago may change unseen");
+        let hour_ago = SystemTime::now() - Duration::from_secs(3_600);
+        std::fs::File::options().append(true).open(&file).unwrap().set_modified(hour_ago).unwrap();
+        assert_eq!(files.get(&file).unwrap().title, "Dot");
+        lock(&files.0).get_mut(&file).unwrap().1.title = "remembered".into();
+        assert_eq!(files.get(&file).unwrap().title, "remembered");
+        std::fs::write(&file, br#"{"lightbots":1,"name":"Dog","frames":[]}"#).unwrap();
+        assert_eq!(files.get(&file).unwrap().title, "Dog");
+        std::fs::remove_file(file).unwrap();
+    }
+}

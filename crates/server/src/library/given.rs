@@ -1,0 +1,92 @@
+//! Read-only shows that are in no folder: the examples, and the file that the program was started with.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::{Arc, Mutex};
+
+use lightbots_api::ShowOrigin;
+use lightbots_exchange::LIGHTBOTS;
+use lightbots_show::Show;
+
+use super::facts::ListFacts;
+use super::lock::lock;
+use super::version::etag;
+
+/// A read-only show that is in no folder.
+#[derive(Clone, Debug)]
+pub struct Given {
+    /// What it is called where no file has that name, and what its copies are named after.
+    pub base: String,
+    /// Where it comes from.
+    pub origin: ShowOrigin,
+    /// Its document in our format.
+    pub bytes: Vec<u8>,
+    /// What lists say of it. `unread` is why its file holds more than the document.
+    pub facts: ListFacts,
+}
+
+impl Given {
+    /// A show that is called `base`. `unread`: why its file holds more than the show.
+    pub fn new(base: String, origin: ShowOrigin, show: &Show, unread: Option<String>) -> Self {
+        let bytes = LIGHTBOTS.write(show, None).bytes;
+        let facts = ListFacts { etag: etag(&bytes), ..ListFacts::of_show(show, unread) };
+        Self { base, origin, bytes, facts }
+    }
+}
+
+/// The shows by the name they are listed under. Clones share them.
+#[derive(Clone, Debug, Default)]
+pub struct GivenShows(Arc<Mutex<BTreeMap<String, Given>>>);
+
+impl GivenShows {
+    /// Names of the shows.
+    pub fn names(&self) -> Vec<String> {
+        lock(&self.0).keys().cloned().collect()
+    }
+
+    /// A show by the name it is listed under.
+    pub fn get(&self, name: &str) -> Option<Given> {
+        lock(&self.0).get(name).cloned()
+    }
+
+    /// Adds a show; answers the name it is listed under. The file of the command line takes its name from an example.
+    /// `saved`: names of the shows in the folder.
+    pub fn add(&self, show: Given, saved: &BTreeSet<String>) -> String {
+        let (base, origin) = (show.base.clone(), show.origin);
+        let mut given = lock(&self.0);
+        let displaces = given.get(&base).is_some_and(|other| other.origin < origin);
+        let listed = if displaces { base } else { listed_name(&base, origin, &given, saved) };
+        if let Some(moved) = given.insert(listed.clone(), show) {
+            let elsewhere = listed_name(&moved.base, moved.origin, &given, saved);
+            given.insert(elsewhere, moved);
+        }
+        listed
+    }
+
+    /// `base 2`, `base 3`…, the first that is free.
+    pub fn copy_name(&self, base: &str, saved: &BTreeSet<String>) -> String {
+        first_free((2..).map(|number| format!("{base} {number}")), &lock(&self.0), saved)
+    }
+}
+
+/// `base`, or where that is taken `base (example)`, `base (example 2)`…, or `base (file)` and so on.
+fn listed_name(
+    base: &str,
+    origin: ShowOrigin,
+    given: &BTreeMap<String, Given>,
+    saved: &BTreeSet<String>,
+) -> String {
+    let word = if origin == ShowOrigin::StartFile { "file" } else { "example" };
+    let others = (2..).map(|number| format!("{base} ({word} {number})"));
+    let names = [base.to_owned(), format!("{base} ({word})")].into_iter().chain(others);
+    first_free(names, given, saved)
+}
+
+/// The first of endless `names` that no show has, whatever the case of its letters.
+fn first_free(
+    mut names: impl Iterator<Item = String>,
+    given: &BTreeMap<String, Given>,
+    saved: &BTreeSet<String>,
+) -> String {
+    let taken: BTreeSet<String> = saved.iter().chain(given.keys()).map(|name| name.to_lowercase()).collect();
+    names.find(|name| !taken.contains(&name.to_lowercase())).unwrap_or_default()
+}
