@@ -1,4 +1,4 @@
-import type { BrokerSettings, FormatName, Plan, ShowEntry } from './types.gen';
+import type { BrokerSettings, FormatName, Plan, ShowEntry, ShowState } from './types.gen';
 
 /** Something the server refused, in its words. */
 export class Refused extends Error {
@@ -54,12 +54,25 @@ export async function putShow(
   return (await response.json()) as ShowEntry;
 }
 
-/** Deletes a show of the library, if it still has the version `etag`. */
-export const deleteShow = (name: string, etag: string | null) =>
-  request(showPath(name), {
-    method: 'DELETE',
-    headers: etag === null ? {} : { 'If-Match': etag },
-  });
+/**
+ * Deletes a show of the library, if it still has the version `etag`. `renamedTo`: the show under its new name, which gets
+ * the earlier states.
+ */
+export const deleteShow = (name: string, etag: string | null, renamedTo: string | null = null) =>
+  request(
+    showPath(name) + (renamedTo === null ? '' : `?renamed_to=${encodeURIComponent(renamedTo)}`),
+    { method: 'DELETE', headers: etag === null ? {} : { 'If-Match': etag } },
+  );
+
+/** The saved states of a show, the newest first; the first is the show as it is. */
+export const listStates = async (name: string) =>
+  (await (await request(`${showPath(name)}/states`)).json()) as ShowState[];
+
+/** The document of a saved state; `null`: of the show as it is. */
+export async function getState(name: string, number: number | null): Promise<unknown> {
+  const path = number === null ? '' : `/states/${number}`;
+  return (await request(`${showPath(name)}${path}`)).json();
+}
 
 /** What the form for the broker begins with. */
 export const getBroker = async () =>

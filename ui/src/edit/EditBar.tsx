@@ -16,6 +16,7 @@ import { goTo } from '../session/useHash';
 import { useEditing, useEditor } from './context';
 import { ExportMenu } from './ExportMenu';
 import { SaveMark } from './SaveMark';
+import { StatesButton } from './StatesButton';
 import page from '../parts/page.module.css';
 import styles from './EditBar.module.css';
 
@@ -78,6 +79,7 @@ export function EditBar() {
         {clockText(at)} / {clockText(total)}
       </span>
       <SaveMark />
+      <StatesButton />
       <ExportMenu />
       <Button
         size="xs"

@@ -22,12 +22,12 @@ export async function copyShow(from: string, wanted: string): Promise<string> {
   return name;
 }
 
-/** Renames a show with everything in its file; an open show stays open. */
+/** Renames a show with everything in its file and its saved states; an open show stays open. */
 export async function renameShow(session: Session, from: string, to: string) {
   const { etag } = await getShow(from);
   await putShow(to, await getFile(from), 'new');
   if (session.live.opened.get().name === from) await session.ask({ do: 'open', name: to });
-  await deleteShow(from, etag);
+  await deleteShow(from, etag, to);
 }
 
 /** Deletes a show, and offers to restore it. */

@@ -5,6 +5,7 @@ import { ACCEPTED, ENDINGS_IN_WORDS } from '../api/formats';
 import { listShows } from '../api/http';
 import type { ShowEntry } from '../api/types.gen';
 import { useStore } from '../base/store';
+import { StatesDialog } from '../parts/StatesDialog';
 import { createShowInLibrary } from '../session/createShow';
 import { attempt, copyShow, renameShow } from '../session/libraryActs';
 import { LibraryEntry } from './LibraryEntry';
@@ -21,6 +22,7 @@ export function LibraryDialog({ opened, onClose }: { opened: boolean; onClose: (
   const [entries, setEntries] = useState<ShowEntry[]>([]);
   const [wanted, setWanted] = useState('');
   const [naming, setNaming] = useState<{ entry: ShowEntry; purpose: 'copy' | 'rename' }>();
+  const [past, setPast] = useState<string>();
   const load = useCallback(
     () => void attempt(() => listShows().then((found) => setEntries(found))),
     [],
@@ -81,6 +83,7 @@ export function LibraryDialog({ opened, onClose }: { opened: boolean; onClose: (
             open={entry.name === open}
             onOpen={() => void choose(entry.name)}
             onName={(purpose) => setNaming({ entry, purpose })}
+            onStates={() => setPast(entry.name)}
             onChanged={load}
           />
         ))}
@@ -90,6 +93,9 @@ export function LibraryDialog({ opened, onClose }: { opened: boolean; onClose: (
           ? 'No show has that in its name.'
           : `You can also drop a file anywhere on the page (${ENDINGS_IN_WORDS}).`}
       </Text>
+      {past === undefined ? null : (
+        <StatesDialog name={past} onRestored={load} onClose={() => setPast(undefined)} />
+      )}
       {naming ? (
         <NameDialog
           title={naming.purpose === 'copy' ? `Save ${naming.entry.name} as` : 'Rename the show'}

@@ -1,11 +1,12 @@
 import { ActionIcon, Menu } from '@mantine/core';
 import { IconDots } from '@tabler/icons-react';
+import { getState } from '../api/http';
 import type { ShowEntry } from '../api/types.gen';
 import { countText } from '../base/numbers';
 import { ExportItems } from '../parts/ExportItems';
+import { ShowThumbnail } from '../parts/ShowThumbnail';
 import { downloadFromLibrary } from '../session/download';
 import { attempt, deleteWithUndo } from '../session/libraryActs';
-import { ShowThumbnail } from './ShowThumbnail';
 import styles from './Library.module.css';
 
 interface Props {
@@ -15,13 +16,15 @@ interface Props {
   onOpen: () => void;
   /** Asks for a new name, for a copy or for the show itself. */
   onName: (purpose: 'copy' | 'rename') => void;
+  /** Shows the saved states. */
+  onStates: () => void;
   onChanged: () => void;
 }
 
 const ORIGINS = { example: 'example', start_file: 'start file' } as const;
 
 /** A show of the library, and what can be done with it. */
-export function LibraryEntry({ entry, open, onOpen, onName, onChanged }: Props) {
+export function LibraryEntry({ entry, open, onOpen, onName, onStates, onChanged }: Props) {
   const { name } = entry;
   const subtitle =
     entry.title && entry.title.toLowerCase() !== name.toLowerCase() ? ` – ${entry.title}` : '';
@@ -32,7 +35,7 @@ export function LibraryEntry({ entry, open, onOpen, onName, onChanged }: Props) 
   return (
     <li>
       <button type="button" className={styles.entry} aria-current={open} onClick={onOpen}>
-        <ShowThumbnail entry={entry} />
+        <ShowThumbnail version={`${name} ${entry.etag}`} load={() => getState(name, null)} />
         <span className={styles.name}>
           {name}
           <span className="quiet">{subtitle}</span>
@@ -51,7 +54,10 @@ export function LibraryEntry({ entry, open, onOpen, onName, onChanged }: Props) 
         <Menu.Dropdown>
           <Menu.Item onClick={() => onName('copy')}>Save as…</Menu.Item>
           {entry.origin !== 'saved' ? null : (
-            <Menu.Item onClick={() => onName('rename')}>Rename…</Menu.Item>
+            <>
+              <Menu.Item onClick={() => onName('rename')}>Rename…</Menu.Item>
+              <Menu.Item onClick={onStates}>Earlier saves…</Menu.Item>
+            </>
           )}
           <Menu.Divider />
           <ExportItems

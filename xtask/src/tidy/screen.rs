@@ -13,7 +13,7 @@ const EDGES: [(&str, &[&str]); 10] = [
     ("make", &["base", "api", "model"]),
     ("stage", &["base", "api", "model"]),
     ("session", &["base", "api", "model"]),
-    ("parts", &["base", "api", "model", "session"]),
+    ("parts", &["base", "api", "model", "stage", "session"]),
     ("shell", &["base", "api", "model", "stage", "session", "parts"]),
     ("live", &["base", "api", "model", "stage", "session", "parts"]),
     ("edit", &["base", "api", "model", "make", "stage", "session", "parts"]),

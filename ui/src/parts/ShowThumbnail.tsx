@@ -1,44 +1,49 @@
 import { useEffect, useRef, useState } from 'react';
-import { getShow } from '../api/http';
-import type { ShowEntry } from '../api/types.gen';
 import { readShow } from '../model/json';
 import type { Frame, Stage } from '../model/show';
 import { Thumbnail } from '../stage/Thumbnail';
-import styles from './Library.module.css';
+import styles from './ShowThumbnail.module.css';
 
 interface Picture {
   frame: Frame;
   stage: Stage;
 }
 
-/** Pictures by name and version; bounded, because a picture takes a few hundred bytes per pixel. */
+interface Props {
+  /** Names the version of the show; the same version has the same picture. */
+  version: string;
+  /** Fetches the show's document. */
+  load: () => Promise<unknown>;
+}
+
+/** Pictures by version; bounded, because a picture takes a few hundred bytes per pixel. */
 const pictures = new Map<string, Picture>();
 const PICTURES_MAX = 100;
 
 /** The frame that represents a show: the middle one, because many shows begin and end in rows. */
-async function pictureOf(name: string): Promise<Picture | null> {
-  const show = readShow((await getShow(name)).document);
+async function pictureOf(load: () => Promise<unknown>): Promise<Picture | null> {
+  const show = readShow(await load());
   const frame = show.frames[Math.floor(show.frames.length / 2)];
   return frame ? { frame, stage: show.stage } : null;
 }
 
 /** Picture of a show, fetched when it scrolls into view. */
-export function ShowThumbnail({ entry }: { entry: ShowEntry }) {
-  const key = `${entry.name} ${entry.etag}`;
-  const [picture, setPicture] = useState(pictures.get(key) ?? null);
+export function ShowThumbnail({ version, load }: Props) {
+  const [picture, setPicture] = useState(pictures.get(version) ?? null);
+  const fetching = useRef(load);
   const place = useRef<HTMLSpanElement>(null);
   useEffect(() => {
     const element = place.current;
-    if (!element || pictures.has(key)) return;
+    if (!element || pictures.has(version)) return;
     let wanted = true;
     const observer = new IntersectionObserver((seen) => {
       if (!seen.some((s) => s.isIntersecting)) return;
       observer.disconnect();
-      pictureOf(entry.name).then(
+      pictureOf(fetching.current).then(
         (found) => {
           if (!found || !wanted) return;
           if (pictures.size >= PICTURES_MAX) pictures.clear();
-          pictures.set(key, found);
+          pictures.set(version, found);
           setPicture(found);
         },
         () => undefined,
@@ -49,7 +54,7 @@ export function ShowThumbnail({ entry }: { entry: ShowEntry }) {
       wanted = false;
       observer.disconnect();
     };
-  }, [key, entry.name]);
+  }, [version]);
   return (
     <span className={styles.picture} data-testid="entry-picture" ref={place}>
       {picture ? <Thumbnail frame={picture.frame} stage={picture.stage} /> : null}
