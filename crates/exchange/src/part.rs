@@ -29,6 +29,8 @@ pub enum Part {
     ChosenRobots,
     /// What frames were made from.
     Sources,
+    /// Which pixels are edited as one.
+    Groups,
     /// Light over time.
     Layers,
     /// Moments at which frames must begin.
@@ -51,7 +53,7 @@ pub enum Part {
 
 impl Part {
     /// Every part of a show that a document has: without files and plan.
-    pub(crate) const DOCUMENT: [Self; 18] = [
+    pub(crate) const DOCUMENT: [Self; 19] = [
         Self::Title,
         Self::FloorSize,
         Self::NoGoAreas,
@@ -63,6 +65,7 @@ impl Part {
         Self::Easing,
         Self::ChosenRobots,
         Self::Sources,
+        Self::Groups,
         Self::Layers,
         Self::AbsoluteTimes,
         Self::Marks,
@@ -73,8 +76,8 @@ impl Part {
     ];
 
     /// Every part of a show, without the plan.
-    pub const SHOW: [Self; 19] = {
-        let mut parts = [Self::AssetFiles; 19];
+    pub const SHOW: [Self; 20] = {
+        let mut parts = [Self::AssetFiles; 20];
         let (documents, _) = parts.split_at_mut(Self::DOCUMENT.len());
         documents.copy_from_slice(&Self::DOCUMENT);
         parts
@@ -99,6 +102,7 @@ impl Part {
             Self::Easing => "easing",
             Self::ChosenRobots => "chosen_robots",
             Self::Sources => "sources",
+            Self::Groups => "groups",
             Self::Layers => "layers",
             Self::AbsoluteTimes => "absolute_times",
             Self::Marks => "marks",
@@ -125,6 +129,7 @@ impl Part {
             Self::Easing => "how transitions speed up and slow down",
             Self::ChosenRobots => "which robot shows a pixel",
             Self::Sources => "what frames were made from",
+            Self::Groups => "which pixels are edited as one",
             Self::Layers => "the layers of light",
             Self::AbsoluteTimes => "the moments at which frames must begin",
             Self::Marks => "sections, markers and beats",
@@ -157,6 +162,7 @@ pub(crate) fn uses(part: Part, show: &Show, plan: Option<&ShowPlan>) -> bool {
             show.frames.iter().any(|frame| !frame.sources.is_empty())
                 || pixels.any(|pixel: &Pixel| pixel.part.is_some())
         }
+        Part::Groups => pixels.any(|pixel: &Pixel| pixel.group.is_some()),
         Part::Layers => !show.layers.is_empty(),
         Part::AbsoluteTimes => show.frames.iter().any(|frame| frame.at_s.is_some()),
         Part::Marks => show.beats.is_some() || !show.sections.is_empty() || !show.markers.is_empty(),
@@ -170,8 +176,9 @@ pub(crate) fn uses(part: Part, show: &Show, plan: Option<&ShowPlan>) -> bool {
 }
 
 /// The parts that version 2 of our format added.
-const VERSION_2: [Part; 8] = [
+const VERSION_2: [Part; 9] = [
     Part::Sources,
+    Part::Groups,
     Part::Layers,
     Part::AbsoluteTimes,
     Part::Marks,

@@ -14,7 +14,7 @@ fn rich() -> Show {
         at: Vec2::new(x, -0.1234),
         color: Rgb::new(id as u8, 165, 0),
         robot: (id == 2).then(|| "abfe6805".to_owned()),
-        part: None,
+        ..Pixel::default()
     };
     let frame = |name: &str, easing, identity: Option<Identity>| Frame {
         name: name.into(),

@@ -126,7 +126,7 @@ mod tests {
             at: Vec2::new(f64::from(id % 6), f64::from(id / 6)) * 0.2,
             color: Rgb::new(200, 100, 0),
             robot: (id == 5).then(|| "9".to_owned()),
-            part: None,
+            ..Pixel::default()
         };
         let drawn = Frame {
             name: "By hand".into(),

@@ -229,7 +229,7 @@ fn pixels(before: &Frame, moved: &[&Pixel], lights: &[PlacedLight], names: &[Str
         let name = names.get(light.part).cloned().unwrap_or_default();
         let part = Some(SourcePart { source: 0, name });
         let id = free.next().unwrap_or(u32::MAX);
-        pixels.push(Pixel { id, at: light.at, color: light.color, robot: None, part });
+        pixels.push(Pixel { id, at: light.at, color: light.color, robot: None, part, group: None });
     }
     pin(before, &taken, &mut pixels);
     pixels.sort_by_key(|pixel| pixel.id);

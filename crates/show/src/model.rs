@@ -127,6 +127,8 @@ pub struct Pixel {
     pub robot: Option<String>,
     /// The part of a source that the pixel belongs to; `None`: it was drawn by hand.
     pub part: Option<SourcePart>,
+    /// A word that pixels of the frame share which are edited as one; `None`: the pixel is in no group.
+    pub group: Option<String>,
 }
 
 impl Default for Stage {

@@ -207,7 +207,7 @@ fn frame(json: &mut Json<'_>, notes: &mut Notes) -> Result<Frame, ReadError> {
 
 fn pixel(json: &mut Json<'_>, notes: &mut Notes) -> Result<Pixel, ReadError> {
     let (mut id, mut at, mut color, mut robot) = (None, None, None, None);
-    let (mut source, mut part) = (None, None);
+    let (mut source, mut part, mut group) = (None, None, None);
     json.object(|json, key| {
         match key {
             "id" => id = Some(json.whole(key)?),
@@ -216,6 +216,7 @@ fn pixel(json: &mut Json<'_>, notes: &mut Notes) -> Result<Pixel, ReadError> {
             "robot" => robot = Some(json.text(key)?.into_owned()),
             "source" => source = Some(json.whole(key)?),
             "part" => part = Some(label(json, key)?),
+            "group" => group = Some(label(json, key)?),
             _ => notes.unknown(json, "pixel", key)?,
         }
         Ok(())
@@ -226,6 +227,7 @@ fn pixel(json: &mut Json<'_>, notes: &mut Notes) -> Result<Pixel, ReadError> {
         color: color.ok_or_else(|| missing(json, "the color"))?,
         robot,
         part: source_part(source, part),
+        group,
     })
 }
 

@@ -146,6 +146,9 @@ fn pixel(pixel: &Pixel) -> String {
             let _ = write!(line, ", \"part\": {}", quoted(&part.name));
         }
     }
+    if let Some(group) = &pixel.group {
+        let _ = write!(line, ", \"group\": {}", quoted(group));
+    }
     line + " }"
 }
 

@@ -54,5 +54,6 @@ pub fn with_every_part(show: Show) -> Show {
         ..FrameSource::new(SourceKind::Svg)
     }];
     frame.pixels[1].part = Some(SourcePart { source: 0, name: "eye".into() });
+    frame.pixels[1].group = Some("Face".into());
     show
 }

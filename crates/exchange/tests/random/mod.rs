@@ -128,6 +128,7 @@ impl Numbers {
             color: Rgb::new(255, 165, 0),
             part: numbers
                 .some(|numbers| SourcePart { source: numbers.below(3) as u32, name: numbers.text() }),
+            group: numbers.some(Self::text),
             ..Pixel::default()
         };
         Frame {
