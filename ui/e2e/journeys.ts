@@ -112,6 +112,14 @@ export const pixelsAre = (page: Page, wanted?: number) =>
     `there are ${wanted ?? 'some'} pixels`,
   );
 
+/** Waits until these pixels are chosen, by their order in the list. */
+export const chosenAre = (page: Page, wanted: number[]) =>
+  eventually(
+    async () => (await pixels(page)).flatMap((p, id) => (p.chosen ? [id] : [])),
+    (ids) => ids.join() === wanted.join(),
+    `pixels ${wanted.join()} are chosen`,
+  );
+
 /** CSS pixels a metre while the whole of a square floor is shown. */
 export const scaleOf = (box: { width: number; height: number }, side_m: number) =>
   Math.min(box.width - 68, box.height - 88) / side_m;
@@ -161,7 +169,7 @@ export interface StoredFrame {
   name: string;
   air_time_s: number;
   identity?: string;
-  pixels: { id: number; place: [number, number]; color: string; robot?: string }[];
+  pixels: { id: number; place: [number, number]; color: string; robot?: string; group?: string }[];
 }
 
 /** Presses Tab until the control of that name has the focus. */

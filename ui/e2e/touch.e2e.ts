@@ -1,7 +1,16 @@
 import type { CDPSession, Page } from 'playwright-core';
 import { expect, test } from 'vitest';
 import { eventually } from './harness';
-import { onScreen, pixels, pixelsAre, saved, smallShow, stored, uploadText } from './journeys';
+import {
+  chosenAre,
+  onScreen,
+  pixels,
+  pixelsAre,
+  saved,
+  smallShow,
+  stored,
+  uploadText,
+} from './journeys';
 import { createTestBed } from './testBed';
 
 type At = { x: number; y: number };
@@ -36,12 +45,6 @@ function fingers(client: CDPSession) {
 
 const chosen = async (page: Page) =>
   (await pixels(page)).flatMap((p, id) => (p.chosen ? [id] : []));
-const chosenAre = (page: Page, wanted: number[]) =>
-  eventually(
-    () => chosen(page),
-    (ids) => ids.join() === wanted.join(),
-    `pixels ${wanted.join()} are chosen`,
-  );
 
 test('a finger chooses and drags, held still it adds, two zoom and pan', async () => {
   const page = await bed.open('edit', TABLET);
@@ -58,6 +61,8 @@ test('a finger chooses and drags, held still it adds, two zoom and pan', async (
   await hand.down(sixth);
   await chosenAre(page, [0, 6]);
   await hand.up();
+  // Lifted where it rested, it also gets the menu of what is chosen.
+  await page.getByRole('menuitem', { name: 'Group' }).first().waitFor();
   await page.touchscreen.tap(sixth.x, sixth.y);
   await chosenAre(page, [6]);
 

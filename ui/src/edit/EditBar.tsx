@@ -14,6 +14,7 @@ import { startPlay } from '../session/start';
 import { useSession } from '../session/session';
 import { goTo } from '../session/useHash';
 import { useEditing, useEditor } from './context';
+import { HistoryMenu } from './HistoryMenu';
 import { ExportMenu } from './ExportMenu';
 import { SaveMark } from './SaveMark';
 import { StatesButton } from './StatesButton';
@@ -58,6 +59,7 @@ export function EditBar() {
         () => void editor.redo(),
         <IconArrowForwardUp size={19} />,
       )}
+      <HistoryMenu />
       {step(
         running ? 'Pause (Space)' : 'Preview (Space)',
         true,

@@ -5,6 +5,7 @@ import { useEditing } from './context';
 import type { StageOptions } from './editing';
 import { notify } from '../session/notices';
 import { openMaking } from './makes';
+import { openMenuByKey } from './menuEntries';
 
 /** Metres an arrow key moves: alone, with Shift, with Alt. */
 const STEPS = [
@@ -47,12 +48,18 @@ export function EditKeys() {
     ['mod+Enter', () => acts.addFrame(editing)],
     ['mod+Delete', () => acts.deleteFrames(editing)],
     ['mod+Backspace', () => acts.deleteFrames(editing)],
+    ['shift+PageUp', () => editor.goToFrame(frame() - 1, 'range')],
+    ['shift+PageDown', () => editor.goToFrame(frame() + 1, 'range')],
     ['PageUp', () => editor.goToFrame(frame() - 1)],
     ['PageDown', () => editor.goToFrame(frame() + 1)],
     ['alt+PageUp', () => acts.shiftFrames(editing, -1)],
     ['alt+PageDown', () => acts.shiftFrames(editing, 1)],
     [']', () => acts.selectNext(editing, 1)],
     ['[', () => acts.selectNext(editing, -1)],
+    ['mod+g', () => acts.group(editing)],
+    ['mod+shift+g', () => acts.ungroup(editing)],
+    ['ContextMenu', () => openMenuByKey(editing)],
+    ['shift+F10', () => openMenuByKey(editing)],
     ['t', () => openMaking(editing, 'text')],
     ['s', () => openMaking(editing, 'shape')],
     ['v', () => editing.tool.set('arrow')],
@@ -63,9 +70,11 @@ export function EditKeys() {
     ['n', () => toggle('ids')],
     ['h', () => toggle('ghosts')],
     ['w', () => toggle('routes')],
-    ['space', () => editing.preview.toggle()],
+    ['space', () => editing.space.press()],
     ['0', () => fitView(editing.view)],
-    ['+', () => zoomView(editing.view, 1.4)],
+    ['[plus]', () => zoomView(editing.view, 1.4)],
+    ['shift+[plus]', () => zoomView(editing.view, 1.4)],
+    ['=', () => zoomView(editing.view, 1.4)],
     ['-', () => zoomView(editing.view, 1 / 1.4)],
     ['F2', () => editing.renaming.set(frame())],
   ]);

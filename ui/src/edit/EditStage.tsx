@@ -7,6 +7,7 @@ import type { Editing } from './editing';
 import { PixelTwin } from './PixelTwin';
 import { editScene, withMade } from './scene';
 import { EmptyFrame } from './EmptyFrame';
+import { StageMenu } from './StageMenu';
 import { StageHint } from './StageHint';
 import { StageTools } from './StageTools';
 import { usePreview } from './usePreview';
@@ -48,6 +49,7 @@ export function EditStage() {
   const { hand, giveUp } = useHand(editing);
   const sceneAt = useMemo(() => rememberScene(editing), [editing]);
   const tool = useStore(editing.tool);
+  const isHeld = useStore(editing.space.held);
   const routes = useStore(editing.options, (options) => options.routes);
   const { full } = editing;
   useEffect(() => (routes ? full.follow() : undefined), [routes, full]);
@@ -64,9 +66,15 @@ export function EditStage() {
     ],
   ]);
   return (
-    <section className={styles.stage} aria-label="The floor" data-tool={tool} data-testid="stage">
-      <StageCanvas view={editing.view} sceneAt={sceneAt} dragPans={false} hand={hand} />
+    <section
+      className={styles.stage}
+      aria-label="The floor"
+      data-tool={isHeld ? 'hand' : tool}
+      data-testid="stage"
+    >
+      <StageCanvas view={editing.view} sceneAt={sceneAt} pans={editing.space} hand={hand} />
       <StageTools />
+      <StageMenu />
       <StageHint />
       <EmptyFrame />
       <PixelTwin />

@@ -38,7 +38,7 @@ export function EditStrip() {
   ) => {
     editing.preview.stop();
     const add = event.ctrlKey || event.metaKey;
-    editing.editor.goToFrame(index, event.shiftKey ? 'range' : add ? 'add' : 'only');
+    editing.editor.goToFrame(index, event.shiftKey ? 'range' : add ? 'toggle' : 'only');
   };
   const drop = useCallback(
     (to: number) => {

@@ -2,9 +2,26 @@ import { Button, Checkbox, Group, SegmentedControl, Stack, Text, TextInput } fro
 import { useStore } from '../base/store';
 import { secondsText } from '../base/time';
 import { NumberField } from '../parts/NumberField';
+import type { Frame } from '../model/show';
 import { useSession } from '../session/session';
 import * as acts from './acts';
 import { useEditing, useEditor } from './context';
+
+/** Said under a field whose value is not the same in all chosen frames. */
+const DIFFERENT = 'different in these frames';
+
+/** The chosen frames in playing order. */
+function useChosenFrames(): readonly Frame[] {
+  const frames = useEditor((s) => s.show.frames);
+  const chosen = useEditor((s) => s.frames);
+  return frames.filter((_, i) => chosen.has(i));
+}
+
+/** The value that all frames share; undefined: they have different ones. */
+function shared<T>(frames: readonly Frame[], of: (frame: Frame) => T): T | undefined {
+  const [first, ...others] = frames.map(of);
+  return others.every((value) => value === first) ? first : undefined;
+}
 
 /** Name, air time and drive of the chosen frames. */
 export function FrameSection() {
@@ -12,11 +29,14 @@ export function FrameSection() {
   const { live } = useSession();
   const index = useEditor((s) => s.frame);
   const frame = useEditor((s) => s.show.frames[s.frame]);
-  const count = useEditor((s) => s.frames.size);
+  const chosen = useChosenFrames();
+  const count = chosen.length;
   const plan = useStore(live.settled, (p) => p?.transitions[index]);
   if (!frame) return null;
   const least = plan?.least_s;
-  const fast = frame.transition_s === null;
+  const air_s = shared(chosen, (f) => f.airTime_s);
+  const travel_s = shared(chosen, (f) => f.transition_s);
+  const fast = travel_s === null;
   return (
     <Stack gap="sm" component="section" aria-label="Frame">
       <Text size="sm" fw={600}>
@@ -30,17 +50,19 @@ export function FrameSection() {
           Move later
         </Button>
       </Group>
-      <TextInput
-        key={`${frame.key} ${frame.name}`}
-        label="Name"
-        size="xs"
-        defaultValue={frame.name}
-        maxLength={80}
-        onBlur={(event) => acts.setFrames(editing, { name: event.currentTarget.value.trim() })}
-        onKeyDown={(event) => {
-          if (event.key === 'Enter') event.currentTarget.blur();
-        }}
-      />
+      {count === 1 ? (
+        <TextInput
+          key={`${frame.key} ${frame.name}`}
+          label="Name"
+          size="xs"
+          defaultValue={frame.name}
+          maxLength={80}
+          onBlur={(event) => acts.setFrames(editing, { name: event.currentTarget.value.trim() })}
+          onKeyDown={(event) => {
+            if (event.key === 'Enter') event.currentTarget.blur();
+          }}
+        />
+      ) : null}
       <NumberField
         label="Air time (s)"
         unit=" s"
@@ -48,13 +70,15 @@ export function FrameSection() {
         max={3600}
         step={0.5}
         digits={2}
-        value={frame.airTime_s}
+        description={air_s === undefined ? DIFFERENT : undefined}
+        value={air_s ?? null}
         onChange={(airTime_s) => acts.setFrames(editing, { airTime_s })}
       />
       <Checkbox
         label="As fast as is safe"
         size="sm"
         checked={fast}
+        indeterminate={travel_s === undefined}
         onChange={(event) =>
           acts.setFrames(editing, {
             transition_s: event.currentTarget.checked ? null : Math.ceil((least ?? 4) * 2) / 2,
@@ -63,21 +87,27 @@ export function FrameSection() {
       />
       <NumberField
         label="Travel time (s)"
-        description={least === undefined ? undefined : `at least ${secondsText(least)}`}
+        description={
+          travel_s === undefined
+            ? DIFFERENT
+            : least === undefined
+              ? undefined
+              : `at least ${secondsText(least)}`
+        }
         unit=" s"
         min={0.1}
         max={3600}
         step={0.5}
         digits={2}
         disabled={fast}
-        value={frame.transition_s ?? plan?.duration_s ?? null}
+        value={travel_s === null ? (plan?.duration_s ?? null) : (travel_s ?? null)}
         onChange={(transition_s) => acts.setFrames(editing, { transition_s })}
       />
       <Text size="xs">Motion</Text>
       <SegmentedControl
         aria-label="Motion"
         size="xs"
-        value={frame.easing}
+        value={shared(chosen, (f) => f.easing) ?? ''}
         onChange={(value) => acts.setFrames(editing, { easing: value as 'swift' | 'gentle' })}
         data={[
           { value: 'swift', label: 'Fast' },
@@ -89,7 +119,7 @@ export function FrameSection() {
         aria-label="Robot assignment"
         size="xs"
         orientation="vertical"
-        value={frame.identity ?? 'show'}
+        value={shared(chosen, (f) => f.identity ?? 'show') ?? ''}
         onChange={(value) =>
           acts.setFrames(editing, { identity: value === 'any' || value === 'fixed' ? value : null })
         }

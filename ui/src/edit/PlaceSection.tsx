@@ -2,6 +2,8 @@ import { Button, Group, Stack, Text } from '@mantine/core';
 import { useMemo } from 'react';
 import { boxOf, centreOf } from '../base/geometry';
 import { LengthInput } from '../parts/LengthInput';
+import { groupOf, groupsOf } from '../model/groups';
+import type { Pixel } from '../model/show';
 import * as acts from './acts';
 import { useEditing, useEditor } from './context';
 import { PinField } from './PinField';
@@ -32,11 +34,7 @@ export function PlaceSection() {
   return (
     <Stack gap="xs" component="section" aria-label="Choice and place">
       <Text size="sm" fw={600} role="status" data-testid="chosen">
-        {only
-          ? `Pixel ${only.id}`
-          : chosen.length === 0
-            ? 'Nothing selected – changes apply to the whole frame'
-            : `${chosen.length} pixels`}
+        {chosenWords(chosen, state.frames.size)}
       </Text>
       <Group gap={0}>
         {link('All', () => acts.selectAll(editing))}
@@ -45,6 +43,10 @@ export function PlaceSection() {
         {link('Same colour', () => acts.selectSameColour(editing))}
         {link('Copy', () => void editing.editor.copy())}
         {link('Paste', () => void editing.editor.paste())}
+        {chosen.length > 1 && groupOf(chosen) === null
+          ? link('Group', () => acts.group(editing))
+          : null}
+        {groupsOf(chosen).length > 0 ? link('Ungroup', () => acts.ungroup(editing)) : null}
       </Group>
       <Group grow gap="xs">
         {field('x')}
@@ -53,4 +55,16 @@ export function PlaceSection() {
       {only ? <PinField pixel={only} /> : null}
     </Stack>
   );
+}
+
+/** What is selected, and what a change of colour applies to. */
+function chosenWords(chosen: readonly Pixel[], frames: number): string {
+  const [only] = chosen;
+  if (!only)
+    return frames > 1
+      ? `Nothing selected – colours apply to ${frames} frames`
+      : 'Nothing selected – changes apply to the whole frame';
+  const group = groupOf(chosen);
+  const words = chosen.length === 1 ? `Pixel ${only.id}` : `${chosen.length} pixels`;
+  return `${group === null ? words : `${group} · ${words}`}${frames > 1 ? ` · ${frames} frames` : ''}`;
 }

@@ -2,6 +2,7 @@ import {
   IconBarrierBlock,
   IconColorPicker,
   IconGhost2,
+  IconHandStop,
   IconLasso,
   IconMagnet,
   IconNumber123,
@@ -16,6 +17,7 @@ import styles from '../stage/stage.module.css';
 
 const TOOLS = [
   ['arrow', 'Select (V)', IconPointer],
+  ['hand', 'Move the view (hold Space and drag)', IconHandStop],
   ['lasso', 'Lasso (Q)', IconLasso],
   ['eyedropper', 'Eyedropper (I)', IconColorPicker],
   ['area', 'No-go area (O): drag to draw or move, Alt for a circle', IconBarrierBlock],

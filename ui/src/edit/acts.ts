@@ -2,6 +2,7 @@ import { type Point, boxOf, centreOf, inBox } from '../base/geometry';
 import type { Rgb } from '../base/colour';
 import * as arrange from '../model/arrange';
 import * as commands from '../model/commands';
+import * as groups from '../model/groups';
 import { tooClose_m, type Pixel, type Show, type Stage } from '../model/show';
 import { keepColour, type Editing } from './editing';
 
@@ -75,14 +76,36 @@ export const moveTo = (e: Editing, axis: 'x' | 'y', value: number) =>
 /** Colours the selection, or all pixels; the colour becomes the current one. */
 export function paint(e: Editing, color: Rgb) {
   keepColour(e, color);
-  const colors = new Map(subject(e).map((p) => [p.id, color]));
-  e.editor.change('Colour', (show, s) => commands.recolour(show, s.frame, colors));
+  recolour(e, 'Colour', (pixels) => new Map(pixels.map((p) => [p.id, color])));
 }
 
 export function paintGradient(e: Editing, from: Rgb, to: Rgb) {
-  const colors = commands.gradient(subject(e), from, to);
-  e.editor.change('Gradient', (show, s) => commands.recolour(show, s.frame, colors));
+  recolour(e, 'Gradient', (pixels) => commands.gradient(pixels, from, to));
 }
+
+/** Colours the selection, or all pixels when nothing is selected, in every chosen frame. */
+function recolour(
+  e: Editing,
+  label: string,
+  colorsOf: (pixels: readonly Pixel[]) => Map<number, Rgb>,
+) {
+  const { selection } = e.editor.state.get();
+  const isAll = e.editor.chosenPixels().length === 0;
+  const change = (show: Show, index: number) => {
+    const pixels = show.frames[index]?.pixels ?? [];
+    const meant = isAll ? pixels : pixels.filter((p) => selection.has(p.id));
+    return commands.recolour(show, index, colorsOf(meant));
+  };
+  e.editor.change(label, (show) => chosenFrames(e).reduce(change, show));
+}
+
+/** Makes the selection one group. */
+export const group = (e: Editing) =>
+  e.editor.change('Group', (show, s) => groups.groupPixels(show, s.frame, s.selection));
+
+/** Dissolves the groups of the selection. */
+export const ungroup = (e: Editing) =>
+  e.editor.change('Ungroup', (show, s) => groups.ungroupPixels(show, s.frame, s.selection));
 
 const chosenFrames = (e: Editing) => [...e.editor.state.get().frames].sort((a, b) => a - b);
 

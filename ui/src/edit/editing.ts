@@ -13,6 +13,8 @@ import type { Session } from '../session/session';
 import { createView, type View } from '../stage/view';
 import { followCopy } from '../session/copies';
 import { createSaving, draftOf, restoreDraft, type Saving } from './saving';
+import { createSpaceHold, type SpaceHold } from './spaceHold';
+import type { MenuAt } from './menuAt';
 import { watchLeaving } from './watchLeaving';
 
 /** A file that this screen took to make a frame from. */
@@ -24,7 +26,7 @@ export interface TakenFile {
   bytes: Uint8Array<ArrayBuffer>;
 }
 
-export type ToolName = 'arrow' | 'lasso' | 'eyedropper' | 'area';
+export type ToolName = 'arrow' | 'hand' | 'lasso' | 'eyedropper' | 'area';
 
 /** View options of this screen: what the stage shows and snaps to. */
 export interface StageOptions {
@@ -56,6 +58,10 @@ export interface Editing {
   making: Store<Making | null>;
   /** Files that this screen took, by hash; they reach the server when a frame uses them. */
   files: Map<string, TakenFile>;
+  /** The space key on the stage. */
+  space: SpaceHold;
+  /** The menu that is open on the stage; null: none. */
+  menu: Store<MenuAt | null>;
   /** The frame that is being renamed in the strip; null: none. */
   renaming: Store<number | null>;
   /** Saves unsaved changes and stops following the server, because another show is edited from now on. */
@@ -91,6 +97,8 @@ export function createEditing(
     if (first) color.set(first.color);
   });
   let stop = () => {};
+  const preview = createPreview(editor);
+  const tool = createStore<ToolName>('arrow');
   const editing: Editing = {
     name,
     editor,
@@ -98,14 +106,16 @@ export function createEditing(
     keeper,
     full: createFullPlan(session.live),
     view: createView(),
-    tool: createStore<ToolName>('arrow'),
+    tool,
     options: createStore<StageOptions>({ snap: true, ids: false, ghosts: true, routes: false }),
     recent: createStore<readonly Rgb[]>([]),
     color,
-    preview: createPreview(editor),
+    preview,
     maker,
     making: createStore<Making | null>(null),
     files: new Map(),
+    space: createSpaceHold(() => tool.get() === 'hand', preview.toggle),
+    menu: createStore<MenuAt | null>(null),
     renaming: createStore<number | null>(null),
     retire() {
       saver.flush();

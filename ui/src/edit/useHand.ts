@@ -14,18 +14,28 @@ import type { Hand } from '../stage/pointer';
 import * as acts from './acts';
 import { keepColour, type Editing } from './editing';
 import { handleAt } from './overlay';
+import { openMenu } from './menuEntries';
 
 /** How far a mouse and a finger may miss, CSS pixels. */
 const REACH_PX = { mouse: 9, pen: 12, touch: 20 } as const;
 
-const reachOf = (event: PointerEvent) =>
-  REACH_PX[event.pointerType as keyof typeof REACH_PX] ?? REACH_PX.mouse;
+const reachOf = (event: MouseEvent) =>
+  REACH_PX[(event as PointerEvent).pointerType as keyof typeof REACH_PX] ?? REACH_PX.mouse;
 
 /** The grid that is snapped to: a fifth of what is drawn, but no finer than a centimetre. */
 const snapStep = (scale: number) => Math.max(0.01, gridStep(scale) / 10);
 
+/** A second press within this time and distance is a double click, milliseconds and CSS pixels. */
+const AGAIN_MS = 400;
+const AGAIN_PX = 10;
+
+/** The hand moves the view, which is not a matter of tools. */
+const IDLE: Tool = { down() {}, move() {}, up() {}, cancel: () => false };
+
 function createTool(editing: Editing): Tool {
   switch (editing.tool.get()) {
+    case 'hand':
+      return IDLE;
     case 'lasso':
       return createLassoTool();
     case 'eyedropper':
@@ -60,7 +70,8 @@ function lead(editing: Editing): { hand: Hand; giveUp: () => boolean } {
   const { editor, view } = editing;
   const chosen = createTool(editing);
   let active: Tool | null = null;
-  const touch = (at: Point, event: PointerEvent, adds = false): Touch => {
+  const presses = createPresses();
+  const touch = (at: Point, event: MouseEvent, adds = false): Touch => {
     const { camera } = view.get();
     return {
       at: stageFromCanvas(camera, at),
@@ -68,6 +79,7 @@ function lead(editing: Editing): { hand: Hand; giveUp: () => boolean } {
       shift: event.shiftKey || adds,
       alt: event.altKey,
       ctrl: event.ctrlKey || event.metaKey,
+      again: presses.isAgain(),
     };
   };
   /** A finger that means a pixel is not given the handle beside it. */
@@ -95,6 +107,7 @@ function lead(editing: Editing): { hand: Hand; giveUp: () => boolean } {
         editing.preview.stop();
         const handle = editing.tool.get() === 'area' ? null : handleUnder(at, event);
         active = handle ? createTransformTool(handle) : chosen;
+        presses.press(at, event.timeStamp);
         active.down(editor, touch(at, event, adds));
       },
       move: (at, event) => active?.move(editor, touch(at, event)),
@@ -103,6 +116,26 @@ function lead(editing: Editing): { hand: Hand; giveUp: () => boolean } {
         active = null;
       },
       lost: () => void giveUp(),
+      menu(at, event) {
+        giveUp();
+        if (editing.making.get()) return;
+        editing.preview.stop();
+        openMenu(editing, at, touch(at, event));
+      },
+    },
+  };
+}
+
+/** Tells the second and further presses of a double click from the first. */
+function createPresses() {
+  let last = { at: { x: 0, y: 0 }, ms: -Infinity };
+  let again = false;
+  return {
+    isAgain: () => again,
+    press(at: Point, ms: number) {
+      const isNear = Math.hypot(at.x - last.at.x, at.y - last.at.y) < AGAIN_PX;
+      again = isNear && ms - last.ms < AGAIN_MS;
+      last = { at, ms };
     },
   };
 }

@@ -4,6 +4,7 @@ import { useKeys } from '../parts/useKeys';
 import { useCallback, useEffect, useMemo, useState } from 'react';
 import { useStore } from '../base/store';
 import { useSession } from '../session/session';
+import { ALWAYS } from '../stage/pans';
 import { StageCanvas } from '../stage/StageCanvas';
 import { createView } from '../stage/view';
 import { fitView, StageTool, zoomView, ZoomTools } from '../stage/ViewTools';
@@ -47,7 +48,7 @@ export function LiveStage() {
   );
   return (
     <section className={styles.stage} aria-label="The floor">
-      <StageCanvas view={view} sceneAt={sceneAt} dragPans />
+      <StageCanvas view={view} sceneAt={sceneAt} pans={ALWAYS} />
       <div className={styles.legend} aria-hidden>
         <span>
           <i /> measured

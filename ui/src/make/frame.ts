@@ -44,4 +44,5 @@ export const pixelsOf = (answer: MakeAnswer): Pixel[] =>
     color: fromHex(made.color) ?? 0xffffff,
     robot: made.robot,
     part: made.part === null ? null : { source: 0, name: made.part },
+    group: null,
   }));

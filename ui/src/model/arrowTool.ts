@@ -2,6 +2,7 @@ import { NO_OVERLAY } from './editorState';
 import { type Point, boxBetween, inBox } from '../base/geometry';
 import { placePixels } from './commands';
 import { type Editor } from './editor';
+import { wholeGroups } from './groups';
 import { snap } from './snap';
 import { pixelAt, type Tool, type Touch } from './tool';
 
@@ -26,6 +27,10 @@ type Phase =
     }
   | { name: 'marquee'; from: Point; before: ReadonlySet<number> };
 
+/** The pixels that a click on one of them means: its whole group, but with Alt or a double click it alone. */
+const meant = (editor: Editor, hit: number, { alt, again }: Touch): Iterable<number> =>
+  alt || again ? [hit] : wholeGroups(editor.current(), [hit]);
+
 /** Selects by click and marquee, and drags the selection. */
 export function createArrowTool(options: ArrowOptions): Tool {
   let phase: Phase = { name: 'idle' };
@@ -40,8 +45,9 @@ export function createArrowTool(options: ArrowOptions): Tool {
       return;
     }
     const wasChosen = selection.has(hit);
-    if (touch.shift && !wasChosen) editor.select([...selection, hit]);
-    else if (!wasChosen) editor.select([hit]);
+    const ids = meant(editor, hit, touch);
+    if (touch.shift && !wasChosen) editor.select([...selection, ...ids]);
+    else if (!wasChosen) editor.select(ids);
     phase = { name: 'pressed', from: touch.at, hit, wasChosen };
   };
 
@@ -93,7 +99,9 @@ export function createArrowTool(options: ArrowOptions): Tool {
       if (phase.name === 'marquee') {
         const box = boxBetween(phase.from, touch.at);
         const inside = editor.current()?.pixels.filter((p) => inBox(p, box)) ?? [];
-        editor.select([...phase.before, ...inside.map((p) => p.id)]);
+        const ids = inside.map((p) => p.id);
+        const all = touch.alt ? ids : wholeGroups(editor.current(), ids);
+        editor.select([...phase.before, ...all]);
         const { from } = phase;
         const corners = [
           from,
@@ -110,7 +118,8 @@ export function createArrowTool(options: ArrowOptions): Tool {
       else if (phase.name === 'pressed' && phase.wasChosen) {
         const { hit } = phase;
         const { selection } = editor.state.get();
-        editor.select(touch.shift ? [...selection].filter((id) => id !== hit) : [hit]);
+        const ids = new Set(meant(editor, hit, touch));
+        editor.select(touch.shift ? [...selection].filter((id) => !ids.has(id)) : ids);
       }
       phase = { name: 'idle' };
     },

@@ -59,6 +59,7 @@ test('marks: too close, off the floor, on an obstacle', () => {
     color: 0,
     robot: null,
     part: null,
+    group: null,
   });
   const pixels = [pixel(0, 0, 0), pixel(1, 0.05, 0), pixel(2, 1.49, 0), pixel(3, 0.5, 0.5)];
   const obstacles = [{ kind: 'rect' as const, minX: 0.4, minY: 0.4, maxX: 0.6, maxY: 0.6 }];

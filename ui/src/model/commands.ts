@@ -50,11 +50,23 @@ export function makeFrame(
   assets: Readonly<Record<string, unknown>>,
 ): Show {
   const frames = show.frames.map((frame) =>
-    frame.key === key ? { ...frame, sources: [made.source], pixels: made.pixels } : frame,
+    frame.key === key
+      ? { ...frame, sources: [made.source], pixels: keepGroups(frame, made) }
+      : frame,
   );
   if (Object.keys(assets).length === 0) return { ...show, frames };
   const known = show.rest.assets as Readonly<Record<string, unknown>> | undefined;
   return { ...show, frames, rest: { ...show.rest, assets: { ...known, ...assets } } };
+}
+
+/** The made pixels; those that were moved by hand stay in their groups, the others are new. */
+function keepGroups(
+  frame: Frame,
+  { source, pixels }: { source: FrameSource; pixels: readonly Pixel[] },
+): readonly Pixel[] {
+  const groups = new Map(frame.pixels.map((p) => [p.id, p.group]));
+  const kept = new Set(source.moved);
+  return pixels.map((p) => (kept.has(p.id) ? { ...p, group: groups.get(p.id) ?? null } : p));
 }
 
 export const recolour = (show: Show, index: number, colors: ReadonlyMap<number, Rgb>): Show =>
@@ -178,7 +190,7 @@ export function setFleetSize(show: Show, count: number, color: Rgb): Show {
     for (let id = 0; pixels.length < count; id++) {
       if (taken.has(id)) continue;
       const place = places[pixels.length - frame.pixels.length] ?? { x: 0, y: 0 };
-      pixels.push({ id, x: place.x, y: place.y, color, robot: null, part: null });
+      pixels.push({ id, x: place.x, y: place.y, color, robot: null, part: null, group: null });
     }
     return { ...frame, pixels: pixels.sort((a, b) => a.id - b.id) };
   });

@@ -24,6 +24,7 @@ function hand(
     shift: false,
     alt: false,
     ctrl: false,
+    again: false,
     ...over,
   });
   return {
@@ -164,13 +165,19 @@ test('several frames are chosen at once', () => {
   editor.goToFrame(1);
   editor.goToFrame(3, 'range');
   expect([...editor.state.get().frames]).toEqual([1, 2, 3]);
-  editor.goToFrame(0, 'add');
+  editor.goToFrame(2, 'range');
+  expect([...editor.state.get().frames]).toEqual([1, 2]);
+  editor.goToFrame(3, 'range');
+  editor.goToFrame(0, 'toggle');
   expect(editor.state.get().frames.size).toBe(4);
   editor.chooseFrames([2, 3, 99]);
   expect([...editor.state.get().frames]).toEqual([2, 3]);
   expect(editor.state.get().frame).toBe(2);
-  editor.goToFrame(2, 'add');
-  expect(editor.state.get().frame).toBe(2);
+  editor.goToFrame(2, 'toggle');
+  expect([...editor.state.get().frames]).toEqual([3]);
+  expect(editor.state.get().frame).toBe(3);
+  editor.goToFrame(3, 'toggle');
+  expect([...editor.state.get().frames]).toEqual([3]);
 });
 
 test('what another screen saved is one mark that can be undone, and is not saved again', () => {
@@ -182,4 +189,22 @@ test('what another screen saved is one mark that can be undone, and is not saved
   expect(editor.undo()).toBe('Changes of another screen');
   expect(editor.state.get().show).toBe(mine);
   expect(editor.undo()).toBe('Colour');
+});
+
+test('the history leads to any of its states', () => {
+  const { editor } = hand();
+  const shows: Show[] = [editor.state.get().show];
+  for (let i = 1; i <= 4; i++) {
+    editor.change('Colour', (show) => recolour(show, 0, new Map([[0, i]])));
+    shows.push(editor.state.get().show);
+  }
+  for (const at of [1, 3, 0, 4, 4, 2]) {
+    editor.travelTo(at);
+    expect(editor.state.get().show).toBe(shows[at]);
+    expect(editor.state.get().history.past).toHaveLength(at);
+  }
+  editor.undo();
+  expect(editor.state.get().show).toBe(shows[1]);
+  editor.travelTo(99);
+  expect(editor.state.get().show).toBe(shows[4]);
 });

@@ -13,7 +13,7 @@ import {
   type EditorState,
   type Overlay,
 } from './editorState';
-import { stepBack, stepForth } from './history';
+import { stepBack, stepForth, stepTo } from './history';
 import type { Frame, Pixel, Show } from './show';
 
 /** The editor without a screen: a show, the selection, and the history. */
@@ -24,6 +24,8 @@ export interface Editor extends Gestures, Choice, CopyPaste {
   /** Takes back the last change; answers its label, `null` when there is none. */
   undo(): string | null;
   redo(): string | null;
+  /** Goes to the state after that many changes of the history, counted from its oldest one. */
+  travelTo(changes: number): void;
 }
 
 /** Changes of the show. */
@@ -52,6 +54,7 @@ interface CopyPaste {
   copy(): number;
   /** Gives the copied pixels their places and colours in the frame on the stage; answers their number. */
   paste(): number;
+  canPaste(): boolean;
 }
 
 export function createEditor(show: Show, frame = 0): Editor {
@@ -78,6 +81,13 @@ export function createEditor(show: Show, frame = 0): Editor {
     ...createCopyPaste({ ...gestures, ...choice, current, chosenPixels }),
     undo: () => travel(stepBack, 'before'),
     redo: () => travel(stepForth, 'after'),
+    travelTo(changes) {
+      gestures.cancel();
+      const moved = stepTo(state.get().history, changes);
+      if (!moved) return;
+      const [history, mark, side] = moved;
+      state.update((now) => withShowOf(now, history, mark[side], mark.frame));
+    },
   };
 }
 
@@ -138,7 +148,7 @@ const createChoice = (state: Store<EditorState>): Choice => ({
   chooseFrames(indices) {
     const [frame] = indices;
     if (frame !== undefined)
-      state.update((now) => withinShow({ ...now, frame, frames: new Set(indices) }));
+      state.update((now) => withinShow({ ...now, frame, anchor: frame, frames: new Set(indices) }));
   },
 });
 
@@ -161,6 +171,7 @@ function createCopyPaste(
       editor.select(pasted.map((pixel) => pixel.id));
       return pasted.length;
     },
+    canPaste: () => copied.length > 0,
   };
 }
 

@@ -9,6 +9,8 @@ export interface EditorState {
   frame: number;
   /** All chosen frames, the one on the stage among them. */
   frames: ReadonlySet<number>;
+  /** Where a range of chosen frames begins. */
+  anchor: number;
   /** Ids of the chosen pixels; they stay chosen from frame to frame. */
   selection: ReadonlySet<number>;
   history: History<Show>;
@@ -32,6 +34,7 @@ export const firstState = (show: Show, frame: number): EditorState => ({
   show,
   frame: inside(show, frame),
   frames: new Set([inside(show, frame)]),
+  anchor: inside(show, frame),
   selection: new Set(),
   history: noHistory(),
   overlay: NO_OVERLAY,
@@ -45,7 +48,8 @@ const inside = (show: Show, frame: number) => Math.max(0, Math.min(show.frames.l
 export function withinShow(state: EditorState): EditorState {
   const frame = inside(state.show, state.frame);
   const kept = [...state.frames].filter((index) => index < state.show.frames.length);
-  return { ...state, frame, frames: new Set(kept.concat(frame)) };
+  const anchor = inside(state.show, state.anchor);
+  return { ...state, frame, anchor, frames: new Set(kept.concat(frame)) };
 }
 
 /** The state after a change of the show; `mark` is what undo takes back, `toSave` is 0 for what is saved already. */
@@ -71,22 +75,34 @@ export function withShowOf(
     history,
     frame: at,
     frames: new Set([at]),
+    anchor: at,
     changes: state.changes + 1,
   });
 }
 
 /** How choosing a frame treats the frames that are chosen already. */
-export type ChooseHow = 'only' | 'add' | 'range';
+export type ChooseHow = 'only' | 'toggle' | 'range';
 
 /** The state with the nearest frame to `index` on the stage. */
 export function withFrame(state: EditorState, index: number, how: ChooseHow): EditorState {
   const frame = inside(state.show, index);
-  return { ...state, frame, frames: chosenFrames(state, frame, how) };
+  const frames = chosenFrames(state, frame, how);
+  // A frame that was left out is no longer on the stage.
+  const shown = frames.has(frame) ? frame : nearest(frames, frame);
+  return { ...state, frame: shown, frames, anchor: how === 'range' ? state.anchor : shown };
 }
+
+const nearest = (frames: ReadonlySet<number>, to: number) =>
+  [...frames].reduce((a, b) => (Math.abs(b - to) < Math.abs(a - to) ? b : a));
 
 function chosenFrames(state: EditorState, frame: number, how: ChooseHow): Set<number> {
   if (how === 'only') return new Set([frame]);
-  if (how === 'add') return new Set([...state.frames, frame]);
-  const [from, to] = [Math.min(state.frame, frame), Math.max(state.frame, frame)];
+  if (how === 'toggle') {
+    const others = [...state.frames].filter((index) => index !== frame);
+    const isLeftOut = others.length > 0 && state.frames.has(frame);
+    return new Set(isLeftOut ? others : [...others, frame]);
+  }
+
+  const [from, to] = [Math.min(state.anchor, frame), Math.max(state.anchor, frame)];
   return new Set(Array.from({ length: to - from + 1 }, (_, i) => from + i));
 }

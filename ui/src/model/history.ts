@@ -34,3 +34,19 @@ export function stepForth<T>(history: History<T>): [History<T>, Mark<T>] | null 
   if (!mark) return null;
   return [{ past: [...history.past, mark], future: history.future.slice(0, -1) }, mark];
 }
+
+/**
+ * The history after that many changes, with the last mark on the way and the side of it that is the state then; null: it is
+ * there already.
+ */
+export function stepTo<T>(
+  history: History<T>,
+  changes: number,
+): [History<T>, Mark<T>, 'before' | 'after'] | null {
+  const marks = [...history.past, ...[...history.future].reverse()];
+  const [from, to] = [history.past.length, Math.max(0, Math.min(marks.length, changes))];
+  const mark = marks[to < from ? to : to - 1];
+  if (from === to || !mark) return null;
+  const moved = { past: marks.slice(0, to), future: marks.slice(to).reverse() };
+  return [moved, mark, to < from ? 'before' : 'after'];
+}

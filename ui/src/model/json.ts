@@ -74,7 +74,8 @@ function readPixel(value: unknown): Pixel {
   const [x, y] = pair(json.place);
   const robot = typeof json.robot === 'string' ? json.robot : null;
   const color = fromHex(text(json.color)) ?? 0xffffff;
-  return { id: number(json.id, 0), x, y, color, robot, part: readPart(json) };
+  const group = typeof json.group === 'string' ? json.group : null;
+  return { id: number(json.id, 0), x, y, color, robot, part: readPart(json), group };
 }
 
 /** Fields of the show that version 2 of the format added. */
@@ -97,7 +98,7 @@ const usesVersion2 = (show: Show) =>
       f.id !== null ||
       f.at_s !== null ||
       f.sources.length > 0 ||
-      f.pixels.some((p) => p.part !== null),
+      f.pixels.some((p) => p.part !== null || p.group !== null),
   );
 
 /** The document as the server reads it; places to a tenth of a millimetre. */
@@ -140,6 +141,7 @@ function writeFrame(frame: Frame): unknown {
       color: toHex(p.color),
       ...(p.robot === null ? {} : { robot: p.robot }),
       ...writePart(p.part),
+      ...(p.group === null ? {} : { group: p.group }),
     })),
   };
 }

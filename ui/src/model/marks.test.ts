@@ -11,6 +11,7 @@ test('whoever is too close is found, wherever the squares of the search lie', ()
     color: 0,
     robot: null,
     part: null,
+    group: null,
   }));
   const gap_m = tooClose_m(EMPTY_STAGE);
   const wanted = pixels.filter((p) =>

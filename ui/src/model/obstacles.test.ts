@@ -12,6 +12,7 @@ const touch = (x: number, y: number, alt = false) => ({
   shift: false,
   alt,
   ctrl: false,
+  again: false,
 });
 
 test('an area is drawn, moved, undone; a click draws none, Escape gives up', () => {

@@ -61,6 +61,8 @@ export interface Pixel {
   robot: string | null;
   /** The part of a source that the pixel belongs to; null: drawn by hand. */
   part: SourcePart | null;
+  /** A word that pixels of the frame share which are edited as one; null: the pixel is in no group. */
+  group: string | null;
 }
 
 let lastKey = 0;
@@ -92,6 +94,7 @@ export function frontRows(stage: Stage, count: number, color: Rgb): Pixel[] {
     color,
     robot: null,
     part: null,
+    group: null,
   }));
 }
 

@@ -9,6 +9,8 @@ export interface Touch {
   shift: boolean;
   alt: boolean;
   ctrl: boolean;
+  /** The second press of a double click. */
+  again: boolean;
 }
 
 /** A small state machine: it takes a snapshot when a gesture begins, and recomputes from the snapshot. */

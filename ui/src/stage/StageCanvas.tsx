@@ -2,9 +2,11 @@ import { useEffect, useRef } from 'react';
 import type { Store } from '../base/store';
 import { fit, type Camera } from './camera';
 import { createCanvas2d } from './canvas2d';
-import { listenToHand, listenToView, type Hand } from './pointer';
+import type { Pans } from './pans';
+import { listenToHand, type Hand } from './pointer';
 import type { Scene } from './scene';
 import type { View } from './view';
+import { listenToView } from './viewPointer';
 
 /** Room around the floor for rulers, and above it for the tools, CSS pixels. */
 const MARGIN_PX = 34;
@@ -14,14 +16,14 @@ interface Props {
   view: Store<View>;
   /** The scene at a moment; the same object when nothing changed, so that nothing is drawn. */
   sceneAt: (now_ms: number) => Scene;
-  /** Whether dragging with the first button pans: true where nothing can be selected. */
-  dragPans: boolean;
+  /** When a drag with the first button pans. */
+  pans: Pans;
   /** Handles pointers that do not pan. */
   hand?: Hand;
 }
 
 /** A canvas that draws a scene at the pace of the screen, zooms with the wheel and pans. */
-export function StageCanvas({ view, sceneAt, dragPans, hand }: Props) {
+export function StageCanvas({ view, sceneAt, pans, hand }: Props) {
   const element = useRef<HTMLCanvasElement>(null);
   useEffect(() => {
     const canvas = element.current;
@@ -46,15 +48,15 @@ export function StageCanvas({ view, sceneAt, dragPans, hand }: Props) {
       renderer.draw(next, wanted);
     };
     request = requestAnimationFrame(loop);
-    const undo = listenToView(canvas, view, dragPans);
-    const undoHand = hand ? listenToHand(canvas, hand) : undefined;
+    const undo = listenToView(canvas, view, pans);
+    const undoHand = hand ? listenToHand(canvas, hand, pans) : undefined;
     return () => {
       cancelAnimationFrame(request);
       observer.disconnect();
       undo();
       undoHand?.();
     };
-  }, [view, sceneAt, dragPans, hand]);
+  }, [view, sceneAt, pans, hand]);
   return <canvas ref={element} aria-hidden />;
 }
 

@@ -1,7 +1,5 @@
 import type { Point } from '../base/geometry';
-import type { Store } from '../base/store';
-import { panBy, zoomAt, type Camera } from './camera';
-import type { View } from './view';
+import type { Pans } from './pans';
 
 /** Pointer events on the stage, canvas CSS pixels. `adds`: a finger was held still, which is a finger's Shift. */
 export interface Hand {
@@ -9,6 +7,8 @@ export interface Hand {
   move(at: Point, event: PointerEvent): void;
   up(at: Point, event: PointerEvent, adds: boolean): void;
   lost(): void;
+  /** The second button, or a finger that was held still and lifted there: asks for a menu. What `down` began is over. */
+  menu(at: Point, event: MouseEvent): void;
 }
 
 /** A finger held still for this time acts as Shift, milliseconds. */
@@ -17,10 +17,12 @@ export const LONG_MS = 450;
 export const STILL_PX = 8;
 
 /** Position of a pointer on the canvas, CSS pixels. */
-function placeOn(canvas: HTMLCanvasElement, event: PointerEvent): Point {
+export function placeOn(canvas: HTMLCanvasElement, event: MouseEvent): Point {
   const box = canvas.getBoundingClientRect();
   return { x: event.clientX - box.left, y: event.clientY - box.top };
 }
+
+const isStill = (a: Point, b: Point) => Math.hypot(a.x - b.x, a.y - b.y) < STILL_PX;
 
 type Waiting = { from: Point; event: PointerEvent; timer: ReturnType<typeof setTimeout> };
 
@@ -28,11 +30,14 @@ type Waiting = { from: Point; event: PointerEvent; timer: ReturnType<typeof setT
  * The first button or a finger, held until it is let go. What a finger means is known only once it moves, rests or
  * leaves: until then nothing has happened, and a second finger makes it a matter of the view.
  */
-export function listenToHand(canvas: HTMLCanvasElement, hand: Hand): () => void {
+export function listenToHand(canvas: HTMLCanvasElement, hand: Hand, pans: Pans): () => void {
   const stop = new AbortController();
   let held: number | null = null;
+  let isFinger = false;
   let waiting: Waiting | null = null;
   let adds = false;
+  /** Where a finger rests that was held still for long and has not moved since. */
+  let resting: Point | null = null;
   const on = (
     name: 'pointerdown' | 'pointermove' | 'pointerup' | 'pointercancel',
     act: (event: PointerEvent) => void,
@@ -42,19 +47,20 @@ export function listenToHand(canvas: HTMLCanvasElement, hand: Hand): () => void 
     if (!waiting) return;
     const { from, event, timer } = waiting;
     clearTimeout(timer);
-    [waiting, adds] = [null, isLong];
+    [waiting, adds, resting] = [null, isLong, isLong ? from : null];
     hand.down(from, event, isLong);
   };
   const drop = () => {
     if (waiting) clearTimeout(waiting.timer);
     else if (held !== null) hand.lost();
-    [waiting, held] = [null, null];
+    [waiting, held, resting] = [null, null, null];
   };
 
   on('pointerdown', (event) => {
     if (held !== null && event.pointerType === 'touch') return drop();
-    if (event.button !== 0 || held !== null || !event.isPrimary) return;
+    if (event.button !== 0 || held !== null || !event.isPrimary || pans.wanted()) return;
     held = event.pointerId;
+    isFinger = event.pointerType === 'touch';
     canvas.setPointerCapture(event.pointerId);
     const timer = setTimeout(() => begin(true), LONG_MS);
     waiting = { from: placeOn(canvas, event), event, timer };
@@ -64,81 +70,37 @@ export function listenToHand(canvas: HTMLCanvasElement, hand: Hand): () => void 
     if (held !== null && held !== event.pointerId) return;
     const at = placeOn(canvas, event);
     if (waiting) {
-      if (Math.hypot(at.x - waiting.from.x, at.y - waiting.from.y) < STILL_PX) return;
+      if (isStill(at, waiting.from)) return;
       begin(false);
     }
+    if (resting && isStill(at, resting)) return;
+    resting = null;
     hand.move(at, event);
   });
   on('pointerup', (event) => {
     if (held !== event.pointerId) return;
     begin(false);
     held = null;
-    hand.up(placeOn(canvas, event), event, adds);
+    if (resting) hand.menu(placeOn(canvas, event), event);
+    else hand.up(placeOn(canvas, event), event, adds);
+    resting = null;
   });
   on('pointercancel', (event) => {
     if (held === event.pointerId) drop();
   });
+  canvas.addEventListener(
+    'contextmenu',
+    (event) => {
+      event.preventDefault();
+      // A finger that is held still asks for a menu too, and gets one when it is lifted.
+      if (held !== null && isFinger) return;
+      drop();
+      hand.menu(placeOn(canvas, event), event);
+    },
+    { signal: stop.signal },
+  );
   return () => {
     if (waiting) clearTimeout(waiting.timer);
     stop.abort();
   };
-}
-
-/** Wheel zooms; the middle button (or, if so wanted, the first, or one finger) pans; two fingers do both. */
-export function listenToView(
-  canvas: HTMLCanvasElement,
-  view: Store<View>,
-  dragPans: boolean,
-): () => void {
-  const stop = new AbortController();
-  const options = { signal: stop.signal };
-  const held = new Map<number, Point>();
-  const move = (change: (camera: Camera) => Camera) =>
-    view.update((now) => ({ ...now, fitted: false, camera: change(now.camera) }));
-  canvas.addEventListener(
-    'wheel',
-    (event) => {
-      event.preventDefault();
-      const at = { x: event.offsetX, y: event.offsetY };
-      move((camera) => zoomAt(camera, at, Math.exp(-event.deltaY * 0.0015)));
-    },
-    { ...options, passive: false },
-  );
-  canvas.addEventListener(
-    'pointerdown',
-    (event) => {
-      const isFinger = event.pointerType === 'touch';
-      if (!isFinger && event.button !== 1 && !(dragPans && event.button === 0)) return;
-      event.preventDefault();
-      canvas.setPointerCapture(event.pointerId);
-      held.set(event.pointerId, placeOn(canvas, event));
-    },
-    options,
-  );
-  canvas.addEventListener(
-    'pointermove',
-    (event) => {
-      const before = held.get(event.pointerId);
-      if (!before) return;
-      const at = placeOn(canvas, event);
-      held.set(event.pointerId, at);
-      const other = [...held].find(([id]) => id !== event.pointerId)?.[1];
-      if (other) move((camera) => pinch(camera, before, at, other));
-      else if (dragPans || event.pointerType !== 'touch')
-        move((camera) => panBy(camera, at.x - before.x, at.y - before.y));
-    },
-    options,
-  );
-  const end = (event: PointerEvent) => held.delete(event.pointerId);
-  canvas.addEventListener('pointerup', end, options);
-  canvas.addEventListener('pointercancel', end, options);
-  return () => stop.abort();
-}
-
-/** One of two fingers goes from `before` to `at`: what is under both stays under both. */
-export function pinch(camera: Camera, before: Point, at: Point, other: Point): Camera {
-  const apart = (p: Point) => Math.max(10, Math.hypot(p.x - other.x, p.y - other.y));
-  const middle = { x: (before.x + other.x) / 2, y: (before.y + other.y) / 2 };
-  const zoomed = zoomAt(camera, middle, apart(at) / apart(before));
-  return panBy(zoomed, (at.x - before.x) / 2, (at.y - before.y) / 2);
 }

@@ -1,0 +1,9 @@
+/** Whether a drag with the first button or one finger moves the view, asked when the drag begins. */
+export interface Pans {
+  wanted(): boolean;
+  /** Such a drag has begun. */
+  began(): void;
+}
+
+/** For stages on which nothing can be selected. */
+export const ALWAYS: Pans = { wanted: () => true, began() {} };
