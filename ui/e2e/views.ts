@@ -203,6 +203,14 @@ const editViews: View[] = [
     },
   },
   {
+    name: 'edit-menu',
+    async show(page) {
+      await page.keyboard.press('Shift+F10');
+      await page.getByRole('menuitem', { name: 'Select same colour' }).waitFor();
+    },
+    leave: escape,
+  },
+  {
     name: 'edit-make-words',
     async show(page) {
       await page.keyboard.press('t');
@@ -219,6 +227,14 @@ const editViews: View[] = [
         .getByTestId('verdict')
         .getByText(/^12 robots|^30 robots/)
         .waitFor();
+    },
+  },
+  {
+    name: 'edit-draw',
+    async show(page) {
+      await button(page, 'Curve').click();
+      for (let i = 0; i < 3; i++) await button(page, 'Add a point').click();
+      await page.getByText('Point 3 of 3').waitFor();
     },
     leave: (page) => button(page, 'Cancel').click(),
   },

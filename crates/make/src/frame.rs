@@ -254,7 +254,7 @@ fn pin(before: &Frame, kept: &[u32], pixels: &mut [Pixel]) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::recipe::{Content, TextRecipe};
+    use crate::recipe::{Content, Placing, TextRecipe};
 
     fn floor() -> PictureFloor {
         PictureFloor::new(4.0, 4.0, 0.05)
@@ -320,6 +320,30 @@ mod tests {
             make_frame(&empty, None, &floor(), 9_000, Quality::Full, &[]).unwrap_err().code,
             "too-many-robots"
         );
+    }
+
+    #[test]
+    fn a_drawn_curve_goes_through_its_points_at_their_places() {
+        let settings = lightbots_draw::ShapeSettings {
+            points: vec![
+                Vec2::new(-0.9, 0.2),
+                Vec2::new(0.1, 0.7),
+                Vec2::new(0.3, -0.4),
+                Vec2::new(1.1, 0.6),
+            ],
+            ..lightbots_draw::ShapeSettings::new(lightbots_draw::ShapeKind::Curve)
+        };
+        let ends = [settings.points[0], settings.points[3]];
+        let recipe = Recipe::new(Content::Shape(settings));
+        let placing = Placing { size_m: Some(2.0), center: Vec2::new(0.1, 0.15), ..recipe.placing };
+        let source = Recipe { placing, ..recipe }.source();
+        let empty = Frame { sources: vec![source], ..Frame::default() };
+        let made = make_frame(&empty, None, &floor(), 30, Quality::Full, &[]).unwrap();
+        for end in ends {
+            let pixels = made.frame.pixels.iter();
+            let nearest = pixels.map(|pixel| pixel.at.distance(end)).fold(f64::MAX, f64::min);
+            assert!(nearest < 0.01, "{end:?}: {nearest}");
+        }
     }
 
     #[test]

@@ -47,9 +47,18 @@ pub fn material(recipe: &Recipe, asset: Option<&[u8]>) -> Result<Material, DrawE
     };
     let view = match &recipe.content {
         Content::Text(words) => words.view(),
+        Content::Shape(shape) => box_of_points(shape),
         _ => None,
     };
     Ok(Material::Drawing { made, view })
+}
+
+/// The box of a line that was drawn by hand. A curve swings out of the points that people drag on the floor: these are its
+/// box, so that they stay where they are.
+fn box_of_points(shape: &ShapeSettings) -> Option<(Vec2, Vec2)> {
+    let drawn = [ShapeKind::Line, ShapeKind::Polyline, ShapeKind::Curve, ShapeKind::Freehand];
+    let is_drawn = drawn.contains(&shape.kind) && shape.points.len() > 1;
+    is_drawn.then(|| bounds(&shape.points)).flatten()
 }
 
 /// The picture of an animation that is shown at a moment.

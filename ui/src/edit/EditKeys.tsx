@@ -1,3 +1,4 @@
+import type { Making } from '../make/making';
 import { useKeys } from '../parts/useKeys';
 import { fitView, zoomView } from '../stage/ViewTools';
 import * as acts from './acts';
@@ -5,6 +6,8 @@ import { useEditing } from './context';
 import type { StageOptions } from './editing';
 import { notify } from '../session/notices';
 import { openMaking } from './makes';
+import { nudgeMaking, openDrawing, removeChosenPoint } from './penActs';
+import { chooseNextPoint, penLine, stopAdding } from '../make/pen';
 import { openMenuByKey } from './menuEntries';
 
 /** Metres an arrow key moves: alone, with Shift, with Alt. */
@@ -27,13 +30,25 @@ export function EditKeys() {
   const frame = () => editor.state.get().frame;
   const toggle = (name: keyof StageOptions) =>
     editing.options.update((l) => ({ ...l, [name]: !l[name] }));
+  const nudge = (x: number, y: number) => {
+    const making = editing.making.get();
+    if (making) nudgeMaking(editing, making, { x, y });
+    else acts.nudge(editing, x, y);
+  };
+  const withMaking = (act: (making: Making) => void) => {
+    const making = editing.making.get();
+    if (making) act(making);
+  };
+  const next = (by: 1 | -1) => {
+    const making = editing.making.get();
+    if (making && penLine(making)) chooseNextPoint(making, by);
+    else if (!making) acts.selectNext(editing, by);
+  };
   const notifyDone = (what: string | null, label: string) => {
     if (what) notify('info', `${label}: ${what}`);
   };
   const moves = STEPS.flatMap(([prefix, step]) =>
-    ARROWS.map(
-      ([key, x, y]) => [`${prefix}${key}`, () => acts.nudge(editing, x * step, y * step)] as const,
-    ),
+    ARROWS.map(([key, x, y]) => [`${prefix}${key}`, () => nudge(x * step, y * step)] as const),
   );
   useKeys([
     ...moves,
@@ -54,8 +69,12 @@ export function EditKeys() {
     ['PageDown', () => editor.goToFrame(frame() + 1)],
     ['alt+PageUp', () => acts.shiftFrames(editing, -1)],
     ['alt+PageDown', () => acts.shiftFrames(editing, 1)],
-    [']', () => acts.selectNext(editing, 1)],
-    ['[', () => acts.selectNext(editing, -1)],
+    [']', () => next(1)],
+    ['[', () => next(-1)],
+    ['Enter', () => withMaking(stopAdding)],
+    ['Delete', () => withMaking((making) => removeChosenPoint(editing, making))],
+    ['Backspace', () => withMaking((making) => removeChosenPoint(editing, making))],
+    ['b', () => openDrawing(editing)],
     ['mod+g', () => acts.group(editing)],
     ['mod+shift+g', () => acts.ungroup(editing)],
     ['ContextMenu', () => openMenuByKey(editing)],

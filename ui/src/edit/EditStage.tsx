@@ -12,6 +12,7 @@ import { StageHint } from './StageHint';
 import { StageTools } from './StageTools';
 import { usePreview } from './usePreview';
 import { useHand } from './useHand';
+import { stopAdding } from '../make/pen';
 import { unitStore } from '../session/preferences';
 import { useKeys } from '../parts/useKeys';
 import styles from '../stage/stage.module.css';
@@ -29,7 +30,16 @@ function rememberScene(editing: Editing): () => Scene {
     ];
     const making = editing.making.get();
     const shown = making?.made.get().shown;
-    const now = [state, shown, options, plan, time_s, unitStore.get()];
+    const now = [
+      state,
+      making?.draft.get(),
+      making?.pen.get(),
+      shown,
+      options,
+      plan,
+      time_s,
+      unitStore.get(),
+    ];
     if (!scene || now.some((input, i) => input !== inputs[i])) {
       inputs = now;
       scene = editScene(
@@ -37,6 +47,7 @@ function rememberScene(editing: Editing): () => Scene {
         options,
         plan,
         time_s,
+        making,
       );
     }
     return scene;
@@ -57,8 +68,17 @@ export function EditStage() {
   useKeys([
     [
       'Escape',
-      () => {
-        if (editing.making.get() || giveUp()) return;
+      (event) => {
+        // A drag of the picture that is made was meant, not the Make panel.
+        if (giveUp()) {
+          event.stopImmediatePropagation();
+          return;
+        }
+        const making = editing.making.get();
+        if (making) {
+          if (stopAdding(making)) event.stopImmediatePropagation();
+          return;
+        }
         if (editing.tool.get() !== 'arrow') editing.tool.set('arrow');
         else editing.editor.select([]);
         editing.preview.stop();

@@ -30,7 +30,15 @@ export function MakePanel({ making }: { making: Making }) {
   const choices = useChoices(making);
   const close = () => closeMaking(editing);
   const form = useFocus();
-  useKeys([['Escape', close]]);
+  useKeys([
+    [
+      'Escape',
+      () => {
+        // During a drag on the stage the key ends the drag alone, and of a line first the adding of points.
+        if (!editor.isGesturing() && !making.pen.get().isAdding) close();
+      },
+    ],
+  ]);
   // Another frame on the stage, or another state of this one, is what the user wants to see now.
   useEffect(
     () =>

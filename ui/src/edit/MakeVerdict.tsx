@@ -2,6 +2,7 @@ import { IconAlertTriangle, IconCircleCheck, IconInfoCircle } from '@tabler/icon
 import type { MakeAnswer } from '../api/types.gen';
 import { useStore } from '../base/store';
 import { lengthText, type Unit } from '../base/units';
+import { drawnKind } from '../make/drawnLine';
 import { verdictOf } from '../make/verdict';
 import type { Making } from '../make/making';
 import { useUnit } from '../session/preferences';
@@ -20,7 +21,9 @@ export function MakeVerdict({ making }: { making: Making }) {
   const unit = useUnit();
   const tab = useStore(making.draft, (draft) => draft.tab);
   const told = answer ?? shown;
-  const { tone, text } = told ? verdictOf(told, making.robots) : START[tab];
+  const isDrawn = useStore(making.draft, (draft) => drawnKind(draft) !== null);
+  const start = isDrawn ? DRAW : START[tab];
+  const { tone, text } = told ? verdictOf(told, making.robots) : start;
   const Icon = ICONS[tone];
   return (
     <div
@@ -48,6 +51,8 @@ const START = {
   shape: { tone: 'none', text: 'The robots show the shape in a moment.' },
   file: { tone: 'none', text: 'Choose a file, and the robots show it.' },
 } as const;
+
+const DRAW = { tone: 'none', text: 'Draw on the floor, and the robots show the line.' } as const;
 
 function figures(answer: MakeAnswer, unit: Unit): string {
   const gap = answer.closest_m === null ? '' : ` · ${lengthText(answer.closest_m, unit)} apart`;

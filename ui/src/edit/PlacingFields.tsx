@@ -1,8 +1,10 @@
 import { Button, Group, SegmentedControl, Stack, Text } from '@mantine/core';
 import { useStore } from '../base/store';
 import { lengthText } from '../base/units';
+import { DRAWN } from '../make/drawnLine';
 import { STYLES, type Draft, type Style } from '../make/draft';
 import type { Making } from '../make/making';
+import { LengthInput } from '../parts/LengthInput';
 import { useUnit } from '../session/preferences';
 import { useEditor } from './context';
 import { SliderField } from './SliderField';
@@ -16,11 +18,11 @@ const LABELS: Record<Style, string> = {
 };
 
 /** Shapes that are lines or dots, which have no inside. */
-const WITHOUT_INSIDE = ['line', 'rings', 'spiral', 'arc', 'wave', 'grid', 'hexagons', 'random'];
+const WITHOUT_INSIDE = [...DRAWN, 'rings', 'spiral', 'arc', 'wave', 'grid', 'hexagons', 'random'];
 
 const hasInside = ({ tab, shape, file }: Draft) =>
   tab === 'text' ||
-  (tab === 'shape' && !WITHOUT_INSIDE.includes(shape)) ||
+  (tab === 'shape' && !WITHOUT_INSIDE.some((known) => known === shape)) ||
   (tab === 'file' && file?.kind === 'svg');
 
 /** Style, size and turn of what is made. */
@@ -31,6 +33,7 @@ export function PlacingFields({ making }: { making: Making }) {
   const side_m = useEditor((s) => Math.min(s.show.stage.width_m, s.show.stage.depth_m));
   const unit = useUnit();
   const degrees = Math.round((draft.turn * 180) / Math.PI);
+  const center = draft.center ?? { x: 0, y: 0 };
   const size_m = draft.size_m ?? made_m;
   if (draft.tab === 'file' && !draft.file) return null;
   return (
@@ -69,6 +72,16 @@ export function PlacingFields({ making }: { making: Making }) {
         value={degrees}
         onChange={(next) => making.change({ turn: (next * Math.PI) / 180 })}
       />
+      <Group grow gap="xs" align="start">
+        {(['x', 'y'] as const).map((axis) => (
+          <LengthInput
+            key={axis}
+            label={`Middle ${axis}`}
+            value={center[axis]}
+            onChange={(metres) => making.change({ center: { ...center, [axis]: metres } })}
+          />
+        ))}
+      </Group>
       {moved > 0 ? (
         <Group justify="space-between" wrap="nowrap">
           <Text size="xs">

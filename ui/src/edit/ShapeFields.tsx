@@ -10,9 +10,12 @@ import {
   IconPentagon,
   IconRainbow,
   IconRectangle,
+  IconScribble,
   IconSpiral,
   IconStar,
   IconTarget,
+  IconTimeline,
+  IconVectorSpline,
   IconWaveSine,
   type Icon,
 } from '@tabler/icons-react';
@@ -22,10 +25,11 @@ import type { ShapeNumber } from '../make/draft';
 import type { Making } from '../make/making';
 import { IconButton } from '../parts/IconButton';
 import { ColourField } from './ColourField';
+import { PointFields } from './PointFields';
 import { SliderField } from './SliderField';
 import styles from './Make.module.css';
 
-/** Label, icon, and the settings that the shape uses. Shapes from drawn points are not offered here. */
+/** Label, icon, and the settings that the shape uses. */
 const SHAPES: [string, string, Icon, ShapeNumber[]][] = [
   ['heart', 'Heart', IconHeart, ['aspect']],
   ['star', 'Star', IconStar, ['count', 'inner']],
@@ -35,6 +39,9 @@ const SHAPES: [string, string, Icon, ShapeNumber[]][] = [
   ['polygon', 'Polygon', IconPentagon, ['count', 'aspect']],
   ['arrow', 'Arrow', IconArrowBigRight, ['aspect']],
   ['line', 'Line', IconLine, []],
+  ['polyline', 'Line with corners', IconTimeline, []],
+  ['curve', 'Curve', IconVectorSpline, []],
+  ['freehand', 'Drawn by hand', IconScribble, []],
   ['wave', 'Wave', IconWaveSine, ['turns', 'aspect']],
   ['arc', 'Arc', IconRainbow, ['span']],
   ['spiral', 'Spiral', IconSpiral, ['turns', 'inner']],
@@ -92,6 +99,7 @@ export function ShapeFields({ making, shapes }: { making: Making; shapes: readon
           </IconButton>
         ))}
       </div>
+      <PointFields making={making} />
       {used.map(slider)}
       {draft.shape === 'random' ? (
         <Button size="xs" variant="default" onClick={() => making.change({ seed: draft.seed + 1 })}>

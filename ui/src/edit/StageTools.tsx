@@ -6,6 +6,7 @@ import {
   IconLasso,
   IconMagnet,
   IconNumber123,
+  IconPencil,
   IconPointer,
   IconRoute,
 } from '@tabler/icons-react';
@@ -13,6 +14,7 @@ import { useStore } from '../base/store';
 import { StageTool, ZoomTools } from '../stage/ViewTools';
 import { useEditing } from './context';
 import type { StageOptions } from './editing';
+import { openDrawing } from './penActs';
 import styles from '../stage/stage.module.css';
 
 const TOOLS = [
@@ -48,6 +50,9 @@ export function StageTools() {
             <Icon size={17} />
           </StageTool>
         ))}
+        <StageTool label="Draw a line (B)" onClick={() => openDrawing(editing)}>
+          <IconPencil size={17} />
+        </StageTool>
       </div>
       <div className={styles.tools} role="toolbar" aria-label="What the floor shows">
         {OPTIONS.map(([name, label, Icon]) => (

@@ -1,5 +1,5 @@
 import { getAsset, putAsset } from '../api/http';
-import { draftOf, isKnown, newDraft, type Tab } from '../make/draft';
+import { draftOf, isKnown, newDraft, type Draft, type Tab } from '../make/draft';
 import { pixelsOf } from '../make/frame';
 import { createMaking, type Complete, type Making } from '../make/making';
 import { fleetSize, makeFrame } from '../model/commands';
@@ -16,22 +16,30 @@ export function sourceToChange(sources: readonly FrameSource[]): FrameSource | n
   return source && sources.length === 1 && isKnown(source) ? source : null;
 }
 
-/** Opens the Make panel for the frame on the stage, with its source if it has one; `tab`: from a source of this kind. */
-export function openMaking(editing: Editing, tab?: Tab) {
+/**
+ * Opens the Make panel for the frame on the stage, with its source if it has one; `tab`: from a source of this kind, which
+ * begins with `fields` if the frame has none that `suits`.
+ */
+export function openMaking(
+  editing: Editing,
+  tab?: Tab,
+  fields: Partial<Draft> = {},
+  suits: (draft: Draft) => boolean = () => true,
+) {
   const { editor, making } = editing;
   const frame = editor.current();
   if (!frame || making.get()) return;
   const { show } = editor.state.get();
   const source = sourceToChange(frame.sources);
   const kept = source && draftOf(source, fileName(editing, source.asset) ?? undefined);
-  const isSame = kept !== null && (tab === undefined || kept.tab === tab);
+  const isSame = kept !== null && (tab === undefined || kept.tab === tab) && suits(kept);
   editing.preview.stop();
   making.set(
     createMaking(editing.maker, {
       show,
       frame,
       robots: fleetSize(show) || ROBOTS_USUAL,
-      draft: isSame ? kept : newDraft(tab ?? 'text'),
+      draft: isSame ? kept : { ...newDraft(tab ?? 'text'), ...fields },
       moved: isSame ? (source?.moved ?? []) : [],
       fileOf: (hash) => fileOf(editing, hash),
     }),

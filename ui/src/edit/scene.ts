@@ -4,12 +4,18 @@ import { pathsTo } from '../model/plannedPaths';
 import { hollowOf } from '../model/dots';
 import { unitStore } from '../session/preferences';
 import { pixelsOf } from '../make/frame';
+import type { Making } from '../make/making';
+import { penLine } from '../make/pen';
 import type { MakeAnswer, Plan } from '../api/types.gen';
 import type { Frame } from '../model/show';
 import { dotsAt, timelineOf } from '../model/timeline';
+import type { Camera } from '../stage/camera';
 import { floorOf, type Scene } from '../stage/scene';
 import type { StageOptions } from './editing';
 import { paintOverlay } from './overlay';
+import { paintPen } from './penOverlay';
+import { pictureNow } from './pictureHand';
+import { paintPicture } from './pictureOverlay';
 
 const NOTHING: readonly never[] = [];
 
@@ -46,6 +52,7 @@ export function editScene(
   options: StageOptions,
   plan: Plan | null,
   time_s: number | null,
+  making: Making | null = null,
 ): Scene {
   const { show, frame } = state;
   const base = { ...floorOf(show.stage, unitStore.get()), errors: NOTHING };
@@ -65,6 +72,16 @@ export function editScene(
     filled: pixels.map((p) => ({ x: p.x, y: p.y, color: p.color, alpha: 1 })),
     hollow: options.ghosts ? ghostsOf(state) : NOTHING,
     paths: options.routes ? pathsTo(plan, show, frame) : NOTHING,
-    overlay: (context, camera) => paintOverlay(context, camera, state, options),
+    overlay(context, camera) {
+      paintOverlay(context, camera, state, options);
+      if (making) paintMaking(context, camera, making);
+    },
   };
+}
+
+function paintMaking(context: CanvasRenderingContext2D, camera: Camera, making: Making) {
+  const picture = pictureNow(making);
+  if (picture) paintPicture(context, camera, picture);
+  const line = penLine(making);
+  if (line) paintPen(context, camera, line);
 }

@@ -3,6 +3,7 @@ import { useEffect, useMemo } from 'react';
 import { useStore } from '../base/store';
 import { lengthText } from '../base/units';
 import { unitStore } from '../session/preferences';
+import type { Making } from '../make/making';
 import { createArrowTool } from '../model/arrowTool';
 import { createEyedropper } from '../model/eyedropper';
 import { createObstacleTool } from '../model/obstacleTool';
@@ -14,6 +15,8 @@ import type { Hand } from '../stage/pointer';
 import * as acts from './acts';
 import { keepColour, type Editing } from './editing';
 import { handleAt } from './overlay';
+import { penFor } from './penTool';
+import { createPictureTool, gripAt, pictureNow } from './pictureHand';
 import { openMenu } from './menuEntries';
 
 /** How far a mouse and a finger may miss, CSS pixels. */
@@ -93,6 +96,11 @@ function lead(editing: Editing): { hand: Hand; giveUp: () => boolean } {
         : null)
     );
   };
+  const pictureTool = (making: Making, at: Touch): Tool | null => {
+    const picture = pictureNow(making);
+    const grip = picture && gripAt(picture, view.get().camera, at);
+    return grip && createPictureTool(making, grip);
+  };
   const giveUp = () => {
     const busy = active?.cancel(editor) ?? false;
     active = null;
@@ -102,8 +110,15 @@ function lead(editing: Editing): { hand: Hand; giveUp: () => boolean } {
     giveUp,
     hand: {
       down(at, event, adds) {
-        // The Make panel shows pixels that the frame does not have yet.
-        if (editing.making.get()) return;
+        const making = editing.making.get();
+        // The Make panel shows pixels that the frame does not have yet: only their picture is dragged.
+        if (making) {
+          presses.press(at, event.timeStamp);
+          const press = touch(at, event, adds);
+          active = penFor(making, press) ?? pictureTool(making, press);
+          active?.down(editor, press);
+          return;
+        }
         editing.preview.stop();
         const handle = editing.tool.get() === 'area' ? null : handleUnder(at, event);
         active = handle ? createTransformTool(handle) : chosen;
@@ -117,8 +132,12 @@ function lead(editing: Editing): { hand: Hand; giveUp: () => boolean } {
       },
       lost: () => void giveUp(),
       menu(at, event) {
+        if (editing.making.get()) {
+          active?.up(editor, touch(at, event));
+          active = null;
+          return;
+        }
         giveUp();
-        if (editing.making.get()) return;
         editing.preview.stop();
         openMenu(editing, at, touch(at, event));
       },

@@ -1,4 +1,7 @@
 import { fromHex, toHex, type Rgb } from '../base/colour';
+import type { Point } from '../base/geometry';
+import { drawnKind } from './drawnLine';
+import { list, pair } from '../model/jsonFields';
 import type { FrameSource, SourceKind } from '../model/sources';
 
 /** What the Make panel shows: the settings of every kind of source, of which one kind is chosen. */
@@ -9,11 +12,17 @@ export interface Draft {
   shape: string;
   /** Settings of shapes that are not the usual ones. */
   shapeNumbers: Readonly<Partial<Record<ShapeNumber, number>>>;
+  /** Points of a line that is drawn on the floor, in units of their own; empty: none yet. */
+  points: readonly Point[];
+  /** Whether the last point of such a line is joined to the first. */
+  closed: boolean;
   file: DraftFile | null;
   color: Rgb;
   style: Style;
   /** Longer side of the picture, metres; null: chosen by floor and fleet. */
   size_m: number | null;
+  /** Middle of the picture, stage metres; null: the middle of the floor. */
+  center: Point | null;
   /** Radians counter-clockwise. */
   turn: number;
   seed: number;
@@ -47,16 +56,31 @@ export const newDraft = (tab: Tab): Draft => ({
   font: 'lato',
   shape: 'heart',
   shapeNumbers: {},
+  points: [],
+  closed: false,
   file: null,
   color: USUAL_COLOR,
   style: 'auto',
   size_m: null,
+  center: null,
   turn: 0,
   seed: 1,
   kept: {},
 });
 
-const SHOWN = ['text', 'font', 'colors', 'color', 'shape', 'style', 'size_m', 'turn'];
+const SHOWN = [
+  'text',
+  'font',
+  'colors',
+  'color',
+  'shape',
+  'style',
+  'size_m',
+  'center',
+  'turn',
+  'points',
+  'closed',
+];
 const NUMBERS: readonly ShapeNumber[] = ['aspect', 'count', 'turns', 'inner', 'span'];
 
 const tabOf = (kind: SourceKind): Tab =>
@@ -85,6 +109,11 @@ export function draftOf(source: FrameSource, fileName = 'File'): Draft {
     shapeNumbers: Object.fromEntries(
       NUMBERS.flatMap((name) => (number(name) === null ? [] : [[name, number(name)]])),
     ),
+    points: list(settings.points).map((point) => {
+      const [x, y] = pair(point);
+      return { x, y };
+    }),
+    closed: settings.closed === true,
     file:
       usual.tab === 'file' && source.asset !== null
         ? { hash: source.asset, name: fileName, kind }
@@ -92,13 +121,20 @@ export function draftOf(source: FrameSource, fileName = 'File'): Draft {
     color: colorOf(settings.colors ?? settings.color) ?? usual.color,
     style: style ?? 'auto',
     size_m: number('size_m') ?? side,
+    center: centerOf(source),
     turn: number('turn') ?? 0,
     seed: source.seed,
-    kept: {
-      ...(box ? { center: [[(box.min[0] + box.max[0]) / 2, (box.min[1] + box.max[1]) / 2]] } : {}),
-      ...Object.fromEntries(Object.entries(settings).filter(([name]) => !isShown(name))),
-    },
+    kept: Object.fromEntries(Object.entries(settings).filter(([name]) => !isShown(name))),
   };
+}
+
+function centerOf({ settings, box }: FrameSource): Point | null {
+  const [first] = Array.isArray(settings.center) ? (settings.center as unknown[]) : [];
+  if (Array.isArray(first)) {
+    const [x, y] = pair(first);
+    return { x, y };
+  }
+  return box && { x: (box.min[0] + box.max[0]) / 2, y: (box.min[1] + box.max[1]) / 2 };
 }
 
 const isShown = (name: string) => SHOWN.includes(name) || NUMBERS.some((known) => known === name);
@@ -112,12 +148,20 @@ const colorOf = (value: unknown): Rgb | undefined => {
 export function sourceOf(draft: Draft): FrameSource | null {
   if (draft.tab === 'text' && draft.text.trim() === '') return null;
   if (draft.tab === 'file' && draft.file === null) return null;
+  const isDrawn = drawnKind(draft) !== null;
+  // A line without points goes from left to right; the others have none.
+  if (isDrawn && draft.points.length < 2 && (draft.shape !== 'line' || draft.points.length > 0))
+    return null;
   const color = draft.color === USUAL_COLOR ? null : toHex(draft.color);
   const own = {
     text: { text: draft.text, font: draft.font, ...(color === null ? {} : { colors: [color] }) },
     shape: {
       shape: draft.shape,
       ...draft.shapeNumbers,
+      ...(isDrawn && draft.points.length > 0
+        ? { points: draft.points.map((p) => [mm(p.x), mm(p.y)]) }
+        : {}),
+      ...(isDrawn && draft.closed ? { closed: true } : {}),
       ...(color === null ? {} : { color: [color] }),
     },
     file: {},
@@ -135,10 +179,14 @@ export function sourceOf(draft: Draft): FrameSource | null {
       ...own,
       ...(draft.style === 'auto' ? {} : { style: draft.style }),
       ...(draft.size_m === null ? {} : { size_m: draft.size_m }),
+      ...(draft.center === null ? {} : { center: [[mm(draft.center.x), mm(draft.center.y)]] }),
       ...(draft.turn === 0 ? {} : { turn: draft.turn }),
     },
   };
 }
+
+/** Metres to a tenth of a millimetre, as places of pixels are. */
+const mm = (metres: number) => Math.round(metres * 1e4) / 1e4 + 0;
 
 /** A source in a few words, for people. */
 export function sourceWords(source: FrameSource, fileName: string | null): string {

@@ -111,5 +111,5 @@ test('the box of a source becomes its size and its middle', () => {
   const source = sourceOf({ ...newDraft('text'), text: 'HI' }) ?? never();
   const draft = draftOf({ ...source, box: { min: [-1, 0], max: [1, 0.5] } });
   expect(draft.size_m).toBe(2);
-  expect(draft.kept.center).toEqual([[0, 0.25]]);
+  expect(draft.center).toEqual({ x: 0, y: 0.25 });
 });

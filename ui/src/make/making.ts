@@ -1,10 +1,13 @@
 import type { MakeAnswer, MakeQuality } from '../api/types.gen';
+import type { Box } from '../base/geometry';
 import { createStore, type Readable, type Store } from '../base/store';
 import type { Frame, Show } from '../model/show';
 import type { FrameSource } from '../model/sources';
 import { sourceOf, type Draft } from './draft';
 import { requestOf } from './frame';
 import type { Maker } from './maker';
+import { IDLE_PEN, type Pen } from './penState';
+import { lightsBox } from './picture';
 
 /** A frame that is being made: its settings, and the newest answer to them. */
 export interface Making {
@@ -15,6 +18,8 @@ export interface Making {
   /** Ids of pixels that were moved by hand and keep their places. */
   moved: Readable<readonly number[]>;
   made: Readable<Made>;
+  /** The pen for a line that is drawn on the floor. */
+  pen: Store<Pen>;
   change(fields: Partial<Draft>): void;
   /** Places the moved pixels anew as well. */
   forgetMoved(): void;
@@ -32,6 +37,8 @@ export interface Made {
   answer: MakeAnswer | null;
   /** Whether `answer` is the full result. */
   isFull: boolean;
+  /** The box around the lights of `shown`, along the picture's axes, in shares of its longer side; null: no lights. */
+  box: Box | null;
 }
 
 export interface Complete {
@@ -53,12 +60,13 @@ export interface MakingOf {
 /** Settings that rest for this long get the full result, milliseconds. */
 export const REST_MS = 250;
 
-const NOTHING: Made = { shown: null, answer: null, isFull: false };
+const NOTHING: Made = { shown: null, answer: null, isFull: false, box: null };
 
 export function createMaking(maker: Maker, of: MakingOf): Making {
   const draft: Store<Draft> = createStore(of.draft);
   const moved = createStore(of.moved);
   const made = createStore(NOTHING);
+  const pen = createStore(IDLE_PEN);
   let version = 0;
   let timer: ReturnType<typeof setTimeout> | undefined;
 
@@ -72,7 +80,9 @@ export function createMaking(maker: Maker, of: MakingOf): Making {
     const answer = await answerOf(wanted, quality);
     if (answer === null || asked !== version) return null;
     const shown = answer.error === null ? answer : made.get().shown;
-    made.set({ shown, answer, isFull: quality === 'full' || answer.error !== null });
+    const box =
+      answer.error === null ? lightsBox(answer, draft.get(), moved.get()) : made.get().box;
+    made.set({ shown, answer, box, isFull: quality === 'full' || answer.error !== null });
     return answer;
   };
   const answerOf = async (wanted: FrameSource, quality: MakeQuality) => {
@@ -105,6 +115,7 @@ export function createMaking(maker: Maker, of: MakingOf): Making {
     draft,
     moved,
     made,
+    pen,
     change(fields) {
       draft.update((now) => ({ ...now, ...fields }));
       begin();

@@ -33,11 +33,16 @@ function keepFromButton(event: KeyboardEvent) {
   event.target?.addEventListener('keyup', (up) => up.preventDefault(), { once: true });
 }
 
+/** Whether Enter presses the focused button, as it always does. */
+const isPress = ({ key, ctrlKey, metaKey, target }: KeyboardEvent) =>
+  key === 'Enter' && !ctrlKey && !metaKey && (target as HTMLElement | null)?.closest(PRESSED);
+
 type Key = readonly [string, (event: KeyboardEvent) => void];
 
 /** Keys of a view with their actions. */
 const ruled = (act: Key[1]) => (event: KeyboardEvent) => {
   if (isTaken(event.target as HTMLElement | null, event.key, isFocusByKeyboard())) return;
+  if (isPress(event)) return;
   const isOpen = document.querySelector('[role="dialog"]') !== null;
   // In a dialog the focused element gets the keys; browser shortcuts are still blocked.
   if (isOpen && !event.ctrlKey && !event.metaKey) return;

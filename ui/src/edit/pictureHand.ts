@@ -1,0 +1,126 @@
+import type { Point } from '../base/geometry';
+import { lengthText } from '../base/units';
+import type { Draft } from '../make/draft';
+import type { Making } from '../make/making';
+import {
+  CORNERS,
+  cornerAt,
+  movedBy,
+  pictureFromStage,
+  pictureOf,
+  scaledBy,
+  stageFromPicture,
+  turnedBy,
+  type Corner,
+  type Picture,
+} from '../make/picture';
+import { NO_OVERLAY } from '../model/editorState';
+import type { Tool, Touch } from '../model/tool';
+import { unitStore } from '../session/preferences';
+import type { Camera } from '../stage/camera';
+
+/** What of a picture is dragged. */
+export type Grip = { kind: 'move' } | { kind: 'turn' } | ({ kind: 'scale' } & Corner);
+
+/** Distance of the corners' handles from the lights, and of the knob from the upper side, CSS pixels. */
+const GAP_PX = 16;
+const KNOB_PX = 26;
+/** A press this near to a handle takes it, CSS pixels. */
+const REACH_PX = 11;
+
+export const pictureNow = (making: Making): Picture | null =>
+  pictureOf(making.draft.get(), making.made.get());
+
+/** The handles of a picture, stage metres. */
+export function gripsOf(picture: Picture, camera: Camera): { grip: Grip; at: Point }[] {
+  const gap_m = GAP_PX / camera.scale;
+  const corner = ({ sx, sy }: Corner) => {
+    const { x, y } = cornerAt(picture, { sx, sy });
+    return stageFromPicture(picture, { x: x + sx * gap_m, y: y + sy * gap_m });
+  };
+  const [left, right] = [cornerAt(picture, { sx: -1, sy: 1 }), cornerAt(picture, { sx: 1, sy: 1 })];
+  const knob = { x: (left.x + right.x) / 2, y: right.y + gap_m + KNOB_PX / camera.scale };
+  return [
+    { grip: { kind: 'turn' }, at: stageFromPicture(picture, knob) },
+    ...CORNERS.map((of) => ({ grip: { kind: 'scale', ...of } as const, at: corner(of) })),
+  ];
+}
+
+/** What a press takes: a handle, or the picture if it is inside its box; null: neither. */
+export function gripAt(picture: Picture, camera: Camera, { at, reach_m }: Touch): Grip | null {
+  const reach = Math.max(REACH_PX / camera.scale, reach_m);
+  const near = gripsOf(picture, camera).find(
+    (handle) => Math.hypot(handle.at.x - at.x, handle.at.y - at.y) < reach,
+  );
+  if (near) return near.grip;
+  const p = pictureFromStage(picture, at);
+  const [low, high] = [cornerAt(picture, { sx: -1, sy: -1 }), cornerAt(picture, { sx: 1, sy: 1 })];
+  const gap_m = GAP_PX / camera.scale;
+  const isInside =
+    p.x > low.x - gap_m && p.x < high.x + gap_m && p.y > low.y - gap_m && p.y < high.y + gap_m;
+  return isInside ? { kind: 'move' } : null;
+}
+
+/** Moves, scales or turns the picture that is made. Shift: steps of 15°, or one axis; Alt: about the middle. */
+export function createPictureTool(making: Making, grip: Grip): Tool {
+  let from: { at: Point; picture: Picture; draft: Draft } | null = null;
+  return {
+    down(editor, { at }) {
+      const picture = pictureNow(making);
+      editor.begin();
+      from = picture && { at, picture, draft: making.draft.get() };
+    },
+    move(editor, touch) {
+      if (!from) return;
+      const { stage } = editor.state.get().show;
+      making.change(changed(from.picture, grip, [from.at, touch.at], touch, stage));
+      const unit = unitStore.get();
+      const { size_m, center, turn } = { ...from.picture, ...pictureNow(making) };
+      const hint = {
+        move: `middle ${lengthText(center.x, unit)}, ${lengthText(center.y, unit)}`,
+        scale: `size ${lengthText(size_m, unit)}`,
+        turn: `${Math.round((turn * 180) / Math.PI)}°`,
+      }[grip.kind];
+      editor.overlay({ ...NO_OVERLAY, hint });
+    },
+    up(editor) {
+      from = null;
+      // The show has not changed: this ends the gesture and its hint.
+      editor.commit('Make');
+    },
+    cancel(editor) {
+      const before = from?.draft;
+      from = null;
+      editor.cancel();
+      if (before)
+        making.change({ size_m: before.size_m, center: before.center, turn: before.turn });
+      return before !== undefined;
+    },
+  };
+}
+
+function changed(
+  picture: Picture,
+  grip: Grip,
+  drag: readonly [Point, Point],
+  { shift, alt }: Touch,
+  floor: { width_m: number; depth_m: number },
+): Partial<Draft> {
+  if (grip.kind === 'turn') return turnedBy(picture, drag, shift);
+  if (grip.kind === 'scale') return scaledBy(picture, grip, drag, alt, floor);
+  const [from, to] = drag;
+  const [dx, dy] = [to.x - from.x, to.y - from.y];
+  const isFlat = Math.abs(dx) >= Math.abs(dy);
+  const by = shift ? { x: isFlat ? dx : 0, y: isFlat ? 0 : dy } : { x: dx, y: dy };
+  return movedBy(picture, by, floor);
+}
+
+/** Moves the picture by keyboard, metres. */
+export function nudgePicture(
+  making: Making,
+  by: Point,
+  floor: { width_m: number; depth_m: number },
+) {
+  const picture = pictureNow(making);
+  if (picture) making.change(movedBy(picture, by, floor));
+}
