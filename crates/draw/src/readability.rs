@@ -16,7 +16,7 @@ use crate::symmetry::{Mirror, symmetric_share};
 
 /// Width of a light's Gaussian, in heights of a letter, or of another drawing's larger side: a letter is seen from
 /// the distance at which its strokes just stay apart (measured with templates of 36 signs).
-const SIGMA: f64 = 0.07;
+pub(crate) const SIGMA: f64 = 0.07;
 
 /// From this correlation on, guests read a picture without being told what it is.
 pub const READABLE: f64 = 0.90;
@@ -77,7 +77,7 @@ pub(crate) fn of_group(part: &DrawingPart, places: &[Vec2]) -> Option<Readabilit
 }
 
 /// What is drawn: areas, else the picture's weights, and strokes.
-fn drawn(part: &DrawingPart, pitch: f64) -> Vec<Sample> {
+pub(crate) fn drawn(part: &DrawingPart, pitch: f64) -> Vec<Sample> {
     let mut drawn = samples(part, pitch);
     drawn.extend(along(&part.strokes, pitch));
     drawn
