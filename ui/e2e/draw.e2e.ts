@@ -234,3 +234,33 @@ test('a line with corners by keyboard only', async () => {
   ]);
   expect(await pixels(page)).toHaveLength(30);
 });
+
+test('a shape with a name is used in another show, after reloading', async () => {
+  const page = await bed.open('live');
+  await begin(page);
+  await page.keyboard.press('b');
+  await button(page, 'Curve').click();
+  for (const [x, y] of [
+    [-1, -0.4],
+    [0, 0.5],
+    [1, -0.3],
+  ] as const)
+    await click(page, x, y);
+  await page.keyboard.press('Enter');
+  await field(page, /^Keep this as$/).fill('Hill');
+  await field(page, /^Keep this as$/).press('Enter');
+  await button(page, 'Hill').waitFor();
+  await button(page, 'Cancel').click();
+  await page.reload();
+  await pixelsAre(page, 30);
+  const name = await begin(page);
+  await page.keyboard.press('s');
+  await button(page, 'Hill').click();
+  await page.getByText('3 points').waitFor();
+  await useMade(page);
+  expect(await settings(page, name)).toMatchObject({ shape: 'curve', size_m: 2 });
+  expect((await settings(page, name)).points).toHaveLength(3);
+  await page.keyboard.press('s');
+  await button(page, 'Remove own shape Hill').click();
+  await button(page, 'Hill').waitFor({ state: 'detached' });
+});

@@ -9,6 +9,7 @@ import { useEditing } from './context';
 import { FileFields } from './FileFields';
 import { closeMaking, takeMade } from './makes';
 import { MakeVerdict } from './MakeVerdict';
+import { OwnShapesField } from './OwnShapesField';
 import { PlacingFields } from './PlacingFields';
 import { ShapeFields } from './ShapeFields';
 import { WordFields } from './WordFields';
@@ -80,6 +81,7 @@ export function MakePanel({ making }: { making: Making }) {
           {tab === 'shape' ? <ShapeFields making={making} shapes={choices?.shapes ?? []} /> : null}
           {tab === 'file' ? <FileFields making={making} /> : null}
           <PlacingFields making={making} />
+          {tab === 'file' ? null : <OwnShapesField making={making} />}
         </div>
         <div className={styles.foot}>
           <MakeVerdict making={making} />
