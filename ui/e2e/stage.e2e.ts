@@ -205,3 +205,18 @@ test('several frames are chosen with Ctrl and Shift: coloured, timed, copied, mo
   await countIs(frames(page), 2);
   await saved(page);
 });
+
+test('pixels off the floor are put back onto it with one click', async () => {
+  const page = await begin('off');
+  await page.keyboard.press('Control+a');
+  for (let i = 0; i < 8; i++) await page.keyboard.press('Shift+ArrowUp');
+  await page.getByText('12 pixels are off the floor', { exact: false }).waitFor();
+  await button(page, 'Fit to floor').click();
+  await eventually(
+    () => pixels(page),
+    (list) => list.every((p) => Math.abs(p.x) <= 1.463 + 1e-6 && Math.abs(p.y) <= 1.463 + 1e-6),
+    'all pixels are on the floor',
+  );
+  await page.keyboard.press('Control+z');
+  await page.getByText('12 pixels are off the floor', { exact: false }).waitFor();
+});

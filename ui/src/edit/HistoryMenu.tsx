@@ -1,5 +1,5 @@
 import { ActionIcon, Menu } from '@mantine/core';
-import { IconHistory } from '@tabler/icons-react';
+import { IconListDetails } from '@tabler/icons-react';
 import { useEffect, useRef } from 'react';
 import { useEditing, useEditor } from './context';
 import styles from './HistoryMenu.module.css';
@@ -18,7 +18,7 @@ export function HistoryMenu() {
           title="History: every change since the show was opened"
           disabled={isEmpty}
         >
-          <IconHistory size={19} />
+          <IconListDetails size={18} />
         </ActionIcon>
       </Menu.Target>
       <Menu.Dropdown className={styles.list} aria-label="History">

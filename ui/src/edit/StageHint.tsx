@@ -1,4 +1,6 @@
+import { UnstyledButton } from '@mantine/core';
 import { useStore } from '../base/store';
+import * as acts from './acts';
 import { useEditing, useEditorNow } from './context';
 import { marksNow } from './overlay';
 import styles from '../stage/stage.module.css';
@@ -6,7 +8,8 @@ import styles from '../stage/stage.module.css';
 /** One line at the floor's edge: the distance of a drag, or the pixels that are wrong and how to fix them. */
 export function StageHint() {
   const state = useEditorNow((s) => s);
-  const isMaking = useStore(useEditing().making, (making) => making !== null);
+  const editing = useEditing();
+  const isMaking = useStore(editing.making, (making) => making !== null);
   const { tooClose, offFloor } = marksNow(state);
   const wrong = [
     tooClose.size > 0 ? `${tooClose.size} pixels are too close to each other (dashed rings)` : '',
@@ -23,7 +26,14 @@ export function StageHint() {
   if (wrong.length === 0 || isMaking) return null;
   return (
     <div className={styles.note} data-wrong role="status">
-      {wrong.join('; ')}. Move them, or use Spread apart.
+      {wrong.join('; ')}.{' '}
+      {offFloor.size > 0 ? (
+        <UnstyledButton className={styles.noteAct} onClick={() => acts.fitToFloor(editing)}>
+          Fit to floor
+        </UnstyledButton>
+      ) : (
+        'Move them, or use Spread apart.'
+      )}
     </div>
   );
 }

@@ -1,4 +1,4 @@
-import { type Point, boxOf, centreOf, inBox } from '../base/geometry';
+import { type Point, boxOf, centreOf, inBox, scaleAbout } from '../base/geometry';
 import type { Rgb } from '../base/colour';
 import * as arrange from '../model/arrange';
 import * as commands from '../model/commands';
@@ -8,6 +8,9 @@ import { keepColour, type Editing } from './editing';
 
 /** Distance of pixels that makes planning easy; arrangements keep it where there is room, metres. */
 const easyGap_m = (stage: Stage) => Math.max(0.08, tooClose_m(stage) + 0.016);
+
+/** Room between a robot's rim and the edge of the floor where pixels are put there, metres. */
+const FLOOR_EDGE_M = 0.01;
 
 /** Pixels that an action changes: the selection, or all pixels when nothing is selected. */
 function subject(editing: Editing): readonly Pixel[] {
@@ -43,7 +46,7 @@ export const spread = (e: Editing) =>
 
 /** Shifts positions onto the floor as a whole, without scaling. */
 function keepOnFloor(places: Point[], stage: Stage): Point[] {
-  const margin = stage.radius_m + 0.01;
+  const margin = stage.radius_m + FLOOR_EDGE_M;
   const floor = {
     minX: -stage.width_m / 2 + margin,
     minY: -stage.depth_m / 2 + margin,
@@ -59,6 +62,29 @@ function keepOnFloor(places: Point[], stage: Stage): Point[] {
   const dx = shift(box.minX, box.maxX, floor.minX, floor.maxX);
   const dy = shift(box.minY, box.maxY, floor.minY, floor.maxY);
   return places.map((p) => ({ x: p.x + dx, y: p.y + dy }));
+}
+
+/** Makes the frame small enough for the floor, and shifts it there. */
+export function fitToFloor(e: Editing) {
+  e.editor.change('Fit to floor', (show, s) => {
+    const pixels = show.frames[s.frame]?.pixels ?? [];
+    const places = keepOnFloor(withinFloor(pixels, show.stage), show.stage);
+    const placed = pixels.map((p, i) => [p.id, places[i] ?? p] as const);
+    return commands.placePixels(show, s.frame, new Map(placed));
+  });
+}
+
+/** The places scaled about their middle until they are no wider and deeper than the floor. */
+function withinFloor(places: readonly Point[], stage: Stage): Point[] {
+  const box = boxOf(places);
+  const room = (side_m: number) => Math.max(0, side_m - 2 * (stage.radius_m + FLOOR_EDGE_M));
+  const share = (side_m: number, extent_m: number) => (extent_m > 0 ? room(side_m) / extent_m : 1);
+  const k = Math.min(
+    1,
+    share(stage.width_m, box.maxX - box.minX),
+    share(stage.depth_m, box.maxY - box.minY),
+  );
+  return places.map((p) => scaleAbout(p, centreOf(box), k, k));
 }
 
 export const nudge = (e: Editing, dx: number, dy: number) => {

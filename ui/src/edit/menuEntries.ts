@@ -77,7 +77,7 @@ function floorEntries(editing: Editing): MenuEntry[] {
       act: () => void editor.redo(),
     },
     'line',
-    { label: 'Whole floor', keys: '0', act: () => fitView(editing.view) },
+    { label: 'Fit floor', keys: '0', act: () => fitView(editing.view) },
   ];
 }
 

@@ -56,7 +56,7 @@ export const KEYS: { title: string; keys: [string[], string][] }[] = [
       [['Space'], 'Preview, without robots'],
       [['Space', 'Drag'], 'Move the view'],
       [['M', 'N', 'H', 'W'], 'Snap, ids, onion skin, routes'],
-      [['0', '+', '−'], 'Whole floor, zoom'],
+      [['0', '+', '−'], 'Fit floor, zoom'],
     ],
   },
 ];

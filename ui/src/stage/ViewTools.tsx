@@ -48,7 +48,7 @@ export function ZoomTools({ view }: { view: Store<View> }) {
       <StageTool label="Zoom in (+)" onClick={() => zoomView(view, 1.4)}>
         <IconPlus size={17} />
       </StageTool>
-      <StageTool label="Whole floor (0)" onClick={() => fitView(view)}>
+      <StageTool label="Fit floor (0)" onClick={() => fitView(view)}>
         <IconMaximize size={17} />
       </StageTool>
     </>
