@@ -8,6 +8,20 @@ pub fn raise_limit() {
     }
 }
 
+/// Open files that the system lets this process have.
+pub fn limit() -> usize {
+    // Where the limit is not known, the least that systems have.
+    let known = rlimit::Resource::NOFILE.get_soft().unwrap_or(256);
+    usize::try_from(known).unwrap_or(usize::MAX)
+}
+
+/// Whether an error says that this process, or the whole system, has as many open files as it may.
+pub fn is_limit(error: &std::io::Error) -> bool {
+    // EMFILE and ENFILE; on Windows WSAEMFILE.
+    let codes = if cfg!(windows) { [10_024, 10_024] } else { [24, 23] };
+    error.raw_os_error().is_some_and(|code| codes.contains(&code))
+}
+
 /// Bounds the memory of the broker's process, where the system can: one that runs away ends and is started again, instead
 /// of taking the whole machine with it.
 pub fn limit_memory() {

@@ -2,10 +2,23 @@
 
 use std::io;
 use std::net::SocketAddr;
+use std::time::{Duration, Instant};
 
 use axum::extract::connect_info::Connected;
 use axum::serve::{IncomingStream, Listener};
+use lightbots_api::Level;
 use tokio::net::{TcpListener, TcpStream};
+
+use super::guests::{Guest, Guests};
+use super::log::ScreenLog;
+use crate::open_files;
+
+/// The most connections of screens and scripts: a screen has one for its pictures and up to six for requests.
+const MOST: usize = 1_000;
+/// Shortest time between two lines that say that connections are refused.
+const SAY_EVERY: Duration = Duration::from_secs(10);
+/// Time until the next attempt after the system refused a connection.
+const AGAIN_IN: Duration = Duration::from_millis(100);
 
 /// Addresses of a connection.
 #[derive(Clone, Copy, Debug)]
@@ -16,27 +29,90 @@ pub struct Ends {
     pub local: SocketAddr,
 }
 
-/// Accepts connections and adds their addresses.
-pub struct Connections(pub TcpListener);
+/// Accepts a bounded number of connections and adds their addresses.
+pub struct Connections {
+    listener: TcpListener,
+    guests: Guests,
+    log: ScreenLog,
+    /// When a refusal was last said.
+    said: Option<Instant>,
+}
+
+impl Connections {
+    /// Accepts what comes to the listener. At most half of the open files that the system grants become connections, so
+    /// that the library and the link to the broker have room. Refusals are said in the log.
+    pub fn new(listener: TcpListener, log: ScreenLog) -> Self {
+        let most = MOST.min(open_files::limit() / 2);
+        Self { listener, guests: Guests::new(most), log, said: None }
+    }
+
+    /// The connection in its place; `None`: it is closed, because there is no room.
+    fn admit(&mut self, stream: TcpStream) -> Option<Guest> {
+        let place = self.guests.admit(Instant::now());
+        if place.is_none() {
+            let most = self.guests.most();
+            self.say(&format!(
+                "The web app has {most} connections, the most it takes: further ones are refused. Close pages, or \
+                 find the program that opens so many."
+            ));
+        }
+        Some(Guest::new(stream, place?))
+    }
+
+    /// Waits after an error of the system, and says what it means.
+    async fn failed(&mut self, error: &io::Error) {
+        use io::ErrorKind::{ConnectionAborted, ConnectionReset, Interrupted};
+        if matches!(error.kind(), ConnectionAborted | ConnectionReset | Interrupted) {
+            return;
+        }
+        if open_files::is_limit(error) {
+            let limit = open_files::limit();
+            self.say(&format!(
+                "The system lets this program open no more files or connections (at most {limit}): pages cannot \
+                 connect. Raise the limit with `ulimit -n`."
+            ));
+            self.guests.close_silent(Instant::now());
+        } else {
+            self.say(&format!("The system refuses connections of pages: {error}."));
+        }
+        tokio::time::sleep(AGAIN_IN).await;
+    }
+
+    fn say(&mut self, line: &str) {
+        if self.said.is_some_and(|said| said.elapsed() < SAY_EVERY) {
+            return;
+        }
+        self.said = Some(Instant::now());
+        tracing::warn!("{line}");
+        self.log.say(Level::Warn, line);
+    }
+}
 
 impl Listener for Connections {
-    type Io = TcpStream;
+    type Io = Guest;
     type Addr = Ends;
 
-    async fn accept(&mut self) -> (TcpStream, Ends) {
+    async fn accept(&mut self) -> (Guest, Ends) {
         loop {
-            let (stream, remote) = Listener::accept(&mut self.0).await;
+            let (stream, remote) = match self.listener.accept().await {
+                Ok(accepted) => accepted,
+                Err(error) => {
+                    self.failed(&error).await;
+                    continue;
+                }
+            };
             // Without it the kernel may hold a snapshot back until the one before is acknowledged.
             let _ = stream.set_nodelay(true);
             // A closed connection has no address.
-            if let Ok(local) = stream.local_addr() {
-                return (stream, Ends { remote, local });
+            let Ok(local) = stream.local_addr() else { continue };
+            if let Some(guest) = self.admit(stream) {
+                return (guest, Ends { remote, local });
             }
         }
     }
 
     fn local_addr(&self) -> io::Result<Ends> {
-        let local = self.0.local_addr()?;
+        let local = self.listener.local_addr()?;
         Ok(Ends { remote: local, local })
     }
 }

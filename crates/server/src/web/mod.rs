@@ -4,6 +4,7 @@ mod api;
 mod broker;
 mod connection;
 mod desk;
+mod guests;
 mod log;
 mod names;
 mod operate;
@@ -88,6 +89,7 @@ pub async fn listen(exposure: &Exposure) -> Result<(TcpListener, Names), Failure
 
 /// Serves until the task is dropped.
 pub async fn serve(listener: TcpListener, shared: Arc<Shared>) {
+    let connections = Connections::new(listener, shared.log.clone());
     let routes = Router::new()
         .route("/ws", any(socket::open))
         .route("/api/shows", get(api::list))
@@ -107,7 +109,7 @@ pub async fn serve(listener: TcpListener, shared: Arc<Shared>) {
         .layer(axum::middleware::from_fn_with_state(shared.clone(), origin::guard))
         .with_state(shared);
     let routes = routes.into_make_service_with_connect_info::<Ends>();
-    if let Err(error) = axum::serve(Connections(listener), routes).await {
+    if let Err(error) = axum::serve(connections, routes).await {
         tracing::error!("the web server failed: {error}");
     }
 }

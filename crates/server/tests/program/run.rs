@@ -247,7 +247,7 @@ fn everything_stops_cleanly_when_told_to() {
 
 /// `run` started by another program, which it takes the place of: the process, the screen's address, the broker's.
 #[cfg(target_os = "linux")]
-fn start_by(starter: &[&str], arguments: &[&str]) -> (Child, String, String) {
+pub fn start_by(starter: &[&str], arguments: &[&str]) -> (Child, String, String) {
     let data = shows::own_folder();
     let mut command = std::process::Command::new(starter[0]);
     command.args(&starter[1..]).arg(env!("CARGO_BIN_EXE_lightbots")).arg("run").args(arguments);

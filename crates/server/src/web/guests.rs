@@ -1,0 +1,178 @@
+//! A bounded number of connections to the web app. When it is reached, the connection that was silent for the longest
+//! time makes room: files, broker and robots of this program need sockets, too.
+
+use std::collections::BTreeMap;
+use std::io;
+use std::pin::Pin;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::task::{Context, Poll};
+use std::time::{Duration, Instant};
+
+use tokio::io::{AsyncRead, AsyncWrite, ReadBuf};
+use tokio::net::TcpStream;
+use tokio::sync::oneshot;
+
+/// A connection without a byte in either direction for this long may be closed to make room. Above the time that a plan
+/// may take, during which its client waits in silence.
+const SILENT: Duration = Duration::from_secs(40);
+
+/// The connections there are.
+#[derive(Debug)]
+pub struct Guests {
+    most: usize,
+    next: u64,
+    lines: Arc<Mutex<BTreeMap<u64, Line>>>,
+}
+
+#[derive(Debug)]
+struct Line {
+    /// When a byte last went through it.
+    alive: Arc<Mutex<Instant>>,
+    /// Dropped to end the connection.
+    _end: oneshot::Sender<()>,
+}
+
+/// The place of one connection, free again when it is dropped.
+#[derive(Debug)]
+pub struct GuestPlace {
+    number: u64,
+    alive: Arc<Mutex<Instant>>,
+    ended: oneshot::Receiver<()>,
+    lines: Arc<Mutex<BTreeMap<u64, Line>>>,
+}
+
+impl Guests {
+    /// Room for `most` connections.
+    pub fn new(most: usize) -> Self {
+        Self { most, next: 0, lines: Arc::default() }
+    }
+
+    /// The most connections there may be.
+    pub fn most(&self) -> usize {
+        self.most
+    }
+
+    /// A place for a further connection; `None` where there is none, and no other connection is silent for long.
+    pub fn admit(&mut self, now: Instant) -> Option<GuestPlace> {
+        if lock(&self.lines).len() >= self.most && !self.close_silent(now) {
+            return None;
+        }
+        let number = self.next;
+        self.next += 1;
+        let (end, ended) = oneshot::channel();
+        let alive = Arc::new(Mutex::new(now));
+        lock(&self.lines).insert(number, Line { alive: alive.clone(), _end: end });
+        Some(GuestPlace { number, alive, ended, lines: self.lines.clone() })
+    }
+
+    /// Ends the connection that was silent for the longest time, if any was for long.
+    pub fn close_silent(&self, now: Instant) -> bool {
+        let mut lines = lock(&self.lines);
+        let oldest = lines.iter().map(|(number, line)| (*lock(&line.alive), *number)).min();
+        let silent = oldest.filter(|(alive, _)| now.duration_since(*alive) >= SILENT);
+        silent.is_some_and(|(_, number)| lines.remove(&number).is_some())
+    }
+}
+
+impl Drop for GuestPlace {
+    fn drop(&mut self) {
+        lock(&self.lines).remove(&self.number);
+    }
+}
+
+fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// A connection in its place.
+#[derive(Debug)]
+pub struct Guest {
+    stream: TcpStream,
+    place: GuestPlace,
+}
+
+impl Guest {
+    /// The connection that has this place.
+    pub fn new(stream: TcpStream, place: GuestPlace) -> Self {
+        Self { stream, place }
+    }
+
+    fn note<T>(&self, done: &Poll<io::Result<T>>) {
+        if let Poll::Ready(Ok(_)) = done {
+            *lock(&self.place.alive) = Instant::now();
+        }
+    }
+}
+
+impl AsyncRead for Guest {
+    fn poll_read(
+        mut self: Pin<&mut Self>,
+        context: &mut Context<'_>,
+        bytes: &mut ReadBuf<'_>,
+    ) -> Poll<io::Result<()>> {
+        if Pin::new(&mut self.place.ended).poll(context).is_ready() {
+            return Poll::Ready(Err(io::ErrorKind::ConnectionAborted.into()));
+        }
+        let done = Pin::new(&mut self.stream).poll_read(context, bytes);
+        self.note(&done);
+        done
+    }
+}
+
+impl AsyncWrite for Guest {
+    fn poll_write(
+        mut self: Pin<&mut Self>,
+        context: &mut Context<'_>,
+        bytes: &[u8],
+    ) -> Poll<io::Result<usize>> {
+        let done = Pin::new(&mut self.stream).poll_write(context, bytes);
+        self.note(&done);
+        done
+    }
+
+    fn poll_write_vectored(
+        mut self: Pin<&mut Self>,
+        context: &mut Context<'_>,
+        bytes: &[io::IoSlice<'_>],
+    ) -> Poll<io::Result<usize>> {
+        let done = Pin::new(&mut self.stream).poll_write_vectored(context, bytes);
+        self.note(&done);
+        done
+    }
+
+    fn is_write_vectored(&self) -> bool {
+        self.stream.is_write_vectored()
+    }
+
+    fn poll_flush(mut self: Pin<&mut Self>, context: &mut Context<'_>) -> Poll<io::Result<()>> {
+        Pin::new(&mut self.stream).poll_flush(context)
+    }
+
+    fn poll_shutdown(mut self: Pin<&mut Self>, context: &mut Context<'_>) -> Poll<io::Result<()>> {
+        Pin::new(&mut self.stream).poll_shutdown(context)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_full_house_takes_another_guest_for_the_one_that_was_silent_for_the_longest_time() {
+        let began = Instant::now();
+        let mut guests = Guests::new(2);
+        let mut first = guests.admit(began).unwrap();
+        let mut second = guests.admit(began).unwrap();
+        *lock(&first.alive) = began + Duration::from_secs(1);
+        assert!(
+            guests.admit(began + SILENT - Duration::from_millis(1)).is_none(),
+            "nobody is silent for long"
+        );
+        let _third = guests.admit(began + SILENT).unwrap();
+        assert!(second.ended.try_recv() == Err(oneshot::error::TryRecvError::Closed), "its connection ends");
+        assert!(first.ended.try_recv() == Err(oneshot::error::TryRecvError::Empty));
+        assert!(guests.admit(began + SILENT).is_none());
+        drop(first);
+        assert!(guests.admit(began + SILENT).is_some());
+    }
+}
