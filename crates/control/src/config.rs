@@ -1,6 +1,7 @@
 //! What a controller is told once, at its start.
 
-use lightbots_base::Span;
+use lightbots_base::{RobotId, Span};
+use std::collections::BTreeSet;
 
 /// Bounds and tolerances of a controller. The default is what the shell uses, except for `seq_base`.
 #[derive(Clone, Debug, PartialEq)]
@@ -12,6 +13,9 @@ pub struct Config {
     pub arrival_tolerance_m: f64,
     /// The most robots that are remembered; further names are counted and dropped.
     pub robots_max: usize,
+    /// Names of the robots that may take part in runs; empty: any robot that is there when a run begins. Robots of other
+    /// names are driven around.
+    pub admitted: BTreeSet<RobotId>,
     /// When robots that do not report age.
     pub ageing: Ageing,
     /// How long before its moment a START is stated; grows by 20 µs a robot.
@@ -56,6 +60,7 @@ impl Default for Config {
             seq_base: 1,
             arrival_tolerance_m: 0.02,
             robots_max: 20_000,
+            admitted: BTreeSet::new(),
             ageing: Ageing { stale_after: Span::from_millis(6_000), gone_after: Span::from_millis(30_000) },
             start_lead: Span::from_millis(240),
             upload: UploadLimits { resend_after: Span::from_millis(250), tries: 12, window: 1_024 },

@@ -2,7 +2,7 @@
 
 use crate::operation::ControllerState;
 use core::fmt;
-use lightbots_base::{Instant, RobotId, Span};
+use lightbots_base::{Instant, RobotId, Span, Vec2};
 use lightbots_show::Severity;
 
 /// Something that happened.
@@ -33,6 +33,15 @@ pub enum EventKind {
     RobotGone(RobotId),
     /// A stale or gone robot reports again.
     RobotBack(RobotId),
+    /// Reports of one name come from places between which no robot can have driven.
+    NameShared {
+        /// The name.
+        robot: RobotId,
+        /// Where its robots reported from last, stage metres.
+        places: Vec<Vec2>,
+    },
+    /// One robot has a name again that two had shared.
+    NameUnique(RobotId),
     /// There are more robots than can be remembered; recorded once.
     FleetFull,
     /// A show was opened.
@@ -158,6 +167,8 @@ pub enum Trouble {
     Missed,
     /// An obstacle is in its path.
     Blocked,
+    /// Another robot has its name.
+    Shared,
 }
 
 /// How a run ended.
@@ -176,9 +187,10 @@ impl EventKind {
     pub fn severity(&self) -> Severity {
         use EventKind::*;
         match self {
-            PlanFailed { .. } | Dropout { .. } | RunEnded { outcome: RunOutcome::Failed(_), .. } => {
-                Severity::Error
-            }
+            NameShared { .. }
+            | PlanFailed { .. }
+            | Dropout { .. }
+            | RunEnded { outcome: RunOutcome::Failed(_), .. } => Severity::Error,
             Disconnected
             | RobotStale(_)
             | RobotGone(_)
@@ -209,6 +221,7 @@ impl fmt::Display for Trouble {
             Self::Cut => "was cut off or restarted",
             Self::Missed => "did not reach its goal",
             Self::Blocked => "is blocked",
+            Self::Shared => "shares its name with another robot",
         })
     }
 }
@@ -244,6 +257,16 @@ impl fmt::Display for EventKind {
             RobotStale(id) => write!(f, "Robot {id} has not reported lately."),
             RobotGone(id) => write!(f, "Robot {id} is gone."),
             RobotBack(id) => write!(f, "Robot {id} is back."),
+            NameShared { robot, places } => {
+                let [at, other] = [0, 1].map(|index| places.get(index).copied().unwrap_or(Vec2::ZERO));
+                write!(
+                    f,
+                    "Two robots are called {robot}: it reports from ({:.2}, {:.2}) and from ({:.2}, {:.2}) in turn. Both are \
+                     kept out of the show; give one of them another name.",
+                    at.x, at.y, other.x, other.y
+                )
+            }
+            NameUnique(id) => write!(f, "One robot is called {id} again: it may take part."),
             FleetFull => write!(f, "Too many robots: further names are not remembered."),
             ShowOpened { name, frames } if name.trim().is_empty() => {
                 write!(f, "A show without a name, with {}, is open.", Count(*frames, "frame"))

@@ -72,6 +72,10 @@ impl KnownRobots {
         let robot = &mut self.robots[index];
         let place = report.at.filter(|at| at.x.abs() < PLACE_MAX_M && at.y.abs() < PLACE_MAX_M);
         let restarted = robot.receive(now, report, place);
+        if place.is_some_and(|at| robot.namesakes.observe(now, at)) {
+            let places = robot.namesakes.places();
+            log.record(now, EventKind::NameShared { robot: report.id, places });
+        }
         if robot.contact.age != Age::Active {
             robot.contact.age = Age::Active;
             log.record_limited(now, EventKind::RobotBack(report.id));
@@ -91,7 +95,8 @@ impl KnownRobots {
             self.overflow += 1;
             return None;
         }
-        self.robots.push(KnownRobot::new(id, now));
+        let is_admitted = config.admitted.is_empty() || config.admitted.contains(&id);
+        self.robots.push(KnownRobot { is_admitted, ..KnownRobot::new(id, now) });
         self.index_of.insert(id, index as u32);
         log.record(now, EventKind::RobotFound(id));
         Some(index)
@@ -121,6 +126,9 @@ impl KnownRobots {
         let slice = self.patrolled..(self.patrolled + 64.max(count / rounds.max(1) + 1)).min(count);
         self.patrolled = slice.end;
         for robot in &mut self.robots[slice.clone()] {
+            if robot.namesakes.are_gone(now) {
+                log.record(now, EventKind::NameUnique(robot.id));
+            }
             let silent = now - robot.contact.heard;
             let age = age_after(silent, config);
             if age > robot.contact.age {

@@ -26,6 +26,7 @@ mod fleet;
 mod leg;
 mod log;
 mod mapping;
+mod namesakes;
 mod operating;
 mod operation;
 mod outbox;

@@ -1,5 +1,6 @@
 //! One robot, as the controller knows it.
 
+use crate::namesakes::Namesakes;
 use crate::snapshot::{Age, LastContact, Reported, RobotView};
 use lightbots_base::{Instant, Rgb, RobotId, Vec2};
 use lightbots_wire::{Details, Report, RobotState};
@@ -41,6 +42,10 @@ pub(crate) struct KnownRobot {
     pub short_m: f64,
     /// The light it was told to show.
     pub light: Rgb,
+    /// Whether it may take part in runs.
+    pub is_admitted: bool,
+    /// Whether another robot has the same name.
+    pub namesakes: Namesakes,
     /// Its number in the run.
     pub participant: Option<u32>,
     /// The pixel it showed when the last run ended.
@@ -69,6 +74,8 @@ impl KnownRobot {
             asked: now,
             short_m: STOPS_SHORT.first_m,
             light: Rgb::BLACK,
+            is_admitted: true,
+            namesakes: Namesakes::default(),
             participant: None,
             pixel: None,
             goal: None,
@@ -107,7 +114,7 @@ impl KnownRobot {
 
     /// Whether it could take part in a run now.
     pub fn can_take_part(&self) -> bool {
-        self.is_fit() && self.reported.at.is_some()
+        self.is_fit() && self.reported.at.is_some() && self.is_admitted && !self.namesakes.are_there()
     }
 
     /// Whether its last report says that its wheels may turn.

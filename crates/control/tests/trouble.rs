@@ -359,24 +359,6 @@ fn everybody_can_be_stopped_even_when_another_set_them_going() {
 }
 
 #[test]
-fn a_new_robot_takes_the_place_of_a_dead_one() {
-    let show = show(4, 8, 0.3);
-    let mut world = World::ready(8, 0, show.clone());
-    world.play();
-    world.run_until(10.0, started);
-    world.run_for(1.0);
-    world.robots[1].dead = true;
-    world.run_until(10.0, |kind| matches!(kind, EventKind::Dropout { .. }));
-    let mut fresh = fleet::robot::Robot::new(77, Vec2::new(1.3, -1.3), false);
-    fresh.introduce();
-    world.robots.push(fresh);
-    let (outcome, frames, dropouts) = world.run_to_end(90.0);
-    assert_eq!((outcome, frames, dropouts), (RunOutcome::Finished, 4, 1), "{}", world.story());
-    assert!(world.lit(&show.frames[3]) >= 7, "{}", world.story());
-    assert_eq!(world.count(|kind| matches!(kind, EventKind::Rejoined(_))), 1, "{}", world.story());
-}
-
-#[test]
 fn when_all_robots_die_the_run_ends() {
     let mut world = World::ready(4, 0, show(2, 4, 0.3));
     world.play();

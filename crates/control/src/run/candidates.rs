@@ -12,7 +12,8 @@ pub(crate) fn consider(cx: &mut RunContext, robot: usize, is_stopping: bool) {
     let participant = cx.io.fleet.robot(robot).participant.map(|participant| participant as usize);
     let is_welcome = match participant {
         Some(participant) => cx.participant(participant).membership.may_return(),
-        None => cx.pipeline.planning.is_dark,
+        // Any client can claim to be a robot: a name that is first heard during a run takes a pixel only if it is listed.
+        None => cx.pipeline.planning.is_dark && is_expected(cx, robot),
     };
     let plays = cx.playback.purpose == RunPurpose::Play;
     if !is_welcome || !plays || !is_ready(cx.io, robot) || cx.roster.candidates.contains(&robot) {
@@ -21,6 +22,12 @@ pub(crate) fn consider(cx: &mut RunContext, robot: usize, is_stopping: bool) {
     if participant.is_none_or(|participant| probation::passes(cx, participant, is_stopping)) {
         cx.roster.candidates.push(robot);
     }
+}
+
+/// Whether a robot that took no part so far may.
+fn is_expected(cx: &RunContext, robot: usize) -> bool {
+    let known = cx.io.fleet.robot(robot);
+    known.is_admitted && !(cx.io.config.admitted.is_empty() && cx.roster.is_stranger(known))
 }
 
 /// Robots that want to take part do, while all stand; whether any does now that did not before.

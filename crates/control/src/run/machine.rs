@@ -13,7 +13,7 @@ use crate::run::offline::Offline;
 use crate::run::path_clock::PathClock;
 use crate::run::pipeline::Pipeline;
 use crate::run::playback::PlayedShow;
-use crate::run::roster::Roster;
+use crate::run::roster::{Roster, Whereabouts};
 use crate::run::run_context::RunContext;
 use crate::run::standing::Standing;
 use crate::run::starting::Starting;
@@ -158,6 +158,11 @@ impl Run {
                 RunPhase::Gathering(gathering) => gathering.whereabouts(&cx, participant),
                 _ => Default::default(),
             };
+            self.roster.participants[participant].last_seen = whereabouts;
+        }
+        if why == Trouble::Shared {
+            let places = self.roster.robot(io, participant).namesakes.places();
+            let whereabouts = Whereabouts { possible: places.clone(), likely: places };
             self.roster.participants[participant].last_seen = whereabouts;
         }
         let robot = self.roster.robot(io, participant).id;

@@ -34,7 +34,7 @@ pub(crate) use machine::{Run, RunPhase};
 pub(crate) use playback::{FrameCursor, PlayedShow, RunPurpose};
 
 use crate::context::Context;
-use crate::event::{EventKind, RunOutcome};
+use crate::event::{EventKind, RunOutcome, Trouble};
 use crate::fleet::FleetUpdate;
 use crate::leg::{Leg, LegKind};
 use crate::plan_request::PlanResult;
@@ -107,6 +107,9 @@ impl Run {
             let (_, mut cx) = self.split(io, now);
             return candidates::consider(&mut cx, received.index, is_stopping);
         };
+        if io.fleet.robot(received.index).namesakes.are_there() {
+            return self.apply(io, now, Next::drop(participant, Trouble::Shared));
+        }
         if topic == Topic::Arrival || report.details.is_none() {
             let next = self.on_place(io, now, participant, topic, report);
             return self.apply(io, now, next);

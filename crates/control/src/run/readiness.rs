@@ -17,6 +17,9 @@ pub(crate) fn missing(context: &Context, robot: usize, fresh_from: Instant) -> O
     if heard < fresh_from {
         return Some(Trouble::Silent);
     }
+    if robot.namesakes.are_there() {
+        return Some(Trouble::Shared);
+    }
     match reported.state {
         Some(RobotState::Faulty) => Some(Trouble::Faulty),
         Some(RobotState::Lost) => Some(Trouble::Lost),

@@ -62,11 +62,16 @@ pub struct World {
 impl World {
     /// Robots in a row along the front edge; the last `originals` of them know only TARGET and COLOR.
     pub fn new(count: usize, originals: usize) -> Self {
+        Self::with(Config::default(), count, originals)
+    }
+
+    /// The same with a controller of other bounds.
+    pub fn with(config: Config, count: usize, originals: usize) -> Self {
         let place = |i: usize| Vec2::new((i % 29) as f64 * 0.1 - 1.4, 1.3 - (i / 29) as f64 * 0.1);
         let robots = (0..count).map(|i| Robot::new(i, place(i), i + originals >= count)).collect();
         let mut world = Self {
             now: Instant(1_000_000),
-            controller: Controller::new(Config::default()),
+            controller: Controller::new(config),
             robots,
             events: Vec::new(),
             linked: false,

@@ -1,0 +1,117 @@
+//! Finds out that two robots share a name: its reports come from two places in turn, between which no robot can have
+//! driven.
+
+use lightbots_base::{Instant, Span, Vec2};
+
+/// Speed above which nothing of a fleet drives, metres per second: three times the usual speed limit, because reports come
+/// late and together.
+const SPEED_MPS: f64 = 0.8;
+/// Distance that is no jump whatever the time, metres: noise of fixes, and what a hand moves.
+const SLACK_M: f64 = 0.3;
+/// Jumps in turn after which two robots share the name. One is a robot that was put down elsewhere, two is a robot that was
+/// put back.
+const JUMPS: u8 = 3;
+/// The jumps are counted within this time.
+const WITHIN: Span = Span::from_millis(10_000);
+/// After this time without a jump one robot has the name again.
+const CLEAR_AFTER: Span = Span::from_millis(30_000);
+
+/// A place, and when it was reported.
+type Sighting = (Instant, Vec2);
+
+/// What the places of one name say of the number of its robots.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Namesakes {
+    last: Option<Sighting>,
+    /// Where the other robot of the name would be: the place before the last jump.
+    other: Option<Sighting>,
+    jumps: u8,
+    first_jump: Instant,
+    last_jump: Instant,
+    are_there: bool,
+}
+
+impl Namesakes {
+    /// Whether two robots share the name.
+    pub fn are_there(&self) -> bool {
+        self.are_there
+    }
+
+    /// Where they reported from last, stage metres.
+    pub fn places(&self) -> Vec<Vec2> {
+        self.last.iter().chain(&self.other).map(|(_, at)| *at).collect()
+    }
+
+    /// The name reports a place. Whether that shows, for the first time, that two robots share it.
+    pub fn observe(&mut self, now: Instant, at: Vec2) -> bool {
+        let Some(last) = self.last.replace((now, at)) else { return false };
+        if is_reachable(last, now, at) {
+            return false;
+        }
+        let is_return = self.other.replace(last).is_some_and(|other| is_reachable(other, now, at));
+        if !is_return || now - self.first_jump > WITHIN {
+            (self.jumps, self.first_jump) = (0, now);
+        }
+        self.jumps = self.jumps.saturating_add(1);
+        self.last_jump = now;
+        let found = self.jumps >= JUMPS && !self.are_there;
+        self.are_there |= found;
+        found
+    }
+
+    /// Time passed. Whether one robot has the name again.
+    pub fn are_gone(&mut self, now: Instant) -> bool {
+        let is_over = self.are_there && now - self.last_jump > CLEAR_AFTER;
+        if is_over {
+            *self = Self { last: self.last, ..Self::default() };
+        }
+        is_over
+    }
+}
+
+fn is_reachable((since, from): Sighting, now: Instant, at: Vec2) -> bool {
+    from.distance(at) <= SLACK_M + SPEED_MPS * (now - since).as_secs()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn found(places: &[(f64, f64)]) -> Option<usize> {
+        let mut namesakes = Namesakes::default();
+        places
+            .iter()
+            .position(|(at_s, x)| namesakes.observe(Instant((at_s * 1e6) as u64), Vec2::new(*x, 0.0)))
+    }
+
+    #[test]
+    fn two_robots_that_report_in_turn_share_a_name() {
+        assert_eq!(found(&[(0.0, -1.0), (0.2, 1.0), (0.5, -0.9), (0.7, 1.1)]), Some(3));
+    }
+
+    #[test]
+    fn a_robot_that_is_put_elsewhere_and_back_is_one() {
+        assert_eq!(found(&[(0.0, -1.0), (0.2, 1.0), (0.5, 1.0), (0.7, -1.0), (0.9, -1.0)]), None);
+        // Nor is one whose place is wrong in a new way each time.
+        assert_eq!(found(&[(0.0, 0.0), (0.2, 9.0), (0.4, 4.0), (0.6, 20.0), (0.8, 0.0), (1.0, 30.0)]), None);
+    }
+
+    #[test]
+    fn a_robot_whose_reports_come_late_and_together_is_one() {
+        // Four seconds at 0.27 m/s, a report each 0.5 s, all within 10 ms; one of them was lost.
+        let late: Vec<_> =
+            (0..8).filter(|step| *step != 4).map(|step| (9.0, 0.135 * f64::from(step))).collect();
+        assert_eq!(found(&late), None);
+    }
+
+    #[test]
+    fn the_name_is_free_again_when_one_of_them_has_gone() {
+        let mut namesakes = Namesakes::default();
+        for (at_ms, x) in [(0, -1.0), (200, 1.0), (400, -1.0), (600, 1.0)] {
+            namesakes.observe(Instant(at_ms * 1_000), Vec2::new(x, 0.0));
+        }
+        assert!(namesakes.are_there() && namesakes.places().len() == 2);
+        assert!(!namesakes.are_gone(Instant(20_000_000)) && namesakes.are_gone(Instant(31_000_000)));
+        assert!(!namesakes.are_there() && !namesakes.are_gone(Instant(32_000_000)));
+    }
+}

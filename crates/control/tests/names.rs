@@ -1,0 +1,101 @@
+//! Which names take part, and what becomes of a name that two robots share.
+
+mod fleet;
+
+use fleet::robot::Robot;
+use fleet::{World, frame, show};
+use lightbots_base::Vec2;
+use lightbots_control::{Config, EventKind, MissingPolicy, Operation, Refusal, RunOutcome, Trouble};
+use std::sync::Arc;
+
+/// The far corner of the floor, where no pixel is.
+const CORNER: Vec2 = Vec2 { x: 1.3, y: -1.3 };
+
+/// A show of four frames, one robot of which dies, and a robot that reports for the first time after that. What the
+/// show then is, and how many robots joined it.
+fn with_a_late_robot(config: Config) -> (World, (RunOutcome, usize, usize), usize) {
+    let mut world = World::with(config, 8, 0);
+    world.operate(Operation::Open(Arc::new(show(4, 8, 0.3)))).unwrap();
+    world.run_for(1.0);
+    world.play();
+    world.run_until(10.0, |kind| matches!(kind, EventKind::TransitionStarted { .. }));
+    world.run_for(1.0);
+    world.robots[1].dead = true;
+    world.run_until(10.0, |kind| matches!(kind, EventKind::Dropout { .. }));
+    let mut late = Robot::new(77, CORNER, false);
+    late.introduce();
+    world.robots.push(late);
+    let ended = world.run_to_end(90.0);
+    let joined = world.count(|kind| matches!(kind, EventKind::Rejoined(_)));
+    (world, ended, joined)
+}
+
+#[test]
+fn a_listed_robot_takes_the_place_of_a_dead_one() {
+    let names = (0..8).chain([77]).map(|number| Robot::new(number, CORNER, false).id);
+    let config = Config { admitted: names.collect(), ..Config::default() };
+    let (world, ended, joined) = with_a_late_robot(config);
+    assert_eq!((ended, joined), ((RunOutcome::Finished, 4, 1), 1), "{}", world.story());
+    assert!(world.lit(&frame(3, 8, 0.3)) >= 7, "{}", world.story());
+}
+
+#[test]
+fn without_a_list_a_name_that_is_first_heard_during_a_run_takes_no_place() {
+    let (world, ended, joined) = with_a_late_robot(Config::default());
+    assert_eq!((ended, joined), ((RunOutcome::Finished, 4, 1), 0), "{}", world.story());
+    assert_eq!(world.robots[8].at, CORNER);
+}
+
+#[test]
+fn forged_names_take_no_place_where_names_are_listed() {
+    let names = (0..8).map(|number| Robot::new(number, CORNER, false).id);
+    let config = Config { admitted: names.collect(), ..Config::default() };
+    let mut world = World::with(config, 8, 0);
+    world.operate(Operation::Open(Arc::new(show(2, 9, 0.1)))).unwrap();
+    // A thousand names on the floor's far edge, as a controller hears them.
+    for number in 0..1_000 {
+        world.inject("T/LightBot/UUID", format!("forged-{number} 1.4 -1.4").as_bytes());
+    }
+    world.run_for(1.0);
+    let play = |missing| Operation::Play { from: 0, missing };
+    let refused = world.operate(play(MissingPolicy::Refuse)).unwrap_err();
+    assert!(matches!(refused, Refusal::TooFewRobots { pixels: 9, robots: 8, .. }), "{refused:?}");
+    world.operate(play(MissingPolicy::LeaveOut)).unwrap();
+    assert_eq!(world.run_to_end(60.0), (RunOutcome::Finished, 2, 0), "{}", world.story());
+}
+
+/// One robot more reports under the name of the third robot, from the corner.
+fn pose(world: &mut World, seconds: f64) {
+    let name = world.robots[3].id;
+    for _ in 0..(seconds / 0.25) as usize {
+        world.inject("T/LightBot/UUID", format!("{name} {} {}", CORNER.x, CORNER.y).as_bytes());
+        world.run_for(0.25);
+    }
+}
+
+#[test]
+fn two_robots_of_one_name_are_kept_out_and_the_show_plays_on() {
+    let mut world = World::ready(8, 0, show(3, 8, 0.3));
+    let name = world.robots[3].id;
+    world.play();
+    world.run_until(10.0, |kind| matches!(kind, EventKind::TransitionStarted { .. }));
+    pose(&mut world, 5.0);
+    let is_named = |kind: &EventKind| matches!(kind, EventKind::NameShared { robot, .. } if *robot == name);
+    assert_eq!(world.count(is_named), 1, "{}", world.story());
+    let drops = EventKind::Dropout { robot: name, why: Trouble::Shared };
+    assert_eq!(world.count(|kind| *kind == drops), 1, "{}", world.story());
+    assert_eq!(world.run_to_end(120.0), (RunOutcome::Finished, 3, 1), "{}", world.story());
+    assert!(world.closest_m > 0.054, "{}", world.closest_m);
+}
+
+#[test]
+fn two_robots_of_one_name_take_no_part_until_one_of_them_has_gone() {
+    let mut world = World::ready(8, 0, show(2, 8, 0.1));
+    pose(&mut world, 4.0);
+    let play = Operation::Play { from: 0, missing: MissingPolicy::Refuse };
+    let refused = world.operate(play.clone()).unwrap_err();
+    assert!(matches!(refused, Refusal::TooFewRobots { robots: 7, .. }), "{refused:?}");
+    world.run_until(60.0, |kind| matches!(kind, EventKind::NameUnique(_)));
+    world.operate(play).unwrap();
+    assert_eq!(world.run_to_end(60.0), (RunOutcome::Finished, 2, 0), "{}", world.story());
+}
