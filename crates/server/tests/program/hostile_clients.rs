@@ -7,6 +7,8 @@ use serde_json::json;
 use crate::child::Child;
 use crate::raw_mqtt::{RawMqtt, connect, packet, publish, text};
 use crate::run::start;
+#[cfg(target_os = "linux")]
+use crate::run::start_by;
 use crate::screen::Screen;
 use crate::{alone, http, shows, wait_for};
 
@@ -40,11 +42,12 @@ fn topics_of_ten_thousand_levels_are_refused_and_the_broker_goes_on() {
 
 #[test]
 fn a_packet_longer_than_any_message_costs_the_connection() {
-    let (_process, address) = broker();
+    let (mut process, address) = broker();
     let mut hostile = RawMqtt::open(&address, "hostile");
     // Only the head of 256 MB: the broker must not wait for the rest.
     hostile.send(&[0x30, 0xff, 0xff, 0xff, 0x7f]);
     hostile.wait_for_close();
+    process.complains("refused client hostile");
     assert!(RawMqtt::open(&address, "robot").is_answered());
 }
 
@@ -72,7 +75,7 @@ fn clients_that_do_not_read_cost_bounded_memory_and_nobody_elses_messages() {
     }
     assert!(hostile.is_answered(), "all of it was taken");
     let stop = publish("T/LightBot/r1", b"|STOP|");
-    hostile.send(&stop);
+    RawMqtt::open(&address, "BotControl/a").send(&stop);
     assert_eq!(robot.read(stop.len()), stop);
     let peak = peak_memory(process.id());
     assert!(peak < 300 << 20, "the broker took {} MiB", peak >> 20);
@@ -156,4 +159,54 @@ fn uploads_that_never_end_do_not_keep_others_from_saving() {
     drop(uploads);
     let padded = format!("{}{}", " ".repeat(40_000_000), show);
     assert_eq!(http::request(&address, "POST", "/api/check", &[], &padded).status, 200);
+}
+
+#[test]
+fn a_robot_that_floods_is_cut_off_and_named_and_the_show_goes_on() {
+    let _turn = alone();
+    let (_server, address, broker) = start(&["--robots", "4", &shows::row_file(4, &[0.2, 0.2])]);
+    let mut screen = Screen::open(&address);
+    screen.wait_for_robots(4);
+    screen.must(json!({"do": "play", "from": 0, "missing": "refuse"}));
+    screen.until("the show", |screen| (screen.phase() == "playing").then_some(()));
+    let mut hostile = RawMqtt::open(&broker, "LightBot/flood");
+    let reports = publish("T/LightBot/UUID", b"flood 0.5 1.3").repeat(1_000);
+    // Its connection ends while it sends.
+    while hostile.stream.write_all(&reports).is_ok() {}
+    let line = screen.wait_for_log("is cut off");
+    assert!(line.contains("LightBot/flood"), "{line}");
+    let mut again = RawMqtt::silent(&broker);
+    again.send(&connect("LightBot/flood"));
+    assert_eq!(again.read(4), [0x20, 2, 0, 5]);
+    let last = screen.wait_for_log("Run finished");
+    assert!(last.contains("2 frames") && last.contains("0 dropouts"), "{last}");
+}
+
+/// More connections than the system lets the program have: the screens that are there and the robots go on.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_flood_of_connections_to_the_web_app_is_named_and_the_show_goes_on() {
+    let _turn = alone();
+    let show = shows::row_file(4, &[0.2, 0.2]);
+    let (mut server, address, broker) = start_by(&["prlimit", "--nofile=300:300"], &["--robots", "4", &show]);
+    let mut screen = Screen::open(&address);
+    screen.wait_for_robots(4);
+    let flood: Vec<_> = (0..400).map(|_| std::net::TcpStream::connect(&address).unwrap()).collect();
+    let line = screen.wait_for_log("The web app has");
+    assert!(line.contains("150 connections, the most it takes"), "{line}");
+    screen.must(json!({"do": "play", "from": 0, "missing": "refuse"}));
+    let last = screen.wait_for_log("Run finished");
+    assert!(last.contains("2 frames") && last.contains("0 dropouts"), "{last}");
+    assert!(RawMqtt::open(&broker, "LightBot/r1").is_answered());
+    drop(flood);
+    wait_for("room", || {
+        let mut stream = std::net::TcpStream::connect(&address).unwrap();
+        let head = format!("GET /api/shows HTTP/1.1\r\nHost: {address}\r\nConnection: close\r\n\r\n");
+        let _ = stream.write_all(head.as_bytes());
+        let mut answer = String::new();
+        std::io::Read::read_to_string(&mut stream, &mut answer).ok()?;
+        answer.starts_with("HTTP/1.1 200").then_some(())
+    });
+    server.terminate();
+    assert_eq!(server.end(), 0);
 }

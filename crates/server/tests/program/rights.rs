@@ -4,6 +4,7 @@ use serde_json::json;
 
 use crate::child::Child;
 use crate::plain_mqtt::Mqtt;
+use crate::raw_mqtt::{RawMqtt, connect, packet, publish, text};
 use crate::run::start;
 use crate::screen::Screen;
 use crate::{alone, shows, wait_for};
@@ -95,4 +96,76 @@ fn a_last_will_is_a_message_like_any_other() {
     let first = connection.iter().next().unwrap();
     assert!(matches!(first, Err(rumqttc::ConnectionError::ConnectionRefused(_))), "{first:?}");
     server.complains("its last will on T/LightBot/Broadcast");
+}
+
+#[test]
+fn a_forged_stop_is_dropped_and_its_sender_named() {
+    let _turn = alone();
+    let (_server, address, broker) = start(&["--robots", "0"]);
+    let mut screen = Screen::open(&address);
+    let mut robot = Mqtt::open(&broker, "LightBot/r7", &["T/LightBot/r7", "T/LightBot/Broadcast"]);
+    let forger = Mqtt::open(&broker, "mosq-1", &[]);
+    forger.publish("T/LightBot/Broadcast", "|STOP|");
+    forger.publish("T/LightBot/r7", "|STOP|");
+    let line = screen.wait_for_log("only controllers send commands");
+    assert!(line.contains("mosq-1"), "{line}");
+    Mqtt::open(&broker, "BotControl/a", &[]).publish("T/LightBot/r7", "|BLINK 3|");
+    let (topic, payload) = wait_for("a command", || {
+        std::iter::from_fn(|| robot.next()).find(|(topic, _)| topic == "T/LightBot/r7")
+    });
+    assert_eq!((topic.as_str(), payload.as_str()), ("T/LightBot/r7", "|BLINK 3|"));
+}
+
+#[test]
+fn two_robots_of_one_name_are_named_and_the_show_plays_on() {
+    let _turn = alone();
+    let (_server, address, broker) = start(&["--robots", "4", &shows::row_file(4, &[0.2, 0.2])]);
+    let mut screen = Screen::open(&address);
+    screen.wait_for_robots(4);
+    screen.must(json!({"do": "play", "from": 0, "missing": "refuse"}));
+    // Each takes the connection from the other, and says where it stands.
+    let mut connections = Vec::new();
+    for x in ["1.4", "-1.4"].iter().cycle().take(8) {
+        let mut robot = RawMqtt::silent(&broker);
+        robot.send(&connect("LightBot/twin"));
+        assert_eq!(robot.read(4), [0x20, 2, 0, 0]);
+        robot.send(&publish("T/LightBot/UUID", format!("twin {x} -1.4").as_bytes()));
+        assert!(robot.is_answered());
+        connections.push(robot);
+    }
+    for part in
+        ["Two robots are called twin: they take the connection", "Two robots are called twin: it reports"]
+    {
+        screen.wait_for_log(part);
+    }
+    let last = screen.wait_for_log("Run finished");
+    assert!(last.contains("2 frames") && last.contains("0 dropouts"), "{last}");
+}
+
+#[test]
+fn a_session_belongs_to_the_user_who_began_it() {
+    let users = shows::file("users", "one:first:fleet\ntwo:second:fleet\n");
+    let mut process = Child::lightbots(&["broker", "--mqtt-listen", "127.0.0.1:0", "--mqtt-users", &users]);
+    let broker = process.said("Broker mqtt://");
+    // The answer to a connection that goes on with its session: whether there is one, and the code.
+    let open = |user: &str, password: &str| {
+        let mut client = RawMqtt::silent(&broker);
+        let login =
+            [&text("MQTT")[..], &[4, 0xc0, 0, 0], &text("tool"), &text(user), &text(password)].concat();
+        client.send(&packet(0x10, &login));
+        let answer = client.read(4);
+        (client, [answer[2], answer[3]])
+    };
+    let (mut first, answer) = open("one", "first");
+    assert_eq!(answer, [0, 0]);
+    assert!(first.subscribe("secrets"));
+    assert_eq!(open("two", "second").1, [0, 5], "a connected client id is not taken over");
+    process.complains("belongs to another user");
+    assert!(first.is_answered());
+    let (second, answer) = open("one", "first");
+    assert_eq!(answer, [1, 0], "the same login takes over");
+    first.wait_for_close();
+    drop(second);
+    assert_eq!(open("two", "second").1, [0, 5], "nor is the session of a client that is away");
+    assert_eq!(open("one", "first").1, [1, 0]);
 }

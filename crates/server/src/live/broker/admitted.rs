@@ -6,17 +6,28 @@ use std::collections::BTreeSet;
 use std::net::SocketAddr;
 use std::sync::{Mutex, PoisonError};
 
-use super::limits;
-
 /// By the address at the other end of the connection.
-#[derive(Debug, Default)]
-pub struct Admitted(Mutex<BTreeSet<SocketAddr>>);
+#[derive(Debug)]
+pub struct Admitted {
+    most: usize,
+    peers: Mutex<BTreeSet<SocketAddr>>,
+}
 
 impl Admitted {
-    /// Adds one; false where there are [`limits::CONNECTIONS`] already.
+    /// Room for `most` connections.
+    pub fn new(most: usize) -> Self {
+        Self { most, peers: Mutex::default() }
+    }
+
+    /// The most connections there may be.
+    pub fn most(&self) -> usize {
+        self.most
+    }
+
+    /// Adds one; false where there are as many as there may be.
     pub fn add(&self, peer: SocketAddr) -> bool {
         let mut peers = self.lock();
-        peers.contains(&peer) || (peers.len() < limits::CONNECTIONS && peers.insert(peer))
+        peers.contains(&peer) || (peers.len() < self.most && peers.insert(peer))
     }
 
     /// The connection has ended.
@@ -30,7 +41,7 @@ impl Admitted {
     }
 
     fn lock(&self) -> std::sync::MutexGuard<'_, BTreeSet<SocketAddr>> {
-        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+        self.peers.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 
@@ -40,11 +51,11 @@ mod tests {
 
     #[test]
     fn there_is_room_for_a_bounded_number_of_connections() {
-        let admitted = Admitted::default();
+        let admitted = Admitted::new(300);
         let peer = |number: usize| SocketAddr::from(([10, 0, (number >> 8) as u8, number as u8], 1));
-        assert!((0..limits::CONNECTIONS).all(|number| admitted.add(peer(number))));
-        assert!(!admitted.add(peer(limits::CONNECTIONS)) && admitted.add(peer(0)));
+        assert!((0..300).all(|number| admitted.add(peer(number))));
+        assert!(!admitted.add(peer(300)) && admitted.add(peer(0)));
         admitted.remove(peer(0));
-        assert!(admitted.add(peer(limits::CONNECTIONS)) && !admitted.contains(peer(0)));
+        assert!(admitted.add(peer(300)) && !admitted.contains(peer(0)));
     }
 }

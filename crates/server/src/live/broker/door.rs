@@ -2,18 +2,23 @@
 
 use std::net::SocketAddr;
 use std::sync::Arc;
+use std::time::Instant;
 
 use async_trait::async_trait;
+use lightbots_base::RobotId;
 use rmqtt::codec::v5::SubscribeAckReason;
 use rmqtt::context::ServerContext;
 use rmqtt::hook::{Handler, HookResult, Parameter, ReturnType, Type};
-use rmqtt::types::{AuthResult, Id, LastWill, PublishAclResult, SubscribeAclResult};
+use rmqtt::types::{AuthResult, Id, LastWill, PublishAclResult, Reason, SubscribeAclResult};
 
 use super::admitted::Admitted;
+use super::flood::Floods;
 use super::gate::Peers;
 use super::limits;
 use super::notices::Notices;
 use super::rights::Who;
+use super::sessions::is_of_another;
+use super::takeovers::Takeovers;
 use super::users::{Role, Users};
 
 /// Judges everything clients ask for.
@@ -26,6 +31,10 @@ pub struct Door {
     pub peers: Arc<Peers>,
     /// Connections that have logged in.
     pub admitted: Arc<Admitted>,
+    /// Connections that were taken over.
+    pub takeovers: Arc<Takeovers>,
+    /// How much clients have published.
+    pub floods: Arc<Floods>,
     /// Knows the subscriptions of all clients.
     pub context: ServerContext,
 }
@@ -51,7 +60,7 @@ impl Door {
         Who::of(self.users.role(user), user, &id.client_id)
     }
 
-    fn login(&self, id: &Id, password: &[u8], will: Option<LastWill<'_>>) -> Result<(), Refused> {
+    async fn login(&self, id: &Id, password: &[u8], will: Option<LastWill<'_>>) -> Result<(), Refused> {
         let user = id.username.as_deref().unwrap_or_default();
         let from = id.remote_addr;
         if self.peers.is_inner(id.lid) && self.peers.of(from).is_none() {
@@ -61,6 +70,17 @@ impl Door {
             if self.users.is_empty() { Some(Role::ByClientId) } else { self.users.login(user, password) };
         let role = role.ok_or(Refused::Password)?;
         let who = Who::of(role, user, &id.client_id).map_err(Refused::Rights)?;
+        if self.floods.is_banned(&id.client_id, Instant::now()) {
+            let seconds = limits::FLOOD_BAN.as_secs();
+            return Err(Refused::Rights(format!("it flooded the broker less than {seconds} s ago")));
+        }
+        let entry = self.context.extends.shared().await.entry(id.clone());
+        if !self.users.is_empty() && is_of_another(entry.session().as_ref(), id) {
+            return Err(Refused::Rights("the session of this client id belongs to another user".into()));
+        }
+        if let Who::Robot(robot) = who {
+            self.watch_takeover(id, robot, entry.online().await);
+        }
         // A last will is published without being asked about again.
         let will = match &will {
             Some(LastWill::V3(will)) => Some((&will.topic, &will.message)),
@@ -73,7 +93,20 @@ impl Door {
                 .map_err(|why| Refused::Rights(format!("its last will on {}: {why}", shortened(topic))))?;
         }
         let has_room = from.is_none_or(|from| self.admitted.add(from));
-        if has_room { Ok(()) } else { Err(Refused::Rights(full("connections", limits::CONNECTIONS))) }
+        if has_room { Ok(()) } else { Err(Refused::Rights(full("connections", self.admitted.most()))) }
+    }
+
+    /// Names robots that take the connection of one name from each other.
+    fn watch_takeover(&self, id: &Id, robot: RobotId, is_online: bool) {
+        let now = Instant::now();
+        if is_online && self.takeovers.taken_over(&id.client_id, now) {
+            let line = format!(
+                "Two robots are called {robot}: they take the connection from each other. Give one of them another \
+                 name."
+            );
+            self.notices.say(&format!("two {}", id.client_id), &line);
+        }
+        self.takeovers.active(&id.client_id, now);
     }
 
     /// Why a client may not subscribe to this, if so.
@@ -86,10 +119,21 @@ impl Door {
         self.who(id)?.may_subscribe(filter)
     }
 
-    /// Why a client may not publish this, if so.
-    fn message(&self, id: &Id, topic: &str, payload: &[u8]) -> Result<(), String> {
-        short_enough(topic)?;
-        self.who(id)?.may_publish(topic, payload)
+    /// Why a client may not publish this, if so, and whether it is cut off for it.
+    fn message(&self, id: &Id, topic: &str, payload: &[u8]) -> Result<(), (String, bool)> {
+        let who = self.who(id).map_err(|why| (why, false))?;
+        let now = Instant::now();
+        if matches!(who, Who::Robot(_)) {
+            self.takeovers.active(&id.client_id, now);
+        }
+        if let Some(rate) = who.rate()
+            && !self.floods.count(&id.client_id, rate, now)
+        {
+            let line =
+                format!("it publishes more than {} messages a second, and is cut off", rate.per_second);
+            return Err((line, true));
+        }
+        short_enough(topic).and_then(|()| who.may_publish(topic, payload)).map_err(|why| (why, false))
     }
 
     /// Says in one line which client was refused what, and why.
@@ -120,7 +164,7 @@ impl Handler for Door {
             Parameter::ClientAuthenticate(info) => {
                 let id = info.id();
                 let password = info.password().map(|password| password.to_vec()).unwrap_or_default();
-                let answer = match self.login(id, &password, info.last_will()) {
+                let answer = match self.login(id, &password, info.last_will()).await {
                     Ok(()) => AuthResult::Allow(false, None),
                     Err(Refused::Password) => {
                         self.refuse(id, "the login", "user or password is wrong");
@@ -136,13 +180,10 @@ impl Handler for Door {
             Parameter::MessagePublishCheckAcl(session, publish) => {
                 let answer = match self.message(&session.id, &publish.topic, &publish.payload) {
                     Ok(()) => PublishAclResult::allow(),
-                    Err(why) => {
-                        self.refuse(
-                            &session.id,
-                            &format!("a message on {}", shortened(&publish.topic)),
-                            &why,
-                        );
-                        PublishAclResult::rejected(false, None)
+                    Err((why, is_cut_off)) => {
+                        let what = format!("a message on {}", shortened(&publish.topic));
+                        self.refuse(&session.id, &what, &why);
+                        PublishAclResult::rejected(is_cut_off, None)
                     }
                 };
                 (false, Some(HookResult::PublishAclResult(answer)))
@@ -159,7 +200,11 @@ impl Handler for Door {
                     }
                 }
             }
-            Parameter::ClientDisconnected(session, _) => {
+            Parameter::ClientDisconnected(session, reason) => {
+                if is_too_long(reason) {
+                    let most = limits::PACKET_BYTES;
+                    self.refuse(&session.id, "a packet", &format!("it has more than {most} bytes"));
+                }
                 if let Some(peer) = session.id.remote_addr {
                     self.admitted.remove(peer);
                 }
@@ -184,6 +229,13 @@ fn short_enough(topic: &str) -> Result<(), String> {
 
 fn full(what: &str, limit: usize) -> String {
     format!("the broker has {limit} {what} already, the most it takes")
+}
+
+/// Whether a connection ended because of a packet that is longer than [`limits::PACKET_BYTES`].
+fn is_too_long(reason: &Reason) -> bool {
+    // rmqtt wraps what its decoder says in several layers, which differ by version of the protocol.
+    let text = format!("{reason:?}");
+    text.contains("MaxSizeExceeded") || text.contains("Max size exceeded")
 }
 
 /// A topic fit for a line.

@@ -16,6 +16,7 @@ use super::notices::Notices;
 use super::queues::BoundedShared;
 use super::{BrokerOptions, idle, limits};
 use crate::failure::Failure;
+use crate::open_files;
 
 /// A broker that runs until it is dropped.
 #[derive(Debug)]
@@ -146,12 +147,17 @@ async fn serve(listeners: Vec<Listener>, options: BrokerOptions, notices: Arc<No
     // Whether it thinks the machine busy must not turn robots away: a noisy neighbour is no reason to lose a show.
     let context =
         ServerContext::new().busy_check_enable(false).mqtt_max_sessions(limits::SESSIONS).build().await;
-    BoundedShared::install(&context, notices.clone()).await;
+    BoundedShared::install(&context, notices.clone(), !options.users.is_empty()).await;
     let ports: Vec<u16> =
         listeners.iter().filter_map(|listener| Some(listener.local_addr().ok()?.port())).collect();
-    let admitted = Arc::new(Admitted::default());
+    let most = limits::connections(open_files::limit(), options.tls.is_some());
+    if most < options.robots + SPARE {
+        notices.say("", &too_few_files(most, options.robots));
+    }
+    let admitted = Arc::new(Admitted::new(most));
     tokio::spawn(idle::close_idle(ports, admitted.clone(), notices.clone()));
-    let door = Door { users: Arc::new(options.users), notices, peers, admitted, context: context.clone() };
+    let (users, takeovers, floods) = (Arc::new(options.users), Arc::default(), Arc::default());
+    let door = Door { users, notices, peers, admitted, takeovers, floods, context: context.clone() };
     door.hang(&context).await;
     let mut server = MqttServer::new(context);
     for listener in listeners {
@@ -161,6 +167,17 @@ async fn serve(listeners: Vec<Listener>, options: BrokerOptions, notices: Arc<No
     if let Err(error) = server.build().run().await {
         tracing::error!("the broker failed: {error}");
     }
+}
+
+/// Connections beside those of robots: controllers and tools.
+const SPARE: usize = 10;
+
+fn too_few_files(most: usize, robots: usize) -> String {
+    format!(
+        "The system lets the broker open {} files: at most {most} of {robots} robots can connect one by one. Raise the limit \
+         with `ulimit -n`.",
+        open_files::limit()
+    )
 }
 
 #[cfg(test)]

@@ -5,6 +5,15 @@
 
 use std::time::Duration;
 
+/// Messages that a client may publish.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Rate {
+    /// Messages per second in the long run.
+    pub per_second: u32,
+    /// Messages at once, before the rate counts.
+    pub burst: u32,
+}
+
 /// Longest packet, in bytes: four times the longest message of the protocol (docs/brokers.md, "What matters in any
 /// broker"). A longer packet costs its sender the connection. Each connection may make the broker hold one packet that
 /// is not complete, so that this bounds memory together with [`CONNECTIONS`].
@@ -28,6 +37,33 @@ pub const SUBSCRIPTIONS_TOTAL: usize = 50_000;
 
 /// Clients that are logged in: ten thousand robots, their controllers and tools.
 pub const CONNECTIONS: usize = 12_000;
+
+/// Open files of the broker that are no connection of a client that has logged in: those that are about to, and its own.
+const OTHER_FILES: usize = PENDING + 100;
+
+/// Sockets of a client behind the TLS gate: the client's, and both ends of the gate's connection to the broker.
+const TLS_SOCKETS: usize = 3;
+
+/// Clients that may be logged in where the system grants so many open files: at most [`CONNECTIONS`], and at least those for
+/// which half of the files are enough.
+pub fn connections(open_files: usize, has_tls: bool) -> usize {
+    let sockets = if has_tls { TLS_SOCKETS } else { 1 };
+    let files = open_files.saturating_sub(OTHER_FILES).max(open_files / 2);
+    CONNECTIONS.min(files / sockets)
+}
+
+/// Longest report of a robot, bytes. The longest of ours has 400 (R10 with every field).
+pub const REPORT_BYTES: usize = 4_096;
+
+/// Messages of one robot. It reports ten times a second at most, and acknowledges each part of its routes: 100 parts at
+/// once where a robot comes back to a long show.
+pub const ROBOT_RATE: Rate = Rate { per_second: 100, burst: 1_000 };
+
+/// Messages of a connection that robots share, at most 1,000: each answers a frame with some twenty messages.
+pub const SHARED_RATE: Rate = Rate { per_second: 30_000, burst: 60_000 };
+
+/// How long a client that was cut off for a flood may not connect.
+pub const FLOOD_BAN: Duration = Duration::from_secs(30);
 
 /// Sessions, those of clients that are away for a while included.
 pub const SESSIONS: isize = 16_000;
@@ -65,3 +101,17 @@ pub const MESSAGE_OVERHEAD_BYTES: usize = 1_280;
 /// Bytes of data that the broker's process may have, where the system can bound it. Above it the process ends and is
 /// started again; the limits above keep it far below.
 pub const PROCESS_BYTES: u64 = 1 << 30;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn connections_fit_the_open_files_that_the_system_grants() {
+        assert_eq!(
+            [65_536, 20_000, 4_096, 1_024, 256].map(|files| connections(files, false)),
+            [12_000, 12_000, 3_496, 512, 128]
+        );
+        assert_eq!([65_536, 4_096].map(|files| connections(files, true)), [12_000, 1_165]);
+    }
+}

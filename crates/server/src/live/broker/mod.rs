@@ -3,11 +3,13 @@
 //!
 //! `users` says which users there are, `rights` what each may publish and subscribe to, `door` asks both for every
 //! client; `gate` speaks TLS before it. `limits` names every limit; `queues` bounds the bytes that wait for clients,
-//! `idle` ends connections that do not log in.
+//! `idle` ends connections that do not log in, `flood` those that publish too much; `sessions` keeps each session for its
+//! login, `takeovers` finds robots that share a name.
 
 mod admitted;
 mod door;
 mod engine;
+mod flood;
 mod gate;
 mod idle;
 mod limits;
@@ -15,6 +17,8 @@ mod notices;
 mod process;
 mod queues;
 mod rights;
+mod sessions;
+mod takeovers;
 mod users;
 
 use std::net::SocketAddr;

@@ -18,6 +18,7 @@ use rmqtt::types::{
 
 use super::limits;
 use super::notices::Notices;
+use super::sessions::OwnedEntry;
 
 /// Messages that could not be handed over, and to which client.
 type Failed = Vec<(To, From, Publish, Reason)>;
@@ -90,13 +91,15 @@ pub struct BoundedShared {
     context: ServerContext,
     queues: Queues,
     notices: Arc<Notices>,
+    /// Whether clients log in, so that sessions belong to logins.
+    has_users: bool,
 }
 
 impl BoundedShared {
     /// Takes the place of the context's own.
-    pub async fn install(context: &ServerContext, notices: Arc<Notices>) {
+    pub async fn install(context: &ServerContext, notices: Arc<Notices>, has_users: bool) {
         let inner = DefaultShared::new(Some(context.clone()));
-        let bounded = Self { inner, context: context.clone(), queues: Queues::default(), notices };
+        let bounded = Self { inner, context: context.clone(), queues: Queues::default(), notices, has_users };
         *context.extends.shared_mut().await = Box::new(bounded);
     }
 
@@ -157,7 +160,8 @@ impl Shared for BoundedShared {
     }
 
     fn entry(&self, id: Id) -> Box<dyn Entry> {
-        self.inner.entry(id)
+        let entry = self.inner.entry(id);
+        if self.has_users { Box::new(OwnedEntry::new(entry)) } else { entry }
     }
 
     fn exist(&self, client_id: &str) -> bool {

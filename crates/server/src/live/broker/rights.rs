@@ -3,18 +3,25 @@
 use lightbots_base::RobotId;
 use lightbots_wire::Topic;
 
+use super::limits::{self, Rate};
 use super::users::Role;
 
 /// What stands before a robot's name in its client id.
 const ROBOT: &str = "LightBot/";
+/// What stands before a controller's name in its client id.
+const CONTROLLER: &str = "BotControl/";
+/// What stands before all topics of the protocol.
+const PROTOCOL: &str = "T/LightBot/";
 
 /// The client of a connection.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Who {
     /// One robot.
     Robot(RobotId),
-    /// A controller, a tool, or a connection that many robots share: everything is allowed.
-    Free,
+    /// A controller: everything is allowed.
+    Controller,
+    /// A tool, or a connection that many robots share: everything but commands is allowed.
+    Shared,
 }
 
 impl Who {
@@ -23,7 +30,9 @@ impl Who {
         let named = client_id.strip_prefix(ROBOT);
         let robot = named.and_then(RobotId::new);
         match (role, named, robot) {
-            (Role::Controller, ..) | (Role::ByClientId, None, _) => Ok(Self::Free),
+            (Role::Controller, ..) => Ok(Self::Controller),
+            (Role::ByClientId, None, _) if client_id.starts_with(CONTROLLER) => Ok(Self::Controller),
+            (Role::ByClientId, None, _) | (Role::Fleet, ..) => Ok(Self::Shared),
             (Role::ByClientId | Role::AnyRobot, _, Some(robot)) => Ok(Self::Robot(robot)),
             (Role::Robot, _, Some(robot)) if robot.as_str() == user => Ok(Self::Robot(robot)),
             (Role::Robot, ..) => {
@@ -38,8 +47,23 @@ impl Who {
 
     /// Whether it may publish this; the reason where not.
     pub fn may_publish(&self, topic: &str, payload: &[u8]) -> Result<(), String> {
-        let Self::Robot(own) = self else { return Ok(()) };
-        if !matches!(Topic::parse(topic), Some(Topic::Uuid | Topic::Arrival | Topic::Status | Topic::Time)) {
+        let is_report =
+            matches!(Topic::parse(topic), Some(Topic::Uuid | Topic::Arrival | Topic::Status | Topic::Time));
+        if is_report && payload.len() > limits::REPORT_BYTES {
+            let most = limits::REPORT_BYTES;
+            return Err(format!("it has {} bytes; a report has {most} at most", payload.len()));
+        }
+        let own = match self {
+            Self::Controller => return Ok(()),
+            Self::Shared if is_report || !topic.starts_with(PROTOCOL) => return Ok(()),
+            Self::Shared => {
+                return Err("only controllers send commands (client id BotControl/<name>, or the role \
+                            controller)"
+                    .into());
+            }
+            Self::Robot(own) => own,
+        };
+        if !is_report {
             return Err("a robot publishes on UUID, Arrival, Status and Time only".into());
         }
         let name = payload.split(u8::is_ascii_whitespace).find(|word| !word.is_empty()).unwrap_or_default();
@@ -48,6 +72,16 @@ impl Who {
         }
         let name = String::from_utf8_lossy(name.get(..36).unwrap_or(name)).into_owned();
         Err(format!("it says it is '{}'", name.escape_debug()))
+    }
+
+    /// Messages that it may publish; `None`: as many as it likes.
+    pub fn rate(&self) -> Option<Rate> {
+        match self {
+            Self::Robot(_) => Some(limits::ROBOT_RATE),
+            Self::Shared => Some(limits::SHARED_RATE),
+            // A controller sends the routes of ten thousand robots at once, and waits for their answers by itself.
+            Self::Controller => None,
+        }
     }
 
     /// Whether it may subscribe to this filter; the reason where not.
@@ -112,18 +146,39 @@ mod tests {
     #[test]
     fn roles_say_who_a_client_may_be() {
         let of = |role, user, id| Who::of(role, user, id);
-        assert_eq!(of(Role::ByClientId, "", "BotControl/x"), Ok(Who::Free));
-        assert_eq!(of(Role::ByClientId, "", "mosq-1"), Ok(Who::Free));
-        assert_eq!(of(Role::ByClientId, "", "LightBots/x"), Ok(Who::Free));
+        assert_eq!(of(Role::ByClientId, "", "BotControl/x"), Ok(Who::Controller));
+        assert_eq!(of(Role::ByClientId, "", "mosq-1"), Ok(Who::Shared));
+        assert_eq!(of(Role::ByClientId, "", "LightBots/x"), Ok(Who::Shared));
+        assert_eq!(of(Role::Fleet, "me", "BotControl/x"), Ok(Who::Shared));
+        assert_eq!(of(Role::Fleet, "me", "LightBot/r8"), Ok(Who::Shared));
         assert!(of(Role::ByClientId, "", "LightBot/a/b").is_err());
         assert!(of(Role::ByClientId, "", "LightBot/").is_err());
-        assert_eq!(of(Role::Controller, "me", "LightBot/r8"), Ok(Who::Free));
+        assert_eq!(of(Role::Controller, "me", "LightBot/r8"), Ok(Who::Controller));
         assert_eq!(of(Role::Robot, "r7", "LightBot/r7"), Ok(robot()));
         for id in ["LightBot/r8", "BotControl/r7", "r7", ""] {
             assert!(of(Role::Robot, "r7", id).is_err(), "{id}");
         }
         assert_eq!(of(Role::AnyRobot, "default", "LightBot/r7"), Ok(robot()));
         assert!(of(Role::AnyRobot, "default", "BotControl/x").is_err());
-        assert_eq!(Who::Free.may_subscribe("#"), Ok(()));
+        assert_eq!((Who::Controller.may_subscribe("#"), Who::Shared.may_subscribe("#")), (Ok(()), Ok(())));
+    }
+
+    #[test]
+    fn commands_are_the_right_of_controllers() {
+        for topic in ["T/LightBot/Broadcast", "T/LightBot/r8", "T/LightBot/Controller/Here"] {
+            assert_eq!(Who::Controller.may_publish(topic, b"|STOP|"), Ok(()));
+            let why = Who::Shared.may_publish(topic, b"|STOP|").unwrap_err();
+            assert!(why.contains("BotControl/"), "{why}");
+        }
+        assert_eq!(Who::Shared.may_publish("T/LightBot/UUID", b"r8 0.5 1.3"), Ok(()));
+        assert_eq!(Who::Shared.may_publish("building/door", b"open"), Ok(()));
+    }
+
+    #[test]
+    fn a_report_of_a_length_that_none_has_is_refused() {
+        let report = [&b"r7 0.5 1.3"[..], &[b' '; limits::REPORT_BYTES]].concat();
+        for who in [robot(), Who::Shared, Who::Controller] {
+            assert!(who.may_publish("T/LightBot/UUID", &report).unwrap_err().contains("4106 bytes"));
+        }
     }
 }

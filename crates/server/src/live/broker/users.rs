@@ -21,19 +21,25 @@ struct User {
 /// What a user may be.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Role {
-    /// A robot where the client id says so (`LightBot/<name>`), else everything.
+    /// A robot or a controller where the client id says so (`LightBot/<name>`, `BotControl/<name>`), else [`Role::Fleet`].
     #[default]
     ByClientId,
-    /// Everything: controllers, connections that many robots share, tools.
+    /// Everything, among it commands such as STOP.
     Controller,
+    /// Everything but commands: connections that many robots share, tools that watch.
+    Fleet,
     /// The one robot that has the user's name.
     Robot,
     /// Any robot, one a connection, named by its client id: for robots that share a password.
     AnyRobot,
 }
 
-const ROLES: [(&str, Role); 3] =
-    [("controller", Role::Controller), ("robot", Role::Robot), ("any-robot", Role::AnyRobot)];
+const ROLES: [(&str, Role); 4] = [
+    ("controller", Role::Controller),
+    ("fleet", Role::Fleet),
+    ("robot", Role::Robot),
+    ("any-robot", Role::AnyRobot),
+];
 
 impl Users {
     /// Users as options (`user:password[:role]`) and a file (the same, one a line; `#` begins a remark) state them.

@@ -1,0 +1,92 @@
+//! Finds out that two robots share a name: each takes the connection of that client id from the other. A robot that
+//! reconnects after its connection died does so once, and its old connection was silent.
+
+use std::collections::BTreeMap;
+use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::time::{Duration, Instant};
+
+use super::limits;
+
+/// Take-overs after which two robots share the name, …
+const TAKEOVERS: u32 = 3;
+/// … within this time, …
+const WITHIN: Duration = Duration::from_secs(10);
+/// … each of a connection that sent a packet this long before at most.
+const ALIVE: Duration = Duration::from_secs(1);
+
+/// Connections that were taken over, by client id.
+#[derive(Debug, Default)]
+pub struct Takeovers(Mutex<BTreeMap<String, Contest>>);
+
+#[derive(Clone, Copy, Debug)]
+struct Contest {
+    /// When the client sent its last packet.
+    active: Instant,
+    /// When the first of the counted take-overs was.
+    since: Instant,
+    count: u32,
+}
+
+impl Takeovers {
+    /// A client sent a packet.
+    pub fn active(&self, client: &str, now: Instant) {
+        let mut contests = self.lock();
+        if let Some(contest) = contests.get_mut(client) {
+            contest.active = now;
+            return;
+        }
+        if contests.len() >= 2 * limits::CONNECTIONS {
+            contests.retain(|_, contest| now.duration_since(contest.active) < WITHIN);
+        }
+        contests.insert(client.to_owned(), Contest { active: now, since: now, count: 0 });
+    }
+
+    /// A connection takes over the one that its client id has. Whether that shows that two robots share it.
+    pub fn taken_over(&self, client: &str, now: Instant) -> bool {
+        let mut contests = self.lock();
+        let Some(contest) = contests.get_mut(client) else { return false };
+        if now.duration_since(contest.active) > ALIVE {
+            contest.count = 0;
+            return false;
+        }
+        if contest.count == 0 || now.duration_since(contest.since) > WITHIN {
+            (contest.since, contest.count) = (now, 0);
+        }
+        contest.count += 1;
+        contest.count >= TAKEOVERS
+    }
+
+    fn lock(&self) -> MutexGuard<'_, BTreeMap<String, Contest>> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Whether each take-over at these moments, milliseconds, shows that two robots share the name; each new connection
+    /// sends packets until `talks_ms` later.
+    fn found(takeovers_ms: &[u64], talks_ms: u64) -> Vec<bool> {
+        let (takeovers, began) = (Takeovers::default(), Instant::now());
+        takeovers.active("LightBot/r1", began);
+        let at = |ms| began + Duration::from_millis(ms);
+        let takes = takeovers_ms.iter().map(|&ms| {
+            let found = takeovers.taken_over("LightBot/r1", at(ms));
+            takeovers.active("LightBot/r1", at(ms + talks_ms));
+            found
+        });
+        takes.collect()
+    }
+
+    #[test]
+    fn three_takeovers_of_living_connections_are_two_robots() {
+        assert_eq!(found(&[500, 1_500, 2_500, 3_500], 100), [false, false, true, true]);
+        assert_eq!(found(&[500, 1_500, 12_000, 13_000], 11_000), [false, false, false, false]);
+    }
+
+    #[test]
+    fn a_robot_whose_connections_die_is_one() {
+        assert_eq!(found(&[500, 2_500, 4_500, 6_500, 8_500], 100), [false; 5]);
+    }
+}
