@@ -32,9 +32,11 @@ pub struct Made {
 }
 
 impl DrawError {
-    /// An error with a code for programs and a message for people.
+    /// An error with a code for programs and a message for people, which becomes one line.
     pub fn new(code: &'static str, message: impl Into<String>) -> Self {
-        Self { code, message: message.into() }
+        // What libraries say may end with a line break.
+        let message = message.into().replace("\n.", ".").lines().collect::<Vec<_>>().join(" ");
+        Self { code, message }
     }
 }
 

@@ -1,12 +1,14 @@
 //! Seeded mutations of good files: each is read, or refused with one line, and never panics.
 
 mod extras;
+mod mutator;
 mod numbers;
 
 use extras::with_every_part;
 use lightbots_base::{Rgb, Vec2};
 use lightbots_exchange::{FORMATS, read};
 use lightbots_show::{Easing, Frame, Identity, Obstacle, Pixel, Show, Stage, front_rows, validate};
+use mutator::mutate;
 use numbers::Numbers;
 
 fn seed_show() -> Show {
@@ -35,46 +37,6 @@ fn seed_show() -> Show {
         frames: vec![frame; 2],
         ..Show::default()
     })
-}
-
-fn mutate(bytes: &mut Vec<u8>, numbers: &mut Numbers) {
-    const WORDS: [&[u8]; 14] = [
-        b"NaN",
-        b"-Infinity",
-        b"1e999",
-        b"-1",
-        b"4294967296",
-        b"null",
-        b"[[[[",
-        b"{",
-        b"\"",
-        b"\\u",
-        b"\xff",
-        b"99999999",
-        b",",
-        b"1e-320",
-    ];
-    let at = numbers.below(bytes.len());
-    match numbers.below(6) {
-        0 => bytes[at] = numbers.below(256) as u8,
-        1 => drop(bytes.remove(at)),
-        2 => bytes.truncate(at.max(1)),
-        3 => drop(bytes.splice(at..at, WORDS[numbers.below(WORDS.len())].iter().copied())),
-        4 => {
-            let end = (at + numbers.below(40)).min(bytes.len());
-            let copy = bytes[at..end].to_vec();
-            bytes.splice(at..at, copy);
-        }
-        _ => {
-            // The likeliest to survive reading: another number in the place of one.
-            let Some(number) = bytes[at..].iter().position(u8::is_ascii_digit) else { return };
-            let word = WORDS[numbers.below(5)];
-            bytes.splice(at + number..=at + number, word.iter().copied());
-        }
-    }
-    if bytes.is_empty() {
-        bytes.push(b' ');
-    }
 }
 
 #[test]
