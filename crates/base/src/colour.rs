@@ -4,6 +4,7 @@ use core::fmt;
 
 /// Colour of a light: 8 bits per channel, sRGB, not premultiplied.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Rgb {
     /// Red, 0 to 255.
     pub r: u8,

@@ -72,6 +72,22 @@ impl fmt::Debug for RobotId {
     }
 }
 
+#[cfg(feature = "serde")]
+impl serde::Serialize for RobotId {
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_str(self.as_str())
+    }
+}
+
+/// What is no name is an error.
+#[cfg(feature = "serde")]
+impl<'de> serde::Deserialize<'de> for RobotId {
+    fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let text = <&str>::deserialize(deserializer)?;
+        Self::new(text).ok_or_else(|| serde::de::Error::custom("no name of a robot"))
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

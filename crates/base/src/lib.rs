@@ -14,6 +14,7 @@
 mod angle;
 pub mod braking;
 mod colour;
+mod hash;
 mod id;
 mod limits;
 mod path;
@@ -24,6 +25,7 @@ mod vec2;
 
 pub use angle::{difference, wrap};
 pub use colour::Rgb;
+pub use hash::StateHash;
 pub use id::RobotId;
 pub use limits::Limits;
 pub use path::{Motion, PathRef, Piece};

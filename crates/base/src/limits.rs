@@ -3,6 +3,7 @@
 /// Measures and limits of one kind of robot. The default is the GCtronic Elisa-3 as measured in Webots R2023b
 /// on 2026-11-21. It follows ramps of 1 m/s² within 5 mm/s and stops from 4.5 rad/s within 1°.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Limits {
     /// Radius of the disc that stands for the body, metres.
     pub radius_m: f64,

@@ -5,6 +5,7 @@ use core::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 /// A place or direction, metres. In `stage` space unless a name says otherwise: origin at the centre of the floor, x
 /// to the right, y up (away from the viewer).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Vec2 {
     /// To the right, metres.
     pub x: f64,

@@ -1,10 +1,11 @@
 //! What a controller is told once, at its start.
 
 use lightbots_base::{RobotId, Span};
+use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
 
 /// Bounds and tolerances of a controller. The default is what the shell uses, except for `seq_base`.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Config {
     /// Routes are numbered from here on. A restarted controller must not reuse numbers: derive it from the time of
     /// day at the start (seconds since 1970 times 8 will do).
@@ -35,7 +36,7 @@ pub struct Config {
 }
 
 /// When robots that do not report age.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Ageing {
     /// A robot that has not reported for longer is stale: it takes no part in a new run, but is driven around.
     pub stale_after: Span,
@@ -44,7 +45,7 @@ pub struct Ageing {
 }
 
 /// How routes are sent.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct UploadLimits {
     /// A route that was not acknowledged for this long is sent again.
     pub resend_after: Span,

@@ -9,9 +9,10 @@ use crate::outbox::SendQueue;
 use crate::plan_request::PlanRequest;
 use lightbots_base::{Instant, Rgb};
 use lightbots_wire::{Command, Report, Topic};
+use serde::{Deserialize, Serialize};
 
 /// What every run works with, and what outlives a run.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub(crate) struct Context {
     /// Bounds and tolerances.
     pub config: Config,
@@ -24,6 +25,7 @@ pub(crate) struct Context {
     /// Which robot shows which pixel.
     pub mapping: Mapping,
     /// A plan to be made; a newer one replaces an older one.
+    #[serde(skip)]
     pub plan_request: Option<PlanRequest>,
     /// Number of the last plan request.
     pub plan_number: u64,

@@ -14,6 +14,7 @@ use lightbots_base::{Instant, RobotId, Span};
 use lightbots_plan::Path;
 use lightbots_show::Show;
 use lightbots_wire::{Command, Report, TimeQuestion, Topic};
+use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
 /// A slice of the fleet ages this often.
@@ -33,12 +34,15 @@ const ASK_AFTER: i64 = 2;
 /// [`planned`](Self::planned), each with `now`, which *is* the show clock and never goes back. After each of them
 /// drain [`next_send`](Self::next_send), [`next_event`](Self::next_event) and
 /// [`next_plan_request`](Self::next_plan_request), and wake at [`wake_at`](Self::wake_at).
-#[derive(Debug)]
+#[derive(Debug, Serialize, Deserialize)]
 pub struct Controller {
     pub(crate) context: Context,
+    #[serde(with = "crate::shared_show::optional")]
     pub(crate) show: Option<Arc<Show>>,
     pub(crate) looping: bool,
+    #[serde(skip)]
     pub(crate) run: Option<Run>,
+    #[serde(skip)]
     pub(crate) stopping: Option<Stopping>,
     /// Where and why the last run failed, for people; until the operator dismisses it or begins another run.
     pub(crate) failure: Option<String>,
@@ -260,6 +264,11 @@ impl Controller {
         let stopping = self.stopping.as_ref().map(Stopping::due);
         let due = [self.context.outbox.due(), run, stopping].into_iter().flatten().min();
         Some(due.unwrap_or(Instant::FAR).min(self.patrol_at).max(self.woken + Span::from_millis(1)))
+    }
+
+    /// Whether there is a run, or robots are being stopped.
+    pub fn has_run(&self) -> bool {
+        self.run.is_some() || self.stopping.is_some()
     }
 
     /// The open show.

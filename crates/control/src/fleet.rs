@@ -7,6 +7,7 @@ use crate::robot::KnownRobot;
 use crate::snapshot::Age;
 use lightbots_base::{Instant, RobotId, Span};
 use lightbots_wire::Report;
+use serde::{Deserialize, Serialize};
 use std::collections::HashMap;
 use std::hash::{BuildHasherDefault, DefaultHasher};
 
@@ -25,10 +26,11 @@ pub(crate) struct FleetUpdate {
 }
 
 /// All known robots. Indices are stable until a robot is forgotten, which is refused during a run.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub(crate) struct KnownRobots {
     robots: Vec<KnownRobot>,
     /// Never iterated; the hasher has fixed keys, so that it is the same everywhere.
+    #[serde(skip)]
     index_of: HashMap<RobotId, u32, BuildHasherDefault<DefaultHasher>>,
     /// Where the patrol goes on.
     patrolled: usize,
@@ -100,6 +102,13 @@ impl KnownRobots {
         self.index_of.insert(id, index as u32);
         log.record(now, EventKind::RobotFound(id));
         Some(index)
+    }
+
+    /// Finds robots by their names again, after the list was read from bytes. `false`: two have one name.
+    pub fn reindex(&mut self) -> bool {
+        let names = self.robots.iter().enumerate().map(|(index, robot)| (robot.id, index as u32));
+        self.index_of = names.collect();
+        self.index_of.len() == self.robots.len()
     }
 
     /// Forgets a robot.

@@ -17,12 +17,15 @@
 //! assert_eq!(robots[0].reported.at, Some(Vec2::new(0.5, 1.3)));
 //! ```
 
+mod block;
+mod checkpoint;
 mod clock;
 mod config;
 mod context;
 mod controller;
 mod event;
 mod fleet;
+mod input_log;
 mod leg;
 mod log;
 mod mapping;
@@ -35,6 +38,7 @@ mod plan_request;
 mod robot;
 mod run;
 mod separation;
+mod shared_show;
 mod snapshot;
 mod stopping;
 mod surroundings;
@@ -43,6 +47,7 @@ mod view;
 pub use config::{Ageing, Config, UploadLimits};
 pub use controller::{Controller, PathsView};
 pub use event::{Event, EventKind, RunOutcome, Trouble};
+pub use input_log::{Difference, LogEnd, LogError, RecordedController, ReplayReport, replay};
 pub use operation::{ControllerState, MissingPolicy, Operation, Refusal};
 pub use outbox::Send;
 pub use plan_request::{PlanRequest, PlanResult};

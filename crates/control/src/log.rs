@@ -2,6 +2,7 @@
 
 use crate::event::{Event, EventKind};
 use lightbots_base::{Instant, Span};
+use serde::{Deserialize, Serialize};
 use std::collections::VecDeque;
 
 /// The most events that wait.
@@ -12,8 +13,9 @@ const FREQUENT_MAX: u32 = 10;
 const PERIOD: Span = Span::from_millis(1_000);
 
 /// The queue of events.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub(crate) struct EventQueue {
+    #[serde(skip)]
     waiting: VecDeque<Event>,
     period_began: Instant,
     said: u32,
@@ -52,6 +54,11 @@ impl EventQueue {
             let count = std::mem::take(&mut self.suppressed);
             self.record(now, EventKind::Suppressed(count));
         }
+    }
+
+    /// Whether no event waits to be read.
+    pub fn is_drained(&self) -> bool {
+        self.waiting.is_empty()
     }
 
     /// The next event.

@@ -3,18 +3,40 @@
 use lightbots_base::{RobotId, Vec2};
 use lightbots_plan::{Bindings, BoundFrame, Claims};
 use lightbots_show::{Frame, Identity, Pixel};
+use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
 /// Bindings of pixel ids to robots that outlive a run.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub(crate) struct Mapping {
     /// What the operator bound.
     pub pins: BTreeMap<u32, RobotId>,
     /// Which robot showed a pixel in frames with fixed identity: it stays so.
+    #[serde(with = "claims")]
     pub owners: Claims<RobotId>,
     /// Which robot shows a pixel last in the planned frames of this run, whatever their identity. A frame with fixed
     /// identity keeps to that.
+    #[serde(with = "claims")]
     pub shown: Claims<RobotId>,
+}
+
+/// Claims as bytes: the pairs of pixel and robot, the oldest claim first.
+mod claims {
+    use lightbots_base::RobotId;
+    use lightbots_plan::Claims;
+    use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+    pub fn serialize<S: Serializer>(claims: &Claims<RobotId>, serializer: S) -> Result<S::Ok, S::Error> {
+        claims.oldest_first().serialize(serializer)
+    }
+
+    pub fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Claims<RobotId>, D::Error> {
+        let mut claims = Claims::default();
+        for (pixel, robot) in Vec::<(u32, RobotId)>::deserialize(deserializer)? {
+            claims.show(pixel, robot);
+        }
+        Ok(claims)
+    }
 }
 
 impl Mapping {

@@ -2,6 +2,7 @@
 //! driven.
 
 use lightbots_base::{Instant, Span, Vec2};
+use serde::{Deserialize, Serialize};
 
 /// Speed above which nothing of a fleet drives, metres per second: three times the usual speed limit, because reports come
 /// late and together.
@@ -20,7 +21,7 @@ const CLEAR_AFTER: Span = Span::from_millis(30_000);
 type Sighting = (Instant, Vec2);
 
 /// What the places of one name say of the number of its robots.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
 pub(crate) struct Namesakes {
     last: Option<Sighting>,
     /// Where the other robot of the name would be: the place before the last jump.

@@ -3,13 +3,14 @@
 use core::fmt;
 use lightbots_base::RobotId;
 use lightbots_show::Show;
+use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
 /// One operation of the operator.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub enum Operation {
     /// Open a show. Refused during a run.
-    Open(Arc<Show>),
+    Open(#[serde(with = "crate::shared_show")] Arc<Show>),
     /// Play from a frame (counted from 0) to the end. It begins with the drive to that frame from where robots are.
     Play {
         /// The first frame played.
@@ -54,7 +55,7 @@ pub enum Operation {
 }
 
 /// What happens to pixels no robot can show.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum MissingPolicy {
     /// The run does not begin.
     #[default]
@@ -64,7 +65,7 @@ pub enum MissingPolicy {
 }
 
 /// What the controller is doing.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum ControllerState {
     /// There is no broker.
     #[default]
@@ -128,6 +129,28 @@ pub enum Refusal {
     UnknownRobot(RobotId),
     /// That robot takes part in the run.
     TakesPart(RobotId),
+}
+
+impl Operation {
+    /// A word for it.
+    pub(crate) fn name(&self) -> &'static str {
+        match self {
+            Self::Open(_) => "open",
+            Self::Play { .. } => "play",
+            Self::Preview { .. } => "preview",
+            Self::Pause => "pause",
+            Self::Resume => "resume",
+            Self::Step => "step",
+            Self::Abort => "abort",
+            Self::StopAll => "stop all",
+            Self::DismissFailure => "dismiss the failure",
+            Self::Refresh => "refresh",
+            Self::Identify(_) => "identify",
+            Self::Forget(_) => "forget",
+            Self::Loop(_) => "loop",
+            Self::Pin { .. } => "pin",
+        }
+    }
 }
 
 impl fmt::Display for ControllerState {

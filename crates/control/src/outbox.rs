@@ -2,6 +2,7 @@
 
 use lightbots_base::{Instant, Span};
 use lightbots_wire::{Command, Topic, encode};
+use serde::{Deserialize, Serialize};
 use std::collections::VecDeque;
 
 /// The most messages that wait; what comes on top is counted and dropped.
@@ -19,19 +20,21 @@ pub struct Send {
 }
 
 /// A broadcast that is sent again.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 struct Repeat {
-    command: Command,
+    payload: Vec<u8>,
     next: Instant,
     every: Span,
     left: u32,
 }
 
 /// The queue of messages.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub(crate) struct SendQueue {
+    #[serde(skip)]
     waiting: VecDeque<Send>,
     repeats: Vec<Repeat>,
+    #[serde(skip)]
     text: String,
     linked: bool,
     /// Messages handed out.
@@ -56,27 +59,38 @@ impl SendQueue {
         self.linked
     }
 
+    /// Whether nothing waits to be published.
+    pub fn is_drained(&self) -> bool {
+        self.waiting.is_empty()
+    }
+
     /// Commands in one payload to one topic.
     pub fn send(&mut self, topic: Topic, commands: &[Command]) {
+        self.text.clear();
+        if self.linked && commands.iter().any(|command| encode(command, &mut self.text).is_err()) {
+            self.unsent += 1;
+            return;
+        }
+        self.push(topic, self.text.as_bytes().to_vec());
+    }
+
+    fn push(&mut self, topic: Topic, payload: Vec<u8>) {
         if !self.linked || self.waiting.len() >= WAITING_MAX {
             self.unsent += 1;
             return;
         }
-        self.text.clear();
-        for command in commands {
-            if encode(command, &mut self.text).is_err() {
-                self.unsent += 1;
-                return;
-            }
-        }
-        self.waiting.push_back(Send { topic, payload: self.text.as_bytes().to_vec() });
+        self.waiting.push_back(Send { topic, payload });
     }
 
     /// A broadcast now, and again `times − 1` times.
     pub fn broadcast(&mut self, now: Instant, command: Command, times: u32, every: Span) {
         self.send(Topic::Broadcast, std::slice::from_ref(&command));
         if times > 1 && self.linked && self.repeats.len() < REPEATS_MAX {
-            self.repeats.push(Repeat { command, next: now + every, every, left: times - 1 });
+            let mut text = String::new();
+            if encode(&command, &mut text).is_ok() {
+                let payload = text.into_bytes();
+                self.repeats.push(Repeat { payload, next: now + every, every, left: times - 1 });
+            }
         }
     }
 
@@ -93,7 +107,7 @@ impl SendQueue {
         let mut repeats = std::mem::take(&mut self.repeats);
         for repeat in &mut repeats {
             if now >= repeat.next {
-                self.send(Topic::Broadcast, std::slice::from_ref(&repeat.command));
+                self.push(Topic::Broadcast, repeat.payload.clone());
                 repeat.next = now + repeat.every;
                 repeat.left -= 1;
             }

@@ -12,6 +12,7 @@ use lightbots_plan::{
 };
 use lightbots_show::{Frame, Pixel};
 use lightbots_wire::MAX_PIECES;
+use std::cell::Cell;
 
 /// A goal closer than this to a disc that does not move cannot be reached, metres more than contact.
 const BLOCKED_MARGIN_M: f64 = 0.001;
@@ -30,7 +31,9 @@ impl PlanRequest {
     /// [`run`](Self::run), cancelled once `is_over` says so, which must go on saying so. It is asked about every tenth of a
     /// second. Frames planned until then count.
     pub fn run_unless(self, is_over: &dyn Fn() -> bool) -> PlanResult {
-        let mut builder = PlanBuilder::new(&self.problem, is_over);
+        let questions = Questions { is_over, asked: Cell::new(0), cancelled_at: Cell::new(None) };
+        let is_over = || questions.ask();
+        let mut builder = PlanBuilder::new(&self.problem, &is_over);
         let mut failed = None;
         for &(frame, round) in &self.problem.frames {
             if let Err(why) = builder.frame(frame, round) {
@@ -40,6 +43,7 @@ impl PlanRequest {
         }
         PlanResult {
             number: self.number,
+            cancelled_at: questions.cancelled_at.get(),
             legs: builder.legs,
             stopped: self.problem.stopped,
             frames: builder.frames,
@@ -47,6 +51,25 @@ impl PlanRequest {
             failed,
             mapping: builder.roles.mapping,
         }
+    }
+}
+
+/// Counts the planner's questions whether to give up. The planner asks at the same points of its work whenever it gets the
+/// same problem, so that the number of the question names the moment it was cancelled.
+struct Questions<'a> {
+    is_over: &'a dyn Fn() -> bool,
+    asked: Cell<u64>,
+    cancelled_at: Cell<Option<u64>>,
+}
+
+impl Questions<'_> {
+    fn ask(&self) -> bool {
+        self.asked.set(self.asked.get() + 1);
+        let is_over = (self.is_over)();
+        if is_over && self.cancelled_at.get().is_none() {
+            self.cancelled_at.set(Some(self.asked.get()));
+        }
+        is_over
     }
 }
 

@@ -2,7 +2,7 @@
 
 use crate::leg::Leg;
 use crate::mapping::Mapping;
-use lightbots_base::{RobotId, Span, Vec2};
+use lightbots_base::{RobotId, Span, StateHash, Vec2};
 use lightbots_show::Show;
 use std::sync::Arc;
 
@@ -61,6 +61,8 @@ pub(crate) struct PlannedRobot {
 #[derive(Clone, Debug)]
 pub struct PlanResult {
     pub(crate) number: u64,
+    /// At which question of the planner it was cancelled, counted from 1; `None`: it was not. A replay cancels it there.
+    pub(crate) cancelled_at: Option<u64>,
     pub(crate) legs: Vec<Leg>,
     /// Whether it begins where robots were stopped on their paths.
     pub(crate) stopped: bool,
@@ -73,7 +75,48 @@ pub struct PlanResult {
     pub(crate) mapping: Mapping,
 }
 
+impl PlanResult {
+    /// The result of a request that nobody waits for.
+    pub(crate) fn unwanted(number: u64) -> Self {
+        Self {
+            number,
+            cancelled_at: None,
+            legs: Vec::new(),
+            stopped: false,
+            frames: 0,
+            dark: Vec::new(),
+            failed: None,
+            mapping: Mapping::default(),
+        }
+    }
+}
+
 impl PlanRequest {
+    /// Appends everything that the plan depends on but the show and the pins to a hash.
+    pub(crate) fn imprint(&self, hash: &mut StateHash) {
+        let PlanProblem {
+            frames, robots, participants, standing, inferred, mapping, lenient, stopped, ..
+        } = &self.problem;
+        hash.word(self.number);
+        hash.word(*participants as u64);
+        hash.word(u64::from(*lenient) | u64::from(*stopped) << 1);
+        for &(frame, round) in frames {
+            hash.word((frame as u64) << 32 | u64::from(round));
+        }
+        for robot in robots {
+            hash.bytes(robot.id.as_bytes());
+            hash.word((robot.participant as u64) << 1 | u64::from(robot.original));
+        }
+        for at in robots.iter().map(|robot| &robot.at).chain(standing).chain(inferred) {
+            hash.number(at.x);
+            hash.number(at.y);
+        }
+        for (pixel, robot) in [mapping.owners.oldest_first(), mapping.shown.oldest_first()].concat() {
+            hash.word(pixel.into());
+            hash.bytes(robot.as_bytes());
+        }
+    }
+
     /// Longest duration while robots wait for the plan; `None`: they do not wait. The caller measures it, because a core
     /// reads no clock, and cancels the request by [`run_unless`](Self::run_unless).
     pub fn budget(&self) -> Option<Span> {

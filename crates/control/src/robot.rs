@@ -4,6 +4,7 @@ use crate::namesakes::Namesakes;
 use crate::snapshot::{Age, LastContact, Reported, RobotView};
 use lightbots_base::{Instant, Rgb, RobotId, Vec2};
 use lightbots_wire::{Details, Report, RobotState};
+use serde::{Deserialize, Serialize};
 
 /// Places nearer to each other than this are the same for a robot whose fixes are noisy, metres.
 const SAME_PLACE_M: f64 = 0.012;
@@ -26,7 +27,7 @@ const STOPS_SHORT: StopsShort = StopsShort { first_m: 0.012, most_m: 0.02, rolls
 const _: () = assert!(STOPS_SHORT.first_m <= STOPS_SHORT.most_m && STOPS_SHORT.gain < 1.0);
 
 /// What is known of a robot.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub(crate) struct KnownRobot {
     /// Its name.
     pub id: RobotId,
@@ -55,7 +56,7 @@ pub(crate) struct KnownRobot {
 }
 
 /// How long a robot has reported the same place.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub(crate) struct Standstill {
     /// Since then.
     pub since: Instant,

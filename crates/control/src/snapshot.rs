@@ -3,6 +3,7 @@
 use crate::operation::ControllerState;
 use lightbots_base::{Instant, Rgb, RobotId, Vec2};
 use lightbots_wire::{Abilities, Blocked, Firmware, RobotState};
+use serde::{Deserialize, Serialize};
 
 /// Everything a screen shows, at one moment. What happened is told by [`crate::Event`]s.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -73,7 +74,7 @@ pub struct RobotView {
 }
 
 /// What a robot's last report said.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Reported {
     /// Its place, stage metres.
     pub at: Option<Vec2>,
@@ -100,7 +101,7 @@ pub struct Reported {
 }
 
 /// When a robot reported.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct LastContact {
     /// When it was found, show clock.
     pub found: Instant,
@@ -111,7 +112,7 @@ pub struct LastContact {
 }
 
 /// How lately a robot reported.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 pub enum Age {
     /// Lately.
     #[default]

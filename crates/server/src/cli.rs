@@ -1,6 +1,7 @@
 //! The command line. design: scripts and CI rely on it.
 
 mod make;
+mod replay;
 
 use std::net::SocketAddr;
 use std::path::PathBuf;
@@ -15,6 +16,7 @@ use crate::logging::Log;
 use crate::numbers::{address, floor, robot, seed};
 
 pub use make::MakeArguments;
+pub use replay::ReplayArguments;
 
 /// Light shows on a floor: every robot is a pixel that drives.
 #[derive(Debug, Parser)]
@@ -41,6 +43,8 @@ pub enum Command {
     Rehearse(RehearseArguments),
     /// Play a show once on a live fleet, without a screen; a report at the end
     Play(PlayArguments),
+    /// Run a recorded rehearsal or run through the controller again, and compare what it does
+    Replay(ReplayArguments),
     /// Start simulated robots only, for another machine or another controller
     Robots(RobotsArguments),
     /// Start only the embedded broker, for other controllers and robots; `run` starts one by itself
@@ -114,7 +118,7 @@ pub struct RunArguments {
     pub plan_budget: u32,
     #[command(flatten)]
     pub mqtt: MqttArguments,
-    /// Folder of the library of shows [default: lightbots in the user's data folder]
+    /// Folder of the library of shows and of recorded runs [default: lightbots in the user's data folder]
     #[arg(long, value_name = "DIR")]
     pub data: Option<PathBuf>,
     /// Seed of the simulated robots, their names included, which pins in a show go by [default: 1; with --broker,
@@ -215,6 +219,9 @@ pub struct RehearseArguments {
     /// Write a report for people
     #[arg(long, value_name = "FILE.html")]
     pub report: Option<PathBuf>,
+    /// Record the inputs of the controller, for `replay`
+    #[arg(long, value_name = "FILE")]
+    pub record: Option<PathBuf>,
     /// One JSON object on stdout
     #[arg(long)]
     pub json: bool,
@@ -237,6 +244,9 @@ pub struct PlayArguments {
     /// How long to wait for broker and robots at most, seconds
     #[arg(long, value_name = "S", default_value_t = 60, value_parser = clap::value_parser!(u32).range(1..=86_400))]
     pub patience: u32,
+    /// Record the inputs of the controller, for `replay`
+    #[arg(long, value_name = "FILE")]
+    pub record: Option<PathBuf>,
     #[command(flatten)]
     pub reading: ShowArguments,
     /// One JSON object on stdout

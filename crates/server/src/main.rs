@@ -73,6 +73,7 @@ async fn run(cli: Cli, stop: Stop) -> i32 {
         Command::Check(arguments) => stop.at_once(|| commands::check::run(&arguments)),
         Command::Plan(arguments) => stop.at_once(|| commands::plan::run(&arguments)),
         Command::Rehearse(arguments) => stop.at_once(|| commands::rehearse::run(&arguments)),
+        Command::Replay(arguments) => stop.at_once(|| commands::replay::run(&arguments)),
         Command::Play(arguments) => commands::play::run(arguments, stop).await,
         Command::Robots(arguments) => commands::robots::run(arguments, stop).await,
         Command::RobotCheck(arguments) => commands::robot_check::run(arguments, stop).await,

@@ -4,12 +4,14 @@ use std::collections::BTreeMap;
 use std::fmt;
 use std::sync::Arc;
 
+use serde::{Deserialize, Serialize};
+
 /// SHA-256 of a file's bytes. `Display` gives the 64 hexadecimal digits that files use.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 pub struct AssetHash(pub [u8; 32]);
 
 /// A file that belongs to a show.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Asset {
     /// Name of the file for people, such as `logo.svg`.
     pub name: String,
@@ -17,7 +19,9 @@ pub struct Asset {
     pub media_type: String,
     /// Length of the file, bytes.
     pub bytes: u64,
-    /// The file itself; `None`: only its hash is known, because the show's file does not hold it.
+    /// The file itself; `None`: only its hash is known, because the show's file does not hold it. Serde leaves it out: what
+    /// a controller writes down of a show does without.
+    #[serde(skip)]
     pub content: Option<Arc<[u8]>>,
 }
 

@@ -1,13 +1,14 @@
 //! The show document in memory.
 
 use lightbots_base::{Limits, Rgb, Vec2};
+use serde::{Deserialize, Serialize};
 
 use crate::asset::Assets;
 use crate::source::{FrameSource, SourcePart};
 use crate::timeline::{Beats, Cue, Layer, Marker, Section, Trajectory};
 
 /// A show: frames in playing order, and the stage they play on.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Show {
     /// Name for people; may be empty.
     pub name: String,
@@ -40,7 +41,7 @@ pub struct Show {
 }
 
 /// The floor and the robots on it.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Stage {
     /// Extent along x, metres.
     pub width_m: f64,
@@ -53,7 +54,7 @@ pub struct Stage {
 }
 
 /// A no-go area: robots drive around it.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Obstacle {
     /// A disc.
     Disc {
@@ -72,7 +73,7 @@ pub enum Obstacle {
 }
 
 /// Whether pixels are bound to robots.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Identity {
     /// Any robot may show any pixel.
     #[default]
@@ -82,7 +83,7 @@ pub enum Identity {
 }
 
 /// A picture of the show.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Frame {
     /// Word by which layers, cues and trajectories name the frame; unique in its show. `None`: nothing names it.
     pub id: Option<String>,
@@ -105,7 +106,7 @@ pub struct Frame {
 }
 
 /// Speed profile of a transition.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Easing {
     /// Trapezoidal: accelerates, cruises and brakes at the limits.
     #[default]
@@ -115,7 +116,7 @@ pub enum Easing {
 }
 
 /// A light of a picture, shown by one robot.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Pixel {
     /// Id, unique in its frame.
     pub id: u32,

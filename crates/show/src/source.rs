@@ -1,12 +1,13 @@
 //! What a frame was made from, so that it can be made again with other settings or another number of robots.
 
 use lightbots_base::Vec2;
+use serde::{Deserialize, Serialize};
 
 use crate::asset::AssetHash;
 use crate::setting::NamedSettings;
 
 /// What pixels of a frame were made from: a word, a drawing, a picture.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct FrameSource {
     /// Kind of source.
     pub kind: SourceKind,
@@ -22,12 +23,14 @@ pub struct FrameSource {
     pub series: Option<String>,
     /// Moment of an animation that the frame shows, seconds from its start.
     pub moment_s: Option<f64>,
-    /// Settings, such as the text and its font.
+    /// Settings, such as the text and its font. Serde leaves them out: they nest, and nothing bounds how deep in bytes of
+    /// others.
+    #[serde(skip)]
     pub settings: NamedSettings,
 }
 
 /// Kind of source.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum SourceKind {
     /// Words in a font.
     Text,
@@ -44,7 +47,7 @@ pub enum SourceKind {
 }
 
 /// A rectangle on the floor with sides along the axes, stage metres.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct FloorBox {
     /// Corner with the smaller x and y.
     pub min: Vec2,
@@ -53,7 +56,7 @@ pub struct FloorBox {
 }
 
 /// The part of a source that a pixel belongs to.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct SourcePart {
     /// Index of the source in [`Frame::sources`](crate::Frame::sources), counted from 0.
     pub source: u32,

@@ -4,11 +4,12 @@
 //! the drive to the first frame takes.
 
 use lightbots_base::Vec2;
+use serde::{Deserialize, Serialize};
 
 use crate::setting::NamedSettings;
 
 /// Light over time, over what the pixels' colours say.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Layer {
     /// Name for people; may be empty.
     pub name: String,
@@ -16,12 +17,13 @@ pub struct Layer {
     pub kind: String,
     /// When the layer shines.
     pub span: LayerSpan,
-    /// Settings of the effect.
+    /// Settings of the effect. Serde leaves them out, as those of sources.
+    #[serde(skip)]
     pub settings: NamedSettings,
 }
 
 /// When a layer shines.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub enum LayerSpan {
     /// Over the whole show.
     #[default]
@@ -45,7 +47,7 @@ pub enum LayerSpan {
 }
 
 /// Part of a frame's time.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum FramePhase {
     /// The transition to the frame and its air time.
     #[default]
@@ -57,7 +59,7 @@ pub enum FramePhase {
 }
 
 /// A named stretch of the show, such as a verse.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Section {
     /// Name for people.
     pub name: String,
@@ -68,7 +70,7 @@ pub struct Section {
 }
 
 /// A named moment of the show.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Marker {
     /// Name for people.
     pub name: String,
@@ -77,7 +79,7 @@ pub struct Marker {
 }
 
 /// A place where the show waits for the operator's GO.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Cue {
     /// Name for people; may be empty.
     pub name: String,
@@ -86,7 +88,7 @@ pub struct Cue {
 }
 
 /// Where a cue stands.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum CuePlace {
     /// At the end of the air time of the frame with this id.
     Frame(String),
@@ -95,7 +97,7 @@ pub enum CuePlace {
 }
 
 /// The beats of the music.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Beats {
     /// Where the beats are.
     pub grid: BeatGrid,
@@ -104,7 +106,7 @@ pub struct Beats {
 }
 
 /// Where beats are, in seconds of the music file.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum BeatGrid {
     /// A steady tempo.
     Steady {
@@ -118,7 +120,7 @@ pub enum BeatGrid {
 }
 
 /// A timed path that the show prescribes for the robot of a pixel, in place of a planned one.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Trajectory {
     /// Id of the frame that the robot shows the pixel in; `None`: the trajectory is for the whole show.
     pub frame: Option<String>,
@@ -133,7 +135,7 @@ pub struct Trajectory {
 }
 
 /// A piece of a trajectory. Its parameter is proportional to time.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct TrajectoryPiece {
     /// End of the piece, seconds after the start of the path; larger than that of the piece before.
     pub end_s: f64,

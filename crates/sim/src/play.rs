@@ -3,13 +3,12 @@
 use std::rc::Rc;
 use std::sync::Arc;
 
-use lightbots_base::{Instant, RobotId, Span, Vec2};
-use lightbots_control::{Config, Controller, MissingPolicy, Operation, RobotView};
+use lightbots_base::{Instant, RobotId, Span, StateHash, Vec2};
+use lightbots_control::{Config, Controller, MissingPolicy, Operation, RecordedController, RobotView};
 use lightbots_show::{Issue, Show};
 use lightbots_wire::Topic;
 
 use crate::breakdowns::{Breakdowns, Fate};
-use crate::hash::StateHash;
 use crate::network::{Network, Way};
 use crate::record::RehearsalRecord;
 use crate::rehearsal::{Progress, RehearsalOptions, time_limit};
@@ -29,7 +28,7 @@ pub(crate) struct Play {
     show: Arc<Show>,
     seed: u64,
     planned_s: f64,
-    controller: Controller,
+    controller: RecordedController,
     robots: RobotSet,
     network: Network,
     breakdowns: Breakdowns,
@@ -57,7 +56,7 @@ impl Play {
         Self {
             seed: *seed,
             planned_s,
-            controller: Controller::new(Config::default()),
+            controller: RecordedController::new(Controller::new(Config::default())),
             network: Network::new(&conditions.link, starts.len(), *seed),
             breakdowns: Breakdowns::new(conditions, starts.len(), planned_s, *seed),
             record: RehearsalRecord::new(starts.len()),
@@ -71,7 +70,15 @@ impl Play {
     }
 
     /// Plays to the end, or to the time limit.
-    pub fn run(mut self, progress: &mut dyn FnMut(Progress<'_>)) -> RehearsalReport {
+    pub fn run(
+        mut self,
+        log: Option<Vec<(String, String)>>,
+        progress: &mut dyn FnMut(Progress<'_>),
+    ) -> RehearsalReport {
+        if let Some(notes) = log {
+            // A new controller is at rest.
+            self.controller.begin_log(self.now, notes);
+        }
         self.controller.connected(self.now);
         // Opening is refused only during a run.
         let _ = self.controller.operate(self.now, Operation::Open(self.show.clone()));
@@ -85,6 +92,7 @@ impl Play {
             self.step();
             self.plan(progress);
             self.report_departure(progress);
+            hand_on(&self.controller.take_log(), progress);
             step += 1;
             if step.is_multiple_of(HASH_EVERY) {
                 self.robots.world.imprint(&mut self.hash);
@@ -94,6 +102,7 @@ impl Play {
                 progress(self.progress());
             }
         }
+        hand_on(&self.controller.end_log(), progress);
         self.report()
     }
 
@@ -273,6 +282,13 @@ impl Play {
     }
 }
 
+/// Hands on bytes of the log, if there are any.
+fn hand_on(log: &[u8], progress: &mut dyn FnMut(Progress<'_>)) {
+    if !log.is_empty() {
+        progress(Progress::Logged(log));
+    }
+}
+
 /// Sends a message of a robot to the controller, unless the robot is mute.
 fn send(
     network: &mut Network,
@@ -308,7 +324,7 @@ mod tests {
             let play = |cached| {
                 let mut play = Play::new(show.clone(), &starts, &[], &options, 30.0);
                 play.robots.cached = cached;
-                play.run(&mut |_| {})
+                play.run(None, &mut |_| {})
             };
             let (there, back) = (play(starts.len()), play(0));
             assert_eq!(there, back, "{faults}");

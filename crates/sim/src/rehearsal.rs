@@ -46,6 +46,8 @@ pub enum Progress<'a> {
         /// seed to seed.
         paths: &'a [(usize, &'a Path)],
     },
+    /// Further bytes of the log of the controller's inputs ([`lightbots_control::replay`]).
+    Logged(&'a [u8]),
 }
 
 /// Most robots of a rehearsal.
@@ -63,6 +65,26 @@ impl Default for RehearsalOptions {
 pub fn rehearse(
     show: &Show,
     options: &RehearsalOptions,
+    progress: &mut dyn FnMut(Progress<'_>),
+) -> RehearsalReport {
+    rehearse_with(show, options, None, progress)
+}
+
+/// [`rehearse`], with a log of the controller's inputs, which is passed on as [`Progress::Logged`]. `notes` for people,
+/// names and values, stand in the log.
+pub fn rehearse_recorded(
+    show: &Show,
+    options: &RehearsalOptions,
+    notes: Vec<(String, String)>,
+    progress: &mut dyn FnMut(Progress<'_>),
+) -> RehearsalReport {
+    rehearse_with(show, options, Some(notes), progress)
+}
+
+fn rehearse_with(
+    show: &Show,
+    options: &RehearsalOptions,
+    log: Option<Vec<(String, String)>>,
     progress: &mut dyn FnMut(Progress<'_>),
 ) -> RehearsalReport {
     progress(Progress::Planning);
@@ -85,7 +107,7 @@ pub fn rehearse(
     }
     let names = names(&plan, starts.len());
     let play = Play::new(Arc::new(show.clone()), &starts, &names, options, plan.duration_s);
-    let mut report = play.run(progress);
+    let mut report = play.run(log, progress);
     report.lower_bound_s = plan.lower_bound_s;
     issues.append(&mut report.issues);
     report.issues = issues;

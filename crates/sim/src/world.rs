@@ -1,6 +1,6 @@
 //! The world: bodies that drive, slip and push each other on a floor.
 
-use lightbots_base::{Pose, Span, Vec2, wrap};
+use lightbots_base::{Pose, Span, StateHash, Vec2, wrap};
 use lightbots_show::Stage;
 
 use crate::bumps::{Against, Bumps};
@@ -8,7 +8,6 @@ use crate::contacts::{ContactState, Contacts};
 use crate::dice::{Dice, Purpose};
 use crate::drive_train::DriveTrain;
 use crate::floor::Floor;
-use crate::hash::StateHash;
 use crate::neighbour_list::NeighbourList;
 use crate::proximity::ProximityReadings;
 use crate::wheel_slip::WheelSlip;

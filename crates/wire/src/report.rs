@@ -46,6 +46,7 @@ pub struct Details {
 
 /// An unplanned obstacle (R49).
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Blocked {
     /// Distance from the robot's rim to the obstacle, metres.
     pub gap_m: f64,
@@ -58,6 +59,7 @@ pub type Firmware = heapless::String<24>;
 
 /// State of a robot (R12).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum RobotState {
     /// Stands and waits.
     #[default]
@@ -78,6 +80,7 @@ pub enum RobotState {
 
 /// Commands that a robot supports beyond TARGET, COLOR and UUID.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Abilities {
     /// Routes: PATH, START, HOLD, RESUME, STOP, STATUS and TIME.
     pub route: bool,

@@ -9,6 +9,7 @@ pub mod make;
 pub mod plan;
 pub mod play;
 pub mod rehearse;
+pub mod replay;
 pub mod robot_check;
 pub mod robots;
 pub mod run;

@@ -10,6 +10,7 @@ use tokio::sync::broadcast;
 use crate::cli::PlayArguments;
 use crate::failure::{Failure, Outcome};
 use crate::live::conductor::{self, Handle, LOOK, News};
+use crate::live::recorder::RecordingTarget;
 use crate::progress::Bar;
 use crate::run_report::{RunReport, print};
 use crate::stop::Stop;
@@ -22,6 +23,11 @@ const SETTLED: Duration = Duration::from_secs(10);
 /// air time.
 const NOTHING: Duration = Duration::from_secs(900);
 
+/// Longest time for stopping the robots and disconnecting after a signal.
+const GOODBYE: Duration = Duration::from_secs(2);
+/// Longest time for disconnecting and for the disk after a run.
+const SAVED: Duration = Duration::from_secs(10);
+
 pub async fn run(arguments: PlayArguments, stop: Stop) -> Outcome {
     stop.take_over();
     let broker = arguments.login.broker(&arguments.broker)?;
@@ -33,7 +39,9 @@ pub async fn run(arguments: PlayArguments, stop: Stop) -> Outcome {
         return Ok(false);
     }
     open_files::raise_limit();
-    let (handle, task) = Handle::start(stop.clone());
+    let recording = arguments.record.clone().map_or(RecordingTarget::Off, RecordingTarget::File);
+    let (until, end) = stop.child();
+    let (handle, task) = Handle::start(recording, until);
     let (mut news, links) = (handle.news(), handle.news());
     handle.connect(broker).await;
     let mut report = RunReport::new(&opened.show);
@@ -42,7 +50,11 @@ pub async fn run(arguments: PlayArguments, stop: Stop) -> Outcome {
         () = stop.wait() => Err(Failure::problem("stopped before the end of the show")),
     };
     report.add_issues(&opened.issues);
-    finish(&handle, &stop, task).await;
+    if !stop.is_wanted() {
+        handle.disconnect().await;
+        end.now();
+    }
+    finish(&stop, task).await;
     if stop.is_wanted() {
         // The conductor ended the run when it stopped the robots. That event is behind the unread ones.
         catch_up(&mut report, &mut news);
@@ -64,16 +76,12 @@ fn tell(mut report: RunReport, json: bool, played: Result<(), Failure>) -> Outco
     played.map(|()| ok)
 }
 
-/// Disconnects from the broker, or waits until the conductor has disconnected.
-async fn finish(handle: &Handle, stop: &Stop, task: tokio::task::JoinHandle<()>) {
-    if stop.is_wanted() {
-        // The conductor stops the robots and disconnects. A broker that hangs is not waited for.
-        let _ = tokio::time::timeout(Duration::from_secs(2), task).await;
-        return;
-    }
-    handle.disconnect().await;
-    // The answer comes after the connection is closed.
-    let _ = handle.look().await;
+/// Waits until the conductor has disconnected from the broker and the recorded run is on disk. If a stop is wanted, it stops
+/// the robots first.
+async fn finish(stop: &Stop, task: tokio::task::JoinHandle<()>) {
+    // A broker or a disk that hangs is not waited for.
+    let patience = if stop.is_wanted() { GOODBYE } else { SAVED };
+    let _ = tokio::time::timeout(patience, task).await;
 }
 
 async fn play(

@@ -1,9 +1,12 @@
 //! `rehearse`: plays the whole show in virtual time.
 
+use std::io::Write;
 use std::path::Path;
 use std::time::Instant;
 
-use lightbots_sim::{Conditions, Faults, Progress, RehearsalOptions, RehearsalReport, rehearse};
+use lightbots_sim::{
+    Conditions, Faults, Progress, RehearsalOptions, RehearsalReport, rehearse, rehearse_recorded,
+};
 
 use super::{count, print_issues, print_json};
 use crate::cli::RehearseArguments;
@@ -22,19 +25,26 @@ pub fn run(arguments: &RehearseArguments) -> Outcome {
         conditions: faults.added_to(usual),
         ..RehearsalOptions::default()
     };
+    let mut log = LogFile::create(arguments.record.as_deref())?;
     let began = Instant::now();
     let mut virtual_s = 0.0_f64;
     let mut report = {
         let bar = Bar::new();
-        rehearse(&opened.show, &options, &mut |progress| match progress {
+        let mut progress = |progress: Progress<'_>| match progress {
             Progress::Planning => bar.set(0.0, "planning"),
             Progress::Departing { .. } => {}
+            Progress::Logged(bytes) => log.append(bytes),
             Progress::Playing { at_s, planned_s, frames } => {
                 virtual_s = at_s;
                 bar.set(at_s / planned_s.max(1.0), format!("{} played", count(frames, "frame")));
             }
-        })
+        };
+        match &arguments.record {
+            Some(_) => rehearse_recorded(&opened.show, &options, notes(arguments), &mut progress),
+            None => rehearse(&opened.show, &options, &mut progress),
+        }
     };
+    log.finish()?;
     let factor = virtual_s.max(report.duration_s) / began.elapsed().as_secs_f64().max(1e-9);
     report.real_time_factor = Some(rounded(factor, 1));
     let news = opened.issues.iter().filter(|issue| !report.issues.contains(issue));
@@ -49,6 +59,48 @@ pub fn run(arguments: &RehearseArguments) -> Outcome {
         print(&report);
     }
     Ok(report.ok)
+}
+
+/// The file of the recorded inputs, if one is wanted.
+struct LogFile<'a> {
+    path: Option<&'a Path>,
+    file: Option<std::fs::File>,
+    failure: Option<std::io::Error>,
+}
+
+impl<'a> LogFile<'a> {
+    fn create(path: Option<&'a Path>) -> Result<Self, Failure> {
+        let mut log = Self { path, file: None, failure: None };
+        match path.map(std::fs::File::create) {
+            Some(Ok(file)) => log.file = Some(file),
+            Some(Err(error)) => log.failure = Some(error),
+            None => {}
+        }
+        log.finish().map(|()| log)
+    }
+
+    fn append(&mut self, bytes: &[u8]) {
+        if let (Some(file), None) = (&mut self.file, &self.failure) {
+            self.failure = file.write_all(bytes).err();
+        }
+    }
+
+    fn finish(&mut self) -> Result<(), Failure> {
+        let (Some(path), Some(error)) = (self.path, self.failure.take()) else { return Ok(()) };
+        Err(Failure::input(format!("{}: cannot be written: {error}", path.display())))
+    }
+}
+
+/// What people should know of a log: how to rehearse the same again.
+fn notes(arguments: &RehearseArguments) -> Vec<(String, String)> {
+    let mut notes = vec![
+        ("command", "rehearse".to_owned()),
+        ("show", arguments.show.display().to_string()),
+        ("seed", arguments.seed.to_string()),
+        ("ideal", arguments.ideal.to_string()),
+    ];
+    notes.extend(arguments.faults.clone().map(|faults| ("faults", faults)));
+    notes.into_iter().map(|(name, value)| (name.to_owned(), value)).collect()
 }
 
 /// The name of the show, or of its file: shows of the original have no name.

@@ -20,6 +20,7 @@ use crate::library::{Library, name_of_file};
 use crate::live::broker::EmbeddedBroker;
 use crate::live::cast::Cast;
 use crate::live::conductor::Handle;
+use crate::live::recorder::RecordingTarget;
 use crate::stop::Stop;
 use crate::web::{self, BrokerDesk, Exposure, Planner, ScreenLog, Shared};
 use crate::{open_files, say, show_file};
@@ -89,7 +90,7 @@ async fn serve(arguments: &RunArguments, stop: &Stop, started: &mut Started) -> 
     let Some(own) = other.clone().or_else(|| embedded.clone()) else { return Ok(false) };
     let seed = robots_seed(arguments.seed, other.is_none());
     let (settings, broker) = chosen(arguments, other, &own, &data);
-    let (handle, conductor) = Handle::start(stop.clone());
+    let (handle, conductor) = Handle::start(RecordingTarget::Runs(data.clone()), stop.clone());
     started.tasks.push(conductor);
     let planner = Planner::new(Duration::from_secs(arguments.plan_budget.into()));
     let desk = BrokerDesk::new(data, settings, embedded);

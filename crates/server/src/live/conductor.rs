@@ -5,7 +5,8 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 use lightbots_control::{
-    Config, Controller, ControllerState, Event, Operation, PlanRequest, PlanResult, Refusal, Snapshot,
+    Config, Controller, ControllerState, Event, Operation, PlanRequest, PlanResult, RecordedController,
+    Refusal, Snapshot,
 };
 use lightbots_link::{BrokerUrl, Link, LinkEvent};
 use lightbots_wire::Topic;
@@ -14,6 +15,7 @@ use tokio::sync::{broadcast, mpsc, oneshot};
 use super::clock::Clock;
 use super::controller_link;
 use super::pace::Pace;
+use super::recorder::{Recorder, RecordingTarget};
 use super::rivals::{self, Rivals};
 use crate::stop::Stop;
 
@@ -88,15 +90,17 @@ pub struct Handle {
 
 impl Handle {
     /// Starts a conductor. It ends, with its robots at rest if a run was on, once `stop` is wanted; wait for the task.
-    pub fn start(stop: Stop) -> (Self, tokio::task::JoinHandle<()>) {
+    pub fn start(recording: RecordingTarget, stop: Stop) -> (Self, tokio::task::JoinHandle<()>) {
         let clock = Clock::start();
         let (orders, inbox) = mpsc::channel(ORDERS);
         let (news, _) = broadcast::channel(EVENTS);
         let config = Config { seq_base: clock.seq_base(), ..Config::default() };
         let (done_sender, done) = mpsc::channel(4);
         let pace = Arc::new(Pace::default());
+        let mut controller = RecordedController::new(Controller::new(config));
         let conductor = Conductor {
-            controller: Controller::new(config),
+            recorder: Recorder::new(recording, &mut controller, clock.now()),
+            controller,
             clock: clock.clone(),
             pace: pace.clone(),
             planning: None,
@@ -156,7 +160,8 @@ impl Handle {
 }
 
 struct Conductor {
-    controller: Controller,
+    controller: RecordedController,
+    recorder: Recorder,
     clock: Clock,
     pace: Arc<Pace>,
     /// A plan is being made, and is given up once this is true.
@@ -236,7 +241,9 @@ impl Conductor {
     async fn obey(&mut self, order: Order) {
         match order {
             Order::Operate(operation, answer) => {
-                let outcome = self.controller.operate(self.clock.now(), operation);
+                let now = self.clock.now();
+                self.recorder.before(&mut self.controller, now, &operation);
+                let outcome = self.controller.operate(now, operation);
                 // Whoever asked may have gone.
                 let _ = answer.send(outcome);
             }
@@ -292,6 +299,10 @@ impl Conductor {
             let _ = self.news.send(News::Event(event));
         }
         self.plan();
+        if let Some(line) = self.recorder.keep(&mut self.controller) {
+            tracing::warn!("{line}");
+            let _ = self.news.send(News::Warning(line));
+        }
     }
 
     /// Has the newest plan made that is wanted, once the one before is done.
@@ -341,7 +352,7 @@ impl Conductor {
     }
 
     /// No robot is left driving by a controller that goes.
-    async fn end(&mut self) {
+    async fn end(mut self) {
         let state = self.controller.snapshot(self.clock.now()).state;
         if !matches!(state, ControllerState::Idle | ControllerState::Ready) {
             let stopped = self.controller.operate(self.clock.now(), Operation::StopAll);
@@ -351,6 +362,9 @@ impl Conductor {
             self.drain();
         }
         self.leave().await;
+        let Self { recorder, mut controller, .. } = self;
+        // The disk may take its time.
+        let _ = tokio::task::spawn_blocking(move || recorder.finish(&mut controller)).await;
     }
 }
 

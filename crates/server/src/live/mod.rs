@@ -6,6 +6,7 @@ pub mod clock;
 pub mod conductor;
 pub mod crowd;
 mod pace;
+pub mod recorder;
 mod rivals;
 
 use lightbots_link::{BrokerUrl, LinkConfig, controller_client_id};

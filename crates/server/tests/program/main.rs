@@ -27,6 +27,7 @@ mod plain_mqtt;
 #[cfg(unix)]
 mod rabbitmq;
 mod raw_mqtt;
+mod recording;
 mod refusals;
 mod rights;
 mod robot_check;

@@ -15,3 +15,4 @@ mod pairs;
 mod rapier;
 mod recovery;
 mod rehearsals;
+mod replays;

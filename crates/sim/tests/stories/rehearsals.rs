@@ -72,7 +72,7 @@ fn watching_does_not_change_what_is_watched() {
     let watched = rehearse(&show(8), &options, &mut |progress| {
         planned_first.get_or_insert(progress == Progress::Planning);
         match progress {
-            Progress::Planning => {}
+            Progress::Planning | Progress::Logged(_) => {}
             Progress::Playing { frames: so_far, .. } => frames = so_far,
             Progress::Departing { frame, begins_s, paths } => departures.push((frame, begins_s, paths.len())),
         }

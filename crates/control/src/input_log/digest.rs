@@ -1,0 +1,55 @@
+//! A digest of all outputs of a controller.
+
+use crate::event::Event;
+use crate::operation::Refusal;
+use crate::outbox::Send;
+use crate::plan_request::PlanRequest;
+use lightbots_base::StateHash;
+use std::fmt::Write;
+
+/// Hashes of the outputs of each kind. They are apart, because the order in which a shell takes the kinds is its own.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct OutputDigest {
+    sends: StateHash,
+    events: StateHash,
+    requests: StateHash,
+    answers: StateHash,
+    text: String,
+}
+
+impl OutputDigest {
+    /// A message was taken.
+    pub fn send(&mut self, send: &Send) {
+        self.sends.bytes(send.topic.write().as_bytes());
+        self.sends.bytes(&send.payload);
+    }
+
+    /// An event was taken.
+    pub fn event(&mut self, event: &Event) {
+        self.text.clear();
+        // A string takes any text.
+        let _ = write!(self.text, "{event:?}");
+        self.events.bytes(self.text.as_bytes());
+    }
+
+    /// A plan request was taken.
+    pub fn request(&mut self, request: &PlanRequest) {
+        request.imprint(&mut self.requests);
+    }
+
+    /// An operation was answered.
+    pub fn answer(&mut self, answer: &Result<(), Refusal>) {
+        self.text.clear();
+        let _ = write!(self.text, "{answer:?}");
+        self.answers.bytes(self.text.as_bytes());
+    }
+
+    /// The digest of all outputs so far.
+    pub fn value(&self) -> u64 {
+        let mut all = StateHash::new();
+        for part in [self.sends, self.events, self.requests, self.answers] {
+            all.word(part.finish());
+        }
+        all.finish()
+    }
+}

@@ -1,0 +1,41 @@
+//! The input log: every input of a controller, in order, so that a run can be played again to the bit.
+//!
+//! A log is the bytes [`MAGIC`], the number [`VERSION`] (2 bytes, little-endian) and blocks ([`crate::block`]). The first
+//! block is the [`LogHeader`] with the controller at rest, the show included. The others hold records of inputs, about a
+//! second of them each. After outputs were taken, a record holds two bytes of the digest of all outputs so far. A replay
+//! compares them, and thus finds the first input after which an output differs. Plans are not in the log: the replay makes
+//! them again, and gives up those that were given up, at the same question of the planner.
+//!
+//! [`RecordedController`] writes a log, [`replay`] plays it.
+
+mod digest;
+mod record;
+mod recorded;
+mod recording;
+mod replaying;
+mod senders;
+#[cfg(test)]
+mod tests;
+
+pub use recorded::RecordedController;
+pub use replaying::{Difference, LogEnd, LogError, ReplayReport, replay};
+
+use serde::{Deserialize, Serialize};
+
+/// The first bytes of every input log.
+const MAGIC: &[u8; 8] = b"LBotsLog";
+/// The format of logs. Raise it with every change of a type that is written: `Controller`, `Show`, `Record`.
+const VERSION: u16 = 1;
+
+/// The first block of a log.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub(crate) struct LogHeader {
+    /// Version of the program that wrote it.
+    pub program: String,
+    /// What people should know of it, such as the command, the seed and the faults: names and values.
+    pub notes: Vec<(String, String)>,
+    /// The moment that the first record counts from, microseconds of the show clock.
+    pub began_us: u64,
+    /// The controller at that moment.
+    pub checkpoint: Vec<u8>,
+}

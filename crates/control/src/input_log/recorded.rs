@@ -1,0 +1,142 @@
+//! A controller whose inputs are recorded.
+
+use super::record::{OutputKinds, Record};
+use super::recording::Recording;
+use crate::controller::Controller;
+use crate::event::Event;
+use crate::operation::{Operation, Refusal};
+use crate::outbox::Send;
+use crate::plan_request::{PlanRequest, PlanResult};
+use lightbots_base::Instant;
+use std::ops::Deref;
+
+/// A controller, and a log of its inputs if one is wanted. It has the ways in and out of a [`Controller`], and shows
+/// everything else of it. Take outputs of a kind until there are none, as a replay does.
+#[derive(Debug)]
+pub struct RecordedController {
+    controller: Controller,
+    recording: Option<Recording>,
+}
+
+impl Deref for RecordedController {
+    type Target = Controller;
+
+    fn deref(&self) -> &Controller {
+        &self.controller
+    }
+}
+
+impl RecordedController {
+    /// A controller without a log.
+    pub fn new(controller: Controller) -> Self {
+        Self { controller, recording: None }
+    }
+
+    /// Begins a log, with notes for people: names and values. `false`: not now, because there is a run, robots are being
+    /// stopped, or outputs wait to be taken. A log that was there is dropped.
+    pub fn begin_log(&mut self, now: Instant, notes: Vec<(String, String)>) -> bool {
+        let checkpoint = self.controller.checkpoint();
+        self.recording = checkpoint.map(|checkpoint| Recording::begin(now, notes, checkpoint));
+        self.recording.is_some()
+    }
+
+    /// Whether inputs are recorded.
+    pub fn is_recording(&self) -> bool {
+        self.recording.is_some()
+    }
+
+    /// What is to be appended to the log's file since it was asked last; may be empty.
+    pub fn take_log(&mut self) -> Vec<u8> {
+        self.recording.as_mut().map(Recording::take).unwrap_or_default()
+    }
+
+    /// Ends the log; its last bytes.
+    pub fn end_log(&mut self) -> Vec<u8> {
+        let Some(mut recording) = self.recording.take() else { return Vec::new() };
+        recording.end();
+        recording.take()
+    }
+
+    /// [`Controller::connected`]
+    pub fn connected(&mut self, now: Instant) {
+        self.record(now, Record::Connected);
+        self.controller.connected(now);
+    }
+
+    /// [`Controller::disconnected`]
+    pub fn disconnected(&mut self, now: Instant) {
+        self.record(now, Record::Disconnected);
+        self.controller.disconnected(now);
+    }
+
+    /// [`Controller::message`]
+    pub fn message(&mut self, now: Instant, topic: &str, payload: &[u8]) {
+        if let Some(recording) = &mut self.recording {
+            recording.message(now, topic, payload);
+        }
+        self.controller.message(now, topic, payload);
+    }
+
+    /// [`Controller::operate`]
+    pub fn operate(&mut self, now: Instant, operation: Operation) -> Result<(), Refusal> {
+        if let Some(recording) = &mut self.recording {
+            let operation = operation.clone();
+            recording.input(now, |after| Record::Operation { after, operation });
+        }
+        let answer = self.controller.operate(now, operation);
+        if let Some(recording) = &mut self.recording {
+            recording.digest.answer(&answer);
+            recording.taken |= OutputKinds::ANSWER;
+        }
+        answer
+    }
+
+    /// [`Controller::wake`]
+    pub fn wake(&mut self, now: Instant) {
+        self.record(now, Record::Wake);
+        self.controller.wake(now);
+    }
+
+    /// [`Controller::planned`]
+    pub fn planned(&mut self, now: Instant, result: PlanResult) {
+        let (number, cancelled_at) = (result.number, result.cancelled_at.unwrap_or(0));
+        self.record(now, |after| Record::Planned { after, number, cancelled_at });
+        self.controller.planned(now, result);
+    }
+
+    /// [`Controller::next_send`]
+    pub fn next_send(&mut self) -> Option<Send> {
+        let send = self.controller.next_send()?;
+        if let Some(recording) = &mut self.recording {
+            recording.digest.send(&send);
+            recording.taken |= OutputKinds::SENDS;
+        }
+        Some(send)
+    }
+
+    /// [`Controller::next_event`]
+    pub fn next_event(&mut self) -> Option<Event> {
+        let event = self.controller.next_event()?;
+        if let Some(recording) = &mut self.recording {
+            recording.digest.event(&event);
+            recording.taken |= OutputKinds::EVENTS;
+        }
+        Some(event)
+    }
+
+    /// [`Controller::next_plan_request`]
+    pub fn next_plan_request(&mut self) -> Option<PlanRequest> {
+        let request = self.controller.next_plan_request()?;
+        if let Some(recording) = &mut self.recording {
+            recording.digest.request(&request);
+            recording.taken |= OutputKinds::REQUESTS;
+        }
+        Some(request)
+    }
+
+    fn record(&mut self, now: Instant, record: impl FnOnce(lightbots_base::Span) -> Record<'static>) {
+        if let Some(recording) = &mut self.recording {
+            recording.input(now, record);
+        }
+    }
+}

@@ -1,0 +1,121 @@
+//! A log being written.
+
+use super::digest::OutputDigest;
+use super::record::{Record, RobotTopic};
+use super::senders::{Likeness, Senders};
+use super::{LogHeader, MAGIC, VERSION};
+use crate::block::append_block;
+use lightbots_base::{Instant, Span};
+use lightbots_wire::Topic;
+
+/// A block of records ends after this time of the show clock: more of it is lost if the program is killed.
+const BLOCK_LASTS: Span = Span::from_millis(1_000);
+/// A block of records ends once it has this many bytes.
+const BLOCK_BYTES: usize = 32 * 1024;
+
+/// A log being written.
+#[derive(Debug)]
+pub(crate) struct Recording {
+    /// Whole blocks that were not taken yet.
+    ready: Vec<u8>,
+    /// The content of the next block.
+    open: Vec<u8>,
+    /// When that block began.
+    open_since: Instant,
+    /// When the last input came.
+    last: Instant,
+    senders: Senders,
+    pub digest: OutputDigest,
+    /// Kinds of outputs that were taken since the last input.
+    pub taken: u8,
+}
+
+impl Recording {
+    /// A log that begins now.
+    pub fn begin(now: Instant, notes: Vec<(String, String)>, checkpoint: Vec<u8>) -> Self {
+        let mut ready = MAGIC.to_vec();
+        ready.extend_from_slice(&VERSION.to_le_bytes());
+        let program = env!("CARGO_PKG_VERSION").to_owned();
+        let header = LogHeader { program, notes, began_us: now.0, checkpoint };
+        append_block(&mut ready, &bytes_of(&header));
+        Self {
+            ready,
+            open: Vec::new(),
+            open_since: now,
+            last: now,
+            senders: Senders::default(),
+            digest: OutputDigest::default(),
+            taken: 0,
+        }
+    }
+
+    /// An input that `record` makes of the time since the last one.
+    pub fn input<'r>(&mut self, now: Instant, record: impl FnOnce(Span) -> Record<'r>) {
+        let after = self.advance(now);
+        self.append(&record(after));
+    }
+
+    /// A message comes.
+    pub fn message(&mut self, now: Instant, topic: &str, payload: &[u8]) {
+        let after = self.advance(now);
+        let topic_of_robots = match Topic::parse(topic) {
+            Some(Topic::Uuid) => RobotTopic::Uuid,
+            Some(Topic::Arrival) => RobotTopic::Arrival,
+            Some(Topic::Status) => RobotTopic::Status,
+            Some(Topic::Time) => RobotTopic::Time,
+            _ => return self.append(&Record::OtherMessage { after, topic, payload }),
+        };
+        let Likeness { like, front, back } = self.senders.compare(topic_of_robots, payload);
+        let middle = &payload[front.into()..payload.len() - usize::from(back)];
+        self.append(&Record::Message { after, topic: topic_of_robots, like, front, back, middle });
+    }
+
+    /// The log ends.
+    pub fn end(&mut self) {
+        self.outputs();
+        self.append(&Record::End { digest: self.digest.value() });
+        self.close_block();
+    }
+
+    /// Blocks that were not taken yet.
+    pub fn take(&mut self) -> Vec<u8> {
+        std::mem::take(&mut self.ready)
+    }
+
+    /// An input comes: what was taken before it is recorded, and how long ago the last one came.
+    fn advance(&mut self, now: Instant) -> Span {
+        self.outputs();
+        if self.open.len() >= BLOCK_BYTES || now - self.open_since >= BLOCK_LASTS {
+            self.close_block();
+            self.open_since = now;
+        }
+        let after = now - self.last;
+        self.last = now;
+        after
+    }
+
+    fn outputs(&mut self) {
+        let taken = std::mem::take(&mut self.taken);
+        if taken != 0 {
+            let [a, b, ..] = self.digest.value().to_le_bytes();
+            self.append(&Record::Outputs { taken, digest: [a, b] });
+        }
+    }
+
+    fn append(&mut self, record: &Record<'_>) {
+        let open = std::mem::take(&mut self.open);
+        // A vector takes any bytes, and every record has some.
+        self.open = postcard::to_extend(record, open).unwrap_or_default();
+    }
+
+    fn close_block(&mut self) {
+        if !self.open.is_empty() {
+            append_block(&mut self.ready, &self.open);
+            self.open.clear();
+        }
+    }
+}
+
+fn bytes_of(header: &LogHeader) -> Vec<u8> {
+    postcard::to_allocvec(header).unwrap_or_default()
+}

@@ -1,0 +1,309 @@
+//! A log played again.
+
+use super::digest::OutputDigest;
+use super::record::{OutputKinds, Record, RobotTopic};
+use super::senders::{Likeness, Senders};
+use super::{LogHeader, MAGIC, VERSION};
+use crate::block::Blocks;
+use crate::controller::Controller;
+use crate::plan_request::{PlanRequest, PlanResult};
+use core::fmt;
+use lightbots_base::{Instant, Span};
+use lightbots_wire::Topic;
+use std::collections::BTreeMap;
+
+/// Most plan requests that wait for their plans. A shell makes one plan after the other.
+const REQUESTS_MAX: usize = 64;
+
+/// Why bytes cannot be replayed.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum LogError {
+    /// They are no log.
+    NoLog,
+    /// They are a log of another version of the format.
+    OtherVersion(u16),
+    /// Not even the header is whole.
+    NoHeader,
+    /// A record makes no sense although its checksum is right.
+    BadRecord {
+        /// Number of inputs before it.
+        inputs: u64,
+    },
+}
+
+/// Where a log ends.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LogEnd {
+    /// At the end that its writer gave it.
+    Complete,
+    /// Before: its writer was killed, or its bytes were cut or changed after this many.
+    Cut(u64),
+}
+
+/// The first place where a replay had other outputs than the recorded controller.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Difference {
+    /// Number of the input before the outputs, counted from 1.
+    pub input: u64,
+    /// When it came, show clock.
+    pub at: Instant,
+    /// The input.
+    pub what: String,
+    /// The first outputs of the replay there, for people; may be empty.
+    pub outputs: Vec<String>,
+}
+
+/// What came of a replay.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ReplayReport {
+    /// Version of the program that wrote the log.
+    pub program: String,
+    /// What its writer noted: names and values.
+    pub notes: Vec<(String, String)>,
+    /// Number of inputs that were replayed.
+    pub inputs: u64,
+    /// Of them, messages.
+    pub messages: u64,
+    /// Of them, plans that were made again.
+    pub plans: u64,
+    /// Number of outputs that were compared.
+    pub outputs: u64,
+    /// How many robots the controller knew at the end.
+    pub robots: usize,
+    /// From the first input to the last, show clock.
+    pub lasted: Span,
+    /// Digest of all outputs.
+    pub digest: u64,
+    /// Where the log ends.
+    pub end: LogEnd,
+    /// The first difference; `None`: all outputs are the same to the bit.
+    pub difference: Option<Difference>,
+}
+
+/// Plays a log again and compares the outputs. `progress` is called after each block with the share that is done.
+pub fn replay(log: &[u8], progress: &mut dyn FnMut(f64)) -> Result<ReplayReport, LogError> {
+    let rest = log.strip_prefix(MAGIC).ok_or(LogError::NoLog)?;
+    let (version, _) = rest.split_first_chunk().ok_or(LogError::NoLog)?;
+    let version = u16::from_le_bytes(*version);
+    if version != VERSION {
+        return Err(LogError::OtherVersion(version));
+    }
+    let mut blocks = Blocks::new(log, MAGIC.len() + 2);
+    let header = blocks.next().and_then(|block| postcard::from_bytes::<LogHeader>(block).ok());
+    let mut replay = header.and_then(Replay::new).ok_or(LogError::NoHeader)?;
+    while let Some(block) = blocks.next() {
+        replay.block(block)?;
+        progress(blocks.at() as f64 / log.len() as f64);
+        if replay.is_over() {
+            break;
+        }
+    }
+    let end = if replay.is_complete { LogEnd::Complete } else { LogEnd::Cut(blocks.at() as u64) };
+    Ok(ReplayReport { end, ..replay.report() })
+}
+
+/// A log that is being replayed.
+struct Replay {
+    header: LogHeader,
+    controller: Controller,
+    now: Instant,
+    senders: Senders,
+    requests: BTreeMap<u64, PlanRequest>,
+    digest: OutputDigest,
+    inputs: u64,
+    messages: u64,
+    plans: u64,
+    outputs: u64,
+    /// The last input, for people.
+    last: String,
+    is_complete: bool,
+    difference: Option<Difference>,
+}
+
+impl Replay {
+    fn new(header: LogHeader) -> Option<Self> {
+        Some(Self {
+            controller: Controller::from_checkpoint(&header.checkpoint)?,
+            now: Instant(header.began_us),
+            header,
+            senders: Senders::default(),
+            requests: BTreeMap::new(),
+            digest: OutputDigest::default(),
+            inputs: 0,
+            messages: 0,
+            plans: 0,
+            outputs: 0,
+            last: String::new(),
+            is_complete: false,
+            difference: None,
+        })
+    }
+
+    fn is_over(&self) -> bool {
+        self.is_complete || self.difference.is_some()
+    }
+
+    fn block(&mut self, mut block: &[u8]) -> Result<(), LogError> {
+        while !block.is_empty() && !self.is_over() {
+            let bad = LogError::BadRecord { inputs: self.inputs };
+            let Ok((record, rest)) = postcard::take_from_bytes(block) else { return Err(bad) };
+            self.record(record).ok_or(bad)?;
+            block = rest;
+        }
+        Ok(())
+    }
+
+    /// Plays one record; `None`: no writer writes it.
+    fn record(&mut self, record: Record<'_>) -> Option<()> {
+        match record {
+            Record::Wake(after) => {
+                self.input(after, || "time passed".into());
+                self.controller.wake(self.now);
+            }
+            Record::Message { after, topic, like, front, back, middle } => {
+                let payload = self.senders.restore(topic, Likeness { like, front, back }, middle)?;
+                let topic = match topic {
+                    RobotTopic::Uuid => Topic::Uuid,
+                    RobotTopic::Arrival => Topic::Arrival,
+                    RobotTopic::Status => Topic::Status,
+                    RobotTopic::Time => Topic::Time,
+                };
+                self.message(after, &topic.write(), &payload);
+            }
+            Record::OtherMessage { after, topic, payload } => self.message(after, topic, payload),
+            Record::Connected(after) => {
+                self.input(after, || "the broker was connected".into());
+                self.controller.connected(self.now);
+            }
+            Record::Disconnected(after) => {
+                self.input(after, || "the broker was lost".into());
+                self.controller.disconnected(self.now);
+            }
+            Record::Operation { after, operation } => {
+                self.input(after, || operation.name().into());
+                let answer = self.controller.operate(self.now, operation);
+                self.digest.answer(&answer);
+            }
+            Record::Planned { after, number, cancelled_at } => self.planned(after, number, cancelled_at),
+            Record::Outputs { taken, digest } => self.compare(taken, digest),
+            Record::End { digest } => {
+                self.is_complete = true;
+                if digest != self.digest.value() {
+                    self.differs(Vec::new());
+                }
+            }
+        }
+        Some(())
+    }
+
+    fn input(&mut self, after: Span, what: impl FnOnce() -> String) {
+        self.now += after;
+        self.inputs += 1;
+        self.last = what();
+    }
+
+    fn message(&mut self, after: Span, topic: &str, payload: &[u8]) {
+        self.messages += 1;
+        self.input(after, String::new);
+        self.last.clear();
+        self.last.push_str(topic);
+        self.last.push(' ');
+        self.last.push_str(&String::from_utf8_lossy(&payload[..payload.len().min(200)]));
+        self.controller.message(self.now, topic, payload);
+    }
+
+    fn planned(&mut self, after: Span, number: u64, cancelled_at: u64) {
+        self.input(after, || format!("plan {number} was made"));
+        let request = self.requests.remove(&number);
+        self.requests = self.requests.split_off(&number);
+        // The plan of a request from before the log is of no use to anyone.
+        let result =
+            request.map_or_else(|| PlanResult::unwanted(number), |request| again(request, cancelled_at));
+        self.plans += 1;
+        self.controller.planned(self.now, result);
+    }
+
+    /// Takes outputs as the recorded controller's shell did, and compares the digest.
+    fn compare(&mut self, taken: u8, digest: [u8; 2]) {
+        let mut lines = Vec::new();
+        let mut line = |text: &dyn Fn() -> String| {
+            if lines.len() < 5 {
+                lines.push(text());
+            }
+        };
+        if taken & OutputKinds::SENDS != 0 {
+            while let Some(send) = self.controller.next_send() {
+                self.digest.send(&send);
+                self.outputs += 1;
+                line(&|| format!("{} {}", send.topic.write(), String::from_utf8_lossy(&send.payload)));
+            }
+        }
+        if taken & OutputKinds::EVENTS != 0 {
+            while let Some(event) = self.controller.next_event() {
+                self.digest.event(&event);
+                self.outputs += 1;
+                line(&|| event.kind.to_string());
+            }
+        }
+        if taken & OutputKinds::REQUESTS != 0 {
+            while let Some(request) = self.controller.next_plan_request() {
+                self.digest.request(&request);
+                self.outputs += 1;
+                line(&|| format!("plan {} is wanted", request.number));
+                self.requests.insert(request.number, request);
+            }
+            while self.requests.len() > REQUESTS_MAX {
+                self.requests.pop_first();
+            }
+        }
+        let value = self.digest.value().to_le_bytes();
+        if value[..2] != digest {
+            self.differs(lines);
+        }
+    }
+
+    fn differs(&mut self, outputs: Vec<String>) {
+        let what = std::mem::take(&mut self.last);
+        self.difference = Some(Difference { input: self.inputs, at: self.now, what, outputs });
+    }
+
+    fn report(self) -> ReplayReport {
+        ReplayReport {
+            program: self.header.program,
+            notes: self.header.notes,
+            inputs: self.inputs,
+            messages: self.messages,
+            plans: self.plans,
+            outputs: self.outputs,
+            robots: self.controller.robots(),
+            lasted: self.now - Instant(self.header.began_us),
+            digest: self.digest.value(),
+            end: LogEnd::Complete,
+            difference: self.difference,
+        }
+    }
+}
+
+/// Makes a plan again, cancelled at the same question.
+fn again(request: PlanRequest, cancelled_at: u64) -> PlanResult {
+    let asked = core::cell::Cell::new(0);
+    request.run_unless(&|| {
+        asked.set(asked.get() + 1);
+        cancelled_at > 0 && asked.get() >= cancelled_at
+    })
+}
+
+impl fmt::Display for LogError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NoLog => write!(f, "it is no recorded run"),
+            Self::OtherVersion(version) => {
+                write!(f, "it was recorded in format {version}, and this program replays format {VERSION}")
+            }
+            Self::NoHeader => write!(f, "its beginning is missing or damaged"),
+            Self::BadRecord { inputs } => write!(f, "what follows input {inputs} makes no sense"),
+        }
+    }
+}
+
+impl std::error::Error for LogError {}

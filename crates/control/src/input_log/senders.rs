@@ -1,0 +1,118 @@
+//! What robots sent last, by topic: the next message of a robot differs from it in a few bytes.
+
+use super::record::RobotTopic;
+use lightbots_base::RobotId;
+use std::collections::HashMap;
+use std::hash::{BuildHasherDefault, DefaultHasher};
+
+/// Longest payload that is remembered, bytes.
+const PAYLOAD_MAX: usize = 1_024;
+/// Most payloads that are remembered: more than the topics of the most robots that a controller remembers.
+const SENDERS_MAX: usize = 100_000;
+
+/// The last payload of each robot on each topic. Writer and reader of a log fill it in the same way.
+#[derive(Debug, Default)]
+pub(crate) struct Senders {
+    number_of: HashMap<(RobotTopic, RobotId), usize, BuildHasherDefault<DefaultHasher>>,
+    payloads: Vec<Vec<u8>>,
+}
+
+/// A payload beside an earlier one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Likeness {
+    /// Number of the earlier payload, counted from 1; 0: none.
+    pub like: u32,
+    /// Bytes in common at the front.
+    pub front: u16,
+    /// Further bytes in common at the back.
+    pub back: u16,
+}
+
+impl Senders {
+    /// Compares a payload with the last one of its robot, which it replaces.
+    pub fn compare(&mut self, topic: RobotTopic, payload: &[u8]) -> Likeness {
+        let unlike = Likeness { like: 0, front: 0, back: 0 };
+        let Some(number) = self.number(topic, payload) else { return unlike };
+        let before = &mut self.payloads[number];
+        let front = before.iter().zip(payload).take_while(|(before, now)| before == now).count();
+        let rest = before[front..].iter().rev().zip(payload[front..].iter().rev());
+        let back = rest.take_while(|(before, now)| before == now).count();
+        before.clear();
+        before.extend_from_slice(payload);
+        Likeness { like: number as u32 + 1, front: front as u16, back: back as u16 }
+    }
+
+    /// The payload that was compared; `None`: no writer compares like that.
+    pub fn restore(&mut self, topic: RobotTopic, likeness: Likeness, middle: &[u8]) -> Option<Vec<u8>> {
+        let Likeness { like, front, back } = likeness;
+        let mut payload = Vec::new();
+        if like > 0 {
+            // The payload of a robot that is new is like nothing.
+            let nothing = Vec::new();
+            let before = self.payloads.get(like as usize - 1).unwrap_or(&nothing);
+            payload.extend_from_slice(before.get(..front.into())?);
+            payload.extend_from_slice(middle);
+            payload.extend_from_slice(before.get(before.len().checked_sub(back.into())?..)?);
+        } else {
+            payload.extend_from_slice(middle);
+        }
+        if let Some(number) = self.number(topic, &payload) {
+            self.payloads[number].clone_from(&payload);
+        }
+        Some(payload)
+    }
+
+    /// The number of the payload of that robot, which may be new; `None`: it is not remembered.
+    fn number(&mut self, topic: RobotTopic, payload: &[u8]) -> Option<usize> {
+        if payload.len() > PAYLOAD_MAX {
+            return None;
+        }
+        let name = payload.split(|&byte| byte == b' ').next()?;
+        let key = (topic, RobotId::new(core::str::from_utf8(name).ok()?)?);
+        let count = self.payloads.len();
+        match self.number_of.get(&key) {
+            Some(&number) => Some(number),
+            None if count >= SENDERS_MAX => None,
+            None => {
+                self.number_of.insert(key, count);
+                self.payloads.push(Vec::new());
+                Some(count)
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn payloads_are_restored_from_what_differs() {
+        let (mut writer, mut reader) = (Senders::default(), Senders::default());
+        let long = format!("a {}", "0".repeat(2_000));
+        let payloads = [
+            "a 0.5 1.3 st=idle",
+            "b 1 1",
+            "a 0.5 1.4 st=idle",
+            "a 0.5 1.4 st=idle",
+            "",
+            "a",
+            &long,
+            "ü",
+            "a 0",
+        ];
+        let mut middles = Vec::new();
+        for payload in payloads.map(str::as_bytes) {
+            let likeness = writer.compare(RobotTopic::Status, payload);
+            let middle = &payload[likeness.front.into()..payload.len() - usize::from(likeness.back)];
+            middles.push(middle.len());
+            let restored = reader.restore(RobotTopic::Status, likeness, middle);
+            assert_eq!(restored.as_deref(), Some(payload));
+        }
+        assert_eq!(middles[2..4], [1, 0]);
+        let none = Likeness { like: 1, front: 900, back: 0 };
+        assert_eq!(reader.restore(RobotTopic::Status, none, b""), None);
+        let none = Likeness { like: 9_000, front: 0, back: 7 };
+        assert_eq!(reader.restore(RobotTopic::Time, none, b""), None);
+    }
+}

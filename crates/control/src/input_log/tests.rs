@@ -1,0 +1,105 @@
+use super::record::{Record, RobotTopic};
+use super::*;
+use crate::{Config, Controller, Operation};
+use lightbots_base::{Instant, Span, StateHash};
+use lightbots_show::{Frame, Pixel, Show};
+use std::sync::Arc;
+
+fn drain(controller: &mut RecordedController) {
+    while controller.next_send().is_some() {}
+    while controller.next_event().is_some() {}
+    while controller.next_plan_request().is_some() {}
+}
+
+/// The log of a controller that gets messages, operations and time. The fourth input asks for the time.
+fn log() -> Vec<u8> {
+    let mut controller = RecordedController::new(Controller::new(Config::default()));
+    assert!(controller.begin_log(Instant(1_000_000), vec![("command".into(), "test".into())]));
+    controller.connected(Instant(1_000_000));
+    drain(&mut controller);
+    controller.message(Instant(1_000_100), "T/LightBot/UUID", b"a 0.5 1.3");
+    controller.message(Instant(1_000_200), "T/LightBot/Strange", b"?");
+    controller.message(Instant(1_000_300), "T/LightBot/Time", b"a 123456");
+    drain(&mut controller);
+    controller.wake(Instant(1_500_000));
+    let frame = Frame { pixels: vec![Pixel::default()], ..Frame::default() };
+    let show = Arc::new(Show { frames: vec![frame], ..Show::default() });
+    controller.operate(Instant(3_000_000), Operation::Open(show)).unwrap();
+    let play = Operation::Play { from: 7, missing: Default::default() };
+    assert!(controller.operate(Instant(3_000_001), play).is_err());
+    drain(&mut controller);
+    controller.disconnected(Instant(4_000_000));
+    drain(&mut controller);
+    let mut log = controller.take_log();
+    log.extend(controller.end_log());
+    log
+}
+
+#[test]
+fn a_replay_has_the_same_outputs() {
+    let report = replay(&log(), &mut |_| {}).unwrap();
+    assert_eq!((report.difference, report.end), (None, LogEnd::Complete));
+    assert_eq!((report.inputs, report.messages, report.robots), (8, 3, 1));
+    assert_eq!(report.lasted.as_secs(), 3.0);
+    assert_eq!(report.notes, [("command".to_owned(), "test".to_owned())]);
+}
+
+#[test]
+fn an_input_that_was_changed_is_found_with_its_place() {
+    let log = log();
+    let mut blocks = crate::block::Blocks::new(&log, MAGIC.len() + 2);
+    let mut changed = log[..MAGIC.len() + 2].to_vec();
+    crate::block::append_block(&mut changed, blocks.next().unwrap());
+    for block in blocks {
+        let text = b"123456";
+        let mut block = block.to_vec();
+        if let Some(at) = block.windows(text.len()).position(|bytes| bytes == text) {
+            block[at] = b'9';
+        }
+        crate::block::append_block(&mut changed, &block);
+    }
+    let difference = replay(&changed, &mut |_| {}).unwrap().difference.unwrap();
+    assert_eq!((difference.input, difference.at), (4, Instant(1_000_300)));
+    assert_eq!(difference.what, "T/LightBot/Time a 923456");
+    assert_eq!(difference.outputs[0], "T/LightBot/a |TIME 923456 1000300 1000300|");
+}
+
+#[test]
+fn a_log_begins_only_at_rest() {
+    let mut controller = RecordedController::new(Controller::new(Config::default()));
+    controller.connected(Instant(5));
+    assert!(!controller.begin_log(Instant(5), Vec::new()), "messages wait");
+    assert!(controller.take_log().is_empty() && controller.end_log().is_empty());
+    drain(&mut controller);
+    assert!(controller.begin_log(Instant(5), Vec::new()) && controller.is_recording());
+}
+
+/// A change of any type that is written changes these bytes. Then raise [`VERSION`], so that older logs are refused by
+/// their number and not misread.
+#[test]
+fn the_format_is_that_of_its_version() {
+    let mut controller = RecordedController::new(Controller::new(Config::default()));
+    controller.connected(Instant(5));
+    let pixel = Pixel { robot: Some("a".into()), ..Pixel::default() };
+    let frame = Frame { pixels: vec![pixel], ..Frame::default() };
+    let show = Arc::new(Show { frames: vec![frame], starts: Some(Vec::new()), ..Show::default() });
+    controller.operate(Instant(5), Operation::Open(show)).unwrap();
+    controller.message(Instant(6), "T/LightBot/Status", b"a 0.5 1.3 st=driving h=1 bat=5 off=0.01 fw=x");
+    drain(&mut controller);
+    let mut hash = StateHash::new();
+    hash.bytes(&controller.checkpoint().unwrap());
+    let after = Span(300);
+    let records = [
+        Record::Wake(after),
+        Record::Message { after, topic: RobotTopic::Time, like: 1, front: 2, back: 3, middle: b"4" },
+        Record::OtherMessage { after, topic: "T", payload: b"?" },
+        Record::Connected(after),
+        Record::Disconnected(after),
+        Record::Operation { after, operation: Operation::Pin { pixel: 1, robot: None } },
+        Record::Planned { after, number: 1, cancelled_at: 0 },
+        Record::Outputs { taken: 15, digest: [1, 2] },
+        Record::End { digest: 3 },
+    ];
+    records.iter().for_each(|record| hash.bytes(&postcard::to_allocvec(record).unwrap()));
+    assert_eq!((VERSION, hash.finish()), (1, 14_680_825_275_700_387_553));
+}

@@ -1,0 +1,31 @@
+//! A shared show as bytes: those of the show.
+
+use lightbots_show::Show;
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use std::sync::Arc;
+
+pub(crate) fn serialize<S: Serializer>(show: &Arc<Show>, serializer: S) -> Result<S::Ok, S::Error> {
+    show.as_ref().serialize(serializer)
+}
+
+pub(crate) fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Arc<Show>, D::Error> {
+    Show::deserialize(deserializer).map(Arc::new)
+}
+
+/// The same for a show that may not be there.
+pub(crate) mod optional {
+    use super::*;
+
+    pub(crate) fn serialize<S: Serializer>(
+        show: &Option<Arc<Show>>,
+        serializer: S,
+    ) -> Result<S::Ok, S::Error> {
+        show.as_deref().serialize(serializer)
+    }
+
+    pub(crate) fn deserialize<'de, D: Deserializer<'de>>(
+        deserializer: D,
+    ) -> Result<Option<Arc<Show>>, D::Error> {
+        Ok(Option::<Show>::deserialize(deserializer)?.map(Arc::new))
+    }
+}

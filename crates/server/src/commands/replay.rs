@@ -1,0 +1,99 @@
+//! `replay`: a recorded run again, input by input.
+
+use std::panic::catch_unwind;
+use std::path::PathBuf;
+
+use lightbots_control::{LogEnd, ReplayReport, replay};
+use serde_json::json;
+
+use super::{count, print_json};
+use crate::cli::ReplayArguments;
+use crate::data_folder::DataFolder;
+use crate::disk;
+use crate::failure::{Failure, Outcome};
+use crate::live::recorder::run_file;
+use crate::numbers::rounded;
+use crate::progress::Bar;
+use crate::say;
+
+/// Longest log that is read, bytes: a hundred runs of the longest kind.
+const BYTES_MAX: u64 = 32 << 30;
+
+pub fn run(arguments: &ReplayArguments) -> Outcome {
+    let path = path(arguments);
+    let failed = |why: String| Failure::input(format!("{}: {why}", path.display()));
+    let log =
+        disk::read_regular(&path, BYTES_MAX).map_err(|error| failed(format!("cannot be read: {error}")))?;
+    // A log may come from a program that failed: then the core fails again.
+    let replayed = catch_unwind(|| {
+        let bar = Bar::new();
+        replay(&log, &mut |share| bar.set(share, "replaying"))
+    });
+    let Ok(replayed) = replayed else {
+        return Err(Failure::problem(format!("{}: the controller failed in this run", path.display())));
+    };
+    let report = replayed.map_err(|error| failed(error.to_string()))?;
+    let ok = report.difference.is_none();
+    if arguments.json {
+        print_json(&as_json(&report))?
+    } else {
+        print(&report, log.len())
+    }
+    Ok(ok)
+}
+
+fn path(arguments: &ReplayArguments) -> PathBuf {
+    let number = arguments.run.to_str().and_then(|text| text.parse().ok());
+    match number.filter(|_| !arguments.run.exists()) {
+        Some(number) => run_file(&arguments.data.clone().unwrap_or_else(DataFolder::usual), number),
+        None => arguments.run.clone(),
+    }
+}
+
+fn as_json(report: &ReplayReport) -> serde_json::Value {
+    let difference = report.difference.as_ref().map(|found| {
+        let at_s = rounded(found.at.as_secs(), 6);
+        json!({ "input": found.input, "at_s": at_s, "what": found.what, "outputs": found.outputs })
+    });
+    json!({
+        "ok": difference.is_none(),
+        "robots": report.robots,
+        "inputs": report.inputs,
+        "messages": report.messages,
+        "plans": report.plans,
+        "outputs": report.outputs,
+        "duration_s": rounded(report.lasted.as_secs(), 3),
+        "complete": report.end == LogEnd::Complete,
+        "digest": format!("{:016x}", report.digest),
+        "program": report.program,
+        "notes": report.notes.iter().cloned().collect::<std::collections::BTreeMap<_, _>>(),
+        "difference": difference,
+    })
+}
+
+fn print(report: &ReplayReport, bytes: usize) {
+    if let Some(found) = &report.difference {
+        let at_s = found.at.as_secs();
+        say::line(&format!("the outputs differ after input {} at {at_s:.6} s: {}", found.input, found.what));
+        for line in &found.outputs {
+            say::line(&format!("  now: {line}"));
+        }
+        if report.program != env!("CARGO_PKG_VERSION") {
+            say::line(&format!("it was recorded by version {}", report.program));
+        }
+        return;
+    }
+    if let (LogEnd::Cut(after), None) = (report.end, &report.difference) {
+        say::line(&format!("the log was cut: only {after} of its {bytes} bytes can be replayed"));
+    }
+    let notes: Vec<String> = report.notes.iter().map(|(name, value)| format!("{name} {value}")).collect();
+    say::line(&format!(
+        "the same to the bit: {} in {:.1} s of {}, {} and {} compared",
+        count(report.inputs as usize, "input"),
+        report.lasted.as_secs(),
+        count(report.robots, "robot"),
+        count(report.plans as usize, "plan"),
+        count(report.outputs as usize, "output"),
+    ));
+    say::line(&format!("digest {:016x}; {}", report.digest, notes.join(", ")));
+}

@@ -1,0 +1,219 @@
+//! Files of the controller's input log. A thread of its own writes them, so that a slow disk never delays a show.
+
+use std::fs::{DirEntry, File};
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
+use std::sync::{Arc, OnceLock};
+use std::thread::JoinHandle;
+
+use lightbots_base::Instant;
+use lightbots_control::{Operation, RecordedController};
+
+use super::clock::unix_ms;
+use crate::disk;
+
+/// Folder of recorded runs in the data folder.
+const FOLDER: &str = "runs";
+/// Ending of a recorded run.
+const ENDING: &str = ".lblog";
+/// Most recorded runs that are kept.
+const RUNS_MAX: usize = 20;
+/// Most bytes that all recorded runs may have; older ones are deleted.
+const BYTES_MAX: u64 = 1 << 30;
+/// Most bytes of one recorded run; what comes later is not recorded.
+const RUN_BYTES_MAX: u64 = 256 << 20;
+/// Most pieces of a log, about a second each, that wait for the disk.
+const WAITING_MAX: usize = 256;
+
+/// What is recorded.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum RecordingTarget {
+    /// Nothing.
+    Off,
+    /// Everything, into this file.
+    File(PathBuf),
+    /// Each run, into a file of its own in this data folder.
+    Runs(PathBuf),
+}
+
+/// Keeps the log of a controller.
+#[derive(Debug)]
+pub struct Recorder {
+    recording: RecordingTarget,
+    writer: Option<LogWriter>,
+}
+
+impl Recorder {
+    /// A recorder for a controller that is new.
+    pub fn new(recording: RecordingTarget, controller: &mut RecordedController, now: Instant) -> Self {
+        if recording != RecordingTarget::Off && !matches!(recording, RecordingTarget::Runs(_)) {
+            controller.begin_log(now, notes("play"));
+        }
+        Self { recording, writer: None }
+    }
+
+    /// The operator asks for something: a run may begin.
+    pub fn before(&self, controller: &mut RecordedController, now: Instant, operation: &Operation) {
+        let begins = matches!(operation, Operation::Play { .. } | Operation::Preview { .. });
+        if begins && matches!(self.recording, RecordingTarget::Runs(_)) && !controller.is_recording() {
+            controller.begin_log(now, notes("run"));
+        }
+    }
+
+    /// Hands on what is new in the log. A line for people, once something went wrong.
+    pub fn keep(&mut self, controller: &mut RecordedController) -> Option<String> {
+        if !controller.is_recording() {
+            return None;
+        }
+        let is_over = matches!(self.recording, RecordingTarget::Runs(_)) && !controller.has_run();
+        if is_over && self.writer.is_none() {
+            // The run was refused.
+            controller.end_log();
+            return None;
+        }
+        let mut failure = self.write(controller.take_log());
+        if is_over || failure.is_some() {
+            failure = self.write(controller.end_log()).or(failure);
+            self.writer = None;
+        }
+        failure.map(|line| format!("The run is not recorded any further: {line}."))
+    }
+
+    /// The program ends: waits for the disk.
+    pub fn finish(mut self, controller: &mut RecordedController) {
+        let _ = self.write(controller.end_log());
+        if let Some(writer) = self.writer {
+            writer.finish();
+        }
+    }
+
+    fn write(&mut self, bytes: Vec<u8>) -> Option<String> {
+        if bytes.is_empty() {
+            return None;
+        }
+        let writer = match &mut self.writer {
+            Some(writer) => writer,
+            none => none.insert(LogWriter::start(self.recording.clone())?),
+        };
+        writer.write(bytes)
+    }
+}
+
+/// What people should know of a log of this command.
+fn notes(command: &str) -> Vec<(String, String)> {
+    vec![("command".to_owned(), command.to_owned()), ("began_unix_ms".to_owned(), unix_ms().to_string())]
+}
+
+/// The file of a recorded run by its number.
+pub fn run_file(data: &Path, number: u64) -> PathBuf {
+    data.join(FOLDER).join(format!("{number:06}{ENDING}"))
+}
+
+/// A thread that writes one log.
+#[derive(Debug)]
+struct LogWriter {
+    pieces: SyncSender<Vec<u8>>,
+    written: u64,
+    bytes_max: u64,
+    failure: Arc<OnceLock<String>>,
+    thread: JoinHandle<()>,
+}
+
+impl LogWriter {
+    /// `None`: nothing is recorded.
+    fn start(recording: RecordingTarget) -> Option<Self> {
+        if recording == RecordingTarget::Off {
+            return None;
+        }
+        let bytes_max = if matches!(recording, RecordingTarget::Runs(_)) { RUN_BYTES_MAX } else { u64::MAX };
+        let (pieces, inbox) = sync_channel(WAITING_MAX);
+        let failure = Arc::new(OnceLock::new());
+        let failed = failure.clone();
+        let thread = std::thread::spawn(move || {
+            if let Err(error) = write_log(&recording, &inbox) {
+                // The first failure is told.
+                let _ = failed.set(error.to_string());
+            }
+        });
+        Some(Self { pieces, written: 0, bytes_max, failure, thread })
+    }
+
+    fn write(&mut self, bytes: Vec<u8>) -> Option<String> {
+        if let Some(line) = self.failure.get() {
+            return Some(line.clone());
+        }
+        self.written += bytes.len() as u64;
+        if self.written > self.bytes_max {
+            return Some(format!("its log has {} MB", self.bytes_max >> 20));
+        }
+        self.pieces.try_send(bytes).err().map(|_| "the disk is too slow".to_owned())
+    }
+
+    fn finish(self) {
+        drop(self.pieces);
+        // What went wrong there was told before, or nobody can be told any more.
+        let _ = self.thread.join();
+    }
+}
+
+/// Writes pieces into a file until there are no more.
+fn write_log(recording: &RecordingTarget, inbox: &Receiver<Vec<u8>>) -> std::io::Result<()> {
+    let path = match recording {
+        RecordingTarget::Off => return Ok(()),
+        RecordingTarget::File(path) => path.clone(),
+        RecordingTarget::Runs(data) => next_run(data)?,
+    };
+    let mut file = File::create(&path)?;
+    for bytes in inbox {
+        file.write_all(&bytes)?;
+    }
+    file.sync_all()
+}
+
+/// The file of the next run; old ones are deleted.
+fn next_run(data: &Path) -> std::io::Result<PathBuf> {
+    let folder = data.join(FOLDER);
+    disk::create_folder(&folder)?;
+    let mut runs: Vec<(u64, u64)> = std::fs::read_dir(&folder)?.flatten().filter_map(run_of_entry).collect();
+    runs.sort_unstable_by(|a, b| b.cmp(a));
+    let mut bytes = RUN_BYTES_MAX;
+    for (place, &(number, length)) in runs.iter().enumerate() {
+        bytes += length;
+        if place + 1 >= RUNS_MAX || bytes > BYTES_MAX {
+            disk::remove(&run_file(data, number))?;
+        }
+    }
+    Ok(run_file(data, runs.first().map_or(1, |&(number, _)| number + 1)))
+}
+
+/// Number and length of a recorded run.
+fn run_of_entry(entry: DirEntry) -> Option<(u64, u64)> {
+    let name = entry.file_name();
+    let number = name.to_str()?.strip_suffix(ENDING)?.parse().ok()?;
+    Some((number, entry.metadata().ok().filter(|file| file.is_file())?.len()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_last_runs_are_kept() {
+        let data = std::env::temp_dir().join(format!("lightbots-runs-{}", std::process::id()));
+        for number in 1..=25 {
+            let path = next_run(&data).unwrap();
+            assert_eq!(path, run_file(&data, number));
+            File::create(path).unwrap();
+        }
+        let kept = std::fs::read_dir(data.join(FOLDER)).unwrap().flatten().filter_map(run_of_entry);
+        let mut kept: Vec<u64> = kept.map(|(number, _)| number).collect();
+        kept.sort_unstable();
+        assert_eq!(kept, (6..=25).collect::<Vec<_>>());
+        let large = File::create(run_file(&data, 25)).unwrap();
+        large.set_len(BYTES_MAX).unwrap();
+        next_run(&data).unwrap();
+        assert_eq!(std::fs::read_dir(data.join(FOLDER)).unwrap().count(), 0);
+        std::fs::remove_dir_all(data).unwrap();
+    }
+}

@@ -1,0 +1,91 @@
+//! Recorded rehearsals and runs, and `replay`.
+
+use serde_json::{Value, json};
+
+use crate::child::{Child, run};
+use crate::mosquitto::Mosquitto;
+use crate::run::start;
+use crate::screen::Screen;
+use crate::{alone, shows, wait_for};
+
+/// What `replay --json` says of a recorded run, with its exit code.
+fn replay(arguments: &[&str]) -> (i32, Value) {
+    let (code, out, err) = run(&[&["replay", "--json"], arguments].concat());
+    assert_eq!(err, "");
+    (code, serde_json::from_str(&out).unwrap())
+}
+
+fn recorded_file(name: &str) -> String {
+    shows::folder().join(name).to_str().unwrap().to_owned()
+}
+
+#[test]
+fn a_recorded_rehearsal_is_replayed_to_the_bit() {
+    let file = recorded_file("rehearsal.lblog");
+    let faults = ["--faults", "loss=5%,kill=2@1s", "--seed", "4"];
+    let show = shows::row_file(6, &[0.5, 0.5]);
+    run(&[&["rehearse", &show, "--record", &file], &faults[..]].concat());
+    let (code, report) = replay(&[&file]);
+    assert_eq!((code, &report["ok"], &report["complete"]), (0, &json!(true), &json!(true)), "{report}");
+    assert_eq!(report["difference"], Value::Null);
+    let notes =
+        json!({"command": "rehearse", "show": show, "seed": "4", "faults": faults[1], "ideal": "false"});
+    assert_eq!((&report["notes"], &report["robots"]), (&notes, &json!(6)));
+    let (code, text, _) = run(&["replay", &file]);
+    assert!(code == 0 && text.starts_with("the same to the bit: "), "{text}");
+
+    let mut bytes = std::fs::read(&file).unwrap();
+    bytes.truncate(bytes.len() / 2);
+    std::fs::write(&file, &bytes).unwrap();
+    let (code, report) = replay(&[&file]);
+    assert_eq!((code, &report["complete"]), (0, &json!(false)), "{report}");
+}
+
+#[test]
+fn what_is_no_recorded_run_is_refused_in_one_line() {
+    let show = shows::row_file(6, &[0.5]);
+    for (file, why) in
+        [(show.as_str(), "it is no recorded run"), ("/", "not a regular file"), ("77", "cannot be read")]
+    {
+        let data = shows::folder();
+        let (code, out, err) = run(&["replay", file, "--data", data.to_str().unwrap()]);
+        assert_eq!((code, out.as_str(), err.lines().count()), (2, "", 1), "{err}");
+        assert!(err.contains(why), "{err}");
+    }
+}
+
+#[test]
+fn a_run_on_the_screen_is_recorded_in_the_data_folder() {
+    let _turn = alone();
+    let data = shows::folder().join("recorded");
+    let data = data.to_str().unwrap();
+    let (mut server, address, _) =
+        start(&["--robots", "4", "--data", data, &shows::row_file(4, &[0.2, 0.1])]);
+    let mut screen = Screen::open(&address);
+    screen.wait_for_robots(4);
+    for number in ["1", "2"] {
+        screen.must(json!({"do": "play", "from": 0, "missing": "refuse"}));
+        wait_for("the whole log", || {
+            let (_, out, _) = run(&["replay", "--json", number, "--data", data]);
+            let report: Value = serde_json::from_str(&out).unwrap_or_default();
+            assert_eq!(report["difference"], Value::Null, "{report}");
+            (report["complete"] == true).then_some(())
+        });
+        screen.until("ready", |screen| (screen.phase() == "ready").then_some(()));
+    }
+    server.terminate();
+    assert_eq!(server.end(), 0);
+}
+
+#[test]
+fn a_played_show_is_recorded() {
+    let _turn = alone();
+    let Some(broker) = Mosquitto::start() else { return };
+    let _robots = Child::lightbots(&["robots", "--count", "5", "--broker", &broker.url()]);
+    let file = recorded_file("played.lblog");
+    let show = shows::row_file(5, &[0.2, 0.1]);
+    let mut play = Child::lightbots(&["play", &show, "--broker", &broker.url(), "--json", "--record", &file]);
+    assert_eq!(play.end(), 0, "{}", play.err());
+    let (code, report) = replay(&[&file]);
+    assert_eq!((code, &report["complete"], &report["robots"]), (0, &json!(true), &json!(5)), "{report}");
+}
