@@ -903,8 +903,8 @@ export const ROBOT_STATUSES: readonly RobotStatus[] = ["idle", "ready", "driving
 
 /** Every format of show files; the first is our own. A written file gets the first of `endings`. */
 export const FORMATS = [
-  { name: "lightbots", program: "LightBots", endings: [".lightbots.json", ".lightbots"], mediaType: "application/json", carries: ["title", "floor_size", "no_go_areas", "robot_limits", "identity", "starts", "music", "durations", "easing", "chosen_robots", "sources", "layers", "absolute_times", "marks", "cues", "trajectories", "spares", "assets"] },
-  { name: "archive", program: "LightBots, with its files", endings: [".lightbots.zip"], mediaType: "application/zip", carries: ["title", "floor_size", "no_go_areas", "robot_limits", "identity", "starts", "music", "durations", "easing", "chosen_robots", "sources", "layers", "absolute_times", "marks", "cues", "trajectories", "spares", "assets", "asset_files"] },
+  { name: "lightbots", program: "LightBots", endings: [".lightbots.json", ".lightbots"], mediaType: "application/json", carries: ["title", "floor_size", "no_go_areas", "robot_limits", "identity", "starts", "music", "durations", "easing", "chosen_robots", "sources", "groups", "layers", "absolute_times", "marks", "cues", "trajectories", "spares", "assets"] },
+  { name: "archive", program: "LightBots, with its files", endings: [".lightbots.zip"], mediaType: "application/zip", carries: ["title", "floor_size", "no_go_areas", "robot_limits", "identity", "starts", "music", "durations", "easing", "chosen_robots", "sources", "groups", "layers", "absolute_times", "marks", "cues", "trajectories", "spares", "assets", "asset_files"] },
   { name: "original", program: "the original LightBots", endings: [".json"], mediaType: "application/json", carries: [] },
 ] as const;
 
