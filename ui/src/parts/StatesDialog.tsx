@@ -10,6 +10,7 @@ import { useSession } from '../session/session';
 import { restoreState, savedText } from '../session/states';
 import { Thumbnail } from '../stage/Thumbnail';
 import { ShowThumbnail } from './ShowThumbnail';
+import rows from './rows.module.css';
 import styles from './StatesDialog.module.css';
 
 interface Props {
@@ -34,7 +35,7 @@ export function StatesDialog({ name, onRestored, onClose }: Props) {
   };
   return (
     <Modal opened onClose={onClose} title={`Earlier saves of ${name}`} size="lg">
-      <ul className={styles.list} aria-label="Saved states">
+      <ul className={rows.list} aria-label="Saved states">
         {states?.map((state) => (
           <State
             key={state.number}
@@ -69,8 +70,8 @@ function State({ name, state, open, onLook, onRestore }: StateProps) {
   const when = savedText(state.saved_ms);
   return (
     <li>
-      <div className={styles.row}>
-        <button type="button" className={styles.look} aria-expanded={open} onClick={onLook}>
+      <div className={rows.row}>
+        <button type="button" className={rows.entry} aria-expanded={open} onClick={onLook}>
           <ShowThumbnail
             version={`${name} ${state.etag}`}
             load={() => getState(name, state.number)}

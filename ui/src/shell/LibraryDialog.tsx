@@ -6,6 +6,7 @@ import { listShows } from '../api/http';
 import type { ShowEntry } from '../api/types.gen';
 import { useStore } from '../base/store';
 import { StatesDialog } from '../parts/StatesDialog';
+import rows from '../parts/rows.module.css';
 import { createShowInLibrary } from '../session/createShow';
 import { attempt, copyShow, renameShow } from '../session/libraryActs';
 import { LibraryEntry } from './LibraryEntry';
@@ -13,7 +14,6 @@ import { NameDialog } from './NameDialog';
 import { useSession } from '../session/session';
 import { uploadShow } from '../session/upload';
 import { goTo } from '../session/useHash';
-import styles from './Library.module.css';
 
 /** Every show on the server: open one, add one, begin one. */
 export function LibraryDialog({ opened, onClose }: { opened: boolean; onClose: () => void }) {
@@ -75,7 +75,7 @@ export function LibraryDialog({ opened, onClose }: { opened: boolean; onClose: (
           New show
         </Button>
       </Group>
-      <ul className={styles.list} aria-label="Shows in the library">
+      <ul className={rows.list} aria-label="Shows in the library">
         {shown.map((entry) => (
           <LibraryEntry
             key={entry.name}

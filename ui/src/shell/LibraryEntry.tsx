@@ -4,6 +4,7 @@ import { getState } from '../api/http';
 import type { ShowEntry } from '../api/types.gen';
 import { countText } from '../base/numbers';
 import { ExportItems } from '../parts/ExportItems';
+import rows from '../parts/rows.module.css';
 import { ShowThumbnail } from '../parts/ShowThumbnail';
 import { downloadFromLibrary } from '../session/download';
 import { attempt, deleteWithUndo } from '../session/libraryActs';
@@ -33,8 +34,8 @@ export function LibraryEntry({ entry, open, onOpen, onName, onStates, onChanged 
       ? new Date(entry.modified_ms).toLocaleDateString()
       : ORIGINS[entry.origin];
   return (
-    <li>
-      <button type="button" className={styles.entry} aria-current={open} onClick={onOpen}>
+    <li className={rows.row}>
+      <button type="button" className={rows.entry} aria-current={open} onClick={onOpen}>
         <ShowThumbnail version={`${name} ${entry.etag}`} load={() => getState(name, null)} />
         <span className={styles.name}>
           {name}
