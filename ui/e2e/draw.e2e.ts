@@ -2,6 +2,7 @@ import type { Page } from 'playwright-core';
 import { expect, test } from 'vitest';
 import { eventually } from './harness';
 import {
+  beginShow,
   button,
   drag,
   onScreen,
@@ -15,15 +16,6 @@ import {
 import { createTestBed } from './testBed';
 
 const bed = createTestBed('--robots', '30');
-
-/** Begins a show of 30 robots; answers its name in the library. */
-async function begin(page: Page): Promise<string> {
-  await button(page, 'New').click();
-  await pixelsAre(page, 30);
-  const title = page.getByTestId('open-library').getByText(/^Untitled/);
-  await title.waitFor();
-  return (await title.textContent()) ?? '';
-}
 
 interface Settings {
   shape?: string;
@@ -66,7 +58,7 @@ const box = async (page: Page) => {
 
 test('a shape is moved, scaled and turned on the stage, and by its fields', async () => {
   const page = await bed.open('live');
-  const name = await begin(page);
+  const name = await beginShow(page);
   await page.keyboard.press('s');
   await button(page, 'Rectangle').click();
   await field(page, /^Middle x/).fill('0.2');
@@ -128,7 +120,7 @@ test('a shape is moved, scaled and turned on the stage, and by its fields', asyn
 
 test('a curve is drawn with clicks; its points are dragged, added and removed', async () => {
   const page = await bed.open('live');
-  const name = await begin(page);
+  const name = await beginShow(page);
   await button(page, 'Draw a line (B)').click();
   await button(page, 'Curve').click();
   await page.getByText('No points yet').waitFor();
@@ -169,7 +161,7 @@ test('a curve is drawn with clicks; its points are dragged, added and removed', 
 
 test('a line with corners is closed on its first point, and a stroke is drawn by hand', async () => {
   const page = await bed.open('live');
-  const name = await begin(page);
+  const name = await beginShow(page);
   await page.keyboard.press('b');
   await button(page, 'Line with corners').click();
   for (const [x, y] of [
@@ -210,7 +202,7 @@ test('a line with corners is closed on its first point, and a stroke is drawn by
 
 test('a line with corners by keyboard only', async () => {
   const page = await bed.open('live');
-  const name = await begin(page);
+  const name = await beginShow(page);
   const press = async (...keys: string[]) => {
     for (const key of keys) await page.keyboard.press(key);
   };
@@ -237,7 +229,7 @@ test('a line with corners by keyboard only', async () => {
 
 test('a shape with a name is used in another show, after reloading', async () => {
   const page = await bed.open('live');
-  await begin(page);
+  await beginShow(page);
   await page.keyboard.press('b');
   await button(page, 'Curve').click();
   for (const [x, y] of [
@@ -253,7 +245,7 @@ test('a shape with a name is used in another show, after reloading', async () =>
   await button(page, 'Cancel').click();
   await page.reload();
   await pixelsAre(page, 30);
-  const name = await begin(page);
+  const name = await beginShow(page);
   await page.keyboard.press('s');
   await button(page, 'Hill').click();
   await page.getByText('3 points').waitFor();

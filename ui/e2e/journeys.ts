@@ -182,6 +182,15 @@ export async function tabTo(page: Page, role: string, name: string) {
   throw new Error(`Tab never came to ${role} ${name}.`);
 }
 
+/** Begins a show of 30 robots; answers its name in the library. */
+export async function beginShow(page: Page): Promise<string> {
+  await button(page, 'New').click();
+  await pixelsAre(page, 30);
+  const title = page.getByTestId('open-library').getByText(/^Untitled/);
+  await title.waitFor();
+  return (await title.textContent()) ?? '';
+}
+
 /** Makes the frame on the stage from a shape. */
 export async function makeShape(page: Page, shape: string): Promise<void> {
   await button(page, 'Make…').click();

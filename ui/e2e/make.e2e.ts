@@ -1,22 +1,13 @@
 import type { Page } from 'playwright-core';
 import { expect, test } from 'vitest';
 import { eventually } from './harness';
-import { button, makeWords, pixels, pixelsAre, saved, stored, tabTo, useMade } from './journeys';
+import { beginShow, button, makeWords, pixels, saved, stored, tabTo, useMade } from './journeys';
 import { createTestBed } from './testBed';
 
 const bed = createTestBed('--robots', '30');
 
 const verdict = (page: Page) => page.getByTestId('verdict');
 const words = (page: Page) => page.getByRole('textbox', { name: 'Words' });
-
-/** Begins a show; answers its name in the library. */
-async function begin(page: Page): Promise<string> {
-  await button(page, 'New').click();
-  await pixelsAre(page, 30);
-  const title = page.getByTestId('open-library').getByText(/^Untitled/);
-  await title.waitFor();
-  return (await title.textContent()) ?? '';
-}
 
 /** The stored sources of the first frame. */
 const sources = async (page: Page, name: string) =>
@@ -25,7 +16,7 @@ const sources = async (page: Page, name: string) =>
 
 test('a word is shown while it is typed, used, undone, saved, and changed after reloading', async () => {
   const page = await bed.open('live');
-  const name = await begin(page);
+  const name = await beginShow(page);
   const before = await pixels(page);
   await button(page, 'Make…').click();
   await page.keyboard.type('HI');
@@ -55,7 +46,7 @@ test('a word is shown while it is typed, used, undone, saved, and changed after 
 
 test('by keyboard only: a shape, another one, and Escape leaves all as it was', async () => {
   const page = await bed.open('live');
-  await begin(page);
+  await beginShow(page);
   const press = (key: string) => page.keyboard.press(key);
   const before = await pixels(page);
   await tabTo(page, 'button', 'Make…');
@@ -82,7 +73,7 @@ test('by keyboard only: a shape, another one, and Escape leaves all as it was', 
 
 test('too few robots are told how many would do; what cannot be made says why', async () => {
   const page = await bed.open('live');
-  await begin(page);
+  await beginShow(page);
   await button(page, 'Make…').click();
   await words(page).fill('HELLO WORLD');
   await verdict(page)
@@ -118,7 +109,7 @@ test('too few robots are told how many would do; what cannot be made says why', 
 
 test('a pixel that is moved by hand stays when the word changes', async () => {
   const page = await bed.open('live');
-  const name = await begin(page);
+  const name = await beginShow(page);
   await makeWords(page, 'HI');
   await page.keyboard.press(']');
   await page.keyboard.press('Shift+ArrowUp');
