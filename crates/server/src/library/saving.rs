@@ -1,0 +1,102 @@
+//! Saving and deleting shows.
+
+use lightbots_api::{ShowEntry, ShowOrigin};
+use lightbots_exchange::{ARCHIVE, LIGHTBOTS, Loaded, read, sniff};
+
+use super::lock::lock;
+use super::{Condition, Kept, Library, LibraryError, checked};
+
+impl Library {
+    /// Saves a show of any format; what is kept is ours, or the file itself where it is not understood whole. A given show
+    /// is not changed: unless a new show is wanted, a copy of a free name is made, and the entry tells that name and
+    /// `copy_of`.
+    pub fn put(&self, name: &str, bytes: &[u8], condition: &Condition) -> Result<ShowEntry, LibraryError> {
+        let name = checked(name)?;
+        let loaded = read(bytes, None).map_err(|error| LibraryError::NoShow(error.to_string()))?;
+        let _guard = lock(&self.writing);
+        let given = self.given_show(name).filter(|_| *condition != Condition::IsNew);
+        let now = self.get(name);
+        if given.is_none() {
+            check(name, condition, &now)?;
+        }
+        // A copy of a given show would lose what was not understood, too.
+        if let Some(line) = now.ok().and_then(|kept| kept.read_only) {
+            return Err(LibraryError::ReadOnly(line));
+        }
+        let target = given
+            .as_ref()
+            .map_or(name.to_owned(), |given| self.given.copy_name(&given.base, &self.files.names()));
+        self.store(&target, bytes, &loaded).map_err(|error| {
+            LibraryError::Disk(format!(
+                "\"{target}\" cannot be saved in {}: {error}",
+                self.files.folder().display()
+            ))
+        })?;
+        Ok(ShowEntry { copy_of: given.map(|given| given.origin), ..self.entry(&target)? })
+    }
+
+    fn store(&self, name: &str, bytes: &[u8], loaded: &Loaded) -> std::io::Result<()> {
+        if loaded.unread.is_some() {
+            let format = if sniff(bytes) == Some(&ARCHIVE) { &ARCHIVE } else { &LIGHTBOTS };
+            self.keep_state(name, bytes);
+            return self.files.replace(name, format, bytes);
+        }
+        // First the files, so that there is never a document whose files are lost.
+        self.assets.keep(&loaded.show)?;
+        let document = LIGHTBOTS.write(&loaded.show, None).bytes;
+        self.keep_state(name, &document);
+        self.files.replace(name, &LIGHTBOTS, &document)
+    }
+
+    /// Keeps the file of a show before `next` takes its place. A disk that cannot is no reason not to save.
+    fn keep_state(&self, name: &str, next: &[u8]) {
+        if self.files.read(name).is_ok_and(|now| now == next) {
+            return;
+        }
+        if let Err(error) = self.states.keep(name, &self.files.present(name)) {
+            tracing::warn!("an earlier state of \"{name}\" cannot be kept: {error}");
+        }
+    }
+
+    /// Deletes a show of the folder. Given shows stay. `renamed_to`: the show under its new name, which gets the earlier
+    /// states.
+    pub fn delete(
+        &self,
+        name: &str,
+        condition: &Condition,
+        renamed_to: Option<&str>,
+    ) -> Result<(), LibraryError> {
+        let name = checked(name)?;
+        let renamed_to = renamed_to.map(checked).transpose()?;
+        let _guard = lock(&self.writing);
+        if let Some(given) = self.given_show(name) {
+            let what = match given.origin {
+                ShowOrigin::StartFile => "is the file LightBots was started with",
+                _ => "is an example",
+            };
+            let line = format!("\"{name}\" {what}, which cannot be deleted or renamed: save a copy instead");
+            return Err(LibraryError::ReadOnly(line));
+        }
+        check(name, condition, &Ok(self.get(name)?))?;
+        self.keep_state(name, &[]);
+        if let Some(to) = renamed_to
+            && let Err(error) = self.states.hand_over(name, to)
+        {
+            tracing::warn!("earlier states of \"{name}\" cannot become those of \"{to}\": {error}");
+        }
+        let removed = self.files.remove(name);
+        removed.map_err(|error| LibraryError::Disk(format!("\"{name}\" cannot be deleted: {error}")))
+    }
+}
+
+fn check(name: &str, condition: &Condition, now: &Result<Kept, LibraryError>) -> Result<(), LibraryError> {
+    let conflict = |why: &str| Err(LibraryError::Conflict(format!("\"{name}\" {why}")));
+    match (condition, now) {
+        (Condition::Any, _) | (Condition::IsNew, Err(LibraryError::Missing(_))) => Ok(()),
+        (Condition::IsNew, _) => conflict("is there already: choose another name"),
+        (Condition::Is(wanted), Ok(now)) if *wanted == now.etag => Ok(()),
+        (Condition::Is(_), _) => {
+            conflict("was changed by somebody else: look at their version, or save under another name")
+        }
+    }
+}
