@@ -25,7 +25,7 @@ pub fn run(arguments: &RehearseArguments) -> Outcome {
         conditions: faults.added_to(usual),
         ..RehearsalOptions::default()
     };
-    let mut log = LogFile::create(arguments.record.as_deref())?;
+    let mut log = arguments.record.as_deref().map(LogFile::create).transpose()?;
     let began = Instant::now();
     let mut virtual_s = 0.0_f64;
     let mut report = {
@@ -33,7 +33,11 @@ pub fn run(arguments: &RehearseArguments) -> Outcome {
         let mut progress = |progress: Progress<'_>| match progress {
             Progress::Planning => bar.set(0.0, "planning"),
             Progress::Departing { .. } => {}
-            Progress::Logged(bytes) => log.append(bytes),
+            Progress::Logged(bytes) => {
+                if let Some(log) = &mut log {
+                    log.append(bytes);
+                }
+            }
             Progress::Playing { at_s, planned_s, frames } => {
                 virtual_s = at_s;
                 bar.set(at_s / planned_s.max(1.0), format!("{} played", count(frames, "frame")));
@@ -44,14 +48,14 @@ pub fn run(arguments: &RehearseArguments) -> Outcome {
             None => rehearse(&opened.show, &options, &mut progress),
         }
     };
-    log.finish()?;
+    log.map_or(Ok(()), LogFile::finish)?;
     let factor = virtual_s.max(report.duration_s) / began.elapsed().as_secs_f64().max(1e-9);
     report.real_time_factor = Some(rounded(factor, 1));
     let news = opened.issues.iter().filter(|issue| !report.issues.contains(issue));
     report.issues = news.chain(&report.issues).cloned().collect();
     if let Some(file) = &arguments.report {
         std::fs::write(file, report.html(&title(&opened.show.name, &arguments.show)))
-            .map_err(|error| Failure::input(format!("{}: cannot be written: {error}", file.display())))?;
+            .map_err(|error| unwritable(file, &error))?;
     }
     if arguments.json {
         print_json(&readable(report.clone()))?;
@@ -61,34 +65,33 @@ pub fn run(arguments: &RehearseArguments) -> Outcome {
     Ok(report.ok)
 }
 
-/// The file of the recorded inputs, if one is wanted.
+/// The file of the recorded inputs.
 struct LogFile<'a> {
-    path: Option<&'a Path>,
-    file: Option<std::fs::File>,
+    path: &'a Path,
+    file: std::fs::File,
+    /// The first failure, after which nothing is written.
     failure: Option<std::io::Error>,
 }
 
 impl<'a> LogFile<'a> {
-    fn create(path: Option<&'a Path>) -> Result<Self, Failure> {
-        let mut log = Self { path, file: None, failure: None };
-        match path.map(std::fs::File::create) {
-            Some(Ok(file)) => log.file = Some(file),
-            Some(Err(error)) => log.failure = Some(error),
-            None => {}
-        }
-        log.finish().map(|()| log)
+    fn create(path: &'a Path) -> Result<Self, Failure> {
+        let file = std::fs::File::create(path).map_err(|error| unwritable(path, &error))?;
+        Ok(Self { path, file, failure: None })
     }
 
     fn append(&mut self, bytes: &[u8]) {
-        if let (Some(file), None) = (&mut self.file, &self.failure) {
-            self.failure = file.write_all(bytes).err();
+        if self.failure.is_none() {
+            self.failure = self.file.write_all(bytes).err();
         }
     }
 
-    fn finish(&mut self) -> Result<(), Failure> {
-        let (Some(path), Some(error)) = (self.path, self.failure.take()) else { return Ok(()) };
-        Err(Failure::input(format!("{}: cannot be written: {error}", path.display())))
+    fn finish(self) -> Result<(), Failure> {
+        self.failure.map_or(Ok(()), |error| Err(unwritable(self.path, &error)))
     }
+}
+
+fn unwritable(path: &Path, error: &std::io::Error) -> Failure {
+    Failure::input(format!("{}: cannot be written: {error}", path.display()))
 }
 
 /// What people should know of a log: how to rehearse the same again.

@@ -37,6 +37,13 @@ pub enum RecordingTarget {
     Runs(PathBuf),
 }
 
+impl RecordingTarget {
+    /// Whether each run has a log of its own.
+    fn is_by_run(&self) -> bool {
+        matches!(self, Self::Runs(_))
+    }
+}
+
 /// Keeps the log of a controller.
 #[derive(Debug)]
 pub struct Recorder {
@@ -47,7 +54,7 @@ pub struct Recorder {
 impl Recorder {
     /// A recorder for a controller that is new.
     pub fn new(recording: RecordingTarget, controller: &mut RecordedController, now: Instant) -> Self {
-        if recording != RecordingTarget::Off && !matches!(recording, RecordingTarget::Runs(_)) {
+        if matches!(recording, RecordingTarget::File(_)) {
             controller.begin_log(now, notes("play"));
         }
         Self { recording, writer: None }
@@ -56,7 +63,7 @@ impl Recorder {
     /// The operator asks for something: a run may begin.
     pub fn before(&self, controller: &mut RecordedController, now: Instant, operation: &Operation) {
         let begins = matches!(operation, Operation::Play { .. } | Operation::Preview { .. });
-        if begins && matches!(self.recording, RecordingTarget::Runs(_)) && !controller.is_recording() {
+        if begins && self.recording.is_by_run() && !controller.is_recording() {
             controller.begin_log(now, notes("run"));
         }
     }
@@ -66,7 +73,7 @@ impl Recorder {
         if !controller.is_recording() {
             return None;
         }
-        let is_over = matches!(self.recording, RecordingTarget::Runs(_)) && !controller.has_run();
+        let is_over = self.recording.is_by_run() && !controller.has_run();
         if is_over && self.writer.is_none() {
             // The run was refused.
             controller.end_log();
@@ -126,7 +133,7 @@ impl LogWriter {
         if recording == RecordingTarget::Off {
             return None;
         }
-        let bytes_max = if matches!(recording, RecordingTarget::Runs(_)) { RUN_BYTES_MAX } else { u64::MAX };
+        let bytes_max = if recording.is_by_run() { RUN_BYTES_MAX } else { u64::MAX };
         let (pieces, inbox) = sync_channel(WAITING_MAX);
         let failure = Arc::new(OnceLock::new());
         let failed = failure.clone();
@@ -152,7 +159,7 @@ impl LogWriter {
 
     fn finish(self) {
         drop(self.pieces);
-        // What went wrong there was told before, or nobody can be told any more.
+        // A failure of the thread was told before, or it came too late to be told.
         let _ = self.thread.join();
     }
 }
