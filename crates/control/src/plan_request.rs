@@ -76,7 +76,7 @@ pub struct PlanResult {
 }
 
 impl PlanResult {
-    /// The result of a request that nobody waits for.
+    /// The result of a request whose answer is not wanted any more.
     pub(crate) fn unwanted(number: u64) -> Self {
         Self {
             number,

@@ -69,7 +69,7 @@ impl DataFolder {
 
     fn in_use(&self) -> Failure {
         let mut text = String::new();
-        // Some systems let nobody read a locked file.
+        // Some systems do not allow a locked file to be read.
         let _ = (&self.lock).take(LONGEST).read_to_string(&mut text);
         let text: String = text.chars().filter(|letter| !letter.is_control()).collect();
         let who = if text.is_empty() { "another program" } else { &text };

@@ -24,7 +24,7 @@ pub(crate) fn consider(cx: &mut RunContext, robot: usize, is_stopping: bool) {
     }
 }
 
-/// Whether a robot that took no part so far may.
+/// Whether a robot that has not taken part yet may do so.
 fn is_expected(cx: &RunContext, robot: usize) -> bool {
     let known = cx.io.fleet.robot(robot);
     known.is_admitted && !(cx.io.config.admitted.is_empty() && cx.roster.is_stranger(known))

@@ -44,8 +44,8 @@ const OTHER_FILES: usize = PENDING + 100;
 /// Sockets of a client behind the TLS gate: the client's, and both ends of the gate's connection to the broker.
 const TLS_SOCKETS: usize = 3;
 
-/// Clients that may be logged in where the system grants so many open files: at most [`CONNECTIONS`], and at least those for
-/// which half of the files are enough.
+/// Clients that may be logged in where the system grants `open_files`: at most [`CONNECTIONS`], and at least those for which
+/// half of the files are enough.
 pub fn connections(open_files: usize, has_tls: bool) -> usize {
     let sockets = if has_tls { TLS_SOCKETS } else { 1 };
     let files = open_files.saturating_sub(OTHER_FILES).max(open_files / 2);
