@@ -87,6 +87,10 @@ impl Table {
             raster: drawn.drawing.parts.first().and_then(|part| part.raster.clone()),
             ..DrawingPart::default()
         };
+        // Figures are about areas or about lines: robots on the lines of such a drawing would seem to be beside its areas.
+        if !part.areas.is_empty() && !part.strokes.is_empty() {
+            return;
+        }
         let scale = made.size_m / (high.x - low.x).max(high.y - low.y);
         let places: Vec<Vec2> =
             made.frame.pixels.iter().map(|pixel| pixel.at * (1.0 / scale) + low.lerp(high, 0.5)).collect();
@@ -141,14 +145,20 @@ impl Table {
 
 /// Writes a show of all sources, one frame each, for this many robots.
 fn write_show(sources: &[Source], robots: usize, folder: &Path) -> Result<(), Box<dyn Error>> {
-    let side_m = (robots as f64).sqrt().mul_add(0.25, 1.0);
+    let side_m = (robots as f64).sqrt().mul_add(0.4, 1.0);
     let stage = Stage { width_m: side_m, depth_m: side_m, ..Stage::default() };
     let floor = picture_floor(&stage);
     let mut show = Show { stage, ..Show::default() };
     for source in sources {
-        let mut frame = made(source, &floor, robots)?.frame;
-        frame.sources.clear();
-        show.frames.push(frame);
+        match made(source, &floor, robots) {
+            Ok(MadeFrame { mut frame, .. }) => {
+                // The files of the sources are not beside the show.
+                frame.sources.clear();
+                frame.pixels.iter_mut().for_each(|pixel| pixel.part = None);
+                show.frames.push(frame);
+            }
+            Err(message) => println!("{} is not in the show of {robots} robots: {message}", source.name),
+        }
     }
     std::fs::create_dir_all(folder)?;
     let name = folder.join(format!("sheet-{robots}.lightbots"));
