@@ -4,6 +4,7 @@ use crate::clock;
 use crate::config::Config;
 use crate::context::Context;
 use crate::event::{Event, EventKind, RunOutcome};
+use crate::journal::{Journal, JournalPiece};
 use crate::operation::ControllerState;
 use crate::outbox::Send;
 use crate::plan_request::{PlanRequest, PlanResult};
@@ -46,6 +47,8 @@ pub struct Controller {
     pub(crate) stopping: Option<Stopping>,
     /// Where and why the last run failed, for people; until the operator dismisses it or begins another run.
     pub(crate) failure: Option<String>,
+    #[serde(skip)]
+    pub(crate) journal: Journal,
     said: ControllerState,
     patrol_at: Instant,
     ask_all_at: Instant,
@@ -75,6 +78,7 @@ impl Controller {
             run: None,
             stopping: None,
             failure: None,
+            journal: Journal::default(),
             said: ControllerState::Idle,
             patrol_at: Instant::ZERO,
             ask_all_at: Instant::ZERO,
@@ -203,11 +207,14 @@ impl Controller {
         self.conclude(now);
     }
 
-    /// Ends a run that is over, and records the state of the controller if that changed.
+    /// Ends a run that is over, writes the journal, and records the state of the controller if that changed.
     pub(crate) fn conclude(&mut self, now: Instant) {
         if let Some(Run { phase: RunPhase::Over(outcome, frame), .. }) = &self.run {
             let (outcome, frame) = (outcome.clone(), *frame);
             self.end(now, outcome, frame);
+        }
+        if let Some(run) = &self.run {
+            self.journal.note(now, run, &self.context);
         }
         let state = self.state();
         if state != self.said {
@@ -229,6 +236,7 @@ impl Controller {
             }
             other => other,
         };
+        self.journal.end(now, &outcome.to_string());
         let (frames_played, dropouts) = (run.tally.frames_played, run.tally.dropouts);
         self.context.log.record(now, EventKind::RunEnded { outcome, frames_played, dropouts });
     }
@@ -241,6 +249,22 @@ impl Controller {
             Some(run) => run.state(),
             None => ControllerState::Ready,
         }
+    }
+
+    /// Runs are written into a journal from now on; see [`take_journal`](Self::take_journal).
+    pub fn keep_journal(&mut self) {
+        self.journal.keep();
+    }
+
+    /// What is to be written into the journal's file since it was asked last, if there is anything. `wall_us`: the time of
+    /// day, microseconds since 1970.
+    pub fn take_journal(&mut self, wall_us: u64) -> Option<JournalPiece> {
+        self.journal.take(wall_us)
+    }
+
+    /// A piece of the journal was lost: the next one begins it again.
+    pub fn begin_journal_again(&mut self) {
+        self.journal.begin_again();
     }
 
     /// The next message to publish (QoS 0, not retained).

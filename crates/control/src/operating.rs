@@ -18,6 +18,7 @@ const LISTED: usize = 16;
 impl Controller {
     /// Does an operation, or says why not.
     pub fn operate(&mut self, now: Instant, operation: Operation) -> Result<(), Refusal> {
+        self.journal.operated(now, operation.name());
         let done = match operation {
             Operation::Open(show) => self.open(now, show),
             Operation::Play { from, missing } => self.begin(now, RunPurpose::Play, from, missing),

@@ -1,6 +1,7 @@
 //! All stop and say where they stand; robots that do not answer drop out.
 
 use crate::event::Trouble;
+use crate::journal::Position;
 use crate::leg::LegKind;
 use crate::operation::MissingPolicy;
 use crate::run::next::{AirTime, Next};
@@ -102,6 +103,11 @@ impl Gathering {
     /// The frame that stood before.
     pub fn stood(&self) -> Option<AirTime> {
         self.stood
+    }
+
+    /// What was broken off.
+    pub fn position(&self) -> Position {
+        Position { drive: self.broken_off, stood: self.stood }
     }
 
     /// When something is due.

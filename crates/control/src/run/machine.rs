@@ -151,6 +151,7 @@ impl Run {
         known.probation = Probation::after(why);
         self.pipeline.lights.settle(participant);
         self.tally.dropouts += 1;
+        self.roster.changes += 1;
         if why == Trouble::Silent {
             let (phase, cx) = self.split(io, now);
             let whereabouts = match phase {

@@ -2,12 +2,13 @@
 
 use crate::event::Trouble;
 use lightbots_base::Instant;
+use serde::{Deserialize, Serialize};
 
 /// A robot that dropped out more often than this in a run stays excluded: each dropout costs a new plan.
 const DROPOUTS_MAX: u8 = 3;
 
 /// Whether a robot that dropped out drives again.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) enum Probation {
     /// Nothing speaks against it.
     None,
@@ -20,7 +21,7 @@ pub(crate) enum Probation {
 }
 
 /// Whether a robot takes part.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Membership {
     /// The robot dropped out and stands somewhere.
     pub excluded: bool,

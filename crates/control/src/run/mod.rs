@@ -16,6 +16,7 @@ mod offline;
 mod path_clock;
 mod pipeline;
 mod playback;
+mod position;
 mod probation;
 mod readiness;
 mod recovery_bound;
@@ -31,7 +32,11 @@ mod target_progress;
 mod upload;
 
 pub(crate) use machine::{Run, RunPhase};
+pub(crate) use membership::{Membership, Probation};
+pub(crate) use next::AirTime;
+pub(crate) use path_clock::PathClock;
 pub(crate) use playback::{FrameCursor, PlayedShow, RunPurpose};
+pub(crate) use roster::{Participant, Whereabouts};
 
 use crate::context::Context;
 use crate::event::{EventKind, RunOutcome, Trouble};

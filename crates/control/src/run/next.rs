@@ -2,9 +2,10 @@
 
 use crate::event::{RunOutcome, Trouble};
 use lightbots_base::{Instant, Span};
+use serde::{Deserialize, Serialize};
 
 /// When the frame that stands may be left.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub(crate) struct AirTime {
     /// Since when robots stand.
     pub since: Instant,

@@ -2,9 +2,10 @@
 
 use lightbots_base::{Instant, Span};
 use lightbots_wire::Route;
+use serde::{Deserialize, Serialize};
 
 /// Progress along the paths is held.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Hold {
     /// Progress begins to fall to zero at this moment.
     pub at: Instant,
@@ -19,7 +20,7 @@ pub(crate) struct Hold {
 }
 
 /// The time base of a drive.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct PathClock {
     /// When the drive began, show clock.
     pub began: Instant,

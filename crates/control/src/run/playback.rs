@@ -3,13 +3,14 @@
 use crate::operation::MissingPolicy;
 use lightbots_base::Span;
 use lightbots_show::Show;
+use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
 /// Longest air time of a frame, seconds: a day. A larger value in a show would overflow the show clock.
 const AIR_TIME_MAX_S: f64 = 86_400.0;
 
 /// Whether a run plays a show or drives to one frame.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub(crate) enum RunPurpose {
     /// All frames from the first one on.
     Play,
@@ -18,7 +19,7 @@ pub(crate) enum RunPurpose {
 }
 
 /// A frame in a run of a show that may loop.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub(crate) struct FrameCursor {
     /// Index of the frame, counted from 0; `usize::MAX` after the last one.
     pub frame: usize,

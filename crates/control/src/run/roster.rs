@@ -4,9 +4,10 @@ use crate::context::Context;
 use crate::robot::KnownRobot;
 use crate::run::membership::{Membership, Probation};
 use lightbots_base::{Instant, Vec2};
+use serde::{Deserialize, Serialize};
 
 /// Where a robot may stand that fell silent on its way, stage metres.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Whereabouts {
     /// All possible places.
     pub possible: Vec<Vec2>,
@@ -38,6 +39,8 @@ pub(crate) struct Roster {
     pub candidates: Vec<usize>,
     /// When the run began.
     pub begun: Instant,
+    /// How often a participant joined, dropped out or came back: the journal writes them down then.
+    pub changes: u64,
 }
 
 impl Participant {
@@ -69,7 +72,7 @@ impl Roster {
                 participants.push(Participant::new(index));
             }
         }
-        Self { participants, candidates: Vec::new(), begun: now }
+        Self { participants, candidates: Vec::new(), begun: now, changes: 0 }
     }
 
     /// Number of participants, with those that dropped out.
@@ -104,6 +107,7 @@ impl Roster {
 
     /// The robot of the fleet takes part, for the first time or again.
     pub fn admit(&mut self, context: &mut Context, robot: usize) {
+        self.changes += 1;
         match context.fleet.robot(robot).participant {
             Some(participant) => {
                 let known = &mut self.participants[participant as usize];

@@ -10,6 +10,8 @@ pub(crate) struct Tally {
     pub frames_played: usize,
     /// Robots that dropped out; a robot that dropped out twice counts twice.
     pub dropouts: usize,
+    /// How often the run was taken up by another controller.
+    pub taken_up: u32,
     /// Bound on the replans and the time of recovery.
     pub recovery: RecoveryBound,
     /// The first and the last arrival at a place in the next frame, whichever legs lead there.

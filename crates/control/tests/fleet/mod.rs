@@ -57,6 +57,9 @@ pub struct World {
     pub slow_plans: usize,
     dice: Dice,
     letters: Vec<Letter>,
+    /// The journal's file, and its length after each piece.
+    pub journal: Vec<u8>,
+    pub journal_ends: Vec<usize>,
 }
 
 impl World {
@@ -84,6 +87,8 @@ impl World {
             slow_plans: 0,
             dice: Dice(7),
             letters: Vec::new(),
+            journal: Vec::new(),
+            journal_ends: Vec::new(),
         };
         world.robots.iter_mut().for_each(Robot::introduce);
         world.link(true);
@@ -146,6 +151,17 @@ impl World {
         while let Some(event) = self.controller.next_event() {
             self.events.push(event);
         }
+        self.write_journal();
+    }
+
+    fn write_journal(&mut self) {
+        let Some(piece) = self.controller.take_journal(self.now.0) else { return };
+        if piece.begins {
+            self.journal.clear();
+            self.journal_ends.clear();
+        }
+        self.journal.extend(piece.bytes);
+        self.journal_ends.push(self.journal.len());
     }
 
     fn post(&mut self, topic: Topic, payload: Vec<u8>, to_controller: bool) {

@@ -1,0 +1,104 @@
+//! A journal being read.
+
+use super::{Change, Entry, JournalState, MAGIC, VERSION};
+use crate::block::Blocks;
+use core::fmt;
+use lightbots_base::Instant;
+use lightbots_show::Show;
+use serde::{Deserialize, Serialize};
+use std::sync::Arc;
+
+/// Why bytes are no journal that can be read.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum JournalError {
+    /// They are no journal.
+    NoJournal,
+    /// They are a journal of another version of the format.
+    OtherVersion(u16),
+    /// Not even the first entry is whole.
+    NoEntry,
+    /// An entry makes no sense although its checksum is right.
+    BadEntry,
+}
+
+/// A run that had not ended when its controller did.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct UnfinishedRun {
+    pub(crate) at: Instant,
+    wall_us: u64,
+    pub(crate) state: JournalState,
+}
+
+impl UnfinishedRun {
+    /// The run of a journal, by its last whole entry; `None`: the run was ended. The bytes may come from anywhere.
+    pub fn read(bytes: &[u8]) -> Result<Option<Self>, JournalError> {
+        let rest = bytes.strip_prefix(MAGIC).ok_or(JournalError::NoJournal)?;
+        let (version, _) = rest.split_first_chunk::<2>().ok_or(JournalError::NoEntry)?;
+        let version = u16::from_le_bytes(*version);
+        if version != VERSION {
+            return Err(JournalError::OtherVersion(version));
+        }
+        let mut run: Option<Self> = None;
+        for block in Blocks::new(bytes, MAGIC.len() + size_of_val(&version)) {
+            let entry: Entry = postcard::from_bytes(block).map_err(|_| JournalError::BadEntry)?;
+            run = Some(Self::after(run, entry).ok_or(JournalError::BadEntry)?);
+        }
+        let run = run.ok_or(JournalError::NoEntry)?;
+        if !run.state.is_sound() {
+            return Err(JournalError::BadEntry);
+        }
+        Ok(Some(run).filter(|run| run.state.ended.is_none()))
+    }
+
+    /// The run after an entry; `None`: the entry does not fit.
+    fn after(before: Option<Self>, entry: Entry) -> Option<Self> {
+        let Entry { at, wall_us, changes } = entry;
+        let mut changes = changes.into_iter();
+        let mut state = match before {
+            Some(run) => run.state,
+            None => match changes.next()? {
+                Change::State(state) => *state,
+                _ => return None,
+            },
+        };
+        for change in changes {
+            state.apply(change)?;
+        }
+        Some(Self { at, wall_us, state })
+    }
+
+    /// The show that is played.
+    pub fn show(&self) -> &Arc<Show> {
+        &self.state.begun.show
+    }
+
+    /// The frame that is reached next, counted from 0; the last one where all were reached.
+    pub fn frame(&self) -> usize {
+        self.state.progress.next.frame.min(self.show().frames.len().saturating_sub(1))
+    }
+
+    /// Number of frames that were reached.
+    pub fn frames_played(&self) -> usize {
+        self.state.progress.frames_played as usize
+    }
+
+    /// When its controller wrote last: its show clock, and the time of day in microseconds since 1970.
+    pub fn last_written(&self) -> (Instant, u64) {
+        (self.at, self.wall_us)
+    }
+}
+
+impl fmt::Display for JournalError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NoJournal => f.write_str("it is no journal of a run"),
+            Self::OtherVersion(version) => {
+                write!(f, "it is of another version of this program (format {version})")
+            }
+            Self::NoEntry => f.write_str("it was cut off at its begin"),
+            Self::BadEntry => f.write_str("it makes no sense"),
+        }
+    }
+}
+
+impl std::error::Error for JournalError {}

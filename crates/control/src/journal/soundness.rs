@@ -1,0 +1,66 @@
+//! Whether a state is one that a controller can have written. A checksum says that bytes are those that were written, and
+//! not by which program.
+
+use super::{JournalState, ParticipantEntry, Position};
+use crate::run::{AirTime, PathClock, Probation, Whereabouts};
+use lightbots_base::{Instant, Span, Vec2};
+use std::collections::BTreeSet;
+
+/// Moments and spans have fewer microseconds than this, so that sums of a few of them do not overflow: 36,000 years.
+const TIME_MAX: u64 = 1 << 60;
+
+impl JournalState {
+    /// Whether a controller can go on from here.
+    pub fn is_sound(&self) -> bool {
+        let names: BTreeSet<_> = self.participants.iter().map(|entry| entry.id).collect();
+        let leg_fits = self.leg.as_ref().is_none_or(|leg| leg.to_leg(self.participants.len()).is_some());
+        let needs_leg = self.progress.position.drive.is_some();
+        names.len() == self.participants.len()
+            && !self.begun.show.frames.is_empty()
+            && is_moment(self.begun.at)
+            && leg_fits
+            && (self.leg.is_some() || !needs_leg)
+            && self.found.iter().all(is_place)
+            && self.participants.iter().all(ParticipantEntry::is_sound)
+            && self.progress.position.is_sound()
+    }
+}
+
+impl ParticipantEntry {
+    fn is_sound(&self) -> bool {
+        let Whereabouts { possible, likely } = &self.last_seen;
+        let is_moment_of_probation = match self.probation {
+            Probation::Turning { from, since, .. } => from.is_finite() && is_moment(since),
+            _ => true,
+        };
+        is_moment_of_probation && self.at.iter().chain(possible).chain(likely).all(is_place)
+    }
+}
+
+impl Position {
+    fn is_sound(&self) -> bool {
+        let is_air =
+            |air: AirTime| is_moment(air.since) && is_moment(air.until) && air.left.is_none_or(is_span);
+        self.drive.is_none_or(is_clock) && self.stood.is_none_or(is_air)
+    }
+}
+
+fn is_clock(clock: PathClock) -> bool {
+    let hold = clock.hold.is_none_or(|hold| {
+        let stated = [hold.until, hold.release_at].into_iter().flatten().all(is_moment);
+        stated && is_moment(hold.at) && is_moment(hold.check_at)
+    });
+    hold && is_moment(clock.began) && is_moment(clock.ends) && is_span(clock.lost)
+}
+
+fn is_moment(at: Instant) -> bool {
+    at.0 < TIME_MAX
+}
+
+fn is_span(span: Span) -> bool {
+    span.0.unsigned_abs() < TIME_MAX
+}
+
+fn is_place(at: &Vec2) -> bool {
+    at.x.is_finite() && at.y.is_finite()
+}

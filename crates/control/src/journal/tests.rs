@@ -1,0 +1,144 @@
+//! What a journal holds, in bytes.
+
+use super::*;
+use crate::run::{AirTime, FrameCursor, Membership, PathClock, Probation, RunPurpose, Whereabouts};
+use lightbots_base::{Instant, Rgb, RobotId, Span, StateHash, Vec2};
+use lightbots_show::{Frame, Pixel, Show};
+use std::sync::Arc;
+
+fn state() -> JournalState {
+    let frame = Frame { pixels: vec![Pixel::default()], ..Frame::default() };
+    let id = RobotId::new("a").unwrap();
+    JournalState {
+        begun: RunBegun {
+            at: Instant(5),
+            show: Arc::new(Show { frames: vec![frame], ..Show::default() }),
+            purpose: RunPurpose::Play,
+            missing: Default::default(),
+        },
+        participants: vec![ParticipantEntry {
+            id,
+            abilities: Default::default(),
+            at: Some(Vec2::new(1.0, 2.0)),
+            membership: Membership::default(),
+            probation: Probation::Turning { from: 1.0, since: Instant(7), tries: 1 },
+            last_seen: Whereabouts { possible: vec![Vec2::ZERO], likely: vec![Vec2::ZERO] },
+        }],
+        leg: None,
+        pins: vec![(1, id)],
+        owners: vec![(2, id)],
+        found: vec![Vec2::ZERO],
+        ignores_strangers: true,
+        progress: RunProgress {
+            next: FrameCursor { frame: 0, round: 1 },
+            looping: true,
+            paused: false,
+            stepping: true,
+            frames_played: 3,
+            dropouts: 4,
+            taken_up: 1,
+            position: Position {
+                drive: None,
+                stood: Some(AirTime { since: Instant(1), until: Instant(2), left: Some(Span(3)) }),
+            },
+        },
+        ended: None,
+    }
+}
+
+fn leg() -> LegEntry {
+    let path = lightbots_plan::Path {
+        start: Vec2::new(0.5, 0.0),
+        pieces: vec![lightbots_base::Piece::straight(Vec2::ZERO, Vec2::new(0.25, 1.5), Span(900))],
+    };
+    let step = crate::leg::RobotLeg {
+        task: crate::leg::Task::Path(path),
+        pixel: Some(3),
+        color: Rgb::new(1, 2, 3),
+        ..crate::leg::RobotLeg::stay(Vec2::new(0.25, 1.5))
+    };
+    LegEntry::of(&crate::leg::Leg {
+        frame: 0,
+        round: 0,
+        seq: 9,
+        kind: crate::leg::LegKind::Routes,
+        robots: vec![step],
+        drives: Vec::new(),
+        drivers: 1,
+        duration: Span(900),
+        reaches_frame: true,
+        room_m: 0.0,
+    })
+}
+
+fn journal_of(entries: &[Entry]) -> Vec<u8> {
+    let mut bytes = [&MAGIC[..], &VERSION.to_le_bytes()].concat();
+    for entry in entries {
+        crate::block::append_block(&mut bytes, &postcard::to_allocvec(entry).unwrap());
+    }
+    bytes
+}
+
+fn entry(changes: Vec<Change>) -> Entry {
+    Entry { at: Instant(8), wall_us: 9, changes }
+}
+
+/// A change of any type that is written changes these bytes. Then raise [`VERSION`], so that older journals are refused by
+/// their number and not misread.
+#[test]
+fn the_format_is_that_of_its_version() {
+    let clock = PathClock::new(Instant(1), Span(2));
+    let progress = RunProgress { position: Position { drive: Some(clock), stood: None }, ..state().progress };
+    let entry = entry(vec![
+        Change::State(Box::new(state())),
+        Change::Participant { number: 1, entry: state().participants[0].clone() },
+        Change::Leg(leg()),
+        Change::Pins(Vec::new()),
+        Change::Owners(Vec::new()),
+        Change::Obstacles { found: Vec::new(), ignores_strangers: false },
+        Change::Progress(progress),
+        Change::Operated("pause".into()),
+        Change::Ended("finished".into()),
+    ]);
+    let mut hash = StateHash::new();
+    hash.bytes(&postcard::to_allocvec(&entry).unwrap());
+    assert_eq!((VERSION, hash.finish()), (1, 1_500_047_731_078_150_354));
+}
+
+#[test]
+fn a_leg_is_the_same_to_the_micrometre() {
+    let again = leg().to_leg(1).unwrap();
+    assert_eq!(LegEntry::of(&again), leg());
+    assert!(leg().to_leg(0).is_none(), "it has more robots than the run");
+}
+
+#[test]
+fn entries_that_no_controller_writes_are_refused() {
+    let run = |entries: &[Entry]| UnfinishedRun::read(&journal_of(entries));
+    let first = entry(vec![Change::State(Box::new(state()))]);
+    assert!(run(std::slice::from_ref(&first)).unwrap().is_some());
+    let participant = |number| Change::Participant { number, entry: state().participants[0].clone() };
+    let drive = Position { drive: Some(PathClock::new(Instant(1), Span(2))), stood: None };
+    let drives = |leg: Vec<Change>| {
+        let progress = Change::Progress(RunProgress { position: drive, ..state().progress });
+        entry([leg, vec![progress]].concat())
+    };
+    assert!(run(&[first.clone(), drives(vec![Change::Leg(leg())])]).unwrap().is_some());
+    for bad in [
+        vec![entry(Vec::new())],
+        vec![entry(vec![participant(0)])],
+        vec![first.clone(), entry(vec![participant(2)])],
+        // Two robots have one name.
+        vec![first.clone(), entry(vec![participant(1)])],
+        vec![first.clone(), drives(Vec::new())],
+        vec![
+            first.clone(),
+            entry(vec![Change::Obstacles {
+                found: vec![Vec2::new(f64::NAN, 0.0)],
+                ignores_strangers: false,
+            }]),
+        ],
+    ] {
+        assert_eq!(run(&bad), Err(JournalError::BadEntry), "{bad:?}");
+    }
+}

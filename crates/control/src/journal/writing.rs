@@ -1,0 +1,235 @@
+//! A journal being written.
+
+use super::{Change, Entry, JournalState, LegEntry, MAGIC, ParticipantEntry, RunBegun, RunProgress, VERSION};
+use crate::block::append_block;
+use crate::context::Context;
+use crate::run::Run;
+use lightbots_base::{Instant, Span};
+
+/// An entry follows the last one after this time at the latest.
+const ALIVE: Span = Span::from_millis(2_000);
+/// A journal is begun again once it has this many bytes, and this many times the bytes of its first entry: so that it stays
+/// small while a show loops for days.
+const BEGUN_AGAIN: (usize, usize) = (4 << 20, 8);
+
+/// Bytes for a journal's file, in order.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct JournalPiece {
+    /// The bytes are a whole journal and take the place of those before; otherwise they are appended.
+    pub begins: bool,
+    /// The run is over: no more bytes follow.
+    pub ends: bool,
+    /// The bytes.
+    pub bytes: Vec<u8>,
+}
+
+/// The journal of the present run, if one is kept.
+#[derive(Debug, Default)]
+pub(crate) struct Journal {
+    is_kept: bool,
+    /// What the bytes say that were taken, and the pending changes after them; `None`: no run is written down.
+    state: Option<JournalState>,
+    /// Changes that were not taken yet, and when the last of them came.
+    pending: Vec<Change>,
+    at: Instant,
+    /// The next piece begins the journal again.
+    begins: bool,
+    /// The pins or owners may have changed.
+    is_mapping_checked: bool,
+    /// The roster's number of changes that is written down.
+    roster_changes: u64,
+    alive_at: Instant,
+    /// Bytes since the journal began, and of its first entry.
+    bytes: usize,
+    first_bytes: usize,
+}
+
+impl Journal {
+    /// Runs are written down from the next one on.
+    pub fn keep(&mut self) {
+        self.is_kept = true;
+    }
+
+    /// Pieces were lost on their way to the disk: the next one begins the journal again.
+    pub fn begin_again(&mut self) {
+        self.begins = self.state.is_some();
+    }
+
+    /// The operator asks for something; a word for it.
+    pub fn operated(&mut self, now: Instant, what: &str) {
+        if self.state.is_some() {
+            self.is_mapping_checked = false;
+            self.push(now, Change::Operated(what.to_owned()));
+        }
+    }
+
+    /// The controller has concluded a step of this run.
+    pub fn note(&mut self, now: Instant, run: &Run, context: &Context) {
+        if !self.is_kept {
+            return;
+        }
+        if self.state.as_ref().is_none_or(|state| state.ended.is_some()) {
+            self.begin(now, run, context);
+        }
+        self.note_roster(now, run, context);
+        let has_new_leg = self.note_leg(now, run);
+        if has_new_leg || !self.is_mapping_checked {
+            self.is_mapping_checked = true;
+            self.note_mapping(now, run, context);
+        }
+        let progress = run.journal_progress();
+        if self.state.as_ref().is_some_and(|state| state.progress != progress) || now >= self.alive_at {
+            self.push(now, Change::Progress(progress));
+        }
+    }
+
+    /// The run is over.
+    pub fn end(&mut self, now: Instant, how: &str) {
+        if self.state.is_some() {
+            self.push(now, Change::Ended(how.to_owned()));
+        }
+    }
+
+    /// What is to be written since it was asked last. `wall_us`: the time of day, microseconds since 1970.
+    pub fn take(&mut self, wall_us: u64) -> Option<JournalPiece> {
+        let state = self.state.as_ref()?;
+        if self.pending.is_empty() && !self.begins {
+            return None;
+        }
+        let (begins, ends) = (std::mem::take(&mut self.begins), state.ended.is_some());
+        let mut changes = std::mem::take(&mut self.pending);
+        let mut bytes = Vec::new();
+        if begins {
+            bytes.extend_from_slice(MAGIC);
+            bytes.extend_from_slice(&VERSION.to_le_bytes());
+            changes = vec![Change::State(Box::new(state.clone()))];
+        }
+        // Each type that is written has bytes.
+        let entry = postcard::to_allocvec(&Entry { at: self.at, wall_us, changes }).unwrap_or_default();
+        append_block(&mut bytes, &entry);
+        self.count(begins, bytes.len());
+        if ends {
+            self.state = None;
+        }
+        Some(JournalPiece { begins, ends, bytes })
+    }
+
+    fn count(&mut self, begins: bool, bytes: usize) {
+        if begins {
+            (self.bytes, self.first_bytes) = (0, bytes);
+        }
+        self.bytes += bytes;
+        let (least, times) = BEGUN_AGAIN;
+        if self.bytes > least.max(self.first_bytes * times) {
+            self.begin_again();
+        }
+    }
+
+    fn push(&mut self, now: Instant, change: Change) {
+        if let Some(state) = &mut self.state {
+            // A change that was made for this state fits it.
+            let _ = state.apply(change.clone());
+        }
+        self.pending.push(change);
+        (self.at, self.alive_at) = (now, now + ALIVE);
+    }
+
+    fn begin(&mut self, now: Instant, run: &Run, context: &Context) {
+        let playback = &run.playback;
+        self.state = Some(JournalState {
+            begun: RunBegun {
+                at: run.roster.begun,
+                show: playback.show.clone(),
+                purpose: playback.purpose,
+                missing: playback.missing,
+            },
+            participants: participants(run, context),
+            leg: None,
+            pins: context.mapping.pins.iter().map(|(&pixel, &robot)| (pixel, robot)).collect(),
+            owners: context.mapping.owners.oldest_first(),
+            found: Vec::new(),
+            ignores_strangers: false,
+            progress: run.journal_progress(),
+            ended: None,
+        });
+        self.pending.clear();
+        self.roster_changes = run.roster.changes;
+        (self.begins, self.is_mapping_checked) = (true, true);
+        (self.at, self.alive_at) = (now, now + ALIVE);
+    }
+
+    fn note_roster(&mut self, now: Instant, run: &Run, context: &Context) {
+        if std::mem::replace(&mut self.roster_changes, run.roster.changes) == run.roster.changes {
+            return;
+        }
+        for (number, entry) in participants(run, context).into_iter().enumerate() {
+            let known = self.state.as_ref().and_then(|state| state.participants.get(number));
+            // The place of a participant that takes part is not written again: the leg says more.
+            if known.is_none_or(|known| known.membership != entry.membership) {
+                self.push(now, Change::Participant { number: number as u32, entry });
+            }
+        }
+    }
+
+    /// Whether the run has another leg than before.
+    fn note_leg(&mut self, now: Instant, run: &Run) -> bool {
+        let Some(leg) = run.positioned_leg() else { return false };
+        let known = self.state.as_ref().and_then(|state| state.leg.as_ref());
+        if known.is_some_and(|known| known.seq == leg.seq) {
+            return false;
+        }
+        self.push(now, Change::Leg(LegEntry::of(leg)));
+        true
+    }
+
+    fn note_mapping(&mut self, now: Instant, run: &Run, context: &Context) {
+        let Some(state) = &self.state else { return };
+        let pins: Vec<_> = context.mapping.pins.iter().map(|(&pixel, &robot)| (pixel, robot)).collect();
+        let owners = context.mapping.owners.oldest_first();
+        let obstacles = &run.pipeline.obstacles;
+        let mut changes = Vec::new();
+        if state.found != obstacles.found || state.ignores_strangers != obstacles.ignores_strangers {
+            let (found, ignores_strangers) = (obstacles.found.clone(), obstacles.ignores_strangers);
+            changes.push(Change::Obstacles { found, ignores_strangers });
+        }
+        if state.pins != pins {
+            changes.push(Change::Pins(pins));
+        }
+        if state.owners != owners {
+            changes.push(Change::Owners(owners));
+        }
+        changes.into_iter().for_each(|change| self.push(now, change));
+    }
+}
+
+fn participants(run: &Run, context: &Context) -> Vec<ParticipantEntry> {
+    let entry = |known: &crate::run::Participant| {
+        let robot = context.fleet.robot(known.robot);
+        ParticipantEntry {
+            id: robot.id,
+            abilities: robot.reported.abilities,
+            at: robot.reported.at,
+            membership: known.membership,
+            probation: known.probation,
+            last_seen: known.last_seen.clone(),
+        }
+    };
+    run.roster.participants.iter().map(entry).collect()
+}
+
+impl Run {
+    /// How far the run is.
+    fn journal_progress(&self) -> RunProgress {
+        let (playback, tally) = (&self.playback, &self.tally);
+        RunProgress {
+            next: playback.next,
+            looping: playback.looping,
+            paused: playback.paused,
+            stepping: playback.stepping,
+            frames_played: tally.frames_played as u32,
+            dropouts: tally.dropouts as u32,
+            taken_up: tally.taken_up,
+            position: self.position(),
+        }
+    }
+}
