@@ -27,8 +27,8 @@ pub use broker::BrokerSettings;
 pub use fleet::{Abilities, Fleet, FleetRow, Presence, RobotStatus};
 pub use library::{Problem, ShowEntry, ShowOrigin, ShowState};
 pub use make::{
-    FitAnswer, MadePixel, MadeReadability, MakeAnswer, MakeChoices, MakeFile, MakeFont, MakeQuality,
-    MakeRemark, MakeRequest, MakeShape,
+    FilmAnswer, FilmPicture, FitAnswer, MadePixel, MadeReadability, MakeAnswer, MakeChoices, MakeFile,
+    MakeFont, MakeQuality, MakeRemark, MakeRequest, MakeShape,
 };
 pub use operation::{Answer, Choice, FromScreen, Missing, Operation, Request};
 pub use plan::{Issue, Path, Plan, Severity, Transition};

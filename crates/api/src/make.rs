@@ -81,6 +81,30 @@ pub struct MakeRemark {
     pub message: String,
 }
 
+/// The frames that an animation becomes, or why there are none.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, TS)]
+pub struct FilmAnswer {
+    /// In order of time; empty with an error.
+    pub frames: Vec<FilmPicture>,
+    /// Factor by which the animation is slowed down, so that robots have time to move; 1: as it is.
+    pub slowdown: f64,
+    /// What is missing, or different from the animation.
+    pub notes: Vec<MakeRemark>,
+    /// Why there are no frames; null: there are.
+    pub error: Option<MakeRemark>,
+}
+
+/// A frame that shows a moment of an animation.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS)]
+pub struct FilmPicture {
+    /// The moment, seconds from the start of the animation.
+    pub moment_s: f64,
+    /// How long the picture stays, seconds.
+    pub air_time_s: f64,
+    /// The frame's pixels.
+    pub made: MakeAnswer,
+}
+
 /// A show whose frames all have one number of robots, or why there is none.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, TS)]
 pub struct FitAnswer {
@@ -128,13 +152,14 @@ pub struct MakeFont {
     pub title: String,
 }
 
-/// A file that a frame may be made from.
+/// A file that somebody dropped or chose.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS)]
 pub struct MakeFile {
     /// SHA-256 of its bytes as 64 hexadecimal digits.
     pub hash: String,
-    /// Kind of source: `svg`, `picture` or `list`; null: no frame is made from such a file.
+    /// `svg`, `picture`, `list` or `animation`: a frame is made from it; `font`: words are set in it; `show`: it is a show;
+    /// null: it is of no use here.
     pub kind: Option<String>,
-    /// Why no frame is made from it; null: one is.
+    /// Why it is of no use, and what to do; null: it is.
     pub error: Option<MakeRemark>,
 }

@@ -4,11 +4,11 @@ use lightbots_exchange::{FORMATS, Format, MAX_BYTES, Part};
 use ts_rs::{Config, TS};
 
 use crate::{
-    Abilities, Answer, Broker, BrokerPhase, BrokerSettings, Choice, FitAnswer, Fleet, FleetRow, FromScreen,
-    Hello, Issue, Level, LogLine, MadePixel, MadeReadability, MakeAnswer, MakeChoices, MakeFile, MakeFont,
-    MakeQuality, MakeRemark, MakeRequest, MakeShape, Missing, OpenShow, Operation, Path, Phase, Plan,
-    Playback, Presence, Problem, Request, RobotStatus, Robots, Severity, ShowEntry, ShowOrigin, ShowState,
-    State, ToScreen, Transition,
+    Abilities, Answer, Broker, BrokerPhase, BrokerSettings, Choice, FilmAnswer, FilmPicture, FitAnswer,
+    Fleet, FleetRow, FromScreen, Hello, Issue, Level, LogLine, MadePixel, MadeReadability, MakeAnswer,
+    MakeChoices, MakeFile, MakeFont, MakeQuality, MakeRemark, MakeRequest, MakeShape, Missing, OpenShow,
+    Operation, Path, Phase, Plan, Playback, Presence, Problem, Request, RobotStatus, Robots, Severity,
+    ShowEntry, ShowOrigin, ShowState, State, ToScreen, Transition,
 };
 
 /// The first line of the generated file.
@@ -69,6 +69,8 @@ pub fn typescript() -> String {
         MadePixel,
         MadeReadability,
         MakeRemark,
+        FilmAnswer,
+        FilmPicture,
         FitAnswer,
         MakeChoices,
         MakeFont,

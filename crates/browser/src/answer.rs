@@ -22,6 +22,7 @@ pub(crate) fn reading(error: &ReadError) -> MakeRemark {
 }
 
 /// Notes for people and programs.
-pub(crate) fn notes(notes: Vec<Note>) -> Vec<MakeRemark> {
-    notes.into_iter().map(|note| MakeRemark { code: note.code.to_owned(), message: note.message }).collect()
+pub(crate) fn notes(notes: &[Note]) -> Vec<MakeRemark> {
+    let remark = |note: &Note| MakeRemark { code: note.code.to_owned(), message: note.message.clone() };
+    notes.iter().map(remark).collect()
 }

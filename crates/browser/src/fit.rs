@@ -18,7 +18,7 @@ fn fitted(show: &[u8], robots: usize) -> Result<FitAnswer, MakeRemark> {
         code: "not-json".to_owned(),
         message: format!("the fitted show is not JSON: {error}; report this to the makers of LightBots"),
     })?;
-    Ok(FitAnswer { show: Some(document), notes: answer::notes(notes), error: None })
+    Ok(FitAnswer { show: Some(document), notes: answer::notes(&notes), error: None })
 }
 
 #[cfg(test)]

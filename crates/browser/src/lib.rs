@@ -1,12 +1,14 @@
 //! What the browser runs by itself as WebAssembly: frames from words, drawings and shapes, and shows for other fleets.
 //!
 //! JSON texts go in and out, in the types of `lightbots_api`, so that JavaScript needs no glue for each type. Errors are
-//! values in the answers. In reading order: [`make_answer`] makes a frame, [`fit_answer`] fits a show, [`choices`] lists
+//! values in the answers. In reading order: [`make_answer`] makes a frame, [`film_answer`] those of
+//! an animation, [`fit_answer`] fits a show, [`choices`] lists
 //! what settings may name, [`file`] tells what a file is; the functions below them are the same for JavaScript.
 
 mod answer;
 mod choices;
 mod file;
+mod film;
 mod fit;
 mod make;
 
@@ -14,6 +16,7 @@ use wasm_bindgen::prelude::wasm_bindgen;
 
 pub use choices::choices;
 pub use file::file;
+pub use film::film_answer;
 pub use fit::fit_answer;
 pub use make::make_answer;
 
@@ -21,6 +24,12 @@ pub use make::make_answer;
 #[wasm_bindgen]
 pub fn make(request: &str, asset: &[u8]) -> String {
     answer::text(&make_answer(request, (!asset.is_empty()).then_some(asset)))
+}
+
+/// Makes the frames of an animation: a `MakeRequest` as JSON and the bytes of the file; a `FilmAnswer` as JSON.
+#[wasm_bindgen]
+pub fn film(request: &str, bytes: &[u8]) -> String {
+    answer::text(&film_answer(request, bytes))
 }
 
 /// Fits a show to a number of robots: a show file of any format; a `FitAnswer` as JSON.
@@ -35,7 +44,7 @@ pub fn list() -> String {
     answer::text(&choices())
 }
 
-/// What a file is that a frame shall be made from: its bytes; a `MakeFile` as JSON.
+/// What a file is that somebody dropped or chose: its bytes; a `MakeFile` as JSON.
 #[wasm_bindgen]
 pub fn look(bytes: &[u8]) -> String {
     answer::text(&file(bytes))

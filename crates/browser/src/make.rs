@@ -1,7 +1,7 @@
 //! Frames from their sources.
 
 use lightbots_api::{MadePixel, MadeReadability, MakeAnswer, MakeQuality, MakeRemark, MakeRequest};
-use lightbots_draw::{Quality, READABLE};
+use lightbots_draw::{PictureFloor, Quality, READABLE};
 use lightbots_make::{MadeFrame, enough_for, make_frame, picture_floor};
 use lightbots_show::{Frame, Pixel};
 
@@ -12,36 +12,66 @@ pub fn make_answer(request: &str, asset: Option<&[u8]>) -> MakeAnswer {
     made(request, asset).unwrap_or_else(|error| MakeAnswer { error: Some(error), ..MakeAnswer::default() })
 }
 
+/// A wish, read and checked.
+pub(crate) struct Wish {
+    /// The frame with its source.
+    pub frame: Frame,
+    pub floor: PictureFloor,
+    pub robots: usize,
+    pub quality: Quality,
+}
+
+impl Wish {
+    /// Reads a `MakeRequest` as JSON.
+    pub(crate) fn read(request: &str) -> Result<Self, MakeRemark> {
+        let request: MakeRequest =
+            serde_json::from_str(request).map_err(|error| remark("bad-request", error))?;
+        let document = request.show.to_string();
+        let show = lightbots_exchange::read(document.as_bytes(), None)
+            .map_err(|error| answer::reading(&error))?
+            .show;
+        let floor = picture_floor(&show.stage);
+        let frame = show.frames.into_iter().next();
+        let frame = frame.ok_or_else(|| remark("no-frame", "the show has no frame; add one"))?;
+        let quality = match request.quality {
+            MakeQuality::Quick => Quality::Quick,
+            MakeQuality::Full => Quality::Full,
+        };
+        Ok(Self { frame, floor, robots: request.robots, quality })
+    }
+}
+
 fn made(request: &str, asset: Option<&[u8]>) -> Result<MakeAnswer, MakeRemark> {
-    let request: MakeRequest = serde_json::from_str(request).map_err(|error| remark("bad-request", error))?;
-    let document = request.show.to_string();
-    let show =
-        lightbots_exchange::read(document.as_bytes(), None).map_err(|error| answer::reading(&error))?.show;
-    let frame = show.frames.first().ok_or_else(|| remark("no-frame", "the show has no frame; add one"))?;
-    let floor = picture_floor(&show.stage);
-    let quality = match request.quality {
-        MakeQuality::Quick => Quality::Quick,
-        MakeQuality::Full => Quality::Full,
-    };
-    let made = make_frame(frame, asset, &floor, request.robots, quality, &[]).map_err(answer::drawing)?;
-    let readability = made.readability.map(|read| MadeReadability {
+    let Wish { frame, floor, robots, quality } = Wish::read(request)?;
+    let made = make_frame(&frame, asset, &floor, robots, quality, &[]).map_err(answer::drawing)?;
+    let readability = readability(&made);
+    let counted = quality == Quality::Full && readability.is_some_and(|read| !read.readable);
+    let enough = counted.then(|| enough(&frame, asset)).flatten();
+    Ok(full(&made, readability, enough))
+}
+
+/// How well the lights show the source.
+pub(crate) fn readability(made: &MadeFrame) -> Option<MadeReadability> {
+    made.readability.map(|read| MadeReadability {
         correlation: read.correlation,
         symmetry: read.symmetry,
         readable: read.correlation >= READABLE,
-    });
-    let counted = quality == Quality::Full && readability.is_some_and(|read| !read.readable);
-    let enough = counted.then(|| enough(frame, asset)).flatten();
-    Ok(full(made, readability, enough))
+    })
 }
 
-fn full(made: MadeFrame, readability: Option<MadeReadability>, enough: Option<usize>) -> MakeAnswer {
+/// The answer with the pixels of a frame.
+pub(crate) fn full(
+    made: &MadeFrame,
+    readability: Option<MadeReadability>,
+    enough: Option<usize>,
+) -> MakeAnswer {
     MakeAnswer {
         pixels: made.frame.pixels.iter().map(pixel).collect(),
         size_m: made.size_m,
         closest_m: made.closest_m.is_finite().then_some(made.closest_m),
         readability,
         enough,
-        notes: answer::notes(made.notes),
+        notes: answer::notes(&made.notes),
         error: None,
     }
 }
@@ -61,7 +91,8 @@ fn pixel(pixel: &Pixel) -> MadePixel {
     }
 }
 
-fn remark(code: &str, what: impl ToString) -> MakeRemark {
+/// An error with a message for people.
+pub(crate) fn remark(code: &str, what: impl ToString) -> MakeRemark {
     MakeRemark { code: code.to_owned(), message: what.to_string() }
 }
 

@@ -71,7 +71,7 @@ pub(crate) fn moment(animation: &Animation, moment_s: f64) -> Result<Material, D
 }
 
 /// The box around all pictures of an animation.
-pub fn view_of(animation: &Animation) -> Option<(Vec2, Vec2)> {
+pub(crate) fn view_of(animation: &Animation) -> Option<(Vec2, Vec2)> {
     let corners: Vec<Vec2> = animation
         .frames
         .iter()

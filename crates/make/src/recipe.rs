@@ -188,7 +188,7 @@ impl Recipe {
         };
         let boxed = source.floor_box.map(|place| middle_and_side(place.min, place.max));
         let placing = Placing {
-            style: reader.word("style", &STYLES)?,
+            style: style_of(reader.word("style", &STYLES)?, &content),
             size_m: reader.number("size_m")?.or(boxed.map(|(_, side)| side)),
             center: reader
                 .points("center")?
@@ -270,6 +270,13 @@ fn shape(reader: &Reader<'_>) -> Result<ShapeSettings, DrawError> {
         closed: reader.flag("closed", usual.closed)?,
         color: reader.colors("color")?.first().copied().unwrap_or(usual.color),
     })
+}
+
+/// The style of a content. Areas of animations are filled where no style is chosen: robots of a film keep their numbers from
+/// picture to picture, which an edge of changing length would not let them.
+pub(crate) fn style_of(chosen: Style, content: &Content) -> Style {
+    let is_animation = matches!(content, Content::Animation { .. });
+    if is_animation && chosen == Style::Auto { Style::Filled } else { chosen }
 }
 
 /// The error for a name that no shape has.

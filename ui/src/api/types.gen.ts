@@ -798,6 +798,44 @@ code: string,
 message: string, };
 
 /**
+ * The frames that an animation becomes, or why there are none.
+ */
+export type FilmAnswer = { 
+/**
+ * In order of time; empty with an error.
+ */
+frames: Array<FilmPicture>, 
+/**
+ * Factor by which the animation is slowed down, so that robots have time to move; 1: as it is.
+ */
+slowdown: number, 
+/**
+ * What is missing, or different from the animation.
+ */
+notes: Array<MakeRemark>, 
+/**
+ * Why there are no frames; null: there are.
+ */
+error: MakeRemark | null, };
+
+/**
+ * A frame that shows a moment of an animation.
+ */
+export type FilmPicture = { 
+/**
+ * The moment, seconds from the start of the animation.
+ */
+moment_s: number, 
+/**
+ * How long the picture stays, seconds.
+ */
+air_time_s: number, 
+/**
+ * The frame's pixels.
+ */
+made: MakeAnswer, };
+
+/**
  * A show whose frames all have one number of robots, or why there is none.
  */
 export type FitAnswer = { 
@@ -870,7 +908,7 @@ inner: number,
 span: number, };
 
 /**
- * A file that a frame may be made from.
+ * A file that somebody dropped or chose.
  */
 export type MakeFile = { 
 /**
@@ -878,11 +916,12 @@ export type MakeFile = {
  */
 hash: string, 
 /**
- * Kind of source: `svg`, `picture` or `list`; null: no frame is made from such a file.
+ * `svg`, `picture`, `list` or `animation`: a frame is made from it; `font`: words are set in it; `show`: it is a show;
+ * null: it is of no use here.
  */
 kind: string | null, 
 /**
- * Why no frame is made from it; null: one is.
+ * Why it is of no use, and what to do; null: it is.
  */
 error: MakeRemark | null, };
 

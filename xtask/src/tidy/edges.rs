@@ -17,7 +17,7 @@ const EDGES: [(&str, &[&str]); 17] = [
     ("sim", &["base", "wire", "show", "plan", "robot", "control"]),
     ("exam", &["base", "wire"]),
     ("api", &["exchange"]),
-    ("browser", &["show", "exchange", "draw", "make", "api"]),
+    ("browser", &["base", "show", "exchange", "draw", "make", "api"]),
     ("link", &["base", "wire"]),
     ("webots", &["base", "wire", "robot", "link"]),
     ("standin", &[]),

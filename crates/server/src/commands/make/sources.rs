@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use lightbots_draw::picture::PictureSettings;
 use lightbots_draw::text::{self, FONTS};
 use lightbots_draw::{DrawError, FileKind, ShapeSettings, shape_named, sniff, unsupported};
-use lightbots_make::{Content, TextPages, TextRecipe, text_pages};
+use lightbots_make::{Content, TextPages, TextRecipe, text_pages, webp_moves};
 use lightbots_show::{Asset, AssetHash};
 
 use super::films;
@@ -127,7 +127,7 @@ fn of_file(source: &str, bytes: &[u8], arguments: &MakeArguments) -> Result<Vec<
         FileKind::Svg => (Content::Svg, "image/svg+xml"),
         FileKind::Png => (Content::Picture(picture), "image/png"),
         FileKind::Jpeg => (Content::Picture(picture), "image/jpeg"),
-        FileKind::Webp if !films::moves(bytes) => (Content::Picture(picture), "image/webp"),
+        FileKind::Webp if !webp_moves(bytes) => (Content::Picture(picture), "image/webp"),
         FileKind::Csv => (Content::List, "text/csv"),
         FileKind::Webp | FileKind::Gif => return films::frames(path, bytes, &picture, arguments),
     };

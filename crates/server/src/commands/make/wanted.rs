@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use lightbots_draw::{DrawError, Drawing, Style};
+use lightbots_draw::{DrawError, Drawing};
 use lightbots_exchange::hash_of;
 use lightbots_make::{Content, Material, Placing, Recipe, material};
 use lightbots_show::{Asset, AssetHash, Frame, Stage};
@@ -65,10 +65,8 @@ pub fn frame_of(name: String, content: Content, material: Material, arguments: &
 /// The recipe of a source with what the command line says.
 pub fn recipe(content: Content, arguments: &MakeArguments) -> Recipe {
     let usual = Placing::default();
-    // Robots of a film keep their numbers from picture to picture, which an edge of changing length would not let them.
-    let usual_style = if matches!(content, Content::Animation { .. }) { Style::Filled } else { usual.style };
     let placing = Placing {
-        style: arguments.style.map(Into::into).unwrap_or(usual_style),
+        style: arguments.style.map(Into::into).unwrap_or(usual.style),
         size_m: arguments.size,
         spacing_m: arguments.spacing,
         ..usual

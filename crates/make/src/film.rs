@@ -1,0 +1,179 @@
+//! Animations become the frames that robots have time for.
+
+use lightbots_base::{Limits, Vec2};
+use lightbots_draw::animation::{self, Animation, key_moments};
+use lightbots_draw::{DrawError, Made, Note, PictureFloor, PlaceSettings, Quality, place};
+use lightbots_show::Frame;
+
+use crate::material::{Material, view_of};
+use crate::recipe::{Content, Recipe, style_of};
+
+/// Pictures that one move may leave out, at most.
+const REACH: usize = 60;
+
+/// Time that every move takes besides its way, seconds: a quarter turn and a ramp.
+const MOVE_S: f64 = 0.62;
+
+/// Whether a WebP file is an animation: its header says so in bit 1 of the flags.
+pub fn webp_moves(bytes: &[u8]) -> bool {
+    bytes.get(12..16) == Some(b"VP8X") && bytes.get(20).is_some_and(|flags| flags & 2 != 0)
+}
+
+/// The frames that an animation becomes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Film {
+    /// At least one, in order of time.
+    pub frames: Vec<FilmFrame>,
+    /// Factor by which the animation is slowed down, so that robots have time to move; 1: as it is.
+    pub slowdown: f64,
+    /// What is missing, or different from the animation.
+    pub notes: Vec<Note>,
+}
+
+/// A frame of a film, which waits for its robots.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FilmFrame {
+    /// Name, air time, and the source with its moment, without the hash of the file.
+    pub frame: Frame,
+    /// The picture of the moment.
+    pub material: Material,
+}
+
+/// The frames of an animation: moments between which robots have time to move. `name` is that of the series; `recipe` has an
+/// animation as its content, whose moment does not count; `bytes` are the file.
+///
+/// # Errors
+/// Files that are no animation, and pictures on which so many robots find no room.
+pub fn film(
+    name: &str,
+    bytes: &[u8],
+    recipe: &Recipe,
+    floor: &PictureFloor,
+    robots: usize,
+) -> Result<Film, DrawError> {
+    let Content::Animation { picture, .. } = recipe.content else {
+        return Err(DrawError::new("animation-single", "only an animation becomes a film"));
+    };
+    let mut recipe = recipe.clone();
+    recipe.placing.style = style_of(recipe.placing.style, &recipe.content);
+    let animation = animation::read(bytes, &picture)?;
+    let view = view_of(&animation);
+    let places = places(&animation, &recipe.place_settings(robots), view, floor)?;
+    let cost_s = |from: usize, to: usize| {
+        let moves = places[from].iter().zip(&places[to]).map(|(a, b)| a.distance(*b));
+        moves.fold(0.0, f64::max) / Limits::default().speed_mps + MOVE_S
+    };
+    let keys = key_moments(&animation.times_s(), REACH, |a, b| animation.change(a, b), cost_s)
+        .ok_or_else(|| DrawError::new("animation-empty", "the animation has no pictures"))?;
+    let mut frames = Vec::new();
+    for (nth, moment) in keys.moments.iter().enumerate() {
+        let next = keys.moments.get(nth + 1);
+        let drive_s = next.map_or(0.0, |next| cost_s(*moment, *next));
+        let lasts_s = (end_s(&animation, next) - animation.frames[*moment].at_s) * keys.slowdown;
+        let content = Content::Animation { picture, moment_s: animation.frames[*moment].at_s };
+        let mut source = Recipe { content, ..recipe.clone() }.source();
+        source.series = Some(name.to_owned());
+        let made = Made { drawing: animation.frames[*moment].drawing.clone(), notes: Vec::new() };
+        frames.push(FilmFrame {
+            frame: Frame {
+                name: format!("{name} {}", nth + 1),
+                // A moment stays for what the move to the next one leaves of its time.
+                air_time_s: ((lasts_s - drive_s).max(0.0) * 100.0).round() / 100.0,
+                sources: vec![source],
+                ..Frame::default()
+            },
+            material: Material::Drawing { made, view },
+        });
+    }
+    let notes = notes(animation.notes, keys.slowdown);
+    Ok(Film { frames, slowdown: keys.slowdown, notes })
+}
+
+/// When the picture before a key frame ends, seconds from the start; `None`: when the animation ends.
+fn end_s(animation: &Animation, next: Option<&usize>) -> f64 {
+    let end_s = animation.frames.last().map_or(0.0, |frame| frame.at_s + frame.lasts_s);
+    next.map_or(end_s, |next| animation.frames[*next].at_s)
+}
+
+fn notes(mut notes: Vec<Note>, slowdown: f64) -> Vec<Note> {
+    if slowdown > 1.0 {
+        let what =
+            format!("the animation plays {slowdown:.1} times slower, so that robots have time to move");
+        notes.push(Note::new("animation-slower", what));
+    }
+    notes
+}
+
+/// Places of the robots in each picture, each made from the one before it: the same number is the same robot.
+fn places(
+    animation: &Animation,
+    usual: &PlaceSettings,
+    view: Option<(Vec2, Vec2)>,
+    floor: &PictureFloor,
+) -> Result<Vec<Vec<Vec2>>, DrawError> {
+    let mut all: Vec<Vec<Vec2>> = Vec::new();
+    for frame in &animation.frames {
+        let start = all.last().cloned().unwrap_or_default();
+        let settings = PlaceSettings { view, start, quality: Quality::Quick, ..usual.clone() };
+        let placed = place(&frame.drawing, floor, &settings)?;
+        all.push(placed.lights.iter().map(|light| light.at).collect());
+    }
+    Ok(all)
+}
+
+#[cfg(test)]
+mod tests {
+    use gif::{Encoder, Frame as Still};
+    use lightbots_draw::picture::PictureSettings;
+
+    use super::*;
+    use lightbots_draw::Style;
+
+    /// A GIF of a white square that goes to the right on black, `delay` hundredths of a second for each of four pictures.
+    fn gif(delay: u16) -> Vec<u8> {
+        let mut bytes = Vec::new();
+        let mut encoder = Encoder::new(&mut bytes, 40, 40, &[0, 0, 0, 255, 255, 255]).unwrap();
+        for left in [0, 10, 20, 30] {
+            let lit = |n: u16| (left..left + 10).contains(&(n % 40)) && (10..30).contains(&(n / 40));
+            let buffer: Vec<u8> = (0..1600).map(|n| u8::from(lit(n))).collect();
+            let still = Still { width: 40, height: 40, delay, buffer: buffer.into(), ..Still::default() };
+            encoder.write_frame(&still).unwrap();
+        }
+        drop(encoder);
+        bytes
+    }
+
+    fn made(bytes: &[u8]) -> Result<Film, DrawError> {
+        let content = Content::Animation { picture: PictureSettings::default(), moment_s: 0.0 };
+        film("walk", bytes, &Recipe::new(content), &PictureFloor::new(3.0, 3.0, 0.05), 12)
+    }
+
+    #[test]
+    fn an_animation_becomes_frames_with_moments_and_time_to_move() {
+        let slow = made(&gif(300)).unwrap();
+        assert!(slow.frames.len() > 1 && slow.slowdown == 1.0, "{slow:?}");
+        let moments: Vec<f64> =
+            slow.frames.iter().map(|one| one.frame.sources[0].moment_s.unwrap()).collect();
+        assert!(moments[0] == 0.0 && moments.windows(2).all(|pair| pair[0] < pair[1]), "{moments:?}");
+        assert_eq!(slow.frames[1].frame.name, "walk 2");
+        let source = &slow.frames[1].frame.sources[0];
+        assert_eq!(source.series.as_deref(), Some("walk"));
+        assert_eq!(Recipe::read(source).unwrap().placing.style, Style::Filled);
+        assert!(slow.frames.iter().any(|one| one.frame.air_time_s > 0.0));
+    }
+
+    #[test]
+    fn an_animation_that_is_too_fast_is_slowed_down_and_says_so() {
+        let fast = made(&gif(5)).unwrap();
+        assert!(fast.slowdown > 1.0);
+        assert_eq!(fast.notes.last().unwrap().code, "animation-slower");
+    }
+
+    #[test]
+    fn what_is_no_animation_is_refused() {
+        assert!(made(b"<svg/>").is_err());
+        let recipe = Recipe::new(Content::Svg);
+        let floor = PictureFloor::new(3.0, 3.0, 0.05);
+        assert_eq!(film("a", &gif(5), &recipe, &floor, 12).unwrap_err().code, "animation-single");
+    }
+}
