@@ -17,6 +17,54 @@ export function smallShow(count: number, air_s = 0.3): string {
   return JSON.stringify({ lightbots: 1, name: '', stage: { width_m: 3, depth_m: 3 }, frames });
 }
 
+/** Begins a show with nothing in it but the robots at the front edge. */
+export async function beginEmpty(page: Page): Promise<void> {
+  await button(page, 'New').click();
+  await page.getByTestId('stage').waitFor();
+}
+
+/** What is dropped or pasted: files by their names, or a text. */
+export interface Brought {
+  files?: Record<string, string | Uint8Array>;
+  text?: string;
+}
+
+/** A drag or paste of the page, with what it brings. */
+async function bring(page: Page, brought: Brought, act: 'drop' | 'dragenter' | 'paste') {
+  const files = Object.entries(brought.files ?? {}).map(([name, content]) => ({
+    name,
+    bytes: [...Buffer.from(content)],
+  }));
+  const data = await page.evaluateHandle(
+    ([all, text]) => {
+      const transfer = new DataTransfer();
+      const types: Record<string, string> = { svg: 'image/svg+xml', gif: 'image/gif' };
+      for (const { name, bytes } of all) {
+        const type = types[name.split('.').pop() ?? ''] ?? '';
+        transfer.items.add(new File([new Uint8Array(bytes)], name, { type }));
+      }
+      if (text !== null) transfer.setData('text/plain', text);
+      return transfer;
+    },
+    [files, brought.text ?? null] as const,
+  );
+  if (act === 'paste')
+    await page.evaluate((transfer) => {
+      const init = { clipboardData: transfer, bubbles: true, cancelable: true };
+      (document.activeElement ?? document.body).dispatchEvent(new ClipboardEvent('paste', init));
+    }, data);
+  else await page.dispatchEvent('body', act, { dataTransfer: data });
+}
+
+/** Drops files or a text on the page. */
+export const drop = (page: Page, brought: Brought) => bring(page, brought, 'drop');
+
+/** Holds files or a text over the page. */
+export const hold = (page: Page, brought: Brought) => bring(page, brought, 'dragenter');
+
+/** Pastes files or a text where the focus is. */
+export const paste = (page: Page, brought: Brought) => bring(page, brought, 'paste');
+
 /** Drops a file on the page; if it is good, waits until it is open. */
 export async function uploadText(
   page: Page,
@@ -184,7 +232,7 @@ export async function tabTo(page: Page, role: string, name: string) {
 
 /** Begins a show of 30 robots; answers its name in the library. */
 export async function beginShow(page: Page): Promise<string> {
-  await button(page, 'New').click();
+  await beginEmpty(page);
   await pixelsAre(page, 30);
   const title = page.getByTestId('open-library').getByText(/^Untitled/);
   await title.waitFor();

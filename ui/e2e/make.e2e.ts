@@ -79,7 +79,7 @@ test('too few robots are told how many would do; what cannot be made says why', 
   await verdict(page)
     .getByText(/Hard to read: \d+ robots would do/)
     .waitFor();
-  await page.getByText('File', { exact: true }).click();
+  await page.getByText('Files', { exact: true }).click();
   const drawing = (name: string, text: string) => ({
     name,
     mimeType: 'image/svg+xml',

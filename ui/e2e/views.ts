@@ -1,6 +1,16 @@
 import type { Page } from 'playwright-core';
 import { eventually, startRobots, type Server } from './harness';
-import { button, countIs, openShow, phaseIs, pixelsAre, smallShow, uploadText } from './journeys';
+import {
+  beginEmpty,
+  button,
+  countIs,
+  hold,
+  openShow,
+  phaseIs,
+  pixelsAre,
+  smallShow,
+  uploadText,
+} from './journeys';
 
 /** A state of the screen that is looked at: by people in pictures, by axe in tests. */
 export interface View {
@@ -219,6 +229,23 @@ const editViews: View[] = [
     },
   },
   {
+    name: 'edit-drop',
+    async show(page) {
+      await hold(page, { files: { 'cat.svg': '<svg/>' } });
+      await page.getByTestId('veil').waitFor();
+    },
+    async leave(page) {
+      await page.dispatchEvent('body', 'dragleave', {
+        dataTransfer: await page.evaluateHandle(() => {
+          const transfer = new DataTransfer();
+          transfer.items.add(new File([], 'cat.svg'));
+          return transfer;
+        }),
+      });
+      await page.getByTestId('veil').waitFor({ state: 'detached' });
+    },
+  },
+  {
     name: 'edit-make-shape',
     async show(page) {
       await page.getByText('Shape', { exact: true }).click();
@@ -284,7 +311,7 @@ export const FIRST_VIEWS: readonly View[] = [
   {
     name: 'edit-tour',
     async show(page) {
-      await button(page, 'New').click();
+      await beginEmpty(page);
       await page.getByRole('region', { name: 'First steps' }).waitFor();
     },
   },

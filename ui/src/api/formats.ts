@@ -6,12 +6,13 @@ export type Format = (typeof FORMATS)[number];
 /** Our own format, which the screen writes without the server. */
 export const OWN_FORMAT: Format = FORMATS[0];
 
-const endings = FORMATS.flatMap((format) => [...format.endings]);
+/** The endings of every format, in lower case. */
+export const ENDINGS: readonly string[] = FORMATS.flatMap((format) => [...format.endings]);
 
 /** What a file dialog offers: the last extension of every ending, because dialogs know no longer ones, and media types. */
 export const ACCEPTED = [
   ...new Set([
-    ...endings.map((ending) => ending.slice(ending.lastIndexOf('.'))),
+    ...ENDINGS.map((ending) => ending.slice(ending.lastIndexOf('.'))),
     ...FORMATS.map((format) => format.mediaType),
   ]),
 ].join(',');
@@ -22,7 +23,7 @@ export const ENDINGS_IN_WORDS = FORMATS.map((format) => format.endings[0]).join(
 /** A file's name without the ending of its format. */
 export function stem(file: string): string {
   const lower = file.toLowerCase();
-  const fitting = endings.filter((ending) => lower.endsWith(ending)).map((ending) => ending.length);
+  const fitting = ENDINGS.filter((ending) => lower.endsWith(ending)).map((ending) => ending.length);
   return file.slice(0, file.length - Math.max(0, ...fitting));
 }
 

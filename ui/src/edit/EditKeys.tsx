@@ -57,8 +57,6 @@ export function EditKeys() {
     ['mod+y', () => notifyDone(editor.redo(), 'Redone')],
     ['mod+a', () => acts.selectAll(editing)],
     ['mod+i', () => acts.invertSelection(editing)],
-    ['mod+c', () => void editor.copy()],
-    ['mod+v', () => void editor.paste()],
     ['mod+d', () => acts.duplicateFrames(editing)],
     ['mod+Enter', () => acts.addFrame(editing)],
     ['mod+Delete', () => acts.deleteFrames(editing)],

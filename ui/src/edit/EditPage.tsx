@@ -14,6 +14,7 @@ import { EditStrip } from './EditStrip';
 import { Inspector } from './Inspector';
 import { MakePanel } from './MakePanel';
 import { ReadOnlyPage } from './ReadOnlyPage';
+import { Taking } from './Taking';
 import { Tour } from './Tour';
 import styles from '../parts/page.module.css';
 
@@ -62,6 +63,7 @@ export function EditPage() {
         </Bottom>
         <Side />
         <EditKeys />
+        <Taking />
         <ConflictDialog />
         <Tour />
       </main>

@@ -2,6 +2,7 @@ import { useEffect, useMemo } from 'react';
 import { useStore } from '../base/store';
 import type { Scene } from '../stage/scene';
 import { StageCanvas } from '../stage/StageCanvas';
+import { pictureShown } from '../make/making';
 import { useEditing } from './context';
 import type { Editing } from './editing';
 import { PixelTwin } from './PixelTwin';
@@ -29,7 +30,7 @@ function rememberScene(editing: Editing): () => Scene {
       editing.preview.time_s.get(),
     ];
     const making = editing.making.get();
-    const shown = making?.made.get().shown;
+    const shown = making && pictureShown(making);
     const now = [
       state,
       making?.draft.get(),

@@ -1,59 +1,50 @@
 import { Button, FileButton, Text } from '@mantine/core';
-import { useState, type DragEvent } from 'react';
+import { countText } from '../base/numbers';
 import { useStore } from '../base/store';
 import type { Making } from '../make/making';
+import { useSession } from '../session/session';
 import { useEditing } from './context';
-import { takeFile } from './makes';
+import { PictureField } from './PictureField';
+import { takeFiles } from './taking';
 import styles from './Make.module.css';
 
-/** A file to make the frame from: chosen, or dropped here. */
+const ACCEPTED =
+  '.svg,.png,.jpg,.jpeg,.webp,.gif,.csv,image/svg+xml,image/png,image/jpeg,image/webp,image/gif,text/csv';
+
+/** Files to make frames from. They can also be dropped anywhere on the page. */
 export function FileFields({ making }: { making: Making }) {
+  const session = useSession();
   const editing = useEditing();
-  const file = useStore(making.draft, (draft) => draft.file);
-  const [problem, setProblem] = useState<string | null>(null);
-  const [over, setOver] = useState(false);
-  const take = async (chosen: File | null | undefined) => {
-    if (chosen) setProblem(await takeFile(editing, making, chosen));
-  };
-  const hover = (isOver: boolean) => (event: DragEvent) => {
-    event.preventDefault();
-    setOver(isOver);
-  };
+  const files = useStore(making.draft, (draft) => draft.files);
+  const [first] = files;
   return (
-    <div
-      className={styles.drop}
-      data-over={over || undefined}
-      onDragOver={hover(true)}
-      onDragLeave={hover(false)}
-      onDrop={(event) => {
-        hover(false)(event);
-        // The page would open the file as a show.
-        event.stopPropagation();
-        void take(event.dataTransfer.files[0]);
-      }}
-    >
-      <Text size="sm" fw={file ? 600 : undefined}>
-        {file ? file.name : 'Drop a file here'}
-      </Text>
-      <FileButton
-        accept=".svg,.png,.jpg,.jpeg,.webp,.csv,image/svg+xml,image/png,image/jpeg,image/webp,text/csv"
-        onChange={(chosen) => void take(chosen)}
-        inputProps={{ 'aria-label': 'File' }}
-      >
-        {(props) => (
-          <Button size="xs" variant="default" {...props}>
-            {file ? 'Choose another file…' : 'Choose a file…'}
-          </Button>
-        )}
-      </FileButton>
-      <Text size="xs" c="dimmed">
-        An SVG drawing, a picture (PNG, JPEG, WebP), or a list of places and colours (CSV)
-      </Text>
-      {problem === null ? null : (
-        <Text size="xs" role="alert">
-          {problem}
+    <>
+      <div className={styles.drop}>
+        <Text size="sm" fw={first ? 600 : undefined}>
+          {files.length > 1
+            ? countText(files.length, 'file')
+            : (first?.name ?? 'Drop files anywhere')}
         </Text>
-      )}
-    </div>
+        <FileButton
+          multiple
+          accept={ACCEPTED}
+          onChange={(chosen) => {
+            if (chosen.length > 0) void takeFiles(session, editing, chosen);
+          }}
+          inputProps={{ 'aria-label': 'Files' }}
+        >
+          {(props) => (
+            <Button size="xs" variant="default" {...props}>
+              {first ? 'Choose others…' : 'Choose files…'}
+            </Button>
+          )}
+        </FileButton>
+        <Text size="xs" c="dimmed">
+          An SVG drawing, a picture, an animation (GIF, WebP), or a list of places and colours
+          (CSV). Several files make a frame each.
+        </Text>
+      </div>
+      <PictureField making={making} />
+    </>
   );
 }

@@ -19,7 +19,7 @@ import styles from './Make.module.css';
 const TABS: { value: Tab; label: string }[] = [
   { value: 'text', label: 'Words' },
   { value: 'shape', label: 'Shape' },
-  { value: 'file', label: 'File' },
+  { value: 'file', label: 'Files' },
 ];
 
 /** Makes the frame on the stage from words, a shape or a file. The stage shows what the settings give. */
@@ -28,6 +28,7 @@ export function MakePanel({ making }: { making: Making }) {
   const { editor } = editing;
   const tab = useStore(making.draft, (draft) => draft.tab);
   const canUse = useStore(making.made, ({ answer }) => answer !== null && answer.error === null);
+  const count = useStore(making.made, ({ answer }) => answer?.pictures.length ?? 1);
   const choices = useChoices(making);
   const close = () => closeMaking(editing);
   const form = useFocus();
@@ -90,7 +91,7 @@ export function MakePanel({ making }: { making: Making }) {
               Cancel
             </Button>
             <Button type="submit" disabled={!canUse}>
-              Use
+              {count > 1 ? `Use ${count} frames` : 'Use'}
             </Button>
           </Group>
         </div>

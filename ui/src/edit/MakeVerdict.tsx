@@ -1,8 +1,8 @@
 import { IconAlertTriangle, IconCircleCheck, IconInfoCircle } from '@tabler/icons-react';
-import type { MakeAnswer } from '../api/types.gen';
 import { useStore } from '../base/store';
 import { lengthText, type Unit } from '../base/units';
 import { drawnKind } from '../make/drawnLine';
+import type { Pictures } from '../make/pictures';
 import { verdictOf } from '../make/verdict';
 import type { Making } from '../make/making';
 import { useUnit } from '../session/preferences';
@@ -37,9 +37,7 @@ export function MakeVerdict({ making }: { making: Making }) {
       <div>
         {text}
         {told && told.error === null ? <small>{figures(told, unit)}</small> : null}
-        {told?.notes.map((note) => (
-          <small key={note.message}>{note.message}</small>
-        ))}
+        {told ? notesOf(told).map((note) => <small key={note}>{note}</small>) : null}
       </div>
     </div>
   );
@@ -54,7 +52,16 @@ const START = {
 
 const DRAW = { tone: 'none', text: 'Draw on the floor, and the robots show the line.' } as const;
 
-function figures(answer: MakeAnswer, unit: Unit): string {
-  const gap = answer.closest_m === null ? '' : ` · ${lengthText(answer.closest_m, unit)} apart`;
-  return `${answer.pixels.length} robots · ${lengthText(answer.size_m, unit)} wide${gap}`;
+/** Notes about the whole, and those of the pictures without repetition; a few, because a long animation may have dozens. */
+const notesOf = ({ notes, pictures }: Pictures): string[] =>
+  [
+    ...new Set([...notes, ...pictures.flatMap((p) => p.answer.notes)].map((note) => note.message)),
+  ].slice(0, 4);
+
+function figures({ pictures }: Pictures, unit: Unit): string {
+  const answers = pictures.map((picture) => picture.answer);
+  const size_m = Math.max(...answers.map((answer) => answer.size_m));
+  const gaps = answers.flatMap(({ closest_m }) => (closest_m === null ? [] : [closest_m]));
+  const gap = gaps.length === 0 ? '' : ` · ${lengthText(Math.min(...gaps), unit)} apart`;
+  return `${answers[0]?.pixels.length ?? 0} robots · ${lengthText(size_m, unit)} wide${gap}`;
 }

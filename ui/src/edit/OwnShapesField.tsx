@@ -1,7 +1,7 @@
 import { Button, CloseButton, Group, Stack, Text, TextInput } from '@mantine/core';
 import { useState } from 'react';
 import { useStore } from '../base/store';
-import { draftOf, sourceOf } from '../make/draft';
+import { draftOf, sourcesOf } from '../make/draft';
 import type { Making } from '../make/making';
 import { createOwnShapes } from '../make/ownShapes';
 import { IDLE_PEN } from '../make/penState';
@@ -24,7 +24,7 @@ const NAME_MAX = 60;
 /** Own shapes: a click makes the frame from one, a name keeps what is made now. */
 export function OwnShapesField({ making }: { making: Making }) {
   const list = useStore(shapes.list);
-  const source = sourceOf(useStore(making.draft));
+  const source = sourcesOf(useStore(making.draft))[0] ?? null;
   const [name, setName] = useState('');
   const [problem, setProblem] = useState<string | null>(null);
   const wanted = name.trim();

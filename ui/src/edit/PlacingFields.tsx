@@ -20,22 +20,22 @@ const LABELS: Record<Style, string> = {
 /** Shapes that are lines or dots, which have no inside. */
 const WITHOUT_INSIDE = [...DRAWN, 'rings', 'spiral', 'arc', 'wave', 'grid', 'hexagons', 'random'];
 
-const hasInside = ({ tab, shape, file }: Draft) =>
+const hasInside = ({ tab, shape, files }: Draft) =>
   tab === 'text' ||
   (tab === 'shape' && !WITHOUT_INSIDE.some((known) => known === shape)) ||
-  (tab === 'file' && file?.kind === 'svg');
+  (tab === 'file' && files.some(({ kind }) => kind === 'svg'));
 
 /** Style, size and turn of what is made. */
 export function PlacingFields({ making }: { making: Making }) {
   const draft = useStore(making.draft);
-  const made_m = useStore(making.made, (made) => made.shown?.size_m ?? null);
+  const made_m = useStore(making.made, (made) => made.shown?.pictures[0]?.answer.size_m ?? null);
   const moved = useStore(making.moved, (ids) => ids.length);
   const side_m = useEditor((s) => Math.min(s.show.stage.width_m, s.show.stage.depth_m));
   const unit = useUnit();
   const degrees = Math.round((draft.turn * 180) / Math.PI);
   const center = draft.center ?? { x: 0, y: 0 };
   const size_m = draft.size_m ?? made_m;
-  if (draft.tab === 'file' && !draft.file) return null;
+  if (draft.tab === 'file' && draft.files.length === 0) return null;
   return (
     <Stack gap="sm">
       {hasInside(draft) ? (

@@ -16,7 +16,12 @@ export interface Draft {
   points: readonly Point[];
   /** Whether the last point of such a line is joined to the first. */
   closed: boolean;
-  file: DraftFile | null;
+  /** A font of one's own for words; null: `font`. */
+  ownFont: DraftFont | null;
+  /** The files of the frames: one, or several of which each makes a frame. */
+  files: readonly DraftFile[];
+  /** The moment of the animation that a single frame shows, seconds; null: the whole animation becomes frames. */
+  moment_s: number | null;
   color: Rgb;
   style: Style;
   /** Longer side of the picture, metres; null: chosen by floor and fleet. */
@@ -45,7 +50,20 @@ export interface DraftFile {
   kind: FileSource;
 }
 
-export type FileSource = Extract<SourceKind, 'svg' | 'picture' | 'list'>;
+/** The file of a font. */
+export interface DraftFont {
+  hash: string;
+  /** Name for people. */
+  name: string;
+}
+
+export type FileSource = Extract<SourceKind, 'svg' | 'picture' | 'list' | 'animation'>;
+
+export const FILE_SOURCES: readonly FileSource[] = ['svg', 'picture', 'list', 'animation'];
+
+/** Whether an animation becomes frames that are not known before it is read. */
+export const isFilm = (draft: Draft) =>
+  draft.tab === 'file' && draft.files[0]?.kind === 'animation' && draft.moment_s === null;
 
 /** The colour of a warm lamp, as the module takes it where a source names none. */
 export const USUAL_COLOR: Rgb = 0xffa500;
@@ -58,7 +76,9 @@ export const newDraft = (tab: Tab): Draft => ({
   shapeNumbers: {},
   points: [],
   closed: false,
-  file: null,
+  ownFont: null,
+  files: [],
+  moment_s: null,
   color: USUAL_COLOR,
   style: 'auto',
   size_m: null,
@@ -86,9 +106,6 @@ const NUMBERS: readonly ShapeNumber[] = ['aspect', 'count', 'turns', 'inner', 's
 const tabOf = (kind: SourceKind): Tab =>
   kind === 'text' ? 'text' : kind === 'shape' ? 'shape' : 'file';
 
-/** Whether the panel can show and change a source. */
-export const isKnown = (source: FrameSource) => source.kind !== 'animation';
-
 /** The draft that a source is. `fileName`: the name of its file for people. */
 export function draftOf(source: FrameSource, fileName = 'File'): Draft {
   const { settings } = source;
@@ -114,10 +131,13 @@ export function draftOf(source: FrameSource, fileName = 'File'): Draft {
       return { x, y };
     }),
     closed: settings.closed === true,
-    file:
+    ownFont:
+      usual.tab === 'text' && source.asset !== null ? { hash: source.asset, name: fileName } : null,
+    files:
       usual.tab === 'file' && source.asset !== null
-        ? { hash: source.asset, name: fileName, kind }
-        : null,
+        ? [{ hash: source.asset, name: fileName, kind }]
+        : [],
+    moment_s: source.moment_s,
     color: colorOf(settings.colors ?? settings.color) ?? usual.color,
     style: style ?? 'auto',
     size_m: number('size_m') ?? side,
@@ -144,14 +164,21 @@ const colorOf = (value: unknown): Rgb | undefined => {
   return typeof first === 'string' ? fromHex(first) : undefined;
 };
 
-/** The source that a draft is; null: something is missing, such as the text. */
-export function sourceOf(draft: Draft): FrameSource | null {
-  if (draft.tab === 'text' && draft.text.trim() === '') return null;
-  if (draft.tab === 'file' && draft.file === null) return null;
+/** The sources that a draft is, one for each frame; none: something is missing, such as the text. */
+export function sourcesOf(draft: Draft): FrameSource[] {
+  if (draft.tab === 'file') {
+    const series = draft.files.length > 1 ? (draft.files[0]?.name ?? null) : null;
+    return draft.files.map((file) => ({ ...sourceOf(draft, file), series }));
+  }
+  if (draft.tab === 'text' && draft.text.trim() === '') return [];
   const isDrawn = drawnKind(draft) !== null;
   // A line without points goes from left to right; the others have none.
-  if (isDrawn && draft.points.length < 2 && (draft.shape !== 'line' || draft.points.length > 0))
-    return null;
+  const isBegun = draft.points.length >= 2 || (draft.shape === 'line' && draft.points.length === 0);
+  return isDrawn && !isBegun ? [] : [sourceOf(draft, null)];
+}
+
+function sourceOf(draft: Draft, file: DraftFile | null): FrameSource {
+  const isDrawn = drawnKind(draft) !== null;
   const color = draft.color === USUAL_COLOR ? null : toHex(draft.color);
   const own = {
     text: { text: draft.text, font: draft.font, ...(color === null ? {} : { colors: [color] }) },
@@ -167,13 +194,13 @@ export function sourceOf(draft: Draft): FrameSource | null {
     file: {},
   }[draft.tab];
   return {
-    kind: draft.tab === 'file' ? (draft.file?.kind ?? 'svg') : draft.tab,
-    asset: draft.tab === 'file' ? (draft.file?.hash ?? null) : null,
+    kind: draft.tab === 'file' ? (file?.kind ?? 'svg') : draft.tab,
+    asset: (draft.tab === 'text' ? draft.ownFont : file)?.hash ?? null,
     seed: draft.seed,
     box: null,
     moved: [],
     series: null,
-    moment_s: null,
+    moment_s: file?.kind === 'animation' ? draft.moment_s : null,
     settings: {
       ...draft.kept,
       ...own,

@@ -1,5 +1,5 @@
 import { expect, test } from 'vitest';
-import { newDraft, draftOf, sourceOf } from './draft';
+import { newDraft, draftOf, sourcesOf, type Draft } from './draft';
 import {
   insertPoint,
   lineThrough,
@@ -10,6 +10,8 @@ import {
   simplified,
   withPoint,
 } from './drawnLine';
+
+const sourceOf = (draft: Draft) => sourcesOf(draft)[0] ?? null;
 
 const floor = { width_m: 3, depth_m: 2, radius_m: 0.027 };
 const zigzag = [

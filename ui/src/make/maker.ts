@@ -1,4 +1,11 @@
-import type { MakeAnswer, MakeChoices, MakeFile, MakeRequest } from '../api/types.gen';
+import type {
+  FilmAnswer,
+  FitAnswer,
+  MakeAnswer,
+  MakeChoices,
+  MakeFile,
+  MakeRequest,
+} from '../api/types.gen';
 import type { Ask, Cause, Reply } from './protocol';
 
 /** What a maker needs of a worker. */
@@ -16,6 +23,10 @@ export interface Maker {
    * newer one replaced.
    */
   make(request: MakeRequest, asset: Uint8Array | null): Promise<MakeAnswer | null>;
+  /** Makes the frames of an animation, as `make` does one frame. */
+  film(request: MakeRequest, bytes: Uint8Array): Promise<FilmAnswer | null>;
+  /** Fits a show, the bytes of a file, to another number of robots. */
+  fit(show: Uint8Array, robots: number): Promise<FitAnswer>;
   /** What settings may name. */
   list(): Promise<MakeChoices>;
   /** What a file is. */
@@ -26,6 +37,9 @@ export interface Maker {
 
 /** A frame that takes longer is given up, milliseconds: such a file is hostile, or far too fine for robots. */
 export const MAKE_MAX_MS = 10_000;
+
+/** An animation or a whole show that takes longer is given up, milliseconds: it has many frames. */
+export const MAKE_ALL_MAX_MS = 60_000;
 
 /** A newer wish lets the frame in work finish for this long, milliseconds; starting a worker anew takes as long. */
 export const GRACE_MS = 300;
@@ -40,7 +54,7 @@ const WORDS: Record<Cause, string> = {
   unloaded:
     'The part of the page that makes frames did not load. Reload the page, or use a newer browser.',
   broken: 'This cannot be made. Undo the last change of its settings, or use another file.',
-  'too-slow': 'This takes longer than ten seconds. Use a simpler drawing or fewer robots.',
+  'too-slow': 'This takes too long. Use a simpler drawing, a shorter animation or fewer robots.',
 };
 
 export function createMaker(start: () => WorkerLike): Maker {
@@ -77,15 +91,16 @@ export function createMaker(start: () => WorkerLike): Maker {
       mine.onmessage = ({ data }) => worker === mine && finish(data);
       mine.onerror = () => worker === mine && finish(fail('broken'));
     }
-    giveUpIn(MAKE_MAX_MS, fail('too-slow'));
+    const isLong = running.ask.do === 'film' || running.ask.do === 'fit';
+    giveUpIn(isLong ? MAKE_ALL_MAX_MS : MAKE_MAX_MS, fail('too-slow'));
     worker.postMessage(running.ask);
   };
   const add = (ask: Ask) =>
     new Promise<Reply | null>((done) => {
-      if (ask.do === 'make') {
-        queue.filter((job) => job.ask.do === 'make').forEach((job) => job.done(null));
-        queue = queue.filter((job) => job.ask.do !== 'make');
-        if (running?.ask.do === 'make') giveUpIn(GRACE_MS, null);
+      if (isPicture(ask)) {
+        queue.filter((job) => isPicture(job.ask)).forEach((job) => job.done(null));
+        queue = queue.filter((job) => !isPicture(job.ask));
+        if (running && isPicture(running.ask)) giveUpIn(GRACE_MS, null);
       }
       queue.push({ ask, done });
       if (!running) next();
@@ -101,6 +116,14 @@ export function createMaker(start: () => WorkerLike): Maker {
       if (got === null) return null;
       return got.of === 'make' ? got.answer : withoutPixels(causeOf(got));
     },
+    async film(request, bytes) {
+      const got = await add({ do: 'film', request, bytes });
+      if (got === null) return null;
+      if (got.of === 'film') return got.answer;
+      const code = causeOf(got);
+      return { frames: [], slowdown: 1, notes: [], error: { code, message: WORDS[code] } };
+    },
+    fit: async (show, robots) => (await wanted({ do: 'fit', show, robots }, 'fit')).answer,
     list: async () => (await wanted({ do: 'list' }, 'list')).choices,
     look: async (bytes) => (await wanted({ do: 'look', bytes }, 'look')).file,
     end() {
@@ -112,6 +135,9 @@ export function createMaker(start: () => WorkerLike): Maker {
     },
   };
 }
+
+/** Whether a newer wish replaces it. */
+const isPicture = (ask: Ask) => ask.do === 'make' || ask.do === 'film';
 
 const causeOf = (got: Reply | null): Cause => (got?.of === 'failure' ? got.cause : 'broken');
 

@@ -3,13 +3,13 @@ import type { Box } from '../base/geometry';
 import { createStore, type Readable, type Store } from '../base/store';
 import type { Frame, Show } from '../model/show';
 import type { FrameSource } from '../model/sources';
-import { sourceOf, type Draft } from './draft';
-import { requestOf } from './frame';
+import { sourcesOf, type Draft } from './draft';
 import type { Maker } from './maker';
 import { IDLE_PEN, type Pen } from './penState';
 import { lightsBox } from './picture';
+import { makePictures, type Picture, type Pictures } from './pictures';
 
-/** A frame that is being made: its settings, and the newest answer to them. */
+/** A frame that is being made, or several: the settings, and the newest answer to them. */
 export interface Making {
   /** Key of the frame. */
   readonly frame: number;
@@ -20,11 +20,13 @@ export interface Making {
   made: Readable<Made>;
   /** The pen for a line that is drawn on the floor. */
   pen: Store<Pen>;
+  /** Index of the picture on the stage, where the settings give several. */
+  at: Store<number>;
   change(fields: Partial<Draft>): void;
   /** Places the moved pixels anew as well. */
   forgetMoved(): void;
   /** The full result for the settings as they are; null: there is none. */
-  complete(): Promise<Complete | null>;
+  complete(): Promise<readonly Picture[] | null>;
   /** Takes no more answers. */
   end(): void;
 }
@@ -32,18 +34,13 @@ export interface Making {
 /** What is known about the settings. */
 export interface Made {
   /** The newest answer with pixels, shown while the next one is made; null: none yet. */
-  shown: MakeAnswer | null;
+  shown: Pictures | null;
   /** The answer to the settings as they are; null: none yet, or there is nothing to make. */
-  answer: MakeAnswer | null;
+  answer: Pictures | null;
   /** Whether `answer` is the full result. */
   isFull: boolean;
   /** The box around the lights of `shown`, along the picture's axes, in shares of its longer side; null: no lights. */
   box: Box | null;
-}
-
-export interface Complete {
-  source: FrameSource;
-  answer: MakeAnswer;
 }
 
 /** What a making is about. */
@@ -62,6 +59,14 @@ export const REST_MS = 250;
 
 const NOTHING: Made = { shown: null, answer: null, isFull: false, box: null };
 
+/** What the stage shows of a making; null: nothing yet. */
+export const pictureShown = (making: Making): MakeAnswer | null => {
+  const pictures = making.made.get().shown?.pictures ?? [];
+  return pictures[Math.min(making.at.get(), pictures.length - 1)]?.answer ?? null;
+};
+
+const answersOf = ({ pictures }: Pictures) => pictures.map((picture) => picture.answer);
+
 export function createMaking(maker: Maker, of: MakingOf): Making {
   const draft: Store<Draft> = createStore(of.draft);
   const moved = createStore(of.moved);
@@ -70,42 +75,34 @@ export function createMaking(maker: Maker, of: MakingOf): Making {
   let version = 0;
   let timer: ReturnType<typeof setTimeout> | undefined;
 
-  const source = (): FrameSource | null => {
-    const found = sourceOf(draft.get());
-    return found && { ...found, moved: moved.get() };
+  const sources = (): FrameSource[] => {
+    const found = sourcesOf(draft.get());
+    return found.length === 1 ? found.map((one) => ({ ...one, moved: moved.get() })) : found;
   };
   /** Makes the settings as they are; null: they changed meanwhile. */
-  const make = async (wanted: FrameSource, quality: MakeQuality): Promise<MakeAnswer | null> => {
+  const make = async (quality: MakeQuality): Promise<Pictures | null> => {
     const asked = version;
-    const answer = await answerOf(wanted, quality);
+    const wish = { ...of, draft: draft.get(), sources: sources(), quality };
+    const answer = await makePictures(maker, wish, () => asked === version);
     if (answer === null || asked !== version) return null;
     const shown = answer.error === null ? answer : made.get().shown;
     const box =
-      answer.error === null ? lightsBox(answer, draft.get(), moved.get()) : made.get().box;
+      answer.error === null
+        ? lightsBox(answersOf(answer), draft.get(), moved.get())
+        : made.get().box;
     made.set({ shown, answer, box, isFull: quality === 'full' || answer.error !== null });
     return answer;
-  };
-  const answerOf = async (wanted: FrameSource, quality: MakeQuality) => {
-    const request = requestOf(of.show, of.frame, wanted, of.robots, quality);
-    try {
-      const asset = wanted.asset === null ? null : await of.fileOf(wanted.asset);
-      return await maker.make(request, asset);
-    } catch (error) {
-      return failed(error instanceof Error ? error.message : String(error));
-    }
   };
   const begin = () => {
     version++;
     clearTimeout(timer);
-    const wanted = source();
-    if (!wanted) {
+    if (sources().length === 0) {
       made.set(NOTHING);
       return;
     }
     made.update((now) => ({ ...now, answer: null, isFull: false }));
-    void make(wanted, 'quick').then((answer) => {
-      if (answer && answer.error === null)
-        timer = setTimeout(() => void make(wanted, 'full'), REST_MS);
+    void make('quick').then((answer) => {
+      if (answer && answer.error === null) timer = setTimeout(() => void make('full'), REST_MS);
     });
   };
   begin();
@@ -116,6 +113,7 @@ export function createMaking(maker: Maker, of: MakingOf): Making {
     moved,
     made,
     pen,
+    at: createStore(0),
     change(fields) {
       draft.update((now) => ({ ...now, ...fields }));
       begin();
@@ -126,11 +124,10 @@ export function createMaking(maker: Maker, of: MakingOf): Making {
     },
     async complete() {
       clearTimeout(timer);
-      const wanted = source();
-      if (!wanted) return null;
+      if (sources().length === 0) return null;
       const { answer: known, isFull } = made.get();
-      const answer = isFull ? known : await make(wanted, 'full');
-      return answer && answer.error === null ? { source: wanted, answer } : null;
+      const answer = isFull ? known : await make('full');
+      return answer && answer.error === null ? answer.pictures : null;
     },
     end() {
       version++;
@@ -138,13 +135,3 @@ export function createMaking(maker: Maker, of: MakingOf): Making {
     },
   };
 }
-
-const failed = (message: string): MakeAnswer => ({
-  pixels: [],
-  size_m: 0,
-  closest_m: null,
-  readability: null,
-  enough: null,
-  notes: [],
-  error: { code: 'no-answer', message },
-});

@@ -1,5 +1,5 @@
 import { expect, test } from 'vitest';
-import { newDraft, sourceOf } from './draft';
+import { newDraft, sourcesOf } from './draft';
 import { createOwnShapes, SHAPES_MAX, type ShapeStorage } from './ownShapes';
 
 function memory(first: string | null = null): ShapeStorage & { text: string | null } {
@@ -13,7 +13,7 @@ function memory(first: string | null = null): ShapeStorage & { text: string | nu
   return storage;
 }
 
-const star = sourceOf({ ...newDraft('shape'), shape: 'star', turn: 0.5 });
+const star = sourcesOf({ ...newDraft('shape'), shape: 'star', turn: 0.5 })[0] ?? null;
 if (!star) throw new Error('A star can be made.');
 
 test('shapes are kept by name, replaced, found by the next page, and removed', () => {

@@ -1,6 +1,7 @@
 import type { Point } from '../base/geometry';
 import { drawnKind, lineThrough, pointsOnStage, type DrawnKind, type PenFloor } from './drawnLine';
 import type { Making } from './making';
+import { sizeOf } from './pictures';
 
 /** The line that is being made, as the pen sees it; null: something else is made. */
 export interface PenLine {
@@ -20,7 +21,7 @@ export function penLine({
   const now = draft.get();
   const kind = drawnKind(now);
   if (kind === null) return null;
-  const points = pointsOnStage(now, made.get().shown?.size_m ?? null);
+  const points = pointsOnStage(now, sizeOf(made.get().shown));
   const { isAdding, point } = pen.get();
   const chosen = point !== null && point < points.length ? point : null;
   return { kind, points, closed: now.closed, isDrawing: isAdding || points.length < 2, chosen };

@@ -1,6 +1,6 @@
 import { expect, test } from 'vitest';
 import type { MakeAnswer } from '../api/types.gen';
-import { newDraft } from './draft';
+import { newDraft, sourcesOf } from './draft';
 import {
   cornerAt,
   lightsBox,
@@ -43,13 +43,19 @@ test('the box around the lights is found along the axes of the turned picture', 
     return [p.x, p.y];
   });
   const draft = { ...newDraft('shape'), center: picture.center, turn: TURN };
+  const [source] = sourcesOf(draft);
+  if (!source) throw new Error('no source');
   const made = answer([...places, [1.9, 1.4]], 1);
-  const box = lightsBox(made, draft, [3]);
+  const shown = {
+    pictures: [{ source, name: null, airTime_s: null, answer: made }],
+    ...{ slowdown: 1, notes: [], error: null },
+  };
+  const box = lightsBox([made], draft, [3]);
   for (const side of ['minX', 'maxX', 'minY', 'maxY'] as const)
     expect(box?.[side]).toBeCloseTo(picture.box[side], 9);
-  expect(pictureOf({ ...draft, size_m: 2 }, { shown: made, box })?.size_m).toBe(2);
-  expect(pictureOf(draft, { shown: made, box })?.size_m).toBe(1);
-  expect(lightsBox(answer([], 1), draft, [])).toBeNull();
+  expect(pictureOf({ ...draft, size_m: 2 }, { shown, box })?.size_m).toBe(2);
+  expect(pictureOf(draft, { shown, box })?.size_m).toBe(1);
+  expect(lightsBox([answer([], 1)], draft, [])).toBeNull();
 });
 
 test('a dragged corner keeps the opposite corner, or the middle, where it is', () => {

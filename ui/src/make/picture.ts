@@ -1,6 +1,7 @@
 import { type Box, type Point, boxOf, rotate } from '../base/geometry';
 import type { MakeAnswer } from '../api/types.gen';
 import type { Draft } from './draft';
+import { sizeOf, type Pictures } from './pictures';
 
 /** The box around a made picture, along the picture's own axes, which are turned with it. */
 export interface Picture {
@@ -21,28 +22,35 @@ export const SIZE_MIN_M = 0.1;
 const MIDDLE: Point = { x: 0, y: 0 };
 
 /**
- * The box around the lights of an answer to `draft`; null: there are no lights. `moved`: ids of pixels that do not belong to
- * it.
+ * The box around the lights of the answers to `draft`; null: there are no lights. `moved`: ids of pixels that do not belong
+ * to it.
  */
-export function lightsBox(answer: MakeAnswer, draft: Draft, moved: readonly number[]): Box | null {
-  if (!(answer.size_m > 0)) return null;
+export function lightsBox(
+  answers: readonly MakeAnswer[],
+  draft: Draft,
+  moved: readonly number[],
+): Box | null {
   const center = draft.center ?? MIDDLE;
   const kept = new Set(moved);
-  const places = answer.pixels
-    .filter((p) => p.part !== null && !kept.has(p.id))
-    .map(({ place: [x, y] }) => {
-      const p = rotate({ x, y }, center, -draft.turn);
-      return { x: (p.x - center.x) / answer.size_m, y: (p.y - center.y) / answer.size_m };
-    });
+  const places = answers
+    .filter(({ size_m }) => size_m > 0)
+    .flatMap(({ pixels, size_m }) =>
+      pixels
+        .filter((p) => p.part !== null && !kept.has(p.id))
+        .map(({ place: [x, y] }) => {
+          const p = rotate({ x, y }, center, -draft.turn);
+          return { x: (p.x - center.x) / size_m, y: (p.y - center.y) / size_m };
+        }),
+    );
   return places.length === 0 ? null : boxOf(places);
 }
 
 /** The picture that a draft is now, while the answer to it may still be on its way. */
 export function pictureOf(
   draft: Draft,
-  made: { shown: MakeAnswer | null; box: Box | null },
+  made: { shown: Pictures | null; box: Box | null },
 ): Picture | null {
-  const size_m = draft.size_m ?? made.shown?.size_m ?? 0;
+  const size_m = draft.size_m ?? sizeOf(made.shown) ?? 0;
   if (made.box === null || size_m <= 0) return null;
   return { center: draft.center ?? MIDDLE, turn: draft.turn, size_m, box: made.box };
 }

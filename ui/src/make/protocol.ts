@@ -1,14 +1,27 @@
-import type { MakeAnswer, MakeChoices, MakeFile, MakeRequest } from '../api/types.gen';
+import type {
+  FilmAnswer,
+  FitAnswer,
+  MakeAnswer,
+  MakeChoices,
+  MakeFile,
+  MakeRequest,
+} from '../api/types.gen';
 
 /** A message to the worker; it answers each in order. */
 export type Ask =
   | { do: 'make'; request: MakeRequest; asset: Uint8Array | null }
+  /** The frames of an animation. */
+  | { do: 'film'; request: MakeRequest; bytes: Uint8Array }
+  /** A show, the bytes of a file, for another number of robots. */
+  | { do: 'fit'; show: Uint8Array; robots: number }
   | { do: 'list' }
   | { do: 'look'; bytes: Uint8Array };
 
 /** A message from the worker. */
 export type Reply =
   | { of: 'make'; answer: MakeAnswer }
+  | { of: 'film'; answer: FilmAnswer }
+  | { of: 'fit'; answer: FitAnswer }
   | { of: 'list'; choices: MakeChoices }
   | { of: 'look'; file: MakeFile }
   /** The worker is of no more use. */
@@ -20,6 +33,8 @@ export type Cause = 'unloaded' | 'broken' | 'too-slow';
 /** The functions of the module, as `wasm-bindgen` writes them. */
 export interface Module {
   make(request: string, asset: Uint8Array): string;
+  film(request: string, bytes: Uint8Array): string;
+  fit(show: Uint8Array, robots: number): string;
   list(): string;
   look(bytes: Uint8Array): string;
 }
@@ -33,6 +48,12 @@ export function reply(module: Module, ask: Ask): Reply {
       const text = module.make(JSON.stringify(ask.request), ask.asset ?? NO_FILE);
       return { of: 'make', answer: JSON.parse(text) as MakeAnswer };
     }
+    case 'film': {
+      const text = module.film(JSON.stringify(ask.request), ask.bytes);
+      return { of: 'film', answer: JSON.parse(text) as FilmAnswer };
+    }
+    case 'fit':
+      return { of: 'fit', answer: JSON.parse(module.fit(ask.show, ask.robots)) as FitAnswer };
     case 'list':
       return { of: 'list', choices: JSON.parse(module.list()) as MakeChoices };
     case 'look':

@@ -1,17 +1,28 @@
 import type { MakeAnswer } from '../api/types.gen';
+import { countText } from '../base/numbers';
+import type { Pictures } from './pictures';
 
-/** A sentence for people about an answer. */
+/** A sentence for people about what was made. */
 export interface Verdict {
   tone: 'good' | 'care' | 'bad' | 'none';
   text: string;
 }
 
-/** How well robots show what was made, or why there is nothing. */
-export function verdictOf(answer: MakeAnswer, robots: number): Verdict {
-  if (answer.error) return { tone: 'bad', text: sentence(answer.error.message) };
-  if (!answer.readability) return { tone: 'none', text: `Room for all ${robots} robots` };
-  if (answer.readability.readable) return { tone: 'good', text: 'Readable' };
-  const { enough } = answer;
+/** How well robots show the pictures, or why there are none. */
+export function verdictOf({ pictures, error }: Pictures, robots: number): Verdict {
+  if (error) return { tone: 'bad', text: sentence(error.message) };
+  const [first] = pictures;
+  return pictures.length === 1 && first
+    ? verdictOfAnswer(first.answer, robots)
+    : verdictOfSeries(pictures.map((picture) => picture.answer));
+}
+
+/** How well robots show one picture, or why there is none. */
+export function verdictOfAnswer(answer: MakeAnswer, robots: number): Verdict {
+  const { readability, enough, error } = answer;
+  if (error) return { tone: 'bad', text: sentence(error.message) };
+  if (!readability) return { tone: 'none', text: `Room for all ${robots} robots` };
+  if (readability.readable) return { tone: 'good', text: 'Readable' };
   if (enough === null) return { tone: 'care', text: 'Hard to read' };
   return {
     tone: 'care',
@@ -20,6 +31,13 @@ export function verdictOf(answer: MakeAnswer, robots: number): Verdict {
         ? `Hard to read: ${enough} robots would do`
         : 'Hard to read: another style or size may help',
   };
+}
+
+function verdictOfSeries(answers: readonly MakeAnswer[]): Verdict {
+  const hard = answers.filter((answer) => answer.readability?.readable === false).length;
+  return hard === 0
+    ? { tone: 'good', text: `${countText(answers.length, 'frame')}, all readable` }
+    : { tone: 'care', text: `${countText(answers.length, 'frame')}, ${hard} hard to read` };
 }
 
 const sentence = (text: string) => {

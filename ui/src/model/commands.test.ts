@@ -100,7 +100,7 @@ test('pixels of a made frame that are moved by hand are moved ones of their sour
     moment_s: null,
     settings: { text: 'A' },
   } as const;
-  const made = c.makeFrame(show, frame?.key ?? -1, { source, pixels }, {});
+  const made = c.makeFrames(show, frame?.key ?? -1, [{ source, pixels }], {});
   const place = new Map([[0, { x: 0.5, y: 0.5 }]]);
   expect(c.placePixels(made, 0, place).frames[0]?.sources[0]?.moved).toEqual([0, 2]);
   expect(c.recolour(made, 0, new Map([[1, 0xff]])).frames[0]?.sources[0]?.moved).toEqual([2]);
@@ -110,11 +110,18 @@ test('pixels of a made frame that are moved by hand are moved ones of their sour
 
 test('a frame that is made from a file lists the file', () => {
   const show = { ...newShow('x', 1), rest: { assets: { a: 1 } } };
-  const made = c.makeFrame(
-    show,
-    -1,
-    { source: null as never, pixels: [] },
-    { b: { name: 'logo.svg' } },
-  );
+  const made = c.makeFrames(show, -1, [], { b: { name: 'logo.svg' } });
   expect(made.rest.assets).toEqual({ a: 1, b: { name: 'logo.svg' } });
+});
+
+test('several pictures take the frame and new ones after it, which nothing names yet', () => {
+  const before = c.addFrame(newShow('x', 1), 0);
+  const [frame] = before.frames;
+  const show = { ...before, frames: before.frames.map((f) => ({ ...f, id: `id${f.key}` })) };
+  const source = { kind: 'shape', settings: {} } as never;
+  const made = [1, 2, 3].map((n) => ({ source, pixels: [], name: `${n}`, airTime_s: n }));
+  const { frames } = c.makeFrames(show, frame?.key ?? -1, made, {});
+  expect(frames.map(({ name }) => name)).toEqual(['1', '2', '3', 'Frame 2']);
+  expect(frames.map(({ id }) => id !== null)).toEqual([true, false, false, true]);
+  expect(new Set(frames.map(({ key }) => key)).size).toBe(4);
 });

@@ -42,17 +42,31 @@ function withMoved(before: Frame, frame: Frame): Frame {
   return { ...frame, sources };
 }
 
-/** Gives a frame the pixels of one source. `assets`: files that the source needs, as the document lists them. */
-export function makeFrame(
+/** The pixels of a source, and what else they change of the frame. */
+export type MadeFrame = { source: FrameSource; pixels: readonly Pixel[] } & FrameFields;
+
+/**
+ * Gives a frame the pixels of one source, and those of each further source to a new frame after it. `assets`: files that
+ * the sources need, as the document lists them.
+ */
+export function makeFrames(
   show: Show,
   key: number,
-  made: { source: FrameSource; pixels: readonly Pixel[] },
+  made: readonly MadeFrame[],
   assets: Readonly<Record<string, unknown>>,
 ): Show {
-  const frames = show.frames.map((frame) =>
-    frame.key === key
-      ? { ...frame, sources: [made.source], pixels: keepGroups(frame, made) }
-      : frame,
+  const frames = show.frames.flatMap((frame) =>
+    frame.key !== key
+      ? [frame]
+      : made.map(({ source, pixels, ...fields }, nth) => {
+          const own = nth === 0 ? frame : copyFrame(frame, frame.name);
+          return {
+            ...own,
+            ...fields,
+            sources: [source],
+            pixels: keepGroups(own, { source, pixels }),
+          };
+        }),
   );
   if (Object.keys(assets).length === 0) return { ...show, frames };
   const known = show.rest.assets as Readonly<Record<string, unknown>> | undefined;

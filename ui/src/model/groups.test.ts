@@ -1,6 +1,6 @@
 import { expect, test } from 'vitest';
 import { createArrowTool } from './arrowTool';
-import { addFrame, makeFrame } from './commands';
+import { addFrame, makeFrames } from './commands';
 import { createEditor } from './editor';
 import { groupOf, groupPixels, groupsOf, ungroupPixels, wholeGroups } from './groups';
 import { readShow, writeShow } from './json';
@@ -51,7 +51,7 @@ test('of a frame that is made anew, only pixels that were moved by hand stay in 
     settings: {},
   };
   const pixels = frame?.pixels.map((p) => ({ ...p, group: null })) ?? [];
-  const made = makeFrame(show, frame?.key ?? 0, { source, pixels }, {});
+  const made = makeFrames(show, frame?.key ?? 0, [{ source, pixels }], {});
   expect(groups(made)).toEqual(['Group 1', 'Group 1', null, null, null]);
 });
 

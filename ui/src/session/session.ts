@@ -6,6 +6,7 @@ import { createDrafts, type Drafts, type LeftDraft } from '../model/drafts';
 import { connect, createLive, type Live } from './live';
 import type { Editor } from '../model/editor';
 import type { Saver } from '../model/saver';
+import type { Dropped } from './dropped';
 import { notify } from './notices';
 
 /** The state that all parts of the page share. */
@@ -22,6 +23,8 @@ export interface Session {
   editing: Store<{ name: string; editor: Editor; saver: Saver } | null>;
   /** The action that waits for the plan of a show with one of these names; null: no action waits. */
   waiting: Store<{ names: readonly (string | null)[]; act: () => void } | null>;
+  /** What was dropped and waits for the editor; null: nothing waits. */
+  dropped: Store<Dropped | null>;
   /** Whether the checklist is shown. */
   checking: Store<boolean>;
   /** Changes that are not on the server yet. */
@@ -73,6 +76,7 @@ export function createSession(): Session {
     drafts,
     editing: createStore<ReturnType<Session['editing']['get']>>(null),
     waiting,
+    dropped: createStore<Dropped | null>(null),
     checking: createStore(false),
     orphans,
     restoring: createStore<LeftDraft | null>(null),

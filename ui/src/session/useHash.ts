@@ -1,6 +1,6 @@
 import { useSyncExternalStore } from 'react';
 
-export type View = 'live' | 'edit';
+export type View = 'live' | 'edit' | 'new';
 
 const subscribe = (listener: () => void) => {
   window.addEventListener('hashchange', listener);
@@ -8,8 +8,10 @@ const subscribe = (listener: () => void) => {
 };
 
 /** The view in the address. */
-export const useView = (): View =>
-  useSyncExternalStore(subscribe, () => (location.hash.startsWith('#/edit') ? 'edit' : 'live'));
+export const viewNow = (): View =>
+  location.hash.startsWith('#/edit') ? 'edit' : location.hash.startsWith('#/new') ? 'new' : 'live';
+
+export const useView = (): View => useSyncExternalStore(subscribe, viewNow);
 
 export const goTo = (view: View) => {
   location.hash = `#/${view}`;

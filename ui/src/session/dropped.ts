@@ -1,0 +1,36 @@
+import { ENDINGS } from '../api/formats';
+import { createShowInLibrary } from './createShow';
+import { notify } from './notices';
+import type { Session } from './session';
+import { uploadShow } from './upload';
+import { goTo, viewNow } from './useHash';
+
+/** What somebody dropped or pasted: files, or a text. */
+export interface Dropped {
+  files: readonly File[];
+  text: string;
+}
+
+/** What can be dropped, in words. */
+export const DROPPABLE =
+  'drawings (SVG), pictures (PNG, JPEG, WebP), animations (GIF, WebP), lists (CSV), fonts (TTF, OTF), words and shows';
+
+/** Opens a dropped show on every screen. The editor makes a frame from anything else; it begins a show if none is open. */
+export async function takeDropped(session: Session, dropped: Dropped) {
+  const [file] = dropped.files;
+  if (file && dropped.files.length === 1 && isShow(file.name)) return uploadShow(session, file);
+  const { name, readOnly } = session.live.opened.get();
+  if (readOnly !== null && viewNow() !== 'new') {
+    notify(
+      'error',
+      `${name} is read-only. Save it under another name first, or open another show.`,
+    );
+    return;
+  }
+  const isNew = name === null || viewNow() === 'new';
+  if (isNew && !(await createShowInLibrary(session))) return;
+  session.dropped.set(dropped);
+  goTo('edit');
+}
+
+const isShow = (name: string) => ENDINGS.some((ending) => name.toLowerCase().endsWith(ending));
