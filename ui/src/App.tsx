@@ -1,7 +1,8 @@
 import { MantineProvider } from '@mantine/core';
 import { Notifications } from '@mantine/notifications';
 import '@mantine/notifications/styles.css';
-import { useState } from 'react';
+import { lazy, Suspense, useState } from 'react';
+import { useStore } from './base/store';
 import { EditPage } from './edit/EditPage';
 import { LivePage } from './live/LivePage';
 import { DraftBanner } from './shell/DraftBanner';
@@ -10,10 +11,23 @@ import { Header } from './shell/Header';
 import { LinkBanner } from './shell/LinkBanner';
 import { OfferDialog } from './shell/OfferDialog';
 import { OpenBanner } from './shell/OpenBanner';
-import { createSession, SessionContext } from './session/session';
+import { createSession, SessionContext, useSession } from './session/session';
 import { useView } from './session/useHash';
 import { mantineVariables, theme } from './theme';
 import styles from './App.module.css';
+
+/** Loaded when it is first shown. */
+const FitDialog = lazy(() => import('./fit/FitDialog'));
+
+/** The dialog that fits the open show to the robots that are there. */
+function Fitting() {
+  const robots = useStore(useSession().fitting);
+  return robots === null ? null : (
+    <Suspense>
+      <FitDialog robots={robots} />
+    </Suspense>
+  );
+}
 
 export function App() {
   const [session] = useState(createSession);
@@ -35,6 +49,7 @@ export function App() {
           </div>
           {view === 'edit' ? <EditPage /> : <LivePage />}
         </div>
+        <Fitting />
         <OfferDialog />
         <DropFile />
       </SessionContext>

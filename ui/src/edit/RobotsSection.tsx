@@ -4,6 +4,7 @@ import { fleetSize, setFleetSize, setShow } from '../model/commands';
 import { limitOf, LIMITS_USUAL, setLimit, type LimitName } from '../model/limits';
 import { LengthInput } from '../parts/LengthInput';
 import { NumberField } from '../parts/NumberField';
+import { robotsToFit } from '../session/fitness';
 import { useSession } from '../session/session';
 import { useEditing, useEditor } from './context';
 
@@ -19,10 +20,11 @@ const NUMBERS: [LimitName, string, number, number, number][] = [
 /** Number, size and limits of the show's robots. */
 export function RobotsSection() {
   const { editor, color } = useEditing();
-  const { live } = useSession();
+  const { live, fitting } = useSession();
   const show = useEditor((s) => s.show);
   const size = fleetSize(show);
-  const here = useStore(live.fleet, (fleet) => fleet.rows.length);
+  const rows = useStore(live.fleet, (fleet) => fleet.rows);
+  const here = robotsToFit(show, null, rows);
   const resize = (count: number) =>
     editor.change('Robots', (now) => setFleetSize(now, count, color.get()));
   const limit = (name: LimitName, value: number) =>
@@ -41,9 +43,9 @@ export function RobotsSection() {
           value={size}
           onChange={resize}
         />
-        {here > 0 && here !== size && here <= FLEET_MAX ? (
-          <Button size="xs" variant="default" onClick={() => resize(here)}>
-            Use the {here} here
+        {here !== null ? (
+          <Button size="xs" variant="default" onClick={() => fitting.set(here)}>
+            Fit to the {here} here…
           </Button>
         ) : null}
       </Group>

@@ -1,5 +1,6 @@
 import { Bottom } from '../parts/Bottom';
 import { FailureNote } from './FailureNote';
+import { FitNote } from './FitNote';
 import { FleetSide } from './FleetSide';
 import { FrameStrip } from './FrameStrip';
 import { LiveStage } from './LiveStage';
@@ -14,6 +15,7 @@ export function LivePage() {
       <LiveStage />
       <Bottom label="Playing">
         <FailureNote />
+        <FitNote />
         <Transport />
         <FrameStrip />
       </Bottom>

@@ -8,6 +8,7 @@ import {
 import { useStore } from '../base/store';
 import { useSession } from '../session/session';
 import { canDrive, canGoOn, isReady, type Check } from '../session/checklist';
+import { robotsToFit } from '../session/fitness';
 import { checkNow, whenPlanned } from '../session/start';
 import styles from './StartDialog.module.css';
 import { countText } from '../base/numbers';
@@ -38,7 +39,8 @@ function Checklist({ close }: { close: () => void }) {
   // The fleet table arrives at least twice a second and keeps the list up to date.
   const rows = useStore(live.fleet, (fleet) => fleet.rows);
   useStore(live.plan);
-  useStore(live.opened);
+  const { show, readOnly } = useStore(live.opened);
+  const fit = robotsToFit(show, readOnly, rows);
   const idle = useStore(live.playback, (p) => p.phase === 'ready');
   const checks = checkNow(session);
   const ready = isReady(checks);
@@ -63,6 +65,17 @@ function Checklist({ close }: { close: () => void }) {
           ))}
         </ul>
         <Group justify="flex-end" mt="lg">
+          {fit === null ? null : (
+            <Button
+              variant="default"
+              onClick={() => {
+                close();
+                session.fitting.set(fit);
+              }}
+            >
+              Fit to {countText(fit, 'robot')}…
+            </Button>
+          )}
           <Button variant="default" onClick={() => void session.ask({ do: 'refresh' })}>
             Refresh
           </Button>

@@ -1,4 +1,4 @@
-import { ROBOT_COLUMNS, type Robots } from '../api/types.gen';
+import { ROBOT_COLUMNS, type FleetRow, type Robots } from '../api/types.gen';
 
 /** Robots for tests, from plain lists: those that are not given are unknown, lights red, all idle. */
 export function robotsOf(lists: Partial<Record<keyof Robots, number[]>>): Robots {
@@ -16,3 +16,18 @@ export function robotsOf(lists: Partial<Record<keyof Robots, number[]>>): Robots
     ]),
   ) as unknown as Robots;
 }
+
+/** A simulated robot that can drive, but for what is given. */
+export const robotRow = (over: Partial<FleetRow> = {}): FleetRow => ({
+  id: 'a1b2c3d4',
+  status: 'idle',
+  presence: 'active',
+  age_s: 0,
+  battery: 80,
+  pixel: null,
+  firmware: null,
+  abilities: { route: true, fade: true, blink: true },
+  clock_us: 5,
+  simulated: true,
+  ...over,
+});

@@ -25,6 +25,8 @@ export interface Session {
   waiting: Store<{ names: readonly (string | null)[]; act: () => void } | null>;
   /** What was dropped and waits for the editor; null: nothing waits. */
   dropped: Store<Dropped | null>;
+  /** The number of robots that the open show is being fitted to; null: it is not. */
+  fitting: Store<number | null>;
   /** Whether the checklist is shown. */
   checking: Store<boolean>;
   /** Changes that are not on the server yet. */
@@ -77,6 +79,7 @@ export function createSession(): Session {
     editing: createStore<ReturnType<Session['editing']['get']>>(null),
     waiting,
     dropped: createStore<Dropped | null>(null),
+    fitting: createStore<number | null>(null),
     checking: createStore(false),
     orphans,
     restoring: createStore<LeftDraft | null>(null),
