@@ -20,6 +20,7 @@ export function smallShow(count: number, air_s = 0.3): string {
 /** Begins a show with nothing in it but the robots at the front edge. */
 export async function beginEmpty(page: Page): Promise<void> {
   await button(page, 'New').click();
+  await button(page, 'Empty show').click();
   await page.getByTestId('stage').waitFor();
 }
 

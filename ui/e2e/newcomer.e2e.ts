@@ -17,6 +17,7 @@ test('somebody who never saw it makes a heart and a word with thirty robots, and
   };
   await page.getByText('30 robots', { exact: true }).waitFor();
   await click(button(page, 'New'));
+  await click(button(page, 'Empty show'));
   await pixelsAre(page, 30);
   await click(button(page, 'Make…'));
   await click(page.getByText('Shape', { exact: true }));
@@ -44,6 +45,8 @@ test('by keyboard only: a new show, its pixels and colours, a second frame, and 
   await tabTo(page, 'button', 'New show');
   await press('Enter');
   await page.getByRole('dialog').waitFor({ state: 'hidden' });
+  await tabTo(page, 'button', 'Empty show');
+  await press('Enter');
   await pixelsAre(page);
   const name = (await page.getByTestId('open-library').textContent()) ?? '';
   await tabTo(page, 'tab', 'Pixels');

@@ -1,7 +1,7 @@
 import { MantineProvider } from '@mantine/core';
 import { Notifications } from '@mantine/notifications';
 import '@mantine/notifications/styles.css';
-import { lazy, Suspense, useState } from 'react';
+import { lazy, Suspense, useState, type ReactNode } from 'react';
 import { useStore } from './base/store';
 import { EditPage } from './edit/EditPage';
 import { LivePage } from './live/LivePage';
@@ -12,11 +12,13 @@ import { LinkBanner } from './shell/LinkBanner';
 import { OfferDialog } from './shell/OfferDialog';
 import { OpenBanner } from './shell/OpenBanner';
 import { createSession, SessionContext, useSession } from './session/session';
-import { useView } from './session/useHash';
+import { useView, type View } from './session/useHash';
 import { mantineVariables, theme } from './theme';
 import styles from './App.module.css';
 
 /** Loaded when it is first shown. */
+const StartPage = lazy(() => import('./start/StartPage'));
+
 const FitDialog = lazy(() => import('./fit/FitDialog'));
 
 /** The dialog that fits the open show to the robots that are there. */
@@ -28,6 +30,16 @@ function Fitting() {
     </Suspense>
   );
 }
+
+const PAGES: Record<View, ReactNode> = {
+  live: <LivePage />,
+  edit: <EditPage />,
+  new: (
+    <Suspense fallback={<main aria-busy />}>
+      <StartPage />
+    </Suspense>
+  ),
+};
 
 export function App() {
   const [session] = useState(createSession);
@@ -47,7 +59,7 @@ export function App() {
             <LinkBanner />
             <DraftBanner />
           </div>
-          {view === 'edit' ? <EditPage /> : <LivePage />}
+          {PAGES[view]}
         </div>
         <Fitting />
         <OfferDialog />

@@ -2,8 +2,8 @@ import { Button, Group, Text, Title } from '@mantine/core';
 import { useEffect, useRef, useState } from 'react';
 import { useStore } from '../base/store';
 import { Bottom } from '../parts/Bottom';
-import { createShowInLibrary } from '../session/createShow';
 import { useSession } from '../session/session';
+import { goTo } from '../session/useHash';
 import { ConflictDialog } from './ConflictDialog';
 import { EditingContext, useEditing } from './context';
 import { EditBar } from './EditBar';
@@ -49,7 +49,7 @@ export function EditPage() {
         </Title>
         <Text c="dimmed">Create a show, open one above, or drop a file anywhere.</Text>
         <Group>
-          <Button onClick={() => void createShowInLibrary(session)}>New show</Button>
+          <Button onClick={() => goTo('new')}>New show</Button>
         </Group>
       </main>
     );

@@ -1,23 +1,32 @@
 import { listShows, putShow } from '../api/http';
 import { writeShow } from '../model/json';
-import { newShow } from '../model/show';
+import { newShow, type Frame, type Stage } from '../model/show';
 import { notify } from './notices';
 import type { Session } from './session';
-import { freeName } from './upload';
+import { freeName, nameFromFile } from './upload';
 
 /** Number of robots of a new show when no robot reports. */
-const ROBOTS_DEFAULT = 30;
+export const ROBOTS_DEFAULT = 30;
 
-/** Creates a show with a pixel for every robot that reports, and opens it on every screen. */
-export async function createShowInLibrary(session: Session): Promise<boolean> {
+/** What a new show has of its own. */
+interface Begun {
+  /** Its name, if that is free. */
+  title?: string;
+  stage?: Stage;
+  frames?: readonly Frame[];
+}
+
+/** Creates a show and opens it on every screen; without frames, with a pixel for every robot that reports. */
+export async function createShowInLibrary(session: Session, begun: Begun = {}): Promise<boolean> {
   try {
     const name = freeName(
-      'Untitled',
+      begun.title === undefined ? 'Untitled' : nameFromFile(begun.title),
       (await listShows()).map((entry) => entry.name),
     );
     const here = session.live.fleet.get().rows.length;
-    const show = newShow(name, here || ROBOTS_DEFAULT);
-    await putShow(name, JSON.stringify(writeShow(show)), 'new');
+    const show = newShow(name, here || ROBOTS_DEFAULT, begun.stage);
+    const document = writeShow(begun.frames ? { ...show, frames: begun.frames } : show);
+    await putShow(name, JSON.stringify(document), 'new');
     return (await session.ask({ do: 'open', name })).ok;
   } catch (error) {
     notify('error', error instanceof Error ? error.message : String(error));

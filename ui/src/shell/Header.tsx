@@ -13,7 +13,6 @@ import { useStore } from '../base/store';
 import { IconButton } from '../parts/IconButton';
 import { KeyboardMap } from './KeyboardMap';
 import { LibraryDialog } from './LibraryDialog';
-import { createShowInLibrary } from '../session/createShow';
 import { FleetPill, KindPill, LinkPill } from './Pills';
 import { useSession } from '../session/session';
 import { SettingsDialog } from './SettingsDialog';
@@ -72,7 +71,7 @@ export function Header({ view }: { view: View }) {
           color="gray"
           size="compact-sm"
           leftSection={<IconPlus size={16} />}
-          onClick={() => void createShowInLibrary(session).then((done) => done && goTo('edit'))}
+          onClick={() => goTo('new')}
         >
           New
         </Button>

@@ -7,7 +7,6 @@ import type { ShowEntry } from '../api/types.gen';
 import { useStore } from '../base/store';
 import { StatesDialog } from '../parts/StatesDialog';
 import rows from '../parts/rows.module.css';
-import { createShowInLibrary } from '../session/createShow';
 import { attempt, copyShow, renameShow } from '../session/libraryActs';
 import { LibraryEntry } from './LibraryEntry';
 import { NameDialog } from './NameDialog';
@@ -34,10 +33,9 @@ export function LibraryDialog({ opened, onClose }: { opened: boolean; onClose: (
   const choose = async (name: string) => {
     if ((await session.ask({ do: 'open', name })).ok) onClose();
   };
-  const begin = async () => {
-    if (!(await createShowInLibrary(session))) return;
+  const begin = () => {
     onClose();
-    goTo('edit');
+    goTo('new');
   };
   const name = ({ entry, purpose }: NonNullable<typeof naming>, to: string) =>
     attempt(async () => {
@@ -71,7 +69,7 @@ export function LibraryDialog({ opened, onClose }: { opened: boolean; onClose: (
             </Button>
           )}
         </FileButton>
-        <Button leftSection={<IconPlus size={16} />} onClick={() => void begin()}>
+        <Button leftSection={<IconPlus size={16} />} onClick={begin}>
           New show
         </Button>
       </Group>

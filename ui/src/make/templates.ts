@@ -1,0 +1,196 @@
+import type { FrameSource } from '../model/sources';
+
+/** A show to begin with: what its frames are made from, for any number of robots. */
+export interface Template {
+  id: string;
+  title: string;
+  /** Index of the frame that stands for the show. */
+  face: number;
+  frames(robots: number): TemplateFrame[];
+}
+
+/** A frame of a template. */
+export interface TemplateFrame {
+  name: string;
+  airTime_s: number;
+  source: FrameSource;
+  /** Larger than by itself, by this factor, as far as the floor allows; 1: as by itself. */
+  grown: number;
+}
+
+/** Colours of light. */
+const GOLD = '#ffb030';
+const WHITE = '#ffffff';
+const RED = '#ff2a2a';
+const PINK = '#ff2f92';
+const ORANGE = '#ff7a00';
+const BLUE = '#18a0ff';
+const TEAL = '#00e0c8';
+const VIOLET = '#9a5cff';
+const GREEN = '#2ee55c';
+
+/** Colours that letters take in turn. */
+const LETTERS = [GOLD, PINK, VIOLET, BLUE, TEAL, GREEN];
+
+const source = (kind: 'text' | 'shape', settings: FrameSource['settings']): FrameSource => ({
+  kind,
+  asset: null,
+  seed: 1,
+  box: null,
+  moved: [],
+  series: null,
+  moment_s: null,
+  settings,
+});
+
+const words = (text: string, airTime_s: number, colors: readonly string[]): TemplateFrame => ({
+  name: text,
+  airTime_s,
+  source: source('text', { text, font: 'lato', colors }),
+  grown: 1,
+});
+
+const shape = (
+  name: string,
+  shape: string,
+  airTime_s: number,
+  color: string,
+  settings: FrameSource['settings'] = {},
+  grown = 1,
+): TemplateFrame => ({
+  name,
+  airTime_s,
+  source: source('shape', { shape, color: [color], ...settings }),
+  grown,
+});
+
+/** Welcomes with the number of robots that each needs to be read, as the module counts it. */
+const WELCOMES: readonly [string, number][] = [
+  ['WELCOME', 64],
+  ['HELLO', 45],
+];
+
+/** The longest welcome that a number of robots can write. */
+export const welcomeFor = (robots: number) =>
+  WELCOMES.find(([, needed]) => robots >= needed)?.[0] ?? 'HI';
+
+const QUARTER = Math.PI / 2;
+
+/** Turns of a spiral whose arms stay apart, for a number of robots. */
+const turnsFor = (robots: number) => Math.max(1, Math.min(5, Math.round(Math.sqrt(robots / 12))));
+
+/** A show of one's own words. */
+export const wordShow = (text: string): TemplateFrame[] => [
+  shape('Grid', 'grid', 1, WHITE),
+  { ...words(text, 6, LETTERS), name: text.replaceAll('\n', ' ').slice(0, 80) },
+  shape('Ring', 'circle', 2, GOLD, { style: 'outline' }),
+];
+
+/** Ten shows to begin with. */
+export const TEMPLATES: readonly Template[] = [
+  {
+    id: 'welcome',
+    title: 'Welcome',
+    face: 1,
+    frames: (robots) => [
+      shape('Circle', 'circle', 1, WHITE),
+      words(welcomeFor(robots), 5, LETTERS),
+      shape('Heart', 'heart', 3, PINK),
+    ],
+  },
+  {
+    id: 'countdown',
+    title: 'Countdown',
+    face: 0,
+    frames: () => [
+      words('3', 1, [GOLD]),
+      words('2', 1, [ORANGE]),
+      words('1', 1, [RED]),
+      shape('Star', 'star', 3, WHITE),
+    ],
+  },
+  {
+    id: 'heartbeat',
+    title: 'Heartbeat',
+    face: 1,
+    frames: () => [
+      shape('Beat', 'heart', 0.3, RED),
+      shape('Beat', 'heart', 0.3, PINK, {}, 1.3),
+      shape('Rest', 'heart', 1, RED),
+      shape('Beat', 'heart', 0.3, PINK, {}, 1.3),
+      shape('Rest', 'heart', 2, RED),
+    ],
+  },
+  {
+    id: 'star-to-heart',
+    title: 'Star to heart',
+    face: 0,
+    frames: () => [
+      shape('Star', 'star', 3, GOLD),
+      shape('Heart', 'heart', 3, RED),
+      shape('Circle', 'circle', 2, BLUE),
+    ],
+  },
+  {
+    id: 'galaxy',
+    title: 'Galaxy',
+    face: 0,
+    frames: (robots) =>
+      [VIOLET, BLUE, WHITE, BLUE].map((color, nth) =>
+        shape('Galaxy', 'spiral', 1, color, { turns: turnsFor(robots), turn: nth * QUARTER }),
+      ),
+  },
+  {
+    id: 'waves',
+    title: 'Waves',
+    face: 0,
+    frames: () =>
+      [TEAL, BLUE, TEAL, BLUE].map((color, nth) =>
+        shape('Wave', 'wave', 1, color, { turns: 2, turn: (nth % 2) * Math.PI }),
+      ),
+  },
+  {
+    id: 'grid-to-ring',
+    title: 'Grid to ring',
+    face: 1,
+    frames: () => [
+      shape('Grid', 'grid', 2, WHITE),
+      shape('Ring', 'circle', 2, GOLD, { style: 'outline' }),
+      shape('Rings', 'rings', 2, ORANGE, { count: 2 }),
+      shape('Honeycomb', 'hexagons', 2, GOLD),
+    ],
+  },
+  {
+    id: 'firework',
+    title: 'Firework',
+    face: 1,
+    frames: (robots) => [
+      shape('Rocket', 'hexagons', 1, WHITE),
+      shape('Burst', 'rings', 0.5, GOLD, { count: ringsFor(robots) }),
+      shape('Sparks', 'random', 2, PINK, {}, 1.5),
+    ],
+  },
+  {
+    id: 'sunrise',
+    title: 'Sunrise',
+    face: 2,
+    frames: () => [
+      shape('Horizon', 'rectangle', 1, RED, { aspect: 6 }),
+      shape('Sun', 'circle', 2, ORANGE),
+      shape('Rays', 'star', 4, GOLD, { count: 12, inner: 0.6 }),
+    ],
+  },
+  {
+    id: 'this-way',
+    title: 'This way',
+    face: 0,
+    frames: () =>
+      [0, 1, 2, 3].map((nth) =>
+        shape('Arrow', 'arrow', 1.5, [GREEN, TEAL, BLUE, VIOLET][nth] ?? GREEN, {
+          turn: nth * QUARTER,
+        }),
+      ),
+  },
+];
+
+const ringsFor = (robots: number) => Math.max(2, Math.min(5, Math.round(Math.sqrt(robots / 8))));

@@ -1,0 +1,53 @@
+import { Title } from '@mantine/core';
+import { useEffect, useState } from 'react';
+import { listShows } from '../api/http';
+import type { ShowEntry } from '../api/types.gen';
+import { countText } from '../base/numbers';
+import { useSession } from '../session/session';
+import { goTo } from '../session/useHash';
+import { ShowThumbnail } from '../parts/ShowThumbnail';
+import styles from './Start.module.css';
+
+/** Shows that are listed; the library has them all. */
+const LISTED = 4;
+
+/** The shows that were saved last; if there are fewer, examples. */
+export function RecentShows() {
+  const session = useSession();
+  const [entries, setEntries] = useState<readonly ShowEntry[]>([]);
+  useEffect(() => {
+    // Without a list, the page says nothing of it: the library dialog names what is wrong.
+    listShows().then(
+      (found) => setEntries([...found].sort((a, b) => latest(b) - latest(a)).slice(0, LISTED)),
+      () => undefined,
+    );
+  }, []);
+  if (entries.length === 0) return null;
+  const open = async (name: string) => {
+    if ((await session.ask({ do: 'open', name })).ok) goTo('edit');
+  };
+  return (
+    <section aria-labelledby="recent">
+      <Title order={2} size="h4" id="recent">
+        Recent shows
+      </Title>
+      <ul className={styles.recent}>
+        {entries.map((entry) => (
+          <li key={entry.name}>
+            <button type="button" onClick={() => void open(entry.name)}>
+              <ShowThumbnail entry={entry} />
+              <span>
+                <b>{entry.name}</b>
+                <span>
+                  {countText(entry.frames, 'frame')} · {countText(entry.pixels, 'robot')}
+                </span>
+              </span>
+            </button>
+          </li>
+        ))}
+      </ul>
+    </section>
+  );
+}
+
+const latest = (entry: ShowEntry) => (entry.origin === 'saved' ? entry.modified_ms : 0);

@@ -1,0 +1,10 @@
+import { useEffect, useState } from 'react';
+import { startWorker } from '../make/browserWorker';
+import { createMaker, type Maker } from '../make/maker';
+
+/** A maker that ends with the component. */
+export function useMaker(): Maker {
+  const [maker] = useState(() => createMaker(startWorker));
+  useEffect(() => () => maker.end(), [maker]);
+  return maker;
+}
