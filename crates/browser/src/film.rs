@@ -5,7 +5,7 @@ use lightbots_base::Vec2;
 use lightbots_make::{FilmFrame, Recipe, film, make_frame_from};
 
 use crate::answer;
-use crate::make::{Wish, full, readability, remark};
+use crate::make::{FrameWish, full, readability, remark};
 
 /// Makes the frames of an animation: a `MakeRequest` as JSON whose frame has the animation as its source, and the bytes of
 /// the file.
@@ -14,7 +14,7 @@ pub fn film_answer(request: &str, bytes: &[u8]) -> FilmAnswer {
 }
 
 fn made(request: &str, bytes: &[u8]) -> Result<FilmAnswer, MakeRemark> {
-    let wish = Wish::read(request)?;
+    let wish = FrameWish::read(request)?;
     let source =
         wish.frame.sources.first().ok_or_else(|| remark("source-count", "the frame has no source"))?;
     let recipe = Recipe::read(source).map_err(answer::drawing)?;

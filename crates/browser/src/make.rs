@@ -12,8 +12,8 @@ pub fn make_answer(request: &str, asset: Option<&[u8]>) -> MakeAnswer {
     made(request, asset).unwrap_or_else(|error| MakeAnswer { error: Some(error), ..MakeAnswer::default() })
 }
 
-/// A wish, read and checked.
-pub(crate) struct Wish {
+/// A frame to be made: a request, read and checked.
+pub(crate) struct FrameWish {
     /// The frame with its source.
     pub frame: Frame,
     pub floor: PictureFloor,
@@ -21,7 +21,7 @@ pub(crate) struct Wish {
     pub quality: Quality,
 }
 
-impl Wish {
+impl FrameWish {
     /// Reads a `MakeRequest` as JSON.
     pub(crate) fn read(request: &str) -> Result<Self, MakeRemark> {
         let request: MakeRequest =
@@ -42,7 +42,7 @@ impl Wish {
 }
 
 fn made(request: &str, asset: Option<&[u8]>) -> Result<MakeAnswer, MakeRemark> {
-    let Wish { frame, floor, robots, quality } = Wish::read(request)?;
+    let FrameWish { frame, floor, robots, quality } = FrameWish::read(request)?;
     let made = make_frame(&frame, asset, &floor, robots, quality, &[]).map_err(answer::drawing)?;
     let readability = readability(&made);
     let counted = quality == Quality::Full && readability.is_some_and(|read| !read.readable);

@@ -2,7 +2,7 @@ import type { MakeFile } from '../api/types.gen';
 import { countText } from '../base/numbers';
 import { FILE_SOURCES, type DraftFile, type FileSource } from '../make/draft';
 import type { Making } from '../make/making';
-import { DROPPABLE, type Dropped } from '../session/dropped';
+import { DROPPABLE, type Dropped } from '../session/droppable';
 import { notify } from '../session/notices';
 import type { Session } from '../session/session';
 import { uploadShow } from '../session/upload';

@@ -1,3 +1,4 @@
+import { toHex } from '../base/colour';
 import type { FrameSource } from '../model/sources';
 
 /** A show to begin with: what its frames are made from, for any number of robots. */
@@ -19,15 +20,15 @@ export interface TemplateFrame {
 }
 
 /** Colours of light. */
-const GOLD = '#ffb030';
-const WHITE = '#ffffff';
-const RED = '#ff2a2a';
-const PINK = '#ff2f92';
-const ORANGE = '#ff7a00';
-const BLUE = '#18a0ff';
-const TEAL = '#00e0c8';
-const VIOLET = '#9a5cff';
-const GREEN = '#2ee55c';
+const GOLD = toHex(0xffb030);
+const WHITE = toHex(0xffffff);
+const RED = toHex(0xff2a2a);
+const PINK = toHex(0xff2f92);
+const ORANGE = toHex(0xff7a00);
+const BLUE = toHex(0x18a0ff);
+const TEAL = toHex(0x00e0c8);
+const VIOLET = toHex(0x9a5cff);
+const GREEN = toHex(0x2ee55c);
 
 /** Colours that letters take in turn. */
 const LETTERS = [GOLD, PINK, VIOLET, BLUE, TEAL, GREEN];

@@ -6,7 +6,7 @@ import { createDrafts, type Drafts, type LeftDraft } from '../model/drafts';
 import { connect, createLive, type Live } from './live';
 import type { Editor } from '../model/editor';
 import type { Saver } from '../model/saver';
-import type { Dropped } from './dropped';
+import type { Dropped } from './droppable';
 import { notify } from './notices';
 
 /** The state that all parts of the page share. */

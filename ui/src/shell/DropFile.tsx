@@ -1,5 +1,6 @@
 import { useEffect, useState } from 'react';
-import { DROPPABLE, takeDropped } from '../session/dropped';
+import { DROPPABLE } from '../session/droppable';
+import { takeDropped } from '../session/takeDropped';
 import { useSession, type Session } from '../session/session';
 import styles from './DropFile.module.css';
 

@@ -7,3 +7,6 @@ export interface Pans {
 
 /** For stages on which nothing can be selected. */
 export const ALWAYS: Pans = { wanted: () => true, began() {} };
+
+/** For stages that only show. */
+export const NEVER: Pans = { wanted: () => false, began() {} };

@@ -1,6 +1,6 @@
 import { Title } from '@mantine/core';
 import { useEffect, useState } from 'react';
-import { listShows } from '../api/http';
+import { getState, listShows } from '../api/http';
 import type { ShowEntry } from '../api/types.gen';
 import { countText } from '../base/numbers';
 import { useSession } from '../session/session';
@@ -35,7 +35,10 @@ export function RecentShows() {
         {entries.map((entry) => (
           <li key={entry.name}>
             <button type="button" onClick={() => void open(entry.name)}>
-              <ShowThumbnail entry={entry} />
+              <ShowThumbnail
+                version={`${entry.name} ${entry.etag}`}
+                load={() => getState(entry.name, null)}
+              />
               <span>
                 <b>{entry.name}</b>
                 <span>

@@ -2,6 +2,7 @@ import { useMemo, useState } from 'react';
 import type { MadeTemplateFrame } from '../make/templateShow';
 import type { Stage } from '../model/show';
 import { unitStore } from '../session/preferences';
+import { NEVER } from '../stage/pans';
 import { floorOf, type Scene } from '../stage/scene';
 import { StageCanvas } from '../stage/StageCanvas';
 import { createView } from '../stage/view';
@@ -20,7 +21,7 @@ export function WordFloor({ made, stage, about }: Props) {
   const sceneAt = useMemo(() => sceneOf(made, stage), [made, stage]);
   return (
     <div className={styles.floor}>
-      <StageCanvas view={view} sceneAt={sceneAt} dragPans={false} />
+      <StageCanvas view={view} sceneAt={sceneAt} pans={NEVER} />
       <span className={styles.about}>{about}</span>
     </div>
   );

@@ -1,19 +1,10 @@
 import { ENDINGS } from '../api/formats';
 import { createShowInLibrary } from './createShow';
+import type { Dropped } from './droppable';
 import { notify } from './notices';
 import type { Session } from './session';
 import { uploadShow } from './upload';
 import { goTo, viewNow } from './useHash';
-
-/** What somebody dropped or pasted: files, or a text. */
-export interface Dropped {
-  files: readonly File[];
-  text: string;
-}
-
-/** What can be dropped, in words. */
-export const DROPPABLE =
-  'drawings (SVG), pictures (PNG, JPEG, WebP), animations (GIF, WebP), lists (CSV), fonts (TTF, OTF), words and shows';
 
 /** Opens a dropped show on every screen. The editor makes a frame from anything else; it begins a show if none is open. */
 export async function takeDropped(session: Session, dropped: Dropped) {
