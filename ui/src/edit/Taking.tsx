@@ -13,9 +13,10 @@ export function Taking() {
   const editing = useEditing();
   const dropped = useStore(session.dropped);
   useEffect(() => {
-    if (!dropped) return;
+    // The editor of the show before may still be here when the new show is not.
+    if (!dropped || (dropped.into !== null && dropped.into !== editing.name)) return;
     session.dropped.set(null);
-    void takeAnything(session, editing, dropped);
+    void takeAnything(session, editing, dropped.files, dropped.text);
   }, [session, editing, dropped]);
   useEffect(() => {
     const copy = (event: ClipboardEvent) => {
@@ -31,7 +32,7 @@ export function Taking() {
       event.preventDefault();
       if (data.types.includes(PIXELS)) {
         if (!editing.making.get()) editing.editor.paste();
-      } else void takeAnything(session, editing, { files, text: data.getData('text/plain') });
+      } else void takeAnything(session, editing, files, data.getData('text/plain'));
     };
     document.addEventListener('copy', copy);
     document.addEventListener('paste', paste);

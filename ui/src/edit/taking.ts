@@ -2,7 +2,7 @@ import type { MakeFile } from '../api/types.gen';
 import { countText } from '../base/numbers';
 import { FILE_SOURCES, type DraftFile, type FileSource } from '../make/draft';
 import type { Making } from '../make/making';
-import { DROPPABLE, type Dropped } from '../session/droppable';
+import { DROPPABLE } from '../session/droppable';
 import { notify } from '../session/notices';
 import type { Session } from '../session/session';
 import { uploadShow } from '../session/upload';
@@ -19,7 +19,12 @@ const FILES_MAX = 50;
 export const TEXT_MAX = 200;
 
 /** Opens the Make panel with what was dropped, pasted or chosen, or a show in place of this one. */
-export async function takeAnything(session: Session, editing: Editing, { files, text }: Dropped) {
+export async function takeAnything(
+  session: Session,
+  editing: Editing,
+  files: readonly File[],
+  text: string,
+) {
   try {
     const lists = await listsIn(editing, text);
     if (lists.length > 0) await takeFiles(session, editing, lists);

@@ -16,8 +16,14 @@ interface Begun {
   frames?: readonly Frame[];
 }
 
-/** Creates a show and opens it on every screen; without frames, with a pixel for every robot that reports. */
-export async function createShowInLibrary(session: Session, begun: Begun = {}): Promise<boolean> {
+/**
+ * Creates a show and opens it on every screen; without frames, with a pixel for every robot that reports. Answers its name;
+ * null: there is none, and a notice said why.
+ */
+export async function createShowInLibrary(
+  session: Session,
+  begun: Begun = {},
+): Promise<string | null> {
   try {
     const name = freeName(
       begun.title === undefined ? 'Untitled' : nameFromFile(begun.title),
@@ -27,9 +33,9 @@ export async function createShowInLibrary(session: Session, begun: Begun = {}): 
     const show = newShow(name, here || ROBOTS_DEFAULT, begun.stage);
     const document = writeShow(begun.frames ? { ...show, frames: begun.frames } : show);
     await putShow(name, JSON.stringify(document), 'new');
-    return (await session.ask({ do: 'open', name })).ok;
+    return (await session.ask({ do: 'open', name })).ok ? name : null;
   } catch (error) {
     notify('error', error instanceof Error ? error.message : String(error));
-    return false;
+    return null;
   }
 }

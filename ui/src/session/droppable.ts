@@ -2,6 +2,8 @@
 export interface Dropped {
   files: readonly File[];
   text: string;
+  /** Name of the show that it is for, which may not be open yet; null: the show that is open. */
+  into: string | null;
 }
 
 /** What can be dropped, in words. */

@@ -7,7 +7,7 @@ import { uploadShow } from './upload';
 import { goTo, viewNow } from './useHash';
 
 /** Opens a dropped show on every screen. The editor makes a frame from anything else; it begins a show if none is open. */
-export async function takeDropped(session: Session, dropped: Dropped) {
+export async function takeDropped(session: Session, dropped: Omit<Dropped, 'into'>) {
   const [file] = dropped.files;
   if (file && dropped.files.length === 1 && isShow(file.name)) return uploadShow(session, file);
   const { name, readOnly } = session.live.opened.get();
@@ -19,8 +19,9 @@ export async function takeDropped(session: Session, dropped: Dropped) {
     return;
   }
   const isNew = name === null || viewNow() === 'new';
-  if (isNew && !(await createShowInLibrary(session))) return;
-  session.dropped.set(dropped);
+  const into = isNew ? await createShowInLibrary(session) : null;
+  if (isNew && into === null) return;
+  session.dropped.set({ ...dropped, into });
   goTo('edit');
 }
 

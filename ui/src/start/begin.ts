@@ -25,7 +25,7 @@ export async function beginWith(
   try {
     const made = await makeTemplate(maker, frames, robots, stage, told);
     const show = { title, stage, frames: made };
-    if (await createShowInLibrary(session, show)) goTo('edit');
+    if ((await createShowInLibrary(session, show)) !== null) goTo('edit');
   } catch (error) {
     const why = error instanceof Error ? error.message : String(error);
     notify('error', `The show is not made. ${why}`);
@@ -34,12 +34,13 @@ export async function beginWith(
 
 /** A show with all robots at the front edge. */
 export async function beginEmpty(session: Session, { stage }: Fleet) {
-  if (await createShowInLibrary(session, { stage })) goTo('edit');
+  if ((await createShowInLibrary(session, { stage })) !== null) goTo('edit');
 }
 
 /** A new show whose first frame the Make panel makes of files. */
 export async function beginWithFiles(session: Session, { stage }: Fleet, files: readonly File[]) {
-  if (!(await createShowInLibrary(session, { stage }))) return;
-  session.dropped.set({ files, text: '' });
+  const into = await createShowInLibrary(session, { stage });
+  if (into === null) return;
+  session.dropped.set({ files, text: '', into });
   goTo('edit');
 }
