@@ -25,6 +25,7 @@ const frames = (page: Page) => page.getByRole('list', { name: 'Frames' }).locato
 async function begin(page: Page): Promise<string> {
   await page.getByTestId('open-library').click();
   await button(page, 'New show').click();
+  await button(page, 'Empty show').click();
   await page.getByTestId('stage').waitFor();
   const title = page.getByTestId('open-library').getByText(/^Untitled/);
   await title.waitFor();
