@@ -4,6 +4,7 @@ use super::record::{OutputKinds, Record};
 use super::recording::Recording;
 use crate::controller::Controller;
 use crate::event::Event;
+use crate::journal::JournalPiece;
 use crate::operation::{Operation, Refusal};
 use crate::outbox::Send;
 use crate::plan_request::{PlanRequest, PlanResult};
@@ -55,6 +56,21 @@ impl RecordedController {
         let Some(mut recording) = self.recording.take() else { return Vec::new() };
         recording.end();
         recording.take()
+    }
+
+    /// [`Controller::keep_journal`]
+    pub fn keep_journal(&mut self) {
+        self.controller.keep_journal();
+    }
+
+    /// [`Controller::take_journal`]
+    pub fn take_journal(&mut self, wall_us: u64) -> Option<JournalPiece> {
+        self.controller.take_journal(wall_us)
+    }
+
+    /// [`Controller::begin_journal_again`]
+    pub fn begin_journal_again(&mut self) {
+        self.controller.begin_journal_again();
     }
 
     /// [`Controller::connected`]

@@ -53,6 +53,7 @@ impl Journal {
     /// Pieces were lost on their way to the disk: the next one begins the journal again.
     pub fn begin_again(&mut self) {
         self.begins = self.state.is_some();
+        self.pending.clear();
     }
 
     /// The operator asks for something; a word for it.
@@ -130,7 +131,9 @@ impl Journal {
             // A change that was made for this state fits it.
             let _ = state.apply(change.clone());
         }
-        self.pending.push(change);
+        if !self.begins {
+            self.pending.push(change);
+        }
         (self.at, self.alive_at) = (now, now + ALIVE);
     }
 

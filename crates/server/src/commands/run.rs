@@ -20,6 +20,7 @@ use crate::library::{Library, name_of_file};
 use crate::live::broker::EmbeddedBroker;
 use crate::live::cast::Cast;
 use crate::live::conductor::Handle;
+use crate::live::journal;
 use crate::live::recorder::RecordingTarget;
 use crate::stop::Stop;
 use crate::web::{self, BrokerDesk, Exposure, Planner, ScreenLog, Shared};
@@ -70,6 +71,16 @@ async fn serve(arguments: &RunArguments, stop: &Stop, started: &mut Started) -> 
     let folder = DataFolder::take(&data)?;
     let library = Library::new(data.clone());
     library.tidy_up();
+    match journal::unfinished_run(&data) {
+        Ok(Some(run)) => say::line(&format!(
+            "The run of \"{}\" was cut off on the way to frame {} of {}",
+            run.show().name,
+            run.frame() + 1,
+            run.show().frames.len()
+        )),
+        Ok(None) => {}
+        Err(line) => say::error(&line),
+    }
     let (name, show) = first_show(arguments, &library)?;
     for issue in validate(&show).iter().filter(|issue| issue.is_error()).take(ISSUES_SHOWN) {
         say::error(&issue.message);

@@ -30,17 +30,12 @@ struct Shared {
 impl Clock {
     /// A clock that starts now.
     pub fn start() -> Self {
-        let since_1970 = SystemTime::now().duration_since(UNIX_EPOCH).unwrap_or_default();
         let shared = Shared {
             withheld_us: AtomicU64::new(0),
             limit_us: AtomicU64::new(u64::MAX),
             shown_us: AtomicU64::new(0),
         };
-        Self {
-            began: std::time::Instant::now(),
-            offset_us: since_1970.as_micros() as u64,
-            shared: Arc::new(shared),
-        }
+        Self { began: std::time::Instant::now(), offset_us: unix_us(), shared: Arc::new(shared) }
     }
 
     /// The moment it is.
@@ -80,7 +75,12 @@ impl Clock {
 
 /// Milliseconds since 1970.
 pub fn unix_ms() -> u64 {
-    SystemTime::now().duration_since(UNIX_EPOCH).unwrap_or_default().as_millis() as u64
+    unix_us() / 1_000
+}
+
+/// Microseconds since 1970.
+pub fn unix_us() -> u64 {
+    SystemTime::now().duration_since(UNIX_EPOCH).unwrap_or_default().as_micros() as u64
 }
 
 #[cfg(test)]

@@ -299,7 +299,7 @@ impl Conductor {
             let _ = self.news.send(News::Event(event));
         }
         self.plan();
-        if let Some(line) = self.recorder.keep(&mut self.controller) {
+        for line in self.recorder.keep(&mut self.controller) {
             tracing::warn!("{line}");
             let _ = self.news.send(News::Warning(line));
         }

@@ -5,6 +5,7 @@ pub mod cast;
 pub mod clock;
 pub mod conductor;
 pub mod crowd;
+pub mod journal;
 mod pace;
 pub mod recorder;
 mod rivals;

@@ -11,6 +11,7 @@ use lightbots_base::Instant;
 use lightbots_control::{Operation, RecordedController};
 
 use super::clock::unix_ms;
+use super::journal::JournalFile;
 use crate::disk;
 
 /// Folder of recorded runs in the data folder.
@@ -42,13 +43,22 @@ impl RecordingTarget {
     fn is_by_run(&self) -> bool {
         matches!(self, Self::Runs(_))
     }
+
+    /// Where the journal of runs is written.
+    fn data_folder(&self) -> Option<&Path> {
+        match self {
+            Self::Runs(data) => Some(data),
+            _ => None,
+        }
+    }
 }
 
-/// Keeps the log of a controller.
+/// Keeps the log of a controller, and the journal of its runs.
 #[derive(Debug)]
 pub struct Recorder {
     recording: RecordingTarget,
     writer: Option<LogWriter>,
+    journal: Option<JournalFile>,
 }
 
 impl Recorder {
@@ -57,7 +67,8 @@ impl Recorder {
         if matches!(recording, RecordingTarget::File(_)) {
             controller.begin_log(now, notes("play"));
         }
-        Self { recording, writer: None }
+        let journal = recording.data_folder().map(|data| JournalFile::start(data, controller));
+        Self { recording, writer: None, journal }
     }
 
     /// The operator asks for something: a run may begin.
@@ -68,8 +79,13 @@ impl Recorder {
         }
     }
 
-    /// Hands on what is new in the log. A line for people, once something went wrong.
-    pub fn keep(&mut self, controller: &mut RecordedController) -> Option<String> {
+    /// Hands on what is new in log and journal. Lines for people, once something went wrong.
+    pub fn keep(&mut self, controller: &mut RecordedController) -> impl Iterator<Item = String> + use<> {
+        let line = self.journal.as_mut().and_then(|journal| journal.keep(controller));
+        self.keep_log(controller).into_iter().chain(line)
+    }
+
+    fn keep_log(&mut self, controller: &mut RecordedController) -> Option<String> {
         if !controller.is_recording() {
             return None;
         }
@@ -92,6 +108,9 @@ impl Recorder {
         let _ = self.write(controller.end_log());
         if let Some(writer) = self.writer {
             writer.finish();
+        }
+        if let Some(journal) = self.journal {
+            journal.finish(controller);
         }
     }
 
