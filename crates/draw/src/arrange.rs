@@ -11,6 +11,7 @@ use crate::geometry::hexagonal_spacing;
 use crate::ground::Ground;
 use crate::layout::{Layout, LayoutTask, Style};
 use crate::settings::{PlaceSettings, PlacedLight};
+use crate::thick::{Crowd, thickened};
 
 /// Areas that are wider than this number of spacings, on average, get an edge and a filling. Narrower ones would zigzag.
 const WIDE: f64 = 2.0;
@@ -34,7 +35,10 @@ pub(crate) fn arrange(
     floor: &PictureFloor,
     settings: &PlaceSettings,
 ) -> Result<Vec<PlacedLight>, DrawError> {
-    let pieces = pieces(drawing, floor, settings);
+    let mut pieces = pieces(drawing, floor, settings);
+    if settings.style == Style::Filled {
+        thicken(&mut pieces, floor, settings);
+    }
     let style = style(&pieces, settings);
     let grounds: Vec<&Ground> = pieces.iter().map(|piece| &piece.ground).collect();
     let kept = kept_by_piece(&grounds, settings);
@@ -74,6 +78,26 @@ fn pieces(drawing: &Drawing, floor: &PictureFloor, settings: &PlaceSettings) -> 
         add(DrawingPart { areas: Vec::new(), spine: Vec::new(), ..part.clone() });
     }
     pieces
+}
+
+/// Makes bands of lines that are too short for the robots.
+fn thicken(pieces: &mut [Piece], floor: &PictureFloor, settings: &PlaceSettings) {
+    let is_line = |piece: &Piece| piece.ground.samples.is_empty();
+    let sum = |lines: bool, of: fn(&Ground) -> f64, pieces: &[Piece]| -> f64 {
+        pieces.iter().filter(|piece| is_line(piece) == lines).map(|piece| of(&piece.ground)).sum()
+    };
+    let crowd = Crowd {
+        robots: settings.robots,
+        spacing: settings.spacing_m,
+        length: sum(true, |ground| ground.lines.length(), pieces),
+        area: sum(false, |ground| ground.mass, pieces),
+    };
+    let Some(width) = crowd.width() else { return };
+    let each = settings.robots / pieces.len().max(1) + 1;
+    for piece in pieces.iter_mut().filter(|piece| is_line(piece)) {
+        let part = thickened(&piece.part, width);
+        piece.ground = Ground::new(&part, each, settings.quality, &|at| floor.allows(at));
+    }
 }
 
 /// The style of the areas: one for all of them, so that the letters of a word look alike.

@@ -148,18 +148,7 @@ impl Placement {
         closest_m: f64,
     ) -> Result<f64, DrawError> {
         if self.scale >= self.most * 0.999 {
-            let share = closest_m / settings.spacing_m;
-            let fitting = ((robots as f64) * share * share * 0.95).floor().max(1.0);
-            let size = floor.max - floor.min;
-            let what = format!(
-                "{robots} robots at least {:.0} mm apart do not fit into this picture on {:.2} × {:.2} m of floor; about \
-                 {fitting} robots do, or a floor {:.1} times as wide and deep",
-                settings.spacing_m * 1_000.0,
-                size.x,
-                size.y,
-                1.02 / share
-            );
-            return Err(DrawError::new("too-many-robots", what));
+            return Err(no_room(floor, settings, robots, closest_m / settings.spacing_m));
         }
         let before = self.scale;
         self.scale = (self.scale * factor * 1.002).min(self.most);
@@ -193,4 +182,22 @@ impl Placement {
         }
         mapped
     }
+}
+
+/// Says how many robots would fit, or on what floor, where the closest pair of a picture keeps this share of the spacing.
+fn no_room(floor: &PictureFloor, settings: &PlaceSettings, robots: usize, share: f64) -> DrawError {
+    let size = floor.max - floor.min;
+    let refused = format!(
+        "{robots} robots at least {:.0} mm apart do not fit into this picture on {:.2} × {:.2} m of floor",
+        settings.spacing_m * 1_000.0,
+        size.x,
+        size.y
+    );
+    let fitting = (robots as f64 * share * share * 0.95).floor();
+    let remedy = if fitting < 1.0 {
+        "use fewer robots or a larger floor".to_owned()
+    } else {
+        format!("about {fitting} robots do, or a floor {:.1} times as wide and deep", 1.02 / share)
+    };
+    DrawError::new("too-many-robots", format!("{refused}; {remedy}"))
 }

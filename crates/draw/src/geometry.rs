@@ -49,9 +49,14 @@ pub(crate) fn hexagonal_spacing(area: f64, count: usize) -> f64 {
     (2.0 * area / (3.0_f64.sqrt() * count.max(1) as f64)).sqrt()
 }
 
+/// Area that a hexagonal grid of `count` places takes at this spacing.
+pub(crate) fn hexagonal_area(count: usize, spacing: f64) -> f64 {
+    3.0_f64.sqrt() / 2.0 * spacing * spacing * count as f64
+}
+
 /// Number of places of a hexagonal grid of this spacing in an area; 0 for a negative area.
 pub(crate) fn hexagonal_count(area: f64, spacing: f64) -> f64 {
-    area.max(0.0) / (3.0_f64.sqrt() / 2.0 * spacing * spacing)
+    area.max(0.0) / hexagonal_area(1, spacing)
 }
 
 #[cfg(test)]

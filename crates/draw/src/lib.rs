@@ -41,6 +41,7 @@ mod sniff;
 pub mod svg;
 mod symmetry;
 pub mod text;
+mod thick;
 mod unique;
 
 pub use buckets::closest_distance;

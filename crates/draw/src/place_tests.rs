@@ -225,3 +225,21 @@ fn a_picture_begun_from_one_elsewhere_is_as_good_as_a_new_one() {
         );
     }
 }
+
+#[test]
+fn lines_that_are_too_short_for_the_robots_become_bands() {
+    let small = PictureFloor::new(2.6, 2.6, 0.1);
+    let refusal = place(
+        &cross(),
+        &small,
+        &PlaceSettings { robots: 200, style: Style::Lines, ..PlaceSettings::default() },
+    );
+    assert_eq!(refusal.unwrap_err().code, "too-many-robots");
+    for robots in [61, 100, 200] {
+        let placed = made(&cross(), &small, &PlaceSettings { robots, ..PlaceSettings::default() });
+        assert_eq!(placed.lights.len(), robots);
+        assert!(closest(&placed.lights) >= 0.08 * 0.999_999);
+        let off = |light: &&PlacedLight| light.at.x.abs().min(light.at.y.abs()) > 0.3;
+        assert_eq!(placed.lights.iter().filter(off).count(), 0, "{robots} robots are still a cross");
+    }
+}

@@ -7,7 +7,7 @@ use crate::buckets::{Buckets, closest_distance, nearest_distances};
 use crate::coverage::Sample;
 use crate::error::DrawError;
 use crate::fit::PictureFloor;
-use crate::geometry::hexagonal_spacing;
+use crate::geometry::{bounds, hexagonal_count, hexagonal_spacing};
 use crate::relax::Lloyd;
 use crate::seeds::{eliminate, seeds};
 use crate::settings::{MAX_ROBOTS, PlacedLight};
@@ -18,8 +18,12 @@ const ROUNDS: usize = 20;
 /// Lights up to this number of typical distances apart are joined by a line of the picture.
 const JOINED: f64 = 1.45;
 
-/// Half the width of such a line, in typical distances: twice as many lights still stand in one row.
-const HALF_WIDTH: f64 = 0.22;
+/// Half the width of such a line, in typical distances, tried in this order. With the first one twice as many lights still
+/// stand in one row; where a row has no room to grow in length, the wider ones make several rows of it.
+const HALF_WIDTHS: [f64; 8] = [0.22, 0.5, 0.9, 1.4, 2.1, 3.2, 4.8, 7.0];
+
+/// Share of the ideal spacing that the closest pair of relaxed places keeps (Lloyd without pushing apart, measured).
+const RELAXED: f64 = 0.7;
 
 /// Samples along a typical distance.
 const FINENESS: f64 = 9.0;
@@ -55,30 +59,65 @@ pub fn refit(
         let what = format!("{robots} robots; a picture takes 1 to {MAX_ROBOTS}");
         return Err(DrawError::new("bad-setting", what));
     }
-    let places: Vec<Vec2> = lights.iter().map(|light| light.at).collect();
-    let is_pinned = |index: usize| pinned.get(index).copied().unwrap_or(false);
-    let mut order: Vec<usize> = (0..lights.len()).collect();
-    order.sort_by_key(|index| !is_pinned(*index));
-    let typical = typical_distance(&places);
-    let samples: Vec<Sample> =
-        samples(&places, typical).into_iter().filter(|sample| floor.allows(sample.at)).collect();
-    let staying = staying(&places, &order, robots, is_pinned);
-    let mut now: Vec<Vec2> = staying.iter().map(|index| places[*index]).collect();
-    let mass: f64 = samples.iter().map(|sample| sample.mass).sum();
-    let spacing = hexagonal_spacing(mass, robots);
-    now.extend(seeds(&samples, &now, robots - staying.len(), spacing, 1));
-    let kept = staying.iter().filter(|index| is_pinned(**index)).count();
-    if robots != lights.len() {
-        Lloyd { samples: &samples, kept, spacing, rounds: ROUNDS, pairing: None }.run(&mut now);
+    let mut refusal = None;
+    let task = Refit { lights, pinned, robots, spacing_m, floor };
+    for half_width in HALF_WIDTHS {
+        match task.with_lines(half_width) {
+            Ok(refitted) => return Ok(refitted),
+            Err(error) => refusal = Some(error),
+        }
     }
-    spread(&mut now, spacing_m, floor)?;
-    let nearest = Buckets::new(&places, typical.max(1e-6));
-    let refitted = now.iter().enumerate().map(|(index, at)| {
-        let from = staying.get(index).copied();
-        let source = from.or(nearest.nearest(*at).map(|(near, _)| near)).unwrap_or(0);
-        RefitLight { light: PlacedLight { at: *at, ..lights[source] }, from }
-    });
-    Ok(refitted.collect())
+    Err(refusal.unwrap_or_else(|| DrawError::new("too-many-robots", "there is no room for these robots")))
+}
+
+/// What is asked of a picture.
+struct Refit<'a> {
+    lights: &'a [PlacedLight],
+    pinned: &'a [bool],
+    robots: usize,
+    spacing_m: f64,
+    floor: &'a PictureFloor,
+}
+
+impl Refit<'_> {
+    fn is_pinned(&self, index: usize) -> bool {
+        self.pinned.get(index).copied().unwrap_or(false)
+    }
+
+    /// The picture on lines of this half width, in typical distances.
+    fn with_lines(&self, half_width: f64) -> Result<Vec<RefitLight>, DrawError> {
+        let places: Vec<Vec2> = self.lights.iter().map(|light| light.at).collect();
+        let mut order: Vec<usize> = (0..places.len()).collect();
+        order.sort_by_key(|index| !self.is_pinned(*index));
+        let typical = typical_distance(&places);
+        let samples: Vec<Sample> = samples(&places, typical, half_width)
+            .into_iter()
+            .filter(|sample| self.floor.allows(sample.at))
+            .collect();
+        let staying = staying(&places, &order, self.robots, |index| self.is_pinned(index));
+        let mut now: Vec<Vec2> = staying.iter().map(|index| places[*index]).collect();
+        let mass: f64 = samples.iter().map(|sample| sample.mass).sum();
+        let spacing = hexagonal_spacing(mass, self.robots);
+        // In an area no pair can be farther apart than the ideal, and finding that out for thousands takes seconds. A row can:
+        // its lights stand behind one another.
+        if half_width > HALF_WIDTHS[0] && spacing < self.spacing_m && self.robots > staying.len() {
+            let fitting = RELAXED * RELAXED * hexagonal_count(mass, self.spacing_m);
+            return Err(no_room(self.robots, self.spacing_m, fitting));
+        }
+        now.extend(seeds(&samples, &now, self.robots - staying.len(), spacing, 1));
+        let kept = staying.iter().filter(|index| self.is_pinned(**index)).count();
+        if self.robots != places.len() {
+            Lloyd { samples: &samples, kept, spacing, rounds: ROUNDS, pairing: None }.run(&mut now);
+        }
+        spread(&mut now, self.spacing_m, self.floor)?;
+        let nearest = Buckets::new(&places, typical.max(1e-6));
+        let refitted = now.iter().enumerate().map(|(index, at)| {
+            let from = staying.get(index).copied();
+            let source = from.or(nearest.nearest(*at).map(|(near, _)| near)).unwrap_or(0);
+            RefitLight { light: PlacedLight { at: *at, ..self.lights[source] }, from }
+        });
+        Ok(refitted.collect())
+    }
 }
 
 /// Lights that stay, the pinned ones first: of the others the most crowded go.
@@ -103,11 +142,11 @@ fn typical_distance(places: &[Vec2]) -> f64 {
 }
 
 /// Samples of the picture that lights make: lines between neighbours, which close up to areas where lights fill one.
-fn samples(places: &[Vec2], typical: f64) -> Vec<Sample> {
+fn samples(places: &[Vec2], typical: f64, half_width: f64) -> Vec<Sample> {
     let mut lines: Vec<(Vec2, Vec2)> = places.iter().map(|at| (*at, *at)).collect();
     Buckets::new(places, typical).pairs(JOINED * typical, |a, b, _| lines.push((places[a], places[b])));
     let pitch = typical / FINENESS;
-    let half = HALF_WIDTH * typical;
+    let half = half_width * typical;
     let mut cells: std::collections::BTreeSet<(i64, i64)> = std::collections::BTreeSet::new();
     for (a, b) in lines {
         let cell = |value: f64| (value / pitch).floor() as i64;
@@ -126,7 +165,13 @@ fn center(x: i64, y: i64, pitch: f64) -> Vec2 {
     Vec2::new((x as f64 + 0.5) * pitch, (y as f64 + 0.5) * pitch)
 }
 
-/// Spreads places from their middle until the closest pair keeps its distance.
+/// The shortest way that brings a box onto the floor, if it has room there.
+fn onto_floor(low: Vec2, high: Vec2, floor: &PictureFloor) -> Vec2 {
+    let shift = |low: f64, high: f64, min: f64, max: f64| (min - low).max(0.0) - (high - max).max(0.0);
+    Vec2::new(shift(low.x, high.x, floor.min.x, floor.max.x), shift(low.y, high.y, floor.min.y, floor.max.y))
+}
+
+/// Spreads places from their middle until the closest pair keeps its distance, and moves them back onto the floor.
 fn spread(places: &mut [Vec2], spacing_m: f64, floor: &PictureFloor) -> Result<(), DrawError> {
     let closest = closest_distance(places);
     if closest >= spacing_m {
@@ -134,18 +179,25 @@ fn spread(places: &mut [Vec2], spacing_m: f64, floor: &PictureFloor) -> Result<(
     }
     let middle = places.iter().fold(Vec2::ZERO, |sum, at| sum + *at) * (1.0 / places.len() as f64);
     let factor = spacing_m / closest * 1.001;
-    let wider: Vec<Vec2> = places.iter().map(|at| middle + (*at - middle) * factor).collect();
+    let mut wider: Vec<Vec2> = places.iter().map(|at| middle + (*at - middle) * factor).collect();
+    if let Some((low, high)) = bounds(&wider) {
+        let shift = onto_floor(low, high, floor);
+        wider.iter_mut().for_each(|at| *at += shift);
+    }
     if !wider.iter().all(|at| floor.allows(*at)) {
-        let fitting = ((places.len() as f64) / (factor * factor)).floor().max(1.0);
-        let what = format!(
-            "{} robots at least {:.0} mm apart do not find room in this picture; about {fitting} do, or a larger floor",
-            places.len(),
-            spacing_m * 1_000.0
-        );
-        return Err(DrawError::new("too-many-robots", what));
+        return Err(no_room(places.len(), spacing_m, places.len() as f64 / (factor * factor)));
     }
     places.copy_from_slice(&wider);
     Ok(())
+}
+
+fn no_room(robots: usize, spacing_m: f64, fitting: f64) -> DrawError {
+    let what = format!(
+        "{robots} robots at least {:.0} mm apart do not find room in this picture; about {} do, or a larger floor",
+        spacing_m * 1_000.0,
+        fitting.floor().max(1.0)
+    );
+    DrawError::new("too-many-robots", what)
 }
 
 #[cfg(test)]
@@ -181,6 +233,26 @@ mod tests {
             let lights = refit(&row(11), &[], robots, 0.08, &floor()).unwrap();
             assert_eq!(lights.len(), robots);
             assert!(lights.iter().all(|light| light.light.at.y.abs() < 0.03), "{robots}: {lights:?}");
+        }
+    }
+
+    #[test]
+    fn a_row_without_room_becomes_several_rows() {
+        let light = |index: i32| PlacedLight {
+            at: Vec2::new(f64::from(index) * 0.13 - 1.885, -1.9),
+            color: Rgb::BLACK,
+            part: 0,
+        };
+        let full: Vec<PlacedLight> = (0..30).map(light).collect();
+        for robots in [45, 60, 100, 150] {
+            let places: Vec<Vec2> = refit(&full, &[], robots, 0.08, &floor())
+                .unwrap()
+                .iter()
+                .map(|light| light.light.at)
+                .collect();
+            assert_eq!(places.len(), robots);
+            assert!(places.iter().all(|at| floor().allows(*at) && at.y < -1.0), "{robots}: {places:?}");
+            assert!(closest_distance(&places) >= 0.08);
         }
     }
 

@@ -1,0 +1,92 @@
+//! Lines as bands, for more robots than stand behind one another along them.
+
+use core::f64::consts::PI;
+
+use lightbots_base::Vec2;
+
+use crate::drawing::{Area, DrawingPart, FillRule, Stroke};
+use crate::geometry::{hexagonal_area, hexagonal_count};
+
+/// Corners of half a circle at each end of a piece.
+const ROUND: usize = 6;
+
+/// The nearest pair of a filling, in ideal spacings: bands are made this much wider, so that nobody stands nearer than wanted.
+const NEAREST: f64 = 0.85;
+
+/// What bands have to hold.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Crowd {
+    /// Number of robots.
+    pub robots: usize,
+    /// Their least distance, same units as the drawing.
+    pub spacing: f64,
+    /// Total length of the lines.
+    pub length: f64,
+    /// Total of the areas, which take robots as well.
+    pub area: f64,
+}
+
+impl Crowd {
+    /// Width of bands that have room for everybody; `None` where the lines themselves have.
+    pub fn width(&self) -> Option<f64> {
+        let ideal = self.spacing / NEAREST;
+        let on_lines = self.length / self.spacing;
+        if self.length <= 0.0 || self.robots as f64 <= on_lines + hexagonal_count(self.area, ideal) {
+            return None;
+        }
+        Some((hexagonal_area(self.robots, ideal) - self.area) / self.length)
+    }
+}
+
+/// A part whose lines are bands of this width.
+pub(crate) fn thickened(part: &DrawingPart, width: f64) -> DrawingPart {
+    let areas = part.strokes.iter().map(|stroke| band(stroke, width)).collect();
+    DrawingPart { areas, strokes: Vec::new(), spine: part.strokes.clone(), ..part.clone() }
+}
+
+fn band(stroke: &Stroke, width: f64) -> Area {
+    let ends = stroke.points.first().filter(|_| stroke.closed);
+    let points: Vec<Vec2> = stroke.points.iter().chain(ends).copied().collect();
+    let rings = points.windows(2).map(|pair| around(pair[0], pair[1], width / 2.0)).collect();
+    Area { rings, rule: FillRule::NonZero, color: stroke.color, weight: stroke.weight }
+}
+
+/// The outline of all that is within `reach` of a straight piece, anticlockwise.
+fn around(from: Vec2, to: Vec2, reach: f64) -> Vec<Vec2> {
+    let along = (to - from).angle();
+    let cap = |center: Vec2, first: f64| {
+        (0..=ROUND).map(move |step| center + Vec2::unit(first + PI * step as f64 / ROUND as f64) * reach)
+    };
+    cap(to, along - PI / 2.0).chain(cap(from, along + PI / 2.0)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::coverage::samples;
+    use lightbots_base::Rgb;
+
+    fn crowd(robots: usize) -> Crowd {
+        Crowd { robots, spacing: 0.1, length: 2.0, area: 0.0 }
+    }
+
+    #[test]
+    fn lines_with_room_stay_lines() {
+        assert_eq!(crowd(20).width(), None);
+        assert!(crowd(30).width().is_some_and(|width| width > 0.1));
+        let more = crowd(60).width().unwrap_or_default() / crowd(30).width().unwrap_or(1.0);
+        assert!((more - 2.0).abs() < 1e-9);
+        assert_eq!(Crowd { length: 0.0, ..crowd(30) }.width(), None);
+    }
+
+    #[test]
+    fn a_band_covers_its_line_and_no_more() {
+        let points = vec![Vec2::ZERO, Vec2::new(1.0, 0.0), Vec2::new(1.0, 1.0)];
+        let stroke = Stroke { points, closed: false, color: Rgb::BLACK, weight: 1.0 };
+        let part = DrawingPart { strokes: vec![stroke], ..DrawingPart::default() };
+        let mass: f64 = samples(&thickened(&part, 0.2), 0.01).iter().map(|sample| sample.mass).sum();
+        // Two bands of 1 × 0.2, three quarters of a circle's sector at the corner, two half circles at the ends.
+        let exact = 0.4 - 0.01 + PI * 0.01 / 4.0 + PI * 0.01;
+        assert!((mass - exact).abs() < 0.01, "{mass} {exact}");
+    }
+}
