@@ -57,6 +57,8 @@ pub enum Operation {
     Abort,
     /// Stop the wheels of every robot at once, in any phase.
     StopAll,
+    /// Let a show go on whose robots were out of reach, without robots that do not report.
+    GoOn,
     /// Clear `Playback.failure` on every screen, because the operator has read it.
     DismissFailure,
     /// Ask all robots for a report.

@@ -65,6 +65,8 @@ pub struct Playback {
     pub left_s: Option<f64>,
     /// Why and where the last run failed, a sentence for people; null: no failure since the last start, or dismissed.
     pub failure: Option<String>,
+    /// Whether `GoOn` lets a show go on whose robots were out of reach: some report again.
+    pub may_go_on: bool,
     /// Whether the show begins again after the last frame.
     pub looping: bool,
     /// Names of late robots that the fleet waits for; at most 20.
@@ -89,4 +91,6 @@ pub enum Phase {
     Preview,
     /// Robots stop after an abort.
     Aborting,
+    /// The show stands still, because its robots are out of reach, or were and the operator is to say that it goes on.
+    LinkLost,
 }

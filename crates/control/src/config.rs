@@ -31,8 +31,11 @@ pub struct Config {
     pub late_bound: Span,
     /// How long a plan may take before the run is given up.
     pub plan_bound: Span,
-    /// How long a run outlives the broker.
+    /// How long a run outlives the broker, or robots that are all silent.
     pub offline_bound: Span,
+    /// A run whose robots were out of reach for no longer than this goes on by itself. After that, people may have stepped
+    /// on the floor, and the operator says that it goes on.
+    pub goes_on_within: Span,
 }
 
 /// When robots that do not report age.
@@ -70,6 +73,7 @@ impl Default for Config {
             late_bound: Span::from_millis(4_000),
             plan_bound: Span::from_millis(120_000),
             offline_bound: Span::from_millis(300_000),
+            goes_on_within: Span::from_millis(30_000),
         }
     }
 }

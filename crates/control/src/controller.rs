@@ -96,9 +96,6 @@ impl Controller {
         self.context.outbox.link(true);
         self.context.log.record(now, EventKind::Connected);
         self.refresh(now);
-        if let Some(run) = &mut self.run {
-            run.on_reconnect(&mut self.context, now);
-        }
         self.conclude(now);
     }
 
@@ -244,9 +241,9 @@ impl Controller {
     /// What the controller is doing.
     pub fn state(&self) -> ControllerState {
         match &self.run {
-            _ if !self.context.outbox.linked() => ControllerState::Idle,
-            _ if self.stopping.is_some() => ControllerState::Aborting,
             Some(run) => run.state(),
+            None if !self.context.outbox.linked() => ControllerState::Idle,
+            None if self.stopping.is_some() => ControllerState::Aborting,
             None => ControllerState::Ready,
         }
     }

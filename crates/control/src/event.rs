@@ -106,6 +106,24 @@ pub enum EventKind {
     },
     /// Robots report, and none acknowledges its route: the link to them is broken.
     Undelivered,
+    /// Many robots of a run fell silent at once: the run stands still until they report again.
+    LinkLost {
+        /// Number of them.
+        silent: usize,
+        /// Robots of the run.
+        robots: usize,
+    },
+    /// Robots of a run that was interrupted report again.
+    LinkBack {
+        /// Number of them.
+        reported: usize,
+        /// Robots of the run.
+        robots: usize,
+        /// Since the run was interrupted.
+        after: Span,
+        /// The run goes on once the operator says so; otherwise by itself.
+        asks_operator: bool,
+    },
     /// The drive goes on after a hold.
     Resumed,
     /// A robot takes no part any more; the rest goes on without it.
@@ -198,6 +216,8 @@ impl EventKind {
             | LeftOut { .. }
             | Waiting { .. }
             | Undelivered
+            | LinkLost { .. }
+            | LinkBack { asks_operator: true, .. }
             | Replanning { .. }
             | Misaligned { .. }
             | UnexpectedArrival(_)
@@ -242,6 +262,26 @@ struct Count<'a>(usize, &'a str);
 impl fmt::Display for Count<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{} {}{}", self.0, self.1, if self.0 == 1 { "" } else { "s" })
+    }
+}
+
+impl EventKind {
+    /// The line of an event of the link.
+    fn write_link(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::LinkLost { silent, robots } => write!(
+                f,
+                "Link lost: {silent} of {} fell silent at once. The show stands still until they report again.",
+                Count(*robots, "robot")
+            ),
+            Self::LinkBack { reported, robots, after, asks_operator } => {
+                let then =
+                    if *asks_operator { "Look at the floor, then press Go on" } else { "The show goes on" };
+                let robots = Count(*robots, "robot");
+                write!(f, "{reported} of {robots} report again after {:.0} s. {then}.", after.as_secs())
+            }
+            _ => Ok(()),
+        }
     }
 }
 
@@ -296,6 +336,7 @@ impl fmt::Display for EventKind {
                 f,
                 "No robot acknowledges its path, though robots report: the broker does not deliver messages to them."
             ),
+            LinkLost { .. } | LinkBack { .. } => self.write_link(f),
             Resumed => write!(f, "Resumed."),
             Dropout { robot, why } => write!(f, "Robot {robot} drops out: it {why}."),
             Rejoined(id) => write!(f, "Robot {id} takes part from the next frame on."),

@@ -26,6 +26,7 @@ impl Controller {
             Operation::Pause => self.pause(),
             Operation::Resume => self.resume(now, false),
             Operation::Step => self.resume(now, true),
+            Operation::GoOn => self.go_on(now),
             Operation::Abort => self.abort(now),
             Operation::StopAll => self.stop_all(now),
             Operation::DismissFailure => {
@@ -162,6 +163,12 @@ impl Controller {
         }
         run.resume(&mut self.context, now, step);
         Ok(())
+    }
+
+    fn go_on(&mut self, now: Instant) -> Result<(), Refusal> {
+        self.linked()?;
+        let run = self.run.as_mut().ok_or(Refusal::NoRun)?;
+        if run.go_on(&mut self.context, now) { Ok(()) } else { Err(Refusal::NothingToGoOn) }
     }
 
     fn abort(&mut self, now: Instant) -> Result<(), Refusal> {

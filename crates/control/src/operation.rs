@@ -52,6 +52,8 @@ pub enum Operation {
         /// The only robot that may show it; `None`: any.
         robot: Option<RobotId>,
     },
+    /// A run whose robots were out of reach goes on from where they stand, without robots that do not report.
+    GoOn,
 }
 
 /// What happens to pixels no robot can show.
@@ -82,6 +84,8 @@ pub enum ControllerState {
     Preview,
     /// Robots are being stopped.
     Aborting,
+    /// A run stands still because its robots are out of reach, or were and wait for the operator.
+    LinkLost,
 }
 
 /// Why an operation was not done. Its text says so to people, with what they can do.
@@ -109,6 +113,8 @@ pub enum Refusal {
     NoRun,
     /// The run is not paused.
     NotPaused,
+    /// Robots are not out of reach, or none has reported since.
+    NothingToGoOn,
     /// There are not enough robots; [`MissingPolicy::LeaveOut`] plays without the missing ones.
     TooFewRobots {
         /// Most pixels in a frame.
@@ -149,6 +155,7 @@ impl Operation {
             Self::Forget(_) => "forget",
             Self::Loop(_) => "loop",
             Self::Pin { .. } => "pin",
+            Self::GoOn => "go on",
         }
     }
 }
@@ -163,6 +170,7 @@ impl fmt::Display for ControllerState {
             Self::Paused => "paused",
             Self::Preview => "driving to a preview",
             Self::Aborting => "stopping the robots",
+            Self::LinkLost => "without a link to the robots",
         })
     }
 }
@@ -179,6 +187,9 @@ impl fmt::Display for Refusal {
             Self::Busy(state) => write!(f, "Not while the controller is {state}: abort first."),
             Self::NoRun => write!(f, "Nothing is being played."),
             Self::NotPaused => write!(f, "The run is not paused: pause it first."),
+            Self::NothingToGoOn => {
+                write!(f, "The show does not wait for this: it goes on once robots report again.")
+            }
             Self::TooFewRobots { pixels, robots, without_place, unfit } => {
                 write!(f, "The show needs {pixels} robots, {robots} can take part")?;
                 if *without_place > 0 {

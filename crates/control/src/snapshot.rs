@@ -44,6 +44,8 @@ pub struct RunView {
     pub drive_s: f64,
     /// When the drive began, show clock; `None` before.
     pub began: Option<Instant>,
+    /// Whether the operator can let a run go on that was interrupted, without robots that do not report.
+    pub may_go_on: bool,
     /// Robots of the run that others wait for, because they make no progress or are silent; at most 8.
     pub waiting_for: Vec<RobotId>,
     /// Number of frames reached.

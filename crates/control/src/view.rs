@@ -14,7 +14,7 @@ impl Run {
     /// What the controller is doing, as people see it.
     pub fn state(&self) -> ControllerState {
         match self.phase {
-            RunPhase::Offline(_) => ControllerState::Idle,
+            RunPhase::Interrupted(_) => ControllerState::LinkLost,
             _ if self.playback.paused => ControllerState::Paused,
             RunPhase::Gathering(_) | RunPhase::Standing(_) | RunPhase::Starting(_)
                 if self.pipeline.driven.is_none() =>
@@ -34,19 +34,22 @@ impl Run {
         };
         RunView {
             frame: self.frame(),
-            doing: self.doing(),
+            doing: self.doing(context),
             progress: self.progress(now),
             drive_s: self.pipeline.leg().map_or(0.0, |leg| leg.duration.as_secs()),
             began,
+            may_go_on: self.may_go_on(context),
             waiting_for: self.waiting_for(context, now),
             frames_played: self.tally.frames_played,
             dropouts: self.tally.dropouts,
         }
     }
 
-    fn doing(&self) -> &'static str {
+    fn doing(&self, context: &Context) -> &'static str {
         match &self.phase {
-            RunPhase::Offline(_) => "waiting for the broker",
+            RunPhase::Interrupted(_) if !context.outbox.linked() => "waiting for the broker",
+            RunPhase::Interrupted(interrupted) if interrupted.asks_operator() => "waiting for you to go on",
+            RunPhase::Interrupted(_) => "waiting for robots to report",
             RunPhase::Gathering(_) => "asking robots where they are",
             RunPhase::Starting(_) => "starting",
             RunPhase::Driving(drive) if drive.clock.hold.is_some() => "holding",
@@ -56,6 +59,12 @@ impl Run {
             RunPhase::Standing(_) => "uploading routes",
             RunPhase::Over(..) => "over",
         }
+    }
+
+    /// Whether the operator can let an interrupted run go on.
+    fn may_go_on(&self, context: &Context) -> bool {
+        let RunPhase::Interrupted(interrupted) = &self.phase else { return false };
+        context.outbox.linked() && interrupted.is_any_back()
     }
 
     fn progress(&self, now: Instant) -> f64 {

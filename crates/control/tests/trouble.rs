@@ -298,7 +298,7 @@ fn a_broker_lost_in_the_middle_of_a_run_only_costs_time() {
         let mut world = a_second_under_way();
         world.link(false);
         world.run_for(gap_s);
-        assert_eq!(world.controller.state(), ControllerState::Idle);
+        assert_eq!(world.controller.state(), ControllerState::LinkLost);
         world.link(true);
         assert_eq!(world.run_to_end(90.0), (RunOutcome::Finished, 3, 0), "{}", world.story());
     }
@@ -364,9 +364,9 @@ fn when_all_robots_die_the_run_ends() {
     world.play();
     world.run_until(10.0, started);
     world.robots.iter_mut().for_each(|robot| robot.dead = true);
-    let (outcome, _, dropouts) = world.run_to_end(30.0);
-    let why = "Show stopped in frame 1: all 4 robots lost contact";
-    assert_eq!((outcome, dropouts), (RunOutcome::Failed(why.into()), 4), "{}", world.story());
+    let (outcome, _, dropouts) = world.run_to_end(330.0);
+    let why = "Show stopped in frame 1: no robot reports any more";
+    assert_eq!((outcome, dropouts), (RunOutcome::Failed(why.into()), 0), "{}", world.story());
     assert_eq!(world.controller.snapshot(world.now).failure, Some(format!("{why}.")));
     assert_eq!(world.controller.snapshot(world.now).state, ControllerState::Ready);
     world.operate(Operation::DismissFailure).unwrap();
@@ -379,7 +379,7 @@ fn starting_again_takes_back_why_the_last_run_failed() {
     world.play();
     world.run_until(10.0, started);
     world.robots.iter_mut().for_each(|robot| robot.dead = true);
-    world.run_to_end(30.0);
+    world.run_to_end(330.0);
     world.robots.iter_mut().for_each(|robot| robot.dead = false);
     world.operate(Operation::Refresh).unwrap();
     world.run_for(3.0);

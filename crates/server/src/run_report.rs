@@ -126,6 +126,8 @@ impl RunReport {
 fn issue(kind: &EventKind) -> Option<Issue> {
     let (code, frame) = match kind {
         EventKind::Disconnected => ("broker-lost", None),
+        EventKind::LinkLost { .. } => ("link-lost", None),
+        EventKind::LinkBack { .. } => ("link-back", None),
         EventKind::PlanFailed { frame, .. } => ("no-plan", Some(*frame)),
         EventKind::LeftOut { frame, .. } => ("left-out", Some(*frame)),
         EventKind::Dropout { .. } => ("dropout", None),

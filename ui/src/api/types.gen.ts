@@ -395,6 +395,10 @@ left_s: number | null,
  */
 failure: string | null, 
 /**
+ * Whether `GoOn` lets a show go on whose robots were out of reach: some report again.
+ */
+may_go_on: boolean, 
+/**
  * Whether the show begins again after the last frame.
  */
 looping: boolean, 
@@ -406,7 +410,7 @@ late: Array<string>, };
 /**
  * Phase of the run.
  */
-export type Phase = "idle" | "ready" | "preparing" | "playing" | "paused" | "preview" | "aborting";
+export type Phase = "idle" | "ready" | "preparing" | "playing" | "paused" | "preview" | "aborting" | "link_lost";
 
 /**
  * Places, lights and statuses: every list has one entry per robot, in the order of the fleet table.
@@ -515,7 +519,7 @@ missing?: Missing, } | { "do": "pause" } | { "do": "resume" } | { "do": "step" }
 /**
  * Whether it begins again.
  */
-on: boolean, } | { "do": "abort" } | { "do": "stop_all" } | { "do": "dismiss_failure" } | { "do": "refresh" } | { "do": "identify", 
+on: boolean, } | { "do": "abort" } | { "do": "stop_all" } | { "do": "go_on" } | { "do": "dismiss_failure" } | { "do": "refresh" } | { "do": "identify", 
 /**
  * Name of the robot.
  */

@@ -26,13 +26,17 @@ const ICONS = {
   play: <IconPlayerPlayFilled size={16} />,
   pause: <IconPlayerPauseFilled size={16} />,
   resume: <IconPlayerPlayFilled size={16} />,
+  go_on: <IconPlayerPlayFilled size={16} />,
 };
+
+const LABELS = { play: 'Play', pause: 'Pause', resume: 'Resume', go_on: 'Go on' };
 
 /** The buttons that start, pause and stop robots; the server's state enables them. */
 export function Transport() {
   const session = useSession();
   const { live, ask, frame } = session;
   const phase = useStore(live.playback, (p) => p.phase);
+  const mayGoOn = useStore(live.playback, (p) => p.may_go_on);
   const looping = useStore(live.playback, (p) => p.looping);
   const chosen = useStore(frame);
   const linked = useStore(live.link) === 'open';
@@ -40,7 +44,7 @@ export function Transport() {
   const isWaiting = useStore(session.waiting, (pending) => pending !== null);
   const [asking, setAsking] = useState({ opened: false, frame: 0 });
   useEffect(() => followPlan(session), [session]);
-  const actions = actionsOf(phase, linked, hasShow);
+  const actions = actionsOf(phase, linked, hasShow, mayGoOn);
   const drive = (to: number) => whenPlanned(session, () => void ask({ do: 'preview', frame: to }));
   const perform = (action: Action) => {
     if (isWaiting && (action === 'abort' || action === actions.main))
@@ -77,7 +81,7 @@ export function Transport() {
         disabled={!actions.enabled.has(actions.main)}
         onClick={() => perform(actions.main)}
       >
-        {isWaiting ? 'Cancel' : { play: 'Play', pause: 'Pause', resume: 'Resume' }[actions.main]}
+        {isWaiting ? 'Cancel' : LABELS[actions.main]}
       </Button>
       <Group gap={2} wrap="nowrap">
         {icon('abort', 'Abort (Esc)', <IconPlayerStopFilled size={18} />)}

@@ -11,6 +11,7 @@ const playback = (phase: Phase): Playback => ({
   left_s: null,
   failure: null,
   looping: false,
+  may_go_on: false,
   late: [],
 });
 
@@ -22,6 +23,7 @@ test.each<[Phase, string, string]>([
   ['paused', 'resume', 'loop refresh resume step abort'],
   ['preview', 'play', 'loop refresh abort'],
   ['aborting', 'play', 'loop refresh'],
+  ['link_lost', 'go_on', 'loop refresh abort'],
 ])('%s offers %s, and %s work', (phase, main, enabled) => {
   const actions = actionsOf(phase, true, true);
   expect(actions.main).toBe(main);
@@ -33,10 +35,18 @@ test('without a server nothing works, without a show nothing plays', () => {
   expect(actionsOf('ready', true, false).enabled.has('play')).toBe(false);
 });
 
+test('a show that stands still goes on once robots report', () => {
+  expect(actionsOf('link_lost', true, true, true).enabled.has('go_on')).toBe(true);
+});
+
 test('words', () => {
   expect(phaseText(playback('playing'))).toBe('Playing frame 2 of 12');
   expect(phaseText({ ...playback('paused'), frame: null })).toBe('Paused');
   expect(phaseText(playback('preview'))).toBe('Driving to frame 2 of 12');
+  expect(phaseText(playback('link_lost'))).toBe('Link lost');
+  expect(phaseText({ ...playback('link_lost'), doing: 'waiting for you to go on' })).toBe(
+    'Link lost, waiting for you to go on',
+  );
   expect(phaseText(playback('ready'))).toBe('Ready');
   const failure = 'Show stopped in frame 1: all 20 robots lost contact.';
   expect(phaseText({ ...playback('ready'), failure }), 'a dead show is not ready').toBe(

@@ -1,16 +1,27 @@
 import type { Phase, Playback } from '../api/types.gen';
 
 export type Action =
-  'play' | 'pause' | 'resume' | 'abort' | 'step' | 'preview' | 'loop' | 'refresh';
+  'play' | 'pause' | 'resume' | 'go_on' | 'abort' | 'step' | 'preview' | 'loop' | 'refresh';
 
 /** The enabled actions, and the action of the large button. */
 export interface Actions {
-  main: 'play' | 'pause' | 'resume';
+  main: 'play' | 'pause' | 'resume' | 'go_on';
   enabled: ReadonlySet<Action>;
 }
 
-export function actionsOf(phase: Phase, linked: boolean, hasShow: boolean): Actions {
-  const main = phase === 'paused' ? 'resume' : phase === 'playing' ? 'pause' : 'play';
+const MAIN: Partial<Record<Phase, Actions['main']>> = {
+  paused: 'resume',
+  playing: 'pause',
+  link_lost: 'go_on',
+};
+
+export function actionsOf(
+  phase: Phase,
+  linked: boolean,
+  hasShow: boolean,
+  mayGoOn = false,
+): Actions {
+  const main = MAIN[phase] ?? 'play';
   const enabled = new Set<Action>();
   if (!linked) return { main, enabled };
   enabled.add('loop');
@@ -18,16 +29,25 @@ export function actionsOf(phase: Phase, linked: boolean, hasShow: boolean): Acti
   if (phase === 'ready' && hasShow) for (const a of ['play', 'preview'] as const) enabled.add(a);
   if (phase === 'playing') enabled.add('pause');
   if (phase === 'paused') for (const a of ['resume', 'step'] as const) enabled.add(a);
-  if (phase === 'preparing' || phase === 'playing' || phase === 'paused' || phase === 'preview')
-    enabled.add('abort');
+  if (phase === 'link_lost' && mayGoOn) enabled.add('go_on');
+  if (RUNNING.has(phase)) enabled.add('abort');
   return { main, enabled };
 }
 
+/** Phases with a run. */
+const RUNNING: ReadonlySet<Phase> = new Set<Phase>([
+  'preparing',
+  'playing',
+  'paused',
+  'preview',
+  'link_lost',
+]);
+
 /** The state of the show in a few words. */
 export function phaseText(
-  playback: Pick<Playback, 'phase' | 'frame' | 'frames' | 'failure'>,
+  playback: Pick<Playback, 'phase' | 'doing' | 'frame' | 'frames' | 'failure'>,
 ): string {
-  const { phase, frame, frames, failure } = playback;
+  const { phase, doing, frame, frames, failure } = playback;
   const where = frame === null ? '' : `frame ${frame + 1} of ${frames}`;
   switch (phase) {
     case 'idle':
@@ -44,5 +64,7 @@ export function phaseText(
       return `Driving to ${where}`.replace(/ to $/, '');
     case 'aborting':
       return 'Stopping';
+    case 'link_lost':
+      return doing === null ? 'Link lost' : `Link lost, ${doing}`;
   }
 }

@@ -81,9 +81,9 @@ pub(crate) struct RunProgress {
 /// What robots do, or did when they were stopped.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Position {
-    /// They drive the leg, or are about to.
+    /// They drive the leg, or are about to: a silent robot may stand anywhere along it.
     pub drive: Option<PathClock>,
-    /// They stand in a frame.
+    /// They stand in a frame: its air time goes on.
     pub stood: Option<AirTime>,
 }
 

@@ -57,10 +57,8 @@ pub(crate) struct Gathering {
     stop_at: Option<Instant>,
     /// Nothing was driven yet: too few robots are a reason not to begin.
     is_first: bool,
-    /// The drive that was broken off: a silent robot may stand anywhere along it.
-    broken_off: Option<PathClock>,
-    /// The frame that stood before: its air time goes on.
-    stood: Option<AirTime>,
+    /// What was broken off.
+    pub left: Position,
 }
 
 impl Gathering {
@@ -73,15 +71,14 @@ impl Gathering {
             ask_at: now,
             stop_at: None,
             is_first: true,
-            broken_off: None,
-            stood: None,
+            left: Position::default(),
         }
     }
 
     /// All stop; a drive is broken off, or a frame stood before.
-    pub fn begin(cx: &mut RunContext, broken_off: Option<PathClock>, stood: Option<AirTime>) -> Self {
+    pub fn begin(cx: &mut RunContext, left: Position) -> Self {
         cx.io.outbox.stop_repeating();
-        let held_from = broken_off.and_then(|clock| hold_before_stop(cx, &clock));
+        let held_from = left.drive.and_then(|clock| hold_before_stop(cx, &clock));
         let first_command = held_from.map_or(Command::Stop, |at| Command::Hold { at });
         cx.io.outbox.broadcast(cx.now, first_command, COPIES.0, COPIES.1);
         target_commands::halt_all(cx);
@@ -95,19 +92,8 @@ impl Gathering {
             ask_at: fresh_from,
             stop_at,
             is_first: cx.pipeline.driven.is_none() && cx.tally.frames_played == 0,
-            broken_off,
-            stood,
+            left,
         }
-    }
-
-    /// The frame that stood before.
-    pub fn stood(&self) -> Option<AirTime> {
-        self.stood
-    }
-
-    /// What was broken off.
-    pub fn position(&self) -> Position {
-        Position { drive: self.broken_off, stood: self.stood }
     }
 
     /// When something is due.
@@ -171,7 +157,7 @@ impl Gathering {
         if active == 0 || must_be_complete && active < pixels {
             return Next::failed(self.shortage(cx, active, pixels));
         }
-        let (until, left) = self.stood.map_or((cx.now, None), |stood| (stood.until, stood.left));
+        let (until, left) = self.left.stood.map_or((cx.now, None), |stood| (stood.until, stood.left));
         Next::Stand(AirTime { since: cx.now, until: until.max(cx.now), left })
     }
 
@@ -191,7 +177,7 @@ impl Gathering {
 
     /// Where a participant may stand that fell silent on the drive that was broken off.
     pub fn whereabouts(&self, cx: &RunContext, participant: usize) -> Whereabouts {
-        let (Some(clock), Some(DrivenLeg { leg, targets })) = (&self.broken_off, &cx.pipeline.driven) else {
+        let (Some(clock), Some(DrivenLeg { leg, targets })) = (&self.left.drive, &cx.pipeline.driven) else {
             return Whereabouts::default();
         };
         let stop = StopTimes { began: self.stopping, stood: self.since };

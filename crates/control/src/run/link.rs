@@ -36,6 +36,8 @@ pub(crate) struct LinkEstimate {
     pub loss_margin: Span,
     /// When the broker came back last.
     pub reconnected: Option<Instant>,
+    /// When all robots were asked last whether they are there, because some were silent.
+    pub all_asked: Option<Instant>,
 }
 
 impl LinkEstimate {

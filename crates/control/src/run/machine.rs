@@ -2,15 +2,16 @@
 
 use crate::context::Context;
 use crate::event::{EventKind, RunOutcome, Trouble};
+use crate::journal::Position;
 use crate::leg::LegKind;
 use crate::run::candidates;
 use crate::run::driving::Driving;
 use crate::run::gathering::Gathering;
+use crate::run::interrupted::Interrupted;
 use crate::run::link::LinkEstimate;
+use crate::run::link_loss::{self, Verdict};
 use crate::run::membership::Probation;
 use crate::run::next::{AirTime, Dropout, Next};
-use crate::run::offline::Offline;
-use crate::run::path_clock::PathClock;
 use crate::run::pipeline::Pipeline;
 use crate::run::playback::PlayedShow;
 use crate::run::roster::{Roster, Whereabouts};
@@ -32,8 +33,8 @@ pub(crate) enum RunPhase {
     Starting(Starting),
     /// Robots drive.
     Driving(Driving),
-    /// The broker is lost.
-    Offline(Offline),
+    /// Robots are out of reach.
+    Interrupted(Interrupted),
     /// The run is over: how it ended, and at which frame. There is no way out of this phase.
     Over(RunOutcome, usize),
 }
@@ -77,7 +78,7 @@ impl Run {
             RunPhase::Standing(standing) => standing.on_tick(&mut cx),
             RunPhase::Starting(starting) => starting.on_tick(&mut cx),
             RunPhase::Driving(drive) => drive.on_tick(&mut cx),
-            RunPhase::Offline(offline) => offline.on_tick(&mut cx),
+            RunPhase::Interrupted(interrupted) => interrupted.on_tick(&mut cx),
             RunPhase::Over(..) => Next::Stay,
         }
     }
@@ -104,6 +105,14 @@ impl Run {
                 self.regather(io, now);
                 Next::Stay
             }
+            Next::Interrupt(silent) => {
+                self.interrupt(io, now, silent);
+                Next::Stay
+            }
+            Next::GoOn => {
+                self.go_on_from_where_robots_stand(io, now);
+                Next::Stay
+            }
             Next::Drop(dropped) => self.drop(io, now, dropped),
             Next::Over(outcome) => {
                 let frame = self.frame();
@@ -116,7 +125,7 @@ impl Run {
     fn stand(&mut self, io: &mut Context, now: Instant, air: AirTime) -> Next {
         let may_stand = matches!(self.phase, RunPhase::Gathering(_) | RunPhase::Driving(_));
         assert!(may_stand, "robots stand after they drove or were gathered");
-        self.enter(RunPhase::Standing(Standing { air }));
+        self.enter(RunPhase::Standing(Standing::begin(now, air)));
         self.next_at_tick(io, now)
     }
 
@@ -134,12 +143,41 @@ impl Run {
 
     fn drop(&mut self, io: &mut Context, now: Instant, dropped: Vec<Dropout>) -> Next {
         assert!(!dropped.is_empty(), "a drop has participants");
+        let dropped = match self.without_lost_link(io, now, dropped) {
+            Ok(dropped) => dropped,
+            Err(next) => return next,
+        };
         let was_gathering = matches!(self.phase, RunPhase::Gathering(_));
         for (participant, why) in dropped {
             self.drop_out(io, now, participant, why);
         }
         // The others may be ready.
         if was_gathering { self.next_at_tick(io, now) } else { Next::Stay }
+    }
+
+    /// Those that drop out now. Robots that are silent do only if it is not the link that is lost.
+    fn without_lost_link(
+        &mut self,
+        io: &mut Context,
+        now: Instant,
+        dropped: Vec<Dropout>,
+    ) -> Result<Vec<Dropout>, Next> {
+        if matches!(self.phase, RunPhase::Interrupted(_)) {
+            return Ok(dropped);
+        }
+        let (phase, mut cx) = self.split(io, now);
+        let is_starting = matches!(phase, RunPhase::Starting(_));
+        let (silent, others): (Vec<_>, Vec<_>) =
+            dropped.into_iter().partition(|dropout| link_loss::is_by_silence(&cx, dropout));
+        if silent.is_empty() {
+            return Ok(others);
+        }
+        match link_loss::judge(&mut cx, &silent, is_starting) {
+            Verdict::RobotsLost => Ok(silent.into_iter().chain(others).collect()),
+            Verdict::LinkLost(silent) => Err(Next::Interrupt(Some(silent))),
+            Verdict::Unknown if others.is_empty() => Err(Next::Stay),
+            Verdict::Unknown => Ok(others),
+        }
     }
 
     fn drop_out(&mut self, io: &mut Context, now: Instant, participant: usize, why: Trouble) {
@@ -157,6 +195,7 @@ impl Run {
             let whereabouts = match phase {
                 RunPhase::Driving(drive) => drive.whereabouts(&cx, participant),
                 RunPhase::Gathering(gathering) => gathering.whereabouts(&cx, participant),
+                RunPhase::Interrupted(interrupted) => interrupted.whereabouts(&cx, participant),
                 _ => Default::default(),
             };
             self.roster.participants[participant].last_seen = whereabouts;
@@ -183,34 +222,68 @@ impl Run {
     }
 
     pub fn regather(&mut self, io: &mut Context, now: Instant) {
+        self.drop_plans(io);
+        let is_over = matches!(self.phase, RunPhase::Over(..));
+        if is_over || matches!(self.phase, RunPhase::Interrupted(_) | RunPhase::Gathering(_)) {
+            return;
+        }
+        self.report_replanning(io, now);
+        // What robots that know TARGET only said last may be old: they report only when they are asked.
+        if !matches!(self.phase, RunPhase::Standing(_)) || self.roster.has_target_robots(io) {
+            let left = self.left();
+            self.gather(io, now, left);
+        }
+    }
+
+    pub fn gather(&mut self, io: &mut Context, now: Instant, left: Position) {
+        let gathering = Gathering::begin(&mut self.split(io, now).1, left);
+        self.enter(RunPhase::Gathering(gathering));
+    }
+
+    /// The run stands still until robots report again.
+    fn interrupt(&mut self, io: &mut Context, now: Instant, silent: Option<usize>) {
+        if matches!(self.phase, RunPhase::Interrupted(_) | RunPhase::Over(..)) {
+            return;
+        }
+        self.drop_plans(io);
+        io.outbox.stop_repeating();
+        if let Some(silent) = silent {
+            let robots = self.roster.active().count();
+            io.log.record(now, EventKind::LinkLost { silent, robots });
+        }
+        let by_itself = io.config.goes_on_within;
+        let interrupted = Interrupted::begin(now, self.left(), by_itself);
+        self.enter(RunPhase::Interrupted(interrupted));
+    }
+
+    /// Robots report again: all say where they stand, and all is planned again from there.
+    fn go_on_from_where_robots_stand(&mut self, io: &mut Context, now: Instant) {
+        let RunPhase::Interrupted(interrupted) = &self.phase else { return };
+        let left = interrupted.left;
+        self.tally.recovery.put_off(now - interrupted.since);
+        self.link.reconnected = Some(now);
+        self.report_replanning(io, now);
+        self.gather(io, now, left);
+    }
+
+    /// Plans and requests are dropped: robots will not be where they begin.
+    fn drop_plans(&mut self, io: &mut Context) {
         let next = (!self.playback.is_ended()).then_some(self.playback.next);
         self.pipeline.clear(next);
         io.plan_request = None;
         io.mapping.shown = self.shown(io);
         self.tally.arrivals = None;
-        let (broken_off, stood) = match &self.phase {
-            RunPhase::Offline(_) | RunPhase::Gathering(_) | RunPhase::Over(..) => return,
-            // What robots that know TARGET only said last may be old: they report only when they are asked.
-            RunPhase::Standing(_) if !self.roster.has_target_robots(io) => {
-                return self.report_replanning(io, now);
-            }
-            RunPhase::Standing(standing) => (None, Some(standing.air)),
-            RunPhase::Starting(_) => (None, None),
-            RunPhase::Driving(drive) => (Some(drive.clock), None),
-        };
-        self.report_replanning(io, now);
-        self.gather(io, now, broken_off, stood);
     }
 
-    pub fn gather(
-        &mut self,
-        io: &mut Context,
-        now: Instant,
-        broken_off: Option<PathClock>,
-        stood: Option<AirTime>,
-    ) {
-        let gathering = Gathering::begin(&mut self.split(io, now).1, broken_off, stood);
-        self.enter(RunPhase::Gathering(gathering));
+    /// What is broken off if robots stop now.
+    pub fn left(&self) -> Position {
+        match &self.phase {
+            RunPhase::Gathering(gathering) => gathering.left,
+            RunPhase::Interrupted(interrupted) => interrupted.left,
+            RunPhase::Standing(standing) => Position { drive: None, stood: Some(standing.air) },
+            RunPhase::Driving(drive) => Position { drive: Some(drive.clock), stood: None },
+            RunPhase::Starting(_) | RunPhase::Over(..) => Position::default(),
+        }
     }
 
     pub fn enter(&mut self, phase: RunPhase) {

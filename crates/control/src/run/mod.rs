@@ -6,13 +6,14 @@
 mod candidates;
 mod driving;
 mod gathering;
+mod interrupted;
 mod lights;
 mod link;
+mod link_loss;
 mod machine;
 mod membership;
 mod next;
 mod obstacles;
-mod offline;
 mod path_clock;
 mod pipeline;
 mod playback;
@@ -41,6 +42,7 @@ pub(crate) use roster::{Participant, Whereabouts};
 use crate::context::Context;
 use crate::event::{EventKind, RunOutcome, Trouble};
 use crate::fleet::FleetUpdate;
+use crate::journal::Position;
 use crate::leg::{Leg, LegKind};
 use crate::plan_request::PlanResult;
 use gathering::Gathering;
@@ -48,7 +50,6 @@ use lightbots_base::Instant;
 use lightbots_wire::{Report, RobotState, Topic};
 use link::LinkEstimate;
 use next::Next;
-use offline::Offline;
 use pipeline::Pipeline;
 use roster::Roster;
 #[cfg(doc)]
@@ -77,7 +78,7 @@ impl Run {
             tally: Tally::default(),
         };
         if may_drive {
-            run.gather(context, now, None, None);
+            run.gather(context, now, Position::default());
         }
         run
     }
@@ -162,7 +163,7 @@ impl Run {
             RunPhase::Driving(drive) => drive.on_report(&mut cx, participant, Topic::Status, report),
             RunPhase::Standing(standing) => standing.on_report(&mut cx, participant, details, restarted),
             RunPhase::Starting(starting) => starting.on_report(&mut cx, participant, details, restarted),
-            RunPhase::Gathering(_) | RunPhase::Offline(_) | RunPhase::Over(..) => Next::Stay,
+            RunPhase::Gathering(_) | RunPhase::Interrupted(_) | RunPhase::Over(..) => Next::Stay,
         };
         self.apply(io, now, next);
         if let Some(driven) = self.pipeline.driven.as_ref().filter(|_| restarted) {
@@ -194,7 +195,7 @@ impl Run {
             }
             RunPhase::Starting(starting) => starting.due().min(self.pipeline.due()),
             RunPhase::Driving(drive) => drive.due().min(self.pipeline.lights.due()).min(self.pipeline.due()),
-            RunPhase::Offline(offline) => offline.due(now),
+            RunPhase::Interrupted(interrupted) => interrupted.due(now),
             RunPhase::Over(..) => Instant::FAR,
         }
     }
@@ -242,22 +243,20 @@ impl Run {
 
     /// The broker is lost: robots stop by themselves.
     pub fn on_disconnect(&mut self, io: &mut Context, now: Instant) {
-        let stood = match &self.phase {
-            RunPhase::Standing(standing) => Some(standing.air),
-            RunPhase::Gathering(gathering) => gathering.stood(),
-            _ => None,
-        };
-        self.regather(io, now);
-        self.enter(RunPhase::Offline(Offline { since: now, stood }));
+        self.apply(io, now, Next::Interrupt(None));
     }
 
-    /// The broker is back: all are asked where they stand.
-    pub fn on_reconnect(&mut self, io: &mut Context, now: Instant) {
-        let RunPhase::Offline(Offline { since, stood }) = self.phase else { return };
-        self.tally.recovery.put_off(now - since);
-        self.link.reconnected = Some(now);
-        self.report_replanning(io, now);
-        self.gather(io, now, None, stood);
+    /// The operator lets a run go on that was interrupted, without robots that do not report. `false`: there is no
+    /// such run, or no robot reports.
+    pub fn go_on(&mut self, io: &mut Context, now: Instant) -> bool {
+        let (phase, cx) = self.split(io, now);
+        let RunPhase::Interrupted(interrupted) = phase else { return false };
+        if !cx.io.outbox.linked() || !interrupted.is_any_back() {
+            return false;
+        }
+        let next = interrupted.go_on(&cx);
+        self.apply(io, now, next);
+        true
     }
 
     /// The leg whose paths are driven or about to be, and when they begin.

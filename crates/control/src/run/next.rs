@@ -31,6 +31,11 @@ pub(crate) enum Next {
     Drive(Instant),
     /// Robots stop, say where they are, and all is planned again from there.
     Regather,
+    /// The link to robots is lost: the run stands still until they report again. Number of robots that are silent;
+    /// `None`: the broker is lost.
+    Interrupt(Option<usize>),
+    /// Robots report again: all say where they stand, and all is planned again from there.
+    GoOn,
     /// These participants drop out; the others are planned again without them. Never empty.
     Drop(Vec<Dropout>),
     /// The run is over.

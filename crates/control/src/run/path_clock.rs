@@ -48,6 +48,18 @@ impl PathClock {
         self.open_hold().is_some()
     }
 
+    /// Progress is held from `at` on, for an unknown time.
+    pub fn stand(&mut self, at: Instant) {
+        let mut at = at;
+        if let Some(Hold { at: before, until, .. }) = self.hold {
+            let Some(until) = until else { return };
+            // All are still picking up again.
+            at = at.max(until + Route::EASE);
+            self.lost += until - before;
+        }
+        self.hold = Some(Hold { at, by_operator: false, until: None, release_at: None, check_at: at });
+    }
+
     /// A hold that is over counts as lost time.
     pub fn end_hold(&mut self, now: Instant) {
         if let Some(Hold { at, until: Some(until), .. }) = self.hold

@@ -155,7 +155,10 @@ impl Pipeline {
         let Self { upload: Some(upload), lights, .. } = self else { return Next::Stay };
         let again_after = context.config.upload.resend_after.max(link.round_trip * 5 / 4);
         while let Some(participant) = upload.next_overdue(now, |one| roster.is_excluded(one)) {
-            if upload.tries(participant) >= context.config.upload.tries {
+            let tries = upload.tries(participant);
+            // Also where it drops out: that may be put off until it is known whether the others answer.
+            upload.record_sent(now, participant, now + again_after);
+            if tries >= context.config.upload.tries {
                 match judge(context, roster, link, upload, (now, participant)) {
                     Unacknowledged::Deaf => return Next::drop(participant, Trouble::Deaf),
                     Unacknowledged::LinkFailed => return Next::failed("no robot acknowledges its path"),
@@ -164,7 +167,6 @@ impl Pipeline {
             }
             context.resent += 1;
             send_route(context, roster, lights, leg, participant);
-            upload.record_sent(now, participant, now + again_after);
         }
         let window = context.config.upload.window;
         let needs_none = |one: usize| roster.is_excluded(one) || leg.path(one).is_none();

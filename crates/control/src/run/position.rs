@@ -13,11 +13,7 @@ impl Run {
                 let leg = self.pipeline.queue.front();
                 Position { drive: leg.map(|leg| PathClock::new(starting.at, leg.duration)), stood: None }
             }
-            RunPhase::Driving(drive) => Position { drive: Some(drive.clock), stood: None },
-            RunPhase::Standing(standing) => Position { drive: None, stood: Some(standing.air) },
-            RunPhase::Gathering(gathering) => gathering.position(),
-            RunPhase::Offline(offline) => Position { drive: None, stood: offline.stood },
-            RunPhase::Over(..) => Position::default(),
+            _ => self.left(),
         }
     }
 

@@ -3,6 +3,7 @@
 use crate::event::{EventKind, RunOutcome, Trouble};
 use crate::leg::LegKind;
 use crate::run::driving::is_there;
+use crate::run::link_loss;
 use crate::run::next::{AirTime, Next};
 use crate::run::obstacles;
 use crate::run::pipeline::Pipeline;
@@ -21,9 +22,16 @@ const CHECK_EVERY: Span = Span::from_millis(1_000);
 pub(crate) struct Standing {
     /// When the frame may be left.
     pub air: AirTime,
+    /// When the link is looked at.
+    check_at: Instant,
 }
 
 impl Standing {
+    /// All stand since now.
+    pub fn begin(now: Instant, air: AirTime) -> Self {
+        Self { air, check_at: now + CHECK_EVERY }
+    }
+
     /// When something is due; START is stated `start_lead` ahead.
     pub fn due(&self, pipeline: &Pipeline, start_lead: Span, now: Instant, paused: bool) -> Instant {
         let start = match pipeline.queue.front().map(|leg| leg.kind) {
@@ -59,6 +67,12 @@ impl Standing {
 
     /// Time passes.
     pub fn on_tick(&mut self, cx: &mut RunContext) -> Next {
+        if cx.now >= self.check_at {
+            self.check_at = cx.now + CHECK_EVERY;
+            if let Some(silent) = link_loss::apparent(cx) {
+                return Next::Interrupt(Some(silent));
+            }
+        }
         requests::plan_ahead(cx);
         let next = cx.pump();
         if !next.stays() {

@@ -44,6 +44,8 @@ pub struct World {
     pub linked: bool,
     /// The broker passes on nothing that the controller says.
     pub mute: bool,
+    /// The broker keeps all messages, and passes them on later.
+    pub frozen: bool,
     /// These robots it passes nothing on to.
     pub deaf: Vec<usize>,
     /// Share of messages lost, percent.
@@ -79,6 +81,7 @@ impl World {
             events: Vec::new(),
             linked: false,
             mute: false,
+            frozen: false,
             deaf: Vec::new(),
             loss: 0,
             delay_ms: (5, 15),
@@ -175,7 +178,8 @@ impl World {
 
     pub fn step(&mut self) {
         self.now += STEP;
-        let (due, later) = std::mem::take(&mut self.letters).into_iter().partition(|l| l.due <= self.now);
+        let (due, later) =
+            std::mem::take(&mut self.letters).into_iter().partition(|l| l.due <= self.now && !self.frozen);
         self.letters = later;
         for letter in Vec::from_iter::<Vec<Letter>>(due) {
             self.deliver(letter);

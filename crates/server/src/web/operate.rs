@@ -46,6 +46,7 @@ async fn act(shared: &Shared, operation: api::Operation) -> Result<(), Refused> 
         Wish::Step => Operation::Step,
         Wish::Loop { on } => Operation::Loop(on),
         Wish::Abort => Operation::Abort,
+        Wish::GoOn => Operation::GoOn,
         Wish::StopAll => Operation::StopAll,
         Wish::DismissFailure => Operation::DismissFailure,
         Wish::Refresh => Operation::Refresh,

@@ -187,6 +187,7 @@ impl Painter {
             progress: rounded(progress, 3),
             left_s: self.left_s(snapshot, is_showing),
             failure: snapshot.failure.clone(),
+            may_go_on: run.is_some_and(|run| run.may_go_on),
             looping: snapshot.looping,
             late: run.map_or(Vec::new(), |run| run.waiting_for.iter().map(ToString::to_string).collect()),
         }
@@ -225,6 +226,7 @@ fn phase(state: ControllerState) -> api::Phase {
         ControllerState::Paused => api::Phase::Paused,
         ControllerState::Preview => api::Phase::Preview,
         ControllerState::Aborting => api::Phase::Aborting,
+        ControllerState::LinkLost => api::Phase::LinkLost,
     }
 }
 

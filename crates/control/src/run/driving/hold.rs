@@ -2,6 +2,7 @@
 
 use crate::event::{EventKind, Trouble};
 use crate::run::driving::drive::{ASK_AFTER_END, Driving};
+use crate::run::link_loss;
 use crate::run::path_clock::Hold;
 use crate::run::run_context::RunContext;
 use crate::run::target_commands;
@@ -82,6 +83,9 @@ impl Driving {
         self.progress[participant].late_since = Some(cx.now);
         self.progress[participant].is_unsure = why == Trouble::Unsure;
         cx.report_waiting(participant, why);
+        if why == Trouble::Silent {
+            link_loss::ask_all(cx);
+        }
         self.hold(cx, false);
     }
 

@@ -3,6 +3,7 @@
 use crate::event::Trouble;
 use crate::run::driving::drive::{Driving, RobotProgress};
 use crate::run::driving::sightings::{SAME_M, Sighting, narrow, seen_by};
+use crate::run::link_loss;
 use crate::run::next::Next;
 use crate::run::run_context::RunContext;
 use lightbots_base::{Instant, Span, Vec2};
@@ -12,6 +13,8 @@ use lightbots_wire::{Blocked, Command};
 const NEAR_M: f64 = 0.5;
 /// A robot that was asked and does not answer within this, link times on top, is silent.
 const ANSWER: Span = Span::from_millis(800);
+/// A robot that was asked and does not answer within this may be silent: all are asked, to know whether the link is lost.
+const DOUBT: Span = Span::from_millis(50);
 /// An obstacle that obstructs a robot for longer is there to stay.
 const STAYS: Span = Span::from_millis(1_500);
 /// Time that is left for a late or silent robot to be dropped first, as it may be the obstacle.
@@ -78,6 +81,9 @@ impl Driving {
         } else if cx.now - since > ANSWER + cx.link.round_trip * 2 {
             return Some(Next::drop(participant, Trouble::Silent));
         } else {
+            if cx.now - since > DOUBT + cx.link.round_trip * 2 {
+                link_loss::ask_all_once(cx, since);
+            }
             self.ask(cx, participant);
         }
         None

@@ -1,0 +1,167 @@
+//! A run that stands still because its robots are out of reach: it goes on once they report where they are.
+//!
+//! Robots stop by themselves (R43 of docs/protocol.md), so a robot that is out of reach is no dropout. After a short
+//! interruption the run goes on by itself, after a longer one the operator says so: people may be on the floor by then.
+
+use crate::event::{EventKind, Trouble};
+use crate::journal::Position;
+use crate::run::link_loss::many_of;
+use crate::run::next::Next;
+use crate::run::pipeline::DrivenLeg;
+use crate::run::roster::Whereabouts;
+use crate::run::run_context::RunContext;
+use crate::run::silence::{self, StopTimes};
+use crate::run::target_commands;
+use lightbots_base::{Instant, Span};
+use lightbots_wire::{Command, Topic};
+
+/// How often robots are looked for.
+const CHECK_EVERY: Span = Span::from_millis(100);
+/// How often HOLD and STOP are sent, and how far apart.
+const COPIES: (u32, Span) = (4, Span::from_millis(40));
+/// How often all are asked to report: robots that know TARGET only do not report of their own accord.
+const ASK_EVERY: Span = Span::from_millis(2_000);
+/// While robots come back, the run waits this long for one more. Clients look for a broker every 2 s.
+const ONE_MORE: Span = Span::from_millis(3_000);
+
+/// A run that stands still.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Interrupted {
+    /// Since when. Reports from before do not count.
+    pub since: Instant,
+    /// What was going on.
+    pub left: Position,
+    /// Robots that are back until then go on by themselves.
+    by_itself_until: Instant,
+    /// When enough robots had reported for the run to go on.
+    back_at: Option<Instant>,
+    /// Number of robots that reported, and when the last of them did first.
+    reported: (usize, Instant),
+    ask_at: Instant,
+    /// Robots were told to stand.
+    is_halted: bool,
+    /// The operator said that the run goes on.
+    is_agreed: bool,
+}
+
+impl Interrupted {
+    /// Nothing is known of robots since `now`. The run goes on by itself if they are back within `by_itself`.
+    pub fn begin(now: Instant, left: Position, by_itself: Span) -> Self {
+        Self {
+            since: now,
+            left,
+            by_itself_until: now + by_itself,
+            back_at: None,
+            reported: (0, now),
+            ask_at: now + ASK_EVERY,
+            is_halted: false,
+            is_agreed: false,
+        }
+    }
+
+    /// When something is due.
+    pub fn due(&self, now: Instant) -> Instant {
+        now + CHECK_EVERY
+    }
+
+    /// Whether robots are back and only the operator is waited for.
+    pub fn asks_operator(&self) -> bool {
+        !self.is_agreed && self.back_at.is_some_and(|back| back > self.by_itself_until)
+    }
+
+    /// Whether any robot has reported since.
+    pub fn is_any_back(&self) -> bool {
+        self.reported.0 > 0
+    }
+
+    /// Time passes.
+    pub fn on_tick(&mut self, cx: &mut RunContext) -> Next {
+        let robots = cx.roster.active().count();
+        let missing = self.missing(cx).len();
+        if robots - missing > self.reported.0 {
+            self.reported = (robots - missing, cx.now);
+            self.halt(cx);
+        }
+        if missing > 0 && cx.now >= self.ask_at {
+            self.ask_at = cx.now + ASK_EVERY;
+            cx.io.outbox.send(Topic::Broadcast, &[Command::Uuid]);
+        }
+        if self.back_at.is_none() && !self.is_back(cx, robots, missing) {
+            return self.give_up(cx);
+        }
+        let is_settled = missing == 0 || cx.now - self.reported.1 > ONE_MORE;
+        if self.back_at.is_none() && is_settled {
+            self.come_back(cx, robots);
+        }
+        if self.back_at.is_none() || self.asks_operator() { Next::Stay } else { Next::GoOn }
+    }
+
+    /// The operator lets the run go on, without robots that do not report. They drop out.
+    pub fn go_on(&mut self, cx: &RunContext) -> Next {
+        self.is_agreed = true;
+        self.back_at.get_or_insert(cx.now);
+        let missing = self.missing(cx);
+        if missing.is_empty() {
+            return Next::Stay;
+        }
+        Next::Drop(missing.into_iter().map(|participant| (participant, Trouble::Silent)).collect())
+    }
+
+    /// Robots that report again may still drive: they stand until the others are back.
+    fn halt(&mut self, cx: &mut RunContext) {
+        if std::mem::replace(&mut self.is_halted, true) {
+            return;
+        }
+        match &mut self.left.drive {
+            Some(clock) if !cx.is_target_leg() => {
+                // A hold that was stated before may have been lost with the link.
+                let at = clock.open_hold().map_or(cx.now + cx.link.hold_lead(), |hold| hold.at);
+                clock.stand(at);
+                cx.io.outbox.broadcast(cx.now, Command::Hold { at }, COPIES.0, COPIES.1);
+            }
+            Some(_) => target_commands::halt_all(cx),
+            None => cx.io.outbox.broadcast(cx.now, Command::Stop, COPIES.0, COPIES.1),
+        }
+    }
+
+    /// Where a participant may stand that did not report since.
+    pub fn whereabouts(&self, cx: &RunContext, participant: usize) -> Whereabouts {
+        let (Some(clock), Some(DrivenLeg { leg, targets })) = (&self.left.drive, &cx.pipeline.driven) else {
+            return Whereabouts::default();
+        };
+        let stop = StopTimes { began: self.since, stood: self.since };
+        silence::whereabouts((leg, targets), clock, stop, participant, cx.robot(participant).contact.heard)
+    }
+
+    /// Participants that have not reported since.
+    fn missing(&self, cx: &RunContext) -> Vec<usize> {
+        let is_missing = |one: &usize| cx.robot(*one).contact.heard <= self.since;
+        cx.roster.active().map(|(one, _)| one).filter(is_missing).collect()
+    }
+
+    /// Whether enough robots report for the others to be lost robots.
+    fn is_back(&self, cx: &RunContext, robots: usize, missing: usize) -> bool {
+        cx.io.outbox.linked() && missing < robots && missing < many_of(robots)
+    }
+
+    /// Robots are back.
+    fn come_back(&mut self, cx: &mut RunContext, robots: usize) {
+        self.back_at = Some(cx.now);
+        let (reported, _) = self.reported;
+        let (after, asks_operator) = (cx.now - self.since, self.asks_operator());
+        cx.io.log.record(cx.now, EventKind::LinkBack { reported, robots, after, asks_operator });
+    }
+
+    /// Robots stay away: the run ends in bounded time.
+    fn give_up(&self, cx: &RunContext) -> Next {
+        if cx.now - self.since <= cx.io.config.offline_bound {
+            return Next::Stay;
+        }
+        let is_linked = cx.io.outbox.linked();
+        Next::failed(match self.reported.0 {
+            _ if !is_linked => "the broker did not come back".into(),
+            0 => "no robot reports any more".into(),
+            reported => format!("only {reported} of {} robots report", cx.roster.active().count()),
+        })
+    }
+}

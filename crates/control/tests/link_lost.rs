@@ -1,0 +1,148 @@
+//! Many robots that fall silent at once: the link is lost and not the robots.
+
+mod fleet;
+
+use fleet::{World, show};
+use lightbots_base::Span;
+use lightbots_control::{Config, ControllerState, EventKind, Operation, Refusal, RunOutcome};
+use std::sync::Arc;
+
+fn started(kind: &EventKind) -> bool {
+    matches!(kind, EventKind::TransitionStarted { .. })
+}
+
+fn lost(kind: &EventKind) -> bool {
+    matches!(kind, EventKind::LinkLost { .. })
+}
+
+/// Ten robots a second after they left for the first of three frames.
+fn under_way() -> World {
+    let mut world = World::ready(10, 0, show(3, 10, 0.3));
+    world.play();
+    world.run_until(10.0, started);
+    world.run_for(1.0);
+    world
+}
+
+/// The broker keeps messages for that long.
+fn freeze(world: &mut World, seconds: f64) {
+    world.frozen = true;
+    world.run_for(seconds);
+    world.frozen = false;
+}
+
+#[test]
+fn a_broker_that_freezes_costs_time_and_no_robot() {
+    for seconds in [1.0, 4.0, 20.0] {
+        let mut world = under_way();
+        freeze(&mut world, seconds);
+        assert_eq!(world.run_to_end(90.0), (RunOutcome::Finished, 3, 0), "{seconds} s\n{}", world.story());
+        assert_eq!(world.count(lost), usize::from(seconds > 2.0), "{seconds} s\n{}", world.story());
+    }
+}
+
+#[test]
+fn a_broker_that_freezes_while_a_frame_stands_or_a_start_is_stated_costs_no_robot() {
+    for wait_s in [0.0, 0.2, 0.4] {
+        let mut world = World::ready(10, 0, show(3, 10, 0.5));
+        world.play();
+        world.run_until(20.0, |kind| matches!(kind, EventKind::FrameReached { .. }));
+        world.run_for(wait_s);
+        freeze(&mut world, 9.0);
+        assert_eq!(world.run_to_end(90.0), (RunOutcome::Finished, 3, 0), "{wait_s} s\n{}", world.story());
+    }
+}
+
+#[test]
+fn after_more_than_half_a_minute_the_operator_says_that_it_goes_on() {
+    let mut world = under_way();
+    freeze(&mut world, 20.0);
+    world.frozen = true;
+    assert_eq!(world.operate(Operation::GoOn), Err(Refusal::NothingToGoOn), "no robot reports");
+    world.run_for(20.0);
+    world.frozen = false;
+    let back = world.run_until(5.0, |kind| matches!(kind, EventKind::LinkBack { .. }));
+    assert!(back.kind.to_string().ends_with("press Go on."), "{}", back.kind);
+    world.run_for(30.0);
+    let snapshot = world.controller.snapshot(world.now);
+    assert_eq!(snapshot.state, ControllerState::LinkLost);
+    assert!(snapshot.run.is_some_and(|run| run.may_go_on && run.doing == "waiting for you to go on"));
+    world.operate(Operation::GoOn).unwrap();
+    assert_eq!(world.run_to_end(90.0), (RunOutcome::Finished, 3, 0), "{}", world.story());
+}
+
+#[test]
+fn a_few_silent_robots_are_lost_and_many_are_not() {
+    for (dead, dropouts) in [(2, 2), (3, 0)] {
+        let mut world = under_way();
+        (0..dead).for_each(|robot| world.robots[robot].dead = true);
+        world.run_for(6.0);
+        assert_eq!(
+            world.count(|kind| matches!(kind, EventKind::Dropout { .. })),
+            dropouts,
+            "{}",
+            world.story()
+        );
+        assert_eq!(world.count(lost), usize::from(dropouts == 0), "{}", world.story());
+    }
+}
+
+#[test]
+fn robots_that_stay_silent_after_the_others_are_back_drop_out() {
+    let mut world = under_way();
+    (0..5).for_each(|robot| world.robots[robot].dead = true);
+    world.run_until(5.0, lost);
+    (0..3).for_each(|robot| world.robots[robot].dead = false);
+    assert_eq!(world.run_to_end(90.0), (RunOutcome::Finished, 3, 2), "{}", world.story());
+}
+
+#[test]
+fn the_operator_goes_on_without_robots_that_stay_silent() {
+    let mut world = under_way();
+    (0..5).for_each(|robot| world.robots[robot].dead = true);
+    world.run_until(5.0, lost);
+    world.run_for(10.0);
+    assert_eq!(world.controller.state(), ControllerState::LinkLost, "{}", world.story());
+    world.operate(Operation::GoOn).unwrap();
+    assert_eq!(world.run_to_end(90.0), (RunOutcome::Finished, 3, 5), "{}", world.story());
+    assert_eq!(world.operate(Operation::GoOn), Err(Refusal::NoRun));
+}
+
+#[test]
+fn robots_that_are_out_of_reach_for_good_end_the_run() {
+    let config = Config { offline_bound: Span::from_millis(20_000), ..Config::default() };
+    let mut world = World::with(config, 10, 0);
+    world.operate(Operation::Open(Arc::new(show(3, 10, 0.3)))).unwrap();
+    world.run_for(1.0);
+    world.play();
+    world.run_until(10.0, started);
+    (0..5).for_each(|robot| world.robots[robot].dead = true);
+    let (outcome, _, dropouts) = world.run_to_end(30.0);
+    let RunOutcome::Failed(why) = outcome else { panic!("{}", world.story()) };
+    assert!(why.ends_with("only 5 of 10 robots report"), "{why}");
+    assert_eq!(dropouts, 0);
+}
+
+#[test]
+fn the_operator_can_end_a_run_whose_robots_are_out_of_reach() {
+    let mut world = under_way();
+    world.frozen = true;
+    world.run_until(5.0, lost);
+    world.operate(Operation::Abort).unwrap();
+    assert_eq!(
+        world.count(|kind| matches!(kind, EventKind::RunEnded { outcome: RunOutcome::Aborted, .. })),
+        1
+    );
+}
+
+/// Robots that know TARGET only do not report of their own accord, and drive on to their targets (R44).
+#[test]
+fn robots_that_know_target_only_are_not_dropped_for_a_frozen_broker() {
+    let mut world = World::ready(6, 6, show(2, 6, 0.3));
+    world.play();
+    world.run_until(10.0, started);
+    world.run_for(1.0);
+    freeze(&mut world, 12.0);
+    assert_eq!(world.run_to_end(120.0), (RunOutcome::Finished, 2, 0), "{}", world.story());
+    assert_eq!(world.count(lost), 1, "{}", world.story());
+}
