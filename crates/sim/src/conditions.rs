@@ -25,6 +25,10 @@ pub struct Conditions {
     pub cut: Vec<(Breakdown, Span)>,
     /// Robots whose fixes stay away, with the duration.
     pub blind: Vec<(Breakdown, Span)>,
+    /// The broker passes nothing on; connections stay. Messages wait.
+    pub frozen: Vec<BrokerOutage>,
+    /// The broker is gone: connections break.
+    pub gone: Vec<BrokerOutage>,
 }
 
 /// Properties of position fixes.
@@ -72,6 +76,15 @@ pub struct Breakdown {
     pub at: Option<Span>,
 }
 
+/// A time without a broker.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct BrokerOutage {
+    /// When it begins, after the first departure.
+    pub at: Span,
+    /// How long it lasts.
+    pub over: Span,
+}
+
 impl Conditions {
     /// Largest valid slip.
     pub const SLIP_MAX: f64 = 0.5;
@@ -102,6 +115,8 @@ impl Default for Conditions {
             stuck: Vec::new(),
             cut: Vec::new(),
             blind: Vec::new(),
+            frozen: Vec::new(),
+            gone: Vec::new(),
         }
     }
 }

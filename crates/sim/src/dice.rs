@@ -22,6 +22,8 @@ pub enum Purpose {
     Scene = 6,
     /// Noise of proximity sensors.
     Proximity = 7,
+    /// When clients find a broker again.
+    Broker = 8,
 }
 
 /// A stream of random numbers: xoshiro256++ (Blackman and Vigna, 2019), seeded through SplitMix64.

@@ -19,6 +19,7 @@
 
 mod brakes;
 mod breakdowns;
+mod broker_outages;
 mod bumps;
 mod conditions;
 mod contacts;
@@ -49,7 +50,7 @@ mod world;
 
 pub use brakes::BrakeCounts;
 pub use bumps::{Bump, Bumps, EDGE_SLACK_M};
-pub use conditions::{Breakdown, Conditions, FixConditions, LinkConditions};
+pub use conditions::{Breakdown, BrokerOutage, Conditions, FixConditions, LinkConditions};
 pub use contacts::Contacts;
 pub use dice::{Dice, Purpose};
 pub use faults::{Faults, FaultsError};

@@ -61,6 +61,8 @@ pub(crate) struct Network {
     free: Vec<u32>,
     /// When the last message of each link arrives: `[robot]`, to it and from it.
     last: Vec<[Instant; 2]>,
+    /// The broker passes nothing on until then.
+    frozen_until: Instant,
     said: u64,
     counts: MessageCounts,
 }
@@ -75,6 +77,7 @@ impl Network {
             slots: Vec::new(),
             free: Vec::new(),
             last: vec![[Instant::ZERO; 2]; robots],
+            frozen_until: Instant::ZERO,
             said: 0,
             counts: MessageCounts::default(),
         }
@@ -97,7 +100,7 @@ impl Network {
 
     /// When the next message arrives.
     pub fn next_at(&self) -> Option<Instant> {
-        self.queue.peek().map(|&Reverse((at, ..))| at)
+        self.queue.peek().map(|&Reverse((at, ..))| at.max(self.frozen_until))
     }
 
     /// The next message that arrives until `until`, with its time.
@@ -110,7 +113,21 @@ impl Network {
         if let Some(&Reverse((_, _, next, _))) = self.queue.peek() {
             prefetch(&self.slots[next as usize]);
         }
-        Some((at, self.slots[slot as usize].take()?))
+        Some((at.max(self.frozen_until), self.slots[slot as usize].take()?))
+    }
+
+    /// The broker passes nothing on until then: messages wait.
+    pub fn freeze(&mut self, until: Instant) {
+        self.frozen_until = self.frozen_until.max(until);
+    }
+
+    /// Everything under way is lost.
+    pub fn clear(&mut self) {
+        self.counts.lost += self.queue.len() as u64;
+        self.queue.clear();
+        self.slots.clear();
+        self.free.clear();
+        self.frozen_until = Instant::ZERO;
     }
 
     /// The robot that receives the next message; `None`: the controller does.
@@ -219,6 +236,21 @@ mod tests {
         let (got, _) = arrivals("delay=100..300ms,jitter=50ms", 1000);
         let latest = got.iter().fold(0.0, |latest: f64, got| latest.max(got.1));
         assert!(got.iter().all(|got| got.1 >= 100.0) && (300.0..=350.0).contains(&latest));
+    }
+
+    #[test]
+    fn a_frozen_broker_passes_everything_on_at_once_and_in_order() {
+        let mut network = Network::new(&LinkConditions::default(), 1, 9);
+        network.freeze(Instant(1_000_000));
+        for number in 0..20u32 {
+            network.send(Instant(0), Way::ToRobot(0), Topic::Broadcast, Rc::new(number.to_le_bytes()));
+        }
+        assert_eq!(network.next_until(Instant(999_999)), None);
+        let got = drained(&mut network, Instant(1_000_000));
+        assert!(in_order(&got) && got.len() == 20);
+        network.send(Instant(2_000_000), Way::ToRobot(0), Topic::Broadcast, Rc::new([0; 4]));
+        network.clear();
+        assert_eq!((network.next_at(), network.counts().lost), (None, 1));
     }
 
     #[test]

@@ -4,11 +4,14 @@ use std::rc::Rc;
 use std::sync::Arc;
 
 use lightbots_base::{Instant, RobotId, Span, StateHash, Vec2};
-use lightbots_control::{Config, Controller, MissingPolicy, Operation, RecordedController, RobotView};
+use lightbots_control::{
+    Config, Controller, EventKind, MissingPolicy, Operation, RecordedController, RobotView,
+};
 use lightbots_show::{Issue, Show};
 use lightbots_wire::Topic;
 
 use crate::breakdowns::{Breakdowns, Fate};
+use crate::broker_outages::{BrokerEvent, BrokerOutages, Operator};
 use crate::network::{Network, Way};
 use crate::record::RehearsalRecord;
 use crate::rehearsal::{Progress, RehearsalOptions, time_limit};
@@ -32,6 +35,8 @@ pub(crate) struct Play {
     robots: RobotSet,
     network: Network,
     breakdowns: Breakdowns,
+    broker: BrokerOutages,
+    operator: Operator,
     record: RehearsalRecord,
     hash: StateHash,
     /// `(name, robot)`, sorted by name.
@@ -59,6 +64,8 @@ impl Play {
             controller: RecordedController::new(Controller::new(Config::default())),
             network: Network::new(&conditions.link, starts.len(), *seed),
             breakdowns: Breakdowns::new(conditions, starts.len(), planned_s, *seed),
+            broker: BrokerOutages::new(conditions, starts.len(), *seed),
+            operator: Operator::default(),
             record: RehearsalRecord::new(starts.len()),
             hash: StateHash::new(),
             robots,
@@ -112,9 +119,11 @@ impl Play {
         self.pass_time(next);
         self.now = next;
         self.break_robots();
-        let Self { robots, network, record, breakdowns, .. } = self;
+        self.break_broker();
+        self.press();
+        let Self { robots, network, record, breakdowns, broker, .. } = self;
         robots.step(next, &mut |robot, topic, text| {
-            send(network, record, breakdowns, next, (robot, topic, text))
+            send(network, record, (breakdowns, broker), next, (robot, topic, text))
         });
         self.record.contacts(next, &self.robots.world);
         if !self.began {
@@ -143,12 +152,12 @@ impl Play {
                     self.robots.prefetch_receiver(robot);
                 }
                 match message.way {
-                    Way::ToRobot(robot) if self.breakdowns.is_deaf(robot) => {}
+                    Way::ToRobot(robot) if self.breakdowns.is_deaf(robot) || self.broker.is_cut(robot) => {}
                     Way::ToRobot(robot) => {
                         self.robots.receive(self.now, robot, message.topic, &message.payload);
-                        let Self { robots, network, record, breakdowns, now, .. } = self;
+                        let Self { robots, network, record, breakdowns, broker, now, .. } = self;
                         robots.drain_messages(robot, &mut |robot, topic, text| {
-                            send(network, record, breakdowns, *now, (robot, topic, text));
+                            send(network, record, (breakdowns, broker), *now, (robot, topic, text));
                         });
                     }
                     Way::ToController(robot) => {
@@ -201,6 +210,33 @@ impl Play {
         }
     }
 
+    /// Applies the outages of the broker that are due.
+    fn break_broker(&mut self) {
+        let Some(first_departure) = self.record.began_at() else { return };
+        while let Some(event) = self.broker.next_until(self.now - first_departure) {
+            match event {
+                BrokerEvent::Freezes(over) => self.network.freeze(self.now + over),
+                BrokerEvent::Dies => {
+                    self.network.clear();
+                    (0..self.robots.len()).for_each(|robot| self.robots.link(self.now, robot, false));
+                    self.controller.disconnected(self.now);
+                }
+                BrokerEvent::RobotBack(robot) => self.robots.link(self.now, robot, true),
+                BrokerEvent::ControllerBack => self.controller.connected(self.now),
+            }
+            self.drain_controller();
+            self.record.broker(event, self.now);
+        }
+    }
+
+    /// The operator lets an interrupted show go on.
+    fn press(&mut self) {
+        if self.operator.presses(self.now) && self.controller.operate(self.now, Operation::GoOn).is_ok() {
+            self.record.pressed(self.now);
+            self.drain_controller();
+        }
+    }
+
     /// Makes the plans that the controller asks for. Planning takes no virtual time, because its time depends on the
     /// machine.
     fn plan(&mut self, progress: &mut dyn FnMut(Progress<'_>)) {
@@ -249,6 +285,9 @@ impl Play {
             }
         }
         while let Some(event) = self.controller.next_event() {
+            if matches!(event.kind, EventKind::LinkBack { asks_operator: true, .. }) {
+                self.operator.asked(self.now);
+            }
             self.record.event(&event, &self.controller, &self.robots, &self.by_id, &self.show);
         }
     }
@@ -293,14 +332,14 @@ fn hand_on(log: &[u8], progress: &mut dyn FnMut(Progress<'_>)) {
 fn send(
     network: &mut Network,
     record: &mut RehearsalRecord,
-    breakdowns: &Breakdowns,
+    (breakdowns, broker): (&Breakdowns, &BrokerOutages),
     now: Instant,
     (robot, topic, text): (usize, Topic, &[u8]),
 ) {
     if topic == Topic::Arrival {
         record.arrived(robot, now);
     }
-    if !breakdowns.is_mute(robot) {
+    if !breakdowns.is_mute(robot) && !broker.is_cut(robot) {
         network.send(now, Way::ToController(robot), topic, text.into());
     }
 }

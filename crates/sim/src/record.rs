@@ -7,6 +7,7 @@ use lightbots_control::{Controller, Event, EventKind, RobotView, RunOutcome};
 use lightbots_show::{Issue, Issues, Show};
 
 use crate::breakdowns::{Breakdowns, Fate};
+use crate::broker_outages::BrokerEvent;
 use crate::bumps::{Bump, EDGE_SLACK_M};
 use crate::floor::FloorObject;
 use crate::report::{FrameRecord, RehearsalReport};
@@ -119,6 +120,23 @@ impl RehearsalRecord {
         self.add(issue.in_frame(self.heading_for));
     }
 
+    /// The broker freezes or dies by the conditions.
+    pub fn broker(&mut self, event: BrokerEvent, now: Instant) {
+        let (code, what) = match event {
+            BrokerEvent::Freezes(_) => ("broker-frozen", "passes nothing on, as asked for"),
+            BrokerEvent::Dies => ("broker-gone", "is gone, as asked for"),
+            BrokerEvent::ControllerBack | BrokerEvent::RobotBack(_) => return,
+        };
+        let message = format!("The broker {what}, {:.2} s into the show.", self.since(now));
+        self.add(Issue::warning(code, message).in_frame(self.heading_for));
+    }
+
+    /// The operator let an interrupted show go on.
+    pub fn pressed(&mut self, now: Instant) {
+        let message = format!("The operator pressed Go on, {:.2} s into the show.", self.since(now));
+        self.add(Issue::warning("pressed", message).in_frame(self.heading_for));
+    }
+
     /// Records new contacts after a step.
     pub fn contacts(&mut self, now: Instant, world: &World) {
         let (touches, bumps) = (world.contacts().fresh(), world.bumps().fresh());
@@ -173,6 +191,8 @@ impl RehearsalRecord {
                 self.note("dropout", event);
             }
             EventKind::Waiting { .. } => self.note("waiting", event),
+            EventKind::LinkLost { .. } => self.note("link-lost", event),
+            EventKind::LinkBack { .. } => self.note("link-back", event),
             EventKind::LeftOut { .. } => self.note("pixels-dark", event),
             EventKind::Rejoined(_) => self.note("rejoined", event),
             EventKind::Misaligned { .. } => self.note("misaligned", event),

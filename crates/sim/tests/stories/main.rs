@@ -8,6 +8,7 @@ mod fleet;
 mod formations;
 mod gaps;
 mod identities;
+mod link_lost;
 mod noise;
 mod originals;
 mod outages;

@@ -1,0 +1,100 @@
+//! A show of 30 robots whose broker freezes or is gone:
+//! `cargo run --release -p lightbots-sim --example outages [SEEDS] [SHOW…]`.
+//!
+//! One line for each kind of outage and its length: of all seeds and moments, how many shows were finished, robots dropped
+//! out, robots touched, and how often the operator had to press.
+#![allow(clippy::print_stdout, clippy::print_stderr)]
+
+use std::process::ExitCode;
+
+use lightbots_show::Show;
+use lightbots_sim::{Conditions, Faults, RehearsalOptions, RehearsalReport, rehearse};
+
+/// When outages begin, seconds after the first departure.
+const MOMENTS_S: [f64; 6] = [0.7, 2.3, 3.9, 6.1, 9.5, 13.2];
+/// How long they last, seconds.
+const LENGTHS_S: [f64; 9] = [0.5, 1.0, 1.3, 1.7, 2.5, 4.0, 10.0, 20.0, 40.0];
+
+fn main() -> ExitCode {
+    let mut arguments = std::env::args().skip(1);
+    let seeds: u64 = arguments.next().and_then(|text| text.parse().ok()).unwrap_or(5);
+    let mut shows: Vec<String> = arguments.collect();
+    if shows.is_empty() {
+        shows.push("shows/hello.json".into());
+    }
+    for path in shows {
+        let Some(show) = read(&path) else { return ExitCode::FAILURE };
+        println!("{path}: {seeds} seeds at {} moments", MOMENTS_S.len());
+        for kind in ["freeze", "gone"] {
+            for length_s in LENGTHS_S {
+                println!("{kind} {length_s:4.1} s: {}", Sum::of(&show, kind, length_s, seeds));
+            }
+        }
+    }
+    ExitCode::SUCCESS
+}
+
+fn read(path: &str) -> Option<Show> {
+    let bytes = std::fs::read(path).inspect_err(|error| eprintln!("{path}: {error}")).ok()?;
+    let loaded = lightbots_exchange::read(&bytes, Some(path));
+    loaded.inspect_err(|error| eprintln!("{path}: {error}")).ok().map(|loaded| loaded.show)
+}
+
+/// What all runs of a kind came to.
+#[derive(Default)]
+struct Sum {
+    runs: usize,
+    finished: usize,
+    dropouts: usize,
+    contacts: u64,
+    presses: usize,
+    links_lost: usize,
+    delay_s: f64,
+    worst: String,
+}
+
+impl Sum {
+    fn of(show: &Show, kind: &str, length_s: f64, seeds: u64) -> Self {
+        let mut sum = Self::default();
+        for seed in 1..=seeds {
+            let undisturbed = play(show, "", seed);
+            for at_s in MOMENTS_S {
+                let faults = format!("{kind}={at_s}s+{length_s}s");
+                sum.add(&play(show, &faults, seed), &undisturbed, &faults);
+            }
+        }
+        sum
+    }
+
+    fn add(&mut self, report: &RehearsalReport, undisturbed: &RehearsalReport, faults: &str) {
+        let count = |code: &str| report.issues.iter().filter(|issue| issue.code == code).count();
+        let is_finished = report.frames_played == report.frames;
+        self.runs += 1;
+        self.finished += usize::from(is_finished);
+        self.dropouts += report.dropouts;
+        self.contacts += report.contacts;
+        self.presses += count("pressed");
+        self.links_lost += count("link-lost");
+        self.delay_s = self.delay_s.max(report.duration_s - undisturbed.duration_s);
+        if !is_finished || report.dropouts > 0 || report.contacts > 0 {
+            self.worst = format!("; the last bad one: seed {}, {faults}", report.seed);
+        }
+    }
+}
+
+impl core::fmt::Display for Sum {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        let Self { runs, finished, dropouts, contacts, presses, links_lost, delay_s, worst } = self;
+        write!(
+            f,
+            "{finished} of {runs} finished, {dropouts} dropouts, {contacts} contacts, {links_lost} links lost, {presses} presses, at most {delay_s:.1} s longer{worst}"
+        )
+    }
+}
+
+fn play(show: &Show, faults: &str, seed: u64) -> RehearsalReport {
+    let faults =
+        if faults.is_empty() { Faults::default() } else { Faults::parse(faults).expect("it is well-formed") };
+    let conditions = faults.added_to(Conditions::default());
+    rehearse(show, &RehearsalOptions { seed, conditions, robots: None }, &mut |_| {})
+}

@@ -1,0 +1,122 @@
+//! The broker freezes, or is gone for a while.
+
+use lightbots_base::{Instant, Span};
+
+use crate::conditions::{BrokerOutage, Conditions};
+use crate::dice::{Dice, Purpose};
+
+/// Longest time until a client finds a broker that is back: it looks for it that often.
+const RECONNECTS_WITHIN_S: f64 = 2.0;
+
+/// What happens to links because of the broker.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum BrokerEvent {
+    /// The broker stops to pass on messages, for this long. Connections stay.
+    Freezes(Span),
+    /// All connections break; what is under way is lost.
+    Dies,
+    /// A robot has found the broker again.
+    RobotBack(usize),
+    /// The controller has found the broker again.
+    ControllerBack,
+}
+
+/// All outages of the broker in a rehearsal.
+#[derive(Clone, Debug)]
+pub(crate) struct BrokerOutages {
+    /// After the show began, sorted, latest first.
+    coming: Vec<(Span, BrokerEvent)>,
+    /// `[robot]`: whether it has no connection.
+    is_away: Vec<bool>,
+    is_controller_away: bool,
+}
+
+impl BrokerOutages {
+    /// The outages of the conditions.
+    pub fn new(conditions: &Conditions, robots: usize, seed: u64) -> Self {
+        let mut dice = Dice::new(seed, Purpose::Broker);
+        let freezes = |outage: &BrokerOutage| (outage.at, BrokerEvent::Freezes(outage.over));
+        let mut coming: Vec<_> = conditions.frozen.iter().map(freezes).collect();
+        for outage in &conditions.gone {
+            let mut back =
+                || outage.at + outage.over + Span::from_secs(dice.between(0.0, RECONNECTS_WITHIN_S));
+            coming.extend([(outage.at, BrokerEvent::Dies), (back(), BrokerEvent::ControllerBack)]);
+            coming.extend((0..robots).map(|robot| (back(), BrokerEvent::RobotBack(robot))));
+        }
+        coming.sort_by_key(|&(at, _)| core::cmp::Reverse(at));
+        Self { coming, is_away: vec![false; robots], is_controller_away: false }
+    }
+
+    /// The next event until a time after the first departure.
+    pub fn next_until(&mut self, since_begin: Span) -> Option<BrokerEvent> {
+        let (_, event) = self.coming.pop_if(|(at, _)| *at <= since_begin)?;
+        match event {
+            BrokerEvent::Freezes(_) => {}
+            BrokerEvent::Dies => {
+                self.is_away.fill(true);
+                self.is_controller_away = true;
+            }
+            BrokerEvent::RobotBack(robot) => self.is_away[robot] = false,
+            BrokerEvent::ControllerBack => self.is_controller_away = false,
+        }
+        Some(event)
+    }
+
+    /// Whether messages between a robot and the controller are lost.
+    #[inline]
+    pub fn is_cut(&self, robot: usize) -> bool {
+        self.is_controller_away || self.is_away[robot]
+    }
+}
+
+/// The simulated operator, who lets an interrupted run go on some seconds after that is asked.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Operator {
+    /// When the button is pressed.
+    pub presses_at: Option<Instant>,
+}
+
+impl Operator {
+    /// Time to read the message and to look at the floor.
+    const LOOKS: Span = Span::from_millis(2_000);
+
+    /// The controller asks whether the run goes on.
+    pub fn asked(&mut self, now: Instant) {
+        self.presses_at.get_or_insert(now + Self::LOOKS);
+    }
+
+    /// Whether the button is pressed now.
+    pub fn presses(&mut self, now: Instant) -> bool {
+        self.presses_at.take_if(|at| now >= *at).is_some()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::faults::Faults;
+
+    #[test]
+    fn clients_find_a_broker_that_is_back_within_two_seconds() {
+        let conditions = Faults::parse("freeze=1s+4s,gone=10s+3s").unwrap().added_to(Conditions::default());
+        let mut outages = BrokerOutages::new(&conditions, 5, 1);
+        let millis = Span::from_millis;
+        assert_eq!(outages.next_until(millis(999)), None);
+        assert_eq!(outages.next_until(millis(1_000)), Some(BrokerEvent::Freezes(millis(4_000))));
+        assert_eq!(outages.next_until(millis(12_999)), Some(BrokerEvent::Dies));
+        assert_eq!(outages.next_until(millis(12_999)), None);
+        assert!((0..5).all(|robot| outages.is_cut(robot)));
+        let back = std::iter::from_fn(|| outages.next_until(millis(15_000))).count();
+        assert_eq!(back, 6);
+        assert!((0..5).all(|robot| !outages.is_cut(robot)));
+    }
+
+    #[test]
+    fn the_operator_presses_once() {
+        let mut operator = Operator::default();
+        operator.asked(Instant(5_000_000));
+        operator.asked(Instant(6_000_000));
+        assert!(!operator.presses(Instant(6_999_999)));
+        assert!(operator.presses(Instant(7_000_000)) && !operator.presses(Instant(9_000_000)));
+    }
+}
