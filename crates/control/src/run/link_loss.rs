@@ -89,8 +89,11 @@ pub(crate) fn apparent(cx: &RunContext) -> Option<usize> {
     many(cx, |one| cx.robot(*one).contact.age != Age::Active)
 }
 
-/// Asks all robots for a report, as some are silent.
+/// Asks all robots for a report, as some are silent; not where they are too few for a lost link.
 pub(crate) fn ask_all(cx: &mut RunContext) {
+    if cx.roster.active().count() < MANY.least {
+        return;
+    }
     cx.link.all_asked = Some(cx.now);
     cx.io.outbox.broadcast(cx.now, Command::Uuid, COPIES.0, COPIES.1);
 }

@@ -144,7 +144,13 @@ impl Drop for Child {
 /// Kills a process that is no child of ours.
 #[cfg(target_os = "linux")]
 pub fn kill(process: u32) {
-    assert!(Command::new("kill").args(["-KILL", &process.to_string()]).status().unwrap().success());
+    send_signal(process, "-KILL");
+}
+
+/// Sends a signal to a process that is no child of ours, by its option of `kill`.
+#[cfg(target_os = "linux")]
+pub fn send_signal(process: u32, signal: &str) {
+    assert!(Command::new("kill").args([signal, &process.to_string()]).status().unwrap().success());
 }
 
 /// Keeps the lines of a pipe, from a thread.

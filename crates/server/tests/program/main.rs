@@ -7,6 +7,7 @@
 #![allow(clippy::print_stderr)]
 
 mod broker_choice;
+mod broker_outages;
 mod certificates;
 mod child;
 #[cfg(unix)]

@@ -51,7 +51,22 @@ impl Mosquitto {
 
     /// Kills it and starts it again at the same address.
     pub fn restart(&mut self) {
+        self.kill();
+        self.start_again();
+    }
+
+    /// Sends it a signal by its option of `kill`.
+    #[cfg(unix)]
+    pub fn signal(&self, signal: &str) {
+        self.child.signal(signal);
+    }
+
+    pub fn kill(&mut self) {
         self.child.kill();
+    }
+
+    /// Starts it at the same address, after it was killed.
+    pub fn start_again(&mut self) {
         self.child = wait_for("mosquitto to come back", || serve(self.port));
     }
 }
