@@ -69,7 +69,9 @@ impl Context {
     /// Sets the light that a robot is told to show from now on; whether it is another one.
     pub fn set_light(&mut self, robot: usize, color: Rgb) -> bool {
         let robot = self.fleet.robot_mut(robot);
-        std::mem::replace(&mut robot.light, color) != color
+        let is_other = !robot.shows(color);
+        (robot.light, robot.is_light_sure) = (color, true);
+        is_other
     }
 
     /// An arrival of a robot that was sent nowhere is counted, and reported at a bounded rate.

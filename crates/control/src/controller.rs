@@ -47,6 +47,8 @@ pub struct Controller {
     pub(crate) stopping: Option<Stopping>,
     /// Where and why the last run failed, for people; until the operator dismisses it or begins another run.
     pub(crate) failure: Option<String>,
+    /// Robots are told to stop once there is a broker: they were cut off in a run that does not go on.
+    pub(crate) stops_when_connected: bool,
     #[serde(skip)]
     pub(crate) journal: Journal,
     said: ControllerState,
@@ -78,6 +80,7 @@ impl Controller {
             run: None,
             stopping: None,
             failure: None,
+            stops_when_connected: false,
             journal: Journal::default(),
             said: ControllerState::Idle,
             patrol_at: Instant::ZERO,
@@ -96,6 +99,9 @@ impl Controller {
         self.context.outbox.link(true);
         self.context.log.record(now, EventKind::Connected);
         self.refresh(now);
+        if std::mem::take(&mut self.stops_when_connected) {
+            self.stopping = Some(Stopping::begin(&mut self.context, now));
+        }
         self.conclude(now);
     }
 

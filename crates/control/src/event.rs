@@ -124,6 +124,17 @@ pub enum EventKind {
         /// The run goes on once the operator says so; otherwise by itself.
         asks_operator: bool,
     },
+    /// A run was cut off when its controller ended, and this one found it.
+    TakenUp {
+        /// The frame that was to be reached next, counted from 0.
+        frame: usize,
+        /// Robots of the run.
+        robots: usize,
+        /// How long there was no controller.
+        away: Span,
+        /// The run goes on once its robots report; otherwise they are told to stop, and it is over.
+        goes_on: bool,
+    },
     /// The drive goes on after a hold.
     Resumed,
     /// A robot takes no part any more; the rest goes on without it.
@@ -217,6 +228,7 @@ impl EventKind {
             | Waiting { .. }
             | Undelivered
             | LinkLost { .. }
+            | TakenUp { .. }
             | LinkBack { asks_operator: true, .. }
             | Replanning { .. }
             | Misaligned { .. }
@@ -274,6 +286,13 @@ impl EventKind {
                 "Link lost: {silent} of {} fell silent at once. The show stands still until they report again.",
                 Count(*robots, "robot")
             ),
+            Self::TakenUp { frame, robots, away, goes_on } => {
+                let (robots, away_s) = (Count(*robots, "robot"), away.as_secs());
+                let then =
+                    if *goes_on { "are asked where they stand" } else { "are told to stop; the run is over" };
+                write!(f, "The show was cut off {away_s:.0} s ago on the way to frame {}, ", frame + 1)?;
+                write!(f, "because its controller ended. {robots} {then}.")
+            }
             Self::LinkBack { reported, robots, after, asks_operator } => {
                 let then =
                     if *asks_operator { "Look at the floor, then press Go on" } else { "The show goes on" };
@@ -336,7 +355,7 @@ impl fmt::Display for EventKind {
                 f,
                 "No robot acknowledges its path, though robots report: the broker does not deliver messages to them."
             ),
-            LinkLost { .. } | LinkBack { .. } => self.write_link(f),
+            LinkLost { .. } | LinkBack { .. } | TakenUp { .. } => self.write_link(f),
             Resumed => write!(f, "Resumed."),
             Dropout { robot, why } => write!(f, "Robot {robot} drops out: it {why}."),
             Rejoined(id) => write!(f, "Robot {id} takes part from the next frame on."),

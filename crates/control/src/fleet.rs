@@ -104,6 +104,18 @@ impl KnownRobots {
         Some(index)
     }
 
+    /// A robot that takes part in a run that is taken up: it was heard last at `heard`, if it was not since.
+    pub fn expect(&mut self, id: RobotId, heard: Instant, config: &Config) -> usize {
+        if let Some(index) = self.find(id) {
+            return index;
+        }
+        let index = self.robots.len();
+        let is_admitted = config.admitted.is_empty() || config.admitted.contains(&id);
+        self.robots.push(KnownRobot { is_admitted, is_light_sure: false, ..KnownRobot::new(id, heard) });
+        self.index_of.insert(id, index as u32);
+        index
+    }
+
     /// Finds robots by their names again, after the list was read from bytes. `false`: two have one name.
     pub fn reindex(&mut self) -> bool {
         let names = self.robots.iter().enumerate().map(|(index, robot)| (robot.id, index as u32));

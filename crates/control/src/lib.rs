@@ -49,7 +49,7 @@ pub use config::{Ageing, Config, UploadLimits};
 pub use controller::{Controller, PathsView};
 pub use event::{Event, EventKind, RunOutcome, Trouble};
 pub use input_log::{Difference, LogEnd, LogError, RecordedController, ReplayReport, replay};
-pub use journal::{JournalError, JournalPiece, UnfinishedRun};
+pub use journal::{JournalError, JournalPiece, OnReturn, UnfinishedRun};
 pub use operation::{ControllerState, MissingPolicy, Operation, Refusal};
 pub use outbox::Send;
 pub use plan_request::{PlanRequest, PlanResult};

@@ -43,6 +43,8 @@ pub(crate) struct KnownRobot {
     pub short_m: f64,
     /// The light it was told to show.
     pub light: Rgb,
+    /// Whether it surely shows that light.
+    pub is_light_sure: bool,
     /// Whether it may take part in runs.
     pub is_admitted: bool,
     /// Whether another robot has the same name.
@@ -75,6 +77,7 @@ impl KnownRobot {
             asked: now,
             short_m: STOPS_SHORT.first_m,
             light: Rgb::BLACK,
+            is_light_sure: true,
             is_admitted: true,
             namesakes: Namesakes::default(),
             participant: None,
@@ -86,6 +89,11 @@ impl KnownRobot {
     /// Whether it knows TARGET and COLOR only: the original firmware.
     pub fn is_original(&self) -> bool {
         !self.reported.abilities.route
+    }
+
+    /// Whether it surely shows a light.
+    pub fn shows(&self, color: Rgb) -> bool {
+        self.is_light_sure && self.light == color
     }
 
     /// Whether it reported lately, and neither a fault nor that it is lost.
@@ -146,7 +154,7 @@ impl KnownRobot {
         self.reported.simulated = report.details.as_ref().is_some_and(|details| details.simulated);
         let restarted = report.details.as_ref().is_some_and(|details| self.take_over(details));
         if restarted {
-            self.light = Rgb::BLACK;
+            (self.light, self.is_light_sure) = (Rgb::BLACK, true);
         }
         restarted
     }

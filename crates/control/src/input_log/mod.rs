@@ -24,8 +24,9 @@ use serde::{Deserialize, Serialize};
 
 /// The first bytes of every input log.
 const MAGIC: &[u8; 8] = b"LBotsLog";
-/// The format of logs. Raise it with every change of a type that is written: `Controller`, `Show`, `Record`.
-const VERSION: u16 = 2;
+/// The format of logs. Raise it with every change of a type that is written: `Controller`, `Show`, `Record`,
+/// and with the version of journals.
+const VERSION: u16 = 3;
 
 /// The first block of a log.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

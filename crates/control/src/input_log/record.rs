@@ -1,5 +1,6 @@
 //! Records of a log.
 
+use crate::journal::{OnReturn, UnfinishedRun};
 use crate::operation::Operation;
 use lightbots_base::Span;
 use serde::{Deserialize, Serialize};
@@ -38,6 +39,8 @@ pub(crate) enum Record<'a> {
     },
     /// Outputs were taken: of which kinds ([`OutputKinds`]), and the last bytes of the digest of all outputs so far.
     Outputs { taken: u8, digest: [u8; 2] },
+    /// A run that was cut off was taken up.
+    TakeUp { after: Span, run: Box<UnfinishedRun>, on_return: OnReturn },
     /// The log ends here, with this digest of all outputs.
     End { digest: u64 },
 }

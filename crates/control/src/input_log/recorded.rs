@@ -4,7 +4,7 @@ use super::record::{OutputKinds, Record};
 use super::recording::Recording;
 use crate::controller::Controller;
 use crate::event::Event;
-use crate::journal::JournalPiece;
+use crate::journal::{JournalPiece, OnReturn, UnfinishedRun};
 use crate::operation::{Operation, Refusal};
 use crate::outbox::Send;
 use crate::plan_request::{PlanRequest, PlanResult};
@@ -100,11 +100,31 @@ impl RecordedController {
             recording.input(now, |after| Record::Operation { after, operation });
         }
         let answer = self.controller.operate(now, operation);
+        self.answered(&answer);
+        answer
+    }
+
+    /// [`Controller::take_up`]
+    pub fn take_up(
+        &mut self,
+        now: Instant,
+        unfinished: &UnfinishedRun,
+        on_return: OnReturn,
+    ) -> Result<(), Refusal> {
         if let Some(recording) = &mut self.recording {
-            recording.digest.answer(&answer);
+            let run = Box::new(unfinished.clone());
+            recording.input(now, |after| Record::TakeUp { after, run, on_return });
+        }
+        let answer = self.controller.take_up(now, unfinished, on_return);
+        self.answered(&answer);
+        answer
+    }
+
+    fn answered(&mut self, answer: &Result<(), Refusal>) {
+        if let Some(recording) = &mut self.recording {
+            recording.digest.answer(answer);
             recording.taken |= OutputKinds::ANSWER;
         }
-        answer
     }
 
     /// [`Controller::wake`]

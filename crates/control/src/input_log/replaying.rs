@@ -184,6 +184,12 @@ impl Replay {
                 let answer = self.controller.operate(self.now, operation);
                 self.digest.answer(&answer);
             }
+            Record::TakeUp { after, run, on_return } => {
+                let run = Some(run).filter(|run| run.is_sound())?;
+                self.input(after, || "a run was taken up".into());
+                let answer = self.controller.take_up(self.now, &run, on_return);
+                self.digest.answer(&answer);
+            }
             Record::Planned { after, number, cancelled_at } => self.planned(after, number, cancelled_at),
             Record::Outputs { taken, digest } => self.compare(taken, digest),
             Record::End { digest } => {

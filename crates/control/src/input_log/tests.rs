@@ -1,6 +1,6 @@
 use super::record::{Record, RobotTopic};
 use super::*;
-use crate::{Config, Controller, Operation};
+use crate::{Config, Controller, OnReturn, Operation};
 use lightbots_base::{Instant, Span, StateHash};
 use lightbots_show::{Frame, Pixel, Show};
 use std::sync::Arc;
@@ -100,6 +100,11 @@ fn the_format_is_that_of_its_version() {
         Record::Outputs { taken: 15, digest: [1, 2] },
         Record::End { digest: 3 },
     ];
+    // A record may hold a run of a journal.
+    hash.word(crate::journal::VERSION.into());
+    hash.bytes(
+        &postcard::to_allocvec(&[OnReturn::GoOrAsk, OnReturn::Go, OnReturn::Ask, OnReturn::Stop]).unwrap(),
+    );
     records.iter().for_each(|record| hash.bytes(&postcard::to_allocvec(record).unwrap()));
-    assert_eq!((VERSION, hash.finish()), (2, 14_484_516_505_988_024_594));
+    assert_eq!((VERSION, hash.finish()), (3, 4_969_066_388_620_850_193));
 }

@@ -12,11 +12,13 @@ mod leg_entry;
 mod reading;
 mod soundness;
 mod state;
+mod taking_up;
 #[cfg(test)]
 mod tests;
 mod writing;
 
 pub use reading::{JournalError, UnfinishedRun};
+pub use taking_up::OnReturn;
 pub use writing::JournalPiece;
 
 pub(crate) use leg_entry::LegEntry;
@@ -26,4 +28,4 @@ pub(crate) use writing::Journal;
 /// The first bytes of every journal.
 const MAGIC: &[u8; 8] = b"LBotsJrn";
 /// The format of journals. Raise it with every change of a type that is written: `Entry`, `JournalState`, `Show`.
-const VERSION: u16 = 1;
+pub(crate) const VERSION: u16 = 1;

@@ -44,7 +44,7 @@ impl UnfinishedRun {
             run = Some(Self::after(run, entry).ok_or(JournalError::BadEntry)?);
         }
         let run = run.ok_or(JournalError::NoEntry)?;
-        if !run.state.is_sound() {
+        if !run.is_sound() {
             return Err(JournalError::BadEntry);
         }
         Ok(Some(run).filter(|run| run.state.ended.is_none()))
@@ -65,6 +65,11 @@ impl UnfinishedRun {
             state.apply(change)?;
         }
         Some(Self { at, wall_us, state })
+    }
+
+    /// Whether a controller can go on from here.
+    pub(crate) fn is_sound(&self) -> bool {
+        self.state.is_sound()
     }
 
     /// The show that is played.

@@ -31,6 +31,8 @@ pub(crate) struct Interrupted {
     pub since: Instant,
     /// What was going on.
     pub left: Position,
+    /// When robots that drove stopped.
+    stops: StopTimes,
     /// Robots that are back until then go on by themselves.
     by_itself_until: Instant,
     /// When enough robots had reported for the run to go on.
@@ -47,9 +49,11 @@ pub(crate) struct Interrupted {
 impl Interrupted {
     /// Nothing is known of robots since `now`. The run goes on by itself if they are back within `by_itself`.
     pub fn begin(now: Instant, left: Position, by_itself: Span) -> Self {
+        let stops = StopTimes { began: now, stood: now };
         Self {
             since: now,
             left,
+            stops,
             by_itself_until: now + by_itself,
             back_at: None,
             reported: (0, now),
@@ -57,6 +61,11 @@ impl Interrupted {
             is_halted: false,
             is_agreed: false,
         }
+    }
+
+    /// Robots that drove stopped then.
+    pub fn stopped(self, stops: StopTimes) -> Self {
+        Self { stops, ..self }
     }
 
     /// When something is due.
@@ -129,8 +138,13 @@ impl Interrupted {
         let (Some(clock), Some(DrivenLeg { leg, targets })) = (&self.left.drive, &cx.pipeline.driven) else {
             return Whereabouts::default();
         };
-        let stop = StopTimes { began: self.since, stood: self.since };
-        silence::whereabouts((leg, targets), clock, stop, participant, cx.robot(participant).contact.heard)
+        silence::whereabouts(
+            (leg, targets),
+            clock,
+            self.stops,
+            participant,
+            cx.robot(participant).contact.heard,
+        )
     }
 
     /// Participants that have not reported since.

@@ -68,7 +68,7 @@ impl Lights {
             let known = &roster.participants[participant];
             let robot = context.fleet.robot(known.robot);
             let changes = leg.reaches_frame || leg.path(participant).is_some();
-            if known.is_excluded() || !changes || robot.is_original() || robot.light == step.color {
+            if known.is_excluded() || !changes || robot.is_original() || robot.shows(step.color) {
                 continue;
             }
             if !robot.reported.abilities.fade {

@@ -267,7 +267,7 @@ impl Run {
     }
 
     /// Plans and requests are dropped: robots will not be where they begin.
-    fn drop_plans(&mut self, io: &mut Context) {
+    pub fn drop_plans(&mut self, io: &mut Context) {
         let next = (!self.playback.is_ended()).then_some(self.playback.next);
         self.pipeline.clear(next);
         io.plan_request = None;

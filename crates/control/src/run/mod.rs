@@ -37,7 +37,8 @@ pub(crate) use membership::{Membership, Probation};
 pub(crate) use next::AirTime;
 pub(crate) use path_clock::PathClock;
 pub(crate) use playback::{FrameCursor, PlayedShow, RunPurpose};
-pub(crate) use roster::{Participant, Whereabouts};
+pub(crate) use roster::{Participant, Roster, Whereabouts};
+pub(crate) use silence::StopTimes;
 
 use crate::context::Context;
 use crate::event::{EventKind, RunOutcome, Trouble};
@@ -46,16 +47,17 @@ use crate::journal::Position;
 use crate::leg::{Leg, LegKind};
 use crate::plan_request::PlanResult;
 use gathering::Gathering;
-use lightbots_base::Instant;
+use interrupted::Interrupted;
+use lightbots_base::{Instant, Span};
 use lightbots_wire::{Report, RobotState, Topic};
 use link::LinkEstimate;
 use next::Next;
-use pipeline::Pipeline;
-use roster::Roster;
+use pipeline::{DrivenLeg, Pipeline};
 #[cfg(doc)]
 use run_context::RunContext;
 use std::ops::ControlFlow;
 use tally::Tally;
+use target_progress::TargetProgress;
 
 impl Run {
     /// All robots take part that can; then they are asked where they stand, unless that is known.
@@ -81,6 +83,25 @@ impl Run {
             run.gather(context, now, Position::default());
         }
         run
+    }
+
+    /// A run that robots are out of reach of until now. `leg`: what they drive or drove last.
+    pub fn interrupted(
+        now: Instant,
+        playback: PlayedShow,
+        roster: Roster,
+        leg: Option<Leg>,
+        (left, by_itself, stops): (Position, Span, StopTimes),
+    ) -> Self {
+        let driven = leg.map(|leg| DrivenLeg { targets: TargetProgress::new(&leg), leg });
+        Self {
+            pipeline: Pipeline { driven, ..Pipeline::new(playback.next) },
+            playback,
+            roster,
+            link: LinkEstimate::default(),
+            phase: RunPhase::Interrupted(Interrupted::begin(now, left, by_itself).stopped(stops)),
+            tally: Tally::default(),
+        }
     }
 
     /// The run is over: robots keep what they show.

@@ -31,7 +31,7 @@ pub(crate) struct Participant {
 }
 
 /// All robots that take part in a run. Participants are numbered in the order in which they joined.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(crate) struct Roster {
     /// All that take part or took part; they are never removed, so that their numbers stay valid.
     pub participants: Vec<Participant>,

@@ -5,7 +5,8 @@ pub mod robot;
 
 use lightbots_base::{Instant, Rgb, Span, Vec2};
 use lightbots_control::{
-    Config, Controller, Event, EventKind, MissingPolicy, Operation, Refusal, RunOutcome,
+    Config, Controller, Event, EventKind, MissingPolicy, OnReturn, Operation, Refusal, RunOutcome,
+    UnfinishedRun,
 };
 use lightbots_show::{Frame, Identity, Pixel, Show, Stage};
 use lightbots_wire::Topic;
@@ -42,6 +43,8 @@ pub struct World {
     pub robots: Vec<Robot>,
     pub events: Vec<Event>,
     pub linked: bool,
+    /// The controller was killed.
+    pub is_killed: bool,
     /// The broker passes on nothing that the controller says.
     pub mute: bool,
     /// The broker keeps all messages, and passes them on later.
@@ -80,6 +83,7 @@ impl World {
             robots,
             events: Vec::new(),
             linked: false,
+            is_killed: false,
             mute: false,
             frozen: false,
             deaf: Vec::new(),
@@ -123,6 +127,26 @@ impl World {
         self.controller = Controller::new(config);
         self.controller.connected(self.now);
         self.drain();
+    }
+
+    /// The controller is killed. Messages that it has sent are still under way.
+    pub fn kill_controller(&mut self) {
+        self.is_killed = true;
+    }
+
+    /// Another controller finds the journal of the one that was killed. Whether there was a run in it.
+    pub fn return_controller(&mut self, on_return: OnReturn) -> bool {
+        self.is_killed = false;
+        let config = Config { seq_base: 100_000, ..Config::default() };
+        self.controller = Controller::new(config);
+        self.controller.keep_journal();
+        let unfinished = UnfinishedRun::read(&self.journal).unwrap();
+        if let Some(run) = &unfinished {
+            self.controller.take_up(self.now, run, on_return).unwrap();
+        }
+        self.controller.connected(self.now);
+        self.drain();
+        unfinished.is_some()
     }
 
     pub fn operate(&mut self, operation: Operation) -> Result<(), Refusal> {
@@ -190,7 +214,7 @@ impl World {
                 self.post(topic, payload, true);
             }
         }
-        if self.controller.wake_at().is_some_and(|at| at <= self.now) {
+        if !self.is_killed && self.controller.wake_at().is_some_and(|at| at <= self.now) {
             self.controller.wake(self.now);
             self.drain();
         }
@@ -198,6 +222,9 @@ impl World {
     }
 
     fn deliver(&mut self, letter: Letter) {
+        if letter.to_controller && self.is_killed {
+            return;
+        }
         if letter.to_controller {
             self.controller.message(self.now, &letter.topic.write(), &letter.payload);
             self.drain();

@@ -1,0 +1,126 @@
+//! A run that is taken up: another controller goes on with it, from where its robots stand.
+
+use super::{JournalState, ParticipantEntry, UnfinishedRun};
+use crate::context::Context;
+use crate::controller::Controller;
+use crate::event::EventKind;
+use crate::operation::Refusal;
+use crate::run::{Participant, PlayedShow, Roster, Run, StopTimes};
+use lightbots_base::{Instant, Span, Vec2};
+use serde::{Deserialize, Serialize};
+
+/// The controller had not heard from a robot for this long at most when it wrote its last entry: then all hold.
+const UNHEARD: Span = Span::from_millis(1_500);
+/// Robots stand this long after the last entry at the latest: the next one would have come after 2 s, and 2.5 s later a
+/// robot has stopped by R43 of docs/protocol.md.
+const STANDS_AFTER: Span = Span::from_millis(4_500);
+/// Longer than any run.
+const FOR_EVER: Span = Span::from_millis(86_400_000_000);
+
+/// What happens to a run that was cut off, once a controller is back.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum OnReturn {
+    /// It goes on by itself if little time has passed (`Config::goes_on_within`), otherwise the operator is asked.
+    #[default]
+    GoOrAsk,
+    /// It goes on by itself.
+    Go,
+    /// The operator is asked.
+    Ask,
+    /// It is over. Robots are told to stop.
+    Stop,
+}
+
+impl Controller {
+    /// Takes up a run whose controller is gone. It stands still until its robots report, and is then planned from where they
+    /// stand. Call this before [`connected`](Self::connected), with a show clock that goes on from the run's
+    /// [`last_written`](UnfinishedRun::last_written).
+    pub fn take_up(
+        &mut self,
+        now: Instant,
+        unfinished: &UnfinishedRun,
+        on_return: OnReturn,
+    ) -> Result<(), Refusal> {
+        if self.has_run() {
+            return Err(Refusal::Busy(self.state()));
+        }
+        let (state, away) = (&unfinished.state, (now - unfinished.at).max(Span::ZERO));
+        self.show = Some(state.begun.show.clone());
+        self.looping = state.progress.looping;
+        restore_mapping(&mut self.context, state);
+        let goes_on = on_return != OnReturn::Stop;
+        let robots = state.participants.iter().filter(|entry| !entry.membership.excluded).count();
+        let frame = unfinished.frame();
+        self.context.log.record(now, EventKind::TakenUp { frame, robots, away, goes_on });
+        if goes_on {
+            let by_itself = match on_return {
+                OnReturn::Go => FOR_EVER,
+                OnReturn::GoOrAsk => self.context.config.goes_on_within - away,
+                OnReturn::Ask | OnReturn::Stop => Span::ZERO,
+            };
+            self.run = Some(Run::take_up(&mut self.context, now, unfinished, by_itself.max(Span::ZERO)));
+        } else {
+            self.stops_when_connected = true;
+        }
+        self.conclude(now);
+        Ok(())
+    }
+}
+
+fn restore_mapping(context: &mut Context, state: &JournalState) {
+    context.mapping.pins = state.pins.iter().copied().collect();
+    context.mapping.owners = Default::default();
+    for &(pixel, robot) in &state.owners {
+        context.mapping.owners.show(pixel, robot);
+    }
+}
+
+impl Run {
+    /// The run of a journal, as if its robots were out of reach until now.
+    fn take_up(context: &mut Context, now: Instant, unfinished: &UnfinishedRun, by_itself: Span) -> Self {
+        let UnfinishedRun { at, state, .. } = unfinished;
+        let (begun, progress) = (&state.begun, &state.progress);
+        let playback = PlayedShow {
+            show: begun.show.clone(),
+            purpose: begun.purpose,
+            missing: begun.missing,
+            looping: progress.looping,
+            next: progress.next,
+            paused: progress.paused,
+            stepping: progress.stepping,
+        };
+        let leg = state.leg.as_ref().and_then(|leg| leg.to_leg(state.participants.len()));
+        let mut participants = Vec::new();
+        for (number, entry) in state.participants.iter().enumerate() {
+            let goal =
+                leg.as_ref().and_then(|leg| leg.goal(number)).filter(|_| progress.position.drive.is_none());
+            let robot = context.fleet.expect(entry.id, *at, &context.config);
+            expect(context, robot, entry, goal);
+            context.fleet.robot_mut(robot).participant = Some(number as u32);
+            participants.push(Participant {
+                membership: entry.membership,
+                probation: entry.probation,
+                last_seen: entry.last_seen.clone(),
+                ..Participant::new(robot)
+            });
+        }
+        let roster = Roster { participants, begun: begun.at, ..Roster::default() };
+        let stops =
+            StopTimes { began: Instant(at.0.saturating_sub(UNHEARD.0 as u64)), stood: *at + STANDS_AFTER };
+        let mut run = Self::interrupted(now, playback, roster, leg, (progress.position, by_itself, stops));
+        run.tally.frames_played = progress.frames_played as usize;
+        run.tally.dropouts = progress.dropouts as usize;
+        run.tally.taken_up = progress.taken_up + 1;
+        run.pipeline.obstacles.found.clone_from(&state.found);
+        run.pipeline.obstacles.ignores_strangers = state.ignores_strangers;
+        run.drop_plans(context);
+        run
+    }
+}
+
+/// Notes of a robot of the fleet what the journal says. A robot that stood is at its `goal` until it reports.
+fn expect(context: &mut Context, robot: usize, entry: &ParticipantEntry, goal: Option<Vec2>) {
+    let robot = context.fleet.robot_mut(robot);
+    robot.reported.abilities = entry.abilities;
+    robot.reported.at = goal.filter(|_| !entry.membership.excluded).or(entry.at);
+}

@@ -1,0 +1,175 @@
+//! The controller is killed in a run, and another one goes on with it from the journal.
+
+mod fleet;
+
+use fleet::{Dice, World, show};
+use lightbots_base::RobotId;
+use lightbots_control::{ControllerState, EventKind, OnReturn, Operation, RunOutcome};
+use lightbots_show::{Identity, Show};
+
+const CONTACT_M: f64 = 0.054;
+
+/// A run that is killed after a time, and whose controller is away for some.
+fn killed(show: Show, after_s: f64, away_s: f64) -> World {
+    let count = show.frames[0].pixels.len();
+    let mut world = World::ready(count, 0, show);
+    world.controller.keep_journal();
+    world.play();
+    world.run_for(after_s);
+    world.kill_controller();
+    world.run_for(away_s);
+    world
+}
+
+fn is_taken_up(kind: &EventKind) -> bool {
+    matches!(kind, EventKind::TakenUp { .. })
+}
+
+#[test]
+fn a_run_that_was_killed_at_any_moment_is_found_and_finished() {
+    let mut dice = Dice(26);
+    let mut last_s = 0.0;
+    for number in 0..40 {
+        let mut show = show(4, 9, 0.6);
+        show.identity = if number % 2 == 0 { Identity::Any } else { Identity::Fixed };
+        let after_s = 0.05 + dice.below(16_000) as f64 / 1e3;
+        let away_s = 0.2 + dice.below(6_000) as f64 / 1e3;
+        let mut world = killed(show.clone(), after_s, away_s);
+        let story =
+            |world: &World| format!("run {number}, killed at {after_s} s for {away_s} s:\n{}", world.story());
+        if !world.return_controller(OnReturn::GoOrAsk) {
+            assert_eq!(
+                world.count(|kind| matches!(kind, EventKind::RunEnded { .. })),
+                1,
+                "{}",
+                story(&world)
+            );
+            continue;
+        }
+        last_s = f64::max(last_s, after_s);
+        assert_eq!(world.run_to_end(60.0), (RunOutcome::Finished, 4, 0), "{}", story(&world));
+        assert_eq!(world.lit(&show.frames[3]), 9, "{}", story(&world));
+        assert!(world.closest_m >= CONTACT_M, "{} m; {}", world.closest_m, story(&world));
+        assert_eq!(world.count(is_taken_up), 1);
+        let reached = world.count(|kind| matches!(kind, EventKind::FrameReached { .. }));
+        assert_eq!(reached, 4, "a frame is not played twice, and none is left out: {}", story(&world));
+    }
+    assert!(last_s > 10.0, "runs were killed in all frames");
+}
+
+#[test]
+fn a_run_is_taken_up_more_than_once() {
+    let mut world = killed(show(3, 6, 0.5), 3.0, 1.0);
+    for _ in 0..3 {
+        assert!(world.return_controller(OnReturn::Go));
+        world.run_for(1.3);
+        world.kill_controller();
+        world.run_for(2.5);
+    }
+    assert!(world.return_controller(OnReturn::Go));
+    assert_eq!(world.run_to_end(60.0), (RunOutcome::Finished, 3, 0), "{}", world.story());
+    assert_eq!(world.count(is_taken_up), 4);
+}
+
+#[test]
+fn the_operator_is_asked_after_a_long_time_or_where_that_is_wanted() {
+    for (away_s, on_return) in [(40.0, OnReturn::GoOrAsk), (1.0, OnReturn::Ask)] {
+        let mut world = killed(show(3, 6, 0.5), 3.0, away_s);
+        assert!(world.return_controller(on_return));
+        world.run_for(20.0);
+        assert_eq!(world.controller.state(), ControllerState::LinkLost, "{}", world.story());
+        let places: Vec<_> = world.robots.iter().map(|robot| robot.at).collect();
+        world.run_for(5.0);
+        assert!(world.robots.iter().map(|robot| robot.at).eq(places), "robots drive");
+        world.operate(Operation::GoOn).unwrap();
+        assert_eq!(world.run_to_end(60.0), (RunOutcome::Finished, 3, 0), "{}", world.story());
+    }
+    let mut world = killed(show(3, 6, 0.5), 3.0, 40.0);
+    assert!(world.return_controller(OnReturn::Go));
+    assert_eq!(world.run_to_end(60.0), (RunOutcome::Finished, 3, 0), "{}", world.story());
+}
+
+#[test]
+fn a_run_that_does_not_go_on_leaves_robots_that_stand() {
+    for away_s in [0.3, 3.0] {
+        let mut world = killed(show(3, 6, 0.5), 3.0, away_s);
+        assert!(world.return_controller(OnReturn::Stop));
+        world.run_for(2.2);
+        assert!(world.robots.iter().all(|robot| robot.running.is_none()), "{}", world.story());
+        world.run_for(2.0);
+        assert_eq!(world.controller.state(), ControllerState::Ready);
+        world.play();
+        assert_eq!(world.run_to_end(60.0), (RunOutcome::Finished, 3, 0), "{}", world.story());
+    }
+}
+
+#[test]
+fn pauses_pins_and_lost_robots_are_kept() {
+    let mut world = World::ready(7, 0, show(4, 7, 0.5));
+    let pinned = RobotId::new("robot-5").unwrap();
+    world.operate(Operation::Pin { pixel: 0, robot: Some(pinned) }).unwrap();
+    world.controller.keep_journal();
+    world.play();
+    world.run_until(20.0, |kind| matches!(kind, EventKind::FrameReached { .. }));
+    world.robots[2].dead = true;
+    world.run_until(30.0, |kind| matches!(kind, EventKind::Dropout { .. }));
+    world.run_until(30.0, |kind| matches!(kind, EventKind::FrameReached { .. }));
+    world.operate(Operation::Pause).unwrap();
+    world.kill_controller();
+    world.run_for(3.0);
+    assert!(world.return_controller(OnReturn::Go));
+    world.run_for(10.0);
+    let snapshot = world.controller.snapshot(world.now);
+    assert_eq!(snapshot.state, ControllerState::Paused, "{}", world.story());
+    assert_eq!(snapshot.run.unwrap().dropouts, 1);
+    world.operate(Operation::Resume).unwrap();
+    assert_eq!(world.run_to_end(60.0), (RunOutcome::Finished, 4, 1), "{}", world.story());
+    let shown =
+        |id| world.controller.snapshot(world.now).robots.iter().find(|robot| robot.id == id).unwrap().pixel;
+    assert_eq!((shown(pinned), shown(RobotId::new("robot-2").unwrap())), (Some(0), None));
+    assert!(world.closest_m >= CONTACT_M, "{}", world.closest_m);
+}
+
+#[test]
+fn robots_that_died_meanwhile_drop_out_and_are_driven_around() {
+    let mut world = killed(show(4, 9, 0.5), 4.5, 2.5);
+    world.robots[4].dead = true;
+    assert!(world.return_controller(OnReturn::Go));
+    assert_eq!(world.run_to_end(90.0), (RunOutcome::Finished, 4, 1), "{}", world.story());
+    assert!(world.closest_m >= CONTACT_M, "{}", world.closest_m);
+}
+
+#[test]
+fn originals_stand_before_the_run_goes_on() {
+    let mut world = World::ready(6, 2, show(3, 6, 0.5));
+    world.controller.keep_journal();
+    world.play();
+    world.run_until(30.0, |kind| matches!(kind, EventKind::FrameReached { .. }));
+    world.run_for(1.5);
+    world.kill_controller();
+    world.run_for(3.0);
+    assert!(world.return_controller(OnReturn::Go));
+    assert_eq!(world.run_to_end(90.0), (RunOutcome::Finished, 3, 0), "{}", world.story());
+    assert!(world.closest_m >= CONTACT_M, "{}", world.closest_m);
+}
+
+#[test]
+fn a_preview_and_a_loop_are_taken_up_as_they_were() {
+    let mut world = World::ready(6, 0, show(2, 6, 0.2));
+    world.controller.keep_journal();
+    world.operate(Operation::Preview { frame: 1, missing: Default::default() }).unwrap();
+    world.run_for(2.0);
+    world.kill_controller();
+    world.run_for(1.0);
+    assert!(world.return_controller(OnReturn::Go));
+    assert_eq!(world.run_to_end(30.0), (RunOutcome::Finished, 1, 0), "{}", world.story());
+    world.operate(Operation::Loop(true)).unwrap();
+    world.play();
+    world.run_for(15.0);
+    world.kill_controller();
+    world.run_for(1.0);
+    assert!(world.return_controller(OnReturn::Go));
+    world.run_for(15.0);
+    assert_eq!(world.count(|kind| matches!(kind, EventKind::RunEnded { .. })), 1, "it loops on");
+    assert!(world.controller.snapshot(world.now).looping);
+}
