@@ -8,6 +8,7 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use lightbots_base::RobotId;
+use lightbots_control::OnReturn;
 use lightbots_exchange::formats_in_words;
 use lightbots_link::BrokerArguments;
 use lightbots_show::Identity;
@@ -121,6 +122,10 @@ pub struct RunArguments {
     /// Folder of the library of shows and of recorded runs [default: lightbots in the user's data folder]
     #[arg(long, value_name = "DIR")]
     pub data: Option<PathBuf>,
+    /// What happens to a show that was cut off when this program was killed [default: go if at most 30 s have passed, else
+    /// ask]
+    #[arg(long, value_name = "WHAT", value_enum)]
+    pub on_return: Option<OnReturnArgument>,
     /// Seed of the simulated robots, their names included, which pins in a show go by [default: 1; with --broker,
     /// where others may bear those names, another one each time]
     #[arg(long, value_name = "S", allow_hyphen_values = true, value_parser = seed)]
@@ -128,6 +133,27 @@ pub struct RunArguments {
     /// Simulated robots without sensor noise and wheel slip
     #[arg(long)]
     pub ideal: bool,
+}
+
+/// What happens to a show that was cut off.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum OnReturnArgument {
+    /// It goes on from where the robots stand, once they report.
+    Go,
+    /// The robots stand until Go on or Abort is pressed on the screen.
+    Ask,
+    /// The robots are told to stop, and the show is over.
+    Stop,
+}
+
+impl From<OnReturnArgument> for OnReturn {
+    fn from(argument: OnReturnArgument) -> Self {
+        match argument {
+            OnReturnArgument::Go => Self::Go,
+            OnReturnArgument::Ask => Self::Ask,
+            OnReturnArgument::Stop => Self::Stop,
+        }
+    }
 }
 
 /// The embedded broker, of `run` and `broker`

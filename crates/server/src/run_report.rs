@@ -127,6 +127,7 @@ fn issue(kind: &EventKind) -> Option<Issue> {
     let (code, frame) = match kind {
         EventKind::Disconnected => ("broker-lost", None),
         EventKind::LinkLost { .. } => ("link-lost", None),
+        EventKind::TakenUp { frame, .. } => ("taken-up", Some(*frame)),
         EventKind::LinkBack { .. } => ("link-back", None),
         EventKind::PlanFailed { frame, .. } => ("no-plan", Some(*frame)),
         EventKind::LeftOut { frame, .. } => ("left-out", Some(*frame)),

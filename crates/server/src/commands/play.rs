@@ -9,6 +9,7 @@ use tokio::sync::broadcast;
 
 use crate::cli::PlayArguments;
 use crate::failure::{Failure, Outcome};
+use crate::live::clock::Clock;
 use crate::live::conductor::{self, Handle, LOOK, News};
 use crate::live::recorder::RecordingTarget;
 use crate::progress::Bar;
@@ -41,7 +42,7 @@ pub async fn run(arguments: PlayArguments, stop: Stop) -> Outcome {
     open_files::raise_limit();
     let recording = arguments.record.clone().map_or(RecordingTarget::Off, RecordingTarget::File);
     let (until, end) = stop.child();
-    let (handle, task) = Handle::start(recording, until);
+    let (handle, task) = Handle::start(recording, Clock::start(), until);
     let (mut news, links) = (handle.news(), handle.news());
     handle.connect(broker).await;
     let mut report = RunReport::new(&opened.show);

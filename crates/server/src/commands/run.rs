@@ -19,8 +19,9 @@ use crate::failure::{Failure, Outcome};
 use crate::library::{Library, name_of_file};
 use crate::live::broker::EmbeddedBroker;
 use crate::live::cast::Cast;
+use crate::live::clock::Clock;
 use crate::live::conductor::Handle;
-use crate::live::journal;
+use crate::live::cut_off::CutOffRun;
 use crate::live::recorder::RecordingTarget;
 use crate::stop::Stop;
 use crate::web::{self, BrokerDesk, Exposure, Planner, ScreenLog, Shared};
@@ -71,17 +72,12 @@ async fn serve(arguments: &RunArguments, stop: &Stop, started: &mut Started) -> 
     let folder = DataFolder::take(&data)?;
     let library = Library::new(data.clone());
     library.tidy_up();
-    match journal::unfinished_run(&data) {
-        Ok(Some(run)) => say::line(&format!(
-            "The run of \"{}\" was cut off on the way to frame {} of {}",
-            run.show().name,
-            run.frame() + 1,
-            run.show().frames.len()
-        )),
-        Ok(None) => {}
-        Err(line) => say::error(&line),
-    }
-    let (name, show) = first_show(arguments, &library)?;
+    let cut_off = CutOffRun::find(&data, arguments.on_return);
+    let first = first_show(arguments, &library)?;
+    let (name, show) = match &cut_off {
+        Some(run) => run.show_on_screen(&library, first),
+        None => first,
+    };
     for issue in validate(&show).iter().filter(|issue| issue.is_error()).take(ISSUES_SHOWN) {
         say::error(&issue.message);
     }
@@ -101,13 +97,18 @@ async fn serve(arguments: &RunArguments, stop: &Stop, started: &mut Started) -> 
     let Some(own) = other.clone().or_else(|| embedded.clone()) else { return Ok(false) };
     let seed = robots_seed(arguments.seed, other.is_none());
     let (settings, broker) = chosen(arguments, other, &own, &data);
-    let (handle, conductor) = Handle::start(RecordingTarget::Runs(data.clone()), stop.clone());
+    let clock = cut_off.as_ref().map_or_else(Clock::start, CutOffRun::clock);
+    let (handle, conductor) = Handle::start(RecordingTarget::Runs(data.clone()), clock, stop.clone());
     started.tasks.push(conductor);
     let planner = Planner::new(Duration::from_secs(arguments.plan_budget.into()));
     let desk = BrokerDesk::new(data, settings, embedded);
     let shared = Shared::new(handle.clone(), library, desk, names, planner);
-    handle.connect(broker.clone()).await;
     open(&shared, name).await;
+    if let Some(run) = cut_off {
+        run.tell(handle.clock().now());
+        handle.take_up(run.unfinished, run.on_return).await;
+    }
+    handle.connect(broker.clone()).await;
     let cast = Cast {
         broker: own,
         count,

@@ -30,12 +30,22 @@ struct Shared {
 impl Clock {
     /// A clock that starts now.
     pub fn start() -> Self {
+        Self::starting_at(unix_us())
+    }
+
+    /// A clock that goes on from where another one was: it showed `at` at `wall_us`, microseconds since 1970. Robots that
+    /// still drive by it must not be led to another moment of their paths. The time of day may have been set back since.
+    pub fn going_on((at, wall_us): (Instant, u64)) -> Self {
+        Self::starting_at(at.0.saturating_add(unix_us().saturating_sub(wall_us)))
+    }
+
+    fn starting_at(offset_us: u64) -> Self {
         let shared = Shared {
             withheld_us: AtomicU64::new(0),
             limit_us: AtomicU64::new(u64::MAX),
             shown_us: AtomicU64::new(0),
         };
-        Self { began: std::time::Instant::now(), offset_us: unix_us(), shared: Arc::new(shared) }
+        Self { began: std::time::Instant::now(), offset_us, shared: Arc::new(shared) }
     }
 
     /// The moment it is.
@@ -66,11 +76,11 @@ impl Clock {
         let ahead = Duration::from_micros(at.0.saturating_sub(self.now().0));
         tokio::time::Instant::now() + ahead.min(Duration::from_secs(86_400 * 365))
     }
+}
 
-    /// A first route number that no controller started before on this machine has reached.
-    pub fn seq_base(&self) -> u32 {
-        ((self.offset_us / 1_000_000 * 8) as u32).max(1)
-    }
+/// A first route number that no controller started before on this machine has reached.
+pub fn seq_base() -> u32 {
+    ((unix_us() / 1_000_000 * 8) as u32).max(1)
 }
 
 /// Milliseconds since 1970.
@@ -86,6 +96,15 @@ pub fn unix_us() -> u64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_clock_goes_on_from_another_one() {
+        let (at, wall_us) = (Instant(5_000_000), unix_us() - 2_000_000);
+        let shown = Clock::going_on((at, wall_us)).now() - at;
+        assert!(shown.as_secs() >= 2.0, "{shown:?}");
+        let set_back = Clock::going_on((at, u64::MAX)).now();
+        assert!(set_back >= at, "{set_back:?}");
+    }
 
     #[test]
     fn deadlines_are_moments_of_the_same_clock() {

@@ -5,19 +5,21 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 use lightbots_control::{
-    Config, Controller, ControllerState, Event, Operation, PlanRequest, PlanResult, RecordedController,
-    Refusal, Snapshot,
+    Config, Controller, ControllerState, Event, OnReturn, Operation, PlanRequest, PlanResult,
+    RecordedController, Refusal, Snapshot, UnfinishedRun,
 };
 use lightbots_link::{BrokerUrl, Link, LinkEvent};
 use lightbots_wire::Topic;
 use tokio::sync::{broadcast, mpsc, oneshot};
 
-use super::clock::Clock;
+use super::clock::{Clock, seq_base};
 use super::controller_link;
 use super::pace::Pace;
 use super::recorder::{Recorder, RecordingTarget};
 use super::rivals::{self, Rivals};
 use crate::stop::Stop;
+
+pub use super::link_state::{LinkPhase, LinkState};
 
 /// Orders that wait at most; the sender of more orders waits.
 const ORDERS: usize = 256;
@@ -30,6 +32,7 @@ const BATCH: usize = 512;
 enum Order {
     Operate(Operation, oneshot::Sender<Result<(), Refusal>>),
     Look(oneshot::Sender<Snapshot>),
+    TakeUp(Box<UnfinishedRun>, OnReturn),
     Connect(BrokerUrl),
     Disconnect,
 }
@@ -45,40 +48,6 @@ pub enum News {
     Warning(String),
 }
 
-/// How the link to the broker is.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct LinkState {
-    /// The broker's addresses without login; empty: none is wanted.
-    pub address: String,
-    /// How far it is.
-    pub phase: LinkPhase,
-    /// Which of the addresses is in use.
-    pub node: Option<String>,
-    /// Why there is no connection, once that is known.
-    pub reason: Option<String>,
-}
-
-/// How far a link is.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum LinkPhase {
-    /// None is wanted.
-    #[default]
-    Off,
-    /// The first attempt.
-    Connecting,
-    /// It stands.
-    Connected,
-    /// It failed, and is tried again and again.
-    Retrying,
-}
-
-impl LinkState {
-    /// Whether messages go to and fro.
-    pub fn is_connected(&self) -> bool {
-        self.phase == LinkPhase::Connected
-    }
-}
-
 /// A handle to the conductor; clones share it.
 #[derive(Clone, Debug)]
 pub struct Handle {
@@ -89,12 +58,16 @@ pub struct Handle {
 }
 
 impl Handle {
-    /// Starts a conductor. It ends, with its robots at rest if a run was on, once `stop` is wanted; wait for the task.
-    pub fn start(recording: RecordingTarget, stop: Stop) -> (Self, tokio::task::JoinHandle<()>) {
-        let clock = Clock::start();
+    /// Starts a conductor that lives by `clock`. It ends, with its robots at rest if a run was on, once `stop` is wanted;
+    /// wait for the task.
+    pub fn start(
+        recording: RecordingTarget,
+        clock: Clock,
+        stop: Stop,
+    ) -> (Self, tokio::task::JoinHandle<()>) {
         let (orders, inbox) = mpsc::channel(ORDERS);
         let (news, _) = broadcast::channel(EVENTS);
-        let config = Config { seq_base: clock.seq_base(), ..Config::default() };
+        let config = Config { seq_base: seq_base(), ..Config::default() };
         let (done_sender, done) = mpsc::channel(4);
         let pace = Arc::new(Pace::default());
         let mut controller = RecordedController::new(Controller::new(config));
@@ -131,6 +104,11 @@ impl Handle {
         let (answer, answered) = oneshot::channel();
         self.orders.send(Order::Look(answer)).await.ok()?;
         answered.await.ok()
+    }
+
+    /// Takes up a run that was cut off. Call it before [`connect`](Self::connect).
+    pub async fn take_up(&self, run: UnfinishedRun, on_return: OnReturn) {
+        let _ = self.orders.send(Order::TakeUp(Box::new(run), on_return)).await;
     }
 
     /// Uses this broker from now on.
@@ -249,6 +227,12 @@ impl Conductor {
             }
             Order::Look(answer) => {
                 let _ = answer.send(self.controller.snapshot(self.clock.now()));
+            }
+            Order::TakeUp(run, on_return) => {
+                let now = self.clock.now();
+                if let Err(refusal) = self.recorder.take_up(&mut self.controller, now, (&run, on_return)) {
+                    tracing::error!("the run that was cut off cannot go on: {refusal}");
+                }
             }
             Order::Connect(broker) => {
                 self.leave().await;

@@ -101,6 +101,13 @@ impl JournalFile {
         }
     }
 
+    /// The run that was found is over: its journal is removed.
+    pub fn discard(&mut self) {
+        self.shared.waiting.fetch_add(1, Ordering::Relaxed);
+        // The queue is empty at the start, when runs are found.
+        let _ = self.pieces.try_send(JournalPiece { begins: false, ends: true, bytes: Vec::new() });
+    }
+
     /// The program ends: waits for the disk.
     pub fn finish(mut self, controller: &mut RecordedController) {
         self.keep(controller);

@@ -8,7 +8,7 @@ use std::sync::{Arc, OnceLock};
 use std::thread::JoinHandle;
 
 use lightbots_base::Instant;
-use lightbots_control::{Operation, RecordedController};
+use lightbots_control::{OnReturn, Operation, RecordedController, Refusal, UnfinishedRun};
 
 use super::clock::unix_ms;
 use super::journal::JournalFile;
@@ -77,6 +77,24 @@ impl Recorder {
         if begins && self.recording.is_by_run() && !controller.is_recording() {
             controller.begin_log(now, notes("run"));
         }
+    }
+
+    /// Has the controller take up a run that was cut off.
+    pub fn take_up(
+        &mut self,
+        controller: &mut RecordedController,
+        now: Instant,
+        (run, on_return): (&UnfinishedRun, OnReturn),
+    ) -> Result<(), Refusal> {
+        if self.recording.is_by_run() {
+            let taken_up = ("taken_up".to_owned(), format!("on the way to frame {}", run.frame() + 1));
+            controller.begin_log(now, notes("run").into_iter().chain([taken_up]).collect());
+        }
+        let done = controller.take_up(now, run, on_return);
+        if let Some(journal) = self.journal.as_mut().filter(|_| !controller.has_run()) {
+            journal.discard();
+        }
+        done
     }
 
     /// Hands on what is new in log and journal. Lines for people, once something went wrong.

@@ -156,6 +156,7 @@ impl Shown {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::live::clock::Clock;
     use crate::live::recorder::RecordingTarget;
 
     #[test]
@@ -170,7 +171,8 @@ mod tests {
 
     #[tokio::test]
     async fn the_plan_of_a_show_that_was_replaced_is_given_up() {
-        let (handle, _conductor) = Handle::start(RecordingTarget::Off, crate::stop::Stop::install());
+        let (handle, _conductor) =
+            Handle::start(RecordingTarget::Off, Clock::start(), crate::stop::Stop::install());
         let desk = Desk::new(handle);
         let kept =
             || Kept { bytes: b"{}".to_vec(), show: Show::default(), etag: String::new(), read_only: None };

@@ -30,6 +30,7 @@ mod rabbitmq;
 mod raw_mqtt;
 mod recording;
 mod refusals;
+mod returns;
 mod rights;
 mod robot_check;
 mod run;
