@@ -2,7 +2,7 @@
 
 use lightbots_base::{Instant, Span};
 
-use crate::conditions::{BrokerOutage, Conditions};
+use crate::conditions::{Conditions, Outage};
 use crate::dice::{Dice, Purpose};
 
 /// Longest time until a client finds a broker that is back: it looks for it that often.
@@ -35,7 +35,7 @@ impl BrokerOutages {
     /// The outages of the conditions.
     pub fn new(conditions: &Conditions, robots: usize, seed: u64) -> Self {
         let mut dice = Dice::new(seed, Purpose::Broker);
-        let freezes = |outage: &BrokerOutage| (outage.at, BrokerEvent::Freezes(outage.over));
+        let freezes = |outage: &Outage| (outage.at, BrokerEvent::Freezes(outage.over));
         let mut coming: Vec<_> = conditions.frozen.iter().map(freezes).collect();
         for outage in &conditions.gone {
             let mut back =

@@ -26,9 +26,11 @@ pub struct Conditions {
     /// Robots whose fixes stay away, with the duration.
     pub blind: Vec<(Breakdown, Span)>,
     /// The broker passes nothing on; connections stay. Messages wait.
-    pub frozen: Vec<BrokerOutage>,
+    pub frozen: Vec<Outage>,
     /// The broker is gone: connections break.
-    pub gone: Vec<BrokerOutage>,
+    pub gone: Vec<Outage>,
+    /// The controller is killed, and another one goes on with its run.
+    pub crashed: Vec<Outage>,
 }
 
 /// Properties of position fixes.
@@ -76,9 +78,9 @@ pub struct Breakdown {
     pub at: Option<Span>,
 }
 
-/// A time without a broker.
+/// A time without a broker, or without a controller.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct BrokerOutage {
+pub struct Outage {
     /// When it begins, after the first departure.
     pub at: Span,
     /// How long it lasts.
@@ -117,6 +119,7 @@ impl Default for Conditions {
             blind: Vec::new(),
             frozen: Vec::new(),
             gone: Vec::new(),
+            crashed: Vec::new(),
         }
     }
 }

@@ -4,7 +4,7 @@ use core::fmt;
 
 use lightbots_base::Span;
 
-use crate::conditions::{Breakdown, BrokerOutage, Conditions};
+use crate::conditions::{Breakdown, Conditions, Outage};
 use crate::rehearsal::ROBOTS_MAX;
 
 /// What is added to the conditions of a rehearsal.
@@ -39,15 +39,16 @@ enum Change {
     Stuck(Breakdown),
     Cut(Breakdown, Span),
     Blind(Breakdown, Span),
-    Freeze(BrokerOutage),
-    Gone(BrokerOutage),
+    Freeze(Outage),
+    Gone(Outage),
+    Crash(Outage),
 }
 
 /// Every fault, with an example of its value.
 const KNOWN: &str = "loss=5%, delay=100..300ms, jitter or jitter=50ms, double=1%, reorder=1%, slip=10%, gps=5mm, \
                      heading=2deg, bias=5mm, clock=100ppm, fix-delay=100ms, fix-every=5, fix-dropout=1s, \
                      fix-outlier=1%, original=30, kill=random or kill=3@12s, mute=random or mute=3@12s, \
-                     stuck=random or stuck=3@12s, cut=random or cut=3@12s+4s, blind=random or blind=3@12s+4s, freeze=12s+4s, gone=12s+4s";
+                     stuck=random or stuck=3@12s, cut=random or cut=3@12s+4s, blind=random or blind=3@12s+4s, freeze=12s+4s, gone=12s+4s, crash=12s+4s";
 
 /// The most faults a text may state.
 const MOST: usize = 64;
@@ -93,8 +94,8 @@ impl Change {
     fn excludes(self, other: Self) -> bool {
         let of_a_robot =
             matches!(self, Self::Kill(_) | Self::Mute(_) | Self::Stuck(_) | Self::Cut(..) | Self::Blind(..));
-        let of_the_broker = matches!(self, Self::Freeze(_) | Self::Gone(_));
-        !(of_a_robot || of_the_broker) && core::mem::discriminant(&self) == core::mem::discriminant(&other)
+        let of_all = matches!(self, Self::Freeze(_) | Self::Gone(_) | Self::Crash(_));
+        !(of_a_robot || of_all) && core::mem::discriminant(&self) == core::mem::discriminant(&other)
     }
 }
 
@@ -131,6 +132,7 @@ fn apply(change: Change, conditions: &mut Conditions) {
         Change::Blind(breakdown, over) => conditions.blind.push((breakdown, over)),
         Change::Freeze(outage) => conditions.frozen.push(outage),
         Change::Gone(outage) => conditions.gone.push(outage),
+        Change::Crash(outage) => conditions.crashed.push(outage),
     }
 }
 
@@ -160,8 +162,9 @@ fn change(part: &str) -> Result<Change, FaultsError> {
         "stuck" => breakdown(value).map(Change::Stuck),
         "cut" => outage(value).map(|(breakdown, over)| Change::Cut(breakdown, over)),
         "blind" => outage(value).map(|(breakdown, over)| Change::Blind(breakdown, over)),
-        "freeze" => broker_outage(value).map(Change::Freeze),
-        "gone" => broker_outage(value).map(Change::Gone),
+        "freeze" => outage_of_all(value).map(Change::Freeze),
+        "gone" => outage_of_all(value).map(Change::Gone),
+        "crash" => outage_of_all(value).map(Change::Crash),
         _ => return Err(FaultsError(format!("there is no fault '{}'; there are {KNOWN}", shown(name)))),
     };
     read.ok_or_else(|| {
@@ -227,12 +230,12 @@ fn outage(text: &str) -> Option<(Breakdown, Span)> {
     Some((breakdown(begins)?, over))
 }
 
-/// `12s+4s`: a time without a broker, after the first departure; for five seconds where nothing is said.
-fn broker_outage(text: &str) -> Option<BrokerOutage> {
+/// `12s+4s`: a time without a broker or a controller, after the first departure; for five seconds where nothing is said.
+fn outage_of_all(text: &str) -> Option<Outage> {
     let (begins, over) = begin_and_length(text)?;
     let (begins, most) = (begins.trim(), Span::from_millis(86_400_000));
     let at = span(begins, most).or_else(|| span(&format!("{begins}s"), most))?;
-    Some(BrokerOutage { at, over })
+    Some(Outage { at, over })
 }
 
 fn begin_and_length(text: &str) -> Option<(&str, Span)> {
@@ -253,7 +256,8 @@ mod tests {
     fn every_fault_reaches_its_condition() {
         let all = added(
             "loss=5%,delay=100..300ms,jitter,double=1%,reorder=2%,slip=10%,gps=5mm,heading=2deg,bias=1cm,clock=100ppm,\
-             fix-delay=100ms,fix-every=5,fix-dropout=1s,fix-outlier=3%,original=4,kill=random,mute=3@12s,stuck=1@2s,freeze=3+500ms,gone=4s+2",
+             fix-delay=100ms,fix-every=5,fix-dropout=1s,fix-outlier=3%,original=4,kill=random,mute=3@12s,stuck=1@2s,freeze=3+500ms,gone=4s+2,\
+             crash=5s",
         );
         let mut expected = Conditions::default();
         (expected.slip, expected.clock_ppm) = (0.1, 100.0);
@@ -278,9 +282,10 @@ mod tests {
         expected.killed = vec![Breakdown { robot: None, at: None }];
         expected.muted = vec![Breakdown { robot: Some(3), at: Some(Span::from_millis(12_000)) }];
         expected.stuck = vec![Breakdown { robot: Some(1), at: Some(Span::from_millis(2_000)) }];
-        let outage = |at, over| BrokerOutage { at: Span::from_millis(at), over: Span::from_millis(over) };
+        let outage = |at, over| Outage { at: Span::from_millis(at), over: Span::from_millis(over) };
         expected.frozen = vec![outage(3_000, 500)];
         expected.gone = vec![outage(4_000, 2_000)];
+        expected.crashed = vec![outage(5_000, 5_000)];
         assert_eq!(all, expected);
     }
 

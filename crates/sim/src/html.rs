@@ -199,6 +199,7 @@ mod tests {
             estimate_error_m: Spread { median: 0.0008, p99: 0.002, max: 0.003 },
             tracking_error_m: Spread { median: 0.0011, p99: 0.003, max: 0.004 },
             clock_spread_s: Spread { median: 0.0015, p99: 0.002, max: 0.002 },
+            stop_after_crash_s: None,
             messages: MessageCounts { sent: 100, lost: 3 },
             dropouts: 0,
             seed: 7,

@@ -23,6 +23,7 @@ mod broker_outages;
 mod bumps;
 mod conditions;
 mod contacts;
+mod controller_crashes;
 mod dice;
 mod drive_train;
 mod error_statistics;
@@ -50,7 +51,7 @@ mod world;
 
 pub use brakes::BrakeCounts;
 pub use bumps::{Bump, Bumps, EDGE_SLACK_M};
-pub use conditions::{Breakdown, BrokerOutage, Conditions, FixConditions, LinkConditions};
+pub use conditions::{Breakdown, Conditions, FixConditions, LinkConditions, Outage};
 pub use contacts::Contacts;
 pub use dice::{Dice, Purpose};
 pub use faults::{Faults, FaultsError};

@@ -5,13 +5,14 @@ use std::sync::Arc;
 
 use lightbots_base::{Instant, RobotId, Span, StateHash, Vec2};
 use lightbots_control::{
-    Config, Controller, EventKind, MissingPolicy, Operation, RecordedController, RobotView,
+    Config, Controller, EventKind, MissingPolicy, OnReturn, Operation, RecordedController, RobotView,
 };
 use lightbots_show::{Issue, Show};
 use lightbots_wire::Topic;
 
 use crate::breakdowns::{Breakdowns, Fate};
 use crate::broker_outages::{BrokerEvent, BrokerOutages, Operator};
+use crate::controller_crashes::{ControllerCrashes, CrashEvent};
 use crate::network::{Network, Way};
 use crate::record::RehearsalRecord;
 use crate::rehearsal::{Progress, RehearsalOptions, time_limit};
@@ -21,6 +22,8 @@ use crate::world::STEP;
 
 /// Time that robots have to find the controller and its clock. The show then begins without the others.
 const GATHERING: Span = Span::from_millis(8_000);
+/// Each controller numbers its routes from this on, times how many there were before.
+const SEQ_STEP: u32 = 1_000_000;
 /// Steps between two times that the world's state enters the hash: about a second.
 const HASH_EVERY: u64 = 64;
 /// Most messages and wake-ups between two steps. Only a controller that wakes itself without end reaches it.
@@ -36,6 +39,9 @@ pub(crate) struct Play {
     network: Network,
     breakdowns: Breakdowns,
     broker: BrokerOutages,
+    crashes: ControllerCrashes,
+    /// Number of controllers until now.
+    controllers: u32,
     operator: Operator,
     record: RehearsalRecord,
     hash: StateHash,
@@ -65,6 +71,8 @@ impl Play {
             network: Network::new(&conditions.link, starts.len(), *seed),
             breakdowns: Breakdowns::new(conditions, starts.len(), planned_s, *seed),
             broker: BrokerOutages::new(conditions, starts.len(), *seed),
+            crashes: ControllerCrashes::new(&conditions.crashed),
+            controllers: 0,
             operator: Operator::default(),
             record: RehearsalRecord::new(starts.len()),
             hash: StateHash::new(),
@@ -85,6 +93,9 @@ impl Play {
         if let Some(notes) = log {
             // A new controller is at rest.
             self.controller.begin_log(self.now, notes);
+        }
+        if self.crashes.are_there() {
+            self.controller.keep_journal();
         }
         self.controller.connected(self.now);
         // Opening is refused only during a run.
@@ -120,12 +131,14 @@ impl Play {
         self.now = next;
         self.break_robots();
         self.break_broker();
+        self.break_controller();
         self.press();
         let Self { robots, network, record, breakdowns, broker, .. } = self;
         robots.step(next, &mut |robot, topic, text| {
             send(network, record, (breakdowns, broker), next, (robot, topic, text))
         });
         self.record.contacts(next, &self.robots.world);
+        self.crashes.observe(next, self.robots.world.places());
         if !self.began {
             self.begin();
         }
@@ -135,6 +148,7 @@ impl Play {
     fn pass_time(&mut self, until: Instant) {
         for _ in 0..ROUNDS_PER_STEP {
             let wake = self.controller.wake_at().map(|at| at.max(self.now));
+            let wake = wake.filter(|_| !self.crashes.is_gone());
             let message = self.network.next_at();
             let wakes_first = wake.is_some_and(|wake| message.is_none_or(|message| wake < message));
             if wakes_first {
@@ -160,6 +174,7 @@ impl Play {
                             send(network, record, (breakdowns, broker), *now, (robot, topic, text));
                         });
                     }
+                    Way::ToController(_) if self.crashes.is_gone() => {}
                     Way::ToController(robot) => {
                         self.hash.word(at.0 ^ (robot as u64) << 48);
                         self.hash.bytes(&message.payload);
@@ -229,6 +244,33 @@ impl Play {
         }
     }
 
+    /// Kills the controller, and starts another one that finds its journal.
+    fn break_controller(&mut self) {
+        let Some(first_departure) = self.record.began_at() else { return };
+        while let Some(event) = self.crashes.next_until(self.now - first_departure) {
+            self.record.controller(event, self.now);
+            self.crashes.watch(event, self.now, self.robots.world.places());
+            match event {
+                CrashEvent::Killed => {
+                    self.controllers += 1;
+                    let config = Config { seq_base: self.controllers * SEQ_STEP, ..Config::default() };
+                    self.controller = RecordedController::new(Controller::new(config));
+                }
+                CrashEvent::Back => self.start_controller(),
+            }
+        }
+    }
+
+    fn start_controller(&mut self) {
+        self.controller.keep_journal();
+        if let Some(run) = self.crashes.unfinished_run() {
+            // A new controller has no run.
+            let _ = self.controller.take_up(self.now, &run, OnReturn::GoOrAsk);
+        }
+        self.controller.connected(self.now);
+        self.drain_controller();
+    }
+
     /// The operator lets an interrupted show go on.
     fn press(&mut self) {
         if self.operator.presses(self.now) && self.controller.operate(self.now, Operation::GoOn).is_ok() {
@@ -290,6 +332,9 @@ impl Play {
             }
             self.record.event(&event, &self.controller, &self.robots, &self.by_id, &self.show);
         }
+        if let Some(piece) = self.controller.take_journal(self.now.0) {
+            self.crashes.write(piece);
+        }
     }
 
     fn report(mut self) -> RehearsalReport {
@@ -306,6 +351,7 @@ impl Play {
         report.estimate_error_m = self.robots.errors().estimate_m();
         report.tracking_error_m = self.robots.errors().tracking_m();
         report.clock_spread_s = self.robots.errors().clocks_s();
+        report.stop_after_crash_s = self.crashes.longest_stop().map(Span::as_secs);
         report.planned_s = self.planned_s;
         report.robots = self.robots.len();
         report.frames = self.show.frames.len();

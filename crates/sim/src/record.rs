@@ -9,6 +9,7 @@ use lightbots_show::{Issue, Issues, Show};
 use crate::breakdowns::{Breakdowns, Fate};
 use crate::broker_outages::BrokerEvent;
 use crate::bumps::{Bump, EDGE_SLACK_M};
+use crate::controller_crashes::CrashEvent;
 use crate::floor::FloorObject;
 use crate::report::{FrameRecord, RehearsalReport};
 use crate::robot_set::RobotSet;
@@ -131,6 +132,16 @@ impl RehearsalRecord {
         self.add(Issue::warning(code, message).in_frame(self.heading_for));
     }
 
+    /// The controller is killed by the conditions, or back.
+    pub fn controller(&mut self, event: CrashEvent, now: Instant) {
+        let (code, what) = match event {
+            CrashEvent::Killed => ("controller-killed", "is killed, as asked for"),
+            CrashEvent::Back => ("controller-back", "is started again"),
+        };
+        let message = format!("The controller {what}, {:.2} s into the show.", self.since(now));
+        self.add(Issue::warning(code, message).in_frame(self.heading_for));
+    }
+
     /// The operator let an interrupted show go on.
     pub fn pressed(&mut self, now: Instant) {
         let message = format!("The operator pressed Go on, {:.2} s into the show.", self.since(now));
@@ -192,6 +203,7 @@ impl RehearsalRecord {
             }
             EventKind::Waiting { .. } => self.note("waiting", event),
             EventKind::LinkLost { .. } => self.note("link-lost", event),
+            EventKind::TakenUp { .. } => self.note("taken-up", event),
             EventKind::LinkBack { .. } => self.note("link-back", event),
             EventKind::LeftOut { .. } => self.note("pixels-dark", event),
             EventKind::Rejoined(_) => self.note("rejoined", event),
@@ -241,6 +253,7 @@ impl RehearsalRecord {
             estimate_error_m: Spread::default(),
             tracking_error_m: Spread::default(),
             clock_spread_s: Spread::default(),
+            stop_after_crash_s: None,
             messages: Default::default(),
             dropouts: self.dropouts.len(),
             seed: 0,

@@ -167,6 +167,7 @@ fn unplayed(show: &Show, options: &RehearsalOptions, robots: usize, issues: Vec<
         estimate_error_m: Spread::default(),
         tracking_error_m: Spread::default(),
         clock_spread_s: Spread::default(),
+        stop_after_crash_s: None,
         messages: Default::default(),
         dropouts: 0,
         seed: options.seed,

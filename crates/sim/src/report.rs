@@ -50,6 +50,9 @@ pub struct RehearsalReport {
     /// Largest difference of two robots' clocks, one value a second, seconds. Departures and lights that are meant for
     /// one moment differ by as much.
     pub clock_spread_s: Spread,
+    /// Longest time until all robots stood after the controller was killed, or was back while they still drove, seconds;
+    /// `None`: it was not killed.
+    pub stop_after_crash_s: Option<f64>,
     /// Messages sent and lost; each receiver counts.
     pub messages: MessageCounts,
     /// Robots that were lost.

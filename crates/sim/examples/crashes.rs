@@ -1,0 +1,102 @@
+//! Shows whose controller is killed at random moments, and which another controller goes on with:
+//! `cargo run --release -p lightbots-sim --example crashes [KILLS] [SHOW…]`.
+//!
+//! One line for each show: how many of the runs were found and finished, dropouts, contacts, how long robots took to stand.
+#![allow(clippy::print_stdout, clippy::print_stderr)]
+
+use std::process::ExitCode;
+
+use lightbots_show::Show;
+use lightbots_sim::{Conditions, Dice, Faults, Purpose, RehearsalOptions, RehearsalReport, rehearse};
+
+/// Shares of the runs whose controller is back while robots drive, after they stand, and after so long that it asks.
+const SHARES: [f64; 2] = [0.4, 0.95];
+/// How long it is away then, seconds: from and to.
+const AWAY_S: [(f64, f64); 3] = [(0.1, 2.0), (2.0, 12.0), (31.0, 60.0)];
+
+fn main() -> ExitCode {
+    let mut arguments = std::env::args().skip(1);
+    let kills: u64 = arguments.next().and_then(|text| text.parse().ok()).unwrap_or(100);
+    let mut shows: Vec<String> = arguments.collect();
+    if shows.is_empty() {
+        shows.push("shows/hello.json".into());
+    }
+    let mut is_fine = true;
+    for path in shows {
+        let Some(show) = read(&path) else { return ExitCode::FAILURE };
+        let sum = Sum::of(&show, kills);
+        is_fine &= sum.finished == kills && sum.contacts == 0;
+        println!("{path}: {sum}");
+    }
+    if is_fine { ExitCode::SUCCESS } else { ExitCode::FAILURE }
+}
+
+fn read(path: &str) -> Option<Show> {
+    let bytes = std::fs::read(path).inspect_err(|error| eprintln!("{path}: {error}")).ok()?;
+    let loaded = lightbots_exchange::read(&bytes, Some(path));
+    loaded.inspect_err(|error| eprintln!("{path}: {error}")).ok().map(|loaded| loaded.show)
+}
+
+/// What all runs came to.
+#[derive(Default)]
+struct Sum {
+    runs: u64,
+    taken_up: u64,
+    finished: u64,
+    dropouts: usize,
+    contacts: u64,
+    presses: usize,
+    stop_s: f64,
+    bad: Vec<String>,
+}
+
+impl Sum {
+    fn of(show: &Show, kills: u64) -> Self {
+        let duration_s = play(show, "", 1).duration_s;
+        let mut sum = Self::default();
+        for seed in 1..=kills {
+            let mut dice = Dice::new(seed, Purpose::Scene);
+            let kind = SHARES.iter().filter(|share| dice.unit() > **share).count();
+            let (from_s, to_s) = AWAY_S[kind];
+            let at_s = dice.between(0.0, duration_s - 0.1);
+            let faults = format!("crash={at_s:.3}s+{:.3}s", dice.between(from_s, to_s));
+            sum.add(&play(show, &faults, seed), &faults);
+        }
+        sum
+    }
+
+    fn add(&mut self, report: &RehearsalReport, faults: &str) {
+        let count = |code: &str| report.issues.iter().filter(|issue| issue.code == code).count();
+        let is_finished = report.frames_played == report.frames;
+        let stop_s = report.stop_after_crash_s.unwrap_or(0.0);
+        self.runs += 1;
+        self.taken_up += count("taken-up") as u64;
+        self.finished += u64::from(is_finished);
+        self.dropouts += report.dropouts;
+        self.contacts += report.contacts;
+        self.presses += count("pressed");
+        self.stop_s = self.stop_s.max(stop_s);
+        if !is_finished || report.dropouts > 0 || report.contacts > 0 || stop_s > 2.2 {
+            self.bad.push(format!("seed {}, {faults}, {stop_s:.3} s", report.seed));
+        }
+    }
+}
+
+impl core::fmt::Display for Sum {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        let Self { runs, taken_up, finished, dropouts, contacts, presses, stop_s, bad } = self;
+        write!(
+            f,
+            "{taken_up} of {runs} found, {finished} finished, {dropouts} dropouts, {contacts} contacts, {presses} presses; robots \
+             stand after {stop_s:.3} s at most"
+        )?;
+        bad.iter().try_for_each(|line| write!(f, "\n  {line}"))
+    }
+}
+
+fn play(show: &Show, faults: &str, seed: u64) -> RehearsalReport {
+    let faults =
+        if faults.is_empty() { Faults::default() } else { Faults::parse(faults).expect("it is well-formed") };
+    let conditions = faults.added_to(Conditions::default());
+    rehearse(show, &RehearsalOptions { seed, conditions, robots: None }, &mut |_| {})
+}

@@ -1,0 +1,167 @@
+//! The controller is killed, and another one goes on with its run from the journal.
+
+use lightbots_base::{Instant, Span, Vec2};
+use lightbots_control::{JournalPiece, UnfinishedRun};
+
+use crate::conditions::Outage;
+
+/// A robot that moves no farther than this in a step stands, metres: 3 mm/s.
+const STANDS_M: f64 = 0.000_05;
+/// Robots that have no controller for this long have stopped by themselves (R43 of docs/protocol.md).
+const STOPPED: Span = Span::from_millis(2_200);
+
+/// What happens to the controller.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum CrashEvent {
+    /// It is killed.
+    Killed,
+    /// It is started again.
+    Back,
+}
+
+/// All crashes of the controller in a rehearsal.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct ControllerCrashes {
+    /// After the show began, sorted, latest first.
+    coming: Vec<(Span, CrashEvent)>,
+    /// There is no controller.
+    is_gone: bool,
+    /// The file of the journal.
+    journal: Vec<u8>,
+    stops: Stops,
+}
+
+/// How long robots take to stand after a crash.
+#[derive(Clone, Debug, Default)]
+struct Stops {
+    /// Where robots were a step ago, while they are watched.
+    places: Vec<Vec2>,
+    /// Since when they are watched.
+    since: Option<Instant>,
+    /// When one of them moved last.
+    moved: Instant,
+    longest: Option<Span>,
+}
+
+impl ControllerCrashes {
+    /// The crashes of the conditions.
+    pub fn new(crashed: &[Outage]) -> Self {
+        let events =
+            |outage: &Outage| [(outage.at, CrashEvent::Killed), (outage.at + outage.over, CrashEvent::Back)];
+        let mut coming: Vec<_> = crashed.iter().flat_map(events).collect();
+        coming.sort_by_key(|&(at, _)| core::cmp::Reverse(at));
+        Self { coming, ..Self::default() }
+    }
+
+    /// Whether there is any.
+    pub fn are_there(&self) -> bool {
+        !self.coming.is_empty()
+    }
+
+    /// Whether there is no controller now.
+    #[inline]
+    pub fn is_gone(&self) -> bool {
+        self.is_gone
+    }
+
+    /// The next event until a time after the first departure.
+    pub fn next_until(&mut self, since_begin: Span) -> Option<CrashEvent> {
+        let (_, event) = self.coming.pop_if(|(at, _)| *at <= since_begin)?;
+        self.is_gone = event == CrashEvent::Killed;
+        Some(event)
+    }
+
+    /// A piece of the journal is written.
+    pub fn write(&mut self, piece: JournalPiece) {
+        if piece.begins {
+            self.journal.clear();
+        }
+        self.journal.extend(piece.bytes);
+    }
+
+    /// The run that is found after a crash; `None`: it was over.
+    pub fn unfinished_run(&self) -> Option<UnfinishedRun> {
+        UnfinishedRun::read(&self.journal).ok().flatten()
+    }
+
+    /// Robots are watched from this event on.
+    pub fn watch(&mut self, event: CrashEvent, now: Instant, places: &[Vec2]) {
+        self.stops.watch(event, now, places);
+    }
+
+    /// The world took a step.
+    #[inline]
+    pub fn observe(&mut self, now: Instant, places: &[Vec2]) {
+        if self.stops.since.is_some() {
+            self.stops.observe(now, places, self.is_gone);
+        }
+    }
+
+    /// Longest time until all robots stood after the controller was killed, or was back while they still drove.
+    pub fn longest_stop(&self) -> Option<Span> {
+        self.stops.longest
+    }
+}
+
+impl Stops {
+    fn watch(&mut self, event: CrashEvent, now: Instant, places: &[Vec2]) {
+        let is_watched_enough = self.since.is_some_and(|since| now - since >= STOPPED);
+        if event == CrashEvent::Back && is_watched_enough {
+            return self.end();
+        }
+        (self.since, self.moved) = (Some(now), now);
+        self.places = places.to_vec();
+    }
+
+    /// Without a controller, robots that stand may still have a START to come: they are watched until there is one.
+    fn observe(&mut self, now: Instant, places: &[Vec2], is_gone: bool) {
+        let moves = places.iter().zip(&self.places).any(|(at, before)| at.distance(*before) > STANDS_M);
+        self.places.copy_from_slice(places);
+        if moves {
+            self.moved = now;
+        } else if !is_gone {
+            self.end();
+        }
+    }
+
+    fn end(&mut self) {
+        let took = self.since.take().map(|since| self.moved - since);
+        self.longest = self.longest.max(took);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn robots_are_watched_until_they_stand() {
+        let at = |x: f64| [Vec2::new(x, 0.0)];
+        let outage = Outage { at: Span(0), over: Span::from_millis(5_000) };
+        let mut crashes = ControllerCrashes::new(&[outage]);
+        assert_eq!(crashes.next_until(Span(0)), Some(CrashEvent::Killed));
+        crashes.watch(CrashEvent::Killed, Instant(1_000), &at(0.0));
+        crashes.observe(Instant(2_000), &at(0.0));
+        crashes.observe(Instant(3_000), &at(0.1));
+        crashes.observe(Instant(9_000), &at(0.1));
+        assert_eq!(crashes.longest_stop(), None, "a robot may still begin");
+        assert_eq!(crashes.next_until(Span::from_millis(5_000)), Some(CrashEvent::Back));
+        crashes.watch(CrashEvent::Back, Instant(5_001_000), &at(0.1));
+        assert_eq!(crashes.longest_stop(), Some(Span(2_000)));
+        assert!(crashes.unfinished_run().is_none());
+    }
+
+    #[test]
+    fn robots_that_drive_when_the_controller_is_back_are_watched_from_then_on() {
+        let at = |x: f64| [Vec2::new(x, 0.0)];
+        let outage = Outage { at: Span(0), over: Span(10) };
+        let mut crashes = ControllerCrashes::new(&[outage]);
+        for _ in 0..2 {
+            let event = crashes.next_until(Span(10)).unwrap();
+            crashes.watch(event, Instant(100_000), &at(0.0));
+        }
+        crashes.observe(Instant(400_000), &at(0.1));
+        crashes.observe(Instant(500_000), &at(0.1));
+        assert_eq!(crashes.longest_stop(), Some(Span(300_000)));
+    }
+}
