@@ -140,7 +140,7 @@ pub struct RunArguments {
 pub enum OnReturnArgument {
     /// It goes on from where the robots stand, once they report.
     Go,
-    /// The robots stand until Go on or Abort is pressed on the screen.
+    /// The robots stand until Go on or Stop is pressed on the screen.
     Ask,
     /// The robots are told to stop, and the show is over.
     Stop,

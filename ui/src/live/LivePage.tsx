@@ -3,6 +3,7 @@ import { FailureNote } from './FailureNote';
 import { FitNote } from './FitNote';
 import { FleetSide } from './FleetSide';
 import { FrameStrip } from './FrameStrip';
+import { GoOnNote } from './GoOnNote';
 import { LiveStage } from './LiveStage';
 import { StartDialog } from './StartDialog';
 import { Transport } from './Transport';
@@ -15,6 +16,7 @@ export function LivePage() {
       <LiveStage />
       <Bottom label="Playing">
         <FailureNote />
+        <GoOnNote />
         <FitNote />
         <Transport />
         <FrameStrip />

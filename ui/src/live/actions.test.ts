@@ -1,6 +1,6 @@
 import { expect, test } from 'vitest';
 import type { Phase, Playback } from '../api/types.gen';
-import { actionsOf, phaseText } from './actions';
+import { actionsOf, asksToGoOn, phaseText } from './actions';
 
 const playback = (phase: Phase): Playback => ({
   phase,
@@ -37,6 +37,12 @@ test('without a server nothing works, without a show nothing plays', () => {
 
 test('a show that stands still goes on once robots report', () => {
   expect(actionsOf('link_lost', true, true, true).enabled.has('go_on')).toBe(true);
+});
+
+test('the operator is asked once only the operator is waited for', () => {
+  const lost = playback('link_lost');
+  expect(asksToGoOn({ ...lost, doing: 'waiting for robots to report' })).toBe(false);
+  expect(asksToGoOn({ ...lost, doing: 'waiting for you to go on' })).toBe(true);
 });
 
 test('words', () => {

@@ -43,6 +43,11 @@ const RUNNING: ReadonlySet<Phase> = new Set<Phase>([
   'link_lost',
 ]);
 
+/** Whether a show that was interrupted waits only for the operator. */
+export function asksToGoOn({ phase, doing }: Pick<Playback, 'phase' | 'doing'>): boolean {
+  return phase === 'link_lost' && doing === 'waiting for you to go on';
+}
+
 /** The state of the show in a few words. */
 export function phaseText(
   playback: Pick<Playback, 'phase' | 'doing' | 'frame' | 'frames' | 'failure'>,

@@ -53,7 +53,7 @@ impl CutOffRun {
     pub fn tell(&self, now: Instant) {
         let (run, (last, _)) = (&self.unfinished, self.unfinished.last_written());
         let goes_on = "it goes on from where the robots stand";
-        let asks = "press Go on or Abort on the screen";
+        let asks = "press Go on or Stop on the screen";
         let then = match self.on_return {
             OnReturn::Go => goes_on,
             OnReturn::Ask => asks,

@@ -116,9 +116,13 @@ fn a_show_that_was_cut_off_waits_for_the_operator_or_is_over_where_that_is_wante
     wait_for_frame(&mut screen, 1);
     server.kill();
     (server, screen, _) = stage.controller(&["--on-return", "ask"]);
-    assert!(server.out().contains("press Go on or Abort on the screen"), "{}", server.out());
+    assert!(server.out().contains("press Go on or Stop on the screen"), "{}", server.out());
     screen.wait_for_log("Look at the floor, then press Go on");
-    assert_eq!(screen.phase(), "link_lost");
+    screen.until("the question", |screen| {
+        let playback = &screen.get("state")["playback"];
+        let asks = playback["phase"] == "link_lost" && playback["doing"] == "waiting for you to go on";
+        asks.then_some(())
+    });
     screen.must(json!({"do": "go_on"}));
     wait_for_frame(&mut screen, 1);
     server.kill();

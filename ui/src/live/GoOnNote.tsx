@@ -1,0 +1,27 @@
+import { Button } from '@mantine/core';
+import { IconAlertTriangle } from '@tabler/icons-react';
+import { useStore } from '../base/store';
+import { useSession } from '../session/session';
+import { asksToGoOn } from './actions';
+import styles from './FailureNote.module.css';
+
+/** A show that was cut off or out of reach waits for the operator: above Play, until it goes on or is over. */
+export function GoOnNote() {
+  const { live, ask } = useSession();
+  const asks = useStore(live.playback, asksToGoOn);
+  if (!asks) return null;
+  return (
+    <div className={styles.failure} role="alert">
+      <IconAlertTriangle size={20} aria-hidden />
+      <strong>
+        The show was interrupted, and its robots report again. Look at the floor before it goes on.
+      </strong>
+      <Button size="compact-sm" onClick={() => void ask({ do: 'go_on' })}>
+        Go on
+      </Button>
+      <Button size="compact-sm" variant="default" onClick={() => void ask({ do: 'abort' })}>
+        Stop
+      </Button>
+    </div>
+  );
+}
