@@ -40,28 +40,54 @@ pub(crate) struct Room<'a> {
 /// Moves places until no pair is nearer than `distance`, or the rounds are over.
 pub(crate) fn push_apart(places: &mut [Vec2], holds: &[Freedom], distance: f64, room: &Room<'_>) {
     for _ in 0..ROUNDS {
-        let mut pushes = vec![Vec2::ZERO; places.len()];
-        let mut close = false;
-        Buckets::new(places, distance).pairs(distance * 0.999, |a, b, length| {
-            close = true;
-            let (share_a, share_b) = shares(&holds[a], &holds[b]);
-            // Two places in one point part along a direction that depends on their numbers alone.
-            let way = (places[a] - places[b]).normalized().unwrap_or_else(|| Vec2::unit((a + 3 * b) as f64));
-            pushes[a] += way * ((distance - length) * share_a);
-            pushes[b] -= way * ((distance - length) * share_b);
-        });
-        if !close {
+        if !push_once(places, holds, distance, |_| room) {
             return;
-        }
-        for (index, push) in pushes.into_iter().enumerate() {
-            if push != Vec2::ZERO {
-                places[index] = room.nearest(places[index] + push, &holds[index]);
-            }
         }
         if let Some(pairing) = room.pairing {
             pairing.apply(places);
         }
     }
+}
+
+/// Moves places of several parts until no pair is nearer than `distance`, or the rounds are over. `rooms` has the room of each
+/// part, `owners` the part of each place.
+pub(crate) fn push_parts_apart(
+    places: &mut [Vec2],
+    holds: &[Freedom],
+    distance: f64,
+    rooms: &[Room<'_>],
+    owners: &[usize],
+) {
+    for _ in 0..ROUNDS {
+        if !push_once(places, holds, distance, |index| &rooms[owners[index]]) {
+            return;
+        }
+    }
+}
+
+/// One round; answers whether any pair was too near.
+fn push_once<'r, 'b: 'r>(
+    places: &mut [Vec2],
+    holds: &[Freedom],
+    distance: f64,
+    room_of: impl Fn(usize) -> &'r Room<'b>,
+) -> bool {
+    let mut pushes = vec![Vec2::ZERO; places.len()];
+    let mut close = false;
+    Buckets::new(places, distance).pairs(distance * 0.999, |a, b, length| {
+        close = true;
+        let (share_a, share_b) = shares(&holds[a], &holds[b]);
+        // Two places in one point part along a direction that depends on their numbers alone.
+        let way = (places[a] - places[b]).normalized().unwrap_or_else(|| Vec2::unit((a + 3 * b) as f64));
+        pushes[a] += way * ((distance - length) * share_a);
+        pushes[b] -= way * ((distance - length) * share_b);
+    });
+    for (index, push) in pushes.into_iter().enumerate() {
+        if push != Vec2::ZERO {
+            places[index] = room_of(index).nearest(places[index] + push, &holds[index]);
+        }
+    }
+    close
 }
 
 /// How much of the missing distance each of two places moves.

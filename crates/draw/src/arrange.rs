@@ -9,7 +9,7 @@ use crate::error::DrawError;
 use crate::fit::PictureFloor;
 use crate::geometry::hexagonal_spacing;
 use crate::ground::Ground;
-use crate::layout::{Layout, LayoutTask, Style};
+use crate::layout::{Layout, LayoutTask, Style, separate};
 use crate::settings::{PlaceSettings, PlacedLight};
 use crate::thick::{Crowd, thickened};
 
@@ -50,10 +50,13 @@ pub(crate) fn arrange(
         let what = "nothing of the picture is on the floor and outside of no-go areas; move it";
         return Err(DrawError::new("no-room", what));
     }
+    let mut layouts: Vec<Layout> = (0..pieces.len())
+        .map(|index| layout(grounds[index], &kept[index], counts[index], style, settings))
+        .collect();
+    separate(&grounds, &mut layouts);
     let mut lights = settings.kept.clone();
-    for (index, piece) in pieces.iter().enumerate() {
+    for (index, (piece, layout)) in pieces.iter().zip(layouts).enumerate() {
         let paint = Paint::new(&piece.part);
-        let layout = layout(&piece.ground, &kept[index], counts[index], style, settings);
         let free = layout.places.into_iter().skip(kept[index].len());
         lights.extend(free.map(|at| PlacedLight { at, color: paint.at(at), part: piece.number }));
     }

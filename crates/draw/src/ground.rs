@@ -2,6 +2,8 @@
 
 use lightbots_base::Vec2;
 
+use crate::apart::Room;
+use crate::buckets::Buckets;
 use crate::coverage::{Sample, samples};
 use crate::drawing::{DrawingPart, Stroke};
 use crate::geometry::{bounds, hexagonal_spacing};
@@ -94,6 +96,21 @@ impl Ground {
         };
         ground.mirror = ground.axis(step);
         ground
+    }
+
+    /// Buckets of the samples' places, to find near ones.
+    pub fn buckets(&self) -> Buckets<'_> {
+        Buckets::new(&self.inside, 2.0 * self.pitch)
+    }
+
+    /// Where places of this part may go; `inside` and `on_track` are the buckets of its samples and of the track.
+    pub fn room<'a>(
+        &'a self,
+        inside: &'a Buckets<'a>,
+        track: &'a LineSet,
+        on_track: &'a Buckets<'a>,
+    ) -> Room<'a> {
+        Room { inside, points: &self.inside, slack: 0.75 * self.pitch, track, on_track, pairing: None }
     }
 
     fn axis(&self, step: f64) -> Option<Mirror> {

@@ -2,8 +2,8 @@
 
 use lightbots_base::Vec2;
 
-use crate::apart::{Freedom, Room, push_apart};
-use crate::buckets::Buckets;
+use crate::apart::{Freedom, Room, push_apart, push_parts_apart};
+use crate::buckets::{Buckets, closest_distance};
 use crate::coverage::Sample;
 use crate::geometry::{bounds, hexagonal_count};
 use crate::ground::{Ground, Quality};
@@ -56,6 +56,8 @@ const FEW: usize = 60;
 pub(crate) struct Layout {
     pub places: Vec<Vec2>,
     pub holds: Vec<Freedom>,
+    /// Whether places that slide do so along the outline, else along the lines.
+    pub is_on_outline: bool,
 }
 
 /// One part that is to get places.
@@ -79,7 +81,7 @@ impl LayoutTask<'_> {
         let has_outline = !ground.outline.lines.is_empty();
         match style {
             Style::Lines if has_lines => self.along(&ground.lines),
-            Style::Outline if has_outline => self.along(&ground.outline),
+            Style::Outline if has_outline => Layout { is_on_outline: true, ..self.along(&ground.outline) },
             Style::Both if has_outline => self.both(),
             _ if has_areas => self.filled(),
             _ => self.along(&ground.lines),
@@ -119,6 +121,7 @@ impl LayoutTask<'_> {
         let ground = self.ground;
         let spacing = balanced_spacing(ground.outline.length(), ground.mass, self.count);
         let mut layout = Layout::from_kept(self.kept);
+        layout.is_on_outline = true;
         for (at, hold) in self.edge(spacing) {
             layout.places.push(at);
             layout.holds.push(hold);
@@ -169,15 +172,8 @@ impl LayoutTask<'_> {
     }
 
     fn part(&self, layout: &mut Layout, distance: f64, track: &LineSet, pairing: Option<&Pairing>) {
-        let inside = Buckets::new(&self.ground.inside, 2.0 * self.ground.pitch);
-        let room = Room {
-            inside: &inside,
-            points: &self.ground.inside,
-            slack: 0.75 * self.ground.pitch,
-            track,
-            on_track: &track.buckets(),
-            pairing,
-        };
+        let (inside, on_track) = (self.ground.buckets(), track.buckets());
+        let room = Room { pairing, ..self.ground.room(&inside, track, &on_track) };
         push_apart(&mut layout.places, &layout.holds, distance, &room);
     }
 
@@ -250,6 +246,35 @@ impl LayoutTask<'_> {
     }
 }
 
+/// Moves places of different parts apart that are nearer to each other than any two of one part, as where a line leads behind
+/// an area.
+pub(crate) fn separate(grounds: &[&Ground], layouts: &mut [Layout]) {
+    let distance =
+        layouts.iter().map(|layout| closest_distance(&layout.places)).fold(f64::INFINITY, f64::min);
+    if layouts.len() < 2 || !distance.is_finite() {
+        return;
+    }
+    let tracks: Vec<&LineSet> = grounds
+        .iter()
+        .zip(layouts.iter())
+        .map(|(ground, layout)| if layout.is_on_outline { &ground.outline } else { &ground.lines })
+        .collect();
+    let inside: Vec<Buckets<'_>> = grounds.iter().map(|ground| ground.buckets()).collect();
+    let on_tracks: Vec<Buckets<'_>> = tracks.iter().map(|track| track.buckets()).collect();
+    let rooms: Vec<Room<'_>> = (0..grounds.len())
+        .map(|part| grounds[part].room(&inside[part], tracks[part], &on_tracks[part]))
+        .collect();
+    let owners: Vec<usize> =
+        layouts.iter().enumerate().flat_map(|(part, layout)| vec![part; layout.places.len()]).collect();
+    let holds: Vec<Freedom> = layouts.iter().flat_map(|layout| layout.holds.clone()).collect();
+    let mut places: Vec<Vec2> = layouts.iter().flat_map(|layout| layout.places.clone()).collect();
+    push_parts_apart(&mut places, &holds, distance, &rooms, &owners);
+    let mut moved = places.into_iter();
+    for layout in layouts {
+        layout.places.iter_mut().zip(&mut moved).for_each(|(place, now)| *place = now);
+    }
+}
+
 /// Places on lines without those that slide and stand too near to another, as on both sides of a sharp tip.
 fn sparse(places: Vec<LinePlace>, distance: f64) -> Vec<LinePlace> {
     let at: Vec<Vec2> = places.iter().map(|(at, _)| *at).collect();
@@ -303,6 +328,6 @@ fn balanced_spacing(length: f64, area: f64, count: usize) -> f64 {
 
 impl Layout {
     fn from_kept(kept: &[Vec2]) -> Self {
-        Self { places: kept.to_vec(), holds: vec![Freedom::Fixed; kept.len()] }
+        Self { places: kept.to_vec(), holds: vec![Freedom::Fixed; kept.len()], is_on_outline: false }
     }
 }

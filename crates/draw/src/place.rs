@@ -32,13 +32,13 @@ pub struct Placed {
 /// Why a picture was refused.
 struct Refusal {
     error: DrawError,
-    /// Distance of the closest pair at the largest size, as a share of the spacing; 0: there is no such picture.
-    share: f64,
+    /// Distance of the closest pair at the largest size, as a share of the spacing; `None`: there is no such picture.
+    share: Option<f64>,
 }
 
 impl From<DrawError> for Refusal {
     fn from(error: DrawError) -> Self {
-        Self { error, share: 0.0 }
+        Self { error, share: None }
     }
 }
 
@@ -53,8 +53,8 @@ pub fn place(drawing: &Drawing, floor: &PictureFloor, settings: &PlaceSettings) 
         Ok(placed) => return Ok(placed),
         Err(refused) => refused,
     };
-    let spacing_m = (0.99 * refused.share * settings.spacing_m).max(settings.least_m);
-    if refused.share == 0.0 || spacing_m >= settings.spacing_m {
+    let spacing_m = (0.99 * refused.share.unwrap_or(1.0) * settings.spacing_m).max(settings.least_m);
+    if refused.share.is_none() || spacing_m >= settings.spacing_m {
         return Err(refused.error);
     }
     let mut placed = attempts(drawing, floor, &PlaceSettings { spacing_m, ..settings.clone() })
@@ -72,7 +72,7 @@ pub fn place(drawing: &Drawing, floor: &PictureFloor, settings: &PlaceSettings) 
 fn attempts(drawing: &Drawing, floor: &PictureFloor, settings: &PlaceSettings) -> Result<Placed, Refusal> {
     let first = attempt(drawing, floor, settings);
     let Err(refused) = first else { return first };
-    if settings.style != Style::Auto || refused.share == 0.0 {
+    if settings.style != Style::Auto || refused.share.is_none() {
         return Err(refused);
     }
     let filled = attempt(drawing, floor, &PlaceSettings { style: Style::Filled, ..settings.clone() });
@@ -105,7 +105,7 @@ fn attempt(drawing: &Drawing, floor: &PictureFloor, settings: &PlaceSettings) ->
         let share = closest_m / settings.spacing_m;
         placement
             .enlarge(1.0 / share.max(1e-6), floor, settings, made.len(), closest_m)
-            .map_err(|error| Refusal { error, share })?;
+            .map_err(|error| Refusal { error, share: Some(share) })?;
     }
     let what = "these robots do not find room in this picture; use fewer robots or a larger floor";
     Err(DrawError::new("too-many-robots", what).into())

@@ -243,3 +243,22 @@ fn lines_that_are_too_short_for_the_robots_become_bands() {
         assert_eq!(placed.lights.iter().filter(off).count(), 0, "{robots} robots are still a cross");
     }
 }
+
+#[test]
+fn lights_of_a_line_behind_an_area_keep_apart_from_those_of_the_area() {
+    let mut drawing = square();
+    let points = vec![Vec2::new(-0.5, 0.37), Vec2::new(1.5, 0.37)];
+    drawing.parts[0].strokes = vec![Stroke { points, closed: false, color: Rgb::BLACK, weight: 1.0 }];
+    for robots in [40, 150, 400] {
+        let placed = made(
+            &drawing,
+            &PictureFloor::new(30.0, 30.0, 0.1),
+            &PlaceSettings { robots, ..PlaceSettings::default() },
+        );
+        let places: Vec<Vec2> = placed.lights.iter().map(|light| light.at).collect();
+        let mut distances = crate::buckets::nearest_distances(&places, 0.1);
+        distances.sort_by(f64::total_cmp);
+        let share = distances[0] / distances[robots / 2];
+        assert!(share > 0.6, "{robots} robots: the closest pair at {share} of the usual distance");
+    }
+}

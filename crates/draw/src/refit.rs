@@ -22,8 +22,12 @@ const JOINED: f64 = 1.45;
 /// stand in one row; where a row has no room to grow in length, the wider ones make several rows of it.
 const HALF_WIDTHS: [f64; 8] = [0.22, 0.5, 0.9, 1.4, 2.1, 3.2, 4.8, 7.0];
 
-/// Share of the ideal spacing that the closest pair of relaxed places keeps (Lloyd without pushing apart, measured).
-const RELAXED: f64 = 0.7;
+/// Robots that find room, of those that do in an ideal filling: the closest pair of relaxed places keeps 0.7 of the ideal spacing
+/// (Lloyd without pushing apart, measured).
+const RELAXED: f64 = 0.5;
+
+/// Above this multiple of an ideal filling no picture is tried. More than the ideal fits, because the picture may grow.
+const SPARE: f64 = 1.5;
 
 /// Samples along a typical distance.
 const FINENESS: f64 = 9.0;
@@ -98,11 +102,11 @@ impl Refit<'_> {
         let mut now: Vec<Vec2> = staying.iter().map(|index| places[*index]).collect();
         let mass: f64 = samples.iter().map(|sample| sample.mass).sum();
         let spacing = hexagonal_spacing(mass, self.robots);
-        // In an area no pair can be farther apart than the ideal, and finding that out for thousands takes seconds. A row can:
-        // its lights stand behind one another.
-        if half_width > HALF_WIDTHS[0] && spacing < self.spacing_m && self.robots > staying.len() {
-            let fitting = RELAXED * RELAXED * hexagonal_count(mass, self.spacing_m);
-            return Err(no_room(self.robots, self.spacing_m, fitting));
+        // Finding out by trying takes seconds for thousands of robots.
+        let rows = mass / (2.0 * half_width * typical * self.spacing_m);
+        let fitting = hexagonal_count(mass, self.spacing_m).max(rows);
+        if self.robots > staying.len() && self.robots as f64 > SPARE * fitting {
+            return Err(no_room(self.robots, self.spacing_m, RELAXED * fitting));
         }
         now.extend(seeds(&samples, &now, self.robots - staying.len(), spacing, 1));
         let kept = staying.iter().filter(|index| self.is_pinned(**index)).count();

@@ -13,6 +13,9 @@ const ROUND: usize = 6;
 /// The nearest pair of a filling, in ideal spacings: bands are made this much wider, so that nobody stands nearer than wanted.
 const NEAREST: f64 = 0.85;
 
+/// Share of the places along lines that can be used: where lines meet, places of one are in the way of the other.
+const USABLE: f64 = 0.8;
+
 /// What bands have to hold.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Crowd {
@@ -27,10 +30,10 @@ pub(crate) struct Crowd {
 }
 
 impl Crowd {
-    /// Width of bands that have room for everybody; `None` where the lines themselves have.
+    /// Width of bands that have room for everybody; `None` where the lines themselves have room.
     pub fn width(&self) -> Option<f64> {
         let ideal = self.spacing / NEAREST;
-        let on_lines = self.length / self.spacing;
+        let on_lines = USABLE * self.length / self.spacing;
         if self.length <= 0.0 || self.robots as f64 <= on_lines + hexagonal_count(self.area, ideal) {
             return None;
         }
@@ -72,7 +75,7 @@ mod tests {
 
     #[test]
     fn lines_with_room_stay_lines() {
-        assert_eq!(crowd(20).width(), None);
+        assert_eq!(crowd(16).width(), None);
         assert!(crowd(30).width().is_some_and(|width| width > 0.1));
         let more = crowd(60).width().unwrap_or_default() / crowd(30).width().unwrap_or(1.0);
         assert!((more - 2.0).abs() < 1e-9);
