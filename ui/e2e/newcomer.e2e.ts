@@ -1,6 +1,6 @@
-import type { Locator } from 'playwright-core';
+import type { Locator, Page } from 'playwright-core';
 import { expect, test } from 'vitest';
-import { button, phaseIs, pixelsAre, saved, stored, tabTo } from './journeys';
+import { button, drag, drop, phaseIs, pixelsAre, saved, stored, tabTo } from './journeys';
 import { createTestBed } from './testBed';
 
 /** Clicks from the first sight of the page to a heart and a word that play. */
@@ -35,6 +35,79 @@ test('somebody who never saw it makes a heart and a word with thirty robots, and
   await page.getByText('Playing frame 1 of 2').waitFor();
   await page.getByRole('button', { name: /^Abort/ }).click();
   await phaseIs(page, 'ready');
+});
+
+/** A photograph of something bright and round before something dark, as a PNG. */
+async function photograph(page: Page): Promise<Uint8Array> {
+  const bytes = await page.evaluate(async () => {
+    const canvas = new OffscreenCanvas(320, 240);
+    const context = canvas.getContext('2d');
+    if (!context) return [];
+    const sky = context.createLinearGradient(0, 0, 0, 240);
+    sky.addColorStop(0, '#101820');
+    sky.addColorStop(1, '#20180c');
+    context.fillStyle = sky;
+    context.fillRect(0, 0, 320, 240);
+    const moon = context.createRadialGradient(150, 110, 10, 160, 120, 80);
+    moon.addColorStop(0, '#fff8e0');
+    moon.addColorStop(1, '#d8b060');
+    context.fillStyle = moon;
+    context.beginPath();
+    context.arc(160, 120, 80, 0, 7);
+    context.fill();
+    const blob = await canvas.convertToBlob({ type: 'image/png' });
+    return [...new Uint8Array(await blob.arrayBuffer())];
+  });
+  return new Uint8Array(bytes);
+}
+
+// docs/first-show.md tells the same story; its number of clicks is the one here.
+test('a show of five frames: a word, a shape, a drawing by hand, an SVG and a photograph', async () => {
+  const page = await bed.open('live');
+  const image = await photograph(page);
+  let clicks = 0;
+  const click = async (target: Locator) => {
+    clicks++;
+    await target.click();
+  };
+  const frames = page.getByRole('list', { name: 'Frames' }).getByRole('listitem');
+  const use = async () => {
+    await click(button(page, 'Use'));
+    await button(page, 'Change…').waitFor();
+  };
+  await click(button(page, 'New'));
+  await page.getByTestId('word-verdict').getByText('Readable').waitFor();
+  await click(button(page, 'Make this show'));
+  await pixelsAre(page, 30);
+  await click(frames.last());
+  await click(button(page, /^Add a frame/));
+  await click(button(page, 'Draw a line (B)'));
+  await drag(page, [-1, -0.5], [1, 0.5]);
+  clicks++;
+  await use();
+  await click(button(page, /^Add a frame/));
+  await drop(page, {
+    files: {
+      'bolt.svg':
+        '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 8 12"><path d="M5 0L0 7h3l-1 5 6-8H5z" fill="gold"/></svg>',
+    },
+  });
+  await use();
+  await click(button(page, /^Add a frame/));
+  await drop(page, { files: { 'moon.png': image } });
+  await click(page.getByText('Outline', { exact: true }));
+  await page.getByTestId('verdict').getByText('Readable').waitFor();
+  await use();
+  await saved(page);
+  expect(await frames.allTextContents()).toEqual(
+    ['HI', 'Ring', 'Freehand', 'Bolt', 'Moon'].map((name) => expect.stringContaining(name)),
+  );
+  await click(button(page, 'Run on robots'));
+  await phaseIs(page, 'playing');
+  await page.getByText('Playing frame 1 of 5').waitFor();
+  await page.getByRole('button', { name: /^Abort/ }).click();
+  await phaseIs(page, 'ready');
+  expect(clicks).toBe(13);
 });
 
 test('by keyboard only: a new show, its pixels and colours, a second frame, and play', async () => {

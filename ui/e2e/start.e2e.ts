@@ -60,7 +60,6 @@ test("by keyboard: a word of one's own, with a verdict, becomes a show", async (
   await page.keyboard.press('Enter');
   await page.getByTestId('open-library').getByText('HI', { exact: true }).waitFor();
   await pixelsAre(page, 30);
-  await page.keyboard.press('PageDown');
   await page.getByText('Made from the words “HI”').waitFor();
   expect(await pixels(page)).toHaveLength(30);
 });

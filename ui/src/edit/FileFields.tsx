@@ -1,10 +1,12 @@
 import { Button, FileButton, Text } from '@mantine/core';
 import { countText } from '../base/numbers';
 import { useStore } from '../base/store';
+import { isSeen } from '../make/draft';
 import type { Making } from '../make/making';
 import { useSession } from '../session/session';
 import { useEditing } from './context';
 import { PictureField } from './PictureField';
+import { WayFields } from './WayFields';
 import { takeFiles } from './taking';
 import styles from './Make.module.css';
 
@@ -44,6 +46,7 @@ export function FileFields({ making }: { making: Making }) {
           (CSV). Several files make a frame each.
         </Text>
       </div>
+      {files.some(isSeen) ? <WayFields making={making} /> : null}
       <PictureField making={making} />
     </>
   );

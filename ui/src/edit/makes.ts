@@ -1,5 +1,5 @@
 import { getAsset, putAsset } from '../api/http';
-import { draftOf, newDraft, type Draft, type Tab } from '../make/draft';
+import { draftOf, newDraft, sourceTitle, type Draft, type Tab } from '../make/draft';
 import { pixelsOf } from '../make/frame';
 import { createMaking, type Making } from '../make/making';
 import type { Picture } from '../make/pictures';
@@ -72,10 +72,14 @@ export async function takeMade(editing: Editing, making: Making) {
 }
 
 function apply(editing: Editing, frame: number, pictures: readonly Picture[]) {
+  const before = editing.editor.state.get().show.frames.find(({ key }) => key === frame)?.name;
+  const isUnnamed = before !== undefined && /^Frame \d+$/.test(before);
+  const titleOf = (source: FrameSource) =>
+    isUnnamed ? sourceTitle(source, editing.files.get(source.asset ?? '')?.name ?? null) : null;
   const made = pictures.map(({ source, name, airTime_s, answer }) => ({
     source,
     pixels: pixelsOf(answer),
-    ...(name === null ? {} : { name }),
+    ...namedBy(name ?? titleOf(source)),
     ...(airTime_s === null ? {} : { airTime_s }),
   }));
   const files = pictures.flatMap(({ source }) => editing.files.get(source.asset ?? '') ?? []);
@@ -87,6 +91,8 @@ function apply(editing: Editing, frame: number, pictures: readonly Picture[]) {
   );
   editing.editor.change('Make', (show) => makeFrames(show, frame, made, assets));
 }
+
+const namedBy = (name: string | null) => (name ? { name } : {});
 
 async function fileOf(editing: Editing, hash: string): Promise<Uint8Array<ArrayBuffer>> {
   return editing.files.get(hash)?.bytes ?? (await getAsset(hash));

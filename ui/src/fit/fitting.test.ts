@@ -30,7 +30,9 @@ test('a show is fitted to fewer and to more robots, and keeps what it is otherwi
 
 test('more robots than find room are an error that says so', async () => {
   serve();
-  await expect(fitShow(realMaker(), newShow('x', 30), 45)).rejects.toThrow(/robots/);
+  await expect(fitShow(realMaker(), newShow('x', 30), 5_000)).rejects.toThrow(/robots/);
+  const grown = await fitShow(realMaker(), newShow('x', 30), 45);
+  expect(grown.show.frames[0]?.pixels).toHaveLength(45);
 });
 
 test('a show that changed its frames meanwhile stays as it is', () => {

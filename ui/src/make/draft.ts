@@ -22,6 +22,10 @@ export interface Draft {
   files: readonly DraftFile[];
   /** The moment of the animation that a single frame shows, seconds; null: the whole animation becomes frames. */
   moment_s: number | null;
+  /** What of a picture or animation is shown. */
+  way: PictureWay;
+  /** Whether the background is shown instead, or the dark instead of the light. */
+  inverted: boolean;
   color: Rgb;
   style: Style;
   /** Longer side of the picture, metres; null: chosen by floor and fleet. */
@@ -39,6 +43,9 @@ export type Tab = 'text' | 'shape' | 'file';
 
 export const STYLES = ['auto', 'filled', 'outline', 'both', 'lines'] as const;
 export type Style = (typeof STYLES)[number];
+
+export const WAYS = ['auto', 'silhouette', 'outline', 'tones'] as const;
+export type PictureWay = (typeof WAYS)[number];
 
 export type ShapeNumber = 'aspect' | 'count' | 'turns' | 'inner' | 'span';
 
@@ -65,6 +72,10 @@ export const FILE_SOURCES: readonly FileSource[] = ['svg', 'picture', 'list', 'a
 export const isFilm = (draft: Draft) =>
   draft.tab === 'file' && draft.files[0]?.kind === 'animation' && draft.moment_s === null;
 
+/** Whether a file is seen as a whole, so that what it shows must be found in it. */
+export const isSeen = (file: DraftFile | null) =>
+  file?.kind === 'picture' || file?.kind === 'animation';
+
 /** The colour of a warm lamp, as the module takes it where a source names none. */
 export const USUAL_COLOR: Rgb = 0xffa500;
 
@@ -79,6 +90,8 @@ export const newDraft = (tab: Tab): Draft => ({
   ownFont: null,
   files: [],
   moment_s: null,
+  way: 'auto',
+  inverted: false,
   color: USUAL_COLOR,
   style: 'auto',
   size_m: null,
@@ -100,6 +113,8 @@ const SHOWN = [
   'turn',
   'points',
   'closed',
+  'way',
+  'inverted',
 ];
 const NUMBERS: readonly ShapeNumber[] = ['aspect', 'count', 'turns', 'inner', 'span'];
 
@@ -138,6 +153,8 @@ export function draftOf(source: FrameSource, fileName = 'File'): Draft {
         ? [{ hash: source.asset, name: fileName, kind }]
         : [],
     moment_s: source.moment_s,
+    way: WAYS.find((known) => known === settings.way) ?? 'auto',
+    inverted: settings.inverted === true,
     color: colorOf(settings.colors ?? settings.color) ?? usual.color,
     style: style ?? 'auto',
     size_m: number('size_m') ?? side,
@@ -191,7 +208,10 @@ function sourceOf(draft: Draft, file: DraftFile | null): FrameSource {
       ...(isDrawn && draft.closed ? { closed: true } : {}),
       ...(color === null ? {} : { color: [color] }),
     },
-    file: {},
+    file: {
+      ...(isSeen(file) && draft.way !== 'auto' ? { way: draft.way } : {}),
+      ...(isSeen(file) && draft.inverted ? { inverted: true } : {}),
+    },
   }[draft.tab];
   return {
     kind: draft.tab === 'file' ? (file?.kind ?? 'svg') : draft.tab,
@@ -221,4 +241,21 @@ export function sourceWords(source: FrameSource, fileName: string | null): strin
   if (source.kind === 'text') return `the words “${String(text ?? '').replaceAll('\n', ' ')}”`;
   if (source.kind === 'shape') return `the shape ${String(shape ?? 'circle')}`;
   return fileName === null ? 'a file' : `the file ${fileName}`;
+}
+
+/** A file's name without its ending. */
+export const stem = (file: string) => file.replace(/\.[^.]*$/, '') || file;
+
+/** Longest name of a frame, characters. */
+const NAME_MAX = 80;
+
+/** A name for a frame that is made of a source; empty: there is none. */
+export function sourceTitle(source: FrameSource, fileName: string | null): string {
+  const { text, shape } = source.settings;
+  if (source.kind === 'text')
+    return String(text ?? '')
+      .replaceAll('\n', ' ')
+      .slice(0, NAME_MAX);
+  const name = source.kind === 'shape' ? String(shape ?? 'circle') : stem(fileName ?? '');
+  return (name.charAt(0).toUpperCase() + name.slice(1)).slice(0, NAME_MAX);
 }

@@ -1,6 +1,6 @@
 import { expect, test, vi } from 'vitest';
 import { newShow } from '../model/show';
-import { draftOf, newDraft, sourcesOf, type Draft } from './draft';
+import { draftOf, newDraft, sourceTitle, sourcesOf, type Draft } from './draft';
 import { pixelsOf } from './frame';
 import { gifOf } from './gif.testing';
 import { createMaking, pictureShown } from './making';
@@ -92,11 +92,25 @@ test('a source becomes a draft and the same source again', () => {
       ...newDraft('file'),
       files: [{ hash: 'f', name: 'File', kind: 'animation' }],
       moment_s: 0.8,
+      way: 'outline',
+      inverted: true,
     }),
   ];
   for (const [source] of sources) expect(source && sourcesOf(draftOf(source))).toEqual([source]);
   expect(sourcesOf(newDraft('text'))).toEqual([]);
   expect(sourcesOf(newDraft('file'))).toEqual([]);
+});
+
+test('a source gives its frame a name', () => {
+  const title = (draft: Partial<Draft>, file: string | null = null) => {
+    const [source = never()] = sourcesOf({ ...newDraft('text'), ...draft });
+    return sourceTitle(source, file);
+  };
+  expect(title({ text: 'HELLO\nWORLD' })).toBe('HELLO WORLD');
+  expect(title({ tab: 'shape', shape: 'star' })).toBe('Star');
+  const files = [{ hash: 'f', name: 'moon.jpg', kind: 'picture' }] as const;
+  expect(title({ tab: 'file', files }, 'moon.jpg')).toBe('Moon');
+  expect(title({ tab: 'file', files })).toBe('');
 });
 
 test('the box of a source becomes its size and its middle', () => {

@@ -1,7 +1,7 @@
 import type { MakeAnswer, MakeQuality, MakeRemark } from '../api/types.gen';
 import type { Frame, Show } from '../model/show';
 import type { FrameSource } from '../model/sources';
-import { isFilm, type Draft } from './draft';
+import { isFilm, stem, type Draft } from './draft';
 import { requestOf } from './frame';
 import type { Maker } from './maker';
 
@@ -83,9 +83,6 @@ async function oneByOne(
 /** An error that names its file, if there are several. */
 const named = (error: MakeRemark, file: string | null): MakeRemark =>
   file === null ? error : { ...error, message: `${file}: ${error.message}` };
-
-/** A file's name without its ending. */
-const stem = (file: string) => file.replace(/\.[^.]*$/, '') || file;
 
 async function film(maker: Maker, wish: Wish): Promise<Pictures | null> {
   const [source] = wish.sources;

@@ -80,9 +80,8 @@ const QUARTER = Math.PI / 2;
 /** Turns of a spiral whose arms stay apart, for a number of robots. */
 const turnsFor = (robots: number) => Math.max(1, Math.min(5, Math.round(Math.sqrt(robots / 12))));
 
-/** A show of one's own words. */
+/** A show of one's own words. It begins with them: the editor opens on the first frame, and that is what was asked for. */
 export const wordShow = (text: string): TemplateFrame[] => [
-  shape('Grid', 'grid', 1, WHITE),
   { ...words(text, 6, LETTERS), name: text.replaceAll('\n', ' ').slice(0, 80) },
   shape('Ring', 'circle', 2, GOLD, { style: 'outline' }),
 ];

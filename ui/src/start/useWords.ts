@@ -11,7 +11,7 @@ export function useWords(text: string, { robots, stage }: Fleet): MadeTemplateFr
   const [made, setMade] = useState<MadeTemplateFrame | null>(null);
   useEffect(() => {
     let isWanted = true;
-    const frame = wordShow(text.trim())[1];
+    const frame = wordShow(text.trim())[0];
     const make = async () => {
       if (!frame || text.trim() === '') return setMade(null);
       for (const quality of ['quick', 'full'] as const) {
