@@ -339,7 +339,10 @@ impl Conductor {
     async fn end(mut self) {
         let state = self.controller.snapshot(self.clock.now()).state;
         if !matches!(state, ControllerState::Idle | ControllerState::Ready) {
-            let stopped = self.controller.operate(self.clock.now(), Operation::StopAll);
+            let now = self.clock.now();
+            // Without a broker, the run is over all the same: the next start is not to go on with it.
+            let stopped = self.controller.operate(now, Operation::StopAll);
+            let stopped = stopped.or_else(|_| self.controller.operate(now, Operation::Abort));
             if let Err(refusal) = stopped {
                 tracing::warn!("the robots could not be stopped: {refusal}");
             }

@@ -3,9 +3,9 @@
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use serde_json::json;
+use serde_json::{Value, json};
 
-use crate::child::Child;
+use crate::child::{Child, run};
 use crate::screen::Screen;
 use crate::{alone, http, shows, wait_for};
 
@@ -15,7 +15,7 @@ const ROBOTS: &str = "6";
 
 /// A broker, robots on it, and the data folder and show of a controller that is killed again and again.
 struct Stage {
-    _broker: Child,
+    broker: Child,
     _robots: Child,
     url: String,
     data: PathBuf,
@@ -34,7 +34,7 @@ impl Stage {
             show = show.replace(&format!(",{stood:.3}]"), &format!(",{stands:.4}]"));
         }
         let show = shows::file("rows.lightbots.json", show);
-        Self { _broker: broker, _robots: robots, url, data: shows::own_folder(), show }
+        Self { broker, _robots: robots, url, data: shows::own_folder(), show }
     }
 
     fn controller(&self, more: &[&str]) -> (Child, Screen, String) {
@@ -101,6 +101,11 @@ fn a_show_whose_controller_is_killed_again_and_again_is_finished() {
     wait_for("the end of the journal", || (!stage.journal().exists()).then_some(()));
     server.terminate();
     assert_eq!(server.end(), 0);
+    let (number, data) = ((kills + 1).to_string(), stage.data.to_str().unwrap());
+    let (_, out, _) = run(&["replay", "--json", &number, "--data", data]);
+    let report: Value = serde_json::from_str(&out).unwrap_or_default();
+    assert_eq!((&report["complete"], &report["difference"]), (&json!(true), &Value::Null), "{report}");
+    assert!(report["notes"]["taken_up"].is_string(), "{report}");
     let (mut server, mut screen, _) = stage.controller(&[]);
     screen.wait_for_robots(6);
     assert!(!server.out().contains("cut off"), "{}", server.out());
@@ -132,6 +137,21 @@ fn a_show_that_was_cut_off_waits_for_the_operator_or_is_over_where_that_is_wante
     screen.wait_for_log("the run is over");
     wait_for("the end of the journal", || (!stage.journal().exists()).then_some(()));
     screen.wait_for_robots(6);
+}
+
+#[test]
+fn a_program_that_is_stopped_while_the_broker_is_away_does_not_go_on_with_its_show() {
+    let _turn = alone();
+    let mut stage = Stage::new(3);
+    let (mut server, mut screen, _) = stage.controller(&[]);
+    play(&mut screen);
+    wait_for_frame(&mut screen, 1);
+    stage.broker.kill();
+    screen.until("the lost link", |screen| (screen.phase() == "link_lost").then_some(()));
+    assert!(is_written(&stage.journal()));
+    server.terminate();
+    server.end();
+    assert!(!stage.journal().exists());
 }
 
 fn is_written(journal: &Path) -> bool {
