@@ -124,10 +124,12 @@ impl Controller {
         self.received += 1;
         match Topic::parse(topic) {
             Some(Topic::Time) => match TimeQuestion::decode(payload) {
+                Some(question) if !self.counts(now, question.id) => {}
                 Some(question) => clock::answer(now, question, &mut self.context.outbox),
                 None => self.junk += 1,
             },
             Some(topic @ (Topic::Uuid | Topic::Arrival | Topic::Status)) => match Report::decode(payload) {
+                Some(report) if !self.counts(now, report.id) => {}
                 Some(report) => self.receive(now, topic, &report),
                 None => self.junk += 1,
             },
@@ -135,6 +137,11 @@ impl Controller {
             Some(Topic::Broadcast | Topic::Robot(_)) => {}
             None => self.junk += 1,
         }
+    }
+
+    /// Whether a message of a robot counts: one that floods does not.
+    fn counts(&mut self, now: Instant, id: RobotId) -> bool {
+        self.context.fleet.counts(now, id, &mut self.context.log)
     }
 
     fn receive(&mut self, now: Instant, topic: Topic, report: &Report) {
@@ -317,6 +324,7 @@ impl Controller {
             resent: self.context.resent,
             unsent: self.context.outbox.unsent,
             overflow: self.context.fleet.overflow,
+            flooded: self.context.fleet.flooded,
             unexpected: self.context.unexpected,
         }
     }

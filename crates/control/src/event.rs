@@ -42,6 +42,8 @@ pub enum EventKind {
     },
     /// One robot has a name again that two had shared.
     NameUnique(RobotId),
+    /// A robot sends more messages than count.
+    Flooding(RobotId),
     /// There are more robots than can be remembered; recorded once.
     FleetFull,
     /// A show was opened.
@@ -224,6 +226,7 @@ impl EventKind {
             | RobotStale(_)
             | RobotGone(_)
             | FleetFull
+            | Flooding(_)
             | LeftOut { .. }
             | Waiting { .. }
             | Undelivered
@@ -278,6 +281,19 @@ impl fmt::Display for Count<'_> {
 }
 
 impl EventKind {
+    /// What a robot did that is news by itself.
+    fn of_robot(&self) -> &'static str {
+        match self {
+            Self::RobotFound(_) => "is here",
+            Self::RobotRestarted(_) => "has restarted",
+            Self::RobotStale(_) => "has not reported lately",
+            Self::RobotGone(_) => "is gone",
+            Self::RobotBack(_) => "is back",
+            Self::Flooding(_) => "floods the broker with messages: only 100 a second count; switch it off",
+            _ => "",
+        }
+    }
+
     /// The line of an event of the link.
     fn write_link(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -311,11 +327,6 @@ impl fmt::Display for EventKind {
             Connected => write!(f, "Connected to the broker."),
             Disconnected => write!(f, "The broker is lost."),
             StateChanged(state) => write!(f, "Now {state}."),
-            RobotFound(id) => write!(f, "Robot {id} is here."),
-            RobotRestarted(id) => write!(f, "Robot {id} has restarted."),
-            RobotStale(id) => write!(f, "Robot {id} has not reported lately."),
-            RobotGone(id) => write!(f, "Robot {id} is gone."),
-            RobotBack(id) => write!(f, "Robot {id} is back."),
             NameShared { robot, places } => {
                 let [at, other] = [0, 1].map(|index| places.get(index).copied().unwrap_or(Vec2::ZERO));
                 write!(
@@ -324,6 +335,10 @@ impl fmt::Display for EventKind {
                      kept out of the show; give one of them another name.",
                     at.x, at.y, other.x, other.y
                 )
+            }
+            RobotFound(id) | RobotRestarted(id) | RobotStale(id) | RobotGone(id) | RobotBack(id)
+            | Flooding(id) => {
+                write!(f, "Robot {id} {}.", self.of_robot())
             }
             NameUnique(id) => write!(f, "One robot is called {id} again: it may take part."),
             FleetFull => write!(f, "Too many robots: further names are not remembered."),

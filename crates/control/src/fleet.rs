@@ -3,6 +3,7 @@
 use crate::config::Config;
 use crate::event::EventKind;
 use crate::log::EventQueue;
+use crate::report_rate::Counted;
 use crate::robot::KnownRobot;
 use crate::snapshot::Age;
 use lightbots_base::{Instant, RobotId, Span};
@@ -36,6 +37,8 @@ pub(crate) struct KnownRobots {
     patrolled: usize,
     /// Reports of robots beyond the most that are remembered.
     pub overflow: u64,
+    /// Messages that did not count, because their robots sent too many.
+    pub flooded: u64,
 }
 
 impl KnownRobots {
@@ -57,6 +60,17 @@ impl KnownRobots {
     /// Where in the list a robot is.
     pub fn find(&self, id: RobotId) -> Option<usize> {
         self.index_of.get(&id).map(|&index| index as usize)
+    }
+
+    /// Whether a message of a robot counts; a robot that sends too many is named. Robots that are not known yet send one.
+    pub fn counts(&mut self, now: Instant, id: RobotId, log: &mut EventQueue) -> bool {
+        let Some(index) = self.find(id) else { return true };
+        let counted = self.robots[index].rate.count(now);
+        if counted == Counted::FloodToName {
+            log.record(now, EventKind::Flooding(id));
+        }
+        self.flooded += u64::from(counted != Counted::Yes);
+        counted == Counted::Yes
     }
 
     /// Takes over a report. `None` where there is no room for another robot.

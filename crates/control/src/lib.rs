@@ -36,6 +36,7 @@ mod operation;
 mod outbox;
 mod plan_builder;
 mod plan_request;
+mod report_rate;
 mod robot;
 mod run;
 mod separation;

@@ -1,6 +1,7 @@
 //! One robot, as the controller knows it.
 
 use crate::namesakes::Namesakes;
+use crate::report_rate::ReportRate;
 use crate::snapshot::{Age, LastContact, Reported, RobotView};
 use lightbots_base::{Instant, Rgb, RobotId, Vec2};
 use lightbots_wire::{Details, Report, RobotState};
@@ -35,6 +36,8 @@ pub(crate) struct KnownRobot {
     pub reported: Reported,
     /// When it reported.
     pub contact: LastContact,
+    /// How often it sends messages.
+    pub rate: ReportRate,
     /// Since when it reports the same place.
     pub standstill: Standstill,
     /// When a robot that knows TARGET only was asked for a report.
@@ -73,6 +76,7 @@ impl KnownRobot {
             id,
             reported: Reported::default(),
             contact: LastContact { found: now, heard: now, age: Age::Active },
+            rate: ReportRate::default(),
             standstill: Standstill { since: now, at: None },
             asked: now,
             short_m: STOPS_SHORT.first_m,

@@ -140,6 +140,8 @@ pub struct Counters {
     pub unsent: u64,
     /// Reports of robots beyond the most that are remembered.
     pub overflow: u64,
+    /// Messages that did not count, because their robots sent too many.
+    pub flooded: u64,
     /// Arrivals of robots that were sent nowhere.
     pub unexpected: u64,
 }

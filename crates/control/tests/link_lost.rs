@@ -146,3 +146,18 @@ fn robots_that_know_target_only_are_not_dropped_for_a_frozen_broker() {
     assert_eq!(world.run_to_end(120.0), (RunOutcome::Finished, 2, 0), "{}", world.story());
     assert_eq!(world.count(lost), 1, "{}", world.story());
 }
+
+#[test]
+fn a_robot_that_floods_is_named_and_the_others_play_on() {
+    let mut world = under_way();
+    let flooder = world.robots[3].id;
+    for _ in 0..20 {
+        let at = world.robots[3].at;
+        let report = format!("{flooder} {} {} state=driving can=route", at.x, at.y);
+        (0..5_000).for_each(|_| world.inject("T/LightBot/UUID", report.as_bytes()));
+        world.run_for(0.1);
+    }
+    assert_eq!(world.count(|kind| *kind == EventKind::Flooding(flooder)), 1, "{}", world.story());
+    assert!(world.controller.counters().flooded > 90_000, "{:?}", world.controller.counters());
+    assert_eq!(world.run_to_end(60.0), (RunOutcome::Finished, 3, 0), "{}", world.story());
+}

@@ -128,6 +128,7 @@ fn issue(kind: &EventKind) -> Option<Issue> {
         EventKind::Disconnected => ("broker-lost", None),
         EventKind::LinkLost { .. } => ("link-lost", None),
         EventKind::TakenUp { frame, .. } => ("taken-up", Some(*frame)),
+        EventKind::Flooding(_) => ("flood", None),
         EventKind::LinkBack { .. } => ("link-back", None),
         EventKind::PlanFailed { frame, .. } => ("no-plan", Some(*frame)),
         EventKind::LeftOut { frame, .. } => ("left-out", Some(*frame)),
