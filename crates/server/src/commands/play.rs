@@ -2,12 +2,13 @@
 
 use std::time::{Duration, Instant};
 
-use lightbots_control::{Age, MissingPolicy, Operation, Refusal, RobotView, Snapshot};
+use lightbots_control::{Age, Event, EventKind, MissingPolicy, Operation, Refusal, RobotView, Snapshot};
 use lightbots_show::{Issue, Show, most_pixels};
 use lightbots_wire::RobotState;
 use tokio::sync::broadcast;
 
 use crate::cli::PlayArguments;
+use crate::commands::go_on::GoOn;
 use crate::failure::{Failure, Outcome};
 use crate::live::clock::Clock;
 use crate::live::conductor::{self, Handle, LOOK, News};
@@ -183,22 +184,18 @@ async fn follow(
     handle: &Handle,
     news: &mut broadcast::Receiver<News>,
 ) -> Result<(), Failure> {
-    let bar = Bar::new();
+    let (bar, mut question) = (Bar::new(), GoOn::default());
     loop {
-        let event = match tokio::time::timeout(NOTHING, news.recv()).await {
-            Ok(Ok(News::Event(event))) => event,
-            Ok(Ok(News::Warning(line))) => {
-                report.warn(line);
+        let event = tokio::select! {
+            event = next_event(report, news) => event?,
+            goes_on = question.answer() => {
+                go_on(handle, goes_on).await?;
                 continue;
             }
-            Ok(Ok(News::Link(_)) | Err(broadcast::error::RecvError::Lagged(_))) => continue,
-            Ok(Err(broadcast::error::RecvError::Closed)) => return Err(Failure::problem("stopped")),
-            Err(_) => {
-                return Err(Failure::problem(
-                    "no event for 15 minutes: the run was given up; run again with --log debug",
-                ));
-            }
         };
+        if matches!(event.kind, EventKind::LinkBack { asks_operator: true, .. }) {
+            question.ask();
+        }
         let places = if RunReport::wants_places(&event) { handle.look().await } else { None };
         report.add(&event, places.as_ref());
         bar.set(report.share(), event.kind.to_string());
@@ -206,6 +203,36 @@ async fn follow(
             return Ok(());
         }
     }
+}
+
+/// The next event; warnings before it go into the report.
+async fn next_event(report: &mut RunReport, news: &mut broadcast::Receiver<News>) -> Result<Event, Failure> {
+    loop {
+        match tokio::time::timeout(NOTHING, news.recv()).await {
+            Ok(Ok(News::Event(event))) => return Ok(event),
+            Ok(Ok(News::Warning(line))) => report.warn(line),
+            Ok(Ok(News::Link(_)) | Err(broadcast::error::RecvError::Lagged(_))) => {}
+            Ok(Err(broadcast::error::RecvError::Closed)) => return Err(Failure::problem("stopped")),
+            Err(_) => {
+                return Err(Failure::problem(
+                    "no event for 15 minutes: the run was given up; run again with --log debug",
+                ));
+            }
+        }
+    }
+}
+
+/// The interrupted show goes on, or ends because there is no person who could say so.
+async fn go_on(handle: &Handle, goes_on: bool) -> Result<(), Failure> {
+    if !goes_on {
+        let why = "robots were out of reach for more than 30 s, and there is no terminal to press Enter on: the show was ended";
+        return Err(Failure::problem(why));
+    }
+    // Refused where robots have fallen silent again: it is asked once more when they are back.
+    if let Err(refusal) = handle.operate(Operation::GoOn).await {
+        say::note(&refusal.to_string());
+    }
+    Ok(())
 }
 
 /// Adds the unread news to the report.
