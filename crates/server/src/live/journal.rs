@@ -54,6 +54,8 @@ pub struct JournalFile {
     thread: JoinHandle<()>,
     /// When the journal was begun again after a failure.
     tried: Option<Instant>,
+    /// People were told of a failure.
+    is_told: bool,
 }
 
 /// What the thread says.
@@ -72,13 +74,12 @@ impl JournalFile {
         let mut file = Written { path: data.join(FILE), file: None };
         let of_thread = shared.clone();
         let thread = std::thread::spawn(move || file.write_all(&inbox, &of_thread));
-        Self { pieces, shared, thread, tried: None }
+        Self { pieces, shared, thread, tried: None, is_told: false }
     }
 
     /// Hands on what is new. A line for people, once something went wrong.
     pub fn keep(&mut self, controller: &mut RecordedController) -> Option<String> {
         let failure = self.shared.failure.lock().unwrap_or_else(PoisonError::into_inner).take();
-        let is_first = failure.is_some() && self.tried.is_none();
         if failure.is_some() || self.tried.is_some_and(|tried| tried.elapsed() > TRY_AGAIN) {
             self.tried = failure.is_some().then(Instant::now);
             controller.begin_journal_again();
@@ -89,7 +90,9 @@ impl JournalFile {
         let line = |why| {
             format!("The run could not be gone on with after a crash: its journal is not written: {why}.")
         };
-        failure.filter(|_| is_first).map(line)
+        let failure = failure.filter(|_| !self.is_told)?;
+        self.is_told = true;
+        Some(line(failure))
     }
 
     fn send(&mut self, controller: &mut RecordedController) {
