@@ -49,8 +49,8 @@ pub(crate) fn push_apart(places: &mut [Vec2], holds: &[Freedom], distance: f64, 
     }
 }
 
-/// Moves places of several parts until no pair is nearer than `distance`, or the rounds are over. `rooms` has the room of each
-/// part, `owners` the part of each place.
+/// Moves places of several parts until no pair is nearer than `distance`, or the rounds are over. `rooms` has the room of
+/// each part, `owners` the part of each place.
 pub(crate) fn push_parts_apart(
     places: &mut [Vec2],
     holds: &[Freedom],

@@ -11,7 +11,7 @@ use crate::geometry::hexagonal_spacing;
 use crate::ground::Ground;
 use crate::layout::{Layout, LayoutTask, Style, separate};
 use crate::settings::{PlaceSettings, PlacedLight};
-use crate::thick::{Crowd, thickened};
+use crate::thick::{BandLoad, thickened};
 
 /// Areas that are wider than this number of spacings, on average, get an edge and a filling. Narrower ones would zigzag.
 const WIDE: f64 = 2.0;
@@ -89,13 +89,13 @@ fn thicken(pieces: &mut [Piece], floor: &PictureFloor, settings: &PlaceSettings)
     let sum = |lines: bool, of: fn(&Ground) -> f64, pieces: &[Piece]| -> f64 {
         pieces.iter().filter(|piece| is_line(piece) == lines).map(|piece| of(&piece.ground)).sum()
     };
-    let crowd = Crowd {
+    let load = BandLoad {
         robots: settings.robots,
         spacing: settings.spacing_m,
         length: sum(true, |ground| ground.lines.length(), pieces),
         area: sum(false, |ground| ground.mass, pieces),
     };
-    let Some(width) = crowd.width() else { return };
+    let Some(width) = load.width() else { return };
     let each = settings.robots / pieces.len().max(1) + 1;
     for piece in pieces.iter_mut().filter(|piece| is_line(piece)) {
         let part = thickened(&piece.part, width);

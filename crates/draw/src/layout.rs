@@ -246,8 +246,8 @@ impl LayoutTask<'_> {
     }
 }
 
-/// Moves places of different parts apart that are nearer to each other than any two of one part, as where a line leads behind
-/// an area.
+/// Moves places of different parts apart that are nearer to each other than any two of one part, as where a line leads
+/// behind an area.
 pub(crate) fn separate(grounds: &[&Ground], layouts: &mut [Layout]) {
     let distance =
         layouts.iter().map(|layout| closest_distance(&layout.places)).fold(f64::INFINITY, f64::min);

@@ -22,8 +22,8 @@ const JOINED: f64 = 1.45;
 /// stand in one row; where a row has no room to grow in length, the wider ones make several rows of it.
 const HALF_WIDTHS: [f64; 8] = [0.22, 0.5, 0.9, 1.4, 2.1, 3.2, 4.8, 7.0];
 
-/// Robots that find room, of those that do in an ideal filling: the closest pair of relaxed places keeps 0.7 of the ideal spacing
-/// (Lloyd without pushing apart, measured).
+/// Robots that find room, of those that do in an ideal filling: the closest pair of relaxed places keeps 0.7 of the ideal
+/// spacing (Lloyd without pushing apart, measured).
 const RELAXED: f64 = 0.5;
 
 /// Above this multiple of an ideal filling no picture is tried. More than the ideal fits, because the picture may grow.

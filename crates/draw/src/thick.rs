@@ -10,7 +10,7 @@ use crate::geometry::{hexagonal_area, hexagonal_count};
 /// Corners of half a circle at each end of a piece.
 const ROUND: usize = 6;
 
-/// The nearest pair of a filling, in ideal spacings: bands are made this much wider, so that nobody stands nearer than wanted.
+/// The nearest pair of a filling, in ideal spacings: bands are made this much wider, so that no pair is nearer than wanted.
 const NEAREST: f64 = 0.85;
 
 /// Share of the places along lines that can be used: where lines meet, places of one are in the way of the other.
@@ -18,7 +18,7 @@ const USABLE: f64 = 0.8;
 
 /// What bands have to hold.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Crowd {
+pub(crate) struct BandLoad {
     /// Number of robots.
     pub robots: usize,
     /// Their least distance, same units as the drawing.
@@ -29,7 +29,7 @@ pub(crate) struct Crowd {
     pub area: f64,
 }
 
-impl Crowd {
+impl BandLoad {
     /// Width of bands that have room for everybody; `None` where the lines themselves have room.
     pub fn width(&self) -> Option<f64> {
         let ideal = self.spacing / NEAREST;
@@ -69,17 +69,17 @@ mod tests {
     use crate::coverage::samples;
     use lightbots_base::Rgb;
 
-    fn crowd(robots: usize) -> Crowd {
-        Crowd { robots, spacing: 0.1, length: 2.0, area: 0.0 }
+    fn load(robots: usize) -> BandLoad {
+        BandLoad { robots, spacing: 0.1, length: 2.0, area: 0.0 }
     }
 
     #[test]
     fn lines_with_room_stay_lines() {
-        assert_eq!(crowd(16).width(), None);
-        assert!(crowd(30).width().is_some_and(|width| width > 0.1));
-        let more = crowd(60).width().unwrap_or_default() / crowd(30).width().unwrap_or(1.0);
+        assert_eq!(load(16).width(), None);
+        assert!(load(30).width().is_some_and(|width| width > 0.1));
+        let more = load(60).width().unwrap_or_default() / load(30).width().unwrap_or(1.0);
         assert!((more - 2.0).abs() < 1e-9);
-        assert_eq!(Crowd { length: 0.0, ..crowd(30) }.width(), None);
+        assert_eq!(BandLoad { length: 0.0, ..load(30) }.width(), None);
     }
 
     #[test]
