@@ -24,10 +24,12 @@ enum Source {
     Example(&'static str, &'static str),
     /// A browser with the built program.
     Browser,
+    /// The WebAssembly module of the browser, in Node.js.
+    Module,
 }
 
 /// All parts, in the order of the page.
-const PARTS: [Part; 8] = [
+const PARTS: [Part; 10] = [
     Part {
         name: "plan",
         title: "Planning",
@@ -91,6 +93,20 @@ const PARTS: [Part; 8] = [
                 `peak mb`: program and broker together.",
     },
     Part {
+        name: "make",
+        title: "Frames from words, drawings, pictures and shapes",
+        source: Source::Example("lightbots-make", "speed"),
+        about: "One frame, decoding included, one thread. `full`: what is saved. `preview`: fewer samples and rounds, while a \
+                setting changes.",
+    },
+    Part {
+        name: "preview",
+        title: "Frames in WebAssembly",
+        source: Source::Module,
+        about: "The module of the browser in Node.js, whose engine is Chromium's: a frame while its size changes, with the \
+                answer in JSON, the readability and, for `full`, the number of robots that would do.",
+    },
+    Part {
         name: "fps",
         title: "Frames a second",
         source: Source::Browser,
@@ -129,6 +145,7 @@ fn measure(part: &Part) -> Outcome<Measured> {
     let mut command = match part.source {
         Source::Example(package, example) => example_command(part.name, package, example)?,
         Source::Browser => browser_command()?,
+        Source::Module => module_command()?,
     };
     let (printed, failure) = shell::printed(&mut command)?;
     Ok(Measured { rows: rows(&printed), failure })
@@ -173,6 +190,12 @@ fn browser_command() -> Outcome<Command> {
     let mut command = shell::command("ui", demo::NPM, &["run", "--silent", "fps"]);
     command.env("LIGHTBOTS_BIN", program).env("CHROMIUM", chromium);
     Ok(command)
+}
+
+fn module_command() -> Outcome<Command> {
+    demo::install_packages()?;
+    demo::build_screen()?;
+    Ok(shell::command("ui", demo::NPM, &["run", "--silent", "preview-times"]))
 }
 
 fn build_server() -> Outcome {

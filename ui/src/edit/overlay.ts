@@ -76,7 +76,10 @@ export function paintOverlay(
   const radius = Math.max(3, state.show.stage.radius_m * camera.scale);
   const { tooClose, offFloor } = marksNow(state);
   const density = context.getTransform().a;
-  const [line_px, chosen_px, close_px] = [1.75, radius + 3, radius + 6.5].map((px) => px * density);
+  // Rings around small lights stay close to them: they would cover the colours of the neighbours.
+  const gap = Math.min(3, 0.5 * radius);
+  const sizes = [Math.min(1.75, 0.3 * radius), radius + gap, radius + 2.2 * gap];
+  const [line_px, chosen_px, close_px] = sizes.map((px) => px * density);
   const chosen = sprites.ring(FLOOR.chosen, chosen_px ?? 0, line_px ?? 0);
   const close = sprites.ring(FLOOR.care, close_px ?? 0, line_px ?? 0, true);
   for (const p of state.show.frames[state.frame]?.pixels ?? []) {

@@ -1,0 +1,52 @@
+import { test } from 'vitest';
+import type { MakeQuality } from '../src/api/types.gen';
+import { newDraft, sourcesOf } from '../src/make/draft';
+import { requestOf } from '../src/make/frame';
+import { realMaker } from '../src/make/realMaker.testing';
+import { newShow } from '../src/model/show';
+
+/** The cat of the contact sheet: an area and a line. */
+const CAT = new URL('../../crates/make/examples/sheet/drawings/cat.svg', import.meta.url);
+
+/** Median of five previews while the size changes as by a slider, milliseconds. */
+async function medianOf(once: (step: number) => Promise<unknown>): Promise<number> {
+  const times: number[] = [];
+  for (let step = 0; step < 5; step++) {
+    const before = performance.now();
+    await once(step);
+    times.push(performance.now() - before);
+  }
+  return times.sort((a, b) => a - b)[2] ?? NaN;
+}
+
+test('frames by the WebAssembly module, as in the browser', async () => {
+  const { readFileSync } = await import('node:fs');
+  const maker = realMaker();
+  const words = { ...newDraft('text'), text: 'HELLO' };
+  const drawing = {
+    ...newDraft('file'),
+    files: [{ hash: 'cat', name: 'cat.svg', kind: 'svg' } as const],
+  };
+  for (const [name, draft, asset] of [
+    ['HELLO', words, null],
+    ['cat', drawing, readFileSync(CAT)],
+  ] as const)
+    for (const robots of [30, 100, 1000]) {
+      const side_m = Math.sqrt(robots) * 0.4 + 1;
+      const empty = newShow('x', 1);
+      const show = { ...empty, stage: { ...empty.stage, width_m: side_m, depth_m: side_m } };
+      const make = (quality: MakeQuality) => (step: number) => {
+        const [source] = sourcesOf({ ...draft, size_m: side_m * (0.7 + 0.01 * step) });
+        const [frame] = show.frames;
+        if (!source || !frame) throw new Error('There is nothing to make.');
+        return maker.make(requestOf(show, frame, source, robots, quality), asset);
+      };
+      const row = {
+        source: name,
+        robots,
+        preview_ms: await medianOf(make('quick')),
+        full_ms: await medianOf(make('full')),
+      };
+      process.stdout.write(`\n${JSON.stringify(row)}\n`);
+    }
+});
