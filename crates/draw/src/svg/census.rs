@@ -14,13 +14,7 @@ struct Missing {
 }
 
 /// All kinds of elements that are left out.
-const MISSING: [Missing; 5] = [
-    Missing {
-        code: "svg-text",
-        elements: &["text"],
-        names: ("A text is", "texts are"),
-        remedy: "Convert text to paths in the program that made the file, or make words with text.",
-    },
+const MISSING: [Missing; 4] = [
     Missing {
         code: "svg-image",
         elements: &["image", "feImage"],

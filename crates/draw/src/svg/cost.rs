@@ -129,7 +129,9 @@ impl<'a, 'input> Expansion<'a, 'input> {
     fn inside(&mut self, node: Node<'a, 'input>, depth: usize) -> Result<Total, DrawError> {
         let bytes: usize = node.attributes().map(|attribute| attribute.value().len()).sum();
         let own = if node.tag_name().name() == "stop" { 1 } else { ELEMENT + bytes as u64 / ELEMENT };
-        let mut total = Total { cost: own, ..Total::default() };
+        // Each sign of a text becomes an area.
+        let signs = if node.tag_name().name() == "text" { signs(node) } else { 0 };
+        let mut total = Total { cost: own + ELEMENT * signs, ..Total::default() };
         for child in node.children().filter(Node::is_element) {
             if !UNDRAWN.contains(&child.tag_name().name()) {
                 let inner = self.total(child, depth + 1)?;
@@ -189,6 +191,11 @@ impl Total {
         self.points = self.points.saturating_add(inner.points);
         self.height = self.height.max(inner.height + 1);
     }
+}
+
+/// Signs of a text, with those of the elements in it.
+fn signs(node: Node) -> u64 {
+    node.descendants().filter_map(|inner| inner.text()).map(|text| text.len() as u64).sum()
 }
 
 /// Points of the line of an element, at most: the shortest segment, such as `h1`, has two characters.

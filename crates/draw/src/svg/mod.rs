@@ -9,6 +9,7 @@ mod lights;
 mod paint;
 mod region;
 mod scan;
+mod typeface;
 mod walk;
 
 use lightbots_base::Vec2;
@@ -42,6 +43,7 @@ pub fn draw(bytes: &[u8]) -> Result<Made, DrawError> {
         let message = format!("The SVG file cannot be read: {error}. Save it again as plain SVG.");
         DrawError::new("svg-tree", message)
     })?;
+    notes.extend(typeface::missing(tree.root()));
     let mut walk = painted(&tree)?;
     notes.extend(beyond(walk.beyond));
     notes.extend(left_out(&walk.canvas));
@@ -72,6 +74,8 @@ fn closed_options() -> Options<'static> {
             resolve_data: Box::new(|_, _, _| None),
             resolve_string: Box::new(|_, _| None),
         },
+        font_family: typeface::FAMILY.to_owned(),
+        fontdb: typeface::faces(),
         ..Options::default()
     }
 }

@@ -145,22 +145,45 @@ fn backgrounds_and_black_are_not_lit() {
 fn everything_that_vanishes_is_noted() {
     let shape = "<rect width='10' height='10' fill='red'/>";
     let inside = format!(
-        "{shape}<text>a</text><text>b</text><image xlink:href='data:image/png;base64,AA'/><foreignObject/>\
+        "{shape}<image xlink:href='data:image/png;base64,AA'/><foreignObject/>\
          <animate/><filter id='f'/><use xlink:href='other.svg#a'/><style>@import 'http://a/b.css';</style>"
     );
     let found = made(&inside).notes;
     let codes: Vec<&str> = found.iter().map(|note| note.code).collect();
-    assert_eq!(codes, ["svg-text", "svg-image", "svg-foreign", "svg-animation", "svg-filter", "svg-outside"]);
-    assert!(found[0].message.starts_with("2 texts are not drawn."), "{}", found[0].message);
-    assert!(found[5].message.starts_with("2 references to other files"), "{}", found[5].message);
+    assert_eq!(codes, ["svg-image", "svg-foreign", "svg-animation", "svg-filter", "svg-outside"]);
+    assert!(found[4].message.starts_with("2 references to other files"), "{}", found[4].message);
+}
+
+#[test]
+fn texts_are_drawn_in_fonts_that_are_inside() {
+    let text = "<text x='10' y='60' font-size='40' fill='red'>Il</text>";
+    let drawn = areas(text);
+    assert_eq!(drawn.iter().map(|area| area.0).collect::<Vec<_>>(), [0xff0000]);
+    assert_eq!(notes(text), [""; 0]);
+    // Two bars, 0.72 of 40 high and about an eighth of it wide.
+    assert!((150.0..600.0).contains(&drawn[0].1), "{drawn:?}");
+    let moved = format!("<g transform='translate(5 20) scale(0.5)'>{text}</g>");
+    assert!((areas(&moved)[0].1 * 4.0 - drawn[0].1).abs() < 0.02 * drawn[0].1);
+    let foreign = text.replace("<text", "<text font-family='No Such Font'");
+    assert_eq!(notes(&foreign), ["svg-font"]);
+    assert_eq!(areas(&foreign), drawn);
+    for script in ["שלום", "سلام", "★", "ß"] {
+        assert!(!areas(&text.replace("Il", script)).is_empty(), "{script}");
+    }
+}
+
+#[test]
+fn a_text_without_end_is_refused() {
+    let long = format!("<text x='0' y='50'>{}</text>", "word ".repeat(40_000));
+    assert_eq!(refusal(page(&long).as_bytes()), Some("svg-too-large"));
 }
 
 #[test]
 fn files_without_anything_to_draw_say_why() {
     assert_eq!(refusal(b""), Some("svg-xml"));
     assert_eq!(refusal(page("").as_bytes()), Some("svg-empty"));
-    let error = draw(page("<text>only words</text>").as_bytes()).expect_err("nothing is drawn");
-    assert!(error.message.contains("A text is not drawn."), "{}", error.message);
+    let error = draw(page("<image xlink:href='a.png'/>").as_bytes()).expect_err("nothing is drawn");
+    assert!(error.message.contains("A picture inside the SVG is not drawn."), "{}", error.message);
     assert_eq!(refusal(b"<html><body/></html>"), Some("svg-tree"));
     assert_eq!(refusal(&[0x1f, 0x8b, 8, 0]), Some("svg-compressed"));
     assert_eq!(refusal(b"<svg>\xe4</svg>"), Some("svg-text"));

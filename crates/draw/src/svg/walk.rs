@@ -95,7 +95,9 @@ impl Walk {
             match node {
                 Node::Group(inner) => self.group(inner, context)?,
                 Node::Path(path) if path.is_visible() => self.path(path, context)?,
-                Node::Path(_) | Node::Image(_) | Node::Text(_) => {}
+                // Its letters have their place in the coordinates of the group already.
+                Node::Text(text) => self.group(text.flattened(), context)?,
+                Node::Path(_) | Node::Image(_) => {}
             }
         }
         Ok(())

@@ -90,6 +90,14 @@ const fn outlines(name: &'static str, title: &'static str, offered: bool, bytes:
     FontInfo { name, title, licence: "OFL-1.1", offered, file: File::Outlines(bytes) }
 }
 
+/// The files of all fonts with outlines, in the order of [`FONTS`].
+pub(crate) fn outline_files() -> impl Iterator<Item = &'static [u8]> {
+    FONTS.iter().filter_map(|info| match info.file {
+        File::Outlines(bytes) => Some(bytes),
+        File::Strokes(_) => None,
+    })
+}
+
 impl Font {
     /// The font inside of that name; `None` for a name that is not in [`FONTS`].
     pub fn built_in(name: &str) -> Option<Self> {

@@ -23,6 +23,7 @@ mod wrap;
 #[cfg(test)]
 mod tests;
 
+pub(crate) use font::outline_files;
 pub use font::{FONTS, Font, FontInfo};
 pub use layout::draw;
 pub use pages::{Page, STEPS_MAX, per_word, scrolling};

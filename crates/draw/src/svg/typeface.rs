@@ -1,0 +1,72 @@
+//! The fonts for texts in SVG files. Fonts of the machine are not read: a drawing is the same everywhere.
+
+use std::collections::BTreeSet;
+use std::sync::{Arc, OnceLock};
+
+use usvg::fontdb::{Database, Family, Query, Source};
+use usvg::{FontFamily, Group, Node};
+
+use crate::error::Note;
+use crate::text::outline_files;
+
+/// Missing fonts that a note names, at most.
+const NAMED: usize = 3;
+
+/// The family that stands in for all that are not inside.
+pub const FAMILY: &str = "Lato";
+
+/// All fonts inside that have outlines.
+pub fn faces() -> Arc<Database> {
+    static FACES: OnceLock<Arc<Database>> = OnceLock::new();
+    FACES
+        .get_or_init(|| {
+            let mut faces = Database::new();
+            for bytes in outline_files() {
+                faces.load_font_source(Source::Binary(Arc::new(bytes)));
+            }
+            faces.set_serif_family(FAMILY);
+            faces.set_sans_serif_family(FAMILY);
+            faces.set_monospace_family(FAMILY);
+            faces.set_cursive_family(FAMILY);
+            faces.set_fantasy_family(FAMILY);
+            Arc::new(faces)
+        })
+        .clone()
+}
+
+/// Says which fonts of texts are not inside.
+pub fn missing(root: &Group) -> Option<Note> {
+    let mut families = BTreeSet::new();
+    collect(root, &mut families);
+    let known = faces();
+    let is_inside = |family: &str| {
+        known.query(&Query { families: &[Family::Name(family)], ..Query::default() }).is_some()
+    };
+    families.retain(|family| !is_inside(family));
+    if families.is_empty() {
+        return None;
+    }
+    let names: Vec<&str> = families.iter().take(NAMED).map(String::as_str).collect();
+    let message = format!(
+        "Texts in the font {} are drawn in Lato Bold. Convert them to paths in the program that made the file to keep their shape.",
+        names.join(", ")
+    );
+    Some(Note::new("svg-font", message))
+}
+
+/// The first family that each text asks for.
+fn collect(group: &Group, families: &mut BTreeSet<String>) {
+    for node in group.children() {
+        match node {
+            Node::Group(inner) => collect(inner, families),
+            Node::Text(text) => {
+                let spans = text.chunks().iter().flat_map(|chunk| chunk.spans());
+                families.extend(spans.filter_map(|span| match span.font().families().first() {
+                    Some(FontFamily::Named(name)) => Some(name.clone()),
+                    _ => None,
+                }));
+            }
+            Node::Path(_) | Node::Image(_) => {}
+        }
+    }
+}
