@@ -19,6 +19,8 @@ const INSTANT_MAX_US: u64 = i64::MAX as u64;
 const DURATION_MAX: Span = Span(3_600_000_000);
 /// Largest coordinate on the wire, metres from the origin (R19, R31).
 const COORDINATE_MAX_M: f64 = 1000.0;
+/// Largest number of a report, in the robot's own unit (R10). A robot that is farther away does not know its place.
+pub(crate) const DOUBLE_MAX: f64 = 1e6;
 
 /// Reads a number: decimal point or comma, exponent, `NaN`, `Infinity`. `None` for all other texts and for texts longer than
 /// `MAX_NUMBER`.
@@ -145,7 +147,7 @@ pub(crate) fn write_six_decimals(out: &mut TextBuffer<'_>, value: f64) -> fmt::R
 /// Writes a number as Java's `Double.toString` prints it, after rounding it to four decimals: `1.3`, `-0.73`,
 /// `1.0E-4`, `NaN`. Places in metres are thus rounded to a tenth of a millimetre.
 pub(crate) fn write_double(out: &mut TextBuffer<'_>, value: f64) -> fmt::Result {
-    if !value.is_finite() || value.abs() > 1e6 {
+    if !value.is_finite() || value.abs() > DOUBLE_MAX {
         return write_not_finite(out, if value.is_finite() { f64::NAN } else { value });
     }
     let scaled = round(value * 1e4);

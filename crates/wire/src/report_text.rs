@@ -5,7 +5,7 @@ use core::fmt::{self, Write};
 use lightbots_base::{RobotId, Vec2};
 
 use crate::fields::{Fields, cut};
-use crate::number::{instant, number, write_digits, write_double, write_int};
+use crate::number::{DOUBLE_MAX, instant, number, write_digits, write_double, write_int};
 use crate::text_buffer::TextBuffer;
 use crate::{Abilities, Blocked, Details, Firmware, Report, RobotState, TimeQuestion};
 
@@ -25,7 +25,8 @@ impl Report {
                 read_detail(&mut details, key, value);
             }
         }
-        Some(Self { id, at: at.is_finite().then_some(at), details })
+        let is_place = at.x.abs() <= DOUBLE_MAX && at.y.abs() <= DOUBLE_MAX;
+        Some(Self { id, at: is_place.then_some(at), details })
     }
 
     /// Appends the report: `<uuid> <x> <y>` and the details, if there are any.
@@ -113,7 +114,7 @@ fn known(details: &mut Option<Details>) -> &mut Details {
 }
 
 fn finite(value: &str) -> Option<f64> {
-    number(value).filter(|value| value.is_finite())
+    number(value).filter(|value| value.abs() <= DOUBLE_MAX)
 }
 
 /// `gap@towards`.

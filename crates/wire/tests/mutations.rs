@@ -1,0 +1,113 @@
+//! Seeded mutations of good messages for every decoder of the wire: none panics, and what was read is the same after writing
+//! and reading it again.
+//!
+//! `LIGHTBOTS_MUTATIONS=1000000 cargo test -p lightbots-wire --release --test mutations` tries more than the usual run.
+//! Bytes that break a decoder are written to `corpus`, whose files every run reads.
+
+#[path = "../../exchange/tests/mutator/mod.rs"]
+mod mutator;
+#[path = "../../exchange/tests/numbers/mod.rs"]
+mod numbers;
+
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::PathBuf;
+
+use lightbots_wire::{Command, Report, TimeQuestion, Topic, commands, encode};
+use mutator::mutate;
+use numbers::Numbers;
+
+/// Mutations of each message in a usual run.
+const USUAL: usize = 2_000;
+
+/// Longest payload after a mutation: doubled pieces would grow without end.
+const LONGEST: usize = 4_096;
+
+const GOOD: [&str; 17] = [
+    "|TARGET 0.500000 -1.250000||COLOR 16753920|",
+    "|UUID|",
+    "|PATH 4000000007 -12500 13000 R 350000 C 270000 -12500 13000 -12500 12879 -12500 12636 L 5050370 -12500 -1000 G 12|",
+    "|START 7 12345678||HOLD 1||RESUME 9223372036854775807|",
+    "|STOP||STATUS|",
+    "|TIME 5 900 950|",
+    "|FADE 255 77 500000|",
+    "|BLINK 2000000|",
+    "abfe6805-3c60-4e5a-ba40-2dcf7cb5d8e8 1.3 -0.73",
+    "r7 NaN NaN",
+    "abfe6805 -0.73 1.0E-4 state=driving h=1.25 off=0.0034 route=12 starts=8000000 clock=450 bat=87 unknown=3",
+    "r1 0 0 can=route+fade+blink+room+neighbours fw=lightbots-0.1.0 err=0.0012 blocked=0.0021@-1.5 sim=1",
+    "r7 42",
+    "T/LightBot/r1",
+    "BotControl/a",
+    "Broadcast",
+    "Position",
+];
+
+fn corpus() -> PathBuf {
+    PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests/corpus")
+}
+
+/// Reads the bytes as everything that can come over the wire; answers whether any decoder took them.
+fn read(bytes: &[u8]) -> bool {
+    let mut is_read = false;
+    for command in commands(bytes).flatten() {
+        is_read = true;
+        // A robot refuses such a target (R19); its last decimals are beyond what a number holds.
+        if matches!(command, Command::Target(to) if to.x.abs().max(to.y.abs()) > 1_000.0) {
+            continue;
+        }
+        let mut text = String::new();
+        encode(&command, &mut text).unwrap();
+        let mut again = String::new();
+        commands(text.as_bytes()).flatten().for_each(|command| encode(&command, &mut again).unwrap());
+        assert_eq!(again, text);
+    }
+    if let Some(report) = Report::decode(bytes) {
+        is_read = true;
+        let mut text = String::new();
+        report.encode(&mut text).unwrap();
+        let mut again = String::new();
+        let report = Report::decode(text.as_bytes()).unwrap_or_else(|| panic!("{text} is not read again"));
+        report.encode(&mut again).unwrap();
+        assert_eq!(again, text);
+    }
+    is_read |= TimeQuestion::decode(bytes).is_some();
+    is_read | std::str::from_utf8(bytes).is_ok_and(|text| Topic::parse(text).is_some())
+}
+
+fn holds(bytes: &[u8]) -> bool {
+    catch_unwind(AssertUnwindSafe(|| read(bytes))).unwrap_or_else(|_| {
+        let hash = bytes.iter().fold(0xcbf2_9ce4_8422_2325_u64, |hash, byte| {
+            (hash ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3)
+        });
+        let file = corpus().join(format!("broke-{hash:016x}"));
+        std::fs::write(&file, bytes).unwrap();
+        panic!("a decoder breaks at {}; keep that file", file.display());
+    })
+}
+
+#[test]
+fn no_mutation_breaks_a_decoder() {
+    let rounds = std::env::var("LIGHTBOTS_MUTATIONS").ok().and_then(|text| text.parse().ok());
+    let mut numbers = Numbers(1);
+    let (mut were_read, mut tried) = (0, 0);
+    for good in GOOD {
+        holds(good.as_bytes());
+        for _ in 0..rounds.unwrap_or(USUAL) {
+            let mut bytes = good.as_bytes().to_vec();
+            for _ in 0..=numbers.below(4) {
+                mutate(&mut bytes, &mut numbers);
+            }
+            bytes.truncate(LONGEST);
+            tried += 1;
+            were_read += usize::from(holds(&bytes));
+        }
+    }
+    assert!(were_read * 20 > tried && were_read < tried, "{were_read} of {tried} are read");
+}
+
+#[test]
+fn messages_that_broke_a_decoder_once_do_not_any_more() {
+    for file in std::fs::read_dir(corpus()).unwrap().flatten() {
+        holds(&std::fs::read(file.path()).unwrap());
+    }
+}
