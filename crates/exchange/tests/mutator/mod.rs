@@ -1,6 +1,6 @@
 //! Seeded mutations of files and messages, for tests of everything that reads what others send.
 
-use crate::numbers::Numbers;
+use super::numbers::Numbers;
 
 /// Changes the bytes in one place; they are never empty afterwards.
 pub fn mutate(bytes: &mut Vec<u8>, numbers: &mut Numbers) {

@@ -22,6 +22,7 @@ mod http;
 mod library;
 mod make;
 mod mosquitto;
+mod mutations;
 mod original_controller;
 mod original_robot;
 mod plain_mqtt;
