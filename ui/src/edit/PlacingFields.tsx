@@ -10,7 +10,7 @@ import { useEditor } from './context';
 import { SliderField } from './SliderField';
 
 const LABELS: Record<Style, string> = {
-  auto: 'Automatic',
+  auto: 'Auto',
   filled: 'Filled',
   outline: 'Outline',
   both: 'Both',

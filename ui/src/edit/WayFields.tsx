@@ -4,10 +4,10 @@ import { WAYS, type PictureWay } from '../make/draft';
 import type { Making } from '../make/making';
 
 const LABELS: Record<PictureWay, string> = {
-  auto: 'Automatic',
+  auto: 'Auto',
   silhouette: 'Silhouette',
   outline: 'Outline',
-  tones: 'Light and dark',
+  tones: 'Tones',
 };
 
 /** What the checkbox does, which depends on what is shown. */
