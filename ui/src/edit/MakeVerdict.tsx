@@ -1,19 +1,12 @@
-import { IconAlertTriangle, IconCircleCheck, IconInfoCircle } from '@tabler/icons-react';
 import { useStore } from '../base/store';
 import { lengthText, type Unit } from '../base/units';
 import { drawnKind } from '../make/drawnLine';
-import type { Pictures } from '../make/pictures';
+import { sizeOf, type Pictures } from '../make/pictures';
 import { verdictOf } from '../make/verdict';
 import type { Making } from '../make/making';
+import { VerdictIcon } from '../parts/VerdictIcon';
 import { useUnit } from '../session/preferences';
 import styles from './Make.module.css';
-
-const ICONS = {
-  good: IconCircleCheck,
-  care: IconAlertTriangle,
-  bad: IconAlertTriangle,
-  none: IconInfoCircle,
-} as const;
 
 /** How well the robots show what is made, or why they do not. */
 export function MakeVerdict({ making }: { making: Making }) {
@@ -24,7 +17,6 @@ export function MakeVerdict({ making }: { making: Making }) {
   const isDrawn = useStore(making.draft, (draft) => drawnKind(draft) !== null);
   const start = isDrawn ? DRAW : START[tab];
   const { tone, text } = told ? verdictOf(told, making.robots) : start;
-  const Icon = ICONS[tone];
   return (
     <div
       className={styles.verdict}
@@ -33,7 +25,7 @@ export function MakeVerdict({ making }: { making: Making }) {
       data-tone={tone}
       data-old={answer === null || undefined}
     >
-      <Icon size={17} aria-hidden />
+      <VerdictIcon tone={tone} size={17} />
       <div>
         {text}
         {told && told.error === null ? <small>{figures(told, unit)}</small> : null}
@@ -58,10 +50,9 @@ const notesOf = ({ notes, pictures }: Pictures): string[] =>
     ...new Set([...notes, ...pictures.flatMap((p) => p.answer.notes)].map((note) => note.message)),
   ].slice(0, 4);
 
-function figures({ pictures }: Pictures, unit: Unit): string {
-  const answers = pictures.map((picture) => picture.answer);
-  const size_m = Math.max(...answers.map((answer) => answer.size_m));
+function figures(made: Pictures, unit: Unit): string {
+  const answers = made.pictures.map((picture) => picture.answer);
   const gaps = answers.flatMap(({ closest_m }) => (closest_m === null ? [] : [closest_m]));
   const gap = gaps.length === 0 ? '' : ` · ${lengthText(Math.min(...gaps), unit)} apart`;
-  return `${answers[0]?.pixels.length ?? 0} robots · ${lengthText(size_m, unit)} wide${gap}`;
+  return `${answers[0]?.pixels.length ?? 0} robots · ${lengthText(sizeOf(made) ?? 0, unit)} wide${gap}`;
 }

@@ -1,4 +1,4 @@
-import { Button, Group, SegmentedControl, Stack, Text } from '@mantine/core';
+import { Button, Group, Stack, Text } from '@mantine/core';
 import { useStore } from '../base/store';
 import { lengthText } from '../base/units';
 import { DRAWN } from '../make/drawnLine';
@@ -6,6 +6,7 @@ import { STYLES, type Draft, type Style } from '../make/draft';
 import type { Making } from '../make/making';
 import { LengthInput } from '../parts/LengthInput';
 import { useUnit } from '../session/preferences';
+import { ChoiceField } from './ChoiceField';
 import { useEditor } from './context';
 import { SliderField } from './SliderField';
 
@@ -39,19 +40,13 @@ export function PlacingFields({ making }: { making: Making }) {
   return (
     <Stack gap="sm">
       {hasInside(draft) ? (
-        <div>
-          <Text size="xs" fw={600} mb={4}>
-            Style
-          </Text>
-          <SegmentedControl
-            aria-label="Style"
-            size="xs"
-            fullWidth
-            value={draft.style}
-            onChange={(style) => making.change({ style: style as Style })}
-            data={STYLES.map((value) => ({ value, label: LABELS[value] }))}
-          />
-        </div>
+        <ChoiceField
+          label="Style"
+          value={draft.style}
+          values={STYLES}
+          labels={LABELS}
+          onChange={(style) => making.change({ style })}
+        />
       ) : null}
       <SliderField
         label="Size"

@@ -1,7 +1,8 @@
-import { Checkbox, SegmentedControl, Text } from '@mantine/core';
+import { Checkbox } from '@mantine/core';
 import { useStore } from '../base/store';
 import { WAYS, type PictureWay } from '../make/draft';
 import type { Making } from '../make/making';
+import { ChoiceField } from './ChoiceField';
 
 const LABELS: Record<PictureWay, string> = {
   auto: 'Auto',
@@ -19,16 +20,12 @@ export function WayFields({ making }: { making: Making }) {
   const { way, inverted } = useStore(making.draft);
   return (
     <div>
-      <Text size="xs" fw={600} mb={4}>
-        Show
-      </Text>
-      <SegmentedControl
-        aria-label="Show"
-        size="xs"
-        fullWidth
+      <ChoiceField
+        label="Show"
         value={way}
-        onChange={(next) => making.change({ way: next as PictureWay })}
-        data={WAYS.map((value) => ({ value, label: LABELS[value] }))}
+        values={WAYS}
+        labels={LABELS}
+        onChange={(next) => making.change({ way: next })}
       />
       <Checkbox
         mt="xs"

@@ -2,21 +2,11 @@ import { expect, test } from 'vitest';
 import type { Broker, FleetRow, Plan } from '../api/types.gen';
 import { pinPixel } from '../model/commands';
 import { newShow } from '../model/show';
+import { robotRow } from './robots.testing';
 import { canGoOn, checklistOf, isReady, type Check, type Situation } from './checklist';
 
-const row = (id: string, over: Partial<FleetRow> = {}): FleetRow => ({
-  id,
-  status: 'idle',
-  presence: 'active',
-  age_s: 0,
-  battery: 80,
-  pixel: null,
-  firmware: null,
-  abilities: { route: true, fade: true, blink: true },
-  clock_us: 5,
-  simulated: false,
-  ...over,
-});
+const row = (id: string, over: Partial<FleetRow> = {}): FleetRow =>
+  robotRow({ id, simulated: false, ...over });
 const plan: Plan = {
   revision: 1,
   planning: false,
