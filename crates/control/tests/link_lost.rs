@@ -2,26 +2,13 @@
 
 mod fleet;
 
-use fleet::{World, show};
+use fleet::{World, show, started};
 use lightbots_base::Span;
 use lightbots_control::{Config, ControllerState, EventKind, Operation, Refusal, RunOutcome};
 use std::sync::Arc;
 
-fn started(kind: &EventKind) -> bool {
-    matches!(kind, EventKind::TransitionStarted { .. })
-}
-
 fn lost(kind: &EventKind) -> bool {
     matches!(kind, EventKind::LinkLost { .. })
-}
-
-/// Ten robots a second after they left for the first of three frames.
-fn under_way() -> World {
-    let mut world = World::ready(10, 0, show(3, 10, 0.3));
-    world.play();
-    world.run_until(10.0, started);
-    world.run_for(1.0);
-    world
 }
 
 /// The broker keeps messages for that long.
@@ -34,7 +21,7 @@ fn freeze(world: &mut World, seconds: f64) {
 #[test]
 fn a_broker_that_freezes_costs_time_and_no_robot() {
     for seconds in [1.0, 4.0, 20.0] {
-        let mut world = under_way();
+        let mut world = World::under_way(10);
         freeze(&mut world, seconds);
         assert_eq!(world.run_to_end(90.0), (RunOutcome::Finished, 3, 0), "{seconds} s\n{}", world.story());
         assert_eq!(world.count(lost), usize::from(seconds > 2.0), "{seconds} s\n{}", world.story());
@@ -55,7 +42,7 @@ fn a_broker_that_freezes_while_a_frame_stands_or_a_start_is_stated_costs_no_robo
 
 #[test]
 fn after_more_than_half_a_minute_the_operator_says_that_it_goes_on() {
-    let mut world = under_way();
+    let mut world = World::under_way(10);
     freeze(&mut world, 20.0);
     world.frozen = true;
     assert_eq!(world.operate(Operation::GoOn), Err(Refusal::NothingToGoOn), "no robot reports");
@@ -74,7 +61,7 @@ fn after_more_than_half_a_minute_the_operator_says_that_it_goes_on() {
 #[test]
 fn a_few_silent_robots_are_lost_and_many_are_not() {
     for (dead, dropouts) in [(2, 2), (3, 0)] {
-        let mut world = under_way();
+        let mut world = World::under_way(10);
         (0..dead).for_each(|robot| world.robots[robot].dead = true);
         world.run_for(6.0);
         assert_eq!(
@@ -89,7 +76,7 @@ fn a_few_silent_robots_are_lost_and_many_are_not() {
 
 #[test]
 fn robots_that_stay_silent_after_the_others_are_back_drop_out() {
-    let mut world = under_way();
+    let mut world = World::under_way(10);
     (0..5).for_each(|robot| world.robots[robot].dead = true);
     world.run_until(5.0, lost);
     (0..3).for_each(|robot| world.robots[robot].dead = false);
@@ -98,7 +85,7 @@ fn robots_that_stay_silent_after_the_others_are_back_drop_out() {
 
 #[test]
 fn the_operator_goes_on_without_robots_that_stay_silent() {
-    let mut world = under_way();
+    let mut world = World::under_way(10);
     (0..5).for_each(|robot| world.robots[robot].dead = true);
     world.run_until(5.0, lost);
     world.run_for(10.0);
@@ -125,7 +112,7 @@ fn robots_that_are_out_of_reach_for_good_end_the_run() {
 
 #[test]
 fn the_operator_can_end_a_run_whose_robots_are_out_of_reach() {
-    let mut world = under_way();
+    let mut world = World::under_way(10);
     world.frozen = true;
     world.run_until(5.0, lost);
     world.operate(Operation::Abort).unwrap();
@@ -149,7 +136,7 @@ fn robots_that_know_target_only_are_not_dropped_for_a_frozen_broker() {
 
 #[test]
 fn a_robot_that_floods_is_named_and_the_others_play_on() {
-    let mut world = under_way();
+    let mut world = World::under_way(10);
     let flooder = world.robots[3].id;
     for _ in 0..20 {
         let at = world.robots[3].at;

@@ -2,7 +2,7 @@
 
 mod fleet;
 
-use fleet::{Dice, World, show};
+use fleet::{Dice, World, show, started};
 use lightbots_base::{Span, Vec2};
 use lightbots_control::{ControllerState, EventKind, MissingPolicy, Operation, Refusal, RunOutcome, Trouble};
 use lightbots_show::Identity;
@@ -10,19 +10,6 @@ use lightbots_wire::Blocked;
 use std::sync::Arc;
 
 const CONTACT_M: f64 = 0.054;
-
-fn started(kind: &EventKind) -> bool {
-    matches!(kind, EventKind::TransitionStarted { .. })
-}
-
-/// Eight robots a second after they left for the first of three frames.
-fn a_second_under_way() -> World {
-    let mut world = World::ready(8, 0, show(3, 8, 0.3));
-    world.play();
-    world.run_until(10.0, started);
-    world.run_for(1.0);
-    world
-}
 
 /// Eight robots in the first of two frames, in the second of which those beyond `movers` stay where they are. The START
 /// of the drive there is put off because the first robot that has to move does not receive it, while the clocks of the
@@ -94,7 +81,7 @@ fn lossy_and_slow_links_lose_no_robot() {
 
 #[test]
 fn a_broker_that_passes_nothing_on_costs_no_robot() {
-    let mut world = a_second_under_way();
+    let mut world = World::under_way(8);
     world.mute = true;
     world.run_until(30.0, |kind| *kind == EventKind::Undelivered);
     world.run_for(20.0);
@@ -106,7 +93,7 @@ fn a_broker_that_passes_nothing_on_costs_no_robot() {
 /// A cluster of brokers that lost a node may drop subscriptions of those who came from there.
 #[test]
 fn robots_that_hear_late_after_the_broker_came_back_are_waited_for() {
-    let mut world = a_second_under_way();
+    let mut world = World::under_way(8);
     world.link(false);
     world.run_for(3.0);
     world.deaf = vec![2, 5];
@@ -119,7 +106,7 @@ fn robots_that_hear_late_after_the_broker_came_back_are_waited_for() {
 
 #[test]
 fn one_that_stays_so_ends_the_run_in_bounded_time() {
-    let mut world = a_second_under_way();
+    let mut world = World::under_way(8);
     world.mute = true;
     let (outcome, _, dropouts) = world.run_to_end(330.0);
     assert!(matches!(&outcome, RunOutcome::Failed(why) if why.contains("acknowledges")), "{outcome:?}");
@@ -156,7 +143,7 @@ fn who_dies_while_all_are_stopped_for_another_is_planned_around_too() {
 
 #[test]
 fn a_robot_that_finds_something_in_its_way_leads_to_the_one_that_died_there() {
-    let mut world = a_second_under_way();
+    let mut world = World::under_way(8);
     let towards = world.robots[4].at - world.robots[3].at;
     (world.robots[3].stuck, world.robots[4].dead) = (true, true);
     world.robots[3].blocked = Some(Blocked { gap_m: towards.length() - CONTACT_M, towards: towards.angle() });
@@ -172,7 +159,7 @@ fn a_robot_that_finds_something_in_its_way_leads_to_the_one_that_died_there() {
 
 #[test]
 fn what_nobody_knows_is_driven_around_and_the_run_ends_in_bounded_time() {
-    let mut world = a_second_under_way();
+    let mut world = World::under_way(8);
     world.robots[3].stuck = true;
     world.robots[3].blocked = Some(Blocked { gap_m: 0.002, towards: 0.3 });
     let (outcome, frames, dropouts) = world.run_to_end(120.0);
@@ -213,7 +200,7 @@ fn a_robot_that_never_drives_again_does_not_come_back() {
 /// Who stands still sees those coming who drive on, and is blocked by them, too.
 #[test]
 fn of_two_that_see_each_other_the_one_that_was_late_before_is_left_out() {
-    let mut world = a_second_under_way();
+    let mut world = World::under_way(8);
     world.robots[4].stuck = true;
     world.robots[4].introduce();
     world.run_for(0.5);
@@ -245,7 +232,7 @@ fn a_robot_that_was_late_is_waited_for() {
 
 #[test]
 fn an_unsure_robot_is_waited_for_until_it_is_sure() {
-    let mut world = a_second_under_way();
+    let mut world = World::under_way(8);
     world.robots[3].unsure = true;
     world.robots[3].introduce();
     world.run_until(3.0, |kind| matches!(kind, EventKind::Waiting { .. }));
@@ -259,7 +246,7 @@ fn an_unsure_robot_is_waited_for_until_it_is_sure() {
 
 #[test]
 fn who_is_never_sure_does_not_stop_the_show() {
-    let mut world = a_second_under_way();
+    let mut world = World::under_way(8);
     world.robots[3].unsure = true;
     assert_eq!(world.run_to_end(240.0), (RunOutcome::Finished, 3, 0), "{}", world.story());
     assert!(world.count(|kind| matches!(kind, EventKind::Resumed)) > 1, "{}", world.story());
@@ -295,7 +282,7 @@ fn a_robot_restarted_in_a_picture_shows_it_again() {
 #[test]
 fn a_broker_lost_in_the_middle_of_a_run_only_costs_time() {
     for gap_s in [0.5, 6.0] {
-        let mut world = a_second_under_way();
+        let mut world = World::under_way(8);
         world.link(false);
         world.run_for(gap_s);
         assert_eq!(world.controller.state(), ControllerState::LinkLost);
@@ -322,7 +309,7 @@ fn a_broker_lost_while_a_picture_stands_does_not_cut_its_air_time_short() {
 
 #[test]
 fn reports_of_robots_that_take_no_part_do_not_end_a_run() {
-    let mut world = a_second_under_way();
+    let mut world = World::under_way(8);
     // All is planned anew while they say to stand where others do.
     world.robots[5].dead = true;
     for _ in 0..20 {
@@ -340,7 +327,7 @@ fn reports_of_robots_that_take_no_part_do_not_end_a_run() {
 
 #[test]
 fn a_controller_restarted_in_the_middle_of_a_run_can_play_again() {
-    let mut world = a_second_under_way();
+    let mut world = World::under_way(8);
     world.replace_controller();
     world.run_for(0.5);
     world.operate(Operation::Open(Arc::new(show(2, 8, 0.1)))).unwrap();
@@ -350,7 +337,7 @@ fn a_controller_restarted_in_the_middle_of_a_run_can_play_again() {
 
 #[test]
 fn everybody_can_be_stopped_even_when_another_set_them_going() {
-    let mut world = a_second_under_way();
+    let mut world = World::under_way(8);
     world.replace_controller();
     world.run_for(0.3);
     world.operate(Operation::StopAll).unwrap();

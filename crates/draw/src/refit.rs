@@ -63,62 +63,77 @@ pub fn refit(
         let what = format!("{robots} robots; a picture takes 1 to {MAX_ROBOTS}");
         return Err(DrawError::new("bad-setting", what));
     }
+    let task = Refit::new(lights, pinned, robots, spacing_m, floor);
+    // Lights whose number stays do not move, whatever the width.
+    let widths = if robots == lights.len() { &HALF_WIDTHS[..1] } else { &HALF_WIDTHS };
     let mut refusal = None;
-    let task = Refit { lights, pinned, robots, spacing_m, floor };
-    for half_width in HALF_WIDTHS {
-        match task.with_lines(half_width) {
+    for half_width in widths {
+        match task.with_lines(*half_width) {
             Ok(refitted) => return Ok(refitted),
             Err(error) => refusal = Some(error),
         }
     }
-    Err(refusal.unwrap_or_else(|| DrawError::new("too-many-robots", "there is no room for these robots")))
+    Err(refusal.unwrap_or_else(|| no_room(robots, spacing_m, 0.0)))
 }
 
-/// What is asked of a picture.
+/// What is asked of a picture, and what does not depend on the width of its lines.
 struct Refit<'a> {
     lights: &'a [PlacedLight],
-    pinned: &'a [bool],
+    places: Vec<Vec2>,
+    /// Median distance to the nearest neighbour, metres.
+    typical: f64,
+    /// Lights that stay, the pinned ones first.
+    staying: Vec<usize>,
+    /// Number of pinned ones among them.
+    kept: usize,
     robots: usize,
     spacing_m: f64,
     floor: &'a PictureFloor,
 }
 
-impl Refit<'_> {
-    fn is_pinned(&self, index: usize) -> bool {
-        self.pinned.get(index).copied().unwrap_or(false)
+impl<'a> Refit<'a> {
+    fn new(
+        lights: &'a [PlacedLight],
+        pinned: &[bool],
+        robots: usize,
+        spacing_m: f64,
+        floor: &'a PictureFloor,
+    ) -> Self {
+        let places: Vec<Vec2> = lights.iter().map(|light| light.at).collect();
+        let is_pinned = |index: usize| pinned.get(index).copied().unwrap_or(false);
+        let mut order: Vec<usize> = (0..lights.len()).collect();
+        order.sort_by_key(|index| !is_pinned(*index));
+        let staying = staying(&places, &order, robots, is_pinned);
+        let kept = staying.iter().filter(|index| is_pinned(**index)).count();
+        Self { lights, typical: typical_distance(&places), places, staying, kept, robots, spacing_m, floor }
     }
 
     /// The picture on lines of this half width, in typical distances.
     fn with_lines(&self, half_width: f64) -> Result<Vec<RefitLight>, DrawError> {
-        let places: Vec<Vec2> = self.lights.iter().map(|light| light.at).collect();
-        let mut order: Vec<usize> = (0..places.len()).collect();
-        order.sort_by_key(|index| !self.is_pinned(*index));
-        let typical = typical_distance(&places);
-        let samples: Vec<Sample> = samples(&places, typical, half_width)
+        let Self { lights, places, typical, staying, kept, robots, spacing_m, floor } = self;
+        let samples: Vec<Sample> = samples(places, *typical, half_width)
             .into_iter()
-            .filter(|sample| self.floor.allows(sample.at))
+            .filter(|sample| floor.allows(sample.at))
             .collect();
-        let staying = staying(&places, &order, self.robots, |index| self.is_pinned(index));
         let mut now: Vec<Vec2> = staying.iter().map(|index| places[*index]).collect();
         let mass: f64 = samples.iter().map(|sample| sample.mass).sum();
-        let spacing = hexagonal_spacing(mass, self.robots);
+        let spacing = hexagonal_spacing(mass, *robots);
         // Finding out by trying takes seconds for thousands of robots.
-        let rows = mass / (2.0 * half_width * typical * self.spacing_m);
-        let fitting = hexagonal_count(mass, self.spacing_m).max(rows);
-        if self.robots > staying.len() && self.robots as f64 > SPARE * fitting {
-            return Err(no_room(self.robots, self.spacing_m, RELAXED * fitting));
+        let rows = mass / (2.0 * half_width * typical * spacing_m);
+        let fitting = hexagonal_count(mass, *spacing_m).max(rows);
+        if *robots > staying.len() && *robots as f64 > SPARE * fitting {
+            return Err(no_room(*robots, *spacing_m, RELAXED * fitting));
         }
-        now.extend(seeds(&samples, &now, self.robots - staying.len(), spacing, 1));
-        let kept = staying.iter().filter(|index| self.is_pinned(**index)).count();
-        if self.robots != places.len() {
-            Lloyd { samples: &samples, kept, spacing, rounds: ROUNDS, pairing: None }.run(&mut now);
+        now.extend(seeds(&samples, &now, robots - staying.len(), spacing, 1));
+        if *robots != places.len() {
+            Lloyd { samples: &samples, kept: *kept, spacing, rounds: ROUNDS, pairing: None }.run(&mut now);
         }
-        spread(&mut now, self.spacing_m, self.floor)?;
-        let nearest = Buckets::new(&places, typical.max(1e-6));
+        spread(&mut now, *spacing_m, floor)?;
+        let nearest = Buckets::new(places, typical.max(1e-6));
         let refitted = now.iter().enumerate().map(|(index, at)| {
             let from = staying.get(index).copied();
             let source = from.or(nearest.nearest(*at).map(|(near, _)| near)).unwrap_or(0);
-            RefitLight { light: PlacedLight { at: *at, ..self.lights[source] }, from }
+            RefitLight { light: PlacedLight { at: *at, ..lights[source] }, from }
         });
         Ok(refitted.collect())
     }

@@ -16,7 +16,7 @@ use image::{ImageFormat, Rgba, RgbaImage};
 use lightbots_draw::picture::PictureSettings;
 use lightbots_draw::text::{Font, TextSettings};
 use lightbots_draw::{DrawError, animation, list, picture, svg, text};
-use mutator::mutate;
+use mutator::{corpus_files, keep_broken, mutant, rounds};
 use numbers::Numbers;
 
 /// Mutations of each file in a usual run.
@@ -98,33 +98,22 @@ fn is_read((name, decode): Decoder, bytes: &[u8]) -> bool {
             false
         }
         Err(_) => {
-            let file = corpus(name).join(format!("broke-{:016x}", fnv1a(bytes)));
-            std::fs::write(&file, bytes).unwrap();
+            let file = keep_broken(&corpus(name), bytes);
             panic!("the decoder {name} breaks at {}; keep that file", file.display());
         }
     }
 }
 
-fn fnv1a(bytes: &[u8]) -> u64 {
-    let step = |hash: u64, byte: &u8| (hash ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3);
-    bytes.iter().fold(0xcbf2_9ce4_8422_2325, step)
-}
-
 #[test]
 fn no_mutation_breaks_a_decoder() {
-    let rounds = std::env::var("LIGHTBOTS_MUTATIONS").ok().and_then(|text| text.parse().ok());
     let mut numbers = Numbers(1);
     for decoder in DECODERS {
         let (mut were_read, mut tried) = (0, 0);
         for good in seeds(decoder.0) {
             assert!(is_read(decoder, &good), "a good file of {} is refused", decoder.0);
-            for _ in 0..rounds.unwrap_or(USUAL) {
-                let mut bytes = good.clone();
-                for _ in 0..=numbers.below(3) {
-                    mutate(&mut bytes, &mut numbers);
-                }
+            for _ in 0..rounds(USUAL) {
                 tried += 1;
-                were_read += usize::from(is_read(decoder, &bytes));
+                were_read += usize::from(is_read(decoder, &mutant(&good, 3, &mut numbers)));
             }
         }
         assert!(were_read > 0 && were_read < tried, "{}: {were_read} of {tried} are read", decoder.0);
@@ -134,8 +123,8 @@ fn no_mutation_breaks_a_decoder() {
 #[test]
 fn files_that_broke_a_decoder_once_do_not_any_more() {
     for decoder in DECODERS {
-        for file in std::fs::read_dir(corpus(decoder.0)).unwrap().flatten() {
-            is_read(decoder, &std::fs::read(file.path()).unwrap());
+        for bytes in corpus_files(&corpus(decoder.0)) {
+            is_read(decoder, &bytes);
         }
     }
 }

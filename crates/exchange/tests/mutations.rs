@@ -8,7 +8,7 @@ use extras::with_every_part;
 use lightbots_base::{Rgb, Vec2};
 use lightbots_exchange::{FORMATS, read};
 use lightbots_show::{Easing, Frame, Identity, Obstacle, Pixel, Show, Stage, front_rows, validate};
-use mutator::mutate;
+use mutator::mutant;
 use numbers::Numbers;
 
 fn seed_show() -> Show {
@@ -46,10 +46,7 @@ fn no_mutation_breaks_reading_or_validating() {
     for format in FORMATS {
         let good = format.write(&seed_show(), None).bytes;
         for _ in 0..4_000 {
-            let mut bytes = good.clone();
-            for _ in 0..=numbers.below(3) {
-                mutate(&mut bytes, &mut numbers);
-            }
+            let bytes = mutant(&good, 3, &mut numbers);
             match read(&bytes, Some("a.json")) {
                 Ok(loaded) => {
                     were_read += 1;

@@ -4,10 +4,13 @@
 //! One line for each show: how many of the runs were found and finished, dropouts, contacts, how long robots took to stand.
 #![allow(clippy::print_stdout, clippy::print_stderr)]
 
+#[path = "arguments/mod.rs"]
+mod arguments;
+
 use std::process::ExitCode;
 
 use lightbots_show::Show;
-use lightbots_sim::{Conditions, Dice, Faults, Purpose, RehearsalOptions, RehearsalReport, rehearse};
+use lightbots_sim::{Dice, Purpose, RehearsalReport};
 
 /// Shares of the runs whose controller is back while robots drive, after they stand, and after so long that it asks.
 const SHARES: [f64; 2] = [0.4, 0.95];
@@ -15,26 +18,19 @@ const SHARES: [f64; 2] = [0.4, 0.95];
 const AWAY_S: [(f64, f64); 3] = [(0.1, 2.0), (2.0, 12.0), (31.0, 60.0)];
 
 fn main() -> ExitCode {
-    let mut arguments = std::env::args().skip(1);
-    let kills: u64 = arguments.next().and_then(|text| text.parse().ok()).unwrap_or(100);
-    let mut shows: Vec<String> = arguments.collect();
-    if shows.is_empty() {
-        shows.push("shows/hello.json".into());
-    }
+    arguments::main(run)
+}
+
+/// Whether every run was finished without a contact.
+fn run(args: &[String]) -> Result<bool, String> {
+    let kills = arguments::number(args, 0, 100, "usage: crashes [KILLS] [SHOW…]")?;
     let mut is_fine = true;
-    for path in shows {
-        let Some(show) = read(&path) else { return ExitCode::FAILURE };
-        let sum = Sum::of(&show, kills);
+    for path in arguments::show_files(args, 1) {
+        let sum = Sum::of(&arguments::show(&path)?, kills)?;
         is_fine &= sum.finished == kills && sum.contacts == 0;
         println!("{path}: {sum}");
     }
-    if is_fine { ExitCode::SUCCESS } else { ExitCode::FAILURE }
-}
-
-fn read(path: &str) -> Option<Show> {
-    let bytes = std::fs::read(path).inspect_err(|error| eprintln!("{path}: {error}")).ok()?;
-    let loaded = lightbots_exchange::read(&bytes, Some(path));
-    loaded.inspect_err(|error| eprintln!("{path}: {error}")).ok().map(|loaded| loaded.show)
+    Ok(is_fine)
 }
 
 /// What all runs came to.
@@ -51,8 +47,8 @@ struct Sum {
 }
 
 impl Sum {
-    fn of(show: &Show, kills: u64) -> Self {
-        let duration_s = play(show, "", 1).duration_s;
+    fn of(show: &Show, kills: u64) -> Result<Self, String> {
+        let duration_s = arguments::play(show, "", 1)?.duration_s;
         let mut sum = Self::default();
         for seed in 1..=kills {
             let mut dice = Dice::new(seed, Purpose::Scene);
@@ -60,13 +56,13 @@ impl Sum {
             let (from_s, to_s) = AWAY_S[kind];
             let at_s = dice.between(0.0, duration_s - 0.1);
             let faults = format!("crash={at_s:.3}s+{:.3}s", dice.between(from_s, to_s));
-            sum.add(&play(show, &faults, seed), &faults);
+            sum.add(&arguments::play(show, &faults, seed)?, &faults);
         }
-        sum
+        Ok(sum)
     }
 
     fn add(&mut self, report: &RehearsalReport, faults: &str) {
-        let count = |code: &str| report.issues.iter().filter(|issue| issue.code == code).count();
+        let count = |code| arguments::count(report, code);
         let is_finished = report.frames_played == report.frames;
         let stop_s = report.stop_after_crash_s.unwrap_or(0.0);
         self.runs += 1;
@@ -92,11 +88,4 @@ impl core::fmt::Display for Sum {
         )?;
         bad.iter().try_for_each(|line| write!(f, "\n  {line}"))
     }
-}
-
-fn play(show: &Show, faults: &str, seed: u64) -> RehearsalReport {
-    let faults =
-        if faults.is_empty() { Faults::default() } else { Faults::parse(faults).expect("it is well-formed") };
-    let conditions = faults.added_to(Conditions::default());
-    rehearse(show, &RehearsalOptions { seed, conditions, robots: None }, &mut |_| {})
 }

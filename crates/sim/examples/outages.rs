@@ -5,10 +5,13 @@
 //! out, robots touched, and how often the operator had to press.
 #![allow(clippy::print_stdout, clippy::print_stderr)]
 
+#[path = "arguments/mod.rs"]
+mod arguments;
+
 use std::process::ExitCode;
 
 use lightbots_show::Show;
-use lightbots_sim::{Conditions, Faults, RehearsalOptions, RehearsalReport, rehearse};
+use lightbots_sim::RehearsalReport;
 
 /// When outages begin, seconds after the first departure.
 const MOMENTS_S: [f64; 6] = [0.7, 2.3, 3.9, 6.1, 9.5, 13.2];
@@ -16,28 +19,21 @@ const MOMENTS_S: [f64; 6] = [0.7, 2.3, 3.9, 6.1, 9.5, 13.2];
 const LENGTHS_S: [f64; 9] = [0.5, 1.0, 1.3, 1.7, 2.5, 4.0, 10.0, 20.0, 40.0];
 
 fn main() -> ExitCode {
-    let mut arguments = std::env::args().skip(1);
-    let seeds: u64 = arguments.next().and_then(|text| text.parse().ok()).unwrap_or(5);
-    let mut shows: Vec<String> = arguments.collect();
-    if shows.is_empty() {
-        shows.push("shows/hello.json".into());
-    }
-    for path in shows {
-        let Some(show) = read(&path) else { return ExitCode::FAILURE };
+    arguments::main(run)
+}
+
+fn run(args: &[String]) -> Result<bool, String> {
+    let seeds = arguments::number(args, 0, 5, "usage: outages [SEEDS] [SHOW…]")?;
+    for path in arguments::show_files(args, 1) {
+        let show = arguments::show(&path)?;
         println!("{path}: {seeds} seeds at {} moments", MOMENTS_S.len());
         for kind in ["freeze", "gone"] {
             for length_s in LENGTHS_S {
-                println!("{kind} {length_s:4.1} s: {}", Sum::of(&show, kind, length_s, seeds));
+                println!("{kind} {length_s:4.1} s: {}", Sum::of(&show, kind, length_s, seeds)?);
             }
         }
     }
-    ExitCode::SUCCESS
-}
-
-fn read(path: &str) -> Option<Show> {
-    let bytes = std::fs::read(path).inspect_err(|error| eprintln!("{path}: {error}")).ok()?;
-    let loaded = lightbots_exchange::read(&bytes, Some(path));
-    loaded.inspect_err(|error| eprintln!("{path}: {error}")).ok().map(|loaded| loaded.show)
+    Ok(true)
 }
 
 /// What all runs of a kind came to.
@@ -54,20 +50,20 @@ struct Sum {
 }
 
 impl Sum {
-    fn of(show: &Show, kind: &str, length_s: f64, seeds: u64) -> Self {
+    fn of(show: &Show, kind: &str, length_s: f64, seeds: u64) -> Result<Self, String> {
         let mut sum = Self::default();
         for seed in 1..=seeds {
-            let undisturbed = play(show, "", seed);
+            let undisturbed = arguments::play(show, "", seed)?;
             for at_s in MOMENTS_S {
                 let faults = format!("{kind}={at_s}s+{length_s}s");
-                sum.add(&play(show, &faults, seed), &undisturbed, &faults);
+                sum.add(&arguments::play(show, &faults, seed)?, &undisturbed, &faults);
             }
         }
-        sum
+        Ok(sum)
     }
 
     fn add(&mut self, report: &RehearsalReport, undisturbed: &RehearsalReport, faults: &str) {
-        let count = |code: &str| report.issues.iter().filter(|issue| issue.code == code).count();
+        let count = |code| arguments::count(report, code);
         let is_finished = report.frames_played == report.frames;
         self.runs += 1;
         self.finished += usize::from(is_finished);
@@ -90,11 +86,4 @@ impl core::fmt::Display for Sum {
             "{finished} of {runs} finished, {dropouts} dropouts, {contacts} contacts, {links_lost} links lost, {presses} presses, at most {delay_s:.1} s longer{worst}"
         )
     }
-}
-
-fn play(show: &Show, faults: &str, seed: u64) -> RehearsalReport {
-    let faults =
-        if faults.is_empty() { Faults::default() } else { Faults::parse(faults).expect("it is well-formed") };
-    let conditions = faults.added_to(Conditions::default());
-    rehearse(show, &RehearsalOptions { seed, conditions, robots: None }, &mut |_| {})
 }

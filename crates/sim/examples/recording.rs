@@ -25,8 +25,7 @@ fn main() -> ExitCode {
 fn run(args: &[String]) -> Result<bool, String> {
     let usage = "usage: recording SHOW [FAULTS [SEED [MINUTES]]]";
     let path = args.first().ok_or(usage)?;
-    let bytes = std::fs::read(path).map_err(|error| format!("{path}: {error}"))?;
-    let show = lightbots_exchange::read(&bytes, Some(path)).map_err(|error| format!("{path}: {error}"))?.show;
+    let show = arguments::show(path)?;
     let conditions = arguments::conditions(args, 1)?;
     let (seed, minutes) = (arguments::number(args, 2, 1, usage)?, arguments::number(args, 3, 1, usage)?);
     let options = RehearsalOptions { seed, conditions, robots: None };

@@ -20,8 +20,7 @@ fn main() -> ExitCode {
 fn run(args: &[String]) -> Result<bool, String> {
     let usage = "usage: rehearsals SHOW [FAULTS [SEED [SEEDS]]]";
     let path = args.first().ok_or(usage)?;
-    let bytes = std::fs::read(path).map_err(|error| format!("{path}: {error}"))?;
-    let show = lightbots_exchange::read(&bytes, Some(path)).map_err(|error| format!("{path}: {error}"))?.show;
+    let show = arguments::show(path)?;
     let conditions = arguments::conditions(args, 1)?;
     let number = |index: usize, usual: u64| arguments::number(args, index, usual, usage);
     let (first, count) = (number(2, 1)?, number(3, 1)?);

@@ -13,7 +13,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::PathBuf;
 
 use lightbots_wire::{Command, Report, TimeQuestion, Topic, commands, encode};
-use mutator::mutate;
+use mutator::{corpus_files, keep_broken, mutant, rounds};
 use numbers::Numbers;
 
 /// Mutations of each message in a usual run.
@@ -76,27 +76,19 @@ fn read(bytes: &[u8]) -> bool {
 
 fn holds(bytes: &[u8]) -> bool {
     catch_unwind(AssertUnwindSafe(|| read(bytes))).unwrap_or_else(|_| {
-        let hash = bytes.iter().fold(0xcbf2_9ce4_8422_2325_u64, |hash, byte| {
-            (hash ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3)
-        });
-        let file = corpus().join(format!("broke-{hash:016x}"));
-        std::fs::write(&file, bytes).unwrap();
+        let file = keep_broken(&corpus(), bytes);
         panic!("a decoder breaks at {}; keep that file", file.display());
     })
 }
 
 #[test]
 fn no_mutation_breaks_a_decoder() {
-    let rounds = std::env::var("LIGHTBOTS_MUTATIONS").ok().and_then(|text| text.parse().ok());
     let mut numbers = Numbers(1);
     let (mut were_read, mut tried) = (0, 0);
     for good in GOOD {
         holds(good.as_bytes());
-        for _ in 0..rounds.unwrap_or(USUAL) {
-            let mut bytes = good.as_bytes().to_vec();
-            for _ in 0..=numbers.below(4) {
-                mutate(&mut bytes, &mut numbers);
-            }
+        for _ in 0..rounds(USUAL) {
+            let mut bytes = mutant(good.as_bytes(), 4, &mut numbers);
             bytes.truncate(LONGEST);
             tried += 1;
             were_read += usize::from(holds(&bytes));
@@ -107,7 +99,7 @@ fn no_mutation_breaks_a_decoder() {
 
 #[test]
 fn messages_that_broke_a_decoder_once_do_not_any_more() {
-    for file in std::fs::read_dir(corpus()).unwrap().flatten() {
-        holds(&std::fs::read(file.path()).unwrap());
+    for bytes in corpus_files(&corpus()) {
+        holds(&bytes);
     }
 }

@@ -30,6 +30,11 @@ impl Dice {
     }
 }
 
+/// Robots leave for a frame.
+pub fn started(kind: &EventKind) -> bool {
+    matches!(kind, EventKind::TransitionStarted { .. })
+}
+
 struct Letter {
     due: Instant,
     topic: Topic,
@@ -106,6 +111,15 @@ impl World {
     pub fn ready(count: usize, originals: usize, show: Show) -> Self {
         let mut world = Self::new(count, originals);
         world.operate(Operation::Open(Arc::new(show))).unwrap();
+        world.run_for(1.0);
+        world
+    }
+
+    /// Robots a second after they left for the first of three frames.
+    pub fn under_way(count: usize) -> Self {
+        let mut world = Self::ready(count, 0, show(3, count, 0.3));
+        world.play();
+        world.run_until(10.0, started);
         world.run_for(1.0);
         world
     }

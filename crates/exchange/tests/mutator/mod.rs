@@ -1,6 +1,43 @@
 //! Seeded mutations of files and messages, for tests of everything that reads what others send.
+#![allow(dead_code)] // Each test uses a part of it.
+
+use std::path::{Path, PathBuf};
 
 use super::numbers::Numbers;
+
+/// Mutations of each file or message: as many as LIGHTBOTS_MUTATIONS says, else the usual number.
+pub fn rounds(usual: usize) -> usize {
+    std::env::var("LIGHTBOTS_MUTATIONS").ok().and_then(|text| text.parse().ok()).unwrap_or(usual)
+}
+
+/// Good bytes, changed in 1 to `most` places.
+pub fn mutant(good: &[u8], most: usize, numbers: &mut Numbers) -> Vec<u8> {
+    let mut bytes = good.to_vec();
+    for _ in 0..=numbers.below(most) {
+        mutate(&mut bytes, numbers);
+    }
+    bytes
+}
+
+/// Writes bytes that broke something into a corpus.
+pub fn keep_broken(corpus: &Path, bytes: &[u8]) -> PathBuf {
+    let file = corpus.join(format!("broke-{:016x}", fnv1a(bytes)));
+    std::fs::write(&file, bytes).unwrap();
+    file
+}
+
+fn fnv1a(bytes: &[u8]) -> u64 {
+    let step = |hash: u64, byte: &u8| (hash ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3);
+    bytes.iter().fold(0xcbf2_9ce4_8422_2325, step)
+}
+
+/// The files of a corpus in the order of their names.
+pub fn corpus_files(corpus: &Path) -> Vec<Vec<u8>> {
+    let mut files: Vec<PathBuf> =
+        std::fs::read_dir(corpus).unwrap().flatten().map(|file| file.path()).collect();
+    files.sort();
+    files.into_iter().map(|file| std::fs::read(file).unwrap()).collect()
+}
 
 /// Changes the bytes in one place; they are never empty afterwards.
 pub fn mutate(bytes: &mut Vec<u8>, numbers: &mut Numbers) {

@@ -18,7 +18,7 @@ mod mutator;
 #[path = "../../../exchange/tests/numbers/mod.rs"]
 mod numbers;
 
-use mutator::mutate;
+use mutator::{corpus_files, mutant, rounds};
 use numbers::Numbers;
 
 /// Mutations of each message in a usual run.
@@ -98,11 +98,7 @@ fn send(address: &str, bytes: &[u8]) {
 }
 
 fn corpus(kind: &str) -> Vec<Vec<u8>> {
-    let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests/corpus").join(kind);
-    let mut files: Vec<PathBuf> =
-        std::fs::read_dir(folder).unwrap().flatten().map(|file| file.path()).collect();
-    files.sort();
-    files.into_iter().map(|file| std::fs::read(file).unwrap()).collect()
+    corpus_files(&PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests/corpus").join(kind))
 }
 
 #[cfg(target_os = "linux")]
@@ -113,8 +109,6 @@ fn no_mutation_breaks_the_program_its_broker_or_its_screens() {
     let mut screen = Screen::open(&address);
     screen.wait_for_robots(2);
     let children = server.children();
-    let rounds =
-        std::env::var("LIGHTBOTS_MUTATIONS").ok().and_then(|text| text.parse().ok()).unwrap_or(USUAL);
     let mut numbers = Numbers(1);
     let kinds = [
         ("mqtt", &broker, mqtt()),
@@ -124,12 +118,10 @@ fn no_mutation_breaks_the_program_its_broker_or_its_screens() {
     for (kind, target, good) in kinds {
         let broken = corpus(kind);
         assert!(!broken.is_empty(), "{kind} has a corpus");
-        let mutants = good.iter().flat_map(|good| vec![good.clone(); rounds]).map(|mut bytes| {
-            for _ in 0..=numbers.below(4) {
-                mutate(&mut bytes, &mut numbers);
-            }
-            bytes
-        });
+        let mutants = good
+            .iter()
+            .flat_map(|good| std::iter::repeat_n(good, rounds(USUAL)))
+            .map(|good| mutant(good, 4, &mut numbers));
         let all: Vec<Vec<u8>> = broken.into_iter().chain(mutants).collect();
         for batch in all.chunks(BATCH) {
             batch.iter().for_each(|bytes| send(target, bytes));

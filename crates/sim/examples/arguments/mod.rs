@@ -1,8 +1,10 @@
 //! What the examples that rehearse many runs have in common: their arguments, and how they end.
+#![allow(dead_code)] // Each example uses a part of it.
 
 use std::process::ExitCode;
 
-use lightbots_sim::{Conditions, Faults};
+use lightbots_show::Show;
+use lightbots_sim::{Conditions, Faults, RehearsalOptions, RehearsalReport, rehearse};
 
 /// Runs a program with its arguments; it says whether all was fine, or how it is used.
 pub fn main(run: impl FnOnce(&[String]) -> Result<bool, String>) -> ExitCode {
@@ -30,9 +32,34 @@ pub fn conditions(args: &[String], index: usize) -> Result<Conditions, String> {
     match args.get(index).map_or("", String::as_str) {
         "" => Ok(Conditions::default()),
         "ideal" => Ok(Conditions::ideal()),
-        faults => {
-            let faults = Faults::parse(faults).map_err(|error| error.to_string())?;
-            Ok(faults.added_to(Conditions::default()))
-        }
+        faults => standard_with(faults),
     }
+}
+
+fn standard_with(faults: &str) -> Result<Conditions, String> {
+    let faults = Faults::parse(faults).map_err(|error| error.to_string())?;
+    Ok(faults.added_to(Conditions::default()))
+}
+
+/// The show in a file.
+pub fn show(path: &str) -> Result<Show, String> {
+    let bytes = std::fs::read(path).map_err(|error| format!("{path}: {error}"))?;
+    Ok(lightbots_exchange::read(&bytes, Some(path)).map_err(|error| format!("{path}: {error}"))?.show)
+}
+
+/// The files from a place on; shows/hello.json where there are none.
+pub fn show_files(args: &[String], index: usize) -> Vec<String> {
+    let files = args.get(index..).unwrap_or_default();
+    if files.is_empty() { vec!["shows/hello.json".to_owned()] } else { files.to_vec() }
+}
+
+/// A rehearsal under standard conditions with these faults; none: an empty text.
+pub fn play(show: &Show, faults: &str, seed: u64) -> Result<RehearsalReport, String> {
+    let conditions = if faults.is_empty() { Conditions::default() } else { standard_with(faults)? };
+    Ok(rehearse(show, &RehearsalOptions { seed, conditions, robots: None }, &mut |_| {}))
+}
+
+/// Number of a report's issues with a code.
+pub fn count(report: &RehearsalReport, code: &str) -> usize {
+    report.issues.iter().filter(|issue| issue.code == code).count()
 }
