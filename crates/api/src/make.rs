@@ -152,7 +152,7 @@ pub struct MakeFont {
     pub title: String,
 }
 
-/// A file that somebody dropped or chose.
+/// A file that was dropped or chosen.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS)]
 pub struct MakeFile {
     /// SHA-256 of its bytes as 64 hexadecimal digits.

@@ -1,4 +1,4 @@
-//! Files that somebody dropped or chose.
+//! Files that were dropped or chosen.
 
 use lightbots_api::MakeFile;
 use lightbots_draw::text::Font;

@@ -44,7 +44,7 @@ pub fn list() -> String {
     answer::text(&choices())
 }
 
-/// What a file is that somebody dropped or chose: its bytes; a `MakeFile` as JSON.
+/// What a dropped or chosen file is: its bytes; a `MakeFile` as JSON.
 #[wasm_bindgen]
 pub fn look(bytes: &[u8]) -> String {
     answer::text(&file(bytes))

@@ -24,6 +24,7 @@ mod config;
 mod context;
 mod controller;
 mod event;
+mod event_text;
 mod fleet;
 mod input_log;
 mod journal;

@@ -33,7 +33,7 @@ pub(crate) enum Counted {
 /// How often a robot has sent messages (generic cell rate algorithm, ITU-T I.371).
 #[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
 pub(crate) struct ReportRate {
-    /// When all messages so far would have been sent at the allowed rate.
+    /// When all counted messages would have been sent at the allowed rate.
     paid_until: Instant,
     /// When the robot was named last.
     named_at: Option<Instant>,

@@ -30,7 +30,7 @@ pub(crate) struct BandLoad {
 }
 
 impl BandLoad {
-    /// Width of bands that have room for everybody; `None` where the lines themselves have room.
+    /// Width of bands that have room for all robots; `None` where the lines have room.
     pub fn width(&self) -> Option<f64> {
         let ideal = self.spacing / NEAREST;
         let on_lines = USABLE * self.length / self.spacing;

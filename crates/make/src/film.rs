@@ -43,7 +43,7 @@ pub struct FilmFrame {
 /// animation as its content, whose moment does not count; `bytes` are the file.
 ///
 /// # Errors
-/// Files that are no animation, and pictures on which so many robots find no room.
+/// Files that are no animation, and pictures without room for `robots`.
 pub fn film(
     name: &str,
     bytes: &[u8],

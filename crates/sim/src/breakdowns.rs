@@ -4,6 +4,7 @@ use lightbots_base::Span;
 
 use crate::conditions::{Breakdown, Conditions};
 use crate::dice::{Dice, Purpose};
+use crate::timetable::Timetable;
 
 /// How a robot breaks down.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -27,8 +28,8 @@ pub(crate) enum Fate {
 /// All breakdowns of a rehearsal.
 #[derive(Clone, Debug)]
 pub(crate) struct Breakdowns {
-    /// After the show began, sorted, latest first.
-    coming: Vec<(Span, usize, Fate)>,
+    /// Robots and their fates.
+    coming: Timetable<(usize, Fate)>,
     broke_down: Vec<usize>,
     mute: Vec<bool>,
     cut: Vec<bool>,
@@ -42,7 +43,7 @@ impl Breakdowns {
         let mut fate_of = |breakdown: &Breakdown, fate| {
             let (chance_robot, chance_at) = (dice.below(robots as u64) as usize, dice.between(0.1, 0.8));
             let at = breakdown.at.unwrap_or_else(|| Span::from_secs(chance_at * planned_s));
-            (at, breakdown.robot.unwrap_or(chance_robot), fate)
+            (at, (breakdown.robot.unwrap_or(chance_robot), fate))
         };
         let mut coming: Vec<_> = conditions.killed.iter().map(|b| fate_of(b, Fate::Killed)).collect();
         coming.extend(conditions.muted.iter().map(|b| fate_of(b, Fate::Muted)));
@@ -51,21 +52,23 @@ impl Breakdowns {
             [(&conditions.cut, Fate::Cut, Fate::Linked), (&conditions.blind, Fate::Blinded, Fate::Seeing)];
         for (outages, begins, ends) in outages {
             for (breakdown, over) in outages {
-                let (at, robot, fate) = fate_of(breakdown, begins);
-                coming.extend([(at, robot, fate), (at + *over, robot, ends)]);
+                let (at, (robot, fate)) = fate_of(breakdown, begins);
+                coming.extend([(at, (robot, fate)), (at + *over, (robot, ends))]);
             }
         }
-        coming.retain(|&(_, robot, _)| robot < robots);
-        coming.sort_by_key(|&(at, robot, _)| core::cmp::Reverse((at, robot)));
-        Self { coming, broke_down: Vec::new(), mute: vec![false; robots], cut: vec![false; robots] }
+        coming.retain(|&(_, (robot, _))| robot < robots);
+        coming.sort_by_key(|&(_, (robot, _))| core::cmp::Reverse(robot));
+        Self {
+            coming: Timetable::new(coming),
+            broke_down: Vec::new(),
+            mute: vec![false; robots],
+            cut: vec![false; robots],
+        }
     }
 
     /// The next robot that breaks down until a time after the first departure.
     pub fn next_until(&mut self, since_begin: Span) -> Option<(usize, Fate)> {
-        if self.coming.last()?.0 > since_begin {
-            return None;
-        }
-        let (_, robot, fate) = self.coming.pop()?;
+        let (robot, fate) = self.coming.next_until(since_begin)?;
         match fate {
             Fate::Muted => self.mute[robot] = true,
             Fate::Cut | Fate::Linked => self.cut[robot] = fate == Fate::Cut,

@@ -4,6 +4,7 @@ use lightbots_base::{Instant, Span};
 
 use crate::conditions::{Conditions, Outage};
 use crate::dice::{Dice, Purpose};
+use crate::timetable::Timetable;
 
 /// Longest time until a client finds a broker that is back: it looks for it that often.
 const RECONNECTS_WITHIN_S: f64 = 2.0;
@@ -24,8 +25,7 @@ pub(crate) enum BrokerEvent {
 /// All outages of the broker in a rehearsal.
 #[derive(Clone, Debug)]
 pub(crate) struct BrokerOutages {
-    /// After the show began, sorted, latest first.
-    coming: Vec<(Span, BrokerEvent)>,
+    coming: Timetable<BrokerEvent>,
     /// `[robot]`: whether it has no connection.
     is_away: Vec<bool>,
     is_controller_away: bool,
@@ -43,13 +43,12 @@ impl BrokerOutages {
             coming.extend([(outage.at, BrokerEvent::Dies), (back(), BrokerEvent::ControllerBack)]);
             coming.extend((0..robots).map(|robot| (back(), BrokerEvent::RobotBack(robot))));
         }
-        coming.sort_by_key(|&(at, _)| core::cmp::Reverse(at));
-        Self { coming, is_away: vec![false; robots], is_controller_away: false }
+        Self { coming: Timetable::new(coming), is_away: vec![false; robots], is_controller_away: false }
     }
 
     /// The next event until a time after the first departure.
     pub fn next_until(&mut self, since_begin: Span) -> Option<BrokerEvent> {
-        let (_, event) = self.coming.pop_if(|(at, _)| *at <= since_begin)?;
+        let event = self.coming.next_until(since_begin)?;
         match event {
             BrokerEvent::Freezes(_) => {}
             BrokerEvent::Dies => {
@@ -69,7 +68,7 @@ impl BrokerOutages {
     }
 }
 
-/// The simulated operator, who lets an interrupted run go on some seconds after that is asked.
+/// The simulated operator: an interrupted run goes on some seconds after the controller asks.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Operator {
     /// When the button is pressed.

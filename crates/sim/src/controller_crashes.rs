@@ -4,6 +4,7 @@ use lightbots_base::{Instant, Span, Vec2};
 use lightbots_control::{JournalPiece, UnfinishedRun};
 
 use crate::conditions::Outage;
+use crate::timetable::Timetable;
 
 /// A robot that moves no farther than this in a step stands, metres: 3 mm/s.
 const STANDS_M: f64 = 0.000_05;
@@ -22,8 +23,7 @@ pub(crate) enum CrashEvent {
 /// All crashes of the controller in a rehearsal.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct ControllerCrashes {
-    /// After the show began, sorted, latest first.
-    coming: Vec<(Span, CrashEvent)>,
+    coming: Timetable<CrashEvent>,
     /// There is no controller.
     is_gone: bool,
     /// The file of the journal.
@@ -48,9 +48,7 @@ impl ControllerCrashes {
     pub fn new(crashed: &[Outage]) -> Self {
         let events =
             |outage: &Outage| [(outage.at, CrashEvent::Killed), (outage.at + outage.over, CrashEvent::Back)];
-        let mut coming: Vec<_> = crashed.iter().flat_map(events).collect();
-        coming.sort_by_key(|&(at, _)| core::cmp::Reverse(at));
-        Self { coming, ..Self::default() }
+        Self { coming: Timetable::new(crashed.iter().flat_map(events).collect()), ..Self::default() }
     }
 
     /// Whether there is any.
@@ -66,7 +64,7 @@ impl ControllerCrashes {
 
     /// The next event until a time after the first departure.
     pub fn next_until(&mut self, since_begin: Span) -> Option<CrashEvent> {
-        let (_, event) = self.coming.pop_if(|(at, _)| *at <= since_begin)?;
+        let event = self.coming.next_until(since_begin)?;
         self.is_gone = event == CrashEvent::Killed;
         Some(event)
     }

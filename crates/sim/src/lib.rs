@@ -44,6 +44,7 @@ mod rehearsal;
 mod report;
 mod robot_set;
 mod statistics;
+mod timetable;
 mod track;
 
 mod wheel_slip;

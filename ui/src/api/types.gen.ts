@@ -912,7 +912,7 @@ inner: number,
 span: number, };
 
 /**
- * A file that somebody dropped or chose.
+ * A file that was dropped or chosen.
  */
 export type MakeFile = { 
 /**

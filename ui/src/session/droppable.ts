@@ -1,4 +1,4 @@
-/** What somebody dropped or pasted: files, or a text. */
+/** What was dropped or pasted: files, or a text. */
 export interface Dropped {
   files: readonly File[];
   text: string;

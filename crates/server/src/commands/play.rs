@@ -222,7 +222,7 @@ async fn next_event(report: &mut RunReport, news: &mut broadcast::Receiver<News>
     }
 }
 
-/// The interrupted show goes on, or ends because there is no person who could say so.
+/// The interrupted show goes on, or ends because there is no terminal to ask at.
 async fn go_on(handle: &Handle, goes_on: bool) -> Result<(), Failure> {
     if !goes_on {
         let why = "robots were out of reach for more than 30 s, and there is no terminal to press Enter on: the show was ended";

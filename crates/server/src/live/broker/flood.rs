@@ -13,7 +13,7 @@ pub struct Floods(Mutex<BTreeMap<String, Account>>);
 
 #[derive(Clone, Copy, Debug)]
 struct Account {
-    /// When all messages so far would have been sent at the allowed rate.
+    /// When all counted messages would have been sent at the allowed rate.
     paid_until: Instant,
     /// Until when the client may not connect.
     banned_until: Option<Instant>,

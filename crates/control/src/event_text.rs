@@ -1,0 +1,171 @@
+//! The lines of events for people.
+
+use crate::event::{EventKind, RunOutcome, Trouble};
+use core::fmt;
+use lightbots_base::Vec2;
+
+impl fmt::Display for Trouble {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Late => "is behind its path",
+            Self::Silent => "does not report",
+            Self::Deaf => "does not acknowledge",
+            Self::Lost => "does not know where it is",
+            Self::Unsure => "is not sure enough of its place",
+            Self::Faulty => "reports a fault",
+            Self::Cut => "was cut off or restarted",
+            Self::Missed => "did not reach its goal",
+            Self::Blocked => "is blocked",
+            Self::Shared => "shares its name with another robot",
+        })
+    }
+}
+
+impl fmt::Display for RunOutcome {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Finished => f.write_str("finished"),
+            Self::Aborted => f.write_str("aborted"),
+            Self::Failed(line) => f.write_str(line),
+        }
+    }
+}
+
+/// A number and a noun.
+struct Count<'a>(usize, &'a str);
+
+impl fmt::Display for Count<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} {}{}", self.0, self.1, if self.0 == 1 { "" } else { "s" })
+    }
+}
+
+impl EventKind {
+    /// What a robot did that is news by itself.
+    fn of_robot(&self) -> &'static str {
+        match self {
+            Self::RobotFound(_) => "is here",
+            Self::RobotRestarted(_) => "has restarted",
+            Self::RobotStale(_) => "has not reported lately",
+            Self::RobotGone(_) => "is gone",
+            Self::RobotBack(_) => "is back",
+            Self::Flooding(_) => "floods the broker with messages: only 100 a second count; switch it off",
+            _ => "",
+        }
+    }
+
+    /// The line of an event of the link.
+    fn write_link(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::LinkLost { silent, robots } => write!(
+                f,
+                "Link lost: {silent} of {} fell silent at once. The show stands still until they report again.",
+                Count(*robots, "robot")
+            ),
+            Self::TakenUp { frame, robots, away, goes_on } => {
+                let (robots, away_s) = (Count(*robots, "robot"), away.as_secs());
+                let then =
+                    if *goes_on { "are asked where they stand" } else { "are told to stop; the run is over" };
+                write!(f, "The show was cut off {away_s:.0} s ago on the way to frame {}, ", frame + 1)?;
+                write!(f, "because its controller ended. {robots} {then}.")
+            }
+            Self::LinkBack { reported, robots, after, asks_operator } => {
+                let then =
+                    if *asks_operator { "Look at the floor, then press Go on" } else { "The show goes on" };
+                let robots = Count(*robots, "robot");
+                write!(f, "{reported} of {robots} report again after {:.0} s. {then}.", after.as_secs())
+            }
+            _ => Ok(()),
+        }
+    }
+}
+
+impl fmt::Display for EventKind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        use EventKind::*;
+        match self {
+            Connected => write!(f, "Connected to the broker."),
+            Disconnected => write!(f, "The broker is lost."),
+            StateChanged(state) => write!(f, "Now {state}."),
+            NameShared { robot, places } => {
+                let [at, other] = [0, 1].map(|index| places.get(index).copied().unwrap_or(Vec2::ZERO));
+                write!(
+                    f,
+                    "Two robots are called {robot}: it reports from ({:.2}, {:.2}) and from ({:.2}, {:.2}) in turn. Both are \
+                     kept out of the show; give one of them another name.",
+                    at.x, at.y, other.x, other.y
+                )
+            }
+            RobotFound(id) | RobotRestarted(id) | RobotStale(id) | RobotGone(id) | RobotBack(id)
+            | Flooding(id) => {
+                write!(f, "Robot {id} {}.", self.of_robot())
+            }
+            NameUnique(id) => write!(f, "One robot is called {id} again: it may take part."),
+            FleetFull => write!(f, "Too many robots: further names are not remembered."),
+            ShowOpened { name, frames } if name.trim().is_empty() => {
+                write!(f, "A show without a name, with {}, is open.", Count(*frames, "frame"))
+            }
+            ShowOpened { name, frames } => {
+                write!(f, "Show \"{name}\" with {} is open.", Count(*frames, "frame"))
+            }
+            RunBegun { from, robots } => {
+                write!(f, "Run with {} from frame {}.", Count(*robots, "robot"), from + 1)
+            }
+            Planned { frames } => write!(f, "Planned the drive to {}.", Count(*frames, "frame")),
+            PlanFailed { frame, message } => write!(f, "No plan for frame {}: {message}", frame + 1),
+            LeftOut { frame, pixels, count } => {
+                let more = if *count > pixels.len() { " and more" } else { "" };
+                let dark =
+                    if *count == 1 { "1 pixel stays dark" } else { &format!("{count} pixels stay dark") };
+                write!(f, "Frame {}: {dark}: {pixels:?}{more}.", frame + 1)
+            }
+            TransitionStarted { frame, duration, .. } => {
+                write!(f, "To frame {} in {:.2} s.", frame + 1, duration.as_secs())
+            }
+            FrameReached { frame, spread, .. } => {
+                write!(f, "Frame {} stands; arrivals within {:.2} s.", frame + 1, spread.as_secs())
+            }
+            Waiting { robot, why } => write!(f, "Waiting for robot {robot}: it {why}."),
+            Undelivered => write!(
+                f,
+                "No robot acknowledges its path, though robots report: the broker does not deliver messages to them."
+            ),
+            LinkLost { .. } | LinkBack { .. } | TakenUp { .. } => self.write_link(f),
+            Resumed => write!(f, "Resumed."),
+            Dropout { robot, why } => write!(f, "Robot {robot} drops out: it {why}."),
+            Rejoined(id) => write!(f, "Robot {id} takes part from the next frame on."),
+            Replanning { frame } => write!(f, "Planning the way to frame {} again.", frame + 1),
+            Misaligned { robot, off_m } => {
+                write!(f, "Robot {robot} stands {:.0} mm off its goal.", off_m * 1000.0)
+            }
+            UnexpectedArrival(id) => write!(f, "Robot {id} arrived unexpectedly."),
+            Suppressed(1) => write!(f, "One more event was not listed."),
+            Suppressed(count) => write!(f, "{count} more events were not listed."),
+            StoppedAll => write!(f, "All robots were told to stop."),
+            RunEnded { outcome: RunOutcome::Failed(line), .. } => write!(f, "{line}."),
+            RunEnded { outcome, frames_played, dropouts } => {
+                let (frames, dropouts) = (Count(*frames_played, "frame"), Count(*dropouts, "dropout"));
+                write!(f, "Run {outcome}; {frames}, {dropouts}.")
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lines_count_with_the_right_noun() {
+        let opened = |name: &str, frames| EventKind::ShowOpened { name: name.into(), frames }.to_string();
+        assert_eq!(opened("Heart", 1), "Show \"Heart\" with 1 frame is open.");
+        assert_eq!(opened(" ", 2), "A show without a name, with 2 frames, is open.");
+        assert_eq!(EventKind::Planned { frames: 1 }.to_string(), "Planned the drive to 1 frame.");
+        assert_eq!(EventKind::RunBegun { from: 0, robots: 1 }.to_string(), "Run with 1 robot from frame 1.");
+        let dark = |count| EventKind::LeftOut { frame: 1, pixels: vec![7], count }.to_string();
+        assert_eq!(dark(1), "Frame 2: 1 pixel stays dark: [7].");
+        assert_eq!(dark(2), "Frame 2: 2 pixels stay dark: [7] and more.");
+        let ended = EventKind::RunEnded { outcome: RunOutcome::Finished, frames_played: 1, dropouts: 0 };
+        assert_eq!(ended.to_string(), "Run finished; 1 frame, 0 dropouts.");
+    }
+}
