@@ -6,7 +6,6 @@
 #![allow(clippy::print_stdout, clippy::print_stderr)]
 
 #[path = "../arguments/mod.rs"]
-#[allow(dead_code)]
 mod arguments;
 #[path = "../../../plan/examples/bench/scenes.rs"]
 #[allow(dead_code)]
