@@ -49,7 +49,7 @@ export async function makeTemplateFrame(
   return answer && { frame: { ...empty, sources: [source], pixels: pixelsOf(answer) }, answer };
 }
 
-/** To a centimetre, which is as fine as anybody chooses sizes. */
+/** To a centimetre: a finer difference of sizes is not seen. */
 const round = (m: number) => Math.round(m * 100) / 100;
 
 /** Makes all frames; an error says which frame cannot be made and why. `told` hears how many frames are made. */

@@ -1,5 +1,6 @@
 import { toHex } from '../base/colour';
 import type { FrameSource } from '../model/sources';
+import { sourceTitle } from './draft';
 
 /** A show to begin with: what its frames are made from, for any number of robots. */
 export interface Template {
@@ -81,10 +82,13 @@ const QUARTER = Math.PI / 2;
 const turnsFor = (robots: number) => Math.max(1, Math.min(5, Math.round(Math.sqrt(robots / 12))));
 
 /** A show of one's own words. It begins with them: the editor opens on the first frame, and that is what was asked for. */
-export const wordShow = (text: string): TemplateFrame[] => [
-  { ...words(text, 6, LETTERS), name: text.replaceAll('\n', ' ').slice(0, 80) },
-  shape('Ring', 'circle', 2, GOLD, { style: 'outline' }),
-];
+export function wordShow(text: string): TemplateFrame[] {
+  const own = words(text, 6, LETTERS);
+  return [
+    { ...own, name: sourceTitle(own.source, null) },
+    shape('Ring', 'circle', 2, GOLD, { style: 'outline' }),
+  ];
+}
 
 /** Ten shows to begin with. */
 export const TEMPLATES: readonly Template[] = [
