@@ -79,10 +79,15 @@ impl Supervisor {
         self.down_since.is_some_and(|since| now - since > self.silence)
     }
 
+    /// Whether no message came for longer than the robot's patience.
+    pub(crate) fn is_silent(&self, now: Instant) -> bool {
+        now - self.heard > self.silence
+    }
+
     /// Cuts the robot off where the link is silent for too long for what the robot does. Whether it did so just now.
     pub(crate) fn check_link(&mut self, now: Instant, drives: Drives) -> bool {
         let down = self.is_down(now);
-        let silent = now - self.heard > self.silence;
+        let silent = self.is_silent(now);
         let cuts = match drives {
             Drives::Not | Drives::Soon => false,
             Drives::Target => down,

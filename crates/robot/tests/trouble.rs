@@ -133,6 +133,20 @@ fn cut_off_in_air_time_it_says_so_and_does_not_set_out() {
 }
 
 #[test]
+fn a_robot_that_waits_for_its_start_does_not_turn_in_silence() {
+    let mut plant = ready(Flaws::STANDARD);
+    send(&mut plant, 9, START + Vec2::new(0.0, -0.5), 60_000);
+    plant.run(1.0);
+    plant.answers = false;
+    plant.run(2.2);
+    plant.heading += 1.0;
+    for _ in 0..200 {
+        plant.step();
+        assert_eq!(plant.last.wheels_radps, [0.0; 2], "it was turned by hand");
+    }
+}
+
+#[test]
 fn a_short_break_in_air_time_is_nobodys_business() {
     let mut plant = ready(Flaws::STANDARD);
     send(&mut plant, 9, FAR, 4_000);

@@ -1,6 +1,7 @@
 //! What a robot reports of itself: place, certainty, activity and faults.
 
 use super::Robot;
+use crate::config::Config;
 use crate::storage::RouteStorage;
 use core::borrow::BorrowMut;
 use lightbots_base::{Instant, Pose, RobotId, Span, Vec2};
@@ -11,6 +12,11 @@ use lightbots_wire::RobotState;
 const FORESIGHT: Span = Span::from_millis(500);
 
 impl<S: BorrowMut<RouteStorage>> Robot<S> {
+    /// The settings it was made with.
+    pub fn config(&self) -> &Config {
+        &self.config
+    }
+
     /// The estimated pose; `None` while place or heading are unknown.
     pub fn pose(&self) -> Option<Pose> {
         self.place().and_then(|_| self.hot.estimate.pose())
