@@ -1,6 +1,6 @@
 //! The broker freezes, or is gone for a while.
 
-use lightbots_base::{Instant, Span};
+use lightbots_base::Span;
 
 use crate::conditions::{Conditions, Outage};
 use crate::dice::{Dice, Purpose};
@@ -68,28 +68,6 @@ impl BrokerOutages {
     }
 }
 
-/// The simulated operator: an interrupted run goes on some seconds after the controller asks.
-#[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Operator {
-    /// When the button is pressed.
-    pub presses_at: Option<Instant>,
-}
-
-impl Operator {
-    /// Time to read the message and to look at the floor.
-    const LOOKS: Span = Span::from_millis(2_000);
-
-    /// The controller asks whether the run goes on.
-    pub fn asked(&mut self, now: Instant) {
-        self.presses_at.get_or_insert(now + Self::LOOKS);
-    }
-
-    /// Whether the button is pressed now.
-    pub fn presses(&mut self, now: Instant) -> bool {
-        self.presses_at.take_if(|at| now >= *at).is_some()
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -108,14 +86,5 @@ mod tests {
         let back = std::iter::from_fn(|| outages.next_until(millis(15_000))).count();
         assert_eq!(back, 6);
         assert!((0..5).all(|robot| !outages.is_cut(robot)));
-    }
-
-    #[test]
-    fn the_operator_presses_once() {
-        let mut operator = Operator::default();
-        operator.asked(Instant(5_000_000));
-        operator.asked(Instant(6_000_000));
-        assert!(!operator.presses(Instant(6_999_999)));
-        assert!(operator.presses(Instant(7_000_000)) && !operator.presses(Instant(9_000_000)));
     }
 }

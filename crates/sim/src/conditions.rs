@@ -2,6 +2,8 @@
 
 use lightbots_base::Span;
 
+use crate::mishap::Mishap;
+
 /// All conditions of a rehearsal. The default is the standard.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Conditions {
@@ -31,6 +33,8 @@ pub struct Conditions {
     pub gone: Vec<Outage>,
     /// The controller is killed, and another one goes on with its run.
     pub crashed: Vec<Outage>,
+    /// What else happens, by its time after the first departure.
+    pub mishaps: Vec<(Span, Mishap)>,
 }
 
 /// Properties of position fixes.
@@ -120,6 +124,7 @@ impl Default for Conditions {
             frozen: Vec::new(),
             gone: Vec::new(),
             crashed: Vec::new(),
+            mishaps: Vec::new(),
         }
     }
 }

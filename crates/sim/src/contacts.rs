@@ -75,6 +75,11 @@ impl Contacts {
         }
     }
 
+    /// Distance of two centres at which robots touch, metres.
+    pub(crate) fn contact_m(&self) -> f64 {
+        self.contact_m
+    }
+
     /// Number of contacts. A pair that parted and touches again counts again.
     pub fn count(&self) -> u64 {
         self.count

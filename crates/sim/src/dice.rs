@@ -24,6 +24,8 @@ pub enum Purpose {
     Proximity = 7,
     /// When clients find a broker again.
     Broker = 8,
+    /// Faults of a campaign.
+    Campaign = 9,
 }
 
 /// A stream of random numbers: xoshiro256++ (Blackman and Vigna, 2019), seeded through SplitMix64.

@@ -5,7 +5,7 @@ use core::fmt;
 use lightbots_base::Span;
 
 use crate::conditions::{Breakdown, Conditions, Outage};
-use crate::rehearsal::ROBOTS_MAX;
+use crate::options::ROBOTS_MAX;
 
 /// What is added to the conditions of a rehearsal.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -1,29 +1,33 @@
 //! The loop of a rehearsal: one queue of messages, one clock, one step after the other.
 
+mod breaking;
+
 use std::rc::Rc;
 use std::sync::Arc;
 
 use lightbots_base::{Instant, RobotId, Span, StateHash, Vec2};
 use lightbots_control::{
-    Config, Controller, EventKind, MissingPolicy, OnReturn, Operation, RecordedController, RobotView,
+    Config, Controller, EventKind, MissingPolicy, Operation, RecordedController, RobotView,
 };
 use lightbots_show::{Issue, Show};
 use lightbots_wire::Topic;
 
-use crate::breakdowns::{Breakdowns, Fate};
-use crate::broker_outages::{BrokerEvent, BrokerOutages, Operator};
-use crate::controller_crashes::{ControllerCrashes, CrashEvent};
+use crate::breakdowns::Breakdowns;
+use crate::broker_outages::BrokerOutages;
+use crate::campaign::Invariants;
+use crate::controller_crashes::ControllerCrashes;
+use crate::mishap::Mishap;
 use crate::network::{Network, Way};
+use crate::operator::Operator;
+use crate::options::{Progress, RehearsalOptions, time_limit};
 use crate::record::RehearsalRecord;
-use crate::rehearsal::{Progress, RehearsalOptions, time_limit};
 use crate::report::RehearsalReport;
 use crate::robot_set::RobotSet;
+use crate::timetable::Timetable;
 use crate::world::STEP;
 
 /// Time that robots have to find the controller and its clock. The show then begins without the others.
 const GATHERING: Span = Span::from_millis(8_000);
-/// Each controller numbers its routes from this on, times how many there were before.
-const SEQ_STEP: u32 = 1_000_000;
 /// Steps between two times that the world's state enters the hash: about a second.
 const HASH_EVERY: u64 = 64;
 /// Most messages and wake-ups between two steps. Only a controller that wakes itself without end reaches it.
@@ -43,6 +47,9 @@ pub(crate) struct Play {
     /// Number of controllers until now.
     controllers: u32,
     operator: Operator,
+    mishaps: Timetable<Mishap>,
+    /// What must hold after each step of a campaign.
+    pub invariants: Option<Box<Invariants>>,
     record: RehearsalRecord,
     hash: StateHash,
     /// `(name, robot)`, sorted by name.
@@ -74,6 +81,8 @@ impl Play {
             crashes: ControllerCrashes::new(&conditions.crashed),
             controllers: 0,
             operator: Operator::default(),
+            mishaps: Timetable::new(conditions.mishaps.clone()),
+            invariants: None,
             record: RehearsalRecord::new(starts.len()),
             hash: StateHash::new(),
             robots,
@@ -90,6 +99,12 @@ impl Play {
         log: Option<Vec<(String, String)>>,
         progress: &mut dyn FnMut(Progress<'_>),
     ) -> RehearsalReport {
+        self.play(log, progress);
+        self.report()
+    }
+
+    /// [`Self::run`] without the report.
+    pub fn play(&mut self, log: Option<Vec<(String, String)>>, progress: &mut dyn FnMut(Progress<'_>)) {
         if let Some(notes) = log {
             // A new controller is at rest.
             self.controller.begin_log(self.now, notes);
@@ -104,9 +119,8 @@ impl Play {
             self.robots.link(self.now, robot, true);
         }
         self.drain_controller();
-        let limit = time_limit(self.planned_s);
         let mut step = 0u64;
-        while !self.record.is_over() && self.now < limit {
+        while !self.is_over() {
             self.step();
             self.plan(progress);
             self.report_departure(progress);
@@ -121,7 +135,14 @@ impl Play {
             }
         }
         hand_on(&self.controller.end_log(), progress);
-        self.report()
+    }
+
+    /// Whether the show is over, and all was watched that follows, or its time is up.
+    fn is_over(&self) -> bool {
+        match &self.invariants {
+            None => self.record.is_over() || self.now >= time_limit(self.planned_s),
+            Some(invariants) => invariants.are_over(self.now),
+        }
     }
 
     /// Everything up to the next step of the world, and that step.
@@ -133,12 +154,16 @@ impl Play {
         self.break_broker();
         self.break_controller();
         self.press();
+        self.befall();
         let Self { robots, network, record, breakdowns, broker, .. } = self;
         robots.step(next, &mut |robot, topic, text| {
             send(network, record, (breakdowns, broker), next, (robot, topic, text))
         });
         self.record.contacts(next, &self.robots.world);
         self.crashes.observe(next, self.robots.world.places());
+        if let Some(invariants) = &mut self.invariants {
+            invariants.check(next, &self.robots);
+        }
         if !self.began {
             self.begin();
         }
@@ -168,6 +193,9 @@ impl Play {
                 match message.way {
                     Way::ToRobot(robot) if self.breakdowns.is_deaf(robot) || self.broker.is_cut(robot) => {}
                     Way::ToRobot(robot) => {
+                        if let Some(invariants) = &mut self.invariants {
+                            invariants.received(robot, self.now);
+                        }
                         self.robots.receive(self.now, robot, message.topic, &message.payload);
                         let Self { robots, network, record, breakdowns, broker, now, .. } = self;
                         robots.drain_messages(robot, &mut |robot, topic, text| {
@@ -208,75 +236,6 @@ impl Play {
             self.record.refused(&refusal.to_string());
         }
         self.drain_controller();
-    }
-
-    /// Applies the breakdowns that are due.
-    fn break_robots(&mut self) {
-        let Some(first_departure) = self.record.began_at() else { return };
-        while let Some((robot, fate)) = self.breakdowns.next_until(self.now - first_departure) {
-            match fate {
-                Fate::Killed => self.robots.kill(robot),
-                Fate::Stuck => self.robots.block_wheels(robot),
-                Fate::Muted => {}
-                Fate::Cut | Fate::Linked => self.robots.link(self.now, robot, fate == Fate::Linked),
-                Fate::Blinded | Fate::Seeing => self.robots.blind(robot, fate == Fate::Blinded),
-            }
-            self.record.broke_down(robot, self.robots.id(robot), fate, self.now);
-        }
-    }
-
-    /// Applies the outages of the broker that are due.
-    fn break_broker(&mut self) {
-        let Some(first_departure) = self.record.began_at() else { return };
-        while let Some(event) = self.broker.next_until(self.now - first_departure) {
-            match event {
-                BrokerEvent::Freezes(over) => self.network.freeze(self.now + over),
-                BrokerEvent::Dies => {
-                    self.network.clear();
-                    (0..self.robots.len()).for_each(|robot| self.robots.link(self.now, robot, false));
-                    self.controller.disconnected(self.now);
-                }
-                BrokerEvent::RobotBack(robot) => self.robots.link(self.now, robot, true),
-                BrokerEvent::ControllerBack => self.controller.connected(self.now),
-            }
-            self.drain_controller();
-            self.record.broker(event, self.now);
-        }
-    }
-
-    /// Kills the controller, and starts another one that finds its journal.
-    fn break_controller(&mut self) {
-        let Some(first_departure) = self.record.began_at() else { return };
-        while let Some(event) = self.crashes.next_until(self.now - first_departure) {
-            self.record.controller(event, self.now);
-            self.crashes.watch(event, self.now, self.robots.world.places());
-            match event {
-                CrashEvent::Killed => {
-                    self.controllers += 1;
-                    let config = Config { seq_base: self.controllers * SEQ_STEP, ..Config::default() };
-                    self.controller = RecordedController::new(Controller::new(config));
-                }
-                CrashEvent::Back => self.start_controller(),
-            }
-        }
-    }
-
-    fn start_controller(&mut self) {
-        self.controller.keep_journal();
-        if let Some(run) = self.crashes.unfinished_run() {
-            // A new controller has no run.
-            let _ = self.controller.take_up(self.now, &run, OnReturn::GoOrAsk);
-        }
-        self.controller.connected(self.now);
-        self.drain_controller();
-    }
-
-    /// The operator lets an interrupted show go on.
-    fn press(&mut self) {
-        if self.operator.presses(self.now) && self.controller.operate(self.now, Operation::GoOn).is_ok() {
-            self.record.pressed(self.now);
-            self.drain_controller();
-        }
     }
 
     /// Makes the plans that the controller asks for. Planning takes no virtual time, because its time depends on the
@@ -330,6 +289,9 @@ impl Play {
             if matches!(event.kind, EventKind::LinkBack { asks_operator: true, .. }) {
                 self.operator.asked(self.now);
             }
+            if let Some(invariants) = &mut self.invariants {
+                invariants.event(&event, &self.by_id);
+            }
             self.record.event(&event, &self.controller, &self.robots, &self.by_id, &self.show);
         }
         if let Some(piece) = self.controller.take_journal(self.now.0) {
@@ -337,7 +299,8 @@ impl Play {
         }
     }
 
-    fn report(mut self) -> RehearsalReport {
+    /// The report of what was played.
+    pub fn report(mut self) -> RehearsalReport {
         self.robots.world.imprint(&mut self.hash);
         self.hash.word(self.now.0);
         let world = &self.robots.world;

@@ -2,63 +2,14 @@
 
 use std::sync::Arc;
 
-use lightbots_base::{Instant, RobotId, Span, Vec2};
-use lightbots_plan::{Path, ShowOptions, ShowPlan};
+use lightbots_base::{RobotId, Vec2};
+use lightbots_plan::{ShowOptions, ShowPlan};
 use lightbots_show::{Issue, Show, front_rows, robots_needed};
 
-use crate::conditions::Conditions;
+use crate::options::{Progress, ROBOTS_MAX, RehearsalOptions};
 use crate::play::Play;
 use crate::report::RehearsalReport;
 use crate::statistics::Spread;
-
-/// Options of a rehearsal.
-#[derive(Clone, Debug, PartialEq)]
-pub struct RehearsalOptions {
-    /// Seed of all random numbers.
-    pub seed: u64,
-    /// Faults of robots and networks.
-    pub conditions: Conditions,
-    /// Number of robots; `None`: as many as the show needs, or as it has starts.
-    pub robots: Option<usize>,
-}
-
-/// Progress of a rehearsal.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Progress<'a> {
-    /// The show is planned, or planned anew after a fault.
-    Planning,
-    /// It plays. Sent after planning too, so that callers can time both.
-    Playing {
-        /// Virtual time since robots were switched on, seconds.
-        at_s: f64,
-        /// Planned duration of the show, seconds.
-        planned_s: f64,
-        /// Number of frames that stood.
-        frames: usize,
-    },
-    /// Robots are about to leave, or have just left.
-    Departing {
-        /// Index of the frame they drive to.
-        frame: usize,
-        /// Departure, seconds after the first departure of the show. Holds delay what follows.
-        begins_s: f64,
-        /// `(robot, path)` of the robots that drive paths. A plan begins at the reported places, so it differs from
-        /// seed to seed.
-        paths: &'a [(usize, &'a Path)],
-    },
-    /// Further bytes of the log of the controller's inputs ([`lightbots_control::replay`]).
-    Logged(&'a [u8]),
-}
-
-/// Most robots of a rehearsal.
-pub const ROBOTS_MAX: usize = 20_000;
-
-impl Default for RehearsalOptions {
-    /// Seed 1, standard conditions, as many robots as the show needs.
-    fn default() -> Self {
-        Self { seed: 1, conditions: Conditions::default(), robots: None }
-    }
-}
 
 /// Plays a whole show in virtual time and reports the result. The same show, options and version give the same report
 /// to the bit. `progress` is called about every second of virtual time.
@@ -176,9 +127,4 @@ fn unplayed(show: &Show, options: &RehearsalOptions, robots: usize, issues: Vec<
         issues,
         per_frame: Vec::new(),
     }
-}
-
-/// Largest virtual duration of a rehearsal: many times the plan, because recovery takes time.
-pub(crate) fn time_limit(planned_s: f64) -> Instant {
-    Instant::ZERO + Span::from_secs(60.0 + 5.0 * planned_s.clamp(0.0, 1e6))
 }

@@ -1,5 +1,7 @@
 //! The robot set: real firmware cores in simulated bodies, each with its own clock.
 
+mod mishaps;
+
 use lightbots_base::{Instant, Pose, Rgb, RobotId, Span, Vec2};
 use lightbots_robot::{Config, Fix, Inputs, Message, Robot, RouteStorage};
 use lightbots_show::Stage;

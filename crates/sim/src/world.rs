@@ -111,6 +111,21 @@ impl World {
         &self.places
     }
 
+    /// Whether a robot at a place would be `gap_m` from all other robots, rim to rim, and on the floor.
+    pub(crate) fn is_free(&self, robot: usize, place: Vec2, gap_m: f64) -> bool {
+        let clear_m = self.contacts.contact_m() + gap_m;
+        let mut kept = place;
+        self.floor.keep_out(&mut kept).is_none()
+            && (0..self.places.len())
+                .all(|other| other == robot || self.places[other].distance(place) >= clear_m)
+    }
+
+    /// A robot is lifted and put down at a place.
+    pub(crate) fn put(&mut self, robot: usize, place: Vec2) {
+        self.places[robot] = place;
+        self.near.rebuild(&self.places);
+    }
+
     /// Contacts between robots.
     pub fn contacts(&self) -> &Contacts {
         &self.contacts

@@ -2,6 +2,7 @@
 //! everything below it, which takes longer than most of these tests.
 
 mod breakdowns;
+mod campaign;
 mod crashes;
 mod crossings;
 mod crowds;

@@ -1,0 +1,236 @@
+//! What must hold after each step of a campaign.
+
+use core::fmt;
+
+use lightbots_base::{Instant, RobotId, Span};
+use lightbots_control::{Event, EventKind};
+
+use crate::breakdowns::Fate;
+use crate::bumps::Bump;
+use crate::floor::FloorObject;
+use crate::mishap::Mishap;
+use crate::robot_set::RobotSet;
+
+/// A robot stands this long after Stop, or after the last message it received (R40 and R43 of docs/protocol.md): its own
+/// patience is 2 s, and it brakes within 0.1 s.
+const RESTS_AFTER: Span = Span::from_millis(2_200);
+/// All is watched for this long after the show is over.
+const WATCHED: Span = Span::from_millis(3_500);
+/// A robot that dropped out is driven around from this long after: all are held within 0.6 s, and then planned again.
+const KNOWN_AFTER: Span = Span::from_millis(1_000);
+/// A robot that was put down elsewhere is expected there from this long after: it notices within 0.3 s (R47), reports, and
+/// all are held within 0.6 s. Messages may be late and lost.
+const EXPECTED_AFTER: Span = Span::from_millis(1_500);
+/// Robots that touched and were excused are apart once their rims are at this distance, metres.
+const APART_M: f64 = 0.01;
+/// Most violations that are kept.
+const KEPT: usize = 20;
+
+/// Something that must not happen.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Violation {
+    /// When, after robots were switched on.
+    pub at: Instant,
+    /// Which invariant, as one word.
+    pub invariant: &'static str,
+    /// What, for people.
+    pub what: String,
+}
+
+impl fmt::Display for Violation {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{:7.3} s  {}: {}", self.at.as_secs(), self.invariant, self.what)
+    }
+}
+
+/// What is known of a robot.
+#[derive(Clone, Debug)]
+struct Watched {
+    /// When it received its last message.
+    received: Instant,
+    /// It has no power, or its wheels are stuck.
+    is_broken: bool,
+    /// When it dropped out.
+    out: Option<Instant>,
+    /// When it was put down elsewhere.
+    moved: Option<Instant>,
+    /// It was seen moving when it should not.
+    moves: bool,
+}
+
+/// Watches a run.
+#[derive(Debug)]
+pub(crate) struct Invariants {
+    robots: Vec<Watched>,
+    /// When the show is to be over.
+    limit: Instant,
+    /// When Stop was pressed, or the run ended.
+    stopped: Option<Instant>,
+    is_over: bool,
+    /// Pairs whose contact was excused, and that have not parted.
+    together: Vec<(u32, u32)>,
+    violations: Vec<Violation>,
+}
+
+impl Invariants {
+    /// Watches a number of robots whose show is over before `limit`.
+    pub fn new(robots: usize, limit: Instant) -> Self {
+        let watched =
+            Watched { received: Instant::ZERO, is_broken: false, out: None, moved: None, moves: false };
+        Self {
+            robots: vec![watched; robots],
+            limit,
+            stopped: None,
+            is_over: false,
+            together: Vec::new(),
+            violations: Vec::new(),
+        }
+    }
+
+    /// What was violated.
+    pub fn into_violations(self) -> Vec<Violation> {
+        self.violations
+    }
+
+    /// Whether nothing is left to watch.
+    pub fn are_over(&self, now: Instant) -> bool {
+        self.is_over && self.stopped.is_some_and(|at| now - at > WATCHED) || now > self.limit
+    }
+
+    /// A robot received a message, or its link came up.
+    pub fn received(&mut self, robot: usize, now: Instant) {
+        self.robots[robot].received = now;
+    }
+
+    /// A robot broke down.
+    pub fn broke_down(&mut self, robot: usize, fate: Fate) {
+        self.robots[robot].is_broken |= matches!(fate, Fate::Killed | Fate::Stuck);
+    }
+
+    /// A mishap came to pass.
+    pub fn befell(&mut self, mishap: Mishap, now: Instant) {
+        match mishap {
+            Mishap::Off(robot) => self.robots[robot].is_broken = true,
+            Mishap::On(robot) => self.robots[robot].is_broken = false,
+            Mishap::Moved(robot, _) => self.robots[robot].moved = Some(now),
+            Mishap::Stop | Mishap::Pause | Mishap::Resume => {}
+        }
+    }
+
+    /// An event of the controller.
+    pub fn event(&mut self, event: &Event, by_id: &[(RobotId, usize)]) {
+        let robot = |id: RobotId| by_id.binary_search_by_key(&id, |entry| entry.0).ok();
+        match &event.kind {
+            EventKind::Dropout { robot: id, .. } => {
+                if let Some(place) = robot(*id) {
+                    self.robots[by_id[place].1].out = Some(event.at);
+                }
+            }
+            EventKind::Rejoined(id) => {
+                if let Some(place) = robot(*id) {
+                    self.robots[by_id[place].1].out = None;
+                }
+            }
+            EventKind::StoppedAll => self.stopped = Some(event.at),
+            EventKind::RunEnded { .. } => {
+                self.stopped.get_or_insert(event.at);
+                self.is_over = true;
+            }
+            EventKind::RunBegun { .. } => (self.stopped, self.is_over) = (None, false),
+            _ => {}
+        }
+    }
+
+    /// Checks all invariants after a step.
+    pub fn check(&mut self, now: Instant, robots: &RobotSet) {
+        self.check_contacts(now, robots);
+        for &bump in robots.world.bumps().fresh() {
+            self.check_bump(now, bump);
+        }
+        for robot in 0..self.robots.len() {
+            self.check_rest(now, robot, robots);
+        }
+        if now > self.limit && !self.is_over {
+            self.violate(now, "end", "the show has not ended".into());
+        }
+    }
+
+    fn check_contacts(&mut self, now: Instant, robots: &RobotSet) {
+        let world = &robots.world;
+        for &(a, b) in world.contacts().fresh() {
+            match self.contact(now, (a, b)) {
+                Some(what) => self.violate(now, "contact", what),
+                None => self.together.push((a, b)),
+            }
+        }
+        if !self.together.is_empty() {
+            let apart_m = world.contacts().contact_m() + APART_M;
+            let places = world.places();
+            self.together.retain(|&(a, b)| places[a as usize].distance(places[b as usize]) < apart_m);
+        }
+    }
+
+    /// Why a contact must not be; `None`: it is excused.
+    fn contact(&self, now: Instant, pair: (u32, u32)) -> Option<String> {
+        let (a, b) = (pair.0 as usize, pair.1 as usize);
+        let [one, other] = [&self.robots[a], &self.robots[b]];
+        if self.together.contains(&pair) || self.is_unexpected(now, a) || self.is_unexpected(now, b) {
+            return None;
+        }
+        match (one.is_broken, other.is_broken) {
+            (false, false) => Some(format!("robots {a} and {b} touched")),
+            (true, true) => None,
+            (is_first, _) => {
+                let (broken, works) = if is_first { (a, b) } else { (b, a) };
+                let known = self.robots[broken].out.is_some_and(|out| now - out > KNOWN_AFTER);
+                known.then(|| format!("robot {works} touched robot {broken}, which was known to be broken"))
+            }
+        }
+    }
+
+    /// Whether a robot stands where it was put down just now.
+    fn is_unexpected(&self, now: Instant, robot: usize) -> bool {
+        self.robots[robot].moved.is_some_and(|at| now - at < EXPECTED_AFTER)
+    }
+
+    fn check_bump(&mut self, now: Instant, bump: Bump) {
+        if self.robots[bump.robot].is_broken || self.is_unexpected(now, bump.robot) {
+            return;
+        }
+        match bump.thing {
+            FloorObject::Obstacle(area) => {
+                self.violate(now, "floor", format!("robot {} touched area {}", bump.robot, area + 1));
+            }
+            FloorObject::Edge if bump.over => {
+                self.violate(now, "floor", format!("robot {} went over the edge", bump.robot));
+            }
+            FloorObject::Edge => {}
+        }
+    }
+
+    fn check_rest(&mut self, now: Instant, robot: usize, robots: &RobotSet) {
+        let stands = robots.world.wheel_turns(robot) == [0.0; 2];
+        let watched = &mut self.robots[robot];
+        if stands || !robots.is_on(robot) || robots.is_on_target(robot) {
+            watched.moves = false;
+            return;
+        }
+        let is_silent = now - watched.received > RESTS_AFTER;
+        let is_stopped = self.stopped.is_some_and(|at| now - at > RESTS_AFTER);
+        if (is_silent || is_stopped) && !core::mem::replace(&mut watched.moves, true) {
+            let [left, right] = robots.world.wheel_turns(robot).map(|turn| turn / crate::world::STEP_S);
+            let why = if is_silent { "after silence" } else { "after Stop or the end" };
+            self.violate(
+                now,
+                "rest",
+                format!("robot {robot} moves {why}, wheels {left:.2} and {right:.2} rad/s"),
+            );
+        }
+    }
+
+    fn violate(&mut self, at: Instant, invariant: &'static str, what: String) {
+        if self.violations.len() < KEPT {
+            self.violations.push(Violation { at, invariant, what });
+        }
+    }
+}

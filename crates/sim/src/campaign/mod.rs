@@ -1,0 +1,87 @@
+//! The fault campaign: a seed is a scene, a story of faults, and what must hold all the same. docs/campaign.md describes
+//! it.
+
+mod invariants;
+mod scene;
+mod story;
+
+use core::fmt;
+use std::sync::Arc;
+
+use lightbots_base::{Instant, Span};
+use lightbots_plan::ShowOptions;
+
+use crate::options::RehearsalOptions;
+use crate::play::Play;
+use crate::report::RehearsalReport;
+
+pub(crate) use invariants::Invariants;
+pub use invariants::Violation;
+pub use scene::Scene;
+pub use story::Story;
+
+/// Longest time until a show begins: robots find the controller and their clocks.
+const BEGINS_WITHIN_S: f64 = 12.0;
+/// Time that a fault may cost beyond its own length, seconds: a silent robot, three plans, and gathering anew after each.
+const RECOVERS_WITHIN_S: f64 = 40.0;
+/// Each fault may also cost as many times the duration of the show (`control/src/run/recovery_bound.rs`).
+const REPLAYS: f64 = 2.0;
+
+/// One seed of the campaign, played.
+#[derive(Clone, Debug)]
+pub struct Campaign {
+    /// The seed.
+    pub seed: u64,
+    /// Its show and robots.
+    pub scene: Scene,
+    /// Its faults.
+    pub story: Story,
+    /// What must not have happened.
+    pub violations: Vec<Violation>,
+    /// How the show went.
+    pub report: RehearsalReport,
+}
+
+impl Campaign {
+    /// Plays a seed; `robots`: how many there are, or as many as the seed says.
+    pub fn play(seed: u64, robots: Option<usize>) -> Self {
+        let scene = Scene::new(seed, robots);
+        let story = Story::new(seed, &scene);
+        let options = RehearsalOptions { seed, conditions: story.conditions(), robots };
+        let starts = scene.show.starts.clone().unwrap_or_default();
+        let plan = lightbots_plan::show(&scene.show, &starts, &ShowOptions::default());
+        let mut play = Play::new(Arc::new(scene.show.clone()), &starts, &[], &options, plan.duration_s);
+        play.invariants = Some(Box::new(Invariants::new(scene.robots, limit(plan.duration_s, &story))));
+        play.play(None, &mut |_| {});
+        let violations = play.invariants.take().map_or(Vec::new(), |watch| watch.into_violations());
+        Self { seed, scene, story, violations, report: play.report() }
+    }
+
+    /// Whether no invariant was violated.
+    pub fn is_fine(&self) -> bool {
+        self.violations.is_empty()
+    }
+}
+
+/// When a show with these faults is over at the latest.
+fn limit(planned_s: f64, story: &Story) -> Instant {
+    let for_faults_s = story.count() as f64 * (RECOVERS_WITHIN_S + REPLAYS * planned_s);
+    Instant::ZERO + Span::from_secs(BEGINS_WITHIN_S + 2.0 * planned_s + for_faults_s) + story.lasts()
+}
+
+impl fmt::Display for Campaign {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { seed, scene, story, violations, report } = self;
+        let (robots, frames) = (scene.robots, scene.show.frames.len());
+        let side_m = scene.show.stage.width_m;
+        writeln!(f, "seed {seed}: {robots} robots, {frames} frames on {side_m:.2} m by {side_m:.2} m")?;
+        write!(f, "{story}")?;
+        for violation in violations {
+            writeln!(f, "  VIOLATED {violation}")?;
+        }
+        for issue in &report.issues {
+            writeln!(f, "    {}", issue.message)?;
+        }
+        write!(f, "  again: cargo xtask simulate --from {seed} --seeds 1 --robots {robots}")
+    }
+}

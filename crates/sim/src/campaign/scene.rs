@@ -1,0 +1,126 @@
+//! The show of a seed: robots, floor and frames.
+
+use lightbots_base::{Rgb, Vec2};
+use lightbots_show::{Frame, Identity, Pixel, Show, Stage};
+
+use crate::dice::{Dice, Purpose};
+
+/// Number of robots: from and to.
+const ROBOTS: (usize, usize) = (10, 100);
+/// Duration of a show, seconds: the frames that are drawn last about this long with their drives.
+const SHOW_S: f64 = 20.0;
+/// Mean speed of a robot over a drive, with its acceleration, m/s.
+const MEAN_MPS: f64 = 0.2;
+/// Distance of two places, metres. Plans need 0.06 m, and robots that pass each other more.
+const SPACING_M: (f64, f64) = (0.075, 0.14);
+/// Distance of places from the edge, metres.
+const MARGIN_M: f64 = 0.08;
+
+/// A show and its robots.
+#[derive(Clone, Debug)]
+pub struct Scene {
+    /// The show. It has a start for each robot.
+    pub show: Show,
+    /// Number of robots.
+    pub robots: usize,
+}
+
+impl Scene {
+    /// The scene of a seed; `robots`: how many there are, or as many as the seed says.
+    pub fn new(seed: u64, robots: Option<usize>) -> Self {
+        let mut dice = Dice::new(seed, Purpose::Scene);
+        let drawn = ROBOTS.0 + dice.below((ROBOTS.1 - ROBOTS.0 + 1) as u64) as usize;
+        let robots = robots.unwrap_or(drawn);
+        let (spacing_m, side_m) = floor(&mut dice, robots);
+        let stage = Stage { width_m: side_m, depth_m: side_m, ..Stage::default() };
+        let identity = if dice.chance(0.3) { Identity::Fixed } else { Identity::Any };
+        let starts = places(&mut dice, robots, side_m, spacing_m);
+        let (mut frames, mut lasts_s) = (Vec::new(), 0.0);
+        while lasts_s < SHOW_S {
+            let air_time_s = dice.between(0.1, 2.5);
+            lasts_s += air_time_s + 0.5 * side_m / MEAN_MPS;
+            let places = places_of_kind(&mut dice, robots, side_m, spacing_m);
+            frames.push(frame(&mut dice, places, air_time_s));
+        }
+        let show = Show {
+            name: format!("seed {seed}"),
+            stage,
+            identity,
+            starts: Some(starts),
+            frames,
+            ..Show::default()
+        };
+        Self { show, robots }
+    }
+}
+
+/// Distance of two places, and the side of a square floor with room for all.
+fn floor(dice: &mut Dice, robots: usize) -> (f64, f64) {
+    let spacing_m = dice.between(SPACING_M.0, SPACING_M.1);
+    let columns = libm::ceil(libm::sqrt(robots as f64));
+    let side_m = (columns * spacing_m * dice.between(1.3, 2.2) + 2.0 * MARGIN_M).max(0.8);
+    (spacing_m, side_m)
+}
+
+fn frame(dice: &mut Dice, places: Vec<Vec2>, air_time_s: f64) -> Frame {
+    let mut part = || 40 + dice.below(200) as u8;
+    let color = Rgb::new(part(), part(), part());
+    let pixels = (0u32..).zip(places).map(|(id, at)| Pixel { id, at, color, ..Pixel::default() });
+    Frame { air_time_s, pixels: pixels.collect(), ..Frame::default() }
+}
+
+/// Places of a picture: a grid, a ring where all fit on it, or anywhere.
+fn places_of_kind(dice: &mut Dice, count: usize, side_m: f64, spacing_m: f64) -> Vec<Vec2> {
+    let half_m = 0.5 * side_m - MARGIN_M;
+    match dice.below(3) {
+        0 => grid(dice, count, half_m, spacing_m),
+        1 if count as f64 * spacing_m < core::f64::consts::TAU * half_m => {
+            let turn = dice.between(0.0, 1.0);
+            let angle = |n: usize| core::f64::consts::TAU * (n as f64 + turn) / count as f64;
+            (0..count).map(|n| Vec2::unit(angle(n)) * half_m).collect()
+        }
+        _ => places(dice, count, side_m, spacing_m),
+    }
+}
+
+/// A grid somewhere on the floor.
+fn grid(dice: &mut Dice, count: usize, half_m: f64, spacing_m: f64) -> Vec<Vec2> {
+    let columns = libm::ceil(libm::sqrt(count as f64)) as usize;
+    let extent_m = (columns - 1) as f64 * spacing_m;
+    let room_m = (half_m - 0.5 * extent_m).max(0.0);
+    let corner = Vec2::new(dice.between(-room_m, room_m), dice.between(-room_m, room_m))
+        - Vec2::new(0.5 * extent_m, 0.5 * extent_m);
+    let place = |n: usize| corner + Vec2::new((n % columns) as f64, (n / columns) as f64) * spacing_m;
+    (0..count).map(place).collect()
+}
+
+/// Places anywhere, no two closer than `spacing_m`; a grid where these do not fit.
+fn places(dice: &mut Dice, count: usize, side_m: f64, spacing_m: f64) -> Vec<Vec2> {
+    let half_m = 0.5 * side_m - MARGIN_M;
+    let mut places: Vec<Vec2> = Vec::new();
+    for _ in 0..100 * count {
+        let place = Vec2::new(dice.between(-half_m, half_m), dice.between(-half_m, half_m));
+        if places.iter().all(|other| other.distance(place) >= spacing_m) {
+            places.push(place);
+            if places.len() == count {
+                return places;
+            }
+        }
+    }
+    grid(dice, count, half_m, spacing_m)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn scenes_are_fit_to_be_played() {
+        for seed in 0..200 {
+            let scene = Scene::new(seed, None);
+            let issues = lightbots_show::validate(&scene.show);
+            assert!(!issues.iter().any(lightbots_show::Issue::is_error), "{seed}: {issues:?}");
+            assert!((10..=100).contains(&scene.robots));
+        }
+    }
+}

@@ -1,0 +1,198 @@
+//! The faults of a seed, and what they are in plain words.
+
+use core::fmt;
+
+use lightbots_base::{Span, Vec2};
+
+use super::Scene;
+use crate::conditions::{Breakdown, Conditions, LinkConditions, Outage};
+use crate::dice::{Dice, Purpose};
+use crate::mishap::Mishap;
+
+/// Most faults of a story.
+const FAULTS: u64 = 5;
+/// When faults happen, seconds after the first departure: from and to.
+const HAPPEN_S: (f64, f64) = (0.0, 20.0);
+/// How long outages last, seconds: most end before a run asks whether it goes on, and some after.
+const SHORT_S: (f64, f64) = (0.1, 6.0);
+const LONG_S: (f64, f64) = (6.0, 40.0);
+/// Share of the outages that are short.
+const SHORT: f64 = 0.8;
+/// Share of the stories whose messages are not always on time.
+const BAD_LINK: f64 = 0.6;
+
+/// One fault.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Fault {
+    Dead(usize),
+    Stuck(usize),
+    Cut(usize, Span),
+    Blind(usize, Span),
+    Rebooted(usize, Span),
+    Moved(usize, Vec2),
+    Freeze(Span),
+    Gone(Span),
+    Crash(Span),
+    Pause(Span),
+    Stop,
+}
+
+/// What happens in a run.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Story {
+    /// By its time after the first departure.
+    faults: Vec<(Span, Fault)>,
+    link: LinkConditions,
+    slip: f64,
+    originals: usize,
+}
+
+impl Story {
+    /// The story of a seed.
+    pub fn new(seed: u64, scene: &Scene) -> Self {
+        let mut dice = Dice::new(seed, Purpose::Campaign);
+        let link = link(&mut dice);
+        let slip = if dice.chance(0.25) { dice.between(0.03, 0.15) } else { 0.03 };
+        let originals = if dice.chance(0.1) { 1 + dice.below(3) as usize } else { 0 };
+        let count = 1 + dice.below(FAULTS);
+        let mut faults: Vec<_> = (0..count).map(|_| fault(&mut dice, scene)).collect();
+        faults.sort_by_key(|&(at, _)| at);
+        Self { faults, link, slip, originals }
+    }
+
+    /// How long the faults last in all.
+    pub fn lasts(&self) -> Span {
+        let over = |fault: &Fault| match *fault {
+            Fault::Cut(_, over) | Fault::Blind(_, over) | Fault::Rebooted(_, over) => over,
+            Fault::Freeze(over) | Fault::Gone(over) | Fault::Crash(over) | Fault::Pause(over) => over,
+            _ => Span::ZERO,
+        };
+        self.faults.iter().fold(Span::ZERO, |sum, (_, fault)| sum + over(fault))
+    }
+
+    /// Number of faults.
+    pub fn count(&self) -> usize {
+        self.faults.len()
+    }
+
+    /// The conditions of its rehearsal.
+    pub fn conditions(&self) -> Conditions {
+        let (link, slip, originals) = (self.link.clone(), self.slip, self.originals);
+        let mut conditions = Conditions { link, slip, originals, ..Conditions::default() };
+        for &(at, fault) in &self.faults {
+            add(&mut conditions, at, fault);
+        }
+        conditions
+    }
+}
+
+fn link(dice: &mut Dice) -> LinkConditions {
+    let usual = LinkConditions::default();
+    if !dice.chance(BAD_LINK) {
+        return usual;
+    }
+    let mut share = |chance, most| if dice.chance(chance) { dice.between(0.0, most) } else { 0.0 };
+    let (loss, double, reorder) = (share(0.6, 0.2), share(0.3, 0.1), share(0.3, 0.1));
+    let late_ms = share(0.4, 250.0) as i64;
+    let jitter_ms = share(0.3, 150.0) as i64;
+    LinkConditions {
+        delay_max: usual.delay_max + Span::from_millis(late_ms),
+        jitter: Span::from_millis(jitter_ms),
+        loss,
+        double,
+        reorder,
+        ..usual
+    }
+}
+
+fn fault(dice: &mut Dice, scene: &Scene) -> (Span, Fault) {
+    let at = Span::from_secs(dice.between(HAPPEN_S.0, HAPPEN_S.1));
+    let robot = dice.below(scene.robots as u64) as usize;
+    let (from_s, to_s) = if dice.chance(SHORT) { SHORT_S } else { LONG_S };
+    let over = Span::from_secs(dice.between(from_s, to_s));
+    let half = Vec2::new(scene.show.stage.width_m, scene.show.stage.depth_m) * 0.5;
+    let place = Vec2::new(dice.between(-half.x, half.x), dice.between(-half.y, half.y));
+    let fault = match dice.below(12) {
+        0 => Fault::Dead(robot),
+        1 => Fault::Stuck(robot),
+        2 => Fault::Cut(robot, over),
+        3 => Fault::Blind(robot, over),
+        4 => Fault::Rebooted(robot, over),
+        5 => Fault::Moved(robot, place),
+        6 => Fault::Freeze(over),
+        7 => Fault::Gone(over),
+        8 | 9 => Fault::Crash(over),
+        10 => Fault::Pause(over),
+        _ => Fault::Stop,
+    };
+    (at, fault)
+}
+
+fn add(conditions: &mut Conditions, at: Span, fault: Fault) {
+    let of = |robot| Breakdown { robot: Some(robot), at: Some(at) };
+    match fault {
+        Fault::Dead(robot) => conditions.killed.push(of(robot)),
+        Fault::Stuck(robot) => conditions.stuck.push(of(robot)),
+        Fault::Cut(robot, over) => conditions.cut.push((of(robot), over)),
+        Fault::Blind(robot, over) => conditions.blind.push((of(robot), over)),
+        Fault::Rebooted(robot, over) => {
+            conditions.mishaps.extend([(at, Mishap::Off(robot)), (at + over, Mishap::On(robot))]);
+        }
+        Fault::Moved(robot, to) => conditions.mishaps.push((at, Mishap::Moved(robot, to))),
+        Fault::Freeze(over) => conditions.frozen.push(Outage { at, over }),
+        Fault::Gone(over) => conditions.gone.push(Outage { at, over }),
+        Fault::Crash(over) => conditions.crashed.push(Outage { at, over }),
+        Fault::Pause(over) => conditions.mishaps.extend([(at, Mishap::Pause), (at + over, Mishap::Resume)]),
+        Fault::Stop => conditions.mishaps.push((at, Mishap::Stop)),
+    }
+}
+
+impl fmt::Display for Fault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match *self {
+            Self::Dead(robot) => write!(f, "robot {robot} loses its power for good"),
+            Self::Stuck(robot) => write!(f, "robot {robot}'s wheels block for good"),
+            Self::Cut(robot, over) => write!(f, "robot {robot} has no link for {:.2} s", over.as_secs()),
+            Self::Blind(robot, over) => write!(f, "robot {robot} gets no fixes for {:.2} s", over.as_secs()),
+            Self::Rebooted(robot, over) => {
+                write!(f, "robot {robot} is off for {:.2} s and starts again", over.as_secs())
+            }
+            Self::Moved(robot, to) => {
+                write!(f, "robot {robot} is lifted and put down near ({:.2}, {:.2}) m", to.x, to.y)
+            }
+            Self::Freeze(over) => write!(f, "the broker passes nothing on for {:.2} s", over.as_secs()),
+            Self::Gone(over) => write!(f, "the broker is gone for {:.2} s", over.as_secs()),
+            Self::Crash(over) => {
+                write!(f, "the controller is killed, and started again after {:.2} s", over.as_secs())
+            }
+            Self::Pause(over) => write!(f, "the operator pauses the show for {:.2} s", over.as_secs()),
+            Self::Stop => write!(f, "the operator stops all robots"),
+        }
+    }
+}
+
+impl fmt::Display for Story {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let link = &self.link;
+        writeln!(
+            f,
+            "  always     messages take {} to {} ms, {} ms more with jitter; {:.1} % lost, {:.1} % doubled, {:.1} % overtaken",
+            link.delay_min.0 / 1000,
+            link.delay_max.0 / 1000,
+            link.jitter.0 / 1000,
+            100.0 * link.loss,
+            100.0 * link.double,
+            100.0 * link.reorder
+        )?;
+        writeln!(
+            f,
+            "  always     wheels slip by {:.1} %; {} robots know TARGET only",
+            100.0 * self.slip,
+            self.originals
+        )?;
+        for (at, fault) in &self.faults {
+            writeln!(f, "  {:6.3} s   {fault}", at.as_secs())?;
+        }
+        Ok(())
+    }
+}

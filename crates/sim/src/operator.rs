@@ -1,0 +1,77 @@
+//! The simulated operator: presses buttons, and presses them again where there was no controller or broker.
+
+use std::collections::VecDeque;
+
+use lightbots_base::{Instant, Span};
+use lightbots_control::Operation;
+
+/// The simulated operator.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Operator {
+    /// When Go on is pressed.
+    presses_at: Option<Instant>,
+    /// What else the operator does, in this order.
+    wants: VecDeque<Operation>,
+    /// When the operator tries the next of it.
+    tries_at: Instant,
+}
+
+impl Operator {
+    /// Time to read a message and to look at the floor.
+    const LOOKS: Span = Span::from_millis(2_000);
+    /// Time until a button that did nothing is pressed again.
+    const TRIES_AGAIN: Span = Span::from_millis(500);
+
+    /// The controller asks whether the run goes on.
+    pub fn asked(&mut self, now: Instant) {
+        self.presses_at.get_or_insert(now + Self::LOOKS);
+    }
+
+    /// Whether Go on is pressed now.
+    pub fn presses(&mut self, now: Instant) -> bool {
+        self.presses_at.take_if(|at| now >= *at).is_some()
+    }
+
+    /// The operator presses another button.
+    pub fn does(&mut self, now: Instant, operation: Operation) {
+        self.tries_at = now;
+        self.wants.push_back(operation);
+    }
+
+    /// That button did nothing: the operator presses it again.
+    pub fn does_later(&mut self, now: Instant, operation: Operation) {
+        self.tries_at = now + Self::TRIES_AGAIN;
+        self.wants.push_front(operation);
+    }
+
+    /// The next button that is pressed now.
+    pub fn next_at(&mut self, now: Instant) -> Option<Operation> {
+        if now >= self.tries_at { self.wants.pop_front() } else { None }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_operator_presses_once() {
+        let mut operator = Operator::default();
+        operator.asked(Instant(5_000_000));
+        operator.asked(Instant(6_000_000));
+        assert!(!operator.presses(Instant(6_999_999)));
+        assert!(operator.presses(Instant(7_000_000)) && !operator.presses(Instant(9_000_000)));
+    }
+
+    #[test]
+    fn what_was_refused_is_pressed_again_before_what_comes_later() {
+        let mut operator = Operator::default();
+        operator.does(Instant(0), Operation::Pause);
+        let first = operator.next_at(Instant(0)).unwrap();
+        operator.does_later(Instant(0), first);
+        operator.does(Instant(100_000), Operation::Resume);
+        assert!(matches!(operator.next_at(Instant(500_000)), Some(Operation::Pause)));
+        assert!(matches!(operator.next_at(Instant(500_000)), Some(Operation::Resume)));
+        assert!(operator.next_at(Instant(500_000)).is_none());
+    }
+}

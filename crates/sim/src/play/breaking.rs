@@ -1,0 +1,130 @@
+//! What goes wrong in a rehearsal: robots, broker and controller break down by the conditions.
+
+use lightbots_control::{Config, Controller, OnReturn, Operation, RecordedController, Refusal};
+
+use super::Play;
+use crate::breakdowns::Fate;
+use crate::broker_outages::BrokerEvent;
+use crate::controller_crashes::CrashEvent;
+use crate::mishap::Mishap;
+
+/// Each controller numbers its routes from this on, times how many there were before.
+const SEQ_STEP: u32 = 1_000_000;
+
+impl Play {
+    /// Applies the breakdowns that are due.
+    pub(super) fn break_robots(&mut self) {
+        let Some(first_departure) = self.record.began_at() else { return };
+        while let Some((robot, fate)) = self.breakdowns.next_until(self.now - first_departure) {
+            match fate {
+                Fate::Killed => self.robots.kill(robot),
+                Fate::Stuck => self.robots.block_wheels(robot),
+                Fate::Muted => {}
+                Fate::Cut | Fate::Linked => self.link(robot, fate == Fate::Linked),
+                Fate::Blinded | Fate::Seeing => self.robots.blind(robot, fate == Fate::Blinded),
+            }
+            if let Some(invariants) = &mut self.invariants {
+                invariants.broke_down(robot, fate);
+            }
+            self.record.broke_down(robot, self.robots.id(robot), fate, self.now);
+        }
+    }
+
+    /// Applies the outages of the broker that are due.
+    pub(super) fn break_broker(&mut self) {
+        let Some(first_departure) = self.record.began_at() else { return };
+        while let Some(event) = self.broker.next_until(self.now - first_departure) {
+            match event {
+                BrokerEvent::Freezes(over) => self.network.freeze(self.now + over),
+                BrokerEvent::Dies => {
+                    self.network.clear();
+                    (0..self.robots.len()).for_each(|robot| self.link(robot, false));
+                    self.controller.disconnected(self.now);
+                }
+                BrokerEvent::RobotBack(robot) => self.link(robot, true),
+                BrokerEvent::ControllerBack => self.controller.connected(self.now),
+            }
+            self.drain_controller();
+            self.record.broker(event, self.now);
+        }
+    }
+
+    /// Kills the controller, and starts another one that finds its journal.
+    pub(super) fn break_controller(&mut self) {
+        let Some(first_departure) = self.record.began_at() else { return };
+        while let Some(event) = self.crashes.next_until(self.now - first_departure) {
+            self.record.controller(event, self.now);
+            self.crashes.watch(event, self.now, self.robots.world.places());
+            match event {
+                CrashEvent::Killed => {
+                    self.controllers += 1;
+                    let config = Config { seq_base: self.controllers * SEQ_STEP, ..Config::default() };
+                    self.controller = RecordedController::new(Controller::new(config));
+                }
+                CrashEvent::Back => self.start_controller(),
+            }
+        }
+    }
+
+    fn start_controller(&mut self) {
+        self.controller.keep_journal();
+        if let Some(run) = self.crashes.unfinished_run() {
+            // A new controller has no run.
+            let _ = self.controller.take_up(self.now, &run, OnReturn::GoOrAsk);
+        }
+        self.controller.connected(self.now);
+        self.drain_controller();
+    }
+
+    /// The operator lets an interrupted show go on.
+    pub(super) fn press(&mut self) {
+        self.operate_again();
+        if self.operator.presses(self.now) && self.controller.operate(self.now, Operation::GoOn).is_ok() {
+            self.record.pressed(self.now);
+            self.drain_controller();
+        }
+    }
+
+    /// A robot's link comes up or breaks.
+    fn link(&mut self, robot: usize, up: bool) {
+        self.robots.link(self.now, robot, up);
+        if let Some(invariants) = self.invariants.as_mut().filter(|_| up) {
+            invariants.received(robot, self.now);
+        }
+    }
+
+    /// Applies the mishaps that are due.
+    pub(super) fn befall(&mut self) {
+        let Some(first_departure) = self.record.began_at() else { return };
+        while let Some(mishap) = self.mishaps.next_until(self.now - first_departure) {
+            match mishap {
+                Mishap::Stop => self.operator.does(self.now, Operation::StopAll),
+                Mishap::Pause => self.operator.does(self.now, Operation::Pause),
+                Mishap::Resume => self.operator.does(self.now, Operation::Resume),
+                Mishap::Off(robot) => self.robots.kill(robot),
+                Mishap::On(robot) => {
+                    self.robots.restart(self.now, robot);
+                    self.link(robot, true);
+                }
+                Mishap::Moved(robot, to) => self.robots.put_down(robot, to),
+            }
+            if let Some(invariants) = &mut self.invariants {
+                invariants.befell(mishap, self.now);
+            }
+        }
+    }
+
+    /// The operator does what was not possible before, once there is a controller with a broker.
+    fn operate_again(&mut self) {
+        while let Some(operation) = self.operator.next_at(self.now) {
+            let refusal = match self.crashes.is_gone() {
+                true => Some(Refusal::NotConnected),
+                false => self.controller.operate(self.now, operation.clone()).err(),
+            };
+            self.drain_controller();
+            if refusal == Some(Refusal::NotConnected) {
+                return self.operator.does_later(self.now, operation);
+            }
+        }
+    }
+}

@@ -1,0 +1,60 @@
+//! What happens to robots from outside: their power comes back, they are lifted and put down elsewhere.
+
+use lightbots_base::{Instant, Vec2};
+use lightbots_wire::RobotState;
+
+use super::{Ours, RobotFirmware, RobotSet};
+use crate::original::Original;
+
+/// Gap from rim to rim that a person leaves to robots near the place where one is put down, metres.
+const PUT_DOWN_GAP_M: f64 = 0.03;
+/// Distance of places that are tried one after the other, metres.
+const TRIED_EVERY_M: f64 = 0.02;
+/// Number of places that are tried. The last one is 1.3 m away.
+const TRIED: u32 = 4_000;
+/// Angle between places that are tried one after the other, radians: the golden angle, which fills a disc evenly (Vogel,
+/// 1979).
+const GOLDEN_RAD: f64 = 2.399_963_229_728_653;
+
+impl RobotSet {
+    /// A robot whose power failed is switched on again, with a link.
+    pub fn restart(&mut self, now: Instant, robot: usize) {
+        let simulated = &mut self.robots[robot];
+        let id = simulated.id;
+        simulated.firmware = match &simulated.firmware {
+            RobotFirmware::Ours(before) => {
+                RobotFirmware::Ours(Ours::with_storage(before.config().clone(), Box::default()))
+            }
+            RobotFirmware::Original(_) => RobotFirmware::Original(Original::new(id)),
+        };
+        self.alive[robot] = true;
+        self.link(now, robot, true);
+    }
+
+    /// A robot is put down at the free place that is nearest to `to`.
+    pub fn put_down(&mut self, robot: usize, to: Vec2) {
+        let place = |number: u32| {
+            let off_m = TRIED_EVERY_M * libm::sqrt(f64::from(number));
+            to + Vec2::unit(GOLDEN_RAD * f64::from(number)) * off_m
+        };
+        let free = (0..TRIED).map(place).find(|&place| self.world.is_free(robot, place, PUT_DOWN_GAP_M));
+        if let Some(place) = free {
+            self.world.put(robot, place);
+        }
+    }
+
+    /// Whether a robot has power.
+    pub fn is_on(&self, robot: usize) -> bool {
+        self.alive[robot]
+    }
+
+    /// Whether a robot may drive although it receives nothing: it is on its way to a target (R44 of docs/protocol.md).
+    pub fn is_on_target(&self, robot: usize) -> bool {
+        match &self.robots[robot].firmware {
+            RobotFirmware::Ours(robot) => {
+                robot.state() == RobotState::Driving && robot.route_place().is_none()
+            }
+            RobotFirmware::Original(_) => true,
+        }
+    }
+}

@@ -1,0 +1,53 @@
+//! Seeds of the fault campaign (docs/campaign.md): some for every change, and each that ever failed.
+
+use lightbots_sim::Campaign;
+
+/// Robots of each fixed seed.
+const ROBOTS: usize = 30;
+
+/// Seeds that failed once, with the number of robots they had then.
+const FAILED: [(u64, Option<usize>); 4] = [
+    // Robots turned towards a route that waited for its start after 2 s of silence.
+    (78, Some(30)),
+    // A show that was paused when its controller was killed was resumed by no one.
+    (71, Some(30)),
+    (129, Some(30)),
+    (296, Some(30)),
+];
+
+fn is_fine(seed: u64, robots: Option<usize>) {
+    let campaign = Campaign::play(seed, robots);
+    assert!(campaign.is_fine(), "{campaign}");
+}
+
+#[test]
+fn a_quarter_of_a_hundred_seeds_are_fine() {
+    (0..25).for_each(|seed| is_fine(seed, Some(ROBOTS)));
+}
+
+#[test]
+fn the_second_quarter_is_fine() {
+    (25..50).for_each(|seed| is_fine(seed, Some(ROBOTS)));
+}
+
+#[test]
+fn the_third_quarter_is_fine() {
+    (50..75).for_each(|seed| is_fine(seed, Some(ROBOTS)));
+}
+
+#[test]
+fn the_last_quarter_is_fine() {
+    (75..100).for_each(|seed| is_fine(seed, Some(ROBOTS)));
+}
+
+#[test]
+fn seeds_that_failed_once_are_fine() {
+    FAILED.iter().for_each(|&(seed, robots)| is_fine(seed, robots));
+}
+
+#[test]
+fn a_seed_is_the_same_to_the_bit() {
+    let [first, second] = [(); 2].map(|()| Campaign::play(5, Some(10)));
+    assert_eq!(first.report, second.report);
+    assert_eq!(first.violations, second.violations);
+}
