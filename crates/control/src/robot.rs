@@ -65,8 +65,10 @@ pub(crate) struct KnownRobot {
 pub(crate) struct Standstill {
     /// Since then.
     pub since: Instant,
-    /// Where that began, stage metres.
-    at: Option<Vec2>,
+    /// Where that began, stage metres. A report without a place does not change it.
+    pub at: Option<Vec2>,
+    /// When it reported a place last.
+    pub placed: Instant,
 }
 
 impl KnownRobot {
@@ -77,7 +79,7 @@ impl KnownRobot {
             reported: Reported::default(),
             contact: LastContact { found: now, heard: now, age: Age::Active },
             rate: ReportRate::default(),
-            standstill: Standstill { since: now, at: None },
+            standstill: Standstill { since: now, at: None, placed: now },
             asked: now,
             short_m: STOPS_SHORT.first_m,
             light: Rgb::BLACK,
@@ -148,8 +150,11 @@ impl KnownRobot {
     pub fn receive(&mut self, now: Instant, report: &Report, place: Option<Vec2>) -> bool {
         self.contact.heard = now;
         let same = |(at, place): (Vec2, Vec2)| at.distance(place) < SAME_PLACE_M;
-        if !place.zip(self.standstill.at).is_some_and(same) {
-            self.standstill = Standstill { since: now, at: place };
+        if place.is_some() {
+            self.standstill.placed = now;
+            if !place.zip(self.standstill.at).is_some_and(same) {
+                (self.standstill.since, self.standstill.at) = (now, place);
+            }
         }
         if place.is_some() || report.details.is_some() {
             self.reported.at = place;

@@ -1,8 +1,10 @@
 //! All stop at once: robots that know STOP by STOP, those that know TARGET only by a target where they are.
 
 use crate::context::Context;
+use crate::robot::KnownRobot;
+use crate::snapshot::Age;
 use lightbots_base::{Instant, Span, Vec2};
-use lightbots_wire::Command;
+use lightbots_wire::{Command, RobotState};
 use std::collections::BTreeMap;
 
 /// How often STOP is sent, and how far apart.
@@ -52,25 +54,38 @@ impl Stopping {
         context.send(index, &[Command::Target(at), Command::Uuid]);
     }
 
+    /// Whether a robot drives, or keeps a route to drive.
+    fn may_go_on(&self, robot: &KnownRobot) -> bool {
+        if robot.contact.age == Age::Gone {
+            return false;
+        }
+        match robot.reported.state {
+            Some(RobotState::Driving | RobotState::Held | RobotState::Ready) => true,
+            Some(_) => robot.contact.heard < self.since,
+            None => false,
+        }
+    }
+
     /// When something is due.
     pub fn due(&self) -> Instant {
         self.check_at
     }
 
-    /// Whether stopping is over. Robots that still report that they drive are told by name.
+    /// Whether stopping is over. Robots that did not report since that they keep no route are told by name: a link that is
+    /// back may have lost all copies.
     pub fn tick(&mut self, context: &mut Context, now: Instant) -> bool {
         if now < self.check_at {
             return false;
         }
         self.check_at = now + CHECK;
         let waited = now - self.since;
-        let moving: Vec<usize> = (0..context.fleet.robots().len())
-            .filter(|&index| context.fleet.robot(index).is_fit() && context.fleet.robot(index).may_move())
+        let unstopped: Vec<usize> = (0..context.fleet.robots().len())
+            .filter(|&index| self.may_go_on(context.fleet.robot(index)))
             .collect();
-        if waited >= MOST || waited >= LEAST && moving.is_empty() {
+        if waited >= MOST || waited >= LEAST && unstopped.is_empty() {
             return true;
         }
-        for index in moving {
+        for index in unstopped {
             context.send(index, &[Command::Stop]);
         }
         false

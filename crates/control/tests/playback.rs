@@ -228,3 +228,19 @@ fn a_show_that_validation_rejects_is_not_begun() {
         );
     }
 }
+
+/// Its link is back only after all copies of STOP: it is told by name, so that it keeps no route.
+#[test]
+fn abort_reaches_a_robot_that_stands_and_hears_nothing_for_a_second() {
+    let mut world = World::ready(10, 0, show(3, 10, 3.0));
+    world.play();
+    world.run_until(20.0, |kind| matches!(kind, EventKind::FrameReached { .. }));
+    world.run_for(1.0);
+    assert!(world.robots[3].kept.is_some());
+    world.robots[3].dead = true;
+    world.operate(Operation::Abort).unwrap();
+    world.run_for(1.0);
+    world.robots[3].dead = false;
+    world.run_for(0.5);
+    assert!(world.robots[3].kept.is_none(), "{}", world.story());
+}

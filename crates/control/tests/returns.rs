@@ -2,7 +2,7 @@
 
 mod fleet;
 
-use fleet::{Dice, World, show};
+use fleet::{Dice, World, show, started};
 use lightbots_base::RobotId;
 use lightbots_control::{ControllerState, EventKind, OnReturn, Operation, RunOutcome};
 use lightbots_show::{Identity, Show};
@@ -172,4 +172,21 @@ fn a_preview_and_a_loop_are_taken_up_as_they_were() {
     world.run_for(15.0);
     assert_eq!(world.count(|kind| matches!(kind, EventKind::RunEnded { .. })), 1, "it loops on");
     assert!(world.controller.snapshot(world.now).looping);
+}
+
+/// Some robots may have stopped by themselves by then. In a hold the others would drive on into them.
+#[test]
+fn robots_that_still_drive_stop_at_once_where_others_may_have_stopped() {
+    let mut world = World::ready(9, 0, show(3, 9, 0.6));
+    world.controller.keep_journal();
+    world.play();
+    world.run_until(10.0, started);
+    world.run_for(1.0);
+    world.kill_controller();
+    world.run_for(1.6);
+    assert!(world.robots.iter().any(|robot| robot.running.is_some()));
+    assert!(world.return_controller(OnReturn::GoOrAsk));
+    world.run_for(0.2);
+    assert!(world.robots.iter().all(|robot| robot.stops > 0), "{}", world.story());
+    assert_eq!(world.run_to_end(60.0), (RunOutcome::Finished, 3, 0), "{}", world.story());
 }

@@ -50,3 +50,20 @@ fn where_there_is_no_way_around_all_places_of_a_silent_robot_the_likely_ones_are
     assert!(world.closest_m >= CONTACT_M, "{} m: {}", world.closest_m, world.story());
     assert_eq!(world.lit(&past_a_bay().frames[2]), 3, "{}", world.story());
 }
+
+/// A robot that says that it does not know where it is stands somewhere all the same.
+#[test]
+fn a_robot_that_does_not_know_its_place_is_driven_around() {
+    let mut world = World::ready(4, 0, past_a_bay());
+    world.play();
+    world.run_until(60.0, |kind| matches!(kind, EventKind::FrameReached { frame: 0, .. }));
+    let passing = world.robots.iter().position(|robot| robot.at.x < -1.1).unwrap();
+    while world.robots[passing].at.x < -0.54 {
+        world.step();
+    }
+    world.robots[passing].dead = true;
+    let report = format!("{} NaN NaN state=lost", world.robots[passing].id);
+    world.inject("T/LightBot/Status", report.as_bytes());
+    assert_eq!(world.run_to_end(90.0), (RunOutcome::Finished, 3, 1), "{}", world.story());
+    assert!(world.closest_m >= CONTACT_M, "{} m: {}", world.closest_m, world.story());
+}

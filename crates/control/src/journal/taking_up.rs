@@ -107,7 +107,8 @@ impl Run {
         let roster = Roster { participants, begun: begun.at, ..Roster::default() };
         let stops =
             StopTimes { began: Instant(at.0.saturating_sub(UNHEARD.0 as u64)), stood: *at + STANDS_AFTER };
-        let mut run = Self::interrupted(now, playback, roster, leg, (progress.position, by_itself, stops));
+        let mut run =
+            Self::interrupted(now, playback, roster, leg, (progress.position, by_itself, stops, *at));
         run.tally.frames_played = progress.frames_played as usize;
         run.tally.dropouts = progress.dropouts as usize;
         run.tally.taken_up = progress.taken_up + 1;
@@ -123,4 +124,5 @@ fn expect(context: &mut Context, robot: usize, entry: &ParticipantEntry, goal: O
     let robot = context.fleet.robot_mut(robot);
     robot.reported.abilities = entry.abilities;
     robot.reported.at = goal.filter(|_| !entry.membership.excluded).or(entry.at);
+    robot.standstill.at = robot.reported.at;
 }

@@ -181,8 +181,8 @@ impl Gathering {
             return Whereabouts::default();
         };
         let stop = StopTimes { began: self.stopping, stood: self.since };
-        let heard = cx.robot(participant).contact.heard;
-        silence::whereabouts((leg, targets), clock, stop, participant, heard)
+        let placed = cx.robot(participant).standstill.placed;
+        silence::whereabouts((leg, targets), clock, stop, participant, placed)
     }
 }
 

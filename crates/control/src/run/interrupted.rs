@@ -10,7 +10,7 @@ use crate::run::next::Next;
 use crate::run::pipeline::DrivenLeg;
 use crate::run::roster::Whereabouts;
 use crate::run::run_context::RunContext;
-use crate::run::silence::{self, StopTimes};
+use crate::run::silence::{self, LINK_LOSS, StopTimes};
 use crate::run::target_commands;
 use lightbots_base::{Instant, Span};
 use lightbots_wire::{Command, Topic};
@@ -29,6 +29,8 @@ const ONE_MORE: Span = Span::from_millis(3_000);
 pub(crate) struct Interrupted {
     /// Since when. Reports from before do not count.
     pub since: Instant,
+    /// When the robot had reported whose last report is the oldest.
+    heard: Instant,
     /// What was going on.
     pub left: Position,
     /// When robots that drove stopped.
@@ -52,6 +54,7 @@ impl Interrupted {
         let stops = StopTimes { began: now, stood: now };
         Self {
             since: now,
+            heard: now,
             left,
             stops,
             by_itself_until: now + by_itself,
@@ -66,6 +69,11 @@ impl Interrupted {
     /// Robots that drove stopped then.
     pub fn stopped(self, stops: StopTimes) -> Self {
         Self { stops, ..self }
+    }
+
+    /// Every robot has reported since `heard`.
+    pub fn heard(self, heard: Instant) -> Self {
+        Self { heard, ..self }
     }
 
     /// When something is due.
@@ -121,15 +129,17 @@ impl Interrupted {
         if std::mem::replace(&mut self.is_halted, true) {
             return;
         }
+        // In a hold, those that drive would drive on into those that have stopped by themselves.
+        let may_have_stopped = cx.now - self.heard > LINK_LOSS.drives_on;
         match &mut self.left.drive {
-            Some(clock) if !cx.is_target_leg() => {
+            Some(clock) if !cx.is_target_leg() && !may_have_stopped => {
                 // A hold that was stated before may have been lost with the link.
                 let at = clock.open_hold().map_or(cx.now + cx.link.hold_lead(), |hold| hold.at);
                 clock.stand(at);
                 cx.io.outbox.broadcast(cx.now, Command::Hold { at }, COPIES.0, COPIES.1);
             }
-            Some(_) => target_commands::halt_all(cx),
-            None => cx.io.outbox.broadcast(cx.now, Command::Stop, COPIES.0, COPIES.1),
+            Some(_) if cx.is_target_leg() => target_commands::halt_all(cx),
+            _ => cx.io.outbox.broadcast(cx.now, Command::Stop, COPIES.0, COPIES.1),
         }
     }
 
@@ -143,7 +153,7 @@ impl Interrupted {
             clock,
             self.stops,
             participant,
-            cx.robot(participant).contact.heard,
+            cx.robot(participant).standstill.placed,
         )
     }
 

@@ -190,26 +190,49 @@ impl Run {
         self.pipeline.lights.settle(participant);
         self.tally.dropouts += 1;
         self.roster.changes += 1;
-        if why == Trouble::Silent {
-            let (phase, cx) = self.split(io, now);
-            let whereabouts = match phase {
-                RunPhase::Driving(drive) => drive.whereabouts(&cx, participant),
-                RunPhase::Gathering(gathering) => gathering.whereabouts(&cx, participant),
-                RunPhase::Interrupted(interrupted) => interrupted.whereabouts(&cx, participant),
-                _ => Default::default(),
-            };
-            self.roster.participants[participant].last_seen = whereabouts;
-        }
-        if why == Trouble::Shared {
-            let places = self.roster.robot(io, participant).namesakes.places();
-            let whereabouts = Whereabouts { possible: places.clone(), likely: places };
-            self.roster.participants[participant].last_seen = whereabouts;
-        }
+        self.roster.participants[participant].last_seen = self.whereabouts(io, now, participant, why);
         let robot = self.roster.robot(io, participant).id;
         io.log.record(now, EventKind::Dropout { robot, why });
         self.tally.recovery.dropped_out(robot, why);
         self.tally.recovery.begins(self.reached_by(now));
         self.regather(io, now);
+    }
+
+    /// Where a robot may stand that drops out now; nowhere else than it reported: none.
+    fn whereabouts(
+        &mut self,
+        io: &mut Context,
+        now: Instant,
+        participant: usize,
+        why: Trouble,
+    ) -> Whereabouts {
+        let robot = self.roster.robot(io, participant);
+        let (reported, last) = (robot.reported.at, robot.standstill.at);
+        match why {
+            Trouble::Shared => {
+                let places = robot.namesakes.places();
+                Whereabouts { possible: places.clone(), likely: places }
+            }
+            Trouble::Silent => self.whereabouts_on_path(io, now, participant),
+            // It does not know where it is. It stood at once, or waited before that where it reported last.
+            _ if reported.is_none() => {
+                let mut places = self.whereabouts_on_path(io, now, participant);
+                places.possible.extend(last);
+                places.likely.extend(last);
+                places
+            }
+            _ => Whereabouts::default(),
+        }
+    }
+
+    fn whereabouts_on_path(&mut self, io: &mut Context, now: Instant, participant: usize) -> Whereabouts {
+        let (phase, cx) = self.split(io, now);
+        match phase {
+            RunPhase::Driving(drive) => drive.whereabouts(&cx, participant),
+            RunPhase::Gathering(gathering) => gathering.whereabouts(&cx, participant),
+            RunPhase::Interrupted(interrupted) => interrupted.whereabouts(&cx, participant),
+            _ => Whereabouts::default(),
+        }
     }
 
     fn reached_by(&self, now: Instant) -> Instant {
@@ -252,7 +275,8 @@ impl Run {
             io.log.record(now, EventKind::LinkLost { silent, robots });
         }
         let by_itself = io.config.goes_on_within;
-        let interrupted = Interrupted::begin(now, self.left(), by_itself);
+        let heard = self.roster.active().map(|(_, known)| io.fleet.robot(known.robot).contact.heard).min();
+        let interrupted = Interrupted::begin(now, self.left(), by_itself).heard(heard.unwrap_or(now));
         self.enter(RunPhase::Interrupted(interrupted));
     }
 

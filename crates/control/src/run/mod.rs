@@ -85,13 +85,14 @@ impl Run {
         run
     }
 
-    /// A run that robots are out of reach of until now. `leg`: what they drive or drove last.
+    /// A run that robots are out of reach of until now. `leg`: what they drive or drove last. `heard`: when
+    /// they were heard last.
     pub fn interrupted(
         now: Instant,
         playback: PlayedShow,
         roster: Roster,
         leg: Option<Leg>,
-        (left, by_itself, stops): (Position, Span, StopTimes),
+        (left, by_itself, stops, heard): (Position, Span, StopTimes, Instant),
     ) -> Self {
         let driven = leg.map(|leg| DrivenLeg { targets: TargetProgress::new(&leg), leg });
         Self {
@@ -99,7 +100,9 @@ impl Run {
             playback,
             roster,
             link: LinkEstimate::default(),
-            phase: RunPhase::Interrupted(Interrupted::begin(now, left, by_itself).stopped(stops)),
+            phase: RunPhase::Interrupted(
+                Interrupted::begin(now, left, by_itself).stopped(stops).heard(heard),
+            ),
             tally: Tally::default(),
         }
     }
@@ -130,6 +133,7 @@ impl Run {
             if topic == Topic::Arrival {
                 io.report_unexpected(now, report);
             }
+            self.roster.locate(io.fleet.robot(received.index));
             let is_stopping = matches!(self.phase, RunPhase::Gathering(_));
             let (_, mut cx) = self.split(io, now);
             return candidates::consider(&mut cx, received.index, is_stopping);

@@ -105,6 +105,17 @@ impl Roster {
         robot.participant.is_none() && robot.contact.found > self.begun
     }
 
+    /// A robot that dropped out reports: where it says that it stands is better known than where it may have stood.
+    pub fn locate(&mut self, robot: &KnownRobot) {
+        let Some(participant) = robot.participant else { return };
+        let known = &mut self.participants[participant as usize];
+        let says_where = robot.reported.at.is_some() && !robot.may_move() && !robot.namesakes.are_there();
+        if says_where && !known.last_seen.possible.is_empty() {
+            known.last_seen = Whereabouts::default();
+            self.changes += 1;
+        }
+    }
+
     /// The robot of the fleet takes part, for the first time or again.
     pub fn admit(&mut self, context: &mut Context, robot: usize) {
         self.changes += 1;

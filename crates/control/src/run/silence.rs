@@ -50,21 +50,21 @@ pub(crate) struct StopTimes {
     pub stood: Instant,
 }
 
-/// Where a robot may stand that was heard last at `heard`. Likely are places along its path from there, if it died, and
-/// where its path was when all stopped, if only its reports are lost. Possible is also where it gives its route up by
+/// Where a robot may stand that said last at `placed` where it is. Likely are places along its path from there, if it died,
+/// and where its path was when all stopped, if only its reports are lost. Possible is also where it gives its route up by
 /// itself, if it receives nothing either.
 pub(crate) fn whereabouts(
     (leg, targets): (&Leg, &TargetProgress),
     clock: &PathClock,
     stop: StopTimes,
     participant: usize,
-    heard: Instant,
+    placed: Instant,
 ) -> Whereabouts {
     let Some(path) = leg.path(participant) else {
         let places = targets.whereabouts(leg, participant, STRAIGHT_STEP_M);
         return Whereabouts { possible: places.clone(), likely: places };
     };
-    let since = clock.path_time(heard);
+    let since = clock.path_time(placed);
     let died = (0..=UNREPORTED.0 / PATH_STEP.0).map(|step| since + PATH_STEP * step);
     let until = (stop.stood - stop.began).0 / PATH_STEP.0 + STEPS_UNTIL_STOP;
     let stopped = (0..=until).map(|step| clock.path_time(stop.began + PATH_STEP * step));

@@ -6,13 +6,23 @@ use lightbots_sim::Campaign;
 const ROBOTS: usize = 30;
 
 /// Seeds that failed once, with the number of robots they had then.
-const FAILED: [(u64, Option<usize>); 4] = [
+const FAILED: [(u64, Option<usize>); 10] = [
     // Robots turned towards a route that waited for its start after 2 s of silence.
     (78, Some(30)),
     // A show that was paused when its controller was killed was resumed by no one.
     (71, Some(30)),
+    // Robots met one that had just been put down in their way.
     (129, Some(30)),
     (296, Some(30)),
+    // A robot that did not know its place was not driven around.
+    (158, Some(30)),
+    (220, Some(30)),
+    (260, Some(30)),
+    // Robots in a hold drove on into one that had stopped by itself.
+    (278, Some(30)),
+    // A robot that heard no copy of STOP turned towards a route that it kept.
+    (510, None),
+    (759, None),
 ];
 
 fn is_fine(seed: u64, robots: Option<usize>) {

@@ -164,8 +164,8 @@ impl Driving {
     pub fn whereabouts(&self, cx: &RunContext, participant: usize) -> Whereabouts {
         let Some(DrivenLeg { leg, targets }) = &cx.pipeline.driven else { return Whereabouts::default() };
         let stop = StopTimes { began: cx.now, stood: cx.now };
-        let heard = cx.robot(participant).contact.heard;
-        let mut places = silence::whereabouts((leg, targets), &self.clock, stop, participant, heard);
+        let placed = cx.robot(participant).standstill.placed;
+        let mut places = silence::whereabouts((leg, targets), &self.clock, stop, participant, placed);
         let seen = self.sightings(cx);
         narrow(&mut places.possible, &seen);
         narrow(&mut places.likely, &seen);
