@@ -22,6 +22,7 @@ cargo xtask <command>
   browser          build the module that the screen runs as WebAssembly; `npm run build` does this first
   bench [PART…]    measure and write docs/benchmarks.md: plan rehearsal noise round light fps
   pairs [COUNT [FIRST [FAULTS]]]   rehearse random pairs of frames, ten thousand unless told otherwise: for the night
+  simulate [--seeds N] [--from K] [--robots R] [--tell] [--mutant NAME|all]   the fault campaign: docs/campaign.md
   formations [OPTION VALUE]…       rehearse drives to grids, hexagons, discs, rings and rows of every spacing; see --help
   webots [--robots N] [--floor METRES] [--blind]   write the Webots worlds and put the driver in place
   webots paces [SHOW…]   play shows with the Webots driver in slow and pausing worlds: a quarter of an hour
@@ -38,6 +39,7 @@ fn main() -> ExitCode {
         Some("browser") => browser::build(),
         Some("bench") => bench::run(rest),
         Some("pairs") => shell::cargo(&example("pairs", rest)),
+        Some("simulate") => shell::cargo(&campaign(rest)),
         Some("formations") => shell::cargo(&example("formations", rest)),
         Some("tidy") => tidy::run(),
         Some("house") => house::run(rest),
@@ -61,6 +63,15 @@ fn main() -> ExitCode {
             ExitCode::FAILURE
         }
     }
+}
+
+/// Runs the fault campaign; with mutants if one is asked for.
+fn campaign(rest: &[String]) -> Vec<&str> {
+    let mut program = example("campaign", rest);
+    if rest.iter().any(|argument| argument == "--mutant") {
+        program.splice(5..5, ["--features", "mutants"]);
+    }
+    program
 }
 
 /// Runs an example of the simulator with these arguments.

@@ -1,6 +1,7 @@
 //! All stop at once: robots that know STOP by STOP, those that know TARGET only by a target where they are.
 
 use crate::context::Context;
+use crate::mutant::Mutant;
 use crate::robot::KnownRobot;
 use crate::snapshot::Age;
 use lightbots_base::{Instant, Span, Vec2};
@@ -31,7 +32,8 @@ impl Stopping {
     /// Tells all robots.
     pub fn begin(context: &mut Context, now: Instant) -> Self {
         context.outbox.stop_repeating();
-        context.outbox.broadcast(now, Command::Stop, COPIES.0, COPIES.1);
+        let copies = if Mutant::StopOnce.is_planted() { 1 } else { COPIES.0 };
+        context.outbox.broadcast(now, Command::Stop, copies, COPIES.1);
         let mut stopping = Self { since: now, check_at: now + CHECK, halted: BTreeMap::new() };
         for index in 0..context.fleet.robots().len() {
             stopping.halt(context, index);
@@ -85,7 +87,7 @@ impl Stopping {
         if waited >= MOST || waited >= LEAST && unstopped.is_empty() {
             return true;
         }
-        for index in unstopped {
+        for index in unstopped.into_iter().filter(|_| !Mutant::StopOnce.is_planted()) {
             context.send(index, &[Command::Stop]);
         }
         false

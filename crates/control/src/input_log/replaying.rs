@@ -6,6 +6,7 @@ use super::senders::{Likeness, Senders};
 use super::{LogHeader, MAGIC, VERSION};
 use crate::block::Blocks;
 use crate::controller::Controller;
+use crate::mutant::Mutant;
 use crate::plan_request::{PlanRequest, PlanResult};
 use core::fmt;
 use lightbots_base::{Instant, Span};
@@ -158,6 +159,7 @@ impl Replay {
         match record {
             Record::Wake(after) => {
                 self.input(after, || "time passed".into());
+                self.now += Span(i64::from(Mutant::ReplayOffByOne.is_planted()));
                 self.controller.wake(self.now);
             }
             Record::Message { after, topic, like, front, back, middle } => {

@@ -4,6 +4,7 @@ use super::{JournalState, ParticipantEntry, UnfinishedRun};
 use crate::context::Context;
 use crate::controller::Controller;
 use crate::event::EventKind;
+use crate::mutant::Mutant;
 use crate::operation::Refusal;
 use crate::run::{Participant, PlayedShow, Roster, Run, StopTimes};
 use lightbots_base::{Instant, Span, Vec2};
@@ -88,6 +89,14 @@ impl Run {
             next: progress.next,
             paused: progress.paused,
             stepping: progress.stepping,
+        };
+        let playback = PlayedShow {
+            next: if Mutant::WrongFrameAfterRestart.is_planted() {
+                playback.after(playback.next).unwrap_or(playback.next)
+            } else {
+                playback.next
+            },
+            ..playback
         };
         let leg = state.leg.as_ref().and_then(|leg| leg.to_leg(state.participants.len()));
         let mut participants = Vec::new();

@@ -1,6 +1,7 @@
 //! Link lost or robots lost: many robots that fall silent at once have lost their link, a few have died.
 
 use crate::event::Trouble;
+use crate::mutant::Mutant;
 use crate::run::next::Dropout;
 use crate::run::run_context::RunContext;
 use crate::snapshot::Age;
@@ -62,7 +63,7 @@ pub(crate) fn is_by_silence(cx: &RunContext, &(participant, why): &Dropout) -> b
 /// What it means that these participants are silent. All others are asked first, unless `is_starting`: all that are there
 /// have confirmed a START lately then, and the next one must not pass meanwhile.
 pub(crate) fn judge(cx: &mut RunContext, silent: &[Dropout], is_starting: bool) -> Verdict {
-    if cx.roster.active().count() < MANY.least {
+    if cx.roster.active().count() < MANY.least || Mutant::LinkLossIsDeath.is_planted() {
         return Verdict::RobotsLost;
     }
     let patience = cx.io.config.silence + cx.link.round_trip * 2;

@@ -1,5 +1,6 @@
 //! What plans drive around: robots that take no part, places of silent ones, and what robots met in their paths.
 
+use crate::mutant::Mutant;
 use crate::robot::KnownRobot;
 use crate::run::roster::Whereabouts;
 use crate::run::run_context::RunContext;
@@ -37,7 +38,8 @@ pub(crate) fn standing_discs(cx: &RunContext) -> Discs {
     let from = &cx.pipeline.planning.from;
     let starts: Vec<Vec2> = cx.roster.active().map(|(one, _)| from[one]).collect();
     let is_free = |at: &Vec2| starts.iter().all(|start| start.distance(*at) >= near_m);
-    let silent = cx.roster.participants.iter().filter(|known| known.is_excluded());
+    let is_forgotten = Mutant::ForgetDeadRobot.is_planted();
+    let silent = cx.roster.participants.iter().filter(|known| known.is_excluded() && !is_forgotten);
     let places = silent.flat_map(|known| known.last_seen.possible.iter());
     let inferred = places.chain(&cx.pipeline.obstacles.found).map(|at| displaced(*at, &starts, contact_m));
     let robots = cx.io.fleet.robots().iter().filter(|robot| is_obstacle(cx, robot));
@@ -53,6 +55,7 @@ fn is_obstacle(cx: &RunContext, robot: &KnownRobot) -> bool {
     let is_ignored = cx.pipeline.obstacles.ignores_strangers && cx.roster.is_stranger(robot);
     match known {
         // Where a silent robot may be by now is known better than by its last report.
+        Some(_) if Mutant::ForgetDeadRobot.is_planted() => false,
         Some(known) => known.is_excluded() && known.last_seen.possible.is_empty(),
         None => robot.contact.age != Age::Gone && !is_ignored,
     }

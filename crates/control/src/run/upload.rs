@@ -3,6 +3,7 @@
 //! MQTT's quality of service 1 would do this between each client and the broker. It says nothing of whether the robot
 //! took the message, and a broker that restarts forgets it; so the acknowledgement is end to end.
 
+use crate::mutant::Mutant;
 use lightbots_base::{Instant, Span};
 use std::collections::VecDeque;
 
@@ -131,7 +132,8 @@ impl Upload {
     /// A participant acknowledges; whether that is news.
     pub fn acknowledge(&mut self, now: Instant, participant: usize) -> bool {
         let Some(delivery) = self.deliveries.get_mut(participant) else { return false };
-        if delivery.acknowledged || delivery.tries == 0 {
+        let is_overlooked = Mutant::DropAcknowledgement.is_planted() && participant == 6;
+        if delivery.acknowledged || delivery.tries == 0 || is_overlooked {
             return false;
         }
         delivery.acknowledged = true;

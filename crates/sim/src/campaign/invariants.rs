@@ -3,7 +3,7 @@
 use core::fmt;
 
 use lightbots_base::{Instant, RobotId, Span};
-use lightbots_control::{Event, EventKind};
+use lightbots_control::{Event, EventKind, Trouble};
 
 use crate::breakdowns::Fate;
 use crate::bumps::Bump;
@@ -52,6 +52,8 @@ struct Watched {
     is_broken: bool,
     /// When it dropped out.
     out: Option<Instant>,
+    /// Something happened to it alone, or it knows TARGET only: it may drop out.
+    may_drop_out: bool,
     /// When it was put down elsewhere.
     moved: Option<Instant>,
     /// It was seen moving when it should not.
@@ -64,6 +66,10 @@ pub(crate) struct Invariants {
     robots: Vec<Watched>,
     /// When the show is to be over.
     limit: Instant,
+    /// The frame that stood last.
+    reached: Option<usize>,
+    /// Frames to which there was no plan.
+    given_up: Vec<usize>,
     /// When Stop was pressed, or the run ended.
     stopped: Option<Instant>,
     is_over: bool,
@@ -74,17 +80,31 @@ pub(crate) struct Invariants {
 
 impl Invariants {
     /// Watches a number of robots whose show is over before `limit`.
-    pub fn new(robots: usize, limit: Instant) -> Self {
-        let watched =
-            Watched { received: Instant::ZERO, is_broken: false, out: None, moved: None, moves: false };
+    pub fn new(robots: usize, originals: usize, limit: Instant) -> Self {
+        let watched = |robot: usize| Watched {
+            received: Instant::ZERO,
+            is_broken: false,
+            out: None,
+            may_drop_out: robot + originals >= robots,
+            moved: None,
+            moves: false,
+        };
         Self {
-            robots: vec![watched; robots],
+            robots: (0..robots).map(watched).collect(),
+            reached: None,
+            given_up: Vec::new(),
             limit,
             stopped: None,
             is_over: false,
             together: Vec::new(),
             violations: Vec::new(),
         }
+    }
+
+    /// Messages are lost at random: every robot may drop out.
+    pub fn on_a_bad_link(mut self) -> Self {
+        self.robots.iter_mut().for_each(|robot| robot.may_drop_out = true);
+        self
     }
 
     /// What was violated.
@@ -105,10 +125,14 @@ impl Invariants {
     /// A robot broke down.
     pub fn broke_down(&mut self, robot: usize, fate: Fate) {
         self.robots[robot].is_broken |= matches!(fate, Fate::Killed | Fate::Stuck);
+        self.robots[robot].may_drop_out = true;
     }
 
     /// A mishap came to pass.
     pub fn befell(&mut self, mishap: Mishap, now: Instant) {
+        if let Mishap::Off(robot) | Mishap::Moved(robot, _) = mishap {
+            self.robots[robot].may_drop_out = true;
+        }
         match mishap {
             Mishap::Off(robot) => self.robots[robot].is_broken = true,
             Mishap::On(robot) => self.robots[robot].is_broken = false,
@@ -121,11 +145,13 @@ impl Invariants {
     pub fn event(&mut self, event: &Event, by_id: &[(RobotId, usize)]) {
         let robot = |id: RobotId| by_id.binary_search_by_key(&id, |entry| entry.0).ok();
         match &event.kind {
-            EventKind::Dropout { robot: id, .. } => {
+            EventKind::Dropout { robot: id, why } => {
                 if let Some(place) = robot(*id) {
-                    self.robots[by_id[place].1].out = Some(event.at);
+                    self.dropped_out(event.at, by_id[place].1, *why);
                 }
             }
+            EventKind::FrameReached { frame, .. } => self.frame_stands(event.at, *frame),
+            EventKind::PlanFailed { frame, .. } => self.given_up.push(*frame),
             EventKind::Rejoined(id) => {
                 if let Some(place) = robot(*id) {
                     self.robots[by_id[place].1].out = None;
@@ -138,6 +164,33 @@ impl Invariants {
             }
             EventKind::RunBegun { .. } => (self.stopped, self.is_over) = (None, false),
             _ => {}
+        }
+    }
+
+    /// A robot drops out. What others do may make it late or blocked.
+    fn dropped_out(&mut self, now: Instant, robot: usize, why: Trouble) {
+        self.robots[robot].out = Some(now);
+        let by_others = matches!(why, Trouble::Late | Trouble::Blocked | Trouble::Missed | Trouble::Unsure);
+        if !self.robots[robot].may_drop_out && !by_others {
+            self.violate(
+                now,
+                "dropout",
+                format!("robot {robot} dropped out, and nothing happened to it: {why:?}"),
+            );
+        }
+    }
+
+    /// A frame stands: all before it did, each once.
+    fn frame_stands(&mut self, now: Instant, frame: usize) {
+        let next = self.reached.map_or(0, |reached| reached + 1);
+        self.reached = Some(frame);
+        let is_next = frame >= next && (next..frame).all(|skipped| self.given_up.contains(&skipped));
+        if !is_next {
+            self.violate(
+                now,
+                "frames",
+                format!("frame {} stands, and frame {} was next", frame + 1, next + 1),
+            );
         }
     }
 

@@ -11,7 +11,7 @@ use std::sync::Arc;
 use lightbots_base::{Instant, Span};
 use lightbots_plan::ShowOptions;
 
-use crate::options::RehearsalOptions;
+use crate::options::{Progress, RehearsalOptions};
 use crate::play::Play;
 use crate::report::RehearsalReport;
 
@@ -26,6 +26,9 @@ const BEGINS_WITHIN_S: f64 = 12.0;
 const RECOVERS_WITHIN_S: f64 = 40.0;
 /// Each fault may also cost as many times the duration of the show (`control/src/run/recovery_bound.rs`).
 const REPLAYS: f64 = 2.0;
+
+/// The log of the first controller is replayed for one seed in this many: that costs as much as planning once more.
+const REPLAYED: u64 = 4;
 
 /// One seed of the campaign, played.
 #[derive(Clone, Debug)]
@@ -51,9 +54,18 @@ impl Campaign {
         let starts = scene.show.starts.clone().unwrap_or_default();
         let plan = lightbots_plan::show(&scene.show, &starts, &ShowOptions::default());
         let mut play = Play::new(Arc::new(scene.show.clone()), &starts, &[], &options, plan.duration_s);
-        play.invariants = Some(Box::new(Invariants::new(scene.robots, limit(plan.duration_s, &story))));
-        play.play(None, &mut |_| {});
-        let violations = play.invariants.take().map_or(Vec::new(), |watch| watch.into_violations());
+        let watched = Invariants::new(scene.robots, story.originals(), limit(plan.duration_s, &story));
+        play.invariants =
+            Some(Box::new(if story.loses_messages() { watched.on_a_bad_link() } else { watched }));
+        let mut log = Vec::new();
+        let notes = seed.is_multiple_of(REPLAYED).then(Vec::new);
+        play.play(notes, &mut |progress| {
+            if let Progress::Logged(bytes) = progress {
+                log.extend_from_slice(bytes);
+            }
+        });
+        let mut violations = play.invariants.take().map_or(Vec::new(), |watch| watch.into_violations());
+        violations.extend(differences(&log));
         Self { seed, scene, story, violations, report: play.report() }
     }
 
@@ -61,6 +73,21 @@ impl Campaign {
     pub fn is_fine(&self) -> bool {
         self.violations.is_empty()
     }
+}
+
+/// What is different when the log of the controller is replayed; nothing for an empty log.
+fn differences(log: &[u8]) -> Option<Violation> {
+    if log.is_empty() {
+        return None;
+    }
+    let (at, what) = match lightbots_control::replay(log, &mut |_| {}) {
+        Ok(report) => {
+            let difference = report.difference?;
+            (difference.at, format!("input {}, {}, had other outputs", difference.input, difference.what))
+        }
+        Err(error) => (Instant::ZERO, format!("{error:?}")),
+    };
+    Some(Violation { at, invariant: "replay", what })
 }
 
 /// When a show with these faults is over at the latest.

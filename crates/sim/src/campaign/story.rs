@@ -70,6 +70,16 @@ impl Story {
         self.faults.iter().fold(Span::ZERO, |sum, (_, fault)| sum + over(fault))
     }
 
+    /// Number of robots that know TARGET only.
+    pub fn originals(&self) -> usize {
+        self.originals
+    }
+
+    /// Whether messages are lost at random.
+    pub fn loses_messages(&self) -> bool {
+        self.link.loss > 0.0
+    }
+
     /// Number of faults.
     pub fn count(&self) -> usize {
         self.faults.len()

@@ -1,0 +1,64 @@
+//! Mistakes made on purpose, to see whether the fault campaign finds them. Without the feature `mutants` there are none.
+
+/// A mistake.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[repr(u8)]
+pub enum Mutant {
+    /// A HOLD is not sent.
+    SkipHold = 1,
+    /// The acknowledgement of the seventh participant is overlooked.
+    DropAcknowledgement,
+    /// A replay is a microsecond late in each wake-up.
+    ReplayOffByOne,
+    /// Robots that dropped out are not driven around.
+    ForgetDeadRobot,
+    /// A run that is taken up goes on a frame later.
+    WrongFrameAfterRestart,
+    /// STOP is sent once.
+    StopOnce,
+    /// Silent robots are lost, however many there are.
+    LinkLossIsDeath,
+    /// Robots that do not answer are waited for without a bound.
+    WaitForEver,
+    /// A controller numbers its routes as the one before it did.
+    ReuseRouteNumbers,
+    /// A fifth of the journal's entries is not written.
+    LoseJournalEntries,
+}
+
+impl Mutant {
+    /// All of them, with their names.
+    pub const ALL: [(&'static str, Self); 10] = [
+        ("skip-hold", Self::SkipHold),
+        ("drop-acknowledgement", Self::DropAcknowledgement),
+        ("replay-off-by-one", Self::ReplayOffByOne),
+        ("forget-dead-robot", Self::ForgetDeadRobot),
+        ("wrong-frame-after-restart", Self::WrongFrameAfterRestart),
+        ("stop-once", Self::StopOnce),
+        ("link-loss-is-death", Self::LinkLossIsDeath),
+        ("wait-for-ever", Self::WaitForEver),
+        ("reuse-route-numbers", Self::ReuseRouteNumbers),
+        ("lose-journal-entries", Self::LoseJournalEntries),
+    ];
+
+    /// Makes this mistake from now on, in the whole process; `None`: none.
+    #[cfg(feature = "mutants")]
+    pub fn plant(mutant: Option<Self>) {
+        PLANTED.store(mutant.map_or(0, |mutant| mutant as u8), core::sync::atomic::Ordering::Relaxed);
+    }
+
+    /// Whether this mistake is made.
+    #[cfg(feature = "mutants")]
+    pub(crate) fn is_planted(self) -> bool {
+        PLANTED.load(core::sync::atomic::Ordering::Relaxed) == self as u8
+    }
+
+    /// Whether this mistake is made: none is.
+    #[cfg(not(feature = "mutants"))]
+    pub(crate) const fn is_planted(self) -> bool {
+        false
+    }
+}
+
+#[cfg(feature = "mutants")]
+static PLANTED: core::sync::atomic::AtomicU8 = core::sync::atomic::AtomicU8::new(0);
