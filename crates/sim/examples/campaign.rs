@@ -13,8 +13,6 @@ use std::time::Instant;
 use lightbots_sim::Campaign;
 
 const USAGE: &str = "usage: simulate [--seeds N] [--from K] [--robots R] [--tell] [--mutant NAME|all]";
-/// Seeds that a mutant survives at most.
-const SEEDS_PER_MUTANT: u64 = 500;
 
 fn main() -> ExitCode {
     arguments::main(run)
@@ -22,7 +20,7 @@ fn main() -> ExitCode {
 
 /// What is asked for.
 struct Options {
-    /// `None`: 100, or [`SEEDS_PER_MUTANT`] for a mutant.
+    /// `None`: 100, or 500 for a mutant.
     seeds: Option<u64>,
     from: u64,
     robots: Option<usize>,
@@ -87,8 +85,11 @@ mod mutants {
 
 #[cfg(feature = "mutants")]
 mod mutants {
-    use super::{Campaign, Instant, Options, SEEDS_PER_MUTANT};
+    use super::{Campaign, Instant, Options};
     use lightbots_control::Mutant;
+
+    /// Seeds that a mutant survives at most.
+    const SEEDS_PER_MUTANT: u64 = 500;
 
     /// Whether all mutants of that name are found.
     pub fn run(options: &Options, name: &str) -> Result<bool, String> {

@@ -61,6 +61,11 @@ impl BrokerOutages {
         Some(event)
     }
 
+    /// Whether the controller has no connection.
+    pub fn is_controller_away(&self) -> bool {
+        self.is_controller_away
+    }
+
     /// Whether messages between a robot and the controller are lost.
     #[inline]
     pub fn is_cut(&self, robot: usize) -> bool {

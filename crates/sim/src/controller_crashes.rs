@@ -1,9 +1,10 @@
 //! The controller is killed, and another one goes on with its run from the journal.
 
 use lightbots_base::{Instant, Span, Vec2};
-use lightbots_control::{JournalPiece, UnfinishedRun};
+use lightbots_control::UnfinishedRun;
 
 use crate::conditions::Outage;
+use crate::disk::Disk;
 use crate::timetable::Timetable;
 
 /// A robot that moves no farther than this in a step stands, metres: 3 mm/s.
@@ -26,8 +27,8 @@ pub(crate) struct ControllerCrashes {
     coming: Timetable<CrashEvent>,
     /// There is no controller.
     is_gone: bool,
-    /// The file of the journal.
-    journal: Vec<u8>,
+    /// Where the journal is.
+    pub disk: Disk,
     stops: Stops,
 }
 
@@ -69,17 +70,9 @@ impl ControllerCrashes {
         Some(event)
     }
 
-    /// A piece of the journal is written.
-    pub fn write(&mut self, piece: JournalPiece) {
-        if piece.begins {
-            self.journal.clear();
-        }
-        self.journal.extend(piece.bytes);
-    }
-
     /// The run that is found after a crash; `None`: it was over.
     pub fn unfinished_run(&self) -> Option<UnfinishedRun> {
-        UnfinishedRun::read(&self.journal).ok().flatten()
+        UnfinishedRun::read(self.disk.file()).ok().flatten()
     }
 
     /// Robots are watched from this event on.

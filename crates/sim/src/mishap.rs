@@ -1,6 +1,6 @@
 //! What happens to a robot, or what the operator does, at a moment of a rehearsal, beside breakdowns.
 
-use lightbots_base::Vec2;
+use lightbots_base::{Span, Vec2};
 
 /// Something that happens at one moment.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -17,4 +17,14 @@ pub enum Mishap {
     On(usize),
     /// A robot is lifted, and put down about this place, stage metres.
     Moved(usize, Vec2),
+    /// A robot reports places that are off by this, metres; zero: it is honest again.
+    Lies(usize, Vec2),
+    /// A robot begins or ends to flood the network with its last report.
+    Floods(usize, bool),
+    /// A robot is switched off and on, and has the name of another one then.
+    Named(usize, usize),
+    /// The disk of the journal is full for this long.
+    DiskFull(Span),
+    /// For the first span, a piece of the journal takes the second until it is on the disk.
+    DiskSlow(Span, Span),
 }

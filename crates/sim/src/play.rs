@@ -16,6 +16,7 @@ use crate::breakdowns::Breakdowns;
 use crate::broker_outages::BrokerOutages;
 use crate::campaign::Invariants;
 use crate::controller_crashes::ControllerCrashes;
+use crate::forgeries::Forgeries;
 use crate::mishap::Mishap;
 use crate::network::{Network, Way};
 use crate::operator::Operator;
@@ -44,6 +45,9 @@ pub(crate) struct Play {
     breakdowns: Breakdowns,
     broker: BrokerOutages,
     crashes: ControllerCrashes,
+    forgeries: Forgeries,
+    /// `(name, robot)` of robots that have the name of another.
+    namesakes: Vec<(RobotId, usize)>,
     /// Number of controllers until now.
     controllers: u32,
     operator: Operator,
@@ -76,6 +80,8 @@ impl Play {
             planned_s,
             controller: RecordedController::new(Controller::new(Config::default())),
             network: Network::new(&conditions.link, starts.len(), *seed),
+            forgeries: Forgeries::default(),
+            namesakes: Vec::new(),
             breakdowns: Breakdowns::new(conditions, starts.len(), planned_s, *seed),
             broker: BrokerOutages::new(conditions, starts.len(), *seed),
             crashes: ControllerCrashes::new(&conditions.crashed),
@@ -155,10 +161,13 @@ impl Play {
         self.break_controller();
         self.press();
         self.befall();
-        let Self { robots, network, record, breakdowns, broker, .. } = self;
+        let Self { robots, network, record, breakdowns, broker, forgeries, .. } = self;
         robots.step(next, &mut |robot, topic, text| {
-            send(network, record, (breakdowns, broker), next, (robot, topic, text))
+            send(network, record, (breakdowns, broker, forgeries), next, (robot, topic, text))
         });
+        for (robot, text) in self.forgeries.floods() {
+            self.network.send(next, Way::ToController(robot), Topic::Status, text.into());
+        }
         self.record.contacts(next, &self.robots.world);
         self.crashes.observe(next, self.robots.world.places());
         if let Some(invariants) = &mut self.invariants {
@@ -197,9 +206,15 @@ impl Play {
                             invariants.received(robot, self.now);
                         }
                         self.robots.receive(self.now, robot, message.topic, &message.payload);
-                        let Self { robots, network, record, breakdowns, broker, now, .. } = self;
+                        let Self { robots, network, record, breakdowns, broker, forgeries, now, .. } = self;
                         robots.drain_messages(robot, &mut |robot, topic, text| {
-                            send(network, record, (breakdowns, broker), *now, (robot, topic, text));
+                            send(
+                                network,
+                                record,
+                                (breakdowns, broker, forgeries),
+                                *now,
+                                (robot, topic, text),
+                            );
                         });
                     }
                     Way::ToController(_) if self.crashes.is_gone() => {}
@@ -275,7 +290,10 @@ impl Play {
                 Topic::Robot(id) => {
                     if let Ok(place) = self.by_id.binary_search_by_key(&id, |entry| entry.0) {
                         let way = Way::ToRobot(self.by_id[place].1);
-                        self.network.send(self.now, way, send.topic, payload);
+                        self.network.send(self.now, way, send.topic, payload.clone());
+                    }
+                    for &(_, robot) in self.namesakes.iter().filter(|(name, _)| *name == id) {
+                        self.network.send(self.now, Way::ToRobot(robot), send.topic, payload.clone());
                     }
                 }
                 topic => {
@@ -294,9 +312,7 @@ impl Play {
             }
             self.record.event(&event, &self.controller, &self.robots, &self.by_id, &self.show);
         }
-        if let Some(piece) = self.controller.take_journal(self.now.0) {
-            self.crashes.write(piece);
-        }
+        self.write_journal();
     }
 
     /// The report of what was played.
@@ -341,7 +357,7 @@ fn hand_on(log: &[u8], progress: &mut dyn FnMut(Progress<'_>)) {
 fn send(
     network: &mut Network,
     record: &mut RehearsalRecord,
-    (breakdowns, broker): (&Breakdowns, &BrokerOutages),
+    (breakdowns, broker, forgeries): (&Breakdowns, &BrokerOutages, &mut Forgeries),
     now: Instant,
     (robot, topic, text): (usize, Topic, &[u8]),
 ) {
@@ -349,7 +365,7 @@ fn send(
         record.arrived(robot, now);
     }
     if !breakdowns.is_mute(robot) && !broker.is_cut(robot) {
-        network.send(now, Way::ToController(robot), topic, text.into());
+        network.send(now, Way::ToController(robot), topic, forgeries.forge(robot, topic, text).into());
     }
 }
 

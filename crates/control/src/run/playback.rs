@@ -51,7 +51,7 @@ impl PlayedShow {
     pub fn after(&self, cursor: FrameCursor) -> Option<FrameCursor> {
         match self.purpose {
             RunPurpose::Preview => None,
-            RunPurpose::Play if cursor.frame + 1 < self.show.frames.len() => {
+            RunPurpose::Play if cursor.frame.saturating_add(1) < self.show.frames.len() => {
                 Some(FrameCursor { frame: cursor.frame + 1, ..cursor })
             }
             RunPurpose::Play => self.looping.then(|| FrameCursor { frame: 0, round: cursor.round + 1 }),
@@ -137,5 +137,14 @@ mod tests {
         assert_eq!(preview.standing_time(0), Span::ZERO);
         let play = playback(RunPurpose::Play, false);
         assert_eq!((play.standing_time(0), play.standing_time(1)), (Span::from_secs(1.0), Span::ZERO));
+    }
+
+    #[test]
+    fn nothing_comes_after_a_show_that_is_over() {
+        let mut playback = playback(RunPurpose::Play, false);
+        while !playback.is_ended() {
+            playback.advance();
+        }
+        assert_eq!(playback.after(playback.next), None);
     }
 }

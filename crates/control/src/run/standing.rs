@@ -111,7 +111,9 @@ impl Standing {
 
 /// Nothing is planned any more: the run is over, unless something is left to try.
 fn end(cx: &mut RunContext) -> Next {
-    match cx.pipeline.planning.failure.take() {
+    // A plan that failed ahead says nothing once all frames were reached after all.
+    let failure = cx.pipeline.planning.failure.take().filter(|_| !cx.playback.is_ended());
+    match failure {
         None => Next::Over(RunOutcome::Finished),
         // What stood in the way when that was planned ahead may have gone.
         Some(_) if obstacles::relax(cx) => Next::Regather,

@@ -2,7 +2,7 @@
 
 use core::fmt;
 
-use lightbots_base::{Instant, RobotId, Span};
+use lightbots_base::{Instant, RobotId, Span, Vec2};
 use lightbots_control::{Event, EventKind, Trouble};
 
 use crate::breakdowns::Fate;
@@ -23,6 +23,8 @@ const KNOWN_AFTER: Span = Span::from_millis(1_000);
 const EXPECTED_AFTER: Span = Span::from_millis(1_500);
 /// Robots that touched and were excused are apart once their rims are at this distance, metres.
 const APART_M: f64 = 0.01;
+/// A route whose run is gone has ended after this.
+const ROUTE_ENDS: Span = Span::from_millis(30_000);
 /// Most violations that are kept.
 const KEPT: usize = 20;
 
@@ -54,6 +56,8 @@ struct Watched {
     out: Option<Instant>,
     /// Something happened to it alone, or it knows TARGET only: it may drop out.
     may_drop_out: bool,
+    /// It says that it is elsewhere, or shares its name.
+    is_false: bool,
     /// When it was put down elsewhere.
     moved: Option<Instant>,
     /// It was seen moving when it should not.
@@ -70,6 +74,8 @@ pub(crate) struct Invariants {
     reached: Option<usize>,
     /// Frames to which there was no plan.
     given_up: Vec<usize>,
+    /// The journal may be older than the run: the disk failed.
+    is_journal_old: bool,
     /// When Stop was pressed, or the run ended.
     stopped: Option<Instant>,
     is_over: bool,
@@ -86,6 +92,7 @@ impl Invariants {
             is_broken: false,
             out: None,
             may_drop_out: robot + originals >= robots,
+            is_false: false,
             moved: None,
             moves: false,
         };
@@ -93,6 +100,7 @@ impl Invariants {
             robots: (0..robots).map(watched).collect(),
             reached: None,
             given_up: Vec::new(),
+            is_journal_old: false,
             limit,
             stopped: None,
             is_over: false,
@@ -117,6 +125,16 @@ impl Invariants {
         self.is_over && self.stopped.is_some_and(|at| now - at > WATCHED) || now > self.limit
     }
 
+    /// A controller found no run after a crash: its disk had failed, or the run was over. Robots drive to the end of their
+    /// routes at most.
+    pub fn run_is_gone(&mut self, now: Instant) {
+        if !self.is_over && !self.is_journal_old {
+            self.violate(now, "journal", "the run is not found".into());
+        }
+        self.stopped.get_or_insert(now + ROUTE_ENDS);
+        self.is_over = true;
+    }
+
     /// A robot received a message, or its link came up.
     pub fn received(&mut self, robot: usize, now: Instant) {
         self.robots[robot].received = now;
@@ -137,6 +155,18 @@ impl Invariants {
             Mishap::Off(robot) => self.robots[robot].is_broken = true,
             Mishap::On(robot) => self.robots[robot].is_broken = false,
             Mishap::Moved(robot, _) => self.robots[robot].moved = Some(now),
+            Mishap::Lies(robot, off) => {
+                self.robots[robot].may_drop_out = true;
+                self.robots[robot].is_false = off != Vec2::ZERO;
+                self.robots[robot].moved = Some(now);
+            }
+            Mishap::Named(robot, other) => {
+                for robot in [robot, other] {
+                    (self.robots[robot].may_drop_out, self.robots[robot].is_false) = (true, true);
+                }
+            }
+            Mishap::Floods(robot, _) => self.robots[robot].may_drop_out = true,
+            Mishap::DiskFull(_) | Mishap::DiskSlow(..) => self.is_journal_old = true,
             Mishap::Stop | Mishap::Pause | Mishap::Resume => {}
         }
     }
@@ -185,7 +215,7 @@ impl Invariants {
         let next = self.reached.map_or(0, |reached| reached + 1);
         self.reached = Some(frame);
         let is_next = frame >= next && (next..frame).all(|skipped| self.given_up.contains(&skipped));
-        if !is_next {
+        if !is_next && !self.is_journal_old {
             self.violate(
                 now,
                 "frames",
@@ -241,9 +271,10 @@ impl Invariants {
         }
     }
 
-    /// Whether a robot stands where it was put down just now.
+    /// Whether a robot stands where it was put down just now, or where no controller can know that it is.
     fn is_unexpected(&self, now: Instant, robot: usize) -> bool {
-        self.robots[robot].moved.is_some_and(|at| now - at < EXPECTED_AFTER)
+        let watched = &self.robots[robot];
+        watched.is_false || watched.moved.is_some_and(|at| now - at < EXPECTED_AFTER)
     }
 
     fn check_bump(&mut self, now: Instant, bump: Bump) {
@@ -269,7 +300,7 @@ impl Invariants {
             return;
         }
         let is_silent = now - watched.received > RESTS_AFTER;
-        let is_stopped = self.stopped.is_some_and(|at| now - at > RESTS_AFTER);
+        let is_stopped = !watched.is_false && self.stopped.is_some_and(|at| now - at > RESTS_AFTER);
         if (is_silent || is_stopped) && !core::mem::replace(&mut watched.moves, true) {
             let [left, right] = robots.world.wheel_turns(robot).map(|turn| turn / crate::world::STEP_S);
             let why = if is_silent { "after silence" } else { "after Stop or the end" };

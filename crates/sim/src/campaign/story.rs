@@ -18,6 +18,14 @@ const SHORT_S: (f64, f64) = (0.1, 6.0);
 const LONG_S: (f64, f64) = (6.0, 40.0);
 /// Share of the outages that are short.
 const SHORT: f64 = 0.8;
+/// Clients find a broker that is back within this.
+const FOUND_AGAIN: Span = Span::from_millis(2_000);
+/// Seeds from here on have further faults. Seeds below keep the stories that failed once.
+const FURTHER_FROM: u64 = 1_000;
+/// How far lies are off, metres: from and to.
+const LIE_M: (f64, f64) = (0.05, 0.5);
+/// How long a slow disk takes to write a piece, seconds: from and to.
+const DISK_S: (f64, f64) = (0.05, 3.0);
 /// Share of the stories whose messages are not always on time.
 const BAD_LINK: f64 = 0.6;
 
@@ -34,7 +42,57 @@ enum Fault {
     Gone(Span),
     Crash(Span),
     Pause(Span),
+    Lies(usize, Vec2, Span),
+    Floods(usize, Span),
+    Named(usize, usize),
+    DiskFull(Span),
+    DiskSlow(Span, Span),
     Stop,
+}
+
+impl Fault {
+    /// How long it lasts.
+    fn over(self) -> Span {
+        match self {
+            Self::Cut(_, over) | Self::Blind(_, over) | Self::Rebooted(_, over) => over,
+            Self::Freeze(over) | Self::Gone(over) | Self::Crash(over) | Self::Pause(over) => over,
+            Self::Lies(_, _, over) | Self::Floods(_, over) => over,
+            Self::DiskFull(over) | Self::DiskSlow(over, _) => over,
+            Self::Dead(_) | Self::Stuck(_) | Self::Moved(..) | Self::Named(..) | Self::Stop => Span::ZERO,
+        }
+    }
+
+    /// The robot that it happens to.
+    fn robot(self) -> Option<usize> {
+        match self {
+            Self::Dead(robot) | Self::Stuck(robot) | Self::Moved(robot, _) => Some(robot),
+            Self::Cut(robot, _) | Self::Blind(robot, _) | Self::Rebooted(robot, _) => Some(robot),
+            Self::Lies(robot, ..) | Self::Floods(robot, _) | Self::Named(robot, _) => Some(robot),
+            _ => None,
+        }
+    }
+
+    /// Whether one of both cannot begin before the other has ended.
+    fn excludes(self, other: Self) -> bool {
+        let is_of_broker = |fault| matches!(fault, Self::Freeze(_) | Self::Gone(_));
+        let is_crash = |fault| matches!(fault, Self::Crash(_));
+        is_of_broker(self) && is_of_broker(other) || is_crash(self) && is_crash(other)
+    }
+}
+
+/// Faults in order of time, without those that cannot happen: a second one of the same robot, a broker that is gone twice.
+fn without_overlaps(faults: Vec<(Span, Fault)>) -> Vec<(Span, Fault)> {
+    let mut kept: Vec<(Span, Fault)> = Vec::new();
+    for (at, fault) in faults {
+        let is_of_same_robot = |other: Fault| fault.robot().is_some() && fault.robot() == other.robot();
+        let overlaps = |&(began, other): &(Span, Fault)| {
+            is_of_same_robot(other) || fault.excludes(other) && began + other.over() + FOUND_AGAIN > at
+        };
+        if !kept.iter().any(overlaps) {
+            kept.push((at, fault));
+        }
+    }
+    kept
 }
 
 /// What happens in a run.
@@ -56,18 +114,17 @@ impl Story {
         let originals = if dice.chance(0.1) { 1 + dice.below(3) as usize } else { 0 };
         let count = 1 + dice.below(FAULTS);
         let mut faults: Vec<_> = (0..count).map(|_| fault(&mut dice, scene)).collect();
+        if seed >= FURTHER_FROM {
+            faults.extend((0..1 + dice.below(2)).map(|_| further_fault(&mut dice, scene)));
+        }
         faults.sort_by_key(|&(at, _)| at);
+        let faults = without_overlaps(faults);
         Self { faults, link, slip, originals }
     }
 
     /// How long the faults last in all.
     pub fn lasts(&self) -> Span {
-        let over = |fault: &Fault| match *fault {
-            Fault::Cut(_, over) | Fault::Blind(_, over) | Fault::Rebooted(_, over) => over,
-            Fault::Freeze(over) | Fault::Gone(over) | Fault::Crash(over) | Fault::Pause(over) => over,
-            _ => Span::ZERO,
-        };
-        self.faults.iter().fold(Span::ZERO, |sum, (_, fault)| sum + over(fault))
+        self.faults.iter().fold(Span::ZERO, |sum, (_, fault)| sum + fault.over())
     }
 
     /// Number of robots that know TARGET only.
@@ -138,6 +195,24 @@ fn fault(dice: &mut Dice, scene: &Scene) -> (Span, Fault) {
     (at, fault)
 }
 
+/// A fault of those that came to the campaign later.
+fn further_fault(dice: &mut Dice, scene: &Scene) -> (Span, Fault) {
+    let at = Span::from_secs(dice.between(HAPPEN_S.0, HAPPEN_S.1));
+    let robot = dice.below(scene.robots as u64) as usize;
+    let over = Span::from_secs(dice.between(SHORT_S.0, SHORT_S.1));
+    let fault = match dice.below(5) {
+        0 => {
+            let direction = Vec2::unit(dice.between(0.0, core::f64::consts::TAU));
+            Fault::Lies(robot, direction * dice.between(LIE_M.0, LIE_M.1), over)
+        }
+        1 => Fault::Floods(robot, over),
+        2 => Fault::Named(robot, (robot + 1) % scene.robots),
+        3 => Fault::DiskFull(over),
+        _ => Fault::DiskSlow(over, Span::from_secs(dice.between(DISK_S.0, DISK_S.1))),
+    };
+    (at, fault)
+}
+
 fn add(conditions: &mut Conditions, at: Span, fault: Fault) {
     let of = |robot| Breakdown { robot: Some(robot), at: Some(at) };
     match fault {
@@ -154,6 +229,17 @@ fn add(conditions: &mut Conditions, at: Span, fault: Fault) {
         Fault::Crash(over) => conditions.crashed.push(Outage { at, over }),
         Fault::Pause(over) => conditions.mishaps.extend([(at, Mishap::Pause), (at + over, Mishap::Resume)]),
         Fault::Stop => conditions.mishaps.push((at, Mishap::Stop)),
+        Fault::Lies(robot, off, over) => {
+            let honest = Mishap::Lies(robot, Vec2::ZERO);
+            conditions.mishaps.extend([(at, Mishap::Lies(robot, off)), (at + over, honest)]);
+        }
+        Fault::Floods(robot, over) => {
+            let ends = Mishap::Floods(robot, false);
+            conditions.mishaps.extend([(at, Mishap::Floods(robot, true)), (at + over, ends)]);
+        }
+        Fault::Named(robot, other) => conditions.mishaps.push((at, Mishap::Named(robot, other))),
+        Fault::DiskFull(over) => conditions.mishaps.push((at, Mishap::DiskFull(over))),
+        Fault::DiskSlow(over, takes) => conditions.mishaps.push((at, Mishap::DiskSlow(over, takes))),
     }
 }
 
@@ -177,6 +263,25 @@ impl fmt::Display for Fault {
             }
             Self::Pause(over) => write!(f, "the operator pauses the show for {:.2} s", over.as_secs()),
             Self::Stop => write!(f, "the operator stops all robots"),
+            Self::Lies(robot, off, over) => {
+                let over_s = over.as_secs();
+                write!(
+                    f,
+                    "robot {robot} reports places that are off by {:.2} m for {over_s:.2} s",
+                    off.length()
+                )
+            }
+            Self::Floods(robot, over) => {
+                write!(f, "robot {robot} sends 2,500 reports a second for {:.2} s", over.as_secs())
+            }
+            Self::Named(robot, other) => {
+                write!(f, "robot {robot} starts again with the name of robot {other}")
+            }
+            Self::DiskFull(over) => write!(f, "the journal's disk is full for {:.2} s", over.as_secs()),
+            Self::DiskSlow(over, takes) => {
+                let (over_s, takes_s) = (over.as_secs(), takes.as_secs());
+                write!(f, "for {over_s:.2} s the disk takes {takes_s:.2} s to write a piece of the journal")
+            }
         }
     }
 }

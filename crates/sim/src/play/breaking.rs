@@ -42,6 +42,7 @@ impl Play {
                     self.controller.disconnected(self.now);
                 }
                 BrokerEvent::RobotBack(robot) => self.link(robot, true),
+                BrokerEvent::ControllerBack if self.crashes.is_gone() => {}
                 BrokerEvent::ControllerBack => self.controller.connected(self.now),
             }
             self.drain_controller();
@@ -57,6 +58,7 @@ impl Play {
             self.crashes.watch(event, self.now, self.robots.world.places());
             match event {
                 CrashEvent::Killed => {
+                    self.crashes.disk.crash(self.now);
                     self.controllers += 1;
                     let config = Config { seq_base: self.controllers * SEQ_STEP, ..Config::default() };
                     self.controller = RecordedController::new(Controller::new(config));
@@ -71,8 +73,12 @@ impl Play {
         if let Some(run) = self.crashes.unfinished_run() {
             // A new controller has no run.
             let _ = self.controller.take_up(self.now, &run, OnReturn::GoOrAsk);
+        } else if let Some(invariants) = &mut self.invariants {
+            invariants.run_is_gone(self.now);
         }
-        self.controller.connected(self.now);
+        if !self.broker.is_controller_away() {
+            self.controller.connected(self.now);
+        }
         self.drain_controller();
     }
 
@@ -93,6 +99,26 @@ impl Play {
         }
     }
 
+    /// A robot begins anew with the name of another one.
+    fn name(&mut self, robot: usize, other: usize) {
+        let id = self.robots.id(other);
+        self.namesakes.push((id, robot));
+        self.robots.restart_as(self.now, robot, id);
+        self.link(robot, true);
+    }
+
+    /// Writes what is new in the journal.
+    pub(super) fn write_journal(&mut self) {
+        if self.crashes.disk.begins_again(self.now) {
+            self.controller.begin_journal_again();
+        }
+        if self.crashes.disk.is_ready()
+            && let Some(piece) = self.controller.take_journal(self.now.0)
+        {
+            self.crashes.disk.write(self.now, piece);
+        }
+    }
+
     /// Applies the mishaps that are due.
     pub(super) fn befall(&mut self) {
         let Some(first_departure) = self.record.began_at() else { return };
@@ -107,6 +133,11 @@ impl Play {
                     self.link(robot, true);
                 }
                 Mishap::Moved(robot, to) => self.robots.put_down(robot, to),
+                Mishap::Lies(robot, off) => self.forgeries.lie(robot, off),
+                Mishap::Floods(robot, floods) => self.forgeries.flood(robot, floods),
+                Mishap::Named(robot, other) => self.name(robot, other),
+                Mishap::DiskFull(over) => self.crashes.disk.fill(self.now + over),
+                Mishap::DiskSlow(over, takes) => self.crashes.disk.slow(self.now + over, takes),
             }
             if let Some(invariants) = &mut self.invariants {
                 invariants.befell(mishap, self.now);

@@ -1,6 +1,7 @@
 //! What happens to robots from outside: their power comes back, they are lifted and put down elsewhere.
 
-use lightbots_base::{Instant, Vec2};
+use lightbots_base::{Instant, RobotId, Vec2};
+use lightbots_robot::Config;
 use lightbots_wire::RobotState;
 
 use super::{Ours, RobotFirmware, RobotSet};
@@ -19,12 +20,17 @@ const GOLDEN_RAD: f64 = 2.399_963_229_728_653;
 impl RobotSet {
     /// A robot whose power failed is switched on again, with a link.
     pub fn restart(&mut self, now: Instant, robot: usize) {
+        self.restart_as(now, robot, self.robots[robot].id);
+    }
+
+    /// A robot is switched off and on, and has this name then.
+    pub fn restart_as(&mut self, now: Instant, robot: usize, id: RobotId) {
         let simulated = &mut self.robots[robot];
-        let id = simulated.id;
         simulated.firmware = match &simulated.firmware {
-            RobotFirmware::Ours(before) => {
-                RobotFirmware::Ours(Ours::with_storage(before.config().clone(), Box::default()))
-            }
+            RobotFirmware::Ours(before) => RobotFirmware::Ours(Ours::with_storage(
+                Config { id, ..before.config().clone() },
+                Box::default(),
+            )),
             RobotFirmware::Original(_) => RobotFirmware::Original(Original::new(id)),
         };
         self.alive[robot] = true;

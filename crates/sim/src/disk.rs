@@ -1,0 +1,120 @@
+//! The disk that the journal is written to: it may be full or slow, and what a crash cuts short is torn. The shell's thread
+//! (`server/src/live/journal.rs`) does with a failure what this model does.
+
+use std::collections::VecDeque;
+
+use lightbots_base::{Instant, Span};
+use lightbots_control::JournalPiece;
+
+/// After a failure the journal is begun again at most this often, as in the shell.
+const TRY_AGAIN: Span = Span::from_millis(10_000);
+
+/// The file of the journal.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Disk {
+    /// What is surely on it.
+    file: Vec<u8>,
+    /// What is being written, with the time at which it is on the disk.
+    pending: VecDeque<(Instant, JournalPiece)>,
+    full_until: Instant,
+    slow_until: Instant,
+    takes: Span,
+    failed: Option<Instant>,
+}
+
+impl Disk {
+    /// Writing fails until then.
+    pub fn fill(&mut self, until: Instant) {
+        self.full_until = self.full_until.max(until);
+    }
+
+    /// Until then it takes that long until a piece is on the disk.
+    pub fn slow(&mut self, until: Instant, takes: Span) {
+        (self.slow_until, self.takes) = (until, takes);
+    }
+
+    /// Whether the next piece may be written. After a failure not, for a while.
+    pub fn is_ready(&self) -> bool {
+        self.failed.is_none()
+    }
+
+    /// Whether the journal is to be begun again.
+    pub fn begins_again(&mut self, now: Instant) -> bool {
+        self.failed.take_if(|failed| now - *failed > TRY_AGAIN).is_some()
+    }
+
+    /// A piece is written.
+    pub fn write(&mut self, now: Instant, piece: JournalPiece) {
+        if now < self.full_until {
+            self.failed = Some(now);
+            return;
+        }
+        let takes = if now < self.slow_until { self.takes } else { Span::ZERO };
+        let last = self.pending.back().map_or(now, |(at, _)| *at);
+        self.pending.push_back(((now + takes).max(last), piece));
+        self.settle(now);
+    }
+
+    /// What has been written until now.
+    fn settle(&mut self, now: Instant) {
+        while self.pending.front().is_some_and(|(at, _)| *at <= now)
+            && let Some((_, piece)) = self.pending.pop_front()
+        {
+            if piece.begins {
+                self.file.clear();
+            }
+            self.file.extend(piece.bytes);
+        }
+    }
+
+    /// The program is killed: of the piece that is being written, a half is on the disk. One that replaces the file does so
+    /// as a whole or not at all.
+    pub fn crash(&mut self, now: Instant) {
+        self.settle(now);
+        if let Some((_, torn)) = self.pending.front().filter(|(_, piece)| !piece.begins) {
+            self.file.extend(&torn.bytes[..torn.bytes.len() / 2]);
+        }
+        self.pending.clear();
+        self.failed = None;
+    }
+
+    /// The bytes of the file.
+    pub fn file(&self) -> &[u8] {
+        &self.file
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn piece(begins: bool, bytes: &[u8]) -> JournalPiece {
+        JournalPiece { begins, ends: false, bytes: bytes.to_vec() }
+    }
+
+    #[test]
+    fn a_crash_tears_what_is_being_written() {
+        let mut disk = Disk::default();
+        disk.write(Instant(0), piece(true, b"ab"));
+        disk.slow(Instant(10), Span(5));
+        disk.write(Instant(1), piece(false, b"cdef"));
+        disk.write(Instant(2), piece(false, b"gh"));
+        disk.crash(Instant(5));
+        assert_eq!(disk.file(), b"abcd");
+        disk.write(Instant(6), piece(true, b"new"));
+        disk.crash(Instant(7));
+        assert_eq!(disk.file(), b"abcd");
+    }
+
+    #[test]
+    fn after_a_failure_the_journal_begins_again() {
+        let mut disk = Disk::default();
+        disk.write(Instant(0), piece(true, b"ab"));
+        disk.fill(Instant(10));
+        disk.write(Instant(1), piece(false, b"c"));
+        assert!(!disk.is_ready() && !disk.begins_again(Instant(9_000_000)));
+        assert!(disk.begins_again(Instant(10_000_002)) && disk.is_ready());
+        disk.write(Instant(10_000_003), piece(true, b"d"));
+        assert_eq!(disk.file(), b"d");
+    }
+}
