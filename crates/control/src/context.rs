@@ -5,7 +5,6 @@ use crate::event::EventKind;
 use crate::fleet::KnownRobots;
 use crate::log::EventQueue;
 use crate::mapping::Mapping;
-use crate::mutant::Mutant;
 use crate::outbox::SendQueue;
 use crate::plan_request::PlanRequest;
 use lightbots_base::{Instant, Rgb};
@@ -42,7 +41,7 @@ impl Context {
     /// An empty fleet.
     pub fn new(config: Config) -> Self {
         Self {
-            next_route: if Mutant::ReuseRouteNumbers.is_planted() { 1 } else { config.seq_base.max(1) },
+            next_route: config.seq_base.max(1),
             config,
             fleet: KnownRobots::default(),
             outbox: SendQueue::default(),

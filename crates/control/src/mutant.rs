@@ -20,8 +20,8 @@ pub enum Mutant {
     LinkLossIsDeath,
     /// Robots that do not answer are waited for without a bound.
     WaitForEver,
-    /// A controller numbers its routes as the one before it did.
-    ReuseRouteNumbers,
+    /// Robots that do not know their place are not driven around.
+    ForgetLostRobot,
     /// A fifth of the journal's entries is not written.
     LoseJournalEntries,
 }
@@ -37,7 +37,7 @@ impl Mutant {
         ("stop-once", Self::StopOnce),
         ("link-loss-is-death", Self::LinkLossIsDeath),
         ("wait-for-ever", Self::WaitForEver),
-        ("reuse-route-numbers", Self::ReuseRouteNumbers),
+        ("forget-lost-robot", Self::ForgetLostRobot),
         ("lose-journal-entries", Self::LoseJournalEntries),
     ];
 

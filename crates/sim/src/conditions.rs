@@ -99,6 +99,11 @@ impl Conditions {
     /// Largest valid age of a fix.
     pub const FIX_DELAY_MAX: Span = Span::from_millis(1_000);
 
+    /// Whether a person comes onto the floor.
+    pub(crate) fn has_people(&self) -> bool {
+        self.mishaps.iter().any(|(_, mishap)| matches!(mishap, Mishap::Person(_)))
+    }
+
     /// Ideal conditions: no noise, slip, delay or loss, and clocks without drift.
     pub fn ideal() -> Self {
         let fixes = FixConditions { place_sigma_m: 0.0, heading_sigma_rad: 0.0, ..FixConditions::default() };

@@ -23,6 +23,8 @@ pub enum Mishap {
     Floods(usize, bool),
     /// A robot is switched off and on, and has the name of another one then.
     Named(usize, usize),
+    /// A person stands on the floor about this place, stage metres; `None`: leaves.
+    Person(Option<Vec2>),
     /// The disk of the journal is full for this long.
     DiskFull(Span),
     /// For the first span, a piece of the journal takes the second until it is on the disk.

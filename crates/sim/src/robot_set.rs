@@ -36,7 +36,7 @@ pub(crate) struct RobotSet {
     robots: Vec<SimulatedRobot>,
     /// Number of robots up to which none is prefetched.
     pub cached: usize,
-    /// `[robot]`: it has power.
+    /// `[robot]`: it has power. The person's foot comes last, and has none.
     alive: Vec<bool>,
     steps: u64,
     errors: ErrorStatistics,
@@ -112,11 +112,11 @@ impl RobotSet {
         };
         let robots = (0..starts.len()).map(simulated).collect();
         Self {
-            world: World::new(stage, &poses, conditions.slip, seed),
+            world: World::with_people(stage, &poses, conditions.has_people(), conditions.slip, seed),
             sensors: FixSensors::new(&conditions.fixes, &poses, seed),
             robots,
             cached: CACHED,
-            alive: vec![true; starts.len()],
+            alive: (0..=starts.len()).map(|disc| disc < starts.len()).collect(),
             steps: 0,
             errors: ErrorStatistics::default(),
             brakes: Brakes::new(starts.len(), ProximityReadings::sight_m(stage.limits.radius_m)),

@@ -55,7 +55,22 @@ struct Body {
 impl World {
     /// Robots at rest at these poses, whose wheels slip by this share in the mean.
     pub fn new(stage: &Stage, starts: &[Pose], slip: f64, seed: u64) -> Self {
+        Self::with_people(stage, starts, false, slip, seed)
+    }
+
+    /// [`Self::new`]; with people there is one more disc, a foot, which stands beside the floor until it is put on it.
+    pub(crate) fn with_people(
+        stage: &Stage,
+        robots: &[Pose],
+        has_people: bool,
+        slip: f64,
+        seed: u64,
+    ) -> Self {
         let mut dice = Dice::new(seed, Purpose::Slip);
+        let places: Vec<Vec2> = robots.iter().map(|start| start.at).collect();
+        let floor = Floor::new(stage, &places);
+        let foot = has_people.then(|| Pose::new(beside(stage), 0.0));
+        let starts: Vec<Pose> = robots.iter().copied().chain(foot).collect();
         let places: Vec<Vec2> = starts.iter().map(|start| start.at).collect();
         let body = |_: &Pose| Body {
             drive: DriveTrain::default(),
@@ -68,7 +83,7 @@ impl World {
         let bodies = starts.iter().map(body).collect();
         Self {
             contact_states: starts.iter().map(|start| ContactState::new(Vec2::unit(start.heading))).collect(),
-            floor: Floor::new(stage, &places),
+            floor,
             near: NeighbourList::new(contact_m),
             contacts: Contacts::new(contact_m, ProximityReadings::sight_m(stage.limits.radius_m)),
             proximity: ProximityReadings::new(starts.len(), stage.limits.radius_m, seed),
@@ -79,6 +94,11 @@ impl World {
             slip,
             dice,
         }
+    }
+
+    /// The person's foot is put on the floor or, with `None`, beside it.
+    pub(crate) fn put_foot(&mut self, stage: &Stage, place: Option<Vec2>) {
+        self.put(self.places.len() - 1, place.unwrap_or_else(|| beside(stage)));
     }
 
     /// Commands the wheel rates of a robot, left and right, rad/s. They act from the step after the next.
@@ -192,6 +212,11 @@ impl World {
         self.places[robot] = place;
         Some(place)
     }
+}
+
+/// A place beside the floor, out of the robots' sight.
+fn beside(stage: &Stage) -> Vec2 {
+    Vec2::new(0.5 * stage.width_m + 1.0, 0.0)
 }
 
 /// A unit vector rotated by a small angle (below 0.3 rad): a Taylor series instead of sine and cosine. It is scaled back to

@@ -4,6 +4,7 @@ use crate::context::Context;
 use crate::event::{EventKind, RunOutcome, Trouble};
 use crate::journal::Position;
 use crate::leg::LegKind;
+use crate::mutant::Mutant;
 use crate::run::candidates;
 use crate::run::driving::Driving;
 use crate::run::gathering::Gathering;
@@ -215,7 +216,7 @@ impl Run {
             }
             Trouble::Silent => self.whereabouts_on_path(io, now, participant),
             // It does not know where it is. It stood at once, or waited before that where it reported last.
-            _ if reported.is_none() => {
+            _ if reported.is_none() && !Mutant::ForgetLostRobot.is_planted() => {
                 let mut places = self.whereabouts_on_path(io, now, participant);
                 places.possible.extend(last);
                 places.likely.extend(last);

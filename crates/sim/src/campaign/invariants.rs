@@ -74,6 +74,8 @@ pub(crate) struct Invariants {
     reached: Option<usize>,
     /// Frames to which there was no plan.
     given_up: Vec<usize>,
+    /// When a person put a foot on the floor.
+    stepped: Option<Instant>,
     /// The journal may be older than the run: the disk failed.
     is_journal_old: bool,
     /// When Stop was pressed, or the run ended.
@@ -100,6 +102,7 @@ impl Invariants {
             robots: (0..robots).map(watched).collect(),
             reached: None,
             given_up: Vec::new(),
+            stepped: None,
             is_journal_old: false,
             limit,
             stopped: None,
@@ -165,6 +168,7 @@ impl Invariants {
                     (self.robots[robot].may_drop_out, self.robots[robot].is_false) = (true, true);
                 }
             }
+            Mishap::Person(_) => self.stepped = Some(now),
             Mishap::Floods(robot, _) => self.robots[robot].may_drop_out = true,
             Mishap::DiskFull(_) | Mishap::DiskSlow(..) => self.is_journal_old = true,
             Mishap::Stop | Mishap::Pause | Mishap::Resume => {}
@@ -241,7 +245,12 @@ impl Invariants {
     fn check_contacts(&mut self, now: Instant, robots: &RobotSet) {
         let world = &robots.world;
         for &(a, b) in world.contacts().fresh() {
-            match self.contact(now, (a, b)) {
+            let is_foot = b as usize == self.robots.len();
+            let what = match is_foot {
+                true => self.contact_with_person(now, a as usize, robots),
+                false => self.contact(now, (a, b)),
+            };
+            match what {
                 Some(what) => self.violate(now, "contact", what),
                 None => self.together.push((a, b)),
             }
@@ -269,6 +278,17 @@ impl Invariants {
                 known.then(|| format!("robot {works} touched robot {broken}, which was known to be broken"))
             }
         }
+    }
+
+    /// Why a robot must not touch the person's foot; `None`: the foot has just been put in its way, or the robot does not
+    /// brake because it drives to a target (R49).
+    fn contact_with_person(&self, now: Instant, robot: usize, robots: &RobotSet) -> Option<String> {
+        let is_surprised = self.stepped.is_some_and(|at| now - at < EXPECTED_AFTER);
+        let is_excused = is_surprised
+            || robots.is_on_target(robot)
+            || self.robots[robot].is_broken
+            || self.is_unexpected(now, robot);
+        (!is_excused).then(|| format!("robot {robot} touched a person"))
     }
 
     /// Whether a robot stands where it was put down just now, or where no controller can know that it is.

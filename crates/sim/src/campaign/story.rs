@@ -22,6 +22,9 @@ const SHORT: f64 = 0.8;
 const FOUND_AGAIN: Span = Span::from_millis(2_000);
 /// Seeds from here on have further faults. Seeds below keep the stories that failed once.
 const FURTHER_FROM: u64 = 1_000;
+/// Seeds from here on have people, in this share of the stories.
+const PEOPLE_FROM: u64 = 2_000;
+const PEOPLE: f64 = 0.5;
 /// How far lies are off, metres: from and to.
 const LIE_M: (f64, f64) = (0.05, 0.5);
 /// How long a slow disk takes to write a piece, seconds: from and to.
@@ -47,6 +50,7 @@ enum Fault {
     Named(usize, usize),
     DiskFull(Span),
     DiskSlow(Span, Span),
+    Person(Vec2, Span),
     Stop,
 }
 
@@ -57,7 +61,7 @@ impl Fault {
             Self::Cut(_, over) | Self::Blind(_, over) | Self::Rebooted(_, over) => over,
             Self::Freeze(over) | Self::Gone(over) | Self::Crash(over) | Self::Pause(over) => over,
             Self::Lies(_, _, over) | Self::Floods(_, over) => over,
-            Self::DiskFull(over) | Self::DiskSlow(over, _) => over,
+            Self::DiskFull(over) | Self::DiskSlow(over, _) | Self::Person(_, over) => over,
             Self::Dead(_) | Self::Stuck(_) | Self::Moved(..) | Self::Named(..) | Self::Stop => Span::ZERO,
         }
     }
@@ -76,7 +80,10 @@ impl Fault {
     fn excludes(self, other: Self) -> bool {
         let is_of_broker = |fault| matches!(fault, Self::Freeze(_) | Self::Gone(_));
         let is_crash = |fault| matches!(fault, Self::Crash(_));
-        is_of_broker(self) && is_of_broker(other) || is_crash(self) && is_crash(other)
+        let is_person = |fault| matches!(fault, Self::Person(..));
+        is_of_broker(self) && is_of_broker(other)
+            || is_crash(self) && is_crash(other)
+            || is_person(self) && is_person(other)
     }
 }
 
@@ -116,6 +123,9 @@ impl Story {
         let mut faults: Vec<_> = (0..count).map(|_| fault(&mut dice, scene)).collect();
         if seed >= FURTHER_FROM {
             faults.extend((0..1 + dice.below(2)).map(|_| further_fault(&mut dice, scene)));
+        }
+        if seed >= PEOPLE_FROM && dice.chance(PEOPLE) {
+            faults.push(person(&mut dice, scene));
         }
         faults.sort_by_key(|&(at, _)| at);
         let faults = without_overlaps(faults);
@@ -213,6 +223,13 @@ fn further_fault(dice: &mut Dice, scene: &Scene) -> (Span, Fault) {
     (at, fault)
 }
 
+fn person(dice: &mut Dice, scene: &Scene) -> (Span, Fault) {
+    let at = Span::from_secs(dice.between(HAPPEN_S.0, HAPPEN_S.1));
+    let half = Vec2::new(scene.show.stage.width_m, scene.show.stage.depth_m) * 0.5;
+    let place = Vec2::new(dice.between(-half.x, half.x), dice.between(-half.y, half.y));
+    (at, Fault::Person(place, Span::from_secs(dice.between(1.0, LONG_S.1))))
+}
+
 fn add(conditions: &mut Conditions, at: Span, fault: Fault) {
     let of = |robot| Breakdown { robot: Some(robot), at: Some(at) };
     match fault {
@@ -238,6 +255,10 @@ fn add(conditions: &mut Conditions, at: Span, fault: Fault) {
             conditions.mishaps.extend([(at, Mishap::Floods(robot, true)), (at + over, ends)]);
         }
         Fault::Named(robot, other) => conditions.mishaps.push((at, Mishap::Named(robot, other))),
+        Fault::Person(place, over) => {
+            let comes = Mishap::Person(Some(place));
+            conditions.mishaps.extend([(at, comes), (at + over, Mishap::Person(None))]);
+        }
         Fault::DiskFull(over) => conditions.mishaps.push((at, Mishap::DiskFull(over))),
         Fault::DiskSlow(over, takes) => conditions.mishaps.push((at, Mishap::DiskSlow(over, takes))),
     }
@@ -276,6 +297,9 @@ impl fmt::Display for Fault {
             }
             Self::Named(robot, other) => {
                 write!(f, "robot {robot} starts again with the name of robot {other}")
+            }
+            Self::Person(at, over) => {
+                write!(f, "a person stands near ({:.2}, {:.2}) m for {:.2} s", at.x, at.y, over.as_secs())
             }
             Self::DiskFull(over) => write!(f, "the journal's disk is full for {:.2} s", over.as_secs()),
             Self::DiskSlow(over, takes) => {

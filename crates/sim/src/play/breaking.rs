@@ -136,6 +136,7 @@ impl Play {
                 Mishap::Lies(robot, off) => self.forgeries.lie(robot, off),
                 Mishap::Floods(robot, floods) => self.forgeries.flood(robot, floods),
                 Mishap::Named(robot, other) => self.name(robot, other),
+                Mishap::Person(to) => self.robots.put_foot(&self.show.stage, to),
                 Mishap::DiskFull(over) => self.crashes.disk.fill(self.now + over),
                 Mishap::DiskSlow(over, takes) => self.crashes.disk.slow(self.now + over, takes),
             }

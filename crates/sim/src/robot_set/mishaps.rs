@@ -2,6 +2,7 @@
 
 use lightbots_base::{Instant, RobotId, Vec2};
 use lightbots_robot::Config;
+use lightbots_show::Stage;
 use lightbots_wire::RobotState;
 
 use super::{Ours, RobotFirmware, RobotSet};
@@ -39,14 +40,24 @@ impl RobotSet {
 
     /// A robot is put down at the free place that is nearest to `to`.
     pub fn put_down(&mut self, robot: usize, to: Vec2) {
+        if let Some(place) = self.free_place(robot, to) {
+            self.world.put(robot, place);
+        }
+    }
+
+    /// A person puts a foot on the floor, at the free place that is nearest to `to`, or leaves.
+    pub fn put_foot(&mut self, stage: &Stage, to: Option<Vec2>) {
+        let place = to.and_then(|to| self.free_place(self.robots.len(), to));
+        self.world.put_foot(stage, place);
+    }
+
+    /// The place nearest to `to` that is free for a disc.
+    fn free_place(&self, disc: usize, to: Vec2) -> Option<Vec2> {
         let place = |number: u32| {
             let off_m = TRIED_EVERY_M * libm::sqrt(f64::from(number));
             to + Vec2::unit(GOLDEN_RAD * f64::from(number)) * off_m
         };
-        let free = (0..TRIED).map(place).find(|&place| self.world.is_free(robot, place, PUT_DOWN_GAP_M));
-        if let Some(place) = free {
-            self.world.put(robot, place);
-        }
+        (0..TRIED).map(place).find(|&place| self.world.is_free(disc, place, PUT_DOWN_GAP_M))
     }
 
     /// Whether a robot has power.
