@@ -248,7 +248,12 @@ impl Controller {
         };
         self.journal.end(now, &outcome.to_string());
         let (frames_played, dropouts) = (run.tally.frames_played, run.tally.dropouts);
+        // A robot that lost the last STOP on its way keeps a route.
+        let stops = matches!(outcome, RunOutcome::Failed(_)) && self.context.outbox.linked();
         self.context.log.record(now, EventKind::RunEnded { outcome, frames_played, dropouts });
+        if stops {
+            self.stopping = Some(Stopping::begin(&mut self.context, now));
+        }
     }
 
     /// What the controller is doing.

@@ -355,6 +355,10 @@ fn when_all_robots_die_the_run_ends() {
     let why = "Show stopped in frame 1: no robot reports any more";
     assert_eq!((outcome, dropouts), (RunOutcome::Failed(why.into()), 0), "{}", world.story());
     assert_eq!(world.controller.snapshot(world.now).failure, Some(format!("{why}.")));
+    assert_eq!(world.controller.snapshot(world.now).state, ControllerState::Aborting);
+    world.robots[0].dead = false;
+    world.run_for(0.5);
+    assert!(world.robots[0].stops > 0, "who comes back must not keep a route");
     assert_eq!(world.controller.snapshot(world.now).state, ControllerState::Ready);
     world.operate(Operation::DismissFailure).unwrap();
     assert_eq!(world.controller.snapshot(world.now).failure, None);

@@ -6,7 +6,7 @@ use lightbots_sim::Campaign;
 const ROBOTS: usize = 30;
 
 /// Seeds that failed once, with the number of robots they had then.
-const FAILED: [(u64, Option<usize>); 13] = [
+const FAILED: [(u64, Option<usize>); 14] = [
     // Robots turned towards a route that waited for its start after 2 s of silence.
     (78, Some(30)),
     // A show that was paused when its controller was killed was resumed by no one.
@@ -27,6 +27,8 @@ const FAILED: [(u64, Option<usize>); 13] = [
     (206, Some(30)),
     // A controller that was started again while the broker was gone spoke into the void.
     (866, None),
+    // A robot kept a route whose run had failed.
+    (1_072, None),
     // One of two robots of one name was on its way when the show was over.
     (1_107, Some(30)),
 ];
