@@ -58,4 +58,7 @@ test('words', () => {
   expect(phaseText({ ...playback('ready'), failure }), 'a dead show is not ready').toBe(
     'Show stopped',
   );
+  expect(phaseText({ ...playback('aborting'), failure }), 'while its robots are stopped').toBe(
+    'Show stopped',
+  );
 });

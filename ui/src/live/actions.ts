@@ -68,7 +68,7 @@ export function phaseText(
     case 'preview':
       return `Driving to ${where}`.replace(/ to $/, '');
     case 'aborting':
-      return 'Stopping';
+      return failure === null ? 'Stopping' : 'Show stopped';
     case 'link_lost':
       return doing === null ? 'Link lost' : `Link lost, ${doing}`;
   }
