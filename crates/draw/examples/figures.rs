@@ -58,7 +58,7 @@ fn main() {
     let mut svg = String::new();
     let counts = [12, 30, 100, 500, 2000];
     for (row, (name, rings)) in shapes().into_iter().enumerate() {
-        let area = Area { rings, rule: FillRule::EvenOdd, color: Rgb::new(255, 160, 0), weight: 1.0 };
+        let area = Area { rings, rule: FillRule::EvenOdd, ink: Rgb::new(255, 160, 0).into(), weight: 1.0 };
         let part = DrawingPart { name: name.into(), areas: vec![area], ..DrawingPart::default() };
         let drawing = Drawing { parts: vec![part.clone()] };
         for (column, robots) in counts.into_iter().enumerate() {

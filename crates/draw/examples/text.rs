@@ -32,7 +32,7 @@ fn main() -> Result<(), Error> {
     for part in &made.drawing.parts {
         for area in &part.areas {
             let rings = area.rings.iter().map(|ring| path(ring, true)).collect::<String>();
-            let color = area.color.number();
+            let color = area.ink.color.number();
             writeln!(out, "<path d='{rings}' fill='#{color:06x}' fill-opacity='.5'/>")?;
         }
         for stroke in part.strokes.iter().chain(&part.spine) {

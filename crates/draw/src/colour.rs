@@ -16,9 +16,11 @@ pub(crate) struct Paint<'a> {
 impl<'a> Paint<'a> {
     /// Colours of a part.
     pub fn new(part: &'a DrawingPart) -> Self {
-        let mut colors = part.areas.iter().map(|a| a.color).chain(part.strokes.iter().map(|s| s.color));
-        let first = colors.next();
-        let single = first.filter(|first| part.raster.is_none() && colors.all(|color| color == *first));
+        let mut inks =
+            part.areas.iter().map(|area| &area.ink).chain(part.strokes.iter().map(|stroke| &stroke.ink));
+        let first = inks.next().filter(|first| first.gradient.is_none());
+        let single = first.filter(|first| part.raster.is_none() && inks.all(|ink| ink == *first));
+        let single = single.map(|ink| ink.color);
         Self { part, single }
     }
 
@@ -32,10 +34,11 @@ impl<'a> Paint<'a> {
             return *color;
         }
         let cover = self.part.areas.iter().rev().find(|area| contains(&area.rings, area.rule, at));
-        let areas = self.part.areas.iter().map(|area| (area.color, to_area(area, at)));
-        let strokes = self.part.strokes.iter().chain(&self.part.spine).map(|s| (s.color, to_stroke(s, at)));
+        let areas = self.part.areas.iter().map(|area| (&area.ink, to_area(area, at)));
+        let strokes = self.part.strokes.iter().chain(&self.part.spine).map(|s| (&s.ink, to_stroke(s, at)));
         let nearest = areas.chain(strokes).min_by(|a, b| a.1.total_cmp(&b.1));
-        cover.map(|area| area.color).or(nearest.map(|(color, _)| color)).unwrap_or(Rgb::new(255, 255, 255))
+        let ink = cover.map(|area| &area.ink).or(nearest.map(|(ink, _)| ink));
+        ink.map_or(Rgb::new(255, 255, 255), |ink| ink.at(at))
     }
 }
 

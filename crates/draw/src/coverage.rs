@@ -177,7 +177,7 @@ mod tests {
     }
 
     fn total(rings: Vec<Vec<Vec2>>, rule: FillRule) -> f64 {
-        let area = Area { rings, rule, color: Rgb::BLACK, weight: 1.0 };
+        let area = Area { rings, rule, ink: Rgb::BLACK.into(), weight: 1.0 };
         samples(&DrawingPart { areas: vec![area], ..DrawingPart::default() }, 0.07)
             .iter()
             .map(|s| s.mass)
@@ -201,7 +201,7 @@ mod tests {
         let area = |at| Area {
             rings: vec![square(at, 1.0)],
             rule: FillRule::NonZero,
-            color: Rgb::BLACK,
+            ink: Rgb::BLACK.into(),
             weight: 1.0,
         };
         let part = DrawingPart { areas: vec![area(0.0), area(0.5)], ..DrawingPart::default() };
@@ -211,8 +211,12 @@ mod tests {
 
     #[test]
     fn a_sample_at_the_edge_is_the_centroid_of_the_part_inside() {
-        let area =
-            Area { rings: vec![square(0.0, 1.5)], rule: FillRule::NonZero, color: Rgb::BLACK, weight: 1.0 };
+        let area = Area {
+            rings: vec![square(0.0, 1.5)],
+            rule: FillRule::NonZero,
+            ink: Rgb::BLACK.into(),
+            weight: 1.0,
+        };
         let samples = samples(&DrawingPart { areas: vec![area], ..DrawingPart::default() }, 1.0);
         let corner = samples.last().unwrap();
         assert!((corner.at.x - 1.25).abs() < 1e-9 && (corner.mass - 0.25).abs() < 1e-9, "{corner:?}");

@@ -3,6 +3,7 @@
 use lightbots_base::{Rgb, Vec2};
 
 use crate::geometry::bounds;
+use crate::ink::Ink;
 
 pub use crate::geometry::FillRule;
 
@@ -38,8 +39,8 @@ pub struct Area {
     pub rings: Vec<Vec<Vec2>>,
     /// What is inside where rings overlap.
     pub rule: FillRule,
-    /// Colour of its lights.
-    pub color: Rgb,
+    /// Colours of its lights.
+    pub ink: Ink,
     /// How densely it is filled, relative to the others; positive.
     pub weight: f64,
 }
@@ -51,8 +52,8 @@ pub struct Stroke {
     pub points: Vec<Vec2>,
     /// Whether its last point is joined to its first.
     pub closed: bool,
-    /// Colour of its lights.
-    pub color: Rgb,
+    /// Colours of its lights.
+    pub ink: Ink,
     /// How densely it is occupied, relative to the others; positive.
     pub weight: f64,
 }

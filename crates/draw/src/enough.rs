@@ -47,7 +47,7 @@ mod tests {
     #[test]
     fn a_bar_needs_a_handful_and_nothing_needs_no_robot() {
         let ring = [(0.0, 0.0), (0.2, 0.0), (0.2, 1.0), (0.0, 1.0)].map(|(x, y)| Vec2::new(x, y)).to_vec();
-        let area = Area { rings: vec![ring], rule: FillRule::NonZero, color: Rgb::BLACK, weight: 1.0 };
+        let area = Area { rings: vec![ring], rule: FillRule::NonZero, ink: Rgb::BLACK.into(), weight: 1.0 };
         let part = DrawingPart { areas: vec![area], letter: Some('I'), ..DrawingPart::default() };
         let bar = Drawing { parts: vec![part] };
         let enough = enough_robots(&bar, &PlaceSettings::default()).unwrap();

@@ -169,11 +169,13 @@ impl Placement {
     fn part(&self, part: &DrawingPart) -> DrawingPart {
         let stroke = |stroke: &Stroke| Stroke {
             points: stroke.points.iter().map(|at| self.map(*at)).collect(),
+            ink: stroke.ink.mapped(|at| self.map(at)),
             ..stroke.clone()
         };
         let mut mapped = part.clone();
-        for ring in mapped.areas.iter_mut().flat_map(|area| &mut area.rings) {
-            ring.iter_mut().for_each(|at| *at = self.map(*at));
+        for area in &mut mapped.areas {
+            area.rings.iter_mut().flatten().for_each(|at| *at = self.map(*at));
+            area.ink = area.ink.mapped(|at| self.map(at));
         }
         mapped.strokes = part.strokes.iter().map(stroke).collect();
         mapped.spine = part.spine.iter().map(stroke).collect();

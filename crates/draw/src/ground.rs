@@ -140,7 +140,7 @@ fn rings(area: &crate::drawing::Area) -> impl Iterator<Item = Stroke> + '_ {
     area.rings.iter().filter(|ring| ring.len() > 2).map(|ring| Stroke {
         points: ring.clone(),
         closed: true,
-        color: area.color,
+        ink: area.ink.clone(),
         weight: 1.0,
     })
 }

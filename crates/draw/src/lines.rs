@@ -143,7 +143,7 @@ mod tests {
 
     fn square() -> Stroke {
         let points = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)].map(|(x, y)| Vec2::new(x, y)).to_vec();
-        Stroke { points, closed: true, color: Rgb::BLACK, weight: 1.0 }
+        Stroke { points, closed: true, ink: Rgb::BLACK.into(), weight: 1.0 }
     }
 
     #[test]
@@ -165,7 +165,7 @@ mod tests {
 
     #[test]
     fn a_line_without_length_is_none() {
-        let dot = Stroke { points: vec![Vec2::ZERO; 3], closed: false, color: Rgb::BLACK, weight: 1.0 };
+        let dot = Stroke { points: vec![Vec2::ZERO; 3], closed: false, ink: Rgb::BLACK.into(), weight: 1.0 };
         assert_eq!(Polyline::new(&dot, 0.1), None);
     }
 }

@@ -233,7 +233,7 @@ mod tests {
         let stroke = |points: &&[(f64, f64)]| Stroke {
             points: points.iter().map(|(x, y)| Vec2::new(*x, *y)).collect(),
             closed,
-            color: Rgb::BLACK,
+            ink: Rgb::BLACK.into(),
             weight: 1.0,
         };
         LineSet::new(&lines.iter().map(stroke).collect::<Vec<_>>(), 0.02)

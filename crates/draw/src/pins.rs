@@ -125,7 +125,7 @@ mod tests {
 
     fn stroke(points: &[(f64, f64)], closed: bool) -> Stroke {
         let points = points.iter().map(|(x, y)| Vec2::new(*x, *y)).collect();
-        Stroke { points, closed, color: Rgb::BLACK, weight: 1.0 }
+        Stroke { points, closed, ink: Rgb::BLACK.into(), weight: 1.0 }
     }
 
     #[test]

@@ -16,7 +16,7 @@ fn points(list: &[(f64, f64)]) -> Vec<Vec2> {
 }
 
 fn area(rings: Vec<Vec<Vec2>>) -> Area {
-    Area { rings, rule: FillRule::EvenOdd, color: ORANGE, weight: 1.0 }
+    Area { rings, rule: FillRule::EvenOdd, ink: ORANGE.into(), weight: 1.0 }
 }
 
 fn square() -> Drawing {
@@ -50,7 +50,7 @@ fn letter_h() -> Drawing {
 
 fn cross() -> Drawing {
     let stroke =
-        |ends: &[(f64, f64)]| Stroke { points: points(ends), closed: false, color: ORANGE, weight: 1.0 };
+        |ends: &[(f64, f64)]| Stroke { points: points(ends), closed: false, ink: ORANGE.into(), weight: 1.0 };
     let strokes = vec![stroke(&[(-1.0, 0.0), (1.0, 0.0)]), stroke(&[(0.0, -1.0), (0.0, 1.0)])];
     Drawing { parts: vec![DrawingPart { strokes, ..DrawingPart::default() }] }
 }
@@ -248,7 +248,7 @@ fn lines_that_are_too_short_for_the_robots_become_bands() {
 fn lights_of_a_line_behind_an_area_keep_apart_from_those_of_the_area() {
     let mut drawing = square();
     let points = vec![Vec2::new(-0.5, 0.37), Vec2::new(1.5, 0.37)];
-    drawing.parts[0].strokes = vec![Stroke { points, closed: false, color: Rgb::BLACK, weight: 1.0 }];
+    drawing.parts[0].strokes = vec![Stroke { points, closed: false, ink: Rgb::BLACK.into(), weight: 1.0 }];
     for robots in [40, 150, 400] {
         let placed = made(
             &drawing,

@@ -103,7 +103,7 @@ mod tests {
     #[test]
     fn each_way_gives_as_many_places_inside_and_looks_as_published() {
         let square = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)].map(|(x, y)| Vec2::new(x, y)).to_vec();
-        let area = Area { rings: vec![square], rule: FillRule::NonZero, color: Rgb::BLACK, weight: 1.0 };
+        let area = Area { rings: vec![square], rule: FillRule::NonZero, ink: Rgb::BLACK.into(), weight: 1.0 };
         let part = DrawingPart { areas: vec![area], ..DrawingPart::default() };
         for (name, places) in rivals(&part, 100, 1) {
             assert_eq!(places.len(), 100, "{name}");

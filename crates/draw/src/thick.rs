@@ -51,7 +51,7 @@ fn band(stroke: &Stroke, width: f64) -> Area {
     let ends = stroke.points.first().filter(|_| stroke.closed);
     let points: Vec<Vec2> = stroke.points.iter().chain(ends).copied().collect();
     let rings = points.windows(2).map(|pair| around(pair[0], pair[1], width / 2.0)).collect();
-    Area { rings, rule: FillRule::NonZero, color: stroke.color, weight: stroke.weight }
+    Area { rings, rule: FillRule::NonZero, ink: stroke.ink.clone(), weight: stroke.weight }
 }
 
 /// The outline of all that is within `reach` of a straight piece, anticlockwise.
@@ -85,7 +85,7 @@ mod tests {
     #[test]
     fn a_band_covers_its_line_and_no_more() {
         let points = vec![Vec2::ZERO, Vec2::new(1.0, 0.0), Vec2::new(1.0, 1.0)];
-        let stroke = Stroke { points, closed: false, color: Rgb::BLACK, weight: 1.0 };
+        let stroke = Stroke { points, closed: false, ink: Rgb::BLACK.into(), weight: 1.0 };
         let part = DrawingPart { strokes: vec![stroke], ..DrawingPart::default() };
         let mass: f64 = samples(&thickened(&part, 0.2), 0.01).iter().map(|sample| sample.mass).sum();
         // Two bands of 1 × 0.2, three quarters of a circle's sector at the corner, two half circles at the ends.

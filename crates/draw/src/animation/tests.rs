@@ -57,7 +57,7 @@ fn frames_have_silhouettes_and_times() {
     let first = middle(&animation, 0);
     assert!(first.distance(Vec2::new(15.0, 45.0)) < 1.5, "{first:?}");
     assert!(middle(&animation, 3).distance(Vec2::new(30.0, 30.0)) < 1.5);
-    assert!(animation.frames[0].drawing.parts[0].areas[0].color.r > 200);
+    assert!(animation.frames[0].drawing.parts[0].areas[0].ink.color.r > 200);
     let [near, far] = [animation.change(0, 1), animation.change(0, 3)];
     assert!(animation.change(2, 2) < 1e-9 && 0.0 < near && near < far, "{near} {far}");
 }

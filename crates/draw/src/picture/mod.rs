@@ -9,6 +9,8 @@ mod separate;
 
 use lightbots_base::{Rgb, Vec2};
 
+pub(crate) use lit::lifted;
+
 use crate::drawing::{Area, Drawing, DrawingPart, FillRule, Stroke};
 use crate::error::{DrawError, Made, Note};
 pub(crate) use crate::picture::bitmap::{BitMask, Bitmap};
@@ -99,11 +101,11 @@ fn silhouette(bitmap: &Bitmap, mut mask: BitMask, outline: bool, clear: bool) ->
     let raster = lit::painted(bitmap, &mask);
     let color = raster.cell(rings[0].first().copied().unwrap_or(Vec2::ZERO));
     let color = color.and_then(|cell| raster.colors.get(cell)).copied().unwrap_or(Rgb::new(255, 255, 255));
-    let stroke = |points: Vec<Vec2>| Stroke { points, closed: true, color, weight: 1.0 };
+    let stroke = |points: Vec<Vec2>| Stroke { points, closed: true, ink: color.into(), weight: 1.0 };
     let (areas, strokes) = if outline {
         (Vec::new(), rings.into_iter().map(stroke).collect())
     } else {
-        (vec![Area { rings, rule: FillRule::NonZero, color, weight: 1.0 }], Vec::new())
+        (vec![Area { rings, rule: FillRule::NonZero, ink: color.into(), weight: 1.0 }], Vec::new())
     };
     let name = "picture".to_owned();
     let part = DrawingPart { name, areas, strokes, raster: Some(raster), ..DrawingPart::default() };

@@ -45,7 +45,7 @@ fn a_thing_is_shown_as_silhouette_in_every_format() {
         let [ring] = area.rings.as_slice() else { panic!("{format:?}: {} rings", area.rings.len()) };
         let middle = ring.iter().fold(lightbots_base::Vec2::ZERO, |sum, at| sum + *at) / ring.len() as f64;
         assert!(middle.distance(lightbots_base::Vec2::new(30.5, 39.5)) < 1.0, "{format:?}: {middle:?}");
-        assert!(area.color.r > 180 && area.color.g < 80, "{format:?}: {:?}", area.color);
+        assert!(area.ink.color.r > 180 && area.ink.color.g < 80, "{format:?}: {:?}", area.ink.color);
     }
 }
 
@@ -80,7 +80,7 @@ fn black_things_are_lit_white() {
         Rgba(if (20..40).contains(&x.max(y)) { [0, 0, 0, 255] } else { [255; 4] })
     });
     let part = part(&file(&picture.into(), ImageFormat::Png), PictureWay::Auto);
-    assert_eq!(part.areas[0].color.number(), 0xff_ffff);
+    assert_eq!(part.areas[0].ink.color.number(), 0xff_ffff);
 }
 
 #[test]

@@ -24,7 +24,7 @@ pub fn draw_shape(settings: &ShapeSettings) -> Result<Drawing, DrawError> {
     if let Some(rings) = closed::rings(settings) {
         // A picture of few robots shows the edge alone.
         part.spine = rings.iter().map(|ring| stroke(ring.clone(), true, settings.color)).collect();
-        part.areas = vec![Area { rings, rule: FillRule::EvenOdd, color: settings.color, weight: 1.0 }];
+        part.areas = vec![Area { rings, rule: FillRule::EvenOdd, ink: settings.color.into(), weight: 1.0 }];
     } else {
         part.strokes = curves::lines(settings)
             .into_iter()
@@ -38,7 +38,7 @@ pub fn draw_shape(settings: &ShapeSettings) -> Result<Drawing, DrawError> {
 }
 
 fn stroke(points: Vec<Vec2>, closed: bool, color: Rgb) -> Stroke {
-    Stroke { points, closed, color, weight: 1.0 }
+    Stroke { points, closed, ink: color.into(), weight: 1.0 }
 }
 
 #[cfg(test)]

@@ -1,7 +1,6 @@
 //! A page that is painted from back to front: later areas hide what is below them.
 
-use lightbots_base::Rgb;
-
+use crate::ink::Ink;
 use crate::svg::flatten::FlatLine;
 use crate::svg::region::{Region, bounds};
 
@@ -21,8 +20,8 @@ const WORK_MAX: usize = 3_000_000;
 pub struct Surface {
     /// The visible part.
     pub region: Region,
-    /// Its colour.
-    pub color: Rgb,
+    /// Its colours.
+    pub ink: Ink,
     /// Whether it began as an area over the whole page.
     pub background: bool,
 }
@@ -32,8 +31,8 @@ pub struct Surface {
 pub struct Line {
     /// The visible part.
     pub line: FlatLine,
-    /// Its colour.
-    pub color: Rgb,
+    /// Its colours.
+    pub ink: Ink,
 }
 
 /// What is painted.
@@ -75,7 +74,7 @@ impl Canvas {
     /// All areas at least as bright as a share of white.
     pub fn bright(&mut self, least: f64) -> Option<Region> {
         let surfaces = std::mem::take(&mut self.surfaces);
-        let bright = surfaces.into_iter().filter(|surface| f64::from(surface.color.g) >= least * 255.0);
+        let bright = surfaces.into_iter().filter(|surface| f64::from(surface.ink.color.g) >= least * 255.0);
         let regions: Vec<Region> = bright.map(|surface| surface.region).collect();
         Region::all(&regions, self.thinnest)
     }
@@ -92,7 +91,7 @@ impl Canvas {
     }
 
     /// Paints an area.
-    pub fn fill(&mut self, region: Region, color: Rgb, opacity: f64) {
+    pub fn fill(&mut self, region: Region, ink: Ink, opacity: f64) {
         if opacity < FAINT {
             self.faint += 1;
             return;
@@ -102,10 +101,10 @@ impl Canvas {
         }
         let background = region.area() >= BACKGROUND * self.page_area;
         if !self.surfaces.iter().any(|surface| surface.region.is_near(&region)) {
-            self.surfaces.push(Surface { region, color, background });
+            self.surfaces.push(Surface { region, ink, background });
             return;
         }
-        let mut fresh = Some(Surface { region, color, background });
+        let mut fresh = Some(Surface { region, ink, background });
         for surface in std::mem::take(&mut self.surfaces) {
             match fresh.take() {
                 Some(upper) if surface.region.is_near(&upper.region) => {
@@ -129,13 +128,16 @@ impl Canvas {
     /// Keeps what an upper area leaves of a lower one, and returns what remains to be painted of the upper one.
     fn cover(&mut self, mut lower: Surface, mut upper: Surface, opacity: f64) -> Option<Surface> {
         let thinnest = self.thinnest;
-        let mixed = if opacity >= OPAQUE { upper.color } else { lower.color.mixed(upper.color, opacity) };
-        if lower.color == upper.color && opacity >= OPAQUE {
+        let mixed = match opacity >= OPAQUE {
+            true => upper.ink.clone(),
+            false => lower.ink.color.mixed(upper.ink.color, opacity).into(),
+        };
+        if lower.ink == upper.ink && opacity >= OPAQUE {
             upper.region = upper.region.joined(&lower.region, thinnest).unwrap_or(upper.region);
             upper.background |= lower.background;
             return Some(upper);
         }
-        if alike(mixed, lower.color) {
+        if alike(&mixed, &lower.ink) {
             let rest = upper.region.minus(&lower.region, thinnest);
             self.surfaces.push(lower);
             return rest.map(|region| Surface { region, ..upper });
@@ -153,7 +155,7 @@ impl Canvas {
             None => self.hidden += usize::from(both.is_none()),
         }
         let background = upper.background;
-        self.surfaces.extend(both.map(|region| Surface { region, color: mixed, background }));
+        self.surfaces.extend(both.map(|region| Surface { region, ink: mixed, background }));
         rest.map(|region| Surface { region, ..upper })
     }
 
@@ -170,24 +172,21 @@ impl Canvas {
             }
             let parts = region.parts(&line.line, false, self.thinnest);
             self.hidden += usize::from(parts.is_empty());
-            self.lines.extend(parts.into_iter().map(|part| Line { line: part, color: line.color }));
+            self.lines.extend(parts.into_iter().map(|part| Line { line: part, ink: line.ink.clone() }));
         }
     }
 
     /// Paints a line. Areas of other colours recede from its `outline`.
-    pub fn stroke(&mut self, line: FlatLine, outline: Option<&Region>, color: Rgb, opacity: f64) {
+    pub fn stroke(&mut self, line: FlatLine, outline: Option<&Region>, ink: Ink, opacity: f64) {
         if opacity < FAINT {
             self.faint += 1;
             return;
         }
         let recedes = |surface: &Surface| {
-            surface.color != color && outline.is_some_and(|outline| surface.region.is_near(outline))
+            surface.ink != ink && outline.is_some_and(|outline| surface.region.is_near(outline))
         };
-        self.lines.push(Line { line, color });
-        if !self.surfaces.iter().any(recedes) {
-            return;
-        }
-        for mut surface in std::mem::take(&mut self.surfaces) {
+        let surfaces = std::mem::take(&mut self.surfaces);
+        for mut surface in surfaces {
             let cut = outline.filter(|_| recedes(&surface));
             if let Some(outline) = cut.filter(|cut| self.affords(surface.region.points() + cut.points())) {
                 match surface.region.minus(outline, self.thinnest) {
@@ -197,11 +196,16 @@ impl Canvas {
             }
             self.surfaces.push(surface);
         }
+        self.lines.push(Line { line, ink });
     }
 }
 
-/// Whether two colours look the same.
-fn alike(a: Rgb, b: Rgb) -> bool {
+/// Whether two inks look the same.
+fn alike(a: &Ink, b: &Ink) -> bool {
+    if a.gradient.is_some() || b.gradient.is_some() {
+        return a == b;
+    }
+    let (a, b) = (a.color, b.color);
     let near = |x: u8, y: u8| (i16::from(x) - i16::from(y)).abs() < SHADE;
     near(a.r, b.r) && near(a.g, b.g) && near(a.b, b.b)
 }
@@ -209,6 +213,7 @@ fn alike(a: Rgb, b: Rgb) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use lightbots_base::Rgb;
 
     const RED: Rgb = Rgb::new(255, 0, 0);
     const BLUE: Rgb = Rgb::new(0, 0, 255);
@@ -223,27 +228,27 @@ mod tests {
 
     fn areas(canvas: &Canvas) -> Vec<(u32, f64)> {
         let area =
-            |surface: &Surface| (surface.color.number(), (surface.region.area() * 100.0).round() / 100.0);
+            |surface: &Surface| (surface.ink.color.number(), (surface.region.area() * 100.0).round() / 100.0);
         canvas.surfaces.iter().map(area).collect()
     }
 
     #[test]
     fn later_areas_hide_earlier_ones() {
         let mut canvas = canvas();
-        canvas.fill(square(0.0, 10.0), RED, 1.0);
-        canvas.fill(square(5.0, 10.0), BLUE, 1.0);
+        canvas.fill(square(0.0, 10.0), RED.into(), 1.0);
+        canvas.fill(square(5.0, 10.0), BLUE.into(), 1.0);
         assert_eq!(areas(&canvas), [(0xff0000, 50.0), (0x0000ff, 100.0)]);
-        canvas.fill(square(0.0, 20.0), RED, 1.0);
+        canvas.fill(square(0.0, 20.0), RED.into(), 1.0);
         assert_eq!((areas(&canvas), canvas.hidden), (vec![(0xff0000, 400.0)], 1));
     }
 
     #[test]
     fn translucent_areas_mix_and_faint_ones_vanish() {
         let mut canvas = canvas();
-        canvas.fill(square(0.0, 10.0), RED, 1.0);
-        canvas.fill(square(5.0, 10.0), BLUE, 0.5);
+        canvas.fill(square(0.0, 10.0), RED.into(), 1.0);
+        canvas.fill(square(5.0, 10.0), BLUE.into(), 0.5);
         assert_eq!(areas(&canvas), [(0xff0000, 50.0), (0x800080, 50.0), (0x0000ff, 50.0)]);
-        canvas.fill(square(0.0, 20.0), BLUE, 0.05);
+        canvas.fill(square(0.0, 20.0), BLUE.into(), 0.05);
         assert_eq!((canvas.surfaces.len(), canvas.faint), (3, 1));
     }
 
@@ -251,11 +256,11 @@ mod tests {
     fn areas_hide_lines_and_recede_from_later_ones() {
         let line = || FlatLine { points: vec![[-5.0, 5.0], [15.0, 5.0]], closed: false };
         let mut canvas = canvas();
-        canvas.stroke(line(), None, BLUE, 1.0);
-        canvas.fill(square(0.0, 10.0), RED, 1.0);
+        canvas.stroke(line(), None, BLUE.into(), 1.0);
+        canvas.fill(square(0.0, 10.0), RED.into(), 1.0);
         assert_eq!(canvas.lines.len(), 2);
         let outline = Region::rectangle([-5.0, 4.0], [15.0, 6.0]);
-        canvas.stroke(line(), Some(&outline), BLUE, 1.0);
+        canvas.stroke(line(), Some(&outline), BLUE.into(), 1.0);
         assert_eq!((canvas.lines.len(), areas(&canvas)), (3, vec![(0xff0000, 80.0)]));
     }
 
@@ -264,7 +269,7 @@ mod tests {
         let mut canvas = canvas();
         for n in 0..2_000 {
             let shade = if n % 2 == 0 { RED } else { BLUE };
-            canvas.fill(square(f64::from(n) * 1e-3, 10.0), shade, 0.5);
+            canvas.fill(square(f64::from(n) * 1e-3, 10.0), shade.into(), 0.5);
         }
         assert!(canvas.work <= WORK_MAX || canvas.is_overworked());
         assert!(canvas.surfaces.len() < 10_000);

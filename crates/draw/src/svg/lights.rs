@@ -3,6 +3,7 @@
 use lightbots_base::Rgb;
 
 use crate::error::Note;
+use crate::picture::lifted;
 use crate::svg::canvas::{Canvas, Line, Surface};
 
 /// A colour whose brightest channel is below this, 0 to 255, is a light that is off, such as the black of printers, #231f20.
@@ -12,6 +13,7 @@ const PAPER_FROM: u8 = 225;
 
 /// Removes the background and what looks like it, and lights black lines and areas white.
 pub fn light(canvas: &mut Canvas) -> Vec<Note> {
+    lift_gradients(canvas);
     let background = remove_background(canvas);
     let mut notes = Vec::new();
     if let Some(color) = background {
@@ -34,10 +36,22 @@ pub fn light(canvas: &mut Canvas) -> Vec<Note> {
         let message = "Black areas and lines are lit white, because a black light is off.";
         notes.push(Note::new("svg-black", message));
     }
-    let lit = |color: &mut Rgb| *color = if is_dark(*color) { Rgb::new(255, 255, 255) } else { *color };
-    canvas.surfaces.iter_mut().for_each(|surface| lit(&mut surface.color));
-    canvas.lines.iter_mut().for_each(|line| lit(&mut line.color));
+    let inks = canvas.surfaces.iter_mut().map(|surface| &mut surface.ink);
+    for ink in inks.chain(canvas.lines.iter_mut().map(|line| &mut line.ink)) {
+        if is_dark(ink.color) {
+            *ink = Rgb::new(255, 255, 255).into();
+        }
+    }
     notes
+}
+
+/// Makes the dark ends of gradients bright enough for lights.
+fn lift_gradients(canvas: &mut Canvas) {
+    let surfaces = canvas.surfaces.iter_mut().map(|surface| &mut surface.ink);
+    let inks = surfaces.chain(canvas.lines.iter_mut().map(|line| &mut line.ink));
+    for (_, color) in inks.filter_map(|ink| ink.gradient.as_mut()).flat_map(|gradient| &mut gradient.stops) {
+        *color = lifted(*color);
+    }
 }
 
 /// Removes areas that covered the page, unless nothing else is there. Returns the colour of the largest.
@@ -48,22 +62,22 @@ fn remove_background(canvas: &mut Canvas) -> Option<Rgb> {
     }
     let behind = canvas.surfaces.iter().filter(|surface| surface.background);
     let largest =
-        behind.max_by(|a, b| a.region.area().total_cmp(&b.region.area())).map(|surface| surface.color);
+        behind.max_by(|a, b| a.region.area().total_cmp(&b.region.area())).map(|surface| surface.ink.color);
     canvas.surfaces.retain(|surface| !surface.background);
     largest
 }
 
 /// Whether something has such a colour.
 fn count(canvas: &Canvas, test: impl Fn(Rgb) -> bool) -> bool {
-    let areas = canvas.surfaces.iter().map(|surface| surface.color);
-    areas.chain(canvas.lines.iter().map(|line| line.color)).any(test)
+    let areas = canvas.surfaces.iter().map(|surface| surface.ink.color);
+    areas.chain(canvas.lines.iter().map(|line| line.ink.color)).any(test)
 }
 
 /// Removes everything of such a colour, unless nothing else is there.
 fn remove(canvas: &mut Canvas, test: impl Fn(Rgb) -> bool) {
     if count(canvas, |color| !test(color)) {
-        canvas.surfaces.retain(|surface: &Surface| !test(surface.color));
-        canvas.lines.retain(|line: &Line| !test(line.color));
+        canvas.surfaces.retain(|surface: &Surface| !test(surface.ink.color));
+        canvas.lines.retain(|line: &Line| !test(line.ink.color));
     }
 }
 

@@ -122,16 +122,17 @@ fn left_out(canvas: &Canvas) -> Vec<Note> {
 /// What is on a canvas, with y upwards.
 fn drawing(canvas: &Canvas, height: f64) -> Drawing {
     let place = |spot: &Spot| Vec2::new(spot[0], height - spot[1]);
+    let flip = |at: Vec2| Vec2::new(at.x, height - at.y);
     let line = |points: &[Spot]| points.iter().map(place).collect::<Vec<Vec2>>();
     let areas = canvas.surfaces.iter().map(|surface| Area {
         rings: surface.region.rings().iter().map(|ring| line(ring)).collect(),
         rule: FillRule::NonZero,
-        color: surface.color,
+        ink: surface.ink.mapped(flip),
         weight: 1.0,
     });
     let strokes = canvas.lines.iter().map(|found| {
         let FlatLine { points, closed } = &found.line;
-        Stroke { points: line(points), closed: *closed, color: found.color, weight: 1.0 }
+        Stroke { points: line(points), closed: *closed, ink: found.ink.mapped(flip), weight: 1.0 }
     });
     let part = DrawingPart {
         name: "drawing".to_owned(),

@@ -1,22 +1,63 @@
-//! The one colour of a fill or stroke.
+//! The colours of a fill or stroke.
 
-use lightbots_base::Rgb;
-use usvg::{BaseGradient, Group, Node, Paint};
+use lightbots_base::{Rgb, Vec2};
+use usvg::tiny_skia_path::Transform;
+use usvg::{BaseGradient, Group, LinearGradient, Node, Paint, RadialGradient, SpreadMethod};
+
+use crate::ink::{Gradient, GradientShape, GradientSpread, Ink};
 
 /// Levels of patterns inside of patterns that are looked into.
 const PATTERNS_MAX: usize = 4;
 
 /// A colour and its opacity, 0 to 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Tint {
+struct Tint {
     /// The colour.
-    pub color: Rgb,
+    color: Rgb,
     /// Its opacity.
-    pub opacity: f64,
+    opacity: f64,
+}
+
+/// The ink of a paint on the page, and its opacity. `transform` leads from the coordinates of the painted thing to the page.
+/// `None`: an empty pattern.
+pub fn ink(paint: &Paint, transform: Transform) -> Option<(Ink, f64)> {
+    let Tint { color, opacity } = tint(paint)?;
+    let gradient = match paint {
+        Paint::LinearGradient(gradient) => Some(linear(gradient, transform)),
+        Paint::RadialGradient(gradient) => Some(radial(gradient, transform)),
+        Paint::Color(_) | Paint::Pattern(_) => None,
+    };
+    Some((Ink { color, gradient: gradient.filter(|gradient| !gradient.stops.is_empty()) }, opacity))
+}
+
+fn linear(of: &LinearGradient, transform: Transform) -> Gradient {
+    let shape = GradientShape::Linear { from: vec2(of.x1(), of.y1()), to: vec2(of.x2(), of.y2()) };
+    gradient(of, shape, transform)
+}
+
+fn radial(of: &RadialGradient, transform: Transform) -> Gradient {
+    let (center, focus) = (vec2(of.cx(), of.cy()), vec2(of.fx(), of.fy()));
+    gradient(of, GradientShape::Radial { center, radius: f64::from(of.r().get()), focus }, transform)
+}
+
+fn gradient(of: &BaseGradient, shape: GradientShape, transform: Transform) -> Gradient {
+    let Transform { sx, kx, ky, sy, tx, ty } = transform.pre_concat(of.transform());
+    let frame = [vec2(tx, ty), vec2(tx + sx, ty + ky), vec2(tx + kx, ty + sy)];
+    let spread = match of.spread_method() {
+        SpreadMethod::Pad => GradientSpread::Pad,
+        SpreadMethod::Reflect => GradientSpread::Reflect,
+        SpreadMethod::Repeat => GradientSpread::Repeat,
+    };
+    let stops = of.stops().iter().map(|stop| (f64::from(stop.offset().get()), rgb(stop.color())));
+    Gradient { frame, shape, spread, stops: stops.collect() }
+}
+
+fn vec2(x: f32, y: f32) -> Vec2 {
+    Vec2::new(f64::from(x), f64::from(y))
 }
 
 /// The colour of a paint: of a gradient its mean, of a pattern the mean of the areas in it. `None`: an empty pattern.
-pub fn tint(paint: &Paint) -> Option<Tint> {
+fn tint(paint: &Paint) -> Option<Tint> {
     at_level(paint, 0)
 }
 

@@ -30,7 +30,7 @@ fn areas(inside: &str) -> Vec<(u32, f64)> {
     let areas = part(inside).areas;
     let sizes = areas.iter().map(|area| {
         assert_eq!(area.rule, FillRule::NonZero);
-        (area.color.number(), area.rings.iter().map(size).sum::<f64>().abs().round())
+        (area.ink.color.number(), area.rings.iter().map(size).sum::<f64>().abs().round())
     });
     sizes.collect()
 }
@@ -77,7 +77,7 @@ fn thin_strokes_are_lines_and_wide_ones_areas() {
     let strokes: Vec<(usize, bool, u32)> = thin
         .strokes
         .iter()
-        .map(|stroke| (stroke.points.len(), stroke.closed, stroke.color.number()))
+        .map(|stroke| (stroke.points.len(), stroke.closed, stroke.ink.color.number()))
         .collect();
     assert_eq!((strokes, thin.areas.len()), (vec![(3, true, 0xff0000)], 0));
     let wide = part(&line(20.0));
@@ -114,7 +114,25 @@ fn clip_paths_and_masks_cut() {
 }
 
 #[test]
-fn gradients_and_patterns_become_one_colour() {
+fn gradients_keep_their_colours_at_each_place() {
+    let defs = "<linearGradient id='g'><stop offset='0' stop-color='red'/><stop offset='1' stop-color='blue'/>\
+                </linearGradient><radialGradient id='r' xlink:href='#g'/>";
+    let at = |inside: &str, x: f64, y: f64| {
+        let ink = part(&format!("{defs}{inside}")).areas.remove(0).ink;
+        ink.at(lightbots_base::Vec2::new(x, y)).number()
+    };
+    // y goes up in drawings: the square is from (20, 40) to (60, 80).
+    let linear = "<g transform='translate(20 20) scale(4)'><rect width='10' height='10' fill='url(#g)'/></g>";
+    assert_eq!([20.0, 40.0, 60.0].map(|x| at(linear, x, 50.0)), [0xff0000, 0x800080, 0x0000ff]);
+    let radial = "<rect x='20' y='20' width='40' height='40' fill='url(#r)'/>";
+    assert_eq!(
+        [(40.0, 60.0), (50.0, 60.0), (40.0, 40.0)].map(|(x, y)| at(radial, x, y)),
+        [0xff0000, 0x800080, 0x0000ff]
+    );
+}
+
+#[test]
+fn patterns_become_one_colour_and_gradients_have_a_mean() {
     let gradient = "<linearGradient id='g'><stop offset='0' stop-color='red'/><stop offset='1' stop-color='blue'/>\
                     </linearGradient><rect width='10' height='10' fill='url(#g)'/>";
     assert_eq!(areas(gradient), [(0x800080, 100.0)]);

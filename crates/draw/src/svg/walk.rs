@@ -6,9 +6,10 @@ use usvg::{ClipPath, FillRule, Group, Mask, MaskType, Node, Path};
 
 use crate::drawing::FillRule as Rule;
 use crate::error::DrawError;
+use crate::ink::Ink;
 use crate::svg::canvas::Canvas;
 use crate::svg::flatten::{FlatLine, Spot, polylines};
-use crate::svg::paint::{self, Tint, tint};
+use crate::svg::paint::ink;
 use crate::svg::region::{Region, bounds};
 use crate::svg::scan::too_large;
 
@@ -115,13 +116,18 @@ impl Walk {
         if self.parts > PARTS_MAX {
             return Err(too_large(format!("it has more than {PARTS_MAX} areas and lines")));
         }
-        if let Some((fill, tint)) = path.fill().and_then(|fill| Some((fill, tint(fill.paint())?))) {
-            let opacity = context.opacity * tint.opacity * f64::from(fill.opacity().get());
+        let filled = path.fill().and_then(|fill| Some((fill, ink(fill.paint(), context.transform)?)));
+        if let Some((fill, (ink, share))) = &filled {
+            let opacity = context.opacity * share * f64::from(fill.opacity().get());
             let region = self.filled(path.data(), context, rule(fill.rule()))?;
-            self.fill(region, Tint { opacity, ..tint }, context);
+            self.fill(region, ink.clone(), opacity, context);
         }
-        match path.stroke().and_then(|stroke| Some((stroke, tint(stroke.paint())?))) {
-            Some((stroke, tint)) => self.stroke(path, stroke, tint, context),
+        let below = filled.map(|(_, (ink, _))| ink);
+        match path.stroke().and_then(|stroke| Some((stroke, ink(stroke.paint(), context.transform)?))) {
+            Some((stroke, (ink, share))) => {
+                let opacity = context.opacity * share * f64::from(stroke.opacity().get());
+                self.stroke(path, stroke, (ink, opacity), below.as_ref(), context)
+            }
             None => Ok(()),
         }
     }
@@ -145,7 +151,7 @@ impl Walk {
         Ok(lines)
     }
 
-    fn fill(&mut self, region: Option<Region>, tint: Tint, context: &Context) {
+    fn fill(&mut self, region: Option<Region>, ink: Ink, opacity: f64, context: &Context) {
         let thinnest = self.tolerance();
         let clipped = context.clips.iter().fold(region, |region, clip| {
             let region = region?;
@@ -155,9 +161,12 @@ impl Walk {
             }
             region.common(clip, thinnest)
         });
-        let tint = context.mask.map_or(tint, |kind| brightness(tint, kind));
+        let (ink, opacity) = match context.mask {
+            Some(kind) => (brightness(ink.color, opacity, kind).into(), 1.0),
+            None => (ink, opacity),
+        };
         match clipped {
-            Some(region) => self.canvas.fill(region, tint.color, tint.opacity),
+            Some(region) => self.canvas.fill(region, ink, opacity),
             None => self.canvas.hidden += 1,
         }
     }
@@ -166,26 +175,24 @@ impl Walk {
         &mut self,
         path: &Path,
         stroke: &usvg::Stroke,
-        tint: Tint,
+        (ink, opacity): (Ink, f64),
+        below: Option<&Ink>,
         context: &Context,
     ) -> Result<(), DrawError> {
-        let tint =
-            Tint { opacity: context.opacity * tint.opacity * f64::from(stroke.opacity().get()), ..tint };
         let Transform { sx, kx, ky, sy, .. } = context.transform;
         let scale = libm::sqrt(f64::from(sx * sy - kx * ky).abs());
         let width = f64::from(stroke.width().get()) * scale / self.size;
         let outline = if width >= VISIBLE { self.outline(path, stroke, context)? } else { None };
         if width >= WIDE || context.mask.is_some() {
-            self.fill(outline, tint, context);
+            self.fill(outline, ink, opacity, context);
             return Ok(());
         }
-        let filled = path.fill().and_then(|fill| paint::tint(fill.paint()));
-        if filled.is_some_and(|filled| filled.color == tint.color) {
+        if below.is_some_and(|below| *below == ink) {
             return Ok(());
         }
         for line in self.flattened(path.data(), context)? {
             for part in self.clipped(line, context) {
-                self.canvas.stroke(part, outline.as_ref(), tint.color, tint.opacity);
+                self.canvas.stroke(part, outline.as_ref(), ink.clone(), opacity);
             }
         }
         Ok(())
@@ -254,17 +261,16 @@ impl Walk {
     }
 }
 
-/// A mask's paint as a shade of grey.
-fn brightness(tint: Tint, kind: MaskType) -> Tint {
-    let Rgb { r, g, b } = tint.color;
+/// The brightness of a mask's paint as a grey.
+fn brightness(Rgb { r, g, b }: Rgb, opacity: f64, kind: MaskType) -> Rgb {
     let light = match kind {
         MaskType::Luminance => {
-            (0.2126 * f64::from(r) + 0.7152 * f64::from(g) + 0.0722 * f64::from(b)) * tint.opacity
+            (0.2126 * f64::from(r) + 0.7152 * f64::from(g) + 0.0722 * f64::from(b)) * opacity
         }
-        MaskType::Alpha => 255.0 * tint.opacity,
+        MaskType::Alpha => 255.0 * opacity,
     };
     let grey = (light + 0.5) as u8;
-    Tint { color: Rgb::new(grey, grey, grey), opacity: 1.0 }
+    Rgb::new(grey, grey, grey)
 }
 
 fn rule(rule: FillRule) -> Rule {

@@ -38,11 +38,12 @@ impl Letter {
             let stroke = |line: &Vec<Vec2>| {
                 let closed = line.len() > 3 && line.first() == line.last();
                 let points = line[..line.len() - usize::from(closed)].to_vec();
-                Stroke { points, closed, color, weight: 1.0 }
+                Stroke { points, closed, ink: color.into(), weight: 1.0 }
             };
             lines.iter().map(stroke).collect()
         };
-        let area = Area { rings: self.rings.clone(), rule: FillRule::NonZero, color, weight: 1.0 };
+        let area =
+            Area { rings: self.rings.clone(), rule: FillRule::NonZero, ink: color.into(), weight: 1.0 };
         DrawingPart {
             name,
             letter: self.text.chars().next(),

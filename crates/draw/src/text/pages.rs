@@ -107,8 +107,11 @@ fn cut(letters: &[Letter], colored: &Drawing, shift: f64, window: f64) -> Vec<Dr
         if high.x + shift <= 0.0 || low.x + shift >= window {
             return None;
         }
-        let color =
-            part.areas.first().map(|area| area.color).or(part.strokes.first().map(|stroke| stroke.color))?;
+        let color = part
+            .areas
+            .first()
+            .map(|area| area.ink.color)
+            .or(part.strokes.first().map(|stroke| stroke.ink.color))?;
         let cut = clipped(&letter.clone().moved(Vec2::new(shift, 0.0)), 0.0, window);
         cut.ink().next().is_some().then(|| cut.part(part.name.clone(), color))
     });

@@ -197,7 +197,7 @@ fn colours_follow_the_text() {
     let font = lato();
     let colors = |colors| {
         let made = draw(&TextSettings { colors, ..TextSettings::new("ABC", &font) }).unwrap();
-        made.drawing.parts.iter().map(|part| part.areas[0].color.number()).collect::<Vec<u32>>()
+        made.drawing.parts.iter().map(|part| part.areas[0].ink.color.number()).collect::<Vec<u32>>()
     };
     // Half the way of the rainbow lies in the middle of green and cyan.
     assert_eq!(colors(Colors::Rainbow), [0xff_0000, 0x00_ff80, 0xff_00ff]);
