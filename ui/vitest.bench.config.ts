@@ -1,9 +1,9 @@
 import { defineConfig } from 'vitest/config';
 
-/** Times the module of the browser: `cargo xtask bench preview` runs it. */
+/** Times the module of the browser: `cargo xtask bench preview browser-plan` runs it. */
 export default defineConfig({
   test: {
-    include: ['bench/preview.ts'],
+    include: ['bench/*.ts'],
     environment: 'node',
     testTimeout: 300_000,
     hookTimeout: 120_000,

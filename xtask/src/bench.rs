@@ -10,6 +10,8 @@ use std::process::Command;
 
 /// The page with all results.
 const FILE: &str = "docs/benchmarks.md";
+/// The example that times plans natively.
+const NATIVE_PLANS: &str = "native_plans";
 
 struct Part {
     name: &'static str,
@@ -24,12 +26,12 @@ enum Source {
     Example(&'static str, &'static str),
     /// A browser with the built program.
     Browser,
-    /// The WebAssembly module of the browser, in Node.js.
-    Module,
+    /// The WebAssembly module of the browser, in Node.js: a file of `ui/bench`.
+    Module(&'static str),
 }
 
 /// All parts, in the order of the page.
-const PARTS: [Part; 10] = [
+const PARTS: [Part; 11] = [
     Part {
         name: "plan",
         title: "Planning",
@@ -102,9 +104,17 @@ const PARTS: [Part; 10] = [
     Part {
         name: "preview",
         title: "Frames in WebAssembly",
-        source: Source::Module,
+        source: Source::Module("bench/preview.ts"),
         about: "The module of the browser in Node.js, whose engine is Chromium's: a frame while its size changes, with the \
                 answer in JSON, the readability and, for `full`, the number of robots that would do.",
+    },
+    Part {
+        name: "browser-plan",
+        title: "Plans in WebAssembly",
+        source: Source::Module("bench/plan.ts"),
+        about: "One transition between random frames, about 30 robots on 9 m², proof included, without the second pass for \
+                stop-safety: the module of the browser in Node.js, and the same function natively in the same run. Both \
+                read the show from JSON and write the plan as JSON.",
     },
     Part {
         name: "fps",
@@ -145,7 +155,7 @@ fn measure(part: &Part) -> Outcome<Measured> {
     let mut command = match part.source {
         Source::Example(package, example) => example_command(part.name, package, example)?,
         Source::Browser => browser_command()?,
-        Source::Module => module_command()?,
+        Source::Module(file) => module_command(file)?,
     };
     let (printed, failure) = shell::printed(&mut command)?;
     Ok(Measured { rows: rows(&printed), failure })
@@ -192,10 +202,16 @@ fn browser_command() -> Outcome<Command> {
     Ok(command)
 }
 
-fn module_command() -> Outcome<Command> {
+fn module_command(file: &str) -> Outcome<Command> {
     demo::install_packages()?;
     demo::build_screen()?;
-    Ok(shell::command("ui", demo::NPM, &["run", "--silent", "preview-times"]))
+    let native =
+        ["build", "--quiet", "--release", "--package", "lightbots-browser", "--example", NATIVE_PLANS];
+    shell::cargo(&native)?;
+    let program = shell::target().join("release/examples").join(NATIVE_PLANS);
+    let mut command = shell::command("ui", demo::NPM, &["run", "--silent", "module-times", "--", file]);
+    command.env("LIGHTBOTS_NATIVE_PLANS", program.with_extension(std::env::consts::EXE_EXTENSION));
+    Ok(command)
 }
 
 fn build_server() -> Outcome {

@@ -1,6 +1,7 @@
 //! Messages between screen and server on `/ws` and `/api`, and the TypeScript types of these messages.
 //!
-//! The crate holds types only: no sockets, no controller, no planner. [`ToScreen`] and [`FromScreen`] are the JSON
+//! The crate holds types, and makes a [`Plan`] of what the planner gives ([`plan_document()`]): no sockets, no controller.
+//! [`ToScreen`] and [`FromScreen`] are the JSON
 //! messages on the WebSocket, [`Robots`] is the binary message there. [`ShowEntry`], [`ShowState`], [`BrokerSettings`],
 //! [`Problem`] and [`Plan`] are bodies of HTTP answers. [`MakeRequest`] and [`MakeAnswer`] go to and from the module in the
 //! browser. After a change run `cargo run -p lightbots-api --example types`.
@@ -18,6 +19,7 @@ mod library;
 mod make;
 mod operation;
 mod plan;
+mod plan_document;
 mod robots;
 mod screen;
 mod state;
@@ -31,7 +33,8 @@ pub use make::{
     MakeFont, MakeQuality, MakeRemark, MakeRequest, MakeShape,
 };
 pub use operation::{Answer, Choice, FromScreen, Missing, Operation, Request};
-pub use plan::{Issue, Path, Plan, Severity, Transition};
+pub use plan::{Issue, Path, Plan, PlanAnswer, PlanningRequest, Severity, Transition};
+pub use plan_document::{plan_document, plan_summary, rounded};
 pub use robots::Robots;
 pub use screen::{Hello, Level, LogLine, OpenShow, ToScreen};
 pub use state::{Broker, BrokerPhase, Phase, Playback, State};

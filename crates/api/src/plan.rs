@@ -3,6 +3,8 @@
 use serde::{Deserialize, Serialize};
 use ts_rs::TS;
 
+use crate::{MakeQuality, MakeRemark};
+
 /// The plan of a show: assignment of pixels, paths, durations and issues.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, TS)]
 pub struct Plan {
@@ -20,12 +22,31 @@ pub struct Plan {
     pub closest_m: Option<f64>,
     /// Share of all moments, 0 to 1, at which any single robot could stop dead without a contact.
     pub stop_safe: f64,
-    /// Duration of planning, milliseconds.
+    /// Duration of planning, milliseconds; 0 for a plan that the browser made.
     pub plan_ms: f64,
     /// Issues in the order of frames.
     pub issues: Vec<Issue>,
     /// `transitions[k]` leads to frame `k`. Shorter than the list of frames if planning failed.
     pub transitions: Vec<Transition>,
+}
+
+/// A wish for a plan by the module in the browser.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS)]
+pub struct PlanningRequest {
+    /// A show in our format.
+    #[ts(type = "unknown")]
+    pub show: serde_json::Value,
+    /// `quick` leaves stop-safety as it is and does not measure it; the paths are proven all the same.
+    pub quality: MakeQuality,
+}
+
+/// A plan by the module in the browser, or why there is none.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, TS)]
+pub struct PlanAnswer {
+    /// The plan. `stop_safe` counts only for quality `full`. null: there is none.
+    pub plan: Option<Plan>,
+    /// Why there is no plan; null: there is one.
+    pub error: Option<MakeRemark>,
 }
 
 /// The transition to one frame.

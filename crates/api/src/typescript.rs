@@ -7,8 +7,8 @@ use crate::{
     Abilities, Answer, Broker, BrokerPhase, BrokerSettings, Choice, FilmAnswer, FilmPicture, FitAnswer,
     Fleet, FleetRow, FromScreen, Hello, Issue, Level, LogLine, MadePixel, MadeReadability, MakeAnswer,
     MakeChoices, MakeFile, MakeFont, MakeQuality, MakeRemark, MakeRequest, MakeShape, Missing, OpenShow,
-    Operation, Path, Phase, Plan, Playback, Presence, Problem, Request, RobotStatus, Robots, Severity,
-    ShowEntry, ShowOrigin, ShowState, State, ToScreen, Transition,
+    Operation, Path, Phase, Plan, PlanAnswer, PlanningRequest, Playback, Presence, Problem, Request,
+    RobotStatus, Robots, Severity, ShowEntry, ShowOrigin, ShowState, State, ToScreen, Transition,
 };
 
 /// The first line of the generated file.
@@ -36,6 +36,8 @@ pub fn typescript() -> String {
         Hello,
         OpenShow,
         Plan,
+        PlanningRequest,
+        PlanAnswer,
         Transition,
         Path,
         Issue,

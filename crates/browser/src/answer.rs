@@ -4,11 +4,18 @@ use lightbots_api::MakeRemark;
 use lightbots_draw::{DrawError, Note};
 use lightbots_exchange::ReadError;
 use serde::Serialize;
+use serde::de::DeserializeOwned;
 
 /// The answer as JSON.
 pub(crate) fn text<T: Serialize>(answer: &T) -> String {
     // Answers are plain lists, texts and finite or null numbers, which JSON always holds.
     serde_json::to_string(answer).unwrap_or_default()
+}
+
+/// Reads a request as JSON.
+pub(crate) fn request<T: DeserializeOwned>(request: &str) -> Result<T, MakeRemark> {
+    serde_json::from_str(request)
+        .map_err(|error| MakeRemark { code: "bad-request".to_owned(), message: error.to_string() })
 }
 
 /// An error of drawing.

@@ -1,9 +1,10 @@
-//! What the browser runs by itself as WebAssembly: frames from words, drawings and shapes, and shows for other fleets.
+//! What the browser runs by itself as WebAssembly: frames from words, drawings and shapes, shows for other
+//! fleets, and plans.
 //!
 //! JSON texts go in and out, in the types of `lightbots_api`, so that JavaScript needs no glue for each type. Errors are
-//! values in the answers. In reading order: [`make_answer`] makes a frame, [`film_answer`] those of
-//! an animation, [`fit_answer`] fits a show, [`choices`] lists
-//! what settings may name, [`file`] tells what a file is; the functions below them are the same for JavaScript.
+//! values in the answers. In reading order: [`make_answer`] makes a frame, [`film_answer`] those of an animation,
+//! [`fit_answer`] fits a show, [`plan_answer`] plans one, [`choices`] lists what settings may name, [`file`] tells what a
+//! file is; the functions below them are the same for JavaScript.
 
 mod answer;
 mod choices;
@@ -11,6 +12,7 @@ mod file;
 mod film;
 mod fit;
 mod make;
+mod plan;
 
 use wasm_bindgen::prelude::wasm_bindgen;
 
@@ -19,6 +21,7 @@ pub use file::file;
 pub use film::film_answer;
 pub use fit::fit_answer;
 pub use make::make_answer;
+pub use plan::plan_answer;
 
 /// Makes a frame: a `MakeRequest` as JSON and the bytes of the source's file, empty without one; a `MakeAnswer` as JSON.
 #[wasm_bindgen]
@@ -36,6 +39,12 @@ pub fn film(request: &str, bytes: &[u8]) -> String {
 #[wasm_bindgen]
 pub fn fit(show: &[u8], robots: usize) -> String {
     answer::text(&fit_answer(show, robots))
+}
+
+/// Plans a show: a `PlanningRequest` as JSON; a `PlanAnswer` as JSON.
+#[wasm_bindgen]
+pub fn plan(request: &str) -> String {
+    answer::text(&plan_answer(request))
 }
 
 /// What settings may name: `MakeChoices` as JSON.

@@ -24,8 +24,7 @@ pub(crate) struct FrameWish {
 impl FrameWish {
     /// Reads a `MakeRequest` as JSON.
     pub(crate) fn read(request: &str) -> Result<Self, MakeRemark> {
-        let request: MakeRequest =
-            serde_json::from_str(request).map_err(|error| remark("bad-request", error))?;
+        let request: MakeRequest = answer::request(request)?;
         let document = request.show.to_string();
         let show = lightbots_exchange::read(document.as_bytes(), None)
             .map_err(|error| answer::reading(&error))?

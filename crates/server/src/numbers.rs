@@ -2,6 +2,7 @@
 
 use std::net::{SocketAddr, ToSocketAddrs};
 
+use lightbots_api::rounded;
 use lightbots_base::{Rgb, RobotId, Vec2};
 use lightbots_sim::Spread;
 
@@ -55,13 +56,6 @@ pub fn address(text: &str) -> Result<SocketAddr, String> {
     text.trim().to_socket_addrs().ok().and_then(|mut found| found.next()).ok_or_else(wrong)
 }
 
-/// A number rounded to `decimals`, so that JSON stays readable.
-pub fn rounded(value: f64, decimals: i32) -> f64 {
-    let factor = 10_f64.powi(decimals);
-    let rounded = (value * factor).round() / factor + 0.0;
-    if rounded.is_finite() { rounded } else { value }
-}
-
 /// A spread with its numbers rounded to `decimals`.
 pub fn rounded_spread(Spread { median, p99, max }: Spread, decimals: i32) -> Spread {
     Spread { median: rounded(median, decimals), p99: rounded(p99, decimals), max: rounded(max, decimals) }
@@ -104,11 +98,5 @@ mod tests {
         assert_eq!(spread, Spread { median: 100.0, p99: 198.0, max: 200.0 });
         assert_eq!(Spread::of(&[]), Spread::default());
         assert_eq!(Spread::of(&[7.0]), Spread { median: 7.0, p99: 7.0, max: 7.0 });
-    }
-
-    #[test]
-    fn rounding_keeps_what_is_no_number() {
-        assert_eq!(rounded(1.23456, 3), 1.235);
-        assert!(rounded(f64::NAN, 3).is_nan());
     }
 }

@@ -1,5 +1,6 @@
 //! What a run on live robots was like.
 
+use lightbots_api::{self as api, rounded};
 use lightbots_base::Instant;
 use lightbots_control::{Event, EventKind, RunOutcome, Snapshot};
 use lightbots_show::{Issue, Issues, Severity, Show};
@@ -7,8 +8,8 @@ use lightbots_sim::Spread;
 use serde::Serialize;
 
 use crate::failure::Failure;
-use crate::numbers::{rounded, rounded_spread};
-use crate::{commands, plan_document, say};
+use crate::numbers::rounded_spread;
+use crate::{commands, say};
 
 /// The most issues of a run that are kept.
 const ISSUES_MAX: usize = 500;
@@ -165,7 +166,7 @@ pub fn print(report: RunReport, json: bool) -> Result<(), Failure> {
     if json {
         return commands::print_json(&summary);
     }
-    commands::print_issues(&summary.issues.iter().map(plan_document::issue).collect::<Vec<_>>());
+    commands::print_issues(&summary.issues.iter().map(api::Issue::from).collect::<Vec<_>>());
     say::line(&format!(
         "{}: {} of {} frames by {} robots in {:.2} s; arrivals within {:.2} s, places within {:.1} mm (99 %); {} lost",
         if summary.ok { "fine" } else { "not played as it should be" },

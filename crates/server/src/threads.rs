@@ -87,7 +87,7 @@ mod tests {
     fn a_plan_has_the_same_bits_on_any_number_of_threads() {
         let bytes = include_bytes!("../../../shows/rings.lightbots.json");
         let show: Show = lightbots_exchange::read(bytes, Some("json")).unwrap().show;
-        let starts = crate::plan_document::starts(&show);
+        let starts = lightbots_show::starting_places(&show);
         let plan = |workers: &dyn Workers| {
             show_with(workers, &show, &starts, &ShowOptions::default(), &|| false).unwrap()
         };

@@ -2,7 +2,7 @@
 
 use lightbots_base::{Limits, Vec2};
 
-use crate::{Obstacle, Stage};
+use crate::{Obstacle, Show, Stage, robots_needed};
 
 /// Spacings of robots and rows for an Elisa-3, metres: the first at which all rows are on the floor is taken. 0.1 m is
 /// the spacing of the original's robots. 0.06 m leaves 6 mm between rims, twice `PROVABLE_GAP_M`.
@@ -46,6 +46,11 @@ pub fn front_rows(stage: &Stage, count: usize) -> Vec<Vec2> {
         }
     }
     rows(stage, count, narrow_m, size)
+}
+
+/// Where the robots of a show wait before the first frame: the places that it names, or else rows along the front edge.
+pub fn starting_places(show: &Show) -> Vec<Vec2> {
+    show.starts.clone().unwrap_or_else(|| front_rows(&show.stage, robots_needed(show)))
 }
 
 /// Rows for robots `size` times as large as an Elisa-3. `step_m` is the spacing for an Elisa-3.

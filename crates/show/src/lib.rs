@@ -23,7 +23,7 @@ mod timeline;
 mod validate;
 
 pub use asset::{Asset, AssetHash, Assets};
-pub use front::front_rows;
+pub use front::{front_rows, starting_places};
 pub use issue::{Issue, Issues, Severity};
 pub use label::{excerpt, frame_label};
 pub use model::{Easing, Frame, Identity, Obstacle, Pixel, Show, Stage, with_floor};

@@ -91,7 +91,7 @@ closest_m: number | null,
  */
 stop_safe: number, 
 /**
- * Duration of planning, milliseconds.
+ * Duration of planning, milliseconds; 0 for a plan that the browser made.
  */
 plan_ms: number, 
 /**
@@ -102,6 +102,32 @@ issues: Array<Issue>,
  * `transitions[k]` leads to frame `k`. Shorter than the list of frames if planning failed.
  */
 transitions: Array<Transition>, };
+
+/**
+ * A wish for a plan by the module in the browser.
+ */
+export type PlanningRequest = { 
+/**
+ * A show in our format.
+ */
+show: unknown, 
+/**
+ * `quick` leaves stop-safety as it is and does not measure it; the paths are proven all the same.
+ */
+quality: MakeQuality, };
+
+/**
+ * A plan by the module in the browser, or why there is none.
+ */
+export type PlanAnswer = { 
+/**
+ * The plan. `stop_safe` counts only for quality `full`. null: there is none.
+ */
+plan: Plan | null, 
+/**
+ * Why there is no plan; null: there is one.
+ */
+error: MakeRemark | null, };
 
 /**
  * The transition to one frame.

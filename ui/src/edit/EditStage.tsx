@@ -2,6 +2,7 @@ import { useEffect, useMemo } from 'react';
 import { useStore } from '../base/store';
 import type { Scene } from '../stage/scene';
 import { StageCanvas } from '../stage/StageCanvas';
+import { planTo } from '../make/drive';
 import { pictureShown } from '../make/making';
 import { useEditing } from './context';
 import type { Editing } from './editing';
@@ -24,25 +25,25 @@ function rememberScene(editing: Editing): () => Scene {
   let scene: Scene | null = null;
   return () => {
     const state = editing.editor.state.get();
-    const [options, plan, time_s] = [
-      editing.options.get(),
-      editing.full.plan.get(),
-      editing.preview.time_s.get(),
-    ];
+    const [options, time_s] = [editing.options.get(), editing.preview.time_s.get()];
     const making = editing.making.get();
     const shown = making && pictureShown(making);
+    const drives = making && making.made.get().drives;
+    const full = editing.full.plan.get();
     const now = [
       state,
       making?.draft.get(),
       making?.pen.get(),
       shown,
       options,
-      plan,
+      full,
+      drives,
       time_s,
       unitStore.get(),
     ];
     if (!scene || now.some((input, i) => input !== inputs[i])) {
       inputs = now;
+      const plan = making ? drives && planTo(drives, making.at.get(), state.frame) : full;
       scene = editScene(
         making ? withMade(state, making.frame, shown) : state,
         options,

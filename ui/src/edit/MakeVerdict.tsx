@@ -1,5 +1,6 @@
 import { useStore } from '../base/store';
 import { lengthText, type Unit } from '../base/units';
+import { drivesText } from '../make/drive';
 import { drawnKind } from '../make/drawnLine';
 import { sizeOf, type Pictures } from '../make/pictures';
 import { verdictOf } from '../make/verdict';
@@ -10,7 +11,7 @@ import styles from './Make.module.css';
 
 /** How well the robots show what is made, or why they do not. */
 export function MakeVerdict({ making }: { making: Making }) {
-  const { answer, shown } = useStore(making.made);
+  const { answer, shown, drives } = useStore(making.made);
   const unit = useUnit();
   const tab = useStore(making.draft, (draft) => draft.tab);
   const told = answer ?? shown;
@@ -29,6 +30,7 @@ export function MakeVerdict({ making }: { making: Making }) {
       <div>
         {text}
         {told && told.error === null ? <small>{figures(told, unit)}</small> : null}
+        {drives ? <small data-testid="drives">{drivesText(drives)}</small> : null}
         {told ? notesOf(told).map((note) => <small key={note}>{note}</small>) : null}
       </div>
     </div>

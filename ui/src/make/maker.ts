@@ -5,6 +5,8 @@ import type {
   MakeChoices,
   MakeFile,
   MakeRequest,
+  PlanAnswer,
+  PlanningRequest,
 } from '../api/types.gen';
 import type { Ask, Cause, Reply } from './protocol';
 
@@ -16,7 +18,7 @@ export interface WorkerLike {
   terminate(): void;
 }
 
-/** Makes frames in a worker that is started with the first wish. */
+/** Makes frames and plans in a worker that is started with the first wish. */
 export interface Maker {
   /**
    * Makes a frame. One is made at a time, and of those that wait only the newest: `null` is the answer to a wish that a
@@ -27,6 +29,8 @@ export interface Maker {
   film(request: MakeRequest, bytes: Uint8Array): Promise<FilmAnswer | null>;
   /** Fits a show, the bytes of a file, to another number of robots. */
   fit(show: Uint8Array, robots: number): Promise<FitAnswer>;
+  /** Plans a show; `null` as for `make`. */
+  plan(request: PlanningRequest): Promise<PlanAnswer | null>;
   /** What settings may name. */
   list(): Promise<MakeChoices>;
   /** What a file is. */
@@ -97,10 +101,10 @@ export function createMaker(start: () => WorkerLike): Maker {
   };
   const add = (ask: Ask) =>
     new Promise<Reply | null>((done) => {
-      if (isPicture(ask)) {
-        queue.filter((job) => isPicture(job.ask)).forEach((job) => job.done(null));
-        queue = queue.filter((job) => !isPicture(job.ask));
-        if (running && isPicture(running.ask)) giveUpIn(GRACE_MS, null);
+      if (isPreview(ask)) {
+        queue.filter((job) => isPreview(job.ask)).forEach((job) => job.done(null));
+        queue = queue.filter((job) => !isPreview(job.ask));
+        if (running && isPreview(running.ask)) giveUpIn(GRACE_MS, null);
       }
       queue.push({ ask, done });
       if (!running) next();
@@ -124,6 +128,13 @@ export function createMaker(start: () => WorkerLike): Maker {
       return { frames: [], slowdown: 1, notes: [], error: { code, message: WORDS[code] } };
     },
     fit: async (show, robots) => (await wanted({ do: 'fit', show, robots }, 'fit')).answer,
+    async plan(request) {
+      const got = await add({ do: 'plan', request });
+      if (got === null) return null;
+      if (got.of === 'plan') return got.answer;
+      const code = causeOf(got);
+      return { plan: null, error: { code, message: WORDS[code] } };
+    },
     list: async () => (await wanted({ do: 'list' }, 'list')).choices,
     look: async (bytes) => (await wanted({ do: 'look', bytes }, 'look')).file,
     end() {
@@ -137,7 +148,7 @@ export function createMaker(start: () => WorkerLike): Maker {
 }
 
 /** Whether a newer wish replaces it. */
-const isPicture = (ask: Ask) => ask.do === 'make' || ask.do === 'film';
+const isPreview = (ask: Ask) => ask.do === 'make' || ask.do === 'film' || ask.do === 'plan';
 
 const causeOf = (got: Reply | null): Cause => (got?.of === 'failure' ? got.cause : 'broken');
 

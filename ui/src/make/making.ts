@@ -4,6 +4,7 @@ import { createStore, type Readable, type Store } from '../base/store';
 import type { Frame, Show } from '../model/show';
 import type { FrameSource } from '../model/sources';
 import { sourcesOf, type Draft } from './draft';
+import { planDrives, type Drives } from './drive';
 import type { Maker } from './maker';
 import { IDLE_PEN, type Pen } from './penState';
 import { lightsBox } from './picture';
@@ -41,6 +42,8 @@ export interface Made {
   isFull: boolean;
   /** The box around the lights of `shown`, along the picture's axes, in shares of its longer side; null: no lights. */
   box: Box | null;
+  /** The drives to `answer`; null: they are not planned. */
+  drives: Drives | null;
 }
 
 /** What a making is about. */
@@ -57,7 +60,7 @@ export interface MakingOf {
 /** Settings that rest for this long get the full result, milliseconds. */
 export const REST_MS = 250;
 
-const NOTHING: Made = { shown: null, answer: null, isFull: false, box: null };
+const NOTHING: Made = { shown: null, answer: null, isFull: false, box: null, drives: null };
 
 /** What the stage shows of a making; null: nothing yet. */
 export const pictureShown = (making: Making): MakeAnswer | null => {
@@ -90,8 +93,17 @@ export function createMaking(maker: Maker, of: MakingOf): Making {
       answer.error === null
         ? lightsBox(answersOf(answer), draft.get(), moved.get())
         : made.get().box;
-    made.set({ shown, answer, box, isFull: quality === 'full' || answer.error !== null });
+    const isFull = quality === 'full' || answer.error !== null;
+    made.set({ shown, answer, box, isFull, drives: null });
     return answer;
+  };
+  /** Makes the full result, and then plans the drives to it. */
+  const finish = async () => {
+    const answer = await make('full');
+    if (!answer || answer.error !== null) return;
+    const asked = version;
+    const drives = await planDrives(maker, of.show, of.frame, answer.pictures);
+    if (asked === version) made.update((now) => ({ ...now, drives }));
   };
   const begin = () => {
     version++;
@@ -100,9 +112,9 @@ export function createMaking(maker: Maker, of: MakingOf): Making {
       made.set(NOTHING);
       return;
     }
-    made.update((now) => ({ ...now, answer: null, isFull: false }));
+    made.update((now) => ({ ...now, answer: null, isFull: false, drives: null }));
     void make('quick').then((answer) => {
-      if (answer && answer.error === null) timer = setTimeout(() => void make('full'), REST_MS);
+      if (answer && answer.error === null) timer = setTimeout(() => void finish(), REST_MS);
     });
   };
   begin();

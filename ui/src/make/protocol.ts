@@ -5,6 +5,8 @@ import type {
   MakeChoices,
   MakeFile,
   MakeRequest,
+  PlanAnswer,
+  PlanningRequest,
 } from '../api/types.gen';
 
 /** A message to the worker; it answers each in order. */
@@ -14,6 +16,8 @@ export type Ask =
   | { do: 'film'; request: MakeRequest; bytes: Uint8Array }
   /** A show, the bytes of a file, for another number of robots. */
   | { do: 'fit'; show: Uint8Array; robots: number }
+  /** A plan of a show. */
+  | { do: 'plan'; request: PlanningRequest }
   | { do: 'list' }
   | { do: 'look'; bytes: Uint8Array };
 
@@ -22,6 +26,7 @@ export type Reply =
   | { of: 'make'; answer: MakeAnswer }
   | { of: 'film'; answer: FilmAnswer }
   | { of: 'fit'; answer: FitAnswer }
+  | { of: 'plan'; answer: PlanAnswer }
   | { of: 'list'; choices: MakeChoices }
   | { of: 'look'; file: MakeFile }
   /** The worker is of no more use. */
@@ -35,6 +40,7 @@ export interface Module {
   make(request: string, asset: Uint8Array): string;
   film(request: string, bytes: Uint8Array): string;
   fit(show: Uint8Array, robots: number): string;
+  plan(request: string): string;
   list(): string;
   look(bytes: Uint8Array): string;
 }
@@ -54,6 +60,11 @@ export function reply(module: Module, ask: Ask): Reply {
     }
     case 'fit':
       return { of: 'fit', answer: JSON.parse(module.fit(ask.show, ask.robots)) as FitAnswer };
+    case 'plan':
+      return {
+        of: 'plan',
+        answer: JSON.parse(module.plan(JSON.stringify(ask.request))) as PlanAnswer,
+      };
     case 'list':
       return { of: 'list', choices: JSON.parse(module.list()) as MakeChoices };
     case 'look':

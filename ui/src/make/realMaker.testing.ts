@@ -1,5 +1,5 @@
 import { readFileSync } from 'node:fs';
-import { film, fit, initSync, list, look, make } from '../generated/browser';
+import { film, fit, initSync, list, look, make, plan } from '../generated/browser';
 import { createMaker, type Maker, type WorkerLike } from './maker';
 import { reply } from './protocol';
 
@@ -13,7 +13,7 @@ export function realMaker(): Maker {
       postMessage: (ask) =>
         void Promise.resolve().then(() =>
           worker.onmessage?.({
-            data: reply({ make, film, fit, list, look }, ask),
+            data: reply({ make, film, fit, plan, list, look }, ask),
           } as MessageEvent),
         ),
       terminate: () => undefined,

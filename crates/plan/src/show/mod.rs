@@ -23,6 +23,8 @@ pub struct ShowOptions {
     /// `robots[start]`: name of the robot there, for pixels that ask for a robot by name. Empty where names are not
     /// known yet: then each name means some robot, the same in every frame.
     pub robots: Vec<String>,
+    /// Leaves out the second pass, for previews: stop-safety is then neither raised nor measured. The paths are proven.
+    pub as_preview: bool,
 }
 
 /// The plan of a show.
@@ -129,6 +131,12 @@ fn whole(
     cancel: Cancel<'_>,
 ) -> ShowPlan {
     let (mut plan, drives) = chained(show, starts, options, cancel);
+    if options.as_preview {
+        for (frame, drive) in show.frames.iter().zip(drives) {
+            plan.take(drive.transition, drive.shown, frame);
+        }
+        return plan;
+    }
     let raised = all_raised(drives, workers, cancel);
     for (frame, (shown, transition, safety)) in show.frames.iter().zip(raised) {
         plan.take(transition, shown, frame);

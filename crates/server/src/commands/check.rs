@@ -4,7 +4,7 @@ mod explain;
 mod show_places;
 mod stop_safe;
 
-use lightbots_api as api;
+use lightbots_api::{self as api, rounded};
 use lightbots_plan::{ShowClosest, ShowPlan};
 use lightbots_show::{Show, most_pixels};
 use serde::Serialize;
@@ -12,8 +12,7 @@ use serde::Serialize;
 use super::{count, print_issues, print_json};
 use crate::cli::CheckArguments;
 use crate::failure::Outcome;
-use crate::numbers::rounded;
-use crate::{plan_document, say, show_file};
+use crate::{say, show_file, show_plan};
 use explain::Explained;
 use show_places::{began_s, frame_name, pixel};
 use stop_safe::StopSafe;
@@ -66,7 +65,7 @@ struct Drive {
 
 pub fn run(arguments: &CheckArguments) -> Outcome {
     let opened = show_file::open(&arguments.show, &arguments.reading)?;
-    let (made, plan) = plan_document::plan(&opened.show, &opened.issues);
+    let (made, plan) = show_plan::plan(&opened.show, &opened.issues);
     let mut summary = Summary::new(&opened.show, &made, &plan);
     summary.explanations = arguments.explain.then(|| Explained::all(&made));
     if arguments.json {

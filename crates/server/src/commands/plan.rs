@@ -4,11 +4,11 @@ use super::check::Summary;
 use super::print_json;
 use crate::cli::PlanArguments;
 use crate::failure::{Failure, Outcome};
-use crate::{plan_document, say, show_file};
+use crate::{say, show_file, show_plan};
 
 pub fn run(arguments: &PlanArguments) -> Outcome {
     let opened = show_file::open(&arguments.show, &arguments.reading)?;
-    let (made, plan) = plan_document::plan(&opened.show, &opened.issues);
+    let (made, plan) = show_plan::plan(&opened.show, &opened.issues);
     let out = &arguments.out;
     let cannot = |error: &dyn std::fmt::Display| {
         Failure::input(format!("{}: cannot be written: {error}", out.display()))

@@ -4,6 +4,7 @@ use std::io::Write;
 use std::path::Path;
 use std::time::Instant;
 
+use lightbots_api::{self as api, rounded};
 use lightbots_sim::{
     Conditions, Faults, Progress, RehearsalOptions, RehearsalReport, rehearse, rehearse_recorded,
 };
@@ -11,9 +12,9 @@ use lightbots_sim::{
 use super::{count, print_issues, print_json};
 use crate::cli::RehearseArguments;
 use crate::failure::{Failure, Outcome};
-use crate::numbers::{rounded, rounded_spread};
+use crate::numbers::rounded_spread;
 use crate::progress::Bar;
-use crate::{plan_document, say, show_file};
+use crate::{say, show_file};
 
 pub fn run(arguments: &RehearseArguments) -> Outcome {
     let faults = arguments.faults.as_deref().map(Faults::parse).transpose();
@@ -136,7 +137,7 @@ fn readable(mut report: RehearsalReport) -> RehearsalReport {
 }
 
 fn print(report: &RehearsalReport) {
-    print_issues(&report.issues.iter().map(plan_document::issue).collect::<Vec<_>>());
+    print_issues(&report.issues.iter().map(api::Issue::from).collect::<Vec<_>>());
     if report.messages.sent == 0 && !report.ok {
         say::line("this show must not be played like this; nothing was rehearsed");
         return;

@@ -3,6 +3,7 @@
 use std::panic::catch_unwind;
 use std::path::PathBuf;
 
+use lightbots_api::rounded;
 use lightbots_control::{LogEnd, ReplayReport, replay};
 use serde_json::json;
 
@@ -12,7 +13,6 @@ use crate::data_folder::DataFolder;
 use crate::disk;
 use crate::failure::{Failure, Outcome};
 use crate::live::recorder::run_file;
-use crate::numbers::rounded;
 use crate::progress::Bar;
 use crate::say;
 

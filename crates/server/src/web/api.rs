@@ -17,7 +17,7 @@ use super::Shared;
 use super::connection::Ends;
 use super::planner::CutOff;
 use crate::library::{Condition, Kept, LibraryError};
-use crate::plan_document;
+use crate::show_plan;
 
 /// An answer, or the refusal of the request.
 type Answer<T> = Result<T, Refused>;
@@ -213,19 +213,19 @@ pub async fn check(
         let loaded = match read(&bytes, None) {
             Ok(loaded) => loaded,
             Err(error) => {
-                return Plan { issues: vec![plan_document::issue(&error.issue())], ..Plan::default() };
+                return Plan { issues: vec![lightbots_api::Issue::from(&error.issue())], ..Plan::default() };
             }
         };
         let mut found = loaded.issues;
         found.extend(validate(&loaded.show));
-        match plan_document::plan_unless(&loaded.show, &found, is_wanted) {
+        match show_plan::plan_unless(&loaded.show, &found, is_wanted) {
             Ok((_, plan)) => plan,
-            Err(Cancelled) => plan_document::cut_off(&found, budget),
+            Err(Cancelled) => show_plan::cut_off(&found, budget),
         }
     });
     match plan.await {
         Ok(plan) => Ok(Json(plan)),
-        Err(CutOff::TimeUp) => Ok(Json(plan_document::cut_off(&Vec::new(), budget))),
+        Err(CutOff::TimeUp) => Ok(Json(show_plan::cut_off(&Vec::new(), budget))),
         Err(CutOff::Superseded) => {
             Err(refuse(StatusCode::CONFLICT, "a newer request of this client replaced this one"))
         }

@@ -10,7 +10,7 @@ use tokio::sync::{Mutex, broadcast, watch};
 
 use crate::library::Kept;
 use crate::live::conductor::{Handle, News};
-use crate::plan_document;
+use crate::show_plan;
 
 use super::planner::GiveUp;
 
@@ -122,7 +122,7 @@ impl Desk {
         // Nothing needs the plan of the show before.
         *self.planning.lock().unwrap_or_else(PoisonError::into_inner) = give_up;
         tokio::task::spawn_blocking(move || {
-            let planned = plan_document::plan_unless(&show, &validate(&show), &|| is_given_up.get());
+            let planned = show_plan::plan_unless(&show, &validate(&show), &|| is_given_up.get());
             let Ok((_, mut plan)) = planned else { return };
             plan.revision = revision;
             sender.send_if_modified(|current| {

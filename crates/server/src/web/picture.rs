@@ -5,6 +5,7 @@ use std::time::Duration;
 use axum::body::Bytes;
 use axum::extract::ws::Utf8Bytes;
 use lightbots_api as api;
+use lightbots_api::rounded;
 use lightbots_base::{RobotId, Vec2};
 use lightbots_control::{Age, ControllerState, RobotView, Snapshot};
 use lightbots_wire::RobotState;
@@ -14,7 +15,6 @@ use tokio::time::MissedTickBehavior;
 use super::Desk;
 use super::socket::text;
 use crate::live::conductor::{Handle, LinkPhase, LinkState, News};
-use crate::numbers::rounded;
 
 /// Time between two pictures: 20 a second, which screens interpolate. More cost bandwidth; fewer make dots lag.
 const EVERY: Duration = Duration::from_millis(50);

@@ -7,12 +7,11 @@ use std::time::Duration;
 use axum::extract::State;
 use axum::extract::ws::{Message, Utf8Bytes, WebSocket, WebSocketUpgrade};
 use axum::response::Response;
-use lightbots_api::{FromScreen, Hello, ToScreen};
+use lightbots_api::{FromScreen, Hello, ToScreen, plan_summary};
 use tokio::sync::broadcast::error::RecvError;
 
 use super::picture::Picture;
 use super::{Shared, operate};
-use crate::plan_document;
 
 /// Longest time to send one message. A screen that takes longer is disconnected, and connects again by itself.
 const PATIENCE: Duration = Duration::from_secs(20);
@@ -56,7 +55,7 @@ impl Screen {
         self.greet().await?;
         let message = shown.borrow_and_update().message.clone();
         self.send(message).await?;
-        let summary = plan_document::summary(&plan.borrow_and_update());
+        let summary = plan_summary(&plan.borrow_and_update());
         self.send(text(&ToScreen::Plan(summary))).await?;
         for line in lines {
             self.send(text(&ToScreen::Log(line))).await?;
@@ -70,7 +69,7 @@ impl Screen {
                     self.send(message).await?;
                 }
                 Ok(()) = plan.changed() => {
-                    let summary = plan_document::summary(&plan.borrow_and_update());
+                    let summary = plan_summary(&plan.borrow_and_update());
                     self.send(text(&ToScreen::Plan(summary))).await?;
                 }
                 Ok(()) = fleets.changed(), if self.ahead < AHEAD => {

@@ -1,11 +1,11 @@
 //! Which solvers ran for each transition and why its plan was chosen, for `check --explain`.
 
+use lightbots_api::rounded;
 use lightbots_plan::{ExplainedRow, RowOutcome, ShowPlan};
 use lightbots_show::Show;
 use serde::Serialize;
 
 use super::show_places::frame_name;
-use crate::numbers::rounded;
 
 /// One transition.
 #[derive(Debug, Serialize)]

@@ -1,12 +1,12 @@
 //! The stop-safety part of `check`: what happens if a robot stops dead.
 
 use lightbots_api as api;
+use lightbots_api::rounded;
 use lightbots_plan::ShowPlan;
 use lightbots_show::Show;
 use serde::Serialize;
 
 use super::show_places::{began_s, frame_name, pixel};
-use crate::numbers::rounded;
 
 /// Moments at which a robot may stop dead without a contact.
 #[derive(Debug, Serialize)]

@@ -5,6 +5,7 @@ mod sources;
 mod wanted;
 
 use lightbots_api as api;
+use lightbots_api::rounded;
 use lightbots_base::Vec2;
 use lightbots_draw::{DrawError, Note, Quality, READABLE, Readability, enough_robots};
 use lightbots_make::{MadeFrame, make_frame_from, picture_floor};
@@ -14,9 +15,8 @@ use serde::Serialize;
 use super::{count, guard, print_issues, print_json};
 use crate::cli::MakeArguments;
 use crate::failure::{Failure, Outcome};
-use crate::numbers::rounded;
 use crate::progress::Bar;
-use crate::{plan_document, say, show_file};
+use crate::{say, show_file};
 use wanted::{Wanted, stage};
 
 /// The JSON of `make`.
@@ -72,7 +72,7 @@ pub fn run(arguments: &MakeArguments) -> Outcome {
         frames: show.frames.len(),
         pixels: show.frames.iter().map(|frame| frame.pixels.len()).max().unwrap_or(0),
         pictures,
-        issues: issues.iter().map(plan_document::issue).collect(),
+        issues: issues.iter().map(api::Issue::from).collect(),
         out: arguments.out.display().to_string(),
     };
     if arguments.json {
