@@ -5,6 +5,7 @@ import { join } from 'node:path';
 import { expect, test } from 'vitest';
 import type { PlanAnswer } from '../src/api/types.gen';
 import { initSync, plan } from '../src/generated/browser';
+import { medianOf } from './median';
 
 /** The program that plans natively and writes the same requests. */
 const NATIVE = process.env.LIGHTBOTS_NATIVE_PLANS ?? '';
@@ -14,16 +15,7 @@ interface Native {
   native_ms: number;
 }
 
-function medianOf(rounds: number, once: () => void): number {
-  const times = Array.from({ length: rounds }, () => {
-    const before = performance.now();
-    once();
-    return performance.now() - before;
-  });
-  return times.sort((a, b) => a - b)[rounds >> 1] ?? NaN;
-}
-
-test('plans by the WebAssembly module, as in the browser', () => {
+test('plans by the WebAssembly module, as in the browser', async () => {
   const file = new URL('../src/generated/browser_bg.wasm', import.meta.url);
   initSync({ module: readFileSync(file) });
   const folder = mkdtempSync(join(tmpdir(), 'lightbots-plans-'));
@@ -33,7 +25,7 @@ test('plans by the WebAssembly module, as in the browser', () => {
       const request = readFileSync(join(folder, `${robots}.json`), 'utf8');
       expect((JSON.parse(plan(request)) as PlanAnswer).plan?.ok).toBe(true);
       const rounds = Math.min(Math.max(Math.floor(3000 / robots), 3), 41);
-      const webassembly_ms = medianOf(rounds, () => plan(request));
+      const webassembly_ms = await medianOf(rounds, () => plan(request));
       const row = { robots, native_ms, webassembly_ms, ratio: webassembly_ms / native_ms };
       process.stdout.write(`\n${JSON.stringify(row)}\n`);
     }

@@ -4,20 +4,13 @@ import { newDraft, sourcesOf } from '../src/make/draft';
 import { requestOf } from '../src/make/frame';
 import { realMaker } from '../src/make/realMaker.testing';
 import { newShow } from '../src/model/show';
+import { medianOf } from './median';
 
 /** The cat of the contact sheet: an area and a line. */
 const CAT = new URL('../../crates/make/examples/sheet/drawings/cat.svg', import.meta.url);
 
-/** Median of five previews while the size changes as by a slider, milliseconds. */
-async function medianOf(once: (step: number) => Promise<unknown>): Promise<number> {
-  const times: number[] = [];
-  for (let step = 0; step < 5; step++) {
-    const before = performance.now();
-    await once(step);
-    times.push(performance.now() - before);
-  }
-  return times.sort((a, b) => a - b)[2] ?? NaN;
-}
+/** Previews while the size changes as by a slider. */
+const ROUNDS = 5;
 
 test('frames by the WebAssembly module, as in the browser', async () => {
   const { readFileSync } = await import('node:fs');
@@ -44,8 +37,8 @@ test('frames by the WebAssembly module, as in the browser', async () => {
       const row = {
         source: name,
         robots,
-        preview_ms: await medianOf(make('quick')),
-        full_ms: await medianOf(make('full')),
+        preview_ms: await medianOf(ROUNDS, make('quick')),
+        full_ms: await medianOf(ROUNDS, make('full')),
       };
       process.stdout.write(`\n${JSON.stringify(row)}\n`);
     }

@@ -8,6 +8,8 @@
 use std::path::Path;
 use std::time::Instant;
 
+use lightbots_base::random::split_mix;
+
 /// Numbers of robots.
 const FLEETS: [usize; 4] = [30, 100, 1_000, 10_000];
 /// Distance of the cells in which pixels lie, metres: about 30 robots on 9 m².
@@ -40,11 +42,11 @@ fn timed(request: &str) -> f64 {
 fn request(robots: usize) -> String {
     let columns = (robots as f64).sqrt().ceil() as usize;
     let side_m = columns as f64 * CELL_M;
-    let mut dice = Dice(robots as u64);
+    let mut dice = robots as u64;
     let mut places = || -> Vec<[f64; 2]> {
         let cell = |index: usize| index as f64 * CELL_M + CELL_M / 2.0 - side_m / 2.0;
-        let place = |robot: usize, dice: &mut Dice| {
-            [cell(robot % columns) + dice.offset_m(), cell(robot / columns) + dice.offset_m()]
+        let place = |robot: usize, dice: &mut u64| {
+            [cell(robot % columns) + offset_m(dice), cell(robot / columns) + offset_m(dice)]
         };
         (0..robots).map(|robot| place(robot, &mut dice)).collect()
     };
@@ -64,16 +66,8 @@ fn frame(places: &[[f64; 2]]) -> String {
     format!(r#"{{"name": "Random", "air_time_s": 1, "pixels": [{}]}}"#, pixels.join(","))
 }
 
-/// SplitMix64.
-struct Dice(u64);
-
-impl Dice {
-    fn offset_m(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut mixed = self.0;
-        mixed = (mixed ^ (mixed >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        mixed = (mixed ^ (mixed >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        let share = ((mixed ^ (mixed >> 31)) >> 11) as f64 / (1u64 << 53) as f64;
-        (share * 2.0 - 1.0) * OFF_M
-    }
+/// A random number from -OFF_M to OFF_M.
+fn offset_m(dice: &mut u64) -> f64 {
+    let share = (split_mix(dice) >> 11) as f64 / (1u64 << 53) as f64;
+    (share * 2.0 - 1.0) * OFF_M
 }

@@ -30,10 +30,8 @@ fn past_a_bay() -> Show {
     show
 }
 
-/// It may still drive until it knows that its link broke, and then stands in front of the bay: who is in there could not
-/// get out. That it died where it was heard last is likelier, and driven around even then.
-#[test]
-fn where_there_is_no_way_around_all_places_of_a_silent_robot_the_likely_ones_are_driven_around() {
+/// The robot that passes the bay dies short of it; its number.
+fn one_dies_past_a_bay() -> (World, usize) {
     let mut world = World::ready(4, 0, past_a_bay());
     world.play();
     world.run_until(60.0, |kind| matches!(kind, EventKind::FrameReached { frame: 0, .. }));
@@ -42,6 +40,14 @@ fn where_there_is_no_way_around_all_places_of_a_silent_robot_the_likely_ones_are
         world.step();
     }
     world.robots[passing].dead = true;
+    (world, passing)
+}
+
+/// It may still drive until it knows that its link broke, and then stands in front of the bay: who is in there could not
+/// get out. That it died where it was heard last is likelier, and driven around even then.
+#[test]
+fn where_there_is_no_way_around_all_places_of_a_silent_robot_the_likely_ones_are_driven_around() {
+    let (mut world, _) = one_dies_past_a_bay();
     let failed = |kind: &EventKind| matches!(kind, EventKind::PlanFailed { frame: 2, .. });
     let why = world.run_until(30.0, failed).kind.to_string();
     assert!(why.contains("walled in"), "{why}");
@@ -54,14 +60,7 @@ fn where_there_is_no_way_around_all_places_of_a_silent_robot_the_likely_ones_are
 /// A robot that says that it does not know where it is stands somewhere all the same.
 #[test]
 fn a_robot_that_does_not_know_its_place_is_driven_around() {
-    let mut world = World::ready(4, 0, past_a_bay());
-    world.play();
-    world.run_until(60.0, |kind| matches!(kind, EventKind::FrameReached { frame: 0, .. }));
-    let passing = world.robots.iter().position(|robot| robot.at.x < -1.1).unwrap();
-    while world.robots[passing].at.x < -0.54 {
-        world.step();
-    }
-    world.robots[passing].dead = true;
+    let (mut world, passing) = one_dies_past_a_bay();
     let report = format!("{} NaN NaN state=lost", world.robots[passing].id);
     world.inject("T/LightBot/Status", report.as_bytes());
     assert_eq!(world.run_to_end(90.0), (RunOutcome::Finished, 3, 1), "{}", world.story());
