@@ -81,7 +81,7 @@ impl Run {
     fn take_up(context: &mut Context, now: Instant, unfinished: &UnfinishedRun, by_itself: Span) -> Self {
         let UnfinishedRun { at, state, .. } = unfinished;
         let (begun, progress) = (&state.begun, &state.progress);
-        let playback = PlayedShow {
+        let mut playback = PlayedShow {
             show: begun.show.clone(),
             purpose: begun.purpose,
             missing: begun.missing,
@@ -90,14 +90,9 @@ impl Run {
             paused: progress.paused,
             stepping: progress.stepping,
         };
-        let playback = PlayedShow {
-            next: if Mutant::WrongFrameAfterRestart.is_planted() {
-                playback.after(playback.next).unwrap_or(playback.next)
-            } else {
-                playback.next
-            },
-            ..playback
-        };
+        if Mutant::WrongFrameAfterRestart.is_planted() {
+            playback.next = playback.after(playback.next).unwrap_or(playback.next);
+        }
         let leg = state.leg.as_ref().and_then(|leg| leg.to_leg(state.participants.len()));
         let mut participants = Vec::new();
         for (number, entry) in state.participants.iter().enumerate() {

@@ -128,9 +128,10 @@ impl Canvas {
     /// Keeps what an upper area leaves of a lower one, and returns what remains to be painted of the upper one.
     fn cover(&mut self, mut lower: Surface, mut upper: Surface, opacity: f64) -> Option<Surface> {
         let thinnest = self.thinnest;
-        let mixed = match opacity >= OPAQUE {
-            true => upper.ink.clone(),
-            false => lower.ink.color.mixed(upper.ink.color, opacity).into(),
+        let mixed = if opacity >= OPAQUE {
+            upper.ink.clone()
+        } else {
+            lower.ink.color.mixed(upper.ink.color, opacity).into()
         };
         if lower.ink == upper.ink && opacity >= OPAQUE {
             upper.region = upper.region.joined(&lower.region, thinnest).unwrap_or(upper.region);

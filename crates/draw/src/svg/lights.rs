@@ -3,6 +3,7 @@
 use lightbots_base::Rgb;
 
 use crate::error::Note;
+use crate::ink::Ink;
 use crate::picture::lifted;
 use crate::svg::canvas::{Canvas, Line, Surface};
 
@@ -36,8 +37,7 @@ pub fn light(canvas: &mut Canvas) -> Vec<Note> {
         let message = "Black areas and lines are lit white, because a black light is off.";
         notes.push(Note::new("svg-black", message));
     }
-    let inks = canvas.surfaces.iter_mut().map(|surface| &mut surface.ink);
-    for ink in inks.chain(canvas.lines.iter_mut().map(|line| &mut line.ink)) {
+    for ink in inks_mut(canvas) {
         if is_dark(ink.color) {
             *ink = Rgb::new(255, 255, 255).into();
         }
@@ -47,11 +47,16 @@ pub fn light(canvas: &mut Canvas) -> Vec<Note> {
 
 /// Makes the dark ends of gradients bright enough for lights.
 fn lift_gradients(canvas: &mut Canvas) {
-    let surfaces = canvas.surfaces.iter_mut().map(|surface| &mut surface.ink);
-    let inks = surfaces.chain(canvas.lines.iter_mut().map(|line| &mut line.ink));
-    for (_, color) in inks.filter_map(|ink| ink.gradient.as_mut()).flat_map(|gradient| &mut gradient.stops) {
+    let gradients = inks_mut(canvas).filter_map(|ink| ink.gradient.as_mut());
+    for (_, color) in gradients.flat_map(|gradient| &mut gradient.stops) {
         *color = lifted(*color);
     }
+}
+
+/// What all areas and lines are painted with.
+fn inks_mut(canvas: &mut Canvas) -> impl Iterator<Item = &mut Ink> {
+    let areas = canvas.surfaces.iter_mut().map(|surface| &mut surface.ink);
+    areas.chain(canvas.lines.iter_mut().map(|line| &mut line.ink))
 }
 
 /// Removes areas that covered the page, unless nothing else is there. Returns the colour of the largest.
