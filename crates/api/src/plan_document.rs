@@ -6,7 +6,7 @@ use lightbots_show::Issues;
 
 use crate::{Issue, Path, Plan, Severity, Transition};
 
-/// The same without the paths, for the WebSocket.
+/// A plan without its paths, for the WebSocket.
 pub fn plan_summary(plan: &Plan) -> Plan {
     let transitions = plan.transitions.iter().map(|transition| Transition {
         from: transition.from,

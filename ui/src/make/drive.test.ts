@@ -49,5 +49,5 @@ test('the drive to the first frame begins at the starting places', async () => {
 
 test('a drive that is not collision-free is not called so', () => {
   const plan = { ok: false, transitions: [{ duration_s: 3 }] } as Plan;
-  expect(drivesText({ plan, first: 0 })).toBe('No collision-free drive from the frame before');
+  expect(drivesText({ plan, first: 0 })).toBe('No collision-free drive to this frame');
 });

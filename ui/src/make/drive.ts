@@ -42,7 +42,7 @@ export const planTo = ({ plan, first }: Drives, nth: number, frame: number): Pla
 export function drivesText({ plan, first }: Drives): string {
   const [least, most] = leastAndMost(plan.transitions.slice(first).map((t) => t.duration_s));
   if (!plan.ok || least === undefined || most === undefined)
-    return 'No collision-free drive from the frame before';
+    return 'No collision-free drive to this frame';
   const times =
     least === most ? secondsText(most) : `${secondsText(least)} to ${secondsText(most)}`;
   return `Collision-free drive of ${times}`;
