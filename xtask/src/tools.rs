@@ -46,14 +46,12 @@ impl Tool {
     }
 
     fn install(&self) {
-        for attempt in
-            [["update", "-qq"].as_slice(), &["install", "-y", "-qq", "--no-install-recommends", self.package]]
-        {
-            let mut command = as_root("apt-get");
-            command.args(attempt).env("DEBIAN_FRONTEND", "noninteractive").stdout(Stdio::null());
-            if let Err(message) = shell::run(&mut command) {
-                eprintln!("xtask: {message}");
-            }
+        apt_get(&["update", "-qq"]);
+        let packages = ["install", "-y", "-qq", "--no-install-recommends", self.package];
+        if !apt_get(&packages) {
+            // An installation that was interrupted earlier blocks every later one until dpkg has finished it.
+            run_as_root("dpkg", &["--configure", "-a"]);
+            apt_get(&packages);
         }
         // Stops the broker that Debian starts on the usual port, because tests need that port.
         if [MOSQUITTO.package, RABBITMQ.package].contains(&self.package) {
@@ -64,6 +62,17 @@ impl Tool {
                 .status();
         }
     }
+}
+
+fn apt_get(arguments: &[&str]) -> bool {
+    run_as_root("apt-get", arguments)
+}
+
+/// Runs a program of Debian without questions; says on stderr if it fails.
+fn run_as_root(program: &str, arguments: &[&str]) -> bool {
+    let mut command = as_root(program);
+    command.args(arguments).env("DEBIAN_FRONTEND", "noninteractive").stdout(Stdio::null());
+    shell::run(&mut command).inspect_err(|message| eprintln!("xtask: {message}")).is_ok()
 }
 
 fn as_root(program: &str) -> Command {
