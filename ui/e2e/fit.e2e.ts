@@ -50,7 +50,7 @@ test('in the editor, a word flows anew for the robots that are here, as one step
   await page.getByRole('dialog').getByRole('button', { name: 'Fit to 18 robots' }).click();
   await pixelsAre(page, 18);
   await page.getByText('Made from the words “HI”').waitFor();
-  const name = (await page.getByTestId('open-library').textContent()) ?? '';
+  const name = (await page.getByTestId('show-name').textContent()) ?? '';
   await saved(page);
   const [frame] = (await stored(page, name)).frames as { pixels: { part?: string }[] }[];
   expect(new Set(frame?.pixels.map((pixel) => pixel.part)).size).toBe(2);

@@ -121,7 +121,7 @@ test('by keyboard only: a new show, its pixels and colours, a second frame, and 
   await tabTo(page, 'button', 'Empty show');
   await press('Enter');
   await pixelsAre(page);
-  const name = (await page.getByTestId('open-library').textContent()) ?? '';
+  const name = (await page.getByTestId('show-name').textContent()) ?? '';
   await tabTo(page, 'tab', 'Pixels');
   await press('ArrowRight');
   await press('ArrowRight');

@@ -9,10 +9,11 @@ import { DraftBanner } from './shell/DraftBanner';
 import { DropFile } from './shell/DropFile';
 import { Header } from './shell/Header';
 import { LinkBanner } from './shell/LinkBanner';
+import { NotOpenBanner } from './shell/NotOpenBanner';
 import { OfferDialog } from './shell/OfferDialog';
 import { OpenBanner } from './shell/OpenBanner';
 import { createSession, SessionContext, useSession } from './session/session';
-import { useView, type View } from './session/useHash';
+import { useView, type View } from './session/address';
 import { mantineVariables, theme } from './theme';
 import styles from './App.module.css';
 
@@ -58,6 +59,7 @@ export function App() {
             <OpenBanner />
             <LinkBanner />
             <DraftBanner />
+            <NotOpenBanner view={view} />
           </div>
           {PAGES[view]}
         </div>

@@ -2,14 +2,13 @@ import { Button, Modal, Stack, Text } from '@mantine/core';
 import { getShow, listShows, putShow, Refused } from '../api/http';
 import { useStore } from '../base/store';
 import { readShow, writeShow } from '../model/json';
+import { editShow } from '../session/address';
 import { attempt } from '../session/notices';
-import { useSession } from '../session/session';
 import { freeName } from '../session/upload';
 import { useEditing } from './context';
 
 /** Another screen saved this show after this screen read it: the user chooses which one to keep. */
 export function ConflictDialog() {
-  const session = useSession();
   const editing = useEditing();
   const { editor, saver } = editing;
   const conflict = useStore(saver.state, (s) => s.name === 'conflict');
@@ -34,7 +33,7 @@ export function ConflictDialog() {
     );
     await putShow(copy, JSON.stringify(writeShow(editor.state.get().show)), 'new');
     saver.settle(saver.etag());
-    await session.ask({ do: 'open', name: copy });
+    editShow(copy);
   };
   return (
     <Modal

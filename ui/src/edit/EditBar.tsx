@@ -10,9 +10,10 @@ import { useStore } from '../base/store';
 import { clockText } from '../base/time';
 import { IconButton } from '../parts/IconButton';
 import { timelineOf, totalOf } from '../model/timeline';
+import { openShow } from '../session/openShow';
 import { startPlay } from '../session/start';
 import { useSession } from '../session/session';
-import { goTo } from '../session/useHash';
+import { goTo } from '../session/address';
 import { useEditing, useEditor } from './context';
 import { HistoryMenu } from './HistoryMenu';
 import { ExportMenu } from './ExportMenu';
@@ -32,17 +33,19 @@ export function EditBar() {
   const { preview } = editing;
   const running = useStore(preview.running);
   const time_s = useStore(preview.time_s);
-  const plan = useStore(session.live.settled);
+  const plan = useStore(editing.settled);
   const frame = useEditor((s) => s.frame);
   const isMaking = useStore(editing.making, (making) => making !== null);
   const timeline = useMemo(() => timelineOf(show, plan), [show, plan]);
   const total = totalOf(timeline);
   const at = time_s ?? timeline[frame]?.shownFrom_s ?? 0;
   /** Runs the whole show from its first frame; the live view shows what is missing. */
-  const playWithRobots = () => {
+  const playWithRobots = async () => {
+    editing.saver.flush();
+    const isOpen = session.live.opened.get().name === editing.name;
+    if (!isOpen && !(await openShow(session, editing.name))) return;
     session.frame.set(0);
     goTo('live');
-    editing.saver.flush();
     if (session.live.playback.get().phase === 'ready') startPlay(session);
   };
   const step = (label: string, enabled: boolean, act: () => void, icon: ReactNode) => (
@@ -87,7 +90,7 @@ export function EditBar() {
         size="xs"
         // While a frame is made, Use is what comes next.
         variant={isMaking ? 'default' : 'filled'}
-        onClick={playWithRobots}
+        onClick={() => void playWithRobots()}
         leftSection={<IconPlayerPlayFilled size={14} />}
       >
         Run on robots

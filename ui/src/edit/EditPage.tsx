@@ -3,7 +3,7 @@ import { useEffect, useRef, useState } from 'react';
 import { useStore } from '../base/store';
 import { Bottom } from '../parts/Bottom';
 import { useSession } from '../session/session';
-import { goTo } from '../session/useHash';
+import { goTo } from '../session/address';
 import { ConflictDialog } from './ConflictDialog';
 import { EditingContext, useEditing } from './context';
 import { EditBar } from './EditBar';
@@ -24,12 +24,12 @@ let kept: Editing | null = null;
 /** The page of the editor. */
 export function EditPage() {
   const session = useSession();
-  const opened = useStore(session.live.opened);
+  const shown = useStore(session.shown);
   const restoring = useStore(session.restoring);
   const [editing, setEditing] = useState(kept);
   const last = useRef(kept);
   useEffect(() => {
-    const { name, show, etag, readOnly } = opened;
+    const { name, show, etag, readOnly } = shown;
     if (!show || name === null || readOnly !== null) return;
     const wanted = restoring?.name === name ? restoring.id : null;
     if (last.current?.name === name && wanted === null) return;
@@ -38,21 +38,11 @@ export function EditPage() {
     kept = last.current = createEditing(session, name, show, etag, wanted);
     session.editing.set(kept);
     setEditing(kept);
-  }, [session, opened, restoring]);
-  if (opened.name !== null && opened.readOnly !== null)
-    return <ReadOnlyPage name={opened.name} reason={opened.readOnly} />;
-  if (!editing)
-    return (
-      <main className={styles.empty}>
-        <Title order={1} size="lg">
-          Nothing to draw on yet
-        </Title>
-        <Text c="dimmed">Create a show, open one above, or drop a file anywhere.</Text>
-        <Group>
-          <Button onClick={() => goTo('new')}>New show</Button>
-        </Group>
-      </main>
-    );
+  }, [session, shown, restoring]);
+  if (shown.name !== null && shown.readOnly !== null)
+    return <ReadOnlyPage name={shown.name} reason={shown.readOnly} />;
+  if (shown.failure !== null) return <NotShown failure={shown.failure} />;
+  if (!editing) return <NothingOpen />;
   return (
     <EditingContext value={editing}>
       <main className={styles.page} key={editing.keeper.id}>
@@ -70,6 +60,32 @@ export function EditPage() {
     </EditingContext>
   );
 }
+
+/** In place of the editor: no show is open. */
+const NothingOpen = () => (
+  <main className={styles.empty}>
+    <Title order={1} size="lg">
+      Nothing to draw on yet
+    </Title>
+    <Text c="dimmed">Create a show, open one above, or drop a file anywhere.</Text>
+    <Group>
+      <Button onClick={() => goTo('new')}>New show</Button>
+    </Group>
+  </main>
+);
+
+/** In place of the editor: the show in the address cannot be shown. */
+const NotShown = ({ failure }: { failure: string }) => (
+  <main className={styles.empty}>
+    <Title order={1} size="lg">
+      This show is not here
+    </Title>
+    <Text c="dimmed" maw="40rem">
+      {failure}
+    </Text>
+    <Button onClick={() => goTo('edit')}>Edit the open show</Button>
+  </main>
+);
 
 /** Properties, or the Make panel while a frame is made. */
 function Side() {

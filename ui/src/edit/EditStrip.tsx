@@ -3,7 +3,6 @@ import { useCallback, useEffect, useRef, useState, type ReactNode } from 'react'
 import type { Plan } from '../api/types.gen';
 import { useStore } from '../base/store';
 import { IconButton } from '../parts/IconButton';
-import { useSession } from '../session/session';
 import * as acts from './acts';
 import { useEditing, useEditor } from './context';
 import { FrameCard } from './FrameCard';
@@ -20,11 +19,10 @@ function driveOf(plan: Plan | null, index: number): string {
 /** The frames: choose, add, copy, delete, drag to another place. */
 export function EditStrip() {
   const editing = useEditing();
-  const { live } = useSession();
   const show = useEditor((s) => s.show);
   const at = useEditor((s) => s.frame);
   const chosen = useEditor((s) => s.frames);
-  const plan = useStore(live.settled);
+  const plan = useStore(editing.settled);
   const [over, setOver] = useState<number | null>(null);
   const renaming = useStore(editing.renaming);
   const dragged = useRef<number | null>(null);

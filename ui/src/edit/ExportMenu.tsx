@@ -5,7 +5,9 @@ import { listShows, putShow } from '../api/http';
 import { writeShow } from '../model/json';
 import { ExportItems } from '../parts/ExportItems';
 import { downloadShow } from '../session/download';
+import { editShow } from '../session/address';
 import { attempt, notify } from '../session/notices';
+import { openShow } from '../session/openShow';
 import { useSession } from '../session/session';
 import { freeName } from '../session/upload';
 import { useEditing } from './context';
@@ -23,7 +25,10 @@ export function ExportMenu() {
       (await listShows()).map((entry) => entry.name),
     );
     await putShow(copy, JSON.stringify(show()), 'new');
-    if ((await session.ask({ do: 'open', name: copy })).ok) notify('good', `This is now ${copy}.`);
+    const isOpen = session.live.opened.get().name === editing.name;
+    if (isOpen && !(await openShow(session, copy))) return;
+    if (!isOpen) editShow(copy);
+    notify('good', `This is now ${copy}.`);
   };
   return (
     <Menu position="top-end">

@@ -3,7 +3,6 @@ import { useStore } from '../base/store';
 import { secondsText } from '../base/time';
 import { NumberField } from '../parts/NumberField';
 import type { Frame } from '../model/show';
-import { useSession } from '../session/session';
 import * as acts from './acts';
 import { useEditing, useEditor } from './context';
 
@@ -26,12 +25,11 @@ function shared<T>(frames: readonly Frame[], of: (frame: Frame) => T): T | undef
 /** Name, air time and drive of the chosen frames. */
 export function FrameSection() {
   const editing = useEditing();
-  const { live } = useSession();
   const index = useEditor((s) => s.frame);
   const frame = useEditor((s) => s.show.frames[s.frame]);
   const chosen = useChosenFrames();
   const count = chosen.length;
-  const plan = useStore(live.settled, (p) => p?.transitions[index]);
+  const plan = useStore(editing.settled, (p) => p?.transitions[index]);
   if (!frame) return null;
   const least = plan?.least_s;
   const air_s = shared(chosen, (f) => f.airTime_s);

@@ -1,6 +1,5 @@
 import { Tabs } from '@mantine/core';
 import { useStore } from '../base/store';
-import { useSession } from '../session/session';
 import { IssueList } from '../parts/IssueList';
 import { ArrangeSection } from './ArrangeSection';
 import { ColourSection } from './ColourSection';
@@ -15,9 +14,8 @@ import styles from '../parts/page.module.css';
 
 /** Properties of the chosen pixels, the frame and the show. */
 export function Inspector() {
-  const { editor } = useEditing();
-  const { live } = useSession();
-  const issues = useStore(live.plan, (plan) => plan?.issues) ?? [];
+  const { editor, plan } = useEditing();
+  const issues = useStore(plan, (plan) => plan?.issues) ?? [];
   return (
     <aside className={styles.side} aria-label="Properties">
       <MadeFrom />

@@ -1,6 +1,7 @@
 import { Button, Text, Title } from '@mantine/core';
 import styles from '../parts/page.module.css';
 import { attempt, copyShow } from '../session/libraryActs';
+import { openShow } from '../session/openShow';
 import { useSession } from '../session/session';
 
 interface Props {
@@ -14,7 +15,7 @@ export function ReadOnlyPage({ name, reason }: Props) {
   const session = useSession();
   const saveCopy = async () => {
     const copy = await copyShow(name, `${name} copy`);
-    await session.ask({ do: 'open', name: copy });
+    await openShow(session, copy);
   };
   return (
     <main className={styles.empty}>

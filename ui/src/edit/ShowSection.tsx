@@ -2,15 +2,13 @@ import { Stack, Text, TextInput } from '@mantine/core';
 import { useStore } from '../base/store';
 import { clockText } from '../base/time';
 import { setShow } from '../model/commands';
-import { useSession } from '../session/session';
 import { useEditing, useEditor } from './context';
 
 /** Title of the show, and the verdict of the plan. */
 export function ShowSection() {
-  const { editor } = useEditing();
-  const { live } = useSession();
+  const { editor, ...editing } = useEditing();
   const title = useEditor((s) => s.show.name);
-  const plan = useStore(live.plan);
+  const plan = useStore(editing.plan);
   return (
     <Stack gap="sm" component="section" aria-label="Show">
       <TextInput

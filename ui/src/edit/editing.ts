@@ -1,5 +1,6 @@
+import type { Plan } from '../api/types.gen';
 import type { Rgb } from '../base/colour';
-import { createStore, type Store } from '../base/store';
+import { createStore, type Readable, type Store } from '../base/store';
 import { startWorker } from '../make/browserWorker';
 import { createMaker, type Maker } from '../make/maker';
 import type { Making } from '../make/making';
@@ -9,6 +10,7 @@ import type { Keeper } from '../model/drafts';
 import type { Saver } from '../model/saver';
 import { createPreview, type Preview } from '../model/preview';
 import type { Show } from '../model/show';
+import { openShow } from '../session/openShow';
 import type { Session } from '../session/session';
 import { createView, type View } from '../stage/view';
 import { followCopy } from '../session/copies';
@@ -38,11 +40,15 @@ export interface StageOptions {
 
 /** A show that this screen edits. It is kept while the page is open, so that undo survives a visit to the live view. */
 export interface Editing {
-  /** Name in the library. Changes once, when a read-only show was saved as a copy and the copy is open. */
+  /** Name in the library. Changes once, when a read-only show was saved as a copy and the copy is shown. */
   name: string;
   editor: Editor;
   saver: Saver;
   keeper: Keeper;
+  /** The plan of this show; null: there is none yet, or another show is open. */
+  plan: Readable<Plan | null>;
+  /** The last finished plan of this show; null as in `plan`. */
+  settled: Readable<Plan | null>;
   full: FullPlan;
   view: Store<View>;
   tool: Store<ToolName>;
@@ -99,12 +105,16 @@ export function createEditing(
   let stop = () => {};
   const preview = createPreview(editor);
   const tool = createStore<ToolName>('arrow');
+  const whileOpen = (of: Readable<Plan | null>) => planOf(session.live, () => editing.name, of);
+  const plan = whileOpen(session.live.plan);
   const editing: Editing = {
     name,
     editor,
     saver,
     keeper,
-    full: createFullPlan(session.live),
+    plan,
+    settled: whileOpen(session.live.settled),
+    full: createFullPlan(plan),
     view: createView(),
     tool,
     options: createStore<StageOptions>({ snap: true, ids: false, ghosts: true, routes: false }),
@@ -135,17 +145,29 @@ export function createEditing(
   return editing;
 }
 
-/** Switches to the copy of a read-only show when the copy is open; opens the copy again after a broken connection. */
+/** The open show's plan while the open show has that name. */
+const planOf = (
+  { opened }: Session['live'],
+  name: () => string,
+  plan: Readable<Plan | null>,
+): Readable<Plan | null> => ({
+  get: () => (opened.get().name === name() ? plan.get() : null),
+  subscribe(listener) {
+    const stops = [plan.subscribe(listener), opened.subscribe(listener)];
+    return () => stops.forEach((stop) => stop());
+  },
+});
+
+/** Switches to the copy of a read-only show when the copy is shown; opens the copy again after a broken connection. */
 function moveToCopy(session: Session, editing: Editing, saving: Saving): () => void {
   const { live } = session;
   const stops = [
-    live.opened.subscribe(() => {
-      if (live.opened.get().name === saving.name()) editing.name = saving.name();
+    session.shown.subscribe(() => {
+      if (session.shown.get().name === saving.name()) editing.name = saving.name();
     }),
     live.link.subscribe(() => {
       const isDue = saving.name() !== editing.name && live.opened.get().name === editing.name;
-      if (isDue && live.link.get() === 'open')
-        void session.ask({ do: 'open', name: saving.name() });
+      if (isDue && live.link.get() === 'open') void openShow(session, saving.name());
     }),
   ];
   return () => stops.forEach((stop) => stop());

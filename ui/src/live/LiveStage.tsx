@@ -18,7 +18,7 @@ import styles from '../stage/stage.module.css';
 export function LiveStage() {
   const { live, frame } = useSession();
   const [view] = useState(createView);
-  const [full] = useState(() => createFullPlan(live));
+  const [full] = useState(() => createFullPlan(live.plan));
   const [close] = useState(createCloseWatch);
   const [targets, setTargets] = useState(true);
   const [routes, setRoutes] = useState(false);
@@ -61,10 +61,10 @@ export function LiveStage() {
         </span>
       </div>
       <div className={styles.tools} role="toolbar" aria-label="What the floor shows">
-        <StageTool label="Planned places (T)" active={targets} onClick={() => setTargets(!targets)}>
+        <StageTool label="Show targets (T)" active={targets} onClick={() => setTargets(!targets)}>
           <IconTarget size={17} />
         </StageTool>
-        <StageTool label="Planned routes (W)" active={routes} onClick={() => setRoutes(!routes)}>
+        <StageTool label="Show routes (W)" active={routes} onClick={() => setRoutes(!routes)}>
           <IconRoute size={17} />
         </StageTool>
         <ZoomTools view={view} />

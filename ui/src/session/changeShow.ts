@@ -2,12 +2,13 @@ import { getShow, putShow } from '../api/http';
 import { readShow, writeShow } from '../model/json';
 import type { Show } from '../model/show';
 import { followCopy } from './copies';
+import { lookedAt } from './fitness';
 import { notify } from './notices';
 import type { Session } from './session';
 
-/** Changes the open show: in this screen's editor if it edits the show, else in the library. */
+/** Changes the show that the user looks at: in this screen's editor if it edits the show, else in the library. */
 export async function changeShow(session: Session, label: string, change: (show: Show) => Show) {
-  const { name } = session.live.opened.get();
+  const { name } = lookedAt(session);
   const editing = session.editing.get();
   if (name === null) return;
   if (editing?.name === name) {

@@ -1,5 +1,7 @@
 import type { ShowEntry } from '../api/types.gen';
+import { editShow, showInAddress } from './address';
 import { notify } from './notices';
+import { openShow } from './openShow';
 import type { Session } from './session';
 
 const WHY = {
@@ -12,13 +14,14 @@ const WHY = {
 export const copyText = ({ name, copy_of }: Pick<ShowEntry, 'name' | 'copy_of'>) =>
   `${WHY[copy_of ?? 'saved']}Saved as "${name}".`;
 
-/** Shows that a read-only show was saved as a copy, and opens the copy on every screen that shows the original. */
+/** Shows that a read-only show was saved as a copy, which takes the place of the original where that is open or edited here. */
 export function followCopy({ live, waiting, ask }: Context, from: string, copy: ShowEntry) {
   notify('kept', copyText(copy));
   waiting.update((pending) =>
     pending?.names.includes(from) ? { ...pending, names: [...pending.names, copy.name] } : pending,
   );
-  if (live.opened.get().name === from) void ask({ do: 'open', name: copy.name });
+  if (live.opened.get().name === from) void openShow({ live, ask }, copy.name);
+  else if (showInAddress() === from) editShow(copy.name);
 }
 
 type Context = Pick<Session, 'live' | 'waiting' | 'ask'>;

@@ -2,6 +2,7 @@ import { listShows, putShow } from '../api/http';
 import { writeShow } from '../model/json';
 import { newShow, type Frame, type Stage } from '../model/show';
 import { notify } from './notices';
+import { openShow } from './openShow';
 import type { Session } from './session';
 import { freeName, nameFromFile } from './upload';
 
@@ -33,7 +34,7 @@ export async function createShowInLibrary(
     const show = newShow(name, here || ROBOTS_DEFAULT, begun.stage);
     const document = writeShow(begun.frames ? { ...show, frames: begun.frames } : show);
     await putShow(name, JSON.stringify(document), 'new');
-    return (await session.ask({ do: 'open', name })).ok ? name : null;
+    return (await openShow(session, name)) ? name : null;
   } catch (error) {
     notify('error', error instanceof Error ? error.message : String(error));
     return null;

@@ -1,5 +1,6 @@
 import type { FleetRow } from '../api/types.gen';
 import type { Show } from '../model/show';
+import { viewNow } from './address';
 import { canDrive } from './checklist';
 import type { Session } from './session';
 
@@ -14,9 +15,13 @@ export function robotsToFit(
   return show.frames.some(({ pixels }) => pixels.length !== here) ? here : null;
 }
 
-/** The open show as this screen has it, which may not be saved yet. */
-export function showNow({ live, editing }: Pick<Session, 'live' | 'editing'>): Show | null {
-  const opened = live.opened.get();
-  const mine = editing.get();
-  return mine !== null && mine.name === opened.name ? mine.editor.state.get().show : opened.show;
+/** The show that the user looks at: the editor's, else the open one. */
+export const lookedAt = ({ live, shown }: Pick<Session, 'live' | 'shown'>) =>
+  (viewNow() === 'edit' ? shown : live.opened).get();
+
+/** The show that the user looks at as this screen has it, which may not be saved yet. */
+export function showNow(session: Pick<Session, 'live' | 'shown' | 'editing'>): Show | null {
+  const { name, show } = lookedAt(session);
+  const mine = session.editing.get();
+  return mine !== null && mine.name === name ? mine.editor.state.get().show : show;
 }

@@ -1,7 +1,6 @@
 import { getPlan } from '../api/http';
 import type { Plan } from '../api/types.gen';
-import { createStore, type Store } from '../base/store';
-import type { Live } from './live';
+import { createStore, type Readable, type Store } from '../base/store';
 
 /** The plan of the open show with its paths, fetched only while a component shows the paths. */
 export interface FullPlan {
@@ -10,18 +9,20 @@ export interface FullPlan {
   follow(): () => void;
 }
 
-export function createFullPlan(live: Live): FullPlan {
+/** `brief`: the plan of the show without paths; null while that show is not open. */
+export function createFullPlan(brief: Readable<Plan | null>): FullPlan {
   const plan = createStore<Plan | null>(null);
   let followers = 0;
   let stop = () => {};
   const load = () => {
-    const brief = live.plan.get();
-    if (!brief || brief.planning) return;
-    if (plan.get()?.revision === brief.revision) return;
+    const announced = brief.get();
+    if (!announced) plan.set(null);
+    if (!announced || announced.planning) return;
+    if (plan.get()?.revision === announced.revision) return;
     getPlan().then(
       (full) => {
         // A plan that is still being made is announced again when it is finished.
-        if (!full.planning) plan.set(full);
+        if (!full.planning && brief.get()) plan.set(full);
       },
       () => plan.set(null),
     );
@@ -29,7 +30,7 @@ export function createFullPlan(live: Live): FullPlan {
   return {
     plan,
     follow() {
-      if (followers++ === 0) stop = live.plan.subscribe(load);
+      if (followers++ === 0) stop = brief.subscribe(load);
       load();
       return () => {
         if (--followers === 0) stop();

@@ -1,5 +1,6 @@
 import { afterEach, expect, test, vi } from 'vitest';
 import type { ShowEntry } from '../api/types.gen';
+import { stubAddress } from './address.testing';
 import { copyShow, deleteWithUndo, renameShow } from './libraryActs';
 import type { Session } from './session';
 
@@ -11,6 +12,7 @@ vi.mock('./notices', () => ({
 
 /** A server with one show, of whose file the document is only a part; the bodies of what is saved, by path. */
 function serve() {
+  stubAddress('#/live');
   const saved = new Map<string, unknown>();
   const answer = async (path: string, init?: RequestInit) => {
     if (init?.method === 'PUT') {

@@ -1,6 +1,8 @@
 import { deleteShow, getFile, getShow, listShows, putShow } from '../api/http';
-import type { Session } from './session';
+import { editShow, showInAddress } from './address';
 import { notify, notifyWithUndo } from './notices';
+import { openShow } from './openShow';
+import type { Session } from './session';
 import { freeName } from './upload';
 
 /** Runs a request, and shows the server's message if it refuses. */
@@ -26,7 +28,8 @@ export async function copyShow(from: string, wanted: string): Promise<string> {
 export async function renameShow(session: Session, from: string, to: string) {
   const { etag } = await getShow(from);
   await putShow(to, await getFile(from), 'new');
-  if (session.live.opened.get().name === from) await session.ask({ do: 'open', name: to });
+  if (session.live.opened.get().name === from) await openShow(session, to);
+  else if (showInAddress() === from) editShow(to);
   await deleteShow(from, etag, to);
 }
 

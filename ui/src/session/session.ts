@@ -1,9 +1,10 @@
 import { createContext, useContext } from 'react';
 import type { Link } from '../api/socket';
 import type { Answer, Choice, Operation } from '../api/types.gen';
-import { createStore, type Store } from '../base/store';
+import { createStore, type Readable, type Store } from '../base/store';
 import { createDrafts, type Drafts, type LeftDraft } from '../model/drafts';
 import { connect, createLive, type Live } from './live';
+import { createShown, type Shown } from './shown';
 import type { Editor } from '../model/editor';
 import type { Saver } from '../model/saver';
 import type { Dropped } from './droppable';
@@ -12,6 +13,8 @@ import { notify } from './notices';
 /** The state that all parts of the page share. */
 export interface Session {
   live: Live;
+  /** The show that the editor of this screen shows. */
+  shown: Readable<Shown>;
   link: Link;
   /** Sends an operation to the server. A refusal is shown to the user, with the operation that the server offers instead. */
   ask(operation: Operation): Promise<Answer>;
@@ -84,6 +87,7 @@ export function createSession(): Session {
     orphans,
     restoring: createStore<LeftDraft | null>(null),
     live,
+    shown: createShown(live),
     link,
     offer,
     frame: createStore(0),

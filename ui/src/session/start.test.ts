@@ -5,6 +5,7 @@ import { createEditor } from '../model/editor';
 import { readShow } from '../model/json';
 import { createSaver, type Saved } from '../model/saver';
 import type { ShowEntry } from '../api/types.gen';
+import { stubAddress } from './address.testing';
 import { copyText, followCopy } from './copies';
 import { followPlan, whenPlanned } from './start';
 import { createLive, receive } from './live';
@@ -109,6 +110,7 @@ test.each<[string, (world: ReturnType<typeof setup>) => void]>([
 });
 
 test('what waits for an example goes on with the copy that its save made', () => {
+  stubAddress('#/live');
   const world = setup();
   const { plan, pending, act, editing, live } = world;
   const saver = createSaver('"1"', () => Promise.resolve({ ok: true, etag: '"2"' }));

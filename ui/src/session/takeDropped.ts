@@ -2,15 +2,16 @@ import { ENDINGS } from '../api/formats';
 import { createShowInLibrary } from './createShow';
 import type { Dropped } from './droppable';
 import { notify } from './notices';
+import { lookedAt } from './fitness';
 import type { Session } from './session';
 import { uploadShow } from './upload';
-import { goTo, viewNow } from './useHash';
+import { goTo, viewNow } from './address';
 
 /** Opens a dropped show on every screen. The editor makes a frame from anything else; it begins a show if none is open. */
 export async function takeDropped(session: Session, dropped: Omit<Dropped, 'into'>) {
   const [file] = dropped.files;
   if (file && dropped.files.length === 1 && isShow(file.name)) return uploadShow(session, file);
-  const { name, readOnly } = session.live.opened.get();
+  const { name, readOnly } = lookedAt(session);
   if (readOnly !== null && viewNow() !== 'new') {
     notify(
       'error',
@@ -22,7 +23,7 @@ export async function takeDropped(session: Session, dropped: Omit<Dropped, 'into
   const into = isNew ? await createShowInLibrary(session) : null;
   if (isNew && into === null) return;
   session.dropped.set({ ...dropped, into });
-  goTo('edit');
+  if (viewNow() !== 'edit') goTo('edit');
 }
 
 const isShow = (name: string) => ENDINGS.some((ending) => name.toLowerCase().endsWith(ending));

@@ -2,6 +2,7 @@ import { stem } from '../api/formats';
 import { listShows, putShow, Refused } from '../api/http';
 import { FILE_BYTES_MAX } from '../api/types.gen';
 import { notify } from './notices';
+import { openShow } from './openShow';
 import type { Session } from './session';
 
 /** A name for the library from a file's name. */
@@ -28,8 +29,7 @@ export async function uploadShow(session: Session, file: File) {
     const taken = (await listShows()).map((entry) => entry.name);
     const name = freeName(nameFromFile(file.name), taken);
     const entry = await putShow(name, await file.arrayBuffer(), 'new');
-    const answer = await session.ask({ do: 'open', name: entry.name });
-    if (answer.ok) notify('good', `Imported and opened "${entry.name}".`);
+    if (await openShow(session, entry.name)) notify('good', `Imported and opened "${entry.name}".`);
   } catch (error) {
     const reason = error instanceof Refused ? error.message : String(error);
     notify('error', `Can't import ${file.name}: ${reason}`);

@@ -3,8 +3,8 @@ import { useStore } from '../base/store';
 import { getShow, putShow, Refused } from '../api/http';
 import type { LeftDraft } from '../model/drafts';
 import { attempt } from '../session/libraryActs';
+import { editShow } from '../session/address';
 import { useSession } from '../session/session';
-import { goTo } from '../session/useHash';
 
 /** Tells that a closed page left unsaved changes, and offers to restore them. */
 export function DraftBanner() {
@@ -17,8 +17,7 @@ export function DraftBanner() {
     attempt(async () => {
       await bringBack(draft);
       session.restoring.set(draft);
-      if (session.live.opened.get().name === name || (await session.ask({ do: 'open', name })).ok)
-        goTo('edit');
+      editShow(name);
     });
   const drop = () => {
     session.drafts.drop(draft.id);

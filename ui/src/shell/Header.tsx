@@ -14,19 +14,35 @@ import { IconButton } from '../parts/IconButton';
 import { KeyboardMap } from './KeyboardMap';
 import { LibraryDialog } from './LibraryDialog';
 import { FleetPill, KindPill, LinkPill } from './Pills';
+import type { Show } from '../model/show';
 import { useSession } from '../session/session';
+import type { Shown } from '../session/shown';
 import { SettingsDialog } from './SettingsDialog';
-import { goTo, type View } from '../session/useHash';
+import { goTo, type View } from '../session/address';
 import styles from './Header.module.css';
 
 type Dialog = 'library' | 'keys' | 'settings' | null;
 
+/** The name in the library of the show in this view, and its title if that is another one; null: there is no show. */
+function useNames(view: View): { name: string; title: string | null } | null {
+  const { live, shown, editing } = useSession();
+  const here = useStore<Omit<Shown, 'failure'>>(view === 'edit' ? shown : live.opened);
+  const mine = useStore(editing);
+  const edited = useStore(mine?.editor.state ?? live.opened, titleOf);
+  if (here.name === null) return null;
+  const title = (mine?.name === here.name ? edited : (here.show?.name ?? '')).trim();
+  const isSame = title.toLowerCase() === here.name.toLowerCase();
+  return { name: here.name, title: title === '' || isSame ? null : title };
+}
+
+const titleOf = ({ show }: { show: Show | null }) => show?.name ?? '';
+
 /** The header of every view; Stop all is always in reach. */
 export function Header({ view }: { view: View }) {
   const session = useSession();
-  const { live, ask } = session;
+  const { ask } = session;
   const [dialog, setDialog] = useState<Dialog>(null);
-  const title = useStore(live.opened, (o) => o.name);
+  const names = useNames(view);
   const close = () => setDialog(null);
   const stopAll = useCallback(() => void ask({ do: 'stop_all' }), [ask]);
   useEscape('shift+Escape', stopAll);
@@ -62,7 +78,10 @@ export function Header({ view }: { view: View }) {
           onClick={() => setDialog('library')}
           data-testid="open-library"
         >
-          <span className={styles.showName}>{title ?? 'Open a show'}</span>
+          <span className={styles.showName}>
+            <span data-testid="show-name">{names?.name ?? 'Open a show'}</span>
+            {names?.title ? <span className="quiet"> – {names.title}</span> : null}
+          </span>
         </Button>
       </Tooltip>
       <Tooltip label="New show">

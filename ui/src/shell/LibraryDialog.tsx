@@ -10,9 +10,10 @@ import rows from '../parts/rows.module.css';
 import { attempt, copyShow, renameShow } from '../session/libraryActs';
 import { LibraryEntry } from './LibraryEntry';
 import { NameDialog } from './NameDialog';
+import { openShow } from '../session/openShow';
 import { useSession } from '../session/session';
 import { uploadShow } from '../session/upload';
-import { goTo } from '../session/useHash';
+import { goTo } from '../session/address';
 
 /** Every show on the server: open one, add one, begin one. */
 export function LibraryDialog({ opened, onClose }: { opened: boolean; onClose: () => void }) {
@@ -31,7 +32,7 @@ export function LibraryDialog({ opened, onClose }: { opened: boolean; onClose: (
   }, [opened, load]);
 
   const choose = async (name: string) => {
-    if ((await session.ask({ do: 'open', name })).ok) onClose();
+    if (await openShow(session, name)) onClose();
   };
   const begin = () => {
     onClose();

@@ -13,7 +13,7 @@ import { isUnit, UNITS, type Unit } from '../base/units';
 import { BrokerSection } from './BrokerSection';
 import { setUnit, useUnit } from '../session/preferences';
 import { useSession } from '../session/session';
-import { goTo } from '../session/useHash';
+import { goTo } from '../session/address';
 
 interface Props {
   opened: boolean;

@@ -3,8 +3,9 @@ import { useEffect, useState } from 'react';
 import { getState, listShows } from '../api/http';
 import type { ShowEntry } from '../api/types.gen';
 import { countText } from '../base/numbers';
+import { openShow } from '../session/openShow';
 import { useSession } from '../session/session';
-import { goTo } from '../session/useHash';
+import { goTo } from '../session/address';
 import { ShowThumbnail } from '../parts/ShowThumbnail';
 import styles from './Start.module.css';
 
@@ -24,7 +25,7 @@ export function RecentShows() {
   }, []);
   if (entries.length === 0) return null;
   const open = async (name: string) => {
-    if ((await session.ask({ do: 'open', name })).ok) goTo('edit');
+    if (await openShow(session, name)) goTo('edit');
   };
   return (
     <section aria-labelledby="recent">

@@ -5,7 +5,7 @@ import type { Stage } from '../model/show';
 import { createShowInLibrary } from '../session/createShow';
 import { notify } from '../session/notices';
 import type { Session } from '../session/session';
-import { goTo } from '../session/useHash';
+import { goTo } from '../session/address';
 
 /** What a new show is made for. */
 export interface Fleet {

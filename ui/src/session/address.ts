@@ -1,0 +1,47 @@
+import { useSyncExternalStore } from 'react';
+
+export type View = 'live' | 'edit' | 'new';
+
+/** The address of the editor; the name of the show that it edits may follow. */
+const EDIT = '#/edit';
+
+const subscribe = (listener: () => void) => {
+  window.addEventListener('hashchange', listener);
+  return () => window.removeEventListener('hashchange', listener);
+};
+
+/** The view in the address. */
+export const viewNow = (): View =>
+  location.hash.startsWith(EDIT) ? 'edit' : location.hash.startsWith('#/new') ? 'new' : 'live';
+
+export const useView = (): View => useSyncExternalStore(subscribe, viewNow);
+
+export const goTo = (view: View) => {
+  location.hash = `#/${view}`;
+};
+
+/** The show that the address names: the one that this screen edits. Null: it names none. */
+export function showInAddress(): string | null {
+  const path = location.hash.startsWith(`${EDIT}/`) ? location.hash.slice(EDIT.length + 1) : '';
+  if (path === '') return null;
+  try {
+    return decodeURIComponent(path);
+  } catch {
+    // A percent sign that escapes nothing: the name as it is written.
+    return path;
+  }
+}
+
+/** The address of the editor of a show. */
+export const addressOf = (show: string) => `${EDIT}/${encodeURIComponent(show)}`;
+
+/** Names the show that the editor shows in the address, in place of the entry of the browser's history. */
+export const nameInAddress = (show: string) => history.replaceState(null, '', addressOf(show));
+
+/** Calls the listener when the address changes; returns a function that ends this. */
+export const followAddress = subscribe;
+
+/** Edits another show on this screen only. */
+export const editShow = (name: string) => {
+  location.hash = addressOf(name);
+};
