@@ -82,6 +82,7 @@ export function EditKeys() {
     ['v', () => editing.tool.set('arrow')],
     ['q', () => editing.tool.set('lasso')],
     ['i', () => editing.tool.set('eyedropper')],
+    ['f', () => editing.tool.set('fill')],
     ['o', () => editing.tool.set('area')],
     ['m', () => toggle('snap')],
     ['n', () => toggle('ids')],

@@ -1,5 +1,5 @@
 import { Button, CloseButton, Group, SegmentedControl, Title } from '@mantine/core';
-import { useEffect, useRef, useState } from 'react';
+import { useEffect, useRef } from 'react';
 import { useStore } from '../base/store';
 import type { MakeChoices } from '../api/types.gen';
 import type { Tab } from '../make/draft';
@@ -29,7 +29,7 @@ export function MakePanel({ making }: { making: Making }) {
   const tab = useStore(making.draft, (draft) => draft.tab);
   const canUse = useStore(making.made, ({ answer }) => answer !== null && answer.error === null);
   const count = useStore(making.made, ({ answer }) => answer?.pictures.length ?? 1);
-  const choices = useChoices(making);
+  const choices = useChoices();
   const close = () => closeMaking(editing);
   const form = useFocus();
   useKeys([
@@ -101,23 +101,13 @@ export function MakePanel({ making }: { making: Making }) {
 }
 
 /** What settings may name; null until the module is there. */
-function useChoices(making: Making): MakeChoices | null {
-  const { maker } = useEditing();
-  const [choices, setChoices] = useState<MakeChoices | null>(null);
+function useChoices(): MakeChoices | null {
+  const { maker, choices } = useEditing();
   useEffect(() => {
-    let isShown = true;
-    maker.list().then(
-      (list) => {
-        if (isShown) setChoices(list);
-      },
-      // The verdict says what is wrong with the module.
-      () => undefined,
-    );
-    return () => {
-      isShown = false;
-    };
-  }, [maker, making]);
-  return choices;
+    // The verdict says what is wrong with the module.
+    maker.list().then(choices.set, () => undefined);
+  }, [maker, choices]);
+  return useStore(choices);
 }
 
 /** Gives the first field the focus when the panel opens, and the button that opens it when it closes. */

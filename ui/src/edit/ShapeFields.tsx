@@ -23,36 +23,37 @@ import type { MakeShape } from '../api/types.gen';
 import { useStore } from '../base/store';
 import type { ShapeNumber } from '../make/draft';
 import type { Making } from '../make/making';
+import { ASPECT, SHAPE_NUMBERS } from '../make/shapeNumbers';
 import { IconButton } from '../parts/IconButton';
 import { ColourField } from './ColourField';
 import { PointFields } from './PointFields';
 import { SliderField } from './SliderField';
 import styles from './Make.module.css';
 
-/** Label, icon, and the settings that the shape uses. */
-const SHAPES: [string, string, Icon, ShapeNumber[]][] = [
-  ['heart', 'Heart', IconHeart, ['aspect']],
-  ['star', 'Star', IconStar, ['count', 'inner']],
-  ['circle', 'Circle', IconCircle, ['aspect']],
-  ['rings', 'Rings', IconTarget, ['count', 'inner']],
-  ['rectangle', 'Rectangle', IconRectangle, ['aspect']],
-  ['polygon', 'Polygon', IconPentagon, ['count', 'aspect']],
-  ['arrow', 'Arrow', IconArrowBigRight, ['aspect']],
-  ['line', 'Line', IconLine, []],
-  ['polyline', 'Line with corners', IconTimeline, []],
-  ['curve', 'Curve', IconVectorSpline, []],
-  ['freehand', 'Drawn by hand', IconScribble, []],
-  ['wave', 'Wave', IconWaveSine, ['turns', 'aspect']],
-  ['arc', 'Arc', IconRainbow, ['span']],
-  ['spiral', 'Spiral', IconSpiral, ['turns', 'inner']],
-  ['grid', 'Grid', IconGridDots, ['aspect']],
-  ['hexagons', 'Honeycomb', IconHexagons, ['aspect']],
-  ['random', 'By chance', IconGrain, ['aspect']],
+/** Name, label and icon. */
+const SHAPES: [string, string, Icon][] = [
+  ['heart', 'Heart', IconHeart],
+  ['star', 'Star', IconStar],
+  ['circle', 'Circle', IconCircle],
+  ['rings', 'Rings', IconTarget],
+  ['rectangle', 'Rectangle', IconRectangle],
+  ['polygon', 'Polygon', IconPentagon],
+  ['arrow', 'Arrow', IconArrowBigRight],
+  ['line', 'Line', IconLine],
+  ['polyline', 'Line with corners', IconTimeline],
+  ['curve', 'Curve', IconVectorSpline],
+  ['freehand', 'Drawn by hand', IconScribble],
+  ['wave', 'Wave', IconWaveSine],
+  ['arc', 'Arc', IconRainbow],
+  ['spiral', 'Spiral', IconSpiral],
+  ['grid', 'Grid', IconGridDots],
+  ['hexagons', 'Honeycomb', IconHexagons],
+  ['random', 'By chance', IconGrain],
 ];
 
 /** Label, range and step; angles in degrees. */
 const NUMBERS: Record<ShapeNumber, [string, number, number, number]> = {
-  aspect: ['Width to height', 0.2, 5, 0.1],
+  aspect: ['Width to height', ASPECT.min, ASPECT.max, 0.1],
   count: ['Corners, tips or circles', 2, 12, 1],
   turns: ['Turns', 0.5, 8, 0.5],
   inner: ['Inner size', 0, 0.95, 0.05],
@@ -64,7 +65,7 @@ const DEGREE = Math.PI / 180;
 /** A shape and its settings. */
 export function ShapeFields({ making, shapes }: { making: Making; shapes: readonly MakeShape[] }) {
   const draft = useStore(making.draft);
-  const used = SHAPES.find(([name]) => name === draft.shape)?.[3] ?? [];
+  const used = SHAPE_NUMBERS[draft.shape] ?? [];
   const usual = shapes.find((shape) => shape.name === draft.shape);
   const slider = (name: ShapeNumber) => {
     const [label, min, max, step] = NUMBERS[name];

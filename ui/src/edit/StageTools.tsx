@@ -1,5 +1,6 @@
 import {
   IconBarrierBlock,
+  IconBucketDroplet,
   IconColorPicker,
   IconGhost2,
   IconHandStop,
@@ -22,6 +23,7 @@ const TOOLS = [
   ['hand', 'Move the view (hold Space and drag)', IconHandStop],
   ['lasso', 'Lasso (Q)', IconLasso],
   ['eyedropper', 'Eyedropper (I)', IconColorPicker],
+  ['fill', 'Fill with the chosen colour (F): drag to paint', IconBucketDroplet],
   ['area', 'No-go area (O): drag to draw or move, Alt for a circle', IconBarrierBlock],
 ] as const;
 

@@ -1,4 +1,4 @@
-import type { Plan } from '../api/types.gen';
+import type { MakeChoices, Plan } from '../api/types.gen';
 import type { Rgb } from '../base/colour';
 import { createStore, type Readable, type Store } from '../base/store';
 import { startWorker } from '../make/browserWorker';
@@ -28,7 +28,7 @@ export interface TakenFile {
   bytes: Uint8Array<ArrayBuffer>;
 }
 
-export type ToolName = 'arrow' | 'hand' | 'lasso' | 'eyedropper' | 'area';
+export type ToolName = 'arrow' | 'hand' | 'lasso' | 'eyedropper' | 'fill' | 'area';
 
 /** View options of this screen: what the stage shows and snaps to. */
 export interface StageOptions {
@@ -60,6 +60,8 @@ export interface Editing {
   preview: Preview;
   /** Makes frames from words, shapes and files; loads its module with the first of them. */
   maker: Maker;
+  /** What settings may name; null until the module is there. */
+  choices: Store<MakeChoices | null>;
   /** The frame that is being made in the Make panel; null: the panel is closed. */
   making: Store<Making | null>;
   /** Files that this screen took, by hash; they reach the server when a frame uses them. */
@@ -122,6 +124,7 @@ export function createEditing(
     color,
     preview,
     maker,
+    choices: createStore<MakeChoices | null>(null),
     making: createStore<Making | null>(null),
     files: new Map(),
     space: createSpaceHold(() => tool.get() === 'hand', preview.toggle),

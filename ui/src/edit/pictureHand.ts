@@ -14,42 +14,67 @@ import {
   type Corner,
   type Picture,
 } from '../make/picture';
+import { SIDES, stretchedBy, type Side, type Stretch } from '../make/stretch';
 import { NO_OVERLAY } from '../model/editorState';
 import type { Tool, Touch } from '../model/tool';
 import { unitStore } from '../session/preferences';
 import type { Camera } from '../stage/camera';
 
 /** What of a picture is dragged. */
-export type Grip = { kind: 'move' } | { kind: 'turn' } | ({ kind: 'scale' } & Corner);
+export type Grip =
+  { kind: 'move' } | { kind: 'turn' } | ({ kind: 'scale' } & Corner) | ({ kind: 'stretch' } & Side);
 
 /** Distance of the corners' handles from the lights, and of the knob from the upper side, CSS pixels. */
 const GAP_PX = 16;
 const KNOB_PX = 26;
+/** A shorter side has no handle between those of its corners, CSS pixels. */
+const SIDE_PX = 40;
 /** A press this near to a handle takes it, CSS pixels. */
 const REACH_PX = 11;
 
 export const pictureNow = (making: Making): Picture | null =>
   pictureOf(making.draft.get(), making.made.get());
 
-/** The handles of a picture, stage metres. */
-export function gripsOf(picture: Picture, camera: Camera): { grip: Grip; at: Point }[] {
+/** The handles of a picture, stage metres; those of sides only where it can be stretched, and on sides with room for one. */
+export function gripsOf(
+  picture: Picture,
+  camera: Camera,
+  stretches: boolean,
+): { grip: Grip; at: Point }[] {
   const gap_m = GAP_PX / camera.scale;
   const corner = ({ sx, sy }: Corner) => {
     const { x, y } = cornerAt(picture, { sx, sy });
     return stageFromPicture(picture, { x: x + sx * gap_m, y: y + sy * gap_m });
   };
-  const [left, right] = [cornerAt(picture, { sx: -1, sy: 1 }), cornerAt(picture, { sx: 1, sy: 1 })];
-  const knob = { x: (left.x + right.x) / 2, y: right.y + gap_m + KNOB_PX / camera.scale };
+  const [low, high] = [cornerAt(picture, { sx: -1, sy: -1 }), cornerAt(picture, { sx: 1, sy: 1 })];
+  const middle = { x: (low.x + high.x) / 2, y: (low.y + high.y) / 2 };
+  const knob = { x: middle.x, y: high.y + gap_m + KNOB_PX / camera.scale };
+  const side = ({ sx, sy }: Side) =>
+    stageFromPicture(picture, {
+      x: middle.x + sx * ((high.x - low.x) / 2 + gap_m),
+      y: middle.y + sy * ((high.y - low.y) / 2 + gap_m),
+    });
+  const isLong = ({ sx }: Side) =>
+    (sx === 0 ? high.x - low.x : high.y - low.y) * camera.scale > SIDE_PX;
   return [
     { grip: { kind: 'turn' }, at: stageFromPicture(picture, knob) },
     ...CORNERS.map((of) => ({ grip: { kind: 'scale', ...of } as const, at: corner(of) })),
+    ...SIDES.filter((of) => stretches && isLong(of)).map((of) => ({
+      grip: { kind: 'stretch', ...of } as const,
+      at: side(of),
+    })),
   ];
 }
 
 /** What a press takes: a handle, or the picture if it is inside its box; null: neither. */
-export function gripAt(picture: Picture, camera: Camera, { at, reach_m }: Touch): Grip | null {
+export function gripAt(
+  picture: Picture,
+  camera: Camera,
+  { at, reach_m }: Touch,
+  stretches: boolean,
+): Grip | null {
   const reach = Math.max(REACH_PX / camera.scale, reach_m);
-  const near = gripsOf(picture, camera).find(
+  const near = gripsOf(picture, camera, stretches).find(
     (handle) => Math.hypot(handle.at.x - at.x, handle.at.y - at.y) < reach,
   );
   if (near) return near.grip;
@@ -61,8 +86,8 @@ export function gripAt(picture: Picture, camera: Camera, { at, reach_m }: Touch)
   return isInside ? { kind: 'move' } : null;
 }
 
-/** Moves, scales or turns the picture that is made. Shift: steps of 15°, or one axis; Alt: about the middle. */
-export function createPictureTool(making: Making, grip: Grip): Tool {
+/** Moves, scales, stretches or turns the picture that is made. Shift: steps of 15°, or one axis; Alt: about the middle. */
+export function createPictureTool(making: Making, grip: Grip, stretch: Stretch | null): Tool {
   let from: { at: Point; picture: Picture; draft: Draft } | null = null;
   return {
     down(editor, { at }) {
@@ -73,11 +98,12 @@ export function createPictureTool(making: Making, grip: Grip): Tool {
     move(editor, touch) {
       if (!from) return;
       const { stage } = editor.state.get().show;
-      making.change(changed(from.picture, grip, [from.at, touch.at], touch, stage));
+      making.change(changed({ ...from, stretch }, grip, [from.at, touch.at], touch, stage));
       const unit = unitStore.get();
       const { size_m, center, turn } = { ...from.picture, ...pictureNow(making) };
       const hint = {
         move: `middle ${lengthText(center.x, unit)}, ${lengthText(center.y, unit)}`,
+        stretch: `size ${lengthText(size_m, unit)}`,
         scale: `size ${lengthText(size_m, unit)}`,
         turn: `${Math.round((turn * 180) / Math.PI)}°`,
       }[grip.kind];
@@ -92,21 +118,25 @@ export function createPictureTool(making: Making, grip: Grip): Tool {
       const before = from?.draft;
       from = null;
       editor.cancel();
-      if (before)
-        making.change({ size_m: before.size_m, center: before.center, turn: before.turn });
+      if (before) {
+        const { size_m, center, turn, points, shapeNumbers } = before;
+        making.change({ size_m, center, turn, points, shapeNumbers });
+      }
       return before !== undefined;
     },
   };
 }
 
 function changed(
-  picture: Picture,
+  { picture, draft, stretch }: { picture: Picture; draft: Draft; stretch: Stretch | null },
   grip: Grip,
   drag: readonly [Point, Point],
   { shift, alt }: Touch,
   floor: { width_m: number; depth_m: number },
 ): Partial<Draft> {
   if (grip.kind === 'turn') return turnedBy(picture, drag, shift);
+  if (grip.kind === 'stretch')
+    return stretch ? stretchedBy({ picture, draft, stretch }, grip, drag, alt, floor) : {};
   if (grip.kind === 'scale') return scaledBy(picture, grip, drag, alt, floor);
   const [from, to] = drag;
   const [dx, dy] = [to.x - from.x, to.y - from.y];

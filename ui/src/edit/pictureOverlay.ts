@@ -4,12 +4,18 @@ import { gripsOf } from './pictureHand';
 import type { Picture } from '../make/picture';
 
 /** Draws the box of the picture that is made, its handles and the knob that turns it. */
-export function paintPicture(c: CanvasRenderingContext2D, camera: Camera, picture: Picture) {
-  const grips = gripsOf(picture, camera).map(({ grip, at }) => ({
+export function paintPicture(
+  c: CanvasRenderingContext2D,
+  camera: Camera,
+  picture: Picture,
+  stretches: boolean,
+) {
+  const grips = gripsOf(picture, camera, stretches).map(({ grip, at }) => ({
     grip,
     at: canvasFromStage(camera, at),
   }));
-  const [knob, ...corners] = grips;
+  const [knob] = grips;
+  const corners = grips.filter(({ grip }) => grip.kind === 'scale');
   const [left, right] = corners;
   if (!knob || !left || !right) return;
   c.strokeStyle = FLOOR.box;

@@ -15,6 +15,7 @@ import type { StageOptions } from './editing';
 import { paintOverlay } from './overlay';
 import { paintPen } from './penOverlay';
 import { pictureNow } from './pictureHand';
+import { isStretchable } from '../make/stretch';
 import { paintPicture } from './pictureOverlay';
 
 const NOTHING: readonly never[] = [];
@@ -81,7 +82,7 @@ export function editScene(
 
 function paintMaking(context: CanvasRenderingContext2D, camera: Camera, making: Making) {
   const picture = pictureNow(making);
-  if (picture) paintPicture(context, camera, picture);
+  if (picture) paintPicture(context, camera, picture, isStretchable(making.draft.get()));
   const line = penLine(making);
   if (line) paintPen(context, camera, line);
 }

@@ -4,8 +4,10 @@ import { useStore } from '../base/store';
 import { lengthText } from '../base/units';
 import { unitStore } from '../session/preferences';
 import type { Making } from '../make/making';
+import { stretchOf } from '../make/stretch';
 import { createArrowTool } from '../model/arrowTool';
 import { createEyedropper } from '../model/eyedropper';
+import { createFillTool } from '../model/fillTool';
 import { createObstacleTool } from '../model/obstacleTool';
 import { createLassoTool } from '../model/lassoTool';
 import { pixelAt, type Tool, type Touch } from '../model/tool';
@@ -13,7 +15,7 @@ import { createTransformTool } from '../model/transformTool';
 import { gridStep, stageFromCanvas } from '../stage/camera';
 import type { Hand } from '../stage/pointer';
 import * as acts from './acts';
-import { keepColour, type Editing } from './editing';
+import { keepColour, type Editing, type ToolName } from './editing';
 import { handleAt } from './overlay';
 import { penFor } from './penTool';
 import { createPictureTool, gripAt, pictureNow } from './pictureHand';
@@ -32,6 +34,9 @@ const snapStep = (scale: number) => Math.max(0.01, gridStep(scale) / 10);
 const AGAIN_MS = 400;
 const AGAIN_PX = 10;
 
+/** Tools that the handles of the selection would be in the way of. */
+const NO_HANDLES: ReadonlySet<ToolName> = new Set(['fill', 'area']);
+
 /** The hand moves the view, which is not a matter of tools. */
 const IDLE: Tool = { down() {}, move() {}, up() {}, cancel: () => false };
 
@@ -47,6 +52,8 @@ function createTool(editing: Editing): Tool {
         else keepColour(editing, color);
         editing.tool.set('arrow');
       });
+    case 'fill':
+      return createFillTool(editing.color.get);
     case 'area':
       return createObstacleTool((m) => lengthText(m, unitStore.get()));
     case 'arrow':
@@ -98,8 +105,9 @@ function lead(editing: Editing): { hand: Hand; giveUp: () => boolean } {
   };
   const pictureTool = (making: Making, at: Touch): Tool | null => {
     const picture = pictureNow(making);
-    const grip = picture && gripAt(picture, view.get().camera, at);
-    return grip && createPictureTool(making, grip);
+    const stretch = stretchOf(making.draft.get(), editing.choices.get()?.shapes ?? []);
+    const grip = picture && gripAt(picture, view.get().camera, at, stretch !== null);
+    return grip && createPictureTool(making, grip, stretch);
   };
   const giveUp = () => {
     const busy = active?.cancel(editor) ?? false;
@@ -120,7 +128,7 @@ function lead(editing: Editing): { hand: Hand; giveUp: () => boolean } {
           return;
         }
         editing.preview.stop();
-        const handle = editing.tool.get() === 'area' ? null : handleUnder(at, event);
+        const handle = NO_HANDLES.has(editing.tool.get()) ? null : handleUnder(at, event);
         active = handle ? createTransformTool(handle) : chosen;
         presses.press(at, event.timeStamp);
         active.down(editor, touch(at, event, adds));

@@ -89,7 +89,7 @@ export function Transport() {
         {icon('preview', 'Drive robots to this frame (P)', <IconNavigation size={19} />)}
         {icon('loop', 'Loop (L)', <IconRepeat size={18} />, looping)}
         <ChecklistButton />
-        {icon('refresh', 'Refresh: who is there? (R)', <IconRefresh size={18} />)}
+        {icon('refresh', 'Look for robots (R)', <IconRefresh size={18} />)}
       </Group>
       <DriveProgress />
       <PlayState />

@@ -98,7 +98,8 @@ export interface Floor {
 /** A middle nearer to the edge than this leaves no room for a picture, metres. */
 const EDGE_M = 0.1;
 
-function onFloor(p: Point, { width_m, depth_m }: Floor): Point {
+/** The nearest middle to a place that leaves room for a picture. */
+export function onFloor(p: Point, { width_m, depth_m }: Floor): Point {
   const within = (value: number, side: number) => {
     const most = Math.max(0, side / 2 - EDGE_M);
     return Math.max(-most, Math.min(most, value));
