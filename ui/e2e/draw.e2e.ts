@@ -22,6 +22,7 @@ interface Settings {
   size_m?: number;
   turn?: number;
   center?: [[number, number]];
+  aspect?: number;
   points?: [number, number][];
   closed?: boolean;
 }
@@ -103,11 +104,23 @@ test('a shape is moved, scaled and turned on the stage, and by its fields', asyn
   expect(grown.maxX).toBeCloseTo(placed.maxX, 1);
   expect(grown.minY).toBeCloseTo(placed.minY, 1);
 
+  // A side is dragged inward: the opposite side and the height stay.
+  await button(page, 'Change…').click();
+  await made(page);
+  const high = grown.maxY - grown.minY;
+  const side: [number, number] = [grown.minX - gap, (grown.minY + grown.maxY) / 2];
+  await drag(page, side, [side[0] + high / 2, side[1]]);
+  await useMade(page);
+  const narrow = await box(page);
+  expect((await settings(page, name)).aspect).toBeCloseTo(0.5, 1);
+  expect(narrow.maxX).toBeCloseTo(grown.maxX, 1);
+  expect(narrow.maxY - narrow.minY).toBeCloseTo(high, 1);
+
   // The knob above the picture turns it, with Shift in steps of 15°.
   await button(page, 'Change…').click();
   await made(page);
-  const middle = { x: (grown.minX + grown.maxX) / 2, y: (grown.minY + grown.maxY) / 2 };
-  const knob: [number, number] = [middle.x, grown.maxY + gap * (42 / 16)];
+  const middle = { x: (narrow.minX + narrow.maxX) / 2, y: (narrow.minY + narrow.maxY) / 2 };
+  const knob: [number, number] = [middle.x, narrow.maxY + gap * (42 / 16)];
   const arm = knob[1] - middle.y;
   await page.keyboard.down('Shift');
   await drag(page, knob, [middle.x - arm * 0.68, middle.y + arm * 0.73]);

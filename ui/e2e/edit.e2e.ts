@@ -115,6 +115,11 @@ describe('the editor', () => {
     await saved(page);
     expect(await stored(page, 'hello')).toEqual(before);
     const all = (p: { color: string }[]) => p.length > 0 && p.every((x) => x.color === '00e0c8');
+    expect(
+      (await pixels(second)).some((p) => all([p])),
+      'no editor moves by itself',
+    ).toBe(false);
+    await button(second, 'Edit hello 2').click();
     await eventually(() => pixels(second), all, 'the second browser sees it');
     await page.reload();
     await eventually(() => pixels(page), all, 'it is there after reloading');

@@ -24,6 +24,9 @@ test('a word is shown while it is typed, used, undone, saved, and changed after 
   await verdict(page)
     .getByText(/^30 robots/)
     .waitFor();
+  await verdict(page)
+    .getByText(/^Collision-free drive of \d/)
+    .waitFor();
   expect(await pixels(page), 'the frame is as it was').toEqual(before);
   await useMade(page);
   const made = await pixels(page);

@@ -222,3 +222,23 @@ test('pixels off the floor are put back onto it with one click', async () => {
   await page.keyboard.press('Control+z');
   await page.getByText('12 pixels are off the floor', { exact: false }).waitFor();
 });
+
+test('a click fills what lies together in one colour, and a drag paints what it passes', async () => {
+  const page = await begin('fill');
+  const violet = async () =>
+    (await pixels(page)).flatMap(({ color }, id) => (color === 'b14cff' ? [id] : []));
+  await page.keyboard.press('f');
+  await button(page, 'Colour violet #b14cff').click();
+  expect(await violet(), 'only the colour is chosen').toEqual([]);
+  const [from, to] = [await at(page, 2), await at(page, 4)];
+  await page.mouse.move(from.x, from.y);
+  await page.mouse.down();
+  await page.mouse.move(to.x, to.y, { steps: 12 });
+  await page.mouse.up();
+  expect(await violet()).toEqual([2, 3, 4]);
+  const { x, y } = await at(page, 8);
+  await page.mouse.click(x, y);
+  expect(await violet()).toEqual([2, 3, 4, 5, 6, 7, 8, 9, 10, 11]);
+  await page.keyboard.press('Control+z');
+  expect(await violet()).toEqual([2, 3, 4]);
+});

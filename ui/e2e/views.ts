@@ -48,7 +48,8 @@ const dialog = (name: string, open: (page: Page) => Promise<void>): View => ({
   name,
   async show(page) {
     await open(page);
-    await page.getByRole('dialog').waitFor();
+    // A dialog gets its name after it appears.
+    await page.locator('[role=dialog][aria-labelledby]').waitFor();
   },
   async leave(page) {
     await escape(page);

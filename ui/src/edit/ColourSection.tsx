@@ -11,11 +11,12 @@ const PALETTE: Rgb[] = [
   0x2ee55c, 0xd8f000, 0xffe000, 0x804000, 0x303030, 0x000000,
 ];
 
-/** Sets the colour of the chosen pixels, or of all when none is chosen. */
+/** Sets the colour of the chosen pixels, or of all when none is chosen; or the colour of the fill tool. */
 export function ColourSection() {
   const editing = useEditing();
   const color = useStore(editing.color);
   const recent = useStore(editing.recent);
+  const isFilling = useStore(editing.tool, (tool) => tool === 'fill');
   const [to, setTo] = useState<Rgb>(0x18a0ff);
   const swatches = (colors: readonly Rgb[]) => (
     <Group gap={5}>
@@ -27,7 +28,7 @@ export function ColourSection() {
           size={22}
           color={toHex(c)}
           aria-label={`Colour ${colourName(c)} ${toHex(c)}`}
-          onClick={() => acts.paint(editing, c)}
+          onClick={() => acts.chooseColour(editing, c)}
           style={{ cursor: 'pointer' }}
         />
       ))}
@@ -36,7 +37,7 @@ export function ColourSection() {
   return (
     <Stack gap="xs" component="section" aria-label="Colour">
       <Text size="sm" fw={600}>
-        Colour
+        {isFilling ? 'Colour of the fill tool' : 'Colour'}
       </Text>
       {swatches(PALETTE)}
       {recent.length > 0 ? (
@@ -54,7 +55,7 @@ export function ColourSection() {
         saturationLabel="Saturation and brightness"
         hueLabel="Hue"
         onChange={(value) => editing.color.set(fromHex(value) ?? color)}
-        onChangeEnd={(value) => acts.paint(editing, fromHex(value) ?? color)}
+        onChangeEnd={(value) => acts.chooseColour(editing, fromHex(value) ?? color)}
       />
       <ColorInput
         size="xs"
@@ -64,7 +65,7 @@ export function ColourSection() {
         withEyeDropper={false}
         onChange={(value) => {
           const typed = fromText(value);
-          if (typed !== undefined && typed !== color) acts.paint(editing, typed);
+          if (typed !== undefined && typed !== color) acts.chooseColour(editing, typed);
         }}
       />
       <Group gap="xs" align="end" wrap="nowrap">

@@ -105,6 +105,10 @@ export function paint(e: Editing, color: Rgb) {
   recolour(e, 'Colour', (pixels) => new Map(pixels.map((p) => [p.id, color])));
 }
 
+/** Makes a colour the current one: of the fill tool while that is chosen, else also of the selection. */
+export const chooseColour = (e: Editing, color: Rgb) =>
+  e.tool.get() === 'fill' ? keepColour(e, color) : paint(e, color);
+
 export function paintGradient(e: Editing, from: Rgb, to: Rgb) {
   recolour(e, 'Gradient', (pixels) => commands.gradient(pixels, from, to));
 }

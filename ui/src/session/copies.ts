@@ -14,7 +14,7 @@ const WHY = {
 export const copyText = ({ name, copy_of }: Pick<ShowEntry, 'name' | 'copy_of'>) =>
   `${WHY[copy_of ?? 'saved']}Saved as "${name}".`;
 
-/** Shows that a read-only show was saved as a copy, which takes the place of the original where that is open or edited here. */
+/** Shows that a read-only show was saved as a copy, which takes the place of the original for the robots and this screen. */
 export function followCopy({ live, waiting, ask }: Context, from: string, copy: ShowEntry) {
   notify('kept', copyText(copy));
   waiting.update((pending) =>
