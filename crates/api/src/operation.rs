@@ -48,6 +48,8 @@ pub enum Operation {
     Resume,
     /// Show the next frame, then pause.
     Step,
+    /// GO: leave the frame that waits for it.
+    Go,
     /// Switch on or off that the show begins again after the last frame.
     Loop {
         /// Whether it begins again.

@@ -310,6 +310,11 @@ impl Controller {
         self.run.is_some() || self.stopping.is_some()
     }
 
+    /// Whether a frame has stood for its air time and waits for GO.
+    pub fn is_at_cue(&self, now: Instant) -> bool {
+        self.run.as_ref().is_some_and(|run| run.is_at_cue(now))
+    }
+
     /// The open show.
     pub fn show(&self) -> Option<&Arc<Show>> {
         self.show.as_ref()

@@ -98,6 +98,13 @@ pub enum EventKind {
         /// From the planned end to the last arrival.
         wait: Span,
     },
+    /// A picture stands until the operator gives GO.
+    WaitsForGo {
+        /// Counted from 0.
+        frame: usize,
+        /// Name of the cue; may be empty.
+        name: String,
+    },
     /// All robots wait for one.
     Waiting {
         /// The robot they wait for.

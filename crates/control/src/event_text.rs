@@ -125,6 +125,8 @@ impl fmt::Display for EventKind {
             FrameReached { frame, spread, .. } => {
                 write!(f, "Frame {} stands; arrivals within {:.2} s.", frame + 1, spread.as_secs())
             }
+            WaitsForGo { frame, name } if name.is_empty() => write!(f, "Frame {} waits for GO.", frame + 1),
+            WaitsForGo { frame, name } => write!(f, "Frame {} waits for GO: {name}.", frame + 1),
             Waiting { robot, why } => write!(f, "Waiting for robot {robot}: it {why}."),
             Undelivered => write!(
                 f,

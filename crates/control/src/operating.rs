@@ -26,6 +26,7 @@ impl Controller {
             Operation::Pause => self.pause(),
             Operation::Resume => self.resume(now, false),
             Operation::Step => self.resume(now, true),
+            Operation::Go => self.go(now),
             Operation::GoOn => self.go_on(now),
             Operation::Abort => self.abort(now),
             Operation::StopAll => self.stop_all(now),
@@ -110,6 +111,7 @@ impl Controller {
             next: FrameCursor { frame, round: 0 },
             paused: false,
             stepping: false,
+            waits_for_go: false,
         };
         self.run = Some(Run::begin(&mut self.context, now, playback));
         Ok(())
@@ -162,6 +164,19 @@ impl Controller {
             return Err(Refusal::NotPaused);
         }
         run.resume(&mut self.context, now, step);
+        Ok(())
+    }
+
+    fn go(&mut self, now: Instant) -> Result<(), Refusal> {
+        self.linked()?;
+        let run = self.run.as_mut().ok_or(Refusal::NoRun)?;
+        if run.playback.paused {
+            return Err(Refusal::Paused);
+        }
+        if !run.playback.waits_for_go {
+            return Err(Refusal::NoCue);
+        }
+        run.go(now);
         Ok(())
     }
 

@@ -54,6 +54,8 @@ pub enum Operation {
     },
     /// A run whose robots were out of reach goes on from where they stand, without robots that do not report.
     GoOn,
+    /// GO: the frame that waits for it at its cue is left at once, also before its air time is over.
+    Go,
 }
 
 /// What happens to pixels no robot can show.
@@ -113,6 +115,10 @@ pub enum Refusal {
     NoRun,
     /// The run is not paused.
     NotPaused,
+    /// No frame waits for GO.
+    NoCue,
+    /// The run is paused.
+    Paused,
     /// Robots are not out of reach, or none has reported since.
     NothingToGoOn,
     /// There are not enough robots; [`MissingPolicy::LeaveOut`] plays without the missing ones.
@@ -147,6 +153,7 @@ impl Operation {
             Self::Pause => "pause",
             Self::Resume => "resume",
             Self::Step => "step",
+            Self::Go => "go",
             Self::Abort => "abort",
             Self::StopAll => "stop all",
             Self::DismissFailure => "dismiss the failure",
@@ -187,6 +194,8 @@ impl fmt::Display for Refusal {
             Self::Busy(state) => write!(f, "Not while the controller is {state}: abort first."),
             Self::NoRun => write!(f, "Nothing is being played."),
             Self::NotPaused => write!(f, "The run is not paused: pause it first."),
+            Self::NoCue => write!(f, "No frame waits for GO: the show goes on by itself."),
+            Self::Paused => write!(f, "The run is paused: resume it first."),
             Self::NothingToGoOn => {
                 write!(f, "The show does not wait for this: it goes on once robots report again.")
             }

@@ -38,11 +38,24 @@ impl Run {
             progress: self.progress(now),
             drive_s: self.pipeline.leg().map_or(0.0, |leg| leg.duration.as_secs()),
             began,
+            cue: self.cue().map(str::to_owned),
             may_go_on: self.may_go_on(context),
             waiting_for: self.waiting_for(context, now),
             frames_played: self.tally.frames_played,
             dropouts: self.tally.dropouts,
         }
+    }
+
+    /// Name of the cue at which the run waits for GO.
+    fn cue(&self) -> Option<&str> {
+        let frame = self.pipeline.leg().map_or(usize::MAX, |leg| leg.frame);
+        self.playback.waits_for_go.then(|| self.playback.cue(frame).unwrap_or_default())
+    }
+
+    /// Whether a frame has stood for its air time and waits for GO.
+    pub fn is_at_cue(&self, now: Instant) -> bool {
+        let RunPhase::Standing(standing) = &self.phase else { return false };
+        self.playback.waits_for_go && !self.playback.paused && now >= standing.air.until
     }
 
     fn doing(&self, context: &Context) -> &'static str {
@@ -54,6 +67,7 @@ impl Run {
             RunPhase::Starting(_) => "starting",
             RunPhase::Driving(drive) if drive.clock.hold.is_some() => "holding",
             RunPhase::Driving(_) => "driving",
+            RunPhase::Standing(_) if self.playback.waits_for_go => "waiting for GO",
             RunPhase::Standing(_) if self.pipeline.leg().is_some_and(|leg| leg.reaches_frame) => "showing",
             RunPhase::Standing(_) if self.pipeline.planning.pending.is_some() => "planning",
             RunPhase::Standing(_) => "uploading routes",

@@ -16,8 +16,8 @@ use crate::thick::{BandLoad, thickened};
 /// Areas that are wider than this number of spacings, on average, get an edge and a filling. Narrower ones would zigzag.
 const WIDE: f64 = 2.0;
 
-/// Up to this number of robots a letter, an edge leaves too few for the filling: with 30 robots six shapes are read at 0.86 to
-/// 0.96 with an edge, at 0.99 to 1.00 without; with 60 at 0.96 to 0.98, and the edge is crisper (`lightbots make --style`).
+/// Up to this number of robots a letter, an edge leaves too few for the filling: with 30 robots six shapes are read at 0.86
+/// to 0.96 with an edge, at 0.99 to 1.00 without; with 60 at 0.96 to 0.98, and the edge is crisper (`make --style`).
 const FEW_FOR_EDGES: usize = 50;
 
 /// Up to this number of robots a letter, a filling is read better than strokes (measured with 36 signs: 12 to 13).

@@ -421,6 +421,10 @@ left_s: number | null,
  */
 failure: string | null, 
 /**
+ * Name of the cue at which the show waits for `Go`; may be empty. Null: it does not wait for it.
+ */
+cue: string | null, 
+/**
  * Whether `GoOn` lets a show go on whose robots were out of reach: some report again.
  */
 may_go_on: boolean, 
@@ -541,7 +545,7 @@ frame: number,
 /**
  * What happens if robots are missing.
  */
-missing?: Missing, } | { "do": "pause" } | { "do": "resume" } | { "do": "step" } | { "do": "loop", 
+missing?: Missing, } | { "do": "pause" } | { "do": "resume" } | { "do": "step" } | { "do": "go" } | { "do": "loop", 
 /**
  * Whether it begins again.
  */

@@ -2,6 +2,7 @@ import { IconBulb, IconRoute } from '@tabler/icons-react';
 import { memo, useRef, type MouseEvent } from 'react';
 import type { Frame, Stage } from '../model/show';
 import { Thumbnail } from '../stage/Thumbnail';
+import { GoMark } from '../parts/GoMark';
 import strip from '../parts/strip.module.css';
 import styles from './FrameCard.module.css';
 
@@ -13,6 +14,8 @@ interface Props {
   chosen: boolean;
   /** Travel time to the frame, seconds, as text; empty while it is not planned. */
   drive: string;
+  /** Whether the show waits for GO after the frame. */
+  waits: boolean;
   /** Whether the plan has an error in this frame. */
   wrong: boolean;
   onChoose: (event: MouseEvent) => void;
@@ -60,6 +63,7 @@ export const FrameCard = memo(function FrameCard(props: Props) {
           {props.wrong ? ' !' : ''}
         </b>
         <span>{frame.name}</span>
+        {props.waits ? <GoMark /> : null}
       </span>
       <span className={styles.times}>
         {props.drive ? (

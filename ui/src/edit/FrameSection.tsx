@@ -5,6 +5,7 @@ import { NumberField } from '../parts/NumberField';
 import type { Frame } from '../model/show';
 import * as acts from './acts';
 import { useEditing, useEditor } from './context';
+import { CueField } from './CueField';
 
 /** Said under a field whose value is not the same in all chosen frames. */
 const DIFFERENT = 'different in these frames';
@@ -72,6 +73,7 @@ export function FrameSection() {
         value={air_s ?? null}
         onChange={(airTime_s) => acts.setFrames(editing, { airTime_s })}
       />
+      <CueField />
       <Checkbox
         label="As fast as is safe"
         size="sm"

@@ -1,6 +1,7 @@
 import { type Point, boxOf, centreOf, inBox, scaleAbout } from '../base/geometry';
 import type { Rgb } from '../base/colour';
 import * as arrange from '../model/arrange';
+import * as cues from '../model/cues';
 import * as commands from '../model/commands';
 import * as groups from '../model/groups';
 import { tooClose_m, type Pixel, type Show, type Stage } from '../model/show';
@@ -128,6 +129,10 @@ function recolour(
   };
   e.editor.change(label, (show) => chosenFrames(e).reduce(change, show));
 }
+
+/** Lets the chosen frames wait for GO at a cue of that name; null: they go on by themselves. */
+export const setCue = (e: Editing, name: string | null) =>
+  e.editor.change('Cue', (show) => cues.setCue(show, chosenFrames(e), name));
 
 /** Makes the selection one group. */
 export const group = (e: Editing) =>

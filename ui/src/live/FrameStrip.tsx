@@ -1,5 +1,7 @@
 import { useEffect, useRef } from 'react';
 import { useStore } from '../base/store';
+import { cueOf } from '../model/cues';
+import { GoMark } from '../parts/GoMark';
 import { useSession } from '../session/session';
 import { Thumbnail } from '../stage/Thumbnail';
 import { isRunning } from './scene';
@@ -41,6 +43,7 @@ export function FrameStrip() {
             <span className={styles.label}>
               <b>{i + 1}</b>
               <span>{f.name}</span>
+              {cueOf(show, f) === null ? null : <GoMark />}
             </span>
           </button>
         </li>

@@ -3,6 +3,7 @@ import { FailureNote } from './FailureNote';
 import { FitNote } from './FitNote';
 import { FleetSide } from './FleetSide';
 import { FrameStrip } from './FrameStrip';
+import { GoNote } from './GoNote';
 import { GoOnNote } from './GoOnNote';
 import { LiveStage } from './LiveStage';
 import { StartDialog } from './StartDialog';
@@ -17,6 +18,7 @@ export function LivePage() {
       <Bottom label="Playing">
         <FailureNote />
         <GoOnNote />
+        <GoNote />
         <FitNote />
         <Transport />
         <FrameStrip />

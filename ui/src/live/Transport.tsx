@@ -37,6 +37,7 @@ export function Transport() {
   const { live, ask, frame } = session;
   const phase = useStore(live.playback, (p) => p.phase);
   const mayGoOn = useStore(live.playback, (p) => p.may_go_on);
+  const waitsForGo = useStore(live.playback, (p) => p.cue !== null);
   const looping = useStore(live.playback, (p) => p.looping);
   const chosen = useStore(frame);
   const linked = useStore(live.link) === 'open';
@@ -44,7 +45,7 @@ export function Transport() {
   const isWaiting = useStore(session.waiting, (pending) => pending !== null);
   const [asking, setAsking] = useState({ opened: false, frame: 0 });
   useEffect(() => followPlan(session), [session]);
-  const actions = actionsOf(phase, linked, hasShow, mayGoOn);
+  const actions = actionsOf(phase, linked, hasShow, mayGoOn, waitsForGo);
   const drive = (to: number) => whenPlanned(session, () => void ask({ do: 'preview', frame: to }));
   const perform = (action: Action) => {
     if (isWaiting && (action === 'abort' || action === actions.main))

@@ -11,6 +11,7 @@ const playback = (phase: Phase): Playback => ({
   left_s: null,
   failure: null,
   looping: false,
+  cue: null,
   may_go_on: false,
   late: [],
 });
@@ -60,5 +61,13 @@ test('words', () => {
   );
   expect(phaseText({ ...playback('aborting'), failure }), 'while its robots are stopped').toBe(
     'Show stopped',
+  );
+});
+
+test('GO is there while a frame waits for it, but not in a pause', () => {
+  expect(actionsOf('playing', true, true, false, true).enabled.has('go')).toBe(true);
+  expect(actionsOf('paused', true, true, false, true).enabled.has('go')).toBe(false);
+  expect(phaseText({ ...playback('playing'), doing: 'waiting for GO' })).toBe(
+    'Waiting for GO, frame 2 of 12',
   );
 });

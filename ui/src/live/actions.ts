@@ -1,7 +1,7 @@
 import type { Phase, Playback } from '../api/types.gen';
 
 export type Action =
-  'play' | 'pause' | 'resume' | 'go_on' | 'abort' | 'step' | 'preview' | 'loop' | 'refresh';
+  'play' | 'pause' | 'resume' | 'go_on' | 'abort' | 'step' | 'go' | 'preview' | 'loop' | 'refresh';
 
 /** The enabled actions, and the action of the large button. */
 export interface Actions {
@@ -20,6 +20,7 @@ export function actionsOf(
   linked: boolean,
   hasShow: boolean,
   mayGoOn = false,
+  waitsForGo = false,
 ): Actions {
   const main = MAIN[phase] ?? 'play';
   const enabled = new Set<Action>();
@@ -28,6 +29,7 @@ export function actionsOf(
   if (phase !== 'idle') enabled.add('refresh');
   if (phase === 'ready' && hasShow) for (const a of ['play', 'preview'] as const) enabled.add(a);
   if (phase === 'playing') enabled.add('pause');
+  if (phase === 'playing' && waitsForGo) enabled.add('go');
   if (phase === 'paused') for (const a of ['resume', 'step'] as const) enabled.add(a);
   if (phase === 'link_lost' && mayGoOn) enabled.add('go_on');
   if (RUNNING.has(phase)) enabled.add('abort');
@@ -62,6 +64,7 @@ export function phaseText(
     case 'preparing':
       return 'Getting ready';
     case 'playing':
+      if (doing === 'waiting for GO') return `Waiting for GO, ${where}`;
       return `Playing ${where}`.trim();
     case 'paused':
       return `Paused, ${where}`.replace(/, $/, '');

@@ -1,3 +1,4 @@
+import { withoutLostCues } from './cues';
 import type { Point } from '../base/geometry';
 import { mix, type Rgb } from '../base/colour';
 import type { FrameSource } from './sources';
@@ -151,7 +152,9 @@ export function duplicateFrames(show: Show, indices: readonly number[]): Show {
 export function deleteFrames(show: Show, indices: readonly number[]): Show {
   const gone = new Set(indices);
   const frames = show.frames.filter((_, i) => !gone.has(i));
-  return frames.length === 0 || frames.length === show.frames.length ? show : { ...show, frames };
+  return frames.length === 0 || frames.length === show.frames.length
+    ? show
+    : withoutLostCues(show, { ...show, frames });
 }
 
 /** Moves frames, in their order, to stand together before the one that is at `before` now (or at the end). */

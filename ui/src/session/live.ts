@@ -44,6 +44,7 @@ const NO_PLAYBACK: Playback = {
   left_s: null,
   failure: null,
   looping: false,
+  cue: null,
   may_go_on: false,
   late: [],
 };

@@ -13,6 +13,7 @@ export const KEYS: { title: string; keys: [string[], string][] }[] = [
     title: 'Live',
     keys: [
       [['Space'], 'Play, pause, resume'],
+      [['Enter', 'Page ↓'], 'GO: leave the frame that waits for it'],
       [['S'], 'Step to the next frame'],
       [['P'], 'Drive robots to this frame'],
       [['Esc'], 'Abort'],

@@ -68,6 +68,8 @@ pub(crate) struct RunProgress {
     pub paused: bool,
     /// The run pauses again at the next frame.
     pub stepping: bool,
+    /// The frame that was reached last waits for GO.
+    pub waits_for_go: bool,
     /// Frames reached.
     pub frames_played: u32,
     /// Robots that dropped out; a robot that dropped out twice counts twice.

@@ -89,6 +89,7 @@ impl Run {
             next: progress.next,
             paused: progress.paused,
             stepping: progress.stepping,
+            waits_for_go: progress.waits_for_go,
         };
         if Mutant::WrongFrameAfterRestart.is_planted() {
             playback.next = playback.after(playback.next).unwrap_or(playback.next);

@@ -34,6 +34,7 @@ fn state() -> JournalState {
             looping: true,
             paused: false,
             stepping: true,
+            waits_for_go: true,
             frames_played: 3,
             dropouts: 4,
             taken_up: 1,
@@ -102,7 +103,7 @@ fn the_format_is_that_of_its_version() {
     ]);
     let mut hash = StateHash::new();
     hash.bytes(&postcard::to_allocvec(&entry).unwrap());
-    assert_eq!((VERSION, hash.finish()), (1, 1_500_047_731_078_150_354));
+    assert_eq!((VERSION, hash.finish()), (2, 11_135_052_788_667_876_750));
 }
 
 #[test]

@@ -233,6 +233,7 @@ impl Run {
             looping: playback.looping,
             paused: playback.paused,
             stepping: playback.stepping,
+            waits_for_go: playback.waits_for_go,
             frames_played: tally.frames_played as u32,
             dropouts: tally.dropouts as u32,
             taken_up: tally.taken_up,

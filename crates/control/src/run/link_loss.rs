@@ -84,6 +84,17 @@ pub(crate) fn judge(cx: &mut RunContext, silent: &[Dropout], is_starting: bool) 
     many(cx, is_silent).map_or(Verdict::RobotsLost, Verdict::LinkLost)
 }
 
+/// Participants that are stale, which is three reports missed. Where a frame waits for GO, these drop out at once, so that
+/// GO does not wait for a plan without them; elsewhere the next START finds them. Original robots may report only when they
+/// are asked.
+pub(crate) fn stale(cx: &RunContext) -> Vec<usize> {
+    let is_stale = |&one: &usize| {
+        let robot = cx.robot(one);
+        robot.contact.age != Age::Active && !robot.is_original()
+    };
+    cx.roster.active().map(|(one, _)| one).filter(is_stale).collect()
+}
+
 /// Number of silent robots, if the link is lost by what robots report of their own accord: many are stale, which is three
 /// reports missed.
 pub(crate) fn apparent(cx: &RunContext) -> Option<usize> {

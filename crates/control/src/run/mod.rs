@@ -201,7 +201,7 @@ impl Run {
 
     /// Time passes.
     pub fn on_tick(&mut self, io: &mut Context, now: Instant) {
-        self.tally.recovery.pause(now, self.playback.paused);
+        self.tally.recovery.pause(now, self.playback.waits());
         self.tick_phase(io, now);
     }
 
@@ -216,7 +216,7 @@ impl Run {
             RunPhase::Gathering(gathering) => gathering.due(now),
             RunPhase::Standing(standing) => {
                 let start_lead = self.link.start_lead(&io.config, self.roster.len());
-                standing.due(&self.pipeline, start_lead, now, self.playback.paused)
+                standing.due(&self.pipeline, start_lead, now, self.playback.waits())
             }
             RunPhase::Starting(starting) => starting.due().min(self.pipeline.due()),
             RunPhase::Driving(drive) => drive.due().min(self.pipeline.lights.due()).min(self.pipeline.due()),
@@ -247,11 +247,20 @@ impl Run {
     /// The operator goes on; `step`: to the next frame, where the run pauses again.
     pub fn resume(&mut self, io: &mut Context, now: Instant, step: bool) {
         (self.playback.paused, self.playback.stepping) = (false, step);
+        self.playback.waits_for_go &= !step;
         let (phase, mut cx) = self.split(io, now);
         match phase {
-            RunPhase::Standing(standing) => standing.resume(now, step),
+            RunPhase::Standing(standing) if step => standing.leave_now(now),
             RunPhase::Driving(drive) => drive.resume(&mut cx),
             _ => {}
+        }
+    }
+
+    /// The operator gives GO: the frame that waits for it is left.
+    pub fn go(&mut self, now: Instant) {
+        self.playback.waits_for_go = false;
+        if let RunPhase::Standing(standing) = &mut self.phase {
+            standing.leave_now(now);
         }
     }
 

@@ -2,7 +2,7 @@
 
 use crate::operation::MissingPolicy;
 use lightbots_base::Span;
-use lightbots_show::Show;
+use lightbots_show::{CuePlace, Show};
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
@@ -44,6 +44,8 @@ pub(crate) struct PlayedShow {
     pub paused: bool,
     /// The run pauses again at the next frame.
     pub stepping: bool,
+    /// The frame that was reached last has a cue, and GO was not given: it is not left.
+    pub waits_for_go: bool,
 }
 
 impl PlayedShow {
@@ -66,6 +68,11 @@ impl PlayedShow {
         }
     }
 
+    /// Whether the run stands until the operator says that it goes on.
+    pub fn waits(&self) -> bool {
+        self.paused || self.waits_for_go
+    }
+
     /// Whether all frames were reached.
     pub fn is_ended(&self) -> bool {
         self.next.frame >= self.show.frames.len()
@@ -74,6 +81,13 @@ impl PlayedShow {
     /// The last frame, where the next one is after it.
     pub fn shown_frame(&self) -> usize {
         self.next.frame.min(self.show.frames.len().saturating_sub(1))
+    }
+
+    /// The name of the cue at which a frame waits for GO in this run; it may be empty. `None`: the frame has none.
+    pub fn cue(&self, frame: usize) -> Option<&str> {
+        let id = self.show.frames.get(frame).filter(|_| self.purpose == RunPurpose::Play)?.id.as_deref()?;
+        let mut cues = self.show.cues.iter();
+        cues.find(|cue| matches!(&cue.at, CuePlace::Frame(at) if at == id)).map(|cue| cue.name.as_str())
     }
 
     /// How long a frame stands by the show; zero where the show has no such frame.
@@ -117,6 +131,7 @@ mod tests {
             next: FrameCursor { frame: 1, round: 0 },
             paused: false,
             stepping: false,
+            waits_for_go: false,
         }
     }
 

@@ -32,10 +32,10 @@ impl Standing {
         Self { air, check_at: now + CHECK_EVERY }
     }
 
-    /// When something is due; START is stated `start_lead` ahead.
-    pub fn due(&self, pipeline: &Pipeline, start_lead: Span, now: Instant, paused: bool) -> Instant {
+    /// When something is due; START is stated `start_lead` ahead. `waits`: the run is paused, or waits for GO.
+    pub fn due(&self, pipeline: &Pipeline, start_lead: Span, now: Instant, waits: bool) -> Instant {
         let start = match pipeline.queue.front().map(|leg| leg.kind) {
-            _ if paused => Instant::FAR,
+            _ if waits => Instant::FAR,
             Some(LegKind::Routes) if pipeline.is_uploaded() => self.air.until - start_lead - EARLY,
             Some(LegKind::Routes) => Instant::FAR,
             _ => self.air.until,
@@ -43,11 +43,9 @@ impl Standing {
         pipeline.due().min(start).min(now + CHECK_EVERY)
     }
 
-    /// The operator goes on; `step`: to the next frame, at once.
-    pub fn resume(&mut self, now: Instant, step: bool) {
-        if step {
-            (self.air.left, self.air.until) = (None, now);
-        }
+    /// The frame is left at once: the operator gives GO, or steps to the next one.
+    pub fn leave_now(&mut self, now: Instant) {
+        (self.air.left, self.air.until) = (None, now);
     }
 
     /// A participant that is to stand reports its state.
@@ -72,6 +70,10 @@ impl Standing {
             if let Some(silent) = link_loss::apparent(cx) {
                 return Next::Interrupt(Some(silent));
             }
+            let lost = if cx.playback.waits_for_go { link_loss::stale(cx) } else { Vec::new() };
+            if !lost.is_empty() {
+                return Next::Drop(lost.into_iter().map(|one| (one, Trouble::Silent)).collect());
+            }
         }
         requests::plan_ahead(cx);
         let next = cx.pump();
@@ -94,6 +96,9 @@ impl Standing {
 
     /// Leaves the frame, if its air time is over and there is a next leg.
     fn leave(&self, cx: &mut RunContext) -> Next {
+        if cx.playback.waits_for_go {
+            return Next::Stay;
+        }
         let until = self.air.until;
         let planning = &cx.pipeline.planning;
         match cx.pipeline.queue.front().map(|leg| leg.kind) {

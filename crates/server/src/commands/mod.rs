@@ -4,7 +4,7 @@ pub mod broker;
 pub mod certs;
 pub mod check;
 pub mod convert;
-mod go_on;
+mod enter_key;
 mod guard;
 pub mod make;
 pub mod plan;

@@ -8,7 +8,7 @@ use lightbots_wire::RobotState;
 use tokio::sync::broadcast;
 
 use crate::cli::PlayArguments;
-use crate::commands::go_on::GoOn;
+use crate::commands::enter_key::{EnterFor, EnterKey};
 use crate::failure::{Failure, Outcome};
 use crate::live::clock::Clock;
 use crate::live::conductor::{self, Handle, LOOK, News};
@@ -24,6 +24,9 @@ const SETTLED: Duration = Duration::from_secs(10);
 /// A run without any event for this time is given up, because a fault must have gone unnoticed. Longer than any usual
 /// air time.
 const NOTHING: Duration = Duration::from_secs(900);
+
+/// How often a frame that waits for GO is looked at where GO is given by itself.
+const LOOK_AT_CUE: Duration = Duration::from_millis(250);
 
 /// Longest time for stopping the robots and disconnecting after a signal.
 const GOODBYE: Duration = Duration::from_secs(2);
@@ -184,17 +187,32 @@ async fn follow(
     handle: &Handle,
     news: &mut broadcast::Receiver<News>,
 ) -> Result<(), Failure> {
-    let (bar, mut question) = (Bar::new(), GoOn::default());
+    let (bar, mut enter) = (Bar::new(), EnterKey::default());
+    let mut has_terminal = true;
     loop {
         let event = tokio::select! {
-            event = next_event(report, news) => event?,
-            goes_on = question.answer() => {
-                go_on(handle, goes_on).await?;
+            event = next_event(report, handle, news) => event?,
+            (question, is_pressed) = enter.answer() => {
+                has_terminal = is_pressed;
+                match question {
+                    EnterFor::GoOn => go_on(handle, is_pressed).await?,
+                    EnterFor::Go if is_pressed => go(handle).await,
+                    EnterFor::Go => say::note("there is no terminal to press Enter on: GO is given after each air time"),
+                }
+                if has_terminal && waits_for_go(handle).await {
+                    enter.ask(EnterFor::Go);
+                }
+                continue;
+            }
+            () = air_time_over(handle), if !has_terminal => {
+                go(handle).await;
                 continue;
             }
         };
-        if matches!(event.kind, EventKind::LinkBack { asks_operator: true, .. }) {
-            question.ask();
+        match event.kind {
+            EventKind::LinkBack { asks_operator: true, .. } => enter.ask(EnterFor::GoOn),
+            EventKind::WaitsForGo { .. } if has_terminal => enter.ask(EnterFor::Go),
+            _ => {}
         }
         let places = if RunReport::wants_places(&event) { handle.look().await } else { None };
         report.add(&event, places.as_ref());
@@ -206,19 +224,45 @@ async fn follow(
 }
 
 /// The next event; warnings before it go into the report.
-async fn next_event(report: &mut RunReport, news: &mut broadcast::Receiver<News>) -> Result<Event, Failure> {
+async fn next_event(
+    report: &mut RunReport,
+    handle: &Handle,
+    news: &mut broadcast::Receiver<News>,
+) -> Result<Event, Failure> {
     loop {
         match tokio::time::timeout(NOTHING, news.recv()).await {
             Ok(Ok(News::Event(event))) => return Ok(event),
             Ok(Ok(News::Warning(line))) => report.warn(line),
             Ok(Ok(News::Link(_)) | Err(broadcast::error::RecvError::Lagged(_))) => {}
             Ok(Err(broadcast::error::RecvError::Closed)) => return Err(Failure::problem("stopped")),
+            Err(_) if waits_for_go(handle).await => {}
             Err(_) => {
                 return Err(Failure::problem(
                     "no event for 15 minutes: the run was given up; run again with --log debug",
                 ));
             }
         }
+    }
+}
+
+/// Whether a frame waits for GO.
+async fn waits_for_go(handle: &Handle) -> bool {
+    handle.look().await.and_then(|snapshot| snapshot.run).is_some_and(|run| run.cue.is_some())
+}
+
+/// Ends when a frame that waits for GO has stood for its air time.
+async fn air_time_over(handle: &Handle) {
+    let is_over =
+        |snapshot: Snapshot| snapshot.run.is_some_and(|run| run.cue.is_some() && run.progress >= 1.0);
+    while !handle.look().await.is_some_and(is_over) {
+        tokio::time::sleep(LOOK_AT_CUE).await;
+    }
+}
+
+/// Gives GO. It is refused where the frame was left meanwhile.
+async fn go(handle: &Handle) {
+    if let Err(refusal) = handle.operate(Operation::Go).await {
+        say::note(&refusal.to_string());
     }
 }
 

@@ -44,6 +44,7 @@ async fn act(shared: &Shared, operation: api::Operation) -> Result<(), Refused> 
         Wish::Pause => Operation::Pause,
         Wish::Resume => Operation::Resume,
         Wish::Step => Operation::Step,
+        Wish::Go => Operation::Go,
         Wish::Loop { on } => Operation::Loop(on),
         Wish::Abort => Operation::Abort,
         Wish::GoOn => Operation::GoOn,

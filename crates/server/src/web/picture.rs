@@ -177,7 +177,7 @@ impl Painter {
 
     fn playback(&self, snapshot: &Snapshot) -> api::Playback {
         let run = snapshot.run.as_ref();
-        let is_showing = run.is_some_and(|run| run.doing == "showing");
+        let is_showing = run.is_some_and(|run| run.doing == "showing" || run.cue.is_some());
         let progress = run.map_or(0.0, |run| if is_showing { 1.0 } else { run.progress });
         api::Playback {
             phase: phase(snapshot.state),
@@ -187,6 +187,7 @@ impl Painter {
             progress: rounded(progress, 3),
             left_s: self.left_s(snapshot, is_showing),
             failure: snapshot.failure.clone(),
+            cue: run.and_then(|run| run.cue.clone()),
             may_go_on: run.is_some_and(|run| run.may_go_on),
             looping: snapshot.looping,
             late: run.map_or(Vec::new(), |run| run.waiting_for.iter().map(ToString::to_string).collect()),

@@ -1,6 +1,6 @@
 //! A child process: its output is kept, it is killed with the value.
 
-use std::io::{BufRead, BufReader, Read};
+use std::io::{BufRead, BufReader, Read, Write};
 use std::process::{Child as Process, Command, Stdio};
 use std::sync::{Arc, Mutex};
 
@@ -16,6 +16,13 @@ pub struct Child {
     err: Lines,
 }
 
+/// `lightbots` with a library of its own.
+fn lightbots(arguments: &[&str]) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_lightbots"));
+    command.args(arguments).env("XDG_DATA_HOME", crate::shows::own_folder());
+    command
+}
+
 impl Child {
     /// `lightbots` with these arguments.
     pub fn lightbots(arguments: &[&str]) -> Self {
@@ -24,15 +31,28 @@ impl Child {
 
     /// The same with variables in its environment.
     pub fn lightbots_with(arguments: &[&str], variables: &[(&str, &str)]) -> Self {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_lightbots"));
-        // Nobody's library but the test's own.
-        command.args(arguments).env("XDG_DATA_HOME", crate::shows::own_folder());
+        let mut command = lightbots(arguments);
         command.envs(variables.iter().copied());
         Self::start(command, &arguments.join(" "))
     }
 
-    pub fn start(mut command: Command, name: &str) -> Self {
-        command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped());
+    /// `lightbots` with someone who can press Enter.
+    pub fn lightbots_at_terminal(arguments: &[&str]) -> Self {
+        Self::spawn(lightbots(arguments), &arguments.join(" "), Stdio::piped())
+    }
+
+    /// Presses Enter; `lightbots_at_terminal` started the process.
+    pub fn press_enter(&mut self) {
+        let input = self.process.stdin.as_mut().expect("it has a terminal");
+        input.write_all(b"\n").expect("it reads its input");
+    }
+
+    pub fn start(command: Command, name: &str) -> Self {
+        Self::spawn(command, name, Stdio::null())
+    }
+
+    fn spawn(mut command: Command, name: &str, input: Stdio) -> Self {
+        command.stdin(input).stdout(Stdio::piped()).stderr(Stdio::piped());
         let mut process = command.spawn().unwrap_or_else(|error| panic!("{name} does not start: {error}"));
         let out = keep(process.stdout.take().unwrap());
         let err = keep(process.stderr.take().unwrap());

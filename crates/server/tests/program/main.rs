@@ -14,6 +14,7 @@ mod child;
 mod cluster;
 mod commands;
 mod crossings;
+mod cues;
 mod example_brokers;
 mod fleet;
 mod hostile_clients;

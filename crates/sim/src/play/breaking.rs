@@ -82,9 +82,12 @@ impl Play {
         self.drain_controller();
     }
 
-    /// The operator lets an interrupted show go on.
+    /// The operator lets an interrupted show go on, and gives GO to a frame that has stood for its air time.
     pub(super) fn press(&mut self) {
         self.operate_again();
+        if self.controller.is_at_cue(self.now) && self.controller.operate(self.now, Operation::Go).is_ok() {
+            self.drain_controller();
+        }
         if self.operator.presses(self.now) && self.controller.operate(self.now, Operation::GoOn).is_ok() {
             self.record.pressed(self.now);
             self.drain_controller();

@@ -1,7 +1,7 @@
 //! Whole shows in virtual time: both cores, the world and the network together.
 
 use lightbots_base::{Rgb, Vec2};
-use lightbots_show::{Easing, Frame, Identity, Obstacle, Pixel, Show, Stage};
+use lightbots_show::{Cue, CuePlace, Easing, Frame, Identity, Obstacle, Pixel, Show, Stage};
 use lightbots_sim::{Conditions, Faults, Progress, RehearsalOptions, RehearsalReport, rehearse};
 
 /// A row, a ring and a grid of `count` robots.
@@ -55,6 +55,17 @@ fn a_show_plays_to_its_end_under_standard_conditions() {
         assert!(report.position_error_m.median < 0.004 && report.arrival_spread_s.max < 0.3);
         assert_eq!((report.robots, report.messages.lost, report.dropouts), (12, 0, 0));
     }
+}
+
+#[test]
+fn a_rehearsal_gives_go_after_the_air_time() {
+    let mut waiting = show(12);
+    waiting.frames[1].id = Some("ring".into());
+    waiting.cues = vec![Cue { name: "Curtain".into(), at: CuePlace::Frame("ring".into()) }];
+    let report = play(&waiting, "", 1);
+    assert_fine(&report);
+    let by_itself = play(&show(12), "", 1);
+    assert!((report.duration_s - by_itself.duration_s).abs() < 1.0, "{} s", report.duration_s);
 }
 
 #[test]

@@ -1,0 +1,51 @@
+//! Frames that wait for GO: from the terminal of `play`, and without one.
+
+use serde_json::{Value, json};
+
+use crate::child::Child;
+use crate::mosquitto::Mosquitto;
+use crate::{alone, shows, wait_for};
+
+/// A show of three frames whose second one waits for GO.
+fn show_file() -> String {
+    let mut show: Value = serde_json::from_str(&shows::row(3, &[0.1, 0.1, 0.1])).unwrap();
+    show["lightbots"] = json!(2);
+    show["frames"][1]["id"] = json!("second");
+    show["cues"] = json!([{"name": "Curtain", "frame": "second"}]);
+    shows::file("cue.lightbots.json", show.to_string())
+}
+
+fn assert_played(mut play: Child) {
+    let code = play.end();
+    let report: Value = serde_json::from_str(&play.out()).unwrap_or_default();
+    assert_eq!((code, report["frames_played"].as_u64()), (0, Some(3)), "{report} {}", play.err());
+}
+
+fn arguments<'a>(show: &'a str, broker: &'a str) -> [&'a str; 8] {
+    ["play", show, "--broker", broker, "--json", "--log", "info", "--patience=90"]
+}
+
+#[test]
+fn enter_at_the_terminal_is_go() {
+    let _turn = alone();
+    let Some(broker) = Mosquitto::start() else { return };
+    let _robots = Child::lightbots(&["robots", "--count", "3", "--broker", &broker.url()]);
+    let mut play = Child::lightbots_at_terminal(&arguments(&show_file(), &broker.url()));
+    play.complains("Frame 2 waits for GO: Curtain.");
+    play.complains("press Enter for GO");
+    std::thread::sleep(std::time::Duration::from_secs(3));
+    assert!(!play.err().contains("To frame 3"), "{}", play.err());
+    play.press_enter();
+    wait_for("the third frame", || play.err().contains("To frame 3").then_some(()));
+    assert_played(play);
+}
+
+#[test]
+fn without_a_terminal_go_is_given_after_the_air_time() {
+    let _turn = alone();
+    let Some(broker) = Mosquitto::start() else { return };
+    let _robots = Child::lightbots(&["robots", "--count", "3", "--broker", &broker.url()]);
+    let mut play = Child::lightbots(&arguments(&show_file(), &broker.url()));
+    play.complains("GO is given after each air time");
+    assert_played(play);
+}

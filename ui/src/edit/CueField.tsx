@@ -1,0 +1,39 @@
+import { Checkbox, TextInput } from '@mantine/core';
+import { cueOf } from '../model/cues';
+import * as acts from './acts';
+import { useEditing, useEditor } from './context';
+
+/** Whether the chosen frames wait for GO, and the name of the cue. */
+export function CueField() {
+  const editing = useEditing();
+  const show = useEditor((s) => s.show);
+  const chosen = useEditor((s) => s.frames);
+  const cues = show.frames.filter((_, i) => chosen.has(i)).map((frame) => cueOf(show, frame));
+  const waits = cues.every((cue) => cue !== null);
+  const [name] = cues;
+  return (
+    <>
+      <Checkbox
+        label="Wait for GO after this"
+        size="sm"
+        checked={waits}
+        indeterminate={!waits && cues.some((cue) => cue !== null)}
+        onChange={(event) => acts.setCue(editing, event.currentTarget.checked ? '' : null)}
+      />
+      {waits && cues.length === 1 ? (
+        <TextInput
+          key={`${[...chosen].join()} ${name}`}
+          label="Cue"
+          placeholder="What GO is given for"
+          size="xs"
+          maxLength={80}
+          defaultValue={name ?? ''}
+          onBlur={(event) => acts.setCue(editing, event.currentTarget.value.trim())}
+          onKeyDown={(event) => {
+            if (event.key === 'Enter') event.currentTarget.blur();
+          }}
+        />
+      ) : null}
+    </>
+  );
+}
