@@ -61,7 +61,7 @@ pub enum Operation {
     StopAll,
     /// Let a show go on whose robots were out of reach, without robots that do not report.
     GoOn,
-    /// Clear `Playback.failure` on every screen, because the operator has read it.
+    /// Clear `Playback.failure` and `Playback.stopped_in` on every screen, because the operator has read it.
     DismissFailure,
     /// Ask all robots for a report.
     Refresh,

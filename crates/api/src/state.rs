@@ -65,6 +65,8 @@ pub struct Playback {
     pub left_s: Option<f64>,
     /// Why and where the last run failed, a sentence for people; null: no failure since the last start, or dismissed.
     pub failure: Option<String>,
+    /// Index of the frame in which the last run of the show ended before its end; null: it has not, or `DismissFailure` was asked.
+    pub stopped_in: Option<usize>,
     /// Name of the cue at which the show waits for `Go`; may be empty. Null: it does not wait for it.
     pub cue: Option<String>,
     /// Whether `GoOn` lets a show go on whose robots were out of reach: some report again.

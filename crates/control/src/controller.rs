@@ -8,7 +8,7 @@ use crate::journal::{Journal, JournalPiece};
 use crate::operation::ControllerState;
 use crate::outbox::Send;
 use crate::plan_request::{PlanRequest, PlanResult};
-use crate::run::{Run, RunPhase};
+use crate::run::{Run, RunPhase, RunPurpose};
 use crate::snapshot::{Age, Counters, RobotView, Snapshot};
 use crate::stopping::Stopping;
 use lightbots_base::{Instant, RobotId, Span};
@@ -47,6 +47,8 @@ pub struct Controller {
     pub(crate) stopping: Option<Stopping>,
     /// Where and why the last run failed, for people; until the operator dismisses it or begins another run.
     pub(crate) failure: Option<String>,
+    /// The frame in which the last run of a show ended before its end; until the operator dismisses it or begins another run.
+    pub(crate) stopped_in: Option<usize>,
     /// Robots are told to stop once there is a broker: they were cut off in a run that does not go on.
     pub(crate) stops_when_connected: bool,
     #[serde(skip)]
@@ -80,6 +82,7 @@ impl Controller {
             run: None,
             stopping: None,
             failure: None,
+            stopped_in: None,
             stops_when_connected: false,
             journal: Journal::default(),
             said: ControllerState::Idle,
@@ -237,6 +240,8 @@ impl Controller {
     fn end(&mut self, now: Instant, outcome: RunOutcome, frame: usize) {
         let Some(mut run) = self.run.take() else { return };
         run.leave(&mut self.context);
+        let is_show = run.playback.purpose == RunPurpose::Play;
+        self.stopped_in = Some(frame).filter(|_| is_show && outcome != RunOutcome::Finished);
         self.context.plan_request = None;
         let outcome = match outcome {
             RunOutcome::Failed(why) => {
@@ -350,6 +355,7 @@ impl Controller {
             looping: self.looping,
             run: self.run.as_ref().map(|run| run.view(&self.context, now)),
             failure: self.failure.clone(),
+            stopped_in: self.stopped_in,
             robots: self.robot_views(now),
             counters: self.counters(),
         }

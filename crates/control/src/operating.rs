@@ -31,7 +31,7 @@ impl Controller {
             Operation::Abort => self.abort(now),
             Operation::StopAll => self.stop_all(now),
             Operation::DismissFailure => {
-                self.failure = None;
+                (self.failure, self.stopped_in) = (None, None);
                 Ok(())
             }
             Operation::Refresh => self.linked().map(|()| self.refresh(now)),
@@ -79,6 +79,10 @@ impl Controller {
         self.context
             .log
             .record(now, EventKind::ShowOpened { name: show.name.clone(), frames: show.frames.len() });
+        // Another show has other frames.
+        if self.show.as_ref().is_none_or(|before| before.name != show.name) {
+            self.stopped_in = None;
+        }
         self.show = Some(show);
         Ok(())
     }
@@ -102,7 +106,7 @@ impl Controller {
         if let Some(issue) = validate(&show).into_iter().find(Issue::is_error) {
             return Err(Refusal::Unfit { issue: issue.message });
         }
-        self.failure = None;
+        (self.failure, self.stopped_in) = (None, None);
         let playback = PlayedShow {
             show,
             purpose,

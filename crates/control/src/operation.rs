@@ -35,7 +35,7 @@ pub enum Operation {
     Abort,
     /// Every robot stops at once, also one that this controller did not start. Possible whenever there is a broker.
     StopAll,
-    /// The operator has read why the last run failed.
+    /// The operator has read why the last run failed, or that it was stopped.
     DismissFailure,
     /// Ask all robots to report.
     Refresh,

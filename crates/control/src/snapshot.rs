@@ -24,6 +24,9 @@ pub struct Snapshot {
     pub run: Option<RunView>,
     /// Where and why the last run failed: a sentence for people. It stays until the operator dismisses it or starts again.
     pub failure: Option<String>,
+    /// The frame in which the last run of a show ended before its end; `None` as in `failure`, and while a show of another name
+    /// is open.
+    pub stopped_in: Option<usize>,
     /// Every known robot, in the order they were found.
     pub robots: Vec<RobotView>,
     /// What came and went.

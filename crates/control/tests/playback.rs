@@ -111,6 +111,32 @@ fn pause_stops_the_air_time_and_step_goes_one_picture_on() {
 }
 
 #[test]
+fn a_show_that_is_stopped_says_in_which_frame_until_it_begins_again() {
+    let stopped = |world: &World| world.controller.snapshot(world.now).stopped_in;
+    let reached = |kind: &EventKind| matches!(kind, EventKind::FrameReached { frame: 1, .. });
+    let mut world = World::ready(4, 0, show(3, 4, 0.2));
+    for operation in [Operation::StopAll, Operation::Abort] {
+        world.play();
+        assert_eq!(stopped(&world), None);
+        world.run_until(30.0, reached);
+        world.run_until(10.0, |kind| matches!(kind, EventKind::TransitionStarted { frame: 2, .. }));
+        world.run_for(0.3);
+        world.operate(operation).unwrap();
+        world.run_for(5.0);
+        assert_eq!((stopped(&world), world.controller.state()), (Some(2), ControllerState::Ready));
+    }
+    world.operate(Operation::DismissFailure).unwrap();
+    assert_eq!(stopped(&world), None);
+    world.operate(Operation::Play { from: 2, missing: MissingPolicy::Refuse }).unwrap();
+    assert_eq!(world.run_to_end(30.0), (RunOutcome::Finished, 1, 0));
+    assert_eq!(stopped(&world), None);
+    world.operate(Operation::Preview { frame: 0, missing: MissingPolicy::Refuse }).unwrap();
+    world.run_for(1.0);
+    world.operate(Operation::Abort).unwrap();
+    assert_eq!(stopped(&world), None, "it was no show");
+}
+
+#[test]
 fn abort_stops_everybody_at_once() {
     let mut world = World::ready(9, 2, show(2, 9, 0.2));
     world.play();

@@ -421,6 +421,10 @@ left_s: number | null,
  */
 failure: string | null, 
 /**
+ * Index of the frame in which the last run of the show ended before its end; null: it has not, or `DismissFailure` was asked.
+ */
+stopped_in: number | null, 
+/**
  * Name of the cue at which the show waits for `Go`; may be empty. Null: it does not wait for it.
  */
 cue: string | null, 

@@ -7,6 +7,7 @@ import { GoNote } from './GoNote';
 import { GoOnNote } from './GoOnNote';
 import { LiveStage } from './LiveStage';
 import { StartDialog } from './StartDialog';
+import { StoppedNote } from './StoppedNote';
 import { Transport } from './Transport';
 import styles from '../parts/page.module.css';
 
@@ -17,6 +18,7 @@ export function LivePage() {
       <LiveStage />
       <Bottom label="Playing">
         <FailureNote />
+        <StoppedNote />
         <GoOnNote />
         <GoNote />
         <FitNote />

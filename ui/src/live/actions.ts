@@ -52,15 +52,15 @@ export function asksToGoOn({ phase, doing }: Pick<Playback, 'phase' | 'doing'>):
 
 /** The state of the show in a few words. */
 export function phaseText(
-  playback: Pick<Playback, 'phase' | 'doing' | 'frame' | 'frames' | 'failure'>,
+  playback: Pick<Playback, 'phase' | 'doing' | 'frame' | 'frames' | 'failure' | 'stopped_in'>,
 ): string {
-  const { phase, doing, frame, frames, failure } = playback;
+  const { phase, doing, frame, frames, failure, stopped_in } = playback;
   const where = frame === null ? '' : `frame ${frame + 1} of ${frames}`;
   switch (phase) {
     case 'idle':
       return 'No broker';
     case 'ready':
-      return failure === null ? 'Ready' : 'Show stopped';
+      return failure !== null ? 'Show stopped' : stopped_in === null ? 'Ready' : 'Stopped';
     case 'preparing':
       return 'Getting ready';
     case 'playing':

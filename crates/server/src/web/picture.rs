@@ -187,6 +187,7 @@ impl Painter {
             progress: rounded(progress, 3),
             left_s: self.left_s(snapshot, is_showing),
             failure: snapshot.failure.clone(),
+            stopped_in: snapshot.stopped_in,
             cue: run.and_then(|run| run.cue.clone()),
             may_go_on: run.is_some_and(|run| run.may_go_on),
             looping: snapshot.looping,

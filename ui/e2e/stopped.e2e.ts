@@ -1,0 +1,26 @@
+import { expect, test } from 'vitest';
+import { button, phaseIs, smallShow, uploadText } from './journeys';
+import { createTestBed } from './testBed';
+
+const bed = createTestBed('--robots', '4');
+
+test('a show that is stopped says where on every screen, and plays on from there', async () => {
+  const page = await bed.open('live');
+  await uploadText(page, 'stopped.json', smallShow(4, 20));
+  await button(page, 'Play').click();
+  await page.getByText('Playing frame 1 of 2').waitFor();
+  await page.keyboard.press('Shift+Escape');
+  const note = page.getByTestId('stopped-note');
+  await note.getByText('Stopped in frame 1. Robots stand where they were.').waitFor();
+  await phaseIs(page, 'ready');
+  expect(await page.getByTestId('phase').textContent()).toBe('Stopped');
+  const second = await bed.open('live');
+  await second.getByTestId('stopped-note').waitFor();
+  await note.getByRole('button', { name: 'Play on from frame 1' }).click();
+  await page.getByText('Playing frame 1 of 2').waitFor();
+  await second.getByTestId('stopped-note').waitFor({ state: 'hidden' });
+  await button(page, 'Abort (Esc)').click();
+  await note.getByRole('button', { name: 'Got it' }).click();
+  await note.waitFor({ state: 'hidden' });
+  await second.getByTestId('phase').getByText('Ready').waitFor();
+});

@@ -1,0 +1,46 @@
+import { Button } from '@mantine/core';
+import { IconHandStop } from '@tabler/icons-react';
+import { useStore } from '../base/store';
+import { startPlay } from '../session/start';
+import { useSession } from '../session/session';
+import styles from './StoppedNote.module.css';
+
+/** A show was stopped: where, and the way on, above Play, until the operator dismisses it or starts again. */
+export function StoppedNote() {
+  const session = useSession();
+  const { live, ask } = session;
+  const stopped = useStore(live.playback, (p) => (p.failure === null ? p.stopped_in : null));
+  if (stopped === null) return null;
+  return (
+    <div className={styles.note} role="status" data-testid="stopped-note">
+      <IconHandStop size={20} aria-hidden />
+      <strong>Stopped in frame {stopped + 1}. Robots stand where they were.</strong>
+      <PlayOn from={stopped} />
+      <Button
+        size="compact-sm"
+        variant="default"
+        onClick={() => void ask({ do: 'dismiss_failure' })}
+      >
+        Got it
+      </Button>
+    </div>
+  );
+}
+
+/** Plays the show from the frame in which it was stopped, by the usual checks. */
+export function PlayOn({ from }: { from: number }) {
+  const session = useSession();
+  const isReady = useStore(session.live.playback, (p) => p.phase === 'ready');
+  return (
+    <Button
+      size="compact-sm"
+      disabled={!isReady}
+      onClick={() => {
+        session.frame.set(from);
+        startPlay(session);
+      }}
+    >
+      Play on from frame {from + 1}
+    </Button>
+  );
+}
