@@ -24,3 +24,19 @@ test('a show that is stopped says where on every screen, and plays on from there
   await note.waitFor({ state: 'hidden' });
   await second.getByTestId('phase').getByText('Ready').waitFor();
 });
+
+test('half the speed is chosen in the checklist, and every screen shows it', async () => {
+  const page = await bed.open('live');
+  await uploadText(page, 'slow.json', smallShow(4, 1));
+  await page.keyboard.press('c');
+  const dialog = page.getByRole('dialog', { name: 'Before you start' });
+  await dialog.getByText('50 %', { exact: true }).click();
+  const second = await bed.open('live');
+  await second.getByText('drives at 50 %').waitFor();
+  await dialog.getByRole('button', { name: 'Play', exact: true }).click();
+  await page.getByText('Playing frame 2 of 2').waitFor();
+  await phaseIs(page, 'ready');
+  await page.keyboard.press('c');
+  await dialog.getByText('100 %', { exact: true }).click();
+  await second.getByText('drives at 50 %').waitFor({ state: 'hidden' });
+});

@@ -55,6 +55,11 @@ pub enum Operation {
         /// Whether it begins again.
         on: bool,
     },
+    /// Set the speed of drives from the next run on. Refused during a run.
+    Speed {
+        /// Percent of the usual speed.
+        percent: u32,
+    },
     /// End the run. Robots stop at their places.
     Abort,
     /// Stop the wheels of every robot at once, in any phase.

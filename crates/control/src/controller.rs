@@ -41,13 +41,15 @@ pub struct Controller {
     #[serde(with = "crate::shared_show::optional")]
     pub(crate) show: Option<Arc<Show>>,
     pub(crate) looping: bool,
+    /// Speed of drives of the next run, percent of the usual one.
+    pub(crate) speed_percent: u32,
     #[serde(skip)]
     pub(crate) run: Option<Run>,
     #[serde(skip)]
     pub(crate) stopping: Option<Stopping>,
     /// Where and why the last run failed, for people; until the operator dismisses it or begins another run.
     pub(crate) failure: Option<String>,
-    /// The frame in which the last run of a show ended before its end; until the operator dismisses it or begins another run.
+    /// The frame in which the last run of a show was stopped; until the operator dismisses it or begins another run.
     pub(crate) stopped_in: Option<usize>,
     /// Robots are told to stop once there is a broker: they were cut off in a run that does not go on.
     pub(crate) stops_when_connected: bool,
@@ -79,6 +81,7 @@ impl Controller {
             context: Context::new(config),
             show: None,
             looping: false,
+            speed_percent: 100,
             run: None,
             stopping: None,
             failure: None,
@@ -353,6 +356,7 @@ impl Controller {
             show: self.show.as_ref().map(|show| show.name.clone()),
             frames: self.show.as_ref().map_or(0, |show| show.frames.len()),
             looping: self.looping,
+            speed_percent: self.speed_percent,
             run: self.run.as_ref().map(|run| run.view(&self.context, now)),
             failure: self.failure.clone(),
             stopped_in: self.stopped_in,

@@ -6,7 +6,7 @@ use crate::operation::{ControllerState, MissingPolicy, Operation, Refusal};
 use crate::run::{FrameCursor, PlayedShow, Run, RunPurpose};
 use crate::stopping::Stopping;
 use lightbots_base::{Instant, RobotId, Span};
-use lightbots_show::{Issue, Show, validate};
+use lightbots_show::{Issue, SPEED_MIN_PERCENT, Show, slowed, validate};
 use lightbots_wire::{Blink, Command, Topic};
 use std::sync::Arc;
 
@@ -44,6 +44,7 @@ impl Controller {
                 }
                 Ok(())
             }
+            Operation::Speed(percent) => self.set_speed(percent),
             Operation::Pin { pixel, robot } => {
                 match robot {
                     Some(robot) => self.context.mapping.pins.insert(pixel, robot),
@@ -103,6 +104,7 @@ impl Controller {
         }
         let last = if purpose == RunPurpose::Preview { frame } else { frames - 1 };
         self.enough(&show, frame..=last, missing)?;
+        let show = if self.speed_percent == 100 { show } else { Arc::new(slowed(&show, self.speed_percent)) };
         if let Some(issue) = validate(&show).into_iter().find(Issue::is_error) {
             return Err(Refusal::Unfit { issue: issue.message });
         }
@@ -168,6 +170,15 @@ impl Controller {
             return Err(Refusal::NotPaused);
         }
         run.resume(&mut self.context, now, step);
+        Ok(())
+    }
+
+    fn set_speed(&mut self, percent: u32) -> Result<(), Refusal> {
+        self.idle()?;
+        if !(SPEED_MIN_PERCENT..=100).contains(&percent) {
+            return Err(Refusal::NoSuchSpeed);
+        }
+        self.speed_percent = percent;
         Ok(())
     }
 

@@ -2,7 +2,7 @@
 
 use core::fmt;
 use lightbots_base::RobotId;
-use lightbots_show::Show;
+use lightbots_show::{SPEED_MIN_PERCENT, Show};
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
@@ -56,6 +56,8 @@ pub enum Operation {
     GoOn,
     /// GO: the frame that waits for it at its cue is left at once, also before its air time is over.
     Go,
+    /// Drives of the next run take place at this share of the usual speed, percent. Refused during a run.
+    Speed(u32),
 }
 
 /// What happens to pixels no robot can show.
@@ -115,6 +117,8 @@ pub enum Refusal {
     NoRun,
     /// The run is not paused.
     NotPaused,
+    /// There is no such speed.
+    NoSuchSpeed,
     /// No frame waits for GO.
     NoCue,
     /// The run is paused.
@@ -154,6 +158,7 @@ impl Operation {
             Self::Resume => "resume",
             Self::Step => "step",
             Self::Go => "go",
+            Self::Speed(_) => "speed",
             Self::Abort => "abort",
             Self::StopAll => "stop all",
             Self::DismissFailure => "dismiss the failure",
@@ -194,6 +199,9 @@ impl fmt::Display for Refusal {
             Self::Busy(state) => write!(f, "Not while the controller is {state}: abort first."),
             Self::NoRun => write!(f, "Nothing is being played."),
             Self::NotPaused => write!(f, "The run is not paused: pause it first."),
+            Self::NoSuchSpeed => {
+                write!(f, "Drives take place at {SPEED_MIN_PERCENT} to 100 % of their speed.")
+            }
             Self::NoCue => write!(f, "No frame waits for GO: the show goes on by itself."),
             Self::Paused => write!(f, "The run is paused: resume it first."),
             Self::NothingToGoOn => {

@@ -20,12 +20,14 @@ pub struct Snapshot {
     pub frames: usize,
     /// Whether a played show starts again.
     pub looping: bool,
+    /// Speed of drives, percent of the usual one.
+    pub speed_percent: u32,
     /// The run, if there is one.
     pub run: Option<RunView>,
     /// Where and why the last run failed: a sentence for people. It stays until the operator dismisses it or starts again.
     pub failure: Option<String>,
-    /// The frame in which the last run of a show ended before its end; `None` as in `failure`, and while a show of another name
-    /// is open.
+    /// The frame in which the last run of a show ended before its end; `None` as in `failure`, and while a show of another
+    /// name is open.
     pub stopped_in: Option<usize>,
     /// Every known robot, in the order they were found.
     pub robots: Vec<RobotView>,

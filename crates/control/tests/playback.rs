@@ -137,6 +137,36 @@ fn a_show_that_is_stopped_says_in_which_frame_until_it_begins_again() {
 }
 
 #[test]
+fn half_the_speed_takes_twice_the_time_and_holds_until_it_is_changed() {
+    let durations = |world: &World| -> Vec<f64> {
+        let drive = |kind: &EventKind| match kind {
+            EventKind::TransitionStarted { duration, .. } => Some(duration.as_secs()),
+            _ => None,
+        };
+        world.events.iter().filter_map(|event| drive(&event.kind)).collect()
+    };
+    let played = |percent: u32| {
+        let mut world = World::ready(9, 0, show(3, 9, 0.2));
+        world.operate(Operation::Speed(percent)).unwrap();
+        world.play();
+        assert_eq!(
+            world.operate(Operation::Speed(100)),
+            Err(Refusal::Busy(ControllerState::Preparing)),
+            "not during a run"
+        );
+        assert_eq!(world.run_to_end(90.0), (RunOutcome::Finished, 3, 0));
+        assert_eq!(world.controller.snapshot(world.now).speed_percent, percent);
+        durations(&world)
+    };
+    for (slow, usual) in played(50).iter().zip(played(100)) {
+        assert!((slow / usual - 2.0).abs() < 0.1, "{slow} s, {usual} s");
+    }
+    let mut world = World::ready(4, 0, show(1, 4, 0.2));
+    assert_eq!(world.operate(Operation::Speed(0)), Err(Refusal::NoSuchSpeed));
+    assert_eq!(world.operate(Operation::Speed(101)), Err(Refusal::NoSuchSpeed));
+}
+
+#[test]
 fn abort_stops_everybody_at_once() {
     let mut world = World::ready(9, 2, show(2, 9, 0.2));
     world.play();

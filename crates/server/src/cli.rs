@@ -11,7 +11,7 @@ use lightbots_base::RobotId;
 use lightbots_control::OnReturn;
 use lightbots_exchange::formats_in_words;
 use lightbots_link::BrokerArguments;
-use lightbots_show::Identity;
+use lightbots_show::{Identity, SPEED_MIN_PERCENT};
 
 use crate::logging::Log;
 use crate::numbers::{address, floor, robot, seed};
@@ -273,6 +273,9 @@ pub struct PlayArguments {
     /// Record the inputs of the controller, for `replay`
     #[arg(long, value_name = "FILE")]
     pub record: Option<PathBuf>,
+    /// Speed of drives, percent of the usual one: half of it for a first run
+    #[arg(long, value_name = "PERCENT", default_value_t = 100, value_parser = clap::value_parser!(u32).range(i64::from(SPEED_MIN_PERCENT)..=100))]
+    pub speed: u32,
     #[command(flatten)]
     pub reading: ShowArguments,
     /// One JSON object on stdout

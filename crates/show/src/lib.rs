@@ -17,6 +17,7 @@ mod label;
 mod model;
 mod need;
 mod setting;
+mod slow;
 mod source;
 mod spacing;
 mod timeline;
@@ -29,6 +30,7 @@ pub use label::{excerpt, frame_label};
 pub use model::{Easing, Frame, Identity, Obstacle, Pixel, Show, Stage, with_floor};
 pub use need::{most_pixels, robots_asked_for, robots_needed};
 pub use setting::{NamedSettings, Setting, setting};
+pub use slow::{SPEED_MIN_PERCENT, slowed};
 pub use source::{FloorBox, FrameSource, SourceKind, SourcePart};
 pub use spacing::{CloseApproach, close_pairs};
 pub use timeline::{

@@ -421,7 +421,7 @@ left_s: number | null,
  */
 failure: string | null, 
 /**
- * Index of the frame in which the last run of the show ended before its end; null: it has not, or `DismissFailure` was asked.
+ * Index of the frame in which the last run of the show was stopped; null: it was not, or `DismissFailure` was asked.
  */
 stopped_in: number | null, 
 /**
@@ -432,6 +432,10 @@ cue: string | null,
  * Whether `GoOn` lets a show go on whose robots were out of reach: some report again.
  */
 may_go_on: boolean, 
+/**
+ * Speed of drives, percent of the usual one.
+ */
+speed_percent: number, 
 /**
  * Whether the show begins again after the last frame.
  */
@@ -553,7 +557,11 @@ missing?: Missing, } | { "do": "pause" } | { "do": "resume" } | { "do": "step" }
 /**
  * Whether it begins again.
  */
-on: boolean, } | { "do": "abort" } | { "do": "stop_all" } | { "do": "go_on" } | { "do": "dismiss_failure" } | { "do": "refresh" } | { "do": "identify", 
+on: boolean, } | { "do": "speed", 
+/**
+ * Percent of the usual speed.
+ */
+percent: number, } | { "do": "abort" } | { "do": "stop_all" } | { "do": "go_on" } | { "do": "dismiss_failure" } | { "do": "refresh" } | { "do": "identify", 
 /**
  * Name of the robot.
  */

@@ -16,6 +16,7 @@ export function PlayState() {
   const failed = useStore(live.playback, (p) => p.phase === 'ready' && p.failure !== null);
   const left = useStore(live.playback, (p) => (p.left_s === null ? null : clockText(p.left_s)));
   const late = useStore(live.playback, (p) => p.late.join(' '));
+  const speed = useStore(live.playback, (p) => p.speed_percent);
   const pace = useStore(live.pace, (share) => Math.round(share * 100));
   const rows = live.fleet.get().rows;
   const names = (late ? late.split(' ') : []).map((id) => {
@@ -46,6 +47,7 @@ export function PlayState() {
           <span className="quiet">{names.length === 20 ? '20+' : names.length} on the way</span>
         </Tooltip>
       ) : null}
+      {speed < 100 ? <span className={styles.slow}>drives at {speed} %</span> : null}
       {pace < 100 ? <SlowTime percent={pace} /> : null}
       {left === null ? null : (
         <span className="quiet">
@@ -66,7 +68,7 @@ function SlowTime({ percent }: { percent: number }) {
       label={`The computer of the server cannot simulate so many robots in real time. They and the show go at ${percent} % of their speed instead; nothing is lost.`}
     >
       <span className={styles.slow} tabIndex={0} data-testid="pace">
-        at {percent} % speed
+        simulation at {percent} % speed
       </span>
     </Tooltip>
   );

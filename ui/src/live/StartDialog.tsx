@@ -10,6 +10,7 @@ import { useSession } from '../session/session';
 import { canDrive, canGoOn, isReady, type Check } from '../session/checklist';
 import { robotsToFit } from '../session/fitness';
 import { checkNow, whenPlanned } from '../session/start';
+import { SpeedField } from './SpeedField';
 import styles from './StartDialog.module.css';
 import { countText } from '../base/numbers';
 
@@ -64,6 +65,7 @@ function Checklist({ close }: { close: () => void }) {
             <Line key={check.name} check={check} />
           ))}
         </ul>
+        <SpeedField />
         <Group justify="flex-end" mt="lg">
           {fit === null ? null : (
             <Button

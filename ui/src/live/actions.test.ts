@@ -11,6 +11,7 @@ const playback = (phase: Phase): Playback => ({
   left_s: null,
   failure: null,
   looping: false,
+  speed_percent: 100,
   stopped_in: null,
   cue: null,
   may_go_on: false,

@@ -44,6 +44,7 @@ const NO_PLAYBACK: Playback = {
   left_s: null,
   failure: null,
   looping: false,
+  speed_percent: 100,
   stopped_in: null,
   cue: null,
   may_go_on: false,

@@ -100,6 +100,7 @@ async fn play(
     let refused = |refusal: Refusal| Failure::problem(refusal.to_string());
     let missing = gather(arguments, pixels, handle, links).await?;
     handle.operate(conductor::open(show.clone())).await.map_err(refused)?;
+    handle.operate(Operation::Speed(arguments.speed)).await.map_err(refused)?;
     let until = Instant::now() + Duration::from_secs(arguments.patience.into());
     loop {
         match handle.operate(Operation::Play { from: 0, missing }).await {

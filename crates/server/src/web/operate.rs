@@ -45,6 +45,7 @@ async fn act(shared: &Shared, operation: api::Operation) -> Result<(), Refused> 
         Wish::Resume => Operation::Resume,
         Wish::Step => Operation::Step,
         Wish::Go => Operation::Go,
+        Wish::Speed { percent } => Operation::Speed(percent),
         Wish::Loop { on } => Operation::Loop(on),
         Wish::Abort => Operation::Abort,
         Wish::GoOn => Operation::GoOn,

@@ -190,6 +190,7 @@ impl Painter {
             stopped_in: snapshot.stopped_in,
             cue: run.and_then(|run| run.cue.clone()),
             may_go_on: run.is_some_and(|run| run.may_go_on),
+            speed_percent: snapshot.speed_percent,
             looping: snapshot.looping,
             late: run.map_or(Vec::new(), |run| run.waiting_for.iter().map(ToString::to_string).collect()),
         }
@@ -205,7 +206,9 @@ impl Painter {
         let now_s = if is_showing { air_s } else { run.drive_s };
         let then_s = if is_showing { 0.0 } else { air_s };
         let rest = frames.iter().zip(&plan.transitions).skip(run.frame + 1);
-        let rest_s: f64 = rest.map(|(frame, way)| frame.air_time_s + way.duration_s).sum();
+        // The plan on the screen is that of the usual speed.
+        let slower = 100.0 / f64::from(snapshot.speed_percent.max(1));
+        let rest_s: f64 = rest.map(|(frame, way)| frame.air_time_s + way.duration_s * slower).sum();
         Some(rounded(now_s * (1.0 - run.progress.clamp(0.0, 1.0)) + then_s + rest_s, 2))
     }
 }
