@@ -1,5 +1,5 @@
 import { expect, test } from 'vitest';
-import { button, phaseIs, smallShow, uploadText } from './journeys';
+import { button, phaseIs, robotPlaces, smallShow, uploadText } from './journeys';
 import { createTestBed } from './testBed';
 
 const bed = createTestBed('--robots', '4');
@@ -19,6 +19,15 @@ test('a show that is stopped says where on every screen, and plays on from there
   await note.getByRole('button', { name: 'Play on from frame 1' }).click();
   await page.getByText('Playing frame 1 of 2').waitFor();
   await second.getByTestId('stopped-note').waitFor({ state: 'hidden' });
+  await button(page, 'Abort (Esc)').click();
+  await note.getByRole('button', { name: 'Home' }).click();
+  await page.getByText('Driving home').waitFor();
+  await phaseIs(page, 'ready');
+  expect((await robotPlaces(page)).map(([, y]) => Math.abs(y - 1.3) < 0.03)).toEqual(
+    Array<boolean>(4).fill(true),
+  );
+  await button(page, 'Play').click();
+  await page.getByText('Playing frame 1 of 2').waitFor();
   await button(page, 'Abort (Esc)').click();
   await note.getByRole('button', { name: 'Got it' }).click();
   await note.waitFor({ state: 'hidden' });

@@ -60,6 +60,8 @@ pub enum Operation {
         /// Percent of the usual speed.
         percent: u32,
     },
+    /// Drive all robots to their starting places.
+    Home,
     /// End the run. Robots stop at their places.
     Abort,
     /// Stop the wheels of every robot at once, in any phase.

@@ -55,7 +55,8 @@ pub struct Playback {
     pub phase: Phase,
     /// What the run does, for people, such as `driving`; null: there is no run.
     pub doing: Option<String>,
-    /// Index of the frame that is shown or driven to, counted from 0; null: none.
+    /// Index of the frame that is shown or driven to, counted from 0; null: none, or robots drive to their
+    /// starting places.
     pub frame: Option<usize>,
     /// Number of frames of the open show.
     pub frames: usize,

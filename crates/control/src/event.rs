@@ -98,6 +98,13 @@ pub enum EventKind {
         /// From the planned end to the last arrival.
         wait: Span,
     },
+    /// A drive of all robots to their starting places began.
+    GoingHome {
+        /// Number of them.
+        robots: usize,
+    },
+    /// All stand at their starting places.
+    AtHome,
     /// A picture stands until the operator gives GO.
     WaitsForGo {
         /// Counted from 0.

@@ -54,6 +54,18 @@ impl EventKind {
         }
     }
 
+    /// Where robots stand until the operator says more.
+    fn write_stand(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::GoingHome { robots } => write!(f, "{} to the starting places.", Count(*robots, "robot")),
+            Self::WaitsForGo { frame, name } if name.is_empty() => {
+                write!(f, "Frame {} waits for GO.", frame + 1)
+            }
+            Self::WaitsForGo { frame, name } => write!(f, "Frame {} waits for GO: {name}.", frame + 1),
+            _ => write!(f, "Robots stand at their starting places."),
+        }
+    }
+
     /// The line of an event of the link.
     fn write_link(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -125,8 +137,7 @@ impl fmt::Display for EventKind {
             FrameReached { frame, spread, .. } => {
                 write!(f, "Frame {} stands; arrivals within {:.2} s.", frame + 1, spread.as_secs())
             }
-            WaitsForGo { frame, name } if name.is_empty() => write!(f, "Frame {} waits for GO.", frame + 1),
-            WaitsForGo { frame, name } => write!(f, "Frame {} waits for GO: {name}.", frame + 1),
+            GoingHome { .. } | AtHome | WaitsForGo { .. } => self.write_stand(f),
             Waiting { robot, why } => write!(f, "Waiting for robot {robot}: it {why}."),
             Undelivered => write!(
                 f,

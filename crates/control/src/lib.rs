@@ -26,6 +26,7 @@ mod controller;
 mod event;
 mod event_text;
 mod fleet;
+mod home;
 mod input_log;
 mod journal;
 mod leg;

@@ -2,6 +2,7 @@
 
 use crate::controller::Controller;
 use crate::event::EventKind;
+use crate::home;
 use crate::operation::{ControllerState, MissingPolicy, Operation, Refusal};
 use crate::run::{FrameCursor, PlayedShow, Run, RunPurpose};
 use crate::stopping::Stopping;
@@ -44,6 +45,7 @@ impl Controller {
                 }
                 Ok(())
             }
+            Operation::Home => self.go_home(now),
             Operation::Speed(percent) => self.set_speed(percent),
             Operation::Pin { pixel, robot } => {
                 match robot {
@@ -108,6 +110,32 @@ impl Controller {
         if let Some(issue) = validate(&show).into_iter().find(Issue::is_error) {
             return Err(Refusal::Unfit { issue: issue.message });
         }
+        self.start(now, show, purpose, (frame, missing));
+        Ok(())
+    }
+
+    /// All robots that can drive to the starting places, whatever show is open.
+    fn go_home(&mut self, now: Instant) -> Result<(), Refusal> {
+        self.linked()?;
+        self.idle()?;
+        let show = self.show.as_ref().ok_or(Refusal::NoShow)?;
+        let robots = self.context.fleet.robots().iter().filter(|robot| robot.can_take_part()).count();
+        if robots == 0 {
+            return Err(Refusal::NoRobot);
+        }
+        let home = slowed(&home::show(show, robots), self.speed_percent);
+        self.start(now, Arc::new(home), RunPurpose::Home, (0, MissingPolicy::LeaveOut));
+        Ok(())
+    }
+
+    /// Begins a run.
+    fn start(
+        &mut self,
+        now: Instant,
+        show: Arc<Show>,
+        purpose: RunPurpose,
+        (frame, missing): (usize, MissingPolicy),
+    ) {
         (self.failure, self.stopped_in) = (None, None);
         let playback = PlayedShow {
             show,
@@ -120,7 +148,6 @@ impl Controller {
             waits_for_go: false,
         };
         self.run = Some(Run::begin(&mut self.context, now, playback));
-        Ok(())
     }
 
     /// Whether there are robots for all pixels of these frames.

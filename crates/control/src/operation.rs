@@ -58,6 +58,8 @@ pub enum Operation {
     Go,
     /// Drives of the next run take place at this share of the usual speed, percent. Refused during a run.
     Speed(u32),
+    /// Drive all robots that can to the starting places of the open show, and stay there.
+    Home,
 }
 
 /// What happens to pixels no robot can show.
@@ -117,6 +119,8 @@ pub enum Refusal {
     NoRun,
     /// The run is not paused.
     NotPaused,
+    /// There is no robot that can take part.
+    NoRobot,
     /// There is no such speed.
     NoSuchSpeed,
     /// No frame waits for GO.
@@ -159,6 +163,7 @@ impl Operation {
             Self::Step => "step",
             Self::Go => "go",
             Self::Speed(_) => "speed",
+            Self::Home => "home",
             Self::Abort => "abort",
             Self::StopAll => "stop all",
             Self::DismissFailure => "dismiss the failure",
@@ -199,6 +204,7 @@ impl fmt::Display for Refusal {
             Self::Busy(state) => write!(f, "Not while the controller is {state}: abort first."),
             Self::NoRun => write!(f, "Nothing is being played."),
             Self::NotPaused => write!(f, "The run is not paused: pause it first."),
+            Self::NoRobot => write!(f, "No robot is ready: turn robots on, and look for them."),
             Self::NoSuchSpeed => {
                 write!(f, "Drives take place at {SPEED_MIN_PERCENT} to 100 % of their speed.")
             }

@@ -40,6 +40,8 @@ pub struct Snapshot {
 pub struct RunView {
     /// The frame that is driven to or stands, counted from 0.
     pub frame: usize,
+    /// Robots drive to their starting places; `frame` says nothing then.
+    pub home: bool,
     /// What it is doing, for people: `planning`, `uploading routes`, `driving`, `holding`, `showing`, …
     pub doing: &'static str,
     /// Share of the drive or of the air time that is over, 0 to 1. Where robots drive by TARGET it is the share of their

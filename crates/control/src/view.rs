@@ -21,7 +21,7 @@ impl Run {
             {
                 ControllerState::Preparing
             }
-            _ if self.playback.purpose == RunPurpose::Preview => ControllerState::Preview,
+            _ if self.playback.purpose != RunPurpose::Play => ControllerState::Preview,
             _ => ControllerState::Playing,
         }
     }
@@ -34,6 +34,7 @@ impl Run {
         };
         RunView {
             frame: self.frame(),
+            home: self.playback.purpose == RunPurpose::Home,
             doing: self.doing(context),
             progress: self.progress(now),
             drive_s: self.pipeline.leg().map_or(0.0, |leg| leg.duration.as_secs()),
@@ -118,7 +119,7 @@ impl Run {
         view.takes_part = !known.is_excluded();
         let Some(leg) = self.pipeline.leg() else { return };
         let Some(step) = leg.robots.get(participant).filter(|_| !known.is_excluded()) else { return };
-        view.pixel = step.pixel;
+        view.pixel = step.pixel.filter(|_| self.playback.purpose != RunPurpose::Home);
         view.goal = Some(step.goal);
         if let (RunPhase::Driving(drive), LegKind::Routes) = (&self.phase, leg.kind) {
             let place = |path: &lightbots_plan::Path| path.as_ref().at(drive.clock.path_time(now)).position;

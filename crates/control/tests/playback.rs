@@ -300,3 +300,30 @@ fn abort_reaches_a_robot_that_stands_and_hears_nothing_for_a_second() {
     world.run_for(0.5);
     assert!(world.robots[3].kept.is_none(), "{}", world.story());
 }
+
+#[test]
+fn all_robots_drive_home_and_the_show_stays_open() {
+    let show = show(3, 9, 0.2);
+    let mut world = World::ready(11, 0, show.clone());
+    let starts: Vec<Vec2> = world.robots.iter().map(|robot| robot.at).collect();
+    world.operate(Operation::Pin { pixel: 0, robot: Some(world.robots[5].id) }).unwrap();
+    world.play();
+    world.run_until(60.0, |kind| matches!(kind, EventKind::FrameReached { frame: 1, .. }));
+    assert_eq!(world.operate(Operation::Home), Err(Refusal::Busy(ControllerState::Playing)));
+    world.operate(Operation::StopAll).unwrap();
+    world.run_for(5.0);
+    world.operate(Operation::Home).unwrap();
+    world.run_for(1.0);
+    assert_eq!(world.controller.state(), ControllerState::Preview);
+    assert!(world.controller.snapshot(world.now).run.is_some_and(|run| run.home));
+    assert_eq!(world.run_to_end(60.0), (RunOutcome::Finished, 1, 0), "{}", world.story());
+    assert!(world.closest_m >= CONTACT_M, "{}", world.closest_m);
+    let rows = lightbots_show::front_rows(&show.stage, 11);
+    let is_home = |at: Vec2| rows.iter().any(|place| place.distance(at) < 0.02);
+    assert!(world.robots.iter().all(|robot| is_home(robot.at)), "{}", world.story());
+    assert!(!starts.iter().all(|at| is_home(*at)), "they began elsewhere");
+    let snapshot = world.controller.snapshot(world.now);
+    assert!(snapshot.robots.iter().all(|robot| robot.pixel.is_none()));
+    world.play();
+    assert_eq!(world.run_to_end(60.0), (RunOutcome::Finished, 3, 0), "{}", world.story());
+}

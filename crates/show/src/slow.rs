@@ -5,8 +5,8 @@ use crate::Show;
 /// Least speed, percent: below it a drive of a metre takes longer than most air times.
 pub const SPEED_MIN_PERCENT: u32 = 20;
 
-/// The show with drives at `percent` of the usual speed: all paths take 100/`percent` times as long, because speed and turning
-/// rate change by that share and acceleration by its square. Air times stay. It is the same show from 100 % on.
+/// The show with drives at `percent` of the usual speed: all paths take 100/`percent` times as long, because speed and
+/// turning rate change by that share and acceleration by its square. Air times stay. It is the same show from 100 % on.
 pub fn slowed(show: &Show, percent: u32) -> Show {
     let mut slow = show.clone();
     if percent >= 100 {

@@ -401,7 +401,8 @@ phase: Phase,
  */
 doing: string | null, 
 /**
- * Index of the frame that is shown or driven to, counted from 0; null: none.
+ * Index of the frame that is shown or driven to, counted from 0; null: none, or robots drive to their
+ * starting places.
  */
 frame: number | null, 
 /**
@@ -561,7 +562,7 @@ on: boolean, } | { "do": "speed",
 /**
  * Percent of the usual speed.
  */
-percent: number, } | { "do": "abort" } | { "do": "stop_all" } | { "do": "go_on" } | { "do": "dismiss_failure" } | { "do": "refresh" } | { "do": "identify", 
+percent: number, } | { "do": "home" } | { "do": "abort" } | { "do": "stop_all" } | { "do": "go_on" } | { "do": "dismiss_failure" } | { "do": "refresh" } | { "do": "identify", 
 /**
  * Name of the robot.
  */

@@ -1,31 +1,31 @@
 import { Button, Group, Modal, Text } from '@mantine/core';
-import type { FleetRow } from '../api/types.gen';
+import { useStore } from '../base/store';
+import { driveNow } from '../session/drives';
 import { driveQuestion } from '../session/fleetKind';
+import { useSession } from '../session/session';
 
-interface Props {
-  opened: boolean;
-  /** Counted from 0. */
-  frame: number;
-  /** The fleet. */
-  rows: readonly FleetRow[];
-  onDrive: (frame: number) => void;
-  onClose: () => void;
-}
-
-/** Asks before real robots drive to a frame. */
-export function DriveDialog({ opened, frame, rows, onDrive, onClose }: Props) {
+/** Asks before real robots drive to a frame or to their starting places. */
+export function DriveDialog() {
+  const session = useSession();
+  const goal = useStore(session.driveAsked);
+  const rows = useStore(session.live.fleet, (fleet) => fleet.rows);
+  const close = () => session.driveAsked.set(null);
   return (
-    <Modal opened={opened} onClose={onClose} title={driveQuestion(rows, frame)}>
+    <Modal
+      opened={goal !== null}
+      onClose={close}
+      title={goal === null ? '' : driveQuestion(rows, goal)}
+    >
       <Text mb="lg">The robots leave at once. Make sure that the floor is clear.</Text>
       <Group justify="flex-end">
-        <Button variant="default" onClick={onClose}>
+        <Button variant="default" onClick={close}>
           Not now
         </Button>
         <Button
           data-autofocus
           onClick={() => {
-            onClose();
-            onDrive(frame);
+            close();
+            if (goal !== null) driveNow(session, goal);
           }}
         >
           Drive robots

@@ -1,6 +1,7 @@
 import { Button } from '@mantine/core';
 import { IconHandStop } from '@tabler/icons-react';
 import { useStore } from '../base/store';
+import { driveTo } from '../session/drives';
 import { startPlay } from '../session/start';
 import { useSession } from '../session/session';
 import styles from './StoppedNote.module.css';
@@ -10,12 +11,21 @@ export function StoppedNote() {
   const session = useSession();
   const { live, ask } = session;
   const stopped = useStore(live.playback, (p) => (p.failure === null ? p.stopped_in : null));
+  const isReady = useStore(live.playback, (p) => p.phase === 'ready');
   if (stopped === null) return null;
   return (
     <div className={styles.note} role="status" data-testid="stopped-note">
       <IconHandStop size={20} aria-hidden />
       <strong>Stopped in frame {stopped + 1}. Robots stand where they were.</strong>
       <PlayOn from={stopped} />
+      <Button
+        size="compact-sm"
+        variant="default"
+        disabled={!isReady}
+        onClick={() => driveTo(session, 'home')}
+      >
+        Home
+      </Button>
       <Button
         size="compact-sm"
         variant="default"

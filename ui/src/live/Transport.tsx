@@ -1,5 +1,6 @@
 import { Button, Group } from '@mantine/core';
 import {
+  IconHome,
   IconNavigation,
   IconPlayerPauseFilled,
   IconPlayerPlayFilled,
@@ -8,7 +9,7 @@ import {
   IconRefresh,
   IconRepeat,
 } from '@tabler/icons-react';
-import { useEffect, useState, type ReactNode } from 'react';
+import { useEffect, type ReactNode } from 'react';
 import { useStore } from '../base/store';
 import { IconButton } from '../parts/IconButton';
 import { useSession } from '../session/session';
@@ -16,9 +17,9 @@ import { actionsOf, type Action } from './actions';
 import { ChecklistButton } from './ChecklistButton';
 import { DriveDialog } from './DriveDialog';
 import { DriveProgress } from './DriveProgress';
-import { fleetKind } from '../session/fleetKind';
+import { driveTo } from '../session/drives';
 import { PlayState } from './PlayState';
-import { followPlan, startPlay, whenPlanned } from '../session/start';
+import { followPlan, startPlay } from '../session/start';
 import { useTransportKeys } from './useTransportKeys';
 import styles from '../parts/page.module.css';
 
@@ -43,21 +44,15 @@ export function Transport() {
   const linked = useStore(live.link) === 'open';
   const hasShow = useStore(live.opened, (o) => o.show !== null);
   const isWaiting = useStore(session.waiting, (pending) => pending !== null);
-  const [asking, setAsking] = useState({ opened: false, frame: 0 });
   useEffect(() => followPlan(session), [session]);
   const actions = actionsOf(phase, linked, hasShow, mayGoOn, waitsForGo);
-  const drive = (to: number) => whenPlanned(session, () => void ask({ do: 'preview', frame: to }));
   const perform = (action: Action) => {
     if (isWaiting && (action === 'abort' || action === actions.main))
       return session.waiting.set(null);
     if (!actions.enabled.has(action)) return;
     if (action === 'play') return startPlay(session);
-    if (action === 'preview') {
-      // Real robots drive only after a confirmation.
-      if (fleetKind(live.fleet.get().rows) === 'real') setAsking({ opened: true, frame: chosen });
-      else drive(chosen);
-      return;
-    }
+    if (action === 'preview') return driveTo(session, chosen);
+    if (action === 'home') return driveTo(session, 'home');
     void ask(action === 'loop' ? { do: 'loop', on: !looping } : { do: action });
   };
   useTransportKeys(perform, actions.main);
@@ -88,18 +83,14 @@ export function Transport() {
         {icon('abort', 'Abort (Esc)', <IconPlayerStopFilled size={18} />)}
         {icon('step', 'Step to the next frame (S)', <IconPlayerTrackNextFilled size={18} />)}
         {icon('preview', 'Drive robots to this frame (P)', <IconNavigation size={19} />)}
+        {icon('home', 'Home: drive robots to their starting places', <IconHome size={19} />)}
         {icon('loop', 'Loop (L)', <IconRepeat size={18} />, looping)}
         <ChecklistButton />
         {icon('refresh', 'Look for robots (R)', <IconRefresh size={18} />)}
       </Group>
       <DriveProgress />
       <PlayState />
-      <DriveDialog
-        {...asking}
-        rows={live.fleet.get().rows}
-        onDrive={drive}
-        onClose={() => setAsking({ ...asking, opened: false })}
-      />
+      <DriveDialog />
     </div>
   );
 }

@@ -20,7 +20,7 @@ const playback = (phase: Phase): Playback => ({
 
 test.each<[Phase, string, string]>([
   ['idle', 'play', 'loop'],
-  ['ready', 'play', 'loop refresh play preview'],
+  ['ready', 'play', 'loop refresh play preview home'],
   ['preparing', 'play', 'loop refresh abort'],
   ['playing', 'pause', 'loop refresh pause abort'],
   ['paused', 'resume', 'loop refresh resume step abort'],

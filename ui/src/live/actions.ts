@@ -1,7 +1,17 @@
 import type { Phase, Playback } from '../api/types.gen';
 
 export type Action =
-  'play' | 'pause' | 'resume' | 'go_on' | 'abort' | 'step' | 'go' | 'preview' | 'loop' | 'refresh';
+  | 'play'
+  | 'pause'
+  | 'resume'
+  | 'go_on'
+  | 'abort'
+  | 'step'
+  | 'go'
+  | 'preview'
+  | 'home'
+  | 'loop'
+  | 'refresh';
 
 /** The enabled actions, and the action of the large button. */
 export interface Actions {
@@ -27,7 +37,8 @@ export function actionsOf(
   if (!linked) return { main, enabled };
   enabled.add('loop');
   if (phase !== 'idle') enabled.add('refresh');
-  if (phase === 'ready' && hasShow) for (const a of ['play', 'preview'] as const) enabled.add(a);
+  if (phase === 'ready' && hasShow)
+    for (const a of ['play', 'preview', 'home'] as const) enabled.add(a);
   if (phase === 'playing') enabled.add('pause');
   if (phase === 'playing' && waitsForGo) enabled.add('go');
   if (phase === 'paused') for (const a of ['resume', 'step'] as const) enabled.add(a);
@@ -69,7 +80,7 @@ export function phaseText(
     case 'paused':
       return `Paused, ${where}`.replace(/, $/, '');
     case 'preview':
-      return `Driving to ${where}`.replace(/ to $/, '');
+      return frame === null ? 'Driving home' : `Driving to ${where}`;
     case 'aborting':
       return failure === null ? 'Stopping' : 'Show stopped';
     case 'link_lost':

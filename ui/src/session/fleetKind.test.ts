@@ -16,5 +16,6 @@ test('a fleet with one real robot is a real fleet', () => {
 
 test('what is asked says how many robots leave, and how many of them are real', () => {
   expect(driveQuestion(rows(0, 12), 1)).toBe('Drive 12 real robots to frame 2?');
+  expect(driveQuestion(rows(0, 2), 'home')).toBe('Drive 2 real robots to their starting places?');
   expect(driveQuestion(rows(9, 3), 0)).toBe('Drive 12 robots to frame 1, 3 of them real?');
 });

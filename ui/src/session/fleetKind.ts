@@ -22,10 +22,14 @@ export function kindHint(rows: readonly Row[]): string {
   return `${real} of ${rows.length} robots ${real === 1 ? 'is' : 'are'} real, the others are simulated.`;
 }
 
-/** The question before real robots drive to a frame, counted from 0. */
-export function driveQuestion(rows: readonly Row[], frame: number): string {
+/** Where robots drive without a show: to a frame, counted from 0, or to their starting places. */
+export type DriveGoal = number | 'home';
+
+/** The question before real robots drive somewhere. */
+export function driveQuestion(rows: readonly Row[], goal: DriveGoal): string {
+  const where = goal === 'home' ? 'their starting places' : `frame ${goal + 1}`;
   const [all, real] = [rows.length, rows.filter((row) => !row.simulated).length];
   const robots = `${all} ${all === 1 ? 'robot' : 'robots'}`;
-  if (real < all) return `Drive ${robots} to frame ${frame + 1}, ${real} of them real?`;
-  return `Drive ${all} real ${all === 1 ? 'robot' : 'robots'} to frame ${frame + 1}?`;
+  if (real < all) return `Drive ${robots} to ${where}, ${real} of them real?`;
+  return `Drive ${all} real ${all === 1 ? 'robot' : 'robots'} to ${where}?`;
 }

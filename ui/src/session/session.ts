@@ -8,6 +8,7 @@ import { createShown, type Shown } from './shown';
 import type { Editor } from '../model/editor';
 import type { Saver } from '../model/saver';
 import type { Dropped } from './droppable';
+import type { DriveGoal } from './fleetKind';
 import { notify } from './notices';
 
 /** The state that all parts of the page share. */
@@ -30,6 +31,8 @@ export interface Session {
   dropped: Store<Dropped | null>;
   /** The number of robots that the open show is being fitted to; null: it is not. */
   fitting: Store<number | null>;
+  /** The drive of real robots that waits for a confirmation; null: none. */
+  driveAsked: Store<DriveGoal | null>;
   /** Whether the checklist is shown. */
   checking: Store<boolean>;
   /** Changes that are not on the server yet. */
@@ -83,6 +86,7 @@ export function createSession(): Session {
     waiting,
     dropped: createStore<Dropped | null>(null),
     fitting: createStore<number | null>(null),
+    driveAsked: createStore<DriveGoal | null>(null),
     checking: createStore(false),
     orphans,
     restoring: createStore<LeftDraft | null>(null),

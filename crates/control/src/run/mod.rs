@@ -65,7 +65,14 @@ impl Run {
         context.mapping.shown.clear();
         let roster = Roster::of_fleet(context, now);
         let from = playback.next.frame;
-        context.log.record(now, EventKind::RunBegun { from, robots: roster.len() });
+        let robots = roster.len();
+        context.log.record(
+            now,
+            match playback.purpose {
+                RunPurpose::Home => EventKind::GoingHome { robots },
+                _ => EventKind::RunBegun { from, robots },
+            },
+        );
         // Robots that know TARGET only do not say whether they drive: their places count once they stay the same.
         let may_drive = (0..roster.len()).any(|participant| {
             let robot = roster.robot(context, participant);
@@ -114,7 +121,8 @@ impl Run {
             let step = step.filter(|_| !known.is_excluded());
             let robot = context.fleet.robot_mut(known.robot);
             robot.participant = None;
-            robot.pixel = step.and_then(|step| step.pixel);
+            robot.pixel =
+                step.and_then(|step| step.pixel).filter(|_| self.playback.purpose != RunPurpose::Home);
             robot.goal = step.map(|step| step.goal);
         }
     }

@@ -16,6 +16,8 @@ pub(crate) enum RunPurpose {
     Play,
     /// One frame, without air time.
     Preview,
+    /// The starting places, which are a frame of their own.
+    Home,
 }
 
 /// A frame in a run of a show that may loop.
@@ -52,7 +54,7 @@ impl PlayedShow {
     /// The frame after one, if there is any.
     pub fn after(&self, cursor: FrameCursor) -> Option<FrameCursor> {
         match self.purpose {
-            RunPurpose::Preview => None,
+            RunPurpose::Preview | RunPurpose::Home => None,
             RunPurpose::Play if cursor.frame.saturating_add(1) < self.show.frames.len() => {
                 Some(FrameCursor { frame: cursor.frame + 1, ..cursor })
             }

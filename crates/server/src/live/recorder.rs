@@ -73,7 +73,8 @@ impl Recorder {
 
     /// The operator asks for something: a run may begin.
     pub fn before(&self, controller: &mut RecordedController, now: Instant, operation: &Operation) {
-        let begins = matches!(operation, Operation::Play { .. } | Operation::Preview { .. });
+        let begins =
+            matches!(operation, Operation::Play { .. } | Operation::Preview { .. } | Operation::Home);
         if begins && self.recording.is_by_run() && !controller.is_recording() {
             controller.begin_log(now, notes("run"));
         }

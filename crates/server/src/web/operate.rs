@@ -41,6 +41,10 @@ async fn act(shared: &Shared, operation: api::Operation) -> Result<(), Refused> 
             shared.broker.disconnect(&shared.handle).await;
             return Ok(());
         }
+        Wish::Home => {
+            shared.desk.hand_over().await.map_err(|refusal| plain(refusal.to_string()))?;
+            Operation::Home
+        }
         Wish::Pause => Operation::Pause,
         Wish::Resume => Operation::Resume,
         Wish::Step => Operation::Step,

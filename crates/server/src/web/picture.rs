@@ -182,7 +182,7 @@ impl Painter {
         api::Playback {
             phase: phase(snapshot.state),
             doing: run.map(|run| run.doing.to_owned()),
-            frame: run.map(|run| run.frame),
+            frame: run.filter(|run| !run.home).map(|run| run.frame),
             frames: self.desk.shown().show.frames.len(),
             progress: rounded(progress, 3),
             left_s: self.left_s(snapshot, is_showing),

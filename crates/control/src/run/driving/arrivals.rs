@@ -4,6 +4,7 @@ use crate::event::EventKind;
 use crate::leg::LegKind;
 use crate::run::driving::drive::Driving;
 use crate::run::next::{AirTime, Next};
+use crate::run::playback::RunPurpose;
 use crate::run::run_context::RunContext;
 use lightbots_base::{Instant, Span, Vec2};
 use lightbots_wire::RobotState;
@@ -98,7 +99,13 @@ impl Driving {
 fn reach_frame(cx: &mut RunContext, frame: usize, ends: Instant) {
     let spread = cx.tally.arrivals.take().map_or(Span::ZERO, |(first, last)| last - first);
     let wait = (cx.now - ends).max(Span::ZERO);
-    cx.io.log.record(cx.now, EventKind::FrameReached { frame, spread, wait });
+    cx.io.log.record(
+        cx.now,
+        match cx.playback.purpose {
+            RunPurpose::Home => EventKind::AtHome,
+            _ => EventKind::FrameReached { frame, spread, wait },
+        },
+    );
     cx.tally.frames_played += 1;
     cx.tally.recovery.reached(cx.now);
     cx.link.fade();

@@ -19,6 +19,7 @@ use crate::run::lights;
 use crate::run::next::Next;
 use crate::run::path_clock::PathClock;
 use crate::run::pipeline::{DrivenLeg, Pipeline};
+use crate::run::playback::RunPurpose;
 use crate::run::roster::Whereabouts;
 use crate::run::run_context::RunContext;
 use crate::run::silence::{self, StopTimes};
@@ -45,7 +46,9 @@ impl Driving {
         let heartbeat_at = if leg.kind == LegKind::Routes { cx.now + HEARTBEAT } else { Instant::FAR };
         let mut drive = Self::new(clock, cx.now, heartbeat_at, cx.roster.len());
         let (frame, duration) = (leg.frame, leg.duration);
-        cx.io.log.record(cx.now, EventKind::TransitionStarted { frame, starts: began, duration });
+        if cx.playback.purpose != RunPurpose::Home {
+            cx.io.log.record(cx.now, EventKind::TransitionStarted { frame, starts: began, duration });
+        }
         let targets = TargetProgress::new(&leg);
         cx.pipeline.driven = Some(DrivenLeg { leg, targets });
         cx.pipeline.upload = None;

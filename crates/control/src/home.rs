@@ -1,0 +1,22 @@
+//! The starting places as a show of one frame, which robots drive to when they are sent home.
+
+use lightbots_base::Rgb;
+use lightbots_show::{Frame, Pixel, Show, front_rows, starting_places};
+
+/// Ids of the pixels: shows count from 0, so that no pin is meant by them.
+const FIRST_ID: u32 = 4_000_000_000;
+/// Robots that drive home are seen, and light nobody's way.
+const LIGHT: Rgb = Rgb::new(0x40, 0x32, 0x1e);
+
+/// A show whose only frame has a place for each of the robots: the starting places of `show`, or rows along the front edge
+/// if these are too few.
+pub(crate) fn show(show: &Show, robots: usize) -> Show {
+    let mut places = starting_places(show);
+    if places.len() < robots {
+        places = front_rows(&show.stage, robots);
+    }
+    let pixel = |(index, at)| Pixel { id: FIRST_ID + index, at, color: LIGHT, ..Pixel::default() };
+    let pixels = (0..).zip(places).map(pixel).collect();
+    let frame = Frame { name: "Home".into(), pixels, ..Frame::default() };
+    Show { name: show.name.clone(), stage: show.stage.clone(), frames: vec![frame], ..Show::default() }
+}
