@@ -13,6 +13,7 @@ mod child;
 #[cfg(unix)]
 mod cluster;
 mod commands;
+mod conformance;
 mod crossings;
 mod cues;
 mod example_brokers;

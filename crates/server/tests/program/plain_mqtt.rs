@@ -57,6 +57,11 @@ impl Mqtt {
         assert!(self.try_publish(topic, payload), "the connection of {topic}'s sender is gone");
     }
 
+    /// Publishes a message that the broker is to keep for later subscribers.
+    pub fn publish_retained(&self, topic: &str, payload: impl Into<Vec<u8>>) {
+        self.client.publish(topic, payload.into(), PublishOptions::at_most_once().retained()).unwrap();
+    }
+
     /// Publishes unless the broker has ended the connection.
     pub fn try_publish(&self, topic: &str, payload: impl Into<Vec<u8>>) -> bool {
         self.client.publish(topic, payload.into(), PublishOptions::at_most_once()).is_ok()

@@ -39,6 +39,13 @@ impl RawMqtt {
         bytes
     }
 
+    /// The next packet: its first byte, and what follows its length. No test needs more than 127 bytes.
+    pub fn read_packet(&mut self) -> (u8, Vec<u8>) {
+        let header = self.read(2);
+        assert!(header[1] < 128, "a packet of kind {:#x} is too long", header[0]);
+        (header[0], self.read(header[1].into()))
+    }
+
     /// Subscribes; whether that was granted.
     pub fn subscribe(&mut self, filter: &str) -> bool {
         self.send(&subscribe(filter));

@@ -189,11 +189,15 @@ impl Handler for Door {
                 (false, Some(HookResult::PublishAclResult(answer)))
             }
             Parameter::ClientSubscribeCheckAcl(session, subscribe) => {
-                let filter = &subscribe.topic_filter;
-                match self.subscription(&session.id, filter).await {
+                // rmqtt has taken the group of a shared subscription off its filter.
+                let filter = match subscribe.opts.shared_group() {
+                    Some(group) => format!("$share/{group}/{}", subscribe.topic_filter),
+                    None => subscribe.topic_filter.to_string(),
+                };
+                match self.subscription(&session.id, &filter).await {
                     Ok(()) => (true, result),
                     Err(why) => {
-                        let what = format!("the subscription to {}", shortened(filter));
+                        let what = format!("the subscription to {}", shortened(&filter));
                         self.refuse(&session.id, &what, &why);
                         let answer = SubscribeAclResult::new_failure(SubscribeAckReason::NotAuthorized);
                         (false, Some(HookResult::SubscribeAclResult(answer)))

@@ -3,6 +3,7 @@
 use std::net::{Ipv4Addr, SocketAddr};
 use std::num::NonZeroU16;
 use std::sync::Arc;
+use std::time::Duration;
 
 use rmqtt::context::ServerContext;
 use rmqtt::net::{Builder, Listener};
@@ -12,8 +13,11 @@ use tokio::sync::mpsc;
 use super::admitted::Admitted;
 use super::door::Door;
 use super::gate::{Gate, Peers, TlsOptions};
+use super::groups::Groups;
+use super::keep_alive::KeepAlive;
 use super::notices::Notices;
-use super::queues::BoundedShared;
+use super::retained::Retained;
+use super::routing::BoundedShared;
 use super::{BrokerOptions, idle, limits};
 use crate::failure::Failure;
 use crate::open_files;
@@ -111,6 +115,9 @@ fn bind(listen: SocketAddr, robots: usize) -> Result<Listener, Failure> {
         .send_timeout(limits::SEND_WITHIN)
         .session_expiry_interval(limits::SESSION_EXPIRY)
         .max_session_expiry_interval(limits::SESSION_EXPIRY)
+        .max_topic_aliases(limits::TOPIC_ALIASES)
+        // A message expires only where its publisher says so.
+        .message_expiry_interval(Duration::ZERO)
         .max_inflight(inflight)
         .max_mqueue_len((robots * 2).max(100_000));
     builder
@@ -148,6 +155,9 @@ async fn serve(listeners: Vec<Listener>, options: BrokerOptions, notices: Arc<No
     let context =
         ServerContext::new().busy_check_enable(false).mqtt_max_sessions(limits::SESSIONS).build().await;
     BoundedShared::install(&context, notices.clone(), !options.users.is_empty()).await;
+    *context.extends.retain_mut().await = Box::new(Retained::new(notices.clone()));
+    *context.extends.shared_subscription_mut().await = Box::new(Groups::default());
+    *context.extends.fitter_mgr_mut().await = Box::new(KeepAlive);
     let ports: Vec<u16> =
         listeners.iter().filter_map(|listener| Some(listener.local_addr().ok()?.port())).collect();
     let most = limits::connections(open_files::limit(), options.tls.is_some());

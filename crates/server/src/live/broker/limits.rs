@@ -98,6 +98,24 @@ pub const QUEUE_SHARE_BYTES: usize = 32 << 10;
 /// empty messages that waited for a subscriber that did not read: 1,280 bytes each.
 pub const MESSAGE_OVERHEAD_BYTES: usize = 1_280;
 
+/// Retained messages that are kept. The protocol has none; tools have some.
+pub const RETAINED: usize = 256;
+
+/// Bytes of all retained messages. rmqtt copies those that match a subscription.
+pub const RETAINED_BYTES: usize = 1 << 20;
+
+/// Subscriptions that wait for their retained messages: those of four full clients. Further ones get none.
+pub const RETAINED_WAITING: usize = 4 * SUBSCRIPTIONS;
+
+/// Topics that a client of version 5 may abbreviate, and that the broker abbreviates towards it. Each costs the broker up
+/// to [`TOPIC_BYTES`]; the protocol has six topics per robot.
+pub const TOPIC_ALIASES: u16 = 8;
+
+/// Longest keep-alive of a client of version 5, in seconds; a longer one is shortened (3.2.2.3.14), so that a connection
+/// that died without a word is noticed after 90 s. Clients of version 3 choose theirs: the standard gives the broker no
+/// way to shorten it.
+pub const KEEP_ALIVE_S: u16 = 60;
+
 /// Bytes of data that the broker's process may have, where the system can bound it. Above it the process ends and is
 /// started again; the limits above keep it far below.
 pub const PROCESS_BYTES: u64 = 1 << 30;

@@ -3,20 +3,25 @@
 //!
 //! `users` says which users there are, `rights` what each may publish and subscribe to, `door` asks both for every
 //! client; `gate` speaks TLS before it. `limits` names every limit; `queues` bounds the bytes that wait for clients,
-//! `idle` ends connections that do not log in, `flood` those that publish too much; `sessions` keeps each session for its
-//! login, `takeovers` finds robots that share a name.
+//! `routing` puts each message into them, `idle` ends connections that do not log in, `flood` those that publish too much;
+//! `sessions` keeps each session for its login, `takeovers` finds robots that share a name. `retained`, `groups` and
+//! `keep_alive` are parts of MQTT that rmqtt leaves to its embedder.
 
 mod admitted;
 mod door;
 mod engine;
 mod flood;
 mod gate;
+mod groups;
 mod idle;
+mod keep_alive;
 mod limits;
 mod notices;
 mod process;
 mod queues;
+mod retained;
 mod rights;
+mod routing;
 mod sessions;
 mod takeovers;
 mod users;

@@ -6,28 +6,19 @@ use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
-use async_trait::async_trait;
 use bytes::Bytes;
-use rmqtt::context::ServerContext;
-use rmqtt::session::Session;
-use rmqtt::shared::{DefaultShared, Entry, Shared};
-use rmqtt::types::{
-    ClientId, ForwardedCount, ForwardedRecipients, From, Id, MsgID, Publish, Reason, SessionStatus,
-    SubRelations, SubRelationsMap, SubsSearchParams, SubsSearchResult, To,
-};
+use rmqtt::codec::v5::UserProperty;
+use rmqtt::types::{ClientId, Publish};
 
 use super::limits;
 use super::notices::Notices;
-use super::sessions::OwnedEntry;
-
-/// Messages that could not be handed over, and to which client.
-type Failed = Vec<(To, From, Publish, Reason)>;
 
 /// Bytes that wait, by client and in all.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub struct Queues {
     total: Arc<AtomicUsize>,
     clients: Mutex<BTreeMap<ClientId, Arc<AtomicUsize>>>,
+    notices: Arc<Notices>,
 }
 
 /// Bytes charged to a client until the value is dropped.
@@ -51,8 +42,28 @@ impl AsRef<[u8]> for Charged {
 }
 
 impl Queues {
+    /// Empty queues.
+    pub fn new(notices: Arc<Notices>) -> Self {
+        Self { total: Arc::default(), clients: Mutex::default(), notices }
+    }
+
+    /// The message with its payload charged to its receiver; `None` where the receiver's queue is full.
+    pub fn charged(&self, publish: &Publish, client: &ClientId) -> Option<Publish> {
+        let Some(charge) = self.charge(client, size(publish) + limits::MESSAGE_OVERHEAD_BYTES) else {
+            self.notices.say(client, &full_queue(client));
+            return None;
+        };
+        let mut publish = publish.clone();
+        let payload = std::mem::take(&mut publish.inner.payload);
+        publish.inner.payload = Bytes::from_owner(Charged { payload, _charge: charge });
+        // A topic alias, a subscription identifier and the rest of an expiry are properties also of a message that came
+        // over version 3, without any.
+        publish.inner.properties.get_or_insert_default();
+        Some(publish)
+    }
+
     /// Charges a message of `bytes` to a client; `None` where its queue is full.
-    pub fn charge(&self, client: &ClientId, bytes: usize) -> Option<Charge> {
+    fn charge(&self, client: &ClientId, bytes: usize) -> Option<Charge> {
         let queue = self.queue(client);
         let waiting = queue.load(Ordering::Relaxed) + bytes;
         let total = self.total.load(Ordering::Relaxed) + bytes;
@@ -85,47 +96,20 @@ impl Drop for Charge {
     }
 }
 
-/// rmqtt's way from a message to its receivers, with [`Queues`] before each of them.
-pub struct BoundedShared {
-    inner: DefaultShared,
-    context: ServerContext,
-    queues: Queues,
-    notices: Arc<Notices>,
-    /// Whether clients log in, so that sessions belong to logins.
-    has_users: bool,
-}
-
-impl BoundedShared {
-    /// Takes the place of the context's own.
-    pub async fn install(context: &ServerContext, notices: Arc<Notices>, has_users: bool) {
-        let inner = DefaultShared::new(Some(context.clone()));
-        let bounded = Self { inner, context: context.clone(), queues: Queues::default(), notices, has_users };
-        *context.extends.shared_mut().await = Box::new(bounded);
-    }
-
-    /// The message with its payload charged to the client; `None` where the client's queue is full.
-    fn charged(&self, publish: &Publish, client: &ClientId) -> Option<Publish> {
-        let bytes = publish.payload.len() + publish.topic.len() + limits::MESSAGE_OVERHEAD_BYTES;
-        let Some(charge) = self.queues.charge(client, bytes) else {
-            self.notices.say(client, &full_queue(client));
-            return None;
-        };
-        let mut publish = publish.clone();
-        let payload = std::mem::take(&mut publish.inner.payload);
-        publish.inner.payload = Bytes::from_owner(Charged { payload, _charge: charge });
-        Some(publish)
-    }
-
-    async fn relations(&self, from: &From, publish: &Publish) -> SubRelations {
-        let matches = self.context.extends.router().await.matches(from.id.clone(), &publish.topic).await;
-        match matches {
-            Ok(mut nodes) => nodes.remove(&self.context.node.id()).unwrap_or_default(),
-            Err(error) => {
-                tracing::warn!("the broker finds no receivers of a message on {}: {error}", publish.topic);
-                SubRelations::default()
-            }
-        }
-    }
+/// Bytes of a message: topic, payload and properties.
+pub fn size(publish: &Publish) -> usize {
+    let of_text = |text: Option<&str>| text.map_or(0, str::len);
+    let properties = publish.inner.properties.as_ref().map_or(0, |properties| {
+        let users = properties.user_properties.iter();
+        let of_users: usize =
+            users.map(|(name, value)| name.len() + value.len() + size_of::<UserProperty>()).sum();
+        let correlation = properties.correlation_data.as_ref().map_or(0, Bytes::len);
+        of_users
+            + correlation
+            + of_text(properties.content_type.as_deref())
+            + of_text(properties.response_topic.as_deref())
+    });
+    publish.inner.topic.len() + publish.inner.payload.len() + properties
 }
 
 fn full_queue(client: &ClientId) -> String {
@@ -136,91 +120,16 @@ fn full_queue(client: &ClientId) -> String {
     )
 }
 
-#[async_trait]
-impl Shared for BoundedShared {
-    async fn forwards(
-        &self,
-        msg_id: Option<MsgID>,
-        from: From,
-        publish: Publish,
-    ) -> Result<ForwardedCount, (ForwardedCount, Failed)> {
-        if publish.target_clientid.is_some() {
-            return self.inner.forwards(msg_id, from, publish).await;
-        }
-        let (mut forwarded, mut failed) = (0, Failed::new());
-        for relation in self.relations(&from, &publish).await {
-            let Some(message) = self.charged(&publish, &relation.1) else { continue };
-            let outcome = self.inner.forwards_to(from.clone(), &message, vec![relation], msg_id).await;
-            let (receivers, errors) =
-                outcome.map_or_else(|errors| errors, |receivers| (receivers, Failed::new()));
-            forwarded += receivers.len();
-            failed.extend(errors);
-        }
-        if failed.is_empty() { Ok(forwarded) } else { Err((forwarded, failed)) }
-    }
-
-    fn entry(&self, id: Id) -> Box<dyn Entry> {
-        let entry = self.inner.entry(id);
-        if self.has_users { Box::new(OwnedEntry::new(entry)) } else { entry }
-    }
-
-    fn exist(&self, client_id: &str) -> bool {
-        self.inner.exist(client_id)
-    }
-
-    async fn forwards_and_get_shareds(
-        &self,
-        from: From,
-        publish: Publish,
-    ) -> Result<(SubRelationsMap, ForwardedRecipients), (ForwardedRecipients, Failed)> {
-        self.inner.forwards_and_get_shareds(from, publish).await
-    }
-
-    async fn forwards_to(
-        &self,
-        from: From,
-        publish: &Publish,
-        relations: SubRelations,
-        msg_id: Option<MsgID>,
-    ) -> Result<ForwardedRecipients, (ForwardedRecipients, Failed)> {
-        self.inner.forwards_to(from, publish, relations, msg_id).await
-    }
-
-    fn iter(&self) -> Box<dyn Iterator<Item = Box<dyn Entry>> + Sync + Send + '_> {
-        self.inner.iter()
-    }
-
-    fn random_session(&self) -> Option<Session> {
-        self.inner.random_session()
-    }
-
-    async fn session_status(&self, client_id: &str) -> Option<SessionStatus> {
-        self.inner.session_status(client_id).await
-    }
-
-    async fn client_states_count(&self) -> usize {
-        self.inner.client_states_count().await
-    }
-
-    fn sessions_count(&self) -> usize {
-        self.inner.sessions_count()
-    }
-
-    async fn query_subscriptions(&self, q: &SubsSearchParams) -> Vec<SubsSearchResult> {
-        self.inner.query_subscriptions(q).await
-    }
-
-    async fn subscriptions_count(&self) -> usize {
-        self.inner.subscriptions_count().await
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     /// Messages of 64 KiB in a full queue.
     const FULL: usize = limits::QUEUE_BYTES / (64 << 10);
+
+    fn queues() -> Queues {
+        Queues::new(Arc::new(Notices::new().0))
+    }
 
     /// Charges messages of 64 KiB until the queue is full; how many fitted.
     fn fill(queues: &Queues, client: &str, charges: &mut Vec<Charge>) -> usize {
@@ -231,7 +140,7 @@ mod tests {
 
     #[test]
     fn a_full_queue_takes_no_more_until_messages_leave_it() {
-        let (queues, mut charges) = (Queues::default(), Vec::new());
+        let (queues, mut charges) = (queues(), Vec::new());
         assert_eq!(fill(&queues, "slow", &mut charges), FULL);
         assert!(queues.charge(&"slow".into(), 1).is_none());
         charges.pop();
@@ -242,8 +151,28 @@ mod tests {
     }
 
     #[test]
+    fn properties_count_as_bytes_of_a_message() {
+        let properties = rmqtt::codec::v5::PublishProperties {
+            user_properties: vec![("ab".into(), "c".into()); 1_000],
+            content_type: Some("text".into()),
+            ..Default::default()
+        };
+        let publish = rmqtt::codec::types::Publish {
+            dup: false,
+            retain: false,
+            qos: rmqtt::types::QoS::AtMostOnce,
+            topic: "topic".into(),
+            packet_id: None,
+            payload: Bytes::from_static(b"payload"),
+            properties: Some(properties),
+        };
+        let of_pair = 3 + size_of::<UserProperty>();
+        assert_eq!(size(&publish.into()), 5 + 7 + 4 + 1_000 * of_pair);
+    }
+
+    #[test]
     fn slow_readers_together_are_bounded_and_leave_others_their_share() {
-        let (queues, mut charges) = (Queues::default(), Vec::new());
+        let (queues, mut charges) = (queues(), Vec::new());
         for client in 0..100 {
             fill(&queues, &client.to_string(), &mut charges);
         }

@@ -13,6 +13,11 @@ const CONTROLLER: &str = "BotControl/";
 /// What stands before all topics of the protocol.
 const PROTOCOL: &str = "T/LightBot/";
 
+/// Whether a topic belongs to the protocol between controllers and robots.
+pub fn is_protocol(topic: &str) -> bool {
+    topic.starts_with(PROTOCOL)
+}
+
 /// The client of a connection.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Who {
@@ -55,7 +60,7 @@ impl Who {
         }
         let own = match self {
             Self::Controller => return Ok(()),
-            Self::Shared if is_report || !topic.starts_with(PROTOCOL) => return Ok(()),
+            Self::Shared if is_report || !is_protocol(topic) => return Ok(()),
             Self::Shared => {
                 return Err("only controllers send commands (client id BotControl/<name>, or the role \
                             controller)"

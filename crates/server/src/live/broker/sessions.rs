@@ -1,55 +1,77 @@
 //! Sessions belong to the login that began them: another login neither takes over the connection of a client id, nor goes
-//! on with its session. The check is made while rmqtt holds the lock of the client id, so that no login slips in between.
+//! on with its session. And a session that is to end with its connection is never resumed, also where rmqtt has not yet
+//! noticed that the connection has ended. Both are checked while rmqtt holds the lock of the client id, so that no login
+//! slips in between.
+
+use std::sync::Arc;
 
 use async_trait::async_trait;
 use rmqtt::net::{Error, Result};
 use rmqtt::session::Session;
 use rmqtt::shared::Entry;
 use rmqtt::types::{
-    From, Id, IsAdmin, OfflineSession, Publish, Reason, SubsSearchResult, Subscribe, SubscribeReturn, Tx,
-    Unsubscribe,
+    ConnectInfo, From, Id, IsAdmin, OfflineSession, Publish, Reason, SubsSearchResult, Subscribe,
+    SubscribeReturn, Tx, Unsubscribe,
 };
+
+use super::queues::Queues;
 
 /// Whether the session of a client id belongs to another login than that of `id`.
 pub fn is_of_another(session: Option<&Session>, id: &Id) -> bool {
     session.is_some_and(|session| session.id.username != id.username)
 }
 
-/// A client id's entry among the sessions that only the session's own login takes over.
-pub struct OwnedEntry(Box<dyn Entry>);
+/// Whether a session ends with its connection: a clean session of version 3 (3.1.2.4), a session of version 5 without an
+/// expiry interval (3.1.2.11.2).
+async fn ends_with_connection(session: &Session) -> bool {
+    let Ok(connect) = session.connect_info().await else { return true };
+    if let ConnectInfo::V3(_, connect) = connect.as_ref() {
+        return connect.clean_session;
+    }
+    let disconnect = session.disconnect().await.unwrap_or_default();
+    session.fitter.session_expiry_interval(disconnect.as_ref()).is_zero()
+}
 
-impl OwnedEntry {
-    /// rmqtt's entry with that rule.
-    pub fn new(entry: Box<dyn Entry>) -> Self {
-        Self(entry)
+/// A client id's entry among the sessions.
+pub struct GuardedEntry {
+    entry: Box<dyn Entry>,
+    queues: Arc<Queues>,
+    /// Whether only the session's own login takes it over.
+    is_owned: bool,
+}
+
+impl GuardedEntry {
+    /// rmqtt's entry with those rules.
+    pub fn new(entry: Box<dyn Entry>, queues: Arc<Queues>, is_owned: bool) -> Self {
+        Self { entry, queues, is_owned }
     }
 }
 
 #[async_trait]
-impl Entry for OwnedEntry {
+impl Entry for GuardedEntry {
     async fn try_lock(&self) -> Result<Box<dyn Entry>> {
-        let locked = self.0.try_lock().await?;
-        Ok(Box::new(Self(locked)))
+        let locked = self.entry.try_lock().await?;
+        Ok(Box::new(Self::new(locked, self.queues.clone(), self.is_owned)))
     }
 
     fn id(&self) -> Id {
-        self.0.id()
+        self.entry.id()
     }
 
     fn id_same(&self) -> Option<bool> {
-        self.0.id_same()
+        self.entry.id_same()
     }
 
     async fn set(&mut self, session: Session, tx: Tx) -> Result<()> {
-        self.0.set(session, tx).await
+        self.entry.set(session, tx).await
     }
 
     async fn remove(&mut self) -> Result<Option<(Session, Tx)>> {
-        self.0.remove().await
+        self.entry.remove().await
     }
 
     async fn remove_with(&mut self, id: &Id) -> Result<Option<(Session, Tx)>> {
-        self.0.remove_with(id).await
+        self.entry.remove_with(id).await
     }
 
     async fn kick(
@@ -58,38 +80,48 @@ impl Entry for OwnedEntry {
         clear_subscriptions: bool,
         is_admin: IsAdmin,
     ) -> Result<OfflineSession> {
-        if !is_admin && is_of_another(self.0.session().as_ref(), &self.0.id()) {
+        let session = self.entry.session();
+        if self.is_owned && !is_admin && is_of_another(session.as_ref(), &self.entry.id()) {
             return Err(Error::msg("the session belongs to another login"));
         }
-        self.0.kick(clean_start, clear_subscriptions, is_admin).await
+        let has_ended = match &session {
+            Some(session) => ends_with_connection(session).await,
+            None => false,
+        };
+        let (clean_start, clear_subscriptions) = (clean_start || has_ended, clear_subscriptions || has_ended);
+        match self.entry.kick(clean_start, clear_subscriptions, is_admin).await {
+            // The session ended by itself before it could answer: the second time nothing answers for it any more.
+            Err(_) => self.entry.kick(clean_start, clear_subscriptions, is_admin).await,
+            kicked => kicked,
+        }
     }
 
     async fn online(&self) -> bool {
-        self.0.online().await
+        self.entry.online().await
     }
 
     async fn is_connected(&self) -> bool {
-        self.0.is_connected().await
+        self.entry.is_connected().await
     }
 
     fn session(&self) -> Option<Session> {
-        self.0.session()
+        self.entry.session()
     }
 
     fn exist(&self) -> bool {
-        self.0.exist()
+        self.entry.exist()
     }
 
     fn tx(&self) -> Option<Tx> {
-        self.0.tx()
+        self.entry.tx()
     }
 
     async fn subscribe(&self, subscribe: &Subscribe) -> Result<SubscribeReturn> {
-        self.0.subscribe(subscribe).await
+        self.entry.subscribe(subscribe).await
     }
 
     async fn unsubscribe(&self, unsubscribe: &Unsubscribe) -> Result<bool> {
-        self.0.unsubscribe(unsubscribe).await
+        self.entry.unsubscribe(unsubscribe).await
     }
 
     async fn publish(
@@ -97,10 +129,12 @@ impl Entry for OwnedEntry {
         from: From,
         publish: Publish,
     ) -> std::result::Result<(), (From, Publish, Reason)> {
-        self.0.publish(from, publish).await
+        // Retained messages come this way. One for which the queue has no room is dropped.
+        let Some(charged) = self.queues.charged(&publish, &self.entry.id().client_id) else { return Ok(()) };
+        self.entry.publish(from, charged).await
     }
 
     async fn subscriptions(&self) -> Option<Vec<SubsSearchResult>> {
-        self.0.subscriptions().await
+        self.entry.subscriptions().await
     }
 }

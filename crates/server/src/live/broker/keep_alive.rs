@@ -1,0 +1,21 @@
+//! The keep-alive that the broker grants.
+
+use std::sync::Arc;
+
+use rmqtt::fitter::{DefaultFitter, FitterManager};
+use rmqtt::types::{ConnectInfo, FitterType, Id, ListenerConfig};
+
+use super::limits;
+
+/// rmqtt's rules, with a longest keep-alive for clients of version 5. rmqtt's own setting would also refuse clients of
+/// version 3 with a longer one.
+pub struct KeepAlive;
+
+impl FitterManager for KeepAlive {
+    fn create(&self, connect: Arc<ConnectInfo>, id: Id, mut listener: ListenerConfig) -> FitterType {
+        if matches!(connect.as_ref(), ConnectInfo::V5(..)) {
+            Arc::make_mut(&mut listener).max_keepalive = limits::KEEP_ALIVE_S;
+        }
+        Arc::new(DefaultFitter::new(connect, id, listener))
+    }
+}
