@@ -5,7 +5,7 @@ use lightbots_show::{Frame, Pixel, Show, front_rows, starting_places};
 
 /// Ids of the pixels: shows count from 0, so that no pin is meant by them.
 const FIRST_ID: u32 = 4_000_000_000;
-/// Robots that drive home are seen, and light nobody's way.
+/// Robots that drive home are seen; their light is dim.
 const LIGHT: Rgb = Rgb::new(0x40, 0x32, 0x1e);
 
 /// A show whose only frame has a place for each of the robots: the starting places of `show`, or rows along the front edge

@@ -1,9 +1,8 @@
 import { Button } from '@mantine/core';
-import { IconAlertTriangle } from '@tabler/icons-react';
 import { useStore } from '../base/store';
 import { useSession } from '../session/session';
 import { asksToGoOn } from './actions';
-import styles from './FailureNote.module.css';
+import { Note } from './Note';
 
 /** A show that was cut off or out of reach waits for the operator: above Play, until it goes on or is over. */
 export function GoOnNote() {
@@ -11,17 +10,16 @@ export function GoOnNote() {
   const asks = useStore(live.playback, asksToGoOn);
   if (!asks) return null;
   return (
-    <div className={styles.failure} role="alert">
-      <IconAlertTriangle size={20} aria-hidden />
-      <strong>
-        The show was interrupted, and its robots report again. Look at the floor before it goes on.
-      </strong>
+    <Note
+      tone="bad"
+      text="The show was interrupted, and its robots report again. Look at the floor before it goes on."
+    >
       <Button size="compact-sm" onClick={() => void ask({ do: 'go_on' })}>
         Go on
       </Button>
       <Button size="compact-sm" variant="default" onClick={() => void ask({ do: 'abort' })}>
         Stop
       </Button>
-    </div>
+    </Note>
   );
 }

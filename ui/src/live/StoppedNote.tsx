@@ -1,22 +1,19 @@
 import { Button } from '@mantine/core';
-import { IconHandStop } from '@tabler/icons-react';
 import { useStore } from '../base/store';
 import { driveTo } from '../session/drives';
 import { startPlay } from '../session/start';
 import { useSession } from '../session/session';
-import styles from './StoppedNote.module.css';
+import { GotIt, Note } from './Note';
 
-/** A show was stopped: where, and the way on, above Play, until the operator dismisses it or starts again. */
+/** A show was stopped: where, and the ways on, above Play, until the operator dismisses it or starts again. */
 export function StoppedNote() {
   const session = useSession();
-  const { live, ask } = session;
+  const { live } = session;
   const stopped = useStore(live.playback, (p) => (p.failure === null ? p.stopped_in : null));
   const isReady = useStore(live.playback, (p) => p.phase === 'ready');
   if (stopped === null) return null;
   return (
-    <div className={styles.note} role="status" data-testid="stopped-note">
-      <IconHandStop size={20} aria-hidden />
-      <strong>Stopped in frame {stopped + 1}. Robots stand where they were.</strong>
+    <Note tone="stopped" text={`Stopped in frame ${stopped + 1}. Robots stand where they were.`}>
       <PlayOn from={stopped} />
       <Button
         size="compact-sm"
@@ -26,14 +23,8 @@ export function StoppedNote() {
       >
         Home
       </Button>
-      <Button
-        size="compact-sm"
-        variant="default"
-        onClick={() => void ask({ do: 'dismiss_failure' })}
-      >
-        Got it
-      </Button>
-    </div>
+      <GotIt />
+    </Note>
   );
 }
 

@@ -36,7 +36,7 @@ impl Child {
         Self::start(command, &arguments.join(" "))
     }
 
-    /// `lightbots` with someone who can press Enter.
+    /// `lightbots` with an input: Enter can be pressed.
     pub fn lightbots_at_terminal(arguments: &[&str]) -> Self {
         Self::spawn(lightbots(arguments), &arguments.join(" "), Stdio::piped())
     }
