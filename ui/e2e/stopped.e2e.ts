@@ -1,4 +1,5 @@
 import { expect, test } from 'vitest';
+import { eventually } from './harness';
 import { button, phaseIs, robotPlaces, smallShow, uploadText } from './journeys';
 import { createTestBed } from './testBed';
 
@@ -23,8 +24,10 @@ test('a show that is stopped says where on every screen, and plays on from there
   await note.getByRole('button', { name: 'Home' }).click();
   await page.getByText('Driving home').waitFor();
   await phaseIs(page, 'ready');
-  expect((await robotPlaces(page)).map(([, y]) => Math.abs(y - 1.3) < 0.03)).toEqual(
-    Array<boolean>(4).fill(true),
+  await eventually(
+    () => robotPlaces(page),
+    (places) => places.length === 4 && places.every(([, y]) => Math.abs(y - 1.3) < 0.03),
+    'all robots stand in the row at the front edge',
   );
   await button(page, 'Play').click();
   await page.getByText('Playing frame 1 of 2').waitFor();

@@ -1,21 +1,21 @@
 import { Button, Group, Modal, Text } from '@mantine/core';
+import { useState } from 'react';
 import { useStore } from '../base/store';
 import { driveNow } from '../session/drives';
-import { driveQuestion } from '../session/fleetKind';
+import { driveQuestion, type DriveGoal } from '../session/fleetKind';
 import { useSession } from '../session/session';
 
 /** Asks before real robots drive to a frame or to their starting places. */
 export function DriveDialog() {
   const session = useSession();
   const goal = useStore(session.driveAsked);
+  // While the dialog closes it still asks what it asked.
+  const [asked, setAsked] = useState<DriveGoal>(0);
+  if (goal !== null && goal !== asked) setAsked(goal);
   const rows = useStore(session.live.fleet, (fleet) => fleet.rows);
   const close = () => session.driveAsked.set(null);
   return (
-    <Modal
-      opened={goal !== null}
-      onClose={close}
-      title={goal === null ? '' : driveQuestion(rows, goal)}
-    >
+    <Modal opened={goal !== null} onClose={close} title={driveQuestion(rows, asked)}>
       <Text mb="lg">The robots leave at once. Make sure that the floor is clear.</Text>
       <Group justify="flex-end">
         <Button variant="default" onClick={close}>
@@ -25,7 +25,7 @@ export function DriveDialog() {
           data-autofocus
           onClick={() => {
             close();
-            if (goal !== null) driveNow(session, goal);
+            driveNow(session, asked);
           }}
         >
           Drive robots
