@@ -36,7 +36,7 @@ test('a robot is pinned to a pixel from both views, shows it, and is freed again
   const line = page.getByRole('row').filter({ hasText: name?.slice(0, 8) ?? '' });
   expect(await line.getByRole('cell').first().textContent()).toBe('0');
   await phaseIs(page, 'ready');
-  await page.getByRole('button', { name: 'All columns' }).click();
+  await button(page, 'Details').click();
   await page.getByRole('columnheader', { name: 'Firmware' }).waitFor();
   await page.getByText('Edit', { exact: true }).click();
   await pixelsAre(page, 6);

@@ -95,8 +95,8 @@ const liveViews: View[] = [
   ),
   {
     name: 'live-all-columns',
-    show: (page) => button(page, 'All columns').click(),
-    leave: (page) => button(page, 'Fewer columns').click(),
+    show: (page) => button(page, 'Details').click(),
+    leave: (page) => button(page, 'Details').click(),
   },
   dialog('library', (page) => page.getByTestId('open-library').click()),
   dialog('settings', (page) => button(page, 'Settings').click()),
@@ -135,7 +135,7 @@ const deadRobots: View = {
     await countIs(rows, before + 2);
     await end();
     await countIs(silent, 2);
-    await button(page, 'All columns').click();
+    await button(page, 'Details').click();
     await silent.first().scrollIntoViewIfNeeded();
   },
   async leave(page) {
@@ -148,7 +148,7 @@ const deadRobots: View = {
       await page.getByRole('dialog').getByRole('button', { name: 'Forget' }).click();
       await countIs(silent, left - 1);
     }
-    await button(page, 'Fewer columns').click();
+    await button(page, 'Details').click();
   },
 };
 

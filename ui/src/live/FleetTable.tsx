@@ -40,12 +40,12 @@ export function FleetTable(props: { wide: boolean; onWide: (wide: boolean) => vo
       <Group justify="flex-end" px="xs" pt={6}>
         <Button
           size="compact-xs"
-          variant="subtle"
+          variant={wide ? 'light' : 'subtle'}
           color="gray"
           aria-expanded={wide}
           onClick={() => props.onWide(!wide)}
         >
-          {wide ? 'Fewer columns' : 'All columns'}
+          Details
         </Button>
       </Group>
       <table className={styles.table}>

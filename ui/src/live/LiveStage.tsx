@@ -51,13 +51,13 @@ export function LiveStage() {
       <StageCanvas view={view} sceneAt={sceneAt} pans={ALWAYS} />
       <div className={styles.legend} aria-hidden>
         <span>
-          <i /> measured
+          <i /> robot
         </span>
         <span>
-          <i data-look="hollow" /> planned
+          <i data-look="hollow" /> target
         </span>
         <span>
-          <i data-look="faded" /> silent
+          <i data-look="faded" /> no signal
         </span>
       </div>
       <div className={styles.tools} role="toolbar" aria-label="What the floor shows">

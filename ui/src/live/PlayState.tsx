@@ -26,7 +26,7 @@ export function PlayState() {
   return (
     <div className={styles.state}>
       <span role="status" data-testid="phase" data-phase={phase} data-failed={failed || undefined}>
-        {isWaiting ? 'Begins when the plan is made' : text}
+        {isWaiting ? 'Starts when planning is done' : text}
       </span>
       {phase === 'ready' && from > 0 ? (
         <span className="quiet">
