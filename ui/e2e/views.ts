@@ -57,6 +57,14 @@ const dialog = (name: string, open: (page: Page) => Promise<void>): View => ({
   },
 });
 
+/** A show of thirty robots whose first frame waits for GO. */
+function showWithCue(): string {
+  const show = JSON.parse(smallShow(30)) as { frames: { id?: string }[] };
+  const [first] = show.frames;
+  if (first) first.id = 'first';
+  return JSON.stringify({ ...show, lightbots: 2, cues: [{ name: 'Curtain', frame: 'first' }] });
+}
+
 const liveViews: View[] = [
   {
     name: 'live-ready',
@@ -79,6 +87,18 @@ const liveViews: View[] = [
       await phaseIs(page, 'paused');
     },
     leave: abort,
+  },
+  {
+    name: 'live-waiting-for-go',
+    async show(page) {
+      await uploadText(page, 'curtain.json', showWithCue());
+      await button(page, 'Play').click();
+      await page.getByTestId('go-note').waitFor();
+    },
+    async leave(page) {
+      await abort(page);
+      await openShow(page, 'heart');
+    },
   },
   { name: 'live-show', show: (page) => page.getByRole('tab', { name: 'Show' }).click() },
   {
