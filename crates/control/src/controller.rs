@@ -131,7 +131,10 @@ impl Controller {
         match Topic::parse(topic) {
             Some(Topic::Time) => match TimeQuestion::decode(payload) {
                 Some(question) if !self.counts(now, question.id) => {}
-                Some(question) => clock::answer(now, question, &mut self.context.outbox),
+                Some(question) => {
+                    self.context.fleet.observe_clock(now, question, &mut self.context.log);
+                    clock::answer(now, question, &mut self.context.outbox);
+                }
                 None => self.junk += 1,
             },
             Some(topic @ (Topic::Uuid | Topic::Arrival | Topic::Status)) => match Report::decode(payload) {

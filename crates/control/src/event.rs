@@ -32,7 +32,7 @@ pub enum EventKind {
     RobotGone(RobotId),
     /// A stale or gone robot reports again.
     RobotBack(RobotId),
-    /// Reports of one name come from places between which no robot can have driven.
+    /// Reports of one name come from places between which no robot can have driven, or its questions follow two clocks.
     NameShared {
         /// The name.
         robot: RobotId,

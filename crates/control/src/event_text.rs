@@ -2,7 +2,6 @@
 
 use crate::event::{EventKind, RunOutcome, Trouble};
 use core::fmt;
-use lightbots_base::Vec2;
 
 impl fmt::Display for Trouble {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -100,13 +99,12 @@ impl fmt::Display for EventKind {
             Disconnected => write!(f, "The broker is lost."),
             StateChanged(state) => write!(f, "Now {state}."),
             NameShared { robot, places } => {
-                let [at, other] = [0, 1].map(|index| places.get(index).copied().unwrap_or(Vec2::ZERO));
-                write!(
-                    f,
-                    "Two robots are called {robot}: it reports from ({:.2}, {:.2}) and from ({:.2}, {:.2}) in turn. Both are \
-                     kept out of the show; give one of them another name.",
-                    at.x, at.y, other.x, other.y
-                )
+                write!(f, "Two robots are called {robot}")?;
+                for (index, at) in places.iter().enumerate() {
+                    let before = if index == 0 { ": it reports from" } else { " and from" };
+                    write!(f, "{before} ({:.2}, {:.2})", at.x, at.y)?;
+                }
+                write!(f, ". Both are kept out of the show; give one of them another name.")
             }
             RobotFound(id) | RobotRestarted(id) | RobotStale(id) | RobotGone(id) | RobotBack(id)
             | Flooding(id) => {

@@ -7,7 +7,7 @@ use crate::report_rate::Counted;
 use crate::robot::KnownRobot;
 use crate::snapshot::Age;
 use lightbots_base::{Instant, RobotId, Span};
-use lightbots_wire::Report;
+use lightbots_wire::{Report, TimeQuestion};
 use serde::{Deserialize, Serialize};
 use std::collections::HashMap;
 use std::hash::{BuildHasherDefault, DefaultHasher};
@@ -89,8 +89,7 @@ impl KnownRobots {
         let place = report.at.filter(|at| at.x.abs() < PLACE_MAX_M && at.y.abs() < PLACE_MAX_M);
         let restarted = robot.receive(now, report, place);
         if place.is_some_and(|at| robot.namesakes.observe(now, at)) {
-            let places = robot.namesakes.places();
-            log.record(now, EventKind::NameShared { robot: report.id, places });
+            robot.report_namesakes(now, log);
         }
         if robot.contact.age != Age::Active {
             robot.contact.age = Age::Active;
@@ -100,6 +99,16 @@ impl KnownRobots {
             log.record_limited(now, EventKind::RobotRestarted(report.id));
         }
         Some(FleetUpdate { index, found, restarted })
+    }
+
+    /// A robot asks for the time: its own clock may show that two robots share its name.
+    pub fn observe_clock(&mut self, now: Instant, question: TimeQuestion, log: &mut EventQueue) {
+        if let Some(index) = self.find(question.id) {
+            let robot = &mut self.robots[index];
+            if robot.namesakes.observe_clock(now, question.asked) {
+                robot.report_namesakes(now, log);
+            }
+        }
     }
 
     fn add(&mut self, id: RobotId, now: Instant, config: &Config, log: &mut EventQueue) -> Option<usize> {

@@ -37,6 +37,7 @@ mod namesakes;
 mod operating;
 mod operation;
 mod outbox;
+mod own_clocks;
 mod plan_builder;
 mod plan_request;
 mod report_rate;

@@ -1,6 +1,7 @@
 //! Finds out that two robots share a name: its reports come from two places in turn, between which no robot can have
-//! driven.
+//! driven, or its time questions follow two clocks.
 
+use crate::own_clocks::OwnClocks;
 use lightbots_base::{Instant, Span, Vec2};
 use serde::{Deserialize, Serialize};
 
@@ -14,8 +15,14 @@ const SLACK_M: f64 = 0.3;
 const JUMPS: u8 = 3;
 /// The jumps are counted within this time.
 const WITHIN: Span = Span::from_millis(10_000);
-/// After this time without a jump one robot has the name again.
+/// After this time without a jump or a second clock one robot has the name again, …
 const CLEAR_AFTER: Span = Span::from_millis(30_000);
+/// … if it sent this many messages meanwhile. Each robot asks for the time every 3 s (R28 of docs/protocol.md).
+const CLEAR_MESSAGES: u32 = 12;
+/// Places of a robot that stands are no farther apart than this, metres: noise of fixes.
+const SAME_PLACE_M: f64 = 0.03;
+/// A robot that stands reports every 2 s (R41); of the last two reports one may be lost.
+const REPORTED_WITHIN: Span = Span::from_millis(4_500);
 
 /// A place, and when it was reported.
 type Sighting = (Instant, Vec2);
@@ -29,6 +36,11 @@ pub(crate) struct Namesakes {
     jumps: u8,
     first_jump: Instant,
     last_jump: Instant,
+    clocks: OwnClocks,
+    /// Where the robots of the name stand: its last two places that are not the same.
+    standing: [Option<Sighting>; 2],
+    /// Messages since two robots showed last.
+    messages: u32,
     are_there: bool,
 }
 
@@ -40,11 +52,36 @@ impl Namesakes {
 
     /// Where they reported from last, stage metres.
     pub fn places(&self) -> Vec<Vec2> {
-        self.last.iter().chain(&self.other).map(|(_, at)| *at).collect()
+        let newest = self.standing.iter().flatten().map(|(at, _)| *at).max();
+        let is_recent = |at: Instant| newest.is_some_and(|newest| newest - at < REPORTED_WITHIN);
+        self.standing.iter().flatten().filter(|(at, _)| is_recent(*at)).map(|(_, place)| *place).collect()
+    }
+
+    /// The name asks for the time; `asked`: its own clock. Whether that shows, for the first time, that two robots share it.
+    pub fn observe_clock(&mut self, now: Instant, asked: Instant) -> bool {
+        self.messages = self.messages.saturating_add(1);
+        self.clocks.observe(now, asked) && self.show(now)
+    }
+
+    /// Two robots showed. Whether for the first time.
+    fn show(&mut self, now: Instant) -> bool {
+        (self.last_jump, self.messages) = (now, 0);
+        !std::mem::replace(&mut self.are_there, true)
+    }
+
+    fn stand(&mut self, now: Instant, at: Vec2) {
+        let is_here =
+            |seen: &Option<Sighting>| seen.is_some_and(|(_, place)| place.distance(at) < SAME_PLACE_M);
+        let [first, second] = &self.standing;
+        let is_first_older = first.map(|seen| seen.0) < second.map(|seen| seen.0);
+        let index = if is_here(first) { 0 } else { usize::from(is_here(second) || !is_first_older) };
+        self.standing[index] = Some((now, at));
     }
 
     /// The name reports a place. Whether that shows, for the first time, that two robots share it.
     pub fn observe(&mut self, now: Instant, at: Vec2) -> bool {
+        self.messages = self.messages.saturating_add(1);
+        self.stand(now, at);
         let Some(last) = self.last.replace((now, at)) else { return false };
         if is_reachable(last, now, at) {
             return false;
@@ -54,15 +91,13 @@ impl Namesakes {
             (self.jumps, self.first_jump) = (0, now);
         }
         self.jumps = self.jumps.saturating_add(1);
-        self.last_jump = now;
-        let found = self.jumps >= JUMPS && !self.are_there;
-        self.are_there |= found;
-        found
+        self.jumps >= JUMPS && self.show(now)
     }
 
     /// Time passed. Whether one robot has the name again.
     pub fn are_gone(&mut self, now: Instant) -> bool {
-        let is_over = self.are_there && now - self.last_jump > CLEAR_AFTER;
+        let is_long = now - self.last_jump > CLEAR_AFTER && self.messages >= CLEAR_MESSAGES;
+        let is_over = self.are_there && is_long;
         if is_over {
             *self = Self { last: self.last, ..Self::default() };
         }
@@ -112,7 +147,12 @@ mod tests {
             namesakes.observe(Instant(at_ms * 1_000), Vec2::new(x, 0.0));
         }
         assert!(namesakes.are_there() && namesakes.places().len() == 2);
-        assert!(!namesakes.are_gone(Instant(20_000_000)) && namesakes.are_gone(Instant(31_000_000)));
-        assert!(!namesakes.are_there() && !namesakes.are_gone(Instant(32_000_000)));
+        assert!(!namesakes.are_gone(Instant(31_000_000)), "none of them was heard since");
+        for at_s in 2..20 {
+            namesakes.observe(Instant(at_s * 2_000_000), Vec2::new(1.0, 0.0));
+            assert_eq!(namesakes.are_gone(Instant(at_s * 2_000_000)), at_s == 16);
+        }
+        assert_eq!(namesakes.places().len(), 1);
+        assert!(!namesakes.are_there() && !namesakes.are_gone(Instant(40_000_000)));
     }
 }

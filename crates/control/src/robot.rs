@@ -1,5 +1,7 @@
 //! One robot, as the controller knows it.
 
+use crate::event::EventKind;
+use crate::log::EventQueue;
 use crate::namesakes::Namesakes;
 use crate::report_rate::ReportRate;
 use crate::snapshot::{Age, LastContact, Reported, RobotView};
@@ -144,6 +146,11 @@ impl KnownRobot {
         let StopsShort { most_m, rolls_on_m, gain, .. } = STOPS_SHORT;
         let short_m = ((target - at).dot(towards) - rolls_on_m).clamp(0.0, most_m);
         self.short_m += (short_m - self.short_m) * gain;
+    }
+
+    /// Two robots share its name.
+    pub fn report_namesakes(&self, now: Instant, log: &mut EventQueue) {
+        log.record(now, EventKind::NameShared { robot: self.id, places: self.namesakes.places() });
     }
 
     /// A report with this place came; whether it says that the robot was restarted.

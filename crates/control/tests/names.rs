@@ -89,6 +89,26 @@ fn two_robots_of_one_name_are_kept_out_and_the_show_plays_on() {
 }
 
 #[test]
+fn two_robots_of_one_name_that_are_near_each_other_are_told_apart_by_their_clocks() {
+    let mut world = World::ready(8, 0, show(3, 8, 0.3));
+    let (name, near) = (world.robots[3].id, world.robots[3].at + Vec2::new(0.0, 0.15));
+    world.play();
+    world.run_until(10.0, |kind| matches!(kind, EventKind::TransitionStarted { .. }));
+    // The first one's clock is far ahead of that of the second one, which has just been switched on.
+    for half_s in 0..10u64 {
+        for clock_us in [900_000_000, 0] {
+            let asked = clock_us + half_s * 500_000;
+            world.inject("T/LightBot/Time", format!("{name} {asked}").as_bytes());
+        }
+        world.inject("T/LightBot/UUID", format!("{name} {} {}", near.x, near.y).as_bytes());
+        world.run_for(0.5);
+    }
+    let drops = EventKind::Dropout { robot: name, why: Trouble::Shared };
+    assert_eq!(world.count(|kind| *kind == drops), 1, "{}", world.story());
+    assert_eq!(world.run_to_end(120.0), (RunOutcome::Finished, 3, 1), "{}", world.story());
+}
+
+#[test]
 fn two_robots_of_one_name_take_no_part_until_one_of_them_has_gone() {
     let mut world = World::ready(8, 0, show(2, 8, 0.1));
     pose(&mut world, 4.0);

@@ -288,11 +288,11 @@ impl Play {
             let payload: Rc<[u8]> = send.payload.into();
             match send.topic {
                 Topic::Robot(id) => {
-                    if let Ok(place) = self.by_id.binary_search_by_key(&id, |entry| entry.0) {
-                        let way = Way::ToRobot(self.by_id[place].1);
-                        self.network.send(self.now, way, send.topic, payload.clone());
-                    }
-                    for &(_, robot) in self.namesakes.iter().filter(|(name, _)| *name == id) {
+                    let place = self.by_id.binary_search_by_key(&id, |entry| entry.0);
+                    let first = place.ok().map(|place| self.by_id[place]);
+                    let named = first.iter().chain(&self.namesakes).filter(|(name, _)| *name == id);
+                    // A robot that has another name by now has subscribed to that one.
+                    for &(_, robot) in named.filter(|(_, robot)| self.robots.id(*robot) == id) {
                         self.network.send(self.now, Way::ToRobot(robot), send.topic, payload.clone());
                     }
                 }

@@ -85,7 +85,12 @@ impl LocalClock {
     #[inline]
     fn own(self, now: Instant) -> Instant {
         let drift = (now.0 as i64).wrapping_mul(self.drift_ppb) / 1_000_000_000;
-        Instant((now.0 + self.begin_us).wrapping_add_signed(drift))
+        Instant(now.0.wrapping_add(self.begin_us).wrapping_add_signed(drift))
+    }
+
+    /// The clock begins at 0.
+    fn restart(&mut self, now: Instant) {
+        self.begin_us = self.begin_us.wrapping_sub(self.own(now).0);
     }
 }
 

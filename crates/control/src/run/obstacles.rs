@@ -2,7 +2,7 @@
 
 use crate::mutant::Mutant;
 use crate::robot::KnownRobot;
-use crate::run::roster::Whereabouts;
+use crate::run::roster::{Participant, Whereabouts};
 use crate::run::run_context::RunContext;
 use crate::snapshot::Age;
 use lightbots_base::Vec2;
@@ -40,13 +40,21 @@ pub(crate) fn standing_discs(cx: &RunContext) -> Discs {
     let is_free = |at: &Vec2| starts.iter().all(|start| start.distance(*at) >= near_m);
     let is_forgotten = Mutant::ForgetDeadRobot.is_planted();
     let silent = cx.roster.participants.iter().filter(|known| known.is_excluded() && !is_forgotten);
-    let places = silent.flat_map(|known| known.last_seen.possible.iter());
-    let inferred = places.chain(&cx.pipeline.obstacles.found).map(|at| displaced(*at, &starts, contact_m));
+    let places = silent.flat_map(|known| places_of(cx, known));
+    let inferred =
+        places.chain(cx.pipeline.obstacles.found.iter().copied()).map(|at| displaced(at, &starts, contact_m));
     let robots = cx.io.fleet.robots().iter().filter(|robot| is_obstacle(cx, robot));
     Discs {
         reported: robots.filter_map(|robot| robot.reported.at).filter(is_free).collect(),
         inferred: inferred.filter(is_free).collect(),
     }
+}
+
+/// Where a robot may stand that dropped out. Robots that share a name stood after STOP where they report from since.
+fn places_of(cx: &RunContext, known: &Participant) -> Vec<Vec2> {
+    let namesakes = &cx.io.fleet.robot(known.robot).namesakes;
+    let is_shared = namesakes.are_there() && !known.last_seen.possible.is_empty();
+    if is_shared { namesakes.places() } else { known.last_seen.possible.clone() }
 }
 
 /// Whether a robot takes no part and stands where it reported.

@@ -27,6 +27,8 @@ impl RobotSet {
     /// A robot is switched off and on, and has this name then.
     pub fn restart_as(&mut self, now: Instant, robot: usize, id: RobotId) {
         let simulated = &mut self.robots[robot];
+        simulated.id = id;
+        simulated.clock.restart(now);
         simulated.firmware = match &simulated.firmware {
             RobotFirmware::Ours(before) => RobotFirmware::Ours(Ours::with_storage(
                 Config { id, ..before.config().clone() },

@@ -1,0 +1,97 @@
+//! Finds out that two robots share a name by their own clocks: the time questions of one robot (R25 of docs/protocol.md)
+//! follow one clock.
+//!
+//! The clock of a robot that starts again goes back once. Only where two robots ask in turn does a clock go back, forward,
+//! and back again to where the lower one is by now. Places say the same later, or never on a small floor.
+
+use lightbots_base::{Instant, Span};
+use serde::{Deserialize, Serialize};
+
+/// Most that a question's clock is before the one of the question before, if both are of one robot: one message overtook
+/// another. Two robots that were switched on within this time look like one.
+const OVERTAKEN: Span = Span::from_millis(500);
+/// Most that two questions of one robot are late unlike each other. A robot that starts again and again asks with the same
+/// low clock each time, which stays behind by the time between two starts.
+const LATE: Span = Span::from_millis(1_000);
+/// Steps back to the same lower clock after which two robots share the name: one is a robot that started again.
+const STEPS_BACK: u8 = 2;
+/// These are counted within this time. A robot asks every 3 s (R28).
+const WITHIN: Span = Span::from_millis(15_000);
+
+/// A time question: when it came, and its robot's own clock when it left.
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
+struct Question {
+    received: Instant,
+    asked: Instant,
+}
+
+/// The own clocks behind one name.
+#[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
+pub(crate) struct OwnClocks {
+    last: Option<Question>,
+    /// The last question whose clock had stepped back.
+    lower: Option<Question>,
+    steps_back: u8,
+    first_step: Instant,
+}
+
+impl OwnClocks {
+    /// The name asks for the time; `asked`: its own clock. Whether that shows that two robots share the name.
+    pub fn observe(&mut self, now: Instant, asked: Instant) -> bool {
+        let question = Question { received: now, asked };
+        let Some(last) = self.last.replace(question) else { return false };
+        if last.asked - asked <= OVERTAKEN {
+            return false;
+        }
+        let follows = self.lower.replace(question).is_some_and(|lower| question.is_of_clock(lower));
+        if !follows || now - self.first_step > WITHIN {
+            (self.steps_back, self.first_step) = (0, now);
+        }
+        self.steps_back = self.steps_back.saturating_add(1);
+        self.steps_back >= STEPS_BACK
+    }
+}
+
+impl Question {
+    /// Whether an earlier question may be of the same clock, which has gone on since.
+    fn is_of_clock(self, earlier: Self) -> bool {
+        let behind = (self.received - earlier.received) - (self.asked - earlier.asked);
+        (-LATE..=LATE).contains(&behind)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The first of these questions, `(received, asked)` in milliseconds, that shows two robots.
+    fn found(questions: impl IntoIterator<Item = (u64, u64)>) -> Option<usize> {
+        let mut clocks = OwnClocks::default();
+        let at = |ms: u64| Instant(ms * 1_000);
+        questions.into_iter().position(|(received, asked)| clocks.observe(at(received), at(asked)))
+    }
+
+    #[test]
+    fn two_robots_that_ask_in_turn_share_a_name() {
+        let questions = [(0, 90_000), (200, 300), (400, 500), (3_000, 93_000), (3_200, 3_300)];
+        assert_eq!(found(questions), Some(4));
+    }
+
+    #[test]
+    fn a_robot_that_starts_again_and_again_is_one() {
+        let start = |number: u64| (0..20).map(move |step| (number * 4_000 + step * 200, 150 + step * 200));
+        assert_eq!(found((0..20).flat_map(start)), None);
+    }
+
+    #[test]
+    fn a_robot_whose_questions_come_late_together_or_overtaken_is_one() {
+        // Every 0.2 s; for 4 s of each 5 s the broker passes nothing on, and each fifth question overtakes the one before.
+        let received = |ms: u64| if ms % 5_000 < 4_000 { ms / 5_000 * 5_000 + 4_000 } else { ms };
+        let order = |step: u64| match step % 5 {
+            3 => step + 1,
+            4 => step - 1,
+            _ => step,
+        };
+        assert_eq!(found((0..500).map(|step| (received(step * 200), 7_000 + order(step) * 200))), None);
+    }
+}
