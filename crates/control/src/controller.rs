@@ -51,7 +51,8 @@ pub struct Controller {
     pub(crate) failure: Option<String>,
     /// The frame in which the last run of a show was stopped; until the operator dismisses it or begins another run.
     pub(crate) stopped_in: Option<usize>,
-    /// Robots are told to stop once there is a broker: they were cut off in a run that does not go on.
+    /// Robots are told to stop once there is a broker: they were cut off in a run that does not go on, or while they were
+    /// told to stop.
     pub(crate) stops_when_connected: bool,
     #[serde(skip)]
     pub(crate) journal: Journal,
@@ -118,7 +119,8 @@ impl Controller {
         }
         self.context.outbox.link(false);
         self.context.log.record(now, EventKind::Disconnected);
-        self.stopping = None;
+        // STOP was lost with the broker where it was under way.
+        self.stops_when_connected |= self.stopping.take().is_some();
         if let Some(run) = &mut self.run {
             run.on_disconnect(&mut self.context, now);
         }

@@ -56,13 +56,14 @@ impl Stopping {
         context.send(index, &[Command::Target(at), Command::Uuid]);
     }
 
-    /// Whether a robot drives, or keeps a route to drive.
+    /// Whether a robot drives, or keeps a route to drive. One that is cut has aborted the route under way only (R43 of
+    /// docs/protocol.md); which of them it says depends on the order of R12.
     fn may_go_on(&self, robot: &KnownRobot) -> bool {
         if robot.contact.age == Age::Gone {
             return false;
         }
         match robot.reported.state {
-            Some(RobotState::Driving | RobotState::Held | RobotState::Ready) => true,
+            Some(RobotState::Driving | RobotState::Held | RobotState::Ready | RobotState::Cut) => true,
             Some(_) => robot.contact.heard < self.since,
             None => false,
         }

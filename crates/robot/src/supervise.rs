@@ -59,11 +59,11 @@ impl Supervisor {
         self.cut = false;
     }
 
-    /// The link went up or down.
+    /// The link went up or down. A link that is up is no message: silence goes on.
     pub(crate) fn link(&mut self, now: Instant, up: bool) {
         if up {
             self.untold |= self.cut;
-            self.receive(now);
+            (self.down_since, self.cut) = (None, false);
         } else if self.down_since.is_none() {
             self.down_since = Some(now);
         }

@@ -138,7 +138,7 @@ impl Invariants {
         self.is_over = true;
     }
 
-    /// A robot received a message, or its link came up.
+    /// A robot received a message.
     pub fn received(&mut self, robot: usize, now: Instant) {
         self.robots[robot].received = now;
     }

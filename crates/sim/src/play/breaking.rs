@@ -20,7 +20,7 @@ impl Play {
                 Fate::Killed => self.robots.kill(robot),
                 Fate::Stuck => self.robots.block_wheels(robot),
                 Fate::Muted => {}
-                Fate::Cut | Fate::Linked => self.link(robot, fate == Fate::Linked),
+                Fate::Cut | Fate::Linked => self.robots.link(self.now, robot, fate == Fate::Linked),
                 Fate::Blinded | Fate::Seeing => self.robots.blind(robot, fate == Fate::Blinded),
             }
             if let Some(invariants) = &mut self.invariants {
@@ -38,10 +38,10 @@ impl Play {
                 BrokerEvent::Freezes(over) => self.network.freeze(self.now + over),
                 BrokerEvent::Dies => {
                     self.network.clear();
-                    (0..self.robots.len()).for_each(|robot| self.link(robot, false));
+                    (0..self.robots.len()).for_each(|robot| self.robots.link(self.now, robot, false));
                     self.controller.disconnected(self.now);
                 }
-                BrokerEvent::RobotBack(robot) => self.link(robot, true),
+                BrokerEvent::RobotBack(robot) => self.robots.link(self.now, robot, true),
                 BrokerEvent::ControllerBack if self.crashes.is_gone() => {}
                 BrokerEvent::ControllerBack => self.controller.connected(self.now),
             }
@@ -94,20 +94,11 @@ impl Play {
         }
     }
 
-    /// A robot's link comes up or breaks.
-    fn link(&mut self, robot: usize, up: bool) {
-        self.robots.link(self.now, robot, up);
-        if let Some(invariants) = self.invariants.as_mut().filter(|_| up) {
-            invariants.received(robot, self.now);
-        }
-    }
-
     /// A robot begins anew with the name of another one.
     fn name(&mut self, robot: usize, other: usize) {
         let id = self.robots.id(other);
         self.namesakes.push((id, robot));
         self.robots.restart_as(self.now, robot, id);
-        self.link(robot, true);
     }
 
     /// Writes what is new in the journal.
@@ -131,10 +122,7 @@ impl Play {
                 Mishap::Pause => self.operator.does(self.now, Operation::Pause),
                 Mishap::Resume => self.operator.does(self.now, Operation::Resume),
                 Mishap::Off(robot) => self.robots.kill(robot),
-                Mishap::On(robot) => {
-                    self.robots.restart(self.now, robot);
-                    self.link(robot, true);
-                }
+                Mishap::On(robot) => self.robots.restart(self.now, robot),
                 Mishap::Moved(robot, to) => self.robots.put_down(robot, to),
                 Mishap::Lies(robot, off) => self.forgeries.lie(robot, off),
                 Mishap::Floods(robot, floods) => self.forgeries.flood(robot, floods),
