@@ -151,6 +151,8 @@ mod tests {
         assert!(supervisor.check_link(Instant(3 * SECOND + 1), Drives::Route));
         assert!(!supervisor.check_link(Instant(3 * SECOND + 2), Drives::Route));
         assert!(supervisor.is_cut());
+        supervisor.link(Instant(4 * SECOND), true);
+        assert!(!supervisor.is_cut() && supervisor.check_link(Instant(4 * SECOND), Drives::Route));
         supervisor.receive(Instant(4 * SECOND));
         assert!(!supervisor.is_cut());
     }

@@ -6,7 +6,7 @@ use lightbots_sim::Campaign;
 const ROBOTS: usize = 30;
 
 /// Seeds that failed once, with the number of robots they had then.
-const FAILED: [(u64, Option<usize>); 14] = [
+const FAILED: [(u64, Option<usize>); 20] = [
     // Robots turned towards a route that waited for its start after 2 s of silence.
     (78, Some(30)),
     // A show that was paused when its controller was killed was resumed by no one.
@@ -31,6 +31,15 @@ const FAILED: [(u64, Option<usize>); 14] = [
     (1_072, None),
     // One of two robots of one name was on its way when the show was over.
     (1_107, Some(30)),
+    // Two robots of one name stood so near each other that their places could be of one robot.
+    (1_262, None),
+    (1_394, None),
+    (1_445, None),
+    (1_448, None),
+    // A robot whose link was back kept a route, and said that it was cut.
+    (214, None),
+    // STOP was lost with the broker.
+    (1_910, None),
 ];
 
 fn is_fine(seed: u64, robots: Option<usize>) {
