@@ -328,6 +328,11 @@ impl Controller {
         self.run.as_ref().is_some_and(|run| run.is_at_cue(now))
     }
 
+    /// Whether the operator can let an interrupted run go on.
+    pub fn may_go_on(&self) -> bool {
+        self.run.as_ref().is_some_and(|run| run.may_go_on(&self.context))
+    }
+
     /// The open show.
     pub fn show(&self) -> Option<&Arc<Show>> {
         self.show.as_ref()

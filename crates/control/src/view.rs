@@ -77,7 +77,7 @@ impl Run {
     }
 
     /// Whether the operator can let an interrupted run go on.
-    fn may_go_on(&self, context: &Context) -> bool {
+    pub fn may_go_on(&self, context: &Context) -> bool {
         let RunPhase::Interrupted(interrupted) = &self.phase else { return false };
         context.outbox.linked() && interrupted.is_any_back()
     }

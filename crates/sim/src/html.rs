@@ -125,20 +125,21 @@ fn chart(page: &mut String, title: &str, frames: &[FrameRecord], value: impl Fn(
 
 fn frame_table(page: &mut String, frames: &[FrameRecord]) {
     page.push_str(
-        "<h2>Frames</h2><table><tr><th>Frame</th><th>Stands at</th><th>DriveTrain</th><th>Arrivals within</th>\
-         <th>Position error (median, max)</th></tr>",
+        "<h2>Frames</h2><table><tr><th>Frame</th><th>Stands at</th><th>Drive</th><th>Arrivals within</th>\
+         <th>Position error (median, max)</th><th>Pixels shown</th></tr>",
     );
     for frame in frames {
         let _ = write!(
             page,
-            "<tr><td>{} {}</td><td>{:.2} s</td><td>{:.2} s</td><td>{:.0} ms</td><td>{:.1}, {:.1} mm</td></tr>",
+            "<tr><td>{} {}</td><td>{:.2} s</td><td>{:.2} s</td><td>{:.0} ms</td><td>{:.1}, {:.1} mm</td><td>{}</td></tr>",
             frame.frame + 1,
             escaped(&frame.name),
             frame.at_s,
             frame.drive_s,
             frame.arrival_spread_s * 1e3,
             frame.position_error_m.median * 1e3,
-            frame.position_error_m.max * 1e3
+            frame.position_error_m.max * 1e3,
+            frame.pixels_shown
         );
     }
     page.push_str("</table>");
@@ -178,6 +179,7 @@ mod tests {
             drive_s: 3.0,
             arrival_spread_s: 0.12,
             position_error_m,
+            pixels_shown: 30,
         };
         RehearsalReport {
             ok: false,

@@ -70,6 +70,6 @@ pub use mishap::Mishap;
 pub use network::MessageCounts;
 pub use options::{Progress, ROBOTS_MAX, RehearsalOptions};
 pub use rehearsal::{rehearse, rehearse_recorded};
-pub use report::{FrameRecord, RehearsalReport};
+pub use report::{FrameRecord, RehearsalReport, SHOWN_M};
 pub use statistics::Spread;
 pub use world::{STEP, World};

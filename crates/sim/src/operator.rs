@@ -10,6 +10,8 @@ use lightbots_control::Operation;
 pub(crate) struct Operator {
     /// When Go on is pressed.
     presses_at: Option<Instant>,
+    /// Since when some robots report and others stay away.
+    waits_since: Option<Instant>,
     /// What else the operator does, in this order.
     wants: VecDeque<Operation>,
     /// When the operator tries the next of it.
@@ -19,12 +21,23 @@ pub(crate) struct Operator {
 impl Operator {
     /// Time to read a message and to look at the floor.
     const LOOKS: Span = Span::from_millis(2_000);
+    /// Time that robots that stay away have to come back. Clients find a broker again within 2 s.
+    const WAITS: Span = Span::from_millis(10_000);
     /// Time until a button that did nothing is pressed again.
     const TRIES_AGAIN: Span = Span::from_millis(500);
 
     /// The controller asks whether the run goes on.
     pub fn asked(&mut self, now: Instant) {
         self.presses_at.get_or_insert(now + Self::LOOKS);
+    }
+
+    /// Some robots of an interrupted run report or not: after a while the run goes on without the others.
+    pub fn sees(&mut self, now: Instant, are_some_back: bool) {
+        if !are_some_back {
+            self.waits_since = None;
+        } else if now - *self.waits_since.get_or_insert(now) >= Self::WAITS {
+            self.presses_at.get_or_insert(now);
+        }
     }
 
     /// Whether Go on is pressed now.
@@ -61,6 +74,19 @@ mod tests {
         operator.asked(Instant(6_000_000));
         assert!(!operator.presses(Instant(6_999_999)));
         assert!(operator.presses(Instant(7_000_000)) && !operator.presses(Instant(9_000_000)));
+    }
+
+    #[test]
+    fn the_operator_goes_on_without_robots_that_stay_away() {
+        let mut operator = Operator::default();
+        let mut presses_at = |seconds: u64, are_some_back| {
+            operator.sees(Instant(seconds * 1_000_000), are_some_back);
+            operator.presses(Instant(seconds * 1_000_000))
+        };
+        assert!(
+            !presses_at(1, false) && !presses_at(2, true) && !presses_at(11, true) && presses_at(12, true)
+        );
+        assert!(!presses_at(13, false) && !presses_at(14, true));
     }
 
     #[test]

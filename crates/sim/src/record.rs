@@ -11,7 +11,7 @@ use crate::broker_outages::BrokerEvent;
 use crate::bumps::{Bump, EDGE_SLACK_M};
 use crate::controller_crashes::CrashEvent;
 use crate::floor::FloorObject;
-use crate::report::{FrameRecord, RehearsalReport};
+use crate::report::{FrameRecord, RehearsalReport, SHOWN_M};
 use crate::robot_set::RobotSet;
 use crate::statistics::Spread;
 use crate::world::World;
@@ -300,6 +300,7 @@ impl RehearsalRecord {
             drive_s: (at - self.started).as_secs(),
             arrival_spread_s: self.arrival_spread().as_secs(),
             position_error_m: Spread::of(&errors_m),
+            pixels_shown: errors_m.iter().filter(|error_m| **error_m <= SHOWN_M).count(),
         });
         self.errors_m.append(&mut errors_m);
     }

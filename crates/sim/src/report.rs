@@ -79,6 +79,9 @@ impl RehearsalReport {
     }
 }
 
+/// Farthest that a robot stands from the pixel that it shows, metres: a third of its diameter of 57 mm.
+pub const SHOWN_M: f64 = 0.019;
+
 /// One frame that stood.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct FrameRecord {
@@ -94,4 +97,6 @@ pub struct FrameRecord {
     pub arrival_spread_s: f64,
     /// Distance of robots from their pixels, metres.
     pub position_error_m: Spread,
+    /// Number of its pixels with a robot within [`SHOWN_M`].
+    pub pixels_shown: usize,
 }

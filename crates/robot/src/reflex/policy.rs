@@ -65,7 +65,9 @@ pub(crate) fn allowed_mps(
     // Nearer than that already, or driven into by the other: then it must not make it worse.
     let (at_rest, ..) = stop.nearest(0.0);
     let tolerance_m = if clearance_m.is_some() { of.tolerance_m } else { 0.0 };
-    let least_m = least_m.min(at_rest - tolerance_m);
+    // Each step may use the tolerance again: it must not add up to a contact.
+    let tolerated_m = (at_rest - tolerance_m).max((sensors.contact_m() + of.spare_m).min(at_rest));
+    let least_m = least_m.min(tolerated_m);
     if at_wanted >= least_m {
         return None;
     }

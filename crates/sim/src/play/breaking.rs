@@ -88,6 +88,7 @@ impl Play {
         if self.controller.is_at_cue(self.now) && self.controller.operate(self.now, Operation::Go).is_ok() {
             self.drain_controller();
         }
+        self.operator.sees(self.now, self.controller.may_go_on());
         if self.operator.presses(self.now) && self.controller.operate(self.now, Operation::GoOn).is_ok() {
             self.record.pressed(self.now);
             self.drain_controller();
