@@ -5,10 +5,22 @@ export type View = 'live' | 'edit' | 'new';
 /** The address of the editor; the name of the show that it edits may follow. */
 const EDIT = '#/edit';
 
+/** The browser tells of a change later; these hear of this page's own changes at once. */
+const listeners = new Set<() => void>();
+
 const subscribe = (listener: () => void) => {
+  listeners.add(listener);
   window.addEventListener('hashchange', listener);
-  return () => window.removeEventListener('hashchange', listener);
+  return () => {
+    listeners.delete(listener);
+    window.removeEventListener('hashchange', listener);
+  };
 };
+
+function change(address: string) {
+  location.hash = address;
+  for (const listener of [...listeners]) listener();
+}
 
 /** The view in the address. */
 export const viewNow = (): View =>
@@ -16,9 +28,7 @@ export const viewNow = (): View =>
 
 export const useView = (): View => useSyncExternalStore(subscribe, viewNow);
 
-export const goTo = (view: View) => {
-  location.hash = `#/${view}`;
-};
+export const goTo = (view: View) => change(`#/${view}`);
 
 /** The show that the address names: the one that this screen edits. Null: it names none. */
 export function showInAddress(): string | null {
@@ -42,6 +52,4 @@ export const nameInAddress = (show: string) => history.replaceState(null, '', ad
 export const followAddress = subscribe;
 
 /** Edits another show on this screen only. */
-export const editShow = (name: string) => {
-  location.hash = addressOf(name);
-};
+export const editShow = (name: string) => change(addressOf(name));

@@ -7,19 +7,29 @@ type Context = Pick<Session, 'live' | 'ask'>;
 export async function openShow({ live, ask }: Context, name: string): Promise<boolean> {
   const { revision } = live.opened.get();
   if (!(await ask({ do: 'open', name })).ok) return false;
-  await isAnnounced(live, revision);
+  await isAnnounced(live, name, revision);
   if (live.opened.get().name !== name) return false;
   if (viewNow() === 'edit') editShow(name);
   return true;
 }
 
-/** Ends when the server has announced a show since that revision, or when the connection is lost. */
-const isAnnounced = ({ opened, link }: Session['live'], before: number) =>
+/** The server announces a show right after it has opened it; another screen may open a third one in between. */
+const ANNOUNCED_MS = 3_000;
+
+/** Ends when the server has announced that show anew, when the connection is lost, or after a while. */
+const isAnnounced = ({ opened, link }: Session['live'], name: string, before: number) =>
   new Promise<void>((resolve) => {
-    if (opened.get().revision !== before) return resolve();
+    const look = () => {
+      const now = opened.get();
+      const isOver = now.revision !== before && now.name === name;
+      if (isOver || link.get() !== 'open') end();
+    };
     const end = () => {
+      clearTimeout(timer);
       stops.forEach((stop) => stop());
       resolve();
     };
-    const stops = [opened.subscribe(end), link.subscribe(end)];
+    const timer = setTimeout(end, ANNOUNCED_MS);
+    const stops = [opened.subscribe(look), link.subscribe(look)];
+    look();
   });

@@ -62,14 +62,21 @@ test('a show that is nowhere is a failure in words, and the open show is a way o
   expect(shown.get()).toMatchObject({ name: 'A', failure: null });
 });
 
-test('a show that this screen opens is shown here; where another one is announced, nothing changes', async () => {
+test('a show that this screen opens is shown here, also if another one is announced before', async () => {
   const { address, live, open, shown } = setup('#/edit/A');
   open('A');
-  const ask = (announced: string) => () => {
-    open(announced);
-    return Promise.resolve({ id: 1, ok: true, error: null, choice: null });
+  const ask = (...announced: string[]) => {
+    announced.slice(0, -1).forEach(open);
+    setTimeout(() => announced.slice(-1).forEach(open));
+    return () => Promise.resolve({ id: 1, ok: true, error: null, choice: null });
   };
-  expect(await openShow({ live, ask: ask('B') }, 'B')).toBe(true);
+  // A save of the show that was open is announced first.
+  expect(await openShow({ live, ask: ask('A', 'B') }, 'B')).toBe(true);
   expect([shown.get().name, address.hash]).toEqual(['B', '#/edit/B']);
-  expect(await openShow({ live, ask: ask('other') }, 'A')).toBe(false);
+  vi.useFakeTimers();
+  const other = openShow({ live, ask: ask('C') }, 'A');
+  await vi.advanceTimersByTimeAsync(5_000);
+  vi.useRealTimers();
+  expect(await other).toBe(false);
+  expect(shown.get().name).toBe('B');
 });
