@@ -43,7 +43,7 @@ fn one_dies_past_a_bay() -> (World, usize) {
     (world, passing)
 }
 
-/// It may still drive until it knows that its link broke, and then stands in front of the bay: who is in there could not
+/// It may still drive until it knows that its link broke, and then stands in front of the bay: a robot in the bay could not
 /// get out. That it died where it was heard last is likelier, and driven around even then.
 #[test]
 fn where_there_is_no_way_around_all_places_of_a_silent_robot_the_likely_ones_are_driven_around() {

@@ -111,9 +111,9 @@ fn reach_frame(cx: &mut RunContext, frame: usize, ends: Instant) {
     cx.link.fade();
     cx.playback.paused |= std::mem::take(&mut cx.playback.stepping);
     cx.pipeline.obstacles = Default::default();
-    cx.playback.waits_for_go = cx.playback.cue(frame).is_some();
-    if let Some(name) = cx.playback.cue(frame) {
-        let name = name.to_owned();
+    let cue = cx.playback.cue(frame).map(str::to_owned);
+    cx.playback.waits_for_go = cue.is_some();
+    if let Some(name) = cue {
         cx.io.log.record(cx.now, EventKind::WaitsForGo { frame, name });
     }
     cx.playback.advance();
