@@ -187,6 +187,8 @@ impl KnownRobot {
         known.clock_us = details.clock_us;
         known.route = details.route;
         known.abilities = details.abilities;
+        known.brakes = details.brakes;
+        known.near_m = details.near_m;
         if known.firmware != details.firmware {
             known.firmware = details.firmware.clone();
         }

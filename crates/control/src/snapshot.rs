@@ -109,6 +109,10 @@ pub struct Reported {
     pub abilities: Abilities,
     /// Whether it is simulated. Every other robot is real.
     pub simulated: bool,
+    /// How often its safety layer began to slow it, since it was switched on.
+    pub brakes: u32,
+    /// Least gap between its rim and another robot's that it saw on its latest route, metres.
+    pub near_m: Option<f64>,
 }
 
 /// When a robot reported.

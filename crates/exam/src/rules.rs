@@ -44,7 +44,7 @@ const OBSTACLE: &str = "the test would have to put an obstacle in front of the r
 const SENSORS: &str = "the test would have to disturb the robot's sensors";
 
 /// All rules, in order: `RULES[n - 1]` is Rn.
-pub const RULES: [Rule; 52] = {
+pub const RULES: [Rule; 53] = {
     use Scope::{AllRobots, Blink, Details, Fade, Hidden, Light, Route};
     [
         rule(1, "MQTT 3.1.1, QoS 0, not retained", Hidden("only the broker sees how a robot connects")),
@@ -107,6 +107,7 @@ pub const RULES: [Rule; 52] = {
             "a simulated robot reports sim=1",
             Hidden("messages do not show whether a robot is simulated"),
         ),
+        rule(53, "brakes= never falls, near= is a gap in sight", Details),
     ]
 };
 

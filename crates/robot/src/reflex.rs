@@ -4,6 +4,7 @@
 mod birth;
 mod covariance;
 mod departure;
+mod encounters;
 mod likelihood;
 mod motion;
 mod obstacle;
@@ -18,9 +19,10 @@ mod track;
 mod tracks;
 mod view;
 
-use lightbots_base::Vec2;
+use lightbots_base::{Instant, Vec2};
 
 use crate::config::{Config, NeighbourModel, SENSORS, SafetyPolicy};
+use encounters::Encounters;
 use motion::OwnMotion;
 pub(crate) use point::Point;
 pub(crate) use policy::Wish;
@@ -73,6 +75,8 @@ pub(crate) struct Reflex {
     sensors: Sensors,
     model: NeighbourModel,
     policy: SafetyPolicy,
+    /// What it reports of brakes and neighbours.
+    pub(crate) encounters: Encounters,
 }
 
 impl Reflex {
@@ -85,6 +89,7 @@ impl Reflex {
             sensors: Sensors::new(&config.proximity, config.limits.radius_m),
             model: config.neighbours,
             policy: config.policy,
+            encounters: Encounters::default(),
         }
     }
 
@@ -252,6 +257,18 @@ impl Reflex {
     pub(crate) fn begin_route(&mut self) {
         self.tracks.clear();
         self.safety = Safety::Free;
+        self.encounters.begin_route();
+    }
+
+    /// Notes for reports, at `now` on a route, whether it brakes and how near the neighbours are that its sensors see.
+    pub(crate) fn note(&mut self, now: Instant) {
+        if self.safety != Safety::Free {
+            self.encounters.brakes_at(now);
+        }
+        let seen = self.tracks.iter(&self.sensors).filter(|track| track.seen_by != 0 && !track.is_flat);
+        if let Some(gap_m) = seen.map(|track| track.gap_m(&self.sensors)).min_by(f32::total_cmp) {
+            self.encounters.see(gap_m);
+        }
     }
 
     /// The route or the target has changed: it may try again.

@@ -19,8 +19,8 @@ use crate::reflex::Reflex;
 use crate::storage::RouteStorage;
 use crate::supervise::Drives;
 
-/// A message to send. The longest report has 291 bytes.
-pub type Message = heapless::String<320>;
+/// A message to send. The longest report has 327 bytes.
+pub type Message = heapless::String<352>;
 
 /// Longest time that counts as one step. Above, a pause of the simulation would move a robot along its route without
 /// its wheels. Below, a board that skips a few steps would lose way.

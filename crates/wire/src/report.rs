@@ -42,6 +42,11 @@ pub struct Details {
     pub blocked: Option<Blocked>,
     /// Whether it reports itself as simulated (R52).
     pub simulated: bool,
+    /// Number of times since power-on that its safety layer began to slow it (R53).
+    pub brakes: u32,
+    /// Least gap between its rim and the rim of another robot that it saw on its latest route, metres (R53); `None`: it
+    /// saw none.
+    pub near_m: Option<f64>,
 }
 
 /// An unplanned obstacle (R49).

@@ -105,6 +105,8 @@ fn read_detail(details: &mut Option<Details>, key: &str, value: &str) {
         "unknown" => known(details).unknown = value.parse().unwrap_or(0),
         "blocked" => known(details).blocked = blocked(value),
         "sim" => known(details).simulated = value == "1",
+        "brakes" => known(details).brakes = value.parse().unwrap_or(0),
+        "near" => known(details).near_m = finite(value).filter(|&near| near >= 0.0),
         _ => {}
     }
 }
@@ -175,6 +177,14 @@ fn write_details(details: &Details, out: &mut TextBuffer<'_>) -> fmt::Result {
     }
     if details.simulated {
         out.write_str(" sim=1")?;
+    }
+    if details.brakes != 0 {
+        out.write_str(" brakes=")?;
+        write_int(out, i64::from(details.brakes))?;
+    }
+    if let Some(near_m) = details.near_m {
+        out.write_str(" near=")?;
+        write_double(out, near_m)?;
     }
     Ok(())
 }

@@ -75,6 +75,8 @@ fn full_report() -> Report {
         unknown: 3,
         blocked: Some(Blocked { gap_m: 0.0021, towards: -1.5 }),
         simulated: true,
+        brakes: 3,
+        near_m: Some(0.0123),
     };
     Report {
         id: id("abfe6805-3c60-4e5a-ba40-2dcf7cb5d8e8"),
@@ -107,7 +109,7 @@ fn our_messages_byte_for_byte() {
         said(&full_report()),
         "abfe6805-3c60-4e5a-ba40-2dcf7cb5d8e8 -0.73 1.0E-4 state=driving h=1.25 off=0.0034 route=12 \
          starts=8000000 clock=450 bat=87 unknown=3 can=route+fade+blink+room+neighbours fw=lightbots-0.1.0 err=0.0012 \
-         blocked=0.0021@-1.5 sim=1"
+         blocked=0.0021@-1.5 sim=1 brakes=3 near=0.0123"
     );
 }
 
@@ -295,4 +297,18 @@ fn reports_of_others_are_read() {
     for bad in ["r1", "r1 1", "r1 a b", "r/1 1 2", "|UUID|"] {
         assert_eq!(Report::decode(bad.as_bytes()), None, "{bad}");
     }
+}
+
+#[test]
+fn hostile_brakes_and_gaps_are_no_values() {
+    let said =
+        |fields: &str| Report::decode(format!("r7 0.5 1.3 {fields}").as_bytes()).unwrap().details.unwrap();
+    for value in ["-1", "4294967296", "1.5", "x", "", "NaN"] {
+        assert_eq!(said(&format!("brakes={value}")).brakes, 0, "{value}");
+    }
+    for value in ["-0.1", "NaN", "Infinity", "1e300", "x", ""] {
+        assert_eq!(said(&format!("near={value}")).near_m, None, "{value}");
+    }
+    let fine = said("brakes=4294967295 near=0,0123");
+    assert_eq!((fine.brakes, fine.near_m), (u32::MAX, Some(0.0123)));
 }

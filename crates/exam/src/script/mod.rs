@@ -1,5 +1,6 @@
 //! The script of an exam: one file per subject. Each tries some rules and leaves the robot at rest.
 
+mod encounters;
 mod greeting;
 mod junk;
 mod light;
@@ -60,7 +61,9 @@ async fn examine(pilot: &mut Pilot) -> Step {
     }
     light::blink(pilot).await;
     doing(pilot, "invalid payloads");
-    junk::run(pilot).await
+    junk::run(pilot).await?;
+    encounters::judge(pilot);
+    Ok(())
 }
 
 async fn drive_routes(pilot: &mut Pilot) -> Step {

@@ -393,3 +393,23 @@ fn reads_payloads_of_any_length() {
     });
     examined(flaw).assert_broken(&[4]);
 }
+
+#[test]
+fn counts_its_brakes_downwards() {
+    let mut left = 1000;
+    let says = move |message: Message| {
+        left -= 1;
+        let more = format!("{} brakes={left}", text(&message));
+        vec![if on(&message, "Time") { message } else { (message.0, more.into_bytes()) }]
+    };
+    examined(Says(says)).assert_broken(&[53]);
+}
+
+#[test]
+fn says_how_near_others_came_in_millimetres() {
+    let says = |message: Message| {
+        let more = format!("{} near=12.5", text(&message));
+        vec![if on(&message, "Time") { message } else { (message.0, more.into_bytes()) }]
+    };
+    examined(Says(says)).assert_broken(&[53]);
+}

@@ -47,7 +47,9 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
             let [speed_mps, told_mps] = [wanted.speed_mps, hot.drive.speed_mps()].map(|mps| mps as f32);
             let wish = Wish { speed_mps, told_mps, dt: dt as f32 };
             let named = hot.routes.names_neighbours(self.storage.borrow());
-            self.reflex.limit(wish, hot.routes.room_mm().filter(|_| !named))
+            let most_mps = self.reflex.limit(wish, hot.routes.room_mm().filter(|_| !named));
+            self.reflex.note(hot.now);
+            most_mps
         } else {
             self.reflex.forget();
             None

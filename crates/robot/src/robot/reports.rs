@@ -81,6 +81,8 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
             unknown: self.unknown,
             blocked: self.blocked(),
             simulated: self.config.simulated,
+            brakes: self.reflex.encounters.brakes(),
+            near_m: self.reflex.encounters.near_m(),
         }
     }
 }

@@ -1,0 +1,33 @@
+//! What all reports said of brakes and neighbours: R53.
+
+use super::pilot::Pilot;
+use crate::received::Received;
+
+/// Farthest gap that counts as seen, metres. No proximity sensor of such a robot sees farther, so a larger number is in
+/// another unit.
+const SIGHT_M: f64 = 1.0;
+
+/// Judges all reports of the exam.
+pub(super) fn judge(pilot: &Pilot) {
+    if !pilot.has_details {
+        return;
+    }
+    let wrong = pilot.session.since(0, first_wrong);
+    let came = wrong.clone().unwrap_or_else(|| "nothing else".into());
+    let expected = "brakes= a whole number that never falls, near= a gap in metres";
+    pilot.session.record(53, wrong.is_none(), "all of the above", expected, came);
+}
+
+/// The first report whose fields break the rule.
+fn first_wrong(received: &[Received]) -> Option<String> {
+    let mut most = 0;
+    let breaks = |report: &&Received| {
+        let brakes = report.field("brakes").map_or(Some(0), |value| value.parse::<u32>().ok());
+        let falls = brakes.is_none_or(|brakes| brakes < most);
+        most = brakes.unwrap_or(most);
+        let near = report.field("near").map(|value| value.parse::<f64>().unwrap_or(f64::NAN));
+        falls || near.is_some_and(|near_m| !(0.0..=SIGHT_M).contains(&near_m))
+    };
+    let mut reports = received.iter().filter(|received| received.report.is_some());
+    reports.find(breaks).map(|report| report.text.clone())
+}
