@@ -77,10 +77,14 @@ export async function startServer(...more: string[]): Promise<Server> {
 }
 
 /** Robots of a process of their own on the server's broker; ends them, as a power cut does. */
-export async function startRobots(server: Server, count: number): Promise<() => Promise<void>> {
+export async function startRobots(
+  server: Server,
+  count: number,
+  more: readonly string[] = ['--seed', '11'],
+): Promise<() => Promise<void>> {
   const settings = await fetch(`${server.url}/api/broker`);
   const { embedded } = (await settings.json()) as { embedded: string };
-  const args = ['robots', '--count', String(count), '--broker', embedded, '--seed', '11'];
+  const args = ['robots', '--count', String(count), '--broker', embedded, ...more];
   const child = spawn(program(), args, { stdio: 'ignore' });
   return () => end(child);
 }

@@ -8,6 +8,7 @@ import { LivePage } from './live/LivePage';
 import { DraftBanner } from './shell/DraftBanner';
 import { DropFile } from './shell/DropFile';
 import { Header } from './shell/Header';
+import { IncidentBanner } from './shell/IncidentBanner';
 import { LinkBanner } from './shell/LinkBanner';
 import { NotOpenBanner } from './shell/NotOpenBanner';
 import { OfferDialog } from './shell/OfferDialog';
@@ -58,6 +59,7 @@ export function App() {
             <Header view={view} />
             <OpenBanner />
             <LinkBanner />
+            <IncidentBanner view={view} />
             <DraftBanner />
             <NotOpenBanner view={view} />
           </div>

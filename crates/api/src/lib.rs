@@ -15,6 +15,7 @@
 
 mod broker;
 mod fleet;
+mod incident;
 mod library;
 mod make;
 mod operation;
@@ -27,6 +28,7 @@ mod typescript;
 
 pub use broker::BrokerSettings;
 pub use fleet::{Abilities, Fleet, FleetRow, Presence, RobotStatus};
+pub use incident::{Incident, IncidentTone, Incidents};
 pub use library::{Problem, ShowEntry, ShowOrigin, ShowState};
 pub use make::{
     FilmAnswer, FilmPicture, FitAnswer, MadePixel, MadeReadability, MakeAnswer, MakeChoices, MakeFile,

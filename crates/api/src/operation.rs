@@ -70,6 +70,11 @@ pub enum Operation {
     GoOn,
     /// Clear `Playback.failure` and `Playback.stopped_in` on every screen, because the operator has read it.
     DismissFailure,
+    /// Note on every screen that the operator has read an incident.
+    ReadIncident {
+        /// Number of the incident.
+        incident: u32,
+    },
     /// Ask all robots for a report.
     Refresh,
     /// Make a robot blink.

@@ -3,10 +3,10 @@
 use serde::{Deserialize, Serialize};
 use ts_rs::TS;
 
-use crate::{Answer, Fleet, Plan, State};
+use crate::{Answer, Fleet, Incidents, Plan, State};
 
-/// A message to a screen. After `hello` come `show`, `plan`, `fleet` and the last lines of the log; each is sent again
-/// after a change. `state` comes 20 times a second, each after the binary message `Robots`. A screen acknowledges each
+/// A message to a screen. After `hello` come `show`, `plan`, `incidents`, `fleet` and the last lines of the log; each is sent
+/// again after a change. `state` comes 20 times a second, each after the binary message `Robots`. A screen acknowledges each
 /// `state` with `took`. A screen with several unacknowledged ones gets no more until it catches up.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS)]
 #[serde(tag = "type", rename_all = "snake_case")]
@@ -25,6 +25,8 @@ pub enum ToScreen {
     State(State),
     /// A line of the log.
     Log(LogLine),
+    /// What went wrong.
+    Incidents(Incidents),
     /// The answer to a request of this screen.
     Answer(Answer),
 }

@@ -5,10 +5,11 @@ use ts_rs::{Config, TS};
 
 use crate::{
     Abilities, Answer, Broker, BrokerPhase, BrokerSettings, Choice, FilmAnswer, FilmPicture, FitAnswer,
-    Fleet, FleetRow, FromScreen, Hello, Issue, Level, LogLine, MadePixel, MadeReadability, MakeAnswer,
-    MakeChoices, MakeFile, MakeFont, MakeQuality, MakeRemark, MakeRequest, MakeShape, Missing, OpenShow,
-    Operation, Path, Phase, Plan, PlanAnswer, PlanningRequest, Playback, Presence, Problem, Request,
-    RobotStatus, Robots, Severity, ShowEntry, ShowOrigin, ShowState, State, ToScreen, Transition,
+    Fleet, FleetRow, FromScreen, Hello, Incident, IncidentTone, Incidents, Issue, Level, LogLine, MadePixel,
+    MadeReadability, MakeAnswer, MakeChoices, MakeFile, MakeFont, MakeQuality, MakeRemark, MakeRequest,
+    MakeShape, Missing, OpenShow, Operation, Path, Phase, Plan, PlanAnswer, PlanningRequest, Playback,
+    Presence, Problem, Request, RobotStatus, Robots, Severity, ShowEntry, ShowOrigin, ShowState, State,
+    ToScreen, Transition,
 };
 
 /// The first line of the generated file.
@@ -56,6 +57,9 @@ pub fn typescript() -> String {
         Robots,
         LogLine,
         Level,
+        Incidents,
+        Incident,
+        IncidentTone,
         Request,
         Operation,
         Missing,

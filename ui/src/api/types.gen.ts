@@ -1,11 +1,11 @@
 // Made from crates/api by `cargo run -p lightbots-api --example types`. Change it there.
 
 /**
- * A message to a screen. After `hello` come `show`, `plan`, `fleet` and the last lines of the log; each is sent again
- * after a change. `state` comes 20 times a second, each after the binary message `Robots`. A screen acknowledges each
+ * A message to a screen. After `hello` come `show`, `plan`, `incidents`, `fleet` and the last lines of the log; each is sent
+ * again after a change. `state` comes 20 times a second, each after the binary message `Robots`. A screen acknowledges each
  * `state` with `took`. A screen with several unacknowledged ones gets no more until it catches up.
  */
-export type ToScreen = { "type": "hello" } & Hello | { "type": "show" } & OpenShow | { "type": "plan" } & Plan | { "type": "fleet" } & Fleet | { "type": "state" } & State | { "type": "log" } & LogLine | { "type": "answer" } & Answer;
+export type ToScreen = { "type": "hello" } & Hello | { "type": "show" } & OpenShow | { "type": "plan" } & Plan | { "type": "fleet" } & Fleet | { "type": "state" } & State | { "type": "log" } & LogLine | { "type": "incidents" } & Incidents | { "type": "answer" } & Answer;
 
 /**
  * A message from a screen on the WebSocket.
@@ -523,6 +523,65 @@ robots: Array<string>, };
 export type Level = "debug" | "info" | "warn" | "error";
 
 /**
+ * All incidents that are kept, oldest first.
+ */
+export type Incidents = { 
+/**
+ * The incidents.
+ */
+list: Array<Incident>, };
+
+/**
+ * Something that went wrong, what the program did about it, and what people can do.
+ */
+export type Incident = { 
+/**
+ * Number of the incident; it stays while the incident grows.
+ */
+id: number, 
+/**
+ * Time of its first event, milliseconds since 1970.
+ */
+time_ms: number, 
+/**
+ * How much it matters.
+ */
+tone: IncidentTone, 
+/**
+ * What happened: robot, frame, cause. One sentence.
+ */
+title: string, 
+/**
+ * What the program did about it; may be empty.
+ */
+done: string, 
+/**
+ * What people can do.
+ */
+advice: string, 
+/**
+ * Names of the first robots that it is about.
+ */
+robots: Array<string>, 
+/**
+ * Number of all these robots.
+ */
+count: number, 
+/**
+ * It holds no longer.
+ */
+over: boolean, 
+/**
+ * The operator has read it.
+ */
+read: boolean, };
+
+/**
+ * How much an incident matters.
+ */
+export type IncidentTone = "information" | "look" | "failed";
+
+/**
  * A numbered request.
  */
 export type Request = { 
@@ -562,7 +621,11 @@ on: boolean, } | { "do": "speed",
 /**
  * Percent of the usual speed.
  */
-percent: number, } | { "do": "home" } | { "do": "abort" } | { "do": "stop_all" } | { "do": "go_on" } | { "do": "dismiss_failure" } | { "do": "refresh" } | { "do": "identify", 
+percent: number, } | { "do": "home" } | { "do": "abort" } | { "do": "stop_all" } | { "do": "go_on" } | { "do": "dismiss_failure" } | { "do": "read_incident", 
+/**
+ * Number of the incident.
+ */
+incident: number, } | { "do": "refresh" } | { "do": "identify", 
 /**
  * Name of the robot.
  */

@@ -3,6 +3,7 @@ import { useState } from 'react';
 import { useStore } from '../base/store';
 import { useSession } from '../session/session';
 import { FleetTable } from './FleetTable';
+import { IncidentCards } from './IncidentCards';
 import { LogList } from './LogList';
 import { ShowFacts } from './ShowFacts';
 import styles from '../parts/page.module.css';
@@ -23,6 +24,7 @@ export function FleetSide() {
       aria-label="Fleet, show and log"
       data-wide={(wide && tab === 'robots') || undefined}
     >
+      <IncidentCards />
       <Tabs value={tab} onChange={setTab}>
         <Tabs.List grow>
           <Tabs.Tab value="robots">

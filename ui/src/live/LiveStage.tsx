@@ -7,7 +7,7 @@ import { useSession } from '../session/session';
 import { ALWAYS } from '../stage/pans';
 import { StageCanvas } from '../stage/StageCanvas';
 import { createView } from '../stage/view';
-import { fitView, StageTool, zoomView, ZoomTools } from '../stage/ViewTools';
+import { fitView, showPlace, StageTool, zoomView, ZoomTools } from '../stage/ViewTools';
 import { createCloseWatch } from './closeWatch';
 import { createFullPlan } from '../session/fullPlan';
 import { RobotTwin } from './RobotTwin';
@@ -16,7 +16,7 @@ import styles from '../stage/stage.module.css';
 
 /** The floor with the measured positions of the robots. */
 export function LiveStage() {
-  const { live, frame } = useSession();
+  const { live, frame, found: search } = useSession();
   const [view] = useState(createView);
   const [full] = useState(() => createFullPlan(live.plan));
   const [close] = useState(createCloseWatch);
@@ -31,6 +31,13 @@ export function LiveStage() {
   const empty = useStore(live.fleet, (fleet) => fleet.rows.length === 0);
   const linked = useStore(live.link) === 'open';
   useEffect(() => (routes ? full.follow() : undefined), [routes, full]);
+  const searched = useStore(search);
+  useEffect(() => {
+    const index = live.fleet.get().rows.findIndex(({ id }) => id === searched?.robot);
+    const robots = live.track.latest();
+    const at = { x: robots?.x[index] ?? NaN, y: robots?.y[index] ?? NaN };
+    if (!Number.isNaN(at.x + at.y)) showPlace(view, at);
+  }, [searched, live, view]);
   useKeys([
     ['0', () => fitView(view)],
     ['+', () => zoomView(view, 1.4)],

@@ -5,6 +5,8 @@ import { contact_m, EMPTY_STAGE, type Show } from '../model/show';
 import { hollowOf } from '../model/dots';
 import { floorOf, type Scene } from '../stage/scene';
 import { paintClose, type CloseWatch } from './closeWatch';
+import { paintCallouts } from './incidentMark';
+import { calloutsOf } from './incidents';
 import type { Live } from '../session/live';
 
 const ALPHAS = { active: 1, stale: 0.4, gone: 0.15 } as const;
@@ -53,6 +55,7 @@ export function liveScene(live: Live, inputs: LiveSceneInputs, now_ms: number): 
   const pinned = inputs.show?.frames[inputs.chosen]?.pixels.filter((p) => p.robot !== null) ?? [];
   const wrong =
     inputs.show?.frames[inputs.chosen]?.pixels.filter((p) => inputs.wrong.has(p.id)) ?? NOTHING;
+  const callouts = calloutsOf(live.incidents.get(), live.fleet.get(), live.track.latest());
   const close = inputs.close.find(sample.filled, contact_m(stage), now_ms);
   return {
     ...floorOf(stage, unitStore.get()),
@@ -71,6 +74,7 @@ export function liveScene(live: Live, inputs: LiveSceneInputs, now_ms: number): 
         stage.radius_m,
         close.flatMap((i) => sample.filled[i] ?? []),
       );
+      paintCallouts(context, camera, stage.radius_m, callouts);
     },
   };
 }

@@ -1,5 +1,14 @@
 import { createLink, type Link, type LinkState } from '../api/socket';
-import type { Broker, Fleet, Hello, LogLine, Plan, Playback, ToScreen } from '../api/types.gen';
+import type {
+  Broker,
+  Fleet,
+  Hello,
+  Incident,
+  LogLine,
+  Plan,
+  Playback,
+  ToScreen,
+} from '../api/types.gen';
 import { createStore, type Store } from '../base/store';
 import { readShow } from '../model/json';
 import type { Show } from '../model/show';
@@ -29,6 +38,8 @@ export interface Live {
   /** Speed of the show clock; 1: real time. */
   pace: Store<number>;
   log: Store<readonly LogLine[]>;
+  /** What went wrong, oldest first. */
+  incidents: Store<readonly Incident[]>;
   track: Track;
 }
 
@@ -75,6 +86,7 @@ export function createLive(): Live {
     playback: createStore<Playback>(NO_PLAYBACK),
     pace: createStore(1),
     log: createStore<readonly LogLine[]>([]),
+    incidents: createStore<readonly Incident[]>([]),
     track: createTrack(),
   };
 }
@@ -105,6 +117,9 @@ export function receive(live: Live, message: ToScreen) {
       break;
     case 'log':
       live.log.update((lines) => withLine(lines, message));
+      break;
+    case 'incidents':
+      live.incidents.set(message.list);
       break;
     case 'state':
       keep(live.broker, message.broker);

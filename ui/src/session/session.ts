@@ -3,6 +3,7 @@ import type { Link } from '../api/socket';
 import type { Answer, Choice, Operation } from '../api/types.gen';
 import { createStore, type Readable, type Store } from '../base/store';
 import { createDrafts, type Drafts, type LeftDraft } from '../model/drafts';
+import { soundAlarms } from './alarm';
 import { connect, createLive, type Live } from './live';
 import { createShown, type Shown } from './shown';
 import type { Editor } from '../model/editor';
@@ -33,6 +34,8 @@ export interface Session {
   fitting: Store<number | null>;
   /** The drive of real robots that waits for a confirmation; null: none. */
   driveAsked: Store<DriveGoal | null>;
+  /** The robot that was looked for last, anew with each search; null: none. */
+  found: Store<{ robot: string } | null>;
   /** Whether the checklist is shown. */
   checking: Store<boolean>;
   /** Changes that are not on the server yet. */
@@ -71,6 +74,7 @@ function tabName(): string {
 export function createSession(): Session {
   const live = createLive();
   const link = connect(live);
+  soundAlarms(live.incidents);
   const offer = createStore<{ reason: string; choice: Choice } | null>(null);
   const drafts = createDrafts(browserStorage(), {
     tab: tabName(),
@@ -87,6 +91,7 @@ export function createSession(): Session {
     dropped: createStore<Dropped | null>(null),
     fitting: createStore<number | null>(null),
     driveAsked: createStore<DriveGoal | null>(null),
+    found: createStore<{ robot: string } | null>(null),
     checking: createStore(false),
     orphans,
     restoring: createStore<LeftDraft | null>(null),

@@ -5,12 +5,14 @@ import {
   Select,
   SegmentedControl,
   Stack,
+  Switch,
   Text,
   useMantineColorScheme,
 } from '@mantine/core';
 import { useStore } from '../base/store';
 import { isUnit, UNITS, type Unit } from '../base/units';
 import { BrokerSection } from './BrokerSection';
+import { setSound, useSound } from '../session/alarm';
 import { setUnit, useUnit } from '../session/preferences';
 import { useSession } from '../session/session';
 import { goTo } from '../session/address';
@@ -58,6 +60,7 @@ export function SettingsDialog({ opened, onClose, onKeys }: Props) {
 function AppearanceAndUnits() {
   const { colorScheme, setColorScheme } = useMantineColorScheme();
   const unit = useUnit();
+  const sound = useSound();
   return (
     <>
       <Stack gap={4}>
@@ -75,6 +78,11 @@ function AppearanceAndUnits() {
           ]}
         />
       </Stack>
+      <Switch
+        label="A sound when something goes wrong"
+        checked={sound}
+        onChange={(event) => setSound(event.currentTarget.checked)}
+      />
       <Select
         label="Units"
         allowDeselect={false}

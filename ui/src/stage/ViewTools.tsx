@@ -1,12 +1,29 @@
 import { ActionIcon, Tooltip } from '@mantine/core';
 import { IconMaximize, IconMinus, IconPlus } from '@tabler/icons-react';
 import type { ReactNode } from 'react';
+import type { Point } from '../base/geometry';
 import type { Store } from '../base/store';
 import { zoomAt } from './camera';
 import type { View } from './view';
 import styles from './stage.module.css';
 
 export const fitView = (view: Store<View>) => view.update((now) => ({ ...now, fitted: true }));
+
+/** Width of the floor that is shown around a place that was looked for, metres. */
+const AROUND_M = 1.2;
+
+/** Shows a place in the middle of the stage, near enough to see it among others. */
+export const showPlace = (view: Store<View>, at: Point) =>
+  view.update((now) => {
+    const least = Math.min(now.width_px, now.height_px) / AROUND_M;
+    const scale = Math.max(now.camera.scale, least);
+    const camera = {
+      scale,
+      originX_px: now.width_px / 2 - at.x * scale,
+      originY_px: now.height_px / 2 + at.y * scale,
+    };
+    return { ...now, fitted: false, camera };
+  });
 
 /** Zooms about the middle of the stage. */
 export const zoomView = (view: Store<View>, factor: number) =>

@@ -5,6 +5,7 @@ mod broker;
 mod connection;
 mod desk;
 mod guests;
+mod incidents;
 mod log;
 mod names;
 mod operate;
@@ -25,6 +26,7 @@ use tokio::net::TcpListener;
 
 pub use broker::BrokerDesk;
 pub use desk::{Desk, Shown};
+pub use incidents::IncidentBoard;
 pub use log::ScreenLog;
 pub use names::{Exposure, Names};
 pub use planner::Planner;
@@ -42,6 +44,7 @@ pub struct Shared {
     pub library: Library,
     pub desk: Desk,
     pub log: ScreenLog,
+    pub incidents: IncidentBoard,
     pub pictures: Pictures,
     pub broker: BrokerDesk,
     /// The planner for requests of clients.
@@ -64,12 +67,26 @@ impl Shared {
     ) -> Arc<Self> {
         let log = ScreenLog::new();
         tokio::spawn(log.clone().follow(handle.news()));
+        let incidents = IncidentBoard::new();
+        tokio::spawn(incidents.clone().follow(handle.news()));
         let desk = Desk::new(handle.clone());
         tokio::spawn(desk.clone().follow(handle.news()));
         let pictures = Pictures::new();
         tokio::spawn(pictures.clone().follow(handle.clone(), desk.clone()));
         let (screens, simulated) = (AtomicU32::new(0), Arc::default());
-        Arc::new(Self { handle, library, desk, log, pictures, broker, names, planner, simulated, screens })
+        Arc::new(Self {
+            handle,
+            library,
+            desk,
+            log,
+            incidents,
+            pictures,
+            broker,
+            names,
+            planner,
+            simulated,
+            screens,
+        })
     }
 }
 

@@ -37,6 +37,10 @@ async fn act(shared: &Shared, operation: api::Operation) -> Result<(), Refused> 
                 .await
                 .map_err(|line| plain(capitalised(&line)));
         }
+        Wish::ReadIncident { incident } => {
+            shared.incidents.read(incident);
+            return Ok(());
+        }
         Wish::Disconnect => {
             shared.broker.disconnect(&shared.handle).await;
             return Ok(());

@@ -52,11 +52,14 @@ impl Screen {
         let (mut shown, mut plan) = (shared.desk.watch(), shared.desk.watch_plan());
         let (mut states, mut fleets) = (shared.pictures.states(), shared.pictures.fleets());
         let (lines, mut log) = shared.log.read();
+        let mut incidents = shared.incidents.watch();
         self.greet().await?;
         let message = shown.borrow_and_update().message.clone();
         self.send(message).await?;
         let summary = plan_summary(&plan.borrow_and_update());
         self.send(text(&ToScreen::Plan(summary))).await?;
+        let message = incidents.borrow_and_update().clone();
+        self.send(message).await?;
         for line in lines {
             self.send(text(&ToScreen::Log(line))).await?;
         }
@@ -74,6 +77,10 @@ impl Screen {
                 }
                 Ok(()) = fleets.changed(), if self.ahead < AHEAD => {
                     let message = fleets.borrow_and_update().clone();
+                    self.send(message).await?;
+                }
+                Ok(()) = incidents.changed() => {
+                    let message = incidents.borrow_and_update().clone();
                     self.send(message).await?;
                 }
                 line = log.recv() => match line {

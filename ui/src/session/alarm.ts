@@ -1,0 +1,60 @@
+import { createStore, useStore, type Store } from '../base/store';
+import type { Incident } from '../api/types.gen';
+import { isHeard } from '../live/incidents';
+
+const KEY = 'lightbots-sound';
+/** Two notes, hertz, and the length of each, seconds. */
+const NOTES_HZ = [660, 880];
+const NOTE_S = 0.14;
+
+function stored(): boolean {
+  try {
+    return localStorage.getItem(KEY) !== 'off';
+  } catch {
+    return true;
+  }
+}
+
+const soundStore = createStore(stored());
+
+/** Whether this screen makes a sound when something goes wrong. */
+export const useSound = () => useStore(soundStore);
+
+export function setSound(on: boolean) {
+  soundStore.set(on);
+  try {
+    localStorage.setItem(KEY, on ? 'on' : 'off');
+  } catch {
+    // Without storage the choice lasts as long as the page.
+  }
+}
+
+/** Makes a sound for each new incident that has to be looked at, but for those that were there before this page. */
+export function soundAlarms(incidents: Store<readonly Incident[]>) {
+  let last: number | null = null;
+  let audio: AudioContext | null = null;
+  incidents.subscribe(() => {
+    const list = incidents.get();
+    const newest = list.at(-1)?.id ?? 0;
+    if (last !== null && soundStore.get() && list.some((one) => isHeard(one, last ?? 0))) {
+      audio ??= new AudioContext();
+      play(audio);
+    }
+    last = Math.max(newest, last ?? 0);
+  });
+}
+
+/** Browsers allow a sound only after the first press on the page: before that, nothing is heard. */
+function play(audio: AudioContext) {
+  if (audio.state === 'suspended') void audio.resume().catch(() => undefined);
+  const volume = audio.createGain();
+  volume.gain.value = 0.15;
+  volume.connect(audio.destination);
+  NOTES_HZ.forEach((hz, i) => {
+    const note = audio.createOscillator();
+    note.frequency.value = hz;
+    note.connect(volume);
+    note.start(audio.currentTime + i * NOTE_S);
+    note.stop(audio.currentTime + (i + 1) * NOTE_S);
+  });
+}
