@@ -5,9 +5,9 @@ use ts_rs::TS;
 
 use crate::{Answer, Fleet, Incidents, Plan, State};
 
-/// A message to a screen. After `hello` come `show`, `plan`, `incidents`, `fleet` and the last lines of the log; each is sent
-/// again after a change. `state` comes 20 times a second, each after the binary message `Robots`. A screen acknowledges each
-/// `state` with `took`. A screen with several unacknowledged ones gets no more until it catches up.
+/// A message to a screen. After `hello` come `show`, `plan`, `incidents`, `fleet` and the last lines of the log; each is
+/// sent again after a change. `state` comes 20 times a second, each after the binary message `Robots`. A screen
+/// acknowledges each `state` with `took`. A screen with several unacknowledged ones gets no more until it catches up.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS)]
 #[serde(tag = "type", rename_all = "snake_case")]
 // A message is made, sent and dropped at once, so that its size does not matter.

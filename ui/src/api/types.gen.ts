@@ -1,9 +1,9 @@
 // Made from crates/api by `cargo run -p lightbots-api --example types`. Change it there.
 
 /**
- * A message to a screen. After `hello` come `show`, `plan`, `incidents`, `fleet` and the last lines of the log; each is sent
- * again after a change. `state` comes 20 times a second, each after the binary message `Robots`. A screen acknowledges each
- * `state` with `took`. A screen with several unacknowledged ones gets no more until it catches up.
+ * A message to a screen. After `hello` come `show`, `plan`, `incidents`, `fleet` and the last lines of the log; each is
+ * sent again after a change. `state` comes 20 times a second, each after the binary message `Robots`. A screen
+ * acknowledges each `state` with `took`. A screen with several unacknowledged ones gets no more until it catches up.
  */
 export type ToScreen = { "type": "hello" } & Hello | { "type": "show" } & OpenShow | { "type": "plan" } & Plan | { "type": "fleet" } & Fleet | { "type": "state" } & State | { "type": "log" } & LogLine | { "type": "incidents" } & Incidents | { "type": "answer" } & Answer;
 

@@ -5,7 +5,7 @@ import type { Incident } from '../api/types.gen';
 import { useStore } from '../base/store';
 import { useSession } from '../session/session';
 import { shortId } from '../session/robotWords';
-import { earlier, unread } from './incidents';
+import { earlier, unread } from '../session/incidents';
 import styles from './IncidentCards.module.css';
 
 /** What went wrong, above the robots' table, until it is read; what was read folds away. */

@@ -1,13 +1,13 @@
 import { shortId } from '../session/robotWords';
 import { canvasFromStage, type Camera } from '../stage/camera';
 import { FLOOR } from '../stage/palette';
-import type { Callout } from './incidents';
+import type { Callout } from '../session/incidents';
 
 const FONT = '600 13px Inter, system-ui, sans-serif';
 /** Padding of a label, its distance from the ring, and its height, CSS pixels. */
 const [PAD_PX, OFF_PX, HIGH_PX] = [7, 8, 22];
 
-/** Draws a ring and a label at each robot of an incident: to the right of it, or to the left near the canvas's right edge. */
+/** Draws a ring and a label at each robot of an incident: right of it, or left near the canvas's right edge. */
 export function paintCallouts(
   c: CanvasRenderingContext2D,
   camera: Camera,

@@ -6,7 +6,7 @@ import { hollowOf } from '../model/dots';
 import { floorOf, type Scene } from '../stage/scene';
 import { paintClose, type CloseWatch } from './closeWatch';
 import { paintCallouts } from './incidentMark';
-import { calloutsOf } from './incidents';
+import { calloutsOf } from '../session/incidents';
 import type { Live } from '../session/live';
 
 const ALPHAS = { active: 1, stale: 0.4, gone: 0.15 } as const;

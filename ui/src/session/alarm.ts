@@ -1,6 +1,6 @@
 import { createStore, useStore, type Store } from '../base/store';
 import type { Incident } from '../api/types.gen';
-import { isHeard } from '../live/incidents';
+import { isHeard } from './incidents';
 
 const KEY = 'lightbots-sound';
 /** Two notes, hertz, and the length of each, seconds. */

@@ -1,6 +1,6 @@
 import { Button } from '@mantine/core';
 import { useStore } from '../base/store';
-import { unread } from '../live/incidents';
+import { unread } from '../session/incidents';
 import { goTo, type View } from '../session/address';
 import { useSession } from '../session/session';
 import styles from './IncidentBanner.module.css';

@@ -149,7 +149,7 @@ impl Shown {
 
     fn new(open: api::OpenShow, show: Arc<Show>) -> Self {
         let (revision, name) = (open.revision, open.name.clone());
-        Self { revision, name, show, message: super::socket::text(&api::ToScreen::Show(open)) }
+        Self { revision, name, show, message: super::message::text(&api::ToScreen::Show(open)) }
     }
 }
 

@@ -7,6 +7,7 @@ mod desk;
 mod guests;
 mod incidents;
 mod log;
+mod message;
 mod names;
 mod operate;
 mod origin;

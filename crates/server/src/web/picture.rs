@@ -13,7 +13,7 @@ use tokio::sync::{broadcast, watch};
 use tokio::time::MissedTickBehavior;
 
 use super::Desk;
-use super::socket::text;
+use super::message::text;
 use crate::live::conductor::{Handle, LinkPhase, LinkState, News};
 
 /// Time between two pictures: 20 a second, which screens interpolate. More cost bandwidth; fewer make dots lag.

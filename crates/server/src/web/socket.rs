@@ -10,6 +10,7 @@ use axum::response::Response;
 use lightbots_api::{FromScreen, Hello, ToScreen, plan_summary};
 use tokio::sync::broadcast::error::RecvError;
 
+use super::message::text;
 use super::picture::Picture;
 use super::{Shared, operate};
 
@@ -28,12 +29,6 @@ pub async fn open(State(shared): State<Arc<Shared>>, upgrade: WebSocketUpgrade) 
         // A screen that disconnects is a normal event.
         let _ = screen.serve().await;
     })
-}
-
-/// A message as JSON.
-pub fn text(message: &ToScreen) -> Utf8Bytes {
-    // The message types have only values that JSON can hold.
-    serde_json::to_string(message).unwrap_or_default().into()
 }
 
 /// The screen disconnected or is too slow.

@@ -2,6 +2,7 @@
 
 use super::*;
 use lightbots_base::{Instant, Span};
+use lightbots_control::RunOutcome;
 
 fn robot(number: usize) -> RobotId {
     RobotId::new(&number.to_string()).unwrap()

@@ -16,8 +16,8 @@ impl Card {
     }
 }
 
-/// Robots dropped out for one reason. `names`: the first of `count`. `frame`: the one that is to be reached or shown, counted
-/// from 0.
+/// Robots dropped out for one reason. `names`: the first of `count`. `frame`: the one that is to be reached or shown,
+/// counted from 0.
 pub fn dropped(why: Trouble, names: &[String], count: usize, frame: Option<usize>) -> Card {
     let place = frame.map_or(String::new(), |frame| format!(" in frame {}", frame + 1));
     let pixels = if count == 1 { "its pixel is left dark" } else { "their pixels are left dark" };
