@@ -4,11 +4,12 @@ use super::{files, shown};
 use std::path::Path;
 
 /// Crates of this workspace that each crate may use. Tests may use more.
-const EDGES: [(&str, &[&str]); 17] = [
+const EDGES: [(&str, &[&str]); 18] = [
     ("base", &[]),
     ("wire", &["base"]),
     ("show", &["base"]),
     ("draw", &["base"]),
+    ("light", &["base"]),
     ("make", &["base", "show", "draw"]),
     ("plan", &["base", "show"]),
     ("exchange", &["base", "show", "plan"]),

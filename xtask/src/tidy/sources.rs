@@ -4,8 +4,8 @@ use super::{files, shown};
 use std::path::Path;
 
 /// Crates without IO.
-const CORES: [&str; 10] =
-    ["base", "wire", "show", "draw", "make", "plan", "exchange", "robot", "control", "sim"];
+const CORES: [&str; 11] =
+    ["base", "wire", "show", "draw", "light", "make", "plan", "exchange", "robot", "control", "sim"];
 /// Crates for microcontrollers.
 const NO_STD: [&str; 3] = ["base", "wire", "robot"];
 /// Names that must not appear in a core.

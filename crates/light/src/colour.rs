@@ -1,0 +1,114 @@
+//! Linear light: colours as proportions of light power, in which mixing, blurring and fading look right.
+
+use lightbots_base::Rgb;
+
+/// A colour in linear light. 0 is off and 1 the full light of a channel; sums before the last stage may exceed 1.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Linear {
+    /// Red.
+    pub r: f64,
+    /// Green.
+    pub g: f64,
+    /// Blue.
+    pub b: f64,
+}
+
+impl Linear {
+    /// No light.
+    pub const BLACK: Self = Self::new(0.0, 0.0, 0.0);
+
+    /// A colour from its three channels.
+    pub const fn new(r: f64, g: f64, b: f64) -> Self {
+        Self { r, g, b }
+    }
+
+    /// The light that an sRGB colour stands for.
+    pub fn from_rgb(coded: Rgb) -> Self {
+        let [r, g, b] = [coded.r, coded.g, coded.b].map(|code| decoded(f64::from(code) / 255.0));
+        Self::new(r, g, b)
+    }
+
+    /// The nearest sRGB colour. Channels are clamped to 0..=1; NaN gives 0.
+    pub fn to_rgb(self) -> Rgb {
+        let [r, g, b] = self.coded().map(|channel| (channel + 0.5) as u8);
+        Rgb::new(r, g, b)
+    }
+
+    /// sRGB-coded channels, 0.0 to 255.0, not rounded.
+    pub fn coded(self) -> [f64; 3] {
+        [self.r, self.g, self.b].map(|light| 255.0 * encoded(within_one(light)))
+    }
+
+    /// Relative luminance, 0 to 1 (WCAG 2.2, "relative luminance"; the weights are those of ITU-R BT.709).
+    pub fn luminance(self) -> f64 {
+        0.2126 * self.r + 0.7152 * self.g + 0.0722 * self.b
+    }
+
+    /// The colour with a function applied to each channel.
+    pub fn map(self, change: impl Fn(f64) -> f64) -> Self {
+        Self::new(change(self.r), change(self.g), change(self.b))
+    }
+
+    /// A function of two colours, channel by channel.
+    pub fn zip(self, other: Self, join: impl Fn(f64, f64) -> f64) -> Self {
+        Self::new(join(self.r, other.r), join(self.g, other.g), join(self.b, other.b))
+    }
+
+    /// The light `share` of the way to `other`; 0..=1.
+    pub fn lerp(self, other: Self, share: f64) -> Self {
+        self.zip(other, |from, to| from + (to - from) * share)
+    }
+
+    /// The colour with each channel clamped to 0..=1; NaN gives 0.
+    pub fn clamped(self) -> Self {
+        self.map(within_one)
+    }
+}
+
+/// Clamps to 0..=1; NaN gives 0.
+pub(crate) fn within_one(value: f64) -> f64 {
+    if value > 0.0 { value.min(1.0) } else { 0.0 }
+}
+
+/// Linear light, 0 to 1, of an sRGB-coded channel (IEC 61966-2-1) whose full code is 1.
+pub(crate) fn decoded(share: f64) -> f64 {
+    if share <= 0.04045 { share / 12.92 } else { libm::pow((share + 0.055) / 1.055, 2.4) }
+}
+
+/// The sRGB code, 0 to 1, of linear light (IEC 61966-2-1).
+fn encoded(light: f64) -> f64 {
+    if light <= 0.003_130_8 { 12.92 * light } else { 1.055 * libm::pow(light, 1.0 / 2.4) - 0.055 }
+}
+
+/// Lightness L* of CIE 1976, 0 to 100, of grey with this sRGB code.
+pub fn lightness(code: u8) -> f64 {
+    let light = decoded(f64::from(code) / 255.0);
+    // CIE 15: (6/29)³ and (29/3)³ as exact fractions.
+    if light <= 216.0 / 24_389.0 { light * 24_389.0 / 27.0 } else { 116.0 * libm::cbrt(light) - 16.0 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_code_comes_back() {
+        for code in 0..=255 {
+            let colour = Rgb::new(code, 255 - code, code / 2);
+            assert_eq!(Linear::from_rgb(colour).to_rgb(), colour);
+        }
+    }
+
+    #[test]
+    fn absurd_light_is_clamped() {
+        assert_eq!(Linear::new(f64::NAN, 7.0, -1.0).to_rgb(), Rgb::new(0, 255, 0));
+    }
+
+    #[test]
+    fn lightness_meets_the_known_values() {
+        assert_eq!(lightness(0), 0.0);
+        assert!((lightness(255) - 100.0).abs() < 1e-9);
+        // sRGB 119 is known as the middle grey of L* 50.
+        assert!((lightness(119) - 50.0).abs() < 0.1);
+    }
+}

@@ -1,0 +1,76 @@
+//! The last stage: what a fleet's lamps need of a colour.
+
+use crate::colour::Linear;
+use lightbots_base::Rgb;
+
+/// How the lamps of a fleet show light. A robot decodes the sRGB colour that it receives, so the stage works on light.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LampSettings {
+    /// Exponent that a lamp's light has over what an sRGB lamp shows, 0.2 to 5; 1 for a lamp that decodes sRGB.
+    pub gamma: f64,
+    /// White balance: factor of each channel's light, 0 to 1.
+    pub gain: [f64; 3],
+    /// Current of one channel at full light, milliamperes.
+    pub channel_ma: f64,
+    /// Current of a lamp that is dark, milliamperes.
+    pub standby_ma: f64,
+    /// Most current of a lamp, milliamperes; infinite: not limited.
+    pub current_max_ma: f64,
+}
+
+impl Default for LampSettings {
+    /// A lamp that shows sRGB as it is. 20 mA a channel and 1 mA standby are a WS2812B's in a 5050 housing.
+    fn default() -> Self {
+        Self { gamma: 1.0, gain: [1.0; 3], channel_ma: 20.0, standby_ma: 1.0, current_max_ma: f64::INFINITY }
+    }
+}
+
+impl LampSettings {
+    /// The light that a lamp is told: gamma, then white balance, then all channels scaled by one factor until the current
+    /// is within its limit, so that the hue stays.
+    pub fn light(&self, wanted: Linear) -> Linear {
+        let wanted = wanted.clamped();
+        let bent =
+            if self.gamma == 1.0 { wanted } else { wanted.map(|light| libm::pow(light, 1.0 / self.gamma)) };
+        let [r, g, b] = self.gain;
+        let balanced = Linear::new(bent.r * r, bent.g * g, bent.b * b);
+        let current_ma = self.channel_ma * (balanced.r + balanced.g + balanced.b);
+        let left_ma = (self.current_max_ma - self.standby_ma).max(0.0);
+        let factor = if current_ma > left_ma { left_ma / current_ma } else { 1.0 };
+        balanced.map(|light| light * factor).clamped()
+    }
+
+    /// [`LampSettings::light`] as the sRGB colour that is sent.
+    pub fn colour(&self, wanted: Linear) -> Rgb {
+        self.light(wanted).to_rgb()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn plain_lamps_change_nothing() {
+        assert_eq!(
+            LampSettings::default().colour(Linear::from_rgb(Rgb::new(1, 128, 255))),
+            Rgb::new(1, 128, 255)
+        );
+    }
+
+    #[test]
+    fn current_is_limited_and_the_hue_stays() {
+        let lamp = LampSettings { current_max_ma: 31.0, ..LampSettings::default() };
+        // 60 mA are wanted, 30 remain beside 1 mA of standby.
+        assert_eq!(lamp.light(Linear::new(1.0, 1.0, 1.0)), Linear::new(0.5, 0.5, 0.5));
+        assert_eq!(lamp.light(Linear::new(1.0, 0.5, 0.0)), Linear::new(1.0, 0.5, 0.0));
+        let dark = LampSettings { current_max_ma: 0.5, ..lamp };
+        assert_eq!(dark.light(Linear::new(1.0, 1.0, 1.0)), Linear::BLACK);
+    }
+
+    #[test]
+    fn gamma_comes_before_the_white_balance() {
+        let lamp = LampSettings { gamma: 0.5, gain: [1.0, 0.5, 0.25], ..LampSettings::default() };
+        assert_eq!(lamp.light(Linear::new(0.5, 0.5, 0.5)), Linear::new(0.25, 0.125, 0.0625));
+    }
+}

@@ -1,0 +1,63 @@
+//! A layer and how it covers what is below.
+
+use crate::blend::BlendMode;
+use crate::colour::Linear;
+use crate::ease::OpacityCurve;
+use crate::effect::{LightEffect, shade};
+use crate::lit_robot::{LightContext, LitRobot};
+use crate::look::Look;
+use crate::mask::LightMask;
+
+/// Light over time.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LightLayer {
+    /// When it begins, seconds of show time (included).
+    pub from_s: f64,
+    /// When it ends, seconds of show time (excluded); infinite: never.
+    pub to_s: f64,
+    /// The effect.
+    pub effect: LightEffect,
+    /// The settings of the effect.
+    pub look: Look,
+    /// Masks: the layer shines by the product of what they let through.
+    pub masks: Vec<LightMask>,
+    /// How the layer joins what is below.
+    pub blend: BlendMode,
+    /// Opacity over time.
+    pub opacity: OpacityCurve,
+}
+
+impl LightLayer {
+    /// An opaque layer over the whole show.
+    pub fn new(effect: LightEffect, look: Look) -> Self {
+        Self {
+            from_s: 0.0,
+            to_s: f64::INFINITY,
+            effect,
+            look,
+            masks: Vec::new(),
+            blend: BlendMode::Normal,
+            opacity: OpacityCurve::default(),
+        }
+    }
+
+    /// The light below with the layer over it.
+    pub(crate) fn over(
+        &self,
+        below: Linear,
+        t_s: f64,
+        robot: &LitRobot,
+        context: &LightContext<'_>,
+    ) -> Linear {
+        if !(self.from_s <= t_s && t_s < self.to_s) {
+            return below;
+        }
+        let tau_s = t_s - self.from_s;
+        let visible = self.masks.iter().fold(self.opacity.at(tau_s), |share, mask| share * mask.share(robot));
+        if visible <= 0.0 {
+            return below;
+        }
+        let (light, opacity) = shade(&self.effect, &self.look, tau_s, robot, context);
+        self.blend.over(below, light, visible * opacity)
+    }
+}

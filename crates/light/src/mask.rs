@@ -1,0 +1,151 @@
+//! Where a layer shines: masks.
+
+use crate::colour::within_one;
+use crate::lit_robot::LitRobot;
+use lightbots_base::Vec2;
+
+/// What a mask lets through.
+#[derive(Clone, Debug, PartialEq)]
+pub enum MaskShape {
+    /// Robots by their numbers, increasing.
+    Selection(Vec<u32>),
+    /// Robots while they show, or drive to, one of these frames, counted from 0.
+    Frames {
+        /// The first frame.
+        first: u32,
+        /// The last frame.
+        last: u32,
+    },
+    /// A rectangle.
+    Rectangle {
+        /// Its centre, stage metres.
+        centre: Vec2,
+        /// Half of its extents along its own x and y, metres.
+        half: Vec2,
+        /// Angle of its x from the stage's, radians counter-clockwise.
+        angle: f64,
+    },
+    /// A circle.
+    Circle {
+        /// Its centre, stage metres.
+        centre: Vec2,
+        /// Its radius, metres.
+        radius_m: f64,
+    },
+    /// A polygon of any form; a place is inside if a ray from it crosses an odd number of edges.
+    Polygon(Vec<Vec2>),
+}
+
+/// A mask of a layer.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LightMask {
+    /// What it lets through.
+    pub shape: MaskShape,
+    /// Width of the soft edge inside an area, metres; 0: a hard edge.
+    pub feather_m: f64,
+    /// Whether the mask lets through what its shape does not.
+    pub inverted: bool,
+}
+
+impl LightMask {
+    /// A mask with a hard edge.
+    pub fn new(shape: MaskShape) -> Self {
+        Self { shape, feather_m: 0.0, inverted: false }
+    }
+
+    /// The share that the mask lets through for a robot, 0 to 1.
+    pub fn share(&self, robot: &LitRobot) -> f64 {
+        let share = match &self.shape {
+            MaskShape::Selection(robots) => truth(robots.binary_search(&robot.index).is_ok()),
+            MaskShape::Frames { first, last } => truth((*first..=*last).contains(&robot.frame)),
+            area => self.softened(depth_m(area, robot.place)),
+        };
+        if self.inverted { 1.0 - share } else { share }
+    }
+
+    /// 0 outside of an area, rising over `feather_m` inside.
+    fn softened(&self, depth_m: f64) -> f64 {
+        if self.feather_m > 0.0 { within_one(depth_m / self.feather_m) } else { truth(depth_m >= 0.0) }
+    }
+}
+
+fn truth(holds: bool) -> f64 {
+    if holds { 1.0 } else { 0.0 }
+}
+
+/// Distance from the edge of an area to a place inside of it, metres; negative outside.
+fn depth_m(area: &MaskShape, place: Vec2) -> f64 {
+    match area {
+        MaskShape::Rectangle { centre, half, angle } => {
+            let (along, from_centre) = (Vec2::unit(*angle), place - *centre);
+            (half.x - along.dot(from_centre).abs()).min(half.y - along.cross(from_centre).abs())
+        }
+        MaskShape::Circle { centre, radius_m } => radius_m - place.distance(*centre),
+        MaskShape::Polygon(corners) => polygon_depth_m(corners, place),
+        MaskShape::Selection(_) | MaskShape::Frames { .. } => 0.0,
+    }
+}
+
+fn polygon_depth_m(corners: &[Vec2], place: Vec2) -> f64 {
+    let mut nearest_m = f64::INFINITY;
+    let mut inside = false;
+    for (index, &to) in corners.iter().enumerate() {
+        let from = corners[index.checked_sub(1).unwrap_or(corners.len() - 1)];
+        nearest_m = nearest_m.min(place.distance(nearest_on(from, to, place).0));
+        let crosses = (from.y > place.y) != (to.y > place.y)
+            && place.x < from.x + (to.x - from.x) * (place.y - from.y) / (to.y - from.y);
+        inside ^= crosses;
+    }
+    if inside { nearest_m } else { -nearest_m }
+}
+
+/// The place of a line that is nearest to `place`, and its share of the line, 0 to 1.
+pub(crate) fn nearest_on(from: Vec2, to: Vec2, place: Vec2) -> (Vec2, f64) {
+    let line = to - from;
+    let squared = line.length_squared();
+    let share = if squared > 0.0 { within_one((place - from).dot(line) / squared) } else { 0.0 };
+    (from.lerp(to, share), share)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn share(mask: &LightMask, x: f64, y: f64) -> f64 {
+        mask.share(&LitRobot { place: Vec2::new(x, y), ..LitRobot::default() })
+    }
+
+    #[test]
+    fn a_feather_rises_inside_the_edge() {
+        let shape = MaskShape::Circle { centre: Vec2::new(1.0, 0.0), radius_m: 1.0 };
+        let mask = LightMask { feather_m: 0.5, ..LightMask::new(shape) };
+        assert_eq!([-0.1, 0.0, 0.25, 0.5, 1.0].map(|x| share(&mask, x, 0.0)), [0.0, 0.0, 0.5, 1.0, 1.0]);
+    }
+
+    #[test]
+    fn a_turned_rectangle_is_met() {
+        let half = Vec2::new(1.0, 0.1);
+        let quarter = core::f64::consts::FRAC_PI_2;
+        let mask = LightMask::new(MaskShape::Rectangle { centre: Vec2::ZERO, half, angle: quarter });
+        assert_eq!((share(&mask, 0.0, 0.9), share(&mask, 0.9, 0.0)), (1.0, 0.0));
+        let inverted = LightMask { inverted: true, ..mask };
+        assert_eq!((share(&inverted, 0.0, 0.9), share(&inverted, 0.9, 0.0)), (0.0, 1.0));
+    }
+
+    #[test]
+    fn a_polygon_may_be_concave() {
+        let corners = [(0.0, 0.0), (2.0, 0.0), (2.0, 2.0), (1.0, 0.5), (0.0, 2.0)];
+        let mask = LightMask::new(MaskShape::Polygon(corners.map(|(x, y)| Vec2::new(x, y)).to_vec()));
+        assert_eq!((share(&mask, 1.0, 0.2), share(&mask, 1.0, 1.5), share(&mask, 0.1, 1.5)), (1.0, 0.0, 1.0));
+    }
+
+    #[test]
+    fn robots_and_frames_are_picked() {
+        let robot = LitRobot { index: 7, frame: 3, ..LitRobot::default() };
+        let through = |shape| LightMask::new(shape).share(&robot);
+        assert_eq!(through(MaskShape::Selection(vec![2, 7])), 1.0);
+        assert_eq!(through(MaskShape::Selection(vec![2, 8])), 0.0);
+        assert_eq!(through(MaskShape::Frames { first: 0, last: 3 }), 1.0);
+        assert_eq!(through(MaskShape::Frames { first: 4, last: 9 }), 0.0);
+    }
+}
