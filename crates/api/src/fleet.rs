@@ -8,6 +8,8 @@ use ts_rs::TS;
 pub struct Fleet {
     /// Number of the table, increased when a robot is added or removed. `State.fleet` names the table of a snapshot.
     pub revision: u32,
+    /// Whether only listed robots take part in runs.
+    pub only_listed: bool,
     /// One row per robot, in the order of `Robots`.
     pub rows: Vec<FleetRow>,
 }
@@ -33,6 +35,10 @@ pub struct FleetRow {
     pub abilities: Abilities,
     /// Bound on the error of the robot's clock, microseconds; null: not synchronised.
     pub clock_us: Option<u32>,
+    /// Name that people gave the robot; null: none.
+    pub called: Option<String>,
+    /// Whether the robot may take part in runs.
+    pub admitted: bool,
     /// Whether the robot reports that it is simulated. A robot that does not report it counts as real.
     pub simulated: bool,
 }

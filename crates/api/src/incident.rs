@@ -29,6 +29,8 @@ pub struct Incident {
     pub robots: Vec<String>,
     /// Number of all these robots.
     pub count: usize,
+    /// Its robots want to join: `list` admits them.
+    pub wants_to_join: bool,
     /// It holds no longer.
     pub over: bool,
     /// The operator has read it.

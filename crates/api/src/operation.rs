@@ -87,6 +87,25 @@ pub enum Operation {
         /// Name of the robot.
         robot: String,
     },
+    /// Give a robot a name for people, kept for later starts of the server. Refused if another robot is called so.
+    Call {
+        /// Name of the robot in messages.
+        robot: String,
+        /// At most 40 characters; empty: none any more.
+        called: String,
+    },
+    /// Switch on or off that only listed robots take part in runs. On: all robots that are there are listed.
+    OnlyListed {
+        /// Whether only listed robots take part.
+        on: bool,
+    },
+    /// Put robots on the list of those that take part, or take them off it.
+    List {
+        /// Names of the robots in messages.
+        robots: Vec<String>,
+        /// Whether they are listed.
+        listed: bool,
+    },
     /// Bind a pixel to a robot in all frames while this show is open, or free the pixel.
     Pin {
         /// Id of the pixel.

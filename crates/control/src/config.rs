@@ -14,9 +14,9 @@ pub struct Config {
     pub arrival_tolerance_m: f64,
     /// The most robots that are remembered; further names are counted and dropped.
     pub robots_max: usize,
-    /// Names of the robots that may take part in runs; empty: any robot that is there when a run begins. Robots of other
+    /// Names of the robots that may take part in runs; `None`: any robot that is there when a run begins. Robots of other
     /// names are driven around.
-    pub admitted: BTreeSet<RobotId>,
+    pub admitted: Option<BTreeSet<RobotId>>,
     /// When robots that do not report age.
     pub ageing: Ageing,
     /// How long before its moment a START is stated; grows by 20 µs a robot.
@@ -58,13 +58,20 @@ pub struct UploadLimits {
     pub window: usize,
 }
 
+impl Config {
+    /// Whether a robot may take part in runs.
+    pub(crate) fn admits(&self, robot: RobotId) -> bool {
+        self.admitted.as_ref().is_none_or(|names| names.contains(&robot))
+    }
+}
+
 impl Default for Config {
     fn default() -> Self {
         Self {
             seq_base: 1,
             arrival_tolerance_m: 0.02,
             robots_max: 20_000,
-            admitted: BTreeSet::new(),
+            admitted: None,
             ageing: Ageing { stale_after: Span::from_millis(6_000), gone_after: Span::from_millis(30_000) },
             start_lead: Span::from_millis(240),
             upload: UploadLimits { resend_after: Span::from_millis(250), tries: 12, window: 1_024 },

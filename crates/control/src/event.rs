@@ -24,6 +24,8 @@ pub enum EventKind {
     StateChanged(ControllerState),
     /// A robot reported for the first time.
     RobotFound(RobotId),
+    /// A robot that is not listed reported for the first time: it may not take part.
+    WantsToJoin(RobotId),
     /// A robot introduced itself again after a restart.
     RobotRestarted(RobotId),
     /// A robot has not reported for a while.

@@ -44,6 +44,7 @@ impl EventKind {
     fn of_robot(&self) -> &'static str {
         match self {
             Self::RobotFound(_) => "is here",
+            Self::WantsToJoin(_) => "is not in the list of robots, and wants to join",
             Self::RobotRestarted(_) => "has restarted",
             Self::RobotStale(_) => "has not reported lately",
             Self::RobotGone(_) => "is gone",
@@ -106,8 +107,8 @@ impl fmt::Display for EventKind {
                 }
                 write!(f, ". Both are kept out of the show; give one of them another name.")
             }
-            RobotFound(id) | RobotRestarted(id) | RobotStale(id) | RobotGone(id) | RobotBack(id)
-            | Flooding(id) => {
+            RobotFound(id) | WantsToJoin(id) | RobotRestarted(id) | RobotStale(id) | RobotGone(id)
+            | RobotBack(id) | Flooding(id) => {
                 write!(f, "Robot {id} {}.", self.of_robot())
             }
             NameUnique(id) => write!(f, "One robot is called {id} again: it may take part."),

@@ -120,11 +120,21 @@ impl KnownRobots {
             self.overflow += 1;
             return None;
         }
-        let is_admitted = config.admitted.is_empty() || config.admitted.contains(&id);
+        let is_admitted = config.admits(id);
         self.robots.push(KnownRobot { is_admitted, ..KnownRobot::new(id, now) });
         self.index_of.insert(id, index as u32);
         log.record(now, EventKind::RobotFound(id));
+        if !is_admitted {
+            log.record(now, EventKind::WantsToJoin(id));
+        }
         Some(index)
+    }
+
+    /// Other robots may take part in runs from now on; `config` says which.
+    pub fn admit(&mut self, config: &Config) {
+        for robot in &mut self.robots {
+            robot.is_admitted = config.admits(robot.id);
+        }
     }
 
     /// A robot that takes part in a run that is taken up: it was heard last at `heard`, if it was not since.
@@ -133,7 +143,7 @@ impl KnownRobots {
             return index;
         }
         let index = self.robots.len();
-        let is_admitted = config.admitted.is_empty() || config.admitted.contains(&id);
+        let is_admitted = config.admits(id);
         self.robots.push(KnownRobot { is_admitted, is_light_sure: false, ..KnownRobot::new(id, heard) });
         self.index_of.insert(id, index as u32);
         index

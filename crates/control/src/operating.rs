@@ -45,6 +45,11 @@ impl Controller {
                 }
                 Ok(())
             }
+            Operation::Admit(names) => {
+                self.context.config.admitted = names;
+                self.context.fleet.admit(&self.context.config);
+                Ok(())
+            }
             Operation::Home => self.go_home(now),
             Operation::Speed(percent) => self.set_speed(percent),
             Operation::Pin { pixel, robot } => {

@@ -4,6 +4,7 @@ use core::fmt;
 use lightbots_base::RobotId;
 use lightbots_show::{SPEED_MIN_PERCENT, Show};
 use serde::{Deserialize, Serialize};
+use std::collections::BTreeSet;
 use std::sync::Arc;
 
 /// One operation of the operator.
@@ -60,6 +61,8 @@ pub enum Operation {
     Speed(u32),
     /// Drive all robots that can to the starting places of the open show, and stay there.
     Home,
+    /// Only these robots may take part in runs that begin from now on; `None`: any.
+    Admit(Option<BTreeSet<RobotId>>),
 }
 
 /// What happens to pixels no robot can show.
@@ -173,6 +176,7 @@ impl Operation {
             Self::Loop(_) => "loop",
             Self::Pin { .. } => "pin",
             Self::GoOn => "go on",
+            Self::Admit(_) => "admit robots",
         }
     }
 }

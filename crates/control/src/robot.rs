@@ -126,6 +126,7 @@ impl KnownRobot {
             pixel: self.pixel,
             light: self.light,
             takes_part: false,
+            is_admitted: self.is_admitted,
         }
     }
 

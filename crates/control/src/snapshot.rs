@@ -82,6 +82,8 @@ pub struct RobotView {
     pub light: Rgb,
     /// Whether it takes part in the run.
     pub takes_part: bool,
+    /// Whether it may take part in runs.
+    pub is_admitted: bool,
 }
 
 /// What a robot's last report said.

@@ -33,7 +33,7 @@ fn with_a_late_robot(config: Config) -> (World, (RunOutcome, usize, usize), usiz
 #[test]
 fn a_listed_robot_takes_the_place_of_a_dead_one() {
     let names = (0..8).chain([77]).map(|number| Robot::new(number, CORNER, false).id);
-    let config = Config { admitted: names.collect(), ..Config::default() };
+    let config = Config { admitted: Some(names.collect()), ..Config::default() };
     let (world, ended, joined) = with_a_late_robot(config);
     assert_eq!((ended, joined), ((RunOutcome::Finished, 4, 1), 1), "{}", world.story());
     assert!(world.lit(&frame(3, 8, 0.3)) >= 7, "{}", world.story());
@@ -49,7 +49,7 @@ fn without_a_list_a_name_that_is_first_heard_during_a_run_takes_no_place() {
 #[test]
 fn forged_names_take_no_place_where_names_are_listed() {
     let names = (0..8).map(|number| Robot::new(number, CORNER, false).id);
-    let config = Config { admitted: names.collect(), ..Config::default() };
+    let config = Config { admitted: Some(names.collect()), ..Config::default() };
     let mut world = World::with(config, 8, 0);
     world.operate(Operation::Open(Arc::new(show(2, 9, 0.1)))).unwrap();
     // A thousand names on the floor's far edge, as a controller hears them.
@@ -118,4 +118,26 @@ fn two_robots_of_one_name_take_no_part_until_one_of_them_has_gone() {
     world.run_until(60.0, |kind| matches!(kind, EventKind::NameUnique(_)));
     world.operate(play).unwrap();
     assert_eq!(world.run_to_end(60.0), (RunOutcome::Finished, 2, 0), "{}", world.story());
+}
+
+#[test]
+fn a_robot_that_is_not_listed_wants_to_join_and_joins_once_it_is() {
+    let mut world = World::ready(6, 0, show(3, 6, 0.2));
+    let names = |count| Some((0..count).map(|number| Robot::new(number, CORNER, false).id).collect());
+    world.operate(Operation::Admit(names(6))).unwrap();
+    let mut stranger = Robot::new(6, CORNER, false);
+    stranger.introduce();
+    world.robots.push(stranger);
+    world.run_for(3.0);
+    let wants = |kind: &EventKind| matches!(kind, EventKind::WantsToJoin(_));
+    assert_eq!(world.count(wants), 1, "{}", world.story());
+    let admitted = |world: &World| {
+        world.controller.snapshot(world.now).robots.iter().filter(|robot| robot.is_admitted).count()
+    };
+    assert_eq!(admitted(&world), 6);
+    world.operate(Operation::Admit(names(7))).unwrap();
+    assert_eq!(admitted(&world), 7);
+    world.operate(Operation::Admit(None)).unwrap();
+    world.play();
+    assert_eq!(world.run_to_end(60.0), (RunOutcome::Finished, 3, 0), "{}", world.story());
 }

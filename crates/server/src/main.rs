@@ -11,6 +11,7 @@ mod data_folder;
 mod disk;
 mod examples;
 mod failure;
+mod fleet_book;
 mod library;
 mod live;
 mod logging;

@@ -224,6 +224,10 @@ export type Fleet = {
  */
 revision: number, 
 /**
+ * Whether only listed robots take part in runs.
+ */
+only_listed: boolean, 
+/**
  * One row per robot, in the order of `Robots`.
  */
 rows: Array<FleetRow>, };
@@ -268,6 +272,14 @@ abilities: Abilities,
  * Bound on the error of the robot's clock, microseconds; null: not synchronised.
  */
 clock_us: number | null, 
+/**
+ * Name that people gave the robot; null: none.
+ */
+called: string | null, 
+/**
+ * Whether the robot may take part in runs.
+ */
+admitted: boolean, 
 /**
  * Whether the robot reports that it is simulated. A robot that does not report it counts as real.
  */
@@ -568,6 +580,10 @@ robots: Array<string>,
  */
 count: number, 
 /**
+ * Its robots want to join: `list` admits them.
+ */
+wants_to_join: boolean, 
+/**
  * It holds no longer.
  */
 over: boolean, 
@@ -633,7 +649,27 @@ robot: string, } | { "do": "forget",
 /**
  * Name of the robot.
  */
-robot: string, } | { "do": "pin", 
+robot: string, } | { "do": "call", 
+/**
+ * Name of the robot in messages.
+ */
+robot: string, 
+/**
+ * At most 40 characters; empty: none any more.
+ */
+called: string, } | { "do": "only_listed", 
+/**
+ * Whether only listed robots take part.
+ */
+on: boolean, } | { "do": "list", 
+/**
+ * Names of the robots in messages.
+ */
+robots: Array<string>, 
+/**
+ * Whether they are listed.
+ */
+listed: boolean, } | { "do": "pin", 
 /**
  * Id of the pixel.
  */

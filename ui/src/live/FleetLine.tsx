@@ -20,6 +20,8 @@ interface Props {
  * a column that is missing here is drawn once and never again. */
 const shownOf = ({ row, wide, pinned }: Props) =>
   [
+    row.called,
+    row.admitted,
     row.pixel,
     words.stateText(row),
     row.battery,
@@ -41,7 +43,7 @@ export const FleetLine = memo(
 );
 
 function Line({ row, wide, pinned, ask, choose }: Props) {
-  const name = words.shortId(row.id);
+  const name = words.nameOf(row);
   const low = row.battery !== null && row.battery < CHARGE_LOW;
   return (
     <tr data-presence={row.presence}>
@@ -49,7 +51,10 @@ function Line({ row, wide, pinned, ask, choose }: Props) {
         {row.pixel ?? <span className="quiet">–</span>}
         {pinned ? <IconPinFilled size={12} role="img" aria-label="pinned" /> : null}
       </td>
-      <td className="mono">{name}</td>
+      <td className={row.called === null ? 'mono' : styles.called}>
+        {name}
+        {row.admitted ? null : <span className="quiet"> not listed</span>}
+      </td>
       <td data-low={!canDrive(row) || undefined}>{words.stateText(row)}</td>
       <td data-low={low || undefined}>
         {words.chargeText(row)}

@@ -1,9 +1,11 @@
-import { Button, Group, Text } from '@mantine/core';
-import { useMemo, useState } from 'react';
-import type { FleetRow } from '../api/types.gen';
+import { Button, Group, Text, TextInput } from '@mantine/core';
+import { IconChevronDown, IconChevronUp } from '@tabler/icons-react';
+import { useMemo, useRef, useState } from 'react';
 import { useStore } from '../base/store';
 import { pinsOf } from '../model/commands';
+import { useKeys } from '../parts/useKeys';
 import { useSession } from '../session/session';
+import { arranged, type Arrangement, type Order } from './fleetOrder';
 import { FleetLine } from './FleetLine';
 import { RobotDialog } from './RobotDialog';
 import styles from './FleetTable.module.css';
@@ -11,12 +13,13 @@ import styles from './FleetTable.module.css';
 /** Most rows that the table shows; longer tables are not read. */
 const ROWS_MAX = 300;
 
-/** By pixel; spare robots last. */
-const byPixel = (a: FleetRow, b: FleetRow) =>
-  (a.pixel ?? Infinity) - (b.pixel ?? Infinity) || a.id.localeCompare(b.id);
-
 /** Titles; the cells are in FleetLine. */
-const COLUMNS = ['Pixel', 'Robot', 'State', 'Charge'] as const;
+const COLUMNS = [
+  ['Pixel', 'pixel'],
+  ['Robot', 'robot'],
+  ['State', 'state'],
+  ['Charge', 'charge'],
+] as const;
 const MORE_COLUMNS = ['Last seen', 'Firmware', 'Supports', 'Clock'] as const;
 
 /** The fleet: pixel and state of each robot. */
@@ -27,6 +30,9 @@ export function FleetTable(props: { wide: boolean; onWide: (wide: boolean) => vo
   const show = useStore(live.opened, (o) => o.show);
   const pinned = useMemo(() => new Set(show ? pinsOf(show).values() : []), [show]);
   const [chosen, setChosen] = useState<string | null>(null);
+  const [order, setOrder] = useState<Arrangement>({ by: 'pixel', down: false, search: '' });
+  const search = useRef<HTMLInputElement>(null);
+  useKeys([['/', () => search.current?.focus()]]);
   if (rows.length === 0)
     return (
       <Text c="dimmed" size="sm" p="md">
@@ -34,10 +40,20 @@ export function FleetTable(props: { wide: boolean; onWide: (wide: boolean) => vo
         the floor.
       </Text>
     );
-  const shown = [...rows].sort(byPixel).slice(0, ROWS_MAX);
+  const found = arranged(rows, order);
+  const shown = found.slice(0, ROWS_MAX);
   return (
     <>
-      <Group justify="flex-end" px="xs" pt={6}>
+      <Group justify="space-between" px="xs" pt={6} wrap="nowrap">
+        <TextInput
+          ref={search}
+          size="xs"
+          type="search"
+          aria-label="Find a robot by its name (/)"
+          placeholder="Find a robot"
+          value={order.search}
+          onChange={(event) => setOrder({ ...order, search: event.currentTarget.value })}
+        />
         <Button
           size="compact-xs"
           variant={wide ? 'light' : 'subtle'}
@@ -51,7 +67,10 @@ export function FleetTable(props: { wide: boolean; onWide: (wide: boolean) => vo
       <table className={styles.table}>
         <thead>
           <tr>
-            {[...COLUMNS, ...(wide ? MORE_COLUMNS : [])].map((title) => (
+            {COLUMNS.map(([title, by]) => (
+              <Title key={title} title={title} by={by} order={order} onOrder={setOrder} />
+            ))}
+            {(wide ? MORE_COLUMNS : []).map((title) => (
               <th key={title} scope="col">
                 {title}
               </th>
@@ -74,9 +93,14 @@ export function FleetTable(props: { wide: boolean; onWide: (wide: boolean) => vo
           ))}
         </tbody>
       </table>
-      {rows.length > ROWS_MAX ? (
+      {shown.length === 0 ? (
         <Text c="dimmed" size="sm" p="sm">
-          and {rows.length - ROWS_MAX} more
+          No robot is called so.
+        </Text>
+      ) : null}
+      {found.length > ROWS_MAX ? (
+        <Text c="dimmed" size="sm" p="sm">
+          and {found.length - ROWS_MAX} more
         </Text>
       ) : null}
       <RobotDialog
@@ -84,5 +108,26 @@ export function FleetTable(props: { wide: boolean; onWide: (wide: boolean) => vo
         onClose={() => setChosen(null)}
       />
     </>
+  );
+}
+
+/** The title of a column; a press sorts by it, a second one the other way round. */
+function Title(props: {
+  title: string;
+  by: Order;
+  order: Arrangement;
+  onOrder: (order: Arrangement) => void;
+}) {
+  const { title, by, order, onOrder } = props;
+  const mine = order.by === by;
+  const sort = !mine ? undefined : order.down ? 'descending' : 'ascending';
+  const Arrow = order.down ? IconChevronDown : IconChevronUp;
+  return (
+    <th scope="col" aria-sort={sort}>
+      <button type="button" onClick={() => onOrder({ ...order, by, down: mine && !order.down })}>
+        {title}
+        {mine ? <Arrow size={12} aria-hidden /> : null}
+      </button>
+    </th>
   );
 }

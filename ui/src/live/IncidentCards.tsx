@@ -4,7 +4,7 @@ import { useState } from 'react';
 import type { Incident } from '../api/types.gen';
 import { useStore } from '../base/store';
 import { useSession } from '../session/session';
-import { shortId } from '../session/robotWords';
+import { nameOf, withNames } from '../session/robotWords';
 import { earlier, unread } from '../session/incidents';
 import styles from './IncidentCards.module.css';
 
@@ -48,7 +48,7 @@ function Card({ incident }: { incident: Incident }) {
       <Sign incident={incident} />
       <div>
         <h3>
-          {incident.title}{' '}
+          {withNames(incident.title, incident.robots, rows)}{' '}
           <time dateTime={time.toISOString()}>{time.toTimeString().slice(0, 8)}</time>
         </h3>
         {incident.done ? <p>{incident.done}</p> : null}
@@ -65,7 +65,15 @@ function Card({ incident }: { incident: Incident }) {
                     void ask({ do: 'identify', robot: first });
                 }}
               >
-                Find robot {shortId(first)}
+                Find robot {nameOf(row)}
+              </Button>
+            ) : null}
+            {incident.wants_to_join && !incident.over ? (
+              <Button
+                size="compact-sm"
+                onClick={() => void ask({ do: 'list', robots: incident.robots, listed: true })}
+              >
+                {incident.count === 1 ? 'Let it join' : `Let ${incident.robots.length} join`}
               </Button>
             ) : null}
             <Button

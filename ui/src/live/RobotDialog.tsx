@@ -1,5 +1,5 @@
-import { Button, Group, Modal, Select, Stack } from '@mantine/core';
-import { useMemo } from 'react';
+import { Button, Group, Modal, Select, Stack, Switch, TextInput } from '@mantine/core';
+import { useMemo, useState } from 'react';
 import type { FleetRow } from '../api/types.gen';
 import { useStore } from '../base/store';
 import { fleetSize, pinPixel, pinsOf } from '../model/commands';
@@ -11,11 +11,7 @@ import styles from './facts.module.css';
 /** Details of one robot, and its actions. */
 export function RobotDialog({ row, onClose }: { row: FleetRow | null; onClose: () => void }) {
   return (
-    <Modal
-      opened={row !== null}
-      onClose={onClose}
-      title={row ? `Robot ${words.shortId(row.id)}` : ''}
-    >
+    <Modal opened={row !== null} onClose={onClose} title={row ? `Robot ${words.nameOf(row)}` : ''}>
       {row ? <Details row={row} onClose={onClose} /> : null}
     </Modal>
   );
@@ -42,6 +38,8 @@ function Details({ row, onClose }: { row: FleetRow; onClose: () => void }) {
           <dd key={`${name} value`}>{value}</dd>,
         ])}
       </dl>
+      <NameField key={row.id} row={row} />
+      <ListedSwitch row={row} />
       <PinChoice row={row} />
       <Group justify="flex-end">
         <Button
@@ -62,6 +60,49 @@ function Details({ row, onClose }: { row: FleetRow; onClose: () => void }) {
         </Button>
       </Group>
     </Stack>
+  );
+}
+
+/** The name that people give the robot, kept on the server. */
+function NameField({ row }: { row: FleetRow }) {
+  const { ask } = useSession();
+  const [text, setText] = useState(row.called ?? '');
+  return (
+    <form
+      onSubmit={(event) => {
+        event.preventDefault();
+        void ask({ do: 'call', robot: row.id, called: text });
+      }}
+    >
+      <Group align="flex-end" wrap="nowrap">
+        <TextInput
+          label="What you call it"
+          placeholder={words.shortId(row.id)}
+          maxLength={40}
+          value={text}
+          onChange={(event) => setText(event.currentTarget.value)}
+          flex={1}
+        />
+        <Button type="submit" variant="default" disabled={text.trim() === (row.called ?? '')}>
+          Save name
+        </Button>
+      </Group>
+    </form>
+  );
+}
+
+/** Where only listed robots take part: whether this one is listed. */
+function ListedSwitch({ row }: { row: FleetRow }) {
+  const { ask, live } = useSession();
+  if (!useStore(live.fleet, (fleet) => fleet.only_listed)) return null;
+  return (
+    <Switch
+      label="It is on the list of robots that take part"
+      checked={row.admitted}
+      onChange={(event) =>
+        void ask({ do: 'list', robots: [row.id], listed: event.currentTarget.checked })
+      }
+    />
   );
 }
 

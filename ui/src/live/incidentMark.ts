@@ -1,4 +1,3 @@
-import { shortId } from '../session/robotWords';
 import { canvasFromStage, type Camera } from '../stage/camera';
 import { FLOOR } from '../stage/palette';
 import type { Callout } from '../session/incidents';
@@ -27,7 +26,7 @@ export function paintCallouts(
     c.beginPath();
     c.arc(x, y, ring_px, 0, 2 * Math.PI);
     c.stroke();
-    const text = `Robot ${shortId(callout.name)}`;
+    const text = `Robot ${callout.name}`;
     const wide_px = c.measureText(text).width + 2 * PAD_PX;
     const right = x + ring_px + OFF_PX;
     const left = right + wide_px > width_px ? x - ring_px - OFF_PX - wide_px : right;

@@ -16,11 +16,17 @@ const row = (presence: Presence): FleetRow => ({
   firmware: null,
   abilities: { route: true, fade: true, blink: true },
   clock_us: null,
+  called: null,
+  admitted: true,
   simulated: false,
 });
 
 test('silent robots fade', () => {
-  const alpha = fade({ revision: 1, rows: [row('active'), row('stale'), row('gone')] });
+  const alpha = fade({
+    revision: 1,
+    only_listed: false,
+    rows: [row('active'), row('stale'), row('gone')],
+  });
   expect(alpha(0)).toBe(1);
   expect(alpha(1)).toBeLessThan(0.5);
   expect(alpha(2)).toBeLessThan(alpha(1));

@@ -11,6 +11,7 @@ const incident = (id: number, more: Partial<Incident> = {}): Incident => ({
   advice: '',
   robots: [],
   count: 0,
+  wants_to_join: false,
   over: false,
   read: false,
   ...more,

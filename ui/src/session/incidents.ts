@@ -1,5 +1,6 @@
 import type { Fleet, Incident, Robots } from '../api/types.gen';
 import type { Point } from '../base/geometry';
+import { nameOf } from './robotWords';
 
 /** Unread incidents, the newest first. */
 export const unread = (incidents: readonly Incident[]): Incident[] =>
@@ -38,7 +39,7 @@ export function calloutsOf(
   fleet.rows.forEach((row, i) => {
     if (!named.has(row.id) || callouts.length === CALLOUTS_MAX) return;
     const [x, y] = [robots.x[i] ?? NaN, robots.y[i] ?? NaN];
-    if (!Number.isNaN(x + y)) callouts.push({ name: row.id, x, y });
+    if (!Number.isNaN(x + y)) callouts.push({ name: nameOf(row), x, y });
   });
   return callouts;
 }

@@ -75,7 +75,7 @@ export function createLive(): Live {
     }),
     plan: createStore<Plan | null>(null),
     settled: createStore<Plan | null>(null),
-    fleet: createStore<Fleet>({ revision: 0, rows: [] }),
+    fleet: createStore<Fleet>({ revision: 0, only_listed: false, rows: [] }),
     broker: createStore<Broker>({
       address: '',
       phase: 'off',

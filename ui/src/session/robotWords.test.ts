@@ -22,6 +22,8 @@ test('an original robot is described too', () => {
     firmware: null,
     abilities: { route: false, fade: false, blink: false },
     clock_us: null,
+    called: null,
+    admitted: true,
     simulated: false,
   };
   expect(words.stateText(row)).toBe('silent, 9 s');

@@ -4,6 +4,16 @@ import { ageText } from '../base/time';
 /** The part of a robot's id that identifies the robot on screen. */
 export const shortId = (id: string) => (id.length > 12 ? id.slice(0, 8) : id);
 
+/** What people call a robot: the name that they gave it, else what identifies it. */
+export const nameOf = (row: Pick<FleetRow, 'id' | 'called'>) => row.called ?? shortId(row.id);
+
+/** A text in which robots are called what people call them. */
+export const withNames = (text: string, robots: readonly string[], rows: readonly FleetRow[]) =>
+  robots.reduce((said, id) => {
+    const called = rows.find((row) => row.id === id)?.called;
+    return called ? said.replaceAll(shortId(id), called) : said;
+  }, text);
+
 const UUID = /\b([0-9a-f]{8})-[0-9a-f]{4}-[0-9a-f]{4}-[0-9a-f]{4}-[0-9a-f]{12}\b/gi;
 
 /** A text with the robots' ids shortened. */

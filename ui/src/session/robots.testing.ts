@@ -28,6 +28,8 @@ export const robotRow = (over: Partial<FleetRow> = {}): FleetRow => ({
   firmware: null,
   abilities: { route: true, fade: true, blink: true },
   clock_us: 5,
+  called: null,
+  admitted: true,
   simulated: true,
   ...over,
 });

@@ -32,6 +32,7 @@ export function SettingsDialog({ opened, onClose, onKeys }: Props) {
     <Modal opened={opened} onClose={onClose} title="Settings">
       <Stack>
         <AppearanceAndUnits />
+        <NewRobots />
         <BrokerSection />
         <Group justify="space-between">
           <Button size="compact-sm" variant="subtle" color="gray" onClick={onKeys}>
@@ -93,5 +94,19 @@ function AppearanceAndUnits() {
         }}
       />
     </>
+  );
+}
+
+/** Whether robots join by themselves. It holds for the server, and for all screens. */
+function NewRobots() {
+  const { ask, live } = useSession();
+  const only = useStore(live.fleet, (fleet) => fleet.only_listed);
+  return (
+    <Switch
+      label="Ask before new robots take part"
+      description="On: the robots that are here now are listed. Another one has to be let in, and is driven around until then."
+      checked={only}
+      onChange={(event) => void ask({ do: 'only_listed', on: event.currentTarget.checked })}
+    />
   );
 }

@@ -20,6 +20,7 @@ export const KEYS: { title: string; keys: [string[], string][] }[] = [
       [['L'], 'Loop'],
       [['T', 'W'], 'Show targets, show routes'],
       [['R'], 'Look for robots'],
+      [['/'], 'Find a robot by its name'],
       [['C'], 'Checklist before the start'],
       [['←', '→'], 'Choose a frame'],
     ],

@@ -27,7 +27,7 @@ pub(crate) fn consider(cx: &mut RunContext, robot: usize, is_stopping: bool) {
 /// Whether a robot that has not taken part yet may do so.
 fn is_expected(cx: &RunContext, robot: usize) -> bool {
     let known = cx.io.fleet.robot(robot);
-    known.is_admitted && !(cx.io.config.admitted.is_empty() && cx.roster.is_stranger(known))
+    known.is_admitted && !(cx.io.config.admitted.is_none() && cx.roster.is_stranger(known))
 }
 
 /// Robots that want to take part do, while all stand; whether any does now that did not before.

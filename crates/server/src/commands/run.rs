@@ -6,6 +6,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use lightbots_api::{Level, ShowOrigin};
+use lightbots_control::Operation;
 use lightbots_link::BrokerUrl;
 use lightbots_show::{Show, validate};
 use tokio::sync::mpsc;
@@ -16,6 +17,7 @@ use crate::broker_settings::{Settings, other_broker};
 use crate::cli::RunArguments;
 use crate::data_folder::DataFolder;
 use crate::failure::{Failure, Outcome};
+use crate::fleet_book::FleetBook;
 use crate::library::{Library, name_of_file};
 use crate::live::broker::EmbeddedBroker;
 use crate::live::cast::Cast;
@@ -101,8 +103,12 @@ async fn serve(arguments: &RunArguments, stop: &Stop, started: &mut Started) -> 
     let (handle, conductor) = Handle::start(RecordingTarget::Runs(data.clone()), clock, stop.clone());
     started.tasks.push(conductor);
     let planner = Planner::new(Duration::from_secs(arguments.plan_budget.into()));
+    let book = FleetBook::load(&data);
+    if let Some(names) = book.admitted() {
+        let _ = handle.operate(Operation::Admit(Some(names))).await;
+    }
     let desk = BrokerDesk::new(data, settings, embedded);
-    let shared = Shared::new(handle.clone(), library, desk, names, planner);
+    let shared = Shared::new(handle.clone(), library, book, desk, names, planner);
     open(&shared, name).await;
     if let Some(run) = cut_off {
         run.tell(handle.clock().now());

@@ -33,6 +33,7 @@ pub use names::{Exposure, Names};
 pub use planner::Planner;
 
 use crate::failure::Failure;
+use crate::fleet_book::FleetBook;
 use crate::library::Library;
 use crate::live::conductor::Handle;
 use connection::{Connections, Ends};
@@ -43,6 +44,8 @@ use picture::Pictures;
 pub struct Shared {
     pub handle: Handle,
     pub library: Library,
+    /// What people say of robots.
+    pub book: FleetBook,
     pub desk: Desk,
     pub log: ScreenLog,
     pub incidents: IncidentBoard,
@@ -62,6 +65,7 @@ impl Shared {
     pub fn new(
         handle: Handle,
         library: Library,
+        book: FleetBook,
         broker: BrokerDesk,
         names: Names,
         planner: Planner,
@@ -73,11 +77,12 @@ impl Shared {
         let desk = Desk::new(handle.clone());
         tokio::spawn(desk.clone().follow(handle.news()));
         let pictures = Pictures::new();
-        tokio::spawn(pictures.clone().follow(handle.clone(), desk.clone()));
+        tokio::spawn(pictures.clone().follow(handle.clone(), desk.clone(), book.clone()));
         let (screens, simulated) = (AtomicU32::new(0), Arc::default());
         Arc::new(Self {
             handle,
             library,
+            book,
             desk,
             log,
             incidents,

@@ -41,6 +41,24 @@ async fn act(shared: &Shared, operation: api::Operation) -> Result<(), Refused> 
             shared.incidents.read(incident);
             return Ok(());
         }
+        Wish::Call { robot, called } => {
+            return shared.book.call(robot_id(&robot).map_err(plain)?, &called).map_err(plain);
+        }
+        Wish::List { robots, listed } => {
+            let robots: Vec<RobotId> =
+                robots.iter().map(|robot| robot_id(robot)).collect::<Result<_, _>>().map_err(plain)?;
+            shared.book.list(&robots, listed).map_err(plain)?;
+            if listed {
+                shared.incidents.joined(&robots);
+            }
+            Operation::Admit(shared.book.admitted())
+        }
+        Wish::OnlyListed { on } => {
+            let present = shared.handle.look().await.map(|snapshot| snapshot.robots).unwrap_or_default();
+            let present: Vec<RobotId> = present.iter().map(|robot| robot.id).collect();
+            shared.book.only_listed(on, &present).map_err(plain)?;
+            Operation::Admit(shared.book.admitted())
+        }
         Wish::Disconnect => {
             shared.broker.disconnect(&shared.handle).await;
             return Ok(());

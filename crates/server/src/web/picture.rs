@@ -14,6 +14,7 @@ use tokio::time::MissedTickBehavior;
 
 use super::Desk;
 use super::message::text;
+use crate::fleet_book::FleetBook;
 use crate::live::conductor::{Handle, LinkPhase, LinkState, News};
 
 /// Time between two pictures: 20 a second, which screens interpolate. More cost bandwidth; fewer make dots lag.
@@ -38,6 +39,7 @@ pub struct Picture {
 /// What a picture needs besides the snapshot.
 struct Painter {
     desk: Desk,
+    book: FleetBook,
     link: LinkState,
     /// The robots of the last fleet table, in order.
     names: Vec<RobotId>,
@@ -99,13 +101,14 @@ impl Pictures {
     }
 
     /// Makes pictures until the conductor ends.
-    pub async fn follow(self, handle: Handle, desk: Desk) {
+    pub async fn follow(self, handle: Handle, desk: Desk, book: FleetBook) {
         let mut news = handle.news();
         let mut ticks = tokio::time::interval(EVERY);
         ticks.set_missed_tick_behavior(MissedTickBehavior::Delay);
         let link = LinkState::default();
         let mut painter = Painter {
             desk,
+            book,
             link,
             names: Vec::new(),
             revision: 0,
@@ -148,8 +151,9 @@ impl Pictures {
         if !same || due || !painter.looked {
             painter.since_fleet = 0;
             painter.looked = true;
-            let rows = snapshot.robots.iter().map(|robot| row(robot, snapshot)).collect();
-            let fleet = api::Fleet { revision: painter.revision, rows };
+            let rows = snapshot.robots.iter().map(|robot| row(robot, snapshot, &painter.book)).collect();
+            let only_listed = painter.book.is_only_listed();
+            let fleet = api::Fleet { revision: painter.revision, only_listed, rows };
             self.fleets.send_replace(text(&api::ToScreen::Fleet(fleet)));
         }
         let pace = painter.pace.look(std::time::Instant::now(), snapshot.at);
@@ -259,7 +263,7 @@ fn colour(robot: &RobotView) -> u32 {
     u32::from(light.r) << 16 | u32::from(light.g) << 8 | u32::from(light.b)
 }
 
-fn row(robot: &RobotView, snapshot: &Snapshot) -> api::FleetRow {
+fn row(robot: &RobotView, snapshot: &Snapshot, book: &FleetBook) -> api::FleetRow {
     let firmware = robot.reported.firmware.as_str();
     api::FleetRow {
         id: robot.id.to_string(),
@@ -279,6 +283,8 @@ fn row(robot: &RobotView, snapshot: &Snapshot) -> api::FleetRow {
             blink: robot.reported.abilities.blink,
         },
         clock_us: robot.reported.clock_us,
+        called: book.called(robot.id),
+        admitted: robot.is_admitted,
         simulated: robot.reported.simulated,
     }
 }

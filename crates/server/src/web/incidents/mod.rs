@@ -28,6 +28,7 @@ const TOGETHER_MS: u64 = 4_000;
 #[derive(Clone, Debug, PartialEq)]
 enum Subject {
     Dropouts { why: Trouble, frame: Option<usize> },
+    Joining,
     Link,
     Broker,
     Names(RobotId),
@@ -83,6 +84,17 @@ impl IncidentBoard {
         });
     }
 
+    /// Robots were listed: they do not want to join any more.
+    pub fn joined(&self, robots: &[RobotId]) {
+        self.change(|book| {
+            let mut changed = false;
+            for robot in robots {
+                changed |= book.leave(*robot, |subject| *subject == Subject::Joining);
+            }
+            changed
+        });
+    }
+
     /// Notes the conductor's events until it ends.
     pub async fn follow(self, mut news: broadcast::Receiver<News>) {
         loop {
@@ -104,6 +116,18 @@ impl IncidentBoard {
     }
 }
 
+impl Entry {
+    /// It is about one more robot.
+    fn grow(&mut self, robot: RobotId, now_ms: u64) {
+        self.robots.push(robot);
+        self.last_ms = now_ms;
+        self.incident.count = self.robots.len();
+        if self.incident.robots.len() < NAMED {
+            self.incident.robots.push(robot.to_string());
+        }
+    }
+}
+
 impl Book {
     /// Notes an event; whether that changed an incident.
     fn note(&mut self, kind: &EventKind, now_ms: u64) -> bool {
@@ -121,7 +145,11 @@ impl Book {
                 self.drop_out(*robot, *why, now_ms);
                 true
             }
-            E::Rejoined(robot) => self.rejoin(*robot),
+            E::WantsToJoin(robot) => {
+                self.want_to_join(*robot, now_ms);
+                true
+            }
+            E::Rejoined(robot) => self.leave(*robot, |subject| matches!(subject, Subject::Dropouts { .. })),
             E::LinkBack { asks_operator: false, .. } => self.end(|subject| *subject == Subject::Link),
             E::Connected => self.end(|subject| *subject == Subject::Broker),
             E::NameUnique(robot) => self.end(|subject| *subject == Subject::Names(*robot)),
@@ -145,31 +173,39 @@ impl Book {
             let card = words::dropped(why, &names, 1, self.frame);
             return self.open(subject, IncidentTone::Look, card, vec![robot], now_ms);
         };
-        entry.robots.push(robot);
-        entry.last_ms = now_ms;
+        entry.grow(robot, now_ms);
         let incident = &mut entry.incident;
-        incident.count = entry.robots.len();
-        if incident.robots.len() < NAMED {
-            incident.robots.push(robot.to_string());
-        }
         let card = words::dropped(why, &incident.robots, incident.count, self.frame);
         (incident.title, incident.done, incident.advice) = (card.title, card.done, card.advice);
     }
 
-    /// A robot takes part again: the incident is over once that holds for all of its robots.
-    fn rejoin(&mut self, robot: RobotId) -> bool {
+    /// Incidents of some subject are no longer about a robot; they are over without robots. Whether one is now.
+    fn leave(&mut self, robot: RobotId, of: impl Fn(&Subject) -> bool) -> bool {
         let mut changed = false;
-        for entry in &mut self.entries {
+        for entry in self.entries.iter_mut().filter(|entry| of(&entry.subject)) {
             let before = entry.robots.len();
-            if matches!(entry.subject, Subject::Dropouts { .. }) {
-                entry.robots.retain(|one| *one != robot);
-            }
+            entry.robots.retain(|one| *one != robot);
             if entry.robots.is_empty() && before > 0 {
                 entry.incident.over = true;
                 changed = true;
             }
         }
         changed
+    }
+
+    /// Robots that want to join are one incident until the operator has read it or they have joined.
+    fn want_to_join(&mut self, robot: RobotId, now_ms: u64) {
+        let holds = |entry: &&mut Entry| {
+            entry.subject == Subject::Joining && !entry.incident.over && !entry.incident.read
+        };
+        let Some(entry) = self.entries.iter_mut().find(holds) else {
+            let card = words::joining(&[robot.to_string()], 1);
+            self.open(Subject::Joining, IncidentTone::Information, card, vec![robot], now_ms);
+            return;
+        };
+        entry.grow(robot, now_ms);
+        let incident = &mut entry.incident;
+        incident.title = words::joining(&incident.robots, incident.count).title;
     }
 
     fn end(&mut self, of: impl Fn(&Subject) -> bool) -> bool {
@@ -185,7 +221,7 @@ impl Book {
     fn open(&mut self, subject: Subject, tone: IncidentTone, card: Card, robots: Vec<RobotId>, now_ms: u64) {
         let Card { title, done, advice } = card;
         let holds = |entry: &&mut Entry| entry.subject == subject && !entry.incident.over;
-        let is_new = matches!(subject, Subject::Dropouts { .. });
+        let is_new = matches!(subject, Subject::Dropouts { .. } | Subject::Joining);
         if let Some(entry) = self.entries.iter_mut().find(holds).filter(|_| !is_new) {
             let incident = &mut entry.incident;
             (incident.tone, incident.title, incident.done, incident.advice) = (tone, title, done, advice);
@@ -204,6 +240,7 @@ impl Book {
             advice,
             robots: names,
             count: robots.len(),
+            wants_to_join: subject == Subject::Joining,
             over: false,
             read: false,
         };

@@ -128,3 +128,18 @@ fn each_warning_and_error_has_a_card_with_three_parts_or_is_shown_elsewhere() {
         }
     }
 }
+
+#[test]
+fn robots_that_want_to_join_are_one_card_until_they_are_listed() {
+    let board = IncidentBoard::new();
+    for number in [7, 8] {
+        board.change(|book| book.note(&EventKind::WantsToJoin(robot(number)), 0));
+    }
+    let incident = |board: &IncidentBoard| board.book.lock().unwrap().entries[0].incident.clone();
+    assert_eq!(incident(&board).title, "Robots 7 and 8 are new and want to join.");
+    assert!(incident(&board).wants_to_join && incident(&board).robots == ["7", "8"]);
+    board.joined(&[robot(7)]);
+    assert!(!incident(&board).over);
+    board.joined(&[robot(8)]);
+    assert!(incident(&board).over);
+}

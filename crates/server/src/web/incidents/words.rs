@@ -30,6 +30,13 @@ pub fn dropped(why: Trouble, names: &[String], count: usize, frame: Option<usize
     Card::new(title, done, advice(why))
 }
 
+/// Robots that are not listed want to join. `names`: the first of `count`.
+pub fn joining(names: &[String], count: usize) -> Card {
+    let wants = if count == 1 { "is new and wants to join" } else { "are new and want to join" };
+    let title = format!("{} {wants}.", subject(names, count));
+    Card::new(title, "Listed robots take part; others are driven around.", "Let it join if it is yours.")
+}
+
 /// `Robot 7`, `Robots 7, 9 and 12`, `24 robots`.
 pub fn subject(names: &[String], count: usize) -> String {
     let short: Vec<&str> = names.iter().map(|name| short(name)).collect();
