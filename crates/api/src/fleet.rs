@@ -27,6 +27,8 @@ pub struct FleetRow {
     pub age_s: f64,
     /// Battery charge, percent; null: not reported.
     pub battery: Option<u8>,
+    /// How long the battery lasts if it goes on as so far, seconds; null: not known yet.
+    pub battery_left_s: Option<f64>,
     /// Id of the pixel that the robot shows or drives to; null: the robot stands by.
     pub pixel: Option<u32>,
     /// Name and version of the firmware; null: not reported. Original robots report none.

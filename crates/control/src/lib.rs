@@ -18,6 +18,7 @@
 //! ```
 
 mod block;
+mod charge;
 mod checkpoint;
 mod clock;
 mod config;

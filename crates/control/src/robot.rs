@@ -1,5 +1,6 @@
 //! One robot, as the controller knows it.
 
+use crate::charge::ChargeTrend;
 use crate::event::EventKind;
 use crate::log::EventQueue;
 use crate::namesakes::Namesakes;
@@ -38,6 +39,8 @@ pub(crate) struct KnownRobot {
     pub reported: Reported,
     /// When it reported.
     pub contact: LastContact,
+    /// How its charge falls.
+    pub charge: ChargeTrend,
     /// How often it sends messages.
     pub rate: ReportRate,
     /// Since when it reports the same place.
@@ -80,6 +83,7 @@ impl KnownRobot {
             id,
             reported: Reported::default(),
             contact: LastContact { found: now, heard: now, age: Age::Active },
+            charge: ChargeTrend::default(),
             rate: ReportRate::default(),
             standstill: Standstill { since: now, at: None, placed: now },
             asked: now,
@@ -125,6 +129,7 @@ impl KnownRobot {
             goal: self.goal,
             pixel: self.pixel,
             light: self.light,
+            battery_left: self.charge.left(self.contact.heard),
             takes_part: false,
             is_admitted: self.is_admitted,
         }
@@ -170,6 +175,9 @@ impl KnownRobot {
         // The original firmware does not say: such a robot is real, even where a simulated one had its name.
         self.reported.simulated = report.details.as_ref().is_some_and(|details| details.simulated);
         let restarted = report.details.as_ref().is_some_and(|details| self.take_over(details));
+        if let Some(percent) = self.reported.battery {
+            self.charge.report(now, percent);
+        }
         if restarted {
             (self.light, self.is_light_sure) = (Rgb::BLACK, true);
         }

@@ -1,7 +1,7 @@
 //! The controller's state as plain data, for screens and reports.
 
 use crate::operation::ControllerState;
-use lightbots_base::{Instant, Rgb, RobotId, Vec2};
+use lightbots_base::{Instant, Rgb, RobotId, Span, Vec2};
 use lightbots_wire::{Abilities, Blocked, Firmware, RobotState};
 use serde::{Deserialize, Serialize};
 
@@ -80,6 +80,8 @@ pub struct RobotView {
     pub pixel: Option<u32>,
     /// The light it was told to show.
     pub light: Rgb,
+    /// How long its battery lasts from its last report on, if it goes on as so far; `None`: not known yet.
+    pub battery_left: Option<Span>,
     /// Whether it takes part in the run.
     pub takes_part: bool,
     /// Whether it may take part in runs.

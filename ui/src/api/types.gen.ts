@@ -257,6 +257,10 @@ age_s: number,
  */
 battery: number | null, 
 /**
+ * How long the battery lasts if it goes on as so far, seconds; null: not known yet.
+ */
+battery_left_s: number | null, 
+/**
  * Id of the pixel that the robot shows or drives to; null: the robot stands by.
  */
 pixel: number | null, 

@@ -24,7 +24,7 @@ const shownOf = ({ row, wide, pinned }: Props) =>
     row.admitted,
     row.pixel,
     words.stateText(row),
-    row.battery,
+    words.chargeText(row),
     wide && [words.lastSeenText(row), words.clockText(row)],
     wide && [words.firmwareText(row), words.abilitiesText(row)],
     row.abilities.blink,

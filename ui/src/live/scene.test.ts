@@ -12,6 +12,7 @@ const row = (presence: Presence): FleetRow => ({
   presence,
   age_s: 0,
   battery: null,
+  battery_left_s: null,
   pixel: null,
   firmware: null,
   abilities: { route: true, fade: true, blink: true },

@@ -50,6 +50,16 @@ test('what is missing is said, and whether one can go on without', () => {
   expect(of(lost, 'places')?.detail).toMatch(/Unknown for b/);
   const low = checklistOf(all({ rows: [row('a'), row('b', { battery: 7 })] }));
   expect(of(low, 'batteries')).toMatchObject({ verdict: 'warn' });
+  const lasts = (minutes: number) =>
+    of(
+      checklistOf(
+        all({ rows: [row('a'), row('b', { battery: 60, battery_left_s: minutes * 60 })] }),
+      ),
+      'batteries',
+    );
+  expect(lasts(90)).toMatchObject({ verdict: 'good', detail: 'At least 60 %, 90 min.' });
+  expect(lasts(4)).toMatchObject({ verdict: 'warn' });
+  expect(lasts(4)?.detail).toContain('b has 60 %, 4 min. The show takes');
   const red = checklistOf(all({ plan: { ...plan, ok: false } }));
   expect([of(red, 'plan')?.verdict, canGoOn(red)]).toEqual(['bad', false]);
   expect(of(checklistOf(all({ plan: { ...plan, planning: true } })), 'plan')?.verdict).toBe('wait');

@@ -1,6 +1,7 @@
 import type { Broker, FleetRow, Plan, Robots } from '../api/types.gen';
 import { fleetSize, pinsOf } from '../model/commands';
 import type { Show } from '../model/show';
+import { chargeText, nameOf } from './robotWords';
 
 /** `good`: fine; `wait`: not known yet; `warn`: playable with a risk; `bad`: the show or part of it cannot be played. */
 export type Verdict = 'good' | 'wait' | 'warn' | 'bad';
@@ -40,7 +41,7 @@ export function checklistOf(s: Situation): Check[] {
     robotsCheck(s.show, s.rows),
     placesCheck(s.show, s),
     ...pinsCheck(s.show, s.rows),
-    batteryCheck(s.rows),
+    batteryCheck(s.rows, s.plan),
   ];
 }
 
@@ -131,18 +132,24 @@ function pinsCheck(show: Show, rows: readonly FleetRow[]): Check[] {
   return [check('pins', 'Pinned robots', 'bad', detail)];
 }
 
-function batteryCheck(rows: readonly FleetRow[]): Check {
+/** Minutes by which a battery has to outlast the show. */
+const SPARE_MIN = 5;
+
+function batteryCheck(rows: readonly FleetRow[], plan: Plan | null): Check {
   const known = rows.filter((row) => canDrive(row) && row.battery !== null);
-  const low = known.filter((row) => (row.battery ?? 100) < CHARGE_LOW);
   if (known.length === 0) return check('batteries', 'Batteries', 'good', 'No battery information.');
+  const show_min = (plan?.duration_s ?? 0) / 60;
+  const left_min = (row: FleetRow) => (row.battery_left_s ?? Infinity) / 60;
+  const short = known.filter((row) => left_min(row) < show_min + SPARE_MIN);
+  const low = known.filter((row) => (row.battery ?? 100) < CHARGE_LOW || short.includes(row));
   const least = Math.min(...known.map((row) => row.battery ?? 100));
-  if (low.length === 0) return check('batteries', 'Batteries', 'good', `At least ${least} %.`);
-  const names = low.slice(0, 3).map((row) => `${row.id.slice(0, 8)} has ${row.battery} %`);
+  const shortest_min = Math.min(...known.map(left_min));
+  const lasts = shortest_min === Infinity ? '' : `, ${Math.floor(shortest_min)} min`;
+  if (low.length === 0)
+    return check('batteries', 'Batteries', 'good', `At least ${least} %${lasts}.`);
+  const names = low.slice(0, 3).map((row) => `${nameOf(row)} has ${chargeText(row)}`);
   const more = low.length > 3 ? ` and ${low.length - 3} more are low` : '';
-  return check(
-    'batteries',
-    'Batteries',
-    'warn',
-    `${names.join(', ')}${more}. Charge or swap them.`,
-  );
+  const takes = short.length > 0 ? ` The show takes ${Math.ceil(show_min)} min.` : '';
+  const detail = `${names.join('; ')}${more}.${takes} Charge or swap them.`;
+  return check('batteries', 'Batteries', 'warn', detail);
 }

@@ -18,6 +18,7 @@ test('an original robot is described too', () => {
     presence: 'stale',
     age_s: 9,
     battery: null,
+    battery_left_s: null,
     pixel: null,
     firmware: null,
     abilities: { route: false, fade: false, blink: false },

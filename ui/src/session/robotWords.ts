@@ -32,7 +32,12 @@ const PRESENCES = { active: 'here', stale: 'silent', gone: 'gone' } as const;
 /** The word for a robot's presence. */
 export const presenceText = (row: Pick<FleetRow, 'presence'>) => PRESENCES[row.presence];
 
-export const chargeText = (row: FleetRow) => (row.battery === null ? '–' : `${row.battery} %`);
+/** Charge, and the minutes that it lasts once they are known. */
+export const chargeText = (row: FleetRow) => {
+  if (row.battery === null) return '–';
+  const left = row.battery_left_s === null ? '' : `, ${Math.floor(row.battery_left_s / 60)} min`;
+  return `${row.battery} %${left}`;
+};
 
 export const firmwareText = (row: FleetRow) => row.firmware ?? 'original';
 

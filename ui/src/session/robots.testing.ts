@@ -24,6 +24,7 @@ export const robotRow = (over: Partial<FleetRow> = {}): FleetRow => ({
   presence: 'active',
   age_s: 0,
   battery: 80,
+  battery_left_s: null,
   pixel: null,
   firmware: null,
   abilities: { route: true, fade: true, blink: true },

@@ -275,6 +275,7 @@ fn row(robot: &RobotView, snapshot: &Snapshot, book: &FleetBook) -> api::FleetRo
         },
         age_s: rounded((snapshot.at - robot.contact.heard).as_secs(), 1),
         battery: robot.reported.battery,
+        battery_left_s: robot.battery_left.map(|left| rounded(left.as_secs(), 0)),
         pixel: robot.pixel,
         firmware: (!firmware.is_empty()).then(|| firmware.to_owned()),
         abilities: api::Abilities {

@@ -1,0 +1,116 @@
+//! How long a battery lasts: the slope of the charge that a robot reports.
+//!
+//! Robots report whole percents. The moment at which the number falls says more than the number, so the slope is a
+//! least-squares line through these moments.
+
+use lightbots_base::{Instant, Span};
+use serde::{Deserialize, Serialize};
+
+/// Falls that are kept: a quarter of a battery. More: a slope that changes with what the robot does is learnt late.
+/// Fewer: it is less sure.
+const FALLS: usize = 24;
+/// Falls without which no slope is known.
+const FALLS_LEAST: usize = 3;
+/// A rise by this much, percent, means that the battery is charged or was changed; a smaller one is noise.
+const CHARGED: u8 = 2;
+
+/// The charge of one robot over time.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub(crate) struct ChargeTrend {
+    /// When the charge was first reported to be this much, percent. The first one is no fall: nothing was known before.
+    falls: Vec<(Instant, u8)>,
+    /// The least charge reported so far, percent.
+    least: Option<u8>,
+}
+
+impl ChargeTrend {
+    /// The robot reports a charge, percent.
+    pub fn report(&mut self, now: Instant, percent: u8) {
+        let Some(least) = self.least else {
+            self.least = Some(percent);
+            return;
+        };
+        if percent >= least.saturating_add(CHARGED) {
+            *self = Self { falls: Vec::new(), least: Some(percent) };
+        } else if percent < least {
+            if self.falls.len() == FALLS {
+                self.falls.remove(0);
+            }
+            self.falls.push((now, percent));
+            self.least = Some(percent);
+        }
+    }
+
+    /// How long the battery lasts at the slope so far; `None`: that is not known yet.
+    pub fn left(&self, now: Instant) -> Option<Span> {
+        let (first, last) = (self.falls.first()?.0, self.falls.last()?);
+        if self.falls.len() < FALLS_LEAST {
+            return None;
+        }
+        let count = self.falls.len() as f64;
+        let points = self.falls.iter().map(|&(at, percent)| ((at - first).as_secs(), f64::from(percent)));
+        let (sum_s, sum) = points.clone().fold((0.0, 0.0), |(a, b), (s, percent)| (a + s, b + percent));
+        let (mean_s, mean) = (sum_s / count, sum / count);
+        let (over, under) = points.fold((0.0, 0.0), |(over, under), (s, percent)| {
+            (over + (s - mean_s) * (percent - mean), under + (s - mean_s) * (s - mean_s))
+        });
+        let slope = over / under;
+        if slope >= 0.0 || slope.is_nan() {
+            return None;
+        }
+        let empty_s = f64::from(last.1) / -slope - (now - last.0).as_secs();
+        Some(Span::from_secs(empty_s.max(0.0)))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use lightbots_base::random::split_mix;
+
+    /// Error of what is left after ten minutes, as a share, of a battery that lasts `life_s` and whose reports, each two
+    /// seconds, are off by up to `noise` percent.
+    fn error_after_ten_minutes(life_s: f64, noise: f64, seed: u64) -> Option<f64> {
+        let mut state = seed;
+        let mut unit = || (split_mix(&mut state) >> 11) as f64 / (1u64 << 53) as f64;
+        let mut trend = ChargeTrend::default();
+        let start = 60.0 + 40.0 * unit();
+        let charge = |s: f64| start - 100.0 * s / life_s;
+        for step in 0..300 {
+            let s = 2.0 * f64::from(step);
+            let read = charge(s) + noise * (2.0 * unit() - 1.0);
+            trend.report(Instant((s * 1e6) as u64), read.clamp(0.0, 100.0) as u8);
+        }
+        let true_s = charge(600.0) * life_s / 100.0;
+        let left_s = trend.left(Instant(600_000_000))?.as_secs();
+        Some((left_s - true_s).abs() / true_s)
+    }
+
+    #[test]
+    fn what_is_left_is_known_after_ten_minutes() {
+        for (life_s, noise) in
+            [(1_800.0, 0.0), (3_600.0, 0.0), (7_200.0, 0.0), (3_600.0, 0.3), (7_200.0, 0.3)]
+        {
+            let mut errors: Vec<f64> =
+                (0..200).filter_map(|seed| error_after_ten_minutes(life_s, noise, seed)).collect();
+            assert!(errors.len() > 190, "{} of 200 know it", errors.len());
+            errors.sort_by(f64::total_cmp);
+            let (median, worst) = (errors[errors.len() / 2], errors[errors.len() * 95 / 100]);
+            assert!(median < 0.025 && worst < 0.045, "{life_s} s, noise {noise} %: {median:.3}, {worst:.3}");
+        }
+    }
+
+    #[test]
+    fn a_battery_that_is_charged_begins_anew() {
+        let mut trend = ChargeTrend::default();
+        for (minute, percent) in [80, 79, 78, 77, 76].into_iter().enumerate() {
+            trend.report(Instant(minute as u64 * 60_000_000), percent);
+        }
+        let now = Instant(4 * 60_000_000);
+        assert_eq!(trend.left(now), Some(Span::from_secs(76.0 * 60.0)));
+        trend.report(now, 77);
+        assert!(trend.left(now).is_some(), "noise");
+        trend.report(now, 90);
+        assert_eq!(trend.left(now), None);
+    }
+}
