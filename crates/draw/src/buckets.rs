@@ -5,6 +5,12 @@ use lightbots_base::Vec2;
 /// Buckets of one point each would be many and mostly empty for a thin drawing: at most this many.
 const MOST: f64 = 4e6;
 
+#[cfg(test)]
+thread_local! {
+    /// Buckets and points that searches of this thread have looked at: tests bound the work by it.
+    pub(crate) static LOOKED: std::cell::Cell<u64> = const { std::cell::Cell::new(0) };
+}
+
 /// Points in buckets. Indices are those of the points it was made from.
 pub(crate) struct Buckets<'a> {
     points: &'a [Vec2],
@@ -66,12 +72,9 @@ impl<'a> Buckets<'a> {
         let (column, row) = self.bucket(at);
         let mut best: Option<(usize, f64)> = None;
         for ring in 0..self.columns.max(self.rows) {
-            if let Some((_, square)) = best {
-                // Buckets of this ring are at least this far away; negative where `at` is outside of all buckets.
-                let gap = self.gap_to_ring(at, column, row, ring);
-                if gap > 0.0 && gap * gap > square {
-                    break;
-                }
+            if ring > 0 && best.is_some_and(|(_, square)| self.square_to_ring(at, column, row, ring) > square)
+            {
+                break;
             }
             self.ring(column, row, ring, &mut |index| {
                 let square = (self.points[index] - at).length_squared();
@@ -83,13 +86,20 @@ impl<'a> Buckets<'a> {
         best
     }
 
-    fn gap_to_ring(&self, at: Vec2, column: i64, row: i64, ring: i64) -> f64 {
-        let axis = |value: f64, index: i64| {
+    /// Square of the least distance from `at` to points in the buckets of a ring and beyond; infinite where there are none.
+    fn square_to_ring(&self, at: Vec2, column: i64, row: i64, ring: i64) -> f64 {
+        let gap = |value: f64, index: i64, count: i64| {
             let low = value - (index - ring + 1) as f64 * self.pitch;
             let high = (index + ring) as f64 * self.pitch - value;
-            low.min(high)
+            let low = if index >= ring { low } else { f64::INFINITY };
+            low.min(if index + ring < count { high } else { f64::INFINITY })
         };
-        axis(at.x - self.min.x, column).min(axis(at.y - self.min.y, row))
+        // Of a query outside of the box around the buckets, no point is nearer than the box.
+        let outside = |value: f64, count: i64| (-value).max(value - count as f64 * self.pitch).max(0.0);
+        let at = at - self.min;
+        let (x, y) = (gap(at.x, column, self.columns), gap(at.y, row, self.rows));
+        let (out_x, out_y) = (outside(at.x, self.columns), outside(at.y, self.rows));
+        (x * x + out_y * out_y).min(y * y + out_x * out_x)
     }
 
     /// All points in the buckets at Chebyshev distance `ring` from a bucket.
@@ -111,6 +121,8 @@ impl<'a> Buckets<'a> {
     fn row(&self, first: i64, last: i64, y: i64, found: &mut impl FnMut(usize)) {
         let from = self.starts[(y * self.columns + first) as usize] as usize;
         let to = self.starts[(y * self.columns + last + 1) as usize] as usize;
+        #[cfg(test)]
+        LOOKED.with(|looked| looked.set(looked.get() + (last - first + 1) as u64 + (to - from) as u64));
         for item in &self.items[from..to] {
             found(*item as usize);
         }
@@ -177,6 +189,18 @@ mod tests {
             }
         }
         assert_eq!(Buckets::new(&[], 1.0).nearest(Vec2::ZERO), None);
+    }
+
+    #[test]
+    fn a_search_from_outside_looks_at_a_small_part() {
+        let points = random(30_000, 4);
+        let buckets = Buckets::new(&points, 0.01);
+        for query in [Vec2::new(-0.01, 0.5), Vec2::new(1.5, 40.0), Vec2::new(900.0, -900.0)] {
+            let before = LOOKED.get();
+            buckets.nearest(query);
+            let looked = LOOKED.get() - before;
+            assert!(looked < 3_000, "{query:?} looked at {looked} buckets and points");
+        }
     }
 
     #[test]
