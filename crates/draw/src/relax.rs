@@ -169,7 +169,6 @@ mod tests {
     #[test]
     fn sixteen_times_the_places_are_at_most_five_times_the_work_for_a_sample() {
         let (few, many) = (work(200), work(3_200));
-        println!("{few:.1} and {many:.1} buckets and points for each sample and round");
         assert!(many < 5.0 * few, "{few} and {many}");
     }
 
