@@ -44,7 +44,7 @@ const OBSTACLE: &str = "the test would have to put an obstacle in front of the r
 const SENSORS: &str = "the test would have to disturb the robot's sensors";
 
 /// All rules, in order: `RULES[n - 1]` is Rn.
-pub const RULES: [Rule; 53] = {
+pub const RULES: [Rule; 54] = {
     use Scope::{AllRobots, Blink, Details, Fade, Hidden, Light, Route};
     [
         rule(1, "MQTT 3.1.1, QoS 0, not retained", Hidden("only the broker sees how a robot connects")),
@@ -108,6 +108,7 @@ pub const RULES: [Rule; 53] = {
             Hidden("messages do not show whether a robot is simulated"),
         ),
         rule(53, "brakes= never falls, near= is a gap in sight", Details),
+        rule(54, "GO comes on a topic of its own", Hidden("the rule concerns the controller")),
     ]
 };
 

@@ -133,7 +133,8 @@ impl ConnectionTask {
             Packet::Publish(message) => {
                 let Ok(topic) = String::from_utf8(message.topic.to_vec()) else { return true };
                 let payload = message.payload.to_vec();
-                if self.events.try_send(LinkEvent::Message { topic, payload }).is_err() {
+                let retained = message.retain;
+                if self.events.try_send(LinkEvent::Message { topic, payload, retained }).is_err() {
                     self.status.dropped.fetch_add(1, Ordering::Relaxed);
                 }
                 !self.events.is_closed()

@@ -35,6 +35,8 @@ pub enum LinkEvent {
         topic: String,
         /// Payload of the message.
         payload: Vec<u8>,
+        /// The broker kept it from before this subscription.
+        retained: bool,
     },
 }
 

@@ -212,7 +212,7 @@ impl Body {
         match event {
             LinkEvent::Connected => self.robot.link(at, true),
             LinkEvent::Disconnected { .. } => self.robot.link(at, false),
-            LinkEvent::Message { topic, payload } => {
+            LinkEvent::Message { topic, payload, .. } => {
                 if let Some(topic) = Topic::parse(&topic) {
                     self.robot.receive(at, topic, &payload);
                 }

@@ -175,7 +175,7 @@ pub struct MqttArguments {
     #[arg(long, value_name = "FILE", requires = "mqtt_tls_listen")]
     pub client_ca: Option<PathBuf>,
     /// A user of the embedded broker; if any is given, other users are refused. ROLE is robot (it has the user's name),
-    /// any-robot, controller, or left out: a robot where the client id is LightBot/<name>; may be repeated
+    /// any-robot, controller, cue, or left out: a robot where the client id is LightBot/<name>; may be repeated
     #[arg(long, value_name = "USER:PASSWORD[:ROLE]")]
     pub mqtt_user: Vec<String>,
     /// File of such users, one a line

@@ -96,7 +96,7 @@ fn receive(robot: &mut Robot, link: &mut Link, now: Instant) {
                 print_problem(&reason);
                 robot.link(now, false);
             }
-            Some(LinkEvent::Message { topic, payload }) => {
+            Some(LinkEvent::Message { topic, payload, .. }) => {
                 if let Some(topic) = Topic::parse(&topic) {
                     robot.receive(now, topic, &payload);
                 }

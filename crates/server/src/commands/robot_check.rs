@@ -94,7 +94,7 @@ impl Examination {
             tokio::select! {
                 () = stop.wait() => break Err(Failure::problem("stopped before the end; the robot was told to stand")),
                 event = self.link.next() => match event {
-                    Some(LinkEvent::Message { topic, payload }) => {
+                    Some(LinkEvent::Message { topic, payload, .. }) => {
                         self.exam.message(self.clock.now(), &topic, &payload);
                     }
                     Some(LinkEvent::Connected) => {}

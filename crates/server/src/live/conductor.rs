@@ -14,6 +14,7 @@ use tokio::sync::{broadcast, mpsc, oneshot};
 
 use super::clock::{Clock, seq_base};
 use super::controller_link;
+use super::cue_topic;
 use super::pace::Pace;
 use super::recorder::{Recorder, RecordingTarget};
 use super::rivals::{self, Rivals};
@@ -203,16 +204,31 @@ impl Conductor {
                 }
                 self.tell_link(LinkPhase::Retrying, Some(reason));
             }
-            LinkEvent::Message { topic, payload } if [rivals::NAMES, rivals::COMMANDS].contains(&&*topic) => {
+            LinkEvent::Message { topic, payload, retained } if topic == cue_topic::CUE => {
+                if !retained && cue_topic::is_go(&payload) {
+                    self.go(now);
+                }
+            }
+            LinkEvent::Message { topic, payload, .. }
+                if [rivals::NAMES, rivals::COMMANDS].contains(&&*topic) =>
+            {
                 if let Some(line) = self.rivals.hear(now, &topic, &payload) {
                     tracing::warn!("{line}");
                     let _ = self.news.send(News::Warning(line));
                 }
             }
-            LinkEvent::Message { topic, payload } => {
+            LinkEvent::Message { topic, payload, .. } => {
                 self.pace.reports.hear(1);
                 self.controller.message(now, &topic, &payload);
             }
+        }
+    }
+
+    /// GO came by the broker.
+    fn go(&mut self, now: lightbots_base::Instant) {
+        self.recorder.before(&mut self.controller, now, &Operation::Go);
+        if let Err(refusal) = self.controller.operate(now, Operation::Go) {
+            let _ = self.news.send(News::Warning(format!("GO by MQTT was refused: {refusal}")));
         }
     }
 
@@ -241,7 +257,7 @@ impl Conductor {
                 self.nodes = broker.addresses.iter().map(ToString::to_string).collect();
                 let mut config = controller_link(broker);
                 self.rivals = Rivals::new(config.client_id.clone());
-                config.filters.extend([rivals::NAMES, rivals::COMMANDS].map(str::to_owned));
+                config.filters.extend([rivals::NAMES, rivals::COMMANDS, cue_topic::CUE].map(str::to_owned));
                 self.link = Some(Link::open(config));
                 self.tell_link(LinkPhase::Connecting, None);
             }

@@ -162,7 +162,7 @@ impl Crowd {
         let first = group * self.together;
         let sharing = first..(first + self.together).min(self.robots);
         let up = match event {
-            LinkEvent::Message { topic, payload } => {
+            LinkEvent::Message { topic, payload, .. } => {
                 if matches!(Topic::parse(&topic), Some(Topic::Robot(_))) {
                     self.pace.commands.hear(1);
                 }

@@ -5,6 +5,7 @@ pub mod cast;
 pub mod clock;
 pub mod conductor;
 pub mod crowd;
+mod cue_topic;
 pub mod cut_off;
 mod journal;
 mod link_state;

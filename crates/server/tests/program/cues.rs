@@ -4,7 +4,13 @@ use serde_json::{Value, json};
 
 use crate::child::Child;
 use crate::mosquitto::Mosquitto;
+use crate::plain_mqtt::Mqtt;
+use crate::run::start;
+use crate::screen::Screen;
 use crate::{alone, shows, wait_for};
+
+/// Where GO is said.
+const CUE: &str = "T/LightBot/Controller/Cue";
 
 /// A show of three frames whose second one waits for GO.
 fn show_file() -> String {
@@ -48,4 +54,24 @@ fn without_a_terminal_go_is_given_after_the_air_time() {
     let mut play = Child::lightbots(&arguments(&show_file(), &broker.url()));
     play.complains("GO is given after each air time");
     assert_played(play);
+}
+
+#[test]
+fn a_pedal_gives_go_by_its_own_topic_and_can_do_nothing_else() {
+    let _turn = alone();
+    let users = shows::file("cue-users", "stage:secret:controller\npedal:tread:cue\n");
+    let (_server, address, broker) = start(&["--robots", "3", "--mqtt-users", &users, &show_file()]);
+    let mut screen = Screen::open(&address);
+    screen.wait_for_robots(3);
+    let pedal = Mqtt::open_as(&broker, "pedal", ("pedal", "tread"), &[]);
+    pedal.publish(CUE, "GO");
+    screen.wait_for_log("GO by MQTT was refused");
+    screen.must(json!({"do": "play", "from": 0, "missing": "refuse"}));
+    screen.wait_for_log("Frame 2 waits for GO: Curtain.");
+    pedal.publish(CUE, "STOP");
+    pedal.publish("T/LightBot/Broadcast", "|STOP|");
+    screen.wait_for_log("a user of the role cue publishes on");
+    assert_eq!(screen.phase(), "playing");
+    pedal.publish(CUE, "GO");
+    screen.wait_for_log("To frame 3");
 }

@@ -67,7 +67,7 @@ async fn lead(link: &mut Link, id: RobotId, route: &Route, that: impl Fn(&Report
     let mut sent = false;
     loop {
         let Some(event) = link.next().await else { panic!("the link ended") };
-        let LinkEvent::Message { topic, payload } = event else { continue };
+        let LinkEvent::Message { topic, payload, .. } = event else { continue };
         if Topic::parse(&topic) == Some(Topic::Time) {
             let question = TimeQuestion::decode(&payload).expect("a question");
             let (received, sent) = (show(), show());

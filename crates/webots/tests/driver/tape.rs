@@ -41,7 +41,7 @@ impl Tape {
                     let look = tokio::time::timeout(std::time::Duration::from_millis(50), link.next());
                     match look.await {
                         Ok(Some(LinkEvent::Connected)) => ready.send(()).expect("somebody waits"),
-                        Ok(Some(LinkEvent::Message { topic, payload })) => {
+                        Ok(Some(LinkEvent::Message { topic, payload, .. })) => {
                             let who = Report::decode(&payload).map(|report| report.id);
                             those.lock().unwrap_or_else(PoisonError::into_inner).extend(who);
                             score.hear(&topic, &payload);

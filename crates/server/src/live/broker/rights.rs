@@ -5,6 +5,7 @@ use lightbots_wire::Topic;
 
 use super::limits::{self, Rate};
 use super::users::Role;
+use crate::live::cue_topic::CUE;
 
 /// What stands before a robot's name in its client id.
 const ROBOT: &str = "LightBot/";
@@ -25,6 +26,8 @@ pub enum Who {
     Robot(RobotId),
     /// A controller: everything is allowed.
     Controller,
+    /// A pedal or a desk: it may say GO and nothing else.
+    Cue,
     /// A tool, or a connection that many robots share: everything but commands is allowed.
     Shared,
 }
@@ -36,6 +39,7 @@ impl Who {
         let robot = named.and_then(RobotId::new);
         match (role, named, robot) {
             (Role::Controller, ..) => Ok(Self::Controller),
+            (Role::Cue, ..) => Ok(Self::Cue),
             (Role::ByClientId, None, _) if client_id.starts_with(CONTROLLER) => Ok(Self::Controller),
             (Role::ByClientId, None, _) | (Role::Fleet, ..) => Ok(Self::Shared),
             (Role::ByClientId | Role::AnyRobot, _, Some(robot)) => Ok(Self::Robot(robot)),
@@ -60,6 +64,8 @@ impl Who {
         }
         let own = match self {
             Self::Controller => return Ok(()),
+            Self::Cue if topic == CUE => return Ok(()),
+            Self::Cue => return Err(format!("a user of the role cue publishes on {CUE} only")),
             Self::Shared if is_report || !is_protocol(topic) => return Ok(()),
             Self::Shared => {
                 return Err("only controllers send commands (client id BotControl/<name>, or the role \
@@ -84,6 +90,7 @@ impl Who {
         match self {
             Self::Robot(_) => Some(limits::ROBOT_RATE),
             Self::Shared => Some(limits::SHARED_RATE),
+            Self::Cue => Some(limits::ROBOT_RATE),
             // A controller sends the routes of ten thousand robots at once, and waits for their answers by itself.
             Self::Controller => None,
         }
@@ -91,7 +98,11 @@ impl Who {
 
     /// Whether it may subscribe to this filter; the reason where not.
     pub fn may_subscribe(&self, filter: &str) -> Result<(), String> {
-        let Self::Robot(own) = self else { return Ok(()) };
+        let own = match self {
+            Self::Robot(own) => own,
+            Self::Cue => return Err("a user of the role cue hears nothing".into()),
+            Self::Shared | Self::Controller => return Ok(()),
+        };
         match Topic::parse(filter) {
             Some(Topic::Broadcast) => Ok(()),
             Some(Topic::Robot(id)) if id == *own => Ok(()),
@@ -124,6 +135,18 @@ mod tests {
         {
             assert!(robot().may_publish(topic, b"r7 0.5 1.3").is_err(), "{topic}");
         }
+    }
+
+    #[test]
+    fn a_pedal_says_go_and_nothing_else() {
+        let pedal = Who::of(Role::Cue, "pedal", "anything").unwrap();
+        assert!(pedal.may_publish(CUE, b"GO").is_ok());
+        for topic in ["T/LightBot/Broadcast", "T/LightBot/r7", "T/LightBot/UUID", "other", ""] {
+            assert!(pedal.may_publish(topic, b"GO").is_err(), "{topic}");
+        }
+        assert!(pedal.may_subscribe("T/LightBot/UUID").is_err() && pedal.may_subscribe("#").is_err());
+        let others = [robot(), Who::of(Role::Fleet, "tools", "x").unwrap()];
+        assert!(others.iter().all(|one| one.may_publish(CUE, b"GO").is_err()));
     }
 
     #[test]

@@ -28,15 +28,18 @@ pub enum Role {
     Controller,
     /// Everything but commands: connections that many robots share, tools that watch.
     Fleet,
+    /// GO for frames that wait for it, and nothing else: a pedal, a desk.
+    Cue,
     /// The one robot that has the user's name.
     Robot,
     /// Any robot, one a connection, named by its client id: for robots that share a password.
     AnyRobot,
 }
 
-const ROLES: [(&str, Role); 4] = [
+const ROLES: [(&str, Role); 5] = [
     ("controller", Role::Controller),
     ("fleet", Role::Fleet),
+    ("cue", Role::Cue),
     ("robot", Role::Robot),
     ("any-robot", Role::AnyRobot),
 ];
