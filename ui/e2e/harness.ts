@@ -47,6 +47,8 @@ export interface Server {
   url: string;
   /** Its library, gone after `remove`. */
   data: string;
+  /** What it has printed since its last start, up to 20,000 characters. */
+  said(): string;
   /** Ends it, as a crash does. */
   kill(): Promise<void>;
   /** Starts it again on the same address and library. */
@@ -58,15 +60,17 @@ export interface Server {
 export async function startServer(...more: string[]): Promise<Server> {
   const data = mkdtempSync(join(tmpdir(), 'lightbots-'));
   const base = ['run', '--data', data, '--mqtt-listen', '127.0.0.1:0', '--seed', '7', ...more];
-  const first = await launch([...base, '--listen', '127.0.0.1:0']);
+  const listen = more.includes('--listen') ? [] : ['--listen', '127.0.0.1:0'];
+  const first = await launch([...base, ...listen]);
   const url = first[1];
-  let child = first[0];
+  let [child, , said] = first;
   const server: Server = {
     url,
     data,
+    said: () => said(),
     kill: () => end(child),
     async restart() {
-      [child] = await launch([...base, '--listen', new URL(url).host]);
+      [child, , said] = await launch([...base, '--listen', new URL(url).host]);
     },
     async remove() {
       await end(child);
@@ -89,7 +93,7 @@ export async function startRobots(
   return () => end(child);
 }
 
-function launch(args: string[]): Promise<[ChildProcess, string]> {
+function launch(args: string[]): Promise<[ChildProcess, string, () => string]> {
   const child = spawn(program(), args, { stdio: ['ignore', 'pipe', 'pipe'] });
   return new Promise((resolve, reject) => {
     let said = '';
@@ -102,7 +106,7 @@ function launch(args: string[]): Promise<[ChildProcess, string]> {
       const url = /http:\/\/[\d.]+:\d+/.exec(said)?.[0];
       if (!url) return;
       clearTimeout(timer);
-      resolve([child, url]);
+      resolve([child, url, () => said]);
     };
     child.stdout.on('data', read);
     child.stderr.on('data', read);

@@ -1,6 +1,7 @@
 //! The command line. design: scripts and CI rely on it.
 
 mod make;
+mod passwd;
 mod replay;
 
 use std::net::SocketAddr;
@@ -17,6 +18,7 @@ use crate::logging::Log;
 use crate::numbers::{address, floor, robot, seed};
 
 pub use make::MakeArguments;
+pub use passwd::PasswdArguments;
 pub use replay::ReplayArguments;
 
 /// Light shows on a floor: every robot is a pixel that drives.
@@ -58,6 +60,8 @@ pub enum Command {
     RobotCheck(RobotCheckArguments),
     /// Make certificates for a broker with TLS: an authority, a server, clients
     Certs(CertsArguments),
+    /// Set or reset the password of a person who uses the web app; from the terminal, or the first line of the input
+    Passwd(PasswdArguments),
 }
 
 /// How a show is read.
@@ -108,7 +112,7 @@ pub struct RunArguments {
     /// Where the browser app is served
     #[arg(long, value_name = "HOST:PORT", default_value = "127.0.0.1:8420", value_parser = address)]
     pub listen: SocketAddr,
-    /// Allow a --listen that others on the network can reach: anyone there can then drive the robots
+    /// Allow a --listen that others on the network can reach. They have to sign in, and passwords can be read on the way
     #[arg(long)]
     pub open_to_network: bool,
     /// A further name of this machine in the browser's address line, such as stage.local; may be repeated

@@ -4,6 +4,7 @@
 //! fleet needs: the broker, the task that owns the controller core, the simulated robots. `web` is the screen's
 //! server. It decides nothing about shows or robots: the cores do.
 
+mod accounts;
 mod broker_settings;
 mod cli;
 mod commands;
@@ -81,6 +82,7 @@ async fn run(cli: Cli, stop: Stop) -> i32 {
         Command::Broker(arguments) => commands::broker::run(arguments, stop).await,
         Command::Convert(arguments) => stop.at_once(|| commands::convert::run(&arguments)),
         Command::Make(arguments) => stop.at_once(|| commands::make::run(&arguments)),
+        Command::Passwd(arguments) => stop.at_once(|| commands::passwd::run(&arguments)),
         Command::Certs(arguments) => stop.at_once(|| commands::certs::run(&arguments)),
     };
     match outcome {

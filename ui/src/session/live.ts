@@ -1,3 +1,4 @@
+import { leaveIfSignedOut } from './signedIn';
 import { createLink, type Link, type LinkState } from '../api/socket';
 import type {
   Broker,
@@ -151,6 +152,7 @@ export function connect(live: Live): Link {
     onRobots: (robots) => live.track.push(robots, performance.now()),
     onLink: (state) => {
       live.link.set(state);
+      if (state === 'lost') void leaveIfSignedOut();
       if (state !== 'open') live.playback.update((p) => ({ ...p, phase: 'idle' }));
     },
   });

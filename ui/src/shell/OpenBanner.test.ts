@@ -14,7 +14,7 @@ test('a server that is open to the network says so until it is not', () => {
     receive(live, { type: 'hello', version: '1', screen: 1, simulated: 0, open_to_network });
   expect(shown()).toBe('');
   greet(true);
-  expect(shown()).toContain('anyone on this network can drive the robots');
+  expect(shown()).toContain('passwords can be read on the way');
   greet(false);
   expect(shown()).toBe('');
 });

@@ -8,8 +8,8 @@ export function OpenBanner() {
   if (!isOpen) return null;
   return (
     <div className="banner" role="status">
-      Open to the network: anyone on this network can drive the robots and change shows. To close
-      it, start LightBots without --open-to-network.
+      Open to the network without TLS: passwords can be read on the way. To close it, start
+      LightBots without --open-to-network.
     </div>
   );
 }

@@ -16,6 +16,7 @@ import { setSound, useSound } from '../session/alarm';
 import { setUnit, useUnit } from '../session/preferences';
 import { useSession } from '../session/session';
 import { goTo } from '../session/address';
+import { SignedInSection } from './SignedInSection';
 
 interface Props {
   opened: boolean;
@@ -34,6 +35,7 @@ export function SettingsDialog({ opened, onClose, onKeys }: Props) {
         <AppearanceAndUnits />
         <NewRobots />
         <BrokerSection />
+        <SignedInSection />
         <Group justify="space-between">
           <Button size="compact-sm" variant="subtle" color="gray" onClick={onKeys}>
             Keyboard map

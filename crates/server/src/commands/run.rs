@@ -12,7 +12,7 @@ use lightbots_show::{Show, validate};
 use tokio::sync::mpsc;
 use tokio::task::JoinHandle;
 
-use super::{broker, count, robots};
+use super::{broker, count, first_operator, robots};
 use crate::broker_settings::{Settings, other_broker};
 use crate::cli::RunArguments;
 use crate::data_folder::DataFolder;
@@ -26,7 +26,7 @@ use crate::live::conductor::Handle;
 use crate::live::cut_off::CutOffRun;
 use crate::live::recorder::RecordingTarget;
 use crate::stop::Stop;
-use crate::web::{self, BrokerDesk, Exposure, Planner, ScreenLog, Shared};
+use crate::web::{self, Admission, BrokerDesk, Exposure, Planner, ScreenLog, Shared};
 use crate::{open_files, say, show_file};
 
 /// The example that is opened if no show is given.
@@ -102,13 +102,14 @@ async fn serve(arguments: &RunArguments, stop: &Stop, started: &mut Started) -> 
     let clock = cut_off.as_ref().map_or_else(Clock::start, CutOffRun::clock);
     let (handle, conductor) = Handle::start(RecordingTarget::Runs(data.clone()), clock, stop.clone());
     started.tasks.push(conductor);
+    let (admission, first) = Admission::new(&data, names.is_open()).map_err(Failure::problem)?;
     let planner = Planner::new(Duration::from_secs(arguments.plan_budget.into()));
     let book = FleetBook::load(&data);
     if let Some(names) = book.admitted() {
         let _ = handle.operate(Operation::Admit(Some(names))).await;
     }
     let desk = BrokerDesk::new(data, settings, embedded);
-    let shared = Shared::new(handle.clone(), library, book, desk, names, planner);
+    let shared = Shared::new(handle.clone(), library, book, desk, names, admission, planner);
     open(&shared, name).await;
     if let Some(run) = cut_off {
         run.tell(handle.clock().now());
@@ -128,10 +129,18 @@ async fn serve(arguments: &RunArguments, stop: &Stop, started: &mut Started) -> 
     }
     greet(address, &broker, robots, started.broker.as_ref().and_then(EmbeddedBroker::tls_address));
     if shared.names.is_open() {
-        say::line("Open to the network: anyone who can reach this address can drive the robots");
+        warn_open(address, arguments, first);
     }
     web::serve(listener, shared).await;
     Ok(false)
+}
+
+/// Says that the network reaches the web app, and invites the first operator by the token.
+fn warn_open(address: SocketAddr, arguments: &RunArguments, first: Option<String>) {
+    say::line("Open to the network: sign-in is required, and without TLS passwords can be read on the way");
+    if let Some(token) = first {
+        first_operator::invite(address, arguments.host_name.first(), &token);
+    }
 }
 
 /// The seed of robot names. On our own broker it is fixed, so that pins of a show still fit. On another broker it is

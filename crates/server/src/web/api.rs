@@ -8,7 +8,7 @@ use axum::extract::rejection::BytesRejection;
 use axum::extract::{ConnectInfo, Path, Query, State};
 use axum::http::{HeaderMap, StatusCode, header};
 use axum::response::{IntoResponse, Response};
-use lightbots_api::{Plan, Problem, ShowEntry, ShowState};
+use lightbots_api::{Plan, ShowEntry, ShowState};
 use lightbots_exchange::{FORMATS, named, read};
 use lightbots_plan::Cancelled;
 use lightbots_show::validate;
@@ -16,6 +16,7 @@ use lightbots_show::validate;
 use super::Shared;
 use super::connection::Ends;
 use super::planner::CutOff;
+use super::refused::{Refused, refuse};
 use crate::library::{Condition, Kept, LibraryError};
 use crate::show_plan;
 
@@ -24,21 +25,6 @@ type Answer<T> = Result<T, Refused>;
 
 /// Largest body that is read, bytes. The longest show file fits.
 pub const BODY_MAX: usize = lightbots_exchange::MAX_BYTES;
-
-/// A refusal: HTTP status and one line for people.
-#[derive(Debug)]
-pub struct Refused(StatusCode, String);
-
-impl IntoResponse for Refused {
-    fn into_response(self) -> Response {
-        (self.0, Json(Problem { error: self.1 })).into_response()
-    }
-}
-
-/// A refusal with a line for people.
-pub fn refuse(status: StatusCode, line: &str) -> Refused {
-    Refused(status, line.to_owned())
-}
 
 /// Runs work that blocks on the disk or the processor on a thread of its own, so that connections go on.
 async fn beside<T: Send + 'static>(work: impl FnOnce() -> T + Send + 'static) -> Answer<T> {

@@ -1,5 +1,7 @@
 //! The web server of the screens: pages, library and WebSocket. A slow or hostile screen never delays the show.
 
+mod access;
+mod admission;
 mod api;
 mod broker;
 mod connection;
@@ -14,6 +16,9 @@ mod origin;
 mod pages;
 mod picture;
 mod planner;
+mod refused;
+mod sign_in;
+mod sign_in_page;
 mod socket;
 mod sums;
 mod uploads;
@@ -22,9 +27,10 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicU32, AtomicUsize};
 
 use axum::Router;
-use axum::routing::{any, get, post};
+use axum::routing::{any, delete, get, post};
 use tokio::net::TcpListener;
 
+pub use admission::Admission;
 pub use broker::BrokerDesk;
 pub use desk::{Desk, Shown};
 pub use incidents::IncidentBoard;
@@ -53,6 +59,8 @@ pub struct Shared {
     pub broker: BrokerDesk,
     /// The planner for requests of clients.
     pub planner: Planner,
+    /// People and programs that may use this server.
+    pub admission: Arc<Admission>,
     /// Names of this server.
     pub names: Names,
     /// Number of simulated robots.
@@ -68,6 +76,7 @@ impl Shared {
         book: FleetBook,
         broker: BrokerDesk,
         names: Names,
+        admission: Admission,
         planner: Planner,
     ) -> Arc<Self> {
         let log = ScreenLog::new();
@@ -88,6 +97,7 @@ impl Shared {
             incidents,
             pictures,
             broker,
+            admission: Arc::new(admission),
             names,
             planner,
             simulated,
@@ -125,14 +135,27 @@ pub async fn serve(listener: TcpListener, shared: Arc<Shared>) {
         .route("/api/convert", post(api::convert))
         .route("/api/plan", get(api::plan))
         .route("/api/broker", get(broker::settings))
+        .merge(accounts(shared.admission.clone()))
         .route("/api/{*rest}", any(api::unknown))
         .fallback(pages::page)
         .layer(axum::middleware::from_fn_with_state(uploads::Uploads::new(), uploads::bound))
         .layer(axum::extract::DefaultBodyLimit::max(api::BODY_MAX))
+        .layer(axum::middleware::from_fn_with_state(shared.admission.clone(), admission::guard))
         .layer(axum::middleware::from_fn_with_state(shared.clone(), origin::guard))
         .with_state(shared);
     let routes = routes.into_make_service_with_connect_info::<Ends>();
     if let Err(error) = axum::serve(connections, routes).await {
         tracing::error!("the web server failed: {error}");
     }
+}
+
+/// Routes of sign-in, people and tokens.
+fn accounts(admission: Arc<Admission>) -> Router<Arc<Shared>> {
+    Router::new()
+        .route("/api/session", get(sign_in::session).post(sign_in::sign_in).delete(sign_in::sign_out))
+        .route("/api/first", post(sign_in::first))
+        .route("/api/people", get(sign_in::people))
+        .route("/api/tokens", get(sign_in::tokens).post(sign_in::make_token))
+        .route("/api/tokens/{name}", delete(sign_in::revoke_token))
+        .with_state(admission)
 }

@@ -43,8 +43,8 @@ impl Exposure {
     pub fn new(listen: SocketAddr, open_to_network: bool, host_names: Vec<String>) -> Result<Self, Failure> {
         if !listen.ip().to_canonical().is_loopback() && !open_to_network {
             return Err(Failure::input(format!(
-                "on {listen} anyone on the network could drive the robots: leave --listen out, or add \
-                 --open-to-network if that is what you want"
+                "on {listen} anyone on the network can reach the sign-in, and read passwords on the way: leave \
+                 --listen out, or add --open-to-network if that is what you want"
             )));
         }
         let exposure = Self { listen, host_names };

@@ -4,12 +4,15 @@ use std::sync::Arc;
 use std::sync::atomic::Ordering;
 use std::time::Duration;
 
+use axum::Extension;
 use axum::extract::State;
 use axum::extract::ws::{Message, Utf8Bytes, WebSocket, WebSocketUpgrade};
 use axum::response::Response;
-use lightbots_api::{FromScreen, Hello, ToScreen, plan_summary};
+use lightbots_api::{Answer, FromScreen, Hello, ToScreen, plan_summary};
 use tokio::sync::broadcast::error::RecvError;
 
+use super::access;
+use super::admission::{Caller, Ticket, not_allowed};
 use super::message::text;
 use super::picture::Picture;
 use super::{Shared, operate};
@@ -19,13 +22,20 @@ const PATIENCE: Duration = Duration::from_secs(20);
 /// Pictures that a screen may have without acknowledging them: one on its way while the screen draws another. With 1 it
 /// would idle for a round trip; with more a slow screen would lag behind.
 const AHEAD: usize = 2;
+/// Time between two checks that the session or token of a screen is still good. It bounds how long a screen sees the show
+/// after its sign-out; its operations are checked one by one.
+const CHECK_EVERY: Duration = Duration::from_secs(1);
 /// Longest message of a screen, bytes: certificates of `connect` fit. Bounds memory for hostile screens.
 const LONGEST: usize = 64 << 10;
 
 /// `/ws`
-pub async fn open(State(shared): State<Arc<Shared>>, upgrade: WebSocketUpgrade) -> Response {
+pub async fn open(
+    State(shared): State<Arc<Shared>>,
+    Extension(ticket): Extension<Ticket>,
+    upgrade: WebSocketUpgrade,
+) -> Response {
     upgrade.max_message_size(LONGEST).max_frame_size(LONGEST).on_upgrade(move |socket| async move {
-        let mut screen = Screen { socket, shared, ahead: 0 };
+        let mut screen = Screen { socket, shared, ticket, ahead: 0 };
         // A screen that disconnects is a normal event.
         let _ = screen.serve().await;
     })
@@ -37,6 +47,8 @@ struct Gone;
 struct Screen {
     socket: WebSocket,
     shared: Arc<Shared>,
+    /// What admitted the screen.
+    ticket: Ticket,
     /// Number of pictures that the screen has not acknowledged.
     ahead: usize,
 }
@@ -58,9 +70,13 @@ impl Screen {
         for line in lines {
             self.send(text(&ToScreen::Log(line))).await?;
         }
+        let mut checks = tokio::time::interval(CHECK_EVERY);
         loop {
             tokio::select! {
                 biased;
+                _ = checks.tick() => {
+                    self.caller()?;
+                }
                 received = self.socket.recv() => self.handle(received).await?,
                 Ok(()) = shown.changed() => {
                     let message = shown.borrow_and_update().message.clone();
@@ -112,7 +128,13 @@ impl Screen {
         })?;
         match wish {
             FromScreen::Operate(request) => {
-                let answer = operate::operate(&self.shared, request).await;
+                let (caller, needed) = (self.caller()?, access::of_operation(&request.operation));
+                let answer = if caller.role < needed {
+                    let error = Some(not_allowed(needed, caller.role));
+                    Answer { id: request.id, ok: false, error, choice: None }
+                } else {
+                    operate::operate(&self.shared, request).await
+                };
                 self.send(text(&ToScreen::Answer(answer))).await
             }
             FromScreen::Took => {
@@ -120,6 +142,11 @@ impl Screen {
                 Ok(())
             }
         }
+    }
+
+    /// The person or program at this screen; the connection ends if they are no longer signed in.
+    fn caller(&self) -> Result<Caller, Gone> {
+        self.shared.admission.caller(&self.ticket).ok_or(Gone)
     }
 
     async fn show(&mut self, picture: Picture) -> Result<(), Gone> {

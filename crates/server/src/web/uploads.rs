@@ -11,7 +11,8 @@ use axum::middleware::Next;
 use axum::response::{IntoResponse, Response};
 use tokio::sync::Semaphore;
 
-use super::api::{BODY_MAX, refuse, too_long};
+use super::api::{BODY_MAX, too_long};
+use super::refused::refuse;
 
 /// Longest short body, bytes: a usual show (1,000 robots in 16 frames). Long bodies cannot make short ones wait.
 const SHORT: usize = 1 << 20;

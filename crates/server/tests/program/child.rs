@@ -185,6 +185,16 @@ fn keep(pipe: impl Read + Send + 'static) -> Lines {
     lines
 }
 
+/// Runs `lightbots` with an input to its end: exit code, stdout, stderr.
+pub fn run_with_input(arguments: &[&str], input: &str) -> (i32, String, String) {
+    let mut child = Child::lightbots_at_terminal(arguments);
+    let mut pipe = child.process.stdin.take().expect("it has an input");
+    pipe.write_all(input.as_bytes()).expect("it reads its input");
+    drop(pipe);
+    let code = child.end();
+    (code, child.out(), child.err())
+}
+
 /// Runs `lightbots` to its end: exit code, stdout, stderr.
 pub fn run(arguments: &[&str]) -> (i32, String, String) {
     let mut child = Child::lightbots(arguments);

@@ -39,6 +39,7 @@ mod robot_check;
 mod run;
 mod screen;
 mod shows;
+mod sign_in;
 mod strangers;
 
 use std::sync::{Mutex, MutexGuard, PoisonError};

@@ -36,10 +36,22 @@ pub struct Screen {
 impl Screen {
     /// Connects as a page of `origin` (`host:port`) would.
     pub fn try_open(address: &str, origin: &str) -> Result<Self, String> {
+        Self::try_open_with(address, origin, &[])
+    }
+
+    /// The same with further header lines.
+    pub fn try_open_with(
+        address: &str,
+        origin: &str,
+        headers: &[(&'static str, &str)],
+    ) -> Result<Self, String> {
         let stream = TcpStream::connect(address).map_err(|error| error.to_string())?;
         stream.set_read_timeout(Some(Duration::from_millis(100))).unwrap();
         let mut request = format!("ws://{address}/ws").into_client_request().unwrap();
         request.headers_mut().insert("Origin", format!("http://{origin}").parse().unwrap());
+        for (name, value) in headers {
+            request.headers_mut().insert(*name, value.parse().unwrap());
+        }
         let until = Instant::now() + DEADLINE;
         let mut attempt = tungstenite::client(request, stream);
         let (socket, _) = loop {

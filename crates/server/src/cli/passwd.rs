@@ -1,0 +1,20 @@
+//! The arguments of `passwd`.
+
+use std::path::PathBuf;
+
+use clap::Args;
+
+use crate::accounts::AccountRole;
+
+/// `passwd`
+#[derive(Debug, Args)]
+pub struct PasswdArguments {
+    /// Name of the person
+    pub user: String,
+    /// What they may do [default: as before; operator for the first person, viewer for others]
+    #[arg(long, value_name = "ROLE", value_enum)]
+    pub role: Option<AccountRole>,
+    /// Folder of the library, where accounts are kept [default: lightbots in the user's data folder]
+    #[arg(long, value_name = "DIR")]
+    pub data: Option<PathBuf>,
+}

@@ -1,0 +1,64 @@
+//! Which role may do what. The table in SECURITY.md says the same, and a test tries each of its cells.
+
+use axum::http::Method;
+use lightbots_api::Operation;
+
+use crate::accounts::AccountRole;
+
+/// What a request needs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Need {
+    /// Nothing: it is answered before sign-in.
+    Nothing,
+    /// This role or a greater one.
+    Role(AccountRole),
+}
+
+/// What a request to a route needs. A route that is not listed needs the greatest role.
+pub fn of_route(route: &str, method: &Method) -> Need {
+    let is_read = matches!(*method, Method::GET | Method::HEAD);
+    match route {
+        "/api/session" if *method == Method::POST => Need::Nothing,
+        "/api/first" if *method == Method::POST => Need::Nothing,
+        "/ws" | "/api/session" => Need::Role(AccountRole::Viewer),
+        "/api/check" | "/api/convert" => Need::Role(AccountRole::Editor),
+        "/api/shows"
+        | "/api/shows/{name}"
+        | "/api/shows/{name}/file"
+        | "/api/shows/{name}/states"
+        | "/api/shows/{name}/states/{number}"
+        | "/api/assets/{hash}"
+        | "/api/plan" => Need::Role(if is_read { AccountRole::Viewer } else { AccountRole::Editor }),
+        _ => Need::Role(AccountRole::Operator),
+    }
+}
+
+/// The role that an operation needs. Stop needs the least role, because any witness of danger must be able to stop.
+pub fn of_operation(operation: &Operation) -> AccountRole {
+    match operation {
+        Operation::StopAll => AccountRole::Viewer,
+        Operation::Open { .. } => AccountRole::Editor,
+        Operation::Play { .. }
+        | Operation::Preview { .. }
+        | Operation::Pause
+        | Operation::Resume
+        | Operation::Step
+        | Operation::Go
+        | Operation::Loop { .. }
+        | Operation::Speed { .. }
+        | Operation::Home
+        | Operation::Abort
+        | Operation::GoOn
+        | Operation::DismissFailure
+        | Operation::ReadIncident { .. }
+        | Operation::Refresh
+        | Operation::Identify { .. }
+        | Operation::Forget { .. }
+        | Operation::Call { .. }
+        | Operation::OnlyListed { .. }
+        | Operation::List { .. }
+        | Operation::Pin { .. }
+        | Operation::Connect { .. }
+        | Operation::Disconnect => AccountRole::Operator,
+    }
+}

@@ -1,0 +1,231 @@
+//! Admits requests: on another address than loopback, only of people who are signed in and of programs with a token.
+
+use std::net::IpAddr;
+use std::path::Path;
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::{Duration, Instant};
+
+use axum::extract::{MatchedPath, Request, State};
+use axum::http::{HeaderMap, StatusCode, header};
+use axum::middleware::Next;
+use axum::response::{IntoResponse, Response};
+use tokio::sync::Semaphore;
+
+use super::access::{self, Need};
+use super::refused::{Refused, refuse};
+use super::sign_in_page;
+use crate::accounts::{
+    AccountRole, Accounts, Person, Secret, Sessions, SignInTries, TriesLeft, hash_password, is_password,
+};
+
+/// The cookie of a session.
+pub const COOKIE: &str = "lightbots";
+/// Longest body of a request before sign-in, bytes: name, password and token fit.
+const BODY_MAX: usize = 4 << 10;
+
+/// The person or program that a request is of.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Caller {
+    /// Name of the person or the token; `None` on loopback, where sign-in is not asked for.
+    pub name: Option<String>,
+    pub role: AccountRole,
+}
+
+/// What a request shows to be admitted.
+#[derive(Clone, Debug)]
+pub enum Ticket {
+    /// Nothing, where nothing is needed.
+    Loopback,
+    /// The hash of the token of a session.
+    Session(Secret),
+    /// The hash of the token of a program.
+    Token(Secret),
+}
+
+/// How a sign-in ends without a session.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum SignInError {
+    /// Name or password is wrong.
+    Wrong(TriesLeft),
+    /// No try now, but after this time.
+    Wait(Duration),
+    /// The server failed.
+    Failed(String),
+}
+
+/// Accounts, sessions and tries of one server.
+#[derive(Debug)]
+pub struct Admission {
+    is_required: bool,
+    pub accounts: Accounts,
+    pub sessions: Sessions,
+    tries: Mutex<SignInTries>,
+    /// The hash of the token with which the first operator is made.
+    first: Option<Secret>,
+    /// A hash that no password has: an unknown name takes as long as a known one.
+    unknown_hash: String,
+    /// One password is hashed at a time. Hashing takes 19 MiB and a processor.
+    hashing: Semaphore,
+}
+
+impl Admission {
+    /// The admission of a server, and the token for its first operator if there are no people yet. `is_required`: whether
+    /// requests must be signed in.
+    pub fn new(data: &Path, is_required: bool) -> Result<(Self, Option<String>), String> {
+        let accounts = Accounts::of(data);
+        let (mut token, mut first, mut unknown_hash) = (None, None, String::new());
+        if is_required {
+            unknown_hash = hash_password(&Secret::fresh()?.0)?;
+            if accounts.read()?.people.is_empty() {
+                let (text, hash) = Secret::fresh()?;
+                (token, first) = (Some(text), Some(hash));
+            }
+        }
+        let (sessions, tries) = (Sessions::default(), Mutex::default());
+        let hashing = Semaphore::new(1);
+        Ok((Self { is_required, accounts, sessions, tries, first, unknown_hash, hashing }, token))
+    }
+
+    /// The person or program of a ticket, as the accounts are now.
+    pub fn caller(&self, ticket: &Ticket) -> Option<Caller> {
+        match ticket {
+            Ticket::Loopback => {
+                (!self.is_required).then_some(Caller { name: None, role: AccountRole::Operator })
+            }
+            Ticket::Session(session) => {
+                let (name, password) = self.sessions.find(session, Instant::now())?;
+                let list = self.read()?;
+                let person = list.people.get(&name).filter(|person| person.password == password)?;
+                Some(Caller { name: Some(name), role: person.role })
+            }
+            Ticket::Token(hash) => {
+                let list = self.read()?;
+                let (name, token) = list.tokens.iter().find(|(_, token)| token.hash == *hash)?;
+                Some(Caller { name: Some(name.clone()), role: token.role })
+            }
+        }
+    }
+
+    fn read(&self) -> Option<crate::accounts::AccountList> {
+        self.accounts.read().inspect_err(|line| tracing::error!("{line}")).ok()
+    }
+
+    /// What the headers of a request show.
+    fn ticket(&self, headers: &HeaderMap) -> Option<Ticket> {
+        if !self.is_required {
+            return Some(Ticket::Loopback);
+        }
+        if let Some(value) = headers.get(header::AUTHORIZATION) {
+            let token = value.to_str().ok()?.strip_prefix("Bearer ")?;
+            return Some(Ticket::Token(Secret::of(token.trim())));
+        }
+        let cookies = headers.get_all(header::COOKIE).iter().filter_map(|value| value.to_str().ok());
+        let pairs = cookies.flat_map(|line| line.split(';')).filter_map(|pair| pair.trim().split_once('='));
+        let token = pairs.filter(|(name, _)| *name == COOKIE).map(|(_, token)| token).next();
+        token.map(|token| Ticket::Session(Secret::of(token)))
+    }
+
+    /// Signs a person in; the token of the session.
+    pub async fn sign_in(&self, name: &str, password: &str, address: IpAddr) -> Result<String, SignInError> {
+        let failed = |line: String| SignInError::Failed(line);
+        // One at a time, so that tries in parallel cannot pass the bound before they are counted.
+        let turn = self.hashing.acquire().await;
+        let _turn = turn.map_err(|error| failed(error.to_string()))?;
+        self.tries().may_try(name, address, Instant::now()).map_err(SignInError::Wait)?;
+        let person = self.accounts.read().map_err(failed)?.people.remove(name);
+        let hash = person.as_ref().map_or(&self.unknown_hash, |person| &person.password).clone();
+        let password = password.to_owned();
+        let is_right = tokio::task::spawn_blocking(move || is_password(&password, &hash)).await;
+        match person.filter(|_| is_right.unwrap_or(false)) {
+            Some(Person { password, .. }) => {
+                self.tries().right(name, address);
+                self.sessions.begin(name, &password, Instant::now()).map_err(failed)
+            }
+            None => Err(SignInError::Wrong(self.tries().wrong(name, address, Instant::now()))),
+        }
+    }
+
+    /// Makes the first operator and signs them in; the token of the session.
+    pub async fn begin_first(
+        &self,
+        token: &str,
+        name: &str,
+        password: &str,
+    ) -> Result<String, (StatusCode, String)> {
+        let used = || {
+            let line = "This address was used before or belongs to another start. Sign in, or set a password on the \
+                        machine: lightbots passwd NAME";
+            (StatusCode::FORBIDDEN, line.to_owned())
+        };
+        if self.first.as_ref() != Some(&Secret::of(token)) {
+            return Err(used());
+        }
+        let wrong = |line| (StatusCode::UNPROCESSABLE_ENTITY, line);
+        crate::accounts::check_name(name).map_err(wrong)?;
+        crate::accounts::check_password(password).map_err(wrong)?;
+        let _turn = self.hashing.acquire().await;
+        let failed = |line: String| (StatusCode::INTERNAL_SERVER_ERROR, line);
+        let text = password.to_owned();
+        let hash = tokio::task::spawn_blocking(move || hash_password(&text)).await;
+        let hash = hash.map_err(|error| failed(error.to_string()))?.map_err(failed)?;
+        let person = Person { role: AccountRole::Operator, password: hash.clone() };
+        let added = self.accounts.change(|list| {
+            let is_first = list.people.is_empty();
+            if is_first {
+                list.people.insert(name.to_owned(), person);
+            }
+            Ok(is_first)
+        });
+        if !added.map_err(failed)? {
+            return Err(used());
+        }
+        self.sessions.begin(name, &hash, Instant::now()).map_err(failed)
+    }
+
+    fn tries(&self) -> std::sync::MutexGuard<'_, SignInTries> {
+        self.tries.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+/// Refuses requests that are not signed in, and those that the role does not allow.
+pub async fn guard(State(admission): State<Arc<Admission>>, mut request: Request, next: Next) -> Response {
+    let route = request.extensions().get::<MatchedPath>().map(|path| path.as_str().to_owned());
+    let ticket = admission.ticket(request.headers());
+    let admitted = ticket.and_then(|ticket| admission.caller(&ticket).map(|caller| (ticket, caller)));
+    let need = route.as_deref().map(|route| access::of_route(route, request.method()));
+    match (need, admitted) {
+        // A page of the app.
+        (None, None) => return sign_in_page::page(request.method()),
+        (Some(Need::Nothing), _) => {
+            if !is_short(request.headers()) {
+                return refuse(StatusCode::PAYLOAD_TOO_LARGE, "this is too long for a sign-in")
+                    .into_response();
+            }
+        }
+        (Some(Need::Role(_)), None) => return unknown().into_response(),
+        (Some(Need::Role(role)), Some((_, caller))) if caller.role < role => {
+            return refuse(StatusCode::FORBIDDEN, &not_allowed(role, caller.role)).into_response();
+        }
+        (_, Some((ticket, caller))) => {
+            request.extensions_mut().insert(ticket);
+            request.extensions_mut().insert(caller);
+        }
+    }
+    next.run(request).await
+}
+
+fn unknown() -> Refused {
+    refuse(StatusCode::UNAUTHORIZED, "sign in first, or send the header Authorization: Bearer TOKEN")
+}
+
+/// Why a role is not enough.
+pub fn not_allowed(needed: AccountRole, role: AccountRole) -> String {
+    format!("This needs the role {needed}; you are signed in as {role}. An operator can change that.")
+}
+
+/// Whether a body before sign-in is short. Its length must be stated.
+fn is_short(headers: &HeaderMap) -> bool {
+    let length =
+        headers.get(header::CONTENT_LENGTH).and_then(|length| length.to_str().ok()?.parse::<usize>().ok());
+    length.is_some_and(|length| length <= BODY_MAX)
+}

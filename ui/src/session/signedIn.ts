@@ -1,0 +1,37 @@
+const ADDRESS = '/api/session';
+
+/** The person of this page. */
+export interface SignedIn {
+  name: string;
+  role: string;
+}
+
+/** The person of this page; null where sign-in is not asked for, or the server does not answer. */
+export async function signedIn(): Promise<SignedIn | null> {
+  try {
+    const answer = await fetch(ADDRESS);
+    if (!answer.ok) return null;
+    const { name, role } = (await answer.json()) as { name: string | null; role: string };
+    return name === null ? null : { name, role };
+  } catch {
+    return null;
+  }
+}
+
+/** Shows the sign-in page if the session of this page has ended. */
+export async function leaveIfSignedOut() {
+  try {
+    if ((await fetch(ADDRESS)).status === 401) location.reload();
+  } catch {
+    // The server does not answer: the page connects again by itself.
+  }
+}
+
+/** Ends the session. The sign-in page comes in any case, so that a failed sign-out is seen. */
+export async function signOut() {
+  try {
+    await fetch(ADDRESS, { method: 'DELETE' });
+  } finally {
+    location.reload();
+  }
+}
