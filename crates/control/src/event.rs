@@ -105,6 +105,8 @@ pub enum EventKind {
         /// Number of them.
         robots: usize,
     },
+    /// The drive to the starting places was planned.
+    PlannedHome,
     /// All stand at their starting places.
     AtHome,
     /// A picture stands until the operator gives GO.

@@ -62,6 +62,7 @@ impl EventKind {
                 write!(f, "Frame {} waits for GO.", frame + 1)
             }
             Self::WaitsForGo { frame, name } => write!(f, "Frame {} waits for GO: {name}.", frame + 1),
+            Self::PlannedHome => write!(f, "Planned the drive home."),
             _ => write!(f, "Robots stand at their starting places."),
         }
     }
@@ -136,7 +137,7 @@ impl fmt::Display for EventKind {
             FrameReached { frame, spread, .. } => {
                 write!(f, "Frame {} stands; arrivals within {:.2} s.", frame + 1, spread.as_secs())
             }
-            GoingHome { .. } | AtHome | WaitsForGo { .. } => self.write_stand(f),
+            GoingHome { .. } | PlannedHome | AtHome | WaitsForGo { .. } => self.write_stand(f),
             Waiting { robot, why } => write!(f, "Waiting for robot {robot}: it {why}."),
             Undelivered => write!(
                 f,

@@ -314,6 +314,7 @@ fn all_robots_drive_home_and_the_show_stays_open() {
     world.run_for(5.0);
     world.operate(Operation::Home).unwrap();
     world.run_for(1.0);
+    assert!(world.story().contains("Planned the drive home."), "{}", world.story());
     assert_eq!(world.controller.state(), ControllerState::Preview);
     assert!(world.controller.snapshot(world.now).run.is_some_and(|run| run.home));
     assert_eq!(world.run_to_end(60.0), (RunOutcome::Finished, 1, 0), "{}", world.story());

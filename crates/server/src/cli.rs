@@ -246,6 +246,9 @@ pub struct RehearseArguments {
     /// Faults to add, such as loss=5%,delay=100..300ms,slip=10%
     #[arg(long, value_name = "SPEC")]
     pub faults: Option<String>,
+    /// Speed of drives, percent of the usual one, as in `play`
+    #[arg(long, value_name = "PERCENT", default_value_t = 100, value_parser = clap::value_parser!(u32).range(i64::from(SPEED_MIN_PERCENT)..=100))]
+    pub speed: u32,
     /// Write a report for people
     #[arg(long, value_name = "FILE.html")]
     pub report: Option<PathBuf>,

@@ -6,7 +6,7 @@ use crate::operation::MissingPolicy;
 use crate::plan_request::{PlanProblem, PlanRequest, PlanResult, PlannedRobot};
 use crate::run::next::Next;
 use crate::run::obstacles;
-use crate::run::playback::FrameCursor;
+use crate::run::playback::{FrameCursor, RunPurpose};
 use crate::run::run_context::RunContext;
 use lightbots_base::Span;
 use std::ops::ControlFlow;
@@ -88,7 +88,11 @@ pub(crate) fn accept(cx: &mut RunContext, result: PlanResult, is_standing: bool)
     remember_ends(cx, &legs);
     report_dark(cx, &dark);
     queue_legs(cx, legs);
-    cx.io.log.record(cx.now, EventKind::Planned { frames });
+    let planned = match cx.playback.purpose {
+        RunPurpose::Home => EventKind::PlannedHome,
+        _ => EventKind::Planned { frames },
+    };
+    cx.io.log.record(cx.now, planned);
     match failed {
         Some(failed) => on_failure(cx, failed, is_standing),
         None if cx.pipeline.driven.is_none()

@@ -5,6 +5,7 @@ use std::path::Path;
 use std::time::Instant;
 
 use lightbots_api::{self as api, rounded};
+use lightbots_show::slowed;
 use lightbots_sim::{
     Conditions, Faults, Progress, RehearsalOptions, RehearsalReport, rehearse, rehearse_recorded,
 };
@@ -26,6 +27,7 @@ pub fn run(arguments: &RehearseArguments) -> Outcome {
         conditions: faults.added_to(usual),
         ..RehearsalOptions::default()
     };
+    let show = slowed(&opened.show, arguments.speed);
     let mut log = arguments.record.as_deref().map(LogFile::create).transpose()?;
     let began = Instant::now();
     let mut virtual_s = 0.0_f64;
@@ -45,8 +47,8 @@ pub fn run(arguments: &RehearseArguments) -> Outcome {
             }
         };
         match &arguments.record {
-            Some(_) => rehearse_recorded(&opened.show, &options, notes(arguments), &mut progress),
-            None => rehearse(&opened.show, &options, &mut progress),
+            Some(_) => rehearse_recorded(&show, &options, notes(arguments), &mut progress),
+            None => rehearse(&show, &options, &mut progress),
         }
     };
     log.map_or(Ok(()), LogFile::finish)?;
@@ -102,6 +104,7 @@ fn notes(arguments: &RehearseArguments) -> Vec<(String, String)> {
         ("show", arguments.show.display().to_string()),
         ("seed", arguments.seed.to_string()),
         ("ideal", arguments.ideal.to_string()),
+        ("speed", arguments.speed.to_string()),
     ];
     notes.extend(arguments.faults.clone().map(|faults| ("faults", faults)));
     notes.into_iter().map(|(name, value)| (name.to_owned(), value)).collect()

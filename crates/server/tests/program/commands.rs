@@ -351,3 +351,16 @@ fn wrong_use_is_one_line_and_exit_code_2() {
     assert_eq!(run(&["--help"]).0, 0);
     assert_eq!(run(&["--version"]).0, 0);
 }
+
+#[test]
+fn a_rehearsal_at_half_speed_drives_for_twice_as_long() {
+    let show = shows::row_file(3, &[0.5]);
+    let duration = |speed: &str| {
+        let report = json(&run(&["rehearse", &show, "--ideal", "--speed", speed, "--json"]).1);
+        assert_eq!(report["ok"], true, "{report}");
+        report["per_frame"][0]["drive_s"].as_f64().unwrap()
+    };
+    let (whole_s, half_s) = (duration("100"), duration("50"));
+    assert!((1.8..2.2).contains(&(half_s / whole_s)), "{whole_s} {half_s}");
+    assert_eq!(run(&["rehearse", &show, "--speed", "10"]).0, 2);
+}

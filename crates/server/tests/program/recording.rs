@@ -28,8 +28,9 @@ fn a_recorded_rehearsal_is_replayed_to_the_bit() {
     let (code, report) = replay(&[&file]);
     assert_eq!((code, &report["ok"], &report["complete"]), (0, &json!(true), &json!(true)), "{report}");
     assert_eq!(report["difference"], Value::Null);
-    let notes =
-        json!({"command": "rehearse", "show": show, "seed": "4", "faults": faults[1], "ideal": "false"});
+    let notes = json!({
+        "command": "rehearse", "show": show, "seed": "4", "faults": faults[1], "ideal": "false", "speed": "100"
+    });
     assert_eq!((&report["notes"], &report["robots"]), (&notes, &json!(6)));
     let (code, text, _) = run(&["replay", &file]);
     assert!(code == 0 && text.starts_with("the same to the bit: "), "{text}");
