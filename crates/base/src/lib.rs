@@ -1,4 +1,5 @@
-//! The types that all other crates share: vectors, poses, angles, instants, ids, colours, limits, braking and timed paths.
+//! The types that all other crates share: vectors, poses, angles, instants, ids, colours, limits, braking, timed paths
+//! and light tracks.
 //!
 //! The crate knows nothing of shows, messages or wheels, allocates nothing and reads no clock. All lengths are metres, all
 //! angles radians counter-clockwise, all times microseconds.
@@ -16,6 +17,7 @@ pub mod braking;
 mod colour;
 mod hash;
 mod id;
+mod light_track;
 mod limits;
 mod path;
 pub mod random;
@@ -27,6 +29,7 @@ pub use angle::{difference, wrap};
 pub use colour::Rgb;
 pub use hash::StateHash;
 pub use id::RobotId;
+pub use light_track::{LightRecord, LightTrack, LightTrackError, TICK, TICKS_MAX, decode_light_track};
 pub use limits::Limits;
 pub use path::{Motion, PathRef, Piece};
 pub use time::{Instant, Span};
