@@ -76,7 +76,8 @@ impl LightRecord {
 }
 
 impl LightTrack<'_> {
-    /// The colour some time after the start. After the end, the last colour stays. A repeat that is not valid counts as none.
+    /// The colour some time after the start. After the end, the last colour stays. A repeat that is not valid counts as
+    /// none.
     pub fn at(&self, elapsed: Span) -> Rgb {
         let mut left_us = u64::try_from(elapsed.0).unwrap_or(0);
         let mut colour = self.start;
