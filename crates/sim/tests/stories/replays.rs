@@ -73,7 +73,7 @@ fn a_log_that_was_cut_is_replayed_up_to_there() {
     }
     assert_eq!(replay(&log[..3], &mut |_| {}), Err(LogError::NoLog));
     assert_eq!(replay(&log[..10], &mut |_| {}), Err(LogError::NoHeader));
-    assert_eq!(replay(b"LBotsLog\x09\x00", &mut |_| {}), Err(LogError::OtherVersion(9)));
+    assert_eq!(replay(b"LBotsLog\xff\xff", &mut |_| {}), Err(LogError::OtherVersion(0xffff)));
 }
 
 #[test]
