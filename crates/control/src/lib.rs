@@ -54,7 +54,10 @@ mod view;
 pub use config::{Ageing, Config, UploadLimits};
 pub use controller::{Controller, PathsView};
 pub use event::{Event, EventKind, RunOutcome, Trouble};
-pub use input_log::{Difference, LogEnd, LogError, RecordedController, ReplayReport, replay};
+pub use input_log::{
+    Difference, LogEnd, LogError, RecordedController, ReplayObserver, ReplayReport, ReplayStep, replay,
+    replay_observed,
+};
 pub use journal::{JournalError, JournalPiece, OnReturn, UnfinishedRun};
 pub use mutant::Mutant;
 pub use operation::{ControllerState, MissingPolicy, Operation, Refusal};

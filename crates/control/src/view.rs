@@ -1,11 +1,12 @@
 //! How a run looks from outside: what the controller is doing, and views of the run and its robots.
 
 use crate::context::Context;
+use crate::controller::Controller;
 use crate::leg::LegKind;
 use crate::operation::ControllerState;
 use crate::run::{Run, RunPhase, RunPurpose};
 use crate::snapshot::{RobotView, RunView};
-use lightbots_base::{Instant, RobotId, Span};
+use lightbots_base::{Instant, RobotId, Span, Vec2};
 
 /// Most robots that a view names others wait for.
 const WAITING_MAX: usize = 8;
@@ -125,5 +126,21 @@ impl Run {
             let place = |path: &lightbots_plan::Path| path.as_ref().at(drive.clock.path_time(now)).position;
             view.planned = leg.path(participant).map(place);
         }
+    }
+}
+
+impl Controller {
+    /// Where the paths of the drive under way say that their robots are now, stage metres; empty while no path is driven.
+    pub fn planned_places(&self, now: Instant) -> Vec<(RobotId, Vec2)> {
+        let Some(Run { phase: RunPhase::Driving(drive), pipeline, roster, .. }) = &self.run else {
+            return Vec::new();
+        };
+        let Some(leg) = pipeline.leg().filter(|leg| leg.kind == LegKind::Routes) else { return Vec::new() };
+        let time = drive.clock.path_time(now);
+        let place = |participant: usize| {
+            let at = leg.path(participant)?.as_ref().at(time).position;
+            Some((roster.robot(&self.context, participant).id, at))
+        };
+        (0..leg.robots.len().min(roster.len())).filter_map(place).collect()
     }
 }

@@ -3,6 +3,7 @@
 mod make;
 mod passwd;
 mod replay;
+mod report;
 
 use std::net::SocketAddr;
 use std::path::PathBuf;
@@ -20,6 +21,7 @@ use crate::numbers::{address, floor, robot, seed};
 pub use make::MakeArguments;
 pub use passwd::PasswdArguments;
 pub use replay::ReplayArguments;
+pub use report::ReportArguments;
 
 /// Light shows on a floor: every robot is a pixel that drives.
 #[derive(Debug, Parser)]
@@ -48,6 +50,8 @@ pub enum Command {
     Play(PlayArguments),
     /// Run a recorded rehearsal or run through the controller again, and compare what it does
     Replay(ReplayArguments),
+    /// What was planned and what happened in a recorded run or rehearsal
+    Report(ReportArguments),
     /// Start simulated robots only, for another machine or another controller
     Robots(RobotsArguments),
     /// Start only the embedded broker, for other controllers and robots; `run` starts one by itself

@@ -76,6 +76,7 @@ async fn run(cli: Cli, stop: Stop) -> i32 {
         Command::Plan(arguments) => stop.at_once(|| commands::plan::run(&arguments)),
         Command::Rehearse(arguments) => stop.at_once(|| commands::rehearse::run(&arguments)),
         Command::Replay(arguments) => stop.at_once(|| commands::replay::run(&arguments)),
+        Command::Report(arguments) => stop.at_once(|| commands::report::run(&arguments)),
         Command::Play(arguments) => commands::play::run(arguments, stop).await,
         Command::Robots(arguments) => commands::robots::run(arguments, stop).await,
         Command::RobotCheck(arguments) => commands::robot_check::run(arguments, stop).await,

@@ -4,7 +4,7 @@ use super::{files, shown};
 use std::path::Path;
 
 /// Crates of this workspace that each crate may use. Tests may use more.
-const EDGES: [(&str, &[&str]); 18] = [
+const EDGES: [(&str, &[&str]); 19] = [
     ("base", &[]),
     ("wire", &["base"]),
     ("show", &["base"]),
@@ -16,6 +16,7 @@ const EDGES: [(&str, &[&str]); 18] = [
     ("robot", &["base", "wire"]),
     ("control", &["base", "wire", "show", "plan"]),
     ("sim", &["base", "wire", "show", "plan", "robot", "control"]),
+    ("report", &["base", "wire", "show", "control"]),
     ("exam", &["base", "wire"]),
     ("api", &["base", "show", "plan", "exchange"]),
     ("browser", &["base", "show", "plan", "exchange", "draw", "make", "api"]),
@@ -26,7 +27,7 @@ const EDGES: [(&str, &[&str]); 18] = [
         "server",
         &[
             "base", "wire", "show", "plan", "robot", "control", "sim", "exam", "exchange", "draw", "make",
-            "api", "link",
+            "api", "link", "report",
         ],
     ),
 ];

@@ -18,7 +18,9 @@ mod senders;
 mod tests;
 
 pub use recorded::RecordedController;
-pub use replaying::{Difference, LogEnd, LogError, ReplayReport, replay};
+pub use replaying::{
+    Difference, LogEnd, LogError, ReplayObserver, ReplayReport, ReplayStep, replay, replay_observed,
+};
 
 use serde::{Deserialize, Serialize};
 

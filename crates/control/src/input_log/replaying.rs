@@ -6,6 +6,7 @@ use super::senders::{Likeness, Senders};
 use super::{LogHeader, MAGIC, VERSION};
 use crate::block::Blocks;
 use crate::controller::Controller;
+use crate::event::Event;
 use crate::mutant::Mutant;
 use crate::plan_request::{PlanRequest, PlanResult};
 use core::fmt;
@@ -81,8 +82,36 @@ pub struct ReplayReport {
     pub difference: Option<Difference>,
 }
 
+/// What an observer sees of a replay.
+#[derive(Clone, Copy, Debug)]
+pub enum ReplayStep<'a> {
+    /// A message is about to be received.
+    Message {
+        /// Its topic.
+        topic: &'a str,
+        /// Its payload.
+        payload: &'a [u8],
+    },
+    /// The controller said that something happened.
+    Event(&'a Event),
+    /// Time passed.
+    Woken,
+}
+
+/// Is told what a replay does, with the controller as it is then.
+pub type ReplayObserver<'o> = dyn FnMut(Instant, &Controller, ReplayStep<'_>) + 'o;
+
 /// Plays a log again and compares the outputs. `progress` is called after each block with the share that is done.
 pub fn replay(log: &[u8], progress: &mut dyn FnMut(f64)) -> Result<ReplayReport, LogError> {
+    replay_observed(log, progress, &mut |_, _, _| {})
+}
+
+/// [`replay`] with an observer.
+pub fn replay_observed(
+    log: &[u8],
+    progress: &mut dyn FnMut(f64),
+    observe: &mut ReplayObserver<'_>,
+) -> Result<ReplayReport, LogError> {
     let rest = log.strip_prefix(MAGIC).ok_or(LogError::NoLog)?;
     let (version, _) = rest.split_first_chunk().ok_or(LogError::NoLog)?;
     let version = u16::from_le_bytes(*version);
@@ -91,7 +120,7 @@ pub fn replay(log: &[u8], progress: &mut dyn FnMut(f64)) -> Result<ReplayReport,
     }
     let mut blocks = Blocks::new(log, MAGIC.len() + 2);
     let header = blocks.next().and_then(|block| postcard::from_bytes::<LogHeader>(block).ok());
-    let mut replay = header.and_then(Replay::new).ok_or(LogError::NoHeader)?;
+    let mut replay = header.and_then(|header| Replay::new(header, observe)).ok_or(LogError::NoHeader)?;
     while let Some(block) = blocks.next() {
         replay.block(block)?;
         progress(blocks.at() as f64 / log.len() as f64);
@@ -104,8 +133,9 @@ pub fn replay(log: &[u8], progress: &mut dyn FnMut(f64)) -> Result<ReplayReport,
 }
 
 /// A log that is being replayed.
-struct Replay {
+struct Replay<'o, 'e> {
     header: LogHeader,
+    observe: &'o mut ReplayObserver<'e>,
     controller: Controller,
     now: Instant,
     senders: Senders,
@@ -121,9 +151,10 @@ struct Replay {
     difference: Option<Difference>,
 }
 
-impl Replay {
-    fn new(header: LogHeader) -> Option<Self> {
+impl<'o, 'e> Replay<'o, 'e> {
+    fn new(header: LogHeader, observe: &'o mut ReplayObserver<'e>) -> Option<Self> {
         Some(Self {
+            observe,
             controller: Controller::from_checkpoint(&header.checkpoint)?,
             now: Instant(header.began_us),
             header,
@@ -161,6 +192,7 @@ impl Replay {
                 self.input(after, || "time passed".into());
                 self.now += Span(i64::from(Mutant::ReplayOffByOne.is_planted()));
                 self.controller.wake(self.now);
+                (self.observe)(self.now, &self.controller, ReplayStep::Woken);
             }
             Record::Message { after, topic, like, front, back, middle } => {
                 let payload = self.senders.restore(topic, Likeness { like, front, back }, middle)?;
@@ -217,6 +249,7 @@ impl Replay {
         self.last.push_str(topic);
         self.last.push(' ');
         self.last.push_str(&String::from_utf8_lossy(&payload[..payload.len().min(200)]));
+        (self.observe)(self.now, &self.controller, ReplayStep::Message { topic, payload });
         self.controller.message(self.now, topic, payload);
     }
 
@@ -248,6 +281,7 @@ impl Replay {
         }
         if taken & OutputKinds::EVENTS != 0 {
             while let Some(event) = self.controller.next_event() {
+                (self.observe)(self.now, &self.controller, ReplayStep::Event(&event));
                 self.digest.event(&event);
                 self.outputs += 1;
                 line(&|| event.kind.to_string());

@@ -13,6 +13,7 @@ pub mod plan;
 pub mod play;
 pub mod rehearse;
 pub mod replay;
+pub mod report;
 pub mod robot_check;
 pub mod robots;
 pub mod run;

@@ -1,7 +1,7 @@
 //! `replay`: a recorded run again, input by input.
 
 use std::panic::catch_unwind;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use lightbots_api::rounded;
 use lightbots_control::{LogEnd, ReplayReport, replay};
@@ -17,10 +17,10 @@ use crate::progress::Bar;
 use crate::say;
 
 /// Longest log that is read, bytes: a hundred runs of the longest kind.
-const BYTES_MAX: u64 = 32 << 30;
+pub const BYTES_MAX: u64 = 32 << 30;
 
 pub fn run(arguments: &ReplayArguments) -> Outcome {
-    let path = path(arguments);
+    let path = path(&arguments.run, arguments.data.as_ref());
     let failed = |why: String| Failure::input(format!("{}: {why}", path.display()));
     let log =
         disk::read_regular(&path, BYTES_MAX).map_err(|error| failed(format!("cannot be read: {error}")))?;
@@ -42,11 +42,12 @@ pub fn run(arguments: &ReplayArguments) -> Outcome {
     Ok(ok)
 }
 
-fn path(arguments: &ReplayArguments) -> PathBuf {
-    let number = arguments.run.to_str().and_then(|text| text.parse().ok());
-    match number.filter(|_| !arguments.run.exists()) {
-        Some(number) => run_file(&arguments.data.clone().unwrap_or_else(DataFolder::usual), number),
-        None => arguments.run.clone(),
+/// The file of a run: named, or by its number in a data folder.
+pub fn path(run: &Path, data: Option<&PathBuf>) -> PathBuf {
+    let number = run.to_str().and_then(|text| text.parse().ok());
+    match number.filter(|_| !run.exists()) {
+        Some(number) => run_file(&data.cloned().unwrap_or_else(DataFolder::usual), number),
+        None => run.to_owned(),
     }
 }
 

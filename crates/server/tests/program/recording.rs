@@ -90,3 +90,21 @@ fn a_played_show_is_recorded() {
     let (code, report) = replay(&[&file]);
     assert_eq!((code, &report["complete"], &report["robots"]), (0, &json!(true), &json!(5)), "{report}");
 }
+
+#[test]
+fn a_report_says_what_happened_in_one_file_of_its_own() {
+    let (file, page) = (recorded_file("reported.lblog"), recorded_file("report.html"));
+    let show = shows::row_file(6, &[0.5, 0.5]);
+    run(&["rehearse", &show, "--record", &file, "--faults", "kill=2@1s", "--seed", "4"]);
+    let (code, out, err) = run(&["report", &file, "--out", &page, "--json"]);
+    let report: Value = serde_json::from_str(&out).unwrap_or_else(|_| panic!("{out} {err}"));
+    assert_eq!((code, &report["ok"], &report["frames_played"]), (1, &json!(false), &json!(2)), "{report}");
+    assert_eq!(report["losses"].as_array().map(Vec::len), Some(1), "{report}");
+    assert_eq!(report["per_robot"].as_array().map(Vec::len), Some(6), "{report}");
+    let first = std::fs::read_to_string(&page).unwrap();
+    assert!(first.contains("All 2 frames shown, one robot lost."), "{first}");
+    run(&["report", &file, "--out", &page]);
+    assert_eq!(std::fs::read_to_string(&page).unwrap(), first, "the same bytes");
+    let (code, _, err) = run(&["report", &show]);
+    assert!(code == 2 && err.contains("it is no recorded run"), "{err}");
+}

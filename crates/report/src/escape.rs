@@ -1,0 +1,23 @@
+//! Text of files, shows and robots inside a page.
+
+/// Text that is nothing but text in HTML, attributes included; control characters become spaces.
+pub(crate) fn escaped(text: &str) -> String {
+    let mut safe = String::with_capacity(text.len());
+    for letter in text.chars() {
+        match letter {
+            '&' => safe.push_str("&amp;"),
+            '<' => safe.push_str("&lt;"),
+            '>' => safe.push_str("&gt;"),
+            '"' => safe.push_str("&quot;"),
+            '\'' => safe.push_str("&#39;"),
+            letter if letter.is_control() => safe.push(' '),
+            letter => safe.push(letter),
+        }
+    }
+    safe
+}
+
+/// JSON that ends no element of a page: `<` stands only in strings of JSON, where its escape means the same.
+pub(crate) fn json_in_html(json: &str) -> String {
+    json.replace('<', "\\u003c")
+}

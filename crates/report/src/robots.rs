@@ -1,0 +1,137 @@
+//! What is noted of each robot while a recording is replayed.
+
+use std::collections::BTreeMap;
+
+use lightbots_base::{Instant, RobotId};
+use lightbots_wire::{Report, RobotState, Topic};
+
+use crate::figures::{ThreeFigures, round};
+use crate::model::RobotFigures;
+use crate::track::PlaceTrack;
+
+/// Most robots of a report; the controller remembers no more either.
+const ROBOTS_MAX: usize = 20_000;
+
+/// One robot.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct RobotNotes {
+    pub arrivals: usize,
+    pub latest_s: f64,
+    pub errors_m: Vec<f64>,
+    off_m: f64,
+    /// The count that it reported last.
+    counted: Option<u32>,
+    brakes: u64,
+    /// Least gap that it reported, when, and on the way to which frame.
+    pub near: Option<(f64, Instant, usize)>,
+    messages: u64,
+    battery: Option<(u8, u8)>,
+    pub planned: PlaceTrack,
+    pub driven: PlaceTrack,
+    /// When its light changed, and to what.
+    pub lights: Vec<(Instant, u32)>,
+    pub lost: Option<Instant>,
+}
+
+/// All robots, by name.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct AllRobots {
+    pub by_name: BTreeMap<RobotId, RobotNotes>,
+    /// Every reported distance from a route, metres.
+    pub offs_m: Vec<f64>,
+}
+
+impl AllRobots {
+    /// The notes of a robot; `None` beyond [`ROBOTS_MAX`].
+    pub fn get(&mut self, id: RobotId) -> Option<&mut RobotNotes> {
+        if self.by_name.len() >= ROBOTS_MAX && !self.by_name.contains_key(&id) {
+            return None;
+        }
+        Some(self.by_name.entry(id).or_default())
+    }
+
+    /// A report comes while the robots are on the way to `frame`.
+    pub fn receive(&mut self, now: Instant, topic: Topic, report: &Report, frame: usize) {
+        let Some(robot) = self.get(report.id) else { return };
+        robot.messages += 1;
+        if let Some(at) = report.at {
+            robot.driven.add(now.as_secs(), at);
+        }
+        let Some(details) = &report.details else { return };
+        if let Some(percent) = details.battery {
+            robot.battery = Some((robot.battery.map_or(percent, |battery| battery.0), percent));
+        }
+        // A count that fell began again: the robot was switched on.
+        let before = robot.counted.replace(details.brakes).unwrap_or(details.brakes);
+        let base = if details.brakes < before { 0 } else { before };
+        robot.brakes += u64::from(details.brakes - base);
+        let on_route = matches!(details.state, RobotState::Driving | RobotState::Held);
+        if let Some(near_m) = details.near_m.filter(|_| on_route || topic == Topic::Arrival)
+            && robot.near.is_none_or(|near| near_m < near.0)
+        {
+            robot.near = Some((near_m, now, frame));
+        }
+        if let Some(off_m) = details.off_m.filter(|_| on_route) {
+            robot.off_m = robot.off_m.max(off_m);
+            self.offs_m.push(off_m);
+        }
+    }
+
+    /// Brakes of all robots.
+    pub fn brakes(&self) -> u64 {
+        self.by_name.values().map(|robot| robot.brakes).sum()
+    }
+}
+
+impl RobotNotes {
+    /// The robot's row.
+    pub fn figures(&self, id: RobotId) -> RobotFigures {
+        RobotFigures {
+            name: id.as_str().to_owned(),
+            arrivals: self.arrivals,
+            latest_s: round(self.latest_s, 3),
+            position_error_m: ThreeFigures::of(&self.errors_m, 5),
+            off_m: round(self.off_m, 5),
+            brakes: self.brakes,
+            near_m: self.near.map(|near| round(near.0, 5)),
+            messages: self.messages,
+            battery_began: self.battery.map(|battery| battery.0),
+            battery_ended: self.battery.map(|battery| battery.1),
+            is_lost: self.lost.is_some(),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn received(texts: &[&str]) -> RobotFigures {
+        let mut robots = AllRobots::default();
+        for (at, text) in (1..).zip(texts) {
+            let report = Report::decode(text.as_bytes()).unwrap();
+            robots.receive(Instant(at * 1_000_000), Topic::Status, &report, 2);
+        }
+        let (id, notes) = robots.by_name.first_key_value().unwrap();
+        notes.figures(*id)
+    }
+
+    #[test]
+    fn brakes_before_the_run_do_not_count_and_a_restart_loses_none() {
+        let figures = received(&[
+            "r7 0 0 state=idle brakes=5 bat=80",
+            "r7 0 0 state=driving brakes=7",
+            "r7 0 0 state=idle",
+            "r7 0 0 state=idle brakes=1 bat=78",
+        ]);
+        assert_eq!((figures.brakes, figures.messages), (3, 4));
+        assert_eq!((figures.battery_began, figures.battery_ended), (Some(80), Some(78)));
+    }
+
+    #[test]
+    fn a_gap_of_an_earlier_run_does_not_count() {
+        let figures =
+            received(&["r7 0 0 state=idle near=0.001", "r7 0 0 state=driving off=0.004 near=0.0123"]);
+        assert_eq!((figures.near_m, figures.off_m), (Some(0.0123), 0.004));
+    }
+}

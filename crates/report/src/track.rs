@@ -1,0 +1,190 @@
+//! Places over time, sparse enough to be small.
+//!
+//! The rule: a sample is left out where a straight line in time between the samples that are kept passes within
+//! [`TOLERANCE_M`] of it. If a whole run has more than [`SAMPLES_MAX`] samples, the tolerance is doubled until it has
+//! fewer; the page says the tolerance.
+
+use lightbots_base::Vec2;
+use serde::Serialize;
+
+/// Largest distance between a place and the line that stands for it, metres. Below, pages grow; above, a line on a floor of
+/// three metres is off by more than a pixel of a screen.
+const TOLERANCE_M: f64 = 0.003;
+/// Most samples of a report: about 9 bytes each.
+const SAMPLES_MAX: usize = 1_500_000;
+/// Most samples between two that are kept, which bounds the work for a robot that stands: then one is kept anyway.
+const SKIPPED_MAX: usize = 64;
+
+/// A place at a moment, seconds of the show clock.
+type Sample = (f64, Vec2);
+
+/// One robot's places over time, simplified while they come.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct PlaceTrack {
+    kept: Vec<Sample>,
+    /// Samples since the last one that is kept, at most `SKIPPED_MAX`.
+    open: Vec<Sample>,
+}
+
+impl PlaceTrack {
+    /// Adds a sample. One that is not later than the last one is dropped.
+    pub fn add(&mut self, at_s: f64, place: Vec2) {
+        let Some(&last) = self.open.last().or(self.kept.last()) else {
+            return self.kept.push((at_s, place));
+        };
+        if at_s <= last.0 {
+            return;
+        }
+        if let Some(&anchor) = self.kept.last() {
+            let fits = |&(between_s, between): &Sample| {
+                along(anchor, (at_s, place), between_s).distance(between) <= TOLERANCE_M
+            };
+            if self.open.len() >= SKIPPED_MAX || !self.open.iter().all(fits) {
+                self.kept.push(last);
+                self.open.clear();
+            }
+        }
+        self.open.push((at_s, place));
+    }
+
+    /// The samples that are kept, the last one included.
+    fn finish(mut self) -> Vec<Sample> {
+        self.kept.extend(self.open.last());
+        self.kept
+    }
+}
+
+/// The place at `at_s` on the straight line from one sample to another.
+fn along(from: Sample, to: Sample, at_s: f64) -> Vec2 {
+    let share = (at_s - from.0) / (to.0 - from.0).max(1e-9);
+    from.1 + (to.1 - from.1) * share
+}
+
+/// Fewer of these samples, so that lines pass within `tolerance_m` of those that are left out.
+fn thinned(samples: &[Sample], tolerance_m: f64) -> Vec<Sample> {
+    let mut kept: Vec<Sample> = samples.first().copied().into_iter().collect();
+    let mut anchor = 0;
+    for end in 1..samples.len() {
+        let fits = |sample: &Sample| {
+            along(samples[anchor], samples[end], sample.0).distance(sample.1) <= tolerance_m
+        };
+        if end - anchor > SKIPPED_MAX || !samples[anchor + 1..end].iter().all(fits) {
+            anchor = end - 1;
+            kept.push(samples[anchor]);
+        }
+    }
+    if samples.len() > 1 {
+        kept.extend(samples.last());
+    }
+    kept
+}
+
+/// What a replay to scrub shows.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct Scrub {
+    /// Floor, metres.
+    pub floor: [f64; 2],
+    /// Radius of a robot, metres.
+    pub radius_m: f64,
+    /// Length, seconds.
+    pub end_s: f64,
+    /// How far lines are off the samples, metres.
+    pub tolerance_m: f64,
+    /// No-go areas: `[x, y, radius]` or `[left, bottom, right, top]`, metres.
+    pub areas: Vec<Vec<f64>>,
+    /// The robots, in the order of the report's table.
+    pub tracks: Vec<ScrubTrack>,
+}
+
+/// One robot's places and lights.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct ScrubTrack {
+    /// Where its paths said it should be: differences of time (1/100 s), x and y (mm).
+    pub planned: Vec<i32>,
+    /// Where it was: true places in a rehearsal, reported places in a run.
+    pub driven: Vec<i32>,
+    /// Its light: difference of time (1/100 s) and colour (R·65536 + G·256 + B).
+    pub light: Vec<i64>,
+    /// When it was lost, 1/100 s.
+    pub lost: Option<i64>,
+}
+
+/// Planned and driven samples of one robot as differences.
+pub(crate) type Encoded = (Vec<i32>, Vec<i32>);
+
+/// Planned and driven samples of each robot as differences, and their tolerance in metres. Times count from `began_s`.
+pub(crate) fn encoded(tracks: Vec<(PlaceTrack, PlaceTrack)>, began_s: f64) -> (Vec<Encoded>, f64) {
+    let mut tracks: Vec<_> =
+        tracks.into_iter().map(|(planned, driven)| (planned.finish(), driven.finish())).collect();
+    let mut tolerance_m = TOLERANCE_M;
+    while tracks.iter().map(|(planned, driven)| planned.len() + driven.len()).sum::<usize>() > SAMPLES_MAX
+        && tolerance_m < 1.0
+    {
+        tolerance_m *= 2.0;
+        for (planned, driven) in &mut tracks {
+            (*planned, *driven) = (thinned(planned, tolerance_m), thinned(driven, tolerance_m));
+        }
+    }
+    let encoded =
+        tracks.iter().map(|(planned, driven)| (differences(planned, began_s), differences(driven, began_s)));
+    (encoded.collect(), tolerance_m)
+}
+
+fn differences(samples: &[Sample], began_s: f64) -> Vec<i32> {
+    let mut last = [0i32; 3];
+    let mut out = Vec::with_capacity(samples.len() * 3);
+    for (at_s, place) in samples {
+        // Saturating conversions: places of hostile reports are at most a million metres away.
+        let now =
+            [(at_s - began_s) * 100.0, place.x * 1e3, place.y * 1e3].map(|number| number.round() as i32);
+        out.extend(now.iter().zip(last).map(|(now, last)| now.wrapping_sub(last)));
+        last = now;
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A drive along a quarter of a circle of a metre, at 10 Hz, with a stop of 3 s in the middle.
+    fn curve() -> Vec<Sample> {
+        let moved_s = |at_s: f64| if at_s < 2.0 { at_s } else { (at_s - 3.0).max(2.0) };
+        let at = |step: u32| {
+            let at_s = f64::from(step) * 0.1;
+            (at_s, Vec2::unit(moved_s(at_s) * std::f64::consts::FRAC_PI_8))
+        };
+        (0..=70).map(at).collect()
+    }
+
+    fn off_m(kept: &[Sample], samples: &[Sample]) -> f64 {
+        let off = |sample: &Sample| {
+            let next = kept.iter().position(|kept| kept.0 >= sample.0).unwrap().max(1);
+            along(kept[next - 1], kept[next], sample.0).distance(sample.1)
+        };
+        samples.iter().map(off).fold(0.0, f64::max)
+    }
+
+    #[test]
+    fn lines_pass_within_the_tolerance_of_every_sample() {
+        let samples = curve();
+        let mut track = PlaceTrack::default();
+        samples.iter().for_each(|&(at_s, place)| track.add(at_s, place));
+        let kept = track.finish();
+        assert!(off_m(&kept, &samples) <= TOLERANCE_M && kept.len() < 25, "{}", kept.len());
+        assert_eq!((kept.first(), kept.last()), (samples.first(), samples.last()));
+        let coarse = thinned(&kept, 0.05);
+        assert!(off_m(&coarse, &kept) <= 0.05 && coarse.len() < kept.len() / 2);
+    }
+
+    #[test]
+    fn samples_become_differences() {
+        let mut track = PlaceTrack::default();
+        track.add(5.0, Vec2::new(0.5, -0.25));
+        track.add(5.0, Vec2::new(9.0, 9.0));
+        track.add(6.0, Vec2::new(0.75, -0.25));
+        let (encoded, tolerance_m) = encoded(vec![(PlaceTrack::default(), track)], 5.0);
+        assert_eq!(encoded, [(vec![], vec![0, 500, -250, 100, 250, 0])]);
+        assert_eq!(tolerance_m, TOLERANCE_M);
+    }
+}
