@@ -50,6 +50,11 @@ impl Rgb {
     }
 }
 
+/// Linear light, 0 to 1, of an sRGB-coded channel (IEC 61966-2-1) whose full code is 1.
+pub fn srgb_decoded(share: f64) -> f64 {
+    if share <= 0.04045 { share / 12.92 } else { libm::pow((share + 0.055) / 1.055, 2.4) }
+}
+
 /// Such as `#ffa500`.
 impl fmt::Display for Rgb {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {

@@ -22,11 +22,12 @@ mod limits;
 mod path;
 pub mod random;
 pub mod shape;
+pub mod statistics;
 mod time;
 mod vec2;
 
 pub use angle::{difference, wrap};
-pub use colour::Rgb;
+pub use colour::{Rgb, srgb_decoded};
 pub use hash::StateHash;
 pub use id::RobotId;
 pub use light_track::{LightRecord, LightTrack, LightTrackError, TICK, TICKS_MAX, decode_light_track};

@@ -1,6 +1,6 @@
 //! Linear light: colours as proportions of light power, in which mixing, blurring and fading look right.
 
-use lightbots_base::Rgb;
+use lightbots_base::{Rgb, srgb_decoded};
 
 /// A colour in linear light. 0 is off and 1 the full light of a channel; sums before the last stage may exceed 1.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -24,7 +24,7 @@ impl Linear {
 
     /// The light that an sRGB colour stands for.
     pub fn from_rgb(coded: Rgb) -> Self {
-        let [r, g, b] = [coded.r, coded.g, coded.b].map(|code| decoded(f64::from(code) / 255.0));
+        let [r, g, b] = [coded.r, coded.g, coded.b].map(|code| srgb_decoded(f64::from(code) / 255.0));
         Self::new(r, g, b)
     }
 
@@ -70,11 +70,6 @@ pub(crate) fn within_one(value: f64) -> f64 {
     if value > 0.0 { value.min(1.0) } else { 0.0 }
 }
 
-/// Linear light, 0 to 1, of an sRGB-coded channel (IEC 61966-2-1) whose full code is 1.
-pub(crate) fn decoded(share: f64) -> f64 {
-    if share <= 0.04045 { share / 12.92 } else { libm::pow((share + 0.055) / 1.055, 2.4) }
-}
-
 /// The sRGB code, 0 to 1, of linear light (IEC 61966-2-1).
 fn encoded(light: f64) -> f64 {
     if light <= 0.003_130_8 { 12.92 * light } else { 1.055 * libm::pow(light, 1.0 / 2.4) - 0.055 }
@@ -82,7 +77,7 @@ fn encoded(light: f64) -> f64 {
 
 /// Lightness L* of CIE 1976, 0 to 100, of grey with this sRGB code.
 pub fn lightness(code: u8) -> f64 {
-    let light = decoded(f64::from(code) / 255.0);
+    let light = srgb_decoded(f64::from(code) / 255.0);
     // CIE 15: (6/29)³ and (29/3)³ as exact fractions.
     if light <= 216.0 / 24_389.0 { light * 24_389.0 / 27.0 } else { 116.0 * libm::cbrt(light) - 16.0 }
 }

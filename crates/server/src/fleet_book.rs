@@ -111,11 +111,7 @@ impl FleetBook {
 
     /// What a robot is called by people.
     pub fn called(&self, robot: RobotId) -> Option<String> {
-        let kept = self.lock();
-        if kept.robots.is_empty() {
-            return None;
-        }
-        kept.robots.get(robot.to_string().as_str()).and_then(|about| about.called.clone())
+        self.lock().robots.get(robot.as_str()).and_then(|about| about.called.clone())
     }
 
     fn lock(&self) -> MutexGuard<'_, Kept> {

@@ -1,6 +1,6 @@
 //! Small pictures in memory.
 
-use lightbots_base::Rgb;
+use lightbots_base::{Rgb, srgb_decoded};
 
 /// A picture, row by row from the top left.
 #[derive(Clone, Debug, PartialEq)]
@@ -65,8 +65,7 @@ pub fn neighbours(index: usize, columns: usize, pixels: usize) -> impl Iterator<
 
 /// Light of a channel of sRGB, 0 to 1 (IEC 61966-2-1).
 pub fn linear(channel: u8) -> f64 {
-    let value = f64::from(channel) / 255.0;
-    if value <= 0.04045 { value / 12.92 } else { libm::pow((value + 0.055) / 1.055, 2.4) }
+    srgb_decoded(f64::from(channel) / 255.0)
 }
 
 /// Colours in Oklab.

@@ -1,6 +1,8 @@
 //! Effects that lay colours along a coordinate.
 
-use crate::colour::{Linear, decoded, within_one};
+use lightbots_base::srgb_decoded;
+
+use crate::colour::{Linear, within_one};
 use crate::ease::fraction;
 use crate::look::Look;
 use crate::palette::Shade;
@@ -18,6 +20,6 @@ pub(super) fn rainbow(look: &Look, turns: f64, along: f64, saturation: f64) -> S
         let full = within_one((around - 3.0).abs() - 1.0);
         1.0 - saturation * (1.0 - full)
     };
-    let [r, g, b] = [channel(0.0), channel(4.0), channel(2.0)].map(decoded);
+    let [r, g, b] = [channel(0.0), channel(4.0), channel(2.0)].map(srgb_decoded);
     (Linear::new(r, g, b), 1.0)
 }

@@ -224,10 +224,15 @@ impl Conductor {
         }
     }
 
+    /// Does an operation, and records it.
+    fn operate(&mut self, now: lightbots_base::Instant, operation: Operation) -> Result<(), Refusal> {
+        self.recorder.before(&mut self.controller, now, &operation);
+        self.controller.operate(now, operation)
+    }
+
     /// GO came by the broker.
     fn go(&mut self, now: lightbots_base::Instant) {
-        self.recorder.before(&mut self.controller, now, &Operation::Go);
-        if let Err(refusal) = self.controller.operate(now, Operation::Go) {
+        if let Err(refusal) = self.operate(now, Operation::Go) {
             let _ = self.news.send(News::Warning(format!("GO by MQTT was refused: {refusal}")));
         }
     }
@@ -235,9 +240,7 @@ impl Conductor {
     async fn obey(&mut self, order: Order) {
         match order {
             Order::Operate(operation, answer) => {
-                let now = self.clock.now();
-                self.recorder.before(&mut self.controller, now, &operation);
-                let outcome = self.controller.operate(now, operation);
+                let outcome = self.operate(self.clock.now(), operation);
                 // Whoever asked may have gone.
                 let _ = answer.send(outcome);
             }

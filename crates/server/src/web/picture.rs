@@ -253,14 +253,9 @@ fn robots(snapshot: &Snapshot) -> api::Robots {
         planned_y: along(|robot| robot.planned, y),
         goal_x: along(|robot| robot.goal, x),
         goal_y: along(|robot| robot.goal, y),
-        colour: robots.iter().map(colour).collect(),
+        colour: robots.iter().map(|robot| robot.light.number()).collect(),
         status: robots.iter().map(|robot| status(robot) as u8).collect(),
     }
-}
-
-fn colour(robot: &RobotView) -> u32 {
-    let light = robot.light;
-    u32::from(light.r) << 16 | u32::from(light.g) << 8 | u32::from(light.b)
 }
 
 fn row(robot: &RobotView, snapshot: &Snapshot, book: &FleetBook) -> api::FleetRow {
