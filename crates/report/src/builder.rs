@@ -15,7 +15,6 @@ use crate::frames::FrameNotes;
 use crate::model::{ClosestApproach, Loss, MessageFigures, ReportBrakes, ReportedEvent, RunKind, ShowReport};
 use crate::robots::AllRobots;
 use crate::track::{Scrub, ScrubTrack, encoded};
-use crate::truth::FloorTruth;
 use crate::words;
 
 /// Planned places are sampled this often.
@@ -56,17 +55,12 @@ pub struct ReportBuilder {
     sampled: Option<Instant>,
 }
 
-/// The report of a recording, and its replay. `truth`: what a rehearsal knows besides. `progress` is called with the share
-/// that is done.
-pub fn report_of(
-    log: &[u8],
-    truth: Option<&FloorTruth>,
-    progress: &mut dyn FnMut(f64),
-) -> Result<(ShowReport, Scrub), LogError> {
+/// The report of a recording, and its replay. `progress` is called with the share that is done.
+pub fn report_of(log: &[u8], progress: &mut dyn FnMut(f64)) -> Result<(ShowReport, Scrub), LogError> {
     let mut builder = ReportBuilder::default();
     let replayed =
         replay_observed(log, progress, &mut |now, controller, step| builder.step(now, controller, step))?;
-    Ok(builder.finish(replayed, truth))
+    Ok(builder.finish(replayed))
 }
 
 impl ReportBuilder {
@@ -182,8 +176,7 @@ impl ReportBuilder {
 
     fn note_lights(&mut self, now: Instant, controller: &Controller) {
         for view in controller.snapshot(now).robots {
-            let light = view.light;
-            let value = u32::from(light.r) << 16 | u32::from(light.g) << 8 | u32::from(light.b);
+            let value = view.light.number();
             if let Some(robot) = self.robots.get(view.id)
                 && robot.lights.last().is_none_or(|last| last.1 != value)
             {
@@ -241,12 +234,9 @@ impl ReportBuilder {
     }
 
     /// The report.
-    fn finish(mut self, replayed: ReplayReport, truth: Option<&FloorTruth>) -> (ShowReport, Scrub) {
+    fn finish(mut self, replayed: ReplayReport) -> (ShowReport, Scrub) {
         let began = self.began.unwrap_or(self.now);
         let since = |at: Instant| round((at - began).as_secs().max(0.0), 3);
-        if let Some(truth) = truth {
-            self.add_truth(truth);
-        }
         let mut incidents: Vec<ReportedEvent> = self
             .incidents
             .iter()
@@ -259,7 +249,7 @@ impl ReportBuilder {
             back_at_s: back(loss),
             ..loss.clone()
         });
-        let approaches = self.approaches(truth, &since);
+        let approaches = self.approaches(&since);
         let mut report = ShowReport {
             show: self.show.as_ref().map_or(String::new(), |show| show.name.clone()),
             kind: self.kind(&replayed),
@@ -269,18 +259,14 @@ impl ReportBuilder {
             frames_played: self.frames_played,
             planned_s: round(self.planned_s, 3),
             duration_s: since(self.now),
-            contacts: truth.map(|truth| truth.contacts),
             closest_m: approaches.first().map(|approach| approach.gap_m),
             approaches,
-            brakes: ReportBrakes {
-                all: truth.map_or(self.robots.brakes(), |truth| truth.brakes.iter().sum()),
-                unfounded: truth.map(|truth| truth.unfounded),
-            },
+            brakes: ReportBrakes { all: self.robots.brakes(), ..ReportBrakes::default() },
             position_error_m: ThreeFigures::of(&self.errors_m, 5),
             errors_m: std::mem::take(&mut self.errors_m),
             arrival_spread_s: ThreeFigures::of(&self.frames.spreads_s, 3),
             tracking_error_m: ThreeFigures::of(&self.robots.offs_m, 5),
-            messages: self.messages(truth),
+            messages: self.messages(),
             losses: losses.collect(),
             incidents,
             incidents_left_out: self.incidents_left_out,
@@ -289,18 +275,13 @@ impl ReportBuilder {
             is_complete: replayed.end == LogEnd::Complete && replayed.difference.is_none(),
             ..ShowReport::default()
         };
-        if let Some(truth) = truth {
-            for (row, id) in report.per_robot.iter_mut().zip(self.robots.by_name.keys()) {
-                row.brakes = truth.number(*id).map_or(0, |number| truth.brakes[number]);
-            }
-        }
         report.notes = replayed.notes;
         report.ok = self.outcome == Some(RunOutcome::Finished)
             && report.frames_played >= report.frames
             && report.contacts.unwrap_or(0) == 0
             && report.losses.iter().all(|loss| loss.back_at_s.is_some());
         report.verdict = words::verdict(&report, self.outcome.as_ref(), self.is_home, self.frames.current);
-        let scrub = self.scrub(began, truth);
+        let scrub = self.scrub(began);
         (report, scrub)
     }
 
@@ -317,7 +298,7 @@ impl ReportBuilder {
         }
     }
 
-    fn messages(&self, truth: Option<&FloorTruth>) -> MessageFigures {
+    fn messages(&self) -> MessageFigures {
         let (from, to) = &self.counters;
         // A recording that was cut has no counters at its end.
         let grown = |from: u64, to: u64| to.saturating_sub(from);
@@ -327,43 +308,11 @@ impl ReportBuilder {
             resent: grown(from.resent, to.resent),
             unsent: grown(from.unsent, to.unsent),
             junk: grown(from.junk, to.junk),
-            lost: truth.map(|truth| truth.lost),
+            lost: None,
         }
     }
 
-    /// Contacts and false brakes of a rehearsal, as incidents.
-    fn add_truth(&mut self, truth: &FloorTruth) {
-        let name = |robot: usize| truth.name(robot).map_or(String::new(), |id| id.as_str().to_owned());
-        for &(at, a, b) in &truth.touched {
-            let line = format!("Robots {} and {} touched.", name(a as usize), name(b as usize));
-            self.incidents
-                .push((at, ReportedEvent { at_s: 0.0, tone: "bad", line, robot: Some(name(a as usize)) }));
-        }
-        for &(at, robot) in &truth.false_brakes {
-            let line = format!("Robot {} braked, and nothing faulty was ahead.", name(robot));
-            self.incidents
-                .push((at, ReportedEvent { at_s: 0.0, tone: "look", line, robot: Some(name(robot)) }));
-        }
-    }
-
-    fn approaches(&self, truth: Option<&FloorTruth>, since: &dyn Fn(Instant) -> f64) -> Vec<ClosestApproach> {
-        let frame_at = |at: Instant| {
-            let at_s = since(at);
-            let next = self.frames.list.iter().find(|frame| frame.stood_s >= at_s);
-            next.or(self.frames.list.last()).map_or(0, |frame| frame.frame)
-        };
-        if let Some(truth) = truth {
-            let text = |robot: u32| truth.name(robot as usize).map_or(String::new(), |id| id.as_str().into());
-            let pairs = truth.closest(APPROACHES).into_iter();
-            return pairs
-                .map(|((a, b), gap_m, at)| ClosestApproach {
-                    robots: vec![text(a), text(b)],
-                    gap_m: round(gap_m, 5),
-                    at_s: since(at),
-                    frame: frame_at(at),
-                })
-                .collect();
-        }
+    fn approaches(&self, since: &dyn Fn(Instant) -> f64) -> Vec<ClosestApproach> {
         let near = |(id, robot): (&RobotId, &crate::robots::RobotNotes)| {
             let (gap_m, at, frame) = robot.near?;
             let robots = vec![id.as_str().to_owned()];
@@ -375,10 +324,10 @@ impl ReportBuilder {
         all
     }
 
-    fn scrub(self, began: Instant, truth: Option<&FloorTruth>) -> Scrub {
+    fn scrub(self, began: Instant) -> Scrub {
         let hundredths = |at: Instant| ((at - began).as_secs() * 100.0).round() as i64;
         let (mut lights, mut lost, mut tracks) = (Vec::new(), Vec::new(), Vec::new());
-        for (id, robot) in self.robots.by_name {
+        for robot in self.robots.by_name.into_values() {
             let mut last = 0;
             let light = robot.lights.iter().flat_map(|&(at, value)| {
                 let after = hundredths(at) - last;
@@ -387,8 +336,7 @@ impl ReportBuilder {
             });
             lights.push(light.collect::<Vec<_>>());
             lost.push(robot.lost.map(hundredths));
-            let true_track = truth.and_then(|truth| Some(truth.tracks[truth.number(id)?].clone()));
-            tracks.push((robot.planned, true_track.unwrap_or(robot.driven)));
+            tracks.push((robot.planned, robot.driven));
         }
         let (tracks, tolerance_m) = encoded(tracks, began.as_secs());
         let track = |(((planned, driven), light), lost)| ScrubTrack { planned, driven, light, lost };

@@ -1,5 +1,6 @@
 //! Many numbers in three.
 
+use lightbots_base::statistics::nearest_rank;
 use serde::Serialize;
 
 /// Median, 99th percentile (nearest rank) and maximum of numbers; all 0 without numbers.
@@ -21,7 +22,7 @@ impl ThreeFigures {
         let mut sorted = numbers.to_vec();
         sorted.sort_unstable_by(f64::total_cmp);
         let rank = |percent: usize| {
-            let rank = (sorted.len() * percent).div_ceil(100);
+            let rank = nearest_rank(sorted.len(), percent);
             round(sorted.get(rank.saturating_sub(1)).copied().unwrap_or(0.0), decimals)
         };
         Self { median: rank(50), p99: rank(99), max: rank(100), count: sorted.len() }

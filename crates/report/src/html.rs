@@ -74,11 +74,6 @@ fn head(page: &mut String, report: &ShowReport) {
 
 fn figures(page: &mut String, report: &ShowReport) {
     let closest = report.closest_m.map_or("–".into(), millimetres);
-    let near = if report.kind == RunKind::Rehearsal && report.contacts.is_some() {
-        "between rims at least"
-    } else {
-        "closest approach reported"
-    };
     let cells = [
         (format!("{} of {}", report.frames_played, report.frames), "frames shown", String::new()),
         (clock(report.duration_s), "duration", format!("planned {}", clock(report.planned_s))),
@@ -87,7 +82,11 @@ fn figures(page: &mut String, report: &ShowReport) {
             "off the route, median",
             format!("at most {}", millimetres(report.tracking_error_m.max)),
         ),
-        (closest, near, report.contacts.map_or(String::new(), |contacts| some(contacts as usize, "contact"))),
+        (
+            closest,
+            "closest approach reported",
+            report.contacts.map_or(String::new(), |contacts| some(contacts as usize, "contact")),
+        ),
         (
             report.brakes.all.to_string(),
             "brakes",

@@ -1,11 +1,10 @@
 //! The report of a run or rehearsal: what was planned, what happened, and a replay to scrub, as one type and as one HTML
 //! page that needs no other file.
 //!
-//! It reads the recorded inputs of a controller ([`lightbots_control::replay_observed`]), and what a rehearsal knows
-//! beyond them ([`FloorTruth`]). It knows nothing of files, sockets, clocks or the simulator: the same inputs give the
-//! same bytes.
+//! It reads the recorded inputs of a controller ([`lightbots_control::replay_observed`]). It knows nothing of files,
+//! sockets, clocks or the simulator: the same inputs give the same bytes.
 //!
-//! Read [`ShowReport`] first, then [`ReportBuilder`] and [`page`].
+//! Read [`ShowReport`] first, then [`report_of`] and [`page`].
 
 mod builder;
 mod charts;
@@ -16,14 +15,12 @@ mod html;
 mod model;
 mod robots;
 mod track;
-mod truth;
 mod words;
 
-pub use builder::{ReportBuilder, report_of};
+pub use builder::report_of;
 pub use html::page;
 pub use model::{
     ClosestApproach, FrameFigures, Loss, MessageFigures, ReportBrakes, ReportedEvent, RobotFigures, RunKind,
     ShowReport,
 };
 pub use track::{Scrub, ScrubTrack};
-pub use truth::FloorTruth;

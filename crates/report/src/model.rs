@@ -8,7 +8,7 @@ use crate::figures::ThreeFigures;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum RunKind {
-    /// A rehearsal in virtual time: the true places are known.
+    /// A rehearsal in virtual time.
     Rehearsal,
     /// A run of simulated robots.
     Simulated,
@@ -42,11 +42,11 @@ pub struct ShowReport {
     pub planned_s: f64,
     /// From the first departure to the end, seconds.
     pub duration_s: f64,
-    /// Contacts of rims; `None` for runs, because no robot knows of a contact that it did not see.
+    /// Contacts of rims; `None`: the recorded inputs of a controller do not say.
     pub contacts: Option<u64>,
-    /// Least gap between two rims: true in a rehearsal, reported in a run; metres.
+    /// Least gap between two rims that a robot reported, metres.
     pub closest_m: Option<f64>,
-    /// The closest pairs of a rehearsal, or the robots of a run that reported the closest approaches.
+    /// The robots that reported the closest approaches.
     pub approaches: Vec<ClosestApproach>,
     /// Brakes of the safety layer.
     pub brakes: ReportBrakes,
@@ -80,7 +80,7 @@ pub struct ShowReport {
 pub struct ReportBrakes {
     /// All of them.
     pub all: u64,
-    /// Those with no faulty and no off-route robot ahead; `None` for runs.
+    /// Those with no faulty and no off-route robot ahead; `None`: the recorded inputs do not say.
     #[serde(rename = "false")]
     pub unfounded: Option<u64>,
 }
@@ -88,11 +88,11 @@ pub struct ReportBrakes {
 /// How near two rims came.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ClosestApproach {
-    /// The pair in a rehearsal; the robot that reported it in a run.
+    /// The robot that reported it.
     pub robots: Vec<String>,
     /// Least gap between rims, metres.
     pub gap_m: f64,
-    /// When; in a run: when it was reported.
+    /// When it was reported.
     pub at_s: f64,
     /// The frame that was driven to, counted from 0.
     pub frame: usize,
@@ -111,7 +111,7 @@ pub struct MessageFigures {
     pub unsent: u64,
     /// Received, and not readable.
     pub junk: u64,
-    /// Lost on the way; `None` for runs, where no end of a link knows.
+    /// Lost on the way; `None`: no end of a link knows.
     pub lost: Option<u64>,
 }
 

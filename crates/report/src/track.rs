@@ -101,7 +101,7 @@ pub struct Scrub {
 pub struct ScrubTrack {
     /// Where its paths said it should be: differences of time (1/100 s), x and y (mm).
     pub planned: Vec<i32>,
-    /// Where it was: true places in a rehearsal, reported places in a run.
+    /// Where it reported to be.
     pub driven: Vec<i32>,
     /// Its light: difference of time (1/100 s) and colour (R·65536 + G·256 + B).
     pub light: Vec<i64>,

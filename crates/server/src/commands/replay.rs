@@ -1,10 +1,10 @@
 //! `replay`: a recorded run again, input by input.
 
-use std::panic::catch_unwind;
+use std::panic::{RefUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 
 use lightbots_api::rounded;
-use lightbots_control::{LogEnd, ReplayReport, replay};
+use lightbots_control::{LogEnd, LogError, ReplayReport, replay};
 use serde_json::json;
 
 use super::{count, print_json};
@@ -17,38 +17,46 @@ use crate::progress::Bar;
 use crate::say;
 
 /// Longest log that is read, bytes: a hundred runs of the longest kind.
-pub const BYTES_MAX: u64 = 32 << 30;
+const BYTES_MAX: u64 = 32 << 30;
 
 pub fn run(arguments: &ReplayArguments) -> Outcome {
-    let path = path(&arguments.run, arguments.data.as_ref());
-    let failed = |why: String| Failure::input(format!("{}: {why}", path.display()));
-    let log =
-        disk::read_regular(&path, BYTES_MAX).map_err(|error| failed(format!("cannot be read: {error}")))?;
-    // A log may come from a program that failed: then the core fails again.
-    let replayed = catch_unwind(|| {
-        let bar = Bar::new();
-        replay(&log, &mut |share| bar.set(share, "replaying"))
-    });
-    let Ok(replayed) = replayed else {
-        return Err(Failure::problem(format!("{}: the controller failed in this run", path.display())));
-    };
-    let report = replayed.map_err(|error| failed(error.to_string()))?;
+    let (report, bytes) = replayed(&arguments.run, arguments.data.as_ref(), "replaying", |log, progress| {
+        Ok((replay(log, progress)?, log.len()))
+    })?;
     let ok = report.difference.is_none();
     if arguments.json {
         print_json(&as_json(&report))?
     } else {
-        print(&report, log.len())
+        print(&report, bytes)
     }
     Ok(ok)
 }
 
-/// The file of a run: named, or by its number in a data folder.
-pub fn path(run: &Path, data: Option<&PathBuf>) -> PathBuf {
+/// What `replay` makes of the log of a run, which is a file or the number of a run in a data folder. `doing` stands at the
+/// progress bar.
+pub fn replayed<T>(
+    run: &Path,
+    data: Option<&PathBuf>,
+    doing: &str,
+    replay: impl Fn(&[u8], &mut dyn FnMut(f64)) -> Result<T, LogError> + RefUnwindSafe,
+) -> Result<T, Failure> {
     let number = run.to_str().and_then(|text| text.parse().ok());
-    match number.filter(|_| !run.exists()) {
+    let path = match number.filter(|_| !run.exists()) {
         Some(number) => run_file(&data.cloned().unwrap_or_else(DataFolder::usual), number),
         None => run.to_owned(),
-    }
+    };
+    let failed = |why: String| Failure::input(format!("{}: {why}", path.display()));
+    let log =
+        disk::read_regular(&path, BYTES_MAX).map_err(|error| failed(format!("cannot be read: {error}")))?;
+    // A log may come from a program that failed: then the core fails again.
+    let made = catch_unwind(|| {
+        let bar = Bar::new();
+        replay(&log, &mut |share| bar.set(share, doing))
+    });
+    let Ok(made) = made else {
+        return Err(Failure::problem(format!("{}: the controller failed in this run", path.display())));
+    };
+    made.map_err(|error| failed(error.to_string()))
 }
 
 fn as_json(report: &ReplayReport) -> serde_json::Value {
