@@ -1,33 +1,20 @@
-import { createStore, useStore, type Store } from '../base/store';
+import { useStore, type Store } from '../base/store';
 import type { Incident } from '../api/types.gen';
 import { isHeard } from './incidents';
+import { createChoice } from './preferences';
 
-const KEY = 'lightbots-sound';
 /** Two notes, hertz, and the length of each, seconds. */
 const NOTES_HZ = [660, 880];
 const NOTE_S = 0.14;
 
-function stored(): boolean {
-  try {
-    return localStorage.getItem(KEY) !== 'off';
-  } catch {
-    return true;
-  }
-}
+const isSound = (text: string | null): text is 'on' | 'off' => text === 'on' || text === 'off';
 
-const soundStore = createStore(stored());
+const sound = createChoice<'on' | 'off'>('lightbots-sound', 'on', isSound);
 
 /** Whether this screen makes a sound when something goes wrong. */
-export const useSound = () => useStore(soundStore);
+export const useSound = () => useStore(sound) === 'on';
 
-export function setSound(on: boolean) {
-  soundStore.set(on);
-  try {
-    localStorage.setItem(KEY, on ? 'on' : 'off');
-  } catch {
-    // Without storage the choice lasts as long as the page.
-  }
-}
+export const setSound = (on: boolean) => sound.set(on ? 'on' : 'off');
 
 /** Makes a sound for each new incident that has to be looked at, but for those that were there before this page. */
 export function soundAlarms(incidents: Store<readonly Incident[]>) {
@@ -36,7 +23,7 @@ export function soundAlarms(incidents: Store<readonly Incident[]>) {
   incidents.subscribe(() => {
     const list = incidents.get();
     const newest = list.at(-1)?.id ?? 0;
-    if (last !== null && soundStore.get() && list.some((one) => isHeard(one, last ?? 0))) {
+    if (last !== null && sound.get() === 'on' && list.some((one) => isHeard(one, last ?? 0))) {
       audio ??= new AudioContext();
       play(audio);
     }

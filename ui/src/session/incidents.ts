@@ -22,24 +22,33 @@ export interface Callout extends Point {
 /** Callouts drawn at once: more would hide the floor. */
 const CALLOUTS_MAX = 12;
 
-/** Where the robots of unread incidents are, as far as that is known. */
+/** Unread incidents that still hold, the newest first. */
+export const holding = (incidents: readonly Incident[]): Incident[] =>
+  unread(incidents).filter((one) => !one.over);
+
+/** Incidents and fleet table for which rows were found last: both change rarely, and callouts are drawn in every frame. */
+let found: { incidents: readonly Incident[]; fleet: Fleet; rows: readonly number[] } | null = null;
+
+/** Rows of the robots of incidents that hold. */
+function rowsOf(incidents: readonly Incident[], fleet: Fleet): readonly number[] {
+  if (found?.incidents === incidents && found.fleet === fleet) return found.rows;
+  const named = new Set(holding(incidents).flatMap((one) => one.robots));
+  const rows = fleet.rows.flatMap((row, i) => (named.has(row.id) ? [i] : []));
+  found = { incidents, fleet, rows };
+  return rows;
+}
+
+/** Where the robots of incidents that hold are, as far as that is known. */
 export function calloutsOf(
   incidents: readonly Incident[],
   fleet: Fleet,
   robots: Robots | null,
 ): Callout[] {
   if (robots === null) return [];
-  const named = new Set(
-    unread(incidents)
-      .filter((one) => !one.over)
-      .flatMap((one) => one.robots),
-  );
-  if (named.size === 0) return [];
-  const callouts: Callout[] = [];
-  fleet.rows.forEach((row, i) => {
-    if (!named.has(row.id) || callouts.length === CALLOUTS_MAX) return;
-    const [x, y] = [robots.x[i] ?? NaN, robots.y[i] ?? NaN];
-    if (!Number.isNaN(x + y)) callouts.push({ name: nameOf(row), x, y });
-  });
-  return callouts;
+  return rowsOf(incidents, fleet)
+    .flatMap((i) => {
+      const [row, x, y] = [fleet.rows[i], robots.x[i] ?? NaN, robots.y[i] ?? NaN];
+      return row === undefined || Number.isNaN(x + y) ? [] : [{ name: nameOf(row), x, y }];
+    })
+    .slice(0, CALLOUTS_MAX);
 }

@@ -1,6 +1,6 @@
 import { Button } from '@mantine/core';
 import { useStore } from '../base/store';
-import { unread } from '../session/incidents';
+import { holding } from '../session/incidents';
 import { goTo, type View } from '../session/address';
 import { useSession } from '../session/session';
 import styles from './IncidentBanner.module.css';
@@ -8,7 +8,7 @@ import styles from './IncidentBanner.module.css';
 /** The newest unread incident, where its card is not in sight: in the editor, and on small screens. */
 export function IncidentBanner({ view }: { view: View }) {
   const { live, ask } = useSession();
-  const news = unread(useStore(live.incidents)).filter((one) => !one.over);
+  const news = holding(useStore(live.incidents));
   const [first] = news;
   if (!first || first.tone === 'information') return null;
   const more = news.length - 1;
