@@ -27,7 +27,7 @@ pub struct FleetRow {
     pub age_s: f64,
     /// Battery charge, percent; null: not reported.
     pub battery: Option<u8>,
-    /// How long the battery lasts if it goes on as so far, seconds; null: not known yet.
+    /// Time until the battery is empty at the measured slope, seconds; null: no slope is known yet.
     pub battery_left_s: Option<f64>,
     /// Id of the pixel that the robot shows or drives to; null: the robot stands by.
     pub pixel: Option<u32>,

@@ -19,7 +19,7 @@ const CHARGED: u8 = 2;
 pub(crate) struct ChargeTrend {
     /// When the charge was first reported to be this much, percent. The first one is no fall: nothing was known before.
     falls: Vec<(Instant, u8)>,
-    /// The least charge reported so far, percent.
+    /// The least reported charge, percent.
     least: Option<u8>,
 }
 
@@ -41,7 +41,7 @@ impl ChargeTrend {
         }
     }
 
-    /// How long the battery lasts at the slope so far; `None`: that is not known yet.
+    /// Time until the battery is empty at the measured slope; `None`: no slope is known yet.
     pub fn left(&self, now: Instant) -> Option<Span> {
         let (first, last) = (self.falls.first()?.0, self.falls.last()?);
         if self.falls.len() < FALLS_LEAST {

@@ -80,7 +80,7 @@ pub struct RobotView {
     pub pixel: Option<u32>,
     /// The light it was told to show.
     pub light: Rgb,
-    /// How long its battery lasts from its last report on, if it goes on as so far; `None`: not known yet.
+    /// Time from its last report until its battery is empty at the measured slope; `None`: no slope is known yet.
     pub battery_left: Option<Span>,
     /// Whether it takes part in the run.
     pub takes_part: bool,

@@ -64,7 +64,7 @@ pub enum Command {
     RobotCheck(RobotCheckArguments),
     /// Make certificates for a broker with TLS: an authority, a server, clients
     Certs(CertsArguments),
-    /// Set or reset the password of a person who uses the web app; from the terminal, or the first line of the input
+    /// Set or reset a password of the web app; from the terminal, or the first line of the input
     Passwd(PasswdArguments),
 }
 

@@ -257,7 +257,7 @@ age_s: number,
  */
 battery: number | null, 
 /**
- * How long the battery lasts if it goes on as so far, seconds; null: not known yet.
+ * Time until the battery is empty at the measured slope, seconds; null: no slope is known yet.
  */
 battery_left_s: number | null, 
 /**

@@ -2,7 +2,7 @@ import { Button, Group, Text } from '@mantine/core';
 import { useEffect, useState } from 'react';
 import { signedIn, signOut, type SignedIn } from '../session/signedIn';
 
-/** The person who is signed in, and the way out. Nothing where sign-in is not asked for. */
+/** The signed-in person, and sign-out. Nothing where sign-in is not asked for. */
 export function SignedInSection() {
   const [person, setPerson] = useState<SignedIn | null>(null);
   useEffect(() => {

@@ -1,4 +1,4 @@
-//! Admits requests: on another address than loopback, only of people who are signed in and of programs with a token.
+//! Admits requests: on another address than loopback, only those of signed-in people and of programs with a token.
 
 use std::net::IpAddr;
 use std::path::Path;
