@@ -67,10 +67,26 @@ pub struct LightTrack<'a> {
 
 impl LightRecord {
     /// Microseconds that the record lasts; 0 for a repeat.
-    fn duration_us(self) -> u64 {
+    pub(crate) fn duration_us(self) -> u64 {
         match self {
             Self::Line { ticks, .. } | Self::Step { ticks, .. } => u64::from(ticks) * TICK.0 as u64,
             Self::Repeat { .. } => 0,
+        }
+    }
+
+    /// The colour a share of the way through the record, before its end; `before` is the colour that it began with.
+    pub(crate) fn within(self, before: Rgb, share: f64) -> Rgb {
+        match self {
+            Self::Line { to, .. } => before.mixed(to, share),
+            Self::Step { .. } | Self::Repeat { .. } => before,
+        }
+    }
+
+    /// The colour at its end.
+    pub(crate) fn end(self, before: Rgb) -> Rgb {
+        match self {
+            Self::Line { to, .. } | Self::Step { to, .. } => to,
+            Self::Repeat { .. } => before,
         }
     }
 }
@@ -96,7 +112,7 @@ impl LightTrack<'_> {
                 return found;
             }
             left_us -= duration_us(record);
-            colour = end_of(self.records[index], colour);
+            colour = self.records[index].end(colour);
         }
         colour
     }
@@ -234,22 +250,12 @@ fn walked(records: &[LightRecord], mut colour: Rgb, mut left_us: u64) -> Option<
     for &record in records {
         let whole_us = record.duration_us();
         if left_us < whole_us {
-            return Some(match record {
-                LightRecord::Line { to, .. } => colour.mixed(to, left_us as f64 / whole_us as f64),
-                LightRecord::Step { .. } | LightRecord::Repeat { .. } => colour,
-            });
+            return Some(record.within(colour, left_us as f64 / whole_us as f64));
         }
         left_us -= whole_us;
-        colour = end_of(record, colour);
+        colour = record.end(colour);
     }
     None
-}
-
-fn end_of(record: LightRecord, before: Rgb) -> Rgb {
-    match record {
-        LightRecord::Line { to, .. } | LightRecord::Step { to, .. } => to,
-        LightRecord::Repeat { .. } => before,
-    }
 }
 
 #[cfg(test)]
@@ -290,6 +296,40 @@ mod tests {
         assert_eq!([at(60), at(95), at(130)], [20, 10, 0]);
         assert_eq!([at(129 + i64::from(TICKS_MAX)), at(130 + i64::from(TICKS_MAX))], [0, 255]);
         assert_eq!(track.duration(), TICK * (130 + i64::from(TICKS_MAX)));
+    }
+
+    #[test]
+    fn a_cursor_finds_what_the_track_says_at_any_steps() {
+        let records = example();
+        let track = LightTrack { start: GREY(9), records: &records };
+        let end_us = 1_400_000;
+        let mut state = 3;
+        for step_us in [1_000, 16_000, 130_000, end_us as u64] {
+            let (mut cursor, mut at_us) = (crate::LightCursor::default(), 0);
+            for _ in 0..400 {
+                assert_eq!(cursor.at(track, Span(at_us)), track.at(Span(at_us)), "{at_us} by {step_us}");
+                let back = split_mix(&mut state) % 20 == 0;
+                let change = (split_mix(&mut state) % step_us) as i64;
+                at_us = if back { (at_us - change).max(0) } else { at_us + change };
+                at_us = if at_us > end_us { 0 } else { at_us };
+            }
+        }
+        let mut cursor = crate::LightCursor::default();
+        assert_eq!(cursor.at(track, Span(i64::MAX)), GREY(255));
+        assert!(cursor.is_at_end(track));
+    }
+
+    #[test]
+    fn millions_of_repeats_are_passed_at_once() {
+        let records = [
+            LightRecord::Step { ticks: 1, to: GREY(1) },
+            LightRecord::Line { ticks: 1, to: GREY(101) },
+            LightRecord::Repeat { records: 2, times: TICKS_MAX },
+        ];
+        let track = LightTrack { start: GREY(0), records: &records };
+        let late = TICK * (2 * i64::from(TICKS_MAX) - 1) + Span(5_000);
+        let mut cursor = crate::LightCursor::default();
+        assert_eq!((cursor.at(track, late), track.at(late)), (GREY(51), GREY(51)));
     }
 
     #[test]

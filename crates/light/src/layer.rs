@@ -15,6 +15,10 @@ pub struct LightLayer {
     pub from_s: f64,
     /// When it ends, seconds of show time (excluded); infinite: never.
     pub to_s: f64,
+    /// The moment from which its effect's time counts, seconds of show time.
+    pub origin_s: f64,
+    /// Whether its effect goes on while show time stands: [`LightContext::lead_s`] then counts for it.
+    pub runs_freely: bool,
     /// The effect.
     pub effect: LightEffect,
     /// The settings of the effect.
@@ -33,6 +37,8 @@ impl LightLayer {
         Self {
             from_s: 0.0,
             to_s: f64::INFINITY,
+            origin_s: 0.0,
+            runs_freely: false,
             effect,
             look,
             masks: Vec::new(),
@@ -52,7 +58,8 @@ impl LightLayer {
         if !(self.from_s <= t_s && t_s < self.to_s) {
             return below;
         }
-        let tau_s = t_s - self.from_s;
+        let lead_s = if self.runs_freely { context.lead_s } else { 0.0 };
+        let tau_s = t_s - self.origin_s + lead_s;
         let visible = self.masks.iter().fold(self.opacity.at(tau_s), |share, mask| share * mask.share(robot));
         if visible <= 0.0 {
             return below;

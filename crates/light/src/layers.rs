@@ -19,6 +19,16 @@ impl Layers {
         if faults.is_empty() { Ok(Self(layers)) } else { Err(faults) }
     }
 
+    /// The layers at other times: `times` says for each layer when it begins, when it ends and from when its effect counts
+    /// (`from_s`, `to_s`, `origin_s`). Times that are no numbers make a layer dark.
+    pub fn at_times(&self, times: impl Fn(usize) -> (f64, f64, f64)) -> Self {
+        let timed = |(number, layer): (usize, &LightLayer)| {
+            let (from_s, to_s, origin_s) = times(number);
+            LightLayer { from_s, to_s, origin_s, ..layer.clone() }
+        };
+        Self(self.0.iter().enumerate().map(timed).collect())
+    }
+
     /// The layers, lowest first.
     pub fn list(&self) -> &[LightLayer] {
         &self.0
@@ -60,7 +70,7 @@ mod tests {
 
     #[test]
     fn a_layer_shines_from_its_start_until_before_its_end() {
-        let red = LightLayer { from_s: 1.0, to_s: 2.0, ..plain(Rgb::new(255, 0, 0)) };
+        let red = LightLayer { from_s: 1.0, to_s: 2.0, origin_s: 1.0, ..plain(Rgb::new(255, 0, 0)) };
         let (blue, lit) = (Rgb::new(0, 0, 255), Rgb::new(255, 0, 0));
         assert_eq!(
             [0.999, 1.0, 1.999, 2.0].map(|t| at(std::slice::from_ref(&red), t)),

@@ -17,6 +17,8 @@ pub struct LitRobot {
     pub speed_mps: f64,
     /// The frame that it shows or drives to, counted from 0.
     pub frame: u32,
+    /// Id of its pixel in that frame; `None`: it has none.
+    pub pixel: Option<u32>,
     /// Its colour without any layer.
     pub colour: Linear,
     /// Its colour in the next frame.
@@ -28,4 +30,6 @@ pub struct LitRobot {
 pub struct LightContext<'a> {
     /// Pictures and films, by the number in `LightEffect::Picture`.
     pub pictures: &'a [FloorPicture],
+    /// How long show time stood until now, seconds: layers that run freely are ahead by it.
+    pub lead_s: f64,
 }

@@ -7,7 +7,7 @@ use lightbots_base::Vec2;
 /// What a mask lets through.
 #[derive(Clone, Debug, PartialEq)]
 pub enum MaskShape {
-    /// Robots by their numbers, increasing.
+    /// Robots that have one of these pixels in their frame; ids, increasing.
     Selection(Vec<u32>),
     /// Robots while they show, or drive to, one of these frames, counted from 0.
     Frames {
@@ -56,7 +56,7 @@ impl LightMask {
     /// The share that the mask lets through for a robot, 0 to 1.
     pub fn share(&self, robot: &LitRobot) -> f64 {
         let share = match &self.shape {
-            MaskShape::Selection(robots) => truth(robots.binary_search(&robot.index).is_ok()),
+            MaskShape::Selection(ids) => truth(robot.pixel.is_some_and(|id| ids.binary_search(&id).is_ok())),
             MaskShape::Frames { first, last } => truth((*first..=*last).contains(&robot.frame)),
             area => self.softened(depth_m(area, robot.place)),
         };
@@ -141,7 +141,7 @@ mod tests {
 
     #[test]
     fn robots_and_frames_are_picked() {
-        let robot = LitRobot { index: 7, frame: 3, ..LitRobot::default() };
+        let robot = LitRobot { pixel: Some(7), frame: 3, ..LitRobot::default() };
         let through = |shape| LightMask::new(shape).share(&robot);
         assert_eq!(through(MaskShape::Selection(vec![2, 7])), 1.0);
         assert_eq!(through(MaskShape::Selection(vec![2, 8])), 0.0);

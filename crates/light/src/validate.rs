@@ -17,7 +17,7 @@ pub const STOPS_MAX: usize = 64;
 pub const MASKS_MAX: usize = 16;
 /// Most points of a polygon or a curve: each costs time at every moment for every robot. Chosen.
 pub const OUTLINE_POINTS_MAX: usize = 1_000;
-/// Most robots of a selection, as many as a frame has pixels at most (`lightbots_show::MAX_PIXELS`).
+/// Most pixels of a selection, as many as a frame has pixels at most (`lightbots_show::MAX_PIXELS`).
 pub const SELECTION_MAX: usize = 20_000;
 /// Most octaves of noise: the eighth has cells of a hundredth of the size. Chosen.
 pub const OCTAVES_MAX: u32 = 8;
@@ -122,6 +122,7 @@ impl Found {
 
     fn times(&mut self, layer: &LightLayer) {
         self.range("from_s", layer.from_s, (-MOMENT_MAX_S, MOMENT_MAX_S));
+        self.range("origin_s", layer.origin_s, (-MOMENT_MAX_S, MOMENT_MAX_S));
         if layer.to_s.is_nan() || layer.to_s <= layer.from_s {
             self.add("to_s", layer.to_s, "choose a moment after from_s");
         }
@@ -203,12 +204,9 @@ impl Found {
     fn mask(&mut self, mask: &LightMask) {
         self.range("feather_m", mask.feather_m, (0.0, SIZE_RANGE_M.1));
         match &mask.shape {
-            MaskShape::Selection(robots) => {
-                self.count("number of selected robots", robots.len(), SELECTION_MAX);
-                self.order(
-                    "selected robot",
-                    robots.iter().take(SELECTION_MAX).map(|&robot| f64::from(robot)),
-                );
+            MaskShape::Selection(ids) => {
+                self.count("number of selected pixels", ids.len(), SELECTION_MAX);
+                self.order("selected pixel", ids.iter().take(SELECTION_MAX).map(|&id| f64::from(id)));
             }
             MaskShape::Frames { first, last } if first > last => {
                 self.add("frames", format!("{first} to {last}"), "put the first frame first");

@@ -40,6 +40,7 @@ fn robot(k: u32) -> LitRobot {
         place: Vec2::new(-0.9 + 0.2 * step, 0.7 - 0.15 * step),
         speed_mps: 0.03 * step,
         frame: k / 3,
+        pixel: None,
         colour: Linear::new(0.2, 0.1, 0.3),
         next_colour: Linear::new(0.9, 0.5, 0.1),
     }
@@ -59,7 +60,7 @@ fn curve() -> Coordinate {
 }
 
 fn layer(effect: LightEffect, look: Look) -> LightLayer {
-    LightLayer { from_s: 0.1, ..LightLayer::new(effect, look) }
+    LightLayer { from_s: 0.1, origin_s: 0.1, ..LightLayer::new(effect, look) }
 }
 
 fn stack() -> Vec<LightLayer> {
@@ -67,7 +68,12 @@ fn stack() -> Vec<LightLayer> {
     let rainbow = LightEffect::Rainbow { along: Coordinate::Line, saturation: 0.9 };
     let half = OpacityCurve::constant(0.5);
     vec![
-        LightLayer { from_s: 0.0, to_s: 3.0, ..layer(rainbow, Look { ease: Ease::Linear, ..look() }) },
+        LightLayer {
+            from_s: 0.0,
+            origin_s: 0.0,
+            to_s: 3.0,
+            ..layer(rainbow, Look { ease: Ease::Linear, ..look() })
+        },
         LightLayer {
             blend: BlendMode::Screen,
             masks: vec![LightMask { feather_m: 0.4, ..LightMask::new(circle) }],
@@ -82,6 +88,7 @@ fn stack() -> Vec<LightLayer> {
         LightLayer {
             blend: BlendMode::Difference,
             from_s: 2.0,
+            origin_s: 2.0,
             ..layer(LightEffect::Plasma, Look { seed: 5, ..look() })
         },
         LightLayer { blend: BlendMode::Multiply, opacity: half, ..layer(LightEffect::ByRobot, look()) },
@@ -129,7 +136,7 @@ fn scenes() -> BTreeMap<&'static str, Vec<LightLayer>> {
 #[test]
 fn every_effect_gives_the_values_of_the_independent_script() {
     let pictures = [film()];
-    let context = LightContext { pictures: &pictures };
+    let context = LightContext { pictures: &pictures, lead_s: 0.0 };
     let mut unread = scenes();
     let mut layers = BTreeMap::new();
     let mut lines = 0;

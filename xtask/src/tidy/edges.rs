@@ -4,17 +4,18 @@ use super::{files, shown};
 use std::path::Path;
 
 /// Crates of this workspace that each crate may use. Tests may use more.
-const EDGES: [(&str, &[&str]); 19] = [
+const EDGES: [(&str, &[&str]); 20] = [
     ("base", &[]),
     ("wire", &["base"]),
     ("show", &["base"]),
     ("draw", &["base"]),
     ("light", &["base"]),
+    ("lighting", &["base", "light", "show"]),
     ("make", &["base", "show", "draw"]),
     ("plan", &["base", "show"]),
     ("exchange", &["base", "show", "plan"]),
     ("robot", &["base", "wire"]),
-    ("control", &["base", "wire", "show", "plan"]),
+    ("control", &["base", "wire", "show", "plan", "lighting"]),
     ("sim", &["base", "wire", "show", "plan", "robot", "control"]),
     ("report", &["base", "wire", "show", "control"]),
     ("exam", &["base", "wire"]),

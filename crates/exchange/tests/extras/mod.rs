@@ -29,7 +29,7 @@ pub fn with_every_part(show: Show) -> Show {
             name: "Sparks".into(),
             kind: "sparkle".into(),
             span: LayerSpan::Frames { first: "one".into(), last: "one".into(), phase: FramePhase::Picture },
-            settings: vec![("rate_hz".into(), Setting::Number(10.0))],
+            settings: vec![("speed_hz".into(), Setting::Number(10.0))],
         }],
         trajectories: vec![Trajectory {
             frame: Some("one".into()),

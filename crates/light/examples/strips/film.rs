@@ -92,6 +92,7 @@ fn robot(column: u32, row: u32, moment: u32) -> LitRobot {
         // Each column is faster than the one to its left, and all speed up.
         speed_mps: 0.27 * f64::from(column * (moment + 1)) / f64::from((ROBOTS.0 - 1) * MOMENTS),
         frame: 0,
+        pixel: None,
         colour: Linear::from_rgb(colour("#14141e")),
         next_colour: Linear::from_rgb(colour(next)),
     }
@@ -100,7 +101,7 @@ fn robot(column: u32, row: u32, moment: u32) -> LitRobot {
 /// The strip of each effect with the name of its file.
 pub fn strips() -> Vec<(String, RgbImage)> {
     let pictures = [ring()];
-    let context = LightContext { pictures: &pictures };
+    let context = LightContext { pictures: &pictures, lead_s: 0.0 };
     let strip = |(name, effect, look): (&str, LightEffect, Look)| {
         let layers = Layers::new(vec![LightLayer::new(effect, look)]).expect("the layer is valid");
         (format!("{name}.png"), drawn(&layers, &context))

@@ -1,0 +1,67 @@
+//! Where in a light track a robot is.
+
+use crate::light_track::{LightRecord, LightTrack};
+use crate::{Rgb, Span};
+
+/// A place in a track that moves on with time, so that a step costs the same however long the track is. It gives what
+/// [`LightTrack::at`] gives.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct LightCursor {
+    record: usize,
+    /// How often the repeat at `record` has been run.
+    repeats: u32,
+    /// When the record began, microseconds after the track.
+    began_us: u64,
+    /// The colour before the record.
+    before: Rgb,
+    moved: bool,
+}
+
+impl LightCursor {
+    /// The colour some time after the start of the track. Times that go back are found from the start again.
+    pub fn at(&mut self, track: LightTrack<'_>, elapsed: Span) -> Rgb {
+        let elapsed_us = u64::try_from(elapsed.0).unwrap_or(0);
+        if !self.moved || elapsed_us < self.began_us {
+            *self = Self { before: track.start, moved: true, ..Self::default() };
+        }
+        while let Some(&record) = track.records.get(self.record) {
+            let LightRecord::Repeat { records, times } = record else {
+                let whole_us = record.duration_us();
+                let within_us = elapsed_us - self.began_us;
+                if within_us < whole_us {
+                    return record.within(self.before, within_us as f64 / whole_us as f64);
+                }
+                self.began_us += whole_us;
+                self.before = record.end(self.before);
+                self.record += 1;
+                continue;
+            };
+            self.repeat(track, (records as usize, times), elapsed_us);
+        }
+        self.before
+    }
+
+    /// Whether the track is over.
+    pub fn is_at_end(&self, track: LightTrack<'_>) -> bool {
+        self.record >= track.records.len()
+    }
+
+    /// Goes back to the beginning of the block, or on behind its repeat. Blocks that are over as a whole are left out: a
+    /// repeat may stand for millions.
+    fn repeat(&mut self, track: LightTrack<'_>, (records, times): (usize, u32), elapsed_us: u64) {
+        let block_us = match self.record.checked_sub(records) {
+            Some(first) => track.records[first..self.record].iter().map(|record| record.duration_us()).sum(),
+            None => 0,
+        };
+        let left = if block_us == 0 { 0 } else { times.saturating_sub(self.repeats) };
+        let over = u32::try_from((elapsed_us - self.began_us) / u64::max(block_us, 1)).unwrap_or(u32::MAX);
+        let skipped = over.min(left);
+        self.began_us += u64::from(skipped) * block_us;
+        if skipped == left {
+            (self.repeats, self.record) = (0, self.record + 1);
+        } else {
+            self.repeats += skipped + 1;
+            self.record -= records;
+        }
+    }
+}

@@ -1,0 +1,123 @@
+//! A robot's light from the beginning of a drive on.
+
+use crate::show_light::FrameLight;
+use lightbots_base::{PathRef, Rgb, Span, TICK, Vec2};
+use lightbots_light::{FloorPicture, LightContext, Linear, LitRobot};
+
+/// Longest time that a pixel's colour takes to change; longer fades look like a fault of the light.
+pub const FADE_MAX: Span = Span::from_millis(1_000);
+
+/// How long the change of a pixel's colour takes, at the end of a drive.
+pub fn fade_of(drive: Span) -> Span {
+    FADE_MAX.min(Span(drive.0 / 2)).max(Span::ZERO)
+}
+
+/// What one robot does from the beginning of a drive to a frame until it leaves the frame.
+#[derive(Clone, Copy, Debug)]
+pub struct DrivenLight<'a> {
+    /// Number of the robot, counted from 0, and number of robots.
+    pub number: (u32, u32),
+    /// The frame, counted from 0.
+    pub frame: u32,
+    /// The pixel that the robot shows in the frame.
+    pub pixel: Option<u32>,
+    /// Its colour before, in the frame, and in the frame after it.
+    pub colours: [Rgb; 3],
+    /// Its path; `None`: it stands.
+    pub path: Option<PathRef<'a>>,
+    /// Where it stands in the frame, stage metres.
+    pub goal: Vec2,
+    /// How long the drive lasts.
+    pub drive: Span,
+}
+
+/// A moment of a drive or of the frame after it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LightMoment {
+    /// Time since the drive began, without holds.
+    pub elapsed: Span,
+    /// Show time, seconds.
+    pub show_s: f64,
+    /// How long show time stood, seconds.
+    pub lead_s: f64,
+}
+
+impl DrivenLight<'_> {
+    /// The robot as layers see it, `elapsed` after the drive began.
+    pub fn lit(&self, elapsed: Span) -> LitRobot {
+        let (place, speed_mps) = match self.path.filter(|_| elapsed < self.drive) {
+            Some(path) => {
+                let motion = path.at(elapsed);
+                (motion.position, motion.velocity.length())
+            }
+            None => (self.goal, 0.0),
+        };
+        let [before, own, next] = self.colours;
+        LitRobot {
+            index: self.number.0,
+            count: self.number.1,
+            place,
+            speed_mps,
+            frame: self.frame,
+            pixel: self.pixel,
+            colour: Linear::from_rgb(self.faded(before, own, elapsed)),
+            next_colour: Linear::from_rgb(next),
+        }
+    }
+
+    /// The pixel's colour: it changes evenly at the end of the drive, as a `FADE` does.
+    fn faded(&self, before: Rgb, own: Rgb, elapsed: Span) -> Rgb {
+        let over = fade_of(self.drive);
+        let since = elapsed - (self.drive - over);
+        match since {
+            since if since >= over => own,
+            since if since <= Span::ZERO => before,
+            since => before.mixed(own, since.as_secs() / over.as_secs()),
+        }
+    }
+
+    /// The colour at a moment.
+    pub fn colour(&self, light: &FrameLight, pictures: &[FloorPicture], moment: LightMoment) -> Rgb {
+        let context = LightContext { pictures, lead_s: moment.lead_s };
+        light.layers.colour(moment.show_s, &self.lit(moment.elapsed), &context).to_rgb()
+    }
+
+    /// The colours at `ticks` + 1 moments that are a [`TICK`] apart. `moment` gives them by number.
+    pub fn samples(
+        &self,
+        light: &FrameLight,
+        pictures: &[FloorPicture],
+        ticks: u32,
+        moment: impl Fn(Span) -> LightMoment,
+    ) -> Vec<Rgb> {
+        let at = |tick: u32| self.colour(light, pictures, moment(TICK * i64::from(tick)));
+        (0..=ticks).map(at).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use lightbots_base::Piece;
+
+    #[test]
+    fn a_robot_drives_then_stands_and_its_colour_changes_at_the_end_of_the_drive() {
+        let (start, goal) = (Vec2::ZERO, Vec2::new(2.0, 0.0));
+        let pieces = [Piece::straight(start, goal, Span::from_secs(4.0))];
+        let driven = DrivenLight {
+            number: (3, 9),
+            frame: 1,
+            pixel: Some(7),
+            colours: [Rgb::BLACK, Rgb::new(200, 0, 0), Rgb::new(0, 9, 0)],
+            path: Some(PathRef::new(start, &pieces)),
+            goal,
+            drive: Span::from_secs(4.0),
+        };
+        let colour = |ms: i64| driven.lit(Span::from_millis(ms)).colour.to_rgb().r;
+        assert_eq!([0, 3_000, 3_500, 4_000, 9_000].map(colour), [0, 0, 100, 200, 200]);
+        let under_way = driven.lit(Span::from_secs(1.0));
+        assert_eq!((under_way.place, under_way.speed_mps), (Vec2::new(0.5, 0.0), 0.5));
+        let there = driven.lit(Span::from_secs(5.0));
+        assert_eq!((there.place, there.speed_mps), (goal, 0.0));
+    }
+}

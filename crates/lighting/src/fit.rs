@@ -1,0 +1,179 @@
+//! Colours of one robot at moments that are 10 ms apart -> the fewest records that show them.
+//!
+//! A swing filter: from the colour that the last record left, a line goes as far as it stays within the tolerance at every
+//! moment, and ends with whole codes; or the colour is held and then steps, if that goes farther. The colours of a line are
+//! those of the robot, straight in sRGB codes and rounded, so the tolerance holds for what the robot shows.
+
+use lightbots_base::{LightRecord, LightTrack, Rgb};
+use lightbots_light::lightness;
+
+/// A rounded line leads through a code if it is within this much of it. A little less than a half: a robot's arithmetic may
+/// differ in its last digits.
+const ROUNDING: f64 = 0.49;
+/// Longest block of records that is looked for again. Chosen: the period of a pulse of five records a second in 10 s.
+const BLOCK_MAX: usize = 64;
+
+/// How far a shown colour may be from the wanted one, channel by channel.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Tolerance {
+    /// One of 255 steps.
+    OneStep,
+    /// Units of L* (CIE 1976) of the channel's light, and at least one step. Two of them are seen side by side only.
+    Lightness(f64),
+}
+
+/// A track's start colour and records.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct LightFit {
+    /// The colour at the start.
+    pub start: Rgb,
+    /// The records in order.
+    pub records: Vec<LightRecord>,
+}
+
+impl LightFit {
+    /// The fit as a track.
+    pub fn track(&self) -> LightTrack<'_> {
+        LightTrack { start: self.start, records: &self.records }
+    }
+}
+
+/// `[channel][code]`-wise the least and the greatest code that is near enough to a code.
+struct Bounds([(u8, u8); 256]);
+
+impl Bounds {
+    fn new(tolerance: Tolerance) -> Self {
+        let units = match tolerance {
+            Tolerance::OneStep => 0.0,
+            Tolerance::Lightness(units) => units,
+        };
+        let near = |one: u8, other: u8| {
+            one.abs_diff(other) <= 1 || (lightness(one) - lightness(other)).abs() <= units
+        };
+        let mut bounds = [(0, 0); 256];
+        for code in 0..=u8::MAX {
+            let low = (0..=code).find(|&low| near(low, code)).unwrap_or(code);
+            let high = (code..=u8::MAX).rev().find(|&high| near(high, code)).unwrap_or(code);
+            bounds[usize::from(code)] = (low, high);
+        }
+        Self(bounds)
+    }
+
+    fn of(&self, colour: Rgb) -> [(u8, u8); 3] {
+        channels(colour).map(|code| self.0[usize::from(code)])
+    }
+}
+
+/// Fits colours that are a [`TICK`](lightbots_base::TICK) apart; the track lasts from the first to the last. With more
+/// records than `records_max` the tolerance doubles until they are few enough.
+pub fn fit(samples: &[Rgb], tolerance: Tolerance, records_max: usize) -> LightFit {
+    let start = samples.first().copied().unwrap_or_default();
+    let mut tolerance = tolerance;
+    loop {
+        let records = repeated(&lines(samples, &Bounds::new(tolerance)));
+        if records.len() <= records_max.max(1) {
+            return LightFit { start, records };
+        }
+        tolerance = match tolerance {
+            Tolerance::OneStep => Tolerance::Lightness(1.0),
+            Tolerance::Lightness(units) => Tolerance::Lightness(2.0 * units.max(0.5)),
+        };
+    }
+}
+
+fn lines(samples: &[Rgb], bounds: &Bounds) -> Vec<LightRecord> {
+    let wanted: Vec<[(u8, u8); 3]> = samples.iter().map(|&colour| bounds.of(colour)).collect();
+    let mut records = Vec::new();
+    let mut from = 0;
+    let mut colour = samples.first().copied().unwrap_or_default();
+    while from + 1 < samples.len() {
+        let held = held(&wanted, from, colour);
+        let (to, record) = match line(samples, &wanted, from, colour) {
+            _ if held == samples.len() => (held - 1, line_to(held - 1 - from, colour)),
+            Some((to, end)) if to >= held => (to, line_to(to - from, end)),
+            _ => (held, LightRecord::Step { ticks: (held - from) as u32, to: samples[held] }),
+        };
+        colour = match record {
+            LightRecord::Line { to, .. } | LightRecord::Step { to, .. } => to,
+            LightRecord::Repeat { .. } => colour,
+        };
+        records.push(record);
+        from = to;
+    }
+    records
+}
+
+fn line_to(ticks: usize, to: Rgb) -> LightRecord {
+    LightRecord::Line { ticks: ticks as u32, to }
+}
+
+/// The first moment after `from` at which a colour may not be held.
+fn held(wanted: &[[(u8, u8); 3]], from: usize, colour: Rgb) -> usize {
+    let own = channels(colour);
+    let fits = |bounds: &[(u8, u8); 3]| {
+        bounds.iter().zip(own).all(|(&(low, high), code)| (low..=high).contains(&code))
+    };
+    let first = from + 1;
+    wanted[first..].iter().position(|bounds| !fits(bounds)).map_or(wanted.len(), |count| first + count)
+}
+
+/// The farthest moment that a line from a colour reaches, and its end there.
+fn line(samples: &[Rgb], wanted: &[[(u8, u8); 3]], from: usize, colour: Rgb) -> Option<(usize, Rgb)> {
+    let start = channels(colour).map(f64::from);
+    let mut slopes = [(f64::NEG_INFINITY, f64::INFINITY); 3];
+    let mut best = None;
+    for to in from + 1..wanted.len() {
+        let ticks = (to - from) as f64;
+        for ((slope, &(low, high)), start) in slopes.iter_mut().zip(&wanted[to]).zip(start) {
+            slope.0 = slope.0.max((f64::from(low) - ROUNDING - start) / ticks);
+            slope.1 = slope.1.min((f64::from(high) + ROUNDING - start) / ticks);
+        }
+        if slopes.iter().any(|(low, high)| low > high) {
+            break;
+        }
+        let end = |channel: usize, code: u8| {
+            let (low, high) = slopes[channel];
+            let least = (start[channel] + low * ticks).ceil().max(0.0);
+            let most = (start[channel] + high * ticks).floor().min(255.0);
+            (least <= most).then(|| f64::from(code).clamp(least, most) as u8)
+        };
+        let [r, g, b] = channels(samples[to]);
+        if let (Some(r), Some(g), Some(b)) = (end(0, r), end(1, g), end(2, b)) {
+            best = Some((to, Rgb::new(r, g, b)));
+        }
+    }
+    best
+}
+
+/// The records with a repeat in place of each block that comes again at once.
+fn repeated(records: &[LightRecord]) -> Vec<LightRecord> {
+    let mut short = Vec::with_capacity(records.len());
+    let mut from = 0;
+    while from < records.len() {
+        let times = |block: usize| {
+            let again = records[from..].chunks_exact(block);
+            again.skip(1).take_while(|next| **next == records[from..from + block]).count()
+        };
+        let longest = BLOCK_MAX.min((records.len() - from) / 2);
+        // Of blocks that save the same, the shortest.
+        let best = (1..=longest)
+            .map(|block| (block, times(block)))
+            .max_by_key(|&(block, times)| (block * times, core::cmp::Reverse(block)));
+        match best {
+            Some((block, times)) if block * times > 1 => {
+                short.extend_from_slice(&records[from..from + block]);
+                short.push(LightRecord::Repeat { records: block as u32, times: times as u32 });
+                from += block * (times + 1);
+            }
+            _ => {
+                short.push(records[from]);
+                from += 1;
+            }
+        }
+    }
+    short
+}
+
+fn channels(colour: Rgb) -> [u8; 3] {
+    [colour.r, colour.g, colour.b]
+}

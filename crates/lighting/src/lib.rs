@@ -1,0 +1,19 @@
+//! Light of a show: its layers, when each shines, and a robot's colours as a light track.
+//!
+//! `lightbots_light` computes colours of layers and knows no show; here layers are read from a show, placed on its timeline
+//! and turned into the records that robots play. No IO, and no state between two calls. Reading order: [`ShowLight`],
+//! [`FrameTimes`], [`DrivenLight`], [`fit`].
+
+mod driven;
+mod fit;
+mod layer_settings;
+mod masks;
+mod settings;
+mod show_light;
+mod times;
+
+pub use driven::{DrivenLight, LightMoment, fade_of};
+pub use fit::{LightFit, Tolerance, fit};
+pub use settings::LAYER_KINDS;
+pub use show_light::{FrameLight, ShowLight};
+pub use times::FrameTimes;

@@ -1,0 +1,118 @@
+//! The layers of a show, and which of them shine in a frame.
+
+use crate::settings::light_layer;
+use crate::times::FrameTimes;
+use lightbots_light::{FloorPicture, LayerFault, Layers, LightLayer};
+use lightbots_show::{FramePhase, LayerSpan, Show};
+use std::collections::BTreeMap;
+
+/// When a layer shines, with frames by number.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Span {
+    Show,
+    Frames { first: usize, last: usize, phase: FramePhase },
+    Seconds { from_s: f64, to_s: f64 },
+}
+
+/// The layers of a show, ready to be shown.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct ShowLight {
+    layers: Vec<(Span, LightLayer)>,
+    pictures: Vec<FloorPicture>,
+}
+
+/// The layers that may shine in a frame, with their moments.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct FrameLight {
+    /// The layers, lowest first.
+    pub layers: Layers,
+    /// Whether one of them goes on while show time stands.
+    pub runs_freely: bool,
+}
+
+impl ShowLight {
+    /// Reads the layers of a show. `picture` decodes the picture with a hash. A layer that is wrong stays dark, and a
+    /// setting without meaning changes nothing; both are among the faults.
+    pub fn new(
+        show: &Show,
+        mut picture: impl FnMut(&str) -> Option<FloorPicture>,
+    ) -> (Self, Vec<LayerFault>) {
+        let mut light = Self::default();
+        let mut faults = Vec::new();
+        let mut numbers = BTreeMap::new();
+        for (number, layer) in show.layers.iter().enumerate() {
+            let pictures = &mut light.pictures;
+            let mut number_of = |hash: &str| {
+                if !numbers.contains_key(hash) {
+                    let found = picture(hash);
+                    numbers.insert(hash.to_owned(), found.is_some().then_some(pictures.len()));
+                    pictures.extend(found);
+                }
+                numbers[hash]
+            };
+            match (light_layer(layer, number, &mut number_of), span_of(show, &layer.span)) {
+                (Ok((layer, unknown)), Some(span)) => {
+                    light.layers.push((span, layer));
+                    faults.extend(unknown);
+                }
+                // A span with a frame that does not exist is a finding of the show's own validation.
+                (Ok((_, unknown)), None) => faults.extend(unknown),
+                (Err(found), _) => faults.extend(found),
+            }
+        }
+        faults.truncate(lightbots_light::FAULTS_MAX);
+        (light, faults)
+    }
+
+    /// Whether no layer ever shines.
+    pub fn is_empty(&self) -> bool {
+        self.layers.is_empty()
+    }
+
+    /// The pictures, by the numbers that layers have for them.
+    pub fn pictures(&self) -> &[FloorPicture] {
+        &self.pictures
+    }
+
+    /// The layers that may shine while `frame` is driven to or shown. `times` gives the moments of a frame that has been
+    /// begun: of this one, and of earlier ones of this round.
+    pub fn in_frame(&self, frame: usize, times: impl Fn(usize) -> Option<FrameTimes>) -> FrameLight {
+        let Some(own) = times(frame) else { return FrameLight::default() };
+        let mut moments = Vec::new();
+        let mut layers = Vec::new();
+        for (span, layer) in &self.layers {
+            let moment = match *span {
+                Span::Show => Some((f64::NEG_INFINITY, f64::INFINITY, 0.0)),
+                Span::Seconds { from_s, to_s } => Some((from_s, to_s, from_s)),
+                Span::Frames { first, last, phase } if (first..=last).contains(&frame) => Some(match phase {
+                    FramePhase::Whole => {
+                        let from_s = times(first).map_or(own.drive_s, |times| times.drive_s);
+                        (from_s, if frame == last { own.end_s } else { f64::INFINITY }, from_s)
+                    }
+                    FramePhase::Transition => (own.drive_s, own.air_s, own.drive_s),
+                    FramePhase::Picture => (own.air_s, own.end_s, own.air_s),
+                }),
+                Span::Frames { .. } => None,
+            };
+            if let Some(moment) = moment {
+                moments.push(moment);
+                layers.push(layer.clone());
+            }
+        }
+        let runs_freely = layers.iter().any(|layer| layer.runs_freely);
+        // Each layer was found valid on its own, and the document bounds their number.
+        let layers = Layers::new(layers).unwrap_or_default().at_times(|number| moments[number]);
+        FrameLight { layers, runs_freely }
+    }
+}
+
+fn span_of(show: &Show, span: &LayerSpan) -> Option<Span> {
+    let number = |id: &str| show.frames.iter().position(|frame| frame.id.as_deref() == Some(id));
+    Some(match span {
+        LayerSpan::Show => Span::Show,
+        LayerSpan::Seconds { from_s, to_s } => Span::Seconds { from_s: *from_s, to_s: *to_s },
+        LayerSpan::Frames { first, last, phase } => {
+            Span::Frames { first: number(first)?, last: number(last)?, phase: *phase }
+        }
+    })
+}
