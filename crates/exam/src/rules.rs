@@ -11,6 +11,8 @@ pub enum Scope {
     Light,
     /// Robots whose reports say `can=fade`, judged by their light.
     Fade,
+    /// Robots whose reports say `can=light`.
+    Ahead,
     /// Robots whose reports say `can=blink`, judged by their light.
     Blink,
     /// Robots that report more fields than the original.
@@ -44,8 +46,8 @@ const OBSTACLE: &str = "the test would have to put an obstacle in front of the r
 const SENSORS: &str = "the test would have to disturb the robot's sensors";
 
 /// All rules, in order: `RULES[n - 1]` is Rn.
-pub const RULES: [Rule; 54] = {
-    use Scope::{AllRobots, Blink, Details, Fade, Hidden, Light, Route};
+pub const RULES: [Rule; 58] = {
+    use Scope::{Ahead, AllRobots, Blink, Details, Fade, Hidden, Light, Route};
     [
         rule(1, "MQTT 3.1.1, QoS 0, not retained", Hidden("only the broker sees how a robot connects")),
         rule(2, "client id LightBot/<name>", Hidden("only the broker sees client ids")),
@@ -109,6 +111,10 @@ pub const RULES: [Rule; 54] = {
         ),
         rule(53, "brakes= never falls, near= is a gap in sight", Details),
         rule(54, "GO comes on a topic of its own", Hidden("the rule concerns the controller")),
+        rule(55, "keeps stretches of light and reports the newest", Ahead),
+        rule(56, "the time of a stretch stands in a hold", Ahead),
+        rule(57, "plays lines, steps and repeats from their moment on", Ahead),
+        rule(58, "STOP deletes stretches of light", Ahead),
     ]
 };
 

@@ -41,6 +41,7 @@ mod follow;
 mod history;
 mod hot;
 mod light;
+mod light_ahead;
 mod look_ahead;
 mod noise;
 mod outbox;

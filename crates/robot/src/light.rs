@@ -1,7 +1,9 @@
-//! The light: a colour, fades by the show clock, blinking to be found, and red flashes for faults.
+//! The light: a colour, fades and stretches of light by the show clock, blinking to be found, and red flashes for faults.
 
 use lightbots_base::{Instant, Rgb, Span};
 use lightbots_wire::Fade;
+
+use crate::light_ahead::{LightAhead, StoredTracks};
 
 /// Capacity for fades that wait for their moment. One more replaces the latest.
 const WAITING: usize = 4;
@@ -17,12 +19,14 @@ const RED: Rgb = Rgb::new(255, 0, 0);
 #[derive(Debug, Default)]
 pub(crate) struct Light {
     shown: Rgb,
-    /// A fade, blinking or flashes change it. Otherwise it stays at `shown`.
+    /// A fade, a track, blinking or flashes change it. Otherwise it stays at `shown`.
     busy: bool,
     /// The colour a running fade came from, and the fade.
     running: Option<(Rgb, Fade)>,
     /// In order of time.
     waiting: heapless::Vec<Fade, WAITING>,
+    /// Light that was sent ahead.
+    pub(crate) tracks: LightAhead,
     /// From when until when it blinks, own clock.
     blink: Option<(Instant, Instant)>,
     /// From when on a fault is shown, own clock, and its number of flashes.
@@ -30,11 +34,12 @@ pub(crate) struct Light {
 }
 
 impl Light {
-    /// Shows a colour at once and cancels all fades.
+    /// Shows a colour at once and cancels all fades and stretches of light.
     pub(crate) fn set(&mut self, colour: Rgb) {
         self.shown = colour;
         self.running = None;
         self.waiting.clear();
+        self.tracks.clear();
     }
 
     /// Takes a fade. It begins at its moment, or at once where that is past or the show time is unknown.
@@ -74,22 +79,33 @@ impl Light {
         self.busy
     }
 
-    /// Cancels the fades that have not begun.
-    pub(crate) fn forget_waiting(&mut self) {
+    /// Cancels the fades that have not begun, and all stretches of light: the colour stays as it is.
+    pub(crate) fn stop(&mut self) {
         self.waiting.clear();
+        self.tracks.clear();
+    }
+
+    /// Light that was sent ahead arrived.
+    pub(crate) fn wake(&mut self) {
+        self.busy = true;
     }
 
     /// The colour now, by the own clock and the show clock.
-    pub(crate) fn step(&mut self, now: Instant, show: Option<Instant>) -> Rgb {
+    pub(crate) fn step(&mut self, now: Instant, show: Option<Instant>, stored: &StoredTracks) -> Rgb {
         if !self.busy {
             return self.shown;
         }
         if let Some(show) = show.filter(|_| self.running.is_some() || !self.waiting.is_empty()) {
             self.advance(show);
         }
+        if let Some(show) = show.filter(|_| self.tracks.is_any())
+            && let Some(colour) = self.tracks.step(show, self.shown, stored)
+        {
+            (self.shown, self.running) = (colour, None);
+        }
         self.blink.take_if(|(_, until)| now >= *until);
-        let fades = self.running.is_some() || !self.waiting.is_empty();
-        self.busy = fades || self.blink.is_some() || self.trouble.is_some();
+        let changes = self.running.is_some() || !self.waiting.is_empty() || self.tracks.is_any();
+        self.busy = changes || self.blink.is_some() || self.trouble.is_some();
         let (beat, colour) = match (self.blink, self.trouble) {
             (Some((from, _)), _) => ((now - from).0 / FLASH.0, Rgb::new(255, 255, 255)),
             (None, Some((from, flashes))) if now >= from => {
@@ -108,6 +124,7 @@ impl Light {
         while self.waiting.first().is_some_and(|fade| fade.at <= show) {
             let fade = self.waiting.remove(0);
             self.run_until(fade.at);
+            self.tracks.end();
             self.running = Some((self.shown, fade));
         }
         self.run_until(show);
@@ -129,8 +146,10 @@ impl Light {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::light_ahead::StoredTrack;
 
     const WHITE: Rgb = Rgb::new(255, 255, 255);
+    const NO_TRACKS: StoredTracks = [StoredTrack::EMPTY, StoredTrack::EMPTY, StoredTrack::EMPTY];
 
     fn fade(to: Rgb, at: u64, over: i64) -> Fade {
         Fade { to, at: Instant(at), over: Span(over) }
@@ -140,7 +159,7 @@ mod tests {
     fn a_fade_begins_and_ends_by_the_show_clock() {
         let mut light = Light::default();
         light.fade(Some(Instant(0)), fade(WHITE, 1000, 1000));
-        let mut at = |show| light.step(Instant(9), Some(Instant(show)));
+        let mut at = |show| light.step(Instant(9), Some(Instant(show)), &NO_TRACKS);
         assert_eq!(at(999), Rgb::BLACK);
         assert_eq!(at(1500), Rgb::new(128, 128, 128));
         assert_eq!(at(2000), WHITE);
@@ -152,10 +171,10 @@ mod tests {
         let mut light = Light::default();
         light.fade(Some(Instant(0)), fade(Rgb::BLACK, 1500, 1000));
         light.fade(Some(Instant(0)), fade(WHITE, 1000, 1000));
-        assert_eq!(light.step(Instant(0), Some(Instant(1500))), Rgb::new(128, 128, 128));
-        assert_eq!(light.step(Instant(0), Some(Instant(2000))), Rgb::new(64, 64, 64));
+        assert_eq!(light.step(Instant(0), Some(Instant(1500)), &NO_TRACKS), Rgb::new(128, 128, 128));
+        assert_eq!(light.step(Instant(0), Some(Instant(2000)), &NO_TRACKS), Rgb::new(64, 64, 64));
         light.set(Rgb::new(1, 2, 3));
-        assert_eq!(light.step(Instant(0), Some(Instant(9000))), Rgb::new(1, 2, 3));
+        assert_eq!(light.step(Instant(0), Some(Instant(9000)), &NO_TRACKS), Rgb::new(1, 2, 3));
     }
 
     #[test]
@@ -165,15 +184,15 @@ mod tests {
             light.fade(Some(Instant(0)), fade(Rgb::new(n, 0, 0), u64::from(n) * 100, 0));
         }
         assert_eq!(light.waiting.len(), WAITING);
-        assert_eq!(light.step(Instant(0), Some(Instant(350))), Rgb::new(3, 0, 0));
-        assert_eq!(light.step(Instant(0), Some(Instant(5000))), Rgb::new(6, 0, 0));
+        assert_eq!(light.step(Instant(0), Some(Instant(350)), &NO_TRACKS), Rgb::new(3, 0, 0));
+        assert_eq!(light.step(Instant(0), Some(Instant(5000)), &NO_TRACKS), Rgb::new(6, 0, 0));
     }
 
     #[test]
     fn without_a_clock_a_fade_is_a_switch() {
         let mut light = Light::default();
         light.fade(None, fade(WHITE, 1000, 1000));
-        assert_eq!(light.step(Instant(0), None), WHITE);
+        assert_eq!(light.step(Instant(0), None, &NO_TRACKS), WHITE);
     }
 
     #[test]
@@ -181,16 +200,20 @@ mod tests {
         let mut light = Light::default();
         light.set(Rgb::new(9, 9, 9));
         light.report(Instant(0), 2);
-        let mut at = |millis: u64| light.step(Instant(millis * 1000), None);
+        let mut at = |millis: u64| light.step(Instant(millis * 1000), None, &NO_TRACKS);
         let seen = [400, 500, 625, 750, 875, 1000, 2400, 2500, 2750, 3000].map(&mut at);
         let (own, dark) = (Rgb::new(9, 9, 9), Rgb::BLACK);
         assert_eq!(seen, [own, RED, dark, RED, dark, own, own, RED, RED, own]);
         light.blink(Instant(4_500_000), Span(250_000));
-        assert_eq!(light.step(Instant(4_500_000), None), WHITE, "a robot that is looked for is found");
+        assert_eq!(
+            light.step(Instant(4_500_000), None, &NO_TRACKS),
+            WHITE,
+            "a robot that is looked for is found"
+        );
         light.report(Instant(6_400_000), 2);
-        assert_eq!(light.step(Instant(6_500_000), None), RED);
+        assert_eq!(light.step(Instant(6_500_000), None, &NO_TRACKS), RED);
         light.report(Instant(6_510_000), 0);
-        assert_eq!(light.step(Instant(6_520_000), None), own);
+        assert_eq!(light.step(Instant(6_520_000), None, &NO_TRACKS), own);
     }
 
     #[test]
@@ -198,8 +221,8 @@ mod tests {
         let mut light = Light::default();
         light.set(Rgb::new(9, 9, 9));
         light.blink(Instant(0), Span(250_000));
-        assert_eq!(light.step(Instant(0), None), WHITE);
-        assert_eq!(light.step(Instant(130_000), None), Rgb::BLACK);
-        assert_eq!(light.step(Instant(250_000), None), Rgb::new(9, 9, 9));
+        assert_eq!(light.step(Instant(0), None, &NO_TRACKS), WHITE);
+        assert_eq!(light.step(Instant(130_000), None, &NO_TRACKS), Rgb::BLACK);
+        assert_eq!(light.step(Instant(250_000), None, &NO_TRACKS), Rgb::new(9, 9, 9));
     }
 }

@@ -20,7 +20,7 @@ use crate::storage::RouteStorage;
 use crate::supervise::Drives;
 
 /// A message to send. The longest report has 327 bytes.
-pub type Message = heapless::String<352>;
+pub type Message = heapless::String<376>;
 
 /// Longest time that counts as one step. Above, a pause of the simulation would move a robot along its route without
 /// its wheels. Below, a board that skips a few steps would lose way.
@@ -151,7 +151,7 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
 
     fn advance_light(&mut self, now: Instant, show: Option<Instant>) {
         if self.hot.light_changes {
-            self.hot.shown = self.light.step(now, show);
+            self.hot.shown = self.light.step(now, show, &self.storage.borrow().tracks);
             self.hot.light_changes = self.light.is_busy();
         }
     }

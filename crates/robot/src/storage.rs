@@ -1,18 +1,20 @@
-//! Storage of a robot's large and seldom used data: its routes, and its odometry where fixes come late.
+//! Storage of a robot's large and seldom used data: its routes, its light ahead, and its odometry where fixes come late.
 
 use lightbots_base::Vec2;
 use lightbots_wire::{Neighbours, Pieces, Route};
 
 use crate::history::OdometryHistory;
+use crate::light_ahead::{StoredTrack, StoredTracks};
 
-/// Storage of the route under way, of the one kept for later and of the odometry history: 24 KB, of which a step reads next
-/// to nothing.
+/// Storage of the route under way, of the one kept for later, of stretches of light and of the odometry history: 31 KB, of
+/// which a step reads next to nothing.
 ///
 /// A [`crate::Robot`] contains it or is given one that lies elsewhere. Where thousands of robots take turns, the state of
 /// their steps then lies close together.
 #[derive(Debug)]
 pub struct RouteStorage {
     slots: [Route; 2],
+    pub(crate) tracks: StoredTracks,
     pub(crate) history: OdometryHistory,
 }
 
@@ -33,7 +35,7 @@ impl RouteStorage {
             room_mm: None,
             neighbours: Neighbours::new(),
         };
-        Self { slots: [NOTHING; 2], history: OdometryHistory::new() }
+        Self { slots: [NOTHING; 2], tracks: [StoredTrack::EMPTY; 3], history: OdometryHistory::new() }
     }
 
     pub(crate) fn put(&mut self, slot: Slot, route: &Route) {

@@ -32,7 +32,7 @@ struct Point {
 
 /// The path time of the route under way as a function of show time alone. Robots with the same holds are at the same path
 /// time, however late the messages came.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct Timeline {
     base: Point,
     /// In order of time, not before `base`.

@@ -2,7 +2,7 @@
 
 use lightbots_base::{Instant, Piece, Rgb, Span, Vec2};
 
-use crate::Neighbours;
+use crate::{LightStretch, Neighbours};
 
 /// Most pieces of a route (R31). The controller rejects a frame whose plan has a longer path.
 pub const MAX_PIECES: usize = 128;
@@ -49,6 +49,8 @@ pub enum Command {
     Fade(Fade),
     /// `BLINK over`: the light flashes white so that people find the robot.
     Blink(Blink),
+    /// `LIGHT …`: a stretch of light ahead of time.
+    Light(LightStretch),
     /// `STATUS`: report on `T/LightBot/Status` at once.
     Status,
 }

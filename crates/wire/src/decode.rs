@@ -3,6 +3,7 @@
 use lightbots_base::{Instant, Rgb, Span, Vec2};
 
 use crate::fields::{Fields, cut};
+use crate::light::decode_light;
 use crate::number::{instant, number, span};
 use crate::path::decode_route;
 use crate::{Blink, Command, Fade, TimeAnswer};
@@ -78,6 +79,7 @@ fn decode(word: &str, fields: &mut Fields<'_>) -> Option<Result<Command, Unknown
         "TIME" => made(time(fields), Command::Time),
         "FADE" => made(fade(fields), Command::Fade),
         "BLINK" => made(duration(fields), |over| Command::Blink(Blink { over: over.min(LONGEST_BLINK) })),
+        "LIGHT" => made(decode_light(fields).ok_or(Unknown::Fields), Command::Light),
         "STATUS" => Some(Ok(Command::Status)),
         _ => Some(Err(Unknown::Word)),
     }

@@ -3,6 +3,7 @@
 use core::fmt::{self, Write};
 
 use crate::Command;
+use crate::light::encode_light;
 use crate::number::{write_int, write_six_decimals};
 use crate::path::encode_route;
 use crate::text_buffer::TextBuffer;
@@ -36,6 +37,7 @@ fn write(command: &Command, out: &mut TextBuffer<'_>) -> fmt::Result {
             words(out, "FADE", &[u64::from(fade.to.number()), fade.at.0, not_negative(fade.over.0)])?
         }
         Command::Blink(blink) => words(out, "BLINK", &[not_negative(blink.over.0)])?,
+        Command::Light(stretch) => encode_light(stretch, out)?,
         Command::Status => out.write_str("STATUS")?,
     }
     out.write_str("|")

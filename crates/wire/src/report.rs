@@ -26,6 +26,8 @@ pub struct Details {
     pub route: u32,
     /// Start of that route, show clock; `None`: not known.
     pub starts: Option<Instant>,
+    /// Number of the stretch of light that it received last; 0: none (R55).
+    pub light: u32,
     /// Distance from the place of its route at this moment, metres; `None`: no route under way.
     pub off_m: Option<f64>,
     /// 1 sigma of its position, metres; while fixes are missing, the value predicted for half a second later.
@@ -97,6 +99,8 @@ pub struct Abilities {
     pub room: bool,
     /// `N` in PATH: the planned neighbours in sight.
     pub neighbours: bool,
+    /// LIGHT.
+    pub light: bool,
 }
 
 /// `<uuid> <now>` on `T/LightBot/Time`: a question for the show clock (R25).

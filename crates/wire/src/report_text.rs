@@ -96,6 +96,7 @@ fn read_detail(details: &mut Option<Details>, key: &str, value: &str) {
         "bat" => known(details).battery = value.parse().ok().filter(|&percent| percent <= 100),
         "state" => known(details).state = RobotState::from_word(value).unwrap_or_default(),
         "route" => known(details).route = value.parse().unwrap_or(0),
+        "light" => known(details).light = value.parse().unwrap_or(0),
         "starts" => known(details).starts = instant(value),
         "off" => known(details).off_m = finite(value).filter(|&off| off >= 0.0),
         "err" => known(details).err_m = finite(value).filter(|&err| err >= 0.0),
@@ -151,6 +152,7 @@ fn write_details(details: &Details, out: &mut TextBuffer<'_>) -> fmt::Result {
         (" starts=", details.starts.map(|at| at.0)),
         (" clock=", details.clock_us.map(u64::from)),
         (" bat=", details.battery.map(u64::from)),
+        (" light=", Some(u64::from(details.light)).filter(|&number| number != 0)),
         (" unknown=", Some(u64::from(details.unknown)).filter(|&count| count != 0)),
     ];
     for (key, value) in whole.into_iter().filter_map(|(key, value)| Some((key, value?))) {
@@ -191,9 +193,10 @@ fn write_details(details: &Details, out: &mut TextBuffer<'_>) -> fmt::Result {
 
 impl Abilities {
     /// All abilities, read and written without a loop, because nearly all reports hold them.
-    const ALL: Self = Self { route: true, fade: true, blink: true, room: true, neighbours: true };
+    const ALL: Self =
+        Self { route: true, fade: true, blink: true, room: true, neighbours: true, light: true };
     /// `ALL` on the wire.
-    const ALL_WORDS: &'static str = "route+fade+blink+room+neighbours";
+    const ALL_WORDS: &'static str = "route+fade+blink+room+neighbours+light";
 
     /// Reads words joined by `+`; unknown words are skipped.
     fn from_words(words: &str) -> Self {
@@ -208,6 +211,7 @@ impl Abilities {
                 b"blink" => abilities.blink = true,
                 b"room" => abilities.room = true,
                 b"neighbours" => abilities.neighbours = true,
+                b"light" => abilities.light = true,
                 _ => {}
             }
         }
@@ -225,6 +229,7 @@ impl Abilities {
             (self.blink, "blink"),
             (self.room, "room"),
             (self.neighbours, "neighbours"),
+            (self.light, "light"),
         ];
         for (has, word) in words {
             if has {

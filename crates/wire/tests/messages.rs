@@ -1,9 +1,9 @@
 //! Golden bytes, round trips, and truncation at every byte.
 
-use lightbots_base::{Instant, Piece, Rgb, RobotId, Span, Vec2};
+use lightbots_base::{Instant, LightRecord, Piece, Rgb, RobotId, Span, Vec2};
 use lightbots_wire::{
-    Abilities, Blink, Blocked, Command, Details, Fade, Firmware, MAX_PAYLOAD, MAX_PIECES, Pieces, Report,
-    RobotState, Route, TimeAnswer, TimeQuestion, Unknown, commands, encode,
+    Abilities, Blink, Blocked, Command, Details, Fade, Firmware, LightAnchor, LightStretch, MAX_PAYLOAD,
+    MAX_PIECES, Pieces, Report, RobotState, Route, TimeAnswer, TimeQuestion, Unknown, commands, encode,
 };
 
 fn text(command: &Command) -> String {
@@ -56,8 +56,26 @@ fn every_command() -> Vec<Command> {
         Command::Time(TimeAnswer { asked: Instant(5), received: Instant(900), sent: Instant(950) }),
         Command::Fade(Fade { to: Rgb::new(0, 0, 255), at: Instant(77), over: Span(500_000) }),
         Command::Blink(Blink { over: Span(2_000_000) }),
+        Command::Light(light(LightAnchor::Start(12))),
+        Command::Light(light(LightAnchor::Free(Instant(5_000_000)))),
         Command::Status,
     ]
+}
+
+fn light(anchor: LightAnchor) -> LightStretch {
+    let records = [
+        LightRecord::Line { ticks: 300, to: Rgb::new(255, 136, 0) },
+        LightRecord::Step { ticks: 1, to: Rgb::BLACK },
+        LightRecord::Repeat { records: 2, times: 9 },
+    ];
+    LightStretch {
+        number: 7,
+        anchor,
+        skip: Span(10_000_000),
+        over: Span(500_000),
+        start: Rgb::new(1, 2, 3),
+        records: heapless::Vec::from_slice(&records).unwrap(),
+    }
 }
 
 fn full_report() -> Report {
@@ -66,12 +84,20 @@ fn full_report() -> Report {
         battery: Some(87),
         state: RobotState::Driving,
         route: 12,
+        light: 41,
         starts: Some(Instant(8_000_000)),
         off_m: Some(0.0034),
         err_m: Some(0.0012),
         clock_us: Some(450),
         firmware: Firmware::try_from("lightbots-0.1.0").unwrap(),
-        abilities: Abilities { route: true, fade: true, blink: true, room: true, neighbours: true },
+        abilities: Abilities {
+            route: true,
+            fade: true,
+            blink: true,
+            room: true,
+            neighbours: true,
+            light: true,
+        },
         unknown: 3,
         blocked: Some(Blocked { gap_m: 0.0021, towards: -1.5 }),
         simulated: true,
@@ -108,7 +134,7 @@ fn our_messages_byte_for_byte() {
     assert_eq!(
         said(&full_report()),
         "abfe6805-3c60-4e5a-ba40-2dcf7cb5d8e8 -0.73 1.0E-4 state=driving h=1.25 off=0.0034 route=12 \
-         starts=8000000 clock=450 bat=87 unknown=3 can=route+fade+blink+room+neighbours fw=lightbots-0.1.0 err=0.0012 \
+         starts=8000000 clock=450 bat=87 light=41 unknown=3 can=route+fade+blink+room+neighbours+light fw=lightbots-0.1.0 err=0.0012 \
          blocked=0.0021@-1.5 sim=1 brakes=3 near=0.0123"
     );
 }

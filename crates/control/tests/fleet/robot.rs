@@ -2,7 +2,8 @@
 
 use lightbots_base::{Instant, PathRef, Rgb, RobotId, Span, Vec2};
 use lightbots_wire::{
-    Abilities, Blocked, Command, Details, Report, RobotState, Route, TimeQuestion, Topic, commands,
+    Abilities, Blocked, Command, Details, LightStretch, Report, RobotState, Route, TimeQuestion, Topic,
+    commands,
 };
 
 /// What a robot says.
@@ -43,6 +44,8 @@ pub struct Robot {
     said: Vec<Said>,
     pub stops: u32,
     pub starts_heard: u32,
+    /// The stretches of light that it was sent.
+    pub stretches: Vec<LightStretch>,
 }
 
 impl Robot {
@@ -73,6 +76,7 @@ impl Robot {
             said: Vec::new(),
             stops: 0,
             starts_heard: 0,
+            stretches: Vec::new(),
         }
     }
 
@@ -117,10 +121,18 @@ impl Robot {
             state: self.state(),
             route,
             starts,
+            light: self.stretches.last().map_or(0, |stretch| stretch.number),
             err_m: self.unsure.then_some(0.02),
             off_m: self.running.as_ref().map(|_| if self.stuck { 0.2 } else { 0.001 }),
             clock_us: self.synchronised.then_some(500),
-            abilities: Abilities { route: true, fade: true, blink: true, room: true, neighbours: true },
+            abilities: Abilities {
+                route: true,
+                fade: true,
+                blink: true,
+                room: true,
+                neighbours: true,
+                light: true,
+            },
             blocked: self.blocked,
             ..Details::default()
         };
@@ -150,6 +162,10 @@ impl Robot {
                 self.target = Some(at);
             }
             Command::Color(color) => self.light = color,
+            Command::Light(stretch) => {
+                self.stretches.push(stretch);
+                self.say_report(Topic::Status, self.named());
+            }
             Command::Uuid => self.introduce(),
             Command::Route(route) => {
                 if self.named().wrapping_sub(route.seq) >= 64 || self.named() == 0 {

@@ -14,12 +14,12 @@ const GREEN: Rgb = Rgb::new(0, 255, 0);
 /// As `RED`.
 const BLUE: Rgb = Rgb::new(0, 0, 255);
 /// Time in which a person looks up. Shorter: the person misses the beginning. A choice, not measured.
-const LOOK_UP: Span = Span::from_millis(3_000);
+pub(super) const LOOK_UP: Span = Span::from_millis(3_000);
 
 /// Tests plain colours.
 pub(super) async fn colours(pilot: &Pilot) {
     if !pilot.session.options.looks {
-        return pilot.session.mark_untried(&[21, 22, 23, 24], UNSEEN);
+        return pilot.session.mark_untried(&[21, 22, 23, 24, 56, 57, 58], UNSEEN);
     }
     for (colour, name) in [(RED, "red"), (GREEN, "green"), (BLUE, "blue")] {
         let sent = format!("|COLOR {}|", colour.number());
@@ -29,7 +29,7 @@ pub(super) async fn colours(pilot: &Pilot) {
         ask(pilot, 21, &sent, &format!("Is the light {name}?"), name, sights).await;
     }
     if pilot.session.is_broken(21) {
-        pilot.session.mark_untried(&[22, 23, 24], "its colours are wrong");
+        pilot.session.mark_untried(&[22, 23, 24, 56, 57, 58], "its colours are wrong");
     }
 }
 
@@ -79,11 +79,11 @@ pub(super) async fn blink(pilot: &Pilot) {
 }
 
 /// Whether a person watches and colours are right.
-fn can_be_seen(pilot: &Pilot) -> bool {
+pub(super) fn can_be_seen(pilot: &Pilot) -> bool {
     pilot.session.options.looks && !pilot.session.is_broken(21)
 }
 
-async fn ask(pilot: &Pilot, rule: u8, sent: &str, text: &str, expected: &str, sights: Vec<Sight>) {
+pub(super) async fn ask(pilot: &Pilot, rule: u8, sent: &str, text: &str, expected: &str, sights: Vec<Sight>) {
     match pilot.session.ask_person(Question { text: text.into(), sights }).await {
         Some(yes) => {
             let came = if yes { expected.to_owned() } else { format!("not {expected}") };
@@ -93,6 +93,6 @@ async fn ask(pilot: &Pilot, rule: u8, sent: &str, text: &str, expected: &str, si
     }
 }
 
-fn before(at: Instant, millis: u64) -> Instant {
+pub(super) fn before(at: Instant, millis: u64) -> Instant {
     Instant(at.0.saturating_sub(millis * 1000))
 }

@@ -4,6 +4,7 @@ mod encounters;
 mod greeting;
 mod junk;
 mod light;
+mod light_ahead;
 mod parsing;
 mod pilot;
 mod route_checks;
@@ -54,6 +55,7 @@ async fn examine(pilot: &mut Pilot) -> Step {
         let has_time = time::run(pilot).await?;
         if has_time {
             light::fades(pilot).await;
+            light_ahead::run(pilot).await;
         }
         if has_time && pilot.is_placed() {
             drive_routes(pilot).await?;
@@ -93,6 +95,7 @@ fn note_abilities(pilot: &Pilot) {
         let mark_unsupported = match rule.scope {
             Scope::Route if !can.route => Some("it does not say can=route"),
             Scope::Fade if !can.fade => Some("it does not say can=fade"),
+            Scope::Ahead if !can.light => Some("it does not say can=light"),
             Scope::Blink if !can.blink => Some("it does not say can=blink"),
             Scope::Details if !pilot.has_details => Some("it reports name and place only"),
             _ => None,

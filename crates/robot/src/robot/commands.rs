@@ -20,6 +20,7 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
             Command::Target(_) | Command::Color(_) | Command::Uuid => true,
             Command::Fade(_) => abilities.fade,
             Command::Blink(_) => abilities.blink,
+            Command::Light(_) => abilities.light,
             _ => abilities.route,
         }
     }
@@ -38,25 +39,33 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
                 self.hot.outbox.report_status();
             }
             Command::Start { seq, at } => {
+                self.light.tracks.start(seq, at);
                 if self.hot.routes.start(seq, at, self.route_time(now)) || personal {
                     self.hot.outbox.report_status();
                 }
             }
-            Command::Hold { at } => self.hot.routes.note(at, true),
-            Command::Resume { at } => self.hot.routes.note(at, false),
+            Command::Hold { at } => self.note(at, true),
+            Command::Resume { at } => self.note(at, false),
             Command::Stop => {
                 self.stop();
-                self.light.forget_waiting();
+                self.light.stop();
             }
             Command::Time(answer) => {
                 self.clock_filter.answer(&mut self.hot.clock, now, &answer);
                 if self.clock_filter.take_reset() {
                     self.hot.routes.forget_moments();
+                    self.light.tracks.forget_moments();
                 }
             }
             Command::Fade(fade) => {
                 self.light.fade(self.hot.clock.show_time(now), fade);
                 self.hot.light_changes = true;
+            }
+            Command::Light(ref stretch) => {
+                self.light.tracks.keep(stretch, &mut self.storage.borrow_mut().tracks);
+                self.light.wake();
+                self.hot.light_changes = true;
+                self.hot.outbox.report_status();
             }
             Command::Blink(blink) => {
                 self.light.blink(now, blink.over);
@@ -64,6 +73,11 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
             }
             Command::Status => self.hot.outbox.report_status(),
         }
+    }
+
+    fn note(&mut self, at: Instant, hold: bool) {
+        self.hot.routes.note(at, hold);
+        self.light.tracks.note(at, hold);
     }
 
     /// A target replaces the route and the target before. One beyond [`FAR_M`] is invalid: the robot stands.

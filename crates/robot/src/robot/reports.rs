@@ -72,6 +72,7 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
             battery: self.battery,
             state: self.hot.state,
             route: self.hot.routes.named(),
+            light: self.light.tracks.newest(),
             starts: self.hot.routes.starts().filter(|_| self.hot.clock.show_time(self.hot.now).is_some()),
             off_m: self.hot.routes.off_m(),
             err_m: self.place().map(|_| self.err_m()),

@@ -1,0 +1,290 @@
+//! Stretches of light that were sent ahead (R55 to R57): which one plays, and its colour.
+
+use lightbots_base::{Instant, LightCursor, LightRecord, LightTrack, Rgb, Span};
+use lightbots_wire::{LightAnchor, LightStretch, MAX_LIGHT_RECORDS};
+
+use crate::timeline::Timeline;
+
+/// Stretches that are stored: one that plays, the one that goes on from it, and the first of the next drive.
+pub(crate) const STORED: usize = 3;
+/// A stretch whose number is at most this much below the newest is an old message, as with routes.
+const OLD_NUMBERS: u32 = 64;
+
+/// Colours of one stretch.
+#[derive(Debug)]
+pub(crate) struct StoredTrack {
+    start: Rgb,
+    records: heapless::Vec<LightRecord, MAX_LIGHT_RECORDS>,
+}
+
+impl StoredTrack {
+    pub(crate) const EMPTY: Self = Self { start: Rgb::BLACK, records: heapless::Vec::new() };
+
+    fn put(&mut self, stretch: &LightStretch) {
+        self.start = stretch.start;
+        self.records.clear();
+        // Fits: both have the same capacity.
+        let _ = self.records.extend_from_slice(&stretch.records);
+    }
+
+    fn track(&self) -> LightTrack<'_> {
+        LightTrack { start: self.start, records: &self.records }
+    }
+}
+
+/// The tracks' storage.
+pub(crate) type StoredTracks = [StoredTrack; STORED];
+
+/// A stretch that was received.
+#[derive(Clone, Copy, Debug)]
+struct Kept {
+    slot: usize,
+    /// The route whose START it waits for.
+    seq: Option<u32>,
+    /// From when its time counts; `None`: not known yet.
+    from: Option<Instant>,
+    runs_freely: bool,
+    skip: Span,
+    over: Span,
+}
+
+/// The stretch that plays.
+#[derive(Clone, Copy, Debug)]
+struct Playing {
+    kept: Kept,
+    /// The colour that was shown before.
+    before: Rgb,
+    cursor: LightCursor,
+}
+
+/// The stretches of a robot. Their records lie in its storage.
+#[derive(Debug)]
+pub(crate) struct LightAhead {
+    playing: Option<Playing>,
+    /// In order of arrival.
+    waiting: heapless::Vec<Kept, STORED>,
+    /// Number of the stretch that was received last; 0: none.
+    newest: u32,
+    /// The START that was heard last.
+    started: Option<(u32, Instant)>,
+    /// Time since `playing` counts, without holds.
+    timeline: Timeline,
+}
+
+impl Default for LightAhead {
+    fn default() -> Self {
+        Self {
+            playing: None,
+            waiting: heapless::Vec::new(),
+            newest: 0,
+            started: None,
+            timeline: Timeline::new(),
+        }
+    }
+}
+
+impl LightAhead {
+    /// Number of the stretch that was received last; 0: none.
+    pub(crate) fn newest(&self) -> u32 {
+        self.newest
+    }
+
+    /// Whether one plays or waits.
+    pub(crate) fn is_any(&self) -> bool {
+        self.playing.is_some() || !self.waiting.is_empty()
+    }
+
+    /// Keeps a stretch. An old message changes nothing. Without room, it replaces the one that waits and came last.
+    pub(crate) fn keep(&mut self, stretch: &LightStretch, storage: &mut StoredTracks) {
+        if self.newest != 0 && self.newest.wrapping_sub(stretch.number) < OLD_NUMBERS {
+            return;
+        }
+        self.newest = stretch.number;
+        let is_taken = |slot: &usize| {
+            self.playing.is_some_and(|playing| playing.kept.slot == *slot)
+                || self.waiting.iter().any(|kept| kept.slot == *slot)
+        };
+        let free = (0..STORED).find(|slot| !is_taken(slot));
+        let Some(slot) = free.or_else(|| self.waiting.pop().map(|kept| kept.slot)) else { return };
+        let (seq, from, runs_freely) = match stretch.anchor {
+            LightAnchor::Start(seq) => {
+                let heard = self.started.filter(|(started, _)| *started == seq);
+                (Some(seq), heard.map(|(_, at)| at), false)
+            }
+            LightAnchor::Moment(at) => (None, Some(at), false),
+            LightAnchor::Free(at) => (None, Some(at), true),
+        };
+        storage[slot].put(stretch);
+        let kept = Kept { slot, seq, from, runs_freely, skip: stretch.skip, over: stretch.over };
+        // Fits: there are no more of them than slots.
+        let _ = self.waiting.push(kept);
+    }
+
+    /// A START states when a route begins. A later moment postpones it, as with routes.
+    pub(crate) fn start(&mut self, seq: u32, at: Instant) {
+        if self.started.is_some_and(|(known, before)| known == seq && before >= at) {
+            return;
+        }
+        self.started = Some((seq, at));
+        for kept in self.waiting.iter_mut().filter(|kept| kept.seq == Some(seq)) {
+            kept.from = Some(at);
+        }
+    }
+
+    /// Notes a hold or resume.
+    pub(crate) fn note(&mut self, at: Instant, hold: bool) {
+        self.timeline.note(at, hold);
+    }
+
+    /// Ends the stretch that plays.
+    pub(crate) fn end(&mut self) {
+        self.playing = None;
+    }
+
+    /// Drops all stretches.
+    pub(crate) fn clear(&mut self) {
+        self.playing = None;
+        self.waiting.clear();
+    }
+
+    /// The show clock was set anew: what was stated by it is void.
+    pub(crate) fn forget_moments(&mut self) {
+        *self = Self { newest: self.newest, ..Self::default() };
+    }
+
+    /// The colour at a moment of the show clock, where a stretch plays. `shown`: the colour until now.
+    pub(crate) fn step(&mut self, show: Instant, shown: Rgb, storage: &StoredTracks) -> Option<Rgb> {
+        while let Some(index) = (0..self.waiting.len()).find(|&index| self.is_due(self.waiting[index], show))
+        {
+            let kept = self.waiting.remove(index);
+            self.begin(kept, shown);
+        }
+        let Playing { kept, before, .. } = self.playing?;
+        let elapsed = self.time_of(kept, show)? - kept.skip;
+        let track = storage[kept.slot].track();
+        let cursor = &mut self.playing.as_mut()?.cursor;
+        let colour = cursor.at(track, elapsed);
+        if elapsed < kept.over {
+            return Some(before.mixed(colour, elapsed.as_secs() / kept.over.as_secs()));
+        }
+        if cursor.is_at_end(track) {
+            self.playing = None;
+        }
+        Some(colour)
+    }
+
+    fn begin(&mut self, kept: Kept, shown: Rgb) {
+        let is_new = |playing: &Playing| playing.kept.from != kept.from;
+        if let Some(from) =
+            kept.from.filter(|_| self.playing.as_ref().is_none_or(is_new) && !kept.runs_freely)
+        {
+            self.timeline.begin(from);
+        }
+        self.playing = Some(Playing { kept, before: shown, cursor: LightCursor::default() });
+    }
+
+    /// Whether a stretch that waits begins.
+    fn is_due(&self, kept: Kept, show: Instant) -> bool {
+        self.time_of(kept, show).is_some_and(|time| time >= kept.skip.max(Span::ZERO))
+    }
+
+    /// The time of a stretch, which counts from its anchor; `None`: not known.
+    fn time_of(&self, kept: Kept, show: Instant) -> Option<Span> {
+        let from = kept.from?;
+        if kept.runs_freely || show < from {
+            return Some(show - from);
+        }
+        if self.playing.is_some_and(|playing| playing.kept.from == Some(from) && !playing.kept.runs_freely) {
+            return Some(self.timeline.at(show).time);
+        }
+        let mut own = self.timeline.clone();
+        own.begin(from);
+        Some(own.at(show).time)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const WHITE: Rgb = Rgb::new(255, 255, 255);
+
+    /// From black to white within a second.
+    fn stretch(number: u32, anchor: LightAnchor, skip: Span) -> LightStretch {
+        let records = heapless::Vec::from_slice(&[LightRecord::Line { ticks: 100, to: WHITE }])
+            .expect("one record fits");
+        LightStretch { number, anchor, skip, over: Span::ZERO, start: Rgb::BLACK, records }
+    }
+
+    fn ms(ms: u64) -> Instant {
+        Instant(ms * 1000)
+    }
+
+    fn stored() -> StoredTracks {
+        [StoredTrack::EMPTY, StoredTrack::EMPTY, StoredTrack::EMPTY]
+    }
+
+    #[test]
+    fn a_stretch_waits_for_its_start_and_stands_in_a_hold() {
+        let (mut tracks, mut storage) = (LightAhead::default(), stored());
+        tracks.keep(&stretch(1, LightAnchor::Start(7), Span::ZERO), &mut storage);
+        assert_eq!((tracks.newest(), tracks.step(ms(900), WHITE, &storage)), (1, None));
+        tracks.start(7, ms(1000));
+        tracks.start(7, ms(2000));
+        tracks.start(7, ms(1500));
+        assert_eq!(tracks.step(ms(1990), WHITE, &storage), None, "the later moment counts");
+        assert_eq!(tracks.step(ms(2200), WHITE, &storage), Some(Rgb::new(51, 51, 51)));
+        tracks.note(ms(2400), true);
+        // 0.4 s until the hold, and half of the 0.3 s in which it falls to rest.
+        let held = Some(Rgb::new(140, 140, 140));
+        assert_eq!([2_700, 9_000].map(|at| tracks.step(ms(at), WHITE, &storage)), [held, held]);
+        tracks.note(ms(10_000), false);
+        assert_eq!(tracks.step(ms(10_300), WHITE, &storage), Some(Rgb::new(179, 179, 179)));
+        assert_eq!(tracks.step(ms(20_000), WHITE, &storage), Some(WHITE));
+        assert!(!tracks.is_any());
+    }
+
+    #[test]
+    fn a_free_stretch_goes_on_in_a_hold() {
+        let (mut tracks, mut storage) = (LightAhead::default(), stored());
+        tracks.note(ms(1100), true);
+        tracks.keep(&stretch(1, LightAnchor::Free(ms(1000)), Span::ZERO), &mut storage);
+        assert_eq!(tracks.step(ms(1600), WHITE, &storage), Some(Rgb::new(153, 153, 153)));
+    }
+
+    #[test]
+    fn the_next_stretch_takes_over_at_its_time_and_blends_from_what_is_shown() {
+        let (mut tracks, mut storage) = (LightAhead::default(), stored());
+        tracks.keep(&stretch(1, LightAnchor::Moment(ms(1000)), Span::ZERO), &mut storage);
+        let next = stretch(2, LightAnchor::Moment(ms(1000)), Span::from_millis(500));
+        tracks.keep(&LightStretch { over: Span::from_millis(500), ..next }, &mut storage);
+        let at = |tracks: &mut LightAhead, at: u64, shown: u8| {
+            tracks.step(ms(at), Rgb::new(shown, 0, 0), &storage).map(|colour| colour.r)
+        };
+        assert_eq!(at(&mut tracks, 1499, 0), Some(127));
+        assert_eq!(at(&mut tracks, 1500, 127), Some(127), "it begins with the colour shown");
+        assert_eq!(at(&mut tracks, 1750, 127), Some(96), "half of 127 and half of 64");
+        assert_eq!(at(&mut tracks, 2000, 96), Some(128));
+    }
+
+    #[test]
+    fn a_late_stretch_begins_in_its_middle_and_an_old_one_changes_nothing() {
+        let (mut tracks, mut storage) = (LightAhead::default(), stored());
+        tracks.keep(&stretch(9, LightAnchor::Moment(ms(1000)), Span::ZERO), &mut storage);
+        tracks.keep(&stretch(8, LightAnchor::Moment(ms(0)), Span::ZERO), &mut storage);
+        tracks.keep(&stretch(9, LightAnchor::Moment(ms(0)), Span::ZERO), &mut storage);
+        assert_eq!(tracks.waiting.len(), 1);
+        assert_eq!(tracks.step(ms(1800), WHITE, &storage), Some(Rgb::new(204, 204, 204)));
+    }
+
+    #[test]
+    fn more_stretches_than_there_is_room_for_replace_the_last_that_waits() {
+        let (mut tracks, mut storage) = (LightAhead::default(), stored());
+        for number in 1..=6 {
+            let from = ms(u64::from(number) * 1000);
+            tracks.keep(&stretch(number, LightAnchor::Moment(from), Span::ZERO), &mut storage);
+        }
+        assert_eq!(tracks.newest(), 6);
+        assert!(tracks.waiting.iter().map(|kept| kept.from).eq([1000, 2000, 6000].map(|at| Some(ms(at)))));
+    }
+}

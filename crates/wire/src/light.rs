@@ -1,0 +1,127 @@
+//! `LIGHT`: a stretch of a robot's light ahead of time (R55).
+
+use core::fmt::{self, Write};
+
+use base64::Engine;
+use base64::alphabet::STANDARD;
+use base64::engine::{DecodePaddingMode, GeneralPurpose, GeneralPurposeConfig};
+use lightbots_base::{Instant, LightRecord, LightTrack, Rgb, Span, decode_light_track};
+
+use crate::fields::Fields;
+use crate::number::{instant, span, write_digits};
+use crate::text_buffer::TextBuffer;
+
+/// Most records of a light track that a robot keeps (R55).
+pub const MAX_LIGHT_RECORDS: usize = 192;
+/// Most bytes of a track: the start colour, and records of four bytes of duration and three of colour.
+const MAX_TRACK_BYTES: usize = 3 + 7 * MAX_LIGHT_RECORDS;
+/// Bytes that are encoded at once; a multiple of three, so that the pieces join without padding.
+const ENCODED_AT_ONCE: usize = 48;
+
+/// Base64 (RFC 4648) without padding; read with padding too.
+const BASE64: GeneralPurpose = GeneralPurpose::new(
+    &STANDARD,
+    GeneralPurposeConfig::new()
+        .with_encode_padding(false)
+        .with_decode_padding_mode(DecodePaddingMode::Indifferent),
+);
+
+/// The records of a stretch of light.
+pub type LightRecords = heapless::Vec<LightRecord, MAX_LIGHT_RECORDS>;
+
+/// From when a light track's time counts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub enum LightAnchor {
+    /// `S12`: from the START of the route with this number; its time is that route's path time.
+    Start(u32),
+    /// `A9000000`: from this moment of the show clock; time lost by later holds does not count.
+    Moment(Instant),
+    /// `F9000000`: from this moment of the show clock, also during holds.
+    Free(Instant),
+}
+
+/// A stretch of light: `LIGHT n anchor skip over track`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LightStretch {
+    /// Number chosen by the controller, never 0; a robot repeats it in its reports.
+    pub number: u32,
+    /// From when its time counts.
+    pub anchor: LightAnchor,
+    /// Time at which the track begins.
+    pub skip: Span,
+    /// How long the light takes from the colour shown before to the track's.
+    pub over: Span,
+    /// The colour at its beginning.
+    pub start: Rgb,
+    /// Its records in order.
+    pub records: LightRecords,
+}
+
+impl LightStretch {
+    /// Its colours.
+    pub fn track(&self) -> LightTrack<'_> {
+        LightTrack { start: self.start, records: &self.records }
+    }
+}
+
+pub(crate) fn encode_light(stretch: &LightStretch, out: &mut TextBuffer<'_>) -> fmt::Result {
+    out.write_str("LIGHT ")?;
+    write_digits(out, u64::from(stretch.number), 1)?;
+    let (letter, from) = match stretch.anchor {
+        LightAnchor::Start(seq) => (" S", u64::from(seq)),
+        LightAnchor::Moment(at) => (" A", at.0),
+        LightAnchor::Free(at) => (" F", at.0),
+    };
+    out.write_str(letter)?;
+    write_digits(out, from, 1)?;
+    for time in [stretch.skip, stretch.over] {
+        out.write_str(" ")?;
+        write_digits(out, time.0.max(0).unsigned_abs(), 1)?;
+    }
+    out.write_str(" ")?;
+    let mut bytes = heapless::Vec::<u8, ENCODED_AT_ONCE>::new();
+    let mut result = Ok(());
+    stretch.track().encode(|byte| {
+        // Fits: it is emptied when it is full.
+        let _ = bytes.push(byte);
+        if bytes.is_full() {
+            result = result.and_then(|()| encode_bytes(&bytes, out));
+            bytes.clear();
+        }
+    });
+    result.and_then(|()| encode_bytes(&bytes, out))
+}
+
+fn encode_bytes(bytes: &[u8], out: &mut TextBuffer<'_>) -> fmt::Result {
+    let mut text = [0; ENCODED_AT_ONCE / 3 * 4];
+    let length = BASE64.encode_slice(bytes, &mut text).map_err(|_| fmt::Error)?;
+    out.bytes(&text[..length])
+}
+
+pub(crate) fn decode_light(fields: &mut Fields<'_>) -> Option<LightStretch> {
+    let number = fields.next().and_then(|field| field.parse().ok()).filter(|&number| number != 0);
+    let anchor = fields.next().and_then(anchor);
+    let skip = fields.next().and_then(span);
+    let over = fields.next().and_then(span);
+    let text = fields.next()?;
+    let mut bytes = [0; MAX_TRACK_BYTES];
+    let length = BASE64.decode_slice(text, &mut bytes).ok()?;
+    let mut records = LightRecords::new();
+    // Fits: that is its capacity.
+    let _ = records.resize(MAX_LIGHT_RECORDS, LightRecord::Repeat { records: 1, times: 1 });
+    let track = decode_light_track(&bytes[..length], &mut records).ok()?;
+    let (start, count) = (track.start, track.records.len());
+    records.truncate(count);
+    Some(LightStretch { number: number?, anchor: anchor?, skip: skip?, over: over?, start, records })
+}
+
+fn anchor(field: &str) -> Option<LightAnchor> {
+    let (letter, from) = field.split_at_checked(1)?;
+    match letter {
+        "S" => from.parse().ok().filter(|&seq| seq != 0).map(LightAnchor::Start),
+        "A" => instant(from).map(LightAnchor::Moment),
+        "F" => instant(from).map(LightAnchor::Free),
+        _ => None,
+    }
+}
