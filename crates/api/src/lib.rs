@@ -2,9 +2,9 @@
 //!
 //! The crate holds types, and makes a [`Plan`] of what the planner gives ([`plan_document()`]): no sockets, no controller.
 //! [`ToScreen`] and [`FromScreen`] are the JSON
-//! messages on the WebSocket, [`Robots`] is the binary message there. [`ShowEntry`], [`ShowState`], [`BrokerSettings`],
-//! [`Problem`] and [`Plan`] are bodies of HTTP answers. [`MakeRequest`] and [`MakeAnswer`] go to and from the module in the
-//! browser. After a change run `cargo run -p lightbots-api --example types`.
+//! messages on the WebSocket, [`Robots`] is the binary message there. [`ShowEntry`], [`ShowState`], [`RunEntry`],
+//! [`BrokerSettings`], [`Problem`] and [`Plan`] are bodies of HTTP answers. [`MakeRequest`] and [`MakeAnswer`] go to and
+//! from the module in the browser. After a change run `cargo run -p lightbots-api --example types`.
 //!
 //! ```
 //! use lightbots_api::{FromScreen, Operation};
@@ -22,6 +22,7 @@ mod operation;
 mod plan;
 mod plan_document;
 mod robots;
+mod runs;
 mod screen;
 mod state;
 mod typescript;
@@ -38,6 +39,7 @@ pub use operation::{Answer, Choice, FromScreen, Missing, Operation, Request};
 pub use plan::{Issue, Path, Plan, PlanAnswer, PlanningRequest, Severity, Transition};
 pub use plan_document::{plan_document, plan_summary, rounded};
 pub use robots::Robots;
+pub use runs::{RunEntry, RunEntryKind};
 pub use screen::{Hello, Level, LogLine, OpenShow, ToScreen};
 pub use state::{Broker, BrokerPhase, Phase, Playback, State};
 pub use typescript::typescript;

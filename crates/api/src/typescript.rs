@@ -8,8 +8,8 @@ use crate::{
     Fleet, FleetRow, FromScreen, Hello, Incident, IncidentTone, Incidents, Issue, Level, LogLine, MadePixel,
     MadeReadability, MakeAnswer, MakeChoices, MakeFile, MakeFont, MakeQuality, MakeRemark, MakeRequest,
     MakeShape, Missing, OpenShow, Operation, Path, Phase, Plan, PlanAnswer, PlanningRequest, Playback,
-    Presence, Problem, Request, RobotStatus, Robots, Severity, ShowEntry, ShowOrigin, ShowState, State,
-    ToScreen, Transition,
+    Presence, Problem, Request, RobotStatus, Robots, RunEntry, RunEntryKind, Severity, ShowEntry, ShowOrigin,
+    ShowState, State, ToScreen, Transition,
 };
 
 /// The first line of the generated file.
@@ -68,6 +68,8 @@ pub fn typescript() -> String {
         ShowEntry,
         ShowOrigin,
         ShowState,
+        RunEntry,
+        RunEntryKind,
         Problem,
         MakeRequest,
         MakeQuality,
@@ -83,9 +85,7 @@ pub fn typescript() -> String {
         MakeShape,
         MakeFile,
     );
-    text.push_str(&robots());
-    text.push_str(&formats());
-    text
+    text + &robots() + &formats()
 }
 
 /// The columns of the binary message, and what its numbers for states stand for.

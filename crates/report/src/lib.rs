@@ -24,3 +24,4 @@ pub use model::{
     ShowReport,
 };
 pub use track::{Scrub, ScrubTrack};
+pub use words::verdict;

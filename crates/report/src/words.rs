@@ -5,13 +5,9 @@ use lightbots_show::Severity;
 
 use crate::model::ShowReport;
 
-/// The report in one sentence, such as "All 8 frames shown, no contacts, one robot lost."
-pub(crate) fn verdict(
-    report: &ShowReport,
-    outcome: Option<&RunOutcome>,
-    is_home: bool,
-    frame: usize,
-) -> String {
+/// A report in one sentence, such as "All 8 frames shown, no contacts, one robot lost." `frame`: where the run ended,
+/// counted from 0. Read of the report are robots, frames, contacts and losses.
+pub fn verdict(report: &ShowReport, outcome: Option<&RunOutcome>, is_home: bool, frame: usize) -> String {
     let mut parts = vec![match outcome {
         _ if report.robots == 0 => return "Nothing was played.".into(),
         Some(RunOutcome::Finished) if is_home => "All robots drove home".to_owned(),

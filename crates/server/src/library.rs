@@ -24,7 +24,7 @@ mod version;
 
 use std::collections::BTreeMap;
 use std::io::ErrorKind;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex};
 
 use lightbots_api::{ShowEntry, ShowOrigin, ShowState};
@@ -78,6 +78,11 @@ impl Library {
             }
         }
         library
+    }
+
+    /// Its folder.
+    pub fn folder(&self) -> &Path {
+        self.files.folder()
     }
 
     fn without_examples(folder: PathBuf) -> Self {

@@ -1,4 +1,4 @@
-import type { BrokerSettings, FormatName, Plan, ShowEntry, ShowState } from './types.gen';
+import type { BrokerSettings, FormatName, Plan, RunEntry, ShowEntry, ShowState } from './types.gen';
 
 /** Something the server refused, in its words. */
 export class Refused extends Error {
@@ -73,6 +73,12 @@ export async function getState(name: string, number: number | null): Promise<unk
   const path = number === null ? '' : `/states/${number}`;
   return (await request(`${showPath(name)}${path}`)).json();
 }
+
+/** The recorded runs, the newest first. */
+export const listRuns = async () => (await (await request('/api/runs')).json()) as RunEntry[];
+
+/** The address of a run's report. */
+export const reportAddress = (number: number) => `/api/runs/${number}/report`;
 
 /** What the form for the broker begins with. */
 export const getBroker = async () =>

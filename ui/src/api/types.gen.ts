@@ -827,6 +827,48 @@ pixels: number,
 etag: string, };
 
 /**
+ * A recorded run.
+ */
+export type RunEntry = { 
+/**
+ * Number for `/api/runs/{number}/report`.
+ */
+number: number, 
+/**
+ * What robots did.
+ */
+kind: RunEntryKind, 
+/**
+ * Name that the author gave the show; may be empty.
+ */
+show: string, 
+/**
+ * When it began, milliseconds since 1970.
+ */
+began_ms: number, 
+/**
+ * When it ended, milliseconds since 1970; null: it is on, or its program ended first.
+ */
+ended_ms: number | null, 
+/**
+ * All frames were shown, and no robot was lost for good.
+ */
+ok: boolean, 
+/**
+ * How it ended, in one sentence; null: it is on, or its program ended first.
+ */
+outcome: string | null, 
+/**
+ * Whether its report can be made.
+ */
+has_report: boolean, };
+
+/**
+ * What robots did in a run.
+ */
+export type RunEntryKind = "show" | "frame" | "home";
+
+/**
  * The body of an HTTP answer that refuses a request.
  */
 export type Problem = { 

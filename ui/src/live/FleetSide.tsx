@@ -8,8 +8,8 @@ import { LogList } from './LogList';
 import { ShowFacts } from './ShowFacts';
 import styles from '../parts/page.module.css';
 
-/** Robots, show and log beside the floor. */
-export function FleetSide() {
+/** Robots, show and log beside the floor. `onPast` shows the past runs. */
+export function FleetSide({ onPast }: { onPast: () => void }) {
   const { live } = useSession();
   const [wide, setWide] = useState(false);
   const [tab, setTab] = useState<string | null>('robots');
@@ -52,7 +52,7 @@ export function FleetSide() {
           <ShowFacts />
         </Tabs.Panel>
         <Tabs.Panel value="log">
-          <LogList seen={tab === 'log'} />
+          <LogList seen={tab === 'log'} onPast={onPast} />
         </Tabs.Panel>
       </Tabs>
     </aside>

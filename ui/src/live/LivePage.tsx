@@ -1,3 +1,4 @@
+import { useState } from 'react';
 import { Bottom } from '../parts/Bottom';
 import { FailureNote } from './FailureNote';
 import { FitNote } from './FitNote';
@@ -6,27 +7,33 @@ import { FrameStrip } from './FrameStrip';
 import { GoNote } from './GoNote';
 import { GoOnNote } from './GoOnNote';
 import { LiveStage } from './LiveStage';
+import { RunNote } from './RunNote';
 import { StartDialog } from './StartDialog';
 import { StoppedNote } from './StoppedNote';
 import { Transport } from './Transport';
+import { RunsDialog } from '../parts/RunsDialog';
 import styles from '../parts/page.module.css';
 
 /** The page of the live view. */
 export function LivePage() {
+  const [past, setPast] = useState(false);
+  const showPast = () => setPast(true);
   return (
     <main className={styles.page}>
       <LiveStage />
       <Bottom label="Playing">
         <FailureNote />
         <StoppedNote />
+        <RunNote onPast={showPast} />
         <GoOnNote />
         <GoNote />
         <FitNote />
         <Transport />
         <FrameStrip />
       </Bottom>
-      <FleetSide />
+      <FleetSide onPast={showPast} />
       <StartDialog />
+      {past ? <RunsDialog onClose={() => setPast(false)} /> : null}
     </main>
   );
 }

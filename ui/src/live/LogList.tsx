@@ -1,4 +1,4 @@
-import { SegmentedControl } from '@mantine/core';
+import { Button, Group, SegmentedControl } from '@mantine/core';
 import { useEffect, useRef, useState } from 'react';
 import { useStorePaced } from '../base/store';
 import type { LogLine } from '../api/types.gen';
@@ -11,23 +11,34 @@ const WORDS = { debug: '', info: '', warn: 'Warning: ', error: 'Error: ' } as co
 /** Least time between two renderings, milliseconds, because many lines may arrive at once. */
 const EVERY_MS = 100;
 
-/** The log, newest line last; it is not rendered while its tab is hidden. */
-export function LogList({ seen }: { seen: boolean }) {
+interface Props {
+  /** Whether its tab is in front; the lines are not rendered otherwise. */
+  seen: boolean;
+  /** Shows the past runs. */
+  onPast: () => void;
+}
+
+/** The log, newest line last. */
+export function LogList({ seen, onPast }: Props) {
   const [only, setOnly] = useState('all');
   return (
     <>
-      <SegmentedControl
-        size="xs"
-        m="xs"
-        aria-label="What the log shows"
-        value={only}
-        onChange={setOnly}
-        data={[
-          { value: 'all', label: 'Activity' },
-          { value: 'problems', label: 'Problems' },
-          { value: 'debug', label: 'Debug' },
-        ]}
-      />
+      <Group m="xs" gap="xs" justify="space-between">
+        <SegmentedControl
+          size="xs"
+          aria-label="What the log shows"
+          value={only}
+          onChange={setOnly}
+          data={[
+            { value: 'all', label: 'Activity' },
+            { value: 'problems', label: 'Problems' },
+            { value: 'debug', label: 'Debug' },
+          ]}
+        />
+        <Button size="compact-sm" variant="subtle" color="gray" onClick={onPast}>
+          Past runs
+        </Button>
+      </Group>
       {seen ? <Lines only={only} /> : null}
     </>
   );

@@ -14,6 +14,7 @@ import { RecentShows } from './RecentShows';
 import { TemplateCard } from './TemplateCard';
 import { useFaces } from './useFaces';
 import { useMaker } from './useMaker';
+import { PastRuns } from './PastRuns';
 import { YourFleet } from './YourFleet';
 import styles from './Start.module.css';
 
@@ -72,6 +73,7 @@ export default function StartPage() {
         </section>
         <aside className={styles.aside}>
           <RecentShows />
+          <PastRuns />
           <YourFleet floor={floor} here={here} />
         </aside>
       </div>

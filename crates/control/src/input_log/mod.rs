@@ -19,7 +19,8 @@ mod tests;
 
 pub use recorded::RecordedController;
 pub use replaying::{
-    Difference, LogEnd, LogError, ReplayObserver, ReplayReport, ReplayStep, replay, replay_observed,
+    Difference, HEAD_BYTES, LogEnd, LogError, ReplayObserver, ReplayReport, ReplayStep, check_head, replay,
+    replay_observed,
 };
 
 use serde::{Deserialize, Serialize};

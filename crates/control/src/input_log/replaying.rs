@@ -17,6 +17,9 @@ use std::collections::BTreeMap;
 /// Most plan requests that wait for their plans. A shell makes one plan after the other.
 const REQUESTS_MAX: usize = 64;
 
+/// Length of the head of a log: magic bytes and version.
+pub const HEAD_BYTES: usize = MAGIC.len() + 2;
+
 /// Why bytes cannot be replayed.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum LogError {
@@ -106,19 +109,24 @@ pub fn replay(log: &[u8], progress: &mut dyn FnMut(f64)) -> Result<ReplayReport,
     replay_observed(log, progress, &mut |_, _, _| {})
 }
 
+/// Whether this program replays a log that begins with these bytes (at least the first [`HEAD_BYTES`]).
+pub fn check_head(head: &[u8]) -> Result<(), LogError> {
+    let rest = head.strip_prefix(MAGIC).ok_or(LogError::NoLog)?;
+    let (version, _) = rest.split_first_chunk().ok_or(LogError::NoLog)?;
+    match u16::from_le_bytes(*version) {
+        VERSION => Ok(()),
+        version => Err(LogError::OtherVersion(version)),
+    }
+}
+
 /// [`replay`] with an observer.
 pub fn replay_observed(
     log: &[u8],
     progress: &mut dyn FnMut(f64),
     observe: &mut ReplayObserver<'_>,
 ) -> Result<ReplayReport, LogError> {
-    let rest = log.strip_prefix(MAGIC).ok_or(LogError::NoLog)?;
-    let (version, _) = rest.split_first_chunk().ok_or(LogError::NoLog)?;
-    let version = u16::from_le_bytes(*version);
-    if version != VERSION {
-        return Err(LogError::OtherVersion(version));
-    }
-    let mut blocks = Blocks::new(log, MAGIC.len() + 2);
+    check_head(log)?;
+    let mut blocks = Blocks::new(log, HEAD_BYTES);
     let header = blocks.next().and_then(|block| postcard::from_bytes::<LogHeader>(block).ok());
     let mut replay = header.and_then(|header| Replay::new(header, observe)).ok_or(LogError::NoHeader)?;
     while let Some(block) = blocks.next() {

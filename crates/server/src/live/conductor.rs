@@ -298,6 +298,7 @@ impl Conductor {
         self.pace.knows(self.controller.robots());
         while let Some(event) = self.controller.next_event() {
             tracing::info!("{}", event.kind);
+            self.recorder.note(&event);
             // Nobody listening is no error.
             let _ = self.news.send(News::Event(event));
         }

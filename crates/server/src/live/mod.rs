@@ -12,6 +12,7 @@ mod link_state;
 mod pace;
 pub mod recorder;
 mod rivals;
+pub mod run_facts;
 
 use lightbots_link::{BrokerUrl, LinkConfig, controller_client_id};
 

@@ -1,17 +1,19 @@
 //! Files of the controller's input log. A thread of its own writes them, so that a slow disk never delays a show.
 
 use std::fs::{DirEntry, File};
-use std::io::Write;
+use std::io::{ErrorKind, Write};
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use std::sync::{Arc, OnceLock};
 use std::thread::JoinHandle;
 
+use lightbots_api::RunEntryKind;
 use lightbots_base::Instant;
-use lightbots_control::{OnReturn, Operation, RecordedController, Refusal, UnfinishedRun};
+use lightbots_control::{Event, OnReturn, Operation, RecordedController, Refusal, UnfinishedRun};
 
 use super::clock::unix_ms;
 use super::journal::JournalFile;
+use super::run_facts::{RunFacts, RunNotes};
 use crate::disk;
 
 /// Folder of recorded runs in the data folder.
@@ -23,7 +25,7 @@ const RUNS_MAX: usize = 20;
 /// Most bytes that all recorded runs may have; older ones are deleted.
 const BYTES_MAX: u64 = 1 << 30;
 /// Most bytes of one recorded run; what comes later is not recorded.
-const RUN_BYTES_MAX: u64 = 256 << 20;
+pub const RUN_BYTES_MAX: u64 = 256 << 20;
 /// Most pieces of a log, about a second each, that wait for the disk.
 const WAITING_MAX: usize = 256;
 
@@ -59,6 +61,8 @@ pub struct Recorder {
     recording: RecordingTarget,
     writer: Option<LogWriter>,
     journal: Option<JournalFile>,
+    /// The run that is on.
+    run: Option<RunNotes>,
 }
 
 impl Recorder {
@@ -68,15 +72,22 @@ impl Recorder {
             controller.begin_log(now, notes("play"));
         }
         let journal = recording.data_folder().map(|data| JournalFile::start(data, controller));
-        Self { recording, writer: None, journal }
+        Self { recording, writer: None, journal, run: None }
     }
 
     /// The operator asks for something: a run may begin.
-    pub fn before(&self, controller: &mut RecordedController, now: Instant, operation: &Operation) {
-        let begins =
-            matches!(operation, Operation::Play { .. } | Operation::Preview { .. } | Operation::Home);
-        if begins && self.recording.is_by_run() && !controller.is_recording() {
-            controller.begin_log(now, notes("run"));
+    pub fn before(&mut self, controller: &mut RecordedController, now: Instant, operation: &Operation) {
+        let Some(kind) = RunNotes::kind(operation) else { return };
+        if self.recording.is_by_run() && !controller.is_recording() && controller.begin_log(now, notes("run"))
+        {
+            self.run = Some(RunNotes::begin(controller.show().map(|show| &**show), kind));
+        }
+    }
+
+    /// Takes in what the controller says.
+    pub fn note(&mut self, event: &Event) {
+        if let Some(run) = &mut self.run {
+            run.add(event);
         }
     }
 
@@ -90,6 +101,7 @@ impl Recorder {
         if self.recording.is_by_run() {
             let taken_up = ("taken_up".to_owned(), format!("on the way to frame {}", run.frame() + 1));
             controller.begin_log(now, notes("run").into_iter().chain([taken_up]).collect());
+            self.run = Some(RunNotes::begin(Some(run.show()), RunEntryKind::Show));
         }
         let done = controller.take_up(now, run, on_return);
         if let Some(journal) = self.journal.as_mut().filter(|_| !controller.has_run()) {
@@ -111,13 +123,15 @@ impl Recorder {
         let is_over = self.recording.is_by_run() && !controller.has_run();
         if is_over && self.writer.is_none() {
             // The run was refused.
+            self.run = None;
             controller.end_log();
             return None;
         }
         let mut failure = self.write(controller.take_log());
         if is_over || failure.is_some() {
             failure = self.write(controller.end_log()).or(failure);
-            self.writer = None;
+            self.write_facts();
+            (self.writer, self.run) = (None, None);
         }
         failure.map(|line| format!("The run is not recorded any further: {line}."))
     }
@@ -125,6 +139,7 @@ impl Recorder {
     /// The program ends: waits for the disk.
     pub fn finish(mut self, controller: &mut RecordedController) {
         let _ = self.write(controller.end_log());
+        self.write_facts();
         if let Some(writer) = self.writer {
             writer.finish();
         }
@@ -137,11 +152,19 @@ impl Recorder {
         if bytes.is_empty() {
             return None;
         }
-        let writer = match &mut self.writer {
-            Some(writer) => writer,
-            none => none.insert(LogWriter::start(self.recording.clone())?),
-        };
-        writer.write(bytes)
+        if self.writer.is_none() {
+            self.writer = Some(LogWriter::start(self.recording.clone())?);
+            self.write_facts();
+        }
+        self.writer.as_mut().and_then(|writer| writer.write(bytes))
+    }
+
+    /// Hands on the facts of the run as they are now.
+    fn write_facts(&self) {
+        if let (Some(writer), Some(run)) = (&self.writer, &self.run) {
+            // A disk that is too slow is told by the log.
+            let _ = writer.pieces.try_send(Piece::Facts(run.facts().clone()));
+        }
     }
 }
 
@@ -155,10 +178,29 @@ pub fn run_file(data: &Path, number: u64) -> PathBuf {
     data.join(FOLDER).join(format!("{number:06}{ENDING}"))
 }
 
+/// What the thread writes.
+#[derive(Debug)]
+enum Piece {
+    /// The next bytes of the log.
+    Log(Vec<u8>),
+    /// The facts beside it.
+    Facts(RunFacts),
+}
+
+/// The file with the facts of a run, beside its log.
+pub fn facts_file(log: &Path) -> PathBuf {
+    log.with_extension("json")
+}
+
+/// The file with the report of a run, beside its log, once it was asked for.
+pub fn report_file(log: &Path) -> PathBuf {
+    log.with_extension("html")
+}
+
 /// A thread that writes one log.
 #[derive(Debug)]
 struct LogWriter {
-    pieces: SyncSender<Vec<u8>>,
+    pieces: SyncSender<Piece>,
     written: u64,
     bytes_max: u64,
     failure: Arc<OnceLock<String>>,
@@ -192,7 +234,7 @@ impl LogWriter {
         if self.written > self.bytes_max {
             return Some(format!("its log has {} MB", self.bytes_max >> 20));
         }
-        self.pieces.try_send(bytes).err().map(|_| "the disk is too slow".to_owned())
+        self.pieces.try_send(Piece::Log(bytes)).err().map(|_| "the disk is too slow".to_owned())
     }
 
     fn finish(self) {
@@ -203,15 +245,18 @@ impl LogWriter {
 }
 
 /// Writes pieces into a file until there are no more.
-fn write_log(recording: &RecordingTarget, inbox: &Receiver<Vec<u8>>) -> std::io::Result<()> {
+fn write_log(recording: &RecordingTarget, inbox: &Receiver<Piece>) -> std::io::Result<()> {
     let path = match recording {
         RecordingTarget::Off => return Ok(()),
         RecordingTarget::File(path) => path.clone(),
         RecordingTarget::Runs(data) => next_run(data)?,
     };
     let mut file = File::create(&path)?;
-    for bytes in inbox {
-        file.write_all(&bytes)?;
+    for piece in inbox {
+        match piece {
+            Piece::Log(bytes) => file.write_all(&bytes)?,
+            Piece::Facts(facts) => facts.write(&facts_file(&path))?,
+        }
     }
     file.sync_all()
 }
@@ -220,16 +265,37 @@ fn write_log(recording: &RecordingTarget, inbox: &Receiver<Vec<u8>>) -> std::io:
 fn next_run(data: &Path) -> std::io::Result<PathBuf> {
     let folder = data.join(FOLDER);
     disk::create_folder(&folder)?;
-    let mut runs: Vec<(u64, u64)> = std::fs::read_dir(&folder)?.flatten().filter_map(run_of_entry).collect();
-    runs.sort_unstable_by(|a, b| b.cmp(a));
+    let runs = recorded_runs(data)?;
     let mut bytes = RUN_BYTES_MAX;
     for (place, &(number, length)) in runs.iter().enumerate() {
         bytes += length;
         if place + 1 >= RUNS_MAX || bytes > BYTES_MAX {
-            disk::remove(&run_file(data, number))?;
+            remove_run(data, number)?;
         }
     }
     Ok(run_file(data, runs.first().map_or(1, |&(number, _)| number + 1)))
+}
+
+fn remove_run(data: &Path, number: u64) -> std::io::Result<()> {
+    let log = run_file(data, number);
+    for beside in [facts_file(&log), report_file(&log)] {
+        match disk::remove(&beside) {
+            Err(error) if error.kind() != ErrorKind::NotFound => return Err(error),
+            _ => {}
+        }
+    }
+    disk::remove(&log)
+}
+
+/// Numbers and lengths of the recorded runs, the newest first.
+pub fn recorded_runs(data: &Path) -> std::io::Result<Vec<(u64, u64)>> {
+    let folder = match std::fs::read_dir(data.join(FOLDER)) {
+        Err(error) if error.kind() == ErrorKind::NotFound => return Ok(Vec::new()),
+        folder => folder?,
+    };
+    let mut runs: Vec<(u64, u64)> = folder.flatten().filter_map(run_of_entry).collect();
+    runs.sort_unstable_by(|a, b| b.cmp(a));
+    Ok(runs)
 }
 
 /// Number and length of a recorded run.
@@ -249,12 +315,13 @@ mod tests {
         for number in 1..=25 {
             let path = next_run(&data).unwrap();
             assert_eq!(path, run_file(&data, number));
-            File::create(path).unwrap();
+            for file in [&path, &facts_file(&path), &report_file(&path)] {
+                File::create(file).unwrap();
+            }
         }
-        let kept = std::fs::read_dir(data.join(FOLDER)).unwrap().flatten().filter_map(run_of_entry);
-        let mut kept: Vec<u64> = kept.map(|(number, _)| number).collect();
-        kept.sort_unstable();
-        assert_eq!(kept, (6..=25).collect::<Vec<_>>());
+        let kept: Vec<u64> = recorded_runs(&data).unwrap().iter().map(|run| run.0).collect();
+        assert_eq!(kept, (6..=25).rev().collect::<Vec<_>>());
+        assert_eq!(std::fs::read_dir(data.join(FOLDER)).unwrap().count(), 3 * kept.len());
         let large = File::create(run_file(&data, 25)).unwrap();
         large.set_len(BYTES_MAX).unwrap();
         next_run(&data).unwrap();

@@ -28,7 +28,11 @@ pub fn of_route(route: &str, method: &Method) -> Need {
         | "/api/shows/{name}/states"
         | "/api/shows/{name}/states/{number}"
         | "/api/assets/{hash}"
-        | "/api/plan" => Need::Role(if is_read { AccountRole::Viewer } else { AccountRole::Editor }),
+        | "/api/plan"
+        | "/api/runs"
+        | "/api/runs/{number}/report" => {
+            Need::Role(if is_read { AccountRole::Viewer } else { AccountRole::Editor })
+        }
         _ => Need::Role(AccountRole::Operator),
     }
 }

@@ -17,6 +17,7 @@ mod pages;
 mod picture;
 mod planner;
 mod refused;
+mod runs;
 mod sign_in;
 mod sign_in_page;
 mod socket;
@@ -44,6 +45,7 @@ use crate::library::Library;
 use crate::live::conductor::Handle;
 use connection::{Connections, Ends};
 use picture::Pictures;
+use runs::Runs;
 
 /// State that requests share.
 #[derive(Debug)]
@@ -57,6 +59,7 @@ pub struct Shared {
     pub incidents: IncidentBoard,
     pub pictures: Pictures,
     pub broker: BrokerDesk,
+    pub runs: Runs,
     /// The planner for requests of clients.
     pub planner: Planner,
     /// People and programs that may use this server.
@@ -87,6 +90,7 @@ impl Shared {
         tokio::spawn(desk.clone().follow(handle.news()));
         let pictures = Pictures::new();
         tokio::spawn(pictures.clone().follow(handle.clone(), desk.clone(), book.clone()));
+        let runs = Runs::of(library.folder(), handle.clone());
         let (screens, simulated) = (AtomicU32::new(0), Arc::default());
         Arc::new(Self {
             handle,
@@ -97,6 +101,7 @@ impl Shared {
             incidents,
             pictures,
             broker,
+            runs,
             admission: Arc::new(admission),
             names,
             planner,
@@ -136,6 +141,7 @@ pub async fn serve(listener: TcpListener, shared: Arc<Shared>) {
         .route("/api/plan", get(api::plan))
         .route("/api/broker", get(broker::settings))
         .merge(accounts(shared.admission.clone()))
+        .merge(recorded(shared.runs.clone()))
         .route("/api/{*rest}", any(api::unknown))
         .fallback(pages::page)
         .layer(axum::middleware::from_fn_with_state(uploads::Uploads::new(), uploads::bound))
@@ -158,4 +164,12 @@ fn accounts(admission: Arc<Admission>) -> Router<Arc<Shared>> {
         .route("/api/tokens", get(sign_in::tokens).post(sign_in::make_token))
         .route("/api/tokens/{name}", delete(sign_in::revoke_token))
         .with_state(admission)
+}
+
+/// Routes of the recorded runs.
+fn recorded(runs: Runs) -> Router<Arc<Shared>> {
+    Router::new()
+        .route("/api/runs", get(runs::list))
+        .route("/api/runs/{number}/report", get(runs::read_report))
+        .with_state(runs)
 }

@@ -3,6 +3,7 @@
 use serde_json::{Value, json};
 
 use crate::child::{Child, run};
+use crate::http;
 use crate::mosquitto::Mosquitto;
 use crate::run::start;
 use crate::screen::Screen;
@@ -74,8 +75,32 @@ fn a_run_on_the_screen_is_recorded_in_the_data_folder() {
         });
         screen.until("ready", |screen| (screen.phase() == "ready").then_some(()));
     }
+    reports_are_read_over_http(&address);
     server.terminate();
     assert_eq!(server.end(), 0);
+}
+
+/// Two runs of a server have ended well: what it lists of them, and their reports.
+fn reports_are_read_over_http(address: &str) {
+    let get = |path: &str| http::request(address, "GET", path, &[], "");
+    let runs = wait_for("the end of the second run in the list", || {
+        let runs = get("/api/runs").json();
+        runs[0]["ended_ms"].is_u64().then_some(runs)
+    });
+    let numbers: Vec<_> = runs.as_array().unwrap().iter().map(|run| &run["number"]).collect();
+    assert_eq!(numbers, [2, 1]);
+    let outcome = "All 2 frames shown, no robot lost.";
+    for (key, value) in [("outcome", json!(outcome)), ("ok", json!(true)), ("has_report", json!(true))] {
+        assert_eq!(runs[1][key], value, "{runs}");
+    }
+    let report = get("/api/runs/1/report");
+    assert!(report.status == 200 && report.body.contains(outcome), "{} {}", report.status, report.body);
+    assert!(report.header("Content-Security-Policy").contains("sandbox"), "{}", report.head);
+    assert_eq!(get("/api/runs/1/report").body, report.body, "it is kept");
+    for (path, status) in [("3", 404), ("..%2f1", 400), ("-1", 400), ("1x", 400)] {
+        let answer = get(&format!("/api/runs/{path}/report"));
+        assert_eq!(answer.status, status, "{path}: {}", answer.body);
+    }
 }
 
 #[test]

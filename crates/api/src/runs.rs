@@ -1,0 +1,43 @@
+//! Recorded runs over HTTP.
+//!
+//! | request | answer |
+//! |---|---|
+//! | `GET /api/runs` | `RunEntry[]`, the newest first |
+//! | `GET /api/runs/{number}/report` | the report of a run, an HTML page that needs no other file; 409 while it is on |
+
+use serde::{Deserialize, Serialize};
+use ts_rs::TS;
+
+/// A recorded run.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS)]
+pub struct RunEntry {
+    /// Number for `/api/runs/{number}/report`.
+    pub number: u64,
+    /// What robots did.
+    pub kind: RunEntryKind,
+    /// Name that the author gave the show; may be empty.
+    pub show: String,
+    /// When it began, milliseconds since 1970.
+    pub began_ms: u64,
+    /// When it ended, milliseconds since 1970; null: it is on, or its program ended first.
+    pub ended_ms: Option<u64>,
+    /// All frames were shown, and no robot was lost for good.
+    pub ok: bool,
+    /// How it ended, in one sentence; null: it is on, or its program ended first.
+    pub outcome: Option<String>,
+    /// Whether its report can be made.
+    pub has_report: bool,
+}
+
+/// What robots did in a run.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, TS)]
+#[serde(rename_all = "snake_case")]
+pub enum RunEntryKind {
+    /// They played a show.
+    #[default]
+    Show,
+    /// They drove to one frame.
+    Frame,
+    /// They drove to their starting places.
+    Home,
+}

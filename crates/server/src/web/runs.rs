@@ -1,0 +1,162 @@
+//! The recorded runs and their reports over HTTP.
+//!
+//! A report is made from the recorded inputs when it is first asked for, and kept beside them. One is made at a time,
+//! on a thread of its own, because it takes a processor and the whole log in memory.
+
+use std::fs::File;
+use std::io::Read;
+use std::panic::catch_unwind;
+use std::path::Path;
+use std::sync::Arc;
+use std::time::{Duration, UNIX_EPOCH};
+
+use axum::Json;
+use axum::extract::{Path as UrlPath, State};
+use axum::http::{StatusCode, header};
+use axum::response::{IntoResponse, Response};
+use lightbots_api::RunEntry;
+use lightbots_control::{HEAD_BYTES, check_head};
+use lightbots_report::{page, report_of};
+use tokio::sync::Semaphore;
+
+use super::refused::{Refused, refuse};
+use crate::disk::{self, Readers};
+use crate::live::conductor::Handle;
+use crate::live::recorder::{RUN_BYTES_MAX, facts_file, recorded_runs, report_file, run_file};
+use crate::live::run_facts::RunFacts;
+
+/// Longest page that is read, bytes. A report bounds its samples and robots to less.
+const PAGE_MAX: u64 = 64 << 20;
+/// Longest wait for a report. It is made on, and the next request finds it.
+const PATIENCE: Duration = Duration::from_secs(60);
+/// Content security policy of a report: it needs nothing, and its script gets nothing of this server.
+const POLICY: &str = "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data: blob:; \
+                      sandbox allow-scripts allow-downloads; frame-ancestors 'none'";
+
+/// The runs of a data folder.
+#[derive(Clone, Debug)]
+pub struct Runs {
+    data: Arc<Path>,
+    handle: Handle,
+    /// One report is made at a time.
+    turn: Arc<Semaphore>,
+}
+
+impl Runs {
+    /// The runs of this data folder, of which the newest may be on.
+    pub fn of(data: &Path, handle: Handle) -> Self {
+        Self { data: data.into(), handle, turn: Arc::new(Semaphore::new(1)) }
+    }
+
+    fn list(&self) -> std::io::Result<Vec<RunEntry>> {
+        let runs = recorded_runs(&self.data)?;
+        Ok(runs.into_iter().map(|(number, _)| entry(&self.data, number)).collect())
+    }
+
+    /// The page of a run; it is made if there is none. `is_running`: the newest run is on.
+    async fn report(&self, number: u64, is_running: bool) -> Result<Vec<u8>, Refused> {
+        let failed = |line: String| refuse(StatusCode::INTERNAL_SERVER_ERROR, &line);
+        let (data, turn) = (self.data.clone(), self.turn.clone());
+        // A task of its own: a client that leaves, or waits no longer, does not stop it.
+        let made = tokio::spawn(async move {
+            let turn = turn.acquire_owned().await;
+            let made = tokio::task::spawn_blocking(move || {
+                let _turn = turn;
+                report(&data, number, is_running)
+            });
+            made.await.unwrap_or_else(|error| Err(failed(format!("the report failed: {error}"))))
+        });
+        match tokio::time::timeout(PATIENCE, made).await {
+            Ok(made) => made.unwrap_or_else(|error| Err(failed(error.to_string()))),
+            Err(_) => Err(refuse(
+                StatusCode::SERVICE_UNAVAILABLE,
+                "this report takes long to make: ask for it again in a minute",
+            )),
+        }
+    }
+}
+
+/// What a list says of a run.
+fn entry(data: &Path, number: u64) -> RunEntry {
+    let log = run_file(data, number);
+    let facts = RunFacts::read(&facts_file(&log)).unwrap_or_else(|| of_file(&log));
+    RunEntry {
+        number,
+        kind: facts.kind,
+        show: facts.show,
+        began_ms: facts.began_ms,
+        ended_ms: facts.ended_ms,
+        ok: facts.ok,
+        outcome: facts.outcome,
+        has_report: report_file(&log).is_file() || is_readable(&log).unwrap_or(false),
+    }
+}
+
+/// The facts of a log without facts: only when it was written.
+fn of_file(log: &Path) -> RunFacts {
+    let modified = std::fs::metadata(log).and_then(|file| file.modified()).ok();
+    let since = modified.and_then(|modified| modified.duration_since(UNIX_EPOCH).ok()).unwrap_or_default();
+    RunFacts { began_ms: since.as_millis() as u64, ..RunFacts::default() }
+}
+
+fn is_readable(log: &Path) -> std::io::Result<bool> {
+    let mut head = [0; HEAD_BYTES];
+    File::open(log)?.read_exact(&mut head)?;
+    Ok(check_head(&head).is_ok())
+}
+
+fn report(data: &Path, number: u64, is_running: bool) -> Result<Vec<u8>, Refused> {
+    let newest = recorded_runs(data).ok().and_then(|runs| runs.first().map(|run| run.0));
+    if is_running && newest == Some(number) {
+        let line = "this run is still on: its report can be read when it has ended";
+        return Err(refuse(StatusCode::CONFLICT, line));
+    }
+    let log = run_file(data, number);
+    let kept = report_file(&log);
+    if let Ok(page) = disk::read_regular(&kept, PAGE_MAX) {
+        return Ok(page);
+    }
+    let bytes = disk::read_regular(&log, RUN_BYTES_MAX + PAGE_MAX).map_err(|_| none(number))?;
+    let unfit =
+        |why: String| refuse(StatusCode::UNPROCESSABLE_ENTITY, &format!("run {number} has no report: {why}"));
+    // The log may come from a program that failed: then the core fails again.
+    let made = catch_unwind(|| report_of(&bytes, &mut |_| {}));
+    let (report, scrub) = made
+        .map_err(|_| unfit("the controller failed in this run".into()))?
+        .map_err(|error| unfit(error.to_string()))?;
+    let page = page(&report, &scrub).into_bytes();
+    if let Err(error) = disk::replace(&kept, &page, Readers::All) {
+        tracing::warn!("the report of run {number} is not kept: {error}");
+    }
+    Ok(page)
+}
+
+fn none(number: u64) -> Refused {
+    refuse(StatusCode::NOT_FOUND, &format!("there is no recorded run {number}"))
+}
+
+/// `GET /api/runs`
+pub async fn list(State(runs): State<Runs>) -> Result<Json<Vec<RunEntry>>, Refused> {
+    let listed = tokio::task::spawn_blocking(move || runs.list()).await;
+    let failed = |error: String| {
+        refuse(StatusCode::INTERNAL_SERVER_ERROR, &format!("the runs cannot be listed: {error}"))
+    };
+    listed.map_err(|error| failed(error.to_string()))?.map(Json).map_err(|error| failed(error.to_string()))
+}
+
+/// `GET /api/runs/{number}/report`
+pub async fn read_report(
+    State(runs): State<Runs>,
+    UrlPath(number): UrlPath<u64>,
+) -> Result<Response, Refused> {
+    let is_running = runs.handle.look().await.is_some_and(|snapshot| snapshot.run.is_some());
+    let page = runs.report(number, is_running).await?;
+    let about = [
+        (header::CONTENT_TYPE, "text/html; charset=utf-8"),
+        (header::CONTENT_SECURITY_POLICY, POLICY),
+        (header::X_CONTENT_TYPE_OPTIONS, "nosniff"),
+        (header::REFERRER_POLICY, "no-referrer"),
+        (header::CACHE_CONTROL, "private, no-cache"),
+    ];
+    Ok((about, page).into_response())
+}

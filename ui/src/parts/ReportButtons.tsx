@@ -1,0 +1,26 @@
+import { Button } from '@mantine/core';
+import type { RunEntry } from '../api/types.gen';
+import { reportLinks, runTitle } from '../session/runs';
+
+/** Reads the report of a run in a tab of its own, or saves it as a file. `named`: their names say of which run. */
+export function ReportButtons({ run, named }: { run: RunEntry; named?: boolean }) {
+  const { read, save } = reportLinks(run);
+  const name = (verb: string) =>
+    named ? `${verb} the report of run ${run.number}, ${runTitle(run)}` : undefined;
+  return (
+    <>
+      <Button component="a" {...read} size="compact-sm" aria-label={name('Read')}>
+        Read the report
+      </Button>
+      <Button
+        component="a"
+        {...save}
+        size="compact-sm"
+        variant="default"
+        aria-label={name('Download')}
+      >
+        Download
+      </Button>
+    </>
+  );
+}
