@@ -15,6 +15,7 @@ use crate::frames::FrameNotes;
 use crate::model::{ClosestApproach, Loss, MessageFigures, ReportBrakes, ReportedEvent, RunKind, ShowReport};
 use crate::robots::AllRobots;
 use crate::track::{Scrub, ScrubTrack, encoded};
+use crate::truth::Truth;
 use crate::words;
 
 /// Planned places are sampled this often.
@@ -53,11 +54,21 @@ pub struct ReportBuilder {
     incidents_left_out: usize,
     counters: (Counters, Counters),
     sampled: Option<Instant>,
+    truth: Option<Truth>,
 }
 
 /// The report of a recording, and its replay. `progress` is called with the share that is done.
 pub fn report_of(log: &[u8], progress: &mut dyn FnMut(f64)) -> Result<(ShowReport, Scrub), LogError> {
-    let mut builder = ReportBuilder::default();
+    report_with_truth(log, None, progress)
+}
+
+/// [`report_of`] a rehearsal, with what its simulator knows.
+pub fn report_with_truth(
+    log: &[u8],
+    truth: Option<Truth>,
+    progress: &mut dyn FnMut(f64),
+) -> Result<(ShowReport, Scrub), LogError> {
+    let mut builder = ReportBuilder { truth, ..ReportBuilder::default() };
     let replayed =
         replay_observed(log, progress, &mut |now, controller, step| builder.step(now, controller, step))?;
     Ok(builder.finish(replayed))
@@ -276,6 +287,9 @@ impl ReportBuilder {
             ..ShowReport::default()
         };
         report.notes = replayed.notes;
+        if let Some(truth) = &self.truth {
+            truth.tell(&mut report);
+        }
         report.ok = self.outcome == Some(RunOutcome::Finished)
             && report.frames_played >= report.frames
             && report.contacts.unwrap_or(0) == 0
@@ -324,10 +338,10 @@ impl ReportBuilder {
         all
     }
 
-    fn scrub(self, began: Instant) -> Scrub {
+    fn scrub(mut self, began: Instant) -> Scrub {
         let hundredths = |at: Instant| ((at - began).as_secs() * 100.0).round() as i64;
         let (mut lights, mut lost, mut tracks) = (Vec::new(), Vec::new(), Vec::new());
-        for robot in self.robots.by_name.into_values() {
+        for (id, robot) in self.robots.by_name {
             let mut last = 0;
             let light = robot.lights.iter().flat_map(|&(at, value)| {
                 let after = hundredths(at) - last;
@@ -336,7 +350,8 @@ impl ReportBuilder {
             });
             lights.push(light.collect::<Vec<_>>());
             lost.push(robot.lost.map(hundredths));
-            tracks.push((robot.planned, robot.driven));
+            let true_places = self.truth.as_mut().and_then(|truth| truth.take(id));
+            tracks.push((robot.planned, true_places.unwrap_or(robot.driven)));
         }
         let (tracks, tolerance_m) = encoded(tracks, began.as_secs());
         let track = |(((planned, driven), light), lost)| ScrubTrack { planned, driven, light, lost };

@@ -84,7 +84,7 @@ fn figures(page: &mut String, report: &ShowReport) {
         ),
         (
             closest,
-            "closest approach reported",
+            if report.contacts.is_some() { "closest, between rims" } else { "closest approach reported" },
             report.contacts.map_or(String::new(), |contacts| some(contacts as usize, "contact")),
         ),
         (
@@ -110,14 +110,16 @@ fn figures(page: &mut String, report: &ShowReport) {
 
 fn replay(page: &mut String, report: &ShowReport, scrub: &Scrub) {
     let end_s = scrub.end_s.max(0.01);
-    page.push_str(
+    let driven = if report.has_true_places { "true place" } else { "driven, as reported" };
+    let _ = write!(
+        page,
         "<section class=\"box replay wide\" aria-label=\"Replay\"><div class=\"head\"><h2>Replay</h2>\
-         <span class=\"legend dash push\">planned</span><span class=\"legend\">driven</span></div>\
+         <span class=\"legend dash push\">planned</span><span class=\"legend\">{driven}</span></div>\
          <div class=\"floor\"><canvas id=\"floor\" role=\"img\" aria-label=\"The floor at the moment of the slider\"></canvas></div>\
          <div class=\"scrub\"><button class=\"round\" id=\"play\" aria-pressed=\"false\" aria-label=\"Play the replay\">\
          <svg class=\"go\" viewBox=\"0 0 18 18\" aria-hidden=\"true\"><path d=\"M5 3l10 6-10 6z\"/></svg>\
          <svg class=\"rest\" viewBox=\"0 0 18 18\" aria-hidden=\"true\"><path d=\"M4 3h4v12H4zM10 3h4v12h-4z\"/></svg></button>\
-         <span class=\"now\" id=\"now\">0:00.0</span><div class=\"strip\"><div class=\"blocks\" aria-hidden=\"true\">",
+         <span class=\"now\" id=\"now\">0:00.0</span><div class=\"strip\"><div class=\"blocks\" aria-hidden=\"true\">"
     );
     for (index, frame) in report.per_frame.iter().enumerate() {
         let until_s = report.per_frame.get(index + 1).map_or(scrub.end_s, |next| next.left_s);

@@ -2,7 +2,8 @@
 //! page that needs no other file.
 //!
 //! It reads the recorded inputs of a controller ([`lightbots_control::replay_observed`]). It knows nothing of files,
-//! sockets, clocks or the simulator: the same inputs give the same bytes.
+//! sockets, clocks or the simulator: the same inputs give the same bytes. What only a simulator knows of a rehearsal comes
+//! as [`Truth`].
 //!
 //! Read [`ShowReport`] first, then [`report_of`] and [`page`].
 
@@ -15,13 +16,15 @@ mod html;
 mod model;
 mod robots;
 mod track;
+mod truth;
 mod words;
 
-pub use builder::report_of;
+pub use builder::{report_of, report_with_truth};
 pub use html::page;
 pub use model::{
     ClosestApproach, FrameFigures, Loss, MessageFigures, ReportBrakes, ReportedEvent, RobotFigures, RunKind,
     ShowReport,
 };
 pub use track::{Scrub, ScrubTrack};
+pub use truth::Truth;
 pub use words::verdict;

@@ -44,7 +44,7 @@ pub struct ShowReport {
     pub duration_s: f64,
     /// Contacts of rims; `None`: the recorded inputs of a controller do not say.
     pub contacts: Option<u64>,
-    /// Least gap between two rims that a robot reported, metres.
+    /// Least gap between two rims, metres: the true one of a rehearsal, else the least that a robot reported.
     pub closest_m: Option<f64>,
     /// The robots that reported the closest approaches.
     pub approaches: Vec<ClosestApproach>,
@@ -71,6 +71,8 @@ pub struct ShowReport {
     pub per_frame: Vec<FrameFigures>,
     /// The robots, by name.
     pub per_robot: Vec<RobotFigures>,
+    /// Whether the places of the replay are the true ones of a rehearsal, not those that robots reported.
+    pub has_true_places: bool,
     /// Whether the whole recording was read.
     pub is_complete: bool,
 }

@@ -34,7 +34,6 @@ mod fix_sensors;
 mod fleet;
 mod floor;
 mod forgeries;
-mod html;
 mod message_log;
 mod mishap;
 mod neighbour_list;

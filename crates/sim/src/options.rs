@@ -1,6 +1,6 @@
 //! What a rehearsal is told, and what it says while it goes on.
 
-use lightbots_base::{Instant, Span};
+use lightbots_base::{Instant, RobotId, Span, Vec2};
 use lightbots_plan::Path;
 
 use crate::conditions::Conditions;
@@ -39,6 +39,15 @@ pub enum Progress<'a> {
         /// `(robot, path)` of the robots that drive paths. A plan begins at the reported places, so it differs from
         /// seed to seed.
         paths: &'a [(usize, &'a Path)],
+    },
+    /// About ten times a second of the show: where robots truly are.
+    Stepped {
+        /// When, show clock.
+        at: Instant,
+        /// `(name, robot)`.
+        names: &'a [(RobotId, usize)],
+        /// `[robot]`: stage metres.
+        places: &'a [Vec2],
     },
     /// Further bytes of the log of the controller's inputs ([`lightbots_control::replay`]).
     Logged(&'a [u8]),

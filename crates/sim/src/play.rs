@@ -29,6 +29,8 @@ use crate::world::STEP;
 
 /// Time that robots have to find the controller and its clock. The show then begins without the others.
 const GATHERING: Span = Span::from_millis(8_000);
+/// Steps between two times that places are told: about a tenth of a second.
+const PLACES_EVERY: u64 = 6;
 /// Steps between two times that the world's state enters the hash: about a second.
 const HASH_EVERY: u64 = 64;
 /// Most messages and wake-ups between two steps. Only a controller that wakes itself without end reaches it.
@@ -132,6 +134,10 @@ impl Play {
             self.report_departure(progress);
             hand_on(&self.controller.take_log(), progress);
             step += 1;
+            if self.began && step.is_multiple_of(PLACES_EVERY) {
+                let places = self.robots.world.places();
+                progress(Progress::Stepped { at: self.now, names: &self.by_id, places });
+            }
             if step.is_multiple_of(HASH_EVERY) {
                 self.robots.world.imprint(&mut self.hash);
                 if self.record.began_at().is_some() {

@@ -5,7 +5,8 @@ use std::path::Path;
 use std::time::Instant;
 
 use lightbots_api::{self as api, rounded};
-use lightbots_show::slowed;
+use lightbots_report::{ReportedEvent, RunKind, Scrub, ShowReport, Truth, page, report_with_truth};
+use lightbots_show::{Issue, slowed};
 use lightbots_sim::{
     Conditions, Faults, Progress, RehearsalOptions, RehearsalReport, rehearse, rehearse_recorded,
 };
@@ -16,6 +17,9 @@ use crate::failure::{Failure, Outcome};
 use crate::numbers::rounded_spread;
 use crate::progress::Bar;
 use crate::{say, show_file};
+
+/// Most issues in the report of a show that was not played.
+const ISSUES_MAX: usize = 200;
 
 pub fn run(arguments: &RehearseArguments) -> Outcome {
     let faults = arguments.faults.as_deref().map(Faults::parse).transpose();
@@ -29,6 +33,7 @@ pub fn run(arguments: &RehearseArguments) -> Outcome {
     };
     let show = slowed(&opened.show, arguments.speed);
     let mut log = arguments.record.as_deref().map(LogFile::create).transpose()?;
+    let mut told = arguments.report.as_ref().map(|_| Told::default());
     let began = Instant::now();
     let mut virtual_s = 0.0_f64;
     let mut report = {
@@ -40,15 +45,24 @@ pub fn run(arguments: &RehearseArguments) -> Outcome {
                 if let Some(log) = &mut log {
                     log.append(bytes);
                 }
+                if let Some(told) = &mut told {
+                    told.log.extend_from_slice(bytes);
+                }
+            }
+            Progress::Stepped { at, names, places } => {
+                if let Some(told) = &mut told {
+                    names.iter().for_each(|&(name, robot)| told.truth.add(at, name, places[robot]));
+                }
             }
             Progress::Playing { at_s, planned_s, frames } => {
                 virtual_s = at_s;
                 bar.set(at_s / planned_s.max(1.0), format!("{} played", count(frames, "frame")));
             }
         };
-        match &arguments.record {
-            Some(_) => rehearse_recorded(&show, &options, notes(arguments), &mut progress),
-            None => rehearse(&show, &options, &mut progress),
+        if arguments.record.is_some() || arguments.report.is_some() {
+            rehearse_recorded(&show, &options, notes(arguments), &mut progress)
+        } else {
+            rehearse(&show, &options, &mut progress)
         }
     };
     log.map_or(Ok(()), LogFile::finish)?;
@@ -56,9 +70,10 @@ pub fn run(arguments: &RehearseArguments) -> Outcome {
     report.real_time_factor = Some(rounded(factor, 1));
     let news = opened.issues.iter().filter(|issue| !report.issues.contains(issue));
     report.issues = news.chain(&report.issues).cloned().collect();
-    if let Some(file) = &arguments.report {
-        std::fs::write(file, report.html(&title(&opened.show.name, &arguments.show)))
-            .map_err(|error| unwritable(file, &error))?;
+    if let (Some(file), Some(told)) = (&arguments.report, told) {
+        let page =
+            told.page(&report, title(&opened.show.name, &arguments.show), show.stage.limits.radius_m)?;
+        std::fs::write(file, page).map_err(|error| unwritable(file, &error))?;
     }
     if arguments.json {
         print_json(&readable(report.clone()))?;
@@ -66,6 +81,52 @@ pub fn run(arguments: &RehearseArguments) -> Outcome {
         print(&report);
     }
     Ok(report.ok)
+}
+
+/// What a rehearsal tells for its report.
+#[derive(Default)]
+struct Told {
+    /// The recorded inputs; empty: nothing was played.
+    log: Vec<u8>,
+    truth: Truth,
+}
+
+impl Told {
+    /// The page of the report.
+    fn page(mut self, found: &RehearsalReport, title: String, radius_m: f64) -> Result<String, Failure> {
+        if self.log.is_empty() {
+            return Ok(unplayed_page(found, title));
+        }
+        self.truth.contacts = found.contacts;
+        (self.truth.brakes, self.truth.false_brakes) = (found.brakes.all, found.brakes.unfounded);
+        self.truth.messages_lost = found.messages.lost;
+        self.truth.closest_m = found.closest_m.map(|centres_m| centres_m - 2.0 * radius_m);
+        let made = report_with_truth(&self.log, Some(self.truth), &mut |_| {});
+        let (mut report, scrub) =
+            made.map_err(|error| Failure::problem(format!("the rehearsal has no report: {error}")))?;
+        report.show = title;
+        Ok(page(&report, &scrub))
+    }
+}
+
+/// The page of a show that was not played: why.
+fn unplayed_page(found: &RehearsalReport, show: String) -> String {
+    let incident = |issue: &Issue| ReportedEvent {
+        at_s: 0.0,
+        tone: if issue.is_error() { "bad" } else { "look" },
+        line: issue.message.clone(),
+        robot: None,
+    };
+    let report = ShowReport {
+        show,
+        kind: RunKind::Rehearsal,
+        verdict: "This show must not be played like this; nothing was rehearsed.".into(),
+        incidents: found.issues.iter().take(ISSUES_MAX).map(incident).collect(),
+        incidents_left_out: found.issues.len().saturating_sub(ISSUES_MAX),
+        is_complete: true,
+        ..ShowReport::default()
+    };
+    page(&report, &Scrub::default())
 }
 
 /// The file of the recorded inputs.

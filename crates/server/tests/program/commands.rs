@@ -204,7 +204,22 @@ fn a_rehearsal_can_be_read_by_people() {
     let page = shows::file("report.html", "");
     let (code, out, _) = run(&["rehearse", &shows::row_file(3, &[0.1]), "--report", &page]);
     assert_eq!(code, 0, "{out}");
-    assert!(std::fs::read_to_string(page).unwrap().contains("<html"));
+    let text = std::fs::read_to_string(&page).unwrap();
+    let said = [
+        "The frame was shown, no contacts, no robot lost.",
+        "Rehearsal",
+        "closest, between rims",
+        "no contacts",
+        "0 false",
+        "0 lost",
+        "true place",
+    ];
+    for line in said {
+        assert!(text.contains(line), "{line}: {text}");
+    }
+    let (code, _, _) = run(&["rehearse", &shows::row_file(3, &[0.5]), "--floor", "1x1", "--report", &page]);
+    let text = std::fs::read_to_string(&page).unwrap();
+    assert!(code == 1 && text.contains("nothing was rehearsed"), "{text}");
 }
 
 #[test]

@@ -68,7 +68,7 @@ fn line(show: &Show, options: &RehearsalOptions) -> Line {
     let report = rehearse(show, options, &mut |progress| match progress {
         Progress::Planning => began = Some(cpu::Watch::started()),
         Progress::Playing { .. } => plans_ms.extend(began.take().map(|watch| watch.ms())),
-        Progress::Departing { .. } | Progress::Logged(_) => {}
+        Progress::Departing { .. } | Progress::Stepped { .. } | Progress::Logged(_) => {}
     });
     // The first is the check of the whole show, the second the plan the run begins with.
     let replans_ms: Vec<f64> = plans_ms.iter().skip(2).map(|ms| ms.round()).collect();

@@ -79,17 +79,22 @@ fn the_same_seed_gives_the_same_run_to_the_bit() {
 #[test]
 fn watching_does_not_change_what_is_watched() {
     let (mut planned_first, mut frames, mut departures) = (None, 0, Vec::new());
+    let mut steps = Vec::new();
     let options = RehearsalOptions { seed: 5, ..RehearsalOptions::default() };
     let watched = rehearse(&show(8), &options, &mut |progress| {
         planned_first.get_or_insert(progress == Progress::Planning);
         match progress {
             Progress::Planning | Progress::Logged(_) => {}
             Progress::Playing { frames: so_far, .. } => frames = so_far,
+            Progress::Stepped { at, names, places } => steps.push((at.as_secs(), names.len(), places.len())),
             Progress::Departing { frame, begins_s, paths } => departures.push((frame, begins_s, paths.len())),
         }
     });
     assert_eq!(watched, play(&show(8), "", 5));
     assert!(planned_first == Some(true) && frames > 0);
+    let is_tenth = |pair: &[(f64, usize, usize)]| (pair[1].0 - pair[0].0 - 0.096).abs() < 0.001;
+    assert!(steps.len() > 50 && steps.windows(2).all(is_tenth), "{steps:?}");
+    assert!(steps.iter().all(|step| (step.1, step.2) == (8, 8)), "{steps:?}");
     let frame_of = |departure: &(usize, f64, usize)| departure.0;
     assert!(departures.iter().map(frame_of).eq(0..watched.frames), "{departures:?}");
     assert!(departures[0].1 == 0.0 && departures.is_sorted_by(|a, b| a.1 < b.1), "{departures:?}");
