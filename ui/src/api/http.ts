@@ -100,3 +100,36 @@ export const getAsset = async (hash: string) =>
 /** Keeps a file for the shows that name it. */
 export const putAsset = (hash: string, bytes: Uint8Array<ArrayBuffer>) =>
   request(assetPath(hash), { method: 'PUT', body: bytes });
+
+/** A person or a token. */
+export interface AccountEntry {
+  name: string;
+  role: string;
+}
+
+const json = (method: string, body: unknown): RequestInit => ({
+  method,
+  headers: { 'Content-Type': 'application/json' },
+  body: JSON.stringify(body),
+});
+
+const accountPath = (kind: 'people' | 'tokens', name: string) =>
+  `/api/${kind}/${encodeURIComponent(name)}`;
+
+/** The people who can sign in, or the tokens of programs. */
+export const listAccounts = async (kind: 'people' | 'tokens') =>
+  (await (await request(`/api/${kind}`)).json()) as AccountEntry[];
+
+export const addPerson = (person: AccountEntry & { password: string }) =>
+  request('/api/people', json('POST', person));
+
+export const changePerson = (name: string, change: { role: string } | { password: string }) =>
+  request(accountPath('people', name), json('PUT', change));
+
+/** Removes a person or a token: nothing of theirs is admitted from then on. */
+export const removeAccount = (kind: 'people' | 'tokens', name: string) =>
+  request(accountPath(kind, name), { method: 'DELETE' });
+
+/** Makes a token of a program. It is in this answer only. */
+export const makeToken = async (token: AccountEntry) =>
+  ((await (await request('/api/tokens', json('POST', token))).json()) as { token: string }).token;

@@ -1,6 +1,7 @@
 import { Button, Group, Text, Title } from '@mantine/core';
 import { useEffect, useRef, useState } from 'react';
 import { useStore } from '../base/store';
+import { useWhyNot } from '../parts/Gate';
 import { Bottom } from '../parts/Bottom';
 import { useSession } from '../session/session';
 import { goTo } from '../session/address';
@@ -26,11 +27,12 @@ export function EditPage() {
   const session = useSession();
   const shown = useStore(session.shown);
   const restoring = useStore(session.restoring);
+  const reason = useWhyNot('editor', 'change shows');
   const [editing, setEditing] = useState(kept);
   const last = useRef(kept);
   useEffect(() => {
     const { name, show, etag, readOnly } = shown;
-    if (!show || name === null || readOnly !== null) return;
+    if (!show || name === null || readOnly !== null || reason !== null) return;
     const wanted = restoring?.name === name ? restoring.id : null;
     if (last.current?.name === name && wanted === null) return;
     last.current?.retire();
@@ -38,7 +40,8 @@ export function EditPage() {
     kept = last.current = createEditing(session, name, show, etag, wanted);
     session.editing.set(kept);
     setEditing(kept);
-  }, [session, shown, restoring]);
+  }, [session, shown, restoring, reason]);
+  if (reason !== null) return <NotYours reason={reason} />;
   if (shown.name !== null && shown.readOnly !== null)
     return <ReadOnlyPage name={shown.name} reason={shown.readOnly} />;
   if (shown.failure !== null) return <NotShown failure={shown.failure} />;
@@ -71,6 +74,17 @@ const NothingOpen = () => (
     <Group>
       <Button onClick={() => goTo('new')}>New show</Button>
     </Group>
+  </main>
+);
+
+/** In place of the editor: the role of this person is not enough. */
+const NotYours = ({ reason }: { reason: string }) => (
+  <main className={styles.empty}>
+    <Title order={1} size="lg">
+      You can watch this show, not change it
+    </Title>
+    <Text c="dimmed">{reason}</Text>
+    <Button onClick={() => goTo('live')}>Watch it live</Button>
   </main>
 );
 

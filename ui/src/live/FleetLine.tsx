@@ -1,6 +1,7 @@
 import { IconBulb, IconDots, IconPinFilled } from '@tabler/icons-react';
 import { memo } from 'react';
 import type { FleetRow } from '../api/types.gen';
+import { Gate } from '../parts/Gate';
 import { IconButton } from '../parts/IconButton';
 import type { Session } from '../session/session';
 import { canDrive, CHARGE_LOW } from '../session/checklist';
@@ -69,15 +70,17 @@ function Line({ row, wide, pinned, ask, choose }: Props) {
         </>
       ) : null}
       <td className={styles.actions}>
-        <IconButton
-          label="Identify"
-          name={`Identify robot ${name}`}
-          size="sm"
-          disabled={!row.abilities.blink || row.presence !== 'active'}
-          onClick={() => void ask({ do: 'identify', robot: row.id })}
-        >
-          <IconBulb size={15} />
-        </IconButton>
+        <Gate needs="operator" act="have robots blink">
+          <IconButton
+            label="Identify"
+            name={`Identify robot ${name}`}
+            size="sm"
+            disabled={!row.abilities.blink || row.presence !== 'active'}
+            onClick={() => void ask({ do: 'identify', robot: row.id })}
+          >
+            <IconBulb size={15} />
+          </IconButton>
+        </Gate>
         <IconButton
           label="Robot details"
           name={`Details of robot ${name}`}

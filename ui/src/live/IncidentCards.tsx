@@ -7,6 +7,7 @@ import { useSession } from '../session/session';
 import { nameOf, withNames } from '../session/robotWords';
 import { earlier, unread } from '../session/incidents';
 import styles from './IncidentCards.module.css';
+import { Gate } from '../parts/Gate';
 
 /** What went wrong, above the robots' table, until it is read; what was read folds away. */
 export function IncidentCards() {
@@ -54,36 +55,38 @@ function Card({ incident }: { incident: Incident }) {
         {incident.done ? <p>{incident.done}</p> : null}
         {incident.over ? <p>That is over.</p> : <p>{incident.advice}</p>}
         {incident.read ? null : (
-          <div className={styles.buttons}>
-            {first && row ? (
+          <Gate needs="operator" act="answer this">
+            <div className={styles.buttons}>
+              {first && row ? (
+                <Button
+                  size="compact-sm"
+                  variant="default"
+                  onClick={() => {
+                    found.set({ robot: first });
+                    if (row.abilities.blink && row.presence === 'active')
+                      void ask({ do: 'identify', robot: first });
+                  }}
+                >
+                  Find robot {nameOf(row)}
+                </Button>
+              ) : null}
+              {incident.wants_to_join && !incident.over ? (
+                <Button
+                  size="compact-sm"
+                  onClick={() => void ask({ do: 'list', robots: incident.robots, listed: true })}
+                >
+                  {incident.count === 1 ? 'Let it join' : `Let ${incident.robots.length} join`}
+                </Button>
+              ) : null}
               <Button
                 size="compact-sm"
                 variant="default"
-                onClick={() => {
-                  found.set({ robot: first });
-                  if (row.abilities.blink && row.presence === 'active')
-                    void ask({ do: 'identify', robot: first });
-                }}
+                onClick={() => void ask({ do: 'read_incident', incident: incident.id })}
               >
-                Find robot {nameOf(row)}
+                Got it
               </Button>
-            ) : null}
-            {incident.wants_to_join && !incident.over ? (
-              <Button
-                size="compact-sm"
-                onClick={() => void ask({ do: 'list', robots: incident.robots, listed: true })}
-              >
-                {incident.count === 1 ? 'Let it join' : `Let ${incident.robots.length} join`}
-              </Button>
-            ) : null}
-            <Button
-              size="compact-sm"
-              variant="default"
-              onClick={() => void ask({ do: 'read_incident', incident: incident.id })}
-            >
-              Got it
-            </Button>
-          </div>
+            </div>
+          </Gate>
         )}
       </div>
     </article>

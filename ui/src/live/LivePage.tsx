@@ -11,6 +11,7 @@ import { RunNote } from './RunNote';
 import { StartDialog } from './StartDialog';
 import { StoppedNote } from './StoppedNote';
 import { Transport } from './Transport';
+import { Gate } from '../parts/Gate';
 import { RunsDialog } from '../parts/RunsDialog';
 import styles from '../parts/page.module.css';
 
@@ -22,12 +23,18 @@ export function LivePage() {
     <main className={styles.page}>
       <LiveStage />
       <Bottom label="Playing">
-        <FailureNote />
-        <StoppedNote />
+        <Gate needs="operator" act="go on">
+          <FailureNote />
+          <StoppedNote />
+        </Gate>
         <RunNote onPast={showPast} />
-        <GoOnNote />
-        <GoNote />
-        <FitNote />
+        <Gate needs="operator" act="go on or give GO">
+          <GoOnNote />
+          <GoNote />
+        </Gate>
+        <Gate needs="editor" act="change shows">
+          <FitNote />
+        </Gate>
         <Transport />
         <FrameStrip />
       </Bottom>

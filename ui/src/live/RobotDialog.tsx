@@ -7,6 +7,7 @@ import { changeShow } from '../session/changeShow';
 import { useSession } from '../session/session';
 import * as words from '../session/robotWords';
 import styles from './facts.module.css';
+import { Gate } from '../parts/Gate';
 
 /** Details of one robot, and its actions. */
 export function RobotDialog({ row, onClose }: { row: FleetRow | null; onClose: () => void }) {
@@ -38,27 +39,29 @@ function Details({ row, onClose }: { row: FleetRow; onClose: () => void }) {
           <dd key={`${name} value`}>{value}</dd>,
         ])}
       </dl>
-      <NameField key={row.id} row={row} />
-      <ListedSwitch row={row} />
-      <PinChoice row={row} />
-      <Group justify="flex-end">
-        <Button
-          variant="default"
-          onClick={() =>
-            void ask({ do: 'forget', robot: row.id }).then((answer) => {
-              if (answer.ok) onClose();
-            })
-          }
-        >
-          Forget
-        </Button>
-        <Button
-          disabled={!row.abilities.blink || row.presence !== 'active'}
-          onClick={() => void ask({ do: 'identify', robot: row.id })}
-        >
-          Identify
-        </Button>
-      </Group>
+      <Gate needs="operator" act="change what is known of robots">
+        <NameField key={row.id} row={row} />
+        <ListedSwitch row={row} />
+        <PinChoice row={row} />
+        <Group justify="flex-end">
+          <Button
+            variant="default"
+            onClick={() =>
+              void ask({ do: 'forget', robot: row.id }).then((answer) => {
+                if (answer.ok) onClose();
+              })
+            }
+          >
+            Forget
+          </Button>
+          <Button
+            disabled={!row.abilities.blink || row.presence !== 'active'}
+            onClick={() => void ask({ do: 'identify', robot: row.id })}
+          >
+            Identify
+          </Button>
+        </Group>
+      </Gate>
     </Stack>
   );
 }

@@ -13,6 +13,7 @@ import { checkNow, whenPlanned } from '../session/start';
 import { SpeedField } from './SpeedField';
 import styles from './StartDialog.module.css';
 import { countText } from '../base/numbers';
+import { Gate } from '../parts/Gate';
 
 const MARKS = {
   good: [IconCircleCheck, 'Fine'],
@@ -78,19 +79,23 @@ function Checklist({ close }: { close: () => void }) {
               Fit to {countText(fit, 'robot')}…
             </Button>
           )}
-          <Button variant="default" onClick={() => void session.ask({ do: 'refresh' })}>
-            Refresh
-          </Button>
+          <Gate needs="operator" act="look for robots">
+            <Button variant="default" onClick={() => void session.ask({ do: 'refresh' })}>
+              Refresh
+            </Button>
+          </Gate>
           <Button variant="default" onClick={close}>
             Not now
           </Button>
-          <Button
-            data-autofocus
-            disabled={!idle || !canGoOn(checks) || drivers === 0}
-            onClick={() => play(ready ? 'refuse' : 'leave_out')}
-          >
-            {ready || drivers === 0 ? 'Play' : `Play with ${countText(drivers, 'robot')}`}
-          </Button>
+          <Gate needs="operator" act="press Play">
+            <Button
+              data-autofocus
+              disabled={!idle || !canGoOn(checks) || drivers === 0}
+              onClick={() => play(ready ? 'refuse' : 'leave_out')}
+            >
+              {ready || drivers === 0 ? 'Play' : `Play with ${countText(drivers, 'robot')}`}
+            </Button>
+          </Gate>
         </Group>
       </Modal.Body>
     </>

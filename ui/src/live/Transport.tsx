@@ -11,6 +11,7 @@ import {
 } from '@tabler/icons-react';
 import { useEffect, type ReactNode } from 'react';
 import { useStore } from '../base/store';
+import { Gate, useWhyNot } from '../parts/Gate';
 import { IconButton } from '../parts/IconButton';
 import { useSession } from '../session/session';
 import { actionsOf, type Action } from './actions';
@@ -18,6 +19,7 @@ import { ChecklistButton } from './ChecklistButton';
 import { DriveDialog } from './DriveDialog';
 import { DriveProgress } from './DriveProgress';
 import { driveTo } from '../session/drives';
+import { RoleNote } from './RoleNote';
 import { PlayState } from './PlayState';
 import { followPlan, startPlay } from '../session/start';
 import { useTransportKeys } from './useTransportKeys';
@@ -45,8 +47,10 @@ export function Transport() {
   const hasShow = useStore(live.opened, (o) => o.show !== null);
   const isWaiting = useStore(session.waiting, (pending) => pending !== null);
   useEffect(() => followPlan(session), [session]);
+  const reason = useWhyNot('operator', 'press Play');
   const actions = actionsOf(phase, linked, hasShow, mayGoOn, waitsForGo);
   const perform = (action: Action) => {
+    if (reason !== null) return;
     if (isWaiting && (action === 'abort' || action === actions.main))
       return session.waiting.set(null);
     if (!actions.enabled.has(action)) return;
@@ -71,23 +75,26 @@ export function Transport() {
   );
   return (
     <div className={styles.bar} role="toolbar" aria-label="Playing">
-      <Button
-        w={116}
-        leftSection={ICONS[actions.main]}
-        disabled={!actions.enabled.has(actions.main)}
-        onClick={() => perform(actions.main)}
-      >
-        {isWaiting ? 'Cancel' : LABELS[actions.main]}
-      </Button>
-      <Group gap={2} wrap="nowrap">
-        {icon('abort', 'Abort (Esc)', <IconPlayerStopFilled size={18} />)}
-        {icon('step', 'Step to the next frame (S)', <IconPlayerTrackNextFilled size={18} />)}
-        {icon('preview', 'Drive robots to this frame (P)', <IconNavigation size={19} />)}
-        {icon('home', 'Home: drive robots to their starting places', <IconHome size={19} />)}
-        {icon('loop', 'Loop (L)', <IconRepeat size={18} />, looping)}
-        <ChecklistButton />
-        {icon('refresh', 'Look for robots (R)', <IconRefresh size={18} />)}
-      </Group>
+      <Gate needs="operator" act="press Play">
+        <Button
+          w={116}
+          leftSection={ICONS[actions.main]}
+          disabled={!actions.enabled.has(actions.main)}
+          onClick={() => perform(actions.main)}
+        >
+          {isWaiting ? 'Cancel' : LABELS[actions.main]}
+        </Button>
+        <Group gap={2} wrap="nowrap">
+          {icon('abort', 'Abort (Esc)', <IconPlayerStopFilled size={18} />)}
+          {icon('step', 'Step to the next frame (S)', <IconPlayerTrackNextFilled size={18} />)}
+          {icon('preview', 'Drive robots to this frame (P)', <IconNavigation size={19} />)}
+          {icon('home', 'Home: drive robots to their starting places', <IconHome size={19} />)}
+          {icon('loop', 'Loop (L)', <IconRepeat size={18} />, looping)}
+          <ChecklistButton />
+          {icon('refresh', 'Look for robots (R)', <IconRefresh size={18} />)}
+        </Group>
+      </Gate>
+      <RoleNote />
       <DriveProgress />
       <PlayState />
       <DriveDialog />

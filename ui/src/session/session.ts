@@ -11,6 +11,8 @@ import type { Saver } from '../model/saver';
 import type { Dropped } from './droppable';
 import type { DriveGoal } from './fleetKind';
 import { notify } from './notices';
+import { followRole } from './signedIn';
+import type { Role } from './roles';
 
 /** The state that all parts of the page share. */
 export interface Session {
@@ -36,6 +38,8 @@ export interface Session {
   driveAsked: Store<DriveGoal | null>;
   /** The robot that was looked for last, anew with each search; null: none. */
   found: Store<{ robot: string } | null>;
+  /** The role of this person; an operator where sign-in is not asked for. */
+  role: Readable<Role>;
   /** Whether the checklist is shown. */
   checking: Store<boolean>;
   /** Changes that are not on the server yet. */
@@ -93,6 +97,7 @@ export function createSession(): Session {
     driveAsked: createStore<DriveGoal | null>(null),
     found: createStore<{ robot: string } | null>(null),
     checking: createStore(false),
+    role: followRole(live.link),
     orphans,
     restoring: createStore<LeftDraft | null>(null),
     live,

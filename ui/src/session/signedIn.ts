@@ -1,3 +1,7 @@
+import { createStore, type Readable } from '../base/store';
+import type { LinkState } from '../api/socket';
+import { isRole, type Role } from './roles';
+
 const ADDRESS = '/api/session';
 
 /** The person of this page. */
@@ -34,4 +38,16 @@ export async function signOut() {
   } finally {
     location.reload();
   }
+}
+
+/** The role of this person, asked for anew with each connection. */
+export function followRole(link: Readable<LinkState>): Readable<Role> {
+  const role = createStore<Role>('operator');
+  link.subscribe(() => {
+    if (link.get() !== 'open') return;
+    void signedIn().then((person) => {
+      if (person !== null && isRole(person.role)) role.set(person.role);
+    });
+  });
+  return role;
 }

@@ -10,6 +10,7 @@ import {
 } from '@tabler/icons-react';
 import { useCallback, useState } from 'react';
 import { useStore } from '../base/store';
+import { Gate } from '../parts/Gate';
 import { IconButton } from '../parts/IconButton';
 import { KeyboardMap } from './KeyboardMap';
 import { LibraryDialog } from './LibraryDialog';
@@ -84,17 +85,19 @@ export function Header({ view }: { view: View }) {
           </span>
         </Button>
       </Tooltip>
-      <Tooltip label="New show">
-        <Button
-          variant="subtle"
-          color="gray"
-          size="compact-sm"
-          leftSection={<IconPlus size={16} />}
-          onClick={() => goTo('new')}
-        >
-          New
-        </Button>
-      </Tooltip>
+      <Gate needs="editor" act="make shows">
+        <Tooltip label="New show">
+          <Button
+            variant="subtle"
+            color="gray"
+            size="compact-sm"
+            leftSection={<IconPlus size={16} />}
+            onClick={() => goTo('new')}
+          >
+            New
+          </Button>
+        </Tooltip>
+      </Gate>
       <span className={styles.push} />
       <KindPill />
       <LinkPill />

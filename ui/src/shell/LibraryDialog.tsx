@@ -14,6 +14,7 @@ import { openShow } from '../session/openShow';
 import { useSession } from '../session/session';
 import { uploadShow } from '../session/upload';
 import { goTo } from '../session/address';
+import { Gate } from '../parts/Gate';
 
 /** Every show on the server: open one, add one, begin one. */
 export function LibraryDialog({ opened, onClose }: { opened: boolean; onClose: () => void }) {
@@ -58,35 +59,39 @@ export function LibraryDialog({ opened, onClose }: { opened: boolean; onClose: (
           style={{ flex: 1 }}
           data-autofocus
         />
-        <FileButton
-          accept={ACCEPTED}
-          onChange={(file) => {
-            if (file) void uploadShow(session, file).then(onClose);
-          }}
-        >
-          {(props) => (
-            <Button {...props} variant="default" leftSection={<IconUpload size={16} />}>
-              Import…
-            </Button>
-          )}
-        </FileButton>
-        <Button leftSection={<IconPlus size={16} />} onClick={begin}>
-          New show
-        </Button>
+        <Gate needs="editor" act="add shows">
+          <FileButton
+            accept={ACCEPTED}
+            onChange={(file) => {
+              if (file) void uploadShow(session, file).then(onClose);
+            }}
+          >
+            {(props) => (
+              <Button {...props} variant="default" leftSection={<IconUpload size={16} />}>
+                Import…
+              </Button>
+            )}
+          </FileButton>
+          <Button leftSection={<IconPlus size={16} />} onClick={begin}>
+            New show
+          </Button>
+        </Gate>
       </Group>
-      <ul className={rows.list} aria-label="Shows in the library">
-        {shown.map((entry) => (
-          <LibraryEntry
-            key={entry.name}
-            entry={entry}
-            open={entry.name === open}
-            onOpen={() => void choose(entry.name)}
-            onName={(purpose) => setNaming({ entry, purpose })}
-            onStates={() => setPast(entry.name)}
-            onChanged={load}
-          />
-        ))}
-      </ul>
+      <Gate needs="editor" act="open and change shows">
+        <ul className={rows.list} aria-label="Shows in the library">
+          {shown.map((entry) => (
+            <LibraryEntry
+              key={entry.name}
+              entry={entry}
+              open={entry.name === open}
+              onOpen={() => void choose(entry.name)}
+              onName={(purpose) => setNaming({ entry, purpose })}
+              onStates={() => setPast(entry.name)}
+              onChanged={load}
+            />
+          ))}
+        </ul>
+      </Gate>
       <Text c="dimmed" size="xs" mt="md">
         {entries.length > 0 && shown.length === 0
           ? 'No show has that in its name.'

@@ -11,6 +11,7 @@ import {
 } from '@mantine/core';
 import { useStore } from '../base/store';
 import { isUnit, UNITS, type Unit } from '../base/units';
+import { Gate } from '../parts/Gate';
 import { BrokerSection } from './BrokerSection';
 import { setSound, useSound } from '../session/alarm';
 import { setUnit, useUnit } from '../session/preferences';
@@ -33,8 +34,10 @@ export function SettingsDialog({ opened, onClose, onKeys }: Props) {
     <Modal opened={opened} onClose={onClose} title="Settings">
       <Stack>
         <AppearanceAndUnits />
-        <NewRobots />
-        <BrokerSection />
+        <Gate needs="operator" act="change robots and broker">
+          <NewRobots />
+          <BrokerSection />
+        </Gate>
         <SignedInSection />
         <Group justify="space-between">
           <Button size="compact-sm" variant="subtle" color="gray" onClick={onKeys}>

@@ -67,6 +67,10 @@ pub struct ApiToken {
     pub role: AccountRole,
     /// The hash of the token.
     pub hash: Secret,
+    /// The person who made it. It ends with that person, and never allows more than that person may do; `None`: it was made
+    /// where sign-in is not asked for.
+    #[serde(default)]
+    pub maker: Option<String>,
 }
 
 /// The content of the file, by name.
@@ -75,6 +79,26 @@ pub struct AccountList {
     pub people: BTreeMap<String, Person>,
     #[serde(default)]
     pub tokens: BTreeMap<String, ApiToken>,
+}
+
+impl AccountList {
+    /// The role of a token now; `None`: the person who made it is no longer there.
+    pub fn role_of(&self, token: &ApiToken) -> Option<AccountRole> {
+        let Some(maker) = &token.maker else { return Some(token.role) };
+        self.people.get(maker).map(|person| person.role.min(token.role))
+    }
+
+    /// Whether a person is the only operator.
+    pub fn is_last_operator(&self, name: &str) -> bool {
+        let mut operators = self.people.iter().filter(|(_, person)| person.role == AccountRole::Operator);
+        operators.next().is_some_and(|(only, _)| only == name) && operators.next().is_none()
+    }
+
+    /// Removes a person and the tokens that the person made; whether there was one.
+    pub fn remove(&mut self, name: &str) -> bool {
+        self.tokens.retain(|_, token| token.maker.as_deref() != Some(name));
+        self.people.remove(name).is_some()
+    }
 }
 
 /// The file of accounts.

@@ -101,8 +101,17 @@ impl Admission {
             Ticket::Token(hash) => {
                 let list = self.read()?;
                 let (name, token) = list.tokens.iter().find(|(_, token)| token.hash == *hash)?;
-                Some(Caller { name: Some(name.clone()), role: token.role })
+                Some(Caller { name: Some(name.clone()), role: list.role_of(token)? })
             }
+        }
+    }
+
+    /// The person of a ticket: of a token, the one who made it. `None`: no person is known.
+    pub fn person(&self, ticket: &Ticket) -> Option<String> {
+        match ticket {
+            Ticket::Loopback => None,
+            Ticket::Session(session) => Some(self.sessions.find(session, Instant::now())?.0),
+            Ticket::Token(hash) => self.read()?.tokens.into_values().find(|token| token.hash == *hash)?.maker,
         }
     }
 
@@ -162,12 +171,8 @@ impl Admission {
         }
         let wrong = |line| (StatusCode::UNPROCESSABLE_ENTITY, line);
         crate::accounts::check_name(name).map_err(wrong)?;
-        crate::accounts::check_password(password).map_err(wrong)?;
-        let _turn = self.hashing.acquire().await;
         let failed = |line: String| (StatusCode::INTERNAL_SERVER_ERROR, line);
-        let text = password.to_owned();
-        let hash = tokio::task::spawn_blocking(move || hash_password(&text)).await;
-        let hash = hash.map_err(|error| failed(error.to_string()))?.map_err(failed)?;
+        let hash = self.hash(password).await?;
         let person = Person { role: AccountRole::Operator, password: hash.clone() };
         let added = self.accounts.change(|list| {
             let is_first = list.people.is_empty();
@@ -180,6 +185,16 @@ impl Admission {
             return Err(used());
         }
         self.sessions.begin(name, &hash, Instant::now()).map_err(failed)
+    }
+
+    /// The hash of a new password, if it is long enough.
+    pub async fn hash(&self, password: &str) -> Result<String, (StatusCode, String)> {
+        crate::accounts::check_password(password).map_err(|line| (StatusCode::UNPROCESSABLE_ENTITY, line))?;
+        let _turn = self.hashing.acquire().await;
+        let failed = |line: String| (StatusCode::INTERNAL_SERVER_ERROR, line);
+        let text = password.to_owned();
+        let hash = tokio::task::spawn_blocking(move || hash_password(&text)).await;
+        hash.map_err(|error| failed(error.to_string()))?.map_err(failed)
     }
 
     fn tries(&self) -> std::sync::MutexGuard<'_, SignInTries> {

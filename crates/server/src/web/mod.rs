@@ -14,6 +14,7 @@ mod names;
 mod operate;
 mod origin;
 mod pages;
+mod people;
 mod picture;
 mod planner;
 mod refused;
@@ -28,7 +29,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicU32, AtomicUsize};
 
 use axum::Router;
-use axum::routing::{any, delete, get, post};
+use axum::routing::{any, delete, get, post, put};
 use tokio::net::TcpListener;
 
 pub use admission::Admission;
@@ -160,7 +161,8 @@ fn accounts(admission: Arc<Admission>) -> Router<Arc<Shared>> {
     Router::new()
         .route("/api/session", get(sign_in::session).post(sign_in::sign_in).delete(sign_in::sign_out))
         .route("/api/first", post(sign_in::first))
-        .route("/api/people", get(sign_in::people))
+        .route("/api/people", get(sign_in::people).post(people::add))
+        .route("/api/people/{name}", put(people::change).delete(people::remove))
         .route("/api/tokens", get(sign_in::tokens).post(sign_in::make_token))
         .route("/api/tokens/{name}", delete(sign_in::revoke_token))
         .with_state(admission)

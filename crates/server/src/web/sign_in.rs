@@ -111,14 +111,16 @@ pub async fn tokens(State(admission): State<Arc<Admission>>) -> Result<Json<Vec<
 /// `POST /api/tokens`: makes a token. This answer alone holds it.
 pub async fn make_token(
     State(admission): State<Arc<Admission>>,
+    Extension(ticket): Extension<Ticket>,
     Json(WantedToken { name, role }): Json<WantedToken>,
 ) -> Result<Response, Refused> {
     check_name(&name).map_err(|line| refuse(StatusCode::UNPROCESSABLE_ENTITY, &line))?;
     let (text, hash) = Secret::fresh().map_err(failed)?;
+    let maker = admission.person(&ticket);
     let made = admission.accounts.change(|list| {
         let is_new = !list.tokens.contains_key(&name);
         if is_new {
-            list.tokens.insert(name.clone(), ApiToken { role, hash });
+            list.tokens.insert(name.clone(), ApiToken { role, hash, maker });
         }
         Ok(is_new)
     });

@@ -217,6 +217,49 @@ fn a_revoked_token_opens_nothing() {
 }
 
 #[test]
+fn a_removed_person_is_out_at_once_and_the_last_operator_stays() {
+    let _turn = alone();
+    let (_server, _, address) = start(&[("ann", "operator")]);
+    let ann = session(&address, "ann", "password of ann");
+    let ask = |method: &str, path: &str, cookie: &str, body: Value| {
+        let headers = [("Content-Type", "application/json"), ("Cookie", cookie)];
+        http::request(&address, method, path, &headers, &body.to_string())
+    };
+    let bob = json!({"name": "bob", "role": "operator", "password": "password of bob"});
+    assert_eq!(
+        ask("POST", "/api/people", &ann, json!({"name": "bob", "role": "viewer", "password": "x"})).status,
+        422
+    );
+    assert_eq!(ask("POST", "/api/people", &ann, bob.clone()).status, 204);
+    assert_eq!(ask("POST", "/api/people", &ann, bob).status, 409);
+    let of_bob = session(&address, "bob", "password of bob");
+    let bearer = token(&address, &of_bob, "lights", "operator");
+    let by_token =
+        |path: &str| http::request(&address, "GET", path, &[("Authorization", &bearer)], "").status;
+    assert_eq!(by_token("/api/people"), 200);
+
+    // A token allows no more than the person who made it.
+    assert_eq!(ask("PUT", "/api/people/bob", &ann, json!({"role": "viewer"})).status, 204);
+    assert_eq!((by_token("/api/people"), by_token("/api/shows")), (403, 200));
+    assert_eq!(get(&address, "/api/session", &of_bob).json()["role"], "viewer");
+    for (method, body) in [("DELETE", json!({})), ("PUT", json!({"role": "editor"}))] {
+        let answer = ask(method, "/api/people/ann", &ann, body);
+        assert!(answer.status == 409 && answer.body.contains("last operator"), "{}", answer.body);
+    }
+
+    let mut screen = Screen::try_open_with(&address, &address, &[("Cookie", &of_bob)]).unwrap();
+    assert_eq!(ask("DELETE", "/api/people/bob", &ann, json!({})).status, 204);
+    assert_eq!(ask("DELETE", "/api/people/bob", &ann, json!({})).status, 404);
+    assert!(is_refused_for_sign_in(&get(&address, "/api/shows", &of_bob)) && screen.is_hung_up());
+    assert_eq!((by_token("/api/shows"), sign_in(&address, "bob", "password of bob").status), (401, 401));
+    assert_eq!(get(&address, "/api/tokens", &ann).json(), json!([]));
+
+    assert_eq!(ask("PUT", "/api/people/ann", &ann, json!({"password": "a longer password"})).status, 204);
+    assert!(is_refused_for_sign_in(&get(&address, "/api/shows", &ann)));
+    session(&address, "ann", "a longer password");
+}
+
+#[test]
 fn wrong_passwords_say_what_is_left_and_lead_to_a_pause() {
     let _turn = alone();
     let (_server, _, address) = start(&[("ann", "operator")]);
