@@ -6,7 +6,7 @@ use crate::leg::LegKind;
 use crate::operation::ControllerState;
 use crate::run::{Run, RunPhase, RunPurpose};
 use crate::snapshot::{RobotView, RunView};
-use lightbots_base::{Instant, RobotId, Span, Vec2};
+use lightbots_base::{Instant, Rgb, RobotId, Span, Vec2};
 
 /// Most robots that a view names others wait for.
 const WAITING_MAX: usize = 8;
@@ -122,6 +122,10 @@ impl Run {
         let Some(step) = leg.robots.get(participant).filter(|_| !known.is_excluded()) else { return };
         view.pixel = step.pixel.filter(|_| self.playback.purpose != RunPurpose::Home);
         view.goal = Some(step.goal);
+        if let Some(colour) = self.pipeline.light.colour(now, (leg, self.pipeline.queue.front()), participant)
+        {
+            view.light = colour;
+        }
         if let (RunPhase::Driving(drive), LegKind::Routes) = (&self.phase, leg.kind) {
             let place = |path: &lightbots_plan::Path| path.as_ref().at(drive.clock.path_time(now)).position;
             view.planned = leg.path(participant).map(place);
@@ -130,6 +134,23 @@ impl Run {
 }
 
 impl Controller {
+    /// The colours that layers give now to robots that get stretches of light; empty while no show with layers is played,
+    /// and while lights blend to other colours.
+    pub fn layered_lights(&self, now: Instant) -> Vec<(RobotId, Rgb)> {
+        let Some(Run { pipeline, roster, phase, .. }) = &self.run else { return Vec::new() };
+        let plays = matches!(phase, RunPhase::Driving(_) | RunPhase::Standing(_) | RunPhase::Starting(_));
+        let Some(leg) = pipeline.leg().filter(|_| plays && !pipeline.light.blends(now)) else {
+            return Vec::new();
+        };
+        let colour = |(participant, _)| {
+            let robot = roster.robot(&self.context, participant);
+            robot.reported.abilities.light.then_some(())?;
+            let colour = pipeline.light.colour(now, (leg, pipeline.queue.front()), participant)?;
+            Some((robot.id, colour))
+        };
+        roster.active().filter_map(colour).collect()
+    }
+
     /// Where the paths of the drive under way say that their robots are now, stage metres; empty while no path is driven.
     pub fn planned_places(&self, now: Instant) -> Vec<(RobotId, Vec2)> {
         let Some(Run { phase: RunPhase::Driving(drive), pipeline, roster, .. }) = &self.run else {

@@ -23,6 +23,8 @@ pub struct DrivenLight<'a> {
     pub pixel: Option<u32>,
     /// Its colour before, in the frame, and in the frame after it.
     pub colours: [Rgb; 3],
+    /// Whether layers shine on it before, and in the frame: on robots with a pixel.
+    pub shines: [bool; 2],
     /// Its path; `None`: it stands.
     pub path: Option<PathRef<'a>>,
     /// Where it stands in the frame, stage metres.
@@ -60,26 +62,46 @@ impl DrivenLight<'_> {
             speed_mps,
             frame: self.frame,
             pixel: self.pixel,
-            colour: Linear::from_rgb(self.faded(before, own, elapsed)),
+            // The pixel's colour changes evenly at the end of the drive, as a `FADE` does.
+            colour: Linear::from_rgb(before.mixed(own, self.changed(elapsed))),
             next_colour: Linear::from_rgb(next),
         }
     }
 
-    /// The pixel's colour: it changes evenly at the end of the drive, as a `FADE` does.
-    fn faded(&self, before: Rgb, own: Rgb, elapsed: Span) -> Rgb {
+    /// How far the change at the end of the drive is, 0 to 1.
+    fn changed(&self, elapsed: Span) -> f64 {
         let over = fade_of(self.drive);
         let since = elapsed - (self.drive - over);
         match since {
-            since if since >= over => own,
-            since if since <= Span::ZERO => before,
-            since => before.mixed(own, since.as_secs() / over.as_secs()),
+            since if since >= over => 1.0,
+            since if since <= Span::ZERO => 0.0,
+            since => since.as_secs() / over.as_secs(),
         }
     }
 
     /// The colour at a moment.
     pub fn colour(&self, light: &FrameLight, pictures: &[FloorPicture], moment: LightMoment) -> Rgb {
+        self.light(light, pictures, moment, usize::MAX).to_rgb()
+    }
+
+    /// The light at a moment, without one of the frame's layers.
+    pub(crate) fn light(
+        &self,
+        light: &FrameLight,
+        pictures: &[FloorPicture],
+        moment: LightMoment,
+        left_out: usize,
+    ) -> Linear {
         let context = LightContext { pictures, lead_s: moment.lead_s };
-        light.layers.colour(moment.show_s, &self.lit(moment.elapsed), &context).to_rgb()
+        let robot = self.lit(moment.elapsed);
+        let share = match self.shines {
+            [true, true] => 1.0,
+            [false, false] => return robot.colour,
+            [false, true] => self.changed(moment.elapsed),
+            [true, false] => 1.0 - self.changed(moment.elapsed),
+        };
+        let lit = light.layers.colour_without(left_out, moment.show_s, &robot, &context);
+        robot.colour.lerp(lit, share)
     }
 
     /// The colours at `ticks` + 1 moments that are a [`TICK`] apart. `moment` gives them by number.
@@ -109,6 +131,7 @@ mod tests {
             frame: 1,
             pixel: Some(7),
             colours: [Rgb::BLACK, Rgb::new(200, 0, 0), Rgb::new(0, 9, 0)],
+            shines: [true; 2],
             path: Some(PathRef::new(start, &pieces)),
             goal,
             drive: Span::from_secs(4.0),

@@ -81,6 +81,12 @@ pub fn fit(samples: &[Rgb], tolerance: Tolerance, records_max: usize) -> LightFi
     }
 }
 
+/// Whether two colours are seen as different side by side: by two units of L* in a channel.
+pub fn is_seen_apart(one: Rgb, other: Rgb) -> bool {
+    let pairs = channels(one).into_iter().zip(channels(other));
+    pairs.into_iter().any(|(one, other)| (lightness(one) - lightness(other)).abs() > 2.0)
+}
+
 fn lines(samples: &[Rgb], bounds: &Bounds) -> Vec<LightRecord> {
     let wanted: Vec<[(u8, u8); 3]> = samples.iter().map(|&colour| bounds.of(colour)).collect();
     let mut records = Vec::new();

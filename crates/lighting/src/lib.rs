@@ -2,18 +2,24 @@
 //!
 //! `lightbots_light` computes colours of layers and knows no show; here layers are read from a show, placed on its timeline
 //! and turned into the records that robots play. No IO, and no state between two calls. Reading order: [`ShowLight`],
-//! [`FrameTimes`], [`DrivenLight`], [`fit`].
+//! [`FrameTimes`], [`DrivenLight`], [`fit`](fit()), [`flashes`](flashes()), [`validate`].
 
 mod driven;
 mod fit;
+mod flashes;
+mod issues;
 mod layer_settings;
 mod masks;
+mod planned;
 mod settings;
 mod show_light;
 mod times;
 
 pub use driven::{DrivenLight, LightMoment, fade_of};
-pub use fit::{LightFit, Tolerance, fit};
+pub use fit::{LightFit, Tolerance, fit, is_seen_apart};
+pub use flashes::{FlashWarning, LitFrame, flashes};
+pub use issues::{flash_issue, flashes_of, validate};
+pub use planned::planned;
 pub use settings::LAYER_KINDS;
 pub use show_light::{FrameLight, ShowLight};
 pub use times::FrameTimes;

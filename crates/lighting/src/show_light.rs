@@ -17,7 +17,7 @@ enum Span {
 /// The layers of a show, ready to be shown.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ShowLight {
-    layers: Vec<(Span, LightLayer)>,
+    layers: Vec<(usize, Span, LightLayer)>,
     pictures: Vec<FloorPicture>,
 }
 
@@ -26,6 +26,8 @@ pub struct ShowLight {
 pub struct FrameLight {
     /// The layers, lowest first.
     pub layers: Layers,
+    /// Their numbers in the show, counted from 0.
+    pub numbers: Vec<usize>,
     /// Whether one of them goes on while show time stands.
     pub runs_freely: bool,
 }
@@ -52,7 +54,7 @@ impl ShowLight {
             };
             match (light_layer(layer, number, &mut number_of), span_of(show, &layer.span)) {
                 (Ok((layer, unknown)), Some(span)) => {
-                    light.layers.push((span, layer));
+                    light.layers.push((number, span, layer));
                     faults.extend(unknown);
                 }
                 // A span with a frame that does not exist is a finding of the show's own validation.
@@ -80,7 +82,8 @@ impl ShowLight {
         let Some(own) = times(frame) else { return FrameLight::default() };
         let mut moments = Vec::new();
         let mut layers = Vec::new();
-        for (span, layer) in &self.layers {
+        let mut numbers = Vec::new();
+        for (number, span, layer) in &self.layers {
             let moment = match *span {
                 Span::Show => Some((f64::NEG_INFINITY, f64::INFINITY, 0.0)),
                 Span::Seconds { from_s, to_s } => Some((from_s, to_s, from_s)),
@@ -96,13 +99,14 @@ impl ShowLight {
             };
             if let Some(moment) = moment {
                 moments.push(moment);
+                numbers.push(*number);
                 layers.push(layer.clone());
             }
         }
         let runs_freely = layers.iter().any(|layer| layer.runs_freely);
         // Each layer was found valid on its own, and the document bounds their number.
         let layers = Layers::new(layers).unwrap_or_default().at_times(|number| moments[number]);
-        FrameLight { layers, runs_freely }
+        FrameLight { layers, numbers, runs_freely }
     }
 }
 

@@ -43,6 +43,7 @@ fn colour(light: &ShowLight, frame: usize, show_s: f64, lead_s: f64) -> Rgb {
         frame: frame as u32,
         pixel: Some(5),
         colours: [Rgb::new(0, 0, 255); 3],
+        shines: [true; 2],
         path: None,
         goal: Vec2::ZERO,
         drive: Span::ZERO,

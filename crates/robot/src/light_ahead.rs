@@ -174,6 +174,10 @@ impl LightAhead {
     }
 
     fn begin(&mut self, kept: Kept, shown: Rgb) {
+        if kept.seq.is_some() {
+            // What waits for a moment belongs to the drive before.
+            self.waiting.retain(|other| other.seq.is_some());
+        }
         let is_new = |playing: &Playing| playing.kept.from != kept.from;
         if let Some(from) =
             kept.from.filter(|_| self.playing.as_ref().is_none_or(is_new) && !kept.runs_freely)
@@ -265,6 +269,17 @@ mod tests {
         assert_eq!(at(&mut tracks, 1500, 127), Some(127), "it begins with the colour shown");
         assert_eq!(at(&mut tracks, 1750, 127), Some(96), "half of 127 and half of 64");
         assert_eq!(at(&mut tracks, 2000, 96), Some(128));
+    }
+
+    #[test]
+    fn a_start_deletes_what_waits_for_a_moment() {
+        let (mut tracks, mut storage) = (LightAhead::default(), stored());
+        tracks.keep(&stretch(1, LightAnchor::Start(7), Span::ZERO), &mut storage);
+        tracks.keep(&stretch(2, LightAnchor::Moment(ms(1500)), Span::ZERO), &mut storage);
+        tracks.keep(&stretch(3, LightAnchor::Start(8), Span::ZERO), &mut storage);
+        tracks.start(7, ms(1000));
+        assert_eq!(tracks.step(ms(1000), WHITE, &storage), Some(Rgb::BLACK));
+        assert_eq!((tracks.waiting.len(), tracks.waiting[0].seq), (1, Some(8)));
     }
 
     #[test]

@@ -3,7 +3,8 @@
 use std::path::Path;
 
 use lightbots_exchange::{Format, Loaded, MAX_BYTES, for_file, formats_in_words, read};
-use lightbots_show::{Identity, Issue, Issues, Show, Stage, validate, with_floor};
+use lightbots_lighting::validate;
+use lightbots_show::{Identity, Issue, Issues, Show, Stage, with_floor};
 
 use crate::cli::ShowArguments;
 use crate::disk::read_bounded;

@@ -25,7 +25,8 @@ pub fn plan_unless(
     let starts = starting_places(show);
     let plan = lightbots_plan::show_with(&Threads, show, &starts, &ShowOptions::default(), is_wanted)?;
     let plan_ms = began.elapsed().as_secs_f64() * 1e3;
-    let document = plan_document(&plan, found, plan_ms);
+    let found: Issues = found.iter().cloned().chain(lightbots_lighting::flashes_of(show, &plan)).collect();
+    let document = plan_document(&plan, &found, plan_ms);
     Ok((plan, document))
 }
 

@@ -17,6 +17,7 @@ use crate::broker_outages::BrokerOutages;
 use crate::campaign::Invariants;
 use crate::controller_crashes::ControllerCrashes;
 use crate::forgeries::Forgeries;
+use crate::light_watch::{self, LightCounts};
 use crate::mishap::Mishap;
 use crate::network::{Network, Way};
 use crate::operator::Operator;
@@ -57,6 +58,7 @@ pub(crate) struct Play {
     /// What must hold after each step of a campaign.
     pub invariants: Option<Box<Invariants>>,
     record: RehearsalRecord,
+    lights: LightCounts,
     hash: StateHash,
     /// `(name, robot)`, sorted by name.
     by_id: Vec<(RobotId, usize)>,
@@ -92,6 +94,7 @@ impl Play {
             mishaps: Timetable::new(conditions.mishaps.clone()),
             invariants: None,
             record: RehearsalRecord::new(starts.len()),
+            lights: LightCounts::default(),
             hash: StateHash::new(),
             robots,
             by_id,
@@ -138,6 +141,9 @@ impl Play {
                 let places = self.robots.world.places();
                 progress(Progress::Stepped { at: self.now, names: &self.by_id, places });
             }
+            if step.is_multiple_of(light_watch::EVERY) {
+                self.compare_lights();
+            }
             if step.is_multiple_of(HASH_EVERY) {
                 self.robots.world.imprint(&mut self.hash);
                 if self.record.began_at().is_some() {
@@ -147,6 +153,14 @@ impl Play {
             }
         }
         hand_on(&self.controller.end_log(), progress);
+    }
+
+    fn compare_lights(&mut self) {
+        let Self { robots, by_id, lights, controller, now, .. } = self;
+        lights.compare(controller, *now, |id| {
+            let place = by_id.binary_search_by_key(&id, |entry| entry.0).ok()?;
+            Some(robots.light(by_id[place].1))
+        });
     }
 
     /// Whether the show is over, and all was watched that follows, or its time is up.
@@ -332,6 +346,7 @@ impl Play {
         report.wall_contacts = bumps.edges;
         report.wall_pressed_m = bumps.edge_most_m;
         report.brakes = self.robots.brakes();
+        report.lights = self.lights;
         report.closest_m = world.contacts().closest_m();
         report.estimate_error_m = self.robots.errors().estimate_m();
         report.tracking_error_m = self.robots.errors().tracking_m();

@@ -11,6 +11,7 @@ use crate::broker_outages::BrokerEvent;
 use crate::bumps::{Bump, EDGE_SLACK_M};
 use crate::controller_crashes::CrashEvent;
 use crate::floor::FloorObject;
+use crate::light_watch::LightCounts;
 use crate::report::{FrameRecord, RehearsalReport, SHOWN_M};
 use crate::robot_set::RobotSet;
 use crate::statistics::Spread;
@@ -253,6 +254,7 @@ impl RehearsalRecord {
             estimate_error_m: Spread::default(),
             tracking_error_m: Spread::default(),
             clock_spread_s: Spread::default(),
+            lights: LightCounts::default(),
             stop_after_crash_s: None,
             messages: Default::default(),
             dropouts: self.dropouts.len(),

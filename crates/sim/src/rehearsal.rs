@@ -6,6 +6,7 @@ use lightbots_base::{RobotId, Vec2};
 use lightbots_plan::{ShowOptions, ShowPlan};
 use lightbots_show::{Issue, Show, front_rows, robots_needed};
 
+use crate::light_watch::LightCounts;
 use crate::options::{Progress, ROBOTS_MAX, RehearsalOptions};
 use crate::play::Play;
 use crate::report::RehearsalReport;
@@ -49,7 +50,7 @@ fn rehearse_with(
         return unplayed(show, options, robots, vec![Issue::error("nothing-to-rehearse", message)]);
     }
     let starts = starts(show, robots);
-    let mut issues = lightbots_show::validate(show);
+    let mut issues = lightbots_lighting::validate(show);
     let plan = lightbots_plan::show(show, &starts, &ShowOptions::default());
     add_new(&mut issues, &plan);
     if issues.iter().any(Issue::is_error) {
@@ -118,6 +119,7 @@ fn unplayed(show: &Show, options: &RehearsalOptions, robots: usize, issues: Vec<
         estimate_error_m: Spread::default(),
         tracking_error_m: Spread::default(),
         clock_spread_s: Spread::default(),
+        lights: LightCounts::default(),
         stop_after_crash_s: None,
         messages: Default::default(),
         dropouts: 0,

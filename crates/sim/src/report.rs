@@ -4,6 +4,7 @@ use lightbots_show::Issues;
 use serde::Serialize;
 
 use crate::brakes::BrakeCounts;
+use crate::light_watch::LightCounts;
 use crate::network::MessageCounts;
 use crate::statistics::Spread;
 
@@ -50,6 +51,8 @@ pub struct RehearsalReport {
     /// Largest difference of two robots' clocks, one value a second, seconds. Departures and lights that are meant for
     /// one moment differ by as much.
     pub clock_spread_s: Spread,
+    /// Lights compared with the layers of the show; 0 without layers.
+    pub lights: LightCounts,
     /// Longest time until all robots stood after the controller was killed, or was back while they still drove, seconds;
     /// `None`: it was not killed.
     pub stop_after_crash_s: Option<f64>,

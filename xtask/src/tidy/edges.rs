@@ -10,13 +10,13 @@ const EDGES: [(&str, &[&str]); 20] = [
     ("show", &["base"]),
     ("draw", &["base"]),
     ("light", &["base"]),
-    ("lighting", &["base", "light", "show"]),
+    ("lighting", &["base", "light", "show", "plan"]),
     ("make", &["base", "show", "draw"]),
     ("plan", &["base", "show"]),
     ("exchange", &["base", "show", "plan"]),
     ("robot", &["base", "wire"]),
     ("control", &["base", "wire", "show", "plan", "lighting"]),
-    ("sim", &["base", "wire", "show", "plan", "robot", "control"]),
+    ("sim", &["base", "wire", "show", "plan", "lighting", "robot", "control"]),
     ("report", &["base", "wire", "show", "control"]),
     ("exam", &["base", "wire"]),
     ("api", &["base", "show", "plan", "exchange"]),
@@ -27,8 +27,8 @@ const EDGES: [(&str, &[&str]); 20] = [
     (
         "server",
         &[
-            "base", "wire", "show", "plan", "robot", "control", "sim", "exam", "exchange", "draw", "make",
-            "api", "link", "report",
+            "base", "wire", "show", "plan", "lighting", "robot", "control", "sim", "exam", "exchange",
+            "draw", "make", "api", "link", "report",
         ],
     ),
 ];

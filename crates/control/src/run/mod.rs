@@ -7,6 +7,8 @@ mod candidates;
 mod driving;
 mod gathering;
 mod interrupted;
+mod light_leg;
+mod light_player;
 mod lights;
 mod link;
 mod link_loss;
@@ -79,7 +81,7 @@ impl Run {
             robot.is_original() || robot.reported.state != Some(RobotState::Idle)
         });
         let mut run = Self {
-            pipeline: Pipeline::new(playback.next),
+            pipeline: Pipeline::new(&playback),
             playback,
             roster,
             link: LinkEstimate::default(),
@@ -103,7 +105,7 @@ impl Run {
     ) -> Self {
         let driven = leg.map(|leg| DrivenLeg { targets: TargetProgress::new(&leg), leg });
         Self {
-            pipeline: Pipeline { driven, ..Pipeline::new(playback.next) },
+            pipeline: Pipeline { driven, ..Pipeline::new(&playback) },
             playback,
             roster,
             link: LinkEstimate::default(),
@@ -188,7 +190,7 @@ impl Run {
     ) {
         let Some(details) = &report.details else { return };
         let (_, mut cx) = self.split(io, now);
-        let may_send = cx.pipeline.acknowledge(cx.link, now, participant, details.route);
+        let may_send = cx.pipeline.acknowledge(cx.link, now, participant, details);
         let next = if may_send { cx.pump() } else { Next::Stay };
         self.apply(io, now, next);
         let (phase, mut cx) = self.split(io, now);
@@ -200,7 +202,11 @@ impl Run {
         };
         self.apply(io, now, next);
         if let Some(driven) = self.pipeline.driven.as_ref().filter(|_| restarted) {
-            lights::relight(io, &self.roster, &driven.leg, participant);
+            let light = &self.pipeline.light;
+            match light.is_active() {
+                true => light.relight(io, &self.roster, now, &driven.leg, participant),
+                false => lights::relight(io, &self.roster, &driven.leg, participant),
+            }
         }
         if matches!(self.phase, RunPhase::Standing(_)) && self.pipeline.is_uploaded() {
             self.tick_phase(io, now);
@@ -224,10 +230,16 @@ impl Run {
             RunPhase::Gathering(gathering) => gathering.due(now),
             RunPhase::Standing(standing) => {
                 let start_lead = self.link.start_lead(&io.config, self.roster.len());
-                standing.due(&self.pipeline, start_lead, now, self.playback.waits())
+                let due = standing.due(&self.pipeline, start_lead, now, self.playback.waits());
+                due.min(self.pipeline.light.due(now))
             }
-            RunPhase::Starting(starting) => starting.due().min(self.pipeline.due()),
-            RunPhase::Driving(drive) => drive.due().min(self.pipeline.lights.due()).min(self.pipeline.due()),
+            RunPhase::Starting(starting) => {
+                starting.due().min(self.pipeline.due()).min(self.pipeline.light.due(now))
+            }
+            RunPhase::Driving(drive) => {
+                let lights = self.pipeline.lights.due().min(self.pipeline.light.due(now));
+                drive.due().min(lights).min(self.pipeline.due())
+            }
             RunPhase::Interrupted(interrupted) => interrupted.due(now),
             RunPhase::Over(..) => Instant::FAR,
         }

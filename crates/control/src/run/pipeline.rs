@@ -3,15 +3,16 @@
 use crate::context::Context;
 use crate::event::{EventKind, Trouble};
 use crate::leg::Leg;
+use crate::run::light_player::{self, LightPlayer};
 use crate::run::lights::Lights;
 use crate::run::link::LinkEstimate;
 use crate::run::next::Next;
-use crate::run::playback::FrameCursor;
+use crate::run::playback::{FrameCursor, PlayedShow};
 use crate::run::roster::Roster;
 use crate::run::target_progress::TargetProgress;
 use crate::run::upload::Upload;
 use lightbots_base::{Instant, Vec2};
-use lightbots_wire::{Command, Pieces, Route, Topic};
+use lightbots_wire::{Command, Details, Pieces, Route, Topic};
 use std::collections::VecDeque;
 
 /// Largest clearance that a route states, millimetres: farther than proximity sensors see.
@@ -67,6 +68,9 @@ pub(crate) struct Pipeline {
     /// The upload of the first leg of the queue.
     pub upload: Option<Upload>,
     pub lights: Lights,
+    pub light: LightPlayer,
+    /// When routes follow that were put off.
+    pub again_at: Instant,
     /// The leg that is driven, or has brought all where they stand.
     pub driven: Option<DrivenLeg>,
 }
@@ -82,8 +86,9 @@ enum Unacknowledged {
 }
 
 impl Pipeline {
-    /// Nothing is planned; `first` is the first frame.
-    pub fn new(first: FrameCursor) -> Self {
+    /// Nothing is planned.
+    pub fn new(playback: &PlayedShow) -> Self {
+        let first = playback.next;
         let planning = Planning {
             next: Some(first),
             last: first,
@@ -101,6 +106,8 @@ impl Pipeline {
             upload_from: Instant::ZERO,
             upload: None,
             lights: Lights::default(),
+            light: LightPlayer::new(playback),
+            again_at: Instant::FAR,
             driven: None,
         }
     }
@@ -131,17 +138,18 @@ impl Pipeline {
 
     /// When something of the upload is due.
     pub fn due(&self) -> Instant {
-        self.upload.as_ref().and_then(Upload::due).unwrap_or(Instant::FAR)
+        self.upload.as_ref().and_then(Upload::due).unwrap_or(Instant::FAR).min(self.again_at)
     }
 
     /// Sends what may be sent now: first routes that were not acknowledged, then those that were not sent yet.
     pub fn pump(
         &mut self,
         context: &mut Context,
-        roster: &Roster,
+        (playback, roster): (&PlayedShow, &Roster),
         link: &LinkEstimate,
         now: Instant,
     ) -> Next {
+        self.again_at = Instant::FAR;
         if now < self.upload_from {
             return Next::Stay;
         }
@@ -152,9 +160,18 @@ impl Pipeline {
         if self.upload.as_ref().is_none_or(|upload| upload.number != leg.seq) {
             self.upload = Some(Upload::new(leg.seq, now, leg.robots.len()));
         }
-        let Self { upload: Some(upload), lights, .. } = self else { return Next::Stay };
+        let after = self.queue.get(1);
+        let Self { upload: Some(upload), lights, light, .. } = self else { return Next::Stay };
+        let mut left = if light.is_active() { light_player::AT_ONCE } else { usize::MAX };
+        let mut send = |context: &mut Context, participant: usize| {
+            let ahead = light.first_stretch(context, (playback, roster), (leg, after), (now, participant));
+            send_route(context, roster, (lights, ahead), leg, participant);
+        };
         let again_after = context.config.upload.resend_after.max(link.round_trip * 5 / 4);
-        while let Some(participant) = upload.next_overdue(now, |one| roster.is_excluded(one)) {
+        while left > 0
+            && let Some(participant) = upload.next_overdue(now, |one| roster.is_excluded(one))
+        {
+            left -= 1;
             let tries = upload.tries(participant);
             // Also where it drops out: that may be put off until it is known whether the others answer.
             upload.record_sent(now, participant, now + again_after);
@@ -166,13 +183,19 @@ impl Pipeline {
                 }
             }
             context.resent += 1;
-            send_route(context, roster, lights, leg, participant);
+            send(context, participant);
         }
         let window = context.config.upload.window;
         let needs_none = |one: usize| roster.is_excluded(one) || leg.path(one).is_none();
-        while let Some(participant) = upload.next_unserved(window, needs_none) {
-            send_route(context, roster, lights, leg, participant);
+        while left > 0
+            && let Some(participant) = upload.next_unserved(window, needs_none)
+        {
+            left -= 1;
+            send(context, participant);
             upload.record_sent(now, participant, now + again_after);
+        }
+        if left == 0 {
+            self.again_at = now + light_player::AGAIN_AFTER;
         }
         Next::Stay
     }
@@ -183,8 +206,10 @@ impl Pipeline {
         link: &mut LinkEstimate,
         now: Instant,
         participant: usize,
-        route: u32,
+        details: &Details,
     ) -> bool {
+        self.light.acknowledge(now, participant, details.light);
+        let route = details.route;
         let Some(upload) = self.upload.as_mut().filter(|upload| upload.number == route) else { return false };
         if !upload.acknowledge(now, participant) {
             return false;
@@ -228,8 +253,15 @@ fn judge(
     Unacknowledged::LinkFails
 }
 
-/// Sends a participant its route of a leg, with the change of light that its robot may not know yet.
-fn send_route(context: &mut Context, roster: &Roster, lights: &Lights, leg: &Leg, participant: usize) {
+/// Sends a participant its route of a leg, with the change of light that its robot may not know yet, or its first stretch of
+/// light.
+fn send_route(
+    context: &mut Context,
+    roster: &Roster,
+    (lights, ahead): (&Lights, Option<Command>),
+    leg: &Leg,
+    participant: usize,
+) {
     let Some(path) = leg.path(participant) else { return };
     let Ok(pieces) = Pieces::from_slice(&path.pieces) else { return };
     let robot = roster.robot(context, participant);
@@ -239,8 +271,9 @@ fn send_route(context: &mut Context, roster: &Roster, lights: &Lights, leg: &Leg
     let room_mm = abilities.room.then(|| (step.room_m * 1e3).min(ROOM_MAX_MM) as u16);
     let neighbours = step.neighbours.as_deref().filter(|_| abilities.neighbours).cloned().unwrap_or_default();
     let route = Command::Route(Route { seq: leg.seq, start: path.start, pieces, room_mm, neighbours });
-    match lights.pending(participant) {
-        Some(fade) => context.outbox.send(topic, &[route, Command::Fade(fade)]),
-        None => context.outbox.send(topic, &[route]),
+    match (lights.pending(participant), ahead) {
+        (_, Some(stretch)) => context.outbox.send(topic, &[route, stretch]),
+        (Some(fade), None) => context.outbox.send(topic, &[route, Command::Fade(fade)]),
+        (None, None) => context.outbox.send(topic, &[route]),
     }
 }

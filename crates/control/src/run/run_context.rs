@@ -70,7 +70,7 @@ impl RunContext<'_> {
 
     /// Sends routes of the next leg that may be sent now.
     pub fn pump(&mut self) -> Next {
-        self.pipeline.pump(self.io, self.roster, self.link, self.now)
+        self.pipeline.pump(self.io, (self.playback, self.roster), self.link, self.now)
     }
 
     /// Sends the route of the next leg again to a participant that lost it.
@@ -87,8 +87,12 @@ impl RunContext<'_> {
 
     /// Sends changes of light that are due.
     pub fn pump_lights(&mut self) {
-        let Pipeline { lights, driven: Some(driven), .. } = &mut *self.pipeline else { return };
-        lights.pump(self.io, self.roster, self.now, &driven.leg);
+        let Pipeline { lights, light, queue, driven: Some(driven), .. } = &mut *self.pipeline else { return };
+        if light.is_active() {
+            light.pump(self.io, self.roster, self.now, (&driven.leg, queue.front()));
+        } else {
+            lights.pump(self.io, self.roster, self.now, &driven.leg);
+        }
     }
 
     /// An event says that all wait for a participant.

@@ -76,6 +76,7 @@ impl Standing {
             }
         }
         requests::plan_ahead(cx);
+        cx.pump_lights();
         let next = cx.pump();
         if !next.stays() {
             return next;

@@ -119,6 +119,7 @@ impl Starting {
 
     /// Time passes.
     pub fn on_tick(&mut self, cx: &mut RunContext) -> Next {
+        cx.pump_lights();
         let next = cx.pump();
         if !next.stays() {
             return next;

@@ -2,8 +2,9 @@
 
 use std::path::Path;
 
+use lightbots_lighting::validate;
 use lightbots_make::fit_show;
-use lightbots_show::{Issue, Issues, Show, validate};
+use lightbots_show::{Issue, Issues, Show};
 
 use super::guard;
 use crate::cli::ConvertArguments;

@@ -7,8 +7,9 @@ use std::time::Duration;
 
 use lightbots_api::{Level, ShowOrigin};
 use lightbots_control::Operation;
+use lightbots_lighting::validate;
 use lightbots_link::BrokerUrl;
-use lightbots_show::{Show, validate};
+use lightbots_show::Show;
 use tokio::sync::mpsc;
 use tokio::task::JoinHandle;
 

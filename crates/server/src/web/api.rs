@@ -10,8 +10,8 @@ use axum::http::{HeaderMap, StatusCode, header};
 use axum::response::{IntoResponse, Response};
 use lightbots_api::{Plan, ShowEntry, ShowState};
 use lightbots_exchange::{FORMATS, named, read};
+use lightbots_lighting::validate;
 use lightbots_plan::Cancelled;
-use lightbots_show::validate;
 
 use super::Shared;
 use super::connection::Ends;

@@ -5,7 +5,8 @@ use std::sync::{Arc, PoisonError};
 use axum::extract::ws::Utf8Bytes;
 use lightbots_api as api;
 use lightbots_control::{ControllerState, EventKind, Operation, Refusal};
-use lightbots_show::{Show, validate};
+use lightbots_lighting::validate;
+use lightbots_show::Show;
 use tokio::sync::{Mutex, broadcast, watch};
 
 use crate::library::Kept;

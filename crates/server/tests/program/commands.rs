@@ -66,6 +66,33 @@ fn check_says_who_comes_closest_when_and_where() {
 }
 
 #[test]
+fn check_names_layers_that_stay_dark_and_light_that_flashes() {
+    // Sixteen robots, 0.2 m apart.
+    let pixel = |id: u32| {
+        let place = [f64::from(id % 4) * 0.2 - 0.3, f64::from(id / 4) * 0.2 - 0.3];
+        format!(r##"{{"id":{id},"place":{place:?},"color":"#000000"}}"##)
+    };
+    let pixels: Vec<String> = (0..16).map(pixel).collect();
+    let show = format!(
+        r##"{{"lightbots":2,"layers":[{{"name":"Flash","kind":"strobe","settings":{{"speed_hz":3}}}},
+        {{"name":"Sparks","kind":"strobe","settings":{{"speed_hz":1000}}}}],
+        "frames":[{{"name":"A","air_time_s":12,"pixels":[{}]}}]}}"##,
+        pixels.join(",")
+    );
+    let (code, out, _) = run(&["check", &shows::file("flashes", &show), "--json"]);
+    let issues = json(&out)["issues"].as_array().unwrap().clone();
+    let said =
+        |code: &str| issues.iter().find(|issue| issue["code"] == code).map(|issue| issue["message"].clone());
+    assert_eq!(code, 0, "{issues:?}");
+    assert_eq!(
+        said("bad-layer").unwrap(),
+        "the layer \"Sparks\": speed_hz is 1000: choose a number from -3 to 3"
+    );
+    let flashes = said("flashes").unwrap().to_string();
+    assert!(flashes.contains("Flash") && flashes.contains("3 flashes in a second"), "{flashes}");
+}
+
+#[test]
 fn check_explains_which_solvers_ran() {
     let file = shows::example("countdown.json");
     let report = json(&run(&["check", &file, "--json", "--explain"]).1);

@@ -43,7 +43,6 @@ fn not_played(show: &Show, findings: &mut Findings) {
     let moments = show.frames.iter().filter(|frame| frame.at_s.is_some()).count();
     let timed = show.cues.iter().filter(|cue| matches!(cue.at, CuePlace::Seconds(_))).count();
     for (count, one, many) in [
-        (show.layers.len(), "layer of light", "layers of light"),
         (moments, "absolute time of a frame", "absolute times of frames"),
         (timed, "cue at a moment", "cues at moments"),
         (show.trajectories.len(), "prescribed trajectory", "prescribed trajectories"),

@@ -61,15 +61,22 @@ impl Driving {
 
     /// Robots learn their lights; those that know TARGET only also where to go.
     fn begin_leg(&mut self, cx: &mut RunContext) {
-        let Pipeline { driven: Some(driven), queue, lights, .. } = &mut *cx.pipeline else { return };
+        let Pipeline { driven: Some(driven), queue, lights, light, .. } = &mut *cx.pipeline else { return };
         lights.forget(cx.roster.len());
+        let is_lit = light.is_active();
+        if is_lit {
+            light.begin_drive(cx.io, (cx.playback, cx.roster), &driven.leg, (cx.now, self.clock));
+        }
         match driven.leg.kind {
+            LegKind::Routes if is_lit => {}
             LegKind::Routes => {
                 let times = (cx.now, self.clock.began, self.clock.ends);
                 lights.begin_drive(cx.io, cx.roster, times, (&driven.leg, queue.front()));
             }
             LegKind::Targets => {
-                lights::color_target_robots(cx.io, cx.roster, &driven.leg);
+                if !is_lit {
+                    lights::color_target_robots(cx.io, cx.roster, &driven.leg);
+                }
                 target_commands::begin(cx);
             }
         }
@@ -159,6 +166,7 @@ impl Driving {
             let (seq, at) = (cx.pipeline.leg().map_or(0, |leg| leg.seq), self.clock.began);
             cx.io.outbox.send(Topic::Broadcast, &[Command::Start { seq, at }]);
         }
+        cx.pipeline.light.see(self.clock);
         cx.pump_lights();
         cx.pump().or_else(|| self.watch(cx)).or_else(|| self.end_leg(cx))
     }

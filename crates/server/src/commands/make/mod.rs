@@ -8,8 +8,9 @@ use lightbots_api as api;
 use lightbots_api::rounded;
 use lightbots_base::Vec2;
 use lightbots_draw::{DrawError, Note, Quality, READABLE, Readability, enough_robots};
+use lightbots_lighting::validate;
 use lightbots_make::{MadeFrame, make_frame_from, picture_floor};
-use lightbots_show::{Issue, Issues, Show, validate};
+use lightbots_show::{Issue, Issues, Show};
 use serde::Serialize;
 
 use super::{count, guard, print_issues, print_json};

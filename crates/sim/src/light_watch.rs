@@ -1,0 +1,57 @@
+//! Compares what robots show with what the layers of the show say.
+
+use lightbots_base::{Instant, Rgb, RobotId, Span};
+use lightbots_control::Controller;
+use serde::Serialize;
+
+/// How late or early a light may be: the design's number.
+const IN_TIME: Span = Span::from_millis(25);
+/// Moments around now at which the wanted colour counts, in parts of [`IN_TIME`].
+const MOMENTS: [i64; 7] = [-4, -3, -1, 0, 1, 3, 4];
+/// Codes of a channel by which a light may differ: the fit's two units of L* are at most seven codes, and one is
+/// for rounding.
+const CODES: u8 = 8;
+/// Lights are compared every so many steps, which costs a rehearsal little.
+pub(crate) const EVERY: u64 = 10;
+
+/// Comparisons of lights with layers.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+pub struct LightCounts {
+    /// Number of comparisons: one for each robot about every sixth of a second.
+    pub compared: u64,
+    /// Of these, lights that showed something else than within 25 ms before or after.
+    pub wrong: u64,
+}
+
+impl LightCounts {
+    /// Compares lights now. `shown` gives the light of a robot.
+    pub(crate) fn compare(
+        &mut self,
+        controller: &Controller,
+        now: Instant,
+        shown: impl Fn(RobotId) -> Option<Rgb>,
+    ) {
+        let moment = |part: i64| Instant(now.0.saturating_add_signed(IN_TIME.0 * part / 4));
+        let wanted = MOMENTS.map(|part| controller.layered_lights(moment(part)));
+        for (index, &(robot, _)) in wanted[0].iter().enumerate() {
+            let colours = wanted.iter().map(|lights| lights.get(index).filter(|light| light.0 == robot));
+            let Some(colours) = colours.map(|light| light.map(|light| light.1)).collect::<Option<Vec<_>>>()
+            else {
+                continue;
+            };
+            let Some(shown) = shown(robot) else { continue };
+            self.compared += 1;
+            self.wrong += u64::from(!is_among(shown, &colours));
+        }
+    }
+}
+
+/// Whether each channel lies between the least and the greatest of the colours.
+fn is_among(shown: Rgb, colours: &[Rgb]) -> bool {
+    let channels: [fn(&Rgb) -> u8; 3] = [|colour| colour.r, |colour| colour.g, |colour| colour.b];
+    channels.iter().all(|channel| {
+        let low = colours.iter().map(channel).min().unwrap_or(0);
+        let high = colours.iter().map(channel).max().unwrap_or(u8::MAX);
+        (low.saturating_sub(CODES)..=high.saturating_add(CODES)).contains(&channel(&shown))
+    })
+}

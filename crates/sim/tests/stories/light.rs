@@ -1,0 +1,89 @@
+//! Layers of light: robots show what the layers say, on time, whatever happens to the drive.
+
+use lightbots_base::{Rgb, Vec2};
+use lightbots_show::{Frame, FramePhase, Layer, LayerSpan, Pixel, Setting, Show, Stage};
+use lightbots_sim::{Conditions, Faults, RehearsalOptions, RehearsalReport, rehearse};
+
+fn layer(kind: &str, span: LayerSpan, settings: Vec<(&str, Setting)>) -> Layer {
+    let settings = settings.into_iter().map(|(name, value)| (name.to_owned(), value)).collect();
+    Layer { name: String::new(), kind: kind.into(), span, settings }
+}
+
+/// A rainbow over the whole show, a chase in drives and a twinkle in pictures.
+fn layers() -> Vec<Layer> {
+    let frames = |phase| LayerSpan::Frames { first: "0".into(), last: "2".into(), phase };
+    let rising =
+        ("palette", Setting::List(["#000000", "#ffffff"].map(|text| Setting::Text(text.into())).to_vec()));
+    vec![
+        layer("rainbow", LayerSpan::Show, vec![("speed_hz", Setting::Number(0.2))]),
+        layer(
+            "chase",
+            frames(FramePhase::Transition),
+            vec![rising.clone(), ("blend", Setting::Text("add".into()))],
+        ),
+        layer("twinkle", frames(FramePhase::Picture), vec![rising, ("blend", Setting::Text("add".into()))]),
+    ]
+}
+
+/// A row, a ring and a row again, of `count` robots.
+fn show(count: u32, air_time_s: f64) -> Show {
+    let frame = |number: usize| Frame {
+        id: Some(number.to_string()),
+        air_time_s,
+        pixels: (0..count)
+            .map(|id| Pixel {
+                id,
+                at: place(number, id, count),
+                color: Rgb::new(255, 80, 0),
+                ..Pixel::default()
+            })
+            .collect(),
+        ..Frame::default()
+    };
+    Show { stage: Stage::default(), frames: (0..3).map(frame).collect(), layers: layers(), ..Show::default() }
+}
+
+fn place(frame: usize, id: u32, count: u32) -> Vec2 {
+    let share = f64::from(id) / f64::from(count);
+    match frame {
+        1 => Vec2::unit(share * std::f64::consts::TAU) * (0.2 + 0.02 * f64::from(count)),
+        _ => Vec2::new((share - 0.5) * 0.1 * f64::from(count), if frame == 0 { 0.9 } else { -0.8 }),
+    }
+}
+
+fn play(show: &Show, faults: &str, seed: u64) -> RehearsalReport {
+    let faults = if faults.is_empty() { Faults::default() } else { Faults::parse(faults).unwrap() };
+    let conditions = faults.added_to(Conditions::default());
+    rehearse(show, &RehearsalOptions { seed, conditions, robots: None }, &mut |_| {})
+}
+
+/// At most one light in so many that were compared is wrong.
+fn assert_lit(report: &RehearsalReport, one_in: u64) {
+    let (lights, seed) = (report.lights, report.seed);
+    assert!(report.contacts == 0 && report.frames_played >= 3, "seed {seed}: {:?}", report.issues);
+    assert!(lights.compared > 1_000, "seed {seed}: {lights:?}");
+    assert!(lights.wrong * one_in <= lights.compared, "seed {seed}: {lights:?}");
+}
+
+#[test]
+fn robots_show_what_layers_say_within_25_ms() {
+    for seed in 1..=3 {
+        assert_lit(&play(&show(12, 14.0), "", seed), 2_000);
+    }
+}
+
+#[test]
+fn lost_messages_are_sent_again_before_they_are_due() {
+    for seed in 1..=3 {
+        assert_lit(&play(&show(12, 14.0), "loss=5%", seed), 500);
+    }
+}
+
+#[test]
+fn light_stands_in_a_hold_and_goes_on_with_it() {
+    for seed in 1..=3 {
+        let report = play(&show(12, 4.0), "blind=3@9s+2500ms,loss=5%", seed);
+        assert!(report.duration_s > report.planned_s + 0.5, "seed {seed}: robots were never held");
+        assert_lit(&report, 500);
+    }
+}
