@@ -103,7 +103,7 @@ function launch(args: string[]): Promise<[ChildProcess, string, () => string]> {
     );
     const read = (bytes: Buffer) => {
       if (said.length < 20_000) said += bytes.toString();
-      const url = /http:\/\/[\d.]+:\d+/.exec(said)?.[0];
+      const url = /https?:\/\/[\d.]+:\d+/.exec(said)?.[0];
       if (!url) return;
       clearTimeout(timer);
       resolve([child, url, () => said]);

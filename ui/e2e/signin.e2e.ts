@@ -9,7 +9,7 @@ const NAME = 'ann';
 const PASSWORD = 'a long password';
 
 beforeAll(async () => {
-  const network = ['--listen', '0.0.0.0:0', '--open-to-network', '--robots', '0'];
+  const network = ['--listen', '0.0.0.0:0', '--robots', '0'];
   [server, browser] = await Promise.all([startServer(...network), launchBrowser()]);
 });
 afterAll(async () => {
@@ -32,7 +32,7 @@ test('the first operator comes by the one-time address, signs out, and signs in 
     (found) => found !== '',
     'a one-time address',
   );
-  const page = await browser.newPage();
+  const page = await browser.newPage({ ignoreHTTPSErrors: true });
   await page.goto(`${server.url}/${token}`);
   await page.getByRole('heading', { name: 'Make the first operator' }).waitFor();
   expect(page.url()).not.toContain('first');
@@ -42,6 +42,7 @@ test('the first operator comes by the one-time address, signs out, and signs in 
   await submit(page, PASSWORD, 'Make the first operator');
   await page.waitForEvent('load');
   expect(await session(page)).toBe(200);
+  expect(await page.evaluate(() => isSecureContext)).toBe(true);
   await page.evaluate(() => fetch('/api/session', { method: 'DELETE' }));
   await page.goto(server.url);
   await submit(page, 'a guess', 'Sign in');
@@ -62,7 +63,11 @@ for (const colorScheme of ['dark', 'light'] as const)
     [390, 844],
   ] as const)
     test(`nothing serious on the sign-in page, ${colorScheme}, ${width} wide`, async () => {
-      const page = await browser.newPage({ colorScheme, viewport: { width, height } });
+      const page = await browser.newPage({
+        ignoreHTTPSErrors: true,
+        colorScheme,
+        viewport: { width, height },
+      });
       await page.goto(server.url);
       await page.getByRole('heading', { name: 'Sign in' }).waitFor();
       const wide = await page.evaluate(() => document.documentElement.scrollWidth);

@@ -40,8 +40,8 @@ pub struct Hello {
     pub screen: u32,
     /// Number of simulated robots that this server runs.
     pub simulated: usize,
-    /// Whether the server can be reached from the network. There is no sign-in, so each visitor can drive the robots.
-    pub open_to_network: bool,
+    /// Whether the network can reach the server without TLS (`--plain-http`): passwords can be read on the way.
+    pub plain_http: bool,
 }
 
 /// The show that is open on every screen.

@@ -62,7 +62,7 @@ pub enum Command {
     Convert(ConvertArguments),
     /// Take a robot on a broker through the protocol, rule by rule; it drives, within half a metre of where it stands
     RobotCheck(RobotCheckArguments),
-    /// Make certificates for a broker with TLS: an authority, a server, clients
+    /// Make certificates for a broker and the browser app with TLS: an authority, a server, clients
     Certs(CertsArguments),
     /// Set or reset a password of the web app; from the terminal, or the first line of the input
     Passwd(PasswdArguments),
@@ -113,12 +113,13 @@ pub struct RunArguments {
     pub broker: Vec<String>,
     #[command(flatten)]
     pub login: BrokerArguments,
-    /// Where the browser app is served
+    /// Where the browser app is served. On another address than a loopback one people have to sign in, over TLS
     #[arg(long, value_name = "HOST:PORT", default_value = "127.0.0.1:8420", value_parser = address)]
     pub listen: SocketAddr,
-    /// Allow a --listen that others on the network can reach. They have to sign in, and passwords can be read on the way
+    /// Serve the browser app without TLS where the network can reach --listen: passwords can be read on the way, and
+    /// browsers then refuse film and MIDI
     #[arg(long)]
-    pub open_to_network: bool,
+    pub plain_http: bool,
     /// A further name of this machine in the browser's address line, such as stage.local; may be repeated
     #[arg(long, value_name = "NAME[:PORT]")]
     pub host_name: Vec<String>,
@@ -374,10 +375,11 @@ pub struct RobotCheckArguments {
 /// `certs`
 #[derive(Debug, Args)]
 pub struct CertsArguments {
-    /// Folder for the files; an authority that is there already is used again
+    /// Folder for the files; an authority that is there already is used again. `run` takes those in the folder `certs` of
+    /// its --data for the browser app
     #[arg(long, value_name = "DIR")]
     pub out: PathBuf,
-    /// Names and addresses of the broker's machine beside localhost, such as stage.local or 192.168.0.7
+    /// Names and addresses of the machine beside localhost, such as stage.local or 192.168.0.7
     #[arg(long, value_name = "HOST", num_args = 1..)]
     pub name: Vec<String>,
     /// Clients to make certificates for, such as a robot's UUID

@@ -2,7 +2,6 @@
 
 use std::fs::{File, OpenOptions, TryLockError};
 use std::io::{ErrorKind, Read, Seek, Write};
-use std::net::SocketAddr;
 use std::path::{Path, PathBuf};
 
 use crate::disk;
@@ -54,8 +53,8 @@ impl DataFolder {
     }
 
     /// Tells a program that wants the folder where this one is found.
-    pub fn tell_address(&self, address: SocketAddr) {
-        self.note(&format!("process {} (http://{address})", std::process::id()));
+    pub fn tell_address(&self, url: &str) {
+        self.note(&format!("process {} ({url})", std::process::id()));
     }
 
     fn note(&self, text: &str) {
@@ -106,7 +105,7 @@ mod tests {
         let refused = DataFolder::take(&path).unwrap_err();
         assert_eq!(refused.code, 1);
         assert!(refused.line.contains(&own) && refused.line.contains("--data DIR"), "{}", refused.line);
-        first.tell_address("127.0.0.1:8080".parse().unwrap());
+        first.tell_address("http://127.0.0.1:8080");
         let refused = DataFolder::take(&path).unwrap_err();
         assert!(refused.line.contains(&format!("{own} (http://127.0.0.1:8080)")), "{}", refused.line);
         drop(first);

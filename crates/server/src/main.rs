@@ -25,6 +25,7 @@ mod show_file;
 mod show_plan;
 mod stop;
 mod threads;
+mod tls;
 mod web;
 
 use clap::Parser;

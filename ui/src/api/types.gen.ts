@@ -29,9 +29,9 @@ screen: number,
  */
 simulated: number, 
 /**
- * Whether the server can be reached from the network. There is no sign-in, so each visitor can drive the robots.
+ * Whether the network can reach the server without TLS (`--plain-http`): passwords can be read on the way.
  */
-open_to_network: boolean, };
+plain_http: boolean, };
 
 /**
  * The show that is open on every screen.

@@ -1,15 +1,15 @@
 import { useStore } from '../base/store';
 import { useSession } from '../session/session';
 
-/** Warns while the server is open to the network. */
+/** Warns while the network reaches the server without TLS. */
 export function OpenBanner() {
   const { live } = useSession();
-  const isOpen = useStore(live.hello, (hello) => hello?.open_to_network);
-  if (!isOpen) return null;
+  const isPlain = useStore(live.hello, (hello) => hello?.plain_http);
+  if (!isPlain) return null;
   return (
     <div className="banner" role="status">
-      Open to the network without TLS: passwords can be read on the way. To close it, start
-      LightBots without --open-to-network.
+      Open to the network without TLS: passwords can be read on the way, and film and MIDI do not
+      work. To change that, start LightBots without --plain-http.
     </div>
   );
 }

@@ -2,11 +2,9 @@
 
 use std::path::Path;
 use std::sync::Arc;
-use std::time::{Duration, SystemTime};
 
 use rcgen::{
-    BasicConstraints, CertificateParams, DnType, ExtendedKeyUsagePurpose, IsCa, Issuer, KeyPair,
-    KeyUsagePurpose,
+    BasicConstraints, CertificateParams, ExtendedKeyUsagePurpose, IsCa, Issuer, KeyPair, KeyUsagePurpose,
 };
 use tokio_rustls::rustls::RootCertStore;
 use tokio_rustls::rustls::client::WebPkiServerVerifier;
@@ -19,13 +17,10 @@ use crate::cli::CertsArguments;
 use crate::disk::{self, Readers};
 use crate::failure::{Failure, Outcome};
 use crate::say;
+use crate::tls::{self, OWN_NAMES};
 
-/// A day of certificates, by definition 86,400 s.
-const DAY: Duration = Duration::from_secs(86_400);
 /// Validity of the authority, days: ten years, so that it outlives the certificates that it signs.
 const AUTHORITY_DAYS: u32 = 3650;
-/// Names of the own machine, in every server certificate.
-const OWN_NAMES: [&str; 3] = ["localhost", "127.0.0.1", "::1"];
 
 /// A certificate authority that signs.
 type Authority = Issuer<'static, KeyPair>;
@@ -48,6 +43,7 @@ pub fn run(arguments: &CertsArguments) -> Outcome {
     let show = |name: &str| out.join(name).display().to_string();
     say::line(&format!("Names in the certificate: {}", names.join(", ")));
     say::line(&format!("Broker: --cert {} --key {}", show("server.pem"), show("server.key")));
+    say::line("Web app: `lightbots run` takes server.pem and server.key from the folder certs of its --data");
     say::line(&format!(
         "Robots and controllers: --ca {} with mqtts:// and one of these names",
         show("ca.pem")
@@ -113,14 +109,8 @@ fn issue(
 }
 
 fn params(names: &[String], common: &str, days: u32) -> Result<CertificateParams, Failure> {
-    let mut params = CertificateParams::new(names)
-        .map_err(|error| Failure::input(format!("a name that certificates cannot hold: {error}")))?;
-    params.distinguished_name.remove(DnType::CommonName);
-    params.distinguished_name.push(DnType::CommonName, common);
-    // Valid since yesterday, because clocks of other machines may be behind.
-    params.not_before = (SystemTime::now() - DAY).into();
-    params.not_after = (SystemTime::now() + DAY * days).into();
-    Ok(params)
+    tls::params(names, common, days)
+        .map_err(|error| Failure::input(format!("a name that certificates cannot hold: {error}")))
 }
 
 /// The name of a client for file names.

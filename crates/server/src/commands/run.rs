@@ -1,6 +1,6 @@
 //! `run`: controller, browser app and simulated robots in one process, the embedded broker in another.
 
-use std::net::SocketAddr;
+use std::net::{Ipv4Addr, SocketAddr};
 use std::path::Path;
 use std::sync::Arc;
 use std::time::Duration;
@@ -27,7 +27,7 @@ use crate::live::conductor::Handle;
 use crate::live::cut_off::CutOffRun;
 use crate::live::recorder::RecordingTarget;
 use crate::stop::Stop;
-use crate::web::{self, Admission, BrokerDesk, Exposure, Planner, ScreenLog, Shared};
+use crate::web::{self, Admission, BrokerDesk, Exposure, Planner, Scheme, ScreenLog, Shared, WebCertificate};
 use crate::{open_files, say, show_file};
 
 /// The example that is opened if no show is given.
@@ -85,9 +85,10 @@ async fn serve(arguments: &RunArguments, stop: &Stop, started: &mut Started) -> 
         say::error(&issue.message);
     }
     open_files::raise_limit();
+    let certificate = certificate(&exposure, &data)?;
     let (listener, names) = web::listen(&exposure).await?;
     let address = listener.local_addr().unwrap_or(arguments.listen);
-    folder.tell_address(address);
+    folder.tell_address(&format!("{}://{address}", names.scheme().name()));
     let count = arguments.robots.map(|robots| robots as usize);
     let robots = Cast::robots(count, &show);
     let embedded = if other.is_none() {
@@ -128,19 +129,53 @@ async fn serve(arguments: &RunArguments, stop: &Stop, started: &mut Started) -> 
     if let Some(lines) = started.broker.as_mut().and_then(EmbeddedBroker::notices) {
         started.tasks.push(tokio::spawn(relay(lines, shared.log.clone(), stop.clone())));
     }
-    greet(address, &broker, robots, started.broker.as_ref().and_then(EmbeddedBroker::tls_address));
-    if shared.names.is_open() {
-        warn_open(address, arguments, first);
-    }
-    web::serve(listener, shared).await;
+    let scheme = shared.names.scheme().name();
+    say::line(&format!("LightBots is at {scheme}://{} (Ctrl-C stops it)", own_address(address)));
+    greet(&broker, robots, started.broker.as_ref().and_then(EmbeddedBroker::tls_address));
+    invite(arguments, &shared, address, (certificate.as_ref(), first));
+    web::serve(listener, certificate.map(|certificate| certificate.acceptor), shared).await;
     Ok(false)
 }
 
-/// Says that the network reaches the web app, and invites the first operator by the token.
-fn warn_open(address: SocketAddr, arguments: &RunArguments, first: Option<String>) {
-    say::line("Open to the network: sign-in is required, and without TLS passwords can be read on the way");
+/// Says whether the network reaches the web app, and how the first operator comes in.
+fn invite(
+    arguments: &RunArguments,
+    shared: &Shared,
+    address: SocketAddr,
+    (certificate, first): (Option<&WebCertificate>, Option<String>),
+) {
+    if !shared.names.is_open() {
+        return;
+    }
+    say_open(certificate);
     if let Some(token) = first {
-        first_operator::invite(address, arguments.host_name.first(), &token);
+        let name = arguments.host_name.first().map(String::as_str);
+        first_operator::invite(&web::url(shared.names.scheme(), address, name), &token);
+    }
+}
+
+/// The certificate of the web app where it is served with TLS.
+fn certificate(exposure: &Exposure, data: &Path) -> Result<Option<WebCertificate>, Failure> {
+    let is_wanted = exposure.scheme() == Scheme::Https;
+    is_wanted.then(|| WebCertificate::take(data, &exposure.hosts())).transpose()
+}
+
+/// Says that the network reaches the web app, and how people see that they reached this one.
+fn say_open(certificate: Option<&WebCertificate>) {
+    let Some(certificate) = certificate else {
+        let line = "Open to the network without TLS: sign-in is required, but passwords can be read on the way, and \
+                    browsers refuse film and MIDI. Leave --plain-http out to mend that";
+        return say::line(line);
+    };
+    say::line("Open to the network: sign-in is required");
+    say::line(&format!(
+        "Certificate {}; its SHA-256 fingerprint, to compare with the browser's:",
+        certificate.file.display()
+    ));
+    say::line(&certificate.fingerprint);
+    if !certificate.missing.is_empty() {
+        let (names, remedy) = (certificate.missing.join(" and "), certificate.remedy());
+        say::note(&format!("The certificate is not for {names}; this makes one that is: {remedy}"));
     }
 }
 
@@ -151,7 +186,7 @@ fn robots_seed(asked: Option<u64>, is_own_broker: bool) -> u64 {
 }
 
 fn exposure(arguments: &RunArguments) -> Result<Exposure, Failure> {
-    Exposure::new(arguments.listen, arguments.open_to_network, arguments.host_name.clone())
+    Exposure::new(arguments.listen, arguments.plain_http, arguments.host_name.clone())
 }
 
 /// Puts the warnings of the embedded broker on the screens.
@@ -226,11 +261,16 @@ async fn open(shared: &Arc<Shared>, name: Option<String>) {
     }
 }
 
-fn greet(address: SocketAddr, broker: &BrokerUrl, robots: usize, tls: Option<SocketAddr>) {
-    let host = if address.ip().is_unspecified() { "127.0.0.1".into() } else { address.ip().to_string() };
-    let host = if host.contains(':') { format!("[{host}]") } else { host };
+/// Address of the web app on this machine.
+fn own_address(address: SocketAddr) -> SocketAddr {
+    if address.ip().is_unspecified() {
+        return SocketAddr::new(Ipv4Addr::LOCALHOST.into(), address.port());
+    }
+    address
+}
+
+fn greet(broker: &BrokerUrl, robots: usize, tls: Option<SocketAddr>) {
     let fleet = if robots == 0 { "no simulated robots".into() } else { count(robots, "simulated robot") };
-    say::line(&format!("LightBots is at http://{host}:{} (Ctrl-C stops it)", address.port()));
     say::line(&format!("Broker {broker}, {fleet}"));
     if let Some(tls) = tls {
         say::line(&format!("Broker with TLS mqtts://{tls}"));

@@ -8,9 +8,12 @@ use axum::extract::connect_info::Connected;
 use axum::serve::{IncomingStream, Listener};
 use lightbots_api::Level;
 use tokio::net::{TcpListener, TcpStream};
+use tokio::task::JoinSet;
+use tokio_rustls::TlsAcceptor;
 
 use super::guests::{Guest, Guests};
 use super::log::ScreenLog;
+use super::stream::Stream;
 use crate::open_files;
 
 /// The most connections of screens and scripts: a screen has one for its pictures and up to six for requests.
@@ -27,11 +30,17 @@ pub struct Ends {
     pub remote: SocketAddr,
     /// Address of this server that the client reached.
     pub local: SocketAddr,
+    /// Whether the client speaks TLS.
+    pub is_secure: bool,
 }
 
 /// Accepts a bounded number of connections and adds their addresses.
 pub struct Connections {
     listener: TcpListener,
+    /// Speaks TLS; `None`: the web app is served without.
+    acceptor: Option<TlsAcceptor>,
+    /// Connections in their handshakes, as many as there is room for.
+    handshakes: JoinSet<Option<(Stream, Ends)>>,
     guests: Guests,
     log: ScreenLog,
     /// When a refusal was last said.
@@ -41,9 +50,9 @@ pub struct Connections {
 impl Connections {
     /// Accepts what comes to the listener. At most half of the open files that the system grants become connections, so
     /// that the library and the link to the broker have room. Refusals are said in the log.
-    pub fn new(listener: TcpListener, log: ScreenLog) -> Self {
-        let most = MOST.min(open_files::limit() / 2);
-        Self { listener, guests: Guests::new(most), log, said: None }
+    pub fn new(listener: TcpListener, acceptor: Option<TlsAcceptor>, log: ScreenLog) -> Self {
+        let guests = Guests::new(MOST.min(open_files::limit() / 2));
+        Self { listener, acceptor, handshakes: JoinSet::new(), guests, log, said: None }
     }
 
     /// The connection in its place; `None`: it is closed, because there is no room.
@@ -89,12 +98,19 @@ impl Connections {
 }
 
 impl Listener for Connections {
-    type Io = Guest;
+    type Io = Stream;
     type Addr = Ends;
 
-    async fn accept(&mut self) -> (Guest, Ends) {
+    async fn accept(&mut self) -> (Stream, Ends) {
         loop {
-            let (stream, remote) = match self.listener.accept().await {
+            let accepted = tokio::select! {
+                Some(opened) = self.handshakes.join_next() => match opened {
+                    Ok(Some(opened)) => return opened,
+                    _ => continue,
+                },
+                accepted = self.listener.accept() => accepted,
+            };
+            let (stream, remote) = match accepted {
                 Ok(accepted) => accepted,
                 Err(error) => {
                     self.failed(&error).await;
@@ -105,15 +121,21 @@ impl Listener for Connections {
             let _ = stream.set_nodelay(true);
             // A closed connection has no address.
             let Ok(local) = stream.local_addr() else { continue };
-            if let Some(guest) = self.admit(stream) {
-                return (guest, Ends { remote, local });
-            }
+            let Some(guest) = self.admit(stream) else { continue };
+            let ends = move |is_secure| Ends { remote, local, is_secure };
+            let Some(acceptor) = self.acceptor.clone() else { return (Stream::Plain(guest), ends(false)) };
+            // Beside the others, so that a slow handshake holds nothing up.
+            self.handshakes.spawn(async move {
+                let stream = Stream::open(acceptor, guest).await?;
+                let ends = ends(stream.is_secure());
+                Some((stream, ends))
+            });
         }
     }
 
     fn local_addr(&self) -> io::Result<Ends> {
         let local = self.listener.local_addr()?;
-        Ok(Ends { remote: local, local })
+        Ok(Ends { remote: local, local, is_secure: self.acceptor.is_some() })
     }
 }
 

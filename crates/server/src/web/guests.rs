@@ -97,6 +97,15 @@ impl Guest {
         Self { stream, place }
     }
 
+    /// The first byte that the client sends; it stays to be read.
+    pub async fn first_byte(&self) -> io::Result<u8> {
+        let mut first = [0];
+        match self.stream.peek(&mut first).await? {
+            0 => Err(io::ErrorKind::UnexpectedEof.into()),
+            _ => Ok(first[0]),
+        }
+    }
+
     fn note<T>(&self, done: &Poll<io::Result<T>>) {
         if let Poll::Ready(Ok(_)) = done {
             *lock(&self.place.alive) = Instant::now();

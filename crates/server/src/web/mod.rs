@@ -1,9 +1,11 @@
 //! The web server of the screens: pages, library and WebSocket. A slow or hostile screen never delays the show.
 
 mod access;
+mod address;
 mod admission;
 mod api;
 mod broker;
+mod certificate;
 mod connection;
 mod desk;
 mod guests;
@@ -19,9 +21,11 @@ mod picture;
 mod planner;
 mod refused;
 mod runs;
+mod scheme;
 mod sign_in;
 mod sign_in_page;
 mod socket;
+mod stream;
 mod sums;
 mod uploads;
 
@@ -31,14 +35,18 @@ use std::sync::atomic::{AtomicU32, AtomicUsize};
 use axum::Router;
 use axum::routing::{any, delete, get, post, put};
 use tokio::net::TcpListener;
+use tokio_rustls::TlsAcceptor;
 
+pub use address::url;
 pub use admission::Admission;
 pub use broker::BrokerDesk;
+pub use certificate::WebCertificate;
 pub use desk::{Desk, Shown};
 pub use incidents::IncidentBoard;
 pub use log::ScreenLog;
 pub use names::{Exposure, Names};
 pub use planner::Planner;
+pub use scheme::Scheme;
 
 use crate::failure::Failure;
 use crate::fleet_book::FleetBook;
@@ -126,9 +134,9 @@ pub async fn listen(exposure: &Exposure) -> Result<(TcpListener, Names), Failure
     Ok((listener, exposure.names(port)?))
 }
 
-/// Serves until the task is dropped.
-pub async fn serve(listener: TcpListener, shared: Arc<Shared>) {
-    let connections = Connections::new(listener, shared.log.clone());
+/// Serves until the task is dropped; with an acceptor over TLS.
+pub async fn serve(listener: TcpListener, acceptor: Option<TlsAcceptor>, shared: Arc<Shared>) {
+    let connections = Connections::new(listener, acceptor, shared.log.clone());
     let routes = Router::new()
         .route("/ws", any(socket::open))
         .route("/api/shows", get(api::list))

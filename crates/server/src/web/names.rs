@@ -1,16 +1,17 @@
 //! Names under which the web app is served, and whether the network may reach it.
 
+use std::fmt;
 use std::net::{IpAddr, Ipv4Addr, Ipv6Addr, SocketAddr};
 
+use super::address::reachable;
+use super::scheme::Scheme;
 use crate::failure::Failure;
 
-/// Port of a URL or `Host` header without a port: that of HTTP, RFC 9110, section 4.2.1.
-const USUAL_PORT: u16 = 80;
-
-/// Where the web app is served: on this machine only, or on the network because the user asked for it.
+/// Where the web app is served: on this machine only, or on the network.
 #[derive(Clone, Debug)]
 pub struct Exposure {
     listen: SocketAddr,
+    plain_http: bool,
     host_names: Vec<String>,
 }
 
@@ -33,21 +34,16 @@ enum Host {
 pub struct Names {
     port: u16,
     is_open: bool,
+    scheme: Scheme,
     others: Vec<Authority>,
 }
 
 impl Exposure {
-    /// Serves on `listen`. Without `open_to_network` it must be a loopback address. `host_names` are further names of this
-    /// machine: DNS names or IP addresses, with a port if it differs from that of `listen`. The failure is one line, exit
-    /// code 2.
-    pub fn new(listen: SocketAddr, open_to_network: bool, host_names: Vec<String>) -> Result<Self, Failure> {
-        if !listen.ip().to_canonical().is_loopback() && !open_to_network {
-            return Err(Failure::input(format!(
-                "on {listen} anyone on the network can reach the sign-in, and read passwords on the way: leave \
-                 --listen out, or add --open-to-network if that is what you want"
-            )));
-        }
-        let exposure = Self { listen, host_names };
+    /// Serves on `listen`: on a loopback address without TLS, on any other address with TLS unless `plain_http` is set.
+    /// `host_names` are further names of this machine: DNS names or IP addresses, with a port if it differs from that of
+    /// `listen`. The failure is one line, exit code 2.
+    pub fn new(listen: SocketAddr, plain_http: bool, host_names: Vec<String>) -> Result<Self, Failure> {
+        let exposure = Self { listen, plain_http, host_names };
         exposure.names(listen.port())?;
         Ok(exposure)
     }
@@ -55,6 +51,24 @@ impl Exposure {
     /// Address that the server listens on; port 0: any.
     pub fn listen(&self) -> SocketAddr {
         self.listen
+    }
+
+    /// Whether the network can reach the web app.
+    pub fn is_open(&self) -> bool {
+        !self.listen.ip().to_canonical().is_loopback()
+    }
+
+    /// How the web app is served.
+    pub fn scheme(&self) -> Scheme {
+        if self.is_open() && !self.plain_http { Scheme::Https } else { Scheme::Http }
+    }
+
+    /// The names under which other machines reach the web app, for a certificate: those that the user gave, and an address.
+    pub fn hosts(&self) -> Vec<String> {
+        let given = self.host_names.iter().filter_map(|text| Authority::read(text, 0));
+        let mut hosts: Vec<String> = given.map(|authority| authority.host.to_string()).collect();
+        hosts.push(reachable(self.listen.ip()).to_string());
+        hosts
     }
 
     /// The names, once `port` is known. The failure is one line, exit code 2.
@@ -65,8 +79,8 @@ impl Exposure {
                 Failure::input(format!("--host-name {text}: this is no {line}"))
             })
         });
-        let is_open = !self.listen.ip().to_canonical().is_loopback();
-        Ok(Names { port, is_open, others: others.collect::<Result<_, _>>()? })
+        let others = others.collect::<Result<_, _>>()?;
+        Ok(Names { port, is_open: self.is_open(), scheme: self.scheme(), others })
     }
 }
 
@@ -74,6 +88,23 @@ impl Names {
     /// Whether the network can reach the web app.
     pub fn is_open(&self) -> bool {
         self.is_open
+    }
+
+    /// How the web app is served.
+    pub fn scheme(&self) -> Scheme {
+        self.scheme
+    }
+
+    /// Reads the value of a `Host` header of a request over `scheme`.
+    pub fn host(scheme: Scheme, text: &str) -> Option<Authority> {
+        Authority::read(text, scheme.usual_port())
+    }
+
+    /// Reads the value of an `Origin` header. `None` also for pages that another scheme served.
+    pub fn origin(&self, text: &str) -> Option<Authority> {
+        let (scheme, rest) = text.split_once("://")?;
+        let is_ours = scheme.eq_ignore_ascii_case(self.scheme.name());
+        is_ours.then(|| Authority::read(rest, self.scheme.usual_port()))?
     }
 
     /// Whether a request to `host` is for this server; `local` is the server's end of the connection. A DNS name counts
@@ -88,17 +119,6 @@ impl Names {
 }
 
 impl Authority {
-    /// Reads the value of a `Host` header.
-    pub fn of_host(text: &str) -> Option<Self> {
-        Self::read(text, USUAL_PORT)
-    }
-
-    /// Reads the value of an `Origin` header. `None` also for pages that HTTP did not serve.
-    pub fn of_origin(text: &str) -> Option<Self> {
-        let (scheme, rest) = text.split_once("://")?;
-        scheme.eq_ignore_ascii_case("http").then(|| Self::read(rest, USUAL_PORT))?
-    }
-
     /// Reads `HOST` or `HOST:PORT`. An IPv6 address is in brackets.
     fn read(text: &str, usual_port: u16) -> Option<Self> {
         let (host, port) = match text.strip_prefix('[') {
@@ -131,37 +151,58 @@ impl Host {
     }
 }
 
+impl fmt::Display for Host {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Address(ip) => ip.fmt(out),
+            Self::Name(name) => name.fmt(out),
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    fn exposure(listen: &str, open_to_network: bool, host_names: &[&str]) -> Result<Exposure, Failure> {
+    fn exposure(listen: &str, plain_http: bool, host_names: &[&str]) -> Result<Exposure, Failure> {
         let host_names = host_names.iter().map(ToString::to_string).collect();
-        Exposure::new(listen.parse().unwrap(), open_to_network, host_names)
+        Exposure::new(listen.parse().unwrap(), plain_http, host_names)
     }
 
-    fn names(listen: &str, open_to_network: bool, host_names: &[&str]) -> Names {
-        let exposure = exposure(listen, open_to_network, host_names).unwrap();
+    fn names(listen: &str, plain_http: bool, host_names: &[&str]) -> Names {
+        let exposure = exposure(listen, plain_http, host_names).unwrap();
         exposure.names(exposure.listen().port()).unwrap()
     }
 
+    fn host(text: &str) -> Option<Authority> {
+        Names::host(Scheme::Http, text)
+    }
+
     #[test]
-    fn the_network_is_served_only_where_that_was_asked_for() {
+    fn the_network_is_served_with_tls_unless_that_is_turned_off() {
         for listen in
             ["0.0.0.0:8420", "192.168.0.7:8420", "[::]:8420", "[fd00::7]:8420", "[::ffff:10.0.0.1]:1"]
         {
-            let refused = exposure(listen, false, &[]).unwrap_err();
-            assert_eq!(refused.code, 2);
-            assert!(
-                refused.line.contains(listen) && refused.line.contains("--open-to-network"),
-                "{refused:?}"
+            assert_eq!(
+                (names(listen, false, &[]).is_open(), names(listen, true, &[]).is_open()),
+                (true, true)
             );
-            assert!(names(listen, true, &[]).is_open());
+            assert_eq!(names(listen, false, &[]).scheme(), Scheme::Https);
+            assert_eq!(names(listen, true, &[]).scheme(), Scheme::Http);
         }
         for listen in ["127.0.0.1:8420", "127.3.2.1:0", "[::1]:8420", "[::ffff:127.0.0.1]:8420"] {
-            assert!(!names(listen, false, &[]).is_open());
-            assert!(!names(listen, true, &[]).is_open());
+            for plain_http in [false, true] {
+                let names = names(listen, plain_http, &[]);
+                assert_eq!((names.is_open(), names.scheme()), (false, Scheme::Http));
+            }
         }
+    }
+
+    #[test]
+    fn a_certificate_is_for_given_names_and_a_reachable_address() {
+        let given = ["Stage.local", "tunnel.example:9000", "[fd00::7]:1"];
+        let hosts = exposure("192.0.2.7:8420", false, &given).unwrap().hosts();
+        assert_eq!(hosts, ["stage.local", "tunnel.example", "fd00::7", "192.0.2.7"]);
     }
 
     #[test]
@@ -200,12 +241,12 @@ mod tests {
             ("2130706433:8420", false, false),
         ];
         for (host, on_loopback, on_network) in cases {
-            let read = Authority::of_host(host).unwrap_or_else(|| panic!("{host}"));
+            let read = self::host(host).unwrap_or_else(|| panic!("{host}"));
             assert_eq!(closed.hold(&read, own), on_loopback, "{host} on loopback");
             assert_eq!(open.hold(&read, own), on_network, "{host} on the network");
         }
         let usual = names("127.0.0.1:80", false, &[]);
-        assert!(usual.hold(&Authority::of_host("localhost").unwrap(), own));
+        assert!(usual.hold(&host("localhost").unwrap(), own));
     }
 
     #[test]
@@ -226,12 +267,15 @@ mod tests {
             "http://a",
             "[127.0.0.1]:1",
         ] {
-            assert_eq!(Authority::of_host(host), None, "{host}");
+            assert_eq!(self::host(host), None, "{host}");
         }
         assert_eq!(exposure("127.0.0.1:1", false, &["a b"]).unwrap_err().code, 2);
-        for origin in ["null", "", "127.0.0.1:8420", "https://127.0.0.1:8420", "file://", "http://a:1/"] {
-            assert_eq!(Authority::of_origin(origin), None, "{origin}");
+        let (plain, secure) = (names("127.0.0.1:1", false, &[]), names("0.0.0.0:1", false, &[]));
+        for origin in ["null", "", "127.0.0.1:8420", "file://", "http://a:1/", "https://a:1/"] {
+            assert_eq!((plain.origin(origin), secure.origin(origin)), (None, None), "{origin}");
         }
-        assert_eq!(Authority::of_origin("http://A:81"), Authority::of_host("a:81"));
+        assert_eq!((plain.origin("http://A:81"), secure.origin("http://A:81")), (host("a:81"), None));
+        assert_eq!((plain.origin("https://A:81"), secure.origin("https://A:81")), (None, host("a:81")));
+        assert_eq!((plain.origin("http://a"), secure.origin("https://a")), (host("a:80"), host("a:443")));
     }
 }

@@ -5,15 +5,16 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use axum::extract::{ConnectInfo, Request, State};
-use axum::http::{HeaderMap, HeaderName, StatusCode, Uri, header};
+use axum::http::{HeaderMap, HeaderName, Method, StatusCode, Uri, header};
 use axum::middleware::Next;
 use axum::response::{IntoResponse, Response};
 
 use super::Shared;
 use super::api::{BODY_MAX, too_long};
 use super::connection::Ends;
-use super::names::{Authority, Names};
+use super::names::Names;
 use super::refused::{Refused, refuse};
+use super::scheme::Scheme;
 
 /// Longest time for a request from its first byte to the end of its answer. The longest upload (94 s) and
 /// a plan of the default budget (30 s) fit. A longer time would keep hostile connections open.
@@ -27,6 +28,9 @@ pub async fn guard(
     request: Request,
     next: Next,
 ) -> Response {
+    if shared.names.scheme() == Scheme::Https && !ends.is_secure {
+        return elsewhere(&shared.names, ends.local.ip(), &request);
+    }
     if let Err(refused) = check(&shared.names, ends.local.ip(), request.uri(), request.headers()) {
         return refused.into_response();
     }
@@ -40,14 +44,38 @@ pub async fn guard(
     }
 }
 
+/// Sends a page that was asked for without TLS to its address with TLS. Any other request is refused: a program that sends
+/// its token without TLS must not go on.
+fn elsewhere(names: &Names, local: IpAddr, request: &Request) -> Response {
+    let host = only(request.headers(), header::HOST).flatten();
+    let own = host.filter(|host| {
+        Names::host(Scheme::Http, host).is_some_and(|authority| names.hold(&authority, local))
+    });
+    let is_page = matches!(*request.method(), Method::GET | Method::HEAD)
+        && !request.headers().contains_key(header::AUTHORIZATION);
+    match own.filter(|_| is_page) {
+        Some(host) => {
+            let path = request.uri().path_and_query().map_or("/", |path| path.as_str());
+            let to = [(header::LOCATION, format!("https://{host}{path}"))];
+            let line = refuse(StatusCode::TEMPORARY_REDIRECT, "this server speaks HTTPS");
+            (StatusCode::TEMPORARY_REDIRECT, [(header::CACHE_CONTROL, "no-store")], to, line).into_response()
+        }
+        None => {
+            let line = "this server speaks HTTPS: begin its address with https://";
+            refuse(StatusCode::BAD_REQUEST, line).into_response()
+        }
+    }
+}
+
 /// Whether a request on a connection to the address `local` is for this server and from one of its pages. Programs other
 /// than browsers send no origin and are allowed.
 fn check(names: &Names, local: IpAddr, uri: &Uri, headers: &HeaderMap) -> Result<(), Refused> {
     let unclear = || refuse(StatusCode::BAD_REQUEST, "a request needs one Host header with host and port");
     let host = only(headers, header::HOST).ok_or_else(unclear)?;
-    let host = host.and_then(Authority::of_host).ok_or_else(unclear)?;
+    let read = |host: &str| Names::host(names.scheme(), host);
+    let host = host.and_then(read).ok_or_else(unclear)?;
     // A request line may name the host too.
-    if uri.authority().is_some_and(|named| Authority::of_host(named.as_str()).as_ref() != Some(&host)) {
+    if uri.authority().is_some_and(|named| read(named.as_str()).as_ref() != Some(&host)) {
         return Err(unclear());
     }
     if !names.hold(&host, local) {
@@ -57,7 +85,7 @@ fn check(names: &Names, local: IpAddr, uri: &Uri, headers: &HeaderMap) -> Result
     }
     match only(headers, header::ORIGIN) {
         Some(None) => Ok(()),
-        Some(Some(origin)) if Authority::of_origin(origin) == Some(host) => Ok(()),
+        Some(Some(origin)) if names.origin(origin) == Some(host) => Ok(()),
         _ => {
             let line = "this page belongs to another site: open the address that lightbots printed";
             Err(refuse(StatusCode::FORBIDDEN, line))

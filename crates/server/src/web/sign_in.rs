@@ -58,7 +58,7 @@ pub async fn sign_in(
     Json(Credentials { name, password }): Json<Credentials>,
 ) -> Response {
     match admission.sign_in(&name, &password, ends.remote.ip()).await {
-        Ok(token) => cookie(&token, SESSION_LASTS),
+        Ok(token) => cookie(&token, SESSION_LASTS, ends),
         Err(SignInError::Wrong(left)) => refuse(StatusCode::UNAUTHORIZED, &wrong(left)).into_response(),
         Err(SignInError::Wait(wait)) => {
             let line = format!("Too many wrong passwords. Try again in {}.", in_words(wait));
@@ -72,10 +72,11 @@ pub async fn sign_in(
 /// `POST /api/first`
 pub async fn first(
     State(admission): State<Arc<Admission>>,
+    ConnectInfo(ends): ConnectInfo<Ends>,
     Json(First { token, name, password }): Json<First>,
 ) -> Response {
     match admission.begin_first(&token, &name, &password).await {
-        Ok(token) => cookie(&token, SESSION_LASTS),
+        Ok(token) => cookie(&token, SESSION_LASTS, ends),
         Err((status, line)) => refuse(status, &line).into_response(),
     }
 }
@@ -88,12 +89,13 @@ pub async fn session(Extension(caller): Extension<Caller>) -> Json<Whoami> {
 /// `DELETE /api/session`
 pub async fn sign_out(
     State(admission): State<Arc<Admission>>,
+    ConnectInfo(ends): ConnectInfo<Ends>,
     Extension(ticket): Extension<Ticket>,
 ) -> Response {
     if let Ticket::Session(session) = &ticket {
         admission.sessions.end(session);
     }
-    cookie("", Duration::ZERO)
+    cookie("", Duration::ZERO, ends)
 }
 
 /// `GET /api/people`
@@ -148,9 +150,11 @@ fn failed(line: String) -> Refused {
     refuse(StatusCode::INTERNAL_SERVER_ERROR, &line)
 }
 
-fn cookie(token: &str, lasts: Duration) -> Response {
+fn cookie(token: &str, lasts: Duration, ends: Ends) -> Response {
     let seconds = lasts.as_secs();
-    let value = format!("{COOKIE}={token}; Path=/; HttpOnly; SameSite=Strict; Max-Age={seconds}");
+    // Browsers send it back over TLS only, and take it over TLS only.
+    let secure = if ends.is_secure { "; Secure" } else { "" };
+    let value = format!("{COOKIE}={token}; Path=/; HttpOnly; SameSite=Strict{secure}; Max-Age={seconds}");
     ([(header::SET_COOKIE, value)], StatusCode::NO_CONTENT).into_response()
 }
 

@@ -15,6 +15,7 @@ use super::access;
 use super::admission::{Caller, Ticket, not_allowed};
 use super::message::text;
 use super::picture::Picture;
+use super::scheme::Scheme;
 use super::{Shared, operate};
 
 /// Longest time to send one message. A screen that takes longer is disconnected, and connects again by itself.
@@ -111,8 +112,9 @@ impl Screen {
         let screen = self.shared.screens.fetch_add(1, Ordering::Relaxed);
         let version = env!("CARGO_PKG_VERSION").to_owned();
         let simulated = self.shared.simulated.load(Ordering::Relaxed);
-        let open_to_network = self.shared.names.is_open();
-        self.send(text(&ToScreen::Hello(Hello { version, screen, simulated, open_to_network }))).await
+        let names = &self.shared.names;
+        let plain_http = names.is_open() && names.scheme() == Scheme::Http;
+        self.send(text(&ToScreen::Hello(Hello { version, screen, simulated, plain_http }))).await
     }
 
     /// Carries out the request of a message. A message that cannot be read ends the connection.

@@ -1,9 +1,9 @@
 //! Just enough HTTP.
 
-use std::io::{Read, Write};
-use std::net::TcpStream;
+use std::io::{ErrorKind, Read, Write};
 
 use crate::DEADLINE;
+use crate::site::Site;
 
 pub struct Answer {
     pub status: u16,
@@ -25,8 +25,16 @@ impl Answer {
     }
 }
 
-/// Sends a request to `address` (`host:port`).
-pub fn request(address: &str, method: &str, path: &str, headers: &[(&str, &str)], body: &str) -> Answer {
+/// Sends a request to a server, such as `host:port`.
+pub fn request(
+    site: impl Into<Site>,
+    method: &str,
+    path: &str,
+    headers: &[(&str, &str)],
+    body: &str,
+) -> Answer {
+    let site = site.into();
+    let address = &site.address;
     let headers: String = headers.iter().map(|(key, value)| format!("{key}: {value}\r\n")).collect();
     let length = if headers.contains("Content-Length") {
         String::new()
@@ -34,22 +42,28 @@ pub fn request(address: &str, method: &str, path: &str, headers: &[(&str, &str)]
         format!("Content-Length: {}\r\n", body.len())
     };
     send(
-        address,
+        &site,
         &format!(
             "{method} {path} HTTP/1.1\r\nHost: {address}\r\nConnection: close\r\n{length}{headers}\r\n{body}"
         ),
     )
 }
 
-/// Sends these bytes to `address` as they are; the connection must be one that the server closes.
-pub fn send(address: &str, bytes: &str) -> Answer {
-    let mut stream = TcpStream::connect(address).unwrap();
-    stream.set_read_timeout(Some(DEADLINE)).unwrap();
+/// Sends these bytes as they are; the connection must be one that the server closes.
+pub fn send(site: impl Into<Site>, bytes: &str) -> Answer {
+    let mut stream = site.into().connect().unwrap();
+    stream.set_read_timeout(DEADLINE);
     stream.write_all(bytes.as_bytes()).unwrap();
     let mut bytes = Vec::new();
-    stream.read_to_end(&mut bytes).unwrap();
+    let read = stream.read_to_end(&mut bytes);
     let text = String::from_utf8_lossy(&bytes).into_owned();
     let (head, body) = text.split_once("\r\n\r\n").unwrap_or((&text, ""));
     let status = head.split(' ').nth(1).and_then(|status| status.parse().ok()).unwrap_or(0);
-    Answer { status, head: head.to_owned(), body: body.to_owned() }
+    let answer = Answer { status, head: head.to_owned(), body: body.to_owned() };
+    // hyper drops a connection whose upgrade was refused without the farewell of TLS: the stated length says the end.
+    let is_whole = answer.header("Content-Length") == answer.body.len().to_string();
+    if !read.as_ref().is_err_and(|error| error.kind() == ErrorKind::UnexpectedEof && is_whole) {
+        read.unwrap();
+    }
+    answer
 }

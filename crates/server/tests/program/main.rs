@@ -40,7 +40,9 @@ mod run;
 mod screen;
 mod shows;
 mod sign_in;
+mod site;
 mod strangers;
+mod web_tls;
 
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};

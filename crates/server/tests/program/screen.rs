@@ -1,6 +1,5 @@
 //! A browser's side of the WebSocket.
 
-use std::net::TcpStream;
 use std::time::{Duration, Instant};
 
 use serde_json::{Value, json};
@@ -8,6 +7,7 @@ use tungstenite::client::IntoClientRequest;
 use tungstenite::{Message, WebSocket};
 
 use crate::DEADLINE;
+use crate::site::{Line, Site};
 
 /// The robots of a binary message as JSON; null where something is not known.
 fn robots(bytes: &[u8]) -> Value {
@@ -25,7 +25,7 @@ fn robots(bytes: &[u8]) -> Value {
 }
 
 pub struct Screen {
-    socket: WebSocket<TcpStream>,
+    socket: WebSocket<Line>,
     requests: u32,
     /// The last message of each type.
     pub last: std::collections::BTreeMap<String, Value>,
@@ -35,20 +35,22 @@ pub struct Screen {
 
 impl Screen {
     /// Connects as a page of `origin` (`host:port`) would.
-    pub fn try_open(address: &str, origin: &str) -> Result<Self, String> {
-        Self::try_open_with(address, origin, &[])
+    pub fn try_open(site: impl Into<Site>, origin: &str) -> Result<Self, String> {
+        Self::try_open_with(site, origin, &[])
     }
 
     /// The same with further header lines.
     pub fn try_open_with(
-        address: &str,
+        site: impl Into<Site>,
         origin: &str,
         headers: &[(&'static str, &str)],
     ) -> Result<Self, String> {
-        let stream = TcpStream::connect(address).map_err(|error| error.to_string())?;
-        stream.set_read_timeout(Some(Duration::from_millis(100))).unwrap();
-        let mut request = format!("ws://{address}/ws").into_client_request().unwrap();
-        request.headers_mut().insert("Origin", format!("http://{origin}").parse().unwrap());
+        let site = site.into();
+        let stream = site.connect().map_err(|error| error.to_string())?;
+        stream.set_read_timeout(Duration::from_millis(100));
+        let mut request = format!("ws://{}/ws", site.address).into_client_request().unwrap();
+        let origin = format!("{}://{origin}", site.scheme());
+        request.headers_mut().insert("Origin", origin.parse().unwrap());
         for (name, value) in headers {
             request.headers_mut().insert(*name, value.parse().unwrap());
         }

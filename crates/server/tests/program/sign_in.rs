@@ -5,6 +5,7 @@ use serde_json::{Value, json};
 use crate::child::{self, Child};
 use crate::http::{self, Answer};
 use crate::screen::Screen;
+use crate::site::Site;
 use crate::{alone, shows};
 
 /// The table of SECURITY.md: request, and whether each column may send it.
@@ -35,57 +36,57 @@ fn table() -> Vec<(String, [bool; 4])> {
         .collect()
 }
 
-/// Starts a server on the network with one operator; its folder and address.
-fn start(people: &[(&str, &str)]) -> (Child, String, String) {
+/// Starts a server on the network with these people; its folder and the server.
+pub fn start(people: &[(&str, &str)]) -> (Child, String, Site) {
     let data = shows::own_folder().to_str().unwrap().to_owned();
     for (name, role) in people {
         let arguments = ["passwd", name, "--role", role, "--data", &data];
         let (code, out, err) = child::run_with_input(&arguments, &format!("password of {name}\n"));
         assert_eq!(code, 0, "{out}{err}");
     }
-    let mut server = Child::lightbots(&[
-        "run",
-        "--robots",
-        "0",
-        "--listen",
-        "0.0.0.0:0",
-        "--open-to-network",
-        "--mqtt-listen",
-        "127.0.0.1:0",
-        "--data",
-        &data,
-    ]);
-    let address = server.said("http://");
-    (server, data, address)
+    let (child, site) = start_on(&data, &[]);
+    (child, data, site)
 }
 
-fn sign_in(address: &str, name: &str, password: &str) -> Answer {
+/// Starts a server on the network on a folder. Its own certificate is trusted.
+pub fn start_on(data: &str, more: &[&str]) -> (Child, Site) {
+    let network =
+        ["run", "--robots", "0", "--listen", "0.0.0.0:0", "--mqtt-listen", "127.0.0.1:0", "--data", data];
+    let mut server = Child::lightbots(&[&network[..], more].concat());
+    let address = server.said("LightBots is at https://");
+    let site = Site::secure(&address, &format!("{data}/certs/server.pem"));
+    (server, site)
+}
+
+fn sign_in(site: impl Into<Site>, name: &str, password: &str) -> Answer {
     let body = json!({"name": name, "password": password}).to_string();
-    http::request(address, "POST", "/api/session", &[("Content-Type", "application/json")], &body)
+    http::request(site, "POST", "/api/session", &[("Content-Type", "application/json")], &body)
 }
 
 /// The `Cookie` line of a new session.
-fn session(address: &str, name: &str, password: &str) -> String {
-    let answer = sign_in(address, name, password);
+pub fn session(site: impl Into<Site>, name: &str, password: &str) -> String {
+    let site = site.into();
+    let answer = sign_in(&site, name, password);
     assert_eq!(answer.status, 204, "{}", answer.body);
-    cookie(&answer)
+    cookie(&answer, site.scheme() == "https")
 }
 
-fn cookie(answer: &Answer) -> String {
+fn cookie(answer: &Answer, is_secure: bool) -> String {
     let line = answer.header("Set-Cookie");
     assert!(line.contains("; HttpOnly; SameSite=Strict;"), "{line}");
+    assert_eq!(line.contains("; Secure;"), is_secure, "{line}");
     line.split(';').next().unwrap().to_owned()
 }
 
-fn get(address: &str, path: &str, cookie: &str) -> Answer {
-    http::request(address, "GET", path, &[("Cookie", cookie)], "")
+fn get(site: &Site, path: &str, cookie: &str) -> Answer {
+    http::request(site, "GET", path, &[("Cookie", cookie)], "")
 }
 
 /// A token of a program with this role.
-fn token(address: &str, operator: &str, name: &str, role: &str) -> String {
+pub fn token(site: &Site, operator: &str, name: &str, role: &str) -> String {
     let body = json!({"name": name, "role": role}).to_string();
     let headers = [("Content-Type", "application/json"), ("Cookie", operator)];
-    let answer = http::request(address, "POST", "/api/tokens", &headers, &body);
+    let answer = http::request(site, "POST", "/api/tokens", &headers, &body);
     assert_eq!(answer.status, 200, "{}", answer.body);
     format!("Bearer {}", answer.json()["token"].as_str().unwrap())
 }
@@ -142,10 +143,9 @@ fn each_cell_of_the_access_table_holds() {
         assert!(rows.contains(&known.as_str()), "{known} is missing in SECURITY.md");
     }
     assert_eq!(rows.len(), operations.len() + routes.len() + 1, "a row of SECURITY.md is of nothing");
-    let (_server, _, address) = start(&[("ann", "operator")]);
-    let operator = session(&address, "ann", "password of ann");
-    let tokens: Vec<String> =
-        COLUMNS[1..].iter().map(|role| token(&address, &operator, role, role)).collect();
+    let (_server, _, site) = start(&[("ann", "operator")]);
+    let operator = session(&site, "ann", "password of ann");
+    let tokens: Vec<String> = COLUMNS[1..].iter().map(|role| token(&site, &operator, role, role)).collect();
     let lines = |column: usize| -> Vec<(&'static str, &str)> {
         if column == 0 { Vec::new() } else { vec![("Authorization", tokens[column - 1].as_str())] }
     };
@@ -157,15 +157,15 @@ fn each_cell_of_the_access_table_holds() {
             let path = path.replace("{name}", &name).replace("{number}", "1").replace("{*rest}", "none");
             let path = path.replace("{hash}", &"0".repeat(64));
             let headers = [lines(column), vec![("Content-Type", "application/json")]].concat();
-            let answer = http::request(&address, method, &path, &headers, "{}");
+            let answer = http::request(&site, method, &path, &headers, "{}");
             let is_refused =
                 if column == 0 { is_refused_for_sign_in(&answer) } else { is_refused_for_role(&answer) };
             assert_eq!(is_refused, !may, "{request} {}: {} {}", COLUMNS[column], answer.status, answer.body);
         }
     }
-    assert!(Screen::try_open(&address, &address).is_err());
+    assert!(Screen::try_open(&site, &site.address).is_err());
     for column in 1..COLUMNS.len() {
-        let mut screen = Screen::try_open_with(&address, &address, &lines(column)).unwrap();
+        let mut screen = Screen::try_open_with(&site, &site.address, &lines(column)).unwrap();
         for (name, may) in table.iter().filter(|(request, _)| !request.contains(' ')) {
             let answer = screen.operate(operation(name));
             let is_refused = answer["error"].as_str().is_some_and(|error| error.contains("needs the role"));
@@ -178,40 +178,40 @@ fn each_cell_of_the_access_table_holds() {
 #[test]
 fn a_session_ends_at_sign_out_and_with_a_new_password() {
     let _turn = alone();
-    let (_server, data, address) = start(&[("ann", "operator")]);
-    let cookie = session(&address, "ann", "password of ann");
-    let whoami = get(&address, "/api/session", &cookie).json();
+    let (_server, data, site) = start(&[("ann", "operator")]);
+    let cookie = session(&site, "ann", "password of ann");
+    let whoami = get(&site, "/api/session", &cookie).json();
     assert_eq!(whoami, json!({"name": "ann", "role": "operator"}));
-    let open = |cookie: &str| Screen::try_open_with(&address, &address, &[("Cookie", cookie)]);
+    let open = |cookie: &str| Screen::try_open_with(&site, &site.address, &[("Cookie", cookie)]);
     let mut screen = open(&cookie).unwrap();
-    screen.until("the greeting", |screen| (screen.get("hello")["open_to_network"] == true).then_some(()));
-    let out = http::request(&address, "DELETE", "/api/session", &[("Cookie", &cookie)], "");
+    screen.until("the greeting", |screen| (screen.get("hello")["plain_http"] == false).then_some(()));
+    let out = http::request(&site, "DELETE", "/api/session", &[("Cookie", &cookie)], "");
     assert_eq!(out.status, 204);
     assert!(screen.is_hung_up(), "its WebSocket is closed");
-    assert!(is_refused_for_sign_in(&get(&address, "/api/shows", &cookie)), "a stolen token is of no use");
+    assert!(is_refused_for_sign_in(&get(&site, "/api/shows", &cookie)), "a stolen token is of no use");
     assert!(open(&cookie).is_err());
 
-    let cookie = session(&address, "ann", "password of ann");
+    let cookie = session(&site, "ann", "password of ann");
     let mut screen = open(&cookie).unwrap();
     let (code, out, _) = child::run_with_input(&["passwd", "ann", "--data", &data], "another password\n");
     assert_eq!((code, out.contains("ann (operator) has a new password")), (0, true), "{out}");
-    assert!(screen.is_hung_up() && is_refused_for_sign_in(&get(&address, "/api/shows", &cookie)));
-    assert_eq!(sign_in(&address, "ann", "password of ann").status, 401);
-    session(&address, "ann", "another password");
+    assert!(screen.is_hung_up() && is_refused_for_sign_in(&get(&site, "/api/shows", &cookie)));
+    assert_eq!(sign_in(&site, "ann", "password of ann").status, 401);
+    session(&site, "ann", "another password");
 }
 
 #[test]
 fn a_revoked_token_opens_nothing() {
     let _turn = alone();
-    let (_server, data, address) = start(&[("ann", "operator")]);
-    let operator = session(&address, "ann", "password of ann");
-    let bearer = token(&address, &operator, "lights", "viewer");
+    let (_server, data, site) = start(&[("ann", "operator")]);
+    let operator = session(&site, "ann", "password of ann");
+    let bearer = token(&site, &operator, "lights", "viewer");
     let kept = std::fs::read_to_string(format!("{data}/accounts.json")).unwrap();
     assert!(!kept.contains(bearer.trim_start_matches("Bearer ")), "only its hash is kept");
-    let shows = || http::request(&address, "GET", "/api/shows", &[("Authorization", &bearer)], "");
-    let mut screen = Screen::try_open_with(&address, &address, &[("Authorization", &bearer)]).unwrap();
+    let shows = || http::request(&site, "GET", "/api/shows", &[("Authorization", &bearer)], "");
+    let mut screen = Screen::try_open_with(&site, &site.address, &[("Authorization", &bearer)]).unwrap();
     assert_eq!(shows().status, 200);
-    let revoked = http::request(&address, "DELETE", "/api/tokens/lights", &[("Cookie", &operator)], "");
+    let revoked = http::request(&site, "DELETE", "/api/tokens/lights", &[("Cookie", &operator)], "");
     assert_eq!(revoked.status, 204);
     assert!(is_refused_for_sign_in(&shows()) && screen.is_hung_up());
 }
@@ -247,7 +247,7 @@ fn a_removed_person_is_out_at_once_and_the_last_operator_stays() {
         assert!(answer.status == 409 && answer.body.contains("last operator"), "{}", answer.body);
     }
 
-    let mut screen = Screen::try_open_with(&address, &address, &[("Cookie", &of_bob)]).unwrap();
+    let mut screen = Screen::try_open_with(&address, &address.address, &[("Cookie", &of_bob)]).unwrap();
     assert_eq!(ask("DELETE", "/api/people/bob", &ann, json!({})).status, 204);
     assert_eq!(ask("DELETE", "/api/people/bob", &ann, json!({})).status, 404);
     assert!(is_refused_for_sign_in(&get(&address, "/api/shows", &of_bob)) && screen.is_hung_up());
@@ -262,18 +262,18 @@ fn a_removed_person_is_out_at_once_and_the_last_operator_stays() {
 #[test]
 fn wrong_passwords_say_what_is_left_and_lead_to_a_pause() {
     let _turn = alone();
-    let (_server, _, address) = start(&[("ann", "operator")]);
+    let (_server, _, site) = start(&[("ann", "operator")]);
     for name in ["ann", "unknown"] {
         let lines: Vec<String> = (0..5)
             .map(|_| {
-                let answer = sign_in(&address, name, "a guess");
+                let answer = sign_in(&site, name, "a guess");
                 assert_eq!(answer.status, 401);
                 answer.json()["error"].as_str().unwrap().to_owned()
             })
             .collect();
         assert_eq!(lines[2], "Name or password is wrong. Two more tries, then a pause of one minute.");
         assert_eq!(lines[4], "Name or password is wrong. Try again in one minute.");
-        let answer = sign_in(&address, name, "password of ann");
+        let answer = sign_in(&site, name, "password of ann");
         assert_eq!(answer.status, 429, "the right one, too, has to wait");
         assert!((1..=60).contains(&answer.header("Retry-After").parse::<u32>().unwrap()));
     }
@@ -282,12 +282,12 @@ fn wrong_passwords_say_what_is_left_and_lead_to_a_pause() {
 #[test]
 fn the_first_operator_comes_by_an_address_that_works_once() {
     let _turn = alone();
-    let (mut server, _, address) = start(&[]);
+    let (mut server, _, site) = start(&[]);
     let first = server.said("#first=");
     assert!(server.out().contains('█') || server.out().contains('▀'), "a QR code: {}", server.out());
     let make = |token: &str, name: &str, password: &str| {
         let body = json!({"token": token, "name": name, "password": password}).to_string();
-        http::request(&address, "POST", "/api/first", &[("Content-Type", "application/json")], &body)
+        http::request(&site, "POST", "/api/first", &[("Content-Type", "application/json")], &body)
     };
     assert_eq!(make("0", "eve", "a long password").status, 403);
     assert_eq!(make(&first, "eve", "short").status, 422);
@@ -295,9 +295,9 @@ fn the_first_operator_comes_by_an_address_that_works_once() {
     let made = make(&first, "ann", "a long password");
     assert_eq!(made.status, 204, "{}", made.body);
     assert_eq!(
-        get(&address, "/api/people", &cookie(&made)).json(),
+        get(&site, "/api/people", &cookie(&made, true)).json(),
         json!([{"name": "ann", "role": "operator"}])
     );
     assert_eq!(make(&first, "eve", "a long password").status, 403);
-    session(&address, "ann", "a long password");
+    session(&site, "ann", "a long password");
 }

@@ -1,16 +1,21 @@
 //! Requests of pages and names that are not this server's.
 
-use crate::child;
+use crate::alone;
 use crate::http;
 use crate::run::start;
 use crate::screen::Screen;
-use crate::{alone, shows};
+use crate::sign_in::start as start_on_network;
+use crate::site::Site;
+
+/// Lines that ask for a WebSocket.
+const UPGRADE: [&str; 3] =
+    ["Upgrade: websocket", "Sec-WebSocket-Version: 13", "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ=="];
 
 /// The status of a request with these header lines and no others but what closes the connection. An opened WebSocket is
 /// left at once.
-fn status(address: &str, path: &str, lines: &[String]) -> u16 {
+fn status(site: impl Into<Site>, path: &str, lines: &[String]) -> u16 {
     let lines: String = lines.iter().map(|line| format!("{line}\r\n")).collect();
-    let answer = http::send(address, &format!("GET {path} HTTP/1.1\r\nConnection: close\r\n{lines}\r\n"));
+    let answer = http::send(site, &format!("GET {path} HTTP/1.1\r\nConnection: close\r\n{lines}\r\n"));
     if answer.status != 200 {
         let error = answer.json()["error"].as_str().unwrap().to_owned();
         assert!(!error.is_empty() && !error.contains('\n'), "{error}");
@@ -56,33 +61,37 @@ fn pages_of_other_servers_and_foreign_names_are_turned_away() {
             assert_eq!(status(&address, path, lines), *expected, "{path} {lines:?}");
         }
     }
-    let upgrade =
-        ["Upgrade: websocket", "Sec-WebSocket-Version: 13", "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ=="];
     for (lines, expected) in cases.iter().filter(|(_, expected)| *expected != 200) {
-        let lines = [lines.clone(), upgrade.map(str::to_owned).to_vec()].concat();
+        let lines = [lines.clone(), UPGRADE.map(str::to_owned).to_vec()].concat();
         assert_eq!(status(&address, "/ws", &lines), *expected, "{lines:?}");
     }
     assert!(Screen::try_open(&address, "evil.example").is_err());
     assert!(Screen::try_open(&address, &format!("localhost:{port}")).is_err());
     let mut screen = Screen::open(&address);
-    screen.until("the greeting", |screen| (screen.get("hello")["open_to_network"] == false).then_some(()));
+    screen.until("the greeting", |screen| (screen.get("hello")["plain_http"] == false).then_some(()));
 }
 
 #[test]
-fn the_network_is_served_only_where_that_was_asked_for() {
+fn names_of_others_are_turned_away_on_the_network_too() {
     let _turn = alone();
-    let data = shows::folder().join("nothing");
-    let all = ["run", "--robots", "0", "--listen", "0.0.0.0:0", "--mqtt-listen", "127.0.0.1:0"];
-    let all = [&all[..], &["--data", data.to_str().unwrap()]].concat();
-    let (code, out, err) = child::run(&all);
-    assert_eq!((code, out.as_str(), err.lines().count()), (2, "", 1), "{err}");
-    assert!(err.contains("--open-to-network"), "{err}");
-    let mut server = child::Child::lightbots(&[&all[..], &["--open-to-network"]].concat());
-    let address = server.said("http://");
-    server.said("sign-in is required");
-    assert!(Screen::try_open(&address, &address).is_err(), "a screen has to sign in");
-    let port = address.rsplit_once(':').unwrap().1;
-    assert_eq!(status(&address, "/api/shows", &[format!("Host: evil.example:{port}")]), 421);
-    // An address of another machine.
-    assert_eq!(status(&address, "/api/shows", &[format!("Host: 192.0.2.1:{port}")]), 421);
+    let (_server, _, site) = start_on_network(&[]);
+    let (_, port) = site.address.rsplit_once(':').unwrap();
+    let (host, origin) = (format!("Host: {}", site.address), format!("Origin: https://{}", site.address));
+    let other = format!("Origin: http://{}", site.address);
+    let upgrade = UPGRADE.map(str::to_owned);
+    for (lines, expected) in [
+        (vec![host.clone()], 401),
+        (vec![host.clone(), origin.clone()], 401),
+        (vec![format!("Host: evil.example:{port}")], 421),
+        // An address of another machine.
+        (vec![format!("Host: 192.0.2.1:{port}")], 421),
+        (vec![format!("Host: evil.example:{port}"), format!("Origin: https://evil.example:{port}")], 421),
+        (vec![host.clone(), "Origin: https://evil.example".into()], 403),
+        // The same address without TLS is another site.
+        (vec![host.clone(), other], 403),
+        (vec![host, "Origin: null".into()], 403),
+    ] {
+        assert_eq!(status(&site, "/api/shows", &lines), expected, "{lines:?}");
+        assert_eq!(status(&site, "/ws", &[lines.clone(), upgrade.to_vec()].concat()), expected, "{lines:?}");
+    }
 }

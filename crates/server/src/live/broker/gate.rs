@@ -7,7 +7,7 @@
 use std::collections::BTreeMap;
 use std::io;
 use std::net::SocketAddr;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
@@ -15,15 +15,11 @@ use serde::{Deserialize, Serialize};
 use tokio::io::{AsyncReadExt, AsyncWriteExt};
 use tokio::net::{TcpListener, TcpStream};
 use tokio::sync::Semaphore;
-use tokio_rustls::TlsAcceptor;
-use tokio_rustls::rustls::crypto::ring;
-use tokio_rustls::rustls::pki_types::pem::PemObject;
-use tokio_rustls::rustls::pki_types::{CertificateDer, PrivateKeyDer};
-use tokio_rustls::rustls::server::WebPkiClientVerifier;
-use tokio_rustls::rustls::{self, RootCertStore, ServerConfig};
+use tokio_rustls::{TlsAcceptor, rustls};
 
 use super::notices::Notices;
 use crate::failure::Failure;
+use crate::tls;
 
 /// A client that has not finished its handshake after `PATIENCE` is dropped.
 const PATIENCE: Duration = Duration::from_secs(10);
@@ -31,8 +27,7 @@ const PATIENCE: Duration = Duration::from_secs(10);
 const LINGER: Duration = Duration::from_secs(1);
 /// Connections at once; more wait.
 const CONNECTIONS: usize = 20_000;
-/// The first byte of TLS, and of MQTT without it.
-const TLS: u8 = 0x16;
+/// First byte of MQTT without TLS.
 const MQTT: u8 = 0x10;
 
 /// Where TLS is spoken, and with which certificates (PEM files).
@@ -51,44 +46,10 @@ pub struct TlsOptions {
 impl TlsOptions {
     /// Certificates read and checked; one line where they cannot be used.
     pub fn acceptor(&self) -> Result<TlsAcceptor, Failure> {
-        let provider = Arc::new(ring::default_provider());
-        let builder = ServerConfig::builder_with_provider(provider.clone())
-            .with_safe_default_protocol_versions()
-            .map_err(|error| Failure::problem(format!("TLS cannot be set up: {error}")))?;
-        let builder = match &self.client_ca {
-            None => builder.with_no_client_auth(),
-            Some(path) => {
-                let mut roots = RootCertStore::empty();
-                roots.add_parsable_certificates(certificates(path)?);
-                let verifier = WebPkiClientVerifier::builder_with_provider(Arc::new(roots), provider).build();
-                builder
-                    .with_client_cert_verifier(verifier.map_err(|error| unusable(path, &error.to_string()))?)
-            }
-        };
-        let key = PrivateKeyDer::from_pem_file(&self.key)
-            .map_err(|error| unusable(&self.key, &format!("{error}; it must hold a private key (PEM)")))?;
-        let config = builder.with_single_cert(certificates(&self.cert)?, key).map_err(|error| {
-            Failure::input(format!(
-                "the certificate {} and the key {} do not fit together: {error}",
-                self.cert.display(),
-                self.key.display()
-            ))
-        })?;
-        Ok(TlsAcceptor::from(Arc::new(config)))
+        let config = tls::server_config(&self.cert, &self.key, self.client_ca.as_deref());
+        let remedy = "`lightbots certs` makes certificates";
+        config.map(tls::acceptor).map_err(|why| Failure::input(format!("{why}; {remedy}")))
     }
-}
-
-fn certificates(path: &Path) -> Result<Vec<CertificateDer<'static>>, Failure> {
-    let found = CertificateDer::pem_file_iter(path).and_then(Iterator::collect::<Result<Vec<_>, _>>);
-    match found {
-        Ok(found) if !found.is_empty() => Ok(found),
-        Ok(_) => Err(unusable(path, "it holds no certificate (PEM)")),
-        Err(error) => Err(unusable(path, &error.to_string())),
-    }
-}
-
-fn unusable(path: &Path, why: &str) -> Failure {
-    Failure::input(format!("{} cannot be used: {why}; `lightbots certs` makes certificates", path.display()))
 }
 
 /// Connections that were handed over: which address at the inner listener is which client.
@@ -190,7 +151,7 @@ impl Gate {
             return Ok(None);
         }
         match first[0] {
-            TLS => {}
+            tls::FIRST_BYTE => {}
             MQTT => {
                 return Err(
                     "it speaks MQTT without TLS: say mqtts:// there, or give it the plain port".into()
