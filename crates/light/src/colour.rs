@@ -1,6 +1,14 @@
 //! Linear light: colours as proportions of light power, in which mixing, blurring and fading look right.
 
 use lightbots_base::{Rgb, srgb_decoded};
+use std::sync::LazyLock;
+
+/// `[code]`: the light of a channel. A power takes fifty times as long, and tracks need millions.
+static LIGHTS: LazyLock<[f64; 256]> =
+    LazyLock::new(|| std::array::from_fn(|code| srgb_decoded(code as f64 / 255.0)));
+/// `[code]`: the light half-way between a code and the next.
+static HALVES: LazyLock<[f64; 255]> =
+    LazyLock::new(|| std::array::from_fn(|code| srgb_decoded((code as f64 + 0.5) / 255.0)));
 
 /// A colour in linear light. 0 is off and 1 the full light of a channel; sums before the last stage may exceed 1.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -24,13 +32,14 @@ impl Linear {
 
     /// The light that an sRGB colour stands for.
     pub fn from_rgb(coded: Rgb) -> Self {
-        let [r, g, b] = [coded.r, coded.g, coded.b].map(|code| srgb_decoded(f64::from(code) / 255.0));
+        let [r, g, b] = [coded.r, coded.g, coded.b].map(|code| LIGHTS[usize::from(code)]);
         Self::new(r, g, b)
     }
 
     /// The nearest sRGB colour. Channels are clamped to 0..=1; NaN gives 0.
     pub fn to_rgb(self) -> Rgb {
-        let [r, g, b] = self.coded().map(|channel| (channel + 0.5) as u8);
+        let nearest = |light: f64| HALVES.partition_point(|&half| half <= light) as u8;
+        let [r, g, b] = [self.r, self.g, self.b].map(nearest);
         Rgb::new(r, g, b)
     }
 
@@ -91,6 +100,15 @@ mod tests {
         for code in 0..=255 {
             let colour = Rgb::new(code, 255 - code, code / 2);
             assert_eq!(Linear::from_rgb(colour).to_rgb(), colour);
+        }
+    }
+
+    #[test]
+    fn the_table_rounds_as_the_formula_does() {
+        for step in 0..=100_000 {
+            let light = f64::from(step) / 100_000.0;
+            let [code, ..] = Linear::new(light, 0.0, 0.0).coded();
+            assert_eq!(Linear::new(light, 0.0, 0.0).to_rgb().r, (code + 0.5) as u8, "{light}");
         }
     }
 

@@ -6,12 +6,16 @@
 
 use lightbots_base::{LightRecord, LightTrack, Rgb};
 use lightbots_light::lightness;
+use std::sync::LazyLock;
 
 /// A rounded line leads through a code if it is within this much of it. A little less than a half: a robot's arithmetic may
 /// differ in its last digits.
 const ROUNDING: f64 = 0.49;
 /// Longest block of records that is looked for again. Chosen: the period of a pulse of five records a second in 10 s.
 const BLOCK_MAX: usize = 64;
+
+/// `[code]`: its lightness L*. Each fit asks for it thousands of times.
+static LIGHTNESS: LazyLock<[f64; 256]> = LazyLock::new(|| std::array::from_fn(|code| lightness(code as u8)));
 
 /// How far a shown colour may be from the wanted one, channel by channel.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -48,12 +52,13 @@ impl Bounds {
             Tolerance::Lightness(units) => units,
         };
         let near = |one: u8, other: u8| {
-            one.abs_diff(other) <= 1 || (lightness(one) - lightness(other)).abs() <= units
+            one.abs_diff(other) <= 1
+                || (LIGHTNESS[usize::from(one)] - LIGHTNESS[usize::from(other)]).abs() <= units
         };
         let mut bounds = [(0, 0); 256];
         for code in 0..=u8::MAX {
-            let low = (0..=code).find(|&low| near(low, code)).unwrap_or(code);
-            let high = (code..=u8::MAX).rev().find(|&high| near(high, code)).unwrap_or(code);
+            let low = (0..=code).rev().take_while(|&low| near(low, code)).last().unwrap_or(code);
+            let high = (code..=u8::MAX).take_while(|&high| near(high, code)).last().unwrap_or(code);
             bounds[usize::from(code)] = (low, high);
         }
         Self(bounds)
@@ -84,7 +89,8 @@ pub fn fit(samples: &[Rgb], tolerance: Tolerance, records_max: usize) -> LightFi
 /// Whether two colours are seen as different side by side: by two units of L* in a channel.
 pub fn is_seen_apart(one: Rgb, other: Rgb) -> bool {
     let pairs = channels(one).into_iter().zip(channels(other));
-    pairs.into_iter().any(|(one, other)| (lightness(one) - lightness(other)).abs() > 2.0)
+    let units = |code: u8| LIGHTNESS[usize::from(code)];
+    pairs.into_iter().any(|(one, other)| (units(one) - units(other)).abs() > 2.0)
 }
 
 fn lines(samples: &[Rgb], bounds: &Bounds) -> Vec<LightRecord> {
