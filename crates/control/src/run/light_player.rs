@@ -183,6 +183,14 @@ impl LightPlayer {
         }
     }
 
+    /// Robots stop, and all is planned again from where they stand: show time stands until the next drive, unless this one
+    /// was over.
+    pub fn halt(&mut self) {
+        if let Some(current) = self.current.as_mut().filter(|current| current.seen < current.drive) {
+            (current.clock, self.upload) = (None, None);
+        }
+    }
+
     /// A report names the stretch that its robot received last.
     pub fn acknowledge(&mut self, now: Instant, participant: usize, number: u32) {
         let Some((stretch, upload)) = &mut self.upload else { return };
@@ -196,6 +204,9 @@ impl LightPlayer {
         let Some(elapsed) = self.current.as_ref().and_then(|current| current.elapsed(now)) else { return };
         if let Some(current) = &mut self.current {
             current.seen = elapsed;
+            if let Some(clock) = &mut current.clock {
+                clock.end_hold(now);
+            }
         }
         self.again_at = Instant::FAR;
         self.begin_stretch(context, now, elapsed, legs.0);

@@ -115,6 +115,7 @@ impl Pipeline {
     /// Legs and requests are dropped; `next` is planned again from where robots are.
     pub fn clear(&mut self, next: Option<FrameCursor>) {
         self.upload = None;
+        self.light.halt();
         self.queue.clear();
         self.planning.pending = None;
         self.planning.is_outdated = false;

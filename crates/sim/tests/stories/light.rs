@@ -87,3 +87,12 @@ fn light_stands_in_a_hold_and_goes_on_with_it() {
         assert_lit(&report, 500);
     }
 }
+
+#[test]
+fn light_goes_on_with_the_others_when_a_robot_dies() {
+    for seed in 1..=2 {
+        let report = play(&show(12, 4.0), "kill=3@9s,loss=2%", seed);
+        assert!(report.replans > 0 && report.dropouts == 1, "seed {seed}: {:?}", report.issues);
+        assert_lit(&report, 200);
+    }
+}
