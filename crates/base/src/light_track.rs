@@ -308,7 +308,7 @@ mod tests {
             let (mut cursor, mut at_us) = (crate::LightCursor::default(), 0);
             for _ in 0..400 {
                 assert_eq!(cursor.at(track, Span(at_us)), track.at(Span(at_us)), "{at_us} by {step_us}");
-                let back = split_mix(&mut state) % 20 == 0;
+                let back = split_mix(&mut state).is_multiple_of(20);
                 let change = (split_mix(&mut state) % step_us) as i64;
                 at_us = if back { (at_us - change).max(0) } else { at_us + change };
                 at_us = if at_us > end_us { 0 } else { at_us };
