@@ -42,10 +42,7 @@ test('half the speed is chosen in the checklist, and every screen shows it', asy
   await uploadText(page, 'slow.json', smallShow(4, 1));
   await page.keyboard.press('c');
   const dialog = page.getByRole('dialog', { name: 'Before you start' });
-  // A show that was never played is offered slowly.
-  const offer = dialog.getByTestId('first-run');
-  await offer.getByRole('button', { name: 'Drive at 50 %' }).click();
-  await offer.waitFor({ state: 'detached' });
+  await dialog.getByText('50 %', { exact: true }).click();
   const second = await bed.open('live');
   await second.getByText('drives at 50 %').waitFor();
   await dialog.getByRole('button', { name: 'Play', exact: true }).click();
@@ -54,11 +51,4 @@ test('half the speed is chosen in the checklist, and every screen shows it', asy
   await page.keyboard.press('c');
   await dialog.getByText('100 %', { exact: true }).click();
   await second.getByText('drives at 50 %').waitFor({ state: 'hidden' });
-  await eventually(
-    () => dialog.getByRole('radio', { name: '100 %' }).isChecked(),
-    (checked) => checked,
-    'full speed in the checklist',
-  );
-  // It was played by now.
-  expect(await offer.count()).toBe(0);
 });

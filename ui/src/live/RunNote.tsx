@@ -14,7 +14,7 @@ export function RunNote({ onPast }: { onPast: () => void }) {
   const dismissed = useStore(dismissedRun);
   // The notes of a failed or stopped show say how it ended.
   const isTold = useStore(live.playback, (p) => p.failure !== null || p.stopped_in !== null);
-  const run = offeredRun(runs ?? [], dismissed);
+  const run = offeredRun(runs, dismissed);
   if (run === null) return null;
   return (
     <div className={styles.note} data-tone="done" data-testid="run-note">

@@ -8,21 +8,21 @@ import { useSession } from '../session/session';
 const AGAIN_MS = 400;
 const AGAIN_MAX = 25;
 
-/** The recorded runs while there is no run; asked for anew after each. null: they are not known. */
-export function useRuns(): readonly RunEntry[] | null {
+/** The recorded runs while there is no run; asked for anew after each. */
+export function useRuns(): readonly RunEntry[] {
   const { live } = useSession();
   const isReady = useStore(live.playback, (p) => p.phase === 'ready');
-  const [runs, setRuns] = useState<readonly RunEntry[] | null>(null);
+  const [runs, setRuns] = useState<readonly RunEntry[]>([]);
   useEffect(() => {
     if (!isReady) return;
     let timer: ReturnType<typeof setTimeout> | undefined;
     let isOver = false;
     const look = async (left: number) => {
       // Without a list, nothing is offered: the dialog of past runs says what is wrong.
-      const found = await listRuns().catch(() => null);
+      const found = await listRuns().catch(() => []);
       if (isOver) return;
       setRuns(found);
-      if (found?.[0]?.ended_ms === null && left > 0)
+      if (found[0]?.ended_ms === null && left > 0)
         timer = setTimeout(() => void look(left - 1), AGAIN_MS);
     };
     void look(AGAIN_MAX);
@@ -31,5 +31,5 @@ export function useRuns(): readonly RunEntry[] | null {
       clearTimeout(timer);
     };
   }, [isReady]);
-  return isReady ? runs : null;
+  return isReady ? runs : [];
 }

@@ -1,6 +1,6 @@
 import { expect, test } from 'vitest';
 import type { RunEntry } from '../api/types.gen';
-import { offeredRun, runOutcome, runTitle, wasPlayed } from './runs';
+import { offeredRun, runOutcome, runTitle } from './runs';
 
 const run = (of: Partial<RunEntry>): RunEntry => ({
   number: 1,
@@ -31,10 +31,4 @@ test('a run is told by its kind, its show and its end', () => {
   expect(runOutcome(run({ outcome: null }), true)).toBe('It is on.');
   expect(runOutcome(run({ outcome: null }), false)).toBe('Its program ended before it did.');
   expect(runOutcome(run({}), false)).toBe('All 2 frames shown, no robot lost.');
-});
-
-test('a show counts as played once a run of it ended well', () => {
-  expect(wasPlayed([run({})], 'Hello')).toBe(true);
-  expect(wasPlayed([run({})], 'Other')).toBe(false);
-  expect(wasPlayed([run({ ok: false }), run({ kind: 'frame' })], 'Hello')).toBe(false);
 });

@@ -15,10 +15,6 @@ export function offeredRun(runs: readonly RunEntry[], dismissed: string): RunEnt
   return String(last.began_ms) === dismissed ? null : last;
 }
 
-/** Whether a show of this name was played to its end in one of the recorded runs. */
-export const wasPlayed = (runs: readonly RunEntry[], show: string) =>
-  runs.some((run) => run.kind === 'show' && run.ok && run.show === show);
-
 const KINDS = { show: '', frame: 'Drive to a frame of ', home: 'Home in ' } as const;
 
 /** What a run was of. */
