@@ -164,8 +164,10 @@ test('the history leads back and forth to any state, by pointer and by keyboard'
   await states.first().waitFor({ state: 'detached' });
   await tabTo(page, 'button', 'History');
   await page.keyboard.press('Enter');
-  await states.first().waitFor();
+  // Keys before the menu has the focus are lost.
+  await page.locator('[role=menuitemradio]:focus, [role=menu]:focus').waitFor();
   await page.keyboard.press('Home');
+  await page.locator('[role=menuitemradio]:focus').first().waitFor();
   await page.keyboard.press('Enter');
   await eventually(
     () => pixels(page),
