@@ -3,8 +3,7 @@
 use crate::light_track::{LightRecord, LightTrack};
 use crate::{Rgb, Span};
 
-/// A place in a track that moves on with time, so that a step costs the same however long the track is. It gives what
-/// [`LightTrack::at`] gives.
+/// A place in a track that moves on with time, so that a step costs the same however long the track is.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct LightCursor {
     record: usize,
@@ -18,7 +17,8 @@ pub struct LightCursor {
 }
 
 impl LightCursor {
-    /// The colour some time after the start of the track. Times that go back are found from the start again.
+    /// The colour some time after the start of the track; the last one after its end. Times that go back are found from the
+    /// start again. A repeat that is not valid counts as none.
     pub fn at(&mut self, track: LightTrack<'_>, elapsed: Span) -> Rgb {
         let elapsed_us = u64::try_from(elapsed.0).unwrap_or(0);
         if !self.moved || elapsed_us < self.began_us {

@@ -92,31 +92,6 @@ impl LightRecord {
 }
 
 impl LightTrack<'_> {
-    /// The colour some time after the start. After the end, the last colour stays. A repeat that is not valid counts as
-    /// none.
-    pub fn at(&self, elapsed: Span) -> Rgb {
-        let mut left_us = u64::try_from(elapsed.0).unwrap_or(0);
-        let mut colour = self.start;
-        for index in 0..self.records.len() {
-            if let Some((block, times)) = self.repeated(index) {
-                let once_us = duration_us(block);
-                let all_us = once_us.saturating_mul(u64::from(times));
-                if left_us < all_us {
-                    return walked(block, colour, left_us % once_us).unwrap_or(colour);
-                }
-                left_us -= all_us;
-                continue;
-            }
-            let record = &self.records[index..=index];
-            if let Some(found) = walked(record, colour, left_us) {
-                return found;
-            }
-            left_us -= duration_us(record);
-            colour = self.records[index].end(colour);
-        }
-        colour
-    }
-
     /// How long the track lasts.
     pub fn duration(&self) -> Span {
         let total_us = (0..self.records.len()).fold(0u64, |sum_us, index| {
@@ -245,19 +220,6 @@ fn duration_us(records: &[LightRecord]) -> u64 {
     records.iter().fold(0, |sum_us, record| sum_us.saturating_add(record.duration_us()))
 }
 
-/// The colour within records that begin with `colour`; `None` after their end.
-fn walked(records: &[LightRecord], mut colour: Rgb, mut left_us: u64) -> Option<Rgb> {
-    for &record in records {
-        let whole_us = record.duration_us();
-        if left_us < whole_us {
-            return Some(record.within(colour, left_us as f64 / whole_us as f64));
-        }
-        left_us -= whole_us;
-        colour = record.end(colour);
-    }
-    None
-}
-
 #[cfg(test)]
 mod tests {
     extern crate std;
@@ -268,6 +230,46 @@ mod tests {
     use crate::random::split_mix;
 
     const GREY: fn(u8) -> Rgb = |code| Rgb::new(code, code, code);
+
+    impl LightTrack<'_> {
+        /// What a cursor has to give, walked from the start: the colour some time after it. After the end, the last colour
+        /// stays. A repeat that is not valid counts as none.
+        fn at(&self, elapsed: Span) -> Rgb {
+            let mut left_us = u64::try_from(elapsed.0).unwrap_or(0);
+            let mut colour = self.start;
+            for index in 0..self.records.len() {
+                if let Some((block, times)) = self.repeated(index) {
+                    let once_us = duration_us(block);
+                    let all_us = once_us.saturating_mul(u64::from(times));
+                    if left_us < all_us {
+                        return walked(block, colour, left_us % once_us).unwrap_or(colour);
+                    }
+                    left_us -= all_us;
+                    continue;
+                }
+                let record = &self.records[index..=index];
+                if let Some(found) = walked(record, colour, left_us) {
+                    return found;
+                }
+                left_us -= duration_us(record);
+                colour = self.records[index].end(colour);
+            }
+            colour
+        }
+    }
+
+    /// The colour within records that begin with `colour`; `None` after their end.
+    fn walked(records: &[LightRecord], mut colour: Rgb, mut left_us: u64) -> Option<Rgb> {
+        for &record in records {
+            let whole_us = record.duration_us();
+            if left_us < whole_us {
+                return Some(record.within(colour, left_us as f64 / whole_us as f64));
+            }
+            left_us -= whole_us;
+            colour = record.end(colour);
+        }
+        None
+    }
 
     fn encoded(track: LightTrack<'_>) -> Vec<u8> {
         let mut bytes = Vec::new();

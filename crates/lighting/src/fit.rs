@@ -17,13 +17,21 @@ const BLOCK_MAX: usize = 64;
 /// `[code]`: its lightness L*. Each fit asks for it thousands of times.
 static LIGHTNESS: LazyLock<[f64; 256]> = LazyLock::new(|| std::array::from_fn(|code| lightness(code as u8)));
 
+/// Units of L* by which two colours differ that are seen side by side only.
+const SIDE_BY_SIDE: f64 = 2.0;
+
 /// How far a shown colour may be from the wanted one, channel by channel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Tolerance {
     /// One of 255 steps.
     OneStep,
-    /// Units of L* (CIE 1976) of the channel's light, and at least one step. Two of them are seen side by side only.
+    /// Units of L* (CIE 1976) of the channel's light, and at least one step.
     Lightness(f64),
+}
+
+impl Tolerance {
+    /// Differences that are seen side by side only.
+    pub const SIDE_BY_SIDE: Self = Self::Lightness(SIDE_BY_SIDE);
 }
 
 /// A track's start colour and records.
@@ -42,7 +50,7 @@ impl LightFit {
     }
 }
 
-/// `[channel][code]`-wise the least and the greatest code that is near enough to a code.
+/// `[code]`: the least and the greatest code that are near enough to it.
 struct Bounds([(u8, u8); 256]);
 
 impl Bounds {
@@ -86,11 +94,11 @@ pub fn fit(samples: &[Rgb], tolerance: Tolerance, records_max: usize) -> LightFi
     }
 }
 
-/// Whether two colours are seen as different side by side: by two units of L* in a channel.
+/// Whether two colours are seen as different, also apart: a channel differs by more than is seen side by side only.
 pub fn is_seen_apart(one: Rgb, other: Rgb) -> bool {
     let pairs = channels(one).into_iter().zip(channels(other));
     let units = |code: u8| LIGHTNESS[usize::from(code)];
-    pairs.into_iter().any(|(one, other)| (units(one) - units(other)).abs() > 2.0)
+    pairs.into_iter().any(|(one, other)| (units(one) - units(other)).abs() > SIDE_BY_SIDE)
 }
 
 fn lines(samples: &[Rgb], bounds: &Bounds) -> Vec<LightRecord> {

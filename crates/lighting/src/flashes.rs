@@ -96,6 +96,7 @@ impl Swings {
 struct Watched {
     general: Swings,
     red: Swings,
+    /// Where it was when flashes were counted last.
     place: Vec2,
 }
 
@@ -136,12 +137,14 @@ pub fn flashes(
         for step in 0..samples {
             let moment = moment(own, step);
             for (robot, watched) in frame.robots.iter().step_by(every).zip(&mut watched) {
-                watched.place = robot.lit(moment.elapsed).place;
                 watched.add(sample, robot.light(&light, show.pictures(), moment, usize::MAX));
             }
             sample += 1;
             if !sample.is_multiple_of(COUNTED_EVERY) {
                 continue;
+            }
+            for (robot, watched) in frame.robots.iter().step_by(every).zip(&mut watched) {
+                watched.place = robot.lit(moment.elapsed).place;
             }
             for is_red in [false, true] {
                 let kind = if is_red {

@@ -113,7 +113,7 @@ fn measured(
 
 #[test]
 fn two_units_of_lightness_take_few_records_and_are_kept() {
-    let rates = measured(Tolerance::Lightness(2.0), MAX_LIGHT_RECORDS, |name, (_, units)| {
+    let rates = measured(Tolerance::SIDE_BY_SIDE, MAX_LIGHT_RECORDS, |name, (_, units)| {
         assert!(units <= 2.0 + 1e-9, "{name}: {units} units of L*");
     });
     let mean =

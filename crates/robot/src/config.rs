@@ -222,14 +222,7 @@ impl Config {
             fix_sigma_m: 0.002,
             heading_sigma_rad: 0.0175,
             slip: 0.08,
-            abilities: Abilities {
-                route: true,
-                fade: true,
-                blink: true,
-                room: true,
-                neighbours: true,
-                light: true,
-            },
+            abilities: Abilities::ALL,
         }
     }
 }

@@ -11,7 +11,7 @@ const MOMENTS: [i64; 7] = [-4, -3, -1, 0, 1, 3, 4];
 /// Codes of a channel by which a light may differ: the fit's two units of L* are at most seven codes, and one is
 /// for rounding.
 const CODES: u8 = 8;
-/// Lights are compared every so many steps, which costs a rehearsal little.
+/// Steps from one comparison to the next: more often would slow rehearsals down.
 pub(crate) const EVERY: u64 = 10;
 
 /// Comparisons of lights with layers.

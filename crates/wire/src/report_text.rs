@@ -192,8 +192,8 @@ fn write_details(details: &Details, out: &mut TextBuffer<'_>) -> fmt::Result {
 }
 
 impl Abilities {
-    /// All abilities, read and written without a loop, because nearly all reports hold them.
-    const ALL: Self =
+    /// All abilities. They are read and written without a loop, because nearly all reports hold them.
+    pub const ALL: Self =
         Self { route: true, fade: true, blink: true, room: true, neighbours: true, light: true };
     /// `ALL` on the wire.
     const ALL_WORDS: &'static str = "route+fade+blink+room+neighbours+light";

@@ -116,7 +116,7 @@ const json = (method: string, body: unknown): RequestInit => ({
 const accountPath = (kind: 'people' | 'tokens', name: string) =>
   `/api/${kind}/${encodeURIComponent(name)}`;
 
-/** The people who can sign in, or the tokens of programs. */
+/** The people with accounts, or the tokens of programs. */
 export const listAccounts = async (kind: 'people' | 'tokens') =>
   (await (await request(`/api/${kind}`)).json()) as AccountEntry[];
 

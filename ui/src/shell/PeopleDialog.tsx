@@ -10,7 +10,7 @@ import styles from './People.module.css';
 
 type Kind = 'people' | 'tokens';
 
-/** The people who may sign in, and the tokens of programs. `me`: the name of this person. */
+/** The people with accounts, and the tokens of programs. `me`: the name of this person. */
 export function PeopleDialog({ me, onClose }: { me: string; onClose: () => void }) {
   return (
     <Modal opened onClose={onClose} title="People and tokens" size="lg">

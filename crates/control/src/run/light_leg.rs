@@ -6,9 +6,6 @@ use lightbots_base::{Instant, Rgb, Span, TICK};
 use lightbots_lighting::{DrivenLight, FrameLight, LightMoment, ShowLight, Tolerance, fit};
 use lightbots_wire::{Command, LightAnchor, LightRecords, LightStretch, MAX_LIGHT_RECORDS};
 
-/// How far a robot's light may be from the wanted one, units of L*: two are seen side by side only.
-const TOLERANCE: Tolerance = Tolerance::Lightness(2.0);
-
 /// A stretch of light that is sent to all robots.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct PlannedStretch {
@@ -116,7 +113,7 @@ impl LegLight {
                 Some(_) => self.moment(stretch.from, lost + time),
                 None => self.moment(stretch.from + time, lost),
             });
-        let fitted = fit(&samples, TOLERANCE, MAX_LIGHT_RECORDS);
+        let fitted = fit(&samples, Tolerance::SIDE_BY_SIDE, MAX_LIGHT_RECORDS);
         let (anchor, skip) = self.anchor(stretch, now);
         Command::Light(LightStretch {
             number: stretch.number,

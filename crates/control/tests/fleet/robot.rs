@@ -125,14 +125,7 @@ impl Robot {
             err_m: self.unsure.then_some(0.02),
             off_m: self.running.as_ref().map(|_| if self.stuck { 0.2 } else { 0.001 }),
             clock_us: self.synchronised.then_some(500),
-            abilities: Abilities {
-                route: true,
-                fade: true,
-                blink: true,
-                room: true,
-                neighbours: true,
-                light: true,
-            },
+            abilities: Abilities::ALL,
             blocked: self.blocked,
             ..Details::default()
         };

@@ -67,7 +67,7 @@ pub struct ApiToken {
     pub role: AccountRole,
     /// The hash of the token.
     pub hash: Secret,
-    /// The person who made it. It ends with that person, and never allows more than that person may do; `None`: it was made
+    /// Its maker, a person. It ends with that person, and never allows more than that person may do; `None`: it was made
     /// where sign-in is not asked for.
     #[serde(default)]
     pub maker: Option<String>,
@@ -82,7 +82,7 @@ pub struct AccountList {
 }
 
 impl AccountList {
-    /// The role of a token now; `None`: the person who made it is no longer there.
+    /// The role of a token now; `None`: its maker is no longer there.
     pub fn role_of(&self, token: &ApiToken) -> Option<AccountRole> {
         let Some(maker) = &token.maker else { return Some(token.role) };
         self.people.get(maker).map(|person| person.role.min(token.role))

@@ -106,7 +106,7 @@ impl Admission {
         }
     }
 
-    /// The person of a ticket: of a token, the one who made it. `None`: no person is known.
+    /// The person of a ticket: of a token, its maker. `None`: no person is known.
     pub fn person(&self, ticket: &Ticket) -> Option<String> {
         match ticket {
             Ticket::Loopback => None,

@@ -238,7 +238,7 @@ fn a_removed_person_is_out_at_once_and_the_last_operator_stays() {
         |path: &str| http::request(&address, "GET", path, &[("Authorization", &bearer)], "").status;
     assert_eq!(by_token("/api/people"), 200);
 
-    // A token allows no more than the person who made it.
+    // A token allows no more than its maker.
     assert_eq!(ask("PUT", "/api/people/bob", &ann, json!({"role": "viewer"})).status, 204);
     assert_eq!((by_token("/api/people"), by_token("/api/shows")), (403, 200));
     assert_eq!(get(&address, "/api/session", &of_bob).json()["role"], "viewer");

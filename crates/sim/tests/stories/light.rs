@@ -57,7 +57,7 @@ fn play(show: &Show, faults: &str, seed: u64) -> RehearsalReport {
     rehearse(show, &RehearsalOptions { seed, conditions, robots: None }, &mut |_| {})
 }
 
-/// At most one light in so many that were compared is wrong.
+/// At most one in `one_in` of the compared lights is wrong.
 fn assert_lit(report: &RehearsalReport, one_in: u64) {
     let (lights, seed) = (report.lights, report.seed);
     assert!(report.contacts == 0 && report.frames_played >= 3, "seed {seed}: {:?}", report.issues);
