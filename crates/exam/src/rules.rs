@@ -13,6 +13,8 @@ pub enum Scope {
     Fade,
     /// Robots whose reports say `can=light`.
     Ahead,
+    /// Robots whose reports say `can=live`.
+    Live,
     /// Robots whose reports say `can=blink`, judged by their light.
     Blink,
     /// Robots that report more fields than the original.
@@ -36,6 +38,8 @@ const fn rule(number: u8, title: &'static str, scope: Scope) -> Rule {
     Rule { number, title, scope }
 }
 
+/// Reason of hidden rules for controllers.
+const CONTROLLER: &str = "the rule concerns the controller";
 /// Reason of hidden rules that need a power cycle.
 const POWER: &str = "the test would have to switch the robot off and on";
 /// Reason of hidden rules that need a broken link.
@@ -46,8 +50,8 @@ const OBSTACLE: &str = "the test would have to put an obstacle in front of the r
 const SENSORS: &str = "the test would have to disturb the robot's sensors";
 
 /// All rules, in order: `RULES[n - 1]` is Rn.
-pub const RULES: [Rule; 58] = {
-    use Scope::{Ahead, AllRobots, Blink, Details, Fade, Hidden, Light, Route};
+pub const RULES: [Rule; 63] = {
+    use Scope::{Ahead, AllRobots, Blink, Details, Fade, Hidden, Light, Live, Route};
     [
         rule(1, "MQTT 3.1.1, QoS 0, not retained", Hidden("only the broker sees how a robot connects")),
         rule(2, "client id LightBot/<name>", Hidden("only the broker sees client ids")),
@@ -59,11 +63,7 @@ pub const RULES: [Rule; 58] = {
         rule(8, "reads decimals with a comma or an exponent", AllRobots),
         rule(9, "reports: name, x and y in metres", AllRobots),
         rule(10, "additional fields of reports are key=value", Details),
-        rule(
-            11,
-            "robots without can= receive only the original's commands",
-            Hidden("the rule concerns the controller"),
-        ),
+        rule(11, "robots without can= receive only the original's commands", Hidden(CONTROLLER)),
         rule(12, "state= is correct", Route),
         rule(13, "reports on UUID at once after each UUID command", AllRobots),
         rule(14, "reports after power-on and a lost link", Hidden(POWER)),
@@ -78,7 +78,7 @@ pub const RULES: [Rule; 58] = {
         rule(23, "fades wait for their moment; STOP deletes them", Fade),
         rule(24, "BLINK flashes; then the light is as before", Blink),
         rule(25, "time questions hold microseconds of its own clock", Route),
-        rule(26, "time questions are answered at once", Hidden("the rule concerns the controller")),
+        rule(26, "time questions are answered at once", Hidden(CONTROLLER)),
         rule(27, "knows the show clock within milliseconds", Route),
         rule(28, "interval of time questions", Route),
         rule(29, "synchronised after four different answers", Route),
@@ -103,18 +103,23 @@ pub const RULES: [Rule; 58] = {
         rule(48, "survives every payload", AllRobots),
         rule(49, "brakes for obstacles that it sees", Hidden(OBSTACLE)),
         rule(50, "its light shows why it stands", Hidden(CUT)),
-        rule(51, "controllers warn of each other", Hidden("the rule concerns the controller")),
+        rule(51, "controllers warn of each other", Hidden(CONTROLLER)),
         rule(
             52,
             "a simulated robot reports sim=1",
             Hidden("messages do not show whether a robot is simulated"),
         ),
         rule(53, "brakes= never falls, near= is a gap in sight", Details),
-        rule(54, "GO comes on a topic of its own", Hidden("the rule concerns the controller")),
+        rule(54, "GO comes on a topic of its own", Hidden(CONTROLLER)),
         rule(55, "keeps stretches of light and reports the newest", Ahead),
         rule(56, "the time of a stretch stands in a hold", Ahead),
         rule(57, "plays lines, steps and repeats from their moment on", Ahead),
         rule(58, "STOP deletes stretches of light", Ahead),
+        rule(59, "keeps its slot and reports it", Live),
+        rule(60, "shows the newest LIVE colour of its slot at once", Live),
+        rule(61, "shows its own light after RELEASE and after 2.5 s", Live),
+        rule(62, "its own light goes on beneath live light", Live),
+        rule(63, "live light is sent to all robots at once, at a bounded rate", Hidden(CONTROLLER)),
     ]
 };
 

@@ -1,9 +1,11 @@
-//! The light: a colour, fades and stretches of light by the show clock, blinking to be found, and red flashes for faults.
+//! The light: a colour, fades and stretches of light by the show clock, light from elsewhere over them, blinking to be
+//! found, and red flashes for faults.
 
 use lightbots_base::{Instant, Rgb, Span};
 use lightbots_wire::Fade;
 
 use crate::light_ahead::{LightAhead, StoredTracks};
+use crate::live_light::LiveLight;
 
 /// Capacity for fades that wait for their moment. One more replaces the latest.
 const WAITING: usize = 4;
@@ -18,8 +20,9 @@ const RED: Rgb = Rgb::new(255, 0, 0);
 /// The present colour, and what will change it.
 #[derive(Debug, Default)]
 pub(crate) struct Light {
+    /// Its own light, which goes on beneath all that is shown instead.
     shown: Rgb,
-    /// A fade, a track, blinking or flashes change it. Otherwise it stays at `shown`.
+    /// A fade, a track, light from elsewhere, blinking or flashes change it. Otherwise it stays at `shown`.
     busy: bool,
     /// The colour a running fade came from, and the fade.
     running: Option<(Rgb, Fade)>,
@@ -27,6 +30,8 @@ pub(crate) struct Light {
     waiting: heapless::Vec<Fade, WAITING>,
     /// Light that was sent ahead.
     pub(crate) tracks: LightAhead,
+    /// Light from elsewhere.
+    pub(crate) live: LiveLight,
     /// From when until when it blinks, own clock.
     blink: Option<(Instant, Instant)>,
     /// From when on a fault is shown, own clock, and its number of flashes.
@@ -85,7 +90,7 @@ impl Light {
         self.tracks.clear();
     }
 
-    /// Light that was sent ahead arrived.
+    /// Light that was sent ahead or from elsewhere arrived.
     pub(crate) fn wake(&mut self) {
         self.busy = true;
     }
@@ -105,17 +110,18 @@ impl Light {
         }
         self.blink.take_if(|(_, until)| now >= *until);
         let changes = self.running.is_some() || !self.waiting.is_empty() || self.tracks.is_any();
-        self.busy = changes || self.blink.is_some() || self.trouble.is_some();
+        let steady = self.live.colour(now).unwrap_or(self.shown);
+        self.busy = changes || self.live.is_on() || self.blink.is_some() || self.trouble.is_some();
         let (beat, colour) = match (self.blink, self.trouble) {
             (Some((from, _)), _) => ((now - from).0 / FLASH.0, Rgb::new(255, 255, 255)),
             (None, Some((from, flashes))) if now >= from => {
                 let beat = (now - from).0 % TROUBLE.0 / FLASH.0;
                 if beat >= 2 * i64::from(flashes) {
-                    return self.shown;
+                    return steady;
                 }
                 (beat, RED)
             }
-            _ => return self.shown,
+            _ => return steady,
         };
         if beat % 2 == 0 { colour } else { Rgb::BLACK }
     }
@@ -145,6 +151,8 @@ impl Light {
 
 #[cfg(test)]
 mod tests {
+    use lightbots_wire::LiveColours;
+
     use super::*;
     use crate::light_ahead::StoredTrack;
 
@@ -214,6 +222,22 @@ mod tests {
         assert_eq!(light.step(Instant(6_500_000), None, &NO_TRACKS), RED);
         light.report(Instant(6_510_000), 0);
         assert_eq!(light.step(Instant(6_520_000), None, &NO_TRACKS), own);
+    }
+
+    #[test]
+    fn the_own_light_goes_on_beneath_light_from_elsewhere_and_trouble_shows_over_it() {
+        let mut light = Light::default();
+        light.live.give_slot(0);
+        let colours = heapless::Vec::from_slice(&[RED]).expect("one colour fits");
+        light.live.receive(Instant(0), &LiveColours { number: 1, first: 0, colours });
+        light.wake();
+        light.fade(Some(Instant(0)), fade(WHITE, 1000, 1000));
+        let at = |light: &mut Light, now| light.step(Instant(now), Some(Instant(now)), &NO_TRACKS);
+        assert_eq!([0, 1500].map(|now| at(&mut light, now)), [RED, RED]);
+        light.blink(Instant(2000), Span(250_000));
+        assert_eq!([2000, 252_000].map(|now| at(&mut light, now)), [WHITE, RED]);
+        assert_eq!(at(&mut light, 2_500_000), WHITE, "the fade ended meanwhile");
+        assert!(!light.is_busy());
     }
 
     #[test]

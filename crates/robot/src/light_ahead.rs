@@ -7,8 +7,8 @@ use crate::timeline::Timeline;
 
 /// Stretches that are stored: one that plays, the one that goes on from it, and the first of the next drive.
 pub(crate) const STORED: usize = 3;
-/// A stretch whose number is at most this much below the newest is an old message, as with routes.
-const OLD_NUMBERS: u32 = 64;
+/// A message whose number is less than this below the newest is an old message, as with routes.
+pub(crate) const OLD_NUMBERS: u32 = 64;
 
 /// Colours of one stretch.
 #[derive(Debug)]

@@ -19,7 +19,7 @@ use crate::reflex::Reflex;
 use crate::storage::RouteStorage;
 use crate::supervise::Drives;
 
-/// A message to send. The longest report has 327 bytes.
+/// A message to send. The longest report has 343 bytes.
 pub type Message = heapless::String<376>;
 
 /// Longest time that counts as one step. Above, a pause of the simulation would move a robot along its route without

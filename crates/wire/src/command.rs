@@ -2,7 +2,7 @@
 
 use lightbots_base::{Instant, Piece, Rgb, Span, Vec2};
 
-use crate::{LightStretch, Neighbours};
+use crate::{LightStretch, LiveColours, LiveRelease, Neighbours};
 
 /// Most pieces of a route (R31). The controller rejects a frame whose plan has a longer path.
 pub const MAX_PIECES: usize = 128;
@@ -51,6 +51,12 @@ pub enum Command {
     Blink(Blink),
     /// `LIGHT …`: a stretch of light ahead of time.
     Light(LightStretch),
+    /// `SLOT k`: the robot's place in `LIVE` and `RELEASE`.
+    Slot(u16),
+    /// `LIVE n first colours`: colours from elsewhere, for many robots.
+    Live(LiveColours),
+    /// `RELEASE n first count`: robots show their own light again.
+    Release(LiveRelease),
     /// `STATUS`: report on `T/LightBot/Status` at once.
     Status,
 }

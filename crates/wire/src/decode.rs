@@ -4,6 +4,7 @@ use lightbots_base::{Instant, Rgb, Span, Vec2};
 
 use crate::fields::{Fields, cut};
 use crate::light::decode_light;
+use crate::live::{decode_live, decode_release, slot};
 use crate::number::{instant, number, span};
 use crate::path::decode_route;
 use crate::{Blink, Command, Fade, TimeAnswer};
@@ -80,6 +81,9 @@ fn decode(word: &str, fields: &mut Fields<'_>) -> Option<Result<Command, Unknown
         "FADE" => made(fade(fields), Command::Fade),
         "BLINK" => made(duration(fields), |over| Command::Blink(Blink { over: over.min(LONGEST_BLINK) })),
         "LIGHT" => made(decode_light(fields).ok_or(Unknown::Fields), Command::Light),
+        "SLOT" => made(slot(fields).ok_or(Unknown::Fields), Command::Slot),
+        "LIVE" => made(decode_live(fields).ok_or(Unknown::Fields), Command::Live),
+        "RELEASE" => made(decode_release(fields).ok_or(Unknown::Fields), Command::Release),
         "STATUS" => Some(Ok(Command::Status)),
         _ => Some(Err(Unknown::Word)),
     }

@@ -4,6 +4,7 @@ use core::fmt::{self, Write};
 
 use crate::Command;
 use crate::light::encode_light;
+use crate::live::encode_live;
 use crate::number::{write_int, write_six_decimals};
 use crate::path::encode_route;
 use crate::text_buffer::TextBuffer;
@@ -38,6 +39,12 @@ fn write(command: &Command, out: &mut TextBuffer<'_>) -> fmt::Result {
         }
         Command::Blink(blink) => words(out, "BLINK", &[not_negative(blink.over.0)])?,
         Command::Light(stretch) => encode_light(stretch, out)?,
+        Command::Slot(slot) => words(out, "SLOT", &[u64::from(*slot)])?,
+        Command::Live(live) => encode_live(live, out)?,
+        Command::Release(release) => {
+            let numbers = [u64::from(release.number), release.first.into(), release.count.into()];
+            words(out, "RELEASE", &numbers)?;
+        }
         Command::Status => out.write_str("STATUS")?,
     }
     out.write_str("|")

@@ -15,11 +15,13 @@
 //! ```
 #![no_std]
 
+mod base64_text;
 mod command;
 mod decode;
 mod encode;
 mod fields;
 mod light;
+mod live;
 mod neighbours;
 mod number;
 mod path;
@@ -32,6 +34,7 @@ pub use command::{Blink, Command, Fade, MAX_PIECES, Pieces, Route, TimeAnswer};
 pub use decode::{Commands, MAX_PAYLOAD, Unknown, commands};
 pub use encode::encode;
 pub use light::{LightAnchor, LightRecords, LightStretch, MAX_LIGHT_RECORDS};
+pub use live::{LiveColours, LiveRelease, MAX_LIVE_COLOURS};
 pub use neighbours::{Knot, MAX_KNOTS, MAX_NEIGHBOURS, Neighbour, NeighbourMotion, Neighbours};
 pub use number::number;
 pub use report::{Abilities, Blocked, Details, Firmware, Report, RobotState, TimeQuestion};

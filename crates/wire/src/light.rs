@@ -2,11 +2,9 @@
 
 use core::fmt::{self, Write};
 
-use base64::Engine;
-use base64::alphabet::STANDARD;
-use base64::engine::{DecodePaddingMode, GeneralPurpose, GeneralPurposeConfig};
 use lightbots_base::{Instant, LightRecord, LightTrack, Rgb, Span, decode_light_track};
 
+use crate::base64_text::{Base64Writer, decode};
 use crate::fields::Fields;
 use crate::number::{instant, span, write_digits};
 use crate::text_buffer::TextBuffer;
@@ -15,16 +13,6 @@ use crate::text_buffer::TextBuffer;
 pub const MAX_LIGHT_RECORDS: usize = 192;
 /// Most bytes of a track: the start colour, and records of four bytes of duration and three of colour.
 const MAX_TRACK_BYTES: usize = 3 + 7 * MAX_LIGHT_RECORDS;
-/// Bytes that are encoded at once; a multiple of three, so that the pieces join without padding.
-const ENCODED_AT_ONCE: usize = 48;
-
-/// Base64 (RFC 4648) without padding; read with padding too.
-const BASE64: GeneralPurpose = GeneralPurpose::new(
-    &STANDARD,
-    GeneralPurposeConfig::new()
-        .with_encode_padding(false)
-        .with_decode_padding_mode(DecodePaddingMode::Indifferent),
-);
 
 /// The records of a stretch of light.
 pub type LightRecords = heapless::Vec<LightRecord, MAX_LIGHT_RECORDS>;
@@ -80,23 +68,9 @@ pub(crate) fn encode_light(stretch: &LightStretch, out: &mut TextBuffer<'_>) -> 
         write_digits(out, time.0.max(0).unsigned_abs(), 1)?;
     }
     out.write_str(" ")?;
-    let mut bytes = heapless::Vec::<u8, ENCODED_AT_ONCE>::new();
-    let mut result = Ok(());
-    stretch.track().encode(|byte| {
-        // Fits: it is emptied when it is full.
-        let _ = bytes.push(byte);
-        if bytes.is_full() {
-            result = result.and_then(|()| encode_bytes(&bytes, out));
-            bytes.clear();
-        }
-    });
-    result.and_then(|()| encode_bytes(&bytes, out))
-}
-
-fn encode_bytes(bytes: &[u8], out: &mut TextBuffer<'_>) -> fmt::Result {
-    let mut text = [0; ENCODED_AT_ONCE / 3 * 4];
-    let length = BASE64.encode_slice(bytes, &mut text).map_err(|_| fmt::Error)?;
-    out.bytes(&text[..length])
+    let mut writer = Base64Writer::new(out);
+    stretch.track().encode(|byte| writer.push(byte));
+    writer.finish()
 }
 
 pub(crate) fn decode_light(fields: &mut Fields<'_>) -> Option<LightStretch> {
@@ -106,11 +80,11 @@ pub(crate) fn decode_light(fields: &mut Fields<'_>) -> Option<LightStretch> {
     let over = fields.next().and_then(span);
     let text = fields.next()?;
     let mut bytes = [0; MAX_TRACK_BYTES];
-    let length = BASE64.decode_slice(text, &mut bytes).ok()?;
+    let bytes = decode(text, &mut bytes)?;
     let mut records = LightRecords::new();
     // Fits: that is its capacity.
     let _ = records.resize(MAX_LIGHT_RECORDS, LightRecord::Repeat { records: 1, times: 1 });
-    let track = decode_light_track(&bytes[..length], &mut records).ok()?;
+    let track = decode_light_track(bytes, &mut records).ok()?;
     let (start, count) = (track.start, track.records.len());
     records.truncate(count);
     Some(LightStretch { number: number?, anchor: anchor?, skip: skip?, over: over?, start, records })

@@ -28,6 +28,8 @@ pub struct Details {
     pub starts: Option<Instant>,
     /// Number of the stretch of light that it received last; 0: none (R55).
     pub light: u32,
+    /// Its place in messages of live light; `None`: it was given none (R59).
+    pub slot: Option<u16>,
     /// Distance from the place of its route at this moment, metres; `None`: no route under way.
     pub off_m: Option<f64>,
     /// 1 sigma of its position, metres; while fixes are missing, the value predicted for half a second later.
@@ -101,6 +103,8 @@ pub struct Abilities {
     pub neighbours: bool,
     /// LIGHT.
     pub light: bool,
+    /// SLOT, LIVE and RELEASE.
+    pub live: bool,
 }
 
 /// `<uuid> <now>` on `T/LightBot/Time`: a question for the show clock (R25).

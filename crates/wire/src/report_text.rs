@@ -97,6 +97,7 @@ fn read_detail(details: &mut Option<Details>, key: &str, value: &str) {
         "state" => known(details).state = RobotState::from_word(value).unwrap_or_default(),
         "route" => known(details).route = value.parse().unwrap_or(0),
         "light" => known(details).light = value.parse().unwrap_or(0),
+        "slot" => known(details).slot = value.parse().ok(),
         "starts" => known(details).starts = instant(value),
         "off" => known(details).off_m = finite(value).filter(|&off| off >= 0.0),
         "err" => known(details).err_m = finite(value).filter(|&err| err >= 0.0),
@@ -153,6 +154,7 @@ fn write_details(details: &Details, out: &mut TextBuffer<'_>) -> fmt::Result {
         (" clock=", details.clock_us.map(u64::from)),
         (" bat=", details.battery.map(u64::from)),
         (" light=", Some(u64::from(details.light)).filter(|&number| number != 0)),
+        (" slot=", details.slot.map(u64::from)),
         (" unknown=", Some(u64::from(details.unknown)).filter(|&count| count != 0)),
     ];
     for (key, value) in whole.into_iter().filter_map(|(key, value)| Some((key, value?))) {
@@ -194,9 +196,9 @@ fn write_details(details: &Details, out: &mut TextBuffer<'_>) -> fmt::Result {
 impl Abilities {
     /// All abilities. They are read and written without a loop, because nearly all reports hold them.
     pub const ALL: Self =
-        Self { route: true, fade: true, blink: true, room: true, neighbours: true, light: true };
+        Self { route: true, fade: true, blink: true, room: true, neighbours: true, light: true, live: true };
     /// `ALL` on the wire.
-    const ALL_WORDS: &'static str = "route+fade+blink+room+neighbours+light";
+    const ALL_WORDS: &'static str = "route+fade+blink+room+neighbours+light+live";
 
     /// Reads words joined by `+`; unknown words are skipped.
     fn from_words(words: &str) -> Self {
@@ -212,6 +214,7 @@ impl Abilities {
                 b"room" => abilities.room = true,
                 b"neighbours" => abilities.neighbours = true,
                 b"light" => abilities.light = true,
+                b"live" => abilities.live = true,
                 _ => {}
             }
         }
@@ -230,6 +233,7 @@ impl Abilities {
             (self.room, "room"),
             (self.neighbours, "neighbours"),
             (self.light, "light"),
+            (self.live, "live"),
         ];
         for (has, word) in words {
             if has {

@@ -2,8 +2,9 @@
 
 use lightbots_base::{Instant, LightRecord, Piece, Rgb, RobotId, Span, Vec2};
 use lightbots_wire::{
-    Abilities, Blink, Blocked, Command, Details, Fade, Firmware, LightAnchor, LightStretch, MAX_PAYLOAD,
-    MAX_PIECES, Pieces, Report, RobotState, Route, TimeAnswer, TimeQuestion, Unknown, commands, encode,
+    Abilities, Blink, Blocked, Command, Details, Fade, Firmware, LightAnchor, LightStretch, LiveColours,
+    LiveRelease, MAX_LIVE_COLOURS, MAX_PAYLOAD, MAX_PIECES, Pieces, Report, RobotState, Route, TimeAnswer,
+    TimeQuestion, Unknown, commands, encode,
 };
 
 fn text(command: &Command) -> String {
@@ -58,8 +59,17 @@ fn every_command() -> Vec<Command> {
         Command::Blink(Blink { over: Span(2_000_000) }),
         Command::Light(light(LightAnchor::Start(12))),
         Command::Light(light(LightAnchor::Free(Instant(5_000_000)))),
+        Command::Slot(65_535),
+        Command::Live(live(MAX_LIVE_COLOURS)),
+        Command::Release(LiveRelease { number: 4_294_967_295, first: 7, count: 65_535 }),
         Command::Status,
     ]
+}
+
+/// Colours of consecutive slots, each another one.
+fn live(colours: usize) -> LiveColours {
+    let colour = |place: usize| Rgb::new(place as u8, 255 - place as u8, 7);
+    LiveColours { number: 9, first: 12, colours: (0..colours).map(colour).collect() }
 }
 
 fn light(anchor: LightAnchor) -> LightStretch {
@@ -85,6 +95,7 @@ fn full_report() -> Report {
         state: RobotState::Driving,
         route: 12,
         light: 41,
+        slot: Some(169),
         starts: Some(Instant(8_000_000)),
         off_m: Some(0.0034),
         err_m: Some(0.0012),
@@ -127,7 +138,8 @@ fn our_messages_byte_for_byte() {
     assert_eq!(
         said(&full_report()),
         "abfe6805-3c60-4e5a-ba40-2dcf7cb5d8e8 -0.73 1.0E-4 state=driving h=1.25 off=0.0034 route=12 \
-         starts=8000000 clock=450 bat=87 light=41 unknown=3 can=route+fade+blink+room+neighbours+light fw=lightbots-0.1.0 err=0.0012 \
+         starts=8000000 clock=450 bat=87 light=41 slot=169 unknown=3 \
+         can=route+fade+blink+room+neighbours+light+live fw=lightbots-0.1.0 err=0.0012 \
          blocked=0.0021@-1.5 sim=1 brakes=3 near=0.0123"
     );
 }
@@ -229,6 +241,22 @@ fn what_we_do_not_know_is_told_apart_and_the_rest_is_read() {
 }
 
 #[test]
+fn live_colours_take_four_bytes_each_and_name_slots_in_order() {
+    let two = LiveColours { colours: heapless::Vec::from_slice(&live(2).colours).unwrap(), ..live(1) };
+    assert_eq!(text(&Command::Live(two.clone())), "|LIVE 9 12 AP8HAf4H|");
+    assert_eq!(
+        [11, 12, 13, 14].map(|slot| two.of(slot)),
+        [None, Some(Rgb::new(0, 255, 7)), Some(Rgb::new(1, 254, 7)), None]
+    );
+    let most = text(&Command::Live(live(MAX_LIVE_COLOURS)));
+    assert_eq!(most.len(), "|LIVE 9 12 |".len() + 4 * MAX_LIVE_COLOURS);
+    let one_more = most.replace(" AP8H", " AAAAAP8H");
+    assert_eq!(commands(one_more.as_bytes()).next(), Some(Err(Unknown::Fields)));
+    let release = LiveRelease { number: 1, first: 65_535, count: 2 };
+    assert_eq!([0, 65_534, 65_535].map(|slot| release.covers(slot)), [false, false, true]);
+}
+
+#[test]
 fn fields_out_of_range_are_refused() {
     let bad = [
         "PATH 0 0 0",
@@ -250,6 +278,18 @@ fn fields_out_of_range_are_refused() {
         "BLINK -1",
         "TARGET x 1",
         "COLOR -1",
+        "SLOT",
+        "SLOT 65536",
+        "SLOT -1",
+        "LIVE 0 0 AAAA",
+        "LIVE 1 65536 AAAA",
+        "LIVE 1 0",
+        "LIVE 1 0 AAAAA",
+        "LIVE 1 0 AAAAAA",
+        "LIVE 1 0 ====",
+        "RELEASE 0 0 1",
+        "RELEASE 1 0 0",
+        "RELEASE 1 0",
     ];
     for part in bad {
         assert_eq!(commands(part.as_bytes()).collect::<Vec<_>>(), [Err(Unknown::Fields)], "{part}");

@@ -22,7 +22,7 @@ const USUAL: usize = 2_000;
 /// Longest payload after a mutation: doubled pieces would grow without end.
 const LONGEST: usize = 4_096;
 
-const GOOD: [&str; 17] = [
+const GOOD: [&str; 19] = [
     "|TARGET 0.500000 -1.250000||COLOR 16753920|",
     "|UUID|",
     "|PATH 4000000007 -12500 13000 R 350000 C 270000 -12500 13000 -12500 12879 -12500 12636 L 5050370 -12500 -1000 G 12|",
@@ -31,6 +31,8 @@ const GOOD: [&str; 17] = [
     "|TIME 5 900 950|",
     "|FADE 255 77 500000|",
     "|BLINK 2000000|",
+    "|SLOT 7||RELEASE 9 0 170|",
+    "|LIVE 9 12 AP8HAf4HAv0H|",
     "abfe6805-3c60-4e5a-ba40-2dcf7cb5d8e8 1.3 -0.73",
     "r7 NaN NaN",
     "abfe6805 -0.73 1.0E-4 state=driving h=1.25 off=0.0034 route=12 starts=8000000 clock=450 bat=87 unknown=3",

@@ -103,7 +103,7 @@ fn the_format_is_that_of_its_version() {
     ]);
     let mut hash = StateHash::new();
     hash.bytes(&postcard::to_allocvec(&entry).unwrap());
-    assert_eq!((VERSION, hash.finish()), (3, 14_021_812_949_253_167_859));
+    assert_eq!((VERSION, hash.finish()), (4, 14_957_519_478_364_164_430));
 }
 
 #[test]

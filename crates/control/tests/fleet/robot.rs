@@ -192,7 +192,7 @@ impl Robot {
             Command::Time(_) => self.synchronised = true,
             Command::Fade(fade) => self.fade = Some((fade.at + fade.over, fade.to)),
             Command::Status => self.say_report(Topic::Status, self.named()),
-            Command::Blink(_) => {}
+            Command::Blink(_) | Command::Slot(_) | Command::Live(_) | Command::Release(_) => {}
         }
     }
 

@@ -19,7 +19,7 @@ pub(super) const LOOK_UP: Span = Span::from_millis(3_000);
 /// Tests plain colours.
 pub(super) async fn colours(pilot: &Pilot) {
     if !pilot.session.options.looks {
-        return pilot.session.mark_untried(&[21, 22, 23, 24, 56, 57, 58], UNSEEN);
+        return pilot.session.mark_untried(&[21, 22, 23, 24, 56, 57, 58, 60, 61, 62], UNSEEN);
     }
     for (colour, name) in [(RED, "red"), (GREEN, "green"), (BLUE, "blue")] {
         let sent = format!("|COLOR {}|", colour.number());
@@ -29,7 +29,7 @@ pub(super) async fn colours(pilot: &Pilot) {
         ask(pilot, 21, &sent, &format!("Is the light {name}?"), name, sights).await;
     }
     if pilot.session.is_broken(21) {
-        pilot.session.mark_untried(&[22, 23, 24, 56, 57, 58], "its colours are wrong");
+        pilot.session.mark_untried(&[22, 23, 24, 56, 57, 58, 60, 61, 62], "its colours are wrong");
     }
 }
 

@@ -5,6 +5,7 @@ mod greeting;
 mod junk;
 mod light;
 mod light_ahead;
+mod live_light;
 mod parsing;
 mod pilot;
 mod route_checks;
@@ -50,6 +51,7 @@ async fn examine(pilot: &mut Pilot) -> Step {
         targets::run(pilot).await?;
     }
     light::colours(pilot).await;
+    live_light::run(pilot).await;
     if pilot.can.route {
         doing(pilot, "clock");
         let has_time = time::run(pilot).await?;
@@ -96,6 +98,7 @@ fn note_abilities(pilot: &Pilot) {
             Scope::Route if !can.route => Some("it does not say can=route"),
             Scope::Fade if !can.fade => Some("it does not say can=fade"),
             Scope::Ahead if !can.light => Some("it does not say can=light"),
+            Scope::Live if !can.live => Some("it does not say can=live"),
             Scope::Blink if !can.blink => Some("it does not say can=blink"),
             Scope::Details if !pilot.has_details => Some("it reports name and place only"),
             _ => None,

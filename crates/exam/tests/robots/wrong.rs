@@ -352,6 +352,61 @@ fn ignores_stop() {
     examined(deaf_to("STOP")).assert_broken(&[23, 40, 58]);
 }
 
+/// The slot that the exam gives last.
+const SLOT: &str = "100";
+
+#[test]
+fn keeps_no_slot() {
+    examined(deaf_to("SLOT")).assert_broken(&[59]);
+}
+
+#[test]
+fn shows_the_first_colour_of_all_live_messages() {
+    let flaw = hears(|word, command| match command.split_ascii_whitespace().collect::<Vec<_>>().as_slice() {
+        [_, number, _, colours] if word == "LIVE" => format!("LIVE {number} {SLOT} {colours}"),
+        _ => command.to_owned(),
+    });
+    examined(flaw).assert_broken(&[60]);
+}
+
+#[test]
+fn shows_old_live_messages() {
+    let mut newest = 0;
+    let flaw = hears(move |word, command| match numbers(command).first() {
+        Some(&number) if word == "LIVE" => {
+            newest = newest.max(number as u32);
+            command.replacen(&format!("LIVE {number}"), &format!("LIVE {newest}"), 1)
+        }
+        _ => command.to_owned(),
+    });
+    examined(flaw).assert_broken(&[60]);
+}
+
+#[test]
+fn is_not_released() {
+    examined(deaf_to("RELEASE")).assert_broken(&[61, 62]);
+}
+
+#[test]
+fn is_released_after_each_live_message() {
+    // A robot that takes 0.1 s of silence for the end of live light.
+    let flaw = Hears(|_, message: Message, _: &mut Vec<Message>| {
+        let is_live = text(&message).starts_with("|LIVE ");
+        let release = (message.0.clone(), format!("|RELEASE 4000000000 {SLOT} 1|").into_bytes());
+        if is_live { vec![message, release] } else { vec![message] }
+    });
+    examined(flaw).assert_broken(&[60]);
+}
+
+#[test]
+fn shows_a_colour_instead_of_live_light() {
+    let flaw = hears(|word, command| match command.split_ascii_whitespace().nth(1) {
+        Some(number) if word == "COLOR" => format!("COLOR {number}||RELEASE 4000000000 {SLOT} 1"),
+        _ => command.to_owned(),
+    });
+    examined(flaw).assert_broken(&[62]);
+}
+
 #[test]
 fn drives_on_in_silence() {
     // Something talks to it all the time.

@@ -21,6 +21,7 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
             Command::Fade(_) => abilities.fade,
             Command::Blink(_) => abilities.blink,
             Command::Light(_) => abilities.light,
+            Command::Slot(_) | Command::Live(_) | Command::Release(_) => abilities.live,
             _ => abilities.route,
         }
     }
@@ -67,6 +68,17 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
                 self.hot.light_changes = true;
                 self.hot.outbox.report_status();
             }
+            Command::Slot(slot) => {
+                self.light.live.give_slot(slot);
+                self.hot.outbox.report_status();
+            }
+            Command::Live(ref live) => {
+                if self.light.live.receive(now, live) {
+                    self.light.wake();
+                    self.hot.light_changes = true;
+                }
+            }
+            Command::Release(ref release) => self.light.live.release(release),
             Command::Blink(blink) => {
                 self.light.blink(now, blink.over);
                 self.hot.light_changes = true;

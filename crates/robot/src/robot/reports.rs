@@ -73,6 +73,7 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
             state: self.hot.state,
             route: self.hot.routes.named(),
             light: self.light.tracks.newest(),
+            slot: self.light.live.slot(),
             starts: self.hot.routes.starts().filter(|_| self.hot.clock.show_time(self.hot.now).is_some()),
             off_m: self.hot.routes.off_m(),
             err_m: self.place().map(|_| self.err_m()),

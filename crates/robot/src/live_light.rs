@@ -1,0 +1,132 @@
+//! Light from elsewhere, such as a lighting desk (R59 to R61): the colour that is shown instead of the robot's own.
+
+use lightbots_base::{Instant, Rgb, Span};
+use lightbots_wire::{LiveColours, LiveRelease};
+
+use crate::light_ahead::OLD_NUMBERS;
+
+/// Without a message for this long the robot shows its own light again: the network data loss of ANSI E1.31-2018, 6.7.1.
+const LOSS: Span = Span::from_millis(2_500);
+
+/// Live light of a robot.
+#[derive(Debug, Default)]
+pub(crate) struct LiveLight {
+    /// Its place in messages; `None`: it was given none.
+    slot: Option<u16>,
+    /// Number of the newest message that concerned it; 0: none lately.
+    newest: u32,
+    /// The colour that is shown, and until when if no message follows, own clock.
+    shown: Option<(Rgb, Instant)>,
+}
+
+impl LiveLight {
+    /// Its place in messages.
+    pub(crate) fn slot(&self) -> Option<u16> {
+        self.slot
+    }
+
+    /// Gives it a place in messages. Colours of another place are not its own.
+    pub(crate) fn give_slot(&mut self, slot: u16) {
+        if self.slot.replace(slot) != Some(slot) {
+            self.shown = None;
+        }
+    }
+
+    /// Receives colours at `now` of the own clock; whether one is for this robot. An old message is not.
+    pub(crate) fn receive(&mut self, now: Instant, live: &LiveColours) -> bool {
+        let colour = self.slot.and_then(|slot| live.of(slot)).filter(|_| !self.is_old(live.number));
+        if let Some(colour) = colour {
+            (self.newest, self.shown) = (live.number, Some((colour, now + LOSS)));
+        }
+        colour.is_some()
+    }
+
+    /// Shows the own light again, if the message concerns this robot and is not old.
+    pub(crate) fn release(&mut self, release: &LiveRelease) {
+        if self.slot.is_some_and(|slot| release.covers(slot)) && !self.is_old(release.number) {
+            (self.newest, self.shown) = (release.number, None);
+        }
+    }
+
+    /// The colour at `now` of the own clock; `None`: the own light is shown.
+    pub(crate) fn colour(&mut self, now: Instant) -> Option<Rgb> {
+        let (colour, until) = self.shown?;
+        if now >= until {
+            // A controller that comes back may count from anywhere.
+            (self.newest, self.shown) = (0, None);
+            return None;
+        }
+        Some(colour)
+    }
+
+    /// Whether a colour is shown instead of the own light.
+    pub(crate) fn is_on(&self) -> bool {
+        self.shown.is_some()
+    }
+
+    /// Messages of one moment have the same number.
+    fn is_old(&self, number: u32) -> bool {
+        self.newest != 0 && (1..OLD_NUMBERS).contains(&self.newest.wrapping_sub(number))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const RED: Rgb = Rgb::new(255, 0, 0);
+    const BLUE: Rgb = Rgb::new(0, 0, 255);
+
+    fn live(number: u32, first: u16, colours: &[Rgb]) -> LiveColours {
+        LiveColours { number, first, colours: heapless::Vec::from_slice(colours).expect("they fit") }
+    }
+
+    fn ms(ms: u64) -> Instant {
+        Instant(ms * 1000)
+    }
+
+    #[test]
+    fn it_shows_the_colour_of_its_slot() {
+        let mut light = LiveLight::default();
+        assert!(!light.receive(ms(0), &live(1, 0, &[RED])), "it has no slot yet");
+        light.give_slot(8);
+        assert!(!light.receive(ms(0), &live(1, 9, &[RED])));
+        assert!(!light.receive(ms(0), &live(1, 0, &[RED; 8])));
+        assert_eq!(light.colour(ms(0)), None);
+        assert!(light.receive(ms(0), &live(1, 7, &[RED, BLUE])));
+        assert_eq!(light.colour(ms(0)), Some(BLUE));
+        light.give_slot(8);
+        assert!(light.is_on(), "the same slot changes nothing");
+        light.give_slot(7);
+        assert_eq!(light.colour(ms(0)), None, "that colour was for slot 8");
+    }
+
+    #[test]
+    fn after_a_lost_message_it_shows_the_next_and_after_silence_its_own_light() {
+        let mut light = LiveLight::default();
+        light.give_slot(0);
+        light.receive(ms(0), &live(1, 0, &[RED]));
+        // Number 2 is lost.
+        light.receive(ms(100), &live(3, 0, &[BLUE]));
+        assert_eq!(light.colour(ms(2_599)), Some(BLUE));
+        assert_eq!(light.colour(ms(2_600)), None);
+        assert!(!light.is_on());
+        assert!(light.receive(ms(9_000), &live(2, 0, &[RED])), "a controller that came back counts anew");
+    }
+
+    #[test]
+    fn an_old_message_changes_nothing_and_a_release_ends_it() {
+        let mut light = LiveLight::default();
+        light.give_slot(3);
+        light.receive(ms(0), &live(u32::MAX, 3, &[RED]));
+        assert!(light.receive(ms(0), &live(u32::MAX, 3, &[BLUE])), "messages of one moment have one number");
+        assert!(!light.receive(ms(0), &live(u32::MAX - 1, 3, &[RED])));
+        light.release(&LiveRelease { number: u32::MAX - 63, first: 0, count: 9 });
+        light.release(&LiveRelease { number: 1, first: 0, count: 3 });
+        assert_eq!(light.colour(ms(0)), Some(BLUE));
+        light.release(&LiveRelease { number: 1, first: 0, count: 4 });
+        assert_eq!(light.colour(ms(0)), None);
+        assert!(!light.receive(ms(0), &live(u32::MAX, 3, &[RED])), "it is older than the release");
+        assert!(light.receive(ms(0), &live(2, 3, &[RED])));
+    }
+}
