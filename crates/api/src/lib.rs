@@ -36,7 +36,9 @@ pub use make::{
     MakeFont, MakeQuality, MakeRemark, MakeRequest, MakeShape,
 };
 pub use operation::{Answer, Choice, FromScreen, Missing, Operation, Request};
-pub use plan::{Issue, Path, Plan, PlanAnswer, PlanningRequest, Severity, Transition};
+pub use plan::{
+    Issue, LightAnswer, LightRequest, Path, Plan, PlanAnswer, PlanningRequest, Severity, Transition,
+};
 pub use plan_document::{plan_document, plan_summary, rounded};
 pub use robots::Robots;
 pub use runs::{RunEntry, RunEntryKind};

@@ -49,6 +49,25 @@ pub struct PlanAnswer {
     pub error: Option<MakeRemark>,
 }
 
+/// A wish for the light of a planned show by the module in the browser.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS)]
+pub struct LightRequest {
+    /// A show in our format.
+    #[ts(type = "unknown")]
+    pub show: serde_json::Value,
+    /// The drives to its frames, with paths. Robots of a frame without a drive stand on its pixels.
+    pub transitions: Vec<Transition>,
+}
+
+/// What the module in the browser read of a show for its light.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, TS)]
+pub struct LightAnswer {
+    /// Number of robots that colours are given for.
+    pub robots: usize,
+    /// Why there are no colours; null: there are.
+    pub error: Option<MakeRemark>,
+}
+
 /// The transition to one frame.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, TS)]
 pub struct Transition {

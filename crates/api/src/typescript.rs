@@ -5,33 +5,35 @@ use ts_rs::{Config, TS};
 
 use crate::{
     Abilities, Answer, Broker, BrokerPhase, BrokerSettings, Choice, FilmAnswer, FilmPicture, FitAnswer,
-    Fleet, FleetRow, FromScreen, Hello, Incident, IncidentTone, Incidents, Issue, Level, LogLine, MadePixel,
-    MadeReadability, MakeAnswer, MakeChoices, MakeFile, MakeFont, MakeQuality, MakeRemark, MakeRequest,
-    MakeShape, Missing, OpenShow, Operation, Path, Phase, Plan, PlanAnswer, PlanningRequest, Playback,
-    Presence, Problem, Request, RobotStatus, Robots, RunEntry, RunEntryKind, Severity, ShowEntry, ShowOrigin,
-    ShowState, State, ToScreen, Transition,
+    Fleet, FleetRow, FromScreen, Hello, Incident, IncidentTone, Incidents, Issue, Level, LightAnswer,
+    LightRequest, LogLine, MadePixel, MadeReadability, MakeAnswer, MakeChoices, MakeFile, MakeFont,
+    MakeQuality, MakeRemark, MakeRequest, MakeShape, Missing, OpenShow, Operation, Path, Phase, Plan,
+    PlanAnswer, PlanningRequest, Playback, Presence, Problem, Request, RobotStatus, Robots, RunEntry,
+    RunEntryKind, Severity, ShowEntry, ShowOrigin, ShowState, State, ToScreen, Transition,
 };
 
 /// The first line of the generated file.
 const HEAD: &str =
     "// Made from crates/api by `cargo run -p lightbots-api --example types`. Change it there.\n";
 
+/// The TypeScript of types, each with its documentation.
+macro_rules! declarations {
+    ($($name:ty),* $(,)?) => {{
+        let config = Config::new().with_large_int("number");
+        let each = [$((<$name as TS>::docs(), <$name as TS>::decl(&config))),*];
+        each.map(|(docs, declaration)| format!("\n{}export {declaration}\n", docs.unwrap_or_default())).concat()
+    }};
+}
+
 /// The text of `ui/src/api/types.gen.ts`: every type of this crate with its documentation, the columns of the binary
 /// message, and the table of formats.
 pub fn typescript() -> String {
-    let config = Config::new().with_large_int("number");
-    let mut text = String::from(HEAD);
-    let mut add = |docs: Option<String>, declaration: String| {
-        text.push('\n');
-        text.push_str(&docs.unwrap_or_default());
-        text.push_str("export ");
-        text.push_str(&declaration);
-        text.push('\n');
-    };
-    macro_rules! declare {
-        ($($name:ty),* $(,)?) => { $(add(<$name as TS>::docs(), <$name as TS>::decl(&config));)* };
-    }
-    declare!(
+    [HEAD, &messages(), &module(), &robots(), &formats()].concat()
+}
+
+/// What screen and server say to each other.
+fn messages() -> String {
+    declarations!(
         ToScreen,
         FromScreen,
         Hello,
@@ -39,6 +41,8 @@ pub fn typescript() -> String {
         Plan,
         PlanningRequest,
         PlanAnswer,
+        LightRequest,
+        LightAnswer,
         Transition,
         Path,
         Issue,
@@ -71,6 +75,12 @@ pub fn typescript() -> String {
         RunEntry,
         RunEntryKind,
         Problem,
+    )
+}
+
+/// What the screen and the module in the browser say to each other.
+fn module() -> String {
+    declarations!(
         MakeRequest,
         MakeQuality,
         MakeAnswer,
@@ -84,8 +94,7 @@ pub fn typescript() -> String {
         MakeFont,
         MakeShape,
         MakeFile,
-    );
-    text + &robots() + &formats()
+    )
 }
 
 /// The columns of the binary message, and what its numbers for states stand for.

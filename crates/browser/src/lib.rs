@@ -1,16 +1,17 @@
 //! What the browser runs by itself as WebAssembly: frames from words, drawings and shapes, shows for other
-//! fleets, and plans.
+//! fleets, plans, and light.
 //!
 //! JSON texts go in and out, in the types of `lightbots_api`, so that JavaScript needs no glue for each type. Errors are
 //! values in the answers. In reading order: [`make_answer`] makes a frame, [`film_answer`] those of an animation,
-//! [`fit_answer`] fits a show, [`plan_answer`] plans one, [`choices`] lists what settings may name, [`file`] tells what a
-//! file is; the functions below them are the same for JavaScript.
+//! [`fit_answer`] fits a show, [`plan_answer`] plans one, [`PlannedLight`] has its colours, [`choices`] lists what settings
+//! may name, [`file`] tells what a file is; the functions below them are the same for JavaScript.
 
 mod answer;
 mod choices;
 mod file;
 mod film;
 mod fit;
+mod light;
 mod make;
 mod plan;
 
@@ -20,6 +21,7 @@ pub use choices::choices;
 pub use file::file;
 pub use film::film_answer;
 pub use fit::fit_answer;
+pub use light::PlannedLight;
 pub use make::make_answer;
 pub use plan::plan_answer;
 

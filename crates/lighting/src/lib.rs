@@ -19,7 +19,7 @@ pub use driven::{DrivenLight, LightMoment, fade_of};
 pub use fit::{LightFit, Tolerance, fit, is_seen_apart};
 pub use flashes::{FlashWarning, LitFrame, flashes};
 pub use issues::{flash_issue, flashes_of, validate};
-pub use planned::planned;
+pub use planned::{PlannedDrive, lit_frame, planned};
 pub use settings::LAYER_KINDS;
 pub use show_light::{FrameLight, ShowLight};
 pub use times::FrameTimes;

@@ -2,50 +2,64 @@
 
 use crate::driven::DrivenLight;
 use crate::flashes::LitFrame;
-use lightbots_base::{Rgb, Span};
-use lightbots_plan::ShowPlan;
-use lightbots_show::Show;
+use lightbots_base::{Rgb, Span, Vec2};
+use lightbots_plan::{Path, ShowPlan};
+use lightbots_show::{Pixel, Show};
 use std::collections::BTreeMap;
+
+/// The drive to a frame, as it was planned.
+#[derive(Clone, Copy, Debug)]
+pub struct PlannedDrive<'a> {
+    /// `[robot]`: id of the pixel that the robot shows afterwards; `None`: it is spare.
+    pub pixels: &'a [Option<u32>],
+    /// `[robot]`: its path. Empty: nothing was planned, and each robot stands on its pixel.
+    pub paths: &'a [Path],
+    /// How long all of them last.
+    pub duration: Span,
+}
 
 /// `[frame]`: the drive to it and its robots, in the order of their starting places. Robots are dark before the first frame.
 pub fn planned<'a>(show: &Show, plan: &'a ShowPlan) -> Vec<LitFrame<'a>> {
-    let colours: Vec<Vec<(Rgb, bool)>> = plan
+    let drives: Vec<PlannedDrive<'a>> = plan
         .mapping
         .iter()
-        .zip(&show.frames)
-        .map(|(pixels, frame)| {
-            let colours: BTreeMap<u32, Rgb> =
-                frame.pixels.iter().map(|pixel| (pixel.id, pixel.color)).collect();
-            let colour = |id: &u32| colours.get(id).copied().unwrap_or_default();
-            pixels
-                .iter()
-                .map(|pixel| (pixel.as_ref().map(colour).unwrap_or_default(), pixel.is_some()))
-                .collect()
-        })
+        .zip(&plan.transitions)
+        .map(|(pixels, way)| PlannedDrive { pixels, paths: &way.paths, duration: way.duration })
         .collect();
-    let at = |frame: Option<usize>, robot: usize| {
-        frame.and_then(|frame| colours.get(frame)?.get(robot).copied()).unwrap_or_default()
+    let frames = drives.len().min(show.frames.len());
+    (0..frames).map(|frame| lit_frame(show, &drives, frame)).collect()
+}
+
+/// The drive to one frame and its robots. The frame must have a drive.
+pub fn lit_frame<'a>(show: &Show, drives: &[PlannedDrive<'a>], frame: usize) -> LitFrame<'a> {
+    let pixels = |of: Option<usize>| -> BTreeMap<u32, &Pixel> {
+        let found = of.and_then(|frame| show.frames.get(frame));
+        found.into_iter().flat_map(|frame| &frame.pixels).map(|pixel| (pixel.id, pixel)).collect()
     };
-    let robot = |frame: usize, robot: usize| {
-        let transition = &plan.transitions[frame];
-        let path = transition.paths[robot].as_ref();
-        let (before, own, next) =
-            (at(frame.checked_sub(1), robot), at(Some(frame), robot), at(Some(frame + 1), robot));
+    let frames = [frame.checked_sub(1), Some(frame), Some(frame + 1)];
+    let shown = frames.map(pixels);
+    let of = |which: usize, robot: usize| -> Option<&Pixel> {
+        let id = (*frames[which].and_then(|frame| drives.get(frame))?.pixels.get(robot)?)?;
+        shown[which].get(&id).copied()
+    };
+    let colour = |pixel: Option<&Pixel>| pixel.map_or(Rgb::BLACK, |pixel| pixel.color);
+    let drive = &drives[frame];
+    let robot = |robot: usize| {
+        let [before, own, next] = [0, 1, 2].map(|which| of(which, robot));
+        let path = drive.paths.get(robot).map(Path::as_ref);
         DrivenLight {
-            number: (robot as u32, transition.paths.len() as u32),
+            number: (robot as u32, drive.pixels.len() as u32),
             frame: frame as u32,
-            pixel: plan.mapping[frame][robot],
-            colours: [before.0, own.0, if next.1 { next.0 } else { own.0 }],
-            shines: [before.1, own.1],
-            path: Some(path),
-            goal: path.end(),
-            drive: transition.duration,
+            pixel: drive.pixels[robot],
+            colours: [colour(before), colour(own), colour(next.or(own))],
+            shines: [before.is_some(), own.is_some()],
+            path,
+            goal: path.map_or_else(|| own.map_or(Vec2::ZERO, |pixel| pixel.at), |path| path.end()),
+            drive: drive.duration,
         }
     };
-    let frames = plan.transitions.len().min(plan.mapping.len()).min(show.frames.len());
-    let lit = |frame: usize| LitFrame {
+    LitFrame {
         air: Span::from_secs(show.frames[frame].air_time_s),
-        robots: (0..plan.transitions[frame].paths.len()).map(|number| robot(frame, number)).collect(),
-    };
-    (0..frames).map(lit).collect()
+        robots: (0..drive.pixels.len()).map(robot).collect(),
+    }
 }

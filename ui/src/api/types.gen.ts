@@ -130,6 +130,32 @@ plan: Plan | null,
 error: MakeRemark | null, };
 
 /**
+ * A wish for the light of a planned show by the module in the browser.
+ */
+export type LightRequest = { 
+/**
+ * A show in our format.
+ */
+show: unknown, 
+/**
+ * The drives to its frames, with paths. Robots of a frame without a drive stand on its pixels.
+ */
+transitions: Array<Transition>, };
+
+/**
+ * What the module in the browser read of a show for its light.
+ */
+export type LightAnswer = { 
+/**
+ * Number of robots that colours are given for.
+ */
+robots: number, 
+/**
+ * Why there are no colours; null: there are.
+ */
+error: MakeRemark | null, };
+
+/**
  * The transition to one frame.
  */
 export type Transition = { 

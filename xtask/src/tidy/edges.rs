@@ -20,7 +20,7 @@ const EDGES: [(&str, &[&str]); 20] = [
     ("report", &["base", "wire", "show", "control"]),
     ("exam", &["base", "wire"]),
     ("api", &["base", "show", "plan", "exchange"]),
-    ("browser", &["base", "show", "plan", "exchange", "draw", "make", "api"]),
+    ("browser", &["base", "show", "plan", "lighting", "exchange", "draw", "make", "api"]),
     ("link", &["base", "wire"]),
     ("webots", &["base", "wire", "robot", "link"]),
     ("standin", &[]),

@@ -1,0 +1,225 @@
+//! Colours of a planned show's robots.
+
+use lightbots_api::{LightAnswer, LightRequest, MakeRemark, Transition};
+use lightbots_base::{Piece, Span, Vec2};
+use lightbots_lighting::{FrameLight, FrameTimes, LightMoment, LitFrame, PlannedDrive, ShowLight, lit_frame};
+use lightbots_plan::Path;
+use lightbots_show::{Frame, Show};
+use std::ops::Range;
+use wasm_bindgen::prelude::wasm_bindgen;
+
+use crate::answer;
+
+/// Most colours in one answer: a request for more gets fewer moments.
+const COLOURS_MAX: usize = 2_000_000;
+
+/// The light of a show, ready to be asked for moments.
+#[wasm_bindgen]
+#[derive(Debug, Default)]
+pub struct PlannedLight {
+    show: Show,
+    light: ShowLight,
+    drives: Vec<Drive>,
+    /// `[frame]`: show time.
+    times: Vec<FrameTimes>,
+    robots: usize,
+    error: Option<MakeRemark>,
+}
+
+/// The drive to a frame.
+#[derive(Debug)]
+struct Drive {
+    pixels: Vec<Option<u32>>,
+    paths: Vec<Path>,
+    duration: Span,
+}
+
+#[wasm_bindgen]
+impl PlannedLight {
+    /// Reads a `LightRequest` as JSON.
+    #[wasm_bindgen(constructor)]
+    pub fn new(request: &str) -> PlannedLight {
+        Self::read(request).unwrap_or_else(|error| Self { error: Some(error), ..Self::default() })
+    }
+
+    /// What was read: a `LightAnswer` as JSON.
+    pub fn answer(&self) -> String {
+        answer::text(&LightAnswer { robots: self.robots, error: self.error.clone() })
+    }
+
+    /// Takes other layers: those of a show in our format as JSON, whose other parts do not count, so that it may be without
+    /// pixels. A `LightAnswer` as JSON.
+    pub fn relight(&mut self, document: &str) -> String {
+        match shown(document) {
+            Ok(other) => {
+                self.show.layers = other.layers;
+                self.light = ShowLight::new(&self.show, |_| None).0;
+                self.answer()
+            }
+            Err(error) => answer::text(&LightAnswer { robots: self.robots, error: Some(error) }),
+        }
+    }
+
+    /// Colours at `count` moments `step_s` apart: for each moment, red, green and blue of each robot. `from_s` counts from
+    /// the start of the drive to the first frame. Robots that a frame does not have are dark.
+    pub fn colours(&self, from_s: f64, step_s: f64, count: usize) -> Vec<u8> {
+        let mut bytes = Vec::new();
+        let mut begun: Option<(usize, LitFrame<'_>, FrameLight)> = None;
+        let drives: Vec<PlannedDrive<'_>> = self.drives.iter().map(Drive::as_planned).collect();
+        for nth in 0..self.count_of(count) {
+            let Some((frame, moment)) = self.moment(from_s + step_s * nth as f64) else { break };
+            let (_, lit, light) = match begun.take() {
+                Some(same) if same.0 == frame => begun.insert(same),
+                _ => {
+                    let light = self.light.in_frame(frame, |frame| self.times.get(frame).copied());
+                    begun.insert((frame, lit_frame(&self.show, &drives, frame), light))
+                }
+            };
+            let colours = lit.robots.iter().map(|robot| robot.colour(light, self.light.pictures(), moment));
+            let start = bytes.len();
+            bytes.extend(colours.flat_map(|colour| [colour.r, colour.g, colour.b]));
+            bytes.resize(start + 3 * self.robots, 0);
+        }
+        bytes
+    }
+}
+
+impl PlannedLight {
+    fn read(request: &str) -> Result<Self, MakeRemark> {
+        let request: LightRequest = answer::request(request)?;
+        let show = shown(&request.show.to_string())?;
+        let planned = |number: usize, frame: &Frame| match request.transitions.get(number) {
+            Some(way) if !way.paths.is_empty() => Drive::planned(way),
+            _ => Drive::standing(frame),
+        };
+        let drives: Vec<Drive> =
+            show.frames.iter().enumerate().map(|(number, frame)| planned(number, frame)).collect();
+        let mut times: Vec<FrameTimes> = Vec::new();
+        for (drive, frame) in drives.iter().zip(&show.frames) {
+            let end_s = times.last().map(|times| times.end_s);
+            times.push(FrameTimes::after(end_s, drive.duration.as_secs(), frame.air_time_s));
+        }
+        let robots = drives.iter().map(|drive| drive.pixels.len()).max().unwrap_or(0);
+        let (light, _) = ShowLight::new(&show, |_| None);
+        Ok(Self { show, light, drives, times, robots, error: None })
+    }
+
+    fn count_of(&self, count: usize) -> usize {
+        count.min(COLOURS_MAX / self.robots.max(1))
+    }
+
+    /// The frame at a moment, and the moment in it; `None`: there is no frame. The last frame stays.
+    fn moment(&self, at_s: f64) -> Option<(usize, LightMoment)> {
+        let show_s = at_s + self.times.first()?.drive_s;
+        let last = self.times.len() - 1;
+        let frame = self.times.iter().position(|times| show_s < times.end_s).unwrap_or(last);
+        let times = self.times[frame];
+        // A layer ends with its frame: at the very end of the show the moment before is the last that shines.
+        let Range { start, end } = times.drive_s..(times.end_s - TINY_S).max(times.drive_s);
+        let show_s = if show_s.is_nan() { start } else { show_s.clamp(start, end) };
+        let elapsed = Span::from_secs(show_s - times.drive_s);
+        Some((frame, LightMoment { elapsed, show_s, lead_s: 0.0 }))
+    }
+}
+
+fn shown(document: &str) -> Result<Show, MakeRemark> {
+    let loaded = lightbots_exchange::read(document.as_bytes(), None);
+    loaded.map(|loaded| loaded.show).map_err(|error| answer::reading(&error))
+}
+
+/// A moment that is too short to be seen, seconds.
+const TINY_S: f64 = 1e-6;
+
+impl Drive {
+    fn planned(way: &Transition) -> Self {
+        let [x, y] = [0, 1];
+        let paths = way.paths.iter().map(|path| {
+            let piece = |piece: &[f64; 7]| Piece {
+                duration: Span::from_secs(piece[0]),
+                c1: Vec2::new(piece[1], piece[2]),
+                c2: Vec2::new(piece[3], piece[4]),
+                end: Vec2::new(piece[5], piece[6]),
+            };
+            let pieces = path.pieces.iter().map(piece).collect();
+            Path { start: Vec2::new(path.start[x], path.start[y]), pieces }
+        });
+        let paths: Vec<Path> = paths.collect();
+        let mut pixels = way.pixels.clone();
+        pixels.resize(paths.len(), None);
+        Self { pixels, paths, duration: Span::from_secs(way.duration_s) }
+    }
+
+    /// Nothing was planned: robots stand on the pixels.
+    fn standing(frame: &Frame) -> Self {
+        let pixels = frame.pixels.iter().map(|pixel| Some(pixel.id)).collect();
+        Self { pixels, paths: Vec::new(), duration: Span::ZERO }
+    }
+
+    fn as_planned(&self) -> PlannedDrive<'_> {
+        PlannedDrive { pixels: &self.pixels, paths: &self.paths, duration: self.duration }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::plan_answer;
+
+    fn show(layers: &str) -> String {
+        format!(
+            r##"{{"lightbots": 2, "layers": [{layers}], "frames": [
+            {{"name": "A", "air_time_s": 2, "pixels": [{{"id": 4, "place": [0, 0], "color": "#ff0000"}}]}},
+            {{"name": "B", "air_time_s": 2, "pixels": [{{"id": 4, "place": [1, 0], "color": "#0000ff"}}]}}]}}"##
+        )
+    }
+
+    fn with_plan(layers: &str) -> (PlannedLight, f64) {
+        let show = show(layers);
+        let plan = plan_answer(&format!(r#"{{"show": {show}, "quality": "full"}}"#)).plan.unwrap();
+        let ways = serde_json::to_string(&plan.transitions).unwrap();
+        let light = PlannedLight::new(&format!(r#"{{"show": {show}, "transitions": {ways}}}"#));
+        assert_eq!(light.answer(), r#"{"robots":1,"error":null}"#);
+        (light, plan.transitions[0].duration_s)
+    }
+
+    #[test]
+    fn pixels_shine_in_their_own_colours_and_layers_over_them_at_show_time() {
+        // Show time begins with the first frame's air time, this long after the moment 0.
+        let (plain, first_s) = with_plan("");
+        assert_eq!(plain.colours(first_s + 1.0, 100.0, 2), [255, 0, 0, 0, 0, 255]);
+        let green = r##"{"kind": "solid", "from_s": 0.5, "to_s": 1, "settings": {"palette": ["#00ff00"]}}"##;
+        let (lit, _) = with_plan(green);
+        assert_eq!(lit.colours(first_s + 0.4, 0.2, 4), [255, 0, 0, 0, 255, 0, 0, 255, 0, 255, 0, 0]);
+    }
+
+    #[test]
+    fn without_a_plan_robots_stand_on_their_pixels() {
+        let along = r##"{"kind": "gradient", "settings": {"palette": ["#000000", "#ffffff"]}}"##;
+        let light = PlannedLight::new(&format!(r#"{{"show": {}, "transitions": []}}"#, show(along)));
+        assert_eq!(light.colours(0.5, 2.0, 3), [0, 0, 0, 255, 255, 255, 255, 255, 255]);
+    }
+
+    #[test]
+    fn layers_are_exchanged_without_a_new_show() {
+        let (mut light, first_s) = with_plan("");
+        let frames = r#""frames": [{"name": "A", "pixels": []}]"#;
+        let layers = r##""layers": [{"kind": "solid", "settings": {"palette": ["#00ff00"]}}]"##;
+        let answer = light.relight(&format!(r#"{{"lightbots": 2, {layers}, {frames}}}"#));
+        assert_eq!(answer, r#"{"robots":1,"error":null}"#);
+        assert_eq!(light.colours(first_s, 1.0, 1), [0, 255, 0]);
+        assert!(light.relight("{").contains("error"));
+        assert_eq!(light.colours(first_s, 1.0, 1), [0, 255, 0]);
+    }
+
+    #[test]
+    fn absurd_moments_and_shows_are_answered() {
+        let (light, _) = with_plan("");
+        for from_s in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, 1e300] {
+            assert_eq!(light.colours(from_s, f64::NAN, 2).len(), 6);
+        }
+        assert_eq!(light.colours(0.0, 0.0, usize::MAX).len(), 3 * COLOURS_MAX);
+        let none = PlannedLight::new("{");
+        assert!(none.answer().contains("bad-request"));
+        assert!(none.colours(0.0, 1.0, 9).is_empty());
+    }
+}
