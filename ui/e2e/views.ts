@@ -310,6 +310,24 @@ const editViews: View[] = [
     leave: (page) => page.keyboard.press('w'),
   },
   {
+    name: 'edit-light-presets',
+    show: (page) => page.getByRole('tab', { name: 'Light' }).click(),
+  },
+  {
+    name: 'edit-light',
+    async show(page) {
+      await page
+        .getByRole('list', { name: 'Presets of light' })
+        .getByRole('button', { name: 'Rainbow' })
+        .click();
+      await page.getByRole('region', { name: 'Layer Rainbow' }).waitFor();
+    },
+    async leave(page) {
+      await button(page, 'Delete Rainbow').click();
+      await page.getByRole('tab', { name: 'Pixels' }).click();
+    },
+  },
+  {
     name: 'edit-too-close',
     async show(page, server) {
       await uploadText(page, 'crowded.json', smallShow(24).replaceAll('0.12', '0.05'));

@@ -7,6 +7,7 @@ import { pictureShown } from '../make/making';
 import { useEditing } from './context';
 import type { Editing } from './editing';
 import { PixelTwin } from './PixelTwin';
+import { litNow, shownLayer } from './light/lit';
 import { editScene, withMade } from './scene';
 import { EmptyFrame } from './EmptyFrame';
 import { StageMenu } from './StageMenu';
@@ -20,18 +21,22 @@ import { useKeys } from '../parts/useKeys';
 import styles from '../stage/stage.module.css';
 
 /** Returns the same scene until one of its inputs changes. */
-function rememberScene(editing: Editing): () => Scene {
+function rememberScene(editing: Editing): (now_ms: number) => Scene {
   let inputs: unknown[] = [];
   let scene: Scene | null = null;
-  return () => {
+  return (now_ms) => {
     const state = editing.editor.state.get();
     const [options, time_s] = [editing.options.get(), editing.preview.time_s.get()];
     const making = editing.making.get();
     const shown = making && pictureShown(making);
     const drives = making && making.made.get().drives;
     const full = editing.full.plan.get();
+    const lit = making ? null : litNow(editing, full, time_s, now_ms);
+    const layer = making ? null : (shownLayer(editing)?.layer ?? null);
     const now = [
       state,
+      lit,
+      layer,
       making?.draft.get(),
       making?.pen.get(),
       shown,
@@ -50,6 +55,7 @@ function rememberScene(editing: Editing): () => Scene {
         plan,
         time_s,
         making,
+        { lit, layer },
       );
     }
     return scene;

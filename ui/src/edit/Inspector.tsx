@@ -1,4 +1,5 @@
 import { Tabs } from '@mantine/core';
+import { lazy, Suspense } from 'react';
 import { useStore } from '../base/store';
 import { IssueList } from '../parts/IssueList';
 import { ArrangeSection } from './ArrangeSection';
@@ -12,7 +13,10 @@ import { RobotsSection } from './RobotsSection';
 import { ShowSection } from './ShowSection';
 import styles from '../parts/page.module.css';
 
-/** Properties of the chosen pixels, the frame and the show. */
+/** Loaded when it is first shown. */
+const LightPanel = lazy(() => import('./light/LightPanel'));
+
+/** Properties of the chosen pixels, the frame, the light and the show. */
 export function Inspector() {
   const { editor, plan } = useEditing();
   const issues = useStore(plan, (plan) => plan?.issues) ?? [];
@@ -23,6 +27,7 @@ export function Inspector() {
         <Tabs.List grow>
           <Tabs.Tab value="pixels">Pixels</Tabs.Tab>
           <Tabs.Tab value="frame">Frame</Tabs.Tab>
+          <Tabs.Tab value="light">Light</Tabs.Tab>
           <Tabs.Tab value="show">
             Show{issues.some((i) => i.severity !== 'note') ? ' •' : ''}
           </Tabs.Tab>
@@ -34,6 +39,11 @@ export function Inspector() {
         </Tabs.Panel>
         <Tabs.Panel value="frame" className={styles.sections}>
           <FrameSection />
+        </Tabs.Panel>
+        <Tabs.Panel value="light" className={styles.sections} keepMounted={false}>
+          <Suspense>
+            <LightPanel />
+          </Suspense>
         </Tabs.Panel>
         <Tabs.Panel value="show" className={styles.sections}>
           <ShowSection />

@@ -12,6 +12,8 @@ interface Props {
   /** Goes back to a value that is chosen by itself; absent: it is, or there is none. */
   onAuto?: () => void;
   onChange: (value: number) => void;
+  /** The thumb was let go. */
+  onChangeEnd?: (value: number) => void;
 }
 
 /** A slider with its label and its value above. */

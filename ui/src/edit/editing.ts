@@ -2,6 +2,8 @@ import type { MakeChoices, Plan } from '../api/types.gen';
 import type { Rgb } from '../base/colour';
 import { createStore, type Readable, type Store } from '../base/store';
 import { startWorker } from '../make/browserWorker';
+import { startLightWorker } from '../light/browserWorker';
+import { createLights, type Lights } from '../light/lights';
 import { createMaker, type Maker } from '../make/maker';
 import type { Making } from '../make/making';
 import { createFullPlan, type FullPlan } from '../session/fullPlan';
@@ -60,6 +62,12 @@ export interface Editing {
   preview: Preview;
   /** Makes frames from words, shapes and files; loads its module with the first of them. */
   maker: Maker;
+  /** Colours of the layers of light. */
+  lights: Lights;
+  /** The layer whose settings and handles are shown, counted from the lowest; null: none. */
+  layer: Store<number | null>;
+  /** Whether the panel of layers is open: then light moves on the frame that is drawn. */
+  lighting: Store<boolean>;
   /** What settings may name; null until the module is there. */
   choices: Store<MakeChoices | null>;
   /** The frame that is being made in the Make panel; null: the panel is closed. */
@@ -94,6 +102,7 @@ export function createEditing(
   const { saver, keeper } = saving;
   const color = createStore<Rgb>(0xffc878);
   const maker = createMaker(startWorker);
+  const lights = createLights(startLightWorker);
   let { selection } = editor.state.get();
   const unfollow = editor.state.subscribe(() => {
     const now = editor.state.get();
@@ -124,6 +133,9 @@ export function createEditing(
     color,
     preview,
     maker,
+    lights,
+    layer: createStore<number | null>(null),
+    lighting: createStore(false),
     choices: createStore<MakeChoices | null>(null),
     making: createStore<Making | null>(null),
     files: new Map(),
@@ -133,6 +145,7 @@ export function createEditing(
     retire() {
       saver.flush();
       maker.end();
+      lights.end();
       unfollow();
       stop();
       keeper.leave();

@@ -9,6 +9,9 @@ import { penLine } from '../make/pen';
 import type { MakeAnswer, Plan } from '../api/types.gen';
 import type { Frame } from '../model/show';
 import { dotsAt, timelineOf } from '../model/timeline';
+import type { Layer } from '../model/layers';
+import { paintLayer } from './light/layerOverlay';
+import { litDots, litPixels, type Lit } from './light/lit';
 import type { Camera } from '../stage/camera';
 import { floorOf, type Scene } from '../stage/scene';
 import type { StageOptions } from './editing';
@@ -47,6 +50,14 @@ export function withMade(
 
 const NO_SELECTION: ReadonlySet<number> = new Set();
 
+/** The robots' light, and the layer whose handles are shown. */
+export interface SceneLight {
+  lit: Lit | null;
+  layer: Layer | null;
+}
+
+const NO_LIGHT: SceneLight = { lit: null, layer: null };
+
 /** What the editor's stage shows: the frame on it, or the plan at a moment of the show. */
 export function editScene(
   state: EditorState,
@@ -54,28 +65,31 @@ export function editScene(
   plan: Plan | null,
   time_s: number | null,
   making: Making | null = null,
+  { lit, layer }: SceneLight = NO_LIGHT,
 ): Scene {
   const { show, frame } = state;
   const base = { ...floorOf(show.stage, unitStore.get()), errors: NOTHING };
   if (time_s !== null && plan) {
-    const filled = dotsAt(show, plan, timelineOf(show, plan), time_s);
+    const filled = litDots(dotsAt(show, plan, timelineOf(show, plan), time_s), lit);
     const hollow = options.ghosts ? hollowOf(show.frames[frame]) : NOTHING;
     return {
       ...base,
       filled,
       hollow,
       paths: options.routes ? pathsTo(plan, show, frame) : NOTHING,
+      ...(layer ? { overlay: (context, camera) => paintLayer(context, camera, layer) } : {}),
     };
   }
   const pixels = show.frames[frame]?.pixels ?? [];
   return {
     ...base,
-    filled: pixels.map((p) => ({ x: p.x, y: p.y, color: p.color, alpha: 1 })),
+    filled: litPixels(pixels, plan?.transitions[frame], lit),
     hollow: options.ghosts ? ghostsOf(state) : NOTHING,
     paths: options.routes ? pathsTo(plan, show, frame) : NOTHING,
     overlay(context, camera) {
       paintOverlay(context, camera, state, options);
       if (making) paintMaking(context, camera, making);
+      if (layer) paintLayer(context, camera, layer);
     },
   };
 }

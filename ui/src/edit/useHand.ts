@@ -8,6 +8,7 @@ import { stretchOf } from '../make/stretch';
 import { createArrowTool } from '../model/arrowTool';
 import { createEyedropper } from '../model/eyedropper';
 import { createFillTool } from '../model/fillTool';
+import { createLayerTool, layerGripAt } from '../model/layerTool';
 import { createObstacleTool } from '../model/obstacleTool';
 import { createLassoTool } from '../model/lassoTool';
 import { pixelAt, type Tool, type Touch } from '../model/tool';
@@ -19,6 +20,7 @@ import { keepColour, type Editing, type ToolName } from './editing';
 import { handleAt } from './overlay';
 import { penFor } from './penTool';
 import { createPictureTool, gripAt, pictureNow } from './pictureHand';
+import { shownLayer } from './light/lit';
 import { openMenu } from './menuEntries';
 
 /** How far a mouse and a finger may miss, CSS pixels. */
@@ -125,6 +127,14 @@ function lead(editing: Editing): { hand: Hand; giveUp: () => boolean } {
           const press = touch(at, event, adds);
           active = penFor(making, press) ?? pictureTool(making, press);
           active?.down(editor, press);
+          return;
+        }
+        const press = touch(at, event, adds);
+        const layer = shownLayer(editing);
+        const grip = layer && layerGripAt(layer.layer, press);
+        if (layer && grip) {
+          active = createLayerTool(layer.index, grip, (m) => lengthText(m, unitStore.get()));
+          active.down(editor, press);
           return;
         }
         editing.preview.stop();

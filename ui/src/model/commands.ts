@@ -1,4 +1,5 @@
 import { withoutLostCues } from './cues';
+import { keepLayersInFrames } from './layers';
 import type { Point } from '../base/geometry';
 import { mix, type Rgb } from '../base/colour';
 import type { FrameSource } from './sources';
@@ -154,7 +155,7 @@ export function deleteFrames(show: Show, indices: readonly number[]): Show {
   const frames = show.frames.filter((_, i) => !gone.has(i));
   return frames.length === 0 || frames.length === show.frames.length
     ? show
-    : withoutLostCues(show, { ...show, frames });
+    : keepLayersInFrames(show, withoutLostCues(show, { ...show, frames }));
 }
 
 /** Moves frames, in their order, to stand together before the one that is at `before` now (or at the end). */
@@ -168,7 +169,8 @@ export function moveFrames(show: Show, indices: readonly number[], before: numbe
     ...part(true, 0, show.frames.length),
     ...part(false, at, show.frames.length),
   ];
-  return all.every((frame, i) => frame === show.frames[i]) ? show : { ...show, frames: all };
+  if (all.every((frame, i) => frame === show.frames[i])) return show;
+  return keepLayersInFrames(show, { ...show, frames: all });
 }
 
 export type FrameFields = Partial<

@@ -1,3 +1,4 @@
+import { withId, withRest } from './frameIds';
 import type { Frame, Show } from './show';
 
 /** A cue as the document has it: the show waits for GO at the end of a frame's air time, or at a moment. */
@@ -9,11 +10,7 @@ interface CueJson {
 const cuesOf = (show: Show): readonly CueJson[] =>
   Array.isArray(show.rest.cues) ? (show.rest.cues as CueJson[]) : [];
 
-function withCues(show: Show, cues: readonly CueJson[]): Show {
-  const others = Object.entries(show.rest).filter(([field]) => field !== 'cues');
-  const all = cues.length === 0 ? others : [...others, ['cues', cues] as const];
-  return { ...show, rest: Object.fromEntries(all) };
-}
+const withCues = (show: Show, cues: readonly CueJson[]) => withRest(show, 'cues', cues);
 
 /** Name of the cue at which a frame waits for GO; it may be empty. Null: the frame does not wait. */
 export function cueOf(show: Show, frame: Frame | undefined): string | null {
@@ -29,11 +26,10 @@ export const setCue = (show: Show, indices: readonly number[], name: string | nu
 function setOne(show: Show, index: number, name: string | null): Show {
   const frame = show.frames[index];
   if (!frame || cueOf(show, frame) === name) return show;
-  const id = frame.id ?? freeId(show);
+  const [named, id] = withId(show, index) ?? [show, ''];
   const others = cuesOf(show).filter((cue) => cue.frame !== id);
   if (name === null) return withCues(show, others);
-  const frames = show.frames.map((f) => (f === frame ? { ...f, id } : f));
-  return withCues({ ...show, frames }, [...others, { name, frame: id }]);
+  return withCues(named, [...others, { name, frame: id }]);
 }
 
 /** The show without the cues of frames that it no longer has. */
@@ -43,10 +39,4 @@ export function withoutLostCues(before: Show, show: Show): Show {
   const cues = cuesOf(show);
   const left = cues.filter((cue) => !lost.has(cue.frame as string | null));
   return left.length === cues.length ? show : withCues(show, left);
-}
-
-/** A word that no frame has. */
-function freeId(show: Show): string {
-  const taken = new Set(show.frames.map((f) => f.id));
-  for (let n = 1; ; n++) if (!taken.has(`f${n}`)) return `f${n}`;
 }

@@ -1,0 +1,162 @@
+import type { Page } from 'playwright-core';
+import { expect, test } from 'vitest';
+import { eventually } from './harness';
+import {
+  button,
+  drag,
+  onScreen,
+  openShow,
+  phaseIs,
+  pixels,
+  pixelsAre,
+  saved,
+  smallShow,
+  stored,
+  tabTo,
+  uploadText,
+} from './journeys';
+import { createTestBed } from './testBed';
+
+const bed = createTestBed('--robots', '6');
+
+interface StoredLayer {
+  name?: string;
+  kind: string;
+  frames?: string[];
+  phase?: string;
+  settings: Record<string, unknown>;
+}
+
+const layers = async (page: Page, show: string) =>
+  ((await stored(page, show)) as unknown as { layers?: StoredLayer[] }).layers ?? [];
+
+const layersAre = (page: Page, show: string, wanted: (found: StoredLayer[]) => boolean) =>
+  eventually(() => layers(page, show), wanted, 'the layers are saved');
+
+/** Red, green and blue of the stage where the first pixel stands. */
+async function lightOf(page: Page): Promise<number[]> {
+  const [first] = await pixels(page);
+  if (!first) throw new Error('There is no pixel.');
+  const at = await onScreen(page, first.x, first.y);
+  return page.evaluate(({ x, y }) => {
+    const canvas = document.querySelector('[data-testid=stage] canvas') as HTMLCanvasElement;
+    const box = canvas.getBoundingClientRect();
+    const density = canvas.width / box.width;
+    const [left, top] = [(x - box.x) * density, (y - box.y) * density];
+    return [...(canvas.getContext('2d')?.getImageData(left, top, 1, 1).data ?? [])].slice(0, 3);
+  }, at);
+}
+
+const isLit = (wanted: (colour: readonly number[]) => boolean, page: Page, what: string) =>
+  eventually(() => lightOf(page), wanted, what);
+
+const [isGreen, isRed] = [
+  ([r = 0, g = 0]: readonly number[]) => g > r + 60,
+  ([r = 0, g = 0]: readonly number[]) => r > g + 60,
+];
+
+async function begin(page: Page, name: string) {
+  await uploadText(page, `${name}.json`, smallShow(6, 2));
+  await pixelsAre(page, 6);
+  await page.getByRole('tab', { name: 'Light' }).click();
+}
+
+const preset = (page: Page, title: string) =>
+  page.getByRole('list', { name: 'Presets of light' }).getByRole('button', { name: title });
+const layer = (page: Page, title: string) =>
+  page
+    .getByRole('list', { name: 'Layers, the uppermost first' })
+    .getByRole('button', { name: new RegExp(`^${title}`) });
+
+test('a preset shines on the stage at once, is changed in the panel and is saved', async () => {
+  const page = await bed.open('edit');
+  await begin(page, 'shine');
+  await preset(page, 'Starry').click();
+  await page.getByRole('combobox', { name: 'Effect' }).click();
+  await page.getByRole('option', { name: 'Plain colour' }).click();
+  await page.getByRole('combobox', { name: 'Mixing' }).click();
+  await page.getByRole('option', { name: 'Covers what is below' }).click();
+  const colour = page.getByRole('textbox', { name: 'Colour 1 of the layer' });
+  await colour.fill('#00ff00');
+  await colour.press('Tab');
+  await isLit(isGreen, page, 'the robots are green');
+  await colour.fill('#ff0000');
+  await colour.press('Tab');
+  await isLit(isRed, page, 'the robots are red');
+  await page.keyboard.press('Control+z');
+  await isLit(isGreen, page, 'the robots are green again');
+  await saved(page);
+  await layersAre(page, 'shine', ([only]) => {
+    const palette = only?.settings.palette as string[] | undefined;
+    return only?.kind === 'solid' && palette?.[0] === '#00ff00';
+  });
+  // Only in the second frame: the first has its own colours again, and the moment on the stage decides.
+  await page.getByText('Frames', { exact: true }).last().click();
+  await page.getByRole('combobox', { name: 'To frame' }).click();
+  await page.getByRole('option', { name: /^2/ }).click();
+  await page.getByRole('combobox', { name: 'From frame' }).click();
+  await page.getByRole('option', { name: /^2/ }).click();
+  await isLit((now) => !isGreen(now), page, 'the first frame has its own colours');
+  await button(page, /^2/).first().click();
+  await isLit(isGreen, page, 'the second frame is green');
+  await layersAre(page, 'shine', ([only]) => only?.frames?.join() === 'f1,f1');
+  await page.close();
+});
+
+test('handles on the floor move a layer, and Escape takes a drag back', async () => {
+  const page = await bed.open('edit');
+  await begin(page, 'handles');
+  await preset(page, 'Rainbow').click();
+  await drag(page, [-1.5, 0], [-1, 0.5]);
+  await layersAre(page, 'handles', ([only]) => {
+    const [x = 0, y = 0] = (only?.settings.place as number[] | undefined) ?? [];
+    return Math.abs(x + 1) < 0.02 && Math.abs(y - 0.5) < 0.02;
+  });
+  await drag(page, [1.99, 0.5], [0, 0.5]);
+  await layersAre(page, 'handles', ([only]) => Math.abs(Number(only?.settings.size_m) - 1) < 0.03);
+  const before = await layers(page, 'handles');
+  const from = await onScreen(page, -1, 0.5);
+  await page.mouse.move(from.x, from.y);
+  await page.mouse.down();
+  await page.mouse.move(from.x + 60, from.y + 60, { steps: 3 });
+  await page.keyboard.press('Escape');
+  await page.mouse.up();
+  await saved(page);
+  expect(await layers(page, 'handles')).toEqual(before);
+  await page.close();
+});
+
+test('layers are added, ordered, copied and deleted with the keyboard alone', async () => {
+  const page = await bed.open('edit');
+  await begin(page, 'keys');
+  await tabTo(page, 'button', 'Fire');
+  await page.keyboard.press('Enter');
+  await tabTo(page, 'button', 'Add light');
+  await page.keyboard.press('Enter');
+  await tabTo(page, 'button', 'Chase');
+  await page.keyboard.press('Enter');
+  const names = (found: StoredLayer[]) => found.map((one) => one.name).join();
+  await layersAre(page, 'keys', (found) => names(found) === 'Fire,Chase');
+  await layer(page, 'Chase').focus();
+  await page.keyboard.press('Alt+ArrowDown');
+  await layersAre(page, 'keys', (found) => names(found) === 'Chase,Fire');
+  await button(page, 'Duplicate Fire').focus();
+  await page.keyboard.press('Enter');
+  await layersAre(page, 'keys', (found) => names(found) === 'Chase,Fire,Fire');
+  await layer(page, 'Chase').focus();
+  await page.keyboard.press('Delete');
+  await layersAre(page, 'keys', (found) => names(found) === 'Fire,Fire');
+  await page.close();
+});
+
+test('a show with light is run from the editor', async () => {
+  const page = await bed.open('edit');
+  await begin(page, 'strobe');
+  await preset(page, 'Slow strobe').click();
+  await saved(page);
+  await openShow(page, 'strobe');
+  await button(page, 'Run on robots').click();
+  await phaseIs(page, 'playing');
+  await phaseIs(page, 'ready');
+  await page.close();
+});

@@ -1,0 +1,106 @@
+import { IconCopy, IconTrash } from '@tabler/icons-react';
+import type { KeyboardEvent } from 'react';
+import { titleOf } from '../../model/layerKinds';
+import { framesOf, type Layer } from '../../model/layers';
+import type { Show } from '../../model/show';
+import { IconButton } from '../../parts/IconButton';
+import { useEditing } from '../context';
+import { duplicateLayer, removeLayer } from './lightActs';
+import { StripCanvas } from './StripCanvas';
+import styles from './Light.module.css';
+
+interface Props {
+  layer: Layer;
+  index: number;
+  show: Show;
+  isChosen: boolean;
+  isOver: boolean;
+  onChoose: () => void;
+  /** Moves it up by 1, or down by -1. */
+  onMove: (by: 1 | -1) => void;
+  drag: {
+    begin: () => void;
+    over: () => void;
+    isOn: () => boolean;
+    drop: () => void;
+    end: () => void;
+  };
+}
+
+/** A layer with what it does, its name and when it shines. */
+export function LayerRow({ layer, index, show, isChosen, isOver, onChoose, onMove, drag }: Props) {
+  const editing = useEditing();
+  const title = titleOf(layer);
+  const press = (event: KeyboardEvent) => {
+    const up = event.key === 'ArrowUp';
+    if (event.altKey && (up || event.key === 'ArrowDown')) {
+      event.preventDefault();
+      onMove(up ? 1 : -1);
+    }
+    if (event.key === 'Delete') {
+      event.stopPropagation();
+      removeLayer(editing, index);
+    }
+  };
+  return (
+    <li
+      className={styles.layer}
+      data-chosen={isChosen || undefined}
+      data-over={isOver || undefined}
+      draggable
+      onDragStart={drag.begin}
+      onDragEnd={drag.end}
+      onDragOver={(event) => {
+        if (!drag.isOn()) return;
+        event.preventDefault();
+        drag.over();
+      }}
+      onDrop={drag.drop}
+    >
+      <button
+        type="button"
+        className={styles.choose}
+        aria-pressed={isChosen}
+        aria-keyshortcuts="Alt+ArrowUp Alt+ArrowDown Delete"
+        title="Alt and an arrow key move it"
+        onClick={onChoose}
+        onKeyDown={press}
+      >
+        <StripCanvas layer={layer} stage={show.stage} />
+        <span className={styles.name}>
+          <b>{title}</b>
+          <span className={styles.when}>{whenText(show, layer)}</span>
+        </span>
+      </button>
+      <IconButton
+        label="Duplicate"
+        name={`Duplicate ${title}`}
+        onClick={() => duplicateLayer(editing, index)}
+      >
+        <IconCopy size={15} />
+      </IconButton>
+      <IconButton
+        label="Delete"
+        name={`Delete ${title}`}
+        onClick={() => removeLayer(editing, index)}
+      >
+        <IconTrash size={15} />
+      </IconButton>
+    </li>
+  );
+}
+
+const PHASES = { whole: '', transition: 'drive to ', picture: 'air time of ' } as const;
+
+/** When a layer shines, in words. */
+function whenText(show: Show, layer: Layer): string {
+  const { when } = layer;
+  if (when.of === 'show') return 'Whole show';
+  if (when.of === 'seconds') return `${when.from_s} s to ${when.to_s} s`;
+  const range = framesOf(show, layer);
+  if (!range) return 'A frame that is gone';
+  const [first, last] = range;
+  const frames = first === last ? `frame ${first + 1}` : `frames ${first + 1} to ${last + 1}`;
+  const text = PHASES[when.phase] + frames;
+  return text.charAt(0).toUpperCase() + text.slice(1);
+}

@@ -1,0 +1,93 @@
+import { Select, Text } from '@mantine/core';
+import { ALONGS, alongOf, isUsed, numberOf, placeOf, type Along } from '../../model/layerKinds';
+import type { Layer } from '../../model/layers';
+import { LAYER_KINDS } from '../../model/layerKinds';
+import { LengthInput } from '../../parts/LengthInput';
+import { NumberField } from '../../parts/NumberField';
+import { useEditing } from '../context';
+import { setSettings } from './lightActs';
+import styles from './Light.module.css';
+
+const ALONG_WORDS: Readonly<Record<Along, string>> = {
+  line: 'A direction on the floor',
+  distance: 'The distance from a place',
+  angle: 'Around a place',
+  order: 'The order of robots',
+  curve: 'A curve',
+};
+
+/** Most metres from the middle, and most of a span, as docs/light.md has them. */
+const FAR_M = 1000;
+
+/** Where a layer starts, its direction and its span; the stage has handles for them. */
+export function SpotFields({ index, layer }: { index: number; layer: Layer }) {
+  const editing = useEditing();
+  const along = alongOf(layer.settings);
+  const { x, y } = placeOf(layer);
+  const set = (settings: Record<string, unknown>) => setSettings(editing, index, settings);
+  const runs = LAYER_KINDS[layer.kind]?.settings.includes('along') ?? false;
+  // A curve is drawn in the file: the screen keeps it, and does not offer a new one.
+  const ways = ALONGS.filter((way) => way !== 'curve' || along === 'curve');
+  return (
+    <>
+      {runs ? (
+        <Select
+          label="Runs along"
+          size="xs"
+          allowDeselect={false}
+          data={ways.map((value) => ({ value, label: ALONG_WORDS[value] }))}
+          value={along}
+          onChange={(value) => set({ along: value ?? undefined })}
+        />
+      ) : null}
+      {isUsed(layer, 'place') ? (
+        <>
+          <Text size="xs" c="dimmed">
+            Drag the circle and the square on the floor, or type:
+          </Text>
+          <div className={styles.pair}>
+            <LengthInput
+              label="From x"
+              min={-FAR_M}
+              max={FAR_M}
+              value={x}
+              onChange={(to) => set({ place: [to, y] })}
+            />
+            <LengthInput
+              label="From y"
+              min={-FAR_M}
+              max={FAR_M}
+              value={y}
+              onChange={(to) => set({ place: [x, to] })}
+            />
+          </div>
+        </>
+      ) : null}
+      <div className={styles.pair}>
+        {isUsed(layer, 'size_m') ? (
+          <LengthInput
+            label="Span"
+            min={0.01}
+            max={FAR_M}
+            value={numberOf(layer, 'size_m')}
+            onChange={(size_m) => set({ size_m })}
+          />
+        ) : null}
+        {isUsed(layer, 'angle') ? (
+          <NumberField
+            label="Direction (°)"
+            unit="°"
+            min={-360}
+            max={360}
+            digits={1}
+            step={15}
+            value={(numberOf(layer, 'angle') * 180) / Math.PI}
+            onChange={(degrees) =>
+              set({ angle: Math.round(((degrees * Math.PI) / 180) * 1e4) / 1e4 })
+            }
+          />
+        ) : null}
+      </div>
+    </>
+  );
+}

@@ -1,0 +1,65 @@
+import { useEffect, useRef, useState } from 'react';
+import type { Layer } from '../../model/layers';
+import type { Stage } from '../../model/show';
+import { STRIP_COLUMNS, STRIP_MOMENTS, STRIP_ROWS, type Strip } from '../../light/strip';
+import { FLOOR } from '../../stage/palette';
+import { useEditing } from '../context';
+import styles from './Light.module.css';
+
+/** Side of a robot's cell, device pixels. */
+const CELL = 12;
+const [WIDTH, HEIGHT] = [STRIP_COLUMNS * CELL, STRIP_ROWS * CELL];
+/** A moment that shows most effects, for people who want less motion. */
+const STILL = 26;
+
+/** What a layer does, on a small floor full of robots, over and over. */
+export function StripCanvas({ layer, stage }: { layer: Layer; stage: Stage }) {
+  const { lights } = useEditing();
+  const canvas = useRef<HTMLCanvasElement>(null);
+  const [strip, setStrip] = useState<Strip | null>(null);
+  useEffect(() => {
+    let isWanted = true;
+    void lights.strip(layer, stage).then((made) => {
+      if (isWanted && made) setStrip(made);
+    });
+    return () => void (isWanted = false);
+  }, [lights, layer, stage]);
+  useEffect(() => {
+    const context = canvas.current?.getContext('2d');
+    if (!context) return;
+    context.fillStyle = FLOOR.floor;
+    context.fillRect(0, 0, WIDTH, HEIGHT);
+    return strip ? play(context, strip) : undefined;
+  }, [strip]);
+  return <canvas className={styles.strip} ref={canvas} width={WIDTH} height={HEIGHT} aria-hidden />;
+}
+
+/** Draws the moments of a strip as they come; returns a function that ends this. */
+function play(context: CanvasRenderingContext2D, strip: Strip): () => void {
+  if (matchMedia('(prefers-reduced-motion: reduce)').matches) {
+    paint(context, strip, STILL);
+    return () => undefined;
+  }
+  let [request, shown] = [0, -1];
+  const draw = (now_ms: number) => {
+    request = requestAnimationFrame(draw);
+    const moment = Math.floor(now_ms / 1000 / STRIP_MOMENTS.step_s) % STRIP_MOMENTS.count;
+    if (moment !== shown) paint(context, strip, moment);
+    shown = moment;
+  };
+  request = requestAnimationFrame(draw);
+  return () => cancelAnimationFrame(request);
+}
+
+function paint(context: CanvasRenderingContext2D, { bytes, robots }: Strip, moment: number) {
+  context.fillStyle = FLOOR.floor;
+  context.fillRect(0, 0, WIDTH, HEIGHT);
+  for (let robot = 0; robot < robots; robot++) {
+    const at = 3 * (moment * robots + robot);
+    context.fillStyle = `rgb(${bytes[at]} ${bytes[at + 1]} ${bytes[at + 2]})`;
+    const [x, y] = [(robot % STRIP_COLUMNS) * CELL, Math.floor(robot / STRIP_COLUMNS) * CELL];
+    context.beginPath();
+    context.arc(x + CELL / 2, y + CELL / 2, CELL * 0.4, 0, 2 * Math.PI);
+    context.fill();
+  }
+}

@@ -1,0 +1,115 @@
+import { expect, test } from 'vitest';
+import { LAYER_KINDS } from '../model/layerKinds';
+import { LIGHT_PRESETS, presetLayer } from '../model/lightPresets';
+import { addLayer, setLayerSettings, type Layer } from '../model/layers';
+import { EMPTY_STAGE, newFrame, newShow, type Show } from '../model/show';
+import { createLights } from './lights';
+import type { LightAsk } from './protocol';
+import { realLightWorker } from './realLight.testing';
+import { STRIP_MOMENTS, type Strip } from './strip';
+
+const NO_DRIVES = [] as const;
+const layer = (kind: string, settings: Record<string, unknown>): Layer => ({
+  kind,
+  name: '',
+  settings,
+  when: { of: 'show' },
+  rest: {},
+});
+
+/** Two robots in red, then in blue, for 2 s each; a layer dims them to half. */
+function dimmed(): Show {
+  const show = newShow('Test', 2);
+  const [first] = show.frames;
+  const pixels = (color: number) => first?.pixels.map((pixel) => ({ ...pixel, color })) ?? [];
+  const frame = (name: string, color: number) => ({
+    ...newFrame(name, pixels(color)),
+    airTime_s: 2,
+  });
+  const frames = [frame('A', 0xff0000), frame('B', 0x0000ff)];
+  const dark = layer('solid', { palette: ['#000000'], opacity: 1 });
+  return addLayer({ ...show, frames }, dark);
+}
+
+/** Waits until the module has answered what it was asked. */
+const settled = () => new Promise((done) => setTimeout(done, 250));
+
+test('colours of a moment come once they are computed, and stay the same object', async () => {
+  const lights = createLights(() => realLightWorker());
+  const show = setLayerSettings(dimmed(), 0, { opacity: 0.5 });
+  expect(lights.at(show, NO_DRIVES, 1)).toBeNull();
+  await settled();
+  const red = lights.at(show, NO_DRIVES, 1);
+  // Half of the light is 188 of 255 as a code.
+  expect([...(red ?? [])]).toEqual([188, 0, 0, 188, 0, 0]);
+  expect(lights.at(show, NO_DRIVES, 1)).toBe(red);
+  expect(lights.at(show, NO_DRIVES, 1.01)).toBe(red);
+  lights.at(show, NO_DRIVES, 3);
+  await settled();
+  expect([...(lights.at(show, NO_DRIVES, 3) ?? [])]).toEqual([0, 0, 188, 0, 0, 188]);
+  expect([...(lights.at(show, NO_DRIVES, 99) ?? [])].length).toBe(6);
+});
+
+test('a change of layers alone does not send the show again', async () => {
+  const asked: LightAsk['do'][] = [];
+  const lights = createLights(() => realLightWorker((ask) => asked.push(ask.do)));
+  const show = dimmed();
+  lights.at(show, NO_DRIVES, 0);
+  await settled();
+  expect([...(lights.at(show, NO_DRIVES, 0) ?? [])]).toEqual([0, 0, 0, 0, 0, 0]);
+  const lit = setLayerSettings(show, 0, { opacity: 0 });
+  lights.at(lit, NO_DRIVES, 0);
+  await settled();
+  expect([...(lights.at(lit, NO_DRIVES, 0) ?? [])]).toEqual([255, 0, 0, 255, 0, 0]);
+  expect(asked.filter((one) => one === 'load')).toHaveLength(1);
+  expect(asked.filter((one) => one === 'relight')).toHaveLength(1);
+});
+
+test('a show without layers does not start the module', () => {
+  const lights = createLights(() => {
+    throw new Error('started');
+  });
+  expect(lights.at(newShow('Test', 2), NO_DRIVES, 0)).toBeNull();
+});
+
+test('a module that fails answers nothing any more, and nothing waits for it', async () => {
+  let started = 0;
+  const lights = createLights(() => {
+    started += 1;
+    const worker = realLightWorker();
+    worker.postMessage = () => worker.onerror?.({} as ErrorEvent);
+    return worker;
+  });
+  const preset = presetLayer(LIGHT_PRESETS[0] as (typeof LIGHT_PRESETS)[number], EMPTY_STAGE);
+  expect(await lights.strip(preset, EMPTY_STAGE)).toBeNull();
+  expect(lights.at(dimmed(), NO_DRIVES, 0)).toBeNull();
+  expect(await lights.strip(preset, EMPTY_STAGE)).toBeNull();
+  expect(started).toBe(1);
+});
+
+/** Number of different colours of a strip over all its moments. */
+function colours({ bytes }: Strip): number {
+  const all = new Set<number>();
+  for (let at = 0; at + 2 < bytes.length; at += 3)
+    all.add(((bytes[at] ?? 0) << 16) | ((bytes[at + 1] ?? 0) << 8) | (bytes[at + 2] ?? 0));
+  return all.size;
+}
+
+test('every preset and every effect changes what robots show, by settings that the module takes', async () => {
+  const lights = createLights(() => realLightWorker());
+  const stripOf = async (one: Layer) => {
+    const strip = await lights.strip(one, EMPTY_STAGE);
+    expect(strip?.bytes.length).toBe(STRIP_MOMENTS.count * 96 * 3);
+    return strip as Strip;
+  };
+  const presets = LIGHT_PRESETS.map((preset) => presetLayer(preset, EMPTY_STAGE));
+  expect(presets).toHaveLength(12);
+  for (const preset of presets)
+    expect(colours(await stripOf(preset)), preset.name).toBeGreaterThan(1);
+  const plain = await stripOf(layer('no-such-effect', {}));
+  expect(colours(plain)).toBe(1);
+  for (const kind of Object.keys(LAYER_KINDS).filter((one) => one !== 'picture')) {
+    const strip = await stripOf(layer(kind, {}));
+    expect(strip.bytes, kind).not.toEqual(plain.bytes);
+  }
+});

@@ -1,0 +1,196 @@
+import type { Transition } from '../api/types.gen';
+import { writeShow } from '../model/json';
+import { layersOf, type Layer } from '../model/layers';
+import type { Show, Stage } from '../model/show';
+import { createAsking, type LightWorker } from './asking';
+import type { LightAsk, LightReply } from './protocol';
+import { stripRequest, STRIP_MOMENTS, type Strip } from './strip';
+
+/** Red, green and blue of each robot, in the order of the plan. */
+export type Colours = Uint8Array;
+
+/** Colours of a show's robots with its layers, by the module that robots' light comes from. */
+export interface Lights {
+  /**
+   * The colours at a moment, seconds from the start of the drive to the first frame. What is not known yet is asked for,
+   * and the last known colours are the answer; null: there are none, because the show has no layers or the module does
+   * not work here. The same moment of the same show has the same object.
+   */
+  at(show: Show, transitions: readonly Transition[], time_s: number): Colours | null;
+  /** What a layer does on the floor of a show; null: it cannot be shown, or too many are asked for. */
+  strip(layer: Layer, stage: Stage): Promise<Strip | null>;
+  end(): void;
+}
+
+/** Distance of moments: what a robot shows may be this late. Large fleets get fewer moments. */
+const STEP_S = 0.025;
+/** Most colours a second. */
+const COLOURS_PER_S = 250_000;
+/** Most colours in an answer, each layer counted: a request must not take long, because the next one waits for it. */
+const COLOURS_MAX = 60_000;
+/** Answers that are kept. */
+const CHUNKS_MAX = 64;
+/** Least time between two readings of a show, milliseconds: while pixels are dragged it changes with every move. */
+const LOAD_EVERY_MS = 200;
+/** Strips that wait at most; the oldest is given up. */
+const STRIPS_MAX = 40;
+/** Strips that are remembered. */
+const KNOWN_MAX = 200;
+
+interface Loaded extends Planned {
+  robots: number;
+  step_s: number;
+  count: number;
+}
+
+interface StripJob {
+  key: string;
+  layer: Layer;
+  stage: Stage;
+  done: (strip: Strip | null) => void;
+}
+
+export function createLights(start: () => LightWorker): Lights {
+  const asking = createAsking(start);
+  let loaded: Loaded | null = null;
+  let wanted: (Planned & { time_s: number }) | null = null;
+  let chunks = new Map<number, readonly Colours[]>();
+  let last: Colours | null = null;
+  let strips: StripJob[] = [];
+  const known = new Map<string, Strip>();
+  let readAt_ms = -Infinity;
+  let timer: ReturnType<typeof setTimeout> | undefined;
+
+  /** Asks for what is needed most: the show, colours of the moment, of the moments after it, a strip. */
+  const pump = () => {
+    if (asking.isBusy() || asking.hasFailed()) return;
+    if (wanted && !isLoaded(loaded, wanted)) {
+      const early_ms = readAt_ms + LOAD_EVERY_MS - performance.now();
+      if (early_ms <= 0 || onlyLayersDiffer(loaded, wanted))
+        return load(wanted.show, wanted.transitions);
+      timer ??= setTimeout(() => {
+        timer = undefined;
+        pump();
+      }, early_ms);
+    } else if (wanted && loaded && loaded.robots > 0) {
+      const at = chunkOf(loaded, wanted.time_s);
+      const missing = [at, at + 1].find((chunk) => !chunks.has(chunk));
+      if (missing !== undefined) return fetchChunk(loaded, missing);
+    }
+    const job = strips.shift();
+    if (job) makeStrip(job);
+  };
+  const load = (show: Show, transitions: readonly Transition[]) => {
+    const isSame = onlyLayersDiffer(loaded, { show, transitions });
+    if (!isSame) readAt_ms = performance.now();
+    const request: LightAsk = isSame
+      ? { do: 'relight', document: layersAlone(show) }
+      : { do: 'load', request: { show: writeShow(show), transitions: [...transitions] } };
+    asking.ask(request, (reply) => {
+      chunks = new Map();
+      const robots = reply.of === 'loaded' && !reply.answer.error ? reply.answer.robots : 0;
+      loaded = { show, transitions, robots, ...paceOf(robots, layersOf(show).length) };
+      next(reply);
+    });
+  };
+  const fetchChunk = (from: Loaded, chunk: number) => {
+    const { step_s, count, robots } = from;
+    const moments = { from_s: chunk * count * step_s, step_s, count };
+    asking.ask({ do: 'colours', moments }, (reply) => {
+      if (reply.of === 'colours') {
+        const row = 3 * robots;
+        const rows = Array.from({ length: Math.floor(reply.bytes.length / row) }, (_, nth) =>
+          reply.bytes.subarray(nth * row, (nth + 1) * row),
+        );
+        chunks.set(chunk, rows);
+        const oldest = chunks.size > CHUNKS_MAX ? chunks.keys().next() : null;
+        if (oldest && !oldest.done) chunks.delete(oldest.value);
+      }
+      next(reply);
+    });
+  };
+  const makeStrip = (job: StripJob) => {
+    const request = stripRequest(job.layer, job.stage);
+    asking.ask({ do: 'strip', request, moments: STRIP_MOMENTS }, (reply) => {
+      const strip = reply.of === 'colours' ? { bytes: reply.bytes, robots: reply.robots } : null;
+      if (strip && known.size < KNOWN_MAX) known.set(job.key, strip);
+      job.done(strip);
+      next(reply);
+    });
+  };
+  const next = (reply: LightReply) => {
+    if (reply.of !== 'failure') return pump();
+    strips.forEach((job) => job.done(null));
+    strips = [];
+  };
+  return {
+    at(show, transitions, time_s) {
+      if (layersOf(show).length === 0 || asking.hasFailed()) {
+        wanted = last = null;
+        return null;
+      }
+      wanted = { show, transitions, time_s };
+      pump();
+      if (loaded && isLoaded(loaded, wanted)) {
+        const { step_s, count } = loaded;
+        const chunk = chunkOf(loaded, time_s);
+        const rows = chunks.get(chunk);
+        const nth = Math.floor(time_s / step_s + NEARLY) - chunk * count;
+        last = rows?.[Math.min(nth, rows.length - 1)] ?? last;
+      }
+      return last;
+    },
+    strip(layer, stage) {
+      const key = JSON.stringify([layer.kind, layer.settings, stage.width_m, stage.depth_m]);
+      const found = known.get(key);
+      if (found) return Promise.resolve(found);
+      return new Promise((done) => {
+        if (asking.hasFailed()) return done(null);
+        strips.push({ key, layer, stage, done });
+        if (strips.length > STRIPS_MAX) strips.shift()?.done(null);
+        pump();
+      });
+    },
+    end() {
+      clearTimeout(timer);
+      asking.end();
+      strips.forEach((job) => job.done(null));
+      strips = [];
+    },
+  };
+}
+
+/** A moment this little before the next step belongs to it: steps are sums of rounded numbers. */
+const NEARLY = 1e-6;
+
+const chunkOf = ({ step_s, count }: Loaded, time_s: number) =>
+  Math.floor(Math.floor(Math.max(0, time_s) / step_s + NEARLY) / count);
+
+/** Moments of an answer and their distance, for a number of robots and layers. */
+function paceOf(robots: number, layers: number): { step_s: number; count: number } {
+  const step_s = Math.max(STEP_S, robots / COLOURS_PER_S);
+  const each = Math.max(1, robots) * Math.max(1, layers);
+  const second = Math.round(1 / step_s);
+  return { step_s, count: Math.max(1, Math.min(second, Math.floor(COLOURS_MAX / each))) };
+}
+
+interface Planned {
+  show: Show;
+  transitions: readonly Transition[];
+}
+
+const onlyLayersDiffer = (loaded: Loaded | null, wanted: Planned) =>
+  loaded !== null &&
+  loaded.transitions === wanted.transitions &&
+  loaded.show.frames === wanted.show.frames &&
+  loaded.show.stage === wanted.show.stage;
+
+const isLoaded = (loaded: Loaded | null, wanted: Planned) =>
+  onlyLayersDiffer(loaded, wanted) && loaded && layersOf(loaded.show) === layersOf(wanted.show);
+
+/** The show's layers in a document without pixels. */
+const layersAlone = (show: Show): unknown =>
+  writeShow({
+    ...show,
+    frames: show.frames.map((frame) => ({ ...frame, pixels: [], sources: [] })),
+  });

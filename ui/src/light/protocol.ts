@@ -1,0 +1,66 @@
+import type { LightAnswer, LightRequest } from '../api/types.gen';
+
+/** A message to the worker that has colours; it answers each in order. */
+export type LightAsk =
+  | { do: 'load'; request: LightRequest }
+  /** Other layers for the show that is loaded: a document whose pixels do not count. */
+  | { do: 'relight'; document: unknown }
+  /** Colours of the loaded show at moments. */
+  | { do: 'colours'; moments: Moments }
+  /** Colours of another show, which is forgotten afterwards. */
+  | { do: 'strip'; request: LightRequest; moments: Moments };
+
+/** Moments at equal distances, seconds from the start of the drive to the first frame. */
+export interface Moments {
+  from_s: number;
+  step_s: number;
+  count: number;
+}
+
+/** A message from the worker. */
+export type LightReply =
+  | { of: 'loaded'; answer: LightAnswer }
+  /** For each moment, red, green and blue of each robot. */
+  | { of: 'colours'; robots: number; bytes: Uint8Array }
+  /** The worker is of no more use. */
+  | { of: 'failure' };
+
+/** The class of the module, as `wasm-bindgen` writes it. */
+export interface LightOfModule {
+  answer(): string;
+  relight(document: string): string;
+  colours(from_s: number, step_s: number, count: number): Uint8Array;
+  free(): void;
+}
+export type LightClass = new (request: string) => LightOfModule;
+
+/** Answers messages with the module; keeps the show that was loaded last. */
+export function createResponder(PlannedLight: LightClass): (ask: LightAsk) => LightReply {
+  let loaded: LightOfModule | null = null;
+  const read = (text: string) => JSON.parse(text) as LightAnswer;
+  const colours = (light: LightOfModule, { from_s, step_s, count }: Moments): LightReply => {
+    const bytes = light.colours(from_s, step_s, count);
+    return { of: 'colours', robots: read(light.answer()).robots, bytes };
+  };
+  return (ask) => {
+    switch (ask.do) {
+      case 'load':
+        loaded?.free();
+        loaded = new PlannedLight(JSON.stringify(ask.request));
+        return { of: 'loaded', answer: read(loaded.answer()) };
+      case 'relight':
+        if (!loaded) return { of: 'failure' };
+        return { of: 'loaded', answer: read(loaded.relight(JSON.stringify(ask.document))) };
+      case 'colours':
+        return loaded ? colours(loaded, ask.moments) : { of: 'failure' };
+      case 'strip': {
+        const light = new PlannedLight(JSON.stringify(ask.request));
+        try {
+          return colours(light, ask.moments);
+        } finally {
+          light.free();
+        }
+      }
+    }
+  };
+}

@@ -1,0 +1,20 @@
+import { readFileSync } from 'node:fs';
+import { initSync, PlannedLight } from '../generated/browser';
+import type { LightWorker } from './asking';
+import { createResponder, type LightAsk } from './protocol';
+
+/** The real module on this thread, behind the protocol of the worker; `asked` gets each message. */
+export function realLightWorker(asked: (ask: LightAsk) => void = () => undefined): LightWorker {
+  initSync({ module: readFileSync(new URL('../generated/browser_bg.wasm', import.meta.url)) });
+  const respond = createResponder(PlannedLight);
+  const worker: LightWorker = {
+    onmessage: null,
+    onerror: null,
+    postMessage(ask) {
+      asked(ask);
+      void Promise.resolve().then(() => worker.onmessage?.({ data: respond(ask) } as MessageEvent));
+    },
+    terminate: () => undefined,
+  };
+  return worker;
+}

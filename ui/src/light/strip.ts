@@ -1,0 +1,48 @@
+import type { LightRequest } from '../api/types.gen';
+import { writeShow } from '../model/json';
+import { withLayers, type Layer } from '../model/layers';
+import { newFrame, type Pixel, type Show, type Stage } from '../model/show';
+
+/** What a layer does on a floor full of robots, over some seconds. */
+export interface Strip {
+  /** For each moment, red, green and blue of each robot, row by row from the back. */
+  bytes: Uint8Array;
+  robots: number;
+}
+
+/** Robots side by side, and one behind the other. */
+export const STRIP_COLUMNS = 12;
+export const STRIP_ROWS = 8;
+/** 4 s, as often as a slow screen draws. */
+export const STRIP_MOMENTS = { from_s: 0, step_s: 0.05, count: 80 } as const;
+
+/** What the robots show without the layer, and in the next frame. */
+const OWN = 0x7a5a30;
+const NEXT = 0x18a0ff;
+
+/** A show of that layer alone, on robots that stand all over the floor. */
+export function stripRequest(layer: Layer, stage: Stage): LightRequest {
+  const place = (cells: number, nth: number, extent_m: number) =>
+    ((nth + 0.5) / cells - 0.5) * extent_m;
+  const pixels = (color: number): Pixel[] =>
+    Array.from({ length: STRIP_COLUMNS * STRIP_ROWS }, (_, id) => ({
+      id,
+      x: place(STRIP_COLUMNS, id % STRIP_COLUMNS, stage.width_m),
+      y: -place(STRIP_ROWS, Math.floor(id / STRIP_COLUMNS), stage.depth_m),
+      color,
+      robot: null,
+      part: null,
+      group: null,
+    }));
+  const frame = (color: number) => ({ ...newFrame('', pixels(color)), airTime_s: 60 });
+  const show: Show = {
+    name: '',
+    stage: { ...stage, obstacles: [] },
+    identity: 'fixed',
+    music: null,
+    frames: [frame(OWN), frame(NEXT)],
+    rest: {},
+  };
+  const alone = withLayers(show, [{ ...layer, when: { of: 'show' } }]);
+  return { show: writeShow(alone), transitions: [] };
+}
