@@ -194,7 +194,8 @@ mod tests {
 
     #[test]
     fn without_a_plan_robots_stand_on_their_pixels() {
-        let along = r##"{"kind": "gradient", "settings": {"speed_hz": 0, "palette": ["#000000", "#ffffff"]}}"##;
+        let along =
+            r##"{"kind": "gradient", "settings": {"speed_hz": 0, "palette": ["#000000", "#ffffff"]}}"##;
         let light = PlannedLight::new(&format!(r#"{{"show": {}, "transitions": []}}"#, show(along)));
         assert_eq!(light.colours(0.5, 2.0, 3), [0, 0, 0, 255, 255, 255, 255, 255, 255]);
     }
