@@ -1,8 +1,8 @@
 //! The broker's settings over HTTP.
 //!
-//! | request | answer |
-//! |---|---|
-//! | `GET /api/broker` | the `BrokerSettings` |
+//! | request | body | answer |
+//! |---|---|---|
+//! | `GET /api/broker` | | [`BrokerSettings`] |
 //!
 //! The operation `connect` on the WebSocket changes the settings.
 

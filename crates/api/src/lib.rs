@@ -4,7 +4,8 @@
 //! [`ToScreen`] and [`FromScreen`] are the JSON
 //! messages on the WebSocket, [`Robots`] is the binary message there. [`ShowEntry`], [`ShowState`], [`RunEntry`],
 //! [`BrokerSettings`], [`Problem`] and [`Plan`] are bodies of HTTP answers. [`MakeRequest`] and [`MakeAnswer`] go to and
-//! from the module in the browser. After a change run `cargo run -p lightbots-api --example types`.
+//! from the module in the browser. After a change run `cargo run -p lightbots-api --example types` and `--example page`: the
+//! tables of requests in the docs of the modules and the docs of types become docs/api.md.
 //!
 //! ```
 //! use lightbots_api::{FromScreen, Operation};
@@ -13,6 +14,7 @@
 //! assert!(matches!(request.operation, Operation::Preview { frame: 2, .. }));
 //! ```
 
+mod account;
 mod broker;
 mod fleet;
 mod incident;
@@ -27,6 +29,9 @@ mod screen;
 mod state;
 mod typescript;
 
+pub use account::{
+    AccountEntry, AccountRole, Credentials, FirstOperator, MadeToken, NewPerson, PersonChange, Whoami,
+};
 pub use broker::BrokerSettings;
 pub use fleet::{Abilities, Fleet, FleetRow, Presence, RobotStatus};
 pub use incident::{Incident, IncidentTone, Incidents};

@@ -1,26 +1,27 @@
-//! The library of shows over HTTP.
+//! Shows, their files and their plans over HTTP.
 //!
-//! | request | answer |
-//! |---|---|
-//! | `GET /api/shows` | `ShowEntry[]`, by name |
-//! | `GET /api/shows/{name}` | the document (our format) with its `ETag` |
-//! | `GET /api/shows/{name}/file` | the file as the library keeps it: the document, or all of a file that is only partly
-//! understood |
-//! | `PUT /api/shows/{name}` | body: a file of any format. `If-Match: <etag>` replaces that version, `If-None-Match: *`
-//! creates only; 412 and a `Problem` if another client saved first. Answers the `ShowEntry`. A read-only show is
-//! saved as a copy, whose entry has a new name and `copy_of`. A file with unknown fields is kept byte for byte; 403 and
-//! a `Problem` for a show whose file has such fields |
-//! | `DELETE /api/shows/{name}?renamed_to=NAME` | 204; honours `If-Match`; 403 and a `Problem` for a read-only show. The
-//! query may be left out: it names the show that goes on under a new name and gets the earlier states |
-//! | `GET /api/shows/{name}/states` | `ShowState[]`, the newest first; the first is the show as it is |
-//! | `GET /api/shows/{name}/states/{number}` | the document of an earlier state; saving it with `PUT` restores it, and makes
-//! what it replaces an earlier state |
-//! | `GET /api/assets/{hash}` | a file that shows name by its SHA-256 |
-//! | `PUT /api/assets/{hash}` | body: the file; 204, or 422 and a `Problem` if it has another hash |
-//! | `POST /api/check` | body: a file of any format; answers a `Plan` with paths |
-//! | `POST /api/convert?to=FORMAT` | body: a file of any format; answers a file of that format of `FORMATS`, with the files
-//! of the library that it names |
-//! | `GET /api/plan` | the `Plan` of the open show, with paths |
+//! | request | body | answer |
+//! |---|---|---|
+//! | `GET /api/shows` | | list of [`ShowEntry`], by name |
+//! | `GET /api/shows/{name}` | | the document in our own format, with its `ETag` |
+//! | `GET /api/shows/{name}/file` | | the file as the library keeps it: the document, or all of a file that is only
+//! partly understood |
+//! | `PUT /api/shows/{name}` | a file of any format | [`ShowEntry`]. `If-Match: ETAG` replaces that version,
+//! `If-None-Match: *` creates only; 412 if another client saved first. A read-only show is saved as a copy, whose entry has
+//! a new name and `copy_of`. A file with unknown fields is kept byte for byte; 403 for a show whose file has such fields;
+//! 422 for a file that is no show |
+//! | `DELETE /api/shows/{name}?renamed_to=NAME` | | 204; honours `If-Match`; 403 for a read-only show. The query may be
+//! left out: it names the show that goes on under a new name and gets the earlier states |
+//! | `GET /api/shows/{name}/states` | | list of [`ShowState`], the newest first; the first is the show as it is |
+//! | `GET /api/shows/{name}/states/{number}` | | the document of an earlier state; saving it with `PUT` restores it, and
+//! makes what it replaces an earlier state |
+//! | `GET /api/assets/{hash}` | | a file that shows name by its SHA-256 |
+//! | `PUT /api/assets/{hash}` | the file | 204; 422 if it has another hash |
+//! | `POST /api/check` | a file of any format | its [`Plan`](crate::Plan) with paths. A newer request of the same address
+//! ends an older one with 409 |
+//! | `POST /api/convert?to=FORMAT` | a file of any format | a file of that format, with the files of the library that it
+//! names; 422 for a file that is no show |
+//! | `GET /api/plan` | | the [`Plan`](crate::Plan) of the open show, with paths |
 
 use serde::{Deserialize, Serialize};
 use ts_rs::TS;

@@ -1,9 +1,10 @@
 //! Recorded runs over HTTP.
 //!
-//! | request | answer |
-//! |---|---|
-//! | `GET /api/runs` | `RunEntry[]`, the newest first |
-//! | `GET /api/runs/{number}/report` | the report of a run, an HTML page that needs no other file; 409 while it is on |
+//! | request | body | answer |
+//! |---|---|---|
+//! | `GET /api/runs` | | list of [`RunEntry`], the newest first |
+//! | `GET /api/runs/{number}/report` | | the report of a run, an HTML page that needs no other file; 409 while the run is
+//! on, 422 for a run that cannot be read, 503 if the report takes longer than a minute: ask again |
 
 use serde::{Deserialize, Serialize};
 use ts_rs::TS;

@@ -55,7 +55,7 @@ pub struct OpenShow {
     pub etag: Option<String>,
     /// Why the show cannot be saved under its name, for people: its file holds more than the document. null: it can.
     pub read_only: Option<String>,
-    /// The document in our own format (`FORMATS[0]`); null: no show is open.
+    /// The document in the format `lightbots`; null: no show is open.
     #[ts(type = "unknown")]
     pub document: serde_json::Value,
 }

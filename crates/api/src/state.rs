@@ -66,11 +66,11 @@ pub struct Playback {
     pub left_s: Option<f64>,
     /// Why and where the last run failed, a sentence for people; null: no failure since the last start, or dismissed.
     pub failure: Option<String>,
-    /// Index of the frame in which the last run of the show was stopped; null: it was not, or `DismissFailure` was asked.
+    /// Index of the frame in which the last run of the show was stopped; null: it was not, or `dismiss_failure` was asked.
     pub stopped_in: Option<usize>,
-    /// Name of the cue at which the show waits for `Go`; may be empty. Null: it does not wait for it.
+    /// Name of the cue at which the show waits for `go`; may be empty. Null: it does not wait for it.
     pub cue: Option<String>,
-    /// Whether `GoOn` lets a show go on whose robots were out of reach: some report again.
+    /// Whether `go_on` lets a show go on whose robots were out of reach: some report again.
     pub may_go_on: bool,
     /// Speed of drives, percent of the usual one.
     pub speed_percent: u32,

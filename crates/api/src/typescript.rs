@@ -4,12 +4,13 @@ use lightbots_exchange::{FORMATS, Format, MAX_BYTES, Part};
 use ts_rs::{Config, TS};
 
 use crate::{
-    Abilities, Answer, Broker, BrokerPhase, BrokerSettings, Choice, FilmAnswer, FilmPicture, FitAnswer,
-    Fleet, FleetRow, FromScreen, Hello, Incident, IncidentTone, Incidents, Issue, Level, LightAnswer,
-    LightRequest, LogLine, MadePixel, MadeReadability, MakeAnswer, MakeChoices, MakeFile, MakeFont,
-    MakeQuality, MakeRemark, MakeRequest, MakeShape, Missing, OpenShow, Operation, Path, Phase, Plan,
-    PlanAnswer, PlanningRequest, Playback, Presence, Problem, Request, RobotStatus, Robots, RunEntry,
-    RunEntryKind, Severity, ShowEntry, ShowOrigin, ShowState, State, ToScreen, Transition,
+    Abilities, AccountEntry, AccountRole, Answer, Broker, BrokerPhase, BrokerSettings, Choice, Credentials,
+    FilmAnswer, FilmPicture, FirstOperator, FitAnswer, Fleet, FleetRow, FromScreen, Hello, Incident,
+    IncidentTone, Incidents, Issue, Level, LightAnswer, LightRequest, LogLine, MadePixel, MadeReadability,
+    MadeToken, MakeAnswer, MakeChoices, MakeFile, MakeFont, MakeQuality, MakeRemark, MakeRequest, MakeShape,
+    Missing, NewPerson, OpenShow, Operation, Path, PersonChange, Phase, Plan, PlanAnswer, PlanningRequest,
+    Playback, Presence, Problem, Request, RobotStatus, Robots, RunEntry, RunEntryKind, Severity, ShowEntry,
+    ShowOrigin, ShowState, State, ToScreen, Transition, Whoami,
 };
 
 /// The first line of the generated file.
@@ -75,6 +76,14 @@ fn messages() -> String {
         RunEntry,
         RunEntryKind,
         Problem,
+        AccountRole,
+        Whoami,
+        AccountEntry,
+        MadeToken,
+        NewPerson,
+        PersonChange,
+        Credentials,
+        FirstOperator,
     )
 }
 

@@ -1,4 +1,15 @@
-import type { BrokerSettings, FormatName, Plan, RunEntry, ShowEntry, ShowState } from './types.gen';
+import type {
+  AccountEntry,
+  BrokerSettings,
+  FormatName,
+  MadeToken,
+  NewPerson,
+  PersonChange,
+  Plan,
+  RunEntry,
+  ShowEntry,
+  ShowState,
+} from './types.gen';
 
 /** Something the server refused, in its words. */
 export class Refused extends Error {
@@ -101,12 +112,6 @@ export const getAsset = async (hash: string) =>
 export const putAsset = (hash: string, bytes: Uint8Array<ArrayBuffer>) =>
   request(assetPath(hash), { method: 'PUT', body: bytes });
 
-/** A person or a token. */
-export interface AccountEntry {
-  name: string;
-  role: string;
-}
-
 const json = (method: string, body: unknown): RequestInit => ({
   method,
   headers: { 'Content-Type': 'application/json' },
@@ -120,10 +125,9 @@ const accountPath = (kind: 'people' | 'tokens', name: string) =>
 export const listAccounts = async (kind: 'people' | 'tokens') =>
   (await (await request(`/api/${kind}`)).json()) as AccountEntry[];
 
-export const addPerson = (person: AccountEntry & { password: string }) =>
-  request('/api/people', json('POST', person));
+export const addPerson = (person: NewPerson) => request('/api/people', json('POST', person));
 
-export const changePerson = (name: string, change: { role: string } | { password: string }) =>
+export const changePerson = (name: string, change: PersonChange) =>
   request(accountPath('people', name), json('PUT', change));
 
 /** Removes a person or a token: nothing of theirs is admitted from then on. */
@@ -132,4 +136,4 @@ export const removeAccount = (kind: 'people' | 'tokens', name: string) =>
 
 /** Makes a token of a program. It is in this answer only. */
 export const makeToken = async (token: AccountEntry) =>
-  ((await (await request('/api/tokens', json('POST', token))).json()) as { token: string }).token;
+  ((await (await request('/api/tokens', json('POST', token))).json()) as MadeToken).token;

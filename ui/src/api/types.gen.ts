@@ -54,7 +54,7 @@ etag: string | null,
  */
 read_only: string | null, 
 /**
- * The document in our own format (`FORMATS[0]`); null: no show is open.
+ * The document in the format `lightbots`; null: no show is open.
  */
 document: unknown, };
 
@@ -464,15 +464,15 @@ left_s: number | null,
  */
 failure: string | null, 
 /**
- * Index of the frame in which the last run of the show was stopped; null: it was not, or `DismissFailure` was asked.
+ * Index of the frame in which the last run of the show was stopped; null: it was not, or `dismiss_failure` was asked.
  */
 stopped_in: number | null, 
 /**
- * Name of the cue at which the show waits for `Go`; may be empty. Null: it does not wait for it.
+ * Name of the cue at which the show waits for `go`; may be empty. Null: it does not wait for it.
  */
 cue: string | null, 
 /**
- * Whether `GoOn` lets a show go on whose robots were out of reach: some report again.
+ * Whether `go_on` lets a show go on whose robots were out of reach: some report again.
  */
 may_go_on: boolean, 
 /**
@@ -902,6 +902,114 @@ export type Problem = {
  * One line for people: cause and remedy.
  */
 error: string, };
+
+/**
+ * What a person or a program may do. A greater role may do all that a smaller one may.
+ */
+export type AccountRole = "viewer" | "editor" | "operator";
+
+/**
+ * The person or program that a request is of.
+ */
+export type Whoami = { 
+/**
+ * Name of the person or the token; null on loopback, where sign-in is not asked for.
+ */
+name: string | null, 
+/**
+ * The role of the person or the token now.
+ */
+role: AccountRole, };
+
+/**
+ * A person or a token.
+ */
+export type AccountEntry = { 
+/**
+ * Name: 1 to 32 letters, digits and `-` `_` `.`.
+ */
+name: string, 
+/**
+ * What the person or the token may do.
+ */
+role: AccountRole, };
+
+/**
+ * A new token of a program.
+ */
+export type MadeToken = { 
+/**
+ * Name of the token.
+ */
+name: string, 
+/**
+ * What the token may do. It never allows more than its maker may do now.
+ */
+role: AccountRole, 
+/**
+ * The token, for `Authorization: Bearer TOKEN`. The server keeps its hash only.
+ */
+token: string, };
+
+/**
+ * A person to be added.
+ */
+export type NewPerson = { 
+/**
+ * Name: 1 to 32 letters, digits and `-` `_` `.`.
+ */
+name: string, 
+/**
+ * What the person may do.
+ */
+role: AccountRole, 
+/**
+ * Password of the person: at least 8 characters, at most 256 bytes.
+ */
+password: string, };
+
+/**
+ * What changes of a person.
+ */
+export type PersonChange = { 
+/**
+ * The new role; null: as before.
+ */
+role?: AccountRole | null, 
+/**
+ * The new password, which ends the sessions of the person; null: as before.
+ */
+password?: string | null, };
+
+/**
+ * Name and password of a person.
+ */
+export type Credentials = { 
+/**
+ * Name of the person.
+ */
+name: string, 
+/**
+ * Password of the person.
+ */
+password: string, };
+
+/**
+ * The first operator, and the one-time token that the start without people printed.
+ */
+export type FirstOperator = { 
+/**
+ * The one-time token.
+ */
+token: string, 
+/**
+ * Name of the operator: 1 to 32 letters, digits and `-` `_` `.`.
+ */
+name: string, 
+/**
+ * Password of the operator: at least 8 characters, at most 256 bytes.
+ */
+password: string, };
 
 /**
  * A wish for a frame that is made from its source.

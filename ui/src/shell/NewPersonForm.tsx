@@ -1,11 +1,12 @@
 import { Button, PasswordInput, TextInput } from '@mantine/core';
 import { useState } from 'react';
 import { addPerson } from '../api/http';
+import type { NewPerson } from '../api/types.gen';
 import type { Act } from './PersonRow';
 import { RoleSelect } from './RoleSelect';
 import styles from './People.module.css';
 
-const EMPTY = { name: '', role: 'viewer', password: '' };
+const EMPTY: NewPerson = { name: '', role: 'viewer', password: '' };
 
 /** Adds a person. */
 export function NewPersonForm({ act }: { act: Act }) {

@@ -1,6 +1,7 @@
 import { Alert, Button, Code, TextInput } from '@mantine/core';
 import { useState } from 'react';
 import { makeToken } from '../api/http';
+import type { Role } from '../session/roles';
 import type { Act } from './PersonRow';
 import { RoleSelect } from './RoleSelect';
 import styles from './People.module.css';
@@ -8,7 +9,7 @@ import styles from './People.module.css';
 /** Makes a token for a program, and shows it once. */
 export function NewTokenForm({ act }: { act: Act }) {
   const [name, setName] = useState('');
-  const [role, setRole] = useState('viewer');
+  const [role, setRole] = useState<Role>('viewer');
   const [made, setMade] = useState<{ name: string; token: string } | null>(null);
   return (
     <>

@@ -1,6 +1,7 @@
 import { Button, Modal, Tabs, Text } from '@mantine/core';
 import { useCallback, useEffect, useState } from 'react';
-import { listAccounts, removeAccount, type AccountEntry } from '../api/http';
+import { listAccounts, removeAccount } from '../api/http';
+import type { AccountEntry } from '../api/types.gen';
 import { attempt } from '../session/libraryActs';
 import { NewPersonForm } from './NewPersonForm';
 import { NewTokenForm } from './NewTokenForm';

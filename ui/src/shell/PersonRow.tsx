@@ -1,6 +1,7 @@
 import { Button, PasswordInput } from '@mantine/core';
 import { useState } from 'react';
-import { changePerson, removeAccount, type AccountEntry } from '../api/http';
+import { changePerson, removeAccount } from '../api/http';
+import type { AccountEntry } from '../api/types.gen';
 import { RoleSelect } from './RoleSelect';
 import rows from '../parts/rows.module.css';
 import styles from './People.module.css';

@@ -1,12 +1,12 @@
 import { NativeSelect } from '@mantine/core';
-import { ROLES } from '../session/roles';
+import { isRole, ROLES, type Role } from '../session/roles';
 
 interface Props {
   label: string;
   /** Whether the label is seen, or only told by screen readers. */
   isShown?: boolean;
-  role: string;
-  onRole: (role: string) => void;
+  role: Role;
+  onRole: (role: Role) => void;
 }
 
 /** Chooses a role. */
@@ -17,7 +17,9 @@ export function RoleSelect({ label, isShown, role, onRole }: Props) {
       aria-label={isShown ? undefined : label}
       data={ROLES.map((value) => ({ value, label: value }))}
       value={role}
-      onChange={(event) => onRole(event.currentTarget.value)}
+      onChange={({ currentTarget: { value } }) => {
+        if (isRole(value)) onRole(value);
+      }}
     />
   );
 }

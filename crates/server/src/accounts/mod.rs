@@ -10,7 +10,7 @@ use std::fs::OpenOptions;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
-use clap::ValueEnum;
+use lightbots_api::AccountRole;
 use serde::{Deserialize, Serialize};
 
 pub use secret::{Secret, hash_password, is_password};
@@ -30,28 +30,6 @@ const NAME_MAX: usize = 32;
 const PASSWORD_MIN: usize = 8;
 /// Longest password, bytes. Bounds the work of hashing.
 const PASSWORD_MAX: usize = 256;
-
-/// What a person or a program may do. A greater role may do all that a smaller one may.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, ValueEnum)]
-#[serde(rename_all = "lowercase")]
-pub enum AccountRole {
-    /// Watch shows.
-    Viewer,
-    /// Change shows.
-    Editor,
-    /// Run shows.
-    Operator,
-}
-
-impl std::fmt::Display for AccountRole {
-    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        formatter.write_str(match self {
-            Self::Viewer => "viewer",
-            Self::Editor => "editor",
-            Self::Operator => "operator",
-        })
-    }
-}
 
 /// A person with a password.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]

@@ -3,8 +3,8 @@
 use std::path::PathBuf;
 
 use clap::Args;
-
-use crate::accounts::AccountRole;
+use clap::builder::{PossibleValuesParser, TypedValueParser};
+use lightbots_api::AccountRole;
 
 /// `passwd`
 #[derive(Debug, Args)]
@@ -12,9 +12,15 @@ pub struct PasswdArguments {
     /// Name of the person
     pub user: String,
     /// What they may do [default: as before; operator for the first person, viewer for others]
-    #[arg(long, value_name = "ROLE", value_enum)]
+    #[arg(long, value_name = "ROLE", value_parser = roles())]
     pub role: Option<AccountRole>,
     /// Folder of the library, where accounts are kept [default: lightbots in the user's data folder]
     #[arg(long, value_name = "DIR")]
     pub data: Option<PathBuf>,
+}
+
+/// Reads a role; `--help` lists them.
+fn roles() -> impl TypedValueParser<Value = AccountRole> {
+    PossibleValuesParser::new(AccountRole::ALL.map(AccountRole::name))
+        .try_map(|text| text.parse::<AccountRole>())
 }

@@ -2,7 +2,9 @@
 
 use std::io::{BufRead, IsTerminal};
 
-use crate::accounts::{AccountRole, Accounts, Person, check_name, check_password, hash_password};
+use lightbots_api::AccountRole;
+
+use crate::accounts::{Accounts, Person, check_name, check_password, hash_password};
 use crate::cli::PasswdArguments;
 use crate::data_folder::DataFolder;
 use crate::failure::{Failure, Outcome};

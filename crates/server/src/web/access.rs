@@ -1,9 +1,7 @@
 //! Which role may do what. The table in SECURITY.md says the same, and a test tries each of its cells.
 
 use axum::http::Method;
-use lightbots_api::Operation;
-
-use crate::accounts::AccountRole;
+use lightbots_api::{AccountRole, Operation};
 
 /// What a request needs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

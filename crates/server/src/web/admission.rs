@@ -9,13 +9,14 @@ use axum::extract::{MatchedPath, Request, State};
 use axum::http::{HeaderMap, StatusCode, header};
 use axum::middleware::Next;
 use axum::response::{IntoResponse, Response};
+use lightbots_api::AccountRole;
 use tokio::sync::Semaphore;
 
 use super::access::{self, Need};
 use super::refused::{Refused, refuse};
 use super::sign_in_page;
 use crate::accounts::{
-    AccountRole, Accounts, Person, Secret, Sessions, SignInTries, TriesLeft, hash_password, is_password,
+    Accounts, Person, Secret, Sessions, SignInTries, TriesLeft, hash_password, is_password,
 };
 
 /// The cookie of a session.

@@ -5,27 +5,11 @@ use std::sync::Arc;
 use axum::Json;
 use axum::extract::{Path, State};
 use axum::http::StatusCode;
-use serde::Deserialize;
+use lightbots_api::{AccountRole, NewPerson, PersonChange};
 
 use super::admission::Admission;
 use super::refused::{Refused, refuse};
-use crate::accounts::{AccountList, AccountRole, Person, check_name};
-
-/// A person to be added.
-#[derive(Deserialize)]
-pub struct NewPerson {
-    name: String,
-    role: AccountRole,
-    password: String,
-}
-
-/// What changes of a person.
-#[derive(Deserialize)]
-pub struct PersonChange {
-    role: Option<AccountRole>,
-    /// A new password. It ends the sessions of the person.
-    password: Option<String>,
-}
+use crate::accounts::{AccountList, Person, check_name};
 
 /// `POST /api/people`
 pub async fn add(

@@ -7,49 +7,12 @@ use axum::extract::{ConnectInfo, Path, State};
 use axum::http::{StatusCode, header};
 use axum::response::{IntoResponse, Response};
 use axum::{Extension, Json};
-use serde::{Deserialize, Serialize};
+use lightbots_api::{AccountEntry, Credentials, FirstOperator, MadeToken, Whoami};
 
 use super::admission::{Admission, COOKIE, Caller, SignInError, Ticket};
 use super::connection::Ends;
 use super::refused::{Refused, refuse};
-use crate::accounts::{AccountRole, ApiToken, SESSION_LASTS, Secret, TriesLeft, check_name};
-
-/// Name and password.
-#[derive(Deserialize)]
-pub struct Credentials {
-    name: String,
-    password: String,
-}
-
-/// The one-time token of the first start, and the first operator.
-#[derive(Deserialize)]
-pub struct First {
-    token: String,
-    name: String,
-    password: String,
-}
-
-/// The person or program that a request is of.
-#[derive(Debug, Serialize)]
-pub struct Whoami {
-    /// Null on loopback, where sign-in is not asked for.
-    name: Option<String>,
-    role: AccountRole,
-}
-
-/// A person or a token as the operator sees it.
-#[derive(Debug, Serialize)]
-pub struct AccountEntry {
-    name: String,
-    role: AccountRole,
-}
-
-/// A wanted token.
-#[derive(Debug, Deserialize)]
-pub struct WantedToken {
-    name: String,
-    role: AccountRole,
-}
+use crate::accounts::{ApiToken, SESSION_LASTS, Secret, TriesLeft, check_name};
 
 /// `POST /api/session`
 pub async fn sign_in(
@@ -73,7 +36,7 @@ pub async fn sign_in(
 pub async fn first(
     State(admission): State<Arc<Admission>>,
     ConnectInfo(ends): ConnectInfo<Ends>,
-    Json(First { token, name, password }): Json<First>,
+    Json(FirstOperator { token, name, password }): Json<FirstOperator>,
 ) -> Response {
     match admission.begin_first(&token, &name, &password).await {
         Ok(token) => cookie(&token, SESSION_LASTS, ends),
@@ -114,7 +77,7 @@ pub async fn tokens(State(admission): State<Arc<Admission>>) -> Result<Json<Vec<
 pub async fn make_token(
     State(admission): State<Arc<Admission>>,
     Extension(ticket): Extension<Ticket>,
-    Json(WantedToken { name, role }): Json<WantedToken>,
+    Json(AccountEntry { name, role }): Json<AccountEntry>,
 ) -> Result<Response, Refused> {
     check_name(&name).map_err(|line| refuse(StatusCode::UNPROCESSABLE_ENTITY, &line))?;
     let (text, hash) = Secret::fresh().map_err(failed)?;
@@ -130,7 +93,7 @@ pub async fn make_token(
         let line = format!("There is a token {name}: revoke it first, or choose another name.");
         return Err(refuse(StatusCode::CONFLICT, &line));
     }
-    let token = serde_json::json!({ "name": name, "role": role, "token": text });
+    let token = MadeToken { name, role, token: text };
     Ok(([(header::CACHE_CONTROL, "no-store")], Json(token)).into_response())
 }
 

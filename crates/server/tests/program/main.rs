@@ -28,6 +28,7 @@ mod mutations;
 mod original_controller;
 mod original_robot;
 mod plain_mqtt;
+mod python;
 #[cfg(unix)]
 mod rabbitmq;
 mod raw_mqtt;

@@ -38,27 +38,36 @@ fn table() -> Vec<(String, [bool; 4])> {
 
 /// Starts a server on the network with these people; its folder and the server.
 pub fn start(people: &[(&str, &str)]) -> (Child, String, Site) {
+    start_with(people, "0")
+}
+
+/// The same with so many simulated robots.
+pub fn start_with(people: &[(&str, &str)], robots: &str) -> (Child, String, Site) {
     let data = shows::own_folder().to_str().unwrap().to_owned();
     for (name, role) in people {
         let arguments = ["passwd", name, "--role", role, "--data", &data];
         let (code, out, err) = child::run_with_input(&arguments, &format!("password of {name}\n"));
         assert_eq!(code, 0, "{out}{err}");
     }
-    let (child, site) = start_on(&data, &[]);
+    let (child, site) = serve(&data, robots, &[]);
     (child, data, site)
 }
 
 /// Starts a server on the network on a folder. Its own certificate is trusted.
 pub fn start_on(data: &str, more: &[&str]) -> (Child, Site) {
+    serve(data, "0", more)
+}
+
+fn serve(data: &str, robots: &str, more: &[&str]) -> (Child, Site) {
     let network =
-        ["run", "--robots", "0", "--listen", "0.0.0.0:0", "--mqtt-listen", "127.0.0.1:0", "--data", data];
+        ["run", "--robots", robots, "--listen", "0.0.0.0:0", "--mqtt-listen", "127.0.0.1:0", "--data", data];
     let mut server = Child::lightbots(&[&network[..], more].concat());
     let address = server.said("LightBots is at https://");
     let site = Site::secure(&address, &format!("{data}/certs/server.pem"));
     (server, site)
 }
 
-fn sign_in(site: impl Into<Site>, name: &str, password: &str) -> Answer {
+pub fn sign_in(site: impl Into<Site>, name: &str, password: &str) -> Answer {
     let body = json!({"name": name, "password": password}).to_string();
     http::request(site, "POST", "/api/session", &[("Content-Type", "application/json")], &body)
 }
