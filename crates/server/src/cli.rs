@@ -1,5 +1,6 @@
 //! The command line. design: scripts and CI rely on it.
 
+mod backup;
 mod make;
 mod passwd;
 mod replay;
@@ -18,6 +19,7 @@ use lightbots_show::{Identity, SPEED_MIN_PERCENT};
 use crate::logging::Log;
 use crate::numbers::{address, floor, robot, seed};
 
+pub use backup::{BackupArguments, RestoreArguments};
 pub use make::MakeArguments;
 pub use passwd::PasswdArguments;
 pub use replay::ReplayArguments;
@@ -66,6 +68,10 @@ pub enum Command {
     Certs(CertsArguments),
     /// Set or reset a password of the web app; from the terminal, or the first line of the input
     Passwd(PasswdArguments),
+    /// Save the data folder (shows, earlier saves, runs, accounts, certificates) in one file, also while it is in use
+    Backup(BackupArguments),
+    /// Make a data folder of a backup
+    Restore(RestoreArguments),
 }
 
 /// How a show is read.

@@ -34,11 +34,23 @@ pub fn create_folder(folder: &Path) -> io::Result<()> {
 /// Writes a file, all or nothing, and makes its folder where that is missing. After a crash there is the old file or the
 /// new one; after a failure the old one, and no draft.
 pub fn replace(path: &Path, bytes: &[u8], readers: Readers) -> io::Result<()> {
+    replace_with(path, readers, |file| file.write_all(bytes))
+}
+
+/// The same with a function that writes the new file.
+pub fn replace_with<E: From<io::Error>>(
+    path: &Path,
+    readers: Readers,
+    write: impl FnOnce(&mut File) -> Result<(), E>,
+) -> Result<(), E> {
     create_folder(folder_of(path))?;
     let draft = Draft::beside(path);
-    draft.write(bytes, readers)?;
+    let mut file = draft.create(readers)?;
+    write(&mut file)?;
+    file.sync_all()?;
+    drop(file);
     fs::rename(&draft.0, path)?;
-    sync_folder(folder_of(path))
+    Ok(sync_folder(folder_of(path))?)
 }
 
 /// Gives a file another name in the same file system. A file of that name is replaced.
@@ -100,7 +112,7 @@ impl Draft {
         Self(folder_of(path).join(format!(".{name}.{number}{DRAFT}")))
     }
 
-    fn write(&self, bytes: &[u8], readers: Readers) -> io::Result<()> {
+    fn create(&self, readers: Readers) -> io::Result<File> {
         // A draft that a crash left may have other rights.
         let _ = fs::remove_file(&self.0);
         let mut options = OpenOptions::new();
@@ -111,9 +123,7 @@ impl Draft {
         }
         #[cfg(not(unix))]
         let _ = readers;
-        let mut file = options.open(&self.0)?;
-        file.write_all(bytes)?;
-        file.sync_all()
+        options.open(&self.0)
     }
 }
 

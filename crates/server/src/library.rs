@@ -31,7 +31,8 @@ use lightbots_api::{ShowEntry, ShowOrigin, ShowState};
 use lightbots_exchange::{ARCHIVE, Format, LIGHTBOTS, Loaded, hash_of, read, sniff};
 use lightbots_show::{AssetHash, Show};
 
-use crate::{disk, examples};
+use crate::disk::{self, Readers};
+use crate::examples;
 use asset_store::AssetStore;
 use facts::{FileFacts, ListFacts};
 use given::{Given, GivenShows};
@@ -118,7 +119,7 @@ impl Library {
     /// Remembers which show is open, for the next start. A disk that does not want to is no reason to fail.
     pub fn remember(&self, name: &str) {
         let folder = self.files.folder();
-        let kept = disk::create_folder(folder).and_then(|()| std::fs::write(folder.join(OPEN), name));
+        let kept = disk::replace(&folder.join(OPEN), name.as_bytes(), Readers::All);
         if let Err(error) = kept {
             tracing::debug!("the open show is not remembered: {error}");
         }

@@ -5,6 +5,7 @@
 //! server. It decides nothing about shows or robots: the cores do.
 
 mod accounts;
+mod backup;
 mod broker_settings;
 mod cli;
 mod commands;
@@ -85,6 +86,8 @@ async fn run(cli: Cli, stop: Stop) -> i32 {
         Command::Convert(arguments) => stop.at_once(|| commands::convert::run(&arguments)),
         Command::Make(arguments) => stop.at_once(|| commands::make::run(&arguments)),
         Command::Passwd(arguments) => stop.at_once(|| commands::passwd::run(&arguments)),
+        Command::Backup(arguments) => stop.at_once(|| commands::backup::save(&arguments)),
+        Command::Restore(arguments) => stop.at_once(|| commands::backup::restore(&arguments)),
         Command::Certs(arguments) => stop.at_once(|| commands::certs::run(&arguments)),
     };
     match outcome {

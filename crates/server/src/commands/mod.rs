@@ -1,5 +1,6 @@
 //! Commands of the program, one file each.
 
+pub mod backup;
 pub mod broker;
 pub mod certs;
 pub mod check;

@@ -6,6 +6,7 @@
 // What children said is shown when a test fails.
 #![allow(clippy::print_stderr)]
 
+mod backup;
 mod broker_choice;
 mod broker_outages;
 mod certificates;

@@ -1,0 +1,42 @@
+//! The data folder in one file, a zip with a list of its files, and back.
+
+mod paths;
+mod restore;
+mod save;
+
+use std::collections::BTreeMap;
+
+use serde::{Deserialize, Serialize};
+
+pub use restore::restore;
+pub use save::save;
+
+/// The list of files in a backup.
+const LIST: &str = "lightbots-backup.json";
+/// Version of backups that this program writes, and the newest that it reads.
+const VERSION: u32 = 1;
+/// Most files of a backup: ten times those of 200 shows with 50 earlier states each. Bounds the memory for names.
+const FILES_MAX: usize = 100_000;
+
+/// What a backup holds. It is the last file of the zip, because it says what became of the others.
+#[derive(Debug, Serialize, Deserialize)]
+struct BackupList {
+    /// [`VERSION`].
+    lightbots_backup: u32,
+    /// Version of the program that made it.
+    program: String,
+    /// When it was begun, milliseconds since 1970.
+    began_ms: u64,
+    /// The files by their paths in the data folder, with `/` between folders.
+    files: BTreeMap<String, BackupFile>,
+}
+
+/// A file in a backup.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+struct BackupFile {
+    bytes: u64,
+    /// When it was changed, milliseconds since 1970.
+    modified_ms: u64,
+    /// Only its owner may read it.
+    is_private: bool,
+}
