@@ -173,6 +173,9 @@ fn say_open(certificate: Option<&WebCertificate>) {
         certificate.file.display()
     ));
     say::line(&certificate.fingerprint);
+    if let Some(line) = &certificate.key_note {
+        say::note(line);
+    }
     if !certificate.missing.is_empty() {
         let (names, remedy) = (certificate.missing.join(" and "), certificate.remedy());
         say::note(&format!("The certificate is not for {names}; this makes one that is: {remedy}"));

@@ -1,6 +1,7 @@
 //! TLS of the embedded broker and of the web app: what certificates hold, and files that become an acceptor.
 
 mod issue;
+mod key_file;
 
 use std::path::Path;
 use std::sync::Arc;
@@ -13,6 +14,7 @@ use tokio_rustls::rustls::server::WebPkiClientVerifier;
 use tokio_rustls::rustls::{RootCertStore, ServerConfig};
 
 pub use issue::{OWN_NAMES, params, self_signed};
+pub use key_file::keep_private;
 
 /// First byte of a TLS connection: a handshake record, RFC 8446, section 5.1.
 pub const FIRST_BYTE: u8 = 0x16;

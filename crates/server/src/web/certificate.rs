@@ -29,16 +29,22 @@ pub struct WebCertificate {
     pub file: PathBuf,
     /// Names of the server that it does not hold: browsers warn of them.
     pub missing: Vec<String>,
+    /// A line for people if other users of the machine could read its key.
+    pub key_note: Option<String>,
 }
 
 impl WebCertificate {
-    /// The certificate in the data folder, for a server of these names; a new one where none is.
+    /// The certificate in the data folder, for a server of these names; a new one where neither certificate nor key is.
     pub fn take(data: &Path, names: &[String]) -> Result<Self, Failure> {
         let folder = data.join(FOLDER);
         let (file, key) = (folder.join("server.pem"), folder.join("server.key"));
-        if !file.exists() {
-            make(&file, &key, names)?;
+        let is_there = |path: &Path| path.symlink_metadata().is_ok();
+        match (is_there(&file), is_there(&key)) {
+            (false, false) => make(&file, &key, names)?,
+            (false, true) => return Err(without_certificate(&file, &key)),
+            _ => {}
         }
+        let key_note = tls::keep_private(&key);
         let wrong = |why: String| unusable(&folder, &why);
         let mut config = tls::server_config(&file, &key, None).map_err(wrong)?;
         config.alpn_protocols = vec![b"http/1.1".to_vec()];
@@ -47,7 +53,7 @@ impl WebCertificate {
         check_time(&parsed).map_err(|why| wrong(format!("{} {why}", file.display())))?;
         let missing = names.iter().filter(|name| !holds(&parsed, name)).cloned().collect();
         let fingerprint = fingerprint(&certificate);
-        Ok(Self { acceptor: tls::acceptor(config), fingerprint, file, missing })
+        Ok(Self { acceptor: tls::acceptor(config), fingerprint, file, missing, key_note })
     }
 
     /// What makes a certificate that holds the missing names.
@@ -100,6 +106,15 @@ fn holds(certificate: &ParsedCertificate<'_>, name: &str) -> bool {
 fn fingerprint(certificate: &CertificateDer<'_>) -> String {
     let digest = Sha256::digest(certificate);
     digest.iter().map(|byte| format!("{byte:02X}")).collect::<Vec<_>>().join(":")
+}
+
+/// A key without its certificate is never replaced: it may be one that an authority has signed.
+fn without_certificate(file: &Path, key: &Path) -> Failure {
+    let (file, key) = (file.display(), key.display());
+    Failure::input(format!(
+        "the web app has no certificate: {key} is there, and {file} is missing; put the certificate of that key there, \
+         or move the key away, and the next start makes a new pair"
+    ))
 }
 
 fn unusable(folder: &Path, why: &str) -> Failure {
@@ -173,6 +188,15 @@ mod tests {
         }
         std::fs::remove_file(&key).unwrap();
         assert!(take(&data, &[]).err().unwrap().line.contains("server.key"));
+        std::fs::write(&key, b"of an authority").unwrap();
+        std::fs::remove_file(&file).unwrap();
+        let failure = take(&data, &[]).err().unwrap();
+        assert!(
+            failure.code == 2 && failure.line.contains("server.pem is missing; put the certificate"),
+            "{failure:?}"
+        );
+        assert_eq!(std::fs::read(&key).unwrap(), b"of an authority", "the key stays as it is");
+        assert!(!file.exists());
         std::fs::remove_dir_all(data).unwrap();
     }
 
