@@ -1,6 +1,7 @@
 //! People and programs that may use the web app, in one file of the data folder. The file is read anew each time, because
 //! `lightbots passwd` changes it while a server runs.
 
+mod hash_thread;
 mod secret;
 mod sessions;
 mod tries;
@@ -13,6 +14,7 @@ use std::path::{Path, PathBuf};
 use lightbots_api::AccountRole;
 use serde::{Deserialize, Serialize};
 
+pub use hash_thread::HashThread;
 pub use secret::{Secret, hash_password, is_password};
 pub use sessions::{SESSION_LASTS, Sessions};
 pub use tries::{SignInTries, TriesLeft};

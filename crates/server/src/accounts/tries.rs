@@ -8,6 +8,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::net::{IpAddr, Ipv6Addr};
 use std::time::{Duration, Instant};
 
+use super::NAME_MAX;
+
 /// Wrong passwords until a pause.
 pub const TRIES: u32 = 5;
 /// The first pause.
@@ -20,6 +22,12 @@ const FORGOTTEN_AFTER: Duration = Duration::from_secs(2 * 3600);
 const OF_NAME: Bucket = Bucket { most: 20, refill: Duration::from_secs(60) };
 /// Wrong passwords of all names and addresses: at once, and the time for each further one.
 const IN_WHOLE: Bucket = Bucket { most: 60, refill: Duration::from_secs(10) };
+/// Pairs of name and address whose wrong passwords are remembered. Bounds the memory for strangers on this machine, for
+/// whom the buckets do not hold. Above it the pair whose pause ended first is forgotten: to push one out takes as many wrong
+/// passwords, each of which is hashed, and so more time than the first pauses.
+const PAIRS_MAX: usize = 10_000;
+/// Letters of a name that are remembered: one more than a name of a person may have. Bounds the memory for long names.
+const LETTERS_MAX: usize = NAME_MAX + 1;
 /// Addresses that are remembered for the names that signed in there. Above it the first of the set is forgotten.
 const KNOWN_MAX: usize = 1_000;
 
@@ -72,12 +80,12 @@ pub struct SignInTries {
 impl SignInTries {
     /// Whether a password may be tried now; else how long to wait.
     pub fn may_try(&self, name: &str, address: IpAddr, now: Instant) -> Result<(), Duration> {
-        let key = (name.to_owned(), network(address));
+        let key = key(name, address);
         let pause = self
             .pairs
             .get(&key)
             .map_or(Duration::ZERO, |pair| pair.paused_until.saturating_duration_since(now));
-        let name_full_at = self.names.get(name).copied().flatten();
+        let name_full_at = self.names.get(&key.0).copied().flatten();
         let buckets = OF_NAME.wait(name_full_at, now).max(IN_WHOLE.wait(self.whole, now));
         let wait = if self.is_trusted(&key) { pause } else { pause.max(buckets) };
         if wait.is_zero() { Ok(()) } else { Err(wait) }
@@ -87,11 +95,16 @@ impl SignInTries {
     pub fn wrong(&mut self, name: &str, address: IpAddr, now: Instant) -> TriesLeft {
         self.pairs.retain(|_, pair| now < pair.paused_until + FORGOTTEN_AFTER);
         self.names.retain(|_, full_at| full_at.is_some_and(|full| now < full));
-        let key = (name.to_owned(), network(address));
+        let key = key(name, address);
         if !self.is_trusted(&key) {
-            let full_at = self.names.entry(name.to_owned()).or_default();
+            let full_at = self.names.entry(key.0.clone()).or_default();
             *full_at = OF_NAME.spend(*full_at, now);
             self.whole = IN_WHOLE.spend(self.whole, now);
+        }
+        if self.pairs.len() >= PAIRS_MAX && !self.pairs.contains_key(&key) {
+            let first =
+                self.pairs.iter().min_by_key(|(_, pair)| pair.paused_until).map(|(key, _)| key.clone());
+            first.and_then(|first| self.pairs.remove(&first));
         }
         let pair = self.pairs.entry(key).or_insert(Pair { wrong: 0, paused_until: now });
         pair.wrong = pair.wrong.saturating_add(1);
@@ -104,7 +117,7 @@ impl SignInTries {
 
     /// Forgets the wrong passwords of a name from an address where the right one was given.
     pub fn right(&mut self, name: &str, address: IpAddr) {
-        let key = (name.to_owned(), network(address));
+        let key = key(name, address);
         self.pairs.remove(&key);
         self.known.insert(key);
         if self.known.len() > KNOWN_MAX {
@@ -115,6 +128,11 @@ impl SignInTries {
     fn is_trusted(&self, key: &(String, IpAddr)) -> bool {
         key.1.is_loopback() || self.known.contains(key)
     }
+}
+
+/// By what wrong passwords are counted.
+fn key(name: &str, address: IpAddr) -> (String, IpAddr) {
+    (name.chars().take(LETTERS_MAX).collect(), network(address))
 }
 
 /// The address by which a client counts. One machine has a whole /64 of IPv6 addresses.
@@ -220,6 +238,23 @@ mod tests {
         assert_eq!(tries.may_try("ann", own, now), Ok(()));
         assert_eq!(tries.may_try("ann", machine, now), Ok(()));
         assert!(tries.may_try("bob", own, now).is_ok(), "20 guesses at one name leave room in whole");
+    }
+
+    #[test]
+    fn strangers_on_this_machine_fill_no_memory_and_end_no_pause() {
+        let (mut tries, now) = (SignInTries::default(), Instant::now());
+        let machine = IpAddr::from([127, 0, 0, 1]);
+        for _ in 0..TRIES {
+            tries.wrong("ann", machine, now);
+        }
+        for number in 0..2 * PAIRS_MAX {
+            let name = format!("{number}{}", "x".repeat(4000));
+            assert!(tries.may_try(&name, machine, now).is_ok());
+            tries.wrong(&name, machine, now);
+        }
+        assert_eq!(tries.pairs.len(), PAIRS_MAX);
+        assert!(tries.pairs.keys().all(|(name, _)| name.len() <= LETTERS_MAX));
+        assert!(tries.may_try("ann", machine, now).is_err(), "the pause of a name that is guessed at stays");
     }
 
     #[test]

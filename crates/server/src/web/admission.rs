@@ -10,17 +10,18 @@ use axum::http::{HeaderMap, StatusCode, header};
 use axum::middleware::Next;
 use axum::response::{IntoResponse, Response};
 use lightbots_api::AccountRole;
-use tokio::sync::Semaphore;
 
 use super::access::{self, Need};
 use super::refused::{Refused, refuse};
 use super::sign_in_page;
 use crate::accounts::{
-    Accounts, Person, Secret, Sessions, SignInTries, TriesLeft, hash_password, is_password,
+    Accounts, HashThread, Person, Secret, Sessions, SignInTries, TriesLeft, hash_password, is_password,
 };
 
 /// The cookie of a session.
 pub const COOKIE: &str = "lightbots";
+/// What a request is told whose password could not be hashed.
+const HASHING_FAILED: &str = "the server failed at the password: try again, and report its log";
 /// Longest body of a request before sign-in, bytes: name, password and token fit.
 const BODY_MAX: usize = 4 << 10;
 
@@ -65,8 +66,7 @@ pub struct Admission {
     first: Option<Secret>,
     /// A hash that no password has: an unknown name takes as long as a known one.
     unknown_hash: String,
-    /// One password is hashed at a time. Hashing takes 19 MiB and a processor.
-    hashing: Semaphore,
+    hashing: HashThread,
 }
 
 impl Admission {
@@ -83,7 +83,7 @@ impl Admission {
             }
         }
         let (sessions, tries) = (Sessions::default(), Mutex::default());
-        let hashing = Semaphore::new(1);
+        let hashing = HashThread::start()?;
         Ok((Self { is_required, accounts, sessions, tries, first, unknown_hash, hashing }, token))
     }
 
@@ -139,14 +139,14 @@ impl Admission {
     pub async fn sign_in(&self, name: &str, password: &str, address: IpAddr) -> Result<String, SignInError> {
         let failed = |line: String| SignInError::Failed(line);
         // One at a time, so that tries in parallel cannot pass the bound before they are counted.
-        let turn = self.hashing.acquire().await;
-        let _turn = turn.map_err(|error| failed(error.to_string()))?;
+        let turn = self.hashing.turn().await;
         self.tries().may_try(name, address, Instant::now()).map_err(SignInError::Wait)?;
         let person = self.accounts.read().map_err(failed)?.people.remove(name);
         let hash = person.as_ref().map_or(&self.unknown_hash, |person| &person.password).clone();
         let password = password.to_owned();
-        let is_right = tokio::task::spawn_blocking(move || is_password(&password, &hash)).await;
-        match person.filter(|_| is_right.unwrap_or(false)) {
+        let checked = self.hashing.run(turn, move || is_password(&password, &hash)).await;
+        let (is_right, _turn) = checked.ok_or_else(|| failed(HASHING_FAILED.into()))?;
+        match person.filter(|_| is_right) {
             Some(Person { password, .. }) => {
                 self.tries().right(name, address);
                 self.sessions.begin(name, &password, Instant::now()).map_err(failed)
@@ -191,11 +191,11 @@ impl Admission {
     /// The hash of a new password, if it is long enough.
     pub async fn hash(&self, password: &str) -> Result<String, (StatusCode, String)> {
         crate::accounts::check_password(password).map_err(|line| (StatusCode::UNPROCESSABLE_ENTITY, line))?;
-        let _turn = self.hashing.acquire().await;
+        let turn = self.hashing.turn().await;
         let failed = |line: String| (StatusCode::INTERNAL_SERVER_ERROR, line);
         let text = password.to_owned();
-        let hash = tokio::task::spawn_blocking(move || hash_password(&text)).await;
-        hash.map_err(|error| failed(error.to_string()))?.map_err(failed)
+        let hashed = self.hashing.run(turn, move || hash_password(&text)).await;
+        hashed.ok_or_else(|| failed(HASHING_FAILED.into()))?.0.map_err(failed)
     }
 
     fn tries(&self) -> std::sync::MutexGuard<'_, SignInTries> {

@@ -19,6 +19,7 @@ mod crossings;
 mod cues;
 mod example_brokers;
 mod fleet;
+mod guesses;
 mod hostile_clients;
 mod hostile_shows;
 mod http;
