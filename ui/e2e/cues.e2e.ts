@@ -9,6 +9,7 @@ import {
   stored,
   uploadText,
 } from './journeys';
+import { eventually } from './harness';
 import { createTestBed } from './testBed';
 
 const bed = createTestBed('--robots', '6');
@@ -50,4 +51,67 @@ test('a frame waits for GO: set in the editor, given on the live page by key and
     await page.getByText('Playing frame 2 of 2').waitFor();
     await phaseIs(page, 'ready');
   }
+});
+
+/** Three frames of six pixels that stay for a while; the first one waits for GO. */
+function longShow(): string {
+  const show = JSON.parse(smallShow(6, 0.3)) as { frames: Record<string, unknown>[] };
+  const [one, two] = show.frames;
+  const third = { ...one, name: 'Three', air_time_s: 60 };
+  const frames = [{ ...one, id: 'first' }, two, third];
+  const cues = [{ name: 'Curtain', frame: 'first' }];
+  return JSON.stringify({ ...show, lightbots: 2, frames, cues });
+}
+
+test('the list of cues says what is next, goes to a frame after one question, and skips', async () => {
+  const page = await bed.open('live');
+  await uploadText(page, 'list.json', longShow());
+  await page.getByRole('tab', { name: 'Cues' }).click();
+  const list = page.getByRole('list', { name: 'Cues' });
+  await countIs(list.getByRole('listitem'), 3);
+  await list.getByText('0.3 s, GO: Curtain').waitFor();
+  await countIs(list.getByText('goes on by itself'), 2);
+  const head = page.getByTestId('cue-head');
+
+  // Without a show, Go to plays from that frame.
+  await button(page, 'Go to frame 1').click();
+  const dialog = page.getByRole('dialog');
+  await dialog.getByText('Play from frame 1, One?').waitFor();
+  await page.keyboard.press('Enter');
+  await page.getByText('Waiting for GO, frame 1 of 3').waitFor();
+  await head.getByText('1 One').waitFor();
+  await head.getByText('2 Two').waitFor();
+
+  // Skip moves no robot; GO then leads past the skipped frame.
+  await page.keyboard.press('n');
+  await head.getByText('3 Three').waitFor();
+  await page.getByTestId('go-note').getByText('Next: frame 3, Three').waitFor();
+  await phaseIs(page, 'playing');
+  await button(page, 'GO (Enter)').click();
+  await page.getByText('Playing frame 3 of 3').waitFor();
+  await head.getByText('The show ends').waitFor();
+
+  // Robots that drive are not sent elsewhere; robots that stand are, by mouse.
+  const goToTwo = button(page, 'Go to frame 2');
+  await eventually(
+    () => goToTwo.isEnabled(),
+    (isEnabled) => isEnabled,
+    'robots stand in the last frame',
+  );
+  await goToTwo.click();
+  await dialog.getByText('Go to frame 2, Two?').waitFor();
+  await button(page, 'Go there').click();
+  await page.getByText('Playing frame 2 of 3').waitFor();
+  await head.getByText('3 Three').waitFor();
+
+  // By keyboard alone, from a pause on the way.
+  await page.keyboard.press('Space');
+  await phaseIs(page, 'paused');
+  await page.keyboard.press('Home');
+  await page.keyboard.press('j');
+  await dialog.getByText('Go to frame 1, One?').waitFor();
+  await page.keyboard.press('Enter');
+  await page.getByText('Waiting for GO, frame 1 of 3').waitFor();
+  await page.keyboard.press('Escape');
+  await phaseIs(page, 'ready');
 });

@@ -50,6 +50,13 @@ pub enum Operation {
     Step,
     /// GO: leave the frame that waits for it.
     Go,
+    /// Drive to a frame in place of the next one, and play on from there. Only while `Playback.may_jump`.
+    GoTo {
+        /// The frame.
+        frame: usize,
+    },
+    /// Leave out the frame that comes next; no robot moves. Only while `Playback.may_jump`.
+    Skip,
     /// Switch on or off that the show begins again after the last frame.
     Loop {
         /// Whether it begins again.

@@ -58,6 +58,10 @@ pub struct Playback {
     /// Index of the frame that is shown or driven to, counted from 0; null: none, or robots drive to their
     /// starting places.
     pub frame: Option<usize>,
+    /// Index of the frame after `frame`; null: none, the run ends then.
+    pub next: Option<usize>,
+    /// Whether `GoTo` and `Skip` are possible: a show is played, and robots stand or are held.
+    pub may_jump: bool,
     /// Number of frames of the open show.
     pub frames: usize,
     /// Progress of the transition to `frame`, 0 to 1; 1 during the air time.

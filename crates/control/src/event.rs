@@ -116,6 +116,21 @@ pub enum EventKind {
         /// Name of the cue; may be empty.
         name: String,
     },
+    /// The operator sends robots to another frame than the next one.
+    GoesTo {
+        /// Counted from 0.
+        frame: usize,
+    },
+    /// The operator leaves out the next frame.
+    Skipped {
+        /// Counted from 0.
+        frame: usize,
+    },
+    /// There is no path to the frame that the operator chose: the show stays where it is.
+    JumpGivenUp {
+        /// Counted from 0.
+        frame: usize,
+    },
     /// All robots wait for one.
     Waiting {
         /// The robot they wait for.
@@ -251,6 +266,7 @@ impl EventKind {
             | TakenUp { .. }
             | LinkBack { asks_operator: true, .. }
             | Replanning { .. }
+            | JumpGivenUp { .. }
             | Misaligned { .. }
             | UnexpectedArrival(_)
             | RobotRestarted(_)

@@ -1,5 +1,6 @@
 //! What operations of the operator do.
 
+use crate::context::Context;
 use crate::controller::Controller;
 use crate::event::EventKind;
 use crate::home;
@@ -50,6 +51,8 @@ impl Controller {
                 self.context.fleet.admit(&self.context.config);
                 Ok(())
             }
+            Operation::GoTo(frame) => self.go_to(now, frame),
+            Operation::Skip => self.skip(now),
             Operation::Home => self.go_home(now),
             Operation::Speed(percent) => self.set_speed(percent),
             Operation::Pin { pixel, robot } => {
@@ -151,6 +154,7 @@ impl Controller {
             paused: false,
             stepping: false,
             waits_for_go: false,
+            jump: None,
         };
         self.run = Some(Run::begin(&mut self.context, now, playback));
     }
@@ -231,6 +235,36 @@ impl Controller {
         self.linked()?;
         let run = self.run.as_mut().ok_or(Refusal::NoRun)?;
         if run.go_on(&mut self.context, now) { Ok(()) } else { Err(Refusal::NothingToGoOn) }
+    }
+
+    /// The run of a show whose robots stand or are held.
+    fn standing_show(&mut self) -> Result<(&mut Run, &mut Context), Refusal> {
+        self.linked()?;
+        let state = self.state();
+        let run = self.run.as_mut().ok_or(Refusal::NoRun)?;
+        if run.playback.purpose != RunPurpose::Play || state == ControllerState::LinkLost {
+            return Err(Refusal::Busy(state));
+        }
+        if run.may_jump() { Ok((run, &mut self.context)) } else { Err(Refusal::Driving) }
+    }
+
+    fn go_to(&mut self, now: Instant, frame: usize) -> Result<(), Refusal> {
+        let (run, context) = self.standing_show()?;
+        let frames = run.playback.show.frames.len();
+        if frame >= frames {
+            return Err(Refusal::NoSuchFrame { frame, frames });
+        }
+        run.go_to(context, now, frame);
+        Ok(())
+    }
+
+    fn skip(&mut self, now: Instant) -> Result<(), Refusal> {
+        let (run, context) = self.standing_show()?;
+        if run.playback.is_ended() {
+            return Err(Refusal::NothingToSkip);
+        }
+        run.skip(context, now);
+        Ok(())
     }
 
     fn abort(&mut self, now: Instant) -> Result<(), Refusal> {

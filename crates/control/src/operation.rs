@@ -63,6 +63,11 @@ pub enum Operation {
     Home,
     /// Only these robots may take part in runs that begin from now on; `None`: any.
     Admit(Option<BTreeSet<RobotId>>),
+    /// Drive to this frame (counted from 0) in place of the next one, and play on from there. Only while robots stand or are
+    /// held; a pause, and waiting for GO, end with it.
+    GoTo(usize),
+    /// Leave out the frame that comes next. No robot moves: the show goes on as it would have, to the frame after it.
+    Skip,
 }
 
 /// What happens to pixels no robot can show.
@@ -132,6 +137,10 @@ pub enum Refusal {
     Paused,
     /// Robots are not out of reach, or none has reported since.
     NothingToGoOn,
+    /// Robots drive: they are sent to another frame once they stand.
+    Driving,
+    /// No frame comes next.
+    NothingToSkip,
     /// There are not enough robots; [`MissingPolicy::LeaveOut`] plays without the missing ones.
     TooFewRobots {
         /// Most pixels in a frame.
@@ -177,6 +186,8 @@ impl Operation {
             Self::Pin { .. } => "pin",
             Self::GoOn => "go on",
             Self::Admit(_) => "admit robots",
+            Self::GoTo(_) => "go to a frame",
+            Self::Skip => "skip",
         }
     }
 }
@@ -217,6 +228,10 @@ impl fmt::Display for Refusal {
             Self::NothingToGoOn => {
                 write!(f, "The show does not wait for this: it goes on once robots report again.")
             }
+            Self::Driving => {
+                write!(f, "Robots are driving: pause the show, or wait until they stand.")
+            }
+            Self::NothingToSkip => write!(f, "No frame comes next: the show ends."),
             Self::TooFewRobots { pixels, robots, without_place, unfit } => {
                 write!(f, "The show needs {pixels} robots, {robots} can take part")?;
                 if *without_place > 0 {

@@ -40,6 +40,10 @@ pub struct Snapshot {
 pub struct RunView {
     /// The frame that is driven to or stands, counted from 0.
     pub frame: usize,
+    /// The frame after it, counted from 0; `None`: the run ends then.
+    pub next: Option<usize>,
+    /// Whether robots can be sent to another frame, or the next one be skipped: they stand, or are held.
+    pub may_jump: bool,
     /// Robots drive to their starting places; `frame` says nothing then.
     pub home: bool,
     /// What it is doing, for people: `planning`, `uploading routes`, `driving`, `holding`, `showing`, …

@@ -35,6 +35,8 @@ impl Run {
         };
         RunView {
             frame: self.frame(),
+            next: self.next_frame(),
+            may_jump: self.playback.purpose == RunPurpose::Play && self.may_jump(),
             home: self.playback.purpose == RunPurpose::Home,
             doing: self.doing(context),
             progress: self.progress(now),
@@ -70,7 +72,7 @@ impl Run {
             RunPhase::Driving(drive) if drive.clock.hold.is_some() => "holding",
             RunPhase::Driving(_) => "driving",
             RunPhase::Standing(_) if self.playback.waits_for_go => "waiting for GO",
-            RunPhase::Standing(_) if self.pipeline.leg().is_some_and(|leg| leg.reaches_frame) => "showing",
+            RunPhase::Standing(_) if self.is_frame_reached() => "showing",
             RunPhase::Standing(_) if self.pipeline.planning.pending.is_some() => "planning",
             RunPhase::Standing(_) => "uploading routes",
             RunPhase::Over(..) => "over",

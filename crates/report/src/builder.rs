@@ -1,5 +1,6 @@
 //! From a recording to its report.
 
+use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use lightbots_base::{Instant, RobotId, Span};
@@ -46,6 +47,10 @@ pub struct ReportBuilder {
     now: Instant,
     outcome: Option<RunOutcome>,
     frames_played: usize,
+    /// The operator went to another frame than the next one.
+    is_order_changed: bool,
+    /// Frames that stood.
+    shown: BTreeSet<usize>,
     planned_s: f64,
     /// Errors of all frames, metres.
     errors_m: Vec<f64>,
@@ -126,6 +131,10 @@ impl ReportBuilder {
                 self.note_lights(*starts, controller);
             }
             EventKind::Replanning { .. } => self.frames.plan_anew(),
+            EventKind::GoesTo { .. } | EventKind::Skipped { .. } => {
+                self.is_order_changed = true;
+                self.frames.plan_anew();
+            }
             EventKind::FrameReached { frame, wait, .. } => {
                 self.stand(*frame, event.at, controller);
                 self.is_late(*frame, event.at, *wait);
@@ -181,6 +190,7 @@ impl ReportBuilder {
         let began = self.began.unwrap_or(now);
         self.planned_s += self.frames.stand((frame, name), now, began, &errors_m, &mut self.robots) + air_s;
         self.frames_played += 1;
+        self.shown.insert(frame);
         self.errors_m.append(&mut errors_m);
         self.note_lights(now, controller);
     }
@@ -267,7 +277,7 @@ impl ReportBuilder {
             began_unix_ms: note(&replayed, "began_unix_ms").and_then(|text| text.parse().ok()),
             robots: self.taking_part,
             frames: self.frames_wanted(),
-            frames_played: self.frames_played,
+            frames_played: if self.is_order_changed { self.shown.len() } else { self.frames_played },
             planned_s: round(self.planned_s, 3),
             duration_s: since(self.now),
             closest_m: approaches.first().map(|approach| approach.gap_m),

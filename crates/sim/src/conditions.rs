@@ -35,6 +35,8 @@ pub struct Conditions {
     pub crashed: Vec<Outage>,
     /// What else happens, by its time after the first departure.
     pub mishaps: Vec<(Span, Mishap)>,
+    /// Frames, counted from 0, that the operator sends robots to: to the next of them each time a frame stands.
+    pub visits: Vec<usize>,
 }
 
 /// Properties of position fixes.
@@ -130,6 +132,7 @@ impl Default for Conditions {
             gone: Vec::new(),
             crashed: Vec::new(),
             mishaps: Vec::new(),
+            visits: Vec::new(),
         }
     }
 }

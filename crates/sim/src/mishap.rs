@@ -11,6 +11,10 @@ pub enum Mishap {
     Pause,
     /// The operator ends the pause.
     Resume,
+    /// The operator sends robots to a frame, counted from 0.
+    GoTo(usize),
+    /// The operator leaves out the next frame.
+    Skip,
     /// A robot's power fails.
     Off(usize),
     /// A robot's power is back: it begins as if it were new.

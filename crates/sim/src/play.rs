@@ -2,6 +2,7 @@
 
 mod breaking;
 
+use std::collections::VecDeque;
 use std::rc::Rc;
 use std::sync::Arc;
 
@@ -55,6 +56,8 @@ pub(crate) struct Play {
     controllers: u32,
     operator: Operator,
     mishaps: Timetable<Mishap>,
+    /// Frames that the operator has yet to send robots to.
+    visits: VecDeque<usize>,
     /// What must hold after each step of a campaign.
     pub invariants: Option<Box<Invariants>>,
     record: RehearsalRecord,
@@ -92,6 +95,7 @@ impl Play {
             controllers: 0,
             operator: Operator::default(),
             mishaps: Timetable::new(conditions.mishaps.clone()),
+            visits: conditions.visits.iter().copied().collect(),
             invariants: None,
             record: RehearsalRecord::new(starts.len()),
             lights: LightCounts::default(),
@@ -326,6 +330,11 @@ impl Play {
         while let Some(event) = self.controller.next_event() {
             if matches!(event.kind, EventKind::LinkBack { asks_operator: true, .. }) {
                 self.operator.asked(self.now);
+            }
+            if matches!(event.kind, EventKind::FrameReached { .. })
+                && let Some(frame) = self.visits.pop_front()
+            {
+                self.operator.does(self.now, Operation::GoTo(frame));
             }
             if let Some(invariants) = &mut self.invariants {
                 invariants.event(&event, &self.by_id);

@@ -190,6 +190,7 @@ impl RehearsalRecord {
                 }
                 (self.heading_for, self.stood) = (*frame, false);
             }
+            EventKind::GoesTo { .. } | EventKind::Skipped { .. } => self.stood = true,
             EventKind::Replanning { .. } => {
                 self.stood = true;
                 self.replans += usize::from(self.began.is_some());

@@ -448,6 +448,14 @@ doing: string | null,
  */
 frame: number | null, 
 /**
+ * Index of the frame after `frame`; null: none, the run ends then.
+ */
+next: number | null, 
+/**
+ * Whether `GoTo` and `Skip` are possible: a show is played, and robots stand or are held.
+ */
+may_jump: boolean, 
+/**
  * Number of frames of the open show.
  */
 frames: number, 
@@ -659,7 +667,11 @@ frame: number,
 /**
  * What happens if robots are missing.
  */
-missing?: Missing, } | { "do": "pause" } | { "do": "resume" } | { "do": "step" } | { "do": "go" } | { "do": "loop", 
+missing?: Missing, } | { "do": "pause" } | { "do": "resume" } | { "do": "step" } | { "do": "go" } | { "do": "go_to", 
+/**
+ * The frame.
+ */
+frame: number, } | { "do": "skip" } | { "do": "loop", 
 /**
  * Whether it begins again.
  */

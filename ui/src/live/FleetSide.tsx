@@ -2,13 +2,14 @@ import { Badge, Tabs } from '@mantine/core';
 import { useState } from 'react';
 import { useStore } from '../base/store';
 import { useSession } from '../session/session';
+import { CueList } from './CueList';
 import { FleetTable } from './FleetTable';
 import { IncidentCards } from './IncidentCards';
 import { LogList } from './LogList';
 import { ShowFacts } from './ShowFacts';
 import styles from '../parts/page.module.css';
 
-/** Robots, show and log beside the floor. `onPast` shows the past runs. */
+/** Robots, cues, show and log beside the floor. `onPast` shows the past runs. */
 export function FleetSide({ onPast }: { onPast: () => void }) {
   const { live } = useSession();
   const [wide, setWide] = useState(false);
@@ -21,7 +22,7 @@ export function FleetSide({ onPast }: { onPast: () => void }) {
   return (
     <aside
       className={styles.side}
-      aria-label="Fleet, show and log"
+      aria-label="Fleet, cues, show and log"
       data-wide={(wide && tab === 'robots') || undefined}
     >
       <IncidentCards />
@@ -30,6 +31,7 @@ export function FleetSide({ onPast }: { onPast: () => void }) {
           <Tabs.Tab value="robots">
             Robots {robots > 0 ? <span className="quiet">{robots}</span> : null}
           </Tabs.Tab>
+          <Tabs.Tab value="cues">Cues</Tabs.Tab>
           <Tabs.Tab
             value="show"
             rightSection={
@@ -47,6 +49,9 @@ export function FleetSide({ onPast }: { onPast: () => void }) {
         </Tabs.List>
         <Tabs.Panel value="robots">
           <FleetTable wide={wide} onWide={setWide} />
+        </Tabs.Panel>
+        <Tabs.Panel value="cues">
+          <CueList />
         </Tabs.Panel>
         <Tabs.Panel value="show" p="md">
           <ShowFacts />

@@ -8,18 +8,20 @@ export function GoNote() {
   const { live, ask } = useSession();
   const cue = useStore(live.playback, (p) => p.cue);
   const frame = useStore(live.playback, (p) => p.frame);
+  const after = useStore(live.playback, (p) => p.next);
   const isPaused = useStore(live.playback, (p) => p.phase === 'paused');
   const frames = useStore(live.opened, (o) => o.show?.frames);
   if (cue === null || frame === null) return null;
-  const next = frames?.[frame + 1];
-  const after = frame + 2;
+  const next = after === null ? undefined : frames?.[after];
   return (
     <div className={styles.note} role="status" data-testid="go-note">
       <div className={styles.words}>
         <strong>{cue || `Frame ${frame + 1} waits for GO`}</strong>
         <span className="quiet">
           {cue ? `Frame ${frame + 1} waits. ` : ''}
-          {next ? `Next: frame ${after}${next.name ? `, ${next.name}` : ''}` : 'Then the show ends'}
+          {next && after !== null
+            ? `Next: frame ${after + 1}${next.name ? `, ${next.name}` : ''}`
+            : 'Then the show ends'}
         </span>
       </div>
       <Button size="lg" disabled={isPaused} onClick={() => void ask({ do: 'go' })}>

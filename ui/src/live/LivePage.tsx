@@ -6,6 +6,7 @@ import { FleetSide } from './FleetSide';
 import { FrameStrip } from './FrameStrip';
 import { GoNote } from './GoNote';
 import { GoOnNote } from './GoOnNote';
+import { JumpDialog } from './JumpDialog';
 import { LiveStage } from './LiveStage';
 import { RunNote } from './RunNote';
 import { StartDialog } from './StartDialog';
@@ -39,6 +40,7 @@ export function LivePage() {
         <FrameStrip />
       </Bottom>
       <FleetSide onPast={showPast} />
+      <JumpDialog />
       <StartDialog />
       {past ? <RunsDialog onClose={() => setPast(false)} /> : null}
     </main>

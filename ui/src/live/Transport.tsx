@@ -40,6 +40,7 @@ export function Transport() {
   const { live, ask, frame } = session;
   const phase = useStore(live.playback, (p) => p.phase);
   const mayGoOn = useStore(live.playback, (p) => p.may_go_on);
+  const mayJump = useStore(live.playback, (p) => p.may_jump);
   const waitsForGo = useStore(live.playback, (p) => p.cue !== null);
   const looping = useStore(live.playback, (p) => p.looping);
   const chosen = useStore(frame);
@@ -48,7 +49,7 @@ export function Transport() {
   const isWaiting = useStore(session.waiting, (pending) => pending !== null);
   useEffect(() => followPlan(session), [session]);
   const reason = useWhyNot('operator', 'press Play');
-  const actions = actionsOf(phase, linked, hasShow, mayGoOn, waitsForGo);
+  const actions = actionsOf(phase, linked, hasShow, mayGoOn, waitsForGo, mayJump);
   const perform = (action: Action) => {
     if (reason !== null) return;
     if (isWaiting && (action === 'abort' || action === actions.main))
@@ -57,6 +58,7 @@ export function Transport() {
     if (action === 'play') return startPlay(session);
     if (action === 'preview') return driveTo(session, chosen);
     if (action === 'home') return driveTo(session, 'home');
+    if (action === 'jump') return session.jumpAsked.set(chosen);
     void ask(action === 'loop' ? { do: 'loop', on: !looping } : { do: action });
   };
   useTransportKeys(perform, actions.main);

@@ -6,6 +6,8 @@ const playback = (phase: Phase): Playback => ({
   phase,
   doing: null,
   frame: 1,
+  next: 2,
+  may_jump: false,
   frames: 12,
   progress: 0,
   left_s: null,
@@ -20,7 +22,7 @@ const playback = (phase: Phase): Playback => ({
 
 test.each<[Phase, string, string]>([
   ['idle', 'play', 'loop'],
-  ['ready', 'play', 'loop refresh play preview home'],
+  ['ready', 'play', 'loop refresh play preview home jump'],
   ['preparing', 'play', 'loop refresh abort'],
   ['playing', 'pause', 'loop refresh pause abort'],
   ['paused', 'resume', 'loop refresh resume step abort'],
@@ -31,6 +33,11 @@ test.each<[Phase, string, string]>([
   const actions = actionsOf(phase, true, true);
   expect(actions.main).toBe(main);
   expect([...actions.enabled].join(' ')).toBe(enabled);
+});
+
+test('robots that stand are sent to another frame, and the next one is skipped', () => {
+  const { enabled } = actionsOf('playing', true, true, false, false, true);
+  expect(enabled.has('jump') && enabled.has('skip')).toBe(true);
 });
 
 test('without a server nothing works, without a show nothing plays', () => {

@@ -8,6 +8,8 @@ export type Action =
   | 'abort'
   | 'step'
   | 'go'
+  | 'jump'
+  | 'skip'
   | 'preview'
   | 'home'
   | 'loop'
@@ -31,6 +33,7 @@ export function actionsOf(
   hasShow: boolean,
   mayGoOn = false,
   waitsForGo = false,
+  mayJump = false,
 ): Actions {
   const main = MAIN[phase] ?? 'play';
   const enabled = new Set<Action>();
@@ -41,6 +44,8 @@ export function actionsOf(
     for (const a of ['play', 'preview', 'home'] as const) enabled.add(a);
   if (phase === 'playing') enabled.add('pause');
   if (phase === 'playing' && waitsForGo) enabled.add('go');
+  if (mayJump) for (const a of ['jump', 'skip'] as const) enabled.add(a);
+  if (phase === 'ready' && hasShow) enabled.add('jump');
   if (phase === 'paused') for (const a of ['resume', 'step'] as const) enabled.add(a);
   if (phase === 'link_lost' && mayGoOn) enabled.add('go_on');
   if (RUNNING.has(phase)) enabled.add('abort');

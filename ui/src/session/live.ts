@@ -51,6 +51,8 @@ const NO_PLAYBACK: Playback = {
   phase: 'idle',
   doing: null,
   frame: null,
+  next: null,
+  may_jump: false,
   frames: 0,
   progress: 0,
   left_s: null,

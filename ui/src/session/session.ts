@@ -36,6 +36,8 @@ export interface Session {
   fitting: Store<number | null>;
   /** The drive of real robots that waits for a confirmation; null: none. */
   driveAsked: Store<DriveGoal | null>;
+  /** The frame that the operator wants to go to, and that waits for a confirmation; null: none. */
+  jumpAsked: Store<number | null>;
   /** The robot that was looked for last, anew with each search; null: none. */
   found: Store<{ robot: string } | null>;
   /** The role of this person; an operator where sign-in is not asked for. */
@@ -95,6 +97,7 @@ export function createSession(): Session {
     dropped: createStore<Dropped | null>(null),
     fitting: createStore<number | null>(null),
     driveAsked: createStore<DriveGoal | null>(null),
+    jumpAsked: createStore<number | null>(null),
     found: createStore<{ robot: string } | null>(null),
     checking: createStore(false),
     role: followRole(live.link),

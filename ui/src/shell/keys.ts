@@ -15,6 +15,8 @@ export const KEYS: { title: string; keys: [string[], string][] }[] = [
       [['Space'], 'Play, pause, resume'],
       [['Enter', 'Page ↓'], 'GO: leave the frame that waits for it'],
       [['S'], 'Step to the next frame'],
+      [['J'], 'Go to the chosen frame (asks)'],
+      [['N'], 'Skip the next frame'],
       [['P'], 'Drive robots to this frame'],
       [['Esc'], 'Abort'],
       [['L'], 'Loop'],

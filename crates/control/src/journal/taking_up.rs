@@ -90,6 +90,7 @@ impl Run {
             paused: progress.paused,
             stepping: progress.stepping,
             waits_for_go: progress.waits_for_go,
+            jump: None,
         };
         if Mutant::WrongFrameAfterRestart.is_planted() {
             playback.next = playback.after(playback.next).unwrap_or(playback.next);

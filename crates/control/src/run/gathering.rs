@@ -97,6 +97,11 @@ impl Gathering {
         }
     }
 
+    /// The frame that stood is left as soon as robots are ready.
+    pub fn leave_now(&mut self) {
+        self.left.stood = None;
+    }
+
     /// When something is due.
     pub fn due(&self, now: Instant) -> Instant {
         now + CHECK_EVERY

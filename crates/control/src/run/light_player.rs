@@ -8,11 +8,11 @@ use crate::run::light_leg::{LegLight, PlannedStretch};
 use crate::run::path_clock::PathClock;
 use crate::run::playback::{PlayedShow, RunPurpose};
 use crate::run::roster::Roster;
+use crate::run::show_times::ShowTimes;
 use crate::run::upload::Upload;
 use lightbots_base::{Instant, Rgb, Span, TICK};
 use lightbots_lighting::{FrameTimes, ShowLight, is_seen_apart};
 use lightbots_wire::{Command, Route};
-use std::collections::BTreeMap;
 
 /// Duration of a stretch. Shorter: more messages. Longer: more is sent in vain when plans change.
 const STRETCH: Span = Span::from_millis(10_000);
@@ -45,8 +45,8 @@ const COLOURS: Colours = Colours { every: Span::from_millis(250), rate: 200 };
 #[derive(Clone, Debug, Default)]
 pub(crate) struct LightPlayer {
     show: ShowLight,
-    /// Moments of the frames of this round that were begun.
-    times: BTreeMap<usize, FrameTimes>,
+    /// When the frames of this round are.
+    pub times: ShowTimes,
     /// The leg that is driven or was driven last.
     current: Option<LegLight>,
     /// The leg after it.
@@ -107,27 +107,34 @@ impl LightPlayer {
         let current = self.current.as_ref();
         let is_new_round = current.is_some_and(|current| current.frame.1 != leg.round);
         let is_same_frame = current.is_some_and(|current| current.frame == frame);
+        let is_chosen = playback.jump.is_some();
+        if is_new_round {
+            self.times.begun.clear();
+        }
         let show_s = match current {
+            _ if is_chosen => self.times.begin_s(playback, leg.frame) - drive.as_secs(),
             Some(current) if is_same_frame => {
                 let elapsed = if current.reaches_frame { current.seen } else { current.drive };
                 current.moment(elapsed.min(current.drive), Span::ZERO).show_s
             }
             Some(current) if !is_new_round => current.show_s + (current.drive + current.air).as_secs(),
-            _ => begin_s(playback, leg.frame) - drive.as_secs(),
+            _ => self.times.begin_s(playback, leg.frame) - drive.as_secs(),
         };
-        if is_new_round {
-            self.times.clear();
+        if is_chosen {
+            self.times.begin_earlier(playback, leg.frame);
         }
         let waits_for_go = leg.reaches_frame && playback.cue(leg.frame).is_some();
         let air_s = if leg.reaches_frame { show_s + drive.as_secs() } else { f64::INFINITY };
         let end_s = if waits_for_go { f64::INFINITY } else { air_s + air.as_secs() };
-        let known = self.times.get(&leg.frame).filter(|_| is_same_frame);
-        let drive_s = known.map_or(show_s, |times| times.drive_s);
-        self.times.insert(leg.frame, FrameTimes { drive_s, air_s, end_s });
-        let layers = self.show.in_frame(leg.frame, |frame| self.times.get(&frame).copied());
+        let drive_s = match (is_chosen, self.times.begun.get(&leg.frame)) {
+            (true, _) => self.times.drive_begin_s(playback, leg.frame).unwrap_or(show_s),
+            (false, known) => known.filter(|_| is_same_frame).map_or(show_s, |times| times.drive_s),
+        };
+        self.times.begun.insert(leg.frame, FrameTimes { drive_s, air_s, end_s });
+        let layers = self.show.in_frame(leg.frame, |frame| self.times.begun.get(&frame).copied());
         let follows = current.is_some_and(|current| {
             current.frame == (leg.frame.wrapping_sub(1), leg.round) && !current.waits_for_go
-        });
+        }) && !is_chosen;
         let over = if follows && !layers.runs_freely { Span::ZERO } else { BLEND };
         let number = context.number_route();
         let mut light = LegLight {
@@ -367,13 +374,4 @@ impl LightPlayer {
         };
         (0..leg.robots.len().min(roster.len())).map(shown).collect()
     }
-}
-
-/// Show time at which the air time of a frame would begin if all frames before it took as long as the show says, seconds.
-/// Drives without a wanted duration count as nothing.
-fn begin_s(playback: &PlayedShow, frame: usize) -> f64 {
-    let drive_s = |frame: usize| playback.show.frames.get(frame).and_then(|frame| frame.transition_s);
-    let before =
-        (0..frame).map(|earlier| playback.air_time(earlier).as_secs() + drive_s(earlier + 1).unwrap_or(0.0));
-    before.sum()
 }

@@ -252,6 +252,11 @@ impl Run {
             return;
         }
         self.report_replanning(io, now);
+        self.gather_what_moves(io, now);
+    }
+
+    /// Robots that may drive stop and say where they are.
+    pub fn gather_what_moves(&mut self, io: &mut Context, now: Instant) {
         // What robots that know TARGET only said last may be old: they report only when they are asked.
         if !matches!(self.phase, RunPhase::Standing(_)) || self.roster.has_target_robots(io) {
             let left = self.left();
@@ -346,6 +351,7 @@ impl Run {
         match &self.phase {
             RunPhase::Over(_, frame) => *frame,
             RunPhase::Starting(_) => self.playback.shown_frame(),
+            _ if self.playback.jump.is_some() && !self.is_frame_reached() => self.playback.shown_frame(),
             _ => reached.unwrap_or(self.playback.shown_frame()),
         }
     }

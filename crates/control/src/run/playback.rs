@@ -29,6 +29,17 @@ pub(crate) struct FrameCursor {
     pub round: u32,
 }
 
+/// The operator chose the frame that is reached next. This ends when robots leave for it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Jump {
+    /// The frame that would have been next.
+    pub instead_of: FrameCursor,
+    /// The frame that stood waited for GO.
+    pub waited_for_go: bool,
+    /// Robots leave as soon as they can. Otherwise the show waits as it would have.
+    pub leaves: bool,
+}
+
 /// What is played, and where it is.
 #[derive(Clone, Debug)]
 pub(crate) struct PlayedShow {
@@ -48,6 +59,8 @@ pub(crate) struct PlayedShow {
     pub stepping: bool,
     /// The frame that was reached last has a cue, and GO was not given: it is not left.
     pub waits_for_go: bool,
+    /// The operator chose the next frame.
+    pub jump: Option<Jump>,
 }
 
 impl PlayedShow {
@@ -68,6 +81,32 @@ impl PlayedShow {
             Some(next) => self.next = next,
             None => self.next.frame = usize::MAX,
         }
+    }
+
+    /// The operator chooses the frame that is reached next. `leaves`: robots leave for it at once.
+    pub fn choose(&mut self, next: Option<FrameCursor>, leaves: bool) {
+        let begun = Jump { instead_of: self.next, waited_for_go: self.waits_for_go, leaves: false };
+        let jump = self.jump.get_or_insert(begun);
+        jump.leaves |= leaves;
+        self.next = next.unwrap_or(FrameCursor { frame: usize::MAX, ..self.next });
+        if leaves {
+            (self.paused, self.stepping, self.waits_for_go) = (false, false, false);
+        }
+    }
+
+    /// There is no path to the frame that the operator chose: the show waits where it is.
+    pub fn give_up(&mut self, jump: Jump) {
+        self.jump = None;
+        self.next = jump.instead_of;
+        if jump.leaves {
+            self.waits_for_go = jump.waited_for_go;
+            self.paused = !jump.waited_for_go;
+        }
+    }
+
+    /// Whether robots are about to leave for the frame that the operator chose.
+    pub fn leaves(&self) -> bool {
+        self.jump.is_some_and(|jump| jump.leaves)
     }
 
     /// Whether the run stands until the operator says that it goes on.
@@ -134,6 +173,7 @@ mod tests {
             paused: false,
             stepping: false,
             waits_for_go: false,
+            jump: None,
         }
     }
 
@@ -154,6 +194,23 @@ mod tests {
         assert_eq!(preview.standing_time(0), Span::ZERO);
         let play = playback(RunPurpose::Play, false);
         assert_eq!((play.standing_time(0), play.standing_time(1)), (Span::from_secs(1.0), Span::ZERO));
+    }
+
+    #[test]
+    fn a_jump_that_is_given_up_leaves_the_show_as_it_was() {
+        let mut playback = playback(RunPurpose::Play, false);
+        let before = playback.next;
+        playback.waits_for_go = true;
+        playback.choose(None, false);
+        assert!(playback.is_ended() && playback.waits_for_go && !playback.leaves());
+        playback.choose(Some(FrameCursor { frame: 0, round: 0 }), true);
+        assert!(!playback.waits() && playback.leaves());
+        playback.give_up(playback.jump.unwrap());
+        assert_eq!((playback.next, playback.waits_for_go, playback.paused), (before, true, false));
+        playback.waits_for_go = false;
+        playback.choose(Some(FrameCursor { frame: 0, round: 0 }), true);
+        playback.give_up(playback.jump.unwrap());
+        assert_eq!((playback.next, playback.waits_for_go, playback.paused), (before, false, true));
     }
 
     #[test]

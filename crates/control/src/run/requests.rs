@@ -6,7 +6,7 @@ use crate::operation::MissingPolicy;
 use crate::plan_request::{PlanProblem, PlanRequest, PlanResult, PlannedRobot};
 use crate::run::next::Next;
 use crate::run::obstacles;
-use crate::run::playback::{FrameCursor, RunPurpose};
+use crate::run::playback::{FrameCursor, Jump, RunPurpose};
 use crate::run::run_context::RunContext;
 use lightbots_base::Span;
 use std::ops::ControlFlow;
@@ -83,11 +83,11 @@ pub(crate) fn accept(cx: &mut RunContext, result: PlanResult, is_standing: bool)
         }
         cx.tally.recovery.replanned();
     }
-    let PlanResult { legs, frames, dark, failed, mapping, .. } = result;
+    let PlanResult { legs, frames, dark, failed, mapping, stopped, .. } = result;
     (cx.io.mapping.owners, cx.io.mapping.shown) = (mapping.owners, mapping.shown);
     remember_ends(cx, &legs);
     report_dark(cx, &dark);
-    queue_legs(cx, legs);
+    queue_legs(cx, legs, stopped);
     let planned = match cx.playback.purpose {
         RunPurpose::Home => EventKind::PlannedHome,
         _ => EventKind::Planned { frames },
@@ -124,12 +124,18 @@ fn report_dark(cx: &mut RunContext, dark: &[(usize, Vec<u32>)]) {
     }
 }
 
-fn queue_legs(cx: &mut RunContext, legs: Vec<Leg>) {
+fn queue_legs(cx: &mut RunContext, legs: Vec<Leg>, stopped: bool) {
+    let last = cx.pipeline.queue.back().or(cx.pipeline.leg());
+    // Robots that were stopped are not where the drive from the frame before begins.
+    let mut before = last.map(|leg| leg.frame).filter(|_| !stopped);
     let mut takes = Span::ZERO;
     for mut leg in legs {
         leg.seq = cx.io.number_route();
         takes += leg.duration;
         if leg.reaches_frame {
+            if before.replace(leg.frame).is_some_and(|before| before + 1 == leg.frame) {
+                cx.pipeline.light.times.plan_drive(leg.frame, takes);
+            }
             let air = cx.playback.air_time(leg.frame);
             cx.tally.recovery.planned(leg.frame, std::mem::take(&mut takes) + air);
         }
@@ -149,11 +155,28 @@ fn on_failure(
     if cx.pipeline.driven.is_none() && cx.tally.frames_played == 0 {
         return ControlFlow::Break(Next::failed(why));
     }
+    if cx.pipeline.queue.is_empty()
+        && is_standing
+        && let Some(jump) = cx.playback.jump
+    {
+        give_up(cx, jump, frame);
+        return ControlFlow::Continue(Next::Stay);
+    }
     if cx.pipeline.queue.is_empty() && is_standing && obstacles::relax(cx) {
         return ControlFlow::Continue(Next::Regather);
     }
     cx.pipeline.planning.failure = Some(why);
     ControlFlow::Continue(Next::Stay)
+}
+
+/// No path leads to the frame that the operator chose: the one that would have been next is planned again.
+fn give_up(cx: &mut RunContext, jump: Jump, frame: usize) {
+    cx.playback.give_up(jump);
+    cx.io.log.record(cx.now, EventKind::JumpGivenUp { frame });
+    let planning = &mut cx.pipeline.planning;
+    planning.next = (!cx.playback.is_ended()).then_some(cx.playback.next);
+    planning.is_urgent = true;
+    planning.from.clear();
 }
 
 /// Whether recovery has cost too much, or would with this plan: then another is made, or the run ends.

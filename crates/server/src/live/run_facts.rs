@@ -1,7 +1,7 @@
 //! What a list says of a recorded run. It is kept in a small file beside the log, because the log of a long run takes long
 //! to read.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 use lightbots_api::RunEntryKind;
@@ -51,6 +51,10 @@ pub struct RunNotes {
     /// Frames of the show.
     frames: usize,
     frame: usize,
+    /// Frames that stood.
+    shown: BTreeSet<usize>,
+    /// The operator went to another frame than the next one.
+    is_order_changed: bool,
     /// Robots that were lost and are not back.
     lost: BTreeMap<RobotId, Loss>,
 }
@@ -92,9 +96,12 @@ impl RunNotes {
                 };
             }
             EventKind::GoingHome { robots } => (self.report.robots, self.report.frames) = (*robots, 1),
-            EventKind::TransitionStarted { frame, .. } | EventKind::FrameReached { frame, .. } => {
+            EventKind::TransitionStarted { frame, .. } => self.frame = *frame,
+            EventKind::FrameReached { frame, .. } => {
                 self.frame = *frame;
+                self.shown.insert(*frame);
             }
+            EventKind::GoesTo { .. } | EventKind::Skipped { .. } => self.is_order_changed = true,
             EventKind::Dropout { robot, why } => {
                 let name = robot.as_str().to_owned();
                 let loss =
@@ -110,6 +117,8 @@ impl RunNotes {
     }
 
     fn end(&mut self, outcome: &RunOutcome, frames_played: usize) {
+        // A frame that was gone back to is one frame.
+        let frames_played = if self.is_order_changed { self.shown.len() } else { frames_played };
         self.report.frames_played = frames_played;
         self.report.losses = self.lost.values().cloned().collect();
         let is_home = self.facts.kind == RunEntryKind::Home;

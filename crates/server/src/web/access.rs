@@ -46,6 +46,8 @@ pub fn of_operation(operation: &Operation) -> AccountRole {
         | Operation::Resume
         | Operation::Step
         | Operation::Go
+        | Operation::GoTo { .. }
+        | Operation::Skip
         | Operation::Loop { .. }
         | Operation::Speed { .. }
         | Operation::Home

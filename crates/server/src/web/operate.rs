@@ -71,6 +71,8 @@ async fn act(shared: &Shared, operation: api::Operation) -> Result<(), Refused> 
         Wish::Resume => Operation::Resume,
         Wish::Step => Operation::Step,
         Wish::Go => Operation::Go,
+        Wish::GoTo { frame } => Operation::GoTo(frame),
+        Wish::Skip => Operation::Skip,
         Wish::Speed { percent } => Operation::Speed(percent),
         Wish::Loop { on } => Operation::Loop(on),
         Wish::Abort => Operation::Abort,

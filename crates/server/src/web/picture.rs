@@ -187,6 +187,8 @@ impl Painter {
             phase: phase(snapshot.state),
             doing: run.map(|run| run.doing.to_owned()),
             frame: run.filter(|run| !run.home).map(|run| run.frame),
+            next: run.filter(|run| !run.home).and_then(|run| run.next),
+            may_jump: run.is_some_and(|run| run.may_jump),
             frames: self.desk.shown().show.frames.len(),
             progress: rounded(progress, 3),
             left_s: self.left_s(snapshot, is_showing),
@@ -209,7 +211,9 @@ impl Painter {
         let air_s = frames.get(run.frame)?.air_time_s;
         let now_s = if is_showing { air_s } else { run.drive_s };
         let then_s = if is_showing { 0.0 } else { air_s };
-        let rest = frames.iter().zip(&plan.transitions).skip(run.frame + 1);
+        // A show that begins again has no end.
+        let next = run.next.filter(|next| *next > run.frame).unwrap_or(frames.len());
+        let rest = frames.iter().zip(&plan.transitions).skip(next);
         // The plan on the screen is that of the usual speed.
         let slower = 100.0 / f64::from(snapshot.speed_percent.max(1));
         let rest_s: f64 = rest.map(|(frame, way)| frame.air_time_s + way.duration_s * slower).sum();

@@ -171,7 +171,7 @@ impl Invariants {
             Mishap::Person(_) => self.stepped = Some(now),
             Mishap::Floods(robot, _) => self.robots[robot].may_drop_out = true,
             Mishap::DiskFull(_) | Mishap::DiskSlow(..) => self.is_journal_old = true,
-            Mishap::Stop | Mishap::Pause | Mishap::Resume => {}
+            Mishap::Stop | Mishap::Pause | Mishap::Resume | Mishap::GoTo(_) | Mishap::Skip => {}
         }
     }
 
@@ -185,7 +185,8 @@ impl Invariants {
                 }
             }
             EventKind::FrameReached { frame, .. } => self.frame_stands(event.at, *frame),
-            EventKind::PlanFailed { frame, .. } => self.given_up.push(*frame),
+            EventKind::PlanFailed { frame, .. } | EventKind::Skipped { frame } => self.given_up.push(*frame),
+            EventKind::GoesTo { frame } => self.reached = frame.checked_sub(1),
             EventKind::Rejoined(id) => {
                 if let Some(place) = robot(*id) {
                     self.robots[by_id[place].1].out = None;

@@ -122,6 +122,8 @@ impl Play {
                 Mishap::Stop => self.operator.does(self.now, Operation::StopAll),
                 Mishap::Pause => self.operator.does(self.now, Operation::Pause),
                 Mishap::Resume => self.operator.does(self.now, Operation::Resume),
+                Mishap::GoTo(frame) => self.operator.does(self.now, Operation::GoTo(frame)),
+                Mishap::Skip => self.operator.does(self.now, Operation::Skip),
                 Mishap::Off(robot) => self.robots.kill(robot),
                 Mishap::On(robot) => self.robots.restart(self.now, robot),
                 Mishap::Moved(robot, to) => self.robots.put_down(robot, to),

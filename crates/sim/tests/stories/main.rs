@@ -10,6 +10,7 @@ mod fleet;
 mod formations;
 mod gaps;
 mod identities;
+mod jumps;
 mod light;
 mod link_lost;
 mod noise;

@@ -54,6 +54,7 @@ impl Driving {
         cx.pipeline.upload = None;
         cx.pipeline.upload_from = began + BEGUN;
         drive.begin_leg(cx);
+        cx.playback.jump = None;
         let next = cx.pump();
         let next = next.or_else(|| drive.arrive_before_start(cx)).or_else(|| drive.end_leg(cx));
         (drive, next)

@@ -1,0 +1,68 @@
+//! The operator chooses the frame that comes next: robots are planned there from where they stand, as after a dropout.
+
+use crate::context::Context;
+use crate::event::EventKind;
+use crate::run::machine::{Run, RunPhase};
+use crate::run::playback::FrameCursor;
+use lightbots_base::Instant;
+
+impl Run {
+    /// Whether the operator may choose the next frame: robots stand, or are held.
+    pub fn may_jump(&self) -> bool {
+        match &self.phase {
+            RunPhase::Standing(_) | RunPhase::Gathering(_) => true,
+            RunPhase::Starting(_) => self.playback.paused,
+            RunPhase::Driving(drive) => self.playback.paused || drive.clock.is_held(),
+            RunPhase::Interrupted(_) | RunPhase::Over(..) => false,
+        }
+    }
+
+    /// The operator sends robots to a frame: they leave for it as soon as they can.
+    pub fn go_to(&mut self, io: &mut Context, now: Instant, frame: usize) {
+        let round = self.pipeline.leg().map_or(self.playback.next.round, |leg| leg.round);
+        self.playback.choose(Some(FrameCursor { frame, round }), true);
+        match &mut self.phase {
+            RunPhase::Standing(standing) => standing.leave_now(now),
+            RunPhase::Gathering(gathering) => gathering.leave_now(),
+            _ => {}
+        }
+        io.log.record(now, EventKind::GoesTo { frame });
+        self.plan_chosen(io, now);
+    }
+
+    /// The operator leaves out the next frame.
+    pub fn skip(&mut self, io: &mut Context, now: Instant) {
+        let skipped = self.playback.next;
+        self.playback.choose(self.playback.after(skipped), false);
+        io.log.record(now, EventKind::Skipped { frame: skipped.frame });
+        self.plan_chosen(io, now);
+    }
+
+    fn plan_chosen(&mut self, io: &mut Context, now: Instant) {
+        self.pipeline.planning.failure = None;
+        // The frame that recovery made late is not driven to any more.
+        self.tally.recovery.reached(now);
+        self.drop_plans(io);
+        if !matches!(self.phase, RunPhase::Gathering(_)) {
+            self.gather_what_moves(io, now);
+        }
+    }
+
+    /// The frame that comes after the one that is driven to or stands, counted from 0.
+    pub fn next_frame(&self) -> Option<usize> {
+        let next = self.playback.next;
+        let next = if self.is_frame_reached() { Some(next) } else { self.playback.after(next) };
+        next.map(|next| next.frame).filter(|&frame| frame < self.playback.show.frames.len())
+    }
+
+    /// Whether [`frame`](Self::frame) stands; otherwise robots are on their way to it.
+    pub fn is_frame_reached(&self) -> bool {
+        let Some(leg) = self.pipeline.leg().filter(|leg| leg.reaches_frame) else { return false };
+        let towards = self.playback.jump.map_or(self.playback.next, |jump| jump.instead_of);
+        match &self.phase {
+            RunPhase::Starting(_) | RunPhase::Driving(_) | RunPhase::Over(..) => false,
+            // Once a frame is reached, another one is next.
+            _ => !self.playback.leaves() && (leg.frame, leg.round) != (towards.frame, towards.round),
+        }
+    }
+}

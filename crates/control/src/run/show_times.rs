@@ -1,0 +1,53 @@
+//! When frames are on the timeline: the show time at which each is driven to, stands and ends.
+
+use crate::run::playback::PlayedShow;
+use lightbots_base::Span;
+use lightbots_lighting::FrameTimes;
+use std::collections::BTreeMap;
+
+/// When the frames of one round of a show are.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct ShowTimes {
+    /// Moments of the frames that were begun.
+    pub begun: BTreeMap<usize, FrameTimes>,
+    /// `[frame]`: how long the drive there from the frame before was first planned to take.
+    drives: BTreeMap<usize, Span>,
+}
+
+impl ShowTimes {
+    /// The drive to a frame from the one before was planned; later plans change nothing.
+    pub fn plan_drive(&mut self, frame: usize, takes: Span) {
+        self.drives.entry(frame).or_insert(takes);
+    }
+
+    /// Show time at which the air time of a frame begins if all frames before it are played, seconds. It counts from the last
+    /// of them that was begun, by the drives that were planned. A drive without a plan counts as the show says, or as nothing.
+    pub fn begin_s(&self, playback: &PlayedShow, frame: usize) -> f64 {
+        let begun = self.begun.range(..=frame).rev().find(|(_, times)| times.air_s.is_finite());
+        let (first, begun_s) = begun.map_or((0, 0.0), |(&first, times)| (first, times.air_s));
+        let takes_s = |frame: usize| playback.air_time(frame).as_secs() + self.drive_s(playback, frame + 1);
+        begun_s + (first..frame).map(takes_s).sum::<f64>()
+    }
+
+    /// Show time at which the drive to a frame begins if all frames before it are played, seconds; `None`: not known.
+    pub fn drive_begin_s(&self, playback: &PlayedShow, frame: usize) -> Option<f64> {
+        let begun = self.begun.get(&frame).map(|times| times.drive_s);
+        let planned = self.drives.get(&frame).map(|drive| self.begin_s(playback, frame) - drive.as_secs());
+        begun.or(planned)
+    }
+
+    /// Frames that were passed over count as begun, so that layers over several frames began with the first of them.
+    pub fn begin_earlier(&mut self, playback: &PlayedShow, frame: usize) {
+        for earlier in 0..frame {
+            let air_s = self.begin_s(playback, earlier);
+            let drive_s = air_s - self.drive_s(playback, earlier);
+            let end_s = air_s + playback.air_time(earlier).as_secs();
+            self.begun.entry(earlier).or_insert(FrameTimes { drive_s, air_s, end_s });
+        }
+    }
+
+    fn drive_s(&self, playback: &PlayedShow, frame: usize) -> f64 {
+        let wanted = playback.show.frames.get(frame).and_then(|frame| frame.transition_s);
+        self.drives.get(&frame).map_or(wanted.unwrap_or(0.0), |drive| drive.as_secs())
+    }
+}

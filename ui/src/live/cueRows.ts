@@ -1,0 +1,62 @@
+import type { Playback } from '../api/types.gen';
+import { cueOf } from '../model/cues';
+import type { Frame, Show } from '../model/show';
+
+/** A frame in the list of cues. */
+export interface CueRow {
+  key: number;
+  /** Counted from 0. */
+  index: number;
+  name: string;
+  air_s: number;
+  /** Name of the cue at which it waits for GO; may be empty. Null: it goes on by itself. */
+  cue: string | null;
+  /** What the frame is in the show that plays. */
+  place: 'now' | 'next' | null;
+}
+
+/** What is read of the playback. */
+export type CuePlayback = Pick<Playback, 'phase' | 'frame' | 'next'>;
+
+/** Whether a show is played, so that a jump goes on with it; otherwise the show is played from a frame. */
+export const isPlayed = (phase: Playback['phase']) =>
+  phase === 'preparing' || phase === 'playing' || phase === 'paused' || phase === 'link_lost';
+
+/** The frames in playing order. While no show is played, the chosen one is next. */
+export function cueRows(show: Show, playback: CuePlayback, chosen: number): CueRow[] {
+  const plays = isPlayed(playback.phase);
+  const [now, next] = plays ? [playback.frame, playback.next] : [null, chosen];
+  return show.frames.map((frame, index) => ({
+    key: frame.key,
+    index,
+    name: frame.name,
+    air_s: frame.airTime_s,
+    cue: cueOf(show, frame),
+    place: index === now ? 'now' : index === next ? 'next' : null,
+  }));
+}
+
+/** `3 Heart`, `3`; a dash where there is no frame. */
+export function frameText(frames: readonly Frame[], index: number | null): string {
+  const frame = index === null ? undefined : frames[index];
+  if (index === null || !frame) return '–';
+  return frame.name ? `${index + 1} ${frame.name}` : `Frame ${index + 1}`;
+}
+
+/** Why robots cannot be sent to a frame; null: they can. */
+export function whyNoJump(
+  { phase, may_jump }: Pick<Playback, 'phase' | 'may_jump'>,
+  linked: boolean,
+): string | null {
+  if (!linked) return 'There is no connection right now.';
+  if (isPlayed(phase))
+    return may_jump ? null : 'Robots are driving: pause the show, or wait until they stand.';
+  return phase === 'ready' ? null : 'Robots are not ready yet.';
+}
+
+/** The question before robots leave for a frame. */
+export function jumpQuestion(frames: readonly Frame[], index: number, plays: boolean): string {
+  const name = frames[index]?.name;
+  const frame = `frame ${index + 1}${name ? `, ${name}` : ''}`;
+  return plays ? `Go to ${frame}?` : `Play from ${frame}?`;
+}
