@@ -101,6 +101,7 @@ test('the list of cues says what is next, goes to a frame after one question, an
   await goToTwo.click();
   await dialog.getByText('Go to frame 2, Two?').waitFor();
   await button(page, 'Go there').click();
+  await dialog.waitFor({ state: 'hidden' });
   await page.getByText('Playing frame 2 of 3').waitFor();
   await head.getByText('3 Three').waitFor();
 

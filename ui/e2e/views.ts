@@ -100,6 +100,8 @@ const liveViews: View[] = [
       await openShow(page, 'heart');
     },
   },
+  { name: 'live-cues', show: (page) => page.getByRole('tab', { name: 'Cues' }).click() },
+  dialog('go-to-frame', (page) => button(page, 'Go to frame 1').click()),
   { name: 'live-show', show: (page) => page.getByRole('tab', { name: 'Show' }).click() },
   {
     name: 'live-log',

@@ -244,6 +244,25 @@ fn robots_that_die_on_the_way_do_not_keep_the_others_from_the_frame() {
     assert!(world.closest_m >= CONTACT_M);
 }
 
+#[test]
+fn robots_that_know_target_only_go_to_other_frames() {
+    for loss in [0, 5] {
+        let mut world = World::ready(8, 2, waiting(5, 8));
+        let frames = world.controller.show().unwrap().frames.clone();
+        world.play();
+        world.loss = loss;
+        world.run_until(120.0, reached(0));
+        for to in [3, 1, 1, 4, 2] {
+            world.operate(Operation::GoTo(to)).unwrap();
+            world.run_until(120.0, reached(to));
+            world.run_for(1.0);
+            assert_eq!(world.lit(&frames[to]), 8, "frame {to}: {}", world.story());
+        }
+        assert_eq!(stood(&world), [0, 3, 1, 1, 4, 2]);
+        assert!(world.closest_m >= CONTACT_M, "{} m", world.closest_m);
+    }
+}
+
 /// Pulses over the second to the last frame: their moment is that of the second frame.
 fn pulses(robots: usize) -> Show {
     let span = LayerSpan::Frames { first: "f1".into(), last: "f4".into(), phase: Default::default() };
