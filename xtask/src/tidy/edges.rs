@@ -4,7 +4,7 @@ use super::{files, shown};
 use std::path::Path;
 
 /// Crates of this workspace that each crate may use. Tests may use more.
-const EDGES: [(&str, &[&str]); 20] = [
+const EDGES: [(&str, &[&str]); 21] = [
     ("base", &[]),
     ("wire", &["base"]),
     ("show", &["base"]),
@@ -19,6 +19,7 @@ const EDGES: [(&str, &[&str]); 20] = [
     ("sim", &["base", "wire", "show", "plan", "lighting", "robot", "control"]),
     ("report", &["base", "wire", "show", "control"]),
     ("exam", &["base", "wire"]),
+    ("dmx", &["base", "wire"]),
     ("api", &["base", "show", "plan", "exchange"]),
     ("browser", &["base", "show", "plan", "lighting", "exchange", "draw", "make", "api"]),
     ("link", &["base", "wire"]),
@@ -27,7 +28,7 @@ const EDGES: [(&str, &[&str]); 20] = [
     (
         "server",
         &[
-            "base", "wire", "show", "plan", "lighting", "robot", "control", "sim", "exam", "exchange",
+            "base", "wire", "show", "plan", "lighting", "robot", "control", "dmx", "sim", "exam", "exchange",
             "draw", "make", "api", "link", "report",
         ],
     ),

@@ -1,0 +1,167 @@
+//! The robots that are known, with their channels and slots.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use lightbots_base::{Instant, Rgb, RobotId, Span};
+use lightbots_wire::Report;
+
+use crate::patch::{DmxAddress, PatchTable};
+use crate::universe::Universe;
+
+/// Most robots that are remembered: those of the largest fleet. Names beyond are left out.
+const ROBOTS_MAX: usize = 20_000;
+/// Time until a robot that does not report its slot is told again. Below, slow networks carry copies; above, a robot that
+/// was switched on stays dark for longer.
+const AGAIN: Span = Span::from_millis(1_000);
+/// A robot that reports nothing for this long is told nothing: robots report every 2 s (R41).
+const GONE: Span = Span::from_millis(10_000);
+/// Most robots that are told their slots at once. More would delay other messages.
+const TOLD_AT_ONCE: usize = 50;
+/// Number of messages with which a robot is released: with 5 % of messages lost, one robot of 8,000 receives none of three,
+/// and shows its own light 2.5 s later (R61).
+const RELEASES: u8 = 3;
+
+/// A robot as a lighting desk sees it.
+#[derive(Debug)]
+struct Fixture {
+    id: RobotId,
+    /// Whether it understands live light.
+    knows_live: bool,
+    /// The slot that it reported last.
+    reported: Option<u16>,
+    heard: Instant,
+    told: Option<Instant>,
+    address: Option<DmxAddress>,
+    /// The colour from the desk; `None`: the robot shows its own light.
+    colour: Option<Rgb>,
+    /// Number of messages that will release it.
+    releases: u8,
+}
+
+/// All robots that were heard. A robot's slot is its place in the order in which they came.
+#[derive(Debug, Default)]
+pub(crate) struct Fixtures {
+    by_slot: Vec<Fixture>,
+    by_name: BTreeMap<RobotId, u16>,
+    /// Robots came since the channels were given out.
+    are_new: bool,
+}
+
+impl Fixtures {
+    /// A robot reported.
+    pub fn receive(&mut self, now: Instant, report: &Report) {
+        let details = report.details.as_ref();
+        let knows_live = details.is_some_and(|details| details.abilities.live);
+        let slot = match self.by_name.get(&report.id) {
+            Some(&slot) => slot,
+            None if self.by_slot.len() < ROBOTS_MAX => self.add(now, report.id),
+            None => return,
+        };
+        let fixture = &mut self.by_slot[usize::from(slot)];
+        fixture.heard = now;
+        if details.is_some() {
+            (fixture.knows_live, fixture.reported) = (knows_live, details.and_then(|details| details.slot));
+        }
+    }
+
+    fn add(&mut self, now: Instant, id: RobotId) -> u16 {
+        let slot = self.by_slot.len() as u16;
+        self.by_name.insert(id, slot);
+        self.by_slot.push(Fixture {
+            id,
+            knows_live: false,
+            reported: None,
+            heard: now,
+            told: None,
+            address: None,
+            colour: None,
+            releases: 0,
+        });
+        self.are_new = true;
+        slot
+    }
+
+    /// Number of robots.
+    pub fn len(&self) -> usize {
+        self.by_slot.len()
+    }
+
+    /// Gives channels to all robots, if robots came: the universes that they need.
+    pub fn patch(&mut self, table: &PatchTable) -> Option<BTreeSet<u16>> {
+        if !std::mem::take(&mut self.are_new) {
+            return None;
+        }
+        for (number, (&id, &slot)) in (0..).zip(&self.by_name) {
+            self.by_slot[usize::from(slot)].address = table.address(id, number);
+        }
+        Some(self.by_slot.iter().filter_map(|fixture| fixture.address).map(|at| at.universe).collect())
+    }
+
+    /// Robots to be told their slots now.
+    pub fn next_slots(&mut self, now: Instant) -> Vec<(RobotId, u16)> {
+        let due = (0u16..).zip(&mut self.by_slot).filter(|(slot, fixture)| {
+            let was_told = fixture.told.is_some_and(|told| now - told < AGAIN);
+            fixture.needs_slot(*slot, now) && !was_told
+        });
+        due.take(TOLD_AT_ONCE)
+            .map(|(slot, fixture)| {
+                fixture.told = Some(now);
+                (fixture.id, slot)
+            })
+            .collect()
+    }
+
+    /// Whether robots wait for channels or slots.
+    pub fn need_something(&self, now: Instant) -> bool {
+        self.are_new || (0u16..).zip(&self.by_slot).any(|(slot, fixture)| fixture.needs_slot(slot, now))
+    }
+
+    /// Takes the colours of the universes; whether any has changed.
+    pub fn take_colours(&mut self, universes: &BTreeMap<u16, Universe>) -> bool {
+        let mut has_changed = false;
+        for (slot, fixture) in (0u16..).zip(&mut self.by_slot) {
+            let address = fixture.address.filter(|_| fixture.is_ready(slot));
+            let universe = address.and_then(|address| Some((universes.get(&address.universe)?, address)));
+            let colour = universe.and_then(|(universe, address)| universe.colour(address.channel));
+            if colour != fixture.colour {
+                fixture.releases = if colour.is_none() { RELEASES } else { 0 };
+                fixture.colour = colour;
+                has_changed = true;
+            }
+        }
+        has_changed
+    }
+
+    /// Colours from the desk, by slot.
+    pub fn colours(&self) -> impl Iterator<Item = (u16, Rgb)> {
+        (0u16..).zip(&self.by_slot).filter_map(|(slot, fixture)| Some((slot, fixture.colour?)))
+    }
+
+    /// Colours from the desk, by robot.
+    pub fn lights(&self) -> impl Iterator<Item = (RobotId, Rgb)> {
+        self.by_slot.iter().filter_map(|fixture| Some((fixture.id, fixture.colour?)))
+    }
+
+    /// Slots of robots that are released.
+    pub fn released(&self) -> impl Iterator<Item = u16> {
+        (0u16..).zip(&self.by_slot).filter(|(_, fixture)| fixture.releases > 0).map(|(slot, _)| slot)
+    }
+
+    /// A message was sent that releases robots.
+    pub fn note_release(&mut self) {
+        for fixture in &mut self.by_slot {
+            fixture.releases = fixture.releases.saturating_sub(1);
+        }
+    }
+}
+
+impl Fixture {
+    /// Whether it would show colours for a slot.
+    fn is_ready(&self, slot: u16) -> bool {
+        self.knows_live && self.reported == Some(slot)
+    }
+
+    fn needs_slot(&self, slot: u16, now: Instant) -> bool {
+        self.knows_live && self.address.is_some() && self.reported != Some(slot) && now - self.heard < GONE
+    }
+}

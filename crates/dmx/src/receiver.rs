@@ -1,0 +1,235 @@
+//! Packets of desks and reports of robots in, messages of live light out.
+
+use std::collections::{BTreeMap, VecDeque};
+
+use lightbots_base::{Instant, Rgb, RobotId, Span};
+use lightbots_wire::{Command, Report, Topic, encode};
+
+use crate::fixtures::Fixtures;
+use crate::messages::write_moment;
+use crate::packet::DmxPacket;
+use crate::patch::PatchTable;
+use crate::universe::{Taken, Universe};
+
+/// Shortest time between two moments of live light, and what each robot adds: 20 a second for few robots, 10 from 1,000
+/// robots on. Each robot receives the colours of all, four bytes each: with 1,000 robots 40 KB a second.
+const PERIOD: Span = Span::from_millis(50);
+/// As `PERIOD`.
+const PERIOD_PER_ROBOT: Span = Span(50);
+/// As `PERIOD`.
+const PERIOD_MAX: Span = Span::from_millis(100);
+/// Colours that stay the same are sent again after this: robots go dark after 2.5 s (R61), so five messages may be lost.
+const AGAIN: Span = Span::from_millis(500);
+/// Number of times that colours are sent again at once, for robots that lost them.
+const REPEATS: u32 = 2;
+
+/// People are told the number of robots once it has not changed for this long, because robots come one by one.
+const SETTLED: Span = Span::from_millis(1_000);
+
+/// A message to publish at QoS 0, not retained.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct LivePublish {
+    /// Topic.
+    pub topic: Topic,
+    /// UTF-8 text.
+    pub payload: Vec<u8>,
+}
+
+/// What people are told.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum DeskNews {
+    /// A desk took over the lights of robots; said once their number has settled.
+    Began {
+        /// Number of these robots.
+        robots: usize,
+    },
+    /// All robots show their own lights again.
+    Ended,
+    /// A desk sends a universe without robots; said once.
+    Unpatched {
+        /// Its number.
+        universe: u16,
+    },
+}
+
+/// Packets with values, since the start.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct PacketCounts {
+    /// Those that hold the newest values of a source.
+    pub newest: u64,
+    /// Those that were overtaken by others.
+    pub old: u64,
+    /// Those for universes without robots, since robots are there.
+    pub unpatched: u64,
+    /// Those of more sources than a universe may have.
+    pub crowded: u64,
+}
+
+/// Receives what lighting desks send. Ways in: [`packet`](Self::packet), [`report`](Self::report), [`wake`](Self::wake),
+/// each with `now`, which never goes back. After each of them wake it at [`wake_at`](Self::wake_at), and then drain
+/// [`next_publish`](Self::next_publish) and [`next_news`](Self::next_news).
+///
+/// A desk has the light of the robots whose three channels it sends, and the show has that of all others.
+#[derive(Debug)]
+pub struct DeskReceiver {
+    patch: PatchTable,
+    /// Universes with robots. Others are not kept.
+    universes: BTreeMap<u16, Universe>,
+    fixtures: Fixtures,
+    /// Number of the next moment.
+    number: u32,
+    /// When the next moment may be sent.
+    moment_at: Instant,
+    /// When colours were sent last.
+    sent_at: Instant,
+    /// Number of times that the colours are sent again at once.
+    repeats: u32,
+    is_lit: bool,
+    /// Number of robots that show colours of a desk, and since when it is that.
+    counted: (usize, Instant),
+    /// People were told that a desk took over lights.
+    is_told: bool,
+    publishes: VecDeque<LivePublish>,
+    news: VecDeque<DeskNews>,
+    counts: PacketCounts,
+}
+
+impl DeskReceiver {
+    /// A receiver that knows no robot yet. `number`: of the first moment of live light, higher than any before.
+    pub fn new(patch: PatchTable, number: u32) -> Self {
+        Self {
+            patch,
+            universes: BTreeMap::new(),
+            fixtures: Fixtures::default(),
+            number,
+            moment_at: Instant::ZERO,
+            sent_at: Instant::ZERO,
+            repeats: 0,
+            is_lit: false,
+            counted: (0, Instant::ZERO),
+            is_told: false,
+            publishes: VecDeque::new(),
+            news: VecDeque::new(),
+            counts: PacketCounts::default(),
+        }
+    }
+
+    /// Values of a universe came.
+    pub fn packet(&mut self, now: Instant, packet: DmxPacket) {
+        self.give_channels();
+        let Some(universe) = self.universes.get_mut(&packet.universe) else {
+            if self.counts.unpatched == 0 && self.fixtures.len() > 0 {
+                self.news.push_back(DeskNews::Unpatched { universe: packet.universe });
+            }
+            self.counts.unpatched += u64::from(self.fixtures.len() > 0);
+            return;
+        };
+        let count = match universe.receive(now, packet) {
+            Taken::Newest => &mut self.counts.newest,
+            Taken::Old => &mut self.counts.old,
+            Taken::Crowded => &mut self.counts.crowded,
+        };
+        *count += 1;
+    }
+
+    /// A robot reported.
+    pub fn report(&mut self, now: Instant, report: &Report) {
+        self.fixtures.receive(now, report);
+    }
+
+    /// Time passed.
+    pub fn wake(&mut self, now: Instant) {
+        if now < self.moment_at {
+            return;
+        }
+        let period = PERIOD + PERIOD_PER_ROBOT * self.fixtures.len() as i64;
+        self.moment_at = now + period.min(PERIOD_MAX);
+        self.give_channels();
+        self.universes.values_mut().for_each(|universe| universe.expire(now));
+        for (robot, slot) in self.fixtures.next_slots(now) {
+            let mut text = String::new();
+            // A text takes all bytes.
+            let _ = encode(&Command::Slot(slot), &mut text);
+            self.publishes.push_back(LivePublish { topic: Topic::Robot(robot), payload: text.into_bytes() });
+        }
+        if self.fixtures.take_colours(&self.universes) {
+            self.repeats = REPEATS + 1;
+        }
+        self.send(now);
+        self.tell(now);
+    }
+
+    /// When to call [`wake`](Self::wake) next; `None`: after the next packet or report.
+    pub fn wake_at(&self, now: Instant) -> Option<Instant> {
+        let is_lit = self.is_lit || self.universes.values().any(Universe::is_lit);
+        let is_released = self.fixtures.released().next().is_some();
+        let is_busy = is_lit || is_released || self.fixtures.need_something(now);
+        is_busy.then_some(self.moment_at)
+    }
+
+    /// The next message to publish.
+    pub fn next_publish(&mut self) -> Option<LivePublish> {
+        self.publishes.pop_front()
+    }
+
+    /// What people are told next.
+    pub fn next_news(&mut self) -> Option<DeskNews> {
+        self.news.pop_front()
+    }
+
+    /// The colours that robots show for a desk.
+    pub fn lights(&self) -> impl Iterator<Item = (RobotId, Rgb)> {
+        self.fixtures.lights()
+    }
+
+    /// Universes with robots, in order.
+    pub fn universes(&self) -> impl Iterator<Item = u16> {
+        self.universes.keys().copied()
+    }
+
+    /// Number of packets.
+    pub fn counts(&self) -> PacketCounts {
+        self.counts
+    }
+
+    /// Gives channels to robots that came, and keeps the universes that have some.
+    fn give_channels(&mut self) {
+        let Some(needed) = self.fixtures.patch(&self.patch) else { return };
+        self.universes.retain(|universe, _| needed.contains(universe));
+        for universe in needed {
+            self.universes.entry(universe).or_default();
+        }
+    }
+
+    /// Sends a moment if something has changed or is due again.
+    fn send(&mut self, now: Instant) {
+        let is_lit = self.fixtures.colours().next().is_some();
+        let is_due = is_lit && (self.repeats > 0 || now - self.sent_at >= AGAIN);
+        if !is_due && self.fixtures.released().next().is_none() {
+            return;
+        }
+        self.repeats = self.repeats.saturating_sub(1);
+        self.sent_at = now;
+        for payload in write_moment(self.number, self.fixtures.colours(), self.fixtures.released()) {
+            self.publishes.push_back(LivePublish { topic: Topic::Broadcast, payload });
+        }
+        self.number = self.number.checked_add(1).unwrap_or(1);
+        self.fixtures.note_release();
+    }
+
+    fn tell(&mut self, now: Instant) {
+        let robots = self.fixtures.colours().count();
+        self.is_lit = robots > 0;
+        if robots != self.counted.0 {
+            self.counted = (robots, now);
+        }
+        let is_settled = now - self.counted.1 >= SETTLED;
+        if self.is_lit && !self.is_told && is_settled {
+            self.is_told = true;
+            self.news.push_back(DeskNews::Began { robots });
+        } else if !self.is_lit && self.is_told {
+            self.is_told = false;
+            self.news.push_back(DeskNews::Ended);
+        }
+    }
+}

@@ -1,0 +1,145 @@
+//! sACN: data packets of ANSI E1.31-2018.
+//!
+//! The places of all fields are fixed (table 4-1), so they are read here. The parser of the crate `sacn` 0.11.1 panics on
+//! lengths that do not fit; tests use its writer.
+
+use crate::packet::{CHANNELS, DmxPacket, DmxSource};
+
+/// Preamble, postamble and the identifier of ACN packets.
+const ROOT: [u8; 16] = *b"\x00\x10\x00\x00ASC-E1.17\x00\x00\x00";
+/// Fields of data packets that have one value: place and bytes.
+const FIXED: [(usize, &[u8]); 6] = [
+    (18, &[0, 0, 0, 4]),  // root layer: VECTOR_ROOT_E131_DATA
+    (40, &[0, 0, 0, 2]),  // framing layer: VECTOR_E131_DATA_PACKET
+    (117, &[2]),          // DMP layer: VECTOR_DMP_SET_PROPERTY
+    (118, &[0xa1]),       // address type and data type
+    (119, &[0, 0, 0, 1]), // first property address, address increment
+    (125, &[0]),          // start code of DMX512-A: values of channels
+];
+/// Places of the flags, four bits before each length.
+const FLAGS: [usize; 3] = [16, 38, 115];
+/// Place of the source's identifier.
+const CID: usize = 22;
+/// Place of the priority.
+const PRIORITY: usize = 108;
+/// Highest priority (6.2.3).
+const PRIORITY_MAX: u8 = 200;
+/// Place of the sequence number.
+const SEQUENCE: usize = 111;
+/// Place of the options.
+const OPTIONS: usize = 112;
+/// Option: the values are for a preview, not for lamps (6.2.6).
+const PREVIEW: u8 = 0x80;
+/// Option: the source sends no more (6.2.6).
+const TERMINATED: u8 = 0x40;
+/// Place of the universe.
+const UNIVERSE: usize = 113;
+/// Highest number of a universe (6.2.7).
+const UNIVERSE_MAX: u16 = 63_999;
+/// Place of the number of values, the start code included.
+const COUNT: usize = 123;
+/// Place of the value of channel 1.
+const VALUES: usize = 126;
+
+/// Reads the payload of a UDP packet; `None`: it carries no values for lamps.
+pub fn decode_sacn(bytes: &[u8]) -> Option<DmxPacket> {
+    let header: &[u8; VALUES] = bytes.first_chunk()?;
+    let has_flags = FLAGS.iter().all(|&at| header[at] >> 4 == 7);
+    let is_data = FIXED.iter().all(|&(at, value)| header[at..].starts_with(value));
+    if !header.starts_with(&ROOT) || !has_flags || !is_data || header[OPTIONS] & PREVIEW != 0 {
+        return None;
+    }
+    let whole = |at: usize| u16::from_be_bytes([header[at], header[at + 1]]);
+    let channels = usize::from(whole(COUNT)).checked_sub(1).filter(|&count| count <= CHANNELS)?;
+    let mut source = [0; 16];
+    source.copy_from_slice(&header[CID..CID + 16]);
+    let packet = DmxPacket {
+        source: DmxSource::Sacn(source),
+        priority: header[PRIORITY],
+        universe: whole(UNIVERSE),
+        sequence: Some(header[SEQUENCE]),
+        ends: header[OPTIONS] & TERMINATED != 0,
+        values: bytes.get(VALUES..VALUES + channels)?.to_vec(),
+    };
+    let is_valid = packet.priority <= PRIORITY_MAX && (1..=UNIVERSE_MAX).contains(&packet.universe);
+    is_valid.then_some(packet)
+}
+
+#[cfg(test)]
+mod tests {
+    use sacn::packet::{
+        AcnRootLayerProtocol, DataPacketDmpLayer, DataPacketFramingLayer, E131RootLayer, E131RootLayerData,
+    };
+
+    use super::*;
+
+    fn framing(values: Vec<u8>) -> DataPacketFramingLayer<'static> {
+        DataPacketFramingLayer {
+            source_name: "desk".into(),
+            priority: 120,
+            synchronization_address: 0,
+            sequence_number: 9,
+            preview_data: false,
+            stream_terminated: false,
+            force_synchronization: false,
+            universe: 258,
+            data: DataPacketDmpLayer { property_values: values.into() },
+        }
+    }
+
+    fn written(framing: DataPacketFramingLayer<'_>) -> Vec<u8> {
+        let data = E131RootLayerData::DataPacket(framing);
+        AcnRootLayerProtocol { pdu: E131RootLayer { cid: uuid::Uuid::from_u128(7), data } }
+            .pack_alloc()
+            .unwrap()
+    }
+
+    /// A start code and values.
+    fn values(channels: usize) -> Vec<u8> {
+        (0..=channels).map(|channel| channel as u8).collect()
+    }
+
+    #[test]
+    fn another_programs_packets_are_read() {
+        for channels in [0, 1, 24, 510, 512] {
+            let read = decode_sacn(&written(framing(values(channels)))).unwrap();
+            let mut cid = [0; 16];
+            cid[15] = 7;
+            assert_eq!(read.source, DmxSource::Sacn(cid));
+            assert_eq!((read.priority, read.universe, read.sequence, read.ends), (120, 258, Some(9), false));
+            assert_eq!(read.values, values(channels)[1..]);
+        }
+        let last = DataPacketFramingLayer { stream_terminated: true, ..framing(values(3)) };
+        assert!(decode_sacn(&written(last)).unwrap().ends);
+    }
+
+    #[test]
+    fn what_is_not_for_lamps_is_left_out() {
+        let preview = DataPacketFramingLayer { preview_data: true, ..framing(values(3)) };
+        assert_eq!(decode_sacn(&written(preview)), None);
+        let mut other_start_code = values(3);
+        other_start_code[0] = 0xdd;
+        assert_eq!(decode_sacn(&written(framing(other_start_code))), None);
+        let urgent = DataPacketFramingLayer { priority: 201, ..framing(values(3)) };
+        assert_eq!(decode_sacn(&written(urgent)), None);
+        let mut nowhere = written(framing(values(3)));
+        nowhere[UNIVERSE..UNIVERSE + 2].copy_from_slice(&[0, 0]);
+        assert_eq!(decode_sacn(&nowhere), None);
+    }
+
+    #[test]
+    fn every_cut_is_refused_and_no_changed_byte_reads_beyond_the_end() {
+        let good = written(framing(values(3)));
+        for cut in 0..good.len() {
+            assert_eq!(decode_sacn(&good[..cut]), None, "cut at {cut}");
+        }
+        for at in 0..good.len() {
+            for byte in 0..=u8::MAX {
+                let mut bytes = good.clone();
+                bytes[at] = byte;
+                let read = decode_sacn(&bytes);
+                assert!(read.is_none_or(|read| read.values.len() <= 3), "{byte} at {at}");
+            }
+        }
+    }
+}
