@@ -63,7 +63,8 @@ pub fn tell(examined: Result<Exam, Failure>, broker: &BrokerUrl, json: bool) -> 
 /// Whether a finding is good enough: rules about the light need not be tried.
 fn is_fine(finding: &Finding) -> bool {
     let scope = RULES.iter().find(|rule| rule.number == finding.rule).map(|rule| rule.scope);
-    let is_light = matches!(scope, Some(Scope::Light | Scope::Fade | Scope::Ahead | Scope::Blink));
+    let is_light =
+        matches!(scope, Some(Scope::Light | Scope::Fade | Scope::Ahead | Scope::Live | Scope::Blink));
     match finding.verdict {
         RuleVerdict::Keeps | RuleVerdict::DoesNotKnow | RuleVerdict::NotFromOutside => true,
         RuleVerdict::NotTried => is_light,
