@@ -1,6 +1,7 @@
 //! The command line. design: scripts and CI rely on it.
 
 mod backup;
+mod desk;
 mod make;
 mod passwd;
 mod replay;
@@ -20,6 +21,7 @@ use crate::logging::Log;
 use crate::numbers::{address, floor, robot, seed};
 
 pub use backup::{BackupArguments, RestoreArguments};
+pub use desk::DeskArguments;
 pub use make::MakeArguments;
 pub use passwd::PasswdArguments;
 pub use replay::ReplayArguments;
@@ -134,6 +136,8 @@ pub struct RunArguments {
     pub plan_budget: u32,
     #[command(flatten)]
     pub mqtt: MqttArguments,
+    #[command(flatten)]
+    pub desk: DeskArguments,
     /// Folder of the library of shows and of recorded runs [default: lightbots in the user's data folder]
     #[arg(long, value_name = "DIR")]
     pub data: Option<PathBuf>,

@@ -25,6 +25,7 @@ use crate::live::cast::Cast;
 use crate::live::clock::Clock;
 use crate::live::conductor::Handle;
 use crate::live::cut_off::CutOffRun;
+use crate::live::desk_light::DeskLight;
 use crate::live::recorder::RecordingTarget;
 use crate::stop::Stop;
 use crate::web::{self, Admission, BrokerDesk, Exposure, Planner, Scheme, ScreenLog, Shared, WebCertificate};
@@ -44,6 +45,19 @@ const GOODBYE: Duration = Duration::from_secs(2);
 struct Started {
     tasks: Vec<JoinHandle<()>>,
     broker: Option<EmbeddedBroker>,
+}
+
+impl Started {
+    /// Starts what follows lighting desks and the broker's warnings.
+    fn follow(&mut self, desk: Option<DeskLight>, shared: &Shared, stop: &Stop) {
+        if let Some(desk) = desk {
+            let desk = desk.run(shared.handle.clone(), shared.log.clone(), stop.clone());
+            self.tasks.push(tokio::spawn(desk));
+        }
+        if let Some(lines) = self.broker.as_mut().and_then(EmbeddedBroker::notices) {
+            self.tasks.push(tokio::spawn(relay(lines, shared.log.clone(), stop.clone())));
+        }
+    }
 }
 
 pub async fn run(arguments: RunArguments, stop: Stop) -> Outcome {
@@ -86,6 +100,7 @@ async fn serve(arguments: &RunArguments, stop: &Stop, started: &mut Started) -> 
     }
     open_files::raise_limit();
     let certificate = certificate(&exposure, &data)?;
+    let desk_light = DeskLight::open(&arguments.desk).await?;
     let (listener, names) = web::listen(&exposure).await?;
     let address = listener.local_addr().unwrap_or(arguments.listen);
     folder.tell_address(&format!("{}://{address}", names.scheme().name()));
@@ -126,9 +141,7 @@ async fn serve(arguments: &RunArguments, stop: &Stop, started: &mut Started) -> 
         simulated: shared.simulated.clone(),
     };
     started.tasks.push(tokio::spawn(cast.run(handle, shared.desk.watch(), stop.clone())));
-    if let Some(lines) = started.broker.as_mut().and_then(EmbeddedBroker::notices) {
-        started.tasks.push(tokio::spawn(relay(lines, shared.log.clone(), stop.clone())));
-    }
+    started.follow(desk_light, &shared, stop);
     let scheme = shared.names.scheme().name();
     say::line(&format!("LightBots is at {scheme}://{} (Ctrl-C stops it)", own_address(address)));
     greet(&broker, robots, started.broker.as_ref().and_then(EmbeddedBroker::tls_address));

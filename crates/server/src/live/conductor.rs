@@ -5,22 +5,25 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 use lightbots_control::{
-    Config, Controller, ControllerState, Event, OnReturn, Operation, PlanRequest, PlanResult,
-    RecordedController, Refusal, Snapshot, UnfinishedRun,
+    Config, Controller, ControllerState, Operation, PlanRequest, PlanResult, RecordedController, Refusal,
 };
-use lightbots_link::{BrokerUrl, Link, LinkEvent};
+use lightbots_dmx::LivePublish;
+use lightbots_link::{Link, LinkEvent};
 use lightbots_wire::Topic;
-use tokio::sync::{broadcast, mpsc, oneshot};
+use tokio::sync::{broadcast, mpsc};
 
 use super::clock::{Clock, seq_base};
 use super::controller_link;
 use super::cue_topic;
+use super::orders::ConductorOrder;
 use super::pace::Pace;
 use super::recorder::{Recorder, RecordingTarget};
 use super::rivals::{self, Rivals};
 use crate::stop::Stop;
 
+pub use super::handle::Handle;
 pub use super::link_state::{LinkPhase, LinkState};
+pub use super::orders::News;
 
 /// Orders that wait at most; the sender of more orders waits.
 const ORDERS: usize = 256;
@@ -28,35 +31,6 @@ const ORDERS: usize = 256;
 const EVENTS: usize = 16_384;
 /// Messages taken in before the controller's answers are sent and others get a turn.
 const BATCH: usize = 512;
-
-/// What the conductor can be told.
-enum Order {
-    Operate(Operation, oneshot::Sender<Result<(), Refusal>>),
-    Look(oneshot::Sender<Snapshot>),
-    TakeUp(Box<UnfinishedRun>, OnReturn),
-    Connect(BrokerUrl),
-    Disconnect,
-}
-
-/// What happens, for screens and reports.
-#[derive(Clone, Debug)]
-pub enum News {
-    /// The controller says so.
-    Event(Event),
-    /// The link says why it is not connected.
-    Link(LinkState),
-    /// Something is wrong with the broker: one sentence for people.
-    Warning(String),
-}
-
-/// A handle to the conductor; clones share it.
-#[derive(Clone, Debug)]
-pub struct Handle {
-    orders: mpsc::Sender<Order>,
-    news: broadcast::Sender<News>,
-    clock: Clock,
-    pace: Arc<Pace>,
-}
 
 impl Handle {
     /// Starts a conductor that lives by `clock`. It ends, with its robots at rest if a run was on, once `stop` is wanted;
@@ -84,57 +58,13 @@ impl Handle {
             state: LinkState::default(),
             rivals: Rivals::new(String::new()),
             inbox,
+            overheard: None,
             news: news.clone(),
             done,
             done_sender,
         };
         let task = tokio::spawn(conductor.run(stop));
-        (Self { orders, news, clock, pace }, task)
-    }
-
-    /// Does something with show and fleet.
-    pub async fn operate(&self, operation: Operation) -> Result<(), Refusal> {
-        let (answer, answered) = oneshot::channel();
-        // A conductor that has ended has no broker any more.
-        let _ = self.orders.send(Order::Operate(operation, answer)).await;
-        answered.await.unwrap_or(Err(Refusal::NotConnected))
-    }
-
-    /// How everything is; `None` once the conductor has ended.
-    pub async fn look(&self) -> Option<Snapshot> {
-        let (answer, answered) = oneshot::channel();
-        self.orders.send(Order::Look(answer)).await.ok()?;
-        answered.await.ok()
-    }
-
-    /// Takes up a run that was cut off. Call it before [`connect`](Self::connect).
-    pub async fn take_up(&self, run: UnfinishedRun, on_return: OnReturn) {
-        let _ = self.orders.send(Order::TakeUp(Box::new(run), on_return)).await;
-    }
-
-    /// Uses this broker from now on.
-    pub async fn connect(&self, broker: BrokerUrl) {
-        let _ = self.orders.send(Order::Connect(broker)).await;
-    }
-
-    /// Uses no broker any more.
-    pub async fn disconnect(&self) {
-        let _ = self.orders.send(Order::Disconnect).await;
-    }
-
-    /// The show clock.
-    pub fn clock(&self) -> Clock {
-        self.clock.clone()
-    }
-
-    /// How fast it may go.
-    pub fn pace(&self) -> Arc<Pace> {
-        self.pace.clone()
-    }
-
-    /// What happens from now on.
-    pub fn news(&self) -> broadcast::Receiver<News> {
-        self.news.subscribe()
+        (Self::new(orders, news, clock, pace), task)
     }
 }
 
@@ -152,7 +82,8 @@ struct Conductor {
     nodes: Vec<String>,
     state: LinkState,
     rivals: Rivals,
-    inbox: mpsc::Receiver<Order>,
+    inbox: mpsc::Receiver<ConductorOrder>,
+    overheard: Option<mpsc::Sender<Vec<u8>>>,
     news: broadcast::Sender<News>,
     done: mpsc::Receiver<Option<PlanResult>>,
     done_sender: mpsc::Sender<Option<PlanResult>>,
@@ -220,6 +151,10 @@ impl Conductor {
             LinkEvent::Message { topic, payload, .. } => {
                 self.pace.reports.hear(1);
                 self.controller.message(now, &topic, &payload);
+                if let Some(reports) = &self.overheard {
+                    // One that is lost comes again.
+                    let _ = reports.try_send(payload);
+                }
             }
         }
     }
@@ -237,23 +172,29 @@ impl Conductor {
         }
     }
 
-    async fn obey(&mut self, order: Order) {
+    async fn obey(&mut self, order: ConductorOrder) {
         match order {
-            Order::Operate(operation, answer) => {
+            ConductorOrder::Operate(operation, answer) => {
                 let outcome = self.operate(self.clock.now(), operation);
                 // Whoever asked may have gone.
                 let _ = answer.send(outcome);
             }
-            Order::Look(answer) => {
+            ConductorOrder::Look(answer) => {
                 let _ = answer.send(self.controller.snapshot(self.clock.now()));
             }
-            Order::TakeUp(run, on_return) => {
+            ConductorOrder::TakeUp(run, on_return) => {
                 let now = self.clock.now();
                 if let Err(refusal) = self.recorder.take_up(&mut self.controller, now, (&run, on_return)) {
                     tracing::error!("the run that was cut off cannot go on: {refusal}");
                 }
             }
-            Order::Connect(broker) => {
+            ConductorOrder::Publish(messages) => {
+                for LivePublish { topic, payload } in messages {
+                    self.publish(topic, payload);
+                }
+            }
+            ConductorOrder::Overhear(reports) => self.overheard = Some(reports),
+            ConductorOrder::Connect(broker) => {
                 self.leave().await;
                 self.state.address = broker.to_string();
                 self.pace.controls(Some(broker.to_string()));
@@ -264,7 +205,7 @@ impl Conductor {
                 self.link = Some(Link::open(config));
                 self.tell_link(LinkPhase::Connecting, None);
             }
-            Order::Disconnect => {
+            ConductorOrder::Disconnect => {
                 self.leave().await;
                 self.state.address.clear();
                 self.pace.controls(None);
@@ -285,15 +226,9 @@ impl Conductor {
                     link.renew();
                 }
             }
-            while let Some(send) = self.controller.next_send() {
-                if send.topic == Topic::Broadcast {
-                    self.rivals.said(now, &send.payload);
-                }
-                let sent = sender.send(&send.topic.write(), send.payload);
-                self.pace.commands.say(u64::from(sent && send.topic != Topic::Broadcast));
-            }
-        } else {
-            while self.controller.next_send().is_some() {}
+        }
+        while let Some(send) = self.controller.next_send() {
+            self.publish(send.topic, send.payload);
         }
         self.pace.knows(self.controller.robots());
         while let Some(event) = self.controller.next_event() {
@@ -307,6 +242,16 @@ impl Conductor {
             tracing::warn!("{line}");
             let _ = self.news.send(News::Warning(line));
         }
+    }
+
+    /// Publishes a message; without a broker it is dropped.
+    fn publish(&mut self, topic: Topic, payload: Vec<u8>) {
+        let Some(link) = &self.link else { return };
+        if topic == Topic::Broadcast {
+            self.rivals.said(self.clock.now(), &payload);
+        }
+        let sent = link.sender().send(&topic.write(), payload);
+        self.pace.commands.say(u64::from(sent && topic != Topic::Broadcast));
     }
 
     /// Has the newest plan made that is wanted, once the one before is done.

@@ -17,6 +17,7 @@ mod commands;
 mod conformance;
 mod crossings;
 mod cues;
+mod desk_light;
 mod example_brokers;
 mod fleet;
 mod guesses;

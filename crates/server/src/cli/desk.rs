@@ -1,0 +1,28 @@
+//! The arguments for lighting desks, of `run`.
+
+use std::net::SocketAddr;
+use std::path::PathBuf;
+
+use clap::Args;
+
+use crate::numbers::address;
+
+/// Where Art-Net is received without an address: this machine alone.
+const ARTNET: &str = "127.0.0.1:6454";
+/// Where sACN is received without an address: this machine alone.
+const SACN: &str = "127.0.0.1:5568";
+
+/// Lighting desks that drive the colours of robots, of `run`
+#[derive(Clone, Debug, Args)]
+pub struct DeskArguments {
+    /// Receive Art-Net [without an address: from this machine, 127.0.0.1:6454]
+    #[arg(long, value_name = "HOST:PORT", num_args = 0..=1, require_equals = true, default_missing_value = ARTNET, value_parser = address)]
+    pub artnet: Option<SocketAddr>,
+    /// Receive sACN (E1.31), on 0.0.0.0 multicast too [without an address: from this machine, 127.0.0.1:5568]
+    #[arg(long, value_name = "HOST:PORT", num_args = 0..=1, require_equals = true, default_missing_value = SACN, value_parser = address)]
+    pub sacn: Option<SocketAddr>,
+    /// Which channels belong to which robot: lines ROBOT UNIVERSE CHANNEL and `others UNIVERSE` [default: `others 1`, 170
+    /// robots on each universe]
+    #[arg(long, value_name = "FILE")]
+    pub patch: Option<PathBuf>,
+}

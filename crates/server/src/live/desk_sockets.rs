@@ -1,0 +1,122 @@
+//! The sockets of lighting desks: UDP packets of Art-Net and sACN.
+
+use std::collections::BTreeSet;
+use std::net::{IpAddr, Ipv4Addr, SocketAddr};
+use std::time::Duration;
+
+use lightbots_dmx::{DmxPacket, decode_artnet, decode_sacn};
+use tokio::net::UdpSocket;
+use tokio::time::Instant;
+
+use crate::cli::DeskArguments;
+use crate::failure::Failure;
+use crate::say;
+
+/// Longest packet that is read, bytes: those of Art-Net and sACN have at most 638. Longer ones are cut and then refused.
+const PACKET_MAX: usize = 1_024;
+/// Packets are counted over this time.
+const WINDOW: Duration = Duration::from_millis(10);
+/// Most packets in a `WINDOW`: the 118 universes of 20,000 robots at once, with a reserve. More are left to the system,
+/// whose queue is bounded.
+const PACKETS: u32 = 200;
+/// After a failed reading, so that a broken socket does not keep a processor busy.
+const AFTER_ERROR: Duration = Duration::from_millis(100);
+
+/// The sockets, and how much is still read from them.
+#[derive(Debug)]
+pub struct DeskSockets {
+    artnet: Option<UdpSocket>,
+    sacn: Option<UdpSocket>,
+    /// Universes whose multicast groups were joined, or cannot be.
+    joined: BTreeSet<u16>,
+    window_ends: Instant,
+    left: u32,
+}
+
+impl DeskSockets {
+    /// Binds what was asked for; `None`: nothing was. The failure is one line with a remedy.
+    pub async fn bind(arguments: &DeskArguments) -> Result<Option<Self>, Failure> {
+        if arguments.artnet.is_none() && arguments.sacn.is_none() {
+            return Ok(None);
+        }
+        Ok(Some(Self {
+            artnet: bind("Art-Net", "--artnet", arguments.artnet).await?,
+            sacn: bind("sACN", "--sacn", arguments.sacn).await?,
+            joined: BTreeSet::new(),
+            window_ends: Instant::now(),
+            left: 0,
+        }))
+    }
+
+    /// The next packet with values. Others are dropped. Cancel-safe.
+    pub async fn next(&mut self) -> DmxPacket {
+        let (mut artnet_bytes, mut sacn_bytes) = ([0; PACKET_MAX], [0; PACKET_MAX]);
+        loop {
+            if self.left == 0 {
+                tokio::time::sleep_until(self.window_ends).await;
+                (self.window_ends, self.left) = (Instant::now() + WINDOW, PACKETS);
+            }
+            let received = tokio::select! {
+                received = receive(self.artnet.as_ref(), &mut artnet_bytes) => {
+                    received.map(|(length, from)| decode_artnet(from, &artnet_bytes[..length]))
+                }
+                received = receive(self.sacn.as_ref(), &mut sacn_bytes) => {
+                    received.map(|(length, _)| decode_sacn(&sacn_bytes[..length]))
+                }
+            };
+            self.left -= 1;
+            match received {
+                Ok(Some(packet)) => return packet,
+                Ok(None) => {}
+                Err(error) => {
+                    tracing::debug!("a packet of a lighting desk was not received: {error}");
+                    tokio::time::sleep(AFTER_ERROR).await;
+                }
+            }
+        }
+    }
+
+    /// Joins the multicast groups of universes, where sACN is received on all addresses. A warning for the first that fails.
+    pub fn join(&mut self, universes: impl Iterator<Item = u16>) -> Option<String> {
+        let socket = self.sacn.as_ref()?;
+        let is_open = socket.local_addr().is_ok_and(|address| address.ip() == Ipv4Addr::UNSPECIFIED);
+        let mut warning = None;
+        for universe in universes.filter(|_| is_open) {
+            if !self.joined.insert(universe) {
+                continue;
+            }
+            // ANSI E1.31-2018, 9.3.1.
+            let [high, low] = universe.to_be_bytes();
+            let group = Ipv4Addr::new(239, 255, high, low);
+            if let Err(error) = socket.join_multicast_v4(group, Ipv4Addr::UNSPECIFIED) {
+                let remedy = "have the desk send to the address of this machine (unicast)";
+                let line =
+                    format!("sACN universe {universe} is not received by multicast ({error}): {remedy}");
+                warning = warning.or(Some(line));
+            }
+        }
+        warning
+    }
+}
+
+async fn bind(name: &str, option: &str, address: Option<SocketAddr>) -> Result<Option<UdpSocket>, Failure> {
+    let Some(address) = address else { return Ok(None) };
+    let socket = UdpSocket::bind(address).await.map_err(|error| {
+        Failure::problem(format!("cannot receive {name} on {address}: {error}; choose another {option}"))
+    })?;
+    let address = socket.local_addr().unwrap_or(address);
+    say::line(&format!("{name} is received on {address}"));
+    if !address.ip().is_loopback() {
+        say::note(&format!(
+            "{name} has no passwords: a program that reaches {address} can drive the lights of robots"
+        ));
+    }
+    Ok(Some(socket))
+}
+
+async fn receive(socket: Option<&UdpSocket>, bytes: &mut [u8]) -> std::io::Result<(usize, IpAddr)> {
+    match socket {
+        Some(socket) => socket.recv_from(bytes).await.map(|(length, from)| (length, from.ip())),
+        None => std::future::pending().await,
+    }
+}

@@ -1,0 +1,102 @@
+//! The way from screens and commands to the conductor.
+
+use std::sync::Arc;
+
+use lightbots_control::{OnReturn, Operation, Refusal, Snapshot, UnfinishedRun};
+use lightbots_dmx::LivePublish;
+use lightbots_link::BrokerUrl;
+use tokio::sync::{broadcast, mpsc, oneshot};
+
+use super::clock::Clock;
+use super::desk_lights::DeskLights;
+use super::orders::{ConductorOrder, News};
+use super::pace::Pace;
+
+/// Reports that wait for a listener at most: one of each of many robots.
+const REPORTS: usize = 16_384;
+
+/// A handle to the conductor; clones share it.
+#[derive(Clone, Debug)]
+pub struct Handle {
+    orders: mpsc::Sender<ConductorOrder>,
+    news: broadcast::Sender<News>,
+    clock: Clock,
+    pace: Arc<Pace>,
+    desk_lights: DeskLights,
+}
+
+impl Handle {
+    /// A handle to the conductor that reads these orders.
+    pub(super) fn new(
+        orders: mpsc::Sender<ConductorOrder>,
+        news: broadcast::Sender<News>,
+        clock: Clock,
+        pace: Arc<Pace>,
+    ) -> Self {
+        Self { orders, news, clock, pace, desk_lights: DeskLights::default() }
+    }
+
+    /// Does something with show and fleet.
+    pub async fn operate(&self, operation: Operation) -> Result<(), Refusal> {
+        let (answer, answered) = oneshot::channel();
+        // A conductor that has ended has no broker any more.
+        let _ = self.orders.send(ConductorOrder::Operate(operation, answer)).await;
+        answered.await.unwrap_or(Err(Refusal::NotConnected))
+    }
+
+    /// How everything is; `None` once the conductor has ended.
+    pub async fn look(&self) -> Option<Snapshot> {
+        let (answer, answered) = oneshot::channel();
+        self.orders.send(ConductorOrder::Look(answer)).await.ok()?;
+        let mut snapshot = answered.await.ok()?;
+        self.desk_lights.cover(&mut snapshot);
+        Some(snapshot)
+    }
+
+    /// Publishes messages of a lighting desk, if there is a broker.
+    pub async fn publish(&self, messages: Vec<LivePublish>) {
+        let _ = self.orders.send(ConductorOrder::Publish(messages)).await;
+    }
+
+    /// All reports of robots from now on, as payloads; some are left out where they are not read. For one listener.
+    pub async fn overhear(&self) -> mpsc::Receiver<Vec<u8>> {
+        let (reports, overheard) = mpsc::channel(REPORTS);
+        let _ = self.orders.send(ConductorOrder::Overhear(reports)).await;
+        overheard
+    }
+
+    /// The lights that a lighting desk has.
+    pub fn desk_lights(&self) -> &DeskLights {
+        &self.desk_lights
+    }
+
+    /// Takes up a run that was cut off. Call it before [`connect`](Self::connect).
+    pub async fn take_up(&self, run: UnfinishedRun, on_return: OnReturn) {
+        let _ = self.orders.send(ConductorOrder::TakeUp(Box::new(run), on_return)).await;
+    }
+
+    /// Uses this broker from now on.
+    pub async fn connect(&self, broker: BrokerUrl) {
+        let _ = self.orders.send(ConductorOrder::Connect(broker)).await;
+    }
+
+    /// Uses no broker any more.
+    pub async fn disconnect(&self) {
+        let _ = self.orders.send(ConductorOrder::Disconnect).await;
+    }
+
+    /// The show clock.
+    pub fn clock(&self) -> Clock {
+        self.clock.clone()
+    }
+
+    /// How fast it may go.
+    pub fn pace(&self) -> Arc<Pace> {
+        self.pace.clone()
+    }
+
+    /// What happens from now on.
+    pub fn news(&self) -> broadcast::Receiver<News> {
+        self.news.subscribe()
+    }
+}
