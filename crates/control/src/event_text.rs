@@ -54,7 +54,7 @@ impl EventKind {
         }
     }
 
-    /// What the operator asked for, and where robots stand until the operator says more.
+    /// Where robots stand until the operator says more.
     fn write_stand(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::GoingHome { robots } => write!(f, "{} to the starting places.", Count(*robots, "robot")),
@@ -63,12 +63,19 @@ impl EventKind {
             }
             Self::WaitsForGo { frame, name } => write!(f, "Frame {} waits for GO: {name}.", frame + 1),
             Self::PlannedHome => write!(f, "Planned the drive home."),
+            _ => write!(f, "Robots stand at their starting places."),
+        }
+    }
+
+    /// The line of a jump to another frame than the next one.
+    fn write_jump(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
             Self::GoesTo { frame } => write!(f, "Going to frame {}.", frame + 1),
             Self::Skipped { frame } => write!(f, "Frame {} is skipped.", frame + 1),
             Self::JumpGivenUp { frame } => {
                 write!(f, "The show stays where it is: no path leads to frame {}.", frame + 1)
             }
-            _ => write!(f, "Robots stand at their starting places."),
+            _ => Ok(()),
         }
     }
 
@@ -142,13 +149,8 @@ impl fmt::Display for EventKind {
             FrameReached { frame, spread, .. } => {
                 write!(f, "Frame {} stands; arrivals within {:.2} s.", frame + 1, spread.as_secs())
             }
-            GoingHome { .. }
-            | PlannedHome
-            | AtHome
-            | WaitsForGo { .. }
-            | GoesTo { .. }
-            | Skipped { .. }
-            | JumpGivenUp { .. } => self.write_stand(f),
+            GoingHome { .. } | PlannedHome | AtHome | WaitsForGo { .. } => self.write_stand(f),
+            GoesTo { .. } | Skipped { .. } | JumpGivenUp { .. } => self.write_jump(f),
             Waiting { robot, why } => write!(f, "Waiting for robot {robot}: it {why}."),
             Undelivered => write!(
                 f,

@@ -355,4 +355,15 @@ impl Run {
             _ => reached.unwrap_or(self.playback.shown_frame()),
         }
     }
+
+    /// Whether [`frame`](Self::frame) stands; otherwise robots are on their way to it.
+    pub fn is_frame_reached(&self) -> bool {
+        let Some(leg) = self.pipeline.leg().filter(|leg| leg.reaches_frame) else { return false };
+        let towards = self.playback.jump.map_or(self.playback.next, |jump| jump.instead_of);
+        match &self.phase {
+            RunPhase::Starting(_) | RunPhase::Driving(_) | RunPhase::Over(..) => false,
+            // Once a frame is reached, another one is next.
+            _ => !self.playback.leaves() && (leg.frame, leg.round) != (towards.frame, towards.round),
+        }
+    }
 }

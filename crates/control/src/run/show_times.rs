@@ -20,8 +20,9 @@ impl ShowTimes {
         self.drives.entry(frame).or_insert(takes);
     }
 
-    /// Show time at which the air time of a frame begins if all frames before it are played, seconds. It counts from the last
-    /// of them that was begun, by the drives that were planned. A drive without a plan counts as the show says, or as nothing.
+    /// Show time at which the air time of a frame begins if all frames before it are played, seconds. It counts from the
+    /// last of them that was begun, by the drives that were planned. A drive without a plan counts as the show says, or as
+    /// nothing.
     pub fn begin_s(&self, playback: &PlayedShow, frame: usize) -> f64 {
         let begun = self.begun.range(..=frame).rev().find(|(_, times)| times.air_s.is_finite());
         let (first, begun_s) = begun.map_or((0, 0.0), |(&first, times)| (first, times.air_s));
