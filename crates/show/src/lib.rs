@@ -17,6 +17,7 @@ mod label;
 mod model;
 mod need;
 mod setting;
+mod setting_tokens;
 mod slow;
 mod source;
 mod spacing;

@@ -17,8 +17,8 @@ pub struct Layer {
     pub kind: String,
     /// When the layer shines.
     pub span: LayerSpan,
-    /// Settings of the effect. Serde leaves them out, as those of sources.
-    #[serde(skip)]
+    /// Settings of the effect.
+    #[serde(with = "crate::setting_tokens")]
     pub settings: NamedSettings,
 }
 

@@ -3,16 +3,18 @@
 use super::*;
 use crate::run::{AirTime, FrameCursor, Membership, PathClock, Probation, RunPurpose, Whereabouts};
 use lightbots_base::{Instant, Rgb, RobotId, Span, StateHash, Vec2};
-use lightbots_show::{Frame, Pixel, Show};
+use lightbots_show::{Frame, Layer, LayerSpan, Pixel, Setting, Show};
 use std::sync::Arc;
 
 fn state() -> JournalState {
     let frame = Frame { pixels: vec![Pixel::default()], ..Frame::default() };
     let id = RobotId::new("a").unwrap();
+    let settings = vec![("speed_hz".to_owned(), Setting::Number(2.0))];
+    let layer = Layer { kind: "rainbow".into(), name: String::new(), span: LayerSpan::Show, settings };
     JournalState {
         begun: RunBegun {
             at: Instant(5),
-            show: Arc::new(Show { frames: vec![frame], ..Show::default() }),
+            show: Arc::new(Show { frames: vec![frame], layers: vec![layer], ..Show::default() }),
             purpose: RunPurpose::Play,
             missing: Default::default(),
         },
@@ -102,8 +104,10 @@ fn the_format_is_that_of_its_version() {
         Change::Ended("finished".into()),
     ]);
     let mut hash = StateHash::new();
-    hash.bytes(&postcard::to_allocvec(&entry).unwrap());
-    assert_eq!((VERSION, hash.finish()), (4, 14_957_519_478_364_164_430));
+    let bytes = postcard::to_allocvec(&entry).unwrap();
+    assert!(postcard::from_bytes::<Entry>(&bytes).unwrap() == entry, "a layer keeps its settings");
+    hash.bytes(&bytes);
+    assert_eq!((VERSION, hash.finish()), (5, 16_159_275_559_983_556_534));
 }
 
 #[test]
