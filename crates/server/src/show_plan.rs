@@ -1,11 +1,13 @@
 //! Plans of whole shows: for the screen, for `check` and for `plan`.
 
+use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 use lightbots_api as api;
 use lightbots_api::plan_document;
+use lightbots_base::Rgb;
 use lightbots_plan::{Cancelled, ShowOptions, ShowPlan};
-use lightbots_show::{Issue, Issues, Show, starting_places};
+use lightbots_show::{Frame, Issue, Issues, Pixel, Show, starting_places};
 
 use crate::threads::Threads;
 
@@ -22,12 +24,75 @@ pub fn plan_unless(
     is_wanted: &dyn Fn() -> bool,
 ) -> Result<(ShowPlan, api::Plan), Cancelled> {
     let began = Instant::now();
-    let starts = starting_places(show);
-    let plan = lightbots_plan::show_with(&Threads, show, &starts, &ShowOptions::default(), is_wanted)?;
-    let plan_ms = began.elapsed().as_secs_f64() * 1e3;
-    let found: Issues = found.iter().cloned().chain(lightbots_lighting::flashes_of(show, &plan)).collect();
-    let document = plan_document(&plan, &found, plan_ms);
+    let plan = made(show, is_wanted)?;
+    let document = document(show, found, &plan, began);
     Ok((plan, document))
+}
+
+fn made(show: &Show, is_wanted: &dyn Fn() -> bool) -> Result<ShowPlan, Cancelled> {
+    lightbots_plan::show_with(&Threads, show, &starting_places(show), &ShowOptions::default(), is_wanted)
+}
+
+fn document(show: &Show, found: &Issues, plan: &ShowPlan, began: Instant) -> api::Plan {
+    let plan_ms = began.elapsed().as_secs_f64() * 1e3;
+    let found: Issues = found.iter().cloned().chain(lightbots_lighting::flashes_of(show, plan)).collect();
+    plan_document(plan, &found, plan_ms)
+}
+
+/// The last plan that was made: a show whose light, colours or names alone were changed is not planned again.
+#[derive(Debug, Default)]
+pub struct LastPlan(Mutex<Option<(Show, Arc<ShowPlan>)>>);
+
+impl LastPlan {
+    /// Plans a show as [`plan_unless`] does, or takes the last plan if robots drive the same.
+    pub fn plan_unless(
+        &self,
+        show: &Show,
+        found: &Issues,
+        is_wanted: &dyn Fn() -> bool,
+    ) -> Result<api::Plan, Cancelled> {
+        let began = Instant::now();
+        let driven = driven(show);
+        let known = self.last().as_ref().filter(|(other, _)| *other == driven).map(|(_, plan)| plan.clone());
+        let plan = match known {
+            Some(plan) => plan,
+            None => Arc::new(made(show, is_wanted)?),
+        };
+        *self.last() = Some((driven, plan.clone()));
+        Ok(document(show, found, &plan, began))
+    }
+
+    fn last(&self) -> std::sync::MutexGuard<'_, Option<(Show, Arc<ShowPlan>)>> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+/// The show with only what robots' drives depend on.
+fn driven(show: &Show) -> Show {
+    let pixel = |pixel: &Pixel| Pixel {
+        color: Rgb::BLACK,
+        part: None,
+        group: None,
+        robot: pixel.robot.clone(),
+        ..*pixel
+    };
+    let frame = |frame: &Frame| Frame {
+        id: None,
+        name: frame.name.clone(),
+        sources: Vec::new(),
+        pixels: frame.pixels.iter().map(pixel).collect(),
+        ..*frame
+    };
+    Show {
+        name: String::new(),
+        stage: show.stage.clone(),
+        starts: show.starts.clone(),
+        trajectories: show.trajectories.clone(),
+        frames: show.frames.iter().map(frame).collect(),
+        identity: show.identity,
+        spares: show.spares,
+        ..Show::default()
+    }
 }
 
 /// What is said of a show whose planning took too long: no part of a plan.
@@ -40,4 +105,38 @@ pub fn cut_off(found: &Issues, budget: Duration) -> api::Plan {
     let issues =
         found.iter().chain([&Issue::error("planning-cut-off", message)]).map(api::Issue::from).collect();
     api::Plan { issues, ..api::Plan::default() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use lightbots_base::Vec2;
+    use lightbots_show::{Layer, LayerSpan};
+
+    fn show() -> Show {
+        let pixel = Pixel { id: 0, at: Vec2::new(0.5, 0.0), ..Pixel::default() };
+        let frame = Frame { name: "A".into(), air_time_s: 1.0, pixels: vec![pixel], ..Frame::default() };
+        Show { frames: vec![frame], ..Show::default() }
+    }
+
+    #[test]
+    fn only_a_change_of_the_drives_is_planned_again() {
+        let last = LastPlan::default();
+        let plan = |show: &Show, is_wanted: bool| last.plan_unless(show, &Vec::new(), &|| is_wanted);
+        let first = plan(&show(), true).expect("it is wanted");
+        assert_eq!(first.transitions.len(), 1);
+        // A plan that is not wanted is given up, unless it is there already.
+        let mut lit = show();
+        let (name, span, settings) = (String::new(), LayerSpan::Show, Vec::new());
+        lit.layers.push(Layer { kind: "fire".into(), name, span, settings });
+        lit.frames[0].pixels[0].color = Rgb::new(9, 9, 9);
+        lit.name = "Fire".into();
+        assert_eq!(plan(&lit, false).expect("it is known").transitions, first.transitions);
+        let mut moved = lit.clone();
+        moved.frames[0].pixels[0].at.x = 0.6;
+        assert!(plan(&moved, false).is_err());
+        moved.frames[0].pixels[0].at.x = 0.5;
+        moved.frames[0].transition_s = Some(30.0);
+        assert!(plan(&moved, false).is_err());
+    }
 }

@@ -23,6 +23,7 @@ pub struct Desk {
     plan: watch::Sender<Arc<api::Plan>>,
     /// Cancels the running plan when it is replaced by the next one.
     planning: Arc<std::sync::Mutex<GiveUp>>,
+    last_plan: Arc<show_plan::LastPlan>,
     /// Revision that the controller has. Locked while the controller gets another.
     given: Arc<Mutex<u32>>,
 }
@@ -46,7 +47,14 @@ impl Desk {
         let nothing = Shown::new(api::OpenShow::default(), Arc::default());
         let (shown, _) = watch::channel(Arc::new(nothing));
         let (plan, _) = watch::channel(Arc::default());
-        Self { handle, shown, plan, planning: Arc::default(), given: Arc::default() }
+        Self {
+            handle,
+            shown,
+            plan,
+            planning: Arc::default(),
+            last_plan: Arc::default(),
+            given: Arc::default(),
+        }
     }
 
     /// Opens a show on every screen and in the controller, and begins to plan it.
@@ -117,14 +125,14 @@ impl Desk {
     }
 
     fn begin_plan(&self, revision: u32, show: Arc<Show>) {
-        let sender = self.plan.clone();
+        let (sender, last_plan) = (self.plan.clone(), self.last_plan.clone());
         let give_up = GiveUp::default();
         let is_given_up = give_up.asked();
         // Nothing needs the plan of the show before.
         *self.planning.lock().unwrap_or_else(PoisonError::into_inner) = give_up;
         tokio::task::spawn_blocking(move || {
-            let planned = show_plan::plan_unless(&show, &validate(&show), &|| is_given_up.get());
-            let Ok((_, mut plan)) = planned else { return };
+            let planned = last_plan.plan_unless(&show, &validate(&show), &|| is_given_up.get());
+            let Ok(mut plan) = planned else { return };
             plan.revision = revision;
             sender.send_if_modified(|current| {
                 let wanted = current.revision == revision;
