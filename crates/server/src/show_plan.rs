@@ -122,21 +122,21 @@ mod tests {
     #[test]
     fn only_a_change_of_the_drives_is_planned_again() {
         let last = LastPlan::default();
-        let plan = |show: &Show, is_wanted: bool| last.plan_unless(show, &Vec::new(), &|| is_wanted);
-        let first = plan(&show(), true).expect("it is wanted");
+        let plan = |show: &Show, gives_up: bool| last.plan_unless(show, &Vec::new(), &|| gives_up);
+        let first = plan(&show(), false).expect("it is not given up");
         assert_eq!(first.transitions.len(), 1);
-        // A plan that is not wanted is given up, unless it is there already.
+        // What is given up at once can only be there already.
         let mut lit = show();
         let (name, span, settings) = (String::new(), LayerSpan::Show, Vec::new());
         lit.layers.push(Layer { kind: "fire".into(), name, span, settings });
         lit.frames[0].pixels[0].color = Rgb::new(9, 9, 9);
         lit.name = "Fire".into();
-        assert_eq!(plan(&lit, false).expect("it is known").transitions, first.transitions);
+        assert_eq!(plan(&lit, true).expect("it is known").transitions, first.transitions);
         let mut moved = lit.clone();
         moved.frames[0].pixels[0].at.x = 0.6;
-        assert!(plan(&moved, false).is_err());
+        assert!(plan(&moved, true).is_err());
         moved.frames[0].pixels[0].at.x = 0.5;
         moved.frames[0].transition_s = Some(30.0);
-        assert!(plan(&moved, false).is_err());
+        assert!(plan(&moved, true).is_err());
     }
 }
