@@ -99,7 +99,7 @@ test('a preset shines on the stage at once, is changed in the panel and is saved
   await isLit((now) => !isGreen(now), page, 'the first frame has its own colours');
   await button(page, /^2/).first().click();
   await isLit(isGreen, page, 'the second frame is green');
-  await layersAre(page, 'shine', ([only]) => only?.frames?.join() === 'f1,f1');
+  await layersAre(page, 'shine', ([only]) => only?.frames?.join() === 'f2,f2');
   await page.close();
 });
 

@@ -125,12 +125,14 @@ test('by keyboard only: a new show, its pixels and colours, a second frame, and 
   await tabTo(page, 'tab', 'Pixels');
   await press('ArrowRight');
   await press('ArrowRight');
+  await press('ArrowRight');
   await tabTo(page, 'textbox', 'Number of robots');
   await press('Control+a');
   await page.keyboard.type('9');
   await press('Enter');
   await pixelsAre(page, 9);
   await tabTo(page, 'tab', 'Show');
+  await press('ArrowLeft');
   await press('ArrowLeft');
   await press('ArrowLeft');
   await press('s');
