@@ -293,7 +293,8 @@ fn the_first_operator_comes_by_an_address_that_works_once() {
     let _turn = alone();
     let (mut server, _, site) = start(&[]);
     let first = server.said("#first=");
-    assert!(server.out().contains('█') || server.out().contains('▀'), "a QR code: {}", server.out());
+    // The QR code comes after the address.
+    server.said("█");
     let make = |token: &str, name: &str, password: &str| {
         let body = json!({"token": token, "name": name, "password": password}).to_string();
         http::request(&site, "POST", "/api/first", &[("Content-Type", "application/json")], &body)
