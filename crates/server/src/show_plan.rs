@@ -7,7 +7,7 @@ use lightbots_api as api;
 use lightbots_api::plan_document;
 use lightbots_base::Rgb;
 use lightbots_plan::{Cancelled, ShowOptions, ShowPlan};
-use lightbots_show::{Frame, Issue, Issues, Pixel, Show, starting_places};
+use lightbots_show::{Assets, Issue, Issues, Show, starting_places};
 
 use crate::threads::Threads;
 
@@ -67,32 +67,26 @@ impl LastPlan {
     }
 }
 
-/// The show with only what robots' drives depend on.
+/// The show without what robots' drives do not depend on. A field that is not named here counts.
 fn driven(show: &Show) -> Show {
-    let pixel = |pixel: &Pixel| Pixel {
-        color: Rgb::BLACK,
-        part: None,
-        group: None,
-        robot: pixel.robot.clone(),
-        ..*pixel
-    };
-    let frame = |frame: &Frame| Frame {
-        id: None,
-        name: frame.name.clone(),
-        sources: Vec::new(),
-        pixels: frame.pixels.iter().map(pixel).collect(),
-        ..*frame
-    };
-    Show {
+    let mut driven = Show {
         name: String::new(),
-        stage: show.stage.clone(),
-        starts: show.starts.clone(),
-        trajectories: show.trajectories.clone(),
-        frames: show.frames.iter().map(frame).collect(),
-        identity: show.identity,
-        spares: show.spares,
-        ..Show::default()
+        music: None,
+        assets: Assets::default(),
+        beats: None,
+        sections: Vec::new(),
+        markers: Vec::new(),
+        cues: Vec::new(),
+        layers: Vec::new(),
+        ..show.clone()
+    };
+    for frame in &mut driven.frames {
+        (frame.id, frame.sources) = (None, Vec::new());
+        for pixel in &mut frame.pixels {
+            (pixel.color, pixel.part, pixel.group) = (Rgb::BLACK, None, None);
+        }
     }
+    driven
 }
 
 /// What is said of a show whose planning took too long: no part of a plan.
@@ -111,7 +105,7 @@ pub fn cut_off(found: &Issues, budget: Duration) -> api::Plan {
 mod tests {
     use super::*;
     use lightbots_base::Vec2;
-    use lightbots_show::{Layer, LayerSpan};
+    use lightbots_show::{Frame, Layer, LayerSpan, Pixel};
 
     fn show() -> Show {
         let pixel = Pixel { id: 0, at: Vec2::new(0.5, 0.0), ..Pixel::default() };
