@@ -1,5 +1,5 @@
 import { IconCopy, IconPlus, IconTrash } from '@tabler/icons-react';
-import { useCallback, useEffect, useRef, useState, type ReactNode } from 'react';
+import { useCallback, useEffect, type ReactNode } from 'react';
 import type { Plan } from '../api/types.gen';
 import { useStore } from '../base/store';
 import { IconButton } from '../parts/IconButton';
@@ -7,7 +7,7 @@ import * as acts from './acts';
 import { cueOf } from '../model/cues';
 import { useEditing, useEditor } from './context';
 import { FrameCard } from './FrameCard';
-import { listenToHold } from './holdDrag';
+import { useReorder } from './useReorder';
 import strip from '../parts/strip.module.css';
 import styles from './EditStrip.module.css';
 
@@ -24,13 +24,15 @@ export function EditStrip() {
   const at = useEditor((s) => s.frame);
   const chosen = useEditor((s) => s.frames);
   const plan = useStore(editing.settled);
-  const [over, setOver] = useState<number | null>(null);
   const renaming = useStore(editing.renaming);
-  const dragged = useRef<number | null>(null);
-  const list = useRef<HTMLUListElement>(null);
+  const drop = useCallback(
+    (from: number, to: number) => acts.dropFrames(editing, from, to),
+    [editing],
+  );
+  const { list, begin, end, target } = useReorder(drop);
   useEffect(() => {
     list.current?.children[at]?.scrollIntoView({ block: 'nearest', inline: 'nearest' });
-  }, [at]);
+  }, [at, list]);
   const choose = (
     index: number,
     event: { shiftKey: boolean; ctrlKey: boolean; metaKey: boolean },
@@ -39,27 +41,6 @@ export function EditStrip() {
     const add = event.ctrlKey || event.metaKey;
     editing.editor.goToFrame(index, event.shiftKey ? 'range' : add ? 'toggle' : 'only');
   };
-  const drop = useCallback(
-    (to: number) => {
-      const from = dragged.current;
-      dragged.current = null;
-      setOver(null);
-      if (from !== null) acts.dropFrames(editing, from, to);
-    },
-    [editing],
-  );
-  useEffect(
-    () =>
-      list.current
-        ? listenToHold(list.current, {
-            begin: (index) => setOver((dragged.current = index)),
-            over: setOver,
-            drop,
-            giveUp: () => setOver((dragged.current = null)),
-          })
-        : undefined,
-    [drop],
-  );
   const button = (label: string, act: () => void, icon: ReactNode, off = false) => (
     <IconButton
       label={label}
@@ -87,16 +68,7 @@ export function EditStrip() {
       </div>
       <ul className={`${strip.strip} ${styles.frames}`} ref={list} aria-label="Frames">
         {show.frames.map((frame, i) => (
-          <li
-            key={frame.key}
-            data-over={over === i || undefined}
-            onDragOver={(event) => {
-              if (dragged.current === null) return;
-              event.preventDefault();
-              setOver(i);
-            }}
-            onDrop={() => drop(i)}
-          >
+          <li key={frame.key} {...target(i)}>
             <FrameCard
               frame={frame}
               index={i}
@@ -113,8 +85,8 @@ export function EditStrip() {
                 if (name) acts.renameFrame(editing, i, name);
               }}
               onRename={() => editing.renaming.set(i)}
-              onDragStart={() => (dragged.current = i)}
-              onDragEnd={() => setOver((dragged.current = null))}
+              onDragStart={() => begin(i)}
+              onDragEnd={end}
             />
           </li>
         ))}

@@ -1,7 +1,7 @@
-import { useCallback, useEffect, useRef, useState } from 'react';
+import { useCallback } from 'react';
 import type { Layer } from '../../model/layers';
 import { useEditing, useEditor } from '../context';
-import { listenToHold } from '../holdDrag';
+import { useReorder } from '../useReorder';
 import { LayerRow } from './LayerRow';
 import { moveLayer } from './lightActs';
 import styles from './Light.module.css';
@@ -10,57 +10,28 @@ import styles from './Light.module.css';
 export function LayerList({ layers, chosen }: { layers: readonly Layer[]; chosen: number | null }) {
   const editing = useEditing();
   const show = useEditor((s) => s.show);
-  const list = useRef<HTMLUListElement>(null);
-  const dragged = useRef<number | null>(null);
-  const [over, setOver] = useState<number | null>(null);
-  const count = layers.length;
+  const last = layers.length - 1;
   const drop = useCallback(
-    (row: number) => {
-      const from = dragged.current;
-      dragged.current = null;
-      setOver(null);
-      if (from !== null && from !== row) moveLayer(editing, count - 1 - from, count - 1 - row);
-    },
-    [editing, count],
+    (from: number, to: number) => moveLayer(editing, last - from, last - to),
+    [editing, last],
   );
-  useEffect(
-    () =>
-      list.current
-        ? listenToHold(list.current, {
-            begin: (row) => setOver((dragged.current = row)),
-            over: setOver,
-            drop,
-            giveUp: () => setOver((dragged.current = null)),
-          })
-        : undefined,
-    [drop],
-  );
+  const { list, begin, end, target } = useReorder(drop);
   return (
     <ul className={styles.layers} aria-label="Layers, the uppermost first" ref={list}>
-      {layers.map((_, row) => {
-        const index = count - 1 - row;
-        const layer = layers[index];
-        return layer ? (
+      {[...layers].reverse().map((layer, row) => {
+        const index = last - row;
+        return (
           <LayerRow
             key={index}
             layer={layer}
+            index={index}
             show={show}
             isChosen={index === chosen}
-            isOver={over === row}
             onChoose={() => editing.layer.set(index === chosen ? null : index)}
             onMove={(by) => moveLayer(editing, index, index + by)}
-            index={index}
-            drag={{
-              begin: () => (dragged.current = row),
-              over: () => {
-                if (dragged.current !== null) setOver(row);
-              },
-              isOn: () => dragged.current !== null,
-              drop: () => drop(row),
-              end: () => setOver((dragged.current = null)),
-            }}
+            drag={{ ...target(row), onDragStart: () => begin(row), onDragEnd: end }}
           />
-        ) : null;
+        );
       })}
     </ul>
   );

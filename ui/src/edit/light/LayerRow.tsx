@@ -1,5 +1,5 @@
 import { IconCopy, IconTrash } from '@tabler/icons-react';
-import type { KeyboardEvent } from 'react';
+import type { HTMLAttributes, KeyboardEvent } from 'react';
 import { titleOf } from '../../model/layerKinds';
 import { framesOf, type Layer } from '../../model/layers';
 import type { Show } from '../../model/show';
@@ -14,21 +14,15 @@ interface Props {
   index: number;
   show: Show;
   isChosen: boolean;
-  isOver: boolean;
   onChoose: () => void;
   /** Moves it up by 1, or down by -1. */
   onMove: (by: 1 | -1) => void;
-  drag: {
-    begin: () => void;
-    over: () => void;
-    isOn: () => boolean;
-    drop: () => void;
-    end: () => void;
-  };
+  /** Lets it be dragged, and others be dropped on it. */
+  drag: HTMLAttributes<HTMLLIElement>;
 }
 
 /** A layer with what it does, its name and when it shines. */
-export function LayerRow({ layer, index, show, isChosen, isOver, onChoose, onMove, drag }: Props) {
+export function LayerRow({ layer, index, show, isChosen, onChoose, onMove, drag }: Props) {
   const editing = useEditing();
   const title = titleOf(layer);
   const press = (event: KeyboardEvent) => {
@@ -43,20 +37,7 @@ export function LayerRow({ layer, index, show, isChosen, isOver, onChoose, onMov
     }
   };
   return (
-    <li
-      className={styles.layer}
-      data-chosen={isChosen || undefined}
-      data-over={isOver || undefined}
-      draggable
-      onDragStart={drag.begin}
-      onDragEnd={drag.end}
-      onDragOver={(event) => {
-        if (!drag.isOn()) return;
-        event.preventDefault();
-        drag.over();
-      }}
-      onDrop={drag.drop}
-    >
+    <li className={styles.layer} data-chosen={isChosen || undefined} draggable {...drag}>
       <button
         type="button"
         className={styles.choose}
