@@ -1,12 +1,7 @@
+import { listenTo, type WorkerLike } from '../base/worker';
 import type { LightAsk, LightReply } from './protocol';
 
-/** What asking needs of a worker. */
-export interface LightWorker {
-  postMessage(ask: LightAsk): void;
-  onmessage: ((event: MessageEvent<LightReply>) => void) | null;
-  onerror: ((event: ErrorEvent) => void) | null;
-  terminate(): void;
-}
+export type LightWorker = WorkerLike<LightAsk, LightReply>;
 
 /** Asks a worker one thing at a time; starts it with the first. */
 export interface Asking {
@@ -40,19 +35,15 @@ export function createAsking(start: () => LightWorker): Asking {
     }
     done?.(reply);
   };
-  const started = (): LightWorker => {
-    const mine = start();
-    // A worker that was ended may have a message under way, which answers nothing any more.
-    mine.onmessage = ({ data }) => worker === mine && take(data);
-    mine.onerror = () => worker === mine && take({ of: 'failure' });
-    return mine;
-  };
   return {
     isBusy: () => waiting !== null,
     hasFailed: () => failed,
     ask(ask, done) {
       if (failed || waiting) return;
-      worker ??= started();
+      if (!worker) {
+        worker = start();
+        listenTo(worker, () => worker, take, { of: 'failure' });
+      }
       waiting = done;
       timer = setTimeout(() => take({ of: 'failure' }), ANSWER_MAX_MS);
       worker.postMessage(ask);

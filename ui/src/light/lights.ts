@@ -112,7 +112,7 @@ export function createLights(start: () => LightWorker): Lights {
   const makeStrip = (job: StripJob) => {
     const request = stripRequest(job.layer, job.stage);
     asking.ask({ do: 'strip', request, moments: STRIP_MOMENTS }, (reply) => {
-      const strip = reply.of === 'colours' ? { bytes: reply.bytes, robots: reply.robots } : null;
+      const strip = reply.of === 'colours' ? reply.bytes : null;
       if (strip && known.size < KNOWN_MAX) known.set(job.key, strip);
       job.done(strip);
       next(reply);

@@ -21,7 +21,7 @@ export interface Moments {
 export type LightReply =
   | { of: 'loaded'; answer: LightAnswer }
   /** For each moment, red, green and blue of each robot. */
-  | { of: 'colours'; robots: number; bytes: Uint8Array }
+  | { of: 'colours'; bytes: Uint8Array }
   /** The worker is of no more use. */
   | { of: 'failure' };
 
@@ -38,10 +38,10 @@ export type LightClass = new (request: string) => LightOfModule;
 export function createResponder(PlannedLight: LightClass): (ask: LightAsk) => LightReply {
   let loaded: LightOfModule | null = null;
   const read = (text: string) => JSON.parse(text) as LightAnswer;
-  const colours = (light: LightOfModule, { from_s, step_s, count }: Moments): LightReply => {
-    const bytes = light.colours(from_s, step_s, count);
-    return { of: 'colours', robots: read(light.answer()).robots, bytes };
-  };
+  const colours = (light: LightOfModule, { from_s, step_s, count }: Moments): LightReply => ({
+    of: 'colours',
+    bytes: light.colours(from_s, step_s, count),
+  });
   return (ask) => {
     switch (ask.do) {
       case 'load':

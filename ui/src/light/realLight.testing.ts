@@ -1,4 +1,5 @@
 import { readFileSync } from 'node:fs';
+import { answering } from '../base/worker.testing';
 import { initSync, PlannedLight } from '../generated/browser';
 import type { LightWorker } from './asking';
 import { createResponder, type LightAsk } from './protocol';
@@ -7,14 +8,8 @@ import { createResponder, type LightAsk } from './protocol';
 export function realLightWorker(asked: (ask: LightAsk) => void = () => undefined): LightWorker {
   initSync({ module: readFileSync(new URL('../generated/browser_bg.wasm', import.meta.url)) });
   const respond = createResponder(PlannedLight);
-  const worker: LightWorker = {
-    onmessage: null,
-    onerror: null,
-    postMessage(ask) {
-      asked(ask);
-      void Promise.resolve().then(() => worker.onmessage?.({ data: respond(ask) } as MessageEvent));
-    },
-    terminate: () => undefined,
-  };
-  return worker;
+  return answering((ask) => {
+    asked(ask);
+    return respond(ask);
+  });
 }

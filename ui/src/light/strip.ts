@@ -3,16 +3,13 @@ import { writeShow } from '../model/json';
 import { withLayers, type Layer } from '../model/layers';
 import { newFrame, type Pixel, type Show, type Stage } from '../model/show';
 
-/** What a layer does on a floor full of robots, over some seconds. */
-export interface Strip {
-  /** For each moment, red, green and blue of each robot, row by row from the back. */
-  bytes: Uint8Array;
-  robots: number;
-}
+/** A floor full of robots over some seconds: for each moment, red, green and blue of each, row by row from the back. */
+export type Strip = Uint8Array;
 
 /** Robots side by side, and one behind the other. */
 export const STRIP_COLUMNS = 12;
 export const STRIP_ROWS = 8;
+export const STRIP_ROBOTS = STRIP_COLUMNS * STRIP_ROWS;
 /** 4 s, as often as a slow screen draws. */
 export const STRIP_MOMENTS = { from_s: 0, step_s: 0.05, count: 80 } as const;
 
@@ -25,7 +22,7 @@ export function stripRequest(layer: Layer, stage: Stage): LightRequest {
   const place = (cells: number, nth: number, extent_m: number) =>
     ((nth + 0.5) / cells - 0.5) * extent_m;
   const pixels = (color: number): Pixel[] =>
-    Array.from({ length: STRIP_COLUMNS * STRIP_ROWS }, (_, id) => ({
+    Array.from({ length: STRIP_ROBOTS }, (_, id) => ({
       id,
       x: place(STRIP_COLUMNS, id % STRIP_COLUMNS, stage.width_m),
       y: -place(STRIP_ROWS, Math.floor(id / STRIP_COLUMNS), stage.depth_m),

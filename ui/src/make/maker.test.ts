@@ -1,12 +1,12 @@
 import { afterEach, beforeEach, expect, test, vi } from 'vitest';
 import type { MakeAnswer, MakeRequest } from '../api/types.gen';
-import { createMaker, GRACE_MS, MAKE_MAX_MS, type WorkerLike } from './maker';
+import { createMaker, GRACE_MS, MAKE_MAX_MS, type MakeWorker } from './maker';
 import type { Ask, Reply } from './protocol';
 
 beforeEach(() => void vi.useFakeTimers());
 afterEach(() => void vi.useRealTimers());
 
-interface FakeWorker extends WorkerLike {
+interface FakeWorker extends MakeWorker {
   asks: Ask[];
   ended: boolean;
   answer(reply: Reply): void;

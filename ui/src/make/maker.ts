@@ -8,15 +8,10 @@ import type {
   PlanAnswer,
   PlanningRequest,
 } from '../api/types.gen';
+import { listenTo, type WorkerLike } from '../base/worker';
 import type { Ask, Cause, Reply } from './protocol';
 
-/** What a maker needs of a worker. */
-export interface WorkerLike {
-  postMessage(ask: Ask): void;
-  onmessage: ((event: MessageEvent<Reply>) => void) | null;
-  onerror: ((event: ErrorEvent) => void) | null;
-  terminate(): void;
-}
+export type MakeWorker = WorkerLike<Ask, Reply>;
 
 /** Makes frames and plans in a worker that is started with the first wish. */
 export interface Maker {
@@ -61,8 +56,8 @@ const WORDS: Record<Cause, string> = {
   'too-slow': 'This takes too long. Use a simpler drawing, a shorter animation or fewer robots.',
 };
 
-export function createMaker(start: () => WorkerLike): Maker {
-  let worker: WorkerLike | null = null;
+export function createMaker(start: () => MakeWorker): Maker {
+  let worker: MakeWorker | null = null;
   let running: Job | null = null;
   let queue: Job[] = [];
   let timer: ReturnType<typeof setTimeout> | undefined;
@@ -89,11 +84,8 @@ export function createMaker(start: () => WorkerLike): Maker {
     running = queue.shift() ?? null;
     if (!running) return;
     if (!worker) {
-      const mine = start();
-      worker = mine;
-      // A worker that was ended may have a message under way, which answers nothing any more.
-      mine.onmessage = ({ data }) => worker === mine && finish(data);
-      mine.onerror = () => worker === mine && finish(fail('broken'));
+      worker = start();
+      listenTo(worker, () => worker, finish, fail('broken'));
     }
     const isLong = running.ask.do === 'film' || running.ask.do === 'fit';
     giveUpIn(isLong ? MAKE_ALL_MAX_MS : MAKE_MAX_MS, fail('too-slow'));

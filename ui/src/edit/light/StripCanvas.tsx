@@ -1,7 +1,13 @@
 import { useEffect, useRef, useState } from 'react';
 import type { Layer } from '../../model/layers';
 import type { Stage } from '../../model/show';
-import { STRIP_COLUMNS, STRIP_MOMENTS, STRIP_ROWS, type Strip } from '../../light/strip';
+import {
+  STRIP_COLUMNS,
+  STRIP_MOMENTS,
+  STRIP_ROBOTS,
+  STRIP_ROWS,
+  type Strip,
+} from '../../light/strip';
 import { FLOOR } from '../../stage/palette';
 import { useEditing } from '../context';
 import styles from './Light.module.css';
@@ -9,7 +15,7 @@ import styles from './Light.module.css';
 /** Side of a robot's cell, device pixels. */
 const CELL = 12;
 const [WIDTH, HEIGHT] = [STRIP_COLUMNS * CELL, STRIP_ROWS * CELL];
-/** A moment that shows most effects, for people who want less motion. */
+/** A moment that shows most effects, for screens that are set to less motion. */
 const STILL = 26;
 
 /** What a layer does, on a small floor full of robots, over and over. */
@@ -51,12 +57,12 @@ function play(context: CanvasRenderingContext2D, strip: Strip): () => void {
   return () => cancelAnimationFrame(request);
 }
 
-function paint(context: CanvasRenderingContext2D, { bytes, robots }: Strip, moment: number) {
+function paint(context: CanvasRenderingContext2D, strip: Strip, moment: number) {
   context.fillStyle = FLOOR.floor;
   context.fillRect(0, 0, WIDTH, HEIGHT);
-  for (let robot = 0; robot < robots; robot++) {
-    const at = 3 * (moment * robots + robot);
-    context.fillStyle = `rgb(${bytes[at]} ${bytes[at + 1]} ${bytes[at + 2]})`;
+  for (let robot = 0; robot < STRIP_ROBOTS; robot++) {
+    const at = 3 * (moment * STRIP_ROBOTS + robot);
+    context.fillStyle = `rgb(${strip[at]} ${strip[at + 1]} ${strip[at + 2]})`;
     const [x, y] = [(robot % STRIP_COLUMNS) * CELL, Math.floor(robot / STRIP_COLUMNS) * CELL];
     context.beginPath();
     context.arc(x + CELL / 2, y + CELL / 2, CELL * 0.4, 0, 2 * Math.PI);
