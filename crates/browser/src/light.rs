@@ -5,7 +5,6 @@ use lightbots_base::{Piece, Span, Vec2};
 use lightbots_lighting::{FrameLight, FrameTimes, LightMoment, LitFrame, PlannedDrive, ShowLight, lit_frame};
 use lightbots_plan::Path;
 use lightbots_show::{Frame, Show};
-use std::ops::Range;
 use wasm_bindgen::prelude::wasm_bindgen;
 
 use crate::answer;
@@ -115,8 +114,8 @@ impl PlannedLight {
         let frame = self.times.iter().position(|times| show_s < times.end_s).unwrap_or(last);
         let times = self.times[frame];
         // A layer ends with its frame: at the very end of the show the moment before is the last that shines.
-        let Range { start, end } = times.drive_s..(times.end_s - TINY_S).max(times.drive_s);
-        let show_s = if show_s.is_nan() { start } else { show_s.clamp(start, end) };
+        let end_s = (times.end_s - TINY_S).max(times.drive_s);
+        let show_s = if show_s.is_nan() { times.drive_s } else { show_s.clamp(times.drive_s, end_s) };
         let elapsed = Span::from_secs(show_s - times.drive_s);
         Some((frame, LightMoment { elapsed, show_s, lead_s: 0.0 }))
     }
@@ -132,7 +131,6 @@ const TINY_S: f64 = 1e-6;
 
 impl Drive {
     fn planned(way: &Transition) -> Self {
-        let [x, y] = [0, 1];
         let paths = way.paths.iter().map(|path| {
             let piece = |piece: &[f64; 7]| Piece {
                 duration: Span::from_secs(piece[0]),
@@ -141,7 +139,8 @@ impl Drive {
                 end: Vec2::new(piece[5], piece[6]),
             };
             let pieces = path.pieces.iter().map(piece).collect();
-            Path { start: Vec2::new(path.start[x], path.start[y]), pieces }
+            let [x, y] = path.start;
+            Path { start: Vec2::new(x, y), pieces }
         });
         let paths: Vec<Path> = paths.collect();
         let mut pixels = way.pixels.clone();

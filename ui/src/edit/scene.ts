@@ -4,6 +4,7 @@ import { pathsTo } from '../model/plannedPaths';
 import { hollowOf } from '../model/dots';
 import { unitStore } from '../session/preferences';
 import { pixelsOf } from '../make/frame';
+import type { Colours } from '../light/lights';
 import type { Making } from '../make/making';
 import { penLine } from '../make/pen';
 import type { MakeAnswer, Plan } from '../api/types.gen';
@@ -11,7 +12,7 @@ import type { Frame } from '../model/show';
 import { dotsAt, timelineOf } from '../model/timeline';
 import type { Layer } from '../model/layers';
 import { paintLayer } from './light/layerOverlay';
-import { litDots, litPixels, type Lit } from './light/lit';
+import { litDots, litPixels } from './light/lit';
 import type { Camera } from '../stage/camera';
 import { floorOf, type Scene } from '../stage/scene';
 import type { StageOptions } from './editing';
@@ -52,7 +53,7 @@ const NO_SELECTION: ReadonlySet<number> = new Set();
 
 /** The robots' light, and the layer whose handles are shown. */
 export interface SceneLight {
-  lit: Lit | null;
+  lit: Colours | null;
   layer: Layer | null;
 }
 

@@ -21,10 +21,9 @@ export function PaletteField({ index, layer }: { index: number; layer: Layer }) 
     setSettings(editing, index, { palette: paletteJson(colours) });
   const recolour = (nth: number, text: string) => {
     const color = fromText(text);
-    if (color === undefined || color === palette[nth]?.color) return false;
+    if (color === undefined || color === palette[nth]?.color) return;
     editor.begin();
     set(palette.map((one, i) => (i === nth ? { ...one, color } : one)));
-    return true;
   };
   return (
     <div>

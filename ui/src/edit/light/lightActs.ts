@@ -23,12 +23,10 @@ export function duplicateLayer({ editor, layer }: Editing, index: number) {
 
 /** Moves a layer to another number; it stays chosen. */
 export function moveLayer({ editor, layer }: Editing, index: number, to: number) {
-  const before = layers.layersOf(editor.state.get().show);
+  const before = editor.state.get().show;
   editor.change('Order of light', (show) => layers.moveLayer(show, index, to));
-  const chosen = layer.get();
-  const moved = chosen === null ? undefined : before[chosen];
-  const now = layers.layersOf(editor.state.get().show);
-  if (moved && now !== before) layer.set(followed(chosen ?? 0, index, to));
+  if (editor.state.get().show === before) return;
+  layer.update((chosen) => (chosen === null ? null : followed(chosen, index, to)));
 }
 
 /** The number of a layer after another one, or itself, was moved. */

@@ -7,9 +7,6 @@ import type { Frame, Pixel, Show } from '../../model/show';
 import { timelineOf } from '../../model/timeline';
 import type { Editing } from '../editing';
 
-/** Colours of robots with the layers of light. */
-export type Lit = Colours;
-
 const NOTHING: readonly Transition[] = [];
 
 /** How long the frame on the stage stands at least, seconds: in its own air time many effects hardly begin. */
@@ -37,7 +34,7 @@ export function litNow(
   plan: Plan | null,
   time_s: number | null,
   now_ms: number,
-): Lit | null {
+): Colours | null {
   const { show, frame } = editing.editor.state.get();
   const transitions = plan?.transitions ?? NOTHING;
   if (time_s !== null) return editing.lights.at(show, transitions, time_s);
@@ -56,20 +53,20 @@ export function shownLayer(editing: Editing): { index: number; layer: Layer } | 
   return index !== null && layer ? { index, layer } : null;
 }
 
-const colourAt = (lit: Lit, robot: number, otherwise: Rgb): Rgb => {
+const colourAt = (lit: Colours, robot: number, otherwise: Rgb): Rgb => {
   const [r, g, b] = [lit[3 * robot], lit[3 * robot + 1], lit[3 * robot + 2]];
   return r === undefined || g === undefined || b === undefined ? otherwise : rgb(r, g, b);
 };
 
 /** Robots in the order of the plan, in their light. */
-export const litDots = (dots: Dot[], lit: Lit | null): Dot[] =>
+export const litDots = (dots: Dot[], lit: Colours | null): Dot[] =>
   lit ? dots.map((dot, robot) => ({ ...dot, color: colourAt(lit, robot, dot.color) })) : dots;
 
 /** The pixels of a frame, each in the light of the robot that shows it. */
 export function litPixels(
   pixels: readonly Pixel[],
   drive: Transition | undefined,
-  lit: Lit | null,
+  lit: Colours | null,
 ): Dot[] {
   const robots =
     lit && drive && drive.paths.length > 0
