@@ -9,7 +9,7 @@
 //! | `DELETE /api/session` | | 204: ends the session of the cookie; a token stays |
 //! | `GET /api/people` | | list of [`AccountEntry`], by name |
 //! | `POST /api/people` | [`NewPerson`] | 204; 409 for a name that is taken |
-//! | `PUT /api/people/{name}` | [`PersonChange`] | 204; 409 for the last operator, who stays one |
+//! | `PUT /api/people/{name}` | [`PersonChange`] | 204; 409 for the last operator, because one must stay |
 //! | `DELETE /api/people/{name}` | | 204: the person's sessions and tokens end within a second; 409 for the last operator |
 //! | `GET /api/tokens` | | list of [`AccountEntry`], by name |
 //! | `POST /api/tokens` | [`AccountEntry`] | [`MadeToken`], the only answer that holds the token; 409 for a name that is

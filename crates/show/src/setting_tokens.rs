@@ -9,7 +9,7 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer};
 /// Deepest value that is read. Documents have at most 8 levels.
 const DEEPEST: u32 = 16;
 
-/// A value, or the beginning of one: so many items follow a list, so many pairs of a text and a value an object.
+/// A value, or the beginning of one: `List(n)` is followed by n items, `Object(n)` by n pairs of a text and a value.
 #[derive(Serialize, Deserialize)]
 enum Token {
     Null,

@@ -22,8 +22,8 @@ const FORGOTTEN_AFTER: Duration = Duration::from_secs(2 * 3600);
 const OF_NAME: Bucket = Bucket { most: 20, refill: Duration::from_secs(60) };
 /// Wrong passwords of all names and addresses: at once, and the time for each further one.
 const IN_WHOLE: Bucket = Bucket { most: 60, refill: Duration::from_secs(10) };
-/// Pairs of name and address whose wrong passwords are remembered. Bounds the memory for strangers on this machine, for
-/// whom the buckets do not hold. Above it the pair whose pause ended first is forgotten: to push one out takes as many wrong
+/// Pairs of name and address whose wrong passwords are remembered. Bounds the memory for strangers on this machine: the
+/// buckets do not hold for them. Above it the pair whose pause ended first is forgotten: to push one out takes as many wrong
 /// passwords, each of which is hashed, and so more time than the first pauses.
 const PAIRS_MAX: usize = 10_000;
 /// Letters of a name that are remembered: one more than a name of a person may have. Bounds the memory for long names.

@@ -1,4 +1,4 @@
-//! Who may read the file of a private key.
+//! Rights of the file of a private key.
 
 use std::path::Path;
 

@@ -75,7 +75,7 @@ fn memory_kb(server: &Child) -> Option<u64> {
     line.trim().trim_end_matches("kB").trim().parse().ok()
 }
 
-/// Fails if the server took more memory than refused guesses and so many hashes may.
+/// Fails if the server took more memory than refused guesses and that number of hashes may.
 fn assert_memory(server: &Child, before: Option<u64>, hashes: usize) {
     if let (Some(before), Some(after)) = (before, memory_kb(server)) {
         assert!(after < before + GROWTH_KB_MAX + HASH_KB * hashes as u64, "from {before} kB to {after} kB");

@@ -41,7 +41,7 @@ pub fn start(people: &[(&str, &str)]) -> (Child, String, Site) {
     start_with(people, "0")
 }
 
-/// The same with so many simulated robots.
+/// The same with that number of simulated robots.
 pub fn start_with(people: &[(&str, &str)], robots: &str) -> (Child, String, Site) {
     let data = shows::own_folder().to_str().unwrap().to_owned();
     for (name, role) in people {
