@@ -57,6 +57,14 @@ pub enum Operation {
     },
     /// Leave out the frame that comes next; no robot moves. Only while `Playback.may_jump`.
     Skip,
+    /// Put a layer of light over the show that plays, until it is taken off or the show ends; robots follow within 0.3 s.
+    LiveLight {
+        /// Its name. A layer of the same name is replaced.
+        name: String,
+        /// The layer, as in a show file (docs/light.md); its span does not count. Null: take the layer off.
+        #[ts(type = "Record<string, unknown> | null")]
+        layer: Option<serde_json::Value>,
+    },
     /// Switch on or off that the show begins again after the last frame.
     Loop {
         /// Whether it begins again.

@@ -74,6 +74,8 @@ pub struct Playback {
     pub stopped_in: Option<usize>,
     /// Name of the cue at which the show waits for `go`; may be empty. Null: it does not wait for it.
     pub cue: Option<String>,
+    /// Names of the layers of live light that are on, lowest first.
+    pub live_light: Vec<String>,
     /// Whether `go_on` lets a show go on whose robots were out of reach: some report again.
     pub may_go_on: bool,
     /// Speed of drives, percent of the usual one.

@@ -117,7 +117,7 @@ impl PlannedLight {
         let end_s = (times.end_s - TINY_S).max(times.drive_s);
         let show_s = if show_s.is_nan() { times.drive_s } else { show_s.clamp(times.drive_s, end_s) };
         let elapsed = Span::from_secs(show_s - times.drive_s);
-        Some((frame, LightMoment { elapsed, show_s, lead_s: 0.0 }))
+        Some((frame, LightMoment { elapsed, show_s, lead_s: 0.0, clock_s: 0.0 }))
     }
 }
 

@@ -247,6 +247,9 @@ impl Controller {
     /// Ends a run that is over at a frame.
     fn end(&mut self, now: Instant, outcome: RunOutcome, frame: usize) {
         let Some(mut run) = self.run.take() else { return };
+        if outcome == RunOutcome::Finished {
+            run.end_live_light(&mut self.context, now);
+        }
         run.leave(&mut self.context);
         let is_show = run.playback.purpose == RunPurpose::Play;
         self.stopped_in = Some(frame).filter(|_| is_show && outcome != RunOutcome::Finished);

@@ -5,10 +5,10 @@ use crate::controller::Controller;
 use crate::event::EventKind;
 use crate::home;
 use crate::operation::{ControllerState, MissingPolicy, Operation, Refusal};
-use crate::run::{FrameCursor, PlayedShow, Run, RunPurpose};
+use crate::run::{FrameCursor, LIVE_MAX, NAME_MAX, PlayedShow, Run, RunPurpose};
 use crate::stopping::Stopping;
 use lightbots_base::{Instant, RobotId, Span};
-use lightbots_show::{Issue, SPEED_MIN_PERCENT, Show, slowed, validate};
+use lightbots_show::{Issue, Layer, SPEED_MIN_PERCENT, Show, slowed, validate};
 use lightbots_wire::{Blink, Command, Topic};
 use std::sync::Arc;
 
@@ -53,6 +53,7 @@ impl Controller {
             }
             Operation::GoTo(frame) => self.go_to(now, frame),
             Operation::Skip => self.skip(now),
+            Operation::LiveLight { name, layer } => self.change_live_light(now, &name, layer.as_ref()),
             Operation::Home => self.go_home(now),
             Operation::Speed(percent) => self.set_speed(percent),
             Operation::Pin { pixel, robot } => {
@@ -264,6 +265,27 @@ impl Controller {
             return Err(Refusal::NothingToSkip);
         }
         run.skip(context, now);
+        Ok(())
+    }
+
+    fn change_live_light(&mut self, now: Instant, name: &str, layer: Option<&Layer>) -> Result<(), Refusal> {
+        let run = self.run.as_mut().filter(|run| run.playback.purpose == RunPurpose::Play);
+        let run = run.ok_or(Refusal::NoShowPlays)?;
+        let wrong = |issue| Refusal::WrongLayer { issue };
+        if name.is_empty() || name.chars().count() > NAME_MAX {
+            return Err(wrong(format!("its name has 1 to {NAME_MAX} characters")));
+        }
+        let mut live = run.pipeline.light.live().clone();
+        if layer.is_some() && live.names().filter(|other| *other != name).count() >= LIVE_MAX {
+            return Err(Refusal::TooMuchLight { most: LIVE_MAX });
+        }
+        match layer {
+            Some(layer) => live
+                .put_on(name.to_owned(), layer, (now - Instant::ZERO).as_secs())
+                .map_err(|faults| wrong(faults.first().map_or_else(String::new, ToString::to_string)))?,
+            None => live.take_off(name),
+        }
+        run.set_live_light(&mut self.context, now, live);
         Ok(())
     }
 

@@ -2,7 +2,7 @@
 
 use core::fmt;
 use lightbots_base::RobotId;
-use lightbots_show::{SPEED_MIN_PERCENT, Show};
+use lightbots_show::{Layer, SPEED_MIN_PERCENT, Show};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -68,6 +68,13 @@ pub enum Operation {
     GoTo(usize),
     /// Leave out the frame that comes next. No robot moves: the show goes on as it would have, to the frame after it.
     Skip,
+    /// Put a layer of light over the show that plays, in place of one of the same name; `None`: take that layer off.
+    LiveLight {
+        /// Its name.
+        name: String,
+        /// The layer; its span does not count.
+        layer: Option<Layer>,
+    },
 }
 
 /// What happens to pixels no robot can show.
@@ -141,6 +148,18 @@ pub enum Refusal {
     Driving,
     /// No frame comes next.
     NothingToSkip,
+    /// No show plays that live light could be put over.
+    NoShowPlays,
+    /// The layer of live light is wrong.
+    WrongLayer {
+        /// What is wrong with it and what to do, one line.
+        issue: String,
+    },
+    /// There are too many layers of live light.
+    TooMuchLight {
+        /// The most that are possible.
+        most: usize,
+    },
     /// There are not enough robots; [`MissingPolicy::LeaveOut`] plays without the missing ones.
     TooFewRobots {
         /// Most pixels in a frame.
@@ -188,6 +207,7 @@ impl Operation {
             Self::Admit(_) => "admit robots",
             Self::GoTo(_) => "go to a frame",
             Self::Skip => "skip",
+            Self::LiveLight { .. } => "change live light",
         }
     }
 }
@@ -232,6 +252,11 @@ impl fmt::Display for Refusal {
                 write!(f, "Robots are driving: pause the show, or wait until they stand.")
             }
             Self::NothingToSkip => write!(f, "No frame comes next: the show ends."),
+            Self::NoShowPlays => write!(f, "No show plays: live light needs one, so press Play first."),
+            Self::WrongLayer { issue } => write!(f, "This light cannot be shown: {issue}."),
+            Self::TooMuchLight { most } => {
+                write!(f, "{most} live lights are on, and more are not possible: release one first.")
+            }
             Self::TooFewRobots { pixels, robots, without_place, unfit } => {
                 write!(f, "The show needs {pixels} robots, {robots} can take part")?;
                 if *without_place > 0 {

@@ -57,6 +57,8 @@ pub struct RunView {
     pub began: Option<Instant>,
     /// Name of the cue at which the run waits for GO; it may be empty. `None`: it does not wait for GO.
     pub cue: Option<String>,
+    /// Names of the layers of live light that are on.
+    pub live_light: Vec<String>,
     /// Whether the operator can let a run go on that was interrupted, without robots that do not report.
     pub may_go_on: bool,
     /// Robots of the run that others wait for, because they make no progress or are silent; at most 8.

@@ -42,6 +42,7 @@ impl Run {
             progress: self.progress(now),
             drive_s: self.pipeline.leg().map_or(0.0, |leg| leg.duration.as_secs()),
             began,
+            live_light: self.pipeline.light.live().names().map(str::to_owned).collect(),
             cue: self.cue().map(str::to_owned),
             may_go_on: self.may_go_on(context),
             waiting_for: self.waiting_for(context, now),

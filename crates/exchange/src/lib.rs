@@ -34,6 +34,7 @@ mod table;
 pub use archive::hash_of;
 pub use error::{PixelName, ReadError};
 pub use format::{Format, Loaded, Written};
+pub use lightbots::read_layer;
 pub use limits::MAX_BYTES;
 pub use part::Part;
 pub use read::read;

@@ -11,6 +11,7 @@ mod trajectories;
 mod write;
 
 pub(crate) use read::read;
+pub use read::read_layer;
 pub(crate) use write::encode;
 
 use crate::json;

@@ -42,6 +42,8 @@ pub struct LightMoment {
     pub show_s: f64,
     /// How long show time stood, seconds.
     pub lead_s: f64,
+    /// The show clock, seconds: live light counts by it.
+    pub clock_s: f64,
 }
 
 impl DrivenLight<'_> {
@@ -101,7 +103,8 @@ impl DrivenLight<'_> {
             [true, false] => 1.0 - self.changed(moment.elapsed),
         };
         let lit = light.layers.colour_without(left_out, moment.show_s, &robot, &context);
-        robot.colour.lerp(lit, share)
+        let live = light.live.colour(moment.clock_s, &LitRobot { colour: lit, ..robot }, &context);
+        robot.colour.lerp(live, share)
     }
 
     /// The colours at `ticks` + 1 moments that are a [`TICK`] apart. `moment` gives them by number.

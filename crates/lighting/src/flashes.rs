@@ -172,7 +172,12 @@ fn duration_s(frame: &LitFrame<'_>) -> f64 {
 
 fn moment(times: FrameTimes, step: u32) -> LightMoment {
     let elapsed_s = f64::from(step) / f64::from(RATE);
-    LightMoment { elapsed: Span::from_secs(elapsed_s), show_s: times.drive_s + elapsed_s, lead_s: 0.0 }
+    LightMoment {
+        elapsed: Span::from_secs(elapsed_s),
+        show_s: times.drive_s + elapsed_s,
+        lead_s: 0.0,
+        clock_s: 0.0,
+    }
 }
 
 /// The most flashes that robots on more than a quarter of a field have had in the last second.

@@ -30,6 +30,15 @@ pub struct FrameLight {
     pub numbers: Vec<usize>,
     /// Whether one of them goes on while show time stands.
     pub runs_freely: bool,
+    /// Live light over them, by the show clock.
+    pub live: Layers,
+}
+
+impl FrameLight {
+    /// Whether light changes while show time stands.
+    pub fn is_free(&self) -> bool {
+        self.runs_freely || !self.live.list().is_empty()
+    }
 }
 
 impl ShowLight {
@@ -106,7 +115,7 @@ impl ShowLight {
         let runs_freely = layers.iter().any(|layer| layer.runs_freely);
         // Each layer was found valid on its own, and the document bounds their number.
         let layers = Layers::new(layers).unwrap_or_default().at_times(|number| moments[number]);
-        FrameLight { layers, numbers, runs_freely }
+        FrameLight { layers, numbers, runs_freely, live: Layers::default() }
     }
 }
 

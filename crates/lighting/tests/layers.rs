@@ -48,7 +48,7 @@ fn colour(light: &ShowLight, frame: usize, show_s: f64, lead_s: f64) -> Rgb {
         goal: Vec2::ZERO,
         drive: Span::ZERO,
     };
-    let moment = LightMoment { elapsed: Span::from_secs(1.0), show_s, lead_s };
+    let moment = LightMoment { elapsed: Span::from_secs(1.0), show_s, lead_s, clock_s: 0.0 };
     robot.colour(&light.in_frame(frame, times), light.pictures(), moment)
 }
 

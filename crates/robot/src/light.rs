@@ -103,10 +103,13 @@ impl Light {
         if let Some(show) = show.filter(|_| self.running.is_some() || !self.waiting.is_empty()) {
             self.advance(show);
         }
-        if let Some(show) = show.filter(|_| self.tracks.is_any())
-            && let Some(colour) = self.tracks.step(show, self.shown, stored)
-        {
-            (self.shown, self.running) = (colour, None);
+        if let Some(show) = show.filter(|_| self.tracks.is_any()) {
+            if !self.waiting.is_empty() && self.tracks.begins(show) {
+                self.waiting.clear();
+            }
+            if let Some(colour) = self.tracks.step(show, self.shown, stored) {
+                (self.shown, self.running) = (colour, None);
+            }
         }
         self.blink.take_if(|(_, until)| now >= *until);
         let changes = self.running.is_some() || !self.waiting.is_empty() || self.tracks.is_any();
@@ -151,7 +154,8 @@ impl Light {
 
 #[cfg(test)]
 mod tests {
-    use lightbots_wire::LiveColours;
+    use lightbots_base::LightRecord;
+    use lightbots_wire::{LightAnchor, LightStretch, LiveColours};
 
     use super::*;
     use crate::light_ahead::StoredTrack;
@@ -183,6 +187,31 @@ mod tests {
         assert_eq!(light.step(Instant(0), Some(Instant(2000)), &NO_TRACKS), Rgb::new(64, 64, 64));
         light.set(Rgb::new(1, 2, 3));
         assert_eq!(light.step(Instant(0), Some(Instant(9000)), &NO_TRACKS), Rgb::new(1, 2, 3));
+    }
+
+    #[test]
+    fn a_stretch_that_begins_ends_fades_and_a_fade_that_comes_later_ends_it() {
+        let mut storage = NO_TRACKS;
+        let mut light = Light::default();
+        light.fade(Some(Instant(0)), fade(WHITE, 3_000_000, 0));
+        let records = heapless::Vec::from_slice(&[LightRecord::Step { ticks: 900, to: RED }]);
+        let anchor = LightAnchor::Moment(Instant(1_000_000));
+        let stretch = LightStretch {
+            number: 1,
+            anchor,
+            skip: Span::ZERO,
+            over: Span::ZERO,
+            start: Rgb::new(0, 0, 9),
+            records: records.expect("one record fits"),
+        };
+        light.tracks.keep(&stretch, &mut storage);
+        light.wake();
+        let at = |light: &mut Light, now, storage| light.step(Instant(now), Some(Instant(now)), storage);
+        assert_eq!(at(&mut light, 2_000_000, &storage), Rgb::new(0, 0, 9));
+        assert_eq!(at(&mut light, 4_000_000, &storage), Rgb::new(0, 0, 9), "the fade was deleted");
+        light.fade(Some(Instant(4_000_000)), fade(WHITE, 5_000_000, 0));
+        assert_eq!(at(&mut light, 6_000_000, &storage), WHITE);
+        assert_eq!(at(&mut light, 20_000_000, &storage), WHITE, "the stretch is over");
     }
 
     #[test]

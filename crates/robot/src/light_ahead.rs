@@ -38,6 +38,7 @@ pub(crate) type StoredTracks = [StoredTrack; STORED];
 /// A stretch that was received.
 #[derive(Clone, Copy, Debug)]
 struct Kept {
+    number: u32,
     slot: usize,
     /// The route whose START it waits for.
     seq: Option<u32>,
@@ -115,7 +116,8 @@ impl LightAhead {
             LightAnchor::Free(at) => (None, Some(at), true),
         };
         storage[slot].put(stretch);
-        let kept = Kept { slot, seq, from, runs_freely, skip: stretch.skip, over: stretch.over };
+        let (number, skip, over) = (stretch.number, stretch.skip, stretch.over);
+        let kept = Kept { number, slot, seq, from, runs_freely, skip, over };
         // Fits: there are no more of them than slots.
         let _ = self.waiting.push(kept);
     }
@@ -152,6 +154,11 @@ impl LightAhead {
         *self = Self { newest: self.newest, ..Self::default() };
     }
 
+    /// Whether a stretch begins by this moment of the show clock.
+    pub(crate) fn begins(&self, show: Instant) -> bool {
+        self.waiting.iter().any(|&kept| self.is_due(kept, show))
+    }
+
     /// The colour at a moment of the show clock, where a stretch plays. `shown`: the colour until now.
     pub(crate) fn step(&mut self, show: Instant, shown: Rgb, storage: &StoredTracks) -> Option<Rgb> {
         while let Some(index) = (0..self.waiting.len()).find(|&index| self.is_due(self.waiting[index], show))
@@ -174,10 +181,9 @@ impl LightAhead {
     }
 
     fn begin(&mut self, kept: Kept, shown: Rgb) {
-        if kept.seq.is_some() {
-            // What waits for a moment belongs to the drive before.
-            self.waiting.retain(|other| other.seq.is_some());
-        }
+        // What waits for a moment belongs to the drive before, or this stretch was sent in its place.
+        let is_replaced = |other: &Kept| kept.seq.is_some() || is_earlier(other.number, kept.number);
+        self.waiting.retain(|other| other.seq.is_some() || !is_replaced(other));
         let is_new = |playing: &Playing| playing.kept.from != kept.from;
         if let Some(from) =
             kept.from.filter(|_| self.playing.as_ref().is_none_or(is_new) && !kept.runs_freely)
@@ -205,6 +211,11 @@ impl LightAhead {
         own.begin(from);
         Some(own.at(show).time)
     }
+}
+
+/// Whether a number comes before another; numbers go around.
+fn is_earlier(number: u32, other: u32) -> bool {
+    (other.wrapping_sub(number) as i32) > 0
 }
 
 #[cfg(test)]
@@ -280,6 +291,20 @@ mod tests {
         tracks.start(7, ms(1000));
         assert_eq!(tracks.step(ms(1000), WHITE, &storage), Some(Rgb::BLACK));
         assert_eq!((tracks.waiting.len(), tracks.waiting[0].seq), (1, Some(8)));
+    }
+
+    #[test]
+    fn a_stretch_replaces_those_sent_before_it_that_wait_for_a_moment() {
+        let (mut tracks, mut storage) = (LightAhead::default(), stored());
+        tracks.keep(&stretch(1, LightAnchor::Start(7), Span::ZERO), &mut storage);
+        tracks.keep(&stretch(2, LightAnchor::Moment(ms(3000)), Span::ZERO), &mut storage);
+        tracks.keep(&stretch(3, LightAnchor::Moment(ms(1000)), Span::ZERO), &mut storage);
+        assert_eq!(tracks.step(ms(1000), WHITE, &storage), Some(Rgb::BLACK));
+        assert!(tracks.waiting.iter().map(|kept| kept.number).eq([1]));
+        tracks.keep(&stretch(4, LightAnchor::Moment(ms(2000)), Span::ZERO), &mut storage);
+        tracks.keep(&stretch(5, LightAnchor::Moment(ms(3000)), Span::ZERO), &mut storage);
+        tracks.step(ms(2000), WHITE, &storage);
+        assert!(tracks.waiting.iter().map(|kept| kept.number).eq([1, 5]), "a later one waits on");
     }
 
     #[test]

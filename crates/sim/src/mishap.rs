@@ -15,6 +15,8 @@ pub enum Mishap {
     GoTo(usize),
     /// The operator leaves out the next frame.
     Skip,
+    /// The operator puts a rainbow over the show, or takes it off.
+    Rainbow(bool),
     /// A robot's power fails.
     Off(usize),
     /// A robot's power is back: it begins as if it were new.

@@ -480,6 +480,10 @@ stopped_in: number | null,
  */
 cue: string | null, 
 /**
+ * Names of the layers of live light that are on, lowest first.
+ */
+live_light: Array<string>, 
+/**
  * Whether `go_on` lets a show go on whose robots were out of reach: some report again.
  */
 may_go_on: boolean, 
@@ -671,7 +675,15 @@ missing?: Missing, } | { "do": "pause" } | { "do": "resume" } | { "do": "step" }
 /**
  * The frame.
  */
-frame: number, } | { "do": "skip" } | { "do": "loop", 
+frame: number, } | { "do": "skip" } | { "do": "live_light", 
+/**
+ * Its name. A layer of the same name is replaced.
+ */
+name: string, 
+/**
+ * The layer, as in a show file (docs/light.md); its span does not count. Null: take the layer off.
+ */
+layer: Record<string, unknown> | null, } | { "do": "loop", 
 /**
  * Whether it begins again.
  */

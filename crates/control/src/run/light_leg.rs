@@ -17,8 +17,8 @@ pub(crate) struct PlannedStretch {
     pub ticks: u32,
     /// How long robots take from what they show to its colours.
     pub over: Span,
-    /// During a hold: it begins at this moment, and only layers that run freely change.
-    pub held_at: Option<Instant>,
+    /// The moment at which it begins, if it runs through holds. `None`: it stands still in them.
+    pub free_at: Option<Instant>,
 }
 
 /// Light of a leg.
@@ -69,7 +69,14 @@ impl LegLight {
     pub fn moment(&self, elapsed: Span, lost: Span) -> LightMoment {
         let shown = self.end().map_or(elapsed, |end| elapsed.min(end));
         let lead_s = self.lead_s + (lost + (elapsed - shown)).as_secs();
-        LightMoment { elapsed, show_s: self.show_s + shown.as_secs(), lead_s }
+        let began = self.clock.map_or(Instant::ZERO, |clock| clock.began);
+        let clock_s = (began - Instant::ZERO + elapsed + lost).as_secs();
+        LightMoment { elapsed, show_s: self.show_s + shown.as_secs(), lead_s, clock_s }
+    }
+
+    /// What robots show at a moment of the show clock, by the holds that are stated.
+    pub fn moment_at(&self, at: Instant) -> LightMoment {
+        self.moment(self.elapsed(at).unwrap_or(Span::ZERO), self.lost(at))
     }
 
     /// How long holds have taken until now.
@@ -109,8 +116,8 @@ impl LegLight {
     ) -> Command {
         let lost = self.lost(now);
         let samples =
-            robot.samples(&self.layers, show.pictures(), stretch.ticks, |time| match stretch.held_at {
-                Some(_) => self.moment(stretch.from, lost + time),
+            robot.samples(&self.layers, show.pictures(), stretch.ticks, |time| match stretch.free_at {
+                Some(at) => self.moment_at(at + time),
                 None => self.moment(stretch.from + time, lost),
             });
         let fitted = fit(&samples, Tolerance::SIDE_BY_SIDE, MAX_LIGHT_RECORDS);
@@ -130,7 +137,7 @@ impl LegLight {
     /// so that a frame may wait for GO as long as it likes.
     fn anchor(&self, stretch: &PlannedStretch, now: Instant) -> (LightAnchor, Span) {
         let Some(clock) = self.clock else { return (LightAnchor::Start(self.seq), stretch.from) };
-        if let Some(at) = stretch.held_at {
+        if let Some(at) = stretch.free_at {
             return (LightAnchor::Free(at), Span::ZERO);
         }
         let stands = clock.hold.is_none() && clock.path_time(now) >= self.drive;
@@ -144,8 +151,8 @@ impl LegLight {
     pub fn stretch(&self, number: u32, from: Span, longest: Span, over: Span) -> Option<PlannedStretch> {
         let left = self.end().map_or(longest, |end| (end - from).min(longest));
         // Layers that run freely go on when show time is over.
-        let left = if self.layers.runs_freely { longest } else { left };
+        let left = if self.layers.is_free() { longest } else { left };
         let ticks = u32::try_from((left.0 + TICK.0 - 1) / TICK.0).ok().filter(|ticks| *ticks > 0)?;
-        Some(PlannedStretch { number, from, ticks, over, held_at: None })
+        Some(PlannedStretch { number, from, ticks, over, free_at: None })
     }
 }

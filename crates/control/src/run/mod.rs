@@ -36,6 +36,7 @@ mod target_commands;
 mod target_progress;
 mod upload;
 
+pub(crate) use light_player::{LIVE_MAX, NAME_MAX};
 pub(crate) use machine::{Run, RunPhase};
 pub(crate) use membership::{Membership, Probation};
 pub(crate) use next::AirTime;
@@ -53,6 +54,7 @@ use crate::plan_request::PlanResult;
 use gathering::Gathering;
 use interrupted::Interrupted;
 use lightbots_base::{Instant, Span};
+use lightbots_lighting::LiveLayers;
 use lightbots_wire::{Report, RobotState, Topic};
 use link::LinkEstimate;
 use next::Next;
@@ -283,6 +285,20 @@ impl Run {
         self.playback.waits_for_go = false;
         if let RunPhase::Standing(standing) = &mut self.phase {
             standing.leave_now(now);
+        }
+    }
+
+    /// The operator changes live light.
+    pub fn set_live_light(&mut self, io: &mut Context, now: Instant, live: LiveLayers) {
+        let Pipeline { light, driven, .. } = &mut self.pipeline;
+        light.set_live(io, (&self.roster, driven.as_ref().map(|driven| &driven.leg)), now, live);
+    }
+
+    /// The show was played to its end: robots show their frame, without live light.
+    pub fn end_live_light(&mut self, io: &mut Context, now: Instant) {
+        let Pipeline { light, driven, .. } = &mut self.pipeline;
+        if let Some(driven) = driven {
+            light.end_live(io, &self.roster, now, &driven.leg);
         }
     }
 

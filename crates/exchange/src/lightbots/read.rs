@@ -2,7 +2,8 @@
 
 use lightbots_base::{Limits, Rgb, Vec2};
 use lightbots_show::{
-    Easing, Frame, Identity, MAX_OBSTACLES, MAX_PIXELS, Obstacle, Pixel, Show, SourcePart, Stage, excerpt,
+    Easing, Frame, Identity, Layer, MAX_OBSTACLES, MAX_PIXELS, Obstacle, Pixel, Show, SourcePart, Stage,
+    excerpt,
 };
 
 use super::fields::{label, one_of, place};
@@ -19,6 +20,14 @@ const NEWEST: u32 = 2;
 pub(crate) fn read(bytes: &[u8]) -> Result<Loaded, ReadError> {
     let ((show, has_stage), notes) = document(bytes, show)?;
     Ok(Loaded { show, plan: None, has_stage, unread: notes.unread(), issues: notes.issues })
+}
+
+/// Reads one layer, as it stands in `layers` of a show. Fields without meaning change nothing.
+///
+/// # Errors
+/// What is wrong, and where.
+pub fn read_layer(bytes: &[u8]) -> Result<Layer, ReadError> {
+    document(bytes, timeline::layer).map(|(layer, _)| layer)
 }
 
 /// The show, and whether the file has a stage. An error in a file of a newer version names that version, because the

@@ -20,7 +20,7 @@ pub(super) fn layers(json: &mut Json<'_>, notes: &mut Notes) -> Result<Vec<Layer
     bounded(json, "layers", MAX_LAYERS, |json| layer(json, notes))
 }
 
-fn layer(json: &mut Json<'_>, notes: &mut Notes) -> Result<Layer, ReadError> {
+pub(super) fn layer(json: &mut Json<'_>, notes: &mut Notes) -> Result<Layer, ReadError> {
     let (mut name, mut kind, mut settings) = (String::new(), None, Vec::new());
     let (mut frames, mut phase, mut from_s, mut to_s) = (None, None, None, None);
     json.object(|json, key| {

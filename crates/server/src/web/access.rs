@@ -48,6 +48,7 @@ pub fn of_operation(operation: &Operation) -> AccountRole {
         | Operation::Go
         | Operation::GoTo { .. }
         | Operation::Skip
+        | Operation::LiveLight { .. }
         | Operation::Loop { .. }
         | Operation::Speed { .. }
         | Operation::Home

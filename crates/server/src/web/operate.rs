@@ -3,6 +3,7 @@
 use lightbots_api as api;
 use lightbots_base::RobotId;
 use lightbots_control::{MissingPolicy, Operation, Refusal};
+use lightbots_exchange::read_layer;
 
 use super::Shared;
 use crate::broker_settings::Settings;
@@ -53,12 +54,7 @@ async fn act(shared: &Shared, operation: api::Operation) -> Result<(), Refused> 
             }
             Operation::Admit(shared.book.admitted())
         }
-        Wish::OnlyListed { on } => {
-            let present = shared.handle.look().await.map(|snapshot| snapshot.robots).unwrap_or_default();
-            let present: Vec<RobotId> = present.iter().map(|robot| robot.id).collect();
-            shared.book.only_listed(on, &present).map_err(plain)?;
-            Operation::Admit(shared.book.admitted())
-        }
+        Wish::OnlyListed { on } => only_listed(shared, on).await.map_err(plain)?,
         Wish::Disconnect => {
             shared.broker.disconnect(&shared.handle).await;
             return Ok(());
@@ -73,6 +69,7 @@ async fn act(shared: &Shared, operation: api::Operation) -> Result<(), Refused> 
         Wish::Go => Operation::Go,
         Wish::GoTo { frame } => Operation::GoTo(frame),
         Wish::Skip => Operation::Skip,
+        Wish::LiveLight { name, layer } => live_light(name, layer).map_err(plain)?,
         Wish::Speed { percent } => Operation::Speed(percent),
         Wish::Loop { on } => Operation::Loop(on),
         Wish::Abort => Operation::Abort,
@@ -88,6 +85,21 @@ async fn act(shared: &Shared, operation: api::Operation) -> Result<(), Refused> 
         }
     };
     shared.handle.operate(wish).await.map_err(|refusal| (refusal.to_string(), None))
+}
+
+/// Switches on or off that only listed robots take part.
+async fn only_listed(shared: &Shared, on: bool) -> Result<Operation, String> {
+    let present = shared.handle.look().await.map(|snapshot| snapshot.robots).unwrap_or_default();
+    let present: Vec<RobotId> = present.iter().map(|robot| robot.id).collect();
+    shared.book.only_listed(on, &present)?;
+    Ok(Operation::Admit(shared.book.admitted()))
+}
+
+/// Reads a layer of live light.
+fn live_light(name: String, layer: Option<serde_json::Value>) -> Result<Operation, String> {
+    let layer = layer.map(|layer| read_layer(layer.to_string().as_bytes())).transpose();
+    let layer = layer.map_err(|fault| format!("This light cannot be shown: {fault}."))?;
+    Ok(Operation::LiveLight { name, layer })
 }
 
 /// Plays or previews, unless the plan has errors.

@@ -188,6 +188,7 @@ impl Painter {
             doing: run.map(|run| run.doing.to_owned()),
             frame: run.filter(|run| !run.home).map(|run| run.frame),
             next: run.filter(|run| !run.home).and_then(|run| run.next),
+            live_light: run.map(|run| run.live_light.clone()).unwrap_or_default(),
             may_jump: run.is_some_and(|run| run.may_jump),
             frames: self.desk.shown().show.frames.len(),
             progress: rounded(progress, 3),

@@ -1,6 +1,7 @@
 //! What goes wrong in a rehearsal: robots, broker and controller break down by the conditions.
 
 use lightbots_control::{Config, Controller, OnReturn, Operation, RecordedController, Refusal};
+use lightbots_show::{Layer, LayerSpan, Setting};
 
 use super::Play;
 use crate::breakdowns::Fate;
@@ -124,6 +125,7 @@ impl Play {
                 Mishap::Resume => self.operator.does(self.now, Operation::Resume),
                 Mishap::GoTo(frame) => self.operator.does(self.now, Operation::GoTo(frame)),
                 Mishap::Skip => self.operator.does(self.now, Operation::Skip),
+                Mishap::Rainbow(on) => self.operator.does(self.now, rainbow(on)),
                 Mishap::Off(robot) => self.robots.kill(robot),
                 Mishap::On(robot) => self.robots.restart(self.now, robot),
                 Mishap::Moved(robot, to) => self.robots.put_down(robot, to),
@@ -153,4 +155,15 @@ impl Play {
             }
         }
     }
+}
+
+/// The operation that puts a rainbow over the show, or takes it off.
+fn rainbow(on: bool) -> Operation {
+    let layer = Layer {
+        name: String::new(),
+        kind: "rainbow".into(),
+        span: LayerSpan::Show,
+        settings: vec![("speed_hz".into(), Setting::Number(0.4))],
+    };
+    Operation::LiveLight { name: "rainbow".into(), layer: on.then_some(layer) }
 }

@@ -1,8 +1,8 @@
 //! Layers of light: robots show what the layers say, on time, whatever happens to the drive.
 
-use lightbots_base::{Rgb, Vec2};
+use lightbots_base::{Rgb, Span, Vec2};
 use lightbots_show::{Frame, FramePhase, Layer, LayerSpan, Pixel, Setting, Show, Stage};
-use lightbots_sim::{Conditions, Faults, RehearsalOptions, RehearsalReport, rehearse};
+use lightbots_sim::{Conditions, Faults, Mishap, RehearsalOptions, RehearsalReport, rehearse};
 
 fn layer(kind: &str, span: LayerSpan, settings: Vec<(&str, Setting)>) -> Layer {
     let settings = settings.into_iter().map(|(name, value)| (name.to_owned(), value)).collect();
@@ -94,5 +94,31 @@ fn light_goes_on_with_the_others_when_a_robot_dies() {
         let report = play(&show(12, 4.0), "kill=3@9s,loss=2%", seed);
         assert!(report.replans > 0 && report.dropouts == 1, "seed {seed}: {:?}", report.issues);
         assert_lit(&report, 200);
+    }
+}
+
+/// Live light is pressed and released while robots drive, stand, and are held.
+#[test]
+fn live_light_is_shown_within_0_3_s_while_robots_drive_stand_and_are_held() {
+    let at = |ms: i64, mishap| (Span::from_millis(ms), mishap);
+    for (number, shift) in [0, 700, 1_900, 3_100].into_iter().enumerate() {
+        let mut mishaps = vec![at(9_000 + shift, Mishap::Pause), at(14_000 + shift, Mishap::Resume)];
+        let presses = [1_000, 2_500, 8_000, 11_000, 12_000, 13_000, 17_000, 30_000].into_iter();
+        mishaps.extend(
+            presses.zip([true, false].into_iter().cycle()).map(|(ms, on)| at(ms, Mishap::Rainbow(on))),
+        );
+        mishaps.sort_by_key(|(at, _)| *at);
+        for (layers, faults) in
+            [(layers(), ""), (Vec::new(), ""), (layers(), "loss=5%"), (Vec::new(), "loss=5%")]
+        {
+            let show = Show { layers, ..show(12, 4.0) };
+            let faults_of =
+                if faults.is_empty() { Faults::default() } else { Faults::parse(faults).unwrap() };
+            let conditions =
+                faults_of.added_to(Conditions { mishaps: mishaps.clone(), ..Conditions::default() });
+            let options = RehearsalOptions { seed: number as u64 + 1, conditions, robots: None };
+            let report = rehearse(&show, &options, &mut |_| {});
+            assert_lit(&report, if faults.is_empty() { 2_000 } else { 100 });
+        }
     }
 }

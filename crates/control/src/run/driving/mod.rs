@@ -64,10 +64,8 @@ impl Driving {
     fn begin_leg(&mut self, cx: &mut RunContext) {
         let Pipeline { driven: Some(driven), queue, lights, light, .. } = &mut *cx.pipeline else { return };
         lights.forget(cx.roster.len());
+        light.begin_drive(cx.io, (cx.playback, cx.roster), &driven.leg, (cx.now, self.clock));
         let is_lit = light.is_active();
-        if is_lit {
-            light.begin_drive(cx.io, (cx.playback, cx.roster), &driven.leg, (cx.now, self.clock));
-        }
         match driven.leg.kind {
             LegKind::Routes if is_lit => {}
             LegKind::Routes => {

@@ -1,6 +1,12 @@
 //! Light over time: stretches that robots get ahead, and COLORs for robots that know no stretches.
 //!
-//! Runs of shows without layers do not use it; their lights are in `lights`.
+//! Runs of shows without layers do not use it until live light is put over them; their lights are in `lights`. `sending`
+//! sends what is due, and `live` has the layers of live light.
+
+mod live;
+mod sending;
+
+pub(crate) use live::{LIVE_MAX, NAME_MAX};
 
 use crate::context::Context;
 use crate::leg::{Leg, LegKind};
@@ -11,35 +17,19 @@ use crate::run::roster::Roster;
 use crate::run::show_times::ShowTimes;
 use crate::run::upload::Upload;
 use lightbots_base::{Instant, Rgb, Span, TICK};
-use lightbots_lighting::{FrameTimes, ShowLight, is_seen_apart};
-use lightbots_wire::{Command, Route};
+use lightbots_lighting::{FrameTimes, LiveLayers, ShowLight};
+use lightbots_wire::Command;
 
 /// Duration of a stretch. Shorter: more messages. Longer: more is sent in vain when plans change.
 const STRETCH: Span = Span::from_millis(10_000);
-/// The next stretch is sent when half of the one before has played.
-const REFILL: Span = Span::from_millis(5_000);
 /// How long lights take to the new colours where show time jumps: after GO, in a new round, after a new plan.
 const BLEND: Span = Span::from_millis(500);
+/// How long robots take to a change of live light, message and blend.
+const CHANGE: Span = Span::from_millis(250);
 /// Most stretches that are computed at once: each takes 0.3 ms, and reports wait meanwhile.
 pub(crate) const AT_ONCE: usize = 16;
 /// When the next ones follow.
 pub(crate) const AGAIN_AFTER: Span = Span::from_millis(5);
-/// How far ahead a stretch that begins in a hold or for one robot is stated: a round trip.
-const LEAD: Span = Span::from_millis(100);
-/// The second stretch is sent this long after the drive began: robots whose clock is a little behind drop what waits when
-/// the drive begins (R56).
-const BEGUN: Span = Span::from_millis(100);
-
-/// COLORs of robots that know no stretches.
-struct Colours {
-    /// Time between two of a robot.
-    every: Span,
-    /// Most of them a second, for the whole fleet.
-    rate: i64,
-}
-
-/// Four a second look like steps of a fade; 200 a second leave the broker free for routes.
-const COLOURS: Colours = Colours { every: Span::from_millis(250), rate: 200 };
 
 /// The light of a run.
 #[derive(Clone, Debug, Default)]
@@ -55,12 +45,24 @@ pub(crate) struct LightPlayer {
     upload: Option<(PlannedStretch, Upload)>,
     /// Until when stretches were begun to be sent, as time since the drive began.
     covered: Span,
-    /// Until when robots have light for the hold under way.
-    held_until: Option<Instant>,
+    /// Until when robots have light that runs through holds; far: they have one colour for the hold under way.
+    free_until: Option<Instant>,
+    /// The hold that the newest stretch counts with: when it began, and its end if that was known.
+    known_hold: Option<(Instant, Option<Instant>)>,
     /// When what was put off is sent.
     again_at: Instant,
     /// When COLORs are sent next.
     colours_at: Instant,
+    /// Layers that the operator put over the show.
+    live: LiveLayers,
+    /// Whether the operator did so in this run. From then on stretches are sent, also by a show without layers.
+    was_live: bool,
+    /// When all robots get a new stretch, because live light changed or their leg began without one.
+    renew_at: Instant,
+    /// When such stretches were begun to be sent last.
+    renewed_at: Instant,
+    /// The next stretch is sent this long before the newest ends.
+    refill: Span,
 }
 
 impl LightPlayer {
@@ -70,12 +72,12 @@ impl LightPlayer {
             RunPurpose::Play => ShowLight::new(&playback.show, |_| None).0,
             RunPurpose::Preview | RunPurpose::Home => ShowLight::default(),
         };
-        Self { show, again_at: Instant::FAR, ..Self::default() }
+        Self { show, again_at: Instant::FAR, renew_at: Instant::FAR, ..Self::default() }
     }
 
-    /// Whether the show has layers.
+    /// Whether stretches are sent: the show has layers, or live light was put over it.
     pub fn is_active(&self) -> bool {
-        !self.show.is_empty()
+        !self.show.is_empty() || self.was_live
     }
 
     /// The first stretch of the next leg for a participant, which goes along with its route; `None`: its robot knows no
@@ -88,6 +90,10 @@ impl LightPlayer {
         (now, participant): (Instant, usize),
     ) -> Option<Command> {
         if !self.is_active() || !roster.robot(context, participant).reported.abilities.light {
+            return None;
+        }
+        // Live light counts by the show clock, and when the drive begins is not known yet.
+        if !self.live.is_empty() {
             return None;
         }
         self.prepare(context, playback, roster, leg);
@@ -131,12 +137,13 @@ impl LightPlayer {
             (false, known) => known.filter(|_| is_same_frame).map_or(show_s, |times| times.drive_s),
         };
         self.times.begun.insert(leg.frame, FrameTimes { drive_s, air_s, end_s });
-        let layers = self.show.in_frame(leg.frame, |frame| self.times.begun.get(&frame).copied());
+        let mut layers = self.show.in_frame(leg.frame, |frame| self.times.begun.get(&frame).copied());
+        layers.live = self.live.layers().clone();
         let follows = current.is_some_and(|current| {
             current.frame == (leg.frame.wrapping_sub(1), leg.round) && !current.waits_for_go
         }) && !is_chosen;
-        let over = if follows && !layers.runs_freely { Span::ZERO } else { BLEND };
-        let number = context.number_route();
+        let over = if follows && !layers.is_free() { Span::ZERO } else { BLEND };
+        let number = if self.is_active() { context.number_route() } else { 0 };
         let mut light = LegLight {
             seq: leg.seq,
             frame,
@@ -151,7 +158,7 @@ impl LightPlayer {
             before,
             after: leg.robots.iter().map(|step| (step.color, step.pixel.is_some())).collect(),
             layers,
-            first: PlannedStretch { number, from: Span::ZERO, ticks: 1, over, held_at: None },
+            first: PlannedStretch { number, from: Span::ZERO, ticks: 1, over, free_at: None },
             clock: None,
             seen: Span::ZERO,
         };
@@ -159,7 +166,7 @@ impl LightPlayer {
         self.next = Some(light);
     }
 
-    /// The drive of a leg has begun.
+    /// The drive of a leg has begun. Also kept where no stretches are sent: live light may be put over it.
     pub fn begin_drive(
         &mut self,
         context: &mut Context,
@@ -173,14 +180,23 @@ impl LightPlayer {
         // The first stretch went along with the routes, if there were any.
         let is_sent = leg.kind == LegKind::Routes;
         self.covered = if is_sent { TICK * i64::from(light.first.ticks) } else { Span::ZERO };
-        (self.upload, self.held_until, self.again_at) = (None, None, Instant::FAR);
-        self.colours_at = now;
+        (self.upload, self.again_at, self.known_hold) = (None, Instant::FAR, None);
+        self.free_until = light.layers.is_free().then_some(clock.began + self.covered);
+        (self.refill, self.colours_at) = (STRETCH / 2, now);
+        self.renew_at = if self.was_live { now } else { Instant::FAR };
+        self.current = Some(light);
+        if self.is_active() {
+            self.set_lights(context, roster, leg);
+        }
+    }
+
+    /// Robots that get stretches end with the colours of the leg.
+    fn set_lights(&self, context: &mut Context, roster: &Roster, leg: &Leg) {
         for (participant, step) in leg.robots.iter().enumerate().take(roster.len()) {
             if roster.robot(context, participant).reported.abilities.light {
                 context.set_light(roster.participants[participant].robot, step.color);
             }
         }
-        self.current = Some(light);
     }
 
     /// The drive goes on by this clock.
@@ -206,150 +222,16 @@ impl LightPlayer {
         }
     }
 
-    /// Sends what is due while a leg is driven or its frame stands. `legs`: that leg, and the one after it.
-    pub fn pump(&mut self, context: &mut Context, roster: &Roster, now: Instant, legs: (&Leg, Option<&Leg>)) {
-        let Some(elapsed) = self.current.as_ref().and_then(|current| current.elapsed(now)) else { return };
-        if let Some(current) = &mut self.current {
-            current.seen = elapsed;
-            if let Some(clock) = &mut current.clock {
-                clock.end_hold(now);
-            }
-        }
-        self.again_at = Instant::FAR;
-        self.begin_stretch(context, now, elapsed, legs.0);
-        self.pump_stretch(context, roster, now, legs);
-        if now >= self.colours_at {
-            self.colours_at = self.send_colours(context, roster, (now, elapsed), legs);
-        }
-    }
-
-    /// Begins to upload the next stretch, if it is time.
-    fn begin_stretch(&mut self, context: &mut Context, now: Instant, elapsed: Span, leg: &Leg) {
-        let Some(current) = &self.current else { return };
-        let is_held = current
-            .clock
-            .and_then(|clock| clock.hold)
-            .is_some_and(|hold| hold.until.is_none() && now > hold.at + Route::EASE);
-        let stretch = match self.held_until {
-            until if is_held && current.layers.runs_freely => {
-                if until.is_some_and(|until| now + REFILL < until) {
-                    return;
-                }
-                self.held_until = Some(now + LEAD + STRETCH);
-                let stretch = current.stretch(context.number_route(), elapsed, STRETCH, Span::ZERO);
-                stretch.map(|stretch| PlannedStretch { held_at: Some(now + LEAD), ..stretch })
-            }
-            Some(_) => {
-                self.held_until = None;
-                current.stretch(context.number_route(), elapsed, STRETCH, Span::ZERO)
-            }
-            None if elapsed < BEGUN || elapsed + REFILL < self.covered => return,
-            None if current.end().is_some_and(|end| self.covered >= end && !current.layers.runs_freely) => {
-                return;
-            }
-            None => current.stretch(context.number_route(), self.covered, STRETCH, Span::ZERO),
-        };
-        let Some(stretch) = stretch else { return };
-        if stretch.held_at.is_none() {
-            self.covered = stretch.from + TICK * i64::from(stretch.ticks);
-        }
-        self.upload = Some((stretch, Upload::new(stretch.number, now, leg.robots.len())));
-    }
-
-    /// Sends the stretch under way to robots that have not got it.
-    fn pump_stretch(
-        &mut self,
-        context: &mut Context,
-        roster: &Roster,
-        now: Instant,
-        (leg, after): (&Leg, Option<&Leg>),
-    ) {
-        let (Some(current), Some((stretch, upload))) = (&self.current, &mut self.upload) else { return };
-        let config = context.config.upload;
-        let again_at = now + config.resend_after * 2;
-        let mut left = AT_ONCE;
-        while left > 0 {
-            let needs_none =
-                |one: usize| roster.is_excluded(one) || !roster.robot(context, one).reported.abilities.light;
-            let overdue = upload.next_overdue(now, needs_none);
-            let Some(one) = overdue.or_else(|| upload.next_unserved(config.window, needs_none)) else {
-                return;
-            };
-            if let Some(robot) = current.driven(leg, after, one) {
-                let command = current.command(&self.show, &robot, stretch, now);
-                context.send(roster.participants[one].robot, &[command]);
-            }
-            upload.record_sent(now, one, again_at);
-            left -= 1;
-        }
-        self.again_at = now + AGAIN_AFTER;
-    }
-
-    /// Sends COLORs to robots that know no stretches; when that is done next.
-    fn send_colours(
-        &self,
-        context: &mut Context,
-        roster: &Roster,
-        (now, elapsed): (Instant, Span),
-        (leg, after): (&Leg, Option<&Leg>),
-    ) -> Instant {
-        let Some(current) = &self.current else { return Instant::FAR };
-        let mut robots = 0;
-        for (participant, known) in roster.participants.iter().enumerate() {
-            let robot = context.fleet.robot(known.robot);
-            if known.is_excluded() || robot.reported.abilities.light {
-                continue;
-            }
-            robots += 1;
-            let Some(driven) = current.driven(leg, after, participant) else { continue };
-            let moment = current.moment(elapsed, current.lost(now));
-            let colour = driven.colour(&current.layers, self.show.pictures(), moment);
-            if !robot.is_light_sure || is_seen_apart(robot.light, colour) {
-                context.set_light(known.robot, colour);
-                context.send(known.robot, &[Command::Color(colour)]);
-            }
-        }
-        let every = COLOURS.every.max(Span(robots * 1_000_000 / COLOURS.rate));
-        if robots == 0 { Instant::FAR } else { now + every }
-    }
-
-    /// A robot was switched off and on: it gets what is left of its light.
-    pub fn relight(
-        &self,
-        context: &mut Context,
-        roster: &Roster,
-        now: Instant,
-        leg: &Leg,
-        participant: usize,
-    ) {
-        let Some(current) = &self.current else { return };
-        let (Some(elapsed), Some(robot)) = (current.elapsed(now), current.driven(leg, None, participant))
-        else {
-            return;
-        };
-        let number = context.number_route();
-        let longest = (self.covered - elapsed).max(TICK);
-        let Some(stretch) = current.stretch(number, elapsed, longest, BLEND) else { return };
-        let command = current.command(&self.show, &robot, &stretch, now);
-        context.send(roster.participants[participant].robot, &[command]);
-    }
-
-    /// When something is due.
-    pub fn due(&self, now: Instant) -> Instant {
-        let Some(current) = &self.current else { return Instant::FAR };
-        let resend = self.upload.as_ref().and_then(|(_, upload)| upload.due()).unwrap_or(Instant::FAR);
-        let is_covered = current.end().is_some_and(|end| self.covered >= end) && !current.layers.runs_freely;
-        let next = match current.clock.filter(|clock| clock.hold.is_none() && !is_covered) {
-            Some(clock) => now + (self.covered - REFILL - clock.path_time(now)).max(BEGUN),
-            None => self.held_until.map_or(Instant::FAR, |_| now + REFILL),
-        };
-        self.again_at.min(resend).min(next).min(self.colours_at)
+    /// Whether robots are on their way to a change of live light.
+    fn is_changing(&self, now: Instant) -> bool {
+        let is_under_way = self.renewed_at > Instant::ZERO && now < self.renewed_at + CHANGE;
+        self.renew_at < Instant::FAR || is_under_way
     }
 
     /// Whether lights are on their way to the colours of a new drive.
     pub fn blends(&self, now: Instant) -> bool {
-        let Some(current) = &self.current else { return false };
-        current.elapsed(now).is_none_or(|elapsed| elapsed < current.first.over)
+        let Some(current) = self.current.as_ref().filter(|_| self.is_active()) else { return false };
+        self.is_changing(now) || current.elapsed(now).is_none_or(|elapsed| elapsed < current.first.over)
     }
 
     /// The colour that a participant should show now.
@@ -359,7 +241,7 @@ impl LightPlayer {
         (leg, after): (&Leg, Option<&Leg>),
         participant: usize,
     ) -> Option<Rgb> {
-        let current = self.current.as_ref()?;
+        let current = self.current.as_ref().filter(|_| self.is_active())?;
         let moment = current.moment(current.elapsed(now)?, current.lost(now));
         let robot = current.driven(leg, after, participant)?;
         Some(robot.colour(&current.layers, self.show.pictures(), moment))

@@ -1,0 +1,68 @@
+//! Live light: layers that the operator puts over a running show and takes off again.
+
+use super::{BLEND, LightPlayer};
+use crate::context::Context;
+use crate::leg::Leg;
+use crate::run::light_leg::PlannedStretch;
+use crate::run::roster::Roster;
+use lightbots_base::{Instant, Span};
+use lightbots_lighting::LiveLayers;
+
+/// Most layers of live light at once.
+pub(crate) const LIVE_MAX: usize = 8;
+/// Most characters in the name of one.
+pub(crate) const NAME_MAX: usize = 64;
+/// Least time between two changes that robots are told: a hand that drums on the pads does not fill the link.
+const CHANGE_EVERY: Span = Span::from_millis(100);
+
+impl LightPlayer {
+    /// The layers of live light.
+    pub fn live(&self) -> &LiveLayers {
+        &self.live
+    }
+
+    /// Puts live light over the show, in place of what was; robots follow within 0.3 s. `leg`: the one that is driven or was
+    /// driven last.
+    pub fn set_live(
+        &mut self,
+        context: &mut Context,
+        (roster, leg): (&Roster, Option<&Leg>),
+        now: Instant,
+        live: LiveLayers,
+    ) {
+        self.live = live;
+        for light in self.current.iter_mut().chain(&mut self.next) {
+            light.layers.live = self.live.layers().clone();
+        }
+        if !std::mem::replace(&mut self.was_live, true)
+            && self.show.is_empty()
+            && let Some(leg) = leg
+        {
+            self.colours_at = now;
+            self.set_lights(context, roster, leg);
+        }
+        // A change that waits takes this one along.
+        self.renew_at = self.renew_at.min(now.max(self.renewed_at + CHANGE_EVERY));
+    }
+
+    /// The show is over: live light ends with it, and robots show their frame.
+    pub fn end_live(&mut self, context: &mut Context, roster: &Roster, now: Instant, leg: &Leg) {
+        if self.live.is_empty() {
+            return;
+        }
+        self.live = LiveLayers::default();
+        let Some(current) = &mut self.current else { return };
+        current.layers.live = self.live.layers().clone();
+        let Some(elapsed) = current.elapsed(now) else { return };
+        let number = context.number_route();
+        let stretch = PlannedStretch { number, from: elapsed, ticks: 1, over: BLEND, free_at: None };
+        for (participant, known) in roster.active() {
+            if roster.robot(context, participant).reported.abilities.light
+                && let Some(robot) = current.driven(leg, None, participant)
+            {
+                let command = current.command(&self.show, &robot, &stretch, now);
+                context.send(known.robot, &[command]);
+            }
+        }
+    }
+}

@@ -1,0 +1,247 @@
+//! Sends what is due: stretches within a window until they are acknowledged, and COLORs.
+
+use super::{AGAIN_AFTER, AT_ONCE, BLEND, LightPlayer, STRETCH};
+use crate::context::Context;
+use crate::leg::Leg;
+use crate::run::light_leg::{LegLight, PlannedStretch};
+use crate::run::path_clock::PathClock;
+use crate::run::roster::Roster;
+use crate::run::upload::Upload;
+use lightbots_base::{Instant, Span, TICK};
+use lightbots_lighting::is_seen_apart;
+use lightbots_wire::{Command, Route};
+
+/// How far ahead a stretch that runs through holds is stated: a round trip.
+const LEAD: Span = Span::from_millis(100);
+/// The second stretch is sent this long after the drive began: robots whose clock is a little behind drop what waits when
+/// the drive begins (R56).
+const BEGUN: Span = Span::from_millis(100);
+
+/// How a change of live light reaches robots: within 0.3 s.
+struct LiveChange {
+    /// How long lights take to it. Shorter looks like a fault, longer like a slow button.
+    blend: Span,
+    /// How far ahead it is stated.
+    lead: Span,
+    /// Duration of the first stretch, and what each robot adds to it, so that the next reaches all in time. Short ones are
+    /// computed sooner.
+    first: (Span, Span),
+    /// At most so many times as many stretches are computed at once as others: each then takes 0.06 ms.
+    at_once: usize,
+}
+
+const LIVE: LiveChange = LiveChange {
+    blend: Span::from_millis(150),
+    lead: Span::from_millis(30),
+    first: (Span::from_millis(2_000), Span(600)),
+    at_once: 5,
+};
+
+impl LiveChange {
+    fn first(&self, robots: usize) -> Span {
+        let (least, each) = self.first;
+        (least + each * i64::try_from(robots).unwrap_or(i64::MAX / 1_000)).min(STRETCH)
+    }
+}
+
+/// COLORs of robots that know no stretches.
+struct Colours {
+    /// Time between two of a robot.
+    every: Span,
+    /// Most of them a second, for the whole fleet.
+    rate: i64,
+}
+
+/// Four a second look like steps of a fade; 200 a second leave the broker free for routes.
+const COLOURS: Colours = Colours { every: Span::from_millis(250), rate: 200 };
+
+impl LightPlayer {
+    /// Sends what is due while a leg is driven or its frame stands. `legs`: that leg, and the one after it.
+    pub fn pump(&mut self, context: &mut Context, roster: &Roster, now: Instant, legs: (&Leg, Option<&Leg>)) {
+        let Some(elapsed) = self.current.as_ref().and_then(|current| current.elapsed(now)) else { return };
+        if let Some(current) = &mut self.current {
+            current.seen = elapsed;
+            if let Some(clock) = &mut current.clock {
+                clock.end_hold(now);
+            }
+        }
+        self.again_at = Instant::FAR;
+        self.begin_stretch(context, now, elapsed, legs.0);
+        self.pump_stretch(context, roster, now, legs);
+        if now >= self.colours_at {
+            self.colours_at = self.send_colours(context, roster, (now, elapsed), legs);
+        }
+    }
+
+    /// Begins to upload the next stretch, if it is time.
+    fn begin_stretch(&mut self, context: &mut Context, now: Instant, elapsed: Span, leg: &Leg) {
+        let Some(current) = &self.current else { return };
+        let Some(clock) = current.clock else { return };
+        let renews = now >= self.renew_at && elapsed >= BEGUN;
+        let is_free = current.layers.is_free();
+        let begins = match is_free || renews && clock.is_held() {
+            true => self.next_free(&clock, now, renews).map(|at| (clock.path_time(at), Some(at))),
+            false => self.next_moment(current, &clock, elapsed, renews).map(|from| (from, None)),
+        };
+        let Some((from, free_at)) = begins else { return };
+        let rests_at = clock.open_hold().map_or(now, |hold| hold.at + Route::EASE);
+        let (longest, over) = match renews {
+            // Nothing changes from when all stand until the hold is over.
+            true if let Some(at) = free_at.filter(|_| !is_free) => {
+                ((rests_at - at).max(Span::ZERO) + TICK, LIVE.blend)
+            }
+            true => (LIVE.first(leg.robots.len()), LIVE.blend),
+            false => (STRETCH, Span::ZERO),
+        };
+        let number = context.number_route();
+        let stretch = match current.stretch(number, from, longest, over) {
+            Some(stretch) => PlannedStretch { free_at, ..stretch },
+            // Show time is over: the light stays what it is then.
+            None if renews => PlannedStretch { number, from, ticks: 1, over, free_at },
+            None => return,
+        };
+        let lasts = TICK * i64::from(stretch.ticks);
+        self.refill = (STRETCH / 2).min(lasts / 2);
+        if renews {
+            (self.renew_at, self.renewed_at) = (Instant::FAR, now);
+        }
+        self.free_until = free_at.map(|at| if is_free { at + lasts } else { Instant::FAR });
+        self.known_hold = clock.hold.map(|hold| (hold.at, hold.until));
+        if free_at.is_none() {
+            self.covered = stretch.from + lasts;
+        }
+        self.upload = Some((stretch, Upload::new(stretch.number, now, leg.robots.len())));
+    }
+
+    /// The moment at which the next stretch begins that runs through holds, if it is time for it.
+    fn next_free(&self, clock: &PathClock, now: Instant, renews: bool) -> Option<Instant> {
+        if renews {
+            return Some(now + LIVE.lead);
+        }
+        // Light that follows show time slows down and picks up with the drive.
+        let hold = clock.hold.filter(|hold| self.known_hold != Some((hold.at, hold.until)));
+        if let Some(hold) = hold {
+            return Some(hold.until.unwrap_or(hold.at).max(now + LEAD));
+        }
+        let until = self.free_until?;
+        (now + self.refill >= until).then_some(until.max(now + LEAD))
+    }
+
+    /// The time since the drive began at which the next stretch begins that stands still in holds, if it is time for it.
+    fn next_moment(
+        &self,
+        current: &LegLight,
+        clock: &PathClock,
+        elapsed: Span,
+        renews: bool,
+    ) -> Option<Span> {
+        if renews {
+            return Some(elapsed);
+        }
+        if self.free_until.is_some() && !clock.is_held() && self.renew_at == Instant::FAR {
+            // A tick later: what is shown in the hold stays until it is over.
+            return Some(elapsed + TICK);
+        }
+        let is_covered = elapsed < BEGUN || elapsed + self.refill < self.covered;
+        let is_over = current.end().is_some_and(|end| self.covered >= end);
+        (!is_covered && !is_over).then_some(self.covered)
+    }
+
+    /// Sends the stretch under way to robots that have not got it.
+    fn pump_stretch(
+        &mut self,
+        context: &mut Context,
+        roster: &Roster,
+        now: Instant,
+        (leg, after): (&Leg, Option<&Leg>),
+    ) {
+        let is_changing = self.is_changing(now);
+        let (Some(current), Some((stretch, upload))) = (&self.current, &mut self.upload) else { return };
+        let config = context.config.upload;
+        // A hand waits for a change of live light.
+        let again_after = if is_changing { config.resend_after } else { config.resend_after * 2 };
+        let again_at = now + again_after;
+        // Short stretches take less time.
+        let shorter = STRETCH.0 / (TICK.0 * i64::from(stretch.ticks)).max(1);
+        let mut left = AT_ONCE * usize::try_from(shorter).unwrap_or(1).clamp(1, LIVE.at_once);
+        while left > 0 {
+            let needs_none =
+                |one: usize| roster.is_excluded(one) || !roster.robot(context, one).reported.abilities.light;
+            let overdue = upload.next_overdue(now, needs_none);
+            let Some(one) = overdue.or_else(|| upload.next_unserved(config.window, needs_none)) else {
+                return;
+            };
+            if let Some(robot) = current.driven(leg, after, one) {
+                let command = current.command(&self.show, &robot, stretch, now);
+                context.send(roster.participants[one].robot, &[command]);
+            }
+            upload.record_sent(now, one, again_at);
+            left -= 1;
+        }
+        self.again_at = now + AGAIN_AFTER;
+    }
+
+    /// Sends COLORs to robots that know no stretches; when that is done next.
+    fn send_colours(
+        &self,
+        context: &mut Context,
+        roster: &Roster,
+        (now, elapsed): (Instant, Span),
+        (leg, after): (&Leg, Option<&Leg>),
+    ) -> Instant {
+        let Some(current) = &self.current else { return Instant::FAR };
+        let mut robots = 0;
+        for (participant, known) in roster.participants.iter().enumerate() {
+            let robot = context.fleet.robot(known.robot);
+            if known.is_excluded() || robot.reported.abilities.light {
+                continue;
+            }
+            robots += 1;
+            let Some(driven) = current.driven(leg, after, participant) else { continue };
+            let moment = current.moment(elapsed, current.lost(now));
+            let colour = driven.colour(&current.layers, self.show.pictures(), moment);
+            if !robot.is_light_sure || is_seen_apart(robot.light, colour) {
+                context.set_light(known.robot, colour);
+                context.send(known.robot, &[Command::Color(colour)]);
+            }
+        }
+        let every = COLOURS.every.max(Span(robots * 1_000_000 / COLOURS.rate));
+        if robots == 0 { Instant::FAR } else { now + every }
+    }
+
+    /// A robot was switched off and on: it gets what is left of its light.
+    pub fn relight(
+        &self,
+        context: &mut Context,
+        roster: &Roster,
+        now: Instant,
+        leg: &Leg,
+        participant: usize,
+    ) {
+        let Some(current) = &self.current else { return };
+        let (Some(elapsed), Some(robot)) = (current.elapsed(now), current.driven(leg, None, participant))
+        else {
+            return;
+        };
+        let number = context.number_route();
+        let longest = (self.covered - elapsed).max(TICK);
+        let Some(stretch) = current.stretch(number, elapsed, longest, BLEND) else { return };
+        let command = current.command(&self.show, &robot, &stretch, now);
+        context.send(roster.participants[participant].robot, &[command]);
+    }
+
+    /// When something is due.
+    pub fn due(&self, now: Instant) -> Instant {
+        let Some(current) = self.current.as_ref().filter(|_| self.is_active()) else { return Instant::FAR };
+        let resend = self.upload.as_ref().and_then(|(_, upload)| upload.due()).unwrap_or(Instant::FAR);
+        let free = self.free_until.filter(|until| *until < Instant::FAR).map(|until| until - self.refill);
+        let is_over = current.end().is_some_and(|end| self.covered >= end);
+        let next = match current.clock.filter(|clock| clock.hold.is_none() && !is_over) {
+            _ if current.layers.is_free() => free.unwrap_or(Instant::FAR),
+            Some(clock) => now + (self.covered - self.refill - clock.path_time(now)).max(BEGUN),
+            None => Instant::FAR,
+        };
+        let renewal = current.clock.map_or(Instant::FAR, |clock| self.renew_at.max(clock.began + BEGUN));
+        self.again_at.min(resend).min(next).min(self.colours_at).min(renewal)
+    }
+}
